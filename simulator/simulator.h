@@ -1,0 +1,117 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+namespace aisle::sim {
+
+/// Rectified stereo rig; see simulator/camera/stereo_camera.h for the conventions.
+struct RigInfo {
+  int width = 0, height = 0;
+  double fx = 0, fy = 0, cx = 0, cy = 0;  ///< pixels; the centre of pixel (0,0) is u = v = 0
+  double baseline_m = 0;
+};
+
+/// Which version of a scene to play.
+enum class Twin {
+  kLive,    ///< as written
+  kEmpty,   ///< actors removed
+  kFrozen,  ///< actors stand where they stand at time 0
+};
+
+struct SimulatorOptions {
+  std::uint64_t seed = 1;
+  Twin twin = Twin::kLive;
+  int threads = 0;  ///< 0: as many as the machine has; the bytes are the same for any number
+  std::string isa = "avx2";  ///< Embree's instruction set; "native" lets Embree choose
+};
+
+/// One labelled thing of the scene; its id in the label image is its index in instances().
+struct InstanceInfo {
+  std::string name;
+  std::string object_class;  ///< "person", "forklift", "rack", …
+  std::uint8_t class_id = 0;
+  bool is_actor = false;
+};
+
+/// What truth says of one actor that has at least one pixel or box in the left image.
+struct ObjectTruth {
+  std::uint16_t instance = 0;
+  cv::Rect2d box_visible;  ///< pixels; encloses the pixels that show it (empty if none)
+  cv::Rect2d box_full;     ///< pixels; as if nothing stood in front, cut at the image border
+  Eigen::Isometry3d T_world_object = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d extent_m = Eigen::Vector3d::Zero();  ///< full sizes of the 3-D box along its axes
+  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();  ///< of the 3-D box, world
+  Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
+  double visible_fraction = 0;  ///< visible pixels / pixels it would have unoccluded, in [0, 1]
+  int visible_pixels = 0;
+  int dynamic_pixels = 0;  ///< of them, on a surface that moves now
+};
+
+/// Exact truth of the left eye at the stamp.
+struct FrameTruth {
+  Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();
+  cv::Mat1f depth;         ///< z in metres along the optical axis, inf where nothing was hit
+  cv::Mat1w instance;      ///< index into Simulator::instances(), 0 where nothing was hit
+  cv::Mat1b object_class;  ///< class ids
+  cv::Mat1b dynamic;  ///< 255 where the surface moves in the world now, faster than the threshold
+  cv::Mat1b dynamic_right;           ///< the same for the right eye
+  cv::Mat1b actor;                   ///< 255 on every person and vehicle, moving or not (left)
+  cv::Mat1b actor_right;             ///< the same for the right eye
+  std::vector<ObjectTruth> objects;  ///< by instance id
+};
+
+struct RenderedFrame {
+  std::int64_t stamp_ns = 0;
+  cv::Mat1b left, right;  ///< 8-bit grey, the same instant exactly
+  FrameTruth truth;
+};
+
+/// The face of the simulator: a scene that can be photographed at any time from any pose. A frame
+/// is a pure function of (scene file, assets, seed, frame index, time, pose): any frame can be
+/// asked for alone, in any order.
+class Simulator {
+ public:
+  /// Reads and lays out the scene. Throws std::runtime_error whose what() is the whole message for
+  /// the user: file:line:column, key, what was expected, an example.
+  static Simulator Load(const std::string& scene_file, const std::string& assets_dir,
+                        const SimulatorOptions& options);
+  Simulator(Simulator&&) noexcept;
+  Simulator& operator=(Simulator&&) noexcept;
+  ~Simulator();
+
+  const RigInfo& rig() const;
+  int frame_count() const;
+  double rate_hz() const;
+  /// Speed above which a surface counts as moving now, from the scene file, in m/s.
+  double dynamic_threshold_mps() const;
+  const std::vector<InstanceInfo>& instances() const;
+  /// Hash of all that decides the pixels: scene, assets it uses, seed, twin. For caches and
+  /// reports.
+  std::uint64_t content_hash() const;
+
+  /// Time of frame k: k / rate, in whole nanoseconds from 0.
+  std::int64_t Stamp(int frame_index) const;
+  /// Where the scene's route puts the rig at a time: T_world_rig.
+  Eigen::Isometry3d PlannedPose(std::int64_t stamp_ns) const;
+
+  /// The stereo pair and its truth at a time and a rig pose. `frame_index` seeds the sensor noise.
+  /// Safe to call from several threads.
+  RenderedFrame Render(int frame_index, std::int64_t stamp_ns,
+                       const Eigen::Isometry3d& T_world_rig) const;
+
+ private:
+  struct Impl;
+  explicit Simulator(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Every mistake in a scene file, one message each (empty: the file is good). Opens no assets.
+std::vector<std::string> CheckSceneFile(const std::string& scene_file);
+
+}  // namespace aisle::sim

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slam/camera/stereo_camera.h"
+#include "slam/slam_options.h"
+
+namespace aisle::slam {
+
+/// One instant of a rectified stereo rig, 8-bit grey. All that the system sees of the world.
+struct StereoImages {
+  std::int64_t id = 0;
+  std::int64_t stamp_ns = 0;
+  cv::Mat1b left, right;
+};
+
+/// Pixels somebody else has declared unusable: 255 = reject. An empty image rejects nothing.
+struct ExternalMask {
+  cv::Mat1b left, right;
+};
+
+enum class TrackingState {
+  kInitializing,  ///< no map yet
+  kTracking,
+  kLost,
+};
+
+/// What is known of a frame at that frame, causally.
+struct TrackedFrame {
+  std::int64_t id = 0;
+  std::int64_t stamp_ns = 0;
+  TrackingState state = TrackingState::kInitializing;
+  std::optional<Eigen::Isometry3d>
+      T_world_rig;         ///< absent unless kTracking; world = first rig pose
+  int features = 0;        ///< keypoints in the left image after rejection
+  int stereo_points = 0;   ///< of them, with depth
+  int matched_points = 0;  ///< matched to the map
+  int inliers = 0;         ///< kept by pose refinement
+  bool is_keyframe = false;
+  std::vector<cv::Point2f> keypoints;      ///< left image, for scoring where features were spent
+  std::vector<bool> keypoint_is_inlier;    ///< per keypoint: took part in the pose
+  std::map<std::string, double> stage_ms;  ///< wall time by stage; reported, never decided upon
+};
+
+struct StampedPose {
+  std::int64_t stamp_ns = 0;
+  Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();
+};
+
+/// The face of the SLAM system. One instance per sequence; any number of instances per process.
+/// Same images, same options: the same bits out, for any number of threads.
+class StereoSlam {
+ public:
+  StereoSlam(const StereoCamera& camera, const SlamOptions& options);
+  StereoSlam(StereoSlam&&) noexcept;
+  StereoSlam& operator=(StereoSlam&&) noexcept;
+  ~StereoSlam();
+
+  /// Images must have the camera's size; stamps must rise. Hard frames (black, featureless) are not
+  /// errors: they come back as kLost or kInitializing.
+  TrackedFrame Track(const StereoImages& images, const ExternalMask& mask = {});
+
+  /// Ends the run: waits for background work and returns the final trajectory, every tracked frame
+  /// re-anchored to its reference keyframe as the finished map has it.
+  std::vector<StampedPose> Finish();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace aisle::slam

@@ -1,0 +1,92 @@
+"""Holds every #include of our own against the rooms' arrows.
+
+Usage: arrows.py SOURCE_DIR ARROWS_FILE. The arrows file is written by CMake, a line per room:
+"simulator/truth: simulator/trace;simulator/world". A room may include itself and whatever it
+reaches through its arrows. Across houses only the two faces are open, and only to harness/plugs
+(and to the tests, which may include anything of the room they test).
+"""
+
+import pathlib
+import re
+import sys
+
+INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
+HOUSES = ("simulator", "slam", "harness")
+FACES = {"simulator": "simulator/simulator.h", "slam": "slam/stereo_slam.h"}
+ROOMS_THAT_SEE = {  # foreign headers that one room alone may see
+    "embree3/": {"simulator/trace"},
+    "assimp/": {"simulator/mesh"},
+    "GL/osmesa": {"simulator/raster"},
+    "ceres/": {"slam/optimize"},
+}
+FOREIGN = re.compile(r"^\s*#\s*include\s+<([^>]+)>", re.MULTILINE)
+
+
+def read_arrows(text):
+    arrows = {}
+    for line in text.splitlines():
+        room, _, uses = line.partition(":")
+        if room.strip():
+            arrows[room.strip()] = {use for use in uses.strip().split(";") if use}
+    return arrows
+
+
+def reach(arrows, room):
+    seen, queue = set(), [room]
+    while queue:
+        here = queue.pop()
+        if here not in seen:
+            seen.add(here)
+            queue.extend(arrows.get(here, ()))
+    return seen
+
+
+def cycles(arrows):
+    return [room for room in arrows for use in arrows[room] if room in reach(arrows, use)]
+
+
+def room_of(path):
+    """The room of a file such as simulator/trace/rays.h or simulator/simulator.h."""
+    return str(pathlib.PurePosixPath(path).parent)
+
+
+def offences(files, arrows):
+    """files: {path: text}. Yields a sentence for each forbidden include."""
+    for path, text in sorted(files.items()):
+        room = room_of(path)
+        house = path.split("/")[0]
+        allowed = reach(arrows, room)
+        for include in INCLUDE.findall(text):
+            target_house = include.split("/")[0]
+            if target_house not in HOUSES:
+                yield f'{path}: "{include}" is not a path from the root of the tree'
+            elif target_house != house:
+                if room != "harness/plugs" or include != FACES.get(target_house):
+                    yield f"{path}: {room} must not know {include}"
+            elif room == "harness/cli":
+                continue  # the roof: it may call every room of its own house
+            elif room_of(include) not in allowed:
+                yield f"{path}: no arrow leads from {room} to {room_of(include)} ({include})"
+        for include in FOREIGN.findall(text):
+            for prefix, rooms in ROOMS_THAT_SEE.items():
+                if include.startswith(prefix) and room not in rooms:
+                    yield f"{path}: only {', '.join(sorted(rooms))} may include <{include}>"
+
+
+def main(source_dir, arrows_file):
+    source = pathlib.Path(source_dir)
+    arrows = read_arrows(pathlib.Path(arrows_file).read_text())
+    files = {}
+    for house in HOUSES:
+        for path in source.glob(f"{house}/**/*"):
+            if path.suffix in (".h", ".cc"):
+                files[path.relative_to(source).as_posix()] = path.read_text()
+    found = list(offences(files, arrows)) + [f"{room} is on a cycle" for room in cycles(arrows)]
+    for offence in found:
+        print(offence)
+    print(f"{len(files)} files, {len(arrows)} rooms, {len(found)} forbidden includes")
+    return 1 if found or not files else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

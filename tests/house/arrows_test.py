@@ -1,0 +1,44 @@
+"""The guard of the arrows catches what it is there to catch."""
+
+import unittest
+
+import arrows
+
+ROOMS = arrows.read_arrows(
+    "simulator/world: simulator/scene\nsimulator/scene: \nsimulator/trace: simulator/world\n"
+    "harness/score: harness/contract\nharness/contract: \nharness/plugs: harness/contract;simulator\n"
+)
+
+
+def check(path, text):
+    return list(arrows.offences({path: text}, ROOMS))
+
+
+class ArrowsTest(unittest.TestCase):
+    def test_an_arrow_and_what_it_reaches_is_allowed(self):
+        self.assertEqual(check("simulator/trace/a.cc", '#include "simulator/scene/scene.h"'), [])
+
+    def test_against_the_arrow_is_refused(self):
+        self.assertEqual(len(check("simulator/scene/a.cc", '#include "simulator/world/w.h"')), 1)
+
+    def test_the_foundations_do_not_know_each_other(self):
+        self.assertEqual(len(check("simulator/trace/a.cc", '#include "slam/stereo_slam.h"')), 1)
+        self.assertEqual(len(check("slam/map/a.h", '#include "simulator/simulator.h"')), 1)
+
+    def test_only_plugs_knows_the_faces_and_only_the_faces(self):
+        face, inside = "simulator/simulator.h", "simulator/trace/rays.h"
+        self.assertEqual(check("harness/plugs/a.cc", f'#include "{face}"'), [])
+        self.assertEqual(len(check("harness/plugs/a.cc", f'#include "{inside}"')), 1)
+        self.assertEqual(len(check("harness/score/a.cc", f'#include "{face}"')), 1)
+
+    def test_foreign_libraries_stay_in_their_room(self):
+        self.assertEqual(len(check("simulator/world/a.cc", "#include <embree3/rtcore.h>")), 1)
+        self.assertEqual(check("simulator/trace/a.cc", "#include <embree3/rtcore.h>"), [])
+
+    def test_cycles_are_found(self):
+        self.assertTrue(arrows.cycles(arrows.read_arrows("a/b: a/c\na/c: a/b\n")))
+        self.assertFalse(arrows.cycles(ROOMS))
+
+
+if __name__ == "__main__":
+    unittest.main()
