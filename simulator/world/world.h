@@ -2,13 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "simulator/mesh/material.h"
 #include "simulator/mesh/triangle_mesh.h"
-#include "simulator/scene/scene.h"
 
 namespace aisle::sim {
 
@@ -69,38 +68,44 @@ struct Snapshot {
   std::vector<float> light_scale;  ///< per light: 1 as built, 0 switched off
 };
 
-/// The scene, laid out: immutable once built, shared by any number of threads. A pure function of
-/// (scene file, assets, seed).
+/// The parts a world is made of. BuildWorld (simulator/world/build.h) makes them from a scene file;
+/// tests make their own.
+struct WorldParts {
+  std::vector<Instance> instances = {{"nothing", ObjectClass::kNone, false}};
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<AreaLight> lights;
+  StaticWorld statics;
+  /// Topology, uvs and materials of each mover; positions and normals are those of its bind pose.
+  std::vector<TriangleMesh> mover_meshes;
+  /// Everything that moves, at a time after the start of the scene. Pure and thread-safe. None:
+  /// nothing moves.
+  std::function<Snapshot(std::int64_t stamp_ns)> at;
+  /// Where the route puts the rig (left camera) at a time: T_world_rig. Pure. None: identity.
+  std::function<Eigen::Isometry3d(std::int64_t stamp_ns)> rig;
+};
+
+/// The scene, laid out: immutable once built, shared by any number of threads.
 class World {
  public:
-  /// Lays out the scene. `assets_dir` is where meshes and textures named by the scene are found;
-  /// nothing outside it or the scene's own folder is opened. Throws SceneError (file, line, what,
-  /// fix) for anything missing or broken.
-  static World Build(const Scene& scene, const std::string& assets_dir, std::uint64_t seed);
+  /// Throws std::invalid_argument naming the first broken rule (index out of range, array lengths
+  /// that differ, NaN positions, no light).
+  explicit World(WorldParts parts);
 
-  World(World&&) noexcept;
-  World& operator=(World&&) noexcept;
-  ~World();
+  const std::vector<Instance>& instances() const { return parts_.instances; }
+  const std::vector<Material>& materials() const { return parts_.materials; }
+  const std::vector<Texture>& textures() const { return parts_.textures; }
+  const std::vector<AreaLight>& lights() const { return parts_.lights; }
+  const StaticWorld& statics() const { return parts_.statics; }
+  const std::vector<TriangleMesh>& mover_meshes() const { return parts_.mover_meshes; }
 
-  const std::vector<Instance>& instances() const;
-  const std::vector<Material>& materials() const;
-  const std::vector<Texture>& textures() const;
-  const std::vector<AreaLight>& lights() const;
-  const StaticWorld& statics() const;
-  /// Topology, uvs and materials of each mover; positions and normals are those of its bind pose.
-  const std::vector<TriangleMesh>& mover_meshes() const;
-
-  /// Everything that moves, at `stamp_ns` after the start of the scene. Pure; safe to call from
-  /// several threads.
+  /// Everything that moves, at `stamp_ns` after the start of the scene.
   Snapshot At(std::int64_t stamp_ns) const;
-
-  /// Where the scene's route puts the rig (left camera) at that time: T_world_rig.
+  /// Where the scene's route puts the rig at that time: T_world_rig.
   Eigen::Isometry3d PlannedRigPose(std::int64_t stamp_ns) const;
 
  private:
-  struct Impl;
-  explicit World(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  WorldParts parts_;
 };
 
 }  // namespace aisle::sim

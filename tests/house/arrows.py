@@ -1,7 +1,7 @@
 """Holds every #include of our own against the rooms' arrows.
 
 Usage: arrows.py SOURCE_DIR ARROWS_FILE. The arrows file is written by CMake, a line per room:
-"simulator/truth: simulator/trace;simulator/world". A room may include itself and whatever it
+"simulator/truth: simulator/trace,simulator/world". A room may include itself and whatever it
 reaches through its arrows. Across houses only the two faces are open, and only to harness/plugs
 (and to the tests, which may include anything of the room they test).
 """
@@ -27,7 +27,7 @@ def read_arrows(text):
     for line in text.splitlines():
         room, _, uses = line.partition(":")
         if room.strip():
-            arrows[room.strip()] = {use for use in uses.strip().split(";") if use}
+            arrows[room.strip()] = {use for use in uses.strip().split(",") if use}
     return arrows
 
 

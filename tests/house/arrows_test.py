@@ -6,7 +6,7 @@ import arrows
 
 ROOMS = arrows.read_arrows(
     "simulator/world: simulator/scene\nsimulator/scene: \nsimulator/trace: simulator/world\n"
-    "harness/score: harness/contract\nharness/contract: \nharness/plugs: harness/contract;simulator\n"
+    "harness/score: harness/contract\nharness/contract: \nharness/plugs: harness/contract,simulator\n"
 )
 
 

@@ -1,0 +1,71 @@
+#include "simulator/world/world.h"
+
+#include <stdexcept>
+
+namespace aisle::sim {
+namespace {
+
+void CheckMesh(const TriangleMesh& mesh, const WorldParts& parts, const std::string& name) {
+  const std::size_t vertices = mesh.positions.size();
+  if (mesh.normals.size() != vertices || mesh.uvs.size() != vertices) {
+    throw std::invalid_argument(fmt::format(
+        "{}: {} positions but {} normals and {} uvs; there must be one of each a vertex", name,
+        vertices, mesh.normals.size(), mesh.uvs.size()));
+  }
+  if (mesh.materials.size() != mesh.triangles.size()) {
+    throw std::invalid_argument(fmt::format("{}: {} triangles but {} material indices", name,
+                                            mesh.triangles.size(), mesh.materials.size()));
+  }
+  for (const Eigen::Vector3f& position : mesh.positions) {
+    if (!position.allFinite()) throw std::invalid_argument(name + ": a vertex is not finite");
+  }
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t index : triangle) {
+      if (index >= vertices) {
+        throw std::invalid_argument(
+            fmt::format("{}: a triangle names vertex {}, there are {}", name, index, vertices));
+      }
+    }
+  }
+  for (const std::uint16_t material : mesh.materials) {
+    if (material >= parts.materials.size()) {
+      throw std::invalid_argument(fmt::format("{}: a triangle names material {}, there are {}",
+                                              name, material, parts.materials.size()));
+    }
+  }
+}
+
+}  // namespace
+
+World::World(WorldParts parts) : parts_(std::move(parts)) {
+  CheckMesh(parts_.statics.mesh, parts_, "static world");
+  if (parts_.statics.instances.size() != parts_.statics.mesh.triangles.size()) {
+    throw std::invalid_argument("static world: one instance index is needed per triangle");
+  }
+  for (const std::uint16_t instance : parts_.statics.instances) {
+    if (instance >= parts_.instances.size()) {
+      throw std::invalid_argument(
+          fmt::format("static world: a triangle names instance {}, there are {}", instance,
+                      parts_.instances.size()));
+    }
+  }
+  for (std::size_t i = 0; i < parts_.mover_meshes.size(); ++i) {
+    CheckMesh(parts_.mover_meshes[i], parts_, fmt::format("mover {}", i));
+  }
+  if (!parts_.mover_meshes.empty() && !parts_.at) {
+    throw std::invalid_argument("there are movers, but nothing says where they are");
+  }
+  if (parts_.lights.empty()) throw std::invalid_argument("there is no light");
+}
+
+Snapshot World::At(std::int64_t stamp_ns) const {
+  if (parts_.at) return parts_.at(stamp_ns);
+  return {
+      .stamp_ns = stamp_ns, .movers = {}, .light_scale = std::vector<float>(lights().size(), 1)};
+}
+
+Eigen::Isometry3d World::PlannedRigPose(std::int64_t stamp_ns) const {
+  return parts_.rig ? parts_.rig(stamp_ns) : Eigen::Isometry3d::Identity();
+}
+
+}  // namespace aisle::sim
