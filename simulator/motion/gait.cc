@@ -1,0 +1,68 @@
+#include "simulator/motion/gait.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aisle::sim {
+namespace {
+
+/// Turning on the spot is stepping too: as fast as feet this far from the axis move.
+constexpr double kTurnArm_m = 0.25;
+
+/// Speed of a leg's profile as the feet see it.
+double FootArm(const Route::Leg& leg) { return leg.turn_sign != 0 ? kTurnArm_m : 1.0; }
+
+}  // namespace
+
+Gait::Gait(Route route, const GaitStyle& style) : route_(std::move(route)), style_(style) {
+  double cycles = 0;
+  for (const Route::Leg& leg : route_.legs()) {
+    cycles_before_.push_back(cycles);
+    cycles += CyclesWithin(leg, leg.duration_s);
+  }
+  cycles_before_.push_back(cycles);
+}
+
+double Gait::Amplitude(double speed_mps) const {
+  return std::min(1.0, std::sqrt(std::abs(speed_mps) / style_.natural_speed_mps()));
+}
+
+/// Integral of speed / stride(speed) while speed changes linearly.
+double Gait::CyclesWhile(double from, double acceleration, double duration) const {
+  const double natural = style_.natural_speed_mps();
+  if (acceleration == 0) {
+    return from == 0 ? 0 : from * duration / (style_.stride_m * Amplitude(from));
+  }
+  const double to = std::max(0.0, from + acceleration * duration);
+  // Antiderivative over speed, continuous at the natural speed.
+  const auto integral = [&](double speed) {
+    const double slow = std::min(speed, natural), fast = std::max(speed, natural);
+    return (2.0 / 3.0) * std::sqrt(natural) * slow * std::sqrt(slow) +
+           (fast * fast - natural * natural) / 2;
+  };
+  return (integral(to) - integral(from)) / (acceleration * style_.stride_m);
+}
+
+double Gait::CyclesWithin(const Route::Leg& leg, double elapsed_s) const {
+  const double arm = FootArm(leg);
+  double cycles = 0;
+  for (const SpeedProfile::Phase& phase : leg.profile.phases()) {
+    const double span = std::min(phase.duration_s, elapsed_s - phase.start_s);
+    if (span <= 0) break;
+    cycles += CyclesWhile(arm * phase.start.speed_mps, arm * phase.start.acceleration_mps2, span);
+  }
+  return leg.reverse ? -cycles : cycles;
+}
+
+GaitState Gait::At(double time_s) const {
+  const auto& legs = route_.legs();
+  if (legs.empty()) return {};
+  std::size_t index = 0;
+  while (index + 1 < legs.size() && legs[index + 1].start_s <= time_s) ++index;
+  const Route::Leg& leg = legs[index];
+  const double elapsed = std::clamp(time_s - leg.start_s, 0.0, leg.duration_s);
+  const double speed = FootArm(leg) * leg.profile.At(elapsed).speed_mps;
+  return {cycles_before_[index] + CyclesWithin(leg, elapsed), Amplitude(speed)};
+}
+
+}  // namespace aisle::sim

@@ -1,0 +1,37 @@
+#include "simulator/motion/rig_mount.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace aisle::sim {
+namespace {
+
+/// 0 before the bump and smooth at its start: (1 - e^{-2t/d}) · e^{-t/d} · sin(wt).
+double Swing(const Bump& bump, double time_s) {
+  const double t = time_s - bump.at_s;
+  if (t <= 0) return 0;
+  const double envelope = std::exp(-t / bump.decay_s) * (1 - std::exp(-2 * t / bump.decay_s));
+  return 2 * envelope * std::sin(2 * std::numbers::pi * bump.frequency_hz * t);
+}
+
+}  // namespace
+
+Eigen::Isometry3d RigPose(const RouteState& state, const RigMount& mount,
+                          std::span<const Bump> bumps, double time_s) {
+  double height = mount.height_m, pitch = mount.pitch_rad;
+  for (const Bump& bump : bumps) {
+    height += bump.height_m * Swing(bump, time_s);
+    pitch += bump.pitch_rad * Swing(bump, time_s);
+  }
+  const double c = std::cos(state.heading_rad), s = std::sin(state.heading_rad);
+  Eigen::Matrix3d level;  // columns: right, down, forward
+  level << s, 0, c, -c, 0, s, 0, -1, 0;
+  Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();
+  T_world_rig.linear() =
+      level * Eigen::AngleAxisd(-pitch, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  T_world_rig.translation() << state.position.x() + mount.forward_m * c,
+      state.position.y() + mount.forward_m * s, height;
+  return T_world_rig;
+}
+
+}  // namespace aisle::sim

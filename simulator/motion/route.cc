@@ -1,0 +1,208 @@
+#include "simulator/motion/route.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace aisle::sim {
+namespace {
+
+constexpr double kSameHeading_rad = 1e-6;
+
+/// A corner as the planner sees it: where, how rounded, by which step.
+struct Corner {
+  Waypoint waypoint;
+  double speed_mps = 0;  ///< on the side that ends here
+  int step = 0;
+};
+
+double HeadingBetween(const Waypoint& from, const Waypoint& to) {
+  const Eigen::Vector2d side = to.position - from.position;
+  return std::atan2(side.y(), side.x());
+}
+
+/// Lays legs one after another; the state at the end of the last leg is `now`.
+class Planner {
+ public:
+  Planner(const RoutePlan& plan, const RouteLimits& limits) : limits_(limits) {
+    now_.position = plan.start;
+    now_.heading_rad = plan.heading_rad;
+    Pause(plan.start_s);
+  }
+
+  void BeginStep(int step) {
+    now_.step = step;
+    step_start_s_ = time_s_;
+  }
+
+  void Pause(double duration_s) {
+    if (duration_s > 0) Append({}, duration_s);
+  }
+
+  void TurnTo(double heading_rad) {
+    const double turn = WrapAngle(heading_rad - now_.heading_rad);
+    if (std::abs(turn) < kSameHeading_rad) return;
+    if (!limits_.turns_on_the_spot) {
+      throw RouteError(now_.step, fmt::format("it would have to turn by {:.0f} degrees on the "
+                                              "spot, which this vehicle cannot",
+                                              turn * 180 / std::numbers::pi));
+    }
+    Route::Leg leg;
+    leg.turn_sign = turn < 0 ? -1 : 1;
+    const SpeedLimit limit{std::abs(turn), limits_.turn_rate_rad_s};
+    leg.profile = SpeedProfile::FromRestToRest({&limit, 1}, limits_.turn_acceleration_rad_s2);
+    const double duration = leg.profile.duration_s();
+    Append(std::move(leg), duration);
+  }
+
+  /// Drives through corners; every sharp one is a stop and a turn on the spot.
+  void Drive(const std::vector<Corner>& corners, bool reverse) {
+    std::vector<Corner> piece = {{{now_.position, 0}, 0, now_.step}};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      piece.push_back(corners[i]);
+      const bool last = i + 1 == corners.size();
+      if (!last && !IsSharp(piece[piece.size() - 2], corners[i], corners[i + 1])) continue;
+      DrivePiece(piece, reverse);
+      piece = {{{now_.position, 0}, 0, corners[i].step}};
+    }
+  }
+
+  std::vector<Route::Leg> TakeLegs() { return std::move(legs_); }
+  RouteState now() const { return now_; }
+  double time_s() const { return time_s_; }
+
+ private:
+  static bool IsSharp(const Corner& before, const Corner& corner, const Corner& after) {
+    const double turn = WrapAngle(HeadingBetween(corner.waypoint, after.waypoint) -
+                                  HeadingBetween(before.waypoint, corner.waypoint));
+    return corner.waypoint.corner_radius_m <= 0 && std::abs(turn) > kSameHeading_rad;
+  }
+
+  void DrivePiece(const std::vector<Corner>& corners, bool reverse) {
+    std::vector<Waypoint> waypoints;
+    for (const Corner& corner : corners) waypoints.push_back(corner.waypoint);
+    const int step = corners[1].step;
+    Route::Leg leg;
+    try {
+      leg.path = Path::Through(waypoints);
+    } catch (const std::invalid_argument& error) {
+      throw RouteError(step, error.what());
+    }
+    const double behind = reverse ? std::numbers::pi : 0;
+    if (step != now_.step) BeginStep(step);
+    TurnTo(leg.path.At(0).heading_rad + behind);
+    leg.reverse = reverse;
+    std::vector<SpeedLimit> limits;
+    for (const Path::Segment& segment : leg.path.segments()) {
+      const Corner& end = corners[static_cast<std::size_t>(segment.side) + 1];
+      limits.push_back({segment.length_m, Allowed(end.speed_mps, segment)});
+      leg.segment_steps.push_back(end.step);
+    }
+    leg.profile = SpeedProfile::FromRestToRest(limits, limits_.acceleration_mps2);
+    const double duration = leg.profile.duration_s();
+    Append(std::move(leg), duration);
+  }
+
+  double Allowed(double speed, const Path::Segment& segment) const {
+    const double curvature = std::abs(segment.start.curvature_per_m);
+    if (curvature == 0) return speed;
+    return std::min({speed, std::sqrt(limits_.lateral_acceleration_mps2 / curvature),
+                     limits_.turn_rate_rad_s / curvature});
+  }
+
+  void Append(Route::Leg leg, double duration_s);
+
+  RouteLimits limits_;
+  std::vector<Route::Leg> legs_;
+  RouteState now_;
+  double time_s_ = 0;
+  double step_start_s_ = 0;
+};
+
+RouteState StateIn(const Route::Leg& leg, double elapsed_s) {
+  const Travel travel = leg.profile.At(elapsed_s);
+  RouteState state = leg.start;
+  state.step_elapsed_s = leg.start_s + elapsed_s - leg.step_start_s;
+  if (leg.turn_sign != 0) {
+    state.heading_rad += leg.turn_sign * travel.distance_m;
+    state.yaw_rate_rad_s = leg.turn_sign * travel.speed_mps;
+  } else if (leg.path.length_m() > 0) {
+    const PathPoint point = leg.path.At(travel.distance_m);
+    const double sign = leg.reverse ? -1 : 1;
+    state.position = point.position;
+    state.heading_rad = leg.start.heading_rad + point.heading_rad - leg.path.At(0).heading_rad;
+    state.speed_mps = sign * travel.speed_mps;
+    state.acceleration_mps2 = sign * travel.acceleration_mps2;
+    state.yaw_rate_rad_s = point.curvature_per_m * travel.speed_mps;
+    state.curvature_per_m = sign * point.curvature_per_m;
+    state.odometer_m += sign * travel.distance_m;
+    const auto& segments = leg.path.segments();
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      if (segments[i].start_m <= travel.distance_m) state.step = leg.segment_steps[i];
+    }
+  }
+  return state;
+}
+
+void Planner::Append(Route::Leg leg, double duration_s) {
+  leg.start_s = time_s_;
+  leg.duration_s = duration_s;
+  leg.start = now_;
+  leg.step_start_s = step_start_s_;
+  legs_.push_back(std::move(leg));
+  time_s_ += duration_s;
+  now_ = StateIn(legs_.back(), duration_s);
+  now_.speed_mps = now_.acceleration_mps2 = now_.yaw_rate_rad_s = now_.curvature_per_m = 0;
+}
+
+/// The corners of the `go` steps from `step` on that join without a stop between them.
+std::vector<Corner> CornersFrom(const RoutePlan& plan, std::size_t step) {
+  std::vector<Corner> corners;
+  for (std::size_t i = step; i < plan.steps.size(); ++i) {
+    const RouteStep& next = plan.steps[i];
+    if (next.go.empty() || next.reverse != plan.steps[step].reverse) break;
+    for (const Eigen::Vector2d& point : next.go) {
+      corners.push_back({{point, next.corner_radius_m}, next.speed_mps, static_cast<int>(i)});
+    }
+  }
+  return corners;
+}
+
+}  // namespace
+
+Route::Route(const RoutePlan& plan, const RouteLimits& limits) {
+  Planner planner(plan, limits);
+  for (std::size_t i = 0; i < plan.steps.size();) {
+    const RouteStep& step = plan.steps[i];
+    planner.BeginStep(static_cast<int>(i));
+    if (step.turn_to_rad) planner.TurnTo(*step.turn_to_rad);
+    if (step.wait_s) planner.Pause(*step.wait_s);
+    std::size_t joined = 1;
+    if (!step.go.empty()) {
+      const std::vector<Corner> corners = CornersFrom(plan, i);
+      planner.Drive(corners, step.reverse);
+      joined = static_cast<std::size_t>(corners.back().step) - i + 1;
+    }
+    i += joined;
+  }
+  legs_ = planner.TakeLegs();
+  end_ = planner.now();
+  end_.finished = true;
+  duration_s_ = planner.time_s();
+}
+
+RouteState Route::At(double time_s) const {
+  if (legs_.empty() || time_s >= duration_s_) {
+    RouteState state = end_;
+    state.step_elapsed_s = time_s - duration_s_;
+    return state;
+  }
+  const auto after =
+      std::upper_bound(legs_.begin() + 1, legs_.end(), time_s,
+                       [](double time, const Leg& leg) { return time < leg.start_s; });
+  const Leg& leg = *std::prev(after);
+  return StateIn(leg, std::max(0.0, time_s - leg.start_s));
+}
+
+}  // namespace aisle::sim

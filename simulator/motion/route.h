@@ -1,0 +1,97 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "simulator/motion/path.h"
+#include "simulator/motion/speed_profile.h"
+
+namespace aisle::sim {
+
+/// What a mover cannot exceed.
+struct RouteLimits {
+  double acceleration_mps2 = 0.5;          ///< along the path, speeding up and slowing down
+  double lateral_acceleration_mps2 = 0.8;  ///< slows it down in arcs
+  double turn_rate_rad_s = 0.8;            ///< in arcs and on the spot
+  double turn_acceleration_rad_s2 = 1.5;   ///< on the spot
+  bool turns_on_the_spot = true;           ///< false: a car-like vehicle
+};
+
+/// One step of a route: go along points, wait, or turn on the spot. Exactly one of them.
+struct RouteStep {
+  std::vector<Eigen::Vector2d> go;  ///< through these points, from where the mover is
+  double speed_mps = 1.0;           ///< with `go`: cruising speed
+  double corner_radius_m = 0.5;     ///< with `go`: rounds its corners, 0 stops and turns there
+  bool reverse = false;             ///< with `go`: drives backwards
+  std::optional<double> wait_s;
+  std::optional<double> turn_to_rad;  ///< world heading to turn to, on the spot, the shorter way
+  std::string play;                   ///< clip played meanwhile; empty: the mover's usual
+};
+
+/// A mover's way through the scene, as a plain description.
+struct RoutePlan {
+  Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< metres, world
+  double heading_rad = 0;                           ///< at the start
+  double start_s = 0;                               ///< stands until then
+  std::vector<RouteStep> steps;
+};
+
+/// A plan that cannot be driven, and the step that is to blame.
+class RouteError : public std::invalid_argument {
+ public:
+  RouteError(int step, const std::string& what) : std::invalid_argument(what), step_(step) {}
+  int step() const { return step_; }
+
+ private:
+  int step_;
+};
+
+/// Where a mover is and how it moves, on the floor plane.
+struct RouteState {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< metres, world
+  double heading_rad = 0;  ///< where it looks, continuous over time (not wrapped)
+  double speed_mps = 0;    ///< along the heading; negative: backwards
+  double acceleration_mps2 = 0;
+  double yaw_rate_rad_s = 0;
+  double curvature_per_m = 0;  ///< of the track, seen along the heading; 0 when turning on the spot
+  double odometer_m = 0;       ///< distance so far, driving backwards counts negative
+  int step = -1;               ///< index of the plan's step; -1 before the first
+  double step_elapsed_s = 0;   ///< since that step began
+  bool finished = false;       ///< the last step is over
+};
+
+/// A plan made into motion: a pure function of time. Position and heading are continuous; the
+/// velocity is along the heading, always (no sideways motion).
+class Route {
+ public:
+  /// One stretch of a route: a drive along a path, a turn on the spot, or a pause.
+  struct Leg {
+    double start_s = 0;
+    double duration_s = 0;
+    RouteState start;      ///< state as the leg begins (speed 0: every leg is from rest to rest)
+    Path path;             ///< of a drive
+    SpeedProfile profile;  ///< metres of a drive, radians of a turn, empty in a pause
+    double turn_sign = 0;  ///< ±1 in a turn
+    bool reverse = false;
+    std::vector<int> segment_steps;  ///< of a drive: step of each path segment
+    double step_start_s = 0;         ///< when its step began
+  };
+
+  Route() = default;
+  /// Throws RouteError naming the step that cannot be driven.
+  Route(const RoutePlan& plan, const RouteLimits& limits);
+
+  double duration_s() const { return duration_s_; }  ///< until it stands for good
+  const std::vector<Leg>& legs() const { return legs_; }
+  RouteState At(double time_s) const;
+
+ private:
+  std::vector<Leg> legs_;
+  RouteState end_;
+  double duration_s_ = 0;
+};
+
+}  // namespace aisle::sim

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace aisle::sim {
+
+/// Where a mover is along its path at one time.
+struct Travel {
+  double distance_m = 0;
+  double speed_mps = 0;
+  double acceleration_mps2 = 0;
+};
+
+/// A stretch of path and the speed allowed on it.
+struct SpeedLimit {
+  double length_m = 0;   ///< > 0
+  double speed_mps = 0;  ///< > 0
+};
+
+/// Distance over time from rest to rest: as fast as the limits allow, speeding up and slowing down
+/// by the same constant acceleration (trapezoids). Works for angles as well as for metres.
+class SpeedProfile {
+ public:
+  /// A time span of constant acceleration.
+  struct Phase {
+    double start_s = 0;
+    double duration_s = 0;
+    Travel start;
+  };
+
+  SpeedProfile() = default;
+  /// Throws std::invalid_argument unless all lengths, speeds and the acceleration are positive.
+  static SpeedProfile FromRestToRest(std::span<const SpeedLimit> limits, double acceleration_mps2);
+
+  double duration_s() const { return duration_s_; }
+  double length_m() const { return length_m_; }
+  const std::vector<Phase>& phases() const { return phases_; }
+  /// At a time after the start; at rest before it and after the end.
+  Travel At(double time_s) const;
+
+ private:
+  void Append(double from_mps, double to_mps, double length_m, double acceleration_mps2);
+
+  std::vector<Phase> phases_;
+  double duration_s_ = 0;
+  double length_m_ = 0;
+};
+
+}  // namespace aisle::sim

@@ -1,0 +1,229 @@
+#include "simulator/motion/route.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "simulator/motion/gait.h"
+#include "simulator/motion/rig_mount.h"
+#include "simulator/motion/vehicle.h"
+
+namespace aisle::sim {
+namespace {
+
+using std::numbers::pi;
+
+RoutePlan LoopPlan() {
+  RoutePlan plan;
+  plan.start_s = 0.5;
+  plan.steps.resize(5);
+  plan.steps[0].go = {{5, 0}, {5, 4}, {1, 4}};
+  plan.steps[0].corner_radius_m = 1.0;
+  plan.steps[1].wait_s = 1.5;
+  plan.steps[2].go = {{1, 8}};
+  plan.steps[2].speed_mps = 0.4;
+  plan.steps[3].turn_to_rad = pi;
+  plan.steps[4].go = {{3, 8}};
+  plan.steps[4].reverse = true;
+  return plan;
+}
+
+TEST(Path, AQuarterCircleHasItsLengthAndItsCentre) {
+  const std::vector<Waypoint> corner = {{{0, 0}, 0}, {{3, 0}, 2}, {{3, 5}, 0}};
+  const Path path = Path::Through(corner);
+  EXPECT_NEAR(path.length_m(), 1 + pi + 3, 1e-12);
+  for (double s = 1; s <= 1 + pi; s += 0.1) {
+    EXPECT_NEAR((path.At(s).position - Eigen::Vector2d(1, 2)).norm(), 2, 1e-12);
+    EXPECT_NEAR(path.At(s).heading_rad, (s - 1) / 2, 1e-12);
+  }
+  EXPECT_TRUE(path.At(99).position.isApprox(Eigen::Vector2d(3, 5), 1e-12));
+}
+
+TEST(Path, ACornerThatDoesNotFitIsRefused) {
+  const std::vector<Waypoint> tight = {{{0, 0}, 0}, {{1, 0}, 2}, {{1, 5}, 0}};
+  EXPECT_THROW(Path::Through(tight), std::invalid_argument);
+  const std::vector<Waypoint> back = {{{0, 0}, 0}, {{1, 0}, 0.1}, {{0, 0}, 0}};
+  EXPECT_THROW(Path::Through(back), std::invalid_argument);
+}
+
+TEST(SpeedProfile, ATrapezoidTakesItsTextbookTime) {
+  const SpeedLimit limit{13.6, 0.9};
+  const SpeedProfile profile = SpeedProfile::FromRestToRest({&limit, 1}, 0.5);
+  EXPECT_NEAR(profile.duration_s(), 13.6 / 0.9 + 0.9 / 0.5, 1e-12);
+  EXPECT_NEAR(profile.At(0.9 / 0.5).distance_m, 0.9 * 0.9 / (2 * 0.5), 1e-12);
+  const SpeedLimit brief{0.2, 5.0};  // never reaches its cruising speed
+  EXPECT_NEAR(SpeedProfile::FromRestToRest({&brief, 1}, 0.5).duration_s(), 2 * std::sqrt(0.4),
+              1e-12);
+}
+
+TEST(SpeedProfile, SpeedIsContinuousAndWithinEveryLimit) {
+  const std::vector<SpeedLimit> limits = {{3, 1.0}, {0.3, 0.4}, {2, 1.2}, {1, 0.2}};
+  const SpeedProfile profile = SpeedProfile::FromRestToRest(limits, 0.6);
+  double before = 0;
+  for (double t = 0; t <= profile.duration_s() + 0.1; t += 1e-3) {
+    const Travel now = profile.At(t);
+    EXPECT_LE(std::abs(now.speed_mps - before), 0.6e-3 + 1e-9);
+    double start = 0;
+    for (const SpeedLimit& limit : limits) {
+      if (now.distance_m > start + 1e-9 && now.distance_m < start + limit.length_m - 1e-9) {
+        EXPECT_LE(now.speed_mps, limit.speed_mps + 1e-9);
+      }
+      start += limit.length_m;
+    }
+    before = now.speed_mps;
+  }
+  EXPECT_NEAR(profile.At(99).distance_m, 6.3, 1e-12);
+}
+
+TEST(Route, IsContinuousNeverSidewaysAndItsRatesAreItsDerivatives) {
+  const Route route(LoopPlan(), {});
+  const double h = 1e-5;
+  for (double t = 0.01; t < route.duration_s() + 0.5; t += 0.037) {
+    const RouteState before = route.At(t - h), now = route.At(t), after = route.At(t + h);
+    const Eigen::Vector2d velocity = (after.position - before.position) / (2 * h);
+    const Eigen::Vector2d ahead(std::cos(now.heading_rad), std::sin(now.heading_rad));
+    const Eigen::Vector2d left(-ahead.y(), ahead.x());
+    EXPECT_NEAR(velocity.dot(left), 0, 1e-4) << t;
+    EXPECT_NEAR(velocity.dot(ahead), now.speed_mps, 1e-4) << t;
+    EXPECT_NEAR((after.heading_rad - before.heading_rad) / (2 * h), now.yaw_rate_rad_s, 2e-2) << t;
+    EXPECT_NEAR((after.odometer_m - before.odometer_m) / (2 * h), now.speed_mps, 1e-4) << t;
+  }
+}
+
+TEST(Route, StaysWithinItsLimits) {
+  const RouteLimits limits;
+  const Route route(LoopPlan(), limits);
+  for (double t = 0; t < route.duration_s(); t += 0.01) {
+    const RouteState now = route.At(t);
+    EXPECT_LE(std::abs(now.acceleration_mps2), limits.acceleration_mps2 + 1e-9);
+    EXPECT_LE(std::abs(now.yaw_rate_rad_s), limits.turn_rate_rad_s + 1e-9);
+    EXPECT_LE(std::abs(now.yaw_rate_rad_s * now.speed_mps),
+              limits.lateral_acceleration_mps2 + 1e-9);
+  }
+}
+
+TEST(Route, StepsFollowOneAnotherAndEndWhereThePlanSays) {
+  const Route route(LoopPlan(), {});
+  int step = -1;
+  for (double t = 0; t < route.duration_s(); t += 0.01) {
+    EXPECT_GE(route.At(t).step, step);
+    step = route.At(t).step;
+  }
+  EXPECT_EQ(step, 4);
+  const RouteState end = route.At(1e6);
+  EXPECT_TRUE(end.finished);
+  EXPECT_TRUE(end.position.isApprox(Eigen::Vector2d(3, 8), 1e-9));
+  EXPECT_NEAR(std::cos(end.heading_rad), -1, 1e-9) << "it backed off to the right, looking left";
+  EXPECT_EQ(end.speed_mps, 0);
+}
+
+TEST(Route, JoinedStepsDoNotStopBetweenThem) {
+  RoutePlan plan;
+  plan.steps.resize(2);
+  plan.steps[0].go = {{4, 0}};
+  plan.steps[1].go = {{8, 0}};
+  plan.steps[1].speed_mps = 0.5;
+  const Route route(plan, {});
+  double slowest = 1;
+  for (double t = 2.5; t < route.duration_s() - 1.5; t += 0.01) {
+    slowest = std::min(slowest, route.At(t).speed_mps);
+  }
+  EXPECT_NEAR(slowest, 0.5, 1e-9);
+}
+
+TEST(Route, ACarCannotTurnOnTheSpotAndTheBlamedStepIsNamed) {
+  RouteLimits car;
+  car.turns_on_the_spot = false;
+  RoutePlan plan;
+  plan.steps.resize(2);
+  plan.steps[0].go = {{4, 0}};
+  plan.steps[1].turn_to_rad = pi / 2;
+  try {
+    Route(plan, car);
+    FAIL() << "it was accepted";
+  } catch (const RouteError& error) {
+    EXPECT_EQ(error.step(), 1);
+  }
+}
+
+TEST(Gait, PhaseIsTheIntegralOfSpeedOverStride) {
+  const Route route(LoopPlan(), {});
+  const GaitStyle style;
+  const Gait gait(route, style);
+  double cycles = 0;
+  const double h = 1e-3;
+  for (double t = 0; t < route.duration_s(); t += h) {
+    const RouteState middle = route.At(t + h / 2);
+    const bool turning = middle.speed_mps == 0;
+    const double speed = turning ? 0.25 * std::abs(middle.yaw_rate_rad_s) : middle.speed_mps;
+    if (speed != 0) cycles += h * speed / (style.stride_m * gait.Amplitude(speed));
+    EXPECT_NEAR(gait.At(t + h).cycles, cycles, 2e-3) << t;
+  }
+}
+
+TEST(Gait, AtTheNaturalSpeedACycleTakesTheClipsTime) {
+  RoutePlan plan;
+  const GaitStyle style;
+  plan.steps.resize(1);
+  plan.steps[0].go = {{50, 0}};
+  plan.steps[0].speed_mps = style.natural_speed_mps();
+  const Route route(plan, {});
+  const Gait gait(route, style);
+  EXPECT_NEAR(gait.At(20 + style.duration_s).cycles - gait.At(20).cycles, 1, 1e-9);
+  EXPECT_NEAR(gait.At(20).amplitude, 1, 1e-9);
+  EXPECT_EQ(gait.At(0).amplitude, 0);
+}
+
+TEST(Vehicle, WheelsRollWithoutSlipping) {
+  RoutePlan plan;
+  plan.steps.resize(1);
+  plan.steps[0].go = {{6, 0}, {6, 9}};
+  plan.steps[0].corner_radius_m = 3;
+  RouteLimits limits;
+  limits.turns_on_the_spot = false;
+  const Route route(plan, limits);
+  const Wheel wheel{0, 0.5, 0.3};
+  const double h = 1e-5;
+  for (double t = 0.1; t < route.duration_s(); t += 0.11) {
+    const RouteState now = route.At(t);
+    const double rolled = RolledAngle(wheel, route.At(t + h), 0) - RolledAngle(wheel, now, 0);
+    const double hub_speed = now.speed_mps - wheel.y_m * now.yaw_rate_rad_s;
+    EXPECT_NEAR(rolled * wheel.radius_m / h, hub_speed, 1e-3);
+  }
+}
+
+TEST(Vehicle, AxlesOfAllSteeredWheelsMeetInTheCentreOfTheTurn) {
+  const double curvature = 0.4;
+  for (const Wheel wheel : {Wheel{-1.4, 0.4, 0.2}, Wheel{-1.4, -0.4, 0.2}, Wheel{1.0, 0, 0.2}}) {
+    const double steer = SteeringAngle(wheel, curvature);
+    const Eigen::Vector2d rolling(std::cos(steer), std::sin(steer));
+    const Eigen::Vector2d to_centre(-wheel.x_m, 1 / curvature - wheel.y_m);
+    EXPECT_NEAR(rolling.dot(to_centre), 0, 1e-12);
+  }
+}
+
+TEST(MastLift, ReachesItsHeightsAndKeepsThem) {
+  const std::vector<MastMove> moves = {{1, 1.5}, {10, 0.2}};
+  const MastLift mast(moves, 0.4, 0.5);
+  EXPECT_EQ(mast.HeightAt(0.5), 0);
+  EXPECT_NEAR(mast.HeightAt(9.9), 1.5, 1e-12);
+  EXPECT_NEAR(mast.HeightAt(60), 0.2, 1e-12);
+  const std::vector<MastMove> hasty = {{1, 1.5}, {2, 0}};
+  EXPECT_THROW(MastLift(hasty, 0.4, 0.5), std::invalid_argument);
+}
+
+TEST(RigMount, LooksAlongTheHeadingWithTheImageUpright) {
+  RouteState state;
+  state.position = {2, 3};
+  state.heading_rad = pi / 2;
+  const Eigen::Isometry3d pose = RigPose(state, {0.8, 0.5, 0.1}, {}, 0);
+  EXPECT_TRUE(pose.translation().isApprox(Eigen::Vector3d(2, 3.5, 0.8), 1e-12));
+  const Eigen::Vector3d forward = pose.linear().col(2), down = pose.linear().col(1);
+  EXPECT_TRUE(forward.isApprox(Eigen::Vector3d(0, std::cos(0.1), -std::sin(0.1)), 1e-12));
+  EXPECT_LT(down.z(), -0.99);
+  EXPECT_NEAR(pose.linear().determinant(), 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace aisle::sim
