@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <stdexcept>
+
+#include "simulator/mesh/model.h"
+
+namespace aisle::sim {
+
+/// A model file that cannot be used; what() is "file: what is wrong".
+class ImportError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Which one band of a coloured material is kept.
+enum class Band { kLuminance, kRed, kGreen, kBlue };
+
+/// The frame of an imported model.
+enum class ModelFrame {
+  kZUp,       ///< z up: the file's y-up (x, y, z) becomes (x, -z, y)
+  kAsStored,  ///< y up, as glTF stores it
+};
+
+struct ImportOptions {
+  ModelFrame frame = ModelFrame::kZUp;
+  Band band = Band::kLuminance;
+  /// Files the model refers to must lie inside this folder. Empty: the model's own.
+  std::filesystem::path root;
+  std::size_t max_triangles = 5'000'000;
+  int max_texture_px = 8192;  ///< per side
+  std::size_t max_file_bytes = 256u << 20;
+};
+
+/// Reads a .glb, .gltf, .obj or .dae file. Files come from outside, so everything is checked:
+/// numbers finite, indices in range, sizes within the options, nothing opened outside the root,
+/// only PNG textures. Throws ImportError.
+Model ImportModel(const std::filesystem::path& file, const ImportOptions& options = {});
+
+/// One band of an 8-bit sRGB image (grey, BGR or BGRA), sRGB-encoded again: for kLuminance the
+/// Rec. 709 weights are applied to linear light.
+cv::Mat1b GreyOf(const cv::Mat& image, Band band);
+
+/// The same of one linear colour.
+float GreyOf(const Eigen::Vector3f& linear_rgb, Band band);
+
+/// Decodes a PNG file from memory after checking the size its header states. Throws ImportError.
+cv::Mat DecodePng(const std::vector<std::uint8_t>& bytes, const std::string& name, int max_side_px);
+
+}  // namespace aisle::sim

@@ -1,0 +1,179 @@
+#include "simulator/mesh/import.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+
+#include "simulator/mesh/pose.h"
+
+namespace aisle::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kModels = fs::path(AISLE_TEST_DATA) / "models";
+
+#define SKIP_WITHOUT_MODELS() \
+  if (!fs::exists(kModels)) GTEST_SKIP() << "no real models at " << kModels
+
+struct Bounds {
+  Eigen::Vector3f low, high;
+};
+
+Bounds BoundsOf(const std::vector<Eigen::Vector3f>& points) {
+  Bounds bounds{points.front(), points.front()};
+  for (const Eigen::Vector3f& point : points) {
+    bounds.low = bounds.low.cwiseMin(point);
+    bounds.high = bounds.high.cwiseMax(point);
+  }
+  return bounds;
+}
+
+void ExpectBounds(const Bounds& bounds, const Eigen::Vector3f& low, const Eigen::Vector3f& high) {
+  const float tolerance = 1e-4f * (high - low).norm();
+  EXPECT_LT((bounds.low - low).norm(), tolerance) << bounds.low.transpose();
+  EXPECT_LT((bounds.high - high).norm(), tolerance) << bounds.high.transpose();
+}
+
+Bounds FoxAt(const Model& fox, const std::string& clip, double time_s) {
+  const PoseLayer layer{fox.FindClip(clip), time_s, 1, -1};
+  std::vector<Eigen::Vector3f> positions, normals;
+  SkinVertices(fox, JointMatrices(fox, PoseNodes(fox, {&layer, 1})), &positions, &normals);
+  return BoundsOf(positions);
+}
+
+TEST(ImportModel, TheFoxIsWhereTheReferenceSays) {
+  SKIP_WITHOUT_MODELS();
+  ImportOptions options;
+  options.frame = ModelFrame::kAsStored;
+  const Model fox = ImportModel(kModels / "Fox.glb", options);
+  EXPECT_EQ(fox.joints.size(), 24u);
+  ExpectBounds(BoundsOf(fox.mesh.positions), {-12.592719f, -0.121744f, -88.095006f},
+               {12.592717f, 78.907198f, 66.62486f});
+  ExpectBounds(FoxAt(fox, "Walk", 0.35), {-12.778858f, -0.026482f, -91.326738f},
+               {12.406456f, 74.459864f, 70.043058f});
+  ExpectBounds(FoxAt(fox, "Run", 0.5), {-13.145187f, -1.251693f, -95.988523f},
+               {14.062113f, 73.817078f, 68.206712f});
+  EXPECT_FALSE(fox.textures.empty());
+  EXPECT_GE(fox.materials[0].albedo_texture, 0);
+}
+
+TEST(ImportModel, YUpBecomesZUp) {
+  SKIP_WITHOUT_MODELS();
+  const Model fox = ImportModel(kModels / "Fox.glb");
+  ExpectBounds(BoundsOf(fox.mesh.positions), {-12.592719f, -66.62486f, -0.121744f},
+               {12.592717f, 88.095006f, 78.907198f});
+}
+
+TEST(ImportModel, AWarehouseKitLoadsUprightAndTextured) {
+  SKIP_WITHOUT_MODELS();
+  for (const std::string kind : {"ShelfF", "ClutteringA", "PalletJackB"}) {
+    const std::string name = fmt::format("aws_robomaker_warehouse_{}_01", kind);
+    const fs::path folder = kModels / "aws-warehouse" / name;
+    ImportOptions options;
+    options.root = folder;
+    const Model model = ImportModel(folder / "meshes" / (name + "_visual.DAE"), options);
+    const Bounds bounds = BoundsOf(model.mesh.positions);
+    EXPECT_NEAR(bounds.low.z(), 0, 0.1) << kind << " does not stand on the floor";
+    EXPECT_GT(bounds.high.z(), 0.8) << kind;
+    EXPECT_LT(bounds.high.z(), 8) << kind << ": centimetres taken for metres?";
+    EXPECT_FALSE(model.textures.empty()) << kind;
+    // A texture's colour multiplies nothing else in COLLADA.
+    for (const Material& material : model.materials) {
+      EXPECT_TRUE(material.albedo_texture < 0 || material.albedo == 1);
+    }
+  }
+}
+
+TEST(ImportModel, NothingOutsideTheRootIsOpened) {
+  SKIP_WITHOUT_MODELS();
+  const std::string name = "aws_robomaker_warehouse_ShelfF_01";
+  const fs::path file = kModels / "aws-warehouse" / name / "meshes" / (name + "_visual.DAE");
+  EXPECT_THROW(ImportModel(file), ImportError) << "its textures lie in a neighbouring folder";
+}
+
+/// A folder of its own that goes away with the test.
+class Scratch {
+ public:
+  Scratch() : path_(fs::path(testing::TempDir()) / fmt::format("aisle-mesh-{}", getpid())) {
+    fs::create_directories(path_);
+  }
+  ~Scratch() { fs::remove_all(path_); }
+  fs::path Write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+
+ private:
+  fs::path path_;
+};
+
+std::string ErrorOf(const fs::path& file, const ImportOptions& options = {}) {
+  try {
+    ImportModel(file, options);
+  } catch (const ImportError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ImportModel, AnObjHasItsMaterialAndPolygonsBecomeTriangles) {
+  const Scratch scratch;
+  scratch.Write("box.mtl", "newmtl grey\nKd 0.25 0.25 0.25\n");
+  const fs::path file = scratch.Write(
+      "box.obj", "mtllib box.mtl\nusemtl grey\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+  const Model model = ImportModel(file);
+  EXPECT_EQ(model.mesh.triangles.size(), 2u);
+  EXPECT_NEAR(model.materials[model.mesh.materials[0]].albedo, 0.25f, 1e-6);
+  EXPECT_TRUE(model.mesh.positions[2].isApprox(Eigen::Vector3f(1, 0, 1)));
+  EXPECT_TRUE(model.mesh.normals[0].isApprox(Eigen::Vector3f(0, -1, 0)));
+}
+
+TEST(ImportModel, EveryBadFileGivesOneClearError) {
+  const Scratch scratch;
+  EXPECT_THAT(ErrorOf("nowhere.glb"), testing::HasSubstr("there is no such file"));
+  EXPECT_THAT(ErrorOf(scratch.Write("a.ply", "ply\n")), testing::HasSubstr("models are .glb"));
+  EXPECT_THAT(ErrorOf(scratch.Write("b.glb", "glTF broken")), testing::HasSubstr("cannot be read"));
+  EXPECT_THAT(ErrorOf(scratch.Write("c.glb", "")), testing::HasSubstr("cannot be read"));
+  EXPECT_THAT(ErrorOf(scratch.Write("d.obj", "v nan 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n")),
+              testing::HasSubstr("d.obj"));
+  ImportOptions tight;
+  tight.max_triangles = 1;
+  EXPECT_THAT(
+      ErrorOf(scratch.Write("e.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nf 3 2 1\n"), tight),
+      testing::HasSubstr("the limit is 1"));
+}
+
+TEST(ImportModel, ATruncatedModelNeverCrashes) {
+  SKIP_WITHOUT_MODELS();
+  std::ifstream stream(kModels / "Fox.glb", std::ios::binary);
+  const std::string whole((std::istreambuf_iterator<char>(stream)), {});
+  const Scratch scratch;
+  for (std::size_t length = 0; length < whole.size(); length += whole.size() / 23) {
+    EXPECT_NE(ErrorOf(scratch.Write("cut.glb", whole.substr(0, length))), "") << length;
+  }
+}
+
+TEST(GreyOf, KeepsGreyAndWeighsColoursInLinearLight) {
+  const cv::Mat grey(1, 1, CV_8UC3, cv::Scalar(77, 77, 77));
+  EXPECT_EQ(GreyOf(grey, Band::kLuminance)(0, 0), 77);
+  const cv::Mat green(1, 1, CV_8UC3, cv::Scalar(0, 255, 0));
+  // 0.7152 linear is 0.8628 encoded.
+  EXPECT_NEAR(GreyOf(green, Band::kLuminance)(0, 0), 220, 1);
+  EXPECT_EQ(GreyOf(green, Band::kRed)(0, 0), 0);
+}
+
+TEST(DecodePng, TheHeaderIsBelievedBeforeThePixelsAreTouched) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".png", cv::Mat1b(20, 30, std::uint8_t{9}), bytes);
+  EXPECT_EQ(DecodePng(bytes, "t", 64).cols, 30);
+  EXPECT_THROW(DecodePng(bytes, "t", 16), ImportError);
+  bytes[17] = 0xFF;  // claims to be huge
+  EXPECT_THROW(DecodePng(bytes, "t", 8192), ImportError);
+  EXPECT_THROW(DecodePng({'J', 'F', 'I', 'F'}, "t", 64), ImportError);
+}
+
+}  // namespace
+}  // namespace aisle::sim
