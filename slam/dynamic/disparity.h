@@ -1,0 +1,22 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "slam/dynamic/paper_options.h"
+
+namespace aisle::slam::dynamic {
+
+/// What a disparity image holds where nothing could be matched.
+inline constexpr float kNoDisparity = -1.0F;
+
+/// Disparity of every left pixel in pixels (x_left - x_right >= 0), kNoDisparity where unknown.
+/// Same size as the images, which must be equal in size. The columns that plain SGBM leaves empty
+/// at the left edge are matched as far as the right image reaches.
+cv::Mat1f ComputeDisparity(const cv::Mat1b& left, const cv::Mat1b& right,
+                           const DisparityOptions& options);
+
+/// Median of the known disparities within `radius` pixels of a point; kNoDisparity if none is known
+/// or the point lies outside.
+float DisparityNear(const cv::Mat1f& disparity, const cv::Point2f& point, int radius);
+
+}  // namespace aisle::slam::dynamic

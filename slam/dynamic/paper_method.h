@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "slam/dynamic/boundary_labels.h"
+#include "slam/dynamic/dynamic_points.h"
+#include "slam/dynamic/dynamic_regions.h"
+#include "slam/dynamic/fundamental.h"
+#include "slam/dynamic/paper_options.h"
+#include "slam/dynamic/superpixels.h"
+
+namespace aisle::slam::dynamic {
+
+/// A rectified stereo pair, 8-bit grey, both images of one size.
+struct StereoPair {
+  cv::Mat1b left, right;
+};
+
+/// One region of interest with all that was found in it.
+struct SegmentedRoi {
+  cv::Rect roi;                        ///< in the left image
+  Superpixels superpixels;             ///< in pixels of the roi
+  std::vector<DisparityPlane> planes;  ///< per superpixel
+  std::map<BoundaryKey, BoundaryType> boundaries;
+};
+
+/// What every stage found, for pictures and tests. Nothing later depends on it.
+struct PaperStages {
+  cv::Mat1f disparity;                ///< of the current left image, kNoDisparity where unknown
+  std::vector<cv::Point2f> features;  ///< of the previous left image
+  std::vector<Track> tracks;
+  FundamentalEstimate fundamental;
+  std::vector<TestedPoint> points;
+  std::vector<PointGroup> groups;
+  std::vector<SegmentedRoi> rois;          ///< one per group
+  std::map<std::string, double> stage_ms;  ///< wall time; reported, never decided upon
+};
+
+struct PaperResult {
+  DynamicRegions dynamic;
+  PaperStages stages;
+};
+
+/// The paper's method, sections III-A and III-B: moving regions of the current left image as the
+/// union of rectangles. A pure function: two consecutive pairs in, no memory. Without enough
+/// texture for a fundamental matrix nothing is dynamic. Region ids are the indices of the groups.
+PaperResult DetectDynamicRegions(const StereoPair& previous, const StereoPair& current,
+                                 const PaperOptions& options);
+
+}  // namespace aisle::slam::dynamic

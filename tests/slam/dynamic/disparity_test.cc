@@ -1,0 +1,79 @@
+#include "slam/dynamic/disparity.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/slam/dynamic/synthetic_stereo.h"
+
+namespace aisle::slam::dynamic {
+namespace {
+
+struct Agreement {
+  double known = 0;  // share of the pixels that see something in both images
+  double close = 0;  // share of those known that are within one pixel of the truth
+};
+
+Agreement Compare(const cv::Mat1f& disparity, const cv::Mat1f& truth) {
+  int seen = 0, known = 0, close = 0;
+  for (int y = 0; y < truth.rows; ++y) {
+    for (int x = 0; x < truth.cols; ++x) {
+      if (truth(y, x) <= 0 || truth(y, x) > static_cast<float>(x)) continue;
+      ++seen;
+      if (disparity(y, x) == kNoDisparity) continue;
+      ++known;
+      if (std::abs(disparity(y, x) - truth(y, x)) < 1.0F) ++close;
+    }
+  }
+  return {1.0 * known / seen, 1.0 * close / known};
+}
+
+TEST(Disparity, AgreesWithTheTruthOfATexturedHall) {
+  const auto view =
+      test::Render(test::StaticHall(), StereoCamera{}, Eigen::Isometry3d::Identity(), 0);
+  for (const bool three_way : {false, true}) {
+    DisparityOptions options;
+    options.three_way = three_way;
+    const Agreement agreement =
+        Compare(ComputeDisparity(view.left, view.right, options), view.disparity);
+    EXPECT_GT(agreement.known, 0.85) << "three_way " << three_way;
+    // The floor is slanted and blurred: it is where SGBM rounds most.
+    EXPECT_GT(agreement.close, 0.8) << "three_way " << three_way;
+  }
+}
+
+TEST(Disparity, NeverPointsBeyondTheRightImage) {
+  const auto view =
+      test::Render(test::StaticHall(), StereoCamera{}, Eigen::Isometry3d::Identity(), 0);
+  const cv::Mat1f disparity = ComputeDisparity(view.left, view.right, {});
+  for (int y = 0; y < disparity.rows; ++y) {
+    for (int x = 0; x < disparity.cols; ++x) ASSERT_LE(disparity(y, x), static_cast<float>(x));
+  }
+}
+
+TEST(Disparity, IsTheSameForAnyNumberOfThreads) {
+  const auto view =
+      test::Render(test::StaticHall(), StereoCamera{}, Eigen::Isometry3d::Identity(), 0);
+  for (const bool three_way : {false, true}) {
+    DisparityOptions options;
+    options.three_way = three_way;
+    const int threads = cv::getNumThreads();
+    cv::setNumThreads(1);
+    const cv::Mat1f one = ComputeDisparity(view.left, view.right, options);
+    cv::setNumThreads(4);
+    const cv::Mat1f four = ComputeDisparity(view.left, view.right, options);
+    cv::setNumThreads(threads);
+    EXPECT_EQ(cv::norm(one, four, cv::NORM_INF), 0) << "three_way " << three_way;
+  }
+}
+
+TEST(DisparityNear, IsTheMedianOfWhatIsKnown) {
+  cv::Mat1f disparity(5, 5, kNoDisparity);
+  EXPECT_EQ(DisparityNear(disparity, {2, 2}, 2), kNoDisparity);
+  disparity(1, 1) = 3;
+  disparity(2, 2) = 90;
+  disparity(3, 1) = 4;
+  EXPECT_EQ(DisparityNear(disparity, {2.2F, 1.9F}, 1), 4);
+  EXPECT_EQ(DisparityNear(disparity, {-20, 2}, 2), kNoDisparity);
+}
+
+}  // namespace
+}  // namespace aisle::slam::dynamic

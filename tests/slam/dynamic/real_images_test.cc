@@ -1,0 +1,51 @@
+// Real stereo pictures of static scenes: nothing may crash and next to nothing may be masked.
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "slam/dynamic/paper_method.h"
+
+namespace aisle::slam::dynamic {
+namespace {
+
+StereoPair KittiPair(int k) {
+  const std::string folder = AISLE_TEST_DATA "/kitti/sequences/06/";
+  const std::string name = fmt::format("{:06d}.png", k);
+  return {cv::imread(folder + "image_0/" + name, cv::IMREAD_GRAYSCALE),
+          cv::imread(folder + "image_1/" + name, cv::IMREAD_GRAYSCALE)};
+}
+
+StereoPair EurocPair(int k) {
+  const std::string folder = AISLE_TEST_DATA "/euroc-loop-pairs/";
+  return {cv::imread(fmt::format("{}left_img_{}.png", folder, k), cv::IMREAD_GRAYSCALE),
+          cv::imread(fmt::format("{}right_img_{}.png", folder, k), cv::IMREAD_GRAYSCALE)};
+}
+
+double MaskedShare(const StereoPair& previous, const StereoPair& current) {
+  const cv::Mat1b mask = DetectDynamicRegions(previous, current, {}).dynamic.mask;
+  return static_cast<double>(cv::countNonZero(mask)) / static_cast<double>(mask.total());
+}
+
+TEST(PaperOnRealImages, Kitti06IsLeftAlmostUntouched) {
+  if (KittiPair(0).left.empty()) GTEST_SKIP() << "no KITTI 06 under " AISLE_TEST_DATA;
+  double sum = 0;
+  int pairs = 0;
+  for (int k = 5; k < 51; k += 5, ++pairs) sum += MaskedShare(KittiPair(k - 1), KittiPair(k));
+  std::cout << "KITTI 06: " << 100 * sum / pairs << " % of the pixels masked on average\n";
+  EXPECT_LT(sum / pairs, 0.05);
+}
+
+TEST(PaperOnRealImages, RevisitsFarApartDoNotCrash) {
+  if (EurocPair(0).left.empty()) GTEST_SKIP() << "no EuRoC pairs under " AISLE_TEST_DATA;
+  for (int k = 0; k < 4; ++k) {
+    for (int l = 0; l < 4; ++l) {
+      const double share = MaskedShare(EurocPair(k), EurocPair(l));
+      std::cout << "EuRoC " << k << " -> " << l << ": " << 100 * share << " % masked\n";
+      EXPECT_LT(share, 1.0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace aisle::slam::dynamic
