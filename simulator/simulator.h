@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <string>
@@ -72,6 +73,15 @@ struct RenderedFrame {
   FrameTruth truth;
 };
 
+/// How long rendering takes, beside the bare cost of its primary rays in the same process.
+struct RenderBench {
+  double pair_ms = 0;          ///< a stereo pair with all truth, median
+  double bare_primary_ms = 0;  ///< primary ray packets of the same two images alone, median
+  double ratio = 0;            ///< pair_ms / bare_primary_ms
+  int frames = 0;
+  std::map<std::string, double> stage_ms;  ///< medians by stage
+};
+
 /// The face of the simulator: a scene that can be photographed at any time from any pose. A frame
 /// is a pure function of (scene file, assets, seed, frame index, time, pose): any frame can be
 /// asked for alone, in any order.
@@ -104,6 +114,10 @@ class Simulator {
   /// Safe to call from several threads.
   RenderedFrame Render(int frame_index, std::int64_t stamp_ns,
                        const Eigen::Isometry3d& T_world_rig) const;
+
+  /// Times Render over `frames` frames spread over the scene, and the bare primary rays of the same
+  /// frames, interleaved so that both meet the same machine.
+  RenderBench Bench(int frames) const;
 
  private:
   struct Impl;

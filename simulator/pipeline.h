@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "simulator/camera/stereo_camera.h"
+#include "simulator/sensor/sensor.h"
+#include "simulator/shade/shader.h"
+#include "simulator/simulator.h"
+#include "simulator/world/world.h"
+
+namespace aisle::sim {
+
+struct PipelineOptions {
+  std::uint64_t seed = 1;               ///< of the sensor noise
+  float dynamic_threshold_mps = 0.05f;  ///< a surface faster than this is dynamic
+  int threads = 0;                      ///< 0: as many as the machine has
+  std::uint64_t tile_shuffle = 0;       ///< order of the tiles; changes no result
+  TracerOptions tracer;
+  ShadeOptions shade;
+  SensorOptions sensor;
+};
+
+/// A world and a stereo camera, ready to take pictures: At(t) -> trace -> { truth; shade ->
+/// sensor }. What Simulator is made of, for those who make their world by other means than a scene
+/// file.
+class Pipeline {
+ public:
+  /// Solves the static light: seconds for a hall.
+  Pipeline(World world, const StereoCamera& camera, const PipelineOptions& options);
+  ~Pipeline();
+
+  const World& world() const;
+  /// The pair and its truth. Pure; safe to call from several threads.
+  RenderedFrame Render(int frame_index, std::int64_t stamp_ns,
+                       const Eigen::Isometry3d& T_world_rig) const;
+  /// Linear radiance of both eyes before the sensor, in the units of the lights.
+  std::array<cv::Mat1f, 2> RenderRadiance(std::int64_t stamp_ns,
+                                          const Eigen::Isometry3d& T_world_rig) const;
+  /// See BenchRender.
+  RenderBench Bench(std::span<const std::int64_t> stamps_ns,
+                    std::span<const Eigen::Isometry3d> poses) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace aisle::sim

@@ -1,0 +1,182 @@
+#include "simulator/shade/direct_light.h"
+
+#include "simulator/shade/wide.h"
+
+namespace aisle::sim {
+namespace {
+
+constexpr float kLift = 2e-3f;        // m, along the normal
+constexpr float kDrawIn = 3e-3f;      // m, towards the triangle's centre
+constexpr float kLightGuard = 0.01f;  // m: shadow rays end so far before the light's own surface
+
+struct Points8 {
+  F8 px, py, pz, nx, ny, nz;
+};
+
+Points8 Load(std::span<const SurfacePoint> points) {
+  Points8 p;
+  for (int k = 0; k < kLanes; ++k) {
+    const SurfacePoint& point = points[std::min(static_cast<std::size_t>(k), points.size() - 1)];
+    p.px[k] = point.position.x();
+    p.py[k] = point.position.y();
+    p.pz[k] = point.position.z();
+    p.nx[k] = point.normal.x();
+    p.ny[k] = point.normal.y();
+    p.nz[k] = point.normal.z();
+  }
+  return p;
+}
+
+struct Shape {
+  int columns, rows;
+};
+Shape ProbeShape(const AreaLight& light) {
+  const float aspect = light.half_u.norm() / light.half_v.norm();
+  if (aspect > 3) return {4, 1};
+  if (aspect < 1.0f / 3) return {1, 4};
+  return {2, 2};
+}
+Shape FineShape(const Shape& probe) { return {probe.columns * 2, probe.rows * 2}; }
+
+/// Light per area and radiance from one place of the light: cos·cos' / r²; and the way there.
+struct Sample8 {
+  F8 dx, dy, dz, distance, weight;
+};
+
+class Light {
+ public:
+  explicit Light(const AreaLight& light) : light_(light) {
+    const Eigen::Vector3f cross = light.half_u.cross(light.half_v);
+    area_ = 4 * cross.norm();
+    normal_ = cross.normalized();
+  }
+  Sample8 At(const Points8& p, float a, float b) const {
+    const Eigen::Vector3f y = light_.center + a * light_.half_u + b * light_.half_v;
+    Sample8 s;
+    s.dx = y.x() - p.px;
+    s.dy = y.y() - p.py;
+    s.dz = y.z() - p.pz;
+    const F8 squared = Max(s.dx * s.dx + s.dy * s.dy + s.dz * s.dz, Wide(1e-6f));
+    s.distance = Sqrt(squared);
+    const F8 here = p.nx * s.dx + p.ny * s.dy + p.nz * s.dz;
+    const F8 there = -(normal_.x() * s.dx + normal_.y() * s.dy + normal_.z() * s.dz);
+    s.weight = Max(here, Wide(0)) * Max(there, Wide(0)) / (squared * squared);
+    return s;
+  }
+  F8 Unshadowed(const Points8& p) const { return At(p, 0, 0).weight * power(); }
+  float power() const { return area_ * light_.radiance; }
+
+ private:
+  const AreaLight& light_;
+  float area_;
+  Eigen::Vector3f normal_;
+};
+
+unsigned Blocked(const Instant& instant, const Points8& p, const Sample8& s,
+                 GeometryMask occluders) {
+  Rays8 rays;
+  Store(p.px, rays.ox);
+  Store(p.py, rays.oy);
+  Store(p.pz, rays.oz);
+  Store(s.dx, rays.dx);
+  Store(s.dy, rays.dy);
+  Store(s.dz, rays.dz);
+  Store(Wide(0), rays.t_near);
+  Store(1 - kLightGuard / Max(s.distance, Wide(2 * kLightGuard)), rays.t_far);
+  const I8 valid = s.weight > 0;
+  std::memcpy(rays.valid, &valid, sizeof(rays.valid));
+  if (!Any(valid)) return 0;
+  return instant.Occluded(rays, Coherence::kCoherent, occluders);
+}
+
+/// The light's irradiance from a grid of places on it, and whether lanes saw some but not all.
+struct Gathered {
+  F8 irradiance = Wide(0);
+  unsigned mixed = 0;
+};
+
+Gathered Gather(const Instant& instant, const Light& light, const Points8& p, Shape shape,
+                GeometryMask occluders) {
+  Gathered result;
+  unsigned any_blocked = 0, any_open = 0;
+  const float share = light.power() / static_cast<float>(shape.columns * shape.rows);
+  for (int row = 0; row < shape.rows; ++row) {
+    for (int column = 0; column < shape.columns; ++column) {
+      const float a = (2 * static_cast<float>(column) + 1) / static_cast<float>(shape.columns) - 1;
+      const float b = (2 * static_cast<float>(row) + 1) / static_cast<float>(shape.rows) - 1;
+      const Sample8 s = light.At(p, a, b);
+      const unsigned blocked = Blocked(instant, p, s, occluders);
+      for (int k = 0; k < kLanes; ++k) {
+        if (!(blocked >> k & 1)) result.irradiance[k] += s.weight[k] * share;
+      }
+      any_blocked |= blocked;
+      any_open |= ~blocked;
+    }
+  }
+  result.mixed = any_blocked & any_open & 0xff;
+  return result;
+}
+
+}  // namespace
+
+std::vector<SurfacePoint> LocatePoints(const LightGrid& grid, const TriangleMesh& topology,
+                                       std::span<const Eigen::Vector3f> positions,
+                                       std::span<const Eigen::Vector3f> normals) {
+  std::vector<SurfacePoint> points;
+  points.reserve(grid.points.size());
+  for (const LightPoint& point : grid.points) {
+    const auto& [a, b, c] = topology.triangles[point.triangle];
+    const float w = 1 - point.u - point.v;
+    Eigen::Vector3f position = w * positions[a] + point.u * positions[b] + point.v * positions[c];
+    const Eigen::Vector3f inward = (positions[a] + positions[b] + positions[c]) / 3 - position;
+    const float length = inward.norm();
+    if (length > 0) position += inward * std::min(0.3f, kDrawIn / length);
+    const Eigen::Vector3f normal =
+        (w * normals[a] + point.u * normals[b] + point.v * normals[c]).normalized();
+    points.push_back({position + kLift * normal, normal});
+  }
+  return points;
+}
+
+void DirectIrradiance(const Instant& instant, std::span<const AreaLight> lights,
+                      std::span<const float> light_scale, std::span<const SurfacePoint> points,
+                      const DirectLightOptions& options, float* irradiance) {
+  const Points8 p = Load(points);
+  // Strongest first; lanes of a packet are neighbours, so they share the order.
+  std::vector<std::pair<float, std::size_t>> order;
+  F8 unshadowed = Wide(0);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (light_scale[i] <= 0) continue;
+    const F8 light = Light(lights[i]).Unshadowed(p) * light_scale[i];
+    float sum = 0;
+    for (int k = 0; k < kLanes; ++k) sum += light[k];
+    if (sum <= 0) continue;
+    unshadowed += light;
+    order.emplace_back(-sum, i);
+  }
+  std::ranges::sort(order);
+  float left = 0;
+  for (const auto& [negative, light] : order) left -= negative;
+  const float enough = left * options.untraced_share;
+
+  F8 sum = Wide(0), traced = Wide(0);
+  for (const auto& [negative, i] : order) {
+    if (left <= enough) break;
+    left += negative;
+    const Light light(lights[i]);
+    traced += light.Unshadowed(p) * light_scale[i];
+    const Shape probe = ProbeShape(lights[i]);
+    Gathered gathered = Gather(instant, light, p, probe, options.occluders);
+    if (gathered.mixed) {
+      const Gathered fine = Gather(instant, light, p, FineShape(probe), options.occluders);
+      for (int k = 0; k < kLanes; ++k) {
+        if (gathered.mixed >> k & 1) gathered.irradiance[k] = fine.irradiance[k];
+      }
+    }
+    sum += gathered.irradiance * light_scale[i];
+  }
+  const F8 total = sum * Select(traced > 0, unshadowed / Max(traced, Wide(1e-12f)), Wide(1));
+  for (std::size_t k = 0; k < points.size(); ++k) irradiance[k] = total[static_cast<int>(k)];
+}
+
+}  // namespace aisle::sim

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "simulator/shade/static_light.h"
+#include "simulator/shade/surface_lanes.h"
+#include "simulator/trace/hit_image.h"
+
+namespace aisle::sim {
+
+/// The surfaces of one frame and the light on them, ready to be looked up. The vectors are reused
+/// from frame to frame.
+struct FrameLight {
+  std::shared_ptr<const LightState> statics;
+  std::vector<SurfaceRecord> mover_records;  ///< of all movers, one after the other
+  std::vector<float> mover_light;            ///< irradiance by slot
+};
+
+/// What every frame shares: the static world's records, and the movers' before they are posed.
+class SurfaceTables {
+ public:
+  SurfaceTables(const World& world, const Tracer& tracer, const LightGrid& static_grid,
+                float mover_texel_m);
+
+  const std::vector<SurfaceRecord>& statics() const { return statics_; }
+  /// Index in FrameLight::mover_records of a mover's first triangle.
+  std::span<const std::int32_t> mover_bases() const { return mover_bases_; }
+
+  /// Poses the movers' records and lights what the images show of them: each visible point by
+  /// shadow rays to the luminaires, and by the indirect light of the space around it.
+  void PrepareFrame(const Instant& instant, std::span<const HitImage> images,
+                    std::shared_ptr<const LightState> statics, FrameLight* frame) const;
+
+ private:
+  struct MoverGrid {
+    LightGrid grid;
+    std::vector<float>
+        openness;  ///< by point: share of the indirect light that its own body leaves
+  };
+
+  void LightMover(const Instant& instant, std::size_t mover, const LightVolume& volume,
+                  std::span<const std::uint8_t> visible, std::span<float> slots) const;
+
+  const World* world_;
+  std::vector<SurfaceRecord> statics_;
+  std::vector<SurfaceRecord> mover_records_;
+  std::vector<std::int32_t> mover_bases_;
+  std::vector<std::size_t> slot_bases_;
+  std::size_t slot_count_ = 0;
+  std::vector<MoverGrid> movers_;
+};
+
+/// Looks up eight neighbouring pixels' (or any eight) hits, whichever family they belong to; lanes
+/// that hit nothing give 0.
+SurfaceLanes LookUpHits(const SurfaceTables& tables, const FrameLight& frame,
+                        const TexturePool& textures, I8 geometry, I8 primitive, HitLanes hits,
+                        const RayStep& step);
+
+}  // namespace aisle::sim

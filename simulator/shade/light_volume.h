@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+namespace aisle::sim {
+
+/// Indirect light in free space: radiance L(ω) = mean + slope·ω at the nodes of a grid, linear in
+/// between. Nodes inside solid things have weight 0 and do not count.
+class LightVolume {
+ public:
+  struct Node {
+    float mean = 0;
+    Eigen::Vector3f slope = Eigen::Vector3f::Zero();
+    float weight = 0;  ///< 1 in free space, 0 inside a thing
+  };
+
+  LightVolume() = default;
+  LightVolume(const Eigen::AlignedBox3f& box, float spacing_m);
+
+  std::size_t size() const { return nodes_.size(); }
+  Eigen::Vector3f Position(std::size_t node) const;
+  void Set(std::size_t node, const Node& value) { nodes_[node] = value; }
+  const Node& node(std::size_t i) const { return nodes_[i]; }
+
+  /// Irradiance at a point on the side of `normal`.
+  float Irradiance(const Eigen::Vector3f& position, const Eigen::Vector3f& normal) const;
+
+ private:
+  Eigen::Vector3f origin_ = Eigen::Vector3f::Zero();
+  float spacing_ = 1;
+  Eigen::Vector3i count_ = Eigen::Vector3i::Zero();
+  std::vector<Node> nodes_;
+};
+
+}  // namespace aisle::sim

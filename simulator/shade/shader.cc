@@ -1,0 +1,110 @@
+#include "simulator/shade/shader.h"
+
+#include <tbb/parallel_for.h>
+
+#include <numbers>
+
+#include "simulator/shade/antialias.h"
+#include "simulator/shade/mover_shadow.h"
+
+namespace aisle::sim {
+namespace {
+
+constexpr float kInvPi = std::numbers::inv_pi_v<float>;
+
+/// Reflectance and irradiance of every pixel, rows as in HitImage.
+void LookUpImage(const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures,
+                 const EyeView& view, const HitImage& image, std::vector<float>* reflectance,
+                 std::vector<float>* irradiance) {
+  reflectance->resize(image.t.size());
+  irradiance->resize(image.t.size());
+  const PixelRays& rays = *view.rays;
+  const RayStep step{view.rotation.col(0) * rays.step_x, view.rotation.col(1) * rays.step_y};
+  const Eigen::Matrix3f& r = view.rotation;
+  tbb::parallel_for(0, image.height, [&](int y) {
+    for (int x = 0; x < image.width; x += kLanes) {
+      const std::size_t i = image.Index(x, y);
+      // The last packet of a row may reach into the next row's rays; those lanes hit nothing.
+      const auto ray = static_cast<std::size_t>(y * rays.width + x);
+      const F8 cx = LoadF(&rays.x[ray]), cy = LoadF(&rays.y[ray]);
+      const HitLanes hits{LoadF(&image.t[i]),
+                          LoadF(&image.u[i]),
+                          LoadF(&image.v[i]),
+                          r(0, 0) * cx + r(0, 1) * cy + r(0, 2),
+                          r(1, 0) * cx + r(1, 1) * cy + r(1, 2),
+                          r(2, 0) * cx + r(2, 1) * cy + r(2, 2),
+                          I8{}};
+      const SurfaceLanes seen = LookUpHits(tables, frame, textures, LoadI(&image.geometry[i]),
+                                           LoadI(&image.primitive[i]), hits, step);
+      Store(seen.reflectance, &(*reflectance)[i]);
+      Store(seen.irradiance, &(*irradiance)[i]);
+    }
+  });
+}
+
+cv::Mat1f Combine(const HitImage& image, std::span<const float> reflectance,
+                  std::span<const float> irradiance, std::span<const float> kept) {
+  cv::Mat1f radiance(image.height, image.width);
+  tbb::parallel_for(0, image.height, [&](int y) {
+    const std::size_t row = image.Index(0, y);
+    float* to = radiance[y];
+    for (std::size_t x = 0; x < static_cast<std::size_t>(image.width); ++x) {
+      to[x] = reflectance[row + x] * irradiance[row + x] * kInvPi;
+      if (!kept.empty()) to[x] *= kept[row + x];
+    }
+  });
+  return radiance;
+}
+
+}  // namespace
+
+struct Shader::Workspace {
+  FrameLight frame;
+  std::vector<float> reflectance, irradiance, kept;
+};
+
+Shader::Shader(const World& world, const Tracer& tracer, const ShadeOptions& options)
+    : world_(&world),
+      options_(options),
+      textures_(world.textures()),
+      static_light_(world, tracer, textures_, options.statics),
+      tables_(world, tracer, static_light_.grid(), options.mover_texel_m) {}
+
+Shader::~Shader() = default;
+
+std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const EyeView> views,
+                                     std::span<const HitImage> images) const {
+  std::unique_ptr<Workspace> work;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!idle_.empty()) {
+      work = std::move(idle_.back());
+      idle_.pop_back();
+    }
+  }
+  if (!work) work = std::make_unique<Workspace>();
+
+  tables_.PrepareFrame(instant, images, static_light_.At(instant.snapshot().light_scale),
+                       &work->frame);
+  std::vector<cv::Mat1f> radiance;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const HitImage& image = images[i];
+    LookUpImage(tables_, work->frame, textures_, views[i], image, &work->reflectance,
+                &work->irradiance);
+    work->kept.assign(image.t.size(), 1);
+    if (options_.mover_shadows) {
+      TraceMoverShadows(instant, views[i], image, *world_, tables_, work->frame, work->irradiance,
+                        &work->kept);
+    }
+    radiance.push_back(Combine(image, work->reflectance, work->irradiance, work->kept));
+    if (options_.antialias) {
+      AntialiasEdges(instant, views[i], image, tables_, work->frame, textures_, work->kept,
+                     &radiance.back());
+    }
+  }
+  const std::lock_guard lock(mutex_);
+  idle_.push_back(std::move(work));
+  return radiance;
+}
+
+}  // namespace aisle::sim

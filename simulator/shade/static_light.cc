@@ -1,0 +1,197 @@
+#include "simulator/shade/static_light.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <numbers>
+
+#include "simulator/shade/direct_light.h"
+#include "simulator/shade/radiosity.h"
+
+namespace aisle::sim {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+LightGrid GridWithin(const TriangleMesh& mesh, float texel, std::size_t max_points) {
+  LightGrid grid = MakeLightGrid(mesh, texel);
+  // Points fall with the square of the spacing, down to what the vertices need.
+  for (int i = 0; i < 8 && grid.points.size() > max_points; ++i) {
+    texel *= 1.3f;
+    grid = MakeLightGrid(mesh, texel);
+  }
+  return grid;
+}
+
+std::vector<float> DirectAt(const Instant& statics, const World& world,
+                            std::span<const float> light_scale,
+                            std::span<const SurfacePoint> points) {
+  std::vector<float> direct(points.size());
+  tbb::parallel_for(std::size_t{0}, (points.size() + kLanes - 1) / kLanes, [&](std::size_t i) {
+    const std::size_t first = i * kLanes;
+    const std::size_t count = std::min<std::size_t>(kLanes, points.size() - first);
+    DirectIrradiance(statics, world.lights(), light_scale, points.subspan(first, count),
+                     {.occluders = kStaticOnly}, &direct[first]);
+  });
+  return direct;
+}
+
+/// Reflectance around each point of a grid.
+std::vector<float> AlbedoAt(const World& world, const TexturePool& textures, const LightGrid& grid,
+                            float texel) {
+  const TriangleMesh& mesh = world.statics().mesh;
+  std::vector<float> albedo;
+  for (const LightPoint& point : grid.points) {
+    const Material& material = world.materials()[mesh.materials[point.triangle]];
+    const auto& [a, b, c] = mesh.triangles[point.triangle];
+    const Eigen::Vector2f uv =
+        (1 - point.u - point.v) * mesh.uvs[a] + point.u * mesh.uvs[b] + point.v * mesh.uvs[c];
+    const Eigen::Vector2f du = mesh.uvs[b] - mesh.uvs[a], dv = mesh.uvs[c] - mesh.uvs[a];
+    const Eigen::Vector3f x = mesh.positions[b] - mesh.positions[a];
+    const Eigen::Vector3f y = mesh.positions[c] - mesh.positions[a];
+    const float world_area = x.cross(y).norm();
+    const float uv_area = std::abs(du.x() * dv.y() - du.y() * dv.x());
+    const float width = texel * std::sqrt(uv_area / std::max(world_area, 1e-9f));
+    albedo.push_back(material.albedo *
+                     textures.SampleWide(material.albedo_texture, uv.x(), uv.y(), width));
+  }
+  return albedo;
+}
+
+/// Which light a luminaire's triangle shows: the one whose rectangle is nearest to its middle.
+std::size_t NearestLight(const World& world, std::size_t triangle) {
+  const TriangleMesh& mesh = world.statics().mesh;
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  const Eigen::Vector3f middle = (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3;
+  std::size_t best = 0;
+  float nearest = kInfinity;
+  for (std::size_t i = 0; i < world.lights().size(); ++i) {
+    const AreaLight& light = world.lights()[i];
+    const Eigen::Vector3f d = middle - light.center;
+    const auto along = [&](const Eigen::Vector3f& half) {
+      return std::clamp(d.dot(half) / half.squaredNorm(), -1.0f, 1.0f);
+    };
+    const float distance =
+        (d - along(light.half_u) * light.half_u - along(light.half_v) * light.half_v).norm();
+    if (distance < nearest) {
+      nearest = distance;
+      best = i;
+    }
+  }
+  return best;
+}
+
+/// Makes luminaires show their own radiance: what is read is irradiance / π at reflectance 1.
+void PaintLuminaires(const World& world, const LightGrid& grid, std::span<const float> light_scale,
+                     LightState* state) {
+  const TriangleMesh& mesh = world.statics().mesh;
+  for (std::size_t i = 0; i < grid.patches.size(); ++i) {
+    const Material& material = world.materials()[mesh.materials[i]];
+    if (material.emission <= 0) continue;
+    const float value = material.emission * kPi * light_scale[NearestLight(world, i)];
+    const auto first = static_cast<std::size_t>(grid.patches[i].slot);
+    const std::size_t end = i + 1 < grid.patches.size()
+                                ? static_cast<std::size_t>(grid.patches[i + 1].slot)
+                                : grid.point_of_slot.size();
+    for (std::size_t slot = first; slot < end; ++slot) {
+      state->total[slot] = value;
+      state->direct[slot] = 0;
+    }
+  }
+}
+
+}  // namespace
+
+StaticLight::StaticLight(const World& world, const Tracer& tracer, const TexturePool& textures,
+                         const StaticLightOptions& options)
+    : world_(&world),
+      tracer_(&tracer),
+      textures_(&textures),
+      options_(options),
+      fine_(GridWithin(world.statics().mesh, options.texel_m, options.max_points)),
+      coarse_(GridWithin(world.statics().mesh, options.coarse_texel_m, options.max_points / 4)),
+      all_on_(world.lights().size(), 1.0f) {
+  Solved(all_on_);
+}
+
+LightState StaticLight::Solve(std::span<const float> light_scale) const {
+  const TriangleMesh& mesh = world_->statics().mesh;
+  const Instant statics = tracer_->Pose({});
+  const auto locate = [&](const LightGrid& grid) {
+    return LocatePoints(grid, mesh, mesh.positions, mesh.normals);
+  };
+  const std::vector<SurfacePoint> coarse_points = locate(coarse_);
+  const std::vector<float> albedo = AlbedoAt(*world_, *textures_, coarse_, options_.coarse_texel_m);
+  const Radiosity radiosity =
+      SolveRadiosity(statics, coarse_, coarse_points, albedo,
+                     DirectAt(statics, *world_, light_scale, coarse_points),
+                     {.directions = options_.directions, .bounces = options_.bounces});
+
+  LightState state;
+  state.direct.resize(fine_.point_of_slot.size());
+  FillSlots(fine_, DirectAt(statics, *world_, light_scale, locate(fine_)), state.direct);
+
+  std::vector<float> coarse_slots(coarse_.point_of_slot.size());
+  FillSlots(coarse_, radiosity.indirect, coarse_slots);
+  std::vector<float> indirect(fine_.points.size());
+  tbb::parallel_for(std::size_t{0}, indirect.size(), [&](std::size_t i) {
+    const LightPoint& point = fine_.points[i];
+    indirect[i] = ReadLight(coarse_.patches[point.triangle], coarse_slots, point.u, point.v);
+  });
+  state.total.resize(state.direct.size());
+  FillSlots(fine_, indirect, state.total);
+  for (std::size_t i = 0; i < state.total.size(); ++i) state.total[i] += state.direct[i];
+  PaintLuminaires(*world_, fine_, light_scale, &state);
+
+  state.volume = LightVolume(tracer_->static_box(), options_.volume_spacing_m);
+  FillVolume(statics, coarse_, mesh, albedo, radiosity, options_.directions, &state.volume);
+  return state;
+}
+
+std::shared_ptr<const LightState> StaticLight::Solved(const std::vector<float>& scale) const {
+  auto& found = solved_[scale];
+  // Isolated: a thread that holds the mutex must not pick up another frame's work while it waits.
+  if (!found) {
+    tbb::this_task_arena::isolate([&] { found = std::make_shared<LightState>(Solve(scale)); });
+  }
+  return found;
+}
+
+std::shared_ptr<const LightState> StaticLight::At(std::span<const float> light_scale) const {
+  const std::vector<float> scale(light_scale.begin(), light_scale.end());
+  const std::lock_guard lock(mutex_);
+  if (scale.empty() || scale == all_on_) return Solved(all_on_);
+  if (const auto found = composed_.find(scale); found != composed_.end()) return found->second;
+
+  LightState state = *Solved(all_on_);
+  // One solution for each group of lamps dimmed alike: the same few groups serve a whole fade.
+  std::map<float, std::vector<float>> groups;
+  for (std::size_t i = 0; i < scale.size(); ++i) {
+    if (scale[i] == 1) continue;
+    auto& group = groups[scale[i]];
+    group.resize(scale.size());
+    group[i] = 1;
+  }
+  for (const auto& [dimmed, group] : groups) {
+    const std::shared_ptr<const LightState> part = Solved(group);
+    const float less = 1 - dimmed;
+    const auto subtract = [less](const std::vector<float>& from, std::vector<float>* to) {
+      for (std::size_t i = 0; i < to->size(); ++i) {
+        (*to)[i] = std::max(0.0f, (*to)[i] - less * from[i]);
+      }
+    };
+    subtract(part->total, &state.total);
+    subtract(part->direct, &state.direct);
+    for (std::size_t i = 0; i < state.volume.size(); ++i) {
+      LightVolume::Node node = state.volume.node(i);
+      node.mean -= less * part->volume.node(i).mean;
+      node.slope -= less * part->volume.node(i).slope;
+      state.volume.Set(i, node);
+    }
+  }
+  constexpr std::size_t kRemembered = 4;  // a fade never comes back to the same setting
+  if (composed_.size() > kRemembered) composed_.clear();
+  return composed_[scale] = std::make_shared<LightState>(std::move(state));
+}
+
+}  // namespace aisle::sim

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "simulator/shade/light_grid.h"
+#include "simulator/shade/light_volume.h"
+#include "simulator/shade/texture_pool.h"
+#include "simulator/trace/tracer.h"
+
+namespace aisle::sim {
+
+struct StaticLightOptions {
+  float texel_m = 0.06f;        ///< spacing of the direct light's points; soft shadows' resolution
+  float coarse_texel_m = 0.4f;  ///< spacing of the indirect light's points
+  float volume_spacing_m = 0.75f;
+  int directions = 96;                 ///< rays a point that gather indirect light
+  int bounces = 6;                     ///< of indirect light
+  std::size_t max_points = 3'000'000;  ///< the spacing is widened until this holds
+};
+
+/// Light on the static world under one setting of the lamps. Irradiance by slot of
+/// StaticLight::grid(); luminaires carry what shows as their own radiance.
+struct LightState {
+  std::vector<float> total;   ///< direct + indirect
+  std::vector<float> direct;  ///< of it, straight from the luminaires
+  LightVolume volume;         ///< indirect light in free space, for what moves
+};
+
+/// The light that static luminaires throw on the static world, solved once: direct light by shadow
+/// rays on a fine grid over all surfaces, indirect light as diffuse radiosity on a coarse one (form
+/// factors by cosine-distributed rays, Jacobi iterations). Light is linear in the lamps, so a frame
+/// with some lamps dimmed is the full solution less the dimmed lamps' own.
+class StaticLight {
+ public:
+  /// Solves the case of all lamps on, in parallel.
+  StaticLight(const World& world, const Tracer& tracer, const TexturePool& textures,
+              const StaticLightOptions& options);
+
+  const LightGrid& grid() const { return fine_; }
+  /// The light under lamps dimmed by `light_scale`. Settings met before are remembered.
+  /// Thread-safe.
+  std::shared_ptr<const LightState> At(std::span<const float> light_scale) const;
+
+ private:
+  LightState Solve(std::span<const float> light_scale) const;
+  std::shared_ptr<const LightState> Solved(const std::vector<float>& light_scale) const;
+
+  const World* world_;
+  const Tracer* tracer_;
+  const TexturePool* textures_;
+  StaticLightOptions options_;
+  LightGrid fine_, coarse_;
+  std::vector<float> all_on_;
+  mutable std::mutex mutex_;  ///< guards the two caches
+  mutable std::map<std::vector<float>, std::shared_ptr<const LightState>> solved_, composed_;
+};
+
+}  // namespace aisle::sim

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "simulator/shade/light_grid.h"
+#include "simulator/shade/wide.h"
+#include "simulator/world/world.h"
+
+namespace aisle::sim {
+
+/// What shading needs to know of a triangle, in one record of floats that eight lanes can gather
+/// from. Integers are stored as their bits.
+struct SurfaceRecord {
+  float normal[3];       ///< unit, geometric, world
+  float du[3], dv[3];    ///< gradient of the texture coordinates along the surface, 1/m, world
+  float uv0[2];          ///< texture coordinates at the first corner
+  float uv1[2], uv2[2];  ///< what the barycentrics u and v add to them
+  float albedo;          ///< of the material
+  std::int32_t texture;  ///< of the material, -1: none
+  LightPatch light;
+};
+static_assert(sizeof(SurfaceRecord) == 25 * sizeof(float));
+
+/// A record per triangle. `patches` is the mesh's light grid. For luminaires the reflectance is 1
+/// and the texture none, because their radiance is stored as light on them.
+std::vector<SurfaceRecord> MakeSurfaceTable(const TriangleMesh& mesh,
+                                            std::span<const Eigen::Vector3f> positions,
+                                            std::span<const LightPatch> patches,
+                                            std::span<const Material> materials);
+
+/// Updates what a mover's pose changes: normals and gradients.
+void PoseSurfaceTable(const TriangleMesh& mesh, std::span<const Eigen::Vector3f> positions,
+                      std::span<SurfaceRecord> table);
+
+}  // namespace aisle::sim

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "simulator/camera/pixel_rays.h"
+#include "simulator/trace/tracer.h"
+
+namespace aisle::sim {
+
+/// The first hits of an image, one array a quantity, row-major with rows of `stride` entries; the
+/// entries beyond `width` hold no hit. `t` is the depth z in metres, infinity where nothing was
+/// hit. Shared by truth and shading.
+struct HitImage {
+  int width = 0, height = 0;
+  int stride = 0;  ///< width rounded up to a whole packet
+  std::vector<float> t;
+  std::vector<std::uint32_t> geometry, primitive;
+  std::vector<float> u, v;
+
+  void Resize(int new_width, int new_height);
+  std::size_t Index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(stride) +
+           static_cast<std::size_t>(x);
+  }
+};
+
+/// One eye of one frame: its pixels' rays, and where it stands. Directions in the world are
+/// rotation · (x, y, 1).
+struct EyeView {
+  EyeView(const PixelRays& pixel_rays, const Eigen::Isometry3d& T_world_eye);
+
+  const PixelRays* rays;
+  Eigen::Isometry3d T_world_eye;
+  Eigen::Matrix3f rotation;
+  Eigen::Vector3f origin;
+};
+
+struct TraceOrder {
+  /// 0: tiles in reading order; else a seed that shuffles them. Changes no result; tests use it.
+  std::uint64_t shuffle = 0;
+};
+
+/// Traces the pixel centres of several views of one instant, in parallel over tiles. `images` has
+/// one entry per view and is reused from frame to frame, because its pages are expensive to touch
+/// for the first time.
+void TraceViews(const Instant& instant, std::span<const EyeView> views, const TraceOrder& order,
+                std::vector<HitImage>* images);
+
+/// The rays of the eight pixels (x + 0…3, y + 0…1).
+Rays8 PixelPacket(const EyeView& view, int x, int y);
+
+/// Movers whose box may show in the pixels [x0, x1) × [y0, y1), and the static world.
+GeometryMask GeometriesInWindow(const Instant& instant, const EyeView& view, int x0, int y0, int x1,
+                                int y1);
+
+}  // namespace aisle::sim

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "simulator/trace/rays.h"
+#include "simulator/world/world.h"
+
+namespace aisle::sim {
+
+struct TracerOptions {
+  /// Embree's instruction set, as rtcNewDevice takes it; "native" lets Embree choose. The last bits
+  /// of a depth differ between sets and are equal within one, so the set is part of a result.
+  std::string isa = "avx2";
+};
+
+/// Which geometries a ray may meet: bit 0 the static world, bit 1 + i mover i (movers beyond the
+/// 62nd share the last bit).
+using GeometryMask = std::uint64_t;
+inline constexpr GeometryMask kEverything = ~GeometryMask{0};
+inline constexpr GeometryMask kStaticOnly = 1;
+inline constexpr GeometryMask kMoversOnly = ~GeometryMask{1};
+constexpr GeometryMask MoverBit(std::size_t mover) {
+  return GeometryMask{1} << (mover < 62 ? mover + 1 : 63);
+}
+
+/// Whether neighbouring lanes take like paths; a hint for speed only.
+enum class Coherence { kCoherent, kIncoherent };
+
+class Tracer;
+
+/// The world posed at one instant, ready for rays. Made by Tracer::Pose; must not outlive it.
+/// Const calls may come from any number of threads.
+class Instant {
+ public:
+  Instant(Instant&&) noexcept;
+  Instant& operator=(Instant&&) = delete;
+  ~Instant();
+
+  const Snapshot& snapshot() const { return snapshot_; }
+  /// World box of each mover, in the snapshot's order.
+  std::span<const Eigen::AlignedBox3f> mover_boxes() const { return boxes_; }
+
+  /// Nearest hits.
+  void Intersect(const Rays8& rays, Coherence coherence, GeometryMask geometries,
+                 Hits8* hits) const;
+  /// Bit i is set where valid lane i meets anything at all.
+  unsigned Occluded(const Rays8& rays, Coherence coherence, GeometryMask geometries) const;
+
+ private:
+  friend class Tracer;
+  struct MoverScenes;
+  Instant(const Tracer& tracer, Snapshot snapshot, std::unique_ptr<MoverScenes> movers);
+
+  const Tracer* tracer_;
+  Snapshot snapshot_;
+  std::vector<Eigen::AlignedBox3f> boxes_;
+  std::unique_ptr<MoverScenes> movers_;
+};
+
+/// The only door to Embree: the static world is built once; each mover is a scene of its own,
+/// whose tree is built over the bind pose and refitted, so that a pose gives the same tree whatever
+/// was posed before it.
+class Tracer {
+ public:
+  /// Throws std::runtime_error if Embree refuses the instruction set or the geometry.
+  Tracer(const World& world, const TracerOptions& options);
+  ~Tracer();
+  Tracer(const Tracer&) = delete;
+  Tracer& operator=(const Tracer&) = delete;
+
+  /// Poses the movers. Thread-safe; scenes are recycled when an Instant dies.
+  Instant Pose(Snapshot snapshot) const;
+  const Eigen::AlignedBox3f& static_box() const { return static_box_; }
+
+ private:
+  friend class Instant;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+  Eigen::AlignedBox3f static_box_;
+};
+
+}  // namespace aisle::sim

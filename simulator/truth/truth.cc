@@ -1,0 +1,192 @@
+#include "simulator/truth/truth.h"
+
+#include <tbb/parallel_for.h>
+
+#include <map>
+
+namespace aisle::sim {
+namespace {
+
+float SurfaceSpeed(const TriangleMesh& mesh, const MoverState& mover, const HitImage& image,
+                   std::size_t i) {
+  const auto& [a, b, c] = mesh.triangles[image.primitive[i]];
+  const float u = image.u[i], v = image.v[i];
+  return ((1 - u - v) * mover.velocities[a] + u * mover.velocities[b] + v * mover.velocities[c])
+      .norm();
+}
+
+/// The parts of one instance (a vehicle may be several meshes).
+struct Group {
+  std::vector<std::size_t> movers;
+  GeometryMask mask = 0;
+};
+
+std::map<std::uint16_t, Group> GroupByInstance(const Snapshot& snapshot) {
+  std::map<std::uint16_t, Group> groups;
+  for (std::size_t i = 0; i < snapshot.movers.size(); ++i) {
+    Group& group = groups[snapshot.movers[i].instance];
+    group.movers.push_back(i);
+    group.mask |= MoverBit(i);
+  }
+  return groups;
+}
+
+/// The pixels whose centres its silhouette can cover, by projecting its triangles' corners; parts
+/// behind the eye make it the whole image.
+cv::Rect WindowOf(const Snapshot& snapshot, const Group& group, const EyeView& view) {
+  constexpr double kNear = 1e-3;  // m
+  const PixelRays& rays = *view.rays;
+  const Eigen::Isometry3d T_eye_world = view.T_world_eye.inverse();
+  Eigen::AlignedBox2d box;  // x / z, y / z
+  bool behind = false, ahead = false;
+  for (const std::size_t i : group.movers) {
+    for (const Eigen::Vector3f& position : snapshot.movers[i].positions) {
+      const Eigen::Vector3d p = T_eye_world * position.cast<double>();
+      (p.z() > kNear ? ahead : behind) = true;
+      if (p.z() > kNear) box.extend(Eigen::Vector2d(p.x() / p.z(), p.y() / p.z()));
+    }
+  }
+  if (!ahead) return {};
+  const cv::Rect all(0, 0, rays.width, rays.height);
+  if (behind) return all;
+  const auto pixel = [](double ray, double first, double step) {
+    return std::clamp((ray - first) / step, -1e6, 1e6);
+  };
+  const int x0 = static_cast<int>(std::floor(pixel(box.min().x(), rays.x[0], rays.step_x))) - 1;
+  const int x1 = static_cast<int>(std::ceil(pixel(box.max().x(), rays.x[0], rays.step_x))) + 2;
+  const int y0 = static_cast<int>(std::floor(pixel(box.min().y(), rays.y[0], rays.step_y))) - 1;
+  const int y1 = static_cast<int>(std::ceil(pixel(box.max().y(), rays.y[0], rays.step_y))) + 2;
+  return cv::Rect(x0, y0, x1 - x0, y1 - y0) & all;
+}
+
+/// A growing set of pixels: its enclosing rectangle and its count.
+struct PixelSet {
+  int x0 = 1 << 30, y0 = 1 << 30, x1 = -1, y1 = -1, count = 0;
+  void Add(int x, int y) {
+    x0 = std::min(x0, x), x1 = std::max(x1, x + 1);
+    y0 = std::min(y0, y), y1 = std::max(y1, y + 1);
+    ++count;
+  }
+  void Add(const PixelSet& other) {
+    x0 = std::min(x0, other.x0), x1 = std::max(x1, other.x1);
+    y0 = std::min(y0, other.y0), y1 = std::max(y1, other.y1);
+    count += other.count;
+  }
+  cv::Rect2d box() const {
+    if (count == 0) return {};
+    // Pixel (x, y) covers [x - 1/2, x + 1/2].
+    return {x0 - 0.5, y0 - 0.5, static_cast<double>(x1 - x0), static_cast<double>(y1 - y0)};
+  }
+};
+
+struct Silhouette {
+  PixelSet visible, full;
+  int dynamic = 0;
+};
+
+Silhouette ScanRows(const Instant& instant, const EyeView& view, const EyeTruth& truth,
+                    const cv::Rect& window, std::uint16_t instance, GeometryMask mask, int y) {
+  Silhouette found;
+  // Packets are 4 × 2 pixels.
+  for (int x = window.x; x < window.x + window.width; x += 4) {
+    Rays8 rays = PixelPacket(view, x, y);
+    for (int k = 0; k < kLanes; ++k) {
+      const int px = x + k % 4, py = y + k / 4;
+      if (!rays.valid[k]) continue;
+      if (truth.instance(py, px) != instance) continue;
+      rays.valid[k] = 0;
+      found.visible.Add(px, py);
+      found.full.Add(px, py);
+      found.dynamic += truth.dynamic(py, px) != 0;
+    }
+    const unsigned hidden = instant.Occluded(rays, Coherence::kCoherent, mask);
+    for (int k = 0; k < kLanes; ++k) {
+      if (hidden >> k & 1) found.full.Add(x + k % 4, y + k / 4);
+    }
+  }
+  return found;
+}
+
+Silhouette FindSilhouette(const Instant& instant, const EyeView& view, const EyeTruth& truth,
+                          const cv::Rect& window, std::uint16_t instance, GeometryMask mask) {
+  const int bands = (window.height + 1) / 2;
+  std::vector<Silhouette> rows(static_cast<std::size_t>(bands));
+  tbb::parallel_for(0, bands, [&](int band) {
+    rows[static_cast<std::size_t>(band)] =
+        ScanRows(instant, view, truth, window, instance, mask, window.y + 2 * band);
+  });
+  Silhouette all;
+  for (const Silhouette& row : rows) {
+    all.visible.Add(row.visible);
+    all.full.Add(row.full);
+    all.dynamic += row.dynamic;
+  }
+  return all;
+}
+
+}  // namespace
+
+EyeTruth LabelHits(const World& world, const Instant& instant, const HitImage& image,
+                   float threshold_mps) {
+  const cv::Size size(image.width, image.height);
+  EyeTruth truth{cv::Mat1f(size), cv::Mat1w(size), cv::Mat1b(size), cv::Mat1b(size),
+                 cv::Mat1b(size)};
+  const std::span<const MoverState> movers = instant.snapshot().movers;
+  tbb::parallel_for(0, image.height, [&](int y) {
+    for (int x = 0; x < image.width; ++x) {
+      const std::size_t i = image.Index(x, y);
+      const std::uint32_t geometry = image.geometry[i];
+      std::uint16_t instance = 0;
+      bool dynamic = false;
+      if (geometry == 0) {
+        instance = world.statics().instances[image.primitive[i]];
+      } else if (geometry != kNoGeometry) {
+        const MoverState& mover = movers[geometry - 1];
+        instance = mover.instance;
+        dynamic = SurfaceSpeed(world.mover_meshes()[geometry - 1], mover, image, i) > threshold_mps;
+      }
+      truth.depth(y, x) = image.t[i];
+      truth.instance(y, x) = instance;
+      truth.object_class(y, x) =
+          static_cast<std::uint8_t>(world.instances()[instance].object_class);
+      truth.dynamic(y, x) = dynamic ? 255 : 0;
+      truth.actor(y, x) = world.instances()[instance].is_actor ? 255 : 0;
+    }
+  });
+  return truth;
+}
+
+std::vector<MoverTruth> DescribeMovers(const Instant& instant, const EyeView& view,
+                                       const EyeTruth& truth) {
+  std::vector<MoverTruth> result;
+  for (const auto& [instance, group] : GroupByInstance(instant.snapshot())) {
+    const cv::Rect window = WindowOf(instant.snapshot(), group, view);
+    if (window.empty()) continue;
+    const Silhouette silhouette =
+        FindSilhouette(instant, view, truth, window, instance, group.mask);
+    if (silhouette.full.count == 0) continue;
+
+    const MoverState& first = instant.snapshot().movers[group.movers.front()];
+    const Eigen::Isometry3d T_object_world = first.T_world_object.inverse();
+    Eigen::AlignedBox3d box;
+    for (const std::size_t i : group.movers) {
+      for (const Eigen::Vector3f& position : instant.snapshot().movers[i].positions) {
+        box.extend(T_object_world * position.cast<double>());
+      }
+    }
+    result.push_back({.instance = instance,
+                      .box_visible = silhouette.visible.box(),
+                      .box_full = silhouette.full.box(),
+                      .T_world_object = first.T_world_object,
+                      .extent_m = box.sizes(),
+                      .center_m = first.T_world_object * box.center(),
+                      .velocity_mps = first.velocity_mps,
+                      .visible_fraction = static_cast<double>(silhouette.visible.count) /
+                                          static_cast<double>(silhouette.full.count),
+                      .visible_pixels = silhouette.visible.count,
+                      .dynamic_pixels = silhouette.dynamic});
+  }
+  return result;
+}
+
+}  // namespace aisle::sim
