@@ -33,7 +33,7 @@ def facts():
                            "wheel_rear_left": REAR, "wheel_rear_right": REAR},
         "steer_nodes": ["steer_rear_left", "steer_rear_right"],
         "lift": {"mast_inner": 0.5, "carriage": 0.5, "travel_m": 2.8, "speed_mps": 0.4},
-        "forks": {"node": "carriage", "length_m": 1.07, "top_z_m": 0.085, "heel_x_m": 0.56},
+        "forks": {"node": "carriage", "length_m": 1.07, "top_z_m": 0.085, "heel_x_m": 0.605},
         "max_speed_mps": 4.5,
     }
 
