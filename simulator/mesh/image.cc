@@ -38,17 +38,36 @@ const TransferTables& Tables() {
   return tables;
 }
 
-/// Width and height as a PNG's header states them; {0, 0} when it is no PNG.
-std::array<std::uint32_t, 2> PngSize(const std::vector<std::uint8_t>& bytes) {
+struct ImageSize {
+  std::uint32_t width = 0, height = 0;
+};
+
+std::uint32_t BigEndian(const std::vector<std::uint8_t>& bytes, std::size_t at, int count) {
+  std::uint32_t value = 0;
+  for (int i = 0; i < count; ++i) value = value << 8 | bytes[at + static_cast<std::size_t>(i)];
+  return value;
+}
+
+/// Size as a PNG's header states it; 0 x 0 when it is no PNG.
+ImageSize PngSize(const std::vector<std::uint8_t>& bytes) {
   constexpr std::array<std::uint8_t, 8> kSignature = {0x89, 'P', 'N', 'G', 0x0D, 0x0A, 0x1A, 0x0A};
   if (bytes.size() < 33 || !std::equal(kSignature.begin(), kSignature.end(), bytes.begin())) {
-    return {0, 0};
+    return {};
   }
-  const auto big_endian = [&](std::size_t at) {
-    return std::uint32_t{bytes[at]} << 24 | std::uint32_t{bytes[at + 1]} << 16 |
-           std::uint32_t{bytes[at + 2]} << 8 | std::uint32_t{bytes[at + 3]};
-  };
-  return {big_endian(16), big_endian(20)};
+  return {BigEndian(bytes, 16, 4), BigEndian(bytes, 20, 4)};
+}
+
+/// Size as a JPEG's frame header states it; 0 x 0 when it is no JPEG.
+ImageSize JpegSize(const std::vector<std::uint8_t>& bytes) {
+  if (bytes.size() < 4 || bytes[0] != 0xFF || bytes[1] != 0xD8) return {};
+  for (std::size_t at = 2; at + 9 < bytes.size() && bytes[at] == 0xFF;) {
+    const std::uint8_t marker = bytes[at + 1];
+    const bool is_frame =
+        marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+    if (is_frame) return {BigEndian(bytes, at + 7, 2), BigEndian(bytes, at + 5, 2)};
+    at += 2 + BigEndian(bytes, at + 2, 2);
+  }
+  return {};
 }
 
 }  // namespace
@@ -86,12 +105,15 @@ cv::Mat1b GreyOf(const cv::Mat& image, Band band) {
   return grey;
 }
 
-cv::Mat DecodePng(const std::vector<std::uint8_t>& bytes, const std::string& name,
-                  int max_side_px) {
-  const auto [width, height] = PngSize(bytes);
-  if (width == 0) throw ImportError(name + ": it is not a PNG; save the texture as PNG");
+cv::Mat DecodeImage(const std::vector<std::uint8_t>& bytes, const std::string& name,
+                    int max_side_px) {
+  const ImageSize png = PngSize(bytes);
+  const auto [width, height] = png.width > 0 ? png : JpegSize(bytes);
+  if (width == 0 || height == 0) {
+    throw ImportError(name + ": it is neither PNG nor JPEG; save the texture as PNG");
+  }
   const auto limit = static_cast<std::uint32_t>(max_side_px);
-  if (width > limit || height > limit || height == 0) {
+  if (width > limit || height > limit) {
     throw ImportError(fmt::format("{}: the image is {}x{} pixels, the limit is {} a side", name,
                                   width, height, max_side_px));
   }
@@ -99,9 +121,9 @@ cv::Mat DecodePng(const std::vector<std::uint8_t>& bytes, const std::string& nam
   try {
     image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& error) {
-    throw ImportError(name + ": the PNG cannot be decoded: " + error.err);
+    throw ImportError(name + ": the image cannot be decoded: " + error.err);
   }
-  if (image.empty()) throw ImportError(name + ": the PNG cannot be decoded");
+  if (image.empty()) throw ImportError(name + ": the image cannot be decoded");
   if (image.depth() == CV_16U) image.convertTo(image, CV_8U, 1.0 / 257);
   return image;
 }

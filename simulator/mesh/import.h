@@ -35,7 +35,7 @@ struct ImportOptions {
 
 /// Reads a .glb, .gltf, .obj or .dae file. Files come from outside, so everything is checked:
 /// numbers finite, indices in range, sizes within the options, nothing opened outside the root,
-/// only PNG textures. Throws ImportError.
+/// only PNG and JPEG textures. Throws ImportError.
 Model ImportModel(const std::filesystem::path& file, const ImportOptions& options = {});
 
 /// One band of an 8-bit sRGB image (grey, BGR or BGRA), sRGB-encoded again: for kLuminance the
@@ -45,7 +45,9 @@ cv::Mat1b GreyOf(const cv::Mat& image, Band band);
 /// The same of one linear colour.
 float GreyOf(const Eigen::Vector3f& linear_rgb, Band band);
 
-/// Decodes a PNG file from memory after checking the size its header states. Throws ImportError.
-cv::Mat DecodePng(const std::vector<std::uint8_t>& bytes, const std::string& name, int max_side_px);
+/// Decodes a PNG or JPEG file from memory after checking the size its header states. Throws
+/// ImportError.
+cv::Mat DecodeImage(const std::vector<std::uint8_t>& bytes, const std::string& name,
+                    int max_side_px);
 
 }  // namespace aisle::sim

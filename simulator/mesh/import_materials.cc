@@ -33,8 +33,8 @@ class TextureLoader {
     const auto key = std::make_pair(std::string(path.C_Str()), is_normal_map);
     const auto known = known_.find(key);
     if (known != known_.end()) return known->second;
-    const cv::Mat image =
-        DecodePng(Bytes(path), file_.string() + ": texture " + key.first, options_.max_texture_px);
+    const cv::Mat image = DecodeImage(Bytes(path), file_.string() + ": texture " + key.first,
+                                      options_.max_texture_px);
     const int index = static_cast<int>(model_->textures.size());
     model_->textures.push_back(
         {fs::path(key.first).filename().string(),

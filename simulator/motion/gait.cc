@@ -24,7 +24,8 @@ Gait::Gait(Route route, const GaitStyle& style) : route_(std::move(route)), styl
 }
 
 double Gait::Amplitude(double speed_mps) const {
-  return std::min(1.0, std::sqrt(std::abs(speed_mps) / style_.natural_speed_mps()));
+  return std::min(style_.longest_stride_m / style_.stride_m,
+                  std::sqrt(std::abs(speed_mps) / style_.natural_speed_mps()));
 }
 
 /// Integral of speed / stride(speed) while speed changes linearly.
@@ -34,11 +35,13 @@ double Gait::CyclesWhile(double from, double acceleration, double duration) cons
     return from == 0 ? 0 : from * duration / (style_.stride_m * Amplitude(from));
   }
   const double to = std::max(0.0, from + acceleration * duration);
-  // Antiderivative over speed, continuous at the natural speed.
+  // Antiderivative over speed: the stride grows up to a speed, then stays.
+  const double longest = style_.longest_stride_m / style_.stride_m;
+  const double full = natural * longest * longest;
   const auto integral = [&](double speed) {
-    const double slow = std::min(speed, natural), fast = std::max(speed, natural);
+    const double slow = std::min(speed, full), fast = std::max(speed, full);
     return (2.0 / 3.0) * std::sqrt(natural) * slow * std::sqrt(slow) +
-           (fast * fast - natural * natural) / 2;
+           (fast * fast - full * full) / (2 * longest);
   };
   return (integral(to) - integral(from)) / (acceleration * style_.stride_m);
 }

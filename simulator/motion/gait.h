@@ -10,13 +10,14 @@ namespace aisle::sim {
 struct GaitStyle {
   double stride_m = 1.4;
   double duration_s = 1.1;
+  double longest_stride_m = 1.4;  ///< faster than it carries, only the cadence rises
   double natural_speed_mps() const { return stride_m / duration_s; }
 };
 
 /// How far through its walk cycle a person is.
 struct GaitState {
   double cycles = 0;     ///< walk cycles so far; the fraction is the phase, backwards counts down
-  double amplitude = 0;  ///< length of the steps as a share of the clip's: 0 stands, 1 full stride
+  double amplitude = 0;  ///< length of the steps as a share of the clip's: 0 stands, 1 as in it
 };
 
 /// Couples a walk cycle to the ground: stride shrinks with the square root of speed below the

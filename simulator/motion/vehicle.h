@@ -32,6 +32,10 @@ struct MastMove {
   double height_m = 0;
 };
 
+/// What a forklift's mast does.
+inline constexpr double kMastSpeed_mps = 0.35;
+inline constexpr double kMastAcceleration_mps2 = 0.4;
+
 /// Height of the forks over time: each move runs from rest to rest.
 class MastLift {
  public:

@@ -165,14 +165,17 @@ TEST(GreyOf, KeepsGreyAndWeighsColoursInLinearLight) {
   EXPECT_EQ(GreyOf(green, Band::kRed)(0, 0), 0);
 }
 
-TEST(DecodePng, TheHeaderIsBelievedBeforeThePixelsAreTouched) {
+TEST(DecodeImage, TheHeaderIsBelievedBeforeThePixelsAreTouched) {
   std::vector<std::uint8_t> bytes;
   cv::imencode(".png", cv::Mat1b(20, 30, std::uint8_t{9}), bytes);
-  EXPECT_EQ(DecodePng(bytes, "t", 64).cols, 30);
-  EXPECT_THROW(DecodePng(bytes, "t", 16), ImportError);
+  EXPECT_EQ(DecodeImage(bytes, "t", 64).cols, 30);
+  EXPECT_THROW(DecodeImage(bytes, "t", 16), ImportError);
   bytes[17] = 0xFF;  // claims to be huge
-  EXPECT_THROW(DecodePng(bytes, "t", 8192), ImportError);
-  EXPECT_THROW(DecodePng({'J', 'F', 'I', 'F'}, "t", 64), ImportError);
+  EXPECT_THROW(DecodeImage(bytes, "t", 8192), ImportError);
+  EXPECT_THROW(DecodeImage({'G', 'I', 'F', '8'}, "t", 64), ImportError);
+  cv::imencode(".jpg", cv::Mat1b(20, 30, std::uint8_t{9}), bytes);
+  EXPECT_EQ(DecodeImage(bytes, "t", 64).rows, 20);
+  EXPECT_THROW(DecodeImage(bytes, "t", 16), ImportError);
 }
 
 }  // namespace

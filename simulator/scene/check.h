@@ -1,0 +1,11 @@
+#pragma once
+
+#include "simulator/scene/issues.h"
+
+namespace aisle::sim {
+
+/// What no single value can show: routes that leave the hall, run through racks or cannot be
+/// driven, names used twice, boxes turned inside out.
+void CheckScene(const Scene& scene, Issues* issues);
+
+}  // namespace aisle::sim

@@ -1,0 +1,267 @@
+#include <numbers>
+
+#include "simulator/scene/fields.h"
+
+namespace aisle::sim {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// What bodies and vehicles of each kind can do unless the file says less.
+constexpr RouteLimits kAgvLimits = {0.5, 0.6, 50 * kDegree, 90 * kDegree, true};
+constexpr RouteLimits kPersonLimits = {0.9, 1.2, 110 * kDegree, 250 * kDegree, true};
+constexpr RouteLimits kVehicleLimits = {0.7, 1.2, 45 * kDegree, 90 * kDegree, false};
+
+constexpr std::initializer_list<const char*> kGoods = {"mixed",   "cartons",   "drums",  "totes",
+                                                       "wrapped", "identical", "nothing"};
+constexpr std::initializer_list<const char*> kDynamics = {"none", "low", "mid", "high"};
+
+void DescribeCamera(Fields& f, CameraSpec& camera) {
+  camera.mark = f.mark();
+  double size[2] = {static_cast<double>(camera.size_px[0]), static_cast<double>(camera.size_px[1])};
+  f.Numbers({"size_px", "width and height of the image", "[752, 480]"}, size, 2, {64, 4096});
+  camera.size_px = {static_cast<int>(size[0]), static_cast<int>(size[1])};
+  f.Numbers({"focal_px", "fx and fy", "[435.2, 435.2]"}, camera.focal_px.data(), 2, {20, 10000});
+  f.Numbers({"center_px", "cx and cy; the first pixel's centre is 0", "[367.2, 252.2]"},
+            camera.center_px.data(), 2, {0, 4096});
+  f.Number({"baseline_m", "distance of the two cameras", "0.12"}, &camera.baseline_m, {0.005, 5});
+}
+
+void DescribeSensor(Fields& f, SensorSpec& sensor) {
+  sensor.mark = f.mark();
+  f.Number({"exposure_ms", "exposure time", "8"}, &sensor.exposure_ms, {0.01, 200});
+  f.Number({"gain_db", "analogue gain; brightens light and noise", "0"}, &sensor.gain_db, {0, 48});
+  f.Flag({"noise", "shot and read noise", "true"}, &sensor.noise);
+  f.Number({"vignetting", "share of light lost in the corners", "0.25"}, &sensor.vignetting,
+           {0, 0.9});
+  f.Number({"blur_px", "standard deviation of the lens blur", "0.45"}, &sensor.blur_px, {0, 5});
+}
+
+void DescribeStep(Fields& f, RouteStep& step, RouteSpec::StepMarks& marks) {
+  marks.step = f.mark();
+  f.Points({"go", "go through these points", "[[5, 0], [5, 3]]"}, &step.go, &marks.go);
+  f.Number({"speed_mps", "cruising speed of this `go`", "0.9"}, &step.speed_mps, {0.02, 20});
+  f.Number({"corner_radius_m", "radius of the corners of this `go`; 0 stops and turns", "0.5"},
+           &step.corner_radius_m, {0, 100});
+  f.Flag({"reverse", "go backwards", "true"}, &step.reverse);
+  f.OptionalNumber({"wait_s", "stand for this long", "2.5"}, &step.wait_s, {0, 3600});
+  std::optional<double> degrees;
+  f.OptionalNumber({"turn_to_deg", "turn on the spot to this world heading", "90"}, &degrees,
+                   {-360, 360});
+  if (degrees) step.turn_to_rad = *degrees * kDegree;
+  f.Name({"play", "clip the model plays meanwhile", "wave"}, &step.play);
+}
+
+void DescribeRoute(Fields& f, RouteSpec& route) {
+  route.mark = f.mark();
+  f.Point({"start", "where it stands at first, x and y in metres", "[0, 0]", true},
+          &route.plan.start);
+  f.Degrees({"heading_deg", "where it looks at first, counter-clockwise from x", "90"},
+            &route.plan.heading_rad);
+  f.Number({"start_s", "when it sets out", "1.5"}, &route.plan.start_s, {0, 3600});
+  f.Number({"acceleration_mps2", "speeding up and slowing down", "0.5"},
+           &route.limits.acceleration_mps2, {0.05, 10});
+  f.Number({"lateral_acceleration_mps2", "limits the speed in corners", "0.8"},
+           &route.limits.lateral_acceleration_mps2, {0.05, 10});
+  f.Degrees({"turn_rate_deg_s", "fastest turning", "45"}, &route.limits.turn_rate_rad_s, {1, 360});
+  f.List(
+      {"steps", "what it does, one after the other", "[{go: [[5, 0]], speed_mps: 0.9}]"},
+      [&](std::size_t count) {
+        route.plan.steps.resize(count);
+        route.marks.resize(count);
+      },
+      [&](Fields& step, std::size_t i) {
+        DescribeStep(step, route.plan.steps[i], route.marks[i]);
+      });
+}
+
+void DescribeBump(Fields& f, Bump& bump) {
+  f.Number({"at_s", "when it happens", "4", true}, &bump.at_s, {0, 3600});
+  f.Number({"height_m", "swing of the height", "0.01"}, &bump.height_m, {-0.2, 0.2});
+  f.Degrees({"pitch_deg", "swing of the pitch", "0.6"}, &bump.pitch_rad, {-20, 20});
+  f.Number({"frequency_hz", "of the swing", "4"}, &bump.frequency_hz, {0.2, 50});
+  f.Number({"decay_s", "time constant of its fading", "0.25"}, &bump.decay_s, {0.02, 10});
+}
+
+void DescribeRig(Fields& f, RigSpec& rig) {
+  rig.mark = f.mark();
+  rig.route.limits = kAgvLimits;
+  f.Number({"camera_height_m", "left camera above the floor", "0.8"}, &rig.mount.height_m,
+           {0.05, 10});
+  f.Number({"camera_forward_m", "left camera ahead of the axle", "0.3"}, &rig.mount.forward_m,
+           {-5, 5});
+  f.Degrees({"camera_pitch_deg", "positive looks down", "2"}, &rig.mount.pitch_rad, {-60, 60});
+  DescribeRoute(f, rig.route);
+  f.ListOf({"bumps", "jolts of the vehicle", "[{at_s: 4, height_m: 0.01}]"}, &rig.bumps,
+           DescribeBump);
+}
+
+void DescribeHall(Fields& f, HallSpec& hall) {
+  hall.mark = f.mark();
+  f.Point({"from", "corner with the smallest x and y", "[-5, -8]"}, &hall.from);
+  f.Point({"to", "corner with the largest x and y", "[20, 8]"}, &hall.to);
+  f.Number({"height_m", "floor to roof", "6.5"}, &hall.height_m, {2.2, 30});
+  f.Choice({"floor", "its surface", "concrete"}, &hall.floor, {"concrete", "painted", "glossy"});
+  f.Choice({"walls", "their surface", "panels"}, &hall.walls, {"panels", "brick", "plain"});
+  f.Number({"wear", "how stained and scratched the floor is", "0.5"}, &hall.wear, {0, 1});
+}
+
+void DescribeRack(Fields& f, RackSpec& rack) {
+  rack.mark = f.mark();
+  f.Point({"from", "one end of the row's centre line", "[1, 2.5]", true}, &rack.from);
+  f.Degrees({"heading_deg", "direction of the row from there", "0"}, &rack.heading_rad);
+  f.Integer({"bays", "side by side", "5"}, &rack.bays, {1, 60});
+  f.Number({"bay_m", "width of a bay", "2.7"}, &rack.bay_m, {0.6, 6});
+  f.Number({"depth_m", "front to back", "1.1"}, &rack.depth_m, {0.3, 3});
+  f.Integer({"levels", "beam levels above the floor", "3"}, &rack.levels, {0, 12});
+  f.Number({"level_m", "from one level to the next", "1.6"}, &rack.level_m, {0.3, 4});
+  f.Number({"fill", "share of the places that are taken", "0.85"}, &rack.fill, {0, 1});
+  f.Choice({"goods", "what it stores", "mixed"}, &rack.goods, kGoods);
+}
+
+void DescribeStack(Fields& f, StackSpec& stack) {
+  stack.mark = f.mark();
+  f.Point({"at", "middle of the pallet", "[3, 1]", true}, &stack.at);
+  f.Degrees({"heading_deg", "of the pallet's long side", "90"}, &stack.heading_rad);
+  f.Number({"height_m", "of the goods above the pallet", "1.2"}, &stack.height_m, {0.1, 3});
+  f.Choice({"goods", "what is on it", "cartons"}, &stack.goods, kGoods);
+}
+
+void DescribeColumn(Fields& f, ColumnSpec& column) {
+  column.mark = f.mark();
+  f.Point({"at", "its middle", "[4, 1.6]", true}, &column.at);
+  f.Number({"size_m", "side of its square section", "0.4"}, &column.size_m, {0.1, 2});
+  f.Flag({"striped", "warning stripes up to 1.4 m", "true"}, &column.striped);
+}
+
+void DescribeMarking(Fields& f, MarkingSpec& marking) {
+  marking.mark = f.mark();
+  f.Choice({"kind", "a line, a hatched box, or a crossing", "line"}, &marking.kind,
+           {"line", "box", "crossing"});
+  f.Point({"from", "start of a line, corner of a box", "[0, 1.2]", true}, &marking.from);
+  f.Point({"to", "end of a line, opposite corner of a box", "[14, 1.2]", true}, &marking.to);
+  f.Number({"width_m", "of the line", "0.1"}, &marking.width_m, {0.02, 4});
+}
+
+void DescribeDoor(Fields& f, DoorSpec& door) {
+  door.mark = f.mark();
+  f.Choice({"wall", "which one: north is +y, east is +x", "east"}, &door.wall,
+           {"north", "south", "east", "west"});
+  f.Number({"at_m", "x or y of its middle along the wall", "0"}, &door.at_m, {-1000, 1000});
+  f.Number({"width_m", "of the opening", "3"}, &door.width_m, {0.6, 20});
+  f.Number({"height_m", "of the opening", "3.5"}, &door.height_m, {1.8, 20});
+}
+
+void DescribeBlackout(Fields& f, Blackout& off) {
+  f.Number({"from_s", "lamps go off", "4", true}, &off.from_s, {0, 3600});
+  f.Number({"to_s", "lamps come on again", "6", true}, &off.to_s, {0, 3600});
+}
+
+void DescribeLights(Fields& f, LightsSpec& lights) {
+  lights.mark = f.mark();
+  f.OptionalPoint({"from", "corner of the lit rectangle; absent: the hall", "[0, -2]"},
+                  &lights.from);
+  f.OptionalPoint({"to", "opposite corner", "[14, 2]"}, &lights.to);
+  f.Integer({"rows", "side by side in y", "2"}, &lights.rows, {1, 50});
+  f.Integer({"per_row", "one after another in x", "5"}, &lights.per_row, {1, 100});
+  f.Number({"height_m", "above the floor", "6"}, &lights.height_m, {1.5, 30});
+  f.Numbers({"size_m", "of the shining surface, along x and y", "[1.5, 0.3]"}, lights.size_m.data(),
+            2, {0.05, 5});
+  f.Number({"brightness", "radiance, 1 is a well-lit warehouse", "1"}, &lights.brightness,
+           {0.001, 100});
+  f.ListOf({"off", "times without light", "[{from_s: 4, to_s: 6}]"}, &lights.off, DescribeBlackout);
+}
+
+void DescribeVary(Fields& f, VarySpec& vary) {
+  f.Number({"time_s", "sets out earlier or later by up to this", "0.5"}, &vary.time_s, {0, 60});
+  f.Number({"speed", "faster or slower by up to this share", "0.1"}, &vary.speed, {0, 0.5});
+  f.Number({"path_m", "points of the path moved by up to this", "0.2"}, &vary.path_m, {0, 2});
+}
+
+void DescribePerson(Fields& f, PersonSpec& person) {
+  person.mark = f.mark();
+  person.route.limits = kPersonLimits;
+  f.Name({"name", "unique; ends up in labels and reports", "walker", true}, &person.name);
+  f.Name({"model", "file in assets/people without .glb", "worker"}, &person.model);
+  f.Choice({"level", "takes part from this level of dynamics on", "low"}, &person.level, kDynamics);
+  DescribeRoute(f, person.route);
+  f.Group({"vary", "what the seed may change", "{time_s: 0.5, speed: 0.1}"},
+          [&](Fields& vary) { DescribeVary(vary, person.vary); });
+}
+
+void DescribeMast(Fields& f, MastMove& move) {
+  f.Number({"at_s", "begins to move", "3", true}, &move.at_s, {0, 3600});
+  f.Number({"height_m", "how far above the start the forks go", "1.2", true}, &move.height_m,
+           {0, 6});
+}
+
+void DescribeVehicle(Fields& f, VehicleSpec& vehicle) {
+  vehicle.mark = f.mark();
+  vehicle.route.limits = kVehicleLimits;
+  f.Name({"name", "unique; ends up in labels and reports", "truck", true}, &vehicle.name);
+  f.Name({"model", "file in assets/vehicles without .glb", "forklift"}, &vehicle.model);
+  f.Choice({"level", "takes part from this level of dynamics on", "low"}, &vehicle.level,
+           kDynamics);
+  DescribeRoute(f, vehicle.route);
+  f.Flag({"turns_on_the_spot", "as a differential-drive vehicle does", "false"},
+         &vehicle.route.limits.turns_on_the_spot);
+  f.ListOf({"mast", "lifting and lowering", "[{at_s: 3, height_m: 1.2}]"}, &vehicle.mast,
+           DescribeMast);
+  f.Choice({"load", "goods on its forks", "cartons"}, &vehicle.load, kGoods);
+  f.Group({"vary", "what the seed may change", "{time_s: 0.5, speed: 0.1}"},
+          [&](Fields& vary) { DescribeVary(vary, vehicle.vary); });
+}
+
+}  // namespace
+
+void Fields::Degrees(const Key& key, double* radians, Range range) {
+  double degrees = *radians / kDegree;
+  Number(key, &degrees, range);
+  *radians = degrees * kDegree;
+}
+
+void Fields::OptionalNumber(const Key& key, std::optional<double>* value, Range range) {
+  double number = value->value_or(range.low);
+  Number(key, &number, range);
+  if (Has(key.name)) *value = number;
+}
+
+void Fields::OptionalPoint(const Key& key, std::optional<Eigen::Vector2d>* value) {
+  Eigen::Vector2d point = value->value_or(Eigen::Vector2d::Zero());
+  Point(key, &point);
+  if (Has(key.name)) *value = point;
+}
+
+void Describe(Fields& f, Scene& scene) {
+  f.Sentence({"about", "one sentence on what the scene tests", "\"A person crosses.\"", true},
+             &scene.about);
+  f.Integer({"frames", "how many stereo pairs", "300"}, &scene.frames, {1, 100000});
+  f.Number({"rate_hz", "stereo pairs a second", "20"}, &scene.rate_hz, {0.5, 200});
+  f.Number({"dynamic_threshold_mps", "a surface faster than this counts as moving", "0.05"},
+           &scene.dynamic_threshold_mps, {0.001, 1});
+  f.Choice({"dynamics", "how busy: actors above this level stay away", "high"}, &scene.dynamics,
+           kDynamics);
+  f.Group({"camera", "the rectified stereo pair", "{baseline_m: 0.12}"},
+          [&](Fields& part) { DescribeCamera(part, scene.camera); });
+  f.Group({"sensor", "what it does to the light", "{exposure_ms: 8}"},
+          [&](Fields& part) { DescribeSensor(part, scene.sensor); });
+  f.Group({"rig", "the vehicle that carries the cameras", "{start: [0, 0], steps: []}", true},
+          [&](Fields& part) { DescribeRig(part, scene.rig); });
+  f.Group({"hall", "the building", "{from: [-5, -8], to: [20, 8]}", true},
+          [&](Fields& part) { DescribeHall(part, scene.hall); });
+  f.ListOf({"racks", "rows of racking", "[{from: [0, 2.5], bays: 5}]"}, &scene.racks, DescribeRack);
+  f.ListOf({"stacks", "pallets on the floor", "[{at: [3, 1]}]"}, &scene.stacks, DescribeStack);
+  f.ListOf({"columns", "of the building", "[{at: [4, 1.6]}]"}, &scene.columns, DescribeColumn);
+  f.ListOf({"markings", "paint on the floor", "[{from: [0, 1], to: [14, 1]}]"}, &scene.markings,
+           DescribeMarking);
+  f.ListOf({"doors", "dock doors in the walls", "[{wall: east, at_m: 0}]"}, &scene.doors,
+           DescribeDoor);
+  f.ListOf({"lights", "grids of luminaires", "[{rows: 2, per_row: 5, height_m: 6}]", true},
+           &scene.lights, DescribeLights);
+  f.ListOf({"people", "who walks here", "[{name: walker, start: [5, 2]}]"}, &scene.people,
+           DescribePerson);
+  f.ListOf({"vehicles", "what drives here", "[{name: truck, start: [9, 4]}]"}, &scene.vehicles,
+           DescribeVehicle);
+}
+
+}  // namespace aisle::sim

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "simulator/scene/scene.h"
+
+namespace aisle::sim {
+
+/// One key of a scene file.
+struct Key {
+  const char* name;
+  const char* help;     ///< a sentence on what it is, with its unit
+  const char* example;  ///< what may stand after the colon
+  bool required = false;
+};
+
+struct Range {
+  double low = -1e9, high = 1e9;
+};
+
+/// A description is written once, as a function that names every field of a struct, and is used
+/// twice: to read a file and to write the schema. Each call leaves the value alone when the key is
+/// absent, so defaults stand in the struct and nowhere else.
+class Fields {
+ public:
+  virtual ~Fields() = default;
+  using Part = std::function<void(Fields&)>;
+  using Element = std::function<void(Fields&, std::size_t)>;
+
+  virtual void Number(const Key& key, double* value, Range range) = 0;
+  virtual void Integer(const Key& key, int* value, Range range) = 0;
+  virtual void Flag(const Key& key, bool* value) = 0;
+  /// A name: letters, digits, '_' and '-', at most 80. Names end up in reports and file names.
+  virtual void Name(const Key& key, std::string* value) = 0;
+  virtual void Sentence(const Key& key, std::string* value) = 0;
+  /// A fixed number of numbers, [x, y] for a point.
+  virtual void Numbers(const Key& key, double* values, std::size_t count, Range range) = 0;
+  /// A list of points [x, y], and where each stands.
+  virtual void Points(const Key& key, std::vector<Eigen::Vector2d>* values,
+                      std::vector<Mark>* marks) = 0;
+  /// A nested map.
+  virtual void Group(const Key& key, const Part& part) = 0;
+  /// A list of maps; `resize` is called with their number before `element` is for each.
+  virtual void List(const Key& key, const std::function<void(std::size_t)>& resize,
+                    const Element& element) = 0;
+  /// Where the map that is being described stands.
+  virtual Mark mark() const = 0;
+  /// Whether the key is there.
+  virtual bool Has(const char* key) const = 0;
+
+  void Point(const Key& key, Eigen::Vector2d* value, Range range = {-1000, 1000}) {
+    Numbers(key, value->data(), 2, range);
+  }
+  /// An angle: degrees in the file, radians in the struct.
+  void Degrees(const Key& key, double* radians, Range range = {-360, 360});
+  void OptionalNumber(const Key& key, std::optional<double>* value, Range range);
+  void OptionalPoint(const Key& key, std::optional<Eigen::Vector2d>* value);
+
+  template <class Enum>
+  void Choice(const Key& key, Enum* value, std::initializer_list<const char*> names) {
+    int index = static_cast<int>(*value);
+    ChoiceIndex(key, &index, names);
+    *value = static_cast<Enum>(index);
+  }
+  template <class Item>
+  void ListOf(const Key& key, std::vector<Item>* items, void (*describe)(Fields&, Item&)) {
+    List(
+        key, [&](std::size_t count) { items->resize(count); },
+        [&](Fields& fields, std::size_t i) { describe(fields, (*items)[i]); });
+  }
+
+ protected:
+  virtual void ChoiceIndex(const Key& key, int* index,
+                           std::initializer_list<const char*> names) = 0;
+};
+
+/// Names every key of a scene file, with ranges and examples.
+void Describe(Fields& fields, Scene& scene);
+
+}  // namespace aisle::sim

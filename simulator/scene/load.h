@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "simulator/scene/scene.h"
+
+namespace aisle::sim {
+
+/// A scene file with mistakes. what() is all of them, one a line.
+class SceneError : public std::runtime_error {
+ public:
+  explicit SceneError(std::vector<std::string> messages);
+  /// Each "file:line:column: key: what was expected, what was found; an example".
+  const std::vector<std::string>& messages() const { return messages_; }
+
+ private:
+  std::vector<std::string> messages_;
+};
+
+/// Reads and checks a scene file. Throws SceneError with every mistake that was found.
+Scene LoadScene(const std::filesystem::path& file);
+/// The same from text; `file` is for the messages.
+Scene ParseScene(const std::string& text, const std::string& file);
+
+/// Every mistake in the file; empty: it is good. Never throws for what the file holds.
+std::vector<std::string> CheckScene(const std::filesystem::path& file);
+
+/// The JSON Schema (draft 7) of scene files, made from the same description the reader uses.
+std::string SceneSchema();
+
+}  // namespace aisle::sim

@@ -1,0 +1,248 @@
+#include "simulator/scene/reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace aisle::sim {
+namespace {
+
+Mark MarkOf(const YAML::Node& node) {
+  const YAML::Mark mark = node.Mark();
+  return {mark.line + 1, mark.column + 1};
+}
+
+/// A plain decimal number, all of the text. No octal, hexadecimal, '_', inf or nan, all of which
+/// yaml-cpp reads in surprising ways.
+std::optional<double> DecimalNumber(const YAML::Node& node) {
+  if (!node.IsScalar() || node.Tag() == "!") return std::nullopt;  // "!" marks a quoted text
+  const std::string& text = node.Scalar();
+  const std::size_t first_digit = text.starts_with('-') ? 1 : 0;
+  const auto is_digit = [&](std::size_t i) {
+    return i < text.size() && text[i] >= '0' && text[i] <= '9';
+  };
+  if (text.size() > 32 || !is_digit(first_digit)) return std::nullopt;
+  if (text[first_digit] == '0' && is_digit(first_digit + 1)) return std::nullopt;
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stopped != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+/// What stands there, short enough for a message.
+std::string Shown(const YAML::Node& node) {
+  if (node.IsNull()) return "nothing";
+  if (node.IsMap()) return "a map";
+  if (node.IsSequence()) return fmt::format("a list of {}", node.size());
+  std::string text = node.Scalar().substr(0, 40);
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  }
+  return "'" + text + "'";
+}
+
+std::string ToText(Range range) {
+  if (range.low <= -1e9 && range.high >= 1e9) return "";
+  return fmt::format(" from {:g} to {:g}", range.low, range.high);
+}
+
+bool Within(double value, Range range) { return value >= range.low && value <= range.high; }
+
+}  // namespace
+
+YamlReader::YamlReader(YAML::Node map, std::string path, Issues* issues)
+    : map_(std::move(map)), path_(std::move(path)), issues_(issues) {}
+
+Mark YamlReader::mark() const { return MarkOf(map_); }
+
+bool YamlReader::Has(const char* key) const { return static_cast<bool>(map_[key]); }
+
+std::string YamlReader::PathOf(const std::string& key) const {
+  return path_.empty() ? key : path_ + "." + key;
+}
+
+std::optional<YAML::Node> YamlReader::Find(const Key& key) {
+  known_.emplace_back(key.name);
+  const YAML::Node& map = map_;  // the const subscript adds nothing
+  const YAML::Node value = map[key.name];
+  if (value) return value;
+  if (key.required) {
+    issues_->Add(
+        mark(), PathOf(key.name),
+        fmt::format("it is missing ({}); example: {}: {}", key.help, key.name, key.example));
+  }
+  return std::nullopt;
+}
+
+void YamlReader::Expected(const YAML::Node& node, const Key& key, const std::string& what) {
+  issues_->Add(MarkOf(node), PathOf(key.name),
+               fmt::format("expected {}, got {} ({}); example: {}: {}", what, Shown(node), key.help,
+                           key.name, key.example));
+}
+
+void YamlReader::Number(const Key& key, double* value, Range range) {
+  const auto node = Find(key);
+  if (!node) return;
+  const auto number = DecimalNumber(*node);
+  if (number && Within(*number, range)) {
+    *value = *number;
+  } else {
+    Expected(*node, key, "a number" + ToText(range));
+  }
+}
+
+void YamlReader::Integer(const Key& key, int* value, Range range) {
+  const auto node = Find(key);
+  if (!node) return;
+  const auto number = DecimalNumber(*node);
+  if (number && Within(*number, range) && *number == std::floor(*number)) {
+    *value = static_cast<int>(*number);
+  } else {
+    Expected(*node, key, "a whole number" + ToText(range));
+  }
+}
+
+void YamlReader::Flag(const Key& key, bool* value) {
+  const auto node = Find(key);
+  if (!node) return;
+  const bool plain = node->IsScalar() && node->Tag() != "!";
+  if (plain && (node->Scalar() == "true" || node->Scalar() == "false")) {
+    *value = node->Scalar() == "true";
+  } else {
+    Expected(*node, key, "true or false");
+  }
+}
+
+void YamlReader::Name(const Key& key, std::string* value) {
+  const auto node = Find(key);
+  if (!node) return;
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  };
+  const std::string text = node->IsScalar() ? node->Scalar() : "";
+  if (!text.empty() && text.size() <= 80 && std::ranges::all_of(text, allowed)) {
+    *value = text;
+  } else {
+    Expected(*node, key, "a name of letters, digits, '_' and '-', at most 80");
+  }
+}
+
+void YamlReader::Sentence(const Key& key, std::string* value) {
+  const auto node = Find(key);
+  if (!node) return;
+  if (node->IsScalar() && !node->Scalar().empty()) {
+    *value = node->Scalar();
+  } else {
+    Expected(*node, key, "a text");
+  }
+}
+
+bool YamlReader::ReadPair(const YAML::Node& node, double* values, std::size_t count,
+                          Range range) const {
+  if (!node.IsSequence() || node.size() != count) return false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto number = DecimalNumber(node[i]);
+    if (!number || !Within(*number, range)) return false;
+    values[i] = *number;
+  }
+  return true;
+}
+
+void YamlReader::Numbers(const Key& key, double* values, std::size_t count, Range range) {
+  const auto node = Find(key);
+  if (!node) return;
+  std::vector<double> read(count);
+  if (ReadPair(*node, read.data(), count, range)) {
+    std::ranges::copy(read, values);
+  } else {
+    Expected(*node, key, fmt::format("a list of {} numbers{}", count, ToText(range)));
+  }
+}
+
+void YamlReader::Points(const Key& key, std::vector<Eigen::Vector2d>* values,
+                        std::vector<Mark>* marks) {
+  const auto node = Find(key);
+  if (!node) return;
+  if (!node->IsSequence() || node->size() == 0) {
+    Expected(*node, key, "a list of points [x, y]");
+    return;
+  }
+  values->clear();
+  marks->clear();
+  for (std::size_t i = 0; i < node->size(); ++i) {
+    Eigen::Vector2d point = Eigen::Vector2d::Zero();
+    const YAML::Node item = (*node)[i];
+    if (!ReadPair(item, point.data(), 2, {-1000, 1000})) {
+      Expected(item, key, fmt::format("a point [x, y] in metres as number {} of the list", i + 1));
+    }
+    values->push_back(point);
+    marks->push_back(MarkOf(item));
+  }
+}
+
+void YamlReader::Group(const Key& key, const Part& part) {
+  const auto node = Find(key);
+  if (!node) return;
+  if (!node->IsMap()) {
+    Expected(*node, key, "a map");
+    return;
+  }
+  YamlReader reader(*node, PathOf(key.name), issues_);
+  part(reader);
+  reader.ReportUnknownKeys();
+}
+
+void YamlReader::List(const Key& key, const std::function<void(std::size_t)>& resize,
+                      const Element& element) {
+  const auto node = Find(key);
+  if (!node) return;
+  if (!node->IsSequence()) {
+    Expected(*node, key, "a list");
+    return;
+  }
+  if (key.required && node->size() == 0) Expected(*node, key, "at least one");
+  resize(node->size());
+  for (std::size_t i = 0; i < node->size(); ++i) {
+    const YAML::Node item = (*node)[i];
+    if (!item.IsMap()) {
+      Expected(item, key, fmt::format("a map as number {} of the list", i + 1));
+      continue;
+    }
+    YamlReader reader(item, fmt::format("{}[{}]", PathOf(key.name), i), issues_);
+    element(reader, i);
+    reader.ReportUnknownKeys();
+  }
+}
+
+void YamlReader::ChoiceIndex(const Key& key, int* index, std::initializer_list<const char*> names) {
+  const auto node = Find(key);
+  if (!node) return;
+  const std::string text = node->IsScalar() ? node->Scalar() : "";
+  const auto found = std::ranges::find(names, text);
+  if (found != names.end()) {
+    *index = static_cast<int>(found - names.begin());
+    return;
+  }
+  const std::string near = NearestWord(text, {names.begin(), names.end()});
+  Expected(*node, key,
+           fmt::format("one of {}{}", fmt::join(names, ", "),
+                       near.empty() || text.empty() ? "" : " (did you mean " + near + "?)"));
+}
+
+void YamlReader::ReportUnknownKeys() {
+  for (const auto& entry : map_) {
+    const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";
+    if (std::ranges::find(known_, name) != known_.end()) continue;
+    const std::string near = NearestWord(name, known_);
+    issues_->Add(MarkOf(entry.first), PathOf(name.substr(0, 80)),
+                 near.empty()
+                     ? fmt::format("there is no such key; known here: {}", fmt::join(known_, ", "))
+                     : fmt::format("there is no such key; did you mean {}?", near));
+  }
+}
+
+}  // namespace aisle::sim

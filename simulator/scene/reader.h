@@ -1,0 +1,51 @@
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <memory>
+
+#include "simulator/scene/fields.h"
+#include "simulator/scene/issues.h"
+
+namespace aisle::sim {
+
+/// Fills a struct from a YAML map. Mistakes go to `issues` and leave the value as it was. Call
+/// ReportUnknownKeys() when the description has been through.
+class YamlReader : public Fields {
+ public:
+  /// `path` is the dotted path of the map, "" for the top.
+  YamlReader(YAML::Node map, std::string path, Issues* issues);
+
+  void Number(const Key& key, double* value, Range range) override;
+  void Integer(const Key& key, int* value, Range range) override;
+  void Flag(const Key& key, bool* value) override;
+  void Name(const Key& key, std::string* value) override;
+  void Sentence(const Key& key, std::string* value) override;
+  void Numbers(const Key& key, double* values, std::size_t count, Range range) override;
+  void Points(const Key& key, std::vector<Eigen::Vector2d>* values,
+              std::vector<Mark>* marks) override;
+  void Group(const Key& key, const Part& part) override;
+  void List(const Key& key, const std::function<void(std::size_t)>& resize,
+            const Element& element) override;
+  Mark mark() const override;
+  bool Has(const char* key) const override;
+  void ReportUnknownKeys();
+
+ protected:
+  void ChoiceIndex(const Key& key, int* index, std::initializer_list<const char*> names) override;
+
+ private:
+  /// The value of a key; reports a required key that is missing.
+  std::optional<YAML::Node> Find(const Key& key);
+  std::string PathOf(const std::string& key) const;
+  void Expected(const YAML::Node& node, const Key& key, const std::string& what);
+  std::optional<std::string> Text(const YAML::Node& node) const;
+  bool ReadPair(const YAML::Node& node, double* values, std::size_t count, Range range) const;
+
+  YAML::Node map_;
+  std::string path_;
+  Issues* issues_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace aisle::sim

@@ -1,0 +1,203 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulator/motion/rig_mount.h"
+#include "simulator/motion/route.h"
+#include "simulator/motion/vehicle.h"
+
+namespace aisle::sim {
+
+/// Where in the scene file something stands, from 1; 0: nowhere (a default).
+struct Mark {
+  int line = 0;
+  int column = 0;
+};
+
+/// How busy a scene is. An actor takes part when the scene's level is at least its own.
+enum class Dynamics { kNone, kLow, kMid, kHigh };
+
+struct CameraSpec {
+  Mark mark;
+  std::array<int, 2> size_px = {752, 480};
+  Eigen::Vector2d focal_px = {435.2, 435.2};
+  Eigen::Vector2d center_px = {367.2, 252.2};
+  double baseline_m = 0.12;
+};
+
+/// What the sensor does to the light.
+struct SensorSpec {
+  Mark mark;
+  double exposure_ms = 8;
+  double gain_db = 0;
+  bool noise = true;         ///< shot and read noise
+  double vignetting = 0.25;  ///< share of light lost in the corners
+  double blur_px = 0.45;     ///< standard deviation of the lens blur
+};
+
+/// A route with the places of its parts in the file.
+struct RouteSpec {
+  struct StepMarks {
+    Mark step;
+    std::vector<Mark> go;
+  };
+  Mark mark;
+  RoutePlan plan;
+  RouteLimits limits;
+  std::vector<StepMarks> marks;  ///< per step of the plan
+};
+
+struct RigSpec {
+  Mark mark;
+  RigMount mount;
+  RouteSpec route;
+  std::vector<Bump> bumps;
+};
+
+enum class FloorKind { kConcrete, kPainted, kGlossy };
+enum class WallKind { kPanels, kBrick, kPlain };
+
+/// The building: a box on the floor z = 0.
+struct HallSpec {
+  Mark mark;
+  Eigen::Vector2d from = {-5, -8};  ///< the corner with the smallest x and y
+  Eigen::Vector2d to = {20, 8};     ///< the corner with the largest x and y
+  double height_m = 6.5;
+  FloorKind floor = FloorKind::kConcrete;
+  WallKind walls = WallKind::kPanels;
+  double wear = 0.5;  ///< how stained and scratched the floor is, 0 to 1
+};
+
+enum class GoodsKind { kMixed, kCartons, kDrums, kTotes, kWrapped, kIdentical, kNothing };
+
+/// A row of racking: bays side by side, from one end along its heading.
+struct RackSpec {
+  Mark mark;
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< one end of the centre line
+  double heading_rad = 0;
+  int bays = 4;
+  double bay_m = 2.7;
+  double depth_m = 1.1;
+  int levels = 3;  ///< of beams; goods stand on the floor too
+  double level_m = 1.6;
+  double fill = 0.85;  ///< share of the places that are taken
+  GoodsKind goods = GoodsKind::kMixed;
+};
+
+/// Goods on a pallet on the floor.
+struct StackSpec {
+  Mark mark;
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  double heading_rad = 0;
+  double height_m = 1.2;  ///< of the goods above the pallet
+  GoodsKind goods = GoodsKind::kCartons;
+};
+
+struct ColumnSpec {
+  Mark mark;
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  double size_m = 0.4;
+  bool striped = true;
+};
+
+/// A painted line or a hatched box on the floor.
+struct MarkingSpec {
+  Mark mark;
+  enum class Kind { kLine, kBox, kCrossing } kind = Kind::kLine;
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();
+  double width_m = 0.1;
+};
+
+enum class WallSide { kNorth, kSouth, kEast, kWest };  ///< +y, -y, +x, -x
+
+struct DoorSpec {
+  Mark mark;
+  WallSide wall = WallSide::kEast;
+  double at_m = 0;  ///< world x or y of its middle, along the wall
+  double width_m = 3;
+  double height_m = 3.5;
+};
+
+/// A time during which lamps are off.
+struct Blackout {
+  double from_s = 0;
+  double to_s = 0;
+};
+
+/// A grid of luminaires over a rectangle.
+struct LightsSpec {
+  Mark mark;
+  std::optional<Eigen::Vector2d> from, to;  ///< absent: over the whole hall
+  int rows = 2;
+  int per_row = 4;
+  double height_m = 6;
+  Eigen::Vector2d size_m = {1.5, 0.3};
+  double brightness = 1;
+  std::vector<Blackout> off;
+};
+
+/// How far a seed may change an actor.
+struct VarySpec {
+  double time_s = 0;  ///< start earlier or later by up to this
+  double speed = 0;   ///< faster or slower by up to this share
+  double path_m = 0;  ///< inner points of the path moved by up to this
+};
+
+struct PersonSpec {
+  Mark mark;
+  std::string name;
+  std::string model = "worker";
+  Dynamics level = Dynamics::kLow;
+  RouteSpec route;
+  VarySpec vary;
+};
+
+struct VehicleSpec {
+  Mark mark;
+  std::string name;
+  std::string model = "forklift";
+  Dynamics level = Dynamics::kLow;
+  RouteSpec route;
+  VarySpec vary;
+  std::vector<MastMove> mast;
+  GoodsKind load = GoodsKind::kNothing;
+};
+
+/// A scene file as a plain description. Angles are radians here and degrees in the file.
+struct Scene {
+  std::string file;
+  std::string about;  ///< the sentence on what it tests
+  int frames = 300;
+  double rate_hz = 20;
+  double dynamic_threshold_mps = 0.05;  ///< a surface faster than this moves
+  Dynamics dynamics = Dynamics::kHigh;
+  CameraSpec camera;
+  SensorSpec sensor;
+  RigSpec rig;
+  HallSpec hall;
+  std::vector<RackSpec> racks;
+  std::vector<StackSpec> stacks;
+  std::vector<ColumnSpec> columns;
+  std::vector<MarkingSpec> markings;
+  std::vector<DoorSpec> doors;
+  std::vector<LightsSpec> lights;
+  std::vector<PersonSpec> people;
+  std::vector<VehicleSpec> vehicles;
+  bool frozen = false;  ///< actors stay where they are at time 0
+
+  double duration_s() const { return frames / rate_hz; }
+};
+
+/// The same scene with nobody in it.
+Scene WithoutActors(Scene scene);
+/// The same scene with everybody standing where they are at time 0.
+Scene Frozen(Scene scene);
+/// The same scene with those actors only whose level is at most `dynamics`.
+Scene WithDynamics(Scene scene, Dynamics dynamics);
+
+}  // namespace aisle::sim

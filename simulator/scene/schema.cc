@@ -1,0 +1,105 @@
+#include <nlohmann/json.hpp>
+
+#include "simulator/scene/fields.h"
+#include "simulator/scene/load.h"
+
+namespace aisle::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Writes the description as a JSON Schema object; every element of a list is described once.
+class SchemaWriter : public Fields {
+ public:
+  void Number(const Key& key, double* value, Range range) override {
+    Json& property = Add(key, Numeric("number", range));
+    if (!key.required && Within(*value, range)) property["default"] = Rounded(*value);
+  }
+  void Integer(const Key& key, int* value, Range range) override {
+    Add(key, Numeric("integer", range))["default"] = *value;
+  }
+  void Flag(const Key& key, bool* value) override {
+    Add(key, {{"type", "boolean"}})["default"] = *value;
+  }
+  void Name(const Key& key, std::string*) override {
+    Add(key, {{"type", "string"}, {"pattern", "^[A-Za-z0-9_-]{1,80}$"}});
+  }
+  void Sentence(const Key& key, std::string*) override {
+    Add(key, {{"type", "string"}, {"minLength", 1}});
+  }
+  void Numbers(const Key& key, double*, std::size_t count, Range range) override {
+    Add(key, Tuple(count, range));
+  }
+  void Points(const Key& key, std::vector<Eigen::Vector2d>*, std::vector<Mark>*) override {
+    Add(key, {{"type", "array"}, {"minItems", 1}, {"items", Tuple(2, {-1000, 1000})}});
+  }
+  void Group(const Key& key, const Part& part) override {
+    SchemaWriter writer;
+    part(writer);
+    Add(key, writer.Object());
+  }
+  void List(const Key& key, const std::function<void(std::size_t)>& resize,
+            const Element& element) override {
+    SchemaWriter writer;
+    resize(1);
+    element(writer, 0);
+    resize(0);
+    Json list = {{"type", "array"}, {"items", writer.Object()}};
+    if (key.required) list["minItems"] = 1;
+    Add(key, std::move(list));
+  }
+  Mark mark() const override { return {}; }
+  bool Has(const char*) const override { return false; }
+
+  Json Object() const {
+    Json object = {{"type", "object"}, {"properties", properties_}};
+    object["additionalProperties"] = false;
+    if (!required_.empty()) object["required"] = required_;
+    return object;
+  }
+
+ protected:
+  void ChoiceIndex(const Key& key, int* index, std::initializer_list<const char*> names) override {
+    Json& property = Add(key, {{"enum", std::vector<std::string>(names.begin(), names.end())}});
+    property["default"] = *(names.begin() + *index);
+  }
+
+ private:
+  static bool Within(double value, Range range) {
+    return value >= range.low && value <= range.high;
+  }
+  /// Radians that come back as degrees carry rounding noise.
+  static double Rounded(double value) { return std::round(value * 1e9) / 1e9; }
+
+  static Json Numeric(const char* type, Range range) {
+    return {{"type", type}, {"minimum", range.low}, {"maximum", range.high}};
+  }
+  static Json Tuple(std::size_t count, Range range) {
+    return {{"type", "array"},
+            {"items", Numeric("number", range)},
+            {"minItems", count},
+            {"maxItems", count}};
+  }
+  Json& Add(const Key& key, Json property) {
+    Json described = {{"description", std::string(key.help) + "; e.g. " + key.example}};
+    described.update(property);
+    if (key.required) required_.emplace_back(key.name);
+    return properties_[key.name] = std::move(described);
+  }
+
+  Json properties_ = Json::object();
+  std::vector<std::string> required_;
+};
+
+}  // namespace
+
+std::string SceneSchema() {
+  SchemaWriter writer;
+  Scene scene;
+  Describe(writer, scene);
+  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "aisle scene"}};
+  schema.update(writer.Object());
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace aisle::sim

@@ -1,0 +1,103 @@
+#include "simulator/scene/yaml_guard.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/yaml.h>
+
+#include <set>
+#include <sstream>
+
+namespace aisle::sim {
+namespace {
+
+constexpr std::size_t kMaxDepth = 32;
+constexpr std::size_t kMaxNodes = 100'000;
+
+Mark ToMark(const YAML::Mark& mark) { return {mark.line + 1, mark.column + 1}; }
+
+class Guard : public YAML::EventHandler {
+ public:
+  explicit Guard(Issues* issues) : issues_(issues) {}
+
+  bool went_too_far() const { return nodes_ > kMaxNodes || too_deep_; }
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (++documents_ == 2) issues_->Add(ToMark(mark), "", "expected one YAML document, got more");
+  }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { Node(mark, anchor); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    issues_->Add(ToMark(mark), "", "aliases (*name) are not accepted; write the value out");
+    Node(mark, 0);
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                const std::string& value) override {
+    if (!open_.empty() && open_.back().is_map && open_.back().expects_key &&
+        !open_.back().keys.insert(value).second) {
+      issues_->Add(ToMark(mark), value, "the key is given twice; keep one of them");
+    }
+    Node(mark, anchor);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    Node(mark, anchor);
+    Open(mark, false);
+  }
+  void OnSequenceEnd() override { open_.pop_back(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    if (!open_.empty() && open_.back().is_map && open_.back().expects_key) {
+      issues_->Add(ToMark(mark), "", "a map cannot be a key");
+    }
+    Node(mark, anchor);
+    Open(mark, true);
+  }
+  void OnMapEnd() override { open_.pop_back(); }
+
+ private:
+  struct Level {
+    bool is_map;
+    bool expects_key;
+    std::set<std::string> keys;
+  };
+
+  void Node(const YAML::Mark& mark, YAML::anchor_t anchor) {
+    if (anchor != 0) {
+      issues_->Add(ToMark(mark), "", "anchors (&name) are not accepted; write the value out");
+    }
+    if (++nodes_ == kMaxNodes + 1) {
+      issues_->Add(ToMark(mark), "", fmt::format("the file has more than {} values", kMaxNodes));
+    }
+    if (!open_.empty() && open_.back().is_map) open_.back().expects_key ^= true;
+  }
+
+  void Open(const YAML::Mark& mark, bool is_map) {
+    open_.push_back({is_map, true, {}});
+    if (open_.size() == kMaxDepth + 1 && !too_deep_) {
+      too_deep_ = true;
+      issues_->Add(ToMark(mark), "", fmt::format("nested more than {} levels deep", kMaxDepth));
+    }
+  }
+
+  Issues* issues_;
+  std::vector<Level> open_;
+  std::size_t nodes_ = 0;
+  int documents_ = 0;
+  bool too_deep_ = false;
+};
+
+}  // namespace
+
+void GuardYaml(const std::string& text, Issues* issues) {
+  std::istringstream stream(text);
+  Guard guard(issues);
+  try {
+    YAML::Parser parser(stream);
+    while (parser.HandleNextDocument(guard) && !guard.went_too_far()) {
+    }
+  } catch (const YAML::Exception& error) {
+    issues->Add(ToMark(error.mark), "", "this is not YAML: " + error.msg);
+  }
+}
+
+}  // namespace aisle::sim

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+
+#include "simulator/scene/scene.h"
+#include "simulator/world/assets.h"
+#include "simulator/world/dice.h"
+#include "simulator/world/palette.h"
+
+namespace aisle::sim {
+
+/// An actor as the world needs it: its topology and where everything of it is at a time. `at` is
+/// pure and leaves the instance index to the caller.
+struct Actor {
+  TriangleMesh mesh;  ///< materials are the world's
+  std::function<MoverState(double time_s)> at;
+};
+
+/// Adds the materials and textures of models to a world, each model once.
+class Wardrobe {
+ public:
+  explicit Wardrobe(WorldParts* parts) : parts_(parts) {}
+  /// The model's mesh with the world's material indices.
+  TriangleMesh Wear(const std::shared_ptr<const Model>& model);
+
+ private:
+  WorldParts* parts_;
+  std::map<const Model*, std::uint16_t> first_material_;
+};
+
+/// A walking person. Throws RouteError, or std::runtime_error when the model lacks a clip.
+Actor MakePerson(const PersonSpec& person, AssetLibrary* assets, Wardrobe* wardrobe);
+
+/// A vehicle with rolling and steered wheels and a mast, perhaps with a load.
+Actor MakeVehicle(const VehicleSpec& vehicle, AssetLibrary* assets, const Palette& palette,
+                  Dice dice, Wardrobe* wardrobe);
+
+/// A route as a seed has it: later, faster and elsewhere within the actor's bounds.
+RouteSpec Varied(RouteSpec route, const VarySpec& vary, Dice dice);
+
+/// State of a skinned model from the joint matrices (model frame) and object poses at t - h, t and
+/// t + h: every vertex with its own velocity.
+MoverState SkinState(const Model& model,
+                     const std::function<std::vector<Eigen::Affine3f>(double)>& world_joints,
+                     const std::function<RouteState(double)>& route, double time_s);
+
+/// Pose of an object's frame on the floor: x ahead, z up.
+Eigen::Isometry3d ObjectPose(const RouteState& state);
+
+}  // namespace aisle::sim

@@ -1,0 +1,90 @@
+#include "simulator/world/assets.h"
+
+#include <fmt/ranges.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "simulator/mesh/import.h"
+
+namespace aisle::sim {
+namespace {
+
+using Json = nlohmann::json;
+
+PersonFacts ReadPerson(const Json& asset) {
+  PersonFacts facts;
+  for (const auto& [name, clip] : asset.at("clips").items()) {
+    facts.clips[name] = {clip.at("duration_s").get<double>(), clip.value("stride_m", 0.0),
+                         clip.value("speed_mps", 0.0), clip.value("turn_deg", 0.0)};
+  }
+  return facts;
+}
+
+VehicleFacts ReadVehicle(const Json& asset) {
+  VehicleFacts facts;
+  facts.wheel_radius_m = asset.at("wheel_radius_m").get<std::map<std::string, double>>();
+  facts.steer_nodes = asset.value("steer_nodes", std::vector<std::string>{});
+  if (asset.contains("lift")) {
+    for (const auto& [name, share] : asset["lift"].items()) {
+      if (!name.ends_with("_m") && !name.ends_with("_mps")) facts.lift_shares[name] = share;
+    }
+  }
+  if (asset.contains("forks")) {
+    facts.fork_node = asset["forks"].at("node");
+    facts.fork_top_m = asset["forks"].at("top_z_m");
+    facts.fork_heel_x_m = asset["forks"].at("heel_x_m");
+  }
+  return facts;
+}
+
+template <class Facts>
+const Facts& Find(const std::map<std::string, Facts>& known, const std::string& name,
+                  const std::string& kind) {
+  const auto found = known.find(name);
+  if (found != known.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [one, unused] : known) names.push_back(one);
+  throw std::runtime_error(fmt::format("there is no model '{}' in assets/{}; there are: {}", name,
+                                       kind, fmt::join(names, ", ")));
+}
+
+}  // namespace
+
+AssetLibrary::AssetLibrary(std::filesystem::path folder) : folder_(std::move(folder)) {
+  const std::filesystem::path file = folder_ / "manifest.json";
+  std::ifstream stream(file);
+  if (!stream) throw std::runtime_error(file.string() + ": there is no such file");
+  try {
+    const Json manifest = Json::parse(stream);
+    for (const auto& [name, asset] : manifest.at("assets").items()) {
+      const std::string kind = asset.value("kind", "");
+      const std::string stem = name.substr(name.find('/') + 1);
+      if (kind == "person") people_[stem] = ReadPerson(asset);
+      if (kind == "vehicle") vehicles_[stem] = ReadVehicle(asset);
+    }
+  } catch (const Json::exception& error) {
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+const PersonFacts& AssetLibrary::Person(const std::string& name) const {
+  return Find(people_, name, "people");
+}
+
+const VehicleFacts& AssetLibrary::Vehicle(const std::string& name) const {
+  return Find(vehicles_, name, "vehicles");
+}
+
+std::shared_ptr<const Model> AssetLibrary::Load(const std::string& asset) {
+  std::shared_ptr<const Model>& model = models_[asset];
+  if (!model) {
+    ImportOptions options;
+    options.root = folder_;
+    model = std::make_shared<const Model>(ImportModel(folder_ / (asset + ".glb"), options));
+  }
+  return model;
+}
+
+}  // namespace aisle::sim

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "simulator/mesh/model.h"
+
+namespace aisle::sim {
+
+/// What the manifest says of a clip.
+struct ClipFacts {
+  double duration_s = 1;
+  double stride_m = 0;  ///< > 0: the model walks; move it by this much a cycle
+  double speed_mps = 0;
+  double turn_deg = 0;  ///< turned a cycle
+};
+
+struct PersonFacts {
+  std::map<std::string, ClipFacts> clips;
+};
+
+struct VehicleFacts {
+  std::map<std::string, double> wheel_radius_m;  ///< by node
+  std::vector<std::string> steer_nodes;
+  std::map<std::string, double> lift_shares;  ///< node -> share of the lift it slides by
+  double fork_top_m = 0.085, fork_heel_x_m = 0.56;
+  std::string fork_node;
+};
+
+/// The folder of models and what its manifest.json says of them. Models are read once.
+class AssetLibrary {
+ public:
+  /// Throws std::runtime_error when the manifest is missing or not as expected.
+  explicit AssetLibrary(std::filesystem::path folder);
+
+  /// Facts of people/NAME or vehicles/NAME. Throws std::runtime_error naming what there is.
+  const PersonFacts& Person(const std::string& name) const;
+  const VehicleFacts& Vehicle(const std::string& name) const;
+  /// The model of "people/NAME" or "vehicles/NAME".
+  std::shared_ptr<const Model> Load(const std::string& asset);
+
+ private:
+  std::filesystem::path folder_;
+  std::map<std::string, PersonFacts> people_;
+  std::map<std::string, VehicleFacts> vehicles_;
+  std::map<std::string, std::shared_ptr<const Model>> models_;
+};
+
+}  // namespace aisle::sim

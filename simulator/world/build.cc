@@ -1,0 +1,106 @@
+#include "simulator/world/build.h"
+
+#include <stdexcept>
+
+#include "simulator/motion/rig_mount.h"
+#include "simulator/world/actors.h"
+#include "simulator/world/warehouse.h"
+
+namespace aisle::sim {
+namespace {
+
+constexpr double kNanosecond_s = 1e-9;
+
+/// Which class a vehicle model belongs to.
+ObjectClass ClassOfVehicle(const std::string& model) {
+  if (model.starts_with("agv")) return ObjectClass::kAgv;
+  if (model.starts_with("pallet_jack")) return ObjectClass::kPalletJack;
+  if (model.starts_with("car")) return ObjectClass::kCar;
+  if (model.starts_with("cyclist")) return ObjectClass::kCyclist;
+  return ObjectClass::kForklift;
+}
+
+/// An actor with its label.
+struct Cast {
+  std::uint16_t instance = 0;
+  std::function<MoverState(double)> at;
+};
+
+[[noreturn]] void Refuse(const Scene& scene, Mark mark, const std::string& name,
+                         const std::string& why) {
+  throw std::runtime_error(
+      fmt::format("{}:{}:{}: {}: {}", scene.file, mark.line, mark.column, name, why));
+}
+
+std::vector<Cast> AddActors(const Scene& scene, const std::string& assets_dir,
+                            const Palette& palette, std::uint64_t seed, WorldParts* parts,
+                            Site* site) {
+  std::vector<Cast> cast;
+  if (scene.people.empty() && scene.vehicles.empty()) return cast;
+  AssetLibrary assets(assets_dir);
+  Wardrobe wardrobe(parts);
+  const auto enter = [&](const auto& spec, ObjectClass object_class, const auto& make) {
+    try {
+      Actor actor = make();
+      parts->mover_meshes.push_back(std::move(actor.mesh));
+      cast.push_back({site->Add(spec.name, object_class, true), std::move(actor.at)});
+    } catch (const std::exception& error) {
+      Refuse(scene, spec.mark, spec.name, error.what());
+    }
+  };
+  for (std::size_t i = 0; i < scene.people.size(); ++i) {
+    PersonSpec person = scene.people[i];
+    person.route = Varied(person.route, person.vary, Dice(seed, {400, i}));
+    enter(person, ObjectClass::kPerson, [&] { return MakePerson(person, &assets, &wardrobe); });
+  }
+  for (std::size_t i = 0; i < scene.vehicles.size(); ++i) {
+    VehicleSpec vehicle = scene.vehicles[i];
+    vehicle.route = Varied(vehicle.route, vehicle.vary, Dice(seed, {410, i}));
+    enter(vehicle, ClassOfVehicle(vehicle.model), [&] {
+      return MakeVehicle(vehicle, &assets, palette, Dice(seed, {420, i}), &wardrobe);
+    });
+  }
+  return cast;
+}
+
+}  // namespace
+
+World BuildWorld(const Scene& scene, const std::string& assets_dir, std::uint64_t seed) {
+  WorldParts parts;
+  Site site(&parts);
+  const Palette palette = AddPalette(scene, seed, &parts);
+  AddFloor(scene, palette, seed, &site);
+  AddMarkings(scene, palette, &site);
+  AddWalls(scene, palette, seed, &site);
+  AddDoors(scene, palette, &site);
+  AddColumns(scene, palette, &site);
+  AddRacks(scene, palette, seed, &site);
+  AddStacks(scene, palette, seed, &site);
+  AddLights(scene, palette, &parts, &site);
+  const std::vector<Cast> cast = AddActors(scene, assets_dir, palette, seed, &parts, &site);
+
+  parts.at = [scene, cast](std::int64_t stamp_ns) {
+    const double time_s = static_cast<double>(stamp_ns) * kNanosecond_s;
+    Snapshot snapshot;
+    snapshot.stamp_ns = stamp_ns;
+    snapshot.light_scale = LightScale(scene, time_s);
+    for (const Cast& actor : cast) {
+      MoverState state = actor.at(scene.frozen ? 0 : time_s);
+      if (scene.frozen) {  // nothing moves, not even a breath
+        state.velocity_mps.setZero();
+        std::ranges::fill(state.velocities, Eigen::Vector3f::Zero());
+      }
+      state.instance = actor.instance;
+      snapshot.movers.push_back(std::move(state));
+    }
+    return snapshot;
+  };
+  const Route route(scene.rig.route.plan, scene.rig.route.limits);
+  parts.rig = [route, rig = scene.rig](std::int64_t stamp_ns) {
+    const double time_s = static_cast<double>(stamp_ns) * kNanosecond_s;
+    return RigPose(route.At(time_s), rig.mount, rig.bumps, time_s);
+  };
+  return World(std::move(parts));
+}
+
+}  // namespace aisle::sim

@@ -1,0 +1,149 @@
+#include <cmath>
+#include <stdexcept>
+
+#include "simulator/mesh/pose.h"
+#include "simulator/motion/gait.h"
+#include "simulator/world/actors.h"
+
+namespace aisle::sim {
+namespace {
+
+/// Clips fade into one another over this time.
+constexpr double kFade_s = 0.5;
+
+/// A clip of walking in place and the stride it was made for.
+struct WalkClip {
+  int clip = -1;
+  double stride_m = 0;
+  double duration_s = 1;
+};
+
+/// Who the person is and how it moves: everything a pose at a time needs.
+class Walker {
+ public:
+  Walker(const PersonSpec& person, std::shared_ptr<const Model> model, const PersonFacts& facts)
+      : model_(std::move(model)), route_(person.route.plan, person.route.limits) {
+    stand_ = RequireClip("stand");
+    const int walk = RequireClip("walk");
+    for (const auto& [name, clip] : facts.clips) {
+      const int index = model_->FindClip(name);
+      if (index < 0) continue;
+      durations_[name] = {index, clip.duration_s};
+      // Those that go straight ahead at their own pace; others are asked for by name.
+      if (name.starts_with("walk") && clip.stride_m > 0 && clip.speed_mps >= 0 &&
+          clip.turn_deg == 0) {
+        walks_.push_back({index, clip.stride_m, clip.duration_s});
+      }
+    }
+    std::ranges::sort(walks_, {}, &WalkClip::stride_m);
+    if (walks_.empty()) throw std::runtime_error("the manifest gives its walk clip no stride_m");
+    GaitStyle style;
+    for (const WalkClip& one : walks_) {
+      if (one.clip == walk) style = {one.stride_m, one.duration_s, walks_.back().stride_m};
+    }
+    stride_m_ = style.stride_m;
+    for (const RouteStep& step : person.route.plan.steps) {
+      plays_.push_back(step.play);
+      if (!step.play.empty() && !durations_.contains(step.play)) RequireClip(step.play);
+    }
+    gait_ = Gait(route_, style);
+  }
+
+  RouteState RouteAt(double time_s) const { return route_.At(time_s); }
+
+  /// Matrix of each joint: bind position -> world.
+  std::vector<Eigen::Affine3f> WorldJoints(double time_s) const {
+    const std::vector<PoseLayer> layers = LayersAt(time_s);
+    std::vector<Eigen::Affine3f> joints = JointMatrices(*model_, PoseNodes(*model_, layers));
+    const Eigen::Affine3f place(ObjectPose(route_.At(time_s)).cast<float>());
+    for (Eigen::Affine3f& joint : joints) joint = place * joint;
+    return joints;
+  }
+
+ private:
+  int RequireClip(const std::string& name) const {
+    const int clip = model_->FindClip(name);
+    if (clip < 0) {
+      throw std::runtime_error(fmt::format("the model '{}' has no clip '{}'", model_->name, name));
+    }
+    return clip;
+  }
+
+  /// Stand and the walks whose strides enclose the present one, mixed so that their strides' mean
+  /// is the present one; over them whatever the route's step plays.
+  std::vector<PoseLayer> LayersAt(double time_s) const {
+    const GaitState gait = gait_.At(time_s);
+    const double stride = gait.amplitude * stride_m_;
+    std::vector<PoseLayer> layers;
+    const auto above =
+        std::ranges::find_if(walks_, [&](const WalkClip& walk) { return walk.stride_m > stride; });
+    const bool fastest = above == walks_.end();
+    const double high = fastest ? walks_.back().stride_m : above->stride_m;
+    const double low = above == walks_.begin() ? 0 : std::prev(above)->stride_m;
+    const float share = fastest ? 1.0f : static_cast<float>((stride - low) / (high - low));
+    const auto walking = [&](const WalkClip& walk, float weight) {
+      layers.push_back({walk.clip, gait.cycles * walk.duration_s, weight, -1});
+    };
+    if (fastest) {
+      walking(walks_.back(), 1);
+    } else {
+      if (low > 0) {
+        walking(*std::prev(above), 1 - share);
+      } else {
+        layers.push_back({stand_, time_s, 1 - share, -1});
+      }
+      walking(*above, share);
+    }
+    AddPlayed(time_s, &layers);
+    return layers;
+  }
+
+  /// A played clip has as much weight as it takes of the time around now.
+  void AddPlayed(double time_s, std::vector<PoseLayer>* layers) const {
+    constexpr int kTaps = 20;
+    std::map<std::pair<std::string, long>, int> taps;  // by clip and start in microseconds
+    int played = 0;
+    for (int i = 0; i < kTaps; ++i) {
+      const double at = time_s + kFade_s * ((i + 0.5) / kTaps - 0.5);
+      const RouteState state = route_.At(at);
+      if (state.finished || state.step < 0) continue;
+      const std::string& play = plays_[static_cast<std::size_t>(state.step)];
+      if (play.empty()) continue;
+      const long start = std::lround((at - state.step_elapsed_s) * 1e6);
+      ++taps[{play, start}];
+      ++played;
+    }
+    if (played == 0) return;
+    const float rest = 1 - static_cast<float>(played) / kTaps;
+    for (PoseLayer& layer : *layers) layer.weight *= rest;
+    for (const auto& [key, count] : taps) {
+      const double elapsed = time_s - static_cast<double>(key.second) * 1e-6;
+      layers->push_back(
+          {durations_.at(key.first).first, elapsed, static_cast<float>(count) / kTaps, -1});
+    }
+  }
+
+  std::shared_ptr<const Model> model_;
+  Route route_;
+  Gait gait_;
+  int stand_ = -1;
+  double stride_m_ = 1.4;
+  std::vector<WalkClip> walks_;  ///< by stride
+  std::map<std::string, std::pair<int, double>> durations_;
+  std::vector<std::string> plays_;  ///< per step of the route
+};
+
+}  // namespace
+
+Actor MakePerson(const PersonSpec& person, AssetLibrary* assets, Wardrobe* wardrobe) {
+  const PersonFacts& facts = assets->Person(person.model);
+  const std::shared_ptr<const Model> model = assets->Load("people/" + person.model);
+  const auto walker = std::make_shared<const Walker>(person, model, facts);
+  return {wardrobe->Wear(model), [walker, model](double time_s) {
+            return SkinState(
+                *model, [&](double t) { return walker->WorldJoints(t); },
+                [&](double t) { return walker->RouteAt(t); }, time_s);
+          }};
+}
+
+}  // namespace aisle::sim

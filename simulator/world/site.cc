@@ -1,0 +1,15 @@
+#include "simulator/world/warehouse.h"
+
+namespace aisle::sim {
+
+std::uint16_t Site::Add(const std::string& name, ObjectClass object_class, bool is_actor) {
+  parts_->instances.push_back({name, object_class, is_actor});
+  return static_cast<std::uint16_t>(parts_->instances.size() - 1);
+}
+
+void Site::Draw(std::uint16_t instance, const std::function<void(TriangleMesh*)>& draw) {
+  draw(&parts_->statics.mesh);
+  parts_->statics.instances.resize(parts_->statics.mesh.triangles.size(), instance);
+}
+
+}  // namespace aisle::sim

@@ -1,0 +1,154 @@
+#include <cmath>
+
+#include "simulator/mesh/pose.h"
+#include "simulator/world/actors.h"
+#include "simulator/world/goods.h"
+
+namespace aisle::sim {
+namespace {
+
+/// A driver turns the steering wheel over this time.
+constexpr double kSteering_s = 0.8;
+/// Forks above the floor when travelling, with and without a load.
+constexpr double kCarriedAt_m = 0.14, kEmptyAt_m = 0.06;
+
+// Nodes keep the axes of the glTF file, where the object's y is -z and its z is y.
+const Eigen::Vector3f kNodeLeft = -Eigen::Vector3f::UnitZ();
+const Eigen::Vector3f kNodeUp = Eigen::Vector3f::UnitY();
+
+struct WheelNode {
+  int node = 0;
+  Wheel wheel;
+};
+
+struct LiftNode {
+  int node = 0;
+  double share = 0;
+};
+
+class Driver {
+ public:
+  Driver(const VehicleSpec& vehicle, std::shared_ptr<const Model> model, const VehicleFacts& facts)
+      : model_(std::move(model)),
+        route_(vehicle.route.plan, vehicle.route.limits),
+        mast_(vehicle.mast, kMastSpeed_mps, kMastAcceleration_mps2),
+        fork_rest_m_(vehicle.load == GoodsKind::kNothing ? kEmptyAt_m : kCarriedAt_m) {
+    const NodeFrames rest = PoseNodes(*model_, {});
+    const auto wheel_at = [&](int node, double radius) {
+      const Eigen::Vector3f at = rest[static_cast<std::size_t>(node)].translation();
+      return Wheel{at.x(), at.y(), radius};
+    };
+    for (const auto& [name, radius] : facts.wheel_radius_m) {
+      const int node = model_->FindNode(name);
+      if (node >= 0) wheels_.push_back({node, wheel_at(node, radius)});
+    }
+    for (const std::string& name : facts.steer_nodes) {
+      const int node = model_->FindNode(name);
+      if (node >= 0) steered_.push_back({node, wheel_at(node, 0)});
+    }
+    for (const auto& [name, share] : facts.lift_shares) {
+      const int node = model_->FindNode(name);
+      if (node >= 0) lifted_.push_back({node, share});
+    }
+  }
+
+  RouteState RouteAt(double time_s) const { return route_.At(time_s); }
+
+  std::vector<Eigen::Affine3f> WorldJoints(double time_s) const {
+    const RouteState state = route_.At(time_s);
+    std::vector<Eigen::Affine3f> joints =
+        JointMatrices(*model_, PoseNodes(*model_, {}, MovesAt(state, time_s)));
+    const Eigen::Affine3f place(ObjectPose(state).cast<float>());
+    for (Eigen::Affine3f& joint : joints) joint = place * joint;
+    return joints;
+  }
+
+ private:
+  std::vector<NodeMove> MovesAt(const RouteState& state, double time_s) const {
+    std::vector<NodeMove> moves;
+    const auto turn = [&](int node, const Eigen::Vector3f& axis, double angle) {
+      moves.push_back({node, Eigen::Affine3f(Eigen::AngleAxisf(static_cast<float>(angle), axis))});
+    };
+    const double heading_at_start = route_.At(0).heading_rad;
+    for (const WheelNode& one : wheels_) {
+      turn(one.node, kNodeLeft, RolledAngle(one.wheel, state, heading_at_start));
+    }
+    const double curvature = SmoothCurvature(route_, time_s, kSteering_s);
+    for (const WheelNode& one : steered_) {
+      turn(one.node, kNodeUp, SteeringAngle(one.wheel, curvature));
+    }
+    const double lift = fork_rest_m_ + mast_.HeightAt(time_s);
+    for (const LiftNode& one : lifted_) {
+      const Eigen::Vector3f up = static_cast<float>(lift * one.share) * kNodeUp;
+      moves.push_back({one.node, Eigen::Affine3f(Eigen::Translation3f(up))});
+    }
+    return moves;
+  }
+
+  std::shared_ptr<const Model> model_;
+  Route route_;
+  MastLift mast_;
+  double fork_rest_m_;
+  std::vector<WheelNode> wheels_, steered_;
+  std::vector<LiftNode> lifted_;
+};
+
+/// The model with a mesh (object frame) fixed to one of its nodes. The mesh's materials are kept
+/// apart: they are the world's.
+Model WithLoad(const Model& model, const TriangleMesh& load, int node) {
+  Model loaded = model;
+  const NodeFrames rest = PoseNodes(model, {});
+  const auto joint = static_cast<std::uint16_t>(loaded.joints.size());
+  loaded.joints.push_back({node, rest[static_cast<std::size_t>(node)].inverse()});
+  loaded.bind_positions.insert(loaded.bind_positions.end(), load.positions.begin(),
+                               load.positions.end());
+  loaded.bind_normals.insert(loaded.bind_normals.end(), load.normals.begin(), load.normals.end());
+  loaded.weights.insert(loaded.weights.end(), load.positions.size(),
+                        VertexWeights{{joint, 0, 0, 0}, {1, 0, 0, 0}});
+  return loaded;
+}
+
+void Append(const TriangleMesh& from, TriangleMesh* to) {
+  const auto first = static_cast<std::uint32_t>(to->positions.size());
+  to->positions.insert(to->positions.end(), from.positions.begin(), from.positions.end());
+  to->normals.insert(to->normals.end(), from.normals.begin(), from.normals.end());
+  to->uvs.insert(to->uvs.end(), from.uvs.begin(), from.uvs.end());
+  for (const auto& [a, b, c] : from.triangles) {
+    to->triangles.push_back({a + first, b + first, c + first});
+  }
+  to->materials.insert(to->materials.end(), from.materials.begin(), from.materials.end());
+}
+
+/// A loaded pallet on the forks, in the vehicle's frame.
+TriangleMesh LoadOnForks(const VehicleSpec& vehicle, const VehicleFacts& facts,
+                         const Palette& palette, Dice dice) {
+  constexpr float kUnderDeck_m = 0.122f;  // where forks lift a pallet
+  TriangleMesh mesh;
+  const auto x = static_cast<float>(facts.fork_heel_x_m) + kPalletLength_m / 2 + 0.02f;
+  const float z = static_cast<float>(facts.fork_top_m) - kUnderDeck_m;
+  AddLoadedPallet(&mesh, palette, At(x, 0, z), 1.0f, vehicle.load, dice);
+  return mesh;
+}
+
+}  // namespace
+
+Actor MakeVehicle(const VehicleSpec& vehicle, AssetLibrary* assets, const Palette& palette,
+                  Dice dice, Wardrobe* wardrobe) {
+  const VehicleFacts& facts = assets->Vehicle(vehicle.model);
+  std::shared_ptr<const Model> model = assets->Load("vehicles/" + vehicle.model);
+  TriangleMesh mesh = wardrobe->Wear(model);
+  const int forks = facts.fork_node.empty() ? -1 : model->FindNode(facts.fork_node);
+  if (vehicle.load != GoodsKind::kNothing && forks >= 0) {
+    const TriangleMesh load = LoadOnForks(vehicle, facts, palette, dice);
+    model = std::make_shared<const Model>(WithLoad(*model, load, forks));
+    Append(load, &mesh);
+  }
+  const auto driver = std::make_shared<const Driver>(vehicle, model, facts);
+  return {std::move(mesh), [driver, model](double time_s) {
+            return SkinState(
+                *model, [&](double t) { return driver->WorldJoints(t); },
+                [&](double t) { return driver->RouteAt(t); }, time_s);
+          }};
+}
+
+}  // namespace aisle::sim

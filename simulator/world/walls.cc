@@ -1,0 +1,142 @@
+#include <cmath>
+
+#include "simulator/world/warehouse.h"
+
+namespace aisle::sim {
+namespace {
+
+using Eigen::Vector2f;
+using Eigen::Vector3f;
+
+constexpr float kPlinth_m = 0.35f;
+
+/// One wall seen from inside: `corner` is its left end on the floor, `along` points right.
+struct Wall {
+  Vector3f corner, along, inward;
+  float length = 0;
+
+  /// A point of the wall: metres to the right, up, and into the hall.
+  Vector3f At(float right, float up, float in) const {
+    return corner + right * along + up * Vector3f::UnitZ() + in * inward;
+  }
+  /// Frame at a point: x into the hall, y to the left seen from inside.
+  Eigen::Isometry3f Frame(float right, float up, float in) const {
+    Eigen::Isometry3f pose = Eigen::Isometry3f::Identity();
+    pose.linear().col(0) = inward;
+    pose.linear().col(1) = Vector3f::UnitZ().cross(inward);
+    pose.linear().col(2) = Vector3f::UnitZ();
+    pose.translation() = At(right, up, in);
+    return pose;
+  }
+};
+
+/// North, south, east, west, as in WallSide.
+std::array<Wall, 4> WallsOf(const HallSpec& hall) {
+  const Vector2f low = hall.from.cast<float>(), high = hall.to.cast<float>();
+  const Vector3f x = Vector3f::UnitX(), y = Vector3f::UnitY();
+  const Vector2f size = high - low;
+  return {{{{low.x(), high.y(), 0}, x, -y, size.x()},
+           {{high.x(), low.y(), 0}, -x, y, size.x()},
+           {{high.x(), high.y(), 0}, -y, -x, size.y()},
+           {{low.x(), low.y(), 0}, y, x, size.y()}}};
+}
+
+void AddWallFace(TriangleMesh* mesh, const Wall& wall, float height, const Palette& palette) {
+  const UvRect uv{{0, 1 - (height - kPlinth_m) / kWallSheet_m},
+                  {wall.length / kWallSheet_m, (height - kPlinth_m) / kWallSheet_m}};
+  AddQuad(mesh, wall.At(0, height, 0), wall.length * wall.along, Vector3f(0, 0, kPlinth_m - height),
+          uv, palette.wall);
+  AddQuad(mesh, wall.At(0, kPlinth_m, 0.04f), wall.length * wall.along, Vector3f(0, 0, -kPlinth_m),
+          {}, palette.plinth);
+  AddQuad(mesh, wall.At(0, kPlinth_m, 0), wall.length * wall.along, 0.04f * wall.inward, {},
+          palette.plinth);
+}
+
+/// Pipes, cable trays, cabinets, extinguishers: what every wall collects.
+void AddWallFittings(TriangleMesh* mesh, const Wall& wall, float height, const Palette& palette,
+                     Dice dice) {
+  const float tray = height * 0.62f;
+  AddBar(mesh, wall.At(0.1f, tray, 0.12f), wall.At(wall.length - 0.1f, tray, 0.12f), 0.12f,
+         palette.steel);
+  AddBar(mesh, wall.At(0.1f, tray + 0.5f, 0.07f), wall.At(wall.length - 0.1f, tray + 0.5f, 0.07f),
+         0.06f, palette.lamp_housing);
+  for (float at = 2; at < wall.length - 1; at += static_cast<float>(dice.Between(3, 6))) {
+    AddBar(mesh, wall.At(at, 0, 0.08f), wall.At(at, height, 0.08f), 0.16f, palette.steel);
+    const float beside = at + 0.7f;
+    if (dice.Chance(0.35)) {
+      const Vector3f size(0.25f, 0.8f, 1.1f);
+      AddBox(mesh, wall.Frame(beside, 1.2f, 0.13f), size,
+             BoxPaint::Tiled(palette.steel, size, 1.1f));
+    } else if (dice.Chance(0.5)) {
+      AddCylinder(mesh, wall.Frame(beside, 0.5f, 0.16f), 0.08f, 0.5f, 12, palette.drum, {}, {});
+    }
+    if (dice.Chance(0.6)) {
+      const Vector3f size(0.03f, 0.7f, 0.7f);
+      AddBox(mesh, wall.Frame(beside, 2.3f, 0.02f), size,
+             BoxPaint::Whole(palette.sign, SignFace(dice.Pick(kSignFaces))));
+    }
+  }
+}
+
+}  // namespace
+
+void AddWalls(const Scene& scene, const Palette& palette, std::uint64_t seed, Site* site) {
+  const HallSpec& hall = scene.hall;
+  const float height = static_cast<float>(hall.height_m);
+  const std::array<Wall, 4> walls = WallsOf(hall);
+  constexpr std::array<const char*, 4> kNames = {"wall_north", "wall_south", "wall_east",
+                                                 "wall_west"};
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    site->Add(kNames[i], ObjectClass::kWall,
+              [&](TriangleMesh* mesh) { AddWallFace(mesh, walls[i], height, palette); });
+    if (hall.walls == WallKind::kPlain) continue;  // plain means nothing to hold on to
+    site->Add(std::string(kNames[i]) + "_fittings", ObjectClass::kFurniture,
+              [&](TriangleMesh* mesh) {
+                AddWallFittings(mesh, walls[i], height, palette, Dice(seed, {210, i}));
+              });
+  }
+  site->Add("roof", ObjectClass::kWall, [&](TriangleMesh* mesh) {
+    const Vector2f low = hall.from.cast<float>(), size = (hall.to - hall.from).cast<float>();
+    AddQuad(mesh, {low.x(), low.y(), height}, {size.x(), 0, 0}, {0, size.y(), 0},
+            {{0, 0}, size / 4}, palette.roof);
+    for (float x = low.x() + 2.5f; x < low.x() + size.x(); x += 5) {  // trusses
+      const float bottom = height - 0.55f, top = height - 0.12f;
+      AddBar(mesh, {x, low.y(), bottom}, {x, low.y() + size.y(), bottom}, 0.14f, palette.steel);
+      AddBar(mesh, {x, low.y(), top}, {x, low.y() + size.y(), top}, 0.14f, palette.steel);
+      for (float y = low.y(); y + 0.8f < low.y() + size.y(); y += 1.6f) {
+        AddBar(mesh, {x, y, bottom}, {x, y + 0.8f, top}, 0.06f, palette.steel);
+        AddBar(mesh, {x, y + 0.8f, top}, {x, y + 1.6f, bottom}, 0.06f, palette.steel);
+      }
+    }
+  });
+}
+
+void AddDoors(const Scene& scene, const Palette& palette, Site* site) {
+  const std::array<Wall, 4> walls = WallsOf(scene.hall);
+  for (std::size_t i = 0; i < scene.doors.size(); ++i) {
+    const DoorSpec& door = scene.doors[i];
+    const Wall& wall = walls[static_cast<std::size_t>(door.wall)];
+    const bool along_x = door.wall == WallSide::kNorth || door.wall == WallSide::kSouth;
+    const float at = static_cast<float>(door.at_m);
+    const float middle = std::abs(at - (along_x ? wall.corner.x() : wall.corner.y()));
+    const float width = static_cast<float>(door.width_m),
+                height = static_cast<float>(door.height_m);
+    site->Add(fmt::format("door_{}", i), ObjectClass::kFurniture, [&](TriangleMesh* mesh) {
+      const Vector3f leaf(0.06f, width, height);
+      AddBox(mesh, wall.Frame(middle, height / 2, 0.07f), leaf, BoxPaint::Whole(palette.door));
+      const Vector3f post(0.24f, 0.2f, height + 0.2f);
+      for (const float side : {-1.0f, 1.0f}) {
+        AddBox(mesh, wall.Frame(middle + side * (width / 2 + 0.1f), post.z() / 2, 0.14f), post,
+               BoxPaint::Tiled(palette.stripes, post, 0.5f));
+      }
+      const Vector3f lintel(0.24f, width + 0.4f, 0.3f);
+      AddBox(mesh, wall.Frame(middle, height + 0.15f, 0.14f), lintel,
+             BoxPaint::Tiled(palette.steel, lintel, 1));
+      const Vector3f sign(0.03f, 0.6f, 0.6f);
+      AddBox(mesh, wall.Frame(middle + width / 2 + 0.7f, 2.0f, 0.05f), sign,
+             BoxPaint::Whole(palette.sign, SignFace(8 + static_cast<int>(i) % 8)));
+    });
+  }
+}
+
+}  // namespace aisle::sim
