@@ -1,10 +1,47 @@
 #pragma once
 
+#include <string>
+
+#include "slam/feature/feature_options.h"
+#include "slam/map/create_landmarks.h"
+#include "slam/map/cull.h"
+#include "slam/map/fuse.h"
+#include "slam/optimize/adjust_map.h"
+#include "slam/stereo/stereo_options.h"
+#include "slam/track/track_options.h"
+
 namespace aisle::slam {
+
+/// How a new keyframe is worked into the map.
+struct MappingOptions {
+  CreateLandmarksOptions create;
+  CullOptions cull;
+  FuseOptions fuse;
+  LocalAdjustmentOptions adjust;
+};
+
+/// When background work takes effect.
+struct ScheduleOptions {
+  /// Frames from a keyframe to the frame that first sees what mapping made of it. A slower mapper
+  /// makes that frame wait; a faster one never shows its result earlier. Hence the same bits.
+  int mapping_frames = 4;
+  bool background = true;  ///< false: mapping runs in the caller's thread, with the same result
+};
 
 /// Options of the whole system, composed of each stage's own.
 struct SlamOptions {
   int threads = 0;  ///< 0: as many as the machine has; never changes a result
+  FeatureOptions feature;
+  StereoOptions stereo;
+  TrackOptions track;
+  KeyframeOptions keyframe;
+  MappingOptions mapping;
+  ScheduleOptions schedule;
+  double keypoint_noise_px = 1.0;  ///< pixels of the level: deviation of a corner's position
+  int least_first_points = 60;     ///< stereo points of the frame that starts a map
 };
+
+/// The first broken rule with its value, or an empty string.
+std::string Validate(const SlamOptions& options);
 
 }  // namespace aisle::slam

@@ -1,0 +1,62 @@
+#include "slam/feature/corners.h"
+
+#include <algorithm>
+#include <opencv2/features2d.hpp>
+
+namespace aisle::slam {
+namespace {
+
+/// FAST reads a circle of radius 3 and needs one more pixel to suppress non-maxima.
+constexpr int kFastReach = 4;
+
+/// Corners inside `area` of the level, which lies at least kFastReach from the image's edge.
+void AppendCorners(const cv::Mat1b& level, const cv::Rect& area, int threshold,
+                   std::vector<Corner>& corners) {
+  const cv::Rect reach(area.x - kFastReach, area.y - kFastReach, area.width + 2 * kFastReach,
+                       area.height + 2 * kFastReach);
+  std::vector<cv::KeyPoint> found;
+  cv::FAST(level(reach), found, threshold, true);
+  for (const cv::KeyPoint& keypoint : found) {
+    const cv::Point pixel(static_cast<int>(keypoint.pt.x) + reach.x,
+                          static_cast<int>(keypoint.pt.y) + reach.y);
+    if (area.contains(pixel)) corners.push_back({pixel.x, pixel.y, keypoint.response});
+  }
+}
+
+}  // namespace
+
+std::vector<Corner> DetectCorners(const cv::Mat1b& level, const FeatureOptions& options) {
+  const int border = std::max(options.border_px, kFastReach);
+  const cv::Rect area(border, border, level.cols - 2 * border, level.rows - 2 * border);
+  std::vector<Corner> corners;
+  if (area.width <= 0 || area.height <= 0) return corners;
+  AppendCorners(level, area, options.fast_threshold, corners);
+
+  const int columns = std::max(1, area.width / options.cell_px);
+  const int rows = std::max(1, area.height / options.cell_px);
+  std::vector<char> occupied(static_cast<std::size_t>(columns * rows), 0);
+  const auto column_of = [&](int x) { return (x - area.x) * columns / area.width; };
+  const auto row_of = [&](int y) { return (y - area.y) * rows / area.height; };
+  for (const Corner& corner : corners) {
+    occupied[static_cast<std::size_t>(row_of(corner.y) * columns + column_of(corner.x))] = 1;
+  }
+  // The first pixel of a cell is the first that the division above gives to it.
+  const auto first = [](int cell, int cells, int extent) {
+    return (cell * extent + cells - 1) / cells;
+  };
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      if (occupied[static_cast<std::size_t>(row * columns + column)]) continue;
+      const int x = first(column, columns, area.width), y = first(row, rows, area.height);
+      const cv::Rect cell(area.x + x, area.y + y, first(column + 1, columns, area.width) - x,
+                          first(row + 1, rows, area.height) - y);
+      AppendCorners(level, cell, options.fast_threshold_low, corners);
+    }
+  }
+  std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
+    return std::tie(a.y, a.x) < std::tie(b.y, b.x);
+  });
+  return corners;
+}
+
+}  // namespace aisle::slam

@@ -1,0 +1,111 @@
+#include "slam/feature/extract.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+#include <opencv2/imgproc.hpp>
+
+#include "slam/feature/corners.h"
+#include "slam/feature/describe.h"
+#include "slam/feature/quadtree.h"
+
+namespace aisle::slam {
+namespace {
+
+/// Distance of every pixel to the nearest rejected one; empty where nothing is rejected.
+cv::Mat1f DistanceToMask(const cv::Mat1b& mask) {
+  cv::Mat1f distance;
+  if (mask.empty() || cv::countNonZero(mask) == 0) return distance;
+  cv::distanceTransform(mask == 0, distance, cv::DIST_L2, cv::DIST_MASK_3);
+  return distance;
+}
+
+void DropMasked(const Pyramid& pyramid, int level, const cv::Mat1f& distance_to_mask,
+                double margin_px, std::vector<Corner>& corners) {
+  if (distance_to_mask.empty()) return;
+  const double margin = margin_px * pyramid.scales[static_cast<std::size_t>(level)];
+  std::erase_if(corners, [&](const Corner& corner) {
+    const cv::Point pixel = pyramid.ToFull(cv::Point2d(corner.x, corner.y), level);
+    return distance_to_mask(pixel) <= margin;
+  });
+}
+
+void AppendLevel(const Pyramid& pyramid, int level, const std::vector<Corner>& corners,
+                 Features& features) {
+  const cv::Mat1b& image = pyramid.levels[static_cast<std::size_t>(level)];
+  std::vector<OrientedPixel> pixels;
+  for (const Corner& corner : corners) {
+    const cv::Point pixel(corner.x, corner.y);
+    pixels.push_back({pixel, OrientationDeg(image, pixel)});
+    features.keypoints.push_back(
+        {pyramid.ToFull(pixel, level), level, pixels.back().angle_deg, corner.response});
+  }
+  const std::vector<Descriptor> descriptors = DescribePixels(image, pixels);
+  features.descriptors.insert(features.descriptors.end(), descriptors.begin(), descriptors.end());
+}
+
+}  // namespace
+
+std::string Validate(const FeatureOptions& options) {
+  if (options.features < 1) return fmt::format("features = {}; at least 1", options.features);
+  if (options.levels < 1 || options.levels > 16) {
+    return fmt::format("levels = {}; 1 to 16", options.levels);
+  }
+  if (!(options.scale > 1.0)) return fmt::format("scale = {}; above 1", options.scale);
+  if (options.fast_threshold_low < 1 || options.fast_threshold < options.fast_threshold_low ||
+      options.fast_threshold > 254) {
+    return fmt::format("fast_threshold = {}, fast_threshold_low = {}; 1 <= low <= threshold <= 254",
+                       options.fast_threshold, options.fast_threshold_low);
+  }
+  if (options.cell_px < 8) return fmt::format("cell_px = {}; at least 8", options.cell_px);
+  if (options.border_px < 16) {
+    return fmt::format("border_px = {}; at least 16, the reach of orientation", options.border_px);
+  }
+  if (!(options.mask_margin_px >= 0)) {
+    return fmt::format("mask_margin_px = {}; not negative", options.mask_margin_px);
+  }
+  return {};
+}
+
+std::vector<int> ShareBudget(const std::vector<int>& available, int budget, double scale) {
+  std::vector<int> share(available.size(), 0);
+  int left = std::min(budget, std::accumulate(available.begin(), available.end(), 0));
+  while (left > 0) {
+    double weights = 0;
+    for (std::size_t l = 0; l < share.size(); ++l) {
+      if (share[l] < available[l]) weights += std::pow(scale, -static_cast<double>(l));
+    }
+    const int round = left;
+    for (std::size_t l = 0; l < share.size() && left > 0; ++l) {
+      if (share[l] == available[l]) continue;
+      const double part = round * std::pow(scale, -static_cast<double>(l)) / weights;
+      const int given =
+          std::min({available[l] - share[l], left, std::max(1, static_cast<int>(part))});
+      share[l] += given;
+      left -= given;
+    }
+  }
+  return share;
+}
+
+EyeFeatures ExtractFeatures(const cv::Mat1b& image, const cv::Mat1b& mask,
+                            const FeatureOptions& options) {
+  EyeFeatures eye{BuildPyramid(image, options), {}};
+  const cv::Mat1f distance_to_mask = DistanceToMask(mask);
+  std::vector<std::vector<Corner>> corners;
+  std::vector<int> available;
+  for (int level = 0; level < eye.pyramid.size(); ++level) {
+    corners.push_back(DetectCorners(eye.pyramid.levels[static_cast<std::size_t>(level)], options));
+    DropMasked(eye.pyramid, level, distance_to_mask, options.mask_margin_px, corners.back());
+    available.push_back(static_cast<int>(corners.back().size()));
+  }
+  const std::vector<int> share = ShareBudget(available, options.features, options.scale);
+  for (int level = 0; level < eye.pyramid.size(); ++level) {
+    const auto l = static_cast<std::size_t>(level);
+    AppendLevel(eye.pyramid, level, DistributeCorners(corners[l], share[l]), eye.features);
+  }
+  return eye;
+}
+
+}  // namespace aisle::slam

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+namespace aisle::slam {
+
+/// How features are found in one image.
+struct FeatureOptions {
+  int features = 1200;         ///< per image, over all levels; a budget, spent where corners are
+  int levels = 8;              ///< of the pyramid; fewer where an image is too small for them
+  double scale = 1.2;          ///< between levels
+  int fast_threshold = 20;     ///< grey levels; FAST-9 contrast asked for at first
+  int fast_threshold_low = 7;  ///< grey levels; asked for in cells where the first finds nothing
+  int cell_px = 30;            ///< side of those cells, pixels of the level
+  int border_px = 16;          ///< pixels of the level; no corner nearer to the image's edge
+  double mask_margin_px = 3;   ///< pixels of the level; no corner nearer to a masked pixel
+};
+
+/// The first broken rule with its value, or an empty string.
+std::string Validate(const FeatureOptions& options);
+
+}  // namespace aisle::slam

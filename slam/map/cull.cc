@@ -1,0 +1,87 @@
+#include "slam/map/cull.h"
+
+#include <algorithm>
+#include <set>
+
+namespace aisle::slam {
+namespace {
+
+/// Landmarks seen by the keyframe or by its neighbours: those whose fate it may have changed.
+std::set<LandmarkId> LandmarksAround(const Map& map, KeyframeId id) {
+  std::set<LandmarkId> landmarks;
+  const auto add = [&](KeyframeId keyframe) {
+    for (const LandmarkId landmark : map.At(keyframe).landmarks) {
+      if (landmark.valid()) landmarks.insert(landmark);
+    }
+  };
+  add(id);
+  for (const Covisible& neighbour : CovisibleKeyframes(map, id, 1)) add(neighbour.keyframe);
+  return landmarks;
+}
+
+/// Keyframes after `from`, `newest` included.
+std::ptrdiff_t KeyframesSince(const Map& map, KeyframeId from) {
+  return std::distance(map.keyframes().upper_bound(from), map.keyframes().end());
+}
+
+int LevelOf(const Map& map, const Observation& observation) {
+  return map.At(observation.keyframe)
+      .frame->features.keypoints[static_cast<std::size_t>(observation.feature)]
+      .level;
+}
+
+/// Whether enough other keyframes see the landmark at the same scale or a finer one.
+bool SeenElsewhere(const Map& map, const Landmark& landmark, const Observation& own,
+                   const std::set<KeyframeId>& going, int observers) {
+  const int level = LevelOf(map, own);
+  return std::count_if(landmark.observations.begin(), landmark.observations.end(),
+                       [&](const Observation& observation) {
+                         return observation.keyframe != own.keyframe &&
+                                !going.contains(observation.keyframe) &&
+                                LevelOf(map, observation) <= level + 1;
+                       }) >= observers;
+}
+
+bool IsRedundant(const Map& map, const Keyframe& keyframe, const std::set<KeyframeId>& going,
+                 const CullOptions& options) {
+  int landmarks = 0, elsewhere = 0;
+  for (std::size_t i = 0; i < keyframe.landmarks.size(); ++i) {
+    const Landmark* landmark = map.Find(keyframe.landmarks[i]);
+    if (!landmark || !keyframe.frame->measurements[i].has_depth()) continue;
+    ++landmarks;
+    elsewhere += SeenElsewhere(map, *landmark, {keyframe.id, static_cast<int>(i)}, going,
+                               options.redundant_observers);
+  }
+  return elsewhere > options.redundant_share * landmarks;
+}
+
+}  // namespace
+
+MapEdit CullLandmarks(const Map& map, KeyframeId newest, const CullOptions& options) {
+  MapEdit edit;
+  for (const LandmarkId id : LandmarksAround(map, newest)) {
+    const Landmark& landmark = map.At(id);
+    const bool rarely_found = landmark.found < options.least_found_ratio * landmark.predicted;
+    const auto age = KeyframesSince(map, landmark.created_by);
+    const bool unconfirmed = age >= options.probation_keyframes &&
+                             (landmark.observations.size() < 2 ||
+                              ObservationWeight(map, landmark) < options.least_weight);
+    if (rarely_found || unconfirmed) edit.removed_landmarks.push_back(id);
+  }
+  return edit;
+}
+
+MapEdit CullKeyframes(const Map& map, KeyframeId newest, const CullOptions& options) {
+  MapEdit edit;
+  std::set<KeyframeId> going;
+  const KeyframeId first = map.keyframes().begin()->first;
+  for (const Covisible& neighbour : CovisibleKeyframes(map, newest, 1)) {
+    const KeyframeId id = neighbour.keyframe;
+    if (id == first || KeyframesSince(map, id) < options.recent_keyframes) continue;
+    if (IsRedundant(map, map.At(id), going, options)) going.insert(id);
+  }
+  edit.removed_keyframes.assign(going.begin(), going.end());
+  return edit;
+}
+
+}  // namespace aisle::slam

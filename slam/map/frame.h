@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "slam/feature/feature_grid.h"
+#include "slam/feature/features.h"
+
+namespace aisle::slam {
+
+/// What a feature measures of a landmark: pixel and disparity, with their noise.
+struct Measurement {
+  Eigen::Vector3d uvd = Eigen::Vector3d::Zero();  ///< pixels of the full left image; d: disparity
+  double sigma_px = 1;                            ///< deviation of u and of v
+  double sigma_d = 0;                             ///< deviation of the disparity; 0: not measured
+
+  bool has_depth() const { return sigma_d > 0; }
+};
+
+/// One instant as the front end leaves it. Immutable once made, and shared: a keyframe keeps it.
+struct Frame {
+  std::int64_t id = 0;
+  std::int64_t stamp_ns = 0;
+  Features features;                      ///< of the left image
+  std::vector<Measurement> measurements;  ///< of features[i]
+  FeatureGrid grid;                       ///< over features
+  double scale = 1.2;                     ///< between pyramid levels
+
+  int size() const { return features.size(); }
+};
+
+}  // namespace aisle::slam

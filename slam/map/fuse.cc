@@ -1,0 +1,55 @@
+#include "slam/map/fuse.h"
+
+#include <algorithm>
+
+#include "slam/map/match_by_projection.h"
+
+namespace aisle::slam {
+namespace {
+
+bool SeenBy(const Landmark& landmark, KeyframeId keyframe) {
+  return std::any_of(
+      landmark.observations.begin(), landmark.observations.end(),
+      [&](const Observation& observation) { return observation.keyframe == keyframe; });
+}
+
+}  // namespace
+
+MapEdit FuseInto(const Map& map, KeyframeId in, const std::vector<LandmarkId>& candidates,
+                 const StereoCamera& camera, const FuseOptions& options) {
+  const Keyframe& keyframe = map.At(in);
+  const Eigen::Isometry3d T_rig_world = keyframe.T_world_rig.inverse();
+  std::vector<Expected> expected;
+  for (const LandmarkId id : candidates) {
+    const Landmark* landmark = map.Find(id);
+    if (!landmark || SeenBy(*landmark, in)) continue;
+    const auto one = Expect(*landmark, camera, T_rig_world, keyframe.frame->scale, options.levels);
+    if (one) expected.push_back(*one);
+  }
+  MapEdit edit;
+  // No ratio test: a rival feature here is as likely the same landmark at the next level.
+  for (const Match& match : MatchByProjection(
+           *keyframe.frame, expected, {}, {options.radius_px, options.descriptor_distance, 1.0})) {
+    const LandmarkId held = keyframe.landmarks[static_cast<std::size_t>(match.feature)];
+    if (!held.valid()) {
+      edit.links.push_back({match.landmark, {in, match.feature}});
+      continue;
+    }
+    const bool keep_held =
+        ObservationWeight(map, map.At(held)) >= ObservationWeight(map, map.At(match.landmark));
+    edit.merges.push_back(keep_held ? MapEdit::Merge{match.landmark, held}
+                                    : MapEdit::Merge{held, match.landmark});
+  }
+  return edit;
+}
+
+std::vector<KeyframeId> FuseNeighbours(const Map& map, KeyframeId id, const FuseOptions& options) {
+  std::vector<KeyframeId> neighbours;
+  for (const Covisible& covisible : CovisibleKeyframes(map, id, options.least_shared)) {
+    if (std::ssize(neighbours) == options.neighbours) break;
+    neighbours.push_back(covisible.keyframe);
+  }
+  return neighbours;
+}
+
+}  // namespace aisle::slam

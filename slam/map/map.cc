@@ -1,0 +1,244 @@
+#include "slam/map/map.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "slam/map/landmark_view.h"
+
+namespace aisle::slam {
+namespace {
+
+auto FindObservation(std::vector<Observation>& observations, KeyframeId keyframe) {
+  return std::lower_bound(
+      observations.begin(), observations.end(), keyframe,
+      [](const Observation& observation, KeyframeId id) { return observation.keyframe < id; });
+}
+
+/// Copy on write: what only this map holds is changed in place, the rest is copied first.
+template <typename Node>
+Node* Own(std::shared_ptr<const Node>& node) {
+  if (node.use_count() != 1) node = std::make_shared<Node>(*node);
+  return const_cast<Node*>(node.get());  // made non-const above or by an earlier Own
+}
+
+}  // namespace
+
+const Keyframe* Map::Find(KeyframeId id) const {
+  const auto found = keyframes_.find(id);
+  return found == keyframes_.end() ? nullptr : found->second.get();
+}
+
+const Landmark* Map::Find(LandmarkId id) const {
+  if (id.slot < 0 || id.slot >= std::ssize(landmarks_)) return nullptr;
+  const Landmark* landmark = landmarks_[static_cast<std::size_t>(id.slot)].get();
+  return landmark && landmark->id == id ? landmark : nullptr;
+}
+
+const Keyframe& Map::At(KeyframeId id) const {
+  const Keyframe* keyframe = Find(id);
+  if (!keyframe) throw std::logic_error(fmt::format("no keyframe {} in the map", id.value));
+  return *keyframe;
+}
+
+const Landmark& Map::At(LandmarkId id) const {
+  const Landmark* landmark = Find(id);
+  if (!landmark) throw std::logic_error(fmt::format("no landmark {} in the map", id.slot));
+  return *landmark;
+}
+
+std::vector<const Landmark*> Map::Landmarks() const {
+  std::vector<const Landmark*> landmarks;
+  landmarks.reserve(static_cast<std::size_t>(landmark_count_));
+  for (const auto& landmark : landmarks_) {
+    if (landmark) landmarks.push_back(landmark.get());
+  }
+  return landmarks;
+}
+
+Eigen::Isometry3d Map::PoseOf(KeyframeId id) const {
+  Eigen::Isometry3d T_heir_rig = Eigen::Isometry3d::Identity();
+  for (;;) {
+    if (const Keyframe* keyframe = Find(id)) return keyframe->T_world_rig * T_heir_rig;
+    const auto retired = retired_.find(id);
+    if (retired == retired_.end()) {
+      throw std::logic_error(fmt::format("keyframe {} was never in the map", id.value));
+    }
+    T_heir_rig = retired->second.T_heir_rig * T_heir_rig;
+    id = retired->second.heir;
+  }
+}
+
+Keyframe* Map::Change(KeyframeId id) {
+  const auto found = keyframes_.find(id);
+  return found == keyframes_.end() ? nullptr : Own(found->second);
+}
+
+Landmark* Map::Change(LandmarkId id) {
+  return Find(id) ? Own(landmarks_[static_cast<std::size_t>(id.slot)]) : nullptr;
+}
+
+void Map::Insert(const Keyframe& keyframe) {
+  if (keyframe.id.value < next_keyframe_) {
+    throw std::logic_error(
+        fmt::format("keyframe {} comes after {}", keyframe.id.value, next_keyframe_ - 1));
+  }
+  next_keyframe_ = keyframe.id.value + 1;
+  auto node = std::make_shared<Keyframe>(keyframe);
+  if (!Find(node->parent)) node->parent = {};
+  node->landmarks.assign(keyframe.landmarks.size(), LandmarkId{});
+  keyframes_.emplace(keyframe.id, std::move(node));
+  for (std::size_t i = 0; i < keyframe.landmarks.size(); ++i) {
+    if (keyframe.landmarks[i].valid()) {
+      LinkUp(keyframe.landmarks[i], {keyframe.id, static_cast<int>(i)});
+    }
+  }
+}
+
+void Map::Insert(Landmark landmark) {
+  if (vacant_.empty()) {
+    vacant_.push_back(static_cast<std::int32_t>(landmarks_.size()));
+    landmarks_.emplace_back();
+    generations_.push_back(0);
+  }
+  const std::int32_t slot = vacant_.back();
+  vacant_.pop_back();
+  landmark.id = {slot, generations_[static_cast<std::size_t>(slot)]++};
+  const std::vector<Observation> observations = std::exchange(landmark.observations, {});
+  const LandmarkId id = landmark.id;
+  landmarks_[static_cast<std::size_t>(slot)] = std::make_shared<Landmark>(std::move(landmark));
+  ++landmark_count_;
+  for (const Observation& observation : observations) LinkUp(id, observation);
+}
+
+void Map::LinkUp(LandmarkId id, const Observation& observation) {
+  const Landmark* seen = Find(id);
+  const Keyframe* by = Find(observation.keyframe);
+  if (!seen || !by || by->landmarks.at(static_cast<std::size_t>(observation.feature)).valid()) {
+    return;
+  }
+  Landmark* landmark = Change(id);
+  const auto place = FindObservation(landmark->observations, observation.keyframe);
+  if (place != landmark->observations.end() && place->keyframe == observation.keyframe) return;
+  landmark->observations.insert(place, observation);
+  Change(observation.keyframe)->landmarks[static_cast<std::size_t>(observation.feature)] = id;
+}
+
+void Map::Cut(LandmarkId id, const Observation& observation) {
+  Landmark* landmark = Change(id);
+  if (!landmark) return;
+  const auto place = FindObservation(landmark->observations, observation.keyframe);
+  if (place == landmark->observations.end() || *place != observation) return;
+  landmark->observations.erase(place);
+  Change(observation.keyframe)->landmarks[static_cast<std::size_t>(observation.feature)] = {};
+}
+
+void Map::MergeInto(LandmarkId gone, LandmarkId kept) {
+  const Landmark* from = Find(gone);
+  if (gone == kept || !from || !Find(kept)) return;
+  const Landmark copy = *from;
+  Remove(gone);
+  for (const Observation& observation : copy.observations) LinkUp(kept, observation);
+  Landmark* into = Change(kept);
+  into->predicted += copy.predicted;
+  into->found += copy.found;
+}
+
+void Map::Remove(LandmarkId id) {
+  const Landmark* landmark = Find(id);
+  if (!landmark) return;
+  for (const Observation& observation : landmark->observations) {
+    Change(observation.keyframe)->landmarks[static_cast<std::size_t>(observation.feature)] = {};
+  }
+  landmarks_[static_cast<std::size_t>(id.slot)].reset();
+  vacant_.push_back(id.slot);
+  --landmark_count_;
+}
+
+void Map::Remove(KeyframeId id) {
+  const Keyframe* keyframe = Find(id);
+  if (!keyframe) return;
+  for (std::size_t i = 0; i < keyframe->landmarks.size(); ++i) {
+    const LandmarkId landmark = keyframe->landmarks[i];
+    if (landmark.valid()) Cut(landmark, {id, static_cast<int>(i)}), keyframe = Find(id);
+  }
+  const KeyframeId heir = keyframe->parent;
+  if (const Keyframe* parent = Find(heir)) {
+    retired_[id] = {heir, parent->T_world_rig.inverse() * keyframe->T_world_rig};
+  }
+  for (auto& [other, node] : keyframes_) {
+    if (node->parent == id) Own(node)->parent = heir;
+  }
+  keyframes_.erase(id);
+}
+
+void Map::Apply(const MapEdit& edit) {
+  std::vector<LandmarkId> touched;
+  for (const Keyframe& keyframe : edit.new_keyframes) {
+    Insert(keyframe);
+    touched.insert(touched.end(), keyframe.landmarks.begin(), keyframe.landmarks.end());
+  }
+  for (const Landmark& landmark : edit.new_landmarks) {
+    const std::int32_t slot =
+        vacant_.empty() ? static_cast<std::int32_t>(landmarks_.size()) : vacant_.back();
+    Insert(landmark);
+    touched.push_back(landmarks_[static_cast<std::size_t>(slot)]->id);
+  }
+  for (const auto& [id, T_world_rig] : edit.poses) {
+    if (Keyframe* keyframe = Change(id)) keyframe->T_world_rig = T_world_rig;
+  }
+  for (const auto& [id, position] : edit.positions) {
+    if (Landmark* landmark = Change(id)) landmark->position = position;
+    touched.push_back(id);
+  }
+  for (const auto& [id, observation] : edit.links) LinkUp(id, observation), touched.push_back(id);
+  for (const auto& [gone, kept] : edit.merges) MergeInto(gone, kept), touched.push_back(kept);
+  for (const auto& [id, observation] : edit.cuts) Cut(id, observation), touched.push_back(id);
+  for (const auto& [id, predicted, found] : edit.counts) {
+    if (Landmark* landmark = Change(id)) landmark->predicted += predicted, landmark->found += found;
+  }
+  for (const LandmarkId id : edit.removed_landmarks) Remove(id);
+  for (const KeyframeId id : edit.removed_keyframes) {
+    if (const Keyframe* keyframe = Find(id)) {
+      touched.insert(touched.end(), keyframe->landmarks.begin(), keyframe->landmarks.end());
+    }
+    Remove(id);
+  }
+
+  // What follows from the observations is brought up to date here, and nowhere else.
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  for (const LandmarkId id : touched) {
+    const Landmark* landmark = Find(id);
+    if (!landmark) continue;
+    landmark->observations.empty() ? Remove(id) : RefreshView(*this, *Change(id));
+  }
+}
+
+std::vector<Covisible> CovisibleKeyframes(const Map& map, KeyframeId id, int least_shared) {
+  std::map<KeyframeId, int> shared;
+  for (const LandmarkId landmark_id : map.At(id).landmarks) {
+    const Landmark* landmark = map.Find(landmark_id);
+    if (!landmark) continue;
+    for (const Observation& observation : landmark->observations) ++shared[observation.keyframe];
+  }
+  shared.erase(id);
+  std::vector<Covisible> covisible;
+  for (const auto& [keyframe, count] : shared) {
+    if (count >= least_shared) covisible.push_back({keyframe, count});
+  }
+  std::stable_sort(covisible.begin(), covisible.end(),
+                   [](const Covisible& a, const Covisible& b) { return a.shared > b.shared; });
+  return covisible;
+}
+
+int ObservationWeight(const Map& map, const Landmark& landmark) {
+  int weight = 0;
+  for (const Observation& observation : landmark.observations) {
+    const Frame& frame = *map.At(observation.keyframe).frame;
+    const auto feature = static_cast<std::size_t>(observation.feature);
+    weight += frame.measurements[feature].has_depth() ? 2 : 1;
+  }
+  return weight;
+}
+
+}  // namespace aisle::slam

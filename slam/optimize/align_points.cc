@@ -1,0 +1,86 @@
+#include "slam/optimize/align_points.h"
+
+#include <Eigen/SVD>
+#include <array>
+#include <cmath>
+
+namespace aisle::slam {
+namespace {
+
+/// A random number that depends on nothing but its arguments (splitmix64's finaliser).
+std::uint64_t Hash(std::uint64_t seed, std::uint64_t counter) {
+  std::uint64_t x = seed * 0x9e3779b97f4a7c15ULL + counter + 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31);
+}
+
+/// The rigid motion that carries `from` onto `to` (columns) in the least-squares sense (Horn 1987;
+/// solved by SVD).
+Eigen::Isometry3d RigidMotion(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
+  const Eigen::Vector3d from_mean = from.rowwise().mean(), to_mean = to.rowwise().mean();
+  const Eigen::Matrix3d correlation =
+      (to.colwise() - to_mean) * (from.colwise() - from_mean).transpose();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double handedness = (svd.matrixU() * svd.matrixV().transpose()).determinant();
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.linear() = svd.matrixU() * Eigen::Vector3d(1, 1, handedness < 0 ? -1 : 1).asDiagonal() *
+                    svd.matrixV().transpose();
+  motion.translation() = to_mean - motion.linear() * from_mean;
+  return motion;
+}
+
+/// Three different indices below `count`.
+std::array<std::size_t, 3> DrawThree(std::size_t count, std::uint64_t seed, int hypothesis) {
+  std::array<std::size_t, 3> drawn{};
+  std::uint64_t counter = static_cast<std::uint64_t>(hypothesis) * 64;
+  for (std::size_t i = 0; i < 3; ++i) {
+    do {
+      drawn[i] = Hash(seed, counter++) % count;
+    } while ((i > 0 && drawn[i] == drawn[0]) || (i > 1 && drawn[i] == drawn[1]));
+  }
+  return drawn;
+}
+
+}  // namespace
+
+std::optional<RefinedPose> AlignPoints(const StereoCamera& camera,
+                                       const std::vector<PointSight>& sights,
+                                       const AlignPointsOptions& options) {
+  std::vector<const PointSight*> deep;  // with depth
+  for (const PointSight& sight : sights) {
+    if (sight.measurement.has_depth() && sight.measurement.uvd.z() > 0) deep.push_back(&sight);
+  }
+  if (deep.size() < 3 || std::ssize(sights) < options.least_inliers) return std::nullopt;
+
+  int most = 0, needed = options.hypotheses;
+  Eigen::Isometry3d best = Eigen::Isometry3d::Identity();
+  for (int hypothesis = 0; hypothesis < needed; ++hypothesis) {
+    Eigen::Matrix3d world, rig;
+    const std::array<std::size_t, 3> drawn = DrawThree(deep.size(), options.seed, hypothesis);
+    for (int i = 0; i < 3; ++i) {
+      const PointSight& sight = *deep[drawn[static_cast<std::size_t>(i)]];
+      world.col(i) = sight.point;
+      rig.col(i) = Backproject(camera, sight.measurement.uvd);
+    }
+    const Eigen::Isometry3d T_rig_world = RigidMotion(world, rig);
+    int support = 0;
+    for (const PointSight& sight : sights) {
+      support +=
+          Chi2(camera, T_rig_world, sight) <= options.chi2_slack * Chi2Bound(sight.measurement);
+    }
+    if (support <= most) continue;
+    most = support;
+    best = T_rig_world;
+    const double all_good = std::pow(most / static_cast<double>(sights.size()), 3);
+    const double draws = std::log(1 - options.confidence) / std::log1p(-std::min(all_good, 0.9999));
+    needed = std::min(options.hypotheses, hypothesis + 1 + static_cast<int>(std::ceil(draws)));
+  }
+  if (most < 3) return std::nullopt;
+  const RefinedPose refined = RefinePose(camera, best, sights, {});
+  if (refined.inliers < options.least_inliers || !refined.well_posed) return std::nullopt;
+  return refined;
+}
+
+}  // namespace aisle::slam

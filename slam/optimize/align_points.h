@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+
+#include "slam/optimize/refine_pose.h"
+
+namespace aisle::slam {
+
+struct AlignPointsOptions {
+  int hypotheses = 300;  ///< at most; fewer once a good one is as likely as `confidence`
+  double confidence = 0.999;
+  double chi2_slack = 4;   ///< a hypothesis' inliers may exceed their chi-square bound by this
+  int least_inliers = 15;  ///< after refinement; fewer: no pose
+  std::uint64_t seed = 1;  ///< of the samples drawn
+};
+
+/// The pose from point correspondences of which many may be wrong, without a first guess:
+/// three stereo points and their landmarks make a hypothesis (Horn's closed form on the two
+/// triangles), the one that most sights support is refined. Defined for any motion, none included.
+/// The same sights and seed give the same pose.
+std::optional<RefinedPose> AlignPoints(const StereoCamera& camera,
+                                       const std::vector<PointSight>& sights,
+                                       const AlignPointsOptions& options);
+
+}  // namespace aisle::slam

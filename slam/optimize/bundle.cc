@@ -1,0 +1,90 @@
+#include "slam/optimize/bundle.h"
+
+#include <ceres/ceres.h>
+
+#include <limits>
+
+#include "slam/optimize/refine_pose.h"
+#include "slam/optimize/residuals.h"
+
+namespace aisle::slam {
+namespace {
+
+ceres::Solver::Options SolverOptions(const BundleOptions& options) {
+  ceres::Solver::Options solver;
+  solver.linear_solver_type = ceres::DENSE_SCHUR;
+  solver.max_num_iterations = options.iterations;
+  solver.function_tolerance = options.relative_tolerance;
+  solver.num_threads = 1;  // two threads sum in either order
+  solver.logging_type = ceres::SILENT;
+  return solver;
+}
+
+}  // namespace
+
+BundleProblem::Sight MakeSight(int pose, int point, const Measurement& measurement) {
+  BundleProblem::Sight sight{pose, point, measurement.uvd, Eigen::Matrix3d::Zero(),
+                             Chi2Bound(measurement)};
+  sight.sqrt_information.diagonal() << 1 / measurement.sigma_px, 1 / measurement.sigma_px,
+      measurement.has_depth() ? 1 / measurement.sigma_d : 0.0;
+  return sight;
+}
+
+double Chi2(const BundleProblem& problem, const BundleProblem::Sight& sight) {
+  const Eigen::Vector3d point = problem.poses[static_cast<std::size_t>(sight.pose)].T_rig_world *
+                                problem.points[static_cast<std::size_t>(sight.point)];
+  if (point.z() <= 0) return std::numeric_limits<double>::infinity();
+  return (sight.sqrt_information * (sight.uvd - Project(problem.camera, point))).squaredNorm();
+}
+
+BundleSummary Solve(BundleProblem& problem, const std::vector<bool>& active,
+                    const BundleOptions& options) {
+  std::vector<PoseBlock> poses;
+  for (const BundleProblem::Pose& pose : problem.poses) poses.push_back(ToBlock(pose.T_rig_world));
+  std::vector<Eigen::Vector3d> points = problem.points;
+
+  ceres::Problem::Options ownership;
+  ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ownership.disable_all_safety_checks = true;
+  PoseManifold manifold;
+  ceres::Problem ceres_problem(ownership);
+  auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+  std::vector<bool> pose_used(poses.size(), false), point_used(points.size(), false);
+  for (std::size_t i = 0; i < problem.sights.size(); ++i) {
+    const BundleProblem::Sight& sight = problem.sights[i];
+    if (!active.empty() && !active[i]) continue;
+    const auto pose = static_cast<std::size_t>(sight.pose);
+    const auto point = static_cast<std::size_t>(sight.point);
+    ceres::LossFunction* loss =
+        options.robust ? new ceres::HuberLoss(std::sqrt(sight.chi2_bound)) : nullptr;
+    ceres_problem.AddResidualBlock(
+        new SightResidual(problem.camera, sight.uvd, sight.sqrt_information), loss,
+        poses[pose].data(), points[point].data());
+    pose_used[pose] = point_used[point] = true;
+  }
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (!pose_used[i]) continue;
+    ceres_problem.SetManifold(poses[i].data(), &manifold);
+    if (problem.poses[i].fixed) ceres_problem.SetParameterBlockConstant(poses[i].data());
+    ordering->AddElementToGroup(poses[i].data(), 1);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (point_used[i]) ordering->AddElementToGroup(points[i].data(), 0);
+  }
+  if (ceres_problem.NumResidualBlocks() == 0) return {0, 0, 0, true, "nothing to adjust"};
+
+  ceres::Solver::Options solver = SolverOptions(options);
+  solver.linear_solver_ordering = ordering;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &ceres_problem, &summary);
+  if (summary.IsSolutionUsable()) {
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      if (!problem.poses[i].fixed) problem.poses[i].T_rig_world = FromBlock(poses[i].data());
+    }
+    problem.points = std::move(points);
+  }
+  return {summary.initial_cost, summary.final_cost, static_cast<int>(summary.iterations.size()),
+          summary.IsSolutionUsable(), summary.message};
+}
+
+}  // namespace aisle::slam

@@ -1,0 +1,139 @@
+#include "slam/optimize/refine_pose.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+
+namespace aisle::slam {
+namespace {
+
+constexpr double kNearestDepth = 0.05;  // metres; nearer points are not linearised
+
+/// Error over deviation: rows u, v, and disparity (zero where not measured).
+Eigen::Vector3d Whitened(const Measurement& measurement, const Eigen::Vector3d& predicted) {
+  const Eigen::Vector3d error = measurement.uvd - predicted;
+  return {error.x() / measurement.sigma_px, error.y() / measurement.sigma_px,
+          measurement.has_depth() ? error.z() / measurement.sigma_d : 0.0};
+}
+
+/// Sum of weighted squares around one pose, to second order.
+struct Normal {
+  Matrix6d H = Matrix6d::Zero();
+  Vector6d b = Vector6d::Zero();
+  double cost = 0;
+};
+
+/// Huber's cost of a squared error and the weight that stands for it in least squares.
+struct Robust {
+  double cost, weight;
+};
+Robust Huber(double chi2, double bound) {
+  if (chi2 <= bound) return {chi2, 1.0};
+  const double root = std::sqrt(chi2 * bound);
+  return {2 * root - bound, root / chi2};
+}
+
+class PoseProblem {
+ public:
+  PoseProblem(const StereoCamera& camera, const std::vector<PointSight>& sights)
+      : camera_(camera), sights_(sights) {}
+
+  double Cost(const Eigen::Isometry3d& pose, const std::vector<bool>& active, bool robust) const {
+    double cost = 0;
+    for (std::size_t i = 0; i < sights_.size(); ++i) {
+      if (!active[i]) continue;
+      const double chi2 = Chi2(camera_, pose, sights_[i]);
+      // A point that has slipped behind the camera costs its bound: no pose gains by hiding it.
+      const double bound = Chi2Bound(sights_[i].measurement);
+      cost += std::isinf(chi2) ? bound : robust ? Huber(chi2, bound).cost : chi2;
+    }
+    return cost;
+  }
+
+  Normal Linearize(const Eigen::Isometry3d& pose, const std::vector<bool>& active,
+                   bool robust) const {
+    Normal normal;
+    for (std::size_t i = 0; i < sights_.size(); ++i) {
+      const Measurement& measurement = sights_[i].measurement;
+      const Eigen::Vector3d point = pose * sights_[i].point;
+      if (!active[i] || point.z() < kNearestDepth) continue;
+      const Eigen::Vector3d error = Whitened(measurement, Project(camera_, point));
+      Eigen::Matrix3d by_point = -ProjectionJacobian(camera_, point);
+      by_point.topRows<2>() /= measurement.sigma_px;
+      by_point.row(2) *= measurement.has_depth() ? 1.0 / measurement.sigma_d : 0.0;
+      Eigen::Matrix<double, 3, 6> jacobian;
+      jacobian << by_point, -by_point * Skew(point);
+      const double weight =
+          robust ? Huber(error.squaredNorm(), Chi2Bound(measurement)).weight : 1.0;
+      normal.H.noalias() += weight * jacobian.transpose() * jacobian;
+      normal.b.noalias() -= weight * jacobian.transpose() * error;
+    }
+    normal.cost = Cost(pose, active, robust);
+    return normal;
+  }
+
+ private:
+  const StereoCamera& camera_;
+  const std::vector<PointSight>& sights_;
+};
+
+Eigen::Isometry3d Minimize(const PoseProblem& problem, Eigen::Isometry3d pose,
+                           const std::vector<bool>& active, bool robust, int iterations) {
+  double damping = 1e-4;
+  for (int i = 0; i < iterations; ++i) {
+    const Normal normal = problem.Linearize(pose, active, robust);
+    bool improved = false;
+    for (int attempt = 0; attempt < 5 && !improved; ++attempt) {
+      Matrix6d damped = normal.H;
+      damped.diagonal() *= 1.0 + damping;
+      damped.diagonal().array() += 1e-9;
+      const Vector6d step = damped.ldlt().solve(normal.b);
+      const Eigen::Isometry3d moved = Retract(pose, step);
+      const double cost = problem.Cost(moved, active, robust);
+      improved = step.allFinite() && cost < normal.cost;
+      damping = improved ? damping * 0.2 : damping * 10;
+      if (!improved) continue;
+      pose = moved;
+      if (normal.cost - cost < 1e-7 * normal.cost) return pose;
+    }
+    if (!improved) return pose;
+  }
+  return pose;
+}
+
+}  // namespace
+
+double Chi2(const StereoCamera& camera, const Eigen::Isometry3d& T_rig_world,
+            const PointSight& sight) {
+  const Eigen::Vector3d point = T_rig_world * sight.point;
+  if (point.z() < kNearestDepth) return std::numeric_limits<double>::infinity();
+  return Whitened(sight.measurement, Project(camera, point)).squaredNorm();
+}
+
+RefinedPose RefinePose(const StereoCamera& camera, const Eigen::Isometry3d& T_rig_world,
+                       const std::vector<PointSight>& sights, const RefinePoseOptions& options) {
+  const PoseProblem problem(camera, sights);
+  RefinedPose refined;
+  refined.T_rig_world = T_rig_world;
+  refined.inlier.assign(sights.size(), true);
+  for (int round = 0; round < options.rounds; ++round) {
+    const bool robust = round + 1 < options.rounds;
+    refined.T_rig_world =
+        Minimize(problem, refined.T_rig_world, refined.inlier, robust, options.iterations);
+    refined.inliers = 0;
+    for (std::size_t i = 0; i < sights.size(); ++i) {
+      refined.inlier[i] =
+          Chi2(camera, refined.T_rig_world, sights[i]) <= Chi2Bound(sights[i].measurement);
+      refined.inliers += refined.inlier[i];
+    }
+    if (refined.inliers < 3) return refined;
+  }
+  const Matrix6d information = problem.Linearize(refined.T_rig_world, refined.inlier, false).H;
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(information, Eigen::EigenvaluesOnly);
+  refined.well_posed = eigen.eigenvalues()(0) > 1e-9 * eigen.eigenvalues()(5);
+  if (refined.well_posed) refined.covariance = information.inverse();
+  return refined;
+}
+
+}  // namespace aisle::slam

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "slam/camera/se3.h"
+#include "slam/camera/stereo_camera.h"
+#include "slam/map/frame.h"
+
+namespace aisle::slam {
+
+/// 95 % bounds of chi-square with two and three degrees of freedom: a measurement without and with
+/// depth beyond its bound is an outlier.
+inline constexpr double kChi2Pixel = 5.991;
+inline constexpr double kChi2Stereo = 7.815;
+
+inline double Chi2Bound(const Measurement& measurement) {
+  return measurement.has_depth() ? kChi2Stereo : kChi2Pixel;
+}
+
+/// A known point and where it is seen.
+struct PointSight {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< metres, world
+  Measurement measurement;
+};
+
+/// Squared error in units of its variance; infinite behind the camera.
+double Chi2(const StereoCamera& camera, const Eigen::Isometry3d& T_rig_world,
+            const PointSight& sight);
+
+struct RefinePoseOptions {
+  int rounds = 4;       ///< outliers are told apart anew after each; the last is not robustified
+  int iterations = 10;  ///< Levenberg-Marquardt steps a round
+};
+
+/// A pose and how it came about.
+struct RefinedPose {
+  Eigen::Isometry3d T_rig_world = Eigen::Isometry3d::Identity();
+  std::vector<bool> inlier;  ///< per sight
+  int inliers = 0;
+  bool well_posed = false;  ///< whether the inliers fix all six degrees of freedom
+  /// Of a small motion of the rig frame (translation metres, rotation radians; see Retract).
+  Matrix6d covariance = Matrix6d::Zero();
+};
+
+/// The pose that minimises the reprojection error of known points, robust against outliers
+/// (Huber weights at first, then hard chi-square gates that every sight may pass again).
+RefinedPose RefinePose(const StereoCamera& camera, const Eigen::Isometry3d& T_rig_world,
+                       const std::vector<PointSight>& sights, const RefinePoseOptions& options);
+
+}  // namespace aisle::slam

@@ -1,0 +1,74 @@
+#include "slam/optimize/residuals.h"
+
+#include "slam/camera/se3.h"
+
+namespace aisle::slam {
+
+PoseBlock ToBlock(const Eigen::Isometry3d& T_rig_world) {
+  const Eigen::Quaterniond rotation = Eigen::Quaterniond(T_rig_world.linear()).normalized();
+  const Eigen::Vector3d translation = T_rig_world.translation();
+  return {rotation.x(),    rotation.y(),    rotation.z(),   rotation.w(),
+          translation.x(), translation.y(), translation.z()};
+}
+
+Eigen::Isometry3d FromBlock(const double* block) {
+  Eigen::Isometry3d T_rig_world = Eigen::Isometry3d::Identity();
+  T_rig_world.linear() =
+      Eigen::Map<const Eigen::Quaterniond>(block).normalized().toRotationMatrix();
+  T_rig_world.translation() = Eigen::Map<const Eigen::Vector3d>(block + 4);
+  return T_rig_world;
+}
+
+bool PoseManifold::Plus(const double* x, const double* delta, double* x_plus_delta) const {
+  const Eigen::Map<const Vector6d> motion(delta);
+  const Eigen::Quaterniond turn = ExpRotation(motion.tail<3>());
+  const Eigen::Map<const Eigen::Quaterniond> rotation(x);
+  const Eigen::Map<const Eigen::Vector3d> translation(x + 4);
+  Eigen::Map<Eigen::Quaterniond>{x_plus_delta} = (turn * rotation).normalized();
+  Eigen::Map<Eigen::Vector3d>(x_plus_delta + 4) = turn * translation + motion.head<3>();
+  return true;
+}
+
+bool PoseManifold::PlusJacobian(const double*, double* jacobian) const {
+  Eigen::Map<Eigen::Matrix<double, 7, 6, Eigen::RowMajor>> matrix(jacobian);
+  matrix.setZero();
+  matrix.topRows<6>().setIdentity();
+  return true;
+}
+
+bool PoseManifold::Minus(const double* y, const double* x, double* y_minus_x) const {
+  Eigen::Map<Vector6d>{y_minus_x} = Difference(FromBlock(x), FromBlock(y));
+  return true;
+}
+
+bool PoseManifold::MinusJacobian(const double*, double* jacobian) const {
+  Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> matrix(jacobian);
+  matrix.setZero();
+  matrix.leftCols<6>().setIdentity();
+  return true;
+}
+
+bool SightResidual::Evaluate(double const* const* parameters, double* residuals,
+                             double** jacobians) const {
+  const Eigen::Quaterniond rotation(parameters[0]);
+  const Eigen::Map<const Eigen::Vector3d> translation(parameters[0] + 4);
+  const Eigen::Map<const Eigen::Vector3d> point(parameters[1]);
+  const Eigen::Matrix3d R = rotation.toRotationMatrix();
+  const Eigen::Vector3d in_rig = R * point + translation;
+  constexpr double kNearest = 1e-3;  // metres
+  if (in_rig.z() < kNearest) return false;
+  Eigen::Map<Eigen::Vector3d>{residuals} = sqrt_information_ * (uvd_ - Project(camera_, in_rig));
+  if (!jacobians) return true;
+
+  const Eigen::Matrix3d by_point_in_rig = -sqrt_information_ * ProjectionJacobian(camera_, in_rig);
+  if (jacobians[0]) {
+    Eigen::Map<Eigen::Matrix<double, 3, 7, Eigen::RowMajor>> by_pose(jacobians[0]);
+    by_pose << by_point_in_rig, -by_point_in_rig * Skew(in_rig), Eigen::Vector3d::Zero();
+  }
+  if (jacobians[1]) {
+    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>{jacobians[1]} = by_point_in_rig * R;
+  }
+  return true;
+}
+
+}  // namespace aisle::slam

@@ -1,0 +1,127 @@
+#include "slam/stereo/match_stereo.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/stereo/patch_alignment.h"
+
+namespace aisle::slam {
+namespace {
+
+/// Right features by the image rows they could be matched from; indices rise within a row.
+class RowTable {
+ public:
+  RowTable(const EyeFeatures& eye, double band_px) : rows_(static_cast<std::size_t>(Height(eye))) {
+    for (int i = 0; i < eye.features.size(); ++i) {
+      const Keypoint& keypoint = eye.features.keypoints[static_cast<std::size_t>(i)];
+      const double band = band_px * eye.pyramid.scales[static_cast<std::size_t>(keypoint.level)];
+      const int first = std::max(0, static_cast<int>(std::floor(keypoint.pixel.y - band)));
+      const int last =
+          std::min(Height(eye) - 1, static_cast<int>(std::ceil(keypoint.pixel.y + band)));
+      for (int y = first; y <= last; ++y) rows_[static_cast<std::size_t>(y)].push_back(i);
+    }
+  }
+
+  const std::vector<int>& At(float y) const {
+    const auto row = std::clamp<std::ptrdiff_t>(std::lround(y), 0, std::ssize(rows_) - 1);
+    return rows_[static_cast<std::size_t>(row)];
+  }
+
+ private:
+  static int Height(const EyeFeatures& eye) {
+    return eye.pyramid.levels.empty() ? 1 : eye.pyramid.levels.front().rows;
+  }
+  std::vector<std::vector<int>> rows_;
+};
+
+/// The right feature most like left feature i within reach, or -1.
+int BestRightFeature(const EyeFeatures& left, std::size_t i, const EyeFeatures& right,
+                     const RowTable& rows, double largest_disparity, const StereoOptions& options) {
+  const Keypoint& keypoint = left.features.keypoints[i];
+  int best = -1, least = options.descriptor_distance;
+  for (const int candidate : rows.At(keypoint.pixel.y)) {
+    const auto c = static_cast<std::size_t>(candidate);
+    const Keypoint& other = right.features.keypoints[c];
+    const double disparity = keypoint.pixel.x - other.pixel.x;
+    // A far point's disparity may come out slightly negative before alignment.
+    if (disparity < -1 || disparity > largest_disparity) continue;
+    if (std::abs(other.level - keypoint.level) > 1) continue;
+    const int distance =
+        HammingDistance(left.features.descriptors[i], right.features.descriptors[c]);
+    if (distance < least) least = distance, best = candidate;
+  }
+  return best;
+}
+
+struct Candidate {
+  Disparity disparity;
+  double mismatch = 0;
+};
+
+/// Features further apart than a patch's noise allows are wrong however close their descriptors.
+void DropMismatched(std::vector<Candidate>& candidates, double worst_to_median) {
+  std::vector<double> mismatches;
+  for (const Candidate& candidate : candidates) {
+    if (candidate.disparity.known()) mismatches.push_back(candidate.mismatch);
+  }
+  if (mismatches.empty()) return;
+  const auto middle = mismatches.begin() + std::ssize(mismatches) / 2;
+  std::nth_element(mismatches.begin(), middle, mismatches.end());
+  const double worst = worst_to_median * *middle;
+  for (Candidate& candidate : candidates) {
+    if (candidate.mismatch > worst) candidate.disparity = {};
+  }
+}
+
+}  // namespace
+
+std::string Validate(const StereoOptions& options) {
+  if (options.descriptor_distance < 1 || options.descriptor_distance > 256) {
+    return fmt::format("descriptor_distance = {}; 1 to 256 bits", options.descriptor_distance);
+  }
+  if (options.patch_radius_px < 1 || options.patch_radius_px > 10) {
+    return fmt::format("patch_radius_px = {}; 1 to 10", options.patch_radius_px);
+  }
+  if (options.search_px < 1) return fmt::format("search_px = {}; at least 1", options.search_px);
+  if (!(options.worst_to_median > 1)) {
+    return fmt::format("worst_to_median = {}; above 1", options.worst_to_median);
+  }
+  if (!(options.disparity_noise_px > 0) || !(options.image_noise > 0)) {
+    return fmt::format("disparity_noise_px = {}, image_noise = {}; both positive",
+                       options.disparity_noise_px, options.image_noise);
+  }
+  return {};
+}
+
+std::vector<Disparity> MatchStereo(const EyeFeatures& left, const EyeFeatures& right,
+                                   const StereoCamera& camera, const StereoOptions& options) {
+  const double nearest = options.nearest_m > 0 ? options.nearest_m : camera.baseline_m;
+  const double largest_disparity = camera.fx * camera.baseline_m / nearest;
+  const RowTable rows(right, options.row_band_px);
+  std::vector<Candidate> candidates(left.features.keypoints.size());
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const int match = BestRightFeature(left, i, right, rows, largest_disparity, options);
+    if (match < 0) continue;
+    const Keypoint& keypoint = left.features.keypoints[i];
+    const cv::Point2f right_pixel = right.features.keypoints[static_cast<std::size_t>(match)].pixel;
+    const auto level = static_cast<std::size_t>(keypoint.level);
+    const auto aligned = AlignAlongRow(
+        left.pyramid.levels[level], left.pyramid.ToLevel(keypoint.pixel, keypoint.level),
+        right.pyramid.levels[level], right.pyramid.ToLevel(right_pixel, keypoint.level).x, options);
+    if (!aligned) continue;
+    const double right_x = right.pyramid.ToFull({aligned->column, 0}, keypoint.level).x;
+    const double disparity = keypoint.pixel.x - right_x;
+    if (disparity <= 0) continue;  // at infinity: a direction, no depth
+    const double sigma =
+        left.pyramid.scales[level] * std::hypot(aligned->sigma, options.disparity_noise_px);
+    candidates[i] = {{static_cast<float>(disparity), static_cast<float>(sigma)}, aligned->mismatch};
+  }
+  DropMismatched(candidates, options.worst_to_median);
+  std::vector<Disparity> disparities;
+  for (const Candidate& candidate : candidates) disparities.push_back(candidate.disparity);
+  return disparities;
+}
+
+}  // namespace aisle::slam

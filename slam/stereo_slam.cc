@@ -1,0 +1,309 @@
+#include "slam/stereo_slam.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
+
+#include <chrono>
+#include <stdexcept>
+
+#include "slam/background_job.h"
+#include "slam/feature/extract.h"
+#include "slam/local_mapping.h"
+#include "slam/map/map.h"
+#include "slam/stereo/match_stereo.h"
+#include "slam/track/keyframe_policy.h"
+#include "slam/track/track_frame.h"
+
+namespace aisle::slam {
+namespace {
+
+/// Wall time of a stage, added to `total_ms` when it ends.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total_ms) : total_ms_(total_ms) {}
+  ~Stopwatch() {
+    const std::chrono::duration<double, std::milli> took =
+        std::chrono::steady_clock::now() - start_;
+    total_ms_ += took.count();
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& total_ms_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+Measurement Measure(const Keypoint& keypoint, const Disparity& disparity, double sigma_px) {
+  return {{keypoint.pixel.x, keypoint.pixel.y, disparity.value}, sigma_px, disparity.sigma};
+}
+
+}  // namespace
+
+std::string Validate(const SlamOptions& options) {
+  if (options.threads < 0) return fmt::format("threads = {}; 0 or more", options.threads);
+  if (!(options.keypoint_noise_px > 0)) {
+    return fmt::format("keypoint_noise_px = {}; it must be positive", options.keypoint_noise_px);
+  }
+  if (options.schedule.mapping_frames < 1) {
+    return fmt::format("mapping_frames = {}; at least 1", options.schedule.mapping_frames);
+  }
+  const std::string feature = Validate(options.feature);
+  return feature.empty() ? Validate(options.stereo) : feature;
+}
+
+struct StereoSlam::Impl {
+  Impl(const StereoCamera& camera_in, const SlamOptions& options_in)
+      : camera(camera_in),
+        options(options_in),
+        arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic) {
+    for (const std::string& error : {Validate(camera), Validate(options)}) {
+      if (!error.empty()) throw std::invalid_argument("StereoSlam: " + error);
+    }
+  }
+
+  TrackedFrame Track(const StereoImages& images, const ExternalMask& mask);
+  void CheckImages(const StereoImages& images, const ExternalMask& mask) const;
+  std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, const ExternalMask& mask,
+                                        std::map<std::string, double>& stage_ms);
+  std::optional<FramePose> FindPose(const Frame& frame);
+  std::optional<FramePose> StartMap(const std::shared_ptr<const Frame>& frame);
+  std::optional<FramePose> Relocalise(const Frame& frame);
+  void InsertKeyframe(const std::shared_ptr<const Frame>& frame, const FramePose& pose);
+  void Remember(const Frame& frame, const FramePose& pose);
+  void TakeMapping(std::int64_t frame_count, std::map<std::string, double>& stage_ms);
+
+  const StereoCamera camera;
+  const SlamOptions options;
+  tbb::task_arena arena;
+
+  Map map;
+  TrackMemory memory;
+  TrackingState state = TrackingState::kInitializing;
+  std::int64_t frame_count = 0;
+  std::map<LandmarkId, std::pair<int, int>> counts;  // predicted and found since the last keyframe
+  BackgroundJob<MappingResult> mapping;
+
+  /// A tracked frame as the trajectory keeps it: its place relative to a keyframe.
+  struct Anchored {
+    std::int64_t stamp_ns;
+    KeyframeId reference;
+    Eigen::Isometry3d T_reference_rig;
+  };
+  std::vector<Anchored> trajectory;
+};
+
+TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalMask& mask) {
+  CheckImages(images, mask);
+  TrackedFrame result;
+  result.id = images.id;
+  result.stamp_ns = images.stamp_ns;
+  const auto frame = SeeFrame(images, mask, result.stage_ms);
+  TakeMapping(frame_count, result.stage_ms);
+
+  Stopwatch track_time(result.stage_ms["track"]);
+  std::optional<FramePose> pose;
+  if (map.empty()) {
+    pose = StartMap(frame);
+    result.is_keyframe = pose.has_value();
+  } else {
+    pose = FindPose(*frame);
+    // One mapping job at a time: the next keyframe waits for the appointed frame, not for a thread.
+    result.is_keyframe =
+        pose && !mapping.pending() && NeedsKeyframe(map, *frame, *pose, camera, options.keyframe);
+    if (result.is_keyframe) InsertKeyframe(frame, *pose);
+  }
+
+  if (pose) Remember(*frame, *pose);
+  state = pose          ? TrackingState::kTracking
+          : map.empty() ? TrackingState::kInitializing
+                        : TrackingState::kLost;
+  ++frame_count;
+
+  result.state = state;
+  result.features = frame->size();
+  result.keypoint_is_inlier.assign(static_cast<std::size_t>(frame->size()), false);
+  for (int i = 0; i < frame->size(); ++i) {
+    const auto feature = static_cast<std::size_t>(i);
+    result.keypoints.push_back(frame->features.keypoints[feature].pixel);
+    result.stereo_points += frame->measurements[feature].has_depth();
+  }
+  if (!pose) return result;
+  result.T_world_rig = pose->pose.T_rig_world.inverse();
+  result.matched_points = static_cast<int>(pose->matches.size());
+  result.inliers = pose->pose.inliers;
+  for (std::size_t i = 0; i < pose->matches.size(); ++i) {
+    result.keypoint_is_inlier[static_cast<std::size_t>(pose->matches[i].feature)] =
+        pose->pose.inlier[i];
+  }
+  return result;
+}
+
+void StereoSlam::Impl::CheckImages(const StereoImages& images, const ExternalMask& mask) const {
+  const cv::Size size(camera.width, camera.height);
+  const auto check = [&](const cv::Mat1b& image, const char* name, bool may_be_empty) {
+    if (image.size() == size || (may_be_empty && image.empty())) return;
+    throw std::invalid_argument(fmt::format("frame {}: {} is {}x{}, the camera {}x{} pixels",
+                                            images.id, name, image.cols, image.rows, size.width,
+                                            size.height));
+  };
+  check(images.left, "the left image", false);
+  check(images.right, "the right image", false);
+  check(mask.left, "the left mask", true);
+  check(mask.right, "the right mask", true);
+}
+
+std::shared_ptr<const Frame> StereoSlam::Impl::SeeFrame(const StereoImages& images,
+                                                        const ExternalMask& mask,
+                                                        std::map<std::string, double>& stage_ms) {
+  EyeFeatures left, right;
+  {
+    Stopwatch time(stage_ms["extract"]);
+    arena.execute([&] {
+      tbb::parallel_invoke(
+          [&] { left = ExtractFeatures(images.left, mask.left, options.feature); },
+          [&] { right = ExtractFeatures(images.right, mask.right, options.feature); });
+    });
+  }
+  Stopwatch time(stage_ms["stereo"]);
+  const std::vector<Disparity> disparities = MatchStereo(left, right, camera, options.stereo);
+  auto frame = std::make_shared<Frame>();
+  frame->id = images.id;
+  frame->stamp_ns = images.stamp_ns;
+  frame->scale = options.feature.scale;
+  for (std::size_t i = 0; i < disparities.size(); ++i) {
+    const Keypoint& keypoint = left.features.keypoints[i];
+    const double scale = left.pyramid.scales[static_cast<std::size_t>(keypoint.level)];
+    frame->measurements.push_back(
+        Measure(keypoint, disparities[i], scale * options.keypoint_noise_px));
+  }
+  frame->grid = FeatureGrid(left.features.keypoints, images.left.size());
+  frame->features = std::move(left.features);
+  return frame;
+}
+
+void StereoSlam::Impl::TakeMapping(std::int64_t frame_now,
+                                   std::map<std::string, double>& stage_ms) {
+  auto result = mapping.TakeIfDue(frame_now, stage_ms["wait_for_mapping"]);
+  if (!result) return;
+  map = std::move(result->map);
+  stage_ms["mapping"] = result->milliseconds;
+}
+
+std::optional<FramePose> StereoSlam::Impl::FindPose(const Frame& frame) {
+  if (state == TrackingState::kLost) return Relocalise(frame);
+  return TrackFrame(map, frame, memory, camera, options.feature.levels, options.track);
+}
+
+/// Asks a few keyframes a frame, the reference first and the others in turn.
+std::optional<FramePose> StereoSlam::Impl::Relocalise(const Frame& frame) {
+  constexpr int kAskedAFrame = 5;
+  std::vector<KeyframeId> asked = {memory.reference};
+  const auto count = static_cast<std::int64_t>(map.keyframes().size());
+  for (int i = 0; i < std::min<std::int64_t>(kAskedAFrame, count); ++i) {
+    asked.push_back(
+        std::next(map.keyframes().begin(), (frame_count * kAskedAFrame + i) % count)->first);
+  }
+  for (const KeyframeId id : asked) {
+    auto pose = LocateByKeyframe(map, frame, id, camera, options.feature.levels, options.track);
+    if (pose) return pose;
+  }
+  return std::nullopt;
+}
+
+/// The first frame with enough depth is where the world begins.
+std::optional<FramePose> StereoSlam::Impl::StartMap(const std::shared_ptr<const Frame>& frame) {
+  Keyframe keyframe;
+  keyframe.id = map.NextKeyframeId();
+  keyframe.frame = frame;
+  keyframe.landmarks.resize(static_cast<std::size_t>(frame->size()));
+  MapEdit edit;
+  edit.new_landmarks = CreateLandmarks(keyframe, camera, options.mapping.create);
+  if (std::ssize(edit.new_landmarks) < options.least_first_points) return std::nullopt;
+  edit.new_keyframes = {keyframe};
+  map.Apply(edit);
+
+  FramePose pose;
+  pose.local.reference = keyframe.id;
+  const std::vector<LandmarkId>& landmarks = map.At(keyframe.id).landmarks;
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    if (landmarks[i].valid()) pose.matches.push_back({landmarks[i], static_cast<int>(i), 0});
+  }
+  pose.pose.inliers = static_cast<int>(pose.matches.size());
+  pose.pose.inlier.assign(pose.matches.size(), true);
+  return pose;
+}
+
+void StereoSlam::Impl::InsertKeyframe(const std::shared_ptr<const Frame>& frame,
+                                      const FramePose& pose) {
+  Keyframe keyframe;
+  keyframe.id = map.NextKeyframeId();
+  keyframe.frame = frame;
+  keyframe.T_world_rig = Normalized(pose.pose.T_rig_world.inverse());
+  keyframe.parent = pose.local.reference;
+  keyframe.landmarks.resize(static_cast<std::size_t>(frame->size()));
+  for (std::size_t i = 0; i < pose.matches.size(); ++i) {
+    if (!pose.pose.inlier[i]) continue;
+    keyframe.landmarks[static_cast<std::size_t>(pose.matches[i].feature)] =
+        pose.matches[i].landmark;
+  }
+  MapEdit edit;
+  edit.new_landmarks = CreateLandmarks(keyframe, camera, options.mapping.create);
+  edit.new_keyframes = {std::move(keyframe)};
+  for (const auto& [landmark, count] : counts) {
+    edit.counts.push_back({landmark, count.first, count.second});
+  }
+  const KeyframeId id = edit.new_keyframes.front().id;
+  map.Apply(edit);
+  counts.clear();
+  mapping.Start(frame_count + options.schedule.mapping_frames, options.schedule.background,
+                [map = map, id, camera = camera, mapping_options = options.mapping] {
+                  return MapKeyframe(map, id, camera, mapping_options);
+                });
+}
+
+void StereoSlam::Impl::Remember(const Frame& frame, const FramePose& pose) {
+  const Eigen::Isometry3d T_world_rig = pose.pose.T_rig_world.inverse();
+  std::optional<Motion> motion;
+  if (state == TrackingState::kTracking) {
+    const Eigen::Isometry3d T_world_last = map.PoseOf(memory.reference) * memory.T_reference_rig;
+    motion = EstimateMotion(T_world_last, T_world_rig,
+                            static_cast<double>(frame.stamp_ns - memory.stamp_ns) * 1e-9);
+  }
+  memory.stamp_ns = frame.stamp_ns;
+  memory.reference = pose.local.reference;
+  memory.T_reference_rig = map.PoseOf(memory.reference).inverse() * T_world_rig;
+  memory.motion = motion;
+  memory.landmarks.clear();
+  for (const LandmarkId id : pose.expected) ++counts[id].first;
+  for (std::size_t i = 0; i < pose.matches.size(); ++i) {
+    if (!pose.pose.inlier[i]) continue;
+    memory.landmarks.push_back(pose.matches[i].landmark);
+    ++counts[pose.matches[i].landmark].second;
+  }
+  trajectory.push_back({frame.stamp_ns, memory.reference, memory.T_reference_rig});
+}
+
+StereoSlam::StereoSlam(const StereoCamera& camera, const SlamOptions& options)
+    : impl_(std::make_unique<Impl>(camera, options)) {}
+StereoSlam::StereoSlam(StereoSlam&&) noexcept = default;
+StereoSlam& StereoSlam::operator=(StereoSlam&&) noexcept = default;
+StereoSlam::~StereoSlam() = default;
+
+TrackedFrame StereoSlam::Track(const StereoImages& images, const ExternalMask& mask) {
+  return impl_->Track(images, mask);
+}
+
+std::vector<StampedPose> StereoSlam::Finish() {
+  std::map<std::string, double> stage_ms;
+  impl_->TakeMapping(impl_->mapping.due_frame(), stage_ms);
+  std::vector<StampedPose> poses;
+  for (const Impl::Anchored& anchored : impl_->trajectory) {
+    poses.push_back(
+        {anchored.stamp_ns, impl_->map.PoseOf(anchored.reference) * anchored.T_reference_rig});
+  }
+  return poses;
+}
+
+}  // namespace aisle::slam

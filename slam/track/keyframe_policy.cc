@@ -1,0 +1,73 @@
+#include "slam/track/keyframe_policy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aisle::slam {
+namespace {
+
+/// Landmarks of the keyframe that have proven themselves (a young map cannot ask for much).
+int ProvenLandmarks(const Map& map, const Keyframe& keyframe) {
+  const std::size_t asked = map.keyframes().size() <= 2 ? 1 : 2;
+  return static_cast<int>(
+      std::count_if(keyframe.landmarks.begin(), keyframe.landmarks.end(), [&](LandmarkId id) {
+        const Landmark* landmark = map.Find(id);
+        return landmark && landmark->observations.size() >= asked;
+      }));
+}
+
+struct ClosePoints {
+  int tracked = 0, untracked = 0;
+};
+
+ClosePoints CountClose(const Frame& frame, const FramePose& pose, double least_disparity) {
+  std::vector<bool> tracked(static_cast<std::size_t>(frame.size()), false);
+  for (std::size_t i = 0; i < pose.matches.size(); ++i) {
+    if (pose.pose.inlier[i]) tracked[static_cast<std::size_t>(pose.matches[i].feature)] = true;
+  }
+  ClosePoints close;
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    const Measurement& measurement = frame.measurements[i];
+    if (!measurement.has_depth() || measurement.uvd.z() < least_disparity) continue;
+    tracked[i] ? ++close.tracked : ++close.untracked;
+  }
+  return close;
+}
+
+double MedianDepth(const Frame& frame, const StereoCamera& camera) {
+  std::vector<double> disparities;
+  for (const Measurement& measurement : frame.measurements) {
+    if (measurement.has_depth()) disparities.push_back(measurement.uvd.z());
+  }
+  if (disparities.empty()) return 0;
+  const auto middle = disparities.begin() + std::ssize(disparities) / 2;
+  std::nth_element(disparities.begin(), middle, disparities.end());
+  return DepthOf(camera, std::max(*middle, 0.1));
+}
+
+bool HasMoved(const Eigen::Isometry3d& T_reference_rig, double median_depth_m,
+              const KeyframeOptions& options) {
+  const double turn_deg = Eigen::AngleAxisd(T_reference_rig.linear()).angle() * 180 / M_PI;
+  return T_reference_rig.translation().norm() > options.least_motion * median_depth_m ||
+         turn_deg > options.least_turn_deg;
+}
+
+}  // namespace
+
+bool NeedsKeyframe(const Map& map, const Frame& frame, const FramePose& pose,
+                   const StereoCamera& camera, const KeyframeOptions& options) {
+  if (pose.pose.inliers < options.least_inliers) return false;
+  const Keyframe& reference = map.At(pose.local.reference);
+  const Eigen::Isometry3d T_reference_rig =
+      (pose.pose.T_rig_world * reference.T_world_rig).inverse();
+  if (!HasMoved(T_reference_rig, MedianDepth(frame, camera), options)) return false;
+
+  // Close means a disparity of at least f b / (n b).
+  const ClosePoints close = CountClose(frame, pose, camera.fx / options.close_baselines);
+  const bool lacks_close =
+      close.tracked < options.few_close && close.untracked > options.many_new_close;
+  const double share = map.keyframes().size() < 2 ? 0.4 : options.tracked_share;
+  return lacks_close || pose.pose.inliers < share * ProvenLandmarks(map, reference);
+}
+
+}  // namespace aisle::slam

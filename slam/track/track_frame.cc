@@ -1,0 +1,125 @@
+#include "slam/track/track_frame.h"
+
+#include <algorithm>
+
+#include "slam/track/match_keyframe.h"
+
+namespace aisle::slam {
+namespace {
+
+/// What every step of finding one frame looks at.
+struct Scene {
+  const Map& map;
+  const Frame& frame;
+  const StereoCamera& camera;
+  int levels;
+  const TrackOptions& options;
+};
+
+std::vector<PointSight> Sights(const Scene& scene, const std::vector<Match>& matches) {
+  std::vector<PointSight> sights;
+  for (const Match& match : matches) {
+    sights.push_back({scene.map.At(match.landmark).position,
+                      scene.frame.measurements[static_cast<std::size_t>(match.feature)]});
+  }
+  return sights;
+}
+
+std::vector<LandmarkId> Inliers(const std::vector<Match>& matches, const RefinedPose& pose) {
+  std::vector<LandmarkId> inliers;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (pose.inlier[i]) inliers.push_back(matches[i].landmark);
+  }
+  return inliers;
+}
+
+/// A first pose and the landmarks that support it.
+struct FirstPose {
+  Eigen::Isometry3d T_rig_world;
+  std::vector<LandmarkId> landmarks;
+};
+
+std::optional<FirstPose> FollowLandmarks(const Scene& scene,
+                                         const std::vector<LandmarkId>& landmarks,
+                                         const Eigen::Isometry3d& T_rig_world, double widen) {
+  std::vector<Expected> expected;
+  for (const LandmarkId id : landmarks) {
+    const Landmark* landmark = scene.map.Find(id);
+    if (!landmark) continue;
+    const auto one = Expect(*landmark, scene.camera, T_rig_world, scene.frame.scale, scene.levels);
+    if (one) expected.push_back(*one);
+  }
+  MatchOptions match_options = scene.options.motion;
+  match_options.radius_px *= widen;
+  const std::vector<Match> matches = MatchByProjection(scene.frame, expected, {}, match_options);
+  if (std::ssize(matches) < scene.options.least_motion_matches) return std::nullopt;
+  const RefinedPose pose = RefinePose(scene.camera, T_rig_world, Sights(scene, matches), {});
+  if (pose.inliers < scene.options.least_inliers || !pose.well_posed) return std::nullopt;
+  return FirstPose{pose.T_rig_world, Inliers(matches, pose)};
+}
+
+std::optional<FirstPose> RecogniseKeyframe(const Scene& scene, KeyframeId id) {
+  const Keyframe* keyframe = scene.map.Find(id);
+  if (!keyframe) return std::nullopt;
+  const std::vector<Match> matches =
+      MatchKeyframe(scene.map, *keyframe, scene.frame, scene.options.keyframe_distance,
+                    scene.options.keyframe_ratio);
+  const auto pose = AlignPoints(scene.camera, Sights(scene, matches), scene.options.align);
+  if (!pose) return std::nullopt;
+  return FirstPose{pose->T_rig_world, Inliers(matches, *pose)};
+}
+
+/// Looks for everything around the first pose and refines it with what is found.
+std::optional<FramePose> RefineInLocalMap(const Scene& scene, const FirstPose& first) {
+  FramePose result;
+  result.local = FindLocalMap(scene.map, first.landmarks, scene.options.local_keyframes);
+  std::vector<Expected> expected;
+  for (const Landmark* landmark : result.local.landmarks) {
+    const auto one =
+        Expect(*landmark, scene.camera, first.T_rig_world, scene.frame.scale, scene.levels);
+    if (!one) continue;
+    expected.push_back(*one);
+    result.expected.push_back(landmark->id);
+  }
+  result.matches = MatchByProjection(scene.frame, expected, {}, scene.options.local_map);
+  result.pose = RefinePose(scene.camera, first.T_rig_world, Sights(scene, result.matches), {});
+  if (result.pose.inliers < scene.options.least_map_inliers || !result.pose.well_posed) {
+    return std::nullopt;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<FramePose> TrackFrame(const Map& map, const Frame& frame, const TrackMemory& memory,
+                                    const StereoCamera& camera, int levels,
+                                    const TrackOptions& options) {
+  const Scene scene{map, frame, camera, levels, options};
+  const Eigen::Isometry3d T_world_last = map.PoseOf(memory.reference) * memory.T_reference_rig;
+  const double gap_s = static_cast<double>(frame.stamp_ns - memory.stamp_ns) * 1e-9;
+  const bool gap_is_short = gap_s <= options.longest_gap_s;
+  const Eigen::Isometry3d T_predicted_world =
+      PredictPose(T_world_last, gap_is_short ? memory.motion : std::nullopt, gap_s).inverse();
+  const Eigen::Isometry3d T_last_world = T_world_last.inverse();
+
+  const auto attempt = [&](const std::optional<FirstPose>& first) {
+    return first ? RefineInLocalMap(scene, *first) : std::nullopt;
+  };
+  std::optional<FramePose> found;
+  found = attempt(FollowLandmarks(scene, memory.landmarks, T_predicted_world, 1));
+  if (!found) {  // the rig has stopped, or turned on the spot
+    found = attempt(FollowLandmarks(scene, memory.landmarks, T_last_world, options.wide_factor));
+  }
+  if (!found) found = attempt(RecogniseKeyframe(scene, memory.reference));
+  return found;
+}
+
+std::optional<FramePose> LocateByKeyframe(const Map& map, const Frame& frame, KeyframeId keyframe,
+                                          const StereoCamera& camera, int levels,
+                                          const TrackOptions& options) {
+  const Scene scene{map, frame, camera, levels, options};
+  const auto first = RecogniseKeyframe(scene, keyframe);
+  return first ? RefineInLocalMap(scene, *first) : std::nullopt;
+}
+
+}  // namespace aisle::slam

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+
+#include "slam/map/map.h"
+#include "slam/track/local_map.h"
+#include "slam/track/motion_model.h"
+#include "slam/track/track_options.h"
+
+namespace aisle::slam {
+
+/// What the next frame builds upon.
+struct TrackMemory {
+  std::int64_t stamp_ns = 0;
+  KeyframeId reference;  ///< the pose is remembered as seen from it
+  Eigen::Isometry3d T_reference_rig = Eigen::Isometry3d::Identity();
+  std::optional<Motion> motion;
+  std::vector<LandmarkId> landmarks;  ///< that took part in the pose
+};
+
+/// A frame's place in the map.
+struct FramePose {
+  RefinedPose pose;            ///< inlier[i] tells of matches[i]
+  std::vector<Match> matches;  ///< features to landmarks, by rising feature
+  LocalMap local;
+  std::vector<LandmarkId> expected;  ///< landmarks that should have been seen
+};
+
+/// Finds the frame in the map: from where motion predicts it, else from where it was, else by
+/// recognising the reference keyframe; then refined with everything around. Nothing if lost.
+std::optional<FramePose> TrackFrame(const Map& map, const Frame& frame, const TrackMemory& memory,
+                                    const StereoCamera& camera, int levels,
+                                    const TrackOptions& options);
+
+/// Finds the frame by recognising one keyframe, without knowing where it might be.
+std::optional<FramePose> LocateByKeyframe(const Map& map, const Frame& frame, KeyframeId keyframe,
+                                          const StereoCamera& camera, int levels,
+                                          const TrackOptions& options);
+
+}  // namespace aisle::slam
