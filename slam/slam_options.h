@@ -24,7 +24,7 @@ struct MappingOptions {
 struct ScheduleOptions {
   /// Frames from a keyframe to the frame that first sees what mapping made of it. A slower mapper
   /// makes that frame wait; a faster one never shows its result earlier. Hence the same bits.
-  int mapping_frames = 4;
+  int mapping_frames = 2;
   bool background = true;  ///< false: mapping runs in the caller's thread, with the same result
 };
 

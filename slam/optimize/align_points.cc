@@ -1,8 +1,10 @@
 #include "slam/optimize/align_points.h"
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 namespace aisle::slam {
 namespace {
@@ -52,6 +54,12 @@ std::optional<RefinedPose> AlignPoints(const StereoCamera& camera,
   for (const PointSight& sight : sights) {
     if (sight.measurement.has_depth() && sight.measurement.uvd.z() > 0) deep.push_back(&sight);
   }
+  // Near points make better hypotheses: keep those whose depth is known to a twentieth, if they do.
+  const auto is_vague = [](const PointSight* sight) {
+    return sight->measurement.sigma_d > 0.05 * sight->measurement.uvd.z();
+  };
+  const auto vague = std::stable_partition(deep.begin(), deep.end(), std::not_fn(is_vague));
+  if (vague - deep.begin() >= options.least_inliers) deep.erase(vague, deep.end());
   if (deep.size() < 3 || std::ssize(sights) < options.least_inliers) return std::nullopt;
 
   int most = 0, needed = options.hypotheses;
@@ -78,7 +86,14 @@ std::optional<RefinedPose> AlignPoints(const StereoCamera& camera,
     needed = std::min(options.hypotheses, hypothesis + 1 + static_cast<int>(std::ceil(draws)));
   }
   if (most < 3) return std::nullopt;
-  const RefinedPose refined = RefinePose(camera, best, sights, {});
+  std::vector<PointSight> supporting;
+  for (const PointSight& sight : sights) {
+    if (Chi2(camera, best, sight) <= options.chi2_slack * Chi2Bound(sight.measurement)) {
+      supporting.push_back(sight);
+    }
+  }
+  const Eigen::Isometry3d near = RefinePose(camera, best, supporting, {}).T_rig_world;
+  const RefinedPose refined = RefinePose(camera, near, sights, {.trust_start = true});
   if (refined.inliers < options.least_inliers || !refined.well_posed) return std::nullopt;
   return refined;
 }

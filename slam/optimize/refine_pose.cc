@@ -117,16 +117,20 @@ RefinedPose RefinePose(const StereoCamera& camera, const Eigen::Isometry3d& T_ri
   RefinedPose refined;
   refined.T_rig_world = T_rig_world;
   refined.inlier.assign(sights.size(), true);
-  for (int round = 0; round < options.rounds; ++round) {
-    const bool robust = round + 1 < options.rounds;
-    refined.T_rig_world =
-        Minimize(problem, refined.T_rig_world, refined.inlier, robust, options.iterations);
+  const auto tell_outliers = [&] {
     refined.inliers = 0;
     for (std::size_t i = 0; i < sights.size(); ++i) {
       refined.inlier[i] =
           Chi2(camera, refined.T_rig_world, sights[i]) <= Chi2Bound(sights[i].measurement);
       refined.inliers += refined.inlier[i];
     }
+  };
+  if (options.trust_start) tell_outliers();
+  for (int round = 0; round < options.rounds; ++round) {
+    const bool robust = round + 1 < options.rounds;
+    refined.T_rig_world =
+        Minimize(problem, refined.T_rig_world, refined.inlier, robust, options.iterations);
+    tell_outliers();
     if (refined.inliers < 3) return refined;
   }
   const Matrix6d information = problem.Linearize(refined.T_rig_world, refined.inlier, false).H;

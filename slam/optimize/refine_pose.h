@@ -31,6 +31,7 @@ double Chi2(const StereoCamera& camera, const Eigen::Isometry3d& T_rig_world,
 struct RefinePoseOptions {
   int rounds = 4;       ///< outliers are told apart anew after each; the last is not robustified
   int iterations = 10;  ///< Levenberg-Marquardt steps a round
+  bool trust_start = false;  ///< outliers are told apart at the starting pose too, first of all
 };
 
 /// A pose and how it came about.

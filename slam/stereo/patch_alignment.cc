@@ -32,6 +32,78 @@ bool Holds(const cv::Mat1b& image, double x, double y, int columns, int rows) {
   return x >= 0 && y >= 0 && x + columns < image.cols && y + rows < image.rows;
 }
 
+/// How a square of the left image lies in the right one: where its centre's column is, and how much
+/// further each pixel lies per pixel right of and below the centre (a slanted surface).
+struct Warp {
+  double column = 0, per_column = 0, per_row = 0;
+};
+
+/// The square around (warp.column, row) of the right image, seen as the left camera would, or
+/// nothing where it leaves the image.
+std::optional<Patch> SampleWarped(const cv::Mat1b& image, const Warp& warp, double row, int side) {
+  const int radius = side / 2;
+  const double reach = radius * (1 + std::abs(warp.per_column) + std::abs(warp.per_row)) + 1;
+  if (warp.column < reach || warp.column + reach >= image.cols) return std::nullopt;
+  if (row < radius || row + radius + 1 >= image.rows) return std::nullopt;
+  const int top = static_cast<int>(std::floor(row));
+  const double b = row - top;
+  Patch patch(side, side);
+  for (int dy = -radius; dy <= radius; ++dy) {
+    const std::uint8_t* upper = image.ptr(top + dy);
+    const std::uint8_t* lower = image.ptr(top + dy + 1);
+    double x = warp.column + warp.per_row * dy - (1 + warp.per_column) * radius;
+    for (int column = 0; column < side; ++column, x += 1 + warp.per_column) {
+      const int i = static_cast<int>(x);
+      const double a = x - i;
+      patch(dy + radius, column) = (1 - b) * ((1 - a) * upper[i] + a * upper[i + 1]) +
+                                   b * ((1 - a) * lower[i] + a * lower[i + 1]);
+    }
+  }
+  return patch;
+}
+
+struct Shift {
+  Warp warp;
+  double sigma, mismatch;
+};
+
+/// Lucas-Kanade over column and slants, the slants held near zero by what surfaces usually do.
+std::optional<Shift> RefineShift(const Patch& model, const Patch& gradient, const cv::Mat1b& right,
+                                 Warp warp, double row, const StereoOptions& options) {
+  const int side = static_cast<int>(model.rows()), radius = side / 2;
+  // Columns: how the patch changes with the warp's three numbers, and with brightness.
+  Eigen::Matrix<double, Eigen::Dynamic, 4, 0, kLargest * kLargest, 4> J(side * side, 4);
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      const double g = gradient(y, x);
+      J.row(y * side + x) << g, g * (x - radius), g * (y - radius), 1;
+    }
+  }
+  const double variance = 2 * options.image_noise * options.image_noise;  // both images are noisy
+  Eigen::Matrix4d H = J.transpose() * J;
+  H.diagonal().segment<2>(1).array() += variance / (options.usual_slant * options.usual_slant);
+  const Eigen::Matrix4d inverse = H.inverse();
+  Eigen::Array<double, Eigen::Dynamic, 1, 0, kLargest * kLargest> difference(side * side);
+  constexpr int kIterations = 6;
+  for (int i = 0; i < kIterations; ++i) {
+    const std::optional<Patch> patch = SampleWarped(right, warp, row, side);
+    if (!patch) return std::nullopt;
+    for (int y = 0; y < side; ++y) {
+      difference.segment(y * side, side) = (model.row(y) - patch->row(y)).transpose();
+    }
+    Eigen::Vector4d b = J.transpose() * difference.matrix();
+    b[1] -= variance / (options.usual_slant * options.usual_slant) * warp.per_column;
+    b[2] -= variance / (options.usual_slant * options.usual_slant) * warp.per_row;
+    const Eigen::Vector4d step = inverse * b;
+    warp.column += std::clamp(step[0], -1.0, 1.0);
+    warp.per_column = std::clamp(warp.per_column + step[1], -0.5, 0.5);
+    warp.per_row = std::clamp(warp.per_row + step[2], -0.5, 0.5);
+    if (std::abs(step[0]) < 0.005) break;
+  }
+  return Shift{warp, std::sqrt(variance * inverse(0, 0)),
+               (difference - difference.mean()).abs().mean()};
+}
+
 }  // namespace
 
 std::optional<RowAlignment> AlignAlongRow(const cv::Mat1b& left, cv::Point2d left_pixel,
@@ -67,22 +139,11 @@ std::optional<RowAlignment> AlignAlongRow(const cv::Mat1b& left, cv::Point2d lef
   }
   if (least < 0 || std::abs(best) == options.search_px) return std::nullopt;
 
-  double column = start + best;
-  constexpr int kIterations = 5;
-  for (int i = 0; i < kIterations; ++i) {
-    const std::optional<Patch> patch = sampled(column);
-    if (!patch) return std::nullopt;
-    const double step = ((model - *patch) * gradient).sum() / gradient_energy;
-    column += std::clamp(step, -1.0, 1.0);
-    if (std::abs(step) < 0.005) break;
-  }
+  std::optional<Shift> shift =
+      RefineShift(centre, gradient, right, {start + best, 0, 0}, left_pixel.y, options);
   // Least squares has left the best whole column: the patch is not one surface.
-  if (std::abs(column - (start + best)) > 1.0) return std::nullopt;
-  const std::optional<Patch> patch = sampled(column);
-  if (!patch) return std::nullopt;
-  // Both images are noisy: twice the variance of one.
-  return RowAlignment{column, options.image_noise * std::sqrt(2.0 / gradient_energy),
-                      (*patch - model).abs().mean()};
+  if (!shift || std::abs(shift->warp.column - (start + best)) > 1.0) return std::nullopt;
+  return RowAlignment{shift->warp.column, shift->sigma, shift->mismatch};
 }
 
 }  // namespace aisle::slam

@@ -6,14 +6,17 @@ namespace aisle::slam {
 
 /// How left features find their disparity.
 struct StereoOptions {
-  int descriptor_distance = 75;     ///< bits; no match beyond
-  double row_band_px = 2.0;         ///< pixels of the right feature's level, up and down
-  double nearest_m = 0;             ///< metres; 0: one baseline
-  int patch_radius_px = 5;          ///< pixels of the level, of the square that is compared
-  int search_px = 5;                ///< pixels of the level, around the right feature
-  double worst_to_median = 2.1;     ///< matches whose patches differ more than this x median go
-  double disparity_noise_px = 0.1;  ///< pixels of the level: floor of a disparity's deviation
-  double image_noise = 3.0;         ///< grey levels: deviation of one pixel's brightness
+  int descriptor_distance = 75;  ///< bits; no match beyond
+  double row_band_px = 2.0;      ///< pixels of the right feature's level, up and down
+  double nearest_m = 0;          ///< metres; 0: one baseline
+  int patch_radius_px = 5;       ///< pixels of the level, of the square that is compared
+  int search_px = 5;             ///< pixels of the level, around the right feature
+  double worst_to_median = 2.1;  ///< matches whose patches differ more than this x median go
+  /// Pixels of the level: what no patch shows of a disparity's deviation (calibration, slanted
+  /// surfaces). Less makes well-textured far points decide the scale, and calibration biases it.
+  double disparity_noise_px = 0.5;
+  double usual_slant = 0.05;  ///< disparity per pixel: deviation over a patch's surface
+  double image_noise = 3.0;   ///< grey levels: deviation of one pixel's brightness
 };
 
 /// The first broken rule with its value, or an empty string.

@@ -1,0 +1,1 @@
+aisle_tests(slam/camera LINKS opencv_calib3d)

@@ -1,0 +1,219 @@
+#include "slam/stereo_slam.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "tests/slam/face/room_scene.h"
+
+namespace aisle::slam {
+namespace {
+
+constexpr std::int64_t kFrameNs = 50'000'000;
+
+/// Frames along a path, rendered once for all tests.
+std::vector<StereoImages> Film(const std::vector<Eigen::Isometry3d>& path) {
+  std::vector<StereoImages> frames;
+  for (const Eigen::Isometry3d& pose : path) {
+    const auto id = static_cast<std::int64_t>(frames.size());
+    frames.push_back(RoomScene().See(id, id * kFrameNs, pose));
+  }
+  return frames;
+}
+
+std::vector<Eigen::Isometry3d> StraightPath() {
+  std::vector<Eigen::Isometry3d> path;
+  for (int i = 0; i < 40; ++i) path.push_back(PoseAt(0.01 * i, 0, 0.06 * i, 0.2 * i));
+  return path;
+}
+
+const std::vector<StereoImages>& StraightFilm() {
+  static const std::vector<StereoImages> film = Film(StraightPath());
+  return film;
+}
+
+double ErrorM(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth) {
+  return (estimate.translation() - truth.translation()).norm();
+}
+
+std::vector<TrackedFrame> TrackAll(StereoSlam& slam, const std::vector<StereoImages>& film) {
+  std::vector<TrackedFrame> tracked;
+  for (const StereoImages& images : film) tracked.push_back(slam.Track(images));
+  return tracked;
+}
+
+void ExpectFollows(const std::vector<TrackedFrame>& tracked,
+                   const std::vector<Eigen::Isometry3d>& path, double worst_m) {
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    ASSERT_EQ(tracked[i].state, TrackingState::kTracking) << "frame " << i;
+    ASSERT_TRUE(tracked[i].T_world_rig);
+    EXPECT_LT(ErrorM(path.front() * *tracked[i].T_world_rig, path[i]), worst_m) << "frame " << i;
+  }
+}
+
+TEST(StereoSlam, FollowsADriveThroughARoom) {
+  StereoSlam slam(RoomScene().camera(), {});
+  const std::vector<TrackedFrame> tracked = TrackAll(slam, StraightFilm());
+  ExpectFollows(tracked, StraightPath(), 0.02);
+  const std::vector<StampedPose> final_track = slam.Finish();
+  ASSERT_EQ(final_track.size(), tracked.size());
+  EXPECT_LT(ErrorM(final_track.back().T_world_rig, StraightPath().back()), 0.015);
+  EXPECT_EQ(final_track.back().stamp_ns, 39 * kFrameNs);
+}
+
+TEST(StereoSlam, FollowsATurnOnTheSpot) {
+  std::vector<Eigen::Isometry3d> path;
+  for (int i = 0; i < 30; ++i) path.push_back(PoseAt(0, 0, 0, 3.0 * i));
+  StereoSlam slam(RoomScene().camera(), {});
+  ExpectFollows(TrackAll(slam, Film(path)), path, 0.06);
+}
+
+TEST(StereoSlam, StandsStillWithoutAFloodOfKeyframes) {
+  StereoSlam slam(RoomScene().camera(), {});
+  const std::vector<Eigen::Isometry3d> path(25, PoseAt(0, 0, 0));
+  const std::vector<TrackedFrame> tracked = TrackAll(slam, Film(path));
+  ExpectFollows(tracked, path, 0.01);
+  EXPECT_EQ(std::count_if(tracked.begin(), tracked.end(),
+                          [](const TrackedFrame& frame) { return frame.is_keyframe; }),
+            1);
+}
+
+TEST(StereoSlam, FollowsAnAbruptStop) {
+  std::vector<Eigen::Isometry3d> path = StraightPath();
+  for (std::size_t i = 21; i < path.size(); ++i) path[i] = path[20];
+  std::vector<StereoImages> film(StraightFilm().begin(), StraightFilm().begin() + 21);
+  for (std::int64_t i = 21; i < 40; ++i) {
+    film.push_back(RoomScene().See(i, i * kFrameNs, path[20]));
+  }
+  StereoSlam slam(RoomScene().camera(), {});
+  ExpectFollows(TrackAll(slam, film), path, 0.02);
+}
+
+TEST(StereoSlam, ComesBackAfterFramesThatShowNothing) {
+  StereoSlam slam(RoomScene().camera(), {});
+  for (std::size_t i = 0; i < StraightFilm().size(); ++i) {
+    StereoImages images = StraightFilm()[i];
+    const bool black = i >= 15 && i < 18, white = i == 22;
+    if (black || white) {
+      images.left = cv::Mat1b(images.left.size(), black ? 0 : 255);
+      images.right = images.left.clone();
+    }
+    const TrackedFrame tracked = slam.Track(images);
+    EXPECT_EQ(tracked.state, black || white ? TrackingState::kLost : TrackingState::kTracking)
+        << "frame " << i;
+    EXPECT_EQ(tracked.T_world_rig.has_value(), tracked.state == TrackingState::kTracking);
+    if (tracked.T_world_rig) {
+      EXPECT_LT(ErrorM(*tracked.T_world_rig, StraightPath()[i]), 0.02) << "frame " << i;
+    }
+  }
+  EXPECT_EQ(slam.Finish().size(), StraightFilm().size() - 4);
+}
+
+TEST(StereoSlam, WaitsForAFirstFrameWithDepth) {
+  StereoSlam slam(RoomScene().camera(), {});
+  StereoImages images = StraightFilm()[0];
+  images.right = cv::Mat1b(images.left.size(), std::uint8_t{90});  // a dead right eye
+  EXPECT_EQ(slam.Track(images).state, TrackingState::kInitializing);
+  images.left = images.right;
+  EXPECT_EQ(slam.Track(images).state, TrackingState::kInitializing);
+  EXPECT_TRUE(slam.Finish().empty());
+  EXPECT_EQ(slam.Track(StraightFilm()[1]).state, TrackingState::kTracking);
+}
+
+TEST(StereoSlam, TracksAFrameWithoutStereoMatches) {
+  StereoSlam slam(RoomScene().camera(), {});
+  for (std::size_t i = 0; i < 20; ++i) {
+    StereoImages images = StraightFilm()[i];
+    if (i == 10) images.right = cv::Mat1b(images.left.size(), std::uint8_t{90});
+    const TrackedFrame tracked = slam.Track(images);
+    ASSERT_EQ(tracked.state, TrackingState::kTracking) << "frame " << i;
+    EXPECT_LT(ErrorM(*tracked.T_world_rig, StraightPath()[i]), 0.02) << "frame " << i;
+  }
+}
+
+TEST(StereoSlam, TakesARepeatedFrameAndDroppedOnes) {
+  StereoSlam slam(RoomScene().camera(), {});
+  for (const std::size_t i : {0, 1, 2, 3, 3, 3, 4, 5, 8, 9, 9, 10, 14, 15, 16, 17}) {
+    const TrackedFrame tracked = slam.Track(StraightFilm()[i]);
+    ASSERT_EQ(tracked.state, TrackingState::kTracking) << "frame " << i;
+    EXPECT_LT(ErrorM(*tracked.T_world_rig, StraightPath()[i]), 0.02) << "frame " << i;
+  }
+}
+
+TEST(StereoSlam, TakesAPauseOfMinutes) {
+  StereoSlam slam(RoomScene().camera(), {});
+  for (std::size_t i = 0; i < 20; ++i) {
+    StereoImages images = StraightFilm()[i];
+    if (i >= 10) images.stamp_ns += 300'000'000'000;
+    const TrackedFrame tracked = slam.Track(images);
+    ASSERT_EQ(tracked.state, TrackingState::kTracking) << "frame " << i;
+    EXPECT_LT(ErrorM(*tracked.T_world_rig, StraightPath()[i]), 0.02) << "frame " << i;
+  }
+}
+
+TEST(StereoSlam, UsesNothingUnderTheMask) {
+  StereoSlam slam(RoomScene().camera(), {});
+  ExternalMask mask{cv::Mat1b(240, 376, std::uint8_t{0}), cv::Mat1b(240, 376, std::uint8_t{0})};
+  mask.left(cv::Rect(90, 0, 180, 240)) = 255;
+  mask.right(cv::Rect(90, 0, 180, 240)) = 255;
+  for (std::size_t i = 0; i < 20; ++i) {
+    const TrackedFrame tracked = slam.Track(StraightFilm()[i], mask);
+    ASSERT_EQ(tracked.state, TrackingState::kTracking) << "frame " << i;
+    EXPECT_LT(ErrorM(*tracked.T_world_rig, StraightPath()[i]), 0.02) << "frame " << i;
+    for (const cv::Point2f& pixel : tracked.keypoints) {
+      EXPECT_FALSE(mask.left(cv::Point(pixel))) << "frame " << i << " at " << pixel;
+    }
+  }
+}
+
+TEST(StereoSlam, RefusesImagesOfAnotherSize) {
+  StereoSlam slam(RoomScene().camera(), {});
+  StereoImages images = StraightFilm()[0];
+  images.right = cv::Mat1b(100, 100);
+  EXPECT_THROW(slam.Track(images), std::invalid_argument);
+  EXPECT_THROW(slam.Track(StraightFilm()[0], {cv::Mat1b(10, 10), {}}), std::invalid_argument);
+  StereoCamera mono = RoomScene().camera();
+  mono.baseline_m = 0;
+  EXPECT_THROW(StereoSlam(mono, {}), std::invalid_argument);
+}
+
+/// Everything an outsider sees of a run, to the last bit.
+std::vector<double> Bits(const SlamOptions& options) {
+  StereoSlam slam(RoomScene().camera(), options);
+  std::vector<double> bits;
+  const auto append = [&](const Eigen::Isometry3d& pose) {
+    bits.insert(bits.end(), pose.matrix().data(), pose.matrix().data() + 16);
+  };
+  for (const TrackedFrame& tracked : TrackAll(slam, StraightFilm())) {
+    append(*tracked.T_world_rig);
+    bits.push_back(tracked.inliers);
+    bits.push_back(tracked.is_keyframe);
+  }
+  for (const StampedPose& pose : slam.Finish()) append(pose.T_world_rig);
+  return bits;
+}
+
+TEST(StereoSlam, GivesTheSameBitsForAnyThreadsAndForInlineMapping) {
+  SlamOptions inline_mapping;
+  inline_mapping.threads = 1;
+  inline_mapping.schedule.background = false;
+  const std::vector<double> reference = Bits(inline_mapping);
+  for (const int threads : {1, 2, 4}) {
+    SlamOptions options;
+    options.threads = threads;
+    EXPECT_EQ(Bits(options), reference) << threads << " threads";
+  }
+}
+
+TEST(StereoSlam, RunsSideBySideWithOthersOfItsKind) {
+  const std::vector<double> alone = Bits({});
+  std::vector<double> a, b;
+  std::thread first([&] { a = Bits({}); }), second([&] { b = Bits({}); });
+  first.join();
+  second.join();
+  EXPECT_EQ(a, alone);
+  EXPECT_EQ(b, alone);
+}
+
+}  // namespace
+}  // namespace aisle::slam

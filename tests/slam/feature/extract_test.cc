@@ -1,0 +1,126 @@
+#include "slam/feature/extract.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/slam/stereo/synthetic_view.h"
+
+namespace aisle::slam {
+namespace {
+
+cv::Mat1b TexturedImage() {
+  const Texture texture(11);
+  return Render(
+      {752, 480}, [&](double u, double v) { return texture(u, v); }, 4);
+}
+
+TEST(ExtractFeatures, SpendsItsBudget) {
+  const EyeFeatures eye = ExtractFeatures(TexturedImage(), {}, {});
+  EXPECT_EQ(eye.features.size(), 1200);
+  EXPECT_EQ(eye.features.keypoints.size(), eye.features.descriptors.size());
+  EXPECT_EQ(eye.pyramid.size(), 8);
+}
+
+TEST(ExtractFeatures, PutsNothingOnTheMaskAndSpendsTheBudgetElsewhere) {
+  cv::Mat1b mask(480, 752, std::uint8_t{0});
+  cv::rectangle(mask, cv::Rect(100, 0, 350, 480), 255, cv::FILLED);
+  const FeatureOptions options;
+  const EyeFeatures eye = ExtractFeatures(TexturedImage(), mask, options);
+  EXPECT_EQ(eye.features.size(), 1200);
+  for (const Keypoint& keypoint : eye.features.keypoints) {
+    const double margin =
+        options.mask_margin_px * eye.pyramid.scales[static_cast<std::size_t>(keypoint.level)];
+    const double x = keypoint.pixel.x;
+    EXPECT_TRUE(x < 100 - 0.9 * margin || x > 449 + 0.9 * margin) << "x " << x;
+  }
+}
+
+TEST(ExtractFeatures, AFullMaskLeavesNothing) {
+  const cv::Mat1b mask(480, 752, std::uint8_t{255});
+  EXPECT_EQ(ExtractFeatures(TexturedImage(), mask, {}).features.size(), 0);
+}
+
+TEST(ExtractFeatures, TakesImagesWithoutAnyFeature) {
+  for (const int grey : {0, 128, 255}) {
+    const cv::Mat1b image(480, 752, static_cast<std::uint8_t>(grey));
+    EXPECT_EQ(ExtractFeatures(image, {}, {}).features.size(), 0);
+  }
+}
+
+TEST(ExtractFeatures, TakesSmallAndNarrowImages) {
+  const cv::Mat1b image = TexturedImage();
+  for (const cv::Size size : {cv::Size(64, 64), cv::Size(64, 480), cv::Size(752, 40)}) {
+    const EyeFeatures eye = ExtractFeatures(image(cv::Rect({0, 0}, size)).clone(), {}, {});
+    EXPECT_GT(eye.pyramid.size(), 0);
+    EXPECT_GT(eye.features.size(), 0);
+  }
+}
+
+TEST(ExtractFeatures, FindsFaintCornersWhereThereAreNoStrongOnes) {
+  const Texture texture(11);
+  const auto faint = [&](double u, double v) {
+    return u < 376 ? texture(u, v) : 128 + 0.15 * (texture(u, v) - 128);
+  };
+  const EyeFeatures eye = ExtractFeatures(Render({752, 480}, faint), {}, {});
+  const auto& keypoints = eye.features.keypoints;
+  EXPECT_GT(std::count_if(keypoints.begin(), keypoints.end(),
+                          [](const Keypoint& keypoint) { return keypoint.pixel.x > 392; }),
+            30);
+}
+
+TEST(ExtractFeatures, DescriptorsRecogniseTheShiftedImage) {
+  const Texture texture(11);
+  const cv::Mat1b a = Render(
+      {752, 480}, [&](double u, double v) { return texture(u, v); }, 4, 1);
+  const cv::Mat1b b = Render(
+      {752, 480}, [&](double u, double v) { return texture(u + 20, v); }, 4, 2);
+  const Features from = ExtractFeatures(a, {}, {}).features;
+  const Features to = ExtractFeatures(b, {}, {}).features;
+  int matched = 0, right = 0;
+  for (int i = 0; i < from.size(); ++i) {
+    int best = 257, found = -1;
+    for (int j = 0; j < to.size(); ++j) {
+      const int distance = HammingDistance(from.descriptors[static_cast<std::size_t>(i)],
+                                           to.descriptors[static_cast<std::size_t>(j)]);
+      if (distance < best) best = distance, found = j;
+    }
+    if (best > 30) continue;
+    ++matched;
+    const cv::Point2f shift = from.keypoints[static_cast<std::size_t>(i)].pixel -
+                              to.keypoints[static_cast<std::size_t>(found)].pixel;
+    const double scale = std::pow(1.2, from.keypoints[static_cast<std::size_t>(i)].level);
+    right += std::hypot(shift.x - 20, shift.y) < 3 * scale;
+  }
+  // The best of 1200 under 30 bits: mostly right without any ratio or cross check.
+  EXPECT_GT(matched, 200);
+  EXPECT_GT(right, 0.9 * matched);
+}
+
+TEST(Pyramid, LevelsShowTheSamePlaces) {
+  const Pyramid pyramid = BuildPyramid(TexturedImage(), {});
+  for (int level = 0; level < pyramid.size(); ++level) {
+    const cv::Mat1b& image = pyramid.levels[static_cast<std::size_t>(level)];
+    const cv::Point2d first = pyramid.ToFull({-0.5, -0.5}, level);
+    const cv::Point2d last = pyramid.ToFull({image.cols - 0.5, image.rows - 0.5}, level);
+    EXPECT_NEAR(first.x, -0.5, 1e-9);  // image edges meet image edges
+    EXPECT_NEAR(last.x, 751.5, 1e-9);
+    EXPECT_NEAR(last.y, 479.5, 1e-9);
+    const cv::Point2d there_and_back = pyramid.ToLevel(pyramid.ToFull({17.25, 3}, level), level);
+    EXPECT_NEAR(there_and_back.x, 17.25, 1e-9);
+  }
+}
+
+TEST(ShareBudget, IsSpentWhollyAndNeverExceedsALevel) {
+  for (const std::vector<int>& available :
+       {std::vector<int>{5000, 4000, 3000}, {10, 4000, 3000}, {10, 20, 30}, {0, 0, 1200}, {}}) {
+    const std::vector<int> share = ShareBudget(available, 1200, 1.2);
+    const int total = std::accumulate(available.begin(), available.end(), 0);
+    EXPECT_EQ(std::accumulate(share.begin(), share.end(), 0), std::min(1200, total));
+    for (std::size_t i = 0; i < share.size(); ++i) EXPECT_LE(share[i], available[i]);
+  }
+}
+
+}  // namespace
+}  // namespace aisle::slam

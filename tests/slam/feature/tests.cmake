@@ -1,0 +1,1 @@
+aisle_tests(slam/feature LINKS opencv_imgproc)

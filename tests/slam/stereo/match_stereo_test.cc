@@ -1,0 +1,99 @@
+#include "slam/stereo/match_stereo.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/slam/stereo/synthetic_view.h"
+
+namespace aisle::slam {
+namespace {
+
+const cv::Size kSize(752, 480);
+
+EyeFeatures See(const std::function<double(double, double)>& grey, std::uint64_t noise_seed) {
+  return ExtractFeatures(Render(kSize, grey, 3, noise_seed), {}, {});
+}
+
+struct Errors {
+  int count = 0, gross = 0;
+  double mean = 0, deviation = 0;
+};
+
+/// Matches a textured wall whose disparity is `disparity(v)` and compares.
+Errors ErrorsOf(const std::function<double(double)>& disparity) {
+  const Texture texture(3);
+  const EyeFeatures left = See([&](double u, double v) { return texture(u, v); }, 1);
+  const EyeFeatures right =
+      See([&](double u, double v) { return texture(u + disparity(v), v); }, 2);
+  const std::vector<Disparity> found = MatchStereo(left, right, {}, {});
+  Errors errors;
+  double sum = 0, squares = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (!found[i].known()) continue;
+    const double error = found[i].value - disparity(left.features.keypoints[i].pixel.y);
+    ++errors.count;
+    if (std::abs(error) > 1) {
+      ++errors.gross;
+      continue;
+    }
+    sum += error;
+    squares += error * error;
+  }
+  errors.mean = sum / errors.count;
+  errors.deviation = std::sqrt(squares / errors.count);
+  return errors;
+}
+
+TEST(MatchStereo, FindsTheDisparityOfAWallToAFractionOfAPixel) {
+  for (const double disparity : {2.3, 7.0, 7.25, 7.5, 21.8, 60.4}) {
+    const Errors errors = ErrorsOf([&](double) { return disparity; });
+    EXPECT_GT(errors.count, 600) << "disparity " << disparity;
+    EXPECT_LE(errors.gross, errors.count / 200) << "disparity " << disparity;
+    EXPECT_LT(std::abs(errors.mean), 0.01) << "disparity " << disparity;
+    EXPECT_LT(errors.deviation, 0.08) << "disparity " << disparity;
+  }
+}
+
+TEST(MatchStereo, FindsTheDisparityOfAFloor) {
+  const Errors errors = ErrorsOf([](double v) { return 5 + 0.1 * v; });
+  EXPECT_GT(errors.count, 500);
+  EXPECT_LE(errors.gross, errors.count / 100);
+  EXPECT_LT(std::abs(errors.mean), 0.02);
+  EXPECT_LT(errors.deviation, 0.12);
+}
+
+TEST(MatchStereo, MatchesNothingBetweenDifferentWorlds) {
+  const Texture one(3), other(400);
+  const EyeFeatures left = See([&](double u, double v) { return one(u, v); }, 1);
+  const EyeFeatures right = See([&](double u, double v) { return other(u, v); }, 2);
+  const std::vector<Disparity> found = MatchStereo(left, right, {}, {});
+  EXPECT_EQ(found.size(), left.features.keypoints.size());
+  EXPECT_LT(std::count_if(found.begin(), found.end(),
+                          [](const Disparity& disparity) { return disparity.known(); }),
+            60);
+}
+
+TEST(MatchStereo, TakesEyesThatSeeNothing) {
+  const Texture texture(3);
+  const EyeFeatures some = See([&](double u, double v) { return texture(u, v); }, 1);
+  const EyeFeatures none = ExtractFeatures(cv::Mat1b(kSize, std::uint8_t{0}), {}, {});
+  EXPECT_TRUE(MatchStereo(none, some, {}, {}).empty());
+  for (const Disparity& disparity : MatchStereo(some, none, {}, {})) {
+    EXPECT_FALSE(disparity.known());
+  }
+}
+
+TEST(MatchStereo, NothingIsNearerThanTheNearestAskedFor) {
+  StereoOptions options;
+  options.nearest_m = 2;
+  const StereoCamera camera;
+  const double largest = camera.fx * camera.baseline_m / options.nearest_m;
+  const Texture texture(3);
+  const EyeFeatures left = See([&](double u, double v) { return texture(u, v); }, 1);
+  const EyeFeatures right = See([&](double u, double v) { return texture(u + 45, v); }, 2);
+  for (const Disparity& disparity : MatchStereo(left, right, camera, options)) {
+    EXPECT_LE(disparity.value, largest + 6);
+  }
+}
+
+}  // namespace
+}  // namespace aisle::slam
