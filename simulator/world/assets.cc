@@ -39,6 +39,16 @@ VehicleFacts ReadVehicle(const Json& asset) {
   return facts;
 }
 
+void ReadRects(const std::string& texture, const Json& asset,
+               std::map<std::string, std::array<float, 4>>* rects) {
+  if (!asset.contains("rects_px")) return;
+  const float width = asset.at("width"), height = asset.at("height");
+  for (const auto& [name, rect] : asset["rects_px"].items()) {
+    const auto [x, y, w, h] = rect.get<std::array<float, 4>>();
+    (*rects)[texture + "/" + name] = {x / width, y / height, w / width, h / height};
+  }
+}
+
 template <class Facts>
 const Facts& Find(const std::map<std::string, Facts>& known, const std::string& name,
                   const std::string& kind) {
@@ -62,6 +72,7 @@ AssetLibrary::AssetLibrary(std::filesystem::path folder) : folder_(std::move(fol
       const std::string kind = asset.value("kind", "");
       const std::string stem = name.substr(name.find('/') + 1);
       if (kind == "person") people_[stem] = ReadPerson(asset);
+      if (kind == "texture") ReadRects(stem, asset, &rects_);
       if (kind == "vehicle") vehicles_[stem] = ReadVehicle(asset);
     }
   } catch (const Json::exception& error) {
@@ -75,6 +86,24 @@ const PersonFacts& AssetLibrary::Person(const std::string& name) const {
 
 const VehicleFacts& AssetLibrary::Vehicle(const std::string& name) const {
   return Find(vehicles_, name, "vehicles");
+}
+
+cv::Mat1b AssetLibrary::Picture(const std::string& texture) const {
+  const std::filesystem::path file = folder_ / "textures" / (texture + ".png");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw ImportError(file.string() + ": there is no such file");
+  const std::vector<std::uint8_t> bytes((std::istreambuf_iterator<char>(stream)), {});
+  return GreyOf(DecodeImage(bytes, file.string(), ImportOptions().max_texture_px),
+                Band::kLuminance);
+}
+
+std::array<float, 4> AssetLibrary::Rect(const std::string& texture, const std::string& name) const {
+  const auto found = rects_.find(texture + "/" + name);
+  if (found == rects_.end()) {
+    throw std::runtime_error(
+        fmt::format("{}: texture {} names no picture '{}'", folder_.string(), texture, name));
+  }
+  return found->second;
 }
 
 std::shared_ptr<const Model> AssetLibrary::Load(const std::string& asset) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -39,6 +40,10 @@ class AssetLibrary {
   /// Facts of people/NAME or vehicles/NAME. Throws std::runtime_error naming what there is.
   const PersonFacts& Person(const std::string& name) const;
   const VehicleFacts& Vehicle(const std::string& name) const;
+  /// The picture assets/textures/NAME.png in grey. Throws ImportError.
+  cv::Mat1b Picture(const std::string& texture) const;
+  /// A named rectangle of an atlas: left, top, width, height in shares of the picture.
+  std::array<float, 4> Rect(const std::string& texture, const std::string& name) const;
   /// The model of "people/NAME" or "vehicles/NAME".
   std::shared_ptr<const Model> Load(const std::string& asset);
 
@@ -46,6 +51,7 @@ class AssetLibrary {
   std::filesystem::path folder_;
   std::map<std::string, PersonFacts> people_;
   std::map<std::string, VehicleFacts> vehicles_;
+  std::map<std::string, std::array<float, 4>> rects_;  ///< by texture/name
   std::map<std::string, std::shared_ptr<const Model>> models_;
 };
 

@@ -32,12 +32,9 @@ struct Cast {
       fmt::format("{}:{}:{}: {}: {}", scene.file, mark.line, mark.column, name, why));
 }
 
-std::vector<Cast> AddActors(const Scene& scene, const std::string& assets_dir,
-                            const Palette& palette, std::uint64_t seed, WorldParts* parts,
-                            Site* site) {
+std::vector<Cast> AddActors(const Scene& scene, const Palette& palette, std::uint64_t seed,
+                            AssetLibrary* assets, WorldParts* parts, Site* site) {
   std::vector<Cast> cast;
-  if (scene.people.empty() && scene.vehicles.empty()) return cast;
-  AssetLibrary assets(assets_dir);
   Wardrobe wardrobe(parts);
   const auto enter = [&](const auto& spec, ObjectClass object_class, const auto& make) {
     try {
@@ -51,13 +48,13 @@ std::vector<Cast> AddActors(const Scene& scene, const std::string& assets_dir,
   for (std::size_t i = 0; i < scene.people.size(); ++i) {
     PersonSpec person = scene.people[i];
     person.route = Varied(person.route, person.vary, Dice(seed, {400, i}));
-    enter(person, ObjectClass::kPerson, [&] { return MakePerson(person, &assets, &wardrobe); });
+    enter(person, ObjectClass::kPerson, [&] { return MakePerson(person, assets, &wardrobe); });
   }
   for (std::size_t i = 0; i < scene.vehicles.size(); ++i) {
     VehicleSpec vehicle = scene.vehicles[i];
     vehicle.route = Varied(vehicle.route, vehicle.vary, Dice(seed, {410, i}));
     enter(vehicle, ClassOfVehicle(vehicle.model), [&] {
-      return MakeVehicle(vehicle, &assets, palette, Dice(seed, {420, i}), &wardrobe);
+      return MakeVehicle(vehicle, assets, palette, Dice(seed, {420, i}), &wardrobe);
     });
   }
   return cast;
@@ -68,7 +65,8 @@ std::vector<Cast> AddActors(const Scene& scene, const std::string& assets_dir,
 World BuildWorld(const Scene& scene, const std::string& assets_dir, std::uint64_t seed) {
   WorldParts parts;
   Site site(&parts);
-  const Palette palette = AddPalette(scene, seed, &parts);
+  AssetLibrary assets(assets_dir);
+  const Palette palette = AddPalette(scene, seed, assets, &parts);
   AddFloor(scene, palette, seed, &site);
   AddMarkings(scene, palette, &site);
   AddWalls(scene, palette, seed, &site);
@@ -77,7 +75,7 @@ World BuildWorld(const Scene& scene, const std::string& assets_dir, std::uint64_
   AddRacks(scene, palette, seed, &site);
   AddStacks(scene, palette, seed, &site);
   AddLights(scene, palette, &parts, &site);
-  const std::vector<Cast> cast = AddActors(scene, assets_dir, palette, seed, &parts, &site);
+  const std::vector<Cast> cast = AddActors(scene, palette, seed, &assets, &parts, &site);
 
   parts.at = [scene, cast](std::int64_t stamp_ns) {
     const double time_s = static_cast<double>(stamp_ns) * kNanosecond_s;

@@ -7,7 +7,6 @@ namespace aisle::sim {
 namespace {
 
 constexpr int kShift = 4;  // sub-pixel bits of OpenCV's drawing functions
-constexpr int kFont = cv::FONT_HERSHEY_DUPLEX;
 
 cv::Point Fixed(const cv::Point2f& point) {
   return {cvRound(point.x * (1 << kShift)), cvRound(point.y * (1 << kShift))};
@@ -75,15 +74,16 @@ cv::Point2f Canvas::Pixel(float x, float y) const {
   return {x * static_cast<float>(width()) - 0.5f, y * static_cast<float>(height()) - 0.5f};
 }
 
-/// Draws coverage with OpenCV's antialiasing, then blends the grey in.
 template <class Paint>
-void Canvas::Draw(const Paint& paint, float grey, float opacity) {
-  cv::Mat1b coverage(image_.size(), std::uint8_t{0});
-  const cv::Rect touched = paint(coverage) & cv::Rect(0, 0, width(), height());
-  for (int y = touched.y; y < touched.y + touched.height; ++y) {
+void Canvas::Draw(cv::Rect box, const Paint& paint, float grey, float opacity) {
+  box &= cv::Rect(0, 0, width(), height());
+  if (box.empty()) return;
+  cv::Mat1b coverage(box.size(), std::uint8_t{0});
+  paint(coverage, cv::Point2f(static_cast<float>(box.x), static_cast<float>(box.y)));
+  for (int y = 0; y < box.height; ++y) {
     const std::uint8_t* cover = coverage.ptr<std::uint8_t>(y);
-    float* out = image_.ptr<float>(y);
-    for (int x = touched.x; x < touched.x + touched.width; ++x) {
+    float* out = image_.ptr<float>(box.y + y) + box.x;
+    for (int x = 0; x < box.width; ++x) {
       out[x] += (grey - out[x]) * opacity * static_cast<float>(cover[x]) / 255;
     }
   }
@@ -93,10 +93,10 @@ void Canvas::Polygon(const std::vector<Eigen::Vector2f>& points, float grey) {
   std::vector<cv::Point> fixed;
   for (const auto& point : points) fixed.push_back(Fixed(Pixel(point.x(), point.y())));
   Draw(
-      [&](cv::Mat1b& coverage) {
+      cv::Rect(0, 0, width(), height()),
+      [&](cv::Mat1b& coverage, const cv::Point2f&) {
         cv::fillPoly(coverage, std::vector<std::vector<cv::Point>>{fixed}, cv::Scalar(255),
                      cv::LINE_AA, kShift);
-        return cv::Rect(0, 0, width(), height());
       },
       grey, 1);
 }
@@ -113,23 +113,15 @@ void Canvas::Fill(float x, float y, float w, float h, float grey, float opacity)
   }
 }
 
-void Canvas::Frame(float x, float y, float w, float h, float line, float grey) {
-  const float line_y = line * static_cast<float>(width()) / static_cast<float>(height());
-  Fill(x, y, w, line_y, grey);
-  Fill(x, y + h - line_y, w, line_y, grey);
-  Fill(x, y, line, h, grey);
-  Fill(x + w - line, y, line, h, grey);
-}
-
 void Canvas::Disc(float x, float y, float radius, float grey, float opacity) {
   const cv::Point2f center = Pixel(x, y);
   const float pixels = radius * static_cast<float>(width());
+  const int reach = cvCeil(pixels) + 2;
   Draw(
-      [&](cv::Mat1b& coverage) {
-        cv::circle(coverage, Fixed(center), cvRound(pixels * (1 << kShift)), cv::Scalar(255),
-                   cv::FILLED, cv::LINE_AA, kShift);
-        const int reach = cvCeil(pixels) + 2;
-        return cv::Rect(cvRound(center.x) - reach, cvRound(center.y) - reach, 2 * reach, 2 * reach);
+      cv::Rect(cvRound(center.x) - reach, cvRound(center.y) - reach, 2 * reach, 2 * reach),
+      [&](cv::Mat1b& coverage, const cv::Point2f& corner) {
+        cv::circle(coverage, Fixed(center - corner), cvRound(pixels * (1 << kShift)),
+                   cv::Scalar(255), cv::FILLED, cv::LINE_AA, kShift);
       },
       grey, opacity);
 }
@@ -137,48 +129,18 @@ void Canvas::Disc(float x, float y, float radius, float grey, float opacity) {
 void Canvas::Line(float x0, float y0, float x1, float y1, float thickness, float grey,
                   float opacity) {
   const int pixels = std::max(1, cvRound(thickness * static_cast<float>(width())));
+  const cv::Point2f from = Pixel(x0, y0), to = Pixel(x1, y1);
+  const int left = cvFloor(std::min(from.x, to.x)) - pixels - 2;
+  const int top = cvFloor(std::min(from.y, to.y)) - pixels - 2;
+  const int right = cvCeil(std::max(from.x, to.x)) + pixels + 2;
+  const int bottom = cvCeil(std::max(from.y, to.y)) + pixels + 2;
   Draw(
-      [&](cv::Mat1b& coverage) {
-        cv::line(coverage, Fixed(Pixel(x0, y0)), Fixed(Pixel(x1, y1)), cv::Scalar(255), pixels,
+      cv::Rect(left, top, right - left, bottom - top),
+      [&](cv::Mat1b& coverage, const cv::Point2f& corner) {
+        cv::line(coverage, Fixed(from - corner), Fixed(to - corner), cv::Scalar(255), pixels,
                  cv::LINE_AA, kShift);
-        return cv::Rect(0, 0, width(), height());
       },
       grey, opacity);
-}
-
-void Canvas::Text(const std::string& text, float x, float baseline, float tall, float grey,
-                  float max_width) {
-  const double pixels = tall * static_cast<float>(height());
-  const int thickness = std::max(1, cvRound(pixels / 9));
-  double scale = pixels / 22;  // capitals of this font are 22 pixels tall at scale 1
-  int below = 0;
-  const cv::Size size = cv::getTextSize(text, kFont, scale, thickness, &below);
-  const double room = max_width * static_cast<float>(width());
-  if (size.width > room) scale *= room / size.width;
-  const cv::Point2f at = Pixel(x, baseline);
-  Draw(
-      [&](cv::Mat1b& coverage) {
-        cv::putText(coverage, text, at, kFont, scale, cv::Scalar(255), thickness, cv::LINE_AA);
-        const int up = cvCeil(pixels * 1.4) + 2;
-        return cv::Rect(cvRound(at.x) - 2, cvRound(at.y) - up, size.width + up, 2 * up);
-      },
-      grey, 1);
-}
-
-void Canvas::Barcode(Dice dice, float x, float y, float w, float h, float grey) {
-  const float module = w / 60;
-  for (float at = 0; at < w - 4 * module;) {
-    const float bar = module * static_cast<float>(1 + dice.Pick(3));
-    Fill(x + at, y, bar, h, grey);
-    at += bar + module * static_cast<float>(1 + dice.Pick(3));
-  }
-}
-
-Canvas Canvas::Part(float x, float y, float w, float h) {
-  const cv::Rect box(
-      cvRound(x * static_cast<float>(width())), cvRound(y * static_cast<float>(height())),
-      cvRound(w * static_cast<float>(width())), cvRound(h * static_cast<float>(height())));
-  return Canvas(cv::Mat1f(image_, box & cv::Rect(0, 0, width(), height())));
 }
 
 cv::Mat1b Canvas::Finish() const {

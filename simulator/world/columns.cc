@@ -21,7 +21,7 @@ void AddColumns(const Scene& scene, const Palette& palette, Site* site) {
       block(0, 0.12f, half + 0.06f, palette.plinth, 1);
       const Eigen::Vector3f sign(2 * half + 0.08f, 0.4f, 0.4f);
       AddBox(mesh, At(at.x(), at.y(), 2.3f), sign,
-             BoxPaint::Whole(palette.sign, SignFace(static_cast<int>(i) % 8)));
+             BoxPaint::Whole(palette.sign, palette.aisle_signs[i % kAisleSigns]));
     });
   }
 }

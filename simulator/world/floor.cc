@@ -69,7 +69,7 @@ void AddFloor(const Scene& scene, const Palette& palette, std::uint64_t seed, Si
       for (float x = low.x(); x < high.x(); x += kFloorSheet_m, ++column) {
         Dice dice(seed, {200, row, column});
         const std::uint16_t sheet =
-            palette.floor[static_cast<std::size_t>(dice.Pick(kFloorSheets))];
+            palette.floor[static_cast<std::size_t>(dice.Pick(static_cast<int>(kFloorSheets)))];
         AddSlab(mesh, {x, y}, Vector2f(x + kFloorSheet_m, y + kFloorSheet_m).cwiseMin(high), sheet,
                 dice);
       }

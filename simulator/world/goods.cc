@@ -18,17 +18,23 @@ constexpr std::array<std::array<float, 3>, 7> kCartonSizes = {{{0.6f, 0.4f, 0.4f
                                                                {0.6f, 0.8f, 0.45f},
                                                                {0.4f, 0.8f, 0.3f}}};
 
+constexpr float kWrapTile_m = 1.2f;
+
 float Between(Dice* dice, double low, double high) {
   return static_cast<float>(dice->Between(low, high));
 }
 
+std::size_t PickOf(std::size_t count, Dice* dice) {
+  return static_cast<std::size_t>(dice->Pick(static_cast<int>(count)));
+}
+
 void AddCarton(TriangleMesh* mesh, const Palette& palette, const Eigen::Isometry3f& pose,
-               const Vector3f& size, int kind, Dice* dice) {
-  BoxPaint paint = BoxPaint::Whole(palette.carton, CartonSide(kind));
-  // Label on one long and one short side; the others show a plain face of the same board.
-  const int plain = kCartonSides - 1 - kind % 4;
-  paint.uvs[kBack] = paint.uvs[kLeft] = CartonSide(plain);
-  paint.uvs[kTop] = CartonTop(kind % kCartonTops);
+               const Vector3f& size, std::size_t kind, Dice* dice) {
+  BoxPaint paint = BoxPaint::Whole(palette.carton, palette.carton_sides[kind]);
+  // Two neighbouring sides show one picture, the other two another.
+  const std::size_t plain = (kind * 5 + 2) % kCartonSides;
+  paint.uvs[kBack] = paint.uvs[kLeft] = palette.carton_sides[plain];
+  paint.uvs[kTop] = palette.carton_tops[kind % kCartonTops];
   if (dice->Chance(0.5)) std::swap(paint.uvs[kFront], paint.uvs[kBack]);
   if (dice->Chance(0.5)) std::swap(paint.uvs[kLeft], paint.uvs[kRight]);
   paint.faces = kNoBottom;
@@ -38,10 +44,9 @@ void AddCarton(TriangleMesh* mesh, const Palette& palette, const Eigen::Isometry
 /// Layers of equal cartons, put down by hand: every one a little off, the top layer not full.
 void AddCartons(TriangleMesh* mesh, const Palette& palette, const Eigen::Isometry3f& pose,
                 const Vector2f& footprint, float height, bool identical, Dice dice) {
-  const auto& choice =
-      kCartonSizes[identical ? 0 : static_cast<std::size_t>(dice.Pick(kCartonSizes.size()))];
+  const auto& choice = kCartonSizes[identical ? 0 : PickOf(kCartonSizes.size(), &dice)];
   Vector3f size(choice[0], choice[1], choice[2]);
-  const int kind = identical ? 1 : dice.Pick(kCartonSides);
+  const std::size_t kind = identical ? 1 : PickOf(kCartonSides, &dice);
   const auto fitting = [](float room, float side) {
     return std::max(1, static_cast<int>(room / side + 0.01f));
   };
@@ -81,7 +86,7 @@ void AddLooseCartons(TriangleMesh* mesh, const Palette& palette, const Eigen::Is
       AddCarton(mesh, palette,
                 pose * At((footprint.x() - size.x()) / 2 * Between(&dice, -1, 1), y + width / 2, z,
                           static_cast<float>(0.06 * dice.Signed())),
-                size, dice.Pick(kCartonSides), &dice);
+                size, PickOf(kCartonSides, &dice), &dice);
       z += size.z();
       if (dice.Chance(0.45)) break;
     }
@@ -128,7 +133,8 @@ void AddWrapped(TriangleMesh* mesh, const Palette& palette, const Eigen::Isometr
   BoxPaint paint;
   paint.material = palette.wrap;
   for (UvRect& uv : paint.uvs) {
-    uv = {{Between(&dice, 0, 1), Between(&dice, 0, 1)}, {size.x() / 1.3f, size.z() / 1.3f}};
+    uv.origin = {Between(&dice, 0, 1), Between(&dice, 0, 1)};
+    uv.size = {size.x() / kWrapTile_m, size.z() / kWrapTile_m};
   }
   paint.faces = kNoBottom;
   AddBox(mesh, pose * At(0, 0, size.z() / 2, static_cast<float>(0.02 * dice.Signed())), size,

@@ -5,24 +5,33 @@
 namespace aisle::sim {
 namespace {
 
-/// Streams of the palette's textures; values are part of what a seed means.
-enum Stream : std::uint64_t { kFloor = 100, kWall, kRoof, kGoods, kSteel, kSigns };
+/// Streams of the painted surfaces; values are part of what a seed means.
+enum Stream : std::uint64_t { kFloor = 100, kLinePaint, kHatch };
+
+/// Finish of a surface: reflectance at normal incidence and roughness, as in Material.
+struct Finish {
+  float f0 = 0;
+  float roughness = 1;
+};
 
 class Mixer {
  public:
-  explicit Mixer(WorldParts* parts) : parts_(parts) {}
+  Mixer(const AssetLibrary& assets, WorldParts* parts) : assets_(assets), parts_(parts) {}
 
-  /// A material that shows a picture; `f0` and `roughness` as in Material.
-  std::uint16_t Painted(const std::string& name, cv::Mat1b picture, float f0 = 0,
-                        float roughness = 1) {
+  std::uint16_t Painted(const std::string& name, cv::Mat1b picture, Finish finish = {}) {
     Material material;
     material.name = name;
     material.albedo = 1;
     material.albedo_texture = static_cast<int>(parts_->textures.size());
-    material.specular_f0 = f0;
-    material.roughness = roughness;
+    material.specular_f0 = finish.f0;
+    material.roughness = finish.roughness;
     parts_->textures.push_back({name, std::move(picture)});
     return Add(std::move(material));
+  }
+
+  /// A material that shows assets/textures/NAME.png.
+  std::uint16_t Shown(const std::string& texture, Finish finish = {}) {
+    return Painted(texture, assets_.Picture(texture), finish);
   }
 
   std::uint16_t Plain(const std::string& name, float albedo, float emission = 0) {
@@ -39,59 +48,97 @@ class Mixer {
     return static_cast<std::uint16_t>(parts_->materials.size() - 1);
   }
 
+  const AssetLibrary& assets_;
   WorldParts* parts_;
 };
 
-/// Cell of a four-by-four atlas, a little inside its border so that neighbours do not bleed in.
-UvRect Cell(int index) {
-  constexpr float kInset = 0.004f;
-  const Eigen::Vector2f corner(static_cast<float>(index % 4) / 4,
-                               static_cast<float>(index / 4) / 4);
-  return {corner + Eigen::Vector2f::Constant(kInset),
-          Eigen::Vector2f::Constant(0.25f - 2 * kInset)};
+struct FloorLook {
+  const char* texture;
+  Finish finish;
+};
+
+FloorLook LookOf(FloorKind kind) {
+  switch (kind) {
+    case FloorKind::kPainted:
+      return {"floor_polished", {0.04f, 0.4f}};
+    case FloorKind::kGlossy:
+      return {"floor_polished", {0.06f, 0.12f}};
+    case FloorKind::kConcrete:
+      break;
+  }
+  return {"floor_concrete", {0.02f, 0.6f}};
+}
+
+const char* LookOf(WallKind kind) {
+  return kind == WallKind::kPlain   ? "plain"
+         : kind == WallKind::kBrick ? "wall_painted"
+                                    : "wall_panel";
+}
+
+/// A rectangle of an atlas, a little inside its border so that neighbours do not bleed in.
+UvRect Inset(const std::array<float, 4>& rect) {
+  constexpr float kInset = 0.012f;
+  const Eigen::Vector2f origin(rect[0], rect[1]), size(rect[2], rect[3]);
+  return {origin + kInset * size, (1 - 2 * kInset) * size};
+}
+
+void FindPictures(const AssetLibrary& assets, Palette* palette) {
+  const auto find = [&](const std::string& texture, const std::string& name) {
+    return Inset(assets.Rect(texture, name));
+  };
+  for (std::size_t i = 0; i < kCartonSides; ++i) {
+    palette->carton_sides[i] = find("cartons", fmt::format("side_{}", i));
+  }
+  for (std::size_t i = 0; i < kCartonTops; ++i) {
+    palette->carton_tops[i] = find("cartons", fmt::format("top_{}", i));
+  }
+  for (std::size_t i = 0; i < kAisleSigns; ++i) {
+    palette->aisle_signs[i] = find("signs", fmt::format("aisle_{:c}", static_cast<int>('a' + i)));
+  }
+  for (std::size_t i = 0; i < kBayLabels; ++i) {
+    palette->bay_labels[i] = find("signs", fmt::format("bay_{}", i + 1));
+  }
+  for (const char* name :
+       {"forklifts", "hazard", "vest", "helmet", "no_walking", "extinguisher", "first_aid", "speed",
+        "dock_1", "dock_2", "poster_1", "poster_2", "poster_3", "poster_4"}) {
+    palette->wall_signs.push_back(find("signs", name));
+  }
 }
 
 }  // namespace
 
-UvRect CartonSide(int kind) { return Cell(kind); }
-UvRect CartonTop(int kind) { return Cell(kCartonSides + kind); }
-UvRect SignFace(int kind) { return Cell(kind); }
-
-Palette AddPalette(const Scene& scene, std::uint64_t seed, WorldParts* parts) {
-  Mixer mix(parts);
+Palette AddPalette(const Scene& scene, std::uint64_t seed, const AssetLibrary& assets,
+                   WorldParts* parts) {
+  Mixer mix(assets, parts);
   Palette palette;
   const HallSpec& hall = scene.hall;
-  const bool glossy = hall.floor == FloorKind::kGlossy;
-  const bool painted = hall.floor == FloorKind::kPainted;
+  const FloorLook floor = LookOf(hall.floor);
+  const cv::Mat1b clean = assets.Picture(floor.texture);
   for (std::size_t i = 0; i < kFloorSheets; ++i) {
-    palette.floor[i] = mix.Painted(fmt::format("floor_{}", i),
-                                   FloorSheet(Dice(seed, {kFloor, i}), hall.floor, hall.wear),
-                                   glossy    ? 0.06f
-                                   : painted ? 0.04f
-                                             : 0.02f,
-                                   glossy    ? 0.12f
-                                   : painted ? 0.4f
-                                             : 0.6f);
+    palette.floor[i] =
+        mix.Painted(fmt::format("floor_{}", i),
+                    WornFloor(clean, Dice(seed, {kFloor, i}), hall.wear), floor.finish);
   }
-  palette.wall = mix.Painted("wall", WallSheet(Dice(seed, {kWall}), hall.walls));
+  palette.wall = mix.Shown(LookOf(hall.walls));
   palette.plinth = mix.Plain("plinth", 0.22f);
-  palette.roof = mix.Painted("roof", RoofSheet(Dice(seed, {kRoof})));
-  palette.door = mix.Painted("door", DoorSheet(Dice(seed, {kWall, 1})));
-  palette.steel = mix.Painted("steel", SteelSheet(Dice(seed, {kSteel, 0})), 0.04f, 0.45f);
-  palette.upright = mix.Painted("upright", UprightSheet(Dice(seed, {kSteel, 1})), 0.04f, 0.5f);
-  palette.beam = mix.Painted("beam", BeamSheet(Dice(seed, {kSteel, 2})), 0.04f, 0.4f);
-  palette.wood = mix.Painted("wood", WoodSheet(Dice(seed, {kGoods, 0})));
-  palette.carton = mix.Painted("carton", CartonSheet(Dice(seed, {kGoods, 1})));
-  palette.wrap = mix.Painted("wrap", WrapSheet(Dice(seed, {kGoods, 2})), 0.05f, 0.25f);
-  palette.drum = mix.Painted("drum", DrumSheet(Dice(seed, {kGoods, 3})), 0.04f, 0.35f);
-  palette.tote = mix.Painted("tote", ToteSheet(Dice(seed, {kGoods, 4})), 0.04f, 0.5f);
-  palette.stripes = mix.Painted("stripes", StripeSheet(Dice(seed, {kSteel, 3})));
+  palette.roof = hall.walls == WallKind::kPanels ? palette.wall : mix.Shown("wall_panel");
+  palette.door = mix.Shown("dock_door");
+  palette.steel = mix.Shown("steel", {0.04f, 0.45f});
+  palette.upright = mix.Shown("rack_blue", {0.04f, 0.5f});
+  palette.beam = mix.Shown("rack_beam", {0.04f, 0.4f});
+  palette.wood = mix.Shown("wood_pallet");
+  palette.carton = mix.Shown("cartons");
+  palette.wrap = mix.Shown("shrink_wrap", {0.05f, 0.25f});
+  palette.drum = mix.Shown("drum", {0.04f, 0.35f});
+  palette.tote = mix.Shown("tote", {0.04f, 0.5f});
+  palette.stripes = mix.Shown("column_stripes");
   palette.line_paint =
-      mix.Painted("line_paint", LinePaintSheet(Dice(seed, {kFloor, 50}), hall.wear));
-  palette.hatch = mix.Painted("hatch", HatchSheet(Dice(seed, {kFloor, 51}), hall.wear));
-  palette.sign = mix.Painted("sign", SignSheet(Dice(seed, {kSigns})));
+      mix.Painted("line_paint", LinePaintSheet(Dice(seed, {kLinePaint}), hall.wear));
+  palette.hatch = mix.Painted("hatch", HatchSheet(Dice(seed, {kHatch}), hall.wear));
+  palette.sign = mix.Shown("signs");
   palette.lamp = mix.Plain("lamp", 0.8f, 1.0f);
   palette.lamp_housing = mix.Plain("lamp_housing", 0.6f);
+  FindPictures(assets, &palette);
   return palette;
 }
 

@@ -2,41 +2,46 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "simulator/scene/scene.h"
+#include "simulator/world/assets.h"
 #include "simulator/world/dice.h"
 #include "simulator/world/shapes.h"
 #include "simulator/world/world.h"
 
 namespace aisle::sim {
 
-inline constexpr int kFloorSheets = 4;
+inline constexpr std::size_t kFloorSheets = 4;
+inline constexpr std::size_t kCartonSides = 12, kCartonTops = 4, kAisleSigns = 8, kBayLabels = 8;
 inline constexpr float kFloorSheet_m = 5.0f;  ///< side of the floor a sheet shows
 inline constexpr float kWallSheet_m = 4.0f;
 
-/// Materials of the warehouse kit, as indices into the world's materials.
+/// Materials of the warehouse kit, as indices into the world's materials, and the places of
+/// pictures in its atlases.
 struct Palette {
   std::array<std::uint16_t, kFloorSheets> floor{};
   std::uint16_t wall = 0, plinth = 0, roof = 0, door = 0;
-  std::uint16_t steel = 0;    ///< painted, dark
-  std::uint16_t upright = 0;  ///< perforated rack posts, wrapped along their length
-  std::uint16_t beam = 0;
+  std::uint16_t steel = 0;    ///< bare, scratched
+  std::uint16_t upright = 0;  ///< perforated rack posts: 0.1 m × 0.4 m a repeat
+  std::uint16_t beam = 0;     ///< 1.35 m × 0.34 m a repeat
   std::uint16_t wood = 0;
-  std::uint16_t carton = 0;  ///< atlas, see CartonSide and CartonTop
+  std::uint16_t carton = 0;  ///< atlas
   std::uint16_t wrap = 0;    ///< shrink-wrapped goods
   std::uint16_t drum = 0, tote = 0;
   std::uint16_t stripes = 0, line_paint = 0, hatch = 0;
-  std::uint16_t sign = 0;  ///< atlas, see SignFace
+  std::uint16_t sign = 0;  ///< atlas
   std::uint16_t lamp = 0, lamp_housing = 0;
+
+  std::array<UvRect, kCartonSides> carton_sides;
+  std::array<UvRect, kCartonTops> carton_tops;
+  std::array<UvRect, kAisleSigns> aisle_signs;
+  std::array<UvRect, kBayLabels> bay_labels;  ///< twice as wide as tall
+  std::vector<UvRect> wall_signs;             ///< square
 };
 
-/// Paints all textures and adds them with their materials. Everything depends on the seed.
-Palette AddPalette(const Scene& scene, std::uint64_t seed, WorldParts* parts);
-
-/// Places of the atlas pictures.
-UvRect CartonSide(int kind);  ///< kinds 0 to kCartonSides - 1; the last four carry no label
-UvRect CartonTop(int kind);   ///< kinds 0 to kCartonTops - 1
-UvRect SignFace(int kind);    ///< kinds 0 to kSignFaces - 1; the first eight name aisles
-inline constexpr int kCartonSides = 12, kCartonTops = 4, kSignFaces = 16;
+/// Adds the kit's textures and materials. Wear and stains depend on the seed.
+Palette AddPalette(const Scene& scene, std::uint64_t seed, const AssetLibrary& assets,
+                   WorldParts* parts);
 
 }  // namespace aisle::sim

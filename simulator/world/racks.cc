@@ -33,7 +33,7 @@ class RackBuilder {
       const float x = bay_ * static_cast<float>(i);
       for (const float y : {-half_depth_ + kPost_m / 2, half_depth_ - kPost_m / 2}) {
         const Vector3f size(kPost_m, kPost_m * 0.8f, height());
-        BoxPaint paint = BoxPaint::Whole(palette_.upright, {{0, 0}, {1, height() / 0.5f}});
+        BoxPaint paint = BoxPaint::Whole(palette_.upright, {{0, 0}, {1, height() / 0.4f}});
         AddBox(mesh_, pose_ * At(x, y, height() / 2), size, paint);
         AddGuard(x, y);
       }
@@ -54,10 +54,12 @@ class RackBuilder {
         const float z = Shelf(level) - kBeamTall_m / 2;
         for (const float y : {-half_depth_ + 0.03f, half_depth_ - 0.03f}) {
           const Vector3f size(bay_ - kPost_m, 0.05f, kBeamTall_m);
-          BoxPaint paint =
-              BoxPaint::Whole(palette_.beam, {{0.13f * static_cast<float>(bay), 0}, {1, 1}});
+          BoxPaint paint = BoxPaint::Whole(
+              palette_.beam,
+              {{0.37f * static_cast<float>(bay + 3 * level), 0.1f}, {bay_ / 1.35f, 0.36f}});
           AddBox(mesh_, pose_ * At(x, y, z), size, paint);
         }
+        AddBayLabels(bay, level, x, z);
         for (int i = 0; i < 4; ++i) {  // cross supports
           const float at = x + bay_ * (static_cast<float>(i) - 1.5f) / 4;
           AddBar(mesh_, pose_ * Vector3f(at, -half_depth_, z + 0.03f),
@@ -68,11 +70,11 @@ class RackBuilder {
   }
 
   /// Plates with the row's name at both ends.
-  void AddEndSigns(int row) {
+  void AddEndSigns(std::size_t row) {
     const Vector3f size(0.02f, 0.7f, 0.7f);
     for (const float x : {-kPost_m, bay_ * static_cast<float>(rack_.bays) + kPost_m}) {
       AddBox(mesh_, pose_ * At(x, 0, 2.2f), size,
-             BoxPaint::Whole(palette_.sign, SignFace(row % 8)));
+             BoxPaint::Whole(palette_.sign, palette_.aisle_signs[row % kAisleSigns]));
     }
   }
 
@@ -101,6 +103,17 @@ class RackBuilder {
     const Vector3f size(kPost_m + 0.08f, 0.05f, kGuardTall_m);
     AddBox(mesh_, pose_ * At(x, y + side, kGuardTall_m / 2), size,
            BoxPaint::Tiled(palette_.stripes, size, 0.4f));
+  }
+
+  /// A plate with the place's name on the beams of both sides, and two barcodes.
+  void AddBayLabels(int bay, int level, float x, float z) {
+    const std::size_t picture = static_cast<std::size_t>(bay * 3 + level * 5) % kBayLabels;
+    const float out = half_depth_ - 0.03f + 0.028f;
+    for (const float side : {-1.0f, 1.0f}) {
+      const Vector3f right = pose_.linear() * Vector3f(-side * 0.2f, 0, 0);
+      const Vector3f corner = pose_ * Vector3f(x + side * 0.1f, side * out, z + 0.05f);
+      AddQuad(mesh_, corner, right, {0, 0, -0.1f}, palette_.bay_labels[picture], palette_.sign);
+    }
   }
 
   void AddPlace(float x, int level, float pitch, Dice dice) {
@@ -136,7 +149,7 @@ void AddRacks(const Scene& scene, const Palette& palette, std::uint64_t seed, Si
       RackBuilder builder(rack, palette, mesh);
       builder.AddFrames();
       builder.AddBeams();
-      builder.AddEndSigns(static_cast<int>(i));
+      builder.AddEndSigns(i);
     });
     site->Add(fmt::format("goods_{}", i), ObjectClass::kGoods,
               [&](TriangleMesh* mesh) { RackBuilder(rack, palette, mesh).AddStored(seed, i); });

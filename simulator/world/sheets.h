@@ -7,28 +7,14 @@
 
 namespace aisle::sim {
 
-// The pictures of the warehouse kit, painted from a stream of numbers each. Grey, sRGB-encoded.
+// What happens to surfaces where people work: painted from a stream of numbers each, so that no two
+// seeds share a floor. Grey, sRGB-encoded.
 
-/// A cast concrete slab: clouds, grain, stains, tyre marks, cracks, a joint along two borders.
-cv::Mat1b FloorSheet(Dice dice, FloorKind kind, double wear);
-/// Wall cladding: ribbed panels, bricks or plain plaster, with dirt towards the foot.
-cv::Mat1b WallSheet(Dice dice, WallKind kind);
-/// Corrugated roof.
-cv::Mat1b RoofSheet(Dice dice);
-/// Sixteen pictures of carton sides and tops, four by four.
-cv::Mat1b CartonSheet(Dice dice);
-/// Sixteen signs, four by four.
-cv::Mat1b SignSheet(Dice dice);
-cv::Mat1b WoodSheet(Dice dice);
-cv::Mat1b UprightSheet(Dice dice);
-cv::Mat1b BeamSheet(Dice dice);
-cv::Mat1b SteelSheet(Dice dice);
-cv::Mat1b WrapSheet(Dice dice);
-cv::Mat1b DrumSheet(Dice dice);
-cv::Mat1b ToteSheet(Dice dice);
-cv::Mat1b StripeSheet(Dice dice);
+/// A floor picture with stains, tyre marks, chips and joints of its own; `wear` in [0, 1].
+cv::Mat1b WornFloor(const cv::Mat1b& clean, Dice dice, double wear);
+/// Floor paint rubbed off in places.
 cv::Mat1b LinePaintSheet(Dice dice, double wear);
+/// The same in oblique stripes.
 cv::Mat1b HatchSheet(Dice dice, double wear);
-cv::Mat1b DoorSheet(Dice dice);
 
 }  // namespace aisle::sim

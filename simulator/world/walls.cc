@@ -52,6 +52,11 @@ void AddWallFace(TriangleMesh* mesh, const Wall& wall, float height, const Palet
           palette.plinth);
 }
 
+const UvRect& AnySign(const Palette& palette, Dice* dice) {
+  const int count = static_cast<int>(palette.wall_signs.size());
+  return palette.wall_signs[static_cast<std::size_t>(dice->Pick(count))];
+}
+
 /// Pipes, cable trays, cabinets, extinguishers: what every wall collects.
 void AddWallFittings(TriangleMesh* mesh, const Wall& wall, float height, const Palette& palette,
                      Dice dice) {
@@ -68,12 +73,12 @@ void AddWallFittings(TriangleMesh* mesh, const Wall& wall, float height, const P
       AddBox(mesh, wall.Frame(beside, 1.2f, 0.13f), size,
              BoxPaint::Tiled(palette.steel, size, 1.1f));
     } else if (dice.Chance(0.5)) {
-      AddCylinder(mesh, wall.Frame(beside, 0.5f, 0.16f), 0.08f, 0.5f, 12, palette.drum, {}, {});
+      AddCylinder(mesh, wall.Frame(beside, 0.5f, 0.16f), 0.08f, 0.5f, 12, palette.tote, {}, {});
     }
     if (dice.Chance(0.6)) {
       const Vector3f size(0.03f, 0.7f, 0.7f);
       AddBox(mesh, wall.Frame(beside, 2.3f, 0.02f), size,
-             BoxPaint::Whole(palette.sign, SignFace(dice.Pick(kSignFaces))));
+             BoxPaint::Whole(palette.sign, AnySign(palette, &dice)));
     }
   }
 }
@@ -134,7 +139,7 @@ void AddDoors(const Scene& scene, const Palette& palette, Site* site) {
              BoxPaint::Tiled(palette.steel, lintel, 1));
       const Vector3f sign(0.03f, 0.6f, 0.6f);
       AddBox(mesh, wall.Frame(middle + width / 2 + 0.7f, 2.0f, 0.05f), sign,
-             BoxPaint::Whole(palette.sign, SignFace(8 + static_cast<int>(i) % 8)));
+             BoxPaint::Whole(palette.sign, palette.wall_signs[8 + i % 2]));
     });
   }
 }
