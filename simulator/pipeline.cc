@@ -101,10 +101,10 @@ struct Pipeline::Impl {
   }
 
   RenderedFrame Render(int frame_index, std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
-                       std::map<std::string, std::vector<double>>* stages) const {
+                       std::map<std::string, double>* stages) const {
     Stopwatch watch;
     const auto lap = [&](const char* stage) {
-      if (stages) (*stages)[stage].push_back(watch.Lap());
+      if (stages) (*stages)[stage] += watch.Lap();
     };
     const Instant instant = tracer.Pose(world.At(stamp_ns));
     lap("pose");
@@ -116,8 +116,8 @@ struct Pipeline::Impl {
     const EyeTruth right = LabelHits(world, instant, hits[1], options.dynamic_threshold_mps);
     const std::vector<MoverTruth> movers = DescribeMovers(instant, views[0], left);
     lap("truth");
-    const std::vector<cv::Mat1f> radiance = shader->Shade(instant, views, hits);
-    lap("shade");
+    const std::vector<cv::Mat1f> radiance = shader->Shade(instant, views, hits, lap);
+    lap("combine");
     RenderedFrame frame{.stamp_ns = stamp_ns,
                         .left = Photograph(radiance[0], frame_index, 0),
                         .right = Photograph(radiance[1], frame_index, 1),
@@ -176,14 +176,14 @@ RenderBench Pipeline::Bench(std::span<const std::int64_t> stamps_ns,
       TraceViews(instant, views, {}, &hits);
       const double bare_ms = watch.Lap();
       impl_->GiveBack(std::move(hits));
-      std::map<std::string, std::vector<double>> frame_stages;
+      std::map<std::string, double> frame_stages;
       watch.Lap();
       impl_->Render(static_cast<int>(i), stamps_ns[i], poses[i], &frame_stages);
       const double pair_ms = watch.Lap();
       if (i == 0 && stamps_ns.size() > 1) continue;  // buffers are touched for the first time
       bare.push_back(bare_ms);
       pair.push_back(pair_ms);
-      for (const auto& [stage, ms] : frame_stages) stages[stage].push_back(ms.front());
+      for (const auto& [stage, ms] : frame_stages) stages[stage].push_back(ms);
     }
     RenderBench result{.pair_ms = Median(pair),
                        .bare_primary_ms = Median(bare),

@@ -9,6 +9,7 @@ namespace aisle::sim {
 namespace {
 
 constexpr float kContrast = 0.03f;  // below this an edge cannot be seen in the noise
+constexpr float kFineRate = 0.25f;  // barycentrics a pixel: the triangle is four pixels wide
 constexpr int kSamples = 4;
 constexpr int kRowsATask = 8;
 // A square turned by atan(1/2): distinct rows and columns for every sample.
@@ -18,36 +19,83 @@ constexpr std::array<std::array<float, 2>, kSamples> kOffsets = {
 struct PixelAt {
   int x, y;
 };
+struct Mixed {
+  PixelAt pixel;
+  float radiance;
+};
+
+/// What is found in a band of rows.
+struct Band {
+  std::vector<Mixed> mixed;      ///< pixels whose new value is known
+  std::vector<PixelAt> unknown;  ///< pixels that need rays
+};
 
 class Edges {
  public:
-  Edges(const HitImage& image, const SurfaceTables& tables, const cv::Mat1f& radiance)
-      : image_(image), tables_(tables), radiance_(radiance) {}
+  Edges(const World& world, const EyeView& view, const HitImage& image, const SurfaceTables& tables,
+        const cv::Mat1f& radiance)
+      : mesh_(world.statics().mesh),
+        view_(view),
+        image_(image),
+        tables_(tables),
+        radiance_(radiance) {}
 
-  /// Pixels of a band of rows that differ from one of their four neighbours.
-  std::vector<PixelAt> Find(int y0, int y1) const {
-    std::vector<PixelAt> found;
+  Band Find(int y0, int y1) const {
+    Band band;
     for (int y = y0; y < y1; ++y) {
-      for (int x = 0; x < image_.width; ++x) {
-        if ((x > 0 && Differ(x, y, x - 1, y)) || (x + 1 < image_.width && Differ(x, y, x + 1, y)) ||
-            (y > 0 && Differ(x, y, x, y - 1)) ||
-            (y + 1 < image_.height && Differ(x, y, x, y + 1))) {
-          found.push_back({x, y});
-        }
-      }
+      for (int x = 0; x < image_.width; ++x) Classify({x, y}, &band);
     }
-    return found;
+    return band;
   }
 
  private:
-  bool Differ(int x, int y, int nx, int ny) const {
-    const std::size_t i = image_.Index(x, y), j = image_.Index(nx, ny);
+  void Classify(PixelAt p, Band* band) const {
+    constexpr std::array<PixelAt, 4> kSteps = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+    std::array<bool, 4> differs{};
+    bool any = false;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const PixelAt q = {p.x + kSteps[i].x, p.y + kSteps[i].y};
+      differs[i] =
+          q.x >= 0 && q.y >= 0 && q.x < image_.width && q.y < image_.height && Differ(p, q);
+      any |= differs[i];
+    }
+    if (!any) return;
+    if ((differs[0] && differs[1]) || (differs[2] && differs[3])) {  // a thing one pixel wide
+      band->unknown.push_back(p);
+      return;
+    }
+    float share = 0;  // of the pixel that the neighbour's surface covers
+    PixelAt other = p;
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (!differs[i]) continue;
+      const PixelAt q = {p.x + kSteps[i].x, p.y + kSteps[i].y};
+      const bool p_is_near = image_.t[Index(p)] <= image_.t[Index(q)];
+      const float crossing = p_is_near ? Crossing(p, q) : 1 - Crossing(q, p);
+      if (!(crossing >= 0 && crossing <= 1)) {
+        band->unknown.push_back(p);
+        return;
+      }
+      if (0.5f - crossing > share) {
+        share = 0.5f - crossing;
+        other = q;
+      }
+    }
+    if (share <= 0) return;
+    const float mine = radiance_(p.y, p.x);
+    band->mixed.push_back({p, mine + share * (radiance_(other.y, other.x) - mine)});
+  }
+
+  std::size_t Index(PixelAt p) const { return image_.Index(p.x, p.y); }
+
+  bool Differ(PixelAt p, PixelAt q) const {
+    const std::size_t i = Index(p), j = Index(q);
     if (image_.primitive[i] == image_.primitive[j] && image_.geometry[i] == image_.geometry[j]) {
       return false;
     }
-    const float a = radiance_(y, x), b = radiance_(ny, nx);
+    const float a = radiance_(p.y, p.x), b = radiance_(q.y, q.x);
     if (std::abs(a - b) <= kContrast * std::max(a, b)) return false;
-    if (image_.geometry[i] != image_.geometry[j] || image_.geometry[i] != 0) return true;
+    if (image_.geometry[i] != image_.geometry[j]) return true;
+    if (image_.geometry[i] != 0) return std::abs(image_.t[i] - image_.t[j]) > 0.02f * image_.t[i];
     // Two triangles of one flat, plain face are no edge.
     const SurfaceRecord& first = tables_.statics()[image_.primitive[i]];
     const SurfaceRecord& second = tables_.statics()[image_.primitive[j]];
@@ -56,6 +104,43 @@ class Edges {
            std::abs(image_.t[i] - image_.t[j]) > 0.02f * image_.t[i];
   }
 
+  /// Where on the way from pixel p to its neighbour q (0 to 1) the ray leaves the triangle seen at
+  /// p; beyond 1, or -1 where the triangle says little about the outline.
+  float Crossing(PixelAt p, PixelAt q) const {
+    const std::size_t i = Index(p);
+    if (image_.geometry[i] != 0) return -1;
+    const PixelRays& rays = *view_.rays;
+    const auto ray = static_cast<std::size_t>(p.y * rays.width + p.x);
+    const Eigen::Vector3f d = view_.rotation * Eigen::Vector3f(rays.x[ray], rays.y[ray], 1);
+    const Eigen::Vector3f step =
+        view_.rotation * Eigen::Vector3f(static_cast<float>(q.x - p.x) * rays.step_x,
+                                         static_cast<float>(q.y - p.y) * rays.step_y, 0);
+    const auto& [ia, ib, ic] = mesh_.triangles[image_.primitive[i]];
+    const Eigen::Vector3f a = mesh_.positions[ia] - view_.origin;
+    const Eigen::Vector3f b = mesh_.positions[ib] - view_.origin;
+    const Eigen::Vector3f c = mesh_.positions[ic] - view_.origin;
+    // A ray is inside while its products with the three side planes have one sign; they are linear
+    // along the image.
+    const std::array<Eigen::Vector3f, 3> planes = {b.cross(c), c.cross(a), a.cross(b)};
+    std::array<float, 3> here, rate;
+    float total = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      here[k] = planes[k].dot(d);
+      rate[k] = planes[k].dot(step);
+      total += here[k];
+    }
+    float first = 2;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (std::abs(rate[k]) > kFineRate * std::abs(total)) return -1;
+      const float leaves = -here[k] / rate[k];
+      // Negative: it moves away from this side.
+      if (rate[k] * total < 0 && leaves < first) first = std::max(0.0f, leaves);
+    }
+    return first;
+  }
+
+  const TriangleMesh& mesh_;
+  const EyeView& view_;
   const HitImage& image_;
   const SurfaceTables& tables_;
   const cv::Mat1f& radiance_;
@@ -80,67 +165,75 @@ float KeptNear(const HitImage& image, std::span<const float> kept, PixelAt pixel
   return share;
 }
 
+Rays8 SampleRays(const EyeView& view, std::span<const PixelAt> pixels) {
+  const PixelRays& rays = *view.rays;
+  Rays8 packet;
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const PixelAt pixel = pixels[std::min(k / kSamples, pixels.size() - 1)];
+    const auto i = static_cast<std::size_t>(pixel.y * rays.width + pixel.x);
+    const auto& [ox, oy] = kOffsets[k % kSamples];
+    const Eigen::Vector3f d = view.rotation * Eigen::Vector3f(rays.x[i] + ox * rays.step_x,
+                                                              rays.y[i] + oy * rays.step_y, 1);
+    packet.ox[k] = view.origin.x();
+    packet.oy[k] = view.origin.y();
+    packet.oz[k] = view.origin.z();
+    packet.dx[k] = d.x();
+    packet.dy[k] = d.y();
+    packet.dz[k] = d.z();
+    packet.t_near[k] = 0;
+    packet.t_far[k] = kInfinity;
+    packet.valid[k] = -1;
+  }
+  return packet;
+}
+
 }  // namespace
 
-void AntialiasEdges(const Instant& instant, const EyeView& view, const HitImage& image,
-                    const SurfaceTables& tables, const FrameLight& frame,
+void AntialiasEdges(const World& world, const Instant& instant, const EyeView& view,
+                    const HitImage& image, const SurfaceTables& tables, const FrameLight& frame,
                     const TexturePool& textures, std::span<const float> kept, cv::Mat1f* radiance) {
-  const int bands = (image.height + kRowsATask - 1) / kRowsATask;
-  std::vector<std::vector<PixelAt>> edges(static_cast<std::size_t>(bands));
-  // All edges are found before the first pixel changes.
-  tbb::parallel_for(0, bands, [&](int band) {
-    edges[static_cast<std::size_t>(band)] =
-        Edges(image, tables, *radiance)
-            .Find(band * kRowsATask, std::min(image.height, (band + 1) * kRowsATask));
-  });
-  const PixelRays& pixel_rays = *view.rays;
+  const int count = (image.height + kRowsATask - 1) / kRowsATask;
+  std::vector<Band> bands(static_cast<std::size_t>(count));
   // Half the spacing of the samples: what each stands for.
-  const RayStep step{view.rotation.col(0) * pixel_rays.step_x * 0.5f,
-                     view.rotation.col(1) * pixel_rays.step_y * 0.5f};
-  tbb::parallel_for(0, bands, [&](int band) {
-    const std::vector<PixelAt>& pixels = edges[static_cast<std::size_t>(band)];
-    if (pixels.empty()) return;
-    const int y0 = band * kRowsATask, y1 = std::min(image.height, y0 + kRowsATask);
+  const RayStep step{view.rotation.col(0) * view.rays->step_x * 0.5f,
+                     view.rotation.col(1) * view.rays->step_y * 0.5f};
+  constexpr std::size_t kPixels = kLanes / kSamples;
+  const auto sample = [&](std::span<const PixelAt> pixels, GeometryMask geometries, Band* band) {
+    const Rays8 rays = SampleRays(view, pixels);
+    Hits8 hits;
+    instant.Intersect(rays, Coherence::kCoherent, geometries, &hits);
+    const SurfaceLanes seen =
+        LookUpHits(tables, frame, textures, LoadI(hits.geometry), LoadI(hits.primitive),
+                   {LoadF(hits.t), LoadF(hits.u), LoadF(hits.v), LoadF(rays.dx), LoadF(rays.dy),
+                    LoadF(rays.dz), I8{}},
+                   step);
+    const F8 value = seen.reflectance * seen.irradiance * std::numbers::inv_pi_v<float>;
+    for (std::size_t p = 0; p < pixels.size(); ++p) {
+      float sum = 0;
+      for (std::size_t k = p * kSamples; k < (p + 1) * kSamples; ++k) {
+        const float share = hits.geometry[k] == 0 ? KeptNear(image, kept, pixels[p], hits.t[k]) : 1;
+        sum += value[static_cast<int>(k)] * share;
+      }
+      band->mixed.push_back({pixels[p], sum / kSamples});
+    }
+  };
+  // All new values are known before the first pixel changes.
+  const Edges edges(world, view, image, tables, *radiance);
+  tbb::parallel_for(0, count, [&](int i) {
+    Band& band = bands[static_cast<std::size_t>(i)];
+    const int y0 = i * kRowsATask, y1 = std::min(image.height, y0 + kRowsATask);
+    band = edges.Find(y0, y1);
     const GeometryMask geometries = GeometriesInWindow(instant, view, 0, y0, image.width, y1);
-    constexpr std::size_t kPixels = kLanes / kSamples;
-    for (std::size_t first = 0; first < pixels.size(); first += kPixels) {
-      Rays8 rays;
-      for (std::size_t k = 0; k < kLanes; ++k) {
-        const PixelAt pixel = pixels[std::min(first + k / kSamples, pixels.size() - 1)];
-        const auto i = static_cast<std::size_t>(pixel.y * pixel_rays.width + pixel.x);
-        const auto& [ox, oy] = kOffsets[k % kSamples];
-        const Eigen::Vector3f d =
-            view.rotation * Eigen::Vector3f(pixel_rays.x[i] + ox * pixel_rays.step_x,
-                                            pixel_rays.y[i] + oy * pixel_rays.step_y, 1);
-        rays.ox[k] = view.origin.x();
-        rays.oy[k] = view.origin.y();
-        rays.oz[k] = view.origin.z();
-        rays.dx[k] = d.x();
-        rays.dy[k] = d.y();
-        rays.dz[k] = d.z();
-        rays.t_near[k] = 0;
-        rays.t_far[k] = kInfinity;
-        rays.valid[k] = -1;
-      }
-      Hits8 hits;
-      instant.Intersect(rays, Coherence::kCoherent, geometries, &hits);
-      const I8 geometry = LoadI(hits.geometry);
-      const SurfaceLanes seen = LookUpHits(tables, frame, textures, geometry, LoadI(hits.primitive),
-                                           {LoadF(hits.t), LoadF(hits.u), LoadF(hits.v),
-                                            LoadF(rays.dx), LoadF(rays.dy), LoadF(rays.dz), I8{}},
-                                           step);
-      const F8 value = seen.reflectance * seen.irradiance * std::numbers::inv_pi_v<float>;
-      for (std::size_t p = 0; p < kPixels && first + p < pixels.size(); ++p) {
-        const PixelAt pixel = pixels[first + p];
-        float sum = 0;
-        for (std::size_t k = p * kSamples; k < (p + 1) * kSamples; ++k) {
-          const float share = hits.geometry[k] == 0 ? KeptNear(image, kept, pixel, hits.t[k]) : 1;
-          sum += value[static_cast<int>(k)] * share;
-        }
-        (*radiance)(pixel.y, pixel.x) = sum / kSamples;
-      }
+    const std::span<const PixelAt> unknown = band.unknown;
+    for (std::size_t first = 0; first < unknown.size(); first += kPixels) {
+      sample(unknown.subspan(first, std::min(kPixels, unknown.size() - first)), geometries, &band);
     }
   });
+  for (const Band& band : bands) {
+    for (const Mixed& mixed : band.mixed) {
+      (*radiance)(mixed.pixel.y, mixed.pixel.x) = mixed.radiance;
+    }
+  }
 }
 
 }  // namespace aisle::sim

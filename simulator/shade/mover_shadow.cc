@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <cstddef>
 #include <cstring>
 
 #include "simulator/shade/hemisphere.h"
@@ -11,10 +12,87 @@ namespace {
 
 constexpr int kTileWidth = 16, kTileHeight = 8;
 constexpr float kLift = 2e-3f;            // m, along the normal
-constexpr float kReach = 1.5f;            // m: how far a mover darkens indirect light
+constexpr float kReach = 1.2f;            // m: how far a mover darkens indirect light
 constexpr float kMoverReflection = 0.3f;  // what blocking parts of a mover send on in turn
 constexpr int kPattern = 16;              // pixels of the 4 × 4 pattern
 constexpr int kAmbientRays = 2;           // a pixel
+
+struct F8x3 {
+  F8 x, y, z;
+};
+F8x3 Wide3(const Eigen::Vector3f& v) { return {Wide(v.x()), Wide(v.y()), Wide(v.z())}; }
+F8 Dot(const F8x3& a, const F8x3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+F8x3 Minus(const F8x3& a, const F8x3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+
+/// Lanes whose segment from + t·to, t in [0, 1], meets the box.
+I8 MeetBox(const Eigen::AlignedBox3f& box, const F8x3& from, const F8x3& to) {
+  F8 near = Wide(0), far = Wide(1);
+  const auto slab = [&](float lo, float hi, F8 start, F8 along) {
+    const F8 safe = Select(Abs(along) < 1e-9f, Wide(1e-9f), along);
+    const F8 a = (lo - start) / safe, b = (hi - start) / safe;
+    near = Max(near, Min(a, b));
+    far = Min(far, Max(a, b));
+  };
+  slab(box.min().x(), box.max().x(), from.x, to.x);
+  slab(box.min().y(), box.max().y(), from.y, to.y);
+  slab(box.min().z(), box.max().z(), from.z, to.z);
+  return near <= far;
+}
+
+Rays8 MakeRays(const F8x3& from, const F8x3& to, float t_far, I8 valid) {
+  Rays8 rays;
+  Store(from.x, rays.ox);
+  Store(from.y, rays.oy);
+  Store(from.z, rays.oz);
+  Store(to.x, rays.dx);
+  Store(to.y, rays.dy);
+  Store(to.z, rays.dz);
+  Store(Wide(0), rays.t_near);
+  Store(Wide(t_far), rays.t_far);
+  std::memcpy(rays.valid, &valid, sizeof(rays.valid));
+  return rays;
+}
+
+I8 LanesOf(unsigned bits) {
+  const I8 lane = {1, 2, 4, 8, 16, 32, 64, 128};
+  return (WideInt(static_cast<std::int32_t>(bits)) & lane) != 0;
+}
+
+/// Sample positions of the 4 × 4 pattern for eight pixels of a row: neighbours differ much, and
+/// each 4 × 4 block has all sixteen.
+struct Pattern {
+  struct Row {
+    F8 a, b;                                       ///< on a light, in [-1, 1]
+    std::array<F8x3, kAmbientRays> local_ambient;  ///< cosine-distributed, z = normal
+  };
+  std::array<Row, 4> rows;
+
+  Pattern() {
+    constexpr std::array<int, kPattern> kOrder = {0, 8,  2, 10, 12, 4, 14, 6,
+                                                  3, 11, 1, 9,  15, 7, 13, 5};
+    const std::vector<Eigen::Vector3f> ambient = CosineDirections(kPattern * kAmbientRays);
+    for (std::size_t y = 0; y < 4; ++y) {
+      for (int k = 0; k < kLanes; ++k) {
+        const int index = kOrder[y * 4 + static_cast<std::size_t>(k & 3)];
+        const Eigen::Vector2f s = SpreadPoint(index);
+        rows[y].a[k] = 2 * s.x() - 1;
+        rows[y].b[k] = 2 * s.y() - 1;
+        for (std::size_t ray = 0; ray < kAmbientRays; ++ray) {
+          const Eigen::Vector3f& d = ambient[static_cast<std::size_t>(index) + ray * kPattern];
+          rows[y].local_ambient[ray].x[k] = d.x();
+          rows[y].local_ambient[ray].y[k] = d.y();
+          rows[y].local_ambient[ray].z[k] = d.z();
+        }
+      }
+    }
+  }
+};
+
+/// Eight pixels of a row: where their static surfaces are and which way these face.
+struct Pixels8 {
+  F8x3 position, normal;
+  I8 active;  ///< lanes that show the static world
+};
 
 /// One light and the movers that may stand between it and a tile.
 struct Blocker {
@@ -28,10 +106,6 @@ struct TileWork {
   bool empty() const { return blockers.empty() && near == 0; }
 };
 
-struct Pixel {
-  Eigen::Vector3f position, normal;
-};
-
 class Pass {
  public:
   Pass(const Instant& instant, const EyeView& view, const HitImage& image, const World& world,
@@ -42,176 +116,182 @@ class Pass {
         world_(world),
         tables_(tables),
         frame_(frame),
-        irradiance_(irradiance),
-        ambient_(CosineDirections(kPattern * kAmbientRays)) {}
+        irradiance_(irradiance) {}
 
-  /// Unfiltered share per pixel of one tile, and whether any differs from 1.
+  /// Unfiltered share per pixel of one tile; whether any pixel lost light.
   bool TraceTile(int x0, int y0, std::vector<float>* raw) const {
     const int x1 = std::min(x0 + kTileWidth, image_.width);
     const int y1 = std::min(y0 + kTileHeight, image_.height);
     const TileWork work = Plan(x0, y0, x1, y1);
-    if (work.empty()) return false;
-    for (int y = y0; y < y1; ++y) {
-      for (int x = x0; x < x1; x += kLanes) TracePacket(x, y, x1, work, raw);
+    bool lost = false;
+    for (int y = y0; y < y1 && !work.empty(); ++y) {
+      for (int x = x0; x < x1; x += kLanes) lost |= TracePacket(x, y, work, raw);
     }
-    return true;
+    return lost;
   }
 
  private:
-  bool IsStatic(std::size_t i) const { return image_.geometry[i] == 0; }
-
-  Pixel Locate(int x, int y) const {
+  F8x3 PositionsOf(int x, int y, I8 active) const {
     const std::size_t i = image_.Index(x, y);
     const auto ray = static_cast<std::size_t>(y * view_.rays->width + x);
-    const Eigen::Vector3f direction =
-        view_.rotation * Eigen::Vector3f(view_.rays->x[ray], view_.rays->y[ray], 1);
-    Pixel pixel;
-    pixel.normal = Eigen::Map<const Eigen::Vector3f>(tables_.statics()[image_.primitive[i]].normal);
-    pixel.position = view_.origin + image_.t[i] * direction + kLift * pixel.normal;
-    return pixel;
+    const F8 cx = LoadF(&view_.rays->x[ray]), cy = LoadF(&view_.rays->y[ray]);
+    const F8 t = Select(active, LoadF(&image_.t[i]), Wide(0));
+    const Eigen::Matrix3f& r = view_.rotation;
+    const Eigen::Vector3f& o = view_.origin;
+    return {o.x() + t * (r(0, 0) * cx + r(0, 1) * cy + r(0, 2)),
+            o.y() + t * (r(1, 0) * cx + r(1, 1) * cy + r(1, 2)),
+            o.z() + t * (r(2, 0) * cx + r(2, 1) * cy + r(2, 2))};
+  }
+
+  I8 StaticLanes(int x, int y) const { return LoadI(&image_.geometry[image_.Index(x, y)]) == 0; }
+
+  Pixels8 Locate(int x, int y) const {
+    Pixels8 p;
+    p.active = StaticLanes(x, y);
+    const I8 record = p.active ? LoadI(&image_.primitive[image_.Index(x, y)]) : I8{};
+    const I8 offset = record * static_cast<int>(sizeof(SurfaceRecord) / sizeof(float));
+    const auto* base = tables_.statics().data()->normal;
+    p.normal = {Gather(base, offset), Gather(base, offset + 1), Gather(base, offset + 2)};
+    p.position = PositionsOf(x, y, p.active);
+    p.position.x += kLift * p.normal.x;
+    p.position.y += kLift * p.normal.y;
+    p.position.z += kLift * p.normal.z;
+    return p;
+  }
+
+  Eigen::AlignedBox3f BoxOfTile(int x0, int y0, int x1, int y1) const {
+    const F8 infinity = Wide(kInfinity);
+    F8x3 lo = {infinity, infinity, infinity}, hi = {-infinity, -infinity, -infinity};
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; x += kLanes) {
+        const I8 active = StaticLanes(x, y);
+        const F8x3 p = PositionsOf(x, y, active);
+        const auto extend = [&](F8 value, F8* low, F8* high) {
+          *low = Min(*low, Select(active, value, infinity));
+          *high = Max(*high, Select(active, value, -infinity));
+        };
+        extend(p.x, &lo.x, &hi.x);
+        extend(p.y, &lo.y, &hi.y);
+        extend(p.z, &lo.z, &hi.z);
+      }
+    }
+    Eigen::AlignedBox3f box;
+    for (int k = 0; k < kLanes; ++k) {
+      if (lo.x[k] > hi.x[k]) continue;
+      box.extend(Eigen::Vector3f(lo.x[k], lo.y[k], lo.z[k]));
+      box.extend(Eigen::Vector3f(hi.x[k], hi.y[k], hi.z[k]));
+    }
+    return box;
   }
 
   /// Which lights and movers can matter for a tile: the segment from the middle of the tile's box
   /// to the light's centre, thickened by whichever is larger, must meet the mover's box.
   TileWork Plan(int x0, int y0, int x1, int y1) const {
-    Eigen::AlignedBox3f box;
-    for (int y = y0; y < y1; ++y) {
-      for (int x = x0; x < x1; ++x) {
-        if (IsStatic(image_.Index(x, y))) box.extend(Locate(x, y).position);
-      }
-    }
     TileWork work;
+    const Eigen::AlignedBox3f box = BoxOfTile(x0, y0, x1, y1);
     if (box.isEmpty()) return work;
     const auto& movers = instant_.mover_boxes();
     for (std::size_t m = 0; m < movers.size(); ++m) {
-      const Eigen::AlignedBox3f reach(movers[m].min() - Eigen::Vector3f::Constant(kReach),
-                                      movers[m].max() + Eigen::Vector3f::Constant(kReach));
-      if (reach.intersects(box)) work.near |= MoverBit(m);
+      if (Grown(movers[m], Eigen::Vector3f::Constant(kReach)).intersects(box)) {
+        work.near |= MoverBit(m);
+      }
     }
+    const F8x3 from = Wide3(box.center());
     for (std::size_t l = 0; l < world_.lights().size(); ++l) {
       const AreaLight& light = world_.lights()[l];
-      const float scale = instant_.snapshot().light_scale[l];
-      if (scale <= 0) continue;
-      const Eigen::Vector3f light_half = light.half_u.cwiseAbs() + light.half_v.cwiseAbs();
-      const Eigen::Vector3f thick = light_half.cwiseMax(box.sizes() / 2);
+      if (instant_.snapshot().light_scale[l] <= 0) continue;
+      const F8x3 to = Wide3(light.center - box.center());
+      const Eigen::Vector3f thick =
+          (light.half_u.cwiseAbs() + light.half_v.cwiseAbs()).cwiseMax(box.sizes() / 2);
       GeometryMask mask = 0;
       for (std::size_t m = 0; m < movers.size(); ++m) {
-        if (SegmentMeets({movers[m].min() - thick, movers[m].max() + thick}, box.center(),
-                         light.center)) {
-          mask |= MoverBit(m);
-        }
+        if (Any(MeetBox(Grown(movers[m], thick), from, to))) mask |= MoverBit(m);
       }
       if (mask) work.blockers.push_back({l, mask});
     }
     return work;
   }
 
-  static bool SegmentMeets(const Eigen::AlignedBox3f& box, const Eigen::Vector3f& from,
-                           const Eigen::Vector3f& to) {
-    float near = 0, far = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      const float d = to[axis] - from[axis];
-      const float safe = std::abs(d) < 1e-9f ? std::copysign(1e-9f, d) : d;
-      const float a = (box.min()[axis] - from[axis]) / safe;
-      const float b = (box.max()[axis] - from[axis]) / safe;
-      near = std::max(near, std::min(a, b));
-      far = std::min(far, std::max(a, b));
-    }
-    return near <= far;
+  static Eigen::AlignedBox3f Grown(const Eigen::AlignedBox3f& box, const Eigen::Vector3f& by) {
+    return {box.min() - by, box.max() + by};
   }
 
-  void TracePacket(int x, int y, int x1, const TileWork& work, std::vector<float>* raw) const {
-    std::array<Pixel, kLanes> pixels;
-    std::array<bool, kLanes> active{};
-    bool any = false;
-    for (int k = 0; k < kLanes && x + k < x1; ++k) {
-      const auto lane = static_cast<std::size_t>(k);
-      active[lane] = IsStatic(image_.Index(x + k, y));
-      if (active[lane]) pixels[lane] = Locate(x + k, y);
-      any |= active[lane];
+  /// Lanes whose segment meets the box of any of the movers.
+  I8 MayMeet(GeometryMask movers, const F8x3& from, const F8x3& to) const {
+    I8 may{};
+    for (std::size_t m = 0; m < instant_.mover_boxes().size(); ++m) {
+      if (movers & MoverBit(m)) may |= MeetBox(instant_.mover_boxes()[m], from, to);
     }
-    if (!any) return;
-    std::array<float, kLanes> lost{};
-    for (const Blocker& blocker : work.blockers) {
-      LoseDirect(blocker, pixels, active, x, y, &lost);
-    }
-    if (work.near) LoseIndirect(work.near, pixels, active, x, y, &lost);
-    for (int k = 0; k < kLanes && x + k < x1; ++k) {
-      const auto lane = static_cast<std::size_t>(k);
-      const std::size_t i = image_.Index(x + k, y);
-      if (active[lane] && lost[lane] > 0) {
-        (*raw)[i] = std::max(0.0f, 1 - lost[lane] / std::max(irradiance_[i], 1e-9f));
-      }
-    }
+    return may;
   }
 
-  /// Which of the sixteen sample positions a pixel uses: each 4 × 4 block has all of them.
-  static int PatternIndex(int x, int y) {
-    // Bit-reversed order, so that neighbours differ much.
-    constexpr std::array<int, kPattern> kOrder = {0, 8,  2, 10, 12, 4, 14, 6,
-                                                  3, 11, 1, 9,  15, 7, 13, 5};
-    return kOrder[static_cast<std::size_t>((y & 3) * 4 + (x & 3))];
+  bool TracePacket(int x, int y, const TileWork& work, std::vector<float>* raw) const {
+    const Pixels8 pixels = Locate(x, y);
+    if (!Any(pixels.active)) return false;
+    const Pattern::Row& pattern = pattern_.rows[static_cast<std::size_t>(y & 3)];
+    F8 lost = Wide(0);
+    for (const Blocker& blocker : work.blockers) lost += LostDirect(blocker, pixels, pattern);
+    if (work.near) lost += LostIndirect(work.near, pixels, pattern, x, y);
+    if (!Any(lost > 0)) return false;
+    const std::size_t i = image_.Index(x, y);
+    const F8 share = 1 - lost / Max(LoadF(&irradiance_[i]), Wide(1e-9f));
+    Store(Max(share, Wide(0)), &(*raw)[i]);
+    return true;
   }
 
-  void LoseDirect(const Blocker& blocker, const std::array<Pixel, kLanes>& pixels,
-                  const std::array<bool, kLanes>& active, int x, int y,
-                  std::array<float, kLanes>* lost) const {
+  /// Irradiance that movers keep from one light, by one shadow ray a pixel.
+  F8 LostDirect(const Blocker& blocker, const Pixels8& pixels, const Pattern::Row& at) const {
     const AreaLight& light = world_.lights()[blocker.light];
     const Eigen::Vector3f cross = light.half_u.cross(light.half_v);
-    const float power =
-        4 * light.radiance * instant_.snapshot().light_scale[blocker.light];  // times |cross|
-    Rays8 rays;
-    std::array<float, kLanes> weight{};
-    for (int k = 0; k < kLanes; ++k) {
-      const auto lane = static_cast<std::size_t>(k);
-      rays.valid[k] = 0;
-      if (!active[lane]) continue;
-      const Eigen::Vector2f s = SpreadPoint(PatternIndex(x + k, y));
-      const Eigen::Vector3f to = light.center + (2 * s.x() - 1) * light.half_u +
-                                 (2 * s.y() - 1) * light.half_v - pixels[lane].position;
-      const float here = to.dot(pixels[lane].normal), there = -to.dot(cross);
-      if (here <= 0 || there <= 0) continue;
-      const float squared = to.squaredNorm();
-      weight[lane] = power * here * there / (squared * squared);
-      SetRay(pixels[lane].position, to, 0.998f, k, &rays);
-    }
+    const F8x3 on_light = {light.center.x() + at.a * light.half_u.x() + at.b * light.half_v.x(),
+                           light.center.y() + at.a * light.half_u.y() + at.b * light.half_v.y(),
+                           light.center.z() + at.a * light.half_u.z() + at.b * light.half_v.z()};
+    const F8x3 to = Minus(on_light, pixels.position);
+    const F8 here = Dot(to, pixels.normal), there = -Dot(to, Wide3(cross));
+    I8 valid = pixels.active & (here > 0) & (there > 0);
+    if (!Any(valid)) return Wide(0);
+    valid &= MayMeet(blocker.movers, pixels.position, to);
+    if (!Any(valid)) return Wide(0);
+    Rays8 rays = MakeRays(pixels.position, to, 0.998f, valid);
     const unsigned blocked = instant_.Occluded(rays, Coherence::kCoherent, blocker.movers);
-    if (!blocked) return;
-    for (int k = 0; k < kLanes; ++k) rays.valid[k] = blocked >> k & 1 ? -1 : 0;
+    if (!blocked) return Wide(0);
     // What the static world keeps away anyway is not the mover's to take.
+    const I8 in_question = LanesOf(blocked);
+    std::memcpy(rays.valid, &in_question, sizeof(rays.valid));
     const unsigned dark = instant_.Occluded(rays, Coherence::kCoherent, kStaticOnly);
-    for (unsigned k = 0; k < kLanes; ++k) {
-      if ((blocked & ~dark) >> k & 1) (*lost)[k] += weight[k];
-    }
+    const F8 squared = Dot(to, to);
+    const float power = 4 * light.radiance * instant_.snapshot().light_scale[blocker.light];
+    return Select(LanesOf(blocked & ~dark), power * here * there / (squared * squared), Wide(0));
   }
 
-  void LoseIndirect(GeometryMask movers, const std::array<Pixel, kLanes>& pixels,
-                    const std::array<bool, kLanes>& active, int x, int y,
-                    std::array<float, kLanes>* lost) const {
-    std::array<int, kLanes> blocked{};
-    for (int ray = 0; ray < kAmbientRays; ++ray) {
-      Rays8 rays;
-      for (int k = 0; k < kLanes; ++k) {
-        const auto lane = static_cast<std::size_t>(k);
-        rays.valid[k] = 0;
-        if (!active[lane]) continue;
-        const auto d = static_cast<std::size_t>(PatternIndex(x + k, y) + ray * kPattern);
-        SetRay(pixels[lane].position, BasisAround(pixels[lane].normal) * ambient_[d], kReach, k,
-               &rays);
-      }
-      const unsigned hit = instant_.Occluded(rays, Coherence::kIncoherent, movers);
-      for (unsigned k = 0; k < kLanes; ++k) blocked[k] += hit >> k & 1;
+  /// Indirect irradiance that movers keep away, by a few short rays a pixel.
+  F8 LostIndirect(GeometryMask movers, const Pixels8& pixels, const Pattern::Row& at, int x,
+                  int y) const {
+    const F8x3& n = pixels.normal;
+    // Duff et al. 2017, as BasisAround.
+    const F8 sign = Select(n.z < 0, Wide(-1), Wide(1));
+    const F8 a = -1 / (sign + n.z), b = n.x * n.y * a;
+    F8 blocked = Wide(0);
+    for (const F8x3& d : at.local_ambient) {
+      const F8x3 to = {kReach * (d.x * (1 + sign * n.x * n.x * a) + d.y * b + d.z * n.x),
+                       kReach * (d.x * sign * b + d.y * (sign + n.y * n.y * a) + d.z * n.y),
+                       kReach * (-d.x * sign * n.x - d.y * n.y + d.z * n.z)};
+      const I8 valid = pixels.active & MayMeet(movers, pixels.position, to);
+      if (!Any(valid)) continue;
+      const unsigned hit = instant_.Occluded(MakeRays(pixels.position, to, 1, valid),
+                                             Coherence::kIncoherent, movers);
+      blocked += Select(LanesOf(hit), Wide(1), Wide(0));
     }
+    if (!Any(blocked > 0)) return Wide(0);
+    F8 lost = Wide(0);
     for (int k = 0; k < kLanes; ++k) {
-      const auto lane = static_cast<std::size_t>(k);
-      if (!active[lane] || blocked[lane] == 0) continue;
+      if (blocked[k] == 0) continue;
       const std::size_t i = image_.Index(x + k, y);
-      const SurfaceRecord& record = tables_.statics()[image_.primitive[i]];
-      const float direct =
-          ReadLight(record.light, frame_.statics->direct, image_.u[i], image_.v[i]);
-      (*lost)[lane] += std::max(0.0f, irradiance_[i] - direct) * (1 - kMoverReflection) *
-                       static_cast<float>(blocked[lane]) / kAmbientRays;
+      const LightPatch& patch = tables_.statics()[image_.primitive[i]].light;
+      const float direct = ReadLight(patch, frame_.statics->direct, image_.u[i], image_.v[i]);
+      lost[k] = std::max(0.0f, irradiance_[i] - direct);
     }
+    return lost * blocked * ((1 - kMoverReflection) / kAmbientRays);
   }
 
   const Instant& instant_;
@@ -221,40 +301,37 @@ class Pass {
   const SurfaceTables& tables_;
   const FrameLight& frame_;
   std::span<const float> irradiance_;
-  std::vector<Eigen::Vector3f> ambient_;
+  Pattern pattern_;
 };
 
-/// Mean over the 4 × 4 pattern around each pixel, of pixels on the same plane only.
-void FilterTile(const HitImage& image, const SurfaceTables& tables, std::span<const float> raw,
-                int x0, int y0, std::vector<float>* kept) {
+/// Whether two pixels show one surface, so that their light may be averaged.
+bool SameSurface(const HitImage& image, const SurfaceTables& tables, std::size_t i, std::size_t j) {
+  if (image.geometry[j] != 0) return false;
+  if (std::abs(image.t[j] - image.t[i]) > 0.05f * image.t[i]) return false;
+  if (image.primitive[j] == image.primitive[i]) return true;
+  const Eigen::Map<const Eigen::Vector3f> n(tables.statics()[image.primitive[i]].normal);
+  const Eigen::Map<const Eigen::Vector3f> m(tables.statics()[image.primitive[j]].normal);
+  return n.dot(m) > 0.9f;
+}
+
+/// Mean over the 4 × 4 pattern around a pixel, of pixels on the same surface only.
+float Filtered(const HitImage& image, const SurfaceTables& tables, std::span<const float> raw,
+               int x, int y) {
   // Half weights at the ends: each of the sixteen pattern positions then counts the same.
   constexpr std::array<float, 5> kWeights = {0.5f, 1, 1, 1, 0.5f};
-  for (int y = y0; y < std::min(y0 + kTileHeight, image.height); ++y) {
-    for (int x = x0; x < std::min(x0 + kTileWidth, image.width); ++x) {
-      const std::size_t i = image.Index(x, y);
-      if (image.geometry[i] != 0) continue;
-      const Eigen::Map<const Eigen::Vector3f> normal(tables.statics()[image.primitive[i]].normal);
-      float sum = 0, weights = 0;
-      for (int dy = -2; dy <= 2; ++dy) {
-        for (int dx = -2; dx <= 2; ++dx) {
-          const int px = x + dx, py = y + dy;
-          if (px < 0 || py < 0 || px >= image.width || py >= image.height) continue;
-          const std::size_t j = image.Index(px, py);
-          if (image.geometry[j] != 0 || std::abs(image.t[j] - image.t[i]) > 0.05f * image.t[i]) {
-            continue;
-          }
-          const Eigen::Map<const Eigen::Vector3f> other(
-              tables.statics()[image.primitive[j]].normal);
-          if (image.primitive[j] != image.primitive[i] && normal.dot(other) < 0.9f) continue;
-          const float w = kWeights[static_cast<std::size_t>(dx + 2)] *
-                          kWeights[static_cast<std::size_t>(dy + 2)];
-          sum += w * raw[j];
-          weights += w;
-        }
-      }
-      (*kept)[i] = sum / weights;
+  const std::size_t i = image.Index(x, y);
+  float sum = 0, weights = 0;
+  for (int py = std::max(0, y - 2); py <= std::min(image.height - 1, y + 2); ++py) {
+    for (int px = std::max(0, x - 2); px <= std::min(image.width - 1, x + 2); ++px) {
+      const std::size_t j = image.Index(px, py);
+      if (!SameSurface(image, tables, i, j)) continue;
+      const float w = kWeights[static_cast<std::size_t>(px - x + 2)] *
+                      kWeights[static_cast<std::size_t>(py - y + 2)];
+      sum += w * raw[j];
+      weights += w;
     }
   }
+  return sum / weights;
 }
 
 }  // namespace
@@ -263,25 +340,31 @@ void TraceMoverShadows(const Instant& instant, const EyeView& view, const HitIma
                        const World& world, const SurfaceTables& tables, const FrameLight& frame,
                        std::span<const float> irradiance, std::vector<float>* kept) {
   kept->assign(irradiance.size(), 1);
-  if (instant.snapshot().movers.empty()) return;
+  if (instant.snapshot().movers.empty() || tables.statics().empty()) return;
   std::vector<float> raw(irradiance.size(), 1);
   const Pass pass(instant, view, image, world, tables, frame, irradiance);
   const int columns = (image.width + kTileWidth - 1) / kTileWidth;
   const int rows = (image.height + kTileHeight - 1) / kTileHeight;
-  std::vector<std::uint8_t> touched(static_cast<std::size_t>(columns * rows));
+  std::vector<std::uint8_t> lost(static_cast<std::size_t>(columns * rows));
   tbb::parallel_for(0, columns * rows, [&](int i) {
-    touched[static_cast<std::size_t>(i)] =
+    lost[static_cast<std::size_t>(i)] =
         pass.TraceTile(i % columns * kTileWidth, i / columns * kTileHeight, &raw);
   });
-  const auto is_touched = [&](int column, int row) {
+  const auto is_lost = [&](int column, int row) {
     return column >= 0 && row >= 0 && column < columns && row < rows &&
-           touched[static_cast<std::size_t>(row * columns + column)];
+           lost[static_cast<std::size_t>(row * columns + column)];
   };
   tbb::parallel_for(0, columns * rows, [&](int i) {
     const int column = i % columns, row = i / columns;
     bool near = false;
-    for (int d = 0; d < 9; ++d) near |= is_touched(column + d % 3 - 1, row + d / 3 - 1);
-    if (near) FilterTile(image, tables, raw, column * kTileWidth, row * kTileHeight, kept);
+    for (int d = 0; d < 9; ++d) near |= is_lost(column + d % 3 - 1, row + d / 3 - 1);
+    if (!near) return;
+    for (int y = row * kTileHeight; y < std::min((row + 1) * kTileHeight, image.height); ++y) {
+      for (int x = column * kTileWidth; x < std::min((column + 1) * kTileWidth, image.width); ++x) {
+        const std::size_t at = image.Index(x, y);
+        if (image.geometry[at] == 0) (*kept)[at] = Filtered(image, tables, raw, x, y);
+      }
+    }
   });
 }
 

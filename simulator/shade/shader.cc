@@ -73,7 +73,11 @@ Shader::Shader(const World& world, const Tracer& tracer, const ShadeOptions& opt
 Shader::~Shader() = default;
 
 std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const EyeView> views,
-                                     std::span<const HitImage> images) const {
+                                     std::span<const HitImage> images,
+                                     const std::function<void(const char*)>& lap) const {
+  const auto done = [&](const char* stage) {
+    if (lap) lap(stage);
+  };
   std::unique_ptr<Workspace> work;
   {
     const std::lock_guard lock(mutex_);
@@ -86,20 +90,24 @@ std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const Eye
 
   tables_.PrepareFrame(instant, images, static_light_.At(instant.snapshot().light_scale),
                        &work->frame);
+  done("light movers");
   std::vector<cv::Mat1f> radiance;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const HitImage& image = images[i];
     LookUpImage(tables_, work->frame, textures_, views[i], image, &work->reflectance,
                 &work->irradiance);
+    done("look up");
     work->kept.assign(image.t.size(), 1);
     if (options_.mover_shadows) {
       TraceMoverShadows(instant, views[i], image, *world_, tables_, work->frame, work->irradiance,
                         &work->kept);
     }
+    done("mover shadows");
     radiance.push_back(Combine(image, work->reflectance, work->irradiance, work->kept));
     if (options_.antialias) {
-      AntialiasEdges(instant, views[i], image, tables_, work->frame, textures_, work->kept,
+      AntialiasEdges(*world_, instant, views[i], image, tables_, work->frame, textures_, work->kept,
                      &radiance.back());
+      done("antialias");
     }
   }
   const std::lock_guard lock(mutex_);

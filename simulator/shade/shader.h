@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <opencv2/core.hpp>
@@ -28,9 +29,10 @@ class Shader {
   ~Shader();
 
   /// Radiance by pixel of each view, CV_32F, in the units of the lights. `images` are the hits of
-  /// the same views. Thread-safe.
+  /// the same views. `lap`, if any, is called with a stage's name at its end. Thread-safe.
   std::vector<cv::Mat1f> Shade(const Instant& instant, std::span<const EyeView> views,
-                               std::span<const HitImage> images) const;
+                               std::span<const HitImage> images,
+                               const std::function<void(const char*)>& lap = {}) const;
 
  private:
   struct Workspace;
