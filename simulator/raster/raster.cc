@@ -1,0 +1,151 @@
+#include "simulator/raster/raster.h"
+
+#include <GL/osmesa.h>
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+namespace aisle::sim {
+namespace {
+
+struct ContextRelease {
+  void operator()(osmesa_context* context) const { OSMesaDestroyContext(context); }
+};
+
+/// Corners of all triangles in world coordinates, each with its instance as a colour.
+struct Soup {
+  std::vector<Eigen::Vector3f> corners;
+  std::vector<std::array<std::uint8_t, 4>> colors;
+
+  void Add(const TriangleMesh& topology, std::span<const Eigen::Vector3f> positions,
+           const auto& instance_of) {
+    for (std::size_t i = 0; i < topology.triangles.size(); ++i) {
+      const auto instance = static_cast<unsigned>(instance_of(i));
+      const std::array<std::uint8_t, 4> color = {static_cast<std::uint8_t>(instance & 255),
+                                                 static_cast<std::uint8_t>(instance >> 8), 0, 255};
+      for (const std::uint32_t vertex : topology.triangles[i]) {
+        corners.push_back(positions[vertex]);
+        colors.push_back(color);
+      }
+    }
+  }
+};
+
+Soup Collect(const World& world, const Snapshot& snapshot) {
+  Soup soup;
+  const StaticWorld& statics = world.statics();
+  soup.Add(statics.mesh, statics.mesh.positions,
+           [&](std::size_t triangle) { return statics.instances[triangle]; });
+  for (std::size_t i = 0; i < snapshot.movers.size(); ++i) {
+    soup.Add(world.mover_meshes()[i], snapshot.movers[i].positions,
+             [&](std::size_t) { return snapshot.movers[i].instance; });
+  }
+  return soup;
+}
+
+/// OpenGL's clip coordinates from camera coordinates (x right, y down, z forward). A pixel's centre
+/// (u, v) lies at window coordinates (u + 1/2, v + 1/2); row 0 of the buffer is image row 0.
+Eigen::Matrix4d ClipFromCamera(const StereoCamera& camera, const RasterOptions& options) {
+  const double w = camera.width, h = camera.height, n = options.near_m, f = options.far_m;
+  Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
+  m(0, 0) = 2 * camera.fx / w;
+  m(0, 2) = (2 * camera.cx + 1) / w - 1;
+  m(1, 1) = 2 * camera.fy / h;
+  m(1, 2) = (2 * camera.cy + 1) / h - 1;
+  m(2, 2) = (f + n) / (f - n);
+  m(2, 3) = -2 * f * n / (f - n);
+  m(3, 2) = 1;
+  return m;
+}
+
+void Draw(const Soup& soup, const Eigen::Matrix4d& clip_from_world, int width, int height) {
+  glViewport(0, 0, width, height);
+  glClearColor(0, 0, 0, 0);
+  glClearDepth(1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_DITHER);
+  glShadeModel(GL_FLAT);
+  glMatrixMode(GL_PROJECTION);
+  glLoadMatrixd(clip_from_world.data());
+  glMatrixMode(GL_MODELVIEW);
+  glLoadIdentity();
+  glEnableClientState(GL_VERTEX_ARRAY);
+  glEnableClientState(GL_COLOR_ARRAY);
+  glVertexPointer(3, GL_FLOAT, sizeof(Eigen::Vector3f), soup.corners.data());
+  glColorPointer(4, GL_UNSIGNED_BYTE, 0, soup.colors.data());
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(soup.corners.size()));
+  glFinish();
+}
+
+RasterView ReadBack(const cv::Mat4b& color, const RasterOptions& options) {
+  const cv::Size size = color.size();
+  cv::Mat1f buffer(size);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, size.width, size.height, GL_DEPTH_COMPONENT, GL_FLOAT, buffer.data);
+  RasterView view{cv::Mat1f(size), cv::Mat1w(size)};
+  const double n = options.near_m, f = options.far_m;
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const cv::Vec4b& c = color(y, x);
+      view.instance(y, x) = static_cast<std::uint16_t>(c[0] | c[1] << 8);
+      const double ndc = 2.0 * buffer(y, x) - 1;
+      view.depth(y, x) = c[3] == 0 ? std::numeric_limits<float>::infinity()
+                                   : static_cast<float>(2 * f * n / (f + n - ndc * (f - n)));
+    }
+  }
+  return view;
+}
+
+bool IsInner(const cv::Mat1f& depth, const cv::Mat1w& instance, int x, int y) {
+  constexpr float kJump = 0.02f;  // of the depth
+  const float z = depth(y, x);
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      if (instance(y + dy, x + dx) != instance(y, x)) return false;
+      const float other = depth(y + dy, x + dx);
+      if (other != z && !(std::abs(other - z) <= kJump * z)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+RasterView Rasterize(const World& world, const Snapshot& snapshot, const StereoCamera& camera,
+                     const Eigen::Isometry3d& T_world_eye, const RasterOptions& options) {
+  const std::unique_ptr<osmesa_context, ContextRelease> context(
+      OSMesaCreateContextExt(OSMESA_RGBA, 32, 0, 0, nullptr));
+  cv::Mat4b color(camera.height, camera.width);
+  if (!context || !OSMesaMakeCurrent(context.get(), color.data, GL_UNSIGNED_BYTE, camera.width,
+                                     camera.height)) {
+    throw std::runtime_error("OSMesa does not start (package libosmesa6)");
+  }
+  OSMesaPixelStore(OSMESA_Y_UP, 1);
+  const Eigen::Matrix4d clip_from_world =
+      ClipFromCamera(camera, options) * T_world_eye.inverse().matrix();
+  Draw(Collect(world, snapshot), clip_from_world, camera.width, camera.height);
+  return ReadBack(color, options);
+}
+
+Agreement Compare(const RasterView& raster, const cv::Mat1f& depth, const cv::Mat1w& instance,
+                  float tolerance) {
+  Agreement agreement;
+  for (int y = 1; y + 1 < depth.rows; ++y) {
+    for (int x = 1; x + 1 < depth.cols; ++x) {
+      if (!IsInner(depth, instance, x, y)) continue;
+      if (!IsInner(raster.depth, raster.instance, x, y)) continue;
+      ++agreement.compared;
+      const float a = raster.depth(y, x), b = depth(y, x);
+      agreement.agreeing +=
+          raster.instance(y, x) == instance(y, x) && (a == b || std::abs(a - b) <= tolerance * b);
+    }
+  }
+  return agreement;
+}
+
+}  // namespace aisle::sim

@@ -1,0 +1,1 @@
+aisle_tests(simulator/raster USES simulator/truth)

@@ -1,0 +1,80 @@
+#include "simulator/sensor/sensor.h"
+
+#include <gmock/gmock.h>
+
+namespace aisle::sim {
+namespace {
+
+struct Moments {
+  double mean = 0, variance = 0;
+};
+Moments MomentsOf(const cv::Mat1b& image) {
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(image, mean, deviation);
+  return {mean[0], deviation[0] * deviation[0]};
+}
+
+const cv::Mat1f kNoVignetting(480, 752, 1.0f);
+
+TEST(Expose, WithoutNoiseGreyIsLinearInRadiance) {
+  SensorOptions options{.exposure = 0.5f, .black_level = 0, .noise = false};
+  for (const float radiance : {0.0f, 0.25f, 1.0f, 1.9f, 5.0f}) {
+    const cv::Mat1b grey = Expose(cv::Mat1f(480, 752, radiance), kNoVignetting, options, {});
+    EXPECT_NEAR(grey(100, 100), std::min(255.0, 255 * 0.5 * radiance), 0.51);
+  }
+}
+
+TEST(Expose, NoiseFollowsThePhotonTransferLaw) {
+  // In electrons: variance = mean + read²; a grey level is full_well / 255 electrons.
+  const SensorOptions options{.exposure = 1, .full_well_e = 10000, .read_noise_e = 20};
+  const double e_per_grey = options.full_well_e / 255;
+  for (const float radiance : {0.1f, 0.3f, 0.7f}) {
+    const Moments moments =
+        MomentsOf(Expose(cv::Mat1f(480, 752, radiance), kNoVignetting, options, {5, 1, 0}));
+    const double mean_e = radiance * options.full_well_e;
+    const double expected = (mean_e + 400) / (e_per_grey * e_per_grey) + 1.0 / 12;
+    EXPECT_NEAR(moments.mean, 255 * radiance + options.black_level, 0.05);
+    EXPECT_NEAR(moments.variance, expected, 0.03 * expected);
+  }
+}
+
+TEST(Expose, NoiseDependsOnTheKeyAndOnNothingElse) {
+  const cv::Mat1f grey(480, 752, 0.4f);
+  const auto picture = [&](const NoiseKey& key) { return Expose(grey, kNoVignetting, {}, key); };
+  const auto differing = [](const cv::Mat1b& a, const cv::Mat1b& b) {
+    return cv::countNonZero(a != b);
+  };
+  const cv::Mat1b reference = picture({1, 2, 0});
+  EXPECT_EQ(differing(reference, picture({1, 2, 0})), 0);
+  for (const NoiseKey& other : {NoiseKey{2, 2, 0}, NoiseKey{1, 3, 0}, NoiseKey{1, 2, 1}}) {
+    EXPECT_GT(differing(reference, picture(other)), 250000);
+  }
+}
+
+TEST(Expose, NeighbouringPixelsAreUncorrelated) {
+  cv::Mat1f image;
+  Expose(cv::Mat1f(480, 752, 0.4f), kNoVignetting, {}, {1, 0, 0}).convertTo(image, CV_32F);
+  image -= cv::mean(image)[0];
+  const double variance = image.dot(image);
+  for (const cv::Point step : {cv::Point(1, 0), cv::Point(0, 1), cv::Point(1, 1)}) {
+    const cv::Rect a(0, 0, 752 - step.x, 480 - step.y), b(a + step);
+    EXPECT_LT(std::abs(image(a).clone().dot(image(b).clone())) / variance, 0.01);
+  }
+}
+
+TEST(SpreadByLens, KeepsTheLightOfAPoint) {
+  cv::Mat1f point(21, 21, 0.0f);
+  point(10, 10) = 1;
+  const cv::Mat1f spread = SpreadByLens(point, 0.6f);
+  EXPECT_NEAR(cv::sum(spread)[0], 1, 1e-5);
+  EXPECT_LT(spread(10, 10), 0.7f);
+}
+
+TEST(SensorOptions, ValidateNamesTheBrokenRule) {
+  EXPECT_EQ(SensorOptions{}.Validate(), "");
+  EXPECT_THAT(SensorOptions{.exposure = -1}.Validate(), testing::HasSubstr("exposure is -1"));
+  EXPECT_THAT(SensorOptions{.vignetting = 2}.Validate(), testing::HasSubstr("vignetting is 2"));
+}
+
+}  // namespace
+}  // namespace aisle::sim

@@ -1,0 +1,132 @@
+#include "simulator/truth/truth.h"
+
+#include <gtest/gtest.h>
+
+#include "simulator/camera/pixel_rays.h"
+#include "tests/simulator/test_world.h"
+
+namespace aisle::sim {
+namespace {
+
+/// A box of one metre that stands 4 m ahead of the eye and moves sideways, in front of a wall.
+struct Stage {
+  double speed = 1;          ///< m/s, along world y
+  bool screen = false;       ///< a second mover hides the left half of the box
+  double angular_speed = 0;  ///< rad/s about the box's own vertical axis
+};
+
+WorldParts Build(const Stage& stage) {
+  WorldParts parts;
+  parts.instances = {{"nothing", ObjectClass::kNone, false},
+                     {"wall", ObjectClass::kWall, false},
+                     {"box", ObjectClass::kAgv, true},
+                     {"screen", ObjectClass::kPerson, true}};
+  parts.materials.resize(1);
+  parts.lights.push_back({{0, 0, 5}, {1, 0, 0}, {0, -1, 0}, 1});
+  test::MeshBuilder wall, box, screen;
+  wall.Quad({10, 50, -50}, {0, -100, 0}, {0, 0, 100}, 0, 1);
+  parts.statics = {wall.mesh, wall.instances};
+  box.Box({-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}, 0, 2);
+  screen.Box({-0.01f, 0, -2}, {0.01f, 2, 2}, 0, 3);
+  parts.mover_meshes = {box.mesh};
+  if (stage.screen) parts.mover_meshes.push_back(screen.mesh);
+  parts.at = [meshes = parts.mover_meshes, stage](std::int64_t stamp_ns) {
+    Snapshot snapshot{.stamp_ns = stamp_ns, .movers = {}, .light_scale = {1}};
+    const std::array<Eigen::Vector3f, 2> places = {
+        Eigen::Vector3f(4.5f,
+                        static_cast<float>(1e-9 * static_cast<double>(stamp_ns) * stage.speed), 0),
+        Eigen::Vector3f(2, 0, 0)};
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+      MoverState mover;
+      mover.instance = static_cast<std::uint16_t>(2 + i);
+      mover.T_world_object.translation() = places[i].cast<double>();
+      mover.velocity_mps = i == 0 ? Eigen::Vector3d(0, stage.speed, 0) : Eigen::Vector3d::Zero();
+      for (const Eigen::Vector3f& p : meshes[i].positions) {
+        Eigen::Vector3f spin = Eigen::Vector3f::Zero();
+        if (i == 0) spin = Eigen::Vector3f(-p.y(), p.x(), 0) * static_cast<float>(stage.angular_speed);
+        mover.positions.push_back(p + places[i]);
+        mover.velocities.push_back(mover.velocity_mps.cast<float>() + spin);
+      }
+      mover.normals = meshes[i].normals;
+      snapshot.movers.push_back(std::move(mover));
+    }
+    return snapshot;
+  };
+  return parts;
+}
+
+struct Seen {
+  EyeTruth eye;
+  std::vector<MoverTruth> movers;
+};
+
+Seen Look(const Stage& stage, float threshold = 0.05f) {
+  const World world(Build(stage));
+  const Tracer tracer(world, {});
+  const StereoCamera camera;
+  const PixelRays rays = MakePixelRays(camera);
+  const std::array views = {EyeView(rays, test::LookAlong({0, 0, 0}, 0))};
+  const Instant instant = tracer.Pose(world.At(0));
+  std::vector<HitImage> hits;
+  TraceViews(instant, views, {}, &hits);
+  Seen seen{LabelHits(world, instant, hits[0], threshold), {}};
+  seen.movers = DescribeMovers(instant, views[0], seen.eye);
+  return seen;
+}
+
+TEST(Truth, BoxIsWhereTheCameraModelPutsIt) {
+  const Seen seen = Look({});
+  ASSERT_EQ(seen.movers.size(), 1u);
+  const MoverTruth& box = seen.movers[0];
+  // Its front face stands at z = 4 m and reaches 0.5 m to each side.
+  const StereoCamera c;
+  const double half = c.fx * 0.5 / 4;
+  EXPECT_NEAR(box.box_visible.x, c.cx - half, 1);
+  EXPECT_NEAR(box.box_visible.br().x, c.cx + half, 1);
+  EXPECT_NEAR(box.box_visible.y, c.cy - half, 1);
+  EXPECT_NEAR(box.box_visible.br().y, c.cy + half, 1);
+  EXPECT_EQ(box.box_full, box.box_visible);
+  EXPECT_EQ(box.visible_fraction, 1);
+  EXPECT_NEAR(box.visible_pixels, 4 * half * half, 6 * half);
+  EXPECT_TRUE(box.extent_m.isApproxToConstant(1, 1e-6));
+  EXPECT_TRUE(box.center_m.isApprox(Eigen::Vector3d(4.5, 0, 0), 1e-6));
+  EXPECT_NEAR(seen.eye.depth(252, 367), 4, 1e-5);
+  EXPECT_NEAR(seen.eye.depth(10, 10), 10, 1e-5);
+  EXPECT_EQ(seen.eye.instance(252, 367), 2);
+  EXPECT_EQ(seen.eye.object_class(252, 367), static_cast<int>(ObjectClass::kAgv));
+}
+
+TEST(Truth, DynamicIsTheSurfacesOwnSpeedAgainstTheThreshold) {
+  const Seen moving = Look({.speed = 1});
+  EXPECT_EQ(moving.movers[0].dynamic_pixels, moving.movers[0].visible_pixels);
+  EXPECT_EQ(cv::countNonZero(moving.eye.dynamic), moving.movers[0].visible_pixels);
+  const Seen creeping = Look({.speed = 0.04});
+  EXPECT_EQ(cv::countNonZero(creeping.eye.dynamic), 0);
+  EXPECT_EQ(cv::countNonZero(creeping.eye.actor), creeping.movers[0].visible_pixels);
+  EXPECT_GT(cv::countNonZero(Look({.speed = 0.04}, 0.03f).eye.dynamic), 0);
+}
+
+TEST(Truth, OfATurningThingOnlyTheFastPartIsDynamic) {
+  // Front face x = -0.5: speed = ω·√(0.25 + y²); 0.6 m/s is passed where |y| > 0.33 at ω = 1.
+  const Seen seen = Look({.speed = 0, .angular_speed = 1}, 0.6f);
+  const StereoCamera c;
+  const auto at = [&](double y) {
+    return seen.eye.dynamic(252, static_cast<int>(c.cx - c.fx * y / 4));
+  };
+  EXPECT_EQ(at(0.0), 0);
+  EXPECT_EQ(at(0.28), 0);
+  EXPECT_EQ(at(0.4), 255);
+  EXPECT_EQ(at(-0.4), 255);
+}
+
+TEST(Truth, HiddenHalfCountsInTheFullBoxOnly) {
+  const Seen seen = Look({.screen = true});
+  ASSERT_EQ(seen.movers.size(), 2u);
+  const MoverTruth& box = seen.movers[0];
+  EXPECT_NEAR(box.visible_fraction, 0.5, 0.01);
+  EXPECT_NEAR(box.box_visible.width, box.box_full.width / 2, 1.5);
+  EXPECT_EQ(box.box_visible.br(), box.box_full.br());
+}
+
+}  // namespace
+}  // namespace aisle::sim
