@@ -86,11 +86,13 @@ cv::Mat1f VignettingMap(int width, int height, const std::vector<float>& ray_x,
     for (int x = 0; x < width; ++x) {
       const auto i = static_cast<std::size_t>(y * width + x);
       const float squared = ray_x[i] * ray_x[i] + ray_y[i] * ray_y[i];
-      const float twice_sine_squared = 2 * squared / (1 + squared);
-      map(y, x) = std::max(0.0f, 1 - vignetting * twice_sine_squared * twice_sine_squared);
+      const float sine_squared = squared / (1 + squared);
+      map(y, x) = sine_squared * sine_squared;
     }
   }
-  return map;
+  double farthest = 0;
+  cv::minMaxLoc(map, nullptr, &farthest);
+  return cv::Mat1f(1 - map * (vignetting / std::max(farthest, 1e-12)));
 }
 
 cv::Mat1f SpreadByLens(const cv::Mat1f& radiance, float sigma_px) {

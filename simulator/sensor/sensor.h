@@ -18,8 +18,7 @@ struct SensorOptions {
   float gain = 1.0f;             ///< analogue: white is reached at full_well_e / gain
   float read_noise_e = 20.0f;    ///< rms, electrons
   float black_level = 2.0f;      ///< grey levels added before rounding
-  float vignetting = 0.35f;      ///< loss at a field angle of 45° relative to the centre, as
-                                 ///< 1 - vignetting·(2 sin²θ)²; 0: none. (cos⁴ loses 0.75.)
+  float vignetting = 0.25f;      ///< share of the light lost in the farthest corner
   bool noise = true;             ///< shot and read noise
   float blur_px = 0.45f;         ///< standard deviation of the lens's point spread; 0: none
 
@@ -34,7 +33,9 @@ struct NoiseKey {
   std::uint32_t camera = 0;
 };
 
-/// Fall-off of the lens, a factor a pixel, from each pixel's ray (x, y, 1).
+/// Fall-off of the lens, a factor a pixel, from each pixel's ray (x, y, 1): it loses light with the
+/// fourth power of the sine of the field angle, like cos⁴ to second order, `vignetting` in the
+/// farthest corner.
 cv::Mat1f VignettingMap(int width, int height, const std::vector<float>& ray_x,
                         const std::vector<float>& ray_y, float vignetting);
 

@@ -37,6 +37,13 @@ void CheckMesh(const TriangleMesh& mesh, const WorldParts& parts, const std::str
 
 }  // namespace
 
+std::string_view ClassName(ObjectClass object_class) {
+  constexpr std::array<std::string_view, 14> kNames = {
+      "none",      "floor",  "wall",     "column", "rack",        "goods", "luminaire",
+      "furniture", "person", "forklift", "agv",    "pallet_jack", "car",   "cyclist"};
+  return kNames.at(static_cast<std::size_t>(object_class));
+}
+
 World::World(WorldParts parts) : parts_(std::move(parts)) {
   CheckMesh(parts_.statics.mesh, parts_, "static world");
   if (parts_.statics.instances.size() != parts_.statics.mesh.triangles.size()) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "simulator/mesh/material.h"
@@ -28,6 +29,9 @@ enum class ObjectClass : std::uint8_t {
   kCar = 12,
   kCyclist = 13,
 };
+
+/// "person", "forklift", …: as label files spell it.
+std::string_view ClassName(ObjectClass object_class);
 
 /// One labelled thing. Its id is its index in World::instances(); 0 is "nothing".
 struct Instance {

@@ -1,0 +1,191 @@
+#include "simulator/simulator.h"
+
+#include <xxhash.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "simulator/pipeline.h"
+#include "simulator/scene/load.h"
+#include "simulator/world/build.h"
+
+namespace aisle::sim {
+namespace {
+
+/// Grey level (share of white) that radiance 1 gives after 1 ms at 0 dB: lamps of brightness 1 and
+/// the default exposure of 8 ms then show a hall in middle grey.
+constexpr double kGreyPerMillisecond = 28.0;
+
+Scene TwinOf(Scene scene, Twin twin) {
+  if (twin == Twin::kEmpty) return WithoutActors(std::move(scene));
+  if (twin == Twin::kFrozen) return Frozen(std::move(scene));
+  return scene;
+}
+
+StereoCamera CameraOf(const CameraSpec& spec) {
+  return {.width = spec.size_px[0],
+          .height = spec.size_px[1],
+          .fx = spec.focal_px.x(),
+          .fy = spec.focal_px.y(),
+          .cx = spec.center_px.x(),
+          .cy = spec.center_px.y(),
+          .baseline_m = spec.baseline_m};
+}
+
+SensorOptions SensorOf(const SensorSpec& spec) {
+  SensorOptions options;
+  const double gain = std::pow(10.0, spec.gain_db / 20);
+  options.gain = static_cast<float>(gain);
+  options.exposure = static_cast<float>(spec.exposure_ms * gain * kGreyPerMillisecond);
+  options.noise = spec.noise;
+  options.vignetting = static_cast<float>(spec.vignetting);
+  options.blur_px = static_cast<float>(spec.blur_px);
+  return options;
+}
+
+std::string ReadWhole(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+class Hasher {
+ public:
+  Hasher() : state_(XXH3_createState()) { XXH3_64bits_reset(state_); }
+  ~Hasher() { XXH3_freeState(state_); }
+  Hasher(const Hasher&) = delete;
+  Hasher& operator=(const Hasher&) = delete;
+
+  template <typename T>
+  void Add(const std::vector<T>& values) {
+    XXH3_64bits_update(state_, values.data(), values.size() * sizeof(T));
+  }
+  void Add(const std::string& text) { XXH3_64bits_update(state_, text.data(), text.size()); }
+  void Add(const TriangleMesh& mesh) {
+    Add(mesh.positions);
+    Add(mesh.uvs);
+    Add(mesh.triangles);
+    Add(mesh.materials);
+  }
+  void Add(const cv::Mat& image) {
+    for (int y = 0; y < image.rows; ++y) {
+      XXH3_64bits_update(state_, image.ptr(y),
+                         static_cast<std::size_t>(image.cols) * image.elemSize());
+    }
+  }
+  std::uint64_t Value() const { return XXH3_64bits_digest(state_); }
+
+ private:
+  XXH3_state_t* state_;
+};
+
+/// The file, what was made of it, and where the movers are at two times: between them they change
+/// when anything that decides a pixel does.
+std::uint64_t HashOf(const std::string& scene_text, const World& world, std::int64_t end_ns,
+                     const SimulatorOptions& options) {
+  Hasher hasher;
+  hasher.Add(scene_text);
+  hasher.Add(world.statics().mesh);
+  for (const TriangleMesh& mesh : world.mover_meshes()) hasher.Add(mesh);
+  for (const Texture& texture : world.textures()) hasher.Add(texture.image);
+  for (const Material& material : world.materials()) {
+    hasher.Add(fmt::format("{} {} {} {}", material.albedo, material.specular_f0, material.roughness,
+                           material.emission));
+  }
+  for (const std::int64_t stamp_ns : {std::int64_t{0}, end_ns / 2}) {
+    for (const MoverState& mover : world.At(stamp_ns).movers) hasher.Add(mover.positions);
+  }
+  hasher.Add(fmt::format("{} {} {}", options.seed, static_cast<int>(options.twin), options.isa));
+  return hasher.Value();
+}
+
+std::vector<InstanceInfo> DescribeInstances(const World& world) {
+  std::vector<InstanceInfo> instances;
+  for (const Instance& instance : world.instances()) {
+    instances.push_back({.name = instance.name,
+                         .object_class = std::string(ClassName(instance.object_class)),
+                         .class_id = static_cast<std::uint8_t>(instance.object_class),
+                         .is_actor = instance.is_actor});
+  }
+  return instances;
+}
+
+}  // namespace
+
+struct Simulator::Impl {
+  Scene scene;
+  RigInfo rig;
+  std::vector<InstanceInfo> instances;
+  std::uint64_t hash = 0;
+  std::unique_ptr<Pipeline> pipeline;
+};
+
+Simulator::Simulator(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Simulator::Simulator(Simulator&&) noexcept = default;
+Simulator& Simulator::operator=(Simulator&&) noexcept = default;
+Simulator::~Simulator() = default;
+
+Simulator Simulator::Load(const std::string& scene_file, const std::string& assets_dir,
+                          const SimulatorOptions& options) {
+  auto impl = std::make_unique<Impl>();
+  impl->scene = TwinOf(LoadScene(scene_file), options.twin);
+  const Scene& scene = impl->scene;
+  const StereoCamera camera = CameraOf(scene.camera);
+  impl->rig = {.width = camera.width,
+               .height = camera.height,
+               .fx = camera.fx,
+               .fy = camera.fy,
+               .cx = camera.cx,
+               .cy = camera.cy,
+               .baseline_m = camera.baseline_m};
+  World world = BuildWorld(scene, assets_dir, options.seed);
+  impl->instances = DescribeInstances(world);
+  impl->hash = HashOf(ReadWhole(scene_file), world,
+                      static_cast<std::int64_t>(1e9 * scene.duration_s()), options);
+  PipelineOptions pipeline;
+  pipeline.seed = options.seed;
+  pipeline.threads = options.threads;
+  pipeline.dynamic_threshold_mps = static_cast<float>(scene.dynamic_threshold_mps);
+  pipeline.tracer.isa = options.isa;
+  pipeline.sensor = SensorOf(scene.sensor);
+  impl->pipeline = std::make_unique<Pipeline>(std::move(world), camera, pipeline);
+  return Simulator(std::move(impl));
+}
+
+const RigInfo& Simulator::rig() const { return impl_->rig; }
+int Simulator::frame_count() const { return impl_->scene.frames; }
+double Simulator::rate_hz() const { return impl_->scene.rate_hz; }
+double Simulator::dynamic_threshold_mps() const { return impl_->scene.dynamic_threshold_mps; }
+const std::vector<InstanceInfo>& Simulator::instances() const { return impl_->instances; }
+std::uint64_t Simulator::content_hash() const { return impl_->hash; }
+
+std::int64_t Simulator::Stamp(int frame_index) const {
+  return std::llround(1e9 * frame_index / impl_->scene.rate_hz);
+}
+
+Eigen::Isometry3d Simulator::PlannedPose(std::int64_t stamp_ns) const {
+  return impl_->pipeline->world().PlannedRigPose(stamp_ns);
+}
+
+RenderedFrame Simulator::Render(int frame_index, std::int64_t stamp_ns,
+                                const Eigen::Isometry3d& T_world_rig) const {
+  return impl_->pipeline->Render(frame_index, stamp_ns, T_world_rig);
+}
+
+RenderBench Simulator::Bench(int frames) const {
+  std::vector<std::int64_t> stamps;
+  std::vector<Eigen::Isometry3d> poses;
+  for (int i = 0; i < frames; ++i) {
+    stamps.push_back(Stamp(static_cast<int>(std::int64_t{frame_count() - 1} * i / frames)));
+    poses.push_back(PlannedPose(stamps.back()));
+  }
+  return impl_->pipeline->Bench(stamps, poses);
+}
+
+std::vector<std::string> CheckSceneFile(const std::string& scene_file) {
+  return CheckScene(scene_file);
+}
+
+}  // namespace aisle::sim
