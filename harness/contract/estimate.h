@@ -14,7 +14,7 @@ struct StampedPose {
   std::int64_t stamp_ns = 0;
   Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();
 };
-using Trajectory = std::vector<StampedPose>;  ///< stamps rise strictly
+using Trajectory = std::vector<StampedPose>;  ///< stamps do not fall
 
 /// What an estimator rejected as moving in one frame.
 struct DynamicRegion {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,17 +20,36 @@ struct RunSpec {
   std::uint64_t seed = 1;
 };
 
-enum class RunStatus { kOk, kLost, kCrashed, kTimeout, kInvalid };
+enum class RunStatus {
+  kOk,
+  kLost,     ///< fewer poses than the run asks for
+  kCrashed,  ///< the system ended in a signal, an exception or an error exit
+  kTimeout,  ///< out of time or memory
+  kInvalid,  ///< NaN, unordered or foreign stamps
+};
+
+/// How the mask a system rejected by compares with truth in one frame.
+struct MaskFacts {
+  std::int64_t true_positives = 0, false_positives = 0, false_negatives = 0;  ///< pixels
+  int objects_found = 0, objects_invented = 0, objects_missed = 0;            ///< by rectangle
+  double iou_sum = 0;           ///< of the found objects' rectangles
+  int static_corners = 0;       ///< image corners on surfaces that do not move
+  int static_corners_lost = 0;  ///< of them, under the mask
+  bool operator==(const MaskFacts&) const = default;
+};
 
 /// Truth of one frame as the scores need it (images live only while the frame is driven).
 struct FrameFacts {
   std::int64_t stamp_ns = 0;
   Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();  ///< truth
   double movers_share = 0;                                        ///< dynamic pixels / pixels
-  double actors_share = 0;     ///< person and vehicle pixels / pixels
-  int features_on_movers = 0;  ///< keypoints on dynamic pixels
-  int inliers_on_movers = 0;   ///< of them, used in the pose
-  double render_ms = 0;
+  double actors_share = 0;        ///< person and vehicle pixels / pixels
+  int features = 0;               ///< the system's keypoints in the left image
+  int features_on_movers = 0;     ///< of them, on dynamic pixels
+  int inliers_on_movers = 0;      ///< of those, used in the pose
+  std::optional<MaskFacts> mask;  ///< absent where nothing was masked or nothing is known
+  double render_ms = 0;           ///< making or fetching the frame
+  double process_ms = 0;          ///< the system's whole step
 };
 
 /// All that one run left behind.

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace aisle {
+
+/// Writes aside, flushes to the disk, then renames: under the final name stands either the old file
+/// or the whole new one, whenever the power goes. Makes missing folders. Throws MachineError.
+void WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes);
+
+/// The whole file. Throws InputError when it cannot be read or is larger than max_bytes.
+std::string ReadFile(const std::filesystem::path& path,
+                     std::size_t max_bytes = std::size_t{1} << 30);
+
+}  // namespace aisle

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "harness/contract/estimate.h"
+
+namespace aisle {
+
+/// TUM: "timestamp tx ty tz qx qy qz qw", '#' comments.
+/// KITTI: 12 numbers a line, the first three rows of T_world_rig; no stamps.
+/// EuRoC: csv "stamp in ns, p x y z, q w x y z[, v, biases]".
+enum class TrajectoryFormat { kTum, kKitti, kEuroc };
+
+/// "tum", "kitti", "euroc"; throws InputError naming the choices.
+TrajectoryFormat TrajectoryFormatFromName(const std::string& name);
+/// Judges by the file's first data line. Throws InputError if it is none of the three.
+TrajectoryFormat GuessTrajectoryFormat(const std::filesystem::path& path);
+
+/// Reads and checks: every number finite, quaternions of norm 1 ± 0.05 (then normalised), stamps
+/// not falling (published files do repeat a stamp here and there). Stamps are parsed as decimals,
+/// never through a double. KITTI poses are kept as written (their rotations are orthonormal to the
+/// printed digits only) and stamped k × 0.1 s unless `times` names a file with a time in seconds
+/// per line. Throws InputError with file:line.
+Trajectory ReadTrajectory(const std::filesystem::path& path, TrajectoryFormat format,
+                          const std::filesystem::path& times = {});
+
+/// The text of a trajectory file. TUM stamps have 9 decimals; every number reads back bit for bit;
+/// no trailing spaces. EuRoC gets all 17 columns, velocities by central differences, biases 0.
+std::string FormatTrajectory(const Trajectory& trajectory, TrajectoryFormat format);
+
+/// "1403715529.112143517", "1.4037155e+09" -> nanoseconds, exactly (rounded half up below 1 ns).
+/// False if it is not a plain decimal number or out of range.
+bool ParseSecondsToNs(const std::string& text, std::int64_t* stamp_ns);
+/// 1403715529112143517 -> "1403715529.112143517".
+std::string FormatSeconds(std::int64_t stamp_ns);
+
+}  // namespace aisle

@@ -1,0 +1,111 @@
+#include "harness/plugs/simulated_sequence.h"
+
+#include "harness/io/input_error.h"
+#include "simulator/simulator.h"
+
+namespace aisle {
+namespace {
+
+sim::Twin TwinFromName(const std::string& name) {
+  if (name == "live") return sim::Twin::kLive;
+  if (name == "empty") return sim::Twin::kEmpty;
+  if (name == "frozen") return sim::Twin::kFrozen;
+  throw InputError("twin '" + Printable(name) + "': expected live, empty or frozen");
+}
+
+ObjectTruth Convert(const sim::ObjectTruth& object, const std::string& object_class) {
+  ObjectTruth result;
+  result.instance = object.instance;
+  result.object_class = object_class;
+  result.box_visible = object.box_visible;
+  result.box_full = object.box_full;
+  result.center_m = object.center_m;
+  result.velocity_mps = object.velocity_mps;
+  result.visible_fraction = object.visible_fraction;
+  result.visible_pixels = object.visible_pixels;
+  result.dynamic_pixels = object.dynamic_pixels;
+  return result;
+}
+
+FrameTruth Convert(const sim::FrameTruth& truth, const std::vector<sim::InstanceInfo>& instances) {
+  FrameTruth result;
+  result.T_world_rig = truth.T_world_rig;
+  result.depth = truth.depth;
+  result.instance = truth.instance;
+  result.dynamic = truth.dynamic;
+  result.dynamic_right = truth.dynamic_right;
+  result.actor = truth.actor;
+  result.actor_right = truth.actor_right;
+  for (const sim::ObjectTruth& object : truth.objects) {
+    result.objects.push_back(Convert(object, instances.at(object.instance).object_class));
+  }
+  return result;
+}
+
+class SimulatedSequence : public Sequence {
+ public:
+  SimulatedSequence(sim::Simulator simulator, std::string name)
+      : simulator_(std::move(simulator)), name_(std::move(name)) {}
+
+  std::string name() const override { return name_; }
+
+  StereoCalibration calibration() const override {
+    const sim::RigInfo& rig = simulator_.rig();
+    return {.width = rig.width,
+            .height = rig.height,
+            .fx = rig.fx,
+            .fy = rig.fy,
+            .cx = rig.cx,
+            .cy = rig.cy,
+            .baseline_m = rig.baseline_m};
+  }
+
+  double rate_hz() const override { return simulator_.rate_hz(); }
+
+  std::vector<FrameRequest> Schedule() const override {
+    std::vector<FrameRequest> schedule;
+    for (int k = 0; k < simulator_.frame_count(); ++k) {
+      const std::int64_t stamp_ns = simulator_.Stamp(k);
+      schedule.push_back({k, stamp_ns, simulator_.PlannedPose(stamp_ns)});
+    }
+    return schedule;
+  }
+
+  SequenceFrame At(const FrameRequest& request) const override {
+    const sim::RenderedFrame frame =
+        simulator_.Render(static_cast<int>(request.id), request.stamp_ns, request.T_world_rig);
+    return {.images = {request.id, frame.stamp_ns, frame.left, frame.right},
+            .truth = Convert(frame.truth, simulator_.instances())};
+  }
+
+ private:
+  sim::Simulator simulator_;
+  std::string name_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& TwinNames() {
+  static const std::vector<std::string> names = {"live", "empty", "frozen"};
+  return names;
+}
+
+std::unique_ptr<Sequence> OpenSimulation(const SimulatedSequenceOptions& options,
+                                         std::uint64_t* content_hash) {
+  const sim::Twin twin = TwinFromName(options.twin);
+  try {
+    sim::Simulator simulator = sim::Simulator::Load(
+        options.scene_file, options.assets_dir,
+        {.seed = options.seed, .twin = twin, .threads = options.threads, .isa = options.isa});
+    if (content_hash != nullptr) *content_hash = simulator.content_hash();
+    return std::make_unique<SimulatedSequence>(std::move(simulator), options.scene_name);
+  } catch (const std::runtime_error& error) {
+    throw InputError(error.what());
+  }
+}
+
+std::vector<std::string> CheckScene(const std::string& scene_file) {
+  return sim::CheckSceneFile(scene_file);
+}
+
+}  // namespace aisle

@@ -1,0 +1,76 @@
+#include "harness/plugs/stereo_slam_estimator.h"
+
+#include "slam/stereo_slam.h"
+
+namespace aisle {
+namespace {
+
+TrackingState Convert(slam::TrackingState state) {
+  switch (state) {
+    case slam::TrackingState::kInitializing:
+      return TrackingState::kInitializing;
+    case slam::TrackingState::kTracking:
+      return TrackingState::kTracking;
+    case slam::TrackingState::kLost:
+      break;
+  }
+  return TrackingState::kLost;
+}
+
+FrameEstimate Convert(const slam::TrackedFrame& frame) {
+  FrameEstimate estimate;
+  estimate.id = frame.id;
+  estimate.stamp_ns = frame.stamp_ns;
+  estimate.state = Convert(frame.state);
+  estimate.T_world_rig = frame.T_world_rig;
+  estimate.counts = {{"features", frame.features},
+                     {"stereo_points", frame.stereo_points},
+                     {"matched", frame.matched_points},
+                     {"inliers", frame.inliers},
+                     {"keyframe", frame.is_keyframe ? 1 : 0}};
+  estimate.stage_ms = frame.stage_ms;
+  estimate.keypoints = frame.keypoints;
+  estimate.keypoint_is_inlier = frame.keypoint_is_inlier;
+  return estimate;
+}
+
+class StereoSlamEstimator : public Estimator {
+ public:
+  StereoSlamEstimator(const slam::StereoCamera& camera, const slam::SlamOptions& options)
+      : slam_(camera, options) {}
+
+  FrameEstimate Process(const StereoFrame& frame, const ExternalMask& mask) override {
+    return Convert(
+        slam_.Track({frame.id, frame.stamp_ns, frame.left, frame.right}, {mask.left, mask.right}));
+  }
+
+  Trajectory Finish() override {
+    Trajectory trajectory;
+    for (const slam::StampedPose& pose : slam_.Finish()) {
+      trajectory.push_back({pose.stamp_ns, pose.T_world_rig});
+    }
+    return trajectory;
+  }
+
+ private:
+  slam::StereoSlam slam_;
+};
+
+}  // namespace
+
+std::unique_ptr<Estimator> MakeStereoSlamEstimator(const StereoCalibration& calibration,
+                                                   const StereoSlamEstimatorOptions& options) {
+  slam::StereoCamera camera;
+  camera.width = calibration.width;
+  camera.height = calibration.height;
+  camera.fx = calibration.fx;
+  camera.fy = calibration.fy;
+  camera.cx = calibration.cx;
+  camera.cy = calibration.cy;
+  camera.baseline_m = calibration.baseline_m;
+  slam::SlamOptions slam_options;
+  slam_options.threads = options.threads;
+  return std::make_unique<StereoSlamEstimator>(camera, slam_options);
+}
+
+}  // namespace aisle

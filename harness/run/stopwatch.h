@@ -1,0 +1,19 @@
+#pragma once
+
+#include <chrono>
+
+namespace aisle {
+
+/// Wall time since it was made. For reports only; nothing is ever decided by it.
+class Stopwatch {
+ public:
+  double ElapsedMs() const {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace aisle

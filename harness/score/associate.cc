@@ -1,0 +1,153 @@
+#include "harness/score/associate.h"
+
+#include <stdexcept>
+#include <tuple>
+
+namespace aisle {
+namespace {
+
+constexpr std::int64_t kEvoBoundNs = 10'000'000;
+constexpr std::int64_t kTumBoundNs = 20'000'000;
+
+std::int64_t Distance(std::int64_t a, std::int64_t b) { return a < b ? b - a : a - b; }
+
+std::size_t FirstNotBefore(const Trajectory& trajectory, std::int64_t stamp_ns) {
+  const auto at = std::lower_bound(
+      trajectory.begin(), trajectory.end(), stamp_ns,
+      [](const StampedPose& pose, std::int64_t stamp) { return pose.stamp_ns < stamp; });
+  return static_cast<std::size_t>(at - trajectory.begin());
+}
+
+/// evo compares times as doubles in seconds. Near 1.4e9 s their grid is 0.24 µs, so a tie in the
+/// file's decimals often is none there; to pair as evo does, its rounding is part of the rule.
+double SecondsInDouble(std::int64_t stamp_ns) {
+  return static_cast<double>(static_cast<long double>(stamp_ns) / 1e9L);
+}
+
+/// Index of the pose nearest in time, the first on a tie. The trajectory is not empty.
+std::size_t NearestIndex(const Trajectory& trajectory, std::int64_t stamp_ns) {
+  const double stamp_s = SecondsInDouble(stamp_ns);
+  const auto distance = [&](std::size_t i) {
+    return std::abs(SecondsInDouble(trajectory[i].stamp_ns) - stamp_s);
+  };
+  const std::size_t after = FirstNotBefore(trajectory, stamp_ns);
+  if (after == 0) return 0;
+  if (after < trajectory.size() && distance(after) < distance(after - 1)) return after;
+  return FirstNotBefore(trajectory, trajectory[after - 1].stamp_ns);
+}
+
+std::vector<PosePair> AssociateLikeEvo(const Trajectory& truth, const Trajectory& estimate,
+                                       std::int64_t bound_ns) {
+  const bool walk_truth = truth.size() < estimate.size();
+  const Trajectory& walked = walk_truth ? truth : estimate;
+  const Trajectory& searched = walk_truth ? estimate : truth;
+  std::vector<PosePair> pairs;
+  if (searched.empty()) return pairs;
+  for (std::size_t i = 0; i < walked.size(); ++i) {
+    const std::size_t nearest = NearestIndex(searched, walked[i].stamp_ns);
+    if (Distance(searched[nearest].stamp_ns, walked[i].stamp_ns) > bound_ns) continue;
+    pairs.push_back(walk_truth ? PosePair{i, nearest} : PosePair{nearest, i});
+  }
+  return pairs;
+}
+
+/// Closest pairs first, each pose at most once. `bound_ns` is inclusive.
+std::vector<PosePair> AssociateGreedily(const Trajectory& truth, const Trajectory& estimate,
+                                        std::int64_t bound_ns) {
+  std::vector<std::tuple<std::int64_t, std::size_t, std::size_t>> candidates;
+  for (std::size_t e = 0; e < estimate.size(); ++e) {
+    const std::int64_t stamp = estimate[e].stamp_ns;
+    for (std::size_t t = FirstNotBefore(truth, stamp - bound_ns);
+         t < truth.size() && truth[t].stamp_ns <= stamp + bound_ns; ++t) {
+      candidates.emplace_back(Distance(truth[t].stamp_ns, stamp), t, e);
+    }
+  }
+  std::sort(candidates.begin(), candidates.end());
+  std::vector<bool> truth_taken(truth.size()), estimate_taken(estimate.size());
+  std::vector<PosePair> pairs;
+  for (const auto& [distance, t, e] : candidates) {
+    if (truth_taken[t] || estimate_taken[e]) continue;
+    truth_taken[t] = estimate_taken[e] = true;
+    pairs.push_back({t, e});
+  }
+  std::sort(pairs.begin(), pairs.end(),
+            [](const PosePair& a, const PosePair& b) { return a.truth < b.truth; });
+  return pairs;
+}
+
+std::vector<PosePair> AssociateByIndex(const Trajectory& truth, const Trajectory& estimate) {
+  if (truth.size() != estimate.size()) {
+    throw std::invalid_argument(
+        fmt::format("{} poses of truth but {} of the estimate: association by index needs equal "
+                    "counts",
+                    truth.size(), estimate.size()));
+  }
+  std::vector<PosePair> pairs(truth.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = {i, i};
+  return pairs;
+}
+
+}  // namespace
+
+std::int64_t MedianIntervalNs(const Trajectory& trajectory) {
+  if (trajectory.size() < 2) return 0;
+  std::vector<std::int64_t> steps(trajectory.size() - 1);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    steps[i] = trajectory[i + 1].stamp_ns - trajectory[i].stamp_ns;
+  }
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+std::int64_t MaxDifferenceNs(const Trajectory& truth, const Trajectory& estimate,
+                             const AssociationOptions& options) {
+  if (options.max_difference_ns) return *options.max_difference_ns;
+  switch (options.rule) {
+    case AssociationRule::kEvo:
+      return kEvoBoundNs;
+    case AssociationRule::kTum:
+      return kTumBoundNs;
+    case AssociationRule::kIndex:
+      return 0;
+    case AssociationRule::kNearest:
+      break;
+  }
+  const std::int64_t of_truth = MedianIntervalNs(truth), of_estimate = MedianIntervalNs(estimate);
+  // A trajectory of one pose has no interval; the other's then decides.
+  const bool both = of_truth > 0 && of_estimate > 0;
+  return (both ? std::min(of_truth, of_estimate) : std::max(of_truth, of_estimate)) / 2;
+}
+
+std::vector<PosePair> Associate(const Trajectory& truth, const Trajectory& estimate,
+                                const AssociationOptions& options) {
+  const std::int64_t bound_ns = MaxDifferenceNs(truth, estimate, options);
+  switch (options.rule) {
+    case AssociationRule::kIndex:
+      return AssociateByIndex(truth, estimate);
+    case AssociationRule::kEvo:
+      return AssociateLikeEvo(truth, estimate, bound_ns);
+    case AssociationRule::kTum:
+      return AssociateGreedily(truth, estimate, bound_ns - 1);  // strict, in whole nanoseconds
+    case AssociationRule::kNearest:
+      break;
+  }
+  return AssociateGreedily(truth, estimate, bound_ns);
+}
+
+std::string Describe(AssociationRule rule, std::int64_t max_difference_ns) {
+  const double bound_ms = static_cast<double>(max_difference_ns) * 1e-6;
+  switch (rule) {
+    case AssociationRule::kIndex:
+      return "by index (KITTI)";
+    case AssociationRule::kEvo:
+      return fmt::format("nearest of the longer (evo), |dt| <= {:g} ms", bound_ms);
+    case AssociationRule::kTum:
+      return fmt::format("nearest, one to one (TUM), |dt| < {:g} ms", bound_ms);
+    case AssociationRule::kNearest:
+      break;
+  }
+  return fmt::format("nearest, one to one, |dt| <= {:g} ms", bound_ms);
+}
+
+}  // namespace aisle

@@ -1,0 +1,131 @@
+#include "harness/score/masks.h"
+
+#include <map>
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <tuple>
+
+namespace aisle {
+namespace {
+
+struct Box {
+  cv::Rect rect;
+  int pixels = 0;
+};
+
+std::map<int, Box> DynamicBoxesByInstance(const cv::Mat1b& dynamic, const cv::Mat1w& instance) {
+  std::map<int, Box> boxes;
+  for (int y = 0; y < dynamic.rows; ++y) {
+    for (int x = 0; x < dynamic.cols; ++x) {
+      if (dynamic(y, x) == 0) continue;
+      Box& box = boxes[instance(y, x)];
+      box.rect |= cv::Rect(x, y, 1, 1);
+      ++box.pixels;
+    }
+  }
+  return boxes;
+}
+
+cv::Mat1b OrEmpty(const cv::Mat1b& mask, cv::Size size, const char* whose) {
+  if (mask.empty()) return cv::Mat1b(size, 0);
+  if (mask.size() == size) return mask;
+  throw std::invalid_argument(fmt::format("{} mask is {}x{}, the image {}x{}", whose, mask.cols,
+                                          mask.rows, size.width, size.height));
+}
+
+void CountPixels(const cv::Mat1b& truth, const cv::Mat1b& rejected, MaskFacts* facts) {
+  cv::Mat1b both;
+  cv::bitwise_and(truth, rejected, both);
+  facts->true_positives = cv::countNonZero(both);
+  facts->false_positives = cv::countNonZero(rejected) - facts->true_positives;
+  facts->false_negatives = cv::countNonZero(truth) - facts->true_positives;
+}
+
+void CountCorners(const cv::Mat1b& left, const cv::Mat1b& truth, const cv::Mat1b& rejected,
+                  const MaskOptions& options, MaskFacts* facts) {
+  std::vector<cv::KeyPoint> corners;
+  cv::FAST(left, corners, options.corner_threshold);
+  for (const cv::KeyPoint& corner : corners) {
+    const cv::Point at(cvRound(corner.pt.x), cvRound(corner.pt.y));
+    if (truth(at) != 0) continue;
+    ++facts->static_corners;
+    facts->static_corners_lost += rejected(at) != 0;
+  }
+}
+
+}  // namespace
+
+double Iou(const cv::Rect2d& a, const cv::Rect2d& b) {
+  const double shared = (a & b).area();
+  const double whole = a.area() + b.area() - shared;
+  return whole > 0 ? shared / whole : 0;
+}
+
+std::vector<cv::Rect2d> MovingBoxes(const FrameTruth& truth, const MaskOptions& options) {
+  std::vector<cv::Rect2d> boxes;
+  if (!truth.instance.empty() && truth.instance.size() == truth.dynamic.size()) {
+    for (const auto& [instance, box] : DynamicBoxesByInstance(truth.dynamic, truth.instance)) {
+      if (box.pixels >= options.min_object_pixels) boxes.emplace_back(box.rect);
+    }
+    return boxes;
+  }
+  for (const ObjectTruth& object : truth.objects) {
+    if (object.dynamic_pixels >= options.min_object_pixels) boxes.push_back(object.box_visible);
+  }
+  return boxes;
+}
+
+std::vector<cv::Rect2d> RejectedBoxes(const DynamicRegions& regions, const MaskOptions& options) {
+  std::vector<cv::Rect2d> boxes;
+  for (const DynamicRegion& region : regions.regions) boxes.push_back(region.box);
+  if (!boxes.empty() || regions.mask.empty()) return boxes;
+  cv::Mat labels, stats, centroids;
+  const int count = cv::connectedComponentsWithStats(regions.mask, labels, stats, centroids, 8);
+  for (int i = 1; i < count; ++i) {
+    if (stats.at<int>(i, cv::CC_STAT_AREA) < options.min_region_pixels) continue;
+    boxes.emplace_back(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
+                       stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
+  }
+  return boxes;
+}
+
+MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth, const std::vector<cv::Rect2d>& rejected,
+                     const MaskOptions& options) {
+  std::vector<std::tuple<double, std::size_t, std::size_t>> candidates;
+  for (std::size_t t = 0; t < truth.size(); ++t) {
+    for (std::size_t r = 0; r < rejected.size(); ++r) {
+      const double iou = Iou(truth[t], rejected[r]);
+      if (iou >= options.match_iou) candidates.emplace_back(-iou, t, r);
+    }
+  }
+  std::sort(candidates.begin(), candidates.end());
+  std::vector<bool> truth_taken(truth.size()), rejected_taken(rejected.size());
+  MaskFacts facts;
+  for (const auto& [negative_iou, t, r] : candidates) {
+    if (truth_taken[t] || rejected_taken[r]) continue;
+    truth_taken[t] = rejected_taken[r] = true;
+    ++facts.objects_found;
+    facts.iou_sum -= negative_iou;
+  }
+  facts.objects_missed = static_cast<int>(truth.size()) - facts.objects_found;
+  facts.objects_invented = static_cast<int>(rejected.size()) - facts.objects_found;
+  return facts;
+}
+
+MaskFacts CompareMasks(const cv::Mat1b& left, const FrameTruth& truth,
+                       const DynamicRegions& regions, const MaskOptions& options) {
+  const cv::Mat1b dynamic = OrEmpty(truth.dynamic, left.size(), "truth's dynamic");
+  const cv::Mat1b rejected = OrEmpty(regions.mask, left.size(), "the system's");
+  MaskFacts facts =
+      MatchBoxes(MovingBoxes(truth, options), RejectedBoxes(regions, options), options);
+  CountPixels(dynamic, rejected, &facts);
+  CountCorners(left, dynamic, rejected, options, &facts);
+  return facts;
+}
+
+std::optional<double> Ratio(double part, double whole) {
+  return whole > 0 ? std::optional(part / whole) : std::nullopt;
+}
+
+}  // namespace aisle

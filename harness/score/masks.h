@@ -1,0 +1,42 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "harness/contract/run.h"
+
+namespace aisle {
+
+/// How rejected regions are compared with truth.
+struct MaskOptions {
+  /// Smallest overlap of two rectangles that counts as the same object. The paper's equations
+  /// (12)-(14) leave the rule open; 0.5 is the usual one.
+  double match_iou = 0.5;
+  int min_object_pixels = 200;  ///< moving objects with fewer dynamic pixels are not asked for
+  int min_region_pixels = 50;   ///< blobs of a mask smaller than this are no detection
+  int corner_threshold = 20;    ///< FAST's, grey levels: what counts as a static corner
+};
+
+/// Intersection over union of two rectangles, in [0, 1]; 0 where both are empty.
+double Iou(const cv::Rect2d& a, const cv::Rect2d& b);
+
+/// Rectangles of what moves now: per object the box of its dynamic pixels (of its visible box where
+/// no instance labels are known), for objects with at least min_object_pixels of them.
+std::vector<cv::Rect2d> MovingBoxes(const FrameTruth& truth, const MaskOptions& options);
+
+/// What the system says moves: its regions' boxes, or the boxes of the mask's connected blobs.
+std::vector<cv::Rect2d> RejectedBoxes(const DynamicRegions& regions, const MaskOptions& options);
+
+/// Pairs rectangles one to one, largest overlap first. Fills the object counts and iou_sum.
+MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth, const std::vector<cv::Rect2d>& rejected,
+                     const MaskOptions& options);
+
+/// All comparisons of one frame. `truth.dynamic` and `regions.mask` have the size of `left`, or are
+/// empty (nothing moves, nothing is rejected). Throws std::invalid_argument on other sizes.
+MaskFacts CompareMasks(const cv::Mat1b& left, const FrameTruth& truth,
+                       const DynamicRegions& regions, const MaskOptions& options = {});
+
+/// tp / (tp + fp) and its kin; absent where nothing was there to be counted.
+std::optional<double> Ratio(double part, double whole);
+
+}  // namespace aisle

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/contract/run.h"
+#include "harness/score/pose_error.h"
+#include "harness/score/relative_error.h"
+
+namespace aisle {
+
+struct ScoreOptions {
+  AssociationOptions association;
+  AlignmentOptions alignment;
+  RelativeOptions relative;  ///< of the rpe_* scores
+};
+
+/// A trajectory held against truth: all scores, and the errors behind them.
+struct TrajectoryScore {
+  Scorecard scores;
+  std::vector<PosePair> pairs;
+  Alignment alignment;
+  std::vector<PoseError> errors;   ///< one per pair
+  std::vector<std::string> notes;  ///< what a reader must know: a mismatch of conventions, …
+  std::string association;         ///< the rule in words
+};
+
+/// ATE (aligned as asked), RPE, KITTI segments long and short. Scores that cannot be had say why.
+TrajectoryScore ScoreTrajectory(const Trajectory& truth, const Trajectory& estimate,
+                                const ScoreOptions& options = {});
+
+/// Everything about one run: the final track's ScoreTrajectory, the live track's ATE, coverage,
+/// errors over all frames with lost ones counted as failures, masks, features, stage times.
+Scorecard ScoreRun(const RunResult& run, const ScoreOptions& options = {});
+
+/// Says in words when positions agree and rotations are off by one constant turn: a file in the
+/// body frame held against one in the camera frame, say. Empty where nothing is suspicious.
+std::string FrameMismatch(const Trajectory& truth, const Trajectory& estimate,
+                          const std::vector<PoseError>& errors, const Alignment& alignment);
+
+/// "value m (n = 12, se3)" or "- (why not)".
+std::string ToText(const Score& score);
+
+}  // namespace aisle

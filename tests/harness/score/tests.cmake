@@ -1,0 +1,1 @@
+aisle_tests(harness/score USES harness/io LINKS rapidcheck)
