@@ -65,18 +65,20 @@ void MakeParent(const fs::path& path) {
 
 }  // namespace
 
-void WriteFileAtomically(const fs::path& path, std::string_view bytes) {
+void WriteFileAtomically(const fs::path& path, std::string_view bytes, Durability durability) {
   MakeParent(path);
   const fs::path aside = AsideOf(path);
+  const bool flush = durability == Durability::kSurvivesPowerLoss;
   try {
     const Descriptor file(aside, O_WRONLY | O_CREAT | O_EXCL);
     WriteAll(file, bytes, aside);
-    if (::fsync(file.get()) != 0) Fail("flush", aside);
+    if (flush && ::fsync(file.get()) != 0) Fail("flush", aside);
     if (::rename(aside.c_str(), path.c_str()) != 0) Fail("rename to", path);
   } catch (...) {
     ::unlink(aside.c_str());
     throw;
   }
+  if (!flush) return;
   const Descriptor folder(path.has_parent_path() ? path.parent_path() : fs::path("."),
                           O_RDONLY | O_DIRECTORY);
   ::fsync(folder.get());  // some file systems cannot flush a folder; the file itself is safe

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace aisle {
+
+/// pytest's codes: testers know them.
+enum ExitCode : int {
+  kAllPassed = 0,
+  kVerdictFailed = 1,
+  kInterrupted = 2,  ///< and resumable
+  kOwnFailure = 3,   ///< ours or the machine's
+  kBadInput = 4,     ///< wrong usage, wrong files
+  kNothingToDo = 5,  ///< nothing was selected
+};
+
+/// What the chosen command will do; returns an exit code.
+using Action = std::function<int()>;
+
+// Each adds one command to the program; when it is chosen, `*action` is set.
+void AddRunCommand(CLI::App* app, Action* action);
+void AddRunOneCommand(CLI::App* app, Action* action);
+void AddScoreCommand(CLI::App* app, Action* action);
+void AddCheckCommand(CLI::App* app, Action* action);
+void AddPreviewCommand(CLI::App* app, Action* action);
+void AddReportCommand(CLI::App* app, Action* action);
+
+}  // namespace aisle

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "harness/report/results.h"
+
+namespace aisle {
+
+/// Meshes and textures: $AISLE_ASSETS, or assets/ of the source tree this program was built from.
+/// Throws InputError when there is no such folder.
+std::filesystem::path AssetsDir();
+
+/// Rendered frames shared between runs: $AISLE_CACHE, or .cache/ of the source tree.
+std::filesystem::path CacheDir();
+
+/// This very program.
+std::filesystem::path OwnExecutable();
+
+/// Version, commit, processor, system.
+Provenance OwnProvenance();
+
+/// Now, UTC: "2026-01-31T02:00:00Z".
+std::string NowIso8601();
+
+}  // namespace aisle

@@ -1,0 +1,72 @@
+#include "harness/cli/command.h"
+#include "harness/cli/places.h"
+#include "harness/io/image.h"
+#include "harness/io/input_error.h"
+#include "harness/plugs/simulated_sequence.h"
+#include "harness/report/overlay.h"
+#include "harness/suite/suite.h"
+
+namespace aisle {
+namespace {
+
+struct Options {
+  SimulatedSequenceOptions simulation;
+  double time_s = -1;
+  int frame = -1;
+  std::string output = "preview.png";
+  bool plain = false;
+};
+
+FrameRequest Choose(const std::vector<FrameRequest>& schedule, const Options& options) {
+  if (schedule.empty()) throw InputError(options.simulation.scene_file, 0, "has no frames");
+  if (options.frame >= 0) {
+    const auto index = static_cast<std::size_t>(options.frame);
+    if (index < schedule.size()) return schedule[index];
+    throw InputError(fmt::format("--frame {}: the scene has frames 0 to {}", options.frame,
+                                 schedule.size() - 1));
+  }
+  if (options.time_s < 0) return schedule[schedule.size() / 2];
+  const auto stamp_ns = static_cast<std::int64_t>(options.time_s * 1e9);
+  const auto at = std::find_if(schedule.begin(), schedule.end(),
+                               [&](const FrameRequest& r) { return r.stamp_ns >= stamp_ns; });
+  if (at != schedule.end()) return *at;
+  throw InputError(fmt::format("--time {}: the scene ends at {:.2f} s", options.time_s,
+                               static_cast<double>(schedule.back().stamp_ns) * 1e-9));
+}
+
+int Preview(Options options) {
+  options.simulation.assets_dir = AssetsDir().string();
+  options.simulation.scene_name = SceneName(options.simulation.scene_file);
+  const std::unique_ptr<Sequence> sequence = OpenSimulation(options.simulation);
+  const FrameRequest request = Choose(sequence->Schedule(), options);
+  const SequenceFrame frame = sequence->At(request);
+  const FrameTruth* truth = frame.truth && !options.plain ? &*frame.truth : nullptr;
+  const std::string caption = fmt::format("{}  frame {}  {:.2f} s", sequence->name(), request.id,
+                                          static_cast<double>(request.stamp_ns) * 1e-9);
+  WriteImage(options.output,
+             options.plain ? cv::Mat(frame.images.left)
+                           : cv::Mat(DrawOverlay(frame.images.left, truth, nullptr, caption)));
+  fmt::print("{}\n", options.output);
+  return kAllPassed;
+}
+
+}  // namespace
+
+void AddPreviewCommand(CLI::App* app, Action* action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app->add_subcommand("preview", "one picture with its truth drawn over it");
+  command->add_option("SCENE", options->simulation.scene_file, "scene file")->required();
+  auto* time = command->add_option("--time", options->time_s, "seconds from the start")
+                   ->check(CLI::NonNegativeNumber);
+  command->add_option("--frame", options->frame, "frame number; default: the middle one")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(time);
+  command->add_option("--twin", options->simulation.twin, "live, empty or frozen");
+  command->add_option("--seed", options->simulation.seed, "seed of the layout and the sensor");
+  command->add_flag("--plain", options->plain, "the picture alone, without truth");
+  command->add_option("-o,--output", options->output, "PNG or JPEG; default preview.png");
+  command->footer("Example: ./aisle preview scenes/paper/scene2.yaml --time 6 -o scene2.png");
+  command->callback([=] { *action = [=] { return Preview(*options); }; });
+}
+
+}  // namespace aisle

@@ -1,0 +1,85 @@
+// One run in a process of its own: what `aisle run` starts for every cell of a suite.
+#include "harness/cli/command.h"
+#include "harness/cli/places.h"
+#include "harness/plugs/cached_sequence.h"
+#include "harness/plugs/simulated_sequence.h"
+#include "harness/plugs/systems.h"
+#include "harness/report/record.h"
+#include "harness/report/samples.h"
+#include "harness/run/drive.h"
+
+namespace aisle {
+namespace {
+
+struct Options {
+  RunSpec spec;
+  std::string out;
+  std::string frames;  ///< folder of the shared frames; empty: none are kept
+  int threads = 0;
+};
+
+std::unique_ptr<Sequence> OpenSequence(const Options& options, std::uint64_t* content_hash) {
+  const SimulatedSequenceOptions simulation{.scene_file = options.spec.scene_file,
+                                            .scene_name = options.spec.scene,
+                                            .assets_dir = AssetsDir().string(),
+                                            .twin = options.spec.twin,
+                                            .seed = options.spec.seed,
+                                            .threads = options.threads};
+  const auto open = [simulation](std::uint64_t* hash) { return OpenSimulation(simulation, hash); };
+  if (options.frames.empty()) return open(content_hash);
+  return OpenCached(FrameStore(options.frames), open, content_hash);
+}
+
+/// The scheduler that started this process reads these lines.
+void TellProgress(std::size_t done, std::size_t total) {
+  fmt::print("@progress {} {}\n", done, total);
+  std::fflush(stdout);
+}
+
+int RunOne(const Options& options) {
+  const System& system = FindSystem(options.spec.system);
+  std::uint64_t content_hash = 0;
+  const std::unique_ptr<Sequence> sequence = OpenSequence(options, &content_hash);
+  const std::unique_ptr<Estimator> estimator =
+      system.make(sequence->calibration(), options.threads);
+
+  SamplePictures samples;
+  const auto observe = [&](const DrivenFrame& frame) {
+    const FrameTruth* truth = frame.shown.truth ? &*frame.shown.truth : nullptr;
+    samples.See(frame.index, frame.count, frame.shown.images.left, truth, frame.estimate,
+                frame.facts.movers_share);
+    TellProgress(frame.index + 1, frame.count);
+  };
+  RunResult result = Drive(*sequence, *estimator, system.mask_source, {}, observe);
+  result.spec = options.spec;
+  result.scene_hash = content_hash;
+  result.threads = options.threads;
+
+  RunRecord record = MakeRecord(result, sequence->rate_hz());
+  const std::string folder = "runs/" + RunId(options.spec);
+  int number = 0;
+  for (const std::string& name : samples.Write(std::filesystem::path(options.out) / folder)) {
+    record.artifacts[fmt::format("picture_{:02}", number++)] = folder + "/" + name;
+  }
+  WriteRun(result, record, options.out);
+  return kAllPassed;
+}
+
+}  // namespace
+
+void AddRunOneCommand(CLI::App* app, Action* action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app->add_subcommand("run-one", "one run of a suite, in this process");
+  command->group("");  // `run` calls it; people need not
+  command->add_option("--scene", options->spec.scene)->required();
+  command->add_option("--scene-file", options->spec.scene_file)->required();
+  command->add_option("--twin", options->spec.twin)->required();
+  command->add_option("--system", options->spec.system)->required();
+  command->add_option("--seed", options->spec.seed)->required();
+  command->add_option("--out", options->out)->required();
+  command->add_option("--frames", options->frames);
+  command->add_option("--threads", options->threads);
+  command->callback([=] { *action = [=] { return RunOne(*options); }; });
+}
+
+}  // namespace aisle

@@ -1,0 +1,128 @@
+#include <nlohmann/json.hpp>
+
+#include "harness/cli/command.h"
+#include "harness/io/file.h"
+#include "harness/io/input_error.h"
+#include "harness/io/trajectory.h"
+#include "harness/report/record_json.h"
+#include "harness/score/scorecard.h"
+
+namespace aisle {
+namespace {
+
+struct Options {
+  std::string truth, estimate, format, times;
+  std::string align = "se3", rule = "nearest", unit = "frames";
+  double max_difference_s = -1;
+  double delta = 1;
+  bool all_pairs = false, along_estimate = false, json = false;
+};
+
+AssociationRule RuleFromName(const std::string& name) {
+  if (name == "evo") return AssociationRule::kEvo;
+  if (name == "tum") return AssociationRule::kTum;
+  return name == "index" ? AssociationRule::kIndex : AssociationRule::kNearest;
+}
+
+DeltaUnit UnitFromName(const std::string& name) {
+  if (name == "metres") return DeltaUnit::kMetres;
+  return name == "seconds" ? DeltaUnit::kSeconds : DeltaUnit::kFrames;
+}
+
+Trajectory Read(const std::string& file, const Options& options) {
+  const TrajectoryFormat format = options.format.empty() ? GuessTrajectoryFormat(file)
+                                                         : TrajectoryFormatFromName(options.format);
+  return ReadTrajectory(file, format, options.times);
+}
+
+ScoreOptions ScoreOptionsOf(const Options& options) {
+  ScoreOptions score;
+  score.association.rule = RuleFromName(options.rule);
+  if (options.max_difference_s >= 0) {
+    score.association.max_difference_ns =
+        static_cast<std::int64_t>(std::llround(options.max_difference_s * 1e9));
+  }
+  score.alignment.method = AlignmentFromName(options.align);
+  score.relative = {.delta = options.delta,
+                    .unit = UnitFromName(options.unit),
+                    .all_pairs = options.all_pairs,
+                    .along_estimate = options.along_estimate};
+  return score;
+}
+
+/// KITTI files have no stamps: a shorter file is held against the common part, and that is said.
+void CutToCommonPart(const Options& options, Trajectory* truth, Trajectory* estimate) {
+  if (options.rule != "index" || truth->size() == estimate->size()) return;
+  const std::size_t common = std::min(truth->size(), estimate->size());
+  fmt::print(stderr, "aisle: {} poses of truth, {} of the estimate: scoring the first {}\n",
+             truth->size(), estimate->size(), common);
+  truth->resize(common);
+  estimate->resize(common);
+}
+
+void PrintText(const TrajectoryScore& score, const ScoreOptions& options, std::size_t truth,
+               std::size_t estimate) {
+  fmt::print("association  {}: {} pairs of {} true and {} estimated poses\n", score.association,
+             score.pairs.size(), truth, estimate);
+  fmt::print("alignment    {}, scale {:.9g}\n", Name(options.alignment.method),
+             score.alignment.scale);
+  fmt::print("rpe          {}\n\n", Describe(options.relative));
+  for (const auto& [name, value] : score.scores) fmt::print("{:28} {}\n", name, ToText(value));
+  for (const std::string& note : score.notes) fmt::print("\nnote: {}\n", note);
+}
+
+void PrintJson(const TrajectoryScore& score, const ScoreOptions& options) {
+  RunRecord record;
+  record.scores = score.scores;
+  nlohmann::ordered_json json;
+  json["association"] = score.association;
+  json["pairs"] = score.pairs.size();
+  json["alignment"] = Name(options.alignment.method);
+  json["rpe"] = Describe(options.relative);
+  json["scores"] = RecordToJson(record)["scores"];
+  json["notes"] = score.notes;
+  fmt::print("{}", Dump(json));
+}
+
+int ScoreFiles(const Options& options) {
+  Trajectory truth = Read(options.truth, options), estimate = Read(options.estimate, options);
+  CutToCommonPart(options, &truth, &estimate);
+  const ScoreOptions score_options = ScoreOptionsOf(options);
+  const TrajectoryScore score = ScoreTrajectory(truth, estimate, score_options);
+  if (options.json) {
+    PrintJson(score, score_options);
+  } else {
+    PrintText(score, score_options, truth.size(), estimate.size());
+  }
+  return score.pairs.empty() ? kNothingToDo : kAllPassed;
+}
+
+}  // namespace
+
+void AddScoreCommand(CLI::App* app, Action* action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app->add_subcommand("score", "every metric for anyone's trajectory files");
+  command->add_option("--truth", options->truth, "true trajectory")->required();
+  command->add_option("--estimate", options->estimate, "estimated trajectory")->required();
+  command->add_option("--format", options->format, "of both files; default: by their content")
+      ->check(CLI::IsMember({"tum", "kitti", "euroc"}));
+  command->add_option("--times", options->times, "KITTI times.txt; default 10 poses a second");
+  command->add_option("--align", options->align, "none, origin, se3 (default) or sim3")
+      ->check(CLI::IsMember({"none", "origin", "se3", "sim3"}));
+  command->add_option("--association", options->rule, "nearest (default), evo, tum or index")
+      ->check(CLI::IsMember({"nearest", "evo", "tum", "index"}));
+  command->add_option("--max-difference", options->max_difference_s,
+                      "seconds between stamps that belong together; default: the rule's own");
+  command->add_option("--delta", options->delta, "of the relative error; default 1")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--unit", options->unit, "of delta: frames (default), metres or seconds")
+      ->check(CLI::IsMember({"frames", "metres", "seconds"}));
+  command->add_flag("--all-pairs", options->all_pairs, "a relative error from every pose on");
+  command->add_flag("--along-estimate", options->along_estimate,
+                    "measure metres along the estimate, as evo does");
+  command->add_flag("--json", options->json, "for programs");
+  command->footer("Example: ./aisle score --truth gt.txt --estimate slam.txt --align se3");
+  command->callback([=] { *action = [=] { return ScoreFiles(*options); }; });
+}
+
+}  // namespace aisle

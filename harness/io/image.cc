@@ -1,0 +1,58 @@
+#include "harness/io/image.h"
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "harness/io/file.h"
+#include "harness/io/input_error.h"
+
+namespace aisle {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 33;  // signature, IHDR chunk
+constexpr std::uint32_t kMaxSide = 16384;
+
+std::uint32_t BigEndian(const std::string& bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+  }
+  return value;
+}
+
+void CheckPngHeader(const std::string& bytes, const std::string& file) {
+  if (bytes.size() < kHeaderBytes || bytes.compare(0, 8, "\x89PNG\r\n\x1a\n") != 0) {
+    throw InputError(file, 0, "is no PNG image");
+  }
+  const std::uint32_t width = BigEndian(bytes, 16), height = BigEndian(bytes, 20);
+  if (width == 0 || height == 0 || width > kMaxSide || height > kMaxSide) {
+    throw InputError(
+        file, 0, fmt::format("is {}x{} pixels; at most {} either way", width, height, kMaxSide));
+  }
+}
+
+}  // namespace
+
+void WriteImage(const std::filesystem::path& path, const cv::Mat& image) {
+  constexpr int kJpegQuality = 88;    // overlays stay crisp
+  constexpr int kPngCompression = 3;  // grey noise does not shrink further, only takes longer
+  std::vector<unsigned char> bytes;
+  const std::vector<int> options = {cv::IMWRITE_JPEG_QUALITY, kJpegQuality,
+                                    cv::IMWRITE_PNG_COMPRESSION, kPngCompression};
+  if (!cv::imencode(path.extension().string(), image, bytes, options)) {
+    throw MachineError(path.string() + ": the image cannot be encoded");
+  }
+  WriteFileAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+cv::Mat1b ReadGreyPng(const std::filesystem::path& path) {
+  const std::string bytes = ReadFile(path);
+  CheckPngHeader(bytes, path.string());
+  const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U,
+                        const_cast<char*>(bytes.data()));  // imdecode only reads
+  const cv::Mat image = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
+  if (image.empty()) throw InputError(path.string(), 0, "is a broken PNG image");
+  if (image.type() != CV_8UC1) throw InputError(path.string(), 0, "is not 8-bit grey");
+  return image;
+}
+
+}  // namespace aisle

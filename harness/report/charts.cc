@@ -1,0 +1,240 @@
+#include "harness/report/charts.h"
+
+#include "harness/report/svg.h"
+#include "harness/score/statistics.h"
+
+namespace aisle {
+namespace {
+
+constexpr double kWidth = 860, kLeft = 52, kRight = 846;
+using Points = std::vector<std::pair<double, double>>;
+
+double Seconds(const FrameRow& row, const std::vector<FrameRow>& rows) {
+  return static_cast<double>(row.stamp_ns - rows.front().stamp_ns) * 1e-9;
+}
+
+const std::vector<FrameRow>* Longest(const std::vector<ChartSeries>& series) {
+  const std::vector<FrameRow>* longest = nullptr;
+  for (const ChartSeries& one : series) {
+    if (longest == nullptr || one.rows->size() > longest->size()) longest = one.rows;
+  }
+  return longest != nullptr && longest->size() >= 2 ? longest : nullptr;
+}
+
+void Legend(const std::vector<std::pair<std::string, std::string>>& entries, double y, Svg* svg) {
+  double x = kLeft;
+  for (const auto& [name, css] : entries) {
+    svg->Line(x, y - 4, x + 18, y - 4, css);
+    svg->Text(x + 24, y, name, "legend");
+    x += 44 + 7.2 * static_cast<double>(name.size());
+  }
+}
+
+// --- From above
+// -----------------------------------------------------------------------------------
+
+/// The two world axes along which the truth extends most, in the order x, y, z.
+std::pair<int, int> WidestPlane(const std::vector<FrameRow>& rows) {
+  Eigen::AlignedBox3d box;
+  for (const FrameRow& row : rows) box.extend(row.truth_m);
+  const Eigen::Vector3d size = box.sizes();
+  int least = 2;  // a warehouse is flat: look from above unless the path says otherwise
+  for (int axis = 1; axis >= 0; --axis) {
+    if (size[axis] < size[least] - 1e-3 && size[2] > 1) least = axis;
+  }
+  return least == 0 ? std::pair(1, 2) : least == 1 ? std::pair(0, 2) : std::pair(0, 1);
+}
+
+/// 1, 2, 5, 10, …: the factor that makes the largest deviation a visible part of the extent.
+double Magnification(const std::vector<ChartSeries>& series, double extent_m) {
+  double largest_m = 0;
+  for (const ChartSeries& one : series) {
+    for (const FrameRow& row : *one.rows) {
+      largest_m = std::max(largest_m, row.live_error_m.value_or(0));
+    }
+  }
+  constexpr double kVisible = 0.06;
+  if (largest_m <= 0) return 1;
+  double factor = 1;
+  for (const double candidate : {2., 5., 10., 20., 50., 100., 200., 500.}) {
+    if (candidate * largest_m <= kVisible * extent_m) factor = candidate;
+  }
+  return factor;
+}
+
+/// Pieces of a line that has gaps.
+std::vector<Points> Pieces(
+    const std::vector<FrameRow>& rows,
+    const std::function<std::optional<std::pair<double, double>>(const FrameRow&)>& point) {
+  std::vector<Points> pieces(1);
+  const std::size_t step = std::max<std::size_t>(1, rows.size() / 800);
+  for (std::size_t i = 0; i < rows.size(); i += step) {
+    if (const auto at = point(rows[i])) {
+      pieces.back().push_back(*at);
+    } else if (!pieces.back().empty()) {
+      pieces.emplace_back();
+    }
+  }
+  return pieces;
+}
+
+}  // namespace
+
+std::string TopViewChart(const std::vector<ChartSeries>& series) {
+  const std::vector<FrameRow>* longest = Longest(series);
+  if (longest == nullptr) return "";
+  const auto [ax, ay] = WidestPlane(*longest);
+  Eigen::AlignedBox2d box;
+  for (const FrameRow& row : *longest)
+    box.extend(Eigen::Vector2d(row.truth_m[ax], row.truth_m[ay]));
+  const double extent_m = std::max(box.sizes().maxCoeff(), 0.1);
+  const double magnification = Magnification(series, extent_m);
+  const double margin_m = 0.09 * extent_m;
+  box.extend(box.min() - Eigen::Vector2d::Constant(margin_m));
+  box.extend(box.max() + Eigen::Vector2d::Constant(margin_m));
+  // The longer side lies across the page.
+  const bool swap = box.sizes().y() > box.sizes().x();
+  const int across = swap ? 1 : 0, up = swap ? 0 : 1;
+
+  const double scale = (kRight - kLeft) / box.sizes()[across];
+  const double plot_height = std::max(60.0, scale * box.sizes()[up]);
+  const Axis x{box.min()[across], box.max()[across], kLeft, kRight};
+  const Axis y{box.min()[up], box.max()[up], 24 + plot_height, 24};
+  Svg svg(kWidth, plot_height + 84, "trajectories from above");
+  const char* names = "xyz";
+  const auto axis_name = [&](int k) { return names[(k == 0) ? ax : ay]; };
+  svg.Grid(x, y, fmt::format("{} [m]", axis_name(across)), fmt::format("{} [m]", axis_name(up)));
+
+  const auto at = [&](const Eigen::Vector3d& p) {
+    const Eigen::Vector2d q(p[ax], p[ay]);
+    return std::pair(x(q[across]), y(q[up]));
+  };
+  std::vector<std::pair<std::string, std::string>> legend = {{"truth", "truth"}};
+  for (const Points& piece :
+       Pieces(*longest, [&](const FrameRow& row) { return std::optional(at(row.truth_m)); })) {
+    svg.Polyline(piece, "truth");
+  }
+  for (const ChartSeries& one : series) {
+    const std::string css = fmt::format("line c{}", one.color);
+    const auto point = [&](const FrameRow& row) -> std::optional<std::pair<double, double>> {
+      if (!row.live_m) return std::nullopt;
+      return at(row.truth_m + magnification * (*row.live_m - row.truth_m));
+    };
+    for (const Points& piece : Pieces(*one.rows, point)) svg.Polyline(piece, css);
+    legend.emplace_back(one.name, css);
+  }
+  const auto [start_x, start_y] = at(longest->front().truth_m);
+  svg.Circle(start_x, start_y, 4, "start", "start");
+  Legend(legend, plot_height + 72, &svg);
+  const std::string note = magnification == 1
+                               ? "deviations to scale"
+                               : fmt::format("deviations from truth drawn ×{:g}", magnification);
+  svg.Text(kRight, plot_height + 72, note, "axis", "end");
+  return svg.Finish();
+}
+
+std::string ErrorChart(const std::vector<ChartSeries>& series) {
+  const std::vector<FrameRow>* longest = Longest(series);
+  if (longest == nullptr) return "";
+  double highest_cm = 0.1, most_movers = 1;
+  for (const ChartSeries& one : series) {
+    for (const FrameRow& row : *one.rows) {
+      highest_cm = std::max(highest_cm, 100 * row.live_error_m.value_or(0));
+      most_movers = std::max(most_movers, 100 * row.movers_share);
+    }
+  }
+  const double end_s = std::max(Seconds(longest->back(), *longest), 1e-3);
+  const Axis x{0, end_s, kLeft, kRight};
+  const Axis error{0, 1.06 * highest_cm, 224, 24};
+  const Axis movers{0, 1.1 * most_movers, 336, 272};
+  Svg svg(kWidth, 404, "error over time");
+  svg.Grid(x, error, "", "error of the live track [cm]");
+  svg.Grid(x, movers, "time [s]", "pixels that move [%]");
+
+  Points area = {{x(0), movers(0)}};
+  for (const FrameRow& row : *longest) {
+    area.emplace_back(x(Seconds(row, *longest)), movers(100 * row.movers_share));
+  }
+  area.emplace_back(x(end_s), movers(0));
+  svg.Polygon(area, "movers");
+
+  std::vector<std::pair<std::string, std::string>> legend;
+  for (const ChartSeries& one : series) {
+    const std::string css = fmt::format("line c{}", one.color);
+    const auto point = [&](const FrameRow& row) -> std::optional<std::pair<double, double>> {
+      if (!row.live_error_m) return std::nullopt;
+      return std::pair(x(Seconds(row, *one.rows)), error(100 * *row.live_error_m));
+    };
+    for (const Points& piece : Pieces(*one.rows, point)) svg.Polyline(piece, css);
+    legend.emplace_back(one.name, css);
+  }
+  Legend(legend, 396, &svg);
+  return svg.Finish();
+}
+
+std::string StageChart(const std::vector<StageRow>& rows) {
+  double longest_ms = 1;
+  for (const StageRow& row : rows) {
+    double sum = 0;
+    for (const StageBar& bar : row.bars) sum += bar.ms;
+    longest_ms = std::max(longest_ms, sum);
+  }
+  constexpr double kRowHeight = 30, kNames = 110;
+  const double bottom = 10 + kRowHeight * static_cast<double>(rows.size());
+  const Axis x{0, 1.02 * longest_ms, kNames, kRight};
+  Svg svg(kWidth, bottom + 40, "time per frame by stage");
+  for (const double tick : Ticks(0, longest_ms, 8)) {
+    svg.Line(x(tick), 6, x(tick), bottom, "grid");
+    svg.Text(x(tick), bottom + 15, fmt::format("{:g}", tick), "tick", "middle");
+  }
+  svg.Text(kRight, bottom + 32, "mean per frame [ms]", "axis", "end");
+  double top = 10;
+  for (const StageRow& row : rows) {
+    svg.Text(kNames - 8, top + 16, row.system, "legend", "end");
+    double at_ms = 0;
+    for (const StageBar& bar : row.bars) {
+      const double width = x(at_ms + bar.ms) - x(at_ms);
+      svg.Rect(x(at_ms), top, width, kRowHeight - 8, fmt::format("bar b{}", bar.color % 8),
+               fmt::format("{} {:.2f} ms", bar.name, bar.ms));
+      if (width > 8.0 * static_cast<double>(bar.name.size())) {
+        svg.Text(x(at_ms) + 4, top + 15, bar.name, "inbar");
+      }
+      at_ms += bar.ms;
+    }
+    top += kRowHeight;
+  }
+  return svg.Finish();
+}
+
+std::string SpreadChart(const std::vector<SpreadRow>& rows, const std::string& axis) {
+  double highest = 0;
+  for (const SpreadRow& row : rows) {
+    for (const double value : row.values) highest = std::max(highest, value);
+  }
+  if (highest <= 0) return "";
+  constexpr double kRowHeight = 30, kNames = 110;
+  const double bottom = 10 + kRowHeight * static_cast<double>(rows.size());
+  const Axis x{0, 1.05 * highest, kNames, kRight};
+  Svg svg(kWidth, bottom + 40, "spread over seeds");
+  for (const double tick : Ticks(0, x.high, 8)) {
+    svg.Line(x(tick), 6, x(tick), bottom, "grid");
+    svg.Text(x(tick), bottom + 15, fmt::format("{:g}", tick), "tick", "middle");
+  }
+  svg.Text(kRight, bottom + 32, axis, "axis", "end");
+  double middle = 10 + kRowHeight / 2;
+  for (const SpreadRow& row : rows) {
+    svg.Text(kNames - 8, middle + 4, row.system, "legend", "end");
+    if (!row.values.empty()) {
+      const double median = Quantile(row.values, 0.5);
+      svg.Line(x(median), middle - 10, x(median), middle + 10, fmt::format("line c{}", row.color));
+    }
+    for (const double value : row.values) {
+      svg.Circle(x(value), middle, 4, fmt::format("dot d{}", row.color),
+                 fmt::format("{:.4g}", value));
+    }
+    middle += kRowHeight;
+  }
+  return svg.Finish();
+}
+
+}  // namespace aisle

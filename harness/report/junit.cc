@@ -1,0 +1,74 @@
+#include <pugixml.hpp>
+#include <sstream>
+
+#include "harness/report/results.h"
+
+namespace aisle {
+namespace {
+
+/// XML 1.0 has no way to write most control bytes.
+std::string XmlText(const std::string& text) {
+  std::string clean;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 || c == '\n' || c == '\t') clean += c;
+  }
+  return clean;
+}
+
+void Set(pugi::xml_node node, const char* name, const std::string& value) {
+  node.append_attribute(name).set_value(XmlText(value).c_str());
+}
+
+void AddCase(pugi::xml_node suite, const Results& results, const Verdict& verdict) {
+  const std::size_t colon = verdict.name.rfind(": ");
+  pugi::xml_node test = suite.append_child("testcase");
+  Set(test, "classname", results.suite + "." + verdict.name.substr(0, colon));
+  Set(test, "name", colon == std::string::npos ? verdict.name : verdict.name.substr(colon + 2));
+  if (verdict.passed) return;
+  pugi::xml_node failure = test.append_child("failure");
+  Set(failure, "type", "limit");
+  Set(failure, "message", verdict.why);
+  failure.text().set(
+      XmlText(verdict.name + "\n" + verdict.why + "\nrerun: " + results.rerun).c_str());
+}
+
+void AddProperties(pugi::xml_node suite, const Results& results) {
+  pugi::xml_node properties = suite.append_child("properties");
+  const std::pair<const char*, std::string> named[] = {
+      {"version", results.provenance.version},
+      {"commit", results.provenance.commit},
+      {"cpu", results.provenance.cpu},
+      {"runs", std::to_string(results.runs.size())}};
+  for (const auto& [name, value] : named) {
+    pugi::xml_node property = properties.append_child("property");
+    Set(property, "name", name);
+    Set(property, "value", value);
+  }
+}
+
+}  // namespace
+
+std::string ToJunit(const Results& results) {
+  std::size_t failures = 0;
+  for (const Verdict& verdict : results.verdicts) failures += verdict.passed ? 0 : 1;
+  pugi::xml_document document;
+  pugi::xml_node root = document.append_child("testsuites");
+  pugi::xml_node suite = root.append_child("testsuite");
+  for (pugi::xml_node node : {root, suite}) {
+    Set(node, "name", results.suite);
+    Set(node, "tests", std::to_string(results.verdicts.size()));
+    Set(node, "failures", std::to_string(failures));
+    Set(node, "errors", "0");
+    Set(node, "skipped", "0");
+    Set(node, "time", fmt::format("{:.1f}", results.wall_s));
+  }
+  Set(suite, "timestamp", results.started);
+  AddProperties(suite, results);
+  for (const Verdict& verdict : results.verdicts) AddCase(suite, results, verdict);
+  std::ostringstream text;
+  document.save(text, " ");
+  return text.str();
+}
+
+}  // namespace aisle

@@ -1,0 +1,111 @@
+#include "harness/report/page.h"
+
+#include "harness/report/html.h"
+
+namespace aisle {
+namespace {
+
+std::string VerdictItem(const Verdict& verdict) {
+  return fmt::format("<li><span class=\"{}\">{}</span> {}: {}</li>\n",
+                     verdict.passed ? "pass" : "fail", verdict.passed ? "held" : "BROKEN",
+                     Escape(verdict.name), Escape(verdict.why));
+}
+
+std::string StatusCell(const SystemRuns& system) {
+  std::size_t good = 0;
+  for (const RunRecord* run : system.runs) good += run->status == RunStatus::kOk ? 1 : 0;
+  if (good == system.runs.size()) return "";
+  const RunRecord& last = *system.runs.back();
+  if (system.runs.size() == 1) return fmt::format(" {}", Name(last.status));
+  return fmt::format(" {}/{} ok", good, system.runs.size());
+}
+
+}  // namespace
+
+std::string Page(const std::string& title, const std::string& root, const std::string& body) {
+  return fmt::format(
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src 'self'; "
+      "style-src 'self'\">\n"
+      "<title>{}</title>\n<link rel=\"stylesheet\" href=\"{}style.css\">\n</head>\n<body>\n{}"
+      "</body>\n</html>\n",
+      Escape(title), root, body);
+}
+
+std::string VerdictSection(const Results& results) {
+  std::size_t broken = 0;
+  std::string failed, passed;
+  for (const Verdict& verdict : results.verdicts) {
+    (verdict.passed ? passed : failed) += VerdictItem(verdict);
+    broken += verdict.passed ? 0 : 1;
+  }
+  const char* css = results.verdicts.empty() ? "" : broken > 0 ? "failed" : "passed";
+  const std::string headline =
+      results.verdicts.empty() ? "Nothing was judged: the suite sets no limits"
+      : broken == 0            ? fmt::format("All {} limits held", results.verdicts.size())
+                    : fmt::format("{} of {} limits broken", broken, results.verdicts.size());
+  return fmt::format(
+      "<h1>{}</h1>\n<p class=\"soft\">{}</p>\n<div class=\"verdict {}\"><strong>{}</strong>"
+      "<ul>\n{}{}</ul></div>\n",
+      Escape(results.suite), Escape(results.question), css, headline, failed, passed);
+}
+
+std::string OverviewSection(const std::vector<SceneRuns>& scenes, SceneLinks links) {
+  std::map<int, std::string> systems;  // by color: the order of first appearance
+  for (const SceneRuns& scene : scenes) {
+    for (const SystemRuns& system : scene.systems) systems[system.color] = system.system;
+  }
+  std::string text =
+      "<h2>Absolute trajectory error</h2>\n<p class=\"soft small\">RMSE over the final track in "
+      "centimetres, positions aligned rigidly (SE(3)), never scaled; median over seeds; coverage "
+      "where it is not complete. The least of each row is bold.</p>\n<div class=\"wide\"><table>"
+      "<tr><th>scene</th><th class=\"left\">twin</th>";
+  for (const auto& [color, name] : systems) {
+    text += fmt::format("<th><span class=\"chip c{}\"></span>{}</th>", color % 6, Escape(name));
+  }
+  text += "</tr>\n";
+  for (const SceneRuns& scene : scenes) {
+    std::optional<double> least;
+    for (const SystemRuns& system : scene.systems) {
+      const auto value = MedianScore(system.runs, "ate_rmse_m");
+      if (value && (!least || *value < *least)) least = value;
+    }
+    text += fmt::format("<tr><td><a href=\"{}{}\">{}</a></td><td class=\"left\">{}</td>",
+                        links == SceneLinks::kAnchors ? "#" : "", EscapeUrl(ScenePage(scene)),
+                        Escape(scene.scene), Escape(scene.twin));
+    for (const auto& [color, name] : systems) {
+      const auto system = std::find_if(scene.systems.begin(), scene.systems.end(),
+                                       [&](const SystemRuns& s) { return s.color == color; });
+      if (system == scene.systems.end()) {
+        text += "<td class=\"soft\"></td>";
+        continue;
+      }
+      const auto ate = MedianScore(system->runs, "ate_rmse_m");
+      const auto coverage = MedianScore(system->runs, "coverage");
+      std::string cell = ate ? fmt::format("{:.2f}", 100 * *ate) : "-";
+      if (coverage && *coverage < 0.9995) cell += fmt::format(" ({:.1f} %)", 100 * *coverage);
+      cell += StatusCell(*system);
+      text += fmt::format("<td class=\"{}\">{}</td>", ate && ate == least ? "best" : "", cell);
+    }
+    text += "</tr>\n";
+  }
+  return text + "</table></div>\n";
+}
+
+std::string ProvenanceFooter(const Results& results) {
+  const Provenance& from = results.provenance;
+  return fmt::format(
+      "<h2>Again</h2>\n<pre>{}</pre>\n<footer>aisle {} ({}) on {}, {} threads, {}. Started {}, "
+      "took "
+      "{:.0f} s. Numbers: <a href=\"results.json\">results.json</a>, <a "
+      "href=\"summary.csv\">summary.csv</a>, <a href=\"junit.xml\">junit.xml</a>.</footer>\n",
+      Escape(results.rerun), Escape(from.version), Escape(from.commit), Escape(from.cpu),
+      from.threads, Escape(from.os), Escape(results.started), results.wall_s);
+}
+
+std::string ScenePage(const SceneRuns& scene) {
+  return fmt::format("scene_{}_{}.html", SafeName(scene.scene), SafeName(scene.twin));
+}
+
+}  // namespace aisle

@@ -1,0 +1,38 @@
+#include "harness/report/report.h"
+
+#include "harness/io/file.h"
+#include "harness/report/page.h"
+#include "harness/report/style.h"
+
+namespace aisle {
+namespace {
+
+// Up to here everything stands on one page: a reader of a small suite need not click.
+constexpr std::size_t kScenesOnOnePage = 2;
+
+}  // namespace
+
+void WriteReport(const Results& results, const std::filesystem::path& report_dir) {
+  const std::vector<SceneRuns> scenes = GroupByScene(results);
+  const bool own_pages = scenes.size() > kScenesOnOnePage;
+  std::string body = VerdictSection(results) +
+                     OverviewSection(scenes, own_pages ? SceneLinks::kPages : SceneLinks::kAnchors);
+  for (const SceneRuns& scene : scenes) {
+    const std::string section = SceneSection(scene, report_dir, "");
+    if (own_pages) {
+      const std::string up = "<p><a href=\"index.html\">back to the verdict</a></p>\n";
+      WriteFileAtomically(report_dir / ScenePage(scene),
+                          Page(scene.scene + " " + scene.twin, "", up + section));
+    } else {
+      body += section;
+    }
+  }
+  body += ProvenanceFooter(results);
+  WriteFileAtomically(report_dir / "style.css", kStyleSheet);
+  WriteFileAtomically(report_dir / "index.html", Page(results.suite, "", body));
+  WriteFileAtomically(report_dir / "summary.csv", ToSummaryCsv(results));
+  WriteFileAtomically(report_dir / "junit.xml", ToJunit(results));
+  WriteFileAtomically(report_dir / "results.json", ToJson(results));
+}
+
+}  // namespace aisle

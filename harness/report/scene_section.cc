@@ -1,0 +1,254 @@
+#include "harness/io/file.h"
+#include "harness/io/input_error.h"
+#include "harness/report/charts.h"
+#include "harness/report/html.h"
+#include "harness/report/page.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Column {
+  const char* title;
+  const char* score;
+  double factor;
+  int decimals;
+};
+constexpr Column kColumns[] = {
+    {"ATE RMSE<br>[cm]", "ate_rmse_m", 100, 2},
+    {"ATE max<br>[cm]", "ate_max_m", 100, 2},
+    {"live ATE<br>[cm]", "ate_live_rmse_m", 100, 2},
+    {"95 % of frames<br>within [cm]", "error_all_p95_m", 100, 2},
+    {"RPE 1 s<br>[cm]", "rpe_1s_trans_rmse_m", 100, 2},
+    {"RPE 1 s<br>[deg]", "rpe_1s_rot_rmse_deg", 1, 3},
+    {"coverage<br>[%]", "coverage", 100, 1},
+    {"features on<br>movers [%]", "features_on_movers", 100, 2},
+    {"used on movers<br>per frame", "inliers_on_movers_per_frame", 1, 1},
+    {"step<br>[ms]", "ms_process_mean", 1, 1},
+};
+constexpr Column kMaskColumns[] = {
+    {"object<br>precision [%]", "object_precision", 100, 1},
+    {"object<br>recall [%]", "object_recall", 100, 1},
+    {"object<br>IoU [%]", "object_iou", 100, 1},
+    {"pixel<br>precision [%]", "mask_precision", 100, 1},
+    {"pixel<br>recall [%]", "mask_recall", 100, 1},
+    {"pixel<br>IoU [%]", "mask_iou", 100, 1},
+    {"static features<br>lost [%]", "static_features_lost", 100, 2},
+};
+
+template <std::size_t N>
+std::string ScoreTable(const std::vector<SystemRuns>& systems, const Column (&columns)[N]) {
+  std::string text = "<div class=\"wide\"><table><tr><th>system</th>";
+  for (const Column& column : columns) text += fmt::format("<th>{}</th>", column.title);
+  text += "</tr>\n";
+  for (const SystemRuns& system : systems) {
+    text += fmt::format("<tr><td><span class=\"chip c{}\"></span>{}</td>", system.color % 6,
+                        Escape(system.system));
+    for (const Column& column : columns) {
+      const auto value = MedianScore(system.runs, column.score);
+      text += fmt::format(
+          "<td>{}</td>",
+          value ? fmt::format("{:.{}f}", *value * column.factor, column.decimals) : "-");
+    }
+    text += "</tr>\n";
+  }
+  return text + "</table></div>\n";
+}
+
+std::vector<SystemRuns> WithMasks(const std::vector<SystemRuns>& systems) {
+  std::vector<SystemRuns> masked;
+  for (const SystemRuns& system : systems) {
+    const bool has = std::any_of(system.runs.begin(), system.runs.end(), [](const RunRecord* run) {
+      return run->scores.count("mask_iou") > 0;
+    });
+    if (has) masked.push_back(system);
+  }
+  return masked;
+}
+
+std::string Troubles(const std::vector<SystemRuns>& systems) {
+  std::string text;
+  for (const SystemRuns& system : systems) {
+    for (const RunRecord* run : system.runs) {
+      if (run->status != RunStatus::kOk) {
+        text += fmt::format("<p><span class=\"fail\">{}</span> {}, seed {}: {}</p>\n",
+                            Name(run->status), Escape(system.system), run->spec.seed,
+                            Escape(run->status_why));
+      }
+      for (const std::string& note : run->notes) {
+        text += fmt::format("<p>{}, seed {}: {}</p>\n", Escape(system.system), run->spec.seed,
+                            Escape(note));
+      }
+    }
+  }
+  return text;
+}
+
+/// The frames of the run that stands for a system in the charts: its first seed.
+std::vector<FrameRow> Frames(const SystemRuns& system, const fs::path& report_dir) {
+  const auto artifact = system.runs.front()->artifacts.find("frames");
+  if (artifact == system.runs.front()->artifacts.end()) return {};
+  const fs::path path = report_dir / artifact->second;
+  try {
+    return FrameRowsFromCsv(ReadFile(path), path.string());
+  } catch (const InputError&) {
+    return {};  // a report without its heavy files still shows the scores
+  }
+}
+
+std::string Figure(const std::string& content, const std::string& caption) {
+  if (content.empty()) return "";
+  return "<figure>" + content + "<figcaption>" + caption + "</figcaption></figure>\n";
+}
+
+std::string Charts(const SceneRuns& scene, const fs::path& report_dir) {
+  std::vector<std::vector<FrameRow>> frames;
+  for (const SystemRuns& system : scene.systems) frames.push_back(Frames(system, report_dir));
+  std::vector<ChartSeries> series;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (frames[i].empty()) continue;
+    series.push_back({scene.systems[i].system, scene.systems[i].color % 6, &frames[i]});
+  }
+  const std::string seed = fmt::format("Seed {}. ", scene.systems.front().runs.front()->spec.seed);
+  return Figure(ErrorChart(series),
+                seed +
+                    "Distance of each live pose from truth after rigid alignment; gaps are frames "
+                    "without a pose. Beneath: share of the left image that moves.") +
+         Figure(TopViewChart(series), seed + "Live tracks from above, truth dashed.");
+}
+
+std::string Spread(const SceneRuns& scene) {
+  std::vector<SpreadRow> rows;
+  bool several = false;
+  for (const SystemRuns& system : scene.systems) {
+    SpreadRow row{system.system, system.color % 6, {}};
+    for (const RunRecord* run : system.runs) {
+      const auto score = run->scores.find("ate_rmse_m");
+      if (score != run->scores.end() && score->second.value) {
+        row.values.push_back(100 * *score->second.value);
+      }
+    }
+    several = several || row.values.size() > 1;
+    rows.push_back(row);
+  }
+  if (!several) return "";
+  return Figure(SpreadChart(rows, "ATE RMSE [cm]"), "A dot per seed, the median as a line.");
+}
+
+std::string Stages(const SceneRuns& scene) {
+  std::vector<StageRow> rows;
+  for (const SystemRuns& system : scene.systems) {
+    StageRow row{system.system, {}};
+    int color = 0;
+    for (const auto& [name, score] : system.runs.front()->scores) {
+      if (!name.starts_with("ms_") || !score.value) continue;
+      const std::string stage = name.substr(3, name.size() - 3 - std::string("_mean").size());
+      if (stage == "process" || stage == "render" || stage == "total") continue;
+      row.bars.push_back({stage, color++, *MedianScore(system.runs, name)});
+    }
+    if (!row.bars.empty()) rows.push_back(row);
+  }
+  if (rows.empty()) return "";
+  return Figure(StageChart(rows), "What the system says of its own stages, mean over all frames.");
+}
+
+std::string Pictures(const SceneRuns& scene, const std::string& root) {
+  std::string text;
+  for (const SystemRuns& system : scene.systems) {
+    std::string images;
+    for (const auto& [name, path] : system.runs.front()->artifacts) {
+      if (!name.starts_with("picture_")) continue;
+      const std::string url = root + EscapeUrl(path);
+      images += fmt::format(
+          "<a href=\"{0}\"><img src=\"{0}\" loading=\"lazy\" width=\"752\" height=\"504\" "
+          "alt=\"left image with truth and estimate, {1}\"></a>\n",
+          url, Escape(system.system));
+    }
+    if (images.empty()) continue;
+    text += fmt::format(
+        "<h3><span class=\"chip c{}\"></span>{}</h3>\n<div class=\"pictures\">{}</div>\n",
+        system.color % 6, Escape(system.system), images);
+  }
+  if (text.empty()) return "";
+  return "<p class=\"small soft\"><span class=\"chip red\"></span>moves now (truth) &nbsp; <span "
+         "class=\"chip blue\"></span>person or vehicle at rest &nbsp; <span class=\"chip cyan\">"
+         "</span>rejected by the system &nbsp; <span class=\"chip green\"></span>feature used "
+         "&nbsp; <span class=\"chip grey\"></span>feature not used &nbsp; <span class=\"chip "
+         "yellow\"></span>feature on a mover</p>\n" +
+         text;
+}
+
+std::string AllScores(const SceneRuns& scene) {
+  std::string text =
+      "<details><summary>every score of every run</summary><div class=\"wide\"><table>"
+      "<tr><th>run</th><th class=\"left\">score</th><th>value</th><th>unit</th>"
+      "<th>n</th><th class=\"left\">alignment</th></tr>\n";
+  for (const SystemRuns& system : scene.systems) {
+    for (const RunRecord* run : system.runs) {
+      for (const auto& [name, score] : run->scores) {
+        text += fmt::format("<tr><td>{} {}</td><td class=\"left\">{}</td>", Escape(system.system),
+                            run->spec.seed, Escape(name));
+        if (score.value) {
+          text +=
+              fmt::format("<td>{:.6g}</td><td>{}</td><td>{}</td><td class=\"left\">{}</td></tr>\n",
+                          *score.value, Escape(score.unit), score.n, Escape(score.alignment));
+        } else {
+          text += fmt::format("<td colspan=\"4\" class=\"left soft\">{}</td></tr>\n",
+                              Escape(score.absent));
+        }
+      }
+    }
+  }
+  return text + "</table></div></details>\n";
+}
+
+std::string Again(const SceneRuns& scene, const std::string& root) {
+  std::string text = "<h3>Files, and each run again</h3>\n<div class=\"wide\"><table>";
+  for (const SystemRuns& system : scene.systems) {
+    for (const RunRecord* run : system.runs) {
+      text += fmt::format("<tr><td>{} {}</td><td class=\"left\">", Escape(system.system),
+                          run->spec.seed);
+      for (const auto& [name, path] : run->artifacts) {
+        if (name.starts_with("picture_")) continue;
+        text += fmt::format("<a href=\"{}\">{}</a> ", root + EscapeUrl(path), Escape(name));
+      }
+      text += fmt::format(
+          "</td><td class=\"left\"><code>./aisle run {} --twins {} --systems {} --seed "
+          "{}</code></td>"
+          "</tr>\n",
+          Escape(run->spec.scene_file), Escape(run->spec.twin), Escape(system.system),
+          run->spec.seed);
+    }
+  }
+  return text + "</table></div>\n";
+}
+
+}  // namespace
+
+std::string SceneSection(const SceneRuns& scene, const fs::path& report_dir,
+                         const std::string& root) {
+  const RunRecord& first = *scene.systems.front().runs.front();
+  std::string text = fmt::format(
+      "<h2 id=\"{}\">{} <span class=\"soft\">{}</span></h2>\n<p class=\"soft small\">{} frames, "
+      "{:g} "
+      "per second, {} seed{}; content {}. Errors in centimetres after rigid alignment; RPE over "
+      "one "
+      "second, every start; 95 % of frames counts lost frames as failures.</p>\n",
+      ScenePage(scene), Escape(scene.scene), Escape(scene.twin), first.frames, first.rate_hz,
+      scene.systems.front().runs.size(), scene.systems.front().runs.size() == 1 ? "" : "s",
+      Escape(first.content_hash));
+  text += Troubles(scene.systems) + ScoreTable(scene.systems, kColumns);
+  if (const std::vector<SystemRuns> masked = WithMasks(scene.systems); !masked.empty()) {
+    text +=
+        "<h3>What was rejected</h3>\n" + ScoreTable(masked, kMaskColumns) +
+        "<p class=\"soft small\">Objects by rectangle, found where the overlap (IoU) is 0.5 or "
+        "more; pixels over all frames together; static features lost: share of image corners on "
+        "unmoving surfaces under the mask.</p>\n";
+  }
+  text += Charts(scene, report_dir) + Spread(scene) + Pictures(scene, root) + Stages(scene) +
+          AllScores(scene) + Again(scene, root);
+  return text;
+}
+
+}  // namespace aisle

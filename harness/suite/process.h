@@ -1,0 +1,64 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace aisle {
+
+struct ProcessLimits {
+  double wall_s = 3600;           ///< then the whole process group is killed
+  double memory_mib = 8192;       ///< resident, watched: address space would hit sanitizers
+  std::size_t log_bytes = 65536;  ///< of its output, the last so many are kept
+};
+
+struct ProcessResult {
+  enum class End { kExited, kSignalled, kTimeout, kMemory };
+  End end = End::kExited;
+  int code = 0;  ///< exit code, or the signal's number
+  double wall_s = 0;
+  double peak_rss_mib = 0;
+  std::string log;  ///< tail of stdout and stderr
+};
+
+/// "exit code 3", "signal 11 (Segmentation fault)", "no end after 600 s", …
+std::string Describe(const ProcessResult& result, const ProcessLimits& limits);
+
+/// A child in its own session that dies with its parent. Whatever it does (crash, hang, flood its
+/// output, eat memory) ends as a ProcessResult. Not thread-safe.
+class Process {
+ public:
+  /// argv[0] is a path. Throws MachineError when it cannot be started.
+  Process(const std::vector<std::string>& argv, const ProcessLimits& limits);
+  ~Process();  ///< kills what is still running
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  /// Looks after the child: reads its output, holds it to its limits. True once it has ended; call
+  /// it some ten times a second.
+  bool Poll();
+  /// Lines "@progress I N" of its output, latest; 0 of 0 before the first.
+  int progress_done() const { return progress_done_; }
+  int progress_total() const { return progress_total_; }
+  const ProcessResult& result() const { return result_; }
+
+ private:
+  void ReadOutput();
+  void TakeLine(const std::string& line);
+  void HoldToLimits();
+  void KillGroup();
+
+  const ProcessLimits limits_;
+  pid_t pid_ = -1;
+  int output_ = -1;
+  double started_s_ = 0;
+  bool ended_ = false;
+  bool killed_ = false;
+  std::string partial_line_;
+  int progress_done_ = 0, progress_total_ = 0;
+  ProcessResult result_;
+};
+
+}  // namespace aisle

@@ -1,0 +1,74 @@
+#include "harness/suite/schedule.h"
+
+#include <chrono>
+#include <list>
+#include <memory>
+#include <thread>
+
+namespace aisle {
+namespace {
+
+constexpr auto kPollInterval = std::chrono::milliseconds(50);
+
+struct Running {
+  const Job* job;
+  std::unique_ptr<Process> process;
+};
+
+/// The next job that may start: none whose frames are being made right now.
+std::list<const Job*>::iterator NextToStart(std::list<const Job*>& waiting,
+                                            const std::set<std::string>& made,
+                                            const std::list<Running>& running) {
+  return std::find_if(waiting.begin(), waiting.end(), [&](const Job* job) {
+    return made.count(job->frames_key) > 0 ||
+           std::none_of(running.begin(), running.end(), [&](const Running& other) {
+             return other.job->frames_key == job->frames_key;
+           });
+  });
+}
+
+std::vector<JobProgress> ProgressOf(const std::list<Running>& running) {
+  std::vector<JobProgress> progress;
+  for (const Running& one : running) {
+    progress.push_back({one.job, one.process->progress_done(), one.process->progress_total()});
+  }
+  return progress;
+}
+
+}  // namespace
+
+bool RunJobs(const std::vector<Job>& jobs, const ScheduleOptions& options,
+             const ScheduleEvents& events) {
+  std::list<const Job*> waiting;
+  for (const Job& job : jobs) waiting.push_back(&job);
+  std::list<Running> running;
+  std::set<std::string> made;  // frames that a finished job has left for the others
+  std::size_t ended = 0;
+  while (!waiting.empty() || !running.empty()) {
+    if (options.interrupted != nullptr && options.interrupted->load()) return false;
+    while (static_cast<int>(running.size()) < std::max(options.jobs, 1)) {
+      const auto next = NextToStart(waiting, made, running);
+      if (next == waiting.end()) break;
+      running.push_back({*next, std::make_unique<Process>((*next)->argv, options.limits)});
+      waiting.erase(next);
+    }
+    for (auto it = running.begin(); it != running.end();) {
+      if (!it->process->Poll()) {
+        ++it;
+        continue;
+      }
+      ++ended;
+      const ProcessResult& result = it->process->result();
+      if (result.end == ProcessResult::End::kExited && result.code == 0) {
+        made.insert(it->job->frames_key);
+      }
+      if (events.ended) events.ended(*it->job, result);
+      it = running.erase(it);
+    }
+    if (events.tick) events.tick(ProgressOf(running), ended);
+    if (!running.empty()) std::this_thread::sleep_for(kPollInterval);
+  }
+  return true;
+}
+
+}  // namespace aisle

@@ -1,0 +1,217 @@
+#include "harness/suite/suite.h"
+
+#include <charconv>
+#include <filesystem>
+
+#include "harness/io/input_error.h"
+#include "harness/suite/yaml_guard.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMaxSeeds = 1000;
+constexpr const char* kNameRule = "letters, digits, '_', '.', '-', '/', 1 to 80 of them";
+
+/// A suite file being read: knows where every complaint belongs.
+class Reader {
+ public:
+  Reader(std::string file, const Vocabulary& vocabulary)
+      : file_(std::move(file)), vocabulary_(vocabulary), root_(LoadYaml(file_)) {}
+
+  Suite Read() const {
+    RequireKeys(root_, {"suite", "question", "scenes", "systems", "twins", "seeds", "limits"},
+                "suite: quickstart");
+    Suite suite;
+    suite.name = NameAt(Required("suite", "suite: quickstart"));
+    suite.question = Text(Required("question", "question: Does the mask help?"));
+    for (const YAML::Node& scene : List(Required("scenes", "scenes: [paper/scene2]"))) {
+      suite.scenes.push_back(SceneAt(scene));
+    }
+    for (const YAML::Node& system : List(Required("systems", "systems: [orbslam2, oracle]"))) {
+      suite.systems.push_back(OneOf(system, vocabulary_.systems, "system"));
+    }
+    if (root_["twins"]) suite.twins = Twins();
+    if (root_["seeds"]) suite.seeds = Seeds(root_["seeds"]);
+    if (root_["limits"]) {
+      for (const YAML::Node& limit : List(root_["limits"])) {
+        suite.limits.push_back(LimitAt(limit, suite));
+      }
+    }
+    return suite;
+  }
+
+ private:
+  [[noreturn]] void Fail(const YAML::Node& node, const std::string& message) const {
+    FailAt(file_, node.Mark(), message);
+  }
+
+  void RequireKeys(const YAML::Node& node, const std::vector<std::string>& known,
+                   const std::string& example) const {
+    if (!node.IsMap()) Fail(node, "expected 'key: value' lines, for example '" + example + "'");
+    for (const auto& entry : node) {
+      const std::string key = entry.first.Scalar();
+      if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+      Fail(entry.first, fmt::format("unknown key '{}': expected one of {}", Printable(key),
+                                    fmt::join(known, ", ")));
+    }
+  }
+
+  YAML::Node Required(const std::string& key, const std::string& example) const {
+    const YAML::Node node = root_[key];
+    if (!node) Fail(root_, fmt::format("key '{}' is missing, for example '{}'", key, example));
+    return node;
+  }
+
+  std::string Text(const YAML::Node& node) const {
+    if (!node.IsScalar() || node.Scalar().empty()) Fail(node, "expected a text");
+    return node.Scalar();
+  }
+
+  std::string NameAt(const YAML::Node& node) const {
+    const std::string name = Text(node);
+    const bool good = name.size() <= 80 && name.find("..") == std::string::npos &&
+                      name.find_first_not_of(
+                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                          "0123456789_.-") == std::string::npos;
+    if (!good) Fail(node, fmt::format("'{}' is no name: {}", Printable(name), kNameRule));
+    return name;
+  }
+
+  std::vector<YAML::Node> List(const YAML::Node& node) const {
+    if (node.IsScalar()) return {node};  // a list of one may drop its brackets
+    if (!node.IsSequence() || node.size() == 0)
+      Fail(node, "expected a list with an entry at least");
+    return {node.begin(), node.end()};
+  }
+
+  std::string OneOf(const YAML::Node& node, const std::vector<std::string>& known,
+                    const std::string& what) const {
+    const std::string name = Text(node);
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      Fail(node, fmt::format("{} '{}' is not known: expected one of {}", what, Printable(name),
+                             fmt::join(known, ", ")));
+    }
+    return name;
+  }
+
+  SuiteScene SceneAt(const YAML::Node& node) const {
+    const std::string text = Text(node);
+    const fs::path folder = fs::path(file_).parent_path();
+    for (const fs::path& base : {folder, folder / ".."}) {
+      for (const char* ending : {"", ".yaml"}) {
+        const fs::path candidate = base / (text + ending);
+        if (fs::is_regular_file(candidate)) {
+          const std::string scene_file = candidate.lexically_normal().string();
+          return {SceneName(scene_file), scene_file};
+        }
+      }
+    }
+    Fail(node, fmt::format("scene '{}' is neither below {} nor below {}", Printable(text),
+                           folder.string(), (folder / "..").lexically_normal().string()));
+  }
+
+  std::vector<std::string> Twins() const {
+    std::vector<std::string> twins;
+    for (const YAML::Node& twin : List(root_["twins"])) {
+      twins.push_back(OneOf(twin, vocabulary_.twins, "twin"));
+    }
+    return twins;
+  }
+
+  std::uint64_t Whole(const YAML::Node& node) const {
+    const std::string text = Text(node);
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) {
+      Fail(node, fmt::format("'{}' is no whole number, for example 'seeds: 3' or 'seeds: [1, 7]'",
+                             Printable(text)));
+    }
+    return value;
+  }
+
+  std::vector<std::uint64_t> Seeds(const YAML::Node& node) const {
+    std::vector<std::uint64_t> seeds;
+    if (node.IsSequence()) {
+      for (const YAML::Node& seed : List(node)) seeds.push_back(Whole(seed));
+      return seeds;
+    }
+    const std::uint64_t count = Whole(node);
+    if (count < 1 || count > kMaxSeeds)
+      Fail(node, fmt::format("expected 1 to {} seeds", kMaxSeeds));
+    for (std::uint64_t seed = 1; seed <= count; ++seed) seeds.push_back(seed);
+    return seeds;
+  }
+
+  double Number(const YAML::Node& node) const {
+    const std::string text = Text(node);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+      Fail(node, fmt::format("'{}' is no number", Printable(text)));
+    }
+    return value;
+  }
+
+  Limit LimitAt(const YAML::Node& node, const Suite& suite) const {
+    const char* example = "{score: ate_rmse_m, system: oracle, twin: live, max: 0.02}";
+    RequireKeys(node, {"score", "scene", "twin", "system", "min", "max"}, example);
+    Limit limit;
+    if (!node["score"]) Fail(node, fmt::format("a limit needs a score, for example {}", example));
+    limit.score = NameAt(node["score"]);
+    if (node["scene"]) {
+      std::vector<std::string> scenes;
+      for (const SuiteScene& scene : suite.scenes) scenes.push_back(scene.name);
+      limit.scene = OneOf(node["scene"], scenes, "this suite's scene");
+    }
+    if (node["twin"]) limit.twin = OneOf(node["twin"], suite.twins, "this suite's twin");
+    if (node["system"]) limit.system = OneOf(node["system"], suite.systems, "this suite's system");
+    if (node["min"]) limit.min = Number(node["min"]);
+    if (node["max"]) limit.max = Number(node["max"]);
+    if (!limit.min && !limit.max) Fail(node, "a limit needs 'min', 'max' or both");
+    return limit;
+  }
+
+  const std::string file_;
+  const Vocabulary& vocabulary_;
+  const YAML::Node root_;
+};
+
+}  // namespace
+
+Suite LoadSuite(const std::string& file, const Vocabulary& vocabulary) {
+  return Reader(file, vocabulary).Read();
+}
+
+bool IsSuiteFile(const std::string& file) {
+  const YAML::Node root = LoadYaml(file);
+  return root.IsMap() && root["suite"];
+}
+
+std::string SceneName(const std::string& scene_file) {
+  const fs::path path = fs::absolute(scene_file).lexically_normal();
+  std::string name = path.stem().string();
+  for (fs::path folder = path.parent_path(); folder != folder.root_path();
+       folder = folder.parent_path()) {
+    if (folder.filename() == "scenes") return name;
+    name = folder.filename().string() + "/" + name;
+  }
+  return path.stem().string();  // not below a scenes folder: the bare name
+}
+
+std::vector<RunSpec> Plan(const Suite& suite) {
+  std::vector<RunSpec> specs;
+  for (const SuiteScene& scene : suite.scenes) {
+    for (const std::string& twin : suite.twins) {
+      for (const std::uint64_t seed : suite.seeds) {
+        for (const std::string& system : suite.systems) {
+          specs.push_back({scene.name, scene.file, twin, system, seed});
+        }
+      }
+    }
+  }
+  return specs;
+}
+
+}  // namespace aisle

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/contract/run.h"
+#include "harness/report/verdict.h"
+
+namespace aisle {
+
+struct SuiteScene {
+  std::string name;  ///< "paper/scene2": the path below the scenes folder, without its ending
+  std::string file;
+};
+
+/// A question asked of several systems on several scenes.
+struct Suite {
+  std::string name;
+  std::string question;
+  std::vector<SuiteScene> scenes;
+  std::vector<std::string> systems;
+  std::vector<std::string> twins = {"live"};
+  std::vector<std::uint64_t> seeds = {1};
+  std::vector<Limit> limits;
+};
+
+/// What a suite may name.
+struct Vocabulary {
+  std::vector<std::string> systems;
+  std::vector<std::string> twins;
+};
+
+/// Reads a suite file:
+///
+///   suite: quickstart
+///   question: Does a person who fills the image spoil the pose?
+///   scenes: [../paper/scene2.yaml]
+///   systems: [orbslam2, oracle]
+///   twins: [live]                # optional
+///   seeds: 1                     # a count, or a list
+///   limits:                      # optional
+///     - {score: ate_rmse_m, system: oracle, twin: live, max: 0.02}
+///
+/// Scenes are sought from the suite's folder, then from the scenes folder that holds it; ".yaml"
+/// may be left out. Throws InputError with file:line:column, what was expected and an example.
+Suite LoadSuite(const std::string& file, const Vocabulary& vocabulary);
+
+/// True where the file's top level has the key `suite`; false for a scene. Throws InputError.
+bool IsSuiteFile(const std::string& file);
+
+/// The name under which reports list a scene file.
+std::string SceneName(const std::string& scene_file);
+
+/// Every cell of the suite: scenes, then twins, then seeds, then systems; runs that share their
+/// frames are neighbours.
+std::vector<RunSpec> Plan(const Suite& suite);
+
+}  // namespace aisle
