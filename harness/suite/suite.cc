@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxSeeds = 1000;
-constexpr const char* kNameRule = "letters, digits, '_', '.', '-', '/', 1 to 80 of them";
+constexpr const char* kNameRule = "letters, digits, '_', '.' and '-', 1 to 80 of them";
 
 /// A suite file being read: knows where every complaint belongs.
 class Reader {

@@ -1,0 +1,195 @@
+// Properties that hold for any trajectory, tried on random ones.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "harness/score/masks.h"
+#include "harness/score/pose_error.h"
+#include "harness/score/relative_error.h"
+#include "harness/score/scorecard.h"
+
+namespace aisle {
+namespace {
+
+double Real(double low, double high) {
+  constexpr int kSteps = 1'000'000;
+  return low + (high - low) * *rc::gen::inRange(0, kSteps + 1) / kSteps;
+}
+
+Eigen::Isometry3d RandomPose(double extent_m) {
+  Eigen::Quaterniond q(Real(0.1, 1), Real(-1, 1), Real(-1, 1), Real(-1, 1));
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = q.normalized().toRotationMatrix();
+  pose.translation() << Real(-extent_m, extent_m), Real(-extent_m, extent_m),
+      Real(-extent_m, extent_m);
+  return pose;
+}
+
+Trajectory RandomTrajectory() {
+  const int count = *rc::gen::inRange(5, 40);
+  Trajectory trajectory;
+  for (int i = 0; i < count; ++i) trajectory.push_back({i * 50'000'000LL, RandomPose(5)});
+  return trajectory;
+}
+
+Trajectory Noisy(const Trajectory& truth) {
+  Trajectory noisy = truth;
+  for (StampedPose& pose : noisy) pose.T_world_rig = pose.T_world_rig * RandomPose(0.2);
+  return noisy;
+}
+
+Trajectory Moved(const Eigen::Isometry3d& T, const Trajectory& trajectory) {
+  Trajectory moved = trajectory;
+  for (StampedPose& pose : moved) pose.T_world_rig = T * pose.T_world_rig;
+  return moved;
+}
+
+double AteRmse(const Trajectory& truth, const Trajectory& estimate) {
+  return *ScoreTrajectory(truth, estimate).scores.at("ate_rmse_m").value;
+}
+
+TEST(ScoreLaws, TruthHeldAgainstItselfHasNoError) {
+  EXPECT_TRUE(rc::check([] {
+    const Trajectory truth = RandomTrajectory();
+    const TrajectoryScore score = ScoreTrajectory(truth, truth);
+    for (const char* name : {"ate_rmse_m", "rpe_trans_rmse_m", "ate_rot_rmse_deg"}) {
+      RC_ASSERT(*score.scores.at(name).value < 1e-5);
+    }
+    RC_ASSERT(score.pairs.size() == truth.size());
+  }));
+}
+
+TEST(ScoreLaws, AlignedErrorDoesNotSeeARigidMotionOfTheEstimate) {
+  EXPECT_TRUE(rc::check([] {
+    const Trajectory truth = RandomTrajectory(), estimate = Noisy(truth);
+    const double before = AteRmse(truth, estimate);
+    RC_ASSERT(std::abs(AteRmse(truth, Moved(RandomPose(50), estimate)) - before) < 1e-9);
+    RC_ASSERT(std::abs(AteRmse(Moved(RandomPose(50), truth), estimate) - before) < 1e-9);
+  }));
+}
+
+TEST(ScoreLaws, RelativeErrorNeedsNoAlignment) {
+  EXPECT_TRUE(rc::check([] {
+    const Trajectory truth = RandomTrajectory(), estimate = Noisy(truth);
+    const Trajectory moved = Moved(RandomPose(50), estimate);
+    const auto rmse = [&](const Trajectory& t) {
+      return *ScoreTrajectory(truth, t).scores.at("rpe_trans_rmse_m").value;
+    };
+    RC_ASSERT(std::abs(rmse(moved) - rmse(estimate)) < 1e-9);
+  }));
+}
+
+TEST(ScoreLaws, SimilarityAlignmentUndoesAScale) {
+  EXPECT_TRUE(rc::check([] {
+    const Trajectory truth = RandomTrajectory();
+    RC_PRE((truth[0].T_world_rig.translation() - truth[1].T_world_rig.translation()).norm() > 0.1);
+    const double scale = Real(0.2, 5);
+    Trajectory estimate = Moved(RandomPose(10), truth);
+    for (StampedPose& pose : estimate) pose.T_world_rig.translation() *= scale;
+    const TrajectoryScore score = ScoreTrajectory(
+        truth, estimate,
+        {.association = {}, .alignment = {.method = AlignmentMethod::kSim3}, .relative = {}});
+    RC_ASSERT(*score.scores.at("ate_rmse_m").value < 1e-8);
+    RC_ASSERT(std::abs(score.alignment.scale * scale - 1) < 1e-9);
+  }));
+}
+
+TEST(ScoreLaws, AssociationIsOneToOneAndWithinItsBound) {
+  EXPECT_TRUE(rc::check([] {
+    const Trajectory truth = RandomTrajectory();
+    Trajectory estimate;
+    std::int64_t stamp = -20'000'000;
+    while (stamp < truth.back().stamp_ns) {
+      stamp += *rc::gen::inRange(1, 80) * 1'000'000LL;
+      estimate.push_back({stamp, Eigen::Isometry3d::Identity()});
+    }
+    const AssociationOptions options{.rule = AssociationRule::kNearest};
+    const std::int64_t bound = MaxDifferenceNs(truth, estimate, options);
+    const auto pairs = Associate(truth, estimate, options);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      RC_ASSERT(std::abs(truth[pairs[i].truth].stamp_ns - estimate[pairs[i].estimate].stamp_ns) <=
+                bound);
+      if (i == 0) continue;
+      RC_ASSERT(pairs[i].truth > pairs[i - 1].truth);
+      RC_ASSERT(pairs[i].estimate > pairs[i - 1].estimate);
+    }
+  }));
+}
+
+TEST(ScoreLaws, OverlapIsSymmetricAndAtMostOne) {
+  EXPECT_TRUE(rc::check([] {
+    const auto box = [] { return cv::Rect2d(Real(0, 50), Real(0, 50), Real(1, 50), Real(1, 50)); };
+    const cv::Rect2d a = box(), b = box();
+    RC_ASSERT(Iou(a, b) == Iou(b, a));
+    RC_ASSERT(Iou(a, b) >= 0 && Iou(a, b) <= 1);
+    RC_ASSERT(std::abs(Iou(a, a) - 1) < 1e-12);
+  }));
+}
+
+TEST(FrameMismatchTest, AConstantTurnOfTheRigIsToldInWords) {
+  Trajectory truth, estimate;
+  for (int i = 0; i < 60; ++i) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() << 3 * std::cos(0.1 * i), 2 * std::sin(0.1 * i), 0.2 * std::sin(0.3 * i);
+    pose.linear() = Eigen::AngleAxisd(0.1 * i, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    truth.push_back({i * 50'000'000LL, pose});
+    pose.linear() =
+        pose.linear() * Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    estimate.push_back({i * 50'000'000LL, pose});
+  }
+  const TrajectoryScore score = ScoreTrajectory(truth, estimate);
+  ASSERT_EQ(score.notes.size(), 1u);
+  EXPECT_NE(score.notes[0].find("off by the same 90.0 degrees"), std::string::npos);
+  EXPECT_TRUE(ScoreTrajectory(truth, truth).notes.empty());
+}
+
+TEST(CoverageTest, LostFramesCountAsFailures) {
+  RunResult run;
+  for (int i = 0; i < 100; ++i) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() << 0.1 * i, 0.01 * (i % 7), std::sin(0.2 * i);
+    FrameEstimate estimate;
+    estimate.id = i;
+    estimate.stamp_ns = i * 50'000'000LL;
+    if (i < 40 || i >= 60) {
+      estimate.T_world_rig = pose;
+      run.trajectory.live.push_back({estimate.stamp_ns, pose});
+    }
+    run.truth.push_back({estimate.stamp_ns, pose});
+    run.facts.push_back({});
+    run.estimates.push_back(estimate);
+  }
+  run.trajectory.final = run.trajectory.live;
+  const Scorecard scores = ScoreRun(run);
+  EXPECT_DOUBLE_EQ(*scores.at("coverage").value, 0.8);
+  EXPECT_DOUBLE_EQ(*scores.at("times_lost").value, 1);
+  EXPECT_DOUBLE_EQ(*scores.at("recovery_max_s").value, 1.0);
+  EXPECT_LT(*scores.at("error_all_p50_m").value, 1e-9);
+  EXPECT_FALSE(scores.at("error_all_p95_m").value.has_value());
+  EXPECT_EQ(scores.at("error_all_p95_m").absent, "lost in more than 5 % of the frames");
+}
+
+TEST(MaskTest, CountsAreThoseOfAHandMadePicture) {
+  cv::Mat1b left(100, 100, static_cast<unsigned char>(128));
+  FrameTruth truth;
+  truth.dynamic = cv::Mat1b(100, 100, static_cast<unsigned char>(0));
+  truth.instance = cv::Mat1w(100, 100, static_cast<unsigned short>(0));
+  truth.dynamic(cv::Rect(10, 10, 20, 20)) = 255;  // one mover, found
+  truth.instance(cv::Rect(10, 10, 20, 20)) = 3;
+  truth.dynamic(cv::Rect(60, 60, 20, 20)) = 255;  // another, missed
+  truth.instance(cv::Rect(60, 60, 20, 20)) = 4;
+  DynamicRegions regions;
+  regions.mask = cv::Mat1b(100, 100, static_cast<unsigned char>(0));
+  regions.mask(cv::Rect(10, 10, 20, 30)) = 255;  // the first, too tall
+  regions.mask(cv::Rect(60, 5, 20, 20)) = 255;   // nothing moves here
+  const MaskFacts facts = CompareMasks(left, truth, regions);
+  EXPECT_EQ(facts.true_positives, 400);
+  EXPECT_EQ(facts.false_positives, 200 + 400);
+  EXPECT_EQ(facts.false_negatives, 400);
+  EXPECT_EQ(facts.objects_found, 1);
+  EXPECT_EQ(facts.objects_missed, 1);
+  EXPECT_EQ(facts.objects_invented, 1);
+  EXPECT_DOUBLE_EQ(facts.iou_sum, 400.0 / 600.0);
+}
+
+}  // namespace
+}  // namespace aisle

@@ -1,0 +1,137 @@
+// Whatever a child does, the harness goes on: the children here are shell scripts that misbehave.
+#include "harness/suite/process.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <fstream>
+#include <thread>
+
+#include "harness/suite/schedule.h"
+
+namespace aisle {
+namespace {
+
+using End = ProcessResult::End;
+
+std::vector<std::string> Shell(const std::string& script) { return {"/bin/sh", "-c", script}; }
+
+ProcessResult RunToEnd(const std::string& script, const ProcessLimits& limits = {}) {
+  Process process(Shell(script), limits);
+  while (!process.Poll()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  return process.result();
+}
+
+TEST(ProcessTest, ExitCodesAndOutputComeBack) {
+  const ProcessResult result = RunToEnd("echo out; echo err >&2; exit 7");
+  EXPECT_EQ(result.end, End::kExited);
+  EXPECT_EQ(result.code, 7);
+  EXPECT_EQ(result.log, "out\nerr\n");
+  EXPECT_EQ(Describe(result, {}), "exit code 7");
+}
+
+TEST(ProcessTest, ACrashIsASignal) {
+  const ProcessResult result = RunToEnd("kill -SEGV $$");
+  EXPECT_EQ(result.end, End::kSignalled);
+  EXPECT_EQ(Describe(result, {}), "signal 11 (Segmentation fault)");
+}
+
+TEST(ProcessTest, AHangIsEndedWithAllItsChildren) {
+  const std::string file = testing::TempDir() + fmt::format("aisle_grandchild_{}", ::getpid());
+  const ProcessLimits limits{.wall_s = 0.3};
+  const ProcessResult result = RunToEnd("sleep 100 & echo $! > " + file + "; wait", limits);
+  EXPECT_EQ(result.end, End::kTimeout);
+  EXPECT_EQ(Describe(result, limits), "no end after 0.3 s: killed");
+  pid_t grandchild = 0;
+  std::ifstream(file) >> grandchild;
+  ASSERT_GT(grandchild, 1);
+  for (int i = 0; i < 100 && ::kill(grandchild, 0) == 0; ++i) {
+    std::ifstream stat(fmt::format("/proc/{}/stat", grandchild));
+    std::string pid, name, state;
+    stat >> pid >> name >> state;
+    if (state == "Z") break;  // dead, and waiting for init to look
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ASSERT_LT(i, 99) << "the grandchild lives on";
+  }
+}
+
+TEST(ProcessTest, AFloodOfOutputKeepsItsTailOnly) {
+  const ProcessLimits limits{.log_bytes = 1000};
+  const ProcessResult result = RunToEnd("yes flood | head -c 3000000; echo; echo end", limits);
+  EXPECT_EQ(result.code, 0);
+  EXPECT_LE(result.log.size(), 2001u);
+  EXPECT_THAT(result.log, testing::EndsWith("end\n"));
+}
+
+TEST(ProcessTest, TooMuchMemoryIsNoticed) {
+  const ProcessLimits limits{.wall_s = 20, .memory_mib = 60};
+  const ProcessResult result = RunToEnd(
+      "head -c 200000000 /dev/zero | tail -c 150000000 > /dev/null & "
+      "x=$(head -c 150000000 /dev/zero | tr '\\0' x); sleep 20",
+      limits);
+  EXPECT_EQ(result.end, End::kMemory);
+}
+
+TEST(ProcessTest, ProgressLinesAreReadAndNotLogged) {
+  Process process(Shell("echo '@progress 3 10'; echo hello"), {});
+  while (!process.Poll()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_EQ(process.progress_done(), 3);
+  EXPECT_EQ(process.progress_total(), 10);
+  EXPECT_EQ(process.result().log, "hello\n");
+}
+
+TEST(ProcessTest, AProgramThatIsNotThereExits127) {
+  Process process({"/no/such/program"}, {});
+  while (!process.Poll()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_EQ(process.result().code, 127);
+}
+
+TEST(ScheduleTest, OneSystemsCrashTouchesNoOther) {
+  std::vector<Job> jobs;
+  const char* scripts[] = {"exit 0", "kill -SEGV $$", "exit 0", "exit 3"};
+  for (int i = 0; i < 4; ++i) {
+    Job job;
+    job.spec.seed = static_cast<std::uint64_t>(i);
+    job.argv = Shell(scripts[i]);
+    job.frames_key = "same";
+    jobs.push_back(job);
+  }
+  std::map<std::uint64_t, ProcessResult> ended;
+  const auto note = [&](const Job& job, const ProcessResult& r) { ended[job.spec.seed] = r; };
+  EXPECT_TRUE(RunJobs(jobs, {.jobs = 3, .limits = {}}, {.ended = note, .tick = {}}));
+  ASSERT_EQ(ended.size(), 4u);
+  EXPECT_EQ(ended[0].code, 0);
+  EXPECT_EQ(ended[1].end, End::kSignalled);
+  EXPECT_EQ(ended[2].code, 0);
+  EXPECT_EQ(ended[3].code, 3);
+}
+
+TEST(ScheduleTest, FramesAreMadeByOneJobAtATime) {
+  const std::string lock = testing::TempDir() + fmt::format("aisle_lock_{}", ::getpid());
+  // The first to come makes the folder; a second one beside it would fail.
+  const std::string script = "mkdir " + lock + " || exit 9; sleep 0.2; rmdir " + lock;
+  std::vector<Job> jobs;
+  for (int i = 0; i < 2; ++i) {
+    Job job;
+    job.argv = Shell(i == 0 ? script : "test ! -d " + lock);
+    job.frames_key = "shared";
+    jobs.push_back(job);
+  }
+  int good = 0;
+  const auto note = [&](const Job&, const ProcessResult& r) { good += r.code == 0; };
+  EXPECT_TRUE(RunJobs(jobs, {.jobs = 2, .limits = {}}, {.ended = note, .tick = {}}));
+  EXPECT_EQ(good, 2);
+}
+
+TEST(ScheduleTest, AnInterruptEndsWhatRuns) {
+  std::atomic<bool> interrupted = false;
+  Job job;
+  job.argv = Shell("sleep 100");
+  const auto stop = [&](const std::vector<JobProgress>&, std::size_t) { interrupted = true; };
+  EXPECT_FALSE(RunJobs({job}, {.jobs = 1, .limits = {}, .interrupted = &interrupted},
+                       {.ended = {}, .tick = stop}));
+}
+
+}  // namespace
+}  // namespace aisle
