@@ -1,0 +1,247 @@
+#include "simulator/scene/scene.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+
+#include "simulator/scene/load.h"
+
+namespace aisle::sim {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const fs::path kScenes = fs::path(AISLE_SOURCE_DIR) / "scenes";
+const fs::path kSchema = kScenes / "scene.schema.json";
+
+const std::string kGood = R"(about: A person crosses.
+frames: 100
+rig:
+  start: [0, 0]
+  steps:
+    - {go: [[8, 0]], speed_mps: 0.9}
+hall: {from: [-5, -8], to: [20, 8], height_m: 6}
+lights:
+  - {rows: 2, per_row: 4, height_m: 5}
+racks:
+  - {from: [0, 3], bays: 4}
+people:
+  - name: walker
+    start: [5, 1.5]
+    heading_deg: -90
+    steps:
+      - {go: [[5, -1.5]], speed_mps: 1.2}
+      - {wait_s: 1}
+)";
+
+std::vector<std::string> MessagesOf(const std::string& text) {
+  try {
+    ParseScene(text, "s.yaml");
+  } catch (const SceneError& error) {
+    return error.messages();
+  }
+  return {};
+}
+
+/// The good scene with the first match of `what` replaced.
+std::string With(const std::string& what, const std::string& by) {
+  const std::size_t at = kGood.find(what);
+  if (at == std::string::npos) throw std::invalid_argument("not in the good scene: " + what);
+  std::string text = kGood.substr(0, at);
+  text += by;
+  text += kGood.substr(at + what.size());
+  return text;
+}
+
+std::vector<fs::path> AllScenes() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(kScenes)) {
+    const bool is_suite = entry.path().parent_path().filename() == "suites";
+    if (entry.path().extension() == ".yaml" && !is_suite) files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+TEST(LoadScene, ReadsWhatIsWrittenAndKeepsDefaultsElsewhere) {
+  const Scene scene = ParseScene(kGood, "s.yaml");
+  EXPECT_EQ(scene.frames, 100);
+  EXPECT_EQ(scene.rate_hz, 20);
+  EXPECT_EQ(scene.camera.size_px[0], 752);
+  ASSERT_EQ(scene.people.size(), 1u);
+  EXPECT_EQ(scene.people[0].mark.line, 13);
+  EXPECT_EQ(scene.people[0].route.marks[1].step.line, 18);
+  EXPECT_DOUBLE_EQ(scene.people[0].route.plan.heading_rad, -std::numbers::pi / 2);
+  EXPECT_EQ(scene.people[0].route.plan.steps[1].wait_s, 1.0);
+}
+
+TEST(LoadScene, EverySceneOfTheProjectIsGood) {
+  const std::vector<fs::path> scenes = AllScenes();
+  EXPECT_FALSE(scenes.empty());
+  for (const fs::path& scene : scenes) EXPECT_THAT(CheckScene(scene), testing::IsEmpty());
+}
+
+TEST(LoadScene, EverySceneSaysWhatItTestsAndNamesItsSchema) {
+  for (const fs::path& file : AllScenes()) {
+    std::ifstream stream(file);
+    std::string first;
+    std::getline(stream, first);
+    EXPECT_THAT(first, HasSubstr("yaml-language-server: $schema=../scene.schema.json")) << file;
+    EXPECT_GT(LoadScene(file).about.size(), 30u) << file;
+  }
+}
+
+TEST(SceneSchema, TheShippedFileIsTheReadersOwn) {
+  if (std::getenv("AISLE_WRITE_SCHEMA") != nullptr) std::ofstream(kSchema) << SceneSchema();
+  std::ifstream stream(kSchema);
+  const std::string shipped((std::istreambuf_iterator<char>(stream)), {});
+  EXPECT_EQ(shipped, SceneSchema()) << "run this test with AISLE_WRITE_SCHEMA=1 to rewrite it";
+}
+
+/// YAML as JSON; scalars that read as JSON values are those.
+nlohmann::json ToJson(const YAML::Node& node) {
+  nlohmann::json json;
+  if (node.IsMap()) {
+    json = nlohmann::json::object();
+    for (const auto& entry : node) json[entry.first.Scalar()] = ToJson(entry.second);
+  } else if (node.IsSequence()) {
+    json = nlohmann::json::array();
+    for (const auto& item : node) json.push_back(ToJson(item));
+  } else if (node.IsScalar()) {
+    json = nlohmann::json::parse(node.Scalar(), nullptr, false);
+    if (json.is_discarded()) json = node.Scalar();
+  }
+  return json;
+}
+
+TEST(SceneSchema, AnIndependentValidatorAcceptsEverySceneAndRefusesAMisspeltOne) {
+  const nlohmann::json json = nlohmann::json::parse(SceneSchema());
+  valijson::Schema schema;
+  valijson::adapters::NlohmannJsonAdapter adapter(json);
+  valijson::SchemaParser().populateSchema(adapter, schema);
+  const auto accepts = [&](const YAML::Node& node) {
+    const nlohmann::json document = ToJson(node);
+    return valijson::Validator().validate(schema, valijson::adapters::NlohmannJsonAdapter(document),
+                                          nullptr);
+  };
+  for (const fs::path& file : AllScenes()) EXPECT_TRUE(accepts(YAML::LoadFile(file))) << file;
+  EXPECT_TRUE(accepts(YAML::Load(kGood)));
+  EXPECT_FALSE(accepts(YAML::Load(With("frames:", "frame:"))));
+  EXPECT_FALSE(accepts(YAML::Load(With("height_m: 6", "height_m: -6"))));
+}
+
+TEST(Routes, OfEverySceneObeyTheirVehiclesLimits) {
+  const auto obeys = [](const RouteSpec& spec, const fs::path& file) {
+    const Route route(spec.plan, spec.limits);
+    const double h = 1e-4;
+    for (double t = 0; t < std::min(route.duration_s(), 400.0); t += 0.05) {
+      const RouteState now = route.At(t), next = route.At(t + h);
+      const Eigen::Vector2d step = next.position - now.position;
+      const double sideways =
+          std::cos(now.heading_rad) * step.y() - std::sin(now.heading_rad) * step.x();
+      EXPECT_NEAR(sideways / h, 0, 2e-2) << file << " at " << t;
+      EXPECT_LE(std::abs(now.acceleration_mps2), spec.limits.acceleration_mps2 + 1e-9) << file;
+      EXPECT_LE(std::abs(now.yaw_rate_rad_s), spec.limits.turn_rate_rad_s + 1e-9) << file;
+      EXPECT_LE(std::abs(now.yaw_rate_rad_s * now.speed_mps),
+                spec.limits.lateral_acceleration_mps2 + 1e-9)
+          << file;
+      if (!spec.limits.turns_on_the_spot) {
+        EXPECT_TRUE(now.speed_mps != 0 || now.yaw_rate_rad_s == 0) << file;
+      }
+    }
+  };
+  for (const fs::path& file : AllScenes()) {
+    const Scene scene = LoadScene(file);
+    obeys(scene.rig.route, file);
+    for (const PersonSpec& person : scene.people) obeys(person.route, file);
+    for (const VehicleSpec& vehicle : scene.vehicles) obeys(vehicle.route, file);
+  }
+}
+
+TEST(Twins, DifferInTheirActorsAlone) {
+  const Scene scene = ParseScene(kGood, "s.yaml");
+  EXPECT_TRUE(WithoutActors(scene).people.empty());
+  EXPECT_EQ(WithoutActors(scene).racks.size(), scene.racks.size());
+  EXPECT_TRUE(Frozen(scene).frozen);
+  EXPECT_EQ(WithDynamics(scene, Dynamics::kLow).people.size(), 1u);
+  EXPECT_TRUE(WithDynamics(scene, Dynamics::kNone).people.empty());
+}
+
+struct Mistake {
+  std::string what, by;     ///< edit of the good scene
+  std::string place, text;  ///< what the one message must hold
+};
+
+class OneMistake : public testing::TestWithParam<Mistake> {};
+
+TEST_P(OneMistake, GivesOnePreciseMessage) {
+  const Mistake& mistake = GetParam();
+  EXPECT_THAT(MessagesOf(With(mistake.what, mistake.by)),
+              ElementsAre(AllOf(HasSubstr("s.yaml:" + mistake.place), HasSubstr(mistake.text))));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scene, OneMistake,
+    testing::Values(
+        Mistake{"frames: 100", "frame: 100", "2:1", "did you mean frames?"},
+        Mistake{"frames: 100", "frames: 0100", "2:9", "expected a whole number"},
+        Mistake{"frames: 100", "frames: 1_00", "2:9", "expected a whole number"},
+        Mistake{"frames: 100", "frames: \"100\"", "2:9", "expected a whole number"},
+        Mistake{"frames: 100", "frames: 10.5", "2:9", "from 1 to 100000, got '10.5'"},
+        Mistake{"frames: 100", "frames: 100\nframes: 200", "3:1", "given twice"},
+        Mistake{"frames: 100", "frames: &n 100", "2:9", "anchors"},
+        Mistake{"frames: 100", "frames: *n", "2:9", ""},
+        Mistake{"about: A person crosses.\n", "", "1:1", "about: it is missing"},
+        Mistake{"start: [0, 0]", "start: [0]", "4:10", "expected a list of 2 numbers"},
+        Mistake{"speed_mps: 0.9", "speed_mps: -1", "6:36", "rig.steps[0].speed_mps: expected"},
+        Mistake{"go: [[8, 0]]", "go: [[8, 0, 1]]", "6:12", "a point [x, y]"},
+        Mistake{"[[8, 0]], speed_mps: 0.9", "[[80, 0]]", "6:7", "runs into a wall or leaves"},
+        Mistake{"[[8, 0]], speed_mps: 0.9", "[[8, 3]]", "6:7", "runs through racks[0]"},
+        Mistake{"[[8, 0]], speed_mps: 0.9", "[[8, 0]], wait_s: 1", "6:7", "a step is one of"},
+        Mistake{"[[8, 0]], speed_mps: 0.9", "[[8, 0], [8, 1]], corner_radius_m: 5", "6:7",
+                "a corner radius of 5 m does not fit"},
+        Mistake{"height_m: 6", "height_m: 4", "9:5", "above the roof"},
+        Mistake{"to: [20, 8]", "to: [-20, 8]", "7:7", "must lie at least 2 m beyond"},
+        Mistake{"  - {rows: 2, per_row: 4, height_m: 5}", "  []", "9:3", "expected at least one"},
+        Mistake{"lights:", "lamps:", "1:1", "lights: it is missing"},
+        Mistake{"bays: 4", "bays: 40", "11:5", "is outside the hall"},
+        Mistake{"bays: 4", "goods: apples", "11:20", "expected one of mixed, cartons"},
+        Mistake{"name: walker", "name: ../etc", "13:11", "a name of letters"},
+        Mistake{"name: walker", "level: low", "13:5", "people[0].name: it is missing"},
+        Mistake{"start: [5, 1.5]", "start: [5, 2.5]", "13:5", "people[0].start"},
+        Mistake{"wait_s: 1", "wait_s: 1, play: \"a b\"", "18:26", "a name of letters"},
+        Mistake{"people:", "people: 3\npersons:", "12:9", ""}));
+
+TEST(Mistakes, AreAllReportedInOneGo) {
+  std::string text = With("frames: 100", "frames: many");
+  text += "rate_hz: 0\nsensor: {noise: maybe}\n";
+  EXPECT_THAT(MessagesOf(text), ElementsAre(HasSubstr("2:9: frames: expected a whole number"),
+                                            HasSubstr("19:10: rate_hz: expected a number"),
+                                            HasSubstr("20:17: sensor.noise: expected true")));
+}
+
+TEST(Mistakes, HostileFilesAreRefusedQuickly) {
+  EXPECT_THAT(MessagesOf("&a [*a]"), testing::Not(testing::IsEmpty()));
+  EXPECT_THAT(MessagesOf(std::string(100'000, '[')), testing::Not(testing::IsEmpty()));
+  EXPECT_THAT(MessagesOf(""), ElementsAre(HasSubstr("expected a map")));
+  EXPECT_THAT(MessagesOf("{a: 1} trailing"), testing::SizeIs(1));
+  std::string many = "about: [";
+  for (int i = 0; i < 200'000; ++i) many += "1,";
+  EXPECT_THAT(MessagesOf(many + "]"), ElementsAre(HasSubstr("more than 100000 values")));
+  EXPECT_THAT(CheckScene("nowhere.yaml"), ElementsAre(HasSubstr("there is no such file")));
+}
+
+}  // namespace
+}  // namespace aisle::sim

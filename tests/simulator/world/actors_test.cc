@@ -1,0 +1,196 @@
+#include "simulator/world/actors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "simulator/mesh/import.h"
+#include "simulator/world/build.h"
+
+namespace aisle::sim {
+namespace {
+
+using std::numbers::pi;
+
+const std::string kAssets = std::string(AISLE_SOURCE_DIR) + "/assets";
+
+PersonSpec PersonWalking(const std::string& model, double speed_mps, double length_m) {
+  PersonSpec person;
+  person.name = "walker";
+  person.model = model;
+  person.route.limits.turns_on_the_spot = true;
+  person.route.limits.turn_rate_rad_s = 110 * pi / 180;
+  person.route.plan.steps.resize(1);
+  person.route.plan.steps[0].go = {{length_m, 0}};
+  person.route.plan.steps[0].speed_mps = speed_mps;
+  return person;
+}
+
+Actor Make(const PersonSpec& person) {
+  AssetLibrary assets(kAssets);
+  WorldParts parts;
+  Wardrobe wardrobe(&parts);
+  return MakePerson(person, &assets, &wardrobe);
+}
+
+std::vector<std::string> PeopleModels() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(kAssets + "/people")) {
+    if (entry.path().extension() == ".glb") names.push_back(entry.path().stem().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+/// How far the lowest vertices of a foot move while they stay on the floor, and how deep the
+/// deepest vertex sinks.
+struct FootWork {
+  double slip_m = 0;
+  double sink_m = 0;
+};
+
+/// A vertex that is within 6 mm of the floor at both ends of a time step is standing; the longest
+/// sideways way such a vertex collects in one stance is the slip.
+FootWork WatchFeet(const Actor& actor, double from_s, double to_s) {
+  constexpr float kContact_m = 0.006f;
+  constexpr double kStep_s = 0.01;
+  FootWork result;
+  MoverState before = actor.at(from_s);
+  std::vector<Eigen::Vector2f> touched(before.positions.size());
+  std::vector<bool> standing(before.positions.size(), false);
+  for (double t = from_s; t < to_s; t += kStep_s) {
+    const MoverState now = actor.at(t);
+    for (std::size_t i = 0; i < now.positions.size(); ++i) {
+      const Eigen::Vector3f& p = now.positions[i];
+      result.sink_m = std::max(result.sink_m, -static_cast<double>(p.z()));
+      if (p.z() > kContact_m) {
+        standing[i] = false;
+      } else if (!standing[i]) {
+        standing[i] = true;
+        touched[i] = p.head<2>();
+      } else {
+        result.slip_m =
+            std::max(result.slip_m, static_cast<double>((p.head<2>() - touched[i]).norm()));
+      }
+    }
+  }
+  return result;
+}
+
+TEST(Person, FeetStayWhereTheyStandAndAboveTheFloorAtEverySpeed) {
+  for (const std::string& model : PeopleModels()) {
+    for (const double speed : {0.15, 0.3, 0.6, 0.9, 1.25, 1.6, 2.0}) {
+      const Actor actor = Make(PersonWalking(model, speed, 30));
+      const FootWork feet = WatchFeet(actor, 4, 8);
+      RecordProperty(model + std::to_string(speed), std::to_string(feet.slip_m));
+      EXPECT_LE(feet.slip_m, 0.03) << model << " at " << speed << " m/s";
+      EXPECT_LE(feet.sink_m, 0.01) << model << " at " << speed << " m/s";
+    }
+  }
+}
+
+TEST(Person, VelocitiesAreTheDerivativesOfPositions) {
+  const Actor actor = Make(PersonWalking(PeopleModels()[0], 1.2, 30));
+  const double h = 1e-3, t = 6.1;
+  const MoverState before = actor.at(t - h), now = actor.at(t), after = actor.at(t + h);
+  for (std::size_t i = 0; i < now.positions.size(); i += 101) {
+    const Eigen::Vector3f slope =
+        (after.positions[i] - before.positions[i]) / static_cast<float>(2 * h);
+    EXPECT_LT((slope - now.velocities[i]).norm(), 0.06f) << i;
+  }
+  EXPECT_NEAR(now.velocity_mps.x(), 1.2, 1e-9);
+}
+
+TEST(Person, NeverJumps) {
+  PersonSpec person = PersonWalking(PeopleModels()[0], 1.2, 3);
+  person.route.plan.steps.resize(4);
+  person.route.plan.steps[1].wait_s = 0.5;
+  person.route.plan.steps[2].turn_to_rad = pi / 2;
+  person.route.plan.steps[3].go = {{3, 2}};
+  const Actor actor = Make(person);
+  MoverState before = actor.at(0);
+  constexpr double kStep_s = 0.01;
+  constexpr float kFastestLimb_mps = 9;
+  for (double t = kStep_s; t < 12; t += kStep_s) {
+    const MoverState now = actor.at(t);
+    float jump = 0;
+    for (std::size_t i = 0; i < now.positions.size(); i += 17) {
+      jump = std::max(jump, (now.positions[i] - before.positions[i]).norm());
+    }
+    ASSERT_LT(jump, kFastestLimb_mps * kStep_s) << "at " << t;
+    before = now;
+  }
+}
+
+TEST(Person, StandsAsTallAsModelledAndLooksAlongItsHeading) {
+  PersonSpec person;
+  person.model = PeopleModels()[0];
+  person.route.plan.start = {3, 4};
+  person.route.plan.heading_rad = pi / 2;
+  const MoverState state = Make(person).at(0);
+  Eigen::Vector3f low = state.positions[0], high = state.positions[0];
+  for (const Eigen::Vector3f& p : state.positions) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  EXPECT_NEAR(low.z(), 0, 0.01);
+  EXPECT_NEAR(high.z(), 1.8, 0.25);
+  EXPECT_NEAR((low.y() + high.y()) / 2, 4, 0.2);
+  EXPECT_GT(high.x() - low.x(), high.y() - low.y()) << "the shoulders lie across the heading";
+  EXPECT_TRUE(state.T_world_object.linear().col(0).isApprox(Eigen::Vector3d::UnitY(), 1e-9));
+}
+
+TEST(Person, AnUnknownModelOrClipIsNamed) {
+  PersonSpec person = PersonWalking("nobody", 1, 2);
+  EXPECT_THROW(Make(person), std::runtime_error);
+  person.model = PeopleModels()[0];
+  person.route.plan.steps[0].play = "fly";
+  EXPECT_THROW(Make(person), std::runtime_error);
+}
+
+VehicleSpec TruckTurning() {
+  VehicleSpec truck;
+  truck.name = "truck";
+  truck.model = "forklift";
+  truck.route.limits.turns_on_the_spot = false;
+  truck.route.plan.steps.resize(1);
+  truck.route.plan.steps[0].go = {{6, 0}, {6, 8}};
+  truck.route.plan.steps[0].corner_radius_m = 3;
+  return truck;
+}
+
+TEST(Forklift, TyresTouchTheFloorWithoutSliding) {
+  AssetLibrary assets(kAssets);
+  WorldParts parts;
+  Wardrobe wardrobe(&parts);
+  const Actor truck = MakeVehicle(TruckTurning(), &assets, {}, Dice(1, {}), &wardrobe);
+  for (double t = 1; t < 12; t += 0.31) {
+    const MoverState state = truck.at(t);
+    for (std::size_t i = 0; i < state.positions.size(); ++i) {
+      if (state.positions[i].z() > 0.004f) continue;
+      // Tyres are wide: only the middle of the tread stands still in a curve.
+      EXPECT_LT(state.velocities[i].norm(), 0.25f) << "at " << t;
+    }
+  }
+}
+
+TEST(Forklift, TheMastCarriesTheForksAndTheLoad) {
+  VehicleSpec truck;
+  truck.name = "truck";
+  truck.model = "forklift";
+  truck.mast = {{1, 1.5}};
+  truck.load = GoodsKind::kWrapped;
+  AssetLibrary assets(kAssets);
+  WorldParts parts;
+  Wardrobe wardrobe(&parts);
+  const Actor actor = MakeVehicle(truck, &assets, {}, Dice(1, {}), &wardrobe);
+  const MoverState low = actor.at(0), high = actor.at(20);
+  const std::size_t last = low.positions.size() - 1;  // the load comes last
+  EXPECT_NEAR(high.positions[last].z() - low.positions[last].z(), 1.5, 1e-4);
+  EXPECT_GT(low.positions[last].x(), 0.5f) << "it hangs ahead of the front axle";
+  EXPECT_NEAR((high.positions[0] - low.positions[0]).norm(), 0, 1.6) << "the body may be the mast";
+}
+
+}  // namespace
+}  // namespace aisle::sim
