@@ -4,19 +4,13 @@
 #include "simulator/mesh/pose.h"
 #include "simulator/motion/gait.h"
 #include "simulator/world/actors.h"
+#include "simulator/world/footing.h"
 
 namespace aisle::sim {
 namespace {
 
 /// Clips fade into one another over this time.
 constexpr double kFade_s = 0.5;
-
-/// A clip of walking in place and the stride it was made for.
-struct WalkClip {
-  int clip = -1;
-  double stride_m = 0;
-  double duration_s = 1;
-};
 
 /// Who the person is and how it moves: everything a pose at a time needs.
 class Walker {
@@ -47,14 +41,18 @@ class Walker {
       if (!step.play.empty() && !durations_.contains(step.play)) RequireClip(step.play);
     }
     gait_ = Gait(route_, style);
+    footing_ = std::make_unique<Footing>(model_, route_, gait_, walks_, stand_, stride_m_);
   }
 
   RouteState RouteAt(double time_s) const { return route_.At(time_s); }
 
   /// Matrix of each joint: bind position -> world.
   std::vector<Eigen::Affine3f> WorldJoints(double time_s) const {
-    const std::vector<PoseLayer> layers = LayersAt(time_s);
-    std::vector<Eigen::Affine3f> joints = JointMatrices(*model_, PoseNodes(*model_, layers));
+    std::vector<PoseLayer> layers = WalkLayersAt(time_s);
+    const float played = AddPlayed(time_s, &layers);
+    NodeFrames frames = PoseNodes(*model_, layers);
+    footing_->Apply(time_s, 1 - played, &frames);
+    std::vector<Eigen::Affine3f> joints = JointMatrices(*model_, frames);
     const Eigen::Affine3f place(ObjectPose(route_.At(time_s)).cast<float>());
     for (Eigen::Affine3f& joint : joints) joint = place * joint;
     return joints;
@@ -69,37 +67,20 @@ class Walker {
     return clip;
   }
 
-  /// Stand and the walks whose strides enclose the present one, mixed so that their strides' mean
-  /// is the present one; over them whatever the route's step plays.
-  std::vector<PoseLayer> LayersAt(double time_s) const {
+  /// Standing and walking, mixed for the present stride.
+  std::vector<PoseLayer> WalkLayersAt(double time_s) const {
     const GaitState gait = gait_.At(time_s);
-    const double stride = gait.amplitude * stride_m_;
-    std::vector<PoseLayer> layers;
-    const auto above =
-        std::ranges::find_if(walks_, [&](const WalkClip& walk) { return walk.stride_m > stride; });
-    const bool fastest = above == walks_.end();
-    const double high = fastest ? walks_.back().stride_m : above->stride_m;
-    const double low = above == walks_.begin() ? 0 : std::prev(above)->stride_m;
-    const float share = fastest ? 1.0f : static_cast<float>((stride - low) / (high - low));
-    const auto walking = [&](const WalkClip& walk, float weight) {
-      layers.push_back({walk.clip, gait.cycles * walk.duration_s, weight, -1});
-    };
-    if (fastest) {
-      walking(walks_.back(), 1);
-    } else {
-      if (low > 0) {
-        walking(*std::prev(above), 1 - share);
-      } else {
-        layers.push_back({stand_, time_s, 1 - share, -1});
-      }
-      walking(*above, share);
+    const WalkShares shares = SharesOf(walks_, gait.amplitude * stride_m_);
+    std::vector<PoseLayer> layers = {{stand_, time_s, shares.stand, -1}};
+    for (std::size_t i = 0; i < walks_.size(); ++i) {
+      layers.push_back({walks_[i].clip, gait.cycles * walks_[i].duration_s, shares.walks[i], -1});
     }
-    AddPlayed(time_s, &layers);
     return layers;
   }
 
-  /// A played clip has as much weight as it takes of the time around now.
-  void AddPlayed(double time_s, std::vector<PoseLayer>* layers) const {
+  /// Adds what the route's step plays, with as much weight as it takes of the time around now.
+  /// Returns that weight.
+  float AddPlayed(double time_s, std::vector<PoseLayer>* layers) const {
     constexpr int kTaps = 20;
     std::map<std::pair<std::string, long>, int> taps;  // by clip and start in microseconds
     int played = 0;
@@ -113,14 +94,14 @@ class Walker {
       ++taps[{play, start}];
       ++played;
     }
-    if (played == 0) return;
-    const float rest = 1 - static_cast<float>(played) / kTaps;
-    for (PoseLayer& layer : *layers) layer.weight *= rest;
+    const float weight = static_cast<float>(played) / kTaps;
+    for (PoseLayer& layer : *layers) layer.weight *= 1 - weight;
     for (const auto& [key, count] : taps) {
       const double elapsed = time_s - static_cast<double>(key.second) * 1e-6;
       layers->push_back(
           {durations_.at(key.first).first, elapsed, static_cast<float>(count) / kTaps, -1});
     }
+    return weight;
   }
 
   std::shared_ptr<const Model> model_;
@@ -130,6 +111,7 @@ class Walker {
   double stride_m_ = 1.4;
   std::vector<WalkClip> walks_;  ///< by stride
   std::map<std::string, std::pair<int, double>> durations_;
+  std::unique_ptr<const Footing> footing_;
   std::vector<std::string> plays_;  ///< per step of the route
 };
 
