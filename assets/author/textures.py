@@ -22,7 +22,8 @@ def wander(size, count, steps, seed, bend=0.25, stroke=1.0):
     h, w = size
     out = np.zeros(size)
     for _ in range(count):
-        angle = rng.random() * 2 * np.pi + np.cumsum(rng.normal(size=steps) * bend)
+        drift = np.convolve(rng.normal(size=steps), np.exp(-np.arange(60) / 20.0), "same")
+        angle = rng.random() * 2 * np.pi + bend * drift
         x = rng.random() * w + np.cumsum(np.cos(angle)) * stroke
         y = rng.random() * h + np.cumsum(np.sin(angle)) * stroke
         fade = np.minimum(1.0, np.minimum(np.arange(steps), steps - np.arange(steps)) / (0.15 * steps))
@@ -71,10 +72,10 @@ def floor_concrete():
     image = mix(image, (0.24, 0.22, 0.20), 0.40 * blobs(size, 9, (18, 70), 6))
     image = mix(image, (0.66, 0.65, 0.63), 0.30 * blobs(size, 8, (40, 150), 7))
     image = mix(image, (0.22, 0.21, 0.20), 0.8 * np.clip(2.2 * blur(blobs(size, 60, (2, 6), 8), 0.6), 0, 1))
-    tyre = wander(size, 10, 1500, 9, 0.006, 1.0)
+    tyre = wander(size, 10, 1500, 9, 0.03, 1.0)
     tyre = np.clip(blur(tyre, 9.0) * 14.0, 0, 1) * noise.step(-0.6, 1.0, noise.picture(size, 1.6, 10, 6))
     image = mix(image, (0.27, 0.265, 0.26), 0.38 * tyre)
-    crack = np.clip(blur(wander(size, 5, 900, 11, 0.35, 1.0), 0.7) * 2.6, 0, 1)
+    crack = np.clip(blur(wander(size, 5, 800, 11, 0.30, 1.0), 0.7) * 2.6, 0, 1)
     image = mix(image, (0.20, 0.19, 0.18), 0.75 * crack)
     image = mix(image, (0.70, 0.69, 0.67), 0.45 * np.clip(1.8 * blur(wander(size, 70, 140, 12, 0.03, 1.0), 0.6), 0, 1))
     y, x = np.mgrid[0:2048, 0:2048]
@@ -303,4 +304,5 @@ def main():
         print("wrote", name)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -7,9 +7,18 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
-from lib import forklift  # noqa: E402
+from lib import agv, body, forklift, pallet_jack, reach_truck  # noqa: E402
 
-VEHICLES = {"forklift": forklift.build}
+DRIVER = body.Person(name="driver", seed=3, height_m=1.74, shoulders=1.02, girth=1.05, belly=0.02, top="jacket",
+                     head_wear="cap", skin=(0.74, 0.54, 0.43), hair_colour=(0.12, 0.09, 0.07),
+                     helmet_colour=(0.12, 0.20, 0.36))
+VEHICLES = {
+    "forklift": forklift.build,
+    "forklift_driver": lambda *a: forklift.build(*a, driver=DRIVER),
+    "reach_truck": lambda *a: reach_truck.build(*a, driver=DRIVER),
+    "pallet_jack": pallet_jack.build,
+    "agv": agv.build,
+}
 
 
 def main():
@@ -21,4 +30,5 @@ def main():
                 build(name, folder, path)
 
 
-main()
+if __name__ == "__main__":
+    main()

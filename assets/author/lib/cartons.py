@@ -20,8 +20,9 @@ def board(colour, seed):
     fibre = noise.picture(size, 1.0, seed + 2, 12, stretch=(1.0, 0.25))
     image = surfaces.mix(image, np.array(colour) * 0.62, 0.5 * surfaces.threshold(fibre, 1.7, 2.6))
     image = surfaces.mix(image, np.minimum(np.array(colour) * 1.25, 1), 0.5 * surfaces.scratches(size, 16, seed + 3, (15, 110)))
-    dents = noise.picture(size, 3.0, seed + 4, 2)
-    image *= (1.0 + 0.05 * (np.roll(dents, 3, 0) - dents) * 6.0)[..., None]
+    dents = noise.picture(size, 3.6, seed + 4, 2)
+    slope = np.roll(dents, 4, 0) - dents
+    image *= (1.0 + 0.028 * slope / slope.std())[..., None]
     edge = np.minimum(np.minimum(x, CELL - 1 - x), np.minimum(y, CELL - 1 - y)).astype(float)
     wobble = 5.0 * noise.picture(size, 1.8, seed + 5, 3)
     image *= (1.0 - 0.30 * np.exp(-np.maximum(edge + wobble, 0) / 7.0))[..., None]

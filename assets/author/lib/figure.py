@@ -44,6 +44,7 @@ def join(parts, name):
 
 def unwrap(thing, owner, names):
     """Smart projection, part by part scaled to its importance, packed into one sheet."""
+    bpy.ops.object.select_all(action="DESELECT")
     bpy.context.view_layer.objects.active = thing
     thing.select_set(True)
     thing.data.uv_layers.new(name="uv")
@@ -208,6 +209,29 @@ def export(path):
         export_optimize_animation_size=True, export_def_bones=False, export_skins=True,
         export_image_format="AUTO", export_materials="EXPORT", export_copyright="BSD-3-Clause, aisle")
     os.replace(part, path)
+
+
+def still(person, shape, folder, size=512, detail=0.45):
+    """The person as a rigid object held in one pose; shape(joint) makes the pose."""
+    parts, shapes = mesh.build(person, detail)
+    for name, part in parts.items():
+        part["paired"] = name in mesh.PAIRED
+    thing, owner = join(parts, person.name)
+    thing.vertex_groups.clear()
+    names = list(parts)
+    uv = unwrap(thing, owner, names)
+    sheet = bake(thing, uv, owner, names, paint.Painter(person, shapes, parts), size)
+    thing.data.materials.append(material(picture.jpeg_image(sheet, person.name, folder), person.name))
+    held = shape(shapes.joint)
+    skin = np.concatenate([p["weights"] for p in parts.values()])
+    rest = np.concatenate([p["vertices"] for p in parts.values()])
+    moved = np.zeros_like(rest)
+    for b, (bone, (_, head, _)) in enumerate(rig.BONES.items()):
+        at, turn = pose.place(held, shapes.joint, bone)
+        moved += skin[:, b:b + 1] * ((rest - shapes.joint[head]) @ turn.T + at)
+    thing.data.vertices.foreach_set("co", moved.ravel())
+    thing.data.update()
+    return thing
 
 
 def build(person, clips, path, size=1024):

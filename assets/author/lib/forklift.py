@@ -2,15 +2,18 @@
 
 import numpy as np
 
-from . import parts
+from . import parts, seated
 from .solid import Machine, around
 
 WHEELBASE, TRACK = 1.60, 0.92
 FRONT, REAR = 0.335, 0.270  # wheel radii
+SEAT = (-0.80, 0.0, 0.95)  # middle of the seat's base
+WHEEL = (-0.36, 0.0, 1.27)  # middle of the steering wheel
 COLOUR = (0.90, 0.47, 0.07)
 
 
-def build(name, folder, path):
+def build(name, folder, path, driver=None):
+    """The truck; with a driver (a body.Person) it is manned."""
     m = Machine(name, folder)
     parts.materials(m, "AISLE 25E", "07", COLOUR, (0.27, 0.275, 0.28))
     chassis(m, name)
@@ -20,8 +23,10 @@ def build(name, folder, path):
     wheels(m, name)
     mast(m, name)
     signs(m, name)
-    m.node("beacon", name, (-0.85, 0.0, 2.138))
+    m.node("beacon", name, (-0.85, 0.0, 2.238))
     parts.beacon(m, "beacon")
+    if driver:
+        seated.add(m, name, driver, SEAT, WHEEL, 0.62)
     m.finish(path, facts())
 
 
@@ -50,7 +55,7 @@ def chassis(m, n):
         fender = [(-0.44, 0.56), (-0.42, 0.66), (-0.25, 0.745), (0.10, 0.765), (0.30, 0.70), (0.36, 0.60),
                   (0.33, 0.59), (0.27, 0.67), (0.10, 0.73), (-0.23, 0.71), (-0.38, 0.63), (-0.41, 0.55)]
         m.prism(n, "plastic", fender, s * 0.33, s * 0.60, "y", 0.008)
-    hood = [(-1.36, 0.58), (-1.36, 1.00), (-1.30, 1.05), (-0.62, 1.00), (-0.50, 0.92), (-0.44, 0.58)]
+    hood = [(-1.36, 0.58), (-1.36, 0.99), (-1.30, 1.02), (-1.12, 0.965), (-0.60, 0.95), (-0.50, 0.90), (-0.46, 0.58)]
     m.prism(n, "paint", hood, -0.44, 0.44, "y", 0.035, 3)
     m.box(n, "grey_paint", (-0.92, 0, 0.80), (0.70, 0.892, 0.012), 0.004)
     for s in (-1, 1):
@@ -83,7 +88,7 @@ def counterweight(m, n):
 
 
 def guard(m, n):
-    top = 2.10
+    top = 2.20
     for s in (-1, 1):
         m.beam(n, "plastic", (0.24, s * 0.47, 0.70), (0.10, s * 0.47, 1.30), 0.055, 0.075)
         m.beam(n, "plastic", (0.10, s * 0.47, 1.28), (-0.16, s * 0.46, top), 0.055, 0.075)
@@ -95,23 +100,25 @@ def guard(m, n):
         m.beam(n, "plastic", (x, -0.46, top + 0.005 + 0.003 * i), (x, 0.46, top + 0.005 + 0.003 * i), 0.03 if 0 < i < 8 else 0.06,
                0.05)
     for s in (-1, 1):
-        parts.lamp(m, n, (-0.04, s * 0.50, 1.98), (1, 0, -0.15))
-        m.bar(n, "plastic", (-0.12, s * 0.47, 1.98), (-0.08, s * 0.50, 1.98), 0.015, 8)
+        parts.lamp(m, n, (-0.04, s * 0.50, 2.05), (1, 0, -0.15))
+        m.bar(n, "plastic", (-0.14, s * 0.47, 2.05), (-0.08, s * 0.50, 2.05), 0.015, 8)
         m.pipe(n, "plastic", [(0.07, s * 0.48, 1.45), (0.10, s * 0.60, 1.52), (0.10, s * 0.66, 1.62)], 0.010, 6)
         m.box(n, "plastic", (0.105, s * 0.67, 1.70), (0.03, 0.11, 0.17), 0.012)
         m.box(n, "chrome", (0.090, s * 0.67, 1.70), (0.006, 0.095, 0.15), 0.004)
-    parts.lamp(m, n, (-1.33, 0.0, 2.06), (-1, 0, -0.3), 0.05)
+    parts.lamp(m, n, (-1.33, 0.0, 2.16), (-1, 0, -0.3), 0.05)
 
 
 def cockpit(m, n):
-    parts.seat(m, n, -0.86, 0.0, 1.00)
-    parts.steering_wheel(m, n, (-0.20, 0.06, 1.30), (-0.62, 0, 0.78))
+    parts.seat(m, n, *SEAT)
+    parts.steering_wheel(m, n, WHEEL, (-0.62, 0, 0.78))
+    m.box(n, "rubber", (-0.20, 0, 0.61), (0.60, 0.80, 0.03), 0.006)
+    m.box(n, "plastic", (-0.20, 0, 0.53), (0.58, 0.70, 0.14), 0.01)
     for i in range(4):
         y = -0.12 - 0.07 * i
         m.bar(n, "steel", (0.08, y, 1.16), (0.02, y, 1.32), 0.008, 6)
         m.lathe(n, "plastic", (0.02, y, 1.31), (-0.35, 0, 1), [(0, .012), (.02, .022), (.05, .02), (.06, 0.0)], 10)
     for y, x in ((-0.18, 0.02), (-0.02, 0.02), (0.14, 0.0)):
-        m.box(n, "rubber", (x, y, 0.52), (0.03, 0.10, 0.12), 0.008, around("Y", -35))
+        m.box(n, "rubber", (x - 0.02, y, 0.70), (0.03, 0.10, 0.12), 0.008, around("Y", -35))
     m.lathe(n, "red", (-1.44, 0.40, 1.06), (0, 0, 1), [(0, 0.045), (0.24, 0.045), (0.28, 0.028), (0.30, 0.015), (0.30, 0.0)], 18)
     m.bar(n, "plastic", (-1.44, 0.40, 1.36), (-1.38, 0.40, 1.37), 0.012, 8)
 
@@ -199,7 +206,7 @@ def carriage(m, x):
 
 def signs(m, n):
     for s in (-1, 1):
-        parts.label(m, n, "name", (-0.92, s * 0.4425, 0.92), (s * -0.62, 0, 0), (0, 0, 0.105))
+        parts.label(m, n, "name", (-0.92, s * 0.4425, 0.885), (s * -0.62, 0, 0), (0, 0, 0.105))
         parts.label(m, n, "number", (-1.42, s * 0.5615, 0.86), (s * -0.20, 0, 0), (0, 0, 0.20))
         parts.label(m, n, "warning", (-1.72, s * 0.5615, 0.86), (s * -0.15, 0, 0), (0, 0, 0.15))
         parts.label(m, n, "plate", (-0.62, s * 0.5415, 0.46), (s * -0.18, 0, 0), (0, 0, 0.12))

@@ -102,7 +102,7 @@ class Feet:
         self.home = np.array([self.ankle[0], self.sign * gait.step_width / 2 * s, 0.0]) - under
         self.landing = LANDING * self.stride
         self.clearance = 0.0
-        for _ in range(8):
+        for _ in range(0 if gait.turn_deg else 8):
             swing = np.linspace(self.duty + 0.01, 0.99, 40)
             short = max(self.wanted(t) * s - self.lowest(t) for t in swing)
             if short <= 0:
@@ -153,6 +153,11 @@ class Feet:
         va = (a0 - self.stance(d - e, u0)[0]) / e
         vb = (self.stance(e, u0 + 1)[0] - a1) / e + self.landing
         t = (tau - d) / (1 - d)
+        if self.gait.turn_deg:
+            x = np.clip((t - 0.14) / 0.72, 0, 1)
+            ease = x * x * (3 - 2 * x)
+            lift = np.array([0, 0, 0.07 * self.scale * 4 * t * (1 - t)])
+            return a0 + (a1 - a0) * ease + lift, yaw0 + (yaw1 - yaw0) * ease, phi, bend
         h = 1 - d
         at = (a0 * (1 + 2 * t) * (1 - t) ** 2 + va * h * t * (1 - t) ** 2
               + a1 * t * t * (3 - 2 * t) - vb * h * t * t * (1 - t))
@@ -231,10 +236,11 @@ class Walker:
         bend = {}
         for side, sign in rig.SIDES:
             ankle, foot, toes = self.feet[side].local(u)
-            hinge_rest = np.array([-0.05 * sign, 1.0, 0.0])
-            hinge = p["turn"]["pelvis"] @ hinge_rest * 0.5 + foot @ hinge_rest * 0.5
-            bend[side] = ps.two_bones(p, self.joint, f"thigh_{side}", f"shin_{side}", ankle, hinge,
-                                      hinge_rest)
+            rest = np.array([1.0, 0.05 * sign, 0.0])
+            flat = (foot @ self.feet[side].across)[[1, 0, 2]] * [1, -1, 0]
+            knee = p["turn"]["pelvis"] @ rest + flat
+            bend[side] = ps.two_bones(p, self.joint, f"thigh_{side}", f"shin_{side}", ankle, knee,
+                                      rest)
             p["turn"][f"foot_{side}"] = foot
             p["turn"][f"toes_{side}"] = toes
         return bend
@@ -279,3 +285,16 @@ def hang_arm(p, joint, side, sign, flex, out, elbow, twist=0.0):
     direction = ps.unit(joint[f"elbow_{side}"] - joint[f"shoulder_{side}"])
     p["turn"][f"forearm_{side}"] = upper @ ps.about(np.cross(direction, [1, 0, 0]), elbow - 8.0)
     p["turn"][f"fingers_{side}"] = p["turn"][f"forearm_{side}"] @ ps.rx(-sign * 18.0)
+
+
+def reach_arm(p, joint, side, sign, wrist, elbow=(-0.55, 0.45, -0.8), curl=35.0, palm=0.0):
+    """Arm by inverse kinematics to a wrist position; elbow is where the elbow points (left arm)."""
+    _, chest = ps.place(p, joint, "chest")
+    p["turn"][f"clavicle_{side}"] = chest
+    toward = np.array(elbow, float) * [1, sign, 1]
+    ps.two_bones(p, joint, f"upper_arm_{side}", f"forearm_{side}", np.asarray(wrist, float), toward,
+                 np.array([-1.0, 0, 0]))
+    along = ps.unit(joint[f"knuckle_{side}"] - joint[f"wrist_{side}"])
+    hand = p["turn"][f"forearm_{side}"] @ ps.about(along, sign * palm)
+    p["turn"][f"hand_{side}"] = hand
+    p["turn"][f"fingers_{side}"] = hand @ ps.rx(-sign * curl)

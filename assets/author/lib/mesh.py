@@ -55,7 +55,7 @@ def decimate(vertices, quads, triangles):
     return v.reshape(-1, 3), t.reshape(-1, 3)
 
 
-def build(person):
+def build(person, detail=1.0):
     """Returns (parts, shapes): part name -> vertices, triangles, skin weights, sampled field."""
     shapes, s, out = body.Shapes(person), person.height_m / 1.75, {}
     for name in parts_of(person):
@@ -63,7 +63,7 @@ def build(person):
         field = getattr(shapes, method)
         lo, hi = np.array(lo) * s, np.array(hi) * s
         v, quads, sampled = sdf.surface(field, lo, hi, step)
-        v, t = decimate(v, quads, budget)
+        v, t = decimate(v, quads, budget * detail)
         v = v - sdf.gradient(field, v) * np.clip(field(v), -0.003, 0.003)[:, None]
         if name in PAIRED:
             t = np.concatenate([t, t[:, ::-1] + len(v)])

@@ -115,6 +115,7 @@ def line(image, a, b, width, colour):
 
 
 _TEXT = {}
+EM = 1.3  # the font's capitals fill 0.56 of its em; make them 0.73 of the size
 
 
 def text_triangles(text):
@@ -143,7 +144,7 @@ def text(image, words, x, y, size, colour, anchor="left", stretch=1.0, turned=Fa
     t = text_triangles(words)
     if not len(t):
         return 0.0
-    t = t * [size * stretch, size]
+    t = t * [size * stretch * EM, size * EM]
     width = t[..., 0].max()
     shift = {"left": 0.0, "middle": width / 2, "right": width}[anchor]
     t = t - [shift, 0]

@@ -57,11 +57,11 @@ def frame(along, across):
     return np.stack([a, c, np.cross(a, c)], 1)
 
 
-def two_bones(pose, joint, upper, lower, target, hinge, hinge_rest):
+def two_bones(pose, joint, upper, lower, target, toward, toward_rest):
     """Turns two bones so that the lower one's tail reaches target; returns the bend in degrees.
 
-    The joint between them bends about `hinge` (right-handed: positive hinge rotation of the lower
-    bone towards the back of a knee). Targets out of reach are approached with a straight limb.
+    The joint between them points towards `toward` (a knee forwards, an elbow back and down), as it
+    does towards `toward_rest` in the rest pose. A target out of reach is met with a straight limb.
     """
     a, _ = place(pose, joint, upper)
     _, ju, jm = rig.BONES[upper]
@@ -71,14 +71,13 @@ def two_bones(pose, joint, upper, lower, target, hinge, hinge_rest):
     reach = target - a
     distance = min(np.linalg.norm(reach), 0.99999 * (lu + ll))
     r = unit(reach)
-    h = unit(hinge - (hinge @ r) * r)
-    out = np.cross(r, h)
-    cosine = (lu**2 + distance**2 - ll**2) / (2 * lu * distance)
-    cosine = np.clip(cosine, -1, 1)
-    middle = a + lu * (cosine * r - np.sqrt(1 - cosine**2) * out)
+    hinge = unit(np.cross(toward, r))
+    hinge_rest = unit(np.cross(toward_rest, joint[jt] - joint[ju]))
+    cosine = np.clip((lu**2 + distance**2 - ll**2) / (2 * lu * distance), -1, 1)
+    middle = a + lu * (cosine * r + np.sqrt(1 - cosine**2) * np.cross(r, hinge))
     end = a + distance * r
-    pose["turn"][upper] = frame(middle - a, h) @ frame(u0, hinge_rest).T
-    pose["turn"][lower] = frame(end - middle, h) @ frame(l0, hinge_rest).T
+    pose["turn"][upper] = frame(middle - a, hinge) @ frame(u0, hinge_rest).T
+    pose["turn"][lower] = frame(end - middle, hinge) @ frame(l0, hinge_rest).T
     bend = np.clip(unit(middle - a) @ unit(end - middle), -1, 1)
     return np.degrees(np.arccos(bend))
 

@@ -155,6 +155,11 @@ class Machine:
             loop[layer].uv = ((x + w * (i + 1) / 2) / width, 1.0 - (y + h * (1 - j) / 2) / height)
         self.add(node, b, material, uv=True)
 
+    def adopt(self, thing, parent):
+        """Hangs a finished object, given in the machine's frame, below a node."""
+        thing.parent = self.nodes[parent]
+        thing.location = Vector(-self.at[parent])
+
     def finish(self, path, facts):
         """Shades by angle, stores the facts on the root and exports."""
         for thing in self.nodes.values():
