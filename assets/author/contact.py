@@ -1,6 +1,7 @@
 """Renders the contact sheets assets/contact/*.png from the committed files.
 
-Run: blender -b --factory-startup -P assets/author/contact.py -- [people|faces|walk|clips|vehicles|kit|textures ...]
+Run: blender -b --factory-startup -P assets/author/contact.py -- [sheet ...]
+Sheets: people, backs, faces, walk, clips, vehicles, kit, textures.
 """
 
 import glob
@@ -30,7 +31,7 @@ def save(name, pictures, columns):
     """Grey would be what the camera sees; colour shows the paint better."""
     os.makedirs(os.path.join(ROOT, "contact"), exist_ok=True)
     sheet = studio.montage(pictures, columns)
-    picture.write_png(os.path.join(ROOT, "contact", name + ".png"), np.round(sheet * 48) / 48)
+    picture.write_png(os.path.join(ROOT, "contact", name + ".png"), np.round(sheet * 32) / 32)
 
 
 def people():
@@ -60,7 +61,9 @@ def faces():
         things = studio.bring(path)
         studio.play(things, "stand", 0.0)
         tall = next(t for t in things if t.type == "ARMATURE")["aisle"]["height_m"]
-        pictures.append(studio.shoot(camera, (1.3, 0.5, tall - 0.02), (0.02, 0, tall - 0.17), 88, (220, 240)))
+        pictures.append(
+            studio.shoot(camera, (1.3, 0.5, tall - 0.02), (0.02, 0, tall - 0.17), 88, (220, 240))
+        )
     save("faces", pictures, 5)
 
 
@@ -82,7 +85,14 @@ def clips():
     pictures = []
     camera = fresh()
     things = studio.bring(path)
-    for clip, count in (("turn_left", 4), ("wave", 2), ("look_around", 2), ("pick", 4), ("walk_carry", 2), ("walk_push", 2)):
+    for clip, count in (
+        ("turn_left", 4),
+        ("wave", 2),
+        ("look_around", 2),
+        ("pick", 4),
+        ("walk_carry", 2),
+        ("walk_push", 2),
+    ):
         duration = gltf.Glb(path).duration(clip)
         for k in range(count):
             studio.play(things, clip, duration * (k + 0.3) / count)
@@ -124,9 +134,9 @@ def textures():
         image.pixels.foreach_get(flat)
         a = flat.reshape(h, w, 4)[::-1, :, :3]
         k = max(1, max(w, h) // 256)
-        a = a[:h // k * k, :w // k * k].reshape(h // k, k, w // k, k, 3).mean((1, 3))
+        a = a[: h // k * k, : w // k * k].reshape(h // k, k, w // k, k, 3).mean((1, 3))
         cell = np.full((256, 256, 3), 0.93, np.float32)
-        cell[:a.shape[0], :a.shape[1]] = a[:256, :256]
+        cell[: a.shape[0], : a.shape[1]] = a[:256, :256]
         pictures.append(cell)
         bpy.data.images.remove(image)
     save("textures", pictures, 6)
@@ -136,7 +146,7 @@ SHEETS = {f.__name__: f for f in (people, backs, faces, walk, clips, vehicles, k
 
 
 def main():
-    wanted = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else list(SHEETS)
+    wanted = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else list(SHEETS)
     for name in wanted:
         SHEETS[name]()
 

@@ -7,7 +7,9 @@ import os
 import sys
 import tempfile
 
+import bmesh
 import numpy as np
+from mathutils import Vector
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
@@ -31,20 +33,52 @@ def drum(m):
     common(m)
     m.material("drum", textures.drum()[0], None)
     m.material("lid", surfaces.paint((0.10, 0.27, 0.48), 5, (256, 256), 1.5), 0.6)
-    shell(m, m.name, "drum", [(0.0, 0.288), (0.02, 0.295), (0.29, 0.286), (0.30, 0.297), (0.31, 0.286), (0.59, 0.286),
-                              (0.60, 0.297), (0.61, 0.286), (0.86, 0.286), (0.88, 0.295)], 0.88, 40)
-    m.lathe(m.name, "lid", (0, 0, 0), (0, 0, 1), [(0.88, 0.295), (0.885, 0.285), (0.868, 0.278), (0.866, 0.0)], 40)
+    shell(
+        m,
+        m.name,
+        "drum",
+        [
+            (0.0, 0.288),
+            (0.02, 0.295),
+            (0.29, 0.286),
+            (0.30, 0.297),
+            (0.31, 0.286),
+            (0.59, 0.286),
+            (0.60, 0.297),
+            (0.61, 0.286),
+            (0.86, 0.286),
+            (0.88, 0.295),
+        ],
+        0.88,
+        40,
+    )
+    m.lathe(
+        m.name,
+        "lid",
+        (0, 0, 0),
+        (0, 0, 1),
+        [(0.88, 0.295), (0.885, 0.285), (0.868, 0.278), (0.866, 0.0)],
+        40,
+    )
     for x, r in ((0.19, 0.035), (-0.20, 0.018)):
-        m.lathe(m.name, "steel", (x, 0, 0.866), (0, 0, 1), [(0, r), (0.018, r), (0.020, 0.8 * r), (0.012, 0.7 * r), (0.012, 0)], 16)
+        m.lathe(
+            m.name,
+            "steel",
+            (x, 0, 0.866),
+            (0, 0, 1),
+            [(0, r), (0.018, r), (0.020, 0.8 * r), (0.012, 0.7 * r), (0.012, 0)],
+            16,
+        )
 
 
 def shell(m, node, material, profile, height, sides):
     """A lathed wall whose picture runs once around and from floor to height."""
-    import bmesh
     b = bmesh.new()
     layer = b.loops.layers.uv.verify()
     angles = np.linspace(0, 2 * np.pi, sides + 1)
-    rings = [[b.verts.new((r * np.cos(t), r * np.sin(t), z)) for t in angles[:-1]] for z, r in profile]
+    rings = [
+        [b.verts.new((r * np.cos(t), r * np.sin(t), z)) for t in angles[:-1]] for z, r in profile
+    ]
     for k, (low, high) in enumerate(zip(rings, rings[1:])):
         for i in range(sides):
             j = (i + 1) % sides
@@ -69,7 +103,9 @@ def pallet(m, node=None):
     for x in (-0.5275, 0.0, 0.5275):
         m.box(node, "wood", (x, 0, 0.111), (0.145, 0.80, 0.022), 0.002, segments=1)
         for y in (-0.35, 0.0, 0.35):
-            m.box(node, "wood", (x, y, 0.061), (0.145, 0.10 if y else 0.145, 0.078), 0.002, segments=1)
+            m.box(
+                node, "wood", (x, y, 0.061), (0.145, 0.10 if y else 0.145, 0.078), 0.002, segments=1
+            )
     for y in (-0.35, 0.0, 0.35):
         m.box(node, "wood", (0, y, 0.011), (1.2, 0.10 if y else 0.145, 0.022), 0.002, segments=1)
 
@@ -79,8 +115,12 @@ def carton(m, node, at, size, face, lid, rects):
     (x, y, z), (l, w, h), sheet = at, size, (2048, 2048)
     c = z + h / 2
     for s in (-1, 1):
-        m.decal(node, "cartons", (x, y + s * w / 2, c), (-s * l, 0, 0), (0, 0, h), rects[face], sheet)
-        m.decal(node, "cartons", (x + s * l / 2, y, c), (0, s * w, 0), (0, 0, h), rects[face], sheet)
+        m.decal(
+            node, "cartons", (x, y + s * w / 2, c), (-s * l, 0, 0), (0, 0, h), rects[face], sheet
+        )
+        m.decal(
+            node, "cartons", (x + s * l / 2, y, c), (0, s * w, 0), (0, 0, h), rects[face], sheet
+        )
     m.decal(node, "cartons", (x, y, z + h), (l, 0, 0), (0, w, 0), rects[lid], sheet)
     m.decal(node, "cartons", (x, y, z), (l, 0, 0), (0, -w, 0), rects[lid], sheet)
 
@@ -98,9 +138,20 @@ def pallet_cartons(m):
             for j in range(ny):
                 if layer == 3 and rng.random() < 0.3:
                     continue
-                at = (-0.59 + l * (i + 0.5) + rng.normal() * 0.006, -0.39 + w * (j + 0.5) + rng.normal() * 0.006, z)
-                carton(m, m.name, at, (l - 0.012, w - 0.012, h - 0.004), f"side_{rng.integers(0, 12)}",
-                       f"top_{rng.integers(0, 4)}", rects)
+                at = (
+                    -0.59 + l * (i + 0.5) + rng.normal() * 0.006,
+                    -0.39 + w * (j + 0.5) + rng.normal() * 0.006,
+                    z,
+                )
+                carton(
+                    m,
+                    m.name,
+                    at,
+                    (l - 0.012, w - 0.012, h - 0.004),
+                    f"side_{rng.integers(0, 12)}",
+                    f"top_{rng.integers(0, 4)}",
+                    rects,
+                )
         z += h
 
 
@@ -113,7 +164,16 @@ def pallet_wrapped(m):
     levels = np.linspace(0.13, 1.38, 9)
     for low, high in zip(levels, levels[1:]):
         bulge = 1.0 + 0.012 * rng.normal()
-        m.prism(m.name, "film", [(x * bulge, y * bulge) for x, y in outline], low - 0.012, high + 0.012, "z", 0.022, 2)
+        m.prism(
+            m.name,
+            "film",
+            [(x * bulge, y * bulge) for x, y in outline],
+            low - 0.012,
+            high + 0.012,
+            "z",
+            0.022,
+            2,
+        )
 
 
 def conveyor(m):
@@ -121,14 +181,32 @@ def conveyor(m):
     common(m)
     n = m.name
     for s in (-1, 1):
-        m.prism(n, "yellow", [(s * 0.33, 0.60), (s * 0.36, 0.60), (s * 0.36, 0.78), (s * 0.30, 0.78), (s * 0.30, 0.77), (s * 0.33, 0.77)], -1.0, 1.0, "x", 0.004, 1)
+        m.prism(
+            n,
+            "yellow",
+            [
+                (s * 0.33, 0.60),
+                (s * 0.36, 0.60),
+                (s * 0.36, 0.78),
+                (s * 0.30, 0.78),
+                (s * 0.30, 0.77),
+                (s * 0.33, 0.77),
+            ],
+            -1.0,
+            1.0,
+            "x",
+            0.004,
+            1,
+        )
         for x in (-0.8, 0.0, 0.8):
             m.box(n, "dark", (x, s * 0.345, 0.31), (0.07, 0.05, 0.60), 0.006)
             m.box(n, "steel", (x, s * 0.345, 0.008), (0.14, 0.12, 0.016), 0.003)
     for x in (-0.8, 0.0, 0.8):
         m.box(n, "dark", (x, 0, 0.25), (0.05, 0.66, 0.05), 0.004)
     for i in range(20):
-        m.bar(n, "steel", (-0.95 + 0.1 * i, -0.33, 0.735), (-0.95 + 0.1 * i, 0.33, 0.735), 0.025, 14)
+        m.bar(
+            n, "steel", (-0.95 + 0.1 * i, -0.33, 0.735), (-0.95 + 0.1 * i, 0.33, 0.735), 0.025, 14
+        )
     m.box(n, "dark", (0.4, -0.25, 0.52), (0.32, 0.20, 0.18), 0.02)
 
 
@@ -136,7 +214,11 @@ def conveyor_loaded(m):
     conveyor(m)
     image, rects = cartons.sheet()
     m.material("cartons", image[::2, ::2], None)
-    for x, size, k in ((-0.62, (0.40, 0.32, 0.30), 1), (0.05, (0.52, 0.40, 0.22), 9), (0.66, (0.34, 0.34, 0.38), 3)):
+    for x, size, k in (
+        (-0.62, (0.40, 0.32, 0.30), 1),
+        (0.05, (0.52, 0.40, 0.22), 9),
+        (0.66, (0.34, 0.34, 0.38), 3),
+    ):
         carton(m, m.name, (x, 0.02 * k - 0.08, 0.761), size, f"side_{k}", f"top_{k % 4}", rects)
 
 
@@ -156,14 +238,21 @@ def dock_door(m):
         m.box(n, "rubber", (0.16, s * 1.30, 0.35), (0.14, 0.22, 0.42), 0.02)
     m.box(n, "steel", (0.05, 0, 3.32), (0.16, 3.32, 0.24), 0.02)
     m.bar(n, "dark", (0.12, -1.6, 3.52), (0.12, 1.6, 3.52), 0.07, 16)
-    parts.lamp(m, n, (0.16, 1.58, 2.30), (1, 0, 0), 0.07, "red") if "plastic" in m.materials else None
+    parts.lamp(m, n, (0.16, 1.58, 2.30), (1, 0, 0), 0.07, "red")
     m.box(n, "yellow", (0.12, -1.58, 1.35), (0.10, 0.14, 0.22), 0.01)
 
 
 def bollard(m):
     m.material("stripes", surfaces.hazard((256, 512), 64, seed=3), None)
     m.material("steel", surfaces.metal((0.40, 0.40, 0.41), 4), 0.5)
-    shell(m, m.name, "stripes", [(0.0, 0.085), (0.05, 0.084), (0.94, 0.084), (0.975, 0.074), (1.0, 0.045), (1.008, 0.001)], 1.0, 28)
+    shell(
+        m,
+        m.name,
+        "stripes",
+        [(0.0, 0.085), (0.05, 0.084), (0.94, 0.084), (0.975, 0.074), (1.0, 0.045), (1.008, 0.001)],
+        1.0,
+        28,
+    )
     m.box(m.name, "steel", (0, 0, 0.008), (0.30, 0.30, 0.016), 0.003)
     for x in (-0.11, 0.11):
         for y in (-0.11, 0.11):
@@ -179,7 +268,15 @@ def guard_rail(m):
         m.box(m.name, "steel", (x, 0, 0.008), (0.24, 0.22, 0.016), 0.003)
     m.box(m.name, "yellow", (0, 0, 0.32), (1.48, 0.08, 0.18), 0.012)
     for s in (-1, 1):
-        m.decal(m.name, "stripes", (0, s * 0.0415, 0.32), (-s * 1.30, 0, 0), (0, 0, 0.16), (0, 0, 1024, 128), (128, 1024))
+        m.decal(
+            m.name,
+            "stripes",
+            (0, s * 0.0415, 0.32),
+            (-s * 1.30, 0, 0),
+            (0, 0, 0.16),
+            (0, 0, 1024, 128),
+            (128, 1024),
+        )
 
 
 def roll_cage(m):
@@ -192,11 +289,38 @@ def roll_cage(m):
     m.box(n, "steel", (0, 0, 0.19), (0.80, 0.70, 0.03), 0.005)
     for x in (-0.34, 0.34):
         for y in (-0.28, 0.28):
-            m.lathe(n, "rubber", (x, y, 0.065), (0, 1, 0), [(-.018, 0), (-.018, .058), (-.01, .065), (.01, .065), (.018, .058), (.018, 0)], 18)
+            m.lathe(
+                n,
+                "rubber",
+                (x, y, 0.065),
+                (0, 1, 0),
+                [
+                    (-0.018, 0),
+                    (-0.018, 0.058),
+                    (-0.01, 0.065),
+                    (0.01, 0.065),
+                    (0.018, 0.058),
+                    (0.018, 0),
+                ],
+                18,
+            )
             m.box(n, "steel", (x, y, 0.14), (0.06, 0.05, 0.08), 0.004)
     for s in (-1, 1):
         y = 0.34 * s
-        m.pipe(n, "steel", [(-0.38, y, 0.19), (-0.38, y, 1.66), (-0.34, y, 1.70), (0.34, y, 1.70), (0.38, y, 1.66), (0.38, y, 0.19)], 0.014, 8)
+        m.pipe(
+            n,
+            "steel",
+            [
+                (-0.38, y, 0.19),
+                (-0.38, y, 1.66),
+                (-0.34, y, 1.70),
+                (0.34, y, 1.70),
+                (0.38, y, 1.66),
+                (0.38, y, 0.19),
+            ],
+            0.014,
+            8,
+        )
         for i in range(7):
             m.bar(n, "steel", (-0.285 + 0.095 * i, y, 0.2), (-0.285 + 0.095 * i, y, 1.69), 0.004, 5)
         for i in range(6):
@@ -207,7 +331,15 @@ def roll_cage(m):
     for h in (0.34, 0.30, 0.36, 0.22):
         for y in (-0.165, 0.165):
             size = (rng.uniform(0.5, 0.7), 0.31, h - rng.uniform(0.005, 0.06))
-            carton(m, n, (rng.uniform(-0.05, 0.02), y, z), size, f"side_{rng.integers(0, 12)}", f"top_{rng.integers(0, 4)}", rects)
+            carton(
+                m,
+                n,
+                (rng.uniform(-0.05, 0.02), y, z),
+                size,
+                f"side_{rng.integers(0, 12)}",
+                f"top_{rng.integers(0, 4)}",
+                rects,
+            )
         z += h
 
 
@@ -216,13 +348,21 @@ def floor_sign(m):
     common(m)
     image, rects = signs.sheet()
     x, y, w, h = rects["hazard"]
-    m.material("face", image[y:y + h, x:x + w], None)
+    m.material("face", image[y : y + h, x : x + w], None)
     for s in (-1, 1):
         turn = around("Y", s * -14.0)
         m.box(m.name, "yellow", (s * 0.078, 0, 0.31), (0.014, 0.30, 0.62), 0.006, turn)
-        up = np.array(turn @ solid.Vector((0, 0, 0.27)))
-        out = np.array(turn @ solid.Vector((s * 0.0085, 0, 0)))
-        m.decal(m.name, "face", np.array([s * 0.078, 0, 0.36]) + out + np.array([-s * 0.0125, 0, 0]), (0, s * 0.27, 0), up, (0, 0, w, h), (h, w))
+        up = np.array(turn @ Vector((0, 0, 0.27)))
+        out = np.array(turn @ Vector((s * 0.0085, 0, 0)))
+        m.decal(
+            m.name,
+            "face",
+            np.array([s * 0.078, 0, 0.36]) + out + np.array([-s * 0.0125, 0, 0]),
+            (0, s * 0.27, 0),
+            up,
+            (0, 0, w, h),
+            (h, w),
+        )
 
 
 def cone(m):
@@ -231,7 +371,14 @@ def cone(m):
     image[160:200] = surfaces.plastic((0.90, 0.90, 0.88), 5, (40, 512))
     m.material("cone", image, None)
     m.material("rubber", surfaces.rubber(6), 0.3)
-    shell(m, m.name, "cone", [(0.02, 0.14), (0.04, 0.13), (0.48, 0.034), (0.50, 0.028), (0.501, 0.001)], 0.5, 28)
+    shell(
+        m,
+        m.name,
+        "cone",
+        [(0.02, 0.14), (0.04, 0.13), (0.48, 0.034), (0.50, 0.028), (0.501, 0.001)],
+        0.5,
+        28,
+    )
     m.box(m.name, "rubber", (0, 0, 0.012), (0.36, 0.36, 0.024), 0.006)
 
 
@@ -241,13 +388,32 @@ def step_ladder(m):
     n = m.name
     for s in (-1, 1):
         y = 0.30 * s
-        m.pipe(n, "yellow", [(0.55, y, 0.05), (-0.25, y, 1.10), (-0.25, y, 1.95), (-0.60, y, 1.95), (-0.60, y, 0.05)], 0.020, 10)
+        m.pipe(
+            n,
+            "yellow",
+            [
+                (0.55, y, 0.05),
+                (-0.25, y, 1.10),
+                (-0.25, y, 1.95),
+                (-0.60, y, 1.95),
+                (-0.60, y, 0.05),
+            ],
+            0.020,
+            10,
+        )
         m.bar(n, "yellow", (0.50, y, 0.10), (-0.60, y, 0.10), 0.018, 10)
         m.bar(n, "yellow", (-0.25, y, 1.55), (-0.60, y, 1.55), 0.016, 10)
         m.bar(n, "yellow", (0.45, y, 0.85), (-0.25, y, 1.90), 0.016, 10)
         m.bar(n, "yellow", (0.45, y, 0.85), (0.40, y, 0.25), 0.016, 10)
         for x in (0.50, -0.58):
-            m.lathe(n, "dark", (x, y, 0.05), (0, 1, 0), [(-.015, 0), (-.015, .05), (.015, .05), (.015, 0)], 16)
+            m.lathe(
+                n,
+                "dark",
+                (x, y, 0.05),
+                (0, 1, 0),
+                [(-0.015, 0), (-0.015, 0.05), (0.015, 0.05), (0.015, 0)],
+                16,
+            )
     for k in range(4):
         m.box(n, "steel", (0.42 - 0.205 * k, 0, 0.24 + 0.27 * k), (0.20, 0.58, 0.03), 0.005)
     m.box(n, "steel", (-0.42, 0, 1.10), (0.36, 0.60, 0.03), 0.005)
@@ -261,35 +427,67 @@ def waste_bin(m):
     n = m.name
     levels = ((0.08, 0.21, 0.22), (0.50, 0.25, 0.26), (0.94, 0.285, 0.28))
     for (z0, a0, b0), (z1, a1, b1) in zip(levels, levels[1:]):
-        import bmesh
         b = bmesh.new()
         bmesh.ops.create_cube(b, size=1.0)
         for v in b.verts:
             low = v.co.z < 0
-            v.co = (np.sign(v.co.x) * (a0 if low else a1), np.sign(v.co.y) * (b0 if low else b1), z0 if low else z1)
+            v.co = (
+                np.sign(v.co.x) * (a0 if low else a1),
+                np.sign(v.co.y) * (b0 if low else b1),
+                z0 if low else z1,
+            )
         solid.chamfer(b, 0.03, 3)
         m.add(n, b, "plastic")
     m.box(n, "plastic", (0, 0, 0.965), (0.62, 0.60, 0.06), 0.025, around("Y", 3), 3)
     m.box(n, "plastic", (-0.33, 0, 0.98), (0.06, 0.50, 0.05), 0.015)
-    m.decal(n, "label", (0.277, 0, 0.66), (0, 0.26, 0), (-0.018, 0, 0.20), (0, 0, 320, 240), (240, 320))
+    m.decal(
+        n, "label", (0.277, 0, 0.66), (0, 0.26, 0), (-0.018, 0, 0.20), (0, 0, 320, 240), (240, 320)
+    )
     for s in (-1, 1):
-        m.lathe(n, "rubber", (-0.22, s * 0.27, 0.10), (0, 1, 0), [(-.025, 0), (-.025, .08), (-.015, .10), (.015, .10), (.025, .08), (.025, 0)], 24)
+        m.lathe(
+            n,
+            "rubber",
+            (-0.22, s * 0.27, 0.10),
+            (0, 1, 0),
+            [(-0.025, 0), (-0.025, 0.08), (-0.015, 0.10), (0.015, 0.10), (0.025, 0.08), (0.025, 0)],
+            24,
+        )
 
 
-KIT = {f.__name__: f for f in (drum, tote, pallet, pallet_cartons, pallet_wrapped, conveyor, conveyor_loaded, dock_door,
-                               bollard, guard_rail, roll_cage, floor_sign, cone, step_ladder, waste_bin)}
+KIT = {
+    f.__name__: f
+    for f in (
+        drum,
+        tote,
+        pallet,
+        pallet_cartons,
+        pallet_wrapped,
+        conveyor,
+        conveyor_loaded,
+        dock_door,
+        bollard,
+        guard_rail,
+        roll_cage,
+        floor_sign,
+        cone,
+        step_ladder,
+        waste_bin,
+    )
+}
 
 
 def main():
-    wanted = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
+    wanted = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
     for name, build in KIT.items():
         if wanted and name not in wanted:
             continue
         with tempfile.TemporaryDirectory() as folder:
             m = Machine(name, folder)
             build(m)
-            m.finish(os.path.abspath(os.path.join(HERE, "..", "kit", name + ".glb")),
-                     {"origin": "floor below the middle"})
+            m.finish(
+                os.path.abspath(os.path.join(HERE, "..", "kit", name + ".glb")),
+                {"origin": "floor below the middle"},
+            )
 
 
 if __name__ == "__main__":

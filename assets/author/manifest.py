@@ -21,12 +21,12 @@ FOLDERS = {"people": "person", "vehicles": "vehicle", "kit": "kit", "textures": 
 CONVENTIONS = {
     "units": "metres, seconds",
     "frame": "object frame: x forward, y left, z up, origin on the floor; glTF (x, y, z) is the "
-             "object's (x, -z, y)",
+    "object's (x, -z, y)",
     "person": "clips are in place: move the object by stride_m (and turn_deg about z) per cycle of "
-              "duration_s and standing feet do not slide; speed_mps = stride_m / duration_s, "
-              "negative backwards. slip_m, sink_m: measured on the exported file",
+    "duration_s and standing feet do not slide; speed_mps = stride_m / duration_s, "
+    "negative backwards. slip_m, sink_m: measured on the exported file",
     "vehicle": "origin on the floor below the axle named by `origin`; wheels turn about their local "
-               "y, steered nodes about z, mast nodes slide along z",
+    "y, steered nodes about z, mast nodes slide along z",
 }
 
 
@@ -69,12 +69,6 @@ def describe_png(path, entry):
             entry.update(json.load(f))
 
 
-def author(folder, name):
-    """The script that makes a file."""
-    table = {"people": "people.py", "vehicles": "vehicles.py", "kit": "kit.py", "textures": "textures.py"}
-    return f"assets/author/{table[folder]}"
-
-
 def main():
     assets = {}
     for folder, kind in FOLDERS.items():
@@ -83,9 +77,14 @@ def main():
             path, (name, ext) = os.path.join(where, file), os.path.splitext(file)
             if ext not in (".glb", ".png"):
                 continue
-            entry = {"file": f"{folder}/{file}", "kind": kind, "licence": "BSD-3-Clause",
-                     "author": author(folder, name), "bytes": os.path.getsize(path),
-                     "sha256": digest(path)}
+            entry = {
+                "file": f"{folder}/{file}",
+                "kind": kind,
+                "licence": "BSD-3-Clause",
+                "author": f"assets/author/{folder}.py",
+                "bytes": os.path.getsize(path),
+                "sha256": digest(path),
+            }
             (describe_glb if ext == ".glb" else describe_png)(path, entry)
             assets[f"{folder}/{name}"] = entry
     text = json.dumps({"schema": 1, "conventions": CONVENTIONS, "assets": assets}, indent=1)

@@ -20,14 +20,18 @@ def main():
     worst = 0
     for path in files:
         glb = gltf.Glb(path)
-        facts = next(n["extras"]["aisle"] for n in glb.json["nodes"] if "aisle" in n.get("extras", {}))
+        facts = next(
+            n["extras"]["aisle"] for n in glb.json["nodes"] if "aisle" in n.get("extras", {})
+        )
         for clip, info in facts["clips"].items():
             m = feet.measure(glb, clip, info.get("stride_m", 0.0), info.get("turn_deg", 0.0))
             bad = m["slip_m"] > SLIP_LIMIT_M or m["sink_m"] > SINK_LIMIT_M
             worst |= bad
-            print(f"{os.path.basename(path):24} {clip:16} slip {1000 * m['slip_m']:5.1f} mm "
-                  f"(one vertex {1000 * m['slip_point_m']:5.1f})  sink {1000 * m['sink_m']:5.1f} mm  "
-                  f"gap {1000 * m['gap_m']:5.1f} mm {'LIMIT BROKEN' if bad else ''}")
+            print(
+                f"{os.path.basename(path):24} {clip:16} slip {1000 * m['slip_m']:5.1f} mm "
+                f"(one vertex {1000 * m['slip_point_m']:5.1f})  sink {1000 * m['sink_m']:5.1f} mm  "
+                f"gap {1000 * m['gap_m']:5.1f} mm {'LIMIT BROKEN' if bad else ''}"
+            )
     return worst
 
 

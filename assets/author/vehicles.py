@@ -1,4 +1,7 @@
-"""Makes assets/vehicles/*.glb. Run: blender -b --factory-startup -P assets/author/vehicles.py -- [name]"""
+"""Makes assets/vehicles/*.glb.
+
+Run: blender -b --factory-startup -P assets/author/vehicles.py -- [name ...]
+"""
 
 import os
 import sys
@@ -9,9 +12,19 @@ sys.path.insert(0, HERE)
 
 from lib import agv, body, forklift, pallet_jack, reach_truck  # noqa: E402
 
-DRIVER = body.Person(name="driver", seed=3, height_m=1.74, shoulders=1.02, girth=1.05, belly=0.02, top="jacket",
-                     head_wear="cap", skin=(0.74, 0.54, 0.43), hair_colour=(0.12, 0.09, 0.07),
-                     helmet_colour=(0.12, 0.20, 0.36))
+DRIVER = body.Person(
+    name="driver",
+    seed=3,
+    height_m=1.74,
+    shoulders=1.02,
+    girth=1.05,
+    belly=0.02,
+    top="jacket",
+    head_wear="cap",
+    skin=(0.74, 0.54, 0.43),
+    hair_colour=(0.12, 0.09, 0.07),
+    helmet_colour=(0.12, 0.20, 0.36),
+)
 VEHICLES = {
     "forklift": forklift.build,
     "forklift_driver": lambda *a: forklift.build(*a, driver=DRIVER),
@@ -22,7 +35,7 @@ VEHICLES = {
 
 
 def main():
-    wanted = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
+    wanted = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
     for name, build in VEHICLES.items():
         if not wanted or name in wanted:
             path = os.path.abspath(os.path.join(HERE, "..", "vehicles", name + ".glb"))

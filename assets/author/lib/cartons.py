@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from . import noise, picture, surfaces
+from . import noise, surfaces
 from .picture import disc, line, polygon, rectangle, text
 
 CELL = 512
@@ -16,10 +16,16 @@ def board(colour, seed):
     image = surfaces.flat(size, colour)
     y, x = np.mgrid[0:CELL, 0:CELL]
     image *= (1.0 + 0.018 * np.sin(x * 2 * np.pi / 5.1))[..., None]
-    image *= (1.0 + 0.05 * noise.picture(size, 2.2, seed, 2) + 0.022 * noise.picture(size, 0.6, seed + 1))[..., None]
+    image *= (
+        1.0 + 0.05 * noise.picture(size, 2.2, seed, 2) + 0.012 * noise.picture(size, 0.9, seed + 1)
+    )[..., None]
     fibre = noise.picture(size, 1.0, seed + 2, 12, stretch=(1.0, 0.25))
     image = surfaces.mix(image, np.array(colour) * 0.62, 0.5 * surfaces.threshold(fibre, 1.7, 2.6))
-    image = surfaces.mix(image, np.minimum(np.array(colour) * 1.25, 1), 0.5 * surfaces.scratches(size, 16, seed + 3, (15, 110)))
+    image = surfaces.mix(
+        image,
+        np.minimum(np.array(colour) * 1.25, 1),
+        0.5 * surfaces.scratches(size, 16, seed + 3, (15, 110)),
+    )
     dents = noise.picture(size, 3.6, seed + 4, 2)
     slope = np.roll(dents, 4, 0) - dents
     image *= (1.0 + 0.028 * slope / slope.std())[..., None]
@@ -37,18 +43,22 @@ def tape(image, seed, vertical=False, at=256, width=56, colour=(0.70, 0.55, 0.33
     across, along = (x, y) if vertical else (y, x)
     ragged = width / 2 + 1.5 * noise.picture(size, 1.0, seed, 6)
     cover = (np.abs(across - at) < ragged) * 0.72
-    gloss = 1.0 + 0.10 * noise.picture(size, 1.6, seed + 1, 4, (0.3, 1.0) if vertical else (1.0, 0.3))
-    image[:] = surfaces.mix(image, np.array(colour), cover) * np.where(cover > 0, gloss, 1.0)[..., None]
+    gloss = 1.0 + 0.10 * noise.picture(
+        size, 1.6, seed + 1, 4, (0.3, 1.0) if vertical else (1.0, 0.3)
+    )
+    image[:] = (
+        surfaces.mix(image, np.array(colour), cover) * np.where(cover > 0, gloss, 1.0)[..., None]
+    )
     for side in (-1, 1):
         rim = np.abs(across - at - side * width / 2) < 1.5
         image[rim] *= 0.72
     if rng.random() < 0.6:
-        for k in range(3):
+        for _ in range(3):
             p = at + rng.uniform(-20, 20)
             image[(np.abs(across - p) < 1.2) & (along % 97 < 70)] *= 1.12
 
 
-def barcode(image, x, y, w, h, seed, upright=False):
+def barcode(image, x, y, w, h, seed):
     """Bars of random widths between quiet zones, with a number below."""
     rng = np.random.default_rng(seed)
     rectangle(image, x, y, w, h, WHITE)
@@ -65,9 +75,9 @@ def matrix(image, x, y, size, seed, n=21):
     rng = np.random.default_rng(seed)
     on = rng.random((n, n)) < 0.5
     for cy, cx in ((0, 0), (0, n - 7), (n - 7, 0)):
-        on[cy:cy + 7, cx:cx + 7] = True
-        on[cy + 1:cy + 6, cx + 1:cx + 6] = False
-        on[cy + 2:cy + 5, cx + 2:cx + 5] = True
+        on[cy : cy + 7, cx : cx + 7] = True
+        on[cy + 1 : cy + 6, cx + 1 : cx + 6] = False
+        on[cy + 2 : cy + 5, cx + 2 : cx + 5] = True
     s = size / n
     rectangle(image, x - s, y - s, size + 2 * s, size + 2 * s, WHITE)
     for j, i in zip(*np.nonzero(on)):
@@ -80,35 +90,91 @@ def address(image, x, y, w, h, seed):
     rectangle(image, x + 2, y + 3, w, h, np.array(image[int(y), int(x)]) * 0.55)
     rectangle(image, x, y, w, h, WHITE)
     for k in range(5):
-        text(image, ("From: Nordlager 4", "Gate 12, Hall C", "To: Depot East", "Ref 8841-" + str(seed), "1 of 3   12.4 kg")[k],
-             x + 8, y + 18 + 0.105 * h * k, 0.085 * h, INK)
+        text(
+            image,
+            (
+                "From: Nordlager 4",
+                "Gate 12, Hall C",
+                "To: Depot East",
+                "Ref 8841-" + str(seed),
+                "1 of 3   12.4 kg",
+            )[k],
+            x + 8,
+            y + 18 + 0.105 * h * k,
+            0.085 * h,
+            INK,
+        )
     rectangle(image, x, y + 0.57 * h, w, 2, INK)
     rectangle(image, x + 0.66 * w, y, 2, 0.57 * h, INK)
-    text(image, rng.choice(["R4", "K7", "E2", "B9"]), x + 0.83 * w, y + 0.38 * h, 0.34 * h, INK, "middle")
+    text(
+        image,
+        rng.choice(["R4", "K7", "E2", "B9"]),
+        x + 0.83 * w,
+        y + 0.38 * h,
+        0.34 * h,
+        INK,
+        "middle",
+    )
     barcode(image, x + 0.03 * w, y + 0.60 * h, 0.94 * w, 0.38 * h, seed + 1)
 
 
 def up_arrows(image, x, y, s, ink):
     """THIS SIDE UP: two arrows on a bar."""
     for dx in (0.28, 0.72):
-        polygon(image, [(x + dx * s, y), (x + (dx + 0.16) * s, y + 0.28 * s), (x + (dx - 0.16) * s, y + 0.28 * s)], ink)
+        polygon(
+            image,
+            [
+                (x + dx * s, y),
+                (x + (dx + 0.16) * s, y + 0.28 * s),
+                (x + (dx - 0.16) * s, y + 0.28 * s),
+            ],
+            ink,
+        )
         rectangle(image, x + (dx - 0.055) * s, y + 0.28 * s, 0.11 * s, 0.50 * s, ink)
     rectangle(image, x + 0.05 * s, y + 0.86 * s, 0.90 * s, 0.09 * s, ink)
 
 
 def glass(image, x, y, s, ink):
     """FRAGILE: a wine glass."""
-    polygon(image, [(x + 0.25 * s, y), (x + 0.75 * s, y), (x + 0.66 * s, y + 0.42 * s), (x + 0.34 * s, y + 0.42 * s)], ink)
+    polygon(
+        image,
+        [
+            (x + 0.25 * s, y),
+            (x + 0.75 * s, y),
+            (x + 0.66 * s, y + 0.42 * s),
+            (x + 0.34 * s, y + 0.42 * s),
+        ],
+        ink,
+    )
     rectangle(image, x + 0.47 * s, y + 0.40 * s, 0.07 * s, 0.42 * s, ink)
-    polygon(image, [(x + 0.24 * s, y + 0.94 * s), (x + 0.76 * s, y + 0.94 * s), (x + 0.55 * s, y + 0.80 * s), (x + 0.45 * s, y + 0.80 * s)], ink)
+    polygon(
+        image,
+        [
+            (x + 0.24 * s, y + 0.94 * s),
+            (x + 0.76 * s, y + 0.94 * s),
+            (x + 0.55 * s, y + 0.80 * s),
+            (x + 0.45 * s, y + 0.80 * s),
+        ],
+        ink,
+    )
 
 
 def umbrella(image, x, y, s, ink):
     a = np.linspace(np.pi, 2 * np.pi, 14)
-    polygon(image, np.stack([x + 0.5 * s + 0.45 * s * np.cos(a), y + 0.45 * s + 0.40 * s * np.sin(a)], -1), ink)
+    polygon(
+        image,
+        np.stack([x + 0.5 * s + 0.45 * s * np.cos(a), y + 0.45 * s + 0.40 * s * np.sin(a)], -1),
+        ink,
+    )
     rectangle(image, x + 0.47 * s, y + 0.42 * s, 0.06 * s, 0.48 * s, ink)
     for i in range(3):
-        line(image, (x + (0.1 + 0.35 * i) * s, y + 0.50 * s), (x + (0.04 + 0.35 * i) * s, y + 0.66 * s), 0.03 * s, ink)
+        line(
+            image,
+            (x + (0.1 + 0.35 * i) * s, y + 0.50 * s),
+            (x + (0.04 + 0.35 * i) * s, y + 0.66 * s),
+            0.03 * s,
+            ink,
+        )
 
 
 def frame(image, x, y, w, h, t, ink):
@@ -168,7 +234,9 @@ def side(index):
         text(image, "7", 60, 460, 150, (0.20, 0.16, 0.14))
     elif index == 6:
         for k in range(4):
-            text(image, "CARE  CARE  CARE", 256, 110 + 112 * k, 50, np.array(colour) * 0.62, "middle")
+            text(
+                image, "CARE  CARE  CARE", 256, 110 + 112 * k, 50, np.array(colour) * 0.62, "middle"
+            )
         rectangle(image, 300, 60, 180, 90, (0.86, 0.20, 0.12))
         text(image, "FRAGILE", 390, 122, 42, WHITE, "middle")
         barcode(image, 40, 370, 220, 100, seed)
@@ -234,6 +302,6 @@ def sheet():
     rects = {}
     for k, (name, cell) in enumerate(zip(names, cells)):
         y, x = CELL * (k // 4), CELL * (k % 4)
-        image[y:y + CELL, x:x + CELL] = cell
+        image[y : y + CELL, x : x + CELL] = cell
         rects[name] = [x, y, CELL, CELL]
     return image, rects

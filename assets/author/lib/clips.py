@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from . import gait, pose as ps
-from . import rig
+from . import gait, pose as ps, rig
 from .figure import FPS
 
 
@@ -17,11 +16,13 @@ def walking(person, joint, style):
     return walker.pose, frames, facts
 
 
-def planted(person, joint, u, crouch=0.004, sway=0.0, lean=1.0, feet=0.16):
+def planted(person, joint, crouch=0.004, sway=0.0, lean=1.0):
     """A standing pose with both feet flat: the base of every clip on the spot."""
     s = person.height_m / 1.75
-    p = {"pelvis": joint["pelvis"] + np.array([0.0, sway, -crouch]) * s,
-         "turn": {"pelvis": ps.rx(60.0 * sway) @ ps.ry(lean)}}
+    p = {
+        "pelvis": joint["pelvis"] + np.array([0.0, sway, -crouch]) * s,
+        "turn": {"pelvis": ps.rx(60.0 * sway) @ ps.ry(lean)},
+    }
     p["turn"]["chest"] = ps.rx(-20.0 * sway) @ ps.ry(lean)
     return p
 
@@ -42,14 +43,21 @@ def standing(person, joint):
     def poses(u):
         w = 2 * np.pi * u
         breath = np.sin(2 * w)
-        p = planted(person, joint, u, sway=0.022 * np.sin(w), lean=1.5)
+        p = planted(person, joint, sway=0.022 * np.sin(w), lean=1.5)
         p["pelvis"] = p["pelvis"] + np.array([0.004 * np.sin(w + 1.0), 0, -0.004 * np.cos(2 * w)])
         p["turn"]["chest"] = p["turn"]["chest"] @ ps.ry(-1.1 * breath)
         p["turn"]["head"] = ps.rz(3.0 * np.sin(w + 0.5)) @ ps.ry(2.0 + np.sin(w))
         plant_feet(p, person, joint)
         for side, sign in rig.SIDES:
-            gait.hang_arm(p, joint, side, sign, flex=2.0 + 1.2 * np.sin(w + sign),
-                          out=9.0 + 0.8 * breath, elbow=16.0 + 2.0 * np.sin(w + 0.4 * sign))
+            gait.hang_arm(
+                p,
+                joint,
+                side,
+                sign,
+                flex=2.0 + 1.2 * np.sin(w + sign),
+                out=9.0 + 0.8 * breath,
+                elbow=16.0 + 2.0 * np.sin(w + 0.4 * sign),
+            )
         return p
 
     return poses, 6 * FPS, {}
@@ -64,8 +72,15 @@ def backwards(person, joint):
 
 def turning(person, joint, degrees):
     """Turning on the spot by two steps a cycle."""
-    style = gait.Gait(speed_mps=0.0, turn_deg=degrees, stride_m=0.0, duration_s=1.3, step_width=0.15,
-                      arms=0.0, lean=1.5)
+    style = gait.Gait(
+        speed_mps=0.0,
+        turn_deg=degrees,
+        stride_m=0.0,
+        duration_s=1.3,
+        step_width=0.15,
+        arms=0.0,
+        lean=1.5,
+    )
     walker = gait.Walker(person, joint, style)
     ahead = np.sign(degrees)
 
@@ -92,7 +107,10 @@ def carrying(person, joint, style):
         hold_box(p, joint, s)
         return p
 
-    facts["box"] = {"size_m": [0.30, 0.40, 0.28], "centre_m": [round(0.37 * s, 3), 0.0, round(1.09 * s, 3)]}
+    facts["box"] = {
+        "size_m": [0.30, 0.40, 0.28],
+        "centre_m": [round(0.37 * s, 3), 0.0, round(1.09 * s, 3)],
+    }
     return carry, frames, facts
 
 
@@ -113,7 +131,9 @@ def pushing(person, joint, style):
     def push(u):
         p = poses(u)
         for side, sign in rig.SIDES:
-            gait.reach_arm(p, joint, side, sign, centre + [0, sign * 0.17, 0], (-0.5, 0.7, -0.7), 70.0, 50.0)
+            gait.reach_arm(
+                p, joint, side, sign, centre + [0, sign * 0.17, 0], (-0.5, 0.7, -0.7), 70.0, 50.0
+            )
         return p
 
     facts["handle_m"] = [round(0.44 * s + 0.09, 3), 0.0, 1.05]
@@ -134,14 +154,23 @@ def picking(person, joint):
     knots = [0.0, 0.22, 0.32, 0.52, 0.68, 0.85, 1.0]
     bend = [8, 52, 52, 6, 6, 50, 8]
     drop = [0.02, 0.20, 0.20, 0.02, 0.02, 0.19, 0.02]
-    hand = [(0.16, 0.24, 0.86), (0.60, 0.17, 0.62), (0.60, 0.16, 0.62), (0.36, 0.16, 1.12),
-            (0.38, 0.16, 1.20), (0.60, 0.17, 0.64), (0.16, 0.24, 0.86)]
+    hand = [
+        (0.16, 0.24, 0.86),
+        (0.60, 0.17, 0.62),
+        (0.60, 0.16, 0.62),
+        (0.36, 0.16, 1.12),
+        (0.38, 0.16, 1.20),
+        (0.60, 0.17, 0.64),
+        (0.16, 0.24, 0.86),
+    ]
     look = [10, 35, 38, 22, 28, 36, 10]
 
     def poses(u):
         b, d = float(ease(u, knots, bend)), float(ease(u, knots, drop))
-        p = {"pelvis": joint["pelvis"] + np.array([-0.0022 * b, 0, -d]) * s,
-             "turn": {"pelvis": ps.ry(0.55 * b), "spine": ps.ry(0.8 * b), "chest": ps.ry(b)}}
+        p = {
+            "pelvis": joint["pelvis"] + np.array([-0.0022 * b, 0, -d]) * s,
+            "turn": {"pelvis": ps.ry(0.55 * b), "spine": ps.ry(0.8 * b), "chest": ps.ry(b)},
+        }
         p["turn"]["head"] = ps.ry(float(ease(u, knots, look)))
         p["turn"]["neck"] = ps.unit_mean(p["turn"]["chest"], p["turn"]["head"])
         plant_feet(p, person, joint, 0.26)
@@ -158,7 +187,7 @@ def waving(person, joint):
     s = person.height_m / 1.75
 
     def poses(u):
-        p = planted(person, joint, u, lean=1.0)
+        p = planted(person, joint, lean=1.0)
         p["turn"]["head"] = ps.ry(1.0)
         plant_feet(p, person, joint)
         gait.hang_arm(p, joint, "left", 1.0, 2.0, 9.0, 16.0)
@@ -177,7 +206,7 @@ def looking(person, joint):
 
     def poses(u):
         a = float(ease(u, knots, angle))
-        p = planted(person, joint, u, sway=0.010 * np.sin(2 * np.pi * u), lean=1.5)
+        p = planted(person, joint, sway=0.010 * np.sin(2 * np.pi * u), lean=1.5)
         p["turn"]["pelvis"] = p["turn"]["pelvis"] @ ps.rz(0.04 * a)
         p["turn"]["chest"] = p["turn"]["chest"] @ ps.rz(0.22 * a)
         p["turn"]["head"] = ps.rz(a) @ ps.ry(3.0 + 4.0 * np.sin(6 * np.pi * u))
@@ -208,11 +237,17 @@ def everything(person, joint):
     walk = lambda v, **more: walking(person, joint, gait.Gait(speed_mps=v, **more))
     return {
         "stand": standing(person, joint),
-        "walk_creep": walk(0.2, lean=1.5), "walk_slow": walk(0.6, lean=2.0), "walk": walk(1.25),
-        "walk_fast": walk(2.0, lean=5.5), "walk_backwards": backwards(person, joint),
-        "turn_left": turning(person, joint, 90.0), "turn_right": turning(person, joint, -90.0),
-        "wave": waving(person, joint), "look_around": looking(person, joint),
-        "pick": picking(person, joint), "stand_carry": standing_with_box(person, joint),
+        "walk_creep": walk(0.2, lean=1.5),
+        "walk_slow": walk(0.6, lean=2.0),
+        "walk": walk(1.25),
+        "walk_fast": walk(2.0, lean=5.5),
+        "walk_backwards": backwards(person, joint),
+        "turn_left": turning(person, joint, 90.0),
+        "turn_right": turning(person, joint, -90.0),
+        "wave": waving(person, joint),
+        "look_around": looking(person, joint),
+        "pick": picking(person, joint),
+        "stand_carry": standing_with_box(person, joint),
         "walk_carry": carrying(person, joint, gait.Gait(speed_mps=1.0, lean=-3.0)),
         "walk_push": pushing(person, joint, gait.Gait(speed_mps=0.9, lean=9.0)),
     }

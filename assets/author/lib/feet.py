@@ -14,21 +14,25 @@ def measure(glb, clip, stride=0.0, turn_deg=0.0, samples=240):
     """
     rest = glb.vertices()
     soles = np.nonzero(rest[:, 2] < 0.03)[0]
-    sides = [soles[rest[soles, 1] > 0], soles[rest[soles, 1] < 0]]
+    left = rest[soles, 1] > 0
+    sides = [np.nonzero(left)[0], np.nonzero(~left)[0]]
     duration = glb.duration(clip)
     times = np.linspace(0, 2, 2 * samples + 1)
     slip = point = sink = gap = 0.0
     run = [np.zeros(2), np.zeros(2)]
     last, single = [None, None], [np.zeros((len(s), 2)) for s in sides]
+    if not np.isfinite(glb.vertices(clip, 0.9 * duration)).all():
+        raise ValueError(f"clip {clip} is not finite")
     for t in times:
-        v = glb.vertices(clip, (t % 1.0) * duration if t % 1.0 or t == 0 else 0.0)
+        v = glb.vertices(clip, (t % 1.0) * duration, soles)
         lowest = []
         for k, side in enumerate(sides):
             p = v[side]
             yaw = np.radians(turn_deg * t)
             c, s = np.cos(yaw), np.sin(yaw)
-            ground = np.stack([c * p[:, 0] - s * p[:, 1] + stride * t,
-                               s * p[:, 0] + c * p[:, 1]], -1)
+            ground = np.stack(
+                [c * p[:, 0] - s * p[:, 1] + stride * t, s * p[:, 0] + c * p[:, 1]], -1
+            )
             touch = p[:, 2] < CONTACT
             sink = max(sink, float(-p[:, 2].min()))
             lowest.append(p[:, 2].min())

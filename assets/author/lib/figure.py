@@ -50,8 +50,13 @@ def unwrap(thing, owner, names):
     thing.data.uv_layers.new(name="uv")
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.uv.smart_project(angle_limit=np.radians(72), island_margin=0.0, area_weight=0.6,
-                             correct_aspect=False, scale_to_bounds=False)
+    bpy.ops.uv.smart_project(
+        angle_limit=np.radians(72),
+        island_margin=0.0,
+        area_weight=0.6,
+        correct_aspect=False,
+        scale_to_bounds=False,
+    )
     bpy.ops.object.mode_set(mode="OBJECT")
     uv = read_uv(thing)
     scale = np.array([DENSITY.get(n, 1.0) for n in names])[owner]
@@ -87,7 +92,9 @@ def bake(thing, uv, owner, names, painter, size):
         lo = np.clip(np.floor(a.min(0) - 1.5).astype(int), 0, size - 1)
         hi = np.clip(np.ceil(a.max(0) + 1.5).astype(int), 0, size)
         gx, gy = np.meshgrid(np.arange(lo[0], hi[0]) + 0.5, np.arange(lo[1], hi[1]) + 0.5)
-        d = np.array([[a[1, 0] - a[0, 0], a[2, 0] - a[0, 0]], [a[1, 1] - a[0, 1], a[2, 1] - a[0, 1]]])
+        d = np.array(
+            [[a[1, 0] - a[0, 0], a[2, 0] - a[0, 0]], [a[1, 1] - a[0, 1], a[2, 1] - a[0, 1]]]
+        )
         det = d[0, 0] * d[1, 1] - d[0, 1] * d[1, 0]
         if abs(det) < 1e-9:
             continue
@@ -154,6 +161,8 @@ def clip(thing, joint, name, poses, frames):
     places = []
     for i in times:
         p = poses(i / frames)
+        if not all(np.isfinite(t).all() for t in p["turn"].values()):
+            raise ValueError(f"clip {name}: frame {i} is not finite")
         places.append(rest["pelvis"].T @ (p["pelvis"] - joint["pelvis"]))
         for bone, turn in pose.local_turns(p).items():
             turns[bone].append(Matrix(rest[bone].T @ turn @ rest[bone]).to_quaternion())
@@ -204,10 +213,20 @@ def export(path):
     os.makedirs(os.path.dirname(path), exist_ok=True)
     part = path[:-4] + ".part.glb"
     bpy.ops.export_scene.gltf(
-        filepath=part, export_format="GLB", export_yup=True, export_extras=True,
-        export_animations=True, export_nla_strips=True, export_force_sampling=True,
-        export_optimize_animation_size=True, export_def_bones=False, export_skins=True,
-        export_image_format="AUTO", export_materials="EXPORT", export_copyright="BSD-3-Clause, aisle")
+        filepath=part,
+        export_format="GLB",
+        export_yup=True,
+        export_extras=True,
+        export_animations=True,
+        export_nla_strips=True,
+        export_force_sampling=True,
+        export_optimize_animation_size=True,
+        export_def_bones=False,
+        export_skins=True,
+        export_image_format="AUTO",
+        export_materials="EXPORT",
+        export_copyright="BSD-3-Clause, aisle",
+    )
     os.replace(part, path)
 
 
@@ -221,14 +240,16 @@ def still(person, shape, folder, size=512, detail=0.45):
     names = list(parts)
     uv = unwrap(thing, owner, names)
     sheet = bake(thing, uv, owner, names, paint.Painter(person, shapes, parts), size)
-    thing.data.materials.append(material(picture.jpeg_image(sheet, person.name, folder), person.name))
+    thing.data.materials.append(
+        material(picture.jpeg_image(sheet, person.name, folder), person.name)
+    )
     held = shape(shapes.joint)
     skin = np.concatenate([p["weights"] for p in parts.values()])
     rest = np.concatenate([p["vertices"] for p in parts.values()])
     moved = np.zeros_like(rest)
     for b, (bone, (_, head, _)) in enumerate(rig.BONES.items()):
         at, turn = pose.place(held, shapes.joint, bone)
-        moved += skin[:, b:b + 1] * ((rest - shapes.joint[head]) @ turn.T + at)
+        moved += skin[:, b : b + 1] * ((rest - shapes.joint[head]) @ turn.T + at)
     thing.data.vertices.foreach_set("co", moved.ravel())
     thing.data.update()
     return thing
@@ -252,6 +273,7 @@ def build(person, clips, path, size=1024):
         thing.parent = bones
         modifier = thing.modifiers.new("skeleton", "ARMATURE")
         modifier.object = bones
+        modifier.show_viewport = False  # sampling clips need not deform the mesh
         details = {"height_m": person.height_m, "clips": {}}
         for name, (poses, frames, extras) in clips(person, shapes.joint).items():
             clip(bones, shapes.joint, name, poses, frames)

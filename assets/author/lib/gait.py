@@ -21,11 +21,39 @@ from . import pose as ps
 from . import rig
 
 # Knee flexion of natural walking in degrees, every 4 % of the cycle from heel strike (Winter).
-WINTER_KNEE = [4, 9, 15.5, 20, 21.5, 20, 17.5, 14.5, 11.5, 9, 7.5, 7.5, 10, 15.5, 25, 38, 50, 60,
-               64.5, 63, 56, 44.5, 30.5, 16, 4.5, 4]
+WINTER_KNEE = [
+    4,
+    9,
+    15.5,
+    20,
+    21.5,
+    20,
+    17.5,
+    14.5,
+    11.5,
+    9,
+    7.5,
+    7.5,
+    10,
+    15.5,
+    25,
+    38,
+    50,
+    60,
+    64.5,
+    63,
+    56,
+    44.5,
+    30.5,
+    16,
+    4.5,
+    4,
+]
 
 
-# Fitted by hand to Winter's knee curve at 1.3 m/s.
+# Fitted to Winter's knee curve at 1.3 m/s: where in the stance the ankle passes below the hips, the
+# bob of the hips in metres and its lag in cycles, and the foot's velocity at heel strike in strides
+# per cycle (forward, left, up).
 MIDDLE = 0.38
 BOB = 0.016
 BOB_LAG = 0.02
@@ -62,8 +90,12 @@ def hermite(knots, values, slopes, x):
     h = knots[i + 1] - knots[i]
     t = (x - knots[i]) / h
     a, b, da, db = values[i], values[i + 1], slopes[i] * h, slopes[i + 1] * h
-    return (a * (1 + 2 * t) * (1 - t) ** 2 + da * t * (1 - t) ** 2 + b * t * t * (3 - 2 * t)
-            - db * t * t * (1 - t))
+    return (
+        a * (1 + 2 * t) * (1 - t) ** 2
+        + da * t * (1 - t) ** 2
+        + b * t * t * (3 - 2 * t)
+        - db * t * t * (1 - t)
+    )
 
 
 def monotone(knots, values, x):
@@ -88,8 +120,11 @@ class Feet:
         self.offset = 0.0 if side == "left" else 0.5
         self.duty = float(np.interp(v, [0.1, 0.6, 1.3, 2.0], [0.70, 0.665, 0.62, 0.585]))
         self.middle = MIDDLE * self.duty  # the ankle passes below the hips
-        self.strength = float(np.interp(self.stride / self.scale, [0.0, 0.3, 1.0, 1.45, 1.8],
-                                        [0.10, 0.32, 0.80, 1.0, 1.12]))
+        self.strength = float(
+            np.interp(
+                self.stride / self.scale, [0.0, 0.3, 1.0, 1.45, 1.8], [0.10, 0.32, 0.80, 1.0, 1.12]
+            )
+        )
         self.ankle = joint[f"ankle_{side}"]
         self.ball = joint[f"ball_{side}"]
         self.ahead = ps.unit((joint[f"toe_{side}"] - self.ball) * [1, 1, 0])
@@ -112,7 +147,19 @@ class Feet:
     def pitch(self, tau):
         """Foot angle, positive heel up, at tau in [0, 1) since heel strike."""
         d, k = self.duty, self.strength
-        knots = [0, 0.115 * d, 0.61 * d, 0.82 * d, 0.97 * d, d + 0.035, d + 0.14, d + 0.25, 0.95, 1]
+        h = 1 - d
+        knots = [
+            0,
+            0.115 * d,
+            0.61 * d,
+            0.82 * d,
+            0.97 * d,
+            d + 0.09 * h,
+            d + 0.37 * h,
+            d + 0.66 * h,
+            1 - 0.13 * h,
+            1,
+        ]
         angle = [-20, 0, 0, 15, 50, 62, 38, 0, -19, -20]
         return monotone(knots, np.array(angle) * k, np.asarray(tau))
 
@@ -159,8 +206,12 @@ class Feet:
             lift = np.array([0, 0, 0.07 * self.scale * 4 * t * (1 - t)])
             return a0 + (a1 - a0) * ease + lift, yaw0 + (yaw1 - yaw0) * ease, phi, bend
         h = 1 - d
-        at = (a0 * (1 + 2 * t) * (1 - t) ** 2 + va * h * t * (1 - t) ** 2
-              + a1 * t * t * (3 - 2 * t) - vb * h * t * t * (1 - t))
+        at = (
+            a0 * (1 + 2 * t) * (1 - t) ** 2
+            + va * h * t * (1 - t) ** 2
+            + a1 * t * t * (3 - 2 * t)
+            - vb * h * t * t * (1 - t)
+        )
         at = at + np.array([0, 0, self.clearance * 6.75 * t * (1 - t) ** 2])
         ease = t * t * (3 - 2 * t)
         return at, yaw0 + (yaw1 - yaw0) * ease, phi, bend
@@ -182,9 +233,12 @@ class Feet:
         """Lowest sole point at tau."""
         at, foot, toes = self.local(tau + self.offset)
         ball = at + foot @ (self.ball - self.ankle)
-        points = [at + foot @ (self.heel - self.ankle), ball + toes @ (self.tip - self.ball),
-                  ball + toes @ (self.nose - self.ball),
-                  at + foot @ (self.ball * [1, 1, 0] - self.ankle)]
+        points = [
+            at + foot @ (self.heel - self.ankle),
+            ball + toes @ (self.tip - self.ball),
+            ball + toes @ (self.nose - self.ball),
+            at + foot @ (self.ball * [1, 1, 0] - self.ankle),
+        ]
         return min(p[2] for p in points)
 
 
@@ -213,7 +267,8 @@ class Walker:
     def settle(self):
         """Highest hips at which both legs reach the floor with knees a little bent."""
         leg = np.linalg.norm(self.joint["knee_left"] - self.joint["hip_left"]) + np.linalg.norm(
-            self.joint["ankle_left"] - self.joint["knee_left"])
+            self.joint["ankle_left"] - self.joint["knee_left"]
+        )
         low, high = 0.75 * self.scale, 1.0 * self.scale
         for _ in range(14):
             z = 0.5 * (low + high)
@@ -239,8 +294,9 @@ class Walker:
             rest = np.array([1.0, 0.05 * sign, 0.0])
             flat = (foot @ self.feet[side].across)[[1, 0, 2]] * [1, -1, 0]
             knee = p["turn"]["pelvis"] @ rest + flat
-            bend[side] = ps.two_bones(p, self.joint, f"thigh_{side}", f"shin_{side}", ankle, knee,
-                                      rest)
+            bend[side] = ps.two_bones(
+                p, self.joint, f"thigh_{side}", f"shin_{side}", ankle, knee, rest
+            )
             p["turn"][f"foot_{side}"] = foot
             p["turn"][f"toes_{side}"] = toes
         return bend
@@ -263,8 +319,15 @@ class Walker:
         for side, sign in rig.SIDES:
             beat = np.cos(2 * np.pi * (u - (0.0 if side == "left" else 0.5) - 0.02))
             late = np.cos(2 * np.pi * (u - (0.0 if side == "left" else 0.5) - 0.06))
-            hang_arm(p, self.joint, side, sign, flex=-1.0 - 19.0 * k * beat,
-                     out=9.0, elbow=14.0 + 7.0 * k - 10.0 * k * late)
+            hang_arm(
+                p,
+                self.joint,
+                side,
+                sign,
+                flex=-1.0 - 19.0 * k * beat,
+                out=9.0,
+                elbow=14.0 + 7.0 * k - 10.0 * k * late,
+            )
 
     def pose(self, u):
         p = self.base(u, self.height)
@@ -279,8 +342,12 @@ def hang_arm(p, joint, side, sign, flex, out, elbow, twist=0.0):
     _, chest = ps.place(p, joint, "chest")
     p["turn"][f"clavicle_{side}"] = chest
     rest = np.degrees(rig.ARM_ANGLE)
-    upper = chest @ ps.ry(-flex) @ ps.rx(-sign * (rest - out)) @ ps.about(
-        joint[f"elbow_{side}"] - joint[f"shoulder_{side}"], sign * twist)
+    upper = (
+        chest
+        @ ps.ry(-flex)
+        @ ps.rx(-sign * (rest - out))
+        @ ps.about(joint[f"elbow_{side}"] - joint[f"shoulder_{side}"], sign * twist)
+    )
     p["turn"][f"upper_arm_{side}"] = upper
     direction = ps.unit(joint[f"elbow_{side}"] - joint[f"shoulder_{side}"])
     p["turn"][f"forearm_{side}"] = upper @ ps.about(np.cross(direction, [1, 0, 0]), elbow - 8.0)
@@ -292,8 +359,15 @@ def reach_arm(p, joint, side, sign, wrist, elbow=(-0.55, 0.45, -0.8), curl=35.0,
     _, chest = ps.place(p, joint, "chest")
     p["turn"][f"clavicle_{side}"] = chest
     toward = np.array(elbow, float) * [1, sign, 1]
-    ps.two_bones(p, joint, f"upper_arm_{side}", f"forearm_{side}", np.asarray(wrist, float), toward,
-                 np.array([-1.0, 0, 0]))
+    ps.two_bones(
+        p,
+        joint,
+        f"upper_arm_{side}",
+        f"forearm_{side}",
+        np.asarray(wrist, float),
+        toward,
+        np.array([-1.0, 0, 0]),
+    )
     along = ps.unit(joint[f"knuckle_{side}"] - joint[f"wrist_{side}"])
     hand = p["turn"][f"forearm_{side}"] @ ps.about(along, sign * palm)
     p["turn"][f"hand_{side}"] = hand

@@ -5,8 +5,14 @@ import struct
 
 import numpy as np
 
-KINDS = {5120: np.int8, 5121: np.uint8, 5122: np.int16, 5123: np.uint16, 5125: np.uint32,
-         5126: np.float32}
+KINDS = {
+    5120: np.int8,
+    5121: np.uint8,
+    5122: np.int16,
+    5123: np.uint16,
+    5125: np.uint32,
+    5126: np.float32,
+}
 WIDTH = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 # glTF is y up; the simulator's world is z up: (x, y, z) -> (x, -z, y).
 TO_Z_UP = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]], float)
@@ -21,9 +27,9 @@ class Glb:
         magic, version, _ = struct.unpack("<4sII", data[:12])
         if magic != b"glTF" or version != 2:
             raise ValueError(f"{path}: not a binary glTF 2.0 file")
-        length, = struct.unpack("<I", data[12:16])
-        self.json = json.loads(data[20:20 + length])
-        self.binary = data[20 + length + 8:]
+        (length,) = struct.unpack("<I", data[12:16])
+        self.json = json.loads(data[20 : 20 + length])
+        self.binary = data[20 + length + 8 :]
         nodes = self.json["nodes"]
         self.parent = [-1] * len(nodes)
         for i, node in enumerate(nodes):
@@ -54,7 +60,9 @@ class Glb:
             for channel in a["channels"]:
                 s = a["samplers"][channel["sampler"]]
                 times, values = self.read(s["input"])[:, 0], self.read(s["output"])
-                i = int(np.clip(np.searchsorted(times, seconds, "right") - 1, 0, max(len(times) - 2, 0)))
+                i = int(
+                    np.clip(np.searchsorted(times, seconds, "right") - 1, 0, max(len(times) - 2, 0))
+                )
                 j = min(i + 1, len(times) - 1)
                 t = 0.0 if i == j else np.clip((seconds - times[i]) / (times[j] - times[i]), 0, 1)
                 x, y = values[i].astype(float), values[j].astype(float)
@@ -84,27 +92,38 @@ class Glb:
         q = moved.get((i, "rotation"), np.array(node.get("rotation", [0, 0, 0, 1]), float))
         s = moved.get((i, "scale"), np.array(node.get("scale", [1, 1, 1]), float))
         x, y, z, w = q
-        r = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                      [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                      [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+        r = np.array(
+            [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+            ]
+        )
         m = np.eye(4)
         m[:3, :3], m[:3, 3] = r * s, t
         return m
 
     def triangles(self):
-        return sum(self.json["accessors"][p["indices"]]["count"] // 3
-                   for node in self.json["nodes"] if "mesh" in node
-                   for p in self.json["meshes"][node["mesh"]]["primitives"])
+        return sum(
+            self.json["accessors"][p["indices"]]["count"] // 3
+            for node in self.json["nodes"]
+            if "mesh" in node
+            for p in self.json["meshes"][node["mesh"]]["primitives"]
+        )
 
-    def vertices(self, clip=None, seconds=0.0):
-        """All vertices in the object's frame (z up), skinned where the node has a skin."""
+    def vertices(self, clip=None, seconds=0.0, only=None):
+        """Vertices in the object's frame (z up), skinned where the node has a skin.
+
+        only picks rows of the single mesh of a person, to save time.
+        """
+        only = slice(None) if only is None else only
         world, out = self.node_matrices(clip, seconds), []
         for i, node in enumerate(self.json["nodes"]):
             if "mesh" not in node:
                 continue
             for primitive in self.json["meshes"][node["mesh"]]["primitives"]:
                 attributes = primitive["attributes"]
-                p = self.read(attributes["POSITION"]).astype(float)
+                p = self.read(attributes["POSITION"])[only].astype(float)
                 p = np.hstack([p, np.ones((len(p), 1))])
                 if "skin" not in node:
                     out.append((p @ world[i].T)[:, :3])
@@ -112,11 +131,9 @@ class Glb:
                 skin = self.json["skins"][node["skin"]]
                 inverse = self.read(skin["inverseBindMatrices"]).astype(float).reshape(-1, 4, 4)
                 bones = np.stack([world[j] @ m.T for j, m in zip(skin["joints"], inverse)])
-                joints = self.read(attributes["JOINTS_0"]).astype(int)
-                w = self.read(attributes["WEIGHTS_0"]).astype(float)
-                if w.dtype != float or self.json["accessors"][attributes["WEIGHTS_0"]][
-                        "componentType"] != 5126:
-                    w = w / w.sum(1, keepdims=True)
+                joints = self.read(attributes["JOINTS_0"])[only].astype(int)
+                w = self.read(attributes["WEIGHTS_0"])[only].astype(float)
+                w = w / w.sum(1, keepdims=True)
                 blend = np.einsum("vk,vkij->vij", w, bones[joints])
                 out.append(np.einsum("vij,vj->vi", blend, p)[:, :3])
         return np.concatenate(out)

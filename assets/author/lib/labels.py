@@ -2,16 +2,33 @@
 
 import numpy as np
 
-from . import picture, surfaces
+from . import surfaces
 from .picture import disc, line, polygon, rectangle, text
 
-INK, WHITE, YELLOW, RED, BLUE = (0.05, 0.05, 0.06), (0.93, 0.93, 0.91), (0.95, 0.78, 0.08), (0.75, 0.10, 0.08), (0.08, 0.25, 0.55)
+INK, WHITE, YELLOW, RED, BLUE = (
+    (0.05, 0.05, 0.06),
+    (0.93, 0.93, 0.91),
+    (0.95, 0.78, 0.08),
+    (0.75, 0.10, 0.08),
+    (0.08, 0.25, 0.55),
+)
 SHEET = (512, 512)
-RECTS = {"name": (0, 0, 512, 96), "number": (0, 96, 128, 128), "plate": (128, 96, 192, 128),
-         "warning": (320, 96, 128, 128), "hazard": (0, 224, 512, 64), "load": (0, 288, 160, 128),
-         "no_riders": (160, 288, 128, 128), "fork_warning": (288, 288, 160, 128),
-         "panel": (0, 416, 192, 96), "stripes_red": (192, 416, 320, 48), "reflector": (192, 464, 96, 48),
-         "grille": (288, 464, 224, 48), "arrow": (448, 96, 64, 128), "lamp": (448, 288, 64, 128)}
+RECTS = {
+    "name": (0, 0, 512, 96),
+    "number": (0, 96, 128, 128),
+    "plate": (128, 96, 192, 128),
+    "warning": (320, 96, 128, 128),
+    "hazard": (0, 224, 512, 64),
+    "load": (0, 288, 160, 128),
+    "no_riders": (160, 288, 128, 128),
+    "fork_warning": (288, 288, 160, 128),
+    "panel": (0, 416, 192, 96),
+    "stripes_red": (192, 416, 320, 48),
+    "reflector": (192, 464, 96, 48),
+    "grille": (288, 464, 224, 48),
+    "arrow": (448, 96, 64, 128),
+    "lamp": (448, 288, 64, 128),
+}
 
 
 def sheet(name, number, ground, seed=0):
@@ -58,7 +75,15 @@ def plate(image, x, y):
     rectangle(image, x + 4, y + 4, 184, 120, (0.82, 0.83, 0.84))
     rectangle(image, x + 4, y + 4, 184, 26, INK)
     text(image, "TYPE PLATE", x + 96, y + 25, 20, WHITE, "middle")
-    for i, row in enumerate(("Serial  A31-0417", "Mass    4160 kg", "Load    2500 kg", "Height  3300 mm", "Year    2021")):
+    for i, row in enumerate(
+        (
+            "Serial  A31-0417",
+            "Mass    4160 kg",
+            "Load    2500 kg",
+            "Height  3300 mm",
+            "Year    2021",
+        )
+    ):
         text(image, row, x + 12, y + 48 + 17 * i, 14, INK)
 
 
@@ -86,7 +111,9 @@ def load_chart(image, x, y):
     text(image, "2500 kg", x + 80, y + 30, 28, INK, "middle")
     line(image, (x + 20, y + 112), (x + 148, y + 112), 3, INK)
     line(image, (x + 20, y + 40), (x + 20, y + 112), 3, INK)
-    for i, (a, b) in enumerate((((20, 52), (80, 58)), ((80, 58), (144, 92)), ((20, 66), (70, 74)), ((70, 74), (140, 104)))):
+    for i, (a, b) in enumerate(
+        (((20, 52), (80, 58)), ((80, 58), (144, 92)), ((20, 66), (70, 74)), ((70, 74), (140, 104)))
+    ):
         line(image, (x + a[0], y + a[1]), (x + b[0], y + b[1]), 3, BLUE if i < 2 else RED)
     for i in range(5):
         line(image, (x + 20 + 30 * i, y + 108), (x + 20 + 30 * i, y + 116), 2, INK)

@@ -5,8 +5,9 @@ Painting in space instead of on the sheet makes seams invisible wherever the unw
 
 import numpy as np
 
-from . import picture, rig, sdf
+from . import picture, sdf
 from .noise import fractal, lattice, ridged, step
+from .pose import unit
 
 SILVER = np.array([0.78, 0.79, 0.80])
 DARK = np.array([0.07, 0.07, 0.08])
@@ -24,11 +25,6 @@ def line(x, width=0.0016, soft=0.0012):
 
 def over(base, colour, alpha):
     return base + (np.asarray(colour) - base) * alpha[:, None]
-
-
-def ring(a, b, edge=0.0):
-    """Outline of the box |a| < 1, |b| < 1 in metres given as margins: 1 near its border."""
-    return line(np.maximum(a, b) - edge)
 
 
 class Painter:
@@ -50,9 +46,14 @@ class Painter:
     def colour(self, part, p, n):
         """sRGB (N, 3) of points p with outward normals n on a part."""
         q = p / self.scale
-        method = {"top": self.upper, "coat": self.upper, "arms": self.skin, "hands": self.hands,
-                  "head": self.head}.get(part) or getattr(self, part)
-        rgb = method(q, n)
+        method = {
+            "top": self.upper,
+            "coat": self.upper,
+            "arms": self.skin,
+            "hands": self.hands,
+            "head": self.head,
+        }.get(part) or getattr(self, part)
+        rgb = method(q, n) if part in ("helmet", "shoes") else method(q)
         shade = self.occlusion(p, n)
         return np.clip(rgb * shade[:, None], 0.0, 1.0)
 
@@ -68,7 +69,7 @@ class Painter:
                     value = np.minimum(value, sdf.sample(part["field"], x * [1, -1, 1]))
                 d = np.minimum(d, value)
             near += w * np.clip(1.0 - d / h, 0.0, 1.6)
-        return np.clip(1.0 - 0.62 * near, 0.30, 1.0)
+        return np.clip(1.0 - 0.58 * near, 0.42, 1.0)
 
     def weave(self, q, seed, grain=0.05):
         """Fine and coarse unevenness of cloth as a factor about 1."""
@@ -91,13 +92,13 @@ class Painter:
         rgb = over(rgb, np.array([0.20, 0.17, 0.14]), amount * spot)
         return over(rgb, np.array([0.62, 0.58, 0.52]), 0.6 * amount * smear)
 
-    def trousers(self, q, n):
-        c, u = self.person, self.shapes.unit
+    def trousers(self, q):
+        c = self.person
         rgb = np.tile(np.array(c.trouser_colour), (len(q), 1)).astype(float)
         x, y, z = q[:, 0], q[:, 1], q[:, 2]
         s = np.sign(y)
         middle = np.interp(z, [0.05, 0.5, 0.92], [0.100, 0.096, 0.092])
-        across = (np.abs(y) - middle)
+        across = np.abs(y) - middle
         if not c.plain:
             seat = np.interp(z, [0.05, 0.5, 0.92], [-0.02, 0.008, -0.008])
             for z0, z1, half in ((0.60, 0.76, 0.075),):
@@ -107,30 +108,40 @@ class Painter:
                 rgb = over(rgb, rgb[0] * 0.45, side * line(box))
                 rgb = over(rgb, rgb[0] * 0.45, side * line(z - z1 + 0.05) * (box < 0))
                 rgb = over(rgb, DARK, side * (np.hypot(x - seat, z - z1 + 0.028) < 0.007))
-            knee = np.maximum(np.abs(across) - 0.055, np.abs(z - 0.50) - 0.105) + 0.0
+            knee = (
+                1.0
+                if not c.vest
+                else np.maximum(np.abs(across) - 0.055, np.abs(z - 0.50) - 0.105) + 0.0
+            )
             front = (x > 0.01).astype(float)
             rgb = over(rgb, np.array(c.trouser_colour) * 0.55, front * step(0.002, -0.001, knee))
             rgb = over(rgb, np.array([0.75, 0.72, 0.66]), front * line(knee + 0.006, 0.0008))
             if c.vest:
                 rgb = over(rgb, SILVER, band(z, 0.270, 0.320))
                 rgb = over(rgb, DARK, line(z - 0.270) + line(z - 0.320) * 1.0)
-            seam = line(across * 1.0 + 0.0, 0.0008) * (x < -0.0) + line(x + 0.01, 0.001) * (z < 0.88)
+            seam = line(across * 1.0 + 0.0, 0.0008) * (x < -0.0) + line(x + 0.01, 0.001) * (
+                z < 0.88
+            )
             rgb = over(rgb, rgb[0] * 0.6, 0.8 * np.clip(seam, 0, 1))
             for sign in (1, -1):
                 back = np.maximum(np.abs(y - sign * 0.085) - 0.058, np.abs(z - 0.895) - 0.065)
                 rgb = over(rgb, rgb[0] * 0.5, (x < -0.04) * line(back))
-            slash = line((z - 0.93) - 1.6 * (np.abs(y) - 0.13), 0.0016) * band(z, 0.86, 1.0) * (x > 0)
+            slash = (
+                line((z - 0.93) - 1.6 * (np.abs(y) - 0.13), 0.0016) * band(z, 0.86, 1.0) * (x > 0)
+            )
             rgb = over(rgb, rgb[0] * 0.4, slash)
             rgb = over(rgb, np.array([0.10, 0.08, 0.06]), band(z, 1.005, 1.04))
         rgb *= self.weave(q, c.seed + 100, 0.07)[:, None]
-        near = np.exp(-((z - 0.50) / 0.14) ** 2) + np.exp(-((z - 0.14) / 0.12) ** 2) + 0.35
-        rgb *= self.creases(q + s[:, None] * [0, 0, 3.0], (9, 9, 26), c.seed + 110, 0.30 * near)[:, None]
+        near = np.exp(-(((z - 0.50) / 0.14) ** 2)) + np.exp(-(((z - 0.14) / 0.12) ** 2)) + 0.35
+        rgb *= self.creases(q + s[:, None] * [0, 0, 3.0], (9, 9, 26), c.seed + 110, 0.30 * near)[
+            :, None
+        ]
         if not c.plain:
             rgb = self.dirt(rgb, q, 0.35, c.seed + 120)
-        fade = np.exp(-((z - 0.68) / 0.13) ** 2) * (x > 0.02)
+        fade = np.exp(-(((z - 0.68) / 0.13) ** 2)) * (x > 0.02)
         return rgb * (1.0 + 0.18 * fade)[:, None]
 
-    def upper(self, q, n):
+    def upper(self, q):
         c = self.person
         rgb = np.tile(np.array(c.top_colour), (len(q), 1)).astype(float)
         x, y, z = q[:, 0], q[:, 1], q[:, 2]
@@ -154,6 +165,10 @@ class Painter:
                     low = np.maximum(np.abs(y - sign * 0.11) - 0.065, np.abs(z - 0.86) - 0.08)
                     lines = lines + front * line(low)
             rgb = over(rgb, rgb[0] * 0.42, np.clip(lines, 0, 1))
+            if c.top == "shirt":
+                hem = line(s - 0.205, 0.0012) * arm + line(z - 0.955, 0.0012) * (1 - arm)
+                neck = line(np.hypot(x - 0.0, y) - 0.088, 0.0015) * (z > 1.40)
+                rgb = over(rgb, rgb[0] * 0.5, np.clip(hem + neck, 0, 1))
             cuff = arm * step(0.505, 0.512, s)
             rgb = over(rgb, rgb[0] * 0.6, cuff)
             badge = np.maximum(np.abs(y - 0.088) - 0.034, np.abs(z - 1.345) - 0.011)
@@ -168,12 +183,16 @@ class Painter:
                     rgb = over(rgb, DARK, front * (np.hypot(y, z - z0) < 0.009))
         rgb *= self.weave(q, c.seed + 200, 0.05)[:, None]
         along = np.where(arm[:, None] > 0.5, np.stack([x, 0.2 * y, s * 1.0], -1), q)
-        fold = self.creases(along + np.sign(y)[:, None] * [0, 0, 5.0], (9, 9, 24), c.seed + 210, 1.0)
-        near = 0.14 + arm * (0.22 * np.exp(-((s - 0.31) / 0.10) ** 2) + 0.16 * np.exp(-((s - .52) / .07) ** 2))
+        fold = self.creases(
+            along + np.sign(y)[:, None] * [0, 0, 5.0], (9, 9, 24), c.seed + 210, 1.0
+        )
+        near = 0.14 + arm * (
+            0.22 * np.exp(-(((s - 0.31) / 0.10) ** 2)) + 0.16 * np.exp(-(((s - 0.52) / 0.07) ** 2))
+        )
         rgb *= (1.0 + (fold - 1.0) * near * (0.5 if c.plain else 1.0))[:, None]
         return rgb if c.plain else self.dirt(rgb, q, 0.20, c.seed + 220)
 
-    def vest(self, q, n):
+    def vest(self, q):
         c = self.person
         rgb = np.tile(np.array(c.vest_colour), (len(q), 1)).astype(float)
         x, y, z = q[:, 0], q[:, 1], q[:, 2]
@@ -188,9 +207,12 @@ class Painter:
         up = step(1.12, 1.125, z)
         rgb = over(rgb, dark, up * step(0.036, 0.034, brace))
         rgb = over(rgb, SILVER, up * step(0.025, 0.0235, brace))
-        silver = np.clip(band(z, 0.925, 0.975) + band(z, 1.075, 1.125) + up * (brace < 0.0245), 0, 1)
+        silver = np.clip(
+            band(z, 0.925, 0.975) + band(z, 1.075, 1.125) + up * (brace < 0.0245), 0, 1
+        )
         grid = line(((q[:, 2] + q[:, 1]) * 90.0) % 1.0 - 0.5, 0.06, 0.08) + line(
-            ((q[:, 2] - q[:, 1]) * 90.0) % 1.0 - 0.5, 0.06, 0.08)
+            ((q[:, 2] - q[:, 1]) * 90.0) % 1.0 - 0.5, 0.06, 0.08
+        )
         rgb *= (1.0 - 0.16 * silver * np.clip(grid, 0, 1))[:, None]
         lines = front * line(y, 0.004) * (z < 1.36)
         lines = lines + front * line(np.abs(y) - 0.012, 0.0008) * (z < 1.36)
@@ -211,7 +233,7 @@ class Painter:
         rgb = over(rgb, DARK, ink * inside * (0.85 + 0.15 * lattice(q * 200, 5)))
         return self.dirt(rgb, q, 0.28, c.seed + 320)
 
-    def skin(self, q, n):
+    def skin(self, q):
         c = self.person
         rgb = np.tile(np.array(c.skin), (len(q), 1)).astype(float)
         tone = fractal(q * 30.0, 4, c.seed + 400) - 0.5
@@ -223,20 +245,20 @@ class Painter:
             rgb = over(rgb, np.array([0.16, 0.22, 0.28]), 0.75 * patch * area)
         return rgb
 
-    def hands(self, q, n):
-        rgb = self.skin(q, n)
+    def hands(self, q):
+        rgb = self.skin(q)
         u = self.shapes.unit
         m = np.stack([q[:, 0], np.abs(q[:, 1]), q[:, 2]], -1)
         k = m - u["knuckle_left"]
-        down = rig_unit(u["fingertip_left"] - u["knuckle_left"])
+        down = unit(u["fingertip_left"] - u["knuckle_left"])
         s = k @ down
         for at in (0.0, 0.040, 0.066):
             rgb = over(rgb, rgb * 0.72, 0.55 * line(s - at, 0.003, 0.003))
         return rgb * np.array([1.03, 0.96, 0.94])
 
-    def head(self, q, n):
+    def head(self, q):
         c = self.person
-        rgb = self.skin(q, n)
+        rgb = self.skin(q)
         f, _ = self.shapes.face_frame(q)
         x, y, z = f[:, 0], f[:, 1], f[:, 2]
         a = np.abs(y)
@@ -251,21 +273,27 @@ class Painter:
             jaw = step(-0.030, -0.055, z - 0.45 * np.clip(0.06 - x, 0, 0.1)) * step(-0.02, 0.02, x)
             jaw *= step(-0.135, -0.120, z)
             lip = np.exp(-((a / 0.024) ** 2 + ((z + 0.052) / 0.005) ** 2)) * front
-            mask = np.clip(jaw * (1 - np.exp(-((a / 0.020) ** 2 + ((z + 0.066) / 0.007) ** 2))) + lip, 0, 1)
-            stubble = mask * (0.45 + 0.55 * lattice(f * 700.0, 3))
-            rgb = over(rgb, np.array(c.hair_colour) * 1.1, stubble * (0.85 if c.beard else 0.22))
+            mask = np.clip(
+                jaw * (1 - np.exp(-((a / 0.020) ** 2 + ((z + 0.066) / 0.007) ** 2))) + lip, 0, 1
+            )
+            stubble = mask * ((0.75 if c.beard else 0.45) + 0.3 * lattice(f * 700.0, 3))
+            rgb = over(rgb, np.array(c.hair_colour) * 1.1, stubble * (0.92 if c.beard else 0.25))
         lips = np.exp(-((a / 0.022) ** 4 + ((z + 0.0645) / 0.0075) ** 4)) * (x > 0.075)
         tint = np.array(c.skin) * ([0.86, 0.50, 0.50] if c.bust else [0.88, 0.66, 0.62])
         rgb = over(rgb, tint, 0.8 * lips)
         mouth = line(z + 0.0648 - 2.0 * (a - 0.01) ** 2, 0.0010, 0.0012) * (a < 0.024) * (x > 0.075)
         rgb = over(rgb, np.array([0.22, 0.09, 0.08]), 0.9 * mouth)
-        nostril = np.exp(-(((a - 0.0065) / 0.0042) ** 2 + ((z + 0.0455) / 0.0030) ** 2)) * (x > 0.09)
+        nostril = np.exp(-(((a - 0.0065) / 0.0042) ** 2 + ((z + 0.0455) / 0.0030) ** 2)) * (
+            x > 0.09
+        )
         rgb = over(rgb, np.array([0.16, 0.07, 0.06]), 0.9 * nostril)
         e = np.stack([a - 0.032, z - 0.0005], -1)
         opening = (np.abs(e[:, 0]) / 0.0145) ** 2 + (e[:, 1] / 0.0058) ** 2
         rgb = over(rgb, np.array([0.86, 0.84, 0.82]), front * step(1.1, 0.9, opening))
         iris = np.hypot(e[:, 0], e[:, 1])
-        rgb = over(rgb, np.array([0.25, 0.20, 0.14]), front * step(0.0060, 0.0052, iris) * (opening < 1.05))
+        rgb = over(
+            rgb, np.array([0.25, 0.20, 0.14]), front * step(0.0060, 0.0052, iris) * (opening < 1.05)
+        )
         rgb = over(rgb, np.array([0.02, 0.02, 0.02]), front * step(0.0030, 0.0024, iris))
         rim = step(0.35, 0.1, np.abs(opening - 1.12)) * (0.55 + 0.45 * (e[:, 1] > 0))
         rgb = over(rgb, np.array([0.12, 0.08, 0.07]), front * rim * (0.9 if c.bust else 0.7))
@@ -273,23 +301,35 @@ class Painter:
         brow = step(0.0048, 0.0025, np.abs(arch)) * band(a, 0.012, 0.055, 0.003) * front
         brow *= 0.55 + 0.45 * ridged(f * (40, 320, 90), 8)
         rgb = over(rgb, np.array(c.hair_colour) * 0.8, (0.7 if c.bust else 0.9) * brow)
-        if c.hair != "bald":
-            scalp = step(0.055, 0.068, z - 0.45 * np.clip(x - 0.02, -0.2, 0.2) + 0.0) * 1.0
-            behind = step(0.005, -0.015, x) * step(-0.060, -0.045, z) * (a < 0.0775)
+        grown = 0.010 * (lattice(f * 160.0, 12) - 0.5)
+        behind = step(0.008, -0.012, x + grown) * step(-0.066, -0.046, z + grown) * (a < 0.0775)
+        if c.hair == "bald":
+            fringe = behind * step(0.050, 0.020, z - 0.3 * x + grown)
+            rgb = over(
+                rgb, np.array(c.hair_colour), 0.75 * fringe * (0.6 + 0.4 * lattice(f * 420.0, 13))
+            )
+        else:
+            scalp = step(
+                -0.006, 0.006, z - 0.074 - 1.0 * np.clip(x - 0.085, -0.3, 0.0) + 3.0 * a * a + grown
+            )
             rgb = over(rgb, np.array(c.hair_colour), np.clip(np.maximum(scalp, behind), 0, 1))
         if c.glasses:
             d = np.hypot((a - 0.034) / 1.25, z - 0.001)
             frame = line(d - 0.0195, 0.0016, 0.0012) + line(z - 0.006, 0.0014) * (a < 0.014)
-            frame = frame * (x > 0.05) + line(z - 0.006, 0.0018) * (x < 0.06) * (x > -0.01) * (a > 0.055)
+            frame = frame * (x > 0.05) + line(z - 0.006, 0.0018) * (x < 0.06) * (x > -0.01) * (
+                a > 0.055
+            )
             rgb = over(rgb, np.array([0.05, 0.05, 0.06]), np.clip(frame, 0, 1))
         return rgb
 
-    def hair(self, q, n):
+    def hair(self, q):
         c = self.person
         f, _ = self.shapes.face_frame(q)
-        strand = ridged(f * (60, 260, 22), c.seed + 5) * 0.6 + 0.4 * ridged(f * (120, 420, 60), 9)
-        rgb = np.tile(np.array(c.hair_colour), (len(q), 1)) * (0.55 + 0.95 * strand)[:, None]
-        return rgb + 0.07 * step(0.75, 0.95, strand)[:, None]
+        flow = (300, 300, 24) if c.hair == "bob" else (36, 300, 260)
+        strand = ridged(f * flow, c.seed + 5) * 0.6 + 0.4 * ridged(f * np.array(flow) * 1.7, 9)
+        rgb = np.tile(np.array(c.hair_colour), (len(q), 1)) * (0.40 + 1.25 * strand)[:, None]
+        glint = step(0.7, 0.95, strand) * np.exp(-(((f[:, 2] - 0.085) / 0.03) ** 2))
+        return rgb + 0.12 * glint[:, None]
 
     def helmet(self, q, n):
         c = self.person
@@ -298,7 +338,8 @@ class Painter:
         rgb = np.tile(np.array(c.helmet_colour), (len(q), 1)).astype(float)
         rgb *= (1.0 + 0.10 * (fractal(f * 40.0, 4, c.seed) - 0.5))[:, None]
         scratch = step(0.80, 0.90, ridged(f * (30, 110, 60), c.seed + 2)) * step(
-            0.5, 0.6, fractal(f * 20, 3, 4))
+            0.5, 0.6, fractal(f * 20, 3, 4)
+        )
         rgb = over(rgb, rgb[0] * 0.62, 0.5 * scratch)
         under = (n[:, 2] < -0.35).astype(float)
         rgb = over(rgb, rgb[0] * 0.35, under)
@@ -307,16 +348,25 @@ class Painter:
         if c.head_wear == "helmet":
             logo = np.maximum(np.abs(y) - 0.024, np.abs(z - 0.092) - 0.016)
             rgb = over(rgb, np.array([0.10, 0.22, 0.45]), (x > 0) * step(0.001, 0, logo))
-            letters = (lattice(f * (1, 130, 1), 3) > 0.5) * (np.abs(z - 0.092) < 0.007) * (logo < -0.004)
+            letters = (
+                (lattice(f * (1, 130, 1), 3) > 0.5) * (np.abs(z - 0.092) < 0.007) * (logo < -0.004)
+            )
             rgb = over(rgb, np.array([0.95, 0.95, 0.95]), (x > 0) * letters)
             rgb = over(rgb, DARK, line(z - 0.056 - 0.10 * x, 0.0022))
         else:
-            seams = line(y, 0.0012) + line(np.abs(y) - 0.8 * (x + 0.01), 0.001) + line(
-                np.abs(y) + 0.8 * (x + 0.01), 0.001)
+            seams = (
+                line(y, 0.0012)
+                + line(np.abs(y) - 0.8 * (x + 0.01), 0.001)
+                + line(np.abs(y) + 0.8 * (x + 0.01), 0.001)
+            )
             rgb = over(rgb, rgb[0] * 0.5, np.clip(seams, 0, 1) * (z > 0.065))
             rgb *= self.weave(q, c.seed + 500)[:, None]
         sticker = np.hypot(x + 0.02, (z - 0.098) * 1.0)
-        rgb = over(rgb, np.array([0.75, 0.15, 0.12]), (y > 0) * step(0.016, 0.015, sticker) * (np.abs(n[:, 1]) > 0.5))
+        rgb = over(
+            rgb,
+            np.array([0.75, 0.15, 0.12]),
+            (y > 0) * step(0.016, 0.015, sticker) * (np.abs(n[:, 1]) > 0.5),
+        )
         return rgb
 
     def shoes(self, q, n):
@@ -329,7 +379,11 @@ class Painter:
         rgb *= self.creases(q, (26, 12, 20), c.seed + 610, 0.25)[:, None]
         sole = step(0.027, 0.025, z)
         rgb = over(rgb, np.array([0.33, 0.31, 0.28]), sole)
-        rgb = over(rgb, DARK, line(z - 0.027, 0.0016) + 0.8 * sole * (np.sin(x * 420.0) > 0.5) * (z < 0.014))
+        rgb = over(
+            rgb,
+            DARK,
+            line(z - 0.027, 0.0016) + 0.8 * sole * (np.sin(x * 420.0) > 0.5) * (z < 0.014),
+        )
         cap = line(x - 0.150, 0.0015) * (z > 0.027)
         rgb = over(rgb, rgb[0] * 0.4, cap)
         laces = (np.abs(((x + z * 0.8) * 62.0) % 1.0 - 0.5) < 0.16) * (np.abs(a - middle) < 0.020)
@@ -337,7 +391,3 @@ class Painter:
         rgb = over(rgb, np.array([0.62, 0.57, 0.46]), laces * on_top * 0.9)
         dust = step(0.06, 0.0, z) * (0.3 + 0.7 * fractal(q * 40.0, 3, c.seed + 620))
         return over(rgb, np.array([0.50, 0.47, 0.43]), 0.38 * dust)
-
-
-def rig_unit(v):
-    return v / np.linalg.norm(v)

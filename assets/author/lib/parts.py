@@ -36,9 +36,18 @@ def wheel(m, node, radius, width, outward, lugs=24, hub=0.55, bolts=8):
     c = m.at[node]
     w, r = width / 2, radius
     shoulder = 0.022 if lugs else 0.012
-    tyre = [(-w + 0.03, hub * r), (-w + 0.008, hub * r + 0.02), (-w, 0.80 * r), (-w + shoulder, 0.97 * r),
-            (-w + 2.2 * shoulder, r), (w - 2.2 * shoulder, r), (w - shoulder, 0.97 * r), (w, 0.80 * r),
-            (w - 0.008, hub * r + 0.02), (w - 0.03, hub * r)]
+    tyre = [
+        (-w + 0.03, hub * r),
+        (-w + 0.008, hub * r + 0.02),
+        (-w, 0.80 * r),
+        (-w + shoulder, 0.97 * r),
+        (-w + 2.2 * shoulder, r),
+        (w - 2.2 * shoulder, r),
+        (w - shoulder, 0.97 * r),
+        (w, 0.80 * r),
+        (w - 0.008, hub * r + 0.02),
+        (w - 0.03, hub * r),
+    ]
     if lugs:
         tyre = [(a, b if b < 0.9 * r else b - 0.014) for a, b in tyre]
     m.lathe(node, "rubber", c, (0, 1, 0), tyre, 40)
@@ -47,13 +56,31 @@ def wheel(m, node, radius, width, outward, lugs=24, hub=0.55, bolts=8):
             turn = 360.0 * (i + (0.5 if side > 0 else 0.0)) / lugs
             rotate = around("Y", turn) @ around("Z", 16 * side)
             at = around("Y", turn) @ Vector((0, side * w * 0.47, r - 0.014))
-            m.box(node, "rubber", np.array(c) + np.array(at),
-                  (2 * np.pi * r / lugs * 0.52, w * 0.90, 0.028), 0.003, rotate, 1)
+            m.box(
+                node,
+                "rubber",
+                np.array(c) + np.array(at),
+                (2 * np.pi * r / lugs * 0.52, w * 0.90, 0.028),
+                0.003,
+                rotate,
+                1,
+            )
     face = outward * (w - 0.035)
-    dish = [(outward * (w - 0.028), hub * r), (outward * (w - 0.03), hub * r - 0.012), (face, 0.45 * r),
-            (face - outward * 0.03, 0.34 * r), (face - outward * 0.02, 0.26 * r),
-            (face + outward * 0.012, 0.24 * r), (face + outward * 0.03, 0.12 * r), (face + outward * 0.03, 0.0)]
-    back = [(-outward * (w - 0.03), hub * r), (-outward * (w - 0.05), 0.3 * r), (-outward * (w - 0.05), 0.0)]
+    dish = [
+        (outward * (w - 0.028), hub * r),
+        (outward * (w - 0.03), hub * r - 0.012),
+        (face, 0.45 * r),
+        (face - outward * 0.03, 0.34 * r),
+        (face - outward * 0.02, 0.26 * r),
+        (face + outward * 0.012, 0.24 * r),
+        (face + outward * 0.03, 0.12 * r),
+        (face + outward * 0.03, 0.0),
+    ]
+    back = [
+        (-outward * (w - 0.03), hub * r),
+        (-outward * (w - 0.05), 0.3 * r),
+        (-outward * (w - 0.05), 0.0),
+    ]
     for profile in (dish, back):
         m.lathe(node, "rim", c, (0, 1, 0), profile, 28)
     for i in range(bolts):
@@ -66,13 +93,48 @@ def seat(m, node, x, y, z, scale=1.0):
     """Operator's seat: cushion, back, side bolsters, belt; (x, y, z) is the middle of the base."""
     s = scale
     m.box(node, "plastic", (x, y, z + 0.04 * s), (0.44 * s, 0.46 * s, 0.08 * s), 0.015)
-    m.box(node, "vinyl", (x + 0.01, y, z + 0.12 * s), (0.48 * s, 0.48 * s, 0.12 * s), 0.045, around("Y", -5), 4)
-    m.box(node, "vinyl", (x - 0.27 * s, y, z + 0.42 * s), (0.12 * s, 0.46 * s, 0.56 * s), 0.05, around("Y", -12), 4)
+    m.box(
+        node,
+        "vinyl",
+        (x + 0.01, y, z + 0.12 * s),
+        (0.48 * s, 0.48 * s, 0.12 * s),
+        0.045,
+        around("Y", -5),
+        4,
+    )
+    m.box(
+        node,
+        "vinyl",
+        (x - 0.27 * s, y, z + 0.42 * s),
+        (0.12 * s, 0.46 * s, 0.56 * s),
+        0.05,
+        around("Y", -12),
+        4,
+    )
     for side in (-1, 1):
-        m.box(node, "vinyl", (x - 0.22 * s, y + side * 0.20 * s, z + 0.40 * s), (0.12 * s, 0.08 * s, 0.44 * s), 0.03,
-              around("Y", -12), 3)
-        m.box(node, "plastic", (x - 0.02 * s, y + side * 0.29 * s, z + 0.28 * s), (0.30 * s, 0.06 * s, 0.05 * s), 0.02)
-        m.box(node, "plastic", (x - 0.12 * s, y + side * 0.29 * s, z + 0.16 * s), (0.05 * s, 0.04 * s, 0.22 * s), 0.01)
+        m.box(
+            node,
+            "vinyl",
+            (x - 0.22 * s, y + side * 0.20 * s, z + 0.40 * s),
+            (0.12 * s, 0.08 * s, 0.44 * s),
+            0.03,
+            around("Y", -12),
+            3,
+        )
+        m.box(
+            node,
+            "plastic",
+            (x - 0.02 * s, y + side * 0.29 * s, z + 0.28 * s),
+            (0.30 * s, 0.06 * s, 0.05 * s),
+            0.02,
+        )
+        m.box(
+            node,
+            "plastic",
+            (x - 0.12 * s, y + side * 0.29 * s, z + 0.16 * s),
+            (0.05 * s, 0.04 * s, 0.22 * s),
+            0.01,
+        )
     m.box(node, "red", (x + 0.02, y - 0.245 * s, z + 0.12 * s), (0.05, 0.03, 0.07), 0.005)
 
 
@@ -82,29 +144,66 @@ def steering_wheel(m, node, centre, axis, radius=0.18):
     side = Vector((0, 1, 0))
     other = axis.cross(side).normalized()
     c = Vector(centre)
-    ring = [c + radius * (math.cos(t) * side + math.sin(t) * other) for t in np.linspace(0, 2 * np.pi, 25)]
+    ring = [
+        c + radius * (math.cos(t) * side + math.sin(t) * other)
+        for t in np.linspace(0, 2 * np.pi, 25)
+    ]
     m.pipe(node, "plastic", ring, 0.014, 8, False)
     for a in (0.5, 0.5 + 2.1, 0.5 + 4.2):
-        m.bar(node, "plastic", c - 0.02 * axis, c + radius * (math.cos(a) * side + math.sin(a) * other), 0.010, 6)
+        m.bar(
+            node,
+            "plastic",
+            c - 0.02 * axis,
+            c + radius * (math.cos(a) * side + math.sin(a) * other),
+            0.010,
+            6,
+        )
     m.lathe(node, "plastic", c - 0.03 * axis, axis, [(0, 0.05), (0.03, 0.045), (0.04, 0.0)], 16)
     knob = c + radius * (math.cos(1.2) * side + math.sin(1.2) * other)
-    m.lathe(node, "plastic", knob, axis, [(0, 0.012), (0.02, 0.022), (0.045, 0.020), (0.055, 0.0)], 12)
+    m.lathe(
+        node, "plastic", knob, axis, [(0, 0.012), (0.02, 0.022), (0.045, 0.020), (0.055, 0.0)], 12
+    )
     m.bar(node, "plastic", c - 0.03 * axis, c - 0.42 * axis, 0.035, 12)
 
 
 def lamp(m, node, centre, forward, radius=0.06, glass="lens"):
     """Round work lamp looking along `forward`."""
-    m.lathe(node, "plastic", centre, forward,
-            [(-0.07, 0.0), (-0.07, 0.45 * radius), (-0.03, radius), (0.015, radius * 1.05), (0.015, radius * 0.9)], 20)
-    m.lathe(node, glass, centre, forward, [(0.008, radius * 0.92), (0.018, radius * 0.5), (0.020, 0.0)], 20)
+    m.lathe(
+        node,
+        "plastic",
+        centre,
+        forward,
+        [
+            (-0.07, 0.0),
+            (-0.07, 0.45 * radius),
+            (-0.03, radius),
+            (0.015, radius * 1.05),
+            (0.015, radius * 0.9),
+        ],
+        20,
+    )
+    m.lathe(
+        node,
+        glass,
+        centre,
+        forward,
+        [(0.008, radius * 0.92), (0.018, radius * 0.5), (0.020, 0.0)],
+        20,
+    )
 
 
 def beacon(m, node):
     """Flashing lamp about the node's origin (its foot)."""
     c = m.at[node]
     m.lathe(node, "plastic", c, (0, 0, 1), [(0, 0.0), (0, 0.075), (0.03, 0.072), (0.035, 0.06)], 24)
-    m.lathe(node, "amber", c, (0, 0, 1),
-            [(0.033, 0.062), (0.06, 0.066), (0.10, 0.062), (0.13, 0.045), (0.142, 0.02), (0.145, 0.0)], 24)
+    m.lathe(
+        node,
+        "amber",
+        c,
+        (0, 0, 1),
+        [(0.033, 0.062), (0.06, 0.066), (0.10, 0.062), (0.13, 0.045), (0.142, 0.02), (0.145, 0.0)],
+        24,
+    )
     for i in range(8):
         a = np.pi * i / 4
         p = np.array(c) + [0.0645 * np.cos(a), 0.0645 * np.sin(a), 0]

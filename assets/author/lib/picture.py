@@ -25,13 +25,22 @@ def write_png(path, image):
     raw = np.hstack([kind[:, None], lines]).tobytes()
 
     def chunk(name, body):
-        return struct.pack(">I", len(body)) + name + body + struct.pack(
-            ">I", zlib.crc32(name + body) & 0xFFFFFFFF)
+        return (
+            struct.pack(">I", len(body))
+            + name
+            + body
+            + struct.pack(">I", zlib.crc32(name + body) & 0xFFFFFFFF)
+        )
 
     header = struct.pack(">IIBBBBB", width, height, 8, 0 if channels == 1 else 2, 0, 0, 0)
     with open(path + ".part", "wb") as f:
-        f.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"sRGB", b"\0")
-                + chunk(b"IDAT", zlib.compress(raw, 9)) + chunk(b"IEND", b""))
+        f.write(
+            b"\x89PNG\r\n\x1a\n"
+            + chunk(b"IHDR", header)
+            + chunk(b"sRGB", b"\0")
+            + chunk(b"IDAT", zlib.compress(raw, 9))
+            + chunk(b"IEND", b"")
+        )
     os.replace(path + ".part", path)
 
 
@@ -86,7 +95,7 @@ def fill(image, triangles, colour, samples=3):
             p, q = t[i], t[(i + 1) % 3]
             e.append((q[0] - p[0]) * (gy - p[1]) - (q[1] - p[1]) * (gx - p[0]))
         e = np.stack(e)
-        cover[a[1]:b[1], a[0]:b[0]] |= np.all(e >= 0, 0) | np.all(e <= 0, 0)
+        cover[a[1] : b[1], a[0] : b[0]] |= np.all(e >= 0, 0) | np.all(e <= 0, 0)
     alpha = cover.reshape(y1 - y0, samples, x1 - x0, samples).mean((1, 3))[..., None]
     patch = image[y0:y1, x0:x1]
     image[y0:y1, x0:x1] = patch + (np.asarray(colour) - patch) * alpha
@@ -160,5 +169,6 @@ def sample(image, u, v):
     x, y = np.clip(u * w - 0.5, 0, w - 1.001), np.clip(v * h - 0.5, 0, h - 1.001)
     i, j = x.astype(int), y.astype(int)
     a, b = (x - i)[:, None], (y - j)[:, None]
-    return ((image[j, i] * (1 - a) + image[j, i + 1] * a) * (1 - b)
-            + (image[j + 1, i] * (1 - a) + image[j + 1, i + 1] * a) * b)
+    return (image[j, i] * (1 - a) + image[j, i + 1] * a) * (1 - b) + (
+        image[j + 1, i] * (1 - a) + image[j + 1, i + 1] * a
+    ) * b

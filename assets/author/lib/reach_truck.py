@@ -28,22 +28,46 @@ def build(name, folder, path, driver=None):
 def facts():
     return {
         "origin": "floor below the middle of the load wheels' axle (front, not steered)",
-        "wheelbase_m": WHEELBASE, "track_m": TRACK, "steered": ["rear"], "max_steer_deg": 85.0,
-        "wheel_radius_m": {"wheel_front_left": LOAD, "wheel_front_right": LOAD, "wheel_rear": DRIVE},
+        "wheelbase_m": WHEELBASE,
+        "track_m": TRACK,
+        "steered": ["rear"],
+        "max_steer_deg": 85.0,
+        "wheel_radius_m": {
+            "wheel_front_left": LOAD,
+            "wheel_front_right": LOAD,
+            "wheel_rear": DRIVE,
+        },
         "steer_nodes": ["steer_rear"],
         "lift": {"mast_inner": 0.5, "carriage": 0.5, "travel_m": 4.0, "speed_mps": 0.4},
-        "forks": {"node": "carriage", "length_m": 1.07, "top_z_m": 0.085, "heel_x_m": -0.31},
+        "forks": {"node": "carriage", "length_m": 1.07, "top_z_m": 0.085, "heel_x_m": -0.355},
         "max_speed_mps": 3.0,
     }
 
 
 def body(m, n):
-    shell = [(-2.02, 0.09), (-2.05, 0.30), (-2.04, 0.86), (-1.96, 1.06), (-1.86, 1.10), (-1.82, 0.60), (-1.40, 0.58),
-             (-1.38, 0.34), (-0.92, 0.34), (-0.92, 0.09)]
+    shell = [
+        (-2.02, 0.09),
+        (-2.05, 0.30),
+        (-2.04, 0.86),
+        (-1.96, 1.06),
+        (-1.86, 1.10),
+        (-1.82, 0.60),
+        (-1.40, 0.58),
+        (-1.38, 0.34),
+        (-0.92, 0.34),
+        (-0.92, 0.09),
+    ]
     m.prism(n, "paint", shell, -0.60, 0.60, "y", 0.035, 3)
     m.box(n, "grey_paint", (-0.86, 0, 0.55), (0.34, 1.16, 0.86), 0.03)
     m.box(n, "plastic", (-1.15, 0, 0.345), (0.44, 1.10, 0.03), 0.006)
-    dash = [(-1.04, 0.62), (-1.16, 0.86), (-1.10, 1.08), (-0.96, 1.12), (-0.72, 1.02), (-0.70, 0.62)]
+    dash = [
+        (-1.04, 0.62),
+        (-1.16, 0.86),
+        (-1.10, 1.08),
+        (-0.96, 1.12),
+        (-0.72, 1.02),
+        (-0.70, 0.62),
+    ]
     m.prism(n, "plastic", dash, -0.52, 0.52, "y", 0.025, 3)
     m.box(n, "grey_paint", (-1.93, 0, 0.20), (0.20, 1.21, 0.18), 0.03)
     for s in (-1, 1):
@@ -64,16 +88,36 @@ def cab(m, n):
     parts.seat(m, n, *SEAT, scale=0.95)
     parts.steering_wheel(m, n, WHEEL, (-0.55, 0, 0.84), 0.15)
     for i in range(3):
-        m.bar(n, "steel", (-1.08, -0.20 - 0.08 * i, 1.08), (-1.11, -0.20 - 0.08 * i, 1.20), 0.009, 6)
-        m.lathe(n, "plastic", (-1.11, -0.20 - 0.08 * i, 1.19), (-0.2, 0, 1), [(0, .012), (.02, .022), (.05, .02), (.06, 0)], 10)
+        m.bar(
+            n, "steel", (-1.08, -0.20 - 0.08 * i, 1.08), (-1.11, -0.20 - 0.08 * i, 1.20), 0.009, 6
+        )
+        m.lathe(
+            n,
+            "plastic",
+            (-1.11, -0.20 - 0.08 * i, 1.19),
+            (-0.2, 0, 1),
+            [(0, 0.012), (0.02, 0.022), (0.05, 0.02), (0.06, 0)],
+            10,
+        )
 
 
 def legs(m, n):
     for side, s in (("left", 1), ("right", -1)):
         y = s * TRACK / 2
         m.box(n, "grey_paint", (-0.42, y, 0.20), (1.06, 0.14, 0.17), 0.012)
-        nose = [(0.06, 0.285), (0.18, 0.25), (0.30, 0.14), (0.30, 0.06), (0.24, 0.06), (0.20, 0.16), (0.10, 0.20), (-0.12, 0.20),
-                (-0.20, 0.12), (-0.24, 0.115), (-0.24, 0.285)]
+        nose = [
+            (0.06, 0.285),
+            (0.18, 0.25),
+            (0.30, 0.14),
+            (0.30, 0.06),
+            (0.24, 0.06),
+            (0.20, 0.16),
+            (0.10, 0.20),
+            (-0.12, 0.20),
+            (-0.20, 0.12),
+            (-0.24, 0.115),
+            (-0.24, 0.285),
+        ]
         m.prism(n, "grey_paint", nose, y - 0.075, y + 0.075, "y", 0.008, 1)
         wheel = m.node(f"wheel_front_{side}", n, (0.0, y, LOAD))
         parts.wheel(m, wheel, LOAD, 0.115, s, 0, 0.70, 6)
@@ -94,8 +138,19 @@ def mast(m, n):
         forklift.channel(m, inner, x + 0.01, s * 0.335, 0.10, 2.42, -s, 0.12, 0.045)
         m.bar(inner, "chrome", (x - 0.08, s * 0.28, 0.4), (x - 0.08, s * 0.28, 2.42), 0.019, 12)
         forklift.chain(m, inner, x + 0.105, s * 0.085, 0.5, 2.25)
-        m.pipe(inner, "rubber", [(x + 0.10, s * 0.17, 0.5), (x + 0.10, s * 0.17, 2.2), (x + 0.03, s * 0.17, 2.3),
-                                 (x - 0.05, s * 0.17, 2.2), (x - 0.05, s * 0.17, 1.3)], 0.012, 6)
+        m.pipe(
+            inner,
+            "rubber",
+            [
+                (x + 0.10, s * 0.17, 0.5),
+                (x + 0.10, s * 0.17, 2.2),
+                (x + 0.03, s * 0.17, 2.3),
+                (x - 0.05, s * 0.17, 2.2),
+                (x - 0.05, s * 0.17, 1.3),
+            ],
+            0.012,
+            6,
+        )
     for z in (0.60, 1.5, 2.38):
         m.box(inner, "mast_steel", (x - 0.01, 0, z), (0.05, 0.68, 0.07), 0.006)
     m.bar(inner, "chrome", (x + 0.02, 0, 0.2), (x + 0.02, 0, 2.3), 0.030, 14)
@@ -108,7 +163,9 @@ def signs(m, n):
         parts.label(m, n, "number", (-1.93, s * 0.6015, 0.72), (s * -0.18, 0, 0), (0, 0, 0.18))
         parts.label(m, n, "warning", (-0.86, s * 0.5815, 0.78), (s * -0.16, 0, 0), (0, 0, 0.16))
         parts.label(m, n, "no_riders", (-0.86, s * 0.5815, 0.52), (s * -0.15, 0, 0), (0, 0, 0.15))
-        parts.label(m, n, "hazard", (-0.44, s * (TRACK / 2 + 0.0715), 0.20), (s * -0.80, 0, 0), (0, 0, 0.10))
+        parts.label(
+            m, n, "hazard", (-0.44, s * (TRACK / 2 + 0.0715), 0.20), (s * -0.80, 0, 0), (0, 0, 0.10)
+        )
         parts.label(m, n, "lamp", (-2.0535, s * 0.50, 0.78), (0, -0.08, 0), (0, 0, 0.16))
         parts.label(m, n, "fork_warning", (-0.53, s * 0.4015, 1.5), (s * -0.12, 0, 0), (0, 0, 0.10))
     parts.label(m, n, "name", (-2.0535, 0, 0.70), (0, -0.70, 0), (0, 0, 0.12))

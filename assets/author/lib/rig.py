@@ -21,17 +21,19 @@ BONES = {
     "head": ("neck", "head", "crown"),
 }
 for _side, _ in SIDES:
-    BONES.update({
-        f"clavicle_{_side}": ("chest", f"clavicle_{_side}", f"shoulder_{_side}"),
-        f"upper_arm_{_side}": (f"clavicle_{_side}", f"shoulder_{_side}", f"elbow_{_side}"),
-        f"forearm_{_side}": (f"upper_arm_{_side}", f"elbow_{_side}", f"wrist_{_side}"),
-        f"hand_{_side}": (f"forearm_{_side}", f"wrist_{_side}", f"knuckle_{_side}"),
-        f"fingers_{_side}": (f"hand_{_side}", f"knuckle_{_side}", f"fingertip_{_side}"),
-        f"thigh_{_side}": ("pelvis", f"hip_{_side}", f"knee_{_side}"),
-        f"shin_{_side}": (f"thigh_{_side}", f"knee_{_side}", f"ankle_{_side}"),
-        f"foot_{_side}": (f"shin_{_side}", f"ankle_{_side}", f"ball_{_side}"),
-        f"toes_{_side}": (f"foot_{_side}", f"ball_{_side}", f"toe_{_side}"),
-    })
+    BONES.update(
+        {
+            f"clavicle_{_side}": ("chest", f"clavicle_{_side}", f"shoulder_{_side}"),
+            f"upper_arm_{_side}": (f"clavicle_{_side}", f"shoulder_{_side}", f"elbow_{_side}"),
+            f"forearm_{_side}": (f"upper_arm_{_side}", f"elbow_{_side}", f"wrist_{_side}"),
+            f"hand_{_side}": (f"forearm_{_side}", f"wrist_{_side}", f"knuckle_{_side}"),
+            f"fingers_{_side}": (f"hand_{_side}", f"knuckle_{_side}", f"fingertip_{_side}"),
+            f"thigh_{_side}": ("pelvis", f"hip_{_side}", f"knee_{_side}"),
+            f"shin_{_side}": (f"thigh_{_side}", f"knee_{_side}", f"ankle_{_side}"),
+            f"foot_{_side}": (f"shin_{_side}", f"ankle_{_side}", f"ball_{_side}"),
+            f"toes_{_side}": (f"foot_{_side}", f"ball_{_side}", f"toe_{_side}"),
+        }
+    )
 
 
 def joints(person):
@@ -39,8 +41,12 @@ def joints(person):
     s = person.height_m / 1.75
     w = person.shoulders
     out = {
-        "pelvis": (0, 0, 0.945), "spine": (-0.005, 0, 1.06), "chest": (-0.01, 0, 1.23),
-        "neck": (-0.018, 0, 1.485), "head": (0.0, 0, 1.575), "crown": (0.0, 0, 1.75),
+        "pelvis": (0, 0, 0.945),
+        "spine": (-0.005, 0, 1.06),
+        "chest": (-0.01, 0, 1.23),
+        "neck": (-0.018, 0, 1.485),
+        "head": (0.0, 0, 1.575),
+        "crown": (0.0, 0, 1.75),
     }
     arm = np.array([0.0, np.sin(ARM_ANGLE), -np.cos(ARM_ANGLE)])
     fore = arm + np.array([0.13, 0.0, 0.0])
@@ -50,11 +56,19 @@ def joints(person):
     wrist = elbow + 0.250 * fore
     knuckle = wrist + 0.088 * fore
     fingertip = knuckle + 0.095 * fore
-    chain = {"clavicle": np.array([0.0, 0.03, 1.44]), "shoulder": shoulder, "elbow": elbow,
-             "wrist": wrist, "knuckle": knuckle, "fingertip": fingertip,
-             "hip": np.array([0.0, 0.088, 0.925]), "knee": np.array([0.012, 0.096, 0.500]),
-             "ankle": np.array([-0.012, 0.100, 0.082]), "ball": np.array([0.120, 0.111, 0.020]),
-             "toe": np.array([0.184, 0.116, 0.012])}
+    chain = {
+        "clavicle": np.array([0.0, 0.03, 1.44]),
+        "shoulder": shoulder,
+        "elbow": elbow,
+        "wrist": wrist,
+        "knuckle": knuckle,
+        "fingertip": fingertip,
+        "hip": np.array([0.0, 0.088, 0.925]),
+        "knee": np.array([0.012, 0.096, 0.500]),
+        "ankle": np.array([-0.012, 0.100, 0.082]),
+        "ball": np.array([0.120, 0.111, 0.020]),
+        "toe": np.array([0.184, 0.116, 0.012]),
+    }
     for side, sign in SIDES:
         for name, at in chain.items():
             out[f"{name}_{side}"] = at * (1.0, sign, 1.0)
@@ -95,8 +109,13 @@ def weights(part, p, joint, scale, armness):
         wrist = step(-0.018, 0.022, along(f"wrist_{side}", f"knuckle_{side}"))
         finger = step(-0.012, 0.014, along(f"knuckle_{side}", f"fingertip_{side}"))
         if part == "hands":
-            thumb = step(0.030, 0.045, q[:, 0] - along(f"wrist_{side}", f"knuckle_{side}") * 0.22
-                         - joint[f"wrist_{side}"][0] / scale)
+            thumb = step(
+                0.030,
+                0.045,
+                q[:, 0]
+                - along(f"wrist_{side}", f"knuckle_{side}") * 0.22
+                - joint[f"wrist_{side}"][0] / scale,
+            )
             finger = finger * (1 - thumb)
         else:
             wrist = finger = 0.0
@@ -122,8 +141,12 @@ def weights(part, p, joint, scale, armness):
             reach = along(f"shoulder_{side}", f"elbow_{side}")
             upper = (sign * p[:, 1] > 0) * armness * step(-0.045, 0.075, reach)
             arm(upper, side)
-            girdle = (sign * p[:, 1] > 0) * step(0.05, 0.15, np.abs(q[:, 1])) * step(
-                1.30, 1.40, q[:, 2]) * 0.85
+            girdle = (
+                (sign * p[:, 1] > 0)
+                * step(0.05, 0.15, np.abs(q[:, 1]))
+                * step(1.30, 1.40, q[:, 2])
+                * 0.85
+            )
             girdle = np.maximum(girdle, (sign * p[:, 1] > 0) * armness)
             give(f"clavicle_{side}", (rest - thigh - upper).clip(0) * girdle)
             rest = rest - thigh - upper - (rest - thigh - upper).clip(0) * girdle

@@ -20,7 +20,15 @@ def shape(joint, seat, wheel, floor):
         foot = ps.rz(6 * sign) @ ps.ry(-14 if side == "right" else -6)
         ankle = np.array([seat[0] + 0.56, sign * 0.13, floor + 0.098])
         toward = np.array([0.5, 0.16 * sign, 1.0])
-        ps.two_bones(p, joint, f"thigh_{side}", f"shin_{side}", ankle, toward, np.array([1.0, 0.05 * sign, 0]))
+        ps.two_bones(
+            p,
+            joint,
+            f"thigh_{side}",
+            f"shin_{side}",
+            ankle,
+            toward,
+            np.array([1.0, 0.05 * sign, 0]),
+        )
         p["turn"][f"foot_{side}"] = p["turn"][f"toes_{side}"] = foot
         wrist = np.array(wheel) + [-0.085, sign * 0.165, 0.025]
         gait.reach_arm(p, joint, side, sign, wrist, (-0.3, 0.6, -0.8), curl=75.0, palm=35.0)

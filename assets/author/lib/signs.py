@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from . import picture, surfaces
+from . import noise, surfaces
 from .cartons import matrix
 from .picture import disc, line, polygon, rectangle, text
 
@@ -22,13 +22,29 @@ def person(image, x, y, s, c, stride=0.0):
 
 def truck(image, x, y, s, c):
     """A forklift in profile, s pixels wide, floor at y, forks left."""
-    polygon(image, [(x + .35 * s, y - .12 * s), (x + .35 * s, y - .36 * s), (x + .85 * s, y - .40 * s), (x + .95 * s, y - .30 * s), (x + .95 * s, y - .12 * s)], c)
-    for a, b in (((.40, .36), (.46, .74)), ((.46, .74), (.80, .74)), ((.80, .74), (.84, .40)), ((.27, .80), (.27, .04)), ((.27, .08), (.02, .08))):
-        line(image, (x + a[0] * s, y - a[1] * s), (x + b[0] * s, y - b[1] * s), .045 * s, c)
-    for w in (.46, .82):
-        disc(image, x + w * s, y - .09 * s, .095 * s, c)
-    disc(image, x + .62 * s, y - .60 * s, .06 * s, c)
-    line(image, (x + .63 * s, y - .54 * s), (x + .66 * s, y - .38 * s), .09 * s, c)
+    polygon(
+        image,
+        [
+            (x + 0.35 * s, y - 0.12 * s),
+            (x + 0.35 * s, y - 0.36 * s),
+            (x + 0.85 * s, y - 0.40 * s),
+            (x + 0.95 * s, y - 0.30 * s),
+            (x + 0.95 * s, y - 0.12 * s),
+        ],
+        c,
+    )
+    for a, b in (
+        ((0.40, 0.36), (0.46, 0.74)),
+        ((0.46, 0.74), (0.80, 0.74)),
+        ((0.80, 0.74), (0.84, 0.40)),
+        ((0.27, 0.80), (0.27, 0.04)),
+        ((0.27, 0.08), (0.02, 0.08)),
+    ):
+        line(image, (x + a[0] * s, y - a[1] * s), (x + b[0] * s, y - b[1] * s), 0.045 * s, c)
+    for w in (0.46, 0.82):
+        disc(image, x + w * s, y - 0.09 * s, 0.095 * s, c)
+    disc(image, x + 0.62 * s, y - 0.60 * s, 0.06 * s, c)
+    line(image, (x + 0.63 * s, y - 0.54 * s), (x + 0.66 * s, y - 0.38 * s), 0.09 * s, c)
 
 
 def plate(image, x, y, w, h, ground, rim):
@@ -87,7 +103,7 @@ def extinguisher(i, x, y):
     disc(i, x + 93, y + 82, 33, WHITE)
     rectangle(i, x + 82, y + 34, 22, 24, WHITE)
     line(i, (x + 93, y + 44), (x + 140, y + 70), 10, WHITE)
-    for k, (r, c) in enumerate(((30, WHITE), (20, RED))):
+    for r, c in ((30, WHITE), (20, RED)):
         disc(i, x + 188, y + 180, r, c)
     polygon(i, [(x + 188, y + 90), (x + 224, y + 186), (x + 152, y + 186)], WHITE)
 
@@ -149,11 +165,38 @@ def sheet():
 
     put("exit", 0, 0, 512, 256, exit_sign)
     put("forklifts", 512, 0, 256, 256, warning, lambda: truck(i, 592, 186, 96, INK), "FORKLIFTS")
-    put("hazard", 768, 0, 256, 256, warning, lambda: (rectangle(i, 886, 90, 20, 60, INK), disc(i, 896, 174, 12, INK)), "CAUTION")
+    put(
+        "hazard",
+        768,
+        0,
+        256,
+        256,
+        warning,
+        lambda: (rectangle(i, 886, 90, 20, 60, INK), disc(i, 896, 174, 12, INK)),
+        "CAUTION",
+    )
     put("vest", 1024, 0, 256, 256, mandatory, lambda: vest(i, 1152, 106, WHITE), "WEAR VEST")
     put("helmet", 1280, 0, 256, 256, mandatory, lambda: helmet(i, 1408, 86, WHITE), "HARD HAT")
-    put("no_walking", 1536, 0, 256, 256, prohibited, lambda: person(i, 1664, 166, 118, INK, 0.05), "NO ENTRY")
-    put("no_trucks", 1792, 0, 256, 256, prohibited, lambda: truck(i, 1862, 150, 116, INK), "NO TRUCKS")
+    put(
+        "no_walking",
+        1536,
+        0,
+        256,
+        256,
+        prohibited,
+        lambda: person(i, 1664, 166, 118, INK, 0.05),
+        "NO ENTRY",
+    )
+    put(
+        "no_trucks",
+        1792,
+        0,
+        256,
+        256,
+        prohibited,
+        lambda: truck(i, 1862, 150, 116, INK),
+        "NO TRUCKS",
+    )
     put("extinguisher", 0, 256, 256, 256, extinguisher)
     put("first_aid", 256, 256, 256, 256, first_aid)
     put("speed", 512, 256, 256, 256, speed, "5")
@@ -163,14 +206,22 @@ def sheet():
     for k, letter in enumerate("ABCDEFGH"):
         put(f"aisle_{letter.lower()}", 256 * k, 512, 256, 256, aisle, letter)
     for k in range(8):
-        put(f"bay_{k + 1}", 256 * (k % 4), 768 + 128 * (k // 4), 256, 128, bay, f"{'AABBCCDD'[k]}-{14 + 7 * k:02d}-{1 + k % 4}")
+        put(
+            f"bay_{k + 1}",
+            256 * (k % 4),
+            768 + 128 * (k // 4),
+            256,
+            128,
+            bay,
+            f"{'AABBCCDD'[k]}-{14 + 7 * k:02d}-{1 + k % 4}",
+        )
     for k, head in enumerate(("NOTICE", "FIRE PLAN", "RULES", "SHIFT 2")):
         i_y = 768
         rects[f"poster_{k + 1}"] = [1024 + 256 * k, i_y, 256, 256]
         small = surfaces.flat((384, 256), WHITE)
         notice(small, 0, 0, head, k)
         rows = np.linspace(0, 383, 256).astype(int)
-        i[i_y:i_y + 256, 1024 + 256 * k:1280 + 256 * k] = small[rows]
-    i *= (1.0 + 0.015 * np.random.default_rng(2).standard_normal((1024, 2048, 1)))
+        i[i_y : i_y + 256, 1024 + 256 * k : 1280 + 256 * k] = small[rows]
+    i *= (1.0 + 0.03 * noise.picture((1024, 2048), 2.4, 2, 3))[..., None]
     dirt = surfaces.scratches((1024, 2048), 60, 9, (20, 120))
     return np.clip(surfaces.mix(i, (0.45, 0.44, 0.42), 0.45 * dirt), 0, 1), rects

@@ -79,8 +79,11 @@ class Machine:
     def prism(self, node, material, outline, lo, hi, axis="y", bevel=0.01, segments=2):
         """Extrudes an outline between lo and hi: (x, z) along y, (y, z) along x or (x, y) along z."""
         b = bmesh.new()
-        put = {"y": lambda p, t: (p[0], t, p[1]), "x": lambda p, t: (t, p[0], p[1]),
-               "z": lambda p, t: (p[0], p[1], t)}[axis]
+        put = {
+            "y": lambda p, t: (p[0], t, p[1]),
+            "x": lambda p, t: (t, p[0], p[1]),
+            "z": lambda p, t: (p[0], p[1], t),
+        }[axis]
         ends = [[b.verts.new(put(p, t)) for p in outline] for t in (lo, hi)]
         b.faces.new(ends[0])
         b.faces.new(list(reversed(ends[1])))
@@ -112,11 +115,18 @@ class Machine:
         side = None
         for i, p in enumerate(points):
             ahead = (points[min(i + 1, len(points) - 1)] - points[max(i - 1, 0)]).normalized()
-            side = ahead.orthogonal().normalized() if side is None else (
-                side - side.dot(ahead) * ahead).normalized()
+            side = (
+                ahead.orthogonal().normalized()
+                if side is None
+                else (side - side.dot(ahead) * ahead).normalized()
+            )
             other = ahead.cross(side)
-            rings.append([b.verts.new(p + float(radius) * (math.cos(t) * side + math.sin(t) * other))
-                          for t in np.linspace(0, 2 * np.pi, sides, endpoint=False)])
+            rings.append(
+                [
+                    b.verts.new(p + float(radius) * (math.cos(t) * side + math.sin(t) * other))
+                    for t in np.linspace(0, 2 * np.pi, sides, endpoint=False)
+                ]
+            )
         for r, s in zip(rings, rings[1:]):
             for i in range(sides):
                 b.faces.new([r[i], r[(i + 1) % sides], s[(i + 1) % sides], s[i]])
@@ -133,9 +143,16 @@ class Machine:
         b = bmesh.new()
         rings = []
         for along, radius in profile:
-            rings.append([b.verts.new(Vector(centre) + float(along) * axis + float(max(radius, 1e-4)) * (
-                math.cos(t) * side + math.sin(t) * other))
-                for t in np.linspace(0, 2 * np.pi, sides, endpoint=False)])
+            rings.append(
+                [
+                    b.verts.new(
+                        Vector(centre)
+                        + float(along) * axis
+                        + float(max(radius, 1e-4)) * (math.cos(t) * side + math.sin(t) * other)
+                    )
+                    for t in np.linspace(0, 2 * np.pi, sides, endpoint=False)
+                ]
+            )
         for r, s in zip(rings, rings[1:]):
             for i in range(sides):
                 b.faces.new([r[i], r[(i + 1) % sides], s[(i + 1) % sides], s[i]])
@@ -173,8 +190,15 @@ class Machine:
 def chamfer(b, width, segments):
     if width > 0:
         sharp = [e for e in b.edges if len(e.link_faces) == 2 and e.calc_face_angle() > 0.4]
-        bmesh.ops.bevel(b, geom=sharp, offset=width, segments=segments, profile=0.5,
-                        affect="EDGES", clamp_overlap=True)
+        bmesh.ops.bevel(
+            b,
+            geom=sharp,
+            offset=width,
+            segments=segments,
+            profile=0.5,
+            affect="EDGES",
+            clamp_overlap=True,
+        )
 
 
 def place(b, turn, centre):

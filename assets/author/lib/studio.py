@@ -95,8 +95,9 @@ def play(things, clip, seconds):
             continue
         for track in thing.animation_data.nla_tracks:
             track.mute = True
-        name = next(a for a in bpy.data.actions if a.name.split("_skeleton")[0] == clip
-                    or a.name == clip)
+        name = next(
+            a for a in bpy.data.actions if a.name.split("_skeleton")[0] == clip or a.name == clip
+        )
         thing.animation_data.action = name
     frame = seconds * fps
     bpy.context.scene.frame_set(int(frame), subframe=frame - int(frame))
@@ -109,5 +110,5 @@ def montage(pictures, columns, gap=3):
     out = np.ones((rows * (h + gap) - gap, columns * (w + gap) - gap, 3), np.float32)
     for i, p in enumerate(pictures):
         r, c = divmod(i, columns)
-        out[r * (h + gap):r * (h + gap) + h, c * (w + gap):c * (w + gap) + w] = p
+        out[r * (h + gap) : r * (h + gap) + h, c * (w + gap) : c * (w + gap) + w] = p
     return out
