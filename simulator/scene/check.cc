@@ -55,7 +55,7 @@ class Checker {
       : scene_(scene), issues_(issues), obstacles_(ObstaclesOf(scene)) {}
 
   void Run() {
-    CheckHall();
+    if (!CheckHall()) return;  // all else is measured against it
     CheckLights();
     CheckStanding();
     CheckRoute(scene_.rig.route, "rig", kRigRadius_m);
@@ -79,12 +79,12 @@ class Checker {
                        scene_.hall.to.x(), scene_.hall.from.y(), scene_.hall.to.y());
   }
 
-  void CheckHall() {
-    if (((scene_.hall.to - scene_.hall.from).array() < 2).any()) {
-      issues_->Add(scene_.hall.mark, "hall",
-                   "`to` must lie at least 2 m beyond `from` in x and y; example: from: [-5, -8], "
-                   "to: [20, 8]");
-    }
+  bool CheckHall() {
+    if (((scene_.hall.to - scene_.hall.from).array() >= 2).all()) return true;
+    issues_->Add(scene_.hall.mark, "hall",
+                 "`to` must lie at least 2 m beyond `from` in x and y; example: from: [-5, -8], "
+                 "to: [20, 8]");
+    return false;
   }
 
   void CheckLights() {

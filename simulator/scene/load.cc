@@ -31,7 +31,7 @@ Parsed Parse(const std::string& text, const std::string& file) {
     if (top.IsMap()) {
       YamlReader reader(top, "", &issues);
       Describe(reader, scene);
-      reader.ReportUnknownKeys();
+      reader.ReportKeys();
     } else {
       issues.Add({1, 1}, "", "expected a map of scene keys; example: about: \"A person crosses.\"");
     }

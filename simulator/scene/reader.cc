@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <set>
 
 namespace aisle::sim {
 namespace {
@@ -69,11 +70,7 @@ std::optional<YAML::Node> YamlReader::Find(const Key& key) {
   const YAML::Node& map = map_;  // the const subscript adds nothing
   const YAML::Node value = map[key.name];
   if (value) return value;
-  if (key.required) {
-    issues_->Add(
-        mark(), PathOf(key.name),
-        fmt::format("it is missing ({}); example: {}: {}", key.help, key.name, key.example));
-  }
+  if (key.required) missing_.push_back(key);
   return std::nullopt;
 }
 
@@ -193,7 +190,7 @@ void YamlReader::Group(const Key& key, const Part& part) {
   }
   YamlReader reader(*node, PathOf(key.name), issues_);
   part(reader);
-  reader.ReportUnknownKeys();
+  reader.ReportKeys();
 }
 
 void YamlReader::List(const Key& key, const std::function<void(std::size_t)>& resize,
@@ -214,7 +211,7 @@ void YamlReader::List(const Key& key, const std::function<void(std::size_t)>& re
     }
     YamlReader reader(item, fmt::format("{}[{}]", PathOf(key.name), i), issues_);
     element(reader, i);
-    reader.ReportUnknownKeys();
+    reader.ReportKeys();
   }
 }
 
@@ -233,15 +230,23 @@ void YamlReader::ChoiceIndex(const Key& key, int* index, std::initializer_list<c
                        near.empty() || text.empty() ? "" : " (did you mean " + near + "?)"));
 }
 
-void YamlReader::ReportUnknownKeys() {
+void YamlReader::ReportKeys() {
+  std::set<std::string> misspelt;
   for (const auto& entry : map_) {
     const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";
     if (std::ranges::find(known_, name) != known_.end()) continue;
     const std::string near = NearestWord(name, known_);
+    misspelt.insert(near);
     issues_->Add(MarkOf(entry.first), PathOf(name.substr(0, 80)),
                  near.empty()
                      ? fmt::format("there is no such key; known here: {}", fmt::join(known_, ", "))
                      : fmt::format("there is no such key; did you mean {}?", near));
+  }
+  for (const Key& key : missing_) {
+    if (misspelt.contains(key.name)) continue;
+    issues_->Add(
+        mark(), PathOf(key.name),
+        fmt::format("it is missing ({}); example: {}: {}", key.help, key.name, key.example));
   }
 }
 

@@ -10,7 +10,7 @@
 namespace aisle::sim {
 
 /// Fills a struct from a YAML map. Mistakes go to `issues` and leave the value as it was. Call
-/// ReportUnknownKeys() when the description has been through.
+/// ReportKeys() when the description has been through.
 class YamlReader : public Fields {
  public:
   /// `path` is the dotted path of the map, "" for the top.
@@ -29,13 +29,14 @@ class YamlReader : public Fields {
             const Element& element) override;
   Mark mark() const override;
   bool Has(const char* key) const override;
-  void ReportUnknownKeys();
+  /// Reports keys that are missing or unknown; a misspelt one is reported once.
+  void ReportKeys();
 
  protected:
   void ChoiceIndex(const Key& key, int* index, std::initializer_list<const char*> names) override;
 
  private:
-  /// The value of a key; reports a required key that is missing.
+  /// The value of a key; remembers a required key that is missing.
   std::optional<YAML::Node> Find(const Key& key);
   std::string PathOf(const std::string& key) const;
   void Expected(const YAML::Node& node, const Key& key, const std::string& what);
@@ -46,6 +47,7 @@ class YamlReader : public Fields {
   std::string path_;
   Issues* issues_;
   std::vector<std::string> known_;
+  std::vector<Key> missing_;  ///< required keys that are not there
 };
 
 }  // namespace aisle::sim
