@@ -69,8 +69,18 @@ def describe_png(path, entry):
             entry.update(json.load(f))
 
 
+def known():
+    """Entries of the present manifest by hash: unchanged files need no new measurement."""
+    path = os.path.join(ROOT, "manifest.json")
+    if not os.path.exists(path):
+        return {}
+    with open(path, encoding="utf-8") as f:
+        entries = json.load(f)["assets"].values()
+    return {e["sha256"]: e for e in entries if e["kind"] != "texture"}
+
+
 def main():
-    assets = {}
+    assets, before = {}, known()
     for folder, kind in FOLDERS.items():
         where = os.path.join(ROOT, folder)
         for file in sorted(os.listdir(where)) if os.path.isdir(where) else []:
@@ -85,7 +95,11 @@ def main():
                 "bytes": os.path.getsize(path),
                 "sha256": digest(path),
             }
-            (describe_glb if ext == ".glb" else describe_png)(path, entry)
+            old = before.get(entry["sha256"])
+            if old and old["file"] == entry["file"]:
+                entry = old
+            else:
+                (describe_glb if ext == ".glb" else describe_png)(path, entry)
             assets[f"{folder}/{name}"] = entry
     text = json.dumps({"schema": 1, "conventions": CONVENTIONS, "assets": assets}, indent=1)
     out = os.path.join(ROOT, "manifest.json")

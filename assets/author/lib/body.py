@@ -53,6 +53,13 @@ def cloth(q, freq, amount, seed):
     )
 
 
+def strand_frame(f):
+    """Coordinates of hair: direction round the crown (two numbers) and height, so that noise that is
+    fine in the first two and coarse in the third runs from the crown down."""
+    angle = np.arctan2(f[:, 1], f[:, 0] + 0.035)
+    return np.stack([np.cos(angle), np.sin(angle), f[:, 2]], -1)
+
+
 class Shapes:
     """The fields of one person; every method maps points in metres to distance in metres."""
 
@@ -354,9 +361,9 @@ class Shapes:
     def hair(self, p):
         f, k = self.face_frame(p / self.scale)
         m, kind = mirrored(f), self.person.hair
-        flow = (16.0, 75.0, 60.0) if kind != "bob" else (70.0, 75.0, 10.0)
-        strands = 0.008 * (ridged(f * flow, self.person.seed + 5) - 0.5)
-        strands += 0.006 * (lattice(f * 32.0, self.person.seed + 6) - 0.5)
+        flow = strand_frame(f)
+        strands = 0.0045 * (ridged(flow * (13.0, 13.0, 9.0), self.person.seed + 5) - 0.5)
+        strands += 0.004 * (lattice(f * 22.0, self.person.seed + 6) - 0.5)
         under_helmet = self.person.head_wear != "none"
         rise = 0.0 if under_helmet else 0.006
         d = sdf.ellipsoid(f, (-0.016, 0, 0.028 + rise), (0.105, 0.086, 0.100 + rise)) - strands

@@ -6,6 +6,7 @@ Painting in space instead of on the sheet makes seams invisible wherever the unw
 import numpy as np
 
 from . import picture, sdf
+from .body import strand_frame
 from .noise import fractal, lattice, ridged, step
 from .pose import unit
 
@@ -325,9 +326,10 @@ class Painter:
     def hair(self, q):
         c = self.person
         f, _ = self.shapes.face_frame(q)
-        flow = (300, 300, 24) if c.hair == "bob" else (36, 300, 260)
-        strand = ridged(f * flow, c.seed + 5) * 0.6 + 0.4 * ridged(f * np.array(flow) * 1.7, 9)
-        rgb = np.tile(np.array(c.hair_colour), (len(q), 1)) * (0.40 + 1.25 * strand)[:, None]
+        flow = strand_frame(f) + 0.03 * (lattice(f * 45.0, c.seed)[:, None] - 0.5)
+        strand = 0.6 * ridged(flow * (34, 34, 14), c.seed + 5) + 0.4 * ridged(flow * (80, 80, 20), 9)
+        tone = fractal(f * 16.0, 3, c.seed + 7)
+        rgb = np.tile(np.array(c.hair_colour), (len(q), 1)) * (0.35 + 0.85 * strand + 0.4 * tone)[:, None]
         glint = step(0.7, 0.95, strand) * np.exp(-(((f[:, 2] - 0.085) / 0.03) ** 2))
         return rgb + 0.12 * glint[:, None]
 
