@@ -1,5 +1,7 @@
+#include <array>
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
 
 #include "simulator/mesh/pose.h"
 #include "simulator/motion/gait.h"
@@ -12,6 +14,9 @@ namespace {
 /// Clips fade into one another over this time.
 constexpr double kFade_s = 0.5;
 
+/// Plain walking from slow to fast; others (with a load, backwards) are asked for by name.
+constexpr std::array<std::string_view, 4> kWalks = {"walk_creep", "walk_slow", "walk", "walk_fast"};
+
 /// Who the person is and how it moves: everything a pose at a time needs.
 class Walker {
  public:
@@ -23,9 +28,7 @@ class Walker {
       const int index = model_->FindClip(name);
       if (index < 0) continue;
       durations_[name] = {index, clip.duration_s};
-      // Those that go straight ahead at their own pace; others are asked for by name.
-      if (name.starts_with("walk") && clip.stride_m > 0 && clip.speed_mps >= 0 &&
-          clip.turn_deg == 0) {
+      if (std::ranges::find(kWalks, name) != kWalks.end() && clip.stride_m > 0) {
         walks_.push_back({index, clip.stride_m, clip.duration_s});
       }
     }
