@@ -144,11 +144,15 @@ Actor MakeVehicle(const VehicleSpec& vehicle, AssetLibrary* assets, const Palett
     Append(load, &mesh);
   }
   const auto driver = std::make_shared<const Driver>(vehicle, model, facts);
-  return {std::move(mesh), [driver, model](double time_s) {
-            return SkinState(
-                *model, [&](double t) { return driver->WorldJoints(t); },
-                [&](double t) { return driver->RouteAt(t); }, time_s);
-          }};
+  const auto at = [driver, model](double time_s) {
+    return SkinState(
+        *model, [&](double t) { return driver->WorldJoints(t); },
+        [&](double t) { return driver->RouteAt(t); }, time_s);
+  };
+  if (vehicle.route.plan.steps.empty() && vehicle.mast.empty()) {  // parked for good
+    return {std::move(mesh), [state = at(0)](double) { return state; }};
+  }
+  return {std::move(mesh), at};
 }
 
 }  // namespace aisle::sim

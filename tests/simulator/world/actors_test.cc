@@ -192,6 +192,19 @@ TEST(Forklift, TyresTouchTheFloorWithoutSliding) {
   }
 }
 
+TEST(Forklift, AParkedOneIsTheSameAtEveryTime) {
+  VehicleSpec truck;
+  truck.model = "forklift";
+  AssetLibrary assets(kAssets);
+  WorldParts parts;
+  Wardrobe wardrobe(&parts);
+  const Actor actor = MakeVehicle(truck, &assets, {}, Dice(1, {}), &wardrobe);
+  EXPECT_EQ(actor.at(0).positions, actor.at(9).positions);
+  for (const Eigen::Vector3f& velocity : actor.at(9).velocities) {
+    ASSERT_EQ(velocity, Eigen::Vector3f::Zero());
+  }
+}
+
 TEST(Forklift, TheMastCarriesTheForksAndTheLoad) {
   VehicleSpec truck;
   truck.name = "truck";
