@@ -138,7 +138,7 @@ class Feet:
         self.landing = LANDING * self.stride
         self.clearance = 0.0
         for _ in range(0 if gait.turn_deg else 8):
-            swing = np.linspace(self.duty + 0.01, 0.99, 40)
+            swing = np.linspace(self.duty + 0.01, 0.93, 40)
             short = max(self.wanted(t) * s - self.lowest(t) for t in swing)
             if short <= 0:
                 break
@@ -212,7 +212,7 @@ class Feet:
             + a1 * t * t * (3 - 2 * t)
             - vb * h * t * t * (1 - t)
         )
-        at = at + np.array([0, 0, self.clearance * 6.75 * t * (1 - t) ** 2])
+        at = at + np.array([0, 0, self.clearance * 12.2 * t * (1 - t) ** 4])
         ease = t * t * (3 - 2 * t)
         return at, yaw0 + (yaw1 - yaw0) * ease, phi, bend
 
