@@ -19,23 +19,38 @@ std::vector<LandmarkId> SeenBy(const Map& map, const std::vector<KeyframeId>& ke
 
 }  // namespace
 
-MappingResult MapKeyframe(Map map, KeyframeId newest, const StereoCamera& camera,
-                          const MappingOptions& options) {
+MappingResult MapKeyframe(Map map, KeyframeId newest, const Vocabulary* vocabulary,
+                          const PlaceIndex& index, const StereoCamera& camera,
+                          const SlamOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  map.Apply(CullLandmarks(map, newest, options.cull));
+  const MappingOptions& mapping = options.mapping;
+  map.Apply(CullLandmarks(map, newest, mapping.cull));
 
-  const std::vector<KeyframeId> neighbours = FuseNeighbours(map, newest, options.fuse);
+  const std::vector<KeyframeId> neighbours = FuseNeighbours(map, newest, mapping.fuse);
   for (const KeyframeId neighbour : neighbours) {
-    map.Apply(FuseInto(map, neighbour, SeenBy(map, {newest}), camera, options.fuse));
+    map.Apply(FuseInto(map, neighbour, SeenBy(map, {newest}), camera, mapping.fuse));
   }
-  map.Apply(FuseInto(map, newest, SeenBy(map, neighbours), camera, options.fuse));
+  map.Apply(FuseInto(map, newest, SeenBy(map, neighbours), camera, mapping.fuse));
 
-  const Adjustment adjustment = AdjustLocally(map, newest, camera, options.adjust);
+  const Adjustment adjustment = AdjustLocally(map, newest, camera, mapping.adjust);
   map.Apply(adjustment.edit);
 
-  map.Apply(CullKeyframes(map, newest, options.cull));
+  const MapEdit culling = CullKeyframes(map, newest, mapping.cull);
+  map.Apply(culling);
+
+  MappingResult result;
+  if (vocabulary) {
+    result.words = vocabulary->Describe(map.At(newest).frame->features.descriptors);
+    result.loop =
+        FindLoop(map, newest, result.words, index, camera, options.feature.levels, options.loop);
+  }
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-  return {std::move(map), adjustment.summary, took.count()};
+  result.map = std::move(map);
+  result.keyframe = newest;
+  result.culled = culling.removed_keyframes;
+  result.adjustment = adjustment.summary;
+  result.milliseconds = took.count();
+  return result;
 }
 
 }  // namespace aisle::slam

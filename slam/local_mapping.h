@@ -9,14 +9,20 @@ namespace aisle::slam {
 /// What mapping made of a keyframe.
 struct MappingResult {
   Map map;
+  KeyframeId keyframe;             ///< the one worked in
+  std::vector<KeyframeId> culled;  ///< keyframes that went
+  WordVector words;                ///< of the keyframe; empty without a vocabulary
+  std::optional<LoopEdge> loop;    ///< an older place that it shows
   BundleSummary adjustment;
   double milliseconds = 0;  ///< reported, never decided upon
 };
 
 /// Works the newest keyframe into the map: drops landmarks that have not proven themselves, joins
 /// those that neighbours know too, adjusts poses and points around, and drops keyframes that have
-/// become redundant. Takes the map by value and returns the next one: it can run beside readers.
-MappingResult MapKeyframe(Map map, KeyframeId newest, const StereoCamera& camera,
-                          const MappingOptions& options);
+/// become redundant; then looks for an older place that it shows, if there is a vocabulary. Takes
+/// the map by value and returns the next one: it can run beside readers.
+MappingResult MapKeyframe(Map map, KeyframeId newest, const Vocabulary* vocabulary,
+                          const PlaceIndex& index, const StereoCamera& camera,
+                          const SlamOptions& options);
 
 }  // namespace aisle::slam

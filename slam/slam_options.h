@@ -7,6 +7,7 @@
 #include "slam/map/cull.h"
 #include "slam/map/fuse.h"
 #include "slam/optimize/adjust_map.h"
+#include "slam/place/find_loop.h"
 #include "slam/stereo/stereo_options.h"
 #include "slam/track/track_options.h"
 
@@ -25,6 +26,10 @@ struct ScheduleOptions {
   /// Frames from a keyframe to the frame that first sees what mapping made of it. A slower mapper
   /// makes that frame wait; a faster one never shows its result earlier. Hence the same bits.
   int mapping_frames = 2;
+  /// Frames from the mapping result that confirms a loop to the frame that first sees the corrected
+  /// map: so many, and one more for every few keyframes there are to adjust.
+  int loop_frames = 20;
+  int keyframes_per_loop_frame = 4;
   bool background = true;  ///< false: mapping runs in the caller's thread, with the same result
 };
 
@@ -36,7 +41,10 @@ struct SlamOptions {
   TrackOptions track;
   KeyframeOptions keyframe;
   MappingOptions mapping;
+  LoopOptions loop;
+  GlobalAdjustmentOptions global;
   ScheduleOptions schedule;
+  std::string vocabulary_file;     ///< empty: no loop closing, and relocalisation by trying in turn
   double keypoint_noise_px = 1.0;  ///< pixels of the level: deviation of a corner's position
   int least_first_points = 60;     ///< stereo points of the frame that starts a map
 };

@@ -10,7 +10,9 @@
 #include "slam/background_job.h"
 #include "slam/feature/extract.h"
 #include "slam/local_mapping.h"
+#include "slam/loop_closing.h"
 #include "slam/map/map.h"
+#include "slam/place/vocabulary.h"
 #include "slam/stereo/match_stereo.h"
 #include "slam/track/keyframe_policy.h"
 #include "slam/track/track_frame.h"
@@ -39,12 +41,22 @@ Measurement Measure(const Keypoint& keypoint, const Disparity& disparity, double
   return {{keypoint.pixel.x, keypoint.pixel.y, disparity.value}, sigma_px, disparity.sigma};
 }
 
+/// What one stage's options say to another's.
+SlamOptions Completed(SlamOptions options) {
+  options.mapping.fuse.levels = options.feature.levels;
+  return options;
+}
+
 }  // namespace
 
 std::string Validate(const SlamOptions& options) {
   if (options.threads < 0) return fmt::format("threads = {}; 0 or more", options.threads);
   if (!(options.keypoint_noise_px > 0)) {
     return fmt::format("keypoint_noise_px = {}; it must be positive", options.keypoint_noise_px);
+  }
+  if (options.schedule.loop_frames < 1 || options.schedule.keyframes_per_loop_frame < 1) {
+    return fmt::format("loop_frames = {}, keyframes_per_loop_frame = {}; both at least 1",
+                       options.schedule.loop_frames, options.schedule.keyframes_per_loop_frame);
   }
   if (options.schedule.mapping_frames < 1) {
     return fmt::format("mapping_frames = {}; at least 1", options.schedule.mapping_frames);
@@ -56,11 +68,12 @@ std::string Validate(const SlamOptions& options) {
 struct StereoSlam::Impl {
   Impl(const StereoCamera& camera_in, const SlamOptions& options_in)
       : camera(camera_in),
-        options(options_in),
+        options(Completed(options_in)),
         arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic) {
     for (const std::string& error : {Validate(camera), Validate(options)}) {
       if (!error.empty()) throw std::invalid_argument("StereoSlam: " + error);
     }
+    if (!options.vocabulary_file.empty()) vocabulary = Vocabulary::Load(options.vocabulary_file);
   }
 
   TrackedFrame Track(const StereoImages& images, const ExternalMask& mask);
@@ -72,7 +85,9 @@ struct StereoSlam::Impl {
   std::optional<FramePose> Relocalise(const Frame& frame);
   void InsertKeyframe(const std::shared_ptr<const Frame>& frame, const FramePose& pose);
   void Remember(const Frame& frame, const FramePose& pose);
-  void TakeMapping(std::int64_t frame_count, std::map<std::string, double>& stage_ms);
+  bool Busy() const { return mapping.pending() || closing.pending(); }
+  bool TakeBackgroundWork(std::int64_t frame_now, std::map<std::string, double>& stage_ms);
+  void TakeMapping(MappingResult result, std::int64_t frame_now);
 
   const StereoCamera camera;
   const SlamOptions options;
@@ -83,7 +98,6 @@ struct StereoSlam::Impl {
   TrackingState state = TrackingState::kInitializing;
   std::int64_t frame_count = 0;
   std::map<LandmarkId, std::pair<int, int>> counts;  // predicted and found since the last keyframe
-  BackgroundJob<MappingResult> mapping;
 
   /// A tracked frame as the trajectory keeps it: its place relative to a keyframe.
   struct Anchored {
@@ -92,6 +106,15 @@ struct StereoSlam::Impl {
     Eigen::Isometry3d T_reference_rig;
   };
   std::vector<Anchored> trajectory;
+
+  std::optional<Vocabulary> vocabulary;
+  PlaceIndex index;             // of the keyframes that mapping is done with
+  std::vector<LoopEdge> loops;  // seen of late, waiting for others to agree
+
+  // At most one of the two is under way, on a copy of the map; neither map nor index changes until
+  // its result is taken. Declared last: they end before what they read.
+  BackgroundJob<MappingResult> mapping;
+  BackgroundJob<Map> closing;
 };
 
 TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalMask& mask) {
@@ -100,7 +123,7 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
   result.id = images.id;
   result.stamp_ns = images.stamp_ns;
   const auto frame = SeeFrame(images, mask, result.stage_ms);
-  TakeMapping(frame_count, result.stage_ms);
+  result.loop_closed = TakeBackgroundWork(frame_count, result.stage_ms);
 
   Stopwatch track_time(result.stage_ms["track"]);
   std::optional<FramePose> pose;
@@ -109,9 +132,9 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
     result.is_keyframe = pose.has_value();
   } else {
     pose = FindPose(*frame);
-    // One mapping job at a time: the next keyframe waits for the appointed frame, not for a thread.
+    // One job at a time: the next keyframe waits for the appointed frame, not for a thread.
     result.is_keyframe =
-        pose && !mapping.pending() && NeedsKeyframe(map, *frame, *pose, camera, options.keyframe);
+        pose && !Busy() && NeedsKeyframe(map, *frame, *pose, camera, options.keyframe);
     if (result.is_keyframe) InsertKeyframe(frame, *pose);
   }
 
@@ -183,12 +206,38 @@ std::shared_ptr<const Frame> StereoSlam::Impl::SeeFrame(const StereoImages& imag
   return frame;
 }
 
-void StereoSlam::Impl::TakeMapping(std::int64_t frame_now,
-                                   std::map<std::string, double>& stage_ms) {
-  auto result = mapping.TakeIfDue(frame_now, stage_ms["wait_for_mapping"]);
-  if (!result) return;
-  map = std::move(result->map);
-  stage_ms["mapping"] = result->milliseconds;
+/// Takes what is due; true where a loop has been closed.
+bool StereoSlam::Impl::TakeBackgroundWork(std::int64_t frame_now,
+                                          std::map<std::string, double>& stage_ms) {
+  double& wait_ms = stage_ms["wait_for_mapping"];
+  if (auto result = mapping.TakeIfDue(frame_now, wait_ms)) {
+    stage_ms["mapping"] = result->milliseconds;
+    TakeMapping(std::move(*result), frame_now);
+  }
+  auto closed = closing.TakeIfDue(frame_now, wait_ms);
+  if (!closed) return false;
+  map = std::move(*closed);
+  return true;
+}
+
+void StereoSlam::Impl::TakeMapping(MappingResult result, std::int64_t frame_now) {
+  map = std::move(result.map);
+  if (!vocabulary) return;
+  index.Add(result.keyframe, result.words);
+  for (const KeyframeId gone : result.culled) index.Remove(gone);
+  std::erase_if(loops, [&](const LoopEdge& loop) {
+    return loop.current.value + options.loop.remembered < result.keyframe.value;
+  });
+  if (!result.loop) return;
+  loops.push_back(*result.loop);
+  const std::vector<LoopEdge> agreeing = AgreeingLoops(map, loops, options.loop);
+  if (agreeing.empty()) return;
+  loops.clear();
+  const auto keyframes = static_cast<std::int64_t>(map.keyframes().size());
+  closing.Start(frame_now + options.schedule.loop_frames +
+                    keyframes / options.schedule.keyframes_per_loop_frame,
+                options.schedule.background,
+                [map = map, agreeing, this] { return CloseLoop(map, agreeing, camera, options); });
 }
 
 std::optional<FramePose> StereoSlam::Impl::FindPose(const Frame& frame) {
@@ -196,14 +245,21 @@ std::optional<FramePose> StereoSlam::Impl::FindPose(const Frame& frame) {
   return TrackFrame(map, frame, memory, camera, options.feature.levels, options.track);
 }
 
-/// Asks a few keyframes a frame, the reference first and the others in turn.
+/// Asks a few keyframes a frame: the reference, then those that look most alike or, without a
+/// vocabulary, all in turn.
 std::optional<FramePose> StereoSlam::Impl::Relocalise(const Frame& frame) {
-  constexpr int kAskedAFrame = 5;
+  constexpr std::size_t kAskedAFrame = 6;
   std::vector<KeyframeId> asked = {memory.reference};
-  const auto count = static_cast<std::int64_t>(map.keyframes().size());
-  for (int i = 0; i < std::min<std::int64_t>(kAskedAFrame, count); ++i) {
-    asked.push_back(
-        std::next(map.keyframes().begin(), (frame_count * kAskedAFrame + i) % count)->first);
+  if (vocabulary) {
+    for (const Lookalike& one : index.Query(vocabulary->Describe(frame.features.descriptors))) {
+      if (asked.size() < kAskedAFrame) asked.push_back(one.keyframe);
+    }
+  } else {
+    const auto count = static_cast<std::int64_t>(map.keyframes().size());
+    const std::int64_t first = frame_count * static_cast<std::int64_t>(kAskedAFrame - 1);
+    for (std::int64_t i = 0; i < count && asked.size() < kAskedAFrame; ++i) {
+      asked.push_back(std::next(map.keyframes().begin(), (first + i) % count)->first);
+    }
   }
   for (const KeyframeId id : asked) {
     auto pose = LocateByKeyframe(map, frame, id, camera, options.feature.levels, options.track);
@@ -258,8 +314,9 @@ void StereoSlam::Impl::InsertKeyframe(const std::shared_ptr<const Frame>& frame,
   map.Apply(edit);
   counts.clear();
   mapping.Start(frame_count + options.schedule.mapping_frames, options.schedule.background,
-                [map = map, id, camera = camera, mapping_options = options.mapping] {
-                  return MapKeyframe(map, id, camera, mapping_options);
+                [map = map, id, this] {
+                  return MapKeyframe(map, id, vocabulary ? &*vocabulary : nullptr, index, camera,
+                                     options);
                 });
 }
 
@@ -297,13 +354,28 @@ TrackedFrame StereoSlam::Track(const StereoImages& images, const ExternalMask& m
 
 std::vector<StampedPose> StereoSlam::Finish() {
   std::map<std::string, double> stage_ms;
-  impl_->TakeMapping(impl_->mapping.due_frame(), stage_ms);
+  // Mapping may start the closing of a loop, which is waited for as well.
+  while (impl_->Busy()) {
+    impl_->TakeBackgroundWork(std::max(impl_->mapping.due_frame(), impl_->closing.due_frame()),
+                              stage_ms);
+  }
   std::vector<StampedPose> poses;
   for (const Impl::Anchored& anchored : impl_->trajectory) {
     poses.push_back(
         {anchored.stamp_ns, impl_->map.PoseOf(anchored.reference) * anchored.T_reference_rig});
   }
   return poses;
+}
+
+int TrainVocabulary(const std::vector<cv::Mat1b>& images, const FeatureOptions& options,
+                    const std::string& file) {
+  std::vector<std::vector<Descriptor>> descriptors;
+  for (const cv::Mat1b& image : images) {
+    descriptors.push_back(ExtractFeatures(image, {}, options).features.descriptors);
+  }
+  const Vocabulary vocabulary = Vocabulary::Train(descriptors, {});
+  vocabulary.Save(file);
+  return vocabulary.words();
 }
 
 }  // namespace aisle::slam

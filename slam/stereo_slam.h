@@ -44,6 +44,7 @@ struct TrackedFrame {
   int matched_points = 0;  ///< matched to the map
   int inliers = 0;         ///< kept by pose refinement
   bool is_keyframe = false;
+  bool loop_closed = false;  ///< from this frame on the map is as a closed loop has corrected it
   std::vector<cv::Point2f> keypoints;      ///< left image, for scoring where features were spent
   std::vector<bool> keypoint_is_inlier;    ///< per keypoint: took part in the pose
   std::map<std::string, double> stage_ms;  ///< wall time by stage; reported, never decided upon
@@ -75,5 +76,11 @@ class StereoSlam {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Trains the visual words that loop closing and relocalisation recognise places by, from images of
+/// places like those that will be seen, and writes them to `file` (SlamOptions::vocabulary_file).
+/// The same images in the same order give the same file. Returns the number of words.
+int TrainVocabulary(const std::vector<cv::Mat1b>& images, const FeatureOptions& options,
+                    const std::string& file);
 
 }  // namespace aisle::slam

@@ -30,7 +30,8 @@ std::vector<Corner> DetectCorners(const cv::Mat1b& level, const FeatureOptions& 
   const cv::Rect area(border, border, level.cols - 2 * border, level.rows - 2 * border);
   std::vector<Corner> corners;
   if (area.width <= 0 || area.height <= 0) return corners;
-  AppendCorners(level, area, options.fast_threshold, corners);
+  AppendCorners(level, area, options.fast_threshold, corners);  // in rising order already
+  const auto strong = std::ssize(corners);
 
   const int columns = std::max(1, area.width / options.cell_px);
   const int rows = std::max(1, area.height / options.cell_px);
@@ -53,9 +54,11 @@ std::vector<Corner> DetectCorners(const cv::Mat1b& level, const FeatureOptions& 
       AppendCorners(level, cell, options.fast_threshold_low, corners);
     }
   }
-  std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
+  const auto upper_left = [](const Corner& a, const Corner& b) {
     return std::tie(a.y, a.x) < std::tie(b.y, b.x);
-  });
+  };
+  std::sort(corners.begin() + strong, corners.end(), upper_left);
+  std::inplace_merge(corners.begin(), corners.begin() + strong, corners.end(), upper_left);
   return corners;
 }
 

@@ -35,7 +35,7 @@ std::vector<Node> Quarter(const Node& node, std::vector<Corner>& corners, int& c
   const int half = node.side / 2;
   const auto at = [&](std::size_t i) { return corners.begin() + static_cast<std::ptrdiff_t>(i); };
   const auto split = [&](std::size_t begin, std::size_t end, auto&& first_half) {
-    return static_cast<std::size_t>(std::stable_partition(at(begin), at(end), first_half) -
+    return static_cast<std::size_t>(std::partition(at(begin), at(end), first_half) -
                                     corners.begin());
   };
   const auto upper = [&](const Corner& c) { return c.y < node.y + half; };
@@ -60,7 +60,9 @@ std::vector<Node> Quarter(const Node& node, std::vector<Corner>& corners, int& c
 
 std::vector<Corner> DistributeCorners(std::span<const Corner> corners, int count) {
   std::vector<Corner> pool(corners.begin(), corners.end());
-  std::sort(pool.begin(), pool.end(), UpperLeft);
+  if (!std::is_sorted(pool.begin(), pool.end(), UpperLeft)) {
+    std::sort(pool.begin(), pool.end(), UpperLeft);
+  }
   const auto wanted = static_cast<std::size_t>(std::max(count, 0));
   if (pool.size() <= wanted) return pool;
   if (wanted == 0) return {};

@@ -10,7 +10,7 @@ struct FuseOptions {
   int least_shared = 15;         ///< landmarks; fewer make no neighbours
   double radius_px = 3;          ///< search radius in pixels of the predicted level
   int descriptor_distance = 50;  ///< bits; no match beyond
-  int levels = 8;                ///< of the pyramid
+  int levels = 8;                ///< of the pyramid; set from the feature options
 };
 
 /// Looks for the landmarks of `candidates` in keyframe `in`: where one lands on a free feature the

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "slam/optimize/pose_graph.h"
+
 namespace aisle::slam {
 namespace {
 
@@ -95,6 +97,15 @@ std::vector<KeyframeId> OutsideObservers(const Map& map, const std::vector<Keyfr
   return observers;
 }
 
+/// A robust pass tells outliers, a plain one adjusts without them; all are tested again at the end.
+Adjustment AdjustTwice(MapProblem problem, int robust_iterations, int final_iterations) {
+  Solve(problem.bundle, {}, {robust_iterations, true});
+  const BundleSummary summary =
+      Solve(problem.bundle, WithinBounds(problem.bundle), {final_iterations, false});
+  if (!summary.usable) return {{}, summary};
+  return {ToEdit(problem, WithinBounds(problem.bundle)), summary};
+}
+
 }  // namespace
 
 Adjustment AdjustLocally(const Map& map, KeyframeId around, const StereoCamera& camera,
@@ -120,12 +131,63 @@ Adjustment AdjustLocally(const Map& map, KeyframeId around, const StereoCamera& 
     free.erase(oldest);
   }
 
-  MapProblem problem = BuildProblem(map, free, fixed, landmarks, camera);
-  Solve(problem.bundle, {}, {options.robust_iterations, true});
-  const BundleSummary summary =
-      Solve(problem.bundle, WithinBounds(problem.bundle), {options.final_iterations, false});
-  if (!summary.usable) return {{}, summary};
-  return {ToEdit(problem, WithinBounds(problem.bundle)), summary};
+  return AdjustTwice(BuildProblem(map, free, fixed, landmarks, camera), options.robust_iterations,
+                     options.final_iterations);
+}
+
+Adjustment AdjustGlobally(const Map& map, const StereoCamera& camera,
+                          const GlobalAdjustmentOptions& options) {
+  std::vector<KeyframeId> free;
+  for (const auto& [id, keyframe] : map.keyframes()) free.push_back(id);
+  if (free.size() < 2) return {{}, {0, 0, 0, true, "nothing is free"}};
+  const std::vector<KeyframeId> fixed = {free.front()};
+  free.erase(free.begin());
+  std::vector<LandmarkId> landmarks;
+  for (const Landmark* landmark : map.Landmarks()) landmarks.push_back(landmark->id);
+  return AdjustTwice(BuildProblem(map, free, fixed, landmarks, camera), options.robust_iterations,
+                     options.final_iterations);
+}
+
+MapEdit SpreadLoops(const Map& map, const std::vector<LoopEdge>& loops) {
+  constexpr int kStrong = 100;  // shared landmarks
+  constexpr int kIterations = 30;
+  PoseGraph graph;
+  std::vector<KeyframeId> keyframes;
+  std::map<KeyframeId, int> index;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    index[id] = static_cast<int>(keyframes.size());
+    keyframes.push_back(id);
+    graph.poses.push_back({keyframe->T_world_rig.inverse(), keyframes.size() == 1});
+  }
+  const auto connect = [&](KeyframeId from, KeyframeId to) {
+    graph.edges.push_back({index.at(from), index.at(to),
+                           map.At(from).T_world_rig.inverse() * map.At(to).T_world_rig});
+  };
+  for (const KeyframeId id : keyframes) {
+    const KeyframeId parent = map.At(id).parent;
+    if (parent.valid()) connect(parent, id);
+    for (const Covisible& covisible : CovisibleKeyframes(map, id, kStrong)) {
+      if (covisible.keyframe < id && covisible.keyframe != parent) connect(covisible.keyframe, id);
+    }
+  }
+  for (const LoopEdge& loop : loops) {
+    if (!map.Find(loop.matched) || !map.Find(loop.current)) continue;
+    graph.edges.push_back({index.at(loop.matched), index.at(loop.current), loop.T_matched_current,
+                           0.02, 0.005, true});
+  }
+  MapEdit edit;
+  if (!Solve(graph, kIterations).usable) return edit;
+  std::map<KeyframeId, Eigen::Isometry3d> T_new_old;  // of the world around each keyframe
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    const Eigen::Isometry3d T_world_rig = Normalized(graph.poses[i].T_rig_world.inverse());
+    T_new_old[keyframes[i]] = T_world_rig * map.At(keyframes[i]).T_world_rig.inverse();
+    if (i > 0) edit.poses.push_back({keyframes[i], T_world_rig});
+  }
+  for (const Landmark* landmark : map.Landmarks()) {
+    const KeyframeId first = landmark->observations.front().keyframe;
+    edit.positions.push_back({landmark->id, T_new_old.at(first) * landmark->position});
+  }
+  return edit;
 }
 
 }  // namespace aisle::slam

@@ -25,4 +25,24 @@ struct Adjustment {
 Adjustment AdjustLocally(const Map& map, KeyframeId around, const StereoCamera& camera,
                          const LocalAdjustmentOptions& options);
 
+struct GlobalAdjustmentOptions {
+  int robust_iterations = 8;  ///< first pass
+  int final_iterations = 8;   ///< second pass, without outliers
+};
+
+/// Adjusts every keyframe but the first, and every landmark.
+Adjustment AdjustGlobally(const Map& map, const StereoCamera& camera,
+                          const GlobalAdjustmentOptions& options);
+
+/// A place seen again: where keyframe `current` stands, seen from `matched`.
+struct LoopEdge {
+  KeyframeId current, matched;
+  Eigen::Isometry3d T_matched_current = Eigen::Isometry3d::Identity();
+  int inliers = 0;
+};
+
+/// Spreads the error of loops over the essential graph: spanning tree, strong covisibility, and the
+/// loops. Landmarks move with the first keyframe that saw them.
+MapEdit SpreadLoops(const Map& map, const std::vector<LoopEdge>& loops);
+
 }  // namespace aisle::slam

@@ -10,9 +10,11 @@
 namespace aisle::slam {
 namespace {
 
-ceres::Solver::Options SolverOptions(const BundleOptions& options) {
+ceres::Solver::Options SolverOptions(const BundleOptions& options, std::size_t poses) {
   ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_SCHUR;
+  // The reduced camera matrix of a long drive is mostly zeros.
+  constexpr std::size_t kManyPoses = 60;
+  solver.linear_solver_type = poses > kManyPoses ? ceres::SPARSE_SCHUR : ceres::DENSE_SCHUR;
   solver.max_num_iterations = options.iterations;
   solver.function_tolerance = options.relative_tolerance;
   solver.num_threads = 1;  // two threads sum in either order
@@ -73,7 +75,7 @@ BundleSummary Solve(BundleProblem& problem, const std::vector<bool>& active,
   }
   if (ceres_problem.NumResidualBlocks() == 0) return {0, 0, 0, true, "nothing to adjust"};
 
-  ceres::Solver::Options solver = SolverOptions(options);
+  ceres::Solver::Options solver = SolverOptions(options, poses.size());
   solver.linear_solver_ordering = ordering;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &ceres_problem, &summary);

@@ -71,4 +71,41 @@ bool SightResidual::Evaluate(double const* const* parameters, double* residuals,
   return true;
 }
 
+bool RelativePoseResidual::Evaluate(double const* const* parameters, double* residuals,
+                                    double** jacobians) const {
+  const Eigen::Isometry3d T_from_to = FromBlock(parameters[0]) * FromBlock(parameters[1]).inverse();
+  const Vector6d difference = Difference(T_from_to_, T_from_to);
+  Vector6d scale;
+  scale << Eigen::Vector3d::Constant(1 / sigma_m_), Eigen::Vector3d::Constant(1 / sigma_rad_);
+  Eigen::Map<Vector6d>{residuals} = scale.cwiseProduct(difference);
+  if (!jacobians) return true;
+
+  // A motion (rho, phi) applied after T_from_to changes the difference's translation by
+  // rho - [t] phi and its rotation vector r by the inverse left Jacobian of SO(3), to second order.
+  const Eigen::Matrix3d skew = Skew(difference.tail<3>());
+  Matrix6d by_motion = Matrix6d::Zero();
+  by_motion.topLeftCorner<3, 3>().setIdentity();
+  by_motion.topRightCorner<3, 3>() = -Skew(difference.head<3>());
+  by_motion.bottomRightCorner<3, 3>() =
+      Eigen::Matrix3d::Identity() - 0.5 * skew + skew * skew / 12.0;
+  using Jacobian = Eigen::Matrix<double, 6, 7, Eigen::RowMajor>;
+  if (jacobians[0]) {
+    Eigen::Map<Jacobian> by_from(jacobians[0]);
+    by_from.setZero();
+    by_from.leftCols<6>() = scale.asDiagonal() * by_motion;
+  }
+  if (jacobians[1]) {
+    // Moving `to` by a motion moves T_from_to by its inverse, seen from `from` (the adjoint).
+    const Eigen::Matrix3d R = T_from_to.linear();
+    Matrix6d adjoint = Matrix6d::Zero();
+    adjoint.topLeftCorner<3, 3>() = -R;
+    adjoint.topRightCorner<3, 3>() = -Skew(T_from_to.translation()) * R;
+    adjoint.bottomRightCorner<3, 3>() = -R;
+    Eigen::Map<Jacobian> by_to(jacobians[1]);
+    by_to.setZero();
+    by_to.leftCols<6>() = scale.asDiagonal() * by_motion * adjoint;
+  }
+  return true;
+}
+
 }  // namespace aisle::slam

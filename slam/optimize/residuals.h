@@ -49,4 +49,19 @@ class SightResidual final : public ceres::SizedCostFunction<3, 7, 3> {
   Eigen::Matrix3d sqrt_information_;
 };
 
+/// How far two poses stand from a measured relative pose, over its deviations: translation, then
+/// rotation (see Difference). Parameters: PoseBlock from, PoseBlock to.
+class RelativePoseResidual final : public ceres::SizedCostFunction<6, 7, 7> {
+ public:
+  RelativePoseResidual(const Eigen::Isometry3d& T_from_to, double sigma_m, double sigma_rad)
+      : T_from_to_(T_from_to), sigma_m_(sigma_m), sigma_rad_(sigma_rad) {}
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  Eigen::Isometry3d T_from_to_;
+  double sigma_m_, sigma_rad_;
+};
+
 }  // namespace aisle::slam

@@ -84,7 +84,9 @@ std::string Validate(const StereoOptions& options) {
   if (options.patch_radius_px < 1 || options.patch_radius_px > 10) {
     return fmt::format("patch_radius_px = {}; 1 to 10", options.patch_radius_px);
   }
-  if (options.search_px < 1) return fmt::format("search_px = {}; at least 1", options.search_px);
+  if (options.search_px < 1 || options.search_px > 10) {
+    return fmt::format("search_px = {}; 1 to 10", options.search_px);
+  }
   if (!(options.worst_to_median > 1)) {
     return fmt::format("worst_to_median = {}; above 1", options.worst_to_median);
   }

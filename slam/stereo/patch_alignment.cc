@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 
 namespace aisle::slam {
 namespace {
@@ -9,7 +10,9 @@ namespace {
 /// No patch is larger, so that none needs the heap.
 constexpr int kLargest = 21;
 using Patch =
-    Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kLargest, kLargest + 2>;
+    Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kLargest, 2 * kLargest>;
+using Strip =
+    Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kLargest, 2 * kLargest>;
 
 /// `columns` x `rows` samples from (x, y) on, bilinear; the caller keeps them inside the image.
 Patch Sample(const cv::Mat1b& image, double x, double y, int columns, int rows) {
@@ -30,6 +33,27 @@ Patch Sample(const cv::Mat1b& image, double x, double y, int columns, int rows) 
 
 bool Holds(const cv::Mat1b& image, double x, double y, int columns, int rows) {
   return x >= 0 && y >= 0 && x + columns < image.cols && y + rows < image.rows;
+}
+
+/// The whole step from `start` at which the right patch differs least from the left one, each less
+/// its mean; nothing where that is the last step either way.
+std::optional<int> BestStep(const Patch& left, const cv::Mat1b& right, double start, double row,
+                            const StereoOptions& options) {
+  const int side = static_cast<int>(left.rows()), radius = side / 2, reach = options.search_px;
+  const int width = side + 2 * reach;
+  if (!Holds(right, start - radius - reach, row - radius, width, side)) return std::nullopt;
+  const Strip strip =
+      Sample(right, start - radius - reach, row - radius, width, side).cast<float>();
+  const Strip model = (left - left.mean()).cast<float>();
+  int best = -reach;
+  float least = std::numeric_limits<float>::max();
+  for (int step = -reach; step <= reach; ++step) {
+    const auto patch = strip.middleCols(step + reach, side);
+    const float difference = (patch - patch.mean() - model).abs().sum();
+    if (difference < least) least = difference, best = step;
+  }
+  if (std::abs(best) == reach) return std::nullopt;
+  return best;
 }
 
 /// How a square of the left image lies in the right one: where its centre's column is, and how much
@@ -115,34 +139,19 @@ std::optional<RowAlignment> AlignAlongRow(const cv::Mat1b& left, cv::Point2d lef
   if (!Holds(left, left_pixel.x - radius - 1, top, side + 2, side)) return std::nullopt;
   const Patch wide = Sample(left, left_pixel.x - radius - 1, top, side + 2, side);
   const Patch centre = wide.middleCols(1, side);
-  const Patch model = centre - centre.mean();
   const Patch gradient = 0.5 * (wide.rightCols(side) - wide.leftCols(side));
   const double gradient_energy = (gradient - gradient.mean()).square().sum();
   if (gradient_energy < 1.0) return std::nullopt;
 
-  const auto sampled = [&](double column) -> std::optional<Patch> {
-    if (!Holds(right, column - radius, top, side, side)) return std::nullopt;
-    Patch patch = Sample(right, column - radius, top, side, side);
-    patch -= patch.mean();
-    return patch;
-  };
   // Whole steps from a start that shares the template's fraction, so that both are blurred alike.
   const double fraction = left_pixel.x - std::floor(left_pixel.x);
   const double start = std::round(right_column - fraction) + fraction;
-  int best = 0;
-  double least = -1;
-  for (int step = -options.search_px; step <= options.search_px; ++step) {
-    const std::optional<Patch> patch = sampled(start + step);
-    if (!patch) continue;
-    const double difference = (*patch - model).abs().sum();
-    if (least < 0 || difference < least) least = difference, best = step;
-  }
-  if (least < 0 || std::abs(best) == options.search_px) return std::nullopt;
-
+  const std::optional<int> best = BestStep(centre, right, start, left_pixel.y, options);
+  if (!best) return std::nullopt;
   std::optional<Shift> shift =
-      RefineShift(centre, gradient, right, {start + best, 0, 0}, left_pixel.y, options);
+      RefineShift(centre, gradient, right, {start + *best, 0, 0}, left_pixel.y, options);
   // Least squares has left the best whole column: the patch is not one surface.
-  if (!shift || std::abs(shift->warp.column - (start + best)) > 1.0) return std::nullopt;
+  if (!shift || std::abs(shift->warp.column - (start + *best)) > 1.0) return std::nullopt;
   return RowAlignment{shift->warp.column, shift->sigma, shift->mismatch};
 }
 

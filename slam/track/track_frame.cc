@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "slam/track/match_keyframe.h"
+#include "slam/map/match_keyframe.h"
 
 namespace aisle::slam {
 namespace {

@@ -1,4 +1,4 @@
-#include "slam/track/match_keyframe.h"
+#include "slam/map/match_keyframe.h"
 
 namespace aisle::slam {
 

@@ -1,0 +1,146 @@
+#include "slam/place/find_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "slam/map/match_by_projection.h"
+#include "slam/map/match_keyframe.h"
+
+namespace aisle::slam {
+namespace {
+
+std::vector<PointSight> Sights(const Map& map, const Frame& frame,
+                               const std::vector<Match>& matches) {
+  std::vector<PointSight> sights;
+  for (const Match& match : matches) {
+    sights.push_back({map.At(match.landmark).position,
+                      frame.measurements[static_cast<std::size_t>(match.feature)]});
+  }
+  return sights;
+}
+
+/// Landmarks of a keyframe and of those most covisible with it.
+std::vector<LandmarkId> LandmarksAround(const Map& map, KeyframeId id) {
+  constexpr int kNeighbours = 5, kLeastShared = 15;
+  std::vector<KeyframeId> keyframes = {id};
+  for (const Covisible& covisible : CovisibleKeyframes(map, id, kLeastShared)) {
+    if (keyframes.size() <= kNeighbours) keyframes.push_back(covisible.keyframe);
+  }
+  std::set<LandmarkId> landmarks;
+  for (const KeyframeId keyframe : keyframes) {
+    for (const LandmarkId landmark : map.At(keyframe).landmarks) {
+      if (landmark.valid()) landmarks.insert(landmark);
+    }
+  }
+  return {landmarks.begin(), landmarks.end()};
+}
+
+/// Metres driven between two keyframes.
+double PathLength(const Map& map, KeyframeId from, KeyframeId to) {
+  double length_m = 0;
+  const auto& keyframes = map.keyframes();
+  for (auto at = keyframes.find(from); at != keyframes.end() && at->first < to;) {
+    const Eigen::Vector3d here = at->second->T_world_rig.translation();
+    if (++at == keyframes.end()) break;
+    length_m += (at->second->T_world_rig.translation() - here).norm();
+  }
+  return length_m;
+}
+
+bool IsPlausible(const Map& map, const LoopEdge& loop, const LoopOptions& options) {
+  const Eigen::Isometry3d T_found = map.At(loop.matched).T_world_rig * loop.T_matched_current;
+  const double shift_m =
+      (T_found.translation() - map.At(loop.current).T_world_rig.translation()).norm();
+  return shift_m <=
+         options.drift_m + options.drift_share * PathLength(map, loop.matched, loop.current);
+}
+
+bool Agree(const Map& map, const LoopEdge& a, const LoopEdge& b, const LoopOptions& options) {
+  // Compared where the newer keyframe stands: there the corrections must lead to one place.
+  const Eigen::Isometry3d& T_world_rig = map.At(a.current).T_world_rig;
+  const Eigen::Isometry3d T_a = Correction(map, a) * T_world_rig;
+  const Eigen::Isometry3d T_b = Correction(map, b) * T_world_rig;
+  const double turn = Eigen::AngleAxisd(T_a.linear().transpose() * T_b.linear()).angle();
+  return (T_a.translation() - T_b.translation()).norm() <= options.agree_m &&
+         turn * 180 / M_PI <= options.agree_deg;
+}
+
+}  // namespace
+
+Eigen::Isometry3d Correction(const Map& map, const LoopEdge& loop) {
+  return map.At(loop.matched).T_world_rig * loop.T_matched_current *
+         map.At(loop.current).T_world_rig.inverse();
+}
+
+std::optional<LoopEdge> VerifyLoop(const Map& map, KeyframeId current, KeyframeId matched,
+                                   const StereoCamera& camera, int levels,
+                                   const LoopOptions& options) {
+  const Frame& frame = *map.At(current).frame;
+  const std::vector<Match> matches = MatchKeyframe(
+      map, map.At(matched), frame, options.descriptor_distance, options.descriptor_ratio);
+  const auto first = AlignPoints(camera, Sights(map, frame, matches), options.align);
+  if (!first) return std::nullopt;
+
+  std::vector<Expected> expected;
+  for (const LandmarkId id : LandmarksAround(map, matched)) {
+    const auto one = Expect(map.At(id), camera, first->T_rig_world, frame.scale, levels);
+    if (one) expected.push_back(*one);
+  }
+  const std::vector<Match> confirmed =
+      MatchByProjection(frame, expected, {}, {options.radius_px, options.descriptor_distance, 0.9});
+  const RefinedPose refined =
+      RefinePose(camera, first->T_rig_world, Sights(map, frame, confirmed), {.trust_start = true});
+  if (refined.inliers < options.least_inliers || !refined.well_posed) return std::nullopt;
+  return LoopEdge{current, matched, (refined.T_rig_world * map.At(matched).T_world_rig).inverse(),
+                  refined.inliers};
+}
+
+std::optional<LoopEdge> FindLoop(const Map& map, KeyframeId current, const WordVector& words,
+                                 const PlaceIndex& index, const StereoCamera& camera, int levels,
+                                 const LoopOptions& options) {
+  // Whatever shares landmarks is here already; a loop looks nearly as much like here as they do.
+  std::set<KeyframeId> here = {current};
+  double least_likeness = 1;
+  constexpr int kNeighbourShared = 30;
+  for (const Covisible& covisible : CovisibleKeyframes(map, current, 1)) {
+    here.insert(covisible.keyframe);
+    const WordVector* neighbour = index.Find(covisible.keyframe);
+    if (neighbour && covisible.shared >= kNeighbourShared) {
+      least_likeness = std::min(least_likeness, Likeness(words, *neighbour));
+    }
+  }
+  int recent = 0;
+  for (auto newest = map.keyframes().rbegin();
+       newest != map.keyframes().rend() && recent < options.recent_keyframes; ++newest, ++recent) {
+    here.insert(newest->first);
+  }
+  std::optional<LoopEdge> best;
+  int looked_at = 0;
+  for (const Lookalike& lookalike : index.Query(words)) {
+    if (lookalike.likeness < options.likeness_share * least_likeness) break;
+    if (here.contains(lookalike.keyframe) || !map.Find(lookalike.keyframe)) continue;
+    if (looked_at++ == options.candidates) break;
+    const auto loop = VerifyLoop(map, current, lookalike.keyframe, camera, levels, options);
+    if (loop && (!best || loop->inliers > best->inliers)) best = loop;
+  }
+  return best;
+}
+
+std::vector<LoopEdge> AgreeingLoops(const Map& map, const std::vector<LoopEdge>& loops,
+                                    const LoopOptions& options) {
+  std::vector<LoopEdge> agreeing;
+  if (loops.empty()) return agreeing;
+  const auto exists = [&](const LoopEdge& loop) {
+    return map.Find(loop.current) && map.Find(loop.matched);
+  };
+  const LoopEdge& newest = loops.back();
+  if (!exists(newest) || !IsPlausible(map, newest, options)) return agreeing;
+  for (const LoopEdge& loop : loops) {
+    if (exists(loop) && Agree(map, newest, loop, options)) agreeing.push_back(loop);
+  }
+  if (std::ssize(agreeing) < options.agreeing) agreeing.clear();
+  return agreeing;
+}
+
+}  // namespace aisle::slam

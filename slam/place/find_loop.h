@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "slam/camera/stereo_camera.h"
+#include "slam/optimize/adjust_map.h"
+#include "slam/optimize/align_points.h"
+#include "slam/place/place_index.h"
+
+namespace aisle::slam {
+
+/// When a place counts as seen before.
+struct LoopOptions {
+  int candidates = 3;             ///< keyframes looked at closely, most alike first
+  int recent_keyframes = 10;      ///< the newest ones are no loop
+  double likeness_share = 0.8;    ///< of the likeness to the least alike neighbour
+  int descriptor_distance = 50;   ///< bits
+  double descriptor_ratio = 0.8;  ///< best to second best
+  AlignPointsOptions align;       ///< the pose between the two keyframes
+  int least_inliers = 40;         ///< landmarks of the old place that the new view confirms
+  double radius_px = 8;           ///< search for those, pixels of the predicted level
+  int agreeing = 3;               ///< loops that must tell the same correction before it is made
+  int remembered = 10;            ///< keyframes after which an unconfirmed loop is forgotten
+  double agree_m = 0.1;           ///< translation by which two corrections may differ
+  double agree_deg = 1.0;         ///< rotation by which two corrections may differ
+  double drift_share = 0.02;      ///< of the path in between: no correction may be larger, ...
+  double drift_m = 0.3;           ///< ... this aside: racks that look alike stand further apart
+};
+
+/// Where keyframe `matched` sees keyframe `current`: found from their features alone, then
+/// confirmed by the landmarks around the old place. Nothing if the two do not show one place.
+std::optional<LoopEdge> VerifyLoop(const Map& map, KeyframeId current, KeyframeId matched,
+                                   const StereoCamera& camera, int levels,
+                                   const LoopOptions& options);
+
+/// The best verified loop of a keyframe that the index does not contain yet.
+std::optional<LoopEdge> FindLoop(const Map& map, KeyframeId current, const WordVector& words,
+                                 const PlaceIndex& index, const StereoCamera& camera, int levels,
+                                 const LoopOptions& options);
+
+/// Where the loop says the current keyframe ought to be, seen from where it is: T_new_old.
+Eigen::Isometry3d Correction(const Map& map, const LoopEdge& loop);
+
+/// The loops that agree with the newest one (pairwise consistency), itself included, or none where
+/// they are too few or ask for more than odometry can have drifted.
+std::vector<LoopEdge> AgreeingLoops(const Map& map, const std::vector<LoopEdge>& loops,
+                                    const LoopOptions& options);
+
+}  // namespace aisle::slam

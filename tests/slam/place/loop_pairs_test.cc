@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include "slam/feature/extract.h"
+#include "slam/map/create_landmarks.h"
+#include "slam/place/find_loop.h"
+#include "slam/stereo/match_stereo.h"
+#include "tests/slam/face/real_sequences.h"
+
+namespace aisle::slam {
+namespace {
+
+/// Four stereo pairs of EuRoC, (0, 1) and (2, 3) showing one place each, as keyframes of a map that
+/// knows nothing of how they lie to each other.
+class LoopPairs : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!HasRealData("euroc-loop-pairs")) GTEST_SKIP() << "no data at " << AISLE_TEST_DATA;
+    const std::filesystem::path root = std::filesystem::path(AISLE_TEST_DATA) / "euroc-loop-pairs";
+    const EurocRectifier rectifier(ReadEurocEye(root / "sensorLeft.yaml"),
+                                   ReadEurocEye(root / "sensorRight.yaml"), {752, 480});
+    camera = rectifier.camera();
+    for (int i = 0; i < 4; ++i) {
+      const auto read = [&](const char* eye) {
+        return cv::imread(root / fmt::format("{}_img_{}.png", eye, i), cv::IMREAD_GRAYSCALE);
+      };
+      AddKeyframe(rectifier.Rectify(i, i, read("left"), read("right")));
+    }
+  }
+
+  void AddKeyframe(const StereoImages& images) {
+    const EyeFeatures left = ExtractFeatures(images.left, {}, {});
+    const EyeFeatures right = ExtractFeatures(images.right, {}, {});
+    const std::vector<Disparity> disparities = MatchStereo(left, right, camera, {});
+    auto frame = std::make_shared<Frame>();
+    frame->features = left.features;
+    for (std::size_t i = 0; i < disparities.size(); ++i) {
+      const Keypoint& keypoint = left.features.keypoints[i];
+      frame->measurements.push_back({{keypoint.pixel.x, keypoint.pixel.y, disparities[i].value},
+                                     left.pyramid.scales[static_cast<std::size_t>(keypoint.level)],
+                                     disparities[i].sigma});
+    }
+    frame->grid = FeatureGrid(left.features.keypoints, images.left.size());
+    Keyframe keyframe;
+    keyframe.id = map.NextKeyframeId();
+    keyframe.frame = frame;
+    keyframe.T_world_rig.translation().x() = 100.0 * static_cast<double>(keyframe.id.value);
+    keyframe.landmarks.resize(frame->features.keypoints.size());
+    MapEdit edit;
+    edit.new_landmarks = CreateLandmarks(keyframe, camera, {});
+    edit.new_keyframes = {keyframe};
+    map.Apply(edit);
+  }
+
+  StereoCamera camera;
+  Map map;
+};
+
+TEST_F(LoopPairs, RevisitsAreFoundAndMeasured) {
+  LoopOptions options;
+  options.least_inliers = 25;  // from single keyframes, without the landmarks of neighbours
+  const auto first = VerifyLoop(map, {1}, {0}, camera, 8, options);
+  ASSERT_TRUE(first);
+  EXPECT_NEAR(first->T_matched_current.translation().norm(), 0.411, 0.01);
+  const auto second = VerifyLoop(map, {3}, {2}, camera, 8, options);
+  ASSERT_TRUE(second);
+  EXPECT_NEAR(second->T_matched_current.translation().norm(), 0.318, 0.01);
+}
+
+TEST_F(LoopPairs, DifferentPlacesAreNotTakenForOne) {
+  for (const auto& [current, matched] :
+       {std::pair<int, int>{2, 0}, {2, 1}, {3, 0}, {3, 1}, {0, 2}, {1, 3}}) {
+    EXPECT_FALSE(VerifyLoop(map, {current}, {matched}, camera, 8, {}))
+        << current << " and " << matched;
+  }
+}
+
+TEST_F(LoopPairs, TheOtherVisitIsTheMostAlike) {
+  std::vector<std::vector<Descriptor>> images;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    images.push_back(keyframe->frame->features.descriptors);
+  }
+  const Vocabulary vocabulary = Vocabulary::Train(images, {.depth = 3});
+  for (const auto& [current, other] : {std::pair<int, int>{0, 1}, {1, 0}, {2, 3}, {3, 2}}) {
+    PlaceIndex index;
+    for (int i = 0; i < 4; ++i) {
+      if (i != current) index.Add({i}, vocabulary.Describe(images[static_cast<std::size_t>(i)]));
+    }
+    const auto found = index.Query(vocabulary.Describe(images[static_cast<std::size_t>(current)]));
+    EXPECT_EQ(found.front().keyframe, KeyframeId{other}) << "asked for " << current;
+  }
+}
+
+/// Loops as a drive would find them, keyframe 1 drifted by `drift_m` from where it is.
+std::vector<LoopEdge> LoopsWithCorrections(const std::vector<double>& corrections_m) {
+  std::vector<LoopEdge> loops;
+  for (const double correction_m : corrections_m) {
+    LoopEdge loop{{1}, {0}, Eigen::Isometry3d::Identity(), 100};
+    loop.T_matched_current.translation().x() = 100 + correction_m;
+    loops.push_back(loop);
+  }
+  return loops;
+}
+
+TEST_F(LoopPairs, OnlyLoopsThatAgreeAreBelieved) {
+  LoopOptions options;
+  EXPECT_EQ(AgreeingLoops(map, LoopsWithCorrections({0.2, 0.21, 0.19}), options).size(), 3u);
+  EXPECT_TRUE(AgreeingLoops(map, LoopsWithCorrections({0.2}), options).empty());
+  EXPECT_TRUE(AgreeingLoops(map, LoopsWithCorrections({2, -0.5, 0.2}), options).empty());
+  // A rack's pitch after a hundred metres: more than odometry can have drifted.
+  EXPECT_TRUE(AgreeingLoops(map, LoopsWithCorrections({2.7, 2.7, 2.7}), options).empty());
+  EXPECT_TRUE(AgreeingLoops(map, {}, options).empty());
+}
+
+}  // namespace
+}  // namespace aisle::slam
