@@ -109,7 +109,7 @@ TEST_F(TrackFrameTest, AsksForAKeyframeAfterMotionNotAtRest) {
   const auto at_rest = TrackFrame(map, *at_rest_frame, memory, {}, 8, {});
   ASSERT_TRUE(at_rest);
   EXPECT_FALSE(NeedsKeyframe(map, *at_rest_frame, *at_rest, {}, {}));
-  const auto turned_frame = world.See(At(0.2, 0.2, 32), 50'000'000);
+  const auto turned_frame = world.See(At(0.2, 0.2, 52), 50'000'000);
   const auto turned = TrackFrame(map, *turned_frame, memory, {}, 8, {});
   ASSERT_TRUE(turned);
   EXPECT_TRUE(NeedsKeyframe(map, *turned_frame, *turned, {}, {}));
