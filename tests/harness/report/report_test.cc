@@ -1,0 +1,245 @@
+#include "harness/report/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <pugixml.hpp>
+
+#include "harness/io/file.h"
+#include "harness/io/image.h"
+#include "harness/io/input_error.h"
+#include "harness/report/html.h"
+#include "harness/report/overlay.h"
+#include "harness/report/samples.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A run along an aisle in which a mover pushes the estimate aside for a while.
+RunResult MakeRun(const std::string& scene, const std::string& system, std::uint64_t seed,
+                  double push_m) {
+  RunResult run;
+  run.spec = {.scene = scene,
+              .scene_file = "scenes/" + scene + ".yaml",
+              .twin = "live",
+              .system = system,
+              .seed = seed};
+  for (int k = 0; k < 300; ++k) {
+    const double s = k / 20.0;
+    const double movers = std::max(0.0, 0.3 - 0.05 * std::abs(s - 7));
+    Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();
+    truth.translation() << 0.9 * s, 0.2 * std::sin(0.4 * s), 1.1;
+    Eigen::Isometry3d estimated = truth;
+    estimated.translation().y() += push_m * (movers > 0.05 ? movers : 0.02 * std::sin(3 * s));
+    FrameEstimate estimate;
+    estimate.id = k;
+    estimate.stamp_ns = k * 50'000'000LL;
+    estimate.state = TrackingState::kTracking;
+    estimate.T_world_rig = estimated;
+    estimate.stage_ms = {{"extract", 14.0 + k % 3}, {"stereo", 6}, {"track", 4}, {"map", 9}};
+    FrameFacts facts;
+    facts.stamp_ns = estimate.stamp_ns;
+    facts.T_world_rig = truth;
+    facts.movers_share = movers;
+    facts.features = 1000;
+    facts.features_on_movers = system == "oracle" ? 0 : static_cast<int>(900 * movers);
+    facts.render_ms = 180;
+    facts.process_ms = 35;
+    if (system == "oracle") {
+      facts.mask = MaskFacts{.true_positives = static_cast<std::int64_t>(1000 * movers)};
+    }
+    run.truth.push_back({estimate.stamp_ns, truth});
+    run.trajectory.live.push_back({estimate.stamp_ns, estimated});
+    run.estimates.push_back(estimate);
+    run.facts.push_back(facts);
+  }
+  run.trajectory.final = run.trajectory.live;
+  return run;
+}
+
+class ReportTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / fmt::format("aisle_report_{}", ::getpid());
+    if (const char* kept = std::getenv("AISLE_TEST_REPORT_DIR")) folder_ = kept;
+  }
+  void TearDown() override {
+    if (std::getenv("AISLE_TEST_REPORT_DIR") == nullptr) fs::remove_all(folder_);
+  }
+
+  Results Make(const std::vector<RunResult>& runs, const std::vector<Limit>& limits) {
+    Results results;
+    results.provenance = {"0.1.0", "abc1234", "some processor", "Debian", 2};
+    results.suite = "quickstart";
+    results.question = "Does a person close in front spoil the pose?";
+    results.started = "2026-01-31T02:00:00Z";
+    results.rerun = "./aisle run scenes/suites/quickstart.yaml";
+    results.wall_s = 123.4;
+    for (const RunResult& run : runs) {
+      RunRecord record = MakeRecord(run, 20);
+      const std::string folder = "runs/" + RunId(run.spec);
+      WriteImage(folder_ / folder / "frame_000001.jpg", cv::Mat1b(504, 752, (unsigned char)90));
+      record.artifacts["picture_00"] = folder + "/frame_000001.jpg";
+      results.runs.push_back(WriteRun(run, record, folder_));
+    }
+    results.verdicts = Judge(results.runs, limits);
+    return results;
+  }
+  std::string Read(const std::string& name) const { return ReadFile(folder_ / name); }
+
+  fs::path folder_;
+};
+
+const Limit kTight{
+    .score = "ate_rmse_m", .scene = "", .twin = "live", .system = "oracle", .min = {}, .max = 0.02};
+const Limit kBroken{
+    .score = "ate_rmse_m", .scene = "", .twin = "", .system = "orbslam2", .min = {}, .max = 0.02};
+
+TEST_F(ReportTest, ResultsReadBackAsTheyWere) {
+  const Results results = Make({MakeRun("paper/scene2", "oracle", 1, 0.01)}, {kTight});
+  const Results read = ResultsFromJson(ToJson(results), "x");
+  EXPECT_EQ(ToJson(read), ToJson(results));
+  const auto record = ReadRun(results.runs[0].spec, folder_);
+  ASSERT_TRUE(record);
+  EXPECT_EQ(ToJson(*record), ToJson(results.runs[0]));
+}
+
+TEST_F(ReportTest, FramesReadBackAsTheyWere) {
+  const std::vector<FrameRow> rows = MakeFrameRows(MakeRun("a", "oracle", 1, 0.01));
+  EXPECT_EQ(ToCsv(FrameRowsFromCsv(ToCsv(rows), "x")), ToCsv(rows));
+}
+
+TEST_F(ReportTest, ThePageTellsTheVerdictFirst) {
+  WriteReport(Make({MakeRun("paper/scene2", "orbslam2", 1, 0.6),
+                    MakeRun("paper/scene2", "oracle", 1, 0.02)},
+                   {kTight, kBroken}),
+              folder_);
+  const std::string page = Read("index.html");
+  EXPECT_THAT(page, HasSubstr("1 of 2 limits broken"));
+  EXPECT_LT(page.find("limits broken"), page.find("Absolute trajectory error"));
+  EXPECT_THAT(page, HasSubstr("BROKEN</span> paper/scene2 live orbslam2: ate_rmse_m: value 0.0"));
+  EXPECT_THAT(page, HasSubstr("--twins live --systems orbslam2 --seed 1</code>"));
+}
+
+TEST_F(ReportTest, ThePageObeysTheStrictestPolicy) {
+  WriteReport(Make({MakeRun("paper/scene2", "oracle", 1, 0.02)}, {}), folder_);
+  const std::string page = Read("index.html");
+  for (const char* forbidden : {"<script", " style=\"", "data:", "http:", "https:", "onclick"}) {
+    EXPECT_THAT(page, Not(HasSubstr(forbidden)));
+  }
+}
+
+TEST_F(ReportTest, HostileNamesDoNoHarmAnywhere) {
+  const std::string hostile[] = {"\"><script>alert(1)</script>",
+                                 "../../etc/x",
+                                 "a\nb\x1b[31m",
+                                 std::string(4096, 'n'),
+                                 "\xff\xfe",
+                                 "CON",
+                                 "",
+                                 "..",
+                                 "&<'"};
+  std::vector<RunResult> runs;
+  for (const std::string& name : hostile) runs.push_back(MakeRun(name, "oracle", 1, 0.01));
+  const Results results = Make(runs, {kTight});
+  WriteReport(results, folder_);
+  for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+    const std::string path = fs::relative(entry.path(), folder_).string();
+    EXPECT_EQ(path.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                     "0123456789_.-/"),
+              std::string::npos)
+        << path;
+    if (entry.path().extension() != ".html") continue;
+    EXPECT_THAT(ReadFile(entry.path()), Not(HasSubstr("<script")));
+  }
+  pugi::xml_document document;
+  EXPECT_TRUE(document.load_string(Read("junit.xml").c_str()));
+  EXPECT_EQ(ReadResults(folder_).runs.size(), std::size(hostile));
+}
+
+TEST_F(ReportTest, JunitCarriesTheNumbers) {
+  const Results results = Make({MakeRun("s", "orbslam2", 1, 0.6)}, {kBroken});
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(ToJunit(results).c_str()));
+  const pugi::xml_node suite = document.child("testsuites").child("testsuite");
+  EXPECT_STREQ(suite.attribute("failures").value(), "1");
+  const pugi::xml_node test = suite.child("testcase");
+  EXPECT_STREQ(test.attribute("classname").value(), "quickstart.s live orbslam2");
+  EXPECT_STREQ(test.attribute("name").value(), "ate_rmse_m");
+  EXPECT_THAT(test.child("failure").attribute("message").value(), HasSubstr("is not at most 0.02"));
+}
+
+TEST(VerdictTest, AScoreThatIsAbsentFails) {
+  RunRecord run;
+  run.spec = {.scene = "s", .scene_file = "", .twin = "live", .system = "oracle", .seed = 1};
+  run.scores["ate_rmse_m"].absent = "no poses";
+  const auto verdicts = Judge({run}, {kTight});
+  ASSERT_EQ(verdicts.size(), 1u);
+  EXPECT_FALSE(verdicts[0].passed);
+  EXPECT_EQ(verdicts[0].why, "seed 1 has no value: no poses");
+}
+
+TEST(VerdictTest, TheMedianOverSeedsIsHeldAgainstTheBound) {
+  std::vector<RunRecord> runs(3);
+  const double values[] = {0.01, 0.5, 0.015};
+  for (std::size_t i = 0; i < 3; ++i) {
+    runs[i].spec = {.scene = "s", .scene_file = "", .twin = "live", .system = "oracle", .seed = i};
+    runs[i].scores["ate_rmse_m"] = {
+        .value = values[i], .unit = "m", .alignment = "se3", .n = 9, .absent = ""};
+  }
+  const auto verdicts = Judge(runs, {kTight});
+  ASSERT_EQ(verdicts.size(), 1u);
+  EXPECT_TRUE(verdicts[0].passed);
+  EXPECT_DOUBLE_EQ(*verdicts[0].value, 0.015);
+}
+
+TEST(VerdictTest, ALimitThatMatchesNothingFails) {
+  const auto verdicts = Judge({}, {kTight});
+  ASSERT_EQ(verdicts.size(), 1u);
+  EXPECT_FALSE(verdicts[0].passed);
+}
+
+TEST(VerdictTest, ACrashFailsWithoutAnyLimit) {
+  RunRecord run;
+  run.spec.system = "oracle";
+  run.status = RunStatus::kCrashed;
+  run.status_why = "signal 11";
+  const auto verdicts = Judge({run}, {});
+  ASSERT_EQ(verdicts.size(), 1u);
+  EXPECT_EQ(verdicts[0].why, "crashed: signal 11");
+}
+
+TEST(EscapeTest, MarkupAndBrokenBytesAreHarmless) {
+  EXPECT_EQ(Escape("<a b=\"c\">&'"), "&lt;a b=&quot;c&quot;&gt;&amp;&#39;");
+  EXPECT_EQ(Escape("\xff\x01ü"), "\xEF\xBF\xBD\xEF\xBF\xBDü");
+  EXPECT_EQ(EscapeUrl("a b/<c>\n"), "a%20b/%3Cc%3E%0A");
+}
+
+TEST(OverlayTest, MovingPixelsTurnRed) {
+  const cv::Mat1b left(480, 752, static_cast<unsigned char>(100));
+  FrameTruth truth;
+  truth.dynamic = cv::Mat1b(480, 752, static_cast<unsigned char>(0));
+  truth.dynamic(cv::Rect(100, 100, 50, 50)) = 255;
+  const cv::Mat3b picture = DrawOverlay(left, &truth, nullptr, "caption");
+  EXPECT_GT(picture(120, 120)[2], picture(120, 120)[0]);
+  EXPECT_EQ(picture(300, 300), cv::Vec3b(100, 100, 100));
+}
+
+TEST(SamplesTest, TheFrameWithTheMostMoversIsAmongThem) {
+  SamplePictures samples(2);
+  const cv::Mat1b left(48, 64, static_cast<unsigned char>(100));
+  for (std::size_t i = 0; i < 20; ++i) samples.See(i, 20, left, nullptr, {}, i == 13 ? 0.5 : 0.1);
+  const fs::path folder = fs::temp_directory_path() / fmt::format("aisle_samples_{}", ::getpid());
+  EXPECT_THAT(
+      samples.Write(folder),
+      testing::ElementsAre("frame_000005.jpg", "frame_000013_most_movers.jpg", "frame_000015.jpg"));
+  fs::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace aisle
