@@ -24,6 +24,10 @@ void AddRunOneCommand(CLI::App* app, Action* action);
 void AddScoreCommand(CLI::App* app, Action* action);
 void AddCheckCommand(CLI::App* app, Action* action);
 void AddPreviewCommand(CLI::App* app, Action* action);
+void AddRenderCommand(CLI::App* app, Action* action);
+void AddSlamCommand(CLI::App* app, Action* action);
 void AddReportCommand(CLI::App* app, Action* action);
+void AddCompareCommand(CLI::App* app, Action* action);
+void AddBaselineCommand(CLI::App* app, Action* action);
 
 }  // namespace aisle

@@ -17,8 +17,12 @@ int Run(int argc, char** argv) {
   aisle::AddRunCommand(&app, &action);
   aisle::AddRunOneCommand(&app, &action);
   aisle::AddPreviewCommand(&app, &action);
+  aisle::AddRenderCommand(&app, &action);
+  aisle::AddSlamCommand(&app, &action);
   aisle::AddScoreCommand(&app, &action);
   aisle::AddReportCommand(&app, &action);
+  aisle::AddCompareCommand(&app, &action);
+  aisle::AddBaselineCommand(&app, &action);
   aisle::AddCheckCommand(&app, &action);
   try {
     app.parse(argc, argv);

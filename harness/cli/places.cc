@@ -61,6 +61,10 @@ fs::path CacheDir() {
   return FromEnvironment("AISLE_CACHE", fs::path(AISLE_SOURCE_DIR) / ".cache");
 }
 
+fs::path BaselinePath(const std::string& suite) {
+  return fs::path(AISLE_SOURCE_DIR) / "reports" / "baselines" / (SafeName(suite) + ".json");
+}
+
 fs::path OwnExecutable() { return fs::read_symlink("/proc/self/exe"); }
 
 Provenance OwnProvenance() {

@@ -14,6 +14,9 @@ std::filesystem::path AssetsDir();
 /// Rendered frames shared between runs: $AISLE_CACHE, or .cache/ of the source tree.
 std::filesystem::path CacheDir();
 
+/// The results that `run --gate` holds a suite against: reports/baselines/SUITE.json of the tree.
+std::filesystem::path BaselinePath(const std::string& suite);
+
 /// This very program.
 std::filesystem::path OwnExecutable();
 

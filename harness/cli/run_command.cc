@@ -10,7 +10,9 @@
 #include "harness/io/input_error.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/systems.h"
+#include "harness/report/compare.h"
 #include "harness/report/report.h"
+#include "harness/report/twins.h"
 #include "harness/run/stopwatch.h"
 #include "harness/suite/schedule.h"
 #include "harness/suite/suite.h"
@@ -34,6 +36,7 @@ struct Options {
   double memory_mib = 8192;
   bool resume = false;
   bool no_frame_cache = false;
+  bool gate = false;
 };
 
 std::atomic<bool> interrupted = false;
@@ -89,6 +92,7 @@ Suite LoadInputs(const Options& options) {
     whole.name += "+" + more.name;
     whole.question += " " + more.question;
     whole.scenes.insert(whole.scenes.end(), more.scenes.begin(), more.scenes.end());
+    whole.externals.insert(more.externals.begin(), more.externals.end());
     whole.limits.insert(whole.limits.end(), more.limits.begin(), more.limits.end());
   }
   return whole;
@@ -106,8 +110,8 @@ void CheckScenes(const Suite& suite) {
 }
 
 /// Everything that decides the pixels of a run, and the program that makes them.
-std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Options& options,
-                          const fs::path& out) {
+std::vector<Job> MakeJobs(const Suite& suite, const std::vector<RunSpec>& specs,
+                          const Options& options, const fs::path& out) {
   const std::uint64_t program = HashFile(OwnExecutable(), HashFolder(AssetsDir()));
   std::vector<Job> jobs;
   for (const RunSpec& spec : specs) {
@@ -133,6 +137,15 @@ std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Options& opti
                 std::to_string(options.threads)};
     if (!options.no_frame_cache) {
       job.argv.insert(job.argv.end(), {"--frames", (CacheDir() / "frames" / key).string()});
+    }
+    const auto external = suite.externals.find(spec.system);
+    if (external != suite.externals.end()) {
+      const ExternalSystem& system = external->second;
+      const std::string dataset = key + "-" + system.dataset;
+      job.argv.insert(job.argv.end(), {"--external-command", system.command, "--external-dataset",
+                                       system.dataset, "--external-trajectory", system.trajectory,
+                                       "--external-timeout", fmt::format("{}", system.timeout_s),
+                                       "--dataset", (CacheDir() / "datasets" / dataset).string()});
     }
     jobs.push_back(std::move(job));
   }
@@ -240,8 +253,17 @@ Results Collect(const Suite& suite, const std::vector<RunSpec>& specs, const fs:
   for (const RunSpec& spec : specs) {
     if (std::optional<RunRecord> record = ReadRun(spec, out)) results.runs.push_back(*record);
   }
+  AddDynamicPenalty(&results.runs);
   results.verdicts = Judge(results.runs, suite.limits);
   return results;
+}
+
+void HoldAgainstBaseline(Results* results) {
+  const fs::path path = BaselinePath(results->suite);
+  const Results baseline = ResultsFromJson(ReadFile(path), path.string());
+  for (Verdict& verdict : GateVerdicts(baseline, *results)) {
+    results->verdicts.push_back(std::move(verdict));
+  }
 }
 
 std::vector<RunSpec> StillToDo(const std::vector<RunSpec>& specs, const fs::path& out,
@@ -259,6 +281,10 @@ int RunSuite(const Options& options) {
   const std::string started = NowIso8601();
   const Suite suite = LoadInputs(options);
   CheckScenes(suite);
+  if (options.gate && !fs::exists(BaselinePath(suite.name))) {
+    throw InputError(BaselinePath(suite.name).string(), 0,
+                     "no baseline for this suite; make one with `aisle baseline DIR`");
+  }
   const std::vector<RunSpec> specs = Plan(suite);
   const fs::path out = options.out.empty() ? fs::path("out") / suite.name : fs::path(options.out);
   const std::vector<RunSpec> todo = StillToDo(specs, out, options.resume);
@@ -273,7 +299,7 @@ int RunSuite(const Options& options) {
   Evening evening(out, todo.size(), limits);
   ShrinkStore(CacheDir() / "frames", kFrameStoreBytes);
   const bool finished = RunJobs(
-      MakeJobs(todo, options, out),
+      MakeJobs(suite, todo, options, out),
       {.jobs = options.jobs, .limits = limits, .interrupted = &interrupted},
       {.ended = [&](const Job& job, const ProcessResult& result) { evening.Ended(job, result); },
        .tick = [&](const std::vector<JobProgress>& running,
@@ -287,6 +313,7 @@ int RunSuite(const Options& options) {
   results.started = started;
   results.wall_s = evening.wall_s();
   results.rerun = CommandLine(options);
+  if (options.gate) HoldAgainstBaseline(&results);
   WriteReport(results, out);
   fmt::print("{}", ToConsole(results, StdoutHasColor()));
   fmt::print("report: {}\nagain:  {}\n", (out / "index.html").string(), results.rerun);
@@ -316,6 +343,7 @@ void AddRunCommand(CLI::App* app, Action* action) {
   command->add_option("--memory", options->memory_mib, "MiB of memory per run")
       ->check(CLI::PositiveNumber);
   command->add_flag("--resume", options->resume, "keep the finished runs of the report folder");
+  command->add_flag("--gate", options->gate, "judge against the baseline too");
   command->add_flag("--no-frame-cache", options->no_frame_cache, "render anew for every run");
   command->footer("Example: ./aisle run scenes/suites/quickstart.yaml --seeds 3 --out out/tonight");
   command->callback([=] { *action = [=] { return RunSuite(*options); }; });

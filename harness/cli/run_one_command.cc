@@ -1,5 +1,6 @@
 // One run in a process of its own: what `aisle run` starts for every cell of a suite.
 #include "harness/cli/command.h"
+#include "harness/cli/external.h"
 #include "harness/cli/places.h"
 #include "harness/plugs/cached_sequence.h"
 #include "harness/plugs/simulated_sequence.h"
@@ -16,15 +17,21 @@ struct Options {
   std::string out;
   std::string frames;  ///< folder of the shared frames; empty: none are kept
   int threads = 0;
+  ExternalSystem external;  ///< without a command: the system is one of ours
+  std::string dataset;      ///< folder of the dataset that is exported for it
 };
 
+SimulatedSequenceOptions SimulationOf(const Options& options) {
+  return {.scene_file = options.spec.scene_file,
+          .scene_name = options.spec.scene,
+          .assets_dir = AssetsDir().string(),
+          .twin = options.spec.twin,
+          .seed = options.spec.seed,
+          .threads = options.threads};
+}
+
 std::unique_ptr<Sequence> OpenSequence(const Options& options, std::uint64_t* content_hash) {
-  const SimulatedSequenceOptions simulation{.scene_file = options.spec.scene_file,
-                                            .scene_name = options.spec.scene,
-                                            .assets_dir = AssetsDir().string(),
-                                            .twin = options.spec.twin,
-                                            .seed = options.spec.seed,
-                                            .threads = options.threads};
+  const SimulatedSequenceOptions simulation = SimulationOf(options);
   const auto open = [simulation](std::uint64_t* hash) { return OpenSimulation(simulation, hash); };
   if (options.frames.empty()) return open(content_hash);
   return OpenCached(FrameStore(options.frames), open, content_hash);
@@ -36,7 +43,33 @@ void TellProgress(std::size_t done, std::size_t total) {
   std::fflush(stdout);
 }
 
+int RunOneExternal(const Options& options) {
+  std::uint64_t content_hash = 0;
+  std::unique_ptr<Sequence> kept_open;
+  const std::unique_ptr<Sequence> sequence = OpenSequence(options, &content_hash);
+  const std::filesystem::path folder =
+      std::filesystem::path(options.out) / "runs" / RunId(options.spec);
+  const auto open_path = [&] {
+    PathOfRig path;
+    kept_open = OpenSimulation(SimulationOf(options), nullptr, &path);
+    return path;
+  };
+  ExternalSystem external = options.external;
+  external.name = options.spec.system;
+  RunResult result = RunExternal(external, *sequence,
+                                 {.dataset = options.dataset,
+                                  .output = folder / "output.txt",
+                                  .log = folder / "system.log",
+                                  .seed = options.spec.seed,
+                                  .open_path = open_path});
+  result.spec = options.spec;
+  result.scene_hash = content_hash;
+  WriteRun(result, MakeRecord(result, sequence->rate_hz()), options.out);
+  return kAllPassed;
+}
+
 int RunOne(const Options& options) {
+  if (!options.external.command.empty()) return RunOneExternal(options);
   const System& system = FindSystem(options.spec.system);
   std::uint64_t content_hash = 0;
   const std::unique_ptr<Sequence> sequence = OpenSequence(options, &content_hash);
@@ -79,6 +112,11 @@ void AddRunOneCommand(CLI::App* app, Action* action) {
   command->add_option("--out", options->out)->required();
   command->add_option("--frames", options->frames);
   command->add_option("--threads", options->threads);
+  command->add_option("--external-command", options->external.command);
+  command->add_option("--external-dataset", options->external.dataset);
+  command->add_option("--external-trajectory", options->external.trajectory);
+  command->add_option("--external-timeout", options->external.timeout_s);
+  command->add_option("--dataset", options->dataset);
   command->callback([=] { *action = [=] { return RunOne(*options); }; });
 }
 

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/cli/command.h"
+#include "harness/cli/score_masks.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/trajectory.h"
@@ -12,6 +13,7 @@ namespace {
 
 struct Options {
   std::string truth, estimate, format, times;
+  std::string masks_truth, masks;
   std::string align = "se3", rule = "nearest", unit = "frames";
   double max_difference_s = -1;
   double delta = 1;
@@ -84,7 +86,28 @@ void PrintJson(const TrajectoryScore& score, const ScoreOptions& options) {
   fmt::print("{}", Dump(json));
 }
 
+int ScoreMasksOnly(const Options& options) {
+  TrajectoryScore score;
+  score.scores = ScoreMaskFolders(options.masks_truth, options.masks);
+  if (options.json) {
+    RunRecord record;
+    record.scores = score.scores;
+    fmt::print("{}", Dump({{"scores", RecordToJson(record)["scores"]}}));
+  } else {
+    for (const auto& [name, value] : score.scores) fmt::print("{:28} {}\n", name, ToText(value));
+  }
+  return kAllPassed;
+}
+
 int ScoreFiles(const Options& options) {
+  const bool trajectories = !options.truth.empty() || !options.estimate.empty();
+  if (!options.masks_truth.empty()) {
+    const int code = ScoreMasksOnly(options);
+    if (!trajectories) return code;
+  }
+  if (options.truth.empty() || options.estimate.empty()) {
+    throw InputError("give --truth and --estimate, or --masks-truth and --masks");
+  }
   Trajectory truth = Read(options.truth, options), estimate = Read(options.estimate, options);
   CutToCommonPart(options, &truth, &estimate);
   const ScoreOptions score_options = ScoreOptionsOf(options);
@@ -101,9 +124,10 @@ int ScoreFiles(const Options& options) {
 
 void AddScoreCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand("score", "every metric for anyone's trajectory files");
-  command->add_option("--truth", options->truth, "true trajectory")->required();
-  command->add_option("--estimate", options->estimate, "estimated trajectory")->required();
+  CLI::App* command =
+      app->add_subcommand("score", "every metric for anyone's trajectories and masks");
+  command->add_option("--truth", options->truth, "true trajectory");
+  command->add_option("--estimate", options->estimate, "estimated trajectory");
   command->add_option("--format", options->format, "of both files; default: by their content")
       ->check(CLI::IsMember({"tum", "kitti", "euroc"}));
   command->add_option("--times", options->times, "KITTI times.txt; default 10 poses a second");
@@ -120,6 +144,11 @@ void AddScoreCommand(CLI::App* app, Action* action) {
   command->add_flag("--all-pairs", options->all_pairs, "a relative error from every pose on");
   command->add_flag("--along-estimate", options->along_estimate,
                     "measure metres along the estimate, as evo does");
+  auto* masks_truth = command->add_option("--masks-truth", options->masks_truth,
+                                          "folder of true masks: grey PNGs, 0 = static");
+  command->add_option("--masks", options->masks, "folder of masks to score, the same file names")
+      ->needs(masks_truth);
+  masks_truth->needs(command->get_option("--masks"));
   command->add_flag("--json", options->json, "for programs");
   command->footer("Example: ./aisle score --truth gt.txt --estimate slam.txt --align se3");
   command->callback([=] { *action = [=] { return ScoreFiles(*options); }; });

@@ -71,6 +71,10 @@ class SimulatedSequence : public Sequence {
     return schedule;
   }
 
+  PathOfRig Path() const {
+    return [this](std::int64_t stamp_ns) { return simulator_.PlannedPose(stamp_ns); };
+  }
+
   SequenceFrame At(const FrameRequest& request) const override {
     const sim::RenderedFrame frame =
         simulator_.Render(static_cast<int>(request.id), request.stamp_ns, request.T_world_rig);
@@ -91,14 +95,16 @@ const std::vector<std::string>& TwinNames() {
 }
 
 std::unique_ptr<Sequence> OpenSimulation(const SimulatedSequenceOptions& options,
-                                         std::uint64_t* content_hash) {
+                                         std::uint64_t* content_hash, PathOfRig* path) {
   const sim::Twin twin = TwinFromName(options.twin);
   try {
     sim::Simulator simulator = sim::Simulator::Load(
         options.scene_file, options.assets_dir,
         {.seed = options.seed, .twin = twin, .threads = options.threads, .isa = options.isa});
     if (content_hash != nullptr) *content_hash = simulator.content_hash();
-    return std::make_unique<SimulatedSequence>(std::move(simulator), options.scene_name);
+    auto sequence = std::make_unique<SimulatedSequence>(std::move(simulator), options.scene_name);
+    if (path != nullptr) *path = sequence->Path();
+    return sequence;
   } catch (const std::runtime_error& error) {
     throw InputError(error.what());
   }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "harness/contract/sequence.h"
+#include "harness/io/dataset.h"
 
 namespace aisle {
 
@@ -20,10 +21,12 @@ struct SimulatedSequenceOptions {
 /// The names a suite may use; the same order as in the reports.
 const std::vector<std::string>& TwinNames();
 
-/// A scene as a sequence. `content_hash` may be null. Throws InputError with the simulator's own
-/// message (file:line:column) for a bad scene.
+/// A scene as a sequence. `content_hash` and `path` may be null; `path` becomes the pose of the rig
+/// at any time, valid while the sequence lives. Throws InputError with the simulator's own message
+/// (file:line:column) for a bad scene.
 std::unique_ptr<Sequence> OpenSimulation(const SimulatedSequenceOptions& options,
-                                         std::uint64_t* content_hash = nullptr);
+                                         std::uint64_t* content_hash = nullptr,
+                                         PathOfRig* path = nullptr);
 
 /// Every mistake in a scene file, one message each.
 std::vector<std::string> CheckScene(const std::string& scene_file);

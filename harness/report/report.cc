@@ -3,6 +3,7 @@
 #include "harness/io/file.h"
 #include "harness/report/page.h"
 #include "harness/report/style.h"
+#include "harness/report/twins.h"
 
 namespace aisle {
 namespace {
@@ -17,6 +18,7 @@ void WriteReport(const Results& results, const std::filesystem::path& report_dir
   const bool own_pages = scenes.size() > kScenesOnOnePage;
   std::string body = VerdictSection(results) +
                      OverviewSection(scenes, own_pages ? SceneLinks::kPages : SceneLinks::kAnchors);
+  body += CostSection(scenes);
   for (const SceneRuns& scene : scenes) {
     const std::string section = SceneSection(scene, report_dir, "");
     if (own_pages) {

@@ -30,7 +30,7 @@ h3 { font-size: 15px; margin: 24px 0 6px; }
 p { margin: 6px 0; max-width: 78ch; }
 a { color: var(--c1); }
 .soft { color: var(--soft); }
-.small { font-size: 13px; }
+.small { font-size: 13px; max-width: 120ch; }
 .verdict {
   border-left: 6px solid var(--rule); background: var(--card); padding: 14px 18px; margin: 18px 0;
   border-radius: 4px;

@@ -113,6 +113,12 @@ MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth, const std::vector<cv:
   return facts;
 }
 
+MaskFacts CompareMaskImages(const cv::Mat1b& truth, const cv::Mat1b& rejected) {
+  MaskFacts facts;
+  CountPixels(truth, rejected, &facts);
+  return facts;
+}
+
 MaskFacts CompareMasks(const cv::Mat1b& left, const FrameTruth& truth,
                        const DynamicRegions& regions, const MaskOptions& options) {
   const cv::Mat1b dynamic = OrEmpty(truth.dynamic, left.size(), "truth's dynamic");

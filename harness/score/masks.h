@@ -31,6 +31,9 @@ std::vector<cv::Rect2d> RejectedBoxes(const DynamicRegions& regions, const MaskO
 MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth, const std::vector<cv::Rect2d>& rejected,
                      const MaskOptions& options);
 
+/// Pixel counts alone, of masks of one size.
+MaskFacts CompareMaskImages(const cv::Mat1b& truth, const cv::Mat1b& rejected);
+
 /// All comparisons of one frame. `truth.dynamic` and `regions.mask` have the size of `left`, or are
 /// empty (nothing moves, nothing is rejected). Throws std::invalid_argument on other sizes.
 MaskFacts CompareMasks(const cv::Mat1b& left, const FrameTruth& truth,

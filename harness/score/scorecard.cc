@@ -229,6 +229,12 @@ Scorecard ScoreRun(const RunResult& run, const ScoreOptions& options) {
   return scores;
 }
 
+Scorecard ScoreMasks(const RunResult& run) {
+  Scorecard scores;
+  AddMasks(run, &scores);
+  return scores;
+}
+
 std::string ToText(const Score& score) {
   if (!score.value) return "- (" + score.absent + ")";
   return fmt::format("{:.6g} {} (n = {}{})", *score.value, score.unit == "1" ? "" : score.unit,

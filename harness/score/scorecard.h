@@ -33,6 +33,9 @@ TrajectoryScore ScoreTrajectory(const Trajectory& truth, const Trajectory& estim
 /// errors over all frames with lost ones counted as failures, masks, features, stage times.
 Scorecard ScoreRun(const RunResult& run, const ScoreOptions& options = {});
 
+/// The mask scores of a run alone: object_*, mask_*, static_features_lost.
+Scorecard ScoreMasks(const RunResult& run);
+
 /// Says in words when positions agree and rotations are off by one constant turn: a file in the
 /// body frame held against one in the camera frame, say. Empty where nothing is suspicious.
 std::string FrameMismatch(const Trajectory& truth, const Trajectory& estimate,

@@ -2,7 +2,9 @@
 
 #include <charconv>
 #include <filesystem>
+#include <sstream>
 
+#include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/suite/yaml_guard.h"
 
@@ -13,6 +15,18 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxSeeds = 1000;
 constexpr const char* kNameRule = "letters, digits, '_', '.' and '-', 1 to 80 of them";
+
+/// The comment a file opens with, as one line of text: what the suite asks when no key says so.
+std::string OpeningComment(const std::string& text) {
+  std::istringstream stream(text);
+  std::string comment, line;
+  while (std::getline(stream, line) && line.starts_with("#")) {
+    const std::size_t first = line.find_first_not_of("# \t");
+    if (first == std::string::npos) continue;
+    comment += (comment.empty() ? "" : " ") + line.substr(first);
+  }
+  return comment;
+}
 
 /// A suite file being read: knows where every complaint belongs.
 class Reader {
@@ -25,12 +39,12 @@ class Reader {
                 "suite: quickstart");
     Suite suite;
     suite.name = NameAt(Required("suite", "suite: quickstart"));
-    suite.question = Text(Required("question", "question: Does the mask help?"));
+    suite.question = root_["question"] ? Text(root_["question"]) : OpeningComment(ReadFile(file_));
     for (const YAML::Node& scene : List(Required("scenes", "scenes: [paper/scene2]"))) {
       suite.scenes.push_back(SceneAt(scene));
     }
     for (const YAML::Node& system : List(Required("systems", "systems: [orbslam2, oracle]"))) {
-      suite.systems.push_back(OneOf(system, vocabulary_.systems, "system"));
+      suite.systems.push_back(SystemAt(system, &suite.externals));
     }
     if (root_["twins"]) suite.twins = Twins();
     if (root_["seeds"]) suite.seeds = Seeds(root_["seeds"]);
@@ -94,6 +108,34 @@ class Reader {
                              fmt::join(known, ", ")));
     }
     return name;
+  }
+
+  /// A known name, or the description of a command, which is filed under its name.
+  std::string SystemAt(const YAML::Node& node,
+                       std::map<std::string, ExternalSystem>* externals) const {
+    if (!node.IsMap()) return OneOf(node, vocabulary_.systems, "system");
+    const std::string example = "{name: mine, command: my_slam {dataset} {output}}";
+    RequireKeys(node, {"name", "command", "dataset", "trajectory", "timeout_s"}, example);
+    if (!node["name"] || !node["command"]) {
+      Fail(node, "an external system needs a name and a command, for example " + example);
+    }
+    ExternalSystem system;
+    system.name = NameAt(node["name"]);
+    system.command = Text(node["command"]);
+    const auto& known = vocabulary_.systems;
+    if (std::find(known.begin(), known.end(), system.name) != known.end()) {
+      Fail(node["name"], "'" + system.name + "' is one of ours: choose another name");
+    }
+    if (system.command.find("{output}") == std::string::npos) {
+      Fail(node["command"], "the command must say where {output} goes, for example " + example);
+    }
+    if (node["dataset"]) system.dataset = OneOf(node["dataset"], {"euroc", "kitti"}, "dataset");
+    if (node["trajectory"]) {
+      system.trajectory = OneOf(node["trajectory"], {"tum", "kitti", "euroc"}, "trajectory");
+    }
+    if (node["timeout_s"]) system.timeout_s = Number(node["timeout_s"]);
+    (*externals)[system.name] = system;
+    return system.name;
   }
 
   SuiteScene SceneAt(const YAML::Node& node) const {

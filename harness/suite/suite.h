@@ -1,8 +1,10 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
+#include "harness/contract/external.h"
 #include "harness/contract/run.h"
 #include "harness/report/verdict.h"
 
@@ -19,6 +21,7 @@ struct Suite {
   std::string question;
   std::vector<SuiteScene> scenes;
   std::vector<std::string> systems;
+  std::map<std::string, ExternalSystem> externals;  ///< those of `systems` that are commands
   std::vector<std::string> twins = {"live"};
   std::vector<std::uint64_t> seeds = {1};
   std::vector<Limit> limits;
@@ -33,13 +36,23 @@ struct Vocabulary {
 /// Reads a suite file:
 ///
 ///   suite: quickstart
-///   question: Does a person who fills the image spoil the pose?
+///   question: Does a person who fills the image spoil the pose?   # or the opening comment
 ///   scenes: [../paper/scene2.yaml]
 ///   systems: [orbslam2, oracle]
 ///   twins: [live]                # optional
 ///   seeds: 1                     # a count, or a list
 ///   limits:                      # optional
 ///     - {score: ate_rmse_m, system: oracle, twin: live, max: 0.02}
+///
+/// A system may also be a command of your own:
+///
+///   systems:
+///     - orbslam2
+///     - name: mine
+///       command: my_slam {dataset} {calibration} {output}
+///       dataset: euroc             # or kitti
+///       trajectory: tum            # or kitti, euroc: what it writes to {output}
+///       timeout_s: 600
 ///
 /// Scenes are sought from the suite's folder, then from the scenes folder that holds it; ".yaml"
 /// may be left out. Throws InputError with file:line:column, what was expected and an example.

@@ -59,6 +59,12 @@ TEST_F(SuiteTest, DefaultsAreOneLiveSeed) {
   EXPECT_FALSE(IsSuiteFile((root_ / "paper/one.yaml").string()));
 }
 
+TEST_F(SuiteTest, TheOpeningCommentAsksWhereNoKeyDoes) {
+  const Suite suite =
+      Load("# Does it\n# hold?\nsuite: q\nscenes: [paper/one]\nsystems: [oracle]\n# not this\n");
+  EXPECT_EQ(suite.question, "Does it hold?");
+}
+
 TEST_F(SuiteTest, EveryCellIsPlannedAndFramesAreSharedByNeighbours) {
   const Suite suite = Load(
       "suite: q\nquestion: q\nscenes: [paper/one, ../paper/two.yaml]\nsystems: [orbslam2, oracle]\n"

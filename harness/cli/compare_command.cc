@@ -1,0 +1,84 @@
+#include "harness/cli/command.h"
+#include "harness/cli/places.h"
+#include "harness/cli/terminal.h"
+#include "harness/io/file.h"
+#include "harness/report/compare.h"
+#include "harness/report/page.h"
+#include "harness/report/report.h"
+#include "harness/report/style.h"
+
+namespace aisle {
+namespace {
+
+struct Options {
+  std::string before, after, out;
+  CompareOptions compare;
+  bool json = false;
+};
+
+/// A report's folder, or a results file such as a baseline.
+Results ReadEither(const std::string& path) {
+  return std::filesystem::is_directory(path) ? ReadResults(path)
+                                             : ResultsFromJson(ReadFile(path), path);
+}
+
+void WritePages(const std::vector<Comparison>& comparisons, const Options& options) {
+  const std::filesystem::path out = options.out;
+  const std::string title = options.before + " and " + options.after;
+  WriteFileAtomically(out / "style.css", kStyleSheet);
+  WriteFileAtomically(out / "compare.md", ToMarkdown(comparisons));
+  WriteFileAtomically(out / "compare.json", ToJson(comparisons));
+  WriteFileAtomically(out / "compare.html",
+                      Page("What changed", "", "<h1>What changed</h1>\n" + ToHtml(comparisons)));
+  fmt::print("report: {}\n", (out / "compare.html").string());
+}
+
+int CompareReports(const Options& options) {
+  const std::vector<Comparison> comparisons =
+      Compare(ReadEither(options.before), ReadEither(options.after), options.compare);
+  fmt::print("{}", options.json ? ToJson(comparisons) : ToConsole(comparisons, StdoutHasColor()));
+  if (!options.out.empty()) WritePages(comparisons, options);
+  if (comparisons.empty()) return kNothingToDo;
+  const bool worse = std::any_of(comparisons.begin(), comparisons.end(),
+                                 [](const Comparison& c) { return c.change == Change::kWorse; });
+  return worse ? kVerdictFailed : kAllPassed;
+}
+
+int SetBaseline(const std::string& folder) {
+  const Results results = ReadResults(folder);
+  const std::filesystem::path path = BaselinePath(results.suite);
+  WriteFileAtomically(path, ToJson(results));
+  fmt::print("{}\n", path.string());
+  return kAllPassed;
+}
+
+}  // namespace
+
+void AddCompareCommand(CLI::App* app, Action* action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app->add_subcommand(
+      "compare", "what changed between two reports: better, worse, same, cannot tell");
+  command->add_option("OLD", options->before, "report folder or results.json")->required();
+  command->add_option("NEW", options->after, "report folder or results.json")->required();
+  command->add_option("--alpha", options->compare.alpha, "chance of any false alarm; default 0.01")
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      ->add_option("--minimum-effect", options->compare.minimum_effect,
+                   "share of the old median below which nothing is called a change; default 0.1")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--out", options->out, "folder for compare.html, .md and .json");
+  command->add_flag("--json", options->json, "for programs");
+  command->footer("Example: ./aisle compare out/yesterday out/tonight --out out/compared");
+  command->callback([=] { *action = [=] { return CompareReports(*options); }; });
+}
+
+void AddBaselineCommand(CLI::App* app, Action* action) {
+  const auto folder = std::make_shared<std::string>();
+  CLI::App* command = app->add_subcommand(
+      "baseline", "make a report the baseline that `run --gate` holds its suite against");
+  command->add_option("DIR", *folder, "folder with results.json")->required();
+  command->footer("Example: ./aisle baseline out/quickstart");
+  command->callback([=] { *action = [=] { return SetBaseline(*folder); }; });
+}
+
+}  // namespace aisle

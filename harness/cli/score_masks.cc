@@ -1,0 +1,76 @@
+#include "harness/cli/score_masks.h"
+
+#include <filesystem>
+
+#include "harness/io/image.h"
+#include "harness/io/input_error.h"
+#include "harness/score/boundary.h"
+#include "harness/score/masks.h"
+#include "harness/score/scorecard.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::map<std::string, fs::path> Images(const std::string& folder) {
+  std::error_code error;
+  std::map<std::string, fs::path> images;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".png") images[entry.path().filename().string()] = entry.path();
+  }
+  if (images.empty()) throw InputError(folder, 0, "holds no PNG images");
+  return images;
+}
+
+cv::Mat1b ReadMask(const fs::path& path) {
+  cv::Mat1b mask;
+  cv::compare(ReadGreyPng(path), 0, mask, cv::CMP_NE);
+  return mask;
+}
+
+}  // namespace
+
+Scorecard ScoreMaskFolders(const std::string& truth_folder, const std::string& mask_folder) {
+  const auto truths = Images(truth_folder), masks = Images(mask_folder);
+  for (const auto& [name, path] : masks) {
+    if (truths.count(name) == 0) {
+      throw InputError(path.string(), 0, "belongs to no image of " + truth_folder);
+    }
+  }
+  RunResult run;
+  BoundaryCounts boundary;
+  for (const auto& [name, path] : truths) {
+    FrameTruth truth;
+    truth.dynamic = ReadMask(path);
+    DynamicRegions regions;
+    const auto mask = masks.find(name);
+    regions.mask =
+        mask == masks.end() ? cv::Mat1b(truth.dynamic.size(), 0) : ReadMask(mask->second);
+    if (regions.mask.size() != truth.dynamic.size()) {
+      throw InputError(mask->second.string(), 0, "has another size than its true mask");
+    }
+    // Without labels an object is a blob of moving pixels.
+    const DynamicRegions true_blobs{.mask = truth.dynamic, .regions = {}};
+    FrameFacts facts;
+    facts.mask = CompareMaskImages(truth.dynamic, regions.mask);
+    const MaskFacts objects =
+        MatchBoxes(RejectedBoxes(true_blobs, {}), RejectedBoxes(regions, {}), {});
+    facts.mask->objects_found = objects.objects_found;
+    facts.mask->objects_missed = objects.objects_missed;
+    facts.mask->objects_invented = objects.objects_invented;
+    facts.mask->iou_sum = objects.iou_sum;
+    run.facts.push_back(facts);
+    boundary += CompareBoundaries(truth.dynamic, regions.mask);
+  }
+  Scorecard scores = ScoreMasks(run);
+  scores.erase("static_features_lost");  // needs the pictures, which nobody gave
+  Score& outline = scores["mask_boundary_f"];
+  outline.unit = "1";
+  outline.value = BoundaryF(boundary);
+  outline.n = static_cast<std::size_t>(boundary.truth + boundary.rejected);
+  if (!outline.value) outline.absent = "nothing moved, nothing was rejected";
+  return scores;
+}
+
+}  // namespace aisle

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "harness/contract/score.h"
+
+namespace aisle {
+
+/// Scores a folder of masks against a folder of true ones: grey PNGs, 0 = static, anything else =
+/// moves, paired by file name; a true mask without a partner counts as an empty answer. Throws
+/// InputError for folders without images, sizes that differ, masks that belong to no true one.
+Scorecard ScoreMaskFolders(const std::string& truth_folder, const std::string& mask_folder);
+
+}  // namespace aisle

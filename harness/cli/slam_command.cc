@@ -1,0 +1,73 @@
+#include "harness/cli/command.h"
+#include "harness/cli/terminal.h"
+#include "harness/io/file.h"
+#include "harness/io/input_error.h"
+#include "harness/plugs/recorded_sequence.h"
+#include "harness/plugs/systems.h"
+#include "harness/run/drive.h"
+#include "harness/score/scorecard.h"
+
+namespace aisle {
+namespace {
+
+struct Options {
+  std::string dataset, format = "euroc", system = "orbslam2", output, live;
+  int threads = 0;
+};
+
+void PrintScores(const RunResult& run) {
+  const Scorecard scores = ScoreRun(run);
+  for (const char* name : {"ate_rmse_m", "ate_live_rmse_m", "rpe_trans_rmse_m", "t_rel_percent",
+                           "t_rel_short_percent", "coverage", "ms_process_mean"}) {
+    const auto score = scores.find(name);
+    if (score != scores.end()) fmt::print("{:24} {}\n", name, ToText(score->second));
+  }
+}
+
+int RunSlam(const Options& options) {
+  const System& system = FindSystem(options.system);
+  if (system.mask_source != MaskSource::kNone) {
+    throw InputError("system '" + options.system +
+                     "' needs truth about what moves: a recording has none");
+  }
+  const auto sequence = OpenRecording(options.dataset, DatasetFormatFromName(options.format));
+  const auto estimator = system.make(sequence->calibration(), options.threads);
+  ProgressLine line;
+  const RunResult run =
+      Drive(*sequence, *estimator, MaskSource::kNone, {}, [&](const DrivenFrame& frame) {
+        line.Show(fmt::format("frame {} of {}", frame.index + 1, frame.count));
+      });
+  line.Clear();
+  WriteFileAtomically(options.output,
+                      FormatTrajectory(run.trajectory.final, TrajectoryFormat::kTum));
+  if (!options.live.empty()) {
+    WriteFileAtomically(options.live,
+                        FormatTrajectory(run.trajectory.live, TrajectoryFormat::kTum));
+  }
+  fmt::print("{} frames, {} with a pose, {:.1f} ms each -> {}\n", run.facts.size(),
+             run.trajectory.live.size(),
+             run.facts.empty() ? 0.0 : 1e3 * run.wall_s / static_cast<double>(run.facts.size()),
+             options.output);
+  if (!run.truth.empty()) PrintScores(run);
+  if (run.status == RunStatus::kOk) return kAllPassed;
+  fmt::print(stderr, "aisle: {}\n", run.status_why);
+  return kVerdictFailed;
+}
+
+}  // namespace
+
+void AddSlamCommand(CLI::App* app, Action* action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app->add_subcommand("slam", "a system on recorded stereo images");
+  command->add_option("DATASET", options->dataset, "folder of the recording")->required();
+  command->add_option("--format", options->format, "euroc (default) or kitti")
+      ->check(CLI::IsMember({"euroc", "kitti"}));
+  command->add_option("--system", options->system, "default orbslam2");
+  command->add_option("-o,--output", options->output, "final trajectory, TUM format")->required();
+  command->add_option("--live", options->live, "the live trajectory too");
+  command->add_option("--threads", options->threads, "0: all; never changes a result");
+  command->footer("Example: ./aisle slam V1_01_easy --format euroc -o v101.txt");
+  command->callback([=] { *action = [=] { return RunSlam(*options); }; });
+}
+
+}  // namespace aisle

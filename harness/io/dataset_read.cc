@@ -1,0 +1,211 @@
+#include <yaml-cpp/yaml.h>
+
+#include <charconv>
+#include <sstream>
+
+#include "harness/io/dataset.h"
+#include "harness/io/file.h"
+#include "harness/io/input_error.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<double> Numbers(const std::string& text, const fs::path& file, std::size_t line) {
+  std::istringstream stream(text);
+  std::vector<double> numbers;
+  for (std::string word; stream >> word;) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
+      throw InputError(file.string(), line, fmt::format("'{}' is no number", Printable(word)));
+    }
+    numbers.push_back(value);
+  }
+  return numbers;
+}
+
+// --- EuRoC
+// ----------------------------------------------------------------------------------------
+
+/// A list of so many finite numbers under a key.
+std::vector<double> NumbersAt(const YAML::Node& node, const std::string& key, std::size_t count,
+                              const fs::path& file) {
+  const YAML::Node list = node[key];
+  if (!list || !list.IsSequence() || list.size() != count) {
+    throw InputError(file.string(), 0, fmt::format("key '{}' must hold {} numbers", key, count));
+  }
+  std::vector<double> numbers;
+  for (const YAML::Node& entry : list) {
+    const std::vector<double> one =
+        Numbers(entry.Scalar(), file, static_cast<std::size_t>(entry.Mark().line + 1));
+    if (one.size() != 1)
+      throw InputError(file.string(), 0, "key '" + key + "' holds an empty entry");
+    numbers.push_back(one[0]);
+  }
+  return numbers;
+}
+
+EyeCalibration ReadEurocSensor(const fs::path& file) {
+  YAML::Node root;
+  std::string text = ReadFile(file, 1 << 20);
+  if (text.starts_with("%YAML:")) text.erase(0, text.find('\n') + 1);  // OpenCV's own dialect
+  try {
+    root = YAML::Load(text);
+  } catch (const YAML::Exception& error) {
+    throw InputError(file.string(), static_cast<std::size_t>(error.mark.line + 1),
+                     "is no YAML: " + error.msg);
+  }
+  if (!root.IsMap() || !root["T_BS"]) throw InputError(file.string(), 0, "key 'T_BS' is missing");
+  EyeCalibration eye;
+  const std::vector<double> size = NumbersAt(root, "resolution", 2, file);
+  const std::vector<double> pinhole = NumbersAt(root, "intrinsics", 4, file);
+  const std::vector<double> pose = NumbersAt(root["T_BS"], "data", 16, file);
+  eye.width = static_cast<int>(size[0]);
+  eye.height = static_cast<int>(size[1]);
+  eye.fx = pinhole[0];
+  eye.fy = pinhole[1];
+  eye.cx = pinhole[2];
+  eye.cy = pinhole[3];
+  const std::string model = root["distortion_model"] ? root["distortion_model"].Scalar() : "none";
+  if (model != "radial-tangential" && model != "none") {
+    throw InputError(file.string(), 0,
+                     "distortion model '" + Printable(model) + "': only radial-tangential is read");
+  }
+  if (model != "none") eye.distortion = NumbersAt(root, "distortion_coefficients", 4, file);
+  for (int k = 0; k < 12; ++k) {
+    eye.T_body_eye.matrix()(k / 4, k % 4) = pose[static_cast<std::size_t>(k)];
+  }
+  return eye;
+}
+
+std::map<std::int64_t, fs::path> ReadEurocIndex(const fs::path& camera) {
+  const fs::path file = camera / "data.csv";
+  std::istringstream stream(ReadFile(file));
+  std::map<std::int64_t, fs::path> images;
+  std::string line;
+  for (std::size_t number = 1; std::getline(stream, line); ++number) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line.empty() || line.front() == '#') continue;
+    const std::size_t comma = line.find(',');
+    std::int64_t stamp_ns = 0;
+    const auto [end, error] =
+        std::from_chars(line.data(), line.data() + std::min(comma, line.size()), stamp_ns);
+    if (comma == std::string::npos || error != std::errc() || end != line.data() + comma) {
+      throw InputError(file.string(), number, "expected 'stamp in ns,file name'");
+    }
+    const std::string name = line.substr(comma + 1);
+    if (name.empty() || name.find('/') != std::string::npos || name.starts_with("..")) {
+      throw InputError(file.string(), number, "'" + Printable(name) + "' is no plain file name");
+    }
+    images[stamp_ns] = camera / "data" / name;
+  }
+  return images;
+}
+
+StereoRecording ReadEuroc(const fs::path& folder) {
+  const fs::path mav = fs::is_directory(folder / "mav0") ? folder / "mav0" : folder;
+  StereoRecording recording;
+  recording.left = ReadEurocSensor(mav / "cam0/sensor.yaml");
+  recording.right = ReadEurocSensor(mav / "cam1/sensor.yaml");
+  const auto right = ReadEurocIndex(mav / "cam1");
+  for (const auto& [stamp_ns, image] : ReadEurocIndex(mav / "cam0")) {
+    const auto partner = right.find(stamp_ns);
+    if (partner != right.end()) recording.pairs.push_back({stamp_ns, image, partner->second});
+  }
+  const fs::path truth = mav / "state_groundtruth_estimate0/data.csv";
+  if (fs::exists(truth)) recording.truth = ReadTrajectory(truth, TrajectoryFormat::kEuroc);
+  return recording;
+}
+
+// --- KITTI
+// ----------------------------------------------------------------------------------------
+
+struct KittiFolders {
+  fs::path sequence, poses;
+};
+
+KittiFolders FindKitti(const fs::path& folder) {
+  if (fs::exists(folder / "calib.txt")) {
+    const fs::path clean = fs::absolute(folder).lexically_normal();
+    const fs::path name = clean.has_filename() ? clean.filename() : clean.parent_path().filename();
+    return {folder, folder / ".." / ".." / "poses" / (name.string() + ".txt")};
+  }
+  std::set<fs::path> sequences;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder / "sequences", error)) {
+    if (entry.is_directory()) sequences.insert(entry.path());
+  }
+  if (sequences.size() != 1) {
+    throw InputError(folder.string(), 0,
+                     fmt::format("holds {} sequences: name one, such as {}/sequences/00",
+                                 sequences.size(), folder.string()));
+  }
+  const fs::path only = *sequences.begin();
+  return {only, folder / "poses" / (only.filename().string() + ".txt")};
+}
+
+std::map<std::string, std::vector<double>> ReadKittiCalibration(const fs::path& file) {
+  std::istringstream stream(ReadFile(file));
+  std::map<std::string, std::vector<double>> rows;
+  std::string line;
+  for (std::size_t number = 1; std::getline(stream, line); ++number) {
+    const std::size_t colon = line.find(':');
+    if (colon == std::string::npos) continue;
+    rows[line.substr(0, colon)] = Numbers(line.substr(colon + 1), file, number);
+  }
+  for (const char* name : {"P0", "P1"}) {
+    if (rows[name].size() != 12 || rows[name][0] <= 0) {
+      throw InputError(file.string(), 0,
+                       fmt::format("line '{}:' must hold a 3x4 projection", name));
+    }
+  }
+  return rows;
+}
+
+StereoRecording ReadKitti(const fs::path& folder) {
+  const KittiFolders at = FindKitti(folder);
+  const auto calibration = ReadKittiCalibration(at.sequence / "calib.txt");
+  StereoRecording recording;
+  const std::vector<double>& p0 = calibration.at("P0");
+  recording.left = {.width = 0,
+                    .height = 0,
+                    .fx = p0[0],
+                    .fy = p0[5],
+                    .cx = p0[2],
+                    .cy = p0[6],
+                    .distortion = {}};
+  recording.right = recording.left;
+  recording.right.T_body_eye.translation().x() = -calibration.at("P1")[3] / p0[0];
+  std::istringstream times(ReadFile(at.sequence / "times.txt"));
+  std::string line;
+  for (std::size_t number = 1; times >> line; ++number) {
+    const std::string name = fmt::format("{:06}.png", number - 1);
+    StereoRecording::Pair pair{0, at.sequence / "image_0" / name, at.sequence / "image_1" / name};
+    if (!ParseSecondsToNs(line, &pair.stamp_ns)) {
+      throw InputError((at.sequence / "times.txt").string(), number,
+                       "'" + Printable(line) + "' is not a time in seconds");
+    }
+    if (fs::exists(pair.left) && fs::exists(pair.right)) recording.pairs.push_back(pair);
+  }
+  if (fs::exists(at.poses)) {
+    recording.truth = ReadTrajectory(at.poses, TrajectoryFormat::kKitti, at.sequence / "times.txt");
+  }
+  return recording;
+}
+
+}  // namespace
+
+StereoRecording ReadRecording(const fs::path& folder, DatasetFormat format) {
+  if (!fs::is_directory(folder)) throw InputError(folder.string(), 0, "no such folder");
+  if (format == DatasetFormat::kTum) {
+    throw InputError("a TUM folder is monocular or RGB-D: stereo recordings are euroc or kitti");
+  }
+  StereoRecording recording =
+      format == DatasetFormat::kEuroc ? ReadEuroc(folder) : ReadKitti(folder);
+  if (recording.pairs.empty()) throw InputError(folder.string(), 0, "holds no stereo pairs");
+  return recording;
+}
+
+}  // namespace aisle

@@ -1,0 +1,197 @@
+#include "harness/plugs/recorded_sequence.h"
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core/eigen.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "harness/io/image.h"
+#include "harness/io/input_error.h"
+
+namespace aisle {
+namespace {
+
+cv::Matx33d CameraMatrix(const EyeCalibration& eye) {
+  return {eye.fx, 0, eye.cx, 0, eye.fy, eye.cy, 0, 0, 1};
+}
+
+bool IsIdeal(const EyeCalibration& eye) {
+  return std::all_of(eye.distortion.begin(), eye.distortion.end(),
+                     [](double coefficient) { return coefficient == 0; });
+}
+
+/// Parallel eyes of one pinhole, the right one straight to the right.
+bool IsRectified(const EyeCalibration& left, const EyeCalibration& right) {
+  constexpr double kTolerance = 1e-9;
+  const Eigen::Isometry3d T_left_right = left.T_body_eye.inverse() * right.T_body_eye;
+  const bool parallel = T_left_right.linear().isIdentity(kTolerance) &&
+                        T_left_right.translation().tail<2>().norm() < kTolerance;
+  return parallel && IsIdeal(left) && IsIdeal(right) && left.fx == right.fx &&
+         left.fy == right.fy && left.cx == right.cx && left.cy == right.cy;
+}
+
+/// Brings one eye's images onto the common plane.
+struct Rectifier {
+  cv::Mat map_x, map_y;  ///< empty: the image is good as it is
+  cv::Mat1b operator()(const cv::Mat1b& image) const {
+    if (map_x.empty()) return image;
+    cv::Mat1b rectified;
+    cv::remap(image, rectified, map_x, map_y, cv::INTER_LINEAR);
+    return rectified;
+  }
+};
+
+struct Rectification {
+  StereoCalibration calibration;
+  Rectifier left, right;
+  /// Rotation from the rectified left eye to the left eye as built.
+  Eigen::Matrix3d R_left_rectified = Eigen::Matrix3d::Identity();
+};
+
+Rectification Identity(const EyeCalibration& left, const EyeCalibration& right) {
+  Rectification result;
+  result.calibration = {
+      .width = left.width,
+      .height = left.height,
+      .fx = left.fx,
+      .fy = left.fy,
+      .cx = left.cx,
+      .cy = left.cy,
+      .baseline_m = (left.T_body_eye.inverse() * right.T_body_eye).translation().x()};
+  return result;
+}
+
+Rectification Rectify(const EyeCalibration& left, const EyeCalibration& right) {
+  if (IsRectified(left, right)) return Identity(left, right);
+  const Eigen::Isometry3d T_right_left = right.T_body_eye.inverse() * left.T_body_eye;
+  cv::Matx33d rotation, left_turn, right_turn;
+  cv::Vec3d translation;
+  cv::eigen2cv(Eigen::Matrix3d(T_right_left.linear()), rotation);
+  cv::eigen2cv(Eigen::Vector3d(T_right_left.translation()), translation);
+  cv::Matx34d left_projection, right_projection;
+  cv::Matx44d to_depth;
+  const cv::Size size(left.width, left.height);
+  cv::stereoRectify(CameraMatrix(left), left.distortion, CameraMatrix(right), right.distortion,
+                    size, rotation, translation, left_turn, right_turn, left_projection,
+                    right_projection, to_depth, cv::CALIB_ZERO_DISPARITY, 0);
+  Rectification result;
+  result.calibration = {.width = size.width,
+                        .height = size.height,
+                        .fx = left_projection(0, 0),
+                        .fy = left_projection(1, 1),
+                        .cx = left_projection(0, 2),
+                        .cy = left_projection(1, 2),
+                        .baseline_m = -right_projection(0, 3) / right_projection(0, 0)};
+  cv::initUndistortRectifyMap(CameraMatrix(left), left.distortion, left_turn, left_projection, size,
+                              CV_32FC1, result.left.map_x, result.left.map_y);
+  cv::initUndistortRectifyMap(CameraMatrix(right), right.distortion, right_turn, right_projection,
+                              size, CV_32FC1, result.right.map_x, result.right.map_y);
+  Eigen::Matrix3d R_rectified_left;
+  cv::cv2eigen(cv::Mat(left_turn), R_rectified_left);
+  result.R_left_rectified = R_rectified_left.transpose();
+  return result;
+}
+
+class RecordedSequence : public Sequence {
+ public:
+  RecordedSequence(StereoRecording recording, std::string name)
+      : recording_(std::move(recording)), name_(std::move(name)) {
+    const cv::Mat1b first = ReadGreyPng(recording_.pairs.front().left);
+    for (EyeCalibration* eye : {&recording_.left, &recording_.right}) {
+      if (eye->width == 0) {  // KITTI's calibration does not say
+        eye->width = first.cols;
+        eye->height = first.rows;
+      }
+    }
+    rectification_ = Rectify(recording_.left, recording_.right);
+    T_body_rig_ = recording_.left.T_body_eye;
+    T_body_rig_.linear() = T_body_rig_.linear() * rectification_.R_left_rectified;
+    for (const StampedPose& pose : recording_.truth) truth_by_stamp_[pose.stamp_ns] = pose;
+  }
+
+  std::string name() const override { return name_; }
+  StereoCalibration calibration() const override { return rectification_.calibration; }
+
+  double rate_hz() const override {
+    if (recording_.pairs.size() < 2) return 0;
+    const auto span_ns =
+        static_cast<double>(recording_.pairs.back().stamp_ns - recording_.pairs.front().stamp_ns);
+    return span_ns > 0 ? static_cast<double>(recording_.pairs.size() - 1) * 1e9 / span_ns : 0;
+  }
+
+  std::vector<FrameRequest> Schedule() const override {
+    std::vector<FrameRequest> schedule;
+    for (std::size_t i = 0; i < recording_.pairs.size(); ++i) {
+      const std::int64_t stamp_ns = recording_.pairs[i].stamp_ns;
+      const auto pose = TruthAt(stamp_ns);
+      schedule.push_back(
+          {static_cast<std::int64_t>(i), stamp_ns, pose.value_or(Eigen::Isometry3d::Identity())});
+    }
+    return schedule;
+  }
+
+  SequenceFrame At(const FrameRequest& request) const override {
+    const auto index = static_cast<std::size_t>(request.id);
+    if (index >= recording_.pairs.size() || recording_.pairs[index].stamp_ns != request.stamp_ns) {
+      throw std::invalid_argument("a recording has no frame at this time");
+    }
+    const StereoRecording::Pair& pair = recording_.pairs[index];
+    SequenceFrame frame;
+    frame.images = {request.id, request.stamp_ns, rectification_.left(Read(pair.left)),
+                    rectification_.right(Read(pair.right))};
+    if (const auto pose = TruthAt(request.stamp_ns)) {
+      frame.truth.emplace();
+      frame.truth->T_world_rig = *pose;
+    }
+    return frame;
+  }
+
+ private:
+  cv::Mat1b Read(const std::filesystem::path& path) const {
+    const cv::Mat1b image = ReadGreyPng(path);
+    const StereoCalibration& c = rectification_.calibration;
+    if (image.cols == c.width && image.rows == c.height) return image;
+    throw InputError(path.string(), 0,
+                     fmt::format("is {}x{}, the calibration says {}x{}", image.cols, image.rows,
+                                 c.width, c.height));
+  }
+
+  /// Truth names the body; the rig is the rectified left eye.
+  std::optional<Eigen::Isometry3d> TruthAt(std::int64_t stamp_ns) const {
+    const auto half_frame_ns = static_cast<std::int64_t>(0.5e9 / std::max(rate_hz(), 1.0));
+    const auto after = truth_by_stamp_.lower_bound(stamp_ns);
+    const StampedPose* nearest = nullptr;
+    std::int64_t best_ns = half_frame_ns + 1;
+    const auto consider = [&](const StampedPose& pose) {
+      const std::int64_t off_ns = std::abs(pose.stamp_ns - stamp_ns);
+      if (off_ns < best_ns) {
+        best_ns = off_ns;
+        nearest = &pose;
+      }
+    };
+    if (after != truth_by_stamp_.begin()) consider(std::prev(after)->second);
+    if (after != truth_by_stamp_.end()) consider(after->second);
+    if (nearest == nullptr) return std::nullopt;
+    return nearest->T_world_rig * T_body_rig_;
+  }
+
+  StereoRecording recording_;
+  const std::string name_;
+  Rectification rectification_;
+  Eigen::Isometry3d T_body_rig_ = Eigen::Isometry3d::Identity();
+  std::map<std::int64_t, StampedPose> truth_by_stamp_;
+};
+
+}  // namespace
+
+std::unique_ptr<Sequence> OpenRecording(const std::filesystem::path& folder, DatasetFormat format) {
+  StereoRecording recording = ReadRecording(folder, format);
+  if (recording.left.width != recording.right.width ||
+      recording.left.height != recording.right.height) {
+    throw InputError(folder.string(), 0, "the two eyes differ in size");
+  }
+  const auto clean = std::filesystem::absolute(folder).lexically_normal();
+  const auto name = clean.has_filename() ? clean.filename() : clean.parent_path().filename();
+  return std::make_unique<RecordedSequence>(std::move(recording), name.string());
+}
+
+}  // namespace aisle

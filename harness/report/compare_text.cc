@@ -1,0 +1,118 @@
+#include "harness/report/compare.h"
+#include "harness/report/html.h"
+#include "harness/report/record_json.h"
+
+namespace aisle {
+namespace {
+
+std::string Percent(const Comparison& c) {
+  if (c.old_median == 0) return "";
+  return fmt::format("{:+.1f} %", 100 * (c.new_median - c.old_median) / std::abs(c.old_median));
+}
+
+std::string Cell(const Comparison& c) { return fmt::format("{} {} {}", c.scene, c.twin, c.system); }
+
+std::string Painted(const Comparison& c, bool color) {
+  const std::string text = fmt::format("{:11}", Name(c.change));
+  if (!color || c.change == Change::kSame || c.change == Change::kCannotTell) return text;
+  return fmt::format("\x1b[{}m{}\x1b[0m", c.change == Change::kWorse ? "31;1" : "32", text);
+}
+
+std::size_t Count(const std::vector<Comparison>& comparisons, Change change) {
+  return static_cast<std::size_t>(
+      std::count_if(comparisons.begin(), comparisons.end(),
+                    [&](const Comparison& c) { return c.change == change; }));
+}
+
+std::string Summary(const std::vector<Comparison>& comparisons) {
+  return fmt::format("{} worse, {} better, {} same, {} cannot tell",
+                     Count(comparisons, Change::kWorse), Count(comparisons, Change::kBetter),
+                     Count(comparisons, Change::kSame), Count(comparisons, Change::kCannotTell));
+}
+
+std::string HtmlRow(const Comparison& c) {
+  const char* css = c.change == Change::kWorse ? "fail" : c.change == Change::kBetter ? "pass" : "";
+  return fmt::format(
+      "<tr><td>{}</td><td class=\"left\">{}</td><td class=\"left {}\">{}</td><td>{:.4g}</td>"
+      "<td>{:.4g}</td><td>{}</td><td>{:.2g} … {:.2g}</td><td>{}</td><td "
+      "class=\"wrap\">{}</td></tr>\n",
+      Escape(Cell(c)), Escape(c.score), css, Name(c.change), c.old_median, c.new_median, Percent(c),
+      c.difference.low, c.difference.high, std::min(c.old_n, c.new_n), Escape(c.why));
+}
+
+std::string HtmlTable(const std::vector<Comparison>& comparisons, bool changed) {
+  std::string rows;
+  for (const Comparison& c : comparisons) {
+    const bool is_change = c.change == Change::kWorse || c.change == Change::kBetter;
+    if (is_change == changed) rows += HtmlRow(c);
+  }
+  if (rows.empty()) return "";
+  return "<div class=\"wide\"><table><tr><th>scene, twin, system</th><th class=\"left\">score</th>"
+         "<th class=\"left\">change</th><th>before</th><th>after</th><th></th><th>difference, 95 %"
+         "</th><th>seeds</th><th class=\"left\">why</th></tr>\n" +
+         rows + "</table></div>\n";
+}
+
+}  // namespace
+
+std::string ToConsole(const std::vector<Comparison>& comparisons, bool color) {
+  std::size_t width = 10;
+  for (const Comparison& c : comparisons) width = std::max(width, Cell(c).size());
+  std::string text = fmt::format("{:{}}  {:20} {:11} {:>11} {:>11} {:>9}\n", "scene twin system",
+                                 width, "score", "change", "before", "after", "");
+  for (const Comparison& c : comparisons) {
+    text += fmt::format("{:{}}  {:20} {} {:>11.4g} {:>11.4g} {:>9}  {}\n", Cell(c), width, c.score,
+                        Painted(c, color), c.old_median, c.new_median, Percent(c), c.why);
+  }
+  return text + Summary(comparisons) + "\n";
+}
+
+std::string ToMarkdown(const std::vector<Comparison>& comparisons) {
+  std::string text =
+      "| scene, twin, system | score | change | before | after | | why "
+      "|\n|---|---|---|--:|--:|--:|---|\n";
+  for (const Comparison& c : comparisons) {
+    text += fmt::format("| {} | {} | {} | {:.4g} | {:.4g} | {} | {} |\n", Cell(c), c.score,
+                        Name(c.change), c.old_median, c.new_median, Percent(c), c.why);
+  }
+  return text;
+}
+
+std::string ToJson(const std::vector<Comparison>& comparisons) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Comparison& c : comparisons) {
+    list.push_back({{"scene", c.scene},
+                    {"twin", c.twin},
+                    {"system", c.system},
+                    {"score", c.score},
+                    {"unit", c.unit},
+                    {"change", Name(c.change)},
+                    {"before", c.old_median},
+                    {"after", c.new_median},
+                    {"difference_low", c.difference.low},
+                    {"difference_high", c.difference.high},
+                    {"paired", c.paired},
+                    {"seeds_before", c.old_n},
+                    {"seeds_after", c.new_n},
+                    {"p_holm", c.p},
+                    {"why", c.why}});
+  }
+  return Dump({{"schema", 1}, {"comparisons", list}});
+}
+
+std::string ToHtml(const std::vector<Comparison>& comparisons) {
+  const bool worse = Count(comparisons, Change::kWorse) > 0;
+  std::string text = fmt::format("<div class=\"verdict {}\"><strong>{}</strong></div>\n",
+                                 worse ? "failed" : "passed", Summary(comparisons));
+  text += HtmlTable(comparisons, true);
+  const std::string rest = HtmlTable(comparisons, false);
+  if (!rest.empty())
+    text += "<details open><summary>unchanged, or cannot tell</summary>" + rest + "</details>\n";
+  return text +
+         "<p class=\"soft small\">Medians over seeds. The interval is a bootstrap of the median "
+         "difference, by seed where both sides have the same seeds. Worse and better need a "
+         "Mann-Whitney test that survives Holm's correction over this whole page, and an effect of "
+         "a tenth of the old median.</p>\n";
+}
+
+}  // namespace aisle

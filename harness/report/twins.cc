@@ -1,0 +1,113 @@
+#include "harness/report/twins.h"
+
+#include "harness/report/html.h"
+
+namespace aisle {
+namespace {
+
+constexpr const char* kError = "ate_rmse_m";
+
+const SystemRuns* Find(const std::vector<SceneRuns>& scenes, const std::string& scene,
+                       const std::string& twin, const std::string& system) {
+  for (const SceneRuns& runs : scenes) {
+    if (runs.scene != scene || runs.twin != twin) continue;
+    for (const SystemRuns& one : runs.systems) {
+      if (one.system == system) return &one;
+    }
+  }
+  return nullptr;
+}
+
+std::optional<double> Error(const SystemRuns* runs) {
+  return runs == nullptr ? std::nullopt : MedianScore(runs->runs, kError);
+}
+
+std::optional<double> Minus(const std::optional<double>& a, const std::optional<double>& b) {
+  return a && b ? std::optional(*a - *b) : std::nullopt;
+}
+
+std::string Centimetres(const std::optional<double>& metres, const char* format) {
+  return metres ? fmt::format(fmt::runtime(format), 100 * *metres) : "-";
+}
+
+}  // namespace
+
+void AddDynamicPenalty(std::vector<RunRecord>* runs) {
+  using Key = std::tuple<std::string, std::string, std::uint64_t>;
+  std::map<Key, Score> empty;
+  for (const RunRecord& run : *runs) {
+    const auto score = run.scores.find(kError);
+    if (run.spec.twin == "empty" && score != run.scores.end()) {
+      empty[{run.spec.scene, run.spec.system, run.spec.seed}] = score->second;
+    }
+  }
+  for (RunRecord& run : *runs) {
+    const auto twin = empty.find({run.spec.scene, run.spec.system, run.spec.seed});
+    if (run.spec.twin != "live" || twin == empty.end()) continue;
+    const auto live = run.scores.find(kError);
+    const bool both = live != run.scores.end() && live->second.value && twin->second.value &&
+                      *twin->second.value > 0;
+    Score& penalty = run.scores["dynamic_penalty"];
+    penalty.unit = "1";
+    if (both) {
+      penalty.value = *live->second.value / *twin->second.value;
+      penalty.n = live->second.n;
+      penalty.alignment = live->second.alignment;
+    } else {
+      penalty.absent = "one of the twins has no ATE";
+    }
+  }
+}
+
+std::vector<CostSplit> SplitCosts(const std::vector<SceneRuns>& scenes) {
+  std::vector<CostSplit> splits;
+  for (const SceneRuns& scene : scenes) {
+    if (scene.twin != "live") continue;
+    const auto oracle_live = Error(Find(scenes, scene.scene, "live", "oracle"));
+    const auto oracle_empty = Error(Find(scenes, scene.scene, "empty", "oracle"));
+    for (const SystemRuns& system : scene.systems) {
+      CostSplit split{.scene = scene.scene,
+                      .system = system.system,
+                      .color = system.color,
+                      .live_m = Error(&system),
+                      .empty_m = {},
+                      .occlusion_m = {},
+                      .mask_m = {},
+                      .penalty = {}};
+      split.empty_m = Error(Find(scenes, scene.scene, "empty", system.system));
+      split.occlusion_m = Minus(oracle_live, oracle_empty);
+      if (system.system != "oracle") split.mask_m = Minus(split.live_m, oracle_live);
+      if (split.live_m && split.empty_m && *split.empty_m > 0) {
+        split.penalty = *split.live_m / *split.empty_m;
+      }
+      if (split.empty_m || split.mask_m) splits.push_back(split);
+    }
+  }
+  return splits;
+}
+
+std::string CostSection(const std::vector<SceneRuns>& scenes) {
+  const std::vector<CostSplit> splits = SplitCosts(scenes);
+  if (splits.empty()) return "";
+  std::string text =
+      "<h2>Where the error comes from</h2>\n<p class=\"soft small\">ATE RMSE in centimetres. "
+      "Alone: "
+      "the same scene with nobody in it. Occlusion: what movers cost even a perfect mask (oracle "
+      "live less oracle alone). Rejection: what this system's own rejection leaves (live less "
+      "oracle live). Penalty: live over alone.</p>\n<div class=\"wide\"><table><tr><th>scene</th>"
+      "<th "
+      "class=\"left\">system</th><th>live</th><th>alone</th><th>occlusion</th><th>rejection</th>"
+      "<th>penalty</th></tr>\n";
+  for (const CostSplit& split : splits) {
+    text += fmt::format(
+        "<tr><td>{}</td><td class=\"left\"><span class=\"chip c{}\"></span>{}</td><td>{}</td>"
+        "<td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+        Escape(split.scene), split.color % 6, Escape(split.system),
+        Centimetres(split.live_m, "{:.2f}"), Centimetres(split.empty_m, "{:.2f}"),
+        Centimetres(split.occlusion_m, "{:+.2f}"), Centimetres(split.mask_m, "{:+.2f}"),
+        split.penalty ? fmt::format("×{:.2f}", *split.penalty) : "-");
+  }
+  return text + "</table></div>\n";
+}
+
+}  // namespace aisle

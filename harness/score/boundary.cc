@@ -1,0 +1,58 @@
+#include "harness/score/boundary.h"
+
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+namespace aisle {
+namespace {
+
+cv::Mat1b Outline(const cv::Mat1b& mask) {
+  cv::Mat1b inner, outline;
+  cv::erode(mask, inner, cv::getStructuringElement(cv::MORPH_CROSS, {3, 3}));
+  cv::subtract(mask, inner, outline);
+  return outline;
+}
+
+/// Outline pixels of `of` that lie within the tolerance of `near`.
+std::int64_t Met(const cv::Mat1b& of, const cv::Mat1b& near, double tolerance_px) {
+  if (cv::countNonZero(near) == 0) return 0;
+  cv::Mat1b away;
+  cv::bitwise_not(near, away);
+  cv::Mat1f distance;
+  cv::distanceTransform(away, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  cv::Mat close, met;
+  cv::compare(distance, tolerance_px, close, cv::CMP_LE);
+  cv::bitwise_and(of, close, met);
+  return cv::countNonZero(met);
+}
+
+}  // namespace
+
+BoundaryCounts& BoundaryCounts::operator+=(const BoundaryCounts& other) {
+  truth += other.truth;
+  truth_met += other.truth_met;
+  rejected += other.rejected;
+  rejected_met += other.rejected_met;
+  return *this;
+}
+
+BoundaryCounts CompareBoundaries(const cv::Mat1b& truth, const cv::Mat1b& rejected,
+                                 double tolerance_px) {
+  if (truth.size() != rejected.size()) throw std::invalid_argument("masks differ in size");
+  const cv::Mat1b truth_outline = Outline(truth), rejected_outline = Outline(rejected);
+  return {.truth = cv::countNonZero(truth_outline),
+          .truth_met = Met(truth_outline, rejected_outline, tolerance_px),
+          .rejected = cv::countNonZero(rejected_outline),
+          .rejected_met = Met(rejected_outline, truth_outline, tolerance_px)};
+}
+
+std::optional<double> BoundaryF(const BoundaryCounts& counts) {
+  if (counts.truth + counts.rejected == 0) return std::nullopt;
+  if (counts.truth == 0 || counts.rejected == 0) return 0.0;
+  const double recall = static_cast<double>(counts.truth_met) / static_cast<double>(counts.truth);
+  const double precision =
+      static_cast<double>(counts.rejected_met) / static_cast<double>(counts.rejected);
+  return precision + recall > 0 ? 2 * precision * recall / (precision + recall) : 0.0;
+}
+
+}  // namespace aisle

@@ -1,0 +1,209 @@
+// What is exported is read back by our reader and by OpenCV; real recordings are read where
+// present.
+#include "harness/io/dataset.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "harness/io/file.h"
+#include "harness/io/imu.h"
+#include "harness/io/input_error.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const StereoCalibration kRig{.width = 32,
+                             .height = 24,
+                             .fx = 30.5,
+                             .fy = 30.5,
+                             .cx = 15.25,
+                             .cy = 11.75,
+                             .baseline_m = 0.12};
+
+Eigen::Isometry3d Path(std::int64_t stamp_ns) {
+  const double t = static_cast<double>(stamp_ns) * 1e-9;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() << 0.5 * t * t, 0.3 * t, 1.0;
+  pose.linear() = Eigen::AngleAxisd(0.2 * t, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return pose;
+}
+
+SequenceFrame Frame(int k) {
+  SequenceFrame frame;
+  frame.images.id = k;
+  frame.images.stamp_ns = k * 50'000'000LL;
+  frame.images.left = cv::Mat1b(24, 32);
+  frame.images.right = cv::Mat1b(24, 32);
+  cv::randu(frame.images.left, 0, 256);
+  cv::randu(frame.images.right, 0, 256);
+  frame.truth.emplace();
+  frame.truth->T_world_rig = Path(frame.images.stamp_ns);
+  frame.truth->depth = cv::Mat1f(24, 32, 2.5f + 0.001f * static_cast<float>(k));
+  frame.truth->depth(0, 0) = std::numeric_limits<float>::infinity();
+  frame.truth->instance = cv::Mat1w(24, 32, static_cast<unsigned short>(300));
+  frame.truth->dynamic = cv::Mat1b(24, 32, static_cast<unsigned char>(255));
+  frame.truth->actor = frame.truth->dynamic;
+  frame.truth->objects.resize(1);
+  frame.truth->objects[0].object_class = "person";
+  return frame;
+}
+
+class DatasetTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / fmt::format("aisle_dataset_{}", ::getpid());
+    fs::remove_all(folder_);
+    for (int k = 0; k < 5; ++k) {
+      frames_.push_back(Frame(k));
+      requests_.push_back({k, k * 50'000'000LL, Path(k * 50'000'000LL)});
+    }
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void Export(DatasetFormat format, const std::vector<std::string>& truth = {}) {
+    ExportOptions options;
+    options.format = format;
+    options.truth = TruthSelectionFromNames(truth);
+    epoch_ns_ = options.epoch_ns;
+    DatasetWriter writer(folder_, kRig, 20, options);
+    for (const SequenceFrame& frame : frames_) writer.Add(frame);
+    for (const FrameRequest& request : requests_) EXPECT_TRUE(writer.Has(request));
+    writer.Finish(requests_, Path);
+  }
+  void ExpectEyes(const StereoRecording& recording) const {
+    EXPECT_EQ(recording.left.fx, kRig.fx);
+    EXPECT_EQ(recording.left.cy, kRig.cy);
+    const Eigen::Isometry3d T = recording.left.T_body_eye.inverse() * recording.right.T_body_eye;
+    EXPECT_NEAR(T.translation().x(), kRig.baseline_m, 1e-9);
+    ASSERT_EQ(recording.pairs.size(), frames_.size());
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      const cv::Mat left = cv::imread(recording.pairs[i].left.string(), cv::IMREAD_UNCHANGED);
+      const cv::Mat right = cv::imread(recording.pairs[i].right.string(), cv::IMREAD_UNCHANGED);
+      EXPECT_EQ(cv::norm(left, frames_[i].images.left), 0);
+      EXPECT_EQ(cv::norm(right, frames_[i].images.right), 0);
+    }
+  }
+  std::string Read(const std::string& name) const { return ReadFile(folder_ / name); }
+
+  fs::path folder_;
+  std::int64_t epoch_ns_ = 0;
+  std::vector<SequenceFrame> frames_;
+  std::vector<FrameRequest> requests_;
+};
+
+TEST_F(DatasetTest, EurocReadsBack) {
+  Export(DatasetFormat::kEuroc);
+  const StereoRecording recording = ReadRecording(folder_, DatasetFormat::kEuroc);
+  ExpectEyes(recording);
+  ASSERT_EQ(recording.truth.size(), frames_.size());
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    EXPECT_EQ(recording.truth[i].stamp_ns, requests_[i].stamp_ns + epoch_ns_);
+    EXPECT_EQ(recording.pairs[i].stamp_ns, recording.truth[i].stamp_ns);
+    EXPECT_TRUE(recording.truth[i].T_world_rig.isApprox(requests_[i].T_world_rig, 1e-12));
+  }
+}
+
+TEST_F(DatasetTest, EurocHasWhatOtherReadersInsistOn) {
+  Export(DatasetFormat::kEuroc);
+  for (const char* name :
+       {"mav0/cam0/sensor.yaml", "mav0/cam1/sensor.yaml", "mav0/imu0/sensor.yaml",
+        "mav0/state_groundtruth_estimate0/sensor.yaml", "mav0/body.yaml"}) {
+    EXPECT_TRUE(Read(name).starts_with("%YAML 1.0\n---\n")) << name;
+    cv::FileStorage storage((folder_ / name).string(), cv::FileStorage::READ);
+    EXPECT_TRUE(storage.isOpened()) << name;
+  }
+  cv::FileStorage sensor((folder_ / "mav0/cam0/sensor.yaml").string(), cv::FileStorage::READ);
+  EXPECT_EQ(static_cast<double>(sensor["intrinsics"][0]), kRig.fx);
+  const std::string truth = Read("mav0/state_groundtruth_estimate0/data.csv");
+  const std::string first = truth.substr(truth.find('\n') + 1, truth.find('\n', 300));
+  EXPECT_EQ(std::count(truth.begin(), truth.begin() + static_cast<long>(truth.find('\n')), ','),
+            16);
+  EXPECT_THAT(Read("mav0/times.txt"), testing::StartsWith("1600000000000000000\n"));
+  EXPECT_THAT(Read("mav0/imu0/data.csv"),
+              HasSubstr("1600000000005000000,"));  // 200 Hz: 5 ms after the first
+}
+
+TEST_F(DatasetTest, KittiReadsBack) {
+  Export(DatasetFormat::kKitti);
+  const StereoRecording recording = ReadRecording(folder_, DatasetFormat::kKitti);
+  ExpectEyes(recording);
+  ASSERT_EQ(recording.truth.size(), frames_.size());
+  EXPECT_TRUE(recording.truth[0].T_world_rig.isApprox(Eigen::Isometry3d::Identity(), 1e-12));
+  EXPECT_EQ(recording.truth[2].stamp_ns, 100'000'000);
+  EXPECT_THAT(Read("sequences/00/calib.txt"),
+              HasSubstr("P1: 30.5 0 15.25 -3.66 0 30.5 11.75 0 0 0 1 0\n"));
+  EXPECT_THAT(Read("sequences/00/times.txt"), testing::StartsWith("0.000000000\n0.050000000\n"));
+}
+
+TEST_F(DatasetTest, TumDepthIsMetresTimes5000) {
+  Export(DatasetFormat::kTum);
+  const std::string first = "depth/1600000000.000000000.png";
+  const cv::Mat depth = cv::imread((folder_ / first).string(), cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(depth.type(), CV_16U);
+  EXPECT_EQ(depth.at<unsigned short>(5, 5), 12500);
+  EXPECT_EQ(depth.at<unsigned short>(0, 0), 0);
+  EXPECT_THAT(Read("rgb.txt"), HasSubstr("1600000000.050000000 rgb/1600000000.050000000.png\n"));
+}
+
+TEST_F(DatasetTest, TruthBesideReadsBack) {
+  Export(DatasetFormat::kKitti, {"all"});
+  const cv::Mat depth =
+      cv::imread((folder_ / "truth/depth/000003.pfm").string(), cv::IMREAD_UNCHANGED);
+  EXPECT_EQ(cv::norm(depth.rowRange(1, 24), frames_[3].truth->depth.rowRange(1, 24)), 0);
+  EXPECT_TRUE(std::isinf(depth.at<float>(0, 0)));
+  const cv::Mat labels =
+      cv::imread((folder_ / "truth/instance/000003.png").string(), cv::IMREAD_UNCHANGED);
+  EXPECT_EQ(labels.at<unsigned short>(4, 4), 300);
+  EXPECT_THAT(Read("truth/boxes/000003.json"), HasSubstr("\"class\": \"person\""));
+}
+
+TEST_F(DatasetTest, MistakesAreNamed) {
+  EXPECT_THROW(TruthSelectionFromNames({"flow"}), InputError);
+  EXPECT_THROW(ReadRecording(folder_ / "none", DatasetFormat::kEuroc), InputError);
+  Export(DatasetFormat::kEuroc);
+  WriteFileAtomically(folder_ / "mav0/cam0/data.csv", "#x\n12,../../etc/passwd\n");
+  try {
+    ReadRecording(folder_, DatasetFormat::kEuroc);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("data.csv:2: '../../etc/passwd' is no plain file name"));
+  }
+}
+
+TEST(ImuTest, AtRestItFeelsGravityUpwards) {
+  const auto samples =
+      IdealImu([](std::int64_t) { return Eigen::Isometry3d::Identity(); }, 0, 10'000'000, 200);
+  ASSERT_EQ(samples.size(), 3u);
+  EXPECT_TRUE(samples[1].specific_force.isApprox(Eigen::Vector3d(0, 0, kGravityMps2), 1e-9));
+  EXPECT_EQ(samples[1].angular_velocity.norm(), 0);
+}
+
+TEST(ImuTest, AMovingRigFeelsItsOwnAcceleration) {
+  const ImuSample sample = IdealImu(Path, 500'000'000, 500'000'000, 200).at(0);
+  EXPECT_NEAR(sample.angular_velocity.z(), 0.2, 1e-6);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  EXPECT_TRUE(
+      sample.specific_force.isApprox(turn.transpose() * Eigen::Vector3d(1, 0, kGravityMps2), 1e-5));
+}
+
+TEST(RealRecordingTest, EurocAndKittiAreRead) {
+  const fs::path data = AISLE_TEST_DATA;
+  if (!fs::exists(data / "kitti")) GTEST_SKIP() << "no recordings in " << data;
+  const StereoRecording euroc = ReadRecording(data / "euroc-v101-still", DatasetFormat::kEuroc);
+  EXPECT_EQ(euroc.pairs.size(), 40u);
+  EXPECT_EQ(euroc.left.width, 752);
+  EXPECT_EQ(euroc.left.distortion.size(), 4u);
+  const StereoRecording kitti = ReadRecording(data / "kitti", DatasetFormat::kKitti);
+  EXPECT_EQ(kitti.pairs.size(), 51u);
+  EXPECT_EQ(kitti.truth.size(), 50u);
+  EXPECT_NEAR(kitti.right.T_body_eye.translation().x(), 0.537, 0.001);
+}
+
+}  // namespace
+}  // namespace aisle
