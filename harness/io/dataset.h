@@ -30,7 +30,7 @@ TruthSelection TruthSelectionFromNames(const std::vector<std::string>& names);
 
 struct ExportOptions {
   DatasetFormat format = DatasetFormat::kEuroc;
-  TruthSelection truth;
+  TruthSelection truth = {};
   /// Added to every stamp of EuRoC and TUM: readers treat 0 as missing. 2020-09-13T12:26:40Z.
   std::int64_t epoch_ns = 1'600'000'000'000'000'000;
   double imu_rate_hz = 200;

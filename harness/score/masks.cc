@@ -80,8 +80,12 @@ std::vector<cv::Rect2d> RejectedBoxes(const DynamicRegions& regions, const MaskO
   std::vector<cv::Rect2d> boxes;
   for (const DynamicRegion& region : regions.regions) boxes.push_back(region.box);
   if (!boxes.empty() || regions.mask.empty()) return boxes;
+  cv::Mat1b closed;
+  const cv::Size gap(options.close_gap_px, options.close_gap_px);
+  cv::morphologyEx(regions.mask, closed, cv::MORPH_CLOSE,
+                   cv::getStructuringElement(cv::MORPH_RECT, gap));
   cv::Mat labels, stats, centroids;
-  const int count = cv::connectedComponentsWithStats(regions.mask, labels, stats, centroids, 8);
+  const int count = cv::connectedComponentsWithStats(closed, labels, stats, centroids, 8);
   for (int i = 1; i < count; ++i) {
     if (stats.at<int>(i, cv::CC_STAT_AREA) < options.min_region_pixels) continue;
     boxes.emplace_back(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
@@ -91,7 +95,7 @@ std::vector<cv::Rect2d> RejectedBoxes(const DynamicRegions& regions, const MaskO
 }
 
 MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth, const std::vector<cv::Rect2d>& rejected,
-                     const MaskOptions& options) {
+                     const MaskOptions& options, const std::vector<bool>& excused) {
   std::vector<std::tuple<double, std::size_t, std::size_t>> candidates;
   for (std::size_t t = 0; t < truth.size(); ++t) {
     for (std::size_t r = 0; r < rejected.size(); ++r) {
@@ -109,8 +113,27 @@ MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth, const std::vector<cv:
     facts.iou_sum -= negative_iou;
   }
   facts.objects_missed = static_cast<int>(truth.size()) - facts.objects_found;
-  facts.objects_invented = static_cast<int>(rejected.size()) - facts.objects_found;
+  for (std::size_t r = 0; r < rejected.size(); ++r) {
+    const bool forgiven = r < excused.size() && excused[r];
+    facts.objects_invented += !rejected_taken[r] && !forgiven ? 1 : 0;
+  }
   return facts;
+}
+
+std::vector<bool> OnMovingPixels(const std::vector<cv::Rect2d>& rejected, const cv::Mat1b& dynamic,
+                                 const cv::Mat1b& mask) {
+  std::vector<bool> on_moving;
+  for (const cv::Rect2d& box : rejected) {
+    const cv::Rect inside = cv::Rect(box) & cv::Rect({}, dynamic.size());
+    cv::Mat1b moving = dynamic(inside).clone();
+    int asked = inside.area();
+    if (!mask.empty()) {
+      asked = cv::countNonZero(mask(inside));
+      cv::bitwise_and(moving, mask(inside), moving);
+    }
+    on_moving.push_back(2 * cv::countNonZero(moving) >= std::max(asked, 1));
+  }
+  return on_moving;
 }
 
 MaskFacts CompareMaskImages(const cv::Mat1b& truth, const cv::Mat1b& rejected) {
@@ -123,8 +146,9 @@ MaskFacts CompareMasks(const cv::Mat1b& left, const FrameTruth& truth,
                        const DynamicRegions& regions, const MaskOptions& options) {
   const cv::Mat1b dynamic = OrEmpty(truth.dynamic, left.size(), "truth's dynamic");
   const cv::Mat1b rejected = OrEmpty(regions.mask, left.size(), "the system's");
-  MaskFacts facts =
-      MatchBoxes(MovingBoxes(truth, options), RejectedBoxes(regions, options), options);
+  const std::vector<cv::Rect2d> boxes = RejectedBoxes(regions, options);
+  MaskFacts facts = MatchBoxes(MovingBoxes(truth, options), boxes, options,
+                               OnMovingPixels(boxes, dynamic, regions.mask));
   CountPixels(dynamic, rejected, &facts);
   CountCorners(left, dynamic, rejected, options, &facts);
   return facts;

@@ -14,7 +14,10 @@ struct MaskOptions {
   double match_iou = 0.5;
   int min_object_pixels = 200;  ///< moving objects with fewer dynamic pixels are not asked for
   int min_region_pixels = 50;   ///< blobs of a mask smaller than this are no detection
-  int corner_threshold = 20;    ///< FAST's, grey levels: what counts as a static corner
+  /// Gaps of a mask up to this wide, in pixels, do not part a blob: a strap or a rail in front of a
+  /// person does not make two of them.
+  int close_gap_px = 15;
+  int corner_threshold = 20;  ///< FAST's, grey levels: what counts as a static corner
 };
 
 /// Intersection over union of two rectangles, in [0, 1]; 0 where both are empty.
@@ -27,9 +30,16 @@ std::vector<cv::Rect2d> MovingBoxes(const FrameTruth& truth, const MaskOptions& 
 /// What the system says moves: its regions' boxes, or the boxes of the mask's connected blobs.
 std::vector<cv::Rect2d> RejectedBoxes(const DynamicRegions& regions, const MaskOptions& options);
 
-/// Pairs rectangles one to one, largest overlap first. Fills the object counts and iou_sum.
+/// Pairs rectangles one to one, largest overlap first. Fills the object counts and iou_sum. A
+/// rejected rectangle without partner is invented, unless `excused` says of it that it lies on
+/// something that does move: a part of an object, or one too small to be asked for.
 MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth, const std::vector<cv::Rect2d>& rejected,
-                     const MaskOptions& options);
+                     const MaskOptions& options, const std::vector<bool>& excused = {});
+
+/// Per rejected rectangle: at least half of the pixels rejected in it (of all its pixels where
+/// there is no mask) move in truth.
+std::vector<bool> OnMovingPixels(const std::vector<cv::Rect2d>& rejected, const cv::Mat1b& dynamic,
+                                 const cv::Mat1b& mask);
 
 /// Pixel counts alone, of masks of one size.
 MaskFacts CompareMaskImages(const cv::Mat1b& truth, const cv::Mat1b& rejected);

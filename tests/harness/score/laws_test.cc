@@ -191,5 +191,25 @@ TEST(MaskTest, CountsAreThoseOfAHandMadePicture) {
   EXPECT_DOUBLE_EQ(facts.iou_sum, 400.0 / 600.0);
 }
 
+TEST(MaskTest, TruthItselfAsAMaskInventsAndMissesNothing) {
+  const cv::Mat1b left(200, 300, static_cast<unsigned char>(128));
+  FrameTruth truth;
+  truth.dynamic = cv::Mat1b(200, 300, static_cast<unsigned char>(0));
+  truth.instance = cv::Mat1w(200, 300, static_cast<unsigned short>(0));
+  const auto put = [&](const cv::Rect& where, int instance) {
+    truth.dynamic(where) = 255;
+    truth.instance(where) = static_cast<unsigned short>(instance);
+  };
+  put({20, 20, 30, 100}, 3);  // a person
+  put({60, 20, 8, 100}, 3);   // and the rest of them beyond a post
+  put({200, 20, 8, 8}, 4);    // too small to be asked for
+  DynamicRegions regions;
+  regions.mask = truth.dynamic.clone();
+  const MaskFacts facts = CompareMasks(left, truth, regions);
+  EXPECT_EQ(facts.objects_found, 1);
+  EXPECT_EQ(facts.objects_invented, 0);
+  EXPECT_EQ(facts.objects_missed, 0);
+}
+
 }  // namespace
 }  // namespace aisle
