@@ -240,11 +240,12 @@ std::string SceneSection(const SceneRuns& scene, const fs::path& report_dir,
       Escape(first.content_hash));
   text += Troubles(scene.systems) + ScoreTable(scene.systems, kColumns);
   if (const std::vector<SystemRuns> masked = WithMasks(scene.systems); !masked.empty()) {
-    text +=
-        "<h3>What was rejected</h3>\n" + ScoreTable(masked, kMaskColumns) +
-        "<p class=\"soft small\">Objects by rectangle, found where the overlap (IoU) is 0.5 or "
-        "more; pixels over all frames together; static features lost: share of image corners on "
-        "unmoving surfaces under the mask.</p>\n";
+    text += "<h3>What was rejected</h3>\n" + ScoreTable(masked, kMaskColumns) +
+            "<p class=\"soft small\">Objects by rectangle, found where the overlap (IoU) is 0.5 or "
+            "more, "
+            "invented where less than half of what was rejected moves; pixels over all frames "
+            "together; static features lost: share of image corners on "
+            "unmoving surfaces under the mask.</p>\n";
   }
   text += Charts(scene, report_dir) + Spread(scene) + Pictures(scene, root) + Stages(scene) +
           AllScores(scene) + Again(scene, root);
