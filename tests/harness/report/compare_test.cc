@@ -10,8 +10,8 @@
 namespace aisle {
 namespace {
 
-RunRecord Run(const std::string& system, std::uint64_t seed, double ate_m, double coverage = 1,
-              const std::string& twin = "live") {
+RunRecord MakeRecordOf(const std::string& system, std::uint64_t seed, double ate_m,
+                       double coverage = 1, const std::string& twin = "live") {
   RunRecord run;
   run.spec = {.scene = "s", .scene_file = "", .twin = twin, .system = system, .seed = seed};
   run.scores["ate_rmse_m"] = {
@@ -26,7 +26,7 @@ Results Night(double level, std::uint64_t noise_seed, double coverage = 1) {
   Results results;
   for (std::uint64_t seed = 1; seed <= 9; ++seed) {
     const double noise = static_cast<double>(random() % 2001) / 1000 - 1;
-    results.runs.push_back(Run("oracle", seed, level * (1 + 0.1 * noise), coverage));
+    results.runs.push_back(MakeRecordOf("oracle", seed, level * (1 + 0.1 * noise), coverage));
   }
   return results;
 }
@@ -59,8 +59,8 @@ TEST(CompareTest, CoverageStandsFirstAndFallingCoverageIsWorse) {
 TEST(CompareTest, ThreeSeedsCannotTell) {
   Results before, after;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    before.runs.push_back(Run("oracle", seed, 0.02));
-    after.runs.push_back(Run("oracle", seed, 0.2));
+    before.runs.push_back(MakeRecordOf("oracle", seed, 0.02));
+    after.runs.push_back(MakeRecordOf("oracle", seed, 0.2));
   }
   EXPECT_EQ(ChangeOf(Compare(before, after), "ate_rmse_m"), Change::kCannotTell);
 }
@@ -75,8 +75,8 @@ TEST(CompareTest, UnchangedCodeRaisesAFalseAlarmAtMostOnceInAHundredNights) {
     for (int cell = 0; cell < 12; ++cell) {
       for (std::uint64_t seed = 1; seed <= 9; ++seed) {
         const auto draw = [&] { return 0.02 + 0.02 * static_cast<double>(random() % 1000) / 1000; };
-        before.runs.push_back(Run("x" + std::to_string(cell), seed, draw()));
-        after.runs.push_back(Run("x" + std::to_string(cell), seed, draw()));
+        before.runs.push_back(MakeRecordOf("x" + std::to_string(cell), seed, draw()));
+        after.runs.push_back(MakeRecordOf("x" + std::to_string(cell), seed, draw()));
       }
     }
     const auto comparisons = Compare(before, after);
@@ -110,8 +110,9 @@ TEST(CompareTest, EveryWritingNamesTheChange) {
 
 TEST(TwinsTest, TheErrorIsSplitIntoItsCauses) {
   Results results;
-  results.runs = {Run("orbslam2", 1, 0.10), Run("oracle", 1, 0.03),
-                  Run("orbslam2", 1, 0.02, 1, "empty"), Run("oracle", 1, 0.02, 1, "empty")};
+  results.runs = {MakeRecordOf("orbslam2", 1, 0.10), MakeRecordOf("oracle", 1, 0.03),
+                  MakeRecordOf("orbslam2", 1, 0.02, 1, "empty"),
+                  MakeRecordOf("oracle", 1, 0.02, 1, "empty")};
   AddDynamicPenalty(&results.runs);
   EXPECT_DOUBLE_EQ(*results.runs[0].scores.at("dynamic_penalty").value, 5);
   EXPECT_EQ(results.runs[2].scores.count("dynamic_penalty"), 0u);
