@@ -9,17 +9,14 @@ namespace {
 struct Judged {
   const char* score;
   bool more_is_better;
+  double smallest_effect =
+      0;  ///< in the score's unit, where a share of the old median is too coarse
 };
-constexpr Judged kJudged[] = {{"coverage", true},
-                              {"ate_rmse_m", false},
-                              {"ate_live_rmse_m", false},
-                              {"error_all_p95_m", false},
-                              {"rpe_1s_trans_rmse_m", false},
-                              {"rpe_1s_rot_rmse_deg", false},
-                              {"features_on_movers", false},
-                              {"object_precision", true},
-                              {"object_recall", true},
-                              {"mask_iou", true},
+constexpr Judged kJudged[] = {{"coverage", true, 0.01},       {"ate_rmse_m", false},
+                              {"ate_live_rmse_m", false},     {"error_all_p95_m", false},
+                              {"rpe_1s_trans_rmse_m", false}, {"rpe_1s_rot_rmse_deg", false},
+                              {"features_on_movers", false},  {"object_precision", true},
+                              {"object_recall", true},        {"mask_iou", true},
                               {"static_features_lost", false}};
 constexpr const char* kWatched[] = {"ms_process_mean", "ms_render_mean", "peak_rss_mib"};
 
@@ -94,14 +91,16 @@ constexpr std::size_t kFewestSeeds = 5;
 void Decide(const Judged& judged, const CompareOptions& options, Comparison* comparison) {
   Comparison& c = *comparison;
   const double change = c.new_median - c.old_median;
-  const double effect = options.minimum_effect * std::abs(c.old_median);
+  const double effect = judged.smallest_effect > 0
+                            ? judged.smallest_effect
+                            : options.minimum_effect * std::abs(c.old_median);
   if (c.bit_equal) {
     c.change = Change::kSame;
     c.why = "equal to the last digit";
   } else if (std::abs(change) <= effect && std::abs(c.difference.low) <= effect &&
              std::abs(c.difference.high) <= effect) {
     c.change = Change::kSame;
-    c.why = fmt::format("within {:g} % of the old median", 100 * options.minimum_effect);
+    c.why = fmt::format("within {:.2g} of the old median", effect);
   } else if (std::min(c.old_n, c.new_n) < kFewestSeeds) {
     c.change = Change::kCannotTell;
     c.why = fmt::format("{} and {} seeds: fewer than {} a side show nothing", c.old_n, c.new_n,

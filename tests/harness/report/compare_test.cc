@@ -66,7 +66,7 @@ TEST(CompareTest, ThreeSeedsCannotTell) {
 }
 
 TEST(CompareTest, UnchangedCodeRaisesAFalseAlarmAtMostOnceInAHundredNights) {
-  constexpr int kNights = 400;
+  constexpr int kNights = 200;
   int alarms = 0;
   for (int night = 0; night < kNights; ++night) {
     // Twelve cells a night, all from the same distribution as the night before.
