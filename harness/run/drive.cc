@@ -70,8 +70,7 @@ FrameFacts FactsOf(const SequenceFrame& shown, const FrameEstimate& estimate) {
   facts.movers_share = Share(truth.dynamic);
   facts.actors_share = Share(truth.actor);
   CountFeatures(estimate, truth.dynamic, &facts);
-  const bool masked = !estimate.regions.mask.empty() || !estimate.regions.regions.empty();
-  if (masked && !truth.dynamic.empty()) {
+  if (!truth.dynamic.empty()) {
     facts.mask = CompareMasks(shown.images.left, truth, estimate.regions);
   }
   return facts;
@@ -110,6 +109,16 @@ double PeakRssMib() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+bool Rejects(const FrameEstimate& estimate) {
+  return !estimate.regions.mask.empty() || !estimate.regions.regions.empty();
+}
+
+/// A system that never rejects anything makes no masks, rather than bad ones. One that does is
+/// asked for them in every frame: silence where something moves is a miss.
+void DropMaskFacts(std::vector<FrameFacts>* facts) {
+  for (FrameFacts& frame : *facts) frame.mask.reset();
+}
+
 /// Heavy images are not kept: a run of a thousand frames must fit beside others.
 void DropImages(FrameEstimate* estimate) {
   estimate->regions.mask.release();
@@ -139,6 +148,7 @@ RunResult Drive(const Sequence& sequence, Estimator& estimator, MaskSource mask_
   FramesAhead frames(sequence, schedule, options.frames_ahead);
   RunResult result;
   Offence offence;
+  bool ever_rejected = false;
   for (std::size_t i = 0; i < schedule.size() && offence.why.empty(); ++i) {
     const FramesAhead::Frame next = frames.Next();
     const SequenceFrame& shown = next.frame;
@@ -156,6 +166,7 @@ RunResult Drive(const Sequence& sequence, Estimator& estimator, MaskSource mask_
     if (!offence.why.empty()) break;
 
     AdoptMask(mask, &estimate);
+    ever_rejected = ever_rejected || Rejects(estimate);
     FrameFacts facts = FactsOf(shown, estimate);
     facts.render_ms = next.made_ms;
     facts.process_ms = process_ms;
@@ -166,6 +177,7 @@ RunResult Drive(const Sequence& sequence, Estimator& estimator, MaskSource mask_
     result.facts.push_back(std::move(facts));
     result.estimates.push_back(std::move(estimate));
   }
+  if (!ever_rejected) DropMaskFacts(&result.facts);
   result.trajectory.live = LiveTrack(result.estimates);
   if (offence.why.empty()) {
     try {
