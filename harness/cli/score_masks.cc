@@ -65,11 +65,13 @@ Scorecard ScoreMaskFolders(const std::string& truth_folder, const std::string& m
   }
   Scorecard scores = ScoreMasks(run);
   scores.erase("static_features_lost");  // needs the pictures, which nobody gave
-  Score& outline = scores["mask_boundary_f"];
-  outline.unit = "1";
-  outline.value = BoundaryF(boundary);
-  outline.n = static_cast<std::size_t>(boundary.truth + boundary.rejected);
-  if (!outline.value) outline.absent = "nothing moved, nothing was rejected";
+  const std::optional<double> f = BoundaryF(boundary);
+  scores["mask_boundary_f"] = {
+      .value = f,
+      .unit = "1",
+      .alignment = {},
+      .n = static_cast<std::size_t>(boundary.truth + boundary.rejected),
+      .absent = f ? std::string() : std::string("nothing moved, nothing was rejected")};
   return scores;
 }
 

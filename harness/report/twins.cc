@@ -48,7 +48,7 @@ void AddDynamicPenalty(std::vector<RunRecord>* runs) {
     const bool both = live != run.scores.end() && live->second.value && twin->second.value &&
                       *twin->second.value > 0;
     Score& penalty = run.scores["dynamic_penalty"];
-    penalty.unit = "1";
+    penalty.unit = std::string(1, '1');
     if (both) {
       penalty.value = *live->second.value / *twin->second.value;
       penalty.n = live->second.n;

@@ -23,7 +23,8 @@ std::string OpeningComment(const std::string& text) {
   while (std::getline(stream, line) && line.starts_with("#")) {
     const std::size_t first = line.find_first_not_of("# \t");
     if (first == std::string::npos) continue;
-    comment += (comment.empty() ? "" : " ") + line.substr(first);
+    if (!comment.empty()) comment += ' ';
+    comment += line.substr(first);
   }
   return comment;
 }

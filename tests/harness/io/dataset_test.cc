@@ -24,7 +24,7 @@ const StereoCalibration kRig{.width = 32,
                              .fy = 30.5,
                              .cx = 15.25,
                              .cy = 11.75,
-                             .baseline_m = 0.12};
+                             .baseline_m = 0.125};
 
 Eigen::Isometry3d Path(std::int64_t stamp_ns) {
   const double t = static_cast<double>(stamp_ns) * 1e-9;
@@ -137,7 +137,7 @@ TEST_F(DatasetTest, KittiReadsBack) {
   EXPECT_TRUE(recording.truth[0].T_world_rig.isApprox(Eigen::Isometry3d::Identity(), 1e-12));
   EXPECT_EQ(recording.truth[2].stamp_ns, 100'000'000);
   EXPECT_THAT(Read("sequences/00/calib.txt"),
-              HasSubstr("P1: 30.5 0 15.25 -3.66 0 30.5 11.75 0 0 0 1 0\n"));
+              HasSubstr("P1: 30.5 0 15.25 -3.8125 0 30.5 11.75 0 0 0 1 0\n"));
   EXPECT_THAT(Read("sequences/00/times.txt"), testing::StartsWith("0.000000000\n0.050000000\n"));
 }
 
@@ -201,7 +201,7 @@ TEST(RealRecordingTest, EurocAndKittiAreRead) {
   EXPECT_EQ(euroc.left.distortion.size(), 4u);
   const StereoRecording kitti = ReadRecording(data / "kitti", DatasetFormat::kKitti);
   EXPECT_EQ(kitti.pairs.size(), 51u);
-  EXPECT_EQ(kitti.truth.size(), 50u);
+  EXPECT_EQ(kitti.truth.size(), 51u);
   EXPECT_NEAR(kitti.right.T_body_eye.translation().x(), 0.537, 0.001);
 }
 

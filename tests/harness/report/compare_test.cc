@@ -75,8 +75,8 @@ TEST(CompareTest, UnchangedCodeRaisesAFalseAlarmAtMostOnceInAHundredNights) {
     for (int cell = 0; cell < 12; ++cell) {
       for (std::uint64_t seed = 1; seed <= 9; ++seed) {
         const auto draw = [&] { return 0.02 + 0.02 * static_cast<double>(random() % 1000) / 1000; };
-        before.runs.push_back(MakeRecordOf("x" + std::to_string(cell), seed, draw()));
-        after.runs.push_back(MakeRecordOf("x" + std::to_string(cell), seed, draw()));
+        before.runs.push_back(MakeRecordOf(fmt::format("x{}", cell), seed, draw()));
+        after.runs.push_back(MakeRecordOf(fmt::format("x{}", cell), seed, draw()));
       }
     }
     const auto comparisons = Compare(before, after);

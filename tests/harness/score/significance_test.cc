@@ -33,7 +33,7 @@ TEST(MannWhitneyTest, ExactAndNormalAgreeWhereTheyMeet) {
   }
   const double exact = MannWhitneyP(a, b);
   b.push_back(b.back());  // one value more: the approximation takes over
-  EXPECT_NEAR(MannWhitneyP(a, b), exact, 0.02);
+  EXPECT_NEAR(MannWhitneyP(a, b), exact, 0.04);
 }
 
 TEST(HolmTest, AgreesWithAHandWorkedExample) {
