@@ -33,8 +33,10 @@ Followed Follow(const Pyramid& from, const Pyramid& to, const std::vector<cv::Po
 
 }  // namespace
 
-std::vector<Track> TrackPoints(const cv::Mat1b& previous, const cv::Mat1b& current,
-                               const std::vector<cv::Point2f>& points, const FlowOptions& options) {
+std::vector<std::optional<cv::Point2f>> FollowPoints(const cv::Mat1b& previous,
+                                                     const cv::Mat1b& current,
+                                                     const std::vector<cv::Point2f>& points,
+                                                     const FlowOptions& options) {
   if (points.empty()) return {};
   const Pyramid before = BuildPyramid(previous, options), now = BuildPyramid(current, options);
   const Followed there = Follow(before, now, points, points, options);
@@ -43,11 +45,21 @@ std::vector<Track> TrackPoints(const cv::Mat1b& previous, const cv::Mat1b& curre
       check ? Follow(now, before, there.points, points, options) : Followed{points, there.found};
 
   const cv::Rect2f image(0, 0, static_cast<float>(current.cols), static_cast<float>(current.rows));
-  std::vector<Track> tracks;
+  std::vector<std::optional<cv::Point2f>> followed(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (there.found[i] == 0 || back.found[i] == 0 || !image.contains(there.points[i])) continue;
     if (check && cv::norm(back.points[i] - points[i]) > options.forward_backward_px) continue;
-    tracks.push_back({points[i], there.points[i]});
+    followed[i] = there.points[i];
+  }
+  return followed;
+}
+
+std::vector<Track> TrackPoints(const cv::Mat1b& previous, const cv::Mat1b& current,
+                               const std::vector<cv::Point2f>& points, const FlowOptions& options) {
+  const auto followed = FollowPoints(previous, current, points, options);
+  std::vector<Track> tracks;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (followed[i]) tracks.push_back({points[i], *followed[i]});
   }
   return tracks;
 }

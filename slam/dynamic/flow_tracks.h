@@ -1,6 +1,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "slam/dynamic/paper_options.h"
@@ -12,7 +13,14 @@ struct Track {
   cv::Point2f previous, current;
 };
 
-/// Follows points of the previous image into the current one by pyramidal Lucas-Kanade. Points that
+/// Where points of the previous image are in the current one, by pyramidal Lucas-Kanade; nothing
+/// for those that are lost, leave the image or fail the check there and back.
+std::vector<std::optional<cv::Point2f>> FollowPoints(const cv::Mat1b& previous,
+                                                     const cv::Mat1b& current,
+                                                     const std::vector<cv::Point2f>& points,
+                                                     const FlowOptions& options);
+
+/// The same as tracks. Points that
 /// are lost, leave the image or fail the check there and back are left out; order is kept.
 std::vector<Track> TrackPoints(const cv::Mat1b& previous, const cv::Mat1b& current,
                                const std::vector<cv::Point2f>& points, const FlowOptions& options);

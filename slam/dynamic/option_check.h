@@ -2,19 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <optional>
 #include <string>
 #include <string_view>
 
 namespace aisle::slam::dynamic {
 
-/// A broken rule in words, or nothing.
-using OptionError = std::optional<std::string>;
+/// A broken rule in words; empty: all is well.
+using OptionError = std::string;
 
-/// Nothing if low <= value <= high, else a sentence with name, value and bounds.
+/// Empty if low <= value <= high, else a sentence with name, value and bounds.
 template <typename T>
 OptionError CheckRange(std::string_view name, T value, T low, T high) {
-  if (value >= low && value <= high) return std::nullopt;
+  if (value >= low && value <= high) return {};
   return fmt::format("{} is {}; it must lie in [{}, {}]", name, value, low, high);
 }
 
@@ -22,7 +21,7 @@ OptionError CheckRange(std::string_view name, T value, T low, T high) {
 template <typename... Errors>
 OptionError FirstOf(const Errors&... errors) {
   OptionError first;
-  ((first = first ? first : errors), ...);
+  ((first = first.empty() ? errors : first), ...);
   return first;
 }
 

@@ -186,7 +186,7 @@ struct PaperOptions {
   BoundaryOptions boundary;
   MarkOptions mark;
 
-  /// The first broken rule with name, value and bound; nothing if all is well.
+  /// The first broken rule with name, value and bound; empty if all is well.
   OptionError Validate() const {
     return FirstOf(disparity.Validate(), spread.Validate(), flow.Validate(), fundamental.Validate(),
                    epipolar.Validate(), group.Validate(), superpixel.Validate(), plane.Validate(),

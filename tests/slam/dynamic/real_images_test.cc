@@ -5,6 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "slam/dynamic/paper_method.h"
+#include "slam/dynamic/robust_method.h"
 
 namespace aisle::slam::dynamic {
 namespace {
@@ -44,6 +45,43 @@ TEST(PaperOnRealImages, RevisitsFarApartDoNotCrash) {
       std::cout << "EuRoC " << k << " -> " << l << ": " << 100 * share << " % masked\n";
       EXPECT_LT(share, 1.0);
     }
+  }
+}
+
+StereoCamera KittiCamera() { return {1226, 370, 707.0912, 707.0912, 601.8873, 183.1104, 0.5372}; }
+
+TEST(RobustOnRealImages, Kitti06IsMostlyLeftAloneAndItsMotionFound) {
+  if (KittiPair(0).left.empty()) GTEST_SKIP() << "no KITTI 06 under " AISLE_TEST_DATA;
+  RobustState state;
+  double sum = 0, travelled_m = 0;
+  const int frames = 30;
+  for (int k = 0; k < frames; ++k) {
+    RobustResult result =
+        StepRobust(state, KittiPair(k), k * 100'000'000LL, std::nullopt, KittiCamera(), {});
+    sum += static_cast<double>(cv::countNonZero(result.dynamic.mask)) /
+           static_cast<double>(result.dynamic.mask.total());
+    if (k > 0 && result.state.T_now_before) {
+      travelled_m += result.state.T_now_before->translation().norm();
+    }
+    state = std::move(result.state);
+  }
+  std::cout << "KITTI 06: " << 100 * sum / frames << " % of the pixels masked on average, "
+            << travelled_m << " m travelled\n";
+  // Far from the 1 % that a static scene should cost: a metre a frame leaves little that compares.
+  EXPECT_LT(sum / frames, 0.1);
+  EXPECT_NEAR(travelled_m, 59.86 * (frames - 1) / 49, 0.1 * travelled_m);
+}
+
+TEST(RobustOnRealImages, RevisitsFarApartDoNotCrash) {
+  if (EurocPair(0).left.empty()) GTEST_SKIP() << "no EuRoC pairs under " AISLE_TEST_DATA;
+  RobustState state;
+  for (int k = 0; k < 8; ++k) {
+    RobustResult result =
+        StepRobust(state, EurocPair(k % 4), k * 50'000'000LL, std::nullopt, {}, {});
+    const double share = static_cast<double>(cv::countNonZero(result.dynamic.mask)) /
+                         static_cast<double>(result.dynamic.mask.total());
+    std::cout << "EuRoC jump " << k << ": " << 100 * share << " % masked\n";
+    state = std::move(result.state);
   }
 }
 

@@ -1,0 +1,80 @@
+#include "slam/dynamic/dynamic_detector.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include "slam/dynamic/paper_method.h"
+#include "slam/dynamic/robust_method.h"
+
+namespace aisle::slam {
+
+struct DynamicDetector::Impl {
+  StereoCamera camera;
+  DynamicOptions options;
+  dynamic::StereoPair previous;  // of the paper's method
+  dynamic::RobustState state;    // of the robust one
+
+  DynamicOutput DetectByPaper(const DynamicInput& input);
+  DynamicOutput DetectRobustly(const DynamicInput& input);
+};
+
+DynamicOutput DynamicDetector::Impl::DetectByPaper(const DynamicInput& input) {
+  const dynamic::StereoPair current{input.left, input.right};
+  DynamicOutput output;
+  if (!previous.left.empty()) {
+    dynamic::PaperResult result = dynamic::DetectDynamicRegions(previous, current, options.paper);
+    output.mask_right = ShiftMaskToRight(result.dynamic.mask, result.stages.disparity);
+    output.regions = std::move(result.dynamic);
+    output.stage_ms = std::move(result.stages.stage_ms);
+  }
+  previous = current;
+  return output;
+}
+
+DynamicOutput DynamicDetector::Impl::DetectRobustly(const DynamicInput& input) {
+  dynamic::RobustResult result = dynamic::StepRobust(
+      state, {input.left, input.right}, input.stamp_ns, input.T_now_before, camera, options.robust);
+  DynamicOutput output;
+  output.mask_right = ShiftMaskToRight(result.dynamic.mask, result.stages.half_disparity);
+  output.regions = std::move(result.dynamic);
+  output.probability = std::move(result.probability);
+  output.stage_ms = std::move(result.stages.stage_ms);
+  state = std::move(result.state);
+  return output;
+}
+
+DynamicDetector::DynamicDetector(const StereoCamera& camera, const DynamicOptions& options)
+    : impl_(std::make_unique<Impl>(Impl{camera, options, {}, {}})) {}
+DynamicDetector::DynamicDetector(DynamicDetector&&) noexcept = default;
+DynamicDetector& DynamicDetector::operator=(DynamicDetector&&) noexcept = default;
+DynamicDetector::~DynamicDetector() = default;
+
+DynamicOutput DynamicDetector::Detect(const DynamicInput& input) {
+  switch (impl_->options.method) {
+    case DynamicMethod::kPaper:
+      return impl_->DetectByPaper(input);
+    case DynamicMethod::kRobust:
+      return impl_->DetectRobustly(input);
+    case DynamicMethod::kNone:
+      break;
+  }
+  return {};
+}
+
+cv::Mat1b ShiftMaskToRight(const cv::Mat1b& mask, const cv::Mat1f& disparity) {
+  const int factor = std::max(1, mask.cols / std::max(1, disparity.cols));
+  cv::Mat1b right(mask.size(), static_cast<unsigned char>(0));
+  for (int y = 0; y < mask.rows; ++y) {
+    const float* known = disparity[std::min(y / factor, disparity.rows - 1)];
+    for (int x = 0; x < mask.cols; ++x) {
+      if (mask(y, x) == 0) continue;
+      const float d = known[std::min(x / factor, disparity.cols - 1)];
+      const int to = x - cvRound(d * static_cast<float>(factor));
+      if (d >= 0 && to >= 0) right(y, to) = 255;
+    }
+  }
+  const cv::Mat window = cv::getStructuringElement(cv::MORPH_RECT, {9, 5});
+  cv::morphologyEx(right, right, cv::MORPH_CLOSE, window);
+  return right;
+}
+
+}  // namespace aisle::slam

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+
+#include "slam/camera/stereo_camera.h"
+#include "slam/dynamic/dynamic_options.h"
+#include "slam/dynamic/dynamic_regions.h"
+
+namespace aisle::slam {
+
+/// A rectified stereo pair and when it was taken.
+struct DynamicInput {
+  std::int64_t stamp_ns = 0;
+  cv::Mat1b left, right;  ///< 8-bit grey; not written to, neither now nor later by the caller
+  /// Where the caller expects the rig to have moved since the last frame, if it knows.
+  std::optional<Eigen::Isometry3d> T_now_before;
+};
+
+struct DynamicOutput {
+  DynamicRegions regions;  ///< of the left image; an empty mask rejects nothing
+  cv::Mat1b mask_right;    ///< the same surfaces in the right image; empty like the left one
+  cv::Mat1f probability;   ///< of moving, per left pixel; empty where the method knows none
+  std::map<std::string, double> stage_ms;  ///< wall time by stage; reported, never decided upon
+};
+
+/// Either method behind one face. Frames of one sequence, in order; the first frame, having no
+/// past, shows nothing that moves. Same images, same options: the same bits, for any number of
+/// threads.
+class DynamicDetector {
+ public:
+  DynamicDetector(const StereoCamera& camera, const DynamicOptions& options);
+  DynamicDetector(DynamicDetector&&) noexcept;
+  DynamicDetector& operator=(DynamicDetector&&) noexcept;
+  ~DynamicDetector();
+
+  DynamicOutput Detect(const DynamicInput& input);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Where the right eye sees what a mask rejects in the left: every masked pixel shifted by its
+/// disparity (pixels; negative = unknown), small gaps between shifted pixels closed. `disparity`
+/// may be smaller than the mask by a whole factor, its values then being in its own pixels.
+cv::Mat1b ShiftMaskToRight(const cv::Mat1b& mask, const cv::Mat1f& disparity);
+
+}  // namespace aisle::slam

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <map>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slam/camera/stereo_camera.h"
+#include "slam/dynamic/dense_evidence.h"
+#include "slam/dynamic/dynamic_regions.h"
+#include "slam/dynamic/ego_motion.h"
+#include "slam/dynamic/label_memory.h"
+#include "slam/dynamic/paper_method.h"
+#include "slam/dynamic/point_tracks.h"
+#include "slam/dynamic/robust_options.h"
+#include "slam/dynamic/scene_flow.h"
+
+namespace aisle::slam::dynamic {
+
+/// All that the method remembers between frames. A value: copies are cheap, as images are shared
+/// and never written again.
+struct RobustState {
+  std::int64_t stamp_ns = 0;
+  cv::Mat1b left;                  ///< empty before the first frame
+  std::vector<PointTrack> tracks;  ///< as of that frame
+  std::vector<DenseFrame> frames;  ///< the latest ones, newest last, up to kLongestGap
+  std::optional<Eigen::Isometry3d> T_now_before;  ///< the latest motion of the rig
+  double step_s = 0;                              ///< its duration
+  std::array<MeasurementNoise, kGaps.size()> noise = {MeasurementNoise(0.15, 0.15, 0.25),
+                                                      MeasurementNoise(0.25, 0.25, 0.3),
+                                                      MeasurementNoise(0.4, 0.4, 0.35)};
+  std::array<DenseNoise, kGaps.size()> dense_noise;
+  LabelMemory memory;
+  int next_track_id = 0;
+  int next_region_id = 0;
+};
+
+/// What the stages of one step found, for pictures and tests.
+struct RobustStages {
+  cv::Mat1f half_disparity;
+  std::vector<PointTrack> tracks;
+  std::vector<double> point_evidence;  ///< per track, log-odds of this frame alone
+  std::vector<GapMotion> gaps;
+  cv::Mat1f dense_evidence;  ///< per node, of this frame alone
+  cv::Mat1f log_odds;        ///< per node, the field's answer
+  std::map<std::string, double> stage_ms;
+};
+
+struct RobustResult {
+  RobustState state;  ///< for the next step
+  DynamicRegions dynamic;
+  cv::Mat1f probability;  ///< of moving, per pixel of the left image
+  RobustStages stages;
+};
+
+/// One frame of the robust method: moving regions of the left image from what the previous frames
+/// left in `before`, which is not changed. Stamps must rise. `predicted` is where the caller
+/// expects the rig to have moved since the last frame, if it knows (T_now_before).
+RobustResult StepRobust(const RobustState& before, const StereoPair& images, std::int64_t stamp_ns,
+                        const std::optional<Eigen::Isometry3d>& predicted,
+                        const StereoCamera& camera, const RobustOptions& options);
+
+}  // namespace aisle::slam::dynamic
