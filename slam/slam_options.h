@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "slam/dynamic/dynamic_options.h"
 #include "slam/feature/feature_options.h"
 #include "slam/map/create_landmarks.h"
 #include "slam/map/cull.h"
@@ -36,6 +37,7 @@ struct ScheduleOptions {
 /// Options of the whole system, composed of each stage's own.
 struct SlamOptions {
   int threads = 0;  ///< 0: as many as the machine has; never changes a result
+  DynamicOptions dynamic;
   FeatureOptions feature;
   StereoOptions stereo;
   TrackOptions track;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "slam/background_job.h"
+#include "slam/dynamic/dynamic_detector.h"
 #include "slam/feature/extract.h"
 #include "slam/local_mapping.h"
 #include "slam/loop_closing.h"
@@ -47,6 +48,15 @@ SlamOptions Completed(SlamOptions options) {
   return options;
 }
 
+/// What either mask rejects; an empty one rejects nothing.
+cv::Mat1b Union(const cv::Mat1b& a, const cv::Mat1b& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  cv::Mat1b both;
+  cv::bitwise_or(a, b, both);
+  return both;
+}
+
 }  // namespace
 
 std::string Validate(const SlamOptions& options) {
@@ -61,6 +71,7 @@ std::string Validate(const SlamOptions& options) {
   if (options.schedule.mapping_frames < 1) {
     return fmt::format("mapping_frames = {}; at least 1", options.schedule.mapping_frames);
   }
+  if (const std::string dynamic = Validate(options.dynamic); !dynamic.empty()) return dynamic;
   const std::string feature = Validate(options.feature);
   return feature.empty() ? Validate(options.stereo) : feature;
 }
@@ -69,6 +80,7 @@ struct StereoSlam::Impl {
   Impl(const StereoCamera& camera_in, const SlamOptions& options_in)
       : camera(camera_in),
         options(Completed(options_in)),
+        detector(camera, options.dynamic),
         arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic) {
     for (const std::string& error : {Validate(camera), Validate(options)}) {
       if (!error.empty()) throw std::invalid_argument("StereoSlam: " + error);
@@ -78,6 +90,8 @@ struct StereoSlam::Impl {
 
   TrackedFrame Track(const StereoImages& images, const ExternalMask& mask);
   void CheckImages(const StereoImages& images, const ExternalMask& mask) const;
+  ExternalMask RejectMovers(const StereoImages& images, const ExternalMask& mask,
+                            TrackedFrame& result);
   std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, const ExternalMask& mask,
                                         std::map<std::string, double>& stage_ms);
   std::optional<FramePose> FindPose(const Frame& frame);
@@ -91,6 +105,7 @@ struct StereoSlam::Impl {
 
   const StereoCamera camera;
   const SlamOptions options;
+  DynamicDetector detector;
   tbb::task_arena arena;
 
   Map map;
@@ -122,7 +137,7 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
   TrackedFrame result;
   result.id = images.id;
   result.stamp_ns = images.stamp_ns;
-  const auto frame = SeeFrame(images, mask, result.stage_ms);
+  const auto frame = SeeFrame(images, RejectMovers(images, mask, result), result.stage_ms);
   result.loop_closed = TakeBackgroundWork(frame_count, result.stage_ms);
 
   Stopwatch track_time(result.stage_ms["track"]);
@@ -175,6 +190,19 @@ void StereoSlam::Impl::CheckImages(const StereoImages& images, const ExternalMas
   check(images.right, "the right image", false);
   check(mask.left, "the left mask", true);
   check(mask.right, "the right mask", true);
+}
+
+/// The caller's mask and what the detector finds moving, together; the latter is noted in `result`.
+ExternalMask StereoSlam::Impl::RejectMovers(const StereoImages& images, const ExternalMask& mask,
+                                            TrackedFrame& result) {
+  if (options.dynamic.method == DynamicMethod::kNone) return mask;
+  Stopwatch time(result.stage_ms["dynamic"]);
+  DynamicOutput found;
+  arena.execute([&] {
+    found = detector.Detect({images.stamp_ns, images.left, images.right, std::nullopt});
+  });
+  result.dynamic = std::move(found.regions);
+  return {Union(mask.left, result.dynamic.mask), Union(mask.right, found.mask_right)};
 }
 
 std::shared_ptr<const Frame> StereoSlam::Impl::SeeFrame(const StereoImages& images,

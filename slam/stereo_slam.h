@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "slam/camera/stereo_camera.h"
+#include "slam/dynamic/dynamic_regions.h"
 #include "slam/slam_options.h"
 
 namespace aisle::slam {
@@ -44,6 +45,7 @@ struct TrackedFrame {
   int matched_points = 0;  ///< matched to the map
   int inliers = 0;         ///< kept by pose refinement
   bool is_keyframe = false;
+  DynamicRegions dynamic;    ///< what the system itself rejected as moving; empty without a method
   bool loop_closed = false;  ///< from this frame on the map is as a closed loop has corrected it
   std::vector<cv::Point2f> keypoints;      ///< left image, for scoring where features were spent
   std::vector<bool> keypoint_is_inlier;    ///< per keypoint: took part in the pose
