@@ -17,12 +17,34 @@ TrackingState Convert(slam::TrackingState state) {
   return TrackingState::kLost;
 }
 
+slam::DynamicMethod Convert(Rejection rejection) {
+  switch (rejection) {
+    case Rejection::kPaper:
+      return slam::DynamicMethod::kPaper;
+    case Rejection::kRobust:
+      return slam::DynamicMethod::kRobust;
+    case Rejection::kNone:
+      break;
+  }
+  return slam::DynamicMethod::kNone;
+}
+
+DynamicRegions Convert(const slam::DynamicRegions& found) {
+  DynamicRegions regions;
+  regions.mask = found.mask;
+  for (const slam::DynamicRegion& region : found.regions) {
+    regions.regions.push_back({region.id, region.box, region.evidence});
+  }
+  return regions;
+}
+
 FrameEstimate Convert(const slam::TrackedFrame& frame) {
   FrameEstimate estimate;
   estimate.id = frame.id;
   estimate.stamp_ns = frame.stamp_ns;
   estimate.state = Convert(frame.state);
   estimate.T_world_rig = frame.T_world_rig;
+  estimate.regions = Convert(frame.dynamic);
   estimate.counts = {{"features", frame.features},
                      {"stereo_points", frame.stereo_points},
                      {"matched", frame.matched_points},
@@ -70,6 +92,7 @@ std::unique_ptr<Estimator> MakeStereoSlamEstimator(const StereoCalibration& cali
   camera.baseline_m = calibration.baseline_m;
   slam::SlamOptions slam_options;
   slam_options.threads = options.threads;
+  slam_options.dynamic.method = Convert(options.rejection);
   return std::make_unique<StereoSlamEstimator>(camera, slam_options);
 }
 

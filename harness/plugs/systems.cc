@@ -10,6 +10,11 @@ std::unique_ptr<Estimator> OurSlam(const StereoCalibration& calibration, int thr
   return MakeStereoSlamEstimator(calibration, {.threads = threads});
 }
 
+template <Rejection kRejection>
+std::unique_ptr<Estimator> OurSlamThatRejects(const StereoCalibration& calibration, int threads) {
+  return MakeStereoSlamEstimator(calibration, {.threads = threads, .rejection = kRejection});
+}
+
 }  // namespace
 
 const std::vector<System>& Systems() {
@@ -18,6 +23,10 @@ const std::vector<System>& Systems() {
        OurSlam},
       {"semantic", "no features on any person or vehicle, moving or not: the DynaSLAM row",
        MaskSource::kActors, OurSlam},
+      {"paper", "our SLAM with the paper's rejection of dynamic regions, as written",
+       MaskSource::kNone, OurSlamThatRejects<Rejection::kPaper>},
+      {"robust", "our SLAM with our best rejection of dynamic regions", MaskSource::kNone,
+       OurSlamThatRejects<Rejection::kRobust>},
       {"oracle", "no features on what truth says moves now: the best any rejection could do",
        MaskSource::kDynamic, OurSlam},
   };
