@@ -8,6 +8,7 @@
 
 #include "simulator/pipeline.h"
 #include "simulator/scene/load.h"
+#include "simulator/shade/light_cache.h"
 #include "simulator/world/build.h"
 
 namespace aisle::sim {
@@ -148,7 +149,8 @@ Simulator Simulator::Load(const std::string& scene_file, const std::string& asse
   pipeline.seed = options.seed;
   pipeline.threads = options.threads;
   pipeline.dynamic_threshold_mps = static_cast<float>(scene.dynamic_threshold_mps);
-  pipeline.tracer.isa = options.isa;
+  pipeline.tracer.isa = pipeline.shade.statics.isa = options.isa;
+  pipeline.shade.statics.cache_folder = DefaultLightCache();
   pipeline.sensor = SensorOf(scene.sensor);
   impl->pipeline = std::make_unique<Pipeline>(std::move(world), camera, pipeline);
   return Simulator(std::move(impl));

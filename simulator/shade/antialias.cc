@@ -8,7 +8,7 @@
 namespace aisle::sim {
 namespace {
 
-constexpr float kContrast = 0.03f;  // below this an edge cannot be seen in the noise
+constexpr float kContrast = 0.04f;  // below this an edge cannot be seen in the noise
 constexpr float kFineRate = 0.25f;  // barycentrics a pixel: the triangle is four pixels wide
 constexpr int kSamples = 4;
 constexpr int kRowsATask = 8;
@@ -146,6 +146,30 @@ class Edges {
   const cv::Mat1f& radiance_;
 };
 
+/// Radiance of the pixel around that shows the same surface as a sample, or -1: most samples then
+/// cost a ray, but no look-up.
+float RadianceAround(const HitImage& image, const cv::Mat1f& radiance, PixelAt pixel,
+                     const Hits8& hits, std::size_t lane) {
+  constexpr float kSameDepth = 0.01f;
+  float best = kInfinity, found = -1;
+  for (int y = std::max(0, pixel.y - 1); y <= std::min(image.height - 1, pixel.y + 1); ++y) {
+    for (int x = std::max(0, pixel.x - 1); x <= std::min(image.width - 1, pixel.x + 1); ++x) {
+      const std::size_t i = image.Index(x, y);
+      if (image.geometry[i] != hits.geometry[lane]) continue;
+      if (image.geometry[i] == kNoGeometry) return 0;
+      // Movers' triangles are small: there the same body at the same depth will do.
+      const float away = std::abs(image.t[i] - hits.t[lane]);
+      const bool same = image.geometry[i] == 0 ? image.primitive[i] == hits.primitive[lane]
+                                               : away <= kSameDepth * hits.t[lane];
+      if (same && away < best) {
+        best = away;
+        found = radiance(y, x);
+      }
+    }
+  }
+  return found;
+}
+
 /// The share of light that movers leave at a sample: that of the pixel around it whose surface is
 /// nearest in depth.
 float KeptNear(const HitImage& image, std::span<const float> kept, PixelAt pixel, float t) {
@@ -187,6 +211,77 @@ Rays8 SampleRays(const EyeView& view, std::span<const PixelAt> pixels) {
   return packet;
 }
 
+/// Shades pixels by four rays each.
+class Sampler {
+ public:
+  static constexpr std::size_t kPixels = kLanes / kSamples;  ///< a packet
+
+  Sampler(const Instant& instant, const EyeView& view, const HitImage& image,
+          const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures,
+          std::span<const float> kept, const cv::Mat1f& radiance)
+      : instant_(instant),
+        view_(view),
+        image_(image),
+        tables_(tables),
+        frame_(frame),
+        textures_(textures),
+        kept_(kept),
+        radiance_(radiance),
+        // Half a pixel: the spacing of the samples.
+        step_{view.rotation.col(0) * view.rays->step_x * 0.5f,
+              view.rotation.col(1) * view.rays->step_y * 0.5f} {}
+
+  /// Up to kPixels pixels.
+  void Sample(std::span<const PixelAt> pixels, GeometryMask geometries,
+              std::vector<Mixed>* mixed) const {
+    const Rays8 rays = SampleRays(view_, pixels);
+    Hits8 hits;
+    instant_.Intersect(rays, Coherence::kCoherent, geometries, &hits);
+    const std::size_t samples = pixels.size() * kSamples;
+    std::array<float, kLanes> value;
+    bool all_found = true;
+    for (std::size_t k = 0; k < samples; ++k) {
+      value[k] = RadianceAround(image_, radiance_, pixels[k / kSamples], hits, k);
+      all_found &= value[k] >= 0;
+    }
+    if (!all_found) {
+      const F8 light = LightOf(rays, hits);
+      for (std::size_t k = 0; k < samples; ++k) {
+        if (value[k] >= 0) continue;
+        value[k] = light[static_cast<int>(k)];
+        if (hits.geometry[k] == 0) {
+          value[k] *= KeptNear(image_, kept_, pixels[k / kSamples], hits.t[k]);
+        }
+      }
+    }
+    for (std::size_t p = 0; p < pixels.size(); ++p) {
+      float sum = 0;
+      for (std::size_t k = p * kSamples; k < (p + 1) * kSamples; ++k) sum += value[k];
+      mixed->push_back({pixels[p], sum / kSamples});
+    }
+  }
+
+ private:
+  F8 LightOf(const Rays8& rays, const Hits8& hits) const {
+    const SurfaceLanes seen =
+        LookUpHits(tables_, frame_, textures_, LoadI(hits.geometry), LoadI(hits.primitive),
+                   {LoadF(hits.t), LoadF(hits.u), LoadF(hits.v), LoadF(rays.dx), LoadF(rays.dy),
+                    LoadF(rays.dz), I8{}},
+                   step_);
+    return seen.reflectance * seen.irradiance * std::numbers::inv_pi_v<float>;
+  }
+
+  const Instant& instant_;
+  const EyeView& view_;
+  const HitImage& image_;
+  const SurfaceTables& tables_;
+  const FrameLight& frame_;
+  const TexturePool& textures_;
+  std::span<const float> kept_;
+  const cv::Mat1f& radiance_;
+  RayStep step_;
+};
+
 }  // namespace
 
 void AntialiasEdges(const World& world, const Instant& instant, const EyeView& view,
@@ -194,41 +289,20 @@ void AntialiasEdges(const World& world, const Instant& instant, const EyeView& v
                     const TexturePool& textures, std::span<const float> kept, cv::Mat1f* radiance) {
   const int count = (image.height + kRowsATask - 1) / kRowsATask;
   std::vector<Band> bands(static_cast<std::size_t>(count));
-  // Half the spacing of the samples: what each stands for.
-  const RayStep step{view.rotation.col(0) * view.rays->step_x * 0.5f,
-                     view.rotation.col(1) * view.rays->step_y * 0.5f};
-  constexpr std::size_t kPixels = kLanes / kSamples;
-  const auto sample = [&](std::span<const PixelAt> pixels, GeometryMask geometries, Band* band) {
-    const Rays8 rays = SampleRays(view, pixels);
-    Hits8 hits;
-    instant.Intersect(rays, Coherence::kCoherent, geometries, &hits);
-    const SurfaceLanes seen =
-        LookUpHits(tables, frame, textures, LoadI(hits.geometry), LoadI(hits.primitive),
-                   {LoadF(hits.t), LoadF(hits.u), LoadF(hits.v), LoadF(rays.dx), LoadF(rays.dy),
-                    LoadF(rays.dz), I8{}},
-                   step);
-    const F8 value = seen.reflectance * seen.irradiance * std::numbers::inv_pi_v<float>;
-    for (std::size_t p = 0; p < pixels.size(); ++p) {
-      float sum = 0;
-      for (std::size_t k = p * kSamples; k < (p + 1) * kSamples; ++k) {
-        const float share = hits.geometry[k] == 0 ? KeptNear(image, kept, pixels[p], hits.t[k]) : 1;
-        sum += value[static_cast<int>(k)] * share;
-      }
-      band->mixed.push_back({pixels[p], sum / kSamples});
-    }
-  };
-  // All new values are known before the first pixel changes.
   const Edges edges(world, view, image, tables, *radiance);
+  const Sampler sampler(instant, view, image, tables, frame, textures, kept, *radiance);
   tbb::parallel_for(0, count, [&](int i) {
     Band& band = bands[static_cast<std::size_t>(i)];
     const int y0 = i * kRowsATask, y1 = std::min(image.height, y0 + kRowsATask);
     band = edges.Find(y0, y1);
     const GeometryMask geometries = GeometriesInWindow(instant, view, 0, y0, image.width, y1);
     const std::span<const PixelAt> unknown = band.unknown;
-    for (std::size_t first = 0; first < unknown.size(); first += kPixels) {
-      sample(unknown.subspan(first, std::min(kPixels, unknown.size() - first)), geometries, &band);
+    for (std::size_t first = 0; first < unknown.size(); first += Sampler::kPixels) {
+      sampler.Sample(unknown.subspan(first, std::min(Sampler::kPixels, unknown.size() - first)),
+                     geometries, &band.mixed);
     }
   });
+  // All new values are known before the first pixel changes.
   for (const Band& band : bands) {
     for (const Mixed& mixed : band.mixed) {
       (*radiance)(mixed.pixel.y, mixed.pixel.x) = mixed.radiance;

@@ -1,5 +1,7 @@
 #include "simulator/shade/direct_light.h"
 
+#include <unordered_map>
+
 #include "simulator/shade/wide.h"
 
 namespace aisle::sim {
@@ -40,7 +42,9 @@ Shape FineShape(const Shape& probe) { return {probe.columns * 2, probe.rows * 2}
 
 /// Light per area and radiance from one place of the light: cos·cos' / r²; and the way there.
 struct Sample8 {
-  F8 dx, dy, dz, distance, weight;
+  F8 dx, dy, dz, distance;
+  F8 flow;    ///< cos' / r⁴: times the way it is what the normal is multiplied with
+  F8 weight;  ///< cos·cos' / r²
 };
 
 class Light {
@@ -60,7 +64,8 @@ class Light {
     s.distance = Sqrt(squared);
     const F8 here = p.nx * s.dx + p.ny * s.dy + p.nz * s.dz;
     const F8 there = -(normal_.x() * s.dx + normal_.y() * s.dy + normal_.z() * s.dz);
-    s.weight = Max(here, Wide(0)) * Max(there, Wide(0)) / (squared * squared);
+    s.flow = Select(here > 0, Max(there, Wide(0)) / (squared * squared), Wide(0));
+    s.weight = here * s.flow;
     return s;
   }
   F8 Unshadowed(const Points8& p) const { return At(p, 0, 0).weight * power(); }
@@ -91,9 +96,28 @@ unsigned Blocked(const Instant& instant, const Points8& p, const Sample8& s,
 
 /// The light's irradiance from a grid of places on it, and whether lanes saw some but not all.
 struct Gathered {
-  F8 irradiance = Wide(0);
+  F8 irradiance = Wide(0), x = Wide(0), y = Wide(0), z = Wide(0);
   unsigned mixed = 0;
+
+  void Add(const Sample8& s, I8 open, float share) {
+    const F8 flow = Select(open, s.flow, Wide(0)) * share;
+    irradiance += Select(open, s.weight, Wide(0)) * share;
+    x += flow * s.dx;
+    y += flow * s.dy;
+    z += flow * s.dz;
+  }
+  void Add(const Gathered& other, F8 scale) {
+    irradiance += other.irradiance * scale;
+    x += other.x * scale;
+    y += other.y * scale;
+    z += other.z * scale;
+  }
 };
+
+I8 LanesOf(unsigned bits) {
+  const I8 lane = {1, 2, 4, 8, 16, 32, 64, 128};
+  return (WideInt(static_cast<std::int32_t>(bits)) & lane) != 0;
+}
 
 Gathered Gather(const Instant& instant, const Light& light, const Points8& p, Shape shape,
                 GeometryMask occluders) {
@@ -106,9 +130,7 @@ Gathered Gather(const Instant& instant, const Light& light, const Points8& p, Sh
       const float b = (2 * static_cast<float>(row) + 1) / static_cast<float>(shape.rows) - 1;
       const Sample8 s = light.At(p, a, b);
       const unsigned blocked = Blocked(instant, p, s, occluders);
-      for (int k = 0; k < kLanes; ++k) {
-        if (!(blocked >> k & 1)) result.irradiance[k] += s.weight[k] * share;
-      }
+      result.Add(s, ~LanesOf(blocked), share);
       any_blocked |= blocked;
       any_open |= ~blocked;
     }
@@ -138,13 +160,48 @@ std::vector<SurfacePoint> LocatePoints(const LightGrid& grid, const TriangleMesh
   return points;
 }
 
-void DirectIrradiance(const Instant& instant, std::span<const AreaLight> lights,
-                      std::span<const float> light_scale, std::span<const SurfacePoint> points,
-                      const DirectLightOptions& options, float* irradiance) {
+std::vector<std::uint32_t> LeadersOf(std::span<const SurfacePoint> points,
+                                     const GroupOptions& options) {
+  struct Key {
+    std::array<int, 7> parts;
+    bool operator==(const Key&) const = default;
+  };
+  const auto hash = [](const Key& key) {
+    std::size_t value = 0;
+    for (const int part : key.parts) {
+      value = (value ^ static_cast<std::size_t>(part)) * 0x9e3779b97f4a7c15u;
+      value ^= value >> 29;
+    }
+    return value;
+  };
+  // Only looked up, never walked through: its order reaches nothing.
+  std::unordered_map<Key, std::uint32_t, decltype(hash)> first(points.size() / 2, hash);
+  std::vector<std::uint32_t> leaders;
+  leaders.reserve(points.size());
+  for (const SurfacePoint& point : points) {
+    Key key;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      key.parts[i] = static_cast<int>(std::floor(point.position[axis] / options.cell_m));
+      key.parts[i + 3] = static_cast<int>(std::lround(options.normal_steps * point.normal[axis]));
+    }
+    key.parts[6] = static_cast<int>(std::floor(point.normal.dot(point.position) / options.plane_m));
+    const auto index = static_cast<std::uint32_t>(leaders.size());
+    leaders.push_back(first.try_emplace(key, index).first->second);
+  }
+  return leaders;
+}
+
+std::array<DirectLight, kLanes> GatherDirectLight(const Instant& instant,
+                                                  std::span<const AreaLight> lights,
+                                                  std::span<const float> light_scale,
+                                                  std::span<const SurfacePoint> points,
+                                                  const DirectLightOptions& options) {
   const Points8 p = Load(points);
   // Strongest first; lanes of a packet are neighbours, so they share the order.
   std::vector<std::pair<float, std::size_t>> order;
   F8 unshadowed = Wide(0);
+  float left = 0;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (light_scale[i] <= 0) continue;
     const F8 light = Light(lights[i]).Unshadowed(p) * light_scale[i];
@@ -152,14 +209,14 @@ void DirectIrradiance(const Instant& instant, std::span<const AreaLight> lights,
     for (int k = 0; k < kLanes; ++k) sum += light[k];
     if (sum <= 0) continue;
     unshadowed += light;
+    left += sum;
     order.emplace_back(-sum, i);
   }
   std::ranges::sort(order);
-  float left = 0;
-  for (const auto& [negative, light] : order) left -= negative;
   const float enough = left * options.untraced_share;
 
-  F8 sum = Wide(0), traced = Wide(0);
+  Gathered sum;
+  F8 traced = Wide(0);
   for (const auto& [negative, i] : order) {
     if (left <= enough) break;
     left += negative;
@@ -169,14 +226,22 @@ void DirectIrradiance(const Instant& instant, std::span<const AreaLight> lights,
     Gathered gathered = Gather(instant, light, p, probe, options.occluders);
     if (gathered.mixed) {
       const Gathered fine = Gather(instant, light, p, FineShape(probe), options.occluders);
-      for (int k = 0; k < kLanes; ++k) {
-        if (gathered.mixed >> k & 1) gathered.irradiance[k] = fine.irradiance[k];
-      }
+      const F8 mixed = Select(LanesOf(gathered.mixed), Wide(1), Wide(0));
+      Gathered both;
+      both.Add(gathered, 1 - mixed);
+      both.Add(fine, mixed);
+      gathered = both;
     }
-    sum += gathered.irradiance * light_scale[i];
+    sum.Add(gathered, Wide(light_scale[i]));
   }
-  const F8 total = sum * Select(traced > 0, unshadowed / Max(traced, Wide(1e-12f)), Wide(1));
-  for (std::size_t k = 0; k < points.size(); ++k) irradiance[k] = total[static_cast<int>(k)];
+  const F8 grow = Select(traced > 0, unshadowed / Max(traced, Wide(1e-12f)), Wide(1));
+  std::array<DirectLight, kLanes> result;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto lane = static_cast<int>(k);
+    result[k] = {sum.irradiance[lane] * grow[lane],
+                 Eigen::Vector3f(sum.x[lane], sum.y[lane], sum.z[lane]) * grow[lane]};
+  }
+  return result;
 }
 
 }  // namespace aisle::sim

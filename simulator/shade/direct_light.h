@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -20,18 +21,38 @@ std::vector<SurfacePoint> LocatePoints(const LightGrid& grid, const TriangleMesh
                                        std::span<const Eigen::Vector3f> positions,
                                        std::span<const Eigen::Vector3f> normals);
 
+struct GroupOptions {
+  float cell_m = 0.06f;       ///< points in one cell of this size may share a group
+  float normal_steps = 1.5f;  ///< a normal's components are rounded to 1 / this
+  float plane_m = 1e3f;       ///< points of a group lie on planes at most so far apart
+};
+
+/// Groups points that are near and face alike; for each point, its group's first.
+std::vector<std::uint32_t> LeadersOf(std::span<const SurfacePoint> points,
+                                     const GroupOptions& options);
+
 struct DirectLightOptions {
   /// Lights that together give less than this share of a packet's unshadowed light are not traced;
   /// they are taken to be as visible as the others.
-  float untraced_share = 0.01f;
+  float untraced_share = 0.03f;
   GeometryMask occluders = kEverything;
+};
+
+/// What a point receives straight from the luminaires.
+struct DirectLight {
+  float irradiance = 0;
+  /// Whose product with the normal is the irradiance: how it changes when the normal turns a
+  /// little.
+  Eigen::Vector3f vector = Eigen::Vector3f::Zero();
 };
 
 /// Irradiance that up to eight points receive straight from the luminaires, with soft shadows. A
 /// light is first probed at four points of its area; where these disagree (penumbra), at sixteen.
-/// `light_scale` dims each light. Writes points.size() values.
-void DirectIrradiance(const Instant& instant, std::span<const AreaLight> lights,
-                      std::span<const float> light_scale, std::span<const SurfacePoint> points,
-                      const DirectLightOptions& options, float* irradiance);
+/// `light_scale` dims each light. One result a point.
+std::array<DirectLight, kLanes> GatherDirectLight(const Instant& instant,
+                                                  std::span<const AreaLight> lights,
+                                                  std::span<const float> light_scale,
+                                                  std::span<const SurfacePoint> points,
+                                                  const DirectLightOptions& options);
 
 }  // namespace aisle::sim

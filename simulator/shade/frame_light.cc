@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <atomic>
-#include <cstring>
 
 #include "simulator/shade/direct_light.h"
 #include "simulator/shade/hemisphere.h"
@@ -11,7 +10,8 @@
 namespace aisle::sim {
 namespace {
 
-constexpr float kMoverUntracedShare = 0.04f;
+constexpr float kUntracedShare = 0.08f;
+constexpr float kClusterSize = 0.06f;    // m: points nearer than this share their shadow rays
 constexpr float kBodyReach = 1.0f;       // m: how far a body darkens itself
 constexpr float kBodyReflection = 0.3f;  // what the blocking parts send on in turn
 
@@ -109,6 +109,8 @@ SurfaceTables::SurfaceTables(const World& world, const Tracer& tracer, const Lig
     MoverGrid own;
     own.grid = MakeLightGrid(mover, mover_texel_m);
     own.openness = OpennessOf(tracer, world, i, own.grid);
+    own.leader = LeadersOf(LocatePoints(own.grid, mover, mover.positions, mover.normals),
+                           {.cell_m = kClusterSize});
     mover_bases_.push_back(static_cast<std::int32_t>(mover_records_.size()));
     slot_bases_.push_back(slot_count_);
     for (SurfaceRecord record :
@@ -139,28 +141,38 @@ void SurfaceTables::LightMover(const Instant& instant, std::size_t mover, const 
       if (point < LightGrid::kExtrapolated) wanted[point] = 1;
     }
   }
-  std::vector<std::uint32_t> points;
+  const std::vector<std::uint32_t>& leader = movers_[mover].leader;
+  std::vector<std::uint8_t> leads(wanted.size());
+  std::vector<std::uint32_t> points, leaders;
   for (std::uint32_t i = 0; i < wanted.size(); ++i) {
-    if (wanted[i]) points.push_back(i);
+    if (!wanted[i]) continue;
+    points.push_back(i);
+    if (!std::exchange(leads[leader[i]], 1)) leaders.push_back(leader[i]);
   }
   if (points.empty()) return;
+  std::ranges::sort(leaders);  // neighbours in one packet
+  const std::vector<SurfacePoint> places = LocatePoints(grid, mesh, state.positions, state.normals);
+  std::vector<DirectLight> direct(grid.points.size());
+  tbb::parallel_for(std::size_t{0}, (leaders.size() + kLanes - 1) / kLanes, [&](std::size_t i) {
+    const std::size_t first = i * kLanes;
+    const std::size_t count = std::min<std::size_t>(kLanes, leaders.size() - first);
+    std::array<SurfacePoint, kLanes> eight;
+    for (std::size_t k = 0; k < count; ++k) eight[k] = places[leaders[first + k]];
+    const auto light =
+        GatherDirectLight(instant, world_->lights(), instant.snapshot().light_scale,
+                          std::span(eight).first(count), {.untraced_share = kUntracedShare});
+    for (std::size_t k = 0; k < count; ++k) direct[leaders[first + k]] = light[k];
+  });
 
   std::vector<float> light(grid.points.size(), -1);
-  tbb::parallel_for(std::size_t{0}, (points.size() + kLanes - 1) / kLanes, [&](std::size_t packet) {
-    const std::size_t first = packet * kLanes;
-    const std::size_t count = std::min<std::size_t>(kLanes, points.size() - first);
-    LightGrid eight;
-    for (std::size_t k = 0; k < count; ++k) eight.points.push_back(grid.points[points[first + k]]);
-    const std::vector<SurfacePoint> places =
-        LocatePoints(eight, mesh, state.positions, state.normals);
-    std::array<float, kLanes> direct;
-    DirectIrradiance(instant, world_->lights(), instant.snapshot().light_scale, places,
-                     {.untraced_share = kMoverUntracedShare}, direct.data());
-    for (std::size_t k = 0; k < count; ++k) {
-      light[points[first + k]] =
-          direct[k] + movers_[mover].openness[points[first + k]] *
-                          volume.Irradiance(places[k].position, places[k].normal);
-    }
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+    const std::uint32_t point = points[i];
+    const SurfacePoint& place = places[point];
+    const DirectLight& lead = direct[leader[point]];
+    // To first order in how the normals differ.
+    const float turned = (place.normal - places[leader[point]].normal).dot(lead.vector);
+    light[point] = std::max(0.0f, lead.irradiance + turned) +
+                   movers_[mover].openness[point] * volume.Irradiance(place.position, place.normal);
   });
   FillUnlit(grid, mesh, &light);
   FillSlots(grid, light, slots);

@@ -6,28 +6,33 @@
 
 namespace aisle::sim {
 
-LightVolume::LightVolume(const Eigen::AlignedBox3f& box, float spacing_m)
-    : origin_(box.min()), spacing_(spacing_m) {
+LightVolume::LightVolume(const Shape& shape, std::vector<Node> nodes)
+    : shape_(shape), nodes_(std::move(nodes)) {}
+
+LightVolume::LightVolume(const Eigen::AlignedBox3f& box, float spacing_m) {
+  shape_.origin = box.min();
+  shape_.spacing = spacing_m;
   for (int i = 0; i < 3; ++i) {
-    count_[i] = 2 + static_cast<int>(box.sizes()[i] / spacing_m);
+    shape_.count[i] = 2 + static_cast<int>(box.sizes()[i] / spacing_m);
   }
-  nodes_.resize(static_cast<std::size_t>(count_.prod()));
+  nodes_.resize(static_cast<std::size_t>(shape_.count.prod()));
 }
 
 Eigen::Vector3f LightVolume::Position(std::size_t node) const {
   const auto i = static_cast<int>(node);
-  const Eigen::Vector3i cell(i % count_[0], i / count_[0] % count_[1], i / count_[0] / count_[1]);
-  return origin_ + spacing_ * cell.cast<float>();
+  const Eigen::Vector3i cell(i % shape_.count[0], i / shape_.count[0] % shape_.count[1],
+                             i / shape_.count[0] / shape_.count[1]);
+  return shape_.origin + shape_.spacing * cell.cast<float>();
 }
 
 float LightVolume::Irradiance(const Eigen::Vector3f& position,
                               const Eigen::Vector3f& normal) const {
   if (nodes_.empty()) return 0;
-  const Eigen::Vector3f at = (position - origin_) / spacing_;
+  const Eigen::Vector3f at = (position - shape_.origin) / shape_.spacing;
   Eigen::Vector3i cell;
   Eigen::Vector3f f;
   for (int i = 0; i < 3; ++i) {
-    const float inside = std::clamp(at[i], 0.0f, static_cast<float>(count_[i]) - 1.001f);
+    const float inside = std::clamp(at[i], 0.0f, static_cast<float>(shape_.count[i]) - 1.001f);
     cell[i] = static_cast<int>(inside);
     f[i] = inside - static_cast<float>(cell[i]);
   }
@@ -35,8 +40,8 @@ float LightVolume::Irradiance(const Eigen::Vector3f& position,
   Eigen::Vector3f slope = Eigen::Vector3f::Zero();
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Vector3i c = cell + Eigen::Vector3i(corner & 1, corner >> 1 & 1, corner >> 2);
-    const Node& node =
-        nodes_[static_cast<std::size_t>((c.z() * count_[1] + c.y()) * count_[0] + c.x())];
+    const Node& node = nodes_[static_cast<std::size_t>(
+        (c.z() * shape_.count[1] + c.y()) * shape_.count[0] + c.x())];
     const float w = node.weight * (corner & 1 ? f.x() : 1 - f.x()) *
                     (corner & 2 ? f.y() : 1 - f.y()) * (corner & 4 ? f.z() : 1 - f.z());
     mean += w * node.mean;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <span>
 #include <vector>
 
 namespace aisle::sim {
@@ -15,21 +16,28 @@ class LightVolume {
     float weight = 0;  ///< 1 in free space, 0 inside a thing
   };
 
+  struct Shape {
+    Eigen::Vector3f origin = Eigen::Vector3f::Zero();  ///< of the first node
+    float spacing = 1;                                 ///< m
+    Eigen::Vector3i count = Eigen::Vector3i::Zero();   ///< nodes along x, y, z
+  };
+
   LightVolume() = default;
+  LightVolume(const Shape& shape, std::vector<Node> nodes);
   LightVolume(const Eigen::AlignedBox3f& box, float spacing_m);
 
   std::size_t size() const { return nodes_.size(); }
   Eigen::Vector3f Position(std::size_t node) const;
   void Set(std::size_t node, const Node& value) { nodes_[node] = value; }
   const Node& node(std::size_t i) const { return nodes_[i]; }
+  std::span<const Node> nodes() const { return nodes_; }
+  const Shape& shape() const { return shape_; }
 
   /// Irradiance at a point on the side of `normal`.
   float Irradiance(const Eigen::Vector3f& position, const Eigen::Vector3f& normal) const;
 
  private:
-  Eigen::Vector3f origin_ = Eigen::Vector3f::Zero();
-  float spacing_ = 1;
-  Eigen::Vector3i count_ = Eigen::Vector3i::Zero();
+  Shape shape_;
   std::vector<Node> nodes_;
 };
 

@@ -12,29 +12,29 @@ namespace {
 constexpr std::uint32_t kDark = 0xffffffffu;  // the ray met nothing, or the back of something
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// Which point of the grid each ray of a point meets. Eight neighbouring points shoot in the same
-/// local direction together, so that their paths are alike.
-void FindPartners(const Instant& statics, const LightGrid& grid,
-                  std::span<const SurfacePoint> points, std::span<const Eigen::Vector3f> directions,
-                  std::size_t first, std::span<std::uint32_t> partners) {
-  const std::size_t count = std::min<std::size_t>(kLanes, points.size() - first);
+/// Which patch each ray of a patch meets. Eight neighbouring patches shoot in the same local
+/// direction together, so that their paths are alike.
+void FindPartners(const Instant& statics, const LightGrid& grid, const Patches& patches,
+                  std::span<const Eigen::Vector3f> directions, std::size_t first,
+                  std::span<std::uint32_t> partners) {
+  const std::size_t count = std::min<std::size_t>(kLanes, patches.places.size() - first);
   std::array<Eigen::Matrix3f, kLanes> basis;
-  for (std::size_t k = 0; k < count; ++k) basis[k] = BasisAround(points[first + k].normal);
+  for (std::size_t k = 0; k < count; ++k) basis[k] = BasisAround(patches.places[first + k].normal);
   Rays8 rays;
   Hits8 hits;
   for (std::size_t d = 0; d < directions.size(); ++d) {
     for (std::size_t k = 0; k < kLanes; ++k) {
       const std::size_t p = std::min(k, count - 1);
-      SetRay(points[first + p].position, basis[p] * directions[d], kInfinity, static_cast<int>(k),
-             &rays);
+      SetRay(patches.places[first + p].position, basis[p] * directions[d], kInfinity,
+             static_cast<int>(k), &rays);
     }
     statics.Intersect(rays, Coherence::kCoherent, kStaticOnly, &hits);
     for (std::size_t k = 0; k < count; ++k) {
       std::uint32_t partner = kDark;
       if (hits.geometry[k] == 0) {
-        partner = NearestPoint(grid, hits.primitive[k], hits.u[k], hits.v[k]);
+        partner = patches.of_point[NearestPoint(grid, hits.primitive[k], hits.u[k], hits.v[k])];
         const Eigen::Vector3f direction(rays.dx[k], rays.dy[k], rays.dz[k]);
-        if (points[partner].normal.dot(direction) > 0) partner = kDark;
+        if (patches.places[partner].normal.dot(direction) > 0) partner = kDark;
       }
       partners[(first + k) * directions.size() + d] = partner;
     }
@@ -43,22 +43,45 @@ void FindPartners(const Instant& statics, const LightGrid& grid,
 
 }  // namespace
 
-Radiosity SolveRadiosity(const Instant& statics, const LightGrid& grid,
-                         std::span<const SurfacePoint> points, std::span<const float> albedo,
+Patches MakePatches(std::span<const SurfacePoint> points, std::span<const float> albedo) {
+  const std::vector<std::uint32_t> leaders =
+      LeadersOf(points, {.cell_m = 0.33f, .normal_steps = 3, .plane_m = 0.04f});
+  Patches patches;
+  std::vector<float> members;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::uint32_t patch;
+    if (leaders[i] == i) {
+      patch = static_cast<std::uint32_t>(patches.places.size());
+      patches.places.push_back(points[i]);
+      patches.albedo.push_back(0);
+      members.push_back(0);
+    } else {
+      patch = patches.of_point[leaders[i]];
+    }
+    patches.of_point.push_back(patch);
+    patches.albedo[patch] += albedo[i];
+    members[patch] += 1;
+  }
+  for (std::size_t i = 0; i < members.size(); ++i) patches.albedo[i] /= members[i];
+  return patches;
+}
+
+Radiosity SolveRadiosity(const Instant& statics, const LightGrid& grid, const Patches& patches,
                          std::vector<float> direct, const RadiosityOptions& options) {
+  const std::size_t count = patches.places.size();
   const std::vector<Eigen::Vector3f> directions = CosineDirections(options.directions);
-  std::vector<std::uint32_t> partners(points.size() * directions.size());
-  tbb::parallel_for(std::size_t{0}, (points.size() + kLanes - 1) / kLanes, [&](std::size_t i) {
-    FindPartners(statics, grid, points, directions, i * kLanes, partners);
+  std::vector<std::uint32_t> partners(count * directions.size());
+  tbb::parallel_for(std::size_t{0}, (count + kLanes - 1) / kLanes, [&](std::size_t i) {
+    FindPartners(statics, grid, patches, directions, i * kLanes, partners);
   });
 
-  Radiosity result{.direct = std::move(direct), .indirect = std::vector<float>(points.size())};
-  std::vector<float> leaving(points.size());
+  Radiosity result{.direct = std::move(direct), .indirect = std::vector<float>(count)};
+  std::vector<float> leaving(count);
   for (int bounce = 0; bounce < options.bounces; ++bounce) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      leaving[i] = albedo[i] * (result.direct[i] + result.indirect[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+      leaving[i] = patches.albedo[i] * (result.direct[i] + result.indirect[i]);
     }
-    tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
       float sum = 0;
       for (std::size_t d = 0; d < directions.size(); ++d) {
         const std::uint32_t partner = partners[i * directions.size() + d];
@@ -71,7 +94,7 @@ Radiosity SolveRadiosity(const Instant& statics, const LightGrid& grid,
 }
 
 void FillVolume(const Instant& statics, const LightGrid& grid, const TriangleMesh& mesh,
-                std::span<const float> albedo, const Radiosity& radiosity, int count,
+                const Patches& patches, const Radiosity& radiosity, int count,
                 LightVolume* volume) {
   const std::vector<Eigen::Vector3f> directions = SphereDirections(count / kLanes * kLanes);
   tbb::parallel_for(std::size_t{0}, volume->size(), [&](std::size_t node) {
@@ -94,8 +117,10 @@ void FillVolume(const Instant& statics, const LightGrid& grid, const TriangleMes
           backs += 1;
           continue;
         }
-        const std::uint32_t p = NearestPoint(grid, hits.primitive[k], hits.u[k], hits.v[k]);
-        const float radiance = albedo[p] * (radiosity.direct[p] + radiosity.indirect[p]) / kPi;
+        const std::uint32_t p =
+            patches.of_point[NearestPoint(grid, hits.primitive[k], hits.u[k], hits.v[k])];
+        const float radiance =
+            patches.albedo[p] * (radiosity.direct[p] + radiosity.indirect[p]) / kPi;
         sum.mean += radiance;
         sum.slope += 3 * radiance * directions[d + k];
       }

@@ -6,7 +6,9 @@
 #include <numbers>
 
 #include "simulator/shade/direct_light.h"
+#include "simulator/shade/light_cache.h"
 #include "simulator/shade/radiosity.h"
+#include "simulator/shade/reference.h"
 
 namespace aisle::sim {
 namespace {
@@ -30,8 +32,9 @@ std::vector<float> DirectAt(const Instant& statics, const World& world,
   tbb::parallel_for(std::size_t{0}, (points.size() + kLanes - 1) / kLanes, [&](std::size_t i) {
     const std::size_t first = i * kLanes;
     const std::size_t count = std::min<std::size_t>(kLanes, points.size() - first);
-    DirectIrradiance(statics, world.lights(), light_scale, points.subspan(first, count),
-                     {.occluders = kStaticOnly}, &direct[first]);
+    const auto light = GatherDirectLight(statics, world.lights(), light_scale,
+                                         points.subspan(first, count), {.occluders = kStaticOnly});
+    for (std::size_t k = 0; k < count; ++k) direct[first + k] = light[k].irradiance;
   });
   return direct;
 }
@@ -56,29 +59,6 @@ std::vector<float> AlbedoAt(const World& world, const TexturePool& textures, con
                      textures.SampleWide(material.albedo_texture, uv.x(), uv.y(), width));
   }
   return albedo;
-}
-
-/// Which light a luminaire's triangle shows: the one whose rectangle is nearest to its middle.
-std::size_t NearestLight(const World& world, std::size_t triangle) {
-  const TriangleMesh& mesh = world.statics().mesh;
-  const auto& [a, b, c] = mesh.triangles[triangle];
-  const Eigen::Vector3f middle = (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3;
-  std::size_t best = 0;
-  float nearest = kInfinity;
-  for (std::size_t i = 0; i < world.lights().size(); ++i) {
-    const AreaLight& light = world.lights()[i];
-    const Eigen::Vector3f d = middle - light.center;
-    const auto along = [&](const Eigen::Vector3f& half) {
-      return std::clamp(d.dot(half) / half.squaredNorm(), -1.0f, 1.0f);
-    };
-    const float distance =
-        (d - along(light.half_u) * light.half_u - along(light.half_v) * light.half_v).norm();
-    if (distance < nearest) {
-      nearest = distance;
-      best = i;
-    }
-  }
-  return best;
 }
 
 /// Makes luminaires show their own radiance: what is read is irradiance / π at reflectance 1.
@@ -120,19 +100,22 @@ LightState StaticLight::Solve(std::span<const float> light_scale) const {
   const auto locate = [&](const LightGrid& grid) {
     return LocatePoints(grid, mesh, mesh.positions, mesh.normals);
   };
-  const std::vector<SurfacePoint> coarse_points = locate(coarse_);
-  const std::vector<float> albedo = AlbedoAt(*world_, *textures_, coarse_, options_.coarse_texel_m);
-  const Radiosity radiosity =
-      SolveRadiosity(statics, coarse_, coarse_points, albedo,
-                     DirectAt(statics, *world_, light_scale, coarse_points),
-                     {.directions = options_.directions, .bounces = options_.bounces});
+  const Patches patches =
+      MakePatches(locate(coarse_), AlbedoAt(*world_, *textures_, coarse_, options_.coarse_texel_m));
+  const Radiosity radiosity = SolveRadiosity(
+      statics, coarse_, patches, DirectAt(statics, *world_, light_scale, patches.places),
+      {.directions = options_.directions, .bounces = options_.bounces});
 
   LightState state;
   state.direct.resize(fine_.point_of_slot.size());
   FillSlots(fine_, DirectAt(statics, *world_, light_scale, locate(fine_)), state.direct);
 
+  std::vector<float> coarse_indirect;
+  for (const std::uint32_t patch : patches.of_point) {
+    coarse_indirect.push_back(radiosity.indirect[patch]);
+  }
   std::vector<float> coarse_slots(coarse_.point_of_slot.size());
-  FillSlots(coarse_, radiosity.indirect, coarse_slots);
+  FillSlots(coarse_, coarse_indirect, coarse_slots);
   std::vector<float> indirect(fine_.points.size());
   tbb::parallel_for(std::size_t{0}, indirect.size(), [&](std::size_t i) {
     const LightPoint& point = fine_.points[i];
@@ -144,7 +127,19 @@ LightState StaticLight::Solve(std::span<const float> light_scale) const {
   PaintLuminaires(*world_, fine_, light_scale, &state);
 
   state.volume = LightVolume(tracer_->static_box(), options_.volume_spacing_m);
-  FillVolume(statics, coarse_, mesh, albedo, radiosity, options_.directions, &state.volume);
+  FillVolume(statics, coarse_, mesh, patches, radiosity, options_.directions, &state.volume);
+  return state;
+}
+
+LightState StaticLight::LoadOrSolve(std::span<const float> light_scale) const {
+  if (options_.cache_folder.empty()) return Solve(light_scale);
+  const std::uint64_t key = LightKey(*world_, options_, light_scale);
+  if (std::optional<LightState> kept =
+          LoadLight(options_.cache_folder, key, fine_.point_of_slot.size())) {
+    return *std::move(kept);
+  }
+  LightState state = Solve(light_scale);
+  SaveLight(options_.cache_folder, key, state);
   return state;
 }
 
@@ -152,7 +147,8 @@ std::shared_ptr<const LightState> StaticLight::Solved(const std::vector<float>& 
   auto& found = solved_[scale];
   // Isolated: a thread that holds the mutex must not pick up another frame's work while it waits.
   if (!found) {
-    tbb::this_task_arena::isolate([&] { found = std::make_shared<LightState>(Solve(scale)); });
+    tbb::this_task_arena::isolate(
+        [&] { found = std::make_shared<LightState>(LoadOrSolve(scale)); });
   }
   return found;
 }

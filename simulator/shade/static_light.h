@@ -1,6 +1,6 @@
 #pragma once
 
-#include <functional>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -8,27 +8,22 @@
 #include <vector>
 
 #include "simulator/shade/light_grid.h"
-#include "simulator/shade/light_volume.h"
+#include "simulator/shade/light_state.h"
 #include "simulator/shade/texture_pool.h"
 #include "simulator/trace/tracer.h"
 
 namespace aisle::sim {
 
 struct StaticLightOptions {
+  /// Where solutions are kept from run to run, by content; empty: nowhere.
+  std::filesystem::path cache_folder;
+  std::string isa = "avx2";     ///< Embree's, as rays' last bits depend on it
   float texel_m = 0.06f;        ///< spacing of the direct light's points; soft shadows' resolution
   float coarse_texel_m = 0.4f;  ///< spacing of the indirect light's points
   float volume_spacing_m = 0.75f;
-  int directions = 96;                 ///< rays a point that gather indirect light
+  int directions = 64;                 ///< rays a point that gather indirect light
   int bounces = 6;                     ///< of indirect light
   std::size_t max_points = 3'000'000;  ///< the spacing is widened until this holds
-};
-
-/// Light on the static world under one setting of the lamps. Irradiance by slot of
-/// StaticLight::grid(); luminaires carry what shows as their own radiance.
-struct LightState {
-  std::vector<float> total;   ///< direct + indirect
-  std::vector<float> direct;  ///< of it, straight from the luminaires
-  LightVolume volume;         ///< indirect light in free space, for what moves
 };
 
 /// The light that static luminaires throw on the static world, solved once: direct light by shadow
@@ -48,6 +43,7 @@ class StaticLight {
 
  private:
   LightState Solve(std::span<const float> light_scale) const;
+  LightState LoadOrSolve(std::span<const float> light_scale) const;
   std::shared_ptr<const LightState> Solved(const std::vector<float>& light_scale) const;
 
   const World* world_;

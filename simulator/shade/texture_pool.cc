@@ -42,8 +42,8 @@ void AppendLevel(const cv::Mat1f& level, std::vector<std::uint8_t>* bytes) {
 
 TexturePool::TexturePool(std::span<const Texture> textures) {
   const auto append = [&](const cv::Mat1f& base) {
-    log_width_.push_back(std::countr_zero(static_cast<unsigned>(base.cols)));
-    log_height_.push_back(std::countr_zero(static_cast<unsigned>(base.rows)));
+    sizes_.push_back(std::countr_zero(static_cast<unsigned>(base.cols)) |
+                     std::countr_zero(static_cast<unsigned>(base.rows)) << 8);
     cv::Mat1f level = base;
     for (int i = 0; i < kLevels; ++i) {
       offsets_.push_back(static_cast<std::int32_t>(bytes_.size()));
@@ -72,10 +72,9 @@ TexturePool::TexturePool(std::span<const Texture> textures) {
   bytes_.resize(bytes_.size() + 8);  // the gathers read four bytes
 }
 
-F8 TexturePool::Bilinear(I8 texture, I8 level, F8 u, F8 v) const {
+F8 TexturePool::Bilinear(I8 texture, I8 size, I8 level, F8 u, F8 v) const {
   const I8 zero = I8{};
-  const I8 log_w = MaxInt(GatherInt(log_width_.data(), texture) - level, zero);
-  const I8 log_h = MaxInt(GatherInt(log_height_.data(), texture) - level, zero);
+  const I8 log_w = MaxInt((size & 255) - level, zero), log_h = MaxInt((size >> 8) - level, zero);
   const I8 w = ShiftLeft(WideInt(1), log_w), h = ShiftLeft(WideInt(1), log_h);
   const F8 x = u * ToFloat(w) - 0.5f, y = v * ToFloat(h) - 0.5f;
   const F8 x_floor = Floor(x), y_floor = Floor(y);
@@ -99,8 +98,9 @@ F8 TexturePool::Sample(I8 index, F8 u, F8 v, F8 du_dx, F8 dv_dx, F8 du_dy, F8 dv
   // Texel indices must fit in 32 bits whatever a mesh says.
   u = u - Floor(u);
   v = v - Floor(v);
-  const F8 width = ToFloat(ShiftLeft(WideInt(1), GatherInt(log_width_.data(), texture)));
-  const F8 height = ToFloat(ShiftLeft(WideInt(1), GatherInt(log_height_.data(), texture)));
+  const I8 size = GatherInt(sizes_.data(), texture);
+  const F8 width = ToFloat(ShiftLeft(WideInt(1), size & 255));
+  const F8 height = ToFloat(ShiftLeft(WideInt(1), size >> 8));
   const F8 ax = du_dx * width, ay = dv_dx * height, bx = du_dy * width, by = dv_dy * height;
   const F8 a = ax * ax + ay * ay, b = bx * bx + by * by;
   const F8 tiny = Wide(1e-6f), huge = Wide(1e6f);  // bounds, also where a footprint is not finite
@@ -119,8 +119,8 @@ F8 TexturePool::Sample(I8 index, F8 u, F8 v, F8 du_dx, F8 dv_dx, F8 du_dy, F8 dv
   for (float i = 0; Any(taps > i); i += 1) {
     const F8 along = (i + 0.5f) / taps - 0.5f;
     const F8 tap_u = u + step_u * along, tap_v = v + step_v * along;
-    F8 value = Bilinear(texture, level, tap_u, tap_v);
-    if (blend) value += (Bilinear(texture, next, tap_u, tap_v) - value) * between;
+    F8 value = Bilinear(texture, size, level, tap_u, tap_v);
+    if (blend) value += (Bilinear(texture, size, next, tap_u, tap_v) - value) * between;
     sum += Select(taps > i, value, Wide(0));
   }
   return sum / taps;

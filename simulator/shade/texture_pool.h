@@ -28,12 +28,12 @@ class TexturePool {
   float SampleWide(int texture, float u, float v, float width) const;
 
  private:
-  F8 Bilinear(I8 texture, I8 level, F8 u, F8 v) const;
+  F8 Bilinear(I8 texture, I8 size, I8 level, F8 u, F8 v) const;
 
   static constexpr int kLevels = 14;  ///< up to 8192 texels a side
   std::vector<std::uint8_t> bytes_;
-  std::vector<std::int32_t> log_width_, log_height_;  ///< of level 0, by texture + 1
-  std::vector<std::int32_t> offsets_;                 ///< by (texture + 1)·kLevels + level
+  std::vector<std::int32_t> sizes_;    ///< log2 width | log2 height << 8, by texture + 1
+  std::vector<std::int32_t> offsets_;  ///< by (texture + 1)·kLevels + level
 };
 
 }  // namespace aisle::sim

@@ -43,7 +43,8 @@ WorldParts Build(const Stage& stage) {
       mover.velocity_mps = i == 0 ? Eigen::Vector3d(0, stage.speed, 0) : Eigen::Vector3d::Zero();
       for (const Eigen::Vector3f& p : meshes[i].positions) {
         Eigen::Vector3f spin = Eigen::Vector3f::Zero();
-        if (i == 0) spin = Eigen::Vector3f(-p.y(), p.x(), 0) * static_cast<float>(stage.angular_speed);
+        if (i == 0)
+          spin = Eigen::Vector3f(-p.y(), p.x(), 0) * static_cast<float>(stage.angular_speed);
         mover.positions.push_back(p + places[i]);
         mover.velocities.push_back(mover.velocity_mps.cast<float>() + spin);
       }

@@ -1,0 +1,291 @@
+#include "simulator/shade/reference.h"
+
+#include <tbb/parallel_for.h>
+
+#include <numbers>
+
+#include "simulator/shade/hemisphere.h"
+
+namespace aisle::sim {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kLift = 1e-4f;        // of the coordinates' size, along the normal
+constexpr float kLightGuard = 1e-3f;  // share of the way that a shadow ray leaves out at its end
+
+/// Random numbers of one path: the n-th depends on (seed, pixel, sample, n) alone.
+class PathRandom {
+ public:
+  PathRandom() = default;
+  PathRandom(std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample)
+      : state_(Mix(Mix(seed * 0x9e3779b97f4a7c15u + pixel) + sample)) {}
+  float Next() {
+    state_ += 0x9e3779b97f4a7c15u;
+    return static_cast<float>(Mix(state_) >> 40) * 0x1p-24f;
+  }
+
+ private:
+  static std::uint64_t Mix(std::uint64_t x) {  // SplitMix64's finaliser
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return x ^ (x >> 31);
+  }
+  std::uint64_t state_ = 0;
+};
+
+struct Vertex {
+  Eigen::Vector3f position, geometric, shading;  ///< normals on the side the path came from
+  float albedo = 0, emission = 0;
+  std::int32_t light = -1;  ///< whose surface this is
+};
+
+Eigen::Vector3f NormalOf(const AreaLight& light) {
+  return light.half_u.cross(light.half_v).normalized();
+}
+float AreaOf(const AreaLight& light) { return 4 * light.half_u.cross(light.half_v).norm(); }
+
+/// How likely each light is to be picked at a vertex: by what its centre would give unshadowed,
+/// with a floor, so that no light that could count is left out.
+class LightChoice {
+ public:
+  LightChoice(const World& world, std::span<const float> scale, const Vertex& at) {
+    float total = 0;
+    for (std::size_t i = 0; i < world.lights().size(); ++i) {
+      const AreaLight& light = world.lights()[i];
+      const Eigen::Vector3f to = light.center - at.position;
+      const float extent = (light.half_u.norm() + light.half_v.norm());
+      // Softened, as a large light may reach around the horizon or very near.
+      const float squared = to.squaredNorm() + extent * extent;
+      const float weight = light.radiance * scale[i] * AreaOf(light) / squared *
+                           (0.05f + std::max(0.0f, to.normalized().dot(at.shading)) *
+                                        std::max(0.0f, -to.normalized().dot(NormalOf(light))));
+      total += weight;
+      cumulative_.push_back(total);
+    }
+  }
+  bool empty() const { return cumulative_.empty() || cumulative_.back() <= 0; }
+  std::size_t Pick(float random) const {
+    const auto found = std::ranges::upper_bound(cumulative_, random * cumulative_.back());
+    return std::min(static_cast<std::size_t>(found - cumulative_.begin()), cumulative_.size() - 1);
+  }
+  float Probability(std::size_t light) const {
+    return (cumulative_[light] - (light ? cumulative_[light - 1] : 0)) / cumulative_.back();
+  }
+
+ private:
+  std::vector<float> cumulative_;
+};
+
+}  // namespace
+
+std::size_t NearestLight(const World& world, std::size_t triangle) {
+  const TriangleMesh& mesh = world.statics().mesh;
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  const Eigen::Vector3f middle = (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3;
+  std::size_t best = 0;
+  float nearest = kInfinity;
+  for (std::size_t i = 0; i < world.lights().size(); ++i) {
+    const AreaLight& light = world.lights()[i];
+    const Eigen::Vector3f d = middle - light.center;
+    const auto along = [&](const Eigen::Vector3f& half) {
+      return std::clamp(d.dot(half) / half.squaredNorm(), -1.0f, 1.0f);
+    };
+    const float distance =
+        (d - along(light.half_u) * light.half_u - along(light.half_v) * light.half_v).norm();
+    if (distance < nearest) {
+      nearest = distance;
+      best = i;
+    }
+  }
+  return best;
+}
+
+/// Eight paths, one a pixel, that grow together.
+class PathPacket {
+ public:
+  PathPacket(const Reference& scene, const Instant& instant, const ReferenceOptions& options)
+      : scene_(scene), instant_(instant), options_(options) {}
+
+  void Start(int lane, const PathRandom& random, const Eigen::Vector3f& origin,
+             const Eigen::Vector3f& direction) {
+    const auto k = static_cast<std::size_t>(lane);
+    random_[k] = random;
+    throughput_[k] = 1;
+    radiance_[k] = 0;
+    scatter_pdf_[k] = 0;
+    SetRay(origin, direction, kInfinity, lane, &rays_);
+  }
+  void Idle(int lane) { rays_.valid[lane] = 0; }
+  PathRandom& random(int lane) { return random_[static_cast<std::size_t>(lane)]; }
+  float radiance(int lane) const { return radiance_[static_cast<std::size_t>(lane)]; }
+
+  void Trace() {
+    for (int touched = 1; touched <= options_.depth && AnyValid(); ++touched) {
+      Hits8 hits;
+      instant_.Intersect(rays_, Coherence::kIncoherent, kEverything, &hits);
+      Rays8 shadow = rays_;
+      std::array<float, kLanes> light_share{};
+      for (int k = 0; k < kLanes; ++k) {
+        shadow.valid[k] = 0;
+        if (rays_.valid[k]) Touch(k, hits, touched, &shadow, &light_share);
+      }
+      const unsigned blocked = instant_.Occluded(shadow, Coherence::kIncoherent, kEverything);
+      for (std::size_t k = 0; k < kLanes; ++k) {
+        if (shadow.valid[k] && !(blocked >> k & 1)) radiance_[k] += light_share[k];
+      }
+    }
+  }
+
+ private:
+  bool AnyValid() const {
+    return std::ranges::any_of(rays_.valid, [](int v) { return v != 0; });
+  }
+
+  /// One path meets a surface: what it shows by itself, a shadow ray to a light, and where the path
+  /// goes on.
+  void Touch(int lane, const Hits8& hits, int touched, Rays8* shadow,
+             std::array<float, kLanes>* light_share) {
+    const auto k = static_cast<std::size_t>(lane);
+    rays_.valid[lane] = 0;
+    if (hits.geometry[k] == kNoGeometry) return;
+    const Eigen::Vector3f origin(rays_.ox[k], rays_.oy[k], rays_.oz[k]);
+    const Eigen::Vector3f direction(rays_.dx[k], rays_.dy[k], rays_.dz[k]);
+    const Vertex vertex = VertexAt(origin, direction, hits, k);
+    radiance_[k] += throughput_[k] * vertex.emission * EmissionWeight(k, origin, vertex);
+    if (touched == options_.depth || vertex.albedo <= 0) return;
+
+    const LightChoice choice(scene_.world_, instant_.snapshot().light_scale, vertex);
+    if (!choice.empty()) AimAtLight(lane, vertex, choice, shadow, light_share);
+
+    const float r = std::sqrt(random_[k].Next()), phi = 2 * kPi * random_[k].Next();
+    const float cosine = std::sqrt(std::max(0.0f, 1 - r * r));
+    const Eigen::Vector3f local(r * std::cos(phi), r * std::sin(phi), cosine);
+    const Eigen::Vector3f next = BasisAround(vertex.shading) * local;
+    if (next.dot(vertex.geometric) <= 0) return;
+    throughput_[k] *= vertex.albedo;
+    scatter_pdf_[k] = cosine / kPi;
+    last_[k] = vertex;
+    SetRay(vertex.position, next, kInfinity, lane, &rays_);
+  }
+
+  /// How much the light a path runs into counts beside the light that was aimed at.
+  float EmissionWeight(std::size_t k, const Eigen::Vector3f& origin, const Vertex& vertex) const {
+    if (vertex.emission <= 0 || scatter_pdf_[k] <= 0 || vertex.light < 0) return 1;
+    const auto light = static_cast<std::size_t>(vertex.light);
+    const LightChoice choice(scene_.world_, instant_.snapshot().light_scale, last_[k]);
+    const Eigen::Vector3f to = vertex.position - origin;
+    const float cosine = std::abs(to.normalized().dot(NormalOf(scene_.world_.lights()[light])));
+    const float pdf = choice.Probability(light) * to.squaredNorm() /
+                      std::max(cosine * AreaOf(scene_.world_.lights()[light]), 1e-9f);
+    return scatter_pdf_[k] / (scatter_pdf_[k] + pdf);
+  }
+
+  void AimAtLight(int lane, const Vertex& vertex, const LightChoice& choice, Rays8* shadow,
+                  std::array<float, kLanes>* light_share) {
+    const auto k = static_cast<std::size_t>(lane);
+    const std::size_t index = choice.Pick(random_[k].Next());
+    const AreaLight& light = scene_.world_.lights()[index];
+    const float a = 2 * random_[k].Next() - 1, b = 2 * random_[k].Next() - 1;
+    const Eigen::Vector3f to = light.center + a * light.half_u + b * light.half_v - vertex.position;
+    const float squared = to.squaredNorm(), distance = std::sqrt(squared);
+    const float here = to.dot(vertex.shading) / distance;
+    const float there = -to.dot(NormalOf(light)) / distance;
+    if (here <= 0 || there <= 0 || to.dot(vertex.geometric) <= 0) return;
+    const float pdf = choice.Probability(index) * squared / (there * AreaOf(light));
+    const float weight = pdf / (pdf + here / kPi);
+    const float radiance = light.radiance * instant_.snapshot().light_scale[index];
+    (*light_share)[k] = throughput_[k] * vertex.albedo / kPi * radiance * here / pdf * weight;
+    SetRay(vertex.position, to, 1 - kLightGuard, lane, shadow);
+  }
+
+  Vertex VertexAt(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
+                  const Hits8& hits, std::size_t k) const {
+    const World& world = scene_.world_;
+    const bool is_static = hits.geometry[k] == 0;
+    const TriangleMesh& mesh =
+        is_static ? world.statics().mesh : world.mover_meshes()[hits.geometry[k] - 1];
+    const auto& positions =
+        is_static ? mesh.positions : instant_.snapshot().movers[hits.geometry[k] - 1].positions;
+    const auto& normals =
+        is_static ? mesh.normals : instant_.snapshot().movers[hits.geometry[k] - 1].normals;
+    const std::uint32_t triangle = hits.primitive[k];
+    const auto& [ia, ib, ic] = mesh.triangles[triangle];
+    const float u = hits.u[k], v = hits.v[k], w = 1 - u - v;
+    const Material& material = world.materials()[mesh.materials[triangle]];
+
+    Vertex vertex;
+    vertex.geometric = (positions[ib] - positions[ia]).cross(positions[ic] - positions[ia]);
+    vertex.geometric.normalize();
+    const bool front = vertex.geometric.dot(direction) < 0;
+    vertex.shading = (w * normals[ia] + u * normals[ib] + v * normals[ic]).normalized();
+    if (vertex.shading.dot(vertex.geometric) < 0) vertex.shading = -vertex.shading;
+    if (!front) {
+      vertex.geometric = -vertex.geometric;
+      vertex.shading = -vertex.shading;
+    }
+    vertex.position = origin + hits.t[k] * direction;
+    const float size = std::max(1.0f, vertex.position.cwiseAbs().maxCoeff());
+    vertex.position += kLift * size * vertex.geometric;
+    const Eigen::Vector2f uv = w * mesh.uvs[ia] + u * mesh.uvs[ib] + v * mesh.uvs[ic];
+    vertex.albedo = material.albedo;
+    if (material.albedo_texture >= 0) {
+      vertex.albedo *= scene_.textures_.SampleWide(material.albedo_texture, uv.x(), uv.y(), 1e-5f);
+    }
+    if (front && material.emission > 0 && is_static) {
+      vertex.light = scene_.light_of_triangle_[triangle];
+      vertex.emission = material.emission *
+                        instant_.snapshot().light_scale[static_cast<std::size_t>(vertex.light)];
+    }
+    return vertex;
+  }
+
+  const Reference& scene_;
+  const Instant& instant_;
+  const ReferenceOptions& options_;
+  Rays8 rays_{};
+  std::array<PathRandom, kLanes> random_;
+  std::array<float, kLanes> throughput_{}, radiance_{};
+  std::array<float, kLanes> scatter_pdf_{};  ///< of the direction that led here; 0: the eye's
+  std::array<Vertex, kLanes> last_;
+};
+
+Reference::Reference(const World& world, const TexturePool& textures)
+    : world_(world), textures_(textures) {
+  const TriangleMesh& mesh = world.statics().mesh;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const bool shines = world.materials()[mesh.materials[i]].emission > 0;
+    light_of_triangle_.push_back(shines ? static_cast<std::int32_t>(NearestLight(world, i)) : -1);
+  }
+}
+
+cv::Mat1f Reference::Render(const Instant& instant, const EyeView& view,
+                            const ReferenceOptions& options) const {
+  const PixelRays& rays = *view.rays;
+  cv::Mat1f image(rays.height, rays.width, 0.0f);
+  tbb::parallel_for(0, rays.height, [&](int y) {
+    PathPacket packet(*this, instant, options);
+    for (int x0 = 0; x0 < rays.width; x0 += kLanes) {
+      for (int sample = 0; sample < options.samples; ++sample) {
+        for (int k = 0; k < kLanes; ++k) {
+          const int x = x0 + k;
+          packet.Idle(k);
+          if (x >= rays.width) continue;
+          const auto pixel = static_cast<std::size_t>(y * rays.width + x);
+          PathRandom random(options.seed, pixel, static_cast<std::uint64_t>(sample));
+          const float jx = random.Next() - 0.5f, jy = random.Next() - 0.5f;
+          const Eigen::Vector3f direction =
+              view.rotation * Eigen::Vector3f(rays.x[pixel] + jx * rays.step_x,
+                                              rays.y[pixel] + jy * rays.step_y, 1);
+          packet.Start(k, random, view.origin, direction);
+        }
+        packet.Trace();
+        for (int k = 0; k < kLanes && x0 + k < rays.width; ++k) {
+          image(y, x0 + k) += packet.radiance(k) / static_cast<float>(options.samples);
+        }
+      }
+    }
+  });
+  return image;
+}
+
+}  // namespace aisle::sim

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+
+#include "simulator/shade/texture_pool.h"
+#include "simulator/trace/hit_image.h"
+
+namespace aisle::sim {
+
+struct ReferenceOptions {
+  int samples = 64;  ///< paths a pixel, spread over its area
+  int depth = 8;     ///< surfaces a path may touch; 1 shows luminaires alone
+  std::uint64_t seed = 1;
+};
+
+/// Radiance by unbiased path tracing: diffuse surfaces, each vertex joined to a random point of a
+/// luminaire (next-event estimation), combined with the light that the path itself runs into by the
+/// balance heuristic (Veach 1997). Slow; it is what the nightly light is measured against.
+class Reference {
+ public:
+  Reference(const World& world, const TexturePool& textures);
+
+  cv::Mat1f Render(const Instant& instant, const EyeView& view,
+                   const ReferenceOptions& options) const;
+
+ private:
+  friend class PathPacket;
+  const World& world_;
+  const TexturePool& textures_;
+  std::vector<std::int32_t> light_of_triangle_;  ///< of the static mesh; -1: not a luminaire
+};
+
+/// Which light a luminaire's triangle shows: the one whose rectangle is nearest to its middle.
+std::size_t NearestLight(const World& world, std::size_t static_triangle);
+
+}  // namespace aisle::sim

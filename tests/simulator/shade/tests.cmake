@@ -1,0 +1,1 @@
+aisle_tests(simulator/shade LINKS opencv_imgcodecs)

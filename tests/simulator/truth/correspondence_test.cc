@@ -1,0 +1,86 @@
+#include "simulator/truth/correspondence.h"
+
+#include <gtest/gtest.h>
+
+#include "simulator/truth/truth.h"
+#include "tests/simulator/test_world.h"
+
+namespace aisle::sim {
+namespace {
+
+constexpr std::int64_t kFrame = 50'000'000;
+
+struct Pictures {
+  StereoCamera camera;
+  cv::Mat1f depth_left, depth_right, depth_next, z_next;
+  Correspondence found;
+  EyeTruth truth;
+};
+
+Pictures Take(std::int64_t stamp_ns) {
+  const World world(test::Hall({.boxes = 200}));
+  const Tracer tracer(world, {});
+  Pictures p;
+  const PixelRays rays = MakePixelRays(p.camera);
+  const Eigen::Isometry3d rig = test::LookAlong({2, 0.1, 1.2}, 0.03);
+  const Eigen::Isometry3d rig_next = test::LookAlong({2.06, 0.1, 1.2}, 0.04);
+  const Instant now = tracer.Pose(world.At(stamp_ns)),
+                next = tracer.Pose(world.At(stamp_ns + kFrame));
+  const std::array views = {EyeView(rays, rig), EyeView(rays, EyePose(p.camera, rig, Eye::kRight))};
+  const std::array views_next = {EyeView(rays, rig_next)};
+  std::vector<HitImage> hits, hits_next;
+  TraceViews(now, views, {}, &hits);
+  TraceViews(next, views_next, {}, &hits_next);
+  p.truth = LabelHits(world, now, hits[0], 0.05f);
+  p.depth_left = p.truth.depth;
+  p.depth_right = LabelHits(world, now, hits[1], 0.05f).depth;
+  p.depth_next = LabelHits(world, next, hits_next[0], 0.05f).depth;
+  p.found = FindCorrespondence(world, now, p.camera, views[0], hits[0], next.snapshot(), rig_next);
+  p.z_next = DepthInNextEye(views[0], hits[0], p.found, rig_next);
+  return p;
+}
+
+TEST(Correspondence, WarpsAgreeInGeometry) {
+  const Pictures p = Take(2'000'000'000);
+  const WarpCheck stereo = CheckStereo(p.camera, p.depth_left, p.depth_right, p.found);
+  EXPECT_GT(stereo.compared, 200'000);
+  EXPECT_LE(stereo.median_px, 0.05);
+  EXPECT_LE(stereo.p95_px, 0.05);
+  const WarpCheck flow = CheckFlow(p.camera, p.z_next, p.depth_next, p.found.flow);
+  EXPECT_GT(flow.compared, 200'000);
+  EXPECT_LE(flow.median_px, 0.05);
+  EXPECT_LE(flow.p95_px, 0.05);
+}
+
+TEST(Correspondence, AWrongBaselineWouldBeSeen) {
+  Pictures p = Take(2'000'000'000);
+  p.found.disparity *= 1.05;
+  EXPECT_GT(CheckStereo(p.camera, p.depth_left, p.depth_right, p.found).median_px, 0.05);
+}
+
+TEST(Correspondence, SceneFlowIsTheMoversWayAndNothingElse) {
+  const Pictures p = Take(2'000'000'000);
+  int movers = 0;
+  for (int y = 0; y < p.camera.height; ++y) {
+    for (int x = 0; x < p.camera.width; ++x) {
+      const cv::Vec3f& way = p.found.scene_flow(y, x);
+      const double expected = p.truth.instance(y, x) == 5   ? 0.6 * 0.05
+                              : p.truth.instance(y, x) == 6 ? 0.8 * 0.05
+                                                            : 0;
+      movers += expected > 0;
+      EXPECT_NEAR(cv::norm(way), expected, 2e-5);
+    }
+  }
+  EXPECT_GT(movers, 2000);
+}
+
+TEST(Correspondence, OcclusionIsBesideNearThings) {
+  const Pictures p = Take(2'000'000'000);
+  const double share =
+      cv::countNonZero(p.found.occluded) / static_cast<double>(p.found.occluded.total());
+  EXPECT_GT(share, 0.005);
+  EXPECT_LT(share, 0.25);
+}
+
+}  // namespace
+}  // namespace aisle::sim
