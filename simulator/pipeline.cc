@@ -6,7 +6,9 @@
 #include <mutex>
 
 #include "simulator/camera/pixel_rays.h"
+#include "simulator/raster/raster.h"
 #include "simulator/trace/hit_image.h"
+#include "simulator/truth/correspondence.h"
 #include "simulator/truth/truth.h"
 
 namespace aisle::sim {
@@ -160,6 +162,61 @@ std::array<cv::Mat1f, 2> Pipeline::RenderRadiance(std::int64_t stamp_ns,
     TraceViews(instant, views, {}, &hits);
     std::vector<cv::Mat1f> radiance = impl_->shader->Shade(instant, views, hits);
     return std::array{radiance[0], radiance[1]};
+  });
+}
+
+MotionTruth Pipeline::RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
+                                   std::int64_t next_stamp_ns,
+                                   const Eigen::Isometry3d& T_world_rig_next) const {
+  return impl_->arena.execute([&] {
+    const Impl& self = *impl_;
+    const Instant instant = self.tracer.Pose(self.world.At(stamp_ns));
+    const std::array<EyeView, 2> views = self.Views(T_world_rig);
+    std::vector<HitImage> hits;
+    TraceViews(instant, std::span(views).first(1), {}, &hits);
+    Correspondence found = FindCorrespondence(self.world, instant, self.camera, views[0], hits[0],
+                                              self.world.At(next_stamp_ns), T_world_rig_next);
+    return MotionTruth{std::move(found.disparity), std::move(found.occluded), std::move(found.flow),
+                       std::move(found.scene_flow)};
+  });
+}
+
+VerifyReport Pipeline::Verify(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
+                              std::int64_t next_stamp_ns,
+                              const Eigen::Isometry3d& T_world_rig_next) const {
+  return impl_->arena.execute([&] {
+    const Impl& self = *impl_;
+    const float threshold = self.options.dynamic_threshold_mps;
+    const Instant now = self.tracer.Pose(self.world.At(stamp_ns));
+    const Instant next = self.tracer.Pose(self.world.At(next_stamp_ns));
+    const std::array<EyeView, 2> views = self.Views(T_world_rig);
+    const std::array<EyeView, 2> views_next = self.Views(T_world_rig_next);
+    std::vector<HitImage> hits, hits_next;
+    TraceViews(now, views, {}, &hits);
+    TraceViews(next, std::span(views_next).first(1), {}, &hits_next);
+    const std::array<EyeTruth, 2> eyes = {LabelHits(self.world, now, hits[0], threshold),
+                                          LabelHits(self.world, now, hits[1], threshold)};
+    const cv::Mat1f depth_next = LabelHits(self.world, next, hits_next[0], threshold).depth;
+
+    std::array<Agreement, 2> agreement;
+    for (std::size_t eye = 0; eye < 2; ++eye) {
+      agreement[eye] =
+          Compare(Rasterize(self.world, now.snapshot(), self.camera, views[eye].T_world_eye),
+                  eyes[eye].depth, eyes[eye].instance);
+    }
+    const Correspondence found = FindCorrespondence(self.world, now, self.camera, views[0], hits[0],
+                                                    next.snapshot(), T_world_rig_next);
+    const WarpCheck stereo = CheckStereo(self.camera, eyes[0].depth, eyes[1].depth, found);
+    const WarpCheck flow =
+        CheckFlow(self.camera, DepthInNextEye(views[0], hits[0], found, T_world_rig_next),
+                  depth_next, found.flow);
+    return VerifyReport{.raster_agreement_left = agreement[0].share(),
+                        .raster_agreement_right = agreement[1].share(),
+                        .raster_compared = agreement[0].compared + agreement[1].compared,
+                        .stereo_median_px = stereo.median_px,
+                        .flow_median_px = flow.median_px,
+                        .stereo_compared = stereo.compared,
+                        .flow_compared = flow.compared};
   });
 }
 

@@ -38,7 +38,12 @@ class Pipeline {
   /// Linear radiance of both eyes before the sensor, in the units of the lights.
   std::array<cv::Mat1f, 2> RenderRadiance(std::int64_t stamp_ns,
                                           const Eigen::Isometry3d& T_world_rig) const;
-  /// See BenchRender.
+  /// See Simulator.
+  MotionTruth RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
+                           std::int64_t next_stamp_ns,
+                           const Eigen::Isometry3d& T_world_rig_next) const;
+  VerifyReport Verify(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
+                      std::int64_t next_stamp_ns, const Eigen::Isometry3d& T_world_rig_next) const;
   RenderBench Bench(std::span<const std::int64_t> stamps_ns,
                     std::span<const Eigen::Isometry3d> poses) const;
 

@@ -176,6 +176,33 @@ RenderedFrame Simulator::Render(int frame_index, std::int64_t stamp_ns,
   return impl_->pipeline->Render(frame_index, stamp_ns, T_world_rig);
 }
 
+std::string VerifyReport::failure() const {
+  constexpr double kAgreement = 0.999, kWarp = 0.05;
+  const double agreement = std::min(raster_agreement_left, raster_agreement_right);
+  if (agreement < kAgreement) {
+    return fmt::format("depth and labels agree with the rasteriser on {:.3f} % of {} pixels only",
+                       100 * agreement, raster_compared);
+  }
+  if (stereo_median_px > kWarp) {
+    return fmt::format("left warps to right with a median error of {:.3f} px", stereo_median_px);
+  }
+  if (flow_median_px > kWarp) {
+    return fmt::format("flow misses the next frame by a median of {:.3f} px", flow_median_px);
+  }
+  return "";
+}
+
+MotionTruth Simulator::RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
+                                    std::int64_t next_stamp_ns,
+                                    const Eigen::Isometry3d& T_world_rig_next) const {
+  return impl_->pipeline->RenderMotion(stamp_ns, T_world_rig, next_stamp_ns, T_world_rig_next);
+}
+
+VerifyReport Simulator::Verify(int frame_index) const {
+  const std::int64_t now = Stamp(frame_index), next = Stamp(frame_index + 1);
+  return impl_->pipeline->Verify(now, PlannedPose(now), next, PlannedPose(next));
+}
+
 RenderBench Simulator::Bench(int frames) const {
   std::vector<std::int64_t> stamps;
   std::vector<Eigen::Isometry3d> poses;

@@ -73,6 +73,26 @@ struct RenderedFrame {
   FrameTruth truth;
 };
 
+/// Where each left pixel's surface point is in the right eye and in the next frame; exact.
+struct MotionTruth {
+  cv::Mat1f disparity;   ///< left u - right u, pixels; 0 where nothing was hit
+  cv::Mat1b occluded;    ///< 255 where the right eye does not see the point
+  cv::Mat2f flow;        ///< to the next frame's left image, pixels; NaN where it is not in front
+  cv::Mat3f scene_flow;  ///< the surface point's own way until then, metres, world
+};
+
+/// What the proofs say of one frame; see simulator/raster and simulator/truth.
+struct VerifyReport {
+  double raster_agreement_left = 0;   ///< share of pixels away from silhouettes where OSMesa agrees
+  double raster_agreement_right = 0;  ///< in label and in depth to 1e-3
+  int raster_compared = 0;
+  double stereo_median_px = 0;  ///< left warped to right by disparity, error of geometry
+  double flow_median_px = 0;    ///< left warped to the next left by flow, as disparity
+  int stereo_compared = 0, flow_compared = 0;
+  /// The sentence that says what failed its bound (0.999 agreement, 0.05 px), or empty.
+  std::string failure() const;
+};
+
 /// How long rendering takes, beside the bare cost of its primary rays in the same process.
 struct RenderBench {
   double pair_ms = 0;          ///< a stereo pair with all truth, median
@@ -114,6 +134,16 @@ class Simulator {
   /// Safe to call from several threads.
   RenderedFrame Render(int frame_index, std::int64_t stamp_ns,
                        const Eigen::Isometry3d& T_world_rig) const;
+
+  /// Correspondences of a frame with its right eye and with the left image at a next stamp and
+  /// pose.
+  MotionTruth RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
+                           std::int64_t next_stamp_ns,
+                           const Eigen::Isometry3d& T_world_rig_next) const;
+
+  /// Proves one planned frame's truth: against an independent rasteriser, and by warping it to the
+  /// right eye and to the next frame.
+  VerifyReport Verify(int frame_index) const;
 
   /// Times Render over `frames` frames spread over the scene, and the bare primary rays of the same
   /// frames, interleaved so that both meet the same machine.

@@ -16,7 +16,7 @@ namespace aisle::sim {
 
 struct StaticLightOptions {
   /// Where solutions are kept from run to run, by content; empty: nowhere.
-  std::filesystem::path cache_folder;
+  std::filesystem::path cache_folder = {};
   std::string isa = "avx2";     ///< Embree's, as rays' last bits depend on it
   float texel_m = 0.06f;        ///< spacing of the direct light's points; soft shadows' resolution
   float coarse_texel_m = 0.4f;  ///< spacing of the indirect light's points

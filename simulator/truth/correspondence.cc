@@ -167,7 +167,7 @@ WarpCheck CheckFlow(const StereoCamera& camera, const cv::Mat1f& z_next,
     for (int x = 0; x < flow.cols; ++x) {
       const cv::Vec2f& f = flow(y, x);
       if (std::isnan(f[0])) continue;
-      const double inverse = InverseDepthAt(depth_next, x + f[0], y + f[1]);
+      const double inverse = InverseDepthAt(depth_next, x + double{f[0]}, y + double{f[1]});
       const double expected = 1.0 / z_next(y, x);
       if (inverse <= 0 || inverse > expected * (1 + kHidden)) continue;
       errors.push_back(camera.fx * camera.baseline_m * std::abs(inverse - expected));

@@ -32,7 +32,10 @@ TEST(Simulator, PicturesOfASceneToLookAt) {
         "frame {}: mean grey {:.1f}, saturated {:.2f} %\n", frame, cv::mean(picture.left)[0],
         100.0 * cv::countNonZero(picture.left == 255) / static_cast<double>(picture.left.total()));
   }
-  if (std::getenv("NOBENCH")) return;
+  const VerifyReport verify = simulator.Verify(simulator.frame_count() / 2);
+  fmt::print("raster {:.5f} {:.5f}, stereo {:.4f} px, flow {:.4f} px: {}\n",
+             verify.raster_agreement_left, verify.raster_agreement_right, verify.stereo_median_px,
+             verify.flow_median_px, verify.failure());
   const RenderBench bench = simulator.Bench(12);
   fmt::print("pair {:.1f} ms, bare {:.1f} ms, ratio {:.2f}\n", bench.pair_ms, bench.bare_primary_ms,
              bench.ratio);

@@ -124,7 +124,7 @@ WorldParts CornellBox(const std::filesystem::path& folder, int band) {
   const auto b = static_cast<std::size_t>(band);
   WorldParts parts;
   parts.instances.push_back({"box", ObjectClass::kWall, false});
-  for (std::size_t i = 0; i < 5; ++i) parts.materials.push_back({.albedo = kAlbedo[i][b]});
+  for (std::size_t i = 0; i < 5; ++i) parts.materials.push_back({.name = "wall", .albedo = kAlbedo[i][b]});
   parts.materials[4].emission = kRadiance[b];
   const std::array<std::pair<const char*, std::uint16_t>, 8> shapes = {{{"luminaire", 4},
                                                                         {"floor", 1},
