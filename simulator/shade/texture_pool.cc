@@ -112,7 +112,10 @@ F8 TexturePool::Sample(I8 index, F8 u, F8 v, F8 du_dx, F8 dv_dx, F8 du_dy, F8 dv
   const F8 level_floor = Min(Floor(lod), Wide(kLevels - 1));
   const F8 between = Min(lod - level_floor, Wide(1));
   const I8 level = ToInt(level_floor), next = MinInt(level + 1, WideInt(kLevels - 1));
-  const F8 step_u = Select(a > b, du_dx, du_dy), step_v = Select(a > b, dv_dx, dv_dy);
+  // A comparison with what is not a number is false: such a footprint becomes a point.
+  const auto finite = [](F8 step) { return Select(Abs(step) < 1e6f, step, Wide(0)); };
+  const F8 step_u = finite(Select(a > b, du_dx, du_dy));
+  const F8 step_v = finite(Select(a > b, dv_dx, dv_dy));
   const bool blend = Any(between > 0.02f);
 
   F8 sum = Wide(0);

@@ -13,7 +13,9 @@ namespace aisle::sim {
 typedef float F8 __attribute__((vector_size(32)));
 typedef std::int32_t I8 __attribute__((vector_size(32)));
 
-inline F8 Wide(float value) { return F8{} + value; }
+/// A move, not an addition: the bits may be an integer's, and a thread that flushes denormal
+/// numbers to zero would lose it.
+inline F8 Wide(float value) { return reinterpret_cast<F8>(_mm256_set1_ps(value)); }
 inline I8 WideInt(std::int32_t value) { return I8{} + value; }
 inline F8 LoadF(const float* from) { return reinterpret_cast<F8>(_mm256_loadu_ps(from)); }
 inline I8 LoadI(const void* from) {
