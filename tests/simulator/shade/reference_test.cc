@@ -183,10 +183,10 @@ TEST(Reference, CornellBoxHasTheMeanOfAnotherRenderer) {
         close += std::abs(ours(y, x) - theirs(y, x)) <= 0.03f * std::max(theirs(y, x), 1e-3f);
       }
     }
-    // The share of 8 × 8 blocks within 3 % is printed, not asserted: at this many paths it is our
-    // own noise that decides it.
-    fmt::print("band {}: {:.1f} % of blocks within 3 %
-", band, 100 * close / 1024.0);
+    // The share of 8 × 8 blocks within 3 % is printed, not asserted. It rises with the number of
+    // paths, but too slowly for noise alone (red: 75 % at 64 paths, 78 % at 192), so block by block
+    // agreement is not shown by this test.
+    fmt::print("band {}: {:.1f} % of blocks within 3 %\n", band, 100 * close / 1024.0);
   }
 }
 
