@@ -1,3 +1,6 @@
+#include <filesystem>
+#include <set>
+
 #include "harness/cli/command.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/simulated_sequence.h"
@@ -27,7 +30,29 @@ std::vector<std::string> Complaints(const std::string& file) {
   }
 }
 
-int Check(const std::vector<std::string>& files) {
+/// Folders stand for the YAML files below them, in the order of their names.
+std::vector<std::string> FilesOf(const std::vector<std::string>& places) {
+  std::vector<std::string> files;
+  for (const std::string& place : places) {
+    if (!std::filesystem::is_directory(place)) {
+      files.push_back(place);
+      continue;
+    }
+    std::set<std::string> found;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(place)) {
+      if (entry.path().extension() == ".yaml") found.insert(entry.path().string());
+    }
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  return files;
+}
+
+int Check(const std::vector<std::string>& places) {
+  const std::vector<std::string> files = FilesOf(places);
+  if (files.empty()) {
+    fmt::print(stderr, "no .yaml file to check: name scene or suite files, or folders of them\n");
+    return kNothingSelected;
+  }
   std::size_t bad = 0;
   for (const std::string& file : files) {
     const std::vector<std::string> complaints = Complaints(file);
@@ -43,8 +68,8 @@ int Check(const std::vector<std::string>& files) {
 void AddCheckCommand(CLI::App* app, Action* action) {
   const auto files = std::make_shared<std::vector<std::string>>();
   CLI::App* command = app->add_subcommand("check", "validate scene and suite files");
-  command->add_option("FILE", *files, "scene or suite files")->required();
-  command->footer("Example: ./aisle check scenes/paper/*.yaml scenes/suites/*.yaml");
+  command->add_option("FILE", *files, "scene or suite files, or folders of them")->required();
+  command->footer("Example: ./aisle check scenes");
   command->callback([=] { *action = [=] { return Check(*files); }; });
 }
 
