@@ -51,7 +51,7 @@ int Check(const std::vector<std::string>& places) {
   const std::vector<std::string> files = FilesOf(places);
   if (files.empty()) {
     fmt::print(stderr, "no .yaml file to check: name scene or suite files, or folders of them\n");
-    return kNothingSelected;
+    return kNothingToDo;
   }
   std::size_t bad = 0;
   for (const std::string& file : files) {
