@@ -4,11 +4,11 @@
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
-#include <chrono>
 #include <stdexcept>
 
 #include "slam/background_job.h"
 #include "slam/dynamic/dynamic_detector.h"
+#include "slam/dynamic/stopwatch.h"
 #include "slam/feature/extract.h"
 #include "slam/local_mapping.h"
 #include "slam/loop_closing.h"
@@ -21,22 +21,7 @@
 namespace aisle::slam {
 namespace {
 
-/// Wall time of a stage, added to `total_ms` when it ends.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& total_ms) : total_ms_(total_ms) {}
-  ~Stopwatch() {
-    const std::chrono::duration<double, std::milli> took =
-        std::chrono::steady_clock::now() - start_;
-    total_ms_ += took.count();
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& total_ms_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
+using dynamic::Stopwatch;
 
 Measurement Measure(const Keypoint& keypoint, const Disparity& disparity, double sigma_px) {
   return {{keypoint.pixel.x, keypoint.pixel.y, disparity.value}, sigma_px, disparity.sigma};
