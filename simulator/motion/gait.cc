@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace aisle::sim {
 namespace {
@@ -12,15 +13,29 @@ constexpr double kTurnArm_m = 0.25;
 /// Speed of a leg's profile as the feet see it.
 double FootArm(const Route::Leg& leg) { return leg.turn_sign != 0 ? kTurnArm_m : 1.0; }
 
+/// Most that one cycle of two steps turns on the spot.
+constexpr double kTurnPerCycle_rad = 75 * std::numbers::pi / 180;
+
+/// Whole steps (half cycles) for a leg that would freely take so many cycles: rather one more and
+/// shorter, unless the rest is small.
+double WholeSteps(const Route::Leg& leg, double cycles) {
+  if (leg.turn_sign != 0) {
+    const double turns = leg.profile.length_m() / kTurnPerCycle_rad;
+    return turns < 0.4 ? 0.5 : std::ceil(turns - 0.1);
+  }
+  return std::max(1.0, std::ceil(2 * cycles - 0.2)) / 2;
+}
+
 }  // namespace
 
 Gait::Gait(Route route, const GaitStyle& style) : route_(std::move(route)), style_(style) {
-  double cycles = 0;
+  double cycles = style_.rest_phase;
   for (const Route::Leg& leg : route_.legs()) {
-    cycles_before_.push_back(cycles);
-    cycles += CyclesWithin(leg, leg.duration_s);
+    const double free = CyclesWithin(leg, leg.duration_s);
+    const double whole = free == 0 ? 0 : WholeSteps(leg, std::abs(free));
+    steps_.push_back({cycles, free == 0 ? 1 : whole / std::abs(free)});
+    cycles += std::copysign(whole, free);
   }
-  cycles_before_.push_back(cycles);
 }
 
 double Gait::Amplitude(double speed_mps) const {
@@ -59,13 +74,14 @@ double Gait::CyclesWithin(const Route::Leg& leg, double elapsed_s) const {
 
 GaitState Gait::At(double time_s) const {
   const auto& legs = route_.legs();
-  if (legs.empty()) return {};
+  if (legs.empty()) return {style_.rest_phase, 0};
   std::size_t index = 0;
   while (index + 1 < legs.size() && legs[index + 1].start_s <= time_s) ++index;
   const Route::Leg& leg = legs[index];
   const double elapsed = std::clamp(time_s - leg.start_s, 0.0, leg.duration_s);
   const double speed = FootArm(leg) * leg.profile.At(elapsed).speed_mps;
-  return {cycles_before_[index] + CyclesWithin(leg, elapsed), Amplitude(speed)};
+  const auto& [before, density] = steps_[index];
+  return {before + density * CyclesWithin(leg, elapsed), Amplitude(speed) / density};
 }
 
 }  // namespace aisle::sim

@@ -17,6 +17,13 @@ constexpr double kFade_s = 0.5;
 /// Plain walking from slow to fast; others (with a load, backwards) are asked for by name.
 constexpr std::array<std::string_view, 4> kWalks = {"walk_creep", "walk_slow", "walk", "walk_fast"};
 
+/// A clip by its facts; one that walks has a stride, negative backwards.
+struct PlayedClip {
+  int clip = -1;
+  double stride_m = 0;
+  double duration_s = 1;
+};
+
 /// Who the person is and how it moves: everything a pose at a time needs.
 class Walker {
  public:
@@ -27,7 +34,7 @@ class Walker {
     for (const auto& [name, clip] : facts.clips) {
       const int index = model_->FindClip(name);
       if (index < 0) continue;
-      durations_[name] = {index, clip.duration_s};
+      clips_[name] = {index, clip.stride_m, clip.duration_s};
       if (std::ranges::find(kWalks, name) != kWalks.end() && clip.stride_m > 0) {
         walks_.push_back({index, clip.stride_m, clip.duration_s});
       }
@@ -41,20 +48,22 @@ class Walker {
     stride_m_ = style.stride_m;
     for (const RouteStep& step : person.route.plan.steps) {
       plays_.push_back(step.play);
-      if (!step.play.empty() && !durations_.contains(step.play)) RequireClip(step.play);
+      if (!step.play.empty() && !clips_.contains(step.play)) RequireClip(step.play);
     }
-    gait_ = Gait(route_, style);
-    footing_ = std::make_unique<Footing>(model_, route_, gait_, walks_, stand_, stride_m_);
+    footing_ = std::make_unique<Footing>(model_, route_, walks_, stand_, style);
   }
 
   RouteState RouteAt(double time_s) const { return route_.At(time_s); }
 
   /// Matrix of each joint: bind position -> world.
   std::vector<Eigen::Affine3f> WorldJoints(double time_s) const {
-    std::vector<PoseLayer> layers = WalkLayersAt(time_s);
-    const float played = AddPlayed(time_s, &layers);
+    const std::vector<PoseLayer> walk = WalkLayersAt(time_s);
+    const NodeFrames walking = PoseNodes(*model_, walk);
+    std::vector<PoseLayer> layers = walk;
+    if (route_.At(time_s).speed_mps < 0) TurnBackwards(time_s, &layers);
+    AddPlayed(time_s, &layers);
     NodeFrames frames = PoseNodes(*model_, layers);
-    footing_->Apply(time_s, 1 - played, &frames);
+    footing_->Apply(time_s, walking, &frames);
     std::vector<Eigen::Affine3f> joints = JointMatrices(*model_, frames);
     const Eigen::Affine3f place(ObjectPose(route_.At(time_s)).cast<float>());
     for (Eigen::Affine3f& joint : joints) joint = place * joint;
@@ -72,7 +81,7 @@ class Walker {
 
   /// Standing and walking, mixed for the present stride.
   std::vector<PoseLayer> WalkLayersAt(double time_s) const {
-    const GaitState gait = gait_.At(time_s);
+    const GaitState gait = footing_->gait().At(time_s);
     const WalkShares shares = SharesOf(walks_, gait.amplitude * stride_m_);
     std::vector<PoseLayer> layers = {{stand_, time_s, shares.stand, -1}};
     for (std::size_t i = 0; i < walks_.size(); ++i) {
@@ -81,9 +90,26 @@ class Walker {
     return layers;
   }
 
+  /// Walking backwards: the trunk leans and the arms hang as its own clip has it.
+  void TurnBackwards(double time_s, std::vector<PoseLayer>* layers) const {
+    const auto backwards = clips_.find("walk_backwards");
+    if (backwards == clips_.end()) return;
+    const float standing = layers->front().weight;
+    layers->resize(1);
+    layers->push_back(LayerOf(backwards->second, time_s, 0, 1 - standing));
+  }
+
+  /// A clip `elapsed` seconds after it began; one that walks keeps step with the feet instead.
+  PoseLayer LayerOf(const PlayedClip& clip, double time_s, double elapsed_s, float weight) const {
+    const double cycles = footing_->gait().At(time_s).cycles;
+    const double time = clip.stride_m > 0   ? cycles * clip.duration_s
+                        : clip.stride_m < 0 ? -cycles * clip.duration_s
+                                            : elapsed_s;
+    return {clip.clip, time, weight, -1};
+  }
+
   /// Adds what the route's step plays, with as much weight as it takes of the time around now.
-  /// Returns that weight.
-  float AddPlayed(double time_s, std::vector<PoseLayer>* layers) const {
+  void AddPlayed(double time_s, std::vector<PoseLayer>* layers) const {
     constexpr int kTaps = 20;
     std::map<std::pair<std::string, long>, int> taps;  // by clip and start in microseconds
     int played = 0;
@@ -97,23 +123,31 @@ class Walker {
       ++taps[{play, start}];
       ++played;
     }
-    const float weight = static_cast<float>(played) / kTaps;
-    for (PoseLayer& layer : *layers) layer.weight *= 1 - weight;
+    for (PoseLayer& layer : *layers) layer.weight *= 1 - static_cast<float>(played) / kTaps;
     for (const auto& [key, count] : taps) {
-      const double elapsed = time_s - static_cast<double>(key.second) * 1e-6;
-      layers->push_back(
-          {durations_.at(key.first).first, elapsed, static_cast<float>(count) / kTaps, -1});
+      const auto& [play, start] = key;
+      AddClip(play, time_s, time_s - static_cast<double>(start) * 1e-6,
+              static_cast<float>(count) / kTaps, layers);
     }
-    return weight;
+  }
+
+  /// A walk that has a standing twin (walk_carry, stand_carry) turns into it as the steps shrink.
+  void AddClip(const std::string& name, double time_s, double elapsed_s, float weight,
+               std::vector<PoseLayer>* layers) const {
+    const auto twin =
+        name.starts_with("walk_") ? clips_.find("stand" + name.substr(4)) : clips_.end();
+    const double amplitude = footing_->gait().At(time_s).amplitude;
+    const float walks = twin == clips_.end() ? 1 : static_cast<float>(std::min(1.0, amplitude));
+    layers->push_back(LayerOf(clips_.at(name), time_s, elapsed_s, weight * walks));
+    if (walks < 1) layers->push_back(LayerOf(twin->second, time_s, time_s, weight * (1 - walks)));
   }
 
   std::shared_ptr<const Model> model_;
   Route route_;
-  Gait gait_;
   int stand_ = -1;
   double stride_m_ = 1.4;
   std::vector<WalkClip> walks_;  ///< by stride
-  std::map<std::string, std::pair<int, double>> durations_;
+  std::map<std::string, PlayedClip> clips_;
   std::unique_ptr<const Footing> footing_;
   std::vector<std::string> plays_;  ///< per step of the route
 };
