@@ -2,20 +2,13 @@
 #include <set>
 
 #include "harness/cli/command.h"
+#include "harness/cli/inputs.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/simulated_sequence.h"
-#include "harness/plugs/systems.h"
 #include "harness/suite/suite.h"
 
 namespace aisle {
 namespace {
-
-Vocabulary KnownNames() {
-  Vocabulary vocabulary;
-  for (const System& system : Systems()) vocabulary.systems.push_back(system.name);
-  vocabulary.twins = TwinNames();
-  return vocabulary;
-}
 
 std::vector<std::string> Complaints(const std::string& file) {
   try {

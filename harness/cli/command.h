@@ -21,12 +21,16 @@ using Action = std::function<int()>;
 // Each adds one command to the program; when it is chosen, `*action` is set.
 void AddRunCommand(CLI::App* app, Action* action);
 void AddRunOneCommand(CLI::App* app, Action* action);
+void AddRerunCommand(CLI::App* app, Action* action);
+void AddMergeCommand(CLI::App* app, Action* action);
 void AddScoreCommand(CLI::App* app, Action* action);
 void AddCheckCommand(CLI::App* app, Action* action);
 void AddPreviewCommand(CLI::App* app, Action* action);
 void AddRenderCommand(CLI::App* app, Action* action);
 void AddSlamCommand(CLI::App* app, Action* action);
 void AddReportCommand(CLI::App* app, Action* action);
+void AddDoctorCommand(CLI::App* app, Action* action);
+void AddCompletionCommand(CLI::App* app, Action* action);
 void AddCompareCommand(CLI::App* app, Action* action);
 void AddBaselineCommand(CLI::App* app, Action* action);
 

@@ -16,6 +16,8 @@ int Run(int argc, char** argv) {
   aisle::Action action;
   aisle::AddRunCommand(&app, &action);
   aisle::AddRunOneCommand(&app, &action);
+  aisle::AddRerunCommand(&app, &action);
+  aisle::AddMergeCommand(&app, &action);
   aisle::AddPreviewCommand(&app, &action);
   aisle::AddRenderCommand(&app, &action);
   aisle::AddSlamCommand(&app, &action);
@@ -24,6 +26,8 @@ int Run(int argc, char** argv) {
   aisle::AddCompareCommand(&app, &action);
   aisle::AddBaselineCommand(&app, &action);
   aisle::AddCheckCommand(&app, &action);
+  aisle::AddDoctorCommand(&app, &action);
+  aisle::AddCompletionCommand(&app, &action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

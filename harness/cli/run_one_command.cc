@@ -15,7 +15,8 @@ namespace {
 struct Options {
   RunSpec spec;
   std::string out;
-  std::string frames;  ///< folder of the shared frames; empty: none are kept
+  std::string frames;       ///< folder of the shared frames; empty: none are kept
+  std::string inputs_hash;  ///< of all that decides the run; filed with its result
   int threads = 0;
   ExternalSystem external;  ///< without a command: the system is one of ours
   std::string dataset;      ///< folder of the dataset that is exported for it
@@ -64,7 +65,9 @@ int RunOneExternal(const Options& options) {
                                   .open_path = open_path});
   result.spec = options.spec;
   result.scene_hash = content_hash;
-  WriteRun(result, MakeRecord(result, sequence->rate_hz()), options.out);
+  RunRecord record = MakeRecord(result, sequence->rate_hz());
+  record.inputs_hash = options.inputs_hash;
+  WriteRun(result, record, options.out);
   return kAllPassed;
 }
 
@@ -89,6 +92,7 @@ int RunOne(const Options& options) {
   result.threads = options.threads;
 
   RunRecord record = MakeRecord(result, sequence->rate_hz());
+  record.inputs_hash = options.inputs_hash;
   const std::string folder = "runs/" + RunId(options.spec);
   int number = 0;
   for (const std::string& name : samples.Write(std::filesystem::path(options.out) / folder)) {
@@ -110,6 +114,7 @@ void AddRunOneCommand(CLI::App* app, Action* action) {
   command->add_option("--system", options->spec.system)->required();
   command->add_option("--seed", options->spec.seed)->required();
   command->add_option("--out", options->out)->required();
+  command->add_option("--inputs-hash", options->inputs_hash);
   command->add_option("--frames", options->frames);
   command->add_option("--threads", options->threads);
   command->add_option("--external-command", options->external.command);

@@ -189,6 +189,7 @@ std::vector<Verdict> GateVerdicts(const Results& before, const Results& after,
     const auto& [scene, twin, system] = cell;
     verdicts.push_back({.name = fmt::format("{} {} {}: baseline", scene, twin, system),
                         .passed = false,
+                        .flaky = false,
                         .value = {},
                         .limit = {},
                         .why = "the baseline has this, tonight has not"});
@@ -199,6 +200,7 @@ std::vector<Verdict> GateVerdicts(const Results& before, const Results& after,
         {.name =
              fmt::format("{} {} {}: {} against the baseline", c.scene, c.twin, c.system, c.score),
          .passed = c.change != Change::kWorse,
+         .flaky = false,
          .value = c.new_median,
          .limit = c.old_median,
          .why = fmt::format("{}: {:.4g} was {:.4g} {} ({})", Name(c.change), c.new_median,

@@ -27,7 +27,7 @@ void AddCase(pugi::xml_node suite, const Results& results, const Verdict& verdic
   Set(test, "name", colon == std::string::npos ? verdict.name : verdict.name.substr(colon + 2));
   if (verdict.passed) return;
   pugi::xml_node failure = test.append_child("failure");
-  Set(failure, "type", "limit");
+  Set(failure, "type", verdict.flaky ? "flaky" : "limit");
   Set(failure, "message", verdict.why);
   failure.text().set(
       XmlText(verdict.name + "\n" + verdict.why + "\nrerun: " + results.rerun).c_str());

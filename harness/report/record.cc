@@ -1,6 +1,7 @@
 #include "harness/report/record.h"
 
 #include "harness/io/file.h"
+#include "harness/io/hash.h"
 #include "harness/io/input_error.h"
 #include "harness/io/trajectory.h"
 
@@ -107,11 +108,16 @@ RunRecord WriteRun(const RunResult& run, RunRecord record, const fs::path& repor
     WriteFileAtomically(report_dir / folder / name, text);
     record.artifacts[artifact] = folder + "/" + name;
   };
-  write("trajectory_live", "live.txt",
-        FormatTrajectory(run.trajectory.live, TrajectoryFormat::kTum));
-  write("trajectory_final", "final.txt",
-        FormatTrajectory(run.trajectory.final, TrajectoryFormat::kTum));
-  write("trajectory_truth", "truth.txt", FormatTrajectory(run.truth, TrajectoryFormat::kTum));
+  std::uint64_t hash = 0;
+  for (const auto& [artifact, name, trajectory] :
+       {std::tuple("trajectory_live", "live.txt", &run.trajectory.live),
+        std::tuple("trajectory_final", "final.txt", &run.trajectory.final),
+        std::tuple("trajectory_truth", "truth.txt", &run.truth)}) {
+    const std::string text = FormatTrajectory(*trajectory, TrajectoryFormat::kTum);
+    write(artifact, name, text);
+    hash = Hash(text, hash);
+  }
+  record.output_hash = fmt::format("{:016x}", hash);
   write("frames", "frames.csv", ToCsv(MakeFrameRows(run)));
   WriteFileAtomically(report_dir / folder / "result.json", ToJson(record));
   return record;
@@ -120,7 +126,49 @@ RunRecord WriteRun(const RunResult& run, RunRecord record, const fs::path& repor
 std::optional<RunRecord> ReadRun(const RunSpec& spec, const fs::path& report_dir) {
   const fs::path path = report_dir / "runs" / RunId(spec) / "result.json";
   if (!fs::exists(path)) return std::nullopt;
-  return RecordFromJson(ReadFile(path), path.string());
+  try {
+    return RecordFromJson(ReadFile(path), path.string());
+  } catch (const InputError&) {
+    return std::nullopt;  // not ours, or damaged: as good as absent
+  }
+}
+
+std::optional<RunRecord> ReadFinishedRun(const RunSpec& spec, const std::string& inputs_hash,
+                                         const fs::path& report_dir) {
+  std::optional<RunRecord> record = ReadRun(spec, report_dir);
+  if (!record || record->inputs_hash != inputs_hash) return std::nullopt;
+  if (record->output_hash.empty()) return record;  // it never came as far as a trajectory
+  try {
+    std::uint64_t hash = 0;
+    for (const char* name : {"live.txt", "final.txt", "truth.txt"}) {
+      hash = HashFile(report_dir / "runs" / RunId(spec) / name, hash);
+    }
+    if (record->output_hash != fmt::format("{:016x}", hash)) return std::nullopt;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+  return record;
+}
+
+std::vector<std::string> DifferentBits(const RunRecord& a, const RunRecord& b) {
+  std::vector<std::string> lines;
+  const auto compare = [&](const std::string& what, const std::string& x, const std::string& y) {
+    if (x != y) lines.push_back(fmt::format("{}: {} and {}", what, x, y));
+  };
+  compare("status", Name(a.status), Name(b.status));
+  compare("content hash", a.content_hash, b.content_hash);
+  compare("trajectories", a.output_hash, b.output_hash);
+  for (const auto& [name, score] : a.scores) {
+    if (name.starts_with("ms_") || name == "peak_rss_mib") continue;
+    const auto other = b.scores.find(name);
+    if (other == b.scores.end()) {
+      // Penalties are ratios to a twin's run: a run on its own has none.
+      if (name != "dynamic_penalty") lines.push_back(name + ": missing in one");
+    } else if (score.value != other->second.value) {
+      lines.push_back(fmt::format("{}: {} and {}", name, ToText(score), ToText(other->second)));
+    }
+  }
+  return lines;
 }
 
 }  // namespace aisle

@@ -21,6 +21,10 @@ struct RunRecord {
   double wall_s = 0;
   int threads = 0;
   std::string content_hash;  ///< of all that decides the pixels, hexadecimal
+  std::string inputs_hash;   ///< of all that decides the run: program, scene, system, seed
+  std::string output_hash;   ///< of the trajectories it left; empty where it left none
+  /// The same inputs, tried again, ended well: what fails is not what they are but when.
+  bool flaky = false;
   Scorecard scores;
   std::vector<std::string> notes;
   std::map<std::string, std::string> artifacts;  ///< name -> path relative to the report's folder
@@ -68,5 +72,14 @@ RunRecord WriteRun(const RunResult& run, RunRecord record, const std::filesystem
 
 /// A run's result.json, if it is there and whole.
 std::optional<RunRecord> ReadRun(const RunSpec& spec, const std::filesystem::path& report_dir);
+
+/// The same, if it answers for these inputs and its trajectories still are what it left: a run
+/// that need not be made again.
+std::optional<RunRecord> ReadFinishedRun(const RunSpec& spec, const std::string& inputs_hash,
+                                         const std::filesystem::path& report_dir);
+
+/// Scores of two runs that differ and should not: all but times and memory, which belong to the
+/// machine. One line each; empty for equal bits.
+std::vector<std::string> DifferentBits(const RunRecord& a, const RunRecord& b);
 
 }  // namespace aisle

@@ -68,6 +68,9 @@ Json RecordToJson(const RunRecord& record) {
   json["wall_s"] = record.wall_s;
   json["threads"] = record.threads;
   json["content_hash"] = record.content_hash;
+  json["inputs_hash"] = record.inputs_hash;
+  json["output_hash"] = record.output_hash;
+  if (record.flaky) json["flaky"] = true;
   json["scores"] = Json::object();
   for (const auto& [name, score] : record.scores) json["scores"][name] = ScoreToJson(score);
   json["notes"] = record.notes;
@@ -90,6 +93,9 @@ RunRecord RecordFromJson(const Json& json) {
   record.wall_s = json.value("wall_s", 0.0);
   record.threads = json.value("threads", 0);
   record.content_hash = json.value("content_hash", "");
+  record.inputs_hash = json.value("inputs_hash", "");
+  record.output_hash = json.value("output_hash", "");
+  record.flaky = json.value("flaky", false);
   for (const auto& [name, score] : json.at("scores").items()) {
     record.scores[name] = ScoreFromJson(score);
   }

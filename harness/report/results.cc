@@ -20,16 +20,15 @@ std::optional<double> NumberOrNull(const Json& json) {
 }
 
 Json VerdictToJson(const Verdict& verdict) {
-  return {{"name", verdict.name},
-          {"passed", verdict.passed},
-          {"value", OrNull(verdict.value)},
-          {"limit", OrNull(verdict.limit)},
-          {"why", verdict.why}};
+  return {{"name", verdict.name},           {"passed", verdict.passed},
+          {"flaky", verdict.flaky},         {"value", OrNull(verdict.value)},
+          {"limit", OrNull(verdict.limit)}, {"why", verdict.why}};
 }
 
 Verdict VerdictFromJson(const Json& json) {
   return {.name = json.at("name").get<std::string>(),
           .passed = json.at("passed").get<bool>(),
+          .flaky = json.value("flaky", false),
           .value = NumberOrNull(json.at("value")),
           .limit = NumberOrNull(json.at("limit")),
           .why = json.at("why").get<std::string>()};

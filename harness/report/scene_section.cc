@@ -203,7 +203,8 @@ std::string AllScores(const SceneRuns& scene) {
   return text + "</table></div></details>\n";
 }
 
-std::string Again(const SceneRuns& scene, const std::string& root) {
+/// The folder as a shell would be told it, seen from where the suite was started.
+std::string Again(const SceneRuns& scene, const std::string& root, const std::string& place) {
   std::string text = "<h3>Files, and each run again</h3>\n<div class=\"wide\"><table>";
   for (const SystemRuns& system : scene.systems) {
     for (const RunRecord* run : system.runs) {
@@ -213,12 +214,9 @@ std::string Again(const SceneRuns& scene, const std::string& root) {
         if (name.starts_with("picture_")) continue;
         text += fmt::format("<a href=\"{}\">{}</a> ", root + EscapeUrl(path), Escape(name));
       }
-      text += fmt::format(
-          "</td><td class=\"left\"><code>./aisle run {} --twins {} --systems {} --seed "
-          "{}</code></td>"
-          "</tr>\n",
-          Escape(run->spec.scene_file), Escape(run->spec.twin), Escape(system.system),
-          run->spec.seed);
+      text +=
+          fmt::format("</td><td class=\"left\"><code>./aisle rerun {} --in {}</code></td></tr>\n",
+                      Escape(RunId(run->spec)), Escape(place));
     }
   }
   return text + "</table></div>\n";
@@ -248,7 +246,7 @@ std::string SceneSection(const SceneRuns& scene, const fs::path& report_dir,
             "unmoving surfaces under the mask.</p>\n";
   }
   text += Charts(scene, report_dir) + Spread(scene) + Pictures(scene, root) + Stages(scene) +
-          AllScores(scene) + Again(scene, root);
+          AllScores(scene) + Again(scene, root, report_dir.string());
   return text;
 }
 

@@ -35,7 +35,8 @@ std::vector<std::pair<Cell, std::vector<const RunRecord*>>> ByCell(
 
 Verdict Bound(const std::string& name, const Limit& limit, double value, std::size_t seeds,
               const std::string& unit) {
-  Verdict verdict{.name = name, .passed = true, .value = value, .limit = {}, .why = ""};
+  Verdict verdict{
+      .name = name, .passed = true, .flaky = false, .value = value, .limit = {}, .why = ""};
   const std::string what = seeds > 1 ? fmt::format("median of {} seeds", seeds) : "value";
   const std::string shown_unit = unit == "1" ? "" : " " + unit;
   const auto hold = [&](double bound, bool holds, const char* relation) {
@@ -66,6 +67,7 @@ Verdict JudgeCell(const Limit& limit, const Cell& cell, const std::vector<const 
                                                          : run->status_why;
     return {.name = name,
             .passed = false,
+            .flaky = false,
             .value = {},
             .limit = limit.max ? limit.max : limit.min,
             .why = fmt::format("seed {} has no value: {}", run->spec.seed, reason)};
@@ -90,6 +92,7 @@ std::vector<Verdict> Judge(const std::vector<RunRecord>& runs, const std::vector
     if (run.status == RunStatus::kOk || run.status == RunStatus::kLost) continue;
     verdicts.push_back({.name = RunId(run.spec) + ": completes",
                         .passed = false,
+                        .flaky = run.flaky,
                         .value = {},
                         .limit = {},
                         .why = Name(run.status) + ": " + run.status_why});
@@ -99,6 +102,7 @@ std::vector<Verdict> Judge(const std::vector<RunRecord>& runs, const std::vector
     if (cells.empty()) {
       verdicts.push_back({.name = "limit on " + limit.score,
                           .passed = false,
+                          .flaky = false,
                           .value = {},
                           .limit = {},
                           .why = "no run matches" + Filters(limit)});

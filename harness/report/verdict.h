@@ -18,6 +18,7 @@ struct Limit {
 struct Verdict {
   std::string name;  ///< "paper/scene2 live oracle: ate_rmse_m"
   bool passed = false;
+  bool flaky = false;           ///< failed, and a second attempt did not: still no pass
   std::optional<double> value;  ///< the median over seeds
   std::optional<double> limit;
   std::string why;  ///< the sentence for the morning

@@ -10,7 +10,9 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "harness/io/input_error.h"
 
@@ -41,6 +43,35 @@ double ResidentMib(pid_t pid) {
   double total_pages = 0, resident_pages = 0;
   statm >> total_pages >> resident_pages;
   return resident_pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+pid_t ParentOf(const std::filesystem::path& process) {
+  std::ifstream stat(process / "stat");
+  std::string line;
+  std::getline(stat, line);
+  const std::size_t name_end = line.rfind(')');  // the name may hold anything, brackets too
+  int parent = 0;
+  char state = 0;
+  if (name_end != std::string::npos) {
+    std::sscanf(line.c_str() + name_end + 1, " %c %d", &state, &parent);
+  }
+  return parent;
+}
+
+std::vector<pid_t> Descendants(pid_t root) {
+  std::multimap<pid_t, pid_t> children;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc", error)) {
+    const int pid = std::atoi(entry.path().filename().c_str());
+    if (pid > 0) children.emplace(ParentOf(entry.path()), pid);
+  }
+  std::vector<pid_t> found{root};
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto [begin, end] = children.equal_range(found[i]);
+    for (auto child = begin; child != end; ++child) found.push_back(child->second);
+  }
+  found.erase(found.begin());
+  return found;
 }
 
 }  // namespace
@@ -86,7 +117,7 @@ Process::Process(const std::vector<std::string>& argv, const ProcessLimits& limi
 
 Process::~Process() {
   if (!ended_) {
-    KillGroup();
+    KillTree();
     ::waitpid(pid_, nullptr, 0);
   }
   ::close(output_);
@@ -100,7 +131,7 @@ bool Process::Poll() {
   rusage usage{};
   if (::wait4(pid_, &status, WNOHANG, &usage) != pid_) return false;
   ended_ = true;
-  KillGroup();  // what the child left behind goes with it
+  ::kill(-pid_, SIGKILL);  // what the child left behind goes with it
   ReadOutput();
   result_.wall_s = NowS() - started_s_;
   result_.peak_rss_mib =
@@ -154,9 +185,15 @@ void Process::HoldToLimits() {
     return;
   }
   killed_ = true;
-  KillGroup();
+  KillTree();
 }
 
-void Process::KillGroup() { ::kill(-pid_, SIGKILL); }
+void Process::KillTree() {
+  // Listed before the first dies: orphans forget whose they were. A grandchild may lead a group of
+  // its own, as the systems of others do.
+  const std::vector<pid_t> below = Descendants(pid_);
+  ::kill(-pid_, SIGKILL);
+  for (const pid_t pid : below) ::kill(pid, SIGKILL);
+}
 
 }  // namespace aisle

@@ -48,7 +48,7 @@ class Process {
   void ReadOutput();
   void TakeLine(const std::string& line);
   void HoldToLimits();
-  void KillGroup();
+  void KillTree();
 
   const ProcessLimits limits_;
   pid_t pid_ = -1;

@@ -16,6 +16,7 @@ struct Job {
   std::vector<std::string> argv;
   /// Jobs with the same frames. The first makes them, the others start when it has ended.
   std::string frames_key;
+  std::string inputs_hash = {};  ///< of all that decides the run
 };
 
 struct ScheduleOptions {

@@ -23,7 +23,8 @@ struct Suite {
   std::vector<std::string> systems;
   std::map<std::string, ExternalSystem> externals;  ///< those of `systems` that are commands
   std::vector<std::string> twins = {"live"};
-  std::vector<std::uint64_t> seeds = {1};
+  /// Nine show a shift of two standard deviations in 97 nights of 100; three never can.
+  std::vector<std::uint64_t> seeds = {1, 2, 3, 4, 5, 6, 7, 8, 9};
   std::vector<Limit> limits;
 };
 
@@ -40,7 +41,7 @@ struct Vocabulary {
 ///   scenes: [../paper/scene2.yaml]
 ///   systems: [orbslam2, oracle]
 ///   twins: [live]                # optional
-///   seeds: 1                     # a count, or a list
+///   seeds: 1                     # optional: a count, or a list; nine where absent
 ///   limits:                      # optional
 ///     - {score: ate_rmse_m, system: oracle, twin: live, max: 0.02}
 ///

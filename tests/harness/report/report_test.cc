@@ -123,7 +123,7 @@ TEST_F(ReportTest, ThePageTellsTheVerdictFirst) {
   EXPECT_THAT(page, HasSubstr("1 of 2 limits broken"));
   EXPECT_LT(page.find("limits broken"), page.find("Absolute trajectory error"));
   EXPECT_THAT(page, HasSubstr("BROKEN</span> paper/scene2 live orbslam2: ate_rmse_m: value 0.0"));
-  EXPECT_THAT(page, HasSubstr("--twins live --systems orbslam2 --seed 1</code>"));
+  EXPECT_THAT(page, HasSubstr("<code>./aisle rerun paper.scene2/live/orbslam2/1 --in "));
 }
 
 TEST_F(ReportTest, ThePageObeysTheStrictestPolicy) {

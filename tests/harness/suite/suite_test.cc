@@ -49,12 +49,12 @@ class SuiteTest : public testing::Test {
   fs::path root_;
 };
 
-TEST_F(SuiteTest, DefaultsAreOneLiveSeed) {
+TEST_F(SuiteTest, DefaultsAreTheLiveTwinAndNineSeeds) {
   const Suite suite = Load(kGood);
   EXPECT_EQ(suite.name, "quick");
   EXPECT_EQ(suite.scenes.at(0).name, "paper/one");
   EXPECT_EQ(suite.twins, std::vector<std::string>{"live"});
-  EXPECT_EQ(suite.seeds, std::vector<std::uint64_t>{1});
+  EXPECT_EQ(suite.seeds, (std::vector<std::uint64_t>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
   EXPECT_TRUE(IsSuiteFile((root_ / "suites/s.yaml").string()));
   EXPECT_FALSE(IsSuiteFile((root_ / "paper/one.yaml").string()));
 }

@@ -1,0 +1,50 @@
+#include "harness/cli/collect.h"
+
+#include "harness/cli/command.h"
+#include "harness/cli/places.h"
+#include "harness/cli/terminal.h"
+#include "harness/report/report.h"
+#include "harness/report/twins.h"
+
+namespace aisle {
+
+Results Collect(const Suite& suite, const std::vector<RunSpec>& specs,
+                const std::filesystem::path& out, const CollectOptions& options) {
+  Results results;
+  results.provenance = OwnProvenance();
+  results.suite = suite.name;
+  results.question = suite.question;
+  std::vector<Verdict> missing;
+  for (const RunSpec& spec : specs) {
+    if (std::optional<RunRecord> record = ReadRun(spec, out)) {
+      results.runs.push_back(*std::move(record));
+    } else {
+      missing.push_back({.name = RunId(spec) + ": completes",
+                         .passed = false,
+                         .flaky = false,
+                         .value = {},
+                         .limit = {},
+                         .why = "no result"});
+    }
+  }
+  AddDynamicPenalty(&results.runs);
+  results.verdicts =
+      Judge(results.runs, options.judge_limits ? suite.limits : std::vector<Limit>{});
+  results.verdicts.insert(results.verdicts.begin(), missing.begin(), missing.end());
+  return results;
+}
+
+int Publish(const Results& results, const std::filesystem::path& out,
+            const PublishOptions& options) {
+  WriteReport(results, out);
+  if (options.json) {
+    fmt::print("{}", ToJson(results));
+  } else {
+    fmt::print("{}", ToConsole(results, StdoutHasColor()));
+    fmt::print("report: {}\nagain:  {}\n", (out / "index.html").string(), results.rerun);
+  }
+  if (options.failure != 0) return options.failure;
+  return AllPassed(results) ? kAllPassed : kVerdictFailed;
+}
+
+}  // namespace aisle

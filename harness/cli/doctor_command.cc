@@ -1,0 +1,170 @@
+// What this machine has and lacks for the work, before the night finds out.
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "harness/cli/command.h"
+#include "harness/cli/places.h"
+#include "harness/cli/terminal.h"
+#include "harness/report/record_json.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Health { kGood, kLacking, kBad };
+
+struct Finding {
+  std::string what;
+  Health health = Health::kGood;
+  std::string said;
+  std::string remedy;  ///< empty where nothing is wrong
+};
+
+std::string WordOf(Health health) {
+  return health == Health::kGood ? "good" : health == Health::kLacking ? "lacking" : "BAD";
+}
+
+constexpr double kFewestDiskGib = 15;   ///< the frame cache alone may take 12
+constexpr double kFewestMemoryGib = 4;  ///< one run with its frames ahead
+
+Finding Processor() {
+  const bool good = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  std::string isa;
+  for (const auto& [name, has] : {std::pair("sse4.2", __builtin_cpu_supports("sse4.2") != 0),
+                                  std::pair("avx2", __builtin_cpu_supports("avx2") != 0),
+                                  std::pair("fma", __builtin_cpu_supports("fma") != 0),
+                                  std::pair("avx512f", __builtin_cpu_supports("avx512f") != 0)}) {
+    if (has) isa += std::string(isa.empty() ? "" : ", ") + name;
+  }
+  return {"processor", good ? Health::kGood : Health::kBad,
+          fmt::format("{}; {} threads; {}", OwnProvenance().cpu,
+                      std::thread::hardware_concurrency(), isa),
+          good ? "" : "this program is built for AVX2 and FMA: it will not run here"};
+}
+
+Finding Memory() {
+  const double gib = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
+                     static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 30);
+  const bool enough = gib >= kFewestMemoryGib;
+  return {"memory", enough ? Health::kGood : Health::kLacking, fmt::format("{:.1f} GiB", gib),
+          enough ? "" : "run with --jobs 1"};
+}
+
+fs::path NearestExisting(fs::path path) {
+  path = fs::absolute(path);
+  while (!fs::exists(path) && path.has_relative_path()) path = path.parent_path();
+  return path;
+}
+
+Finding Disk(const std::string& what, const fs::path& wanted) {
+  const fs::path path = NearestExisting(wanted);
+  struct statvfs disk {};
+  if (::statvfs(path.c_str(), &disk) != 0 || ::access(path.c_str(), W_OK) != 0) {
+    return {what, Health::kBad, wanted.string() + ": cannot be written", "choose another folder"};
+  }
+  const double gib =
+      static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize) / (1 << 30);
+  const bool enough = gib >= kFewestDiskGib;
+  return {what, enough ? Health::kGood : Health::kLacking,
+          fmt::format("{}: {:.0f} GiB free", wanted.string(), gib),
+          enough ? ""
+                 : fmt::format("the frames of a night may need {:.0f} GiB: set AISLE_CACHE",
+                               kFewestDiskGib)};
+}
+
+Finding Assets() {
+  try {
+    return {"assets", Health::kGood, AssetsDir().string(), ""};
+  } catch (const std::exception& error) {
+    return {"assets", Health::kBad, error.what(), "set AISLE_ASSETS"};
+  }
+}
+
+bool OnPath(const std::string& program) {
+  std::istringstream folders(std::getenv("PATH") != nullptr ? std::getenv("PATH") : "");
+  std::string folder;
+  while (std::getline(folders, folder, ':')) {
+    if (::access((fs::path(folder) / program).c_str(), X_OK) == 0) return true;
+  }
+  return false;
+}
+
+Finding Tool(const std::string& program, const std::string& use) {
+  const bool there = OnPath(program);
+  return {program, there ? Health::kGood : Health::kLacking, use,
+          there ? "" : "optional: apt-get install " + program};
+}
+
+/// Debian's packages that packages.txt of the source tree names.
+Finding Packages() {
+  std::ifstream list(fs::path(AISLE_SOURCE_DIR) / "packages.txt");
+  if (!list) return {"packages", Health::kLacking, "no packages.txt beside the program", ""};
+  std::string line, missing;
+  int count = 0;
+  while (std::getline(list, line)) {
+    if (line.empty() || line.front() == '#') continue;
+    ++count;
+    const bool there = fs::exists("/var/lib/dpkg/info/" + line + ".list") ||
+                       fs::exists("/var/lib/dpkg/info/" + line + ":amd64.list");
+    if (!there) missing += " " + line;
+  }
+  if (missing.empty()) {
+    return {"packages", Health::kGood, fmt::format("all {} of packages.txt", count), ""};
+  }
+  return {"packages", Health::kLacking, "missing:" + missing, "apt-get install" + missing};
+}
+
+std::vector<Finding> Examine(const std::string& out) {
+  return {Processor(),
+          Memory(),
+          Disk("cache", CacheDir()),
+          Disk("reports", out),
+          Assets(),
+          Packages(),
+          Tool("ffmpeg", "a short video of every run"),
+          Tool("git", "the commit in every report")};
+}
+
+int Doctor(const std::string& out, bool json) {
+  const std::vector<Finding> findings = Examine(out);
+  bool bad = false;
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Finding& finding : findings) {
+    bad = bad || finding.health == Health::kBad;
+    if (json) {
+      list.push_back({{"what", finding.what},
+                      {"health", WordOf(finding.health)},
+                      {"said", finding.said},
+                      {"remedy", finding.remedy}});
+      continue;
+    }
+    fmt::print("{:10} {:8} {}\n", finding.what, WordOf(finding.health), finding.said);
+    if (!finding.remedy.empty()) fmt::print("{:19} -> {}\n", "", finding.remedy);
+  }
+  if (json) fmt::print("{}", Dump({{"version", AISLE_VERSION}, {"findings", list}}));
+  return bad ? kOwnFailure : kAllPassed;
+}
+
+}  // namespace
+
+void AddDoctorCommand(CLI::App* app, Action* action) {
+  struct Options {
+    std::string out = "out";
+    bool json = false;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app->add_subcommand("doctor", "what this machine has and lacks for the work");
+  command->add_option("--out", options->out, "where reports will go; default out");
+  command->add_flag("--json", options->json, "for programs");
+  command->footer("Example: ./aisle doctor");
+  command->callback([=] { *action = [=] { return Doctor(options->out, options->json); }; });
+}
+
+}  // namespace aisle

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/suite/suite.h"
+
+namespace aisle {
+
+/// What a user may say instead of the suite's own.
+struct InputOptions {
+  std::vector<std::string> files;  ///< suites and scenes
+  std::vector<std::string> systems, twins;
+  std::uint64_t seeds = 0;          ///< a count, from 1 on; 0: the suite's own
+  std::vector<std::uint64_t> seed;  ///< these very seeds
+};
+
+/// The names of this program's systems and twins.
+Vocabulary KnownNames();
+
+/// The files as one suite: several make one report. A bare scene asks the plainest question of the
+/// plainest two systems. Throws InputError.
+Suite LoadInputs(const InputOptions& options);
+
+/// Every mistake of every scene, before hours of work begin. Throws InputError with all of them.
+void CheckScenes(const Suite& suite);
+
+/// The part of a command line that says the same again.
+std::string Describe(const InputOptions& options);
+
+}  // namespace aisle

@@ -1,0 +1,82 @@
+// One run of a finished report again, held against itself bit by bit.
+#include <filesystem>
+
+#include "harness/cli/command.h"
+#include "harness/cli/evening.h"
+#include "harness/cli/jobs.h"
+#include "harness/io/file.h"
+#include "harness/io/input_error.h"
+#include "harness/report/record.h"
+#include "harness/suite/plan.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string id, in, out;
+  int threads = 0;
+  ProcessLimits limits;
+};
+
+RunSpec FindRun(const Suite& suite, const std::string& id, const std::string& folder) {
+  std::string known;
+  for (const RunSpec& spec : Plan(suite)) {
+    if (RunId(spec) == id) return spec;
+    if (known.size() < 400) known += "\n  " + RunId(spec);
+  }
+  throw InputError(
+      fmt::format("{}: holds no run '{}'; it holds{}", folder, Printable(id, 200), known));
+}
+
+int Rerun(const Options& options) {
+  const fs::path plan_path = fs::path(options.in) / "plan.json";
+  const PlanFile plan = PlanFromJson(ReadFile(plan_path), plan_path.string());
+  const RunSpec spec = FindRun(plan.suite, options.id, options.in);
+  const std::optional<RunRecord> before = ReadRun(spec, options.in);
+  const fs::path out = options.out.empty() ? fs::path(options.in) / "rerun" : fs::path(options.out);
+  const std::vector<Job> jobs =
+      MakeJobs(plan.suite, {spec}, Fingerprints(), {.out = out, .threads = options.threads});
+  fs::remove_all(out / "runs" / RunId(spec));
+  Evening evening(out, 1, options.limits);
+  const std::atomic<bool> never = false;
+  evening.Run(jobs, 1, never);
+  if (evening.failure() != 0) return evening.failure();
+  const std::optional<RunRecord> after = ReadRun(spec, out);
+  fmt::print("run: {}\n", (out / "runs" / options.id).string());
+  if (!before || !after) {
+    fmt::print("there is no earlier result to compare with\n");
+    return kAllPassed;
+  }
+  const std::vector<std::string> differences = DifferentBits(*before, *after);
+  if (differences.empty()) {
+    fmt::print("the same to the last bit: trajectories and {} scores\n", after->scores.size());
+    return kAllPassed;
+  }
+  const bool same_inputs = before->inputs_hash == after->inputs_hash;
+  fmt::print("{}\n", same_inputs ? "the same inputs, other results:"
+                                 : "program, scene or system changed since; other results:");
+  for (const std::string& line : differences) fmt::print("  {}\n", line);
+  return kVerdictFailed;
+}
+
+}  // namespace
+
+void AddRerunCommand(CLI::App* app, Action* action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app->add_subcommand(
+      "rerun", "repeat one run of a report and compare it with itself, bit by bit");
+  command->add_option("RUN-ID", options->id, "as the report names it: SCENE/TWIN/SYSTEM/SEED")
+      ->required();
+  command->add_option("--in", options->in, "folder of the report")->required();
+  command->add_option("--out", options->out, "where the new run goes; default DIR/rerun");
+  command->add_option("--threads", options->threads, "0: all; never changes a result")
+      ->check(CLI::Range(0, 1024));
+  command->add_option("--timeout", options->limits.wall_s, "seconds of wall time")
+      ->check(CLI::PositiveNumber);
+  command->footer("Example: ./aisle rerun paper.scene2/live/oracle/1 --in out/quickstart");
+  command->callback([=] { *action = [=] { return Rerun(*options); }; });
+}
+
+}  // namespace aisle

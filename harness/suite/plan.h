@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/suite/suite.h"
+
+namespace aisle {
+
+/// What a report folder is meant to hold. plan.json is written before the first run, so that a
+/// folder explains itself: `merge` and `rerun` read it and need no suite file.
+struct PlanFile {
+  Suite suite;
+  std::string command;  ///< the command line that made it
+};
+
+std::string ToJson(const PlanFile& plan);
+/// Throws InputError when the text is no plan of a known schema.
+PlanFile PlanFromJson(const std::string& text, const std::string& file);
+
+/// One of `count` parts of a plan. Parts are disjoint and together the whole.
+struct Shard {
+  std::size_t index = 1;  ///< from 1
+  std::size_t count = 1;
+};
+
+/// "2/3"; throws InputError naming the rule for anything else.
+Shard ShardFromText(const std::string& text);
+
+/// The runs of one part. Runs that share their frames stay together: no frame is rendered twice.
+std::vector<RunSpec> TakeShard(const std::vector<RunSpec>& specs, const Shard& shard);
+
+}  // namespace aisle

@@ -1,0 +1,116 @@
+// The whole loop through the real program: render, drive, score, judge, report; killed, resumed,
+// parted, merged and repeated.
+#include <gmock/gmock.h>
+
+#include "harness/io/file.h"
+#include "tests/system/program.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr const char* kTwo = "  - orbslam2\n  - oracle\n";
+
+class SuiteRunTest : public ProgramTest {};
+
+TEST_F(SuiteRunTest, LeavesAReportThatOtherCommandsCanRead) {
+  const Said said = Run({"run", Suite("whole", kTwo), "--out", Out("a")});
+  ASSERT_EQ(said.code, 0) << said.text;
+  for (const char* file :
+       {"index.html", "style.css", "results.json", "summary.csv", "junit.xml", "plan.json"}) {
+    EXPECT_TRUE(fs::exists(fs::path(Out("a")) / file)) << file;
+  }
+  const Results results = ResultsOf(Out("a"));
+  ASSERT_EQ(results.runs.size(), 2u);
+  for (const RunRecord& run : results.runs) {
+    EXPECT_EQ(run.status, RunStatus::kOk) << run.status_why;
+    EXPECT_EQ(run.frames, 12u);
+    EXPECT_LT(*run.scores.at("ate_rmse_m").value, 0.05);
+  }
+  EXPECT_EQ(Run({"report", Out("a")}).code, 0);
+  EXPECT_THAT(Run({"compare", Out("a"), Out("a")}).text, HasSubstr("same"));
+}
+
+TEST_F(SuiteRunTest, KilledAtAnyMomentAndResumedGivesTheSameBits) {
+  const std::string suite = Suite("killed", kTwo, "seeds: 2\n");
+  ASSERT_EQ(Run({"run", suite, "--out", Out("calm")}).code, 0);
+  // Fractions of a second to seconds: before the first frame, inside runs, between them, while the
+  // report is written. Each kill is a SIGKILL to the program; its children die with it.
+  std::vector<std::string> again{"run",         suite,      "--out",
+                                 Out("killed"), "--resume", "--no-frame-cache"};
+  int kills = 0;
+  for (const double after_s : {0.05, 0.4, 1.1, 2.3, 0.2, 1.7}) {
+    if (!Kill(again, after_s)) break;
+    ++kills;
+  }
+  EXPECT_GE(kills, 3);
+  const Said said = Run(again);
+  ASSERT_EQ(said.code, 0) << said.text;
+  EXPECT_EQ(Bits(Out("killed")), Bits(Out("calm")));
+  for (const auto& entry : fs::recursive_directory_iterator(Out("killed"))) {
+    // What a killed writer left aside has a name nobody takes for a result.
+    const std::string name = entry.path().filename().string();
+    EXPECT_TRUE(!entry.is_regular_file() || name.front() == '.' || entry.file_size() > 0 ||
+                name == "log.txt")
+        << name;
+  }
+}
+
+TEST_F(SuiteRunTest, ResumeTrustsContentsNotNames) {
+  const std::string suite = Suite("trust", "  - orbslam2\n");
+  const std::vector<std::string> resume{"run", suite, "--out", Out("a"), "--resume"};
+  ASSERT_EQ(Run({"run", suite, "--out", Out("a")}).code, 0);
+  EXPECT_THAT(Run(resume).text, HasSubstr("1 of 1 runs are already there"));
+
+  const fs::path run = fs::path(Out("a")) / "runs/short/live/orbslam2/1";
+  const std::string whole = ReadFile(run / "final.txt");
+  WriteFileAtomically(run / "final.txt", whole.substr(0, whole.size() / 2));
+  EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already there")));
+  EXPECT_EQ(ReadFile(run / "final.txt"), whole);
+
+  WriteFileAtomically(run / "result.json", "{\"scene\": 3");
+  EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already there")));
+
+  // The same name, another scene.
+  const std::string other = (folder_ / "elsewhere/scenes/short.yaml").string();
+  std::string text = ReadFile(scene_);
+  text.replace(text.find("height_m: 4.6"), 13, "height_m: 4.1");
+  WriteFileAtomically(other, text);
+  std::string moved = ReadFile(suite);
+  moved.replace(moved.find(scene_), scene_.size(), other);
+  WriteFileAtomically(suite, moved);
+  EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already there")));
+  EXPECT_NE(ReadFile(run / "final.txt"), whole);
+}
+
+TEST_F(SuiteRunTest, PartsMergeIntoTheWhole) {
+  const std::string suite =
+      Suite("parts", kTwo, "seeds: 2\nlimits:\n  - {score: ate_rmse_m, max: 0.05}\n");
+  ASSERT_EQ(Run({"run", suite, "--out", Out("whole")}).code, 0);
+  ASSERT_EQ(Run({"run", suite, "--out", Out("one"), "--shard", "1/2"}).code, 0);
+  EXPECT_EQ(ResultsOf(Out("one")).runs.size(), 2u);
+  const Said half = Run({"merge", Out("merged"), Out("one")});
+  EXPECT_EQ(half.code, 1);  // two runs are missing, and silence is no pass
+  EXPECT_THAT(half.text, HasSubstr("no result"));
+  ASSERT_EQ(Run({"run", suite, "--out", Out("two"), "--shard", "2/2"}).code, 0);
+  const Said said = Run({"merge", Out("merged"), Out("one"), Out("two")});
+  EXPECT_EQ(said.code, 0) << said.text;
+  EXPECT_EQ(Bits(Out("merged")), Bits(Out("whole")));
+  EXPECT_EQ(ResultsOf(Out("merged")).verdicts.size(), ResultsOf(Out("whole")).verdicts.size());
+}
+
+TEST_F(SuiteRunTest, OneRunIsRepeatedToTheLastBit) {
+  const std::string suite = Suite("again", "  - robust\n");
+  ASSERT_EQ(Run({"run", suite, "--out", Out("a"), "--threads", "2"}).code, 0);
+  const Said said = Run({"rerun", "short/live/robust/1", "--in", Out("a"), "--threads", "1"});
+  EXPECT_EQ(said.code, 0) << said.text;
+  EXPECT_THAT(said.text, HasSubstr("the same to the last bit"));
+  const Said unknown = Run({"rerun", "short/live/best/1", "--in", Out("a")});
+  EXPECT_EQ(unknown.code, 4);
+  EXPECT_THAT(unknown.text, HasSubstr("holds no run 'short/live/best/1'; it holds\n"));
+}
+
+}  // namespace
+}  // namespace aisle
