@@ -1,5 +1,6 @@
 #include "simulator/mesh/import.h"
 
+#include <assimp/BaseImporter.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -42,6 +43,7 @@ void KeepOwnFormats(Assimp::Importer* importer) {
   }
   for (Assimp::BaseImporter* one : unwanted) {
     importer->UnregisterLoader(one);
+    delete one;  // unregistering hands it back to the caller
   }
 }
 
