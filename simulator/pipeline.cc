@@ -7,6 +7,8 @@
 
 #include "simulator/camera/pixel_rays.h"
 #include "simulator/raster/raster.h"
+#include "simulator/shade/light_error.h"
+#include "simulator/shade/reference.h"
 #include "simulator/trace/hit_image.h"
 #include "simulator/truth/correspondence.h"
 #include "simulator/truth/truth.h"
@@ -218,6 +220,24 @@ VerifyReport Pipeline::Verify(std::int64_t stamp_ns, const Eigen::Isometry3d& T_
                         .stereo_compared = stereo.compared,
                         .flow_compared = flow.compared};
   });
+}
+
+LightCheck Pipeline::CheckLight(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
+                                int samples) const {
+  LightCheck check;
+  check.nightly = RenderRadiance(stamp_ns, T_world_rig)[0] * impl_->options.sensor.exposure;
+  check.reference = impl_->arena.execute([&] {
+    const Instant instant = impl_->tracer.Pose(impl_->world.At(stamp_ns));
+    const TexturePool textures(impl_->world.textures());
+    return cv::Mat1f(Reference(impl_->world, textures)
+                         .Render(instant, impl_->Views(T_world_rig)[0], {.samples = samples}) *
+                     impl_->options.sensor.exposure);
+  });
+  const LightError error = CompareLight(check.nightly, check.reference);
+  check.median_relative_error = error.median_relative;
+  check.ssim = error.ssim;
+  check.mean_ratio = error.mean_ratio;
+  return check;
 }
 
 RenderBench Pipeline::Bench(std::span<const std::int64_t> stamps_ns,

@@ -213,6 +213,11 @@ RenderBench Simulator::Bench(int frames) const {
   return impl_->pipeline->Bench(stamps, poses);
 }
 
+LightCheck Simulator::CheckLight(int frame_index, int samples) const {
+  const std::int64_t stamp_ns = Stamp(frame_index);
+  return impl_->pipeline->CheckLight(stamp_ns, PlannedPose(stamp_ns), samples);
+}
+
 std::vector<std::string> CheckSceneFile(const std::string& scene_file) {
   return CheckScene(scene_file);
 }

@@ -102,6 +102,15 @@ struct RenderBench {
   std::map<std::string, double> stage_ms;  ///< medians by stage
 };
 
+/// The nightly light of one left image beside the path tracer's, before the sensor: linear, in
+/// shares of the sensor's white.
+struct LightCheck {
+  cv::Mat1f nightly, reference;
+  double median_relative_error = 0;  ///< over pixels
+  double ssim = 0;                   ///< structural similarity, what is over white cut to white
+  double mean_ratio = 0;             ///< nightly over reference
+};
+
 /// The face of the simulator: a scene that can be photographed at any time from any pose. A frame
 /// is a pure function of (scene file, assets, seed, frame index, time, pose): any frame can be
 /// asked for alone, in any order.
@@ -148,6 +157,10 @@ class Simulator {
   /// Times Render over `frames` frames spread over the scene, and the bare primary rays of the same
   /// frames, interleaved so that both meet the same machine.
   RenderBench Bench(int frames) const;
+
+  /// Renders one planned left image with the nightly light and by path tracing, `samples` paths a
+  /// pixel: minutes.
+  LightCheck CheckLight(int frame_index, int samples) const;
 
  private:
   struct Impl;

@@ -32,6 +32,7 @@ void AddReportCommand(CLI::App* app, Action* action);
 void AddDoctorCommand(CLI::App* app, Action* action);
 void AddCompletionCommand(CLI::App* app, Action* action);
 void AddCompareCommand(CLI::App* app, Action* action);
+void AddBenchCommand(CLI::App* app, Action* action);
 void AddBaselineCommand(CLI::App* app, Action* action);
 
 }  // namespace aisle

@@ -28,6 +28,7 @@ int Run(int argc, char** argv) {
   aisle::AddCheckCommand(&app, &action);
   aisle::AddDoctorCommand(&app, &action);
   aisle::AddCompletionCommand(&app, &action);
+  aisle::AddBenchCommand(&app, &action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

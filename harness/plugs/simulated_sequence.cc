@@ -1,7 +1,7 @@
 #include "harness/plugs/simulated_sequence.h"
 
 #include "harness/io/input_error.h"
-#include "simulator/simulator.h"
+#include "harness/plugs/open_simulator.h"
 
 namespace aisle {
 namespace {
@@ -94,20 +94,24 @@ const std::vector<std::string>& TwinNames() {
   return names;
 }
 
-std::unique_ptr<Sequence> OpenSimulation(const SimulatedSequenceOptions& options,
-                                         std::uint64_t* content_hash, PathOfRig* path) {
+sim::Simulator OpenSimulator(const SimulatedSequenceOptions& options) {
   const sim::Twin twin = TwinFromName(options.twin);
   try {
-    sim::Simulator simulator = sim::Simulator::Load(
+    return sim::Simulator::Load(
         options.scene_file, options.assets_dir,
         {.seed = options.seed, .twin = twin, .threads = options.threads, .isa = options.isa});
-    if (content_hash != nullptr) *content_hash = simulator.content_hash();
-    auto sequence = std::make_unique<SimulatedSequence>(std::move(simulator), options.scene_name);
-    if (path != nullptr) *path = sequence->Path();
-    return sequence;
   } catch (const std::runtime_error& error) {
     throw InputError(error.what());
   }
+}
+
+std::unique_ptr<Sequence> OpenSimulation(const SimulatedSequenceOptions& options,
+                                         std::uint64_t* content_hash, PathOfRig* path) {
+  sim::Simulator simulator = OpenSimulator(options);
+  if (content_hash != nullptr) *content_hash = simulator.content_hash();
+  auto sequence = std::make_unique<SimulatedSequence>(std::move(simulator), options.scene_name);
+  if (path != nullptr) *path = sequence->Path();
+  return sequence;
 }
 
 std::vector<std::string> CheckScene(const std::string& scene_file) {

@@ -114,11 +114,6 @@ struct Gathered {
   }
 };
 
-I8 LanesOf(unsigned bits) {
-  const I8 lane = {1, 2, 4, 8, 16, 32, 64, 128};
-  return (WideInt(static_cast<std::int32_t>(bits)) & lane) != 0;
-}
-
 Gathered Gather(const Instant& instant, const Light& light, const Points8& p, Shape shape,
                 GeometryMask occluders) {
   Gathered result;
@@ -224,7 +219,7 @@ std::array<DirectLight, kLanes> GatherDirectLight(const Instant& instant,
     traced += light.Unshadowed(p) * light_scale[i];
     const Shape probe = ProbeShape(lights[i]);
     Gathered gathered = Gather(instant, light, p, probe, options.occluders);
-    if (gathered.mixed) {
+    if (gathered.mixed && options.refine) {
       const Gathered fine = Gather(instant, light, p, FineShape(probe), options.occluders);
       const F8 mixed = Select(LanesOf(gathered.mixed), Wide(1), Wide(0));
       Gathered both;

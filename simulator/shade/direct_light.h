@@ -35,6 +35,7 @@ struct DirectLightOptions {
   /// Lights that together give less than this share of a packet's unshadowed light are not traced;
   /// they are taken to be as visible as the others.
   float untraced_share = 0.03f;
+  bool refine = true;  ///< probe penumbrae again, at sixteen points of the light
   GeometryMask occluders = kEverything;
 };
 
@@ -47,8 +48,8 @@ struct DirectLight {
 };
 
 /// Irradiance that up to eight points receive straight from the luminaires, with soft shadows. A
-/// light is first probed at four points of its area; where these disagree (penumbra), at sixteen.
-/// `light_scale` dims each light. One result a point.
+/// light is first probed at four points of its area; where these disagree (penumbra), at sixteen,
+/// if so wished. `light_scale` dims each light. One result a point.
 std::array<DirectLight, kLanes> GatherDirectLight(const Instant& instant,
                                                   std::span<const AreaLight> lights,
                                                   std::span<const float> light_scale,

@@ -104,6 +104,14 @@ SurfaceTables::SurfaceTables(const World& world, const Tracer& tracer, const Lig
     : world_(&world) {
   const TriangleMesh& mesh = world.statics().mesh;
   statics_ = MakeSurfaceTable(mesh, mesh.positions, static_grid.patches, world.materials());
+  const auto glossy = [&](std::uint16_t material) {
+    return FinishOf(world.materials()[material]).f0 > 0;
+  };
+  if (std::ranges::any_of(mesh.materials, glossy)) {
+    for (const std::uint16_t material : mesh.materials) {
+      finishes_.push_back(FinishOf(world.materials()[material]));
+    }
+  }
   for (std::size_t i = 0; i < world.mover_meshes().size(); ++i) {
     const TriangleMesh& mover = world.mover_meshes()[i];
     MoverGrid own;
@@ -158,9 +166,10 @@ void SurfaceTables::LightMover(const Instant& instant, std::size_t mover, const 
     const std::size_t count = std::min<std::size_t>(kLanes, leaders.size() - first);
     std::array<SurfacePoint, kLanes> eight;
     for (std::size_t k = 0; k < count; ++k) eight[k] = places[leaders[first + k]];
-    const auto light =
-        GatherDirectLight(instant, world_->lights(), instant.snapshot().light_scale,
-                          std::span(eight).first(count), {.untraced_share = kUntracedShare});
+    // Many lamps and small bodies: steps of a quarter lamp are lost among them.
+    const auto light = GatherDirectLight(instant, world_->lights(), instant.snapshot().light_scale,
+                                         std::span(eight).first(count),
+                                         {.untraced_share = kUntracedShare, .refine = false});
     for (std::size_t k = 0; k < count; ++k) direct[leaders[first + k]] = light[k];
   });
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "simulator/shade/gloss.h"
 #include "simulator/shade/static_light.h"
 #include "simulator/shade/surface_lanes.h"
 #include "simulator/trace/hit_image.h"
@@ -25,6 +26,8 @@ class SurfaceTables {
                 float mover_texel_m);
 
   const std::vector<SurfaceRecord>& statics() const { return statics_; }
+  /// Finish of each static triangle; empty where the whole world is dull.
+  std::span<const Finish> finishes() const { return finishes_; }
   /// Index in FrameLight::mover_records of a mover's first triangle.
   std::span<const std::int32_t> mover_bases() const { return mover_bases_; }
 
@@ -47,6 +50,7 @@ class SurfaceTables {
 
   const World* world_;
   std::vector<SurfaceRecord> statics_;
+  std::vector<Finish> finishes_;
   std::vector<SurfaceRecord> mover_records_;
   std::vector<std::int32_t> mover_bases_;
   std::vector<std::size_t> slot_bases_;

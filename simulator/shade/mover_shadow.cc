@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "simulator/shade/hemisphere.h"
+#include "simulator/shade/pattern_filter.h"
 
 namespace aisle::sim {
 namespace {
@@ -16,13 +17,13 @@ constexpr float kReach = 1.2f;            // m: how far a mover darkens indirect
 constexpr float kMoverReflection = 0.3f;  // what blocking parts of a mover send on in turn
 constexpr int kPattern = 16;              // pixels of the 4 × 4 pattern
 constexpr int kAmbientRays = 2;           // a pixel
+// Lights that together give less than this share of a tile's light are let through.
+constexpr float kUntracedShare = 0.02f;
+// A light that gives less than such a share of a tile's light is asked in every second, every
+// fourth row of the pattern only.
+constexpr float kHalfShare = 0.2f, kQuarterShare = 0.08f;
 
-struct F8x3 {
-  F8 x, y, z;
-};
 F8x3 Wide3(const Eigen::Vector3f& v) { return {Wide(v.x()), Wide(v.y()), Wide(v.z())}; }
-F8 Dot(const F8x3& a, const F8x3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-F8x3 Minus(const F8x3& a, const F8x3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
 /// Lanes whose segment from + t·to, t in [0, 1], meets the box.
 I8 MeetBox(const Eigen::AlignedBox3f& box, const F8x3& from, const F8x3& to) {
@@ -51,11 +52,6 @@ Rays8 MakeRays(const F8x3& from, const F8x3& to, float t_far, I8 valid) {
   Store(Wide(t_far), rays.t_far);
   std::memcpy(rays.valid, &valid, sizeof(rays.valid));
   return rays;
-}
-
-I8 LanesOf(unsigned bits) {
-  const I8 lane = {1, 2, 4, 8, 16, 32, 64, 128};
-  return (WideInt(static_cast<std::int32_t>(bits)) & lane) != 0;
 }
 
 /// Sample positions of the 4 × 4 pattern for eight pixels of a row: neighbours differ much, and
@@ -98,6 +94,8 @@ struct Pixels8 {
 struct Blocker {
   std::size_t light;
   GeometryMask movers;
+  float most;            ///< irradiance that it can give any point of the tile
+  std::size_t row_step;  ///< traced in every row_step-th row of the pattern, and counted as often
 };
 
 struct TileWork {
@@ -207,9 +205,54 @@ class Pass {
       for (std::size_t m = 0; m < movers.size(); ++m) {
         if (Any(MeetBox(Grown(movers[m], thick), from, to))) mask |= MoverBit(m);
       }
-      if (mask) work.blockers.push_back({l, mask});
+      if (mask) work.blockers.push_back({l, mask, MostLight(light, l, box), 1});
     }
+    Thin(MeanLight(x0, y0, x1, y1), &work.blockers);
     return work;
+  }
+
+  /// Bound of what a light can give to any point of a box, whichever way it faces.
+  float MostLight(const AreaLight& light, std::size_t index, const Eigen::AlignedBox3f& box) const {
+    const float power = 4 * light.half_u.cross(light.half_v).norm() * light.radiance *
+                        instant_.snapshot().light_scale[index];
+    const Eigen::Vector3f normal = light.half_u.cross(light.half_v).normalized();
+    float below = 0;  // how far the box reaches to the side the light shines to
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::Vector3f p = box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner));
+      below = std::max(below, (p - light.center).dot(normal));
+    }
+    const float squared = std::max(box.squaredExteriorDistance(light.center), 0.01f);
+    return power * std::min(1.0f, below / std::sqrt(squared)) / squared;
+  }
+
+  float MeanLight(int x0, int y0, int x1, int y1) const {
+    float sum = 0, count = 0;
+    for (int y = y0; y < y1; y += 2) {
+      for (int x = x0; x < x1; x += 2) {
+        const std::size_t i = image_.Index(x, y);
+        if (image_.geometry[i] != 0) continue;
+        sum += irradiance_[i];
+        count += 1;
+      }
+    }
+    return count > 0 ? sum / count : 0;
+  }
+
+  /// Drops the lights that hardly count, and thins the rays to the weak ones.
+  static void Thin(float mean, std::vector<Blocker>* blockers) {
+    std::ranges::sort(*blockers, [](const Blocker& a, const Blocker& b) {
+      return a.most != b.most ? a.most < b.most : a.light < b.light;
+    });
+    float dropped = 0;
+    std::erase_if(*blockers, [&](const Blocker& blocker) {
+      dropped += blocker.most;
+      return dropped < kUntracedShare * mean;
+    });
+    for (Blocker& blocker : *blockers) {
+      blocker.row_step = blocker.most < kQuarterShare * mean ? 4
+                         : blocker.most < kHalfShare * mean  ? 2
+                                                             : 1;
+    }
   }
 
   static Eigen::AlignedBox3f Grown(const Eigen::AlignedBox3f& box, const Eigen::Vector3f& by) {
@@ -230,12 +273,15 @@ class Pass {
     if (!Any(pixels.active)) return false;
     const Pattern::Row& pattern = pattern_.rows[static_cast<std::size_t>(y & 3)];
     F8 lost = Wide(0);
-    for (const Blocker& blocker : work.blockers) lost += LostDirect(blocker, pixels, pattern);
+    for (const Blocker& blocker : work.blockers) {
+      // Which rows differs from light to light, so that the work of the rows is alike.
+      if ((static_cast<std::size_t>(y) + blocker.light) % blocker.row_step != 0) continue;
+      lost += LostDirect(blocker, pixels, pattern) * static_cast<float>(blocker.row_step);
+    }
     if (work.near) lost += LostIndirect(work.near, pixels, pattern, x, y);
     if (!Any(lost > 0)) return false;
     const std::size_t i = image_.Index(x, y);
-    const F8 share = 1 - lost / Max(LoadF(&irradiance_[i]), Wide(1e-9f));
-    Store(Max(share, Wide(0)), &(*raw)[i]);
+    Store(1 - lost / Max(LoadF(&irradiance_[i]), Wide(1e-9f)), &(*raw)[i]);
     return true;
   }
 
@@ -304,36 +350,6 @@ class Pass {
   Pattern pattern_;
 };
 
-/// Whether two pixels show one surface, so that their light may be averaged.
-bool SameSurface(const HitImage& image, const SurfaceTables& tables, std::size_t i, std::size_t j) {
-  if (image.geometry[j] != 0) return false;
-  if (std::abs(image.t[j] - image.t[i]) > 0.05f * image.t[i]) return false;
-  if (image.primitive[j] == image.primitive[i]) return true;
-  const Eigen::Map<const Eigen::Vector3f> n(tables.statics()[image.primitive[i]].normal);
-  const Eigen::Map<const Eigen::Vector3f> m(tables.statics()[image.primitive[j]].normal);
-  return n.dot(m) > 0.9f;
-}
-
-/// Mean over the 4 × 4 pattern around a pixel, of pixels on the same surface only.
-float Filtered(const HitImage& image, const SurfaceTables& tables, std::span<const float> raw,
-               int x, int y) {
-  // Half weights at the ends: each of the sixteen pattern positions then counts the same.
-  constexpr std::array<float, 5> kWeights = {0.5f, 1, 1, 1, 0.5f};
-  const std::size_t i = image.Index(x, y);
-  float sum = 0, weights = 0;
-  for (int py = std::max(0, y - 2); py <= std::min(image.height - 1, y + 2); ++py) {
-    for (int px = std::max(0, x - 2); px <= std::min(image.width - 1, x + 2); ++px) {
-      const std::size_t j = image.Index(px, py);
-      if (!SameSurface(image, tables, i, j)) continue;
-      const float w = kWeights[static_cast<std::size_t>(px - x + 2)] *
-                      kWeights[static_cast<std::size_t>(py - y + 2)];
-      sum += w * raw[j];
-      weights += w;
-    }
-  }
-  return sum / weights;
-}
-
 }  // namespace
 
 void TraceMoverShadows(const Instant& instant, const EyeView& view, const HitImage& image,
@@ -350,6 +366,7 @@ void TraceMoverShadows(const Instant& instant, const EyeView& view, const HitIma
     lost[static_cast<std::size_t>(i)] =
         pass.TraceTile(i % columns * kTileWidth, i / columns * kTileHeight, &raw);
   });
+  const PatternFilter filter(image, tables.statics(), raw);
   const auto is_lost = [&](int column, int row) {
     return column >= 0 && row >= 0 && column < columns && row < rows &&
            lost[static_cast<std::size_t>(row * columns + column)];
@@ -359,11 +376,9 @@ void TraceMoverShadows(const Instant& instant, const EyeView& view, const HitIma
     bool near = false;
     for (int d = 0; d < 9; ++d) near |= is_lost(column + d % 3 - 1, row + d / 3 - 1);
     if (!near) return;
+    const int x1 = std::min((column + 1) * kTileWidth, image.width);
     for (int y = row * kTileHeight; y < std::min((row + 1) * kTileHeight, image.height); ++y) {
-      for (int x = column * kTileWidth; x < std::min((column + 1) * kTileWidth, image.width); ++x) {
-        const std::size_t at = image.Index(x, y);
-        if (image.geometry[at] == 0) (*kept)[at] = Filtered(image, tables, raw, x, y);
-      }
+      for (int x = column * kTileWidth; x < x1; x += kLanes) filter.Packet(x, y, kept);
     }
   });
 }

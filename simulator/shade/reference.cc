@@ -4,7 +4,9 @@
 
 #include <numbers>
 
+#include "simulator/shade/gloss.h"
 #include "simulator/shade/hemisphere.h"
+#include "simulator/shade/path_random.h"
 
 namespace aisle::sim {
 namespace {
@@ -13,30 +15,59 @@ constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kLift = 1e-4f;        // of the coordinates' size, along the normal
 constexpr float kLightGuard = 1e-3f;  // share of the way that a shadow ray leaves out at its end
 
-/// Random numbers of one path: the n-th depends on (seed, pixel, sample, n) alone.
-class PathRandom {
- public:
-  PathRandom() = default;
-  PathRandom(std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample)
-      : state_(Mix(Mix(seed * 0x9e3779b97f4a7c15u + pixel) + sample)) {}
-  float Next() {
-    state_ += 0x9e3779b97f4a7c15u;
-    return static_cast<float>(Mix(state_) >> 40) * 0x1p-24f;
-  }
-
- private:
-  static std::uint64_t Mix(std::uint64_t x) {  // SplitMix64's finaliser
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return x ^ (x >> 31);
-  }
-  std::uint64_t state_ = 0;
-};
-
 struct Vertex {
   Eigen::Vector3f position, geometric, shading;  ///< normals on the side the path came from
   float albedo = 0, emission = 0;
+  Finish finish;
   std::int32_t light = -1;  ///< whose surface this is
+};
+
+/// How a vertex scatters towards the eye's side: a diffuse base and a glossy lobe.
+class Scattering {
+ public:
+  Scattering(const Vertex& vertex, const Eigen::Vector3f& to_eye)
+      : finish_(vertex.finish), albedo_(vertex.albedo), basis_(BasisAround(vertex.shading)) {
+    const Eigen::Vector3f local = basis_.transpose() * to_eye.normalized();
+    out_ = {local.x(), local.y(), local.z()};
+    if (finish_.f0 <= 0 || out_.z <= 0) {
+      finish_ = {};
+      return;
+    }
+    const float share = GlossShare(finish_.f0, finish_.roughness, out_.z);
+    albedo_ *= 1 - share;
+    gloss_chance_ = share / (share + albedo_);
+  }
+
+  /// Brdf times cosine for a unit direction, and the density with which Sample finds it.
+  LobeValue Evaluate(const Eigen::Vector3f& direction) const {
+    const Eigen::Vector3f local = basis_.transpose() * direction;
+    if (local.z() <= 0) return {};
+    const float diffuse = local.z() / kPi;
+    const LobeValue lobe = EvaluateLobe(finish_, out_, {local.x(), local.y(), local.z()});
+    return {albedo_ * diffuse + lobe.reflected,
+            (1 - gloss_chance_) * diffuse + gloss_chance_ * lobe.density};
+  }
+
+  Eigen::Vector3f Sample(PathRandom* random) const {
+    const bool glossy = gloss_chance_ > 0 && random->Next() < gloss_chance_;
+    const float r = std::sqrt(random->Next()), phi = 2 * kPi * random->Next();
+    if (!glossy) {
+      return basis_ * Eigen::Vector3f(r * std::cos(phi), r * std::sin(phi),
+                                      std::sqrt(std::max(0.0f, 1 - r * r)));
+    }
+    const Triple<float> facet =
+        SampleFacet(out_, finish_.roughness * finish_.roughness, r, std::cos(phi), std::sin(phi));
+    const float twice = 2 * Dot3(out_, facet);
+    return basis_ * Eigen::Vector3f(twice * facet.x - out_.x, twice * facet.y - out_.y,
+                                    twice * facet.z - out_.z);
+  }
+
+ private:
+  Finish finish_;
+  float albedo_;
+  float gloss_chance_ = 0;
+  Eigen::Matrix3f basis_;
+  Triple<float> out_;
 };
 
 Eigen::Vector3f NormalOf(const AreaLight& light) {
@@ -152,18 +183,17 @@ class PathPacket {
     const Eigen::Vector3f direction(rays_.dx[k], rays_.dy[k], rays_.dz[k]);
     const Vertex vertex = VertexAt(origin, direction, hits, k);
     radiance_[k] += throughput_[k] * vertex.emission * EmissionWeight(k, origin, vertex);
-    if (touched == options_.depth || vertex.albedo <= 0) return;
+    if (touched == options_.depth || (vertex.albedo <= 0 && vertex.finish.f0 <= 0)) return;
 
+    const Scattering scattering(vertex, -direction);
     const LightChoice choice(scene_.world_, instant_.snapshot().light_scale, vertex);
-    if (!choice.empty()) AimAtLight(lane, vertex, choice, shadow, light_share);
+    if (!choice.empty()) AimAtLight(lane, vertex, scattering, choice, shadow, light_share);
 
-    const float r = std::sqrt(random_[k].Next()), phi = 2 * kPi * random_[k].Next();
-    const float cosine = std::sqrt(std::max(0.0f, 1 - r * r));
-    const Eigen::Vector3f local(r * std::cos(phi), r * std::sin(phi), cosine);
-    const Eigen::Vector3f next = BasisAround(vertex.shading) * local;
-    if (next.dot(vertex.geometric) <= 0) return;
-    throughput_[k] *= vertex.albedo;
-    scatter_pdf_[k] = cosine / kPi;
+    const Eigen::Vector3f next = scattering.Sample(&random_[k]);
+    const LobeValue value = scattering.Evaluate(next);
+    if (next.dot(vertex.geometric) <= 0 || value.density <= 0) return;
+    throughput_[k] *= value.reflected / value.density;
+    scatter_pdf_[k] = value.density;
     last_[k] = vertex;
     SetRay(vertex.position, next, kInfinity, lane, &rays_);
   }
@@ -180,7 +210,8 @@ class PathPacket {
     return scatter_pdf_[k] / (scatter_pdf_[k] + pdf);
   }
 
-  void AimAtLight(int lane, const Vertex& vertex, const LightChoice& choice, Rays8* shadow,
+  void AimAtLight(int lane, const Vertex& vertex, const Scattering& scattering,
+                  const LightChoice& choice, Rays8* shadow,
                   std::array<float, kLanes>* light_share) {
     const auto k = static_cast<std::size_t>(lane);
     const std::size_t index = choice.Pick(random_[k].Next());
@@ -192,9 +223,10 @@ class PathPacket {
     const float there = -to.dot(NormalOf(light)) / distance;
     if (here <= 0 || there <= 0 || to.dot(vertex.geometric) <= 0) return;
     const float pdf = choice.Probability(index) * squared / (there * AreaOf(light));
-    const float weight = pdf / (pdf + here / kPi);
+    const LobeValue value = scattering.Evaluate(to / distance);
+    const float weight = pdf / (pdf + value.density);
     const float radiance = light.radiance * instant_.snapshot().light_scale[index];
-    (*light_share)[k] = throughput_[k] * vertex.albedo / kPi * radiance * here / pdf * weight;
+    (*light_share)[k] = throughput_[k] * value.reflected * radiance / pdf * weight;
     SetRay(vertex.position, to, 1 - kLightGuard, lane, shadow);
   }
 
@@ -228,6 +260,7 @@ class PathPacket {
     vertex.position += kLift * size * vertex.geometric;
     const Eigen::Vector2f uv = w * mesh.uvs[ia] + u * mesh.uvs[ib] + v * mesh.uvs[ic];
     vertex.albedo = material.albedo;
+    vertex.finish = FinishOf(material);
     if (material.albedo_texture >= 0) {
       vertex.albedo *= scene_.textures_.SampleWide(material.albedo_texture, uv.x(), uv.y(), 1e-5f);
     }

@@ -14,9 +14,10 @@ struct ReferenceOptions {
   std::uint64_t seed = 1;
 };
 
-/// Radiance by unbiased path tracing: diffuse surfaces, each vertex joined to a random point of a
-/// luminaire (next-event estimation), combined with the light that the path itself runs into by the
-/// balance heuristic (Veach 1997). Slow; it is what the nightly light is measured against.
+/// Radiance by unbiased path tracing: diffuse and glossy surfaces (gloss.h), each vertex joined to
+/// a random point of a luminaire (next-event estimation), combined with the light that the path
+/// itself runs into by the balance heuristic (Veach 1997). Slow; it is what the nightly light is
+/// measured against.
 class Reference {
  public:
   Reference(const World& world, const TexturePool& textures);

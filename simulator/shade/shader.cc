@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "simulator/shade/antialias.h"
+#include "simulator/shade/gloss_pass.h"
 #include "simulator/shade/mover_shadow.h"
 
 namespace aisle::sim {
@@ -43,7 +44,8 @@ void LookUpImage(const SurfaceTables& tables, const FrameLight& frame, const Tex
 }
 
 cv::Mat1f Combine(const HitImage& image, std::span<const float> reflectance,
-                  std::span<const float> irradiance, std::span<const float> kept) {
+                  std::span<const float> irradiance, std::span<const float> kept,
+                  std::span<const float> mirrored) {
   cv::Mat1f radiance(image.height, image.width);
   tbb::parallel_for(0, image.height, [&](int y) {
     const std::size_t row = image.Index(0, y);
@@ -51,6 +53,7 @@ cv::Mat1f Combine(const HitImage& image, std::span<const float> reflectance,
     for (std::size_t x = 0; x < static_cast<std::size_t>(image.width); ++x) {
       to[x] = reflectance[row + x] * irradiance[row + x] * kInvPi;
       if (!kept.empty()) to[x] *= kept[row + x];
+      if (!mirrored.empty()) to[x] += mirrored[row + x];
     }
   });
   return radiance;
@@ -60,7 +63,7 @@ cv::Mat1f Combine(const HitImage& image, std::span<const float> reflectance,
 
 struct Shader::Workspace {
   FrameLight frame;
-  std::vector<float> reflectance, irradiance, kept;
+  std::vector<float> reflectance, irradiance, kept, mirrored;
 };
 
 Shader::Shader(const World& world, const Tracer& tracer, const ShadeOptions& options)
@@ -103,7 +106,13 @@ std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const Eye
                         &work->kept);
     }
     done("mover shadows");
-    radiance.push_back(Combine(image, work->reflectance, work->irradiance, work->kept));
+    const bool glossy =
+        options_.gloss && TraceGloss(instant, views[i], image, tables_, work->frame, textures_,
+                                     &work->reflectance, &work->mirrored);
+    done("gloss");
+    radiance.push_back(
+        Combine(image, work->reflectance, work->irradiance, work->kept,
+                glossy ? std::span<const float>(work->mirrored) : std::span<const float>()));
     if (options_.antialias) {
       AntialiasEdges(*world_, instant, views[i], image, tables_, work->frame, textures_, work->kept,
                      &radiance.back());

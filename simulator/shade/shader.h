@@ -17,6 +17,7 @@ struct ShadeOptions {
   StaticLightOptions statics;
   float mover_texel_m = 0.08f;  ///< spacing of light on large faces of movers
   bool antialias = true;        ///< extra rays where neighbouring pixels see different things
+  bool gloss = true;            ///< glossy static surfaces mirror what is around them
   bool mover_shadows = true;    ///< movers block direct and indirect light from the static world
 };
 

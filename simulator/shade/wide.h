@@ -23,6 +23,10 @@ inline I8 LoadI(const void* from) {
 }
 inline void Store(F8 value, float* to) { _mm256_storeu_ps(to, reinterpret_cast<__m256>(value)); }
 inline bool Any(I8 mask) { return _mm256_movemask_ps(reinterpret_cast<__m256>(mask)) != 0; }
+/// Bit k is set where lane k of a comparison is.
+inline unsigned Bits(I8 mask) {
+  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
+}
 inline F8 Select(I8 mask, F8 yes, F8 no) { return mask ? yes : no; }
 inline F8 Sqrt(F8 x) { return reinterpret_cast<F8>(_mm256_sqrt_ps(reinterpret_cast<__m256>(x))); }
 inline F8 Min(F8 a, F8 b) { return a < b ? a : b; }
@@ -52,6 +56,18 @@ inline I8 GatherBytes(const std::uint8_t* base, I8 offset) {
   return reinterpret_cast<I8>(_mm256_i32gather_epi32(reinterpret_cast<const int*>(base),
                                                      reinterpret_cast<__m256i>(offset), 1));
 }
+
+/// The lanes whose bit is set.
+inline I8 LanesOf(unsigned bits) {
+  const I8 lane = {1, 2, 4, 8, 16, 32, 64, 128};
+  return (WideInt(static_cast<std::int32_t>(bits)) & lane) != 0;
+}
+
+struct F8x3 {
+  F8 x, y, z;
+};
+inline F8 Dot(const F8x3& a, const F8x3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline F8x3 Minus(const F8x3& a, const F8x3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
 /// log2, to 0.01 for x > 0: the exponent plus a parabola through the mantissa.
 inline F8 FastLog2(F8 x) {

@@ -60,7 +60,7 @@ struct FloorLook {
 FloorLook LookOf(FloorKind kind) {
   switch (kind) {
     case FloorKind::kPainted:
-      return {"floor_polished", {0.04f, 0.4f}};
+      return {"floor_polished", {0.04f, 0.38f}};
     case FloorKind::kGlossy:
       return {"floor_polished", {0.06f, 0.12f}};
     case FloorKind::kConcrete:

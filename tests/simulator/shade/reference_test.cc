@@ -146,7 +146,7 @@ WorldParts CornellBox(const std::filesystem::path& folder, int band) {
   return parts;
 }
 
-TEST(Reference, CornellBoxHasTheMeanOfAnotherRenderer) {
+TEST(Reference, CornellBoxIsThatOfAnotherRendererBlockByBlock) {
   const std::filesystem::path folder = std::filesystem::path(AISLE_TEST_DATA) / "cornell";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
   setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);
@@ -165,28 +165,27 @@ TEST(Reference, CornellBoxHasTheMeanOfAnotherRenderer) {
   pose.linear().col(2) = Eigen::Vector3d::UnitZ();
   pose.translation() = Eigen::Vector3d(2.78, 2.73, -8);
   for (int band = 0; band < 3; ++band) {
-    const cv::Mat1f image =
-        Trace(World(CornellBox(folder, band)), pose, camera, {.samples = 64, .depth = 7});
+    // A path of depth 6 has six edges, the first from the eye: it touches six surfaces. Blue is the
+    // darkest, so its blocks need more paths.
+    const cv::Mat1f image = Trace(World(CornellBox(folder, band)), pose, camera,
+                                  {.samples = band == 2 ? 256 : 128, .depth = 6});
     const cv::Mat1f expected = bands[static_cast<std::size_t>(2 - band)];
     if (const char* pictures = std::getenv("AISLE_TEST_PICTURES")) {
       cv::imwrite(fmt::format("{}/cornell_{}.png", pictures, band), image * 255 / 2);
       cv::imwrite(fmt::format("{}/cornell_ref_{}.png", pictures, band), expected * 255 / 2);
     }
-    EXPECT_NEAR(cv::mean(image)[0], cv::mean(expected)[0], 0.01 * cv::mean(expected)[0])
+    EXPECT_NEAR(cv::mean(image)[0], cv::mean(expected)[0], 0.003 * cv::mean(expected)[0])
         << "band " << band;
     cv::Mat1f ours, theirs;
     cv::resize(image, ours, {32, 32}, 0, 0, cv::INTER_AREA);
     cv::resize(expected, theirs, {32, 32}, 0, 0, cv::INTER_AREA);
-    int close = 0;
+    int close = 0;  // blocks of 8 × 8 pixels within 3 %
     for (int y = 0; y < 32; ++y) {
       for (int x = 0; x < 32; ++x) {
         close += std::abs(ours(y, x) - theirs(y, x)) <= 0.03f * std::max(theirs(y, x), 1e-3f);
       }
     }
-    // The share of 8 × 8 blocks within 3 % is printed, not asserted. It rises with the number of
-    // paths, but too slowly for noise alone (red: 75 % at 64 paths, 78 % at 192), so block by block
-    // agreement is not shown by this test.
-    fmt::print("band {}: {:.1f} % of blocks within 3 %\n", band, 100 * close / 1024.0);
+    EXPECT_GE(close, 0.95 * 1024) << "band " << band;
   }
 }
 
