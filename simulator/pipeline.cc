@@ -11,12 +11,19 @@
 #include "simulator/shade/reference.h"
 #include "simulator/trace/hit_image.h"
 #include "simulator/truth/correspondence.h"
+#include "simulator/truth/image_motion.h"
+#include "simulator/truth/moving_shadow.h"
 #include "simulator/truth/truth.h"
 
 namespace aisle::sim {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// Automatic exposure meters on pixels of 8 × 8, which cost a sixty-fourth.
+constexpr int kMeterFactor = 8;
+/// Rows around a band of a rolling shutter, so that filters at its border see their neighbours.
+constexpr int kBandMargin = 8;
 
 /// Wall time since it was made or last read, in milliseconds.
 class Stopwatch {
@@ -45,6 +52,9 @@ FrameTruth Assemble(const Eigen::Isometry3d& T_world_rig, const EyeTruth& left,
   truth.depth = left.depth;
   truth.instance = left.instance;
   truth.object_class = left.object_class;
+  truth.depth_right = right.depth;
+  truth.instance_right = right.instance;
+  truth.object_class_right = right.object_class;
   truth.dynamic = left.dynamic;
   truth.dynamic_right = right.dynamic;
   truth.actor = left.actor;
@@ -73,11 +83,18 @@ struct Pipeline::Impl {
         options(given),
         arena(given.threads > 0 ? given.threads : tbb::task_arena::automatic),
         rays(MakePixelRays(camera)),
-        vignetting(
-            VignettingMap(camera.width, camera.height, rays.x, rays.y, options.sensor.vignetting)),
         tracer(world, options.tracer) {
-    if (const std::string error = options.sensor.Validate(); !error.empty()) {
-      throw std::invalid_argument("sensor: " + error);
+    for (const std::string& error : {options.sensor.Validate(), options.shutter.Validate(),
+                                     options.auto_exposure.Validate()}) {
+      if (!error.empty()) throw std::invalid_argument("sensor: " + error);
+    }
+    const cv::Mat1f vignetting = FallOff(rays);
+    for (const std::uint32_t eye : {0u, 1u}) {
+      response[eye] = MakeResponse(vignetting, options.sensor, options.seed, eye);
+    }
+    if (options.auto_exposure.on) {
+      meter_rays = MakePixelRays(Coarser(camera, kMeterFactor));
+      meter_fall_off = FallOff(meter_rays);
     }
     arena.execute([&] { shader = std::make_unique<Shader>(world, tracer, options.shade); });
   }
@@ -85,6 +102,10 @@ struct Pipeline::Impl {
   std::array<EyeView, 2> Views(const Eigen::Isometry3d& T_world_rig) const {
     return {EyeView(rays, EyePose(camera, T_world_rig, Eye::kLeft)),
             EyeView(rays, EyePose(camera, T_world_rig, Eye::kRight))};
+  }
+
+  cv::Mat1f FallOff(const PixelRays& of) const {
+    return VignettingMap(of.width, of.height, of.x, of.y, options.sensor.vignetting);
   }
 
   std::vector<HitImage> TakeImages() const {
@@ -99,9 +120,85 @@ struct Pipeline::Impl {
     idle.push_back(std::move(images));
   }
 
-  cv::Mat1b Photograph(const cv::Mat1f& radiance, int frame_index, std::uint32_t eye) const {
-    return Expose(SpreadByLens(radiance, options.sensor.blur_px), vignetting, options.sensor,
+  /// Time and gain of the exposure: as given, or metered on a coarse picture of the left eye's
+  /// view at this very instant.
+  ExposureSetting ExposureFor(const Instant& instant, const Eigen::Isometry3d& T_world_rig) const {
+    if (!options.auto_exposure.on) return {options.exposure_ms, options.sensor.gain};
+    const std::array view = {EyeView(meter_rays, EyePose(camera, T_world_rig, Eye::kLeft))};
+    std::vector<HitImage> hits;
+    TraceViews(instant, view, {}, &hits);
+    const cv::Mat1f light(shader->Shade(instant, view, hits).front().mul(meter_fall_off));
+    return ChooseExposure(light, WhitePerMs(), options.auto_exposure);
+  }
+
+  double WhitePerMs() const {
+    return options.sensor.exposure / (options.sensor.gain * options.exposure_ms);
+  }
+
+  cv::Mat1b Photograph(const cv::Mat1f& radiance, const ExposureSetting& setting, int frame_index,
+                       std::uint32_t eye) const {
+    SensorOptions sensor = options.sensor;
+    if (options.auto_exposure.on) {
+      sensor.exposure = static_cast<float>(WhitePerMs() * setting.time_ms * setting.gain);
+      sensor.gain = setting.gain;
+    }
+    return Expose(SpreadByLens(radiance, sensor.blur_px), response[eye], sensor,
                   {options.seed, static_cast<std::uint32_t>(frame_index), eye});
+  }
+
+  /// Radiance of the given rows of both eyes at an instant that nobody asks the truth of.
+  std::vector<cv::Mat1f> RadianceAt(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
+                                    const cv::Range& rows) const {
+    const Instant instant = tracer.Pose(world.At(stamp_ns));
+    const bool whole = rows.size() == rays.height;
+    const PixelRays band = whole ? PixelRays{} : RowsOf(rays, rows.start, rows.end);
+    const PixelRays& used = whole ? rays : band;
+    const std::array views = {EyeView(used, EyePose(camera, T_world_rig, Eye::kLeft)),
+                              EyeView(used, EyePose(camera, T_world_rig, Eye::kRight))};
+    std::vector<HitImage> hits = TakeImages();
+    TraceViews(instant, views, {.shuffle = options.tile_shuffle}, &hits);
+    std::vector<cv::Mat1f> radiance = shader->Shade(instant, views, hits);
+    GiveBack(std::move(hits));
+    return radiance;
+  }
+
+  /// What reaches the sensor while the shutter is open, given what does at the stamp. The movers
+  /// are where they are at each instant, limbs and wheels skinned anew, and so are their shadows;
+  /// the rig moves as on its route, from wherever it was put. Averaged in linear light.
+  std::vector<cv::Mat1f> WhileOpen(const Instant& instant, const EyeView& left,
+                                   const HitImage& hits, const ExposureSetting& setting,
+                                   const Eigen::Isometry3d& T_world_rig,
+                                   std::vector<cv::Mat1f> at_stamp) const {
+    const ShutterOptions& shutter = options.shutter;
+    if (!shutter.IsOpenFor(setting.time_ms)) return at_stamp;
+    const std::int64_t stamp_ns = instant.snapshot().stamp_ns;
+    const Eigen::Isometry3d T_rig_planned = T_world_rig * world.PlannedRigPose(stamp_ns).inverse();
+    const auto rig_at = [&](double offset_s) {
+      return T_rig_planned * world.PlannedRigPose(stamp_ns + std::llround(1e9 * offset_s));
+    };
+    const double open_s = OpenTime(shutter, setting.time_ms);
+    const double motion_px = ImageMotion(world, instant, camera, left, hits, rig_at(-open_s / 2),
+                                         rig_at(open_s / 2), open_s);
+    const ShutterPlan plan = PlanShutter(shutter, setting.time_ms, camera.height, motion_px);
+    const int instants = static_cast<int>(plan.offsets_s.size());
+    if (instants == 1) return at_stamp;
+    std::vector<cv::Mat1f> sum(2);
+    for (cv::Mat1f& eye : sum) eye = cv::Mat1f::zeros(camera.height, camera.width);
+    for (int k = 0; k < instants; ++k) {
+      const double offset_s = plan.offsets_s[static_cast<std::size_t>(k)];
+      const bool is_stamp = k == instants / 2;
+      cv::Range rows = is_stamp ? cv::Range(0, camera.height) : plan.RowsOf(k);
+      if (rows.empty()) continue;
+      rows = {std::max(0, rows.start - kBandMargin),
+              std::min(camera.height, rows.end + kBandMargin)};
+      const std::vector<cv::Mat1f> light =
+          is_stamp ? at_stamp
+                   : RadianceAt(stamp_ns + std::llround(1e9 * offset_s), rig_at(offset_s), rows);
+      for (std::size_t eye = 0; eye < 2; ++eye) {
+        AddInstant(plan, k, light[eye], rows.start, &sum[eye]);
+      }
+    }
+    return sum;
   }
 
   RenderedFrame Render(int frame_index, std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
@@ -120,11 +217,17 @@ struct Pipeline::Impl {
     const EyeTruth right = LabelHits(world, instant, hits[1], options.dynamic_threshold_mps);
     const std::vector<MoverTruth> movers = DescribeMovers(instant, views[0], left);
     lap("truth");
-    const std::vector<cv::Mat1f> radiance = shader->Shade(instant, views, hits, lap);
+    std::vector<cv::Mat1f> radiance = shader->Shade(instant, views, hits, lap);
     lap("combine");
+    const ExposureSetting setting = ExposureFor(instant, T_world_rig);
+    lap("meter");
+    radiance = WhileOpen(instant, views[0], hits[0], setting, T_world_rig, std::move(radiance));
+    lap("shutter");
     RenderedFrame frame{.stamp_ns = stamp_ns,
-                        .left = Photograph(radiance[0], frame_index, 0),
-                        .right = Photograph(radiance[1], frame_index, 1),
+                        .left = Photograph(radiance[0], setting, frame_index, 0),
+                        .right = Photograph(radiance[1], setting, frame_index, 1),
+                        .exposure_ms = setting.time_ms,
+                        .gain = setting.gain,
                         .truth = Assemble(T_world_rig, left, right, movers)};
     lap("sensor");
     GiveBack(std::move(hits));
@@ -136,7 +239,9 @@ struct Pipeline::Impl {
   PipelineOptions options;
   mutable tbb::task_arena arena;
   PixelRays rays;
-  cv::Mat1f vignetting;
+  std::array<PixelResponse, 2> response;
+  PixelRays meter_rays;      ///< for automatic exposure only
+  cv::Mat1f meter_fall_off;  ///< of the lens, on the coarse picture
   Tracer tracer;
   std::unique_ptr<Shader> shader;
   mutable std::mutex mutex;  ///< guards idle
@@ -179,7 +284,9 @@ MotionTruth Pipeline::RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry3
     Correspondence found = FindCorrespondence(self.world, instant, self.camera, views[0], hits[0],
                                               self.world.At(next_stamp_ns), T_world_rig_next);
     return MotionTruth{std::move(found.disparity), std::move(found.occluded), std::move(found.flow),
-                       std::move(found.scene_flow)};
+                       std::move(found.scene_flow),
+                       FindMovingShadows(self.world, instant, views[0], hits[0],
+                                         {.threshold_mps = self.options.dynamic_threshold_mps})};
   });
 }
 
@@ -202,13 +309,17 @@ VerifyReport Pipeline::Verify(std::int64_t stamp_ns, const Eigen::Isometry3d& T_
 
     std::array<Agreement, 2> agreement;
     for (std::size_t eye = 0; eye < 2; ++eye) {
-      agreement[eye] =
-          Compare(Rasterize(self.world, now.snapshot(), self.camera, views[eye].T_world_eye),
-                  eyes[eye].depth, eyes[eye].instance);
+      const Eigen::Isometry3d& T_world_eye = views[eye].T_world_eye;
+      const RasterView drawn =
+          self.rays.straight
+              ? Rasterize(self.world, now.snapshot(), self.camera, T_world_eye)
+              : RasterizeThroughLens(self.world, now.snapshot(), self.rays, T_world_eye);
+      agreement[eye] = Compare(drawn, eyes[eye].depth, eyes[eye].instance);
     }
     const Correspondence found = FindCorrespondence(self.world, now, self.camera, views[0], hits[0],
                                                     next.snapshot(), T_world_rig_next);
-    const WarpCheck stereo = CheckStereo(self.camera, eyes[0].depth, eyes[1].depth, found);
+    const WarpCheck stereo =
+        CheckStereo(self.camera, self.rays, eyes[0].depth, eyes[1].depth, found);
     const WarpCheck flow =
         CheckFlow(self.camera, DepthInNextEye(views[0], hits[0], found, T_world_rig_next),
                   depth_next, found.flow);

@@ -5,7 +5,9 @@
 #include <string>
 
 #include "simulator/camera/stereo_camera.h"
+#include "simulator/sensor/auto_exposure.h"
 #include "simulator/sensor/sensor.h"
+#include "simulator/sensor/shutter.h"
 #include "simulator/shade/shader.h"
 #include "simulator/simulator.h"
 #include "simulator/world/world.h"
@@ -20,6 +22,9 @@ struct PipelineOptions {
   TracerOptions tracer;
   ShadeOptions shade;
   SensorOptions sensor;
+  double exposure_ms = 8;  ///< the time for which sensor.exposure holds
+  ShutterOptions shutter;
+  AutoExposureOptions auto_exposure;
 };
 
 /// A world and a stereo camera, ready to take pictures: At(t) -> trace -> { truth; shade ->
@@ -27,7 +32,8 @@ struct PipelineOptions {
 /// file.
 class Pipeline {
  public:
-  /// Solves the static light: seconds for a hall.
+  /// Solves the static light: seconds for a hall. Throws std::invalid_argument naming the option
+  /// that breaks its rule.
   Pipeline(World world, const StereoCamera& camera, const PipelineOptions& options);
   ~Pipeline();
 

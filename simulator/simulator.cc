@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "simulator/camera/pixel_rays.h"
 #include "simulator/pipeline.h"
 #include "simulator/scene/load.h"
 #include "simulator/shade/light_cache.h"
@@ -14,9 +15,9 @@
 namespace aisle::sim {
 namespace {
 
-/// Grey level (share of white) that radiance 1 gives after 1 ms at 0 dB: lamps of brightness 1 and
-/// the default exposure of 8 ms then show a hall in middle grey.
-constexpr double kGreyPerMillisecond = 28.0;
+/// Share of white that radiance 1 gives after 1 ms at 0 dB, the aperture of the lens as it were:
+/// lamps of brightness 1 and the default exposure of 8 ms then show a hall in middle grey.
+constexpr double kWhitePerMillisecond = 36.0;
 
 Scene TwinOf(Scene scene, Twin twin) {
   if (twin == Twin::kEmpty) return WithoutActors(std::move(scene));
@@ -31,18 +32,50 @@ StereoCamera CameraOf(const CameraSpec& spec) {
           .fy = spec.focal_px.y(),
           .cx = spec.center_px.x(),
           .cy = spec.center_px.y(),
-          .baseline_m = spec.baseline_m};
+          .baseline_m = spec.baseline_m,
+          .lens = {static_cast<LensModel>(spec.distortion), spec.distortion_coefficients}};
 }
 
-SensorOptions SensorOf(const SensorSpec& spec) {
-  SensorOptions options;
+RigInfo RigOf(const CameraSpec& spec) {
+  constexpr std::array kNames = {"none", "radial-tangential", "equidistant"};
+  return {.width = spec.size_px[0],
+          .height = spec.size_px[1],
+          .fx = spec.focal_px.x(),
+          .fy = spec.focal_px.y(),
+          .cx = spec.center_px.x(),
+          .cy = spec.center_px.y(),
+          .baseline_m = spec.baseline_m,
+          .distortion_model = kNames.at(static_cast<std::size_t>(spec.distortion)),
+          .distortion = spec.distortion_coefficients};
+}
+
+/// The message about a lens that leaves a pixel without a ray; empty if there is none.
+std::string LensError(const Scene& scene) {
+  try {
+    MakePixelRays(CameraOf(scene.camera));
+    return "";
+  } catch (const std::invalid_argument& error) {
+    const Mark mark = scene.camera.mark;
+    return fmt::format("{}:{}:{}: camera.distortion_coefficients: {}", scene.file, mark.line,
+                       mark.column, error.what());
+  }
+}
+
+void SetSensor(const SensorSpec& spec, PipelineOptions* options) {
   const double gain = std::pow(10.0, spec.gain_db / 20);
-  options.gain = static_cast<float>(gain);
-  options.exposure = static_cast<float>(spec.exposure_ms * gain * kGreyPerMillisecond);
-  options.noise = spec.noise;
-  options.vignetting = static_cast<float>(spec.vignetting);
-  options.blur_px = static_cast<float>(spec.blur_px);
-  return options;
+  SensorOptions& sensor = options->sensor;
+  sensor.gain = static_cast<float>(gain);
+  sensor.exposure = static_cast<float>(spec.exposure_ms * gain * kWhitePerMillisecond);
+  sensor.noise = spec.noise;
+  sensor.fixed_pattern = spec.fixed_pattern;
+  sensor.vignetting = static_cast<float>(spec.vignetting);
+  sensor.blur_px = static_cast<float>(spec.blur_px);
+  options->exposure_ms = spec.exposure_ms;
+  options->shutter.motion_blur = spec.motion_blur;
+  options->shutter.readout_ms = spec.readout_ms;
+  options->auto_exposure.on = spec.auto_exposure;
+  options->auto_exposure.target_grey = static_cast<float>(spec.auto_target_grey);
+  options->auto_exposure.longest_ms = spec.auto_longest_ms;
 }
 
 std::string ReadWhole(const std::string& file) {
@@ -133,14 +166,8 @@ Simulator Simulator::Load(const std::string& scene_file, const std::string& asse
   auto impl = std::make_unique<Impl>();
   impl->scene = TwinOf(LoadScene(scene_file), options.twin);
   const Scene& scene = impl->scene;
-  const StereoCamera camera = CameraOf(scene.camera);
-  impl->rig = {.width = camera.width,
-               .height = camera.height,
-               .fx = camera.fx,
-               .fy = camera.fy,
-               .cx = camera.cx,
-               .cy = camera.cy,
-               .baseline_m = camera.baseline_m};
+  if (const std::string error = LensError(scene); !error.empty()) throw std::runtime_error(error);
+  impl->rig = RigOf(scene.camera);
   World world = BuildWorld(scene, assets_dir, options.seed);
   impl->instances = DescribeInstances(world);
   impl->hash = HashOf(ReadWhole(scene_file), world,
@@ -151,8 +178,8 @@ Simulator Simulator::Load(const std::string& scene_file, const std::string& asse
   pipeline.dynamic_threshold_mps = static_cast<float>(scene.dynamic_threshold_mps);
   pipeline.tracer.isa = pipeline.shade.statics.isa = options.isa;
   pipeline.shade.statics.cache_folder = DefaultLightCache();
-  pipeline.sensor = SensorOf(scene.sensor);
-  impl->pipeline = std::make_unique<Pipeline>(std::move(world), camera, pipeline);
+  SetSensor(scene.sensor, &pipeline);
+  impl->pipeline = std::make_unique<Pipeline>(std::move(world), CameraOf(scene.camera), pipeline);
   return Simulator(std::move(impl));
 }
 
@@ -219,7 +246,10 @@ LightCheck Simulator::CheckLight(int frame_index, int samples) const {
 }
 
 std::vector<std::string> CheckSceneFile(const std::string& scene_file) {
-  return CheckScene(scene_file);
+  std::vector<std::string> errors = CheckScene(scene_file);
+  if (!errors.empty()) return errors;
+  if (const std::string error = LensError(LoadScene(scene_file)); !error.empty()) return {error};
+  return {};
 }
 
 }  // namespace aisle::sim

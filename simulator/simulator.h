@@ -11,11 +11,15 @@
 
 namespace aisle::sim {
 
-/// Rectified stereo rig; see simulator/camera/stereo_camera.h for the conventions.
+/// Parallel stereo rig; see simulator/camera for the conventions.
 struct RigInfo {
   int width = 0, height = 0;
   double fx = 0, fy = 0, cx = 0, cy = 0;  ///< pixels; the centre of pixel (0,0) is u = v = 0
   double baseline_m = 0;
+  /// "none" (the pair is rectified), "radial-tangential" (k1 k2 p1 p2, as in OpenCV) or
+  /// "equidistant" (k1 k2 k3 k4, as in cv::fisheye); the same in both eyes.
+  std::string distortion_model = "none";
+  std::array<double, 4> distortion = {0, 0, 0, 0};
 };
 
 /// Which version of a scene to play.
@@ -54,12 +58,16 @@ struct ObjectTruth {
   int dynamic_pixels = 0;  ///< of them, on a surface that moves now
 };
 
-/// Exact truth of the left eye at the stamp.
+/// Exact truth of the left eye (of the right where it says so) at the stamp. With motion blur or a
+/// rolling shutter on, the stamp is the middle of the middle row's exposure.
 struct FrameTruth {
   Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();
   cv::Mat1f depth;         ///< z in metres along the optical axis, inf where nothing was hit
   cv::Mat1w instance;      ///< index into Simulator::instances(), 0 where nothing was hit
   cv::Mat1b object_class;  ///< class ids
+  cv::Mat1f depth_right;   ///< z in metres along the right eye's axis, inf where nothing was hit
+  cv::Mat1w instance_right;
+  cv::Mat1b object_class_right;
   cv::Mat1b dynamic;  ///< 255 where the surface moves in the world now, faster than the threshold
   cv::Mat1b dynamic_right;           ///< the same for the right eye
   cv::Mat1b actor;                   ///< 255 on every person and vehicle, moving or not (left)
@@ -69,16 +77,22 @@ struct FrameTruth {
 
 struct RenderedFrame {
   std::int64_t stamp_ns = 0;
-  cv::Mat1b left, right;  ///< 8-bit grey, the same instant exactly
+  cv::Mat1b left, right;   ///< 8-bit grey, the same instant exactly
+  double exposure_ms = 0;  ///< exposure time of both
+  double gain = 1;         ///< analogue gain of both
   FrameTruth truth;
 };
 
-/// Where each left pixel's surface point is in the right eye and in the next frame; exact.
+/// Where each left pixel's surface point is in the right eye and in the next frame, exactly; and
+/// which pixels lie in moving shadows.
 struct MotionTruth {
-  cv::Mat1f disparity;   ///< left u - right u, pixels; 0 where nothing was hit
+  cv::Mat1f disparity;   ///< left u - right u in the rectified pair, pixels; 0: nothing was hit
   cv::Mat1b occluded;    ///< 255 where the right eye does not see the point
   cv::Mat2f flow;        ///< to the next frame's left image, pixels; NaN where it is not in front
   cv::Mat3f scene_flow;  ///< the surface point's own way until then, metres, world
+  /// 255 where the surface rests but something that moves takes more than a twentieth of its direct
+  /// light now (left eye).
+  cv::Mat1b moving_shadow;
 };
 
 /// What the proofs say of one frame; see simulator/raster and simulator/truth.
@@ -140,7 +154,8 @@ class Simulator {
   Eigen::Isometry3d PlannedPose(std::int64_t stamp_ns) const;
 
   /// The stereo pair and its truth at a time and a rig pose. `frame_index` seeds the sensor noise.
-  /// Safe to call from several threads.
+  /// While the shutter is open the rig moves as on its route, from the pose given. Safe to call
+  /// from several threads.
   RenderedFrame Render(int frame_index, std::int64_t stamp_ns,
                        const Eigen::Isometry3d& T_world_rig) const;
 

@@ -37,6 +37,7 @@ FrameRequest Choose(const std::vector<FrameRequest>& schedule, const Options& op
 int Preview(Options options) {
   options.simulation.assets_dir = AssetsDir().string();
   options.simulation.scene_name = SceneName(options.simulation.scene_file);
+  options.simulation.any_lens = true;
   const std::unique_ptr<Sequence> sequence = OpenSimulation(options.simulation);
   const FrameRequest request = Choose(sequence->Schedule(), options);
   const SequenceFrame frame = sequence->At(request);

@@ -4,6 +4,7 @@
 #include "harness/cli/places.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/dataset.h"
+#include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/run/frames_ahead.h"
@@ -16,6 +17,7 @@ struct Options {
   SimulatedSequenceOptions simulation;
   std::string out, format = "euroc", frames;
   std::vector<std::string> truth;
+  bool verify = false;
 };
 
 std::size_t FrameNumber(const std::string& text, const std::string& whole) {
@@ -43,30 +45,79 @@ std::vector<FrameRequest> Select(const std::vector<FrameRequest>& schedule,
           schedule.begin() + static_cast<std::ptrdiff_t>(last)};
 }
 
+std::map<std::string, std::string> ProvenanceOf(const Options& options, std::uint64_t hash) {
+  return {{"scene", options.simulation.scene_name},
+          {"seed", std::to_string(options.simulation.seed)},
+          {"twin", options.simulation.twin},
+          {"isa", options.simulation.isa},
+          {"content_hash", fmt::format("{:016x}", hash)}};
+}
+
+/// Proves the truth of the frames; the numbers go to truth/proofs.csv.
+int Verify(const SimulationForExport& simulation, const std::vector<FrameRequest>& frames,
+           const std::filesystem::path& out) {
+  std::string table = "frame,raster_agreement,stereo_median_px,flow_median_px,failure\n";
+  FrameProof worst{.raster_agreement = 1, .failure = ""};
+  std::size_t failures = 0;
+  ProgressLine line;
+  for (const FrameRequest& frame : frames) {
+    const FrameProof proof = simulation.prove(frame);
+    table += fmt::format("{},{},{},{},{}\n", frame.id, proof.raster_agreement,
+                         proof.stereo_median_px, proof.flow_median_px, proof.failure);
+    worst.raster_agreement = std::min(worst.raster_agreement, proof.raster_agreement);
+    worst.stereo_median_px = std::max(worst.stereo_median_px, proof.stereo_median_px);
+    worst.flow_median_px = std::max(worst.flow_median_px, proof.flow_median_px);
+    if (!proof.failure.empty()) {
+      line.Clear();
+      fmt::print(stderr, "frame {}: {}\n", frame.id, proof.failure);
+      ++failures;
+    }
+    line.Show(fmt::format("proved frame {}", frame.id));
+  }
+  line.Clear();
+  WriteFileAtomically(out / "truth/proofs.csv", table);
+  fmt::print(
+      "proofs of {} frames: {} failed; at worst the rasteriser agrees on {:.3f} % of the pixels, "
+      "left warps to right within {:.4f} px and to the next frame within {:.4f} px (medians)\n",
+      frames.size(), failures, 100 * worst.raster_agreement, worst.stereo_median_px,
+      worst.flow_median_px);
+  return failures == 0 ? kAllPassed : kVerdictFailed;
+}
+
 int Render(Options options) {
   options.simulation.assets_dir = AssetsDir().string();
   options.simulation.scene_name = SceneName(options.simulation.scene_file);
-  const ExportOptions export_options{.format = DatasetFormatFromName(options.format),
-                                     .truth = TruthSelectionFromNames(options.truth)};
-  PathOfRig path;
-  const auto sequence = OpenSimulation(options.simulation, nullptr, &path);
-  const std::vector<FrameRequest> wanted = Select(sequence->Schedule(), options.frames);
-  DatasetWriter writer(options.out, sequence->calibration(), sequence->rate_hz(), export_options);
+  ExportOptions export_options{.format = DatasetFormatFromName(options.format),
+                               .truth = TruthSelectionFromNames(options.truth)};
+  SimulationForExport simulation = OpenForExport(options.simulation);
+  const Sequence& sequence = *simulation.sequence;
+  const std::vector<FrameRequest> wanted = Select(sequence.Schedule(), options.frames);
+  export_options.lens = simulation.lens;
+  export_options.labels = simulation.labels;
+  export_options.provenance = ProvenanceOf(options, simulation.content_hash);
+  DatasetWriter writer(options.out, sequence.calibration(), sequence.rate_hz(), export_options);
+  writer.Begin();
 
   std::vector<FrameRequest> missing;
   for (const FrameRequest& request : wanted) {
     if (!writer.Has(request)) missing.push_back(request);
   }
-  FramesAhead frames(*sequence, missing, 3);
+  FramesAhead frames(sequence, missing, 3);
   ProgressLine line;
   for (std::size_t i = 0; i < missing.size(); ++i) {
-    writer.Add(frames.Next().frame);
+    const SequenceFrame frame = frames.Next().frame;
+    if (export_options.truth.NeedsMotion()) {
+      const FrameMotion motion = simulation.motion(missing[i]);
+      writer.Add(frame, &motion);
+    } else {
+      writer.Add(frame);
+    }
     line.Show(fmt::format("frame {} of {}", i + 1, missing.size()));
   }
   line.Clear();
-  writer.Finish(wanted, path);
+  writer.Finish(wanted, simulation.path);
   fmt::print("{}: {} frames, {} of them made now\n", options.out, wanted.size(), missing.size());
-  return kAllPassed;
+  return options.verify ? Verify(simulation, wanted, options.out) : kAllPassed;
 }
 
 }  // namespace
@@ -79,8 +130,12 @@ void AddRenderCommand(CLI::App* app, Action* action) {
   command->add_option("--format", options->format, "euroc (default), kitti or tum")
       ->check(CLI::IsMember({"euroc", "kitti", "tum"}));
   command->add_option("--frames", options->frames, "A:B, B not included");
-  command->add_option("--truth", options->truth, "depth,labels,dynamic,boxes or all")
+  command
+      ->add_option("--truth", options->truth,
+                   "depth,labels,dynamic,boxes,flow,stereo,shadows or all")
       ->delimiter(',');
+  command->add_flag("--verify", options->verify,
+                    "prove the truth of every frame: against a rasteriser and by warping");
   command->add_option("--twin", options->simulation.twin, "live, empty or frozen");
   command->add_option("--seed", options->simulation.seed, "seed of the layout and the sensor");
   command->add_option("--isa", options->simulation.isa,

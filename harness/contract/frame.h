@@ -30,8 +30,10 @@ struct ObjectTruth {
   cv::Rect2d box_visible;                              ///< pixels; encloses the pixels that show it
   cv::Rect2d box_full;                                 ///< pixels; as if nothing stood in front
   Eigen::Vector3d center_m = Eigen::Vector3d::Zero();  ///< of the 3-D box, world
-  Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();  ///< world
-  double visible_fraction = 0;                             ///< in [0, 1]
+  Eigen::Vector3d extent_m = Eigen::Vector3d::Zero();  ///< full sizes of that box along its axes
+  Eigen::Isometry3d T_world_object = Eigen::Isometry3d::Identity();  ///< z up, x ahead
+  Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();            ///< world
+  double visible_fraction = 0;                                       ///< in [0, 1]
   int visible_pixels = 0;
   int dynamic_pixels = 0;  ///< of them, on a surface that moves now
 };
@@ -42,7 +44,9 @@ struct FrameTruth {
   Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();
   cv::Mat1f depth;     ///< z in metres, inf where nothing was hit
   cv::Mat1w instance;  ///< 0 where nothing was hit
-  cv::Mat1b dynamic;   ///< 255 where the pixel's surface moves in the world now
+  cv::Mat1f depth_right;
+  cv::Mat1w instance_right;
+  cv::Mat1b dynamic;  ///< 255 where the pixel's surface moves in the world now
   cv::Mat1b dynamic_right;
   cv::Mat1b actor;  ///< 255 on every person and vehicle, moving or not
   cv::Mat1b actor_right;

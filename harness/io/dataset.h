@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,15 +20,45 @@ enum class DatasetFormat {
 /// "euroc", "kitti", "tum"; throws InputError naming the choices.
 DatasetFormat DatasetFormatFromName(const std::string& name);
 
-/// Which truth is written beside the images, below truth/.
+/// Which truth is written beside the images, below truth/; each kind in folders of its own.
 struct TruthSelection {
-  bool depth = false;    ///< PFM, float metres, inf where nothing was hit
-  bool labels = false;   ///< instance ids, 16-bit PNG
-  bool dynamic = false;  ///< what moves now and every actor, 8-bit PNG, 255 = yes
-  bool boxes = false;    ///< boxes.json: per frame and object 2-D boxes, centre, velocity
+  bool depth = false;  ///< both eyes as PFM (float metres, inf where nothing was hit), and the left
+                       ///< as 16-bit PNG in millimetres (0: nothing, or beyond 65.535 m)
+  bool labels =
+      false;  ///< both eyes: instance ids, 16-bit PNG, and classes, 8-bit PNG; labels.json
+  bool dynamic = false;  ///< what moves now (both eyes) and every actor, 8-bit PNG, 255 = yes
+  bool boxes = false;    ///< boxes/*.json: per object 2-D boxes, 3-D box, velocity
+  bool flow = false;     ///< to the next frame, .flo; scene flow, PFM of 3 channels (metres, world)
+  bool stereo = false;   ///< disparity, PFM; pixels hidden from the right eye, 8-bit PNG
+  bool shadows = false;  ///< pixels in moving shadows, 8-bit PNG
+
+  bool NeedsMotion() const { return flow || stereo || shadows; }
 };
-/// "depth,labels,dynamic,boxes" in any order, or "all"; throws InputError.
+/// Names as above in any order, or "all"; throws InputError.
 TruthSelection TruthSelectionFromNames(const std::vector<std::string>& names);
+
+/// One entry of labels.json.
+struct LabelInfo {
+  std::string name, object_class;
+  std::uint8_t class_id = 0;
+  bool moving = false;  ///< may move at some time
+};
+
+/// Truth that joins a frame to its right eye and to the next frame, and its moving shadows.
+struct FrameMotion {
+  cv::Mat1f disparity;      ///< of the rectified pair, pixels; 0 where nothing was hit
+  cv::Mat1b occluded;       ///< 255 where the right eye does not see the point
+  cv::Mat2f flow;           ///< pixels; NaN where unknown
+  cv::Mat3f scene_flow;     ///< metres, world
+  cv::Mat1b moving_shadow;  ///< 255 = yes
+};
+
+/// How the lenses of both eyes bend the image, as EuRoC's sensor.yaml says it: "none",
+/// "radial-tangential" (k1 k2 p1 p2) or "equidistant" (k1 k2 k3 k4).
+struct LensCalibration {
+  std::string model = "none";
+  std::array<double, 4> coefficients = {0, 0, 0, 0};
+};
 
 struct ExportOptions {
   DatasetFormat format = DatasetFormat::kEuroc;
@@ -34,6 +66,10 @@ struct ExportOptions {
   /// Added to every stamp of EuRoC and TUM: readers treat 0 as missing. 2020-09-13T12:26:40Z.
   std::int64_t epoch_ns = 1'600'000'000'000'000'000;
   double imu_rate_hz = 200;
+  LensCalibration lens = {};
+  std::vector<LabelInfo> labels = {};  ///< by instance id
+  /// What the frames were made of, for aisle.json; a folder with another is not continued.
+  std::map<std::string, std::string> provenance = {};
 };
 
 /// Pose of the rig between frames, for the ideal IMU: T_world_rig at a time from the start.
@@ -43,19 +79,27 @@ using PathOfRig = std::function<Eigen::Isometry3d(std::int64_t stamp_ns)>;
 /// kept. The index files are written by Finish, last: without them the folder is no dataset yet.
 class DatasetWriter {
  public:
+  /// Throws InputError for a lens that the format cannot state: KITTI and TUM hold rectified
+  /// images.
   DatasetWriter(std::filesystem::path folder, const StereoCalibration& calibration, double rate_hz,
                 const ExportOptions& options);
 
+  /// Writes aisle.json, or finds the same one there; throws InputError where the folder was begun
+  /// with other frames.
+  void Begin() const;
+
   /// All files of this frame are already there.
   bool Has(const FrameRequest& request) const;
-  /// Needs truth; throws std::invalid_argument without, or without depth where depth was asked for.
-  void Add(const SequenceFrame& frame);
-  /// `frames` are all frames of the dataset in order, kept ones included.
+  /// Needs truth, and motion where the selection does; throws std::invalid_argument without.
+  void Add(const SequenceFrame& frame, const FrameMotion* motion = nullptr);
+  /// `frames` are all frames of the dataset in order, kept ones included. Clears away what earlier,
+  /// killed writers left half written.
   void Finish(const std::vector<FrameRequest>& frames, const PathOfRig& path) const;
 
  private:
   std::vector<std::filesystem::path> ImagePaths(const FrameRequest& request) const;
-  void AddTruth(const SequenceFrame& frame);
+  std::filesystem::path TruthPath(const char* kind, std::int64_t id, const char* ending) const;
+  std::vector<std::filesystem::path> TruthPaths(std::int64_t id) const;
 
   const std::filesystem::path folder_;
   const StereoCalibration calibration_;
@@ -73,7 +117,9 @@ std::filesystem::path CalibrationPath(const std::filesystem::path& folder, Datas
 struct EyeCalibration {
   int width = 0, height = 0;
   double fx = 0, fy = 0, cx = 0, cy = 0;
-  std::vector<double> distortion;  ///< radial-tangential k1 k2 p1 p2; empty: none
+  std::vector<double>
+      distortion;  ///< k1 k2 p1 p2, or an equidistant lens's k1 k2 k3 k4; empty: none
+  bool equidistant = false;
   Eigen::Isometry3d T_body_eye = Eigen::Isometry3d::Identity();
 };
 

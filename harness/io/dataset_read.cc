@@ -69,10 +69,12 @@ EyeCalibration ReadEurocSensor(const fs::path& file) {
   eye.cx = pinhole[2];
   eye.cy = pinhole[3];
   const std::string model = root["distortion_model"] ? root["distortion_model"].Scalar() : "none";
-  if (model != "radial-tangential" && model != "none") {
+  if (model != "radial-tangential" && model != "equidistant" && model != "none") {
     throw InputError(file.string(), 0,
-                     "distortion model '" + Printable(model) + "': only radial-tangential is read");
+                     "distortion model '" + Printable(model) +
+                         "': radial-tangential, equidistant and none are read");
   }
+  eye.equidistant = model == "equidistant";
   if (model != "none") eye.distortion = NumbersAt(root, "distortion_coefficients", 4, file);
   for (int k = 0; k < 12; ++k) {
     eye.T_body_eye.matrix()(k / 4, k % 4) = pose[static_cast<std::size_t>(k)];

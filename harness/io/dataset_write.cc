@@ -16,7 +16,8 @@ constexpr const char* kNames[] = {"euroc", "kitti", "tum"};
 /// OpenCV's FileStorage, yaml-cpp and PyYAML all read a file that opens like this; each of the
 /// other spellings is refused by one of them.
 constexpr const char* kYamlOpening = "%YAML 1.0\n---\n";
-constexpr double kTumDepthSteps = 5000;  // per metre
+constexpr double kTumDepthSteps = 5000;  // per metre: 13.1 m
+constexpr double kDepthSteps = 1000;     // per metre: 65.5 m
 
 std::string Matrix(const Eigen::Isometry3d& pose) {
   std::vector<double> values;
@@ -35,15 +36,18 @@ Eigen::Isometry3d EyePose(const StereoCalibration& calibration, int eye) {
 // --- EuRoC
 // ----------------------------------------------------------------------------------------
 
-std::string EurocCamera(const StereoCalibration& c, double rate_hz, int eye) {
+std::string EurocCamera(const StereoCalibration& c, const LensCalibration& lens, double rate_hz,
+                        int eye) {
+  const bool bent = lens.model != "none";
   return fmt::format(
-      "{}sensor_type: camera\ncomment: cam{}, rectified, ideal\n"
+      "{}sensor_type: camera\ncomment: cam{}, {}\n"
       "T_BS:\n  cols: 4\n  rows: 4\n  data: [{}]\n"
       "rate_hz: {:g}\nresolution: [{}, {}]\ncamera_model: pinhole\n"
-      "intrinsics: [{}, {}, {}, {}]\ndistortion_model: radial-tangential\n"
-      "distortion_coefficients: [0.0, 0.0, 0.0, 0.0]\n",
-      kYamlOpening, eye, Matrix(EyePose(c, eye)), rate_hz, c.width, c.height, c.fx, c.fy, c.cx,
-      c.cy);
+      "intrinsics: [{}, {}, {}, {}]\ndistortion_model: {}\n"
+      "distortion_coefficients: [{}]\n",
+      kYamlOpening, eye, bent ? "distorted" : "rectified, ideal", Matrix(EyePose(c, eye)), rate_hz,
+      c.width, c.height, c.fx, c.fy, c.cx, c.cy, bent ? lens.model : "radial-tangential",
+      fmt::join(lens.coefficients, ", "));
 }
 
 std::string EurocImuSensor(double rate_hz) {
@@ -84,7 +88,8 @@ void FinishEuroc(const fs::path& mav, const StereoCalibration& calibration, doub
   WriteFileAtomically(mav / "times.txt", times);
   for (int eye = 0; eye < 2; ++eye) {
     const fs::path camera = mav / fmt::format("cam{}", eye);
-    WriteFileAtomically(camera / "sensor.yaml", EurocCamera(calibration, rate_hz, eye));
+    WriteFileAtomically(camera / "sensor.yaml",
+                        EurocCamera(calibration, options.lens, rate_hz, eye));
     WriteFileAtomically(camera / "data.csv", index);
   }
 }
@@ -139,12 +144,12 @@ void FinishTum(const fs::path& folder, const StereoCalibration& c,
   WriteFileAtomically(folder / "groundtruth.txt", FormatTrajectory(truth, TrajectoryFormat::kTum));
 }
 
-/// Metres times 5000 in 16 bits, 0 where there is nothing or it lies beyond the range (13.1 m).
-cv::Mat1w TumDepth(const cv::Mat1f& depth) {
+/// Metres times `per_metre` in 16 bits, 0 where there is nothing or it lies beyond the range.
+cv::Mat1w DepthInSteps(const cv::Mat1f& depth, double per_metre) {
   cv::Mat1w steps(depth.size());
   for (int y = 0; y < depth.rows; ++y) {
     for (int x = 0; x < depth.cols; ++x) {
-      const double value = std::round(depth(y, x) * kTumDepthSteps);
+      const double value = std::round(depth(y, x) * per_metre);
       steps(y, x) = value <= 65535 ? static_cast<unsigned short>(value) : 0;
     }
   }
@@ -153,6 +158,15 @@ cv::Mat1w TumDepth(const cv::Mat1f& depth) {
 
 nlohmann::ordered_json BoxToJson(const cv::Rect2d& box) {
   return {box.x, box.y, box.width, box.height};
+}
+
+nlohmann::ordered_json VectorToJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+/// 16 numbers, row by row.
+nlohmann::ordered_json PoseToJson(const Eigen::Isometry3d& pose) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (int k = 0; k < 16; ++k) json.push_back(pose.matrix()(k / 4, k % 4));
+  return json;
 }
 
 std::string BoxesJson(const SequenceFrame& frame) {
@@ -165,6 +179,8 @@ std::string BoxesJson(const SequenceFrame& frame) {
                                {"box_visible_px", BoxToJson(object.box_visible)},
                                {"box_full_px", BoxToJson(object.box_full)},
                                {"center_world_m", {c.x(), c.y(), c.z()}},
+                               {"extent_m", VectorToJson(object.extent_m)},
+                               {"T_world_object", PoseToJson(object.T_world_object)},
                                {"velocity_world_mps", {v.x(), v.y(), v.z()}},
                                {"visible_fraction", object.visible_fraction},
                                {"visible_pixels", object.visible_pixels},
@@ -173,8 +189,110 @@ std::string BoxesJson(const SequenceFrame& frame) {
   return json.dump(1) + "\n";
 }
 
-fs::path TruthPath(const fs::path& folder, const char* kind, std::int64_t id, const char* ending) {
-  return folder / "truth" / kind / fmt::format("{:06}{}", id, ending);
+/// Class of every pixel from its instance.
+cv::Mat1b Classes(const cv::Mat1w& instance, const std::vector<LabelInfo>& labels) {
+  cv::Mat1b classes(instance.size());
+  std::transform(instance.begin(), instance.end(), classes.begin(), [&](std::uint16_t id) {
+    return id < labels.size() ? labels[id].class_id : std::uint8_t{0};
+  });
+  return classes;
+}
+
+std::string LabelsJson(const std::vector<LabelInfo>& labels) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (std::size_t id = 0; id < labels.size(); ++id) {
+    json.push_back({{"id", id},
+                    {"name", labels[id].name},
+                    {"class", labels[id].object_class},
+                    {"class_id", labels[id].class_id},
+                    {"moving", labels[id].moving}});
+  }
+  return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+/// Middlebury's .flo; what is unknown is 1e10, by its convention.
+std::string FloFile(const cv::Mat2f& flow) {
+  constexpr float kUnknown = 1e10f;
+  std::string bytes = "PIEH";
+  const auto put = [&](const auto& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+  };
+  put(std::int32_t{flow.cols});
+  put(std::int32_t{flow.rows});
+  for (const cv::Vec2f& f : flow) {
+    const bool known = std::isfinite(f[0]) && std::isfinite(f[1]);
+    put(known ? f[0] : kUnknown);
+    put(known ? f[1] : kUnknown);
+  }
+  return bytes;
+}
+
+/// A kind of truth file: its folder and ending, and how it is written.
+struct TruthFile {
+  const char* kind;
+  const char* ending;
+  std::function<void(const fs::path&, const SequenceFrame&, const FrameMotion*)> write;
+};
+
+/// A file that is an image as it stands.
+template <typename Image>
+TruthFile Plain(const char* kind, const char* ending, Image FrameTruth::*image) {
+  return {kind, ending, [=](const fs::path& path, const SequenceFrame& frame, const FrameMotion*) {
+            WriteImage(path, (*frame.truth).*image);
+          }};
+}
+template <typename Image>
+TruthFile Plain(const char* kind, const char* ending, Image FrameMotion::*image) {
+  return {kind, ending, [=](const fs::path& path, const SequenceFrame&, const FrameMotion* motion) {
+            WriteImage(path, motion->*image);
+          }};
+}
+
+/// All files of a frame's truth that the selection asks for.
+std::vector<TruthFile> TruthFiles(const ExportOptions& options) {
+  const TruthSelection& truth = options.truth;
+  std::vector<TruthFile> files;
+  if (truth.depth) {
+    files.push_back(Plain("depth", ".pfm", &FrameTruth::depth));
+    files.push_back(Plain("depth_right", ".pfm", &FrameTruth::depth_right));
+    files.push_back({"depth_mm", ".png", [](const auto& path, const auto& frame, const auto*) {
+                       WriteImage(path, DepthInSteps(frame.truth->depth, kDepthSteps));
+                     }});
+  }
+  if (truth.labels) {
+    files.push_back(Plain("instance", ".png", &FrameTruth::instance));
+    files.push_back(Plain("instance_right", ".png", &FrameTruth::instance_right));
+    files.push_back({"class", ".png", [&](const auto& path, const auto& frame, const auto*) {
+                       WriteImage(path, Classes(frame.truth->instance, options.labels));
+                     }});
+    files.push_back({"class_right", ".png", [&](const auto& path, const auto& frame, const auto*) {
+                       WriteImage(path, Classes(frame.truth->instance_right, options.labels));
+                     }});
+  }
+  if (truth.dynamic) {
+    files.push_back(Plain("dynamic", ".png", &FrameTruth::dynamic));
+    files.push_back(Plain("dynamic_right", ".png", &FrameTruth::dynamic_right));
+    files.push_back(Plain("actor", ".png", &FrameTruth::actor));
+  }
+  if (truth.boxes) {
+    files.push_back({"boxes", ".json", [](const auto& path, const auto& frame, const auto*) {
+                       WriteFileAtomically(path, BoxesJson(frame));
+                     }});
+  }
+  if (truth.flow) {
+    files.push_back({"flow", ".flo", [](const auto& path, const auto&, const auto* motion) {
+                       WriteFileAtomically(path, FloFile(motion->flow));
+                     }});
+    files.push_back(Plain("scene_flow", ".pfm", &FrameMotion::scene_flow));
+  }
+  if (truth.stereo) {
+    files.push_back(Plain("disparity", ".pfm", &FrameMotion::disparity));
+    files.push_back(Plain("occluded", ".png", &FrameMotion::occluded));
+  }
+  if (truth.shadows) {
+    files.push_back(Plain("moving_shadow", ".png", &FrameMotion::moving_shadow));
+  }
+  return files;
 }
 
 }  // namespace
@@ -187,24 +305,66 @@ DatasetFormat DatasetFormatFromName(const std::string& name) {
 }
 
 TruthSelection TruthSelectionFromNames(const std::vector<std::string>& names) {
+  constexpr std::pair<const char*, bool TruthSelection::*> kKinds[] = {
+      {"depth", &TruthSelection::depth},     {"labels", &TruthSelection::labels},
+      {"dynamic", &TruthSelection::dynamic}, {"boxes", &TruthSelection::boxes},
+      {"flow", &TruthSelection::flow},       {"stereo", &TruthSelection::stereo},
+      {"shadows", &TruthSelection::shadows}};
   TruthSelection selection;
   for (const std::string& name : names) {
-    const bool all = name == "all";
-    if (!all && name != "depth" && name != "labels" && name != "dynamic" && name != "boxes") {
-      throw InputError("truth '" + Printable(name) +
-                       "': expected depth, labels, dynamic, boxes or all");
+    bool known = name == "all";
+    for (const auto& [kind, field] : kKinds) {
+      if (name != "all" && name != kind) continue;
+      selection.*field = true;
+      known = true;
     }
-    selection.depth |= all || name == "depth";
-    selection.labels |= all || name == "labels";
-    selection.dynamic |= all || name == "dynamic";
-    selection.boxes |= all || name == "boxes";
+    if (!known) {
+      throw InputError("truth '" + Printable(name) +
+                       "': expected depth, labels, dynamic, boxes, flow, stereo, shadows or all");
+    }
   }
   return selection;
 }
 
 DatasetWriter::DatasetWriter(fs::path folder, const StereoCalibration& calibration, double rate_hz,
                              const ExportOptions& options)
-    : folder_(std::move(folder)), calibration_(calibration), rate_hz_(rate_hz), options_(options) {}
+    : folder_(std::move(folder)), calibration_(calibration), rate_hz_(rate_hz), options_(options) {
+  if (options_.format != DatasetFormat::kEuroc && options_.lens.model != "none") {
+    throw InputError(fmt::format(
+        "the scene's lens is {}, and {} holds rectified images only: export it as euroc, or set "
+        "camera.distortion to none",
+        options_.lens.model, kNames[static_cast<std::size_t>(options_.format)]));
+  }
+}
+
+void DatasetWriter::Begin() const {
+  nlohmann::ordered_json json = options_.provenance;
+  json["format"] = kNames[static_cast<std::size_t>(options_.format)];
+  const std::string mine =
+      json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  const fs::path file = folder_ / "aisle.json";
+  if (fs::exists(file) && ReadFile(file) != mine) {
+    throw InputError(file.string(), 0,
+                     "the folder was begun with another scene, seed, twin, instruction set or "
+                     "format: choose another --out, or delete the folder");
+  }
+  WriteFileAtomically(file, mine);
+  if (options_.truth.labels) {
+    WriteFileAtomically(folder_ / "truth/labels.json", LabelsJson(options_.labels));
+  }
+}
+
+fs::path DatasetWriter::TruthPath(const char* kind, std::int64_t id, const char* ending) const {
+  return folder_ / "truth" / kind / fmt::format("{:06}{}", id, ending);
+}
+
+std::vector<fs::path> DatasetWriter::TruthPaths(std::int64_t id) const {
+  std::vector<fs::path> paths;
+  for (const TruthFile& file : TruthFiles(options_)) {
+    paths.push_back(TruthPath(file.kind, id, file.ending));
+  }
+  return paths;
+}
 
 std::vector<fs::path> DatasetWriter::ImagePaths(const FrameRequest& request) const {
   if (options_.format == DatasetFormat::kKitti) {
@@ -221,48 +381,30 @@ std::vector<fs::path> DatasetWriter::ImagePaths(const FrameRequest& request) con
 }
 
 bool DatasetWriter::Has(const FrameRequest& request) const {
-  std::vector<fs::path> paths = ImagePaths(request);
-  if (options_.truth.depth) paths.push_back(TruthPath(folder_, "depth", request.id, ".pfm"));
-  if (options_.truth.labels) paths.push_back(TruthPath(folder_, "instance", request.id, ".png"));
-  if (options_.truth.dynamic) {
-    paths.push_back(TruthPath(folder_, "dynamic", request.id, ".png"));
-    paths.push_back(TruthPath(folder_, "actor", request.id, ".png"));
-  }
-  if (options_.truth.boxes) paths.push_back(TruthPath(folder_, "boxes", request.id, ".json"));
-  return std::all_of(paths.begin(), paths.end(), [](const fs::path& p) { return fs::exists(p); });
+  const std::vector<fs::path> images = ImagePaths(request), truth = TruthPaths(request.id);
+  const auto exists = [](const fs::path& path) { return fs::exists(path); };
+  return std::ranges::all_of(images, exists) && std::ranges::all_of(truth, exists);
 }
 
-void DatasetWriter::AddTruth(const SequenceFrame& frame) {
-  const FrameTruth& truth = *frame.truth;
-  const std::int64_t id = frame.images.id;
-  if (options_.truth.depth) WriteImage(TruthPath(folder_, "depth", id, ".pfm"), truth.depth);
-  if (options_.truth.labels) {
-    WriteImage(TruthPath(folder_, "instance", id, ".png"), truth.instance);
-  }
-  if (options_.truth.dynamic) {
-    WriteImage(TruthPath(folder_, "dynamic", id, ".png"), truth.dynamic);
-    WriteImage(TruthPath(folder_, "actor", id, ".png"), truth.actor);
-  }
-  if (options_.truth.boxes) {
-    WriteFileAtomically(TruthPath(folder_, "boxes", id, ".json"), BoxesJson(frame));
-  }
-}
-
-void DatasetWriter::Add(const SequenceFrame& frame) {
+void DatasetWriter::Add(const SequenceFrame& frame, const FrameMotion* motion) {
   const bool wants_depth = options_.truth.depth || options_.format == DatasetFormat::kTum;
-  if (!frame.truth || (wants_depth && frame.truth->depth.empty())) {
+  if (!frame.truth || (wants_depth && frame.truth->depth.empty()) ||
+      (options_.truth.NeedsMotion() && !motion)) {
     throw std::invalid_argument("the frame comes without the truth that was asked for");
   }
   const std::vector<fs::path> paths =
       ImagePaths({frame.images.id, frame.images.stamp_ns, frame.truth->T_world_rig});
-  AddTruth(frame);
-  if (paths.size() > 2) WriteImage(paths[2], TumDepth(frame.truth->depth));
+  for (const TruthFile& file : TruthFiles(options_)) {
+    file.write(TruthPath(file.kind, frame.images.id, file.ending), frame, motion);
+  }
+  if (paths.size() > 2) WriteImage(paths[2], DepthInSteps(frame.truth->depth, kTumDepthSteps));
   WriteImage(paths[1], frame.images.right);
   WriteImage(paths[0], frame.images.left);
 }
 
 void DatasetWriter::Finish(const std::vector<FrameRequest>& frames, const PathOfRig& path) const {
   if (frames.empty()) throw std::invalid_argument("a dataset needs a frame at least");
+  ClearLeftovers(folder_);
   switch (options_.format) {
     case DatasetFormat::kEuroc:
       return FinishEuroc(folder_ / "mav0", calibration_, rate_hz_, frames, path, options_);

@@ -17,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view kAside = ".tmp-";  ///< in the name of a file that is being written
+
 [[noreturn]] void Fail(const std::string& what, const fs::path& path) {
   throw MachineError(fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(errno)));
 }
@@ -48,8 +50,8 @@ void WriteAll(const Descriptor& file, std::string_view bytes, const fs::path& pa
 /// Unique among the threads and processes that may write the same file at once.
 fs::path AsideOf(const fs::path& path) {
   static std::atomic<unsigned> count = 0;
-  const std::string name = fmt::format(".{}.tmp-{}-{}", path.filename().string().substr(0, 200),
-                                       ::getpid(), count.fetch_add(1));
+  const std::string name = fmt::format(".{}{}{}-{}", path.filename().string().substr(0, 200),
+                                       kAside, ::getpid(), count.fetch_add(1));
   return path.parent_path() / name;
 }
 
@@ -82,6 +84,18 @@ void WriteFileAtomically(const fs::path& path, std::string_view bytes, Durabilit
   const Descriptor folder(path.has_parent_path() ? path.parent_path() : fs::path("."),
                           O_RDONLY | O_DIRECTORY);
   ::fsync(folder.get());  // some file systems cannot flush a folder; the file itself is safe
+}
+
+void ClearLeftovers(const fs::path& folder) {
+  std::vector<fs::path> leftovers;
+  std::error_code error;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with('.') && name.find(kAside) != std::string::npos) {
+      leftovers.push_back(entry.path());
+    }
+  }
+  for (const fs::path& path : leftovers) fs::remove(path, error);
 }
 
 std::string ReadFile(const fs::path& path, std::size_t max_bytes) {

@@ -17,6 +17,9 @@ enum class Durability {
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes,
                          Durability durability = Durability::kSurvivesPowerLoss);
 
+/// Deletes what killed writers left aside below a folder. Nobody else may be writing there.
+void ClearLeftovers(const std::filesystem::path& folder);
+
 /// The whole file. Throws InputError when it cannot be read or is larger than max_bytes.
 std::string ReadFile(const std::filesystem::path& path,
                      std::size_t max_bytes = std::size_t{1} << 30);

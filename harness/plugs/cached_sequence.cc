@@ -25,7 +25,12 @@ class CachedSequence : public Sequence {
     if (!IsPlanned(request)) return Original().At(request);
     if (std::optional<SequenceFrame> kept = store_.Read(request.id)) return *std::move(kept);
     SequenceFrame made = Original().At(request);
-    if (made.truth) made.truth->depth.release();
+    if (made.truth) {
+      for (cv::Mat* image : std::initializer_list<cv::Mat*>{
+               &made.truth->depth, &made.truth->depth_right, &made.truth->instance_right}) {
+        image->release();
+      }
+    }
     store_.Write(made);
     return made;
   }

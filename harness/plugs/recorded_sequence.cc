@@ -15,8 +15,9 @@ cv::Matx33d CameraMatrix(const EyeCalibration& eye) {
 }
 
 bool IsIdeal(const EyeCalibration& eye) {
-  return std::all_of(eye.distortion.begin(), eye.distortion.end(),
-                     [](double coefficient) { return coefficient == 0; });
+  // An equidistant lens without coefficients is not a pinhole.
+  return !eye.equidistant && std::all_of(eye.distortion.begin(), eye.distortion.end(),
+                                         [](double coefficient) { return coefficient == 0; });
 }
 
 /// Parallel eyes of one pinhole, the right one straight to the right.
@@ -60,6 +61,20 @@ Rectification Identity(const EyeCalibration& left, const EyeCalibration& right) 
   return result;
 }
 
+Rectifier MapsOf(const EyeCalibration& eye, const cv::Matx33d& turn,
+                 const cv::Matx34d& projection) {
+  const cv::Size size(eye.width, eye.height);
+  Rectifier maps;
+  if (eye.equidistant) {
+    cv::fisheye::initUndistortRectifyMap(CameraMatrix(eye), eye.distortion, turn, projection, size,
+                                         CV_32FC1, maps.map_x, maps.map_y);
+  } else {
+    cv::initUndistortRectifyMap(CameraMatrix(eye), eye.distortion, turn, projection, size, CV_32FC1,
+                                maps.map_x, maps.map_y);
+  }
+  return maps;
+}
+
 Rectification Rectify(const EyeCalibration& left, const EyeCalibration& right) {
   if (IsRectified(left, right)) return Identity(left, right);
   const Eigen::Isometry3d T_right_left = right.T_body_eye.inverse() * left.T_body_eye;
@@ -70,9 +85,16 @@ Rectification Rectify(const EyeCalibration& left, const EyeCalibration& right) {
   cv::Matx34d left_projection, right_projection;
   cv::Matx44d to_depth;
   const cv::Size size(left.width, left.height);
-  cv::stereoRectify(CameraMatrix(left), left.distortion, CameraMatrix(right), right.distortion,
-                    size, rotation, translation, left_turn, right_turn, left_projection,
-                    right_projection, to_depth, cv::CALIB_ZERO_DISPARITY, 0);
+  if (left.equidistant) {
+    cv::fisheye::stereoRectify(CameraMatrix(left), left.distortion, CameraMatrix(right),
+                               right.distortion, size, rotation, translation, left_turn, right_turn,
+                               left_projection, right_projection, to_depth,
+                               cv::CALIB_ZERO_DISPARITY, size);
+  } else {
+    cv::stereoRectify(CameraMatrix(left), left.distortion, CameraMatrix(right), right.distortion,
+                      size, rotation, translation, left_turn, right_turn, left_projection,
+                      right_projection, to_depth, cv::CALIB_ZERO_DISPARITY, 0);
+  }
   Rectification result;
   result.calibration = {.width = size.width,
                         .height = size.height,
@@ -81,10 +103,8 @@ Rectification Rectify(const EyeCalibration& left, const EyeCalibration& right) {
                         .cx = left_projection(0, 2),
                         .cy = left_projection(1, 2),
                         .baseline_m = -right_projection(0, 3) / right_projection(0, 0)};
-  cv::initUndistortRectifyMap(CameraMatrix(left), left.distortion, left_turn, left_projection, size,
-                              CV_32FC1, result.left.map_x, result.left.map_y);
-  cv::initUndistortRectifyMap(CameraMatrix(right), right.distortion, right_turn, right_projection,
-                              size, CV_32FC1, result.right.map_x, result.right.map_y);
+  result.left = MapsOf(left, left_turn, left_projection);
+  result.right = MapsOf(right, right_turn, right_projection);
   Eigen::Matrix3d R_rectified_left;
   cv::cv2eigen(cv::Mat(left_turn), R_rectified_left);
   result.R_left_rectified = R_rectified_left.transpose();
@@ -188,6 +208,9 @@ std::unique_ptr<Sequence> OpenRecording(const std::filesystem::path& folder, Dat
   if (recording.left.width != recording.right.width ||
       recording.left.height != recording.right.height) {
     throw InputError(folder.string(), 0, "the two eyes differ in size");
+  }
+  if (recording.left.equidistant != recording.right.equidistant) {
+    throw InputError(folder.string(), 0, "the two eyes differ in their distortion model");
   }
   const auto clean = std::filesystem::absolute(folder).lexically_normal();
   const auto name = clean.has_filename() ? clean.filename() : clean.parent_path().filename();

@@ -20,6 +20,8 @@ ObjectTruth Convert(const sim::ObjectTruth& object, const std::string& object_cl
   result.box_visible = object.box_visible;
   result.box_full = object.box_full;
   result.center_m = object.center_m;
+  result.extent_m = object.extent_m;
+  result.T_world_object = object.T_world_object;
   result.velocity_mps = object.velocity_mps;
   result.visible_fraction = object.visible_fraction;
   result.visible_pixels = object.visible_pixels;
@@ -32,6 +34,8 @@ FrameTruth Convert(const sim::FrameTruth& truth, const std::vector<sim::Instance
   result.T_world_rig = truth.T_world_rig;
   result.depth = truth.depth;
   result.instance = truth.instance;
+  result.depth_right = truth.depth_right;
+  result.instance_right = truth.instance_right;
   result.dynamic = truth.dynamic;
   result.dynamic_right = truth.dynamic_right;
   result.actor = truth.actor;
@@ -75,6 +79,21 @@ class SimulatedSequence : public Sequence {
     return [this](std::int64_t stamp_ns) { return simulator_.PlannedPose(stamp_ns); };
   }
 
+  const sim::Simulator& simulator() const { return simulator_; }
+
+  FrameMotion MotionOf(const FrameRequest& request) const {
+    const std::int64_t next_ns = simulator_.Stamp(static_cast<int>(request.id) + 1);
+    sim::MotionTruth truth = simulator_.RenderMotion(request.stamp_ns, request.T_world_rig, next_ns,
+                                                     simulator_.PlannedPose(next_ns));
+    return {truth.disparity, truth.occluded, truth.flow, truth.scene_flow, truth.moving_shadow};
+  }
+
+  FrameProof Prove(const FrameRequest& request) const {
+    const sim::VerifyReport report = simulator_.Verify(static_cast<int>(request.id));
+    return {std::min(report.raster_agreement_left, report.raster_agreement_right),
+            report.stereo_median_px, report.flow_median_px, report.failure()};
+  }
+
   SequenceFrame At(const FrameRequest& request) const override {
     const sim::RenderedFrame frame =
         simulator_.Render(static_cast<int>(request.id), request.stamp_ns, request.T_world_rig);
@@ -108,10 +127,35 @@ sim::Simulator OpenSimulator(const SimulatedSequenceOptions& options) {
 std::unique_ptr<Sequence> OpenSimulation(const SimulatedSequenceOptions& options,
                                          std::uint64_t* content_hash, PathOfRig* path) {
   sim::Simulator simulator = OpenSimulator(options);
+  const std::string& lens = simulator.rig().distortion_model;
+  if (lens != "none" && !options.any_lens) {
+    throw InputError(options.scene_file, 0,
+                     "camera.distortion is " + lens +
+                         ", but a run takes rectified pairs: `aisle render` it as euroc and run "
+                         "`aisle slam` on that, which rectifies, or set it to none");
+  }
   if (content_hash != nullptr) *content_hash = simulator.content_hash();
   auto sequence = std::make_unique<SimulatedSequence>(std::move(simulator), options.scene_name);
   if (path != nullptr) *path = sequence->Path();
   return sequence;
+}
+
+SimulationForExport OpenForExport(const SimulatedSequenceOptions& options) {
+  auto sequence = std::make_unique<SimulatedSequence>(OpenSimulator(options), options.scene_name);
+  const SimulatedSequence* at = sequence.get();
+  const sim::RigInfo& rig = at->simulator().rig();
+  SimulationForExport result;
+  result.content_hash = at->simulator().content_hash();
+  result.lens = {rig.distortion_model, rig.distortion};
+  for (const sim::InstanceInfo& instance : at->simulator().instances()) {
+    result.labels.push_back(
+        {instance.name, instance.object_class, instance.class_id, instance.is_actor});
+  }
+  result.path = at->Path();
+  result.motion = [at](const FrameRequest& frame) { return at->MotionOf(frame); };
+  result.prove = [at](const FrameRequest& frame) { return at->Prove(frame); };
+  result.sequence = std::move(sequence);
+  return result;
 }
 
 std::vector<std::string> CheckScene(const std::string& scene_file) {

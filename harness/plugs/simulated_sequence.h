@@ -16,7 +16,32 @@ struct SimulatedSequenceOptions {
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0: as many as the machine has; never changes a pixel
   std::string isa = "avx2";
+  /// Estimators take rectified pairs, so a scene with a distorted lens is refused unless this says
+  /// that the pictures go elsewhere.
+  bool any_lens = false;
 };
+
+/// What the proofs say of one frame, and the sentence about what failed, or none.
+struct FrameProof {
+  double raster_agreement = 0;  ///< share of pixels, the worse eye
+  double stereo_median_px = 0, flow_median_px = 0;
+  std::string failure;
+};
+
+/// A scene opened for writing a dataset. The functions are valid while the sequence lives.
+struct SimulationForExport {
+  std::unique_ptr<Sequence> sequence;
+  std::uint64_t content_hash = 0;
+  LensCalibration lens;
+  std::vector<LabelInfo> labels;
+  PathOfRig path;
+  /// Correspondences to the next frame of the scene, which for the last is the one that would come.
+  std::function<FrameMotion(const FrameRequest& frame)> motion;
+  std::function<FrameProof(const FrameRequest& frame)> prove;
+};
+
+/// Throws as OpenSimulation does. Takes any lens.
+SimulationForExport OpenForExport(const SimulatedSequenceOptions& options);
 
 /// The names a suite may use; the same order as in the reports.
 const std::vector<std::string>& TwinNames();

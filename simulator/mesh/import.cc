@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "simulator/mesh/confined_files.h"
+#include "simulator/mesh/gltf_nodes.h"
 #include "simulator/mesh/import_materials.h"
 #include "simulator/mesh/pose.h"
 
@@ -299,6 +300,11 @@ void CheckFile(const fs::path& file, const ImportOptions& options) {
   if (fs::file_size(file) > options.max_file_bytes) {
     throw ImportError(
         fmt::format("{}: it is larger than {} bytes", file.string(), options.max_file_bytes));
+  }
+  if (extension != ".glb" && extension != ".gltf") return;
+  if (const std::string error = GltfNodeError(file); !error.empty()) {
+    throw ImportError(
+        fmt::format("{}: {}; the nodes of a model must form a tree", file.string(), error));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <GL/osmesa.h>
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -114,7 +115,65 @@ bool IsInner(const cv::Mat1f& depth, const cv::Mat1w& instance, int x, int y) {
   return true;
 }
 
+/// Whether the 3 × 3 neighbourhood lies in one plane, where 1/z is linear in a pinhole image: an
+/// edge between two faces has a value of its own between the pixels.
+bool IsPlane(const cv::Mat1f& depth, int x, int y) {
+  constexpr float kBend = 2e-4f;  // of 1/z
+  const float bound = kBend / depth(y, x);
+  const auto inverse = [&](int dx, int dy) { return 1 / depth(y + dy, x + dx); };
+  for (int k = -1; k <= 1; ++k) {
+    const float across = inverse(-1, k) - 2 * inverse(0, k) + inverse(1, k);
+    const float down = inverse(k, -1) - 2 * inverse(k, 0) + inverse(k, 1);
+    if (std::max(std::abs(across), std::abs(down)) > bound) return false;
+  }
+  return true;
+}
+
+/// A pinhole camera that sees all of the rays, as fine as the lens is at its centre.
+StereoCamera Enclosing(const PixelRays& rays) {
+  constexpr int kMargin = 3;  // pixels
+  Eigen::AlignedBox2d box;
+  for (int y = 0; y < rays.height; ++y) {
+    for (int x = 0; x < rays.width; ++x) box.extend(rays.At(x, y).cast<double>());
+  }
+  StereoCamera wide;
+  wide.fx = 1.0 / rays.step_x;
+  wide.fy = 1.0 / rays.step_y;
+  wide.cx = kMargin - wide.fx * box.min().x();
+  wide.cy = kMargin - wide.fy * box.min().y();
+  wide.width = static_cast<int>(std::ceil(wide.fx * box.sizes().x())) + 2 * kMargin;
+  wide.height = static_cast<int>(std::ceil(wide.fy * box.sizes().y())) + 2 * kMargin;
+  return wide;
+}
+
 }  // namespace
+
+RasterView RasterizeThroughLens(const World& world, const Snapshot& snapshot, const PixelRays& rays,
+                                const Eigen::Isometry3d& T_world_eye,
+                                const RasterOptions& options) {
+  const StereoCamera wide = Enclosing(rays);
+  const RasterView drawn = Rasterize(world, snapshot, wide, T_world_eye, options);
+  RasterView view{cv::Mat1f(rays.height, rays.width, std::numeric_limits<float>::quiet_NaN()),
+                  cv::Mat1w(rays.height, rays.width, std::uint16_t{0})};
+  for (int y = 0; y < rays.height; ++y) {
+    for (int x = 0; x < rays.width; ++x) {
+      const Eigen::Vector2d ray = rays.At(x, y).cast<double>();
+      const double u = wide.fx * ray.x() + wide.cx, v = wide.fy * ray.y() + wide.cy;
+      const int x0 = static_cast<int>(u), y0 = static_cast<int>(v);
+      const int nearest_x = static_cast<int>(std::lround(u));
+      const int nearest_y = static_cast<int>(std::lround(v));
+      if (!IsInner(drawn.depth, drawn.instance, nearest_x, nearest_y)) continue;
+      if (!IsPlane(drawn.depth, nearest_x, nearest_y)) continue;
+      const double fx = u - x0, fy = v - y0;
+      const auto inverse = [&](int dx, int dy) { return 1.0 / drawn.depth(y0 + dy, x0 + dx); };
+      const double above = (1 - fx) * inverse(0, 0) + fx * inverse(1, 0);
+      const double below = (1 - fx) * inverse(0, 1) + fx * inverse(1, 1);
+      view.depth(y, x) = static_cast<float>(1 / ((1 - fy) * above + fy * below));
+      view.instance(y, x) = drawn.instance(nearest_y, nearest_x);
+    }
+  }
+  return view;
+}
 
 RasterView Rasterize(const World& world, const Snapshot& snapshot, const StereoCamera& camera,
                      const Eigen::Isometry3d& T_world_eye, const RasterOptions& options) {

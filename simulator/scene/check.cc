@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -56,6 +57,7 @@ class Checker {
 
   void Run() {
     if (!CheckHall()) return;  // all else is measured against it
+    CheckCamera();
     CheckLights();
     CheckStanding();
     CheckRoute(scene_.rig.route, "rig", kRigRadius_m);
@@ -85,6 +87,27 @@ class Checker {
                  "`to` must lie at least 2 m beyond `from` in x and y; example: from: [-5, -8], "
                  "to: [20, 8]");
     return false;
+  }
+
+  void CheckCamera() {
+    const CameraSpec& camera = scene_.camera;
+    const bool bent = std::ranges::any_of(camera.distortion_coefficients,
+                                          [](double value) { return value != 0; });
+    if (bent && camera.distortion == Distortion::kNone) {
+      issues_->Add(camera.mark, "camera.distortion",
+                   "there are distortion_coefficients, but nothing says of which model; example: "
+                   "distortion: radial-tangential");
+    }
+    const double frame_ms = 1000 / scene_.rate_hz;
+    const double exposure_ms =
+        scene_.sensor.auto_exposure ? scene_.sensor.auto_longest_ms : scene_.sensor.exposure_ms;
+    if (exposure_ms + scene_.sensor.readout_ms > frame_ms) {
+      issues_->Add(
+          scene_.sensor.mark, "sensor",
+          fmt::format("the shutter is open for {:g} ms of exposure and {:g} ms of readout, "
+                      "but a frame comes every {:g} ms",
+                      exposure_ms, scene_.sensor.readout_ms, frame_ms));
+    }
   }
 
   void CheckLights() {

@@ -25,16 +25,33 @@ void DescribeCamera(Fields& f, CameraSpec& camera) {
   f.Numbers({"center_px", "cx and cy; the first pixel's centre is 0", "[367.2, 252.2]"},
             camera.center_px.data(), 2, {0, 4096});
   f.Number({"baseline_m", "distance of the two cameras", "0.12"}, &camera.baseline_m, {0.005, 5});
+  f.Choice({"distortion", "how both lenses bend the image", "radial-tangential"},
+           &camera.distortion, {"none", "radial-tangential", "equidistant"});
+  f.Numbers({"distortion_coefficients", "k1 k2 p1 p2, or k1 k2 k3 k4 of an equidistant lens",
+             "[-0.28, 0.07, 0, 0]"},
+            camera.distortion_coefficients.data(), 4, {-10, 10});
 }
 
 void DescribeSensor(Fields& f, SensorSpec& sensor) {
   sensor.mark = f.mark();
   f.Number({"exposure_ms", "exposure time", "8"}, &sensor.exposure_ms, {0.01, 200});
   f.Number({"gain_db", "analogue gain; brightens light and noise", "0"}, &sensor.gain_db, {0, 48});
+  f.Flag({"auto_exposure", "let the camera choose exposure and gain, frame by frame", "true"},
+         &sensor.auto_exposure);
+  f.Number({"auto_target_grey", "mean grey that automatic exposure aims at", "110"},
+           &sensor.auto_target_grey, {10, 240});
+  f.Number({"auto_longest_ms", "longest automatic exposure; then gain rises, to 12 dB", "12"},
+           &sensor.auto_longest_ms, {0.2, 200});
   f.Flag({"noise", "shot and read noise", "true"}, &sensor.noise);
+  f.Flag({"fixed_pattern", "every pixel's own sensitivity and dark signal", "true"},
+         &sensor.fixed_pattern);
   f.Number({"vignetting", "share of light lost in the corners", "0.25"}, &sensor.vignetting,
            {0, 0.9});
   f.Number({"blur_px", "standard deviation of the lens blur", "0.45"}, &sensor.blur_px, {0, 5});
+  f.Flag({"motion_blur", "integrate the light over the exposure time", "true"},
+         &sensor.motion_blur);
+  f.Number({"readout_ms", "rolling shutter: from the first row to the last; 0: all at once", "16"},
+           &sensor.readout_ms, {0, 100});
 }
 
 void DescribeStep(Fields& f, RouteStep& step, RouteSpec::StepMarks& marks) {

@@ -21,12 +21,16 @@ struct Mark {
 /// How busy a scene is. An actor takes part when the scene's level is at least its own.
 enum class Dynamics { kNone, kLow, kMid, kHigh };
 
+enum class Distortion { kNone, kRadialTangential, kEquidistant };
+
 struct CameraSpec {
   Mark mark;
   std::array<int, 2> size_px = {752, 480};
   Eigen::Vector2d focal_px = {435.2, 435.2};
   Eigen::Vector2d center_px = {367.2, 252.2};
   double baseline_m = 0.12;
+  Distortion distortion = Distortion::kNone;
+  std::array<double, 4> distortion_coefficients = {0, 0, 0, 0};
 };
 
 /// What the sensor does to the light.
@@ -34,9 +38,15 @@ struct SensorSpec {
   Mark mark;
   double exposure_ms = 8;
   double gain_db = 0;
-  bool noise = true;         ///< shot and read noise
-  double vignetting = 0.25;  ///< share of light lost in the corners
-  double blur_px = 0.45;     ///< standard deviation of the lens blur
+  bool auto_exposure = false;     ///< chooses time and gain itself
+  double auto_target_grey = 110;  ///< mean grey it aims at
+  double auto_longest_ms = 12;    ///< exposure time beyond which it takes gain instead
+  bool noise = true;              ///< shot and read noise
+  bool fixed_pattern = true;      ///< every pixel's own sensitivity and dark signal
+  double vignetting = 0.25;       ///< share of light lost in the corners
+  double blur_px = 0.45;          ///< standard deviation of the lens blur
+  bool motion_blur = false;       ///< things move while the shutter is open
+  double readout_ms = 0;          ///< of a rolling shutter, first row to last
 };
 
 /// A route with the places of its parts in the file.

@@ -13,6 +13,9 @@ namespace {
 /// tenth of a logarithm and a cosine, and a 12-bit normal is far finer than an 8-bit pixel.
 constexpr int kTableBits = 12;
 
+/// Keeps the fixed pattern's random numbers apart from the noise's.
+constexpr std::uint64_t kPatternStream = 0x5851f42d4c957f2d;
+
 /// Inverse of the normal distribution (Acklam's rational approximation, 1e-9 relative).
 double InverseNormal(double p) {
   constexpr std::array a = {-3.969683028665376e+01, 2.209460984245205e+02,  -2.759285104469687e+02,
@@ -68,13 +71,16 @@ std::string SensorOptions::Validate() const {
                             positive("gain", gain)}) {
     if (!error.empty()) return error;
   }
-  if (!(read_noise_e >= 0)) return fmt::format("read_noise_e is {}, must be ≥ 0", read_noise_e);
+  const std::array not_negative = {std::pair("read_noise_e", read_noise_e), std::pair("prnu", prnu),
+                                   std::pair("dsnu_e", dsnu_e)};
+  for (const auto& [name, value] : not_negative) {
+    if (!(value >= 0)) return fmt::format("{} is {}, must be ≥ 0", name, value);
+  }
   if (!(vignetting >= 0 && vignetting <= 1)) {
     return fmt::format("vignetting is {}, must be in [0, 1]", vignetting);
   }
-  // The kernel is five pixels wide.
-  if (!(blur_px >= 0 && blur_px <= 1)) {
-    return fmt::format("blur_px is {}, must be in [0, 1]", blur_px);
+  if (!(blur_px >= 0 && blur_px <= 5)) {
+    return fmt::format("blur_px is {}, must be in [0, 5]", blur_px);
   }
   return "";
 }
@@ -95,14 +101,34 @@ cv::Mat1f VignettingMap(int width, int height, const std::vector<float>& ray_x,
   return cv::Mat1f(1 - map * (vignetting / std::max(farthest, 1e-12)));
 }
 
+PixelResponse MakeResponse(const cv::Mat1f& vignetting, const SensorOptions& options,
+                           std::uint64_t seed, std::uint32_t camera) {
+  if (!options.fixed_pattern) return {vignetting, {}};
+  static const std::vector<float> normal = NormalTable();
+  const std::uint64_t stream = Mix(Mix(seed + kPatternStream) ^ camera);
+  PixelResponse response{vignetting.clone(), cv::Mat1f(vignetting.size())};
+  for (int y = 0; y < vignetting.rows; ++y) {
+    for (int x = 0; x < vignetting.cols; ++x) {
+      const std::uint64_t random =
+          Mix(stream ^ (static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint32_t>(x)));
+      response.gain(y, x) *= 1 + options.prnu * normal[random >> (64 - kTableBits)];
+      response.dark_e(y, x) = options.dsnu_e * normal[random & ((1u << kTableBits) - 1)];
+    }
+  }
+  return response;
+}
+
 cv::Mat1f SpreadByLens(const cv::Mat1f& radiance, float sigma_px) {
   if (sigma_px <= 0) return radiance;
   cv::Mat1f spread;
-  cv::GaussianBlur(radiance, spread, cv::Size(5, 5), sigma_px, sigma_px, cv::BORDER_REPLICATE);
+  // Four deviations hold all of a normal kernel but 6e-5; sharp lenses need no more than 5 × 5.
+  const int size = std::max(5, 2 * static_cast<int>(std::ceil(4 * sigma_px)) + 1);
+  cv::GaussianBlur(radiance, spread, cv::Size(size, size), sigma_px, sigma_px,
+                   cv::BORDER_REPLICATE);
   return spread;
 }
 
-cv::Mat1b Expose(const cv::Mat1f& radiance, const cv::Mat1f& vignetting,
+cv::Mat1b Expose(const cv::Mat1f& radiance, const PixelResponse& response,
                  const SensorOptions& options, const NoiseKey& key) {
   static const std::vector<float> normal = NormalTable();
   const std::uint64_t stream = Mix(Mix(key.seed + 0x9e3779b97f4a7c15u) ^
@@ -113,17 +139,20 @@ cv::Mat1b Expose(const cv::Mat1f& radiance, const cv::Mat1f& vignetting,
   const float read_variance = options.noise ? options.read_noise_e * options.read_noise_e : 0;
   const float shot = options.noise ? 1.0f : 0.0f;
 
+  const std::vector<float> nothing(
+      response.dark_e.empty() ? static_cast<std::size_t>(radiance.cols) : 0, 0.0f);
   cv::Mat1b image(radiance.size());
   tbb::parallel_for(0, radiance.rows, [&](int y) {
     const float* light = radiance[y];
-    const float* lens = vignetting[y];
+    const float* gain = response.gain[y];
+    const float* dark = response.dark_e.empty() ? nothing.data() : response.dark_e[y];
     std::uint8_t* grey = image[y];
     const auto row = static_cast<std::uint32_t>(Mix(stream + static_cast<std::uint64_t>(y)));
     for (int x = 0; x < radiance.cols; ++x) {
-      const float mean = light[x] * lens[x] * electrons_per_radiance;
+      const float mean = light[x] * gain[x] * electrons_per_radiance;
       const std::uint32_t random = Mix32(row ^ Mix32(static_cast<std::uint32_t>(x)));
       const float deviate = normal[random >> (32 - kTableBits)];
-      const float electrons = mean + std::sqrt(shot * mean + read_variance) * deviate;
+      const float electrons = mean + dark[x] + std::sqrt(shot * mean + read_variance) * deviate;
       const float value = electrons * grey_per_electron + options.black_level + 0.5f;
       grey[x] = static_cast<std::uint8_t>(std::min(std::max(value, 0.0f), 255.0f));
     }

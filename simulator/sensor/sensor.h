@@ -7,17 +7,22 @@
 
 namespace aisle::sim {
 
-/// A monochrome global-shutter camera in the manner of onsemi's MT9V034 (752 × 480, 6 µm pixels),
+/// A monochrome camera in the manner of onsemi's MT9V034 (752 × 480, 6 µm pixels, global shutter),
 /// the sensor of EuRoC's stereo head. Electrons follow the photon transfer law: the variance of the
-/// signal is its mean plus the read noise's. Figures in the order of that sensor's class (EMVA 1288
-/// measurements of MT9V034 cameras by their makers): full well about 10 000 e-, dark noise about
-/// 20 e- rms, hence a signal-to-noise ratio of 100 in the lights.
+/// signal is its mean plus the read noise's. From the maker's datasheets (MT9V034 Rev. G, MT9V022
+/// Rev. H): array, pixel, analogue gain 1 to 4 in steps of 1/16, linear dynamic range above 55 dB.
+/// They are silent on electrons; full well and read noise are round figures for 6 µm photodiode
+/// pixels of that age whose ratio is the stated range (10000 / 20 = 54 dB), and PRNU and DSNU are
+/// such sensors' usual EMVA 1288 figures: 1 % and half the read noise.
 struct SensorOptions {
   float exposure = 1.0f;         ///< grey level, as a share of white, of radiance 1
   float full_well_e = 10000.0f;  ///< electrons at white at gain 1
   float gain = 1.0f;             ///< analogue: white is reached at full_well_e / gain
   float read_noise_e = 20.0f;    ///< rms, electrons
   float black_level = 2.0f;      ///< grey levels added before rounding
+  float prnu = 0.01f;            ///< rms of the pixels' sensitivity about their mean, a share
+  float dsnu_e = 10.0f;          ///< rms of the pixels' dark signal about their mean, electrons
+  bool fixed_pattern = true;     ///< prnu and dsnu
   float vignetting = 0.25f;      ///< share of the light lost in the farthest corner
   bool noise = true;             ///< shot and read noise
   float blur_px = 0.45f;         ///< standard deviation of the lens's point spread; 0: none
@@ -39,12 +44,23 @@ struct NoiseKey {
 cv::Mat1f VignettingMap(int width, int height, const std::vector<float>& ray_x,
                         const std::vector<float>& ray_y, float vignetting);
 
+/// What each pixel of one camera makes of its light, in every frame alike.
+struct PixelResponse {
+  cv::Mat1f gain;    ///< fall-off of the lens times the pixel's own sensitivity
+  cv::Mat1f dark_e;  ///< electrons without light, about the black level; empty: none
+};
+
+/// Fixed-pattern noise of camera number `camera` on top of the lens's fall-off: normal deviates of
+/// (seed, camera, pixel) alone. Switched off, the response is the fall-off itself.
+PixelResponse MakeResponse(const cv::Mat1f& vignetting, const SensorOptions& options,
+                           std::uint64_t seed, std::uint32_t camera);
+
 /// The image as the lens spreads it: a Gaussian of `sigma_px`; 0 returns it as it is.
 cv::Mat1f SpreadByLens(const cv::Mat1f& radiance, float sigma_px);
 
-/// Linear radiance to 8-bit grey (gamma 1): exposure, vignetting, shot and read noise, rounding.
-/// Parallel over rows; each pixel's noise depends on the key and its place alone.
-cv::Mat1b Expose(const cv::Mat1f& radiance, const cv::Mat1f& vignetting,
+/// Linear radiance to 8-bit grey (gamma 1): exposure, pixel response, shot and read noise,
+/// rounding. Parallel over rows; each pixel's noise depends on the key and its place alone.
+cv::Mat1b Expose(const cv::Mat1f& radiance, const PixelResponse& response,
                  const SensorOptions& options, const NoiseKey& key);
 
 }  // namespace aisle::sim

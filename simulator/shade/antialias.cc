@@ -139,11 +139,10 @@ class Edges {
     const std::size_t i = Index(p);
     if (image_.geometry[i] != 0) return -1;
     const PixelRays& rays = *view_.rays;
-    const auto ray = static_cast<std::size_t>(p.y * rays.width + p.x);
-    const Eigen::Vector3f d = view_.rotation * Eigen::Vector3f(rays.x[ray], rays.y[ray], 1);
-    const Eigen::Vector3f step =
-        view_.rotation * Eigen::Vector3f(static_cast<float>(q.x - p.x) * rays.step_x,
-                                         static_cast<float>(q.y - p.y) * rays.step_y, 0);
+    const Eigen::Vector2f here_xy = rays.At(p.x, p.y), there_xy = rays.At(q.x, q.y);
+    const Eigen::Vector3f d = view_.rotation * here_xy.homogeneous();
+    const Eigen::Vector2f turn = there_xy - here_xy;
+    const Eigen::Vector3f step = view_.rotation * Eigen::Vector3f(turn.x(), turn.y(), 0);
     const auto& [ia, ib, ic] = mesh_.triangles[image_.primitive[i]];
     const Eigen::Vector3f a = mesh_.positions[ia] - view_.origin;
     const Eigen::Vector3f b = mesh_.positions[ib] - view_.origin;
@@ -223,10 +222,10 @@ Rays8 SampleRays(const EyeView& view, std::span<const PixelAt> pixels) {
   Rays8 packet;
   for (std::size_t k = 0; k < kLanes; ++k) {
     const PixelAt pixel = pixels[std::min(k / kSamples, pixels.size() - 1)];
-    const auto i = static_cast<std::size_t>(pixel.y * rays.width + pixel.x);
     const auto& [ox, oy] = kOffsets[k % kSamples];
-    const Eigen::Vector3f d = view.rotation * Eigen::Vector3f(rays.x[i] + ox * rays.step_x,
-                                                              rays.y[i] + oy * rays.step_y, 1);
+    const PixelRays::Step step = rays.StepAt(pixel.x, pixel.y);
+    const Eigen::Vector2f ray = rays.At(pixel.x, pixel.y) + ox * step.right + oy * step.down;
+    const Eigen::Vector3f d = view.rotation * ray.homogeneous();
     packet.ox[k] = view.origin.x();
     packet.oy[k] = view.origin.y();
     packet.oz[k] = view.origin.z();

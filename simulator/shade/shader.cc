@@ -20,8 +20,12 @@ void LookUpImage(const SurfaceTables& tables, const FrameLight& frame, const Tex
   reflectance->resize(image.t.size());
   irradiance->resize(image.t.size());
   const PixelRays& rays = *view.rays;
-  const RayStep step{view.rotation.col(0) * rays.step_x, view.rotation.col(1) * rays.step_y};
   const Eigen::Matrix3f& r = view.rotation;
+  const auto step_at = [&](int x, int y) {
+    const PixelRays::Step step = rays.StepAt(x, y);
+    return RayStep{r.leftCols<2>() * step.right, r.leftCols<2>() * step.down};
+  };
+  const RayStep everywhere = step_at(0, 0);
   tbb::parallel_for(0, image.height, [&](int y) {
     for (int x = 0; x < image.width; x += kLanes) {
       const std::size_t i = image.Index(x, y);
@@ -35,8 +39,9 @@ void LookUpImage(const SurfaceTables& tables, const FrameLight& frame, const Tex
                           r(1, 0) * cx + r(1, 1) * cy + r(1, 2),
                           r(2, 0) * cx + r(2, 1) * cy + r(2, 2),
                           I8{}};
-      const SurfaceLanes seen = LookUpHits(tables, frame, textures, LoadI(&image.geometry[i]),
-                                           LoadI(&image.primitive[i]), hits, step);
+      const SurfaceLanes seen =
+          LookUpHits(tables, frame, textures, LoadI(&image.geometry[i]), LoadI(&image.primitive[i]),
+                     hits, rays.straight ? everywhere : step_at(x, y));
       Store(seen.reflectance, &(*reflectance)[i]);
       Store(seen.irradiance, &(*irradiance)[i]);
     }

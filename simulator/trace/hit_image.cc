@@ -103,14 +103,16 @@ Rays8 PixelPacket(const EyeView& view, int x, int y) {
 GeometryMask GeometriesInWindow(const Instant& instant, const EyeView& view, int x0, int y0, int x1,
                                 int y1) {
   // A box can show in the window only if no side plane of the window's pyramid has all of it
-  // outside. The planes come from the window's corner rays, widened by one pixel.
+  // outside. The planes enclose the rays of the window's border (of its corners, for a pinhole),
+  // widened by one pixel.
   const PixelRays& rays = *view.rays;
   Eigen::AlignedBox2f window;
   for (const int y : {y0, y1 - 1}) {
-    for (const int x : {x0, x1 - 1}) {
-      const auto i = static_cast<std::size_t>(y * rays.width + x);
-      window.extend(Eigen::Vector2f(rays.x[i], rays.y[i]));
-    }
+    for (const int x : {x0, x1 - 1}) window.extend(rays.At(x, y));
+  }
+  if (!rays.straight) {
+    for (int x = x0; x < x1; ++x) window.extend(rays.At(x, y0)).extend(rays.At(x, y1 - 1));
+    for (int y = y0; y < y1; ++y) window.extend(rays.At(x0, y)).extend(rays.At(x1 - 1, y));
   }
   const Eigen::Vector2f lo = window.min() - Eigen::Vector2f(rays.step_x, rays.step_y);
   const Eigen::Vector2f hi = window.max() + Eigen::Vector2f(rays.step_x, rays.step_y);

@@ -18,6 +18,11 @@ Eigen::Vector3d PointAt(const EyeView& view, const HitImage& hits, int x, int y)
   return view.T_world_eye * Eigen::Vector3d(t * view.rays->x[ray], t * view.rays->y[ray], t);
 }
 
+bool InImage(const StereoCamera& camera, const Eigen::Vector2d& pixel) {
+  return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < camera.width - 0.5 &&
+         pixel.y() < camera.height - 0.5;
+}
+
 /// Where the surface point of a hit is on the mover's mesh as posed in `snapshot`.
 Eigen::Vector3d FollowOnMover(const World& world, const HitImage& hits, std::size_t i,
                               const Snapshot& snapshot) {
@@ -89,7 +94,9 @@ Correspondence FindCorrespondence(const World& world, const Instant& instant,
   Correspondence result{cv::Mat1f(size, 0.0f), cv::Mat1b(size, std::uint8_t{255}),
                         cv::Mat2f(size, cv::Vec2f(kNan, kNan)),
                         cv::Mat3f(size, cv::Vec3f(0, 0, 0))};
-  const Eigen::Vector3d right_eye = EyePose(camera, left.T_world_eye, Eye::kRight).translation();
+  const Eigen::Isometry3d T_world_right = EyePose(camera, left.T_world_eye, Eye::kRight);
+  const Eigen::Isometry3d T_right_world = T_world_right.inverse();
+  const Eigen::Vector3d right_eye = T_world_right.translation();
   const Eigen::Isometry3d T_next_world = T_world_rig_next.inverse();
   tbb::parallel_for(0, hits.height, [&](int y) {
     for (int x0 = 0; x0 < hits.width; x0 += kLanes) {
@@ -101,9 +108,8 @@ Correspondence FindCorrespondence(const World& world, const Instant& instant,
         if (hits.geometry[i] == kNoGeometry) continue;
         const Eigen::Vector3d point = PointAt(left, hits, x, y);
         points[static_cast<std::size_t>(k)] = point;
-        const double disparity = camera.fx * camera.baseline_m / hits.t[i];
-        result.disparity(y, x) = static_cast<float>(disparity);
-        if (x - disparity >= -0.5) valid |= 1u << k;
+        result.disparity(y, x) = static_cast<float>(camera.fx * camera.baseline_m / hits.t[i]);
+        if (InImage(camera, Project(camera, T_right_world * point))) valid |= 1u << k;
         // The way from now to next is the mesh's; the hit itself stays where the ray found it.
         const Eigen::Vector3d way =
             hits.geometry[i] == 0
@@ -114,9 +120,9 @@ Correspondence FindCorrespondence(const World& world, const Instant& instant,
         result.scene_flow(y, x) = cv::Vec3f(
             static_cast<float>(way.x()), static_cast<float>(way.y()), static_cast<float>(way.z()));
         if (then.z() < kNear) continue;
+        const Eigen::Vector2d lands = Project(camera, then);
         result.flow(y, x) =
-            cv::Vec2f(static_cast<float>(camera.fx * then.x() / then.z() + camera.cx - x),
-                      static_cast<float>(camera.fy * then.y() / then.z() + camera.cy - y));
+            cv::Vec2f(static_cast<float>(lands.x() - x), static_cast<float>(lands.y() - y));
       }
       const unsigned hidden = Hidden(instant, points, right_eye, valid);
       for (int k = 0; k < kLanes && x0 + k < hits.width; ++k) {
@@ -144,14 +150,19 @@ cv::Mat1f DepthInNextEye(const EyeView& left, const HitImage& hits,
   return depth;
 }
 
-WarpCheck CheckStereo(const StereoCamera& camera, const cv::Mat1f& depth_left,
-                      const cv::Mat1f& depth_right, const Correspondence& correspondence) {
+WarpCheck CheckStereo(const StereoCamera& camera, const PixelRays& rays,
+                      const cv::Mat1f& depth_left, const cv::Mat1f& depth_right,
+                      const Correspondence& correspondence) {
   std::vector<double> errors;
   for (int y = 0; y + 1 < depth_left.rows; ++y) {
     for (int x = 0; x < depth_left.cols; ++x) {
       if (correspondence.occluded(y, x)) continue;
       const double disparity = correspondence.disparity(y, x);
-      const double inverse = InverseDepthAt(depth_right, x - disparity, y);
+      const double z = depth_left(y, x);
+      const Eigen::Vector2d ray = rays.At(x, y).cast<double>();
+      const Eigen::Vector2d lands =
+          Project(camera, {z * ray.x() - camera.baseline_m, z * ray.y(), z});
+      const double inverse = InverseDepthAt(depth_right, lands.x(), lands.y());
       if (inverse <= 0) continue;
       errors.push_back(std::abs(camera.fx * camera.baseline_m * inverse - disparity));
     }

@@ -11,11 +11,12 @@ namespace aisle::sim {
 
 /// Where each left pixel's surface point appears in another picture.
 struct Correspondence {
-  cv::Mat1f disparity;   ///< left u - right u, pixels; 0 where nothing was hit
-  cv::Mat1b occluded;    ///< 255 where something hides the point from the right eye, or it lies
-                         ///< outside the right image, or nothing was hit
-  cv::Mat2f flow;        ///< displacement to the next frame's left image, pixels; NaN where the
-                         ///< point is not in front of the camera then, or nothing was hit
+  cv::Mat1f disparity;  ///< fx · baseline / z: left u - right u of a pinhole pair, pixels; 0 where
+                        ///< nothing was hit
+  cv::Mat1b occluded;   ///< 255 where something hides the point from the right eye, or it lies
+                        ///< outside the right image, or nothing was hit
+  cv::Mat2f flow;       ///< displacement to the next frame's left image, pixels; NaN where the
+                        ///< point is not in front of the camera then, or nothing was hit
   cv::Mat3f scene_flow;  ///< displacement of the surface point itself until then, metres, world
 };
 
@@ -35,8 +36,9 @@ struct WarpCheck {
 
 /// Left against right: the disparity of a left pixel, against the one that the right image's own
 /// depth gives where it lands.
-WarpCheck CheckStereo(const StereoCamera& camera, const cv::Mat1f& depth_left,
-                      const cv::Mat1f& depth_right, const Correspondence& correspondence);
+WarpCheck CheckStereo(const StereoCamera& camera, const PixelRays& rays,
+                      const cv::Mat1f& depth_left, const cv::Mat1f& depth_right,
+                      const Correspondence& correspondence);
 
 /// Frame against next frame: the depth that a point has then, against the next image's own depth
 /// where the flow lands. `z_next` comes with the flow: the point's depth in the next left eye.

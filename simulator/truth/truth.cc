@@ -4,16 +4,10 @@
 
 #include <map>
 
+#include "simulator/truth/surface_velocity.h"
+
 namespace aisle::sim {
 namespace {
-
-float SurfaceSpeed(const TriangleMesh& mesh, const MoverState& mover, const HitImage& image,
-                   std::size_t i) {
-  const auto& [a, b, c] = mesh.triangles[image.primitive[i]];
-  const float u = image.u[i], v = image.v[i];
-  return ((1 - u - v) * mover.velocities[a] + u * mover.velocities[b] + v * mover.velocities[c])
-      .norm();
-}
 
 /// The parts of one instance (a vehicle may be several meshes).
 struct Group {
@@ -49,14 +43,11 @@ cv::Rect WindowOf(const Snapshot& snapshot, const Group& group, const EyeView& v
   if (!ahead) return {};
   const cv::Rect all(0, 0, rays.width, rays.height);
   if (behind) return all;
-  const auto pixel = [](double ray, double first, double step) {
-    return std::clamp((ray - first) / step, -1e6, 1e6);
-  };
-  const int x0 = static_cast<int>(std::floor(pixel(box.min().x(), rays.x[0], rays.step_x))) - 1;
-  const int x1 = static_cast<int>(std::ceil(pixel(box.max().x(), rays.x[0], rays.step_x))) + 2;
-  const int y0 = static_cast<int>(std::floor(pixel(box.min().y(), rays.y[0], rays.step_y))) - 1;
-  const int y1 = static_cast<int>(std::ceil(pixel(box.max().y(), rays.y[0], rays.step_y))) + 2;
-  return cv::Rect(x0, y0, x1 - x0, y1 - y0) & all;
+  const Eigen::Vector2d margin(rays.step_x, rays.step_y);
+  const PixelWindow window = WindowOfRays(rays, box.min() - margin, box.max() + margin);
+  return cv::Rect(cv::Point(window.x0, window.y0),
+                  cv::Point(std::max(window.x0, window.x1), std::max(window.y0, window.y1))) &
+         all;
 }
 
 /// A growing set of pixels: its enclosing rectangle and its count.
@@ -141,9 +132,8 @@ EyeTruth LabelHits(const World& world, const Instant& instant, const HitImage& i
       if (geometry == 0) {
         instance = world.statics().instances[image.primitive[i]];
       } else if (geometry != kNoGeometry) {
-        const MoverState& mover = movers[geometry - 1];
-        instance = mover.instance;
-        dynamic = SurfaceSpeed(world.mover_meshes()[geometry - 1], mover, image, i) > threshold_mps;
+        instance = movers[geometry - 1].instance;
+        dynamic = SurfaceVelocity(world, instant.snapshot(), image, i).norm() > threshold_mps;
       }
       truth.depth(y, x) = image.t[i];
       truth.instance(y, x) = instance;

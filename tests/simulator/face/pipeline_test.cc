@@ -35,6 +35,8 @@ void ExpectSame(const RenderedFrame& a, const RenderedFrame& b) {
   EXPECT_TRUE(SameBytes(a.truth.instance, b.truth.instance));
   EXPECT_TRUE(SameBytes(a.truth.dynamic, b.truth.dynamic));
   EXPECT_TRUE(SameBytes(a.truth.dynamic_right, b.truth.dynamic_right));
+  EXPECT_TRUE(SameBytes(a.truth.depth_right, b.truth.depth_right));
+  EXPECT_TRUE(SameBytes(a.truth.instance_right, b.truth.instance_right));
 }
 
 const Eigen::Isometry3d kPose = test::LookAlong({1.5, 0, 1.2}, 0.02);
@@ -77,6 +79,113 @@ TEST(Pipeline, TruthProvesItselfByRasteriserAndWarps) {
   EXPECT_GT(report.raster_compared, 300'000);
   EXPECT_GT(report.stereo_compared, 200'000);
   EXPECT_GT(report.flow_compared, 200'000);
+}
+
+/// The small hall with a rig that drives at 4 m/s and a camera with 20 ms of exposure.
+WorldParts FastHall() {
+  WorldParts parts = test::Hall({.boxes = 200});
+  parts.rig = [](std::int64_t stamp_ns) {
+    const double t = 1e-9 * static_cast<double>(stamp_ns);
+    return test::LookAlong({1.5 + 4 * (t - 2), 0, 1.2}, 0.02 + 1.5 * (t - 2));
+  };
+  return parts;
+}
+
+PipelineOptions NoiselessOptions() {
+  PipelineOptions options = QuickOptions();
+  options.sensor.noise = options.sensor.fixed_pattern = false;
+  options.exposure_ms = 20;
+  return options;
+}
+
+double MeanDifference(const cv::Mat1b& a, const cv::Mat1b& b) {
+  return cv::norm(a, b, cv::NORM_L1) / static_cast<double>(a.total());
+}
+
+TEST(Shutter, BlurIsTheMeanOfManyInstants) {
+  PipelineOptions options = NoiselessOptions();
+  options.sensor.blur_px = 0;
+  options.shutter.motion_blur = true;
+  const Pipeline blurred(World(FastHall()), {}, options);
+  const Eigen::Isometry3d pose = blurred.world().PlannedRigPose(2 * kSecond);
+  const cv::Mat1b picture = blurred.Render(0, 2 * kSecond, pose).left;
+  // The reference: 48 instants that know nothing of plans and weights.
+  cv::Mat1f sum(picture.size(), 0.0f);
+  constexpr int kInstants = 48;
+  for (int i = 0; i < kInstants; ++i) {
+    const std::int64_t at = 2 * kSecond + (2 * i + 1 - kInstants) * (10'000'000 / kInstants);
+    sum += blurred.RenderRadiance(at, blurred.world().PlannedRigPose(at))[0];
+  }
+  const PixelResponse plain{VignettingMap(picture.cols, picture.rows, MakePixelRays({}).x,
+                                          MakePixelRays({}).y, options.sensor.vignetting),
+                            {}};
+  const cv::Mat1b reference = Expose(cv::Mat1f(sum / kInstants), plain, options.sensor, {});
+  options.shutter.motion_blur = false;
+  const cv::Mat1b sharp =
+      Pipeline(World(FastHall()), {}, options).Render(0, 2 * kSecond, pose).left;
+  EXPECT_LT(MeanDifference(picture, reference), 0.15 * MeanDifference(sharp, reference));
+}
+
+TEST(Shutter, OpenItChangesNoTruth) {
+  PipelineOptions options = NoiselessOptions();
+  const Pipeline closed(World(FastHall()), {}, options);
+  options.shutter = {.motion_blur = true, .readout_ms = 10};
+  const Pipeline open(World(FastHall()), {}, options);
+  const Eigen::Isometry3d pose = open.world().PlannedRigPose(2 * kSecond);
+  const RenderedFrame a = closed.Render(0, 2 * kSecond, pose),
+                      b = open.Render(0, 2 * kSecond, pose);
+  EXPECT_FALSE(SameBytes(a.left, b.left));
+  EXPECT_TRUE(SameBytes(a.truth.depth, b.truth.depth));
+  EXPECT_TRUE(SameBytes(a.truth.depth_right, b.truth.depth_right));
+  EXPECT_TRUE(SameBytes(a.truth.dynamic, b.truth.dynamic));
+}
+
+TEST(Shutter, ARollingShuttersRowsAreThePicturesOfTheirTimes) {
+  PipelineOptions options = NoiselessOptions();
+  const Pipeline still(World(FastHall()), {}, options);
+  options.shutter.readout_ms = 20;
+  const Pipeline rolling(World(FastHall()), {}, options);
+  const Eigen::Isometry3d pose = rolling.world().PlannedRigPose(2 * kSecond);
+  const cv::Mat1b picture = rolling.Render(0, 2 * kSecond, pose).left;
+  for (const int row : {20, 130, 240, 350, 460}) {
+    const std::int64_t at = 2 * kSecond + std::llround(20e6 * ((row + 0.5) / picture.rows - 0.5));
+    const cv::Mat1b then = still.Render(0, at, still.world().PlannedRigPose(at)).left;
+    const cv::Mat1b now = still.Render(0, 2 * kSecond, pose).left;
+    const double own = MeanDifference(picture.row(row), then.row(row));
+    if (row != 240) {
+      EXPECT_LT(own, 0.4 * MeanDifference(picture.row(row), now.row(row))) << row;
+    }
+    EXPECT_LT(own, 2) << row;
+  }
+}
+
+TEST(Shutter, AtRestItCostsAndChangesNothing) {
+  PipelineOptions options = NoiselessOptions();
+  WorldParts parts = test::Hall({.boxes = 200, .movers = false});
+  const RenderedFrame closed = Pipeline(World(parts), {}, options).Render(0, 0, kPose);
+  options.shutter = {.motion_blur = true, .readout_ms = 10};
+  const RenderedFrame open = Pipeline(World(parts), {}, options).Render(0, 0, kPose);
+  EXPECT_TRUE(SameBytes(closed.left, open.left));
+}
+
+TEST(AutoExposure, TheFramesMeanIsTheTargetWhateverTheLight) {
+  for (const float exposure : {0.5f, 20.0f}) {
+    PipelineOptions options = QuickOptions();
+    options.sensor.exposure = exposure;
+    options.auto_exposure = {.on = true, .target_grey = 110, .longest_ms = 200};
+    const RenderedFrame frame = SmallHall(options).Render(0, 2 * kSecond, kPose);
+    EXPECT_NEAR(cv::mean(frame.left)[0], 110, 5);
+  }
+}
+
+TEST(Lens, TruthProvesItselfThroughIt) {
+  StereoCamera camera;
+  camera.lens = {LensModel::kRadialTangential, {-0.28, 0.074, 0.0002, 0.00002}};
+  const VerifyReport report = Pipeline(World(test::Hall({.boxes = 200})), camera, QuickOptions())
+                                  .Verify(2 * kSecond, kPose, 2 * kSecond + kSecond / 20,
+                                          test::LookAlong({1.55, 0, 1.2}, 0.03));
+  EXPECT_EQ(report.failure(), "");
+  EXPECT_GT(report.raster_compared, 200'000);
 }
 
 /// Pictures to look at: AISLE_TEST_PICTURES names a folder. With it come the times of a hall of

@@ -146,6 +146,58 @@ TEST(ImportModel, EveryBadFileGivesOneClearError) {
       testing::HasSubstr("the limit is 1"));
 }
 
+/// The triangle of an OBJ file with a texture.
+constexpr const char* kTexturedObj =
+    "mtllib t.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+    "f 1/1 2/2 3/3\n";
+
+TEST(ImportModel, AMissingTextureIsNamed) {
+  const Scratch scratch;
+  scratch.Write("t.mtl", "newmtl m\nmap_Kd nowhere.png\n");
+  EXPECT_THAT(ErrorOf(scratch.Write("t.obj", kTexturedObj)), testing::HasSubstr("nowhere.png"));
+}
+
+TEST(ImportModel, ACorruptOrHugeTextureIsNamed) {
+  const Scratch scratch;
+  scratch.Write("t.mtl", "newmtl m\nmap_Kd t.png\n");
+  const fs::path model = scratch.Write("t.obj", kTexturedObj);
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".png", cv::Mat1b(20, 30, std::uint8_t{9}), bytes);
+  std::string png(bytes.begin(), bytes.end());
+  scratch.Write("t.png", png);
+  EXPECT_EQ(ErrorOf(model), "");
+  scratch.Write("t.png", "no picture at all, but long enough for a header");
+  EXPECT_THAT(ErrorOf(model), testing::HasSubstr("neither PNG nor JPEG"));
+  png[18] = 20000 >> 8;  // the width, as its header claims
+  png[19] = 20000 & 255;
+  scratch.Write("t.png", png);
+  EXPECT_THAT(ErrorOf(model), testing::HasSubstr("20000x20 pixels, the limit is 8192"));
+}
+
+TEST(ImportModel, AnIndexOutOfRangeIsAnError) {
+  const Scratch scratch;
+  EXPECT_NE(ErrorOf(scratch.Write("i.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n")), "");
+}
+
+TEST(ImportModel, NodesMustFormATree) {
+  const Scratch scratch;
+  const auto with_nodes = [&](const std::string& nodes) {
+    return ErrorOf(scratch.Write("n.gltf",
+                                 "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,"
+                                 "\"scenes\":[{\"nodes\":[0]}],\"nodes\":[" +
+                                     nodes + "]}"));
+  };
+  EXPECT_THAT(with_nodes(R"({"children":[1]},{"children":[0]})"),
+              testing::HasSubstr("hangs below itself"));
+  EXPECT_THAT(with_nodes(R"({"children":[0]})"), testing::HasSubstr("hangs below itself"));
+  EXPECT_THAT(with_nodes(R"({"children":[7]})"), testing::HasSubstr("does not exist"));
+  EXPECT_THAT(with_nodes(R"({"children":[2]},{"children":[2]},{})"),
+              testing::HasSubstr("child of node 0 and of node 1"));
+  std::string chain;
+  for (int i = 1; i < 2000; ++i) chain += fmt::format("{{\"children\":[{}]}},", i);
+  EXPECT_THAT(with_nodes(chain + "{}"), testing::HasSubstr("one below another"));
+}
+
 TEST(ImportModel, ATruncatedModelNeverCrashes) {
   SKIP_WITHOUT_MODELS();
   std::ifstream stream(kModels / "Fox.glb", std::ios::binary);

@@ -30,6 +30,28 @@ TEST(Raster, AgreesWithTheRayTracerAwayFromSilhouettes) {
   }
 }
 
+TEST(Raster, AgreesThroughALens) {
+  const World world(test::Hall({.boxes = 400}));
+  const Tracer tracer(world, {});
+  const Eigen::Isometry3d pose = test::LookAlong({1.5, 0.2, 1.3}, 0.1);
+  const Snapshot snapshot = world.At(1'500'000'000);
+  const Instant instant = tracer.Pose(snapshot);
+  for (const Lens& lens : {Lens{LensModel::kRadialTangential, {-0.28, 0.074, 0.0002, 0.00002}},
+                           Lens{LensModel::kEquidistant, {-0.01, 0.02, -0.01, 0.002}}}) {
+    StereoCamera camera;
+    camera.lens = lens;
+    const PixelRays rays = MakePixelRays(camera);
+    std::vector<HitImage> hits;
+    const std::array views = {EyeView(rays, pose)};
+    TraceViews(instant, views, {}, &hits);
+    const EyeTruth truth = LabelHits(world, instant, hits[0], 0.05f);
+    const Agreement agreement =
+        Compare(RasterizeThroughLens(world, snapshot, rays, pose), truth.depth, truth.instance);
+    EXPECT_GT(agreement.compared, camera.width * camera.height / 3);
+    EXPECT_GE(agreement.share(), 0.999);
+  }
+}
+
 TEST(Raster, AShiftOfHalfAPixelWouldBeSeen) {
   const World world(test::Hall({.boxes = 400}));
   StereoCamera camera;

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <opencv2/imgproc.hpp>
+
 namespace aisle::sim {
 namespace {
 
@@ -14,12 +16,12 @@ Moments MomentsOf(const cv::Mat1b& image) {
   return {mean[0], deviation[0] * deviation[0]};
 }
 
-const cv::Mat1f kNoVignetting(480, 752, 1.0f);
+const PixelResponse kPlain{cv::Mat1f(480, 752, 1.0f), {}};
 
 TEST(Expose, WithoutNoiseGreyIsLinearInRadiance) {
   SensorOptions options{.exposure = 0.5f, .black_level = 0, .noise = false};
   for (const float radiance : {0.0f, 0.25f, 1.0f, 1.9f, 5.0f}) {
-    const cv::Mat1b grey = Expose(cv::Mat1f(480, 752, radiance), kNoVignetting, options, {});
+    const cv::Mat1b grey = Expose(cv::Mat1f(480, 752, radiance), kPlain, options, {});
     EXPECT_NEAR(grey(100, 100), std::min(255.0, 255 * 0.5 * radiance), 0.51);
   }
 }
@@ -30,7 +32,7 @@ TEST(Expose, NoiseFollowsThePhotonTransferLaw) {
   const double e_per_grey = options.full_well_e / 255;
   for (const float radiance : {0.1f, 0.3f, 0.7f}) {
     const Moments moments =
-        MomentsOf(Expose(cv::Mat1f(480, 752, radiance), kNoVignetting, options, {5, 1, 0}));
+        MomentsOf(Expose(cv::Mat1f(480, 752, radiance), kPlain, options, {5, 1, 0}));
     const double mean_e = radiance * options.full_well_e;
     const double expected = (mean_e + 400) / (e_per_grey * e_per_grey) + 1.0 / 12;
     EXPECT_NEAR(moments.mean, 255 * radiance + options.black_level, 0.05);
@@ -40,7 +42,7 @@ TEST(Expose, NoiseFollowsThePhotonTransferLaw) {
 
 TEST(Expose, NoiseDependsOnTheKeyAndOnNothingElse) {
   const cv::Mat1f grey(480, 752, 0.4f);
-  const auto picture = [&](const NoiseKey& key) { return Expose(grey, kNoVignetting, {}, key); };
+  const auto picture = [&](const NoiseKey& key) { return Expose(grey, kPlain, {}, key); };
   const auto differing = [](const cv::Mat1b& a, const cv::Mat1b& b) {
     return cv::countNonZero(a != b);
   };
@@ -53,7 +55,7 @@ TEST(Expose, NoiseDependsOnTheKeyAndOnNothingElse) {
 
 TEST(Expose, NeighbouringPixelsAreUncorrelated) {
   cv::Mat1f image;
-  Expose(cv::Mat1f(480, 752, 0.4f), kNoVignetting, {}, {1, 0, 0}).convertTo(image, CV_32F);
+  Expose(cv::Mat1f(480, 752, 0.4f), kPlain, {}, {1, 0, 0}).convertTo(image, CV_32F);
   image -= cv::mean(image)[0];
   const double variance = image.dot(image);
   for (const cv::Point step : {cv::Point(1, 0), cv::Point(0, 1), cv::Point(1, 1)}) {
@@ -68,6 +70,60 @@ TEST(SpreadByLens, KeepsTheLightOfAPoint) {
   const cv::Mat1f spread = SpreadByLens(point, 0.6f);
   EXPECT_NEAR(cv::sum(spread)[0], 1, 1e-5);
   EXPECT_LT(spread(10, 10), 0.7f);
+}
+
+TEST(SpreadByLens, AWidePointHasItsDeviation) {
+  cv::Mat1f point(61, 61, 0.0f);
+  point(30, 30) = 1;
+  const cv::Mat1f spread = SpreadByLens(point, 2.5f);
+  double variance = 0;
+  for (int x = 0; x < 61; ++x) {
+    variance += cv::sum(spread.col(x))[0] * (x - 30) * (x - 30);
+  }
+  EXPECT_NEAR(std::sqrt(variance), 2.5, 0.02);
+}
+
+TEST(MakeResponse, DeviatesAsStatedAndByCameraAndPixelAlone) {
+  const cv::Mat1f fall_off(480, 752, 0.8f);
+  const SensorOptions options{.prnu = 0.01f, .dsnu_e = 10};
+  const PixelResponse left = MakeResponse(fall_off, options, 7, 0);
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(left.gain, mean, deviation);
+  EXPECT_NEAR(mean[0], 0.8, 1e-4);
+  EXPECT_NEAR(deviation[0], 0.008, 1e-4);
+  cv::meanStdDev(left.dark_e, mean, deviation);
+  EXPECT_NEAR(mean[0], 0, 0.1);
+  EXPECT_NEAR(deviation[0], 10, 0.1);
+  const auto same = [](const cv::Mat1f& a, const cv::Mat1f& b) {
+    return cv::norm(a, b, cv::NORM_INF) == 0;
+  };
+  EXPECT_TRUE(same(left.gain, MakeResponse(fall_off, options, 7, 0).gain));
+  EXPECT_FALSE(same(left.gain, MakeResponse(fall_off, options, 7, 1).gain));
+  EXPECT_FALSE(same(left.gain, MakeResponse(fall_off, options, 8, 0).gain));
+}
+
+TEST(MakeResponse, ThePatternStaysWhileTheNoiseChanges) {
+  // Averaging frames leaves the fixed pattern, by the photon transfer law.
+  SensorOptions options{.exposure = 1, .prnu = 0.03f, .dsnu_e = 0};
+  const PixelResponse response = MakeResponse(cv::Mat1f(480, 752, 1.0f), options, 1, 0);
+  cv::Mat1f sum(480, 752, 0.0f);
+  constexpr int kFrames = 16;
+  for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
+    cv::accumulate(Expose(cv::Mat1f(480, 752, 0.5f), response, options, {1, frame, 0}), sum);
+  }
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(cv::Mat1f(sum / kFrames), mean, deviation);
+  const double e_per_grey = options.full_well_e / 255;
+  const double temporal = (5000 + 400) / (e_per_grey * e_per_grey) / kFrames;
+  const double pattern = std::pow(0.03 * 0.5 * 255, 2);
+  EXPECT_NEAR(deviation[0] * deviation[0], temporal + pattern, 0.03 * (temporal + pattern));
+}
+
+TEST(MakeResponse, SwitchedOffItIsTheLens) {
+  const cv::Mat1f fall_off(480, 752, 0.8f);
+  const PixelResponse response = MakeResponse(fall_off, {.fixed_pattern = false}, 7, 0);
+  EXPECT_EQ(response.gain.data, fall_off.data);
+  EXPECT_TRUE(response.dark_e.empty());
 }
 
 TEST(SensorOptions, ValidateNamesTheBrokenRule) {

@@ -12,16 +12,19 @@ constexpr std::int64_t kFrame = 50'000'000;
 
 struct Pictures {
   StereoCamera camera;
+  PixelRays rays;
   cv::Mat1f depth_left, depth_right, depth_next, z_next;
   Correspondence found;
   EyeTruth truth;
 };
 
-Pictures Take(std::int64_t stamp_ns) {
+Pictures Take(std::int64_t stamp_ns, const Lens& lens = {}) {
   const World world(test::Hall({.boxes = 200}));
   const Tracer tracer(world, {});
   Pictures p;
-  const PixelRays rays = MakePixelRays(p.camera);
+  p.camera.lens = lens;
+  p.rays = MakePixelRays(p.camera);
+  const PixelRays& rays = p.rays;
   const Eigen::Isometry3d rig = test::LookAlong({2, 0.1, 1.2}, 0.03);
   const Eigen::Isometry3d rig_next = test::LookAlong({2.06, 0.1, 1.2}, 0.04);
   const Instant now = tracer.Pose(world.At(stamp_ns)),
@@ -42,7 +45,7 @@ Pictures Take(std::int64_t stamp_ns) {
 
 TEST(Correspondence, WarpsAgreeInGeometry) {
   const Pictures p = Take(2'000'000'000);
-  const WarpCheck stereo = CheckStereo(p.camera, p.depth_left, p.depth_right, p.found);
+  const WarpCheck stereo = CheckStereo(p.camera, p.rays, p.depth_left, p.depth_right, p.found);
   EXPECT_GT(stereo.compared, 200'000);
   EXPECT_LE(stereo.median_px, 0.05);
   EXPECT_LE(stereo.p95_px, 0.05);
@@ -52,10 +55,23 @@ TEST(Correspondence, WarpsAgreeInGeometry) {
   EXPECT_LE(flow.p95_px, 0.05);
 }
 
+TEST(Correspondence, WarpsAgreeThroughALens) {
+  for (const Lens& lens : {Lens{LensModel::kRadialTangential, {-0.28, 0.074, 0.0002, 0.00002}},
+                           Lens{LensModel::kEquidistant, {-0.01, 0.02, -0.01, 0.002}}}) {
+    const Pictures p = Take(2'000'000'000, lens);
+    const WarpCheck stereo = CheckStereo(p.camera, p.rays, p.depth_left, p.depth_right, p.found);
+    EXPECT_GT(stereo.compared, 200'000);
+    EXPECT_LE(stereo.median_px, 0.05);
+    const WarpCheck flow = CheckFlow(p.camera, p.z_next, p.depth_next, p.found.flow);
+    EXPECT_GT(flow.compared, 200'000);
+    EXPECT_LE(flow.median_px, 0.05);
+  }
+}
+
 TEST(Correspondence, AWrongBaselineWouldBeSeen) {
   Pictures p = Take(2'000'000'000);
   p.found.disparity *= 1.05;
-  EXPECT_GT(CheckStereo(p.camera, p.depth_left, p.depth_right, p.found).median_px, 0.05);
+  EXPECT_GT(CheckStereo(p.camera, p.rays, p.depth_left, p.depth_right, p.found).median_px, 0.05);
 }
 
 TEST(Correspondence, SceneFlowIsTheMoversWayAndNothingElse) {

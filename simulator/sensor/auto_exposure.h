@@ -1,0 +1,37 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+
+namespace aisle::sim {
+
+/// Exposure control in the manner of the MT9V034's own (AEC and AGC): it steers the mean grey of
+/// the picture, by the exposure time first, and by the gain only when the time has reached its
+/// limit.
+struct AutoExposureOptions {
+  bool on = false;
+  float target_grey = 110;   ///< mean of the 8-bit picture it aims at
+  float white_share = 0.05f;  ///< but at most this share of the picture may be white
+  double shortest_ms = 0.1;  ///< exposure time
+  double longest_ms = 12;    ///< exposure time
+  float highest_gain = 4;    ///< the sensor's analogue gain goes from 1 to 4 in steps of 1/16
+
+  /// The first rule broken, with name, value and bound; empty if none is.
+  std::string Validate() const;
+};
+
+struct ExposureSetting {
+  double time_ms = 8;
+  float gain = 1;
+};
+
+/// The setting under which `light` has the target mean, or a lower one where more than the allowed
+/// share would be white. `light` is a coarse picture of the view
+/// that is being taken, radiance after the lens's fall-off; `white_per_ms` the share of white that
+/// radiance 1 gives after 1 ms at gain 1. Values above white count as white, as they do in the
+/// picture, so a lamp in view does not darken the hall. Pure: it remembers no earlier frame, so a
+/// frame alone has the exposure that it has in a sequence; the control has no lag.
+ExposureSetting ChooseExposure(const cv::Mat1f& light, double white_per_ms,
+                               const AutoExposureOptions& options);
+
+}  // namespace aisle::sim

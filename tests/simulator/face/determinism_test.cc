@@ -1,0 +1,114 @@
+// One hash for a frame, however it is made: any number of threads, tiles in any order, alone or in
+// sequence, in this process or in a fresh one. Embree's instruction set is pinned, because the last
+// bits of a depth differ between sets.
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "simulator/pipeline.h"
+#include "tests/simulator/test_world.h"
+
+namespace aisle::sim {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr int kFrame = 3;
+constexpr const char* kIsa = "avx2";
+constexpr const char* kProbe = "AISLE_DETERMINISM_PROBE";
+
+/// Everything on that could remember, race or depend on the order.
+PipelineOptions Everything() {
+  PipelineOptions options;
+  options.tracer.isa = options.shade.statics.isa = kIsa;
+  options.shade.statics.texel_m = 0.15f;
+  options.shade.statics.coarse_texel_m = 1.0f;
+  options.shade.statics.directions = 32;
+  options.sensor.exposure = 5.0f;
+  options.shutter = {.motion_blur = true, .readout_ms = 10};
+  options.auto_exposure.on = true;
+  return options;
+}
+
+WorldParts MovingHall() {
+  WorldParts parts = test::Hall({.boxes = 200});
+  parts.rig = [](std::int64_t stamp_ns) {
+    const double t = 1e-9 * static_cast<double>(stamp_ns);
+    return test::LookAlong({1.5 + 0.5 * t, 0, 1.2}, 0.02 + 0.3 * t);
+  };
+  return parts;
+}
+
+RenderedFrame Take(const Pipeline& pipeline, int frame) {
+  const std::int64_t stamp = frame * kSecond / 4;
+  return pipeline.Render(frame, stamp, pipeline.world().PlannedRigPose(stamp));
+}
+
+std::uint64_t HashOf(const RenderedFrame& frame) {
+  XXH3_state_t* state = XXH3_createState();
+  XXH3_64bits_reset(state);
+  const FrameTruth& t = frame.truth;
+  for (const cv::Mat& image : std::initializer_list<cv::Mat>{
+           frame.left, frame.right, t.depth, t.depth_right, t.instance, t.instance_right,
+           t.object_class, t.dynamic, t.dynamic_right, t.actor}) {
+    XXH3_64bits_update(state, image.data, image.total() * image.elemSize());
+  }
+  for (const ObjectTruth& object : t.objects) {
+    const std::array<double, 4> values = {object.box_full.x, object.box_full.width,
+                                          object.center_m.x(), object.visible_fraction};
+    XXH3_64bits_update(state, values.data(), sizeof(values));
+  }
+  XXH3_64bits_update(state, &frame.exposure_ms, sizeof(frame.exposure_ms));
+  const std::uint64_t hash = XXH3_64bits_digest(state);
+  XXH3_freeState(state);
+  return hash;
+}
+
+/// The frame alone, in a pipeline of its own.
+std::uint64_t HashAlone(int threads, std::uint64_t shuffle) {
+  PipelineOptions options = Everything();
+  options.threads = threads;
+  options.tile_shuffle = shuffle;
+  return HashOf(Take(Pipeline(World(MovingHall()), {}, options), kFrame));
+}
+
+TEST(Determinism, Probe) {
+  if (!std::getenv(kProbe)) GTEST_SKIP() << "the fresh process of the next test";
+  fmt::print("hash {:016x}\n", HashAlone(2, 99));
+}
+
+std::uint64_t HashInAFreshProcess() {
+  const std::string self = std::filesystem::read_symlink("/proc/self/exe");
+  const std::string command =
+      fmt::format("{}=1 '{}' --gtest_filter=Determinism.Probe", kProbe, self);
+  FILE* pipe = ::popen(command.c_str(), "r");
+  std::uint64_t hash = 0;
+  std::array<char, 256> line;
+  while (pipe && std::fgets(line.data(), line.size(), pipe)) {
+    const std::string text = line.data();
+    if (text.starts_with("hash ")) hash = std::stoull(text.substr(5), nullptr, 16);
+  }
+  if (pipe) ::pclose(pipe);
+  return hash;
+}
+
+TEST(Determinism, OneHashOverThreadsTileOrderProcessAndHistory) {
+  RecordProperty("isa", kIsa);
+  const std::uint64_t reference = HashAlone(1, 0);
+  fmt::print("isa {}: frame {} is {:016x}\n", kIsa, kFrame, reference);
+  EXPECT_EQ(reference, HashAlone(2, 0));
+  EXPECT_EQ(reference, HashAlone(4, 0));
+  EXPECT_EQ(reference, HashAlone(1, 77));
+  EXPECT_EQ(reference, HashAlone(4, 12345));
+  const Pipeline sequence(World(MovingHall()), {}, Everything());
+  for (int frame = 0; frame < kFrame; ++frame) Take(sequence, frame);
+  EXPECT_EQ(reference, HashOf(Take(sequence, kFrame)));
+  EXPECT_EQ(reference, HashInAFreshProcess());
+}
+
+}  // namespace
+}  // namespace aisle::sim
