@@ -10,11 +10,11 @@ namespace aisle::sim {
 /// limit.
 struct AutoExposureOptions {
   bool on = false;
-  float target_grey = 110;   ///< mean of the 8-bit picture it aims at
+  float target_grey = 110;    ///< mean of the 8-bit picture it aims at
   float white_share = 0.05f;  ///< but at most this share of the picture may be white
-  double shortest_ms = 0.1;  ///< exposure time
-  double longest_ms = 12;    ///< exposure time
-  float highest_gain = 4;    ///< the sensor's analogue gain goes from 1 to 4 in steps of 1/16
+  double shortest_ms = 0.1;   ///< exposure time
+  double longest_ms = 12;     ///< exposure time
+  float highest_gain = 4;     ///< the sensor's analogue gain goes from 1 to 4 in steps of 1/16
 
   /// The first rule broken, with name, value and bound; empty if none is.
   std::string Validate() const;

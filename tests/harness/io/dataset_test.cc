@@ -85,6 +85,7 @@ class DatasetTest : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   void Export(DatasetFormat format, const std::vector<std::string>& truth = {}) {
+    fs::remove_all(folder_);  // a folder is not continued in another format
     ExportOptions options;
     options.format = format;
     options.truth = TruthSelectionFromNames(truth);
@@ -322,7 +323,7 @@ TEST_F(DatasetTest, KilledAnywhereItLeavesWholeFilesAndGoesOn) {
     writer.Finish(requests_, Path);
   };
   int kills = 0;
-  for (useconds_t after_us = 200; !ExportUntilKilled(write, after_us); after_us += 700) {
+  for (useconds_t after_us = 200; !ExportUntilKilled(write, after_us); after_us += 2500) {
     ++kills;
     for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
       const std::string name = entry.path().filename().string();

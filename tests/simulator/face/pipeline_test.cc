@@ -109,9 +109,9 @@ TEST(Shutter, BlurIsTheMeanOfManyInstants) {
   const Pipeline blurred(World(FastHall()), {}, options);
   const Eigen::Isometry3d pose = blurred.world().PlannedRigPose(2 * kSecond);
   const cv::Mat1b picture = blurred.Render(0, 2 * kSecond, pose).left;
-  // The reference: 48 instants that know nothing of plans and weights.
+  // The reference: 24 instants that know nothing of plans and weights.
   cv::Mat1f sum(picture.size(), 0.0f);
-  constexpr int kInstants = 48;
+  constexpr int kInstants = 24;
   for (int i = 0; i < kInstants; ++i) {
     const std::int64_t at = 2 * kSecond + (2 * i + 1 - kInstants) * (10'000'000 / kInstants);
     sum += blurred.RenderRadiance(at, blurred.world().PlannedRigPose(at))[0];
