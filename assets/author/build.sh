@@ -7,6 +7,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 run() { blender -b -t 1 --factory-startup -noaudio --python-exit-code 1 -P "$here/$1.py"; }
 run textures
 run kit
+run street
 run vehicles
 run people
 /usr/bin/python3 "$here/measure.py"

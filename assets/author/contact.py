@@ -1,7 +1,7 @@
 """Renders the contact sheets assets/contact/*.png from the committed files.
 
 Run: blender -b --factory-startup -P assets/author/contact.py -- [sheet ...]
-Sheets: people, backs, faces, walk, clips, vehicles, kit, textures.
+Sheets: people, backs, faces, walk, clips, vehicles, kit, street, textures.
 """
 
 import glob
@@ -113,16 +113,20 @@ def vehicles():
     save("vehicles", pictures, 4)
 
 
-def kit():
+def kit(folder="kit"):
     pictures = []
-    for path in files("kit"):
+    for path in files(folder):
         camera = fresh(12)
         studio.bring(path)
         low, high = gltf.Glb(path).bounds()
         c, r = (low + high) / 2, float(np.linalg.norm(high - low)) / 2
         eye = c + np.array([1.9, 1.3, 0.9]) * r * 1.1
         pictures.append(studio.shoot(camera, eye, tuple(c), 42, (260, 240)))
-    save("kit", pictures, 5)
+    save(folder, pictures, 5)
+
+
+def street():
+    kit("street")
 
 
 def textures():
@@ -142,7 +146,7 @@ def textures():
     save("textures", pictures, 6)
 
 
-SHEETS = {f.__name__: f for f in (people, backs, faces, walk, clips, vehicles, kit, textures)}
+SHEETS = {f.__name__: f for f in (people, backs, faces, walk, clips, vehicles, kit, street, textures)}
 
 
 def main():

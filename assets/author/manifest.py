@@ -17,7 +17,7 @@ sys.path.insert(0, HERE)
 
 from lib import feet, gltf  # noqa: E402
 
-FOLDERS = {"people": "person", "vehicles": "vehicle", "kit": "kit", "textures": "texture"}
+FOLDERS = {"people": "person", "vehicles": "vehicle", "kit": "kit", "street": "street", "textures": "texture"}
 CONVENTIONS = {
     "units": "metres, seconds",
     "frame": "object frame: x forward, y left, z up, origin on the floor; glTF (x, y, z) is the "

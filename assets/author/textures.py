@@ -357,6 +357,11 @@ TEXTURES = {
 }
 
 
+# Stored in grey: nearly so by nature, and the camera is monochrome.
+GREY = {"floor_concrete", "floor_polished", "wall_painted", "wall_panel", "shrink_wrap", "steel", "dock_door",
+        "plain", "asphalt", "wood_pallet", "cartons"}
+
+
 def main():
     wanted = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
     folder = os.path.abspath(os.path.join(HERE, "..", "textures"))
@@ -365,6 +370,8 @@ def main():
         if wanted and name not in wanted:
             continue
         image, facts = make()
+        if name in GREY:
+            image = picture.luminance(image)
         picture.write_png(os.path.join(folder, name + ".png"), np.clip(image, 0, 1))
         with open(os.path.join(folder, name + ".json"), "w", encoding="utf-8") as f:
             json.dump(facts, f)

@@ -2,6 +2,18 @@
 
 import textures
 
+from . import surfaces
+
+YELLOW, BLUE, GREY = (0.90, 0.70, 0.08), (0.12, 0.30, 0.55), (0.45, 0.46, 0.47)
+
+
+def common(m, seed=1):
+    """Materials most pieces share."""
+    m.material("plastic", surfaces.plastic((0.16, 0.30, 0.52), seed), 0.3)
+    m.material("steel", surfaces.metal((0.48, 0.48, 0.49), seed + 1), 0.5)
+    m.material("dark", surfaces.paint((0.15, 0.15, 0.16), seed + 2, (256, 256)), 0.5)
+    m.material("yellow", surfaces.paint(YELLOW, seed + 3), 0.7)
+
 
 def tote_picture():
     return textures.tote()[0]

@@ -44,6 +44,14 @@ def write_png(path, image):
     os.replace(path + ".part", path)
 
 
+def luminance(image):
+    """One channel, sRGB encoded, of a colour picture: what a monochrome camera sees of it."""
+    c = np.rint(np.clip(image, 0, 1) * 255.0) / 255.0
+    linear = np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
+    grey = linear @ np.array([0.2126, 0.7152, 0.0722])
+    return np.where(grey <= 0.0031308, 12.92 * grey, 1.055 * grey ** (1 / 2.4) - 0.055)[..., None]
+
+
 def to_blender(image, name):
     """The picture as a Blender image (rows from the bottom up)."""
     data = np.atleast_3d(image)

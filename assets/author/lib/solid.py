@@ -72,7 +72,8 @@ class Machine:
         b = bmesh.new()
         bmesh.ops.create_cube(b, size=1.0)
         bmesh.ops.scale(b, verts=b.verts, vec=Vector(size))
-        chamfer(b, min(bevel, 0.45 * min(size)), segments)
+        small = min(size) < 0.05  # a rounder edge would be smaller than a pixel
+        chamfer(b, min(bevel, 0.45 * min(size)), 1 if small else segments)
         place(b, turn, centre)
         self.add(node, b, material)
 
