@@ -17,7 +17,7 @@ namespace {
 
 /// Share of white that radiance 1 gives after 1 ms at 0 dB, the aperture of the lens as it were:
 /// lamps of brightness 1 and the default exposure of 8 ms then show a hall in middle grey.
-constexpr double kWhitePerMillisecond = 36.0;
+constexpr double kWhitePerMillisecond = 32.0;
 
 Scene TwinOf(Scene scene, Twin twin) {
   if (twin == Twin::kEmpty) return WithoutActors(std::move(scene));

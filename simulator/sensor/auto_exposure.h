@@ -11,7 +11,7 @@ namespace aisle::sim {
 struct AutoExposureOptions {
   bool on = false;
   float target_grey = 110;    ///< mean of the 8-bit picture it aims at
-  float white_share = 0.05f;  ///< but at most this share of the picture may be white
+  float white_share = 0.08f;  ///< but at most this share of the picture may be white
   double shortest_ms = 0.1;   ///< exposure time
   double longest_ms = 12;     ///< exposure time
   float highest_gain = 4;     ///< the sensor's analogue gain goes from 1 to 4 in steps of 1/16
