@@ -7,7 +7,7 @@ import struct
 import sys
 
 TOTAL_BYTES = 60_000_000
-TRIANGLES = {"person": (8_000, 22_000), "vehicle": (2_000, 60_000), "kit": (12, 20_000)}
+TRIANGLES = {"person": (8_000, 22_000), "vehicle": (2_000, 60_000), "kit": (12, 20_000), "street": (12, 20_000)}
 CLIPS = {
     "stand",
     "walk_creep",
