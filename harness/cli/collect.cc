@@ -3,6 +3,9 @@
 #include "harness/cli/command.h"
 #include "harness/cli/places.h"
 #include "harness/cli/terminal.h"
+#include "harness/io/file.h"
+#include "harness/report/history.h"
+#include "harness/report/page.h"
 #include "harness/report/report.h"
 #include "harness/report/twins.h"
 
@@ -34,9 +37,26 @@ Results Collect(const Suite& suite, const std::vector<RunSpec>& specs,
   return results;
 }
 
+namespace {
+
+/// The nights of one suite share a file beside their folders.
+void Remember(const Results& results, const std::filesystem::path& out) {
+  const std::filesystem::path history =
+      std::filesystem::absolute(out).lexically_normal().parent_path() / "history.sqlite";
+  AppendToHistory(history, results);
+  const std::string trends = TrendSection(ReadHistory(history, results.suite));
+  if (trends.empty()) return;
+  WriteFileAtomically(out / "trends.html",
+                      Page("Trends of " + results.suite, "",
+                           "<p><a href=\"index.html\">back to the verdict</a></p>\n" + trends));
+}
+
+}  // namespace
+
 int Publish(const Results& results, const std::filesystem::path& out,
             const PublishOptions& options) {
   WriteReport(results, out);
+  if (options.remember) Remember(results, out);
   if (options.json) {
     fmt::print("{}", ToJson(results));
   } else {

@@ -19,8 +19,9 @@ Results Collect(const Suite& suite, const std::vector<RunSpec>& specs,
                 const std::filesystem::path& out, const CollectOptions& options = {});
 
 struct PublishOptions {
-  bool json = false;  ///< results.json on stdout instead of the table
-  int failure = 0;    ///< exit code of what failed on our side, if anything did
+  bool json = false;     ///< results.json on stdout instead of the table
+  bool remember = true;  ///< file the medians with those of other nights
+  int failure = 0;       ///< exit code of what failed on our side, if anything did
 };
 
 /// Writes the report, tells the user and returns the exit code.

@@ -4,6 +4,7 @@
 
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/vslam_lab.h"
 #include "harness/run/external_result.h"
 #include "harness/suite/process.h"
 
@@ -11,6 +12,8 @@ namespace aisle {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kMinCoverage = 0.5;  ///< below this share of frames with a pose a run is lost
 
 std::string ShellQuoted(const std::string& text) {
   std::string quoted = "'";
@@ -31,6 +34,10 @@ void Export(const Sequence& sequence, const ExternalRun& run, const ExportOption
     std::fflush(stdout);
   }
   writer.Finish(schedule, run.open_path());
+  if (options.format == DatasetFormat::kEuroc) {
+    WriteVslamLabFiles(run.dataset, sequence.calibration(), sequence.rate_hz(), schedule,
+                       options.epoch_ns);
+  }
   WriteFileAtomically(DoneMark(run.dataset), "");
 }
 
@@ -49,10 +56,31 @@ Trajectory Truth(const std::vector<FrameRequest>& schedule) {
   return truth;
 }
 
+VslamLabRun LabRun(const ExternalRun& run) {
+  return {.dataset = run.dataset, .output = run.output.parent_path() / "vslam_lab"};
+}
+
+/// Where the trajectory must stand when the command has ended.
+fs::path TrajectoryPath(const ExternalSystem& system, const ExternalRun& run) {
+  return system.vslam_lab ? VslamLabTrajectoryPath(LabRun(run)) : run.output;
+}
+
+std::string CommandLine(const ExternalSystem& system, const ExternalRun& run,
+                        DatasetFormat format) {
+  const std::string command = FillIn(
+      system.command, {{"dataset", fs::absolute(run.dataset).string()},
+                       {"calibration", fs::absolute(CalibrationPath(run.dataset, format)).string()},
+                       {"output", fs::absolute(run.output).string()},
+                       {"seed", std::to_string(run.seed)}});
+  return system.vslam_lab ? command + " " + VslamLabArguments(LabRun(run)) : command;
+}
+
 Trajectory ReadEstimate(const ExternalSystem& system, const ExternalRun& run,
                         const ExportOptions& options, const Trajectory& truth) {
   const TrajectoryFormat format = TrajectoryFormatFromName(system.trajectory);
-  Trajectory estimate = ReadTrajectory(run.output, format);
+  Trajectory estimate = system.vslam_lab
+                            ? ReadVslamLabTrajectory(VslamLabTrajectoryPath(LabRun(run)))
+                            : ReadTrajectory(run.output, format);
   if (format == TrajectoryFormat::kKitti) {
     if (estimate.size() != truth.size()) {
       throw InputError(run.output.string(), 0,
@@ -97,14 +125,10 @@ RunResult RunExternal(const ExternalSystem& system, const Sequence& sequence,
   const ExportOptions options{.format = DatasetFormatFromName(system.dataset)};
   Export(sequence, run, options);
   const Trajectory truth = Truth(sequence.Schedule());
-  fs::create_directories(run.output.parent_path());
-  fs::remove(run.output);
-  const std::string command =
-      FillIn(system.command,
-             {{"dataset", fs::absolute(run.dataset).string()},
-              {"calibration", fs::absolute(CalibrationPath(run.dataset, options.format)).string()},
-              {"output", fs::absolute(run.output).string()},
-              {"seed", std::to_string(run.seed)}});
+  const fs::path left_there = TrajectoryPath(system, run);
+  fs::create_directories(left_there.parent_path());
+  fs::remove(left_there);
+  const std::string command = CommandLine(system, run, options.format);
   const ProcessLimits limits{.wall_s = system.timeout_s};
   const ProcessResult ended = RunToEnd(command, limits);
   WriteFileAtomically(run.log, command + "\n" + ended.log);
@@ -114,11 +138,14 @@ RunResult RunExternal(const ExternalSystem& system, const Sequence& sequence,
     result = Failure(truth, RunStatus::kTimeout, Describe(ended, limits));
   } else if (ended.end == ProcessResult::End::kSignalled || ended.code != 0) {
     result = Failure(truth, RunStatus::kCrashed, Describe(ended, limits));
-  } else if (!fs::exists(run.output)) {
-    result = Failure(truth, RunStatus::kInvalid, "left no trajectory at {output}");
+  } else if (!fs::exists(left_there)) {
+    result = Failure(truth, RunStatus::kInvalid,
+                     "left no trajectory at " + (system.vslam_lab ? left_there.filename().string()
+                                                                  : std::string("{output}")));
   } else {
     try {
-      result = ResultFromTrajectory(truth, ReadEstimate(system, run, options, truth));
+      const double min_coverage = system.vslam_lab ? 0 : kMinCoverage;
+      result = ResultFromTrajectory(truth, ReadEstimate(system, run, options, truth), min_coverage);
     } catch (const InputError& error) {
       result = Failure(truth, RunStatus::kInvalid, error.what());
     }

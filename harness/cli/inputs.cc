@@ -35,6 +35,7 @@ void CheckNames(const std::vector<std::string>& names, const std::vector<std::st
 std::vector<std::string> SystemsOf(const Suite& suite, const Vocabulary& vocabulary) {
   std::vector<std::string> names = vocabulary.systems;
   for (const auto& [name, external] : suite.externals) names.push_back(name);
+  for (const auto& [name, system] : suite.imperfect) names.push_back(name);
   return names;
 }
 
@@ -71,6 +72,7 @@ Suite LoadInputs(const InputOptions& options) {
     whole.question += " " + more.question;
     whole.scenes.insert(whole.scenes.end(), more.scenes.begin(), more.scenes.end());
     whole.externals.insert(more.externals.begin(), more.externals.end());
+    whole.imperfect.insert(more.imperfect.begin(), more.imperfect.end());
     whole.limits.insert(whole.limits.end(), more.limits.begin(), more.limits.end());
   }
   return whole;

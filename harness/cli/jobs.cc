@@ -12,7 +12,9 @@ std::uint64_t Mix(const std::string& text, std::uint64_t seed) { return Hash(tex
 
 /// The program that a command starts with counts as well, where it is a file.
 std::uint64_t HashExternal(const ExternalSystem& system, std::uint64_t seed) {
-  seed = Mix(fmt::format("{}\n{}\n{}", system.command, system.dataset, system.trajectory), seed);
+  seed = Mix(fmt::format("{}\n{}\n{}\n{}", system.command, system.dataset, system.trajectory,
+                         system.vslam_lab),
+             seed);
   const fs::path program = system.command.substr(0, system.command.find(' '));
   std::error_code error;
   return fs::is_regular_file(program, error) ? HashFile(program, seed) : seed;
@@ -20,17 +22,25 @@ std::uint64_t HashExternal(const ExternalSystem& system, std::uint64_t seed) {
 
 std::vector<std::string> ExternalArguments(const ExternalSystem& system,
                                            const std::string& frames) {
-  const std::string dataset = frames + "-" + system.dataset;
-  return {"--external-command",
-          system.command,
-          "--external-dataset",
-          system.dataset,
-          "--external-trajectory",
-          system.trajectory,
-          "--external-timeout",
-          fmt::format("{}", system.timeout_s),
-          "--dataset",
-          (CacheDir() / "datasets" / dataset).string()};
+  const fs::path dataset = CacheDir() / "datasets" / (frames + "-" + system.dataset);
+  std::vector<std::string> arguments{"--external-command",
+                                     system.command,
+                                     "--external-dataset",
+                                     system.dataset,
+                                     "--external-trajectory",
+                                     system.trajectory,
+                                     "--external-timeout",
+                                     fmt::format("{}", system.timeout_s),
+                                     "--dataset",
+                                     dataset.string()};
+  if (system.vslam_lab) arguments.push_back("--vslam-lab");
+  return arguments;
+}
+
+/// As `run-one` takes them.
+std::string ToText(const MaskErrors& errors) {
+  return fmt::format("{},{},{},{}", errors.boundary_px, errors.miss_below_px, errors.miss_share,
+                     errors.latency_frames);
 }
 
 }  // namespace
@@ -46,6 +56,10 @@ std::string Fingerprints::Run(const RunSpec& spec, const Suite& suite) const {
   std::uint64_t hash = Mix(Frames(spec) + " " + spec.system, program_);
   const auto external = suite.externals.find(spec.system);
   if (external != suite.externals.end()) hash = HashExternal(external->second, hash);
+  const auto imperfect = suite.imperfect.find(spec.system);
+  if (imperfect != suite.imperfect.end()) {
+    hash = Mix(imperfect->second.like + " " + ToText(imperfect->second.errors), hash);
+  }
   return fmt::format("{:016x}", hash);
 }
 
@@ -77,10 +91,16 @@ std::vector<Job> MakeJobs(const Suite& suite, const std::vector<RunSpec>& specs,
     if (options.frame_cache) {
       job.argv.insert(job.argv.end(), {"--frames", (CacheDir() / "frames" / frames).string()});
     }
+    if (!options.video) job.argv.push_back("--no-video");
     const auto external = suite.externals.find(spec.system);
     if (external != suite.externals.end()) {
       const std::vector<std::string> more = ExternalArguments(external->second, frames);
       job.argv.insert(job.argv.end(), more.begin(), more.end());
+    }
+    const auto imperfect = suite.imperfect.find(spec.system);
+    if (imperfect != suite.imperfect.end()) {
+      job.argv.insert(job.argv.end(), {"--like", imperfect->second.like, "--mask-errors",
+                                       ToText(imperfect->second.errors)});
     }
     jobs.push_back(std::move(job));
   }

@@ -26,6 +26,7 @@ struct JobOptions {
   std::filesystem::path out;  ///< the report's folder
   int threads = 0;            ///< per run; 0: all
   bool frame_cache = true;
+  bool video = true;  ///< where there is an ffmpeg
 };
 
 /// The processes that will make the runs.

@@ -30,6 +30,7 @@ struct Options {
   ProcessLimits limits;
   bool resume = false;
   bool no_frame_cache = false;
+  bool no_video = false;
   bool no_retry = false;
   bool gate = false;
   bool json = false;
@@ -110,10 +111,12 @@ int RunSuite(const Options& options) {
   }
   const fs::path out =
       options.out.empty() ? fs::path("out") / plan.suite.name : fs::path(options.out);
-  const std::vector<Job> todo = StillToDo(
-      MakeJobs(plan.suite, specs, Fingerprints(),
-               {.out = out, .threads = options.threads, .frame_cache = !options.no_frame_cache}),
-      out, options.resume);
+  const std::vector<Job> todo = StillToDo(MakeJobs(plan.suite, specs, Fingerprints(),
+                                                   {.out = out,
+                                                    .threads = options.threads,
+                                                    .frame_cache = !options.no_frame_cache,
+                                                    .video = !options.no_video}),
+                                          out, options.resume);
   if (specs.size() > todo.size()) {
     fmt::print(stderr, "aisle: {} of {} runs are already there\n", specs.size() - todo.size(),
                specs.size());
@@ -168,6 +171,7 @@ void AddRunCommand(CLI::App* app, Action* action) {
                     "are still the same");
   command->add_flag("--gate", options->gate, "judge against the baseline too");
   command->add_flag("--no-frame-cache", options->no_frame_cache, "render anew for every run");
+  command->add_flag("--no-video", options->no_video, "no film of the runs, ffmpeg or not");
   command->add_flag("--no-retry", options->no_retry,
                     "do not try failed runs once more to tell flaky from broken");
   command->add_flag("--json", options->json, "results.json on stdout instead of the table");

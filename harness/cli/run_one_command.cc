@@ -1,4 +1,6 @@
 // One run in a process of its own: what `aisle run` starts for every cell of a suite.
+#include <opencv2/imgproc.hpp>
+
 #include "harness/cli/command.h"
 #include "harness/cli/external.h"
 #include "harness/cli/places.h"
@@ -7,10 +9,13 @@
 #include "harness/plugs/systems.h"
 #include "harness/report/record.h"
 #include "harness/report/samples.h"
+#include "harness/report/video.h"
 #include "harness/run/drive.h"
 
 namespace aisle {
 namespace {
+
+constexpr std::size_t kFilmEvery = 2;  ///< frames: half the rate is enough to see what happened
 
 struct Options {
   RunSpec spec;
@@ -18,8 +23,11 @@ struct Options {
   std::string frames;       ///< folder of the shared frames; empty: none are kept
   std::string inputs_hash;  ///< of all that decides the run; filed with its result
   int threads = 0;
+  bool video = true;
   ExternalSystem external;  ///< without a command: the system is one of ours
-  std::string dataset;      ///< folder of the dataset that is exported for it
+  std::string like;         ///< the system of ours that is told spoilt masks; empty: none
+  std::vector<double> mask_errors;
+  std::string dataset;  ///< folder of the dataset that is exported for it
 };
 
 SimulatedSequenceOptions SimulationOf(const Options& options) {
@@ -71,29 +79,52 @@ int RunOneExternal(const Options& options) {
   return kAllPassed;
 }
 
+MaskMaker MasksFor(const System& system, const Options& options) {
+  if (options.like.empty()) return MasksFromTruth(system.mask_source);
+  const std::vector<double>& e = options.mask_errors;
+  return MasksWithErrors(system.mask_source,
+                         {.boundary_px = e.at(0),
+                          .miss_below_px = static_cast<int>(e.at(1)),
+                          .miss_share = e.at(2),
+                          .latency_frames = static_cast<int>(e.at(3))},
+                         options.spec.seed);
+}
+
 int RunOne(const Options& options) {
   if (!options.external.command.empty()) return RunOneExternal(options);
-  const System& system = FindSystem(options.spec.system);
+  const System& system = FindSystem(options.like.empty() ? options.spec.system : options.like);
   std::uint64_t content_hash = 0;
   const std::unique_ptr<Sequence> sequence = OpenSequence(options, &content_hash);
   const std::unique_ptr<Estimator> estimator =
       system.make(sequence->calibration(), options.threads);
 
+  const std::string folder = "runs/" + RunId(options.spec);
   SamplePictures samples;
+  std::optional<Video> film;
+  if (options.video && Video::Available()) {
+    film.emplace(std::filesystem::path(options.out) / folder / "film.mp4",
+                 sequence->rate_hz() / kFilmEvery);
+  }
   const auto observe = [&](const DrivenFrame& frame) {
     const FrameTruth* truth = frame.shown.truth ? &*frame.shown.truth : nullptr;
     samples.See(frame.index, frame.count, frame.shown.images.left, truth, frame.estimate,
-                frame.facts.movers_share);
+                frame.facts);
+    if (film && frame.index % kFilmEvery == 0) {
+      cv::Mat3b picture = DrawOverlay(frame.shown.images.left, truth, &frame.estimate, "");
+      cv::resize(picture, picture, {picture.cols / 4 * 2, picture.rows / 4 * 2}, 0, 0,
+                 cv::INTER_AREA);
+      film->Add(picture);
+    }
     TellProgress(frame.index + 1, frame.count);
   };
-  RunResult result = Drive(*sequence, *estimator, system.mask_source, {}, observe);
+  RunResult result = Drive(*sequence, *estimator, MasksFor(system, options), {}, observe);
   result.spec = options.spec;
   result.scene_hash = content_hash;
   result.threads = options.threads;
 
   RunRecord record = MakeRecord(result, sequence->rate_hz());
   record.inputs_hash = options.inputs_hash;
-  const std::string folder = "runs/" + RunId(options.spec);
+  if (film && film->Finish()) record.artifacts["film"] = folder + "/film.mp4";
   int number = 0;
   for (const std::string& name : samples.Write(std::filesystem::path(options.out) / folder)) {
     record.artifacts[fmt::format("picture_{:02}", number++)] = folder + "/" + name;
@@ -122,6 +153,10 @@ void AddRunOneCommand(CLI::App* app, Action* action) {
   command->add_option("--external-trajectory", options->external.trajectory);
   command->add_option("--external-timeout", options->external.timeout_s);
   command->add_option("--dataset", options->dataset);
+  command->add_flag("!--no-video", options->video);
+  command->add_flag("--vslam-lab", options->external.vslam_lab);
+  command->add_option("--like", options->like);
+  command->add_option("--mask-errors", options->mask_errors)->delimiter(',')->expected(4);
   command->callback([=] { *action = [=] { return RunOne(*options); }; });
 }
 

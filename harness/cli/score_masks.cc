@@ -4,7 +4,6 @@
 
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
-#include "harness/score/boundary.h"
 #include "harness/score/masks.h"
 #include "harness/score/scorecard.h"
 
@@ -39,7 +38,6 @@ Scorecard ScoreMaskFolders(const std::string& truth_folder, const std::string& m
     }
   }
   RunResult run;
-  BoundaryCounts boundary;
   for (const auto& [name, path] : truths) {
     FrameTruth truth;
     truth.dynamic = ReadMask(path);
@@ -61,17 +59,9 @@ Scorecard ScoreMaskFolders(const std::string& truth_folder, const std::string& m
     facts.mask->objects_invented = objects.objects_invented;
     facts.mask->iou_sum = objects.iou_sum;
     run.facts.push_back(facts);
-    boundary += CompareBoundaries(truth.dynamic, regions.mask);
   }
   Scorecard scores = ScoreMasks(run);
   scores.erase("static_features_lost");  // needs the pictures, which nobody gave
-  const std::optional<double> f = BoundaryF(boundary);
-  scores["mask_boundary_f"] = {
-      .value = f,
-      .unit = "1",
-      .alignment = {},
-      .n = static_cast<std::size_t>(boundary.truth + boundary.rejected),
-      .absent = f ? std::string() : std::string("nothing moved, nothing was rejected")};
   return scores;
 }
 

@@ -2,6 +2,7 @@
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/mask_folder.h"
 #include "harness/plugs/recorded_sequence.h"
 #include "harness/plugs/systems.h"
 #include "harness/run/drive.h"
@@ -12,6 +13,7 @@ namespace {
 
 struct Options {
   std::string dataset, format = "euroc", system = "orbslam2", output, live;
+  std::string masks;  ///< folder of masks to reject by; empty: none
   int threads = 0;
 };
 
@@ -24,6 +26,16 @@ void PrintScores(const RunResult& run) {
   }
 }
 
+/// The user's masks; counts the frames that have one.
+MaskMaker MasksOf(const Options& options, std::size_t* masked) {
+  if (options.masks.empty()) return MasksFromTruth(MaskSource::kNone);
+  return [folder = MaskFolder(options.masks), masked](const SequenceFrame& frame) {
+    ExternalMask mask = folder.Find(frame.images);
+    *masked += mask.left.empty() ? 0 : 1;
+    return mask;
+  };
+}
+
 int RunSlam(const Options& options) {
   const System& system = FindSystem(options.system);
   if (system.mask_source != MaskSource::kNone) {
@@ -33,8 +45,9 @@ int RunSlam(const Options& options) {
   const auto sequence = OpenRecording(options.dataset, DatasetFormatFromName(options.format));
   const auto estimator = system.make(sequence->calibration(), options.threads);
   ProgressLine line;
+  std::size_t masked = 0;
   const RunResult run =
-      Drive(*sequence, *estimator, MaskSource::kNone, {}, [&](const DrivenFrame& frame) {
+      Drive(*sequence, *estimator, MasksOf(options, &masked), {}, [&](const DrivenFrame& frame) {
         line.Show(fmt::format("frame {} of {}", frame.index + 1, frame.count));
       });
   line.Clear();
@@ -48,6 +61,14 @@ int RunSlam(const Options& options) {
              run.trajectory.live.size(),
              run.facts.empty() ? 0.0 : 1e3 * run.wall_s / static_cast<double>(run.facts.size()),
              options.output);
+  if (!options.masks.empty()) {
+    fmt::print("{} of {} frames have a mask in {}\n", masked, run.facts.size(), options.masks);
+    if (masked == 0) {
+      throw InputError(options.masks, 0,
+                       "holds no mask of any frame: name them by the stamp in nanoseconds or the "
+                       "number in six digits, for example 000042.png");
+    }
+  }
   if (!run.truth.empty()) PrintScores(run);
   if (run.status == RunStatus::kOk) return kAllPassed;
   fmt::print(stderr, "aisle: {}\n", run.status_why);
@@ -65,6 +86,9 @@ void AddSlamCommand(CLI::App* app, Action* action) {
   command->add_option("--system", options->system, "default orbslam2");
   command->add_option("-o,--output", options->output, "final trajectory, TUM format")->required();
   command->add_option("--live", options->live, "the live trajectory too");
+  command->add_option("--masks", options->masks,
+                      "folder of masks to reject by: grey PNGs named by stamp or number, not 0 = "
+                      "reject; right eye in right/");
   command->add_option("--threads", options->threads, "0: all; never changes a result");
   command->footer("Example: ./aisle slam V1_01_easy --format euroc -o v101.txt");
   command->callback([=] { *action = [=] { return RunSlam(*options); }; });

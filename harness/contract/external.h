@@ -11,6 +11,9 @@ struct ExternalSystem {
   std::string command;
   std::string dataset = "euroc";   ///< euroc or kitti: what is exported for it
   std::string trajectory = "tum";  ///< tum, kitti or euroc: what it writes to {output}
+  /// VSLAM-LAB's arguments are appended to the command and its trajectory file is read back; both
+  /// fields above are then fixed. It holds key frames alone: coverage is not asked for.
+  bool vslam_lab = false;
   double timeout_s = 3600;
 };
 

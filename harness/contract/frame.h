@@ -42,7 +42,9 @@ struct ObjectTruth {
 /// (recorded data) does not know them.
 struct FrameTruth {
   Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();
-  cv::Mat1f depth;     ///< z in metres, inf where nothing was hit
+  cv::Mat1f depth;  ///< z in metres, inf where nothing was hit
+  /// The same at every 16th pixel of every 16th row: what a stored frame keeps of it.
+  cv::Mat1f depth_grid;
   cv::Mat1w instance;  ///< 0 where nothing was hit
   cv::Mat1f depth_right;
   cv::Mat1w instance_right;

@@ -28,6 +28,16 @@ enum class RunStatus {
   kInvalid,  ///< NaN, unordered or foreign stamps
 };
 
+/// What became of one moving object in one frame.
+struct ObjectOutcome {
+  std::string object_class;
+  int pixels = 0;         ///< that move and show
+  double distance_m = 0;  ///< from the rig to the centre of its 3-D box
+  double speed_mps = 0;
+  bool found = false;
+  bool operator==(const ObjectOutcome&) const = default;
+};
+
 /// How the mask a system rejected by compares with truth in one frame.
 struct MaskFacts {
   std::int64_t true_positives = 0, false_positives = 0, false_negatives = 0;  ///< pixels
@@ -35,7 +45,20 @@ struct MaskFacts {
   double iou_sum = 0;           ///< of the found objects' rectangles
   int static_corners = 0;       ///< image corners on surfaces that do not move
   int static_corners_lost = 0;  ///< of them, under the mask
+  std::int64_t outline_truth = 0, outline_truth_met = 0;  ///< pixels of truth's outline; near ours
+  std::int64_t outline_rejected = 0, outline_rejected_met = 0;  ///< and the other way round
+  std::vector<ObjectOutcome> objects;  ///< those asked for; empty where no labels are known
   bool operator==(const MaskFacts&) const = default;
+};
+
+/// How hard a frame is for any system; absent parts are not known.
+struct Difficulty {
+  /// Share of the image that stands still and shows texture: what a system could hold on to.
+  std::optional<double> static_texture_share = {};
+  /// Median motion of static points in the image since the frame before, pixels. An exposure of a
+  /// share s of the frame time smears the picture by s times this.
+  std::optional<double> flow_px = {};
+  std::optional<double> parallax_px = {};  ///< the part of it that the rig's translation made
 };
 
 /// Truth of one frame as the scores need it (images live only while the frame is driven).
@@ -48,8 +71,9 @@ struct FrameFacts {
   int features_on_movers = 0;     ///< of them, on dynamic pixels
   int inliers_on_movers = 0;      ///< of those, used in the pose
   std::optional<MaskFacts> mask;  ///< absent where nothing was masked or nothing is known
-  double render_ms = 0;           ///< making or fetching the frame
-  double process_ms = 0;          ///< the system's whole step
+  Difficulty difficulty;
+  double render_ms = 0;   ///< making or fetching the frame
+  double process_ms = 0;  ///< the system's whole step
 };
 
 /// All that one run left behind.

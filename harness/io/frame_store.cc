@@ -10,7 +10,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint32_t kMagic = 0x4D465341;  // "ASFM"
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 // --- Envelope: magic, version, checksum, payload -------------------------------------------------
 
@@ -95,6 +95,7 @@ ObjectTruth GetObject(ByteReader* reader) {
 void PutTruth(const FrameTruth& truth, ByteWriter* writer) {
   PutPose(truth.T_world_rig, writer);
   writer->PutRuns(truth.instance);
+  writer->PutRuns(truth.depth_grid);
   for (const cv::Mat1b& mask :
        {truth.dynamic, truth.dynamic_right, truth.actor, truth.actor_right}) {
     writer->PutRuns(mask);
@@ -107,6 +108,7 @@ FrameTruth GetTruth(ByteReader* reader) {
   FrameTruth truth;
   truth.T_world_rig = GetPose(reader);
   truth.instance = reader->GetRuns<std::uint16_t>();
+  truth.depth_grid = reader->GetRuns<float>();
   for (cv::Mat1b* mask : {&truth.dynamic, &truth.dynamic_right, &truth.actor, &truth.actor_right}) {
     *mask = reader->GetRuns<unsigned char>();
   }

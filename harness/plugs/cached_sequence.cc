@@ -2,6 +2,8 @@
 
 #include <mutex>
 
+#include "harness/score/difficulty.h"
+
 namespace aisle {
 namespace {
 
@@ -26,6 +28,7 @@ class CachedSequence : public Sequence {
     if (std::optional<SequenceFrame> kept = store_.Read(request.id)) return *std::move(kept);
     SequenceFrame made = Original().At(request);
     if (made.truth) {
+      if (!made.truth->depth.empty()) made.truth->depth_grid = DepthGrid(made.truth->depth);
       for (cv::Mat* image : std::initializer_list<cv::Mat*>{
                &made.truth->depth, &made.truth->depth_right, &made.truth->instance_right}) {
         image->release();

@@ -120,7 +120,7 @@ std::string TopViewChart(const std::vector<ChartSeries>& series) {
       if (!row.live_m) return std::nullopt;
       return at(row.truth_m + magnification * (*row.live_m - row.truth_m));
     };
-    for (const Points& piece : Pieces(*one.rows, point)) svg.Polyline(piece, css);
+    for (const Points& piece : Pieces(*one.rows, point)) svg.Polyline(piece, css, one.name);
     legend.emplace_back(one.name, css);
   }
   const auto [start_x, start_y] = at(longest->front().truth_m);
@@ -148,7 +148,7 @@ std::string ErrorChart(const std::vector<ChartSeries>& series) {
   const Axis error{0, 1.06 * highest_cm, 224, 24};
   const Axis movers{0, 1.1 * most_movers, 336, 272};
   Svg svg(kWidth, 404, "error over time");
-  svg.Grid(x, error, "", "error of the live track [cm]");
+  svg.Grid(x, error, "time [s]", "error of the live track [cm]");
   svg.Grid(x, movers, "time [s]", "pixels that move [%]");
 
   Points area = {{x(0), movers(0)}};
@@ -165,7 +165,7 @@ std::string ErrorChart(const std::vector<ChartSeries>& series) {
       if (!row.live_error_m) return std::nullopt;
       return std::pair(x(Seconds(row, *one.rows)), error(100 * *row.live_error_m));
     };
-    for (const Points& piece : Pieces(*one.rows, point)) svg.Polyline(piece, css);
+    for (const Points& piece : Pieces(*one.rows, point)) svg.Polyline(piece, css, one.name);
     legend.emplace_back(one.name, css);
   }
   Legend(legend, 396, &svg);

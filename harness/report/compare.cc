@@ -128,20 +128,37 @@ std::vector<std::string> ScoresToCompare() {
   return scores;
 }
 
+/// Equal bits are no question to chance: they take no share of the alarm that is allowed.
+bool IsTested(const Comparison& c) { return FindJudged(c.score) != nullptr && !c.bit_equal; }
+
+/// The least p that so many seeds can reach, were every new value beyond every old one.
+double LeastP(std::size_t old_n, std::size_t new_n) {
+  std::vector<double> before(old_n), after(new_n);
+  for (std::size_t i = 0; i < old_n; ++i) before[i] = 1e-3 * static_cast<double>(i);
+  for (std::size_t i = 0; i < new_n; ++i) after[i] = 1 + 1e-3 * static_cast<double>(i);
+  return MannWhitneyP(before, after);
+}
+
 void CorrectAndDecide(const CompareOptions& options, std::vector<Comparison>* comparisons) {
   std::vector<double> p_values;
   for (const Comparison& c : *comparisons) {
-    if (FindJudged(c.score) != nullptr) p_values.push_back(c.p);
+    if (IsTested(c)) p_values.push_back(c.p);
   }
   const std::vector<double> adjusted = HolmAdjusted(p_values);
   std::size_t next = 0;
   for (Comparison& c : *comparisons) {
-    if (const Judged* judged = FindJudged(c.score)) {
-      c.p = adjusted[next++];
-      Decide(*judged, options, &c);
-    } else {
+    const Judged* judged = FindJudged(c.score);
+    if (judged == nullptr) {
       c.change = Change::kCannotTell;
       c.why = "belongs to the machine: watched, not judged";
+      continue;
+    }
+    if (IsTested(c)) c.p = adjusted[next++];
+    Decide(*judged, options, &c);
+    const double least = LeastP(c.old_n, c.new_n) * static_cast<double>(p_values.size());
+    if (c.change == Change::kCannotTell && least >= options.alpha) {
+      c.why += fmt::format("; {} comparisons with {} and {} seeds cannot go below p = {:.2g}",
+                           p_values.size(), c.old_n, c.new_n, least);
     }
   }
 }

@@ -6,9 +6,18 @@ namespace aisle {
 namespace {
 
 std::string VerdictItem(const Verdict& verdict) {
-  return fmt::format("<li><span class=\"{}\">{}</span> {}: {}</li>\n",
-                     verdict.passed ? "pass" : "fail", verdict.passed ? "held" : "BROKEN",
+  const char* css = verdict.passed ? "pass" : verdict.flaky ? "flaky" : "fail";
+  const char* word = verdict.passed ? "held" : verdict.flaky ? "FLAKY" : "BROKEN";
+  return fmt::format("<li><span class=\"{}\">{}</span> {}: {}</li>\n", css, word,
                      Escape(verdict.name), Escape(verdict.why));
+}
+
+std::string Headline(std::size_t all, std::size_t broken, std::size_t flaky) {
+  if (all == 0) return "Nothing was judged: the suite sets no limits";
+  if (broken == 0) return fmt::format("All {} limits held", all);
+  std::string text = fmt::format("{} of {} limits broken", broken, all);
+  if (flaky > 0) text += fmt::format(", {} of them flaky", flaky);
+  return text;
 }
 
 std::string StatusCell(const SystemRuns& system) {
@@ -27,28 +36,32 @@ std::string Page(const std::string& title, const std::string& root, const std::s
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src 'self'; "
-      "style-src 'self'\">\n"
-      "<title>{}</title>\n<link rel=\"stylesheet\" href=\"{}style.css\">\n</head>\n<body>\n{}"
-      "</body>\n</html>\n",
+      "style-src 'self'; script-src 'self'\">\n"
+      "<title>{0}</title>\n<link rel=\"stylesheet\" href=\"{1}style.css\">\n"
+      "<script src=\"{1}report.js\" defer></script>\n</head>\n<body>\n{2}</body>\n</html>\n",
       Escape(title), root, body);
 }
 
 std::string VerdictSection(const Results& results) {
-  std::size_t broken = 0;
+  constexpr std::size_t kShownAtOnce = 12;
+  std::size_t broken = 0, flaky = 0;
   std::string failed, passed;
   for (const Verdict& verdict : results.verdicts) {
     (verdict.passed ? passed : failed) += VerdictItem(verdict);
     broken += verdict.passed ? 0 : 1;
+    flaky += verdict.flaky ? 1 : 0;
   }
-  const char* css = results.verdicts.empty() ? "" : broken > 0 ? "failed" : "passed";
-  const std::string headline =
-      results.verdicts.empty() ? "Nothing was judged: the suite sets no limits"
-      : broken == 0            ? fmt::format("All {} limits held", results.verdicts.size())
-                    : fmt::format("{} of {} limits broken", broken, results.verdicts.size());
+  const std::size_t all = results.verdicts.size();
+  if (all - broken > kShownAtOnce) {
+    passed = fmt::format("</ul><details><summary>{} held</summary><ul>{}</ul></details><ul>",
+                         all - broken, passed);
+  }
+  const char* css = all == 0 ? "" : broken > 0 ? "failed" : "passed";
   return fmt::format(
       "<h1>{}</h1>\n<p class=\"soft\">{}</p>\n<div class=\"verdict {}\"><strong>{}</strong>"
       "<ul>\n{}{}</ul></div>\n",
-      Escape(results.suite), Escape(results.question), css, headline, failed, passed);
+      Escape(results.suite), Escape(results.question), css, Headline(all, broken, flaky), failed,
+      passed);
 }
 
 std::string OverviewSection(const std::vector<SceneRuns>& scenes, SceneLinks links) {
@@ -99,7 +112,8 @@ std::string ProvenanceFooter(const Results& results) {
       "<h2>Again</h2>\n<pre>{}</pre>\n<footer>aisle {} ({}) on {}, {} threads, {}. Started {}, "
       "took "
       "{:.0f} s. Numbers: <a href=\"results.json\">results.json</a>, <a "
-      "href=\"summary.csv\">summary.csv</a>, <a href=\"junit.xml\">junit.xml</a>.</footer>\n",
+      "href=\"summary.csv\">summary.csv</a>, <a href=\"junit.xml\">junit.xml</a>, tables as <a "
+      "href=\"tables.md\">Markdown</a> and <a href=\"tables.tex\">LaTeX</a>.</footer>\n",
       Escape(results.rerun), Escape(from.version), Escape(from.commit), Escape(from.cpu),
       from.threads, Escape(from.os), Escape(results.started), results.wall_s);
 }

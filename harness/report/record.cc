@@ -4,6 +4,7 @@
 #include "harness/io/hash.h"
 #include "harness/io/input_error.h"
 #include "harness/io/trajectory.h"
+#include "harness/report/evo_result.h"
 
 namespace aisle {
 namespace {
@@ -88,6 +89,7 @@ std::vector<FrameRow> MakeFrameRows(const RunResult& run, const ScoreOptions& op
                  .features_on_movers = facts.features_on_movers,
                  .inliers_on_movers = facts.inliers_on_movers,
                  .mask_iou = MaskIou(facts.mask),
+                 .difficulty = facts.difficulty,
                  .render_ms = facts.render_ms,
                  .process_ms = facts.process_ms};
     if (has_truth) {
@@ -118,6 +120,7 @@ RunRecord WriteRun(const RunResult& run, RunRecord record, const fs::path& repor
     hash = Hash(text, hash);
   }
   record.output_hash = fmt::format("{:016x}", hash);
+  if (const std::string zip = EvoResultZip(run); !zip.empty()) write("evo", "evo.zip", zip);
   write("frames", "frames.csv", ToCsv(MakeFrameRows(run)));
   WriteFileAtomically(report_dir / folder / "result.json", ToJson(record));
   return record;

@@ -2,7 +2,9 @@
 
 #include "harness/io/file.h"
 #include "harness/report/page.h"
+#include "harness/report/script.h"
 #include "harness/report/style.h"
+#include "harness/report/tables.h"
 #include "harness/report/twins.h"
 
 namespace aisle {
@@ -19,6 +21,10 @@ void WriteReport(const Results& results, const std::filesystem::path& report_dir
   std::string body = VerdictSection(results) +
                      OverviewSection(scenes, own_pages ? SceneLinks::kPages : SceneLinks::kAnchors);
   body += CostSection(scenes);
+  const std::vector<NumberTable> tables = PaperTables(scenes);
+  if (!tables.empty()) {
+    body += "<h2>The tables of the paper, with our numbers</h2>\n" + ToHtml(tables);
+  }
   for (const SceneRuns& scene : scenes) {
     const std::string section = SceneSection(scene, report_dir, "");
     if (own_pages) {
@@ -31,6 +37,9 @@ void WriteReport(const Results& results, const std::filesystem::path& report_dir
   }
   body += ProvenanceFooter(results);
   WriteFileAtomically(report_dir / "style.css", kStyleSheet);
+  WriteFileAtomically(report_dir / "report.js", kScript);
+  WriteFileAtomically(report_dir / "tables.md", ToMarkdown(tables));
+  WriteFileAtomically(report_dir / "tables.tex", ToLatex(tables));
   WriteFileAtomically(report_dir / "index.html", Page(results.suite, "", body));
   WriteFileAtomically(report_dir / "summary.csv", ToSummaryCsv(results));
   WriteFileAtomically(report_dir / "junit.xml", ToJunit(results));

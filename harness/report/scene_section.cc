@@ -1,3 +1,5 @@
+#include <nlohmann/json.hpp>
+
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/report/charts.h"
@@ -102,6 +104,30 @@ std::string Figure(const std::string& content, const std::string& caption) {
   return "<figure>" + content + "<figcaption>" + caption + "</figcaption></figure>\n";
 }
 
+/// The tracks in three dimensions, for pages whose scripts may run: hidden without.
+std::string Orbit(const std::vector<ChartSeries>& series) {
+  constexpr std::size_t kMostPoints = 400;
+  nlohmann::ordered_json tracks = nlohmann::ordered_json::array();
+  const auto add = [&](const ChartSeries& one, int color, bool truth) {
+    nlohmann::ordered_json points = nlohmann::ordered_json::array();
+    const std::size_t step = std::max<std::size_t>(1, one.rows->size() / kMostPoints);
+    for (std::size_t i = 0; i < one.rows->size(); i += step) {
+      const FrameRow& row = (*one.rows)[i];
+      const std::optional<Eigen::Vector3d> at = truth ? std::optional(row.truth_m) : row.live_m;
+      if (!at) continue;
+      const auto millimetres = [](double metres) { return std::round(1000 * metres) / 1000; };
+      points.push_back({millimetres(at->x()), millimetres(at->y()), millimetres(at->z())});
+    }
+    if (points.size() > 1) tracks.push_back({{"color", color}, {"points", points}});
+  };
+  if (series.empty()) return "";
+  add(series.front(), -1, true);
+  for (const ChartSeries& one : series) add(one, one.color, false);
+  return "<figure hidden data-tracks=\"" + Escape(tracks.dump()) +
+         "\"><figcaption>The tracks in space: drag to turn, wheel to come closer.</figcaption>"
+         "</figure>\n";
+}
+
 std::string Charts(const SceneRuns& scene, const fs::path& report_dir) {
   std::vector<std::vector<FrameRow>> frames;
   for (const SystemRuns& system : scene.systems) frames.push_back(Frames(system, report_dir));
@@ -115,7 +141,8 @@ std::string Charts(const SceneRuns& scene, const fs::path& report_dir) {
                 seed +
                     "Distance of each live pose from truth after rigid alignment; gaps are frames "
                     "without a pose. Beneath: share of the left image that moves.") +
-         Figure(TopViewChart(series), seed + "Live tracks from above, truth dashed.");
+         Figure(TopViewChart(series), seed + "Live tracks from above, truth dashed.") +
+         Orbit(series);
 }
 
 std::string Spread(const SceneRuns& scene) {

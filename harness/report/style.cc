@@ -6,7 +6,7 @@ const char* const kStyleSheet = R"css(:root {
   color-scheme: light dark;
   --page: #fbfbfa; --card: #ffffff; --ink: #1c2024; --soft: #626b74; --rule: #dde1e5;
   --good: #14713d; --good-page: #e3f4e9; --bad: #b3261e; --bad-page: #fbe6e4;
-  --movers: #d5504a; --truth: #7b858f;
+  --warn: #8a5a00; --movers: #d5504a; --truth: #7b858f;
   --c0: #d1571b; --c1: #1668b8; --c2: #2a8a4a; --c3: #8a4fc2; --c4: #b0367f; --c5: #7a6a00;
   --b0: #4c78a8; --b1: #72b7b2; --b2: #e3a857; --b3: #b279a2; --b4: #9aa5ae; --b5: #6f9e5a;
   --b6: #d0807a; --b7: #8f8bd0;
@@ -15,7 +15,7 @@ const char* const kStyleSheet = R"css(:root {
   :root {
     --page: #14171a; --card: #1c2024; --ink: #e6e9ec; --soft: #98a2ac; --rule: #333a41;
     --good: #6fd595; --good-page: #15301f; --bad: #ff8f85; --bad-page: #3a1a18;
-    --movers: #e0706a; --truth: #8d98a3;
+    --warn: #f0b85a; --movers: #e0706a; --truth: #8d98a3;
     --c0: #ff9a5c; --c1: #6cb6ff; --c2: #6fd595; --c3: #c79bff; --c4: #ff86c3; --c5: #e0cf5a;
   }
 }
@@ -83,6 +83,19 @@ svg .b6 { fill: var(--b6); } svg .b7 { fill: var(--b7); }
 code, pre { font: 13px/1.45 ui-monospace, "DejaVu Sans Mono", monospace; }
 pre { background: var(--card); border: 1px solid var(--rule); border-radius: 4px; padding: 8px 12px;
   overflow-x: auto; margin: 6px 0; }
+.flaky { color: var(--warn); font-weight: 600; }
+th.sortable { cursor: pointer; }
+th.sortable:hover { color: var(--ink); }
+th[aria-sort=ascending]::after { content: " ▴"; } th[aria-sort=descending]::after { content: " ▾"; }
+th.group { text-align: center; border-left: 1px solid var(--rule); color: var(--ink); }
+table.grouped .first { border-left: 1px solid var(--rule); }
+table.grouped th:first-child:not([rowspan]) { text-align: right; }
+input.filter { font: inherit; font-size: 13px; padding: 4px 9px; border: 1px solid var(--rule);
+  border-radius: 4px; background: var(--card); color: var(--ink); }
+.readout { min-height: 1.5em; font-variant-numeric: tabular-nums; white-space: pre-wrap; }
+svg .panel { fill: none; pointer-events: all; }
+svg .cursor { stroke: var(--soft); stroke-width: 1; pointer-events: none; }
+canvas { display: block; width: 100%; height: 420px; touch-action: none; cursor: grab; }
 details { margin: 8px 0; }
 summary { cursor: pointer; color: var(--soft); }
 footer { margin-top: 44px; color: var(--soft); font-size: 13px; border-top: 1px solid var(--rule);

@@ -62,9 +62,11 @@ void Svg::Circle(double x, double y, double radius, const std::string& css,
                   y, radius, css, Tip(tip));
 }
 
-void Svg::Polyline(const std::vector<std::pair<double, double>>& points, const std::string& css) {
+void Svg::Polyline(const std::vector<std::pair<double, double>>& points, const std::string& css,
+                   const std::string& name) {
   if (points.size() < 2) return;
-  text_ += fmt::format("<polyline points=\"{}\" class=\"{}\"/>\n", Points(points), css);
+  const std::string data = name.empty() ? "" : " data-name=\"" + Escape(name) + "\"";
+  text_ += fmt::format("<polyline points=\"{}\" class=\"{}\"{}/>\n", Points(points), css, data);
 }
 
 void Svg::Polygon(const std::vector<std::pair<double, double>>& points, const std::string& css) {
@@ -81,6 +83,14 @@ void Svg::Text(double x, double y, const std::string& text, const std::string& c
 
 void Svg::Grid(const Axis& x, const Axis& y, const std::string& x_title,
                const std::string& y_title) {
+  const auto numbers = [](const Axis& axis) {
+    return fmt::format("{:g} {:g} {:g} {:g}", axis.low, axis.high, axis.from_px, axis.to_px);
+  };
+  text_ += fmt::format(
+      "<rect x=\"{:g}\" y=\"{:g}\" width=\"{:g}\" height=\"{:g}\" class=\"panel\" "
+      "data-x=\"{}\" data-y=\"{}\" data-title=\"{}\"/>\n",
+      x.from_px, std::min(y.from_px, y.to_px), x.to_px - x.from_px, std::abs(y.to_px - y.from_px),
+      numbers(x), numbers(y), Escape(x_title));
   for (const double tick : Ticks(x.low, x.high, 8)) {
     Line(x(tick), y.from_px, x(tick), y.to_px, "grid");
     Text(x(tick), std::max(y.from_px, y.to_px) + 15, fmt::format("{:g}", tick), "tick", "middle");

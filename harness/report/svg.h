@@ -27,7 +27,9 @@ class Svg {
             const std::string& tip = "");
   void Circle(double x, double y, double radius, const std::string& css,
               const std::string& tip = "");
-  void Polyline(const std::vector<std::pair<double, double>>& points, const std::string& css);
+  /// A named line shows its values under the pointer where scripts may run.
+  void Polyline(const std::vector<std::pair<double, double>>& points, const std::string& css,
+                const std::string& name = "");
   void Polygon(const std::vector<std::pair<double, double>>& points, const std::string& css);
   /// anchor: start, middle or end.
   void Text(double x, double y, const std::string& text, const std::string& css,

@@ -4,6 +4,7 @@
 
 #include "harness/run/frames_ahead.h"
 #include "harness/run/stopwatch.h"
+#include "harness/score/difficulty.h"
 #include "harness/score/masks.h"
 
 namespace aisle {
@@ -135,13 +136,7 @@ Offence Judge(const RunResult& result, std::size_t frames, double min_coverage) 
 
 }  // namespace
 
-ExternalMask MaskFromTruth(MaskSource source, const std::optional<FrameTruth>& truth) {
-  if (!truth || source == MaskSource::kNone) return {};
-  if (source == MaskSource::kDynamic) return {truth->dynamic, truth->dynamic_right};
-  return {truth->actor, truth->actor_right};
-}
-
-RunResult Drive(const Sequence& sequence, Estimator& estimator, MaskSource mask_source,
+RunResult Drive(const Sequence& sequence, Estimator& estimator, const MaskMaker& masks,
                 const DriveOptions& options, const FrameObserver& observer) {
   const Stopwatch whole;
   const std::vector<FrameRequest> schedule = sequence.Schedule();
@@ -149,10 +144,12 @@ RunResult Drive(const Sequence& sequence, Estimator& estimator, MaskSource mask_
   RunResult result;
   Offence offence;
   bool ever_rejected = false;
+  const StereoCalibration calibration = sequence.calibration();
+  std::optional<Eigen::Isometry3d> T_world_previous;
   for (std::size_t i = 0; i < schedule.size() && offence.why.empty(); ++i) {
     const FramesAhead::Frame next = frames.Next();
     const SequenceFrame& shown = next.frame;
-    const ExternalMask mask = MaskFromTruth(mask_source, shown.truth);
+    const ExternalMask mask = masks(shown);
     const Stopwatch step;
     FrameEstimate estimate;
     try {
@@ -168,6 +165,11 @@ RunResult Drive(const Sequence& sequence, Estimator& estimator, MaskSource mask_
     AdoptMask(mask, &estimate);
     ever_rejected = ever_rejected || Rejects(estimate);
     FrameFacts facts = FactsOf(shown, estimate);
+    if (shown.truth) {
+      facts.difficulty =
+          DifficultyOf(shown.images.left, *shown.truth, calibration, T_world_previous);
+      T_world_previous = shown.truth->T_world_rig;
+    }
     facts.render_ms = next.made_ms;
     facts.process_ms = process_ms;
     if (observer) observer({schedule[i], shown, estimate, facts, i, schedule.size()});

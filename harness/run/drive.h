@@ -6,6 +6,7 @@
 #include "harness/contract/estimator.h"
 #include "harness/contract/run.h"
 #include "harness/contract/sequence.h"
+#include "harness/run/mask_makers.h"
 
 namespace aisle {
 
@@ -26,15 +27,11 @@ struct DrivenFrame {
 };
 using FrameObserver = std::function<void(const DrivenFrame&)>;
 
-/// What an estimator is handed besides the images, made from truth. Both images empty for kNone or
-/// where truth is not known.
-ExternalMask MaskFromTruth(MaskSource source, const std::optional<FrameTruth>& truth);
-
 /// Shows every frame of the sequence to the estimator, one after the other in lockstep, and keeps
 /// the facts that the scores need. The estimator's exceptions end the run as kCrashed, poses that
 /// are no finite rigid motions as kInvalid; the sequence's exceptions are not the system's fault
 /// and pass through. Sets everything in the result but spec, scene_hash and threads.
-RunResult Drive(const Sequence& sequence, Estimator& estimator, MaskSource mask_source,
+RunResult Drive(const Sequence& sequence, Estimator& estimator, const MaskMaker& masks,
                 const DriveOptions& options = {}, const FrameObserver& observer = {});
 
 }  // namespace aisle

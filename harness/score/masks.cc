@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "harness/score/boundary.h"
+
 namespace aisle {
 namespace {
 
@@ -54,6 +56,32 @@ void CountCorners(const cv::Mat1b& left, const cv::Mat1b& truth, const cv::Mat1b
   }
 }
 
+void CountOutlines(const cv::Mat1b& truth, const cv::Mat1b& rejected, MaskFacts* facts) {
+  const BoundaryCounts counts = CompareBoundaries(truth, rejected);
+  facts->outline_truth = counts.truth;
+  facts->outline_truth_met = counts.truth_met;
+  facts->outline_rejected = counts.rejected;
+  facts->outline_rejected_met = counts.rejected_met;
+}
+
+std::vector<ObjectOutcome> Outcomes(const FrameTruth& truth,
+                                    const std::vector<MovingObject>& objects,
+                                    const std::vector<bool>& found) {
+  std::vector<ObjectOutcome> outcomes;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const auto known = std::find_if(
+        truth.objects.begin(), truth.objects.end(),
+        [&](const ObjectTruth& object) { return object.instance == objects[i].instance; });
+    if (known == truth.objects.end()) continue;
+    outcomes.push_back({.object_class = known->object_class,
+                        .pixels = objects[i].pixels,
+                        .distance_m = (known->center_m - truth.T_world_rig.translation()).norm(),
+                        .speed_mps = known->velocity_mps.norm(),
+                        .found = found[i]});
+  }
+  return outcomes;
+}
+
 }  // namespace
 
 double Iou(const cv::Rect2d& a, const cv::Rect2d& b) {
@@ -62,18 +90,20 @@ double Iou(const cv::Rect2d& a, const cv::Rect2d& b) {
   return whole > 0 ? shared / whole : 0;
 }
 
-std::vector<cv::Rect2d> MovingBoxes(const FrameTruth& truth, const MaskOptions& options) {
-  std::vector<cv::Rect2d> boxes;
+std::vector<MovingObject> MovingObjects(const FrameTruth& truth, const MaskOptions& options) {
+  std::vector<MovingObject> objects;
   if (!truth.instance.empty() && truth.instance.size() == truth.dynamic.size()) {
     for (const auto& [instance, box] : DynamicBoxesByInstance(truth.dynamic, truth.instance)) {
-      if (box.pixels >= options.min_object_pixels) boxes.emplace_back(box.rect);
+      if (box.pixels < options.min_object_pixels) continue;
+      objects.push_back({cv::Rect2d(box.rect), instance, box.pixels});
     }
-    return boxes;
+    return objects;
   }
   for (const ObjectTruth& object : truth.objects) {
-    if (object.dynamic_pixels >= options.min_object_pixels) boxes.push_back(object.box_visible);
+    if (object.dynamic_pixels < options.min_object_pixels) continue;
+    objects.push_back({object.box_visible, object.instance, object.dynamic_pixels});
   }
-  return boxes;
+  return objects;
 }
 
 std::vector<cv::Rect2d> RejectedBoxes(const DynamicRegions& regions, const MaskOptions& options) {
@@ -95,7 +125,8 @@ std::vector<cv::Rect2d> RejectedBoxes(const DynamicRegions& regions, const MaskO
 }
 
 MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth, const std::vector<cv::Rect2d>& rejected,
-                     const MaskOptions& options, const std::vector<bool>& excused) {
+                     const MaskOptions& options, const std::vector<bool>& excused,
+                     std::vector<bool>* found) {
   std::vector<std::tuple<double, std::size_t, std::size_t>> candidates;
   for (std::size_t t = 0; t < truth.size(); ++t) {
     for (std::size_t r = 0; r < rejected.size(); ++r) {
@@ -117,6 +148,7 @@ MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth, const std::vector<cv:
     const bool forgiven = r < excused.size() && excused[r];
     facts.objects_invented += !rejected_taken[r] && !forgiven ? 1 : 0;
   }
+  if (found != nullptr) *found = std::move(truth_taken);
   return facts;
 }
 
@@ -139,6 +171,7 @@ std::vector<bool> OnMovingPixels(const std::vector<cv::Rect2d>& rejected, const 
 MaskFacts CompareMaskImages(const cv::Mat1b& truth, const cv::Mat1b& rejected) {
   MaskFacts facts;
   CountPixels(truth, rejected, &facts);
+  CountOutlines(truth, rejected, &facts);
   return facts;
 }
 
@@ -147,9 +180,15 @@ MaskFacts CompareMasks(const cv::Mat1b& left, const FrameTruth& truth,
   const cv::Mat1b dynamic = OrEmpty(truth.dynamic, left.size(), "truth's dynamic");
   const cv::Mat1b rejected = OrEmpty(regions.mask, left.size(), "the system's");
   const std::vector<cv::Rect2d> boxes = RejectedBoxes(regions, options);
-  MaskFacts facts = MatchBoxes(MovingBoxes(truth, options), boxes, options,
-                               OnMovingPixels(boxes, dynamic, regions.mask));
+  const std::vector<MovingObject> objects = MovingObjects(truth, options);
+  std::vector<cv::Rect2d> true_boxes;
+  for (const MovingObject& object : objects) true_boxes.push_back(object.box);
+  std::vector<bool> found;
+  MaskFacts facts =
+      MatchBoxes(true_boxes, boxes, options, OnMovingPixels(boxes, dynamic, regions.mask), &found);
+  facts.objects = Outcomes(truth, objects, found);
   CountPixels(dynamic, rejected, &facts);
+  CountOutlines(dynamic, rejected, &facts);
   CountCorners(left, dynamic, rejected, options, &facts);
   return facts;
 }

@@ -23,25 +23,34 @@ struct MaskOptions {
 /// Intersection over union of two rectangles, in [0, 1]; 0 where both are empty.
 double Iou(const cv::Rect2d& a, const cv::Rect2d& b);
 
-/// Rectangles of what moves now: per object the box of its dynamic pixels (of its visible box where
+/// Something that moves now and must be found.
+struct MovingObject {
+  cv::Rect2d box;
+  int instance = 0;
+  int pixels = 0;  ///< that move and show
+};
+
+/// What moves now: per object the box of its dynamic pixels (of its visible box where
 /// no instance labels are known), for objects with at least min_object_pixels of them.
-std::vector<cv::Rect2d> MovingBoxes(const FrameTruth& truth, const MaskOptions& options);
+std::vector<MovingObject> MovingObjects(const FrameTruth& truth, const MaskOptions& options);
 
 /// What the system says moves: its regions' boxes, or the boxes of the mask's connected blobs.
 std::vector<cv::Rect2d> RejectedBoxes(const DynamicRegions& regions, const MaskOptions& options);
 
-/// Pairs rectangles one to one, largest overlap first. Fills the object counts and iou_sum. A
+/// Pairs rectangles one to one, largest overlap first. Fills the object counts and iou_sum, and in
+/// `found`, where given, which of the true ones have a partner. A
 /// rejected rectangle without partner is invented, unless `excused` says of it that it lies on
 /// something that does move: a part of an object, or one too small to be asked for.
 MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth, const std::vector<cv::Rect2d>& rejected,
-                     const MaskOptions& options, const std::vector<bool>& excused = {});
+                     const MaskOptions& options, const std::vector<bool>& excused = {},
+                     std::vector<bool>* found = nullptr);
 
 /// Per rejected rectangle: at least half of the pixels rejected in it (of all its pixels where
 /// there is no mask) move in truth.
 std::vector<bool> OnMovingPixels(const std::vector<cv::Rect2d>& rejected, const cv::Mat1b& dynamic,
                                  const cv::Mat1b& mask);
 
-/// Pixel counts alone, of masks of one size.
+/// Pixels and outlines alone, of masks of one size.
 MaskFacts CompareMaskImages(const cv::Mat1b& truth, const cv::Mat1b& rejected);
 
 /// All comparisons of one frame. `truth.dynamic` and `regions.mask` have the size of `left`, or are

@@ -5,15 +5,6 @@
 namespace aisle {
 namespace {
 
-Score Absent(const std::string& unit, const std::string& why) {
-  return {.value = std::nullopt, .unit = unit, .alignment = "", .n = 0, .absent = why};
-}
-
-Score Present(double value, const std::string& unit, std::size_t n,
-              const std::string& alignment = "") {
-  return {.value = value, .unit = unit, .alignment = alignment, .n = n, .absent = ""};
-}
-
 void AddStatistics(const std::string& prefix, const std::string& unit,
                    const std::vector<double>& errors, const std::string& alignment,
                    Scorecard* scores) {
@@ -55,132 +46,6 @@ void AddRelative(const TrajectoryScore& track, const Trajectory& truth, const Tr
       Present(Summarize(Rotations(errors)).rmse, "deg", errors.size(), "none");
 }
 
-// --- One run
-// --------------------------------------------------------------------------------------
-
-/// Error of the live track at every frame of the truth; infinite where it has no pose.
-std::vector<double> ErrorsOverAllFrames(const RunResult& run, const TrajectoryScore& live) {
-  std::vector<double> errors(run.truth.size(), std::numeric_limits<double>::infinity());
-  for (const PoseError& error : live.errors) errors[error.pair.truth] = error.translation_m;
-  return errors;
-}
-
-Score QuantileScore(const std::vector<double>& errors, double q, const std::string& alignment) {
-  const double value = errors.empty() ? 0 : Quantile(errors, q);
-  if (errors.empty()) return Absent("m", "no frames");
-  if (!std::isfinite(value)) {
-    return Absent("m", fmt::format("lost in more than {:g} % of the frames", 100 * (1 - q)));
-  }
-  return Present(value, "m", errors.size(), alignment);
-}
-
-void AddLiveTrack(const RunResult& run, const ScoreOptions& options, Scorecard* scores) {
-  const TrajectoryScore live = ScoreTrajectory(run.truth, run.trajectory.live, options);
-  const auto rmse = live.scores.find("ate_rmse_m");
-  (*scores)["ate_live_rmse_m"] = rmse->second;
-  const std::vector<double> errors = ErrorsOverAllFrames(run, live);
-  const std::string alignment = Name(options.alignment.method);
-  (*scores)["error_all_p50_m"] = QuantileScore(errors, 0.50, alignment);
-  (*scores)["error_all_p95_m"] = QuantileScore(errors, 0.95, alignment);
-}
-
-void AddCoverage(const RunResult& run, Scorecard* scores) {
-  std::size_t tracked = 0, lost_times = 0;
-  double longest_gap_s = 0;
-  bool lost = false;
-  std::int64_t lost_since_ns = 0;
-  for (const FrameEstimate& estimate : run.estimates) {
-    if (estimate.T_world_rig) {
-      ++tracked;
-      const double gap_s = static_cast<double>(estimate.stamp_ns - lost_since_ns) * 1e-9;
-      if (lost) longest_gap_s = std::max(longest_gap_s, gap_s);
-      lost = false;
-    } else if (tracked > 0 && !lost) {
-      lost = true;
-      lost_since_ns = estimate.stamp_ns;
-      ++lost_times;
-    }
-  }
-  const std::size_t frames = run.facts.size();
-  (*scores)["coverage"] =
-      frames > 0 ? Present(static_cast<double>(tracked) / static_cast<double>(frames), "1", frames)
-                 : Absent("1", "no frames");
-  (*scores)["times_lost"] = Present(static_cast<double>(lost_times), "1", frames);
-  if (lost) {
-    (*scores)["recovery_max_s"] = Absent("s", "did not recover before the end");
-  } else if (lost_times > 0) {
-    (*scores)["recovery_max_s"] = Present(longest_gap_s, "s", lost_times);
-  } else {
-    (*scores)["recovery_max_s"] = Absent("s", "never lost");
-  }
-}
-
-Score RatioScore(double part, double whole, const std::string& nothing) {
-  if (whole <= 0) return Absent("1", nothing);
-  return Present(part / whole, "1", static_cast<std::size_t>(whole));
-}
-
-void AddMasks(const RunResult& run, Scorecard* scores) {
-  MaskFacts sum;
-  bool any = false;
-  for (const FrameFacts& frame : run.facts) {
-    if (!frame.mask) continue;
-    any = true;
-    sum.true_positives += frame.mask->true_positives;
-    sum.false_positives += frame.mask->false_positives;
-    sum.false_negatives += frame.mask->false_negatives;
-    sum.objects_found += frame.mask->objects_found;
-    sum.objects_invented += frame.mask->objects_invented;
-    sum.objects_missed += frame.mask->objects_missed;
-    sum.iou_sum += frame.mask->iou_sum;
-    sum.static_corners += frame.mask->static_corners;
-    sum.static_corners_lost += frame.mask->static_corners_lost;
-  }
-  if (!any) return;  // the system makes no masks: no row is clearer than nine empty ones
-  const auto tp = static_cast<double>(sum.true_positives);
-  const auto fp = static_cast<double>(sum.false_positives);
-  const auto fn = static_cast<double>(sum.false_negatives);
-  (*scores)["mask_precision"] = RatioScore(tp, tp + fp, "nothing was rejected");
-  (*scores)["mask_recall"] = RatioScore(tp, tp + fn, "nothing moved");
-  (*scores)["mask_iou"] = RatioScore(tp, tp + fp + fn, "nothing moved, nothing was rejected");
-  const double found = sum.objects_found;
-  (*scores)["object_precision"] =
-      RatioScore(found, found + sum.objects_invented, "nothing was rejected");
-  (*scores)["object_recall"] = RatioScore(found, found + sum.objects_missed, "nothing moved");
-  (*scores)["object_iou"] = RatioScore(sum.iou_sum, found, "no object was found");
-  (*scores)["static_features_lost"] =
-      RatioScore(sum.static_corners_lost, sum.static_corners, "no corner on a static surface");
-}
-
-void AddFeatures(const RunResult& run, Scorecard* scores) {
-  double features = 0, on_movers = 0, inliers_on_movers = 0;
-  for (const FrameFacts& frame : run.facts) {
-    features += frame.features;
-    on_movers += frame.features_on_movers;
-    inliers_on_movers += frame.inliers_on_movers;
-  }
-  (*scores)["features_on_movers"] = RatioScore(on_movers, features, "the system shows no features");
-  (*scores)["inliers_on_movers_per_frame"] =
-      run.facts.empty() ? Absent("1", "no frames")
-                        : Present(inliers_on_movers / static_cast<double>(run.facts.size()), "1",
-                                  run.facts.size());
-}
-
-void AddTimes(const RunResult& run, Scorecard* scores) {
-  std::map<std::string, std::vector<double>> stages;
-  for (const FrameEstimate& estimate : run.estimates) {
-    for (const auto& [stage, ms] : estimate.stage_ms) stages[stage].push_back(ms);
-  }
-  for (const FrameFacts& frame : run.facts) {
-    stages["render"].push_back(frame.render_ms);
-    stages["process"].push_back(frame.process_ms);
-  }
-  for (const auto& [stage, ms] : stages) {
-    (*scores)["ms_" + stage + "_mean"] = Present(Summarize(ms).mean, "ms", ms.size());
-  }
-  if (run.peak_rss_mib > 0) (*scores)["peak_rss_mib"] = Present(run.peak_rss_mib, "MiB", 1);
-}
-
 }  // namespace
 
 TrajectoryScore ScoreTrajectory(const Trajectory& truth, const Trajectory& estimate,
@@ -210,6 +75,8 @@ TrajectoryScore ScoreTrajectory(const Trajectory& truth, const Trajectory& estim
                     alignment)
           : Absent("deg", "the path is a straight line: alignment leaves a turn about it free");
   AddRelative(result, truth, estimate, "rpe", options.relative, &result.scores);
+  AddRelative(result, truth, estimate, "rpe_1m",
+              {.delta = 1, .unit = DeltaUnit::kMetres, .all_pairs = true}, &result.scores);
   AddRelative(result, truth, estimate, "rpe_1s",
               {.delta = 1, .unit = DeltaUnit::kSeconds, .all_pairs = true}, &result.scores);
   AddSegments("", result, truth, estimate, SegmentOptions{}, &result.scores);
@@ -219,20 +86,12 @@ TrajectoryScore ScoreTrajectory(const Trajectory& truth, const Trajectory& estim
   return result;
 }
 
-Scorecard ScoreRun(const RunResult& run, const ScoreOptions& options) {
-  Scorecard scores = ScoreTrajectory(run.truth, run.trajectory.final, options).scores;
-  AddLiveTrack(run, options, &scores);
-  AddCoverage(run, &scores);
-  AddMasks(run, &scores);
-  AddFeatures(run, &scores);
-  AddTimes(run, &scores);
-  return scores;
+Score Absent(const std::string& unit, const std::string& why) {
+  return {.value = std::nullopt, .unit = unit, .alignment = "", .n = 0, .absent = why};
 }
 
-Scorecard ScoreMasks(const RunResult& run) {
-  Scorecard scores;
-  AddMasks(run, &scores);
-  return scores;
+Score Present(double value, const std::string& unit, std::size_t n, const std::string& alignment) {
+  return {.value = value, .unit = unit, .alignment = alignment, .n = n, .absent = ""};
 }
 
 std::string ToText(const Score& score) {

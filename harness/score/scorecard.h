@@ -41,6 +41,11 @@ Scorecard ScoreMasks(const RunResult& run);
 std::string FrameMismatch(const Trajectory& truth, const Trajectory& estimate,
                           const std::vector<PoseError>& errors, const Alignment& alignment);
 
+/// A score with its value, and one without.
+Score Present(double value, const std::string& unit, std::size_t n,
+              const std::string& alignment = "");
+Score Absent(const std::string& unit, const std::string& why);
+
 /// "value m (n = 12, se3)" or "- (why not)".
 std::string ToText(const Score& score);
 

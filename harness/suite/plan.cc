@@ -14,11 +14,9 @@ using Json = nlohmann::ordered_json;
 constexpr int kSchema = 1;
 
 Json ToJson(const ExternalSystem& external) {
-  return {{"name", external.name},
-          {"command", external.command},
-          {"dataset", external.dataset},
-          {"trajectory", external.trajectory},
-          {"timeout_s", external.timeout_s}};
+  return {{"name", external.name},           {"command", external.command},
+          {"dataset", external.dataset},     {"trajectory", external.trajectory},
+          {"vslam_lab", external.vslam_lab}, {"timeout_s", external.timeout_s}};
 }
 
 ExternalSystem ExternalFromJson(const Json& json) {
@@ -26,7 +24,26 @@ ExternalSystem ExternalFromJson(const Json& json) {
           .command = json.at("command").get<std::string>(),
           .dataset = json.at("dataset").get<std::string>(),
           .trajectory = json.at("trajectory").get<std::string>(),
+          .vslam_lab = json.at("vslam_lab").get<bool>(),
           .timeout_s = json.at("timeout_s").get<double>()};
+}
+
+Json ToJson(const ImperfectSystem& system) {
+  return {{"name", system.name},
+          {"like", system.like},
+          {"boundary_px", system.errors.boundary_px},
+          {"miss_below_px", system.errors.miss_below_px},
+          {"miss_share", system.errors.miss_share},
+          {"latency_frames", system.errors.latency_frames}};
+}
+
+ImperfectSystem ImperfectFromJson(const Json& json) {
+  return {.name = json.at("name").get<std::string>(),
+          .like = json.at("like").get<std::string>(),
+          .errors = {.boundary_px = json.at("boundary_px").get<double>(),
+                     .miss_below_px = json.at("miss_below_px").get<int>(),
+                     .miss_share = json.at("miss_share").get<double>(),
+                     .latency_frames = json.at("latency_frames").get<int>()}};
 }
 
 Json OrNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
@@ -64,6 +81,9 @@ PlanFile FromJson(const Json& json) {
   for (const Json& external : json.at("externals")) {
     suite.externals[external.at("name").get<std::string>()] = ExternalFromJson(external);
   }
+  for (const Json& system : json.at("imperfect")) {
+    suite.imperfect[system.at("name").get<std::string>()] = ImperfectFromJson(system);
+  }
   suite.twins = json.at("twins").get<std::vector<std::string>>();
   suite.seeds = json.at("seeds").get<std::vector<std::uint64_t>>();
   for (const Json& limit : json.at("limits")) suite.limits.push_back(LimitFromJson(limit));
@@ -88,6 +108,8 @@ std::string ToJson(const PlanFile& plan) {
   for (const auto& [name, external] : suite.externals) {
     json["externals"].push_back(ToJson(external));
   }
+  json["imperfect"] = Json::array();
+  for (const auto& [name, system] : suite.imperfect) json["imperfect"].push_back(ToJson(system));
   json["twins"] = suite.twins;
   json["seeds"] = suite.seeds;
   json["limits"] = Json::array();

@@ -14,6 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxSeeds = 1000;
+constexpr const char* kExternalExample = "{name: mine, command: my_slam {dataset} {output}}";
 constexpr const char* kNameRule = "letters, digits, '_', '.' and '-', 1 to 80 of them";
 
 /// The comment a file opens with, as one line of text: what the suite asks when no key says so.
@@ -45,7 +46,7 @@ class Reader {
       suite.scenes.push_back(SceneAt(scene));
     }
     for (const YAML::Node& system : List(Required("systems", "systems: [orbslam2, oracle]"))) {
-      suite.systems.push_back(SystemAt(system, &suite.externals));
+      suite.systems.push_back(SystemAt(system, &suite));
     }
     if (root_["twins"]) suite.twins = Twins();
     if (root_["seeds"]) suite.seeds = Seeds(root_["seeds"]);
@@ -111,32 +112,77 @@ class Reader {
     return name;
   }
 
-  /// A known name, or the description of a command, which is filed under its name.
-  std::string SystemAt(const YAML::Node& node,
-                       std::map<std::string, ExternalSystem>* externals) const {
+  /// A known name, or a description, which is filed under its name.
+  std::string SystemAt(const YAML::Node& node, Suite* suite) const {
     if (!node.IsMap()) return OneOf(node, vocabulary_.systems, "system");
-    const std::string example = "{name: mine, command: my_slam {dataset} {output}}";
-    RequireKeys(node, {"name", "command", "dataset", "trajectory", "timeout_s"}, example);
-    if (!node["name"] || !node["command"]) {
-      Fail(node, "an external system needs a name and a command, for example " + example);
+    if (!node["name"]) {
+      Fail(node, "a system of your own needs a name and a command, for example " +
+                     std::string(kExternalExample));
+    }
+    const std::string name = NameAt(node["name"]);
+    const auto& known = vocabulary_.systems;
+    if (std::find(known.begin(), known.end(), name) != known.end()) {
+      Fail(node["name"], "'" + name + "' is one of ours: choose another name");
+    }
+    if (suite->externals.count(name) + suite->imperfect.count(name) > 0) {
+      Fail(node["name"], "'" + name + "' is already taken: choose another name");
+    }
+    if (node["like"]) {
+      suite->imperfect[name] = ImperfectAt(node, name);
+    } else {
+      suite->externals[name] = ExternalAt(node, name);
+    }
+    return name;
+  }
+
+  ExternalSystem ExternalAt(const YAML::Node& node, const std::string& name) const {
+    RequireKeys(node, {"name", "command", "contract", "dataset", "trajectory", "timeout_s"},
+                kExternalExample);
+    if (!node["command"]) {
+      Fail(node, "a system of your own needs a name and a command, for example " +
+                     std::string(kExternalExample));
     }
     ExternalSystem system;
-    system.name = NameAt(node["name"]);
+    system.name = name;
     system.command = Text(node["command"]);
-    const auto& known = vocabulary_.systems;
-    if (std::find(known.begin(), known.end(), system.name) != known.end()) {
-      Fail(node["name"], "'" + system.name + "' is one of ours: choose another name");
-    }
-    if (system.command.find("{output}") == std::string::npos) {
-      Fail(node["command"], "the command must say where {output} goes, for example " + example);
+    if (node["contract"]) {
+      OneOf(node["contract"], {"vslam-lab"}, "contract");
+      system.vslam_lab = true;
+    } else if (system.command.find("{output}") == std::string::npos) {
+      Fail(node["command"], "the command must say where {output} goes, for example " +
+                                std::string(kExternalExample));
     }
     if (node["dataset"]) system.dataset = OneOf(node["dataset"], {"euroc", "kitti"}, "dataset");
     if (node["trajectory"]) {
       system.trajectory = OneOf(node["trajectory"], {"tum", "kitti", "euroc"}, "trajectory");
     }
+    if (system.vslam_lab && (node["dataset"] || node["trajectory"])) {
+      Fail(node, "contract vslam-lab fixes dataset and trajectory: leave both out");
+    }
     if (node["timeout_s"]) system.timeout_s = Number(node["timeout_s"]);
-    (*externals)[system.name] = system;
-    return system.name;
+    if (system.timeout_s <= 0) Fail(node["timeout_s"], "expected more than 0 seconds");
+    return system;
+  }
+
+  ImperfectSystem ImperfectAt(const YAML::Node& node, const std::string& name) const {
+    const char* example = "{name: network, like: semantic, mask_errors: {boundary_px: 3}}";
+    RequireKeys(node, {"name", "like", "mask_errors"}, example);
+    if (!node["mask_errors"])
+      Fail(node, fmt::format("expected mask_errors, for example {}", example));
+    ImperfectSystem system{
+        .name = name, .like = OneOf(node["like"], {"oracle", "semantic"}, "system"), .errors = {}};
+    const YAML::Node& errors = node["mask_errors"];
+    RequireKeys(errors, {"boundary_px", "miss_below_px", "miss_share", "latency_frames"}, example);
+    if (errors["boundary_px"]) system.errors.boundary_px = Number(errors["boundary_px"]);
+    if (errors["miss_share"]) system.errors.miss_share = Number(errors["miss_share"]);
+    if (errors["miss_below_px"]) {
+      system.errors.miss_below_px = static_cast<int>(Whole(errors["miss_below_px"]));
+    }
+    if (errors["latency_frames"]) {
+      system.errors.latency_frames = static_cast<int>(Whole(errors["latency_frames"]));
+    }
+    if (const std::string broken = system.errors.Validate(); !broken.empty()) Fail(errors, broken);
+    return system;
   }
 
   SuiteScene SceneAt(const YAML::Node& node) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "harness/contract/external.h"
+#include "harness/contract/mask_errors.h"
 #include "harness/contract/run.h"
 #include "harness/report/verdict.h"
 
@@ -21,7 +22,8 @@ struct Suite {
   std::string question;
   std::vector<SuiteScene> scenes;
   std::vector<std::string> systems;
-  std::map<std::string, ExternalSystem> externals;  ///< those of `systems` that are commands
+  std::map<std::string, ExternalSystem> externals;   ///< those of `systems` that are commands
+  std::map<std::string, ImperfectSystem> imperfect;  ///< those that are handed spoilt masks
   std::vector<std::string> twins = {"live"};
   /// Nine show a shift of two standard deviations in 97 nights of 100; three never can.
   std::vector<std::uint64_t> seeds = {1, 2, 3, 4, 5, 6, 7, 8, 9};
@@ -54,6 +56,15 @@ struct Vocabulary {
 ///       dataset: euroc             # or kitti
 ///       trajectory: tum            # or kitti, euroc: what it writes to {output}
 ///       timeout_s: 600
+///     - name: wrapped              # a system that was wrapped for VSLAM-LAB, unchanged
+///       contract: vslam-lab
+///       command: vslamlab_orbslam3_stereo vocabulary:ORBvoc.txt settings_yaml:stereo.yaml
+///
+/// or one of ours that is told its masks, with the errors of an imperfect network:
+///
+///     - name: network
+///       like: semantic             # or oracle
+///       mask_errors: {boundary_px: 3, miss_below_px: 600, miss_share: 0.05, latency_frames: 2}
 ///
 /// Scenes are sought from the suite's folder, then from the scenes folder that holds it; ".yaml"
 /// may be left out. Throws InputError with file:line:column, what was expected and an example.

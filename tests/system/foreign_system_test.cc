@@ -58,6 +58,47 @@ TEST_F(ForeignSystemTest, WhateverItDoesEndsAsItsOwnVerdict) {
   EXPECT_LT(fs::file_size(fs::path(Out("zoo")) / "runs/short/live/floods/1/system.log"), 300000u);
 }
 
+TEST_F(ForeignSystemTest, ThatWasWrappedForVslamLabRunsUnchanged) {
+  // A stand-in that keeps the contract: takes key:value arguments, leaves a key-frame trajectory.
+  const std::string program = (folder_ / "wrapped.sh").string();
+  WriteFileAtomically(program, R"(#!/bin/sh
+for argument in "$@"; do
+  case $argument in
+    sequence_path:*) sequence=${argument#*:} ;;
+    calibration_yaml:*) calibration=${argument#*:} ;;
+    rgb_csv:*) images=${argument#*:} ;;
+    exp_folder:*) folder=${argument#*:} ;;
+    exp_id:*) id=${argument#*:} ;;
+    mode:*) mode=${argument#*:} ;;
+  esac
+done
+[ "$mode" = stereo ] && grep -q 'T_BS' "$calibration" || exit 5
+first=$(sed -n 2p "$images" | cut -d, -f2)
+[ -s "$sequence/$first" ] || exit 6
+sed -n '1p;2~3p' "$sequence/groundtruth.csv" > "$folder/${id}_KeyFrameTrajectory.csv"
+)");
+  const std::string systems =
+      fmt::format("  - {{name: wrapped, contract: vslam-lab, command: \"sh {}\"}}\n", program);
+  const Said said = Run({"run", Suite("lab", systems), "--out", Out("lab")});
+  EXPECT_EQ(said.code, 0) << said.text;
+  const Results results = ResultsOf(Out("lab"));
+  const RunRecord& run = results.runs.at(0);
+  EXPECT_EQ(run.status, RunStatus::kOk) << run.status_why;
+  EXPECT_EQ(run.scores.at("ate_rmse_m").n, 4u);
+  EXPECT_LT(*run.scores.at("ate_rmse_m").value, 1e-6);
+}
+
+TEST_F(ForeignSystemTest, AnImperfectNetworkRejectsLessThanThePerfectOne) {
+  const std::string systems =
+      "  - semantic\n"
+      "  - {name: network, like: semantic, mask_errors: {boundary_px: 4, latency_frames: 3}}\n";
+  const Said said = Run({"run", Suite("net", systems), "--out", Out("net")});
+  EXPECT_EQ(said.code, 0) << said.text;
+  const Results results = ResultsOf(Out("net"));
+  const double perfect = *Find(results, "semantic").scores.at("mask_recall").value;
+  EXPECT_LT(*Find(results, "network").scores.at("mask_recall").value, perfect);
+}
+
 TEST_F(ForeignSystemTest, ThatFailsOnceIsFlakyAndNotForgiven) {
   const std::string mark = Out("been_here");
   const std::string systems = fmt::format(

@@ -102,7 +102,7 @@ using Sin = ScriptedEstimator::Sin;
 
 RunResult DriveWith(Sin sin) {
   ScriptedEstimator estimator(sin);
-  return Drive(CountingSequence(), estimator, MaskSource::kNone);
+  return Drive(CountingSequence(), estimator, MasksFromTruth(MaskSource::kNone));
 }
 
 TEST(DriveTest, EveryFrameReachesTheEstimatorInOrder) {
@@ -125,7 +125,7 @@ TEST(DriveTest, EveryFrameReachesTheEstimatorInOrder) {
 TEST(DriveTest, HowFarAheadFramesAreMadeChangesNothing) {
   for (const std::size_t ahead : {1u, 3u, 100u}) {
     ScriptedEstimator estimator;
-    const RunResult run = Drive(CountingSequence(), estimator, MaskSource::kNone,
+    const RunResult run = Drive(CountingSequence(), estimator, MasksFromTruth(MaskSource::kNone),
                                 {.frames_ahead = ahead, .min_coverage = 0.5});
     EXPECT_EQ(run.trajectory.final.size(), static_cast<std::size_t>(kFrames));
   }
@@ -150,7 +150,7 @@ TEST(DriveTest, ASequenceThatFailsIsNotTheSystemsFault) {
   CountingSequence sequence;
   sequence.fails_at = 7;
   ScriptedEstimator estimator;
-  EXPECT_THROW(Drive(sequence, estimator, MaskSource::kNone), std::runtime_error);
+  EXPECT_THROW(Drive(sequence, estimator, MasksFromTruth(MaskSource::kNone)), std::runtime_error);
 }
 
 TEST(DriveTest, MasksFromTruthReachOnlyThoseWhoAsk) {
@@ -158,7 +158,7 @@ TEST(DriveTest, MasksFromTruthReachOnlyThoseWhoAsk) {
       {MaskSource::kNone, 0}, {MaskSource::kDynamic, 16}, {MaskSource::kActors, 64}};
   for (const auto& [source, pixels] : cases) {
     ScriptedEstimator estimator;
-    const RunResult run = Drive(CountingSequence(), estimator, source);
+    const RunResult run = Drive(CountingSequence(), estimator, MasksFromTruth(source));
     EXPECT_EQ(estimator.masked_pixels, pixels);
     EXPECT_EQ(run.facts[0].mask.has_value(), source != MaskSource::kNone);
   }

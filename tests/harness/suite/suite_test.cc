@@ -125,6 +125,17 @@ TEST_F(SuiteTest, MistakesAreNamedWithPlaceAndRemedy) {
               testing::StartsWith("s.yaml:3:10: scene 'paper/none' is neither below"));
 }
 
+TEST_F(SuiteTest, ASystemMayBeWrappedForVslamLabOrToldSpoiltMasks) {
+  const Suite suite = Load(
+      "suite: a\nquestion: b\nscenes: [paper/one]\nsystems:\n"
+      "  - {name: wrapped, contract: vslam-lab, command: slam}\n"
+      "  - {name: network, like: oracle, mask_errors: {boundary_px: 2.5, latency_frames: 3}}\n");
+  EXPECT_EQ(suite.systems, (std::vector<std::string>{"wrapped", "network"}));
+  EXPECT_TRUE(suite.externals.at("wrapped").vslam_lab);
+  EXPECT_EQ(suite.imperfect.at("network").errors,
+            (MaskErrors{.boundary_px = 2.5, .latency_frames = 3}));
+}
+
 TEST(SceneNameTest, IsThePathBelowTheScenesFolder) {
   EXPECT_EQ(SceneName("/a/scenes/paper/scene2.yaml"), "paper/scene2");
   EXPECT_EQ(SceneName("/a/scenes/scene2.yaml"), "scene2");

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/report/group.h"
+
+namespace aisle {
+
+/// A table of numbers that can be written for a page, a wiki and a paper alike.
+struct NumberTable {
+  std::string title;
+  std::string caption;              ///< unit, alignment, what a row is
+  std::vector<std::string> groups;  ///< systems; each spans all `columns`
+  std::vector<std::string> columns;
+  struct Row {
+    std::string name;
+    std::vector<std::string> cells;  ///< groups × columns; "-" where there is no number
+  };
+  std::vector<Row> rows;
+};
+
+/// The tables of the paper with our numbers: detection of moving objects (its Table 2), relative
+/// drift and absolute error (3), absolute error (4), relative error (5), time of the front end (6).
+/// Medians over seeds; live twins alone. Tables without a number are left out.
+std::vector<NumberTable> PaperTables(const std::vector<SceneRuns>& scenes);
+
+std::string ToHtml(const std::vector<NumberTable>& tables);
+std::string ToMarkdown(const std::vector<NumberTable>& tables);
+/// Needs the package booktabs.
+std::string ToLatex(const std::vector<NumberTable>& tables);
+
+}  // namespace aisle

@@ -1,0 +1,234 @@
+#include "harness/score/boundary.h"
+#include "harness/score/scorecard.h"
+
+namespace aisle {
+namespace {
+
+/// Error of the live track at every frame of the truth; infinite where it has no pose.
+std::vector<double> ErrorsOverAllFrames(const RunResult& run, const TrajectoryScore& live) {
+  std::vector<double> errors(run.truth.size(), std::numeric_limits<double>::infinity());
+  for (const PoseError& error : live.errors) errors[error.pair.truth] = error.translation_m;
+  return errors;
+}
+
+Score QuantileScore(const std::vector<double>& errors, double q, const std::string& alignment) {
+  const double value = errors.empty() ? 0 : Quantile(errors, q);
+  if (errors.empty()) return Absent("m", "no frames");
+  if (!std::isfinite(value)) {
+    return Absent("m", fmt::format("lost in more than {:g} % of the frames", 100 * (1 - q)));
+  }
+  return Present(value, "m", errors.size(), alignment);
+}
+
+void AddLiveTrack(const RunResult& run, const ScoreOptions& options, Scorecard* scores) {
+  const TrajectoryScore live = ScoreTrajectory(run.truth, run.trajectory.live, options);
+  const auto rmse = live.scores.find("ate_rmse_m");
+  (*scores)["ate_live_rmse_m"] = rmse->second;
+  const std::vector<double> errors = ErrorsOverAllFrames(run, live);
+  const std::string alignment = Name(options.alignment.method);
+  (*scores)["error_all_p50_m"] = QuantileScore(errors, 0.50, alignment);
+  (*scores)["error_all_p95_m"] = QuantileScore(errors, 0.95, alignment);
+}
+
+void AddCoverage(const RunResult& run, Scorecard* scores) {
+  std::size_t tracked = 0, lost_times = 0;
+  double longest_gap_s = 0;
+  bool lost = false;
+  std::int64_t lost_since_ns = 0;
+  for (const FrameEstimate& estimate : run.estimates) {
+    if (estimate.T_world_rig) {
+      ++tracked;
+      const double gap_s = static_cast<double>(estimate.stamp_ns - lost_since_ns) * 1e-9;
+      if (lost) longest_gap_s = std::max(longest_gap_s, gap_s);
+      lost = false;
+    } else if (tracked > 0 && !lost) {
+      lost = true;
+      lost_since_ns = estimate.stamp_ns;
+      ++lost_times;
+    }
+  }
+  const std::size_t frames = run.facts.size();
+  (*scores)["coverage"] =
+      frames > 0 ? Present(static_cast<double>(tracked) / static_cast<double>(frames), "1", frames)
+                 : Absent("1", "no frames");
+  (*scores)["times_lost"] = Present(static_cast<double>(lost_times), "1", frames);
+  if (lost) {
+    (*scores)["recovery_max_s"] = Absent("s", "did not recover before the end");
+  } else if (lost_times > 0) {
+    (*scores)["recovery_max_s"] = Present(longest_gap_s, "s", lost_times);
+  } else {
+    (*scores)["recovery_max_s"] = Absent("s", "never lost");
+  }
+}
+
+Score RatioScore(double part, double whole, const std::string& nothing) {
+  if (whole <= 0) return Absent("1", nothing);
+  return Present(part / whole, "1", static_cast<std::size_t>(whole));
+}
+
+/// A range of objects that scores are split by.
+struct Kind {
+  const char* name;
+  std::function<bool(const ObjectOutcome&)> holds;
+};
+
+/// Bounds by what they mean to a stereo rig at 752x480: 2000 pixels are a person at some six
+/// metres; beyond six metres disparity is a few pixels; 0.3 m/s is slower than a stroll, 1.5 m/s
+/// faster than a walk.
+const std::vector<Kind>& Kinds() {
+  using Object = ObjectOutcome;
+  static const std::vector<Kind> kinds = {
+      {"size_small", [](const Object& o) { return o.pixels < 2000; }},
+      {"size_medium", [](const Object& o) { return o.pixels >= 2000 && o.pixels < 20000; }},
+      {"size_large", [](const Object& o) { return o.pixels >= 20000; }},
+      {"distance_below_3m", [](const Object& o) { return o.distance_m < 3; }},
+      {"distance_3_to_6m", [](const Object& o) { return o.distance_m >= 3 && o.distance_m < 6; }},
+      {"distance_above_6m", [](const Object& o) { return o.distance_m >= 6; }},
+      {"speed_below_0.3mps", [](const Object& o) { return o.speed_mps < 0.3; }},
+      {"speed_0.3_to_1.5mps",
+       [](const Object& o) { return o.speed_mps >= 0.3 && o.speed_mps < 1.5; }},
+      {"speed_above_1.5mps", [](const Object& o) { return o.speed_mps >= 1.5; }},
+  };
+  return kinds;
+}
+
+Score RecallOf(const std::vector<ObjectOutcome>& objects,
+               const std::function<bool(const ObjectOutcome&)>& holds) {
+  double asked = 0, found = 0;
+  for (const ObjectOutcome& object : objects) {
+    if (!holds(object)) continue;
+    ++asked;
+    found += object.found ? 1 : 0;
+  }
+  return RatioScore(found, asked, "no such object moved");
+}
+
+/// Rows only where there is something to say: an object that never was is no finding.
+void AddRecallByKind(const std::vector<ObjectOutcome>& objects, Scorecard* scores) {
+  const auto add = [&](const std::string& name, const Score& score) {
+    if (score.value) (*scores)["object_recall_" + name] = score;
+  };
+  for (const Kind& kind : Kinds()) add(kind.name, RecallOf(objects, kind.holds));
+  std::set<std::string> classes;
+  for (const ObjectOutcome& object : objects) classes.insert(object.object_class);
+  for (const std::string& name : classes) {
+    add("class_" + name, RecallOf(objects, [&](const ObjectOutcome& object) {
+          return object.object_class == name;
+        }));
+  }
+}
+
+void AddMasks(const RunResult& run, Scorecard* scores) {
+  MaskFacts sum;
+  bool any = false;
+  for (const FrameFacts& frame : run.facts) {
+    if (!frame.mask) continue;
+    any = true;
+    sum.true_positives += frame.mask->true_positives;
+    sum.false_positives += frame.mask->false_positives;
+    sum.false_negatives += frame.mask->false_negatives;
+    sum.objects_found += frame.mask->objects_found;
+    sum.objects_invented += frame.mask->objects_invented;
+    sum.objects_missed += frame.mask->objects_missed;
+    sum.iou_sum += frame.mask->iou_sum;
+    sum.static_corners += frame.mask->static_corners;
+    sum.static_corners_lost += frame.mask->static_corners_lost;
+    sum.outline_truth += frame.mask->outline_truth;
+    sum.outline_truth_met += frame.mask->outline_truth_met;
+    sum.outline_rejected += frame.mask->outline_rejected;
+    sum.outline_rejected_met += frame.mask->outline_rejected_met;
+    sum.objects.insert(sum.objects.end(), frame.mask->objects.begin(), frame.mask->objects.end());
+  }
+  if (!any) return;  // the system makes no masks: no row is clearer than nine empty ones
+  const auto tp = static_cast<double>(sum.true_positives);
+  const auto fp = static_cast<double>(sum.false_positives);
+  const auto fn = static_cast<double>(sum.false_negatives);
+  (*scores)["mask_precision"] = RatioScore(tp, tp + fp, "nothing was rejected");
+  (*scores)["mask_recall"] = RatioScore(tp, tp + fn, "nothing moved");
+  (*scores)["mask_iou"] = RatioScore(tp, tp + fp + fn, "nothing moved, nothing was rejected");
+  const double found = sum.objects_found;
+  (*scores)["object_precision"] =
+      RatioScore(found, found + sum.objects_invented, "nothing was rejected");
+  (*scores)["object_recall"] = RatioScore(found, found + sum.objects_missed, "nothing moved");
+  (*scores)["object_iou"] = RatioScore(sum.iou_sum, found, "no object was found");
+  (*scores)["static_features_lost"] =
+      RatioScore(sum.static_corners_lost, sum.static_corners, "no corner on a static surface");
+  const std::optional<double> f = BoundaryF({.truth = sum.outline_truth,
+                                             .truth_met = sum.outline_truth_met,
+                                             .rejected = sum.outline_rejected,
+                                             .rejected_met = sum.outline_rejected_met});
+  (*scores)["mask_boundary_f"] =
+      f ? Present(*f, "1", static_cast<std::size_t>(sum.outline_truth + sum.outline_rejected))
+        : Absent("1", "nothing moved, nothing was rejected");
+  AddRecallByKind(sum.objects, scores);
+}
+
+void AddDifficulty(const RunResult& run, Scorecard* scores) {
+  std::vector<double> movers, texture, flow, parallax;
+  for (const FrameFacts& frame : run.facts) {
+    movers.push_back(frame.movers_share);
+    const Difficulty& d = frame.difficulty;
+    if (d.static_texture_share) texture.push_back(*d.static_texture_share);
+    if (d.flow_px) flow.push_back(*d.flow_px);
+    if (d.parallax_px) parallax.push_back(*d.parallax_px);
+  }
+  const auto add = [&](const char* name, const char* unit, const std::vector<double>& values) {
+    if (!values.empty()) {
+      (*scores)[name] = Present(Summarize(values).mean, unit, values.size());
+    }
+  };
+  add("difficulty_movers_share", "1", movers);
+  add("difficulty_static_texture_share", "1", texture);
+  add("difficulty_flow_px", "px", flow);
+  add("difficulty_parallax_px", "px", parallax);
+}
+
+void AddFeatures(const RunResult& run, Scorecard* scores) {
+  double features = 0, on_movers = 0, inliers_on_movers = 0;
+  for (const FrameFacts& frame : run.facts) {
+    features += frame.features;
+    on_movers += frame.features_on_movers;
+    inliers_on_movers += frame.inliers_on_movers;
+  }
+  (*scores)["features_on_movers"] = RatioScore(on_movers, features, "the system shows no features");
+  (*scores)["inliers_on_movers_per_frame"] =
+      run.facts.empty() ? Absent("1", "no frames")
+                        : Present(inliers_on_movers / static_cast<double>(run.facts.size()), "1",
+                                  run.facts.size());
+}
+
+void AddTimes(const RunResult& run, Scorecard* scores) {
+  std::map<std::string, std::vector<double>> stages;
+  for (const FrameEstimate& estimate : run.estimates) {
+    for (const auto& [stage, ms] : estimate.stage_ms) stages[stage].push_back(ms);
+  }
+  for (const FrameFacts& frame : run.facts) {
+    stages["render"].push_back(frame.render_ms);
+    stages["process"].push_back(frame.process_ms);
+  }
+  for (const auto& [stage, ms] : stages) {
+    (*scores)["ms_" + stage + "_mean"] = Present(Summarize(ms).mean, "ms", ms.size());
+  }
+  if (run.peak_rss_mib > 0) (*scores)["peak_rss_mib"] = Present(run.peak_rss_mib, "MiB", 1);
+}
+
+}  // namespace
+
+Scorecard ScoreRun(const RunResult& run, const ScoreOptions& options) {
+  Scorecard scores = ScoreTrajectory(run.truth, run.trajectory.final, options).scores;
+  AddLiveTrack(run, options, &scores);
+  AddCoverage(run, &scores);
+  AddMasks(run, &scores);
+  AddFeatures(run, &scores);
+  AddDifficulty(run, &scores);
+  AddTimes(run, &scores);
+  return scores;
+}
+
+Scorecard ScoreMasks(const RunResult& run) {
+  Scorecard scores;
+  AddMasks(run, &scores);
+  return scores;
+}
+
+}  // namespace aisle

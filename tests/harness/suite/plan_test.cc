@@ -1,0 +1,59 @@
+#include "harness/suite/plan.h"
+
+#include <gtest/gtest.h>
+
+#include "harness/io/input_error.h"
+
+namespace aisle {
+namespace {
+
+PlanFile Example() {
+  PlanFile plan;
+  plan.command = "./aisle run x.yaml";
+  Suite& suite = plan.suite;
+  suite.name = "x";
+  suite.question = "q\n\"><script>";
+  suite.scenes = {{"paper/one", "scenes/paper/one.yaml"}, {"paper/two", "scenes/paper/two.yaml"}};
+  suite.systems = {"oracle", "mine", "network"};
+  suite.externals["mine"] = {.name = "mine", .command = "slam {output}", .timeout_s = 12.5};
+  suite.imperfect["network"] = {
+      .name = "network", .like = "semantic", .errors = {.boundary_px = 0.1, .latency_frames = 2}};
+  suite.twins = {"live", "empty"};
+  suite.seeds = {3, 1, 18446744073709551615u};
+  suite.limits = {
+      {.score = "ate_rmse_m", .scene = "", .twin = "live", .system = "", .min = {}, .max = 0.1}};
+  return plan;
+}
+
+TEST(PlanTest, ComesBackAsItWasWritten) {
+  const std::string text = ToJson(Example());
+  EXPECT_EQ(ToJson(PlanFromJson(text, "plan.json")), text);
+  EXPECT_THROW(PlanFromJson("{}", "plan.json"), InputError);
+}
+
+TEST(ShardTest, PartsAreDisjointAndTogetherTheWholeAndShareNoFrames) {
+  const std::vector<RunSpec> specs = Plan(Example().suite);
+  for (std::size_t count = 1; count <= 15; ++count) {
+    std::map<std::string, int> seen;
+    std::map<std::string, std::size_t> owner_of_frames;
+    for (std::size_t index = 1; index <= count; ++index) {
+      for (const RunSpec& spec : TakeShard(specs, {index, count})) {
+        ++seen[RunId(spec)];
+        const std::string frames = fmt::format("{} {} {}", spec.scene, spec.twin, spec.seed);
+        EXPECT_EQ(owner_of_frames.emplace(frames, index).first->second, index);
+      }
+    }
+    EXPECT_EQ(seen.size(), specs.size());
+    for (const auto& [id, times] : seen) EXPECT_EQ(times, 1) << id;
+  }
+}
+
+TEST(ShardTest, IsWrittenAsPartOfWhole) {
+  EXPECT_EQ(ShardFromText("2/3").index, 2u);
+  for (const char* bad : {"", "1", "0/2", "3/2", "1/0", "a/b", "1/2/3", "-1/2", "1/ 2"}) {
+    EXPECT_THROW(ShardFromText(bad), InputError) << bad;
+  }
+}
+
+}  // namespace
+}  // namespace aisle
