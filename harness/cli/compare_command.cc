@@ -5,6 +5,7 @@
 #include "harness/report/compare.h"
 #include "harness/report/page.h"
 #include "harness/report/report.h"
+#include "harness/report/script.h"
 #include "harness/report/style.h"
 
 namespace aisle {
@@ -26,6 +27,7 @@ void WritePages(const std::vector<Comparison>& comparisons, const Options& optio
   const std::filesystem::path out = options.out;
   const std::string title = options.before + " and " + options.after;
   WriteFileAtomically(out / "style.css", kStyleSheet);
+  WriteFileAtomically(out / "report.js", kScript);
   WriteFileAtomically(out / "compare.md", ToMarkdown(comparisons));
   WriteFileAtomically(out / "compare.json", ToJson(comparisons));
   WriteFileAtomically(out / "compare.html",
@@ -34,8 +36,9 @@ void WritePages(const std::vector<Comparison>& comparisons, const Options& optio
 }
 
 int CompareReports(const Options& options) {
-  const std::vector<Comparison> comparisons =
-      Compare(ReadEither(options.before), ReadEither(options.after), options.compare);
+  const Results before = ReadEither(options.before);
+  const Results after = ReadEither(options.after);
+  const std::vector<Comparison> comparisons = Compare(before, after, options.compare);
   fmt::print("{}", options.json ? ToJson(comparisons) : ToConsole(comparisons, StdoutHasColor()));
   if (!options.out.empty()) WritePages(comparisons, options);
   if (comparisons.empty()) return kNothingToDo;

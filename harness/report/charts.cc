@@ -148,7 +148,7 @@ std::string ErrorChart(const std::vector<ChartSeries>& series) {
   const Axis error{0, 1.06 * highest_cm, 224, 24};
   const Axis movers{0, 1.1 * most_movers, 336, 272};
   Svg svg(kWidth, 404, "error over time");
-  svg.Grid(x, error, "time [s]", "error of the live track [cm]");
+  svg.Grid(x, error, "", "error of the live track [cm]");
   svg.Grid(x, movers, "time [s]", "pixels that move [%]");
 
   Points area = {{x(0), movers(0)}};

@@ -106,7 +106,7 @@ std::string Figure(const std::string& content, const std::string& caption) {
 
 /// The tracks in three dimensions, for pages whose scripts may run: hidden without.
 std::string Orbit(const std::vector<ChartSeries>& series) {
-  constexpr std::size_t kMostPoints = 400;
+  constexpr std::size_t kMostPoints = 200;
   nlohmann::ordered_json tracks = nlohmann::ordered_json::array();
   const auto add = [&](const ChartSeries& one, int color, bool truth) {
     nlohmann::ordered_json points = nlohmann::ordered_json::array();

@@ -5,8 +5,8 @@ namespace aisle {
 const char* const kScript = R"js('use strict';
 (() => {
   const number = text => {
-    const match = text.replace(/,/g, '').match(/-?\d+(\.\d+)?(e[-+]?\d+)?/i);
-    return match ? Number(match[0]) : NaN;
+    const match = text.trim().match(/^[×+]?\s*(-?\d+(\.\d+)?(e[-+]?\d+)?)/i);
+    return match ? Number(match[1]) : NaN;
   };
 
   // --- Tables: a click on a heading sorts, long ones can be filtered -------------------------
@@ -100,7 +100,7 @@ const char* const kScript = R"js('use strict';
             best[1] <= Number(p.getAttribute('y')) + Number(p.getAttribute('height')) + 1);
         if (panel) values.push(`${line.name} ${axis(panel.dataset.y)(best[1]).toPrecision(3)}`);
       }
-      readout.textContent = `${first.title || 'x'} ${x(at.x).toPrecision(4)}:  ${values.join('   ')}`;
+      readout.textContent = `${panels[panels.length - 1].dataset.title} ${x(at.x).toPrecision(4)}:  ${values.join('   ')}`;
       cursor.setAttribute('x1', at.x);
       cursor.setAttribute('x2', at.x);
       cursor.setAttribute('y1', panels[0].getAttribute('y'));

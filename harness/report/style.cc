@@ -87,6 +87,7 @@ pre { background: var(--card); border: 1px solid var(--rule); border-radius: 4px
 th.sortable { cursor: pointer; }
 th.sortable:hover { color: var(--ink); }
 th[aria-sort=ascending]::after { content: " ▴"; } th[aria-sort=descending]::after { content: " ▾"; }
+table.grouped th, table.grouped td { padding: 5px 6px; font-size: 13px; }
 th.group { text-align: center; border-left: 1px solid var(--rule); color: var(--ink); }
 table.grouped .first { border-left: 1px solid var(--rule); }
 table.grouped th:first-child:not([rowspan]) { text-align: right; }

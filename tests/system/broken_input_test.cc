@@ -1,0 +1,183 @@
+// What people get wrong, and what the program says: the whole message each time, exit code 4, and
+// nothing left behind.
+#include <gmock/gmock.h>
+
+#include "harness/io/file.h"
+#include "tests/system/program.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+using Files = std::map<std::string, std::string>;
+
+struct Case {
+  std::vector<std::string> arguments;  ///< {d} is the folder of the files
+  Files files;
+  std::string message;
+};
+
+const std::string kSystemsEnd = "systems: [oracle]\n";
+const std::string kGood = "suite: s\nquestion: q\nscenes: [short]\n" + kSystemsEnd;
+const std::string kPoses = "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 2 0 0 0 0 0 1\n";
+
+/// The good suite with another line of systems.
+Files WithSystem(const std::string& system) {
+  return {{"s.yaml",
+           kGood.substr(0, kGood.size() - kSystemsEnd.size()) + "systems: [" + system + "]\n"}};
+}
+
+Files WithEstimate(const std::string& estimate) { return {{"t.txt", kPoses}, {"e.txt", estimate}}; }
+
+class BrokenInputTest : public ProgramTest {
+ protected:
+  std::string Fill(std::string text) const {
+    const std::string folder = folder_.string();
+    for (std::size_t at = 0; (at = text.find("{d}", at)) != std::string::npos;) {
+      text.replace(at, 3, folder);
+    }
+    return text;
+  }
+
+  void Expect(const std::vector<Case>& cases) const {
+    for (const Case& one : cases) {
+      fs::remove_all(folder_);
+      fs::create_directories(folder_);
+      WriteFileAtomically(folder_ / "short.yaml", ReadFile(scene_));
+      for (const auto& [name, text] : one.files) WriteFileAtomically(folder_ / name, text);
+      std::vector<std::string> arguments;
+      for (const std::string& argument : one.arguments) arguments.push_back(Fill(argument));
+      if (arguments.front() == "run") {
+        arguments.insert(arguments.end(), {"--out", (folder_ / "out").string()});
+      }
+      const Said said = Run(arguments, 30);
+      EXPECT_EQ(said.code, 4) << said.text;
+      EXPECT_EQ(said.text, Fill(one.message) + "\n");
+      EXPECT_FALSE(fs::exists(folder_ / "out"));
+    }
+  }
+};
+
+TEST_F(BrokenInputTest, SuitesAndScenes) {
+  const std::vector<std::string> run{"run", "{d}/s.yaml"};
+  const std::string example = "for example {name: mine, command: my_slam {dataset} {output}}";
+  Expect({
+      {{"run", "{d}/none.yaml"}, {}, "aisle: {d}/none.yaml: no such file"},
+      {{"run", "{d}"}, {}, "aisle: {d}: is a folder, not a file"},
+      {run,
+       {{"s.yaml", ""}},
+       "aisle: {d}/s.yaml:1:1: expected a map of scene keys; example: about: \"A person "
+       "crosses.\""},
+      {run,
+       {{"s.yaml", kGood + "seeds: [1, two]\n"}},
+       "aisle: {d}/s.yaml:5:12: 'two' is no whole number, for example 'seeds: 3' or 'seeds: [1, "
+       "7]'"},
+      {run, WithSystem("{name: mine}"),
+       "aisle: {d}/s.yaml:4:11: a system of your own needs a name and a command, " + example},
+      {run, WithSystem("{name: mine, command: slam}"),
+       "aisle: {d}/s.yaml:4:33: the command must say where {output} goes, " + example},
+      {run, WithSystem("{name: oracle, command: \"x {output}\"}"),
+       "aisle: {d}/s.yaml:4:18: 'oracle' is one of ours: choose another name"},
+      {run, WithSystem("{name: m, command: \"x {output}\", dataset: bag}"),
+       "aisle: {d}/s.yaml:4:53: dataset 'bag' is not known: expected one of euroc, kitti"},
+      {run, WithSystem("{name: m, command: \"x {output}\", timeout_s: 0}"),
+       "aisle: {d}/s.yaml:4:55: expected more than 0 seconds"},
+      {run, WithSystem("{name: m, contract: ros, command: x}"),
+       "aisle: {d}/s.yaml:4:31: contract 'ros' is not known: expected one of vslam-lab"},
+      {run, WithSystem("{name: n, like: paper, mask_errors: {}}"),
+       "aisle: {d}/s.yaml:4:27: system 'paper' is not known: expected one of oracle, semantic"},
+      {run, WithSystem("{name: n, like: oracle, mask_errors: {miss_share: 2}}"),
+       "aisle: {d}/s.yaml:4:48: miss_share: expected 0 to 1"},
+      {run,
+       {{"s.yaml", kGood + "limits: [{score: ate_rmse_m, system: paper, max: 1}]\n"}},
+       "aisle: {d}/s.yaml:5:38: this suite's system 'paper' is not known: expected one of oracle"},
+      {{"run", "{d}/s.yaml", "--systems", "best"},
+       {{"s.yaml", kGood}},
+       "aisle: --systems: 'best' is not known: expected one of orbslam2, semantic, paper, robust, "
+       "oracle"},
+      {{"run", "{d}/s.yaml", "--twins", "undead"},
+       {{"s.yaml", kGood}},
+       "aisle: --twins: 'undead' is not known: expected one of live, empty, frozen"},
+      {{"run", "{d}/s.yaml", "--shard", "3/2"},
+       {{"s.yaml", kGood}},
+       "aisle: --shard: '3/2' is no part: expected I/N with 1 <= I <= N, for example 2/3"},
+      {{"check", "{d}/s.yaml"},
+       {{"s.yaml", "suite: &a [*a]\n"}},
+       "{d}/s.yaml:1:8: anchors (&name) are not allowed: write the value out"},
+      {{"preview", "{d}/none.yaml", "-o", "{d}/x.png"},
+       {},
+       "aisle: {d}/none.yaml: there is no such file"},
+  });
+}
+
+TEST_F(BrokenInputTest, ReportsPartsAndRuns) {
+  Expect({
+      {{"report", "{d}"}, {}, "aisle: {d}/results.json: no such file"},
+      {{"report", "{d}"},
+       {{"results.json", "{\"schema\": 99}"}},
+       "aisle: {d}/results.json: is no results file: schema is not 1"},
+      {{"merge", "{d}/o", "{d}"},
+       {{"plan.json", "[]"}},
+       "aisle: {d}/plan.json: is no plan: [json.exception.type_error.304] cannot use at() with "
+       "array"},
+      {{"rerun", "a/b/c/1", "--in", "{d}/gone"}, {}, "aisle: {d}/gone/plan.json: no such file"},
+      {{"compare", "{d}/a.json", "{d}/b.json"},
+       {{"b.json", "{}"}},
+       "aisle: {d}/a.json: no such file"},
+  });
+}
+
+TEST_F(BrokenInputTest, TrajectoriesMasksAndRecordings) {
+  const std::vector<std::string> score{"score", "--truth", "{d}/t.txt", "--estimate", "{d}/e.txt"};
+  Expect({
+      {{"score", "--truth", "{d}/t.txt"},
+       {{"t.txt", kPoses}},
+       "aisle: give --truth and --estimate, or --masks-truth and --masks"},
+      {score, {{"t.txt", kPoses}}, "aisle: {d}/e.txt: no such file"},
+      {score, WithEstimate(""), "aisle: {d}/e.txt: holds no poses"},
+      {score, WithEstimate("0 0 0 0 0 0 0 1\n1 nan 0 0 0 0 0 1\n"),
+       "aisle: {d}/e.txt:2: field 2 is nan: poses must be finite"},
+      {score, WithEstimate("0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 0\n"),
+       "aisle: {d}/e.txt:2: the quaternion has norm 0, not 1: check the order of the columns"},
+      {score, WithEstimate("1 0 0 0 0 0 0 1\n0 1 0 0 0 0 0 1\n"),
+       "aisle: {d}/e.txt:2: stamp 0 is earlier than the line before (1): sort the file"},
+      {{"score", "--truth", "{d}/t.txt", "--estimate", "{d}/e.txt", "--format", "tum"},
+       WithEstimate("0 0 0 0\n"),
+       "aisle: {d}/e.txt:1: 4 fields; a TUM line has 8: timestamp tx ty tz qx qy qz qw"},
+      {{"score", "--masks-truth", "{d}/none", "--masks", "{d}/none"},
+       {},
+       "aisle: {d}/none: holds no PNG images"},
+      {{"slam", "{d}", "-o", "{d}/o.txt"}, {}, "aisle: {d}/cam0/sensor.yaml: no such file"},
+      {{"slam", "{d}", "-o", "{d}/o.txt", "--system", "oracle"},
+       {},
+       "aisle: system 'oracle' needs truth about what moves: a recording has none"},
+      {{"slam", "{d}", "-o", "{d}/o.txt", "--system", "best"},
+       {},
+       "aisle: system 'best' is not known: expected one of orbslam2, semantic, paper, robust, "
+       "oracle"},
+  });
+}
+
+TEST_F(BrokenInputTest, HostileNamesDoNoHarm) {
+  for (const std::string& name : {std::string("\"><script>alert(1)</script>"), std::string("a\nb"),
+                                  std::string("'; rm -rf x"), std::string("$(touch pwned)")}) {
+    const fs::path scene = folder_ / "scenes" / name / "x.yaml";
+    WriteFileAtomically(scene, ReadFile(scene_));
+    const std::string out = Out("hostile");
+    const Said said = Run({"run", scene.string(), "--systems", "orbslam2", "--out", out});
+    EXPECT_EQ(said.code, 0) << said.text;
+    for (const auto& entry : fs::recursive_directory_iterator(out)) {
+      if (entry.path().extension() != ".html") continue;
+      EXPECT_THAT(ReadFile(entry.path()), testing::Not(testing::HasSubstr("<script>")));
+    }
+    EXPECT_FALSE(fs::exists("pwned"));
+    fs::remove_all(folder_);
+  }
+  const Said endless = Run({"run", std::string(4096, 'n')});
+  EXPECT_EQ(endless.code, 4) << endless.text;
+  const Said above = Run({"rerun", "../../../etc/passwd", "--in", Out("none")});
+  EXPECT_EQ(above.code, 4) << above.text;
+}
+
+}  // namespace
+}  // namespace aisle
