@@ -51,7 +51,8 @@ RunResult MakeRun(const std::string& scene, const std::string& system, std::uint
     facts.render_ms = 180;
     facts.process_ms = 35;
     if (system == "oracle") {
-      facts.mask = MaskFacts{.true_positives = static_cast<std::int64_t>(1000 * movers)};
+      facts.mask.emplace();
+      facts.mask->true_positives = static_cast<std::int64_t>(1000 * movers);
     }
     run.truth.push_back({estimate.stamp_ns, truth});
     run.trajectory.live.push_back({estimate.stamp_ns, estimated});

@@ -85,7 +85,7 @@ TEST(ZipTest, IsWhatOtherProgramsRead) {
       << MakeZip({{"x.npy", MakeNpy({1.5, -2.25, 1e300})}, {"n.json", "{\"a\": 1}"}});
   // NumPy and Python's zipfile are the readers that evo itself uses.
   const std::string check = fmt::format(
-      "python3 -c \"import io,json,zipfile,numpy; z = zipfile.ZipFile('{}'); "
+      "/usr/bin/python3 -c \"import io,json,zipfile,numpy; z = zipfile.ZipFile('{}'); "
       "assert z.testzip() is None; assert json.loads(z.read('n.json')) == dict(a=1); "
       "a = numpy.load(io.BytesIO(z.read('x.npy'))); assert a.tolist() == [1.5, -2.25, 1e300]\"",
       (folder / "a.zip").string());

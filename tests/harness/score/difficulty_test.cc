@@ -8,6 +8,8 @@ namespace {
 const StereoCalibration kCamera{
     .width = 320, .height = 240, .fx = 200, .fy = 200, .cx = 160, .cy = 120, .baseline_m = 0.1};
 
+const cv::Mat1b kBlack(240, 320, static_cast<unsigned char>(0));
+
 FrameTruth Wall(double z_m) {
   FrameTruth truth;
   truth.depth = cv::Mat1f(240, 320, static_cast<float>(z_m));
@@ -19,7 +21,7 @@ TEST(DifficultyTest, ASidewaysStepMovesAWallByFocalLengthTimesStepOverDepth) {
   const FrameTruth truth = Wall(4);
   Eigen::Isometry3d before = Eigen::Isometry3d::Identity();
   before.translation().x() = -0.1;
-  const Difficulty d = DifficultyOf(cv::Mat1b(240, 320, 0), truth, kCamera, before);
+  const Difficulty d = DifficultyOf(kBlack, truth, kCamera, before);
   EXPECT_NEAR(*d.parallax_px, 200 * 0.1 / 4, 1e-5);
   EXPECT_NEAR(*d.flow_px, *d.parallax_px, 1e-9);
 }
@@ -28,7 +30,7 @@ TEST(DifficultyTest, ATurnOnTheSpotIsMotionWithoutParallax) {
   const FrameTruth truth = Wall(4);
   Eigen::Isometry3d before = Eigen::Isometry3d::Identity();
   before.linear() = Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY()).toRotationMatrix();
-  const Difficulty d = DifficultyOf(cv::Mat1b(240, 320, 0), truth, kCamera, before);
+  const Difficulty d = DifficultyOf(kBlack, truth, kCamera, before);
   EXPECT_NEAR(*d.parallax_px, 0, 1e-9);
   EXPECT_GT(*d.flow_px, 9);
 }
