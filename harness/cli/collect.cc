@@ -55,8 +55,8 @@ void Remember(const Results& results, const std::filesystem::path& out) {
 
 int Publish(const Results& results, const std::filesystem::path& out,
             const PublishOptions& options) {
-  WriteReport(results, out);
   if (options.remember) Remember(results, out);
+  WriteReport(results, out);
   if (options.json) {
     fmt::print("{}", ToJson(results));
   } else {

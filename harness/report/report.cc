@@ -35,6 +35,9 @@ void WriteReport(const Results& results, const std::filesystem::path& report_dir
       body += section;
     }
   }
+  if (std::filesystem::exists(report_dir / "trends.html")) {
+    body += "<p><a href=\"trends.html\">How the nights went</a></p>\n";
+  }
   body += ProvenanceFooter(results);
   WriteFileAtomically(report_dir / "style.css", kStyleSheet);
   WriteFileAtomically(report_dir / "report.js", kScript);
