@@ -1,4 +1,4 @@
-"""Renders the contact sheets assets/contact/*.png from the committed files.
+"""Renders the contact sheets assets/contact/*.jpg from the committed files.
 
 Run: blender -b --factory-startup -P assets/author/contact.py -- [sheet ...]
 Sheets: people, backs, faces, walk, clips, vehicles, kit, street, textures.
@@ -31,7 +31,7 @@ def save(name, pictures, columns):
     """Grey would be what the camera sees; colour shows the paint better."""
     os.makedirs(os.path.join(ROOT, "contact"), exist_ok=True)
     sheet = studio.montage(pictures, columns)
-    picture.write_png(os.path.join(ROOT, "contact", name + ".png"), np.round(sheet * 32) / 32)
+    picture.jpeg_image(sheet, name, os.path.join(ROOT, "contact"), 85)
 
 
 def people():
