@@ -9,7 +9,8 @@
 namespace aisle::slam {
 
 /// One piece of background work whose result is taken at an appointed frame: never earlier, and if
-/// it is late the taker waits. When the work really runs changes nothing but the waiting.
+/// it is late the taker waits. When the work really runs changes nothing but the waiting. Unless
+/// the taker asks for it `anytime`: then it comes when it is ready, and nothing repeats.
 template <typename Result>
 class BackgroundJob {
  public:
@@ -22,10 +23,15 @@ class BackgroundJob {
     future_ = std::async(threaded ? std::launch::async : std::launch::deferred, std::move(work));
   }
 
-  /// The result once `frame` has come, else nothing; `wait_ms` grows by the time spent waiting.
-  /// What the work threw comes out here.
-  std::optional<Result> TakeIfDue(std::int64_t frame, double& wait_ms) {
-    if (!pending() || frame < due_frame_) return std::nullopt;
+  /// Until the result is ready, if there is work.
+  void Wait() const {
+    if (pending()) future_.wait();
+  }
+
+  /// The result once `frame` has come (`anytime`: once it is ready), else nothing; `wait_ms` grows
+  /// by the time spent waiting. What the work threw comes out here.
+  std::optional<Result> TakeIfDue(std::int64_t frame, double& wait_ms, bool anytime = false) {
+    if (!pending() || !(anytime ? IsReady() : frame >= due_frame_)) return std::nullopt;
     const auto start = std::chrono::steady_clock::now();
     Result result = future_.get();
     const std::chrono::duration<double, std::milli> waited =
@@ -35,6 +41,10 @@ class BackgroundJob {
   }
 
  private:
+  bool IsReady() const {
+    return future_.wait_for(std::chrono::seconds(0)) != std::future_status::timeout;
+  }
+
   std::future<Result> future_;
   std::int64_t due_frame_ = 0;
 };

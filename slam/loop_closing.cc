@@ -1,6 +1,10 @@
 #include "slam/loop_closing.h"
 
+#include <chrono>
+#include <map>
 #include <set>
+
+#include "slam/camera/se3.h"
 
 namespace aisle::slam {
 namespace {
@@ -33,8 +37,49 @@ Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& c
       map.Apply(FuseInto(map, view, old_place, camera, options.mapping.fuse));
     }
   }
-  map.Apply(AdjustGlobally(map, camera, options.global).edit);
   return map;
+}
+
+GlobalCorrection CorrectGlobally(const Map& map, const StereoCamera& camera,
+                                 const SlamOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  GlobalCorrection correction{map, AdjustGlobally(map, camera, options.global).edit, 0};
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+  correction.milliseconds = took.count();
+  return correction;
+}
+
+MapEdit CarryOver(const Map& now, const GlobalCorrection& correction) {
+  std::map<KeyframeId, Eigen::Isometry3d> T_new_old;  // of the world around each keyframe
+  for (const auto& [keyframe, T_world_rig] : correction.adjusted.poses) {
+    T_new_old[keyframe] = T_world_rig * correction.before.At(keyframe).T_world_rig.inverse();
+  }
+  MapEdit edit;
+  for (const auto& [id, keyframe] : now.keyframes()) {
+    // Parents are older than their children: theirs is known by now.
+    const auto parent = T_new_old.find(keyframe->parent);
+    const Eigen::Isometry3d inherited =
+        parent == T_new_old.end() ? Eigen::Isometry3d::Identity() : parent->second;
+    const bool is_new = correction.before.Find(id) == nullptr;
+    const Eigen::Isometry3d& correction_here =
+        T_new_old.try_emplace(id, is_new ? inherited : Eigen::Isometry3d::Identity()).first->second;
+    edit.poses.push_back({id, Normalized(correction_here * keyframe->T_world_rig)});
+  }
+  std::map<LandmarkId, Eigen::Vector3d> adjusted;
+  for (const auto& [landmark, position] : correction.adjusted.positions) {
+    adjusted[landmark] = position;
+  }
+  for (const Landmark* landmark : now.Landmarks()) {
+    const Landmark* before = correction.before.Find(landmark->id);
+    const auto place = adjusted.find(landmark->id);
+    const bool untouched =
+        before && place != adjusted.end() && before->position == landmark->position;
+    const KeyframeId first = landmark->observations.front().keyframe;
+    edit.positions.push_back(
+        {landmark->id, untouched ? place->second : T_new_old.at(first) * landmark->position});
+  }
+  edit.cuts = correction.adjusted.cuts;
+  return edit;
 }
 
 }  // namespace aisle::slam

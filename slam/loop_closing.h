@@ -7,9 +7,27 @@
 
 namespace aisle::slam {
 
-/// Closes a loop: spreads its error over the map, joins the landmarks that both visits saw, then
-/// adjusts everything. Takes the map by value and returns the next one: it can run beside readers.
+/// Closes a loop: spreads its error over the map and joins the landmarks that both visits saw.
+/// Quick, so that tracking soon stands in one map again; exactness comes from AdjustGlobally after.
+/// Takes the map by value and returns the next one: it can run beside readers.
 Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& camera,
               const SlamOptions& options);
+
+/// A global adjustment and the map it was made of, which has grown on since.
+struct GlobalCorrection {
+  Map before;
+  MapEdit adjusted;         ///< of `before`
+  double milliseconds = 0;  ///< reported, never decided upon
+};
+
+/// Adjusts all of a map, see AdjustGlobally.
+GlobalCorrection CorrectGlobally(const Map& map, const StereoCamera& camera,
+                                 const SlamOptions& options);
+
+/// What a correction asks of the map as it is `now`: keyframes move with what was made of them, and
+/// what mapping has refined since stays as it stood to them; newer keyframes move with the one they
+/// were tracked from (spanning tree), landmarks that have changed since with the first that saw
+/// them.
+MapEdit CarryOver(const Map& now, const GlobalCorrection& correction);
 
 }  // namespace aisle::slam

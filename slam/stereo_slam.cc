@@ -4,16 +4,18 @@
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "slam/background_job.h"
 #include "slam/dynamic/dynamic_detector.h"
 #include "slam/dynamic/stopwatch.h"
 #include "slam/feature/extract.h"
+#include "slam/foresight.h"
 #include "slam/local_mapping.h"
 #include "slam/loop_closing.h"
 #include "slam/map/map.h"
-#include "slam/place/vocabulary.h"
+#include "slam/relocalise.h"
 #include "slam/stereo/match_stereo.h"
 #include "slam/track/keyframe_policy.h"
 #include "slam/track/track_frame.h"
@@ -23,8 +25,15 @@ namespace {
 
 using dynamic::Stopwatch;
 
-Measurement Measure(const Keypoint& keypoint, const Disparity& disparity, double sigma_px) {
-  return {{keypoint.pixel.x, keypoint.pixel.y, disparity.value}, sigma_px, disparity.sigma};
+/// The deviations grow as the confidence in the pixel falls: information times confidence.
+Measurement Measure(const Keypoint& keypoint, const Disparity& disparity, double sigma_px,
+                    const cv::Mat1f& confidence) {
+  constexpr float kLeast = 1e-4F;  // a pixel worth nothing belongs under a mask
+  const float trust = confidence.empty() ? 1.0F : confidence(cv::Point(keypoint.pixel));
+  const double widen = 1 / std::sqrt(std::clamp(trust, kLeast, 1.0F));
+  return {{keypoint.pixel.x, keypoint.pixel.y, disparity.value},
+          widen * sigma_px,
+          widen * disparity.sigma};
 }
 
 /// What one stage's options say to another's.
@@ -43,23 +52,6 @@ cv::Mat1b Union(const cv::Mat1b& a, const cv::Mat1b& b) {
 }
 
 }  // namespace
-
-std::string Validate(const SlamOptions& options) {
-  if (options.threads < 0) return fmt::format("threads = {}; 0 or more", options.threads);
-  if (!(options.keypoint_noise_px > 0)) {
-    return fmt::format("keypoint_noise_px = {}; it must be positive", options.keypoint_noise_px);
-  }
-  if (options.schedule.loop_frames < 1 || options.schedule.keyframes_per_loop_frame < 1) {
-    return fmt::format("loop_frames = {}, keyframes_per_loop_frame = {}; both at least 1",
-                       options.schedule.loop_frames, options.schedule.keyframes_per_loop_frame);
-  }
-  if (options.schedule.mapping_frames < 1) {
-    return fmt::format("mapping_frames = {}; at least 1", options.schedule.mapping_frames);
-  }
-  if (const std::string dynamic = Validate(options.dynamic); !dynamic.empty()) return dynamic;
-  const std::string feature = Validate(options.feature);
-  return feature.empty() ? Validate(options.stereo) : feature;
-}
 
 struct StereoSlam::Impl {
   Impl(const StereoCamera& camera_in, const SlamOptions& options_in)
@@ -84,9 +76,11 @@ struct StereoSlam::Impl {
   std::optional<FramePose> Relocalise(const Frame& frame);
   void InsertKeyframe(const std::shared_ptr<const Frame>& frame, const FramePose& pose);
   void Remember(const Frame& frame, const FramePose& pose);
+  void WaitForBackgroundWork() const { mapping.Wait(), closing.Wait(), adjusting.Wait(); }
   bool Busy() const { return mapping.pending() || closing.pending(); }
   bool TakeBackgroundWork(std::int64_t frame_now, std::map<std::string, double>& stage_ms);
   void TakeMapping(MappingResult result, std::int64_t frame_now);
+  void TakeClosing(Map closed, std::int64_t frame_now);
 
   const StereoCamera camera;
   const SlamOptions options;
@@ -111,10 +105,12 @@ struct StereoSlam::Impl {
   PlaceIndex index;             // of the keyframes that mapping is done with
   std::vector<LoopEdge> loops;  // seen of late, waiting for others to agree
 
-  // At most one of the two is under way, on a copy of the map; neither map nor index changes until
-  // its result is taken. Declared last: they end before what they read.
+  // At most one of the first two is under way, on a copy of the map; neither map nor index changes
+  // until its result is taken. The third runs beside them, and its result is carried over to what
+  // the map has become. Declared last: they end before what they read.
   BackgroundJob<MappingResult> mapping;
   BackgroundJob<Map> closing;
+  BackgroundJob<GlobalCorrection> adjusting;
 };
 
 TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalMask& mask) {
@@ -145,6 +141,8 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
   ++frame_count;
 
   result.state = state;
+  result.map_keyframes = static_cast<int>(map.keyframes().size());
+  result.map_landmarks = map.landmark_count();
   result.features = frame->size();
   result.keypoint_is_inlier.assign(static_cast<std::size_t>(frame->size()), false);
   for (int i = 0; i < frame->size(); ++i) {
@@ -165,7 +163,7 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
 
 void StereoSlam::Impl::CheckImages(const StereoImages& images, const ExternalMask& mask) const {
   const cv::Size size(camera.width, camera.height);
-  const auto check = [&](const cv::Mat1b& image, const char* name, bool may_be_empty) {
+  const auto check = [&](const cv::Mat& image, const char* name, bool may_be_empty) {
     if (image.size() == size || (may_be_empty && image.empty())) return;
     throw std::invalid_argument(fmt::format("frame {}: {} is {}x{}, the camera {}x{} pixels",
                                             images.id, name, image.cols, image.rows, size.width,
@@ -175,6 +173,7 @@ void StereoSlam::Impl::CheckImages(const StereoImages& images, const ExternalMas
   check(images.right, "the right image", false);
   check(mask.left, "the left mask", true);
   check(mask.right, "the right mask", true);
+  check(mask.confidence, "the confidence", true);
 }
 
 /// The caller's mask and what the detector finds moving, together; the latter is noted in `result`.
@@ -182,12 +181,16 @@ ExternalMask StereoSlam::Impl::RejectMovers(const StereoImages& images, const Ex
                                             TrackedFrame& result) {
   if (options.dynamic.method == DynamicMethod::kNone) return mask;
   Stopwatch time(result.stage_ms["dynamic"]);
+  DynamicInput input{images.stamp_ns, images.left, images.right, std::nullopt, {}};
+  if (state == TrackingState::kTracking) {
+    input.T_now_before = ForeseeMotion(memory, images.stamp_ns, options.track);
+    input.known_points = RecallPoints(map, memory);
+  }
   DynamicOutput found;
-  arena.execute([&] {
-    found = detector.Detect({images.stamp_ns, images.left, images.right, std::nullopt});
-  });
+  arena.execute([&] { found = detector.Detect(input); });
   result.dynamic = std::move(found.regions);
-  return {Union(mask.left, result.dynamic.mask), Union(mask.right, found.mask_right)};
+  return {Union(mask.left, result.dynamic.mask), Union(mask.right, found.mask_right),
+          mask.confidence};
 }
 
 std::shared_ptr<const Frame> StereoSlam::Impl::SeeFrame(const StereoImages& images,
@@ -212,7 +215,7 @@ std::shared_ptr<const Frame> StereoSlam::Impl::SeeFrame(const StereoImages& imag
     const Keypoint& keypoint = left.features.keypoints[i];
     const double scale = left.pyramid.scales[static_cast<std::size_t>(keypoint.level)];
     frame->measurements.push_back(
-        Measure(keypoint, disparities[i], scale * options.keypoint_noise_px));
+        Measure(keypoint, disparities[i], scale * options.keypoint_noise_px, mask.confidence));
   }
   frame->grid = FeatureGrid(left.features.keypoints, images.left.size());
   frame->features = std::move(left.features);
@@ -223,14 +226,21 @@ std::shared_ptr<const Frame> StereoSlam::Impl::SeeFrame(const StereoImages& imag
 bool StereoSlam::Impl::TakeBackgroundWork(std::int64_t frame_now,
                                           std::map<std::string, double>& stage_ms) {
   double& wait_ms = stage_ms["wait_for_mapping"];
-  if (auto result = mapping.TakeIfDue(frame_now, wait_ms)) {
+  const bool anytime = options.schedule.free_running;
+  if (auto result = mapping.TakeIfDue(frame_now, wait_ms, anytime)) {
     stage_ms["mapping"] = result->milliseconds;
     TakeMapping(std::move(*result), frame_now);
   }
-  auto closed = closing.TakeIfDue(frame_now, wait_ms);
-  if (!closed) return false;
-  map = std::move(*closed);
-  return true;
+  // Not while a keyframe is being worked in: the result of that would undo the correction.
+  if (!Busy()) {
+    if (auto correction = adjusting.TakeIfDue(frame_now, wait_ms, anytime)) {
+      stage_ms["global"] = correction->milliseconds;
+      map.Apply(CarryOver(map, *correction));
+    }
+  }
+  auto closed = closing.TakeIfDue(frame_now, wait_ms, anytime);
+  if (closed) TakeClosing(std::move(*closed), frame_now);
+  return closed.has_value();
 }
 
 void StereoSlam::Impl::TakeMapping(MappingResult result, std::int64_t frame_now) {
@@ -241,7 +251,7 @@ void StereoSlam::Impl::TakeMapping(MappingResult result, std::int64_t frame_now)
   std::erase_if(loops, [&](const LoopEdge& loop) {
     return loop.current.value + options.loop.remembered < result.keyframe.value;
   });
-  if (!result.loop) return;
+  if (!result.loop || adjusting.pending()) return;
   loops.push_back(*result.loop);
   const std::vector<LoopEdge> agreeing = AgreeingLoops(map, loops, options.loop);
   if (agreeing.empty()) return;
@@ -253,28 +263,26 @@ void StereoSlam::Impl::TakeMapping(MappingResult result, std::int64_t frame_now)
                 [map = map, agreeing, this] { return CloseLoop(map, agreeing, camera, options); });
 }
 
+/// Tracking goes on in the closed map, which is made exact meanwhile.
+void StereoSlam::Impl::TakeClosing(Map closed, std::int64_t frame_now) {
+  map = std::move(closed);
+  const auto keyframes = static_cast<std::int64_t>(map.keyframes().size());
+  adjusting.Start(frame_now + options.schedule.global_frames +
+                      keyframes / options.schedule.keyframes_per_global_frame,
+                  options.schedule.background,
+                  [map = map, this] { return CorrectGlobally(map, camera, options); });
+}
+
 std::optional<FramePose> StereoSlam::Impl::FindPose(const Frame& frame) {
   if (state == TrackingState::kLost) return Relocalise(frame);
   return TrackFrame(map, frame, memory, camera, options.feature.levels, options.track);
 }
 
-/// Asks a few keyframes a frame: the reference, then those that look most alike or, without a
-/// vocabulary, all in turn.
+/// Asks a few keyframes a frame for their view of it.
 std::optional<FramePose> StereoSlam::Impl::Relocalise(const Frame& frame) {
-  constexpr std::size_t kAskedAFrame = 6;
-  std::vector<KeyframeId> asked = {memory.reference};
-  if (vocabulary) {
-    for (const Lookalike& one : index.Query(vocabulary->Describe(frame.features.descriptors))) {
-      if (asked.size() < kAskedAFrame) asked.push_back(one.keyframe);
-    }
-  } else {
-    const auto count = static_cast<std::int64_t>(map.keyframes().size());
-    const std::int64_t first = frame_count * static_cast<std::int64_t>(kAskedAFrame - 1);
-    for (std::int64_t i = 0; i < count && asked.size() < kAskedAFrame; ++i) {
-      asked.push_back(std::next(map.keyframes().begin(), (first + i) % count)->first);
-    }
-  }
-  for (const KeyframeId id : asked) {
+  const Vocabulary* words = vocabulary ? &*vocabulary : nullptr;
+  for (const KeyframeId id :
+       KeyframesToAsk(map, frame, memory.reference, words, index, frame_count)) {
     auto pose = LocateByKeyframe(map, frame, id, camera, options.feature.levels, options.track);
     if (pose) return pose;
   }
@@ -368,8 +376,10 @@ TrackedFrame StereoSlam::Track(const StereoImages& images, const ExternalMask& m
 std::vector<StampedPose> StereoSlam::Finish() {
   std::map<std::string, double> stage_ms;
   // Mapping may start the closing of a loop, which is waited for as well.
-  while (impl_->Busy()) {
-    impl_->TakeBackgroundWork(std::max(impl_->mapping.due_frame(), impl_->closing.due_frame()),
+  while (impl_->Busy() || impl_->adjusting.pending()) {
+    impl_->WaitForBackgroundWork();
+    impl_->TakeBackgroundWork(std::max({impl_->mapping.due_frame(), impl_->closing.due_frame(),
+                                        impl_->adjusting.due_frame()}),
                               stage_ms);
   }
   std::vector<StampedPose> poses;
@@ -378,17 +388,6 @@ std::vector<StampedPose> StereoSlam::Finish() {
         {anchored.stamp_ns, impl_->map.PoseOf(anchored.reference) * anchored.T_reference_rig});
   }
   return poses;
-}
-
-int TrainVocabulary(const std::vector<cv::Mat1b>& images, const FeatureOptions& options,
-                    const std::string& file) {
-  std::vector<std::vector<Descriptor>> descriptors;
-  for (const cv::Mat1b& image : images) {
-    descriptors.push_back(ExtractFeatures(image, {}, options).features.descriptors);
-  }
-  const Vocabulary vocabulary = Vocabulary::Train(descriptors, {});
-  vocabulary.Save(file);
-  return vocabulary.words();
 }
 
 }  // namespace aisle::slam

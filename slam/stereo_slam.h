@@ -25,6 +25,9 @@ struct StereoImages {
 /// Pixels somebody else has declared unusable: 255 = reject. An empty image rejects nothing.
 struct ExternalMask {
   cv::Mat1b left, right;
+  /// How far each left pixel is trusted, 0 to 1: the information of what is measured there is
+  /// multiplied by it. An empty image trusts all.
+  cv::Mat1f confidence;
 };
 
 enum class TrackingState {
@@ -45,6 +48,8 @@ struct TrackedFrame {
   int matched_points = 0;  ///< matched to the map
   int inliers = 0;         ///< kept by pose refinement
   bool is_keyframe = false;
+  int map_keyframes = 0;     ///< size of the map after this frame: it grows with the place ...
+  int map_landmarks = 0;     ///< ... that has been explored, not with time
   DynamicRegions dynamic;    ///< what the system itself rejected as moving; empty without a method
   bool loop_closed = false;  ///< from this frame on the map is as a closed loop has corrected it
   std::vector<cv::Point2f> keypoints;      ///< left image, for scoring where features were spent

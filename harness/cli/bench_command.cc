@@ -156,6 +156,7 @@ void AddBenchCommand(CLI::App* app, Action* action) {
   bench->footer("Example: ./aisle bench render --frames 20");
   AddBenchRender(bench, action);
   AddBenchLight(bench, action);
+  AddBenchSlam(bench, action);
 }
 
 }  // namespace aisle

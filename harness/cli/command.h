@@ -28,11 +28,15 @@ void AddCheckCommand(CLI::App* app, Action* action);
 void AddPreviewCommand(CLI::App* app, Action* action);
 void AddRenderCommand(CLI::App* app, Action* action);
 void AddSlamCommand(CLI::App* app, Action* action);
+void AddVocabularyCommand(CLI::App* app, Action* action);
+void AddBenchCommand(CLI::App* app, Action* action);
 void AddReportCommand(CLI::App* app, Action* action);
 void AddDoctorCommand(CLI::App* app, Action* action);
 void AddCompletionCommand(CLI::App* app, Action* action);
 void AddCompareCommand(CLI::App* app, Action* action);
-void AddBenchCommand(CLI::App* app, Action* action);
 void AddBaselineCommand(CLI::App* app, Action* action);
+
+// Commands of `bench`.
+void AddBenchSlam(CLI::App* bench, Action* action);
 
 }  // namespace aisle

@@ -21,6 +21,8 @@ int Run(int argc, char** argv) {
   aisle::AddPreviewCommand(&app, &action);
   aisle::AddRenderCommand(&app, &action);
   aisle::AddSlamCommand(&app, &action);
+  aisle::AddVocabularyCommand(&app, &action);
+  aisle::AddBenchCommand(&app, &action);
   aisle::AddScoreCommand(&app, &action);
   aisle::AddReportCommand(&app, &action);
   aisle::AddCompareCommand(&app, &action);
@@ -28,7 +30,6 @@ int Run(int argc, char** argv) {
   aisle::AddCheckCommand(&app, &action);
   aisle::AddDoctorCommand(&app, &action);
   aisle::AddCompletionCommand(&app, &action);
-  aisle::AddBenchCommand(&app, &action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -96,7 +96,7 @@ int RunOne(const Options& options) {
   std::uint64_t content_hash = 0;
   const std::unique_ptr<Sequence> sequence = OpenSequence(options, &content_hash);
   const std::unique_ptr<Estimator> estimator =
-      system.make(sequence->calibration(), options.threads);
+      system.make(sequence->calibration(), {.threads = options.threads});
 
   const std::string folder = "runs/" + RunId(options.spec);
   SamplePictures samples;

@@ -15,6 +15,7 @@ struct Options {
   std::string dataset, format = "euroc", system = "orbslam2", output, live;
   std::string masks;  ///< folder of masks to reject by; empty: none
   int threads = 0;
+  bool free_running = false;
 };
 
 void PrintScores(const RunResult& run) {
@@ -43,7 +44,8 @@ int RunSlam(const Options& options) {
                      "' needs truth about what moves: a recording has none");
   }
   const auto sequence = OpenRecording(options.dataset, DatasetFormatFromName(options.format));
-  const auto estimator = system.make(sequence->calibration(), options.threads);
+  const auto estimator = system.make(
+      sequence->calibration(), {.threads = options.threads, .free_running = options.free_running});
   ProgressLine line;
   std::size_t masked = 0;
   const RunResult run =
@@ -51,6 +53,9 @@ int RunSlam(const Options& options) {
         line.Show(fmt::format("frame {} of {}", frame.index + 1, frame.count));
       });
   line.Clear();
+  if (options.free_running) {
+    fmt::print(stderr, "aisle: free running: another run of this command gives another result\n");
+  }
   WriteFileAtomically(options.output,
                       FormatTrajectory(run.trajectory.final, TrajectoryFormat::kTum));
   if (!options.live.empty()) {
@@ -90,6 +95,9 @@ void AddSlamCommand(CLI::App* app, Action* action) {
                       "folder of masks to reject by: grey PNGs named by stamp or number, not 0 = "
                       "reject; right eye in right/");
   command->add_option("--threads", options->threads, "0: all; never changes a result");
+  command->add_flag(
+      "--free-running", options->free_running,
+      "NOT REPEATABLE: mapping takes effect as threads happen to run, no frame waits");
   command->footer("Example: ./aisle slam V1_01_easy --format euroc -o v101.txt");
   command->callback([=] { *action = [=] { return RunSlam(*options); }; });
 }

@@ -49,7 +49,10 @@ FrameEstimate Convert(const slam::TrackedFrame& frame) {
                      {"stereo_points", frame.stereo_points},
                      {"matched", frame.matched_points},
                      {"inliers", frame.inliers},
-                     {"keyframe", frame.is_keyframe ? 1 : 0}};
+                     {"keyframe", frame.is_keyframe ? 1 : 0},
+                     {"map_keyframes", frame.map_keyframes},
+                     {"map_landmarks", frame.map_landmarks},
+                     {"loop_closed", frame.loop_closed ? 1 : 0}};
   estimate.stage_ms = frame.stage_ms;
   estimate.keypoints = frame.keypoints;
   estimate.keypoint_is_inlier = frame.keypoint_is_inlier;
@@ -62,8 +65,8 @@ class StereoSlamEstimator : public Estimator {
       : slam_(camera, options) {}
 
   FrameEstimate Process(const StereoFrame& frame, const ExternalMask& mask) override {
-    return Convert(
-        slam_.Track({frame.id, frame.stamp_ns, frame.left, frame.right}, {mask.left, mask.right}));
+    return Convert(slam_.Track({frame.id, frame.stamp_ns, frame.left, frame.right},
+                               {mask.left, mask.right, {}}));
   }
 
   Trajectory Finish() override {
@@ -92,6 +95,8 @@ std::unique_ptr<Estimator> MakeStereoSlamEstimator(const StereoCalibration& cali
   camera.baseline_m = calibration.baseline_m;
   slam::SlamOptions slam_options;
   slam_options.threads = options.threads;
+  slam_options.vocabulary_file = options.vocabulary_file.string();
+  slam_options.schedule.free_running = options.free_running;
   slam_options.dynamic.method = Convert(options.rejection);
   return std::make_unique<StereoSlamEstimator>(camera, slam_options);
 }

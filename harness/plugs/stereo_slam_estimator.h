@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 
 #include "harness/contract/estimator.h"
@@ -12,6 +13,8 @@ enum class Rejection { kNone, kPaper, kRobust };
 struct StereoSlamEstimatorOptions {
   int threads = 0;  ///< 0: as many as the machine has; never changes a result
   Rejection rejection = Rejection::kNone;
+  std::filesystem::path vocabulary_file = {};  ///< empty: loops are not closed
+  bool free_running = false;  ///< not repeatable: background results are taken when ready
 };
 
 /// Our SLAM behind the Estimator socket.

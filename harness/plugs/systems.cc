@@ -1,18 +1,19 @@
 #include "harness/plugs/systems.h"
 
 #include "harness/io/input_error.h"
+#include "harness/plugs/place_vocabulary.h"
 #include "harness/plugs/stereo_slam_estimator.h"
 
 namespace aisle {
 namespace {
 
-std::unique_ptr<Estimator> OurSlam(const StereoCalibration& calibration, int threads) {
-  return MakeStereoSlamEstimator(calibration, {.threads = threads});
-}
-
 template <Rejection kRejection>
-std::unique_ptr<Estimator> OurSlamThatRejects(const StereoCalibration& calibration, int threads) {
-  return MakeStereoSlamEstimator(calibration, {.threads = threads, .rejection = kRejection});
+std::unique_ptr<Estimator> OurSlamWith(const StereoCalibration& calibration,
+                                       const SystemOptions& options) {
+  return MakeStereoSlamEstimator(calibration, {.threads = options.threads,
+                                               .rejection = kRejection,
+                                               .vocabulary_file = VocabularyFile(),
+                                               .free_running = options.free_running});
 }
 
 }  // namespace
@@ -20,15 +21,15 @@ std::unique_ptr<Estimator> OurSlamThatRejects(const StereoCalibration& calibrati
 const std::vector<System>& Systems() {
   static const std::vector<System> systems = {
       {"orbslam2", "our stereo SLAM, nothing rejected: the ORB-SLAM2 row", MaskSource::kNone,
-       OurSlam},
+       OurSlamWith<Rejection::kNone>},
       {"semantic", "no features on any person or vehicle, moving or not: the DynaSLAM row",
-       MaskSource::kActors, OurSlam},
+       MaskSource::kActors, OurSlamWith<Rejection::kNone>},
       {"paper", "our SLAM with the paper's rejection of dynamic regions, as written",
-       MaskSource::kNone, OurSlamThatRejects<Rejection::kPaper>},
+       MaskSource::kNone, OurSlamWith<Rejection::kPaper>},
       {"robust", "our SLAM with our best rejection of dynamic regions", MaskSource::kNone,
-       OurSlamThatRejects<Rejection::kRobust>},
+       OurSlamWith<Rejection::kRobust>},
       {"oracle", "no features on what truth says moves now: the best any rejection could do",
-       MaskSource::kDynamic, OurSlam},
+       MaskSource::kDynamic, OurSlamWith<Rejection::kNone>},
   };
   return systems;
 }

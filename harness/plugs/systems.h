@@ -9,12 +9,17 @@
 
 namespace aisle {
 
+struct SystemOptions {
+  int threads = 0;            ///< 0: as many as the machine has; never changes a result
+  bool free_running = false;  ///< NOT REPEATABLE: background work as threads happen to run
+};
+
 /// A system under test that runs inside this program.
 struct System {
   std::string name;         ///< as suites and reports call it
   std::string description;  ///< one sentence
   MaskSource mask_source = MaskSource::kNone;
-  std::function<std::unique_ptr<Estimator>(const StereoCalibration&, int threads)> make;
+  std::function<std::unique_ptr<Estimator>(const StereoCalibration&, const SystemOptions&)> make;
 };
 
 /// Every system, in the order in which reports list them.

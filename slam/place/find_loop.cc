@@ -6,6 +6,7 @@
 
 #include "slam/map/match_by_projection.h"
 #include "slam/map/match_keyframe.h"
+#include "slam/place/adjust_loop.h"
 
 namespace aisle::slam {
 namespace {
@@ -92,8 +93,11 @@ std::optional<LoopEdge> VerifyLoop(const Map& map, KeyframeId current, KeyframeI
   const RefinedPose refined =
       RefinePose(camera, first->T_rig_world, Sights(map, frame, confirmed), {.trust_start = true});
   if (refined.inliers < options.least_inliers || !refined.well_posed) return std::nullopt;
-  return LoopEdge{current, matched, (refined.T_rig_world * map.At(matched).T_world_rig).inverse(),
-                  refined.inliers};
+  const auto adjusted =
+      AdjustView(map, frame, confirmed, refined.inlier, refined.T_rig_world, camera);
+  if (!adjusted || adjusted->inliers < options.least_inliers) return std::nullopt;
+  return LoopEdge{current, matched, (adjusted->T_rig_world * map.At(matched).T_world_rig).inverse(),
+                  adjusted->inliers};
 }
 
 std::optional<LoopEdge> FindLoop(const Map& map, KeyframeId current, const WordVector& words,

@@ -1,0 +1,89 @@
+#include "harness/cli/command.h"
+#include "harness/cli/places.h"
+#include "harness/cli/terminal.h"
+#include "harness/io/dataset.h"
+#include "harness/io/input_error.h"
+#include "harness/plugs/place_vocabulary.h"
+#include "harness/plugs/recorded_sequence.h"
+#include "harness/plugs/simulated_sequence.h"
+#include "harness/suite/suite.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<std::string> sources;
+  std::string out, format = "euroc", twin = "empty";
+  int frames = 16, threads = 0;
+  std::uint64_t seed = 1;
+};
+
+/// A scene under a seed of its own, so that no two scenes share their layout's dice, or a folder.
+std::unique_ptr<Sequence> Open(const std::string& source, std::uint64_t seed,
+                               const Options& options) {
+  if (fs::is_directory(source)) {
+    return OpenRecording(source, DatasetFormatFromName(options.format));
+  }
+  return OpenSimulation({.scene_file = source,
+                         .scene_name = SceneName(source),
+                         .assets_dir = AssetsDir().string(),
+                         .twin = options.twin,
+                         .seed = seed,
+                         .threads = options.threads});
+}
+
+/// `count` frames, evenly over the whole sequence.
+std::vector<FrameRequest> Sparse(const std::vector<FrameRequest>& schedule, std::size_t count) {
+  std::vector<FrameRequest> chosen;
+  count = std::min(count, schedule.size());
+  for (std::size_t i = 0; i < count; ++i) chosen.push_back(schedule[i * schedule.size() / count]);
+  return chosen;
+}
+
+int Train(const Options& options) {
+  std::vector<cv::Mat1b> images;
+  ProgressLine line;
+  for (std::size_t i = 0; i < options.sources.size(); ++i) {
+    const std::string& source = options.sources[i];
+    const auto sequence = Open(source, options.seed + i, options);
+    for (const FrameRequest& request :
+         Sparse(sequence->Schedule(), static_cast<std::size_t>(options.frames))) {
+      images.push_back(sequence->At(request).images.left);
+      line.Show(fmt::format("{}: {} images in all", source, images.size()));
+    }
+  }
+  line.Clear();
+  if (images.empty()) throw InputError("vocabulary train: the sources have no frames");
+  const int words = TrainPlaceVocabulary(images, options.out);
+  fmt::print("{}: {} words from {} images, {} bytes\n", options.out, words, images.size(),
+             fs::file_size(options.out));
+  return kAllPassed;
+}
+
+}  // namespace
+
+void AddVocabularyCommand(CLI::App* app, Action* action) {
+  CLI::App* vocabulary =
+      app->add_subcommand("vocabulary", "the visual words that places are recognised by");
+  vocabulary->require_subcommand(1);
+  const auto options = std::make_shared<Options>();
+  CLI::App* train = vocabulary->add_subcommand("train", "learns them from scenes or recordings");
+  train->add_option("SOURCES", options->sources, "scene files and folders of recordings")
+      ->required();
+  train->add_option("--out", options->out, "the vocabulary file")->required();
+  train->add_option("--frames", options->frames, "per source, evenly spread; default 16")
+      ->check(CLI::Range(1, 10000));
+  train->add_option("--format", options->format, "of folders: euroc (default) or kitti")
+      ->check(CLI::IsMember({"euroc", "kitti"}));
+  train->add_option("--twin", options->twin, "of scenes: empty (default), live or frozen");
+  train->add_option("--seed", options->seed, "of the first scene; each next one takes one more");
+  train->add_option("--threads", options->threads, "0: all; never changes a bit of the file");
+  train->footer(
+      "The same sources in the same order give the same file.\n"
+      "Example: ./aisle vocabulary train scenes/paper/*.yaml --out assets/places/warehouse.voc");
+  train->callback([=] { *action = [=] { return Train(*options); }; });
+}
+
+}  // namespace aisle

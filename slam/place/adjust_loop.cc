@@ -1,0 +1,67 @@
+#include "slam/place/adjust_loop.h"
+
+#include <map>
+
+#include "slam/optimize/bundle.h"
+
+namespace aisle::slam {
+namespace {
+
+constexpr int kNewPose = 0;
+
+/// The new pose, free; every keyframe that sees the landmarks, fixed; the landmarks, free.
+BundleProblem BuildProblem(const Map& map, const Frame& frame, const std::vector<Match>& matches,
+                           const std::vector<bool>& inlier, const Eigen::Isometry3d& T_rig_world,
+                           const StereoCamera& camera) {
+  BundleProblem problem;
+  problem.camera = camera;
+  problem.poses.push_back({T_rig_world, false});
+  std::map<KeyframeId, int> pose_of;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (!inlier[i]) continue;
+    const Landmark& landmark = map.At(matches[i].landmark);
+    const auto point = static_cast<int>(problem.points.size());
+    problem.points.push_back(landmark.position);
+    problem.sights.push_back(MakeSight(
+        kNewPose, point, frame.measurements[static_cast<std::size_t>(matches[i].feature)]));
+    for (const Observation& observation : landmark.observations) {
+      const Keyframe& keyframe = map.At(observation.keyframe);
+      const auto next = static_cast<int>(problem.poses.size());
+      const auto [pose, is_new] = pose_of.emplace(observation.keyframe, next);
+      if (is_new) problem.poses.push_back({keyframe.T_world_rig.inverse(), true});
+      problem.sights.push_back(
+          MakeSight(pose->second, point,
+                    keyframe.frame->measurements[static_cast<std::size_t>(observation.feature)]));
+    }
+  }
+  return problem;
+}
+
+}  // namespace
+
+std::optional<AdjustedView> AdjustView(const Map& map, const Frame& frame,
+                                       const std::vector<Match>& matches,
+                                       const std::vector<bool>& inlier,
+                                       const Eigen::Isometry3d& T_rig_world,
+                                       const StereoCamera& camera) {
+  constexpr int kIterations = 10;
+  BundleProblem problem = BuildProblem(map, frame, matches, inlier, T_rig_world, camera);
+  const auto within = [&] {
+    std::vector<bool> active;
+    for (const BundleProblem::Sight& sight : problem.sights) {
+      active.push_back(Chi2(problem, sight) <= sight.chi2_bound);
+    }
+    return active;
+  };
+  if (problem.points.empty() || !Solve(problem, {}, {kIterations, true}).usable) {
+    return std::nullopt;
+  }
+  if (!Solve(problem, within(), {kIterations, false}).usable) return std::nullopt;
+  AdjustedView view{problem.poses[kNewPose].T_rig_world, 0};
+  for (const BundleProblem::Sight& sight : problem.sights) {
+    view.inliers += sight.pose == kNewPose && Chi2(problem, sight) <= sight.chi2_bound;
+  }
+  return view;
+}
+
+}  // namespace aisle::slam

@@ -1,0 +1,115 @@
+#include "slam/loop_closing.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/slam/face/ring_world.h"
+
+namespace aisle::slam {
+namespace {
+
+/// 50 m with 1 % too long steps and a quarter of a degree a metre in all.
+const RingWorld& Ring() {
+  static const RingWorld ring(1.01, 0.003);
+  return ring;
+}
+
+SlamOptions Options() {
+  SlamOptions options;
+  options.mapping.fuse.levels = options.feature.levels;
+  return options;
+}
+
+TEST(LoopClosing, SpreadingALoopTakesMostOfTheDriftAway) {
+  const double drift_m = Ring().WorstErrorM(Ring().map());
+  ASSERT_GT(drift_m, 0.5);
+  Map map = Ring().map();
+  map.Apply(SpreadLoops(map, Ring().Loops()));
+  EXPECT_LT(Ring().WorstErrorM(map), 0.4 * drift_m);
+  // The new visit and the old one are one place again.
+  for (const LoopEdge& loop : Ring().Loops()) {
+    const Eigen::Isometry3d T_matched_current =
+        map.At(loop.matched).T_world_rig.inverse() * map.At(loop.current).T_world_rig;
+    EXPECT_LT((T_matched_current.translation() - loop.T_matched_current.translation()).norm(),
+              0.05);
+  }
+}
+
+TEST(LoopClosing, LandmarksMoveWithTheKeyframesThatSeeThem) {
+  Map map = Ring().map();
+  map.Apply(SpreadLoops(map, Ring().Loops()));
+  // Neighbours are corrected nearly alike; a landmark left behind would be hundreds of pixels off.
+  for (const Landmark* landmark : map.Landmarks()) {
+    for (const Observation& observation : landmark->observations) {
+      const Keyframe& keyframe = map.At(observation.keyframe);
+      const Eigen::Vector3d uvd =
+          Project(Ring().camera(), keyframe.T_world_rig.inverse() * landmark->position);
+      const auto& measured =
+          keyframe.frame->measurements[static_cast<std::size_t>(observation.feature)];
+      ASSERT_LT((uvd - measured.uvd).head<2>().norm(), 80) << "keyframe " << keyframe.id.value;
+    }
+  }
+}
+
+TEST(LoopClosing, WithoutLoopsNothingIsSpread) {
+  Map map = Ring().map();
+  map.Apply(SpreadLoops(map, {}));
+  EXPECT_NEAR(Ring().WorstErrorM(map), Ring().WorstErrorM(Ring().map()), 1e-6);
+}
+
+TEST(LoopClosing, AClosedLoopIsOnePlaceAndAsExactAsItsMeasurements) {
+  Map closed = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), Options());
+  closed.Apply(CarryOver(closed, CorrectGlobally(closed, Ring().camera(), Options())));
+  EXPECT_LT(Ring().WorstErrorM(closed), 0.02);
+  // What was mapped twice is one: every second visit shares its landmarks with the first.
+  EXPECT_LT(closed.landmark_count(), Ring().map().landmark_count());
+  for (const LoopEdge& loop : Ring().Loops()) {
+    const auto covisible = CovisibleKeyframes(closed, loop.current, 30);
+    EXPECT_TRUE(std::any_of(covisible.begin(), covisible.end(), [&](const Covisible& one) {
+      return one.keyframe == loop.matched;
+    })) << loop.current.value;
+  }
+}
+
+TEST(LoopClosing, GivesTheSameBitsAgain) {
+  const Map a = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), Options());
+  const Map b = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), Options());
+  for (const auto& [id, keyframe] : a.keyframes()) {
+    EXPECT_EQ(keyframe->T_world_rig.matrix(), b.At(id).T_world_rig.matrix()) << id.value;
+  }
+}
+
+TEST(LoopClosing, WhatIsMappedDuringTheGlobalAdjustmentMovesAlong) {
+  const Map closed = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), Options());
+  const GlobalCorrection correction = CorrectGlobally(closed, Ring().camera(), Options());
+  // Meanwhile a keyframe joins and sees a landmark of its own.
+  Map grown = closed;
+  const KeyframeId parent = Ring().Loops().back().current;
+  Keyframe keyframe = closed.At(parent);
+  keyframe.id = grown.NextKeyframeId();
+  keyframe.parent = parent;
+  keyframe.landmarks.assign(keyframe.landmarks.size(), {});
+  Landmark landmark;
+  landmark.position = keyframe.T_world_rig * Eigen::Vector3d(0, 0, 4);
+  landmark.observations = {{keyframe.id, 0}};
+  MapEdit edit;
+  edit.new_keyframes = {keyframe};
+  edit.new_landmarks = {landmark};
+  grown.Apply(edit);
+  grown.Apply(CarryOver(grown, correction));
+
+  const Eigen::Isometry3d& moved = grown.At(keyframe.id).T_world_rig;
+  EXPECT_TRUE(moved.isApprox(grown.At(parent).T_world_rig, 1e-9));
+  EXPECT_FALSE(moved.isApprox(closed.At(parent).T_world_rig, 1e-6));
+  const Landmark& carried = grown.At(grown.At(keyframe.id).landmarks[0]);
+  EXPECT_LT((moved.inverse() * carried.position - Eigen::Vector3d(0, 0, 4)).norm(), 1e-9);
+}
+
+TEST(LoopClosing, GlobalAdjustmentLeavesATrueMapAlone) {
+  const RingWorld exact(1, 0);
+  Map map = exact.map();
+  map.Apply(AdjustGlobally(map, exact.camera(), {}).edit);
+  EXPECT_LT(exact.WorstErrorM(map), 1e-3);
+}
+
+}  // namespace
+}  // namespace aisle::slam
