@@ -17,7 +17,14 @@ sys.path.insert(0, HERE)
 
 from lib import feet, gltf  # noqa: E402
 
-FOLDERS = {"people": "person", "vehicles": "vehicle", "kit": "kit", "street": "street", "textures": "texture"}
+FOLDERS = {
+    "people": "person",
+    "vehicles": "vehicle",
+    "kit": "kit",
+    "street": "street",
+    "textures": "texture",
+    "places": "vocabulary",
+}
 CONVENTIONS = {
     "units": "metres, seconds",
     "frame": "object frame: x forward, y left, z up, origin on the floor; glTF (x, y, z) is the "
@@ -85,20 +92,20 @@ def main():
         where = os.path.join(ROOT, folder)
         for file in sorted(os.listdir(where)) if os.path.isdir(where) else []:
             path, (name, ext) = os.path.join(where, file), os.path.splitext(file)
-            if ext not in (".glb", ".png"):
+            if ext not in (".glb", ".png", ".voc"):
                 continue
             entry = {
                 "file": f"{folder}/{file}",
                 "kind": kind,
                 "licence": "BSD-3-Clause",
-                "author": f"assets/author/{folder}.py",
+                "author": f"assets/author/{folder}.{'sh' if kind == 'vocabulary' else 'py'}",
                 "bytes": os.path.getsize(path),
                 "sha256": digest(path),
             }
             old = before.get(entry["sha256"])
             if old and old["file"] == entry["file"]:
                 entry = old
-            else:
+            elif ext != ".voc":
                 (describe_glb if ext == ".glb" else describe_png)(path, entry)
             assets[f"{folder}/{name}"] = entry
     text = json.dumps({"schema": 1, "conventions": CONVENTIONS, "assets": assets}, indent=1)

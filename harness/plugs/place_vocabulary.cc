@@ -11,7 +11,8 @@ std::filesystem::path VocabularyFile() {
   const bool elsewhere = assets != nullptr && *assets != '\0';
   const std::filesystem::path dir = elsewhere ? std::filesystem::path(assets)
                                               : std::filesystem::path(AISLE_SOURCE_DIR) / "assets";
-  return dir / "places" / "warehouse.voc";
+  const std::filesystem::path file = dir / "places" / "warehouse.voc";
+  return std::filesystem::exists(file) ? file : std::filesystem::path();
 }
 
 int TrainPlaceVocabulary(const std::vector<cv::Mat1b>& images, const std::filesystem::path& file) {

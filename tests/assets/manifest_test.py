@@ -7,6 +7,7 @@ import struct
 import sys
 
 TOTAL_BYTES = 60_000_000
+VOCABULARY_BYTES = 8_000_000
 TRIANGLES = {"person": (8_000, 22_000), "vehicle": (2_000, 60_000), "kit": (12, 20_000), "street": (12, 20_000)}
 CLIPS = {
     "stand",
@@ -42,6 +43,10 @@ def wrong_with(name, asset, root):
         bad.append(f"{name}: hash differs; rebuild with assets/author/manifest.py")
     if asset["licence"] != "BSD-3-Clause" or not (root.parent / asset["author"]).is_file():
         bad.append(f"{name}: licence or author script")
+    if asset["kind"] == "vocabulary":
+        if not data.startswith(b"aislevoc") or len(data) > VOCABULARY_BYTES:
+            bad.append(f"{name}: no vocabulary of at most {VOCABULARY_BYTES} bytes")
+        return bad
     if asset["kind"] == "texture":
         size = struct.unpack(">II", data[16:24])
         if any(s > 2048 or s & (s - 1) for s in size):
@@ -78,7 +83,7 @@ def main(source_dir):
         bad += wrong_with(name, asset, root)
     listed = {a["file"] for a in manifest["assets"].values()}
     for path in root.glob("*/*"):
-        if path.suffix in (".glb", ".png") and path.parent.name != "contact":
+        if path.suffix in (".glb", ".png", ".voc") and path.parent.name != "contact":
             if f"{path.parent.name}/{path.name}" not in listed:
                 bad.append(f"{path.name} is not in the manifest")
     total = sum(
