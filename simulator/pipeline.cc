@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <mutex>
+#include <opencv2/imgproc.hpp>
 
 #include "simulator/camera/pixel_rays.h"
 #include "simulator/raster/raster.h"
@@ -334,16 +335,22 @@ VerifyReport Pipeline::Verify(std::int64_t stamp_ns, const Eigen::Isometry3d& T_
 }
 
 LightCheck Pipeline::CheckLight(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
-                                int samples) const {
+                                int samples, int reduce) const {
+  const Impl& self = *impl_;
+  const StereoCamera small = Coarser(self.camera, reduce);
   LightCheck check;
-  check.nightly = RenderRadiance(stamp_ns, T_world_rig)[0] * impl_->options.sensor.exposure;
-  check.reference = impl_->arena.execute([&] {
-    const Instant instant = impl_->tracer.Pose(impl_->world.At(stamp_ns));
-    const TexturePool textures(impl_->world.textures());
-    return cv::Mat1f(Reference(impl_->world, textures)
-                         .Render(instant, impl_->Views(T_world_rig)[0], {.samples = samples}) *
-                     impl_->options.sensor.exposure);
+  const cv::Rect whole(0, 0, small.width * reduce, small.height * reduce);
+  cv::resize(RenderRadiance(stamp_ns, T_world_rig)[0](whole), check.nightly,
+             {small.width, small.height}, 0, 0, cv::INTER_AREA);
+  check.nightly *= self.options.sensor.exposure;
+  check.reference = self.arena.execute([&] {
+    const Instant instant = self.tracer.Pose(self.world.At(stamp_ns));
+    const TexturePool textures(self.world.textures());
+    const PixelRays rays = MakePixelRays(small);
+    const EyeView view(rays, EyePose(small, T_world_rig, Eye::kLeft));
+    return Reference(self.world, textures).Render(instant, view, {.samples = samples});
   });
+  check.reference *= self.options.sensor.exposure;
   const LightError error = CompareLight(check.nightly, check.reference);
   check.median_relative_error = error.median_relative;
   check.ssim = error.ssim;

@@ -52,8 +52,8 @@ class Pipeline {
                       std::int64_t next_stamp_ns, const Eigen::Isometry3d& T_world_rig_next) const;
   RenderBench Bench(std::span<const std::int64_t> stamps_ns,
                     std::span<const Eigen::Isometry3d> poses) const;
-  LightCheck CheckLight(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
-                        int samples) const;
+  LightCheck CheckLight(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig, int samples,
+                        int reduce) const;
 
  private:
   struct Impl;

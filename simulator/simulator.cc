@@ -178,6 +178,7 @@ Simulator Simulator::Load(const std::string& scene_file, const std::string& asse
   pipeline.dynamic_threshold_mps = static_cast<float>(scene.dynamic_threshold_mps);
   pipeline.tracer.isa = pipeline.shade.statics.isa = options.isa;
   pipeline.shade.statics.cache_folder = DefaultLightCache();
+  pipeline.shade.statics.progress = options.light_progress;
   SetSensor(scene.sensor, &pipeline);
   impl->pipeline = std::make_unique<Pipeline>(std::move(world), CameraOf(scene.camera), pipeline);
   return Simulator(std::move(impl));
@@ -240,9 +241,9 @@ RenderBench Simulator::Bench(int frames) const {
   return impl_->pipeline->Bench(stamps, poses);
 }
 
-LightCheck Simulator::CheckLight(int frame_index, int samples) const {
+LightCheck Simulator::CheckLight(int frame_index, int samples, int reduce) const {
   const std::int64_t stamp_ns = Stamp(frame_index);
-  return impl_->pipeline->CheckLight(stamp_ns, PlannedPose(stamp_ns), samples);
+  return impl_->pipeline->CheckLight(stamp_ns, PlannedPose(stamp_ns), samples, reduce);
 }
 
 std::vector<std::string> CheckSceneFile(const std::string& scene_file) {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <opencv2/core.hpp>
@@ -34,6 +35,9 @@ struct SimulatorOptions {
   Twin twin = Twin::kLive;
   int threads = 0;  ///< 0: as many as the machine has; the bytes are the same for any number
   std::string isa = "avx2";  ///< Embree's instruction set; "native" lets Embree choose
+  /// Told while the static light is solved (once per scene, then kept on disk) the share that is
+  /// done, rising to 1; from any thread, one call at a time.
+  std::function<void(double)> light_progress = {};
 };
 
 /// One labelled thing of the scene; its id in the label image is its index in instances().
@@ -174,8 +178,9 @@ class Simulator {
   RenderBench Bench(int frames) const;
 
   /// Renders one planned left image with the nightly light and by path tracing, `samples` paths a
-  /// pixel: minutes.
-  LightCheck CheckLight(int frame_index, int samples) const;
+  /// pixel: minutes. Both are compared at a size reduced by a whole factor, which leaves the paths'
+  /// noise the smaller.
+  LightCheck CheckLight(int frame_index, int samples, int reduce) const;
 
  private:
   struct Impl;

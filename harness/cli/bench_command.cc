@@ -58,6 +58,7 @@ struct LightOptions {
   std::vector<std::string> views;
   std::string out = "bench_light";
   int samples = 256;
+  int reduce = 2;
 };
 
 /// Quiet views, busy ones, and each kind of light: "scene:frame".
@@ -117,7 +118,8 @@ int BenchLight(LightOptions options) {
     }
     options.simulation.scene_file = scene;
     options.simulation.scene_name = SceneName(scene);
-    const LightComparison light = CompareLight(options.simulation, frame, options.samples);
+    const LightComparison light =
+        CompareLight(options.simulation, frame, options.samples, options.reduce);
     const std::string line =
         fmt::format("| {} | {} | {:.2f} % | {:.4f} | {:.3f} |\n", options.simulation.scene_name,
                     light.frame, 100 * light.median_relative_error, light.ssim, light.mean_ratio);
@@ -143,6 +145,8 @@ void AddBenchLight(CLI::App* bench, Action* action) {
   command->add_option("--out", options->out, "folder of the table and pictures (bench_light)");
   command->add_option("--samples", options->samples, "paths a pixel (default 256)")
       ->check(CLI::Range(1, 65536));
+  command->add_option("--reduce", options->reduce, "compare at 1/N of the camera's size (2)")
+      ->check(CLI::Range(1, 16));
   command->add_option("--threads", options->simulation.threads, "0: all");
   command->footer("Exit code 1 where a view misses 5 % median relative error or 0.95 SSIM.");
   command->callback([=] { *action = [=] { return BenchLight(*options); }; });

@@ -16,7 +16,8 @@ RenderCost MeasureRender(const SimulatedSequenceOptions& options, int frames) {
   return cost;
 }
 
-LightComparison CompareLight(const SimulatedSequenceOptions& options, int frame, int samples) {
+LightComparison CompareLight(const SimulatedSequenceOptions& options, int frame, int samples,
+                             int reduce) {
   const sim::Simulator simulator = OpenSimulator(options);
   const int count = simulator.frame_count();
   if (frame >= count) {
@@ -24,7 +25,7 @@ LightComparison CompareLight(const SimulatedSequenceOptions& options, int frame,
         fmt::format("frame {}: {} has frames 0 to {}", frame, options.scene_name, count - 1));
   }
   const int chosen = frame >= 0 ? frame : count / 2;
-  sim::LightCheck check = simulator.CheckLight(chosen, samples);
+  sim::LightCheck check = simulator.CheckLight(chosen, samples, reduce);
   return {.frame = chosen,
           .nightly = std::move(check.nightly),
           .reference = std::move(check.reference),

@@ -31,7 +31,9 @@ struct LightComparison {
   double mean_ratio = 0;  ///< nightly over reference
 };
 
-/// `frame` < 0: the middle one. Minutes. Throws InputError for a bad scene or frame.
-LightComparison CompareLight(const SimulatedSequenceOptions& options, int frame, int samples);
+/// `frame` < 0: the middle one; both images are `reduce` times smaller than the camera's. Minutes.
+/// Throws InputError for a bad scene or frame.
+LightComparison CompareLight(const SimulatedSequenceOptions& options, int frame, int samples,
+                             int reduce);
 
 }  // namespace aisle

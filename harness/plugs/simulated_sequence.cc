@@ -1,5 +1,7 @@
 #include "harness/plugs/simulated_sequence.h"
 
+#include <unistd.h>
+
 #include "harness/io/input_error.h"
 #include "harness/plugs/open_simulator.h"
 
@@ -44,6 +46,19 @@ FrameTruth Convert(const sim::FrameTruth& truth, const std::vector<sim::Instance
     result.objects.push_back(Convert(object, instances.at(object.instance).object_class));
   }
   return result;
+}
+
+/// A bar on stderr where that is a terminal; nothing elsewhere.
+std::function<void(double)> LightBar(const std::string& scene) {
+  if (isatty(STDERR_FILENO) == 0) return {};
+  return [scene](double share) {
+    constexpr int kWidth = 30;
+    const int filled = static_cast<int>(share * kWidth);
+    fmt::print(stderr, "\r{}: solving the static light [{:#<{}}{:.<{}}] {:3.0f} %", scene, "",
+               filled, "", kWidth - filled, 100 * share);
+    if (share >= 1) fmt::print(stderr, "\r\033[K");
+    std::fflush(stderr);
+  };
 }
 
 class SimulatedSequence : public Sequence {
@@ -116,9 +131,12 @@ const std::vector<std::string>& TwinNames() {
 sim::Simulator OpenSimulator(const SimulatedSequenceOptions& options) {
   const sim::Twin twin = TwinFromName(options.twin);
   try {
-    return sim::Simulator::Load(
-        options.scene_file, options.assets_dir,
-        {.seed = options.seed, .twin = twin, .threads = options.threads, .isa = options.isa});
+    return sim::Simulator::Load(options.scene_file, options.assets_dir,
+                                {.seed = options.seed,
+                                 .twin = twin,
+                                 .threads = options.threads,
+                                 .isa = options.isa,
+                                 .light_progress = LightBar(options.scene_name)});
   } catch (const std::runtime_error& error) {
     throw InputError(error.what());
   }

@@ -10,6 +10,7 @@ namespace aisle::sim {
 namespace {
 
 constexpr float kContrast = 0.04f;  // below this an edge cannot be seen in the noise
+constexpr float kFaint = 0.1f;      // below this an edge is not worth a ray
 constexpr float kFineRate = 0.25f;  // barycentrics a pixel: the triangle is four pixels wide
 constexpr int kSamples = 4;
 constexpr int kTileWidth = 64, kTileHeight = 16;
@@ -89,6 +90,7 @@ class Edges {
       any |= differs[i];
     }
     if (!any) return;
+    if (MixFaint(p, kSteps, differs, found)) return;
     if ((differs[0] && differs[1]) || (differs[2] && differs[3])) {  // a thing one pixel wide
       found->unknown.push_back(p);
       return;
@@ -112,6 +114,23 @@ class Edges {
     if (share <= 0) return;
     const float mine = radiance_(p.y, p.x);
     found->mixed.push_back({p, mine + share * (radiance_(other.y, other.x) - mine)});
+  }
+
+  /// Where all sides are nearly as bright, the edge is given the place it has on average: the other
+  /// side covers a quarter of the pixel.
+  bool MixFaint(PixelAt p, std::span<const PixelAt> steps, std::span<const bool> differs,
+                Found* found) const {
+    const float mine = radiance_(p.y, p.x);
+    float sum = 0, count = 0;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      if (!differs[i]) continue;
+      const float other = radiance_(p.y + steps[i].y, p.x + steps[i].x);
+      if (std::abs(other - mine) > kFaint * std::max(other, mine)) return false;
+      sum += other;
+      count += 1;
+    }
+    found->mixed.push_back({p, mine + 0.25f * (sum / count - mine)});
+    return true;
   }
 
   std::size_t Index(PixelAt p) const { return image_.Index(p.x, p.y); }

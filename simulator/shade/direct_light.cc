@@ -155,8 +155,8 @@ std::vector<SurfacePoint> LocatePoints(const LightGrid& grid, const TriangleMesh
   return points;
 }
 
-std::vector<std::uint32_t> LeadersOf(std::span<const SurfacePoint> points,
-                                     const GroupOptions& options) {
+std::vector<std::uint32_t> GroupsOf(std::span<const SurfacePoint> points,
+                                    const GroupOptions& options) {
   struct Key {
     std::array<int, 7> parts;
     bool operator==(const Key&) const = default;

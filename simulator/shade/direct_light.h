@@ -28,8 +28,8 @@ struct GroupOptions {
 };
 
 /// Groups points that are near and face alike; for each point, its group's first.
-std::vector<std::uint32_t> LeadersOf(std::span<const SurfacePoint> points,
-                                     const GroupOptions& options);
+std::vector<std::uint32_t> GroupsOf(std::span<const SurfacePoint> points,
+                                    const GroupOptions& options);
 
 struct DirectLightOptions {
   /// Lights that together give less than this share of a packet's unshadowed light are not traced;

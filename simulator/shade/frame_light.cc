@@ -117,8 +117,8 @@ SurfaceTables::SurfaceTables(const World& world, const Tracer& tracer, const Lig
     MoverGrid own;
     own.grid = MakeLightGrid(mover, mover_texel_m);
     own.openness = OpennessOf(tracer, world, i, own.grid);
-    own.leader = LeadersOf(LocatePoints(own.grid, mover, mover.positions, mover.normals),
-                           {.cell_m = kClusterSize});
+    own.group = GroupsOf(LocatePoints(own.grid, mover, mover.positions, mover.normals),
+                         {.cell_m = kClusterSize});
     mover_bases_.push_back(static_cast<std::int32_t>(mover_records_.size()));
     slot_bases_.push_back(slot_count_);
     for (SurfaceRecord record :
@@ -149,16 +149,19 @@ void SurfaceTables::LightMover(const Instant& instant, std::size_t mover, const 
       if (point < LightGrid::kExtrapolated) wanted[point] = 1;
     }
   }
-  const std::vector<std::uint32_t>& leader = movers_[mover].leader;
-  std::vector<std::uint8_t> leads(wanted.size());
+  // The first seen point of a group leads it: the group's others may lie in a layer of clothes
+  // below, where no light comes.
+  constexpr std::uint32_t kNobody = 0xffffffffu;
+  std::vector<std::uint32_t> leader_of_group(wanted.size(), kNobody), leader(wanted.size());
   std::vector<std::uint32_t> points, leaders;
   for (std::uint32_t i = 0; i < wanted.size(); ++i) {
     if (!wanted[i]) continue;
     points.push_back(i);
-    if (!std::exchange(leads[leader[i]], 1)) leaders.push_back(leader[i]);
+    std::uint32_t& lead = leader_of_group[movers_[mover].group[i]];
+    if (lead == kNobody) leaders.push_back(lead = i);
+    leader[i] = lead;
   }
   if (points.empty()) return;
-  std::ranges::sort(leaders);  // neighbours in one packet
   const std::vector<SurfacePoint> places = LocatePoints(grid, mesh, state.positions, state.normals);
   std::vector<DirectLight> direct(grid.points.size());
   tbb::parallel_for(std::size_t{0}, (leaders.size() + kLanes - 1) / kLanes, [&](std::size_t i) {

@@ -41,8 +41,8 @@ class SurfaceTables {
     LightGrid grid;
     std::vector<float>
         openness;  ///< by point: share of the indirect light that its own body leaves
-    /// By point: the point that traces shadow rays for it, near by and facing alike.
-    std::vector<std::uint32_t> leader;
+    /// By point: its group, whose points share shadow rays: near by and facing alike.
+    std::vector<std::uint32_t> group;
   };
 
   void LightMover(const Instant& instant, std::size_t mover, const LightVolume& volume,

@@ -17,7 +17,10 @@ using Triple8 = Triple<F8>;
 constexpr int kTileWidth = 16, kTileHeight = 8;
 constexpr float kLift = 2e-3f;      // m, along the normal
 constexpr float kFootprint = 3.0f;  // pixels: how wide mirrored textures are averaged
-constexpr float kGrazing = 0.02f;   // cosines below this are raised to it
+// Sixteen rays cannot find a lamp evenly in a broad lobe: beyond this roughness what a ray meets
+// counts no more than so many times the light on the surface itself.
+constexpr float kBroad = 0.2f, kBrightest = 3.0f;
+constexpr float kGrazing = 0.02f;  // cosines below this are raised to it
 
 /// Points of the unit disk for eight pixels of each row of the 4 × 4 pattern.
 struct DiskPattern {
@@ -80,7 +83,8 @@ class Pass {
   }
 
   /// Unfiltered radiance of eight pixels, and the diffuse base's share of their reflectance.
-  void Trace(int x, int y, I8 glossy, float* reflectance, float* raw) const {
+  void Trace(int x, int y, I8 glossy, const float* irradiance, float* reflectance,
+             float* raw) const {
     const std::size_t i = image_.Index(x, y);
     const I8 triangle = glossy ? LoadI(&image_.primitive[i]) : I8{};
     const float* finish = &tables_.finishes()[0].f0;
@@ -103,13 +107,18 @@ class Pass {
     const F8 across = Dot3(out, facet);
     const Triple8 in = {2 * across * facet.x - out.x, 2 * across * facet.y - out.y,
                         2 * across * facet.z - out.z};
-    const I8 up = glossy & (in.z > 0);
-    const F8 weight = Fresnel(f0, across) * SmithMasking(in.z, alpha);
+    // Broad lobes are asked in every second row of the pattern, and counted twice.
+    const I8 broad = roughness > kBroad;
+    const I8 up = glossy & (in.z > 0) & (y % 2 ? ~broad : WideInt(-1));
+    const F8 weight =
+        Fresnel(f0, across) * SmithMasking(in.z, alpha) * Select(broad, Wide(2), Wide(1));
     const F8 t = Select(glossy, LoadF(&image_.t[i]), Wide(0));
     const Triple8 from = {view_.origin.x() + t * d.x + kLift * basis.z.x,
                           view_.origin.y() + t * d.y + kLift * basis.z.y,
                           view_.origin.z() + t * d.z + kLift * basis.z.z};
-    const F8 seen = Seen(from, basis.ToWorld(in), up);
+    F8 seen = Seen(from, basis.ToWorld(in), up);
+    const F8 most = LoadF(irradiance + i) * (kBrightest * std::numbers::inv_pi_v<float>);
+    seen = Select(broad, Min(seen, most), seen);
     Store(Select(up, weight * seen, Wide(0)), raw + i);
     const F8 base = 1 - GlossShare(f0, roughness, out.z);
     Store(Select(glossy, LoadF(reflectance + i) * base, LoadF(reflectance + i)), reflectance + i);
@@ -159,7 +168,8 @@ class Pass {
 
 bool TraceGloss(const Instant& instant, const EyeView& view, const HitImage& image,
                 const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures,
-                std::vector<float>* reflectance, std::vector<float>* mirrored) {
+                std::span<const float> irradiance, std::vector<float>* reflectance,
+                std::vector<float>* mirrored) {
   if (tables.finishes().empty()) return false;
   const Pass pass(instant, view, image, tables, frame, textures);
   const int columns = (image.width + kTileWidth - 1) / kTileWidth;
@@ -177,7 +187,7 @@ bool TraceGloss(const Instant& instant, const EyeView& view, const HitImage& ima
       const I8 lanes = pass.Glossy(x, y);
       if (!Any(lanes)) return;
       glossy[static_cast<std::size_t>(tile)] = 1;
-      pass.Trace(x, y, lanes, reflectance->data(), raw.data());
+      pass.Trace(x, y, lanes, irradiance.data(), reflectance->data(), raw.data());
     });
   });
   if (std::ranges::find(glossy, 1) == glossy.end()) return false;

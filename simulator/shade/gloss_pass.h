@@ -15,6 +15,7 @@ namespace aisle::sim {
 /// it was, where nothing in the image is glossy.
 bool TraceGloss(const Instant& instant, const EyeView& view, const HitImage& image,
                 const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures,
-                std::vector<float>* reflectance, std::vector<float>* mirrored);
+                std::span<const float> irradiance, std::vector<float>* reflectance,
+                std::vector<float>* mirrored);
 
 }  // namespace aisle::sim

@@ -45,7 +45,7 @@ void FindPartners(const Instant& statics, const LightGrid& grid, const Patches& 
 
 Patches MakePatches(std::span<const SurfacePoint> points, std::span<const float> albedo) {
   const std::vector<std::uint32_t> leaders =
-      LeadersOf(points, {.cell_m = 0.33f, .normal_steps = 3, .plane_m = 0.04f});
+      GroupsOf(points, {.cell_m = 0.33f, .normal_steps = 3, .plane_m = 0.04f});
   Patches patches;
   std::vector<float> members;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -12,8 +12,10 @@ namespace aisle::sim {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kLift = 1e-4f;        // of the coordinates' size, along the normal
-constexpr float kLightGuard = 1e-3f;  // share of the way that a shadow ray leaves out at its end
+constexpr float kLift = 1e-4f;  // of the coordinates' size, along the normal
+constexpr int kSplit = 4;       // lights that a path's first vertex asks; later ones ask one
+constexpr float kRouletteBelow = 0.2f;  // throughput under which a path may end early
+constexpr float kLightGuard = 1e-3f;    // share of the way that a shadow ray leaves out at its end
 
 struct Vertex {
   Eigen::Vector3f position, geometric, shading;  ///< normals on the side the path came from
@@ -70,27 +72,24 @@ class Scattering {
   Triple<float> out_;
 };
 
-Eigen::Vector3f NormalOf(const AreaLight& light) {
-  return light.half_u.cross(light.half_v).normalized();
-}
-float AreaOf(const AreaLight& light) { return 4 * light.half_u.cross(light.half_v).norm(); }
-
 /// How likely each light is to be picked at a vertex: by what its centre would give unshadowed,
 /// with a floor, so that no light that could count is left out.
 class LightChoice {
  public:
-  LightChoice(const World& world, std::span<const float> scale, const Vertex& at) {
+  LightChoice(std::span<const ReferenceLight> lights, std::span<const float> scale,
+              const Vertex& at, std::vector<float>* cumulative)
+      : cumulative_(*cumulative) {
+    cumulative_.clear();
     float total = 0;
-    for (std::size_t i = 0; i < world.lights().size(); ++i) {
-      const AreaLight& light = world.lights()[i];
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      const ReferenceLight& light = lights[i];
       const Eigen::Vector3f to = light.center - at.position;
-      const float extent = (light.half_u.norm() + light.half_v.norm());
+      const float distance2 = to.squaredNorm();
+      const float cosines =
+          std::max(0.0f, to.dot(at.shading)) * std::max(0.0f, -to.dot(light.normal));
       // Softened, as a large light may reach around the horizon or very near.
-      const float squared = to.squaredNorm() + extent * extent;
-      const float weight = light.radiance * scale[i] * AreaOf(light) / squared *
-                           (0.05f + std::max(0.0f, to.normalized().dot(at.shading)) *
-                                        std::max(0.0f, -to.normalized().dot(NormalOf(light))));
-      total += weight;
+      total += light.power * scale[i] / (distance2 + light.extent2) *
+               (0.05f + cosines / std::max(distance2, 1e-12f));
       cumulative_.push_back(total);
     }
   }
@@ -104,7 +103,7 @@ class LightChoice {
   }
 
  private:
-  std::vector<float> cumulative_;
+  std::vector<float>& cumulative_;
 };
 
 }  // namespace
@@ -154,28 +153,35 @@ class PathPacket {
     for (int touched = 1; touched <= options_.depth && AnyValid(); ++touched) {
       Hits8 hits;
       instant_.Intersect(rays_, Coherence::kIncoherent, kEverything, &hits);
-      Rays8 shadow = rays_;
-      std::array<float, kLanes> light_share{};
+      const int split = touched == 1 ? kSplit : 1;
+      std::array<Aim, kSplit> aims;
+      for (Aim& aim : aims) std::ranges::fill(aim.shadow.valid, 0);
       for (int k = 0; k < kLanes; ++k) {
-        shadow.valid[k] = 0;
-        if (rays_.valid[k]) Touch(k, hits, touched, &shadow, &light_share);
+        if (rays_.valid[k]) Touch(k, hits, touched, std::span(aims).first(split));
       }
-      const unsigned blocked = instant_.Occluded(shadow, Coherence::kIncoherent, kEverything);
-      for (std::size_t k = 0; k < kLanes; ++k) {
-        if (shadow.valid[k] && !(blocked >> k & 1)) radiance_[k] += light_share[k];
+      for (const Aim& aim : std::span(aims).first(split)) {
+        const unsigned blocked = instant_.Occluded(aim.shadow, Coherence::kIncoherent, kEverything);
+        for (std::size_t k = 0; k < kLanes; ++k) {
+          if (aim.shadow.valid[k] && !(blocked >> k & 1)) radiance_[k] += aim.light[k];
+        }
       }
     }
   }
 
  private:
+  /// Eight shadow rays, and what each path receives where its ray arrives.
+  struct Aim {
+    Rays8 shadow;
+    std::array<float, kLanes> light;
+  };
+
   bool AnyValid() const {
     return std::ranges::any_of(rays_.valid, [](int v) { return v != 0; });
   }
 
-  /// One path meets a surface: what it shows by itself, a shadow ray to a light, and where the path
-  /// goes on.
-  void Touch(int lane, const Hits8& hits, int touched, Rays8* shadow,
-             std::array<float, kLanes>* light_share) {
+  /// One path meets a surface: what it shows by itself, a shadow ray to a light for each of `aims`,
+  /// and where the path goes on.
+  void Touch(int lane, const Hits8& hits, int touched, std::span<Aim> aims) {
     const auto k = static_cast<std::size_t>(lane);
     rays_.valid[lane] = 0;
     if (hits.geometry[k] == kNoGeometry) return;
@@ -186,48 +192,60 @@ class PathPacket {
     if (touched == options_.depth || (vertex.albedo <= 0 && vertex.finish.f0 <= 0)) return;
 
     const Scattering scattering(vertex, -direction);
-    const LightChoice choice(scene_.world_, instant_.snapshot().light_scale, vertex);
-    if (!choice.empty()) AimAtLight(lane, vertex, scattering, choice, shadow, light_share);
+    const LightChoice choice(scene_.lights_, instant_.snapshot().light_scale, vertex, &scratch_);
+    for (std::size_t i = 0; !choice.empty() && i < aims.size(); ++i) {
+      AimAtLight(lane, vertex, scattering, choice, aims.size(), &aims[i]);
+    }
 
     const Eigen::Vector3f next = scattering.Sample(&random_[k]);
     const LobeValue value = scattering.Evaluate(next);
     if (next.dot(vertex.geometric) <= 0 || value.density <= 0) return;
     throughput_[k] *= value.reflected / value.density;
+    // Russian roulette: what survives stands for what does not.
+    const float survival = std::min(1.0f, throughput_[k] / kRouletteBelow);
+    if (touched > 2 && survival < 1) {
+      if (random_[k].Next() >= survival) return;
+      throughput_[k] /= survival;
+    }
     scatter_pdf_[k] = value.density;
+    light_samples_[k] = static_cast<float>(aims.size());
     last_[k] = vertex;
     SetRay(vertex.position, next, kInfinity, lane, &rays_);
   }
 
   /// How much the light a path runs into counts beside the light that was aimed at.
-  float EmissionWeight(std::size_t k, const Eigen::Vector3f& origin, const Vertex& vertex) const {
+  float EmissionWeight(std::size_t k, const Eigen::Vector3f& origin, const Vertex& vertex) {
     if (vertex.emission <= 0 || scatter_pdf_[k] <= 0 || vertex.light < 0) return 1;
-    const auto light = static_cast<std::size_t>(vertex.light);
-    const LightChoice choice(scene_.world_, instant_.snapshot().light_scale, last_[k]);
+    const auto index = static_cast<std::size_t>(vertex.light);
+    const ReferenceLight& light = scene_.lights_[index];
+    const LightChoice choice(scene_.lights_, instant_.snapshot().light_scale, last_[k], &scratch_);
     const Eigen::Vector3f to = vertex.position - origin;
-    const float cosine = std::abs(to.normalized().dot(NormalOf(scene_.world_.lights()[light])));
-    const float pdf = choice.Probability(light) * to.squaredNorm() /
-                      std::max(cosine * AreaOf(scene_.world_.lights()[light]), 1e-9f);
-    return scatter_pdf_[k] / (scatter_pdf_[k] + pdf);
+    const float cosine = std::abs(to.normalized().dot(light.normal));
+    const float pdf =
+        choice.Probability(index) * to.squaredNorm() / std::max(cosine * light.area, 1e-9f);
+    return scatter_pdf_[k] / (scatter_pdf_[k] + light_samples_[k] * pdf);
   }
 
   void AimAtLight(int lane, const Vertex& vertex, const Scattering& scattering,
-                  const LightChoice& choice, Rays8* shadow,
-                  std::array<float, kLanes>* light_share) {
+                  const LightChoice& choice, std::size_t samples, Aim* aim) {
     const auto k = static_cast<std::size_t>(lane);
     const std::size_t index = choice.Pick(random_[k].Next());
-    const AreaLight& light = scene_.world_.lights()[index];
+    const AreaLight& rectangle = scene_.world_.lights()[index];
+    const ReferenceLight& light = scene_.lights_[index];
     const float a = 2 * random_[k].Next() - 1, b = 2 * random_[k].Next() - 1;
-    const Eigen::Vector3f to = light.center + a * light.half_u + b * light.half_v - vertex.position;
+    const Eigen::Vector3f to =
+        light.center + a * rectangle.half_u + b * rectangle.half_v - vertex.position;
     const float squared = to.squaredNorm(), distance = std::sqrt(squared);
     const float here = to.dot(vertex.shading) / distance;
-    const float there = -to.dot(NormalOf(light)) / distance;
+    const float there = -to.dot(light.normal) / distance;
     if (here <= 0 || there <= 0 || to.dot(vertex.geometric) <= 0) return;
-    const float pdf = choice.Probability(index) * squared / (there * AreaOf(light));
+    const auto count = static_cast<float>(samples);
+    const float pdf = count * choice.Probability(index) * squared / (there * light.area);
     const LobeValue value = scattering.Evaluate(to / distance);
     const float weight = pdf / (pdf + value.density);
-    const float radiance = light.radiance * instant_.snapshot().light_scale[index];
-    (*light_share)[k] = throughput_[k] * value.reflected * radiance / pdf * weight;
-    SetRay(vertex.position, to, 1 - kLightGuard, lane, shadow);
+    const float radiance = rectangle.radiance * instant_.snapshot().light_scale[index];
+    aim->light[k] = throughput_[k] * value.reflected * radiance / pdf * weight;
+    SetRay(vertex.position, to, 1 - kLightGuard, lane, &aim->shadow);
   }
 
   Vertex VertexAt(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
@@ -278,12 +296,23 @@ class PathPacket {
   Rays8 rays_{};
   std::array<PathRandom, kLanes> random_;
   std::array<float, kLanes> throughput_{}, radiance_{};
-  std::array<float, kLanes> scatter_pdf_{};  ///< of the direction that led here; 0: the eye's
+  std::array<float, kLanes> scatter_pdf_{};    ///< of the direction that led here; 0: the eye's
+  std::array<float, kLanes> light_samples_{};  ///< that the vertex before took
+  std::vector<float> scratch_;
   std::array<Vertex, kLanes> last_;
 };
 
 Reference::Reference(const World& world, const TexturePool& textures)
     : world_(world), textures_(textures) {
+  for (const AreaLight& light : world.lights()) {
+    const Eigen::Vector3f cross = light.half_u.cross(light.half_v);
+    const float area = 4 * cross.norm(), extent = light.half_u.norm() + light.half_v.norm();
+    lights_.push_back({.center = light.center,
+                       .normal = cross.normalized(),
+                       .area = area,
+                       .power = area * light.radiance,
+                       .extent2 = extent * extent});
+  }
   const TriangleMesh& mesh = world.statics().mesh;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const bool shines = world.materials()[mesh.materials[i]].emission > 0;

@@ -14,6 +14,13 @@ struct ReferenceOptions {
   std::uint64_t seed = 1;
 };
 
+/// What choosing a light needs to know of it.
+struct ReferenceLight {
+  Eigen::Vector3f center, normal;
+  float area = 0, power = 0;  ///< m²; area · radiance
+  float extent2 = 0;          ///< m², square of its size
+};
+
 /// Radiance by unbiased path tracing: diffuse and glossy surfaces (gloss.h), each vertex joined to
 /// a random point of a luminaire (next-event estimation), combined with the light that the path
 /// itself runs into by the balance heuristic (Veach 1997). Slow; it is what the nightly light is
@@ -29,6 +36,7 @@ class Reference {
   friend class PathPacket;
   const World& world_;
   const TexturePool& textures_;
+  std::vector<ReferenceLight> lights_;
   std::vector<std::int32_t> light_of_triangle_;  ///< of the static mesh; -1: not a luminaire
 };
 

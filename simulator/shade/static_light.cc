@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <atomic>
 #include <numbers>
 
 #include "simulator/shade/direct_light.h"
@@ -25,9 +26,32 @@ LightGrid GridWithin(const TriangleMesh& mesh, float texel, std::size_t max_poin
   return grid;
 }
 
+/// Counts work of one solution and reports each percent.
+class Progress {
+ public:
+  Progress(const std::function<void(double)>& report, std::size_t total)
+      : report_(report), total_(std::max<std::size_t>(total, 1)) {}
+
+  void Add(std::size_t work) {
+    if (!report_) return;
+    const std::size_t before = done_.fetch_add(work);
+    if (before * 100 / total_ == (before + work) * 100 / total_) return;
+    const std::lock_guard lock(mutex_);
+    const double share = static_cast<double>(done_.load()) / static_cast<double>(total_);
+    if (share > reported_) report_(reported_ = std::min(share, 1.0));
+  }
+
+ private:
+  const std::function<void(double)>& report_;
+  std::size_t total_;
+  std::atomic<std::size_t> done_{0};
+  std::mutex mutex_;  ///< guards reported_ and the call
+  double reported_ = 0;
+};
+
 std::vector<float> DirectAt(const Instant& statics, const World& world,
                             std::span<const float> light_scale,
-                            std::span<const SurfacePoint> points) {
+                            std::span<const SurfacePoint> points, Progress* progress) {
   std::vector<float> direct(points.size());
   tbb::parallel_for(std::size_t{0}, (points.size() + kLanes - 1) / kLanes, [&](std::size_t i) {
     const std::size_t first = i * kLanes;
@@ -35,6 +59,7 @@ std::vector<float> DirectAt(const Instant& statics, const World& world,
     const auto light = GatherDirectLight(statics, world.lights(), light_scale,
                                          points.subspan(first, count), {.occluders = kStaticOnly});
     for (std::size_t k = 0; k < count; ++k) direct[first + k] = light[k].irradiance;
+    progress->Add(count);
   });
   return direct;
 }
@@ -102,13 +127,18 @@ LightState StaticLight::Solve(std::span<const float> light_scale) const {
   };
   const Patches patches =
       MakePatches(locate(coarse_), AlbedoAt(*world_, *textures_, coarse_, options_.coarse_texel_m));
+  // Gathering indirect light takes about a third as long as the direct light of the fine grid.
+  const std::size_t indirect_work = fine_.points.size() / 3;
+  Progress progress(options_.progress,
+                    patches.places.size() + fine_.points.size() + 2 * indirect_work);
   const Radiosity radiosity = SolveRadiosity(
-      statics, coarse_, patches, DirectAt(statics, *world_, light_scale, patches.places),
+      statics, coarse_, patches, DirectAt(statics, *world_, light_scale, patches.places, &progress),
       {.directions = options_.directions, .bounces = options_.bounces});
+  progress.Add(indirect_work);
 
   LightState state;
   state.direct.resize(fine_.point_of_slot.size());
-  FillSlots(fine_, DirectAt(statics, *world_, light_scale, locate(fine_)), state.direct);
+  FillSlots(fine_, DirectAt(statics, *world_, light_scale, locate(fine_), &progress), state.direct);
 
   std::vector<float> coarse_indirect;
   for (const std::uint32_t patch : patches.of_point) {
@@ -128,6 +158,7 @@ LightState StaticLight::Solve(std::span<const float> light_scale) const {
 
   state.volume = LightVolume(tracer_->static_box(), options_.volume_spacing_m);
   FillVolume(statics, coarse_, mesh, patches, radiosity, options_.directions, &state.volume);
+  progress.Add(indirect_work);
   return state;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -24,6 +25,9 @@ struct StaticLightOptions {
   int directions = 64;                 ///< rays a point that gather indirect light
   int bounces = 6;                     ///< of indirect light
   std::size_t max_points = 3'000'000;  ///< the spacing is widened until this holds
+  /// Called while a solution is computed (not while one is read) with the share that is done,
+  /// rising to 1; from any thread, one call at a time.
+  std::function<void(double)> progress = {};
 };
 
 /// The light that static luminaires throw on the static world, solved once: direct light by shadow
