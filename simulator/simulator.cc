@@ -11,6 +11,7 @@
 #include "simulator/scene/load.h"
 #include "simulator/shade/light_cache.h"
 #include "simulator/world/build.h"
+#include "simulator/world/plan.h"
 
 namespace aisle::sim {
 namespace {
@@ -189,6 +190,7 @@ int Simulator::frame_count() const { return impl_->scene.frames; }
 double Simulator::rate_hz() const { return impl_->scene.rate_hz; }
 double Simulator::dynamic_threshold_mps() const { return impl_->scene.dynamic_threshold_mps; }
 const std::vector<InstanceInfo>& Simulator::instances() const { return impl_->instances; }
+const std::string& Simulator::about() const { return impl_->scene.about; }
 std::uint64_t Simulator::content_hash() const { return impl_->hash; }
 
 std::int64_t Simulator::Stamp(int frame_index) const {
@@ -197,6 +199,10 @@ std::int64_t Simulator::Stamp(int frame_index) const {
 
 Eigen::Isometry3d Simulator::PlannedPose(std::int64_t stamp_ns) const {
   return impl_->pipeline->world().PlannedRigPose(stamp_ns);
+}
+
+cv::Mat3b Simulator::Plan(double px_per_m) const {
+  return DrawPlan(impl_->pipeline->world(), Stamp(frame_count()), px_per_m);
 }
 
 RenderedFrame Simulator::Render(int frame_index, std::int64_t stamp_ns,

@@ -157,6 +157,11 @@ class Simulator {
   /// Where the scene's route puts the rig at a time: T_world_rig.
   Eigen::Isometry3d PlannedPose(std::int64_t stamp_ns) const;
 
+  /// The layout from above with the ways of rig and actors, x to the right, y up; BGR.
+  cv::Mat3b Plan(double px_per_m) const;
+  /// Its first sentence: what the scene tests.
+  const std::string& about() const;
+
   /// The stereo pair and its truth at a time and a rig pose. `frame_index` seeds the sensor noise.
   /// While the shutter is open the rig moves as on its route, from the pose given. Safe to call
   /// from several threads.

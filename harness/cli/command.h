@@ -26,6 +26,7 @@ void AddMergeCommand(CLI::App* app, Action* action);
 void AddScoreCommand(CLI::App* app, Action* action);
 void AddCheckCommand(CLI::App* app, Action* action);
 void AddPreviewCommand(CLI::App* app, Action* action);
+void AddGalleryCommand(CLI::App* app, Action* action);
 void AddRenderCommand(CLI::App* app, Action* action);
 void AddSlamCommand(CLI::App* app, Action* action);
 void AddVocabularyCommand(CLI::App* app, Action* action);

@@ -19,6 +19,7 @@ int Run(int argc, char** argv) {
   aisle::AddRerunCommand(&app, &action);
   aisle::AddMergeCommand(&app, &action);
   aisle::AddPreviewCommand(&app, &action);
+  aisle::AddGalleryCommand(&app, &action);
   aisle::AddRenderCommand(&app, &action);
   aisle::AddSlamCommand(&app, &action);
   aisle::AddVocabularyCommand(&app, &action);

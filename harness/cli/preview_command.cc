@@ -14,6 +14,7 @@ struct Options {
   double time_s = -1;
   int frame = -1;
   std::string output = "preview.png";
+  std::string plan;  ///< file for the layout from above; empty: none
   bool plain = false;
 };
 
@@ -48,6 +49,11 @@ int Preview(Options options) {
              options.plain ? cv::Mat(frame.images.left)
                            : cv::Mat(DrawOverlay(frame.images.left, truth, nullptr, caption)));
   fmt::print("{}\n", options.output);
+  if (!options.plan.empty()) {
+    constexpr double kPlanWidth_px = 900;
+    WriteImage(options.plan, DrawScenePlan(options.simulation, kPlanWidth_px).picture);
+    fmt::print("{}\n", options.plan);
+  }
   return kAllPassed;
 }
 
@@ -65,6 +71,7 @@ void AddPreviewCommand(CLI::App* app, Action* action) {
   command->add_option("--twin", options->simulation.twin, "live, empty or frozen");
   command->add_option("--seed", options->simulation.seed, "seed of the layout and the sensor");
   command->add_flag("--plain", options->plain, "the picture alone, without truth");
+  command->add_option("--plan", options->plan, "also writes the layout from above to this file");
   command->add_option("-o,--output", options->output, "PNG or JPEG; default preview.png");
   command->footer("Example: ./aisle preview scenes/paper/scene2.yaml --time 6 -o scene2.png");
   command->callback([=] { *action = [=] { return Preview(*options); }; });

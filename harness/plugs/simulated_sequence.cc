@@ -176,6 +176,12 @@ SimulationForExport OpenForExport(const SimulatedSequenceOptions& options) {
   return result;
 }
 
+ScenePlan DrawScenePlan(const SimulatedSequenceOptions& options, double width_px) {
+  const sim::Simulator simulator = OpenSimulator(options);
+  const int probe_px = simulator.Plan(1).cols;  // about the hall's length in metres
+  return {simulator.Plan(width_px / probe_px), simulator.about()};
+}
+
 std::vector<std::string> CheckScene(const std::string& scene_file) {
   return sim::CheckSceneFile(scene_file);
 }

@@ -53,6 +53,14 @@ std::unique_ptr<Sequence> OpenSimulation(const SimulatedSequenceOptions& options
                                          std::uint64_t* content_hash = nullptr,
                                          PathOfRig* path = nullptr);
 
+/// The layout of a scene from above with the ways of rig and actors, and what the scene says it
+/// tests. Throws InputError likewise.
+struct ScenePlan {
+  cv::Mat3b picture;
+  std::string about;
+};
+ScenePlan DrawScenePlan(const SimulatedSequenceOptions& options, double width_px);
+
 /// Every mistake in a scene file, one message each.
 std::vector<std::string> CheckScene(const std::string& scene_file);
 

@@ -63,6 +63,7 @@ class Checker {
     CheckRoute(scene_.rig.route, "rig", kRigRadius_m);
     CheckActors(scene_.people, "people", kPersonRadius_m);
     CheckActors(scene_.vehicles, "vehicles", kVehicleRadius_m);
+    CheckHandles();
     for (std::size_t i = 0; i < scene_.vehicles.size(); ++i) CheckMast(scene_.vehicles[i], i);
     if (scene_.rig.mount.height_m >= scene_.hall.height_m) {
       issues_->Add(scene_.rig.mark, "rig.camera_height_m", "the camera is above the roof");
@@ -156,6 +157,27 @@ class Checker {
     for (std::size_t i = 0; i < scene_.columns.size(); ++i) {
       CheckInside(scene_.columns[i].mark, fmt::format("columns[{}].at", i), scene_.columns[i].at);
     }
+    for (std::size_t i = 0; i < scene_.props.size(); ++i) {
+      const PropSpec& prop = scene_.props[i];
+      CheckInside(prop.mark, fmt::format("props[{}].at", i), prop.at);
+      if (prop.to) CheckInside(prop.mark, fmt::format("props[{}].to", i), *prop.to);
+    }
+    for (std::size_t i = 0; i < scene_.mezzanines.size(); ++i) CheckMezzanine(i);
+  }
+
+  void CheckMezzanine(std::size_t index) {
+    const MezzanineSpec& mezzanine = scene_.mezzanines[index];
+    const std::string key = fmt::format("mezzanines[{}]", index);
+    CheckInside(mezzanine.mark, key + ".from", mezzanine.from);
+    CheckInside(mezzanine.mark, key + ".to", mezzanine.to);
+    if (((mezzanine.to - mezzanine.from).array() < 2).any()) {
+      issues_->Add(mezzanine.mark, key,
+                   "`to` must lie at least 2 m beyond `from` in x and y; example: from: [2, 3], "
+                   "to: [9, 6]");
+    }
+    if (mezzanine.height_m + 1.1 >= scene_.hall.height_m) {
+      issues_->Add(mezzanine.mark, key + ".height_m", "its railing is above the roof");
+    }
   }
 
   template <class Actor>
@@ -219,6 +241,24 @@ class Checker {
       }
     }
     return "";
+  }
+
+  /// Who is pushed has a pusher, and no steps of its own.
+  void CheckHandles() {
+    for (std::size_t i = 0; i < scene_.vehicles.size(); ++i) {
+      const VehicleSpec& vehicle = scene_.vehicles[i];
+      if (vehicle.pushed_by.empty()) continue;
+      const std::string key = fmt::format("vehicles[{}].pushed_by", i);
+      const auto pusher = std::ranges::find(scene_.people, vehicle.pushed_by, &PersonSpec::name);
+      if (pusher == scene_.people.end()) {
+        issues_->Add(vehicle.mark, key,
+                     fmt::format("there is nobody '{}' among the people", vehicle.pushed_by));
+      } else if (!vehicle.route.plan.steps.empty()) {
+        issues_->Add(vehicle.mark, key, "it goes where its pusher goes; leave out `steps`");
+      } else if (pusher->level > vehicle.level) {
+        issues_->Add(vehicle.mark, key, "its level must be that of its pusher or above");
+      }
+    }
   }
 
   void CheckMast(const VehicleSpec& vehicle, std::size_t index) {

@@ -117,9 +117,11 @@ void DescribeHall(Fields& f, HallSpec& hall) {
   hall.mark = f.mark();
   f.Point({"from", "corner with the smallest x and y", "[-5, -8]"}, &hall.from);
   f.Point({"to", "corner with the largest x and y", "[20, 8]"}, &hall.to);
-  f.Number({"height_m", "floor to roof", "6.5"}, &hall.height_m, {2.2, 30});
-  f.Choice({"floor", "its surface", "concrete"}, &hall.floor, {"concrete", "painted", "glossy"});
-  f.Choice({"walls", "their surface", "panels"}, &hall.walls, {"panels", "brick", "plain"});
+  f.Number({"height_m", "floor to roof", "6.5"}, &hall.height_m, {2.2, 100});
+  f.Choice({"floor", "its surface", "concrete"}, &hall.floor,
+           {"concrete", "painted", "glossy", "asphalt"});
+  f.Choice({"walls", "their surface; sky: it is a place in the open", "panels"}, &hall.walls,
+           {"panels", "brick", "plain", "sky"});
   f.Number({"wear", "how stained and scratched the floor is", "0.5"}, &hall.wear, {0, 1});
 }
 
@@ -153,11 +155,28 @@ void DescribeColumn(Fields& f, ColumnSpec& column) {
 
 void DescribeMarking(Fields& f, MarkingSpec& marking) {
   marking.mark = f.mark();
-  f.Choice({"kind", "a line, a hatched box, or a crossing", "line"}, &marking.kind,
-           {"line", "box", "crossing"});
+  f.Choice({"kind", "a line, a hatched box, a crossing, or a pavement", "line"}, &marking.kind,
+           {"line", "box", "crossing", "pavement"});
   f.Point({"from", "start of a line, corner of a box", "[0, 1.2]", true}, &marking.from);
   f.Point({"to", "end of a line, opposite corner of a box", "[14, 1.2]", true}, &marking.to);
   f.Number({"width_m", "of the line", "0.1"}, &marking.width_m, {0.02, 4});
+}
+
+void DescribeProp(Fields& f, PropSpec& prop) {
+  prop.mark = f.mark();
+  f.Name({"model", "file in assets/kit or assets/street without .glb", "drum", true}, &prop.model);
+  f.Point({"at", "where it stands", "[3, 1]", true}, &prop.at);
+  f.OptionalPoint({"to", "end of a row of them that begins at `at`", "[30, 1]"}, &prop.to);
+  f.Number({"every_m", "from one to the next in a row", "10"}, &prop.every_m, {0.2, 200});
+  f.Degrees({"heading_deg", "where its front looks", "90"}, &prop.heading_rad);
+  f.Number({"above_m", "how high above the floor it stands", "0"}, &prop.above_m, {0, 20});
+}
+
+void DescribeMezzanine(Fields& f, MezzanineSpec& mezzanine) {
+  mezzanine.mark = f.mark();
+  f.Point({"from", "corner with the smallest x and y", "[2, 3]", true}, &mezzanine.from);
+  f.Point({"to", "corner with the largest x and y", "[9, 6]", true}, &mezzanine.to);
+  f.Number({"height_m", "floor to deck", "2.8"}, &mezzanine.height_m, {2, 10});
 }
 
 void DescribeDoor(Fields& f, DoorSpec& door) {
@@ -181,9 +200,9 @@ void DescribeLights(Fields& f, LightsSpec& lights) {
   f.OptionalPoint({"to", "opposite corner", "[14, 2]"}, &lights.to);
   f.Integer({"rows", "side by side in y", "2"}, &lights.rows, {1, 50});
   f.Integer({"per_row", "one after another in x", "5"}, &lights.per_row, {1, 100});
-  f.Number({"height_m", "above the floor", "6"}, &lights.height_m, {1.5, 30});
+  f.Number({"height_m", "above the floor", "6"}, &lights.height_m, {1.5, 100});
   f.Numbers({"size_m", "of the shining surface, along x and y", "[1.5, 0.3]"}, lights.size_m.data(),
-            2, {0.05, 5});
+            2, {0.05, 200});
   f.Number({"brightness", "radiance, 1 is a well-lit warehouse", "1"}, &lights.brightness,
            {0.001, 100});
   f.ListOf({"off", "times without light", "[{from_s: 4, to_s: 6}]"}, &lights.off, DescribeBlackout);
@@ -224,6 +243,8 @@ void DescribeVehicle(Fields& f, VehicleSpec& vehicle) {
          &vehicle.route.limits.turns_on_the_spot);
   f.ListOf({"mast", "lifting and lowering", "[{at_s: 3, height_m: 1.2}]"}, &vehicle.mast,
            DescribeMast);
+  f.Name({"pushed_by", "person who holds its handle and whose route it has", "fitter"},
+         &vehicle.pushed_by);
   f.Choice({"load", "goods on its forks", "cartons"}, &vehicle.load, kGoods);
   f.Group({"vary", "what the seed may change", "{time_s: 0.5, speed: 0.1}"},
           [&](Fields& vary) { DescribeVary(vary, vehicle.vary); });
@@ -271,6 +292,10 @@ void Describe(Fields& f, Scene& scene) {
   f.ListOf({"columns", "of the building", "[{at: [4, 1.6]}]"}, &scene.columns, DescribeColumn);
   f.ListOf({"markings", "paint on the floor", "[{from: [0, 1], to: [14, 1]}]"}, &scene.markings,
            DescribeMarking);
+  f.ListOf({"props", "pieces of the kit, one or a row", "[{model: drum, at: [3, 1]}]"},
+           &scene.props, DescribeProp);
+  f.ListOf({"mezzanines", "platforms on columns", "[{from: [2, 3], to: [9, 6]}]"},
+           &scene.mezzanines, DescribeMezzanine);
   f.ListOf({"doors", "dock doors in the walls", "[{wall: east, at_m: 0}]"}, &scene.doors,
            DescribeDoor);
   f.ListOf({"lights", "grids of luminaires", "[{rows: 2, per_row: 5, height_m: 6}]", true},

@@ -68,10 +68,11 @@ struct RigSpec {
   std::vector<Bump> bumps;
 };
 
-enum class FloorKind { kConcrete, kPainted, kGlossy };
-enum class WallKind { kPanels, kBrick, kPlain };
+enum class FloorKind { kConcrete, kPainted, kGlossy, kAsphalt };
+enum class WallKind { kPanels, kBrick, kPlain, kSky };
 
-/// The building: a box on the floor z = 0.
+/// The building: a box on the floor z = 0. Walls of sky make it a place in the open: walls, roof
+/// and lamps are then an overcast sky.
 struct HallSpec {
   Mark mark;
   Eigen::Vector2d from = {-5, -8};  ///< the corner with the smallest x and y
@@ -114,13 +115,33 @@ struct ColumnSpec {
   bool striped = true;
 };
 
-/// A painted line or a hatched box on the floor.
+/// A painted line, a hatched box or a crossing on the floor; or a pavement with its kerb.
 struct MarkingSpec {
   Mark mark;
-  enum class Kind { kLine, kBox, kCrossing } kind = Kind::kLine;
+  enum class Kind { kLine, kBox, kCrossing, kPavement } kind = Kind::kLine;
   Eigen::Vector2d from = Eigen::Vector2d::Zero();
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
   double width_m = 0.1;
+};
+
+/// A piece of the kit: a model of assets/kit or assets/street that stands there. With `to`, a row
+/// of them from `at` on.
+struct PropSpec {
+  Mark mark;
+  std::string model;
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  std::optional<Eigen::Vector2d> to;
+  double every_m = 10;  ///< in a row
+  double heading_rad = 0;
+  double above_m = 0;  ///< stands that high above the floor
+};
+
+/// A platform on columns over the floor, with a railing around it.
+struct MezzanineSpec {
+  Mark mark;
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< corner with the smallest x and y
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();    ///< corner with the largest x and y
+  double height_m = 2.8;                           ///< of its deck
 };
 
 enum class WallSide { kNorth, kSouth, kEast, kWest };  ///< +y, -y, +x, -x
@@ -176,6 +197,7 @@ struct VehicleSpec {
   VarySpec vary;
   std::vector<MastMove> mast;
   GoodsKind load = GoodsKind::kNothing;
+  std::string pushed_by;  ///< a person behind its handle: it has that person's route
 };
 
 /// A scene file as a plain description. Angles are radians here and degrees in the file.
@@ -194,6 +216,8 @@ struct Scene {
   std::vector<StackSpec> stacks;
   std::vector<ColumnSpec> columns;
   std::vector<MarkingSpec> markings;
+  std::vector<PropSpec> props;
+  std::vector<MezzanineSpec> mezzanines;
   std::vector<DoorSpec> doors;
   std::vector<LightsSpec> lights;
   std::vector<PersonSpec> people;

@@ -28,12 +28,15 @@ class Wardrobe {
   std::map<const Model*, std::uint16_t> first_material_;
 };
 
-/// A walking person. Throws RouteError, or std::runtime_error when the model lacks a clip.
-Actor MakePerson(const PersonSpec& person, AssetLibrary* assets, Wardrobe* wardrobe);
+/// A walking person. One whose steps play walk_carry has a box in the arms, from first to last.
+/// Throws RouteError, or std::runtime_error when the model lacks a clip.
+Actor MakePerson(const PersonSpec& person, AssetLibrary* assets, const Palette& palette, Dice dice,
+                 Wardrobe* wardrobe);
 
-/// A vehicle with rolling and steered wheels and a mast, perhaps with a load.
+/// A vehicle with rolling and steered wheels and a mast, perhaps with a load. Its origin runs
+/// `ahead_m` before the route, as that of a truck does which is pushed.
 Actor MakeVehicle(const VehicleSpec& vehicle, AssetLibrary* assets, const Palette& palette,
-                  Dice dice, Wardrobe* wardrobe);
+                  Dice dice, Wardrobe* wardrobe, double ahead_m = 0);
 
 /// A route as a seed has it: later, faster and elsewhere within the actor's bounds.
 RouteSpec Varied(RouteSpec route, const VarySpec& vary, Dice dice);

@@ -13,11 +13,24 @@ namespace {
 
 using Json = nlohmann::json;
 
+BoxFacts ReadBox(const Json& box) {
+  const auto size = box.at("size_m").get<std::array<float, 3>>();
+  const auto centre = box.at("centre_m").get<std::array<float, 3>>();
+  return {{size[0], size[1], size[2]}, {centre[0], centre[1], centre[2]}};
+}
+
 PersonFacts ReadPerson(const Json& asset) {
   PersonFacts facts;
   for (const auto& [name, clip] : asset.at("clips").items()) {
-    facts.clips[name] = {clip.at("duration_s").get<double>(), clip.value("stride_m", 0.0),
-                         clip.value("speed_mps", 0.0), clip.value("turn_deg", 0.0)};
+    ClipFacts one{clip.at("duration_s").get<double>(),
+                  clip.value("stride_m", 0.0),
+                  clip.value("speed_mps", 0.0),
+                  clip.value("turn_deg", 0.0),
+                  0,
+                  {}};
+    if (clip.contains("handle_m")) one.handle_ahead_m = clip["handle_m"].at(0);
+    if (clip.contains("box")) one.box = ReadBox(clip["box"]);
+    facts.clips[name] = one;
   }
   return facts;
 }
@@ -31,6 +44,7 @@ VehicleFacts ReadVehicle(const Json& asset) {
       if (!name.ends_with("_m") && !name.ends_with("_mps")) facts.lift_shares[name] = share;
     }
   }
+  if (asset.contains("handle_m")) facts.handle_m = asset["handle_m"].at(0);
   if (asset.contains("forks")) {
     facts.fork_node = asset["forks"].at("node");
     facts.fork_top_m = asset["forks"].at("top_z_m");
@@ -73,6 +87,7 @@ AssetLibrary::AssetLibrary(std::filesystem::path folder) : folder_(std::move(fol
       const std::string stem = name.substr(name.find('/') + 1);
       if (kind == "person") people_[stem] = ReadPerson(asset);
       if (kind == "texture") ReadRects(stem, asset, &rects_);
+      if (kind == "kit" || kind == "street") props_[stem] = name;
       if (kind == "vehicle") vehicles_[stem] = ReadVehicle(asset);
     }
   } catch (const Json::exception& error) {
@@ -86,6 +101,10 @@ const PersonFacts& AssetLibrary::Person(const std::string& name) const {
 
 const VehicleFacts& AssetLibrary::Vehicle(const std::string& name) const {
   return Find(vehicles_, name, "vehicles");
+}
+
+const std::string& AssetLibrary::Prop(const std::string& name) const {
+  return Find(props_, name, "kit and assets/street");
 }
 
 cv::Mat1b AssetLibrary::Picture(const std::string& texture) const {

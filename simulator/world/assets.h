@@ -12,11 +12,18 @@
 namespace aisle::sim {
 
 /// What the manifest says of a clip.
+/// A box that a clip holds, in the object's frame at the clip's start.
+struct BoxFacts {
+  Eigen::Vector3f size_m, centre_m;
+};
+
 struct ClipFacts {
   double duration_s = 1;
   double stride_m = 0;  ///< > 0: the model walks; move it by this much a cycle
   double speed_mps = 0;
-  double turn_deg = 0;  ///< turned a cycle
+  double turn_deg = 0;        ///< turned a cycle
+  double handle_ahead_m = 0;  ///< where the hands hold a handle bar; 0: none
+  std::optional<BoxFacts> box;
 };
 
 struct PersonFacts {
@@ -29,6 +36,7 @@ struct VehicleFacts {
   std::map<std::string, double> lift_shares;  ///< node -> share of the lift it slides by
   double fork_top_m = 0.085, fork_heel_x_m = 0.56;
   std::string fork_node;
+  double handle_m = 0;  ///< x of the bar it is pushed by
 };
 
 /// The folder of models and what its manifest.json says of them. Models are read once.
@@ -40,17 +48,20 @@ class AssetLibrary {
   /// Facts of people/NAME or vehicles/NAME. Throws std::runtime_error naming what there is.
   const PersonFacts& Person(const std::string& name) const;
   const VehicleFacts& Vehicle(const std::string& name) const;
+  /// Folder and name of a piece of assets/kit or assets/street, as Load takes it. Throws likewise.
+  const std::string& Prop(const std::string& name) const;
   /// The picture assets/textures/NAME.png in grey. Throws ImportError.
   cv::Mat1b Picture(const std::string& texture) const;
   /// A named rectangle of an atlas: left, top, width, height in shares of the picture.
   std::array<float, 4> Rect(const std::string& texture, const std::string& name) const;
-  /// The model of "people/NAME" or "vehicles/NAME".
+  /// The model of "people/NAME", "vehicles/NAME", "kit/NAME" or "street/NAME".
   std::shared_ptr<const Model> Load(const std::string& asset);
 
  private:
   std::filesystem::path folder_;
   std::map<std::string, PersonFacts> people_;
   std::map<std::string, VehicleFacts> vehicles_;
+  std::map<std::string, std::string> props_;
   std::map<std::string, std::array<float, 4>> rects_;  ///< by texture/name
   std::map<std::string, std::shared_ptr<const Model>> models_;
 };

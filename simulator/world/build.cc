@@ -4,6 +4,7 @@
 
 #include "simulator/motion/rig_mount.h"
 #include "simulator/world/actors.h"
+#include "simulator/world/props.h"
 #include "simulator/world/warehouse.h"
 
 namespace aisle::sim {
@@ -32,10 +33,35 @@ struct Cast {
       fmt::format("{}:{}:{}: {}: {}", scene.file, mark.line, mark.column, name, why));
 }
 
+PersonSpec VariedPerson(const Scene& scene, std::size_t index, std::uint64_t seed) {
+  PersonSpec person = scene.people[index];
+  person.route = Varied(person.route, person.vary, Dice(seed, {400, index}));
+  return person;
+}
+
+/// A vehicle that is pushed has the route of the person behind it. Returns how far ahead of that
+/// person its origin is.
+double TakeHandle(const Scene& scene, std::uint64_t seed, const AssetLibrary& assets,
+                  VehicleSpec* vehicle) {
+  if (vehicle->pushed_by.empty()) return 0;
+  for (std::size_t i = 0; i < scene.people.size(); ++i) {
+    if (scene.people[i].name != vehicle->pushed_by) continue;
+    const PersonSpec person = VariedPerson(scene, i, seed);
+    vehicle->route.plan = person.route.plan;
+    vehicle->route.limits = person.route.limits;
+    const auto& clips = assets.Person(person.model).clips;
+    const auto push = clips.find("walk_push");
+    const double hands = push == clips.end() ? 0 : push->second.handle_ahead_m;
+    return hands - assets.Vehicle(vehicle->model).handle_m;
+  }
+  Refuse(scene, vehicle->mark, vehicle->name,
+         fmt::format("there is nobody '{}' to push it", vehicle->pushed_by));
+}
+
 std::vector<Cast> AddActors(const Scene& scene, const Palette& palette, std::uint64_t seed,
-                            AssetLibrary* assets, WorldParts* parts, Site* site) {
+                            AssetLibrary* assets, Wardrobe* wardrobe, WorldParts* parts,
+                            Site* site) {
   std::vector<Cast> cast;
-  Wardrobe wardrobe(parts);
   const auto enter = [&](const auto& spec, ObjectClass object_class, const auto& make) {
     try {
       Actor actor = make();
@@ -46,15 +72,17 @@ std::vector<Cast> AddActors(const Scene& scene, const Palette& palette, std::uin
     }
   };
   for (std::size_t i = 0; i < scene.people.size(); ++i) {
-    PersonSpec person = scene.people[i];
-    person.route = Varied(person.route, person.vary, Dice(seed, {400, i}));
-    enter(person, ObjectClass::kPerson, [&] { return MakePerson(person, assets, &wardrobe); });
+    const PersonSpec person = VariedPerson(scene, i, seed);
+    enter(person, ObjectClass::kPerson, [&] {
+      return MakePerson(person, assets, palette, Dice(seed, {430, i}), wardrobe);
+    });
   }
   for (std::size_t i = 0; i < scene.vehicles.size(); ++i) {
     VehicleSpec vehicle = scene.vehicles[i];
     vehicle.route = Varied(vehicle.route, vehicle.vary, Dice(seed, {410, i}));
+    const double ahead_m = TakeHandle(scene, seed, *assets, &vehicle);
     enter(vehicle, ClassOfVehicle(vehicle.model), [&] {
-      return MakeVehicle(vehicle, assets, palette, Dice(seed, {420, i}), &wardrobe);
+      return MakeVehicle(vehicle, assets, palette, Dice(seed, {420, i}), wardrobe, ahead_m);
     });
   }
   return cast;
@@ -74,8 +102,11 @@ World BuildWorld(const Scene& scene, const std::string& assets_dir, std::uint64_
   AddColumns(scene, palette, &site);
   AddRacks(scene, palette, seed, &site);
   AddStacks(scene, palette, seed, &site);
+  AddMezzanines(scene, palette, seed, &site);
   AddLights(scene, palette, &parts, &site);
-  const std::vector<Cast> cast = AddActors(scene, palette, seed, &assets, &parts, &site);
+  Wardrobe wardrobe(&parts);
+  AddProps(scene, seed, &assets, &wardrobe, &site);
+  const std::vector<Cast> cast = AddActors(scene, palette, seed, &assets, &wardrobe, &parts, &site);
 
   parts.at = [scene, cast](std::int64_t stamp_ns) {
     const double time_s = static_cast<double>(stamp_ns) * kNanosecond_s;

@@ -58,6 +58,17 @@ void AddCrossing(TriangleMesh* mesh, const Vector2f& low, const Vector2f& high,
   }
 }
 
+/// A raised slab with a kerb.
+void AddPavement(TriangleMesh* mesh, const Vector2f& low, const Vector2f& high,
+                 std::uint16_t material) {
+  constexpr float kKerb_m = 0.12f, kSlab_m = 2.5f;
+  const Vector3f size(high.x() - low.x(), high.y() - low.y(), kKerb_m);
+  BoxPaint paint = BoxPaint::Tiled(material, size, kSlab_m);
+  paint.faces = kNoBottom;
+  const Vector2f middle = (low + high) / 2;
+  AddBox(mesh, At(middle.x(), middle.y(), kKerb_m / 2), size, paint);
+}
+
 }  // namespace
 
 void AddFloor(const Scene& scene, const Palette& palette, std::uint64_t seed, Site* site) {
@@ -94,6 +105,9 @@ void AddMarkings(const Scene& scene, const Palette& palette, Site* site) {
           break;
         case MarkingSpec::Kind::kCrossing:
           AddCrossing(mesh, low, high, palette.line_paint);
+          break;
+        case MarkingSpec::Kind::kPavement:
+          AddPavement(mesh, low, high, palette.pavement);
           break;
       }
     }

@@ -34,8 +34,12 @@ void AddLights(const Scene& scene, const Palette& palette, WorldParts* parts, Si
             (static_cast<float>(k / grid.per_row) + 0.5f) / static_cast<float>(grid.rows));
         const Eigen::Vector2f at = low + (high - low).cwiseProduct(share);
         const Vector3f middle(at.x(), at.y(), static_cast<float>(grid.height_m));
-        AddLuminaire(mesh, middle, half_u, half_v, static_cast<float>(scene.hall.height_m),
-                     palette);
+        if (scene.hall.walls == WallKind::kSky) {
+          AddQuad(mesh, middle - half_u + half_v, 2 * half_u, -2 * half_v, {}, palette.sky);
+        } else {
+          AddLuminaire(mesh, middle, half_u, half_v, static_cast<float>(scene.hall.height_m),
+                       palette);
+        }
         parts->lights.push_back({middle, half_u, half_v, static_cast<float>(grid.brightness)});
       }
     });

@@ -63,6 +63,8 @@ FloorLook LookOf(FloorKind kind) {
       return {"floor_polished", {0.04f, 0.38f}};
     case FloorKind::kGlossy:
       return {"floor_polished", {0.06f, 0.12f}};
+    case FloorKind::kAsphalt:
+      return {"asphalt", {}};
     case FloorKind::kConcrete:
       break;
   }
@@ -137,6 +139,8 @@ Palette AddPalette(const Scene& scene, std::uint64_t seed, const AssetLibrary& a
   palette.hatch = mix.Painted("hatch", HatchSheet(Dice(seed, {kHatch}), hall.wear));
   palette.sign = mix.Shown("signs");
   palette.lamp = mix.Plain("lamp", 0.8f, 1.0f);
+  palette.sky = mix.Plain("sky", 0.8f, 0.28f);
+  palette.pavement = hall.walls == WallKind::kSky ? mix.Shown("floor_concrete") : palette.plinth;
   palette.lamp_housing = mix.Plain("lamp_housing", 0.6f);
   FindPictures(assets, &palette);
   return palette;

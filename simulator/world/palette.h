@@ -32,6 +32,7 @@ struct Palette {
   std::uint16_t stripes = 0, line_paint = 0, hatch = 0;
   std::uint16_t sign = 0;  ///< atlas
   std::uint16_t lamp = 0, lamp_housing = 0;
+  std::uint16_t sky = 0, pavement = 0;
 
   std::array<UvRect, kCartonSides> carton_sides;
   std::array<UvRect, kCartonTops> carton_tops;

@@ -7,6 +7,8 @@
 #include "simulator/motion/gait.h"
 #include "simulator/world/actors.h"
 #include "simulator/world/footing.h"
+#include "simulator/world/held.h"
+#include "simulator/world/shapes.h"
 
 namespace aisle::sim {
 namespace {
@@ -16,6 +18,9 @@ constexpr double kFade_s = 0.5;
 
 /// Plain walking from slow to fast; others (with a load, backwards) are asked for by name.
 constexpr std::array<std::string_view, 4> kWalks = {"walk_creep", "walk_slow", "walk", "walk_fast"};
+
+/// Walking with a box; standing with it is its twin.
+constexpr const char* kCarry = "walk_carry";
 
 /// A clip by its facts; one that walks has a stride, negative backwards.
 struct PlayedClip {
@@ -48,6 +53,7 @@ class Walker {
     stride_m_ = style.stride_m;
     for (const RouteStep& step : person.route.plan.steps) {
       plays_.push_back(step.play);
+      carries_ = carries_ || step.play == kCarry;
       if (!step.play.empty() && !clips_.contains(step.play)) RequireClip(step.play);
     }
     footing_ = std::make_unique<Footing>(model_, route_, walks_, stand_, style);
@@ -55,8 +61,10 @@ class Walker {
 
   RouteState RouteAt(double time_s) const { return route_.At(time_s); }
 
-  /// Matrix of each joint: bind position -> world.
-  std::vector<Eigen::Affine3f> WorldJoints(double time_s) const {
+  bool carries() const { return carries_; }
+
+  /// Matrix of each joint of the model as it is shown (with what it holds): bind position -> world.
+  std::vector<Eigen::Affine3f> WorldJoints(const Model& shown, double time_s) const {
     const std::vector<PoseLayer> walk = WalkLayersAt(time_s);
     const NodeFrames walking = PoseNodes(*model_, walk);
     std::vector<PoseLayer> layers = walk;
@@ -64,7 +72,7 @@ class Walker {
     AddPlayed(time_s, &layers);
     NodeFrames frames = PoseNodes(*model_, layers);
     footing_->Apply(time_s, walking, &frames);
-    std::vector<Eigen::Affine3f> joints = JointMatrices(*model_, frames);
+    std::vector<Eigen::Affine3f> joints = JointMatrices(shown, frames);
     const Eigen::Affine3f place(ObjectPose(route_.At(time_s)).cast<float>());
     for (Eigen::Affine3f& joint : joints) joint = place * joint;
     return joints;
@@ -108,6 +116,12 @@ class Walker {
     return {clip.clip, time, weight, -1};
   }
 
+  /// What is played besides plain walking and standing; who carries a box never lets go of it.
+  std::string PlayAt(const RouteState& state) const {
+    if (carries_) return kCarry;
+    return state.finished || state.step < 0 ? "" : plays_[static_cast<std::size_t>(state.step)];
+  }
+
   /// Adds what the route's step plays, with as much weight as it takes of the time around now.
   void AddPlayed(double time_s, std::vector<PoseLayer>* layers) const {
     constexpr int kTaps = 20;
@@ -116,8 +130,7 @@ class Walker {
     for (int i = 0; i < kTaps; ++i) {
       const double at = time_s + kFade_s * ((i + 0.5) / kTaps - 0.5);
       const RouteState state = route_.At(at);
-      if (state.finished || state.step < 0) continue;
-      const std::string& play = plays_[static_cast<std::size_t>(state.step)];
+      const std::string play = PlayAt(state);
       if (play.empty()) continue;
       const long start = std::lround((at - state.step_elapsed_s) * 1e6);
       ++taps[{play, start}];
@@ -150,17 +163,49 @@ class Walker {
   std::map<std::string, PlayedClip> clips_;
   std::unique_ptr<const Footing> footing_;
   std::vector<std::string> plays_;  ///< per step of the route
+  bool carries_ = false;
 };
+
+/// A taped carton, somewhere in the picture atlas.
+TriangleMesh BoxInArms(const BoxFacts& box, const Palette& palette, Dice dice) {
+  const auto pick = [&](const auto& rects) {
+    return rects[static_cast<std::size_t>(dice.Pick(static_cast<int>(rects.size())))];
+  };
+  BoxPaint paint = BoxPaint::Whole(palette.carton, pick(palette.carton_sides));
+  paint.uvs[kTop] = pick(palette.carton_tops);
+  TriangleMesh mesh;
+  AddBox(&mesh, At(box.centre_m.x(), box.centre_m.y(), box.centre_m.z()), box.size_m, paint);
+  return mesh;
+}
+
+/// The box moves with the chest, as the arms of the clip do.
+Model WithBox(const Model& model, const TriangleMesh& box) {
+  const PoseLayer layer{model.FindClip(kCarry), 0, 1, -1};
+  const int chest = model.FindNode("chest");
+  if (chest < 0) throw std::runtime_error(model.name + " has no node 'chest' to carry a box");
+  return Carrying(model, box, chest, PoseNodes(model, {&layer, 1}));
+}
 
 }  // namespace
 
-Actor MakePerson(const PersonSpec& person, AssetLibrary* assets, Wardrobe* wardrobe) {
+Actor MakePerson(const PersonSpec& person, AssetLibrary* assets, const Palette& palette, Dice dice,
+                 Wardrobe* wardrobe) {
   const PersonFacts& facts = assets->Person(person.model);
-  const std::shared_ptr<const Model> model = assets->Load("people/" + person.model);
+  std::shared_ptr<const Model> model = assets->Load("people/" + person.model);
+  TriangleMesh mesh = wardrobe->Wear(model);
   const auto walker = std::make_shared<const Walker>(person, model, facts);
-  return {wardrobe->Wear(model), [walker, model](double time_s) {
+  if (walker->carries()) {
+    const auto carry = facts.clips.find(kCarry);
+    if (carry == facts.clips.end() || !carry->second.box) {
+      throw std::runtime_error(fmt::format("assets/manifest.json names no box for {}", kCarry));
+    }
+    const TriangleMesh box = BoxInArms(*carry->second.box, palette, dice);
+    model = std::make_shared<const Model>(WithBox(*model, box));
+    AddMesh(&mesh, Eigen::Isometry3f::Identity(), box);
+  }
+  return {std::move(mesh), [walker, model](double time_s) {
             return SkinState(
-                *model, [&](double t) { return walker->WorldJoints(t); },
+                *model, [&](double t) { return walker->WorldJoints(*model, t); },
                 [&](double t) { return walker->RouteAt(t); }, time_s);
           }};
 }

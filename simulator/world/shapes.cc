@@ -140,4 +140,19 @@ Eigen::Isometry3f At(float x, float y, float z, float heading_rad) {
   return pose;
 }
 
+void AddMesh(TriangleMesh* mesh, const Eigen::Isometry3f& pose, const TriangleMesh& piece) {
+  const auto first = static_cast<std::uint32_t>(mesh->positions.size());
+  for (const Eigen::Vector3f& position : piece.positions) {
+    mesh->positions.push_back(pose * position);
+  }
+  for (const Eigen::Vector3f& normal : piece.normals) {
+    mesh->normals.push_back(pose.linear() * normal);
+  }
+  mesh->uvs.insert(mesh->uvs.end(), piece.uvs.begin(), piece.uvs.end());
+  for (const auto& [a, b, c] : piece.triangles) {
+    mesh->triangles.push_back({a + first, b + first, c + first});
+  }
+  mesh->materials.insert(mesh->materials.end(), piece.materials.begin(), piece.materials.end());
+}
+
 }  // namespace aisle::sim

@@ -53,6 +53,9 @@ void AddCylinder(TriangleMesh* mesh, const Eigen::Isometry3f& pose, float radius
 void AddBar(TriangleMesh* mesh, const Eigen::Vector3f& from, const Eigen::Vector3f& to,
             float thickness, std::uint16_t material);
 
+/// Appends another mesh at a pose; materials stay what they are.
+void AddMesh(TriangleMesh* mesh, const Eigen::Isometry3f& pose, const TriangleMesh& piece);
+
 /// Pose at (x, y, z) turned about z.
 Eigen::Isometry3f At(float x, float y, float z, float heading_rad = 0);
 

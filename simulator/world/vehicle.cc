@@ -3,6 +3,8 @@
 #include "simulator/mesh/pose.h"
 #include "simulator/world/actors.h"
 #include "simulator/world/goods.h"
+#include "simulator/world/held.h"
+#include "simulator/world/shapes.h"
 
 namespace aisle::sim {
 namespace {
@@ -28,15 +30,17 @@ struct LiftNode {
 
 class Driver {
  public:
-  Driver(const VehicleSpec& vehicle, std::shared_ptr<const Model> model, const VehicleFacts& facts)
+  Driver(const VehicleSpec& vehicle, std::shared_ptr<const Model> model, const VehicleFacts& facts,
+         double ahead_m)
       : model_(std::move(model)),
         route_(vehicle.route.plan, vehicle.route.limits),
+        ahead_m_(ahead_m),
         mast_(vehicle.mast, kMastSpeed_mps, kMastAcceleration_mps2),
         fork_rest_m_(vehicle.load == GoodsKind::kNothing ? kEmptyAt_m : kCarriedAt_m) {
     const NodeFrames rest = PoseNodes(*model_, {});
     const auto wheel_at = [&](int node, double radius) {
       const Eigen::Vector3f at = rest[static_cast<std::size_t>(node)].translation();
-      return Wheel{at.x(), at.y(), radius};
+      return Wheel{at.x() + ahead_m_, at.y(), radius};
     };
     for (const auto& [name, radius] : facts.wheel_radius_m) {
       const int node = model_->FindNode(name);
@@ -52,10 +56,15 @@ class Driver {
     }
   }
 
-  RouteState RouteAt(double time_s) const { return route_.At(time_s); }
+  RouteState RouteAt(double time_s) const {
+    RouteState state = route_.At(time_s);
+    state.position +=
+        ahead_m_ * Eigen::Vector2d(std::cos(state.heading_rad), std::sin(state.heading_rad));
+    return state;
+  }
 
   std::vector<Eigen::Affine3f> WorldJoints(double time_s) const {
-    const RouteState state = route_.At(time_s);
+    const RouteState state = RouteAt(time_s);
     std::vector<Eigen::Affine3f> joints =
         JointMatrices(*model_, PoseNodes(*model_, {}, MovesAt(state, time_s)));
     const Eigen::Affine3f place(ObjectPose(state).cast<float>());
@@ -87,37 +96,12 @@ class Driver {
 
   std::shared_ptr<const Model> model_;
   Route route_;
+  double ahead_m_ = 0;
   MastLift mast_;
   double fork_rest_m_;
   std::vector<WheelNode> wheels_, steered_;
   std::vector<LiftNode> lifted_;
 };
-
-/// The model with a mesh (object frame) fixed to one of its nodes. The mesh's materials are kept
-/// apart: they are the world's.
-Model WithLoad(const Model& model, const TriangleMesh& load, int node) {
-  Model loaded = model;
-  const NodeFrames rest = PoseNodes(model, {});
-  const auto joint = static_cast<std::uint16_t>(loaded.joints.size());
-  loaded.joints.push_back({node, rest[static_cast<std::size_t>(node)].inverse()});
-  loaded.bind_positions.insert(loaded.bind_positions.end(), load.positions.begin(),
-                               load.positions.end());
-  loaded.bind_normals.insert(loaded.bind_normals.end(), load.normals.begin(), load.normals.end());
-  loaded.weights.insert(loaded.weights.end(), load.positions.size(),
-                        VertexWeights{{joint, 0, 0, 0}, {1, 0, 0, 0}});
-  return loaded;
-}
-
-void Append(const TriangleMesh& from, TriangleMesh* to) {
-  const auto first = static_cast<std::uint32_t>(to->positions.size());
-  to->positions.insert(to->positions.end(), from.positions.begin(), from.positions.end());
-  to->normals.insert(to->normals.end(), from.normals.begin(), from.normals.end());
-  to->uvs.insert(to->uvs.end(), from.uvs.begin(), from.uvs.end());
-  for (const auto& [a, b, c] : from.triangles) {
-    to->triangles.push_back({a + first, b + first, c + first});
-  }
-  to->materials.insert(to->materials.end(), from.materials.begin(), from.materials.end());
-}
 
 /// A loaded pallet on the forks, in the vehicle's frame.
 TriangleMesh LoadOnForks(const VehicleSpec& vehicle, const VehicleFacts& facts,
@@ -133,17 +117,17 @@ TriangleMesh LoadOnForks(const VehicleSpec& vehicle, const VehicleFacts& facts,
 }  // namespace
 
 Actor MakeVehicle(const VehicleSpec& vehicle, AssetLibrary* assets, const Palette& palette,
-                  Dice dice, Wardrobe* wardrobe) {
+                  Dice dice, Wardrobe* wardrobe, double ahead_m) {
   const VehicleFacts& facts = assets->Vehicle(vehicle.model);
   std::shared_ptr<const Model> model = assets->Load("vehicles/" + vehicle.model);
   TriangleMesh mesh = wardrobe->Wear(model);
   const int forks = facts.fork_node.empty() ? -1 : model->FindNode(facts.fork_node);
   if (vehicle.load != GoodsKind::kNothing && forks >= 0) {
     const TriangleMesh load = LoadOnForks(vehicle, facts, palette, dice);
-    model = std::make_shared<const Model>(WithLoad(*model, load, forks));
-    Append(load, &mesh);
+    model = std::make_shared<const Model>(Carrying(*model, load, forks, PoseNodes(*model, {})));
+    AddMesh(&mesh, Eigen::Isometry3f::Identity(), load);
   }
-  const auto driver = std::make_shared<const Driver>(vehicle, model, facts);
+  const auto driver = std::make_shared<const Driver>(vehicle, model, facts, ahead_m);
   const auto at = [driver, model](double time_s) {
     return SkinState(
         *model, [&](double t) { return driver->WorldJoints(t); },

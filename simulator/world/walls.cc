@@ -83,10 +83,24 @@ void AddWallFittings(TriangleMesh* mesh, const Wall& wall, float height, const P
   }
 }
 
+/// An overcast sky all around and above.
+void AddSky(const HallSpec& hall, const Palette& palette, Site* site) {
+  const float height = static_cast<float>(hall.height_m);
+  site->Add("sky", ObjectClass::kNone, [&](TriangleMesh* mesh) {
+    for (const Wall& wall : WallsOf(hall)) {
+      AddQuad(mesh, wall.At(0, height, 0), wall.length * wall.along, {0, 0, -height}, {},
+              palette.sky);
+    }
+    const Vector2f low = hall.from.cast<float>(), size = (hall.to - hall.from).cast<float>();
+    AddQuad(mesh, {low.x(), low.y(), height}, {size.x(), 0, 0}, {0, size.y(), 0}, {}, palette.sky);
+  });
+}
+
 }  // namespace
 
 void AddWalls(const Scene& scene, const Palette& palette, std::uint64_t seed, Site* site) {
   const HallSpec& hall = scene.hall;
+  if (hall.walls == WallKind::kSky) return AddSky(hall, palette, site);
   const float height = static_cast<float>(hall.height_m);
   const std::array<Wall, 4> walls = WallsOf(hall);
   constexpr std::array<const char*, 4> kNames = {"wall_north", "wall_south", "wall_east",

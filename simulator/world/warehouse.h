@@ -34,6 +34,7 @@ void AddDoors(const Scene& scene, const Palette& palette, Site* site);
 void AddColumns(const Scene& scene, const Palette& palette, Site* site);
 void AddRacks(const Scene& scene, const Palette& palette, std::uint64_t seed, Site* site);
 void AddStacks(const Scene& scene, const Palette& palette, std::uint64_t seed, Site* site);
+void AddMezzanines(const Scene& scene, const Palette& palette, std::uint64_t seed, Site* site);
 /// Also the area lights themselves, in the order of the scene's grids.
 void AddLights(const Scene& scene, const Palette& palette, WorldParts* parts, Site* site);
 

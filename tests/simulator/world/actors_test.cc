@@ -31,7 +31,7 @@ Actor Make(const PersonSpec& person) {
   AssetLibrary assets(kAssets);
   WorldParts parts;
   Wardrobe wardrobe(&parts);
-  return MakePerson(person, &assets, &wardrobe);
+  return MakePerson(person, &assets, {}, Dice(1, {}), &wardrobe);
 }
 
 std::vector<std::string> PeopleModels() {
@@ -156,6 +156,24 @@ TEST(Person, FeetStayInEveryClip) {
   }
 }
 
+TEST(Person, WhoCarriesABoxHoldsItBetweenTheHandsAllTheTime) {
+  PersonSpec person = PersonWalking(PeopleModels()[0], 1.0, 4);
+  person.route.plan.steps[0].play = "walk_carry";
+  const Actor actor = Make(person);
+  for (double t = 0; t < 7; t += 0.5) {
+    const MoverState state = actor.at(t);
+    Eigen::Vector3f middle = Eigen::Vector3f::Zero();
+    constexpr std::size_t kCorners = 24;  // of the box, which comes last
+    for (std::size_t i = state.positions.size() - kCorners; i < state.positions.size(); ++i) {
+      middle += state.positions[i] / kCorners;
+    }
+    const Eigen::Vector3d held = state.T_world_object.inverse() * middle.cast<double>();
+    EXPECT_NEAR(held.x(), 0.38, 0.12) << t;
+    EXPECT_NEAR(held.y(), 0, 0.08) << t;
+    EXPECT_NEAR(held.z(), 1.15, 0.12) << t;
+  }
+}
+
 TEST(Person, VelocitiesAreTheDerivativesOfPositions) {
   const Actor actor = Make(PersonWalking(PeopleModels()[0], 1.2, 30));
   const double h = 1e-3, t = 6.1;
@@ -215,10 +233,10 @@ TEST(Person, AnUnknownModelOrClipIsNamed) {
   EXPECT_THROW(Make(person), std::runtime_error);
 }
 
-VehicleSpec TruckTurning() {
+VehicleSpec TruckTurning(const std::string& model) {
   VehicleSpec truck;
   truck.name = "truck";
-  truck.model = "forklift";
+  truck.model = model;
   truck.route.limits.turns_on_the_spot = false;
   truck.route.plan.steps.resize(1);
   truck.route.plan.steps[0].go = {{6, 0}, {6, 8}};
@@ -226,11 +244,13 @@ VehicleSpec TruckTurning() {
   return truck;
 }
 
-TEST(Forklift, TyresTouchTheFloorWithoutSliding) {
+class EveryVehicle : public testing::TestWithParam<const char*> {};
+
+TEST_P(EveryVehicle, TyresTouchTheFloorWithoutSliding) {
   AssetLibrary assets(kAssets);
   WorldParts parts;
   Wardrobe wardrobe(&parts);
-  const Actor truck = MakeVehicle(TruckTurning(), &assets, {}, Dice(1, {}), &wardrobe);
+  const Actor truck = MakeVehicle(TruckTurning(GetParam()), &assets, {}, Dice(1, {}), &wardrobe);
   for (double t = 1; t < 12; t += 0.31) {
     const MoverState state = truck.at(t);
     for (std::size_t i = 0; i < state.positions.size(); ++i) {
@@ -241,6 +261,11 @@ TEST(Forklift, TyresTouchTheFloorWithoutSliding) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Models, EveryVehicle,
+                         testing::Values("forklift", "forklift_driver", "reach_truck",
+                                         "pallet_jack", "agv", "car_white", "car_dark", "car_van",
+                                         "cyclist"));
 
 TEST(Forklift, AParkedOneIsTheSameAtEveryTime) {
   VehicleSpec truck;

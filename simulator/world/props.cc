@@ -1,0 +1,61 @@
+#include "simulator/world/props.h"
+
+#include <stdexcept>
+
+#include "simulator/world/shapes.h"
+
+namespace aisle::sim {
+namespace {
+
+ObjectClass ClassOfProp(const std::string& asset) {
+  for (const char* goods : {"kit/pallet", "kit/drum", "kit/tote"}) {
+    if (asset.starts_with(goods)) return ObjectClass::kGoods;
+  }
+  return asset.starts_with("street/house") ? ObjectClass::kWall : ObjectClass::kFurniture;
+}
+
+std::string AssetOf(const Scene& scene, const PropSpec& prop, const AssetLibrary& assets) {
+  try {
+    return assets.Prop(prop.model);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(
+        fmt::format("{}:{}:{}: {}", scene.file, prop.mark.line, prop.mark.column, error.what()));
+  }
+}
+
+/// Where the pieces of a row stand; one place without a row.
+std::vector<Eigen::Vector2d> PlacesOf(const PropSpec& prop) {
+  if (!prop.to) return {prop.at};
+  const Eigen::Vector2d way = *prop.to - prop.at;
+  const int steps = static_cast<int>(std::floor(way.norm() / prop.every_m + 1e-6));
+  std::vector<Eigen::Vector2d> places;
+  for (int i = 0; i <= steps; ++i) {
+    places.push_back(prop.at + i * prop.every_m * way.normalized());
+  }
+  return places;
+}
+
+}  // namespace
+
+void AddProps(const Scene& scene, std::uint64_t seed, AssetLibrary* assets, Wardrobe* wardrobe,
+              Site* site) {
+  for (std::size_t i = 0; i < scene.props.size(); ++i) {
+    const PropSpec& prop = scene.props[i];
+    const std::string asset = AssetOf(scene, prop, *assets);
+    const TriangleMesh piece = wardrobe->Wear(assets->Load(asset));
+    const std::vector<Eigen::Vector2d> places = PlacesOf(prop);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      // In a row each is turned a little otherwise, as things are.
+      Dice dice(seed, {320, i, k});
+      const double turn = prop.heading_rad + (prop.to ? 0.04 * dice.Signed() : 0);
+      const Eigen::Vector3f at(places[k].cast<float>().x(), places[k].cast<float>().y(),
+                               static_cast<float>(prop.above_m));
+      site->Add(fmt::format("{}_{}_{}", prop.model, i, k), ClassOfProp(asset),
+                [&](TriangleMesh* mesh) {
+                  AddMesh(mesh, At(at.x(), at.y(), at.z(), static_cast<float>(turn)), piece);
+                });
+    }
+  }
+}
+
+}  // namespace aisle::sim
