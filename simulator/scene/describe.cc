@@ -59,7 +59,7 @@ void DescribeStep(Fields& f, RouteStep& step, RouteSpec::StepMarks& marks) {
   f.Points({"go", "go through these points", "[[5, 0], [5, 3]]"}, &step.go, &marks.go);
   f.Number({"speed_mps", "cruising speed of this `go`", "0.9"}, &step.speed_mps, {0.02, 20});
   f.Number({"corner_radius_m", "radius of the corners of this `go`; 0 stops and turns", "0.5"},
-           &step.corner_radius_m, {0, 100});
+           &step.corner_radius_m, {0, 1000});
   f.Flag({"reverse", "go backwards", "true"}, &step.reverse);
   f.OptionalNumber({"wait_s", "stand for this long", "2.5"}, &step.wait_s, {0, 3600});
   std::optional<double> degrees;
