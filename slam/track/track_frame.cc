@@ -102,16 +102,22 @@ std::optional<FramePose> TrackFrame(const Map& map, const Frame& frame, const Tr
       PredictPose(T_world_last, gap_is_short ? memory.motion : std::nullopt, gap_s).inverse();
   const Eigen::Isometry3d T_last_world = T_world_last.inverse();
 
+  // Repeated structure makes a wrong pose look right to a few dozen points: what explains too
+  // little of what should be seen is kept only where no other attempt explains more.
+  std::optional<FramePose> best;
   const auto attempt = [&](const std::optional<FirstPose>& first) {
-    return first ? RefineInLocalMap(scene, *first) : std::nullopt;
+    std::optional<FramePose> found = first ? RefineInLocalMap(scene, *first) : std::nullopt;
+    if (found && (!best || found->pose.inliers > best->pose.inliers)) best = std::move(found);
+    return best && best->pose.inliers >=
+                       options.convincing_share * static_cast<double>(best->expected.size());
   };
-  std::optional<FramePose> found;
-  found = attempt(FollowLandmarks(scene, memory.landmarks, T_predicted_world, 1));
-  if (!found) {  // the rig has stopped, or turned on the spot
-    found = attempt(FollowLandmarks(scene, memory.landmarks, T_last_world, options.wide_factor));
+  if (attempt(FollowLandmarks(scene, memory.landmarks, T_predicted_world, 1))) return best;
+  // The rig has stopped, or turned on the spot.
+  if (attempt(FollowLandmarks(scene, memory.landmarks, T_last_world, options.wide_factor))) {
+    return best;
   }
-  if (!found) found = attempt(RecogniseKeyframe(scene, memory.reference));
-  return found;
+  attempt(RecogniseKeyframe(scene, memory.reference));
+  return best;
 }
 
 std::optional<FramePose> LocateByKeyframe(const Map& map, const Frame& frame, KeyframeId keyframe,

@@ -26,8 +26,9 @@ struct FramePose {
   std::vector<LandmarkId> expected;  ///< landmarks that should have been seen
 };
 
-/// Finds the frame in the map: from where motion predicts it, else from where it was, else by
-/// recognising the reference keyframe; then refined with everything around. Nothing if lost.
+/// Finds the frame in the map: from where motion predicts it, from where it was, or by recognising
+/// the reference keyframe, whichever is the first to explain most of what should be seen; refined
+/// with everything around. Nothing if lost.
 std::optional<FramePose> TrackFrame(const Map& map, const Frame& frame, const TrackMemory& memory,
                                     const StereoCamera& camera, int levels,
                                     const TrackOptions& options);

@@ -18,8 +18,11 @@ struct TrackOptions {
   int least_motion_matches = 20;        ///< fewer: prediction has failed
   int least_inliers = 10;               ///< of a first estimate; fewer: it has failed
   int least_map_inliers = 30;           ///< of the final estimate; fewer: lost
-  int local_keyframes = 20;             ///< whose landmarks are looked for
-  double longest_gap_s = 1.0;           ///< motion is not predicted across longer gaps
+  /// Of the landmarks that should be seen: a pose that explains fewer is doubted, and the other
+  /// ways to find one are tried.
+  double convincing_share = 0.25;
+  int local_keyframes = 20;    ///< whose landmarks are looked for
+  double longest_gap_s = 1.0;  ///< motion is not predicted across longer gaps
 };
 
 /// When a frame becomes a keyframe.
