@@ -64,6 +64,7 @@ class Checker {
     CheckActors(scene_.people, "people", kPersonRadius_m);
     CheckActors(scene_.vehicles, "vehicles", kVehicleRadius_m);
     CheckHandles();
+    if (issues_->empty()) CheckMeetings();
     for (std::size_t i = 0; i < scene_.vehicles.size(); ++i) CheckMast(scene_.vehicles[i], i);
     if (scene_.rig.mount.height_m >= scene_.hall.height_m) {
       issues_->Add(scene_.rig.mark, "rig.camera_height_m", "the camera is above the roof");
@@ -258,6 +259,37 @@ class Checker {
       } else if (pusher->level > vehicle.level) {
         issues_->Add(vehicle.mark, key, "its level must be that of its pusher or above");
       }
+    }
+  }
+
+  /// The rig and the actors, as written, never run into one another.
+  void CheckMeetings() {
+    const Route rig(scene_.rig.route.plan, scene_.rig.route.limits);
+    for (std::size_t i = 0; i < scene_.people.size(); ++i) {
+      CheckMeeting(rig, scene_.people[i], fmt::format("people[{}]", i), kPersonRadius_m);
+    }
+    for (std::size_t i = 0; i < scene_.vehicles.size(); ++i) {
+      if (!scene_.vehicles[i].pushed_by.empty()) continue;
+      CheckMeeting(rig, scene_.vehicles[i], fmt::format("vehicles[{}]", i), kVehicleRadius_m);
+    }
+  }
+
+  template <class Actor>
+  void CheckMeeting(const Route& rig, const Actor& actor, const std::string& key, double radius) {
+    constexpr double kStep_s = 0.05;
+    const Route way(actor.route.plan, actor.route.limits);
+    for (double t = 0; t <= scene_.duration_s(); t += kStep_s) {
+      const RouteState state = way.At(t);
+      const double apart = (state.position - rig.At(t).position).norm();
+      if (apart >= radius + kRigRadius_m) continue;
+      const bool moving = state.step >= 0 && !actor.route.marks.empty();
+      issues_->Add(
+          moving ? actor.route.marks[static_cast<std::size_t>(state.step)].step : actor.route.mark,
+          key,
+          fmt::format("at {:.2f} s it is {:.2f} m from the rig's middle, which needs "
+                      "{:g} m: let one of them wait or go round",
+                      t, apart, radius + kRigRadius_m));
+      return;
     }
   }
 

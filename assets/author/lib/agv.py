@@ -3,7 +3,8 @@
 from . import kit_parts, parts
 from .solid import Machine
 
-DRIVE, CASTOR, TRACK = 0.10, 0.055, 0.62
+# The castors are bodywork: they neither swivel nor roll, so they stay clear of the floor.
+DRIVE, CASTOR, CASTOR_GAP, TRACK = 0.10, 0.050, 0.006, 0.62
 
 
 def build(name, folder, path):
@@ -98,14 +99,14 @@ def wheels(m, n):
         m.lathe(
             n,
             "rubber",
-            (x, y, CASTOR),
+            (x, y, CASTOR + CASTOR_GAP),
             (0, 1, 0),
             [
                 (-0.018, 0.0),
-                (-0.018, 0.05),
+                (-0.018, 0.045),
                 (-0.012, CASTOR),
                 (0.012, CASTOR),
-                (0.018, 0.05),
+                (0.018, 0.045),
                 (0.018, 0.0),
             ],
             20,

@@ -36,6 +36,7 @@ SHAPES = {
 }
 WIDTH = 0.88
 SILL = 0.22
+PANE_ROWS = 10  # of faces up the side windows; slanted pillars are stairs of these
 
 
 def build(name, folder, path, shape, colour, seed):
@@ -129,7 +130,7 @@ def glass_house(m, node, form, shift):
     """Roof, pillars and panes over the belt line."""
     xs, zs = np.array(form["roof"]).T
     deck_x, deck_z = np.array(form["deck"]).T
-    stations = np.unique(np.concatenate([np.linspace(xs[0], xs[-1], 57), xs]))
+    stations = np.unique(np.concatenate([np.linspace(xs[0], xs[-1], 113), xs]))
     rows, roofs = [], []
     for x in stations:
         roof, belt = np.interp(x, xs, zs), np.interp(x, deck_x, deck_z) - 0.02
@@ -137,8 +138,12 @@ def glass_house(m, node, form, shift):
         w = 0.93 * plan(x, form["length"])
         lean = 0.22 * (roof - belt) / 0.5
         top = w - min(lean, 0.24)
-        section = [(w, belt), (w - 0.45 * (w - top), belt + 0.5 * (roof - belt))]
-        section += [(top, roof - min(0.06, 0.2 * (roof - belt))), (top - 0.05, roof - 0.012)]
+        gutter = roof - min(0.06, 0.2 * (roof - belt))
+        section = [
+            (w - (0.8 * t + 0.2 * t * t) * (w - top), belt + t * (gutter - belt))
+            for t in np.linspace(0, 1, PANE_ROWS + 1)
+        ]
+        section += [(top - 0.05, roof - 0.012)]
         section += [(0.6 * top, roof + 0.012), (0.0, roof + 0.02)]
         rows.append([(x + shift, y, z) for y, z in section])
         roofs.append(roof)
@@ -148,9 +153,9 @@ def glass_house(m, node, form, shift):
 
     def painted(p, i, j):
         x = p[0] - shift
-        if j >= 3:
+        if j > PANE_ROWS:
             return lo <= x <= hi
-        if j == 2:
+        if j == PANE_ROWS:
             return True
         middle = [lo + 0.38 * span, lo + 0.68 * span] if span > 2 else [lo + 0.58 * span]
         front = np.interp(p[2], [0.95, 1.4], [xs[-1] - 0.05, hi + 0.02])
@@ -169,8 +174,8 @@ def trim(m, node, form, shift):
     for x in (0.0, form["axles"][1] - form["axles"][0]):
         w = plan(x - shift, form["length"])
         for s in (-1, 1):
-            rings = [(-0.14, 0.375), (0.006, 0.375), (0.006, 0.30), (-0.02, 0.0)]
-            m.lathe(node, "plastic", (x, s * w, RADIUS + 0.03), (0, s, 0), rings, 28)
+            rings = [(-0.14, 0.365), (0.006, 0.365), (0.006, 0.30), (-0.02, 0.0)]
+            m.lathe(node, "plastic", (x, s * w, RADIUS + 0.07), (0, s, 0), rings, 28)
     deck = dict(form["deck"])
     z = np.interp(half - 0.12, *np.array(form["deck"]).T) - 0.10
     for s in (-1, 1):

@@ -159,11 +159,11 @@ class Machine:
                 b.faces.new([r[i], r[(i + 1) % sides], s[(i + 1) % sides], s[i]])
         self.add(node, b, material)
 
-    def decal(self, node, material, centre, right, up, rect, sheet):
-        """A picture rect (x, y, w, h in sheet pixels) on a quad spanned by right and up (metres)."""
+    def decal(self, node, material, centre, right, up, rect, sheet, corners=((-1, -1), (1, -1), (1, 1), (-1, 1))):
+        """A picture rect (x, y, w, h in sheet pixels) on a quad spanned by right and up (metres), or on
+        another convex outline in it."""
         centre, right, up = Vector(centre), Vector(right), Vector(up)
         b = bmesh.new()
-        corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
         verts = [b.verts.new(centre + 0.5 * i * right + 0.5 * j * up) for i, j in corners]
         face = b.faces.new(verts)
         layer = b.loops.layers.uv.verify()

@@ -62,14 +62,15 @@ def tree(name, folder, path, seed, height, spread, colour):
     trunk = [(0, 0, -0.05), (0.03, 0.02, 0.5 * fork), (-0.02, 0.05, fork)]
     m.lathe(name, "bark", (0, 0, -0.05), (0, 0, 1), [(0, 0.24), (0.15, 0.17), (0.5 * fork, 0.14), (fork, 0.12)], 12)
     crowns = []
-    for k in range(7):
+    for k in range(13):  # seven boughs around and six above them, nearer to the trunk
         a = 2 * np.pi * k / 7 + rng.uniform(-0.3, 0.3)
-        reach = spread * rng.uniform(0.45, 0.62) * (0.25 if k == 6 else 1)
-        top = np.array((reach * np.cos(a), reach * np.sin(a), height * rng.uniform(0.62, 0.86)))
+        reach = spread * rng.uniform(0.45, 0.62) * (1 if k < 7 else 0.45)
+        low, high = (0.58, 0.76) if k < 7 else (0.74, 0.92)
+        top = np.array((reach * np.cos(a), reach * np.sin(a), height * rng.uniform(low, high)))
         m.pipe(name, "bark", [trunk[2], tuple(0.5 * (np.array(trunk[2]) + top) + [0, 0, 0.2]), tuple(top)], 0.05, 6, False)
         crowns.append(top)
     for top in crowns:
-        clump(m, name, "leaves", top, (0.36 * spread, 0.36 * spread, 0.17 * height), rng, 70)
+        clump(m, name, "leaves", top, (0.36 * spread, 0.36 * spread, 0.15 * height), rng, 130)
     m.finish(path, {"height_m": height})
 
 
@@ -131,8 +132,14 @@ def traffic_sign(name, folder, path, which):
     m.material("steel", surfaces.metal((0.52, 0.53, 0.54), 3), 0.7)
     m.material("signs", sign_pictures(), None, 0.4)
     m.bar(name, "steel", (0, 0, 0), (0, 0, 2.75), 0.032, 10)
-    m.box(name, "steel", (0.045, 0, 2.4), (0.012, 0.62, 0.62), 0.004) if which > 1 else m.lathe(
-        name, "steel", (0.04, 0, 2.4), (1, 0, 0), [(0, 0), (0, 0.31), (0.012, 0.31), (0.012, 0)], 32
-    )
-    m.decal(name, "signs", (0.055, 0, 2.4), (0, 0.62, 0), (0, 0, 0.62), (256 * which, 0, 256, 256), (256, 1024))
+    if which > 1:
+        outline = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+        m.box(name, "steel", (0.045, 0, 2.4), (0.012, 0.62, 0.62), 0.004)
+    else:
+        sides, radius = ((4, 0.98), (40, 0.97))[which]
+        outline = [(float(radius * np.cos(a)), float(radius * np.sin(a))) for a in 2 * np.pi * np.arange(sides) / sides]
+        rings = [(0, 0), (0, 0.31 * radius), (0.012, 0.31 * radius), (0.012, 0)]
+        m.lathe(name, "steel", (0.039, 0, 2.4), (1, 0, 0), rings, sides)
+    rect = (256 * which, 0, 256, 256)
+    m.decal(name, "signs", (0.055, 0, 2.4), (0, 0.62, 0), (0, 0, 0.62), rect, (256, 1024), outline)
     m.finish(path, {"height_m": 2.75})

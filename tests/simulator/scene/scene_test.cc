@@ -235,6 +235,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"name: walker", "level: low", "13:5", "people[0].name: it is missing"},
         Mistake{"start: [5, 1.5]", "start: [5, 2.5]", "13:5", "people[0].start"},
         Mistake{"wait_s: 1", "wait_s: 1, play: \"a b\"", "18:27", "a name of letters"},
+        Mistake{"go: [[5, -1.5]]", "go: [[3, 0]]", "17:9", "from the rig's middle"},
         Mistake{"people:", "persons:", "12:1", "there is no such key"}));
 
 TEST(Mistakes, AreAllReportedInOneGo) {
