@@ -19,7 +19,10 @@ std::vector<KnownPoint> RecallPoints(const Map& map, const TrackMemory& memory) 
     if (!landmark) continue;
     const KeyframeId first = landmark->observations.front().keyframe;
     const std::int64_t age_ns = memory.stamp_ns - map.At(first).frame->stamp_ns;
-    points.push_back({T_rig_world * landmark->position, static_cast<double>(age_ns) * 1e-9});
+    // A keyframe of an earlier drive may carry a later stamp: its clock was another.
+    constexpr double kEarlierDrive_s = 3600;
+    const double age_s = age_ns < 0 ? kEarlierDrive_s : static_cast<double>(age_ns) * 1e-9;
+    points.push_back({T_rig_world * landmark->position, age_s});
   }
   return points;
 }

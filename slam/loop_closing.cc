@@ -1,5 +1,6 @@
 #include "slam/loop_closing.h"
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <set>
@@ -26,6 +27,10 @@ std::vector<LandmarkId> LandmarksAround(const Map& map, KeyframeId id, const Fus
 
 Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& camera,
               const SlamOptions& options) {
+  const auto best =
+      std::max_element(loops.begin(), loops.end(),
+                       [](const LoopEdge& a, const LoopEdge& b) { return a.inliers < b.inliers; });
+  map.Apply(JoinParts(map, *best));
   map.Apply(SpreadLoops(map, loops));
   for (const LoopEdge& loop : loops) {
     if (!map.Find(loop.current) || !map.Find(loop.matched)) continue;

@@ -7,9 +7,10 @@
 
 namespace aisle::slam {
 
-/// Closes a loop: spreads its error over the map and joins the landmarks that both visits saw.
-/// Quick, so that tracking soon stands in one map again; exactness comes from AdjustGlobally after.
-/// Takes the map by value and returns the next one: it can run beside readers.
+/// Closes a loop: joins the two parts of the map that it connects if it does, spreads its error
+/// over the map and joins the landmarks that both visits saw. Quick, so that tracking soon stands
+/// in one map again; exactness comes from AdjustGlobally after. Takes the map by value and returns
+/// the next one: it can run beside readers. At least one loop.
 Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& camera,
               const SlamOptions& options);
 

@@ -27,6 +27,12 @@ std::string Validate(const SlamOptions& options) {
   if (!(options.keypoint_noise_px > 0)) {
     return fmt::format("keypoint_noise_px = {}; it must be positive", options.keypoint_noise_px);
   }
+  if (options.localise_only && options.map_file.empty()) {
+    return "localise_only = true, map_file is empty; there is nothing to localise in";
+  }
+  if (!(options.new_part_after_s >= 0)) {
+    return fmt::format("new_part_after_s = {}; not negative", options.new_part_after_s);
+  }
   for (const std::string& error : {Validate(options.schedule), Validate(options.dynamic),
                                    Validate(options.feature), Validate(options.stereo)}) {
     if (!error.empty()) return error;

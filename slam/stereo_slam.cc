@@ -15,6 +15,7 @@
 #include "slam/local_mapping.h"
 #include "slam/loop_closing.h"
 #include "slam/map/map.h"
+#include "slam/map/map_file.h"
 #include "slam/relocalise.h"
 #include "slam/stereo/match_stereo.h"
 #include "slam/track/keyframe_policy.h"
@@ -63,6 +64,7 @@ struct StereoSlam::Impl {
       if (!error.empty()) throw std::invalid_argument("StereoSlam: " + error);
     }
     if (!options.vocabulary_file.empty()) vocabulary = Vocabulary::Load(options.vocabulary_file);
+    if (!options.map_file.empty()) GoOnIn(LoadMap(options.map_file));
   }
 
   TrackedFrame Track(const StereoImages& images, const ExternalMask& mask);
@@ -72,8 +74,14 @@ struct StereoSlam::Impl {
   std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, const ExternalMask& mask,
                                         std::map<std::string, double>& stage_ms);
   std::optional<FramePose> FindPose(const Frame& frame);
-  std::optional<FramePose> StartMap(const std::shared_ptr<const Frame>& frame);
+  std::optional<FramePose> StartPart(const std::shared_ptr<const Frame>& frame);
   std::optional<FramePose> Relocalise(const Frame& frame);
+  void GoOnIn(const SavedMap& saved);
+  void Index(KeyframeId id);
+  void ForgetMap();
+  void FinishBackgroundWork();
+  bool IsTimeForANewPart(std::int64_t stamp_ns) const;
+  bool IsInFirstPart() const;
   void InsertKeyframe(const std::shared_ptr<const Frame>& frame, const FramePose& pose);
   void Remember(const Frame& frame, const FramePose& pose);
   void WaitForBackgroundWork() const { mapping.Wait(), closing.Wait(), adjusting.Wait(); }
@@ -89,7 +97,8 @@ struct StereoSlam::Impl {
 
   Map map;
   TrackMemory memory;
-  TrackingState state = TrackingState::kInitializing;
+  TrackingState state = TrackingState::kInitializing;  // kTracking in any part of the map
+  std::optional<std::int64_t> lost_since_ns;           // first frame without a pose
   std::int64_t frame_count = 0;
   std::map<LandmarkId, std::pair<int, int>> counts;  // predicted and found since the last keyframe
 
@@ -122,25 +131,27 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
   result.loop_closed = TakeBackgroundWork(frame_count, result.stage_ms);
 
   Stopwatch track_time(result.stage_ms["track"]);
-  std::optional<FramePose> pose;
-  if (map.empty()) {
-    pose = StartMap(frame);
-    result.is_keyframe = pose.has_value();
-  } else {
-    pose = FindPose(*frame);
-    // One job at a time: the next keyframe waits for the appointed frame, not for a thread.
-    result.is_keyframe =
-        pose && !Busy() && NeedsKeyframe(map, *frame, *pose, camera, options.keyframe);
+  std::optional<FramePose> pose = map.empty() ? std::nullopt : FindPose(*frame);
+  // One job at a time: the next keyframe waits for the appointed frame, not for a thread.
+  if (pose) {
+    result.is_keyframe = !options.localise_only && !Busy() &&
+                         NeedsKeyframe(map, *frame, *pose, camera, options.keyframe);
     if (result.is_keyframe) InsertKeyframe(frame, *pose);
+  } else if (map.empty() || IsTimeForANewPart(images.stamp_ns)) {
+    pose = StartPart(frame);
+    result.is_keyframe = pose.has_value();
   }
 
   if (pose) Remember(*frame, *pose);
+  if (pose) lost_since_ns.reset();
+  if (!pose && !lost_since_ns) lost_since_ns = images.stamp_ns;
   state = pose          ? TrackingState::kTracking
           : map.empty() ? TrackingState::kInitializing
                         : TrackingState::kLost;
   ++frame_count;
 
-  result.state = state;
+  const bool apart = pose && !IsInFirstPart();
+  result.state = apart ? TrackingState::kApart : state;
   result.map_keyframes = static_cast<int>(map.keyframes().size());
   result.map_landmarks = map.landmark_count();
   result.features = frame->size();
@@ -151,7 +162,7 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
     result.stereo_points += frame->measurements[feature].has_depth();
   }
   if (!pose) return result;
-  result.T_world_rig = pose->pose.T_rig_world.inverse();
+  if (!apart) result.T_world_rig = pose->pose.T_rig_world.inverse();
   result.matched_points = static_cast<int>(pose->matches.size());
   result.inliers = pose->pose.inliers;
   for (std::size_t i = 0; i < pose->matches.size(); ++i) {
@@ -243,6 +254,17 @@ bool StereoSlam::Impl::TakeBackgroundWork(std::int64_t frame_now,
   return closed.has_value();
 }
 
+/// Takes everything that is under way, due or not. Mapping may start the closing of a loop, and
+/// that the adjustment of the map, which are waited for as well.
+void StereoSlam::Impl::FinishBackgroundWork() {
+  std::map<std::string, double> stage_ms;
+  while (Busy() || adjusting.pending()) {
+    WaitForBackgroundWork();
+    TakeBackgroundWork(std::max({mapping.due_frame(), closing.due_frame(), adjusting.due_frame()}),
+                       stage_ms);
+  }
+}
+
 void StereoSlam::Impl::TakeMapping(MappingResult result, std::int64_t frame_now) {
   map = std::move(result.map);
   if (!vocabulary) return;
@@ -289,19 +311,74 @@ std::optional<FramePose> StereoSlam::Impl::Relocalise(const Frame& frame) {
   return std::nullopt;
 }
 
-/// The first frame with enough depth is where the world begins.
-std::optional<FramePose> StereoSlam::Impl::StartMap(const std::shared_ptr<const Frame>& frame) {
+void StereoSlam::Impl::GoOnIn(const SavedMap& saved) {
+  if (saved.camera != camera) {
+    throw std::runtime_error(options.map_file +
+                             ": was made with another camera; the map of a rig serves that rig, as "
+                             "it was calibrated then");
+  }
+  map = saved.map;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    if (keyframe->frame->scale != options.feature.scale) {
+      throw std::runtime_error(fmt::format("{}: was made with feature.scale = {}, not {}",
+                                           options.map_file, keyframe->frame->scale,
+                                           options.feature.scale));
+    }
+    Index(id);
+  }
+  memory.reference = saved.reference;
+  state = TrackingState::kLost;
+}
+
+void StereoSlam::Impl::Index(KeyframeId id) {
+  if (vocabulary) index.Add(id, vocabulary->Describe(map.At(id).frame->features.descriptors));
+}
+
+/// What was lost so soon is not worth keeping: the world begins anew.
+void StereoSlam::Impl::ForgetMap() {
+  map = {};
+  index = {};
+  counts.clear();
+  loops.clear();
+  trajectory.clear();
+}
+
+/// Whether the rig has been lost for so long that it may be somewhere new.
+bool StereoSlam::Impl::IsTimeForANewPart(std::int64_t stamp_ns) const {
+  if (options.localise_only || !vocabulary || !lost_since_ns) return false;
+  if (Busy() || adjusting.pending()) return false;
+  return static_cast<double>(stamp_ns - *lost_since_ns) * 1e-9 >= options.new_part_after_s;
+}
+
+/// The first part of the map, or the map that was loaded, is where the world is.
+bool StereoSlam::Impl::IsInFirstPart() const {
+  return RootOf(map, map.StandIn(memory.reference)) == map.keyframes().begin()->first;
+}
+
+/// The first frame with enough depth is where the world begins; a later one that is lost begins a
+/// new part of the map where the rig would be if it had kept its motion for a while.
+std::optional<FramePose> StereoSlam::Impl::StartPart(const std::shared_ptr<const Frame>& frame) {
+  const bool is_mere_start =
+      options.map_file.empty() && std::ssize(map.keyframes()) < options.least_keyframes;
   Keyframe keyframe;
-  keyframe.id = map.NextKeyframeId();
+  keyframe.id = is_mere_start ? KeyframeId{0} : map.NextKeyframeId();
   keyframe.frame = frame;
+  if (!map.empty()) {
+    const double gap_s = static_cast<double>(frame->stamp_ns - memory.stamp_ns) * 1e-9;
+    keyframe.T_world_rig = PredictPose(map.PoseOf(memory.reference) * memory.T_reference_rig,
+                                       memory.motion, std::min(gap_s, options.track.longest_gap_s));
+  }
   keyframe.landmarks.resize(static_cast<std::size_t>(frame->size()));
   MapEdit edit;
   edit.new_landmarks = CreateLandmarks(keyframe, camera, options.mapping.create);
   if (std::ssize(edit.new_landmarks) < options.least_first_points) return std::nullopt;
   edit.new_keyframes = {keyframe};
+  if (is_mere_start) ForgetMap();
   map.Apply(edit);
+  Index(keyframe.id);
 
   FramePose pose;
+  pose.pose.T_rig_world = keyframe.T_world_rig.inverse();
   pose.local.reference = keyframe.id;
   const std::vector<LandmarkId>& landmarks = map.At(keyframe.id).landmarks;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
@@ -360,6 +437,7 @@ void StereoSlam::Impl::Remember(const Frame& frame, const FramePose& pose) {
     memory.landmarks.push_back(pose.matches[i].landmark);
     ++counts[pose.matches[i].landmark].second;
   }
+  if (options.localise_only) counts.clear();
   trajectory.push_back({frame.stamp_ns, memory.reference, memory.T_reference_rig});
 }
 
@@ -373,19 +451,29 @@ TrackedFrame StereoSlam::Track(const StereoImages& images, const ExternalMask& m
   return impl_->Track(images, mask);
 }
 
-std::vector<StampedPose> StereoSlam::Finish() {
-  std::map<std::string, double> stage_ms;
-  // Mapping may start the closing of a loop, which is waited for as well.
-  while (impl_->Busy() || impl_->adjusting.pending()) {
-    impl_->WaitForBackgroundWork();
-    impl_->TakeBackgroundWork(std::max({impl_->mapping.due_frame(), impl_->closing.due_frame(),
-                                        impl_->adjusting.due_frame()}),
-                              stage_ms);
+void StereoSlam::SaveMap(const std::string& file) {
+  impl_->FinishBackgroundWork();
+  if (impl_->map.empty()) throw std::runtime_error(file + ": there is no map to save yet");
+  MapEdit edit;
+  for (const auto& [landmark, count] : impl_->counts) {
+    edit.counts.push_back({landmark, count.first, count.second});
   }
+  impl_->map.Apply(edit);
+  impl_->counts.clear();
+  impl_->loops.clear();
+  slam::SaveMap({impl_->camera, impl_->map.StandIn(impl_->memory.reference), impl_->map}, file);
+}
+
+std::vector<StampedPose> StereoSlam::Finish() {
+  impl_->FinishBackgroundWork();
   std::vector<StampedPose> poses;
+  const Map& map = impl_->map;
+  if (map.empty()) return poses;
+  const KeyframeId largest = LargestPart(map);
+  const std::map<KeyframeId, KeyframeId> roots = Roots(map);
   for (const Impl::Anchored& anchored : impl_->trajectory) {
-    poses.push_back(
-        {anchored.stamp_ns, impl_->map.PoseOf(anchored.reference) * anchored.T_reference_rig});
+    if (roots.at(map.StandIn(anchored.reference)) != largest) continue;
+    poses.push_back({anchored.stamp_ns, map.PoseOf(anchored.reference) * anchored.T_reference_rig});
   }
   return poses;
 }

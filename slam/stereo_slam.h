@@ -33,6 +33,7 @@ struct ExternalMask {
 enum class TrackingState {
   kInitializing,  ///< no map yet
   kTracking,
+  kApart,  ///< tracking in a part of the map whose place in the world is not known (yet)
   kLost,
 };
 
@@ -42,7 +43,7 @@ struct TrackedFrame {
   std::int64_t stamp_ns = 0;
   TrackingState state = TrackingState::kInitializing;
   std::optional<Eigen::Isometry3d>
-      T_world_rig;         ///< absent unless kTracking; world = first rig pose
+      T_world_rig;         ///< absent unless kTracking; world: first rig pose, or that of map_file
   int features = 0;        ///< keypoints in the left image after rejection
   int stereo_points = 0;   ///< of them, with depth
   int matched_points = 0;  ///< matched to the map
@@ -66,6 +67,8 @@ struct StampedPose {
 /// Same images, same options: the same bits out, for any number of threads.
 class StereoSlam {
  public:
+  /// Throws std::invalid_argument for options that break a rule, std::runtime_error for a file that
+  /// cannot be used.
   StereoSlam(const StereoCamera& camera, const SlamOptions& options);
   StereoSlam(StereoSlam&&) noexcept;
   StereoSlam& operator=(StereoSlam&&) noexcept;
@@ -75,8 +78,14 @@ class StereoSlam {
   /// errors: they come back as kLost or kInitializing.
   TrackedFrame Track(const StereoImages& images, const ExternalMask& mask = {});
 
+  /// Writes the map for SlamOptions::map_file of a later drive, which then goes on in it as this
+  /// one would after a loss: to the last bit. Waits for background work. Throws std::runtime_error
+  /// where the file cannot be written or there is no map yet.
+  void SaveMap(const std::string& file);
+
   /// Ends the run: waits for background work and returns the final trajectory, every tracked frame
-  /// re-anchored to its reference keyframe as the finished map has it.
+  /// re-anchored to its reference keyframe as the finished map has it. Where parts of the map have
+  /// never been joined, it is that of the largest one.
   std::vector<StampedPose> Finish();
 
  private:

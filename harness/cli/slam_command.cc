@@ -11,8 +11,12 @@
 namespace aisle {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct Options {
   std::string dataset, format = "euroc", system = "orbslam2", output, live;
+  std::string load_map, save_map;  ///< empty: none
+  bool localise_only = false;
   std::string masks;  ///< folder of masks to reject by; empty: none
   int threads = 0;
   bool free_running = false;
@@ -37,6 +41,23 @@ MaskMaker MasksOf(const Options& options, std::size_t* masked) {
   };
 }
 
+std::unique_ptr<Estimator> MakeEstimator(const System& system, const Sequence& sequence,
+                                         const Options& options) {
+  const fs::path folder = fs::absolute(options.save_map).parent_path();
+  if (!options.save_map.empty() && !fs::is_directory(folder)) {
+    throw InputError(options.save_map, 0, "its folder does not exist: make it first");
+  }
+  try {
+    return system.make(sequence.calibration(), {.threads = options.threads,
+                                                .load_map = options.load_map,
+                                                .save_map = options.save_map,
+                                                .localise_only = options.localise_only,
+                                                .free_running = options.free_running});
+  } catch (const std::runtime_error& error) {
+    throw InputError(error.what());  // the files a system starts from are input
+  }
+}
+
 int RunSlam(const Options& options) {
   const System& system = FindSystem(options.system);
   if (system.mask_source != MaskSource::kNone) {
@@ -44,8 +65,7 @@ int RunSlam(const Options& options) {
                      "' needs truth about what moves: a recording has none");
   }
   const auto sequence = OpenRecording(options.dataset, DatasetFormatFromName(options.format));
-  const auto estimator = system.make(
-      sequence->calibration(), {.threads = options.threads, .free_running = options.free_running});
+  const auto estimator = MakeEstimator(system, *sequence, options);
   ProgressLine line;
   std::size_t masked = 0;
   const RunResult run =
@@ -66,6 +86,7 @@ int RunSlam(const Options& options) {
              run.trajectory.live.size(),
              run.facts.empty() ? 0.0 : 1e3 * run.wall_s / static_cast<double>(run.facts.size()),
              options.output);
+  if (!options.save_map.empty()) fmt::print("map -> {}\n", options.save_map);
   if (!options.masks.empty()) {
     fmt::print("{} of {} frames have a mask in {}\n", masked, run.facts.size(), options.masks);
     if (masked == 0) {
@@ -94,11 +115,20 @@ void AddSlamCommand(CLI::App* app, Action* action) {
   command->add_option("--masks", options->masks,
                       "folder of masks to reject by: grey PNGs named by stamp or number, not 0 = "
                       "reject; right eye in right/");
+  CLI::Option* load = command
+                          ->add_option("--load-map", options->load_map,
+                                       "go on in the map of an earlier drive with this rig")
+                          ->check(CLI::ExistingFile);
+  command->add_option("--save-map", options->save_map, "write the map there at the end");
+  command->add_flag("--localise-only", options->localise_only, "leave the loaded map as it is")
+      ->needs(load);
   command->add_option("--threads", options->threads, "0: all; never changes a result");
   command->add_flag(
       "--free-running", options->free_running,
       "NOT REPEATABLE: mapping takes effect as threads happen to run, no frame waits");
-  command->footer("Example: ./aisle slam V1_01_easy --format euroc -o v101.txt");
+  command->footer(
+      "Example: ./aisle slam V1_01_easy --format euroc -o v101.txt --save-map v1.map\n"
+      "         ./aisle slam V1_02_medium -o v102.txt --load-map v1.map --localise-only");
   command->callback([=] { *action = [=] { return RunSlam(*options); }; });
 }
 

@@ -11,6 +11,7 @@ TrackingState Convert(slam::TrackingState state) {
       return TrackingState::kInitializing;
     case slam::TrackingState::kTracking:
       return TrackingState::kTracking;
+    case slam::TrackingState::kApart:  // it cannot say where it is
     case slam::TrackingState::kLost:
       break;
   }
@@ -61,8 +62,9 @@ FrameEstimate Convert(const slam::TrackedFrame& frame) {
 
 class StereoSlamEstimator : public Estimator {
  public:
-  StereoSlamEstimator(const slam::StereoCamera& camera, const slam::SlamOptions& options)
-      : slam_(camera, options) {}
+  StereoSlamEstimator(const slam::StereoCamera& camera, const slam::SlamOptions& options,
+                      std::string save_map)
+      : slam_(camera, options), save_map_(std::move(save_map)) {}
 
   FrameEstimate Process(const StereoFrame& frame, const ExternalMask& mask) override {
     return Convert(slam_.Track({frame.id, frame.stamp_ns, frame.left, frame.right},
@@ -74,11 +76,13 @@ class StereoSlamEstimator : public Estimator {
     for (const slam::StampedPose& pose : slam_.Finish()) {
       trajectory.push_back({pose.stamp_ns, pose.T_world_rig});
     }
+    if (!save_map_.empty()) slam_.SaveMap(save_map_);
     return trajectory;
   }
 
  private:
   slam::StereoSlam slam_;
+  const std::string save_map_;
 };
 
 }  // namespace
@@ -96,9 +100,11 @@ std::unique_ptr<Estimator> MakeStereoSlamEstimator(const StereoCalibration& cali
   slam::SlamOptions slam_options;
   slam_options.threads = options.threads;
   slam_options.vocabulary_file = options.vocabulary_file.string();
+  slam_options.map_file = options.load_map.string();
+  slam_options.localise_only = options.localise_only;
   slam_options.schedule.free_running = options.free_running;
   slam_options.dynamic.method = Convert(options.rejection);
-  return std::make_unique<StereoSlamEstimator>(camera, slam_options);
+  return std::make_unique<StereoSlamEstimator>(camera, slam_options, options.save_map.string());
 }
 
 }  // namespace aisle

@@ -13,6 +13,9 @@ std::unique_ptr<Estimator> OurSlamWith(const StereoCalibration& calibration,
   return MakeStereoSlamEstimator(calibration, {.threads = options.threads,
                                                .rejection = kRejection,
                                                .vocabulary_file = VocabularyFile(),
+                                               .load_map = options.load_map,
+                                               .save_map = options.save_map,
+                                               .localise_only = options.localise_only,
                                                .free_running = options.free_running});
 }
 

@@ -11,6 +11,8 @@ struct StereoCamera {
   int width = 752, height = 480;                          ///< pixels
   double fx = 435.2, fy = 435.2, cx = 367.2, cy = 252.2;  ///< pixels
   double baseline_m = 0.12;  ///< the right camera stands at (+baseline, 0, 0) of the left
+
+  bool operator==(const StereoCamera&) const = default;
 };
 
 /// The first broken rule with its value, or an empty string.

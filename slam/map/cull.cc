@@ -74,10 +74,10 @@ MapEdit CullLandmarks(const Map& map, KeyframeId newest, const CullOptions& opti
 MapEdit CullKeyframes(const Map& map, KeyframeId newest, const CullOptions& options) {
   MapEdit edit;
   std::set<KeyframeId> going;
-  const KeyframeId first = map.keyframes().begin()->first;
   for (const Covisible& neighbour : CovisibleKeyframes(map, newest, 1)) {
     const KeyframeId id = neighbour.keyframe;
-    if (id == first || KeyframesSince(map, id) < options.recent_keyframes) continue;
+    const bool is_root = !map.At(id).parent.valid();  // a part of the map hangs on it
+    if (is_root || KeyframesSince(map, id) < options.recent_keyframes) continue;
     if (IsRedundant(map, map.At(id), going, options)) going.insert(id);
   }
   edit.removed_keyframes.assign(going.begin(), going.end());

@@ -68,6 +68,17 @@ Eigen::Isometry3d Map::PoseOf(KeyframeId id) const {
   }
 }
 
+KeyframeId Map::StandIn(KeyframeId id) const {
+  while (!Find(id)) {
+    const auto retired = retired_.find(id);
+    if (retired == retired_.end()) {
+      throw std::logic_error(fmt::format("keyframe {} was never in the map", id.value));
+    }
+    id = retired->second.heir;
+  }
+  return id;
+}
+
 Keyframe* Map::Change(KeyframeId id) {
   const auto found = keyframes_.find(id);
   return found == keyframes_.end() ? nullptr : Own(found->second);
@@ -163,7 +174,7 @@ void Map::Remove(KeyframeId id) {
   }
   const KeyframeId heir = keyframe->parent;
   if (const Keyframe* parent = Find(heir)) {
-    retired_[id] = {heir, parent->T_world_rig.inverse() * keyframe->T_world_rig};
+    retired_[id] = {id, heir, parent->T_world_rig.inverse() * keyframe->T_world_rig};
   }
   for (auto& [other, node] : keyframes_) {
     if (node->parent == id) Own(node)->parent = heir;
@@ -185,6 +196,9 @@ void Map::Apply(const MapEdit& edit) {
   }
   for (const auto& [id, T_world_rig] : edit.poses) {
     if (Keyframe* keyframe = Change(id)) keyframe->T_world_rig = T_world_rig;
+  }
+  for (const auto& [id, parent] : edit.parents) {
+    if (Find(parent) && parent < id && Find(id)) Change(id)->parent = parent;
   }
   for (const auto& [id, position] : edit.positions) {
     if (Landmark* landmark = Change(id)) landmark->position = position;
@@ -229,6 +243,27 @@ std::vector<Covisible> CovisibleKeyframes(const Map& map, KeyframeId id, int lea
   std::stable_sort(covisible.begin(), covisible.end(),
                    [](const Covisible& a, const Covisible& b) { return a.shared > b.shared; });
   return covisible;
+}
+
+KeyframeId RootOf(const Map& map, KeyframeId id) {
+  while (map.At(id).parent.valid()) id = map.At(id).parent;
+  return id;
+}
+
+std::map<KeyframeId, KeyframeId> Roots(const Map& map) {
+  std::map<KeyframeId, KeyframeId> roots;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    // Parents are older than their children: theirs is known by now.
+    roots[id] = keyframe->parent.valid() ? roots.at(keyframe->parent) : id;
+  }
+  return roots;
+}
+
+KeyframeId LargestPart(const Map& map) {
+  std::map<KeyframeId, int> sizes;
+  for (const auto& [id, root] : Roots(map)) ++sizes[root];
+  const auto smaller = [](const auto& a, const auto& b) { return a.second < b.second; };
+  return std::max_element(sizes.begin(), sizes.end(), smaller)->first;
 }
 
 int ObservationWeight(const Map& map, const Landmark& landmark) {

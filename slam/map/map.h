@@ -49,6 +49,9 @@ struct MapEdit {
     KeyframeId keyframe;
     Eigen::Isometry3d T_world_rig;
   };
+  struct Parent {
+    KeyframeId keyframe, parent;
+  };
   struct Position {
     LandmarkId landmark;
     Eigen::Vector3d position;
@@ -68,6 +71,7 @@ struct MapEdit {
   std::vector<Keyframe> new_keyframes;  ///< their `landmarks` are linked as observations
   std::vector<Landmark> new_landmarks;  ///< ids are the map's to give; observations are linked
   std::vector<Pose> poses;
+  std::vector<Parent> parents;  ///< older than their children; ignored where either is gone
   std::vector<Position> positions;
   std::vector<Link> links;    ///< ignored where feature or keyframe is already taken
   std::vector<Merge> merges;  ///< observations move to `kept` where they find room
@@ -77,13 +81,35 @@ struct MapEdit {
   std::vector<KeyframeId> removed_keyframes;  ///< children go to their parent
 };
 
+/// A keyframe that is gone: the older keyframe to ask instead, and how the two stood.
+struct RetiredKeyframe {
+  KeyframeId id, heir;
+  Eigen::Isometry3d T_heir_rig = Eigen::Isometry3d::Identity();
+};
+
+/// All of a map as plain lists: what a file holds of it.
+struct MapContents {
+  std::vector<Keyframe> keyframes;        ///< by rising id
+  std::vector<Landmark> landmarks;        ///< by rising slot, with what the map has derived of them
+  std::vector<std::int32_t> generations;  ///< of each slot's next tenant
+  std::vector<std::int32_t> vacant;       ///< slots, the one to be given next last
+  std::vector<RetiredKeyframe> retired;   ///< by rising id
+  std::int64_t next_keyframe = 0;
+};
+
 /// Keyframes and landmarks and who sees whom: a value. Copies share what neither changes, so that
 /// a background worker's copy costs a table of pointers.
 ///
 /// Invariants, whatever edit is applied: keyframe k's feature f names landmark l exactly where l's
-/// observations name (k, f); every landmark has an observation; parents exist.
+/// observations name (k, f); every landmark has an observation; parents exist and are older.
 class Map {
  public:
+  Map() = default;
+  /// The map that was taken apart, to the last bit. Throws std::invalid_argument that says which
+  /// invariant the lists break.
+  explicit Map(const MapContents& contents);
+  MapContents Contents() const;
+
   /// Ids of the keyframes now in the map, rising.
   const std::map<KeyframeId, std::shared_ptr<const Keyframe>>& keyframes() const {
     return keyframes_;
@@ -102,11 +128,8 @@ class Map {
   /// Every landmark, by slot.
   std::vector<const Landmark*> Landmarks() const;
 
-  /// A keyframe that is gone: the keyframe to ask instead, and how the two stood.
-  struct Retired {
-    KeyframeId heir;
-    Eigen::Isometry3d T_heir_rig;
-  };
+  /// The keyframe itself, or the present one that stands for a former one.
+  KeyframeId StandIn(KeyframeId id) const;
   /// Pose of a present or former keyframe, the latter carried along by its heirs.
   Eigen::Isometry3d PoseOf(KeyframeId id) const;
 
@@ -130,7 +153,7 @@ class Map {
   std::vector<std::shared_ptr<const Landmark>> landmarks_;  // by slot; null where vacant
   std::vector<std::int32_t> generations_;                   // of each slot's next tenant
   std::vector<std::int32_t> vacant_;
-  std::map<KeyframeId, Retired> retired_;
+  std::map<KeyframeId, RetiredKeyframe> retired_;
   int landmark_count_ = 0;
   std::int64_t next_keyframe_ = 0;
 };
@@ -143,6 +166,16 @@ struct Covisible {
 
 /// Keyframes that share landmarks with `id`, most first, then older first.
 std::vector<Covisible> CovisibleKeyframes(const Map& map, KeyframeId id, int least_shared);
+
+/// The keyframe without a parent that this one descends from. Keyframes of one root are one part of
+/// the map: what lies where between two parts is not known.
+KeyframeId RootOf(const Map& map, KeyframeId id);
+
+/// The root of every keyframe.
+std::map<KeyframeId, KeyframeId> Roots(const Map& map);
+
+/// The root of the part with most keyframes, the older one on a tie; the map must not be empty.
+KeyframeId LargestPart(const Map& map);
 
 /// Sum over observations, one with depth counting twice: it fixes the landmark by itself.
 int ObservationWeight(const Map& map, const Landmark& landmark);

@@ -16,6 +16,8 @@ struct MapProblem {
   std::vector<MapEdit::Link> links;   // of sights
 };
 
+bool IsRoot(const Map& map, KeyframeId id) { return !map.At(id).parent.valid(); }
+
 /// The builder: landmarks as seen by the given keyframes, `free` ones and `fixed` ones.
 MapProblem BuildProblem(const Map& map, const std::vector<KeyframeId>& free,
                         const std::vector<KeyframeId>& fixed,
@@ -114,14 +116,15 @@ Adjustment AdjustLocally(const Map& map, KeyframeId around, const StereoCamera& 
   for (const Covisible& covisible : CovisibleKeyframes(map, around, options.least_shared)) {
     if (std::ssize(free) < options.free_keyframes) free.push_back(covisible.keyframe);
   }
-  // The first keyframe is where the world is: it never moves.
-  const KeyframeId first = map.keyframes().begin()->first;
+  // A root is where its part of the map is: it never moves.
   std::vector<KeyframeId> fixed;
-  const bool first_is_near = std::erase(free, first) > 0;
-  if (first_is_near) fixed.push_back(first);
+  const auto roots = std::stable_partition(free.begin(), free.end(),
+                                           [&](KeyframeId id) { return !IsRoot(map, id); });
+  fixed.assign(roots, free.end());
+  free.erase(roots, free.end());
   const std::vector<LandmarkId> landmarks = LandmarksOf(map, free);
   for (const KeyframeId id : OutsideObservers(map, free, landmarks, options.fixed_keyframes)) {
-    if (id != first || !first_is_near) fixed.push_back(id);
+    if (!std::count(fixed.begin(), fixed.end(), id)) fixed.push_back(id);
   }
   if (free.empty()) return {{}, {0, 0, 0, true, "nothing is free"}};
   // Without anything to hold it the oldest free keyframe does: the problem has six free degrees.
@@ -137,15 +140,40 @@ Adjustment AdjustLocally(const Map& map, KeyframeId around, const StereoCamera& 
 
 Adjustment AdjustGlobally(const Map& map, const StereoCamera& camera,
                           const GlobalAdjustmentOptions& options) {
-  std::vector<KeyframeId> free;
-  for (const auto& [id, keyframe] : map.keyframes()) free.push_back(id);
-  if (free.size() < 2) return {{}, {0, 0, 0, true, "nothing is free"}};
-  const std::vector<KeyframeId> fixed = {free.front()};
-  free.erase(free.begin());
+  std::vector<KeyframeId> free, fixed;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    (IsRoot(map, id) ? fixed : free).push_back(id);
+  }
+  if (free.empty()) return {{}, {0, 0, 0, true, "nothing is free"}};
   std::vector<LandmarkId> landmarks;
   for (const Landmark* landmark : map.Landmarks()) landmarks.push_back(landmark->id);
   return AdjustTwice(BuildProblem(map, free, fixed, landmarks, camera), options.robust_iterations,
                      options.final_iterations);
+}
+
+MapEdit JoinParts(const Map& map, const LoopEdge& loop) {
+  const std::map<KeyframeId, KeyframeId> roots = Roots(map);
+  const KeyframeId current = roots.at(loop.current), matched = roots.at(loop.matched);
+  MapEdit edit;
+  if (current == matched) return edit;
+  const Eigen::Isometry3d T_new_old = map.At(loop.matched).T_world_rig * loop.T_matched_current *
+                                      map.At(loop.current).T_world_rig.inverse();
+  const auto& [stays, moves] = std::minmax(current, matched);
+  const Eigen::Isometry3d T_world_part = moves == current ? T_new_old : T_new_old.inverse();
+  std::vector<KeyframeId> moving;
+  KeyframeId parent;  // of the younger root: the newest of the other part that is older
+  for (const auto& [id, root] : roots) {
+    if (root == moves) moving.push_back(id);
+    if (root == stays && id < moves) parent = id;
+  }
+  for (const KeyframeId id : moving) {
+    edit.poses.push_back({id, Normalized(T_world_part * map.At(id).T_world_rig)});
+  }
+  for (const LandmarkId id : LandmarksOf(map, moving)) {
+    edit.positions.push_back({id, T_world_part * map.At(id).position});
+  }
+  edit.parents.push_back({moves, parent});
+  return edit;
 }
 
 MapEdit SpreadLoops(const Map& map, const std::vector<LoopEdge>& loops) {
@@ -157,7 +185,7 @@ MapEdit SpreadLoops(const Map& map, const std::vector<LoopEdge>& loops) {
   for (const auto& [id, keyframe] : map.keyframes()) {
     index[id] = static_cast<int>(keyframes.size());
     keyframes.push_back(id);
-    graph.poses.push_back({keyframe->T_world_rig.inverse(), keyframes.size() == 1});
+    graph.poses.push_back({keyframe->T_world_rig.inverse(), IsRoot(map, id)});
   }
   const auto connect = [&](KeyframeId from, KeyframeId to) {
     graph.edges.push_back({index.at(from), index.at(to),
@@ -181,7 +209,7 @@ MapEdit SpreadLoops(const Map& map, const std::vector<LoopEdge>& loops) {
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
     const Eigen::Isometry3d T_world_rig = Normalized(graph.poses[i].T_rig_world.inverse());
     T_new_old[keyframes[i]] = T_world_rig * map.At(keyframes[i]).T_world_rig.inverse();
-    if (i > 0) edit.poses.push_back({keyframes[i], T_world_rig});
+    if (!graph.poses[i].fixed) edit.poses.push_back({keyframes[i], T_world_rig});
   }
   for (const Landmark* landmark : map.Landmarks()) {
     const KeyframeId first = landmark->observations.front().keyframe;

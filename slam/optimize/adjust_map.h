@@ -30,7 +30,7 @@ struct GlobalAdjustmentOptions {
   int final_iterations = 8;   ///< second pass, without outliers
 };
 
-/// Adjusts every keyframe but the first, and every landmark.
+/// Adjusts every keyframe but the roots of the map's parts, and every landmark.
 Adjustment AdjustGlobally(const Map& map, const StereoCamera& camera,
                           const GlobalAdjustmentOptions& options);
 
@@ -40,6 +40,10 @@ struct LoopEdge {
   Eigen::Isometry3d T_matched_current = Eigen::Isometry3d::Identity();
   int inliers = 0;
 };
+
+/// Makes one of the two parts of the map that a loop connects: the younger one moves as a whole to
+/// where the loop says it is. Nothing where both ends are of one part.
+MapEdit JoinParts(const Map& map, const LoopEdge& loop);
 
 /// Spreads the error of loops over the essential graph: spanning tree, strong covisibility, and the
 /// loops. Landmarks move with the first keyframe that saw them.

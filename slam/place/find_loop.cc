@@ -49,7 +49,9 @@ double PathLength(const Map& map, KeyframeId from, KeyframeId to) {
   return length_m;
 }
 
+/// What may have drifted only so far; nothing is known of where two parts of a map lie.
 bool IsPlausible(const Map& map, const LoopEdge& loop, const LoopOptions& options) {
+  if (RootOf(map, loop.current) != RootOf(map, loop.matched)) return true;
   const Eigen::Isometry3d T_found = map.At(loop.matched).T_world_rig * loop.T_matched_current;
   const double shift_m =
       (T_found.translation() - map.At(loop.current).T_world_rig.translation()).norm();
@@ -58,6 +60,8 @@ bool IsPlausible(const Map& map, const LoopEdge& loop, const LoopOptions& option
 }
 
 bool Agree(const Map& map, const LoopEdge& a, const LoopEdge& b, const LoopOptions& options) {
+  if (RootOf(map, a.current) != RootOf(map, b.current)) return false;
+  if (RootOf(map, a.matched) != RootOf(map, b.matched)) return false;
   // Compared where the newer keyframe stands: there the corrections must lead to one place.
   const Eigen::Isometry3d& T_world_rig = map.At(a.current).T_world_rig;
   const Eigen::Isometry3d T_a = Correction(map, a) * T_world_rig;
@@ -114,10 +118,11 @@ std::optional<LoopEdge> FindLoop(const Map& map, KeyframeId current, const WordV
       least_likeness = std::min(least_likeness, Likeness(words, *neighbour));
     }
   }
+  const KeyframeId part = RootOf(map, current);
   int recent = 0;
   for (auto newest = map.keyframes().rbegin();
        newest != map.keyframes().rend() && recent < options.recent_keyframes; ++newest, ++recent) {
-    here.insert(newest->first);
+    if (RootOf(map, newest->first) == part) here.insert(newest->first);
   }
   std::optional<LoopEdge> best;
   int looked_at = 0;

@@ -43,6 +43,7 @@ class LoopPairs : public testing::Test {
     Keyframe keyframe;
     keyframe.id = map.NextKeyframeId();
     keyframe.frame = frame;
+    if (keyframe.id.value > 0) keyframe.parent = {keyframe.id.value - 1};
     keyframe.T_world_rig.translation().x() = 100.0 * static_cast<double>(keyframe.id.value);
     keyframe.landmarks.resize(frame->features.keypoints.size());
     MapEdit edit;

@@ -1,0 +1,166 @@
+#include "slam/map/map_file.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "tests/slam/face/ring_world.h"
+
+namespace aisle::slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string BytesOf(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void Write(const fs::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary).write(bytes.data(), std::ssize(bytes));
+}
+
+std::string ErrorOf(const fs::path& file) {
+  try {
+    LoadMap(file);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// A ring with a past: keyframes and landmarks have gone, and slots are vacant.
+SavedMap UsedMap() {
+  const RingWorld ring(1.01, 0.003);
+  SavedMap saved{ring.camera(), {42}, ring.map()};
+  MapEdit edit;
+  edit.removed_keyframes = {{5}, {6}, {17}};
+  const auto landmarks = saved.map.Landmarks();
+  for (std::size_t i = 0; i < landmarks.size(); i += 7) {
+    edit.removed_landmarks.push_back(landmarks[i]->id);
+  }
+  edit.counts = {{landmarks[1]->id, 7, 3}};
+  saved.map.Apply(edit);
+  return saved;
+}
+
+class MapFile : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder); }
+  void TearDown() override { fs::remove_all(folder); }
+
+  const fs::path folder =
+      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  const fs::path file = folder / "ring.map";
+};
+
+TEST_F(MapFile, GivesBackTheMapToTheLastBit) {
+  const SavedMap saved = UsedMap();
+  SaveMap(saved, file);
+  const SavedMap loaded = LoadMap(file);
+  EXPECT_EQ(loaded.camera, saved.camera);
+  EXPECT_EQ(loaded.reference, saved.reference);
+  ASSERT_EQ(loaded.map.keyframes().size(), saved.map.keyframes().size());
+  EXPECT_EQ(loaded.map.landmark_count(), saved.map.landmark_count());
+  for (const auto& [id, keyframe] : saved.map.keyframes()) {
+    EXPECT_EQ(loaded.map.At(id).T_world_rig.matrix(), keyframe->T_world_rig.matrix());
+    EXPECT_EQ(loaded.map.At(id).landmarks, keyframe->landmarks);
+  }
+  for (const Landmark* landmark : saved.map.Landmarks()) {
+    const Landmark& other = loaded.map.At(landmark->id);
+    EXPECT_EQ(other.position, landmark->position);
+    EXPECT_EQ(other.observations, landmark->observations);
+    EXPECT_EQ(other.predicted, landmark->predicted);
+  }
+  EXPECT_EQ(loaded.map.PoseOf({6}).matrix(), saved.map.PoseOf({6}).matrix());
+  // And all the rest: what is saved of it again is the same file.
+  SaveMap(loaded, folder / "again.map");
+  EXPECT_EQ(BytesOf(folder / "again.map"), BytesOf(file));
+}
+
+TEST_F(MapFile, ALoadedMapGrowsOnAsTheOriginalDoes) {
+  SavedMap a = UsedMap();
+  SaveMap(a, file);
+  SavedMap b = LoadMap(file);
+  // New landmarks take the vacant slots in the same order.
+  MapEdit edit;
+  Keyframe keyframe = a.map.At(a.reference);
+  keyframe.id = a.map.NextKeyframeId();
+  keyframe.parent = a.reference;
+  for (LandmarkId& id : keyframe.landmarks) id = {};
+  edit.new_keyframes = {keyframe};
+  for (int i = 0; i < 20; ++i) {
+    Landmark landmark;
+    landmark.position = {0.1 * i, 0, 3};
+    landmark.observations = {{keyframe.id, i}};
+    landmark.created_by = keyframe.id;
+    edit.new_landmarks.push_back(landmark);
+  }
+  a.map.Apply(edit);
+  b.map.Apply(edit);
+  SaveMap(a, folder / "a.map");
+  SaveMap(b, folder / "b.map");
+  EXPECT_EQ(BytesOf(folder / "a.map"), BytesOf(folder / "b.map"));
+}
+
+TEST_F(MapFile, NoDamageGoesUnnoticed) {
+  SaveMap(UsedMap(), file);
+  const std::string whole = BytesOf(file);
+  const fs::path broken = folder / "broken.map";
+  for (const std::size_t at : {std::size_t{40}, whole.size() / 2, whole.size() - 1}) {
+    for (const int bit : {0, 3, 7}) {
+      std::string bytes = whole;
+      bytes[at] = static_cast<char>(bytes[at] ^ (1 << bit));
+      Write(broken, bytes);
+      EXPECT_THAT(ErrorOf(broken), testing::HasSubstr("broken.map: is damaged"))
+          << "byte " << at << " bit " << bit;
+    }
+  }
+  for (const std::size_t length : {std::size_t{50}, whole.size() / 3, whole.size() - 1}) {
+    Write(broken, whole.substr(0, length));
+    EXPECT_THAT(ErrorOf(broken), testing::HasSubstr("is damaged")) << length << " bytes";
+  }
+  Write(broken, whole + "x");
+  EXPECT_THAT(ErrorOf(broken), testing::HasSubstr("is damaged"));
+}
+
+TEST_F(MapFile, WhatIsNoMapIsCalledThat) {
+  EXPECT_THAT(ErrorOf(folder / "absent.map"), testing::HasSubstr("absent.map: cannot be opened"));
+  EXPECT_THAT(ErrorOf(folder), testing::HasSubstr("cannot be opened"));
+  Write(file, "1403636579763555584,0,0,0,0,0,0,1, a trajectory and no map");
+  EXPECT_THAT(ErrorOf(file), testing::HasSubstr("is no map; save one with"));
+  Write(file, "");
+  EXPECT_THAT(ErrorOf(file), testing::HasSubstr("is no map"));
+  SaveMap(UsedMap(), file);
+  std::string bytes = BytesOf(file);
+  bytes[8] = 9;
+  Write(file, bytes);
+  EXPECT_THAT(ErrorOf(file), testing::HasSubstr("is of version 9, this program reads version 1"));
+}
+
+TEST_F(MapFile, AFileThatCannotBeWrittenSaysSo) {
+  EXPECT_THROW(SaveMap(UsedMap(), folder / "no" / "such.map"), std::runtime_error);
+}
+
+TEST(MapContents, ListsThatContradictEachOtherMakeNoMap) {
+  const MapContents whole = UsedMap().map.Contents();
+  EXPECT_NO_THROW(Map{whole});
+  const auto expect_refused = [&](const char* what, auto&& spoil) {
+    MapContents contents = whole;
+    spoil(contents);
+    EXPECT_THROW(Map{contents}, std::invalid_argument) << what;
+  };
+  expect_refused("slot twice", [](auto& c) { c.landmarks[1].id = c.landmarks[0].id; });
+  expect_refused("slot beyond", [](auto& c) { c.vacant.push_back(1 << 30); });
+  expect_refused("unseen landmark", [](auto& c) { c.landmarks[0].observations.clear(); });
+  expect_refused("sight of nothing",
+                 [](auto& c) { c.landmarks[0].observations[0].feature = 9999; });
+  expect_refused("name of nothing", [](auto& c) { c.keyframes[0].landmarks[0] = {3, 99}; });
+  expect_refused("own parent", [](auto& c) { c.keyframes[3].parent = c.keyframes[3].id; });
+  expect_refused("parent unknown", [](auto& c) { c.keyframes.erase(c.keyframes.begin()); });
+  expect_refused("order", [](auto& c) { std::swap(c.keyframes[0], c.keyframes[1]); });
+  expect_refused("number", [](auto& c) { c.next_keyframe = 3; });
+}
+
+}  // namespace
+}  // namespace aisle::slam
