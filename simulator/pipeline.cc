@@ -343,14 +343,22 @@ LightCheck Pipeline::CheckLight(std::int64_t stamp_ns, const Eigen::Isometry3d& 
   cv::resize(RenderRadiance(stamp_ns, T_world_rig)[0](whole), check.nightly,
              {small.width, small.height}, 0, 0, cv::INTER_AREA);
   check.nightly *= self.options.sensor.exposure;
-  check.reference = self.arena.execute([&] {
+  std::array<cv::Mat1f, 2> halves;
+  self.arena.execute([&] {
     const Instant instant = self.tracer.Pose(self.world.At(stamp_ns));
     const TexturePool textures(self.world.textures());
+    const Reference reference(self.world, textures);
     const PixelRays rays = MakePixelRays(small);
     const EyeView view(rays, EyePose(small, T_world_rig, Eye::kLeft));
-    return Reference(self.world, textures).Render(instant, view, {.samples = samples});
+    for (std::size_t i = 0; i < 2; ++i) {
+      halves[i] = reference.Render(instant, view, {.samples = (samples + 1) / 2, .seed = i + 1});
+      halves[i] *= self.options.sensor.exposure;
+    }
   });
-  check.reference *= self.options.sensor.exposure;
+  check.reference = (halves[0] + halves[1]) / 2;
+  const LightError noise = CompareLight(halves[0], halves[1]);
+  check.noise_median_relative = noise.median_relative;
+  check.noise_ssim = noise.ssim;
   const LightError error = CompareLight(check.nightly, check.reference);
   check.median_relative_error = error.median_relative;
   check.ssim = error.ssim;

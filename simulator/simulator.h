@@ -127,6 +127,9 @@ struct LightCheck {
   double median_relative_error = 0;  ///< over pixels
   double ssim = 0;                   ///< structural similarity, what is over white cut to white
   double mean_ratio = 0;             ///< nightly over reference
+  /// The same of two references of half as many paths each, against each other: what of the error
+  /// is the paths' own noise.
+  double noise_median_relative = 0, noise_ssim = 0;
 };
 
 /// The face of the simulator: a scene that can be photographed at any time from any pose. A frame

@@ -31,7 +31,9 @@ LightComparison CompareLight(const SimulatedSequenceOptions& options, int frame,
           .reference = std::move(check.reference),
           .median_relative_error = check.median_relative_error,
           .ssim = check.ssim,
-          .mean_ratio = check.mean_ratio};
+          .mean_ratio = check.mean_ratio,
+          .noise_median_relative = check.noise_median_relative,
+          .noise_ssim = check.noise_ssim};
 }
 
 }  // namespace aisle

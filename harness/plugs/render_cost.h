@@ -29,6 +29,8 @@ struct LightComparison {
   double median_relative_error = 0;
   double ssim = 0;
   double mean_ratio = 0;  ///< nightly over reference
+  /// Of two references of half as many paths each: what of the error is their noise.
+  double noise_median_relative = 0, noise_ssim = 0;
 };
 
 /// `frame` < 0: the middle one; both images are `reduce` times smaller than the camera's. Minutes.

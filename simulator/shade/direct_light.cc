@@ -2,6 +2,7 @@
 
 #include <unordered_map>
 
+#include "simulator/shade/hemisphere.h"
 #include "simulator/shade/wide.h"
 
 namespace aisle::sim {
@@ -40,10 +41,9 @@ Shape ProbeShape(const AreaLight& light) {
 }
 Shape FineShape(const Shape& probe) { return {probe.columns * 2, probe.rows * 2}; }
 
-/// Light per area and radiance from one place of the light: cos·cos' / r²; and the way there.
+/// Light per area and radiance from one place of the light, and the way there.
 struct Sample8 {
   F8 dx, dy, dz, distance;
-  F8 flow;    ///< cos' / r⁴: times the way it is what the normal is multiplied with
   F8 weight;  ///< cos·cos' / r²
 };
 
@@ -64,8 +64,7 @@ class Light {
     s.distance = Sqrt(squared);
     const F8 here = p.nx * s.dx + p.ny * s.dy + p.nz * s.dz;
     const F8 there = -(normal_.x() * s.dx + normal_.y() * s.dy + normal_.z() * s.dz);
-    s.flow = Select(here > 0, Max(there, Wide(0)) / (squared * squared), Wide(0));
-    s.weight = here * s.flow;
+    s.weight = Max(here, Wide(0)) * Max(there, Wide(0)) / (squared * squared);
     return s;
   }
   F8 Unshadowed(const Points8& p) const { return At(p, 0, 0).weight * power(); }
@@ -96,22 +95,8 @@ unsigned Blocked(const Instant& instant, const Points8& p, const Sample8& s,
 
 /// The light's irradiance from a grid of places on it, and whether lanes saw some but not all.
 struct Gathered {
-  F8 irradiance = Wide(0), x = Wide(0), y = Wide(0), z = Wide(0);
+  F8 irradiance = Wide(0);
   unsigned mixed = 0;
-
-  void Add(const Sample8& s, I8 open, float share) {
-    const F8 flow = Select(open, s.flow, Wide(0)) * share;
-    irradiance += Select(open, s.weight, Wide(0)) * share;
-    x += flow * s.dx;
-    y += flow * s.dy;
-    z += flow * s.dz;
-  }
-  void Add(const Gathered& other, F8 scale) {
-    irradiance += other.irradiance * scale;
-    x += other.x * scale;
-    y += other.y * scale;
-    z += other.z * scale;
-  }
 };
 
 Gathered Gather(const Instant& instant, const Light& light, const Points8& p, Shape shape,
@@ -125,13 +110,46 @@ Gathered Gather(const Instant& instant, const Light& light, const Points8& p, Sh
       const float b = (2 * static_cast<float>(row) + 1) / static_cast<float>(shape.rows) - 1;
       const Sample8 s = light.At(p, a, b);
       const unsigned blocked = Blocked(instant, p, s, occluders);
-      result.Add(s, ~LanesOf(blocked), share);
+      result.irradiance += Select(LanesOf(blocked), Wide(0), s.weight) * share;
       any_blocked |= blocked;
       any_open |= ~blocked;
     }
   }
   result.mixed = any_blocked & any_open & 0xff;
   return result;
+}
+
+float Sum(F8 lanes) {
+  float sum = 0;
+  for (int k = 0; k < kLanes; ++k) sum += lanes[k];
+  return sum;
+}
+
+/// Van der Corput's sequence: the binary digits of i behind the point.
+float Halves(unsigned i) {
+  float result = 0;
+  for (float digit = 0.5f; i; i >>= 1, digit /= 2) result += digit * static_cast<float>(i & 1);
+  return result;
+}
+
+/// How likely each light is to be asked: its share of each lane's unshadowed light, summed over
+/// the lanes. Cumulative; the last is the total.
+std::vector<float> LightShares(std::span<const AreaLight> lights,
+                               std::span<const float> light_scale, const Points8& p) {
+  // From two places, so that a light whose middle is behind the horizon is not forgotten.
+  std::vector<F8> unshadowed;
+  F8 total = Wide(0);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const Light light(lights[i]);
+    const F8 sum = light.At(p, -0.6f, -0.6f).weight + light.At(p, 0.6f, 0.6f).weight;
+    unshadowed.push_back(sum * (light.power() * light_scale[i]));
+    total += unshadowed.back();
+  }
+  const F8 scale = Select(total > 0, 1 / Max(total, Wide(1e-20f)), Wide(0));
+  std::vector<float> cumulative;
+  float sum = 0;
+  for (const F8& light : unshadowed) cumulative.push_back(sum += Sum(light * scale));
+  return cumulative;
 }
 
 }  // namespace
@@ -187,11 +205,11 @@ std::vector<std::uint32_t> GroupsOf(std::span<const SurfacePoint> points,
   return leaders;
 }
 
-std::array<DirectLight, kLanes> GatherDirectLight(const Instant& instant,
-                                                  std::span<const AreaLight> lights,
-                                                  std::span<const float> light_scale,
-                                                  std::span<const SurfacePoint> points,
-                                                  const DirectLightOptions& options) {
+std::array<float, kLanes> GatherDirectLight(const Instant& instant,
+                                            std::span<const AreaLight> lights,
+                                            std::span<const float> light_scale,
+                                            std::span<const SurfacePoint> points,
+                                            const DirectLightOptions& options) {
   const Points8 p = Load(points);
   // Strongest first; lanes of a packet are neighbours, so they share the order.
   std::vector<std::pair<float, std::size_t>> order;
@@ -200,8 +218,7 @@ std::array<DirectLight, kLanes> GatherDirectLight(const Instant& instant,
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (light_scale[i] <= 0) continue;
     const F8 light = Light(lights[i]).Unshadowed(p) * light_scale[i];
-    float sum = 0;
-    for (int k = 0; k < kLanes; ++k) sum += light[k];
+    const float sum = Sum(light);
     if (sum <= 0) continue;
     unshadowed += light;
     left += sum;
@@ -210,32 +227,59 @@ std::array<DirectLight, kLanes> GatherDirectLight(const Instant& instant,
   std::ranges::sort(order);
   const float enough = left * options.untraced_share;
 
-  Gathered sum;
-  F8 traced = Wide(0);
+  F8 sum = Wide(0), traced = Wide(0);
   for (const auto& [negative, i] : order) {
     if (left <= enough) break;
     left += negative;
     const Light light(lights[i]);
     traced += light.Unshadowed(p) * light_scale[i];
     const Shape probe = ProbeShape(lights[i]);
-    Gathered gathered = Gather(instant, light, p, probe, options.occluders);
-    if (gathered.mixed && options.refine) {
+    const Gathered coarse = Gather(instant, light, p, probe, options.occluders);
+    F8 irradiance = coarse.irradiance;
+    if (coarse.mixed) {
       const Gathered fine = Gather(instant, light, p, FineShape(probe), options.occluders);
-      const F8 mixed = Select(LanesOf(gathered.mixed), Wide(1), Wide(0));
-      Gathered both;
-      both.Add(gathered, 1 - mixed);
-      both.Add(fine, mixed);
-      gathered = both;
+      irradiance = Select(LanesOf(coarse.mixed), fine.irradiance, irradiance);
     }
-    sum.Add(gathered, Wide(light_scale[i]));
+    sum += irradiance * light_scale[i];
   }
   const F8 grow = Select(traced > 0, unshadowed / Max(traced, Wide(1e-12f)), Wide(1));
-  std::array<DirectLight, kLanes> result;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto lane = static_cast<int>(k);
-    result[k] = {sum.irradiance[lane] * grow[lane],
-                 Eigen::Vector3f(sum.x[lane], sum.y[lane], sum.z[lane]) * grow[lane]};
+  std::array<float, kLanes> result;
+  Store(sum * grow, result.data());
+  return result;
+}
+
+std::array<float, kLanes> SampleDirectLight(const Instant& instant,
+                                            std::span<const AreaLight> lights,
+                                            std::span<const float> light_scale,
+                                            std::span<const SurfacePoint> points, int samples,
+                                            std::uint32_t turn) {
+  const Points8 p = Load(points);
+  const std::vector<float> shares = LightShares(lights, light_scale, p);
+  std::array<float, kLanes> result{};
+  if (shares.empty() || shares.back() <= 0) return result;
+  const Eigen::Vector2f shift = SpreadPoint(static_cast<int>(turn % 4096));
+  F8 sum = Wide(0);
+  std::size_t i = 0;
+  for (int sample = 0; sample < samples; ++sample) {
+    const float at =
+        shares.back() * (static_cast<float>(sample) + shift.x()) / static_cast<float>(samples);
+    while (i + 1 < shares.size() && shares[i] <= at) ++i;
+    const float before = i ? shares[i - 1] : 0, share = shares[i] - before;
+    if (share <= 0) continue;
+    // The rest of the number that chose the light spreads its samples along its longer side.
+    const float along = std::clamp(2 * (at - before) / share - 1, -1.0f, 1.0f);
+    const float turned = Halves(static_cast<unsigned>(sample)) + shift.y();
+    const float across = 2 * (turned - std::floor(turned)) - 1;
+    const AreaLight& light = lights[i];
+    const bool u_is_long = light.half_u.squaredNorm() >= light.half_v.squaredNorm();
+    const Light shape(light);
+    const Sample8 s = shape.At(p, u_is_long ? along : across, u_is_long ? across : along);
+    const unsigned blocked = Blocked(instant, p, s, kEverything);
+    const float weight =
+        shape.power() * light_scale[i] * shares.back() / (share * static_cast<float>(samples));
+    sum += Select(LanesOf(blocked), Wide(0), s.weight * weight);
   }
+  Store(sum, result.data());
   return result;
 }
 

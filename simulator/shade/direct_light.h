@@ -35,25 +35,25 @@ struct DirectLightOptions {
   /// Lights that together give less than this share of a packet's unshadowed light are not traced;
   /// they are taken to be as visible as the others.
   float untraced_share = 0.03f;
-  bool refine = true;  ///< probe penumbrae again, at sixteen points of the light
   GeometryMask occluders = kEverything;
 };
 
-/// What a point receives straight from the luminaires.
-struct DirectLight {
-  float irradiance = 0;
-  /// Whose product with the normal is the irradiance: how it changes when the normal turns a
-  /// little.
-  Eigen::Vector3f vector = Eigen::Vector3f::Zero();
-};
-
 /// Irradiance that up to eight points receive straight from the luminaires, with soft shadows. A
-/// light is first probed at four points of its area; where these disagree (penumbra), at sixteen,
-/// if so wished. `light_scale` dims each light. One result a point.
-std::array<DirectLight, kLanes> GatherDirectLight(const Instant& instant,
-                                                  std::span<const AreaLight> lights,
-                                                  std::span<const float> light_scale,
-                                                  std::span<const SurfacePoint> points,
-                                                  const DirectLightOptions& options);
+/// light is first probed at four points of its area; where these disagree (penumbra), at sixteen.
+/// `light_scale` dims each light. One result a point.
+std::array<float, kLanes> GatherDirectLight(const Instant& instant,
+                                            std::span<const AreaLight> lights,
+                                            std::span<const float> light_scale,
+                                            std::span<const SurfacePoint> points,
+                                            const DirectLightOptions& options);
+
+/// The same at a fixed price: `samples` shadow rays a point, dealt out to the lights by what they
+/// give the packet unshadowed and spread over their areas. Unbiased over `turn`, which sets another
+/// choice of places on the lights.
+std::array<float, kLanes> SampleDirectLight(const Instant& instant,
+                                            std::span<const AreaLight> lights,
+                                            std::span<const float> light_scale,
+                                            std::span<const SurfacePoint> points, int samples,
+                                            std::uint32_t turn);
 
 }  // namespace aisle::sim

@@ -10,45 +10,36 @@
 namespace aisle::sim {
 namespace {
 
-constexpr float kUntracedShare = 0.08f;
-constexpr float kClusterSize = 0.06f;    // m: points nearer than this share their shadow rays
 constexpr float kBodyReach = 1.0f;       // m: how far a body darkens itself
 constexpr float kBodyReflection = 0.3f;  // what the blocking parts send on in turn
+constexpr int kMostRays = 64;  // from a visible point to the lamps; half as many to bodies
 
-/// Share of the hemisphere over each point that the mover's own bind pose leaves open.
-std::vector<float> OpennessOf(const Tracer& tracer, const World& world, std::size_t mover,
-                              const LightGrid& grid) {
-  const TriangleMesh& mesh = world.mover_meshes()[mover];
-  Snapshot bind;
-  for (const TriangleMesh& each : world.mover_meshes()) {
-    bind.movers.push_back(
-        {.instance = 0, .positions = each.positions, .normals = each.normals, .velocities = {}});
-  }
-  const Instant instant = tracer.Pose(std::move(bind));
-  const std::vector<SurfacePoint> points = LocatePoints(grid, mesh, mesh.positions, mesh.normals);
-  const std::vector<Eigen::Vector3f> directions = CosineDirections(64);
-  std::vector<float> openness(points.size());
-  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-    const Eigen::Matrix3f basis = BasisAround(points[i].normal);
-    Rays8 rays;
-    int blocked = 0;
-    for (std::size_t d = 0; d < directions.size(); d += kLanes) {
-      for (std::size_t k = 0; k < kLanes; ++k) {
-        SetRay(points[i].position, basis * directions[d + k], kBodyReach, static_cast<int>(k),
-               &rays);
-      }
-      blocked += std::popcount(instant.Occluded(rays, Coherence::kIncoherent, MoverBit(mover)));
+/// Share of the indirect light at a point of a mover that movers within reach, itself among them,
+/// leave, and send on in turn. `directions` are cosine-distributed, a whole number of packets.
+float OpennessAt(const Instant& instant, const SurfacePoint& point,
+                 std::span<const Eigen::Vector3f> directions) {
+  const Eigen::Matrix3f basis = BasisAround(point.normal);
+  Rays8 rays;
+  int blocked = 0;
+  for (std::size_t d = 0; d < directions.size(); d += kLanes) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      SetRay(point.position, basis * directions[d + k], kBodyReach, static_cast<int>(k), &rays);
     }
-    const float share = static_cast<float>(blocked) / static_cast<float>(directions.size());
-    openness[i] = 1 - share * (1 - kBodyReflection);
-  });
-  return openness;
+    blocked += std::popcount(instant.Occluded(rays, Coherence::kIncoherent, kMoversOnly));
+  }
+  const float share = static_cast<float>(blocked) / static_cast<float>(directions.size());
+  return 1 - share * (1 - kBodyReflection);
 }
 
-/// Which triangles of which mover the images show: a byte a record.
-std::vector<std::uint8_t> VisibleRecords(std::span<const HitImage> images,
-                                         std::span<const std::int32_t> bases, std::size_t count) {
-  std::vector<std::uint8_t> visible(count);
+/// What the images show of the movers.
+struct Seen {
+  std::vector<std::uint8_t> records;  ///< 1 where a triangle shows
+  std::vector<std::uint32_t> pixels;  ///< by mover
+};
+
+Seen FindSeen(std::span<const HitImage> images, std::span<const std::int32_t> bases,
+              std::size_t records) {
+  Seen seen{std::vector<std::uint8_t>(records), std::vector<std::uint32_t>(bases.size())};
   for (const HitImage& image : images) {
     tbb::parallel_for(0, image.height, [&](int y) {
       const std::size_t row = image.Index(0, y);
@@ -56,11 +47,18 @@ std::vector<std::uint8_t> VisibleRecords(std::span<const HitImage> images,
         const std::uint32_t geometry = image.geometry[i];
         if (geometry == 0 || geometry == kNoGeometry) continue;
         const auto record = static_cast<std::size_t>(bases[geometry - 1]) + image.primitive[i];
-        std::atomic_ref(visible[record]).store(1, std::memory_order_relaxed);
+        std::atomic_ref(seen.records[record]).store(1, std::memory_order_relaxed);
+        std::atomic_ref(seen.pixels[geometry - 1]).fetch_add(1, std::memory_order_relaxed);
       }
     });
   }
-  return visible;
+  return seen;
+}
+
+/// Rays from each point of a mover: many where a point stands for many pixels, few where the errors
+/// of neighbours fall into one pixel.
+int RaysPerPoint(std::size_t pixels, std::size_t points) {
+  return pixels >= 16 * points ? kMostRays : pixels >= 8 * points ? kMostRays / 2 : kMostRays / 4;
 }
 
 /// Gives points that were not lit the mean of the lit ones of their triangle, or of the body: an
@@ -99,8 +97,7 @@ void FillUnlit(const LightGrid& grid, const TriangleMesh& mesh, std::vector<floa
 
 }  // namespace
 
-SurfaceTables::SurfaceTables(const World& world, const Tracer& tracer, const LightGrid& static_grid,
-                             float mover_texel_m)
+SurfaceTables::SurfaceTables(const World& world, const LightGrid& static_grid, float mover_texel_m)
     : world_(&world) {
   const TriangleMesh& mesh = world.statics().mesh;
   statics_ = MakeSurfaceTable(mesh, mesh.positions, static_grid.patches, world.materials());
@@ -114,29 +111,25 @@ SurfaceTables::SurfaceTables(const World& world, const Tracer& tracer, const Lig
   }
   for (std::size_t i = 0; i < world.mover_meshes().size(); ++i) {
     const TriangleMesh& mover = world.mover_meshes()[i];
-    MoverGrid own;
-    own.grid = MakeLightGrid(mover, mover_texel_m);
-    own.openness = OpennessOf(tracer, world, i, own.grid);
-    own.group = GroupsOf(LocatePoints(own.grid, mover, mover.positions, mover.normals),
-                         {.cell_m = kClusterSize});
+    LightGrid grid = MakeLightGrid(mover, mover_texel_m);
     mover_bases_.push_back(static_cast<std::int32_t>(mover_records_.size()));
     slot_bases_.push_back(slot_count_);
     for (SurfaceRecord record :
-         MakeSurfaceTable(mover, mover.positions, own.grid.patches, world.materials())) {
+         MakeSurfaceTable(mover, mover.positions, grid.patches, world.materials())) {
       record.light.slot += static_cast<std::int32_t>(slot_count_);
       mover_records_.push_back(record);
     }
-    slot_count_ += own.grid.point_of_slot.size();
-    movers_.push_back(std::move(own));
+    slot_count_ += grid.point_of_slot.size();
+    mover_grids_.push_back(std::move(grid));
   }
 }
 
 void SurfaceTables::LightMover(const Instant& instant, std::size_t mover, const LightVolume& volume,
-                               std::span<const std::uint8_t> visible,
+                               std::span<const std::uint8_t> visible, std::size_t pixels,
                                std::span<float> slots) const {
   const MoverState& state = instant.snapshot().movers[mover];
   const TriangleMesh& mesh = world_->mover_meshes()[mover];
-  const LightGrid& grid = movers_[mover].grid;
+  const LightGrid& grid = mover_grids_[mover];
   std::vector<std::uint8_t> wanted(grid.points.size());
   for (std::size_t i = 0; i < visible.size(); ++i) {
     if (!visible[i]) continue;
@@ -149,42 +142,26 @@ void SurfaceTables::LightMover(const Instant& instant, std::size_t mover, const 
       if (point < LightGrid::kExtrapolated) wanted[point] = 1;
     }
   }
-  // The first seen point of a group leads it: the group's others may lie in a layer of clothes
-  // below, where no light comes.
-  constexpr std::uint32_t kNobody = 0xffffffffu;
-  std::vector<std::uint32_t> leader_of_group(wanted.size(), kNobody), leader(wanted.size());
-  std::vector<std::uint32_t> points, leaders;
+  std::vector<std::uint32_t> points;
   for (std::uint32_t i = 0; i < wanted.size(); ++i) {
-    if (!wanted[i]) continue;
-    points.push_back(i);
-    std::uint32_t& lead = leader_of_group[movers_[mover].group[i]];
-    if (lead == kNobody) leaders.push_back(lead = i);
-    leader[i] = lead;
+    if (wanted[i]) points.push_back(i);
   }
   if (points.empty()) return;
+  const int rays = RaysPerPoint(pixels, points.size());
   const std::vector<SurfacePoint> places = LocatePoints(grid, mesh, state.positions, state.normals);
-  std::vector<DirectLight> direct(grid.points.size());
-  tbb::parallel_for(std::size_t{0}, (leaders.size() + kLanes - 1) / kLanes, [&](std::size_t i) {
-    const std::size_t first = i * kLanes;
-    const std::size_t count = std::min<std::size_t>(kLanes, leaders.size() - first);
-    std::array<SurfacePoint, kLanes> eight;
-    for (std::size_t k = 0; k < count; ++k) eight[k] = places[leaders[first + k]];
-    // Many lamps and small bodies: steps of a quarter lamp are lost among them.
-    const auto light = GatherDirectLight(instant, world_->lights(), instant.snapshot().light_scale,
-                                         std::span(eight).first(count),
-                                         {.untraced_share = kUntracedShare, .refine = false});
-    for (std::size_t k = 0; k < count; ++k) direct[leaders[first + k]] = light[k];
-  });
-
+  const std::vector<Eigen::Vector3f> directions = CosineDirections(rays / 2);
   std::vector<float> light(grid.points.size(), -1);
-  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-    const std::uint32_t point = points[i];
-    const SurfacePoint& place = places[point];
-    const DirectLight& lead = direct[leader[point]];
-    // To first order in how the normals differ.
-    const float turned = (place.normal - places[leader[point]].normal).dot(lead.vector);
-    light[point] = std::max(0.0f, lead.irradiance + turned) +
-                   movers_[mover].openness[point] * volume.Irradiance(place.position, place.normal);
+  tbb::parallel_for(std::size_t{0}, (points.size() + kLanes - 1) / kLanes, [&](std::size_t i) {
+    const std::span packet = std::span(points).subspan(i * kLanes);
+    const std::size_t count = std::min<std::size_t>(kLanes, packet.size());
+    std::array<SurfacePoint, kLanes> eight;
+    for (std::size_t k = 0; k < count; ++k) eight[k] = places[packet[k]];
+    const auto direct = SampleDirectLight(instant, world_->lights(), instant.snapshot().light_scale,
+                                          std::span(eight).first(count), rays, packet[0]);
+    for (std::size_t k = 0; k < count; ++k) {
+      light[packet[k]] = direct[k] + OpennessAt(instant, eight[k], directions) *
+                                         volume.Irradiance(eight[k].position, eight[k].normal);
+    }
   });
   FillUnlit(grid, mesh, &light);
   FillSlots(grid, light, slots);
@@ -198,18 +175,17 @@ void SurfaceTables::PrepareFrame(const Instant& instant, std::span<const HitImag
   frame->mover_light.assign(slot_count_, 0);
   const std::size_t movers = instant.snapshot().movers.size();
   if (movers == 0) return;
-  const std::vector<std::uint8_t> visible =
-      VisibleRecords(images, mover_bases_, mover_records_.size());
+  const Seen all_seen = FindSeen(images, mover_bases_, mover_records_.size());
   for (std::size_t i = 0; i < movers; ++i) {
     const auto base = static_cast<std::size_t>(mover_bases_[i]);
     const std::size_t triangles = world_->mover_meshes()[i].triangles.size();
     const std::span records = std::span(frame->mover_records).subspan(base, triangles);
-    const auto seen = std::span(visible).subspan(base, triangles);
-    if (std::ranges::find(seen, 1) == seen.end()) continue;
+    const auto seen = std::span(all_seen.records).subspan(base, triangles);
+    if (all_seen.pixels[i] == 0) continue;
     PoseSurfaceTable(world_->mover_meshes()[i], instant.snapshot().movers[i].positions, records);
-    LightMover(instant, i, frame->statics->volume, seen,
+    LightMover(instant, i, frame->statics->volume, seen, all_seen.pixels[i] / images.size(),
                std::span(frame->mover_light)
-                   .subspan(slot_bases_[i], movers_[i].grid.point_of_slot.size()));
+                   .subspan(slot_bases_[i], mover_grids_[i].point_of_slot.size()));
   }
 }
 

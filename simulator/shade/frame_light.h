@@ -22,8 +22,7 @@ struct FrameLight {
 /// What every frame shares: the static world's records, and the movers' before they are posed.
 class SurfaceTables {
  public:
-  SurfaceTables(const World& world, const Tracer& tracer, const LightGrid& static_grid,
-                float mover_texel_m);
+  SurfaceTables(const World& world, const LightGrid& static_grid, float mover_texel_m);
 
   const std::vector<SurfaceRecord>& statics() const { return statics_; }
   /// Finish of each static triangle; empty where the whole world is dull.
@@ -37,16 +36,9 @@ class SurfaceTables {
                     std::shared_ptr<const LightState> statics, FrameLight* frame) const;
 
  private:
-  struct MoverGrid {
-    LightGrid grid;
-    std::vector<float>
-        openness;  ///< by point: share of the indirect light that its own body leaves
-    /// By point: its group, whose points share shadow rays: near by and facing alike.
-    std::vector<std::uint32_t> group;
-  };
-
   void LightMover(const Instant& instant, std::size_t mover, const LightVolume& volume,
-                  std::span<const std::uint8_t> visible, std::span<float> slots) const;
+                  std::span<const std::uint8_t> visible, std::size_t pixels,
+                  std::span<float> slots) const;
 
   const World* world_;
   std::vector<SurfaceRecord> statics_;
@@ -55,7 +47,7 @@ class SurfaceTables {
   std::vector<std::int32_t> mover_bases_;
   std::vector<std::size_t> slot_bases_;
   std::size_t slot_count_ = 0;
-  std::vector<MoverGrid> movers_;
+  std::vector<LightGrid> mover_grids_;
 };
 
 /// Looks up eight neighbouring pixels' (or any eight) hits, whichever family they belong to; lanes

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the solver or this format changes, so that old files are not read.
-constexpr std::uint64_t kVersion = 2;
+constexpr std::uint64_t kVersion = 3;
 
 struct Header {
   std::uint64_t magic = 0x746867696c736961;  // "aislight"
@@ -94,9 +94,9 @@ std::uint64_t LightKey(const World& world, const StaticLightOptions& options,
     add(&light.radiance, sizeof(light.radiance));
   }
   add_all(light_scale);
-  add_all(fmt::format("{} {} {} {} {} {} {}", options.isa, options.texel_m, options.coarse_texel_m,
-                      options.volume_spacing_m, options.directions, options.bounces,
-                      options.max_points));
+  add_all(fmt::format("{} {} {} {} {} {} {} {}", options.isa, options.texel_m,
+                      options.coarse_texel_m, options.volume_spacing_m, options.directions,
+                      options.volume_directions, options.bounces, options.max_points));
   return key;
 }
 

@@ -66,6 +66,53 @@ Patches MakePatches(std::span<const SurfacePoint> points, std::span<const float>
   return patches;
 }
 
+std::vector<std::uint32_t> PatchesOf(const LightGrid& fine, const LightGrid& coarse,
+                                     const Patches& patches) {
+  std::vector<std::uint32_t> patch_of;
+  patch_of.reserve(fine.points.size());
+  for (const LightPoint& point : fine.points) {
+    patch_of.push_back(patches.of_point[NearestPoint(coarse, point.triangle, point.u, point.v)]);
+  }
+  return patch_of;
+}
+
+void CentrePatches(std::span<const SurfacePoint> fine, std::span<const std::uint32_t> patch_of,
+                   Patches* patches) {
+  const std::size_t count = patches->places.size();
+  std::vector<Eigen::Vector3f> middle(count, Eigen::Vector3f::Zero());
+  std::vector<float> members(count), nearest(count, kInfinity);
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    middle[patch_of[i]] += fine[i].position;
+    members[patch_of[i]] += 1;
+  }
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    const std::uint32_t patch = patch_of[i];
+    const float away = (fine[i].position - middle[patch] / members[patch]).squaredNorm();
+    if (away >= nearest[patch]) continue;
+    nearest[patch] = away;
+    patches->places[patch] = fine[i];
+  }
+}
+
+std::vector<float> MeanByPatch(const LightGrid& fine, std::span<const float> values,
+                               std::span<const std::uint32_t> patch_of, std::size_t patches) {
+  std::vector<float> sum(patches), area(patches);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const LightPoint& point = fine.points[i];
+    // A point on an edge of its triangle stands for half a cell of it, one at a corner for a
+    // quarter.
+    constexpr float kOnEdge = 1e-4f;
+    float weight = 1;
+    for (const float share : {point.u, point.v, 1 - point.u - point.v}) {
+      if (share < kOnEdge) weight *= 0.5f;
+    }
+    sum[patch_of[i]] += weight * values[i];
+    area[patch_of[i]] += weight;
+  }
+  for (std::size_t i = 0; i < patches; ++i) sum[i] /= std::max(area[i], 1e-9f);
+  return sum;
+}
+
 Radiosity SolveRadiosity(const Instant& statics, const LightGrid& grid, const Patches& patches,
                          std::vector<float> direct, const RadiosityOptions& options) {
   const std::size_t count = patches.places.size();

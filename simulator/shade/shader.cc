@@ -76,7 +76,7 @@ Shader::Shader(const World& world, const Tracer& tracer, const ShadeOptions& opt
       options_(options),
       textures_(world.textures()),
       static_light_(world, tracer, textures_, options.statics),
-      tables_(world, tracer, static_light_.grid(), options.mover_texel_m) {}
+      tables_(world, static_light_.grid(), options.mover_texel_m) {}
 
 Shader::~Shader() = default;
 

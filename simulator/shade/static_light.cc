@@ -15,6 +15,9 @@ namespace aisle::sim {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
+// The faint lamps are the far ones, which racks hide more often than the near: taking them to be as
+// visible as these would brighten the racks by this share.
+constexpr float kUntracedShare = 0.003f;
 
 LightGrid GridWithin(const TriangleMesh& mesh, float texel, std::size_t max_points) {
   LightGrid grid = MakeLightGrid(mesh, texel);
@@ -56,9 +59,10 @@ std::vector<float> DirectAt(const Instant& statics, const World& world,
   tbb::parallel_for(std::size_t{0}, (points.size() + kLanes - 1) / kLanes, [&](std::size_t i) {
     const std::size_t first = i * kLanes;
     const std::size_t count = std::min<std::size_t>(kLanes, points.size() - first);
-    const auto light = GatherDirectLight(statics, world.lights(), light_scale,
-                                         points.subspan(first, count), {.occluders = kStaticOnly});
-    for (std::size_t k = 0; k < count; ++k) direct[first + k] = light[k].irradiance;
+    const auto light =
+        GatherDirectLight(statics, world.lights(), light_scale, points.subspan(first, count),
+                          {.untraced_share = kUntracedShare, .occluders = kStaticOnly});
+    for (std::size_t k = 0; k < count; ++k) direct[first + k] = light[k];
     progress->Add(count);
   });
   return direct;
@@ -125,20 +129,23 @@ LightState StaticLight::Solve(std::span<const float> light_scale) const {
   const auto locate = [&](const LightGrid& grid) {
     return LocatePoints(grid, mesh, mesh.positions, mesh.normals);
   };
-  const Patches patches =
-      MakePatches(locate(coarse_), AlbedoAt(*world_, *textures_, coarse_, options_.coarse_texel_m));
   // Gathering indirect light takes about a third as long as the direct light of the fine grid.
   const std::size_t indirect_work = fine_.points.size() / 3;
-  Progress progress(options_.progress,
-                    patches.places.size() + fine_.points.size() + 2 * indirect_work);
-  const Radiosity radiosity = SolveRadiosity(
-      statics, coarse_, patches, DirectAt(statics, *world_, light_scale, patches.places, &progress),
-      {.directions = options_.directions, .bounces = options_.bounces});
-  progress.Add(indirect_work);
-
+  Progress progress(options_.progress, fine_.points.size() + 2 * indirect_work);
+  const std::vector<SurfacePoint> places = locate(fine_);
+  const std::vector<float> direct = DirectAt(statics, *world_, light_scale, places, &progress);
   LightState state;
   state.direct.resize(fine_.point_of_slot.size());
-  FillSlots(fine_, DirectAt(statics, *world_, light_scale, locate(fine_), &progress), state.direct);
+  FillSlots(fine_, direct, state.direct);
+
+  Patches patches =
+      MakePatches(locate(coarse_), AlbedoAt(*world_, *textures_, coarse_, options_.coarse_texel_m));
+  const std::vector<std::uint32_t> patch_of = PatchesOf(fine_, coarse_, patches);
+  CentrePatches(places, patch_of, &patches);
+  const Radiosity radiosity = SolveRadiosity(
+      statics, coarse_, patches, MeanByPatch(fine_, direct, patch_of, patches.places.size()),
+      {.directions = options_.directions, .bounces = options_.bounces});
+  progress.Add(indirect_work);
 
   std::vector<float> coarse_indirect;
   for (const std::uint32_t patch : patches.of_point) {
@@ -157,7 +164,7 @@ LightState StaticLight::Solve(std::span<const float> light_scale) const {
   PaintLuminaires(*world_, fine_, light_scale, &state);
 
   state.volume = LightVolume(tracer_->static_box(), options_.volume_spacing_m);
-  FillVolume(statics, coarse_, mesh, patches, radiosity, options_.directions, &state.volume);
+  FillVolume(statics, coarse_, mesh, patches, radiosity, options_.volume_directions, &state.volume);
   progress.Add(indirect_work);
   return state;
 }

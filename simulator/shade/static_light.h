@@ -23,6 +23,7 @@ struct StaticLightOptions {
   float coarse_texel_m = 0.4f;  ///< spacing of the indirect light's points
   float volume_spacing_m = 0.75f;
   int directions = 64;                 ///< rays a point that gather indirect light
+  int volume_directions = 256;         ///< the same of the points in free space, which are few
   int bounces = 6;                     ///< of indirect light
   std::size_t max_points = 3'000'000;  ///< the spacing is widened until this holds
   /// Called while a solution is computed (not while one is read) with the share that is done,

@@ -92,15 +92,15 @@ TEST(GatherDirectLight, MatchesTheFormFactorOfARectangle) {
   const Tracer tracer(world, {});
   const std::vector<SurfacePoint> points = {{{0, 0, 0.002f}, {0, 0, 1}}};
   const std::vector<float> scale = {1};
-  const DirectLight light =
-      GatherDirectLight(tracer.Pose({}), world.lights(), scale, points, {})[0];
+  const float light = GatherDirectLight(tracer.Pose({}), world.lights(), scale, points, {})[0];
   const double x = a / h, y = b / h;
   const double quarter = (x / std::sqrt(1 + x * x) * std::atan(y / std::sqrt(1 + x * x)) +
                           y / std::sqrt(1 + y * y) * std::atan(x / std::sqrt(1 + y * y))) /
                          (2 * M_PI);
+  const float sampled = SampleDirectLight(tracer.Pose({}), world.lights(), scale, points, 64, 1)[0];
+  EXPECT_NEAR(sampled, M_PI * 3 * 4 * quarter, 5e-3 * light);
   // Four points along a light as long as 3/8 of its distance: a quadrature error of 0.3 %.
-  EXPECT_NEAR(light.irradiance, M_PI * 3 * 4 * quarter, 5e-3 * light.irradiance);
-  EXPECT_NEAR(light.vector.z(), light.irradiance, 1e-4 * light.irradiance);
+  EXPECT_NEAR(light, M_PI * 3 * 4 * quarter, 5e-3 * light);
 }
 
 }  // namespace
