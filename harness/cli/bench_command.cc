@@ -163,6 +163,7 @@ void AddBenchCommand(CLI::App* app, Action* action) {
   AddBenchRender(bench, action);
   AddBenchLight(bench, action);
   AddBenchSlam(bench, action);
+  AddBenchDynamic(bench, action);
 }
 
 }  // namespace aisle

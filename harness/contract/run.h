@@ -49,6 +49,25 @@ struct MaskFacts {
   std::int64_t outline_rejected = 0, outline_rejected_met = 0;  ///< and the other way round
   std::vector<ObjectOutcome> objects;  ///< those asked for; empty where no labels are known
   bool operator==(const MaskFacts&) const = default;
+
+  /// Counts of more frames.
+  MaskFacts& operator+=(const MaskFacts& more) {
+    true_positives += more.true_positives;
+    false_positives += more.false_positives;
+    false_negatives += more.false_negatives;
+    objects_found += more.objects_found;
+    objects_invented += more.objects_invented;
+    objects_missed += more.objects_missed;
+    iou_sum += more.iou_sum;
+    static_corners += more.static_corners;
+    static_corners_lost += more.static_corners_lost;
+    outline_truth += more.outline_truth;
+    outline_truth_met += more.outline_truth_met;
+    outline_rejected += more.outline_rejected;
+    outline_rejected_met += more.outline_rejected_met;
+    objects.insert(objects.end(), more.objects.begin(), more.objects.end());
+    return *this;
+  }
 };
 
 /// How hard a frame is for any system; absent parts are not known.

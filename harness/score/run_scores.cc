@@ -124,20 +124,7 @@ void AddMasks(const RunResult& run, Scorecard* scores) {
   for (const FrameFacts& frame : run.facts) {
     if (!frame.mask) continue;
     any = true;
-    sum.true_positives += frame.mask->true_positives;
-    sum.false_positives += frame.mask->false_positives;
-    sum.false_negatives += frame.mask->false_negatives;
-    sum.objects_found += frame.mask->objects_found;
-    sum.objects_invented += frame.mask->objects_invented;
-    sum.objects_missed += frame.mask->objects_missed;
-    sum.iou_sum += frame.mask->iou_sum;
-    sum.static_corners += frame.mask->static_corners;
-    sum.static_corners_lost += frame.mask->static_corners_lost;
-    sum.outline_truth += frame.mask->outline_truth;
-    sum.outline_truth_met += frame.mask->outline_truth_met;
-    sum.outline_rejected += frame.mask->outline_rejected;
-    sum.outline_rejected_met += frame.mask->outline_rejected_met;
-    sum.objects.insert(sum.objects.end(), frame.mask->objects.begin(), frame.mask->objects.end());
+    sum += *frame.mask;
   }
   if (!any) return;  // the system makes no masks: no row is clearer than nine empty ones
   const auto tp = static_cast<double>(sum.true_positives);

@@ -1,0 +1,233 @@
+#include <nlohmann/json.hpp>
+
+#include "harness/cli/command.h"
+#include "harness/cli/places.h"
+#include "harness/cli/terminal.h"
+#include "harness/io/dataset.h"
+#include "harness/io/file.h"
+#include "harness/io/image.h"
+#include "harness/io/input_error.h"
+#include "harness/plugs/cached_sequence.h"
+#include "harness/plugs/recorded_sequence.h"
+#include "harness/plugs/simulated_sequence.h"
+#include "harness/plugs/systems.h"
+#include "harness/report/overlay.h"
+#include "harness/score/masks.h"
+#include "harness/suite/suite.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<std::string> views;
+  std::string system = "robust", format = "kitti", out, frames_dir, twin = "live", json;
+  int warm_up = 20, every = 10, threads = 0;
+  std::uint64_t seed = 1;
+};
+
+/// Stretches in which something of every kind moves: across, along the axis, slowly, filling the
+/// image, before a standing and a turning rig.
+const std::vector<std::string> kViews = {
+    "paper/scene1:170-210",         "paper/scene2:90-130",         "paper/scene3:90-130",
+    "paper/scene5:120-160",         "weakness/creep:110-150",      "weakness/follow:60-100",
+    "weakness/pure_rotation:60-90", "weakness/optical_axis:40-80", "weakness/fill_60:40-80",
+    "weakness/never_moves:60-90",
+};
+
+struct View {
+  std::string source;
+  int from = 0, to = std::numeric_limits<int>::max();  ///< frames, `to` not included
+};
+
+/// "SOURCE" or "SOURCE:FROM-TO".
+View Parse(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos) return {.source = text};
+  View view{.source = text.substr(0, colon)};
+  char rest = 0;
+  if (std::sscanf(text.c_str() + colon + 1, "%d-%d%c", &view.from, &view.to, &rest) != 2 ||
+      view.from < 0 || view.to <= view.from) {
+    throw InputError(Printable(text) +
+                     ": expected SOURCE:FROM-TO, for example paper/scene2:90-130");
+  }
+  return view;
+}
+
+std::unique_ptr<Sequence> Open(const View& view, const Options& options) {
+  if (fs::is_directory(view.source)) {
+    return OpenRecording(view.source, DatasetFormatFromName(options.format));
+  }
+  std::string file = view.source;
+  if (!fs::exists(file)) {
+    file = (AssetsDir().parent_path() / "scenes" / (file + ".yaml")).string();
+  }
+  const SimulatedSequenceOptions simulation{.scene_file = file,
+                                            .scene_name = SceneName(file),
+                                            .assets_dir = AssetsDir().string(),
+                                            .twin = options.twin,
+                                            .seed = options.seed,
+                                            .threads = options.threads};
+  if (options.frames_dir.empty()) return OpenSimulation(simulation);
+  const fs::path kept = fs::path(options.frames_dir) /
+                        fmt::format("{}_{}_{}", SceneName(file), options.twin, options.seed);
+  return OpenCached(FrameStore(kept),
+                    [simulation](std::uint64_t* hash) { return OpenSimulation(simulation, hash); });
+}
+
+/// What became of one stretch.
+struct Result {
+  std::string name;
+  int frames = 0;
+  bool has_truth = false;
+  MaskFacts masks;
+  double pixels = 0, rejected = 0;         ///< of all frames
+  std::map<std::string, double> stage_ms;  ///< sums
+
+  void Add(const SequenceFrame& shown, const FrameEstimate& estimate) {
+    ++frames;
+    pixels += static_cast<double>(shown.images.left.total());
+    if (!estimate.regions.mask.empty()) rejected += cv::countNonZero(estimate.regions.mask);
+    for (const auto& [stage, ms] : estimate.stage_ms) stage_ms[stage] += ms;
+    if (!shown.truth || shown.truth->dynamic.empty()) return;
+    has_truth = true;
+    masks += CompareMasks(shown.images.left, *shown.truth, estimate.regions);
+  }
+
+  double static_wrong() const {
+    const double moving = static_cast<double>(masks.true_positives + masks.false_negatives);
+    return static_cast<double>(masks.false_positives) / std::max(pixels - moving, 1.0);
+  }
+};
+
+void Picture(const SequenceFrame& shown, const FrameEstimate& estimate, const Result& result,
+             const Options& options) {
+  std::string name = result.name;
+  std::ranges::replace(name, '/', '_');
+  WriteImage(fs::path(options.out) / fmt::format("{}_{:05}.jpg", name, shown.images.id),
+             DrawOverlay(shown.images.left, shown.truth ? &*shown.truth : nullptr, &estimate,
+                         fmt::format("{}  frame {}", result.name, shown.images.id)));
+}
+
+Result Measure(const View& view, const Options& options) {
+  const auto sequence = Open(view, options);
+  const auto estimator =
+      FindSystem(options.system).make(sequence->calibration(), {.threads = options.threads});
+  Result result;
+  result.name = sequence->name();
+  ProgressLine line;
+  int index = 0;
+  for (const FrameRequest& request : sequence->Schedule()) {
+    const int now = index++;
+    if (now < view.from - options.warm_up) continue;
+    if (now >= view.to) break;
+    line.Show(fmt::format("{}: frame {}", result.name, now));
+    const SequenceFrame shown = sequence->At(request);
+    const FrameEstimate estimate = estimator->Process(shown.images, {});
+    if (now < view.from) continue;
+    result.Add(shown, estimate);
+    if (!options.out.empty() && now % options.every == 0) {
+      Picture(shown, estimate, result, options);
+    }
+  }
+  return result;
+}
+
+std::string Cell(const std::optional<double>& value) {
+  return value ? fmt::format("{:8.3f}", *value) : fmt::format("{:>8}", "-");
+}
+
+/// One line: objects by rectangle, then pixels.
+std::string Line(const std::string& name, const Result& r) {
+  const MaskFacts& m = r.masks;
+  const auto tp = static_cast<double>(m.true_positives);
+  const double union_px = tp + static_cast<double>(m.false_positives + m.false_negatives);
+  std::string line = fmt::format("{:28}{:7}", name, r.frames);
+  if (r.has_truth) {
+    line += Cell(Ratio(m.objects_found, m.objects_found + m.objects_invented)) +
+            Cell(Ratio(m.objects_found, m.objects_found + m.objects_missed)) +
+            Cell(Ratio(m.iou_sum, m.objects_found)) + Cell(Ratio(tp, union_px)) +
+            Cell(Ratio(tp, tp + static_cast<double>(m.false_negatives))) +
+            fmt::format("{:7.2f} %", 100 * r.static_wrong());
+  } else {
+    line += fmt::format("{:>49}", "-");
+  }
+  line += fmt::format("{:7.2f} %", 100 * r.rejected / std::max(r.pixels, 1.0));
+  const auto dynamic = r.stage_ms.find("dynamic");
+  if (dynamic != r.stage_ms.end()) line += fmt::format("{:8.1f}", dynamic->second / r.frames);
+  return line;
+}
+
+nlohmann::json ToJson(const Result& r) {
+  nlohmann::json json = {{"name", r.name},
+                         {"frames", r.frames},
+                         {"rejected_share", r.rejected / std::max(r.pixels, 1.0)}};
+  for (const auto& [stage, ms] : r.stage_ms) json["ms"][stage] = ms / std::max(r.frames, 1);
+  if (!r.has_truth) return json;
+  json["objects"] = {{"found", r.masks.objects_found},
+                     {"invented", r.masks.objects_invented},
+                     {"missed", r.masks.objects_missed},
+                     {"iou_sum", r.masks.iou_sum}};
+  json["pixels"] = {{"true_positives", r.masks.true_positives},
+                    {"false_positives", r.masks.false_positives},
+                    {"false_negatives", r.masks.false_negatives}};
+  return json;
+}
+
+int BenchDynamic(const Options& options) {
+  fmt::print(
+      "{}, after {} frames of warming up\n{:28}{:>7}{:>8}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}{:>8}\n",
+      options.system, options.warm_up, "view", "frames", "prec.", "recall", "box IoU", "px IoU",
+      "px rec.", "static", "all", "ms");
+  nlohmann::json rows = nlohmann::json::array();
+  Result sum;
+  for (const std::string& text : options.views.empty() ? kViews : options.views) {
+    const Result result = Measure(Parse(text), options);
+    fmt::print("{}\n", Line(text.size() > 27 ? "…" + text.substr(text.size() - 26) : text, result));
+    std::fflush(stdout);
+    rows.push_back(ToJson(result));
+    sum.frames += result.frames;
+    sum.has_truth |= result.has_truth;
+    sum.masks += result.masks;
+    sum.pixels += result.pixels;
+    sum.rejected += result.rejected;
+    for (const auto& [stage, ms] : result.stage_ms) sum.stage_ms[stage] += ms;
+  }
+  fmt::print("{}\n", Line("all", sum));
+  for (const auto& [stage, ms] : sum.stage_ms) {
+    fmt::print("  {:26}{:9.2f} ms\n", stage, ms / std::max(sum.frames, 1));
+  }
+  if (!options.json.empty()) WriteFileAtomically(options.json, rows.dump(2) + "\n");
+  return kAllPassed;
+}
+
+}  // namespace
+
+void AddBenchDynamic(CLI::App* bench, Action* action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = bench->add_subcommand(
+      "dynamic", "what a system rejects beside what moves: objects, pixels, milliseconds");
+  command->add_option("VIEWS", options->views,
+                      "scene or folder of a recording, :FROM-TO for some frames (default: ten "
+                      "stretches of the scenes)");
+  command->add_option("--system", options->system, "default robust");
+  command->add_option("--format", options->format, "of a folder: kitti (default) or euroc")
+      ->check(CLI::IsMember({"euroc", "kitti"}));
+  command->add_option("--twin", options->twin, "of a scene: live (default), empty or frozen");
+  command->add_option("--seed", options->seed, "of a scene; default 1");
+  command->add_option("--warm-up", options->warm_up, "frames before FROM, not counted; default 20")
+      ->check(CLI::Range(0, 100000));
+  command->add_option("--out", options->out, "folder for pictures: truth red, rejected cyan");
+  command->add_option("--every", options->every, "a picture every so many frames; default 10")
+      ->check(CLI::Range(1, 100000));
+  command->add_option(
+      "--frames-dir", options->frames_dir,
+      "keep rendered frames there and use what is there, whichever program made it");
+  command->add_option("--threads", options->threads, "0: all");
+  command->add_option("--json", options->json, "write counts and means there too");
+  command->footer("Example: ./aisle bench dynamic paper/scene2:90-130 --system paper --out masks");
+  command->callback([=] { *action = [=] { return BenchDynamic(*options); }; });
+}
+
+}  // namespace aisle
