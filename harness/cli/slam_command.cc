@@ -43,8 +43,8 @@ MaskMaker MasksOf(const Options& options, std::size_t* masked) {
 
 std::unique_ptr<Estimator> MakeEstimator(const System& system, const Sequence& sequence,
                                          const Options& options) {
-  const fs::path folder = fs::absolute(options.save_map).parent_path();
-  if (!options.save_map.empty() && !fs::is_directory(folder)) {
+  if (!options.save_map.empty() &&
+      !fs::is_directory(fs::absolute(options.save_map).parent_path())) {
     throw InputError(options.save_map, 0, "its folder does not exist: make it first");
   }
   try {
