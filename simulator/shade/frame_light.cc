@@ -11,12 +11,11 @@ namespace aisle::sim {
 namespace {
 
 constexpr float kBodyReach = 1.0f;       // m: how far a body darkens itself
-constexpr float kBodyReflection = 0.3f;  // what the blocking parts send on in turn
-constexpr int kMostRays = 64;  // from a visible point to the lamps; half as many to bodies
+constexpr float kBodyReflection = 0.15f;  // what the blocking parts send on in turn
 
-/// Share of the indirect light at a point of a mover that movers within reach, itself among them,
+/// Share of the indirect light at a point of a mover that bodies within reach, its own among them,
 /// leave, and send on in turn. `directions` are cosine-distributed, a whole number of packets.
-float OpennessAt(const Instant& instant, const SurfacePoint& point,
+float OpennessAt(const Instant& instant, const SurfacePoint& point, GeometryMask bodies,
                  std::span<const Eigen::Vector3f> directions) {
   const Eigen::Matrix3f basis = BasisAround(point.normal);
   Rays8 rays;
@@ -25,7 +24,7 @@ float OpennessAt(const Instant& instant, const SurfacePoint& point,
     for (std::size_t k = 0; k < kLanes; ++k) {
       SetRay(point.position, basis * directions[d + k], kBodyReach, static_cast<int>(k), &rays);
     }
-    blocked += std::popcount(instant.Occluded(rays, Coherence::kIncoherent, kMoversOnly));
+    blocked += std::popcount(instant.Occluded(rays, Coherence::kIncoherent, bodies));
   }
   const float share = static_cast<float>(blocked) / static_cast<float>(directions.size());
   return 1 - share * (1 - kBodyReflection);
@@ -55,10 +54,29 @@ Seen FindSeen(std::span<const HitImage> images, std::span<const std::int32_t> ba
   return seen;
 }
 
-/// Rays from each point of a mover: many where a point stands for many pixels, few where the errors
-/// of neighbours fall into one pixel.
-int RaysPerPoint(std::size_t pixels, std::size_t points) {
-  return pixels >= 16 * points ? kMostRays : pixels >= 8 * points ? kMostRays / 2 : kMostRays / 4;
+/// Rays from each point of a mover.
+struct PointRays {
+  int to_lights, to_bodies;
+};
+
+/// Many where a point stands for many pixels, few where the errors of neighbours fall into one
+/// pixel.
+PointRays RaysFor(std::size_t pixels, std::size_t points) {
+  if (pixels >= 32 * points) return {.to_lights = 48, .to_bodies = 16};
+  if (pixels >= 8 * points) return {.to_lights = 24, .to_bodies = 8};
+  return {.to_lights = 12, .to_bodies = 8};
+}
+
+/// Movers that may stand within reach of one.
+GeometryMask Around(const Instant& instant, std::size_t mover) {
+  const std::span boxes = instant.mover_boxes();
+  const Eigen::Vector3f reach = Eigen::Vector3f::Constant(kBodyReach);
+  const Eigen::AlignedBox3f box(boxes[mover].min() - reach, boxes[mover].max() + reach);
+  GeometryMask mask = 0;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (box.intersects(boxes[i])) mask |= MoverBit(i);
+  }
+  return mask;
 }
 
 /// Gives points that were not lit the mean of the lit ones of their triangle, or of the body: an
@@ -147,9 +165,10 @@ void SurfaceTables::LightMover(const Instant& instant, std::size_t mover, const 
     if (wanted[i]) points.push_back(i);
   }
   if (points.empty()) return;
-  const int rays = RaysPerPoint(pixels, points.size());
+  const PointRays rays = RaysFor(pixels, points.size());
+  const GeometryMask bodies = Around(instant, mover);
   const std::vector<SurfacePoint> places = LocatePoints(grid, mesh, state.positions, state.normals);
-  const std::vector<Eigen::Vector3f> directions = CosineDirections(rays / 2);
+  const std::vector<Eigen::Vector3f> directions = CosineDirections(rays.to_bodies);
   std::vector<float> light(grid.points.size(), -1);
   tbb::parallel_for(std::size_t{0}, (points.size() + kLanes - 1) / kLanes, [&](std::size_t i) {
     const std::span packet = std::span(points).subspan(i * kLanes);
@@ -157,9 +176,9 @@ void SurfaceTables::LightMover(const Instant& instant, std::size_t mover, const 
     std::array<SurfacePoint, kLanes> eight;
     for (std::size_t k = 0; k < count; ++k) eight[k] = places[packet[k]];
     const auto direct = SampleDirectLight(instant, world_->lights(), instant.snapshot().light_scale,
-                                          std::span(eight).first(count), rays, packet[0]);
+                                          std::span(eight).first(count), rays.to_lights, packet[0]);
     for (std::size_t k = 0; k < count; ++k) {
-      light[packet[k]] = direct[k] + OpennessAt(instant, eight[k], directions) *
+      light[packet[k]] = direct[k] + OpennessAt(instant, eight[k], bodies, directions) *
                                          volume.Irradiance(eight[k].position, eight[k].normal);
     }
   });

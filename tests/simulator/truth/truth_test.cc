@@ -61,8 +61,8 @@ struct Seen {
   std::vector<MoverTruth> movers;
 };
 
-Seen Look(const Stage& stage, float threshold = 0.05f) {
-  const World world(Build(stage));
+Seen Look(WorldParts parts, float threshold) {
+  const World world(std::move(parts));
   const Tracer tracer(world, {});
   const StereoCamera camera;
   const PixelRays rays = MakePixelRays(camera);
@@ -73,6 +73,35 @@ Seen Look(const Stage& stage, float threshold = 0.05f) {
   Seen seen{LabelHits(world, instant, hits[0], threshold), {}};
   seen.movers = DescribeMovers(instant, views[0], seen.eye);
   return seen;
+}
+
+Seen Look(const Stage& stage, float threshold = 0.05f) { return Look(Build(stage), threshold); }
+
+/// The box stands still and has an arm, 0.8 m long, that turns about the shoulder at its left side
+/// in the plane across the view.
+WorldParts BodyWithWavingArm(float angular_speed) {
+  WorldParts parts = Build({.speed = 0});
+  test::MeshBuilder body;
+  body.Box({-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}, 0, 2);
+  const std::size_t shoulder_vertex = body.mesh.positions.size();
+  body.Box({-0.5f, 0.5f, -0.05f}, {-0.4f, 1.3f, 0.05f}, 0, 2);
+  parts.mover_meshes = {body.mesh};
+  parts.at = [mesh = body.mesh, shoulder_vertex, angular_speed](std::int64_t stamp_ns) {
+    MoverState mover;
+    mover.instance = 2;
+    mover.T_world_object.translation() = Eigen::Vector3d(4.5, 0, 0);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      const Eigen::Vector3f& p = mesh.positions[i];
+      mover.positions.push_back(p + Eigen::Vector3f(4.5f, 0, 0));
+      const float turning = i < shoulder_vertex ? 0 : angular_speed;
+      mover.velocities.push_back(Eigen::Vector3f(0, -p.z(), p.y() - 0.5f) * turning);
+    }
+    mover.normals = mesh.normals;
+    Snapshot snapshot{.stamp_ns = stamp_ns, .movers = {}, .light_scale = {1}};
+    snapshot.movers.push_back(std::move(mover));
+    return snapshot;
+  };
+  return parts;
 }
 
 TEST(Truth, BoxIsWhereTheCameraModelPutsIt) {
@@ -118,6 +147,19 @@ TEST(Truth, OfATurningThingOnlyTheFastPartIsDynamic) {
   EXPECT_EQ(at(0.28), 0);
   EXPECT_EQ(at(0.4), 255);
   EXPECT_EQ(at(-0.4), 255);
+}
+
+TEST(Truth, AWavingArmIsDynamicAndTheBodyThatStandsIsNot) {
+  // At 1 rad/s the arm passes 0.05 m/s within 0.05 m of the shoulder.
+  const Seen seen = Look(BodyWithWavingArm(1), 0.05f);
+  const StereoCamera c;
+  const auto pixel = [&](const cv::Mat1b& image, double y) {
+    return image(252, static_cast<int>(std::lround(c.cx - c.fx * y / 4)));
+  };
+  for (const double y : {-0.45, 0.0, 0.45}) EXPECT_EQ(pixel(seen.eye.dynamic, y), 0) << y;
+  for (const double y : {0.6, 0.9, 1.25}) EXPECT_EQ(pixel(seen.eye.dynamic, y), 255) << y;
+  for (const double y : {0.0, 0.9}) EXPECT_EQ(pixel(seen.eye.actor, y), 255) << y;
+  EXPECT_EQ(cv::countNonZero(Look(BodyWithWavingArm(0), 0.05f).eye.dynamic), 0);
 }
 
 TEST(Truth, HiddenHalfCountsInTheFullBoxOnly) {
