@@ -168,7 +168,7 @@ TEST(Reference, CornellBoxIsThatOfAnotherRendererBlockByBlock) {
     // A path of depth 6 has six edges, the first from the eye: it touches six surfaces. Blue is the
     // darkest, so its blocks need more paths.
     const cv::Mat1f image = Trace(World(CornellBox(folder, band)), pose, camera,
-                                  {.samples = band == 2 ? 224 : 64, .depth = 6});
+                                  {.samples = band == 2 ? 256 : 128, .depth = 6});
     const cv::Mat1f expected = bands[static_cast<std::size_t>(2 - band)];
     if (const char* pictures = std::getenv("AISLE_TEST_PICTURES")) {
       cv::imwrite(fmt::format("{}/cornell_{}.png", pictures, band), image * 255 / 2);
