@@ -10,7 +10,7 @@
 namespace aisle::sim {
 namespace {
 
-constexpr float kBodyReach = 1.0f;       // m: how far a body darkens itself
+constexpr float kBodyReach = 1.0f;        // m: how far a body darkens itself
 constexpr float kBodyReflection = 0.15f;  // what the blocking parts send on in turn
 
 /// Share of the indirect light at a point of a mover that bodies within reach, its own among them,
