@@ -66,9 +66,12 @@ double ReferenceMs(const StereoFrame& frame) {
 
 std::map<std::string, StageTime> Measure(const Options& options) {
   const auto sequence = Open(options);
-  const auto estimator =
-      FindSystem(options.system).make(sequence->calibration(), {.threads = options.threads});
   std::map<std::string, StageTime> stages;
+  std::unique_ptr<Estimator> estimator;
+  stages["set_up"].Add(MillisecondsOf([&] {  // what it loads: the visual words
+    estimator =
+        FindSystem(options.system).make(sequence->calibration(), {.threads = options.threads});
+  }));
   ProgressLine line;
   for (const FrameRequest& request : sequence->Schedule()) {
     if (stages["frame"].count >= options.frames) break;

@@ -122,39 +122,67 @@ TEST_F(MapOfADrive, LocaliseOnlyAwayFromTheMapIsLostAndStaysSo) {
   }
 }
 
-TEST_F(MapOfADrive, ALostRigMapsAnewAndJoinsTheOldMapWhereItRecognisesIt) {
-  options.new_part_after_s = 0.3;
+/// A drive with a black-out in which the rig is carried to where it has never been.
+struct Carried {
+  std::vector<std::size_t> shown;  // frame of the film, by number
+  std::vector<TrackedFrame> live;
+  std::vector<StampedPose> final_track;
+};
+
+constexpr int kBlackFrames = 8;
+
+Carried DriveAndBeCarried(const SlamOptions& options) {
   StereoSlam slam(RoomScene().camera(), options);
-  std::vector<std::size_t> shown;
-  const auto track = [&](const StereoImages& images) {
-    StereoImages now = images;
-    now.stamp_ns = static_cast<std::int64_t>(shown.size()) * kFrameNs;
-    shown.push_back(static_cast<std::size_t>(images.id));
-    return slam.Track(now);
+  Carried drive;
+  const auto track = [&](StereoImages images) {
+    images.stamp_ns = static_cast<std::int64_t>(drive.shown.size()) * kFrameNs;
+    drive.shown.push_back(static_cast<std::size_t>(images.id));
+    drive.live.push_back(slam.Track(images));
   };
   for (std::size_t i = 0; i < 24; ++i) track(RoundFilm()[i]);
-  for (int i = 0; i < 8; ++i) track(Black(RoundFilm()[23]));
-  // Carried to where it has never been, it looks at the back wall.
+  for (int i = 0; i < kBlackFrames; ++i) track(Black(RoundFilm()[23]));
+  for (std::size_t i = 24; i < RoundFilm().size(); ++i) track(RoundFilm()[i]);
+  drive.final_track = slam.Finish();
+  return drive;
+}
+
+TEST_F(MapOfADrive, ALostRigMapsAnewAndJoinsTheOldMapWhereItRecognisesIt) {
+  options.new_part_after_s = 0.3;
+  const Carried drive = DriveAndBeCarried(options);
   int apart = 0, joined = 0;
-  TrackedFrame last;
-  for (std::size_t i = 24; i < RoundFilm().size(); ++i) {
-    last = track(RoundFilm()[i]);
-    apart += last.state == TrackingState::kApart;
-    joined += last.loop_closed;
-    EXPECT_EQ(last.T_world_rig.has_value(), last.state == TrackingState::kTracking);
+  for (const TrackedFrame& frame : drive.live) {
+    apart += frame.state == TrackingState::kApart;
+    joined += frame.loop_closed;
+    EXPECT_EQ(frame.T_world_rig.has_value(), frame.state == TrackingState::kTracking);
   }
   EXPECT_GT(apart, 20);
   EXPECT_GE(joined, 1);
+  const TrackedFrame& last = drive.live.back();
   ASSERT_EQ(last.state, TrackingState::kTracking);
   EXPECT_LT((last.T_world_rig->translation() - RoundPath().back().translation()).norm(), 0.04);
 
   // In the end it is one trajectory: the frames that were apart stand where they were.
-  const std::vector<StampedPose> track_of_all = slam.Finish();
-  EXPECT_GE(track_of_all.size(), shown.size() - 8 - 8);
-  for (const StampedPose& pose : track_of_all) {
-    const std::size_t frame = shown[static_cast<std::size_t>(pose.stamp_ns / kFrameNs)];
+  EXPECT_GE(std::ssize(drive.final_track), std::ssize(drive.shown) - 2 * kBlackFrames);
+  for (const StampedPose& pose : drive.final_track) {
+    const std::size_t frame = drive.shown[static_cast<std::size_t>(pose.stamp_ns / kFrameNs)];
     EXPECT_LT((pose.T_world_rig.translation() - RoundPath()[frame].translation()).norm(), 0.06)
         << "frame " << frame;
+  }
+}
+
+TEST_F(MapOfADrive, JoiningGivesTheSameBitsForAnyThreads) {
+  options.new_part_after_s = 0.3;
+  options.threads = 1;
+  options.schedule.background = false;
+  const Carried alone = DriveAndBeCarried(options);
+  options.threads = 4;
+  options.schedule.background = true;
+  const Carried threaded = DriveAndBeCarried(options);
+  ASSERT_EQ(alone.final_track.size(), threaded.final_track.size());
+  for (std::size_t i = 0; i < alone.final_track.size(); ++i) {
+    EXPECT_EQ(alone.final_track[i].T_world_rig.matrix(),
+              threaded.final_track[i].T_world_rig.matrix())
+        << "pose " << i;
   }
 }
 
