@@ -88,12 +88,7 @@ PixelVerdict ComparePixel(const Comparison& c, int x, int y) {
       (c.warp.A(1, 0) * fx + c.warp.A(1, 1) * fy + c.warp.A(1, 2) + c.warp.t[1] * d) / w;
   const float expected = d / w;
   const Earlier earlier = Classify(c.then.disparity, u, v, expected, c.tolerance);
-  if (earlier == Earlier::kFarther) {
-    // Disparity is as sure as there is texture to match.
-    const float texture = c.contrast(y, x) / (c.contrast(y, x) + 4 * c.static_variance);
-    return {c.free_space * texture, -1, -1};
-  }
-  if (earlier != Earlier::kSame) return {};
+  if (earlier != Earlier::kSame && earlier != Earlier::kFarther) return {};
   const int x0 = std::max(x - 1, 0), x1 = std::min(x + 1, c.now.detail.cols - 1);
   const int y0 = std::max(y - 1, 0), y1 = std::min(y + 1, c.now.detail.rows - 1);
   const float gx = (c.now.detail(y, x1) - c.now.detail(y, x0)) / 2;
@@ -113,6 +108,10 @@ PixelVerdict ComparePixel(const Comparison& c, int x, int y) {
   const float square = error * error;
   const float log_odds = 0.5F * (square / static_variance - square / dynamic_variance -
                                  std::log(dynamic_variance / static_variance));
+  if (earlier == Earlier::kFarther) {
+    // Disparity alone errs by a period of a pattern: the picture must have changed there too.
+    return {std::clamp(log_odds, 0.0F, c.free_space), -1, -1};
+  }
   const float there = c.then.disparity(static_cast<int>(v + 0.5F), static_cast<int>(u + 0.5F));
   return {std::clamp(log_odds, static_cast<float>(kPixelLow), static_cast<float>(kPixelHigh)),
           square / static_variance, there >= 0 ? std::abs(there - expected) : -1};

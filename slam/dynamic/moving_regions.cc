@@ -10,7 +10,8 @@ struct Component {
   double best = -1e9;
   cv::Rect box;
   int dynamic_points = 0, static_points = 0;
-  std::map<int, int> overlap;  // previous region's index -> nodes
+  std::vector<Eigen::Vector3d> drifts;  ///< of the dynamic ones, where known
+  std::map<int, int> overlap;           // previous region's index -> nodes
 };
 
 std::vector<Component> Describe(const cv::Mat1i& components, int count, const cv::Mat1f& log_odds,
@@ -37,17 +38,46 @@ void CountVotes(std::vector<Component>& components, const cv::Mat1i& labels,
   for (const PointVote& vote : votes) {
     if (!nodes.contains(vote.node)) continue;
     Component& component = components[static_cast<std::size_t>(labels(vote.node))];
-    if (vote.log_odds > options.vote_log_odds) ++component.dynamic_points;
+    if (vote.log_odds > options.vote_log_odds) {
+      ++component.dynamic_points;
+      if (!vote.drift.isZero()) component.drifts.push_back(vote.drift);
+    }
     if (vote.log_odds < -options.vote_log_odds) ++component.static_points;
   }
 }
 
-/// A new region needs points that move; a known one only must not be full of points that do not.
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Share of the drifts that go the way the middle one goes: parts of one body go together, however
+/// its limbs swing, while errors of matching go anywhere. One where too few are known.
+double Togetherness(const std::vector<Eigen::Vector3d>& drifts) {
+  if (drifts.size() < 3) return 1;
+  Eigen::Vector3d middle;
+  for (int k = 0; k < 3; ++k) {
+    std::vector<double> parts;
+    for (const Eigen::Vector3d& drift : drifts) parts.push_back(drift[k]);
+    middle[k] = Median(std::move(parts));
+  }
+  const auto together = std::count_if(drifts.begin(), drifts.end(), [&](const auto& drift) {
+    return (drift - middle).norm() < 0.6 * middle.norm();
+  });
+  return static_cast<double>(together) / static_cast<double>(drifts.size());
+}
+
+/// A new region needs points that move together; a known one must not be full of points that do not
+/// move.
 bool IsMoving(const Component& component, const RegionOptions& options) {
   const bool known = !component.overlap.empty();
   if (component.pixels < options.min_nodes) return false;
-  if (component.dynamic_points < component.static_points * (known ? 0.5 : 1.0)) return false;
-  return known || (component.best >= options.birth_log_odds &&
+  if (component.dynamic_points <
+      component.static_points * (known ? options.keep_share : options.birth_share))
+    return false;
+  return known || (Togetherness(component.drifts) >= options.birth_together &&
+                   component.best >= options.birth_log_odds &&
                    component.dynamic_points >= options.birth_points);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct NodeRegions {
 struct PointVote {
   cv::Point node;
   double log_odds = 0;  ///< of moving
+  /// Metres a frame that the rig's motion leaves unexplained, from the current rig; zero where that
+  /// is not known.
+  Eigen::Vector3d drift = Eigen::Vector3d::Zero();
 };
 
 /// Connected nodes above keep_log_odds that have a node above birth_log_odds among them, or overlap

@@ -152,16 +152,48 @@ void SilencePointsOnEdges(std::vector<double>& evidence, const std::vector<Point
   }
 }
 
-/// The largest evidence if any gap speaks of motion, else the mean of those that speak at all.
+/// Whether the window around a point shows a corner rather than an edge: along an edge a point is
+/// not held by anything. Ratio of the eigenvalues of the gradients' second moments.
+bool IsCorner(const cv::Mat1b& image, const Eigen::Vector3d& at, const PointTrackOptions& options) {
+  const int radius = options.flow.window_px / 2;
+  const cv::Rect area =
+      cv::Rect(cvRound(at.x()) - radius, cvRound(at.y()) - radius, 2 * radius + 1, 2 * radius + 1) &
+      cv::Rect(1, 1, image.cols - 2, image.rows - 2);
+  double xx = 0, xy = 0, yy = 0;
+  for (int y = area.y; y < area.y + area.height; ++y) {
+    for (int x = area.x; x < area.x + area.width; ++x) {
+      const int gx = image(y, x + 1) - image(y, x - 1), gy = image(y + 1, x) - image(y - 1, x);
+      xx += gx * gx;
+      xy += gx * gy;
+      yy += gy * gy;
+    }
+  }
+  const double half = (xx + yy) / 2, root = std::hypot((xx - yy) / 2, xy);
+  return half - root >= options.cornerness * (half + root) && half > 0;
+}
+
+/// A window on an edge slides along it: what it says of motion counts for nothing.
+void SilenceSlidingPoints(std::vector<double>& evidence, const std::vector<PointTrack>& tracks,
+                          const cv::Mat1b& left, const PointTrackOptions& options) {
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (evidence[i] > 0 && !IsCorner(left, tracks[i].now(), options)) evidence[i] = 0;
+  }
+}
+
+/// The largest evidence if the longest gap that speaks at all speaks of motion, else the mean: what
+/// moves has moved farther over a longer gap, and what has not was misjudged over the short one.
 float Combine(const std::vector<cv::Mat1f>& gaps, int k) {
-  float largest = 0, sum = 0;
+  float largest = 0, sum = 0, longest = 0;
   int known = 0;
   for (const cv::Mat1f& gap : gaps) {
+    if (gap(k) == 0) continue;
     largest = std::max(largest, gap(k));
     sum += gap(k);
-    known += gap(k) != 0 ? 1 : 0;
+    longest = gap(k);
+    ++known;
   }
-  return largest > 0 || known == 0 ? largest : sum / static_cast<float>(known);
+  if (known == 0) return 0;
+  return longest > 0 ? largest : sum / static_cast<float>(known);
 }
 
 cv::Mat1f CompareWithPast(RobustState& state, const DenseFrame& now, const RobustState& before,
@@ -213,12 +245,21 @@ void AddPoints(cv::Mat1f& evidence, const std::vector<PointTrack>& tracks,
   }
 }
 
-std::vector<PointVote> VotesOf(const std::vector<PointTrack>& tracks) {
+std::vector<PointVote> VotesOf(const std::vector<PointTrack>& tracks, const StereoCamera& camera,
+                               const std::vector<GapMotion>& gaps) {
   std::vector<PointVote> votes;
   for (const PointTrack& track : tracks) {
-    votes.push_back({{static_cast<int>(track.now().x()) / kNodePixels,
-                      static_cast<int>(track.now().y()) / kNodePixels},
-                     track.log_odds});
+    PointVote vote{{static_cast<int>(track.now().x()) / kNodePixels,
+                    static_cast<int>(track.now().y()) / kNodePixels},
+                   track.log_odds};
+    for (const GapMotion& gap : gaps) {  // the longest that is known: the least noise a frame
+      const Eigen::Vector3d* before = track.Before(gap.gap);
+      if (before == nullptr) continue;
+      vote.drift = (Backproject(camera, track.now()) -
+                    gap.motion.T_now_before * Backproject(camera, *before)) /
+                   gap.gap;
+    }
+    votes.push_back(vote);
   }
   return votes;
 }
@@ -295,6 +336,7 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
     LearnNoise(state, stages.gaps, camera);
     stages.point_evidence = PointEvidence(state.tracks, camera, stages.gaps, options.evidence);
     SilencePointsOnEdges(stages.point_evidence, state.tracks, seen.dense.edge);
+    SilenceSlidingPoints(stages.point_evidence, state.tracks, images.left, options.points);
     for (std::size_t i = 0; i < state.tracks.size(); ++i) {
       double& log_odds = state.tracks[i].log_odds;
       log_odds =
@@ -320,8 +362,8 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
   cv::add(memory.log_odds, options.field.bias, leaning);
   stages.log_odds = SolveField(leaning, LinkNodes(node_disparity, seen.dense.image, options.field),
                                options.field);
-  memory.regions = FindRegions(stages.log_odds, VotesOf(state.tracks), memory.regions,
-                               state.next_region_id, options.region);
+  memory.regions = FindRegions(stages.log_odds, VotesOf(state.tracks, camera, stages.gaps),
+                               memory.regions, state.next_region_id, options.region);
 
   result.dynamic = ToPixels(memory.regions, images.left.size(), options.region.dilate_nodes);
   result.probability = PixelProbability(stages.log_odds, images.left.size());

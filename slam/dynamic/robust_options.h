@@ -19,6 +19,9 @@ inline constexpr int kLongestGap = 15;
 struct PointTrackOptions {
   SpreadOptions spread{.points = 600};
   FlowOptions flow{.window_px = 15, .pyramid_levels = 4, .iterations = 12};
+  /// Ratio of the gradients' second moments below which a window shows an edge, along which it is
+  /// not held: such a point is not believed to move.
+  double cornerness = 0.1;
   double spacing_px = 22;        ///< one point per square of this side, the oldest
   double disparity_gate_px = 3;  ///< refined disparity may differ this much from the dense one
 
@@ -57,6 +60,9 @@ struct EvidenceOptions {
   std::array<double, 3> point_dynamic = {2.5, 2.5, 2.5};
   std::array<double, 3> dense_static = {-0.8, -1.2, -1.5};
   std::array<double, 3> dense_dynamic = {2.0, 2.0, 1.5};
+  /// Of the way over a gap, the share that the next shorter gap must have seen: a track that has
+  /// slipped onto another edge has gone all of it at once.
+  double least_late_share = 0.03, most_late_share = 0.85;
   double intensity_noise = 2.5;  ///< grey levels; start of the measured deviation of one pixel
   /// Errors of calibration, scale and rolling texture grow with the way a point has gone: deviation
   /// per pixel of displacement, added to the measured noise.
@@ -93,9 +99,12 @@ struct FieldOptions {
 
 /// From labels to regions.
 struct RegionOptions {
+  double birth_share = 3;       ///< moving points for each static one, at birth ...
+  double keep_share = 2;        ///< ... and later
+  double birth_together = 0.4;  ///< share of its moving points that go one way, within 60 %
   double birth_log_odds = 3.0;  ///< a region is born where its best node reaches this
   double keep_log_odds = 0.5;   ///< and reaches as far as nodes above this
-  int birth_points = 2;         ///< and where so many of its points move
+  int birth_points = 5;         ///< and where so many of its points move
   double vote_log_odds = 0.7;   ///< of a point, from which on it counts as moving or as static
   int min_nodes = 25;           ///< smaller regions are noise; 25 nodes are 20x20 pixels
   int dilate_nodes = 0;         ///< grown by this, for outlines that the stereo matcher shrinks
@@ -109,7 +118,11 @@ struct RegionOptions {
 
 struct RobustOptions {
   /// On images of half size; 48 half-size pixels are 96.
-  DisparityOptions disparity{.max_disparity_px = 48, .block_px = 5, .speckle_px = 40};
+  DisparityOptions disparity{.max_disparity_px = 48,
+                             .block_px = 5,
+                             .uniqueness_percent = 15,
+                             .speckle_px = 40,
+                             .left_right_px = 1};
   PointTrackOptions points;
   EgoMotionOptions ego;
   EvidenceOptions evidence;

@@ -57,6 +57,29 @@ double MotionLogOdds(double chi2, const MeasurementNoise& noise) {
   return 0.5 * chi2 - std::log(kMoverVolume / volume);
 }
 
+namespace {
+
+/// What of a point's place the rig's motion over a gap leaves unexplained, in units of noise; zero
+/// where that is not known.
+Vector3d Unexplained(const StereoCamera& camera, const GapMotion& gap, const PointTrack& track) {
+  const Vector3d* before = track.Before(gap.gap);
+  if (before == nullptr || !gap.motion.found) return Vector3d::Zero();
+  const Vector3d point = gap.motion.T_now_before * Backproject(camera, *before);
+  if (point.z() < 0.05) return Vector3d::Zero();
+  return (track.now() - Project(camera, point)).cwiseQuotient(gap.noise);
+}
+
+/// Whether the way over a long gap was not gone steadily: all of it or none of it in the short gap
+/// that ends it. A track that has slipped onto another edge does this, a mover seldom.
+bool HasJumped(const Vector3d& over_short, const Vector3d& over_long,
+               const EvidenceOptions& options) {
+  if (over_short.isZero() || over_long.isZero()) return false;
+  const double share = over_short.dot(over_long) / over_long.squaredNorm();
+  return share < options.least_late_share || share > options.most_late_share;
+}
+
+}  // namespace
+
 std::vector<double> PointEvidence(const std::vector<PointTrack>& tracks, const StereoCamera& camera,
                                   const std::vector<GapMotion>& gaps,
                                   const EvidenceOptions& options) {
@@ -64,15 +87,20 @@ std::vector<double> PointEvidence(const std::vector<PointTrack>& tracks, const S
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     double largest = 0, sum = 0;
     int known = 0;
+    Vector3d shorter = Vector3d::Zero();
     for (const GapMotion& gap : gaps) {
+      const Vector3d unexplained = Unexplained(camera, gap, tracks[i]);
+      const bool jumped = HasJumped(shorter, unexplained, options);
+      shorter = unexplained;
       const Vector3d* before = tracks[i].Before(gap.gap);
       if (before == nullptr || !gap.motion.found) continue;
       const auto k =
           static_cast<std::size_t>(std::find(kGaps.begin(), kGaps.end(), gap.gap) - kGaps.begin());
       const double chi2 =
           SceneFlowChi2(camera, gap, *before, tracks[i].now(), options.noise_per_displacement);
-      const double log_odds = std::clamp(MotionLogOdds(chi2, gap.noise), options.point_static[k],
-                                         options.point_dynamic[k]);
+      double log_odds = std::clamp(MotionLogOdds(chi2, gap.noise), options.point_static[k],
+                                   options.point_dynamic[k]);
+      if (jumped) log_odds = std::min(log_odds, 0.0);
       largest = std::max(largest, log_odds);
       sum += log_odds;
       ++known;

@@ -64,9 +64,17 @@ TEST(NodeDisparity, HolesTakeTheFartherSide) {
   EXPECT_EQ(nodes(0, 3), 4);
 }
 
-/// Moving points wherever the tests put a region.
-const std::vector<PointVote> kVotes = {{{24, 20}, 3}, {{25, 22}, 3}, {{62, 32}, 3},
-                                       {{64, 34}, 3}, {{5, 43}, 3},  {{6, 44}, 3}};
+/// Moving points wherever the tests put a region: enough of them for one to be born.
+std::vector<PointVote> Votes() {
+  std::vector<PointVote> votes;
+  for (int k = 0; k < RegionOptions{}.birth_points; ++k) {
+    votes.push_back({{24, 20 + k}, 3});
+    votes.push_back({{62 + k, 32}, 3});
+    votes.push_back({{5, 42 + k}, 3});
+  }
+  return votes;
+}
+const std::vector<PointVote> kVotes = Votes();
 
 cv::Mat1f Blob(const cv::Rect& area, float best) {
   cv::Mat1f log_odds(60, 90, -2.0F);
@@ -111,6 +119,19 @@ TEST(FindRegions, PointsThatStandStillContradict) {
   const cv::Mat1f blob = Blob({20, 10, 10, 20}, 6);
   EXPECT_TRUE(FindRegions(blob, votes, {}, next_id, {}).regions.empty());
   EXPECT_TRUE(FindRegions(blob, {}, {}, next_id, {}).regions.empty());
+}
+
+TEST(FindRegions, PointsOfOneBodyGoTogetherAndErrorsGoAnywhere) {
+  int next_id = 0;
+  const cv::Mat1f blob = Blob({20, 10, 10, 20}, 6);
+  std::vector<PointVote> together, apart;
+  for (int k = 0; k < 8; ++k) {
+    const double swing = 0.01 * (k % 3 - 1), angle = 2.4 * k;
+    together.push_back({{22, 12 + k}, 3, {0.05 + swing, 0, swing}});
+    apart.push_back({{22, 12 + k}, 3, {0.05 * std::cos(angle), 0, 0.05 * std::sin(angle)}});
+  }
+  EXPECT_EQ(FindRegions(blob, together, {}, next_id, {}).regions.size(), 1U);
+  EXPECT_TRUE(FindRegions(blob, apart, {}, next_id, {}).regions.empty());
 }
 
 TEST(FindRegions, SmallOnesAreNoise) {
