@@ -3,7 +3,7 @@
 #include <unordered_map>
 
 #include "simulator/shade/hemisphere.h"
-#include "simulator/shade/wide.h"
+#include "simulator/shade/ray_packets.h"
 
 namespace aisle::sim {
 namespace {
@@ -78,19 +78,11 @@ class Light {
 
 unsigned Blocked(const Instant& instant, const Points8& p, const Sample8& s,
                  GeometryMask occluders) {
-  Rays8 rays;
-  Store(p.px, rays.ox);
-  Store(p.py, rays.oy);
-  Store(p.pz, rays.oz);
-  Store(s.dx, rays.dx);
-  Store(s.dy, rays.dy);
-  Store(s.dz, rays.dz);
-  Store(Wide(0), rays.t_near);
-  Store(1 - kLightGuard / Max(s.distance, Wide(2 * kLightGuard)), rays.t_far);
   const I8 valid = s.weight > 0;
-  std::memcpy(rays.valid, &valid, sizeof(rays.valid));
   if (!Any(valid)) return 0;
-  return instant.Occluded(rays, Coherence::kCoherent, occluders);
+  const F8 t_far = 1 - kLightGuard / Max(s.distance, Wide(2 * kLightGuard));
+  return instant.Occluded(MakeRays({p.px, p.py, p.pz}, {s.dx, s.dy, s.dz}, t_far, valid),
+                          Coherence::kCoherent, occluders);
 }
 
 /// The light's irradiance from a grid of places on it, and whether lanes saw some but not all.

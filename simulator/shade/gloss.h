@@ -15,15 +15,6 @@ inline float Sqrt(float x) { return std::sqrt(x); }
 inline float Max(float a, float b) { return std::max(a, b); }
 inline float Select(bool mask, float yes, float no) { return mask ? yes : no; }
 
-template <typename T>
-struct Triple {
-  T x, y, z;
-};
-template <typename T>
-T Dot3(const Triple<T>& a, const Triple<T>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 /// A surface's finish. f0 = 0: no lobe.
 struct Finish {
   float f0 = 0, roughness = 1;
@@ -102,12 +93,12 @@ inline LobeValue EvaluateLobe(const Finish& finish, const Triple<float>& out,
                               const Triple<float>& in) {
   if (finish.f0 <= 0 || out.z <= 0 || in.z <= 0) return {};
   Triple<float> half = {out.x + in.x, out.y + in.y, out.z + in.z};
-  const float length = std::sqrt(Dot3(half, half));
+  const float length = std::sqrt(Dot(half, half));
   if (length < 1e-6f) return {};
   half = {half.x / length, half.y / length, half.z / length};
   const float alpha = finish.roughness * finish.roughness;
   const float visible = FacetDensity(half.z, alpha) * SmithMasking(out.z, alpha) / (4 * out.z);
-  return {visible * Fresnel(finish.f0, Dot3(out, half)) * SmithMasking(in.z, alpha), visible};
+  return {visible * Fresnel(finish.f0, Dot(out, half)) * SmithMasking(in.z, alpha), visible};
 }
 
 }  // namespace aisle::sim

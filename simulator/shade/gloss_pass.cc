@@ -2,17 +2,15 @@
 
 #include <tbb/parallel_for.h>
 
-#include <cstring>
 #include <numbers>
 
 #include "simulator/shade/gloss.h"
 #include "simulator/shade/hemisphere.h"
 #include "simulator/shade/pattern_filter.h"
+#include "simulator/shade/ray_packets.h"
 
 namespace aisle::sim {
 namespace {
-
-using Triple8 = Triple<F8>;
 
 constexpr int kTileWidth = 16, kTileHeight = 8;
 constexpr float kLift = 2e-3f;      // m, along the normal
@@ -45,16 +43,16 @@ struct DiskPattern {
 
 /// Tangents of a normal; Duff et al. 2017, as BasisAround.
 struct Frame8 {
-  Triple8 x, y, z;
+  F8x3 x, y, z;
 
-  explicit Frame8(const Triple8& n) : z(n) {
+  explicit Frame8(const F8x3& n) : z(n) {
     const F8 sign = Select(n.z < 0, Wide(-1), Wide(1));
     const F8 a = -1 / (sign + n.z), b = n.x * n.y * a;
     x = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
     y = {b, sign + n.y * n.y * a, -n.y};
   }
-  Triple8 ToLocal(const Triple8& d) const { return {Dot3(x, d), Dot3(y, d), Dot3(z, d)}; }
-  Triple8 ToWorld(const Triple8& d) const {
+  F8x3 ToLocal(const F8x3& d) const { return {Dot(x, d), Dot(y, d), Dot(z, d)}; }
+  F8x3 ToWorld(const F8x3& d) const {
     return {x.x * d.x + y.x * d.y + z.x * d.z, x.y * d.x + y.y * d.y + z.y * d.z,
             x.z * d.x + y.z * d.y + z.z * d.z};
   }
@@ -94,28 +92,28 @@ class Pass {
     const Eigen::Matrix3f& r = view_.rotation;
     const auto pixel = static_cast<std::size_t>(y * view_.rays->width + x);
     const F8 cx = LoadF(&view_.rays->x[pixel]), cy = LoadF(&view_.rays->y[pixel]);
-    const Triple8 d = {r(0, 0) * cx + r(0, 1) * cy + r(0, 2), r(1, 0) * cx + r(1, 1) * cy + r(1, 2),
-                       r(2, 0) * cx + r(2, 1) * cy + r(2, 2)};
-    const F8 inverse = -1 / Sqrt(Dot3(d, d));
-    const Triple8 to_eye = {d.x * inverse, d.y * inverse, d.z * inverse};
+    const F8x3 d = {r(0, 0) * cx + r(0, 1) * cy + r(0, 2), r(1, 0) * cx + r(1, 1) * cy + r(1, 2),
+                    r(2, 0) * cx + r(2, 1) * cy + r(2, 2)};
+    const F8 inverse = -1 / Sqrt(Dot(d, d));
+    const F8x3 to_eye = {d.x * inverse, d.y * inverse, d.z * inverse};
     const Frame8 basis(Normal(triangle, to_eye));
-    Triple8 out = basis.ToLocal(to_eye);
+    F8x3 out = basis.ToLocal(to_eye);
     out.z = Max(out.z, Wide(kGrazing));
 
     const DiskPattern::Row& disk = pattern_.rows[static_cast<std::size_t>(y & 3)];
-    const Triple8 facet = SampleFacet(out, alpha, disk.radius, disk.cos_phi, disk.sin_phi);
-    const F8 across = Dot3(out, facet);
-    const Triple8 in = {2 * across * facet.x - out.x, 2 * across * facet.y - out.y,
-                        2 * across * facet.z - out.z};
+    const F8x3 facet = SampleFacet(out, alpha, disk.radius, disk.cos_phi, disk.sin_phi);
+    const F8 across = Dot(out, facet);
+    const F8x3 in = {2 * across * facet.x - out.x, 2 * across * facet.y - out.y,
+                     2 * across * facet.z - out.z};
     // Broad lobes are asked in every second row of the pattern, and counted twice.
     const I8 broad = roughness > kBroad;
     const I8 up = glossy & (in.z > 0) & (y % 2 ? ~broad : WideInt(-1));
     const F8 weight =
         Fresnel(f0, across) * SmithMasking(in.z, alpha) * Select(broad, Wide(2), Wide(1));
     const F8 t = Select(glossy, LoadF(&image_.t[i]), Wide(0));
-    const Triple8 from = {view_.origin.x() + t * d.x + kLift * basis.z.x,
-                          view_.origin.y() + t * d.y + kLift * basis.z.y,
-                          view_.origin.z() + t * d.z + kLift * basis.z.z};
+    const F8x3 from = {view_.origin.x() + t * d.x + kLift * basis.z.x,
+                       view_.origin.y() + t * d.y + kLift * basis.z.y,
+                       view_.origin.z() + t * d.z + kLift * basis.z.z};
     F8 seen = Seen(from, basis.ToWorld(in), up);
     const F8 most = LoadF(irradiance + i) * (kBrightest * std::numbers::inv_pi_v<float>);
     seen = Select(broad, Min(seen, most), seen);
@@ -126,28 +124,19 @@ class Pass {
 
  private:
   /// On the eye's side.
-  Triple8 Normal(I8 triangle, const Triple8& to_eye) const {
+  F8x3 Normal(I8 triangle, const F8x3& to_eye) const {
     const I8 offset = triangle * static_cast<int>(sizeof(SurfaceRecord) / sizeof(float));
     const float* base = tables_.statics().data()->normal;
-    Triple8 n = {Gather(base, offset), Gather(base, offset + 1), Gather(base, offset + 2)};
-    const F8 side = Select(Dot3(n, to_eye) < 0, Wide(-1), Wide(1));
+    F8x3 n = {Gather(base, offset), Gather(base, offset + 1), Gather(base, offset + 2)};
+    const F8 side = Select(Dot(n, to_eye) < 0, Wide(-1), Wide(1));
     return {n.x * side, n.y * side, n.z * side};
   }
 
-  F8 Seen(const Triple8& from, const Triple8& to, I8 valid) const {
+  F8 Seen(const F8x3& from, const F8x3& to, I8 valid) const {
     if (!Any(valid)) return Wide(0);
-    Rays8 rays;
-    Store(from.x, rays.ox);
-    Store(from.y, rays.oy);
-    Store(from.z, rays.oz);
-    Store(to.x, rays.dx);
-    Store(to.y, rays.dy);
-    Store(to.z, rays.dz);
-    Store(Wide(0), rays.t_near);
-    Store(Wide(kInfinity), rays.t_far);
-    std::memcpy(rays.valid, &valid, sizeof(rays.valid));
     Hits8 hits;
-    instant_.Intersect(rays, Coherence::kIncoherent, kEverything, &hits);
+    instant_.Intersect(MakeRays(from, to, Wide(kInfinity), valid), Coherence::kIncoherent,
+                       kEverything, &hits);
     const SurfaceLanes seen =
         LookUpHits(tables_, frame_, textures_, LoadI(hits.geometry), LoadI(hits.primitive),
                    {LoadF(hits.t), LoadF(hits.u), LoadF(hits.v), to.x, to.y, to.z, I8{}}, step_);

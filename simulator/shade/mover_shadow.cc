@@ -7,6 +7,7 @@
 
 #include "simulator/shade/hemisphere.h"
 #include "simulator/shade/pattern_filter.h"
+#include "simulator/shade/ray_packets.h"
 
 namespace aisle::sim {
 namespace {
@@ -38,20 +39,6 @@ I8 MeetBox(const Eigen::AlignedBox3f& box, const F8x3& from, const F8x3& to) {
   slab(box.min().y(), box.max().y(), from.y, to.y);
   slab(box.min().z(), box.max().z(), from.z, to.z);
   return near <= far;
-}
-
-Rays8 MakeRays(const F8x3& from, const F8x3& to, float t_far, I8 valid) {
-  Rays8 rays;
-  Store(from.x, rays.ox);
-  Store(from.y, rays.oy);
-  Store(from.z, rays.oz);
-  Store(to.x, rays.dx);
-  Store(to.y, rays.dy);
-  Store(to.z, rays.dz);
-  Store(Wide(0), rays.t_near);
-  Store(Wide(t_far), rays.t_far);
-  std::memcpy(rays.valid, &valid, sizeof(rays.valid));
-  return rays;
 }
 
 /// Sample positions of the 4 × 4 pattern for eight pixels of a row: neighbours differ much, and
@@ -298,7 +285,7 @@ class Pass {
     if (!Any(valid)) return Wide(0);
     valid &= MayMeet(blocker.movers, pixels.position, to);
     if (!Any(valid)) return Wide(0);
-    Rays8 rays = MakeRays(pixels.position, to, 0.998f, valid);
+    Rays8 rays = MakeRays(pixels.position, to, Wide(0.998f), valid);
     const unsigned blocked = instant_.Occluded(rays, Coherence::kCoherent, blocker.movers);
     if (!blocked) return Wide(0);
     // What the static world keeps away anyway is not the mover's to take.
@@ -324,7 +311,7 @@ class Pass {
                        kReach * (-d.x * sign * n.x - d.y * n.y + d.z * n.z)};
       const I8 valid = pixels.active & MayMeet(movers, pixels.position, to);
       if (!Any(valid)) continue;
-      const unsigned hit = instant_.Occluded(MakeRays(pixels.position, to, 1, valid),
+      const unsigned hit = instant_.Occluded(MakeRays(pixels.position, to, Wide(1), valid),
                                              Coherence::kIncoherent, movers);
       blocked += Select(LanesOf(hit), Wide(1), Wide(0));
     }

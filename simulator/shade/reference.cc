@@ -59,7 +59,7 @@ class Scattering {
     }
     const Triple<float> facet =
         SampleFacet(out_, finish_.roughness * finish_.roughness, r, std::cos(phi), std::sin(phi));
-    const float twice = 2 * Dot3(out_, facet);
+    const float twice = 2 * Dot(out_, facet);
     return basis_ * Eigen::Vector3f(twice * facet.x - out_.x, twice * facet.y - out_.y,
                                     twice * facet.z - out_.z);
   }

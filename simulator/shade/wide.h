@@ -63,10 +63,16 @@ inline I8 LanesOf(unsigned bits) {
   return (WideInt(static_cast<std::int32_t>(bits)) & lane) != 0;
 }
 
-struct F8x3 {
-  F8 x, y, z;
+/// A vector of one lane (float) or of eight (F8).
+template <typename T>
+struct Triple {
+  T x, y, z;
 };
-inline F8 Dot(const F8x3& a, const F8x3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+using F8x3 = Triple<F8>;
+template <typename T>
+T Dot(const Triple<T>& a, const Triple<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 inline F8x3 Minus(const F8x3& a, const F8x3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
 /// log2, to 0.01 for x > 0: the exponent plus a parabola through the mantissa.

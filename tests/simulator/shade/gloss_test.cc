@@ -50,7 +50,7 @@ TEST(Gloss, SamplesHaveTheDensityThatIsStated) {
       const float radius = std::sqrt(random.Next()), phi = 2 * kPi * random.Next();
       const Triple<float> facet =
           SampleFacet(out, roughness * roughness, radius, std::cos(phi), std::sin(phi));
-      const float twice = 2 * Dot3(out, facet);
+      const float twice = 2 * Dot(out, facet);
       const LobeValue value = EvaluateLobe(
           finish, out, {twice * facet.x - out.x, twice * facet.y - out.y, twice * facet.z - out.z});
       if (value.density <= 0) continue;
