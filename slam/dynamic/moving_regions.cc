@@ -76,6 +76,7 @@ bool IsMoving(const Component& component, const RegionOptions& options) {
   if (component.dynamic_points <
       component.static_points * (known ? options.keep_share : options.birth_share))
     return false;
+  if (known && component.dynamic_points < options.keep_points) return false;
   return known || (Togetherness(component.drifts) >= options.birth_together &&
                    component.best >= options.birth_log_odds &&
                    component.dynamic_points >= options.birth_points);

@@ -105,6 +105,7 @@ struct RegionOptions {
   double birth_log_odds = 3.0;  ///< a region is born where its best node reaches this
   double keep_log_odds = 0.5;   ///< and reaches as far as nodes above this
   int birth_points = 5;         ///< and where so many of its points move
+  int keep_points = 4;          ///< and dies with fewer of them
   double vote_log_odds = 0.7;   ///< of a point, from which on it counts as moving or as static
   int min_nodes = 25;           ///< smaller regions are noise; 25 nodes are 20x20 pixels
   int dilate_nodes = 0;         ///< grown by this, for outlines that the stereo matcher shrinks
