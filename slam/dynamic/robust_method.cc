@@ -153,7 +153,7 @@ void SilencePointsOnEdges(std::vector<double>& evidence, const std::vector<Point
 }
 
 /// Whether the window around a point shows a corner rather than an edge: along an edge a point is
-/// not held by anything. Ratio of the eigenvalues of the gradients' second moments.
+/// not held by anything, and on noise that stands still in the image it would stand still too.
 bool IsCorner(const cv::Mat1b& image, const Eigen::Vector3d& at, const PointTrackOptions& options) {
   const int radius = options.flow.window_px / 2;
   const cv::Rect area =
@@ -169,7 +169,9 @@ bool IsCorner(const cv::Mat1b& image, const Eigen::Vector3d& at, const PointTrac
     }
   }
   const double half = (xx + yy) / 2, root = std::hypot((xx - yy) / 2, xy);
-  return half - root >= options.cornerness * (half + root) && half > 0;
+  const double noise = options.brightness_noise * cv::mean(image(area))[0];
+  const double of_noise = 2 * noise * noise * area.area();  // what it adds to xx and yy
+  return half - root >= std::max(options.cornerness * (half + root), 2 * of_noise) && half > 0;
 }
 
 /// A window on an edge slides along it: what it says of motion counts for nothing.

@@ -22,7 +22,9 @@ struct PointTrackOptions {
   /// Ratio of the gradients' second moments below which a window shows an edge, along which it is
   /// not held: such a point is not believed to move.
   double cornerness = 0.1;
-  double spacing_px = 22;        ///< one point per square of this side, the oldest
+  double spacing_px = 22;  ///< one point per square of this side, the oldest
+  /// Noise that grows with brightness, as a share of it: photons, and each pixel's own gain.
+  double brightness_noise = 0.02;
   double disparity_gate_px = 3;  ///< refined disparity may differ this much from the dense one
 
   OptionError Validate() const {
