@@ -102,14 +102,17 @@ std::optional<FramePose> TrackFrame(const Map& map, const Frame& frame, const Tr
       PredictPose(T_world_last, gap_is_short ? memory.motion : std::nullopt, gap_s).inverse();
   const Eigen::Isometry3d T_last_world = T_world_last.inverse();
 
-  // Repeated structure makes a wrong pose look right to a few dozen points: what explains too
-  // little of what should be seen is kept only where no other attempt explains more.
+  // Repeated structure makes a wrong pose look right to a few dozen points: one that explains too
+  // little of what should be seen gives way to one that explains enough. Only to such a one: where
+  // a person hides most of the map, whatever follows the person may explain a little more.
   std::optional<FramePose> best;
   const auto attempt = [&](const std::optional<FirstPose>& first) {
     std::optional<FramePose> found = first ? RefineInLocalMap(scene, *first) : std::nullopt;
-    if (found && (!best || found->pose.inliers > best->pose.inliers)) best = std::move(found);
-    return best && best->pose.inliers >=
-                       options.convincing_share * static_cast<double>(best->expected.size());
+    const bool convincing =
+        found && found->pose.inliers >=
+                     options.convincing_share * static_cast<double>(found->expected.size());
+    if (convincing || !best) best = std::move(found);
+    return convincing;
   };
   if (attempt(FollowLandmarks(scene, memory.landmarks, T_predicted_world, 1))) return best;
   // The rig has stopped, or turned on the spot.
