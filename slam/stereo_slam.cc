@@ -142,9 +142,12 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
     result.is_keyframe = pose.has_value();
   }
 
-  if (pose) Remember(*frame, *pose);
-  if (pose) lost_since_ns.reset();
-  if (!pose && !lost_since_ns) lost_since_ns = images.stamp_ns;
+  if (pose) {
+    Remember(*frame, *pose);
+    lost_since_ns.reset();
+  } else if (!lost_since_ns) {
+    lost_since_ns = images.stamp_ns;
+  }
   state = pose          ? TrackingState::kTracking
           : map.empty() ? TrackingState::kInitializing
                         : TrackingState::kLost;

@@ -114,11 +114,8 @@ int BenchLight(LightOptions options) {
   bool good = true;
   for (const std::string& view : options.views.empty() ? kViews : options.views) {
     auto [scene, frame] = SceneAndFrame(view);
-    if (!std::filesystem::exists(scene)) {
-      scene = (AssetsDir().parent_path() / "scenes" / (scene + ".yaml")).string();
-    }
-    options.simulation.scene_file = scene;
-    options.simulation.scene_name = SceneName(scene);
+    options.simulation.scene_file = SceneFile(scene);
+    options.simulation.scene_name = SceneName(options.simulation.scene_file);
     const LightComparison light =
         CompareLight(options.simulation, frame, options.samples, options.reduce);
     const std::string line = fmt::format(

@@ -59,10 +59,7 @@ std::unique_ptr<Sequence> Open(const View& view, const Options& options) {
   if (fs::is_directory(view.source)) {
     return OpenRecording(view.source, DatasetFormatFromName(options.format));
   }
-  std::string file = view.source;
-  if (!fs::exists(file)) {
-    file = (AssetsDir().parent_path() / "scenes" / (file + ".yaml")).string();
-  }
+  const std::string file = SceneFile(view.source);
   const SimulatedSequenceOptions simulation{.scene_file = file,
                                             .scene_name = SceneName(file),
                                             .assets_dir = AssetsDir().string(),
@@ -93,6 +90,16 @@ struct Result {
     if (!shown.truth || shown.truth->dynamic.empty()) return;
     has_truth = true;
     masks += CompareMasks(shown.images.left, *shown.truth, estimate.regions);
+  }
+
+  Result& operator+=(const Result& more) {
+    frames += more.frames;
+    has_truth |= more.has_truth;
+    masks += more.masks;
+    pixels += more.pixels;
+    rejected += more.rejected;
+    for (const auto& [stage, ms] : more.stage_ms) stage_ms[stage] += ms;
+    return *this;
   }
 
   double static_wrong() const {
@@ -187,12 +194,7 @@ int BenchDynamic(const Options& options) {
     fmt::print("{}\n", Line(text.size() > 27 ? "…" + text.substr(text.size() - 26) : text, result));
     std::fflush(stdout);
     rows.push_back(ToJson(result));
-    sum.frames += result.frames;
-    sum.has_truth |= result.has_truth;
-    sum.masks += result.masks;
-    sum.pixels += result.pixels;
-    sum.rejected += result.rejected;
-    for (const auto& [stage, ms] : result.stage_ms) sum.stage_ms[stage] += ms;
+    sum += result;
   }
   fmt::print("{}\n", Line("all", sum));
   for (const auto& [stage, ms] : sum.stage_ms) {

@@ -57,6 +57,11 @@ fs::path AssetsDir() {
   return dir;
 }
 
+std::string SceneFile(const std::string& file_or_name) {
+  if (fs::exists(file_or_name)) return file_or_name;
+  return (AssetsDir().parent_path() / "scenes" / (file_or_name + ".yaml")).string();
+}
+
 fs::path CacheDir() {
   return FromEnvironment("AISLE_CACHE", fs::path(AISLE_SOURCE_DIR) / ".cache");
 }

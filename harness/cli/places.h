@@ -11,6 +11,9 @@ namespace aisle {
 /// Throws InputError when there is no such folder.
 std::filesystem::path AssetsDir();
 
+/// A scene given by its file, or by its name in the tree: "paper/scene2".
+std::string SceneFile(const std::string& file_or_name);
+
 /// Rendered frames shared between runs: $AISLE_CACHE, or .cache/ of the source tree.
 std::filesystem::path CacheDir();
 

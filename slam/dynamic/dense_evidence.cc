@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "slam/dynamic/disparity.h"
+#include "slam/dynamic/median.h"
 
 namespace aisle::slam::dynamic {
 namespace {
@@ -128,12 +129,6 @@ cv::Mat1b DisparityEdges(const cv::Mat1f& disparity, double step) {
   return edges;
 }
 
-float Median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 struct RowSamples {
   std::vector<float> normalized, disparity;
 };
@@ -152,8 +147,9 @@ void MeasureNoise(const std::vector<RowSamples>& rows, const DenseNoise& used,
   evidence.noise_known =
       std::ssize(normalized) >= kLeastForNoise && std::ssize(disparity) >= kLeastForNoise;
   if (!evidence.noise_known) return;
-  evidence.measured.intensity = used.intensity * std::sqrt(Median(normalized) / kChi2Median);
-  evidence.measured.disparity_px = 1.4826 * Median(disparity) / std::sqrt(2.0);
+  evidence.measured.intensity =
+      used.intensity * std::sqrt(Median(std::move(normalized)) / kChi2Median);
+  evidence.measured.disparity_px = 1.4826 * Median(std::move(disparity)) / std::sqrt(2.0);
 }
 
 }  // namespace

@@ -1,18 +1,12 @@
 #include "slam/dynamic/label_memory.h"
 
 #include "slam/dynamic/dense_evidence.h"
+#include "slam/dynamic/median.h"
 
 namespace aisle::slam::dynamic {
 namespace {
 
 constexpr int kNodePixels = 2 * kNodeHalfPixels;
-
-float Median(std::vector<float>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Centre of a node in half-size pixels, and the node that holds a half-size pixel.
 double CentreOf(int node) { return (node + 0.5) * kNodeHalfPixels - 0.5; }
@@ -37,7 +31,8 @@ std::vector<cv::Point2f> RegionFlows(const NodeRegions& previous,
     v[region].push_back(static_cast<float>(track.now().y() - before.y()));
   }
   std::vector<cv::Point2f> flows;
-  for (std::size_t r = 0; r < u.size(); ++r) flows.emplace_back(Median(u[r]), Median(v[r]));
+  for (std::size_t r = 0; r < u.size(); ++r)
+    flows.emplace_back(Median(std::move(u[r])), Median(std::move(v[r])));
   return flows;
 }
 

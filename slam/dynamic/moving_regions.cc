@@ -2,6 +2,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "slam/dynamic/median.h"
+
 namespace aisle::slam::dynamic {
 namespace {
 
@@ -46,12 +48,6 @@ void CountVotes(std::vector<Component>& components, const cv::Mat1i& labels,
   }
 }
 
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Share of the drifts that go the way the middle one goes: parts of one body go together, however
 /// its limbs swing, while errors of matching go anywhere. One where too few are known.
 double Togetherness(const std::vector<Eigen::Vector3d>& drifts) {
@@ -73,9 +69,8 @@ double Togetherness(const std::vector<Eigen::Vector3d>& drifts) {
 bool IsMoving(const Component& component, const RegionOptions& options) {
   const bool known = !component.overlap.empty();
   if (component.pixels < options.min_nodes) return false;
-  if (component.dynamic_points <
-      component.static_points * (known ? options.keep_share : options.birth_share))
-    return false;
+  const double share = known ? options.keep_share : options.birth_share;
+  if (component.dynamic_points < component.static_points * share) return false;
   if (known && component.dynamic_points < options.keep_points) return false;
   return known || (Togetherness(component.drifts) >= options.birth_together &&
                    component.best >= options.birth_log_odds &&

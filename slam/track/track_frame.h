@@ -27,8 +27,8 @@ struct FramePose {
 };
 
 /// Finds the frame in the map: from where motion predicts it, from where it was, or by recognising
-/// the reference keyframe, whichever is the first to explain most of what should be seen; refined
-/// with everything around. Nothing if lost.
+/// the reference keyframe; the first pose that convinces (TrackOptions::convincing_share), else the
+/// first found at all; refined with everything around. Nothing if lost.
 std::optional<FramePose> TrackFrame(const Map& map, const Frame& frame, const TrackMemory& memory,
                                     const StereoCamera& camera, int levels,
                                     const TrackOptions& options);
