@@ -168,6 +168,9 @@ Simulator Simulator::Load(const std::string& scene_file, const std::string& asse
   impl->scene = TwinOf(LoadScene(scene_file), options.twin);
   const Scene& scene = impl->scene;
   if (const std::string error = LensError(scene); !error.empty()) throw std::runtime_error(error);
+  if (auto troubles = CheckSeed(scene, options.seed); !troubles.empty()) {
+    throw SceneError(std::move(troubles));
+  }
   impl->rig = RigOf(scene.camera);
   World world = BuildWorld(scene, assets_dir, options.seed);
   impl->instances = DescribeInstances(world);

@@ -6,65 +6,25 @@
 #include <cmath>
 #include <set>
 
+#include "simulator/scene/check_routes.h"
+#include "simulator/scene/hall.h"
+
 namespace aisle::sim {
 namespace {
 
-// Half widths of the movers, for keeping clear of what stands.
-constexpr double kPersonRadius_m = 0.22;
-constexpr double kVehicleRadius_m = 0.5;
-constexpr double kRigRadius_m = 0.3;
-
-/// A rectangle on the floor that nobody can pass.
-struct Obstacle {
-  std::string name;
-  Eigen::Vector2d center;
-  Eigen::Vector2d half;
-  double heading_rad = 0;
-
-  double DistanceTo(const Eigen::Vector2d& point) const {
-    const Eigen::Vector2d local = Eigen::Rotation2Dd(-heading_rad) * (point - center);
-    return (local.cwiseAbs() - half).cwiseMax(0).norm();
-  }
-};
-
-std::vector<Obstacle> ObstaclesOf(const Scene& scene) {
-  std::vector<Obstacle> obstacles;
-  for (std::size_t i = 0; i < scene.racks.size(); ++i) {
-    const RackSpec& rack = scene.racks[i];
-    const double length = rack.bays * rack.bay_m;
-    const Eigen::Vector2d along(std::cos(rack.heading_rad), std::sin(rack.heading_rad));
-    obstacles.push_back({fmt::format("racks[{}]", i),
-                         rack.from + along * length / 2,
-                         {length / 2, rack.depth_m / 2},
-                         rack.heading_rad});
-  }
-  for (std::size_t i = 0; i < scene.stacks.size(); ++i) {
-    const StackSpec& stack = scene.stacks[i];
-    obstacles.push_back({fmt::format("stacks[{}]", i), stack.at, {0.6, 0.4}, stack.heading_rad});
-  }
-  for (std::size_t i = 0; i < scene.columns.size(); ++i) {
-    const ColumnSpec& column = scene.columns[i];
-    const double half = column.size_m / 2;
-    obstacles.push_back({fmt::format("columns[{}]", i), column.at, {half, half}, 0});
-  }
-  return obstacles;
-}
-
 class Checker {
  public:
-  Checker(const Scene& scene, Issues* issues)
-      : scene_(scene), issues_(issues), obstacles_(ObstaclesOf(scene)) {}
+  Checker(const Scene& scene, Issues* issues) : scene_(scene), issues_(issues) {}
 
   void Run() {
     if (!CheckHall()) return;  // all else is measured against it
     CheckCamera();
     CheckLights();
     CheckStanding();
-    CheckRoute(scene_.rig.route, "rig", kRigRadius_m);
-    CheckActors(scene_.people, "people", kPersonRadius_m);
-    CheckActors(scene_.vehicles, "vehicles", kVehicleRadius_m);
+    CheckNames(scene_.people, "people");
+    CheckNames(scene_.vehicles, "vehicles");
     CheckHandles();
-    if (issues_->empty()) CheckMeetings();
+    CheckRoutes(scene_, issues_);
     for (std::size_t i = 0; i < scene_.vehicles.size(); ++i) CheckMast(scene_.vehicles[i], i);
     if (scene_.rig.mount.height_m >= scene_.hall.height_m) {
       issues_->Add(scene_.rig.mark, "rig.camera_height_m", "the camera is above the roof");
@@ -72,17 +32,6 @@ class Checker {
   }
 
  private:
-  bool InHall(const Eigen::Vector2d& point, double margin) const {
-    const Eigen::Array2d inside =
-        (point - scene_.hall.from).array().min((scene_.hall.to - point).array());
-    return inside.minCoeff() >= margin;
-  }
-
-  std::string HallText() const {
-    return fmt::format("the hall, x {:g} to {:g} and y {:g} to {:g}", scene_.hall.from.x(),
-                       scene_.hall.to.x(), scene_.hall.from.y(), scene_.hall.to.y());
-  }
-
   bool CheckHall() {
     if (((scene_.hall.to - scene_.hall.from).array() >= 2).all()) return true;
     issues_->Add(scene_.hall.mark, "hall",
@@ -125,8 +74,8 @@ class Checker {
         issues_->Add(lights.mark, key, "`from` and `to` go together; give both or neither");
       }
       for (const auto& corner : {lights.from, lights.to}) {
-        if (corner && !InHall(*corner, 0)) {
-          issues_->Add(lights.mark, key, "the lit rectangle leaves " + HallText());
+        if (corner && !InHall(scene_.hall, *corner, 0)) {
+          issues_->Add(lights.mark, key, "the lit rectangle leaves " + HallText(scene_.hall));
         }
       }
       for (const Blackout& off : lights.off) {
@@ -138,9 +87,10 @@ class Checker {
   }
 
   void CheckInside(Mark mark, const std::string& key, const Eigen::Vector2d& point) {
-    if (!InHall(point, 0)) {
-      issues_->Add(mark, key,
-                   fmt::format("[{:g}, {:g}] is outside {}", point.x(), point.y(), HallText()));
+    if (!InHall(scene_.hall, point, 0)) {
+      issues_->Add(
+          mark, key,
+          fmt::format("[{:g}, {:g}] is outside {}", point.x(), point.y(), HallText(scene_.hall)));
     }
   }
 
@@ -182,66 +132,14 @@ class Checker {
   }
 
   template <class Actor>
-  void CheckActors(const std::vector<Actor>& actors, const std::string& list, double radius) {
+  void CheckNames(const std::vector<Actor>& actors, const std::string& list) {
     for (std::size_t i = 0; i < actors.size(); ++i) {
       const Actor& actor = actors[i];
-      const std::string key = fmt::format("{}[{}]", list, i);
       if (!actor.name.empty() && !names_.insert(actor.name).second) {
-        issues_->Add(actor.mark, key + ".name",
+        issues_->Add(actor.mark, fmt::format("{}[{}].name", list, i),
                      fmt::format("'{}' is taken by another actor; names are unique", actor.name));
       }
-      CheckRoute(actor.route, key, radius);
     }
-  }
-
-  /// Each step does one thing, can be driven, and keeps clear of what stands.
-  void CheckRoute(const RouteSpec& route, const std::string& key, double radius) {
-    bool sound = true;
-    for (std::size_t i = 0; i < route.plan.steps.size(); ++i) {
-      const RouteStep& step = route.plan.steps[i];
-      const int kinds =
-          (step.go.empty() ? 0 : 1) + step.wait_s.has_value() + step.turn_to_rad.has_value();
-      if (kinds != 1) {
-        issues_->Add(route.marks[i].step, fmt::format("{}.steps[{}]", key, i),
-                     "a step is one of go, wait_s and turn_to_deg; example: {go: [[5, 0]], "
-                     "speed_mps: 0.9}");
-        sound = false;
-      }
-    }
-    if (!sound) return;
-    try {
-      CheckClearance(Route(route.plan, route.limits), route, key, radius);
-    } catch (const RouteError& error) {
-      const bool known = error.step() >= 0;
-      issues_->Add(known ? route.marks[static_cast<std::size_t>(error.step())].step : route.mark,
-                   known ? fmt::format("{}.steps[{}]", key, error.step()) : key, error.what());
-    }
-  }
-
-  void CheckClearance(const Route& way, const RouteSpec& route, const std::string& key,
-                      double radius) {
-    constexpr double kStep_s = 0.05;
-    for (double t = 0; t <= way.duration_s() + kStep_s; t += kStep_s) {
-      const RouteState state = way.At(t);
-      const std::string hit = Blocking(state.position, radius);
-      if (hit.empty()) continue;
-      const bool moving = state.step >= 0 && t > 0;
-      issues_->Add(
-          moving ? route.marks[static_cast<std::size_t>(state.step)].step : route.mark,
-          moving ? fmt::format("{}.steps[{}]", key, state.step) : key + ".start",
-          fmt::format("at [{:.2f}, {:.2f}] it {}", state.position.x(), state.position.y(), hit));
-      return;  // the first place is enough
-    }
-  }
-
-  std::string Blocking(const Eigen::Vector2d& point, double radius) const {
-    if (!InHall(point, radius)) return "runs into a wall or leaves " + HallText();
-    for (const Obstacle& obstacle : obstacles_) {
-      if (obstacle.DistanceTo(point) < radius) {
-        return fmt::format("runs through {} (it needs {:g} m around it)", obstacle.name, radius);
-      }
-    }
-    return "";
   }
 
   /// Who is pushed has a pusher, and no steps of its own.
@@ -262,37 +160,6 @@ class Checker {
     }
   }
 
-  /// The rig and the actors, as written, never run into one another.
-  void CheckMeetings() {
-    const Route rig(scene_.rig.route.plan, scene_.rig.route.limits);
-    for (std::size_t i = 0; i < scene_.people.size(); ++i) {
-      CheckMeeting(rig, scene_.people[i], fmt::format("people[{}]", i), kPersonRadius_m);
-    }
-    for (std::size_t i = 0; i < scene_.vehicles.size(); ++i) {
-      if (!scene_.vehicles[i].pushed_by.empty()) continue;
-      CheckMeeting(rig, scene_.vehicles[i], fmt::format("vehicles[{}]", i), kVehicleRadius_m);
-    }
-  }
-
-  template <class Actor>
-  void CheckMeeting(const Route& rig, const Actor& actor, const std::string& key, double radius) {
-    constexpr double kStep_s = 0.05;
-    const Route way(actor.route.plan, actor.route.limits);
-    for (double t = 0; t <= scene_.duration_s(); t += kStep_s) {
-      const RouteState state = way.At(t);
-      const double apart = (state.position - rig.At(t).position).norm();
-      if (apart >= radius + kRigRadius_m) continue;
-      const bool moving = state.step >= 0 && !actor.route.marks.empty();
-      issues_->Add(
-          moving ? actor.route.marks[static_cast<std::size_t>(state.step)].step : actor.route.mark,
-          key,
-          fmt::format("at {:.2f} s it is {:.2f} m from the rig's middle, which needs "
-                      "{:g} m: let one of them wait or go round",
-                      t, apart, radius + kRigRadius_m));
-      return;
-    }
-  }
-
   void CheckMast(const VehicleSpec& vehicle, std::size_t index) {
     try {
       MastLift(vehicle.mast, kMastSpeed_mps, kMastAcceleration_mps2);
@@ -303,7 +170,6 @@ class Checker {
 
   const Scene& scene_;
   Issues* issues_;
-  std::vector<Obstacle> obstacles_;
   std::set<std::string> names_;
 };
 

@@ -5,7 +5,7 @@
 namespace aisle::sim {
 
 /// What no single value can show: routes that leave the hall, run through racks or cannot be
-/// driven, names used twice, boxes turned inside out.
+/// driven (by any of the usual seeds), names used twice, boxes turned inside out.
 void CheckScene(const Scene& scene, Issues* issues);
 
 }  // namespace aisle::sim

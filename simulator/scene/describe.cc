@@ -221,8 +221,13 @@ void DescribePerson(Fields& f, PersonSpec& person) {
   f.Name({"model", "file in assets/people without .glb", "worker"}, &person.model);
   f.Choice({"level", "takes part from this level of dynamics on", "low"}, &person.level, kDynamics);
   DescribeRoute(f, person.route);
-  f.Group({"vary", "what the seed may change", "{time_s: 0.5, speed: 0.1}"},
-          [&](Fields& vary) { DescribeVary(vary, person.vary); });
+  f.Group({"vary", "what the seed may change", "{time_s: 0.5, speed: 0.1, look: true}"},
+          [&](Fields& vary) {
+            DescribeVary(vary, person.vary);
+            vary.Flag(
+                {"look", "each seed shows another of assets/people; seed 1 shows `model`", "true"},
+                &person.vary.look);
+          });
 }
 
 void DescribeMast(Fields& f, MastMove& move) {

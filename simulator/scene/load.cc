@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "simulator/scene/check.h"
+#include "simulator/scene/check_routes.h"
 #include "simulator/scene/reader.h"
 #include "simulator/scene/yaml_guard.h"
 
@@ -20,6 +21,11 @@ struct Parsed {
   std::vector<std::string> messages;
 };
 
+void NumberPlaces(Scene* scene) {
+  for (std::size_t i = 0; i < scene->people.size(); ++i) scene->people[i].place = i;
+  for (std::size_t i = 0; i < scene->vehicles.size(); ++i) scene->vehicles[i].place = i;
+}
+
 /// The stages of reading; each needs the one before to have found nothing.
 Parsed Parse(const std::string& text, const std::string& file) {
   Issues issues(file);
@@ -32,6 +38,7 @@ Parsed Parse(const std::string& text, const std::string& file) {
       YamlReader reader(top, "", &issues);
       Describe(reader, scene);
       reader.ReportKeys();
+      NumberPlaces(&scene);
     } else {
       issues.Add({1, 1}, "", "expected a map of scene keys; example: about: \"A person crosses.\"");
     }
@@ -81,6 +88,12 @@ Scene LoadScene(const std::filesystem::path& file) { return SceneOrThrow(ParseFi
 
 Scene ParseScene(const std::string& text, const std::string& file) {
   return SceneOrThrow(Parse(text, file));
+}
+
+std::vector<std::string> CheckSeed(const Scene& scene, std::uint64_t seed) {
+  Issues issues(scene.file);
+  CheckRoutesOfSeed(scene, seed, &issues);
+  return issues.Messages();
 }
 
 std::vector<std::string> CheckScene(const std::filesystem::path& file) {

@@ -28,6 +28,10 @@ Scene ParseScene(const std::string& text, const std::string& file);
 /// Every mistake in the file; empty: it is good. Never throws for what the file holds.
 std::vector<std::string> CheckScene(const std::filesystem::path& file);
 
+/// What goes wrong in a good scene when its actors move as this seed has them. The usual seeds are
+/// part of CheckScene already.
+std::vector<std::string> CheckSeed(const Scene& scene, std::uint64_t seed);
+
 /// The JSON Schema (draft 7) of scene files, made from the same description the reader uses.
 std::string SceneSchema();
 

@@ -177,10 +177,12 @@ struct VarySpec {
   double time_s = 0;  ///< start earlier or later by up to this
   double speed = 0;   ///< faster or slower by up to this share
   double path_m = 0;  ///< inner points of the path moved by up to this
+  bool look = false;  ///< of a person: each seed shows another one
 };
 
 struct PersonSpec {
   Mark mark;
+  std::size_t place = 0;  ///< in the file's list, whoever of it is left out
   std::string name;
   std::string model = "worker";
   Dynamics level = Dynamics::kLow;
@@ -190,6 +192,7 @@ struct PersonSpec {
 
 struct VehicleSpec {
   Mark mark;
+  std::size_t place = 0;  ///< in the file's list, whoever of it is left out
   std::string name;
   std::string model = "forklift";
   Dynamics level = Dynamics::kLow;

@@ -32,21 +32,6 @@ TriangleMesh Wardrobe::Wear(const std::shared_ptr<const Model>& model) {
   return mesh;
 }
 
-RouteSpec Varied(RouteSpec route, const VarySpec& vary, Dice dice) {
-  RoutePlan& plan = route.plan;
-  plan.start_s = std::max(0.0, plan.start_s + vary.time_s * dice.Signed());
-  const double faster = 1 + vary.speed * dice.Signed();
-  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
-    plan.steps[i].speed_mps *= faster;
-    for (std::size_t k = 0; k < plan.steps[i].go.size(); ++k) {
-      const bool is_end = i + 1 == plan.steps.size() && k + 1 == plan.steps[i].go.size();
-      const Eigen::Vector2d shift(vary.path_m * dice.Signed(), vary.path_m * dice.Signed());
-      if (!is_end) plan.steps[i].go[k] += shift;
-    }
-  }
-  return route;
-}
-
 Eigen::Isometry3d ObjectPose(const RouteState& state) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = Eigen::AngleAxisd(state.heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();

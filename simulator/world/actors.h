@@ -2,9 +2,9 @@
 
 #include <functional>
 
+#include "simulator/scene/dice.h"
 #include "simulator/scene/scene.h"
 #include "simulator/world/assets.h"
-#include "simulator/world/dice.h"
 #include "simulator/world/palette.h"
 
 namespace aisle::sim {
@@ -37,9 +37,6 @@ Actor MakePerson(const PersonSpec& person, AssetLibrary* assets, const Palette& 
 /// `ahead_m` before the route, as that of a truck does which is pushed.
 Actor MakeVehicle(const VehicleSpec& vehicle, AssetLibrary* assets, const Palette& palette,
                   Dice dice, Wardrobe* wardrobe, double ahead_m = 0);
-
-/// A route as a seed has it: later, faster and elsewhere within the actor's bounds.
-RouteSpec Varied(RouteSpec route, const VarySpec& vary, Dice dice);
 
 /// State of a skinned model from the joint matrices (model frame) and object poses at t - h, t and
 /// t + h: every vertex with its own velocity.

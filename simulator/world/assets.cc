@@ -99,6 +99,12 @@ const PersonFacts& AssetLibrary::Person(const std::string& name) const {
   return Find(people_, name, "people");
 }
 
+std::vector<std::string> AssetLibrary::PeopleNames() const {
+  std::vector<std::string> names;
+  for (const auto& [name, facts] : people_) names.push_back(name);
+  return names;
+}
+
 const VehicleFacts& AssetLibrary::Vehicle(const std::string& name) const {
   return Find(vehicles_, name, "vehicles");
 }

@@ -48,6 +48,8 @@ class AssetLibrary {
   /// Facts of people/NAME or vehicles/NAME. Throws std::runtime_error naming what there is.
   const PersonFacts& Person(const std::string& name) const;
   const VehicleFacts& Vehicle(const std::string& name) const;
+  /// The names that Person knows, sorted.
+  std::vector<std::string> PeopleNames() const;
   /// Folder and name of a piece of assets/kit or assets/street, as Load takes it. Throws likewise.
   const std::string& Prop(const std::string& name) const;
   /// The picture assets/textures/NAME.png in grey. Throws ImportError.

@@ -1,8 +1,10 @@
 #include "simulator/world/build.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "simulator/motion/rig_mount.h"
+#include "simulator/scene/vary.h"
 #include "simulator/world/actors.h"
 #include "simulator/world/props.h"
 #include "simulator/world/warehouse.h"
@@ -33,29 +35,18 @@ struct Cast {
       fmt::format("{}:{}:{}: {}: {}", scene.file, mark.line, mark.column, name, why));
 }
 
-PersonSpec VariedPerson(const Scene& scene, std::size_t index, std::uint64_t seed) {
-  PersonSpec person = scene.people[index];
-  person.route = Varied(person.route, person.vary, Dice(seed, {400, index}));
-  return person;
-}
-
-/// A vehicle that is pushed has the route of the person behind it. Returns how far ahead of that
-/// person its origin is.
-double TakeHandle(const Scene& scene, std::uint64_t seed, const AssetLibrary& assets,
-                  VehicleSpec* vehicle) {
-  if (vehicle->pushed_by.empty()) return 0;
-  for (std::size_t i = 0; i < scene.people.size(); ++i) {
-    if (scene.people[i].name != vehicle->pushed_by) continue;
-    const PersonSpec person = VariedPerson(scene, i, seed);
-    vehicle->route.plan = person.route.plan;
-    vehicle->route.limits = person.route.limits;
-    const auto& clips = assets.Person(person.model).clips;
-    const auto push = clips.find("walk_push");
-    const double hands = push == clips.end() ? 0 : push->second.handle_ahead_m;
-    return hands - assets.Vehicle(vehicle->model).handle_m;
+/// How far ahead of the person behind its handle a pushed vehicle's origin is.
+double AheadOfPusher(const Scene& scene, const VehicleSpec& vehicle, const AssetLibrary& assets) {
+  if (vehicle.pushed_by.empty()) return 0;
+  const auto pusher = std::ranges::find(scene.people, vehicle.pushed_by, &PersonSpec::name);
+  if (pusher == scene.people.end()) {
+    Refuse(scene, vehicle.mark, vehicle.name,
+           fmt::format("there is nobody '{}' to push it", vehicle.pushed_by));
   }
-  Refuse(scene, vehicle->mark, vehicle->name,
-         fmt::format("there is nobody '{}' to push it", vehicle->pushed_by));
+  const auto& clips = assets.Person(pusher->model).clips;
+  const auto push = clips.find("walk_push");
+  const double hands = push == clips.end() ? 0 : push->second.handle_ahead_m;
+  return hands - assets.Vehicle(vehicle.model).handle_m;
 }
 
 std::vector<Cast> AddActors(const Scene& scene, const Palette& palette, std::uint64_t seed,
@@ -71,18 +62,16 @@ std::vector<Cast> AddActors(const Scene& scene, const Palette& palette, std::uin
       Refuse(scene, spec.mark, spec.name, error.what());
     }
   };
-  for (std::size_t i = 0; i < scene.people.size(); ++i) {
-    const PersonSpec person = VariedPerson(scene, i, seed);
+  for (const PersonSpec& person : scene.people) {
     enter(person, ObjectClass::kPerson, [&] {
-      return MakePerson(person, assets, palette, Dice(seed, {430, i}), wardrobe);
+      return MakePerson(person, assets, palette, Dice(seed, {430, person.place}), wardrobe);
     });
   }
-  for (std::size_t i = 0; i < scene.vehicles.size(); ++i) {
-    VehicleSpec vehicle = scene.vehicles[i];
-    vehicle.route = Varied(vehicle.route, vehicle.vary, Dice(seed, {410, i}));
-    const double ahead_m = TakeHandle(scene, seed, *assets, &vehicle);
+  for (const VehicleSpec& vehicle : scene.vehicles) {
+    const double ahead_m = AheadOfPusher(scene, vehicle, *assets);
     enter(vehicle, ClassOfVehicle(vehicle.model), [&] {
-      return MakeVehicle(vehicle, assets, palette, Dice(seed, {420, i}), wardrobe, ahead_m);
+      return MakeVehicle(vehicle, assets, palette, Dice(seed, {420, vehicle.place}), wardrobe,
+                         ahead_m);
     });
   }
   return cast;
@@ -90,10 +79,11 @@ std::vector<Cast> AddActors(const Scene& scene, const Palette& palette, std::uin
 
 }  // namespace
 
-World BuildWorld(const Scene& scene, const std::string& assets_dir, std::uint64_t seed) {
+World BuildWorld(const Scene& written, const std::string& assets_dir, std::uint64_t seed) {
   WorldParts parts;
   Site site(&parts);
   AssetLibrary assets(assets_dir);
+  const Scene scene = WithLooks(Seeded(written, seed), seed, assets.PeopleNames());
   const Palette palette = AddPalette(scene, seed, assets, &parts);
   AddFloor(scene, palette, seed, &site);
   AddMarkings(scene, palette, &site);

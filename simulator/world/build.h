@@ -12,6 +12,6 @@ namespace aisle::sim {
 /// Everything the scene leaves open (which carton where, stains, looks, the actors' timing within
 /// their bounds) is decided by the seed. Throws std::runtime_error with file:line:column when a
 /// model is missing or does not fit its use.
-World BuildWorld(const Scene& scene, const std::string& assets_dir, std::uint64_t seed);
+World BuildWorld(const Scene& written, const std::string& assets_dir, std::uint64_t seed);
 
 }  // namespace aisle::sim

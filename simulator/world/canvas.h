@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "simulator/world/dice.h"
+#include "simulator/scene/dice.h"
 
 namespace aisle::sim {
 

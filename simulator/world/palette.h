@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "simulator/scene/dice.h"
 #include "simulator/scene/scene.h"
 #include "simulator/world/assets.h"
-#include "simulator/world/dice.h"
 #include "simulator/world/shapes.h"
 #include "simulator/world/world.h"
 

@@ -2,8 +2,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "simulator/scene/dice.h"
 #include "simulator/scene/scene.h"
-#include "simulator/world/dice.h"
 
 namespace aisle::sim {
 

@@ -235,7 +235,11 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"name: walker", "level: low", "13:5", "people[0].name: it is missing"},
         Mistake{"start: [5, 1.5]", "start: [5, 2.5]", "13:5", "people[0].start"},
         Mistake{"wait_s: 1", "wait_s: 1, play: \"a b\"", "18:27", "a name of letters"},
-        Mistake{"go: [[5, -1.5]]", "go: [[3, 0]]", "17:9", "from the rig's middle"},
+        Mistake{"go: [[5, -1.5]]", "go: [[3, 0]]", "17:9", "m from the rig, middle to middle"},
+        Mistake{"    steps:\n      - {go: [[5, -1.5]], speed_mps: 1.2}\n      - {wait_s: 1}\n",
+                "  - {name: bystander, start: [5.3, 1.5]}\n", "16:5", "0.30 m from walker"},
+        Mistake{"    heading_deg: -90", "    vary: {path_m: 2}\n    heading_deg: -90", "18:9",
+                "people[0]: with seed 8 "},
         Mistake{"people:", "persons:", "12:1", "there is no such key"}));
 
 TEST(Mistakes, AreAllReportedInOneGo) {

@@ -1,0 +1,203 @@
+#include "simulator/scene/check_routes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "simulator/scene/footprint.h"
+#include "simulator/scene/hall.h"
+#include "simulator/scene/vary.h"
+
+namespace aisle::sim {
+namespace {
+
+// Half widths of the movers, for keeping clear of what stands.
+constexpr double kPersonRadius_m = 0.22;
+constexpr double kVehicleRadius_m = 0.5;
+constexpr double kRigRadius_m = 0.3;
+
+/// A rectangle on the floor that nobody can pass.
+struct Obstacle {
+  std::string name;
+  Eigen::Vector2d center;
+  Eigen::Vector2d half;
+  double heading_rad = 0;
+
+  double DistanceTo(const Eigen::Vector2d& point) const {
+    const Eigen::Vector2d local = Eigen::Rotation2Dd(-heading_rad) * (point - center);
+    return (local.cwiseAbs() - half).cwiseMax(0).norm();
+  }
+};
+
+std::vector<Obstacle> ObstaclesOf(const Scene& scene) {
+  std::vector<Obstacle> obstacles;
+  for (std::size_t i = 0; i < scene.racks.size(); ++i) {
+    const RackSpec& rack = scene.racks[i];
+    const double length = rack.bays * rack.bay_m;
+    const Eigen::Vector2d along(std::cos(rack.heading_rad), std::sin(rack.heading_rad));
+    obstacles.push_back({fmt::format("racks[{}]", i),
+                         rack.from + along * length / 2,
+                         {length / 2, rack.depth_m / 2},
+                         rack.heading_rad});
+  }
+  for (std::size_t i = 0; i < scene.stacks.size(); ++i) {
+    const StackSpec& stack = scene.stacks[i];
+    obstacles.push_back({fmt::format("stacks[{}]", i), stack.at, {0.6, 0.4}, stack.heading_rad});
+  }
+  for (std::size_t i = 0; i < scene.columns.size(); ++i) {
+    const ColumnSpec& column = scene.columns[i];
+    const double half = column.size_m / 2;
+    obstacles.push_back({fmt::format("columns[{}]", i), column.at, {half, half}, 0});
+  }
+  return obstacles;
+}
+
+/// Somebody under way.
+struct Walker {
+  const RouteSpec* route = nullptr;
+  Route way;
+  Footprint footprint;
+  std::string key, name;
+};
+
+std::string KeyOf(const PersonSpec& person) { return fmt::format("people[{}]", person.place); }
+std::string KeyOf(const VehicleSpec& vehicle) { return fmt::format("vehicles[{}]", vehicle.place); }
+
+/// The line to blame for where a mover is.
+Mark MarkOf(const RouteSpec& route, const RouteState& state) {
+  const bool known = state.step >= 0 && !route.marks.empty();
+  return known ? route.marks[static_cast<std::size_t>(state.step)].step : route.mark;
+}
+
+/// Looks at the routes of one scene; `seeded` says which seed's they are, "" as written.
+class RouteChecker {
+ public:
+  RouteChecker(const Scene& scene, std::string seeded, Issues* issues)
+      : scene_(scene),
+        seeded_(std::move(seeded)),
+        issues_(issues),
+        obstacles_(ObstaclesOf(scene)) {}
+
+  void Run() {
+    CheckRoute(scene_.rig.route, "rig", kRigRadius_m);
+    for (const PersonSpec& person : scene_.people) {
+      CheckRoute(person.route, KeyOf(person), kPersonRadius_m);
+    }
+    for (const VehicleSpec& vehicle : scene_.vehicles) {
+      if (vehicle.pushed_by.empty()) CheckRoute(vehicle.route, KeyOf(vehicle), kVehicleRadius_m);
+    }
+    if (issues_->empty()) CheckMeetings();
+  }
+
+ private:
+  /// Each step does one thing, can be driven, and keeps clear of what stands.
+  void CheckRoute(const RouteSpec& route, const std::string& key, double radius) {
+    bool sound = true;
+    for (std::size_t i = 0; i < route.plan.steps.size(); ++i) {
+      const RouteStep& step = route.plan.steps[i];
+      const int kinds =
+          (step.go.empty() ? 0 : 1) + step.wait_s.has_value() + step.turn_to_rad.has_value();
+      if (kinds != 1) {
+        issues_->Add(route.marks[i].step, fmt::format("{}.steps[{}]", key, i),
+                     "a step is one of go, wait_s and turn_to_deg; example: {go: [[5, 0]], "
+                     "speed_mps: 0.9}");
+        sound = false;
+      }
+    }
+    if (!sound) return;
+    try {
+      CheckClearance(Route(route.plan, route.limits), route, key, radius);
+    } catch (const RouteError& error) {
+      const bool known = error.step() >= 0;
+      issues_->Add(known ? route.marks[static_cast<std::size_t>(error.step())].step : route.mark,
+                   known ? fmt::format("{}.steps[{}]", key, error.step()) : key,
+                   seeded_ + error.what());
+    }
+  }
+
+  void CheckClearance(const Route& way, const RouteSpec& route, const std::string& key,
+                      double radius) {
+    constexpr double kStep_s = 0.05;
+    for (double t = 0; t <= way.duration_s() + kStep_s; t += kStep_s) {
+      const RouteState state = way.At(t);
+      const std::string hit = Blocking(state.position, radius);
+      if (hit.empty()) continue;
+      const bool moving = state.step >= 0 && t > 0;
+      issues_->Add(moving ? route.marks[static_cast<std::size_t>(state.step)].step : route.mark,
+                   moving ? fmt::format("{}.steps[{}]", key, state.step) : key + ".start",
+                   fmt::format("{}at [{:.2f}, {:.2f}] it {}", seeded_, state.position.x(),
+                               state.position.y(), hit));
+      return;  // the first place is enough
+    }
+  }
+
+  std::string Blocking(const Eigen::Vector2d& point, double radius) const {
+    if (!InHall(scene_.hall, point, radius)) {
+      return "runs into a wall or leaves " + HallText(scene_.hall);
+    }
+    for (const Obstacle& obstacle : obstacles_) {
+      if (obstacle.DistanceTo(point) < radius) {
+        return fmt::format("runs through {} (it needs {:g} m around it)", obstacle.name, radius);
+      }
+    }
+    return "";
+  }
+
+  /// The rig and the actors never run into one another.
+  void CheckMeetings() {
+    const auto walker = [](const RouteSpec& route, const Footprint& footprint,
+                           const std::string& key, const std::string& name) {
+      return Walker{&route, Route(route.plan, route.limits), footprint, key, name};
+    };
+    std::vector<Walker> walkers = {
+        walker(scene_.rig.route, {0, 0, kRigRadius_m}, "rig", "the rig")};
+    for (const PersonSpec& person : scene_.people) {
+      walkers.push_back(walker(person.route, {0, 0, kPersonRadius_m}, KeyOf(person), person.name));
+    }
+    for (const VehicleSpec& vehicle : scene_.vehicles) {
+      if (!vehicle.pushed_by.empty()) continue;  // goes where its pusher goes
+      walkers.push_back(
+          walker(vehicle.route, FootprintOf(vehicle.model), KeyOf(vehicle), vehicle.name));
+    }
+    for (std::size_t i = 0; i < walkers.size(); ++i) {
+      for (std::size_t k = i + 1; k < walkers.size(); ++k) CheckMeeting(walkers[i], walkers[k]);
+    }
+  }
+
+  void CheckMeeting(const Walker& one, const Walker& other) {
+    constexpr double kStep_s = 0.05;
+    const double needed_m = one.footprint.radius_m + other.footprint.radius_m;
+    for (double t = 0; t <= scene_.duration_s(); t += kStep_s) {
+      const RouteState state = other.way.At(t);
+      const double apart_m = Apart(one.footprint, one.way.At(t), other.footprint, state);
+      if (apart_m >= needed_m) continue;
+      issues_->Add(MarkOf(*other.route, state), other.key,
+                   fmt::format("{}at {:.2f} s it is {:.2f} m from {}, middle to middle, and they "
+                               "need {:g} m: let one of them wait or go round",
+                               seeded_, t, apart_m, one.name, needed_m));
+      return;
+    }
+  }
+
+  const Scene& scene_;
+  std::string seeded_;
+  Issues* issues_;
+  std::vector<Obstacle> obstacles_;
+};
+
+}  // namespace
+
+void CheckRoutesOfSeed(const Scene& scene, std::uint64_t seed, Issues* issues) {
+  RouteChecker(Seeded(scene, seed), fmt::format("with seed {} ", seed), issues).Run();
+}
+
+void CheckRoutes(const Scene& scene, Issues* issues) {
+  RouteChecker(scene, "", issues).Run();
+  for (std::uint64_t seed = 1; seed <= kUsualSeeds && issues->empty(); ++seed) {
+    CheckRoutesOfSeed(scene, seed, issues);
+  }
+}
+
+}  // namespace aisle::sim
