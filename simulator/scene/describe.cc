@@ -40,6 +40,9 @@ void DescribeSensor(Fields& f, SensorSpec& sensor) {
          &sensor.auto_exposure);
   f.Number({"auto_target_grey", "mean grey that automatic exposure aims at", "110"},
            &sensor.auto_target_grey, {10, 240});
+  f.Number({"auto_meter_from", "share of the picture's height above which, the sky, is not metered",
+            "0.5"},
+           &sensor.auto_meter_from, {0, 0.9});
   f.Number({"auto_longest_ms", "longest automatic exposure; then gain rises, to 12 dB", "12"},
            &sensor.auto_longest_ms, {0.2, 200});
   f.Flag({"noise", "shot and read noise", "true"}, &sensor.noise);

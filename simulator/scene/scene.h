@@ -40,6 +40,7 @@ struct SensorSpec {
   double gain_db = 0;
   bool auto_exposure = false;     ///< chooses time and gain itself
   double auto_target_grey = 110;  ///< mean grey it aims at
+  double auto_meter_from = 0;     ///< share of the height above which the picture is not metered
   double auto_longest_ms = 12;    ///< exposure time beyond which it takes gain instead
   bool noise = true;              ///< shot and read noise
   bool fixed_pattern = true;      ///< every pixel's own sensitivity and dark signal

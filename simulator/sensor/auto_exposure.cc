@@ -35,6 +35,9 @@ std::string AutoExposureOptions::Validate() const {
   if (!(white_share > 0 && white_share <= 1)) {
     return fmt::format("white_share is {}, must be above 0 and at most 1", white_share);
   }
+  if (!(meter_from >= 0 && meter_from <= 0.9f)) {
+    return fmt::format("meter_from is {}, must be from 0 to 0.9", meter_from);
+  }
   if (!(shortest_ms > 0 && longest_ms >= shortest_ms)) {
     return fmt::format("shortest_ms is {} and longest_ms {}: 0 < shortest_ms ≤ longest_ms",
                        shortest_ms, longest_ms);
@@ -43,9 +46,11 @@ std::string AutoExposureOptions::Validate() const {
   return "";
 }
 
-ExposureSetting ChooseExposure(const cv::Mat1f& light, double white_per_ms,
+ExposureSetting ChooseExposure(const cv::Mat1f& view, double white_per_ms,
                                const AutoExposureOptions& options) {
   constexpr int kBisections = 30;
+  const int top = static_cast<int>(options.meter_from * static_cast<float>(view.rows));
+  const cv::Mat1f light = view.rowRange(top, view.rows);
   const double whitest =
       1 / (white_per_ms * std::max(1e-12, BrightestBut(light, options.white_share)));
   const double highest =

@@ -38,6 +38,15 @@ TEST(AutoExposure, ADarkThingBeforeABrightHallDoesNotWashItOut) {
   EXPECT_NEAR(MeanGrey(light, 0.3, ChooseExposure(light, 0.3, kAuto)), 255 * 34.0 / 94, 1);
 }
 
+TEST(AutoExposure, WhatIsAboveTheMeteredRowsDoesNotCount) {
+  cv::Mat1f street(60, 94, 0.05f), sky = street.clone();
+  sky.rowRange(0, 30) = 3.0f;
+  AutoExposureOptions lower = kAuto;
+  lower.meter_from = 0.5f;
+  EXPECT_LT(ChooseExposure(sky, 0.5, kAuto).time_ms, ChooseExposure(street, 0.5, kAuto).time_ms);
+  EXPECT_EQ(ChooseExposure(sky, 0.5, lower).time_ms, ChooseExposure(street, 0.5, kAuto).time_ms);
+}
+
 TEST(AutoExposure, GainComesWhenTimeHasReachedItsLimitAndInTheSensorsSteps) {
   const cv::Mat1f light(60, 94, 0.1f);
   const double white_per_ms = 100.0 / 255 / 0.1 / 23;  // 23 ms at gain 1 would do
@@ -56,6 +65,7 @@ TEST(AutoExposure, InTheDarkItStopsAtItsLimits) {
 TEST(AutoExposure, ValidateNamesTheBrokenRule) {
   EXPECT_EQ(AutoExposureOptions{}.Validate(), "");
   EXPECT_THAT(AutoExposureOptions{.target_grey = 300}.Validate(), testing::HasSubstr("300"));
+  EXPECT_THAT(AutoExposureOptions{.meter_from = 1}.Validate(), testing::HasSubstr("meter_from"));
   EXPECT_THAT(AutoExposureOptions{.longest_ms = 0.01}.Validate(), testing::HasSubstr("longest_ms"));
 }
 
