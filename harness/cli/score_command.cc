@@ -6,7 +6,7 @@
 #include "harness/io/input_error.h"
 #include "harness/io/trajectory.h"
 #include "harness/report/record_json.h"
-#include "harness/score/scorecard.h"
+#include "harness/score/coverage.h"
 
 namespace aisle {
 namespace {
@@ -17,6 +17,8 @@ struct Options {
   std::string align = "se3", rule = "nearest", unit = "frames";
   double max_difference_s = -1;
   double delta = 1;
+  double rate_hz = 0;
+  std::size_t align_first = 0;
   bool all_pairs = false, along_estimate = false, json = false;
 };
 
@@ -45,6 +47,7 @@ ScoreOptions ScoreOptionsOf(const Options& options) {
         static_cast<std::int64_t>(std::llround(options.max_difference_s * 1e9));
   }
   score.alignment.method = AlignmentFromName(options.align);
+  score.alignment.first_n = options.align_first;
   score.relative = {.delta = options.delta,
                     .unit = UnitFromName(options.unit),
                     .all_pairs = options.all_pairs,
@@ -53,22 +56,39 @@ ScoreOptions ScoreOptionsOf(const Options& options) {
 }
 
 /// KITTI files have no stamps: a shorter file is held against the common part, and that is said.
-void CutToCommonPart(const Options& options, Trajectory* truth, Trajectory* estimate) {
-  if (options.rule != "index" || truth->size() == estimate->size()) return;
-  const std::size_t common = std::min(truth->size(), estimate->size());
-  fmt::print(stderr, "aisle: {} poses of truth, {} of the estimate: scoring the first {}\n",
-             truth->size(), estimate->size(), common);
-  truth->resize(common);
-  estimate->resize(common);
+/// What the truth has beyond it counts as lost.
+TrajectoryScore ScorePoses(Trajectory truth, Trajectory estimate, const ScoreOptions& options,
+                           double rate_hz) {
+  Trajectory scored = truth;
+  if (options.association.rule == AssociationRule::kIndex && truth.size() != estimate.size()) {
+    const std::size_t common = std::min(truth.size(), estimate.size());
+    fmt::print(stderr, "aisle: {} poses of truth, {} of the estimate: scoring the first {}\n",
+               truth.size(), estimate.size(), common);
+    scored.resize(common);
+    estimate.resize(common);
+  }
+  TrajectoryScore score = ScoreTrajectory(scored, estimate, options);
+  const std::int64_t interval_ns =
+      rate_hz > 0 ? std::llround(1e9 / rate_hz) : FrameIntervalNs(truth, estimate);
+  AddCoverage(ErrorsOverFrames(truth, score, interval_ns), Name(options.alignment.method),
+              &score.scores);
+  return score;
+}
+
+std::string AlignmentInWords(const ScoreOptions& options) {
+  const std::string name = Name(options.alignment.method);
+  if (options.alignment.first_n == 0) return name;
+  return fmt::format("{} on the first {} pairs", name, options.alignment.first_n);
 }
 
 void PrintText(const TrajectoryScore& score, const ScoreOptions& options, std::size_t truth,
                std::size_t estimate) {
   fmt::print("association  {}: {} pairs of {} true and {} estimated poses\n", score.association,
              score.pairs.size(), truth, estimate);
-  fmt::print("alignment    {}, scale {:.9g}\n", Name(options.alignment.method),
-             score.alignment.scale);
-  fmt::print("rpe          {}\n\n", Describe(options.relative));
+  fmt::print("alignment    {}, scale {:.9g}\n", AlignmentInWords(options), score.alignment.scale);
+  fmt::print("rpe          {}\n", Describe(options.relative));
+  fmt::print("frames       {}; error_all_* count lost ones as failures\n\n",
+             score.scores.at("coverage").n);
   for (const auto& [name, value] : score.scores) fmt::print("{:28} {}\n", name, ToText(value));
   for (const std::string& note : score.notes) fmt::print("\nnote: {}\n", note);
 }
@@ -79,7 +99,7 @@ void PrintJson(const TrajectoryScore& score, const ScoreOptions& options) {
   nlohmann::ordered_json json;
   json["association"] = score.association;
   json["pairs"] = score.pairs.size();
-  json["alignment"] = Name(options.alignment.method);
+  json["alignment"] = AlignmentInWords(options);
   json["rpe"] = Describe(options.relative);
   json["scores"] = RecordToJson(record)["scores"];
   json["notes"] = score.notes;
@@ -108,10 +128,9 @@ int ScoreFiles(const Options& options) {
   if (options.truth.empty() || options.estimate.empty()) {
     throw InputError("give --truth and --estimate, or --masks-truth and --masks");
   }
-  Trajectory truth = Read(options.truth, options), estimate = Read(options.estimate, options);
-  CutToCommonPart(options, &truth, &estimate);
+  const Trajectory truth = Read(options.truth, options), estimate = Read(options.estimate, options);
   const ScoreOptions score_options = ScoreOptionsOf(options);
-  const TrajectoryScore score = ScoreTrajectory(truth, estimate, score_options);
+  const TrajectoryScore score = ScorePoses(truth, estimate, score_options, options.rate_hz);
   if (options.json) {
     PrintJson(score, score_options);
   } else {
@@ -133,6 +152,14 @@ void AddScoreCommand(CLI::App* app, Action* action) {
   command->add_option("--times", options->times, "KITTI times.txt; default 10 poses a second");
   command->add_option("--align", options->align, "none, origin, se3 (default) or sim3")
       ->check(CLI::IsMember({"none", "origin", "se3", "sim3"}));
+  command
+      ->add_option("--align-first", options->align_first,
+                   "align on the first so many pairs only; default: all")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--rate", options->rate_hz,
+                   "camera frames a second, for coverage; default: the slower of both files")
+      ->check(CLI::PositiveNumber);
   command->add_option("--association", options->rule, "nearest (default), evo, tum or index")
       ->check(CLI::IsMember({"nearest", "evo", "tum", "index"}));
   command->add_option("--max-difference", options->max_difference_s,

@@ -38,7 +38,7 @@ bool SplitDecimal(std::string_view text, Decimal* decimal) {
 
 }  // namespace
 
-bool ParseSecondsToNs(const std::string& text, std::int64_t* stamp_ns) {
+bool ParseSecondsToNs(std::string_view text, std::int64_t* stamp_ns) {
   Decimal decimal;
   if (!SplitDecimal(text, &decimal)) return false;
   const int wanted = decimal.point + kNanosecondDigits;  // digits down to whole nanoseconds

@@ -31,7 +31,7 @@ std::string FormatTrajectory(const Trajectory& trajectory, TrajectoryFormat form
 
 /// "1403715529.112143517", "1.4037155e+09" -> nanoseconds, exactly (rounded half up below 1 ns).
 /// False if it is not a plain decimal number or out of range.
-bool ParseSecondsToNs(const std::string& text, std::int64_t* stamp_ns);
+bool ParseSecondsToNs(std::string_view text, std::int64_t* stamp_ns);
 /// 1403715529112143517 -> "1403715529.112143517".
 std::string FormatSeconds(std::int64_t stamp_ns);
 

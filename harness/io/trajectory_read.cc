@@ -1,5 +1,5 @@
 #include <charconv>
-#include <sstream>
+#include <string_view>
 
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
@@ -10,52 +10,68 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A data line of a text table, split at blanks and commas.
+/// A data line of a text table, split at blanks and commas. The fields point into the table's text.
 struct Row {
   const fs::path& file;
   std::size_t line = 0;
-  std::vector<std::string> fields;
+  std::vector<std::string_view> fields;
 
   [[noreturn]] void Fail(const std::string& message) const {
     throw InputError(file.string(), line, message);
   }
 };
 
-std::vector<std::string> Fields(const std::string& line) {
-  std::vector<std::string> fields;
-  std::string field;
-  for (const char c : line + " ") {
-    if (c == ' ' || c == '\t' || c == ',' || c == '\r') {
-      if (!field.empty()) fields.push_back(std::exchange(field, {}));
-    } else {
-      field += c;
+/// The data lines of a file, one after the other.
+class Table {
+ public:
+  explicit Table(const fs::path& path) : text_(ReadFile(path)), row_{path, 0, {}} {
+    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+  }
+
+  /// The next line that is neither empty nor a comment, valid until the next call; null at the end.
+  const Row* Next() {
+    while (at_ < text_.size()) {
+      const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+      Split(std::string_view(text_).substr(at_, end - at_));
+      at_ = end + 1;
+      ++row_.line;
+      if (!row_.fields.empty() && row_.fields.front().front() != '#') return &row_;
+    }
+    return nullptr;
+  }
+
+  /// The same where a file without data is a mistake.
+  const Row& First() {
+    const Row* row = Next();
+    if (row == nullptr) throw InputError(row_.file.string(), 0, "holds no poses");
+    return *row;
+  }
+
+ private:
+  void Split(std::string_view line) {
+    constexpr std::string_view kBetween = " \t,\r";
+    row_.fields.clear();
+    for (std::size_t begin = line.find_first_not_of(kBetween); begin != std::string_view::npos;) {
+      const std::size_t end = std::min(line.find_first_of(kBetween, begin), line.size());
+      row_.fields.push_back(line.substr(begin, end - begin));
+      begin = line.find_first_not_of(kBetween, end);
     }
   }
-  return fields;
-}
 
-std::vector<Row> ReadRows(const fs::path& path) {
-  std::string text = ReadFile(path);
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  std::istringstream stream(text);
-  std::vector<Row> rows;
-  std::string line;
-  for (std::size_t number = 1; std::getline(stream, line); ++number) {
-    Row row{path, number, Fields(line)};
-    if (!row.fields.empty() && row.fields.front().front() != '#') rows.push_back(std::move(row));
-  }
-  if (rows.empty()) throw InputError(path.string(), 0, "holds no poses");
-  return rows;
-}
+  const std::string text_;
+  std::size_t at_ = 0;
+  Row row_;
+};
 
 double Number(const Row& row, std::size_t index) {
-  const std::string& field = row.fields[index];
+  const std::string_view field = row.fields[index];
   const std::size_t skip = field.front() == '+' ? 1 : 0;  // from_chars knows no plus sign
   double value = 0;
   const auto [end, error] =
       std::from_chars(field.data() + skip, field.data() + field.size(), value);
   if (error != std::errc() || end != field.data() + field.size()) {
-    row.Fail(fmt::format("field {} is '{}', not a number", index + 1, Printable(field)));
+    row.Fail(
+        fmt::format("field {} is '{}', not a number", index + 1, Printable(std::string(field))));
   }
   if (!std::isfinite(value)) {
     row.Fail(fmt::format("field {} is {}: poses must be finite", index + 1, field));
@@ -83,7 +99,7 @@ Eigen::Isometry3d Pose(const Row& row, const Eigen::Vector3d& position, Eigen::Q
 std::int64_t SecondsField(const Row& row) {
   std::int64_t stamp_ns = 0;
   if (!ParseSecondsToNs(row.fields[0], &stamp_ns)) {
-    row.Fail(fmt::format("'{}' is not a time in seconds", Printable(row.fields[0])));
+    row.Fail(fmt::format("'{}' is not a time in seconds", Printable(std::string(row.fields[0]))));
   }
   return stamp_ns;
 }
@@ -102,11 +118,12 @@ StampedPose EurocPose(const Row& row) {
     row.Fail(fmt::format("{} fields; a EuRoC line has at least 8: stamp [ns], p x y z, q w x y z",
                          row.fields.size()));
   }
-  const std::string& stamp = row.fields[0];
+  const std::string_view stamp = row.fields[0];
   std::int64_t stamp_ns = 0;
   const auto [end, error] = std::from_chars(stamp.data(), stamp.data() + stamp.size(), stamp_ns);
   if (error != std::errc() || end != stamp.data() + stamp.size()) {
-    row.Fail(fmt::format("'{}' is not a stamp in whole nanoseconds", Printable(stamp)));
+    row.Fail(
+        fmt::format("'{}' is not a stamp in whole nanoseconds", Printable(std::string(stamp))));
   }
   const Eigen::Quaterniond q(Number(row, 4), Number(row, 5), Number(row, 6), Number(row, 7));
   return {stamp_ns, Pose(row, Position(row, 1), q)};
@@ -140,41 +157,44 @@ std::vector<std::int64_t> KittiStamps(const fs::path& times, const fs::path& pos
       stamps[i] = static_cast<std::int64_t>(i) * kNominalStepNs;
     return stamps;
   }
-  const std::vector<Row> rows = ReadRows(times);
-  if (rows.size() < count) {
-    throw InputError(
-        times.string(), 0,
-        fmt::format("holds {} times but {} holds {} poses", rows.size(), poses.string(), count));
+  Table table(times);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Row* row = table.Next();
+    if (row == nullptr) {
+      throw InputError(
+          times.string(), 0,
+          fmt::format("holds {} times but {} holds {} poses", i, poses.string(), count));
+    }
+    stamps[i] = SecondsField(*row);
   }
-  for (std::size_t i = 0; i < count; ++i) stamps[i] = SecondsField(rows[i]);
   return stamps;
 }
 
 Trajectory ReadKitti(const fs::path& path, const fs::path& times) {
-  const std::vector<Row> rows = ReadRows(path);
-  const std::vector<std::int64_t> stamps = KittiStamps(times, path, rows.size());
+  Table table(path);
   Trajectory trajectory;
-  trajectory.reserve(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    trajectory.push_back({stamps[i], KittiPose(rows[i])});
+  for (const Row* row = &table.First(); row != nullptr; row = table.Next()) {
+    trajectory.push_back({0, KittiPose(*row)});
   }
+  const std::vector<std::int64_t> stamps = KittiStamps(times, path, trajectory.size());
+  for (std::size_t i = 0; i < stamps.size(); ++i) trajectory[i].stamp_ns = stamps[i];
   return trajectory;
 }
 
-void CheckStampsDoNotFall(const Trajectory& trajectory, const std::vector<Row>& rows) {
-  for (std::size_t i = 1; i < trajectory.size(); ++i) {
-    if (trajectory[i].stamp_ns >= trajectory[i - 1].stamp_ns) continue;
-    rows[i].Fail(fmt::format("stamp {} is earlier than the line before ({}): sort the file",
-                             Printable(rows[i].fields[0]), Printable(rows[i - 1].fields[0])));
-  }
-}
-
 Trajectory ReadStamped(const fs::path& path, StampedPose (*pose)(const Row&)) {
-  const std::vector<Row> rows = ReadRows(path);
+  Table table(path);
   Trajectory trajectory;
-  trajectory.reserve(rows.size());
-  for (const Row& row : rows) trajectory.push_back(pose(row));
-  CheckStampsDoNotFall(trajectory, rows);
+  std::string_view before;
+  for (const Row* row = &table.First(); row != nullptr; row = table.Next()) {
+    trajectory.push_back(pose(*row));
+    const std::string_view stamp = row->fields.front();
+    const std::size_t n = trajectory.size();
+    if (n > 1 && trajectory[n - 1].stamp_ns < trajectory[n - 2].stamp_ns) {
+      row->Fail(fmt::format("stamp {} is earlier than the line before ({}): sort the file",
+                            Printable(std::string(stamp)), Printable(std::string(before))));
+    }
+    before = stamp;
+  }
   return trajectory;
 }
 
@@ -188,7 +208,8 @@ TrajectoryFormat TrajectoryFormatFromName(const std::string& name) {
 }
 
 TrajectoryFormat GuessTrajectoryFormat(const fs::path& path) {
-  const Row row = ReadRows(path).front();
+  Table table(path);
+  const Row& row = table.First();
   const std::size_t count = row.fields.size();
   if (count == 12) return TrajectoryFormat::kKitti;
   // A EuRoC stamp is whole nanoseconds; TUM seconds of a plausible year are 10 digits at most.

@@ -1,64 +1,14 @@
 #include "harness/score/boundary.h"
+#include "harness/score/coverage.h"
 #include "harness/score/scorecard.h"
 
 namespace aisle {
 namespace {
 
-/// Error of the live track at every frame of the truth; infinite where it has no pose.
-std::vector<double> ErrorsOverAllFrames(const RunResult& run, const TrajectoryScore& live) {
-  std::vector<double> errors(run.truth.size(), std::numeric_limits<double>::infinity());
-  for (const PoseError& error : live.errors) errors[error.pair.truth] = error.translation_m;
-  return errors;
-}
-
-Score QuantileScore(const std::vector<double>& errors, double q, const std::string& alignment) {
-  const double value = errors.empty() ? 0 : Quantile(errors, q);
-  if (errors.empty()) return Absent("m", "no frames");
-  if (!std::isfinite(value)) {
-    return Absent("m", fmt::format("lost in more than {:g} % of the frames", 100 * (1 - q)));
-  }
-  return Present(value, "m", errors.size(), alignment);
-}
-
 void AddLiveTrack(const RunResult& run, const ScoreOptions& options, Scorecard* scores) {
   const TrajectoryScore live = ScoreTrajectory(run.truth, run.trajectory.live, options);
-  const auto rmse = live.scores.find("ate_rmse_m");
-  (*scores)["ate_live_rmse_m"] = rmse->second;
-  const std::vector<double> errors = ErrorsOverAllFrames(run, live);
-  const std::string alignment = Name(options.alignment.method);
-  (*scores)["error_all_p50_m"] = QuantileScore(errors, 0.50, alignment);
-  (*scores)["error_all_p95_m"] = QuantileScore(errors, 0.95, alignment);
-}
-
-void AddCoverage(const RunResult& run, Scorecard* scores) {
-  std::size_t tracked = 0, lost_times = 0;
-  double longest_gap_s = 0;
-  bool lost = false;
-  std::int64_t lost_since_ns = 0;
-  for (const FrameEstimate& estimate : run.estimates) {
-    if (estimate.T_world_rig) {
-      ++tracked;
-      const double gap_s = static_cast<double>(estimate.stamp_ns - lost_since_ns) * 1e-9;
-      if (lost) longest_gap_s = std::max(longest_gap_s, gap_s);
-      lost = false;
-    } else if (tracked > 0 && !lost) {
-      lost = true;
-      lost_since_ns = estimate.stamp_ns;
-      ++lost_times;
-    }
-  }
-  const std::size_t frames = run.facts.size();
-  (*scores)["coverage"] =
-      frames > 0 ? Present(static_cast<double>(tracked) / static_cast<double>(frames), "1", frames)
-                 : Absent("1", "no frames");
-  (*scores)["times_lost"] = Present(static_cast<double>(lost_times), "1", frames);
-  if (lost) {
-    (*scores)["recovery_max_s"] = Absent("s", "did not recover before the end");
-  } else if (lost_times > 0) {
-    (*scores)["recovery_max_s"] = Present(longest_gap_s, "s", lost_times);
-  } else {
-    (*scores)["recovery_max_s"] = Absent("s", "never lost");
-  }
+  (*scores)["ate_live_rmse_m"] = live.scores.at("ate_rmse_m");
+  AddCoverage(ErrorsOverFrames(run.truth, live), Name(options.alignment.method), scores);
 }
 
 Score RatioScore(double part, double whole, const std::string& nothing) {
@@ -204,7 +154,6 @@ void AddTimes(const RunResult& run, Scorecard* scores) {
 Scorecard ScoreRun(const RunResult& run, const ScoreOptions& options) {
   Scorecard scores = ScoreTrajectory(run.truth, run.trajectory.final, options).scores;
   AddLiveTrack(run, options, &scores);
-  AddCoverage(run, &scores);
   AddMasks(run, &scores);
   AddFeatures(run, &scores);
   AddDifficulty(run, &scores);

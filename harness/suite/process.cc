@@ -2,8 +2,6 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,30 +10,16 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <map>
+#include <thread>
 
 #include "harness/io/input_error.h"
+#include "harness/suite/guard.h"
 
 namespace aisle {
 namespace {
 
 double NowS() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// In the child, between fork and exec: nothing here may allocate or lock.
-[[noreturn]] void BecomeChild(char* const* argv, int output, pid_t parent) {
-  ::setsid();
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(127);  // the parent died before the line above
-  const rlimit none{0, 0};
-  ::setrlimit(RLIMIT_CORE, &none);
-  const int null = ::open("/dev/null", O_RDONLY);
-  ::dup2(null, STDIN_FILENO);
-  ::dup2(output, STDOUT_FILENO);
-  ::dup2(output, STDERR_FILENO);
-  ::execv(argv[0], argv);
-  ::_exit(127);
 }
 
 double ResidentMib(pid_t pid) {
@@ -45,33 +29,29 @@ double ResidentMib(pid_t pid) {
   return resident_pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
 }
 
-pid_t ParentOf(const std::filesystem::path& process) {
-  std::ifstream stat(process / "stat");
-  std::string line;
-  std::getline(stat, line);
-  const std::size_t name_end = line.rfind(')');  // the name may hold anything, brackets too
-  int parent = 0;
-  char state = 0;
-  if (name_end != std::string::npos) {
-    std::sscanf(line.c_str() + name_end + 1, " %c %d", &state, &parent);
-  }
-  return parent;
+bool IsGuard(pid_t pid) {
+  std::ifstream comm(fmt::format("/proc/{}/comm", pid));
+  std::string name;
+  std::getline(comm, name);
+  return name == kGuardName;
 }
 
-std::vector<pid_t> Descendants(pid_t root) {
-  std::multimap<pid_t, pid_t> children;
+std::vector<pid_t> ChildrenOf(pid_t pid) {
+  std::vector<pid_t> children;
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc", error)) {
-    const int pid = std::atoi(entry.path().filename().c_str());
-    if (pid > 0) children.emplace(ParentOf(entry.path()), pid);
+  const std::string tasks = fmt::format("/proc/{}/task", pid);
+  for (const auto& task : std::filesystem::directory_iterator(tasks, error)) {
+    std::ifstream list(task.path() / "children");
+    for (pid_t child = 0; list >> child;) children.push_back(child);
   }
-  std::vector<pid_t> found{root};
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const auto [begin, end] = children.equal_range(found[i]);
-    for (auto child = begin; child != end; ++child) found.push_back(child->second);
-  }
-  found.erase(found.begin());
-  return found;
+  return children;
+}
+
+/// Resident memory of a process and all below it.
+double TreeResidentMib(pid_t pid) {
+  double sum_mib = IsGuard(pid) ? 0 : ResidentMib(pid);
+  for (const pid_t child : ChildrenOf(pid)) sum_mib += TreeResidentMib(child);
+  return sum_mib;
 }
 
 }  // namespace
@@ -104,8 +84,12 @@ Process::Process(const std::vector<std::string>& argv, const ProcessLimits& limi
   }
   started_s_ = NowS();
   const pid_t parent = ::getpid();
+  const sigset_t guarded = GuardedSignals();
+  sigset_t before;
+  ::pthread_sigmask(SIG_BLOCK, &guarded, &before);
   pid_ = ::fork();
-  if (pid_ == 0) BecomeChild(arguments.data(), ends[1], parent);
+  if (pid_ == 0) Guard(arguments.data(), ends[1], parent, before);
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   ::close(ends[1]);
   output_ = ends[0];
   if (pid_ < 0) {
@@ -118,7 +102,9 @@ Process::Process(const std::vector<std::string>& argv, const ProcessLimits& limi
 Process::~Process() {
   if (!ended_) {
     KillTree();
-    ::waitpid(pid_, nullptr, 0);
+    for (int round = 0; round < 200 && ::waitpid(pid_, nullptr, WNOHANG) == 0; ++round) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
   }
   ::close(output_);
 }
@@ -128,14 +114,10 @@ bool Process::Poll() {
   ReadOutput();
   HoldToLimits();
   int status = 0;
-  rusage usage{};
-  if (::wait4(pid_, &status, WNOHANG, &usage) != pid_) return false;
+  if (::waitpid(pid_, &status, WNOHANG) != pid_) return false;
   ended_ = true;
-  ::kill(-pid_, SIGKILL);  // what the child left behind goes with it
   ReadOutput();
   result_.wall_s = NowS() - started_s_;
-  result_.peak_rss_mib =
-      std::max(result_.peak_rss_mib, static_cast<double>(usage.ru_maxrss) / 1024);
   if (!killed_) {
     result_.end =
         WIFSIGNALED(status) ? ProcessResult::End::kSignalled : ProcessResult::End::kExited;
@@ -175,7 +157,7 @@ void Process::TakeLine(const std::string& line) {
 
 void Process::HoldToLimits() {
   if (killed_) return;
-  const double resident_mib = ResidentMib(pid_);
+  const double resident_mib = TreeResidentMib(pid_);
   result_.peak_rss_mib = std::max(result_.peak_rss_mib, resident_mib);
   if (NowS() - started_s_ > limits_.wall_s) {
     result_.end = ProcessResult::End::kTimeout;
@@ -188,12 +170,7 @@ void Process::HoldToLimits() {
   KillTree();
 }
 
-void Process::KillTree() {
-  // Listed before the first dies: orphans forget whose they were. A grandchild may lead a group of
-  // its own, as the systems of others do.
-  const std::vector<pid_t> below = Descendants(pid_);
-  ::kill(-pid_, SIGKILL);
-  for (const pid_t pid : below) ::kill(pid, SIGKILL);
-}
+/// The guard takes all with it that is below, wherever it has gone.
+void Process::KillTree() { ::kill(pid_, SIGTERM); }
 
 }  // namespace aisle

@@ -9,8 +9,9 @@
 namespace aisle {
 
 struct ProcessLimits {
-  double wall_s = 3600;           ///< then the whole process group is killed
-  double memory_mib = 8192;       ///< resident, watched: address space would hit sanitizers
+  double wall_s = 3600;  ///< then the whole process group is killed
+  /// Resident, of the process and all below it, watched: address space would hit sanitizers.
+  double memory_mib = 8192;
   std::size_t log_bytes = 65536;  ///< of its output, the last so many are kept
 };
 
@@ -19,15 +20,16 @@ struct ProcessResult {
   End end = End::kExited;
   int code = 0;  ///< exit code, or the signal's number
   double wall_s = 0;
-  double peak_rss_mib = 0;
-  std::string log;  ///< tail of stdout and stderr
+  double peak_rss_mib = 0;  ///< as watched; 0 where it ended at once
+  std::string log;          ///< tail of stdout and stderr
 };
 
 /// "exit code 3", "signal 11 (Segmentation fault)", "no end after 600 s", …
 std::string Describe(const ProcessResult& result, const ProcessLimits& limits);
 
-/// A child in its own session that dies with its parent. Whatever it does (crash, hang, flood its
-/// output, eat memory) ends as a ProcessResult. Not thread-safe.
+/// A child under a guard, in a session of its own: it and all it ever starts end with it, and with
+/// its parent, however that ends. Whatever it does (crash, hang, flood its output, eat memory) ends
+/// as a ProcessResult. Not thread-safe.
 class Process {
  public:
   /// argv[0] is a path. Throws MachineError when it cannot be started.

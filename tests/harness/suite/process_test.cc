@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -37,23 +40,58 @@ TEST(ProcessTest, ACrashIsASignal) {
   EXPECT_EQ(Describe(result, {}), "signal 11 (Segmentation fault)");
 }
 
+/// A file for the number of a process that should not outlive its test.
+std::string PidFile(const std::string& name) {
+  return testing::TempDir() + fmt::format("aisle_{}_{}", name, ::getpid());
+}
+
+/// Whether the process whose number the file holds is dead, or will be within two seconds.
+bool IsGone(const std::string& pid_file) {
+  pid_t pid = 0;
+  for (int i = 0; i < 200; ++i) {
+    if (pid <= 1) std::ifstream(pid_file) >> pid;
+    std::ifstream stat(fmt::format("/proc/{}/stat", pid));
+    std::string number, name, state = "gone";
+    stat >> number >> name >> state;
+    if (pid > 1 && (state == "gone" || state == "Z")) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
 TEST(ProcessTest, AHangIsEndedWithAllItsChildren) {
-  const std::string file = testing::TempDir() + fmt::format("aisle_grandchild_{}", ::getpid());
+  const std::string file = PidFile("grandchild");
   const ProcessLimits limits{.wall_s = 0.3};
   const ProcessResult result = RunToEnd("sleep 100 & echo $! > " + file + "; wait", limits);
   EXPECT_EQ(result.end, End::kTimeout);
   EXPECT_EQ(Describe(result, limits), "no end after 0.3 s: killed");
-  pid_t grandchild = 0;
-  std::ifstream(file) >> grandchild;
-  ASSERT_GT(grandchild, 1);
-  for (int i = 0; i < 100 && ::kill(grandchild, 0) == 0; ++i) {
-    std::ifstream stat(fmt::format("/proc/{}/stat", grandchild));
-    std::string pid, name, state;
-    stat >> pid >> name >> state;
-    if (state == "Z") break;  // dead, and waiting for init to look
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    ASSERT_LT(i, 99) << "the grandchild lives on";
+  EXPECT_TRUE(IsGone(file));
+}
+
+/// Leaves its parent, its group and its session, as daemons do.
+std::string Daemon(const std::string& pid_file) {
+  return "(setsid sh -c 'echo $$ > " + pid_file + "; exec sleep 100' &) ; sleep 0.3;";
+}
+
+TEST(ProcessTest, DaemonsEndWithTheCommandThatStartedThem) {
+  const std::string file = PidFile("daemon");
+  EXPECT_EQ(RunToEnd(Daemon(file) + "exit 4").code, 4);
+  EXPECT_TRUE(IsGone(file));
+}
+
+TEST(ProcessTest, AllEndsWhenTheHarnessItselfIsKilled) {
+  const std::string file = PidFile("orphan");
+  const pid_t harness = ::fork();
+  if (harness == 0) {
+    Process process(Shell(Daemon(file) + "sleep 100"), {});
+    for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
   }
+  for (int i = 0; i < 500 && !std::filesystem::exists(file); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ::kill(harness, SIGKILL);
+  ::waitpid(harness, nullptr, 0);
+  EXPECT_TRUE(IsGone(file));
 }
 
 TEST(ProcessTest, AFloodOfOutputKeepsItsTailOnly) {
@@ -66,10 +104,9 @@ TEST(ProcessTest, AFloodOfOutputKeepsItsTailOnly) {
 
 TEST(ProcessTest, TooMuchMemoryIsNoticed) {
   const ProcessLimits limits{.wall_s = 20, .memory_mib = 60};
-  const ProcessResult result = RunToEnd(
-      "head -c 200000000 /dev/zero | tail -c 150000000 > /dev/null & "
-      "x=$(head -c 150000000 /dev/zero | tr '\\0' x); sleep 20",
-      limits);
+  // It is the command's child that takes it.
+  const ProcessResult result =
+      RunToEnd("head -c 200000000 /dev/zero | tail -c 150000000 | (sleep 20; cat)", limits);
   EXPECT_EQ(result.end, End::kMemory);
 }
 

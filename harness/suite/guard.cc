@@ -1,0 +1,126 @@
+#include "harness/suite/guard.h"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace aisle {
+namespace {
+
+constexpr int kNotStarted = 127;  ///< a shell's code for a command that cannot be found
+
+void DieWithParent(int signal, pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, signal);
+  if (::getppid() != parent) ::_exit(kNotStarted);  // it died before the line above
+}
+
+/// Only standard streams stay open: a guard must not hold its parent's locks and pipes.
+void KeepOnly(int output) {
+  const int null = ::open("/dev/null", O_RDONLY);
+  ::dup2(null, STDIN_FILENO);
+  ::dup2(output, STDOUT_FILENO);
+  ::dup2(output, STDERR_FILENO);
+  ::close_range(STDERR_FILENO + 1, ~0U, 0);
+}
+
+pid_t Start(char* const* argv, const sigset_t& mask) {
+  const pid_t guard = ::getpid();
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  DieWithParent(SIGKILL, guard);
+  const rlimit none{0, 0};
+  ::setrlimit(RLIMIT_CORE, &none);
+  ::sigprocmask(SIG_SETMASK, &mask, nullptr);
+  ::execv(argv[0], argv);
+  ::_exit(kNotStarted);
+}
+
+/// Sends SIGKILL to every child; false where there is none.
+bool KillChildren() {
+  char list[8192];
+  const int file = ::open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
+  const ssize_t length = file < 0 ? 0 : ::read(file, list, sizeof list);
+  if (file >= 0) ::close(file);
+  bool any = false;
+  pid_t pid = 0;
+  for (ssize_t i = 0; i < length; ++i) {  // "12 345 ": each number ends in a blank
+    if (list[i] != ' ') {
+      pid = pid * 10 + (list[i] - '0');
+      continue;
+    }
+    any = ::kill(pid, SIGKILL) == 0 || any;
+    pid = 0;
+  }
+  return any;
+}
+
+/// Ends every descendant: the orphans of those that die become children of this process, which is
+/// their reaper, and die in the next round.
+void EndAll() {
+  while (KillChildren()) {
+    ::waitpid(-1, nullptr, 0);
+    while (::waitpid(-1, nullptr, WNOHANG) > 0) {
+    }
+  }
+}
+
+[[noreturn]] void EndAs(int status) {
+  if (WIFSIGNALED(status)) {
+    sigset_t all;
+    ::sigfillset(&all);
+    ::signal(WTERMSIG(status), SIG_DFL);
+    ::sigprocmask(SIG_UNBLOCK, &all, nullptr);
+    ::kill(::getpid(), WTERMSIG(status));
+  }
+  ::_exit(WEXITSTATUS(status));
+}
+
+/// Buries what has died; true when `child` was among it.
+bool Bury(pid_t child, int* status) {
+  bool ended = false;
+  int of_any = 0;
+  for (pid_t pid; (pid = ::waitpid(-1, &of_any, WNOHANG)) > 0;) {
+    if (pid != child) continue;
+    *status = of_any;
+    ended = true;
+  }
+  return ended;
+}
+
+}  // namespace
+
+sigset_t GuardedSignals() {
+  sigset_t signals;
+  ::sigemptyset(&signals);
+  ::sigaddset(&signals, SIGCHLD);
+  ::sigaddset(&signals, SIGTERM);
+  return signals;
+}
+
+void Guard(char* const* argv, int output, int parent, const sigset_t& before) {
+  ::setsid();
+  ::prctl(PR_SET_NAME, kGuardName);
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+  const rlimit no_core{0, 0};
+  ::setrlimit(RLIMIT_CORE, &no_core);
+  DieWithParent(SIGTERM, parent);
+  KeepOnly(output);
+
+  const sigset_t watched = GuardedSignals();
+  const pid_t child = Start(argv, before);
+  int status = kNotStarted << 8;
+  while (child > 0) {
+    const int signal = ::sigwaitinfo(&watched, nullptr);
+    if (signal == SIGTERM) {
+      EndAll();
+      ::_exit(kNotStarted);
+    }
+    if (signal == SIGCHLD && Bury(child, &status)) break;
+  }
+  EndAll();
+  EndAs(status);
+}
+
+}  // namespace aisle
