@@ -228,6 +228,7 @@ struct Pipeline::Impl {
                         .left = Photograph(radiance[0], setting, frame_index, 0),
                         .right = Photograph(radiance[1], setting, frame_index, 1),
                         .exposure_ms = setting.time_ms,
+                        .smear_ms = options.shutter.motion_blur ? setting.time_ms : 0,
                         .gain = setting.gain,
                         .truth = Assemble(T_world_rig, left, right, movers)};
     lap("sensor");

@@ -83,6 +83,7 @@ struct RenderedFrame {
   std::int64_t stamp_ns = 0;
   cv::Mat1b left, right;   ///< 8-bit grey, the same instant exactly
   double exposure_ms = 0;  ///< exposure time of both
+  double smear_ms = 0;     ///< of it, the time over which motion is drawn out: 0, or all of it
   double gain = 1;         ///< analogue gain of both
   FrameTruth truth;
 };

@@ -1,10 +1,12 @@
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "harness/cli/command.h"
 #include "harness/cli/inputs.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/simulated_sequence.h"
+#include "harness/report/record_json.h"
 #include "harness/suite/suite.h"
 
 namespace aisle {
@@ -40,19 +42,29 @@ std::vector<std::string> FilesOf(const std::vector<std::string>& places) {
   return files;
 }
 
-int Check(const std::vector<std::string>& places) {
+void PrintText(const std::string& file, const std::vector<std::string>& complaints) {
+  for (const std::string& complaint : complaints) fmt::print(stderr, "{}\n", complaint);
+  if (complaints.empty()) fmt::print("{}: good\n", file);
+}
+
+int Check(const std::vector<std::string>& places, bool json) {
   const std::vector<std::string> files = FilesOf(places);
   if (files.empty()) {
     fmt::print(stderr, "no .yaml file to check: name scene or suite files, or folders of them\n");
     return kNothingToDo;
   }
   std::size_t bad = 0;
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const std::string& file : files) {
     const std::vector<std::string> complaints = Complaints(file);
-    for (const std::string& complaint : complaints) fmt::print(stderr, "{}\n", complaint);
-    if (complaints.empty()) fmt::print("{}: good\n", file);
+    if (json) {
+      list.push_back({{"file", file}, {"good", complaints.empty()}, {"complaints", complaints}});
+    } else {
+      PrintText(file, complaints);
+    }
     bad += complaints.empty() ? 0 : 1;
   }
+  if (json) fmt::print("{}", Dump({{"files", list}}));
   return bad == 0 ? kAllPassed : kBadInput;
 }
 
@@ -60,10 +72,12 @@ int Check(const std::vector<std::string>& places) {
 
 void AddCheckCommand(CLI::App* app, Action* action) {
   const auto files = std::make_shared<std::vector<std::string>>();
+  const auto json = std::make_shared<bool>(false);
   CLI::App* command = app->add_subcommand("check", "validate scene and suite files");
   command->add_option("FILE", *files, "scene or suite files, or folders of them")->required();
+  command->add_flag("--json", *json, "for programs");
   command->footer("Example: ./aisle check scenes");
-  command->callback([=] { *action = [=] { return Check(*files); }; });
+  command->callback([=] { *action = [=] { return Check(*files, *json); }; });
 }
 
 }  // namespace aisle

@@ -27,7 +27,10 @@ Results Collect(const Suite& suite, const std::vector<RunSpec>& specs,
                          .flaky = false,
                          .value = {},
                          .limit = {},
-                         .why = "no result"});
+                         .why = "no result",
+                         .scene = spec.scene,
+                         .twin = spec.twin,
+                         .system = spec.system});
     }
   }
   AddDynamicPenalty(&results.runs);

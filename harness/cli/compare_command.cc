@@ -4,6 +4,7 @@
 #include "harness/io/file.h"
 #include "harness/report/compare.h"
 #include "harness/report/page.h"
+#include "harness/report/record_json.h"
 #include "harness/report/report.h"
 #include "harness/report/script.h"
 #include "harness/report/style.h"
@@ -47,11 +48,15 @@ int CompareReports(const Options& options) {
   return worse ? kVerdictFailed : kAllPassed;
 }
 
-int SetBaseline(const std::string& folder) {
-  const Results results = ReadResults(folder);
-  const std::filesystem::path path = BaselinePath(results.suite);
-  WriteFileAtomically(path, ToJson(results));
-  fmt::print("{}\n", path.string());
+int SetBaseline(const std::string& folder, bool json) {
+  const Results baseline = BaselineOf(ReadResults(folder));
+  const std::filesystem::path path = BaselinePath(baseline.suite);
+  WriteFileAtomically(path, ToJson(baseline));
+  if (json) {
+    fmt::print("{}", Dump({{"baseline", path.string()}, {"runs", baseline.runs.size()}}));
+  } else {
+    fmt::print("{}\n", path.string());
+  }
   return kAllPassed;
 }
 
@@ -77,11 +82,13 @@ void AddCompareCommand(CLI::App* app, Action* action) {
 
 void AddBaselineCommand(CLI::App* app, Action* action) {
   const auto folder = std::make_shared<std::string>();
+  const auto json = std::make_shared<bool>(false);
   CLI::App* command = app->add_subcommand(
       "baseline", "make a report the baseline that `run --gate` holds its suite against");
   command->add_option("DIR", *folder, "folder with results.json")->required();
+  command->add_flag("--json", *json, "for programs");
   command->footer("Example: ./aisle baseline out/quickstart");
-  command->callback([=] { *action = [=] { return SetBaseline(*folder); }; });
+  command->callback([=] { *action = [=] { return SetBaseline(*folder, *json); }; });
 }
 
 }  // namespace aisle

@@ -6,54 +6,96 @@
 namespace aisle {
 namespace {
 
-std::string Words(const CLI::App& command) {
-  std::string words;
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) words += " --" + name;
-    for (const std::string& name : option->get_snames()) words += " -" + name;
-  }
-  return words.empty() ? words : words.substr(1);
+std::string Joined(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, " "));
 }
 
-std::string SystemNames() {
-  std::string names;
-  for (const System& system : Systems()) names += (names.empty() ? "" : " ") + system.name;
+std::vector<std::string> NamesOf(const CLI::Option& option) {
+  std::vector<std::string> names;
+  for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
+  for (const std::string& name : option.get_snames()) names.push_back("-" + name);
   return names;
 }
 
-std::string BashScript(const CLI::App& app) {
-  std::string commands, cases;
-  for (const CLI::App* command : app.get_subcommands({})) {
-    if (command->get_group().empty()) continue;  // not for people
-    commands += (commands.empty() ? "" : " ") + command->get_name();
-    cases += fmt::format("    {}) words=\"{}\" ;;\n", command->get_name(), Words(*command));
+/// The words an option may be given, where the parser holds it to some: "TEXT:{tum,kitti,euroc}".
+std::vector<std::string> ValuesOf(const CLI::Option& option) {
+  const std::string name = option.get_lnames().empty() ? "" : option.get_lnames().front();
+  if (name == "twin" || name == "twins") return TwinNames();
+  std::vector<std::string> values;
+  if (name == "system" || name == "systems") {
+    for (const System& system : Systems()) values.push_back(system.name);
+    return values;
   }
-  return "# Completion of aisle for bash: eval \"$(./aisle completion bash)\"\n"
-         "_aisle() {\n"
-         "  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} words=\n"
-         "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
-         "    COMPREPLY=($(compgen -W \"" +
-         commands +
-         "\" -- \"$current\"))\n"
-         "    return\n"
-         "  fi\n"
-         "  case $previous in\n"
-         "    --system|--systems) COMPREPLY=($(compgen -W \"" +
-         SystemNames() +
-         "\" -- \"$current\")); return ;;\n"
-         "    --twin|--twins) COMPREPLY=($(compgen -W \"" +
-         fmt::format("{}", fmt::join(TwinNames(), " ")) +
-         "\" -- \"$current\")); return ;;\n"
-         "  esac\n"
-         "  case ${COMP_WORDS[1]} in\n" +
-         cases +
-         "  esac\n"
-         "  case $current in\n"
-         "    -*) COMPREPLY=($(compgen -W \"$words\" -- \"$current\")) ;;\n"
-         "    *) COMPREPLY=($(compgen -f -- \"$current\")) ;;\n"
-         "  esac\n"
-         "}\n"
-         "complete -o filenames -F _aisle aisle ./aisle\n";
+  const std::string type = option.get_type_name();
+  const std::size_t open = type.find('{'), close = type.find('}');
+  if (open == std::string::npos || close == std::string::npos) return values;
+  return CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
+}
+
+/// A line of a shell's `case` for every command: what may follow it, and what its options take.
+struct Cases {
+  std::string words, values;
+};
+
+void AddCases(const CLI::App& command, const std::string& path, Cases* cases) {
+  std::vector<std::string> words;
+  for (const CLI::App* below : command.get_subcommands({})) {
+    if (below->get_group().empty()) continue;  // not for people
+    words.push_back(below->get_name());
+    AddCases(*below, path + below->get_name() + " ", cases);
+  }
+  for (const CLI::Option* option : command.get_options()) {
+    const std::vector<std::string> names = NamesOf(*option), values = ValuesOf(*option);
+    words.insert(words.end(), names.begin(), names.end());
+    if (values.empty()) continue;
+    for (const std::string& name : names) {
+      cases->values += fmt::format("    '{}{}') words='{}' ;;\n", path, name, Joined(values));
+    }
+  }
+  cases->words += fmt::format("    '{}') words='{}' ;;\n", path, Joined(words));
+}
+
+/// `path` grows with the commands on the line: "", "bench ", "bench render ".
+constexpr const char* kScript =
+    R"bash(# Completion of aisle for bash: eval "$(./aisle completion bash)"
+_aisle_words() {{
+  case $1 in
+{0}  esac
+}}
+_aisle_values() {{
+  case $1 in
+{1}  esac
+}}
+_aisle() {{
+  local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}}
+  local path= word words= commands i
+  for ((i = 1; i < COMP_CWORD; ++i)); do
+    word=${{COMP_WORDS[i]}}
+    _aisle_words "$path"
+    case " $words " in
+      *" $word "*) [[ $word == -* ]] || path+="$word " ;;
+    esac
+  done
+  words=
+  _aisle_values "$path$previous"
+  if [ -z "$words" ]; then
+    _aisle_words "$path"
+    if [[ $current != -* ]]; then
+      commands=
+      for word in $words; do [[ $word == -* ]] || commands+="$word "; done
+      words=$commands
+    fi
+  fi
+  COMPREPLY=($(compgen -W "$words" -- "$current"))
+  [ -n "$words" ] || COMPREPLY=($(compgen -f -- "$current"))
+}}
+complete -o filenames -F _aisle aisle ./aisle
+)bash";
+
+std::string BashScript(const CLI::App& app) {
+  Cases cases;
+  AddCases(app, "", &cases);
+  return fmt::format(fmt::runtime(kScript), cases.words, cases.values);
 }
 
 }  // namespace

@@ -129,6 +129,7 @@ std::vector<Finding> Examine(const std::string& out) {
           Assets(),
           Packages(),
           Tool("ffmpeg", "a short video of every run"),
+          Tool("chromium", "the tests look at the report with it"),
           Tool("git", "the commit in every report")};
 }
 

@@ -3,7 +3,9 @@
 #include <sstream>
 
 #include "harness/cli/command.h"
+#include "harness/cli/places.h"
 #include "harness/io/file.h"
+#include "harness/io/frame_store.h"
 #include "harness/io/input_error.h"
 #include "harness/report/record.h"
 
@@ -35,10 +37,18 @@ RunRecord FailedRun(const Job& job, const ProcessResult& result, const ProcessLi
   return record;
 }
 
+/// What the evening left for others of its runs must not fill the disk before it is over.
+void ShrinkCaches() {
+  constexpr std::uintmax_t kMostBytes = std::uintmax_t{12} << 30;
+  ShrinkStore(CacheDir() / "frames", kMostBytes);
+  ShrinkStore(CacheDir() / "datasets", kMostBytes, std::chrono::hours(24));
+}
+
 }  // namespace
 
 void Evening::Ended(const Job& job, const ProcessResult& result) {
   ++ended_;
+  ShrinkCaches();
   const std::string id = RunId(job.spec);
   const bool exited = result.end == ProcessResult::End::kExited;
   if (exited && (result.code == kOwnFailure || result.code == kBadInput)) {

@@ -25,7 +25,11 @@ std::string ShellQuoted(const std::string& text) {
 fs::path DoneMark(const fs::path& dataset) { return dataset / "complete"; }
 
 void Export(const Sequence& sequence, const ExternalRun& run, const ExportOptions& options) {
-  if (fs::exists(DoneMark(run.dataset))) return;
+  if (fs::exists(DoneMark(run.dataset))) {
+    std::error_code error;
+    fs::last_write_time(run.dataset, fs::file_time_type::clock::now(), error);  // in use
+    return;
+  }
   const std::vector<FrameRequest> schedule = sequence.Schedule();
   DatasetWriter writer(run.dataset, sequence.calibration(), sequence.rate_hz(), options);
   for (std::size_t i = 0; i < schedule.size(); ++i) {

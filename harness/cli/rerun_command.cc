@@ -1,5 +1,6 @@
 // One run of a finished report again, held against itself bit by bit.
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "harness/cli/command.h"
 #include "harness/cli/evening.h"
@@ -7,6 +8,7 @@
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/report/record.h"
+#include "harness/report/record_json.h"
 #include "harness/suite/plan.h"
 
 namespace aisle {
@@ -18,6 +20,7 @@ struct Options {
   std::string id, in, out;
   int threads = 0;
   ProcessLimits limits;
+  bool json = false;
 };
 
 RunSpec FindRun(const Suite& suite, const std::string& id, const std::string& folder) {
@@ -28,6 +31,33 @@ RunSpec FindRun(const Suite& suite, const std::string& id, const std::string& fo
   }
   throw InputError(
       fmt::format("{}: holds no run '{}'; it holds{}", folder, Printable(id, 200), known));
+}
+
+/// How the new run compares with the old one, for people or for programs.
+int Say(const Options& options, const fs::path& out, const std::optional<RunRecord>& before,
+        const std::optional<RunRecord>& after) {
+  const bool both = before && after;
+  const std::vector<std::string> differences =
+      both ? DifferentBits(*before, *after) : std::vector<std::string>{};
+  const bool same_inputs = both && before->inputs_hash == after->inputs_hash;
+  const std::string run = (out / "runs" / options.id).string();
+  if (options.json) {
+    fmt::print("{}", Dump({{"run", run},
+                           {"compared", both},
+                           {"same_inputs", same_inputs},
+                           {"differences", differences}}));
+  } else if (!both) {
+    fmt::print("run: {}\nthere is no earlier result to compare with\n", run);
+  } else if (differences.empty()) {
+    fmt::print("run: {}\nthe same to the last bit: trajectories and {} scores\n", run,
+               after->scores.size());
+  } else {
+    fmt::print("run: {}\n{}\n", run,
+               same_inputs ? "the same inputs, other results:"
+                           : "program, scene or system changed since; other results:");
+    for (const std::string& line : differences) fmt::print("  {}\n", line);
+  }
+  return differences.empty() ? kAllPassed : kVerdictFailed;
 }
 
 int Rerun(const Options& options) {
@@ -44,21 +74,7 @@ int Rerun(const Options& options) {
   evening.Run(jobs, 1, never);
   if (evening.failure() != 0) return evening.failure();
   const std::optional<RunRecord> after = ReadRun(spec, out);
-  fmt::print("run: {}\n", (out / "runs" / options.id).string());
-  if (!before || !after) {
-    fmt::print("there is no earlier result to compare with\n");
-    return kAllPassed;
-  }
-  const std::vector<std::string> differences = DifferentBits(*before, *after);
-  if (differences.empty()) {
-    fmt::print("the same to the last bit: trajectories and {} scores\n", after->scores.size());
-    return kAllPassed;
-  }
-  const bool same_inputs = before->inputs_hash == after->inputs_hash;
-  fmt::print("{}\n", same_inputs ? "the same inputs, other results:"
-                                 : "program, scene or system changed since; other results:");
-  for (const std::string& line : differences) fmt::print("  {}\n", line);
-  return kVerdictFailed;
+  return Say(options, out, before, after);
 }
 
 }  // namespace
@@ -75,6 +91,7 @@ void AddRerunCommand(CLI::App* app, Action* action) {
       ->check(CLI::Range(0, 1024));
   command->add_option("--timeout", options->limits.wall_s, "seconds of wall time")
       ->check(CLI::PositiveNumber);
+  command->add_flag("--json", options->json, "for programs");
   command->footer("Example: ./aisle rerun paper.scene2/live/oracle/1 --in out/quickstart");
   command->callback([=] { *action = [=] { return Rerun(*options); }; });
 }

@@ -8,7 +8,6 @@
 #include "harness/cli/jobs.h"
 #include "harness/cli/places.h"
 #include "harness/io/file.h"
-#include "harness/io/frame_store.h"
 #include "harness/io/input_error.h"
 #include "harness/report/compare.h"
 #include "harness/report/report.h"
@@ -18,8 +17,6 @@ namespace aisle {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uintmax_t kFrameStoreBytes = std::uintmax_t{12} << 30;
 
 struct Options {
   InputOptions inputs;
@@ -125,7 +122,6 @@ int RunSuite(const Options& options) {
 
   std::signal(SIGINT, OnInterrupt);
   std::signal(SIGTERM, OnInterrupt);
-  ShrinkStore(CacheDir() / "frames", kFrameStoreBytes);
   Evening evening(out, todo.size(), options.limits);
   bool finished = evening.Run(todo, options.jobs, interrupted);
   if (finished && !options.no_retry) finished = LookForFlaky(todo, out, options);

@@ -42,6 +42,8 @@ struct ObjectTruth {
 /// (recorded data) does not know them.
 struct FrameTruth {
   Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();
+  double smear_ms =
+      0;            ///< time over which the exposure draws motion out; 0: an instant, or unknown
   cv::Mat1f depth;  ///< z in metres, inf where nothing was hit
   /// The same at every 16th pixel of every 16th row: what a stored frame keeps of it.
   cv::Mat1f depth_grid;

@@ -45,6 +45,7 @@ struct MaskFacts {
   double iou_sum = 0;           ///< of the found objects' rectangles
   int static_corners = 0;       ///< image corners on surfaces that do not move
   int static_corners_lost = 0;  ///< of them, under the mask
+  int corners_rejected = 0;     ///< all image corners under the mask
   std::int64_t outline_truth = 0, outline_truth_met = 0;  ///< pixels of truth's outline; near ours
   std::int64_t outline_rejected = 0, outline_rejected_met = 0;  ///< and the other way round
   std::vector<ObjectOutcome> objects;  ///< those asked for; empty where no labels are known
@@ -61,6 +62,7 @@ struct MaskFacts {
     iou_sum += more.iou_sum;
     static_corners += more.static_corners;
     static_corners_lost += more.static_corners_lost;
+    corners_rejected += more.corners_rejected;
     outline_truth += more.outline_truth;
     outline_truth_met += more.outline_truth_met;
     outline_rejected += more.outline_rejected;
@@ -74,9 +76,9 @@ struct MaskFacts {
 struct Difficulty {
   /// Share of the image that stands still and shows texture: what a system could hold on to.
   std::optional<double> static_texture_share = {};
-  /// Median motion of static points in the image since the frame before, pixels. An exposure of a
-  /// share s of the frame time smears the picture by s times this.
+  /// Median motion of static points in the image since the frame before, pixels.
   std::optional<double> flow_px = {};
+  std::optional<double> blur_px = {};      ///< how far the exposure smears them, pixels
   std::optional<double> parallax_px = {};  ///< the part of it that the rig's translation made
 };
 

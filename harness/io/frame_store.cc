@@ -10,7 +10,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint32_t kMagic = 0x4D465341;  // "ASFM"
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 // --- Envelope: magic, version, checksum, payload -------------------------------------------------
 
@@ -94,6 +94,7 @@ ObjectTruth GetObject(ByteReader* reader) {
 
 void PutTruth(const FrameTruth& truth, ByteWriter* writer) {
   PutPose(truth.T_world_rig, writer);
+  writer->Put(truth.smear_ms);
   writer->PutRuns(truth.instance);
   writer->PutRuns(truth.depth_grid);
   for (const cv::Mat1b& mask :
@@ -107,6 +108,7 @@ void PutTruth(const FrameTruth& truth, ByteWriter* writer) {
 FrameTruth GetTruth(ByteReader* reader) {
   FrameTruth truth;
   truth.T_world_rig = GetPose(reader);
+  truth.smear_ms = reader->Get<double>();
   truth.instance = reader->GetRuns<std::uint16_t>();
   truth.depth_grid = reader->GetRuns<float>();
   for (cv::Mat1b* mask : {&truth.dynamic, &truth.dynamic_right, &truth.actor, &truth.actor_right}) {
@@ -129,9 +131,9 @@ std::vector<StoredSequence> StoredSequences(const fs::path& root) {
   for (const auto& entry : fs::directory_iterator(root, error)) {
     if (!entry.is_directory(error)) continue;
     StoredSequence sequence{entry.path(), fs::last_write_time(entry.path(), error), 0};
-    for (const auto& file : fs::directory_iterator(entry.path(), error)) {
-      const std::uintmax_t bytes = file.file_size(error);
-      if (!error) sequence.bytes += bytes;
+    for (const auto& file : fs::recursive_directory_iterator(entry.path(), error)) {
+      std::error_code gone;
+      if (file.is_regular_file(gone)) sequence.bytes += file.file_size(gone);
     }
     sequences.push_back(sequence);
   }
@@ -203,14 +205,15 @@ void FrameStore::Write(const SequenceFrame& frame) const {
   WriteChecked(FramePath(frame.images.id), writer.bytes());
 }
 
-void ShrinkStore(const fs::path& root, std::uintmax_t max_bytes) {
+void ShrinkStore(const fs::path& root, std::uintmax_t max_bytes, std::chrono::hours grace) {
+  const fs::file_time_type now = fs::file_time_type::clock::now();
   std::vector<StoredSequence> sequences = StoredSequences(root);
   std::sort(sequences.begin(), sequences.end(),
             [](const StoredSequence& a, const StoredSequence& b) { return a.used < b.used; });
   std::uintmax_t total = 0;
   for (const StoredSequence& sequence : sequences) total += sequence.bytes;
   for (const StoredSequence& sequence : sequences) {
-    if (total <= max_bytes) return;
+    if (total <= max_bytes || (grace.count() > 0 && now - sequence.used < grace)) return;
     std::error_code error;
     fs::remove_all(sequence.folder, error);  // another process may be at it: no matter
     total -= sequence.bytes;

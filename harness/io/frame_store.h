@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -37,7 +38,9 @@ class FrameStore {
 };
 
 /// Deletes whole sequences below `root`, least recently opened first, until at most `max_bytes`
-/// remain. Readers of a deleted sequence find its frames absent and make them again.
-void ShrinkStore(const std::filesystem::path& root, std::uintmax_t max_bytes);
+/// remain; those opened within `grace` stay. Readers of a deleted sequence find its frames absent
+/// and make them again; who cannot (a system of others amid a dataset) needs the grace.
+void ShrinkStore(const std::filesystem::path& root, std::uintmax_t max_bytes,
+                 std::chrono::hours grace = {});
 
 }  // namespace aisle

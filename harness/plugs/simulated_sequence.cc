@@ -112,8 +112,10 @@ class SimulatedSequence : public Sequence {
   SequenceFrame At(const FrameRequest& request) const override {
     const sim::RenderedFrame frame =
         simulator_.Render(static_cast<int>(request.id), request.stamp_ns, request.T_world_rig);
+    FrameTruth truth = Convert(frame.truth, simulator_.instances());
+    truth.smear_ms = frame.smear_ms;
     return {.images = {request.id, frame.stamp_ns, frame.left, frame.right},
-            .truth = Convert(frame.truth, simulator_.instances())};
+            .truth = std::move(truth)};
   }
 
  private:

@@ -9,27 +9,6 @@ namespace {
 constexpr double kWidth = 860, kLeft = 52, kRight = 846;
 using Points = std::vector<std::pair<double, double>>;
 
-double Seconds(const FrameRow& row, const std::vector<FrameRow>& rows) {
-  return static_cast<double>(row.stamp_ns - rows.front().stamp_ns) * 1e-9;
-}
-
-const std::vector<FrameRow>* Longest(const std::vector<ChartSeries>& series) {
-  const std::vector<FrameRow>* longest = nullptr;
-  for (const ChartSeries& one : series) {
-    if (longest == nullptr || one.rows->size() > longest->size()) longest = one.rows;
-  }
-  return longest != nullptr && longest->size() >= 2 ? longest : nullptr;
-}
-
-void Legend(const std::vector<std::pair<std::string, std::string>>& entries, double y, Svg* svg) {
-  double x = kLeft;
-  for (const auto& [name, css] : entries) {
-    svg->Line(x, y - 4, x + 18, y - 4, css);
-    svg->Text(x + 24, y, name, "legend");
-    x += 44 + 7.2 * static_cast<double>(name.size());
-  }
-}
-
 // --- From above
 // -----------------------------------------------------------------------------------
 
@@ -67,9 +46,8 @@ std::vector<Points> Pieces(
     const std::vector<FrameRow>& rows,
     const std::function<std::optional<std::pair<double, double>>(const FrameRow&)>& point) {
   std::vector<Points> pieces(1);
-  const std::size_t step = std::max<std::size_t>(1, rows.size() / 800);
-  for (std::size_t i = 0; i < rows.size(); i += step) {
-    if (const auto at = point(rows[i])) {
+  for (const FrameRow& row : rows) {
+    if (const auto at = point(row)) {
       pieces.back().push_back(*at);
     } else if (!pieces.back().empty()) {
       pieces.emplace_back();
@@ -79,6 +57,14 @@ std::vector<Points> Pieces(
 }
 
 }  // namespace
+
+const std::vector<FrameRow>* Longest(const std::vector<ChartSeries>& series) {
+  const std::vector<FrameRow>* longest = nullptr;
+  for (const ChartSeries& one : series) {
+    if (longest == nullptr || one.rows->size() > longest->size()) longest = one.rows;
+  }
+  return longest != nullptr && longest->size() >= 2 ? longest : nullptr;
+}
 
 std::string TopViewChart(const std::vector<ChartSeries>& series) {
   const std::vector<FrameRow>* longest = Longest(series);
@@ -125,50 +111,11 @@ std::string TopViewChart(const std::vector<ChartSeries>& series) {
   }
   const auto [start_x, start_y] = at(longest->front().truth_m);
   svg.Circle(start_x, start_y, 4, "start", "start");
-  Legend(legend, plot_height + 72, &svg);
+  svg.Legend(legend, kLeft, plot_height + 72);
   const std::string note = magnification == 1
                                ? "deviations to scale"
                                : fmt::format("deviations from truth drawn ×{:g}", magnification);
   svg.Text(kRight, plot_height + 72, note, "axis", "end");
-  return svg.Finish();
-}
-
-std::string ErrorChart(const std::vector<ChartSeries>& series) {
-  const std::vector<FrameRow>* longest = Longest(series);
-  if (longest == nullptr) return "";
-  double highest_cm = 0.1, most_movers = 1;
-  for (const ChartSeries& one : series) {
-    for (const FrameRow& row : *one.rows) {
-      highest_cm = std::max(highest_cm, 100 * row.live_error_m.value_or(0));
-      most_movers = std::max(most_movers, 100 * row.movers_share);
-    }
-  }
-  const double end_s = std::max(Seconds(longest->back(), *longest), 1e-3);
-  const Axis x{0, end_s, kLeft, kRight};
-  const Axis error{0, 1.06 * highest_cm, 224, 24};
-  const Axis movers{0, 1.1 * most_movers, 336, 272};
-  Svg svg(kWidth, 404, "error over time");
-  svg.Grid(x, error, "", "error of the live track [cm]");
-  svg.Grid(x, movers, "time [s]", "pixels that move [%]");
-
-  Points area = {{x(0), movers(0)}};
-  for (const FrameRow& row : *longest) {
-    area.emplace_back(x(Seconds(row, *longest)), movers(100 * row.movers_share));
-  }
-  area.emplace_back(x(end_s), movers(0));
-  svg.Polygon(area, "movers");
-
-  std::vector<std::pair<std::string, std::string>> legend;
-  for (const ChartSeries& one : series) {
-    const std::string css = fmt::format("line c{}", one.color);
-    const auto point = [&](const FrameRow& row) -> std::optional<std::pair<double, double>> {
-      if (!row.live_error_m) return std::nullopt;
-      return std::pair(x(Seconds(row, *one.rows)), error(100 * *row.live_error_m));
-    };
-    for (const Points& piece : Pieces(*one.rows, point)) svg.Polyline(piece, css, one.name);
-    legend.emplace_back(one.name, css);
-  }
-  Legend(legend, 396, &svg);
   return svg.Finish();
 }
 
@@ -224,9 +171,17 @@ std::string SpreadChart(const std::vector<SpreadRow>& rows, const std::string& a
   double middle = 10 + kRowHeight / 2;
   for (const SpreadRow& row : rows) {
     svg.Text(kNames - 8, middle + 4, row.system, "legend", "end");
+    if (row.values.size() > 2) {
+      const double low = x(Quantile(row.values, 0.25)), high = x(Quantile(row.values, 0.75));
+      const double least = x(Quantile(row.values, 0)), most = x(Quantile(row.values, 1));
+      const std::string css = fmt::format("box c{}", row.color);
+      svg.Line(least, middle, low, middle, css);
+      svg.Line(high, middle, most, middle, css);
+      svg.Rect(low, middle - 8, high - low, 16, css);
+    }
     if (!row.values.empty()) {
-      const double median = Quantile(row.values, 0.5);
-      svg.Line(x(median), middle - 10, x(median), middle + 10, fmt::format("line c{}", row.color));
+      const double median = x(Quantile(row.values, 0.5));
+      svg.Line(median, middle - 10, median, middle + 10, fmt::format("line c{}", row.color));
     }
     for (const double value : row.values) {
       svg.Circle(x(value), middle, 4, fmt::format("dot d{}", row.color),

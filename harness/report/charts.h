@@ -14,15 +14,15 @@ struct ChartSeries {
   const std::vector<FrameRow>* rows = nullptr;
 };
 
+/// The rows of the series that got farthest; null where none has two.
+const std::vector<FrameRow>* Longest(const std::vector<ChartSeries>& series);
+
 // Inline SVG without styles or scripts of its own: classes only, so that one style sheet serves
 // light and dark and the page's policy may forbid everything else.
 
 /// Truth and every live track from above, the plane of greatest extent, equal scales. Where
 /// deviations are too small to be seen they are drawn magnified, and the caption says how much.
 std::string TopViewChart(const std::vector<ChartSeries>& series);
-
-/// Live error of every system over time, the share of pixels that move beneath on the same axis.
-std::string ErrorChart(const std::vector<ChartSeries>& series);
 
 struct StageBar {
   std::string name;
@@ -41,7 +41,8 @@ struct SpreadRow {
   int color = 0;
   std::vector<double> values;  ///< one per seed
 };
-/// A dot per seed, the median as a line: what a single run could have said.
+/// A dot per seed over a box of the quartiles, the median as a line: what a single run could have
+/// said.
 std::string SpreadChart(const std::vector<SpreadRow>& rows, const std::string& axis);
 
 }  // namespace aisle

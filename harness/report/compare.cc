@@ -197,6 +197,20 @@ std::vector<Comparison> Compare(const Results& before, const Results& after,
   return comparisons;
 }
 
+Results BaselineOf(const Results& results) {
+  const std::vector<std::string> compared = ScoresToCompare();
+  Results baseline = results;
+  baseline.verdicts.clear();
+  for (RunRecord& run : baseline.runs) {
+    run.artifacts.clear();
+    run.notes.clear();
+    std::erase_if(run.scores, [&](const auto& entry) {
+      return std::find(compared.begin(), compared.end(), entry.first) == compared.end();
+    });
+  }
+  return baseline;
+}
+
 std::vector<Verdict> GateVerdicts(const Results& before, const Results& after,
                                   const CompareOptions& options) {
   std::vector<Verdict> verdicts;
@@ -209,7 +223,10 @@ std::vector<Verdict> GateVerdicts(const Results& before, const Results& after,
                         .flaky = false,
                         .value = {},
                         .limit = {},
-                        .why = "the baseline has this, tonight has not"});
+                        .why = "the baseline has this, tonight has not",
+                        .scene = scene,
+                        .twin = twin,
+                        .system = system});
   }
   for (const Comparison& c : Compare(before, after, options)) {
     if (FindJudged(c.score) == nullptr) continue;
@@ -221,7 +238,10 @@ std::vector<Verdict> GateVerdicts(const Results& before, const Results& after,
          .value = c.new_median,
          .limit = c.old_median,
          .why = fmt::format("{}: {:.4g} was {:.4g} {} ({})", Name(c.change), c.new_median,
-                            c.old_median, c.unit == "1" ? "" : c.unit, c.why)});
+                            c.old_median, c.unit == "1" ? "" : c.unit, c.why),
+         .scene = c.scene,
+         .twin = c.twin,
+         .system = c.system});
   }
   return verdicts;
 }

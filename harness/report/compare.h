@@ -42,6 +42,9 @@ struct Comparison {
 std::vector<Comparison> Compare(const Results& before, const Results& after,
                                 const CompareOptions& options = {});
 
+/// What a comparison needs of a night and no more: fit to be kept under version control.
+Results BaselineOf(const Results& results);
+
 /// A failed verdict for each score that got worse, and for each cell that is gone.
 std::vector<Verdict> GateVerdicts(const Results& before, const Results& after,
                                   const CompareOptions& options = {});

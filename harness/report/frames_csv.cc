@@ -10,9 +10,9 @@ namespace {
 constexpr const char* kHeader =
     "frame,stamp_ns,state,truth_x_m,truth_y_m,truth_z_m,live_x_m,live_y_m,live_z_m,live_error_m,"
     "final_x_m,final_y_m,final_z_m,final_error_m,movers_share,actors_share,features,"
-    "features_on_movers,inliers_on_movers,mask_iou,static_texture_share,flow_px,"
-    "parallax_px,render_ms,process_ms";
-constexpr std::size_t kColumns = 25;
+    "features_on_movers,inliers_on_movers,mask_iou,corners_rejected,static_texture_share,flow_px,"
+    "blur_px,parallax_px,render_ms,process_ms";
+constexpr std::size_t kColumns = 27;
 
 const char* Name(TrackingState state) {
   switch (state) {
@@ -106,11 +106,13 @@ FrameRow RowFrom(const Cells& cells) {
   row.features_on_movers = static_cast<int>(cells.Whole(17));
   row.inliers_on_movers = static_cast<int>(cells.Whole(18));
   row.mask_iou = cells.Number(19);
-  row.difficulty = {.static_texture_share = cells.Number(20),
-                    .flow_px = cells.Number(21),
-                    .parallax_px = cells.Number(22)};
-  row.render_ms = cells.Required(23);
-  row.process_ms = cells.Required(24);
+  if (const auto corners = cells.Number(20)) row.corners_rejected = static_cast<int>(*corners);
+  row.difficulty = {.static_texture_share = cells.Number(21),
+                    .flow_px = cells.Number(22),
+                    .blur_px = cells.Number(23),
+                    .parallax_px = cells.Number(24)};
+  row.render_ms = cells.Required(25);
+  row.process_ms = cells.Required(26);
   return row;
 }
 
@@ -119,12 +121,13 @@ FrameRow RowFrom(const Cells& cells) {
 std::string ToCsv(const std::vector<FrameRow>& rows) {
   std::string text = std::string(kHeader) + "\n";
   for (const FrameRow& row : rows) {
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{:.3f},{:.3f}\n",
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{:.3f},{:.3f}\n",
                         row.id, row.stamp_ns, Name(row.state), Fields(row.truth_m),
                         Fields(row.live_m), Field(row.live_error_m), Fields(row.final_m),
                         Field(row.final_error_m), row.movers_share, row.actors_share, row.features,
                         row.features_on_movers, row.inliers_on_movers, Field(row.mask_iou),
-                        Field(row.difficulty.static_texture_share), Field(row.difficulty.flow_px),
+                        Field(row.corners_rejected), Field(row.difficulty.static_texture_share),
+                        Field(row.difficulty.flow_px), Field(row.difficulty.blur_px),
                         Field(row.difficulty.parallax_px), row.render_ms, row.process_ms);
   }
   return text;

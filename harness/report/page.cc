@@ -1,15 +1,30 @@
 #include "harness/report/page.h"
 
+#include <limits>
+
 #include "harness/report/html.h"
 
 namespace aisle {
 namespace {
 
-std::string VerdictItem(const Verdict& verdict) {
+std::string LinkTo(const SceneRuns& scene, SceneLinks links) {
+  return fmt::format("{}{}", links == SceneLinks::kAnchors ? "#" : "", EscapeUrl(ScenePage(scene)));
+}
+
+/// The name leads to the page of the scene it is about, where there is one.
+std::string VerdictItem(const Verdict& verdict, const std::vector<SceneRuns>& scenes,
+                        SceneLinks links) {
   const char* css = verdict.passed ? "pass" : verdict.flaky ? "flaky" : "fail";
   const char* word = verdict.passed ? "held" : verdict.flaky ? "FLAKY" : "BROKEN";
-  return fmt::format("<li><span class=\"{}\">{}</span> {}: {}</li>\n", css, word,
-                     Escape(verdict.name), Escape(verdict.why));
+  const auto scene = std::find_if(scenes.begin(), scenes.end(), [&](const SceneRuns& one) {
+    return one.scene == verdict.scene && one.twin == verdict.twin;
+  });
+  const std::string name =
+      scene == scenes.end()
+          ? Escape(verdict.name)
+          : fmt::format("<a href=\"{}\">{}</a>", LinkTo(*scene, links), Escape(verdict.name));
+  return fmt::format("<li><span class=\"{}\">{}</span> {}: {}\n", css, word, name,
+                     Escape(verdict.why));
 }
 
 std::string Headline(std::size_t all, std::size_t broken, std::size_t flaky) {
@@ -29,6 +44,28 @@ std::string StatusCell(const SystemRuns& system) {
   return fmt::format(" {}/{} ok", good, system.runs.size());
 }
 
+/// A list whose tail is folded away; `word` says what the tail holds.
+std::string List(const std::vector<std::string>& items, const std::string& word) {
+  constexpr std::size_t kShownAtOnce = 12;
+  std::string text;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i == kShownAtOnce) {
+      text +=
+          fmt::format("</ul><details><summary>{} more {}</summary><ul>\n", items.size() - i, word);
+    }
+    text += items[i];
+  }
+  const bool folded = items.size() > kShownAtOnce;
+  return fmt::format("<ul>\n{}</ul>{}\n", text, folded ? "</details>" : "");
+}
+
+/// How far beyond its limit, as a share of it; what has no number is worst.
+double Excess(const Verdict& verdict) {
+  if (!verdict.value || !verdict.limit) return std::numeric_limits<double>::infinity();
+  const double distance = std::abs(*verdict.value - *verdict.limit);
+  return distance / std::max(std::abs(*verdict.limit), 1e-12);
+}
+
 }  // namespace
 
 std::string Page(const std::string& title, const std::string& root, const std::string& body) {
@@ -42,26 +79,33 @@ std::string Page(const std::string& title, const std::string& root, const std::s
       Escape(title), root, body);
 }
 
-std::string VerdictSection(const Results& results) {
-  constexpr std::size_t kShownAtOnce = 12;
-  std::size_t broken = 0, flaky = 0;
-  std::string failed, passed;
-  for (const Verdict& verdict : results.verdicts) {
-    (verdict.passed ? passed : failed) += VerdictItem(verdict);
-    broken += verdict.passed ? 0 : 1;
+std::string VerdictSection(const Results& results, const std::vector<SceneRuns>& scenes,
+                           SceneLinks links) {
+  std::vector<Verdict> worst_first = results.verdicts;
+  std::stable_sort(worst_first.begin(), worst_first.end(),
+                   [](const Verdict& a, const Verdict& b) { return Excess(a) > Excess(b); });
+  std::size_t flaky = 0;
+  std::vector<std::string> failed, passed;
+  for (const Verdict& verdict : worst_first) {
+    if (!verdict.passed) failed.push_back(VerdictItem(verdict, scenes, links));
     flaky += verdict.flaky ? 1 : 0;
   }
-  const std::size_t all = results.verdicts.size();
-  if (all - broken > kShownAtOnce) {
-    passed = fmt::format("</ul><details><summary>{} held</summary><ul>{}</ul></details><ul>",
-                         all - broken, passed);
+  for (const Verdict& verdict : results.verdicts) {
+    if (verdict.passed) passed.push_back(VerdictItem(verdict, scenes, links));
   }
+  const std::size_t all = results.verdicts.size(), broken = failed.size();
   const char* css = all == 0 ? "" : broken > 0 ? "failed" : "passed";
+  std::string lists = failed.empty() ? "" : List(failed, "broken, the worst above");
+  if (!passed.empty()) {
+    const std::string held = List(passed, "held");
+    lists += broken == 0 ? held
+                         : fmt::format("<details><summary>{} held</summary>{}</details>",
+                                       passed.size(), held);
+  }
   return fmt::format(
-      "<h1>{}</h1>\n<p class=\"soft\">{}</p>\n<div class=\"verdict {}\"><strong>{}</strong>"
-      "<ul>\n{}{}</ul></div>\n",
-      Escape(results.suite), Escape(results.question), css, Headline(all, broken, flaky), failed,
-      passed);
+      "<h1>{}</h1>\n<p class=\"soft\">{}</p>\n<div class=\"verdict {}\"><strong>{}</strong>{}"
+      "</div>\n",
+      Escape(results.suite), Escape(results.question), css, Headline(all, broken, flaky), lists);
 }
 
 std::string OverviewSection(const std::vector<SceneRuns>& scenes, SceneLinks links) {
@@ -84,9 +128,8 @@ std::string OverviewSection(const std::vector<SceneRuns>& scenes, SceneLinks lin
       const auto value = MedianScore(system.runs, "ate_rmse_m");
       if (value && (!least || *value < *least)) least = value;
     }
-    text += fmt::format("<tr><td><a href=\"{}{}\">{}</a></td><td class=\"left\">{}</td>",
-                        links == SceneLinks::kAnchors ? "#" : "", EscapeUrl(ScenePage(scene)),
-                        Escape(scene.scene), Escape(scene.twin));
+    text += fmt::format("<tr><td><a href=\"{}\">{}</a></td><td class=\"left\">{}</td>",
+                        LinkTo(scene, links), Escape(scene.scene), Escape(scene.twin));
     for (const auto& [color, name] : systems) {
       const auto system = std::find_if(scene.systems.begin(), scene.systems.end(),
                                        [&](const SystemRuns& s) { return s.color == color; });

@@ -10,9 +10,10 @@ namespace aisle {
 /// A whole page around the body. `root` leads from the page to the report's folder ("", "../").
 std::string Page(const std::string& title, const std::string& root, const std::string& body);
 
-/// Verdict first, then the score table over all scenes.
-std::string VerdictSection(const Results& results);
 enum class SceneLinks { kPages, kAnchors };  ///< where a scene's section stands
+/// Verdict first, what is broken leading to its scene; then the score table over all scenes.
+std::string VerdictSection(const Results& results, const std::vector<SceneRuns>& scenes,
+                           SceneLinks links);
 std::string OverviewSection(const std::vector<SceneRuns>& scenes, SceneLinks links);
 std::string ProvenanceFooter(const Results& results);
 

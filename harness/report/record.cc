@@ -79,19 +79,21 @@ std::vector<FrameRow> MakeFrameRows(const RunResult& run, const ScoreOptions& op
   std::vector<FrameRow> rows;
   for (std::size_t i = 0; i < run.facts.size(); ++i) {
     const FrameFacts& facts = run.facts[i];
-    FrameRow row{.id = run.estimates[i].id,
-                 .stamp_ns = facts.stamp_ns,
-                 .state = run.estimates[i].state,
-                 .truth_m = facts.T_world_rig.translation(),
-                 .movers_share = facts.movers_share,
-                 .actors_share = facts.actors_share,
-                 .features = facts.features,
-                 .features_on_movers = facts.features_on_movers,
-                 .inliers_on_movers = facts.inliers_on_movers,
-                 .mask_iou = MaskIou(facts.mask),
-                 .difficulty = facts.difficulty,
-                 .render_ms = facts.render_ms,
-                 .process_ms = facts.process_ms};
+    FrameRow row{
+        .id = run.estimates[i].id,
+        .stamp_ns = facts.stamp_ns,
+        .state = run.estimates[i].state,
+        .truth_m = facts.T_world_rig.translation(),
+        .movers_share = facts.movers_share,
+        .actors_share = facts.actors_share,
+        .features = facts.features,
+        .features_on_movers = facts.features_on_movers,
+        .inliers_on_movers = facts.inliers_on_movers,
+        .mask_iou = MaskIou(facts.mask),
+        .corners_rejected = facts.mask ? std::optional(facts.mask->corners_rejected) : std::nullopt,
+        .difficulty = facts.difficulty,
+        .render_ms = facts.render_ms,
+        .process_ms = facts.process_ms};
     if (has_truth) {
       row.live_m = live.position_m[i];
       row.live_error_m = live.error_m[i];

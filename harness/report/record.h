@@ -41,6 +41,7 @@ struct FrameRow {
   double movers_share = 0, actors_share = 0;
   int features = 0, features_on_movers = 0, inliers_on_movers = 0;
   std::optional<double> mask_iou = {};
+  std::optional<int> corners_rejected = {};  ///< image corners under the mask
   Difficulty difficulty = {};
   double render_ms = 0, process_ms = 0;
 };

@@ -18,12 +18,17 @@ constexpr std::size_t kScenesOnOnePage = 2;
 void WriteReport(const Results& results, const std::filesystem::path& report_dir) {
   const std::vector<SceneRuns> scenes = GroupByScene(results);
   const bool own_pages = scenes.size() > kScenesOnOnePage;
-  std::string body = VerdictSection(results) +
-                     OverviewSection(scenes, own_pages ? SceneLinks::kPages : SceneLinks::kAnchors);
+  const SceneLinks links = own_pages ? SceneLinks::kPages : SceneLinks::kAnchors;
+  std::string body = VerdictSection(results, scenes, links) + OverviewSection(scenes, links);
   body += CostSection(scenes);
   const std::vector<NumberTable> tables = PaperTables(scenes);
   if (!tables.empty()) {
-    body += "<h2>The tables of the paper, with our numbers</h2>\n" + ToHtml(tables);
+    body +=
+        "<h2>The tables of the paper, with our numbers</h2>\n<p class=\"soft small\">In "
+        "italics what the paper printed, of its own hall and cameras (DynaSLAM under "
+        "semantic): the order of the systems can be compared, not the size of the "
+        "numbers.</p>\n" +
+        ToHtml(tables);
   }
   for (const SceneRuns& scene : scenes) {
     const std::string section = SceneSection(scene, report_dir, "");

@@ -22,7 +22,9 @@ std::optional<double> NumberOrNull(const Json& json) {
 Json VerdictToJson(const Verdict& verdict) {
   return {{"name", verdict.name},           {"passed", verdict.passed},
           {"flaky", verdict.flaky},         {"value", OrNull(verdict.value)},
-          {"limit", OrNull(verdict.limit)}, {"why", verdict.why}};
+          {"limit", OrNull(verdict.limit)}, {"why", verdict.why},
+          {"scene", verdict.scene},         {"twin", verdict.twin},
+          {"system", verdict.system}};
 }
 
 Verdict VerdictFromJson(const Json& json) {
@@ -31,7 +33,10 @@ Verdict VerdictFromJson(const Json& json) {
           .flaky = json.value("flaky", false),
           .value = NumberOrNull(json.at("value")),
           .limit = NumberOrNull(json.at("limit")),
-          .why = json.at("why").get<std::string>()};
+          .why = json.at("why").get<std::string>(),
+          .scene = json.value("scene", ""),
+          .twin = json.value("twin", ""),
+          .system = json.value("system", "")};
 }
 
 Results FromJson(const Json& json) {
@@ -54,6 +59,17 @@ Results FromJson(const Json& json) {
   return results;
 }
 
+/// An array with a line for each of its members: nights have thousands of scores, and what changed
+/// between two files shows by run.
+std::string Lines(const Json& members) {
+  std::string text;
+  for (const Json& member : members) {
+    text += text.empty() ? "\n    " : ",\n    ";
+    text += member.dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+  return fmt::format("[{}{}]", text, text.empty() ? "" : "\n  ");
+}
+
 }  // namespace
 
 bool AllPassed(const Results& results) {
@@ -72,12 +88,13 @@ std::string ToJson(const Results& results) {
   json["started"] = results.started;
   json["rerun"] = results.rerun;
   json["wall_s"] = results.wall_s;
-  json["runs"] = Json::array();
-  for (const RunRecord& run : results.runs) json["runs"].push_back(RecordToJson(run));
-  json["verdicts"] = Json::array();
-  for (const Verdict& verdict : results.verdicts)
-    json["verdicts"].push_back(VerdictToJson(verdict));
-  return Dump(json);
+  Json runs = Json::array(), verdicts = Json::array();
+  for (const RunRecord& run : results.runs) runs.push_back(RecordToJson(run));
+  for (const Verdict& verdict : results.verdicts) verdicts.push_back(VerdictToJson(verdict));
+  std::string text = Dump(json);
+  text.erase(text.rfind("\n}"));
+  return fmt::format("{},\n  \"runs\": {},\n  \"verdicts\": {}\n}}\n", text, Lines(runs),
+                     Lines(verdicts));
 }
 
 Results ResultsFromJson(const std::string& text, const std::string& file) {

@@ -1,10 +1,12 @@
-#include <nlohmann/json.hpp>
+#include <set>
 
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/report/charts.h"
 #include "harness/report/html.h"
 #include "harness/report/page.h"
+#include "harness/report/simplify.h"
+#include "harness/report/time_chart.h"
 
 namespace aisle {
 namespace {
@@ -104,45 +106,41 @@ std::string Figure(const std::string& content, const std::string& caption) {
   return "<figure>" + content + "<figcaption>" + caption + "</figcaption></figure>\n";
 }
 
-/// The tracks in three dimensions, for pages whose scripts may run: hidden without.
-std::string Orbit(const std::vector<ChartSeries>& series) {
-  constexpr std::size_t kMostPoints = 200;
-  nlohmann::ordered_json tracks = nlohmann::ordered_json::array();
-  const auto add = [&](const ChartSeries& one, int color, bool truth) {
-    nlohmann::ordered_json points = nlohmann::ordered_json::array();
-    const std::size_t step = std::max<std::size_t>(1, one.rows->size() / kMostPoints);
-    for (std::size_t i = 0; i < one.rows->size(); i += step) {
-      const FrameRow& row = (*one.rows)[i];
-      const std::optional<Eigen::Vector3d> at = truth ? std::optional(row.truth_m) : row.live_m;
-      if (!at) continue;
-      const auto millimetres = [](double metres) { return std::round(1000 * metres) / 1000; };
-      points.push_back({millimetres(at->x()), millimetres(at->y()), millimetres(at->z())});
-    }
-    if (points.size() > 1) tracks.push_back({{"color", color}, {"points", points}});
-  };
-  if (series.empty()) return "";
-  add(series.front(), -1, true);
-  for (const ChartSeries& one : series) add(one, one.color, false);
-  return "<figure hidden data-tracks=\"" + Escape(tracks.dump()) +
-         "\"><figcaption>The tracks in space: drag to turn, wheel to come closer.</figcaption>"
-         "</figure>\n";
+/// "color x y z dx dy dz …": the first point and the steps from there on, in millimetres.
+std::string TrackData(int color, const std::vector<Eigen::Vector3d>& points_m, double tolerance_m) {
+  std::string data = fmt::format("{}", color);
+  Eigen::Vector3d at_mm = Eigen::Vector3d::Zero();
+  for (const std::size_t i : Simplify(points_m, tolerance_m)) {
+    const Eigen::Vector3d mm = (1000 * points_m[i]).array().round();
+    const Eigen::Vector3d step = mm - at_mm;
+    data += fmt::format(" {:.0f} {:.0f} {:.0f}", step.x(), step.y(), step.z());
+    at_mm = mm;
+  }
+  return data;
 }
 
-std::string Charts(const SceneRuns& scene, const fs::path& report_dir) {
-  std::vector<std::vector<FrameRow>> frames;
-  for (const SystemRuns& system : scene.systems) frames.push_back(Frames(system, report_dir));
-  std::vector<ChartSeries> series;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (frames[i].empty()) continue;
-    series.push_back({scene.systems[i].system, scene.systems[i].color % 6, &frames[i]});
+/// The tracks in three dimensions, for pages whose scripts may run: hidden without.
+std::string Orbit(const std::vector<ChartSeries>& series) {
+  if (series.empty()) return "";
+  std::vector<Eigen::Vector3d> truth;
+  Eigen::AlignedBox3d box;
+  for (const FrameRow& row : *series.front().rows) truth.push_back(row.truth_m);
+  for (const Eigen::Vector3d& at : truth) box.extend(at);
+  const double tolerance_m = box.diagonal().norm() / 2000;
+  std::string tracks = TrackData(-1, truth, tolerance_m);
+  for (const ChartSeries& one : series) {
+    std::vector<Eigen::Vector3d> live;
+    for (const FrameRow& row : *one.rows) {
+      if (row.live_m) live.push_back(*row.live_m);
+    }
+    if (live.size() < 2) continue;
+    tracks += ';';
+    tracks += TrackData(one.color, live, tolerance_m);
   }
-  const std::string seed = fmt::format("Seed {}. ", scene.systems.front().runs.front()->spec.seed);
-  return Figure(ErrorChart(series),
-                seed +
-                    "Distance of each live pose from truth after rigid alignment; gaps are frames "
-                    "without a pose. Beneath: share of the left image that moves.") +
-         Figure(TopViewChart(series), seed + "Live tracks from above, truth dashed.") +
-         Orbit(series);
+  return fmt::format(
+      "<figure hidden data-tracks=\"{}\"><figcaption>The tracks in space: drag to turn, wheel to "
+      "come closer.</figcaption></figure>\n",
+      tracks);
 }
 
 std::string Spread(const SceneRuns& scene) {
@@ -160,7 +158,8 @@ std::string Spread(const SceneRuns& scene) {
     rows.push_back(row);
   }
   if (!several) return "";
-  return Figure(SpreadChart(rows, "ATE RMSE [cm]"), "A dot per seed, the median as a line.");
+  return Figure(SpreadChart(rows, "ATE RMSE [cm]"),
+                "A dot per seed, the box holds the middle half, the median as a line.");
 }
 
 std::string Stages(const SceneRuns& scene) {
@@ -178,6 +177,26 @@ std::string Stages(const SceneRuns& scene) {
   }
   if (rows.empty()) return "";
   return Figure(StageChart(rows), "What the system says of its own stages, mean over all frames.");
+}
+
+/// The drive over time on one side, everything else beside it where the screen is wide.
+std::string Charts(const SceneRuns& scene, const fs::path& report_dir) {
+  std::vector<std::vector<FrameRow>> frames;
+  for (const SystemRuns& system : scene.systems) frames.push_back(Frames(system, report_dir));
+  std::vector<ChartSeries> series;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (frames[i].empty()) continue;
+    series.push_back({scene.systems[i].system, scene.systems[i].color % 6, &frames[i]});
+  }
+  const std::string seed = fmt::format("Seed {}. ", scene.systems.front().runs.front()->spec.seed);
+  return "<div class=\"charts\">" +
+         Figure(TimeChart(series),
+                seed +
+                    "Distance of each live pose from truth after rigid alignment; gaps are frames "
+                    "without a pose. Beneath, from truth: what moves in the left image, what each "
+                    "system rejected of its corners, and how hard the frame is for anybody.") +
+         "<div>" + Figure(TopViewChart(series), seed + "Live tracks from above, truth dashed.") +
+         Orbit(series) + Spread(scene) + Stages(scene) + "</div></div>\n";
 }
 
 std::string Pictures(const SceneRuns& scene, const std::string& root) {
@@ -206,27 +225,43 @@ std::string Pictures(const SceneRuns& scene, const std::string& root) {
          text;
 }
 
+/// What every run says of one score; unit and alignment are those of the first that has it, the
+/// reason why there is none is that of the first that has not.
+std::string ScoreRow(const std::string& name, const std::vector<const RunRecord*>& runs) {
+  std::string cells, unit, alignment, absent;
+  for (const RunRecord* run : runs) {
+    const auto score = run->scores.find(name);
+    if (score != run->scores.end() && score->second.value) {
+      cells += fmt::format("<td>{:.5g}", *score->second.value);
+      unit = score->second.unit;
+      alignment = score->second.alignment;
+      continue;
+    }
+    cells += "<td>-";
+    if (absent.empty() && score != run->scores.end()) absent = score->second.absent;
+  }
+  if (!absent.empty()) cells += "<td class=\"left soft\">-: " + Escape(absent);
+  return fmt::format("<tr><td>{}<td class=\"left\">{}<td class=\"left\">{}{}\n", Escape(name),
+                     Escape(unit), Escape(alignment), cells);
+}
+
+/// Closing tags of cells and rows are left out, as HTML allows: a night has thousands of them.
 std::string AllScores(const SceneRuns& scene) {
-  std::string text =
-      "<details><summary>every score of every run</summary><div class=\"wide\"><table>"
-      "<tr><th>run</th><th class=\"left\">score</th><th>value</th><th>unit</th>"
-      "<th>n</th><th class=\"left\">alignment</th></tr>\n";
+  std::vector<const RunRecord*> runs;
+  std::set<std::string> names;
+  std::string head;
   for (const SystemRuns& system : scene.systems) {
     for (const RunRecord* run : system.runs) {
-      for (const auto& [name, score] : run->scores) {
-        text += fmt::format("<tr><td>{} {}</td><td class=\"left\">{}</td>", Escape(system.system),
-                            run->spec.seed, Escape(name));
-        if (score.value) {
-          text +=
-              fmt::format("<td>{:.6g}</td><td>{}</td><td>{}</td><td class=\"left\">{}</td></tr>\n",
-                          *score.value, Escape(score.unit), score.n, Escape(score.alignment));
-        } else {
-          text += fmt::format("<td colspan=\"4\" class=\"left soft\">{}</td></tr>\n",
-                              Escape(score.absent));
-        }
-      }
+      runs.push_back(run);
+      for (const auto& [name, score] : run->scores) names.insert(name);
+      head += fmt::format("<th>{} {}", Escape(system.system), run->spec.seed);
     }
   }
+  std::string text =
+      "<details><summary>every score of every run</summary><div class=\"wide\"><table "
+      "class=\"dense\"><tr><th>score<th class=\"left\">unit<th class=\"left\">alignment" +
+      head + "\n";
+  for (const std::string& name : names) text += ScoreRow(name, runs);
   return text + "</table></div></details>\n";
 }
 
@@ -235,15 +270,14 @@ std::string Again(const SceneRuns& scene, const std::string& root, const std::st
   std::string text = "<h3>Files, and each run again</h3>\n<div class=\"wide\"><table>";
   for (const SystemRuns& system : scene.systems) {
     for (const RunRecord* run : system.runs) {
-      text += fmt::format("<tr><td>{} {}</td><td class=\"left\">", Escape(system.system),
-                          run->spec.seed);
+      text +=
+          fmt::format("<tr><td>{} {}<td class=\"left\">", Escape(system.system), run->spec.seed);
       for (const auto& [name, path] : run->artifacts) {
         if (name.starts_with("picture_")) continue;
         text += fmt::format("<a href=\"{}\">{}</a> ", root + EscapeUrl(path), Escape(name));
       }
-      text +=
-          fmt::format("</td><td class=\"left\"><code>./aisle rerun {} --in {}</code></td></tr>\n",
-                      Escape(RunId(run->spec)), Escape(place));
+      text += fmt::format("<td class=\"left\"><code>./aisle rerun {} --in {}</code>\n",
+                          Escape(RunId(run->spec)), Escape(place));
     }
   }
   return text + "</table></div>\n";
@@ -272,8 +306,8 @@ std::string SceneSection(const SceneRuns& scene, const fs::path& report_dir,
             "together; static features lost: share of image corners on "
             "unmoving surfaces under the mask.</p>\n";
   }
-  text += Charts(scene, report_dir) + Spread(scene) + Pictures(scene, root) + Stages(scene) +
-          AllScores(scene) + Again(scene, root, report_dir.string());
+  text += Charts(scene, report_dir) + Pictures(scene, root) + AllScores(scene) +
+          Again(scene, root, report_dir.string());
   return text;
 }
 

@@ -73,10 +73,26 @@ const char* const kScript = R"js('use strict';
   for (const svg of document.querySelectorAll('svg')) {
     const panels = [...svg.querySelectorAll('rect.panel')];
     if (panels.length === 0) continue;
-    const lines = [...svg.querySelectorAll('[data-name]')].map(line => ({
-      name: line.dataset.name,
-      points: line.getAttribute('points').trim().split(/\s+/).map(p => p.split(',').map(Number)),
-    }));
+    // A path is told in steps, in quarters of a pixel.
+    const pointsOf = path => {
+      const numbers = path.getAttribute('d').match(/-?\d+/g).map(Number);
+      const points = [];
+      for (let i = 0, x = 0, y = 0; i + 1 < numbers.length; i += 2) {
+        points.push([(x += numbers[i]) / 4, (y += numbers[i + 1]) / 4]);
+      }
+      return points;
+    };
+    const lines = [...svg.querySelectorAll('path[data-name]')].map(
+        path => ({name: path.dataset.name, points: pointsOf(path)}));
+    const yAt = (points, x) => {
+      for (let i = 1; i < points.length; ++i) {
+        const [a, b] = [points[i - 1], points[i]];
+        if (b[0] > a[0] && a[0] <= x && x <= b[0]) {
+          return a[1] + (x - a[0]) / (b[0] - a[0]) * (b[1] - a[1]);
+        }
+      }
+      return null;
+    };
     const readout = document.createElement('p');
     readout.className = 'readout small soft';
     readout.textContent = '\u00a0';
@@ -90,17 +106,20 @@ const char* const kScript = R"js('use strict';
       const first = panels[0].dataset;
       const x = axis(first.x);
       const values = [];
-      for (const line of lines) {
-        let best = null;
-        for (const point of line.points) {
-          if (!best || Math.abs(point[0] - at.x) < Math.abs(best[0] - at.x)) best = point;
+      for (const panel of panels) {
+        const top = Number(panel.getAttribute('y'));
+        const bottom = top + Number(panel.getAttribute('height'));
+        const here = [];
+        for (const line of lines) {
+          const y = line.points[0][1] >= top - 1 && line.points[0][1] <= bottom + 1 ?
+              yAt(line.points, at.x) : null;
+          if (y === null) continue;
+          const value = axis(panel.dataset.y)(y).toPrecision(3);
+          here.push(line.name === panel.dataset.title ? value : `${line.name} ${value}`);
         }
-        if (!best || Math.abs(best[0] - at.x) > 8) continue;
-        const panel = panels.find(p => best[1] >= Number(p.getAttribute('y')) - 1 &&
-            best[1] <= Number(p.getAttribute('y')) + Number(p.getAttribute('height')) + 1);
-        if (panel) values.push(`${line.name} ${axis(panel.dataset.y)(best[1]).toPrecision(3)}`);
+        if (here.length > 0) values.push(`${panel.dataset.title}: ${here.join(', ')}`);
       }
-      readout.textContent = `${panels[panels.length - 1].dataset.title} ${x(at.x).toPrecision(4)}:  ${values.join('   ')}`;
+      readout.textContent = `${x(at.x).toPrecision(4)}\n${values.join('\n')}`;
       cursor.setAttribute('x1', at.x);
       cursor.setAttribute('x2', at.x);
       cursor.setAttribute('y1', panels[0].getAttribute('y'));
@@ -112,7 +131,14 @@ const char* const kScript = R"js('use strict';
 
   // --- Tracks in three dimensions: drag to turn, wheel to come closer -------------------------
   for (const figure of document.querySelectorAll('figure[data-tracks]')) {
-    const tracks = JSON.parse(figure.dataset.tracks);
+    const tracks = figure.dataset.tracks.split(';').map(text => {
+      const [color, ...steps] = text.split(' ').map(Number);
+      const points = [];
+      for (let i = 0, at = [0, 0, 0]; i + 2 < steps.length; i += 3) {
+        points.push(at = at.map((v, k) => v + steps[i + k] / 1000));
+      }
+      return {color, points};
+    });
     const canvas = document.createElement('canvas');
     figure.prepend(canvas);
     figure.hidden = false;

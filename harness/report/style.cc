@@ -21,7 +21,7 @@ const char* const kStyleSheet = R"css(:root {
 }
 * { box-sizing: border-box; }
 body {
-  margin: 0 auto; max-width: 1120px; padding: 28px 24px 60px; background: var(--page);
+  margin: 0 auto; max-width: 1680px; padding: 28px 32px 60px; background: var(--page);
   color: var(--ink); font: 15px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif;
 }
 h1 { font-size: 26px; margin: 0 0 2px; letter-spacing: -0.01em; }
@@ -39,10 +39,12 @@ a { color: var(--c1); }
 .verdict.failed { border-color: var(--bad); background: var(--bad-page); }
 .verdict strong { font-size: 19px; }
 .verdict ul { margin: 8px 0 0; padding-left: 20px; }
+.verdict a { color: inherit; }
 .pass { color: var(--good); font-weight: 600; }
 .fail { color: var(--bad); font-weight: 600; }
 .wide { overflow-x: auto; }
-table { border-collapse: collapse; background: var(--card); margin: 8px 0; width: 100%; }
+table { border-collapse: collapse; background: var(--card); margin: 8px 0;
+  min-width: min(100%, 1000px); }
 th, td { padding: 6px 10px; border-bottom: 1px solid var(--rule); text-align: right; }
 th { font-weight: 600; color: var(--soft); font-size: 13px; vertical-align: bottom; }
 th:first-child, td:first-child, .left { text-align: left; }
@@ -50,6 +52,8 @@ td { font-variant-numeric: tabular-nums; white-space: nowrap; }
 td.wrap { white-space: normal; text-align: left; }
 tr:hover td { background: color-mix(in srgb, var(--c1) 7%, transparent); }
 td.best { font-weight: 700; }
+tr.printed td { color: var(--soft); font-style: italic; border-bottom-color: transparent; }
+table.dense th, table.dense td { padding: 2px 8px; font-size: 12.5px; }
 .chip { display: inline-block; width: 11px; height: 11px; border-radius: 3px; margin-right: 7px; }
 .chip.c0 { background: var(--c0); } .chip.c1 { background: var(--c1); }
 .chip.c2 { background: var(--c2); } .chip.c3 { background: var(--c3); }
@@ -57,6 +61,9 @@ td.best { font-weight: 700; }
 .chip.red { background: #ff463c; } .chip.cyan { background: #28dcf0; }
 .chip.green { background: #5adc6e; } .chip.grey { background: #aaaaaa; }
 .chip.yellow { background: #ffdc1e; } .chip.blue { background: #50aaff; }
+.charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 700px), 1fr));
+  gap: 12px; align-items: start; }
+.charts figure { max-width: 1000px; } .charts > figure { margin: 0; } .charts > div > figure { margin: 0 0 12px; }
 figure { margin: 10px 0; background: var(--card); border: 1px solid var(--rule); border-radius: 4px;
   padding: 12px 12px 8px; }
 figcaption { color: var(--soft); font-size: 13px; margin-top: 6px; }
@@ -69,7 +76,11 @@ svg .grid { stroke: var(--rule); stroke-width: 1; }
 svg .line { fill: none; stroke-width: 1.8; stroke-linejoin: round; }
 svg .truth { fill: none; stroke: var(--truth); stroke-width: 2.4; stroke-dasharray: 6 4; }
 svg .start { fill: var(--truth); }
+svg path { vector-effect: non-scaling-stroke; }
 svg .movers { fill: var(--movers); opacity: 0.65; }
+svg .texture { fill: var(--b0); opacity: 0.5; }
+svg .s0 { stroke: var(--ink); } svg .s1 { stroke: var(--b0); } svg .s2 { stroke: var(--b2); }
+svg .box { fill: none; stroke-width: 1.2; opacity: 0.8; }
 svg .c0 { stroke: var(--c0); } svg .c1 { stroke: var(--c1); } svg .c2 { stroke: var(--c2); }
 svg .c3 { stroke: var(--c3); } svg .c4 { stroke: var(--c4); } svg .c5 { stroke: var(--c5); }
 svg .dot { opacity: 0.75; }
@@ -96,7 +107,7 @@ input.filter { font: inherit; font-size: 13px; padding: 4px 9px; border: 1px sol
 .readout { min-height: 1.5em; font-variant-numeric: tabular-nums; white-space: pre-wrap; }
 svg .panel { fill: none; pointer-events: all; }
 svg .cursor { stroke: var(--soft); stroke-width: 1; pointer-events: none; }
-canvas { display: block; width: 100%; height: 420px; touch-action: none; cursor: grab; }
+canvas { display: block; width: 100%; height: 340px; touch-action: none; cursor: grab; }
 details { margin: 8px 0; }
 summary { cursor: pointer; color: var(--soft); }
 footer { margin-top: 44px; color: var(--soft); font-size: 13px; border-top: 1px solid var(--rule);

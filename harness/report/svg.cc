@@ -3,14 +3,39 @@
 #include <cmath>
 
 #include "harness/report/html.h"
+#include "harness/report/simplify.h"
 
 namespace aisle {
 namespace {
 
-std::string Points(const std::vector<std::pair<double, double>>& points) {
-  std::string text;
-  for (const auto& [x, y] : points) text += fmt::format("{:.1f},{:.1f} ", x, y);
-  return text;
+/// Lines are drawn in quarters of a pixel and told as steps: a report holds hundreds of them. What
+/// is left out lies within half a pixel of what is drawn.
+constexpr double kPerPixel = 4;
+constexpr double kTolerancePx = 0.5;
+
+std::string PathData(const std::vector<std::pair<double, double>>& points) {
+  std::vector<Eigen::Vector3d> exact;
+  for (const auto& [x, y] : points) exact.emplace_back(x, y, 0);
+  std::string data;
+  long at_x = 0, at_y = 0;
+  for (const std::size_t i : Simplify(exact, kTolerancePx)) {
+    const long x = std::lround(kPerPixel * exact[i].x()), y = std::lround(kPerPixel * exact[i].y());
+    if (data.empty()) {
+      data = fmt::format("M{} {}l", x, y);
+    } else if (x != at_x || y != at_y) {
+      const char* between = data.back() == 'l' || x < at_x ? "" : " ";
+      data += fmt::format("{}{}{}{}", between, x - at_x, y < at_y ? "" : " ", y - at_y);
+    }
+    at_x = x;
+    at_y = y;
+  }
+  return data.back() == 'l' ? data + "0 0" : data;
+}
+
+std::string Path(const std::string& data, const std::string& css, const std::string& name) {
+  const std::string named = name.empty() ? "" : " data-name=\"" + Escape(name) + "\"";
+  return fmt::format("<path transform=\"scale(.25)\" d=\"{}\" class=\"{}\"{}/>\n", data, css,
+                     named);
 }
 
 std::string Tip(const std::string& tip) {
@@ -65,24 +90,28 @@ void Svg::Circle(double x, double y, double radius, const std::string& css,
 void Svg::Polyline(const std::vector<std::pair<double, double>>& points, const std::string& css,
                    const std::string& name) {
   if (points.size() < 2) return;
-  const std::string data = name.empty() ? "" : " data-name=\"" + Escape(name) + "\"";
-  text_ += fmt::format("<polyline points=\"{}\" class=\"{}\"{}/>\n", Points(points), css, data);
+  text_ += Path(PathData(points), css, name);
 }
 
-void Svg::Polygon(const std::vector<std::pair<double, double>>& points, const std::string& css) {
-  if (points.size() < 3) return;
-  text_ += fmt::format("<polygon points=\"{}\" class=\"{}\"/>\n", Points(points), css);
+void Svg::Area(const std::vector<std::pair<double, double>>& points, double base_y,
+               const std::string& css, const std::string& name) {
+  if (points.size() < 2) return;
+  std::vector<std::pair<double, double>> outline = points;
+  outline.insert(outline.begin(), {points.front().first, base_y});
+  outline.emplace_back(points.back().first, base_y);
+  text_ += Path(PathData(outline) + "z", css, name);
 }
 
 void Svg::Text(double x, double y, const std::string& text, const std::string& css,
                const std::string& anchor) {
-  text_ +=
-      fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"{}\" text-anchor=\"{}\">{}</text>\n", x,
-                  y, css, anchor, Escape(text));
+  if (text.empty()) return;
+  const std::string anchored = anchor == "start" ? "" : " text-anchor=\"" + anchor + "\"";
+  text_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"{}\"{}>{}</text>\n", x, y, css,
+                       anchored, Escape(text));
 }
 
-void Svg::Grid(const Axis& x, const Axis& y, const std::string& x_title,
-               const std::string& y_title) {
+void Svg::Grid(const Axis& x, const Axis& y, const std::string& x_title, const std::string& y_title,
+               const GridOptions& options) {
   const auto numbers = [](const Axis& axis) {
     return fmt::format("{:g} {:g} {:g} {:g}", axis.low, axis.high, axis.from_px, axis.to_px);
   };
@@ -90,17 +119,29 @@ void Svg::Grid(const Axis& x, const Axis& y, const std::string& x_title,
       "<rect x=\"{:g}\" y=\"{:g}\" width=\"{:g}\" height=\"{:g}\" class=\"panel\" "
       "data-x=\"{}\" data-y=\"{}\" data-title=\"{}\"/>\n",
       x.from_px, std::min(y.from_px, y.to_px), x.to_px - x.from_px, std::abs(y.to_px - y.from_px),
-      numbers(x), numbers(y), Escape(x_title));
+      numbers(x), numbers(y), Escape(y_title));
+  std::string lines;
   for (const double tick : Ticks(x.low, x.high, 8)) {
-    Line(x(tick), y.from_px, x(tick), y.to_px, "grid");
+    lines += fmt::format("M{:.1f} {:g}V{:g}", x(tick), y.from_px, y.to_px);
+    if (!options.x_labels) continue;
     Text(x(tick), std::max(y.from_px, y.to_px) + 15, fmt::format("{:g}", tick), "tick", "middle");
   }
-  for (const double tick : Ticks(y.low, y.high, 4)) {
-    Line(x.from_px, y(tick), x.to_px, y(tick), "grid");
+  for (const double tick : Ticks(y.low, y.high, options.y_ticks)) {
+    lines += fmt::format("M{:g} {:.1f}H{:g}", x.from_px, y(tick), x.to_px);
     Text(x.from_px - 6, y(tick) + 4, fmt::format("{:g}", tick), "tick", "end");
   }
+  text_ += fmt::format("<path d=\"{}\" class=\"grid\"/>\n", lines);
   Text(x.to_px, std::max(y.from_px, y.to_px) + 30, x_title, "axis", "end");
   Text(x.from_px, std::min(y.from_px, y.to_px) - 8, y_title, "axis");
+}
+
+void Svg::Legend(const std::vector<std::pair<std::string, std::string>>& entries, double x,
+                 double y) {
+  for (const auto& [name, css] : entries) {
+    Line(x, y - 4, x + 18, y - 4, css);
+    Text(x + 24, y, name, "legend");
+    x += 44 + 7.2 * static_cast<double>(name.size());
+  }
 }
 
 }  // namespace aisle

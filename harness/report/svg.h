@@ -27,15 +27,28 @@ class Svg {
             const std::string& tip = "");
   void Circle(double x, double y, double radius, const std::string& css,
               const std::string& tip = "");
-  /// A named line shows its values under the pointer where scripts may run.
+  /// A named line shows its values under the pointer where scripts may run. Drawn to half a
+  /// pixel.
   void Polyline(const std::vector<std::pair<double, double>>& points, const std::string& css,
                 const std::string& name = "");
-  void Polygon(const std::vector<std::pair<double, double>>& points, const std::string& css);
+  /// What lies between a line and `base_y`.
+  void Area(const std::vector<std::pair<double, double>>& points, double base_y,
+            const std::string& css, const std::string& name = "");
   /// anchor: start, middle or end.
   void Text(double x, double y, const std::string& text, const std::string& css,
             const std::string& anchor = "start");
+  struct GridOptions {
+    bool x_labels = true;  ///< numbers under the grid lines of x
+    int y_ticks = 4;       ///< about so many
+  };
   /// Grid lines and tick labels of both axes around a plot.
-  void Grid(const Axis& x, const Axis& y, const std::string& x_title, const std::string& y_title);
+  void Grid(const Axis& x, const Axis& y, const std::string& x_title, const std::string& y_title,
+            const GridOptions& options);
+  void Grid(const Axis& x, const Axis& y, const std::string& x_title, const std::string& y_title) {
+    Grid(x, y, x_title, y_title, {});
+  }
+  /// Names and classes of lines, side by side from (x, y) on.
+  void Legend(const std::vector<std::pair<std::string, std::string>>& entries, double x, double y);
   std::string Finish() const { return text_ + "</svg>\n"; }
 
  private:

@@ -1,6 +1,9 @@
 #include "harness/report/tables.h"
 
+#include <set>
+
 #include "harness/report/html.h"
+#include "harness/report/printed.h"
 
 namespace aisle {
 namespace {
@@ -13,6 +16,7 @@ struct Column {
 };
 
 struct Kind {
+  int number;  ///< of the paper's table
   const char* title;
   const char* caption;
   std::vector<Column> columns;
@@ -20,32 +24,44 @@ struct Kind {
 
 const std::vector<Kind>& Kinds() {
   static const std::vector<Kind> kinds = {
-      {"Detection of moving objects",
+      {1,
+       "Moving objects",
+       "Each object of each frame, found where the rectangles overlap by half (IoU 0.5) or more.",
+       {{"moving", "objects_moving", 1, 0},
+        {"found", "objects_found", 1, 0},
+        {"missed", "objects_missed", 1, 0},
+        {"invented", "objects_invented", 1, 0}}},
+      {2,
+       "Detection of moving objects",
        "By rectangle, found where the overlap (IoU) is 0.5 or more; the paper's equations (12) to "
        "(14). The paper's Table 2.",
        {{"precision [%]", "object_precision", 100, 1},
         {"recall [%]", "object_recall", 100, 1},
         {"IoU [%]", "object_iou", 100, 1}}},
-      {"Drift and absolute error",
+      {3,
+       "Drift and absolute error",
        "KITTI's segments at 5, 10, … 40 m, all segments pooled; absolute error as RMSE after rigid "
        "alignment. The paper's Table 3 has KITTI's own lengths.",
        {{"t rel [%]", "t_rel_short_percent", 1, 2},
         {"r rel [deg/100m]", "r_rel_short_deg_per_100m", 1, 2},
         {"t abs [m]", "ate_rmse_m", 1, 4}}},
-      {"Absolute trajectory error [m]",
+      {4,
+       "Absolute trajectory error [m]",
        "Final track, rigid alignment (SE(3)), never scaled; median over seeds. The paper's Table "
        "4.",
        {{"RMSE", "ate_rmse_m", 1, 4},
         {"mean", "ate_mean_m", 1, 4},
         {"median", "ate_median_m", 1, 4},
         {"S.D.", "ate_std_m", 1, 4}}},
-      {"Relative pose error, translation [m]",
+      {5,
+       "Relative pose error, translation [m]",
        "From each frame to the next; median over seeds. The paper's Table 5.",
        {{"RMSE", "rpe_trans_rmse_m", 1, 4},
         {"mean", "rpe_trans_mean_m", 1, 4},
         {"median", "rpe_trans_median_m", 1, 4},
         {"S.D.", "rpe_trans_std_m", 1, 4}}},
-      {"Time of the front end [ms]",
+      {6,
+       "Time of the front end [ms]",
        "Mean per frame on this machine. The paper's Table 6.",
        {{"dynamic", "ms_dynamic_mean", 1, 1},
         {"tracking", "ms_track_mean", 1, 1},
@@ -63,11 +79,15 @@ std::vector<std::string> SystemsOf(const std::vector<SceneRuns>& scenes) {
   return names;
 }
 
+std::string Text(double value, const Column& column) {
+  return fmt::format("{:.{}f}", value * column.factor, column.decimals);
+}
+
 std::string Cell(const SceneRuns& scene, const std::string& system, const Column& column) {
   for (const SystemRuns& runs : scene.systems) {
     if (runs.system != system) continue;
     const std::optional<double> value = MedianScore(runs.runs, column.score);
-    if (value) return fmt::format("{:.{}f}", *value * column.factor, column.decimals);
+    if (value) return Text(*value, column);
   }
   return "-";
 }
@@ -94,6 +114,53 @@ void DropEmptyGroups(NumberTable* table) {
       row.cells.erase(row.cells.begin() + at, row.cells.begin() + at + step);
     }
   }
+}
+
+/// What the paper printed under one name, in the columns of the systems that stand for its own.
+/// Absent where it printed nothing of these.
+std::optional<NumberTable::Row> PrintedRowOf(const std::string& name, const Kind& kind,
+                                             const NumberTable& table) {
+  const std::size_t width = kind.columns.size();
+  NumberTable::Row row{.name = "as printed: " + name,
+                       .cells = std::vector<std::string>(table.groups.size() * width),
+                       .printed = true};
+  bool any = false;
+  for (const PrintedRow& printed : PrintedTable(kind.number)) {
+    const auto group = std::find(table.groups.begin(), table.groups.end(), printed.system);
+    if (printed.row != name || group == table.groups.end()) continue;
+    const auto first = static_cast<std::size_t>(group - table.groups.begin()) * width;
+    for (std::size_t c = 0; c < width; ++c) {
+      Column as_printed = kind.columns[c];
+      as_printed.factor = 1;
+      row.cells[first + c] = printed.values[c] ? Text(*printed.values[c], as_printed) : "-";
+    }
+    any = true;
+  }
+  return any ? std::optional(row) : std::nullopt;
+}
+
+/// The paper's rows under our scenes of the same number, and after them those of its other data.
+void AddPrinted(const Kind& kind, NumberTable* table) {
+  std::vector<NumberTable::Row> rows;
+  std::set<std::string> ours;
+  for (const NumberTable::Row& row : table->rows) {
+    rows.push_back(row);
+    ours.insert(row.name);
+    if (const auto printed = PrintedRowOf(row.name, kind, *table)) rows.push_back(*printed);
+  }
+  for (const PrintedRow& printed : PrintedTable(kind.number)) {
+    const std::string name = printed.row;
+    if (name.starts_with("paper/") || !ours.insert(name).second) continue;
+    if (const auto row = PrintedRowOf(name, kind, *table)) rows.push_back(*row);
+  }
+  table->rows = std::move(rows);
+}
+
+/// Reports on other scenes need not be reminded of the paper.
+bool FollowsThePaper(const std::vector<SceneRuns>& scenes) {
+  return std::any_of(scenes.begin(), scenes.end(), [](const SceneRuns& scene) {
+    return scene.scene.starts_with("paper/") || scene.scene.starts_with("street/");
+  });
 }
 
 std::string LatexText(const std::string& text) {
@@ -155,6 +222,7 @@ std::vector<NumberTable> PaperTables(const std::vector<SceneRuns>& scenes) {
     }
     if (table.rows.empty()) continue;
     DropEmptyGroups(&table);
+    if (FollowsThePaper(scenes)) AddPrinted(kind, &table);
     tables.push_back(table);
   }
   return tables;
@@ -180,7 +248,8 @@ std::string ToHtml(const std::vector<NumberTable>& tables) {
     }
     text += "</tr></thead><tbody>\n";
     for (const NumberTable::Row& row : table.rows) {
-      text += "<tr><td>" + Escape(row.name) + "</td>";
+      text += fmt::format("<tr{}><td>{}</td>", row.printed ? " class=\"printed\"" : "",
+                          Escape(row.name));
       for (std::size_t c = 0; c < row.cells.size(); ++c) {
         text +=
             fmt::format("<td{}>{}</td>", c % table.columns.size() == 0 ? " class=\"first\"" : "",

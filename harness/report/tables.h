@@ -16,11 +16,13 @@ struct NumberTable {
   struct Row {
     std::string name;
     std::vector<std::string> cells;  ///< groups × columns; "-" where there is no number
+    bool printed = false;            ///< by the paper, not measured here
   };
   std::vector<Row> rows;
 };
 
-/// The tables of the paper with our numbers: detection of moving objects (its Table 2), relative
+/// The tables of the paper with our numbers, and what it printed beneath those of the scenes that
+/// follow it: moving objects (its Table 1) and their detection (2), relative
 /// drift and absolute error (3), absolute error (4), relative error (5), time of the front end (6).
 /// Medians over seeds; live twins alone. Tables without a number are left out.
 std::vector<NumberTable> PaperTables(const std::vector<SceneRuns>& scenes);

@@ -72,15 +72,18 @@ std::vector<CostSplit> SplitCosts(const std::vector<SceneRuns>& scenes) {
                       .live_m = Error(&system),
                       .empty_m = {},
                       .occlusion_m = {},
+                      .motion_m = {},
                       .mask_m = {},
                       .penalty = {}};
       split.empty_m = Error(Find(scenes, scene.scene, "empty", system.system));
       split.occlusion_m = Minus(oracle_live, oracle_empty);
+      split.motion_m =
+          Minus(split.live_m, Error(Find(scenes, scene.scene, "frozen", system.system)));
       if (system.system != "oracle") split.mask_m = Minus(split.live_m, oracle_live);
       if (split.live_m && split.empty_m && *split.empty_m > 0) {
         split.penalty = *split.live_m / *split.empty_m;
       }
-      if (split.empty_m || split.mask_m) splits.push_back(split);
+      if (split.empty_m || split.motion_m || split.mask_m) splits.push_back(split);
     }
   }
   return splits;
@@ -93,18 +96,21 @@ std::string CostSection(const std::vector<SceneRuns>& scenes) {
       "<h2>Where the error comes from</h2>\n<p class=\"soft small\">ATE RMSE in centimetres. "
       "Alone: "
       "the same scene with nobody in it. Occlusion: what movers cost even a perfect mask (oracle "
-      "live less oracle alone). Rejection: what this system's own rejection leaves (live less "
+      "live less oracle alone). Motion: what it costs this system that they move rather than stand "
+      "still (live less frozen). Rejection: what this system's own rejection leaves (live less "
       "oracle live). Penalty: live over alone.</p>\n<div class=\"wide\"><table><tr><th>scene</th>"
       "<th "
-      "class=\"left\">system</th><th>live</th><th>alone</th><th>occlusion</th><th>rejection</th>"
+      "class=\"left\">system</th><th>live</th><th>alone</th><th>occlusion</th><th>motion</"
+      "th><th>rejection</th>"
       "<th>penalty</th></tr>\n";
   for (const CostSplit& split : splits) {
     text += fmt::format(
         "<tr><td>{}</td><td class=\"left\"><span class=\"chip c{}\"></span>{}</td><td>{}</td>"
-        "<td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+        "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
         Escape(split.scene), split.color % 6, Escape(split.system),
         Centimetres(split.live_m, "{:.2f}"), Centimetres(split.empty_m, "{:.2f}"),
-        Centimetres(split.occlusion_m, "{:+.2f}"), Centimetres(split.mask_m, "{:+.2f}"),
+        Centimetres(split.occlusion_m, "{:+.2f}"), Centimetres(split.motion_m, "{:+.2f}"),
+        Centimetres(split.mask_m, "{:+.2f}"),
         split.penalty ? fmt::format("×{:.2f}", *split.penalty) : "-");
   }
   return text + "</table></div>\n";

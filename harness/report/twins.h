@@ -19,9 +19,10 @@ struct CostSplit {
   std::optional<double> live_m;   ///< the error as it is
   std::optional<double> empty_m;  ///< without anybody: the system itself
   std::optional<double>
-      occlusion_m;                ///< oracle live - oracle empty: what standing in the way costs
-  std::optional<double> mask_m;   ///< system live - oracle live: what imperfect rejection costs
-  std::optional<double> penalty;  ///< live / empty
+      occlusion_m;                 ///< oracle live - oracle empty: what standing in the way costs
+  std::optional<double> motion_m;  ///< system live - system frozen: what it costs that they move
+  std::optional<double> mask_m;    ///< system live - oracle live: what imperfect rejection costs
+  std::optional<double> penalty;   ///< live / empty
 };
 
 /// One entry per scene and system that has a live run and something to hold it against.

@@ -95,7 +95,10 @@ std::vector<Verdict> Judge(const std::vector<RunRecord>& runs, const std::vector
                         .flaky = run.flaky,
                         .value = {},
                         .limit = {},
-                        .why = Name(run.status) + ": " + run.status_why});
+                        .why = Name(run.status) + ": " + run.status_why,
+                        .scene = run.spec.scene,
+                        .twin = run.spec.twin,
+                        .system = run.spec.system});
   }
   for (const Limit& limit : limits) {
     const auto cells = ByCell(runs, limit);
@@ -107,7 +110,11 @@ std::vector<Verdict> Judge(const std::vector<RunRecord>& runs, const std::vector
                           .limit = {},
                           .why = "no run matches" + Filters(limit)});
     }
-    for (const auto& [cell, of_cell] : cells) verdicts.push_back(JudgeCell(limit, cell, of_cell));
+    for (const auto& [cell, of_cell] : cells) {
+      verdicts.push_back(JudgeCell(limit, cell, of_cell));
+      Verdict& verdict = verdicts.back();
+      std::tie(verdict.scene, verdict.twin, verdict.system) = cell;
+    }
   }
   return verdicts;
 }

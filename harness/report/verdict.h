@@ -21,7 +21,8 @@ struct Verdict {
   bool flaky = false;           ///< failed, and a second attempt did not: still no pass
   std::optional<double> value;  ///< the median over seeds
   std::optional<double> limit;
-  std::string why;  ///< the sentence for the morning
+  std::string why;                                 ///< the sentence for the morning
+  std::string scene = {}, twin = {}, system = {};  ///< whom it is about; empty: nobody alone
 };
 
 /// One verdict per limit and per scene, twin and system it speaks of: the median over seeds held

@@ -38,7 +38,7 @@ void Video::Add(const cv::Mat3b& picture) {
     size_ = picture.size();
     const std::string command = fmt::format(
         "ffmpeg -y -loglevel quiet -f rawvideo -pix_fmt bgr24 -s {}x{} -r {:g} -i - -an -threads 1 "
-        "-c:v libx264 -preset veryfast -crf 28 -pix_fmt yuv420p -movflags +faststart {} "
+        "-c:v libx264 -preset superfast -crf 28 -pix_fmt yuv420p -movflags +faststart {} "
         ">/dev/null 2>&1",
         size_.width, size_.height, rate_hz_, Quoted(aside_.string()));
     pipe_ = ::popen(command.c_str(), "w");

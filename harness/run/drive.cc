@@ -145,6 +145,7 @@ RunResult Drive(const Sequence& sequence, Estimator& estimator, const MaskMaker&
   Offence offence;
   bool ever_rejected = false;
   const StereoCalibration calibration = sequence.calibration();
+  const double frame_ms = 1000 / sequence.rate_hz();
   std::optional<Eigen::Isometry3d> T_world_previous;
   for (std::size_t i = 0; i < schedule.size() && offence.why.empty(); ++i) {
     const FramesAhead::Frame next = frames.Next();
@@ -167,7 +168,7 @@ RunResult Drive(const Sequence& sequence, Estimator& estimator, const MaskMaker&
     FrameFacts facts = FactsOf(shown, estimate);
     if (shown.truth) {
       facts.difficulty =
-          DifficultyOf(shown.images.left, *shown.truth, calibration, T_world_previous);
+          DifficultyOf(shown.images.left, *shown.truth, calibration, T_world_previous, frame_ms);
       T_world_previous = shown.truth->T_world_rig;
     }
     facts.render_ms = next.made_ms;

@@ -39,7 +39,16 @@ BoundaryCounts& BoundaryCounts::operator+=(const BoundaryCounts& other) {
 BoundaryCounts CompareBoundaries(const cv::Mat1b& truth, const cv::Mat1b& rejected,
                                  double tolerance_px) {
   if (truth.size() != rejected.size()) throw std::invalid_argument("masks differ in size");
-  const cv::Mat1b truth_outline = Outline(truth), rejected_outline = Outline(rejected);
+  // Outlines and all that is near them lie within a margin of the masks: the rest need not be seen.
+  cv::Mat1b either;
+  cv::bitwise_or(truth, rejected, either);
+  const cv::Rect set = cv::boundingRect(either);
+  if (set.empty()) return {};
+  const int margin = static_cast<int>(std::ceil(tolerance_px)) + 1;
+  const cv::Rect seen =
+      cv::Rect(set.x - margin, set.y - margin, set.width + 2 * margin, set.height + 2 * margin) &
+      cv::Rect({}, truth.size());
+  const cv::Mat1b truth_outline = Outline(truth(seen)), rejected_outline = Outline(rejected(seen));
   return {.truth = cv::countNonZero(truth_outline),
           .truth_met = Met(truth_outline, rejected_outline, tolerance_px),
           .rejected = cv::countNonZero(rejected_outline),

@@ -54,7 +54,7 @@ cv::Mat1f DepthGrid(const cv::Mat1f& depth) {
 
 Difficulty DifficultyOf(const cv::Mat1b& left, const FrameTruth& truth,
                         const StereoCalibration& calibration,
-                        const std::optional<Eigen::Isometry3d>& T_world_previous) {
+                        const std::optional<Eigen::Isometry3d>& T_world_previous, double frame_ms) {
   Difficulty difficulty;
   difficulty.static_texture_share = StaticTextureShare(left, truth.dynamic);
   const cv::Mat1f grid = truth.depth.empty() ? truth.depth_grid : DepthGrid(truth.depth);
@@ -76,6 +76,7 @@ Difficulty DifficultyOf(const cv::Mat1b& left, const FrameTruth& truth,
   }
   if (flow.empty()) return difficulty;
   difficulty.flow_px = Quantile(flow, 0.5);
+  difficulty.blur_px = *difficulty.flow_px * truth.smear_ms / frame_ms;
   difficulty.parallax_px = Quantile(parallax, 0.5);
   return difficulty;
 }

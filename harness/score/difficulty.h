@@ -12,10 +12,10 @@ inline constexpr int kDepthGridStep = 16;
 cv::Mat1f DepthGrid(const cv::Mat1f& depth);
 
 /// How hard a frame is for any system, from truth alone: separates "impossible" from "failed".
-/// `T_world_previous` is the rig one frame earlier, absent for the first. Parts that the truth does
-/// not tell (no depth, no mask) are absent.
+/// `T_world_previous` is the rig one frame (`frame_ms`) earlier, absent for the first. Parts that
+/// the truth does not tell (no depth, no mask) are absent.
 Difficulty DifficultyOf(const cv::Mat1b& left, const FrameTruth& truth,
                         const StereoCalibration& calibration,
-                        const std::optional<Eigen::Isometry3d>& T_world_previous);
+                        const std::optional<Eigen::Isometry3d>& T_world_previous, double frame_ms);
 
 }  // namespace aisle

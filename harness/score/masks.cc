@@ -50,6 +50,7 @@ void CountCorners(const cv::Mat1b& left, const cv::Mat1b& truth, const cv::Mat1b
   cv::FAST(left, corners, options.corner_threshold);
   for (const cv::KeyPoint& corner : corners) {
     const cv::Point at(cvRound(corner.pt.x), cvRound(corner.pt.y));
+    facts->corners_rejected += rejected(at) != 0;
     if (truth(at) != 0) continue;
     ++facts->static_corners;
     facts->static_corners_lost += rejected(at) != 0;

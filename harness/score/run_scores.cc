@@ -84,6 +84,11 @@ void AddMasks(const RunResult& run, Scorecard* scores) {
   (*scores)["mask_recall"] = RatioScore(tp, tp + fn, "nothing moved");
   (*scores)["mask_iou"] = RatioScore(tp, tp + fp + fn, "nothing moved, nothing was rejected");
   const double found = sum.objects_found;
+  const auto frames = run.facts.size();
+  (*scores)["objects_moving"] = Present(found + sum.objects_missed, "1", frames);
+  (*scores)["objects_found"] = Present(found, "1", frames);
+  (*scores)["objects_missed"] = Present(sum.objects_missed, "1", frames);
+  (*scores)["objects_invented"] = Present(sum.objects_invented, "1", frames);
   (*scores)["object_precision"] =
       RatioScore(found, found + sum.objects_invented, "nothing was rejected");
   (*scores)["object_recall"] = RatioScore(found, found + sum.objects_missed, "nothing moved");
@@ -101,12 +106,13 @@ void AddMasks(const RunResult& run, Scorecard* scores) {
 }
 
 void AddDifficulty(const RunResult& run, Scorecard* scores) {
-  std::vector<double> movers, texture, flow, parallax;
+  std::vector<double> movers, texture, flow, blur, parallax;
   for (const FrameFacts& frame : run.facts) {
     movers.push_back(frame.movers_share);
     const Difficulty& d = frame.difficulty;
     if (d.static_texture_share) texture.push_back(*d.static_texture_share);
     if (d.flow_px) flow.push_back(*d.flow_px);
+    if (d.blur_px) blur.push_back(*d.blur_px);
     if (d.parallax_px) parallax.push_back(*d.parallax_px);
   }
   const auto add = [&](const char* name, const char* unit, const std::vector<double>& values) {
@@ -117,6 +123,7 @@ void AddDifficulty(const RunResult& run, Scorecard* scores) {
   add("difficulty_movers_share", "1", movers);
   add("difficulty_static_texture_share", "1", texture);
   add("difficulty_flow_px", "px", flow);
+  add("difficulty_blur_px", "px", blur);
   add("difficulty_parallax_px", "px", parallax);
 }
 

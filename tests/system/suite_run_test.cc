@@ -2,6 +2,8 @@
 // parted, merged and repeated.
 #include <gmock/gmock.h>
 
+#include <random>
+
 #include "harness/io/file.h"
 #include "tests/system/program.h"
 
@@ -36,13 +38,15 @@ TEST_F(SuiteRunTest, LeavesAReportThatOtherCommandsCanRead) {
 TEST_F(SuiteRunTest, KilledAtAnyMomentAndResumedGivesTheSameBits) {
   const std::string suite = Suite("killed", kTwo, "seeds: 2\n");
   ASSERT_EQ(Run({"run", suite, "--out", Out("calm")}).code, 0);
-  // Fractions of a second to seconds: before the first frame, inside runs, between them, while the
-  // report is written. Each kill is a SIGKILL to the program; its children die with it.
+  // Random moments, most of them early: before the first frame, inside runs, between them, while
+  // the report is written. The program is killed by SIGKILL; its children die with it.
+  std::mt19937_64 random(::testing::UnitTest::GetInstance()->random_seed());
+  std::exponential_distribution<double> moment(1.0);
   std::vector<std::string> again{"run",         suite,      "--out",
                                  Out("killed"), "--resume", "--no-frame-cache"};
   int kills = 0;
-  for (const double after_s : {0.05, 0.4, 1.1, 2.3, 0.2, 1.7}) {
-    if (!Kill(again, after_s)) break;
+  for (int i = 0; i < 10; ++i) {
+    if (!Kill(again, 0.05 + moment(random))) break;
     ++kills;
   }
   EXPECT_GE(kills, 3);

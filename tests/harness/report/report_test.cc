@@ -9,9 +9,12 @@
 #include "harness/io/file.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
+#include "harness/report/compare.h"
 #include "harness/report/html.h"
 #include "harness/report/overlay.h"
 #include "harness/report/samples.h"
+#include "harness/report/simplify.h"
+#include "tests/harness/report/night.h"
 
 namespace aisle {
 namespace {
@@ -19,49 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
-
-/// A run along an aisle in which a mover pushes the estimate aside for a while.
-RunResult MakeRun(const std::string& scene, const std::string& system, std::uint64_t seed,
-                  double push_m) {
-  RunResult run;
-  run.spec = {.scene = scene,
-              .scene_file = "scenes/" + scene + ".yaml",
-              .twin = "live",
-              .system = system,
-              .seed = seed};
-  for (int k = 0; k < 300; ++k) {
-    const double s = k / 20.0;
-    const double movers = std::max(0.0, 0.3 - 0.05 * std::abs(s - 7));
-    Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();
-    truth.translation() << 0.9 * s, 0.2 * std::sin(0.4 * s), 1.1;
-    Eigen::Isometry3d estimated = truth;
-    estimated.translation().y() += push_m * (movers > 0.05 ? movers : 0.02 * std::sin(3 * s));
-    FrameEstimate estimate;
-    estimate.id = k;
-    estimate.stamp_ns = k * 50'000'000LL;
-    estimate.state = TrackingState::kTracking;
-    estimate.T_world_rig = estimated;
-    estimate.stage_ms = {{"extract", 14.0 + k % 3}, {"stereo", 6}, {"track", 4}, {"map", 9}};
-    FrameFacts facts;
-    facts.stamp_ns = estimate.stamp_ns;
-    facts.T_world_rig = truth;
-    facts.movers_share = movers;
-    facts.features = 1000;
-    facts.features_on_movers = system == "oracle" ? 0 : static_cast<int>(900 * movers);
-    facts.render_ms = 180;
-    facts.process_ms = 35;
-    if (system == "oracle") {
-      facts.mask.emplace();
-      facts.mask->true_positives = static_cast<std::int64_t>(1000 * movers);
-    }
-    run.truth.push_back({estimate.stamp_ns, truth});
-    run.trajectory.live.push_back({estimate.stamp_ns, estimated});
-    run.estimates.push_back(estimate);
-    run.facts.push_back(facts);
-  }
-  run.trajectory.final = run.trajectory.live;
-  return run;
-}
 
 class ReportTest : public testing::Test {
  protected:
@@ -123,7 +83,7 @@ TEST_F(ReportTest, ThePageTellsTheVerdictFirst) {
   const std::string page = Read("index.html");
   EXPECT_THAT(page, HasSubstr("1 of 2 limits broken"));
   EXPECT_LT(page.find("limits broken"), page.find("Absolute trajectory error"));
-  EXPECT_THAT(page, HasSubstr("BROKEN</span> paper/scene2 live orbslam2: ate_rmse_m: value 0.0"));
+  EXPECT_THAT(page, HasSubstr(">paper/scene2 live orbslam2: ate_rmse_m</a>: value 0.0"));
   EXPECT_THAT(page, HasSubstr("<code>./aisle rerun paper.scene2/live/orbslam2/1 --in "));
 }
 
@@ -136,6 +96,42 @@ TEST_F(ReportTest, ThePageObeysTheStrictestPolicy) {
   page.erase(page.find(script), script.size());
   for (const char* forbidden : {"<script", " style=\"", "data:", "http:", "https:", "onclick"}) {
     EXPECT_THAT(page, Not(HasSubstr(forbidden)));
+  }
+}
+
+TEST_F(ReportTest, TwoHundredRunsFitIntoThreeMegabytesWithoutTheirPictures) {
+  NightOptions options;
+  options.scenes = 40;
+  options.systems = {"orbslam2", "semantic", "paper", "robust", "oracle"};
+  options.frames = 600;
+  WriteReport(MakeNight(options, folder_), folder_);
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    if (entry.is_regular_file()) bytes += entry.file_size();
+  }
+  EXPECT_LT(bytes, 3'000'000u);
+}
+
+TEST_F(ReportTest, ABaselineKeepsWhatAComparisonNeeds) {
+  const Results results = MakeNight({.scenes = 1, .seeds = 9}, folder_);
+  const Results baseline = BaselineOf(results);
+  EXPECT_LT(ToJson(baseline).size(), ToJson(results).size() / 3);
+  EXPECT_EQ(ToJson(Compare(baseline, results)), ToJson(Compare(results, results)));
+}
+
+TEST(SimplifyTest, WhatIsLeftOutIsNearWhatIsDrawn) {
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 500; ++i) points.emplace_back(i, 20 * std::sin(0.05 * i) + i % 3, 0);
+  const std::vector<std::size_t> kept = Simplify(points, 1.5);
+  EXPECT_EQ(kept.front(), 0u);
+  EXPECT_EQ(kept.back(), points.size() - 1);
+  EXPECT_LT(kept.size(), points.size() / 3);
+  for (std::size_t k = 1; k < kept.size(); ++k) {
+    const Eigen::ParametrizedLine<double, 3> line =
+        Eigen::ParametrizedLine<double, 3>::Through(points[kept[k - 1]], points[kept[k]]);
+    for (std::size_t i = kept[k - 1]; i < kept[k]; ++i) {
+      EXPECT_LE(line.distance(points[i]), 1.5 + 1e-12);
+    }
   }
 }
 

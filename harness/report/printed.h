@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace aisle {
+
+/// A row of the paper that this project follows, as printed: what one system got on one sequence.
+struct PrintedRow {
+  const char* row;     ///< our scene of that number; the paper's own name where we have none
+  const char* system;  ///< ours that stands for theirs: orbslam2, semantic (DynaSLAM) or paper
+  std::vector<std::optional<double>> values;  ///< in the order of the table's columns
+};
+
+/// Rows of the paper's table 1 to 6, in its order; empty for other numbers. Source: "Robust Stereo
+/// Visual SLAM for Dynamic Environments With Moving Object", tables 1 to 6.
+const std::vector<PrintedRow>& PrintedTable(int number);
+
+}  // namespace aisle

@@ -1,0 +1,158 @@
+#include "harness/report/time_chart.h"
+
+#include "harness/report/svg.h"
+
+namespace aisle {
+namespace {
+
+constexpr double kWidth = 860, kLeft = 52, kRight = 846;
+constexpr double kTitle = 26;  ///< height above a panel
+using Points = std::vector<std::pair<double, double>>;
+
+/// Values over seconds, in pieces where frames have none.
+struct Line {
+  std::string name, css;
+  std::vector<Points> pieces = {};
+};
+
+struct Panel {
+  std::string title;
+  double height;  ///< pixels
+  bool filled;    ///< the one line is an area
+  std::vector<Line> lines = {};
+};
+
+using ValueOf = std::function<std::optional<double>(const FrameRow&)>;
+
+Line MakeLine(const std::string& name, const std::string& css, const std::vector<FrameRow>& rows,
+              const ValueOf& value) {
+  Line line{name, css, {{}}};
+  for (const FrameRow& row : rows) {
+    const double seconds = static_cast<double>(row.stamp_ns - rows.front().stamp_ns) * 1e-9;
+    if (const std::optional<double> at = value(row)) {
+      line.pieces.back().emplace_back(seconds, *at);
+    } else if (!line.pieces.back().empty()) {
+      line.pieces.emplace_back();
+    }
+  }
+  return line;
+}
+
+double Highest(const Panel& panel) {
+  double highest = 0;
+  for (const Line& line : panel.lines) {
+    for (const Points& piece : line.pieces) {
+      for (const auto& [seconds, value] : piece) highest = std::max(highest, value);
+    }
+  }
+  return highest;
+}
+
+std::optional<double> Percent(const std::optional<double>& share) {
+  return share ? std::optional(100 * *share) : std::nullopt;
+}
+
+/// A line per system.
+Panel OfSystems(const std::string& title, double height, const std::vector<ChartSeries>& series,
+                const ValueOf& value) {
+  Panel panel{title, height, false};
+  for (const ChartSeries& one : series) {
+    panel.lines.push_back(MakeLine(one.name, fmt::format("line c{}", one.color), *one.rows, value));
+  }
+  return panel;
+}
+
+/// What is the same for every system.
+Panel OfScene(const std::string& title, const std::string& css, bool filled,
+              const std::vector<FrameRow>& rows, const ValueOf& value) {
+  return {title, 44, filled, {MakeLine(title, css, rows, value)}};
+}
+
+std::vector<Panel> Panels(const std::vector<ChartSeries>& series,
+                          const std::vector<FrameRow>& longest) {
+  std::vector<Panel> panels;
+  panels.push_back(OfSystems("error of the live track [cm]", 190, series,
+                             [](const FrameRow& row) { return Percent(row.live_error_m); }));
+  panels.push_back(OfScene("pixels that move [%]", "movers", true, longest,
+                           [](const FrameRow& row) { return 100 * row.movers_share; }));
+  panels.push_back(
+      OfSystems("corners rejected", 64, series, [](const FrameRow& row) -> std::optional<double> {
+        return row.corners_rejected ? std::optional<double>(*row.corners_rejected) : std::nullopt;
+      }));
+  panels.push_back(
+      OfScene("still and textured [%]", "texture", true, longest,
+              [](const FrameRow& row) { return Percent(row.difficulty.static_texture_share); }));
+  Panel motion{"motion of the image [px/frame]", 54, false};
+  const auto add = [&](const char* name, const char* css, std::optional<double> Difficulty::*part) {
+    motion.lines.push_back(
+        MakeLine(name, css, longest, [part](const FrameRow& row) { return row.difficulty.*part; }));
+  };
+  add("all", "line s0", &Difficulty::flow_px);
+  add("parallax", "line s1", &Difficulty::parallax_px);
+  add("blur", "line s2", &Difficulty::blur_px);
+  panels.push_back(motion);
+  std::erase_if(panels, [](const Panel& panel) { return Highest(panel) <= 0; });
+  return panels;
+}
+
+void DropEmptyLines(Panel* panel) {
+  std::erase_if(panel->lines, [](const Line& line) {
+    return std::all_of(line.pieces.begin(), line.pieces.end(),
+                       [](const Points& piece) { return piece.size() < 2; });
+  });
+}
+
+void Draw(const Panel& panel, const Axis& x, double top, bool last, Svg* svg) {
+  const Axis y{0, 1.06 * Highest(panel), top + panel.height, top};
+  svg->Grid(x, y, last ? "time [s]" : "", panel.title,
+            {.x_labels = last, .y_ticks = panel.height > 100 ? 4 : 2});
+  for (const Line& line : panel.lines) {
+    for (const Points& piece : line.pieces) {
+      Points at;
+      for (const auto& [seconds, value] : piece) at.emplace_back(x(seconds), y(value));
+      if (panel.filled) {
+        svg->Area(at, y(0), line.css, line.name);
+      } else {
+        svg->Polyline(at, line.css, line.name);
+      }
+    }
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> LegendOf(const std::vector<Line>& lines) {
+  std::vector<std::pair<std::string, std::string>> entries;
+  for (const Line& line : lines) entries.emplace_back(line.name, line.css);
+  return entries;
+}
+
+}  // namespace
+
+std::string TimeChart(const std::vector<ChartSeries>& series) {
+  const std::vector<FrameRow>* longest = Longest(series);
+  if (longest == nullptr) return "";
+  std::vector<Panel> panels = Panels(series, *longest);
+  double height = 30;
+  for (Panel& panel : panels) {
+    DropEmptyLines(&panel);
+    height += kTitle + panel.height;
+  }
+  const double end_s =
+      static_cast<double>(longest->back().stamp_ns - longest->front().stamp_ns) * 1e-9;
+  const Axis x{0, std::max(end_s, 1e-3), kLeft, kRight};
+  Svg svg(kWidth, height + 34, "what happened over time");
+  double top = 0;
+  for (const Panel& panel : panels) {
+    top += kTitle;
+    Draw(panel, x, top, &panel == &panels.back(), &svg);
+    // Lines that are not systems are named where they are drawn.
+    if (panel.lines.size() > 1 && panel.lines.front().css.find(" s") != std::string::npos) {
+      svg.Legend(LegendOf(panel.lines), kLeft + 230, top - 8);
+    }
+    top += panel.height;
+  }
+  svg.Legend(LegendOf(OfSystems("", 0, series, [](const FrameRow&) { return std::nullopt; }).lines),
+             kLeft, top + 54);
+  return svg.Finish();
+}
+
+}  // namespace aisle
