@@ -117,24 +117,24 @@ std::string OverviewSection(const std::vector<SceneRuns>& scenes, SceneLinks lin
       "<h2>Absolute trajectory error</h2>\n<p class=\"soft small\">RMSE over the final track in "
       "centimetres, positions aligned rigidly (SE(3)), never scaled; median over seeds; coverage "
       "where it is not complete. The least of each row is bold.</p>\n<div class=\"wide\"><table>"
-      "<tr><th>scene</th><th class=\"left\">twin</th>";
+      "<tr><th>scene<th class=\"left\">twin";
   for (const auto& [color, name] : systems) {
-    text += fmt::format("<th><span class=\"chip c{}\"></span>{}</th>", color % 6, Escape(name));
+    text += fmt::format("<th><span class=\"chip c{}\"></span>{}", color % 6, Escape(name));
   }
-  text += "</tr>\n";
+  text += "\n";
   for (const SceneRuns& scene : scenes) {
     std::optional<double> least;
     for (const SystemRuns& system : scene.systems) {
       const auto value = MedianScore(system.runs, "ate_rmse_m");
       if (value && (!least || *value < *least)) least = value;
     }
-    text += fmt::format("<tr><td><a href=\"{}\">{}</a></td><td class=\"left\">{}</td>",
-                        LinkTo(scene, links), Escape(scene.scene), Escape(scene.twin));
+    text += fmt::format("<tr><td><a href=\"{}\">{}</a><td class=\"left\">{}", LinkTo(scene, links),
+                        Escape(scene.scene), Escape(scene.twin));
     for (const auto& [color, name] : systems) {
       const auto system = std::find_if(scene.systems.begin(), scene.systems.end(),
                                        [&](const SystemRuns& s) { return s.color == color; });
       if (system == scene.systems.end()) {
-        text += "<td class=\"soft\"></td>";
+        text += "<td class=\"soft\">";
         continue;
       }
       const auto ate = MedianScore(system->runs, "ate_rmse_m");
@@ -142,9 +142,9 @@ std::string OverviewSection(const std::vector<SceneRuns>& scenes, SceneLinks lin
       std::string cell = ate ? fmt::format("{:.2f}", 100 * *ate) : "-";
       if (coverage && *coverage < 0.9995) cell += fmt::format(" ({:.1f} %)", 100 * *coverage);
       cell += StatusCell(*system);
-      text += fmt::format("<td class=\"{}\">{}</td>", ate && ate == least ? "best" : "", cell);
+      text += fmt::format("<td class=\"{}\">{}", ate && ate == least ? "best" : "", cell);
     }
-    text += "</tr>\n";
+    text += "\n";
   }
   return text + "</table></div>\n";
 }

@@ -43,19 +43,18 @@ constexpr Column kMaskColumns[] = {
 
 template <std::size_t N>
 std::string ScoreTable(const std::vector<SystemRuns>& systems, const Column (&columns)[N]) {
-  std::string text = "<div class=\"wide\"><table><tr><th>system</th>";
-  for (const Column& column : columns) text += fmt::format("<th>{}</th>", column.title);
-  text += "</tr>\n";
+  std::string text = "<div class=\"wide\"><table><tr><th>system";
+  for (const Column& column : columns) text += fmt::format("<th>{}", column.title);
+  text += "\n";
   for (const SystemRuns& system : systems) {
-    text += fmt::format("<tr><td><span class=\"chip c{}\"></span>{}</td>", system.color % 6,
+    text += fmt::format("<tr><td><span class=\"chip c{}\"></span>{}", system.color % 6,
                         Escape(system.system));
     for (const Column& column : columns) {
       const auto value = MedianScore(system.runs, column.score);
       text += fmt::format(
-          "<td>{}</td>",
-          value ? fmt::format("{:.{}f}", *value * column.factor, column.decimals) : "-");
+          "<td>{}", value ? fmt::format("{:.{}f}", *value * column.factor, column.decimals) : "-");
     }
-    text += "</tr>\n";
+    text += "\n";
   }
   return text + "</table></div>\n";
 }

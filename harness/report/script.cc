@@ -73,12 +73,12 @@ const char* const kScript = R"js('use strict';
   for (const svg of document.querySelectorAll('svg')) {
     const panels = [...svg.querySelectorAll('rect.panel')];
     if (panels.length === 0) continue;
-    // A path is told in steps, in quarters of a pixel.
+    // A path is told in steps, in halves of a pixel.
     const pointsOf = path => {
       const numbers = path.getAttribute('d').match(/-?\d+/g).map(Number);
       const points = [];
       for (let i = 0, x = 0, y = 0; i + 1 < numbers.length; i += 2) {
-        points.push([(x += numbers[i]) / 4, (y += numbers[i + 1]) / 4]);
+        points.push([(x += numbers[i]) / 2, (y += numbers[i + 1]) / 2]);
       }
       return points;
     };

@@ -8,10 +8,10 @@
 namespace aisle {
 namespace {
 
-/// Lines are drawn in quarters of a pixel and told as steps: a report holds hundreds of them. What
-/// is left out lies within half a pixel of what is drawn.
-constexpr double kPerPixel = 4;
-constexpr double kTolerancePx = 0.5;
+/// Lines are drawn in halves of a pixel and told as steps: a report holds hundreds of them. What
+/// is left out lies within 0.7 pixels of what is drawn.
+constexpr double kPerPixel = 2;
+constexpr double kTolerancePx = 0.7;
 
 std::string PathData(const std::vector<std::pair<double, double>>& points) {
   std::vector<Eigen::Vector3d> exact;
@@ -34,8 +34,7 @@ std::string PathData(const std::vector<std::pair<double, double>>& points) {
 
 std::string Path(const std::string& data, const std::string& css, const std::string& name) {
   const std::string named = name.empty() ? "" : " data-name=\"" + Escape(name) + "\"";
-  return fmt::format("<path transform=\"scale(.25)\" d=\"{}\" class=\"{}\"{}/>\n", data, css,
-                     named);
+  return fmt::format("<path transform=\"scale(.5)\" d=\"{}\" class=\"{}\"{}/>\n", data, css, named);
 }
 
 std::string Tip(const std::string& tip) {
@@ -106,7 +105,7 @@ void Svg::Text(double x, double y, const std::string& text, const std::string& c
                const std::string& anchor) {
   if (text.empty()) return;
   const std::string anchored = anchor == "start" ? "" : " text-anchor=\"" + anchor + "\"";
-  text_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"{}\"{}>{}</text>\n", x, y, css,
+  text_ += fmt::format("<text x=\"{:.4g}\" y=\"{:.4g}\" class=\"{}\"{}>{}</text>\n", x, y, css,
                        anchored, Escape(text));
 }
 

@@ -27,7 +27,7 @@ class Svg {
             const std::string& tip = "");
   void Circle(double x, double y, double radius, const std::string& css,
               const std::string& tip = "");
-  /// A named line shows its values under the pointer where scripts may run. Drawn to half a
+  /// A named line shows its values under the pointer where scripts may run. Drawn to 0.7 of a
   /// pixel.
   void Polyline(const std::vector<std::pair<double, double>>& points, const std::string& css,
                 const std::string& name = "");

@@ -233,29 +233,27 @@ std::string ToHtml(const std::vector<NumberTable>& tables) {
   for (const NumberTable& table : tables) {
     text += fmt::format(
         "<h3>{}</h3>\n<p class=\"soft small\">{}</p>\n<div class=\"wide\"><table "
-        "class=\"grouped\"><thead><tr><th rowspan=\"2\">scene</th>",
+        "class=\"grouped\"><thead><tr><th rowspan=\"2\">scene",
         Escape(table.title), Escape(table.caption));
     for (const std::string& group : table.groups) {
-      text += fmt::format("<th class=\"group\" colspan=\"{}\">{}</th>", table.columns.size(),
-                          Escape(group));
+      text +=
+          fmt::format("<th class=\"group\" colspan=\"{}\">{}", table.columns.size(), Escape(group));
     }
-    text += "</tr><tr>";
+    text += "<tr>";
     for (std::size_t g = 0; g < table.groups.size(); ++g) {
       for (std::size_t c = 0; c < table.columns.size(); ++c) {
-        text += fmt::format("<th{}>{}</th>", c == 0 ? " class=\"first\"" : "",
-                            Escape(table.columns[c]));
+        text += fmt::format("<th{}>{}", c == 0 ? " class=\"first\"" : "", Escape(table.columns[c]));
       }
     }
-    text += "</tr></thead><tbody>\n";
+    text += "</thead><tbody>\n";
     for (const NumberTable::Row& row : table.rows) {
-      text += fmt::format("<tr{}><td>{}</td>", row.printed ? " class=\"printed\"" : "",
-                          Escape(row.name));
+      text +=
+          fmt::format("<tr{}><td>{}", row.printed ? " class=\"printed\"" : "", Escape(row.name));
       for (std::size_t c = 0; c < row.cells.size(); ++c) {
-        text +=
-            fmt::format("<td{}>{}</td>", c % table.columns.size() == 0 ? " class=\"first\"" : "",
-                        Escape(row.cells[c]));
+        text += fmt::format("<td{}>{}", c % table.columns.size() == 0 ? " class=\"first\"" : "",
+                            Escape(row.cells[c]));
       }
-      text += "</tr>\n";
+      text += "\n";
     }
     text += "</tbody></table></div>\n";
   }

@@ -98,15 +98,15 @@ std::string CostSection(const std::vector<SceneRuns>& scenes) {
       "the same scene with nobody in it. Occlusion: what movers cost even a perfect mask (oracle "
       "live less oracle alone). Motion: what it costs this system that they move rather than stand "
       "still (live less frozen). Rejection: what this system's own rejection leaves (live less "
-      "oracle live). Penalty: live over alone.</p>\n<div class=\"wide\"><table><tr><th>scene</th>"
+      "oracle live). Penalty: live over alone.</p>\n<div class=\"wide\"><table><tr><th>scene"
       "<th "
-      "class=\"left\">system</th><th>live</th><th>alone</th><th>occlusion</th><th>motion</"
-      "th><th>rejection</th>"
-      "<th>penalty</th></tr>\n";
+      "class=\"left\">system<th>live<th>alone<th>occlusion<th>motion</"
+      "th><th>rejection"
+      "<th>penalty\n";
   for (const CostSplit& split : splits) {
     text += fmt::format(
-        "<tr><td>{}</td><td class=\"left\"><span class=\"chip c{}\"></span>{}</td><td>{}</td>"
-        "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+        "<tr><td>{}<td class=\"left\"><span class=\"chip c{}\"></span>{}<td>{}"
+        "<td>{}<td>{}<td>{}<td>{}<td>{}\n",
         Escape(split.scene), split.color % 6, Escape(split.system),
         Centimetres(split.live_m, "{:.2f}"), Centimetres(split.empty_m, "{:.2f}"),
         Centimetres(split.occlusion_m, "{:+.2f}"), Centimetres(split.motion_m, "{:+.2f}"),
