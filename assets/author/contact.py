@@ -104,8 +104,11 @@ def vehicles():
     pictures = []
     for path in files("vehicles"):
         camera = fresh(12)
-        studio.bring(path)
-        low, high = gltf.Glb(path).bounds()
+        things, glb = studio.bring(path), gltf.Glb(path)
+        ridden = glb.facts().get("ridden", {}).get("clip")
+        if ridden:
+            studio.play(things, ridden, 0.0)
+        low, high = glb.bounds(ridden)
         c, r = (low + high) / 2, float(np.linalg.norm(high - low)) / 2
         for place in ((1.9, 1.3, 0.6), (-1.9, 1.5, 0.75)):
             eye = c + np.array(place) * r * 1.02

@@ -33,7 +33,8 @@ CONVENTIONS = {
     "duration_s and standing feet do not slide; speed_mps = stride_m / duration_s, "
     "negative backwards. slip_m, sink_m: measured on the exported file",
     "vehicle": "origin on the floor below the axle named by `origin`; wheels turn about their local "
-    "y, steered nodes about z, mast nodes slide along z",
+    "y, steered nodes about z, mast nodes slide along z. ridden: once every development_m its "
+    "crank and its rider's clip go round, its pedals staying level",
 }
 
 
@@ -49,12 +50,10 @@ def rounded(values):
 def describe_glb(path, entry):
     """Triangles, bounds, textures, clips and the author's facts of one .glb."""
     glb = gltf.Glb(path)
-    low, high = glb.bounds()
+    facts = glb.facts()
+    low, high = glb.bounds(facts.get("ridden", {}).get("clip"))
     entry["triangles"] = glb.triangles()
     entry["bounds_m"] = {"min": rounded(low), "max": rounded(high)}
-    facts = {}
-    for node in glb.json["nodes"]:
-        facts.update(node.get("extras", {}).get("aisle", {}))
     entry.update(facts)
     for name, clip in entry.get("clips", {}).items():
         m = feet.measure(glb, name, clip.get("stride_m", 0.0), clip.get("turn_deg", 0.0), 120)

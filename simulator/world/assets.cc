@@ -50,6 +50,11 @@ VehicleFacts ReadVehicle(const Json& asset) {
     facts.fork_top_m = asset["forks"].at("top_z_m");
     facts.fork_heel_x_m = asset["forks"].at("heel_x_m");
   }
+  if (asset.contains("ridden")) {
+    const Json& ridden = asset["ridden"];
+    facts.ridden = {ridden.at("clip"), ridden.at("development_m"), ridden.at("crank"),
+                    ridden.at("pedals").get<std::vector<std::string>>()};
+  }
   return facts;
 }
 

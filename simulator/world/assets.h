@@ -11,12 +11,12 @@
 
 namespace aisle::sim {
 
-/// What the manifest says of a clip.
 /// A box that a clip holds, in the object's frame at the clip's start.
 struct BoxFacts {
   Eigen::Vector3f size_m, centre_m;
 };
 
+/// What the manifest says of a clip.
 struct ClipFacts {
   double duration_s = 1;
   double stride_m = 0;  ///< > 0: the model walks; move it by this much a cycle
@@ -30,6 +30,14 @@ struct PersonFacts {
   std::map<std::string, ClipFacts> clips;
 };
 
+/// A rider who pedals: once every development the cranks and the rider's clip go round.
+struct RiddenFacts {
+  std::string clip;
+  double development_m = 5;
+  std::string crank_node;
+  std::vector<std::string> pedal_nodes;  ///< below the crank; they stay level
+};
+
 struct VehicleFacts {
   std::map<std::string, double> wheel_radius_m;  ///< by node
   std::vector<std::string> steer_nodes;
@@ -37,6 +45,7 @@ struct VehicleFacts {
   double fork_top_m = 0.085, fork_heel_x_m = 0.56;
   std::string fork_node;
   double handle_m = 0;  ///< x of the bar it is pushed by
+  std::optional<RiddenFacts> ridden;
 };
 
 /// The folder of models and what its manifest.json says of them. Models are read once.

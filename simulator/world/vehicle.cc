@@ -1,4 +1,8 @@
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
 
 #include "simulator/mesh/pose.h"
 #include "simulator/world/actors.h"
@@ -28,6 +32,31 @@ struct LiftNode {
   double share = 0;
 };
 
+/// What turns with the cranks of a vehicle that is ridden.
+struct Pedalling {
+  int clip = -1;
+  double clip_s = 0;
+  double development_m = 5;
+  int crank = -1;
+  std::vector<int> pedals;
+
+  double TurnsAt(const RouteState& state) const { return state.odometer_m / development_m; }
+};
+
+Pedalling PedallingOf(const Model& model, const RiddenFacts& facts) {
+  Pedalling pedalling{
+      model.FindClip(facts.clip), 0, facts.development_m, model.FindNode(facts.crank_node), {}};
+  for (const std::string& name : facts.pedal_nodes) {
+    pedalling.pedals.push_back(model.FindNode(name));
+  }
+  if (pedalling.clip < 0 || pedalling.crank < 0 || std::ranges::count(pedalling.pedals, -1) > 0) {
+    throw std::runtime_error(fmt::format(
+        "the model '{}' lacks the clip, crank or pedals that the manifest names", model.name));
+  }
+  pedalling.clip_s = model.clips[static_cast<std::size_t>(pedalling.clip)].duration_s;
+  return pedalling;
+}
+
 class Driver {
  public:
   Driver(const VehicleSpec& vehicle, std::shared_ptr<const Model> model, const VehicleFacts& facts,
@@ -50,6 +79,7 @@ class Driver {
       const int node = model_->FindNode(name);
       if (node >= 0) steered_.push_back({node, wheel_at(node, 0)});
     }
+    if (facts.ridden) pedalling_ = PedallingOf(*model_, *facts.ridden);
     for (const auto& [name, share] : facts.lift_shares) {
       const int node = model_->FindNode(name);
       if (node >= 0) lifted_.push_back({node, share});
@@ -66,13 +96,20 @@ class Driver {
   std::vector<Eigen::Affine3f> WorldJoints(double time_s) const {
     const RouteState state = RouteAt(time_s);
     std::vector<Eigen::Affine3f> joints =
-        JointMatrices(*model_, PoseNodes(*model_, {}, MovesAt(state, time_s)));
+        JointMatrices(*model_, PoseNodes(*model_, RiderAt(state), MovesAt(state, time_s)));
     const Eigen::Affine3f place(ObjectPose(state).cast<float>());
     for (Eigen::Affine3f& joint : joints) joint = place * joint;
     return joints;
   }
 
  private:
+  /// The rider's legs at this turn of the cranks.
+  std::vector<PoseLayer> RiderAt(const RouteState& state) const {
+    if (!pedalling_) return {};
+    const double turns = pedalling_->TurnsAt(state);
+    return {{pedalling_->clip, (turns - std::floor(turns)) * pedalling_->clip_s, 1, -1}};
+  }
+
   std::vector<NodeMove> MovesAt(const RouteState& state, double time_s) const {
     std::vector<NodeMove> moves;
     const auto turn = [&](int node, const Eigen::Vector3f& axis, double angle) {
@@ -81,6 +118,11 @@ class Driver {
     const double heading_at_start = route_.At(0).heading_rad;
     for (const WheelNode& one : wheels_) {
       turn(one.node, kNodeLeft, RolledAngle(one.wheel, state, heading_at_start));
+    }
+    if (pedalling_) {
+      const double angle = 2 * std::numbers::pi * pedalling_->TurnsAt(state);
+      turn(pedalling_->crank, kNodeLeft, angle);
+      for (const int pedal : pedalling_->pedals) turn(pedal, kNodeLeft, -angle);
     }
     const double curvature = SmoothCurvature(route_, time_s, kSteering_s);
     for (const WheelNode& one : steered_) {
@@ -100,6 +142,7 @@ class Driver {
   MastLift mast_;
   double fork_rest_m_;
   std::vector<WheelNode> wheels_, steered_;
+  std::optional<Pedalling> pedalling_;
   std::vector<LiftNode> lifted_;
 };
 

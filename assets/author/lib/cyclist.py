@@ -1,5 +1,5 @@
-"""A cyclist who coasts: bicycle with rolling wheels and a steered fork, rider on the saddle. Origin on
-the floor below the rear axle; x ahead."""
+"""A cyclist: bicycle with rolling wheels, turning cranks and a steered fork, and a rider on the saddle
+who pedals. Origin on the floor below the rear axle; x ahead."""
 
 import numpy as np
 
@@ -7,9 +7,12 @@ from . import figure, gait, parts, pose as ps, rig
 from .solid import Machine
 
 RADIUS, BASE = 0.34, 1.05
-SADDLE = np.array([0.18, 0.0, 0.98])
+SADDLE = np.array([0.18, 0.0, 0.95])
 BARS = np.array([0.86, 0.0, 1.06])
 CRANK = np.array([0.46, 0.0, 0.29])
+CRANK_M = 0.17
+DEVELOPMENT_M = 5.2  # one turn of the cranks: 42 and 17 teeth on a 28 inch wheel
+CLIP, FRAMES = "pedal", 32
 
 
 def build(name, folder, path, rider):
@@ -20,7 +23,11 @@ def build(name, folder, path, rider):
     fork(m, steer)
     wheel(m, m.node("wheel_rear", name, (0, 0, RADIUS)), 0.0)
     wheel(m, m.node("wheel_front", steer, (BASE, 0, RADIUS)), BASE)
-    m.adopt(figure.still(rider, shape, m.folder), name)
+    cranks(m, name)
+    _, bones, shapes = figure.on_bones(rider, m.folder, 512, 0.45)
+    figure.clip(bones, shapes.joint, CLIP, lambda u: shape(shapes.joint, u), FRAMES)
+    bones.animation_data.action = None
+    m.adopt(bones, name)
     m.finish(path, facts())
 
 
@@ -34,6 +41,12 @@ def facts():
         "wheel_radius_m": {"wheel_front": RADIUS, "wheel_rear": RADIUS},
         "steer_nodes": ["steer_front"],
         "max_speed_mps": 8.0,
+        "ridden": {
+            "clip": CLIP,
+            "development_m": DEVELOPMENT_M,
+            "crank": "cranks",
+            "pedals": ["pedal_left", "pedal_right"],
+        },
     }
 
 
@@ -67,11 +80,6 @@ def frame(m, n):
         m.bar(n, "paint", (bracket[0], s * 0.03, bracket[2]), (0, s * 0.06, RADIUS), 0.010, 8)
         m.bar(n, "paint", (seat_top[0], s * 0.02, seat_top[2] - 0.03), (0, s * 0.06, RADIUS), 0.008, 8)
     m.box(n, "plastic", tuple(SADDLE - [0.02, 0, 0.03]), (0.25, 0.13, 0.05), 0.022)
-    m.lathe(n, "steel", bracket, (0, 1, 0), [(0.045, 0.0), (0.045, 0.095), (0.05, 0.095), (0.05, 0.0)], 24)
-    for s in (-1, 1):
-        pedal = pedal_at(s)
-        m.beam(n, "steel", (bracket[0], -s * 0.075, bracket[2]), (pedal[0], -s * 0.085, pedal[2]), 0.014, 0.03)
-        m.box(n, "plastic", (pedal[0], -s * 0.135, pedal[2]), (0.09, 0.09, 0.025), 0.006)
     arc = [(0.37 * np.cos(a), 0, RADIUS + 0.37 * np.sin(a)) for a in np.linspace(0.2, 2.6, 14)]
     m.pipe(n, "plastic", arc, 0.020, 8)
     m.box(n, "red", (-0.30, 0, 0.66), (0.03, 0.06, 0.05), 0.01)
@@ -79,9 +87,21 @@ def frame(m, n):
     m.box(n, "vinyl", (-0.08, -0.14, 0.58), (0.30, 0.12, 0.26), 0.03)
 
 
-def pedal_at(side):
-    """Level cranks: one foot ahead, one behind."""
-    return CRANK + np.array([0.17 * side, 0, 0.0])
+def cranks(m, n):
+    """Chainring, crank arms and pedals at the start of a turn: level, the right foot ahead."""
+    m.node("cranks", n, tuple(CRANK))
+    m.lathe("cranks", "steel", tuple(CRANK), (0, 1, 0), [(0.045, 0.0), (0.045, 0.095), (0.05, 0.095), (0.05, 0.0)], 24)
+    for side, sign in rig.SIDES:
+        x, _, z = pedal_at(sign, 0)
+        m.beam("cranks", "steel", (CRANK[0], sign * 0.075, CRANK[2]), (x, sign * 0.085, z), 0.014, 0.03)
+        pedal = m.node(f"pedal_{side}", "cranks", (x, sign * 0.135, z))
+        m.box(pedal, "plastic", (x, sign * 0.135, z), (0.09, 0.09, 0.025), 0.006)
+
+
+def pedal_at(sign, turn):
+    """Middle of the left (+1) or right (-1) pedal after a share of a turn, forwards."""
+    angle = 2 * np.pi * turn + (np.pi if sign > 0 else 0)
+    return CRANK + CRANK_M * np.array([np.cos(angle), 0, -np.sin(angle)])
 
 
 def fork(m, node):
@@ -96,16 +116,17 @@ def fork(m, node):
     parts.lamp(m, node, (0.94, 0, 0.88), (1, 0, 0), 0.03)
 
 
-def shape(joint):
-    """On the saddle, bent forward, hands on the grips, feet on the pedals."""
+def shape(joint, turn):
+    """On the saddle, bent forward, hands on the grips, feet on the pedals after a share of a turn."""
     p = {
         "pelvis": SADDLE + [0.02, 0.0, 0.10],
         "turn": {"pelvis": ps.ry(18), "spine": ps.ry(26), "chest": ps.ry(33), "head": ps.ry(6)},
     }
     p["turn"]["neck"] = ps.ry(16)
     for side, sign in rig.SIDES:
-        pedal = pedal_at(-sign)
-        foot = ps.ry(10)
+        pedal = pedal_at(sign, turn)
+        # The heel drops as the pedal comes over the top and lifts below (ankling, about 10 degrees).
+        foot = ps.ry(12 - 10 * (pedal[2] - CRANK[2]) / CRANK_M)
         ankle = pedal + [-0.08, sign * 0.125, 0.115]
         ps.two_bones(p, joint, f"thigh_{side}", f"shin_{side}", ankle, np.array([1.0, 0.06 * sign, 0.2]), np.array([1.0, 0.03 * sign, 0]))
         p["turn"][f"foot_{side}"] = p["turn"][f"toes_{side}"] = foot

@@ -255,10 +255,9 @@ def still(person, shape, folder, size=512, detail=0.45):
     return thing
 
 
-def build(person, clips, path, size=1024):
-    """Makes the person with clips {name: (pose function, duration in seconds, extras)}."""
-    reset()
-    parts, shapes = mesh.build(person)
+def on_bones(person, folder, size, detail=1.0):
+    """The person's mesh on its skeleton in the rest pose: (mesh, armature, its shapes)."""
+    parts, shapes = mesh.build(person, detail)
     for name, part in parts.items():
         part["paired"] = name in mesh.PAIRED
     thing, owner = join(parts, person.name)
@@ -266,14 +265,21 @@ def build(person, clips, path, size=1024):
     uv = unwrap(thing, owner, names)
     painter = paint.Painter(person, shapes, parts)
     sheet = bake(thing, uv, owner, names, painter, size)
+    image = picture.jpeg_image(sheet, person.name, folder)
+    thing.data.materials.append(material(image, person.name))
+    bones = armature(shapes.joint, "skeleton")
+    thing.parent = bones
+    modifier = thing.modifiers.new("skeleton", "ARMATURE")
+    modifier.object = bones
+    modifier.show_viewport = False  # sampling clips need not deform the mesh
+    return thing, bones, shapes
+
+
+def build(person, clips, path, size=1024):
+    """Makes the person with clips {name: (pose function, duration in seconds, extras)}."""
+    reset()
     with tempfile.TemporaryDirectory() as folder:
-        image = picture.jpeg_image(sheet, person.name, folder)
-        thing.data.materials.append(material(image, person.name))
-        bones = armature(shapes.joint, "skeleton")
-        thing.parent = bones
-        modifier = thing.modifiers.new("skeleton", "ARMATURE")
-        modifier.object = bones
-        modifier.show_viewport = False  # sampling clips need not deform the mesh
+        thing, bones, shapes = on_bones(person, folder, size)
         details = {"height_m": person.height_m, "clips": {}}
         for name, (poses, frames, extras) in clips(person, shapes.joint).items():
             clip(bones, shapes.joint, name, poses, frames)

@@ -103,6 +103,13 @@ class Glb:
         m[:3, :3], m[:3, 3] = r * s, t
         return m
 
+    def facts(self):
+        """What the author wrote about the asset: the extras "aisle" of its nodes, together."""
+        facts = {}
+        for node in self.json["nodes"]:
+            facts.update(node.get("extras", {}).get("aisle", {}))
+        return facts
+
     def triangles(self):
         return sum(
             self.json["accessors"][p["indices"]]["count"] // 3
@@ -138,6 +145,6 @@ class Glb:
                 out.append(np.einsum("vij,vj->vi", blend, p)[:, :3])
         return np.concatenate(out)
 
-    def bounds(self):
-        v = self.vertices()
+    def bounds(self, clip=None):
+        v = self.vertices(clip)
         return v.min(0), v.max(0)

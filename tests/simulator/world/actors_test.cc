@@ -233,6 +233,23 @@ TEST(Person, AnUnknownModelOrClipIsNamed) {
   EXPECT_THROW(Make(person), std::runtime_error);
 }
 
+/// Vertices that mostly follow a node.
+std::vector<std::size_t> VerticesOf(const Model& model, const std::string& node) {
+  std::vector<std::size_t> vertices;
+  for (std::size_t i = 0; i < model.weights.size(); ++i) {
+    const ModelJoint& joint = model.joints[model.weights[i].joints[0]];
+    if (joint.node == model.FindNode(node)) vertices.push_back(i);
+  }
+  return vertices;
+}
+
+Eigen::Vector3f MeanOf(const std::vector<Eigen::Vector3f>& points,
+                       const std::vector<std::size_t>& of) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (const std::size_t i : of) sum += points[i];
+  return sum / static_cast<float>(of.size());
+}
+
 VehicleSpec TruckTurning(const std::string& model, double corner_radius_m = 3) {
   VehicleSpec truck;
   truck.name = "truck";
@@ -282,6 +299,34 @@ INSTANTIATE_TEST_SUITE_P(Models, EveryVehicle,
                                          Turning{"car_white", 7}, Turning{"car_red", 7},
                                          Turning{"car_dark", 7}, Turning{"car_silver", 7},
                                          Turning{"car_van", 7}));
+
+TEST(Cyclist, TheFeetStayOnThePedalsAllTheWayRound) {
+  AssetLibrary assets(kAssets);
+  WorldParts parts;
+  Wardrobe wardrobe(&parts);
+  VehicleSpec ride = TruckTurning("cyclist");
+  ride.route.plan.steps[0].go = {{40, 0}};
+  const Actor cyclist = MakeVehicle(ride, &assets, {}, Dice(1, {}), &wardrobe);
+  const std::shared_ptr<const Model> model = assets.Load("vehicles/cyclist");
+  for (const std::string side : {"left", "right"}) {
+    const std::vector<std::size_t> pedal = VerticesOf(*model, "pedal_" + side);
+    const std::vector<std::size_t> ball = VerticesOf(*model, "toes_" + side);
+    ASSERT_FALSE(pedal.empty());
+    ASSERT_FALSE(ball.empty());
+    double lowest = 1e9, highest = -1e9;
+    for (double t = 4; t < 16; t += 0.05) {
+      const MoverState state = cyclist.at(t);
+      const Eigen::Vector3f at = MeanOf(state.positions, pedal);
+      const Eigen::Vector3f foot = MeanOf(state.positions, ball) - at;
+      lowest = std::min(lowest, double{at.z()});
+      highest = std::max(highest, double{at.z()});
+      // The toes' middle is ahead of the pedal's and a sole's thickness above it.
+      EXPECT_NEAR(foot.z(), 0.02, 0.05) << side << " at " << t;
+      EXPECT_NEAR(foot.head<2>().norm(), 0.07, 0.06) << side << " at " << t;
+    }
+    EXPECT_NEAR(highest - lowest, 0.34, 0.005) << "the cranks' 17 cm, twice";
+  }
+}
 
 TEST(Forklift, AParkedOneIsTheSameAtEveryTime) {
   VehicleSpec truck;
