@@ -1,10 +1,9 @@
 #include "simulator/shade/antialias.h"
 
-#include <tbb/parallel_for.h>
-
 #include <bit>
 #include <cstring>
-#include <numbers>
+
+#include "simulator/trace/tile_grid.h"
 
 namespace aisle::sim {
 namespace {
@@ -42,12 +41,12 @@ class Edges {
         tables_(tables),
         radiance_(radiance) {}
 
-  /// x0 is a multiple of eight. Goes down columns of eight pixels, because most edges of a hall
-  /// stand upright and the rays of neighbours share a packet.
-  Found Find(int x0, int y0, int x1, int y1) const {
+  /// The tile begins at a multiple of eight. Goes down columns of eight pixels, because most edges
+  /// of a hall stand upright and the rays of neighbours share a packet.
+  Found Find(const Tile& tile) const {
     Found found;
-    for (int x = x0; x < x1; x += kLanes) {
-      for (int y = y0; y < y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; x += kLanes) {
+      for (int y = tile.y0; y < tile.y1; ++y) {
         for (unsigned left = Candidates(x, y); left; left &= left - 1) {
           Classify({x + std::countr_zero(left), y}, &found);
         }
@@ -310,12 +309,8 @@ class Sampler {
 
  private:
   F8 LightOf(const Rays8& rays, const Hits8& hits) const {
-    const SurfaceLanes seen =
-        LookUpHits(tables_, frame_, textures_, LoadI(hits.geometry), LoadI(hits.primitive),
-                   {LoadF(hits.t), LoadF(hits.u), LoadF(hits.v), LoadF(rays.dx), LoadF(rays.dy),
-                    LoadF(rays.dz), I8{}},
-                   step_);
-    return seen.reflectance * seen.irradiance * std::numbers::inv_pi_v<float>;
+    const F8x3 directions = {LoadF(rays.dx), LoadF(rays.dy), LoadF(rays.dz)};
+    return RadianceOfHits(tables_, frame_, textures_, directions, hits, step_);
   }
 
   const Instant& instant_;
@@ -334,18 +329,16 @@ class Sampler {
 void AntialiasEdges(const World& world, const Instant& instant, const EyeView& view,
                     const HitImage& image, const SurfaceTables& tables, const FrameLight& frame,
                     const TexturePool& textures, std::span<const float> kept, cv::Mat1f* radiance) {
-  const int columns = (image.width + kTileWidth - 1) / kTileWidth;
-  const int rows = (image.height + kTileHeight - 1) / kTileHeight;
-  std::vector<Found> tiles(static_cast<std::size_t>(columns * rows));
+  const TileGrid grid{image.width, image.height, kTileWidth, kTileHeight};
+  std::vector<Found> tiles(grid.size());
   const Edges edges(world, view, image, tables, *radiance);
   const Sampler sampler(instant, view, image, tables, frame, textures, kept, *radiance);
-  tbb::parallel_for(0, columns * rows, [&](int i) {
-    Found& found = tiles[static_cast<std::size_t>(i)];
-    const int x0 = i % columns * kTileWidth, x1 = std::min(image.width, x0 + kTileWidth);
-    const int y0 = i / columns * kTileHeight, y1 = std::min(image.height, y0 + kTileHeight);
-    found = edges.Find(x0, y0, x1, y1);
+  grid.ForEach([&](std::size_t i, const Tile& tile) {
+    Found& found = tiles[i];
+    found = edges.Find(tile);
     if (found.unknown.empty()) return;
-    const GeometryMask geometries = GeometriesInWindow(instant, view, x0, y0, x1, y1);
+    const GeometryMask geometries =
+        GeometriesInWindow(instant, view, tile.x0, tile.y0, tile.x1, tile.y1);
     const std::span<const PixelAt> unknown = found.unknown;
     for (std::size_t first = 0; first < unknown.size(); first += Sampler::kPixels) {
       sampler.Sample(unknown.subspan(first, std::min(Sampler::kPixels, unknown.size() - first)),

@@ -30,16 +30,13 @@ Points8 Load(std::span<const SurfacePoint> points) {
   return p;
 }
 
-struct Shape {
-  int columns, rows;
+/// Shadow rays to a light that gives such a share of the light, or more. Weak ones need few, as
+/// there are many of them.
+struct RaysOfShare {
+  float share;
+  int rays;
 };
-Shape ProbeShape(const AreaLight& light) {
-  const float aspect = light.half_u.norm() / light.half_v.norm();
-  if (aspect > 3) return {4, 1};
-  if (aspect < 1.0f / 3) return {1, 4};
-  return {2, 2};
-}
-Shape FineShape(const Shape& probe) { return {probe.columns * 2, probe.rows * 2}; }
+constexpr std::array<RaysOfShare, 4> kRays = {{{0.15f, 32}, {0.05f, 16}, {0.015f, 8}, {0, 4}}};
 
 /// Light per area and radiance from one place of the light, and the way there.
 struct Sample8 {
@@ -54,12 +51,12 @@ class Light {
     area_ = 4 * cross.norm();
     normal_ = cross.normalized();
   }
-  Sample8 At(const Points8& p, float a, float b) const {
-    const Eigen::Vector3f y = light_.center + a * light_.half_u + b * light_.half_v;
+  Sample8 At(const Points8& p, F8 a, F8 b) const {
+    const Eigen::Vector3f &c = light_.center, &u = light_.half_u, &v = light_.half_v;
     Sample8 s;
-    s.dx = y.x() - p.px;
-    s.dy = y.y() - p.py;
-    s.dz = y.z() - p.pz;
+    s.dx = c.x() + a * u.x() + b * v.x() - p.px;
+    s.dy = c.y() + a * u.y() + b * v.y() - p.py;
+    s.dz = c.z() + a * u.z() + b * v.z() - p.pz;
     const F8 squared = Max(s.dx * s.dx + s.dy * s.dy + s.dz * s.dz, Wide(1e-6f));
     s.distance = Sqrt(squared);
     const F8 here = p.nx * s.dx + p.ny * s.dy + p.nz * s.dz;
@@ -67,7 +64,7 @@ class Light {
     s.weight = Max(here, Wide(0)) * Max(there, Wide(0)) / (squared * squared);
     return s;
   }
-  F8 Unshadowed(const Points8& p) const { return At(p, 0, 0).weight * power(); }
+  F8 Unshadowed(const Points8& p) const { return At(p, Wide(0), Wide(0)).weight * power(); }
   float power() const { return area_ * light_.radiance; }
 
  private:
@@ -85,30 +82,36 @@ unsigned Blocked(const Instant& instant, const Points8& p, const Sample8& s,
                           Coherence::kCoherent, occluders);
 }
 
-/// The light's irradiance from a grid of places on it, and whether lanes saw some but not all.
-struct Gathered {
-  F8 irradiance = Wide(0);
-  unsigned mixed = 0;
+/// A shift of a light's sample places for each of eight points.
+struct Shifts8 {
+  F8 a, b;
 };
-
-Gathered Gather(const Instant& instant, const Light& light, const Points8& p, Shape shape,
-                GeometryMask occluders) {
-  Gathered result;
-  unsigned any_blocked = 0, any_open = 0;
-  const float share = light.power() / static_cast<float>(shape.columns * shape.rows);
-  for (int row = 0; row < shape.rows; ++row) {
-    for (int column = 0; column < shape.columns; ++column) {
-      const float a = (2 * static_cast<float>(column) + 1) / static_cast<float>(shape.columns) - 1;
-      const float b = (2 * static_cast<float>(row) + 1) / static_cast<float>(shape.rows) - 1;
-      const Sample8 s = light.At(p, a, b);
-      const unsigned blocked = Blocked(instant, p, s, occluders);
-      result.irradiance += Select(LanesOf(blocked), Wide(0), s.weight) * share;
-      any_blocked |= blocked;
-      any_open |= ~blocked;
-    }
+Shifts8 ShiftsFrom(std::uint32_t first) {
+  Shifts8 shifts;
+  for (int k = 0; k < kLanes; ++k) {
+    const Eigen::Vector2f shift =
+        SpreadPoint(static_cast<int>((first + static_cast<std::uint32_t>(k)) % 65536));
+    shifts.a[k] = shift.x();
+    shifts.b[k] = shift.y();
   }
-  result.mixed = any_blocked & any_open & 0xff;
-  return result;
+  return shifts;
+}
+
+/// The light's irradiance from so many places on it. They differ from point to point: lamps and the
+/// beams below them stand in line, and places that all points share would all be hidden, or none,
+/// over metres of floor. Nothing is concluded from the first few: where these all see the light,
+/// others may well not.
+F8 Gather(const Instant& instant, const Light& light, const Points8& p, const Shifts8& shifts,
+          int rays, GeometryMask occluders) {
+  F8 irradiance = Wide(0);
+  for (int i = 0; i < rays; ++i) {
+    const Eigen::Vector2f place = SpreadPoint(i);
+    const F8 a = place.x() + shifts.a, b = place.y() + shifts.b;
+    const Sample8 s = light.At(p, 2 * (a - Floor(a)) - 1, 2 * (b - Floor(b)) - 1);
+    const unsigned blocked = Blocked(instant, p, s, occluders);
+    irradiance += Select(LanesOf(blocked), Wide(0), s.weight);
+  }
+  return irradiance * (light.power() / static_cast<float>(rays));
 }
 
 float Sum(F8 lanes) {
@@ -133,7 +136,8 @@ std::vector<float> LightShares(std::span<const AreaLight> lights,
   F8 total = Wide(0);
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const Light light(lights[i]);
-    const F8 sum = light.At(p, -0.6f, -0.6f).weight + light.At(p, 0.6f, 0.6f).weight;
+    const F8 sum =
+        light.At(p, Wide(-0.6f), Wide(-0.6f)).weight + light.At(p, Wide(0.6f), Wide(0.6f)).weight;
     unshadowed.push_back(sum * (light.power() * light_scale[i]));
     total += unshadowed.back();
   }
@@ -217,22 +221,19 @@ std::array<float, kLanes> GatherDirectLight(const Instant& instant,
     order.emplace_back(-sum, i);
   }
   std::ranges::sort(order);
-  const float enough = left * options.untraced_share;
+  const float all = left, enough = all * options.untraced_share;
 
+  const Shifts8 shifts = ShiftsFrom(options.turn);
   F8 sum = Wide(0), traced = Wide(0);
   for (const auto& [negative, i] : order) {
     if (left <= enough) break;
     left += negative;
     const Light light(lights[i]);
     traced += light.Unshadowed(p) * light_scale[i];
-    const Shape probe = ProbeShape(lights[i]);
-    const Gathered coarse = Gather(instant, light, p, probe, options.occluders);
-    F8 irradiance = coarse.irradiance;
-    if (coarse.mixed) {
-      const Gathered fine = Gather(instant, light, p, FineShape(probe), options.occluders);
-      irradiance = Select(LanesOf(coarse.mixed), fine.irradiance, irradiance);
-    }
-    sum += irradiance * light_scale[i];
+    const int rays = std::ranges::find_if(kRays, [&](const RaysOfShare& step) {
+                       return -negative >= step.share * all;
+                     })->rays;
+    sum += Gather(instant, light, p, shifts, rays, options.occluders) * light_scale[i];
   }
   const F8 grow = Select(traced > 0, unshadowed / Max(traced, Wide(1e-12f)), Wide(1));
   std::array<float, kLanes> result;
@@ -243,18 +244,18 @@ std::array<float, kLanes> GatherDirectLight(const Instant& instant,
 std::array<float, kLanes> SampleDirectLight(const Instant& instant,
                                             std::span<const AreaLight> lights,
                                             std::span<const float> light_scale,
-                                            std::span<const SurfacePoint> points, int samples,
-                                            std::uint32_t turn) {
+                                            std::span<const SurfacePoint> points,
+                                            const SampledLightOptions& options) {
+  const auto samples = static_cast<float>(options.samples);
   const Points8 p = Load(points);
   const std::vector<float> shares = LightShares(lights, light_scale, p);
   std::array<float, kLanes> result{};
   if (shares.empty() || shares.back() <= 0) return result;
-  const Eigen::Vector2f shift = SpreadPoint(static_cast<int>(turn % 4096));
+  const Eigen::Vector2f shift = SpreadPoint(static_cast<int>(options.turn % 4096));
   F8 sum = Wide(0);
   std::size_t i = 0;
-  for (int sample = 0; sample < samples; ++sample) {
-    const float at =
-        shares.back() * (static_cast<float>(sample) + shift.x()) / static_cast<float>(samples);
+  for (int sample = 0; sample < options.samples; ++sample) {
+    const float at = shares.back() * (static_cast<float>(sample) + shift.x()) / samples;
     while (i + 1 < shares.size() && shares[i] <= at) ++i;
     const float before = i ? shares[i - 1] : 0, share = shares[i] - before;
     if (share <= 0) continue;
@@ -265,10 +266,10 @@ std::array<float, kLanes> SampleDirectLight(const Instant& instant,
     const AreaLight& light = lights[i];
     const bool u_is_long = light.half_u.squaredNorm() >= light.half_v.squaredNorm();
     const Light shape(light);
-    const Sample8 s = shape.At(p, u_is_long ? along : across, u_is_long ? across : along);
-    const unsigned blocked = Blocked(instant, p, s, kEverything);
-    const float weight =
-        shape.power() * light_scale[i] * shares.back() / (share * static_cast<float>(samples));
+    const Sample8 s =
+        shape.At(p, Wide(u_is_long ? along : across), Wide(u_is_long ? across : along));
+    const unsigned blocked = Blocked(instant, p, s, options.occluders);
+    const float weight = shape.power() * light_scale[i] * shares.back() / (share * samples);
     sum += Select(LanesOf(blocked), Wide(0), s.weight * weight);
   }
   Store(sum, result.data());

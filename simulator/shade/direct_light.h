@@ -35,25 +35,31 @@ struct DirectLightOptions {
   /// Lights that together give less than this share of a packet's unshadowed light are not traced;
   /// they are taken to be as visible as the others.
   float untraced_share = 0.03f;
+  std::uint32_t turn =
+      0;  ///< each point has its own places on the lights, the k-th those of turn + k
   GeometryMask occluders = kEverything;
 };
 
-/// Irradiance that up to eight points receive straight from the luminaires, with soft shadows. A
-/// light is first probed at four points of its area; where these disagree (penumbra), at sixteen.
-/// `light_scale` dims each light. One result a point.
+/// Irradiance that up to eight points receive straight from the luminaires, with soft shadows, from
+/// 4 to 32 places on each, by what it gives. `light_scale` dims each light. One result a point.
 std::array<float, kLanes> GatherDirectLight(const Instant& instant,
                                             std::span<const AreaLight> lights,
                                             std::span<const float> light_scale,
                                             std::span<const SurfacePoint> points,
                                             const DirectLightOptions& options);
 
-/// The same at a fixed price: `samples` shadow rays a point, dealt out to the lights by what they
-/// give the packet unshadowed and spread over their areas. Unbiased over `turn`, which sets another
-/// choice of places on the lights.
+struct SampledLightOptions {
+  int samples = 16;        ///< shadow rays a point
+  std::uint32_t turn = 0;  ///< sets another choice of places on the lights
+  GeometryMask occluders = kEverything;
+};
+
+/// The same at a fixed price: the rays are dealt out to the lights by what these give the packet
+/// unshadowed and spread over their areas. Unbiased over `turn`.
 std::array<float, kLanes> SampleDirectLight(const Instant& instant,
                                             std::span<const AreaLight> lights,
                                             std::span<const float> light_scale,
-                                            std::span<const SurfacePoint> points, int samples,
-                                            std::uint32_t turn);
+                                            std::span<const SurfacePoint> points,
+                                            const SampledLightOptions& options);
 
 }  // namespace aisle::sim

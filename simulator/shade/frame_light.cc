@@ -3,32 +3,13 @@
 #include <tbb/parallel_for.h>
 
 #include <atomic>
+#include <numbers>
 
 #include "simulator/shade/direct_light.h"
-#include "simulator/shade/hemisphere.h"
+#include "simulator/shade/mover_indirect.h"
 
 namespace aisle::sim {
 namespace {
-
-constexpr float kBodyReach = 1.0f;        // m: how far a body darkens itself
-constexpr float kBodyReflection = 0.15f;  // what the blocking parts send on in turn
-
-/// Share of the indirect light at a point of a mover that bodies within reach, its own among them,
-/// leave, and send on in turn. `directions` are cosine-distributed, a whole number of packets.
-float OpennessAt(const Instant& instant, const SurfacePoint& point, GeometryMask bodies,
-                 std::span<const Eigen::Vector3f> directions) {
-  const Eigen::Matrix3f basis = BasisAround(point.normal);
-  Rays8 rays;
-  int blocked = 0;
-  for (std::size_t d = 0; d < directions.size(); d += kLanes) {
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      SetRay(point.position, basis * directions[d + k], kBodyReach, static_cast<int>(k), &rays);
-    }
-    blocked += std::popcount(instant.Occluded(rays, Coherence::kIncoherent, bodies));
-  }
-  const float share = static_cast<float>(blocked) / static_cast<float>(directions.size());
-  return 1 - share * (1 - kBodyReflection);
-}
 
 /// What the images show of the movers.
 struct Seen {
@@ -62,21 +43,39 @@ struct PointRays {
 /// Many where a point stands for many pixels, few where the errors of neighbours fall into one
 /// pixel.
 PointRays RaysFor(std::size_t pixels, std::size_t points) {
+  if (pixels >= 96 * points) return {.to_lights = 96, .to_bodies = 16};
   if (pixels >= 32 * points) return {.to_lights = 48, .to_bodies = 16};
   if (pixels >= 8 * points) return {.to_lights = 24, .to_bodies = 8};
   return {.to_lights = 12, .to_bodies = 8};
 }
 
-/// Movers that may stand within reach of one.
-GeometryMask Around(const Instant& instant, std::size_t mover) {
-  const std::span boxes = instant.mover_boxes();
-  const Eigen::Vector3f reach = Eigen::Vector3f::Constant(kBodyReach);
-  const Eigen::AlignedBox3f box(boxes[mover].min() - reach, boxes[mover].max() + reach);
-  GeometryMask mask = 0;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (box.intersects(boxes[i])) mask |= MoverBit(i);
+/// The bits of x with a zero before each.
+std::uint32_t Spread(std::uint32_t x) {
+  x = (x | x << 8) & 0x00ff00ffu;
+  x = (x | x << 4) & 0x0f0f0f0fu;
+  x = (x | x << 2) & 0x33333333u;
+  return (x | x << 1) & 0x55555555u;
+}
+
+/// Orders points so that the eight of a packet face alike: they deal out their rays to the lamps
+/// together, and a point that faced another lamp than the rest would be left with few.
+void SortByFacing(std::span<const SurfacePoint> places, std::vector<std::uint32_t>* points) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
+  for (const std::uint32_t point : *points) {
+    // The unit sphere folded to a square (octahedral map), along a Z-order curve.
+    const Eigen::Vector3f n =
+        places[point].normal / std::max(places[point].normal.lpNorm<1>(), 1e-6f);
+    const Eigen::Vector2f folded(std::copysign(1 - std::abs(n.y()), n.x()),
+                                 std::copysign(1 - std::abs(n.x()), n.y()));
+    const Eigen::Vector2f at = n.z() < 0 ? folded : Eigen::Vector2f(n.head<2>());
+    const Eigen::Vector2f cell = (at.array() + 1).matrix() * 127.5f;
+    order.emplace_back(Spread(static_cast<std::uint32_t>(std::clamp(cell.x(), 0.0f, 255.0f))) |
+                           Spread(static_cast<std::uint32_t>(std::clamp(cell.y(), 0.0f, 255.0f)))
+                               << 1,
+                       point);
   }
-  return mask;
+  std::ranges::sort(order);
+  for (std::size_t i = 0; i < order.size(); ++i) (*points)[i] = order[i].second;
 }
 
 /// Gives points that were not lit the mean of the lit ones of their triangle, or of the body: an
@@ -119,14 +118,7 @@ SurfaceTables::SurfaceTables(const World& world, const LightGrid& static_grid, f
     : world_(&world) {
   const TriangleMesh& mesh = world.statics().mesh;
   statics_ = MakeSurfaceTable(mesh, mesh.positions, static_grid.patches, world.materials());
-  const auto glossy = [&](std::uint16_t material) {
-    return FinishOf(world.materials()[material]).f0 > 0;
-  };
-  if (std::ranges::any_of(mesh.materials, glossy)) {
-    for (const std::uint16_t material : mesh.materials) {
-      finishes_.push_back(FinishOf(world.materials()[material]));
-    }
-  }
+  const auto is_glossy = [](const SurfaceRecord& record) { return record.f0 > 0; };
   for (std::size_t i = 0; i < world.mover_meshes().size(); ++i) {
     const TriangleMesh& mover = world.mover_meshes()[i];
     LightGrid grid = MakeLightGrid(mover, mover_texel_m);
@@ -140,6 +132,8 @@ SurfaceTables::SurfaceTables(const World& world, const LightGrid& static_grid, f
     slot_count_ += grid.point_of_slot.size();
     mover_grids_.push_back(std::move(grid));
   }
+  glossy_ =
+      std::ranges::any_of(statics_, is_glossy) || std::ranges::any_of(mover_records_, is_glossy);
 }
 
 void SurfaceTables::LightMover(const Instant& instant, std::size_t mover, const LightVolume& volume,
@@ -166,20 +160,20 @@ void SurfaceTables::LightMover(const Instant& instant, std::size_t mover, const 
   }
   if (points.empty()) return;
   const PointRays rays = RaysFor(pixels, points.size());
-  const GeometryMask bodies = Around(instant, mover);
   const std::vector<SurfacePoint> places = LocatePoints(grid, mesh, state.positions, state.normals);
-  const std::vector<Eigen::Vector3f> directions = CosineDirections(rays.to_bodies);
+  SortByFacing(places, &points);
+  const MoverIndirect indirect(instant, world_->lights(), volume, mover, rays.to_bodies);
   std::vector<float> light(grid.points.size(), -1);
   tbb::parallel_for(std::size_t{0}, (points.size() + kLanes - 1) / kLanes, [&](std::size_t i) {
     const std::span packet = std::span(points).subspan(i * kLanes);
     const std::size_t count = std::min<std::size_t>(kLanes, packet.size());
     std::array<SurfacePoint, kLanes> eight;
     for (std::size_t k = 0; k < count; ++k) eight[k] = places[packet[k]];
-    const auto direct = SampleDirectLight(instant, world_->lights(), instant.snapshot().light_scale,
-                                          std::span(eight).first(count), rays.to_lights, packet[0]);
+    const auto direct = SampleDirectLight(
+        instant, world_->lights(), instant.snapshot().light_scale, std::span(eight).first(count),
+        {.samples = rays.to_lights, .turn = static_cast<std::uint32_t>(i)});
     for (std::size_t k = 0; k < count; ++k) {
-      light[packet[k]] = direct[k] + OpennessAt(instant, eight[k], bodies, directions) *
-                                         volume.Irradiance(eight[k].position, eight[k].normal);
+      light[packet[k]] = direct[k] + indirect.At(eight[k]);
     }
   });
   FillUnlit(grid, mesh, &light);
@@ -234,6 +228,15 @@ SurfaceLanes LookUpHits(const SurfaceTables& tables, const FrameLight& frame,
     look_up(is_mover, primitive + base, {frame.mover_records.data(), frame.mover_light.data()});
   }
   return result;
+}
+
+F8 RadianceOfHits(const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures,
+                  const F8x3& directions, const Hits8& hits, const RayStep& step) {
+  const SurfaceLanes seen = LookUpHits(
+      tables, frame, textures, LoadI(hits.geometry), LoadI(hits.primitive),
+      {LoadF(hits.t), LoadF(hits.u), LoadF(hits.v), directions.x, directions.y, directions.z, I8{}},
+      step);
+  return seen.reflectance * seen.irradiance * std::numbers::inv_pi_v<float>;
 }
 
 }  // namespace aisle::sim

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "simulator/shade/gloss.h"
 #include "simulator/shade/static_light.h"
 #include "simulator/shade/surface_lanes.h"
 #include "simulator/trace/hit_image.h"
@@ -25,8 +24,9 @@ class SurfaceTables {
   SurfaceTables(const World& world, const LightGrid& static_grid, float mover_texel_m);
 
   const std::vector<SurfaceRecord>& statics() const { return statics_; }
-  /// Finish of each static triangle; empty where the whole world is dull.
-  std::span<const Finish> finishes() const { return finishes_; }
+  const World& world() const { return *world_; }
+  /// Whether anything in the world has a glossy lobe.
+  bool glossy() const { return glossy_; }
   /// Index in FrameLight::mover_records of a mover's first triangle.
   std::span<const std::int32_t> mover_bases() const { return mover_bases_; }
 
@@ -42,7 +42,7 @@ class SurfaceTables {
 
   const World* world_;
   std::vector<SurfaceRecord> statics_;
-  std::vector<Finish> finishes_;
+  bool glossy_ = false;
   std::vector<SurfaceRecord> mover_records_;
   std::vector<std::int32_t> mover_bases_;
   std::vector<std::size_t> slot_bases_;
@@ -55,5 +55,9 @@ class SurfaceTables {
 SurfaceLanes LookUpHits(const SurfaceTables& tables, const FrameLight& frame,
                         const TexturePool& textures, I8 geometry, I8 primitive, HitLanes hits,
                         const RayStep& step);
+
+/// Radiance of what eight rays met, looked up likewise.
+F8 RadianceOfHits(const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures,
+                  const F8x3& directions, const Hits8& hits, const RayStep& step);
 
 }  // namespace aisle::sim

@@ -79,26 +79,37 @@ Triple<T> SampleFacet(const Triple<T>& out, T alpha, T radius, T cos_phi, T sin_
 }
 
 /// Density of facets of that normal, GGX.
-inline float FacetDensity(float cosine, float alpha) {
-  const float a2 = alpha * alpha, k = cosine * cosine * (a2 - 1) + 1;
+template <typename T>
+T FacetDensity(T cosine, T alpha) {
+  const T a2 = alpha * alpha, k = cosine * cosine * (a2 - 1) + 1;
   return a2 / (3.14159265f * k * k);
 }
 
 /// The lobe's value times the cosine of `in`, and the density with which SampleFacet and mirroring
-/// find `in`, per solid angle.
-struct LobeValue {
-  float reflected = 0, density = 0;
+/// find `in`, per solid angle. Both are 0 where a direction lies below the surface.
+template <typename T>
+struct LobeValueOf {
+  T reflected{}, density{};
 };
+using LobeValue = LobeValueOf<float>;
+
+template <typename T>
+LobeValueOf<T> EvaluateLobe(T f0, T roughness, const Triple<T>& out, const Triple<T>& in) {
+  const T zero = 0 * f0;
+  const Triple<T> sum = {out.x + in.x, out.y + in.y, out.z + in.z};
+  const T length = Sqrt(Dot(sum, sum)), inverse = 1 / Max(length, zero + 1e-6f);
+  const Triple<T> half = {sum.x * inverse, sum.y * inverse, sum.z * inverse};
+  const T alpha = roughness * roughness;
+  const T visible =
+      FacetDensity(half.z, alpha) * SmithMasking(out.z, alpha) / (4 * Max(out.z, zero + 1e-6f));
+  const auto lit = (f0 > zero) & (out.z > zero) & (in.z > zero) & (length >= 1e-6f);
+  return {Select(lit, visible * Fresnel(f0, Dot(out, half)) * SmithMasking(in.z, alpha), zero),
+          Select(lit, visible, zero)};
+}
+
 inline LobeValue EvaluateLobe(const Finish& finish, const Triple<float>& out,
                               const Triple<float>& in) {
-  if (finish.f0 <= 0 || out.z <= 0 || in.z <= 0) return {};
-  Triple<float> half = {out.x + in.x, out.y + in.y, out.z + in.z};
-  const float length = std::sqrt(Dot(half, half));
-  if (length < 1e-6f) return {};
-  half = {half.x / length, half.y / length, half.z / length};
-  const float alpha = finish.roughness * finish.roughness;
-  const float visible = FacetDensity(half.z, alpha) * SmithMasking(out.z, alpha) / (4 * out.z);
-  return {visible * Fresnel(finish.f0, Dot(out, half)) * SmithMasking(in.z, alpha), visible};
+  return EvaluateLobe(finish.f0, finish.roughness, out, in);
 }
 
 }  // namespace aisle::sim

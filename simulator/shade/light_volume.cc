@@ -25,9 +25,14 @@ Eigen::Vector3f LightVolume::Position(std::size_t node) const {
   return shape_.origin + shape_.spacing * cell.cast<float>();
 }
 
-float LightVolume::Irradiance(const Eigen::Vector3f& position,
-                              const Eigen::Vector3f& normal) const {
-  if (nodes_.empty()) return 0;
+float LightVolume::Node::Irradiance(const Eigen::Vector3f& normal) const {
+  // The cosine-weighted integral of mean + slope·ω over the hemisphere of the normal.
+  constexpr float kPi = std::numbers::pi_v<float>;
+  return std::max(0.0f, kPi * mean + 2 * kPi / 3 * slope.dot(normal));
+}
+
+LightVolume::Node LightVolume::At(const Eigen::Vector3f& position) const {
+  if (nodes_.empty()) return {};
   const Eigen::Vector3f at = (position - shape_.origin) / shape_.spacing;
   Eigen::Vector3i cell;
   Eigen::Vector3f f;
@@ -36,21 +41,19 @@ float LightVolume::Irradiance(const Eigen::Vector3f& position,
     cell[i] = static_cast<int>(inside);
     f[i] = inside - static_cast<float>(cell[i]);
   }
-  float mean = 0, weights = 1e-12f;
-  Eigen::Vector3f slope = Eigen::Vector3f::Zero();
+  Node sum;
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Vector3i c = cell + Eigen::Vector3i(corner & 1, corner >> 1 & 1, corner >> 2);
     const Node& node = nodes_[static_cast<std::size_t>(
         (c.z() * shape_.count[1] + c.y()) * shape_.count[0] + c.x())];
     const float w = node.weight * (corner & 1 ? f.x() : 1 - f.x()) *
                     (corner & 2 ? f.y() : 1 - f.y()) * (corner & 4 ? f.z() : 1 - f.z());
-    mean += w * node.mean;
-    slope += w * node.slope;
-    weights += w;
+    sum.mean += w * node.mean;
+    sum.slope += w * node.slope;
+    sum.weight += w;
   }
-  // The cosine-weighted integral of mean + slope·ω over the hemisphere of the normal.
-  constexpr float kPi = std::numbers::pi_v<float>;
-  return std::max(0.0f, (kPi * mean + 2 * kPi / 3 * slope.dot(normal)) / weights);
+  if (sum.weight <= 0) return {};
+  return {sum.mean / sum.weight, sum.slope / sum.weight, sum.weight};
 }
 
 }  // namespace aisle::sim

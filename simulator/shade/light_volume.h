@@ -14,6 +14,9 @@ class LightVolume {
     float mean = 0;
     Eigen::Vector3f slope = Eigen::Vector3f::Zero();
     float weight = 0;  ///< 1 in free space, 0 inside a thing
+
+    /// On the side of a unit normal.
+    float Irradiance(const Eigen::Vector3f& normal) const;
   };
 
   struct Shape {
@@ -33,8 +36,12 @@ class LightVolume {
   std::span<const Node> nodes() const { return nodes_; }
   const Shape& shape() const { return shape_; }
 
+  /// The light at a point between the nodes; none where all nodes around lie inside things.
+  Node At(const Eigen::Vector3f& position) const;
   /// Irradiance at a point on the side of `normal`.
-  float Irradiance(const Eigen::Vector3f& position, const Eigen::Vector3f& normal) const;
+  float Irradiance(const Eigen::Vector3f& position, const Eigen::Vector3f& normal) const {
+    return At(position).Irradiance(normal);
+  }
 
  private:
   Shape shape_;

@@ -1,13 +1,12 @@
 #include "simulator/shade/mover_shadow.h"
 
-#include <tbb/parallel_for.h>
-
 #include <cstddef>
 #include <cstring>
 
 #include "simulator/shade/hemisphere.h"
 #include "simulator/shade/pattern_filter.h"
 #include "simulator/shade/ray_packets.h"
+#include "simulator/trace/tile_grid.h"
 
 namespace aisle::sim {
 namespace {
@@ -16,8 +15,8 @@ constexpr int kTileWidth = 16, kTileHeight = 8;
 constexpr float kLift = 2e-3f;            // m, along the normal
 constexpr float kReach = 1.2f;            // m: how far a mover darkens indirect light
 constexpr float kMoverReflection = 0.3f;  // what blocking parts of a mover send on in turn
-constexpr int kPattern = 16;              // pixels of the 4 × 4 pattern
-constexpr int kAmbientRays = 2;           // a pixel
+
+constexpr int kAmbientRays = 2;  // a pixel
 // Lights that together give less than this share of a tile's light are let through.
 constexpr float kUntracedShare = 0.02f;
 // A light that gives less than such a share of a tile's light is asked in every second, every
@@ -51,17 +50,15 @@ struct Pattern {
   std::array<Row, 4> rows;
 
   Pattern() {
-    constexpr std::array<int, kPattern> kOrder = {0, 8,  2, 10, 12, 4, 14, 6,
-                                                  3, 11, 1, 9,  15, 7, 13, 5};
-    const std::vector<Eigen::Vector3f> ambient = CosineDirections(kPattern * kAmbientRays);
+    const std::vector<Eigen::Vector3f> ambient = CosineDirections(kPatternSize * kAmbientRays);
     for (std::size_t y = 0; y < 4; ++y) {
       for (int k = 0; k < kLanes; ++k) {
-        const int index = kOrder[y * 4 + static_cast<std::size_t>(k & 3)];
+        const int index = PatternIndex(k, static_cast<int>(y));
         const Eigen::Vector2f s = SpreadPoint(index);
         rows[y].a[k] = 2 * s.x() - 1;
         rows[y].b[k] = 2 * s.y() - 1;
         for (std::size_t ray = 0; ray < kAmbientRays; ++ray) {
-          const Eigen::Vector3f& d = ambient[static_cast<std::size_t>(index) + ray * kPattern];
+          const Eigen::Vector3f& d = ambient[static_cast<std::size_t>(index) + ray * kPatternSize];
           rows[y].local_ambient[ray].x[k] = d.x();
           rows[y].local_ambient[ray].y[k] = d.y();
           rows[y].local_ambient[ray].z[k] = d.z();
@@ -104,14 +101,11 @@ class Pass {
         irradiance_(irradiance) {}
 
   /// Unfiltered share per pixel of one tile; whether any pixel lost light.
-  bool TraceTile(int x0, int y0, std::vector<float>* raw) const {
-    const int x1 = std::min(x0 + kTileWidth, image_.width);
-    const int y1 = std::min(y0 + kTileHeight, image_.height);
-    const TileWork work = Plan(x0, y0, x1, y1);
+  bool TraceTile(const Tile& tile, std::vector<float>* raw) const {
+    const TileWork work = Plan(tile);
+    if (work.empty()) return false;
     bool lost = false;
-    for (int y = y0; y < y1 && !work.empty(); ++y) {
-      for (int x = x0; x < x1; x += kLanes) lost |= TracePacket(x, y, work, raw);
-    }
+    ForRows(tile, kLanes, [&](int x, int y) { lost |= TracePacket(x, y, work, raw); });
     return lost;
   }
 
@@ -144,22 +138,20 @@ class Pass {
     return p;
   }
 
-  Eigen::AlignedBox3f BoxOfTile(int x0, int y0, int x1, int y1) const {
+  Eigen::AlignedBox3f BoxOf(const Tile& tile) const {
     const F8 infinity = Wide(kInfinity);
     F8x3 lo = {infinity, infinity, infinity}, hi = {-infinity, -infinity, -infinity};
-    for (int y = y0; y < y1; ++y) {
-      for (int x = x0; x < x1; x += kLanes) {
-        const I8 active = StaticLanes(x, y);
-        const F8x3 p = PositionsOf(x, y, active);
-        const auto extend = [&](F8 value, F8* low, F8* high) {
-          *low = Min(*low, Select(active, value, infinity));
-          *high = Max(*high, Select(active, value, -infinity));
-        };
-        extend(p.x, &lo.x, &hi.x);
-        extend(p.y, &lo.y, &hi.y);
-        extend(p.z, &lo.z, &hi.z);
-      }
-    }
+    ForRows(tile, kLanes, [&](int x, int y) {
+      const I8 active = StaticLanes(x, y);
+      const F8x3 p = PositionsOf(x, y, active);
+      const auto extend = [&](F8 value, F8* low, F8* high) {
+        *low = Min(*low, Select(active, value, infinity));
+        *high = Max(*high, Select(active, value, -infinity));
+      };
+      extend(p.x, &lo.x, &hi.x);
+      extend(p.y, &lo.y, &hi.y);
+      extend(p.z, &lo.z, &hi.z);
+    });
     Eigen::AlignedBox3f box;
     for (int k = 0; k < kLanes; ++k) {
       if (lo.x[k] > hi.x[k]) continue;
@@ -171,9 +163,9 @@ class Pass {
 
   /// Which lights and movers can matter for a tile: the segment from the middle of the tile's box
   /// to the light's centre, thickened by whichever is larger, must meet the mover's box.
-  TileWork Plan(int x0, int y0, int x1, int y1) const {
+  TileWork Plan(const Tile& tile) const {
     TileWork work;
-    const Eigen::AlignedBox3f box = BoxOfTile(x0, y0, x1, y1);
+    const Eigen::AlignedBox3f box = BoxOf(tile);
     if (box.isEmpty()) return work;
     const auto& movers = instant_.mover_boxes();
     for (std::size_t m = 0; m < movers.size(); ++m) {
@@ -194,7 +186,7 @@ class Pass {
       }
       if (mask) work.blockers.push_back({l, mask, MostLight(light, l, box), 1});
     }
-    Thin(MeanLight(x0, y0, x1, y1), &work.blockers);
+    Thin(MeanLight(tile), &work.blockers);
     return work;
   }
 
@@ -212,10 +204,10 @@ class Pass {
     return power * std::min(1.0f, below / std::sqrt(squared)) / squared;
   }
 
-  float MeanLight(int x0, int y0, int x1, int y1) const {
+  float MeanLight(const Tile& tile) const {
     float sum = 0, count = 0;
-    for (int y = y0; y < y1; y += 2) {
-      for (int x = x0; x < x1; x += 2) {
+    for (int y = tile.y0; y < tile.y1; y += 2) {
+      for (int x = tile.x0; x < tile.x1; x += 2) {
         const std::size_t i = image_.Index(x, y);
         if (image_.geometry[i] != 0) continue;
         sum += irradiance_[i];
@@ -346,27 +338,24 @@ void TraceMoverShadows(const Instant& instant, const EyeView& view, const HitIma
   if (instant.snapshot().movers.empty() || tables.statics().empty()) return;
   std::vector<float> raw(irradiance.size(), 1);
   const Pass pass(instant, view, image, world, tables, frame, irradiance);
-  const int columns = (image.width + kTileWidth - 1) / kTileWidth;
-  const int rows = (image.height + kTileHeight - 1) / kTileHeight;
-  std::vector<std::uint8_t> lost(static_cast<std::size_t>(columns * rows));
-  tbb::parallel_for(0, columns * rows, [&](int i) {
-    lost[static_cast<std::size_t>(i)] =
-        pass.TraceTile(i % columns * kTileWidth, i / columns * kTileHeight, &raw);
-  });
+  const TileGrid grid{image.width, image.height, kTileWidth, kTileHeight};
+  std::vector<std::uint8_t> lost(grid.size());
+  grid.ForEach([&](std::size_t i, const Tile& tile) { lost[i] = pass.TraceTile(tile, &raw); });
   const PatternFilter filter(image, tables.statics(), raw);
+  const int columns = grid.columns(), rows = grid.rows();
   const auto is_lost = [&](int column, int row) {
     return column >= 0 && row >= 0 && column < columns && row < rows &&
            lost[static_cast<std::size_t>(row * columns + column)];
   };
-  tbb::parallel_for(0, columns * rows, [&](int i) {
-    const int column = i % columns, row = i / columns;
+  grid.ForEach([&](std::size_t i, const Tile& tile) {
+    const int column = static_cast<int>(i) % columns, row = static_cast<int>(i) / columns;
     bool near = false;
     for (int d = 0; d < 9; ++d) near |= is_lost(column + d % 3 - 1, row + d / 3 - 1);
     if (!near) return;
-    const int x1 = std::min((column + 1) * kTileWidth, image.width);
-    for (int y = row * kTileHeight; y < std::min((row + 1) * kTileHeight, image.height); ++y) {
-      for (int x = column * kTileWidth; x < x1; x += kLanes) filter.Packet(x, y, kept);
-    }
+    ForRows(tile, kLanes, [&](int x, int y) {
+      const I8 is_static = LoadI(&image.geometry[image.Index(x, y)]) == 0;
+      if (Any(is_static)) filter.Packet(x, y, is_static, kept);
+    });
   });
 }
 

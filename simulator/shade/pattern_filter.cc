@@ -14,26 +14,24 @@ constexpr float kSameWay = 0.9f;  // cosine between normals
 
 }  // namespace
 
-void PatternFilter::Packet(int x, int y, std::vector<float>* means) const {
+void PatternFilter::Packet(int x, int y, I8 wanted, std::vector<float>* means) const {
   const std::size_t i = image_.Index(x, y);
   const bool inside =
       x > 0 && y >= kReach && x + 2 * kLanes <= image_.width && y + kReach < image_.height;
   if (inside) {
-    const F8 mean = Mean8(i);
-    const I8 is_static = LoadI(&image_.geometry[i]) == 0;
-    Store(Select(is_static, mean, LoadF(&(*means)[i])), &(*means)[i]);
+    Store(Select(wanted, Mean8(i), LoadF(&(*means)[i])), &(*means)[i]);
     return;
   }
   for (int k = 0; k < kLanes && x + k < image_.width; ++k) {
     const std::size_t at = i + static_cast<std::size_t>(k);
-    if (image_.geometry[at] == 0) (*means)[at] = Mean(x + k, y);
+    if (wanted[k]) (*means)[at] = Mean(x + k, y);
   }
 }
 
 bool PatternFilter::SameSurface(std::size_t i, std::size_t j) const {
-  if (image_.geometry[j] != 0) return false;
+  if (image_.geometry[j] != image_.geometry[i]) return false;
   if (std::abs(image_.t[j] - image_.t[i]) > kSameDepth * image_.t[i]) return false;
-  if (image_.primitive[j] == image_.primitive[i]) return true;
+  if (image_.geometry[i] != 0 || image_.primitive[j] == image_.primitive[i]) return true;
   const Eigen::Map<const Eigen::Vector3f> n(statics_[image_.primitive[i]].normal);
   const Eigen::Map<const Eigen::Vector3f> m(statics_[image_.primitive[j]].normal);
   return n.dot(m) > kSameWay;
@@ -64,8 +62,8 @@ F8x3 PatternFilter::Normals(I8 primitive, I8 valid) const {
 
 F8 PatternFilter::Mean8(std::size_t i) const {
   const F8 depth = LoadF(&image_.t[i]);
-  const I8 primitive = LoadI(&image_.primitive[i]), here = LoadI(&image_.geometry[i]) == 0;
-  if (!Any(here)) return Wide(1);
+  const I8 primitive = LoadI(&image_.primitive[i]), geometry = LoadI(&image_.geometry[i]);
+  const I8 is_static = geometry == 0;
   F8x3 normal;
   bool has_normal = false;
   F8 sum = Wide(0), weights = Wide(0);
@@ -73,13 +71,13 @@ F8 PatternFilter::Mean8(std::size_t i) const {
     for (std::size_t column = 0; column < 5; ++column) {
       const std::size_t j = i + row * static_cast<std::size_t>(image_.stride) + column -
                             (2 * static_cast<std::size_t>(image_.stride) + 2);
-      I8 same = (LoadI(&image_.geometry[j]) == 0) & here;
+      I8 same = LoadI(&image_.geometry[j]) == geometry;
       same &= Abs(LoadF(&image_.t[j]) - depth) <= kSameDepth * depth;
       const I8 other = LoadI(&image_.primitive[j]);
-      const I8 in_doubt = same & (other != primitive);
+      const I8 in_doubt = same & is_static & (other != primitive);
       if (Any(in_doubt)) {
-        if (!std::exchange(has_normal, true)) normal = Normals(primitive, here);
-        same &= (other == primitive) | (Dot(Normals(other, in_doubt), normal) > kSameWay);
+        if (!std::exchange(has_normal, true)) normal = Normals(primitive, is_static);
+        same &= ~in_doubt | (Dot(Normals(other, in_doubt), normal) > kSameWay);
       }
       const F8 w = Select(same, Wide(kWeights[row] * kWeights[column]), Wide(0));
       sum += w * LoadF(&raw_[j]);

@@ -113,7 +113,7 @@ std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const Eye
     done("mover shadows");
     const bool glossy =
         options_.gloss && TraceGloss(instant, views[i], image, tables_, work->frame, textures_,
-                                     work->irradiance, &work->reflectance, &work->mirrored);
+                                     &work->reflectance, &work->mirrored);
     done("gloss");
     radiance.push_back(
         Combine(image, work->reflectance, work->irradiance, work->kept,

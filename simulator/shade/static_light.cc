@@ -61,7 +61,9 @@ std::vector<float> DirectAt(const Instant& statics, const World& world,
     const std::size_t count = std::min<std::size_t>(kLanes, points.size() - first);
     const auto light =
         GatherDirectLight(statics, world.lights(), light_scale, points.subspan(first, count),
-                          {.untraced_share = kUntracedShare, .occluders = kStaticOnly});
+                          {.untraced_share = kUntracedShare,
+                           .turn = static_cast<std::uint32_t>(first),
+                           .occluders = kStaticOnly});
     for (std::size_t k = 0; k < count; ++k) direct[first + k] = light[k];
     progress->Add(count);
   });

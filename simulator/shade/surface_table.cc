@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "simulator/shade/gloss.h"
+
 namespace aisle::sim {
 namespace {
 
@@ -42,6 +44,9 @@ std::vector<SurfaceRecord> MakeSurfaceTable(const TriangleMesh& mesh,
     const bool luminaire = material.emission > 0;
     record.albedo = luminaire ? 1.0f : material.albedo;
     record.texture = luminaire ? -1 : material.albedo_texture;
+    const Finish finish = FinishOf(material);
+    record.f0 = luminaire ? -1.0f : finish.f0;
+    record.roughness = finish.roughness;
     record.light = patches[i];
     Pose(mesh, positions, i, &record);
   }

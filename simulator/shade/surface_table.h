@@ -18,9 +18,10 @@ struct SurfaceRecord {
   float uv1[2], uv2[2];  ///< what the barycentrics u and v add to them
   float albedo;          ///< of the material
   std::int32_t texture;  ///< of the material, -1: none
+  float f0, roughness;   ///< of its glossy lobe; f0 is 0 where it has none, -1 on luminaires
   LightPatch light;
 };
-static_assert(sizeof(SurfaceRecord) == 25 * sizeof(float));
+static_assert(sizeof(SurfaceRecord) == 27 * sizeof(float));
 
 /// A record per triangle. `patches` is the mesh's light grid. For luminaires the reflectance is 1
 /// and the texture none, because their radiance is stored as light on them.

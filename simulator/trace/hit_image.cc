@@ -4,23 +4,24 @@
 
 #include <cstring>
 
+#include "simulator/trace/tile_grid.h"
+
 namespace aisle::sim {
 namespace {
 
 constexpr int kTileWidth = 32, kTileHeight = 16;    // pixels
 constexpr int kPacketWidth = 4, kPacketHeight = 2;  // pixels
 
-struct Tile {
+struct TileOfView {
   std::size_t view;
-  int x, y;
+  Tile tile;
 };
 
-std::vector<Tile> MakeTiles(std::span<const EyeView> views, std::uint64_t shuffle) {
-  std::vector<Tile> tiles;
+std::vector<TileOfView> MakeTiles(std::span<const EyeView> views, std::uint64_t shuffle) {
+  std::vector<TileOfView> tiles;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    for (int y = 0; y < views[i].rays->height; y += kTileHeight) {
-      for (int x = 0; x < views[i].rays->width; x += kTileWidth) tiles.push_back({i, x, y});
-    }
+    const TileGrid grid{views[i].rays->width, views[i].rays->height, kTileWidth, kTileHeight};
+    for (std::size_t k = 0; k < grid.size(); ++k) tiles.push_back({i, grid.At(k)});
   }
   for (std::size_t i = tiles.size(); shuffle != 0 && i > 1; --i) {
     shuffle = shuffle * 6364136223846793005u + 1442695040888963407u;
@@ -45,12 +46,11 @@ void Store(const Hits8& hits, int x, int y, HitImage* image) {
 }
 
 void TraceTile(const Instant& instant, const EyeView& view, const Tile& tile, HitImage* image) {
-  const int x1 = std::min(tile.x + kTileWidth, image->width);
-  const int y1 = std::min(tile.y + kTileHeight, image->height);
-  const GeometryMask geometries = GeometriesInWindow(instant, view, tile.x, tile.y, x1, y1);
+  const GeometryMask geometries =
+      GeometriesInWindow(instant, view, tile.x0, tile.y0, tile.x1, tile.y1);
   Hits8 hits;
-  for (int y = tile.y; y < y1; y += kPacketHeight) {
-    for (int x = tile.x; x < x1; x += kPacketWidth) {
+  for (int y = tile.y0; y < tile.y1; y += kPacketHeight) {
+    for (int x = tile.x0; x < tile.x1; x += kPacketWidth) {
       instant.Intersect(PixelPacket(view, x, y), Coherence::kCoherent, geometries, &hits);
       Store(hits, x, y, image);
     }
@@ -141,10 +141,10 @@ void TraceViews(const Instant& instant, std::span<const EyeView> views, const Tr
   for (std::size_t i = 0; i < views.size(); ++i) {
     (*images)[i].Resize(views[i].rays->width, views[i].rays->height);
   }
-  const std::vector<Tile> tiles = MakeTiles(views, order.shuffle);
+  const std::vector<TileOfView> tiles = MakeTiles(views, order.shuffle);
   tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
-    const Tile& tile = tiles[i];
-    TraceTile(instant, views[tile.view], tile, &(*images)[tile.view]);
+    const auto& [view, tile] = tiles[i];
+    TraceTile(instant, views[view], tile, &(*images)[view]);
   });
 }
 
