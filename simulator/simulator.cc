@@ -20,7 +20,12 @@ namespace {
 /// lamps of brightness 1 and the default exposure of 8 ms then show a hall in middle grey.
 constexpr double kWhitePerMillisecond = 32.0;
 
-Scene TwinOf(Scene scene, Twin twin) {
+Scene TwinOf(const Scene& written, Twin twin) {
+  if (twin == Twin::kNone) return WithDynamics(written, Dynamics::kNone);
+  if (twin == Twin::kLow) return WithDynamics(written, Dynamics::kLow);
+  if (twin == Twin::kMid) return WithDynamics(written, Dynamics::kMid);
+  if (twin == Twin::kHigh) return WithDynamics(written, Dynamics::kHigh);
+  Scene scene = WithDynamics(written, written.dynamics);
   if (twin == Twin::kEmpty) return WithoutActors(std::move(scene));
   if (twin == Twin::kFrozen) return Frozen(std::move(scene));
   return scene;

@@ -28,6 +28,11 @@ enum class Twin {
   kLive,    ///< as written
   kEmpty,   ///< actors removed
   kFrozen,  ///< actors stand where they stand at time 0
+  // As written, but for the level of dynamics: only actors of at most that level.
+  kNone,
+  kLow,
+  kMid,
+  kHigh,
 };
 
 struct SimulatorOptions {

@@ -68,7 +68,8 @@ void AddPreviewCommand(CLI::App* app, Action* action) {
   command->add_option("--frame", options->frame, "frame number; default: the middle one")
       ->check(CLI::NonNegativeNumber)
       ->excludes(time);
-  command->add_option("--twin", options->simulation.twin, "live, empty or frozen");
+  command->add_option("--twin", options->simulation.twin,
+                      "live, empty, frozen, or a level: none, low, mid, high");
   command->add_option("--seed", options->simulation.seed, "seed of the layout and the sensor");
   command->add_flag("--plain", options->plain, "the picture alone, without truth");
   command->add_option("--plan", options->plan, "also writes the layout from above to this file");

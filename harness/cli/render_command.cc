@@ -136,7 +136,8 @@ void AddRenderCommand(CLI::App* app, Action* action) {
       ->delimiter(',');
   command->add_flag("--verify", options->verify,
                     "prove the truth of every frame: against a rasteriser and by warping");
-  command->add_option("--twin", options->simulation.twin, "live, empty or frozen");
+  command->add_option("--twin", options->simulation.twin,
+                      "live, empty, frozen, or a level: none, low, mid, high");
   command->add_option("--seed", options->simulation.seed, "seed of the layout and the sensor");
   command->add_option("--isa", options->simulation.isa,
                       "instruction set of the tracer; avx2 (default) or native");

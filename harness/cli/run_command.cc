@@ -147,7 +147,9 @@ void AddRunCommand(CLI::App* app, Action* action) {
   InputOptions* inputs = &options->inputs;
   command->add_option("SUITE_OR_SCENE", inputs->files, "suite or scene files")->required();
   command->add_option("--systems", inputs->systems, "instead of the suite's")->delimiter(',');
-  command->add_option("--twins", inputs->twins, "live, empty, frozen; instead of the suite's")
+  command
+      ->add_option("--twins", inputs->twins,
+                   "live, empty, frozen, none, low, mid, high; instead of the suite's")
       ->delimiter(',');
   command->add_option("--seeds", inputs->seeds, "how many seeds, from 1 on")
       ->check(CLI::Range(1, 1000));

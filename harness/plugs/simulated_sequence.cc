@@ -1,6 +1,10 @@
 #include "harness/plugs/simulated_sequence.h"
 
+#include <fmt/ranges.h>
 #include <unistd.h>
+
+#include <algorithm>
+#include <array>
 
 #include "harness/io/input_error.h"
 #include "harness/plugs/open_simulator.h"
@@ -8,11 +12,21 @@
 namespace aisle {
 namespace {
 
+struct NamedTwin {
+  std::string_view name;
+  sim::Twin twin;
+};
+constexpr std::array kTwins = {
+    NamedTwin{"live", sim::Twin::kLive},     NamedTwin{"empty", sim::Twin::kEmpty},
+    NamedTwin{"frozen", sim::Twin::kFrozen}, NamedTwin{"none", sim::Twin::kNone},
+    NamedTwin{"low", sim::Twin::kLow},       NamedTwin{"mid", sim::Twin::kMid},
+    NamedTwin{"high", sim::Twin::kHigh}};
+
 sim::Twin TwinFromName(const std::string& name) {
-  if (name == "live") return sim::Twin::kLive;
-  if (name == "empty") return sim::Twin::kEmpty;
-  if (name == "frozen") return sim::Twin::kFrozen;
-  throw InputError("twin '" + Printable(name) + "': expected live, empty or frozen");
+  const auto twin = std::ranges::find(kTwins, name, &NamedTwin::name);
+  if (twin != kTwins.end()) return twin->twin;
+  throw InputError(
+      fmt::format("twin '{}': expected one of {}", Printable(name), fmt::join(TwinNames(), ", ")));
 }
 
 ObjectTruth Convert(const sim::ObjectTruth& object, const std::string& object_class) {
@@ -126,7 +140,11 @@ class SimulatedSequence : public Sequence {
 }  // namespace
 
 const std::vector<std::string>& TwinNames() {
-  static const std::vector<std::string> names = {"live", "empty", "frozen"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const NamedTwin& one : kTwins) all.emplace_back(one.name);
+    return all;
+  }();
   return names;
 }
 

@@ -12,7 +12,7 @@ struct SimulatedSequenceOptions {
   std::string scene_file;
   std::string scene_name;  ///< for reports, e.g. "paper/scene2"
   std::string assets_dir;
-  std::string twin = "live";  ///< live, empty or frozen
+  std::string twin = "live";  ///< one of TwinNames()
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0: as many as the machine has; never changes a pixel
   std::string isa = "avx2";
@@ -43,7 +43,8 @@ struct SimulationForExport {
 /// Throws as OpenSimulation does. Takes any lens.
 SimulationForExport OpenForExport(const SimulatedSequenceOptions& options);
 
-/// The names a suite may use; the same order as in the reports.
+/// The versions of a scene: live (as written), empty (no actors), frozen (all stand still), and
+/// none, low, mid, high: as written at that level of dynamics.
 const std::vector<std::string>& TwinNames();
 
 /// A scene as a sequence. `content_hash` and `path` may be null; `path` becomes the pose of the rig

@@ -43,7 +43,8 @@ void AddDynamicPenalty(std::vector<RunRecord>* runs) {
   }
   for (RunRecord& run : *runs) {
     const auto twin = empty.find({run.spec.scene, run.spec.system, run.spec.seed});
-    if (run.spec.twin != "live" || twin == empty.end()) continue;
+    const bool moves = run.spec.twin != "empty" && run.spec.twin != "frozen";
+    if (!moves || twin == empty.end()) continue;
     const auto live = run.scores.find(kError);
     const bool both = live != run.scores.end() && live->second.value && twin->second.value &&
                       *twin->second.value > 0;

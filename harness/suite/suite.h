@@ -42,7 +42,7 @@ struct Vocabulary {
 ///   question: Does a person who fills the image spoil the pose?   # or the opening comment
 ///   scenes: [../paper/scene2.yaml]
 ///   systems: [orbslam2, oracle]
-///   twins: [live]                # optional
+///   twins: [live]                # optional; empty, frozen and levels too: none, low, mid, high
 ///   seeds: 1                     # optional: a count, or a list; nine where absent
 ///   limits:                      # optional
 ///     - {score: ate_rmse_m, system: oracle, twin: live, max: 0.02}

@@ -44,7 +44,7 @@ Parsed Parse(const std::string& text, const std::string& file) {
     }
   }
   if (issues.empty()) CheckScene(scene, &issues);
-  return {WithDynamics(std::move(scene), scene.dynamics), issues.Messages()};
+  return {std::move(scene), issues.Messages()};
 }
 
 /// The file's text, or why there is none.

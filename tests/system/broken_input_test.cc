@@ -97,7 +97,8 @@ TEST_F(BrokenInputTest, SuitesAndScenes) {
        "oracle"},
       {{"run", "{d}/s.yaml", "--twins", "undead"},
        {{"s.yaml", kGood}},
-       "aisle: --twins: 'undead' is not known: expected one of live, empty, frozen"},
+       "aisle: --twins: 'undead' is not known: expected one of live, empty, frozen, "
+       "none, low, mid, high"},
       {{"run", "{d}/s.yaml", "--shard", "3/2"},
        {{"s.yaml", kGood}},
        "aisle: --shard: '3/2' is no part: expected I/N with 1 <= I <= N, for example 2/3"},
