@@ -13,6 +13,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int kLeastMatches = 6;
+constexpr int kLeastForNoise = 20;
 /// 99 % of chi-square with six degrees of freedom: how much worse standing still may fit.
 constexpr double kStandingChi2 = 16.8;
 
@@ -152,9 +153,16 @@ std::vector<StereoMatch> WeighedBySpace(std::vector<StereoMatch> matches,
     weight_in[cube] += match.weight;
   }
   for (std::size_t i = 0; i < matches.size(); ++i) {
-    matches[i].weight /= std::sqrt(std::max(weight_in[cubes[i]], 1e-6));
+    matches[i].weight /= std::max(weight_in[cubes[i]], 1.0);
   }
   return matches;
+}
+
+/// The deviation of a normal error whose absolute value lies below three quarters of the values.
+double DeviationOf(std::vector<double>& values) {
+  const auto quarter = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 3 / 4);
+  std::nth_element(values.begin(), quarter, values.end());
+  return *quarter / 1.1503;
 }
 
 }  // namespace
@@ -225,6 +233,24 @@ EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const Stere
     }
   }
   return RefineEgoMotion(matches, camera, best, noise, options);
+}
+
+std::optional<MeasurementNoise> MeasureNoise(const std::vector<StereoMatch>& matches,
+                                             const StereoCamera& camera,
+                                             const Isometry3d& T_now_before) {
+  std::array<std::vector<double>, 3> errors;
+  for (const StereoMatch& match : matches) {
+    const Vector3d point = T_now_before * Backproject(camera, match.before);
+    if (match.weight < 0.5 || point.z() < 0.05) continue;
+    const Vector3d error = (match.now - Project(camera, point)).cwiseAbs();
+    for (std::size_t k = 0; k < 3; ++k) errors[k].push_back(error[static_cast<int>(k)]);
+  }
+  if (std::ssize(errors[0]) < kLeastForNoise) return std::nullopt;
+  MeasurementNoise noise;
+  for (std::size_t k = 0; k < 3; ++k) {
+    noise[static_cast<int>(k)] = DeviationOf(errors[k]) / std::sqrt(2.0);
+  }
+  return noise;
 }
 
 }  // namespace aisle::slam::dynamic

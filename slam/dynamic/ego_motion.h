@@ -50,4 +50,11 @@ EgoMotion RefineEgoMotion(const std::vector<StereoMatch>& matches, const StereoC
                           const Eigen::Isometry3d& T_now_before, const MeasurementNoise& noise,
                           const EgoMotionOptions& options);
 
+/// Noise of u, v and disparity of one measurement, from the errors that a motion leaves to matches
+/// trusted to be static by more than half: of their body, tails of bad ones included as far as a
+/// quarter of them allows. Nothing with fewer than 20.
+std::optional<MeasurementNoise> MeasureNoise(const std::vector<StereoMatch>& matches,
+                                             const StereoCamera& camera,
+                                             const Eigen::Isometry3d& T_now_before);
+
 }  // namespace aisle::slam::dynamic

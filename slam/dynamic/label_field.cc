@@ -1,103 +1,100 @@
 #include "slam/dynamic/label_field.h"
 
-#include <opencv2/imgproc.hpp>
+#include <tbb/parallel_for.h>
 
-#include "slam/dynamic/dense_evidence.h"
-#include "slam/dynamic/disparity.h"
+#include <opencv2/imgproc.hpp>
 
 namespace aisle::slam::dynamic {
 namespace {
 
-void FillRow(float* row, int columns) {
-  for (int x = 0; x < columns;) {
-    if (row[x] >= 0) {
-      ++x;
-      continue;
-    }
-    int end = x;
-    while (end < columns && row[end] < 0) ++end;
-    const float left = x > 0 ? row[x - 1] : kNoDisparity;
-    const float right = end < columns ? row[end] : kNoDisparity;
-    const float fill = left < 0 ? right : right < 0 ? left : std::min(left, right);
-    std::fill(row + x, row + end, std::max(fill, 0.0F));
-    x = end;
-  }
-}
+struct Tie {
+  float coupling, disparity, disparity_share, contrast, floor_link;
 
-float Link(float d1, float d2, float g1, float g2, const FieldOptions& options) {
-  // Half-size disparities are half as large as the pixels that the options speak of.
-  const float step = std::abs(d1 - d2) * 2;
-  const float scale = static_cast<float>(options.disparity_px) +
-                      static_cast<float>(options.disparity_share) * (d1 + d2);
-  const float disparity = step / scale;
-  const float contrast = std::abs(g1 - g2) / static_cast<float>(options.contrast);
-  return static_cast<float>(options.coupling) /
-         ((1 + disparity * disparity * disparity * disparity) * (1 + contrast));
-}
+  float operator()(float d1, float d2, int g1, int g2, bool floor1, bool floor2) const {
+    if (floor1 != floor2) return coupling * floor_link;
+    const float step = (d1 - d2) / (disparity + disparity_share * (d1 + d2) / 2);
+    const float steps = step * step;
+    const float edge = static_cast<float>(std::abs(g1 - g2)) / contrast;
+    return coupling / ((1 + steps * steps) * (1 + edge));
+  }
+};
 
 }  // namespace
 
-cv::Mat1f NodeDisparity(const cv::Mat1f& half_disparity) {
-  cv::Mat1f nodes(half_disparity.rows / kNodeHalfPixels, half_disparity.cols / kNodeHalfPixels);
-  for (int y = 0; y < nodes.rows; ++y) {
-    for (int x = 0; x < nodes.cols; ++x) {
-      // Unknown pixels sort before the known ones: the median is that of the upper part.
-      std::array<float, kNodeHalfPixels * kNodeHalfPixels> pixels{};
-      std::size_t known = 0;
-      for (int k = 0; k < kNodeHalfPixels * kNodeHalfPixels; ++k) {
-        const float d = half_disparity(y * kNodeHalfPixels + k / kNodeHalfPixels,
-                                       x * kNodeHalfPixels + k % kNodeHalfPixels);
-        pixels[static_cast<std::size_t>(k)] = d;
-        known += d >= 0 ? 1 : 0;
-      }
-      std::sort(pixels.begin(), pixels.end());
-      nodes(y, x) = known > 0 ? pixels[pixels.size() - known + known / 2] : kNoDisparity;
+Links LinkPixels(const cv::Mat1f& filled, const cv::Mat1b& image, const cv::Mat1b& floor,
+                 const FieldOptions& options) {
+  const Tie tie{static_cast<float>(options.coupling), static_cast<float>(options.disparity),
+                static_cast<float>(options.disparity_share), static_cast<float>(options.contrast),
+                static_cast<float>(options.floor_link)};
+  Links links{cv::Mat1f(image.size(), 0.0F), cv::Mat1f(image.size(), 0.0F)};
+  tbb::parallel_for(0, image.rows, [&](int y) {
+    const auto between = [&](int x, int x2, int y2) {
+      return tie(filled(y, x), filled(y2, x2), image(y, x), image(y2, x2), floor(y, x) != 0,
+                 floor(y2, x2) != 0);
+    };
+    for (int x = 0; x < image.cols; ++x) {
+      if (x + 1 < image.cols) links.right(y, x) = between(x, x + 1, y);
+      if (y + 1 < image.rows) links.down(y, x) = between(x, x, y + 1);
     }
-    FillRow(nodes[y], nodes.cols);
-  }
-  return nodes;
-}
-
-NodeLinks LinkNodes(const cv::Mat1f& node_disparity, const cv::Mat1b& half_image,
-                    const FieldOptions& options) {
-  cv::Mat1b grey;
-  cv::resize(half_image, grey, node_disparity.size(), 0, 0, cv::INTER_AREA);
-  NodeLinks links{cv::Mat1f(grey.size(), 0.0F), cv::Mat1f(grey.size(), 0.0F)};
-  for (int y = 0; y < grey.rows; ++y) {
-    for (int x = 0; x < grey.cols; ++x) {
-      const float d = node_disparity(y, x);
-      const float g = grey(y, x);
-      if (x + 1 < grey.cols) {
-        links.right(y, x) = Link(d, node_disparity(y, x + 1), g, grey(y, x + 1), options);
-      }
-      if (y + 1 < grey.rows) {
-        links.down(y, x) = Link(d, node_disparity(y + 1, x), g, grey(y + 1, x), options);
-      }
-    }
-  }
+  });
   return links;
 }
 
-cv::Mat1f SolveField(const cv::Mat1f& evidence, const NodeLinks& links,
-                     const FieldOptions& options) {
+cv::Mat1f SolveField(const cv::Mat1f& evidence, const Links& links, const FieldOptions& options) {
   cv::Mat1f log_odds = evidence.clone();
-  // x / (2 + |x|) stands in for tanh(x / 2): the same slope at zero and the same limits.
-  const auto belief = [](float l) { return l / (2 + std::abs(l)); };
+  // 2 x / (2 + |x|) stands in for the neighbour's belief: a straight line at zero that saturates.
+  cv::Mat1f belief(evidence.size());
+  const auto believe = [](float l) { return 2 * l / (2 + std::abs(l)); };
+  const int total = static_cast<int>(evidence.total());
+  for (int k = 0; k < total; ++k) belief(k) = believe(evidence(k));
   const auto update = [&](int y, int x) {
     float sum = evidence(y, x);
-    if (x > 0) sum += links.right(y, x - 1) * belief(log_odds(y, x - 1));
-    if (y > 0) sum += links.down(y - 1, x) * belief(log_odds(y - 1, x));
-    if (x + 1 < evidence.cols) sum += links.right(y, x) * belief(log_odds(y, x + 1));
-    if (y + 1 < evidence.rows) sum += links.down(y, x) * belief(log_odds(y + 1, x));
+    if (x > 0) sum += links.right(y, x - 1) * belief(y, x - 1);
+    if (y > 0) sum += links.down(y - 1, x) * belief(y - 1, x);
+    if (x + 1 < evidence.cols) sum += links.right(y, x) * belief(y, x + 1);
+    if (y + 1 < evidence.rows) sum += links.down(y, x) * belief(y + 1, x);
     log_odds(y, x) = sum;
+    belief(y, x) = believe(sum);
   };
   for (int sweep = 0; sweep < options.sweeps; ++sweep) {
-    for (int k = 0; k < static_cast<int>(evidence.total()); ++k) {
-      const int node = sweep % 2 == 0 ? k : static_cast<int>(evidence.total()) - 1 - k;
-      update(node / evidence.cols, node % evidence.cols);
+    for (int k = 0; k < total; ++k) {
+      const int pixel = sweep % 2 == 0 ? k : total - 1 - k;
+      update(pixel / evidence.cols, pixel % evidence.cols);
     }
   }
   return log_odds;
+}
+
+cv::Mat1b GrowMoving(const cv::Mat1f& field, const cv::Mat1f& evidence, const Links& links,
+                     const cv::Mat1b& floor, const FieldOptions& options) {
+  cv::Mat1b moving;
+  cv::compare(field, options.moving, moving, cv::CMP_GT);
+  std::vector<cv::Point> front, next;
+  for (int y = 0; y < field.rows; ++y) {
+    for (int x = 0; x < field.cols; ++x) {
+      if (moving(y, x) != 0 && evidence(y, x) > static_cast<float>(options.grow_from)) {
+        front.emplace_back(x, y);
+      }
+    }
+  }
+  const auto least_link = static_cast<float>(options.grow_link * options.coupling);
+  const auto reach = [&](int x, int y, float link) {
+    if (link < least_link || moving(y, x) != 0 || floor(y, x) != 0) return;
+    if (evidence(y, x) < static_cast<float>(options.grow_to)) return;
+    moving(y, x) = 255;
+    next.emplace_back(x, y);
+  };
+  for (int ring = 0; ring < options.grow_px; ++ring) {
+    next.clear();
+    for (const cv::Point& p : front) {
+      if (p.x > 0) reach(p.x - 1, p.y, links.right(p.y, p.x - 1));
+      if (p.x + 1 < field.cols) reach(p.x + 1, p.y, links.right(p.y, p.x));
+      if (p.y > 0) reach(p.x, p.y - 1, links.down(p.y - 1, p.x));
+      if (p.y + 1 < field.rows) reach(p.x, p.y + 1, links.down(p.y, p.x));
+    }
+    std::swap(front, next);
+  }
+  return moving;
 }
 
 }  // namespace aisle::slam::dynamic

@@ -6,23 +6,24 @@
 
 namespace aisle::slam::dynamic {
 
-/// How strongly each node is tied to the next one: large within a surface, next to nothing across a
-/// step of disparity, in log-odds.
-struct NodeLinks {
+/// How strongly each pixel is tied to the next one of its row and to the one below, in log-odds.
+struct Links {
   cv::Mat1f right, down;
 };
 
-/// Disparity of every node (half-size pixels): the median of its known pixels, holes filled from
-/// the farther of the known neighbours in the row, as holes are mostly what a nearer surface hides.
-cv::Mat1f NodeDisparity(const cv::Mat1f& half_disparity);
+/// Ties within a surface: weak across a step of disparity or of grey, and between the floor and
+/// what stands on it.
+Links LinkPixels(const cv::Mat1f& filled, const cv::Mat1b& image, const cv::Mat1b& floor,
+                 const FieldOptions& options);
 
-/// Links from node disparities and the half-size image.
-NodeLinks LinkNodes(const cv::Mat1f& node_disparity, const cv::Mat1b& half_image,
-                    const FieldOptions& options);
+/// Log-odds of moving per pixel given its own evidence and its neighbours': mean-field sweeps in
+/// alternating raster order.
+cv::Mat1f SolveField(const cv::Mat1f& evidence, const Links& links, const FieldOptions& options);
 
-/// Log-odds of every node given its own evidence and its neighbours': a mean-field approximation of
-/// a pairwise random field, solved by sweeps in a fixed order.
-cv::Mat1f SolveField(const cv::Mat1f& evidence, const NodeLinks& links,
-                     const FieldOptions& options);
+/// 255 for the pixels that move: those of the field above `moving`, and what can be reached from
+/// the surer ones along strong links through pixels whose own evidence does not speak against it.
+/// So plain cloth joins the seams that were seen to move.
+cv::Mat1b GrowMoving(const cv::Mat1f& field, const cv::Mat1f& evidence, const Links& links,
+                     const cv::Mat1b& floor, const FieldOptions& options);
 
 }  // namespace aisle::slam::dynamic

@@ -1,138 +1,157 @@
 #include "slam/dynamic/moving_regions.h"
 
+#include <map>
 #include <opencv2/imgproc.hpp>
-
-#include "slam/dynamic/median.h"
+#include <set>
 
 namespace aisle::slam::dynamic {
 namespace {
 
 struct Component {
-  int pixels = 0;
-  double best = -1e9;
   cv::Rect box;
-  int dynamic_points = 0, static_points = 0;
-  std::vector<Eigen::Vector3d> drifts;  ///< of the dynamic ones, where known
-  std::map<int, int> overlap;           // previous region's index -> nodes
+  int pixels = 0, core = 0, inner = 0;
+  double sum = 0;
+  std::map<int, int> overlap;  // previous region's index -> pixels
 };
 
-std::vector<Component> Describe(const cv::Mat1i& components, int count, const cv::Mat1f& log_odds,
-                                const NodeRegions& previous) {
-  std::vector<Component> described(static_cast<std::size_t>(count));
-  for (int y = 0; y < components.rows; ++y) {
-    for (int x = 0; x < components.cols; ++x) {
-      if (components(y, x) == 0) continue;
-      Component& component = described[static_cast<std::size_t>(components(y, x))];
-      const cv::Rect node(x, y, 1, 1);
-      component.box = component.pixels == 0 ? node : component.box | node;
+/// Sets that merge, named by their smallest member.
+class Sets {
+ public:
+  explicit Sets(std::size_t size) : parent_(size) {
+    for (std::size_t k = 0; k < size; ++k) parent_[k] = static_cast<int>(k);
+  }
+  int Find(int k) {
+    while (parent_[At(k)] != k) k = parent_[At(k)] = parent_[At(parent_[At(k)])];
+    return k;
+  }
+  void Join(int a, int b) {
+    a = Find(a);
+    b = Find(b);
+    parent_[At(std::max(a, b))] = std::min(a, b);
+  }
+
+ private:
+  static std::size_t At(int k) { return static_cast<std::size_t>(k); }
+  std::vector<int> parent_;
+};
+
+/// Per pixel the number of its component, from 1; 0 where nothing moves. Returns their count.
+int LabelComponents(const cv::Mat1b& moving, const Links& links, float least_link,
+                    cv::Mat1i& labels) {
+  Sets sets(moving.total());
+  for (int y = 0; y < moving.rows; ++y) {
+    for (int x = 0; x < moving.cols; ++x) {
+      if (moving(y, x) == 0) continue;
+      const int k = y * moving.cols + x;
+      if (x + 1 < moving.cols && moving(y, x + 1) != 0 && links.right(y, x) >= least_link) {
+        sets.Join(k, k + 1);
+      }
+      if (y + 1 < moving.rows && moving(y + 1, x) != 0 && links.down(y, x) >= least_link) {
+        sets.Join(k, k + moving.cols);
+      }
+    }
+  }
+  labels.create(moving.size());
+  int count = 0;
+  for (int k = 0; k < static_cast<int>(moving.total()); ++k) {
+    if (moving(k) == 0) {
+      labels(k) = 0;
+      continue;
+    }
+    const int root = sets.Find(k);  // is the first of its set in raster order
+    labels(k) = root == k ? ++count : labels(root);
+  }
+  return count;
+}
+
+/// 255 where the window around a pixel lies within one component.
+cv::Mat1b InnerPixels(const cv::Mat1i& labels, int window) {
+  cv::Mat1f numbers, low, high;
+  labels.convertTo(numbers, CV_32F);
+  const cv::Mat square = cv::Mat::ones(window, window, CV_8U);
+  cv::erode(numbers, low, square, {-1, -1}, 1, cv::BORDER_REPLICATE);
+  cv::dilate(numbers, high, square, {-1, -1}, 1, cv::BORDER_REPLICATE);
+  cv::Mat1b inner;
+  cv::compare(low, high, inner, cv::CMP_EQ);
+  return inner;
+}
+
+std::vector<Component> Describe(const cv::Mat1i& labels, int count, const cv::Mat1f& log_odds,
+                                const PixelRegions& previous, const RegionOptions& options) {
+  std::vector<Component> components(static_cast<std::size_t>(count) + 1);
+  const cv::Mat1b inner = InnerPixels(labels, options.inner_window_px);
+  for (int y = 0; y < labels.rows; ++y) {
+    for (int x = 0; x < labels.cols; ++x) {
+      if (labels(y, x) == 0) continue;
+      Component& component = components[static_cast<std::size_t>(labels(y, x))];
+      component.box |= cv::Rect(x, y, 1, 1);
       ++component.pixels;
-      component.best = std::max(component.best, static_cast<double>(log_odds(y, x)));
+      component.sum += log_odds(y, x);
+      component.core += log_odds(y, x) > static_cast<float>(options.core_log_odds) ? 1 : 0;
+      component.inner += inner(y, x) != 0 ? 1 : 0;
       const int before = previous.labels.empty() ? 0 : previous.labels(y, x);
       if (before > 0) ++component.overlap[before - 1];
     }
   }
-  return described;
+  return components;
 }
 
-void CountVotes(std::vector<Component>& components, const cv::Mat1i& labels,
-                const std::vector<PointVote>& votes, const RegionOptions& options) {
-  const cv::Rect nodes({0, 0}, labels.size());
-  for (const PointVote& vote : votes) {
-    if (!nodes.contains(vote.node)) continue;
-    Component& component = components[static_cast<std::size_t>(labels(vote.node))];
-    if (vote.log_odds > options.vote_log_odds) {
-      ++component.dynamic_points;
-      if (!vote.drift.isZero()) component.drifts.push_back(vote.drift);
-    }
-    if (vote.log_odds < -options.vote_log_odds) ++component.static_points;
+/// The previous region that most of a component was, of those not taken by a larger one; -1 if it
+/// has too little in common with it.
+int Predecessor(const Component& component, const PixelRegions& previous,
+                const std::set<int>& taken, const RegionOptions& options) {
+  int best = -1, most = 0;
+  for (const auto& [before, pixels] : component.overlap) {
+    if (pixels <= most || taken.contains(before)) continue;
+    most = pixels;
+    best = before;
   }
+  if (best < 0) return -1;
+  const int smaller =
+      std::min(component.pixels, previous.regions[static_cast<std::size_t>(best)].pixels);
+  return most >= options.least_overlap * smaller ? best : -1;
 }
 
-/// Share of the drifts that go the way the middle one goes: parts of one body go together, however
-/// its limbs swing, while errors of matching go anywhere. One where too few are known.
-double Togetherness(const std::vector<Eigen::Vector3d>& drifts) {
-  if (drifts.size() < 3) return 1;
-  Eigen::Vector3d middle;
-  for (int k = 0; k < 3; ++k) {
-    std::vector<double> parts;
-    for (const Eigen::Vector3d& drift : drifts) parts.push_back(drift[k]);
-    middle[k] = Median(std::move(parts));
-  }
-  const auto together = std::count_if(drifts.begin(), drifts.end(), [&](const auto& drift) {
-    return (drift - middle).norm() < 0.6 * middle.norm();
+bool IsMoving(const Component& component, bool known, const RegionOptions& options) {
+  return component.pixels >= options.least_px &&
+         component.core >= (known ? options.keep_core_px : options.birth_core_px) &&
+         component.inner >= (known ? options.keep_inner_px : options.birth_inner_px);
+}
+
+std::vector<std::size_t> LargestFirst(const std::vector<Component>& components) {
+  std::vector<std::size_t> order;
+  for (std::size_t c = 1; c < components.size(); ++c) order.push_back(c);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return components[a].pixels > components[b].pixels;
   });
-  return static_cast<double>(together) / static_cast<double>(drifts.size());
-}
-
-/// A new region needs points that move together; a known one must not be full of points that do not
-/// move.
-bool IsMoving(const Component& component, const RegionOptions& options) {
-  const bool known = !component.overlap.empty();
-  if (component.pixels < options.min_nodes) return false;
-  const double share = known ? options.keep_share : options.birth_share;
-  if (component.dynamic_points < component.static_points * share) return false;
-  if (known && component.dynamic_points < options.keep_points) return false;
-  return known || (Togetherness(component.drifts) >= options.birth_together &&
-                   component.best >= options.birth_log_odds &&
-                   component.dynamic_points >= options.birth_points);
-}
-
-/// Gives ids in order of falling overlap, so that the larger part of a split region keeps its name.
-std::vector<int> AssignIds(const std::vector<Component>& components,
-                           const std::vector<std::size_t>& kept, const NodeRegions& previous,
-                           int& next_id) {
-  struct Claim {
-    int nodes;
-    std::size_t component;
-    int before;
-  };
-  std::vector<Claim> claims;
-  for (const std::size_t c : kept) {
-    for (const auto& [before, nodes] : components[c].overlap) claims.push_back({nodes, c, before});
-  }
-  std::stable_sort(claims.begin(), claims.end(),
-                   [](const Claim& a, const Claim& b) { return a.nodes > b.nodes; });
-  std::vector<int> ids(components.size(), -1);
-  std::set<int> taken;
-  for (const Claim& claim : claims) {
-    const int id = previous.regions[static_cast<std::size_t>(claim.before)].id;
-    if (ids[claim.component] >= 0 || !taken.insert(id).second) continue;
-    ids[claim.component] = id;
-  }
-  for (const std::size_t c : kept) {
-    if (ids[c] < 0) ids[c] = next_id++;
-  }
-  return ids;
+  return order;
 }
 
 }  // namespace
 
-NodeRegions FindRegions(const cv::Mat1f& log_odds, const std::vector<PointVote>& votes,
-                        const NodeRegions& previous, int& next_id, const RegionOptions& options) {
-  cv::Mat1b above;
-  cv::compare(log_odds, options.keep_log_odds, above, cv::CMP_GT);
-  cv::Mat1i components;
-  const int count = cv::connectedComponents(above, components, 4, CV_32S);
-  auto described = Describe(components, count, log_odds, previous);
-  CountVotes(described, components, votes, options);
-
-  std::vector<std::size_t> kept;
-  for (std::size_t c = 1; c < described.size(); ++c) {
-    if (IsMoving(described[c], options)) kept.push_back(c);
+PixelRegions FindRegions(const cv::Mat1b& moving, const cv::Mat1f& log_odds, const Links& links,
+                         const PixelRegions& previous, int& next_id, double coupling,
+                         const RegionOptions& options) {
+  PixelRegions found;
+  const int count =
+      LabelComponents(moving, links, static_cast<float>(options.link * coupling), found.labels);
+  const auto components = Describe(found.labels, count, log_odds, previous, options);
+  std::vector<int> label_of(components.size(), 0);
+  std::set<int> taken;
+  for (const std::size_t c : LargestFirst(components)) {
+    const Component& component = components[c];
+    const int before = Predecessor(component, previous, taken, options);
+    if (!IsMoving(component, before >= 0, options)) continue;
+    if (before >= 0) taken.insert(before);
+    const int id = before >= 0 ? previous.regions[static_cast<std::size_t>(before)].id : next_id++;
+    found.regions.push_back(
+        {id, component.box, component.pixels, component.sum / component.pixels});
+    label_of[c] = static_cast<int>(found.regions.size());
   }
-  const std::vector<int> ids = AssignIds(described, kept, previous, next_id);
-
-  NodeRegions regions;
-  regions.labels = cv::Mat1i(log_odds.size(), 0);
-  std::vector<int> label_of(described.size(), 0);
-  for (const std::size_t c : kept) {
-    regions.regions.push_back({ids[c], described[c].box, described[c].best, {}});
-    label_of[c] = static_cast<int>(regions.regions.size());
+  for (int k = 0; k < static_cast<int>(found.labels.total()); ++k) {
+    found.labels(k) = label_of[static_cast<std::size_t>(found.labels(k))];
   }
-  for (int k = 0; k < static_cast<int>(components.total()); ++k) {
-    regions.labels(k) = label_of[static_cast<std::size_t>(components(k))];
-  }
-  return regions;
+  return found;
 }
 
 }  // namespace aisle::slam::dynamic

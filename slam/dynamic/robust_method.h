@@ -8,14 +8,13 @@
 #include <vector>
 
 #include "slam/camera/stereo_camera.h"
-#include "slam/dynamic/dense_evidence.h"
+#include "slam/dynamic/dense_frame.h"
 #include "slam/dynamic/dynamic_regions.h"
 #include "slam/dynamic/ego_motion.h"
+#include "slam/dynamic/floor_plane.h"
 #include "slam/dynamic/label_memory.h"
 #include "slam/dynamic/paper_method.h"
-#include "slam/dynamic/point_tracks.h"
 #include "slam/dynamic/robust_options.h"
-#include "slam/dynamic/scene_flow.h"
 
 namespace aisle::slam::dynamic {
 
@@ -23,28 +22,34 @@ namespace aisle::slam::dynamic {
 /// and never written again.
 struct RobustState {
   std::int64_t stamp_ns = 0;
-  cv::Mat1b left;                  ///< empty before the first frame
-  std::vector<PointTrack> tracks;  ///< as of that frame
   std::vector<DenseFrame> frames;  ///< the latest ones, newest last, up to kLongestGap
   std::optional<Eigen::Isometry3d> T_now_before;  ///< the latest motion of the rig
   double step_s = 0;                              ///< its duration
-  std::array<MeasurementNoise, kGaps.size()> noise = {MeasurementNoise(0.15, 0.15, 0.25),
-                                                      MeasurementNoise(0.25, 0.25, 0.3),
-                                                      MeasurementNoise(0.4, 0.4, 0.35)};
-  std::array<DenseNoise, kGaps.size()> dense_noise;
+  std::array<MeasurementNoise, kGaps.size()> noise = {MeasurementNoise(0.17, 0.17, 0.5),
+                                                      MeasurementNoise(0.17, 0.17, 0.5),
+                                                      MeasurementNoise(0.25, 0.25, 0.5)};
+  std::array<double, kGaps.size()> flow_noise = {0.1, 0.12, 0.15};  ///< half-size pixels
   LabelMemory memory;
-  int next_track_id = 0;
   int next_region_id = 0;
+};
+
+/// The way back over one gap.
+struct GapMotion {
+  int gap = 1;     ///< frames
+  cv::Mat2f flow;  ///< half-size pixels of the earlier frame, whatever moved
+  EgoMotion motion;
+  cv::Mat1f evidence;  ///< log-odds of moving per half-size pixel, of this gap alone
 };
 
 /// What the stages of one step found, for pictures and tests.
 struct RobustStages {
   cv::Mat1f half_disparity;
-  std::vector<PointTrack> tracks;
-  std::vector<double> point_evidence;  ///< per track, log-odds of this frame alone
   std::vector<GapMotion> gaps;
-  cv::Mat1f dense_evidence;  ///< per node, of this frame alone
-  cv::Mat1f log_odds;        ///< per node, the field's answer
+  std::optional<FloorPlane> floor;
+  cv::Mat1b floor_mask;  ///< half size
+  cv::Mat1f evidence;    ///< per half-size pixel, of this frame alone
+  cv::Mat1f memory;      ///< the same with what was known before
+  cv::Mat1f log_odds;    ///< the field's answer
   std::map<std::string, double> stage_ms;
 };
 

@@ -5,8 +5,9 @@
 
 #include "slam/dynamic/paper_options.h"
 
-// Every constant of the robust method on one page. Those that could depend on a scene are in units
-// of noise that is measured while running; reports/dynamic_methods.md says how the rest was found.
+// Every constant of the robust method on one page. Lengths are in pixels of the half-size images
+// unless they say otherwise. What could depend on a scene is in units of noise that is measured
+// while running, or in metres a second; reports/dynamic_methods.md says how the rest was found.
 
 namespace aisle::slam::dynamic {
 
@@ -15,126 +16,204 @@ namespace aisle::slam::dynamic {
 inline constexpr std::array<int, 3> kGaps = {1, 5, 15};
 inline constexpr int kLongestGap = 15;
 
-/// Points that are followed as long as they can be seen.
-struct PointTrackOptions {
-  SpreadOptions spread{.points = 600};
-  FlowOptions flow{.window_px = 15, .pyramid_levels = 4, .iterations = 12};
-  /// Ratio of the gradients' second moments below which a window shows an edge, along which it is
-  /// not held: such a point is not believed to move.
-  double cornerness = 0.1;
-  double spacing_px = 22;  ///< one point per square of this side, the oldest
-  /// Noise that grows with brightness, as a share of it: photons, and each pixel's own gain.
-  double brightness_noise = 0.02;
-  double disparity_gate_px = 3;  ///< refined disparity may differ this much from the dense one
+/// Dense flow between the image and what the static world would look like (DIS).
+struct ResidualFlowOptions {
+  int finest_scale = 1;  ///< 0: patches on half-size pixels, 1: on those of quarter size
+  int descents = 16;     ///< iterations of a patch on each scale
+  int refinements = 5;   ///< variational iterations on each scale
 
   OptionError Validate() const {
-    return FirstOf(spread.Validate(), flow.Validate(),
-                   CheckRange("spacing_px", spacing_px, 1.0, 1000.0),
-                   CheckRange("disparity_gate_px", disparity_gate_px, 0.1, 100.0));
+    return FirstOf(CheckRange("finest_scale", finest_scale, 0, 3),
+                   CheckRange("descents", descents, 1, 256),
+                   CheckRange("refinements", refinements, 0, 100));
+  }
+};
+
+/// What is known of a pixel before it is compared.
+struct SurfaceOptions {
+  double grey_noise = 2;           ///< grey levels, deviation of one pixel in the dark
+  double brightness_noise = 0.02;  ///< what grows with brightness: photons, each pixel's own gain
+  int window_px = 7;               ///< side of the window in which texture is gathered, odd
+  /// The stereo matcher sees only padding where a match comes this close to the right image's edge.
+  int border_px = 4;
+
+  OptionError Validate() const {
+    if (window_px % 2 == 0) return fmt::format("window_px is {}; it must be odd", window_px);
+    return FirstOf(CheckRange("grey_noise", grey_noise, 0.1, 100.0),
+                   CheckRange("brightness_noise", brightness_noise, 0.0, 1.0),
+                   CheckRange("window_px", window_px, 3, 31),
+                   CheckRange("border_px", border_px, 0, 64));
   }
 };
 
 /// Motion of the rig between two frames.
 struct EgoMotionOptions {
+  int cell_px = 12;          ///< one point, that of the best texture, from each square of this side
   int hypotheses = 60;       ///< three-point samples beside the prediction and standing still
   double gate_chi2 = 11.34;  ///< 99 % of chi-square with three degrees of freedom
   /// What a vehicle can do: deviation of its acceleration. A motion that would need many times this
   /// is not the vehicle's, however many points vote for it.
-  double acceleration_mps2 = 4;
-  double angular_acceleration_radps2 = 6;
+  double acceleration_mps2 = 1.5;
+  double angular_acceleration_radps2 = 3;
   int rounds = 3;      ///< of re-weighting
   int iterations = 4;  ///< Gauss-Newton steps a round
   std::uint64_t seed = 3;
 
   OptionError Validate() const {
     return FirstOf(
-        CheckRange("hypotheses", hypotheses, 0, 100000),
+        CheckRange("cell_px", cell_px, 2, 1000), CheckRange("hypotheses", hypotheses, 0, 100000),
         CheckRange("gate_chi2", gate_chi2, 1.0, 100.0),
         CheckRange("acceleration_mps2", acceleration_mps2, 1e-3, 1e3),
-        CheckRange("angular_acceleration_radps2", angular_acceleration_radps2, 1e-3, 1e3));
+        CheckRange("angular_acceleration_radps2", angular_acceleration_radps2, 1e-3, 1e3),
+        CheckRange("rounds", rounds, 1, 100), CheckRange("iterations", iterations, 1, 100));
   }
 };
 
-/// Limits of the evidence that one frame may add, in log-odds, per gap: what looks static over a
-/// short gap may be slow, what looks moved over a long one may have been uncovered.
+/// From residual flow to the log-odds of moving.
 struct EvidenceOptions {
-  std::array<double, 3> point_static = {-1.0, -2.0, -2.5};
-  std::array<double, 3> point_dynamic = {2.5, 2.5, 2.5};
-  std::array<double, 3> dense_static = {-0.8, -1.2, -1.5};
-  std::array<double, 3> dense_dynamic = {2.0, 2.0, 1.5};
-  /// Of the way over a gap, the share that the next shorter gap must have seen: a track that has
-  /// slipped onto another edge has gone all of it at once.
-  double least_late_share = 0.03, most_late_share = 0.85;
-  double intensity_noise = 2.5;  ///< grey levels; start of the measured deviation of one pixel
-  /// Errors of calibration, scale and rolling texture grow with the way a point has gone: deviation
-  /// per pixel of displacement, added to the measured noise.
+  double mover_mps = 0.5;         ///< deviation of a mover's speed, along each axis of the image
+  double disparity_noise = 0.25;  ///< deviation of a disparity
+  /// Errors of calibration and rolling texture grow with the way a point has gone: deviation per
+  /// pixel of displacement.
   double noise_per_displacement = 0.01;
-  double warp_noise_px = 0.3;  ///< half-size pixels; what pose and disparity move a pixel
-  double free_space = 1.0;     ///< log-odds of a surface where an earlier frame looked through
-  double dense_weight = 0.5;   ///< pixels of a node are not independent
+  /// Pixels of a window that count as independent when the window's grey values are to say that it
+  /// has moved, and what an ill fit of the moved window takes off.
+  double independent_pixels = 10, misfit_weight = 0.5;
+  double hidden_misfit = 1.5;  ///< limit of that misfit where the static surface was hidden
+  /// A step of disparity up to which two measurements may show one surface: a constant part and a
+  /// share of the disparity, to which comes what a mover's speed makes of it.
+  double same_surface = 0.5, same_surface_share = 0.04, same_surface_speeds = 4;
+  /// Where something nearer by this step lies within reach, the flow is its flow.
+  double edge_step = 0.7, edge_share = 0.08;
+  int edge_window_px = 13;  ///< side of that reach, odd
+  /// Limits of what one frame may say, per gap: what looks static over a short gap may be slow,
+  /// what looks moved over a long one may have been uncovered.
+  std::array<double, 3> least = {-0.7, -1.5, -1.0};
+  std::array<double, 3> most = {2.5, 2.5, 1.5};
+  double motion_found = 0.5;   ///< evidence of one gap from which on the others count less ...
+  double others_weight = 0.3;  ///< ... when they say static: they were shorter, or saw another
 
   OptionError Validate() const {
-    return FirstOf(CheckRange("intensity_noise", intensity_noise, 0.1, 100.0),
-                   CheckRange("warp_noise_px", warp_noise_px, 0.01, 10.0));
+    if (edge_window_px % 2 == 0) {
+      return fmt::format("edge_window_px is {}; it must be odd", edge_window_px);
+    }
+    for (std::size_t k = 0; k < least.size(); ++k) {
+      const auto error = FirstOf(CheckRange("least", least[k], -20.0, 0.0),
+                                 CheckRange("most", most[k], 0.0, 20.0));
+      if (!error.empty()) return error;
+    }
+    return FirstOf(CheckRange("mover_mps", mover_mps, 0.01, 100.0),
+                   CheckRange("disparity_noise", disparity_noise, 0.01, 10.0),
+                   CheckRange("noise_per_displacement", noise_per_displacement, 0.0, 1.0),
+                   CheckRange("independent_pixels", independent_pixels, 0.1, 1000.0),
+                   CheckRange("misfit_weight", misfit_weight, 0.0, 100.0),
+                   CheckRange("hidden_misfit", hidden_misfit, 0.0, 100.0),
+                   CheckRange("same_surface", same_surface, 0.01, 100.0),
+                   CheckRange("same_surface_share", same_surface_share, 0.0, 1.0),
+                   CheckRange("same_surface_speeds", same_surface_speeds, 0.0, 100.0),
+                   CheckRange("edge_step", edge_step, 0.01, 100.0),
+                   CheckRange("edge_share", edge_share, 0.0, 1.0),
+                   CheckRange("edge_window_px", edge_window_px, 1, 101),
+                   CheckRange("motion_found", motion_found, 0.0, 20.0),
+                   CheckRange("others_weight", others_weight, 0.0, 1.0));
   }
 };
 
-/// The labelling of nodes, 4x4 pixels each.
-struct FieldOptions {
-  double coupling = 0.9;          ///< log-odds by which equal neighbours on one surface agree
-  double disparity_px = 1.5;      ///< step between neighbouring nodes that halves the coupling
-  double disparity_share = 0.06;  ///< the same, as a share of the disparity
-  double contrast = 25;           ///< grey levels; step that halves the coupling further
-  double memory = 0.75;           ///< share of the log-odds that survives from frame to frame
-  double limit = 6;               ///< of the log-odds, either way
-  /// Log-odds that every node leans to static, each frame: what nobody has seen move does not.
-  double bias = -0.25;
-  double point_reach_px = 14;  ///< distance from a point at which its evidence has faded to a third
-  int sweeps = 6;
+/// The floor as a plane of disparity.
+struct FloorOptions {
+  int hypotheses = 80;
+  double disparity = 0.3, disparity_share = 0.02;  ///< distance of an inlier from the plane
+  double most_roll = 0.25;     ///< tangent of the floor's slope across the image
+  double below_weight = 2;     ///< a point below a floor speaks so many times against it
+  double least_support = 0.1;  ///< share of the points of the lower half
+  std::uint64_t seed = 5;
 
   OptionError Validate() const {
-    return FirstOf(CheckRange("coupling", coupling, 0.0, 100.0),
-                   CheckRange("memory", memory, 0.0, 1.0), CheckRange("limit", limit, 1.0, 100.0),
-                   CheckRange("sweeps", sweeps, 1, 1000));
+    return FirstOf(CheckRange("hypotheses", hypotheses, 0, 100000),
+                   CheckRange("disparity", disparity, 0.01, 10.0),
+                   CheckRange("disparity_share", disparity_share, 0.0, 1.0),
+                   CheckRange("most_roll", most_roll, 0.0, 10.0),
+                   CheckRange("below_weight", below_weight, 0.0, 100.0),
+                   CheckRange("least_support", least_support, 0.0, 1.0));
+  }
+};
+
+/// The labelling of pixels.
+struct FieldOptions {
+  double memory = 0.75;  ///< share of the log-odds that survives from frame to frame
+  double limit = 6;      ///< of the log-odds, either way
+  /// Log-odds that every pixel leans to static: what nobody has seen move does not; where the
+  /// disparity is unknown; on the floor.
+  double bias = -0.15, unknown_bias = -0.5, floor_bias = -0.5;
+  double coupling = 1;  ///< log-odds by which equal neighbours on one surface agree
+  double disparity = 0.4, disparity_share = 0.04;  ///< step between neighbours that halves it
+  double contrast = 20;                            ///< grey levels; step that halves it further
+  double floor_link = 0.1;  ///< share of the coupling between the floor and what stands on it
+  int sweeps = 4;
+  double moving = 0.5;  ///< log-odds from which on a pixel moves
+  /// Growth into what says nothing, along strong links.
+  double grow_from = 1, grow_to = -3, grow_link = 0.4;
+  int grow_px = 20;
+
+  OptionError Validate() const {
+    return FirstOf(
+        CheckRange("memory", memory, 0.0, 1.0), CheckRange("limit", limit, 1.0, 100.0),
+        CheckRange("bias", bias, -10.0, 0.0), CheckRange("unknown_bias", unknown_bias, -10.0, 0.0),
+        CheckRange("floor_bias", floor_bias, -10.0, 0.0),
+        CheckRange("coupling", coupling, 0.0, 100.0),
+        CheckRange("disparity", disparity, 0.01, 10.0),
+        CheckRange("disparity_share", disparity_share, 0.0, 1.0),
+        CheckRange("contrast", contrast, 0.1, 1e3), CheckRange("floor_link", floor_link, 0.0, 1.0),
+        CheckRange("sweeps", sweeps, 1, 1000), CheckRange("moving", moving, 0.0, limit),
+        CheckRange("grow_from", grow_from, 0.0, limit), CheckRange("grow_to", grow_to, -limit, 0.0),
+        CheckRange("grow_link", grow_link, 0.0, 1.0), CheckRange("grow_px", grow_px, 0, 1000));
   }
 };
 
 /// From labels to regions.
 struct RegionOptions {
-  double birth_share = 3;       ///< moving points for each static one, at birth ...
-  double keep_share = 2;        ///< ... and later
-  double birth_together = 0.4;  ///< share of its moving points that go one way, within 60 %
-  double birth_log_odds = 3.0;  ///< a region is born where its best node reaches this
-  double keep_log_odds = 0.5;   ///< and reaches as far as nodes above this
-  int birth_points = 5;         ///< and where so many of its points move
-  int keep_points = 4;          ///< and dies with fewer of them
-  double vote_log_odds = 0.7;   ///< of a point, from which on it counts as moving or as static
-  int min_nodes = 25;           ///< smaller regions are noise; 25 nodes are 20x20 pixels
-  int dilate_nodes = 0;         ///< grown by this, for outlines that the stereo matcher shrinks
+  double link = 0.25;        ///< weaker links part regions, as a share of the coupling
+  int least_px = 60;         ///< smaller regions are noise
+  double core_log_odds = 3;  ///< memory from which on a pixel is sure to move
+  int birth_core_px = 100, keep_core_px = 30;  ///< such pixels of a region
+  int birth_inner_px = 20, keep_inner_px = 4;  ///< pixels with the region all around, in ...
+  int inner_window_px = 5;                     ///< ... a window of this side, odd
+  /// Share of the smaller one of a region and its predecessor that they must have in common.
+  double least_overlap = 0.25;
 
   OptionError Validate() const {
-    return FirstOf(CheckRange("birth_log_odds", birth_log_odds, keep_log_odds, 1e3),
-                   CheckRange("min_nodes", min_nodes, 1, 100000),
-                   CheckRange("dilate_nodes", dilate_nodes, 0, 50));
+    if (inner_window_px % 2 == 0) {
+      return fmt::format("inner_window_px is {}; it must be odd", inner_window_px);
+    }
+    return FirstOf(CheckRange("link", link, 0.0, 1.0), CheckRange("least_px", least_px, 1, 1000000),
+                   CheckRange("core_log_odds", core_log_odds, 0.0, 100.0),
+                   CheckRange("birth_core_px", birth_core_px, 0, 1000000),
+                   CheckRange("keep_core_px", keep_core_px, 0, birth_core_px),
+                   CheckRange("birth_inner_px", birth_inner_px, 0, 1000000),
+                   CheckRange("keep_inner_px", keep_inner_px, 0, birth_inner_px),
+                   CheckRange("inner_window_px", inner_window_px, 1, 31),
+                   CheckRange("least_overlap", least_overlap, 0.0, 1.0));
   }
 };
 
 struct RobustOptions {
-  /// On images of half size; 48 half-size pixels are 96.
-  DisparityOptions disparity{.max_disparity_px = 48,
+  /// On images of half size: 64 are 128 full pixels, 0.41 m with the default rig.
+  DisparityOptions disparity{.max_disparity_px = 64,
                              .block_px = 5,
-                             .uniqueness_percent = 15,
+                             .uniqueness_percent = 5,
                              .speckle_px = 40,
                              .left_right_px = 1};
-  PointTrackOptions points;
+  SurfaceOptions surface;
+  ResidualFlowOptions flow;
   EgoMotionOptions ego;
   EvidenceOptions evidence;
+  FloorOptions floor;
   FieldOptions field;
   RegionOptions region;
 
   OptionError Validate() const {
-    return FirstOf(disparity.Validate(), points.Validate(), ego.Validate(), evidence.Validate(),
-                   field.Validate(), region.Validate());
+    return FirstOf(disparity.Validate(), surface.Validate(), flow.Validate(), ego.Validate(),
+                   evidence.Validate(), floor.Validate(), field.Validate(), region.Validate());
   }
 };
 

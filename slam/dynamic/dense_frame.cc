@@ -1,0 +1,133 @@
+#include "slam/dynamic/dense_frame.h"
+
+#include <tbb/parallel_for.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "slam/dynamic/disparity.h"
+
+namespace aisle::slam::dynamic {
+namespace {
+
+void ForgetPadding(cv::Mat1f& disparity, int most_disparity, int border) {
+  const int columns = std::min(disparity.cols, most_disparity + border);
+  for (int y = 0; y < disparity.rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      const float reach = static_cast<float>(x - border);
+      if (disparity(y, x) > reach) disparity(y, x) = kNoDisparity;
+    }
+  }
+}
+
+void FillRow(float* row, int columns) {
+  for (int x = 0; x < columns;) {
+    if (row[x] >= 0) {
+      ++x;
+      continue;
+    }
+    int end = x;
+    while (end < columns && row[end] < 0) ++end;
+    const float left = x > 0 ? row[x - 1] : kNoDisparity;
+    const float right = end < columns ? row[end] : kNoDisparity;
+    const float fill = left < 0 ? right : right < 0 ? left : std::min(left, right);
+    std::fill(row + x, row + end, std::max(fill, 0.0F));
+    x = end;
+  }
+}
+
+}  // namespace
+
+StereoCamera HalfCamera(const StereoCamera& camera) {
+  StereoCamera half = camera;
+  half.width = camera.width / 2;
+  half.height = camera.height / 2;
+  half.fx = camera.fx / 2;
+  half.fy = camera.fy / 2;
+  half.cx = (camera.cx - 0.5) / 2;
+  half.cy = (camera.cy - 0.5) / 2;
+  return half;
+}
+
+cv::Mat1b HalfImage(const cv::Mat1b& image) {
+  cv::Mat1b half;
+  cv::resize(image, half, image.size() / 2, 0, 0, cv::INTER_AREA);
+  return half;
+}
+
+cv::Mat1f FillRows(const cv::Mat1f& disparity) {
+  cv::Mat1f filled = disparity.clone();
+  for (int y = 0; y < filled.rows; ++y) FillRow(filled[y], filled.cols);
+  return filled;
+}
+
+DenseFrame MakeDenseFrame(const cv::Mat1b& left, const cv::Mat1b& right,
+                          const DisparityOptions& disparity, const SurfaceOptions& options) {
+  DenseFrame frame;
+  frame.image = HalfImage(left);
+  frame.disparity = ComputeDisparity(frame.image, HalfImage(right), disparity);
+  ForgetPadding(frame.disparity, disparity.max_disparity_px, options.border_px);
+  frame.filled = FillRows(frame.disparity);
+  return frame;
+}
+
+cv::Mat1f DifferenceVariance(const cv::Mat1b& image, const SurfaceOptions& options) {
+  cv::Mat1f variance;
+  image.convertTo(variance, CV_32F, options.brightness_noise);
+  variance = 2 * (variance.mul(variance) + options.grey_noise * options.grey_noise);
+  return variance;
+}
+
+Texture MeasureTexture(const cv::Mat1b& image, const SurfaceOptions& options) {
+  constexpr double kSobelGain = 1.0 / 8;
+  constexpr float kNoiseGain = 0.1875F;  // variance of that gradient where each pixel's is one
+  cv::Mat1f gx, gy;
+  cv::Sobel(image, gx, CV_32F, 1, 0, 3, kSobelGain);
+  cv::Sobel(image, gy, CV_32F, 0, 1, 3, kSobelGain);
+  const cv::Mat1f variance = DifferenceVariance(image, options);
+  const cv::Size window(options.window_px, options.window_px);
+  const auto gather = [&](const cv::MatExpr& product) {
+    cv::Mat1f sum;
+    cv::boxFilter(product / variance, sum, -1, window, {-1, -1}, false);
+    return sum;
+  };
+  Texture texture{gather(gx.mul(gx)), gather(gx.mul(gy)), gather(gy.mul(gy))};
+  const float noise = kNoiseGain / 2 * static_cast<float>(window.area());
+  texture.xx = cv::max(texture.xx - noise, 0.0F);
+  texture.yy = cv::max(texture.yy - noise, 0.0F);
+  for (int k = 0; k < static_cast<int>(texture.xy.total()); ++k) {
+    const float most = std::sqrt(texture.xx(k) * texture.yy(k));  // of a positive matrix
+    texture.xy(k) = std::clamp(texture.xy(k), -most, most);
+  }
+  return texture;
+}
+
+StaticField WhereStatic(const cv::Mat1f& filled, const Eigen::Isometry3d& T_then_now,
+                        const StereoCamera& half) {
+  Eigen::Matrix3d K;
+  K << half.fx, 0, half.cx, 0, half.fy, half.cy, 0, 0, 1;
+  // (x, y, disparity) goes to (A (x, y, 1) + t disparity) / w: linear in homogeneous coordinates.
+  const Eigen::Matrix3f A = (K * T_then_now.linear() * K.inverse()).cast<float>();
+  const Eigen::Vector3f t =
+      (K * T_then_now.translation() / (half.fx * half.baseline_m)).cast<float>();
+  StaticField field{cv::Mat2f(filled.size()), cv::Mat1f(filled.size()), cv::Mat1f(filled.size())};
+  tbb::parallel_for(0, filled.rows, [&](int y) {
+    const Eigen::Vector3f start = A.col(1) * static_cast<float>(y) + A.col(2);
+    for (int x = 0; x < filled.cols; ++x) {
+      const float d = filled(y, x);
+      const Eigen::Vector3f p = start + A.col(0) * static_cast<float>(x) + t * d;
+      if (p.z() < 0.05F) {
+        field.place(y, x) = {-1e4F, -1e4F};
+        field.disparity(y, x) = field.per_disparity(y, x) = 0;
+        continue;
+      }
+      const float u = p.x() / p.z(), v = p.y() / p.z();
+      field.place(y, x) = {u, v};
+      field.disparity(y, x) = d / p.z();
+      const float along_x = (t.x() - u * t.z()) / p.z(), along_y = (t.y() - v * t.z()) / p.z();
+      field.per_disparity(y, x) = std::sqrt(along_x * along_x + along_y * along_y);
+    }
+  });
+  return field;
+}
+
+}  // namespace aisle::slam::dynamic

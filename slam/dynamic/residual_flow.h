@@ -1,0 +1,28 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "slam/dynamic/dense_frame.h"
+#include "slam/dynamic/ego_motion.h"
+#include "slam/dynamic/robust_options.h"
+
+namespace aisle::slam::dynamic {
+
+/// Where every pixel of an image was in an earlier one, whatever moved (half-size pixels): the
+/// earlier image is first brought to the view in which every pixel comes from its expected place,
+/// so that only what that leaves unexplained has to be found. The same bits for any number of
+/// threads.
+cv::Mat2f FollowBack(const cv::Mat1b& now, const cv::Mat1b& then, const cv::Mat2f& expected,
+                     const ResidualFlowOptions& options);
+
+/// The earlier image at the given places; the image's border is repeated outside.
+cv::Mat1b SampleAt(const cv::Mat1b& image, const cv::Mat2f& places);
+
+/// Points measured in both frames along that flow, one per cell, where the texture holds best; full
+/// pixels. `log_odds` of moving sets their weight.
+std::vector<StereoMatch> MatchesAlong(const cv::Mat2f& flow, const DenseFrame& now,
+                                      const DenseFrame& then, const Texture& texture,
+                                      const cv::Mat1f& log_odds, int cell_px);
+
+}  // namespace aisle::slam::dynamic

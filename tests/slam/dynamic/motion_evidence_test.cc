@@ -1,0 +1,187 @@
+#include "slam/dynamic/motion_evidence.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <numbers>
+
+#include "slam/dynamic/label_memory.h"
+#include "slam/dynamic/residual_flow.h"
+#include "tests/slam/dynamic/synthetic_stereo.h"
+
+namespace aisle::slam::dynamic {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Matrix2f;
+using Eigen::Vector2f;
+using Eigen::Vector3d;
+
+/// The logarithm of a normal density in two dimensions.
+double LogNormal(const Eigen::Matrix2d& covariance, const Eigen::Vector2d& r) {
+  return -0.5 * r.dot(covariance.inverse() * r) -
+         std::log(2 * std::numbers::pi * std::sqrt(covariance.determinant()));
+}
+
+TEST(DisplacementLogOdds, IsTheRatioOfTwoNormalDensities) {
+  Matrix2f G;
+  G << 40, 12, 12, 9;
+  for (const Vector2f& r : {Vector2f(0, 0), Vector2f(0.4F, -0.2F), Vector2f(2, 3)}) {
+    const Eigen::Matrix2d measured = G.cast<double>().inverse();
+    const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
+    const double expected = LogNormal(measured + 1.51 * one, r.cast<double>()) -
+                            LogNormal(measured + 0.01 * one, r.cast<double>());
+    EXPECT_NEAR(DisplacementLogOdds(G, r, 0.01F, 1.5F), expected, 1e-3 * (1 + std::abs(expected)));
+  }
+}
+
+TEST(DisplacementLogOdds, WithoutTextureNothingIsKnown) {
+  EXPECT_EQ(DisplacementLogOdds(Matrix2f::Zero(), {5, 5}, 0.01F, 1), 0);
+}
+
+TEST(DisplacementLogOdds, AlongAnEdgeNothingIsKnownAndAcrossItMuch) {
+  Matrix2f edge = Matrix2f::Zero();
+  edge(0, 0) = 100;  // grey changes along x alone
+  EXPECT_LT(DisplacementLogOdds(edge, {0, 4}, 0.01F, 1), 0);
+  EXPECT_GT(DisplacementLogOdds(edge, {4, 0}, 0.01F, 1), 10);
+}
+
+/// Two frames of the hall, what the second makes of the first, and what moves.
+struct Pair {
+  DenseFrame then, now;
+  Texture texture;
+  cv::Mat2f flow;
+  cv::Mat1f log_odds;
+  cv::Mat1b moving;  // half size
+
+  Pair(const std::vector<test::Panel>& movers, const Vector3d& way, double seconds) {
+    auto panels = test::StaticHall();
+    panels.insert(panels.end(), movers.begin(), movers.end());
+    Isometry3d T_world_now = Isometry3d::Identity();
+    T_world_now.translation() = way;
+    const auto before = test::Render(panels, {}, Isometry3d::Identity(), 0, 2.0);
+    const auto after = test::Render(panels, {}, T_world_now, seconds, 2.0);
+    const RobustOptions options;
+    then = MakeDenseFrame(before.left, before.right, options.disparity, options.surface);
+    now = MakeDenseFrame(after.left, after.right, options.disparity, options.surface);
+    texture = MeasureTexture(now.image, options.surface);
+    const StereoCamera half = HalfCamera({});
+    flow = FollowBack(now.image, then.image, WhereStatic(now.filled, T_world_now, half).place,
+                      options.flow);
+    log_odds = CompareMotion({now, then, flow, T_world_now, seconds}, texture, half,
+                             options.surface, options.evidence)
+                   .log_odds;
+    moving = cv::Mat1b(now.image.size());
+    for (int y = 0; y < moving.rows; ++y) {
+      for (int x = 0; x < moving.cols; ++x) moving(y, x) = after.moving(2 * y, 2 * x);
+    }
+  }
+
+  /// Share of the pixels that move (or do not) whose log-odds exceed a limit.
+  double ShareAbove(float limit, bool of_movers) const {
+    double all = 0, above = 0;
+    for (int k = 0; k < static_cast<int>(moving.total()); ++k) {
+      if ((moving(k) != 0) != of_movers) continue;
+      ++all;
+      above += log_odds(k) > limit ? 1 : 0;
+    }
+    return above / std::max(all, 1.0);
+  }
+};
+
+TEST(CompareMotion, OfAStaticHallSaysThatItStands) {
+  const Pair pair({}, {0, 0, 0.15}, 0.25);
+  EXPECT_LT(pair.ShareAbove(1, false), 0.02);
+  EXPECT_LT(cv::mean(pair.log_odds)[0], -0.5);
+}
+
+TEST(CompareMotion, FindsAWalkerAcrossBesideAMovingCamera) {
+  const Pair pair({test::Walker({-0.3, 0.1, 3.2}, {1.2, 0, 0})}, {0, 0, 0.03}, 0.05);
+  EXPECT_GT(pair.ShareAbove(1, true), 0.5);
+  EXPECT_LT(pair.ShareAbove(1, false), 0.02);
+}
+
+TEST(CompareMotion, FindsAWalkerAlongTheAxisOverALongGap) {
+  const Pair pair({test::Walker({0.3, 0.1, 4.5}, {0, 0, -1.0})}, {0, 0, 0.1}, 0.25);
+  EXPECT_GT(pair.ShareAbove(1, true), 0.3);
+  EXPECT_LT(pair.ShareAbove(1, false), 0.02);
+}
+
+TEST(CombineGaps, WhatOneGapFoundIsNotTalkedDownByAShorterOne) {
+  const EvidenceOptions options;
+  const auto one = [](float value) { return cv::Mat1f(1, 1, value); };
+  const auto combined = [&](float a, float b, float c) {
+    return CombineGaps({one(a), one(b), one(c)}, options)(0, 0);
+  };
+  EXPECT_GT(combined(-9, 9, 0), 2);
+  EXPECT_FLOAT_EQ(combined(-9, -9, -9), -0.7F - 1.5F - 1.0F);
+  EXPECT_FLOAT_EQ(combined(9, 0, 0), 2.5F);
+  EXPECT_FLOAT_EQ(combined(0, 0, 0), 0);
+}
+
+TEST(FollowBack, FindsTheWayOfStaticPixelsToAFractionOfAPixel) {
+  const Pair pair({}, {0, 0, 0.1}, 0.2);
+  Isometry3d T = Isometry3d::Identity();
+  T.translation() = Vector3d(0, 0, 0.1);
+  const StaticField expected = WhereStatic(pair.now.filled, T, HalfCamera({}));
+  std::vector<double> errors;
+  for (int y = 20; y < 220; y += 3) {
+    for (int x = 80; x < 350; x += 3) {
+      if (pair.now.disparity(y, x) <= 0) continue;
+      errors.push_back(cv::norm(pair.flow(y, x) - expected.place(y, x)));
+    }
+  }
+  std::nth_element(errors.begin(), errors.begin() + std::ssize(errors) / 2, errors.end());
+  EXPECT_LT(errors[errors.size() / 2], 0.2);
+}
+
+TEST(MatchesAlong, AreOnePerCellAndFollowTheRigsMotion) {
+  const Pair pair({}, {0, 0, 0.05}, 0.05);
+  const auto matches = MatchesAlong(pair.flow, pair.now, pair.then, pair.texture, {}, 12);
+  ASSERT_GT(matches.size(), 200U);
+  EXPECT_LE(matches.size(), static_cast<std::size_t>((376 / 12 + 1) * (240 / 12)));
+  Isometry3d T_now_then = Isometry3d::Identity();
+  T_now_then.translation() = Vector3d(0, 0, -0.05);
+  const auto follow = std::count_if(matches.begin(), matches.end(), [&](const StereoMatch& match) {
+    return MatchChi2({}, T_now_then, match, {0.3, 0.3, 0.6}) < 11.34;
+  });
+  EXPECT_GT(follow, std::ssize(matches) * 8 / 10);
+}
+
+TEST(FillRows, GapsTakeTheFartherSide) {
+  cv::Mat1f disparity(2, 12, 9.0F);
+  disparity.colRange(6, 12).setTo(4.0F);
+  disparity.colRange(4, 8).setTo(-1.0F);
+  disparity(1, 0) = -1;
+  const cv::Mat1f filled = FillRows(disparity);
+  EXPECT_EQ(filled(0, 3), 9);
+  EXPECT_EQ(filled(0, 4), 4);
+  EXPECT_EQ(filled(0, 7), 4);
+  EXPECT_EQ(filled(1, 0), 9);
+}
+
+TEST(CarryMemory, TakesAMoversMemoryAlongAndLeavesNoTrail) {
+  DenseFrame before, now;
+  before.disparity = before.filled = cv::Mat1f(60, 80, 3.0F);
+  before.disparity(cv::Rect(20, 10, 10, 30)).setTo(12.0F);
+  now.disparity = cv::Mat1f(60, 80, 3.0F);
+  now.disparity(cv::Rect(25, 10, 10, 30)).setTo(12.0F);
+  now.filled = now.disparity;
+  LabelMemory memory = ForgottenMemory({80, 60});
+  memory.log_odds.setTo(-3.0F);
+  memory.log_odds(cv::Rect(20, 10, 10, 30)).setTo(5.0F);
+  cv::Mat2f flow(60, 80);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 80; ++x) {
+      const float way = x >= 22 && x < 38 ? -5.0F : 0.0F;  // spills over the outline
+      flow(y, x) = {static_cast<float>(x) + way, static_cast<float>(y)};
+    }
+  }
+  const cv::Mat1f carried = CarryMemory(memory, flow, now, before).log_odds;
+  for (int x = 0; x < 80; ++x) {
+    EXPECT_EQ(carried(20, x) > 0, x >= 25 && x < 35) << "column " << x;
+  }
+}
+
+}  // namespace
+}  // namespace aisle::slam::dynamic
