@@ -135,8 +135,8 @@ std::vector<StereoMatch> Followers(const std::vector<StereoMatch>& matches,
   return followers;
 }
 
-/// The same matches, each cubic metre of the world with the square root of the weight in it: what
-/// fills space counts for more than what fills the image, as a person close by does.
+/// The same matches, no cubic metre of the world with more weight than one: what fills space counts
+/// for more than what fills the image, as a person close by does.
 std::vector<StereoMatch> WeighedBySpace(std::vector<StereoMatch> matches,
                                         const StereoCamera& camera) {
   using Cube = std::array<int, 3>;
@@ -163,6 +163,11 @@ double DeviationOf(std::vector<double>& values) {
   const auto quarter = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 3 / 4);
   std::nth_element(values.begin(), quarter, values.end());
   return *quarter / 1.1503;
+}
+
+EgoMotionOptions Narrow(EgoMotionOptions options) {
+  options.rounds = 1;
+  return options;
 }
 
 }  // namespace
@@ -232,7 +237,9 @@ EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const Stere
       best = T;
     }
   }
-  return RefineEgoMotion(matches, camera, best, noise, options);
+  // What is near and large must not pull while the gate is wide.
+  const EgoMotion close = RefineEgoMotion(spread, camera, best, noise, options);
+  return RefineEgoMotion(matches, camera, close.T_now_before, noise, Narrow(options));
 }
 
 std::optional<MeasurementNoise> MeasureNoise(const std::vector<StereoMatch>& matches,

@@ -117,7 +117,9 @@ std::vector<GapMotion> FindGapMotions(const RobustState& before, const Seen& see
     const StaticField field = WhereStatic(seen.frame.filled, expected.inverse(), half);
     gap.flow = FollowBack(seen.frame.image, then.image, field.place, options.flow);
     matches[k] = match(gap);
-    gap.motion = RefineEgoMotion(matches[k], camera, expected, before.noise[k], options.ego);
+    EgoMotionOptions narrow = options.ego;
+    narrow.rounds = 1;  // the frames between have left little to find
+    gap.motion = RefineEgoMotion(matches[k], camera, expected, before.noise[k], narrow);
   });
   for (std::size_t k = 1; k < kGaps.size() && longer[k].motion.found; ++k)
     gaps.push_back(longer[k]);

@@ -19,8 +19,8 @@ inline constexpr int kLongestGap = 15;
 /// Dense flow between the image and what the static world would look like (DIS).
 struct ResidualFlowOptions {
   int finest_scale = 1;  ///< 0: patches on half-size pixels, 1: on those of quarter size
-  int descents = 16;     ///< iterations of a patch on each scale
-  int refinements = 5;   ///< variational iterations on each scale
+  int descents = 10;     ///< iterations of a patch on each scale
+  int refinements = 2;   ///< variational iterations on each scale
 
   OptionError Validate() const {
     return FirstOf(CheckRange("finest_scale", finest_scale, 0, 3),
@@ -89,7 +89,7 @@ struct EvidenceOptions {
   /// Limits of what one frame may say, per gap: what looks static over a short gap may be slow,
   /// what looks moved over a long one may have been uncovered.
   std::array<double, 3> least = {-0.7, -1.5, -1.0};
-  std::array<double, 3> most = {2.5, 2.5, 1.5};
+  std::array<double, 3> most = {2.5, 2.5, 1.0};
   double motion_found = 0.5;   ///< evidence of one gap from which on the others count less ...
   double others_weight = 0.3;  ///< ... when they say static: they were shorter, or saw another
 
@@ -175,7 +175,7 @@ struct RegionOptions {
   double link = 0.25;        ///< weaker links part regions, as a share of the coupling
   int least_px = 60;         ///< smaller regions are noise
   double core_log_odds = 3;  ///< memory from which on a pixel is sure to move
-  int birth_core_px = 100, keep_core_px = 30;  ///< such pixels of a region
+  int birth_core_px = 200, keep_core_px = 30;  ///< such pixels of a region
   int birth_inner_px = 20, keep_inner_px = 4;  ///< pixels with the region all around, in ...
   int inner_window_px = 5;                     ///< ... a window of this side, odd
   /// Share of the smaller one of a region and its predecessor that they must have in common.
@@ -202,7 +202,8 @@ struct RobustOptions {
                              .block_px = 5,
                              .uniqueness_percent = 5,
                              .speckle_px = 40,
-                             .left_right_px = 1};
+                             .left_right_px = 1,
+                             .three_way = true};
   SurfaceOptions surface;
   ResidualFlowOptions flow;
   EgoMotionOptions ego;

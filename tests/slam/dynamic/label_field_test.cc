@@ -105,7 +105,7 @@ TEST(FindRegions, ARegionIsBornOfSurePixelsAndLivesOnWithFewer) {
   const RegionOptions options;
   const cv::Rect area(20, 10, 20, 40);
   Plate doubtful;
-  doubtful.With(area, 1).With({22, 12, 8, 8}, 5);  // 64 sure pixels: too few for a birth
+  doubtful.With(area, 1).With({22, 12, 10, 10}, 5);  // 100 sure pixels: too few for a birth
   EXPECT_TRUE(doubtful.Find({}, next_id).regions.empty());
   const PixelRegions born = Plate().With(area, 5).Find({}, next_id);
   ASSERT_EQ(born.regions.size(), 1U);
