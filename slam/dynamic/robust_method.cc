@@ -43,42 +43,19 @@ std::optional<MotionPrior> PriorFor(const RobustState& before, std::int64_t stam
   return prior;
 }
 
-/// Where pixels come from if they are so far away that only the rig's turning shows.
-cv::Mat2f WhereFar(cv::Size size, const Isometry3d& T_then_now, const StereoCamera& half) {
-  Isometry3d turn = Isometry3d::Identity();
-  turn.linear() = T_then_now.linear();
-  return WhereStatic(cv::Mat1f(size, 0.0F), turn, half).place;
-}
-
 struct Seen {
   DenseFrame frame;
   Texture texture;
-  cv::Mat2f flow;  // to the previous frame; empty where there is none
 };
 
-/// Disparity on the one hand, the flow to the previous frame on the other: neither needs the other.
-Seen See(const RobustState& before, const StereoPair& images, std::int64_t stamp_ns,
-         const std::optional<MotionPrior>& prior, const StereoCamera& half,
-         const RobustOptions& options, std::map<std::string, double>& stage_ms) {
+Seen See(const StereoPair& images, std::int64_t stamp_ns, const RobustOptions& options) {
   Seen seen;
-  double& disparity_ms = stage_ms["disparity"];
-  double& flow_ms = stage_ms["flow"];
   tbb::parallel_invoke(
       [&] {
-        const Stopwatch time(disparity_ms);
         seen.frame = MakeDenseFrame(images.left, images.right, options.disparity, options.surface);
         seen.frame.stamp_ns = stamp_ns;
       },
-      [&] {
-        const Stopwatch time(flow_ms);
-        const cv::Mat1b image = HalfImage(images.left);
-        seen.texture = MeasureTexture(image, options.surface);
-        if (before.frames.empty()) return;
-        const Isometry3d T_then_now =
-            prior ? prior->T_now_before.inverse() : Isometry3d::Identity();
-        seen.flow = FollowBack(image, before.frames.back().image,
-                               WhereFar(image.size(), T_then_now, half), options.flow);
-      });
+      [&] { seen.texture = MeasureTexture(HalfImage(images.left), options.surface); });
   return seen;
 }
 
@@ -86,48 +63,52 @@ const DenseFrame& FrameAgo(const RobustState& state, int gap) {
   return state.frames[state.frames.size() - static_cast<std::size_t>(gap)];
 }
 
-/// The rig's motion over every gap that the past reaches back to, the shortest first; the longer
-/// ones start from what the frames between have said. None if the shortest cannot be found.
-std::vector<GapMotion> FindGapMotions(const RobustState& before, const Seen& seen,
-                                      const cv::Mat1f& log_odds,
-                                      const std::optional<MotionPrior>& prior,
-                                      const StereoCamera& camera, const RobustOptions& options,
-                                      std::array<std::vector<StereoMatch>, kGaps.size()>& matches) {
-  const auto match = [&](const GapMotion& gap) {
-    return MatchesAlong(gap.flow, seen.frame, FrameAgo(before, gap.gap), seen.texture, log_odds,
-                        options.ego.cell_px);
-  };
-  std::vector<GapMotion> gaps;
-  if (seen.flow.empty()) return gaps;
-  GapMotion shortest{kGaps[0], seen.flow, {}, {}};
-  matches[0] = match(shortest);
-  shortest.motion = EstimateEgoMotion(matches[0], camera, prior, before.noise[0], options.ego);
-  if (!shortest.motion.found) return gaps;
-  gaps.push_back(shortest);
+/// The rig's motion since the frame a gap ago, if the latest step was T_now_before.
+Isometry3d MotionOver(int gap, const RobustState& before, const Isometry3d& T_now_before) {
+  return T_now_before * before.frames.back().T_world_rig.inverse() *
+         FrameAgo(before, gap).T_world_rig;
+}
 
-  const StereoCamera half = HalfCamera(camera);
-  std::array<GapMotion, kGaps.size()> longer;
-  tbb::parallel_for(std::size_t{1}, kGaps.size(), [&](std::size_t k) {
-    GapMotion& gap = longer[k];
-    gap.gap = kGaps[k];
-    if (std::ssize(before.frames) < gap.gap) return;
-    const DenseFrame& then = FrameAgo(before, gap.gap);
-    const Isometry3d expected = shortest.motion.T_now_before *
-                                before.frames.back().T_world_rig.inverse() * then.T_world_rig;
-    const StaticField field = WhereStatic(seen.frame.filled, expected.inverse(), half);
-    gap.flow = FollowBack(seen.frame.image, then.image, field.place, options.flow);
-    matches[k] = match(gap);
-    EgoMotionOptions narrow = options.ego;
-    narrow.rounds = 1;  // the frames between have left little to find
-    gap.motion = RefineEgoMotion(matches[k], camera, expected, before.noise[k], narrow);
+/// The flow over every gap that the past reaches back to, the shortest first.
+std::vector<GapMotion> FollowGaps(const RobustState& before, const DenseFrame& now,
+                                  const Isometry3d& T_now_before, const StereoCamera& half,
+                                  const ResidualFlowOptions& options) {
+  std::vector<GapMotion> gaps;
+  for (const int gap : kGaps) {
+    if (std::ssize(before.frames) >= gap) gaps.push_back({gap, {}, {}, {}});
+  }
+  tbb::parallel_for(std::size_t{0}, gaps.size(), [&](std::size_t k) {
+    const Isometry3d expected = MotionOver(gaps[k].gap, before, T_now_before);
+    gaps[k].flow = FollowBack(now.image, FrameAgo(before, gaps[k].gap).image,
+                              WhereStatic(now.filled, expected.inverse(), half).place, options);
   });
-  for (std::size_t k = 1; k < kGaps.size() && longer[k].motion.found; ++k)
-    gaps.push_back(longer[k]);
   return gaps;
 }
 
-void LearnNoise(RobustState& state, const std::vector<GapMotion>& gaps,
-                const std::array<std::vector<StereoMatch>, kGaps.size()>& matches,
+using GapMatches = std::array<std::vector<StereoMatch>, kGaps.size()>;
+
+/// Finds the rig's motion over every gap; the longer ones start from what the frames between have
+/// said. Drops the gaps from the first on whose motion cannot be found.
+GapMatches FindGapMotions(std::vector<GapMotion>& gaps, const RobustState& before, const Seen& seen,
+                          const cv::Mat1f& log_odds, const std::optional<MotionPrior>& prior,
+                          const StereoCamera& camera, const EgoMotionOptions& options) {
+  EgoMotionOptions narrow = options;
+  narrow.rounds = 1;  // the frames between have left little to find
+  GapMatches matches;
+  for (std::size_t k = 0; k < gaps.size(); ++k) {
+    matches[k] = MatchesAlong(gaps[k].flow, seen.frame, FrameAgo(before, gaps[k].gap), seen.texture,
+                              log_odds, options.cell_px);
+    gaps[k].motion =
+        k == 0 ? EstimateEgoMotion(matches[k], camera, prior, before.noise[k], options)
+               : RefineEgoMotion(matches[k], camera,
+                                 MotionOver(gaps[k].gap, before, gaps[0].motion.T_now_before),
+                                 before.noise[k], narrow);
+    if (!gaps[k].motion.found) gaps.resize(k);
+  }
+  return matches;
+}
+
+void LearnNoise(RobustState& state, const std::vector<GapMotion>& gaps, const GapMatches& matches,
                 const StereoCamera& camera) {
   for (std::size_t k = 0; k < gaps.size(); ++k) {
     const auto measured = MeasureNoise(matches[k], camera, gaps[k].motion.T_now_before);
@@ -223,15 +204,25 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
   const StereoCamera half = HalfCamera(camera);
 
   const auto prior = PriorFor(before, stamp_ns, predicted, options.ego);
-  Seen seen = See(before, images, stamp_ns, prior, half, options, stages.stage_ms);
-  LabelMemory memory;
+  Seen seen;
+  LabelMemory memory = ForgottenMemory(images.left.size() / 2);
+  {
+    const Stopwatch time(stages.stage_ms["disparity"]);
+    seen = See(images, stamp_ns, options);
+  }
+  {
+    const Stopwatch time(stages.stage_ms["flow"]);
+    stages.gaps =
+        FollowGaps(before, seen.frame, prior ? prior->T_now_before : Isometry3d::Identity(), half,
+                   options.flow);
+  }
   {
     const Stopwatch time(stages.stage_ms["ego_motion"]);
-    memory = seen.flow.empty()
-                 ? ForgottenMemory(seen.frame.image.size())
-                 : CarryMemory(before.memory, seen.flow, seen.frame, before.frames.back());
-    std::array<std::vector<StereoMatch>, kGaps.size()> matches;
-    stages.gaps = FindGapMotions(before, seen, memory.log_odds, prior, camera, options, matches);
+    if (!stages.gaps.empty()) {
+      memory = CarryMemory(before.memory, stages.gaps[0].flow, seen.frame, before.frames.back());
+    }
+    const GapMatches matches =
+        FindGapMotions(stages.gaps, before, seen, memory.log_odds, prior, camera, options.ego);
     LearnNoise(state, stages.gaps, matches, camera);
   }
   {
