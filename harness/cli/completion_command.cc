@@ -47,7 +47,7 @@ void AddCases(const CLI::App& command, const std::string& path, Cases* cases) {
   for (const CLI::Option* option : command.get_options()) {
     const std::vector<std::string> names = NamesOf(*option), values = ValuesOf(*option);
     words.insert(words.end(), names.begin(), names.end());
-    if (values.empty()) continue;
+    if (names.empty()) words.insert(words.end(), values.begin(), values.end());  // positional
     for (const std::string& name : names) {
       cases->values += fmt::format("    '{}{}') words='{}' ;;\n", path, name, Joined(values));
     }

@@ -149,8 +149,8 @@ void CorrectAndDecide(const CompareOptions& options, std::vector<Comparison>* co
   for (Comparison& c : *comparisons) {
     const Judged* judged = FindJudged(c.score);
     if (judged == nullptr) {
-      c.change = Change::kCannotTell;
-      c.why = "belongs to the machine: watched, not judged";
+      c.change = Change::kWatched;
+      c.why = "belongs to the machine, is not judged";
       continue;
     }
     if (IsTested(c)) c.p = adjusted[next++];
@@ -173,6 +173,8 @@ std::string Name(Change change) {
       return "worse";
     case Change::kSame:
       return "same";
+    case Change::kWatched:
+      return "watched";
     case Change::kCannotTell:
       break;
   }

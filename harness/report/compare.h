@@ -18,9 +18,10 @@ enum class Change {
   kBetter,
   kWorse,
   kSame,
+  kWatched,     ///< time and memory belong to the machine: compared, never judged
   kCannotTell,  ///< a difference that chance may have made, or too few seeds to say
 };
-/// "better", "worse", "same", "cannot tell".
+/// "better", "worse", "same", "watched", "cannot tell".
 std::string Name(Change change);
 
 /// One score of one cell, before and after.

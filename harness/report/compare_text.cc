@@ -14,7 +14,7 @@ std::string Cell(const Comparison& c) { return fmt::format("{} {} {}", c.scene, 
 
 std::string Painted(const Comparison& c, bool color) {
   const std::string text = fmt::format("{:11}", Name(c.change));
-  if (!color || c.change == Change::kSame || c.change == Change::kCannotTell) return text;
+  if (!color || (c.change != Change::kWorse && c.change != Change::kBetter)) return text;
   return fmt::format("\x1b[{}m{}\x1b[0m", c.change == Change::kWorse ? "31;1" : "32", text);
 }
 

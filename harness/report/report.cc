@@ -13,6 +13,13 @@ namespace {
 // Up to here everything stands on one page: a reader of a small suite need not click.
 constexpr std::size_t kScenesOnOnePage = 2;
 
+bool HasPrinted(const std::vector<NumberTable>& tables) {
+  return std::any_of(tables.begin(), tables.end(), [](const NumberTable& table) {
+    return std::any_of(table.rows.begin(), table.rows.end(),
+                       [](const NumberTable::Row& row) { return row.printed; });
+  });
+}
+
 }  // namespace
 
 void WriteReport(const Results& results, const std::filesystem::path& report_dir) {
@@ -23,12 +30,15 @@ void WriteReport(const Results& results, const std::filesystem::path& report_dir
   body += CostSection(scenes);
   const std::vector<NumberTable> tables = PaperTables(scenes);
   if (!tables.empty()) {
-    body +=
-        "<h2>The tables of the paper, with our numbers</h2>\n<p class=\"soft small\">In "
-        "italics what the paper printed, of its own hall and cameras (DynaSLAM under "
-        "semantic): the order of the systems can be compared, not the size of the "
-        "numbers.</p>\n" +
-        ToHtml(tables);
+    body += "<h2>The tables of the paper, with our numbers</h2>\n";
+    if (HasPrinted(tables)) {
+      body +=
+          "<p class=\"soft small\">In italics what the paper printed, of its own hall and cameras "
+          "(DynaSLAM under semantic): the order of the systems can be compared, not the size of "
+          "the "
+          "numbers.</p>\n";
+    }
+    body += ToHtml(tables);
   }
   for (const SceneRuns& scene : scenes) {
     const std::string section = SceneSection(scene, report_dir, "");

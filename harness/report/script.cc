@@ -147,6 +147,16 @@ const char* const kScript = R"js('use strict';
     const high = [0, 1, 2].map(k => Math.max(...all.map(p => p[k])));
     const middle = low.map((v, k) => (v + high[k]) / 2);
     const extent = Math.max(...high.map((v, k) => v - low[k]), 0.1);
+    // Pixels a metre so that the tracks fill the canvas as it is first turned.
+    let first = null;
+    const fit = (width, height, turned) => {
+      if (first === null) {
+        const seen = all.map(turned);
+        const reach = k => Math.max(...seen.map(p => Math.abs(p[k])), 0.05 * extent);
+        first = {right: reach(0), up: reach(1)};
+      }
+      return 0.42 * Math.min(width / first.right, height / first.up);
+    };
     let yaw = -0.7, pitch = 0.6, zoom = 1, dragging = null;
 
     const draw = () => {
@@ -158,13 +168,16 @@ const char* const kScript = R"js('use strict';
       pen.scale(ratio, ratio);
       pen.clearRect(0, 0, width, height);
       const style = getComputedStyle(document.documentElement);
-      const scale = zoom * Math.min(width, height) / (1.25 * extent);
-      const project = p => {
+      const turned = p => {
         const [x, y, z] = p.map((v, k) => v - middle[k]);
         const along = Math.cos(yaw) * x - Math.sin(yaw) * y;
         const away = Math.sin(yaw) * x + Math.cos(yaw) * y;
-        return [width / 2 + scale * along,
-                height / 2 - scale * (Math.cos(pitch) * z + Math.sin(pitch) * away)];
+        return [along, Math.cos(pitch) * z + Math.sin(pitch) * away];
+      };
+      const scale = zoom * fit(width, height, turned);
+      const project = p => {
+        const [right, up] = turned(p);
+        return [width / 2 + scale * right, height / 2 - scale * up];
       };
       const line = (points, color, thick, dash) => {
         pen.beginPath();

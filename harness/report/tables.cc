@@ -26,7 +26,8 @@ const std::vector<Kind>& Kinds() {
   static const std::vector<Kind> kinds = {
       {1,
        "Moving objects",
-       "Each object of each frame, found where the rectangles overlap by half (IoU 0.5) or more.",
+       "Each object of each frame, found where the rectangles overlap by half (IoU 0.5) or more. "
+       "The paper's Table 1.",
        {{"moving", "objects_moving", 1, 0},
         {"found", "objects_found", 1, 0},
         {"missed", "objects_missed", 1, 0},

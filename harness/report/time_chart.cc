@@ -97,8 +97,9 @@ std::vector<Panel> Panels(const std::vector<ChartSeries>& series,
 
 void DropEmptyLines(Panel* panel) {
   std::erase_if(panel->lines, [](const Line& line) {
-    return std::all_of(line.pieces.begin(), line.pieces.end(),
-                       [](const Points& piece) { return piece.size() < 2; });
+    return std::all_of(line.pieces.begin(), line.pieces.end(), [](const Points& piece) {
+      return std::all_of(piece.begin(), piece.end(), [](const auto& at) { return at.second <= 0; });
+    });
   });
 }
 

@@ -1,0 +1,74 @@
+// What people and programs hold on to: help with examples, answers in JSON, completion.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "harness/io/file.h"
+#include "tests/system/program.h"
+
+namespace aisle {
+namespace {
+
+using testing::HasSubstr;
+
+class CommandLineTest : public ProgramTest {
+ protected:
+  static nlohmann::json Answer(std::vector<std::string> arguments, int code) {
+    arguments.push_back("--json");
+    const Said said = Run(arguments);
+    EXPECT_EQ(said.code, code) << said.text;
+    return nlohmann::json::parse(said.text);
+  }
+};
+
+TEST_F(CommandLineTest, EveryCommandExplainsItselfByAnExample) {
+  for (const char* command :
+       {"run", "rerun", "merge", "preview", "gallery", "render", "slam", "vocabulary", "score",
+        "report", "compare", "baseline", "check", "doctor", "completion"}) {
+    const Said said = Run({command, "--help"});
+    EXPECT_EQ(said.code, 0) << command;
+    EXPECT_THAT(said.text, HasSubstr(std::string("Example: "))) << command;
+  }
+}
+
+TEST_F(CommandLineTest, ProgramsAreAnsweredInJson) {
+  WriteFileAtomically(folder_ / "bad.yaml", "suite: 3\nscenes: x\n");
+  const nlohmann::json checked =
+      Answer({"check", scene_, (folder_ / "bad.yaml").string()}, 4).at("files");
+  EXPECT_TRUE(checked.at(0).at("good"));
+  EXPECT_FALSE(checked.at(1).at("good"));
+  EXPECT_THAT(checked.at(1).at("complaints").at(0).get<std::string>(), HasSubstr("bad.yaml:"));
+
+  WriteFileAtomically(folder_ / "t.txt", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 2 0 0 0 0 0 1\n");
+  WriteFileAtomically(folder_ / "e.txt", "0 0 0 0 0 0 0 1\n2 2 0 0 0 0 0 1\n");
+  const nlohmann::json scored = Answer({"score", "--truth", (folder_ / "t.txt").string(),
+                                        "--estimate", (folder_ / "e.txt").string(), "--rate", "1"},
+                                       0);
+  EXPECT_NEAR(scored.at("scores").at("coverage").at("value").get<double>(), 2.0 / 3, 1e-12);
+
+  ASSERT_EQ(Run({"run", Suite("json", "  - orbslam2\n"), "--out", Out("a")}).code, 0);
+  EXPECT_EQ(Answer({"report", Out("a")}, 0).at("runs").size(), 1u);
+  const nlohmann::json again = Answer({"rerun", "short/live/orbslam2/1", "--in", Out("a")}, 0);
+  EXPECT_TRUE(again.at("compared"));
+  EXPECT_TRUE(again.at("differences").empty());
+  EXPECT_FALSE(Answer({"compare", Out("a"), Out("a")}, 0).at("comparisons").empty());
+}
+
+TEST_F(CommandLineTest, TheShellCompletesCommandsOptionsAndValues) {
+  const std::string script = (folder_ / "complete.sh").string();
+  WriteFileAtomically(script, Run({"completion", "bash"}).text + R"(
+complete_line() { COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _aisle; echo "${COMPREPLY[*]}"; }
+complete_line aisle rer
+complete_line aisle bench ren
+complete_line aisle run x.yaml --gat
+complete_line aisle score --align si
+complete_line aisle run x.yaml --systems orb
+)");
+  Process shell({"/bin/bash", script}, {});
+  while (!shell.Poll()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_EQ(shell.result().log, "rerun\nrender\n--gate\nsim3\norbslam2\n");
+}
+
+}  // namespace
+}  // namespace aisle
