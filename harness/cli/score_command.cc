@@ -7,12 +7,14 @@
 #include "harness/io/trajectory.h"
 #include "harness/report/record_json.h"
 #include "harness/score/coverage.h"
+#include "harness/score/masks.h"
 
 namespace aisle {
 namespace {
 
 struct Options {
-  std::string truth, estimate, format, times;
+  std::string truth, format, times;
+  std::vector<std::string> estimates;
   std::string masks_truth, masks;
   std::string align = "se3", rule = "nearest", unit = "frames";
   double max_difference_s = -1;
@@ -93,7 +95,7 @@ void PrintText(const TrajectoryScore& score, const ScoreOptions& options, std::s
   for (const std::string& note : score.notes) fmt::print("\nnote: {}\n", note);
 }
 
-void PrintJson(const TrajectoryScore& score, const ScoreOptions& options) {
+nlohmann::ordered_json ToJson(const TrajectoryScore& score, const ScoreOptions& options) {
   RunRecord record;
   record.scores = score.scores;
   nlohmann::ordered_json json;
@@ -103,7 +105,38 @@ void PrintJson(const TrajectoryScore& score, const ScoreOptions& options) {
   json["rpe"] = Describe(options.relative);
   json["scores"] = RecordToJson(record)["scores"];
   json["notes"] = score.notes;
-  fmt::print("{}", Dump(json));
+  return json;
+}
+
+/// Several estimates side by side, a row per score. Where one has no value, `score` of it alone
+/// says why.
+void PrintTable(const std::vector<std::string>& files, const std::vector<TrajectoryScore>& scores,
+                const ScoreOptions& options) {
+  constexpr std::size_t kWidth = 16;
+  fmt::print("association  {}\nalignment    {}\nrpe          {}\n\n{:36}",
+             scores.front().association, AlignmentInWords(options), Describe(options.relative), "");
+  for (const std::string& file : files) {
+    const std::string name = Printable(file, 4096);
+    fmt::print(" {:>{}}", name.substr(name.size() - std::min(name.size(), kWidth)), kWidth);
+  }
+  std::map<std::string, std::string> units;
+  for (const TrajectoryScore& score : scores) {
+    for (const auto& [name, value] : score.scores) units[name] = value.unit;
+  }
+  for (const auto& [name, unit] : units) {
+    fmt::print("\n{:28} {:7}", name, unit == "1" ? "" : unit);
+    for (const TrajectoryScore& score : scores) {
+      const auto at = score.scores.find(name);
+      const bool has = at != score.scores.end() && at->second.value;
+      fmt::print(" {:>{}}", has ? fmt::format("{:.6g}", *at->second.value) : "-", kWidth);
+    }
+  }
+  fmt::print("\n");
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (const std::string& note : scores[i].notes) {
+      fmt::print("\nnote: {}: {}\n", Printable(files[i], 4096), note);
+    }
+  }
 }
 
 int ScoreMasksOnly(const Options& options) {
@@ -112,31 +145,47 @@ int ScoreMasksOnly(const Options& options) {
   if (options.json) {
     RunRecord record;
     record.scores = score.scores;
-    fmt::print("{}", Dump({{"scores", RecordToJson(record)["scores"]}}));
+    fmt::print("{}", Dump({{"objects", Describe(MaskOptions{})},
+                           {"scores", RecordToJson(record)["scores"]}}));
   } else {
+    fmt::print("objects      {}\n\n", Describe(MaskOptions{}));
     for (const auto& [name, value] : score.scores) fmt::print("{:28} {}\n", name, ToText(value));
   }
   return kAllPassed;
 }
 
 int ScoreFiles(const Options& options) {
-  const bool trajectories = !options.truth.empty() || !options.estimate.empty();
+  const bool trajectories = !options.truth.empty() || !options.estimates.empty();
   if (!options.masks_truth.empty()) {
     const int code = ScoreMasksOnly(options);
     if (!trajectories) return code;
   }
-  if (options.truth.empty() || options.estimate.empty()) {
+  if (options.truth.empty() || options.estimates.empty()) {
     throw InputError("give --truth and --estimate, or --masks-truth and --masks");
   }
-  const Trajectory truth = Read(options.truth, options), estimate = Read(options.estimate, options);
+  const Trajectory truth = Read(options.truth, options);
   const ScoreOptions score_options = ScoreOptionsOf(options);
-  const TrajectoryScore score = ScorePoses(truth, estimate, score_options, options.rate_hz);
-  if (options.json) {
-    PrintJson(score, score_options);
-  } else {
-    PrintText(score, score_options, truth.size(), estimate.size());
+  std::vector<TrajectoryScore> scores;
+  std::size_t poses = 0;
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const std::string& file : options.estimates) {
+    const Trajectory estimate = Read(file, options);
+    poses = estimate.size();
+    scores.push_back(ScorePoses(truth, estimate, score_options, options.rate_hz));
+    list.push_back(ToJson(scores.back(), score_options));
+    list.back()["estimate"] = file;
   }
-  return score.pairs.empty() ? kNothingToDo : kAllPassed;
+  if (options.json) {
+    fmt::print("{}",
+               Dump(list.size() == 1 ? list.front() : nlohmann::ordered_json{{"estimates", list}}));
+  } else if (scores.size() == 1) {
+    PrintText(scores.front(), score_options, truth.size(), poses);
+  } else {
+    PrintTable(options.estimates, scores, score_options);
+  }
+  const bool any = std::any_of(scores.begin(), scores.end(),
+                               [](const TrajectoryScore& score) { return !score.pairs.empty(); });
+  return any ? kAllPassed : kNothingToDo;
 }
 
 }  // namespace
@@ -146,7 +195,8 @@ void AddScoreCommand(CLI::App* app, Action* action) {
   CLI::App* command =
       app->add_subcommand("score", "every metric for anyone's trajectories and masks");
   command->add_option("--truth", options->truth, "true trajectory");
-  command->add_option("--estimate", options->estimate, "estimated trajectory");
+  command->add_option("--estimate", options->estimates,
+                      "estimated trajectory; several are set side by side");
   command->add_option("--format", options->format, "of both files; default: by their content")
       ->check(CLI::IsMember({"tum", "kitti", "euroc"}));
   command->add_option("--times", options->times, "KITTI times.txt; default 10 poses a second");

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "harness/report/html.h"
+#include "harness/score/significance.h"
 
 namespace aisle {
 namespace {
@@ -59,6 +60,21 @@ std::string List(const std::vector<std::string>& items, const std::string& word)
   return fmt::format("<ul>\n{}</ul>{}\n", text, folded ? "</details>" : "");
 }
 
+/// How many runs failed, and what so many runs can say of the next ones.
+std::string FailureRate(const std::vector<RunRecord>& runs) {
+  const auto failed =
+      static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), [](const RunRecord& run) {
+        return run.status != RunStatus::kOk && run.status != RunStatus::kLost;
+      }));
+  constexpr std::size_t kWorthSaying = 20;  // below, the bound is no news
+  if (failed == 0 && runs.size() < kWorthSaying) return "";
+  return fmt::format(
+      "<p class=\"soft small\">{} of {} runs crashed, hung or answered nonsense: 95 % sure, fewer "
+      "than {:.2g} % do.</p>\n",
+      failed == 0 ? "None" : std::to_string(failed), runs.size(),
+      100 * FailureRateBound(failed, runs.size()));
+}
+
 /// How far beyond its limit, as a share of it; what has no number is worst.
 double Excess(const Verdict& verdict) {
   if (!verdict.value || !verdict.limit) return std::numeric_limits<double>::infinity();
@@ -104,8 +120,9 @@ std::string VerdictSection(const Results& results, const std::vector<SceneRuns>&
   }
   return fmt::format(
       "<h1>{}</h1>\n<p class=\"soft\">{}</p>\n<div class=\"verdict {}\"><strong>{}</strong>{}"
-      "</div>\n",
-      Escape(results.suite), Escape(results.question), css, Headline(all, broken, flaky), lists);
+      "</div>\n{}",
+      Escape(results.suite), Escape(results.question), css, Headline(all, broken, flaky), lists,
+      FailureRate(results.runs));
 }
 
 std::string OverviewSection(const std::vector<SceneRuns>& scenes, SceneLinks links) {

@@ -194,6 +194,14 @@ MaskFacts CompareMasks(const cv::Mat1b& left, const FrameTruth& truth,
   return facts;
 }
 
+std::string Describe(const MaskOptions& options) {
+  return fmt::format(
+      "rectangles of connected blobs of {} px or more (gaps up to {} px closed), one to one, "
+      "largest overlap first, found from IoU {:g} on, invented without a partner; object_iou is "
+      "the mean over those found",
+      options.min_region_pixels, options.close_gap_px, options.match_iou);
+}
+
 std::optional<double> Ratio(double part, double whole) {
   return whole > 0 ? std::optional(part / whole) : std::nullopt;
 }

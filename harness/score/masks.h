@@ -58,6 +58,9 @@ MaskFacts CompareMaskImages(const cv::Mat1b& truth, const cv::Mat1b& rejected);
 MaskFacts CompareMasks(const cv::Mat1b& left, const FrameTruth& truth,
                        const DynamicRegions& regions, const MaskOptions& options = {});
 
+/// The rule by which objects are counted, in words.
+std::string Describe(const MaskOptions& options);
+
 /// tp / (tp + fp) and its kin; absent where nothing was there to be counted.
 std::optional<double> Ratio(double part, double whole);
 

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "harness/io/file.h"
+#include "harness/io/image.h"
 #include "tests/system/program.h"
 
 namespace aisle {
@@ -53,6 +54,32 @@ TEST_F(CommandLineTest, ProgramsAreAnsweredInJson) {
   EXPECT_TRUE(again.at("compared"));
   EXPECT_TRUE(again.at("differences").empty());
   EXPECT_FALSE(Answer({"compare", Out("a"), Out("a")}, 0).at("comparisons").empty());
+}
+
+cv::Mat1b Square(int x, int y) {
+  cv::Mat1b mask(120, 160, static_cast<unsigned char>(0));
+  mask(cv::Rect(x, y, 40, 40)) = 255;
+  return mask;
+}
+
+TEST_F(CommandLineTest, MasksOfOthersGetTheScoresThatAHandWouldReckon) {
+  // First image: ten pixels beside the truth. Second: missed, and something invented elsewhere.
+  for (const auto& [name, truth, mask] : {std::tuple("1.png", Square(10, 10), Square(20, 10)),
+                                          std::tuple("2.png", Square(10, 10), Square(100, 60))}) {
+    WriteImage(folder_ / "truth" / name, truth);
+    WriteImage(folder_ / "masks" / name, mask);
+  }
+  const nlohmann::json scores = Answer({"score", "--masks-truth", (folder_ / "truth").string(),
+                                        "--masks", (folder_ / "masks").string()},
+                                       0)
+                                    .at("scores");
+  const auto value = [&](const char* name) { return scores.at(name).at("value").get<double>(); };
+  EXPECT_DOUBLE_EQ(value("object_precision"), 1.0 / 2);
+  EXPECT_DOUBLE_EQ(value("object_recall"), 1.0 / 2);
+  EXPECT_DOUBLE_EQ(value("object_iou"), 1200.0 / 2000);
+  EXPECT_DOUBLE_EQ(value("mask_precision"), 1200.0 / 3200);
+  EXPECT_DOUBLE_EQ(value("mask_recall"), 1200.0 / 3200);
+  EXPECT_DOUBLE_EQ(value("mask_iou"), 1200.0 / 5200);
 }
 
 TEST_F(CommandLineTest, TheShellCompletesCommandsOptionsAndValues) {
