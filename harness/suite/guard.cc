@@ -114,6 +114,7 @@ void Guard(char* const* argv, int output, int parent, const sigset_t& before) {
   while (child > 0) {
     const int signal = ::sigwaitinfo(&watched, nullptr);
     if (signal == SIGTERM) {
+      ::kill(child, SIGKILL);  // at least, where the kernel does not list children
       EndAll();
       ::_exit(kNotStarted);
     }
