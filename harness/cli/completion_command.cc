@@ -105,8 +105,8 @@ void AddCompletionCommand(CLI::App* app, Action* action) {
   const auto shell = std::make_shared<std::string>("bash");
   command->add_option("SHELL", *shell, "bash")->check(CLI::IsMember({"bash"}));
   command->footer("Example: eval \"$(./aisle completion bash)\"");
-  command->callback([=] {
-    *action = [=] {
+  command->callback([app, action, shell] {  // `shell` is where the parser puts the word
+    *action = [app] {
       fmt::print("{}", BashScript(*app));
       return kAllPassed;
     };

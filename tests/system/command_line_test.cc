@@ -19,7 +19,7 @@ class CommandLineTest : public ProgramTest {
     arguments.push_back("--json");
     const Said said = Run(arguments);
     EXPECT_EQ(said.code, code) << said.text;
-    return nlohmann::json::parse(said.text);
+    return nlohmann::json::parse(said.text.substr(said.text.find('{')));  // stderr comes first
   }
 };
 
