@@ -20,7 +20,8 @@ class SceneError : public std::runtime_error {
   std::vector<std::string> messages_;
 };
 
-/// Reads and checks a scene file; actors of every level are in it. Throws SceneError with every mistake that was found.
+/// Reads and checks a scene file; actors of every level are in it. Throws SceneError with every
+/// mistake that was found.
 Scene LoadScene(const std::filesystem::path& file);
 /// The same from text; `file` is for the messages.
 Scene ParseScene(const std::string& text, const std::string& file);
