@@ -132,8 +132,8 @@ std::uint64_t HashOf(const std::string& scene_text, const World& world, std::int
   for (const TriangleMesh& mesh : world.mover_meshes()) hasher.Add(mesh);
   for (const Texture& texture : world.textures()) hasher.Add(texture.image);
   for (const Material& material : world.materials()) {
-    hasher.Add(fmt::format("{} {} {} {}", material.albedo, material.specular_f0, material.roughness,
-                           material.emission));
+    hasher.Add(fmt::format("{} {} {} {} {}", material.albedo, material.specular_f0,
+                           material.roughness, material.emission, material.normal_scale));
   }
   for (const std::int64_t stamp_ns : {std::int64_t{0}, end_ns / 2}) {
     for (const MoverState& mover : world.At(stamp_ns).movers) hasher.Add(mover.positions);

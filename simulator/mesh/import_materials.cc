@@ -1,5 +1,6 @@
 #include "simulator/mesh/import_materials.h"
 
+#include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
 
 #include <fstream>
@@ -114,6 +115,8 @@ void ImportMaterials(const aiScene& scene, const fs::path& file, const ImportOpt
       material.albedo = ColorOf(from, AI_MATKEY_BASE_COLOR, options.band, 1);
       material.albedo_texture = textures.Load(from, aiTextureType_BASE_COLOR, false);
       material.normal_texture = textures.Load(from, aiTextureType_NORMALS, true);
+      from.Get(AI_MATKEY_GLTF_TEXTURE_SCALE(aiTextureType_NORMALS, 0), material.normal_scale);
+      if (!std::isfinite(material.normal_scale)) material.normal_scale = 1;
       const float metallic = NumberOf(from, AI_MATKEY_METALLIC_FACTOR, 1);
       material.roughness = NumberOf(from, AI_MATKEY_ROUGHNESS_FACTOR, 1);
       material.specular_f0 = kDielectricF0 * (1 - metallic) + material.albedo * metallic;

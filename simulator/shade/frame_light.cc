@@ -43,7 +43,7 @@ struct PointRays {
 /// Many where a point stands for many pixels, few where the errors of neighbours fall into one
 /// pixel.
 PointRays RaysFor(std::size_t pixels, std::size_t points) {
-  if (pixels >= 96 * points) return {.to_lights = 96, .to_bodies = 16};
+  if (pixels >= 96 * points) return {.to_lights = 64, .to_bodies = 16};
   if (pixels >= 32 * points) return {.to_lights = 48, .to_bodies = 16};
   if (pixels >= 8 * points) return {.to_lights = 24, .to_bodies = 8};
   return {.to_lights = 12, .to_bodies = 8};
@@ -57,8 +57,11 @@ std::uint32_t Spread(std::uint32_t x) {
   return (x | x << 1) & 0x55555555u;
 }
 
+constexpr float kFacings = 8;  // cells along each side of the unfolded sphere
+
 /// Orders points so that the eight of a packet face alike: they deal out their rays to the lamps
-/// together, and a point that faced another lamp than the rest would be left with few.
+/// together, and a point that faced another lamp than the rest would be left with few. Within a
+/// facing the mesh's order, in which neighbours are near, stays.
 void SortByFacing(std::span<const SurfacePoint> places, std::vector<std::uint32_t>* points) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
   for (const std::uint32_t point : *points) {
@@ -68,11 +71,11 @@ void SortByFacing(std::span<const SurfacePoint> places, std::vector<std::uint32_
     const Eigen::Vector2f folded(std::copysign(1 - std::abs(n.y()), n.x()),
                                  std::copysign(1 - std::abs(n.x()), n.y()));
     const Eigen::Vector2f at = n.z() < 0 ? folded : Eigen::Vector2f(n.head<2>());
-    const Eigen::Vector2f cell = (at.array() + 1).matrix() * 127.5f;
-    order.emplace_back(Spread(static_cast<std::uint32_t>(std::clamp(cell.x(), 0.0f, 255.0f))) |
-                           Spread(static_cast<std::uint32_t>(std::clamp(cell.y(), 0.0f, 255.0f)))
-                               << 1,
-                       point);
+    const Eigen::Vector2f cell = (at.array() + 1).matrix() * (kFacings / 2);
+    order.emplace_back(
+        Spread(static_cast<std::uint32_t>(std::clamp(cell.x(), 0.0f, kFacings - 1))) |
+            Spread(static_cast<std::uint32_t>(std::clamp(cell.y(), 0.0f, kFacings - 1))) << 1,
+        point);
   }
   std::ranges::sort(order);
   for (std::size_t i = 0; i < order.size(); ++i) (*points)[i] = order[i].second;
@@ -132,8 +135,22 @@ SurfaceTables::SurfaceTables(const World& world, const LightGrid& static_grid, f
     slot_count_ += grid.point_of_slot.size();
     mover_grids_.push_back(std::move(grid));
   }
+  has_normal_maps_ = std::ranges::any_of(
+      world.materials(), [](const Material& material) { return material.normal_texture >= 0; });
   glossy_ =
       std::ranges::any_of(statics_, is_glossy) || std::ranges::any_of(mover_records_, is_glossy);
+}
+
+MeshPlace SurfaceTables::PlaceOf(const Instant& instant, const HitImage& image,
+                                 std::size_t pixel) const {
+  const std::uint32_t geometry = image.geometry[pixel], triangle = image.primitive[pixel];
+  const float u = image.u[pixel], v = image.v[pixel];
+  if (geometry == 0) {
+    const TriangleMesh& mesh = world_->statics().mesh;
+    return {mesh, mesh.positions, mesh.normals, triangle, u, v};
+  }
+  const MoverState& state = instant.snapshot().movers[geometry - 1];
+  return {world_->mover_meshes()[geometry - 1], state.positions, state.normals, triangle, u, v};
 }
 
 void SurfaceTables::LightMover(const Instant& instant, std::size_t mover, const LightVolume& volume,

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "simulator/shade/normal_map.h"
 #include "simulator/shade/static_light.h"
 #include "simulator/shade/surface_lanes.h"
 #include "simulator/trace/hit_image.h"
@@ -27,6 +28,9 @@ class SurfaceTables {
   const World& world() const { return *world_; }
   /// Whether anything in the world has a glossy lobe.
   bool glossy() const { return glossy_; }
+  bool has_normal_maps() const { return has_normal_maps_; }
+  /// Where a pixel that hit something lies on its mesh.
+  MeshPlace PlaceOf(const Instant& instant, const HitImage& image, std::size_t pixel) const;
   /// Index in FrameLight::mover_records of a mover's first triangle.
   std::span<const std::int32_t> mover_bases() const { return mover_bases_; }
 
@@ -42,7 +46,7 @@ class SurfaceTables {
 
   const World* world_;
   std::vector<SurfaceRecord> statics_;
-  bool glossy_ = false;
+  bool glossy_ = false, has_normal_maps_ = false;
   std::vector<SurfaceRecord> mover_records_;
   std::vector<std::int32_t> mover_bases_;
   std::vector<std::size_t> slot_bases_;

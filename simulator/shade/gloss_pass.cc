@@ -157,22 +157,17 @@ class Pass {
     return lamps;
   }
 
-  /// The surfaces' smooth normals, on the eye's side.
+  /// The surfaces' normals, on the eye's side.
   F8x3 Normal(const Glossy8& glossy, std::size_t pixel, const F8x3& to_eye) const {
     F8x3 n = {Wide(0), Wide(0), Wide(1)};
     for (int k = 0; k < kLanes; ++k) {
       if (!glossy.lanes[k]) continue;
       const std::size_t i = pixel + static_cast<std::size_t>(k);
-      const std::uint32_t geometry = image_.geometry[i];
-      const World& world = tables_.world();
-      const TriangleMesh& mesh =
-          geometry == 0 ? world.statics().mesh : world.mover_meshes()[geometry - 1];
-      const std::vector<Eigen::Vector3f>& normals =
-          geometry == 0 ? mesh.normals : instant_.snapshot().movers[geometry - 1].normals;
-      const auto& [a, b, c] = mesh.triangles[image_.primitive[i]];
-      const float u = image_.u[i], v = image_.v[i];
+      const MeshPlace place = tables_.PlaceOf(instant_, image_, i);
+      const Material& material =
+          tables_.world().materials()[place.topology.materials[place.triangle]];
       const Eigen::Vector3f normal =
-          ((1 - u - v) * normals[a] + u * normals[b] + v * normals[c]).normalized();
+          MappedNormal(place, material, textures_, image_.t[i] * view_.rays->step_x);
       n.x[k] = normal.x();
       n.y[k] = normal.y();
       n.z[k] = normal.z();

@@ -1,5 +1,7 @@
 #include "simulator/shade/mover_indirect.h"
 
+#include <tbb/parallel_for.h>
+
 #include <numbers>
 
 #include "simulator/shade/hemisphere.h"
@@ -8,11 +10,13 @@ namespace aisle::sim {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kReach = 1.0f;        // m: how far a body darkens itself
-constexpr float kReflection = 0.15f;  // what the blocking parts send on in turn
-constexpr float kGroundReach = 1.2f;  // m: how far around a body its shadow on the floor is known
-constexpr float kGroundSpacing = 0.25f;  // m
-constexpr int kGroundLightRays = 16, kGroundBodyRays = 8;
+constexpr float kReach = 1.0f;          // m: how far a body darkens itself
+constexpr float kReflection = 0.15f;    // what the blocking parts send on in turn
+constexpr float kGroundReach = 1.2f;    // m: how far around a body its shadow on the floor is known
+constexpr float kGroundSpacing = 0.3f;  // m
+constexpr int kGroundLightRays = 16, kGroundHallRays = 8, kGroundBodyRays = 8;
+constexpr GeometryMask kNothing = 0;
+constexpr float kDark = 1e-9f;
 constexpr float kAboveGround = 0.02f;  // m: lamps see the floor from there
 
 /// Movers that may stand within reach of one.
@@ -59,25 +63,32 @@ void MoverIndirect::ShadeGround(std::span<const AreaLight> lights) {
     places.push_back({ground_ + kGroundSpacing * shift + kAboveGround * Eigen::Vector3f::UnitZ(),
                       Eigen::Vector3f::UnitZ()});
   }
-  for (std::size_t first = 0; first < count; first += kLanes) {
+  tbb::parallel_for(std::size_t{0}, (count + kLanes - 1) / kLanes, [&](std::size_t packet) {
+    const std::size_t first = packet * kLanes;
     const std::span eight =
         std::span(places).subspan(first, std::min<std::size_t>(kLanes, count - first));
-    const auto turn = static_cast<std::uint32_t>(first / kLanes);
-    const auto lit = SampleDirectLight(instant_, lights, scale, eight,
-                                       {.samples = kGroundLightRays, .turn = turn});
-    const auto unshaded =
-        SampleDirectLight(instant_, lights, scale, eight,
-                          {.samples = kGroundLightRays, .turn = turn, .occluders = kStaticOnly});
+    const auto sample = [&](int samples, GeometryMask occluders) {
+      return SampleDirectLight(
+          instant_, lights, scale, eight,
+          {.samples = samples, .turn = static_cast<std::uint32_t>(packet), .occluders = occluders});
+    };
+    // How much bodies take of the lamps, and how much the lamps give at all, are asked apart: the
+    // first, which must be exact, needs no ray through the hall.
+    const auto open = sample(kGroundLightRays, kNothing);
+    const auto left = sample(kGroundLightRays, bodies_);
+    const auto direct = sample(kGroundHallRays, kStaticOnly);
     for (std::size_t k = 0; k < eight.size(); ++k) {
       int blocked = 0;
       for (const unsigned lanes : Probe(eight[k], Eigen::Matrix3f::Identity(), directions)) {
         blocked += std::popcount(lanes);
       }
-      const float open = 1 - static_cast<float>(blocked) / kGroundBodyRays * (1 - kReflection);
+      const float sky = 1 - static_cast<float>(blocked) / kGroundBodyRays * (1 - kReflection);
       const float indirect = volume_.Irradiance(eight[k].position, eight[k].normal);
-      kept_[first + k] = (lit[k] + open * indirect) / std::max(unshaded[k] + indirect, 1e-9f);
+      const float kept_direct = open[k] > 0 ? left[k] / open[k] : 1.0f;
+      kept_[first + k] =
+          (kept_direct * direct[k] + sky * indirect + kDark) / (direct[k] + indirect + kDark);
     }
-  }
+  });
 }
 
 MoverIndirect::Blocked MoverIndirect::Probe(const SurfacePoint& point, const Eigen::Matrix3f& basis,

@@ -1,7 +1,6 @@
 #include "simulator/shade/mover_shadow.h"
 
 #include <cstddef>
-#include <cstring>
 
 #include "simulator/shade/hemisphere.h"
 #include "simulator/shade/pattern_filter.h"
@@ -22,6 +21,8 @@ constexpr float kUntracedShare = 0.02f;
 // A light that gives less than such a share of a tile's light is asked in every second, every
 // fourth row of the pattern only.
 constexpr float kHalfShare = 0.2f, kQuarterShare = 0.08f;
+
+const F8 kAlmostThere = Wide(0.998f);  // of the way to a light
 
 F8x3 Wide3(const Eigen::Vector3f& v) { return {Wide(v.x()), Wide(v.y()), Wide(v.z())}; }
 
@@ -247,6 +248,20 @@ class Pass {
     return may;
   }
 
+  /// Lanes whose segment a mover blocks; each mover is asked for those alone that meet its box.
+  unsigned BlockedBy(GeometryMask movers, const F8x3& from, const F8x3& to, I8 valid) const {
+    unsigned blocked = 0;
+    for (std::size_t m = 0; m < instant_.mover_boxes().size(); ++m) {
+      if (!(movers & MoverBit(m))) continue;
+      const I8 open = valid & ~LanesOf(blocked);
+      const I8 meet = open & MeetBox(instant_.mover_boxes()[m], from, to);
+      if (!Any(meet)) continue;
+      blocked |= instant_.Occluded(MakeRays(from, to, kAlmostThere, meet), Coherence::kCoherent,
+                                   MoverBit(m));
+    }
+    return blocked;
+  }
+
   bool TracePacket(int x, int y, const TileWork& work, std::vector<float>* raw) const {
     const Pixels8 pixels = Locate(x, y);
     if (!Any(pixels.active)) return false;
@@ -273,17 +288,14 @@ class Pass {
                            light.center.z() + at.a * light.half_u.z() + at.b * light.half_v.z()};
     const F8x3 to = Minus(on_light, pixels.position);
     const F8 here = Dot(to, pixels.normal), there = -Dot(to, Wide3(cross));
-    I8 valid = pixels.active & (here > 0) & (there > 0);
+    const I8 valid = pixels.active & (here > 0) & (there > 0);
     if (!Any(valid)) return Wide(0);
-    valid &= MayMeet(blocker.movers, pixels.position, to);
-    if (!Any(valid)) return Wide(0);
-    Rays8 rays = MakeRays(pixels.position, to, Wide(0.998f), valid);
-    const unsigned blocked = instant_.Occluded(rays, Coherence::kCoherent, blocker.movers);
+    const unsigned blocked = BlockedBy(blocker.movers, pixels.position, to, valid);
     if (!blocked) return Wide(0);
     // What the static world keeps away anyway is not the mover's to take.
-    const I8 in_question = LanesOf(blocked);
-    std::memcpy(rays.valid, &in_question, sizeof(rays.valid));
-    const unsigned dark = instant_.Occluded(rays, Coherence::kCoherent, kStaticOnly);
+    const unsigned dark =
+        instant_.Occluded(MakeRays(pixels.position, to, kAlmostThere, LanesOf(blocked)),
+                          Coherence::kCoherent, kStaticOnly);
     const F8 squared = Dot(to, to);
     const float power = 4 * light.radiance * instant_.snapshot().light_scale[blocker.light];
     return Select(LanesOf(blocked & ~dark), power * here * there / (squared * squared), Wide(0));

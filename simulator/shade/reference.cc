@@ -6,14 +6,16 @@
 
 #include "simulator/shade/gloss.h"
 #include "simulator/shade/hemisphere.h"
+#include "simulator/shade/normal_map.h"
 #include "simulator/shade/path_random.h"
 
 namespace aisle::sim {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kLift = 1e-4f;  // of the coordinates' size, along the normal
-constexpr int kSplit = 4;       // lights that a path's first vertex asks; later ones ask one
+constexpr float kLift = 1e-4f;     // of the coordinates' size, along the normal
+constexpr float kPoint_m = 1e-4f;  // how wide normal maps are averaged
+constexpr int kSplit = 4;          // lights that a path's first vertex asks; later ones ask one
 constexpr float kRouletteBelow = 0.2f;  // throughput under which a path may end early
 constexpr float kLightGuard = 1e-3f;    // share of the way that a shadow ray leaves out at its end
 
@@ -267,7 +269,8 @@ class PathPacket {
     vertex.geometric = (positions[ib] - positions[ia]).cross(positions[ic] - positions[ia]);
     vertex.geometric.normalize();
     const bool front = vertex.geometric.dot(direction) < 0;
-    vertex.shading = (w * normals[ia] + u * normals[ib] + v * normals[ic]).normalized();
+    vertex.shading = MappedNormal({mesh, positions, normals, triangle, u, v}, material,
+                                  scene_.textures_, kPoint_m);
     if (vertex.shading.dot(vertex.geometric) < 0) vertex.shading = -vertex.shading;
     if (!front) {
       vertex.geometric = -vertex.geometric;

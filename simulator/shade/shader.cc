@@ -7,6 +7,7 @@
 #include "simulator/shade/antialias.h"
 #include "simulator/shade/gloss_pass.h"
 #include "simulator/shade/mover_shadow.h"
+#include "simulator/shade/normal_pass.h"
 
 namespace aisle::sim {
 namespace {
@@ -104,6 +105,7 @@ std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const Eye
     const HitImage& image = images[i];
     LookUpImage(tables_, work->frame, textures_, views[i], image, &work->reflectance,
                 &work->irradiance);
+    BendLight(instant, views[i], image, tables_, work->frame, textures_, &work->irradiance);
     done("look up");
     work->kept.assign(image.t.size(), 1);
     if (options_.mover_shadows) {

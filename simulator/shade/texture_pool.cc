@@ -24,6 +24,15 @@ cv::Mat1f LinearImage(const cv::Mat& image) {
   return linear;
 }
 
+/// One of an 8-bit picture, as shares of full.
+cv::Mat1f ChannelOf(const cv::Mat& image, int channel) {
+  cv::Mat one;
+  cv::extractChannel(image, one, channel);
+  cv::Mat1f share;
+  one.convertTo(share, CV_32F, 1.0 / 255);
+  return share;
+}
+
 int PowerOfTwo(int size) {
   return std::min(8192, static_cast<int>(std::bit_ceil(static_cast<unsigned>(size))));
 }
@@ -59,16 +68,26 @@ TexturePool::TexturePool(std::span<const Texture> textures) {
     }
   };
   append(cv::Mat1f(1, 1, 1.0f));  // what "no texture" samples
-  for (const Texture& texture : textures) {
-    if (texture.image.type() != CV_8UC1 || texture.image.empty()) {
-      append(cv::Mat1f(1, 1, 1.0f));
-      continue;
-    }
-    cv::Mat1f linear = LinearImage(texture.image);
+  const auto append_resized = [&](cv::Mat1f linear) {
     const cv::Size size(PowerOfTwo(linear.cols), PowerOfTwo(linear.rows));
     if (size != linear.size()) cv::resize(linear, linear, size, 0, 0, cv::INTER_LINEAR);
     append(linear);
+  };
+  // Of a normal map the x stands where a texture would, the y behind all textures.
+  std::vector<cv::Mat1f> seconds;
+  for (const Texture& texture : textures) {
+    second_.push_back(-1);
+    if (texture.image.empty()) {
+      append(cv::Mat1f(1, 1, 1.0f));
+    } else if (texture.image.type() == CV_8UC1) {
+      append_resized(LinearImage(texture.image));
+    } else {
+      second_.back() = static_cast<int>(textures.size() + seconds.size());
+      append_resized(ChannelOf(texture.image, 0));
+      seconds.push_back(ChannelOf(texture.image, 1));
+    }
   }
+  for (const cv::Mat1f& second : seconds) append_resized(second);
   bytes_.resize(bytes_.size() + 8);  // the gathers read four bytes
 }
 
@@ -132,6 +151,13 @@ F8 TexturePool::Sample(I8 index, F8 u, F8 v, F8 du_dx, F8 dv_dx, F8 du_dy, F8 dv
 float TexturePool::SampleWide(int texture, float u, float v, float width) const {
   const F8 zero = Wide(0), step = Wide(width);
   return Sample(WideInt(texture), Wide(u), Wide(v), step, zero, zero, step)[0];
+}
+
+Eigen::Vector2f TexturePool::SampleNormal(int texture, float u, float v, float width) const {
+  const int second = second_[static_cast<std::size_t>(texture)];
+  if (second < 0) return Eigen::Vector2f::Zero();
+  const Eigen::Vector2f share(SampleWide(texture, u, v, width), SampleWide(second, u, v, width));
+  return 2 * share - Eigen::Vector2f::Ones();
 }
 
 }  // namespace aisle::sim

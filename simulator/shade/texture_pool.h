@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,7 +16,7 @@ namespace aisle::sim {
 /// finer in the darks than linear bytes, and decoded by one multiplication.
 class TexturePool {
  public:
-  /// Textures that are not CV_8UC1 keep their index but are never sampled.
+  /// CV_8UC1 are albedo, CV_8UC3 normal maps.
   explicit TexturePool(std::span<const Texture> textures);
 
   /// Mean of the texture over the parallelogram spanned by the screen steps (du_dx, dv_dx) and
@@ -26,12 +27,15 @@ class TexturePool {
 
   /// Mean over a square footprint of `width` in texture coordinates; one point.
   float SampleWide(int texture, float u, float v, float width) const;
+  /// Mean x and y of a normal map, in [-1, 1], likewise; none where the texture is no normal map.
+  Eigen::Vector2f SampleNormal(int texture, float u, float v, float width) const;
 
  private:
   F8 Bilinear(I8 texture, I8 size, I8 level, F8 u, F8 v) const;
 
   static constexpr int kLevels = 14;  ///< up to 8192 texels a side
   std::vector<std::uint8_t> bytes_;
+  std::vector<int> second_;            ///< where a normal map's y is kept, by texture; -1: no map
   std::vector<std::int32_t> sizes_;    ///< log2 width | log2 height << 8, by texture + 1
   std::vector<std::int32_t> offsets_;  ///< by (texture + 1)·kLevels + level
 };
