@@ -111,9 +111,15 @@ class EurocRectifier {
                P1.at<double>(0, 2),
                P1.at<double>(1, 2),
                -P2.at<double>(0, 3) / P2.at<double>(0, 0)};
+    using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+    using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+    T_body_rig_ = Eigen::Map<const Matrix4>(left.T_body_camera.val);
+    T_body_rig_.linear() *= Eigen::Map<const Matrix3>(R1.ptr<double>()).transpose();
   }
 
   const StereoCamera& camera() const { return camera_; }
+  /// Where the rectified left camera sits in the body whose pose the recordings' truth gives.
+  const Eigen::Isometry3d& T_body_rig() const { return T_body_rig_; }
   StereoImages Rectify(std::int64_t id, std::int64_t stamp_ns, const cv::Mat& left,
                        const cv::Mat& right) const {
     StereoImages images{id, stamp_ns, {}, {}};
@@ -124,6 +130,7 @@ class EurocRectifier {
 
  private:
   StereoCamera camera_;
+  Eigen::Isometry3d T_body_rig_ = Eigen::Isometry3d::Identity();
   cv::Mat left_[2], right_[2];
 };
 
