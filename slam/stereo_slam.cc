@@ -98,7 +98,7 @@ struct StereoSlam::Impl {
   Map map;
   TrackMemory memory;
   TrackingState state = TrackingState::kInitializing;  // kTracking in any part of the map
-  std::optional<std::int64_t> lost_since_ns;           // first frame without a pose
+  std::optional<std::int64_t> lost_since_ns;  // first frame that shows something but has no pose
   std::int64_t frame_count = 0;
   std::map<LandmarkId, std::pair<int, int>> counts;  // predicted and found since the last keyframe
 
@@ -145,7 +145,7 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
   if (pose) {
     Remember(*frame, *pose);
     lost_since_ns.reset();
-  } else if (!lost_since_ns) {
+  } else if (!lost_since_ns && frame->size() >= options.least_first_points) {
     lost_since_ns = images.stamp_ns;
   }
   state = pose          ? TrackingState::kTracking
@@ -303,8 +303,11 @@ std::optional<FramePose> StereoSlam::Impl::FindPose(const Frame& frame) {
   return TrackFrame(map, frame, memory, camera, options.feature.levels, options.track);
 }
 
-/// Asks a few keyframes a frame for their view of it.
+/// Looks where the rig must be by now, then asks a few keyframes a frame for their view of it.
 std::optional<FramePose> StereoSlam::Impl::Relocalise(const Frame& frame) {
+  if (auto pose = FindAgain(map, frame, memory, camera, options.feature.levels, options.track)) {
+    return pose;
+  }
   const Vocabulary* words = vocabulary ? &*vocabulary : nullptr;
   for (const KeyframeId id :
        KeyframesToAsk(map, frame, memory.reference, words, index, frame_count)) {
@@ -346,7 +349,7 @@ void StereoSlam::Impl::ForgetMap() {
   trajectory.clear();
 }
 
-/// Whether the rig has been lost for so long that it may be somewhere new.
+/// Whether the rig has been lost with open eyes for so long that it may be somewhere new.
 bool StereoSlam::Impl::IsTimeForANewPart(std::int64_t stamp_ns) const {
   if (options.localise_only || !vocabulary || !lost_since_ns) return false;
   if (Busy() || adjusting.pending()) return false;
@@ -423,15 +426,18 @@ void StereoSlam::Impl::InsertKeyframe(const std::shared_ptr<const Frame>& frame,
 
 void StereoSlam::Impl::Remember(const Frame& frame, const FramePose& pose) {
   const Eigen::Isometry3d T_world_rig = pose.pose.T_rig_world.inverse();
+  const double seconds = static_cast<double>(frame.stamp_ns - memory.stamp_ns) * 1e-9;
   std::optional<Motion> motion;
   if (state == TrackingState::kTracking) {
     const Eigen::Isometry3d T_world_last = map.PoseOf(memory.reference) * memory.T_reference_rig;
-    motion = EstimateMotion(T_world_last, T_world_rig,
-                            static_cast<double>(frame.stamp_ns - memory.stamp_ns) * 1e-9);
+    motion = EstimateMotion(T_world_last, T_world_rig, seconds);
   }
   memory.stamp_ns = frame.stamp_ns;
   memory.reference = pose.local.reference;
   memory.T_reference_rig = map.PoseOf(memory.reference).inverse() * T_world_rig;
+  memory.steady_motion = motion ? std::optional(Smoothed(memory.steady_motion, *motion, seconds,
+                                                         options.track.blind.half_life_s))
+                                : std::nullopt;
   memory.motion = motion;
   memory.landmarks.clear();
   for (const LandmarkId id : pose.expected) ++counts[id].first;
@@ -464,6 +470,7 @@ void StereoSlam::SaveMap(const std::string& file) {
   impl_->map.Apply(edit);
   impl_->counts.clear();
   impl_->loops.clear();
+  impl_->memory.steady_motion.reset();  // as a drive that loads the map, this one goes on from it
   slam::SaveMap({impl_->camera, impl_->map.StandIn(impl_->memory.reference), impl_->map}, file);
 }
 

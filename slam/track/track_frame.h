@@ -15,7 +15,8 @@ struct TrackMemory {
   KeyframeId reference;  ///< the pose is remembered as seen from it
   Eigen::Isometry3d T_reference_rig = Eigen::Isometry3d::Identity();
   std::optional<Motion> motion;
-  std::vector<LandmarkId> landmarks;  ///< that took part in the pose
+  std::optional<Motion> steady_motion;  ///< averaged over a while, see Smoothed
+  std::vector<LandmarkId> landmarks;    ///< that took part in the pose
 };
 
 /// A frame's place in the map.
@@ -32,6 +33,13 @@ struct FramePose {
 std::optional<FramePose> TrackFrame(const Map& map, const Frame& frame, const TrackMemory& memory,
                                     const StereoCamera& camera, int levels,
                                     const TrackOptions& options);
+
+/// Finds a frame that comes after a while without sight: landmarks are looked for around where the
+/// steady motion leads, the wider the longer the while, and a pose that they agree on is believed
+/// if it lies near there. Nothing where no motion is known or the while was too long.
+std::optional<FramePose> FindAgain(const Map& map, const Frame& frame, const TrackMemory& memory,
+                                   const StereoCamera& camera, int levels,
+                                   const TrackOptions& options);
 
 /// Finds the frame by recognising one keyframe, without knowing where it might be.
 std::optional<FramePose> LocateByKeyframe(const Map& map, const Frame& frame, KeyframeId keyframe,

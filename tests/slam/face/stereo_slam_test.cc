@@ -109,6 +109,20 @@ TEST(StereoSlam, ComesBackAfterFramesThatShowNothing) {
   EXPECT_EQ(slam.Finish().size(), StraightFilm().size() - 4);
 }
 
+TEST(StereoSlam, DrivesOnThroughDarknessAndKnowsWhereItIsWhenTheLightReturns) {
+  StereoSlam slam(RoomScene().camera(), {});
+  for (std::size_t i = 0; i < StraightFilm().size(); ++i) {
+    StereoImages images = StraightFilm()[i];
+    const bool dark = i >= 10 && i < 26;  // 0.8 s and a metre
+    if (dark) images.left = images.right = cv::Mat1b(images.left.size(), std::uint8_t{0});
+    const TrackedFrame tracked = slam.Track(images);
+    ASSERT_EQ(tracked.state, dark ? TrackingState::kLost : TrackingState::kTracking)
+        << "frame " << i;
+    if (dark) continue;
+    EXPECT_LT(ErrorM(*tracked.T_world_rig, StraightPath()[i]), 0.03) << "frame " << i;
+  }
+}
+
 TEST(StereoSlam, WaitsForAFirstFrameWithDepth) {
   StereoSlam slam(RoomScene().camera(), {});
   StereoImages images = StraightFilm()[0];

@@ -26,6 +26,13 @@ TEST(MotionModel, GoesTwiceAsFarInTwiceTheTime) {
   EXPECT_LT(((far.translation() - start) - 2 * (near.translation() - start)).norm(), 0.02);
 }
 
+TEST(MotionModel, ASteadyMotionForgetsByHalfInItsHalfLife) {
+  const Motion before{Vector6d::Constant(1)}, latest{Vector6d::Constant(3)};
+  EXPECT_TRUE(Smoothed(before, latest, 0.4, 0.4).per_second.isApprox(Vector6d::Constant(2)));
+  EXPECT_TRUE(Smoothed(before, latest, 0.8, 0.4).per_second.isApprox(Vector6d::Constant(2.5)));
+  EXPECT_EQ(Smoothed(std::nullopt, latest, 0.05, 0.4).per_second, latest.per_second);
+}
+
 TEST(MotionModel, StandsStillWithoutTimeOrMotion) {
   const Eigen::Isometry3d here = Pose(1, 2, 0.3);
   const auto motion = EstimateMotion(Pose(0, 0, 0), here, 0.05);

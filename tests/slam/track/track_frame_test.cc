@@ -104,6 +104,27 @@ TEST_F(TrackFrameTest, IsLostWhereNothingIsKnown) {
   EXPECT_FALSE(TrackFrame(map, *world.See(At(0, 300), 50'000'000), memory, {}, 8, {}));
 }
 
+TEST_F(TrackFrameTest, IsFoundAgainWhereItsMotionHasLed) {
+  Vector6d ahead;
+  ahead << 0, 0, -0.5, 0, 0, 0;  // of T_rig_world, per second
+  const auto two_seconds_later = world.See(At(0.1, 1.1, 1), 2'000'000'000);
+  EXPECT_FALSE(FindAgain(map, *two_seconds_later, memory, {}, 8, {}));
+  memory.steady_motion = Motion{ahead};
+  const auto found = FindAgain(map, *two_seconds_later, memory, {}, 8, {});
+  ASSERT_TRUE(found);
+  EXPECT_LT(Difference(At(0.1, 1.1, 1).inverse(), found->pose.T_rig_world).norm(), 1e-4);
+}
+
+TEST_F(TrackFrameTest, IsNotFoundAgainWhereItsMotionCannotHaveLed) {
+  memory.steady_motion = Motion{};
+  TrackOptions all_around;
+  all_around.blind.grows_px_per_s = 200;
+  const Eigen::Isometry3d aside = At(0.9, 1.2, 2);
+  EXPECT_FALSE(FindAgain(map, *world.See(aside, 2'000'000'000), memory, {}, 8, all_around));
+  EXPECT_TRUE(FindAgain(map, *world.See(aside, 3'900'000'000), memory, {}, 8, all_around));
+  EXPECT_FALSE(FindAgain(map, *world.See(At(0, 0), 60'000'000'000), memory, {}, 8, all_around));
+}
+
 TEST_F(TrackFrameTest, AsksForAKeyframeAfterMotionNotAtRest) {
   const auto at_rest_frame = world.See(At(0, 0.001), 50'000'000);
   const auto at_rest = TrackFrame(map, *at_rest_frame, memory, {}, 8, {});
