@@ -55,8 +55,9 @@ struct SlamOptions {
   ScheduleOptions schedule;
   std::string map_file;        ///< of SaveMap; the drive goes on in that map. Empty: a new one
   bool localise_only = false;  ///< in the map of map_file, which stays as it is
-  /// Seconds without a pose after which a new part of the map is begun. It joins the rest when a
-  /// place of it is recognised, which takes a vocabulary: without one no part is begun.
+  /// Seconds from the first frame that shows something and finds no pose to a new part of the map.
+  /// It joins the rest when a place of it is recognised, which takes a vocabulary: without one no
+  /// part is begun.
   double new_part_after_s = 1.0;
   int least_keyframes = 5;         ///< a smaller map is given up where a new part is begun
   std::string vocabulary_file;     ///< empty: no loop closing, and relocalisation by trying in turn

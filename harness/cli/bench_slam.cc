@@ -1,4 +1,7 @@
+#include <unistd.h>
+
 #include <chrono>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/features2d.hpp>
 
@@ -7,6 +10,7 @@
 #include "harness/cli/terminal.h"
 #include "harness/io/dataset.h"
 #include "harness/io/file.h"
+#include "harness/plugs/cached_sequence.h"
 #include "harness/plugs/recorded_sequence.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/systems.h"
@@ -19,17 +23,43 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string source, format = "euroc", twin = "empty", system = "orbslam2", json;
-  int frames = 100, threads = 0;
+  std::string frames_dir;  ///< folder that keeps what a scene renders; empty: none
+  int frames = 100, threads = 0, laps = 1;
 };
 
 std::unique_ptr<Sequence> Open(const Options& options) {
   if (fs::is_directory(options.source)) {
     return OpenRecording(options.source, DatasetFormatFromName(options.format));
   }
-  return OpenSimulation({.scene_file = options.source,
-                         .scene_name = SceneName(options.source),
-                         .assets_dir = AssetsDir().string(),
-                         .twin = options.twin});
+  const SimulatedSequenceOptions simulation{.scene_file = options.source,
+                                            .scene_name = SceneName(options.source),
+                                            .assets_dir = AssetsDir().string(),
+                                            .twin = options.twin};
+  if (options.frames_dir.empty()) return OpenSimulation(simulation);
+  return OpenCached(FrameStore(options.frames_dir),
+                    [simulation](std::uint64_t* hash) { return OpenSimulation(simulation, hash); });
+}
+
+/// What this process holds in memory now; 0 where the system does not say.
+double ResidentMib() {
+  std::ifstream statm("/proc/self/statm");
+  double pages = 0, resident_pages = 0;
+  statm >> pages >> resident_pages;
+  return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
+/// What a lap has left behind: a map grows with the place explored, not with the time spent in it.
+void PrintLap(int lap, const FrameEstimate& last, int lost) {
+  if (lap == 0) {
+    fmt::print("{:>4} {:>10} {:>10} {:>10} {:>6}\n", "lap", "keyframes", "landmarks", "MiB",
+               "lost");
+  }
+  const auto count = [&](const char* name) {
+    const auto found = last.counts.find(name);
+    return found == last.counts.end() ? 0 : found->second;
+  };
+  fmt::print("{:4} {:10} {:10} {:10.1f} {:6}\n", lap + 1, count("map_keyframes"),
+             count("map_landmarks"), ResidentMib(), lost);
 }
 
 /// Mean and worst of one stage, milliseconds, over the frames in which it ran.
@@ -72,17 +102,29 @@ std::map<std::string, StageTime> Measure(const Options& options) {
     estimator =
         FindSystem(options.system).make(sequence->calibration(), {.threads = options.threads});
   }));
+  std::vector<FrameRequest> schedule = sequence->Schedule();
+  schedule.resize(std::min(schedule.size(), static_cast<std::size_t>(options.frames)));
+  const std::int64_t lap_ns = schedule.empty()
+                                  ? 0
+                                  : schedule.back().stamp_ns - schedule.front().stamp_ns +
+                                        static_cast<std::int64_t>(1e9 / sequence->rate_hz());
   ProgressLine line;
-  for (const FrameRequest& request : sequence->Schedule()) {
-    if (stages["frame"].count >= options.frames) break;
-    const StereoFrame images = sequence->At(request).images;
-    stages["reference"].Add(ReferenceMs(images));
+  for (int lap = 0; lap < options.laps; ++lap) {
     FrameEstimate estimate;
-    stages["frame"].Add(MillisecondsOf([&] { estimate = estimator->Process(images, {}); }));
-    for (const auto& [stage, ms] : estimate.stage_ms) stages[stage].Add(ms);
-    line.Show(fmt::format("frame {}", stages["frame"].count));
+    int lost = 0;
+    for (const FrameRequest& request : schedule) {
+      StereoFrame images = sequence->At(request).images;
+      images.id += lap * std::ssize(schedule);
+      images.stamp_ns += lap * lap_ns;
+      if (options.laps == 1) stages["reference"].Add(ReferenceMs(images));
+      stages["frame"].Add(MillisecondsOf([&] { estimate = estimator->Process(images, {}); }));
+      for (const auto& [stage, ms] : estimate.stage_ms) stages[stage].Add(ms);
+      lost += estimate.state == TrackingState::kTracking ? 0 : 1;
+      line.Show(fmt::format("frame {}", stages["frame"].count));
+    }
+    line.Clear();
+    if (options.laps > 1) PrintLap(lap, estimate, lost);
   }
-  line.Clear();
   return stages;
 }
 
@@ -96,9 +138,11 @@ int BenchSlam(const Options& options) {
   for (const auto& [stage, time] : stages) {
     fmt::print("{:18} {:9.2f} {:9.2f} {:7}\n", stage, time.mean_ms(), time.worst_ms, time.count);
   }
-  fmt::print(
-      "extract + stereo + track: {:.2f} ms a frame, {:.2f} times OpenCV's ORB on both eyes\n",
-      front_end_ms, front_end_ms / std::max(reference_ms, 1e-9));
+  fmt::print("extract + stereo + track: {:.2f} ms a frame", front_end_ms);
+  if (reference_ms > 0) {
+    fmt::print(", {:.2f} times OpenCV's ORB on both eyes", front_end_ms / reference_ms);
+  }
+  fmt::print("\n");
   if (!options.json.empty()) {
     const nlohmann::json result = {{"extract_ms", stages["extract"].mean_ms()},
                                    {"stereo_ms", stages["stereo"].mean_ms()},
@@ -127,9 +171,18 @@ void AddBenchSlam(CLI::App* bench, Action* action) {
   slam->add_option("--system", options->system, "default orbslam2");
   slam->add_option("--frames", options->frames, "at most; default 100")
       ->check(CLI::Range(1, 100000));
+  slam->add_option(
+          "--laps", options->laps,
+          "drive the frames so often, one after the other, and say what each lap leaves in "
+          "memory; for a source that ends where it begins")
+      ->check(CLI::Range(1, 100000));
+  slam->add_option("--frames-dir", options->frames_dir,
+                   "folder that keeps the frames of a scene: later laps and runs are read from it");
   slam->add_option("--threads", options->threads, "0: all");
   slam->add_option("--json", options->json, "write the means there too");
-  slam->footer("Example: ./aisle bench slam --json slam.json");
+  slam->footer(
+      "Example: ./aisle bench slam --json slam.json\n"
+      "         ./aisle bench slam scenes/paper/scene4.yaml --laps 20 --frames 900 --frames-dir f");
   slam->callback([=] { *action = [=] { return BenchSlam(*options); }; });
 }
 

@@ -36,7 +36,7 @@ MaskMaker MasksOf(const Options& options, std::size_t* masked) {
   if (options.masks.empty()) return MasksFromTruth(MaskSource::kNone);
   return [folder = MaskFolder(options.masks), masked](const SequenceFrame& frame) {
     ExternalMask mask = folder.Find(frame.images);
-    *masked += mask.left.empty() ? 0 : 1;
+    *masked += mask.left.empty() && mask.confidence.empty() ? 0 : 1;
     return mask;
   };
 }
@@ -50,7 +50,6 @@ std::unique_ptr<Estimator> MakeEstimator(const System& system, const Sequence& s
   try {
     return system.make(sequence.calibration(), {.threads = options.threads,
                                                 .load_map = options.load_map,
-                                                .save_map = options.save_map,
                                                 .localise_only = options.localise_only,
                                                 .free_running = options.free_running});
   } catch (const std::runtime_error& error) {
@@ -86,7 +85,10 @@ int RunSlam(const Options& options) {
              run.trajectory.live.size(),
              run.facts.empty() ? 0.0 : 1e3 * run.wall_s / static_cast<double>(run.facts.size()),
              options.output);
-  if (!options.save_map.empty()) fmt::print("map -> {}\n", options.save_map);
+  if (!options.save_map.empty()) {
+    estimator->SaveMap(options.save_map);
+    fmt::print("map -> {}\n", options.save_map);
+  }
   if (!options.masks.empty()) {
     fmt::print("{} of {} frames have a mask in {}\n", masked, run.facts.size(), options.masks);
     if (masked == 0) {
@@ -114,7 +116,7 @@ void AddSlamCommand(CLI::App* app, Action* action) {
   command->add_option("--live", options->live, "the live trajectory too");
   command->add_option("--masks", options->masks,
                       "folder of masks to reject by: grey PNGs named by stamp or number, not 0 = "
-                      "reject; right eye in right/");
+                      "reject; right eye in right/; confidence/: 255 = trust, 0 = hardly");
   CLI::Option* load = command
                           ->add_option("--load-map", options->load_map,
                                        "go on in the map of an earlier drive with this rig")

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <filesystem>
+#include <stdexcept>
+
 #include "harness/contract/estimate.h"
 #include "harness/contract/frame.h"
 
@@ -19,6 +22,11 @@ class Estimator {
   virtual FrameEstimate Process(const StereoFrame& frame, const ExternalMask& mask) = 0;
   /// Ends the run; the final track over all frames the system stands by.
   virtual Trajectory Finish() = 0;
+  /// Writes the map for a later drive. Throws std::runtime_error where it cannot: apart from
+  /// Finish, so that the trajectory is safe by then.
+  virtual void SaveMap(const std::filesystem::path& file) {
+    throw std::runtime_error(file.string() + ": this system keeps no map");
+  }
 };
 
 }  // namespace aisle

@@ -61,6 +61,8 @@ struct FrameTruth {
 /// harness makes it from truth for `oracle` and `semantic`, or reads it from files.
 struct ExternalMask {
   cv::Mat1b left, right;
+  /// How far each left pixel is trusted: 255 fully, 0 hardly at all; empty = fully everywhere.
+  cv::Mat1b confidence = {};
 };
 
 }  // namespace aisle

@@ -8,19 +8,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The folder's image for the frame, empty where there is none.
 cv::Mat1b Read(const fs::path& folder, const StereoFrame& frame) {
   for (const std::string& name :
        {fmt::format("{}.png", frame.stamp_ns), fmt::format("{:06}.png", frame.id)}) {
     const fs::path path = folder / name;
     if (!fs::exists(path)) continue;
-    cv::Mat1b mask;
-    cv::compare(ReadGreyPng(path), 0, mask, cv::CMP_NE);
-    if (mask.size() == frame.left.size()) return mask;
+    const cv::Mat1b image = ReadGreyPng(path);
+    if (image.size() == frame.left.size()) return image;
     throw InputError(path.string(), 0,
-                     fmt::format("is {}x{}, the rectified images are {}x{}", mask.cols, mask.rows,
+                     fmt::format("is {}x{}, the rectified images are {}x{}", image.cols, image.rows,
                                  frame.left.cols, frame.left.rows));
   }
   return {};
+}
+
+cv::Mat1b ReadMask(const fs::path& folder, const StereoFrame& frame) {
+  cv::Mat1b mask = Read(folder, frame);
+  if (!mask.empty()) cv::compare(mask, 0, mask, cv::CMP_NE);
+  return mask;
 }
 
 bool HoldsPng(const fs::path& folder) {
@@ -35,12 +41,14 @@ bool HoldsPng(const fs::path& folder) {
 
 MaskFolder::MaskFolder(const fs::path& folder)
     : left_(fs::is_directory(folder / "left") ? folder / "left" : folder),
-      right_(folder / "right") {
-  if (!HoldsPng(left_)) throw InputError(left_.string(), 0, "holds no PNG images");
+      right_(folder / "right"),
+      confidence_(folder / "confidence") {
+  if (!HoldsPng(left_) && !HoldsPng(confidence_))
+    throw InputError(left_.string(), 0, "holds no PNG images");
 }
 
 ExternalMask MaskFolder::Find(const StereoFrame& frame) const {
-  return {Read(left_, frame), Read(right_, frame)};
+  return {ReadMask(left_, frame), ReadMask(right_, frame), Read(confidence_, frame)};
 }
 
 }  // namespace aisle

@@ -60,15 +60,21 @@ FrameEstimate Convert(const slam::TrackedFrame& frame) {
   return estimate;
 }
 
+/// 0 to 255 as 0 to 1.
+cv::Mat1f Share(const cv::Mat1b& confidence) {
+  cv::Mat1f share;
+  if (!confidence.empty()) confidence.convertTo(share, CV_32F, 1.0 / 255);
+  return share;
+}
+
 class StereoSlamEstimator : public Estimator {
  public:
-  StereoSlamEstimator(const slam::StereoCamera& camera, const slam::SlamOptions& options,
-                      std::string save_map)
-      : slam_(camera, options), save_map_(std::move(save_map)) {}
+  StereoSlamEstimator(const slam::StereoCamera& camera, const slam::SlamOptions& options)
+      : slam_(camera, options) {}
 
   FrameEstimate Process(const StereoFrame& frame, const ExternalMask& mask) override {
     return Convert(slam_.Track({frame.id, frame.stamp_ns, frame.left, frame.right},
-                               {mask.left, mask.right, {}}));
+                               {mask.left, mask.right, Share(mask.confidence)}));
   }
 
   Trajectory Finish() override {
@@ -76,13 +82,13 @@ class StereoSlamEstimator : public Estimator {
     for (const slam::StampedPose& pose : slam_.Finish()) {
       trajectory.push_back({pose.stamp_ns, pose.T_world_rig});
     }
-    if (!save_map_.empty()) slam_.SaveMap(save_map_);
     return trajectory;
   }
 
+  void SaveMap(const std::filesystem::path& file) override { slam_.SaveMap(file.string()); }
+
  private:
   slam::StereoSlam slam_;
-  const std::string save_map_;
 };
 
 }  // namespace
@@ -104,7 +110,7 @@ std::unique_ptr<Estimator> MakeStereoSlamEstimator(const StereoCalibration& cali
   slam_options.localise_only = options.localise_only;
   slam_options.schedule.free_running = options.free_running;
   slam_options.dynamic.method = Convert(options.rejection);
-  return std::make_unique<StereoSlamEstimator>(camera, slam_options, options.save_map.string());
+  return std::make_unique<StereoSlamEstimator>(camera, slam_options);
 }
 
 }  // namespace aisle

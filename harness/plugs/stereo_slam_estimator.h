@@ -15,7 +15,6 @@ struct StereoSlamEstimatorOptions {
   Rejection rejection = Rejection::kNone;
   std::filesystem::path vocabulary_file = {};  ///< empty: loops are not closed
   std::filesystem::path load_map = {};         ///< empty: a new map; else goes on in this one
-  std::filesystem::path save_map = {};         ///< written by Finish; empty: nowhere
   bool localise_only = false;                  ///< load_map stays as it is
   bool free_running = false;  ///< not repeatable: background results are taken when ready
 };

@@ -14,7 +14,6 @@ std::unique_ptr<Estimator> OurSlamWith(const StereoCalibration& calibration,
                                                .rejection = kRejection,
                                                .vocabulary_file = VocabularyFile(),
                                                .load_map = options.load_map,
-                                               .save_map = options.save_map,
                                                .localise_only = options.localise_only,
                                                .free_running = options.free_running});
 }

@@ -13,7 +13,6 @@ namespace aisle {
 struct SystemOptions {
   int threads = 0;                      ///< 0: as many as the machine has; never changes a result
   std::filesystem::path load_map = {};  ///< of an earlier drive with the same rig; empty: none
-  std::filesystem::path save_map = {};  ///< written at the end; empty: nowhere
   bool localise_only = false;           ///< the loaded map stays as it is
   bool free_running = false;  ///< NOT REPEATABLE: background work as threads happen to run
 };
