@@ -57,7 +57,7 @@ cv::Mat1f Traced(const World& world, const View& view) {
   const Tracer tracer(world, {});
   const TexturePool textures(world.textures());
   return Reference(world, textures)
-      .Render(tracer.Pose(world.At(0)), view.eye, {.samples = 16, .depth = 2});
+      .Render(tracer.Pose(world.At(0)), view.eye, {.samples = 64, .depth = 2});
 }
 
 /// How much brighter a floor of that normal is than a level one, at a pixel.
