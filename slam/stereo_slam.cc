@@ -195,10 +195,9 @@ ExternalMask StereoSlam::Impl::RejectMovers(const StereoImages& images, const Ex
                                             TrackedFrame& result) {
   if (options.dynamic.method == DynamicMethod::kNone) return mask;
   Stopwatch time(result.stage_ms["dynamic"]);
-  DynamicInput input{images.stamp_ns, images.left, images.right, std::nullopt, {}};
+  DynamicInput input{images.stamp_ns, images.left, images.right, std::nullopt};
   if (state == TrackingState::kTracking) {
     input.T_now_before = ForeseeMotion(memory, images.stamp_ns, options.track);
-    input.known_points = RecallPoints(map, memory);
   }
   DynamicOutput found;
   arena.execute([&] { found = detector.Detect(input); });

@@ -7,7 +7,6 @@
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "slam/camera/stereo_camera.h"
 #include "slam/dynamic/dynamic_options.h"
@@ -15,20 +14,12 @@
 
 namespace aisle::slam {
 
-/// A point of the caller's map.
-struct KnownPoint {
-  Eigen::Vector3d before = Eigen::Vector3d::Zero();  ///< metres, from the rig of the last frame
-  double age_s = 0;  ///< from its first sight to the last frame, standing still all the while
-};
-
 /// A rectified stereo pair and when it was taken.
 struct DynamicInput {
   std::int64_t stamp_ns = 0;
   cv::Mat1b left, right;  ///< 8-bit grey; not written to, neither now nor later by the caller
   /// Where the caller expects the rig to have moved since the last frame, if it knows.
   std::optional<Eigen::Isometry3d> T_now_before;
-  std::vector<KnownPoint> known_points =
-      {};  ///< that took part in the last frame's pose; may be empty
 };
 
 struct DynamicOutput {
