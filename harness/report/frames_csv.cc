@@ -1,4 +1,5 @@
 #include <charconv>
+#include <map>
 #include <sstream>
 
 #include "harness/io/input_error.h"
@@ -12,8 +13,6 @@ constexpr const char* kHeader =
     "final_x_m,final_y_m,final_z_m,final_error_m,movers_share,actors_share,features,"
     "features_on_movers,inliers_on_movers,mask_iou,corners_rejected,static_texture_share,flow_px,"
     "blur_px,parallax_px,render_ms,process_ms";
-constexpr std::size_t kColumns = 27;
-
 const char* Name(TrackingState state) {
   switch (state) {
     case TrackingState::kInitializing:
@@ -40,51 +39,70 @@ std::string Fields(const std::optional<Eigen::Vector3d>& v) {
   return v ? fmt::format("{},{},{}", v->x(), v->y(), v->z()) : ",,";
 }
 
-/// The fields of one line, by column.
+std::vector<std::string> Split(const std::string& line) {
+  std::vector<std::string> cells(1);
+  for (const char c : line) {
+    if (c == ',') {
+      cells.emplace_back();
+    } else if (c != '\r') {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
+/// Where each column stands, by its name: files of other versions have more of them, or fewer.
+using Columns = std::map<std::string, std::size_t>;
+
+/// The fields of one line, by name of column.
 class Cells {
  public:
-  Cells(const std::string& line, const std::string& file, std::size_t number)
-      : file_(file), number_(number) {
-    std::string cell;
-    for (const char c : line + ",") {
-      if (c == ',') {
-        cells_.push_back(std::exchange(cell, {}));
-      } else if (c != '\r') {
-        cell += c;
-      }
-    }
-    if (cells_.size() != kColumns) {
-      throw InputError(file, number, fmt::format("{} columns, not {}", cells_.size(), kColumns));
+  Cells(const Columns& columns, const std::string& line, const std::string& file,
+        std::size_t number)
+      : columns_(columns), file_(file), number_(number), cells_(Split(line)) {
+    if (cells_.size() != columns.size()) {
+      throw InputError(file, number,
+                       fmt::format("{} columns, not {}", cells_.size(), columns.size()));
     }
   }
 
-  const std::string& Text(std::size_t i) const { return cells_[i]; }
-
-  std::optional<double> Number(std::size_t i) const {
-    if (cells_[i].empty()) return std::nullopt;
-    return Parse<double>(i);
+  const std::string& Text(const std::string& name) const {
+    const auto column = columns_.find(name);
+    if (column == columns_.end()) {
+      throw InputError(file_, 1, fmt::format("no column {}: made by another version", name));
+    }
+    return cells_[column->second];
   }
-  double Required(std::size_t i) const { return Parse<double>(i); }
-  std::int64_t Whole(std::size_t i) const { return Parse<std::int64_t>(i); }
 
-  std::optional<Eigen::Vector3d> Vector(std::size_t i) const {
-    if (cells_[i].empty()) return std::nullopt;
-    return Eigen::Vector3d(Required(i), Required(i + 1), Required(i + 2));
+  /// An empty field, or no such column: absent.
+  std::optional<double> Number(const std::string& name) const {
+    if (columns_.count(name) == 0 || Text(name).empty()) return std::nullopt;
+    return Parse<double>(name);
+  }
+  double Required(const std::string& name) const { return Parse<double>(name); }
+  std::int64_t Whole(const std::string& name) const { return Parse<std::int64_t>(name); }
+
+  /// NAME_x_m, NAME_y_m and NAME_z_m.
+  std::optional<Eigen::Vector3d> Vector(const std::string& name) const {
+    if (!Number(name + "_x_m")) return std::nullopt;
+    return Eigen::Vector3d(Required(name + "_x_m"), Required(name + "_y_m"),
+                           Required(name + "_z_m"));
   }
 
  private:
   template <typename T>
-  T Parse(std::size_t i) const {
+  T Parse(const std::string& name) const {
     T value{};
-    const std::string& cell = cells_[i];
+    const std::string& cell = Text(name);
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (error != std::errc() || end != cell.data() + cell.size()) {
       throw InputError(file_, number_,
-                       fmt::format("column {} is '{}', not a number", i + 1, Printable(cell)));
+                       fmt::format("{} is '{}', not a number", name, Printable(cell)));
     }
     return value;
   }
 
+  const Columns& columns_;
   const std::string& file_;
   std::size_t number_;
   std::vector<std::string> cells_;
@@ -92,27 +110,29 @@ class Cells {
 
 FrameRow RowFrom(const Cells& cells) {
   FrameRow row;
-  row.id = cells.Whole(0);
-  row.stamp_ns = cells.Whole(1);
-  row.state = StateFromName(cells.Text(2));
-  row.truth_m = cells.Vector(3).value_or(Eigen::Vector3d::Zero());
-  row.live_m = cells.Vector(6);
-  row.live_error_m = cells.Number(9);
-  row.final_m = cells.Vector(10);
-  row.final_error_m = cells.Number(13);
-  row.movers_share = cells.Required(14);
-  row.actors_share = cells.Required(15);
-  row.features = static_cast<int>(cells.Whole(16));
-  row.features_on_movers = static_cast<int>(cells.Whole(17));
-  row.inliers_on_movers = static_cast<int>(cells.Whole(18));
-  row.mask_iou = cells.Number(19);
-  if (const auto corners = cells.Number(20)) row.corners_rejected = static_cast<int>(*corners);
-  row.difficulty = {.static_texture_share = cells.Number(21),
-                    .flow_px = cells.Number(22),
-                    .blur_px = cells.Number(23),
-                    .parallax_px = cells.Number(24)};
-  row.render_ms = cells.Required(25);
-  row.process_ms = cells.Required(26);
+  row.id = cells.Whole("frame");
+  row.stamp_ns = cells.Whole("stamp_ns");
+  row.state = StateFromName(cells.Text("state"));
+  row.truth_m = cells.Vector("truth").value_or(Eigen::Vector3d::Zero());
+  row.live_m = cells.Vector("live");
+  row.live_error_m = cells.Number("live_error_m");
+  row.final_m = cells.Vector("final");
+  row.final_error_m = cells.Number("final_error_m");
+  row.movers_share = cells.Required("movers_share");
+  row.actors_share = cells.Required("actors_share");
+  row.features = static_cast<int>(cells.Whole("features"));
+  row.features_on_movers = static_cast<int>(cells.Whole("features_on_movers"));
+  row.inliers_on_movers = static_cast<int>(cells.Whole("inliers_on_movers"));
+  row.mask_iou = cells.Number("mask_iou");
+  if (const auto corners = cells.Number("corners_rejected")) {
+    row.corners_rejected = static_cast<int>(*corners);
+  }
+  row.difficulty = {.static_texture_share = cells.Number("static_texture_share"),
+                    .flow_px = cells.Number("flow_px"),
+                    .blur_px = cells.Number("blur_px"),
+                    .parallax_px = cells.Number("parallax_px")};
+  row.render_ms = cells.Required("render_ms");
+  row.process_ms = cells.Required("process_ms");
   return row;
 }
 
@@ -136,10 +156,12 @@ std::string ToCsv(const std::vector<FrameRow>& rows) {
 std::vector<FrameRow> FrameRowsFromCsv(const std::string& text, const std::string& file) {
   std::istringstream stream(text);
   std::string line;
+  std::getline(stream, line);
+  Columns columns;
+  for (const std::string& name : Split(line)) columns.emplace(name, columns.size());
   std::vector<FrameRow> rows;
-  for (std::size_t number = 1; std::getline(stream, line); ++number) {
-    if (number == 1 || line.empty()) continue;
-    rows.push_back(RowFrom(Cells(line, file, number)));
+  for (std::size_t number = 2; std::getline(stream, line); ++number) {
+    if (!line.empty()) rows.push_back(RowFrom(Cells(columns, line, file, number)));
   }
   return rows;
 }

@@ -66,6 +66,8 @@ std::string ToJson(const RunRecord& record);
 RunRecord RecordFromJson(const std::string& text, const std::string& file);
 
 std::string ToCsv(const std::vector<FrameRow>& rows);
+/// Columns are found by name: a file of another version may have more, or lack the optional ones.
+/// Throws InputError where a required one is missing or a field is no number.
 std::vector<FrameRow> FrameRowsFromCsv(const std::string& text, const std::string& file);
 
 /// Writes trajectories, frames.csv and, last, result.json into `report_dir`/runs/ID. The record

@@ -88,15 +88,22 @@ std::string Troubles(const std::vector<SystemRuns>& systems) {
   return text;
 }
 
-/// The frames of the run that stands for a system in the charts: its first seed.
-std::vector<FrameRow> Frames(const SystemRuns& system, const fs::path& report_dir) {
+struct FrameFile {
+  std::vector<FrameRow> rows;
+  std::string trouble;  ///< why there are none, where there should be
+};
+
+/// The frames of the run that stands for a system in the charts: its first seed. A report without
+/// its heavy files still shows the scores.
+FrameFile Frames(const SystemRuns& system, const fs::path& report_dir) {
   const auto artifact = system.runs.front()->artifacts.find("frames");
   if (artifact == system.runs.front()->artifacts.end()) return {};
   const fs::path path = report_dir / artifact->second;
+  if (!fs::exists(path)) return {};
   try {
-    return FrameRowsFromCsv(ReadFile(path), path.string());
-  } catch (const InputError&) {
-    return {};  // a report without its heavy files still shows the scores
+    return {FrameRowsFromCsv(ReadFile(path), path.string()), ""};
+  } catch (const InputError& error) {
+    return {{}, error.what()};
   }
 }
 
@@ -180,15 +187,21 @@ std::string Stages(const SceneRuns& scene) {
 
 /// The drive over time on one side, everything else beside it where the screen is wide.
 std::string Charts(const SceneRuns& scene, const fs::path& report_dir) {
-  std::vector<std::vector<FrameRow>> frames;
-  for (const SystemRuns& system : scene.systems) frames.push_back(Frames(system, report_dir));
+  std::vector<FrameFile> frames;
+  std::string troubles;
+  for (const SystemRuns& system : scene.systems) {
+    frames.push_back(Frames(system, report_dir));
+    if (frames.back().trouble.empty()) continue;
+    troubles += fmt::format("<p>{} is not in the charts: {}</p>\n", Escape(system.system),
+                            Escape(frames.back().trouble));
+  }
   std::vector<ChartSeries> series;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (frames[i].empty()) continue;
-    series.push_back({scene.systems[i].system, scene.systems[i].color % 6, &frames[i]});
+    if (frames[i].rows.empty()) continue;
+    series.push_back({scene.systems[i].system, scene.systems[i].color % 6, &frames[i].rows});
   }
   const std::string seed = fmt::format("Seed {}. ", scene.systems.front().runs.front()->spec.seed);
-  return "<div class=\"charts\">" +
+  return troubles + "<div class=\"charts\">" +
          Figure(TimeChart(series),
                 seed +
                     "Distance of each live pose from truth after rigid alignment; gaps are frames "

@@ -71,6 +71,8 @@ svg { display: block; width: 100%; height: auto; }
 svg text { font: 12px system-ui, "DejaVu Sans", sans-serif; fill: var(--soft); }
 svg .axis { font-size: 12px; fill: var(--ink); }
 svg .legend { font-size: 13px; fill: var(--ink); }
+svg .middle { text-anchor: middle; }
+svg .end { text-anchor: end; }
 svg .inbar { fill: #101418; font-size: 11px; }
 svg .grid { stroke: var(--rule); stroke-width: 1; }
 svg .line { fill: none; stroke-width: 1.8; stroke-linejoin: round; }

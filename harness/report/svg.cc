@@ -104,9 +104,10 @@ void Svg::Area(const std::vector<std::pair<double, double>>& points, double base
 void Svg::Text(double x, double y, const std::string& text, const std::string& css,
                const std::string& anchor) {
   if (text.empty()) return;
-  const std::string anchored = anchor == "start" ? "" : " text-anchor=\"" + anchor + "\"";
-  text_ += fmt::format("<text x=\"{:.4g}\" y=\"{:.4g}\" class=\"{}\"{}>{}</text>\n", x, y, css,
-                       anchored, Escape(text));
+  // A class and not an attribute: a night has thousands of labels.
+  const std::string anchored = anchor == "start" ? css : css + " " + anchor;
+  text_ += fmt::format("<text x=\"{:.4g}\" y=\"{:.4g}\" class=\"{}\">{}</text>\n", x, y, anchored,
+                       Escape(text));
 }
 
 void Svg::Grid(const Axis& x, const Axis& y, const std::string& x_title, const std::string& y_title,

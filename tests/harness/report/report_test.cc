@@ -75,6 +75,29 @@ TEST_F(ReportTest, FramesReadBackAsTheyWere) {
   EXPECT_EQ(ToCsv(FrameRowsFromCsv(ToCsv(rows), "x")), ToCsv(rows));
 }
 
+TEST_F(ReportTest, FramesOfAnotherVersionAreReadByTheirColumns) {
+  const std::string shuffled =
+      "process_ms,render_ms,frame,stamp_ns,state,movers_share,actors_share,features,"
+      "features_on_movers,inliers_on_movers,of_tomorrow\n"
+      "20.5,3,7,350000000,tracking,0.25,0.5,1200,3,1,x\n";
+  const std::vector<FrameRow> rows = FrameRowsFromCsv(shuffled, "x");
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].id, 7);
+  EXPECT_EQ(rows[0].state, TrackingState::kTracking);
+  EXPECT_EQ(rows[0].movers_share, 0.25);
+  EXPECT_EQ(rows[0].process_ms, 20.5);
+  EXPECT_FALSE(rows[0].difficulty.parallax_px);
+  EXPECT_FALSE(rows[0].live_m);
+}
+
+TEST_F(ReportTest, AChartWithoutItsFramesSaysWhy) {
+  const Results results = Make({MakeRun("paper/scene2", "oracle", 1, 0.02)}, {});
+  WriteFileAtomically(folder_ / results.runs[0].artifacts.at("frames"), "frame,state\n7,lost\n");
+  WriteReport(results, folder_);
+  EXPECT_THAT(Read("index.html"), HasSubstr("oracle is not in the charts: "));
+  EXPECT_THAT(Read("index.html"), HasSubstr("no column stamp_ns: made by another version"));
+}
+
 TEST_F(ReportTest, ThePageTellsTheVerdictFirst) {
   WriteReport(Make({MakeRun("paper/scene2", "orbslam2", 1, 0.6),
                     MakeRun("paper/scene2", "oracle", 1, 0.02)},
@@ -173,6 +196,18 @@ TEST_F(ReportTest, JunitCarriesTheNumbers) {
   EXPECT_STREQ(test.attribute("classname").value(), "quickstart.s live orbslam2");
   EXPECT_STREQ(test.attribute("name").value(), "ate_rmse_m");
   EXPECT_THAT(test.child("failure").attribute("message").value(), HasSubstr("is not at most 0.02"));
+}
+
+TEST_F(ReportTest, JunitNamesEveryRunThatCameToItsEnd) {
+  const Results results = Make({MakeRun("s", "orbslam2", 1, 0.6)}, {});
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(ToJunit(results).c_str()));
+  const pugi::xml_node suite = document.child("testsuites").child("testsuite");
+  EXPECT_STREQ(suite.attribute("tests").value(), "1");
+  EXPECT_STREQ(suite.child("testcase").attribute("classname").value(),
+               "quickstart.s/live/orbslam2/1");
+  EXPECT_STREQ(suite.child("testcase").attribute("name").value(), "completes");
+  EXPECT_FALSE(suite.child("testcase").child("failure"));
 }
 
 TEST(VerdictTest, AScoreThatIsAbsentFails) {
