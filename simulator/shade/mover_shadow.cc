@@ -1,8 +1,11 @@
 #include "simulator/shade/mover_shadow.h"
 
+#include <array>
 #include <cstddef>
+#include <optional>
 
 #include "simulator/shade/hemisphere.h"
+#include "simulator/shade/other_eye.h"
 #include "simulator/shade/pattern_filter.h"
 #include "simulator/shade/ray_packets.h"
 #include "simulator/trace/tile_grid.h"
@@ -92,21 +95,39 @@ struct TileWork {
 class Pass {
  public:
   Pass(const Instant& instant, const EyeView& view, const HitImage& image, const World& world,
-       const SurfaceTables& tables, const FrameLight& frame, std::span<const float> irradiance)
+       const SurfaceTables& tables, const FrameLight& frame, std::span<const float> irradiance,
+       const SeenShadows* seen)
       : instant_(instant),
         view_(view),
         image_(image),
         world_(world),
         tables_(tables),
         frame_(frame),
-        irradiance_(irradiance) {}
+        irradiance_(irradiance) {
+    if (seen) {
+      other_.emplace(seen->view, seen->image);
+      other_raw_ = seen->raw;
+    }
+  }
 
   /// Unfiltered share per pixel of one tile; whether any pixel lost light.
   bool TraceTile(const Tile& tile, std::vector<float>* raw) const {
-    const TileWork work = Plan(tile);
-    if (work.empty()) return false;
     bool lost = false;
-    ForRows(tile, kLanes, [&](int x, int y) { lost |= TracePacket(x, y, work, raw); });
+    std::array<I8, kTileWidth * kTileHeight / kLanes> open;
+    std::size_t packet = 0;
+    bool any_open = false;
+    ForRows(tile, kLanes, [&](int x, int y) {
+      open[packet] = TakeSeen(x, y, raw, &lost);
+      any_open |= Any(open[packet++]);
+    });
+    if (!any_open) return lost;
+    const TileWork work = Plan(tile);
+    if (work.empty()) return lost;
+    packet = 0;
+    ForRows(tile, kLanes, [&](int x, int y) {
+      const I8 lanes = open[packet++];
+      if (Any(lanes)) lost |= TracePacket(x, y, lanes, work, raw);
+    });
     return lost;
   }
 
@@ -125,9 +146,24 @@ class Pass {
 
   I8 StaticLanes(int x, int y) const { return LoadI(&image_.geometry[image_.Index(x, y)]) == 0; }
 
-  Pixels8 Locate(int x, int y) const {
+  /// Takes over what the other eye found for the points that both see; what lanes are left.
+  I8 TakeSeen(int x, int y, std::vector<float>* raw, bool* lost) const {
+    const I8 active = StaticLanes(x, y);
+    if (!other_ || !Any(active)) return active;
+    const std::size_t i = image_.Index(x, y);
+    I8 pixels{};
+    const I8 found =
+        other_->Find(PositionsOf(x, y, active), LoadI(&image_.primitive[i]), active, &pixels);
+    if (!Any(found)) return active;
+    const F8 kept = Select(found, Gather(other_raw_.data(), pixels), Wide(1));
+    *lost |= Any(kept < 1);
+    Store(kept, &(*raw)[i]);
+    return active & ~found;
+  }
+
+  Pixels8 Locate(int x, int y, I8 lanes) const {
     Pixels8 p;
-    p.active = StaticLanes(x, y);
+    p.active = lanes;
     const I8 record = p.active ? LoadI(&image_.primitive[image_.Index(x, y)]) : I8{};
     const I8 offset = record * static_cast<int>(sizeof(SurfaceRecord) / sizeof(float));
     const auto* base = tables_.statics().data()->normal;
@@ -262,9 +298,8 @@ class Pass {
     return blocked;
   }
 
-  bool TracePacket(int x, int y, const TileWork& work, std::vector<float>* raw) const {
-    const Pixels8 pixels = Locate(x, y);
-    if (!Any(pixels.active)) return false;
+  bool TracePacket(int x, int y, I8 lanes, const TileWork& work, std::vector<float>* raw) const {
+    const Pixels8 pixels = Locate(x, y, lanes);
     const Pattern::Row& pattern = pattern_.rows[static_cast<std::size_t>(y & 3)];
     F8 lost = Wide(0);
     for (const Blocker& blocker : work.blockers) {
@@ -275,7 +310,8 @@ class Pass {
     if (work.near) lost += LostIndirect(work.near, pixels, pattern, x, y);
     if (!Any(lost > 0)) return false;
     const std::size_t i = image_.Index(x, y);
-    Store(1 - lost / Max(LoadF(&irradiance_[i]), Wide(1e-9f)), &(*raw)[i]);
+    const F8 kept = 1 - lost / Max(LoadF(&irradiance_[i]), Wide(1e-9f));
+    Store(Select(lanes, kept, LoadF(&(*raw)[i])), &(*raw)[i]);
     return true;
   }
 
@@ -338,6 +374,8 @@ class Pass {
   const SurfaceTables& tables_;
   const FrameLight& frame_;
   std::span<const float> irradiance_;
+  std::optional<OtherEye> other_;
+  std::span<const float> other_raw_;
   Pattern pattern_;
 };
 
@@ -345,15 +383,16 @@ class Pass {
 
 void TraceMoverShadows(const Instant& instant, const EyeView& view, const HitImage& image,
                        const World& world, const SurfaceTables& tables, const FrameLight& frame,
-                       std::span<const float> irradiance, std::vector<float>* kept) {
+                       std::span<const float> irradiance, const SeenShadows* seen,
+                       std::vector<float>* raw, std::vector<float>* kept) {
   kept->assign(irradiance.size(), 1);
+  raw->assign(irradiance.size(), 1);
   if (instant.snapshot().movers.empty() || tables.statics().empty()) return;
-  std::vector<float> raw(irradiance.size(), 1);
-  const Pass pass(instant, view, image, world, tables, frame, irradiance);
+  const Pass pass(instant, view, image, world, tables, frame, irradiance, seen);
   const TileGrid grid{image.width, image.height, kTileWidth, kTileHeight};
   std::vector<std::uint8_t> lost(grid.size());
-  grid.ForEach([&](std::size_t i, const Tile& tile) { lost[i] = pass.TraceTile(tile, &raw); });
-  const PatternFilter filter(image, tables.statics(), raw);
+  grid.ForEach([&](std::size_t i, const Tile& tile) { lost[i] = pass.TraceTile(tile, raw); });
+  const PatternFilter filter(image, tables.statics(), *raw);
   const int columns = grid.columns(), rows = grid.rows();
   const auto is_lost = [&](int column, int row) {
     return column >= 0 && row >= 0 && column < columns && row < rows &&

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <array>
 #include <numbers>
 
 #include "simulator/shade/antialias.h"
@@ -70,6 +71,7 @@ cv::Mat1f Combine(const HitImage& image, std::span<const float> reflectance,
 struct Shader::Workspace {
   FrameLight frame;
   std::vector<float> reflectance, irradiance, kept, mirrored;
+  std::array<std::vector<float>, 2> raw_kept;  ///< of the first view, and of the one at work
 };
 
 Shader::Shader(const World& world, const Tracer& tracer, const ShadeOptions& options)
@@ -109,8 +111,9 @@ std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const Eye
     done("look up");
     work->kept.assign(image.t.size(), 1);
     if (options_.mover_shadows) {
+      const SeenShadows first{views[0], images[0], work->raw_kept[0]};
       TraceMoverShadows(instant, views[i], image, *world_, tables_, work->frame, work->irradiance,
-                        &work->kept);
+                        i > 0 ? &first : nullptr, &work->raw_kept[i > 0 ? 1 : 0], &work->kept);
     }
     done("mover shadows");
     const bool glossy =
