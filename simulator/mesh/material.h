@@ -21,8 +21,8 @@ struct Material {
   float emission = 0.0f;     ///< emitted radiance, relative units; > 0 marks a luminaire
 };
 
-/// One image: albedo textures are 8-bit grey with sRGB transfer, normal maps 8-bit 3-channel (x, y,
-/// z as B, G, R would be read by OpenCV is NOT used: channel 0 is x).
+/// One image: albedo textures are 8-bit grey with sRGB transfer, normal maps have x, y and z as
+/// their channels, in this order (not OpenCV's B, G, R).
 struct Texture {
   std::string name;
   cv::Mat image;  ///< CV_8UC1 (albedo) or CV_8UC3 (normal)

@@ -174,6 +174,39 @@ TEST(ImportModel, ACorruptOrHugeTextureIsNamed) {
   EXPECT_THAT(ErrorOf(model), testing::HasSubstr("20000x20 pixels, the limit is 8192"));
 }
 
+/// A triangle whose material has a normal map of strength 0.5: positions, texture coordinates and
+/// indices are in the buffer.
+constexpr const char* kBumpyTriangle = R"({
+  "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+  "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2,
+                              "material": 0}]}],
+  "materials": [{"normalTexture": {"index": 0, "scale": 0.5}}],
+  "textures": [{"source": 0}], "images": [{"uri": "bumps.png"}],
+  "accessors": [
+    {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+     "min": [0, 0, 0], "max": [1, 1, 0]},
+    {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"},
+    {"bufferView": 2, "componentType": 5123, "count": 3, "type": "SCALAR"}],
+  "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 36},
+                  {"buffer": 0, "byteOffset": 36, "byteLength": 24},
+                  {"buffer": 0, "byteOffset": 60, "byteLength": 6}],
+  "buffers": [{"byteLength": 66, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAABAAIA"}]
+})";
+
+TEST(ImportModel, ANormalMapComesInColourAndWithItsStrength) {
+  const Scratch scratch;
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", cv::Mat3b(4, 4, cv::Vec3b(250, 128, 200)), png);
+  scratch.Write("bumps.png", std::string(png.begin(), png.end()));
+  const Model model = ImportModel(scratch.Write("bumpy.gltf", kBumpyTriangle));
+  const Material& material = model.materials.at(model.mesh.materials.at(0));
+  EXPECT_FLOAT_EQ(material.normal_scale, 0.5f);
+  ASSERT_GE(material.normal_texture, 0);
+  const cv::Mat map = model.textures.at(static_cast<std::size_t>(material.normal_texture)).image;
+  ASSERT_EQ(map.type(), CV_8UC3);
+  EXPECT_EQ(map.at<cv::Vec3b>(1, 1), cv::Vec3b(200, 128, 250)) << "red, green, blue: x, y, z";
+}
+
 TEST(ImportModel, AnIndexOutOfRangeIsAnError) {
   const Scratch scratch;
   EXPECT_NE(ErrorOf(scratch.Write("i.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n")), "");
