@@ -3,12 +3,12 @@
 namespace aisle::slam {
 
 std::vector<KeyframeId> KeyframesToAsk(const Map& map, const Frame& frame, KeyframeId reference,
-                                       const Vocabulary* vocabulary, const PlaceIndex& index,
-                                       std::int64_t turn) {
+                                       const Places& places, std::int64_t turn) {
   constexpr std::size_t kAsked = 6;
   std::vector<KeyframeId> asked = {reference};
-  if (vocabulary) {
-    for (const Lookalike& one : index.Query(vocabulary->Describe(frame.features.descriptors))) {
+  if (places.vocabulary) {
+    const WordVector words = places.vocabulary->Describe(frame.features.descriptors);
+    for (const Lookalike& one : places.index.Query(words)) {
       if (asked.size() < kAsked) asked.push_back(one.keyframe);
     }
     return asked;
@@ -19,6 +19,17 @@ std::vector<KeyframeId> KeyframesToAsk(const Map& map, const Frame& frame, Keyfr
     asked.push_back(std::next(map.keyframes().begin(), (first + i) % count)->first);
   }
   return asked;
+}
+
+std::optional<FramePose> Relocalise(const Map& map, const Frame& frame, const TrackMemory& memory,
+                                    const Places& places, std::int64_t turn,
+                                    const StereoCamera& camera, int levels,
+                                    const TrackOptions& options) {
+  if (auto pose = FindAgain(map, frame, memory, camera, levels, options)) return pose;
+  for (const KeyframeId id : KeyframesToAsk(map, frame, memory.reference, places, turn)) {
+    if (auto pose = LocateByKeyframe(map, frame, id, camera, levels, options)) return pose;
+  }
+  return std::nullopt;
 }
 
 }  // namespace aisle::slam

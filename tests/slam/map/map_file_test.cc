@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "tests/slam/face/ring_world.h"
+#include "tests/slam/mapping/ring_world.h"
 
 namespace aisle::slam {
 namespace {

@@ -1,4 +1,4 @@
-#include "slam/loop_closing.h"
+#include "slam/mapping/loop_closing.h"
 
 #include <algorithm>
 #include <chrono>
@@ -26,7 +26,7 @@ std::vector<LandmarkId> LandmarksAround(const Map& map, KeyframeId id, const Fus
 }  // namespace
 
 Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& camera,
-              const SlamOptions& options) {
+              const FuseOptions& options) {
   const auto best =
       std::max_element(loops.begin(), loops.end(),
                        [](const LoopEdge& a, const LoopEdge& b) { return a.inliers < b.inliers; });
@@ -34,21 +34,20 @@ Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& c
   map.Apply(SpreadLoops(map, loops));
   for (const LoopEdge& loop : loops) {
     if (!map.Find(loop.current) || !map.Find(loop.matched)) continue;
-    const std::vector<LandmarkId> old_place =
-        LandmarksAround(map, loop.matched, options.mapping.fuse);
-    std::vector<KeyframeId> new_views = FuseNeighbours(map, loop.current, options.mapping.fuse);
+    const std::vector<LandmarkId> old_place = LandmarksAround(map, loop.matched, options);
+    std::vector<KeyframeId> new_views = FuseNeighbours(map, loop.current, options);
     new_views.push_back(loop.current);
     for (const KeyframeId view : new_views) {
-      map.Apply(FuseInto(map, view, old_place, camera, options.mapping.fuse));
+      map.Apply(FuseInto(map, view, old_place, camera, options));
     }
   }
   return map;
 }
 
 GlobalCorrection CorrectGlobally(const Map& map, const StereoCamera& camera,
-                                 const SlamOptions& options) {
+                                 const GlobalAdjustmentOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  GlobalCorrection correction{map, AdjustGlobally(map, camera, options.global).edit, 0};
+  GlobalCorrection correction{map, AdjustGlobally(map, camera, options).edit, 0};
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
   correction.milliseconds = took.count();
   return correction;

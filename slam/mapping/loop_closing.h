@@ -2,8 +2,8 @@
 
 #include "slam/camera/stereo_camera.h"
 #include "slam/map/map.h"
+#include "slam/mapping/mapping_options.h"
 #include "slam/optimize/adjust_map.h"
-#include "slam/slam_options.h"
 
 namespace aisle::slam {
 
@@ -12,7 +12,7 @@ namespace aisle::slam {
 /// in one map again; exactness comes from AdjustGlobally after. Takes the map by value and returns
 /// the next one: it can run beside readers. At least one loop.
 Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& camera,
-              const SlamOptions& options);
+              const FuseOptions& options);
 
 /// A global adjustment and the map it was made of, which has grown on since.
 struct GlobalCorrection {
@@ -23,7 +23,7 @@ struct GlobalCorrection {
 
 /// Adjusts all of a map, see AdjustGlobally.
 GlobalCorrection CorrectGlobally(const Map& map, const StereoCamera& camera,
-                                 const SlamOptions& options);
+                                 const GlobalAdjustmentOptions& options);
 
 /// What a correction asks of the map as it is `now`: keyframes move with what was made of them, and
 /// what mapping has refined since stays as it stood to them; newer keyframes move with the one they

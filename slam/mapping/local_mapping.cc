@@ -1,4 +1,4 @@
-#include "slam/local_mapping.h"
+#include "slam/mapping/local_mapping.h"
 
 #include <chrono>
 #include <set>
@@ -21,28 +21,26 @@ std::vector<LandmarkId> SeenBy(const Map& map, const std::vector<KeyframeId>& ke
 
 MappingResult MapKeyframe(Map map, KeyframeId newest, const Vocabulary* vocabulary,
                           const PlaceIndex& index, const StereoCamera& camera,
-                          const SlamOptions& options) {
+                          const MappingOptions& options, const LoopOptions& loop) {
   const auto start = std::chrono::steady_clock::now();
-  const MappingOptions& mapping = options.mapping;
-  map.Apply(CullLandmarks(map, newest, mapping.cull));
+  map.Apply(CullLandmarks(map, newest, options.cull));
 
-  const std::vector<KeyframeId> neighbours = FuseNeighbours(map, newest, mapping.fuse);
+  const std::vector<KeyframeId> neighbours = FuseNeighbours(map, newest, options.fuse);
   for (const KeyframeId neighbour : neighbours) {
-    map.Apply(FuseInto(map, neighbour, SeenBy(map, {newest}), camera, mapping.fuse));
+    map.Apply(FuseInto(map, neighbour, SeenBy(map, {newest}), camera, options.fuse));
   }
-  map.Apply(FuseInto(map, newest, SeenBy(map, neighbours), camera, mapping.fuse));
+  map.Apply(FuseInto(map, newest, SeenBy(map, neighbours), camera, options.fuse));
 
-  const Adjustment adjustment = AdjustLocally(map, newest, camera, mapping.adjust);
+  const Adjustment adjustment = AdjustLocally(map, newest, camera, options.adjust);
   map.Apply(adjustment.edit);
 
-  const MapEdit culling = CullKeyframes(map, newest, mapping.cull);
+  const MapEdit culling = CullKeyframes(map, newest, options.cull);
   map.Apply(culling);
 
   MappingResult result;
   if (vocabulary) {
     result.words = vocabulary->Describe(map.At(newest).frame->features.descriptors);
-    result.loop =
-        FindLoop(map, newest, result.words, index, camera, options.feature.levels, options.loop);
+    result.loop = FindLoop(map, newest, result.words, index, camera, options.fuse.levels, loop);
   }
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
   result.map = std::move(map);

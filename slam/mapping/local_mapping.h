@@ -2,7 +2,7 @@
 
 #include "slam/camera/stereo_camera.h"
 #include "slam/map/map.h"
-#include "slam/slam_options.h"
+#include "slam/mapping/mapping_options.h"
 
 namespace aisle::slam {
 
@@ -23,6 +23,6 @@ struct MappingResult {
 /// the map by value and returns the next one: it can run beside readers.
 MappingResult MapKeyframe(Map map, KeyframeId newest, const Vocabulary* vocabulary,
                           const PlaceIndex& index, const StereoCamera& camera,
-                          const SlamOptions& options);
+                          const MappingOptions& options, const LoopOptions& loop);
 
 }  // namespace aisle::slam

@@ -1,8 +1,8 @@
-#include "slam/loop_closing.h"
+#include "slam/mapping/loop_closing.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/slam/face/ring_world.h"
+#include "tests/slam/mapping/ring_world.h"
 
 namespace aisle::slam {
 namespace {
@@ -11,12 +11,6 @@ namespace {
 const RingWorld& Ring() {
   static const RingWorld ring(1.01, 0.003);
   return ring;
-}
-
-SlamOptions Options() {
-  SlamOptions options;
-  options.mapping.fuse.levels = options.feature.levels;
-  return options;
 }
 
 TEST(LoopClosing, SpreadingALoopTakesMostOfTheDriftAway) {
@@ -57,8 +51,8 @@ TEST(LoopClosing, WithoutLoopsNothingIsSpread) {
 }
 
 TEST(LoopClosing, AClosedLoopIsOnePlaceAndAsExactAsItsMeasurements) {
-  Map closed = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), Options());
-  closed.Apply(CarryOver(closed, CorrectGlobally(closed, Ring().camera(), Options())));
+  Map closed = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {});
+  closed.Apply(CarryOver(closed, CorrectGlobally(closed, Ring().camera(), {})));
   EXPECT_LT(Ring().WorstErrorM(closed), 0.02);
   // What was mapped twice is one: every second visit shares its landmarks with the first.
   EXPECT_LT(closed.landmark_count(), Ring().map().landmark_count());
@@ -71,16 +65,16 @@ TEST(LoopClosing, AClosedLoopIsOnePlaceAndAsExactAsItsMeasurements) {
 }
 
 TEST(LoopClosing, GivesTheSameBitsAgain) {
-  const Map a = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), Options());
-  const Map b = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), Options());
+  const Map a = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {});
+  const Map b = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {});
   for (const auto& [id, keyframe] : a.keyframes()) {
     EXPECT_EQ(keyframe->T_world_rig.matrix(), b.At(id).T_world_rig.matrix()) << id.value;
   }
 }
 
 TEST(LoopClosing, WhatIsMappedDuringTheGlobalAdjustmentMovesAlong) {
-  const Map closed = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), Options());
-  const GlobalCorrection correction = CorrectGlobally(closed, Ring().camera(), Options());
+  const Map closed = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {});
+  const GlobalCorrection correction = CorrectGlobally(closed, Ring().camera(), {});
   // Meanwhile a keyframe joins and sees a landmark of its own.
   Map grown = closed;
   const KeyframeId parent = Ring().Loops().back().current;

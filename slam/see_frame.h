@@ -1,0 +1,25 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "slam/map/frame.h"
+#include "slam/stereo_slam.h"
+
+namespace aisle::slam {
+
+/// Throws std::invalid_argument that names the image where one is not of the camera's size.
+void CheckImages(const StereoImages& images, const ExternalMask& mask, const StereoCamera& camera);
+
+/// What either mask rejects; an empty one rejects nothing.
+cv::Mat1b Union(const cv::Mat1b& a, const cv::Mat1b& b);
+
+/// The front end: features of both eyes outside the mask, and what they measure. The deviations
+/// grow as the confidence in the pixel falls: information times confidence. Runs both eyes in
+/// parallel; times go to `stage_ms`.
+std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, const ExternalMask& mask,
+                                      const StereoCamera& camera, const SlamOptions& options,
+                                      std::map<std::string, double>& stage_ms);
+
+}  // namespace aisle::slam
