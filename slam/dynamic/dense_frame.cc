@@ -35,6 +35,21 @@ void FillRow(float* row, int columns) {
   }
 }
 
+/// The least and the most of every pixel and the middles between it and its neighbours of the row.
+void SpanHalfPixels(const cv::Mat1b& image, cv::Mat1b& low, cv::Mat1b& high) {
+  low.create(image.size());
+  high.create(image.size());
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const int at = image(y, x);
+      const int left = (at + image(y, std::max(x - 1, 0))) / 2;
+      const int right = (at + image(y, std::min(x + 1, image.cols - 1))) / 2;
+      low(y, x) = static_cast<unsigned char>(std::min({at, left, right}));
+      high(y, x) = static_cast<unsigned char>(std::max({at, left, right}));
+    }
+  }
+}
+
 }  // namespace
 
 StereoCamera HalfCamera(const StereoCamera& camera) {
@@ -64,7 +79,9 @@ DenseFrame MakeDenseFrame(const cv::Mat1b& left, const cv::Mat1b& right,
                           const DisparityOptions& disparity, const SurfaceOptions& options) {
   DenseFrame frame;
   frame.image = HalfImage(left);
-  frame.disparity = ComputeDisparity(frame.image, HalfImage(right), disparity);
+  const cv::Mat1b half_right = HalfImage(right);
+  frame.disparity = ComputeDisparity(frame.image, half_right, disparity);
+  SpanHalfPixels(half_right, frame.right_low, frame.right_high);
   ForgetPadding(frame.disparity, disparity.max_disparity_px, options.border_px);
   frame.filled = FillRows(frame.disparity);
   return frame;
@@ -109,7 +126,7 @@ StaticField WhereStatic(const cv::Mat1f& filled, const Eigen::Isometry3d& T_then
   const Eigen::Matrix3f A = (K * T_then_now.linear() * K.inverse()).cast<float>();
   const Eigen::Vector3f t =
       (K * T_then_now.translation() / (half.fx * half.baseline_m)).cast<float>();
-  StaticField field{cv::Mat2f(filled.size()), cv::Mat1f(filled.size()), cv::Mat1f(filled.size())};
+  StaticField field{cv::Mat2f(filled.size()), cv::Mat1f(filled.size()), cv::Mat2f(filled.size())};
   tbb::parallel_for(0, filled.rows, [&](int y) {
     const Eigen::Vector3f start = A.col(1) * static_cast<float>(y) + A.col(2);
     for (int x = 0; x < filled.cols; ++x) {
@@ -117,14 +134,14 @@ StaticField WhereStatic(const cv::Mat1f& filled, const Eigen::Isometry3d& T_then
       const Eigen::Vector3f p = start + A.col(0) * static_cast<float>(x) + t * d;
       if (p.z() < 0.05F) {
         field.place(y, x) = {-1e4F, -1e4F};
-        field.disparity(y, x) = field.per_disparity(y, x) = 0;
+        field.disparity(y, x) = 0;
+        field.per_disparity(y, x) = {0, 0};
         continue;
       }
       const float u = p.x() / p.z(), v = p.y() / p.z();
       field.place(y, x) = {u, v};
       field.disparity(y, x) = d / p.z();
-      const float along_x = (t.x() - u * t.z()) / p.z(), along_y = (t.y() - v * t.z()) / p.z();
-      field.per_disparity(y, x) = std::sqrt(along_x * along_x + along_y * along_y);
+      field.per_disparity(y, x) = {(t.x() - u * t.z()) / p.z(), (t.y() - v * t.z()) / p.z()};
     }
   });
   return field;

@@ -11,6 +11,8 @@ namespace aisle::slam::dynamic {
 /// What one frame leaves behind for comparison, all of half size.
 struct DenseFrame {
   cv::Mat1b image;
+  /// What the right image shows within half a pixel of each of its own, along the row.
+  cv::Mat1b right_low, right_high;
   cv::Mat1f disparity;  ///< half-size pixels, kNoDisparity where unknown
   cv::Mat1f filled;     ///< the same without gaps: the farther side of each gap of a row
   std::int64_t stamp_ns = 0;
@@ -45,7 +47,7 @@ cv::Mat1f FillRows(const cv::Mat1f& disparity);
 struct StaticField {
   cv::Mat2f place;          ///< half-size pixels of the earlier frame
   cv::Mat1f disparity;      ///< <= 0 behind the camera
-  cv::Mat1f per_disparity;  ///< length of the derivative of the place by the disparity, now
+  cv::Mat2f per_disparity;  ///< derivative of the place by the disparity, now
 };
 StaticField WhereStatic(const cv::Mat1f& filled, const Eigen::Isometry3d& T_then_now,
                         const StereoCamera& half);

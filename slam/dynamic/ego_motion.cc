@@ -158,11 +158,26 @@ std::vector<StereoMatch> WeighedBySpace(std::vector<StereoMatch> matches,
   return matches;
 }
 
-/// The deviation of a normal error whose absolute value lies below three quarters of the values.
-double DeviationOf(std::vector<double>& values) {
-  const auto quarter = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 3 / 4);
-  std::nth_element(values.begin(), quarter, values.end());
-  return *quarter / 1.1503;
+std::vector<StereoMatch> Trusted(const std::vector<StereoMatch>& matches) {
+  std::vector<StereoMatch> trusted;
+  std::copy_if(matches.begin(), matches.end(), std::back_inserter(trusted),
+               [](const StereoMatch& match) { return match.weight >= 0.5; });
+  return trusted;
+}
+
+/// An absolute error and the weight of its match.
+using WeightedValue = std::pair<double, double>;
+
+/// The deviation of a normal error whose absolute value lies below three quarters of the weight.
+double DeviationOf(std::vector<WeightedValue>& values) {
+  std::sort(values.begin(), values.end());
+  double whole = 0, below = 0;
+  for (const auto& [value, weight] : values) whole += weight;
+  for (const auto& [value, weight] : values) {
+    below += weight;
+    if (below >= 0.75 * whole) return value / 1.1503;
+  }
+  return values.back().first / 1.1503;
 }
 
 EgoMotionOptions Narrow(EgoMotionOptions options) {
@@ -245,12 +260,14 @@ EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const Stere
 std::optional<MeasurementNoise> MeasureNoise(const std::vector<StereoMatch>& matches,
                                              const StereoCamera& camera,
                                              const Isometry3d& T_now_before) {
-  std::array<std::vector<double>, 3> errors;
-  for (const StereoMatch& match : matches) {
+  std::array<std::vector<WeightedValue>, 3> errors;
+  for (const StereoMatch& match : WeighedBySpace(Trusted(matches), camera)) {
     const Vector3d point = T_now_before * Backproject(camera, match.before);
-    if (match.weight < 0.5 || point.z() < 0.05) continue;
+    if (point.z() < 0.05) continue;
     const Vector3d error = (match.now - Project(camera, point)).cwiseAbs();
-    for (std::size_t k = 0; k < 3; ++k) errors[k].push_back(error[static_cast<int>(k)]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      errors[k].emplace_back(error[static_cast<int>(k)], match.weight);
+    }
   }
   if (std::ssize(errors[0]) < kLeastForNoise) return std::nullopt;
   MeasurementNoise noise;

@@ -46,6 +46,7 @@ struct Evidence {
   const Texture& texture;
   const EvidenceOptions& options;
   StaticField expected;
+  cv::Mat1f variance;  // of the difference of two grey values
   cv::Mat1f misfit_static, misfit_moved;
   cv::Mat1f nearest;  // largest disparity within reach
 
@@ -65,18 +66,91 @@ struct Evidence {
   float OtherVariance(int y, int x) const {
     const cv::Vec2f way =
         expected.place(y, x) - cv::Vec2f(static_cast<float>(x), static_cast<float>(y));
-    return Squared(options.disparity_noise * expected.per_disparity(y, x)) +
+    const cv::Vec2f& along = expected.per_disparity(y, x);
+    return Squared(options.disparity_noise) * along.dot(along) +
            Squared(options.noise_per_displacement) * way.dot(way);
   }
 
-  float FlowLogOdds(int y, int x, float d) const {
-    const cv::Vec2f& place = expected.place(y, x);
-    const cv::Vec2f r = frames.flow(y, x) - place;
-    const float static_variance = Squared(frames.flow_noise) + OtherVariance(y, x);
+  Eigen::Matrix2f Information(int y, int x) const {
     Eigen::Matrix2f G;
     G << texture.xx(y, x), texture.xy(y, x), texture.xy(y, x), texture.yy(y, x);
-    return DisplacementLogOdds(G, {r[0], r[1]}, static_variance,
+    return G;
+  }
+
+  Eigen::Vector2f Residual(int y, int x) const {
+    const cv::Vec2f r = frames.flow(y, x) - expected.place(y, x);
+    return {r[0], r[1]};
+  }
+
+  float StaticVariance(int y, int x) const {
+    return Squared(frames.flow_noise) + OtherVariance(y, x);
+  }
+
+  float FlowLogOdds(int y, int x, float d, const Eigen::Vector2f& r) const {
+    return DisplacementLogOdds(Information(y, x), r, StaticVariance(y, x),
                                Squared(mover_px_per_disparity * d));
+  }
+
+  /// The most that a pixel's motion can be borne out by stereo. Were it static and its disparity
+  /// another one, that might explain the flow, too: what speaks for motion is what that leaves
+  /// unexplained, and how much worse the right image fits there. Along a corrugated wall or a row
+  /// of equal bars it fits as well.
+  float LimitByStereo(int y, int x, float d, float log_odds) const {
+    const cv::Vec2f& e = expected.per_disparity(y, x);
+    const Eigen::Vector2f along(e[0], e[1]), r = Residual(y, x);
+    const Eigen::Matrix2f G = Information(y, x);
+    const Eigen::Matrix2f S =
+        (Eigen::Matrix2f::Identity() + StaticVariance(y, x) * G).inverse() * G;
+    const float held = along.dot(S * along);
+    if (held < 1e-6F) return log_odds;
+    const float step = along.dot(S * r) / held;
+    const float unexplained = std::max(FlowLogOdds(y, x, d, r - step * along), 0.0F);
+    if (unexplained >= log_odds) return log_odds;
+    const float there = BestOther(y, x, d, d + step, 2 / std::sqrt(held));
+    const float here = StereoMisfit(y, x, cvRound(d));
+    return std::min(log_odds, unexplained + std::max(GainOf(there, here), 0.0F));
+  }
+
+  /// Log-odds of what fits so well against what fits otherwise.
+  float GainOf(float misfit_other, float misfit) const {
+    return static_cast<float>(options.independent_pixels) / 2 * (misfit_other - misfit) /
+           (1 + static_cast<float>(options.misfit_weight) * misfit);
+  }
+
+  /// The best fit of all disparities within `reach` of one that are not that of the pixel.
+  float BestOther(int y, int x, float d, float other, float reach) const {
+    constexpr float kMostReach = 16;
+    reach = std::min(reach, kMostReach);
+    const int from = std::max(static_cast<int>(std::floor(other - reach)), 0);
+    const int to = std::min(static_cast<int>(std::ceil(other + reach)), x);
+    float best = std::numeric_limits<float>::max();
+    for (int k = from; k <= to; ++k) {
+      if (std::abs(static_cast<float>(k) - d) < static_cast<float>(options.other_disparity))
+        continue;
+      best = std::min(best, StereoMisfit(y, x, k));
+    }
+    return best;
+  }
+
+  /// Mean squared difference, in units of its variance, of the window around a pixel and that of
+  /// the right image a disparity away, as far as the half pixel around cannot explain it
+  /// (Birchfield and Tomasi, 1998); endless outside.
+  float StereoMisfit(int y, int x, int d) const {
+    constexpr int kReach = 3;
+    const cv::Mat1b &left = frames.now.image, &low = frames.now.right_low,
+                    &high = frames.now.right_high;
+    const int top = std::max(y - kReach, 0), bottom = std::min(y + kReach, left.rows - 1);
+    const int reach = std::min({kReach, x - d, left.cols - 1 - x});
+    if (reach < 1) return std::numeric_limits<float>::max();
+    int squares = 0;
+    for (int v = top; v <= bottom; ++v) {
+      for (int u = x - reach; u <= x + reach; ++u) {
+        const int off = std::max({0, left(v, u) - high(v, u - d), low(v, u - d) - left(v, u)});
+        squares += off * off;
+      }
+    }
+    const int count = (bottom - top + 1) * (2 * reach + 1);
+    return static_cast<float>(squares) / (static_cast<float>(count) * variance(y, x));
   }
 
   float At(int y, int x) const {
@@ -88,7 +162,7 @@ struct Evidence {
     const float change = disparity_change * d * d;
     const bool hidden =
         frames.then.disparity(to) > expected_d + std::max(0.75F, 0.06F * expected_d);
-    float log_odds = FlowLogOdds(y, x, d);
+    const float log_odds = FlowLogOdds(y, x, d, Residual(y, x));
     if (log_odds <= 0) return hidden ? 0 : log_odds;
     if (IsBesideNearer(y, x, d)) return 0;
 
@@ -101,15 +175,13 @@ struct Evidence {
                    moved >= static_cast<float>(options.hidden_misfit))) {
       return 0;
     }
-    const float gain = static_cast<float>(options.independent_pixels) / 2 *
-                       (misfit_static(y, x) - moved) /
-                       (1 + static_cast<float>(options.misfit_weight) * moved);
-    return std::clamp(gain, 0.0F, log_odds);
+    const float borne_out = std::clamp(GainOf(misfit_static(y, x), moved), 0.0F, log_odds);
+    return borne_out > 0 ? LimitByStereo(y, x, d, borne_out) : 0;
   }
 };
 
-/// The deviation of the flow of pixels that are well held and that disparity tells little apart;
-/// nothing where there are few. Most of what is seen stands still: the median knows no movers.
+/// The deviation of the flow of pixels that are well held and that disparity tells little apart, of
+/// those where it fits and that belong to nothing known to move; nothing where there are few.
 std::optional<double> MeasureFlowNoise(const Evidence& evidence) {
   constexpr int kEvery = 3, kLeastSamples = 200;
   constexpr float kLeastTexture = 60, kMostOther = 0.0064F, kMedianOfTwo = 1.3863F;
@@ -122,6 +194,8 @@ std::optional<double> MeasureFlowNoise(const Evidence& evidence) {
                   xy = evidence.texture.xy(y, x);
       if (xx * yy - xy * xy < kLeastTexture * (xx + yy)) continue;
       if (evidence.OtherVariance(y, x) > kMostOther) continue;
+      if (evidence.misfit_moved(y, x) > evidence.misfit_static(y, x)) continue;
+      if (!evidence.frames.regions.empty() && evidence.frames.regions(y, x) > 0) continue;
       const cv::Vec2f r = evidence.frames.flow(y, x) - evidence.expected.place(y, x);
       squares.push_back(r.dot(r));
     }
@@ -159,12 +233,13 @@ MotionEvidence CompareMotion(const Comparison& comparison, const Texture& textur
                     texture,
                     options,
                     WhereStatic(now.filled, comparison.T_then_now, half),
+                    DifferenceVariance(now.image, surface),
                     {},
                     {},
                     {},
                     static_cast<float>(way_m / half.baseline_m),
                     static_cast<float>(way_m / focal_baseline)};
-  const cv::Mat1f variance = DifferenceVariance(now.image, surface);
+  const cv::Mat1f& variance = evidence.variance;
   tbb::parallel_for(0, 3, [&](int k) {
     if (k == 0) {
       evidence.misfit_static =

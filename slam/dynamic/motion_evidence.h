@@ -24,7 +24,8 @@ struct Comparison {
   Eigen::Isometry3d T_then_now = Eigen::Isometry3d::Identity();
   double seconds = 0.05;  ///< between the two
   double flow_noise =
-      0.12;  ///< half-size pixels, deviation of the flow where the texture is strong
+      0.12;                ///< half-size pixels, deviation of the flow where the texture is strong
+  cv::Mat1i regions = {};  ///< of the current pixels: > 0 where something known to move has come
 };
 
 struct MotionEvidence {

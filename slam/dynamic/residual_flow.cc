@@ -6,6 +6,8 @@
 namespace aisle::slam::dynamic {
 namespace {
 
+constexpr int kFollowWindow = 9;  // half-size pixels, odd
+constexpr double kTrustInRegion = 0.02;
 constexpr float kLeastTexture = 4;  // of the weaker direction: half a pixel of deviation
 
 /// The smaller eigenvalue.
@@ -30,6 +32,66 @@ cv::Point BestIn(const cv::Rect& cell, const Texture& texture, const cv::Mat1f& 
     }
   }
   return at;
+}
+
+/// The pixel of the best texture of every cell that has one.
+std::vector<cv::Point> WellHeld(const Texture& texture, const cv::Mat1f& disparity, int cell_px) {
+  std::vector<cv::Point> points;
+  const cv::Rect image({0, 0}, disparity.size());
+  for (int top = 0; top < disparity.rows; top += cell_px) {
+    for (int left = 0; left < disparity.cols; left += cell_px) {
+      const cv::Point at =
+          BestIn(cv::Rect(left, top, cell_px, cell_px) & image, texture, disparity);
+      if (at.x >= 0) points.push_back(at);
+    }
+  }
+  return points;
+}
+
+/// Lucas-Kanade from given places; far outside the image where a point was lost.
+struct Followed {
+  std::vector<cv::Point2f> places;
+  std::vector<float> errors;
+};
+Followed Follow(const std::vector<cv::Point2f>& from, std::vector<cv::Point2f> guesses,
+                const cv::Mat1b& now, const cv::Mat1b& then) {
+  Followed followed{std::move(guesses), {}};
+  std::vector<unsigned char> found;
+  const cv::TermCriteria enough(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 15, 0.01);
+  cv::calcOpticalFlowPyrLK(now, then, from, followed.places, found, followed.errors,
+                           {kFollowWindow, kFollowWindow}, 0, enough, cv::OPTFLOW_USE_INITIAL_FLOW);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i] != 0) continue;
+    followed.places[i] = {-1e4F, -1e4F};
+    followed.errors[i] = std::numeric_limits<float>::max();
+  }
+  return followed;
+}
+
+/// Where each point was in the earlier image, by itself.
+std::vector<cv::Point2f> FollowPoints(const std::vector<cv::Point>& points, const DenseFrame& now,
+                                      const DenseFrame& then, const cv::Mat2f& flow,
+                                      const cv::Mat2f& expected) {
+  if (points.empty()) return {};
+  std::vector<cv::Point2f> from, by_flow, by_expectation;
+  for (const cv::Point& at : points) {
+    from.emplace_back(at);
+    by_flow.emplace_back(flow(at));
+    by_expectation.emplace_back(expected(at));
+  }
+  Followed best = Follow(from, by_flow, now.image, then.image);
+  const Followed other = Follow(from, by_expectation, now.image, then.image);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (other.errors[i] < best.errors[i]) best.places[i] = other.places[i];
+  }
+  return best.places;
+}
+
+/// The probability that a pixel stands still; hardly any within a region that moves, whatever its
+/// own evidence: plain cloth shows little.
+double TrustIn(const LabelMemory& memory, cv::Point at) {
+  const double trust = 1 / (1 + std::exp(static_cast<double>(memory.log_odds(at))));
+  return memory.regions.labels(at) > 0 ? std::min(trust, kTrustInRegion) : trust;
 }
 
 }  // namespace
@@ -62,25 +124,22 @@ cv::Mat2f FollowBack(const cv::Mat1b& now, const cv::Mat1b& then, const cv::Mat2
   return places;
 }
 
-std::vector<StereoMatch> MatchesAlong(const cv::Mat2f& flow, const DenseFrame& now,
-                                      const DenseFrame& then, const Texture& texture,
-                                      const cv::Mat1f& log_odds, int cell_px) {
+std::vector<StereoMatch> MatchesAlong(const cv::Mat2f& flow, const cv::Mat2f& expected,
+                                      const DenseFrame& now, const DenseFrame& then,
+                                      const Texture& texture, const LabelMemory& memory,
+                                      int cell_px) {
+  const std::vector<cv::Point> points = WellHeld(texture, now.disparity, cell_px);
+  const std::vector<cv::Point2f> places = FollowPoints(points, now, then, flow, expected);
   std::vector<StereoMatch> matches;
   const cv::Rect image({0, 0}, flow.size());
-  for (int top = 0; top < flow.rows; top += cell_px) {
-    for (int left = 0; left < flow.cols; left += cell_px) {
-      const cv::Point at =
-          BestIn(cv::Rect(left, top, cell_px, cell_px) & image, texture, now.disparity);
-      if (at.x < 0) continue;
-      const cv::Vec2f& to = flow(at);
-      const cv::Point near(cvRound(to[0]), cvRound(to[1]));
-      if (!image.contains(near) || !(then.disparity(near) > 0)) continue;
-      StereoMatch match;
-      match.now = {FullPixel(at.x), FullPixel(at.y), 2.0 * now.disparity(at)};
-      match.before = {FullPixel(to[0]), FullPixel(to[1]), 2.0 * then.disparity(near)};
-      match.weight = log_odds.empty() ? 0.5 : 1 / (1 + std::exp(log_odds(at)));
-      matches.push_back(match);
-    }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const cv::Point at = points[i], near(cvRound(places[i].x), cvRound(places[i].y));
+    if (!image.contains(near) || !(then.disparity(near) > 0)) continue;
+    StereoMatch match;
+    match.now = {FullPixel(at.x), FullPixel(at.y), 2.0 * now.disparity(at)};
+    match.before = {FullPixel(places[i].x), FullPixel(places[i].y), 2.0 * then.disparity(near)};
+    match.weight = TrustIn(memory, at);
+    matches.push_back(match);
   }
   return matches;
 }

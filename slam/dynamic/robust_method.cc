@@ -75,12 +75,13 @@ std::vector<GapMotion> FollowGaps(const RobustState& before, const DenseFrame& n
                                   const ResidualFlowOptions& options) {
   std::vector<GapMotion> gaps;
   for (const int gap : kGaps) {
-    if (std::ssize(before.frames) >= gap) gaps.push_back({gap, {}, {}, {}});
+    if (std::ssize(before.frames) >= gap) gaps.push_back({gap, {}, {}, {}, {}});
   }
   tbb::parallel_for(std::size_t{0}, gaps.size(), [&](std::size_t k) {
     const Isometry3d expected = MotionOver(gaps[k].gap, before, T_now_before);
-    gaps[k].flow = FollowBack(now.image, FrameAgo(before, gaps[k].gap).image,
-                              WhereStatic(now.filled, expected.inverse(), half).place, options);
+    gaps[k].expected = WhereStatic(now.filled, expected.inverse(), half).place;
+    gaps[k].flow =
+        FollowBack(now.image, FrameAgo(before, gaps[k].gap).image, gaps[k].expected, options);
   });
   return gaps;
 }
@@ -90,14 +91,14 @@ using GapMatches = std::array<std::vector<StereoMatch>, kGaps.size()>;
 /// Finds the rig's motion over every gap; the longer ones start from what the frames between have
 /// said. Drops the gaps from the first on whose motion cannot be found.
 GapMatches FindGapMotions(std::vector<GapMotion>& gaps, const RobustState& before, const Seen& seen,
-                          const cv::Mat1f& log_odds, const std::optional<MotionPrior>& prior,
+                          const LabelMemory& memory, const std::optional<MotionPrior>& prior,
                           const StereoCamera& camera, const EgoMotionOptions& options) {
   EgoMotionOptions narrow = options;
   narrow.rounds = 1;  // the frames between have left little to find
   GapMatches matches;
   for (std::size_t k = 0; k < gaps.size(); ++k) {
-    matches[k] = MatchesAlong(gaps[k].flow, seen.frame, FrameAgo(before, gaps[k].gap), seen.texture,
-                              log_odds, options.cell_px);
+    matches[k] = MatchesAlong(gaps[k].flow, gaps[k].expected, seen.frame,
+                              FrameAgo(before, gaps[k].gap), seen.texture, memory, options.cell_px);
     gaps[k].motion =
         k == 0 ? EstimateEgoMotion(matches[k], camera, prior, before.noise[k], options)
                : RefineEgoMotion(matches[k], camera,
@@ -119,8 +120,8 @@ void LearnNoise(RobustState& state, const std::vector<GapMotion>& gaps, const Ga
 }
 
 cv::Mat1f CompareWithPast(std::vector<GapMotion>& gaps, RobustState& state,
-                          const RobustState& before, const Seen& seen, const StereoCamera& half,
-                          const RobustOptions& options) {
+                          const RobustState& before, const LabelMemory& memory, const Seen& seen,
+                          const StereoCamera& half, const RobustOptions& options) {
   if (gaps.empty()) return cv::Mat1f(seen.frame.image.size(), 0.0F);
   std::vector<cv::Mat1f> evidence;
   for (std::size_t k = 0; k < gaps.size(); ++k) {
@@ -130,7 +131,8 @@ cv::Mat1f CompareWithPast(std::vector<GapMotion>& gaps, RobustState& state,
                                 gaps[k].flow,
                                 gaps[k].motion.T_now_before.inverse(),
                                 Seconds(then.stamp_ns, seen.frame.stamp_ns),
-                                before.flow_noise[k]};
+                                before.flow_noise[k],
+                                memory.regions.labels};
     const MotionEvidence found =
         CompareMotion(comparison, seen.texture, half, options.surface, options.evidence);
     gaps[k].evidence = found.log_odds;
@@ -222,12 +224,12 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
       memory = CarryMemory(before.memory, stages.gaps[0].flow, seen.frame, before.frames.back());
     }
     const GapMatches matches =
-        FindGapMotions(stages.gaps, before, seen, memory.log_odds, prior, camera, options.ego);
+        FindGapMotions(stages.gaps, before, seen, memory, prior, camera, options.ego);
     LearnNoise(state, stages.gaps, matches, camera);
   }
   {
     const Stopwatch time(stages.stage_ms["evidence"]);
-    stages.evidence = CompareWithPast(stages.gaps, state, before, seen, half, options);
+    stages.evidence = CompareWithPast(stages.gaps, state, before, memory, seen, half, options);
     memory.log_odds = options.field.memory * memory.log_odds + stages.evidence;
     memory.log_odds = cv::min(cv::max(memory.log_odds, -options.field.limit), options.field.limit);
   }

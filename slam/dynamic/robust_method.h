@@ -35,8 +35,9 @@ struct RobustState {
 
 /// The way back over one gap.
 struct GapMotion {
-  int gap = 1;     ///< frames
-  cv::Mat2f flow;  ///< half-size pixels of the earlier frame, whatever moved
+  int gap = 1;         ///< frames
+  cv::Mat2f expected;  ///< half-size pixels of the earlier frame, were all static
+  cv::Mat2f flow;      ///< the same, whatever moved
   EgoMotion motion;
   cv::Mat1f evidence;  ///< log-odds of moving per half-size pixel, of this gap alone
 };

@@ -80,6 +80,8 @@ struct EvidenceOptions {
   /// has moved, and what an ill fit of the moved window takes off.
   double independent_pixels = 10, misfit_weight = 0.5;
   double hidden_misfit = 1.5;  ///< limit of that misfit where the static surface was hidden
+  /// Disparities so far apart are two matches, not one measured ill.
+  double other_disparity = 1.5;
   /// A step of disparity up to which two measurements may show one surface: a constant part and a
   /// share of the disparity, to which comes what a mover's speed makes of it.
   double same_surface = 0.5, same_surface_share = 0.04, same_surface_speeds = 4;
@@ -108,6 +110,7 @@ struct EvidenceOptions {
                    CheckRange("independent_pixels", independent_pixels, 0.1, 1000.0),
                    CheckRange("misfit_weight", misfit_weight, 0.0, 100.0),
                    CheckRange("hidden_misfit", hidden_misfit, 0.0, 100.0),
+                   CheckRange("other_disparity", other_disparity, 0.1, 100.0),
                    CheckRange("same_surface", same_surface, 0.01, 100.0),
                    CheckRange("same_surface_share", same_surface_share, 0.0, 1.0),
                    CheckRange("same_surface_speeds", same_surface_speeds, 0.0, 100.0),

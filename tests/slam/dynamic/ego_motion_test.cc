@@ -137,5 +137,18 @@ TEST(MeasureNoise, FindsTheNoiseThatWasAdded) {
   EXPECT_FALSE(MeasureNoise(matches, kCamera, T));
 }
 
+TEST(MeasureNoise, IsNotThatOfACrowdInOnePlace) {
+  const Isometry3d T = Motion({0, 0, -0.05}, 0);
+  auto matches = MakeMatches(600, 0, T, {0, 0, 0});
+  const auto quiet = MeasureNoise(matches, kCamera, T);
+  for (int k = 0; k < 900; ++k) {  // all within one cubic metre, all their own way
+    const Vector3d point(0.3 + 0.001 * k / 3, 0.2, 1.5), way(0, 0.002 * (k % 50), 0);
+    matches.push_back({Project(kCamera, point), Project(kCamera, T * point + way), 1});
+  }
+  const auto beside = MeasureNoise(matches, kCamera, T);
+  ASSERT_TRUE(quiet && beside);
+  EXPECT_LT((*beside)[1], 1.5 * (*quiet)[1]);
+}
+
 }  // namespace
 }  // namespace aisle::slam::dynamic

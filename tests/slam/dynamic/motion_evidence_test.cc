@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <numbers>
+#include <opencv2/imgproc.hpp>
 
 #include "slam/dynamic/label_memory.h"
 #include "slam/dynamic/residual_flow.h"
@@ -50,7 +51,7 @@ TEST(DisplacementLogOdds, AlongAnEdgeNothingIsKnownAndAcrossItMuch) {
 struct Pair {
   DenseFrame then, now;
   Texture texture;
-  cv::Mat2f flow;
+  cv::Mat2f expected, flow;
   cv::Mat1f log_odds;
   cv::Mat1b moving;  // half size
 
@@ -66,8 +67,8 @@ struct Pair {
     now = MakeDenseFrame(after.left, after.right, options.disparity, options.surface);
     texture = MeasureTexture(now.image, options.surface);
     const StereoCamera half = HalfCamera({});
-    flow = FollowBack(now.image, then.image, WhereStatic(now.filled, T_world_now, half).place,
-                      options.flow);
+    expected = WhereStatic(now.filled, T_world_now, half).place;
+    flow = FollowBack(now.image, then.image, expected, options.flow);
     log_odds = CompareMotion({now, then, flow, T_world_now, seconds}, texture, half,
                              options.surface, options.evidence)
                    .log_odds;
@@ -107,6 +108,51 @@ TEST(CompareMotion, FindsAWalkerAlongTheAxisOverALongGap) {
   EXPECT_LT(pair.ShareAbove(1, false), 0.02);
 }
 
+/// A wall that the rig passes sideways and that moves by `flow_px` in the image, with a disparity
+/// measured as 12 pixels; the pattern repeats after `period` columns. `stereo_px` is its real one.
+double MeanLogOddsOfWall(int period, int flow_px, int stereo_px) {
+  const cv::Size size(160, 60);
+  const auto shifted = [&](int by) {
+    cv::Mat1b image(size);
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = 0; x < size.width; ++x) {
+        const auto column = static_cast<std::uint32_t>((x + by + 10 * period) % period);
+        const double grey = 128 + 60 * test::UnitNoise(1, 1, column);
+        image(y, x) = cv::saturate_cast<unsigned char>(grey);
+      }
+    }
+    cv::GaussianBlur(image, image, {3, 3}, 0.8);
+    return image;
+  };
+  DenseFrame now, then;
+  now.image = shifted(0);
+  now.right_low = now.right_high = shifted(stereo_px);
+  now.disparity = now.filled = cv::Mat1f(size, 12.0F);
+  then = now;
+  then.image = shifted(-flow_px);
+  cv::Mat2f flow(size);
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      flow(y, x) = cv::Vec2f(static_cast<float>(x + flow_px), static_cast<float>(y));
+    }
+  }
+  const StereoCamera half = HalfCamera({});
+  Isometry3d T_then_now = Isometry3d::Identity();
+  T_then_now.translation().x() = half.baseline_m / 2;  // half a pixel for each of disparity
+  const RobustOptions options;
+  const MotionEvidence found =
+      CompareMotion({now, then, flow, T_then_now, 0.25}, MeasureTexture(now.image, options.surface),
+                    half, options.surface, options.evidence);
+  return cv::mean(found.log_odds(cv::Rect(40, 10, 80, 40)))[0];
+}
+
+TEST(CompareMotion, IsNotMisledByARepeatingPatternMatchedAPeriodOff) {
+  // Static at 4 pixels of disparity: it goes 2, not the 6 that the disparity of 12 would make.
+  EXPECT_LT(MeanLogOddsOfWall(8, 2, 4), 0.5);
+  // The same motion, and stereo that knows no other answer: it moves by itself.
+  EXPECT_GT(MeanLogOddsOfWall(1000, 2, 12), 2);
+}
+
 TEST(CombineGaps, WhatOneGapFoundIsNotTalkedDownByAShorterOne) {
   const EvidenceOptions options;
   const auto one = [](float value) { return cv::Mat1f(1, 1, value); };
@@ -137,7 +183,8 @@ TEST(FollowBack, FindsTheWayOfStaticPixelsToAFractionOfAPixel) {
 
 TEST(MatchesAlong, AreOnePerCellAndFollowTheRigsMotion) {
   const Pair pair({}, {0, 0, 0.05}, 0.05);
-  const auto matches = MatchesAlong(pair.flow, pair.now, pair.then, pair.texture, {}, 12);
+  const auto matches = MatchesAlong(pair.flow, pair.expected, pair.now, pair.then, pair.texture,
+                                    ForgottenMemory(pair.now.image.size()), 12);
   ASSERT_GT(matches.size(), 200U);
   EXPECT_LE(matches.size(), static_cast<std::size_t>((376 / 12 + 1) * (240 / 12)));
   Isometry3d T_now_then = Isometry3d::Identity();
@@ -146,6 +193,32 @@ TEST(MatchesAlong, AreOnePerCellAndFollowTheRigsMotion) {
     return MatchChi2({}, T_now_then, match, {0.3, 0.3, 0.6}) < 11.34;
   });
   EXPECT_GT(follow, std::ssize(matches) * 8 / 10);
+}
+
+TEST(MatchesAlong, FindTheirWayWhereTheFlowIsAnothers) {
+  const Pair pair({}, {0, 0, 0.05}, 0.05);
+  cv::Mat2f anothers;
+  cv::add(pair.flow, cv::Scalar(9, -4), anothers);
+  const auto count = [&](const cv::Mat2f& flow) {
+    const auto matches = MatchesAlong(flow, pair.expected, pair.now, pair.then, pair.texture,
+                                      ForgottenMemory(pair.now.image.size()), 12);
+    Isometry3d T_now_then = Isometry3d::Identity();
+    T_now_then.translation() = Vector3d(0, 0, -0.05);
+    return std::count_if(matches.begin(), matches.end(), [&](const StereoMatch& match) {
+      return MatchChi2({}, T_now_then, match, {0.3, 0.3, 0.6}) < 11.34;
+    });
+  };
+  EXPECT_GT(count(anothers), count(pair.flow) * 9 / 10);
+}
+
+TEST(MatchesAlong, WhatARegionCoversIsHardlyTrusted) {
+  const Pair pair({}, {0, 0, 0.05}, 0.05);
+  LabelMemory memory = ForgottenMemory(pair.now.image.size());
+  memory.regions.labels.colRange(0, 188).setTo(1);
+  for (const StereoMatch& match :
+       MatchesAlong(pair.flow, pair.expected, pair.now, pair.then, pair.texture, memory, 12)) {
+    EXPECT_EQ(match.weight < 0.1, match.now.x() < 2 * 188) << match.now.transpose();
+  }
 }
 
 TEST(FillRows, GapsTakeTheFartherSide) {
