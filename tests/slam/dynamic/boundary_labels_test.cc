@@ -76,6 +76,67 @@ TEST(EnergyOf, EqualsItsDefinitionPixelByPixel) {
   }
 }
 
+/// Five superpixels in a random map of 6x6 blocks, some without a plane.
+struct RandomMap {
+  cv::Mat1i labels = cv::Mat1i(30, 36);
+  std::vector<DisparityPlane> planes;
+  explicit RandomMap(CounterRandom& random) {
+    const auto uniform = [&] { return random.Below(2001) / 1000.0 - 1; };
+    for (int y = 0; y < labels.rows; y += 6) {
+      for (int x = 0; x < labels.cols; x += 6) labels(cv::Rect(x, y, 6, 6)) = random.Below(5);
+    }
+    for (int k = 0; k < 5; ++k) {
+      planes.push_back(Plane(0.3 * uniform(), 0.3 * uniform(), 20 + 6 * uniform()));
+      planes.back().valid = random.Below(8) > 0;
+    }
+  }
+};
+
+/// Equations (9) to (11) as they are written, sums over sets of pixels.
+BoundaryType LeastByDefinition(const RandomMap& map, int i, int j, const BoundaryOptions& options) {
+  const DisparityPlane &a = map.planes[static_cast<std::size_t>(i)],
+                       &b = map.planes[static_cast<std::size_t>(j)];
+  if (!a.valid || !b.valid) return BoundaryType::kUnknown;
+  double front = 0, on_boundary = 0, boundary = 0, on_both = 0, both = 0;
+  for (int y = 0; y < map.labels.rows; ++y) {
+    for (int x = 0; x < map.labels.cols; ++x) {
+      const int here = map.labels(y, x), other = here == i ? j : i;
+      if (here != i && here != j) continue;
+      const double gap = a.At(x, y) - b.At(x, y);
+      on_both += gap * gap, both += 1;
+      bool touches = false;
+      for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+        const cv::Point p(x + dx, y + dy);
+        touches |= cv::Rect({}, map.labels.size()).contains(p) && map.labels(p) == other;
+      }
+      if (!touches) continue;
+      front += gap, on_boundary += gap * gap, boundary += 1;
+    }
+  }
+  const std::vector<std::pair<double, BoundaryType>> energies = {
+      {on_both / both, BoundaryType::kCoplanar},
+      {on_boundary / boundary + options.lambda_hinge, BoundaryType::kHinge},
+      {(front < 0 ? options.lambda_penalty : 0) + options.lambda_occlusion,
+       BoundaryType::kLeftOcclusion},
+      {(-front < 0 ? options.lambda_penalty : 0) + options.lambda_occlusion,
+       BoundaryType::kRightOcclusion}};
+  return std::min_element(energies.begin(), energies.end())->second;
+}
+
+TEST(LabelBoundaries, AreTheLeastOfTheEnergiesSummedPixelByPixel) {
+  CounterRandom random(6, 1);
+  std::map<BoundaryType, int> seen;
+  for (int trial = 0; trial < 60; ++trial) {
+    const RandomMap map(random);
+    for (const auto& [key, type] : LabelBoundaries(map.labels, map.planes, {})) {
+      EXPECT_EQ(type, LeastByDefinition(map, key.first, key.second, {}))
+          << "trial " << trial << ", " << key.first << " and " << key.second;
+      ++seen[type];
+    }
+  }
+  EXPECT_EQ(seen.size(), 5U) << "every type has been asked for";
+}
+
 TEST(FitDisparityPlane, RecoversThePlaneAmongOutliers) {
   CounterRandom random(8, 8);
   std::vector<DisparitySample> samples;
@@ -120,6 +181,62 @@ TEST(SearchOcclusions, PassesOtherBoundariesAndFindsNothingAtTheEdge) {
   cross.boundaries[{0, 1}] = BoundaryType::kHinge;
   EXPECT_TRUE(SearchOcclusions({14, 15}, cross.labels, cross.boundaries).empty());
   EXPECT_TRUE(SearchOcclusions({140, 15}, cross.labels, cross.boundaries).empty());
+}
+
+TEST(SearchOcclusions, AreTheNearestOfAllOcclusionsOfTheRowAndTheColumn) {
+  CounterRandom random(11, 2);
+  for (int trial = 0; trial < 40; ++trial) {
+    const RandomMap map(random);
+    const auto boundaries = LabelBoundaries(map.labels, map.planes, {});
+    const auto occluded = [&](cv::Point p, cv::Point q) {
+      return map.labels(p) != map.labels(q) &&
+             IsOcclusion(boundaries, map.labels(p), map.labels(q));
+    };
+    const cv::Point from(random.Below(map.labels.cols), random.Below(map.labels.rows));
+    // The last pixel before each occlusion, seen from the point: the nearest is where a ray stops.
+    std::vector<int> right, left, down, up;
+    for (int x = 0; x + 1 < map.labels.cols; ++x) {
+      if (!occluded({x, from.y}, {x + 1, from.y})) continue;
+      if (x >= from.x) right.push_back(x);
+      if (x + 1 <= from.x) left.push_back(x + 1);
+    }
+    for (int y = 0; y + 1 < map.labels.rows; ++y) {
+      if (!occluded({from.x, y}, {from.x, y + 1})) continue;
+      if (y >= from.y) down.push_back(y);
+      if (y + 1 <= from.y) up.push_back(y + 1);
+    }
+    std::vector<cv::Point> expected;
+    if (!right.empty()) expected.emplace_back(right.front(), from.y);
+    if (!left.empty()) expected.emplace_back(left.back(), from.y);
+    if (!down.empty()) expected.emplace_back(from.x, down.front());
+    if (!up.empty()) expected.emplace_back(from.x, up.back());
+    EXPECT_EQ(SearchOcclusions(from, map.labels, boundaries), expected) << "trial " << trial;
+  }
+}
+
+TEST(MarkRegion, EnclosesTheRayEndsOfThePointsThatHaveEnoughOfThem) {
+  CounterRandom random(12, 3);
+  for (int trial = 0; trial < 40; ++trial) {
+    const RandomMap map(random);
+    const auto boundaries = LabelBoundaries(map.labels, map.planes, {});
+    std::vector<cv::Point> points;
+    for (int k = 0; k < 6; ++k) points.emplace_back(random.Below(40) - 2, random.Below(34) - 2);
+    for (int min_rays = 1; min_rays <= 4; ++min_rays) {
+      int left = 1000, right = -1, top = 1000, bottom = -1;
+      for (const cv::Point& point : points) {
+        const auto ends = SearchOcclusions(point, map.labels, boundaries);
+        if (static_cast<int>(ends.size()) < min_rays) continue;
+        for (const cv::Point& end : ends) {
+          left = std::min(left, end.x), right = std::max(right, end.x);
+          top = std::min(top, end.y), bottom = std::max(bottom, end.y);
+        }
+      }
+      const auto box = MarkRegion(points, map.labels, boundaries, {.min_rays = min_rays});
+      ASSERT_EQ(box.has_value(), right >= 0);
+      if (!box) continue;
+      EXPECT_EQ(*box, cv::Rect(cv::Point(left, top), cv::Point(right + 1, bottom + 1)));
+    }
+  }
 }
 
 TEST(MarkRegion, IsTheSmallestRectangleOfTheOutline) {

@@ -52,6 +52,75 @@ cv::Mat1i SlicByTheBook(const cv::Mat1b& image, double nc, const SuperpixelOptio
   return labels;
 }
 
+/// The modified SLIC as section III-B tells it: flags on an image, every centre tried for every
+/// flagged pixel.
+cv::Mat1i ModifiedSlicByTheBook(const cv::Mat1b& image, double nc,
+                                const SuperpixelOptions& options) {
+  const double step = options.step_px;
+  const int columns = cvCeil(image.cols / step), rows = cvCeil(image.rows / step);
+  const cv::Rect area({}, image.size());
+  const std::array<cv::Point, 4> four = {cv::Point(1, 0), {-1, 0}, {0, 1}, {0, -1}};
+  cv::Mat1i labels(image.size());
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      labels(y, x) = static_cast<int>(y / step) * columns + static_cast<int>(x / step);
+    }
+  }
+  cv::Mat1b flag(image.size(), static_cast<unsigned char>(0));  // step (1): edges are unstable
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      for (const cv::Point& d : four) {
+        const cv::Point p(x + d.x, y + d.y);
+        if (area.contains(p) && labels(p) != labels(y, x)) flag(y, x) = 1;
+      }
+    }
+  }
+  std::vector<cv::Vec3d> centres(static_cast<std::size_t>(columns * rows));
+  for (int iteration = 0; iteration < options.iterations; ++iteration) {
+    std::vector<cv::Vec4d> sums(centres.size());
+    for (int y = 0; y < image.rows; ++y) {
+      for (int x = 0; x < image.cols; ++x) {
+        sums[static_cast<std::size_t>(labels(y, x))] += cv::Vec4d(x, y, image(y, x), 1);
+      }
+    }
+    for (std::size_t j = 0; j < sums.size(); ++j) {
+      if (sums[j][3] > 0) {
+        centres[j] = cv::Vec3d(sums[j][0], sums[j][1], sums[j][2]) / sums[j][3];
+      }
+    }
+    const cv::Mat1i before = labels.clone();
+    for (int y = 0; y < image.rows; ++y) {  // step (2)
+      for (int x = 0; x < image.cols; ++x) {
+        if (flag(y, x) == 0) continue;
+        double best = 1e300;
+        for (std::size_t j = 0; j < centres.size(); ++j) {
+          const cv::Vec3d& c = centres[j];
+          if (sums[j][3] == 0 || std::abs(x - c[0]) > step || std::abs(y - c[1]) > step) continue;
+          const double distance =
+              std::hypot((image(y, x) - c[2]) / nc, std::hypot(x - c[0], y - c[1]) / step);
+          if (distance >= best - 1e-12) continue;
+          best = distance;
+          labels(y, x) = static_cast<int>(j);
+        }
+      }
+    }
+    cv::Mat1b next(image.size(), static_cast<unsigned char>(0));
+    for (int y = 0; y < image.rows; ++y) {  // step (3), equation (7)
+      for (int x = 0; x < image.cols; ++x) {
+        if (flag(y, x) == 0) continue;
+        const bool changed = labels(y, x) != before(y, x);
+        if (changed) next(y, x) = 1;
+        for (const cv::Point& d : four) {
+          const cv::Point p(x + d.x, y + d.y);
+          if (area.contains(p) && (changed || labels(p) != labels(y, x))) next(p) = 1;
+        }
+      }
+    }
+    flag = next;
+  }
+  return labels;
+}
+
 double ShareOfEqualLabels(const cv::Mat1i& a, const cv::Mat1i& b) {
   return static_cast<double>(cv::countNonZero(a == b)) / static_cast<double>(a.total());
 }
@@ -64,6 +133,37 @@ TEST(SegmentFully, IsSlicByTheBook) {
   const Superpixels fast = SegmentFully(image, nc, options);
   // Centres may leave the reach of the 3x3 search by a hair, and roots may order ties otherwise.
   EXPECT_GT(ShareOfEqualLabels(fast.labels, SlicByTheBook(image, nc, options)), 0.999);
+}
+
+TEST(SegmentUnstable, IsTheModifiedSlicByTheBook) {
+  const cv::Mat1b image = Scene()(cv::Rect(300, 150, 120, 90)).clone();
+  SuperpixelOptions options;
+  options.iterations = 6;
+  const double nc = ColourScale(image, options);
+  EXPECT_GT(ShareOfEqualLabels(SegmentUnstable(image, nc, options).labels,
+                               ModifiedSlicByTheBook(image, nc, options)),
+            0.999);
+}
+
+TEST(ColourScale, IsAShareOfTheRangeOfTheMiddleNineTenths) {
+  const cv::Mat1b image = Scene();
+  std::vector<unsigned char> greys(image.begin(), image.end());
+  std::sort(greys.begin(), greys.end());
+  const auto at = [&](double share) {
+    return greys[static_cast<std::size_t>(share * static_cast<double>(greys.size()))];
+  };
+  const SuperpixelOptions options;
+  EXPECT_NEAR(ColourScale(image, options), options.colour_share * (at(0.95) - at(0.05)),
+              options.colour_share);
+  EXPECT_EQ(ColourScale(cv::Mat1b(20, 20, 90), options), 1);
+}
+
+TEST(SegmentUnstable, HasTheCentresOfEquationSix) {
+  const SuperpixelOptions options;
+  const cv::Mat1b image(480, 752, 90);
+  const auto wanted = static_cast<double>(image.total()) / (options.step_px * options.step_px);
+  const auto centres = static_cast<double>(SegmentUnstable(image, 10, options).centres.size());
+  EXPECT_NEAR(centres / wanted, 1, 0.05);
 }
 
 TEST(SegmentUnstable, AgreesWithFullSlicAndLooksAtFarFewerPixels) {
