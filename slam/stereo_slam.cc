@@ -164,6 +164,7 @@ ExternalMask StereoSlam::Impl::RejectMovers(const StereoImages& images, const Ex
   DynamicOutput found;
   arena.execute([&] { found = detector.Detect(input); });
   result.dynamic = std::move(found.regions);
+  result.dynamic_stages = std::move(found.stages);
   return {Union(mask.left, result.dynamic.mask), Union(mask.right, found.mask_right),
           mask.confidence};
 }

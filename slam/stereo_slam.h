@@ -11,6 +11,7 @@
 
 #include "slam/camera/stereo_camera.h"
 #include "slam/dynamic/dynamic_regions.h"
+#include "slam/picture/draw_stages.h"
 #include "slam/slam_options.h"
 
 namespace aisle::slam {
@@ -49,9 +50,11 @@ struct TrackedFrame {
   int matched_points = 0;  ///< matched to the map
   int inliers = 0;         ///< kept by pose refinement
   bool is_keyframe = false;
-  int map_keyframes = 0;     ///< size of the map after this frame: it grows with the place ...
-  int map_landmarks = 0;     ///< ... that has been explored, not with time
-  DynamicRegions dynamic;    ///< what the system itself rejected as moving; empty without a method
+  int map_keyframes = 0;   ///< size of the map after this frame: it grows with the place ...
+  int map_landmarks = 0;   ///< ... that has been explored, not with time
+  DynamicRegions dynamic;  ///< what the system itself rejected as moving; empty without a method
+  /// For DrawStages; null unless SlamOptions::dynamic.keep_stages.
+  std::shared_ptr<const DynamicStages> dynamic_stages;
   bool loop_closed = false;  ///< from this frame on the map is as a closed loop has corrected it
   std::vector<cv::Point2f> keypoints;      ///< left image, for scoring where features were spent
   std::vector<bool> keypoint_is_inlier;    ///< per keypoint: took part in the pose

@@ -12,6 +12,7 @@
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/systems.h"
 #include "harness/report/overlay.h"
+#include "harness/report/stage_sheets.h"
 #include "harness/score/masks.h"
 #include "harness/suite/suite.h"
 
@@ -25,6 +26,7 @@ struct Options {
   std::string system = "robust", format = "kitti", out, frames_dir, twin = "live", json;
   int warm_up = 20, every = 10, threads = 0;
   std::uint64_t seed = 1;
+  bool debug_dynamic = false;
 };
 
 /// Stretches in which something of every kind moves: across, along the axis, slowly, filling the
@@ -126,6 +128,11 @@ void Picture(const SequenceFrame& shown, const FrameEstimate& estimate, const Re
              const Options& options) {
   std::string name = result.name;
   std::ranges::replace(name, '/', '_');
+  if (estimate.draw_stages) {
+    const cv::Mat3b sheet = TileStages(estimate.draw_stages(shown.truth ? &*shown.truth : nullptr));
+    const std::string file = fmt::format("{}_{:05}_stages.jpg", name, shown.images.id);
+    if (!sheet.empty()) WriteImage(fs::path(options.out) / file, sheet);
+  }
   WriteImage(fs::path(options.out) / fmt::format("{}_{:05}.jpg", name, shown.images.id),
              DrawOverlay(shown.images.left, shown.truth ? &*shown.truth : nullptr, &estimate,
                          fmt::format("{}  frame {}", result.name, shown.images.id)));
@@ -133,8 +140,9 @@ void Picture(const SequenceFrame& shown, const FrameEstimate& estimate, const Re
 
 Result Measure(const View& view, const Options& options) {
   const auto sequence = Open(view, options);
-  const auto estimator =
-      FindSystem(options.system).make(sequence->calibration(), {.threads = options.threads});
+  const auto estimator = FindSystem(options.system)
+                             .make(sequence->calibration(), {.threads = options.threads,
+                                                             .draw_stages = options.debug_dynamic});
   Result result;
   result.name = sequence->name();
   ProgressLine line;
@@ -240,6 +248,10 @@ void AddBenchDynamic(CLI::App* bench, Action* action) {
   command->add_option("--warm-up", options->warm_up, "frames before FROM, not counted; default 20")
       ->check(CLI::Range(0, 100000));
   command->add_option("--out", options->out, "folder for pictures: truth red, rejected cyan");
+  command
+      ->add_flag("--debug-dynamic", options->debug_dynamic,
+                 "with --out: draw every stage of these frames too")
+      ->needs("--out");
   command->add_option("--every", options->every, "a picture every so many frames; default 10")
       ->check(CLI::Range(1, 100000));
   command->add_option(

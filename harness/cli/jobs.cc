@@ -92,6 +92,7 @@ std::vector<Job> MakeJobs(const Suite& suite, const std::vector<RunSpec>& specs,
       job.argv.insert(job.argv.end(), {"--frames", (CacheDir() / "frames" / frames).string()});
     }
     if (!options.video) job.argv.push_back("--no-video");
+    if (options.debug_dynamic) job.argv.push_back("--debug-dynamic");
     const auto external = suite.externals.find(spec.system);
     if (external != suite.externals.end()) {
       const std::vector<std::string> more = ExternalArguments(external->second, frames);

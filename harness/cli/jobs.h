@@ -26,7 +26,8 @@ struct JobOptions {
   std::filesystem::path out;  ///< the report's folder
   int threads = 0;            ///< per run; 0: all
   bool frame_cache = true;
-  bool video = true;  ///< where there is an ffmpeg
+  bool video = true;           ///< where there is an ffmpeg
+  bool debug_dynamic = false;  ///< draw how each system found what moves
 };
 
 /// The processes that will make the runs.

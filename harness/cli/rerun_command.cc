@@ -20,6 +20,7 @@ struct Options {
   std::string id, in, out;
   int threads = 0;
   ProcessLimits limits;
+  bool debug_dynamic = false;
   bool json = false;
 };
 
@@ -67,7 +68,8 @@ int Rerun(const Options& options) {
   const std::optional<RunRecord> before = ReadRun(spec, options.in);
   const fs::path out = options.out.empty() ? fs::path(options.in) / "rerun" : fs::path(options.out);
   const std::vector<Job> jobs =
-      MakeJobs(plan.suite, {spec}, Fingerprints(), {.out = out, .threads = options.threads});
+      MakeJobs(plan.suite, {spec}, Fingerprints(),
+               {.out = out, .threads = options.threads, .debug_dynamic = options.debug_dynamic});
   fs::remove_all(out / "runs" / RunId(spec));
   Evening evening(out, 1, options.limits);
   const std::atomic<bool> never = false;
@@ -91,6 +93,9 @@ void AddRerunCommand(CLI::App* app, Action* action) {
       ->check(CLI::Range(0, 1024));
   command->add_option("--timeout", options->limits.wall_s, "seconds of wall time")
       ->check(CLI::PositiveNumber);
+  command->add_flag("--debug-dynamic", options->debug_dynamic,
+                    "draw how it found what moves, every stage of every frame, into its folder's "
+                    "stages; changes no result");
   command->add_flag("--json", options->json, "for programs");
   command->footer("Example: ./aisle rerun paper.scene2/live/oracle/1 --in out/quickstart");
   command->callback([=] { *action = [=] { return Rerun(*options); }; });

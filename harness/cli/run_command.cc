@@ -28,6 +28,7 @@ struct Options {
   bool resume = false;
   bool no_frame_cache = false;
   bool no_video = false;
+  bool debug_dynamic = false;
   bool no_retry = false;
   bool gate = false;
   bool json = false;
@@ -112,7 +113,8 @@ int RunSuite(const Options& options) {
                                                    {.out = out,
                                                     .threads = options.threads,
                                                     .frame_cache = !options.no_frame_cache,
-                                                    .video = !options.no_video}),
+                                                    .video = !options.no_video,
+                                                    .debug_dynamic = options.debug_dynamic}),
                                           out, options.resume);
   if (specs.size() > todo.size()) {
     fmt::print(stderr, "aisle: {} of {} runs are already there\n", specs.size() - todo.size(),
@@ -170,10 +172,16 @@ void AddRunCommand(CLI::App* app, Action* action) {
   command->add_flag("--gate", options->gate, "judge against the baseline too");
   command->add_flag("--no-frame-cache", options->no_frame_cache, "render anew for every run");
   command->add_flag("--no-video", options->no_video, "no film of the runs, ffmpeg or not");
+  command->add_flag("--debug-dynamic", options->debug_dynamic,
+                    "draw how `paper` and `robust` found what moves: every stage of every frame as "
+                    "a sheet (runs/ID/stages, about 0.7 MB each) and a film; changes no result. "
+                    "With --resume, finished runs are not drawn");
   command->add_flag("--no-retry", options->no_retry,
                     "do not try failed runs once more to tell flaky from broken");
   command->add_flag("--json", options->json, "results.json on stdout instead of the table");
-  command->footer("Example: ./aisle run scenes/suites/quickstart.yaml --seeds 3 --out out/tonight");
+  command->footer(
+      "Example: ./aisle run scenes/suites/quickstart.yaml --seeds 3 --out out/tonight\n"
+      "         ./aisle run scenes/paper/scene2.yaml --systems paper,robust --debug-dynamic");
   command->callback([=] { *action = [=] { return RunSuite(*options); }; });
 }
 

@@ -9,6 +9,7 @@
 #include "harness/plugs/systems.h"
 #include "harness/report/record.h"
 #include "harness/report/samples.h"
+#include "harness/report/stage_sheets.h"
 #include "harness/report/video.h"
 #include "harness/run/drive.h"
 
@@ -24,6 +25,7 @@ struct Options {
   std::string inputs_hash;  ///< of all that decides the run; filed with its result
   int threads = 0;
   bool video = true;
+  bool debug_dynamic = false;
   ExternalSystem external;  ///< without a command: the system is one of ours
   std::string like;         ///< the system of ours that is told spoilt masks; empty: none
   std::vector<double> mask_errors;
@@ -95,8 +97,8 @@ int RunOne(const Options& options) {
   const System& system = FindSystem(options.like.empty() ? options.spec.system : options.like);
   std::uint64_t content_hash = 0;
   const std::unique_ptr<Sequence> sequence = OpenSequence(options, &content_hash);
-  const std::unique_ptr<Estimator> estimator =
-      system.make(sequence->calibration(), {.threads = options.threads});
+  const std::unique_ptr<Estimator> estimator = system.make(
+      sequence->calibration(), {.threads = options.threads, .draw_stages = options.debug_dynamic});
 
   const std::string folder = "runs/" + RunId(options.spec);
   SamplePictures samples;
@@ -105,6 +107,9 @@ int RunOne(const Options& options) {
     film.emplace(std::filesystem::path(options.out) / folder / "film.mp4",
                  sequence->rate_hz() / kFilmEvery);
   }
+  StageSheets stages({.folder = std::filesystem::path(options.out) / folder,
+                      .rate_hz = sequence->rate_hz() / kFilmEvery,
+                      .film = options.debug_dynamic && options.video});
   const auto observe = [&](const DrivenFrame& frame) {
     const FrameTruth* truth = frame.shown.truth ? &*frame.shown.truth : nullptr;
     samples.See(frame.index, frame.count, frame.shown.images.left, truth, frame.estimate,
@@ -115,6 +120,7 @@ int RunOne(const Options& options) {
                  cv::INTER_AREA);
       film->Add(picture);
     }
+    stages.See(frame.index, truth, frame.estimate, frame.facts);
     TellProgress(frame.index + 1, frame.count);
   };
   RunResult result = Drive(*sequence, *estimator, MasksFor(system, options), {}, observe);
@@ -125,6 +131,8 @@ int RunOne(const Options& options) {
   RunRecord record = MakeRecord(result, sequence->rate_hz());
   record.inputs_hash = options.inputs_hash;
   if (film && film->Finish()) record.artifacts["film"] = folder + "/film.mp4";
+  for (const auto& [name, path] : stages.Finish()) record.artifacts[name] = folder + "/" + path;
+  if (!stages.trouble().empty()) record.notes.push_back(stages.trouble());
   int number = 0;
   for (const std::string& name : samples.Write(std::filesystem::path(options.out) / folder)) {
     record.artifacts[fmt::format("picture_{:02}", number++)] = folder + "/" + name;
@@ -154,6 +162,7 @@ void AddRunOneCommand(CLI::App* app, Action* action) {
   command->add_option("--external-timeout", options->external.timeout_s);
   command->add_option("--dataset", options->dataset);
   command->add_flag("!--no-video", options->video);
+  command->add_flag("--debug-dynamic", options->debug_dynamic);
   command->add_flag("--vslam-lab", options->external.vslam_lab);
   command->add_option("--like", options->like);
   command->add_option("--mask-errors", options->mask_errors)->delimiter(',')->expected(4);

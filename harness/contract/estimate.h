@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -27,6 +28,16 @@ struct DynamicRegions {
   std::vector<DynamicRegion> regions;
 };
 
+/// One stage of how a system found what it rejects: title, legend and numbers are in the picture.
+struct StagePicture {
+  std::string name;
+  cv::Mat3b image;  ///< BGR; all pictures of a frame have one size
+};
+struct FrameTruth;
+/// Draws the stages of one frame in their order, beside truth where it is known (else null). May
+/// come back empty: in the first frame there is nothing to see yet.
+using StageDrawer = std::function<std::vector<StagePicture>(const FrameTruth*)>;
+
 enum class TrackingState { kInitializing, kTracking, kLost };
 
 /// What a system said at a frame, causally.
@@ -40,6 +51,7 @@ struct FrameEstimate {
   std::map<std::string, double> stage_ms;  ///< wall time by stage
   std::vector<cv::Point2f> keypoints;      ///< left image
   std::vector<bool> keypoint_is_inlier;    ///< per keypoint: took part in the pose
+  StageDrawer draw_stages;                 ///< empty unless the system was asked for it
 };
 
 /// Two tracks, never mixed: as known at each frame, and after all optimisation.

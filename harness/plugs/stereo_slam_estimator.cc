@@ -1,5 +1,6 @@
 #include "harness/plugs/stereo_slam_estimator.h"
 
+#include "harness/score/masks.h"
 #include "slam/stereo_slam.h"
 
 namespace aisle {
@@ -39,6 +40,27 @@ DynamicRegions Convert(const slam::DynamicRegions& found) {
   return regions;
 }
 
+slam::StageTruth Convert(const FrameTruth& truth) {
+  slam::StageTruth converted{.moving = truth.dynamic};
+  for (const MovingObject& object : MovingObjects(truth, {})) {
+    converted.boxes.push_back(object.box);
+  }
+  return converted;
+}
+
+/// Draws what is kept of the frame; nothing to draw where nothing was.
+StageDrawer DrawerOf(const std::shared_ptr<const slam::DynamicStages>& stages) {
+  if (!stages) return {};
+  return [stages](const FrameTruth* truth) {
+    std::vector<StagePicture> pictures;
+    for (slam::StagePicture& drawn :
+         slam::DrawStages(*stages, truth == nullptr ? slam::StageTruth{} : Convert(*truth))) {
+      pictures.push_back({std::move(drawn.name), std::move(drawn.image)});
+    }
+    return pictures;
+  };
+}
+
 FrameEstimate Convert(const slam::TrackedFrame& frame) {
   FrameEstimate estimate;
   estimate.id = frame.id;
@@ -57,6 +79,7 @@ FrameEstimate Convert(const slam::TrackedFrame& frame) {
   estimate.stage_ms = frame.stage_ms;
   estimate.keypoints = frame.keypoints;
   estimate.keypoint_is_inlier = frame.keypoint_is_inlier;
+  estimate.draw_stages = DrawerOf(frame.dynamic_stages);
   return estimate;
 }
 
@@ -110,6 +133,7 @@ std::unique_ptr<Estimator> MakeStereoSlamEstimator(const StereoCalibration& cali
   slam_options.localise_only = options.localise_only;
   slam_options.schedule.free_running = options.free_running;
   slam_options.dynamic.method = Convert(options.rejection);
+  slam_options.dynamic.keep_stages = options.draw_stages;
   return std::make_unique<StereoSlamEstimator>(camera, slam_options);
 }
 

@@ -17,6 +17,7 @@ struct StereoSlamEstimatorOptions {
   std::filesystem::path load_map = {};         ///< empty: a new map; else goes on in this one
   bool localise_only = false;                  ///< load_map stays as it is
   bool free_running = false;  ///< not repeatable: background results are taken when ready
+  bool draw_stages = false;   ///< estimates can draw how the movers were found; changes no result
 };
 
 /// Our SLAM behind the Estimator socket.

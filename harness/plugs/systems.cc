@@ -15,7 +15,8 @@ std::unique_ptr<Estimator> OurSlamWith(const StereoCalibration& calibration,
                                                .vocabulary_file = VocabularyFile(),
                                                .load_map = options.load_map,
                                                .localise_only = options.localise_only,
-                                               .free_running = options.free_running});
+                                               .free_running = options.free_running,
+                                               .draw_stages = options.draw_stages});
 }
 
 }  // namespace

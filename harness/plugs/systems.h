@@ -14,6 +14,7 @@ struct SystemOptions {
   int threads = 0;                      ///< 0: as many as the machine has; never changes a result
   std::filesystem::path load_map = {};  ///< of an earlier drive with the same rig; empty: none
   bool localise_only = false;           ///< the loaded map stays as it is
+  bool draw_stages = false;   ///< estimates can draw how the movers were found; changes no result
   bool free_running = false;  ///< NOT REPEATABLE: background work as threads happen to run
 };
 

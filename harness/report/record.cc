@@ -105,6 +105,17 @@ std::vector<FrameRow> MakeFrameRows(const RunResult& run, const ScoreOptions& op
   return rows;
 }
 
+std::vector<FrameRow> ReadFrameRows(const RunRecord& run, const fs::path& report_dir) {
+  const auto artifact = run.artifacts.find("frames");
+  if (artifact == run.artifacts.end()) return {};
+  const fs::path path = report_dir / artifact->second;
+  try {
+    return FrameRowsFromCsv(ReadFile(path), path.string());
+  } catch (const InputError&) {
+    return {};  // a report without its heavy files still shows the scores
+  }
+}
+
 RunRecord WriteRun(const RunResult& run, RunRecord record, const fs::path& report_dir) {
   const std::string folder = "runs/" + RunId(run.spec);
   const auto write = [&](const std::string& artifact, const std::string& name,

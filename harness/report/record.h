@@ -70,6 +70,9 @@ std::string ToCsv(const std::vector<FrameRow>& rows);
 /// Throws InputError where a required one is missing or a field is no number.
 std::vector<FrameRow> FrameRowsFromCsv(const std::string& text, const std::string& file);
 
+/// A run's frames.csv; empty where there is none (any more): the scores stand without it.
+std::vector<FrameRow> ReadFrameRows(const RunRecord& run, const std::filesystem::path& report_dir);
+
 /// Writes trajectories, frames.csv and, last, result.json into `report_dir`/runs/ID. The record
 /// that comes back names the artifacts.
 RunRecord WriteRun(const RunResult& run, RunRecord record, const std::filesystem::path& report_dir);

@@ -6,6 +6,7 @@
 #include "harness/report/html.h"
 #include "harness/report/page.h"
 #include "harness/report/simplify.h"
+#include "harness/report/stage_section.h"
 #include "harness/report/time_chart.h"
 
 namespace aisle {
@@ -253,8 +254,8 @@ std::string ScoreRow(const std::string& name, const std::vector<const RunRecord*
     if (absent.empty() && score != run->scores.end()) absent = score->second.absent;
   }
   if (!absent.empty()) cells += "<td class=\"left soft\">-: " + Escape(absent);
-  return fmt::format("<tr><td>{}<td class=\"left\">{}<td class=\"left\">{}{}\n", Escape(name),
-                     Escape(unit), Escape(alignment), cells);
+  return fmt::format("<tr><td>{}<td>{}<td>{}{}\n", Escape(name), Escape(unit), Escape(alignment),
+                     cells);
 }
 
 /// Closing tags of cells and rows are left out, as HTML allows: a night has thousands of them.
@@ -285,7 +286,7 @@ std::string Again(const SceneRuns& scene, const std::string& root, const std::st
       text +=
           fmt::format("<tr><td>{} {}<td class=\"left\">", Escape(system.system), run->spec.seed);
       for (const auto& [name, path] : run->artifacts) {
-        if (name.starts_with("picture_")) continue;
+        if (name.starts_with("picture_") || IsStageSheet(name)) continue;
         text += fmt::format("<a href=\"{}\">{}</a> ", root + EscapeUrl(path), Escape(name));
       }
       text += fmt::format("<td class=\"left\"><code>./aisle rerun {} --in {}</code>\n",
@@ -318,7 +319,8 @@ std::string SceneSection(const SceneRuns& scene, const fs::path& report_dir,
             "together; static features lost: share of image corners on "
             "unmoving surfaces under the mask.</p>\n";
   }
-  text += Charts(scene, report_dir) + Pictures(scene, root) + AllScores(scene) +
+  text += Charts(scene, report_dir) + Pictures(scene, root) +
+          StageSection(scene, report_dir, root) + AllScores(scene) +
           Again(scene, root, report_dir.string());
   return text;
 }

@@ -53,6 +53,8 @@ td.wrap { white-space: normal; text-align: left; }
 tr:hover td { background: color-mix(in srgb, var(--c1) 7%, transparent); }
 td.best { font-weight: 700; }
 tr.printed td { color: var(--soft); font-style: italic; border-bottom-color: transparent; }
+tr.spread td { color: var(--soft); font-size: 12px; border-bottom-color: transparent; }
+table.dense td:nth-child(2), table.dense td:nth-child(3) { text-align: left; }
 table.dense th, table.dense td { padding: 2px 8px; font-size: 12.5px; }
 .chip { display: inline-block; width: 11px; height: 11px; border-radius: 3px; margin-right: 7px; }
 .chip.c0 { background: var(--c0); } .chip.c1 { background: var(--c1); }
@@ -93,6 +95,10 @@ svg .b3 { fill: var(--b3); } svg .b4 { fill: var(--b4); } svg .b5 { fill: var(--
 svg .b6 { fill: var(--b6); } svg .b7 { fill: var(--b7); }
 .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(330px, 1fr)); gap: 8px; }
 .pictures img { width: 100%; height: auto; display: block; border-radius: 3px; }
+.sheets { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 760px), 1fr));
+  gap: 10px; }
+.sheets figure { margin: 0; padding: 8px; }
+.sheets img { width: 100%; height: auto; display: block; }
 code, pre { font: 13px/1.45 ui-monospace, "DejaVu Sans Mono", monospace; }
 pre { background: var(--card); border: 1px solid var(--rule); border-radius: 4px; padding: 8px 12px;
   overflow-x: auto; margin: 6px 0; }
@@ -102,7 +108,8 @@ th.sortable:hover { color: var(--ink); }
 th[aria-sort=ascending]::after { content: " ▴"; } th[aria-sort=descending]::after { content: " ▾"; }
 table.grouped th, table.grouped td { padding: 5px 6px; font-size: 13px; }
 th.group { text-align: center; border-left: 1px solid var(--rule); color: var(--ink); }
-table.grouped .first { border-left: 1px solid var(--rule); }
+table.grouped .first, table.by1 td:nth-child(n+2), table.by3 td:nth-child(3n+2),
+table.by4 td:nth-child(4n+2) { border-left: 1px solid var(--rule); }
 table.grouped th:first-child:not([rowspan]) { text-align: right; }
 input.filter { font: inherit; font-size: 13px; padding: 4px 9px; border: 1px solid var(--rule);
   border-radius: 4px; background: var(--card); color: var(--ink); }

@@ -125,6 +125,7 @@ void DropImages(FrameEstimate* estimate) {
   estimate->regions.mask.release();
   estimate->keypoints = {};
   estimate->keypoint_is_inlier = {};
+  estimate->draw_stages = {};
 }
 
 Offence Judge(const RunResult& result, std::size_t frames, double min_coverage) {

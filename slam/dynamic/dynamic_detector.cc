@@ -2,6 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "slam/dynamic/dynamic_stages.h"
 #include "slam/dynamic/paper_method.h"
 #include "slam/dynamic/robust_method.h"
 
@@ -15,17 +16,28 @@ struct DynamicDetector::Impl {
 
   DynamicOutput DetectByPaper(const DynamicInput& input);
   DynamicOutput DetectRobustly(const DynamicInput& input);
+  void Keep(DynamicStages stages, DynamicOutput& output) const;
 };
+
+/// Hands out the stages with the regions they led to, if anybody asked for them.
+void DynamicDetector::Impl::Keep(DynamicStages stages, DynamicOutput& output) const {
+  if (!options.keep_stages) return;
+  stages.regions = output.regions;
+  output.stages = std::make_shared<const DynamicStages>(std::move(stages));
+}
 
 DynamicOutput DynamicDetector::Impl::DetectByPaper(const DynamicInput& input) {
   const dynamic::StereoPair current{input.left, input.right};
   DynamicOutput output;
+  DynamicStages stages{.left = input.left};
   if (!previous.left.empty()) {
     dynamic::PaperResult result = dynamic::DetectDynamicRegions(previous, current, options.paper);
     output.mask_right = ShiftMaskToRight(result.dynamic.mask, result.stages.disparity);
     output.regions = std::move(result.dynamic);
-    output.stage_ms = std::move(result.stages.stage_ms);
+    output.stage_ms = result.stages.stage_ms;
+    stages.paper = PaperTrace{options.paper, std::move(result.stages)};
   }
+  Keep(std::move(stages), output);
   previous = current;
   return output;
 }
@@ -33,12 +45,15 @@ DynamicOutput DynamicDetector::Impl::DetectByPaper(const DynamicInput& input) {
 DynamicOutput DynamicDetector::Impl::DetectRobustly(const DynamicInput& input) {
   dynamic::RobustResult result = dynamic::StepRobust(
       state, {input.left, input.right}, input.stamp_ns, input.T_now_before, camera, options.robust);
+  DynamicStages stages{.left = input.left};
+  if (options.keep_stages) stages.robust = TraceOf(state, result, camera);
   DynamicOutput output;
   output.mask_right = ShiftMaskToRight(result.dynamic.mask, result.stages.half_disparity);
   output.regions = std::move(result.dynamic);
   output.probability = std::move(result.probability);
   output.stage_ms = std::move(result.stages.stage_ms);
   state = std::move(result.state);
+  Keep(std::move(stages), output);
   return output;
 }
 

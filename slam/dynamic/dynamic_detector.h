@@ -22,11 +22,14 @@ struct DynamicInput {
   std::optional<Eigen::Isometry3d> T_now_before;
 };
 
+struct DynamicStages;
+
 struct DynamicOutput {
   DynamicRegions regions;  ///< of the left image; an empty mask rejects nothing
   cv::Mat1b mask_right;    ///< the same surfaces in the right image; empty like the left one
   cv::Mat1f probability;   ///< of moving, per left pixel; empty where the method knows none
   std::map<std::string, double> stage_ms;  ///< wall time by stage; reported, never decided upon
+  std::shared_ptr<const DynamicStages> stages;  ///< null unless DynamicOptions::keep_stages
 };
 
 /// Either method behind one face. Frames of one sequence, in order; the first frame, having no

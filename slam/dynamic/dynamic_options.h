@@ -18,6 +18,7 @@ struct DynamicOptions {
   DynamicMethod method = DynamicMethod::kNone;
   dynamic::PaperOptions paper;    ///< read by kPaper alone
   dynamic::RobustOptions robust;  ///< read by kRobust alone
+  bool keep_stages = false;       ///< hand out what every stage found; changes no result
 };
 
 /// The first broken rule with its value, or an empty string.

@@ -35,6 +35,22 @@ TEST_F(SuiteRunTest, LeavesAReportThatOtherCommandsCanRead) {
   EXPECT_THAT(Run({"compare", Out("a"), Out("a")}).text, HasSubstr("same"));
 }
 
+TEST_F(SuiteRunTest, DrawingTheStagesChangesNoBitAndShowsThemInTheReport) {
+  const std::string suite = Suite("drawn", "  - paper\n  - robust\n");
+  ASSERT_EQ(Run({"run", suite, "--out", Out("plain")}).code, 0);
+  const Said said = Run({"run", suite, "--out", Out("drawn"), "--debug-dynamic"});
+  ASSERT_EQ(said.code, 0) << said.text;
+  EXPECT_EQ(Bits(Out("drawn")), Bits(Out("plain")));
+  for (const RunRecord& run : ResultsOf(Out("drawn")).runs) {
+    const fs::path folder = fs::path(Out("drawn")) / "runs" / RunId(run.spec) / "stages";
+    // Nothing can be seen of the first frame, which has no past.
+    EXPECT_TRUE(fs::exists(folder / "000001.jpg")) << folder;
+    EXPECT_TRUE(fs::exists(folder / "000011.jpg")) << folder;
+  }
+  EXPECT_FALSE(fs::exists(fs::path(Out("plain")) / "runs" /
+                          RunId(ResultsOf(Out("plain")).runs.front().spec) / "stages"));
+}
+
 TEST_F(SuiteRunTest, KilledAtAnyMomentAndResumedGivesTheSameBits) {
   const std::string suite = Suite("killed", kTwo, "seeds: 2\n");
   ASSERT_EQ(Run({"run", suite, "--out", Out("calm")}).code, 0);
