@@ -24,12 +24,17 @@ std::pair<int, int> WidestPlane(const std::vector<FrameRow>& rows) {
   return least == 0 ? std::pair(1, 2) : least == 1 ? std::pair(0, 2) : std::pair(0, 1);
 }
 
+const std::optional<Eigen::Vector3d>& PositionOf(const FrameRow& row, TrackKind kind) {
+  return kind == TrackKind::kLive ? row.live_m : row.final_m;
+}
+
 /// 1, 2, 5, 10, …: the factor that makes the largest deviation a visible part of the extent.
-double Magnification(const std::vector<ChartSeries>& series, double extent_m) {
+double Magnification(const std::vector<ChartSeries>& series, TrackKind kind, double extent_m) {
   double largest_m = 0;
   for (const ChartSeries& one : series) {
     for (const FrameRow& row : *one.rows) {
-      largest_m = std::max(largest_m, row.live_error_m.value_or(0));
+      const auto& at_m = PositionOf(row, kind);
+      if (at_m) largest_m = std::max(largest_m, (*at_m - row.truth_m).norm());
     }
   }
   constexpr double kVisible = 0.06;
@@ -66,7 +71,7 @@ const std::vector<FrameRow>* Longest(const std::vector<ChartSeries>& series) {
   return longest != nullptr && longest->size() >= 2 ? longest : nullptr;
 }
 
-std::string TopViewChart(const std::vector<ChartSeries>& series) {
+std::string TopViewChart(const std::vector<ChartSeries>& series, TrackKind kind) {
   const std::vector<FrameRow>* longest = Longest(series);
   if (longest == nullptr) return "";
   const auto [ax, ay] = WidestPlane(*longest);
@@ -74,7 +79,7 @@ std::string TopViewChart(const std::vector<ChartSeries>& series) {
   for (const FrameRow& row : *longest)
     box.extend(Eigen::Vector2d(row.truth_m[ax], row.truth_m[ay]));
   const double extent_m = std::max(box.sizes().maxCoeff(), 0.1);
-  const double magnification = Magnification(series, extent_m);
+  const double magnification = Magnification(series, kind, extent_m);
   const double margin_m = 0.09 * extent_m;
   box.extend(box.min() - Eigen::Vector2d::Constant(margin_m));
   box.extend(box.max() + Eigen::Vector2d::Constant(margin_m));
@@ -103,8 +108,9 @@ std::string TopViewChart(const std::vector<ChartSeries>& series) {
   for (const ChartSeries& one : series) {
     const std::string css = fmt::format("line c{}", one.color);
     const auto point = [&](const FrameRow& row) -> std::optional<std::pair<double, double>> {
-      if (!row.live_m) return std::nullopt;
-      return at(row.truth_m + magnification * (*row.live_m - row.truth_m));
+      const auto& track_m = PositionOf(row, kind);
+      if (!track_m) return std::nullopt;
+      return at(row.truth_m + magnification * (*track_m - row.truth_m));
     };
     for (const Points& piece : Pieces(*one.rows, point)) svg.Polyline(piece, css, one.name);
     legend.emplace_back(one.name, css);

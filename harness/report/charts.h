@@ -20,9 +20,10 @@ const std::vector<FrameRow>* Longest(const std::vector<ChartSeries>& series);
 // Inline SVG without styles or scripts of its own: classes only, so that one style sheet serves
 // light and dark and the page's policy may forbid everything else.
 
-/// Truth and every live track from above, the plane of greatest extent, equal scales. Where
+enum class TrackKind { kLive, kFinal };
+/// Truth and every track of that kind from above, the plane of greatest extent, equal scales. Where
 /// deviations are too small to be seen they are drawn magnified, and the caption says how much.
-std::string TopViewChart(const std::vector<ChartSeries>& series);
+std::string TopViewChart(const std::vector<ChartSeries>& series, TrackKind kind = TrackKind::kLive);
 
 struct StageBar {
   std::string name;

@@ -13,8 +13,10 @@ struct PrintedRow {
   std::vector<std::optional<double>> values;  ///< in the order of the table's columns
 };
 
+inline constexpr int kFigure11 = 11;  ///< asks for the numbers the text gives for Fig. 11
+
 /// Rows of the paper's table 1 to 6, in its order; empty for other numbers. Source: "Robust Stereo
-/// Visual SLAM for Dynamic Environments With Moving Object", tables 1 to 6.
+/// Visual SLAM for Dynamic Environments With Moving Object", tables 1 to 6, section IV-B.
 const std::vector<PrintedRow>& PrintedTable(int number);
 
 }  // namespace aisle

@@ -2,6 +2,7 @@
 
 #include "harness/io/file.h"
 #include "harness/report/page.h"
+#include "harness/report/paper_page.h"
 #include "harness/report/script.h"
 #include "harness/report/style.h"
 #include "harness/report/tables.h"
@@ -29,13 +30,19 @@ void WriteReport(const Results& results, const std::filesystem::path& report_dir
   std::string body = VerdictSection(results, scenes, links) + OverviewSection(scenes, links);
   body += CostSection(scenes);
   const std::vector<NumberTable> tables = PaperTables(scenes);
-  if (!tables.empty()) {
+  if (const std::string paper = PaperPage(scenes, report_dir); !paper.empty()) {
+    const std::string up = "<p><a href=\"index.html\">back to the verdict</a></p>\n";
+    WriteFileAtomically(report_dir / "paper.html",
+                        Page("the paper's experiment beside ours", "", up + paper));
+    body +=
+        "<h2>The paper's experiment</h2>\n<p><a href=\"paper.html\">Its tables and figures beside "
+        "ours, on one page</a></p>\n";
+  } else if (!tables.empty()) {
     body += "<h2>The tables of the paper, with our numbers</h2>\n";
     if (HasPrinted(tables)) {
       body +=
-          "<p class=\"soft small\">In italics what the paper printed, of its own hall and cameras "
-          "(DynaSLAM under semantic): the order of the systems can be compared, not the size of "
-          "the "
+          "<p class=\"soft small\">In italics what the paper printed, of its own drives (DynaSLAM "
+          "under semantic): the order of the systems can be compared, not the size of the "
           "numbers.</p>\n";
     }
     body += ToHtml(tables);

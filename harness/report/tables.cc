@@ -2,7 +2,6 @@
 
 #include <set>
 
-#include "harness/report/html.h"
 #include "harness/report/printed.h"
 
 namespace aisle {
@@ -66,7 +65,13 @@ const std::vector<Kind>& Kinds() {
        "Mean per frame on this machine. The paper's Table 6.",
        {{"dynamic", "ms_dynamic_mean", 1, 1},
         {"tracking", "ms_track_mean", 1, 1},
-        {"whole step", "ms_process_mean", 1, 1}}}};
+        {"whole step", "ms_process_mean", 1, 1}}},
+      {kFigure11,
+       "Largest trajectory error [m]",
+       "Final track, rigid alignment (SE(3)); median over seeds. What the paper says of its Fig. "
+       "11, "
+       "for its own method the bound over all four scenes.",
+       {{"max", "ate_max_m", 1, 4}}}};
   return kinds;
 }
 
@@ -96,6 +101,42 @@ std::string Cell(const SceneRuns& scene, const std::string& system, const Column
 bool HasNumber(const NumberTable::Row& row) {
   return std::any_of(row.cells.begin(), row.cells.end(),
                      [](const std::string& cell) { return cell != "-"; });
+}
+
+/// The least and the most of all seeds; "-" where MedianScore would have none.
+std::string SpreadCell(const SceneRuns& scene, const std::string& system, const Column& column) {
+  for (const SystemRuns& runs : scene.systems) {
+    if (runs.system != system || !MedianScore(runs.runs, column.score)) continue;
+    std::vector<double> values;
+    for (const RunRecord* run : runs.runs) values.push_back(*run->scores.at(column.score).value);
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    return Text(*least, column) + "–" + Text(*most, column);
+  }
+  return "-";
+}
+
+std::size_t SeedsOf(const SceneRuns& scene) {
+  std::size_t most = 0;
+  for (const SystemRuns& runs : scene.systems) most = std::max(most, runs.runs.size());
+  return most;
+}
+
+/// Of Fig. 11 the scenes it shows; of the tables all.
+bool BelongsInto(const Kind& kind, const std::string& scene) {
+  const std::vector<PrintedRow>& printed = PrintedTable(kind.number);
+  return kind.number != kFigure11 ||
+         std::any_of(printed.begin(), printed.end(),
+                     [&](const PrintedRow& row) { return scene == row.row; });
+}
+
+template <typename CellOf>
+NumberTable::Row RowOf(const std::string& name, const std::vector<std::string>& systems,
+                       const std::vector<Column>& columns, const CellOf& cell) {
+  NumberTable::Row row{.name = name, .cells = {}};
+  for (const std::string& system : systems) {
+    for (const Column& column : columns) row.cells.push_back(cell(system, column));
+  }
+  return row;
 }
 
 /// Systems without any number in a table need no column in it.
@@ -144,13 +185,22 @@ std::optional<NumberTable::Row> PrintedRowOf(const std::string& name, const Kind
 void AddPrinted(const Kind& kind, NumberTable* table) {
   std::vector<NumberTable::Row> rows;
   std::set<std::string> ours;
+  std::optional<NumberTable::Row> printed;  // of the latest scene: stands under its spread
+  const auto put_printed = [&] {
+    if (printed) rows.push_back(*printed);
+    printed.reset();
+  };
   for (const NumberTable::Row& row : table->rows) {
+    if (!row.spread) {
+      put_printed();
+      ours.insert(row.name);
+      printed = PrintedRowOf(row.name, kind, *table);
+    }
     rows.push_back(row);
-    ours.insert(row.name);
-    if (const auto printed = PrintedRowOf(row.name, kind, *table)) rows.push_back(*printed);
   }
-  for (const PrintedRow& printed : PrintedTable(kind.number)) {
-    const std::string name = printed.row;
+  put_printed();
+  for (const PrintedRow& other : PrintedTable(kind.number)) {
+    const std::string name = other.row;
     if (name.starts_with("paper/") || !ours.insert(name).second) continue;
     if (const auto row = PrintedRowOf(name, kind, *table)) rows.push_back(*row);
   }
@@ -162,44 +212,6 @@ bool FollowsThePaper(const std::vector<SceneRuns>& scenes) {
   return std::any_of(scenes.begin(), scenes.end(), [](const SceneRuns& scene) {
     return scene.scene.starts_with("paper/") || scene.scene.starts_with("street/");
   });
-}
-
-std::string LatexText(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-      case '%':
-      case '$':
-      case '#':
-      case '_':
-      case '{':
-      case '}':
-        safe += std::string("\\") + c;
-        break;
-      case '\\':
-        safe += "\\textbackslash{}";
-        break;
-      case '~':
-        safe += "\\textasciitilde{}";
-        break;
-      case '^':
-        safe += "\\textasciicircum{}";
-        break;
-      default:
-        safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return safe;
-}
-
-std::string MarkdownText(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '|' || c == '<' || c == '\\' || c == '`' || c == '*' || c == '[') safe += '\\';
-    safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return safe;
 }
 
 }  // namespace
@@ -214,12 +226,19 @@ std::vector<NumberTable> PaperTables(const std::vector<SceneRuns>& scenes) {
                       .rows = {}};
     for (const Column& column : kind.columns) table.columns.emplace_back(column.title);
     for (const SceneRuns& scene : scenes) {
-      if (scene.twin != "live") continue;
-      NumberTable::Row row{.name = scene.scene, .cells = {}};
-      for (const std::string& system : table.groups) {
-        for (const Column& column : kind.columns) row.cells.push_back(Cell(scene, system, column));
-      }
-      if (HasNumber(row)) table.rows.push_back(row);
+      if (scene.twin != "live" || !BelongsInto(kind, scene.scene)) continue;
+      const NumberTable::Row row = RowOf(
+          scene.scene, table.groups, kind.columns,
+          [&](const auto& system, const Column& column) { return Cell(scene, system, column); });
+      if (!HasNumber(row)) continue;
+      table.rows.push_back(row);
+      if (SeedsOf(scene) < 2) continue;
+      table.rows.push_back(
+          RowOf(fmt::format("{} seeds, least–most: {}", SeedsOf(scene), scene.scene), table.groups,
+                kind.columns, [&](const auto& system, const Column& column) {
+                  return SpreadCell(scene, system, column);
+                }));
+      table.rows.back().spread = true;
     }
     if (table.rows.empty()) continue;
     DropEmptyGroups(&table);
@@ -227,86 +246,6 @@ std::vector<NumberTable> PaperTables(const std::vector<SceneRuns>& scenes) {
     tables.push_back(table);
   }
   return tables;
-}
-
-std::string ToHtml(const std::vector<NumberTable>& tables) {
-  std::string text;
-  for (const NumberTable& table : tables) {
-    text += fmt::format(
-        "<h3>{}</h3>\n<p class=\"soft small\">{}</p>\n<div class=\"wide\"><table "
-        "class=\"grouped\"><thead><tr><th rowspan=\"2\">scene",
-        Escape(table.title), Escape(table.caption));
-    for (const std::string& group : table.groups) {
-      text +=
-          fmt::format("<th class=\"group\" colspan=\"{}\">{}", table.columns.size(), Escape(group));
-    }
-    text += "<tr>";
-    for (std::size_t g = 0; g < table.groups.size(); ++g) {
-      for (std::size_t c = 0; c < table.columns.size(); ++c) {
-        text += fmt::format("<th{}>{}", c == 0 ? " class=\"first\"" : "", Escape(table.columns[c]));
-      }
-    }
-    text += "</thead><tbody>\n";
-    for (const NumberTable::Row& row : table.rows) {
-      text +=
-          fmt::format("<tr{}><td>{}", row.printed ? " class=\"printed\"" : "", Escape(row.name));
-      for (std::size_t c = 0; c < row.cells.size(); ++c) {
-        text += fmt::format("<td{}>{}", c % table.columns.size() == 0 ? " class=\"first\"" : "",
-                            Escape(row.cells[c]));
-      }
-      text += "\n";
-    }
-    text += "</tbody></table></div>\n";
-  }
-  return text;
-}
-
-std::string ToMarkdown(const std::vector<NumberTable>& tables) {
-  std::string text;
-  for (const NumberTable& table : tables) {
-    text += fmt::format("## {}\n\n{}\n\n| scene |", table.title, table.caption);
-    std::string rule = "|---|";
-    for (const std::string& group : table.groups) {
-      for (const std::string& column : table.columns) {
-        text += fmt::format(" {} {} |", MarkdownText(group), MarkdownText(column));
-        rule += "---:|";
-      }
-    }
-    text += "\n" + rule + "\n";
-    for (const NumberTable::Row& row : table.rows) {
-      text += "| " + MarkdownText(row.name) + " |";
-      for (const std::string& cell : row.cells) text += " " + cell + " |";
-      text += "\n";
-    }
-    text += "\n";
-  }
-  return text;
-}
-
-std::string ToLatex(const std::vector<NumberTable>& tables) {
-  std::string text = "% needs \\usepackage{booktabs}\n";
-  for (const NumberTable& table : tables) {
-    const std::size_t width = table.columns.size();
-    text += fmt::format("\\begin{{table}}\n\\caption{{{}. {}}}\n\\centering\n\\begin{{tabular}}{{l",
-                        LatexText(table.title), LatexText(table.caption));
-    for (std::size_t i = 0; i < table.groups.size() * width; ++i) text += 'r';
-    text += "}\n\\toprule\n";
-    for (const std::string& group : table.groups) {
-      text += fmt::format(" & \\multicolumn{{{}}}{{c}}{{{}}}", width, LatexText(group));
-    }
-    text += " \\\\\nscene";
-    for (std::size_t g = 0; g < table.groups.size(); ++g) {
-      for (const std::string& column : table.columns) text += " & " + LatexText(column);
-    }
-    text += " \\\\\n\\midrule\n";
-    for (const NumberTable::Row& row : table.rows) {
-      text += LatexText(row.name);
-      for (const std::string& cell : row.cells) text += " & " + LatexText(cell);
-      text += " \\\\\n";
-    }
-    text += "\\bottomrule\n\\end{tabular}\n\\end{table}\n\n";
-  }
-  return text;
 }
 
 }  // namespace aisle

@@ -17,14 +17,16 @@ struct NumberTable {
     std::string name;
     std::vector<std::string> cells;  ///< groups × columns; "-" where there is no number
     bool printed = false;            ///< by the paper, not measured here
+    bool spread = false;             ///< least and most over the seeds of the row above
   };
   std::vector<Row> rows;
 };
 
 /// The tables of the paper with our numbers, and what it printed beneath those of the scenes that
 /// follow it: moving objects (its Table 1) and their detection (2), relative
-/// drift and absolute error (3), absolute error (4), relative error (5), time of the front end (6).
-/// Medians over seeds; live twins alone. Tables without a number are left out.
+/// drift and absolute error (3), absolute error (4), relative error (5), time of the front end (6),
+/// largest error (Fig. 11, of its scenes alone). Medians over seeds and, where there are several,
+/// the least and the most; live twins alone. Tables without a number are left out.
 std::vector<NumberTable> PaperTables(const std::vector<SceneRuns>& scenes);
 
 std::string ToHtml(const std::vector<NumberTable>& tables);

@@ -105,7 +105,9 @@ TEST_F(ReportTest, ThePageTellsTheVerdictFirst) {
               folder_);
   const std::string page = Read("index.html");
   EXPECT_THAT(page, HasSubstr("1 of 2 limits broken"));
-  EXPECT_LT(page.find("limits broken"), page.find("Absolute trajectory error"));
+  EXPECT_THAT(page, HasSubstr("href=\"paper.html\""));
+  EXPECT_LT(page.find("limits broken"), page.find("paper.html"));
+  EXPECT_THAT(Read("paper.html"), HasSubstr("Absolute trajectory error"));
   EXPECT_THAT(page, HasSubstr(">paper/scene2 live orbslam2: ate_rmse_m</a>: value 0.0"));
   EXPECT_THAT(page, HasSubstr("<code>./aisle rerun paper.scene2/live/orbslam2/1 --in "));
 }
