@@ -57,16 +57,30 @@ const cv::Mat3b& Named(const std::vector<StagePicture>& pictures, const std::str
 /// The pixel that shows this place of the left image.
 Colour Pixel(const cv::Mat3b& framed, int x, int y) { return framed(y + picture::kTitleHeight, x); }
 
-DynamicOutput LastOf(DynamicMethod method, bool keep_stages, int frames = 4) {
-  auto panels = test::StaticHall();
-  panels.push_back(test::Walker({-0.5, 0.1, 3.2}, {1.2, 0, 0}));
+constexpr int kFrames = 4;
+
+/// A walker before a standing rig, rendered once.
+const std::vector<test::SyntheticView>& Views() {
+  static const std::vector<test::SyntheticView> views = [] {
+    auto panels = test::StaticHall();
+    panels.push_back(test::Walker({-0.5, 0.1, 3.2}, {1.2, 0, 0}));
+    std::vector<test::SyntheticView> rendered;
+    for (int k = 0; k < kFrames; ++k) {
+      rendered.push_back(test::Render(panels, {}, Eigen::Isometry3d::Identity(), 0.05 * k));
+    }
+    return rendered;
+  }();
+  return views;
+}
+
+DynamicOutput LastOf(DynamicMethod method, bool keep_stages, int frames = kFrames) {
   DynamicOptions options;
   options.method = method;
   options.keep_stages = keep_stages;
   DynamicDetector detector({}, options);
   DynamicOutput output;
   for (int k = 0; k < frames; ++k) {
-    const auto view = test::Render(panels, {}, Eigen::Isometry3d::Identity(), 0.05 * k);
+    const test::SyntheticView& view = Views()[static_cast<std::size_t>(k)];
     output = detector.Detect({.stamp_ns = k * 50'000'000LL,
                               .left = view.left,
                               .right = view.right,
@@ -206,11 +220,7 @@ TEST(WheelOf, OppositeDirectionsAreOppositeColoursAndRestIsGrey) {
 TEST(DrawRobust, TheWalkerStandsOutOfWhatTheStaticViewLeaves) {
   const DynamicOutput output = LastOf(DynamicMethod::kRobust, true);
   const RobustTrace& trace = *output.stages->robust;
-  const auto view = [&] {
-    auto panels = test::StaticHall();
-    panels.push_back(test::Walker({-0.5, 0.1, 3.2}, {1.2, 0, 0}));
-    return test::Render(panels, {}, Eigen::Isometry3d::Identity(), 0.15);
-  }();
+  const test::SyntheticView& view = Views().back();
   std::vector<float> on, off;
   for (int y = 0; y < trace.residual.rows; ++y) {
     for (int x = 0; x < trace.residual.cols; ++x) {
