@@ -53,7 +53,8 @@ td.wrap { white-space: normal; text-align: left; }
 tr:hover td { background: color-mix(in srgb, var(--c1) 7%, transparent); }
 td.best { font-weight: 700; }
 tr.printed td { color: var(--soft); font-style: italic; border-bottom-color: transparent; }
-tr.spread td { color: var(--soft); font-size: 12px; border-bottom-color: transparent; }
+tr.spread td { color: var(--soft); font-size: 12px; white-space: normal;
+  border-bottom-color: transparent; }
 table.dense td:nth-child(2), table.dense td:nth-child(3) { text-align: left; }
 table.dense th, table.dense td { padding: 2px 8px; font-size: 12.5px; }
 .chip { display: inline-block; width: 11px; height: 11px; border-radius: 3px; margin-right: 7px; }
