@@ -58,19 +58,21 @@ std::string SceneOne(const SceneRuns& scene, const fs::path& report_dir) {
   const Drives drives(scene, report_dir);
   if (drives.series.empty()) return "";
   const std::string seed = fmt::format("Seed {}. ", scene.systems.front().runs.front()->spec.seed);
-  return "<h3>Fig. 9: trajectory error in scene 1</h3>\n" +
+  return "<h3>Fig. 9 and 10: trajectory error and points rejected in scene 1</h3>\n<div "
+         "class=\"charts\">" +
          Figure(ErrorOverFrames(drives.series),
-                seed + "The error at the last frame: " + ErrorsAtTheEnd(scene, drives) +
+                "Fig. 9. " + seed +
+                    "The error at the last frame: " + ErrorsAtTheEnd(scene, drives) +
                     ". <i>As printed: ORB-SLAM2 begins to drift when the pedestrian comes (frame "
                     "125), drifts back when he has turned (230) and stays at 0.18 m when he has "
                     "left (420); the paper's method is almost unaffected.</i>") +
-         "<h3>Fig. 10: points rejected in scene 1</h3>\n" +
          Figure(RejectedOverFrames(drives.series),
-                seed +
+                "Fig. 10. " + seed +
                     "Image corners (FAST) under what each system rejected. <i>As printed: the "
-                    "paper's method rejects nothing in frames 241 to 263, when the pedestrian "
+                    "paper's method fails in frames 241 to 263, when the pedestrian "
                     "turns, and 272 to 279, when he moves slowly; it extracts 1200 points a "
-                    "frame.</i>");
+                    "frame.</i>") +
+         "</div>\n";
 }
 
 std::string Tracks(const std::vector<SceneRuns>& scenes, const fs::path& report_dir) {
