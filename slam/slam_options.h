@@ -28,10 +28,12 @@ struct SlamOptions {
   /// It joins the rest when a place of it is recognised, which takes a vocabulary: without one no
   /// part is begun.
   double new_part_after_s = 1.0;
-  int least_keyframes = 5;         ///< a smaller map is given up where a new part is begun
-  std::string vocabulary_file;     ///< empty: no loop closing, and relocalisation by trying in turn
-  double keypoint_noise_px = 1.0;  ///< pixels of the level: deviation of a corner's position
-  int least_first_points = 60;     ///< stereo points of the frame that starts a map
+  int least_keyframes = 5;      ///< a smaller map is given up where a new part is begun
+  std::string vocabulary_file;  ///< empty: no loop closing, and relocalisation by trying in turn
+  /// Pixels of the level: deviation of a corner's position. Corners lie on whole pixels (0.3 px),
+  /// the rest is what noise and changed views move them by.
+  double keypoint_noise_px = 0.7;
+  int least_first_points = 60;  ///< stereo points of the frame that starts a map
 };
 
 /// The first broken rule with its value, or an empty string.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <thread>
 
 #include "tests/slam/face/room_scene.h"
@@ -54,7 +55,7 @@ void ExpectFollows(const std::vector<TrackedFrame>& tracked,
 TEST(StereoSlam, FollowsADriveThroughARoom) {
   StereoSlam slam(RoomScene().camera(), {});
   const std::vector<TrackedFrame> tracked = TrackAll(slam, StraightFilm());
-  ExpectFollows(tracked, StraightPath(), 0.03);
+  ExpectFollows(tracked, StraightPath(), 0.025);
   const std::vector<StampedPose> final_track = slam.Finish();
   ASSERT_EQ(final_track.size(), tracked.size());
   EXPECT_LT(ErrorM(final_track.back().T_world_rig, StraightPath().back()), 0.03);
@@ -65,14 +66,14 @@ TEST(StereoSlam, FollowsATurnOnTheSpot) {
   std::vector<Eigen::Isometry3d> path;
   for (int i = 0; i < 30; ++i) path.push_back(PoseAt(0, 0, 0, 3.0 * i));
   StereoSlam slam(RoomScene().camera(), {});
-  ExpectFollows(TrackAll(slam, Film(path)), path, 0.06);
+  ExpectFollows(TrackAll(slam, Film(path)), path, 0.04);
 }
 
 TEST(StereoSlam, StandsStillWithoutAFloodOfKeyframes) {
   StereoSlam slam(RoomScene().camera(), {});
   const std::vector<Eigen::Isometry3d> path(25, PoseAt(0, 0, 0));
   const std::vector<TrackedFrame> tracked = TrackAll(slam, Film(path));
-  ExpectFollows(tracked, path, 0.015);
+  ExpectFollows(tracked, path, 0.011);
   EXPECT_EQ(std::count_if(tracked.begin(), tracked.end(),
                           [](const TrackedFrame& frame) { return frame.is_keyframe; }),
             1);
@@ -86,7 +87,7 @@ TEST(StereoSlam, FollowsAnAbruptStop) {
     film.push_back(RoomScene().See(i, i * kFrameNs, path[20]));
   }
   StereoSlam slam(RoomScene().camera(), {});
-  ExpectFollows(TrackAll(slam, film), path, 0.03);
+  ExpectFollows(TrackAll(slam, film), path, 0.025);
 }
 
 TEST(StereoSlam, ComesBackAfterFramesThatShowNothing) {
@@ -119,7 +120,27 @@ TEST(StereoSlam, DrivesOnThroughDarknessAndKnowsWhereItIsWhenTheLightReturns) {
     ASSERT_EQ(tracked.state, dark ? TrackingState::kLost : TrackingState::kTracking)
         << "frame " << i;
     if (dark) continue;
-    EXPECT_LT(ErrorM(*tracked.T_world_rig, StraightPath()[i]), 0.03) << "frame " << i;
+    EXPECT_LT(ErrorM(*tracked.T_world_rig, StraightPath()[i]), 0.04) << "frame " << i;
+  }
+}
+
+TEST(StereoSlam, AfterDarknessAnExposureThatSettlesMisleadsNobody) {
+  const std::vector<double> gains = {3.0, 2.2, 1.6, 1.3, 1.1};  // of the first frames with light
+  StereoSlam slam(RoomScene().camera(), {});
+  for (std::size_t i = 0; i < StraightFilm().size(); ++i) {
+    const StereoImages& shown = StraightFilm()[i];
+    const bool dark = i >= 8 && i < 18;
+    const bool settled = i >= 18 + gains.size();
+    const double gain = dark ? 0 : i < 8 || settled ? 1 : gains[i - 18];
+    StereoImages images{shown.id, shown.stamp_ns, {}, {}};
+    shown.left.convertTo(images.left, CV_8U, gain);
+    shown.right.convertTo(images.right, CV_8U, gain);
+    const TrackedFrame tracked = slam.Track(images);
+    if (dark || settled) {
+      EXPECT_EQ(tracked.T_world_rig.has_value(), settled) << "frame " << i;
+    }
+    if (!tracked.T_world_rig) continue;
+    EXPECT_LT(ErrorM(*tracked.T_world_rig, StraightPath()[i]), 0.04) << "frame " << i;
   }
 }
 
@@ -223,11 +244,18 @@ TEST(StereoSlam, TheMapGrowsWithThePlaceAndNotWithTime) {
   EXPECT_LE(lap_ends.back().map_landmarks, 1.1 * lap_ends[2].map_landmarks);
 }
 
-TEST(StereoSlam, FreeRunningFollowsAsWellButPromisesNoBits) {
+TEST(StereoSlam, FreeRunningFollowsACameraButPromisesNoBits) {
   SlamOptions options;
   options.schedule.free_running = true;
   StereoSlam slam(RoomScene().camera(), options);
-  ExpectFollows(TrackAll(slam, StraightFilm()), StraightPath(), 0.03);
+  std::vector<TrackedFrame> tracked;
+  for (const StereoImages& images : StraightFilm()) {
+    tracked.push_back(slam.Track(images));
+    // The pace of a camera: frames that come as fast as they can be tracked leave a mapper that
+    // nobody waits for no time to follow.
+    std::this_thread::sleep_for(std::chrono::nanoseconds(kFrameNs));
+  }
+  ExpectFollows(tracked, StraightPath(), 0.05);
   EXPECT_EQ(slam.Finish().size(), StraightFilm().size());
   options.schedule.background = false;
   EXPECT_THROW(StereoSlam(RoomScene().camera(), options), std::invalid_argument);
