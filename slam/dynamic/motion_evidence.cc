@@ -50,6 +50,7 @@ struct Evidence {
   cv::Mat1f misfit_static, misfit_moved;
   cv::Mat1f nearest;  // largest disparity within reach
 
+  float most;                    // log-odds that matter
   float mover_px_per_disparity;  // image speed of a mover over the gap, for each pixel of disparity
   float disparity_change;        // of a mover over the gap, for each squared pixel of disparity
 
@@ -105,52 +106,64 @@ struct Evidence {
     if (held < 1e-6F) return log_odds;
     const float step = along.dot(S * r) / held;
     const float unexplained = std::max(FlowLogOdds(y, x, d, r - step * along), 0.0F);
-    if (unexplained >= log_odds) return log_odds;
-    const float there = BestOther(y, x, d, d + step, 2 / std::sqrt(held));
-    const float here = StereoMisfit(y, x, cvRound(d));
-    return std::min(log_odds, unexplained + std::max(GainOf(there, here), 0.0F));
+    const float asked = std::min(log_odds, most) - unexplained;
+    if (asked <= 0) return log_odds;
+    const float here = StereoMisfit(y, x, cvRound(d), std::numeric_limits<float>::max());
+    const float enough = here + asked / GainPerMisfit(here);
+    const float there = BestOther(y, x, d, {d + step, 2 / std::sqrt(held)}, {here, enough});
+    if (there >= enough) return log_odds;
+    return unexplained + std::max(there - here, 0.0F) * GainPerMisfit(here);
   }
 
-  /// Log-odds of what fits so well against what fits otherwise.
-  float GainOf(float misfit_other, float misfit) const {
-    return static_cast<float>(options.independent_pixels) / 2 * (misfit_other - misfit) /
+  /// Log-odds of what fits so well against what fits otherwise, for each unit of their difference.
+  float GainPerMisfit(float misfit) const {
+    return static_cast<float>(options.independent_pixels) / 2 /
            (1 + static_cast<float>(options.misfit_weight) * misfit);
   }
 
-  /// The best fit of all disparities within `reach` of one that are not that of the pixel.
-  float BestOther(int y, int x, float d, float other, float reach) const {
+  struct Range {
+    float centre, reach;
+  };
+  struct Misfits {
+    float ill_enough, well_enough;  // below the first and above the second nothing matters
+  };
+
+  /// The best fit of all disparities in a range that are not that of the pixel.
+  float BestOther(int y, int x, float d, Range others, Misfits limits) const {
     constexpr float kMostReach = 16;
-    reach = std::min(reach, kMostReach);
-    const int from = std::max(static_cast<int>(std::floor(other - reach)), 0);
-    const int to = std::min(static_cast<int>(std::ceil(other + reach)), x);
-    float best = std::numeric_limits<float>::max();
-    for (int k = from; k <= to; ++k) {
-      if (std::abs(static_cast<float>(k) - d) < static_cast<float>(options.other_disparity))
-        continue;
-      best = std::min(best, StereoMisfit(y, x, k));
+    const float reach = std::min(others.reach, kMostReach);
+    const int from = std::max(static_cast<int>(std::floor(others.centre - reach)), 0);
+    const int to = std::min(static_cast<int>(std::ceil(others.centre + reach)), x);
+    float best = limits.well_enough;
+    for (int k = from; k <= to && best > limits.ill_enough; ++k) {
+      const float apart = std::abs(static_cast<float>(k) - d);
+      if (apart < static_cast<float>(options.other_disparity)) continue;
+      best = std::min(best, StereoMisfit(y, x, k, best));
     }
     return best;
   }
 
   /// Mean squared difference, in units of its variance, of the window around a pixel and that of
   /// the right image a disparity away, as far as the half pixel around cannot explain it
-  /// (Birchfield and Tomasi, 1998); endless outside.
-  float StereoMisfit(int y, int x, int d) const {
+  /// (Birchfield and Tomasi, 1998); endless outside. Only the part above `most` is not exact.
+  float StereoMisfit(int y, int x, int d, float most) const {
     constexpr int kReach = 3;
-    const cv::Mat1b &left = frames.now.image, &low = frames.now.right_low,
-                    &high = frames.now.right_high;
+    const cv::Mat1b& left = frames.now.image;
     const int top = std::max(y - kReach, 0), bottom = std::min(y + kReach, left.rows - 1);
     const int reach = std::min({kReach, x - d, left.cols - 1 - x});
     if (reach < 1) return std::numeric_limits<float>::max();
+    const float unit = static_cast<float>((bottom - top + 1) * (2 * reach + 1)) * variance(y, x);
     int squares = 0;
-    for (int v = top; v <= bottom; ++v) {
-      for (int u = x - reach; u <= x + reach; ++u) {
-        const int off = std::max({0, left(v, u) - high(v, u - d), low(v, u - d) - left(v, u)});
+    for (int v = top; v <= bottom && static_cast<float>(squares) < most * unit; ++v) {
+      const unsigned char* seen = left[v] + x - reach;
+      const unsigned char* low = frames.now.right_low[v] + x - d - reach;
+      const unsigned char* high = frames.now.right_high[v] + x - d - reach;
+      for (int u = 0; u <= 2 * reach; ++u) {
+        const int off = std::max({0, seen[u] - high[u], low[u] - seen[u]});
         squares += off * off;
       }
     }
-    const int count = (bottom - top + 1) * (2 * reach + 1);
-    return static_cast<float>(squares) / (static_cast<float>(count) * variance(y, x));
+    return static_cast<float>(squares) / unit;
   }
 
   float At(int y, int x) const {
@@ -175,7 +188,8 @@ struct Evidence {
                    moved >= static_cast<float>(options.hidden_misfit))) {
       return 0;
     }
-    const float borne_out = std::clamp(GainOf(misfit_static(y, x), moved), 0.0F, log_odds);
+    const float gain = (misfit_static(y, x) - moved) * GainPerMisfit(moved);
+    const float borne_out = std::clamp(gain, 0.0F, log_odds);
     return borne_out > 0 ? LimitByStereo(y, x, d, borne_out) : 0;
   }
 };
@@ -237,6 +251,7 @@ MotionEvidence CompareMotion(const Comparison& comparison, const Texture& textur
                     {},
                     {},
                     {},
+                    static_cast<float>(*std::max_element(options.most.begin(), options.most.end())),
                     static_cast<float>(way_m / half.baseline_m),
                     static_cast<float>(way_m / focal_baseline)};
   const cv::Mat1f& variance = evidence.variance;

@@ -34,20 +34,6 @@ cv::Point BestIn(const cv::Rect& cell, const Texture& texture, const cv::Mat1f& 
   return at;
 }
 
-/// The pixel of the best texture of every cell that has one.
-std::vector<cv::Point> WellHeld(const Texture& texture, const cv::Mat1f& disparity, int cell_px) {
-  std::vector<cv::Point> points;
-  const cv::Rect image({0, 0}, disparity.size());
-  for (int top = 0; top < disparity.rows; top += cell_px) {
-    for (int left = 0; left < disparity.cols; left += cell_px) {
-      const cv::Point at =
-          BestIn(cv::Rect(left, top, cell_px, cell_px) & image, texture, disparity);
-      if (at.x >= 0) points.push_back(at);
-    }
-  }
-  return points;
-}
-
 /// Lucas-Kanade from given places; far outside the image where a point was lost.
 struct Followed {
   std::vector<cv::Point2f> places;
@@ -124,11 +110,22 @@ cv::Mat2f FollowBack(const cv::Mat1b& now, const cv::Mat1b& then, const cv::Mat2
   return places;
 }
 
-std::vector<StereoMatch> MatchesAlong(const cv::Mat2f& flow, const cv::Mat2f& expected,
-                                      const DenseFrame& now, const DenseFrame& then,
-                                      const Texture& texture, const LabelMemory& memory,
-                                      int cell_px) {
-  const std::vector<cv::Point> points = WellHeld(texture, now.disparity, cell_px);
+std::vector<cv::Point> WellHeld(const Texture& texture, const cv::Mat1f& disparity, int cell_px) {
+  std::vector<cv::Point> points;
+  const cv::Rect image({0, 0}, disparity.size());
+  for (int top = 0; top < disparity.rows; top += cell_px) {
+    for (int left = 0; left < disparity.cols; left += cell_px) {
+      const cv::Point at =
+          BestIn(cv::Rect(left, top, cell_px, cell_px) & image, texture, disparity);
+      if (at.x >= 0) points.push_back(at);
+    }
+  }
+  return points;
+}
+
+std::vector<StereoMatch> MatchesAlong(const std::vector<cv::Point>& points, const cv::Mat2f& flow,
+                                      const cv::Mat2f& expected, const DenseFrame& now,
+                                      const DenseFrame& then, const LabelMemory& memory) {
   const std::vector<cv::Point2f> places = FollowPoints(points, now, then, flow, expected);
   std::vector<StereoMatch> matches;
   const cv::Rect image({0, 0}, flow.size());

@@ -20,13 +20,15 @@ cv::Mat2f FollowBack(const cv::Mat1b& now, const cv::Mat1b& then, const cv::Mat2
 /// The earlier image at the given places; the image's border is repeated outside.
 cv::Mat1b SampleAt(const cv::Mat1b& image, const cv::Mat2f& places);
 
-/// Points measured in both frames, one per cell, where the texture holds best; full pixels. Each is
-/// followed by itself from where the flow leads and from where it is expected, whichever fits
-/// better: beside something large that moves, the flow is not its own. What is known of the current
-/// pixels sets their weight: the log-odds of moving, and that a region that moves has come there.
-std::vector<StereoMatch> MatchesAlong(const cv::Mat2f& flow, const cv::Mat2f& expected,
-                                      const DenseFrame& now, const DenseFrame& then,
-                                      const Texture& texture, const LabelMemory& memory,
-                                      int cell_px);
+/// One pixel of each cell: where the texture holds best, of those with a disparity.
+std::vector<cv::Point> WellHeld(const Texture& texture, const cv::Mat1f& disparity, int cell_px);
+
+/// Points measured in both frames; full pixels. Each is followed by itself from where the flow
+/// leads and from where it is expected, whichever fits better: beside something large that moves,
+/// the flow is not its own. What is known of the current pixels sets their weight: the log-odds of
+/// moving, and that a region that moves has come there.
+std::vector<StereoMatch> MatchesAlong(const std::vector<cv::Point>& points, const cv::Mat2f& flow,
+                                      const cv::Mat2f& expected, const DenseFrame& now,
+                                      const DenseFrame& then, const LabelMemory& memory);
 
 }  // namespace aisle::slam::dynamic

@@ -95,10 +95,11 @@ GapMatches FindGapMotions(std::vector<GapMotion>& gaps, const RobustState& befor
                           const StereoCamera& camera, const EgoMotionOptions& options) {
   EgoMotionOptions narrow = options;
   narrow.rounds = 1;  // the frames between have left little to find
+  const auto points = WellHeld(seen.texture, seen.frame.disparity, options.cell_px);
   GapMatches matches;
   for (std::size_t k = 0; k < gaps.size(); ++k) {
-    matches[k] = MatchesAlong(gaps[k].flow, gaps[k].expected, seen.frame,
-                              FrameAgo(before, gaps[k].gap), seen.texture, memory, options.cell_px);
+    matches[k] = MatchesAlong(points, gaps[k].flow, gaps[k].expected, seen.frame,
+                              FrameAgo(before, gaps[k].gap), memory);
     gaps[k].motion =
         k == 0 ? EstimateEgoMotion(matches[k], camera, prior, before.noise[k], options)
                : RefineEgoMotion(matches[k], camera,

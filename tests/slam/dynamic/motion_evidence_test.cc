@@ -51,6 +51,7 @@ TEST(DisplacementLogOdds, AlongAnEdgeNothingIsKnownAndAcrossItMuch) {
 struct Pair {
   DenseFrame then, now;
   Texture texture;
+  std::vector<cv::Point> points;
   cv::Mat2f expected, flow;
   cv::Mat1f log_odds;
   cv::Mat1b moving;  // half size
@@ -66,6 +67,7 @@ struct Pair {
     then = MakeDenseFrame(before.left, before.right, options.disparity, options.surface);
     now = MakeDenseFrame(after.left, after.right, options.disparity, options.surface);
     texture = MeasureTexture(now.image, options.surface);
+    points = WellHeld(texture, now.disparity, 12);
     const StereoCamera half = HalfCamera({});
     expected = WhereStatic(now.filled, T_world_now, half).place;
     flow = FollowBack(now.image, then.image, expected, options.flow);
@@ -183,8 +185,8 @@ TEST(FollowBack, FindsTheWayOfStaticPixelsToAFractionOfAPixel) {
 
 TEST(MatchesAlong, AreOnePerCellAndFollowTheRigsMotion) {
   const Pair pair({}, {0, 0, 0.05}, 0.05);
-  const auto matches = MatchesAlong(pair.flow, pair.expected, pair.now, pair.then, pair.texture,
-                                    ForgottenMemory(pair.now.image.size()), 12);
+  const auto matches = MatchesAlong(pair.points, pair.flow, pair.expected, pair.now, pair.then,
+                                    ForgottenMemory(pair.now.image.size()));
   ASSERT_GT(matches.size(), 200U);
   EXPECT_LE(matches.size(), static_cast<std::size_t>((376 / 12 + 1) * (240 / 12)));
   Isometry3d T_now_then = Isometry3d::Identity();
@@ -200,8 +202,8 @@ TEST(MatchesAlong, FindTheirWayWhereTheFlowIsAnothers) {
   cv::Mat2f anothers;
   cv::add(pair.flow, cv::Scalar(9, -4), anothers);
   const auto count = [&](const cv::Mat2f& flow) {
-    const auto matches = MatchesAlong(flow, pair.expected, pair.now, pair.then, pair.texture,
-                                      ForgottenMemory(pair.now.image.size()), 12);
+    const auto matches = MatchesAlong(pair.points, flow, pair.expected, pair.now, pair.then,
+                                      ForgottenMemory(pair.now.image.size()));
     Isometry3d T_now_then = Isometry3d::Identity();
     T_now_then.translation() = Vector3d(0, 0, -0.05);
     return std::count_if(matches.begin(), matches.end(), [&](const StereoMatch& match) {
@@ -216,7 +218,7 @@ TEST(MatchesAlong, WhatARegionCoversIsHardlyTrusted) {
   LabelMemory memory = ForgottenMemory(pair.now.image.size());
   memory.regions.labels.colRange(0, 188).setTo(1);
   for (const StereoMatch& match :
-       MatchesAlong(pair.flow, pair.expected, pair.now, pair.then, pair.texture, memory, 12)) {
+       MatchesAlong(pair.points, pair.flow, pair.expected, pair.now, pair.then, memory)) {
     EXPECT_EQ(match.weight < 0.1, match.now.x() < 2 * 188) << match.now.transpose();
   }
 }
