@@ -114,6 +114,7 @@ int Predecessor(const Component& component, const PixelRegions& previous,
 
 bool IsMoving(const Component& component, bool known, const RegionOptions& options) {
   return component.pixels >= options.least_px &&
+         component.sum >= options.least_log_odds * component.pixels &&
          component.core >= (known ? options.keep_core_px : options.birth_core_px) &&
          component.inner >= (known ? options.keep_inner_px : options.birth_inner_px);
 }

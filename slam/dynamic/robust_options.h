@@ -177,6 +177,8 @@ struct FieldOptions {
 struct RegionOptions {
   double link = 0.25;        ///< weaker links part regions, as a share of the coupling
   int least_px = 60;         ///< smaller regions are noise
+  /// Mean memory of a region's pixels: what has grown around little evidence does not move.
+  double least_log_odds = 0.5;
   double core_log_odds = 3;  ///< memory from which on a pixel is sure to move
   int birth_core_px = 200, keep_core_px = 30;  ///< such pixels of a region
   int birth_inner_px = 20, keep_inner_px = 4;  ///< pixels with the region all around, in ...
@@ -189,6 +191,7 @@ struct RegionOptions {
       return fmt::format("inner_window_px is {}; it must be odd", inner_window_px);
     }
     return FirstOf(CheckRange("link", link, 0.0, 1.0), CheckRange("least_px", least_px, 1, 1000000),
+                   CheckRange("least_log_odds", least_log_odds, -100.0, 100.0),
                    CheckRange("core_log_odds", core_log_odds, 0.0, 100.0),
                    CheckRange("birth_core_px", birth_core_px, 0, 1000000),
                    CheckRange("keep_core_px", keep_core_px, 0, birth_core_px),
