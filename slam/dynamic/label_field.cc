@@ -19,6 +19,8 @@ struct Tie {
   }
 };
 
+constexpr int kMostRings = 60;
+
 }  // namespace
 
 Links LinkPixels(const cv::Mat1f& filled, const cv::Mat1b& image, const cv::Mat1b& floor,
@@ -66,7 +68,8 @@ cv::Mat1f SolveField(const cv::Mat1f& evidence, const Links& links, const FieldO
 }
 
 cv::Mat1b GrowMoving(const cv::Mat1f& field, const cv::Mat1f& evidence, const Links& links,
-                     const cv::Mat1b& floor, const FieldOptions& options) {
+                     const cv::Mat1b& floor, const cv::Mat1f& farthest,
+                     const FieldOptions& options) {
   cv::Mat1b moving;
   cv::compare(field, options.moving, moving, cv::CMP_GT);
   std::vector<cv::Point> front, next;
@@ -84,9 +87,10 @@ cv::Mat1b GrowMoving(const cv::Mat1f& field, const cv::Mat1f& evidence, const Li
     moving(y, x) = 255;
     next.emplace_back(x, y);
   };
-  for (int ring = 0; ring < options.grow_px; ++ring) {
+  for (int ring = 0; ring < kMostRings && !front.empty(); ++ring) {
     next.clear();
     for (const cv::Point& p : front) {
+      if (static_cast<float>(ring) >= farthest(p)) continue;
       if (p.x > 0) reach(p.x - 1, p.y, links.right(p.y, p.x - 1));
       if (p.x + 1 < field.cols) reach(p.x + 1, p.y, links.right(p.y, p.x));
       if (p.y > 0) reach(p.x, p.y - 1, links.down(p.y - 1, p.x));

@@ -21,9 +21,10 @@ Links LinkPixels(const cv::Mat1f& filled, const cv::Mat1b& image, const cv::Mat1
 cv::Mat1f SolveField(const cv::Mat1f& evidence, const Links& links, const FieldOptions& options);
 
 /// 255 for the pixels that move: those of the field above `moving`, and what can be reached from
-/// the surer ones along strong links through pixels whose own evidence does not speak against it.
-/// So plain cloth joins the seams that were seen to move.
+/// the surer ones along strong links through pixels whose own evidence does not speak against it,
+/// in steps up to `farthest` (per pixel). So plain cloth joins the seams that were seen to move.
 cv::Mat1b GrowMoving(const cv::Mat1f& field, const cv::Mat1f& evidence, const Links& links,
-                     const cv::Mat1b& floor, const FieldOptions& options);
+                     const cv::Mat1b& floor, const cv::Mat1f& farthest,
+                     const FieldOptions& options);
 
 }  // namespace aisle::slam::dynamic

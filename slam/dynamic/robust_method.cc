@@ -243,7 +243,8 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
       LinkPixels(seen.frame.filled, seen.frame.image, stages.floor_mask, options.field);
   stages.log_odds = SolveField(leaning, links, options.field);
   const cv::Mat1b moving =
-      GrowMoving(stages.log_odds, leaning, links, stages.floor_mask, options.field);
+      GrowMoving(stages.log_odds, leaning, links, stages.floor_mask,
+                 seen.frame.filled * (options.field.grow_m / camera.baseline_m), options.field);
   memory.regions = FindRegions(moving, memory.log_odds, links, memory.regions, state.next_region_id,
                                options.field.coupling, options.region);
 

@@ -154,9 +154,9 @@ struct FieldOptions {
   double floor_link = 0.1;  ///< share of the coupling between the floor and what stands on it
   int sweeps = 4;
   double moving = 0.5;  ///< log-odds from which on a pixel moves
-  /// Growth into what says nothing, along strong links.
+  /// Growth into what says nothing, along strong links, and how far: plain cloth has seams.
   double grow_from = 1, grow_to = -3, grow_link = 0.4;
-  int grow_px = 20;
+  double grow_m = 0.15;  ///< metres
 
   OptionError Validate() const {
     return FirstOf(
@@ -169,17 +169,17 @@ struct FieldOptions {
         CheckRange("contrast", contrast, 0.1, 1e3), CheckRange("floor_link", floor_link, 0.0, 1.0),
         CheckRange("sweeps", sweeps, 1, 1000), CheckRange("moving", moving, 0.0, limit),
         CheckRange("grow_from", grow_from, 0.0, limit), CheckRange("grow_to", grow_to, -limit, 0.0),
-        CheckRange("grow_link", grow_link, 0.0, 1.0), CheckRange("grow_px", grow_px, 0, 1000));
+        CheckRange("grow_link", grow_link, 0.0, 1.0), CheckRange("grow_m", grow_m, 0.0, 10.0));
   }
 };
 
 /// From labels to regions.
 struct RegionOptions {
-  double link = 0.25;        ///< weaker links part regions, as a share of the coupling
-  int least_px = 60;         ///< smaller regions are noise
+  double link = 0.25;  ///< weaker links part regions, as a share of the coupling
+  int least_px = 60;   ///< smaller regions are noise
   /// Mean memory of a region's pixels: what has grown around little evidence does not move.
   double least_log_odds = 0.5;
-  double core_log_odds = 3;  ///< memory from which on a pixel is sure to move
+  double core_log_odds = 3;                    ///< memory from which on a pixel is sure to move
   int birth_core_px = 200, keep_core_px = 30;  ///< such pixels of a region
   int birth_inner_px = 20, keep_inner_px = 4;  ///< pixels with the region all around, in ...
   int inner_window_px = 5;                     ///< ... a window of this side, odd

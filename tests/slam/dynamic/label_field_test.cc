@@ -69,7 +69,8 @@ TEST(GrowMoving, PlainClothJoinsTheSeamThatMovesAndWhatIsSeenStandingDoesNot) {
   cv::Mat1f evidence(80, 80, -0.2F);
   evidence(square.area & cv::Rect(0, 30, 80, 3)).setTo(4.0F);   // a seam
   evidence(square.area & cv::Rect(0, 46, 80, 3)).setTo(-5.0F);  // a belt that stands still
-  const cv::Mat1b moving = GrowMoving(evidence, evidence, square.links(), square.floor, {});
+  const cv::Mat1b moving =
+      GrowMoving(evidence, evidence, square.links(), square.floor, cv::Mat1f(80, 80, 20.0F), {});
   EXPECT_EQ(cv::countNonZero(moving(cv::Rect(24, 20, 28, 26))), 28 * 26);
   EXPECT_EQ(cv::countNonZero(moving), 28 * 26);  // neither the belt, nor behind it, nor the wall
 }
@@ -78,9 +79,8 @@ TEST(GrowMoving, ReachesNoFartherThanAllowed) {
   const Square square;
   cv::Mat1f evidence(80, 80, -0.2F);
   evidence.col(30).setTo(4.0F);
-  FieldOptions options;
-  options.grow_px = 3;
-  const cv::Mat1b moving = GrowMoving(evidence, evidence, square.links(), square.floor, options);
+  const cv::Mat1b moving =
+      GrowMoving(evidence, evidence, square.links(), square.floor, cv::Mat1f(80, 80, 3.0F), {});
   EXPECT_EQ(cv::countNonZero(moving.row(40)), 7);
 }
 
