@@ -242,9 +242,10 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
   const Links links =
       LinkPixels(seen.frame.filled, seen.frame.image, stages.floor_mask, options.field);
   stages.log_odds = SolveField(leaning, links, options.field);
+  cv::Mat1f farthest;
+  seen.frame.filled.convertTo(farthest, CV_32F, options.field.grow_m / camera.baseline_m);
   const cv::Mat1b moving =
-      GrowMoving(stages.log_odds, leaning, links, stages.floor_mask,
-                 seen.frame.filled * (options.field.grow_m / camera.baseline_m), options.field);
+      GrowMoving(stages.log_odds, leaning, links, stages.floor_mask, farthest, options.field);
   memory.regions = FindRegions(moving, memory.log_odds, links, memory.regions, state.next_region_id,
                                options.field.coupling, options.region);
 
