@@ -32,9 +32,11 @@ enum class RunStatus {
 struct ObjectOutcome {
   std::string object_class;
   int pixels = 0;         ///< that move and show
+  double share = 0;       ///< of the image that these are
   double distance_m = 0;  ///< from the rig to the centre of its 3-D box
   double speed_mps = 0;
-  bool found = false;
+  bool found = false;   ///< by its rectangle
+  double rejected = 0;  ///< share of its moving pixels that were rejected
   bool operator==(const ObjectOutcome&) const = default;
 };
 
@@ -42,10 +44,11 @@ struct ObjectOutcome {
 struct MaskFacts {
   std::int64_t true_positives = 0, false_positives = 0, false_negatives = 0;  ///< pixels
   int objects_found = 0, objects_invented = 0, objects_missed = 0;            ///< by rectangle
-  double iou_sum = 0;           ///< of the found objects' rectangles
-  int static_corners = 0;       ///< image corners on surfaces that do not move
-  int static_corners_lost = 0;  ///< of them, under the mask
-  int corners_rejected = 0;     ///< all image corners under the mask
+  int objects_invented_large = 0;  ///< those invented that reject much of the image
+  double iou_sum = 0;              ///< of the found objects' rectangles
+  int static_corners = 0;          ///< image corners on surfaces that do not move
+  int static_corners_lost = 0;     ///< of them, under the mask
+  int corners_rejected = 0;        ///< all image corners under the mask
   std::int64_t outline_truth = 0, outline_truth_met = 0;  ///< pixels of truth's outline; near ours
   std::int64_t outline_rejected = 0, outline_rejected_met = 0;  ///< and the other way round
   std::vector<ObjectOutcome> objects;  ///< those asked for; empty where no labels are known
@@ -59,6 +62,7 @@ struct MaskFacts {
     objects_found += more.objects_found;
     objects_invented += more.objects_invented;
     objects_missed += more.objects_missed;
+    objects_invented_large += more.objects_invented_large;
     iou_sum += more.iou_sum;
     static_corners += more.static_corners;
     static_corners_lost += more.static_corners_lost;

@@ -36,6 +36,9 @@ constexpr Column kMaskColumns[] = {
     {"object<br>precision [%]", "object_precision", 100, 1},
     {"object<br>recall [%]", "object_recall", 100, 1},
     {"object<br>IoU [%]", "object_iou", 100, 1},
+    {"large movers<br>precision [%]", "object_precision_large", 100, 1},
+    {"large movers<br>recall [%]", "object_recall_large", 100, 1},
+    {"large movers<br>covered [%]", "object_covered_large", 100, 1},
     {"pixel<br>precision [%]", "mask_precision", 100, 1},
     {"pixel<br>recall [%]", "mask_recall", 100, 1},
     {"pixel<br>IoU [%]", "mask_iou", 100, 1},
@@ -314,10 +317,11 @@ std::string SceneSection(const SceneRuns& scene, const fs::path& report_dir,
   if (const std::vector<SystemRuns> masked = WithMasks(scene.systems); !masked.empty()) {
     text += "<h3>What was rejected</h3>\n" + ScoreTable(masked, kMaskColumns) +
             "<p class=\"soft small\">Objects by rectangle, found where the overlap (IoU) is 0.5 or "
-            "more, "
-            "invented where less than half of what was rejected moves; pixels over all frames "
-            "together; static features lost: share of image corners on "
-            "unmoving surfaces under the mask.</p>\n";
+            "more, invented where less than half of what was rejected moves. Large movers: 1 % of "
+            "the image or more at 0.15 m/s or more, and inventions of that size; covered: at least "
+            "half of their moving pixels rejected, whatever the rectangles (people who touch make "
+            "one). Pixels over all frames together; static features lost: share of image corners "
+            "on unmoving surfaces under the mask.</p>\n";
   }
   text += Charts(scene, report_dir) + Pictures(scene, root) +
           StageSection(scene, report_dir, root) + AllScores(scene) +

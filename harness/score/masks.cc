@@ -1,5 +1,6 @@
 #include "harness/score/masks.h"
 
+#include <cmath>
 #include <map>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -65,9 +66,27 @@ void CountOutlines(const cv::Mat1b& truth, const cv::Mat1b& rejected, MaskFacts*
   facts->outline_rejected_met = counts.rejected_met;
 }
 
+/// Share of an instance's moving pixels that were rejected. Where truth names no instances, of
+/// those in its box.
+double RejectedShare(const FrameTruth& truth, const MovingObject& object,
+                     const cv::Mat1b& rejected) {
+  const cv::Rect inside = cv::Rect(object.box) & cv::Rect({}, rejected.size());
+  if (truth.dynamic.empty() || inside.empty()) return 0;
+  cv::Mat moving;
+  cv::compare(truth.dynamic(inside), 0, moving, cv::CMP_NE);
+  if (truth.instance.size() == truth.dynamic.size()) {
+    cv::Mat its_own;
+    cv::compare(truth.instance(inside), object.instance, its_own, cv::CMP_EQ);
+    cv::bitwise_and(moving, its_own, moving);
+  }
+  const int all = cv::countNonZero(moving);
+  cv::bitwise_and(moving, rejected(inside), moving);
+  return all > 0 ? static_cast<double>(cv::countNonZero(moving)) / all : 0;
+}
+
 std::vector<ObjectOutcome> Outcomes(const FrameTruth& truth,
                                     const std::vector<MovingObject>& objects,
-                                    const std::vector<bool>& found) {
+                                    const std::vector<bool>& found, const cv::Mat1b& rejected) {
   std::vector<ObjectOutcome> outcomes;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const auto known = std::find_if(
@@ -76,9 +95,12 @@ std::vector<ObjectOutcome> Outcomes(const FrameTruth& truth,
     if (known == truth.objects.end()) continue;
     outcomes.push_back({.object_class = known->object_class,
                         .pixels = objects[i].pixels,
+                        .share = objects[i].pixels /
+                                 static_cast<double>(std::max<std::size_t>(1, rejected.total())),
                         .distance_m = (known->center_m - truth.T_world_rig.translation()).norm(),
                         .speed_mps = known->velocity_mps.norm(),
-                        .found = found[i]});
+                        .found = found[i],
+                        .rejected = RejectedShare(truth, objects[i], rejected)});
   }
   return outcomes;
 }
@@ -125,13 +147,13 @@ std::vector<cv::Rect2d> RejectedBoxes(const DynamicRegions& regions, const MaskO
   return boxes;
 }
 
-MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth, const std::vector<cv::Rect2d>& rejected,
-                     const MaskOptions& options, const std::vector<bool>& excused,
-                     std::vector<bool>* found) {
+MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth,
+                     const std::vector<RejectedRegion>& rejected, const MaskOptions& options,
+                     int large_pixels, std::vector<bool>* found) {
   std::vector<std::tuple<double, std::size_t, std::size_t>> candidates;
   for (std::size_t t = 0; t < truth.size(); ++t) {
     for (std::size_t r = 0; r < rejected.size(); ++r) {
-      const double iou = Iou(truth[t], rejected[r]);
+      const double iou = Iou(truth[t], rejected[r].box);
       if (iou >= options.match_iou) candidates.emplace_back(-iou, t, r);
     }
   }
@@ -146,17 +168,18 @@ MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth, const std::vector<cv:
   }
   facts.objects_missed = static_cast<int>(truth.size()) - facts.objects_found;
   for (std::size_t r = 0; r < rejected.size(); ++r) {
-    const bool forgiven = r < excused.size() && excused[r];
-    facts.objects_invented += !rejected_taken[r] && !forgiven ? 1 : 0;
+    if (rejected_taken[r] || rejected[r].on_moving) continue;
+    ++facts.objects_invented;
+    facts.objects_invented_large += rejected[r].pixels >= large_pixels;
   }
   if (found != nullptr) *found = std::move(truth_taken);
   return facts;
 }
 
-std::vector<bool> OnMovingPixels(const std::vector<cv::Rect2d>& rejected, const cv::Mat1b& dynamic,
-                                 const cv::Mat1b& mask) {
-  std::vector<bool> on_moving;
-  for (const cv::Rect2d& box : rejected) {
+std::vector<RejectedRegion> RejectedRegions(const std::vector<cv::Rect2d>& boxes,
+                                            const cv::Mat1b& dynamic, const cv::Mat1b& mask) {
+  std::vector<RejectedRegion> regions;
+  for (const cv::Rect2d& box : boxes) {
     const cv::Rect inside = cv::Rect(box) & cv::Rect({}, dynamic.size());
     cv::Mat1b moving = dynamic(inside).clone();
     int asked = inside.area();
@@ -164,9 +187,9 @@ std::vector<bool> OnMovingPixels(const std::vector<cv::Rect2d>& rejected, const 
       asked = cv::countNonZero(mask(inside));
       cv::bitwise_and(moving, mask(inside), moving);
     }
-    on_moving.push_back(2 * cv::countNonZero(moving) >= std::max(asked, 1));
+    regions.push_back({box, asked, 2 * cv::countNonZero(moving) >= std::max(asked, 1)});
   }
-  return on_moving;
+  return regions;
 }
 
 MaskFacts CompareMaskImages(const cv::Mat1b& truth, const cv::Mat1b& rejected) {
@@ -184,10 +207,12 @@ MaskFacts CompareMasks(const cv::Mat1b& left, const FrameTruth& truth,
   const std::vector<MovingObject> objects = MovingObjects(truth, options);
   std::vector<cv::Rect2d> true_boxes;
   for (const MovingObject& object : objects) true_boxes.push_back(object.box);
+  const int large_pixels =
+      static_cast<int>(std::ceil(options.large_share * static_cast<double>(left.total())));
   std::vector<bool> found;
-  MaskFacts facts =
-      MatchBoxes(true_boxes, boxes, options, OnMovingPixels(boxes, dynamic, regions.mask), &found);
-  facts.objects = Outcomes(truth, objects, found);
+  MaskFacts facts = MatchBoxes(true_boxes, RejectedRegions(boxes, dynamic, regions.mask), options,
+                               large_pixels, &found);
+  facts.objects = Outcomes(truth, objects, found, rejected);
   CountPixels(dynamic, rejected, &facts);
   CountOutlines(dynamic, rejected, &facts);
   CountCorners(left, dynamic, rejected, options, &facts);

@@ -14,6 +14,8 @@ struct MaskOptions {
   double match_iou = 0.5;
   int min_object_pixels = 200;  ///< moving objects with fewer dynamic pixels are not asked for
   int min_region_pixels = 50;   ///< blobs of a mask smaller than this are no detection
+  /// From this share of the image on, an object or what was rejected is large.
+  double large_share = 0.01;
   /// Gaps of a mask up to this wide, in pixels, do not part a blob: a strap or a rail in front of a
   /// person does not make two of them.
   int close_gap_px = 15;
@@ -37,18 +39,22 @@ std::vector<MovingObject> MovingObjects(const FrameTruth& truth, const MaskOptio
 /// What the system says moves: its regions' boxes, or the boxes of the mask's connected blobs.
 std::vector<cv::Rect2d> RejectedBoxes(const DynamicRegions& regions, const MaskOptions& options);
 
-/// Pairs rectangles one to one, largest overlap first. Fills the object counts and iou_sum, and in
-/// `found`, where given, which of the true ones have a partner. A
-/// rejected rectangle without partner is invented, unless `excused` says of it that it lies on
-/// something that does move: a part of an object, or one too small to be asked for.
-MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth, const std::vector<cv::Rect2d>& rejected,
-                     const MaskOptions& options, const std::vector<bool>& excused = {},
-                     std::vector<bool>* found = nullptr);
+/// What was rejected in one of RejectedBoxes.
+struct RejectedRegion {
+  cv::Rect2d box;
+  int pixels = 0;          ///< rejected in it; all of the box where there is no mask
+  bool on_moving = false;  ///< at least half of these move in truth
+};
+std::vector<RejectedRegion> RejectedRegions(const std::vector<cv::Rect2d>& boxes,
+                                            const cv::Mat1b& dynamic, const cv::Mat1b& mask);
 
-/// Per rejected rectangle: at least half of the pixels rejected in it (of all its pixels where
-/// there is no mask) move in truth.
-std::vector<bool> OnMovingPixels(const std::vector<cv::Rect2d>& rejected, const cv::Mat1b& dynamic,
-                                 const cv::Mat1b& mask);
+/// Pairs rectangles one to one, largest overlap first. Fills the object counts and iou_sum, and in
+/// `found`, where given, which of the true ones have a partner. A rejected rectangle without
+/// partner is invented, unless it lies on something that does move: a part of an object, several
+/// that touch, or one too small to be asked for. Invented with `large_pixels` or more, it is large.
+MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth,
+                     const std::vector<RejectedRegion>& rejected, const MaskOptions& options,
+                     int large_pixels, std::vector<bool>* found = nullptr);
 
 /// Pixels and outlines alone, of masks of one size.
 MaskFacts CompareMaskImages(const cv::Mat1b& truth, const cv::Mat1b& rejected);

@@ -1,5 +1,6 @@
 #include "harness/score/boundary.h"
 #include "harness/score/coverage.h"
+#include "harness/score/masks.h"
 #include "harness/score/scorecard.h"
 
 namespace aisle {
@@ -42,30 +43,53 @@ const std::vector<Kind>& Kinds() {
   return kinds;
 }
 
-Score RecallOf(const std::vector<ObjectOutcome>& objects,
-               const std::function<bool(const ObjectOutcome&)>& holds) {
-  double asked = 0, found = 0;
+/// What must be found: 1 % of the image or more, and on its way.
+bool IsLargeMover(const ObjectOutcome& object) {
+  return object.share >= MaskOptions().large_share && object.speed_mps >= 0.15;
+}
+
+using ObjectRule = std::function<bool(const ObjectOutcome&)>;
+
+bool IsFound(const ObjectOutcome& object) { return object.found; }
+/// Two people who touch make one rectangle, which is neither's: this counts them both.
+bool IsCovered(const ObjectOutcome& object) { return object.rejected >= 0.5; }
+
+Score ShareOf(const std::vector<ObjectOutcome>& objects, const ObjectRule& asked_for,
+              const ObjectRule& counts) {
+  double asked = 0, counted = 0;
   for (const ObjectOutcome& object : objects) {
-    if (!holds(object)) continue;
+    if (!asked_for(object)) continue;
     ++asked;
-    found += object.found ? 1 : 0;
+    counted += counts(object) ? 1 : 0;
   }
-  return RatioScore(found, asked, "no such object moved");
+  return RatioScore(counted, asked, "no such object moved");
 }
 
 /// Rows only where there is something to say: an object that never was is no finding.
 void AddRecallByKind(const std::vector<ObjectOutcome>& objects, Scorecard* scores) {
-  const auto add = [&](const std::string& name, const Score& score) {
+  const auto add = [&](const std::string& name, const ObjectRule& asked_for) {
+    const Score score = ShareOf(objects, asked_for, IsFound);
     if (score.value) (*scores)["object_recall_" + name] = score;
   };
-  for (const Kind& kind : Kinds()) add(kind.name, RecallOf(objects, kind.holds));
+  for (const Kind& kind : Kinds()) add(kind.name, kind.holds);
   std::set<std::string> classes;
   for (const ObjectOutcome& object : objects) classes.insert(object.object_class);
   for (const std::string& name : classes) {
-    add("class_" + name, RecallOf(objects, [&](const ObjectOutcome& object) {
-          return object.object_class == name;
-        }));
+    add("class_" + name, [&](const ObjectOutcome& object) { return object.object_class == name; });
   }
+}
+
+/// Large movers alone, and large inventions: a wrong speck does not weigh as much as a lost aisle.
+void AddLargeMovers(const MaskFacts& sum, Scorecard* scores) {
+  const double large = static_cast<double>(
+      std::count_if(sum.objects.begin(), sum.objects.end(),
+                    [](const ObjectOutcome& o) { return IsLargeMover(o) && o.found; }));
+  (*scores)["object_precision_large"] =
+      RatioScore(large, large + sum.objects_invented_large, "nothing large was rejected");
+  (*scores)["object_recall_large"] = ShareOf(sum.objects, IsLargeMover, IsFound);
+  (*scores)["object_covered_large"] = ShareOf(sum.objects, IsLargeMover, IsCovered);
+  (*scores)["object_covered"] = ShareOf(
+      sum.objects, [](const ObjectOutcome&) { return true; }, IsCovered);
 }
 
 void AddMasks(const RunResult& run, Scorecard* scores) {
@@ -102,6 +126,8 @@ void AddMasks(const RunResult& run, Scorecard* scores) {
   (*scores)["mask_boundary_f"] =
       f ? Present(*f, "1", static_cast<std::size_t>(sum.outline_truth + sum.outline_rejected))
         : Absent("1", "nothing moved, nothing was rejected");
+  if (sum.objects.empty()) return;  // truth names no objects
+  AddLargeMovers(sum, scores);
   AddRecallByKind(sum.objects, scores);
 }
 

@@ -211,5 +211,61 @@ TEST(MaskTest, TruthItselfAsAMaskInventsAndMissesNothing) {
   EXPECT_EQ(facts.objects_missed, 0);
 }
 
+/// Two people of 800 pixels (1.3 % of the image) who touch, one of them walking, and what a system
+/// rejects of them.
+class TwoWhoTouch : public testing::Test {
+ protected:
+  TwoWhoTouch() {
+    truth_.dynamic = cv::Mat1b(200, 300, static_cast<unsigned char>(0));
+    truth_.instance = cv::Mat1w(200, 300, static_cast<unsigned short>(0));
+    Put({100, 50, 20, 40}, 3, 1.2);
+    Put({120, 50, 20, 40}, 4, 0.1);
+  }
+
+  void Put(const cv::Rect& where, int instance, double speed_mps) {
+    truth_.dynamic(where) = 255;
+    truth_.instance(where) = static_cast<unsigned short>(instance);
+    ObjectTruth object;
+    object.instance = instance;
+    object.velocity_mps = Eigen::Vector3d(speed_mps, 0, 0);
+    truth_.objects.push_back(object);
+  }
+
+  Scorecard Reject(const std::vector<cv::Rect>& where) const {
+    DynamicRegions regions;
+    regions.mask = cv::Mat1b(200, 300, static_cast<unsigned char>(0));
+    for (const cv::Rect& rect : where) regions.mask(rect) = 255;
+    RunResult run;
+    run.facts.emplace_back().mask =
+        CompareMasks(cv::Mat1b(200, 300, static_cast<unsigned char>(128)), truth_, regions);
+    return ScoreMasks(run);
+  }
+
+  FrameTruth truth_;
+};
+
+TEST_F(TwoWhoTouch, AreCoveredByOneRegionThoughItsRectangleFitsOneAlone) {
+  const Scorecard scores = Reject({{100, 50, 40, 40}});
+  EXPECT_DOUBLE_EQ(*scores.at("object_recall").value, 0.5);
+  EXPECT_DOUBLE_EQ(*scores.at("object_covered").value, 1);
+  EXPECT_DOUBLE_EQ(*scores.at("object_covered_large").value, 1);
+  EXPECT_DOUBLE_EQ(*scores.at("object_precision").value, 1);
+}
+
+TEST_F(TwoWhoTouch, CountAmongTheLargeMoversOnlyOnTheirWay) {
+  const Scorecard scores = Reject({{100, 50, 20, 40}});
+  EXPECT_DOUBLE_EQ(*scores.at("object_recall").value, 0.5);
+  EXPECT_DOUBLE_EQ(*scores.at("object_covered").value, 0.5);
+  EXPECT_DOUBLE_EQ(*scores.at("object_recall_large").value, 1);
+  EXPECT_EQ(scores.at("object_recall_large").n, 1u);
+}
+
+TEST_F(TwoWhoTouch, InventionsBelowOnePercentOfTheImageAreNotLarge) {
+  const cv::Rect walker(100, 50, 20, 40), speck(10, 10, 20, 20), wall(200, 100, 30, 30);
+  EXPECT_DOUBLE_EQ(*Reject({walker, speck}).at("object_precision").value, 0.5);
+  EXPECT_DOUBLE_EQ(*Reject({walker, speck}).at("object_precision_large").value, 1);
+  EXPECT_DOUBLE_EQ(*Reject({walker, wall}).at("object_precision_large").value, 0.5);
+}
+
 }  // namespace
 }  // namespace aisle
