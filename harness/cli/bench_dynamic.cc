@@ -85,7 +85,6 @@ struct Result {
   bool has_truth = false;
   MaskFacts masks;
   double pixels = 0, rejected = 0;         ///< of all frames
-  int claimed_large = 0, false_large = 0;  ///< regions of 1 % of the image; see CountLargeClaims
   std::map<std::string, double> stage_ms;  ///< sums
 
   void Add(const SequenceFrame& shown, const FrameEstimate& estimate) {
@@ -96,23 +95,6 @@ struct Result {
     if (!shown.truth || shown.truth->dynamic.empty()) return;
     has_truth = true;
     masks += CompareMasks(shown.images.left, *shown.truth, estimate.regions);
-    CountLargeClaims(*shown.truth, estimate.regions);
-  }
-
-  /// A region claimed over 1 % of the image or more is false where less than a tenth of what it
-  /// rejects moves: it covers no mover, however well its rectangle would fit one.
-  void CountLargeClaims(const FrameTruth& truth, const DynamicRegions& regions) {
-    if (regions.mask.empty()) return;
-    for (const cv::Rect2d& box : RejectedBoxes(regions, {})) {
-      const cv::Rect inside = cv::Rect(box) & cv::Rect({}, truth.dynamic.size());
-      const cv::Mat1b claimed = regions.mask(inside);
-      const int claims = cv::countNonZero(claimed);
-      if (claims < kLargeShare * static_cast<double>(truth.dynamic.total())) continue;
-      cv::Mat1b moving;
-      cv::bitwise_and(claimed, truth.dynamic(inside), moving);
-      ++claimed_large;
-      false_large += 10 * cv::countNonZero(moving) < claims ? 1 : 0;
-    }
   }
 
   Result& operator+=(const Result& more) {
@@ -121,8 +103,6 @@ struct Result {
     masks += more.masks;
     pixels += more.pixels;
     rejected += more.rejected;
-    claimed_large += more.claimed_large;
-    false_large += more.false_large;
     for (const auto& [stage, ms] : more.stage_ms) stage_ms[stage] += ms;
     return *this;
   }
@@ -139,7 +119,7 @@ struct Result {
   }
 
   std::optional<double> PrecisionOfLarge() const {
-    return Ratio(claimed_large - false_large, claimed_large);
+    return Ratio(masks.large_regions - masks.large_regions_astray, masks.large_regions);
   }
 
   double static_wrong() const {

@@ -53,7 +53,7 @@ Scorecard ScoreMaskFolders(const std::string& truth_folder, const std::string& m
     FrameFacts facts;
     facts.mask = CompareMaskImages(truth.dynamic, regions.mask);
     const auto rejected = RejectedRegions(RejectedBoxes(regions, {}), truth.dynamic, regions.mask);
-    const MaskFacts objects = MatchBoxes(RejectedBoxes(true_blobs, {}), rejected, {}, 0);
+    const MaskFacts objects = MatchBoxes(RejectedBoxes(true_blobs, {}), rejected, {});
     facts.mask->objects_found = objects.objects_found;
     facts.mask->objects_missed = objects.objects_missed;
     facts.mask->objects_invented = objects.objects_invented;

@@ -44,11 +44,12 @@ struct ObjectOutcome {
 struct MaskFacts {
   std::int64_t true_positives = 0, false_positives = 0, false_negatives = 0;  ///< pixels
   int objects_found = 0, objects_invented = 0, objects_missed = 0;            ///< by rectangle
-  int objects_invented_large = 0;  ///< those invented that reject much of the image
-  double iou_sum = 0;              ///< of the found objects' rectangles
-  int static_corners = 0;          ///< image corners on surfaces that do not move
-  int static_corners_lost = 0;     ///< of them, under the mask
-  int corners_rejected = 0;        ///< all image corners under the mask
+  int large_regions = 0;         ///< rejected over much of the image
+  int large_regions_astray = 0;  ///< of them, those that cover no mover
+  double iou_sum = 0;            ///< of the found objects' rectangles
+  int static_corners = 0;        ///< image corners on surfaces that do not move
+  int static_corners_lost = 0;   ///< of them, under the mask
+  int corners_rejected = 0;      ///< all image corners under the mask
   std::int64_t outline_truth = 0, outline_truth_met = 0;  ///< pixels of truth's outline; near ours
   std::int64_t outline_rejected = 0, outline_rejected_met = 0;  ///< and the other way round
   std::vector<ObjectOutcome> objects;  ///< those asked for; empty where no labels are known
@@ -62,7 +63,8 @@ struct MaskFacts {
     objects_found += more.objects_found;
     objects_invented += more.objects_invented;
     objects_missed += more.objects_missed;
-    objects_invented_large += more.objects_invented_large;
+    large_regions += more.large_regions;
+    large_regions_astray += more.large_regions_astray;
     iou_sum += more.iou_sum;
     static_corners += more.static_corners;
     static_corners_lost += more.static_corners_lost;

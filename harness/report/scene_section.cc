@@ -315,13 +315,15 @@ std::string SceneSection(const SceneRuns& scene, const fs::path& report_dir,
       Escape(first.content_hash));
   text += Troubles(scene.systems) + ScoreTable(scene.systems, kColumns);
   if (const std::vector<SystemRuns> masked = WithMasks(scene.systems); !masked.empty()) {
-    text += "<h3>What was rejected</h3>\n" + ScoreTable(masked, kMaskColumns) +
-            "<p class=\"soft small\">Objects by rectangle, found where the overlap (IoU) is 0.5 or "
-            "more, invented where less than half of what was rejected moves. Large movers: 1 % of "
-            "the image or more at 0.15 m/s or more, and inventions of that size; covered: at least "
-            "half of their moving pixels rejected, whatever the rectangles (people who touch make "
-            "one). Pixels over all frames together; static features lost: share of image corners "
-            "on unmoving surfaces under the mask.</p>\n";
+    text +=
+        "<h3>What was rejected</h3>\n" + ScoreTable(masked, kMaskColumns) +
+        "<p class=\"soft small\">Objects by rectangle, found where the overlap (IoU) is 0.5 or "
+        "more, invented where less than half of what was rejected moves. Large movers: recall of "
+        "those of 1 % of the image or more at 0.15 m/s or more; precision: the share of "
+        "regions of that size of which a tenth or more moves; covered: at least half of their "
+        "moving pixels rejected, whatever the rectangles (people who touch make one). Pixels "
+        "over all frames together; static features lost: share of image corners "
+        "on unmoving surfaces under the mask.</p>\n";
   }
   text += Charts(scene, report_dir) + Pictures(scene, root) +
           StageSection(scene, report_dir, root) + AllScores(scene) +

@@ -1,6 +1,5 @@
 #include "harness/score/masks.h"
 
-#include <cmath>
 #include <map>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -105,6 +104,14 @@ std::vector<ObjectOutcome> Outcomes(const FrameTruth& truth,
   return outcomes;
 }
 
+void CountLarge(const std::vector<RejectedRegion>& claims, double large_pixels, MaskFacts* facts) {
+  for (const RejectedRegion& claim : claims) {
+    if (claim.pixels < large_pixels) continue;
+    ++facts->large_regions;
+    facts->large_regions_astray += 10 * claim.moving < claim.pixels;
+  }
+}
+
 }  // namespace
 
 double Iou(const cv::Rect2d& a, const cv::Rect2d& b) {
@@ -149,7 +156,7 @@ std::vector<cv::Rect2d> RejectedBoxes(const DynamicRegions& regions, const MaskO
 
 MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth,
                      const std::vector<RejectedRegion>& rejected, const MaskOptions& options,
-                     int large_pixels, std::vector<bool>* found) {
+                     std::vector<bool>* found) {
   std::vector<std::tuple<double, std::size_t, std::size_t>> candidates;
   for (std::size_t t = 0; t < truth.size(); ++t) {
     for (std::size_t r = 0; r < rejected.size(); ++r) {
@@ -168,9 +175,7 @@ MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth,
   }
   facts.objects_missed = static_cast<int>(truth.size()) - facts.objects_found;
   for (std::size_t r = 0; r < rejected.size(); ++r) {
-    if (rejected_taken[r] || rejected[r].on_moving) continue;
-    ++facts.objects_invented;
-    facts.objects_invented_large += rejected[r].pixels >= large_pixels;
+    facts.objects_invented += !rejected_taken[r] && !rejected[r].on_moving();
   }
   if (found != nullptr) *found = std::move(truth_taken);
   return facts;
@@ -187,7 +192,7 @@ std::vector<RejectedRegion> RejectedRegions(const std::vector<cv::Rect2d>& boxes
       asked = cv::countNonZero(mask(inside));
       cv::bitwise_and(moving, mask(inside), moving);
     }
-    regions.push_back({box, asked, 2 * cv::countNonZero(moving) >= std::max(asked, 1)});
+    regions.push_back({box, asked, cv::countNonZero(moving)});
   }
   return regions;
 }
@@ -207,11 +212,10 @@ MaskFacts CompareMasks(const cv::Mat1b& left, const FrameTruth& truth,
   const std::vector<MovingObject> objects = MovingObjects(truth, options);
   std::vector<cv::Rect2d> true_boxes;
   for (const MovingObject& object : objects) true_boxes.push_back(object.box);
-  const int large_pixels =
-      static_cast<int>(std::ceil(options.large_share * static_cast<double>(left.total())));
+  const std::vector<RejectedRegion> claims = RejectedRegions(boxes, dynamic, regions.mask);
   std::vector<bool> found;
-  MaskFacts facts = MatchBoxes(true_boxes, RejectedRegions(boxes, dynamic, regions.mask), options,
-                               large_pixels, &found);
+  MaskFacts facts = MatchBoxes(true_boxes, claims, options, &found);
+  CountLarge(claims, options.large_share * static_cast<double>(left.total()), &facts);
   facts.objects = Outcomes(truth, objects, found, rejected);
   CountPixels(dynamic, rejected, &facts);
   CountOutlines(dynamic, rejected, &facts);

@@ -14,7 +14,8 @@ struct MaskOptions {
   double match_iou = 0.5;
   int min_object_pixels = 200;  ///< moving objects with fewer dynamic pixels are not asked for
   int min_region_pixels = 50;   ///< blobs of a mask smaller than this are no detection
-  /// From this share of the image on, an object or what was rejected is large.
+  /// From this share of the image on, an object or what was rejected is large. What was rejected
+  /// there is astray where less than a tenth of it moves: it covers no mover, however wide.
   double large_share = 0.01;
   /// Gaps of a mask up to this wide, in pixels, do not part a blob: a strap or a rail in front of a
   /// person does not make two of them.
@@ -42,8 +43,10 @@ std::vector<cv::Rect2d> RejectedBoxes(const DynamicRegions& regions, const MaskO
 /// What was rejected in one of RejectedBoxes.
 struct RejectedRegion {
   cv::Rect2d box;
-  int pixels = 0;          ///< rejected in it; all of the box where there is no mask
-  bool on_moving = false;  ///< at least half of these move in truth
+  int pixels = 0;  ///< rejected in it; all of the box where there is no mask
+  int moving = 0;  ///< of these, how many move in truth
+
+  bool on_moving() const { return pixels > 0 && 2 * moving >= pixels; }
 };
 std::vector<RejectedRegion> RejectedRegions(const std::vector<cv::Rect2d>& boxes,
                                             const cv::Mat1b& dynamic, const cv::Mat1b& mask);
@@ -51,10 +54,10 @@ std::vector<RejectedRegion> RejectedRegions(const std::vector<cv::Rect2d>& boxes
 /// Pairs rectangles one to one, largest overlap first. Fills the object counts and iou_sum, and in
 /// `found`, where given, which of the true ones have a partner. A rejected rectangle without
 /// partner is invented, unless it lies on something that does move: a part of an object, several
-/// that touch, or one too small to be asked for. Invented with `large_pixels` or more, it is large.
+/// that touch, or one too small to be asked for.
 MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth,
                      const std::vector<RejectedRegion>& rejected, const MaskOptions& options,
-                     int large_pixels, std::vector<bool>* found = nullptr);
+                     std::vector<bool>* found = nullptr);
 
 /// Pixels and outlines alone, of masks of one size.
 MaskFacts CompareMaskImages(const cv::Mat1b& truth, const cv::Mat1b& rejected);

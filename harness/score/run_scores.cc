@@ -79,13 +79,10 @@ void AddRecallByKind(const std::vector<ObjectOutcome>& objects, Scorecard* score
   }
 }
 
-/// Large movers alone, and large inventions: a wrong speck does not weigh as much as a lost aisle.
+/// Large movers alone, and large regions: a wrong speck does not weigh as much as a lost aisle.
 void AddLargeMovers(const MaskFacts& sum, Scorecard* scores) {
-  const double large = static_cast<double>(
-      std::count_if(sum.objects.begin(), sum.objects.end(),
-                    [](const ObjectOutcome& o) { return IsLargeMover(o) && o.found; }));
-  (*scores)["object_precision_large"] =
-      RatioScore(large, large + sum.objects_invented_large, "nothing large was rejected");
+  (*scores)["object_precision_large"] = RatioScore(sum.large_regions - sum.large_regions_astray,
+                                                   sum.large_regions, "nothing large was rejected");
   (*scores)["object_recall_large"] = ShareOf(sum.objects, IsLargeMover, IsFound);
   (*scores)["object_covered_large"] = ShareOf(sum.objects, IsLargeMover, IsCovered);
   (*scores)["object_covered"] = ShareOf(

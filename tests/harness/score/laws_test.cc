@@ -260,11 +260,17 @@ TEST_F(TwoWhoTouch, CountAmongTheLargeMoversOnlyOnTheirWay) {
   EXPECT_EQ(scores.at("object_recall_large").n, 1u);
 }
 
-TEST_F(TwoWhoTouch, InventionsBelowOnePercentOfTheImageAreNotLarge) {
+TEST_F(TwoWhoTouch, RegionsBelowOnePercentOfTheImageAreNotLarge) {
   const cv::Rect walker(100, 50, 20, 40), speck(10, 10, 20, 20), wall(200, 100, 30, 30);
   EXPECT_DOUBLE_EQ(*Reject({walker, speck}).at("object_precision").value, 0.5);
   EXPECT_DOUBLE_EQ(*Reject({walker, speck}).at("object_precision_large").value, 1);
   EXPECT_DOUBLE_EQ(*Reject({walker, wall}).at("object_precision_large").value, 0.5);
+}
+
+TEST_F(TwoWhoTouch, ALargeRegionThatCoversAMoverIsWideAndNotAstray) {
+  const Scorecard scores = Reject({{100, 50, 20, 150}});
+  EXPECT_DOUBLE_EQ(*scores.at("object_precision").value, 0);
+  EXPECT_DOUBLE_EQ(*scores.at("object_precision_large").value, 1);
 }
 
 }  // namespace
