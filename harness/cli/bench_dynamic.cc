@@ -213,6 +213,9 @@ nlohmann::json ToJson(const Result& r) {
 }
 
 int BenchDynamic(const Options& options) {
+  const std::vector<std::string>& names = options.views.empty() ? kViews : options.views;
+  std::vector<View> views;  // all of them, before the first is measured
+  for (const std::string& name : names) views.push_back(Parse(name));
   fmt::print(
       "{}, after {} frames of warming "
       "up\n{:28}{:>7}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}{:>8}\n",
@@ -220,8 +223,9 @@ int BenchDynamic(const Options& options) {
       "box IoU", "px IoU", "px rec.", "static", "all", "ms");
   nlohmann::json rows = nlohmann::json::array();
   Result sum;
-  for (const std::string& text : options.views.empty() ? kViews : options.views) {
-    const Result result = Measure(Parse(text), options);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const Result result = Measure(views[i], options);
+    const std::string& text = names[i];
     fmt::print("{}\n", Line(text.size() > 27 ? "…" + text.substr(text.size() - 26) : text, result));
     std::fflush(stdout);
     rows.push_back(ToJson(result));
