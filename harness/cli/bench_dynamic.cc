@@ -38,9 +38,6 @@ const std::vector<std::string> kViews = {
     "weakness/never_moves:60-90",
 };
 
-constexpr double kLargeShare = 0.01;  // of the image
-constexpr double kLeastSpeed = 0.15;  // m/s
-
 struct View {
   std::string source;
   int from = 0, to = std::numeric_limits<int>::max();  ///< frames, `to` not included
@@ -111,7 +108,7 @@ struct Result {
   std::optional<double> RecallOfLarge() const {
     double asked = 0, found = 0;
     for (const ObjectOutcome& object : masks.objects) {
-      if (object.pixels < kLargeShare * pixels / frames || object.speed_mps < kLeastSpeed) continue;
+      if (!IsLargeMover(object)) continue;
       ++asked;
       found += object.found ? 1 : 0;
     }

@@ -28,7 +28,7 @@ struct Drives {
   Drives(const SceneRuns& scene, const fs::path& report_dir, std::size_t every = 1) {
     for (const SystemRuns& system : scene.systems) {
       rows.emplace_back();
-      const std::vector<FrameRow> all = ReadFrameRows(*system.runs.front(), report_dir);
+      const std::vector<FrameRow> all = ReadFrameFile(*system.runs.front(), report_dir).rows;
       for (std::size_t k = 0; k < all.size(); k += every) rows.back().push_back(all[k]);
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {

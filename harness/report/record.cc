@@ -105,14 +105,15 @@ std::vector<FrameRow> MakeFrameRows(const RunResult& run, const ScoreOptions& op
   return rows;
 }
 
-std::vector<FrameRow> ReadFrameRows(const RunRecord& run, const fs::path& report_dir) {
+FrameFile ReadFrameFile(const RunRecord& run, const fs::path& report_dir) {
   const auto artifact = run.artifacts.find("frames");
   if (artifact == run.artifacts.end()) return {};
   const fs::path path = report_dir / artifact->second;
+  if (!fs::exists(path)) return {};
   try {
-    return FrameRowsFromCsv(ReadFile(path), path.string());
-  } catch (const InputError&) {
-    return {};  // a report without its heavy files still shows the scores
+    return {FrameRowsFromCsv(ReadFile(path), path.string()), ""};
+  } catch (const InputError& error) {
+    return {{}, error.what()};
   }
 }
 

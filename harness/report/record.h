@@ -71,7 +71,11 @@ std::string ToCsv(const std::vector<FrameRow>& rows);
 std::vector<FrameRow> FrameRowsFromCsv(const std::string& text, const std::string& file);
 
 /// A run's frames.csv; empty where there is none (any more): the scores stand without it.
-std::vector<FrameRow> ReadFrameRows(const RunRecord& run, const std::filesystem::path& report_dir);
+struct FrameFile {
+  std::vector<FrameRow> rows;
+  std::string trouble;  ///< why there are no rows, where the file is there
+};
+FrameFile ReadFrameFile(const RunRecord& run, const std::filesystem::path& report_dir);
 
 /// Writes trajectories, frames.csv and, last, result.json into `report_dir`/runs/ID. The record
 /// that comes back names the artifacts.

@@ -92,25 +92,6 @@ std::string Troubles(const std::vector<SystemRuns>& systems) {
   return text;
 }
 
-struct FrameFile {
-  std::vector<FrameRow> rows;
-  std::string trouble;  ///< why there are none, where there should be
-};
-
-/// The frames of the run that stands for a system in the charts: its first seed. A report without
-/// its heavy files still shows the scores.
-FrameFile Frames(const SystemRuns& system, const fs::path& report_dir) {
-  const auto artifact = system.runs.front()->artifacts.find("frames");
-  if (artifact == system.runs.front()->artifacts.end()) return {};
-  const fs::path path = report_dir / artifact->second;
-  if (!fs::exists(path)) return {};
-  try {
-    return {FrameRowsFromCsv(ReadFile(path), path.string()), ""};
-  } catch (const InputError& error) {
-    return {{}, error.what()};
-  }
-}
-
 std::string Figure(const std::string& content, const std::string& caption) {
   if (content.empty()) return "";
   return "<figure>" + content + "<figcaption>" + caption + "</figcaption></figure>\n";
@@ -193,8 +174,8 @@ std::string Stages(const SceneRuns& scene) {
 std::string Charts(const SceneRuns& scene, const fs::path& report_dir) {
   std::vector<FrameFile> frames;
   std::string troubles;
-  for (const SystemRuns& system : scene.systems) {
-    frames.push_back(Frames(system, report_dir));
+  for (const SystemRuns& system : scene.systems) {  // its first seed stands for a system
+    frames.push_back(ReadFrameFile(*system.runs.front(), report_dir));
     if (frames.back().trouble.empty()) continue;
     troubles += fmt::format("<p>{} is not in the charts: {}</p>\n", Escape(system.system),
                             Escape(frames.back().trouble));

@@ -78,7 +78,7 @@ std::string StageSection(const SceneRuns& scene, const std::filesystem::path& re
         "wrong</h3>\n<p class=\"small soft\">{} A picture opens in full size.</p>\n<div "
         "class=\"sheets\">{}</div>\n",
         system.color % 6, Escape(system.system), LinksOf(*run, root),
-        SheetsOf(*run, ReadFrameRows(*run, report_dir), root));
+        SheetsOf(*run, ReadFrameFile(*run, report_dir).rows, root));
   }
   return text;
 }

@@ -120,6 +120,10 @@ double Iou(const cv::Rect2d& a, const cv::Rect2d& b) {
   return whole > 0 ? shared / whole : 0;
 }
 
+bool IsLargeMover(const ObjectOutcome& object, const MaskOptions& options) {
+  return object.share >= options.large_share && object.speed_mps >= options.large_speed_mps;
+}
+
 std::vector<MovingObject> MovingObjects(const FrameTruth& truth, const MaskOptions& options) {
   std::vector<MovingObject> objects;
   if (!truth.instance.empty() && truth.instance.size() == truth.dynamic.size()) {

@@ -17,6 +17,7 @@ struct MaskOptions {
   /// From this share of the image on, an object or what was rejected is large. What was rejected
   /// there is astray where less than a tenth of it moves: it covers no mover, however wide.
   double large_share = 0.01;
+  double large_speed_mps = 0.15;  ///< a large mover is at least so fast
   /// Gaps of a mask up to this wide, in pixels, do not part a blob: a strap or a rail in front of a
   /// person does not make two of them.
   int close_gap_px = 15;
@@ -25,6 +26,9 @@ struct MaskOptions {
 
 /// Intersection over union of two rectangles, in [0, 1]; 0 where both are empty.
 double Iou(const cv::Rect2d& a, const cv::Rect2d& b);
+
+/// What must be found by all means: large, and on its way.
+bool IsLargeMover(const ObjectOutcome& object, const MaskOptions& options = {});
 
 /// Something that moves now and must be found.
 struct MovingObject {

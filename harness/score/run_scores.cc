@@ -43,11 +43,6 @@ const std::vector<Kind>& Kinds() {
   return kinds;
 }
 
-/// What must be found: 1 % of the image or more, and on its way.
-bool IsLargeMover(const ObjectOutcome& object) {
-  return object.share >= MaskOptions().large_share && object.speed_mps >= 0.15;
-}
-
 using ObjectRule = std::function<bool(const ObjectOutcome&)>;
 
 bool IsFound(const ObjectOutcome& object) { return object.found; }
@@ -81,10 +76,11 @@ void AddRecallByKind(const std::vector<ObjectOutcome>& objects, Scorecard* score
 
 /// Large movers alone, and large regions: a wrong speck does not weigh as much as a lost aisle.
 void AddLargeMovers(const MaskFacts& sum, Scorecard* scores) {
+  const ObjectRule is_large = [](const ObjectOutcome& object) { return IsLargeMover(object); };
   (*scores)["object_precision_large"] = RatioScore(sum.large_regions - sum.large_regions_astray,
                                                    sum.large_regions, "nothing large was rejected");
-  (*scores)["object_recall_large"] = ShareOf(sum.objects, IsLargeMover, IsFound);
-  (*scores)["object_covered_large"] = ShareOf(sum.objects, IsLargeMover, IsCovered);
+  (*scores)["object_recall_large"] = ShareOf(sum.objects, is_large, IsFound);
+  (*scores)["object_covered_large"] = ShareOf(sum.objects, is_large, IsCovered);
   (*scores)["object_covered"] = ShareOf(
       sum.objects, [](const ObjectOutcome&) { return true; }, IsCovered);
 }

@@ -3,20 +3,18 @@
 #include <algorithm>
 #include <set>
 
+#include "slam/map/landmarks_of.h"
+
 namespace aisle::slam {
 namespace {
 
 /// Landmarks seen by the keyframe or by its neighbours: those whose fate it may have changed.
-std::set<LandmarkId> LandmarksAround(const Map& map, KeyframeId id) {
-  std::set<LandmarkId> landmarks;
-  const auto add = [&](KeyframeId keyframe) {
-    for (const LandmarkId landmark : map.At(keyframe).landmarks) {
-      if (landmark.valid()) landmarks.insert(landmark);
-    }
-  };
-  add(id);
-  for (const Covisible& neighbour : CovisibleKeyframes(map, id, 1)) add(neighbour.keyframe);
-  return landmarks;
+std::vector<LandmarkId> LandmarksAround(const Map& map, KeyframeId id) {
+  std::vector<KeyframeId> keyframes = {id};
+  for (const Covisible& neighbour : CovisibleKeyframes(map, id, 1)) {
+    keyframes.push_back(neighbour.keyframe);
+  }
+  return LandmarksOf(map, keyframes);
 }
 
 /// Keyframes after `from`, `newest` included.

@@ -1,23 +1,10 @@
 #include "slam/mapping/local_mapping.h"
 
 #include <chrono>
-#include <set>
+
+#include "slam/map/landmarks_of.h"
 
 namespace aisle::slam {
-namespace {
-
-/// The landmarks that the given keyframes see.
-std::vector<LandmarkId> SeenBy(const Map& map, const std::vector<KeyframeId>& keyframes) {
-  std::set<LandmarkId> seen;
-  for (const KeyframeId id : keyframes) {
-    for (const LandmarkId landmark : map.At(id).landmarks) {
-      if (landmark.valid()) seen.insert(landmark);
-    }
-  }
-  return {seen.begin(), seen.end()};
-}
-
-}  // namespace
 
 MappingResult MapKeyframe(Map map, KeyframeId newest, const Vocabulary* vocabulary,
                           const PlaceIndex& index, const StereoCamera& camera,
@@ -27,9 +14,9 @@ MappingResult MapKeyframe(Map map, KeyframeId newest, const Vocabulary* vocabula
 
   const std::vector<KeyframeId> neighbours = FuseNeighbours(map, newest, options.fuse);
   for (const KeyframeId neighbour : neighbours) {
-    map.Apply(FuseInto(map, neighbour, SeenBy(map, {newest}), camera, options.fuse));
+    map.Apply(FuseInto(map, neighbour, LandmarksOf(map, {newest}), camera, options.fuse));
   }
-  map.Apply(FuseInto(map, newest, SeenBy(map, neighbours), camera, options.fuse));
+  map.Apply(FuseInto(map, newest, LandmarksOf(map, neighbours), camera, options.fuse));
 
   const Adjustment adjustment = AdjustLocally(map, newest, camera, options.adjust);
   map.Apply(adjustment.edit);

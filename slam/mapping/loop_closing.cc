@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
-#include <set>
 
 #include "slam/camera/se3.h"
+#include "slam/map/landmarks_of.h"
 
 namespace aisle::slam {
 namespace {
@@ -14,13 +14,7 @@ namespace {
 std::vector<LandmarkId> LandmarksAround(const Map& map, KeyframeId id, const FuseOptions& options) {
   std::vector<KeyframeId> keyframes = FuseNeighbours(map, id, options);
   keyframes.push_back(id);
-  std::set<LandmarkId> landmarks;
-  for (const KeyframeId keyframe : keyframes) {
-    for (const LandmarkId landmark : map.At(keyframe).landmarks) {
-      if (landmark.valid()) landmarks.insert(landmark);
-    }
-  }
-  return {landmarks.begin(), landmarks.end()};
+  return LandmarksOf(map, keyframes);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "slam/optimize/adjust_map.h"
 
 #include <algorithm>
-#include <set>
 
+#include "slam/map/landmarks_of.h"
 #include "slam/optimize/pose_graph.h"
 
 namespace aisle::slam {
@@ -70,16 +70,6 @@ MapEdit ToEdit(const MapProblem& problem, const std::vector<bool>& inlier) {
     if (!inlier[i]) edit.cuts.push_back(problem.links[i]);
   }
   return edit;
-}
-
-std::vector<LandmarkId> LandmarksOf(const Map& map, const std::vector<KeyframeId>& keyframes) {
-  std::set<LandmarkId> landmarks;
-  for (const KeyframeId id : keyframes) {
-    for (const LandmarkId landmark : map.At(id).landmarks) {
-      if (landmark.valid()) landmarks.insert(landmark);
-    }
-  }
-  return {landmarks.begin(), landmarks.end()};
 }
 
 /// Keyframes other than `free` that see any of the landmarks, most sights first.

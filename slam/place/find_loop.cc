@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "slam/map/landmarks_of.h"
 #include "slam/map/match_by_projection.h"
 #include "slam/map/match_keyframe.h"
 #include "slam/place/adjust_loop.h"
@@ -28,13 +29,7 @@ std::vector<LandmarkId> LandmarksAround(const Map& map, KeyframeId id) {
   for (const Covisible& covisible : CovisibleKeyframes(map, id, kLeastShared)) {
     if (keyframes.size() <= kNeighbours) keyframes.push_back(covisible.keyframe);
   }
-  std::set<LandmarkId> landmarks;
-  for (const KeyframeId keyframe : keyframes) {
-    for (const LandmarkId landmark : map.At(keyframe).landmarks) {
-      if (landmark.valid()) landmarks.insert(landmark);
-    }
-  }
-  return {landmarks.begin(), landmarks.end()};
+  return LandmarksOf(map, keyframes);
 }
 
 /// Metres driven between two keyframes.
