@@ -1,5 +1,7 @@
 #include "slam/dynamic/ego_motion.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
 #include <map>
@@ -23,12 +25,35 @@ Vector3d InverseDeviation(const MeasurementNoise& noise) {
   return (std::sqrt(2.0) * noise).cwiseInverse();
 }
 
+/// A match whose point in space is known: it is asked for under many motions.
+struct PlacedMatch {
+  Vector3d before;  // metres
+  Vector3d now;     // as measured
+  double weight;
+};
+
+std::vector<PlacedMatch> Placed(const std::vector<StereoMatch>& matches,
+                                const StereoCamera& camera) {
+  std::vector<PlacedMatch> placed;
+  placed.reserve(matches.size());
+  for (const StereoMatch& match : matches) {
+    placed.push_back({Backproject(camera, match.before), match.now, match.weight});
+  }
+  return placed;
+}
+
 /// Error in units of noise, or nothing behind the camera.
 std::optional<Vector3d> WeightedError(const StereoCamera& camera, const Isometry3d& T,
-                                      const StereoMatch& match, const Vector3d& inverse_deviation) {
-  const Vector3d point = T * Backproject(camera, match.before);
+                                      const PlacedMatch& match, const Vector3d& inverse_deviation) {
+  const Vector3d point = T * match.before;
   if (point.z() < 0.05) return std::nullopt;
   return inverse_deviation.cwiseProduct(Project(camera, point) - match.now);
+}
+
+double Chi2(const StereoCamera& camera, const Isometry3d& T, const PlacedMatch& match,
+            const Vector3d& inverse_deviation) {
+  const auto error = WeightedError(camera, T, match, inverse_deviation);
+  return error ? error->squaredNorm() : std::numeric_limits<double>::infinity();
 }
 
 /// Horn's closed form on three points; nothing if they are close to a line or change their shape.
@@ -53,10 +78,10 @@ std::optional<Isometry3d> AlignTriangles(const std::array<Vector3d, 3>& from,
 }
 
 /// Trust behind a motion: full for a match on the spot, none beyond the gate.
-double Support(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
+double Support(const std::vector<PlacedMatch>& matches, const StereoCamera& camera,
                const Isometry3d& T, const Vector3d& inverse_deviation, double gate) {
   double support = 0;
-  for (const StereoMatch& match : matches) {
+  for (const PlacedMatch& match : matches) {
     const auto error = WeightedError(camera, T, match, inverse_deviation);
     if (error) support += match.weight * std::max(0.0, 1 - error->squaredNorm() / gate);
   }
@@ -106,11 +131,11 @@ struct NormalEquations {
 };
 
 /// Geman-McClure weights with the gate as scale: far errors count for next to nothing.
-NormalEquations Linearize(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
+NormalEquations Linearize(const std::vector<PlacedMatch>& matches, const StereoCamera& camera,
                           const Isometry3d& T, const Vector3d& inverse_deviation, double gate) {
   NormalEquations equations;
-  for (const StereoMatch& match : matches) {
-    const Vector3d point = T * Backproject(camera, match.before);
+  for (const PlacedMatch& match : matches) {
+    const Vector3d point = T * match.before;
     if (point.z() < 0.05) continue;
     const Vector3d error = inverse_deviation.cwiseProduct(Project(camera, point) - match.now);
     const double chi2 = error.squaredNorm(), fall = gate / (gate + chi2);
@@ -126,12 +151,12 @@ NormalEquations Linearize(const std::vector<StereoMatch>& matches, const StereoC
   return equations;
 }
 
-std::vector<StereoMatch> Followers(const std::vector<StereoMatch>& matches,
+std::vector<PlacedMatch> Followers(const std::vector<PlacedMatch>& matches,
                                    const StereoCamera& camera, const Isometry3d& T,
-                                   const MeasurementNoise& noise, double gate) {
-  std::vector<StereoMatch> followers;
+                                   const Vector3d& inverse_deviation, double gate) {
+  std::vector<PlacedMatch> followers;
   std::copy_if(matches.begin(), matches.end(), std::back_inserter(followers),
-               [&](const StereoMatch& m) { return MatchChi2(camera, T, m, noise) < gate; });
+               [&](const PlacedMatch& m) { return Chi2(camera, T, m, inverse_deviation) < gate; });
   return followers;
 }
 
@@ -189,8 +214,8 @@ EgoMotionOptions Narrow(EgoMotionOptions options) {
 
 double MatchChi2(const StereoCamera& camera, const Isometry3d& T, const StereoMatch& match,
                  const MeasurementNoise& noise) {
-  const auto error = WeightedError(camera, T, match, InverseDeviation(noise));
-  return error ? error->squaredNorm() : std::numeric_limits<double>::infinity();
+  const PlacedMatch placed{Backproject(camera, match.before), match.now, match.weight};
+  return Chi2(camera, T, placed, InverseDeviation(noise));
 }
 
 EgoMotion RefineEgoMotion(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
@@ -200,11 +225,12 @@ EgoMotion RefineEgoMotion(const std::vector<StereoMatch>& matches, const StereoC
   EgoMotion motion;
   motion.T_now_before = T_now_before;
   if (std::ssize(matches) < kLeastMatches) return motion;
+  const std::vector<PlacedMatch> placed = Placed(matches, camera);
   NormalEquations equations;
   for (int round = options.rounds - 1; round >= 0; --round) {
     const double gate = options.gate_chi2 * std::pow(3.0, round);  // from wide to narrow
     for (int k = 0; k < options.iterations; ++k) {
-      equations = Linearize(matches, camera, motion.T_now_before, inverse_deviation, gate);
+      equations = Linearize(placed, camera, motion.T_now_before, inverse_deviation, gate);
       const Matrix6d damped =
           equations.hessian + 1e-9 * equations.hessian.trace() * Matrix6d::Identity();
       const Vector6d step = damped.ldlt().solve(-equations.gradient);
@@ -213,10 +239,11 @@ EgoMotion RefineEgoMotion(const std::vector<StereoMatch>& matches, const StereoC
       if (step.norm() < 1e-7) break;
     }
   }
-  equations = Linearize(matches, camera, motion.T_now_before, inverse_deviation, options.gate_chi2);
+  equations = Linearize(placed, camera, motion.T_now_before, inverse_deviation, options.gate_chi2);
   // Only the points that follow the motion found may say that it was none: movers would vote for
   // whatever leaves them alone.
-  const auto followers = Followers(matches, camera, motion.T_now_before, noise, options.gate_chi2);
+  const auto followers =
+      Followers(placed, camera, motion.T_now_before, inverse_deviation, options.gate_chi2);
   const NormalEquations still =
       Linearize(followers, camera, Isometry3d::Identity(), inverse_deviation, options.gate_chi2);
   const NormalEquations moving =
@@ -242,16 +269,14 @@ EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const Stere
   const auto samples = SampleMotions(spread, camera, options);
   candidates.insert(candidates.end(), samples.begin(), samples.end());
 
-  double best_score = -1;
-  Isometry3d best = Isometry3d::Identity();
-  for (const Isometry3d& T : candidates) {
-    const double score =
-        Support(spread, camera, T, inverse_deviation, gate) * Plausibility(T, prior);
-    if (score > best_score) {
-      best_score = score;
-      best = T;
-    }
-  }
+  const std::vector<PlacedMatch> placed = Placed(spread, camera);
+  std::vector<double> scores(candidates.size());
+  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t k) {
+    scores[k] = Support(placed, camera, candidates[k], inverse_deviation, gate) *
+                Plausibility(candidates[k], prior);
+  });
+  const auto highest = std::max_element(scores.begin(), scores.end());  // the first of equals
+  const Isometry3d& best = candidates[static_cast<std::size_t>(highest - scores.begin())];
   // What is near and large must not pull while the gate is wide.
   const EgoMotion close = RefineEgoMotion(spread, camera, best, noise, options);
   return RefineEgoMotion(matches, camera, close.T_now_before, noise, Narrow(options));

@@ -7,16 +7,84 @@
 namespace aisle::slam::dynamic {
 namespace {
 
+/// Both ends of a row of links.
+struct Ends {
+  const float *disparity, *other_disparity;
+  const unsigned char *grey, *other_grey, *floor, *other_floor;
+};
+
 struct Tie {
   float coupling, disparity, disparity_share, contrast, floor_link;
 
-  float operator()(float d1, float d2, int g1, int g2, bool floor1, bool floor2) const {
-    if (floor1 != floor2) return coupling * floor_link;
-    const float step = (d1 - d2) / (disparity + disparity_share * (d1 + d2) / 2);
-    const float steps = step * step;
-    const float edge = static_cast<float>(std::abs(g1 - g2)) / contrast;
-    return coupling / ((1 + steps * steps) * (1 + edge));
+  /// Surfaces first, without branches, so that it is vectorised; then the floor's edge.
+  void Row(const Ends& e, int count, float* links) const {
+#pragma GCC ivdep
+    for (int x = 0; x < count; ++x) {
+      const float d1 = e.disparity[x], d2 = e.other_disparity[x];
+      const float step = (d1 - d2) / (disparity + disparity_share * (d1 + d2) / 2);
+      const float steps = step * step;
+      const float edge = static_cast<float>(std::abs(e.grey[x] - e.other_grey[x])) / contrast;
+      links[x] = coupling / ((1 + steps * steps) * (1 + edge));
+    }
+    for (int x = 0; x < count; ++x) {
+      if ((e.floor[x] != 0) != (e.other_floor[x] != 0)) links[x] = coupling * floor_link;
+    }
   }
+};
+
+/// The neighbour's belief: a straight line at zero that saturates.
+float Belief(float log_odds) { return 2 * log_odds / (2 + std::abs(log_odds)); }
+
+/// Images with a border of zeros: at the image's edge nothing is added.
+class Sweeper {
+ public:
+  Sweeper(const cv::Mat1f& evidence, const Links& links)
+      : evidence_(evidence), log_odds_(evidence.size()) {
+    const auto pad = [](const cv::Mat1f& image) {
+      cv::Mat1f padded;
+      cv::copyMakeBorder(image, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
+      return padded;
+    };
+    right_ = pad(links.right);
+    down_ = pad(links.down);
+    belief_ = pad(evidence);
+    for (int y = 1; y <= evidence.rows; ++y) {
+      for (int x = 1; x <= evidence.cols; ++x) belief_(y, x) = Belief(belief_(y, x));
+    }
+  }
+
+  /// As pixel by pixel in raster order (or the reverse): a row may go on as soon as the one before
+  /// is a pixel ahead, so several go side by side and need not wait for each other's sums.
+  void Sweep(bool forward) {
+    constexpr int kBand = 8;
+    const int rows = evidence_.rows, columns = evidence_.cols;
+    for (int top = 0; top < rows; top += kBand) {
+      const int band = std::min(kBand, rows - top);
+      for (int t = 0; t < columns + band - 1; ++t) {
+        const int last = std::min(t, band - 1);
+        for (int r = std::max(0, t - columns + 1); r <= last; ++r) {
+          const int y = top + r, x = t - r;
+          forward ? Update(y, x) : Update(rows - 1 - y, columns - 1 - x);
+        }
+      }
+    }
+  }
+
+  const cv::Mat1f& log_odds() const { return log_odds_; }
+
+ private:
+  void Update(int y, int x) {
+    const float *above = belief_[y] + x, *below = belief_[y + 2] + x;
+    float* belief = belief_[y + 1] + x;
+    const float* right = right_[y + 1] + x;
+    const float sum = evidence_(y, x) + right[0] * belief[0] + down_[y][x + 1] * above[1] +
+                      right[1] * belief[2] + down_[y + 1][x + 1] * below[1];
+    log_odds_(y, x) = sum;
+    belief[1] = Belief(sum);
+  }
+
+  cv::Mat1f evidence_, log_odds_;
+  cv::Mat1f right_, down_, belief_;
 };
 
 constexpr int kMostRings = 60;
@@ -30,41 +98,19 @@ Links LinkPixels(const cv::Mat1f& filled, const cv::Mat1b& image, const cv::Mat1
                 static_cast<float>(options.floor_link)};
   Links links{cv::Mat1f(image.size(), 0.0F), cv::Mat1f(image.size(), 0.0F)};
   tbb::parallel_for(0, image.rows, [&](int y) {
-    const auto between = [&](int x, int x2, int y2) {
-      return tie(filled(y, x), filled(y2, x2), image(y, x), image(y2, x2), floor(y, x) != 0,
-                 floor(y2, x2) != 0);
+    const auto to = [&](int y2, int dx) {
+      return Ends{filled[y], filled[y2] + dx, image[y], image[y2] + dx, floor[y], floor[y2] + dx};
     };
-    for (int x = 0; x < image.cols; ++x) {
-      if (x + 1 < image.cols) links.right(y, x) = between(x, x + 1, y);
-      if (y + 1 < image.rows) links.down(y, x) = between(x, x, y + 1);
-    }
+    tie.Row(to(y, 1), image.cols - 1, links.right[y]);
+    if (y + 1 < image.rows) tie.Row(to(y + 1, 0), image.cols, links.down[y]);
   });
   return links;
 }
 
 cv::Mat1f SolveField(const cv::Mat1f& evidence, const Links& links, const FieldOptions& options) {
-  cv::Mat1f log_odds = evidence.clone();
-  // 2 x / (2 + |x|) stands in for the neighbour's belief: a straight line at zero that saturates.
-  cv::Mat1f belief(evidence.size());
-  const auto believe = [](float l) { return 2 * l / (2 + std::abs(l)); };
-  const int total = static_cast<int>(evidence.total());
-  for (int k = 0; k < total; ++k) belief(k) = believe(evidence(k));
-  const auto update = [&](int y, int x) {
-    float sum = evidence(y, x);
-    if (x > 0) sum += links.right(y, x - 1) * belief(y, x - 1);
-    if (y > 0) sum += links.down(y - 1, x) * belief(y - 1, x);
-    if (x + 1 < evidence.cols) sum += links.right(y, x) * belief(y, x + 1);
-    if (y + 1 < evidence.rows) sum += links.down(y, x) * belief(y + 1, x);
-    log_odds(y, x) = sum;
-    belief(y, x) = believe(sum);
-  };
-  for (int sweep = 0; sweep < options.sweeps; ++sweep) {
-    for (int k = 0; k < total; ++k) {
-      const int pixel = sweep % 2 == 0 ? k : total - 1 - k;
-      update(pixel / evidence.cols, pixel % evidence.cols);
-    }
-  }
-  return log_odds;
+  Sweeper sweeper(evidence, links);
+  for (int sweep = 0; sweep < options.sweeps; ++sweep) sweeper.Sweep(sweep % 2 == 0);
+  return sweeper.log_odds();
 }
 
 cv::Mat1b GrowMoving(const cv::Mat1f& field, const cv::Mat1f& evidence, const Links& links,

@@ -12,6 +12,8 @@ cv::Point SameSurface(const cv::Mat1f& disparity, const cv::Vec2f& place, float 
   cv::Point best(-1, -1);
   float least = kTolerance + kToleranceShare * d;
   const int cx = cvRound(place[0]), cy = cvRound(place[1]);
+  const bool inside = cx >= 0 && cy >= 0 && cx < disparity.cols && cy < disparity.rows;
+  if (inside && std::abs(disparity(cy, cx) - d) < std::min(least, kPerPixel)) return {cx, cy};
   for (int y = std::max(cy - 1, 0); y <= std::min(cy + 1, disparity.rows - 1); ++y) {
     for (int x = std::max(cx - 1, 0); x <= std::min(cx + 1, disparity.cols - 1); ++x) {
       const float off = std::abs(disparity(y, x) - d) +

@@ -1,28 +1,41 @@
 #include "slam/dynamic/motion_evidence.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <opencv2/imgproc.hpp>
 
+#include "slam/dynamic/fast_log.h"
 #include "slam/dynamic/median.h"
+#include "slam/dynamic/misfit.h"
 #include "slam/dynamic/residual_flow.h"
 
 namespace aisle::slam::dynamic {
 namespace {
 
-/// Mean squared difference of two images in units of its variance, over small windows and without
-/// the local mean: exposure and soft shadows drop out.
-cv::Mat1f Misfit(const cv::Mat1b& image, const cv::Mat1b& other, const cv::Mat1f& variance) {
-  constexpr int kLocalMean = 11, kWindow = 5;
-  cv::Mat1f difference, mean, misfit;
-  cv::subtract(image, other, difference, cv::noArray(), CV_32F);
-  cv::boxFilter(difference, mean, -1, {kLocalMean, kLocalMean});
-  difference -= mean;
-  cv::boxFilter(difference.mul(difference) / variance, misfit, -1, {kWindow, kWindow});
-  return misfit;
-}
-
 float Squared(double a) { return static_cast<float>(a * a); }
+
+/// The information on where a pixel's window is, and what its displacement leaves unexplained.
+struct Held {
+  float xx, xy, yy;
+  float rx, ry;
+};
+
+/// See DisplacementLogOdds. Without branches, so that rows of it are vectorised.
+inline float LogOddsOf(const Held& h, float static_variance, float mover_variance) {
+  const float gx = h.xx * h.rx + h.xy * h.ry, gy = h.xy * h.rx + h.yy * h.ry;  // G r
+  // The inverse of G^-1 + v I is (I + v G)^-1 G, which G = 0 does not trouble.
+  const float s = static_variance, m = static_variance + mover_variance;
+  const float det_static = (1 + s * h.xx) * (1 + s * h.yy) - s * h.xy * (s * h.xy);
+  const float det_moving = (1 + m * h.xx) * (1 + m * h.yy) - m * h.xy * (m * h.xy);
+  const float chi2_static = (h.rx * ((1 + s * h.yy) * gx - s * h.xy * gy) +
+                             h.ry * ((1 + s * h.xx) * gy - s * h.xy * gx)) /
+                            det_static;
+  const float chi2_moving = (h.rx * ((1 + m * h.yy) * gx - m * h.xy * gy) +
+                             h.ry * ((1 + m * h.xx) * gy - m * h.xy * gx)) /
+                            det_moving;
+  return (chi2_static - chi2_moving - FastLog(det_moving / det_static)) / 2;
+}
 
 /// What the earlier frame saw around a place: of the disparities there, the one nearest to either
 /// of those that would make sense; negative if none is known.
@@ -45,10 +58,9 @@ struct Evidence {
   const Comparison& frames;
   const Texture& texture;
   const EvidenceOptions& options;
+  const Surroundings& around;
   StaticField expected;
-  cv::Mat1f variance;  // of the difference of two grey values
   cv::Mat1f misfit_static, misfit_moved;
-  cv::Mat1f nearest;  // largest disparity within reach
 
   float most;                    // log-odds that matter
   float mover_px_per_disparity;  // image speed of a mover over the gap, for each pixel of disparity
@@ -56,7 +68,8 @@ struct Evidence {
 
   /// Whether something nearer is so close that the flow here is its flow.
   bool IsBesideNearer(int y, int x, float d) const {
-    return nearest(y, x) > d + static_cast<float>(options.edge_step + options.edge_share * d);
+    return around.nearest(y, x) >
+           d + static_cast<float>(options.edge_step + options.edge_share * d);
   }
 
   float SameSurface(float d) const {
@@ -152,7 +165,8 @@ struct Evidence {
     const int top = std::max(y - kReach, 0), bottom = std::min(y + kReach, left.rows - 1);
     const int reach = std::min({kReach, x - d, left.cols - 1 - x});
     if (reach < 1) return std::numeric_limits<float>::max();
-    const float unit = static_cast<float>((bottom - top + 1) * (2 * reach + 1)) * variance(y, x);
+    const float unit =
+        static_cast<float>((bottom - top + 1) * (2 * reach + 1)) * around.variance(y, x);
     int squares = 0;
     for (int v = top; v <= bottom && static_cast<float>(squares) < most * unit; ++v) {
       const unsigned char* seen = left[v] + x - reach;
@@ -166,16 +180,38 @@ struct Evidence {
     return static_cast<float>(squares) / unit;
   }
 
-  float At(int y, int x) const {
+  /// What the flow of each pixel of a row says, whether anything is known of it or not.
+  void FlowLogOddsOfRow(int y, float* log_odds) const {
+    const float *place = expected.place.ptr<float>(y), *per = expected.per_disparity.ptr<float>(y),
+                *flow = frames.flow.ptr<float>(y), *disparity = frames.now.disparity[y];
+    const float *xx = texture.xx[y], *xy = texture.xy[y], *yy = texture.yy[y];
+    const float of_flow = Squared(frames.flow_noise),
+                of_disparity = Squared(options.disparity_noise),
+                of_way = Squared(options.noise_per_displacement);
+#pragma GCC ivdep
+    for (int x = 0; x < frames.flow.cols; ++x) {
+      const float u = place[2 * x], v = place[2 * x + 1];
+      const float du = u - static_cast<float>(x), dv = v - static_cast<float>(y);
+      const float pu = per[2 * x], pv = per[2 * x + 1];
+      const float variance =
+          of_flow + of_disparity * (pu * pu + pv * pv) + of_way * (du * du + dv * dv);
+      const float mover = mover_px_per_disparity * disparity[x];
+      log_odds[x] = LogOddsOf({xx[x], xy[x], yy[x], flow[2 * x] - u, flow[2 * x + 1] - v}, variance,
+                              mover * mover);
+    }
+  }
+
+  /// What a pixel says whose flow says `log_odds`.
+  float At(int y, int x, float log_odds) const {
     const float d = frames.now.disparity(y, x), expected_d = expected.disparity(y, x);
+    if (d <= 0 || expected_d <= 0) return 0;
     const cv::Point to(cvRound(expected.place(y, x)[0]), cvRound(expected.place(y, x)[1]));
     const cv::Rect inside(1, 1, frames.now.image.cols - 2, frames.now.image.rows - 2);
-    if (d <= 0 || expected_d <= 0 || !inside.contains(to)) return 0;
+    if (!inside.contains(to)) return 0;
 
     const float change = disparity_change * d * d;
     const bool hidden =
         frames.then.disparity(to) > expected_d + std::max(0.75F, 0.06F * expected_d);
-    const float log_odds = FlowLogOdds(y, x, d, Residual(y, x));
     if (log_odds <= 0) return hidden ? 0 : log_odds;
     if (IsBesideNearer(y, x, d)) return 0;
 
@@ -222,23 +258,19 @@ std::optional<double> MeasureFlowNoise(const Evidence& evidence) {
 
 float DisplacementLogOdds(const Eigen::Matrix2f& G, const Eigen::Vector2f& r, float static_variance,
                           float mover_variance) {
-  // The inverse of G^-1 + v I is (I + v G)^-1 G, which G = 0 does not trouble.
-  const auto fit = [&](float v, float& determinant) {
-    const Eigen::Matrix2f M = Eigen::Matrix2f::Identity() + v * G;
-    determinant = M.determinant();
-    const Eigen::Vector2f Gr = G * r;
-    return (r.x() * (M(1, 1) * Gr.x() - M(0, 1) * Gr.y()) +
-            r.y() * (M(0, 0) * Gr.y() - M(1, 0) * Gr.x())) /
-           determinant;
-  };
-  float det_static = 1, det_moving = 1;
-  const float chi2_static = fit(static_variance, det_static);
-  const float chi2_moving = fit(static_variance + mover_variance, det_moving);
-  return (chi2_static - chi2_moving - std::log(det_moving / det_static)) / 2;
+  return LogOddsOf({G(0, 0), G(0, 1), G(1, 1), r.x(), r.y()}, static_variance, mover_variance);
+}
+
+Surroundings LookAround(const DenseFrame& frame, const SurfaceOptions& surface,
+                        const EvidenceOptions& options) {
+  Surroundings around{DifferenceVariance(frame.image, surface), {}};
+  cv::dilate(frame.filled, around.nearest,
+             cv::Mat::ones(options.edge_window_px, options.edge_window_px, CV_8U));
+  return around;
 }
 
 MotionEvidence CompareMotion(const Comparison& comparison, const Texture& texture,
-                             const StereoCamera& half, const SurfaceOptions& surface,
+                             const Surroundings& around, const StereoCamera& half,
                              const EvidenceOptions& options) {
   const DenseFrame &now = comparison.now, &then = comparison.then;
   const double way_m = options.mover_mps * comparison.seconds;
@@ -246,49 +278,57 @@ MotionEvidence CompareMotion(const Comparison& comparison, const Texture& textur
   Evidence evidence{comparison,
                     texture,
                     options,
+                    around,
                     WhereStatic(now.filled, comparison.T_then_now, half),
-                    DifferenceVariance(now.image, surface),
-                    {},
                     {},
                     {},
                     static_cast<float>(*std::max_element(options.most.begin(), options.most.end())),
                     static_cast<float>(way_m / half.baseline_m),
                     static_cast<float>(way_m / focal_baseline)};
-  const cv::Mat1f& variance = evidence.variance;
-  tbb::parallel_for(0, 3, [&](int k) {
-    if (k == 0) {
-      evidence.misfit_static =
-          Misfit(now.image, SampleAt(then.image, evidence.expected.place), variance);
-    } else if (k == 1) {
-      evidence.misfit_moved = Misfit(now.image, SampleAt(then.image, comparison.flow), variance);
-    } else {
-      cv::dilate(now.filled, evidence.nearest,
-                 cv::Mat::ones(options.edge_window_px, options.edge_window_px, CV_8U));
-    }
-  });
+  tbb::parallel_invoke(
+      [&] {
+        const cv::Mat1b still = SampleAt(then.image, evidence.expected.place);
+        evidence.misfit_static = Misfit(now.image, still, around.variance);
+      },
+      [&] {
+        const cv::Mat1b moved = SampleAt(then.image, comparison.flow);
+        evidence.misfit_moved = Misfit(now.image, moved, around.variance);
+      });
   MotionEvidence found{cv::Mat1f(now.image.size()), MeasureFlowNoise(evidence)};
   tbb::parallel_for(0, now.image.rows, [&](int y) {
-    for (int x = 0; x < now.image.cols; ++x) found.log_odds(y, x) = evidence.At(y, x);
+    float* log_odds = found.log_odds[y];
+    evidence.FlowLogOddsOfRow(y, log_odds);
+    for (int x = 0; x < now.image.cols; ++x) log_odds[x] = evidence.At(y, x, log_odds[x]);
   });
   return found;
 }
 
 cv::Mat1f CombineGaps(const std::vector<cv::Mat1f>& gaps, const EvidenceOptions& options) {
   CV_Assert(!gaps.empty() && gaps.size() <= options.least.size());
+  const auto others = static_cast<float>(options.others_weight),
+             motion_found = static_cast<float>(options.motion_found);
   cv::Mat1f combined(gaps[0].size());
-  for (int i = 0; i < static_cast<int>(combined.total()); ++i) {
-    float most = 0, against = 0, sum = 0;
+  tbb::parallel_for(0, combined.rows, [&](int y) {
+    float* sum = combined[y];
+    const auto columns = static_cast<std::size_t>(combined.cols);
+    std::vector<float> most(columns, 0.0F), against(columns, 0.0F);
+    std::fill(sum, sum + columns, 0.0F);
     for (std::size_t k = 0; k < gaps.size(); ++k) {
-      const float one = std::clamp(gaps[k](i), static_cast<float>(options.least[k]),
-                                   static_cast<float>(options.most[k]));
-      most = std::max(most, one);
-      against += std::min(one, 0.0F);
-      sum += one;
+      const float* gap = gaps[k][y];
+      const auto low = static_cast<float>(options.least[k]),
+                 high = static_cast<float>(options.most[k]);
+#pragma GCC ivdep
+      for (std::size_t x = 0; x < columns; ++x) {
+        const float one = std::min(std::max(gap[x], low), high);
+        most[x] = std::max(most[x], one);
+        against[x] += std::min(one, 0.0F);
+        sum[x] += one;
+      }
     }
-    combined(i) = most > static_cast<float>(options.motion_found)
-                      ? most + static_cast<float>(options.others_weight) * against
-                      : sum;
-  }
+    for (std::size_t x = 0; x < columns; ++x) {
+      if (most[x] > motion_found) sum[x] = most[x] + others * against[x];
+    }
+  });
   return combined;
 }
 

@@ -28,6 +28,14 @@ struct Comparison {
   cv::Mat1i regions = {};  ///< of the current pixels: > 0 where something known to move has come
 };
 
+/// What is asked of the current frame whatever it is compared with.
+struct Surroundings {
+  cv::Mat1f variance;  ///< of the difference of two grey values
+  cv::Mat1f nearest;   ///< largest disparity within EvidenceOptions::edge_window_px
+};
+Surroundings LookAround(const DenseFrame& frame, const SurfaceOptions& surface,
+                        const EvidenceOptions& options);
+
 struct MotionEvidence {
   /// Of moving, per pixel of half size, without limits; 0 where nothing is known.
   cv::Mat1f log_odds;
@@ -40,7 +48,7 @@ struct MotionEvidence {
 /// better where the flow leads than where the static world would have it, and must show a surface
 /// of like distance there.
 MotionEvidence CompareMotion(const Comparison& comparison, const Texture& texture,
-                             const StereoCamera& half, const SurfaceOptions& surface,
+                             const Surroundings& around, const StereoCamera& half,
                              const EvidenceOptions& options);
 
 /// One evidence from that of several gaps, the shortest first, each within its limits: their sum

@@ -1,6 +1,5 @@
 #include "slam/dynamic/moving_regions.h"
 
-#include <map>
 #include <opencv2/imgproc.hpp>
 #include <set>
 
@@ -11,7 +10,7 @@ struct Component {
   cv::Rect box;
   int pixels = 0, core = 0, inner = 0;
   double sum = 0;
-  std::map<int, int> overlap;  // previous region's index -> pixels
+  std::vector<int> overlap;  // pixels, by the previous region's index
 };
 
 /// Sets that merge, named by their smallest member.
@@ -64,21 +63,39 @@ int LabelComponents(const cv::Mat1b& moving, const Links& links, float least_lin
   return count;
 }
 
-/// 255 where the window around a pixel lies within one component.
+/// 255 where the window around a pixel lies within one component; the image's border is repeated.
 cv::Mat1b InnerPixels(const cv::Mat1i& labels, int window) {
-  cv::Mat1f numbers, low, high;
-  labels.convertTo(numbers, CV_32F);
-  const cv::Mat square = cv::Mat::ones(window, window, CV_8U);
-  cv::erode(numbers, low, square, {-1, -1}, 1, cv::BORDER_REPLICATE);
-  cv::dilate(numbers, high, square, {-1, -1}, 1, cv::BORDER_REPLICATE);
-  cv::Mat1b inner;
-  cv::compare(low, high, inner, cv::CMP_EQ);
+  const int reach = window / 2;
+  cv::Mat1i padded;
+  cv::copyMakeBorder(labels, padded, reach, reach, reach, reach, cv::BORDER_REPLICATE);
+  cv::Mat1b equal(padded.rows, labels.cols), inner(labels.size());  // within the row alone; all
+  for (int y = 0; y < padded.rows; ++y) {
+    const int* row = padded[y];
+    unsigned char* is = equal[y];
+    std::fill(is, is + labels.cols, 255);
+    for (int k = 0; k < window; ++k) {
+      for (int x = 0; x < labels.cols; ++x)
+        if (row[x + k] != row[x + reach]) is[x] = 0;
+    }
+  }
+  for (int y = 0; y < labels.rows; ++y) {
+    unsigned char* is = inner[y];
+    std::fill(is, is + labels.cols, 255);
+    for (int k = 0; k < window; ++k) {
+      const int* row = padded[y + k] + reach;
+      for (int x = 0; x < labels.cols; ++x) {
+        if (row[x] != labels(y, x) || equal(y + k, x) == 0) is[x] = 0;
+      }
+    }
+  }
   return inner;
 }
 
 std::vector<Component> Describe(const cv::Mat1i& labels, int count, const cv::Mat1f& log_odds,
                                 const PixelRegions& previous, const RegionOptions& options) {
-  std::vector<Component> components(static_cast<std::size_t>(count) + 1);
+  Component none;
+  none.overlap.resize(previous.regions.size(), 0);
+  std::vector<Component> components(static_cast<std::size_t>(count) + 1, none);
   const cv::Mat1b inner = InnerPixels(labels, options.inner_window_px);
   for (int y = 0; y < labels.rows; ++y) {
     for (int x = 0; x < labels.cols; ++x) {
@@ -90,7 +107,7 @@ std::vector<Component> Describe(const cv::Mat1i& labels, int count, const cv::Ma
       component.core += log_odds(y, x) > static_cast<float>(options.core_log_odds) ? 1 : 0;
       component.inner += inner(y, x) != 0 ? 1 : 0;
       const int before = previous.labels.empty() ? 0 : previous.labels(y, x);
-      if (before > 0) ++component.overlap[before - 1];
+      if (before > 0) ++component.overlap[static_cast<std::size_t>(before - 1)];
     }
   }
   return components;
@@ -101,7 +118,8 @@ std::vector<Component> Describe(const cv::Mat1i& labels, int count, const cv::Ma
 int Predecessor(const Component& component, const PixelRegions& previous,
                 const std::set<int>& taken, const RegionOptions& options) {
   int best = -1, most = 0;
-  for (const auto& [before, pixels] : component.overlap) {
+  for (int before = 0; before < static_cast<int>(component.overlap.size()); ++before) {
+    const int pixels = component.overlap[static_cast<std::size_t>(before)];
     if (pixels <= most || taken.contains(before)) continue;
     most = pixels;
     best = before;

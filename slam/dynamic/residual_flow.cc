@@ -24,7 +24,7 @@ cv::Point BestIn(const cv::Rect& cell, const Texture& texture, const cv::Mat1f& 
   cv::Point at(-1, -1);
   for (int y = cell.y; y < cell.y + cell.height; ++y) {
     for (int x = cell.x; x < cell.x + cell.width; ++x) {
-      if (!(disparity(y, x) > 0)) continue;
+      if (!(disparity(y, x) > 0) || std::min(texture.xx(y, x), texture.yy(y, x)) <= best) continue;
       const float held = HeldBy(texture, y, x);
       if (held <= best) continue;
       best = held;
@@ -40,7 +40,7 @@ struct Followed {
   std::vector<float> errors;
 };
 Followed Follow(const std::vector<cv::Point2f>& from, std::vector<cv::Point2f> guesses,
-                const cv::Mat1b& now, const cv::Mat1b& then) {
+                const std::vector<cv::Mat>& now, const cv::Mat1b& then) {
   Followed followed{std::move(guesses), {}};
   std::vector<unsigned char> found;
   const cv::TermCriteria enough(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 15, 0.01);
@@ -65,8 +65,10 @@ std::vector<cv::Point2f> FollowPoints(const std::vector<cv::Point>& points, cons
     by_flow.emplace_back(flow(at));
     by_expectation.emplace_back(expected(at));
   }
-  Followed best = Follow(from, by_flow, now.image, then.image);
-  const Followed other = Follow(from, by_expectation, now.image, then.image);
+  std::vector<cv::Mat> pyramid;  // of one level, with derivatives: for both ways
+  cv::buildOpticalFlowPyramid(now.image, pyramid, {kFollowWindow, kFollowWindow}, 0);
+  Followed best = Follow(from, by_flow, pyramid, then.image);
+  const Followed other = Follow(from, by_expectation, pyramid, then.image);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (other.errors[i] < best.errors[i]) best.places[i] = other.places[i];
   }
@@ -101,8 +103,10 @@ cv::Mat2f FollowBack(const cv::Mat1b& now, const cv::Mat1b& then, const cv::Mat2
   flow->calc(now, view, residual);
   // What is seen at x + residual of the view came from the place expected of that pixel.
   for (int y = 0; y < residual.rows; ++y) {
+    float* row = residual.ptr<float>(y);
     for (int x = 0; x < residual.cols; ++x) {
-      residual(y, x) += cv::Vec2f(static_cast<float>(x), static_cast<float>(y));
+      row[2 * x] += static_cast<float>(x);
+      row[2 * x + 1] += static_cast<float>(y);
     }
   }
   cv::Mat2f places;

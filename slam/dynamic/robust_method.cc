@@ -46,6 +46,7 @@ std::optional<MotionPrior> PriorFor(const RobustState& before, std::int64_t stam
 struct Seen {
   DenseFrame frame;
   Texture texture;
+  Surroundings around;
 };
 
 Seen See(const StereoPair& images, std::int64_t stamp_ns, const RobustOptions& options) {
@@ -54,6 +55,7 @@ Seen See(const StereoPair& images, std::int64_t stamp_ns, const RobustOptions& o
       [&] {
         seen.frame = MakeDenseFrame(images.left, images.right, options.disparity, options.surface);
         seen.frame.stamp_ns = stamp_ns;
+        seen.around = LookAround(seen.frame, options.surface, options.evidence);
       },
       [&] { seen.texture = MeasureTexture(HalfImage(images.left), options.surface); });
   return seen;
@@ -97,27 +99,30 @@ GapMatches FindGapMotions(std::vector<GapMotion>& gaps, const RobustState& befor
   narrow.rounds = 1;  // the frames between have left little to find
   const auto points = WellHeld(seen.texture, seen.frame.disparity, options.cell_px);
   GapMatches matches;
-  for (std::size_t k = 0; k < gaps.size(); ++k) {
+  tbb::parallel_for(std::size_t{0}, gaps.size(), [&](std::size_t k) {
     matches[k] = MatchesAlong(points, gaps[k].flow, gaps[k].expected, seen.frame,
                               FrameAgo(before, gaps[k].gap), memory);
-    gaps[k].motion =
-        k == 0 ? EstimateEgoMotion(matches[k], camera, prior, before.noise[k], options)
-               : RefineEgoMotion(matches[k], camera,
-                                 MotionOver(gaps[k].gap, before, gaps[0].motion.T_now_before),
-                                 before.noise[k], narrow);
-    if (!gaps[k].motion.found) gaps.resize(k);
-  }
+  });
+  if (gaps.empty()) return matches;
+  gaps[0].motion = EstimateEgoMotion(matches[0], camera, prior, before.noise[0], options);
+  tbb::parallel_for(std::size_t{1}, gaps.size(), [&](std::size_t k) {
+    const Isometry3d expected = MotionOver(gaps[k].gap, before, gaps[0].motion.T_now_before);
+    gaps[k].motion = RefineEgoMotion(matches[k], camera, expected, before.noise[k], narrow);
+  });
+  const auto lost = std::find_if(gaps.begin(), gaps.end(),
+                                 [](const GapMotion& gap) { return !gap.motion.found; });
+  gaps.erase(lost, gaps.end());
   return matches;
 }
 
 void LearnNoise(RobustState& state, const std::vector<GapMotion>& gaps, const GapMatches& matches,
                 const StereoCamera& camera) {
-  for (std::size_t k = 0; k < gaps.size(); ++k) {
+  tbb::parallel_for(std::size_t{0}, gaps.size(), [&](std::size_t k) {
     const auto measured = MeasureNoise(matches[k], camera, gaps[k].motion.T_now_before);
-    if (!measured) continue;
+    if (!measured) return;
     const MeasurementNoise bounded = measured->cwiseMax(kLeastNoise).cwiseMin(kMostNoise);
     state.noise[k] += kNoiseRate * (bounded - state.noise[k]);
-  }
+  });
 }
 
 cv::Mat1f CompareWithPast(std::vector<GapMotion>& gaps, RobustState& state,
@@ -135,7 +140,7 @@ cv::Mat1f CompareWithPast(std::vector<GapMotion>& gaps, RobustState& state,
                                 before.flow_noise[k],
                                 memory.regions.labels};
     const MotionEvidence found =
-        CompareMotion(comparison, seen.texture, half, options.surface, options.evidence);
+        CompareMotion(comparison, seen.texture, seen.around, half, options.evidence);
     gaps[k].evidence = found.log_odds;
     evidence.push_back(found.log_odds);
     if (!found.flow_noise) continue;
@@ -143,6 +148,24 @@ cv::Mat1f CompareWithPast(std::vector<GapMotion>& gaps, RobustState& state,
     state.flow_noise[k] += kNoiseRate * (bounded - state.flow_noise[k]);
   }
   return CombineGaps(evidence, options.evidence);
+}
+
+/// What the labelling has to know of the current frame, whatever moves.
+struct Scene {
+  std::optional<FloorPlane> floor;
+  cv::Mat1b floor_mask;
+  Links links;
+  cv::Mat1f farthest;  // that a label may grow, half-size pixels
+};
+
+Scene LookAtScene(const DenseFrame& frame, const StereoCamera& camera,
+                  const RobustOptions& options) {
+  Scene scene;
+  scene.floor = FindFloor(frame.disparity, options.floor);
+  scene.floor_mask = FloorMask(frame.filled, scene.floor);
+  scene.links = LinkPixels(frame.filled, frame.image, scene.floor_mask, options.field);
+  frame.filled.convertTo(scene.farthest, CV_32F, options.field.grow_m / camera.baseline_m);
+  return scene;
 }
 
 /// What leans to static, added.
@@ -219,14 +242,20 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
         FollowGaps(before, seen.frame, prior ? prior->T_now_before : Isometry3d::Identity(), half,
                    options.flow);
   }
+  Scene scene;
   {
     const Stopwatch time(stages.stage_ms["ego_motion"]);
-    if (!stages.gaps.empty()) {
-      memory = CarryMemory(before.memory, stages.gaps[0].flow, seen.frame, before.frames.back());
-    }
-    const GapMatches matches =
-        FindGapMotions(stages.gaps, before, seen, memory, prior, camera, options.ego);
-    LearnNoise(state, stages.gaps, matches, camera);
+    tbb::parallel_invoke(
+        [&] {
+          if (!stages.gaps.empty()) {
+            memory =
+                CarryMemory(before.memory, stages.gaps[0].flow, seen.frame, before.frames.back());
+          }
+          const GapMatches matches =
+              FindGapMotions(stages.gaps, before, seen, memory, prior, camera, options.ego);
+          LearnNoise(state, stages.gaps, matches, camera);
+        },
+        [&] { scene = LookAtScene(seen.frame, camera, options); });
   }
   {
     const Stopwatch time(stages.stage_ms["evidence"]);
@@ -235,23 +264,20 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
     memory.log_odds = cv::min(cv::max(memory.log_odds, -options.field.limit), options.field.limit);
   }
   const Stopwatch time(stages.stage_ms["label"]);
-  stages.floor = FindFloor(seen.frame.disparity, options.floor);
-  stages.floor_mask = FloorMask(seen.frame.filled, stages.floor);
+  const Links& links = scene.links;
   const cv::Mat1f leaning =
-      Leaning(memory.log_odds, seen.frame.disparity, stages.floor_mask, options.field);
-  const Links links =
-      LinkPixels(seen.frame.filled, seen.frame.image, stages.floor_mask, options.field);
+      Leaning(memory.log_odds, seen.frame.disparity, scene.floor_mask, options.field);
   stages.log_odds = SolveField(leaning, links, options.field);
-  cv::Mat1f farthest;
-  seen.frame.filled.convertTo(farthest, CV_32F, options.field.grow_m / camera.baseline_m);
   const cv::Mat1b moving =
-      GrowMoving(stages.log_odds, leaning, links, stages.floor_mask, farthest, options.field);
+      GrowMoving(stages.log_odds, leaning, links, scene.floor_mask, scene.farthest, options.field);
   memory.regions = FindRegions(moving, memory.log_odds, links, memory.regions, state.next_region_id,
                                options.field.coupling, options.region);
 
   result.dynamic = ToFullSize(memory.regions, images.left.size());
   result.probability = PixelProbability(stages.log_odds, images.left.size());
   stages.half_disparity = seen.frame.disparity;
+  stages.floor = scene.floor;
+  stages.floor_mask = scene.floor_mask;
   stages.memory = memory.log_odds;
 
   state.memory = std::move(memory);

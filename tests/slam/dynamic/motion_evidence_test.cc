@@ -71,9 +71,10 @@ struct Pair {
     const StereoCamera half = HalfCamera({});
     expected = WhereStatic(now.filled, T_world_now, half).place;
     flow = FollowBack(now.image, then.image, expected, options.flow);
-    log_odds = CompareMotion({now, then, flow, T_world_now, seconds}, texture, half,
-                             options.surface, options.evidence)
-                   .log_odds;
+    log_odds =
+        CompareMotion({now, then, flow, T_world_now, seconds}, texture,
+                      LookAround(now, options.surface, options.evidence), half, options.evidence)
+            .log_odds;
     moving = cv::Mat1b(now.image.size());
     for (int y = 0; y < moving.rows; ++y) {
       for (int x = 0; x < moving.cols; ++x) moving(y, x) = after.moving(2 * y, 2 * x);
@@ -144,7 +145,7 @@ double MeanLogOddsOfWall(int period, int flow_px, int stereo_px) {
   const RobustOptions options;
   const MotionEvidence found =
       CompareMotion({now, then, flow, T_then_now, 0.25}, MeasureTexture(now.image, options.surface),
-                    half, options.surface, options.evidence);
+                    LookAround(now, options.surface, options.evidence), half, options.evidence);
   return cv::mean(found.log_odds(cv::Rect(40, 10, 80, 40)))[0];
 }
 
