@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "slam/dynamic/counter_random.h"
 #include "slam/dynamic/moving_regions.h"
 
 namespace aisle::slam::dynamic {
@@ -56,6 +57,39 @@ TEST(SolveField, SparseEvidenceFillsItsSurfaceAndStopsAtTheStep) {
     for (int x = 0; x < 80; ++x) wrong += (log_odds(y, x) > 0) != square.area.contains({x, y});
   }
   EXPECT_LT(wrong, 80 * 80 / 50);
+}
+
+TEST(SolveField, IsThatOfSweepsPixelByPixel) {
+  const cv::Size size(13, 19);  // neither a whole number of bands
+  CounterRandom random(1, 1);
+  const auto draw = [&](float low, float high) {
+    cv::Mat1f image(size);
+    for (float& value : image) {
+      value = low + (high - low) * static_cast<float>(random.Below(1000)) / 1000;
+    }
+    return image;
+  };
+  const cv::Mat1f evidence = draw(-2, 2);
+  Links links{draw(0, 1), draw(0, 1)};
+  links.right.col(size.width - 1) = 0;
+  links.down.row(size.height - 1) = 0;
+  const auto belief = [](float l) { return 2 * l / (2 + std::abs(l)); };
+  cv::Mat1f field = evidence.clone();
+  for (int sweep = 0; sweep < 3; ++sweep) {
+    for (int n = 0; n < static_cast<int>(field.total()); ++n) {
+      const int k = sweep % 2 == 0 ? n : static_cast<int>(field.total()) - 1 - n;
+      const int x = k % size.width, y = k / size.width;
+      float sum = evidence(y, x);
+      if (x > 0) sum += links.right(y, x - 1) * belief(field(y, x - 1));
+      if (y > 0) sum += links.down(y - 1, x) * belief(field(y - 1, x));
+      if (x + 1 < size.width) sum += links.right(y, x) * belief(field(y, x + 1));
+      if (y + 1 < size.height) sum += links.down(y, x) * belief(field(y + 1, x));
+      field(y, x) = sum;
+    }
+  }
+  FieldOptions options;
+  options.sweeps = 3;
+  EXPECT_EQ(cv::norm(SolveField(evidence, links, options), field, cv::NORM_INF), 0);
 }
 
 TEST(SolveField, ALoneWrongPixelIsOutvoted) {
