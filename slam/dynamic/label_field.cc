@@ -53,18 +53,25 @@ class Sweeper {
     }
   }
 
-  /// As pixel by pixel in raster order (or the reverse): a row may go on as soon as the one before
-  /// is a pixel ahead, so several go side by side and need not wait for each other's sums.
-  void Sweep(bool forward) {
+  /// As pixel by pixel in raster order, or the reverse (kStep -1): a row may go on as soon as the
+  /// one before is a pixel ahead, so several go side by side and need not wait for each other's
+  /// sums.
+  template <int kStep>
+  void Sweep() {
     constexpr int kBand = 8;
     const int rows = evidence_.rows, columns = evidence_.cols;
     for (int top = 0; top < rows; top += kBand) {
       const int band = std::min(kBand, rows - top);
+      std::array<Row, kBand> row;
+      for (int r = 0; r < band; ++r) {
+        const int y = kStep > 0 ? top + r : rows - 1 - top - r;
+        row[static_cast<std::size_t>(r)] = RowAt(y);
+      }
+      const int begin = kStep > 0 ? 0 : columns - 1;
       for (int t = 0; t < columns + band - 1; ++t) {
         const int last = std::min(t, band - 1);
         for (int r = std::max(0, t - columns + 1); r <= last; ++r) {
-          const int y = top + r, x = t - r;
-          forward ? Update(y, x) : Update(rows - 1 - y, columns - 1 - x);
+          row[static_cast<std::size_t>(r)].Update(begin + kStep * (t - r));
         }
       }
     }
@@ -73,14 +80,22 @@ class Sweeper {
   const cv::Mat1f& log_odds() const { return log_odds_; }
 
  private:
-  void Update(int y, int x) {
-    const float *above = belief_[y] + x, *below = belief_[y + 2] + x;
-    float* belief = belief_[y + 1] + x;
-    const float* right = right_[y + 1] + x;
-    const float sum = evidence_(y, x) + right[0] * belief[0] + down_[y][x + 1] * above[1] +
-                      right[1] * belief[2] + down_[y + 1][x + 1] * below[1];
-    log_odds_(y, x) = sum;
-    belief[1] = Belief(sum);
+  /// Beliefs and links from the pixel on that stands before the first one.
+  struct Row {
+    const float *evidence, *above, *below, *right, *down_above, *down;
+    float *belief, *log_odds;
+
+    void Update(int x) const {
+      const float sum = evidence[x] + right[x] * belief[x] + down_above[x + 1] * above[x + 1] +
+                        right[x + 1] * belief[x + 2] + down[x + 1] * below[x + 1];
+      log_odds[x] = sum;
+      belief[x + 1] = Belief(sum);
+    }
+  };
+
+  Row RowAt(int y) {
+    return {evidence_[y], belief_[y],   belief_[y + 2], right_[y + 1],
+            down_[y],     down_[y + 1], belief_[y + 1], log_odds_[y]};
   }
 
   cv::Mat1f evidence_, log_odds_;
@@ -109,7 +124,9 @@ Links LinkPixels(const cv::Mat1f& filled, const cv::Mat1b& image, const cv::Mat1
 
 cv::Mat1f SolveField(const cv::Mat1f& evidence, const Links& links, const FieldOptions& options) {
   Sweeper sweeper(evidence, links);
-  for (int sweep = 0; sweep < options.sweeps; ++sweep) sweeper.Sweep(sweep % 2 == 0);
+  for (int sweep = 0; sweep < options.sweeps; ++sweep) {
+    sweep % 2 == 0 ? sweeper.Sweep<1>() : sweeper.Sweep<-1>();
+  }
   return sweeper.log_odds();
 }
 

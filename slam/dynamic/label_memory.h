@@ -11,6 +11,8 @@ namespace aisle::slam::dynamic {
 struct LabelMemory {
   cv::Mat1f log_odds;  ///< per half-size pixel, without the neighbours' share
   PixelRegions regions;
+  /// What the longer of the gaps said in that frame alone; empty if none was compared.
+  cv::Mat1f long_log_odds = {};
 };
 
 /// Nothing known, nothing moving.

@@ -314,6 +314,7 @@ cv::Mat1f CombineGaps(const std::vector<cv::Mat1f>& gaps, const EvidenceOptions&
     std::vector<float> most(columns, 0.0F), against(columns, 0.0F);
     std::fill(sum, sum + columns, 0.0F);
     for (std::size_t k = 0; k < gaps.size(); ++k) {
+      if (gaps[k].empty()) continue;
       const float* gap = gaps[k][y];
       const auto low = static_cast<float>(options.least[k]),
                  high = static_cast<float>(options.most[k]);

@@ -52,7 +52,8 @@ MotionEvidence CompareMotion(const Comparison& comparison, const Texture& textur
                              const EvidenceOptions& options);
 
 /// One evidence from that of several gaps, the shortest first, each within its limits: their sum
-/// where none has found motion; else the strongest, and little of what speaks against it.
+/// where none has found motion; else the strongest, and little of what speaks against it. All but
+/// the shortest may be empty: they say nothing.
 cv::Mat1f CombineGaps(const std::vector<cv::Mat1f>& gaps, const EvidenceOptions& options);
 
 }  // namespace aisle::slam::dynamic

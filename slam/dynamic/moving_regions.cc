@@ -7,7 +7,7 @@ namespace aisle::slam::dynamic {
 namespace {
 
 struct Component {
-  cv::Rect box;
+  cv::Point low{std::numeric_limits<int>::max(), std::numeric_limits<int>::max()}, high{-1, -1};
   int pixels = 0, core = 0, inner = 0;
   double sum = 0;
   std::vector<int> overlap;  // pixels, by the previous region's index
@@ -37,6 +37,7 @@ class Sets {
 /// Per pixel the number of its component, from 1; 0 where nothing moves. Returns their count.
 int LabelComponents(const cv::Mat1b& moving, const Links& links, float least_link,
                     cv::Mat1i& labels) {
+  CV_Assert(moving.isContinuous());
   Sets sets(moving.total());
   for (int y = 0; y < moving.rows; ++y) {
     for (int x = 0; x < moving.cols; ++x) {
@@ -51,14 +52,15 @@ int LabelComponents(const cv::Mat1b& moving, const Links& links, float least_lin
     }
   }
   labels.create(moving.size());
-  int count = 0;
+  const unsigned char* moves = moving[0];
+  int *label = labels[0], count = 0;
   for (int k = 0; k < static_cast<int>(moving.total()); ++k) {
-    if (moving(k) == 0) {
-      labels(k) = 0;
+    if (moves[k] == 0) {
+      label[k] = 0;
       continue;
     }
     const int root = sets.Find(k);  // is the first of its set in raster order
-    labels(k) = root == k ? ++count : labels(root);
+    label[k] = root == k ? ++count : label[root];
   }
   return count;
 }
@@ -68,24 +70,30 @@ cv::Mat1b InnerPixels(const cv::Mat1i& labels, int window) {
   const int reach = window / 2;
   cv::Mat1i padded;
   cv::copyMakeBorder(labels, padded, reach, reach, reach, reach, cv::BORDER_REPLICATE);
-  cv::Mat1b equal(padded.rows, labels.cols), inner(labels.size());  // within the row alone; all
+  // All bits set where true; without branches, so that rows are vectorised.
+  cv::Mat1i equal(padded.rows, labels.cols);  // within the row alone
   for (int y = 0; y < padded.rows; ++y) {
     const int* row = padded[y];
-    unsigned char* is = equal[y];
-    std::fill(is, is + labels.cols, 255);
+    int* is = equal[y];
+    std::fill(is, is + labels.cols, -1);
     for (int k = 0; k < window; ++k) {
       for (int x = 0; x < labels.cols; ++x)
-        if (row[x + k] != row[x + reach]) is[x] = 0;
+        is[x] &= -static_cast<int>(row[x + k] == row[x + reach]);
     }
   }
+  cv::Mat1b inner(labels.size());
+  std::vector<int> all(static_cast<std::size_t>(labels.cols));
   for (int y = 0; y < labels.rows; ++y) {
-    unsigned char* is = inner[y];
-    std::fill(is, is + labels.cols, 255);
+    const int* centre = labels[y];
+    std::fill(all.begin(), all.end(), -1);
     for (int k = 0; k < window; ++k) {
-      const int* row = padded[y + k] + reach;
-      for (int x = 0; x < labels.cols; ++x) {
-        if (row[x] != labels(y, x) || equal(y + k, x) == 0) is[x] = 0;
-      }
+      const int *row = padded[y + k] + reach, *is = equal[y + k];
+      int* to = all.data();
+#pragma GCC ivdep
+      for (int x = 0; x < labels.cols; ++x) to[x] &= is[x] & -static_cast<int>(row[x] == centre[x]);
+    }
+    for (int x = 0; x < labels.cols; ++x) {
+      inner(y, x) = static_cast<unsigned char>(all[static_cast<std::size_t>(x)]);
     }
   }
   return inner;
@@ -101,7 +109,8 @@ std::vector<Component> Describe(const cv::Mat1i& labels, int count, const cv::Ma
     for (int x = 0; x < labels.cols; ++x) {
       if (labels(y, x) == 0) continue;
       Component& component = components[static_cast<std::size_t>(labels(y, x))];
-      component.box |= cv::Rect(x, y, 1, 1);
+      component.low = {std::min(component.low.x, x), std::min(component.low.y, y)};
+      component.high = {std::max(component.high.x, x), std::max(component.high.y, y)};
       ++component.pixels;
       component.sum += log_odds(y, x);
       component.core += log_odds(y, x) > static_cast<float>(options.core_log_odds) ? 1 : 0;
@@ -163,12 +172,12 @@ PixelRegions FindRegions(const cv::Mat1b& moving, const cv::Mat1f& log_odds, con
     if (!IsMoving(component, before >= 0, options)) continue;
     if (before >= 0) taken.insert(before);
     const int id = before >= 0 ? previous.regions[static_cast<std::size_t>(before)].id : next_id++;
-    found.regions.push_back(
-        {id, component.box, component.pixels, component.sum / component.pixels});
+    found.regions.push_back({id, cv::Rect(component.low, component.high + cv::Point(1, 1)),
+                             component.pixels, component.sum / component.pixels});
     label_of[c] = static_cast<int>(found.regions.size());
   }
-  for (int k = 0; k < static_cast<int>(found.labels.total()); ++k) {
-    found.labels(k) = label_of[static_cast<std::size_t>(found.labels(k))];
+  for (int& label : std::span(found.labels[0], found.labels.total())) {
+    label = label_of[static_cast<std::size_t>(label)];
   }
   return found;
 }

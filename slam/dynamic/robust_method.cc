@@ -71,14 +71,24 @@ Isometry3d MotionOver(int gap, const RobustState& before, const Isometry3d& T_no
          FrameAgo(before, gap).T_world_rig;
 }
 
-/// The flow over every gap that the past reaches back to, the shortest first.
+/// Of the gaps that the past reaches back to the shortest, and of the longer ones each in its turn:
+/// what they say changes little from frame to frame.
+std::vector<GapMotion> GapsInTurn(const RobustState& before) {
+  std::vector<GapMotion> gaps;
+  const auto past = std::ssize(before.frames);
+  if (past < kGaps[0]) return gaps;
+  gaps.push_back({0, kGaps[0], {}, {}, {}, {}});
+  std::size_t slot = before.long_slot % (kGaps.size() - 1) + 1;
+  if (past < kGaps[slot]) slot = 1;
+  if (past >= kGaps[slot]) gaps.push_back({slot, kGaps[slot], {}, {}, {}, {}});
+  return gaps;
+}
+
+/// The flow over these gaps.
 std::vector<GapMotion> FollowGaps(const RobustState& before, const DenseFrame& now,
                                   const Isometry3d& T_now_before, const StereoCamera& half,
                                   const ResidualFlowOptions& options) {
-  std::vector<GapMotion> gaps;
-  for (const int gap : kGaps) {
-    if (std::ssize(before.frames) >= gap) gaps.push_back({gap, {}, {}, {}, {}});
-  }
+  std::vector<GapMotion> gaps = GapsInTurn(before);
   tbb::parallel_for(std::size_t{0}, gaps.size(), [&](std::size_t k) {
     const Isometry3d expected = MotionOver(gaps[k].gap, before, T_now_before);
     gaps[k].expected = WhereStatic(now.filled, expected.inverse(), half).place;
@@ -107,7 +117,8 @@ GapMatches FindGapMotions(std::vector<GapMotion>& gaps, const RobustState& befor
   gaps[0].motion = EstimateEgoMotion(matches[0], camera, prior, before.noise[0], options);
   tbb::parallel_for(std::size_t{1}, gaps.size(), [&](std::size_t k) {
     const Isometry3d expected = MotionOver(gaps[k].gap, before, gaps[0].motion.T_now_before);
-    gaps[k].motion = RefineEgoMotion(matches[k], camera, expected, before.noise[k], narrow);
+    gaps[k].motion =
+        RefineEgoMotion(matches[k], camera, expected, before.noise[gaps[k].slot], narrow);
   });
   const auto lost = std::find_if(gaps.begin(), gaps.end(),
                                  [](const GapMotion& gap) { return !gap.motion.found; });
@@ -121,7 +132,8 @@ void LearnNoise(RobustState& state, const std::vector<GapMotion>& gaps, const Ga
     const auto measured = MeasureNoise(matches[k], camera, gaps[k].motion.T_now_before);
     if (!measured) return;
     const MeasurementNoise bounded = measured->cwiseMax(kLeastNoise).cwiseMin(kMostNoise);
-    state.noise[k] += kNoiseRate * (bounded - state.noise[k]);
+    MeasurementNoise& noise = state.noise[gaps[k].slot];
+    noise += kNoiseRate * (bounded - noise);
   });
 }
 
@@ -129,23 +141,24 @@ cv::Mat1f CompareWithPast(std::vector<GapMotion>& gaps, RobustState& state,
                           const RobustState& before, const LabelMemory& memory, const Seen& seen,
                           const StereoCamera& half, const RobustOptions& options) {
   if (gaps.empty()) return cv::Mat1f(seen.frame.image.size(), 0.0F);
-  std::vector<cv::Mat1f> evidence;
-  for (std::size_t k = 0; k < gaps.size(); ++k) {
-    const DenseFrame& then = FrameAgo(before, gaps[k].gap);
+  std::vector<cv::Mat1f> evidence(kGaps.size());
+  evidence[before.long_slot] = memory.long_log_odds;
+  for (GapMotion& gap : gaps) {
+    const DenseFrame& then = FrameAgo(before, gap.gap);
     const Comparison comparison{seen.frame,
                                 then,
-                                gaps[k].flow,
-                                gaps[k].motion.T_now_before.inverse(),
+                                gap.flow,
+                                gap.motion.T_now_before.inverse(),
                                 Seconds(then.stamp_ns, seen.frame.stamp_ns),
-                                before.flow_noise[k],
+                                before.flow_noise[gap.slot],
                                 memory.regions.labels};
     const MotionEvidence found =
         CompareMotion(comparison, seen.texture, seen.around, half, options.evidence);
-    gaps[k].evidence = found.log_odds;
-    evidence.push_back(found.log_odds);
+    gap.evidence = evidence[gap.slot] = found.log_odds;
     if (!found.flow_noise) continue;
     const double bounded = std::clamp(*found.flow_noise, kLeastFlowNoise, kMostFlowNoise);
-    state.flow_noise[k] += kNoiseRate * (bounded - state.flow_noise[k]);
+    double& noise = state.flow_noise[gap.slot];
+    noise += kNoiseRate * (bounded - noise);
   }
   return CombineGaps(evidence, options.evidence);
 }
@@ -173,10 +186,14 @@ cv::Mat1f Leaning(const cv::Mat1f& log_odds, const cv::Mat1f& disparity, const c
                   const FieldOptions& options) {
   cv::Mat1f leaning;
   cv::add(log_odds, options.bias, leaning);
-  for (int k = 0; k < static_cast<int>(leaning.total()); ++k) {
-    if (disparity(k) <= 0) leaning(k) += static_cast<float>(options.unknown_bias);
-    if (floor(k) != 0) {
-      leaning(k) = std::min(leaning(k), 0.0F) + static_cast<float>(options.floor_bias);
+  const auto unknown = static_cast<float>(options.unknown_bias),
+             on_floor = static_cast<float>(options.floor_bias);
+  for (int y = 0; y < leaning.rows; ++y) {
+    const float* known = disparity[y];
+    float* lean = leaning[y];
+    for (int x = 0; x < leaning.cols; ++x) lean[x] += known[x] <= 0 ? unknown : 0.0F;
+    for (int x = 0; x < leaning.cols; ++x) {
+      if (floor(y, x) != 0) lean[x] = std::min(lean[x], 0.0F) + on_floor;
     }
   }
   return leaning;
@@ -268,18 +285,23 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
   const cv::Mat1f leaning =
       Leaning(memory.log_odds, seen.frame.disparity, scene.floor_mask, options.field);
   stages.log_odds = SolveField(leaning, links, options.field);
-  const cv::Mat1b moving =
-      GrowMoving(stages.log_odds, leaning, links, scene.floor_mask, scene.farthest, options.field);
-  memory.regions = FindRegions(moving, memory.log_odds, links, memory.regions, state.next_region_id,
-                               options.field.coupling, options.region);
-
-  result.dynamic = ToFullSize(memory.regions, images.left.size());
-  result.probability = PixelProbability(stages.log_odds, images.left.size());
+  tbb::parallel_invoke(
+      [&] {
+        const cv::Mat1b moving = GrowMoving(stages.log_odds, leaning, links, scene.floor_mask,
+                                            scene.farthest, options.field);
+        memory.regions = FindRegions(moving, memory.log_odds, links, memory.regions,
+                                     state.next_region_id, options.field.coupling, options.region);
+        result.dynamic = ToFullSize(memory.regions, images.left.size());
+      },
+      [&] { result.probability = PixelProbability(stages.log_odds, images.left.size()); });
   stages.half_disparity = seen.frame.disparity;
   stages.floor = scene.floor;
   stages.floor_mask = scene.floor_mask;
   stages.memory = memory.log_odds;
 
+  const bool compared_long = stages.gaps.size() > 1;
+  memory.long_log_odds = compared_long ? stages.gaps.back().evidence : cv::Mat1f();
+  state.long_slot = compared_long ? stages.gaps.back().slot : 0;
   state.memory = std::move(memory);
   if (!stages.gaps.empty()) {
     state.T_now_before = stages.gaps[0].motion.T_now_before;

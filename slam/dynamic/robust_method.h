@@ -30,14 +30,16 @@ struct RobustState {
                                                       MeasurementNoise(0.25, 0.25, 0.5)};
   std::array<double, kGaps.size()> flow_noise = {0.1, 0.12, 0.15};  ///< half-size pixels
   LabelMemory memory;
+  std::size_t long_slot = 0;  ///< in kGaps, of the longer gap compared last; 0: none was
   int next_region_id = 0;
 };
 
 /// The way back over one gap.
 struct GapMotion {
-  int gap = 1;         ///< frames
-  cv::Mat2f expected;  ///< half-size pixels of the earlier frame, were all static
-  cv::Mat2f flow;      ///< the same, whatever moved
+  std::size_t slot = 0;  ///< in kGaps
+  int gap = 1;           ///< frames
+  cv::Mat2f expected;    ///< half-size pixels of the earlier frame, were all static
+  cv::Mat2f flow;        ///< the same, whatever moved
   EgoMotion motion;
   cv::Mat1f evidence;  ///< log-odds of moving per half-size pixel, of this gap alone
 };
