@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "slam/dynamic/disparity.h"
+#include "slam/dynamic/window_sums.h"
 
 namespace aisle::slam::dynamic {
 namespace {
@@ -39,13 +40,17 @@ void FillRow(float* row, int columns) {
 void SpanHalfPixels(const cv::Mat1b& image, cv::Mat1b& low, cv::Mat1b& high) {
   low.create(image.size());
   high.create(image.size());
+  cv::Mat1b padded;
+  cv::copyMakeBorder(image, padded, 0, 0, 1, 1, cv::BORDER_REPLICATE);
   for (int y = 0; y < image.rows; ++y) {
+    const unsigned char* at = padded[y] + 1;
+    unsigned char *lowest = low[y], *highest = high[y];
+#pragma GCC ivdep
     for (int x = 0; x < image.cols; ++x) {
-      const int at = image(y, x);
-      const int left = (at + image(y, std::max(x - 1, 0))) / 2;
-      const int right = (at + image(y, std::min(x + 1, image.cols - 1))) / 2;
-      low(y, x) = static_cast<unsigned char>(std::min({at, left, right}));
-      high(y, x) = static_cast<unsigned char>(std::max({at, left, right}));
+      const int left = (at[x] + at[x - 1]) / 2, right = (at[x] + at[x + 1]) / 2;
+      const int here = at[x];
+      lowest[x] = static_cast<unsigned char>(std::min(here, std::min(left, right)));
+      highest[x] = static_cast<unsigned char>(std::max(here, std::max(left, right)));
     }
   }
 }
@@ -77,6 +82,37 @@ void FindRow(const Eigen::Vector3f& start, const Eigen::Vector3f& step, const Ei
     if (z0 + zs * static_cast<float>(x) + tz * disparity[x] >= kNearest) continue;
     place[2 * x] = place[2 * x + 1] = kNowhere;
     there[x] = per[2 * x] = per[2 * x + 1] = 0;
+  }
+}
+
+struct TextureRow {
+  float *xx, *xy, *yy;
+};
+
+void MultiplyRow(const short* gx, const short* gy, const float* variance, int columns,
+                 const TextureRow& row) {
+  constexpr float kSobelGain = 1.0F / 8;
+  float *xx = row.xx, *xy = row.xy, *yy = row.yy;
+#pragma GCC ivdep
+  for (int x = 0; x < columns; ++x) {
+    const float dx = kSobelGain * static_cast<float>(gx[x]);
+    const float dy = kSobelGain * static_cast<float>(gy[x]);
+    xx[x] = dx * dx / variance[x];
+    xy[x] = dx * dy / variance[x];
+    yy[x] = dy * dy / variance[x];
+  }
+}
+
+void TakeNoiseOff(int pixels, int columns, const TextureRow& row) {
+  constexpr float kNoiseGain = 0.1875F;  // variance of that gradient where each pixel's is one
+  const float noise = kNoiseGain / 2 * static_cast<float>(pixels);
+  float *xx = row.xx, *xy = row.xy, *yy = row.yy;
+#pragma GCC ivdep
+  for (int x = 0; x < columns; ++x) {
+    xx[x] = std::max(xx[x] - noise, 0.0F);
+    yy[x] = std::max(yy[x] - noise, 0.0F);
+    const float most = std::sqrt(xx[x] * yy[x]);  // of a positive matrix
+    xy[x] = std::min(std::max(xy[x], -most), most);
   }
 }
 
@@ -118,33 +154,39 @@ DenseFrame MakeDenseFrame(const cv::Mat1b& left, const cv::Mat1b& right,
 }
 
 cv::Mat1f DifferenceVariance(const cv::Mat1b& image, const SurfaceOptions& options) {
+  std::array<float, 256> of_grey;
+  for (std::size_t grey = 0; grey < of_grey.size(); ++grey) {
+    const double growing = options.brightness_noise * static_cast<double>(grey);
+    of_grey[grey] =
+        static_cast<float>(2 * (growing * growing + options.grey_noise * options.grey_noise));
+  }
   cv::Mat1f variance;
-  image.convertTo(variance, CV_32F, options.brightness_noise);
-  variance = 2 * (variance.mul(variance) + options.grey_noise * options.grey_noise);
+  cv::LUT(image, cv::Mat1f(1, 256, of_grey.data()), variance);
   return variance;
 }
 
 Texture MeasureTexture(const cv::Mat1b& image, const SurfaceOptions& options) {
-  constexpr double kSobelGain = 1.0 / 8;
-  constexpr float kNoiseGain = 0.1875F;  // variance of that gradient where each pixel's is one
-  cv::Mat1f gx, gy;
-  cv::Sobel(image, gx, CV_32F, 1, 0, 3, kSobelGain);
-  cv::Sobel(image, gy, CV_32F, 0, 1, 3, kSobelGain);
+  cv::Mat1s gx, gy;
+  cv::Sobel(image, gx, CV_16S, 1, 0);
+  cv::Sobel(image, gy, CV_16S, 0, 1);
   const cv::Mat1f variance = DifferenceVariance(image, options);
-  const cv::Size window(options.window_px, options.window_px);
-  const auto gather = [&](const cv::MatExpr& product) {
-    cv::Mat1f sum;
-    cv::boxFilter(product / variance, sum, -1, window, {-1, -1}, false);
-    return sum;
-  };
-  Texture texture{gather(gx.mul(gx)), gather(gx.mul(gy)), gather(gy.mul(gy))};
-  const float noise = kNoiseGain / 2 * static_cast<float>(window.area());
-  texture.xx = cv::max(texture.xx - noise, 0.0F);
-  texture.yy = cv::max(texture.yy - noise, 0.0F);
-  for (int k = 0; k < static_cast<int>(texture.xy.total()); ++k) {
-    const float most = std::sqrt(texture.xx(k) * texture.yy(k));  // of a positive matrix
-    texture.xy(k) = std::clamp(texture.xy(k), -most, most);
-  }
+  Texture products{cv::Mat1f(image.size()), cv::Mat1f(image.size()), cv::Mat1f(image.size())};
+  tbb::parallel_for(0, image.rows, [&](int y) {
+    MultiplyRow(gx[y], gy[y], variance[y], image.cols,
+                {products.xx[y], products.xy[y], products.yy[y]});
+  });
+  const int reach = options.window_px / 2;
+  const cv::Mat1f xx = Reflected(products.xx, reach), xy = Reflected(products.xy, reach),
+                  yy = Reflected(products.yy, reach);
+  Texture texture = products;  // the same memory, which is of no more use
+  tbb::parallel_for(0, image.rows, [&](int y) {
+    std::vector<float> scratch(static_cast<std::size_t>(xx.cols));
+    const TextureRow row{texture.xx[y], texture.xy[y], texture.yy[y]};
+    SumWindows<float>(xx, y, reach, scratch.data(), row.xx);
+    SumWindows<float>(xy, y, reach, scratch.data(), row.xy);
+    SumWindows<float>(yy, y, reach, scratch.data(), row.yy);
+    TakeNoiseOff(options.window_px * options.window_px, image.cols, row);
+  });
   return texture;
 }
 

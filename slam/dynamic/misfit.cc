@@ -2,33 +2,12 @@
 
 #include <tbb/parallel_for.h>
 
+#include "slam/dynamic/window_sums.h"
+
 namespace aisle::slam::dynamic {
 namespace {
 
 constexpr int kMeanReach = 5, kReach = 2;
-
-cv::Mat Padded(const cv::Mat& image, int by) {
-  cv::Mat padded;
-  cv::copyMakeBorder(image, padded, by, by, by, by, cv::BORDER_REFLECT_101);
-  return padded;
-}
-
-/// Sums over windows of 2 * reach + 1 pixels around one row of the image that was padded by
-/// `reach`. `columns` is scratch of the padded width.
-template <class Number>
-void SumWindows(const cv::Mat_<Number>& padded, int y, int reach, Number* columns, Number* sums) {
-  const int window = 2 * reach + 1, width = padded.cols, inner = width - 2 * reach;
-  for (int x = 0; x < width; ++x) columns[x] = padded(y, x);
-  for (int k = 1; k < window; ++k) {
-    const Number* row = padded[y + k];
-    for (int x = 0; x < width; ++x) columns[x] = static_cast<Number>(columns[x] + row[x]);
-  }
-  for (int x = 0; x < inner; ++x) sums[x] = columns[x];
-  for (int k = 1; k < window; ++k) {
-    const Number* column = columns + k;
-    for (int x = 0; x < inner; ++x) sums[x] = static_cast<Number>(sums[x] + column[x]);
-  }
-}
 
 /// A row of squares of what differs from the mean difference around, in units of its variance.
 void SquareRow(const cv::Mat1s& padded, const cv::Mat1f& variance, int y, float* squares) {
@@ -52,11 +31,11 @@ void SquareRow(const cv::Mat1s& padded, const cv::Mat1f& variance, int y, float*
 cv::Mat1f Misfit(const cv::Mat1b& image, const cv::Mat1b& other, const cv::Mat1f& variance) {
   cv::Mat1s difference;
   cv::subtract(image, other, difference, cv::noArray(), CV_16S);
-  const cv::Mat1s padded = Padded(difference, kMeanReach);
+  const cv::Mat1s padded = Reflected(difference, kMeanReach);
   cv::Mat1f squares(image.size());
   tbb::parallel_for(0, image.rows, [&](int y) { SquareRow(padded, variance, y, squares[y]); });
 
-  const cv::Mat1f around = Padded(squares, kReach);
+  const cv::Mat1f around = Reflected(squares, kReach);
   cv::Mat1f misfit(image.size());
   tbb::parallel_for(0, image.rows, [&](int y) {
     constexpr float kArea = (2 * kReach + 1) * (2 * kReach + 1);

@@ -1,5 +1,7 @@
 #include "slam/dynamic/superpixels.h"
 
+#include <tbb/parallel_for.h>
+
 #include <numeric>
 
 namespace aisle::slam::dynamic {
@@ -18,6 +20,12 @@ struct ClusterSums {
   }
 };
 
+/// A centre as the search meets it.
+struct BinnedCentre {
+  double x, y, grey;
+  int index;
+};
+
 /// Everything an iteration needs and changes.
 struct Segmentation {
   const cv::Mat1b& image;
@@ -28,7 +36,8 @@ struct Segmentation {
   cv::Mat1i labels = {};
   std::vector<ClusterSums> sums = {};
   std::vector<ClusterCentre> centres = {};
-  std::vector<std::vector<int>> bins = {};  // centres by grid square, ascending
+  std::vector<BinnedCentre> binned = {};    // by grid square, ascending within each
+  std::vector<std::size_t> bin_begin = {};  // in `binned`, per square and one past the last
   std::int64_t distances = 0;
 
   int BinOf(double x, double y) const {
@@ -54,8 +63,23 @@ Segmentation InitialSquares(const cv::Mat1b& image, double colour_scale, double 
   return s;
 }
 
+/// Sorts the centres that have pixels into the squares of the grid.
+void FillBins(Segmentation& s) {
+  const auto bin_of = [&](const ClusterCentre& c) {
+    return static_cast<std::size_t>(s.BinOf(c.x, c.y));
+  };
+  s.bin_begin.assign(s.centres.size() + 1, 0);
+  for (const ClusterCentre& c : s.centres) s.bin_begin[bin_of(c) + 1] += c.pixels > 0 ? 1 : 0;
+  std::partial_sum(s.bin_begin.begin(), s.bin_begin.end(), s.bin_begin.begin());
+  s.binned.resize(s.bin_begin.back());
+  std::vector<std::size_t> next = s.bin_begin;
+  for (std::size_t j = 0; j < s.centres.size(); ++j) {
+    const ClusterCentre& c = s.centres[j];
+    if (c.pixels > 0) s.binned[next[bin_of(c)]++] = {c.x, c.y, c.grey, static_cast<int>(j)};
+  }
+}
+
 void MoveCentres(Segmentation& s) {
-  s.bins.assign(s.centres.size(), {});
   for (std::size_t j = 0; j < s.centres.size(); ++j) {
     const ClusterSums& sum = s.sums[j];
     ClusterCentre& centre = s.centres[j];
@@ -65,35 +89,56 @@ void MoveCentres(Segmentation& s) {
       centre.x = static_cast<double>(sum.x) / n;
       centre.y = static_cast<double>(sum.y) / n;
       centre.grey = static_cast<double>(sum.grey) / n;
-      s.bins[static_cast<std::size_t>(s.BinOf(centre.x, centre.y))].push_back(static_cast<int>(j));
     }
   }
+  FillBins(s);
 }
 
 /// The nearest centre by equation (5) of those within S_step in x and in y; of equals the one with
-/// the smallest index. The square root is left out: it changes no order.
-int NearestCentre(Segmentation& s, int x, int y) {
+/// the smallest index. The square root is left out: it changes no order. Adds to `distances`.
+int NearestCentre(const Segmentation& s, int x, int y, std::int64_t& distances) {
+  const int grey = s.image(y, x);
   int best = s.labels(y, x);
   double best_distance = std::numeric_limits<double>::infinity();
   const int column = std::min(static_cast<int>(x / s.step), s.columns - 1);
   const int row = std::min(static_cast<int>(y / s.step), s.rows - 1);
+  const int left = std::max(0, column - 1), right = std::min(s.columns - 1, column + 1);
   for (int r = std::max(0, row - 1); r <= std::min(s.rows - 1, row + 1); ++r) {
-    for (int c = std::max(0, column - 1); c <= std::min(s.columns - 1, column + 1); ++c) {
-      for (const int j : s.bins[static_cast<std::size_t>(r * s.columns + c)]) {
-        const ClusterCentre& centre = s.centres[static_cast<std::size_t>(j)];
-        const double dx = centre.x - x, dy = centre.y - y, dg = centre.grey - s.image(y, x);
-        if (std::abs(dx) > s.step || std::abs(dy) > s.step) continue;
-        ++s.distances;
-        const double distance =  // Equation (5)
-            dg * dg * s.colour_weight + (dx * dx + dy * dy) * s.space_weight;
-        if (distance < best_distance || (distance == best_distance && j < best)) {
-          best = j;
-          best_distance = distance;
-        }
+    // The squares beside each other, and so their centres, are one range.
+    const std::size_t end = s.bin_begin[static_cast<std::size_t>(r * s.columns + right) + 1];
+    for (std::size_t k = s.bin_begin[static_cast<std::size_t>(r * s.columns + left)]; k < end;
+         ++k) {
+      const BinnedCentre& centre = s.binned[k];
+      const double dx = centre.x - x, dy = centre.y - y, dg = centre.grey - grey;
+      if (std::abs(dx) > s.step || std::abs(dy) > s.step) continue;
+      ++distances;
+      const double distance =  // Equation (5)
+          dg * dg * s.colour_weight + (dx * dx + dy * dy) * s.space_weight;
+      if (distance < best_distance || (distance == best_distance && centre.index < best)) {
+        best = centre.index;
+        best_distance = distance;
       }
     }
   }
   return best;
+}
+
+/// The nearest centre of each listed pixel.
+std::vector<int> NearestCentres(Segmentation& s, const std::vector<int>& pixels) {
+  constexpr std::size_t kBlock = 2048;
+  const std::size_t blocks = (pixels.size() + kBlock - 1) / kBlock;
+  std::vector<int> nearest(pixels.size());
+  std::vector<std::int64_t> distances(blocks, 0);
+  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+    const std::size_t end = std::min(pixels.size(), (block + 1) * kBlock);
+    std::int64_t count = 0;
+    for (std::size_t k = block * kBlock; k < end; ++k) {
+      nearest[k] = NearestCentre(s, pixels[k] % s.image.cols, pixels[k] / s.image.cols, count);
+    }
+    distances[block] = count;
+  });
+  s.distances = std::accumulate(distances.begin(), distances.end(), s.distances);
+  return nearest;
 }
 
 template <typename Visit>
@@ -108,10 +153,11 @@ void ForFourNeighbours(const cv::Mat1i& image, int index, const Visit& visit) {
 /// Gives each listed pixel its nearest centre; returns which of them changed superpixel. The
 /// centres stand still meanwhile, so the order of the pixels does not matter.
 std::vector<bool> Reassign(Segmentation& s, const std::vector<int>& pixels) {
+  const std::vector<int> nearest = NearestCentres(s, pixels);
   std::vector<bool> changed(pixels.size(), false);
   for (std::size_t k = 0; k < pixels.size(); ++k) {
     const int x = pixels[k] % s.image.cols, y = pixels[k] / s.image.cols;
-    const int from = s.labels(y, x), to = NearestCentre(s, x, y);
+    const int from = s.labels(y, x), to = nearest[k];
     if (from == to) continue;
     s.sums[static_cast<std::size_t>(from)].Change(x, y, s.image(y, x), -1);
     s.sums[static_cast<std::size_t>(to)].Change(x, y, s.image(y, x), 1);

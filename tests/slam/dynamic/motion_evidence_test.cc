@@ -168,6 +168,37 @@ TEST(CombineGaps, WhatOneGapFoundIsNotTalkedDownByAShorterOne) {
   EXPECT_FLOAT_EQ(combined(0, 0, 0), 0);
 }
 
+TEST(CombineGaps, AGapThatWasNotComparedSaysNothing) {
+  const cv::Mat1f one(1, 1, -0.5F), two(1, 1, 2.0F);
+  EXPECT_FLOAT_EQ(CombineGaps({one, {}, {}}, {})(0, 0), -0.5F);
+  EXPECT_EQ(CombineGaps({one, {}, two}, {})(0, 0),
+            CombineGaps({one, cv::Mat1f(1, 1, 0.0F), two}, {})(0, 0));
+}
+
+TEST(MeasureTexture, IsTheSumOfGradientProductsLessWhatNoiseGives) {
+  const cv::Mat1b image = test::Render(test::StaticHall(), {}, Isometry3d::Identity(), 0, 2.0)
+                              .left(cv::Rect(100, 100, 60, 40));
+  SurfaceOptions options;
+  options.brightness_noise = 0;
+  cv::Mat gx, gy, sum;
+  cv::Sobel(image, gx, CV_64F, 1, 0, 3, 1.0 / 8);
+  cv::Sobel(image, gy, CV_64F, 0, 1, 3, 1.0 / 8);
+  const Texture texture = MeasureTexture(image, options);
+  const double variance = 2 * options.grey_noise * options.grey_noise, noise = 0.1875 / 2 * 49;
+  const auto off = [&](const cv::Mat& product, double less, const cv::Mat1f& found) {
+    cv::boxFilter(product, sum, CV_64F, {7, 7}, {-1, -1}, false);
+    const cv::Mat expected = cv::max(sum / variance - less, less > 0 ? 0.0 : -1e9);
+    cv::Mat measured;
+    found.convertTo(measured, CV_64F);
+    return cv::norm(measured, expected, cv::NORM_INF);
+  };
+  EXPECT_LT(off(gx.mul(gx), noise, texture.xx), 1e-2);
+  EXPECT_LT(off(gy.mul(gy), noise, texture.yy), 1e-2);
+  for (int k = 0; k < static_cast<int>(image.total()); ++k) {
+    EXPECT_LE(texture.xy(k) * texture.xy(k), texture.xx(k) * texture.yy(k) * 1.0001F);
+  }
+}
+
 TEST(FollowBack, FindsTheWayOfStaticPixelsToAFractionOfAPixel) {
   const Pair pair({}, {0, 0, 0.1}, 0.2);
   Isometry3d T = Isometry3d::Identity();

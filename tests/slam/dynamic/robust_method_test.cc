@@ -110,6 +110,26 @@ RobustResult LastOfFive(int threads) {
   return result;
 }
 
+TEST(RobustMethod, TakesTheLongerGapsInTurn) {
+  RobustState state;
+  std::vector<std::vector<int>> gaps;
+  for (int k = 0; k < 18; ++k) {
+    const auto view = test::Render(test::StaticHall(), {}, Isometry3d::Identity(), k * kStep, 2.0);
+    RobustResult result =
+        StepRobust(state, {view.left, view.right}, k * 50'000'000LL, std::nullopt, {}, {});
+    state = std::move(result.state);
+    gaps.emplace_back();
+    for (const GapMotion& gap : result.stages.gaps) gaps.back().push_back(gap.gap);
+  }
+  using Gaps = std::vector<int>;
+  EXPECT_EQ(gaps[0], Gaps());
+  EXPECT_EQ(gaps[4], Gaps({1}));
+  for (std::size_t k = 5; k < 15; ++k) EXPECT_EQ(gaps[k], Gaps({1, 5})) << k;
+  EXPECT_EQ(gaps[15], Gaps({1, 15}));
+  EXPECT_EQ(gaps[16], Gaps({1, 5}));
+  EXPECT_EQ(gaps[17], Gaps({1, 15}));
+}
+
 TEST(RobustMethod, OneThreadAndManyGiveTheSameBits) {
   const RobustResult one = LastOfFive(1), many = LastOfFive(4);
   EXPECT_EQ(cv::norm(one.dynamic.mask, many.dynamic.mask, cv::NORM_INF), 0);
