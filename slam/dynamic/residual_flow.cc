@@ -1,5 +1,7 @@
 #include "slam/dynamic/residual_flow.h"
 
+#include <tbb/parallel_for.h>
+
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
@@ -115,15 +117,19 @@ cv::Mat2f FollowBack(const cv::Mat1b& now, const cv::Mat1b& then, const cv::Mat2
 }
 
 std::vector<cv::Point> WellHeld(const Texture& texture, const cv::Mat1f& disparity, int cell_px) {
-  std::vector<cv::Point> points;
   const cv::Rect image({0, 0}, disparity.size());
-  for (int top = 0; top < disparity.rows; top += cell_px) {
+  std::vector<std::vector<cv::Point>> rows(
+      static_cast<std::size_t>((disparity.rows + cell_px - 1) / cell_px));
+  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t row) {
+    const int top = static_cast<int>(row) * cell_px;
     for (int left = 0; left < disparity.cols; left += cell_px) {
       const cv::Point at =
           BestIn(cv::Rect(left, top, cell_px, cell_px) & image, texture, disparity);
-      if (at.x >= 0) points.push_back(at);
+      if (at.x >= 0) rows[row].push_back(at);
     }
-  }
+  });
+  std::vector<cv::Point> points;
+  for (const auto& row : rows) points.insert(points.end(), row.begin(), row.end());
   return points;
 }
 
