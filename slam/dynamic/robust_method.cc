@@ -15,7 +15,11 @@ namespace {
 
 using Eigen::Isometry3d;
 
-constexpr double kNoiseRate = 0.1;  // by which measured noise moves the running value, per frame
+/// By which measured noise moves the running value, per frame; a longer gap is measured in every
+/// second one.
+constexpr double kNoiseRate = 0.1, kLongNoiseRate = 1 - (1 - kNoiseRate) * (1 - kNoiseRate);
+double NoiseRate(const GapMotion& gap) { return gap.slot == 0 ? kNoiseRate : kLongNoiseRate; }
+
 const MeasurementNoise kLeastNoise(0.1, 0.1, 0.2), kMostNoise(1.0, 1.0, 2.0);  // full pixels
 
 constexpr double kLeastFlowNoise = 0.05, kMostFlowNoise = 0.5;  // half-size pixels
@@ -133,7 +137,7 @@ void LearnNoise(RobustState& state, const std::vector<GapMotion>& gaps, const Ga
     if (!measured) return;
     const MeasurementNoise bounded = measured->cwiseMax(kLeastNoise).cwiseMin(kMostNoise);
     MeasurementNoise& noise = state.noise[gaps[k].slot];
-    noise += kNoiseRate * (bounded - noise);
+    noise += NoiseRate(gaps[k]) * (bounded - noise);
   });
 }
 
@@ -158,9 +162,18 @@ cv::Mat1f CompareWithPast(std::vector<GapMotion>& gaps, RobustState& state,
     if (!found.flow_noise) continue;
     const double bounded = std::clamp(*found.flow_noise, kLeastFlowNoise, kMostFlowNoise);
     double& noise = state.flow_noise[gap.slot];
-    noise += kNoiseRate * (bounded - noise);
+    noise += NoiseRate(gap) * (bounded - noise);
   }
   return CombineGaps(evidence, options.evidence);
+}
+
+/// What a gap says in the next frame, where another one has its turn: it fades as memory does.
+cv::Mat1f ToCarry(const GapMotion& gap, const RobustOptions& options) {
+  cv::Mat1f carried;
+  cv::max(gap.evidence, options.evidence.least[gap.slot], carried);
+  cv::min(carried, options.evidence.most[gap.slot], carried);
+  carried *= options.field.memory;
+  return carried;
 }
 
 /// What the labelling has to know of the current frame, whatever moves.
@@ -299,9 +312,8 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
   stages.floor_mask = scene.floor_mask;
   stages.memory = memory.log_odds;
 
-  const bool compared_long = stages.gaps.size() > 1;
-  memory.long_log_odds = compared_long ? stages.gaps.back().evidence : cv::Mat1f();
-  state.long_slot = compared_long ? stages.gaps.back().slot : 0;
+  state.long_slot = stages.gaps.size() > 1 ? stages.gaps.back().slot : 0;
+  memory.long_log_odds = state.long_slot > 0 ? ToCarry(stages.gaps.back(), options) : cv::Mat1f();
   state.memory = std::move(memory);
   if (!stages.gaps.empty()) {
     state.T_now_before = stages.gaps[0].motion.T_now_before;
