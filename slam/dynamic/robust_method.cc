@@ -181,7 +181,7 @@ struct Scene {
   std::optional<FloorPlane> floor;
   cv::Mat1b floor_mask;
   Links links;
-  cv::Mat1f farthest;  // that a label may grow, half-size pixels
+  cv::Mat1f farthest;  // how far a label may grow, half-size pixels
 };
 
 Scene LookAtScene(const DenseFrame& frame, const StereoCamera& camera,
@@ -249,6 +249,39 @@ void RememberFrame(std::vector<DenseFrame>& frames, DenseFrame now,
   frames.push_back(std::move(now));
 }
 
+/// Which pixels move, and the regions they make up.
+void LabelPixels(const DenseFrame& frame, const Scene& scene, LabelMemory& memory,
+                 int& next_region_id, cv::Size image, const RobustOptions& options,
+                 RobustResult& result) {
+  const cv::Mat1f leaning =
+      Leaning(memory.log_odds, frame.disparity, scene.floor_mask, options.field);
+  const cv::Mat1f log_odds = SolveField(leaning, scene.links, options.field);
+  tbb::parallel_invoke(
+      [&] {
+        const cv::Mat1b moving = GrowMoving(log_odds, leaning, scene.links, scene.floor_mask,
+                                            scene.farthest, options.field);
+        memory.regions = FindRegions(moving, memory.log_odds, scene.links, memory.regions,
+                                     next_region_id, options.field.coupling, options.region);
+        result.dynamic = ToFullSize(memory.regions, image);
+      },
+      [&] { result.probability = PixelProbability(log_odds, image); });
+  result.stages.log_odds = log_odds;
+}
+
+/// The state for the next step; the last thing to change.
+void Remember(RobustState& state, LabelMemory memory, DenseFrame now,
+              const std::vector<GapMotion>& gaps, const RobustOptions& options) {
+  state.long_slot = gaps.size() > 1 ? gaps.back().slot : 0;
+  memory.long_log_odds = state.long_slot > 0 ? ToCarry(gaps.back(), options) : cv::Mat1f();
+  state.memory = std::move(memory);
+  if (!gaps.empty()) {
+    state.T_now_before = gaps[0].motion.T_now_before;
+    state.step_s = Seconds(state.stamp_ns, now.stamp_ns);
+  }
+  state.stamp_ns = now.stamp_ns;
+  RememberFrame(state.frames, std::move(now), gaps);
+}
+
 }  // namespace
 
 RobustResult StepRobust(const RobustState& before, const StereoPair& images, std::int64_t stamp_ns,
@@ -293,34 +326,16 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
     memory.log_odds = options.field.memory * memory.log_odds + stages.evidence;
     memory.log_odds = cv::min(cv::max(memory.log_odds, -options.field.limit), options.field.limit);
   }
-  const Stopwatch time(stages.stage_ms["label"]);
-  const Links& links = scene.links;
-  const cv::Mat1f leaning =
-      Leaning(memory.log_odds, seen.frame.disparity, scene.floor_mask, options.field);
-  stages.log_odds = SolveField(leaning, links, options.field);
-  tbb::parallel_invoke(
-      [&] {
-        const cv::Mat1b moving = GrowMoving(stages.log_odds, leaning, links, scene.floor_mask,
-                                            scene.farthest, options.field);
-        memory.regions = FindRegions(moving, memory.log_odds, links, memory.regions,
-                                     state.next_region_id, options.field.coupling, options.region);
-        result.dynamic = ToFullSize(memory.regions, images.left.size());
-      },
-      [&] { result.probability = PixelProbability(stages.log_odds, images.left.size()); });
-  stages.half_disparity = seen.frame.disparity;
-  stages.floor = scene.floor;
-  stages.floor_mask = scene.floor_mask;
-  stages.memory = memory.log_odds;
-
-  state.long_slot = stages.gaps.size() > 1 ? stages.gaps.back().slot : 0;
-  memory.long_log_odds = state.long_slot > 0 ? ToCarry(stages.gaps.back(), options) : cv::Mat1f();
-  state.memory = std::move(memory);
-  if (!stages.gaps.empty()) {
-    state.T_now_before = stages.gaps[0].motion.T_now_before;
-    state.step_s = Seconds(before.stamp_ns, stamp_ns);
+  {
+    const Stopwatch time(stages.stage_ms["label"]);
+    LabelPixels(seen.frame, scene, memory, state.next_region_id, images.left.size(), options,
+                result);
+    stages.half_disparity = seen.frame.disparity;
+    stages.floor = scene.floor;
+    stages.floor_mask = scene.floor_mask;
+    stages.memory = memory.log_odds;
   }
-  state.stamp_ns = stamp_ns;
-  RememberFrame(state.frames, std::move(seen.frame), stages.gaps);
+  Remember(state, std::move(memory), std::move(seen.frame), stages.gaps, options);
   result.state = std::move(state);
   return result;
 }
