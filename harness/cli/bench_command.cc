@@ -160,6 +160,7 @@ void AddBenchCommand(CLI::App* app, Action* action) {
   AddBenchRender(bench, action);
   AddBenchLight(bench, action);
   AddBenchSlam(bench, action);
+  AddBenchAccuracy(bench, action);
   AddBenchDynamic(bench, action);
 }
 

@@ -1,20 +1,14 @@
 #include <nlohmann/json.hpp>
 
+#include "harness/cli/bench_source.h"
 #include "harness/cli/command.h"
-#include "harness/cli/places.h"
 #include "harness/cli/terminal.h"
-#include "harness/io/dataset.h"
 #include "harness/io/file.h"
 #include "harness/io/image.h"
-#include "harness/io/input_error.h"
-#include "harness/plugs/cached_sequence.h"
-#include "harness/plugs/recorded_sequence.h"
-#include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/systems.h"
 #include "harness/report/overlay.h"
 #include "harness/report/stage_sheets.h"
 #include "harness/score/masks.h"
-#include "harness/suite/suite.h"
 
 namespace aisle {
 namespace {
@@ -23,9 +17,9 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::vector<std::string> views;
-  std::string system = "robust", format = "kitti", out, frames_dir, twin = "live", json;
-  int warm_up = 20, every = 10, threads = 0;
-  std::uint64_t seed = 1;
+  BenchSource source{.format = "kitti"};
+  std::string system = "robust", out, json;
+  int warm_up = 20, every = 10;
   bool debug_dynamic = false;
 };
 
@@ -37,43 +31,6 @@ const std::vector<std::string> kViews = {
     "weakness/pure_rotation:60-90", "weakness/optical_axis:40-80", "weakness/fill_60:40-80",
     "weakness/never_moves:60-90",
 };
-
-struct View {
-  std::string source;
-  int from = 0, to = std::numeric_limits<int>::max();  ///< frames, `to` not included
-};
-
-/// "SOURCE" or "SOURCE:FROM-TO".
-View Parse(const std::string& text) {
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string::npos) return {.source = text};
-  View view{.source = text.substr(0, colon)};
-  char rest = 0;
-  if (std::sscanf(text.c_str() + colon + 1, "%d-%d%c", &view.from, &view.to, &rest) != 2 ||
-      view.from < 0 || view.to <= view.from) {
-    throw InputError(Printable(text) +
-                     ": expected SOURCE:FROM-TO, for example paper/scene2:90-130");
-  }
-  return view;
-}
-
-std::unique_ptr<Sequence> Open(const View& view, const Options& options) {
-  if (fs::is_directory(view.source)) {
-    return OpenRecording(view.source, DatasetFormatFromName(options.format));
-  }
-  const std::string file = SceneFile(view.source);
-  const SimulatedSequenceOptions simulation{.scene_file = file,
-                                            .scene_name = SceneName(file),
-                                            .assets_dir = AssetsDir().string(),
-                                            .twin = options.twin,
-                                            .seed = options.seed,
-                                            .threads = options.threads};
-  if (options.frames_dir.empty()) return OpenSimulation(simulation);
-  const fs::path kept = fs::path(options.frames_dir) /
-                        fmt::format("{}_{}_{}", SceneName(file), options.twin, options.seed);
-  return OpenCached(FrameStore(kept),
-                    [simulation](std::uint64_t* hash) { return OpenSimulation(simulation, hash); });
-}
 
 /// What became of one stretch.
 struct Result {
@@ -139,10 +96,10 @@ void Picture(const SequenceFrame& shown, const FrameEstimate& estimate, const Re
                          fmt::format("{}  frame {}", result.name, shown.images.id)));
 }
 
-Result Measure(const View& view, const Options& options) {
-  const auto sequence = Open(view, options);
+Result Measure(const BenchView& view, const Options& options) {
+  const auto sequence = OpenSource(view.source, options.source);
   const auto estimator = FindSystem(options.system)
-                             .make(sequence->calibration(), {.threads = options.threads,
+                             .make(sequence->calibration(), {.threads = options.source.threads,
                                                              .draw_stages = options.debug_dynamic});
   Result result;
   result.name = sequence->name();
@@ -211,8 +168,8 @@ nlohmann::json ToJson(const Result& r) {
 
 int BenchDynamic(const Options& options) {
   const std::vector<std::string>& names = options.views.empty() ? kViews : options.views;
-  std::vector<View> views;  // all of them, before the first is measured
-  for (const std::string& name : names) views.push_back(Parse(name));
+  std::vector<BenchView> views;  // all of them, before the first is measured
+  for (const std::string& name : names) views.push_back(ParseView(name));
   fmt::print(
       "{}, after {} frames of warming "
       "up\n{:28}{:>7}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}{:>8}\n",
@@ -223,7 +180,7 @@ int BenchDynamic(const Options& options) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     const Result result = Measure(views[i], options);
     const std::string& text = names[i];
-    fmt::print("{}\n", Line(text.size() > 27 ? "…" + text.substr(text.size() - 26) : text, result));
+    fmt::print("{}\n", Line(Abridged(text, 27), result));
     std::fflush(stdout);
     rows.push_back(ToJson(result));
     sum += result;
@@ -249,10 +206,7 @@ void AddBenchDynamic(CLI::App* bench, Action* action) {
                       "scene or folder of a recording, :FROM-TO for some frames (default: ten "
                       "stretches of the scenes)");
   command->add_option("--system", options->system, "default robust");
-  command->add_option("--format", options->format, "of a folder: kitti (default) or euroc")
-      ->check(CLI::IsMember({"euroc", "kitti"}));
-  command->add_option("--twin", options->twin, "of a scene: live (default), empty or frozen");
-  command->add_option("--seed", options->seed, "of a scene; default 1");
+  AddSourceOptions(command, &options->source);
   command->add_option("--warm-up", options->warm_up, "frames before FROM, not counted; default 20")
       ->check(CLI::Range(0, 100000));
   command->add_option("--out", options->out, "folder for pictures: truth red, rejected cyan");
@@ -262,10 +216,6 @@ void AddBenchDynamic(CLI::App* bench, Action* action) {
       ->needs("--out");
   command->add_option("--every", options->every, "a picture every so many frames; default 10")
       ->check(CLI::Range(1, 100000));
-  command->add_option(
-      "--frames-dir", options->frames_dir,
-      "keep rendered frames there and use what is there, whichever program made it");
-  command->add_option("--threads", options->threads, "0: all");
   command->add_option("--json", options->json, "write counts and means there too");
   command->footer("Example: ./aisle bench dynamic paper/scene2:90-130 --system paper --out masks");
   command->callback([=] { *action = [=] { return BenchDynamic(*options); }; });

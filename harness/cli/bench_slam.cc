@@ -5,40 +5,20 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/features2d.hpp>
 
+#include "harness/cli/bench_source.h"
 #include "harness/cli/command.h"
-#include "harness/cli/places.h"
 #include "harness/cli/terminal.h"
-#include "harness/io/dataset.h"
 #include "harness/io/file.h"
-#include "harness/plugs/cached_sequence.h"
-#include "harness/plugs/recorded_sequence.h"
-#include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/systems.h"
-#include "harness/suite/suite.h"
 
 namespace aisle {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct Options {
-  std::string source, format = "euroc", twin = "empty", system = "orbslam2", json;
-  std::string frames_dir;  ///< folder that keeps what a scene renders; empty: none
-  int frames = 100, threads = 0, laps = 1;
+  std::string name = "paper/scene1", system = "orbslam2", json;
+  BenchSource source{.twin = "empty"};
+  int frames = 100, laps = 1;
 };
-
-std::unique_ptr<Sequence> Open(const Options& options) {
-  if (fs::is_directory(options.source)) {
-    return OpenRecording(options.source, DatasetFormatFromName(options.format));
-  }
-  const SimulatedSequenceOptions simulation{.scene_file = options.source,
-                                            .scene_name = SceneName(options.source),
-                                            .assets_dir = AssetsDir().string(),
-                                            .twin = options.twin};
-  if (options.frames_dir.empty()) return OpenSimulation(simulation);
-  return OpenCached(FrameStore(options.frames_dir),
-                    [simulation](std::uint64_t* hash) { return OpenSimulation(simulation, hash); });
-}
 
 /// What this process holds in memory now; 0 where the system does not say.
 double ResidentMib() {
@@ -60,6 +40,7 @@ void PrintLap(int lap, const FrameEstimate& last, int lost) {
   };
   fmt::print("{:4} {:10} {:10} {:10.1f} {:6}\n", lap + 1, count("map_keyframes"),
              count("map_landmarks"), ResidentMib(), lost);
+  std::fflush(stdout);  // hours may pass between two lines
 }
 
 /// Mean and worst of one stage, milliseconds, over the frames in which it ran.
@@ -95,12 +76,12 @@ double ReferenceMs(const StereoFrame& frame) {
 }
 
 std::map<std::string, StageTime> Measure(const Options& options) {
-  const auto sequence = Open(options);
+  const auto sequence = OpenSource(options.name, options.source);
   std::map<std::string, StageTime> stages;
   std::unique_ptr<Estimator> estimator;
   stages["set_up"].Add(MillisecondsOf([&] {  // what it loads: the visual words
-    estimator =
-        FindSystem(options.system).make(sequence->calibration(), {.threads = options.threads});
+    estimator = FindSystem(options.system)
+                    .make(sequence->calibration(), {.threads = options.source.threads});
   }));
   std::vector<FrameRequest> schedule = sequence->Schedule();
   schedule.resize(std::min(schedule.size(), static_cast<std::size_t>(options.frames)));
@@ -161,13 +142,10 @@ int BenchSlam(const Options& options) {
 
 void AddBenchSlam(CLI::App* bench, Action* action) {
   const auto options = std::make_shared<Options>();
-  options->source = AISLE_SOURCE_DIR "/scenes/paper/scene1.yaml";
   CLI::App* slam = bench->add_subcommand("slam", "milliseconds a frame by stage of the SLAM");
-  slam->add_option("SOURCE", options->source,
+  slam->add_option("SOURCE", options->name,
                    "scene file or folder of a recording; default paper/scene1");
-  slam->add_option("--format", options->format, "of a folder: euroc (default) or kitti")
-      ->check(CLI::IsMember({"euroc", "kitti"}));
-  slam->add_option("--twin", options->twin, "of a scene: empty (default), live or frozen");
+  AddSourceOptions(slam, &options->source);
   slam->add_option("--system", options->system, "default orbslam2");
   slam->add_option("--frames", options->frames, "at most; default 100")
       ->check(CLI::Range(1, 100000));
@@ -176,13 +154,10 @@ void AddBenchSlam(CLI::App* bench, Action* action) {
           "drive the frames so often, one after the other, and say what each lap leaves in "
           "memory; for a source that ends where it begins")
       ->check(CLI::Range(1, 100000));
-  slam->add_option("--frames-dir", options->frames_dir,
-                   "folder that keeps the frames of a scene: later laps and runs are read from it");
-  slam->add_option("--threads", options->threads, "0: all");
   slam->add_option("--json", options->json, "write the means there too");
   slam->footer(
       "Example: ./aisle bench slam --json slam.json\n"
-      "         ./aisle bench slam scenes/paper/scene4.yaml --laps 20 --frames 900 --frames-dir f");
+      "         ./aisle bench slam paper/scene4 --laps 20 --frames 900 --frames-dir f");
   slam->callback([=] { *action = [=] { return BenchSlam(*options); }; });
 }
 

@@ -38,6 +38,7 @@ void AddCompareCommand(CLI::App* app, Action* action);
 void AddBaselineCommand(CLI::App* app, Action* action);
 
 // Commands of `bench`.
+void AddBenchAccuracy(CLI::App* bench, Action* action);
 void AddBenchDynamic(CLI::App* bench, Action* action);
 void AddBenchSlam(CLI::App* bench, Action* action);
 

@@ -31,6 +31,10 @@ void ProgressLine::Clear() {
   shown_ = false;
 }
 
+std::string Abridged(const std::string& text, std::size_t width) {
+  return text.size() <= width ? text : "…" + text.substr(text.size() - width + 1);
+}
+
 std::string Duration(double seconds) {
   const auto whole = static_cast<long>(seconds + 0.5);
   if (whole >= 3600) return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);

@@ -13,6 +13,10 @@ MappingResult MapKeyframe(Map map, KeyframeId newest, const Vocabulary* vocabula
   map.Apply(CullLandmarks(map, newest, options.cull));
 
   const std::vector<KeyframeId> neighbours = FuseNeighbours(map, newest, options.fuse);
+  MapEdit triangulated;
+  triangulated.new_landmarks =
+      TriangulateLandmarks(map, newest, neighbours, camera, options.triangulate);
+  map.Apply(triangulated);
   for (const KeyframeId neighbour : neighbours) {
     map.Apply(FuseInto(map, neighbour, LandmarksOf(map, {newest}), camera, options.fuse));
   }

@@ -3,6 +3,7 @@
 #include "slam/map/create_landmarks.h"
 #include "slam/map/cull.h"
 #include "slam/map/fuse.h"
+#include "slam/map/triangulate_landmarks.h"
 #include "slam/optimize/adjust_map.h"
 #include "slam/place/find_loop.h"
 
@@ -11,6 +12,7 @@ namespace aisle::slam {
 /// How a new keyframe is worked into the map.
 struct MappingOptions {
   CreateLandmarksOptions create;
+  TriangulateOptions triangulate;
   CullOptions cull;
   FuseOptions fuse;
   LocalAdjustmentOptions adjust;

@@ -1,6 +1,7 @@
 #include "slam/optimize/adjust_map.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "slam/map/landmarks_of.h"
 #include "slam/optimize/pose_graph.h"
@@ -89,9 +90,19 @@ std::vector<KeyframeId> OutsideObservers(const Map& map, const std::vector<Keyfr
   return observers;
 }
 
+/// Sights of points that lie before their camera: a point behind it, as two nearly parallel rays
+/// may place one, has no projection to start from, and the solver would end before its first step.
+std::vector<bool> WithProjection(const BundleProblem& problem) {
+  std::vector<bool> has;
+  for (const BundleProblem::Sight& sight : problem.sights) {
+    has.push_back(std::isfinite(Chi2(problem, sight)));
+  }
+  return has;
+}
+
 /// A robust pass tells outliers, a plain one adjusts without them; all are tested again at the end.
 Adjustment AdjustTwice(MapProblem problem, int robust_iterations, int final_iterations) {
-  Solve(problem.bundle, {}, {robust_iterations, true});
+  Solve(problem.bundle, WithProjection(problem.bundle), {robust_iterations, true});
   const BundleSummary summary =
       Solve(problem.bundle, WithinBounds(problem.bundle), {final_iterations, false});
   if (!summary.usable) return {{}, summary};

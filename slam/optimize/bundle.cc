@@ -35,7 +35,7 @@ BundleProblem::Sight MakeSight(int pose, int point, const Measurement& measureme
 double Chi2(const BundleProblem& problem, const BundleProblem::Sight& sight) {
   const Eigen::Vector3d point = problem.poses[static_cast<std::size_t>(sight.pose)].T_rig_world *
                                 problem.points[static_cast<std::size_t>(sight.point)];
-  if (point.z() <= 0) return std::numeric_limits<double>::infinity();
+  if (point.z() < kNearestDepth_m) return std::numeric_limits<double>::infinity();
   return (sight.sqrt_information * (sight.uvd - Project(problem.camera, point))).squaredNorm();
 }
 

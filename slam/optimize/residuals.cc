@@ -55,8 +55,7 @@ bool SightResidual::Evaluate(double const* const* parameters, double* residuals,
   const Eigen::Map<const Eigen::Vector3d> point(parameters[1]);
   const Eigen::Matrix3d R = rotation.toRotationMatrix();
   const Eigen::Vector3d in_rig = R * point + translation;
-  constexpr double kNearest = 1e-3;  // metres
-  if (in_rig.z() < kNearest) return false;
+  if (in_rig.z() < kNearestDepth_m) return false;
   Eigen::Map<Eigen::Vector3d>{residuals} = sqrt_information_ * (uvd_ - Project(camera_, in_rig));
   if (!jacobians) return true;
 
