@@ -34,27 +34,47 @@ struct View {
   const Measurement& There(std::size_t i) const { return there.frame->measurements[i]; }
 };
 
-/// The free feature there that looks most like feature `i` here and lies on its epipolar line.
+/// A feature that may be met on an epipolar line: what every test of it asks for.
+struct Candidate {
+  std::size_t feature;
+  Eigen::Vector3d ray;
+  double variance_px;
+  int level;
+};
+
+std::vector<Candidate> CandidatesOf(const View& view, const std::vector<std::size_t>& features) {
+  std::vector<Candidate> candidates;
+  candidates.reserve(features.size());
+  for (const std::size_t j : features) {
+    const Measurement& measurement = view.There(j);
+    candidates.push_back({j, RayOf(view.camera, measurement),
+                          measurement.sigma_px * measurement.sigma_px,
+                          view.there.frame->features.keypoints[j].level});
+  }
+  return candidates;
+}
+
+/// The candidate that looks most like feature `i` here and lies on its epipolar line.
 std::optional<std::size_t> BestOnLine(const View& view, std::size_t i,
-                                      const std::vector<std::size_t>& free_there,
+                                      const std::vector<Candidate>& candidates,
                                       const TriangulateOptions& options) {
-  const Eigen::Vector3d line = view.T_there_here.translation().cross(
-      view.T_there_here.linear() * RayOf(view.camera, view.Here(i)));
-  const double to_px = view.camera.fx / line.head<2>().norm();
+  Eigen::Vector3d line = view.T_there_here.translation().cross(view.T_there_here.linear() *
+                                                               RayOf(view.camera, view.Here(i)));
+  line *= view.camera.fx / line.head<2>().norm();  // so that line.dot(ray) is in pixels
   const Features& here = view.here.frame->features;
   const Features& there = view.there.frame->features;
+  const double variance_px = view.Here(i).sigma_px * view.Here(i).sigma_px;
   std::optional<std::size_t> best;
   int least = options.descriptor_distance + 1, second = 257;
-  for (const std::size_t j : free_there) {
-    if (std::abs(here.keypoints[i].level - there.keypoints[j].level) > 2) continue;
-    const double off_px = line.dot(RayOf(view.camera, view.There(j))) * to_px;
-    const double sigma_px = std::hypot(view.Here(i).sigma_px, view.There(j).sigma_px);
-    if (off_px * off_px > kChi2OneRow * sigma_px * sigma_px) continue;
-    const int distance = HammingDistance(here.descriptors[i], there.descriptors[j]);
+  for (const Candidate& candidate : candidates) {
+    const double off_px = line.dot(candidate.ray);
+    if (off_px * off_px > kChi2OneRow * (variance_px + candidate.variance_px)) continue;
+    if (std::abs(here.keypoints[i].level - candidate.level) > 2) continue;
+    const int distance = HammingDistance(here.descriptors[i], there.descriptors[candidate.feature]);
     if (distance < least) {
       second = best ? least : second;
       least = distance;
-      best = j;
+      best = candidate.feature;
     } else {
       second = std::min(second, distance);
     }
@@ -116,9 +136,9 @@ std::vector<Landmark> TriangulateLandmarks(const Map& map, KeyframeId newest,
     // Nearer than the two eyes are to each other they see better by themselves.
     if (view.T_there_here.translation().norm() < camera.baseline_m) continue;
     std::vector<bool> used_there(there.landmarks.size(), false);
-    const std::vector<std::size_t> free_there = FreeFeatures(there, used_there);
+    const std::vector<Candidate> candidates = CandidatesOf(view, FreeFeatures(there, used_there));
     for (const std::size_t i : FreeFeatures(here, used_here)) {
-      const auto j = BestOnLine(view, i, free_there, options);
+      const auto j = BestOnLine(view, i, candidates, options);
       if (!j || used_there[*j]) continue;
       const auto point = Intersect(view, i, *j, options.worst_depth_ratio);
       if (!point) continue;
