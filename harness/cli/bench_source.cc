@@ -27,14 +27,21 @@ void AddSourceOptions(CLI::App* command, BenchSource* source) {
 }
 
 BenchView ParseView(const std::string& text) {
+  BenchView view{.source = text};
   const std::size_t colon = text.rfind(':');
-  if (colon == std::string::npos) return {.source = text};
-  BenchView view{.source = text.substr(0, colon)};
-  char rest = 0;
-  if (std::sscanf(text.c_str() + colon + 1, "%d-%d%c", &view.from, &view.to, &rest) != 2 ||
-      view.from < 0 || view.to <= view.from) {
-    throw InputError(Printable(text) +
-                     ": expected SOURCE:FROM-TO, for example paper/scene2:90-130");
+  if (colon != std::string::npos) {
+    view.source = text.substr(0, colon);
+    char rest = 0;
+    if (std::sscanf(text.c_str() + colon + 1, "%d-%d%c", &view.from, &view.to, &rest) != 2 ||
+        view.from < 0 || view.to <= view.from) {
+      throw InputError(Printable(text) +
+                       ": expected SOURCE:FROM-TO, for example paper/scene2:90-130");
+    }
+  }
+  if (!fs::exists(SceneFile(view.source))) {
+    throw InputError(Printable(view.source) +
+                     ": neither a scene (a file, or a name like paper/scene2) nor the folder of a "
+                     "recording");
   }
   return view;
 }

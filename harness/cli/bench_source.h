@@ -27,7 +27,8 @@ struct BenchView {
   int from = 0, to = std::numeric_limits<int>::max();
 };
 
-/// "SOURCE" or "SOURCE:FROM-TO". Throws InputError for a stretch that is none.
+/// "SOURCE" or "SOURCE:FROM-TO". Throws InputError for a stretch that is none and a source that is
+/// neither a scene nor a folder.
 BenchView ParseView(const std::string& text);
 
 /// The whole scene or recording. Kept frames lie in a folder of their own for each scene, twin and

@@ -108,6 +108,13 @@ TEST_F(BrokenInputTest, SuitesAndScenes) {
       {{"preview", "{d}/none.yaml", "-o", "{d}/x.png"},
        {},
        "aisle: {d}/none.yaml: there is no such file"},
+      {{"bench", "dynamic", "paper/scene2:9-3"},
+       {},
+       "aisle: paper/scene2:9-3: expected SOURCE:FROM-TO, for example paper/scene2:90-130"},
+      {{"bench", "accuracy", "paper/scene2", "paper/scene22"},
+       {},
+       "aisle: paper/scene22: neither a scene (a file, or a name like paper/scene2) nor the folder "
+       "of a recording"},
   });
 }
 

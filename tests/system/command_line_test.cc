@@ -82,6 +82,24 @@ TEST_F(CommandLineTest, MasksOfOthersGetTheScoresThatAHandWouldReckon) {
   EXPECT_DOUBLE_EQ(value("mask_iou"), 1200.0 / 5200);
 }
 
+TEST_F(CommandLineTest, DrivesFromSeveralStartsDifferFromEachOtherButNotFromTheirRepetition) {
+  const auto bench = [&](const std::string& json) {
+    const Said said =
+        Run({"bench", "accuracy", scene_ + ":2-34", "--starts", "2", "--step", "4", "--frames-dir",
+             (folder_ / "frames").string(), "--json", (folder_ / json).string()});
+    EXPECT_EQ(said.code, 0) << said.text;
+    return nlohmann::json::parse(ReadFile(folder_ / json)).at(0);
+  };
+  const nlohmann::json rendered = bench("a.json"), stored = bench("b.json");
+  EXPECT_EQ(rendered, stored);
+  EXPECT_EQ(rendered.at("frames"), 32);
+  const auto errors = rendered.at("ate_live_rmse_m").get<std::vector<double>>();
+  ASSERT_EQ(errors.size(), 2u);
+  EXPECT_NE(errors[0], errors[1]);
+  for (const double error : errors) EXPECT_LT(error, 0.02);
+  EXPECT_EQ(rendered.at("frames_lost"), nlohmann::json({0.0, 0.0}));
+}
+
 TEST_F(CommandLineTest, TheShellCompletesCommandsOptionsAndValues) {
   const std::string script = (folder_ / "complete.sh").string();
   WriteFileAtomically(script, Run({"completion", "bash"}).text + R"(
