@@ -4,9 +4,11 @@
 #include "harness/cli/command.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
+#include "harness/io/input_error.h"
 #include "harness/plugs/systems.h"
 #include "harness/run/drive.h"
 #include "harness/score/scorecard.h"
+#include "harness/score/statistics.h"
 
 namespace aisle {
 namespace {
@@ -38,43 +40,43 @@ class Stretch : public Sequence {
   int from_, to_;
 };
 
-/// One score over several starts, of those that have it.
-struct Spread {
-  std::vector<double> values;
-
-  double median() const {
-    std::vector<double> sorted = values;
-    std::ranges::sort(sorted);
-    const std::size_t half = sorted.size() / 2;
-    return sorted.size() % 2 == 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
-  }
-};
-
 /// What became of one view: a value per start.
 struct Outcome {
   std::string name;
   std::size_t frames = 0;
-  Spread live_m, final_m, lost;
+  std::vector<double> live_m, final_m, lost;
 
   void Add(const RunResult& run) {
     const Scorecard scores = ScoreRun(run);
-    const auto add = [&](const char* score, Spread* spread) {
+    const auto add = [&](const char* score, std::vector<double>* values) {
       const auto found = scores.find(score);
       if (found != scores.end() && found->second.value) {
-        spread->values.push_back(*found->second.value);
+        values->push_back(*found->second.value);
       }
     };
     add("ate_live_rmse_m", &live_m);
     add("ate_rmse_m", &final_m);
     frames = std::max(frames, run.facts.size());
-    lost.values.push_back(static_cast<double>(run.facts.size()) -
-                          static_cast<double>(run.trajectory.live.size()));
+    lost.push_back(static_cast<double>(run.facts.size()) -
+                   static_cast<double>(run.trajectory.live.size()));
   }
 };
+
+/// Throws InputError where the last start would show no frame before `end`.
+void CheckStarts(const std::string& text, std::int64_t from, std::int64_t end,
+                 const Options& options) {
+  const std::int64_t last = from + std::int64_t{options.starts - 1} * options.step;
+  if (last < end) return;
+  throw InputError(
+      fmt::format("{}: its last start would be frame {}, and it ends before frame {}: fewer "
+                  "--starts or a smaller --step",
+                  Printable(text), last, end));
+}
 
 Outcome Measure(const std::string& text, const Options& options) {
   const BenchView view = ParseView(text);
   const auto whole = OpenSource(view.source, options.source);
+  CheckStarts(text, view.from, std::ssize(whole->Schedule()), options);
   Outcome outcome;
   outcome.name = text;
   ProgressLine line;
@@ -91,15 +93,18 @@ Outcome Measure(const std::string& text, const Options& options) {
   return outcome;
 }
 
-std::string Cell(const Spread& spread, double unit) {
-  if (spread.values.empty()) return fmt::format("{:>24}", "-");
-  const auto [least, most] = std::ranges::minmax(spread.values);
-  return fmt::format("{:>24}", fmt::format("{:.2f} ({:.2f} to {:.2f})", spread.median() / unit,
-                                           least / unit, most / unit));
+std::string Cell(const std::vector<double>& values, double unit) {
+  if (values.empty()) return fmt::format("{:>24}", "-");
+  const Statistics over = Summarize(values);
+  return fmt::format("{:>24}", fmt::format("{:.2f} ({:.2f} to {:.2f})", over.median / unit,
+                                           over.min / unit, over.max / unit));
 }
 
 int BenchAccuracy(const Options& options) {
-  for (const std::string& view : options.views) ParseView(view);  // all, before the first drives
+  for (const std::string& text : options.views) {  // all, before the first drives
+    const BenchView view = ParseView(text);
+    CheckStarts(text, view.from, view.to, options);
+  }
   fmt::print("{}, {} starts, {} frames apart: median (least to most)\n", options.system,
              options.starts, options.step);
   fmt::print("{:28}{:>7}{:>24}{:>24}{:>24}\n", "view", "frames", "live ATE cm", "final ATE cm",
@@ -112,9 +117,9 @@ int BenchAccuracy(const Options& options) {
     std::fflush(stdout);
     rows.push_back({{"view", view},
                     {"frames", outcome.frames},
-                    {"ate_live_rmse_m", outcome.live_m.values},
-                    {"ate_rmse_m", outcome.final_m.values},
-                    {"frames_lost", outcome.lost.values}});
+                    {"ate_live_rmse_m", outcome.live_m},
+                    {"ate_rmse_m", outcome.final_m},
+                    {"frames_lost", outcome.lost}});
   }
   if (!options.json.empty()) WriteFileAtomically(options.json, rows.dump(2) + "\n");
   return kAllPassed;

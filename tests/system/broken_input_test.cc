@@ -115,6 +115,10 @@ TEST_F(BrokenInputTest, SuitesAndScenes) {
        {},
        "aisle: paper/scene22: neither a scene (a file, or a name like paper/scene2) nor the folder "
        "of a recording"},
+      {{"bench", "accuracy", "paper/scene2:90-95", "--starts", "9"},
+       {},
+       "aisle: paper/scene2:90-95: its last start would be frame 98, and it ends before frame 95: "
+       "fewer --starts or a smaller --step"},
   });
 }
 
