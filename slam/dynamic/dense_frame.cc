@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "slam/dynamic/disparity.h"
+#include "slam/dynamic/semi_global.h"
 #include "slam/dynamic/window_sums.h"
 
 namespace aisle::slam::dynamic {
@@ -142,11 +143,11 @@ cv::Mat1f FillRows(const cv::Mat1f& disparity) {
 }
 
 DenseFrame MakeDenseFrame(const cv::Mat1b& left, const cv::Mat1b& right,
-                          const DisparityOptions& disparity, const SurfaceOptions& options) {
+                          const SemiGlobalOptions& disparity, const SurfaceOptions& options) {
   DenseFrame frame;
   frame.image = HalfImage(left);
   const cv::Mat1b half_right = HalfImage(right);
-  frame.disparity = ComputeDisparity(frame.image, half_right, disparity);
+  frame.disparity = MatchSemiGlobally(frame.image, half_right, disparity);
   SpanHalfPixels(half_right, frame.right_low, frame.right_high);
   ForgetPadding(frame.disparity, disparity.max_disparity_px, options.border_px);
   frame.filled = FillRows(frame.disparity);

@@ -32,7 +32,7 @@ cv::Mat1b HalfImage(const cv::Mat1b& image);
 
 /// Disparity on images of half size, without the columns where the matcher saw only padding.
 DenseFrame MakeDenseFrame(const cv::Mat1b& left, const cv::Mat1b& right,
-                          const DisparityOptions& disparity, const SurfaceOptions& options);
+                          const SemiGlobalOptions& disparity, const SurfaceOptions& options);
 
 /// Variance of the difference of two measurements of each grey value.
 cv::Mat1f DifferenceVariance(const cv::Mat1b& image, const SurfaceOptions& options);

@@ -14,10 +14,9 @@ cv::Mat1f ComputeDisparity(const cv::Mat1b& left, const cv::Mat1b& right,
   cv::copyMakeBorder(right, padded_right, 0, 0, pad, 0, cv::BORDER_REPLICATE);
 
   const int area = options.block_px * options.block_px;
-  const auto matcher = cv::StereoSGBM::create(
-      0, options.max_disparity_px, options.block_px, 8 * area, 32 * area, options.left_right_px, 31,
-      options.uniqueness_percent, options.speckle_px, 2,
-      options.three_way ? cv::StereoSGBM::MODE_SGBM_3WAY : cv::StereoSGBM::MODE_SGBM);
+  const auto matcher = cv::StereoSGBM::create(0, options.max_disparity_px, options.block_px,
+                                              8 * area, 32 * area, options.left_right_px, 31,
+                                              options.uniqueness_percent, options.speckle_px, 2);
   cv::Mat1s sixteenths;
   matcher->compute(padded_left, padded_right, sixteenths);
 

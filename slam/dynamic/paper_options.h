@@ -18,7 +18,6 @@ struct DisparityOptions {
   int uniqueness_percent = 5;  ///< margin by which the best cost must win
   int speckle_px = 100;        ///< smaller islands of disparity are dropped
   int left_right_px = 2;       ///< allowed disagreement of left-to-right and right-to-left
-  bool three_way = false;  ///< 3 path directions instead of the 5 of plain SGBM: faster, coarser
 
   OptionError Validate() const {
     if (max_disparity_px % 16 != 0)

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "slam/dynamic/paper_options.h"
+#include "slam/dynamic/option_check.h"
 
 // Every constant of the robust method on one page. Lengths are in pixels of the half-size images
 // unless they say otherwise. What could depend on a scene is in units of noise that is measured
@@ -15,6 +15,37 @@ namespace aisle::slam::dynamic {
 /// less, so the long ones find slow movers and the short one is quick.
 inline constexpr std::array<int, 3> kGaps = {1, 5, 15};
 inline constexpr int kLongestGap = 15;
+
+/// Semi-global matching. Costs and prices are of one path: how many of a pixel's 54 census bits (a
+/// quarter of nine times 24) may differ before another disparity is cheaper.
+struct SemiGlobalOptions {
+  int max_disparity_px =
+      64;               ///< multiple of 32; 64 are 128 full pixels, 0.41 m with the default rig
+  int small_step = 10;  ///< price of a change of disparity by one
+  /// Price of any other change, halved where the grey value changes by `contrast` and never less
+  /// than the last.
+  int large_step = 70, contrast = 16, least_large_step = 30;
+  int uniqueness_percent = 5;  ///< margin by which the best cost must win
+  int left_right_px = 1;       ///< allowed disagreement of left-to-right and right-to-left
+  int speckle_px = 40;         ///< smaller islands of disparity are dropped; pixels
+  int speckle_step_px = 2;     ///< change of disparity from pixel to pixel that parts islands
+
+  OptionError Validate() const {
+    if (max_disparity_px % 32 != 0) {
+      return fmt::format("max_disparity_px is {}; it must be a multiple of 32", max_disparity_px);
+    }
+    constexpr int kMostPrice = 73;  // with the dearest cost it is half a byte
+    return FirstOf(CheckRange("max_disparity_px", max_disparity_px, 32, 128),
+                   CheckRange("large_step", large_step, 0, kMostPrice),
+                   CheckRange("small_step", small_step, 0, large_step),
+                   CheckRange("least_large_step", least_large_step, small_step, large_step),
+                   CheckRange("contrast", contrast, 1, 10000),
+                   CheckRange("uniqueness_percent", uniqueness_percent, 0, 90),
+                   CheckRange("left_right_px", left_right_px, 0, 128),
+                   CheckRange("speckle_px", speckle_px, 0, 10000),
+                   CheckRange("speckle_step_px", speckle_step_px, 0, 128));
+  }
+};
 
 /// Dense flow between the image and what the static world would look like (DIS).
 struct ResidualFlowOptions {
@@ -203,13 +234,7 @@ struct RegionOptions {
 };
 
 struct RobustOptions {
-  /// On images of half size: 64 are 128 full pixels, 0.41 m with the default rig.
-  DisparityOptions disparity{.max_disparity_px = 64,
-                             .block_px = 5,
-                             .uniqueness_percent = 5,
-                             .speckle_px = 40,
-                             .left_right_px = 1,
-                             .three_way = true};
+  SemiGlobalOptions disparity;
   SurfaceOptions surface;
   ResidualFlowOptions flow;
   EgoMotionOptions ego;

@@ -52,7 +52,7 @@ StagePicture DrawDisparity(const cv::Mat1b& left, const RobustStages& s) {
   Tint(s.floor_mask, floor_colour, 0.45, half);
   const double known = cv::countNonZero(s.half_disparity > 0);
   return {"disparity",
-          Framed(Enlarged(half, left.size()), "1  Disparity by SGBM at half size, and the floor",
+          Framed(Enlarged(half, left.size()), "1  Disparity at half size, and the floor",
                  {{HeatColour(0, most), "far"},
                   {HeatColour(most, most), fmt::format("near ({:.0f} px)", 2 * most)},
                   {{0, 0, 0}, "unknown"},

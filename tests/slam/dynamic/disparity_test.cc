@@ -29,15 +29,10 @@ Agreement Compare(const cv::Mat1f& disparity, const cv::Mat1f& truth) {
 TEST(Disparity, AgreesWithTheTruthOfATexturedHall) {
   const auto view =
       test::Render(test::StaticHall(), StereoCamera{}, Eigen::Isometry3d::Identity(), 0);
-  for (const bool three_way : {false, true}) {
-    DisparityOptions options;
-    options.three_way = three_way;
-    const Agreement agreement =
-        Compare(ComputeDisparity(view.left, view.right, options), view.disparity);
-    EXPECT_GT(agreement.known, 0.85) << "three_way " << three_way;
-    // The floor is slanted and blurred: it is where SGBM rounds most.
-    EXPECT_GT(agreement.close, 0.8) << "three_way " << three_way;
-  }
+  const Agreement agreement = Compare(ComputeDisparity(view.left, view.right, {}), view.disparity);
+  EXPECT_GT(agreement.known, 0.85);
+  // The floor is slanted and blurred: it is where SGBM rounds most.
+  EXPECT_GT(agreement.close, 0.8);
 }
 
 TEST(Disparity, NeverPointsBeyondTheRightImage) {
@@ -52,17 +47,13 @@ TEST(Disparity, NeverPointsBeyondTheRightImage) {
 TEST(Disparity, IsTheSameForAnyNumberOfThreads) {
   const auto view =
       test::Render(test::StaticHall(), StereoCamera{}, Eigen::Isometry3d::Identity(), 0);
-  for (const bool three_way : {false, true}) {
-    DisparityOptions options;
-    options.three_way = three_way;
-    const int threads = cv::getNumThreads();
-    cv::setNumThreads(1);
-    const cv::Mat1f one = ComputeDisparity(view.left, view.right, options);
-    cv::setNumThreads(4);
-    const cv::Mat1f four = ComputeDisparity(view.left, view.right, options);
-    cv::setNumThreads(threads);
-    EXPECT_EQ(cv::norm(one, four, cv::NORM_INF), 0) << "three_way " << three_way;
-  }
+  const int threads = cv::getNumThreads();
+  cv::setNumThreads(1);
+  const cv::Mat1f one = ComputeDisparity(view.left, view.right, {});
+  cv::setNumThreads(4);
+  const cv::Mat1f four = ComputeDisparity(view.left, view.right, {});
+  cv::setNumThreads(threads);
+  EXPECT_EQ(cv::norm(one, four, cv::NORM_INF), 0);
 }
 
 TEST(DisparityNear, IsTheMedianOfWhatIsKnown) {
