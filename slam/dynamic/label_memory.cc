@@ -29,7 +29,7 @@ cv::Point SameSurface(const cv::Mat1f& disparity, const cv::Vec2f& place, float 
 }  // namespace
 
 LabelMemory ForgottenMemory(cv::Size size) {
-  return {cv::Mat1f(size, 0.0F), {cv::Mat1i(size, 0), {}}, {}};
+  return {cv::Mat1f(size, 0.0F), {cv::Mat1i(size, 0), {}}, {}, {}};
 }
 
 LabelMemory CarryMemory(const LabelMemory& previous, const cv::Mat2f& flow, const DenseFrame& now,
@@ -38,13 +38,19 @@ LabelMemory CarryMemory(const LabelMemory& previous, const cv::Mat2f& flow, cons
   if (previous.log_odds.empty()) return carried;
   carried.regions.regions = previous.regions.regions;
   const bool compared_long = !previous.long_log_odds.empty();
-  if (compared_long) carried.long_log_odds = cv::Mat1f(flow.size(), 0.0F);
+  if (compared_long) {
+    carried.long_log_odds = cv::Mat1f(flow.size(), 0.0F);
+    carried.long_per_step = cv::Mat2f(flow.size(), cv::Vec2f(0, 0));
+  }
   tbb::parallel_for(0, flow.rows, [&](int y) {
     for (int x = 0; x < flow.cols; ++x) {
       const cv::Point from = SameSurface(before.disparity, flow(y, x), now.filled(y, x));
       if (from.x < 0) continue;
       carried.log_odds(y, x) = previous.log_odds(from);
-      if (compared_long) carried.long_log_odds(y, x) = previous.long_log_odds(from);
+      if (compared_long) {
+        carried.long_log_odds(y, x) = previous.long_log_odds(from);
+        carried.long_per_step(y, x) = previous.long_per_step(from);
+      }
       carried.regions.labels(y, x) = previous.regions.labels(from);
     }
   });

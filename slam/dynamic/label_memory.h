@@ -13,6 +13,7 @@ struct LabelMemory {
   PixelRegions regions;
   /// What the longer of the gaps said in that frame alone; empty if none was compared.
   cv::Mat1f long_log_odds = {};
+  cv::Mat2f long_per_step = {};  ///< its residual, shared out among its steps
 };
 
 /// Nothing known, nothing moving.

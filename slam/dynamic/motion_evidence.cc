@@ -9,6 +9,7 @@
 #include "slam/dynamic/median.h"
 #include "slam/dynamic/misfit.h"
 #include "slam/dynamic/residual_flow.h"
+#include "slam/dynamic/static_alias.h"
 
 namespace aisle::slam::dynamic {
 namespace {
@@ -65,6 +66,7 @@ struct Evidence {
   float most;                    // log-odds that matter
   float mover_px_per_disparity;  // image speed of a mover over the gap, for each pixel of disparity
   float disparity_change;        // of a mover over the gap, for each squared pixel of disparity
+  float depth_per_disparity;     // see AliasViews
 
   /// Whether something nearer is so close that the flow here is its flow.
   bool IsBesideNearer(int y, int x, float d) const {
@@ -85,106 +87,24 @@ struct Evidence {
            Squared(options.noise_per_displacement) * way.dot(way);
   }
 
-  Eigen::Matrix2f Information(int y, int x) const {
-    Eigen::Matrix2f G;
-    G << texture.xx(y, x), texture.xy(y, x), texture.xy(y, x), texture.yy(y, x);
-    return G;
-  }
-
-  Eigen::Vector2f Residual(int y, int x) const {
-    const cv::Vec2f r = frames.flow(y, x) - expected.place(y, x);
-    return {r[0], r[1]};
-  }
-
-  float StaticVariance(int y, int x) const {
-    return Squared(frames.flow_noise) + OtherVariance(y, x);
-  }
-
-  float FlowLogOdds(int y, int x, float d, const Eigen::Vector2f& r) const {
-    return DisplacementLogOdds(Information(y, x), r, StaticVariance(y, x),
-                               Squared(mover_px_per_disparity * d));
-  }
-
-  /// The most that a pixel's motion can be borne out by stereo. Were it static and its disparity
-  /// another one, that might explain the flow, too: what speaks for motion is what that leaves
-  /// unexplained, and how much worse the right image fits there. Along a corrugated wall or a row
-  /// of equal bars it fits as well.
-  float LimitByStereo(int y, int x, float d, float log_odds) const {
-    const cv::Vec2f& e = expected.per_disparity(y, x);
-    const Eigen::Vector2f along(e[0], e[1]), r = Residual(y, x);
-    const Eigen::Matrix2f G = Information(y, x);
-    const Eigen::Matrix2f S =
-        (Eigen::Matrix2f::Identity() + StaticVariance(y, x) * G).inverse() * G;
-    const float held = along.dot(S * along);
-    if (held < 1e-6F) return log_odds;
-    const float step = along.dot(S * r) / held;
-    const float unexplained = std::max(FlowLogOdds(y, x, d, r - step * along), 0.0F);
-    const float asked = std::min(log_odds, most) - unexplained;
-    if (asked <= 0) return log_odds;
-    const float here = StereoMisfit(y, x, cvRound(d), std::numeric_limits<float>::max());
-    const float enough = here + asked / GainPerMisfit(here);
-    const float there = BestOther(y, x, d, {d + step, 2 / std::sqrt(held)}, {here, enough});
-    if (there >= enough) return log_odds;
-    return unexplained + std::max(there - here, 0.0F) * GainPerMisfit(here);
-  }
-
-  /// Log-odds of what fits so well against what fits otherwise, for each unit of their difference.
-  float GainPerMisfit(float misfit) const {
-    return static_cast<float>(options.independent_pixels) / 2 /
-           (1 + static_cast<float>(options.misfit_weight) * misfit);
-  }
-
-  struct Range {
-    float centre, reach;
-  };
-  struct Misfits {
-    float ill_enough, well_enough;  // below the first and above the second nothing matters
-  };
-
-  /// The best fit of all disparities in a range that are not that of the pixel.
-  float BestOther(int y, int x, float d, Range others, Misfits limits) const {
-    constexpr float kMostReach = 16;
-    const float reach = std::min(others.reach, kMostReach);
-    const int from = std::max(static_cast<int>(std::floor(others.centre - reach)), 0);
-    const int to = std::min(static_cast<int>(std::ceil(others.centre + reach)), x);
-    float best = limits.well_enough;
-    for (int k = from; k <= to && best > limits.ill_enough; ++k) {
-      const float apart = std::abs(static_cast<float>(k) - d);
-      if (apart < static_cast<float>(options.other_disparity)) continue;
-      best = std::min(best, StereoMisfit(y, x, k, best));
-    }
-    return best;
-  }
-
-  /// Mean squared difference, in units of its variance, of the window around a pixel and that of
-  /// the right image a disparity away, as far as the half pixel around cannot explain it
-  /// (Birchfield and Tomasi, 1998); endless outside. Only the part above `most` is not exact.
-  float StereoMisfit(int y, int x, int d, float most) const {
-    constexpr int kReach = 3;
-    const cv::Mat1b& left = frames.now.image;
-    const int top = std::max(y - kReach, 0), bottom = std::min(y + kReach, left.rows - 1);
-    const int reach = std::min({kReach, x - d, left.cols - 1 - x});
-    if (reach < 1) return std::numeric_limits<float>::max();
-    const float unit =
-        static_cast<float>((bottom - top + 1) * (2 * reach + 1)) * around.variance(y, x);
-    int squares = 0;
-    for (int v = top; v <= bottom && static_cast<float>(squares) < most * unit; ++v) {
-      const unsigned char* seen = left[v] + x - reach;
-      const unsigned char* low = frames.now.right_low[v] + x - d - reach;
-      const unsigned char* high = frames.now.right_high[v] + x - d - reach;
-      for (int u = 0; u <= 2 * reach; ++u) {
-        const int off = std::max({0, seen[u] - high[u], low[u] - seen[u]});
-        squares += off * off;
-      }
-    }
-    return static_cast<float>(squares) / unit;
+  /// What of a pixel's log-odds something static with another disparity does not explain.
+  float Unexplained(int y, int x, float log_odds) const {
+    const SeenMotion seen{{x, y},
+                          frames.now.disparity(y, x),
+                          frames.flow(y, x),
+                          expected.place(y, x),
+                          expected.disparity(y, x),
+                          expected.per_disparity(y, x)};
+    const AliasViews views{frames.now, frames.then.image, around.variance, depth_per_disparity};
+    return LimitByAlias(views, seen, std::min(log_odds, most), options);
   }
 
   /// What the flow of each pixel of a row says, whether anything is known of it or not.
-  void FlowLogOddsOfRow(int y, float* log_odds) const {
+  void FlowLogOddsOfRow(int y, float* log_odds, LatestStep& step) const {
     const float *place = expected.place.ptr<float>(y), *per = expected.per_disparity.ptr<float>(y),
                 *flow = frames.flow.ptr<float>(y), *disparity = frames.now.disparity[y];
     const float *xx = texture.xx[y], *xy = texture.xy[y], *yy = texture.yy[y];
+    float *residual = step.residual.ptr<float>(y), *variances = step.variance[y];
     const float of_flow = Squared(frames.flow_noise),
                 of_disparity = Squared(options.disparity_noise),
                 of_way = Squared(options.noise_per_displacement);
@@ -196,8 +116,11 @@ struct Evidence {
       const float variance =
           of_flow + of_disparity * (pu * pu + pv * pv) + of_way * (du * du + dv * dv);
       const float mover = mover_px_per_disparity * disparity[x];
-      log_odds[x] = LogOddsOf({xx[x], xy[x], yy[x], flow[2 * x] - u, flow[2 * x + 1] - v}, variance,
-                              mover * mover);
+      const float ru = flow[2 * x] - u, rv = flow[2 * x + 1] - v;
+      log_odds[x] = LogOddsOf({xx[x], xy[x], yy[x], ru, rv}, variance, mover * mover);
+      residual[2 * x] = ru;
+      residual[2 * x + 1] = rv;
+      variances[x] = variance;
     }
   }
 
@@ -224,9 +147,8 @@ struct Evidence {
                    moved >= static_cast<float>(options.hidden_misfit))) {
       return 0;
     }
-    const float gain = (misfit_static(y, x) - moved) * GainPerMisfit(moved);
-    const float borne_out = std::clamp(gain, 0.0F, log_odds);
-    return borne_out > 0 ? LimitByStereo(y, x, d, borne_out) : 0;
+    const float gain = (misfit_static(y, x) - moved) * GainPerMisfit(moved, options);
+    return std::clamp(gain, 0.0F, log_odds);
   }
 };
 
@@ -252,6 +174,31 @@ std::optional<double> MeasureFlowNoise(const Evidence& evidence) {
   }
   if (std::ssize(squares) < kLeastSamples) return std::nullopt;
   return std::sqrt(Median(std::move(squares)) / kMedianOfTwo);
+}
+
+/// Asks for static explanations once for each block of pixels, where motion is clearest.
+void LimitBlocks(const Evidence& evidence, cv::Mat1f& log_odds) {
+  constexpr int kSide = 2;
+  tbb::parallel_for(0, (log_odds.rows + kSide - 1) / kSide, [&](int block) {
+    const int bottom = std::min((block + 1) * kSide, log_odds.rows);
+    for (int left = 0; left < log_odds.cols; left += kSide) {
+      const int right = std::min(left + kSide, log_odds.cols);
+      float clearest = 0;
+      cv::Point at;
+      for (int y = block * kSide; y < bottom; ++y) {
+        for (int x = left; x < right; ++x) {
+          if (log_odds(y, x) <= clearest) continue;
+          clearest = log_odds(y, x);
+          at = {x, y};
+        }
+      }
+      if (clearest <= 0) continue;
+      const float limit = evidence.Unexplained(at.y, at.x, clearest);
+      for (int y = block * kSide; y < bottom; ++y) {
+        for (int x = left; x < right; ++x) log_odds(y, x) = std::min(log_odds(y, x), limit);
+      }
+    }
+  });
 }
 
 }  // namespace
@@ -284,7 +231,8 @@ MotionEvidence CompareMotion(const Comparison& comparison, const Texture& textur
                     {},
                     static_cast<float>(*std::max_element(options.most.begin(), options.most.end())),
                     static_cast<float>(way_m / half.baseline_m),
-                    static_cast<float>(way_m / focal_baseline)};
+                    static_cast<float>(way_m / focal_baseline),
+                    static_cast<float>(comparison.T_then_now.translation().z() / focal_baseline)};
   tbb::parallel_invoke(
       [&] {
         const cv::Mat1b still = SampleAt(then.image, evidence.expected.place);
@@ -294,12 +242,15 @@ MotionEvidence CompareMotion(const Comparison& comparison, const Texture& textur
         const cv::Mat1b moved = SampleAt(then.image, comparison.flow);
         evidence.misfit_moved = Misfit(now.image, moved, around.variance);
       });
-  MotionEvidence found{cv::Mat1f(now.image.size()), MeasureFlowNoise(evidence)};
+  const cv::Size size = now.image.size();
+  MotionEvidence found{
+      cv::Mat1f(size), {cv::Mat2f(size), cv::Mat1f(size)}, MeasureFlowNoise(evidence)};
   tbb::parallel_for(0, now.image.rows, [&](int y) {
     float* log_odds = found.log_odds[y];
-    evidence.FlowLogOddsOfRow(y, log_odds);
+    evidence.FlowLogOddsOfRow(y, log_odds, found.step);
     for (int x = 0; x < now.image.cols; ++x) log_odds[x] = evidence.At(y, x, log_odds[x]);
   });
+  LimitBlocks(evidence, found.log_odds);
   return found;
 }
 

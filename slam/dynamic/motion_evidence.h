@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "slam/dynamic/dense_frame.h"
+#include "slam/dynamic/motion_ended.h"
 #include "slam/dynamic/robust_options.h"
 
 namespace aisle::slam::dynamic {
@@ -39,6 +40,7 @@ Surroundings LookAround(const DenseFrame& frame, const SurfaceOptions& surface,
 struct MotionEvidence {
   /// Of moving, per pixel of half size, without limits; 0 where nothing is known.
   cv::Mat1f log_odds;
+  LatestStep step;                   ///< what it says that of
   std::optional<double> flow_noise;  ///< what this comparison measured, where it could
 };
 

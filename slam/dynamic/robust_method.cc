@@ -81,10 +81,10 @@ std::vector<GapMotion> GapsInTurn(const RobustState& before) {
   std::vector<GapMotion> gaps;
   const auto past = std::ssize(before.frames);
   if (past < kGaps[0]) return gaps;
-  gaps.push_back({0, kGaps[0], {}, {}, {}, {}});
+  gaps.push_back({0, kGaps[0], {}, {}, {}, {}, {}});
   std::size_t slot = before.long_slot % (kGaps.size() - 1) + 1;
   if (past < kGaps[slot]) slot = 1;
-  if (past >= kGaps[slot]) gaps.push_back({slot, kGaps[slot], {}, {}, {}, {}});
+  if (past >= kGaps[slot]) gaps.push_back({slot, kGaps[slot], {}, {}, {}, {}, {}});
   return gaps;
 }
 
@@ -146,7 +146,12 @@ cv::Mat1f CompareWithPast(std::vector<GapMotion>& gaps, RobustState& state,
                           const StereoCamera& half, const RobustOptions& options) {
   if (gaps.empty()) return cv::Mat1f(seen.frame.image.size(), 0.0F);
   std::vector<cv::Mat1f> evidence(kGaps.size());
-  evidence[before.long_slot] = memory.long_log_odds;
+  std::vector<cv::Mat2f> per_step(kGaps.size());
+  if (before.long_slot > 0) {
+    evidence[before.long_slot] = memory.long_log_odds;
+    per_step[before.long_slot] = memory.long_per_step;
+  }
+  LatestStep latest;
   for (GapMotion& gap : gaps) {
     const DenseFrame& then = FrameAgo(before, gap.gap);
     const Comparison comparison{seen.frame,
@@ -159,10 +164,17 @@ cv::Mat1f CompareWithPast(std::vector<GapMotion>& gaps, RobustState& state,
     const MotionEvidence found =
         CompareMotion(comparison, seen.texture, seen.around, half, options.evidence);
     gap.evidence = evidence[gap.slot] = found.log_odds;
+    gap.per_step = per_step[gap.slot] = found.step.residual / gap.gap;
+    if (gap.slot == 0) latest = found.step;
     if (!found.flow_noise) continue;
     const double bounded = std::clamp(*found.flow_noise, kLeastFlowNoise, kMostFlowNoise);
     double& noise = state.flow_noise[gap.slot];
     noise += NoiseRate(gap) * (bounded - noise);
+  }
+  for (std::size_t slot = 1; slot < kGaps.size(); ++slot) {
+    if (evidence[slot].empty()) continue;
+    TakeOffEndedMotion(latest, seen.texture, per_step[slot], options.evidence.least_speed_share,
+                       options.evidence.most[slot], evidence[slot]);
   }
   return CombineGaps(evidence, options.evidence);
 }
@@ -273,6 +285,7 @@ void Remember(RobustState& state, LabelMemory memory, DenseFrame now,
               const std::vector<GapMotion>& gaps, const RobustOptions& options) {
   state.long_slot = gaps.size() > 1 ? gaps.back().slot : 0;
   memory.long_log_odds = state.long_slot > 0 ? ToCarry(gaps.back(), options) : cv::Mat1f();
+  memory.long_per_step = state.long_slot > 0 ? gaps.back().per_step : cv::Mat2f();
   state.memory = std::move(memory);
   if (!gaps.empty()) {
     state.T_now_before = gaps[0].motion.T_now_before;

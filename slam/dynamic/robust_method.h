@@ -42,6 +42,7 @@ struct GapMotion {
   cv::Mat2f flow;        ///< the same, whatever moved
   EgoMotion motion;
   cv::Mat1f evidence;  ///< log-odds of moving per half-size pixel, of this gap alone
+  cv::Mat2f per_step;  ///< what the static world leaves unexplained of the flow, for each step
 };
 
 /// What the stages of one step found, for pictures and tests.

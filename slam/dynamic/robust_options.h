@@ -113,6 +113,8 @@ struct EvidenceOptions {
   double hidden_misfit = 1.5;  ///< limit of that misfit where the static surface was hidden
   /// Disparities so far apart are two matches, not one measured ill.
   double other_disparity = 1.5;
+  /// As far as something static may be looked for that looks the same: [0, this), at most 128.
+  int alias_disparities = 64;
   /// A step of disparity up to which two measurements may show one surface: a constant part and a
   /// share of the disparity, to which comes what a mover's speed makes of it.
   double same_surface = 0.5, same_surface_share = 0.04, same_surface_speeds = 4;
@@ -123,6 +125,8 @@ struct EvidenceOptions {
   /// what looks moved over a long one may have been uncovered.
   std::array<double, 3> least = {-0.7, -1.5, -1.0};
   std::array<double, 3> most = {2.5, 2.5, 1.0};
+  /// What a longer gap saw moving has not stopped if it still goes at this share of its mean speed.
+  double least_speed_share = 0.5;
   double motion_found = 0.5;   ///< evidence of one gap from which on the others count less ...
   double others_weight = 0.3;  ///< ... when they say static: they were shorter, or saw another
 
@@ -141,6 +145,7 @@ struct EvidenceOptions {
                    CheckRange("independent_pixels", independent_pixels, 0.1, 1000.0),
                    CheckRange("misfit_weight", misfit_weight, 0.0, 100.0),
                    CheckRange("hidden_misfit", hidden_misfit, 0.0, 100.0),
+                   CheckRange("alias_disparities", alias_disparities, 1, 128),
                    CheckRange("other_disparity", other_disparity, 0.1, 100.0),
                    CheckRange("same_surface", same_surface, 0.01, 100.0),
                    CheckRange("same_surface_share", same_surface_share, 0.0, 1.0),
@@ -148,6 +153,7 @@ struct EvidenceOptions {
                    CheckRange("edge_step", edge_step, 0.01, 100.0),
                    CheckRange("edge_share", edge_share, 0.0, 1.0),
                    CheckRange("edge_window_px", edge_window_px, 1, 101),
+                   CheckRange("least_speed_share", least_speed_share, 0.0, 1.0),
                    CheckRange("motion_found", motion_found, 0.0, 20.0),
                    CheckRange("others_weight", others_weight, 0.0, 1.0));
   }

@@ -152,6 +152,8 @@ double MeanLogOddsOfWall(int period, int flow_px, int stereo_px) {
 TEST(CompareMotion, IsNotMisledByARepeatingPatternMatchedAPeriodOff) {
   // Static at 4 pixels of disparity: it goes 2, not the 6 that the disparity of 12 would make.
   EXPECT_LT(MeanLogOddsOfWall(8, 2, 4), 0.5);
+  // The same wall, and flow that is a period off as well.
+  EXPECT_LT(MeanLogOddsOfWall(8, 10, 4), 0.5);
   // The same motion, and stereo that knows no other answer: it moves by itself.
   EXPECT_GT(MeanLogOddsOfWall(1000, 2, 12), 2);
 }

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "slam/dynamic/dense_frame.h"
+
+namespace aisle::slam::dynamic {
+
+/// What the latest step left unexplained, per half-size pixel.
+struct LatestStep {
+  cv::Mat2f residual;  ///< half-size pixels, of the flow, beside the static world's
+  cv::Mat1f variance;  ///< of a static pixel's residual, beyond what texture leaves open
+};
+
+/// Takes off the log-odds of moving that a longer gap found what the latest step says against it:
+/// who walked a second ago may stand now. `per_step` is the residual of the longer gap, shared out
+/// among its steps. Against "moves still, at no less than `least_share` of that" stands "is
+/// static", and the ratio of the two densities of the latest residual is taken off, where it is for
+/// static, down to zero. What moves too slowly for one step to tell keeps all.
+void TakeOffEndedMotion(const LatestStep& step, const Texture& texture, const cv::Mat2f& per_step,
+                        double least_share, double most, cv::Mat1f& log_odds);
+
+}  // namespace aisle::slam::dynamic
