@@ -5,6 +5,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include "slam/dynamic/patch_flow.h"
+
 namespace aisle::slam::dynamic {
 namespace {
 
@@ -92,17 +94,11 @@ cv::Mat1b SampleAt(const cv::Mat1b& image, const cv::Mat2f& places) {
   return sampled;
 }
 
-cv::Mat2f FollowBack(const cv::Mat1b& now, const cv::Mat1b& then, const cv::Mat2f& expected,
-                     const ResidualFlowOptions& options) {
+cv::Mat2f FollowBack(const cv::Mat1b& now, const FlowPyramid& pyramid, const cv::Mat1b& then,
+                     const cv::Mat2f& expected, const ResidualFlowOptions& options) {
   cv::Mat1b view = now.clone();  // stays where the earlier image did not reach
   cv::remap(then, view, expected, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_TRANSPARENT);
-  const auto flow = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_FAST);
-  flow->setFinestScale(options.finest_scale);
-  flow->setGradientDescentIterations(options.descents);
-  flow->setVariationalRefinementIterations(options.refinements);
-  flow->setUseSpatialPropagation(false);  // it would stop where one thread's stripe ends
-  cv::Mat2f residual;
-  flow->calc(now, view, residual);
+  cv::Mat2f residual = FlowTo(view, pyramid, options);
   // What is seen at x + residual of the view came from the place expected of that pixel.
   for (int y = 0; y < residual.rows; ++y) {
     float* row = residual.ptr<float>(y);

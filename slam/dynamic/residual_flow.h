@@ -5,6 +5,7 @@
 
 #include "slam/dynamic/dense_frame.h"
 #include "slam/dynamic/ego_motion.h"
+#include "slam/dynamic/flow_pyramid.h"
 #include "slam/dynamic/label_memory.h"
 #include "slam/dynamic/robust_options.h"
 
@@ -12,10 +13,9 @@ namespace aisle::slam::dynamic {
 
 /// Where every pixel of an image was in an earlier one, whatever moved (half-size pixels): the
 /// earlier image is first brought to the view in which every pixel comes from its expected place,
-/// so that only what that leaves unexplained has to be found. The same bits for any number of
-/// threads.
-cv::Mat2f FollowBack(const cv::Mat1b& now, const cv::Mat1b& then, const cv::Mat2f& expected,
-                     const ResidualFlowOptions& options);
+/// so that only what that leaves unexplained has to be found. `pyramid` is that of the image.
+cv::Mat2f FollowBack(const cv::Mat1b& now, const FlowPyramid& pyramid, const cv::Mat1b& then,
+                     const cv::Mat2f& expected, const ResidualFlowOptions& options);
 
 /// The earlier image at the given places; the image's border is repeated outside.
 cv::Mat1b SampleAt(const cv::Mat1b& image, const cv::Mat2f& places);

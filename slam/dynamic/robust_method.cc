@@ -50,6 +50,7 @@ std::optional<MotionPrior> PriorFor(const RobustState& before, std::int64_t stam
 struct Seen {
   DenseFrame frame;
   Texture texture;
+  FlowPyramid pyramid;
   Surroundings around;
 };
 
@@ -61,7 +62,11 @@ Seen See(const StereoPair& images, std::int64_t stamp_ns, const RobustOptions& o
         seen.frame.stamp_ns = stamp_ns;
         seen.around = LookAround(seen.frame, options.surface, options.evidence);
       },
-      [&] { seen.texture = MeasureTexture(HalfImage(images.left), options.surface); });
+      [&] {
+        const cv::Mat1b half = HalfImage(images.left);
+        seen.texture = MeasureTexture(half, options.surface);
+        seen.pyramid = MakeFlowPyramid(half, options.flow);
+      });
   return seen;
 }
 
@@ -89,15 +94,15 @@ std::vector<GapMotion> GapsInTurn(const RobustState& before) {
 }
 
 /// The flow over these gaps.
-std::vector<GapMotion> FollowGaps(const RobustState& before, const DenseFrame& now,
+std::vector<GapMotion> FollowGaps(const RobustState& before, const Seen& seen,
                                   const Isometry3d& T_now_before, const StereoCamera& half,
                                   const ResidualFlowOptions& options) {
   std::vector<GapMotion> gaps = GapsInTurn(before);
   tbb::parallel_for(std::size_t{0}, gaps.size(), [&](std::size_t k) {
     const Isometry3d expected = MotionOver(gaps[k].gap, before, T_now_before);
-    gaps[k].expected = WhereStatic(now.filled, expected.inverse(), half).place;
-    gaps[k].flow =
-        FollowBack(now.image, FrameAgo(before, gaps[k].gap).image, gaps[k].expected, options);
+    gaps[k].expected = WhereStatic(seen.frame.filled, expected.inverse(), half).place;
+    gaps[k].flow = FollowBack(seen.frame.image, seen.pyramid, FrameAgo(before, gaps[k].gap).image,
+                              gaps[k].expected, options);
   });
   return gaps;
 }
@@ -314,9 +319,8 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
   }
   {
     const Stopwatch time(stages.stage_ms["flow"]);
-    stages.gaps =
-        FollowGaps(before, seen.frame, prior ? prior->T_now_before : Isometry3d::Identity(), half,
-                   options.flow);
+    stages.gaps = FollowGaps(before, seen, prior ? prior->T_now_before : Isometry3d::Identity(),
+                             half, options.flow);
   }
   Scene scene;
   {

@@ -19,8 +19,8 @@ inline constexpr int kLongestGap = 15;
 /// Semi-global matching. Costs and prices are of one path: how many of a pixel's 54 census bits (a
 /// quarter of nine times 24) may differ before another disparity is cheaper.
 struct SemiGlobalOptions {
-  int max_disparity_px =
-      64;               ///< multiple of 32; 64 are 128 full pixels, 0.41 m with the default rig
+  /// Multiple of 32. Of images of half size 64 are 128 full pixels, 0.41 m with the default rig.
+  int max_disparity_px = 64;
   int small_step = 10;  ///< price of a change of disparity by one
   /// Price of any other change, halved where the grey value changes by `contrast` and never less
   /// than the last.
@@ -50,13 +50,16 @@ struct SemiGlobalOptions {
 /// Dense flow between the image and what the static world would look like (DIS).
 struct ResidualFlowOptions {
   int finest_scale = 1;  ///< 0: patches on half-size pixels, 1: on those of quarter size
-  int descents = 10;     ///< iterations of a patch on each scale
-  int refinements = 2;   ///< variational iterations on each scale
+  int descents = 4;      ///< iterations of a patch on each scale
+  /// What the coarser size says of a shift counts as much as a patch whose squared gradients, in
+  /// grey levels per pixel, sum to this.
+  double inertia = 60;
+  int refinements = 2;  ///< variational iterations on each scale
 
   OptionError Validate() const {
-    return FirstOf(CheckRange("finest_scale", finest_scale, 0, 3),
-                   CheckRange("descents", descents, 1, 256),
-                   CheckRange("refinements", refinements, 0, 100));
+    return FirstOf(
+        CheckRange("finest_scale", finest_scale, 0, 3), CheckRange("descents", descents, 1, 256),
+        CheckRange("inertia", inertia, 1e-3, 1e6), CheckRange("refinements", refinements, 0, 100));
   }
 };
 

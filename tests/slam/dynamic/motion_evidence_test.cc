@@ -70,7 +70,8 @@ struct Pair {
     points = WellHeld(texture, now.disparity, 12);
     const StereoCamera half = HalfCamera({});
     expected = WhereStatic(now.filled, T_world_now, half).place;
-    flow = FollowBack(now.image, then.image, expected, options.flow);
+    flow = FollowBack(now.image, MakeFlowPyramid(now.image, options.flow), then.image, expected,
+                      options.flow);
     log_odds =
         CompareMotion({now, then, flow, T_world_now, seconds}, texture,
                       LookAround(now, options.surface, options.evidence), half, options.evidence)
