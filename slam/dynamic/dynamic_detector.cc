@@ -1,5 +1,7 @@
 #include "slam/dynamic/dynamic_detector.h"
 
+#include <tbb/parallel_for.h>
+
 #include <opencv2/imgproc.hpp>
 
 #include "slam/dynamic/dynamic_stages.h"
@@ -78,15 +80,17 @@ DynamicOutput DynamicDetector::Detect(const DynamicInput& input) {
 cv::Mat1b ShiftMaskToRight(const cv::Mat1b& mask, const cv::Mat1f& disparity) {
   const int factor = std::max(1, mask.cols / std::max(1, disparity.cols));
   cv::Mat1b right(mask.size(), static_cast<unsigned char>(0));
-  for (int y = 0; y < mask.rows; ++y) {
+  tbb::parallel_for(0, mask.rows, [&](int y) {
+    const unsigned char* moves = mask[y];
+    unsigned char* to_right = right[y];
     const float* known = disparity[std::min(y / factor, disparity.rows - 1)];
     for (int x = 0; x < mask.cols; ++x) {
-      if (mask(y, x) == 0) continue;
+      if (moves[x] == 0) continue;
       const float d = known[std::min(x / factor, disparity.cols - 1)];
       const int to = x - cvRound(d * static_cast<float>(factor));
-      if (d >= 0 && to >= 0) right(y, to) = 255;
+      if (d >= 0 && to >= 0) to_right[to] = 255;
     }
-  }
+  });
   const cv::Mat window = cv::getStructuringElement(cv::MORPH_RECT, {9, 5});
   cv::morphologyEx(right, right, cv::MORPH_CLOSE, window);
   return right;

@@ -48,9 +48,10 @@ class Sweeper {
     right_ = pad(links.right);
     down_ = pad(links.down);
     belief_ = pad(evidence);
-    for (int y = 1; y <= evidence.rows; ++y) {
-      for (int x = 1; x <= evidence.cols; ++x) belief_(y, x) = Belief(belief_(y, x));
-    }
+    tbb::parallel_for(1, evidence.rows + 1, [&](int y) {
+      float* row = belief_[y];
+      for (int x = 1; x <= evidence.cols; ++x) row[x] = Belief(row[x]);
+    });
   }
 
   /// As pixel by pixel in raster order, or the reverse (kStep -1): a row may go on as soon as the

@@ -1,5 +1,7 @@
 #include "slam/dynamic/moving_regions.h"
 
+#include <tbb/parallel_for.h>
+
 #include <opencv2/imgproc.hpp>
 #include <set>
 
@@ -72,7 +74,7 @@ cv::Mat1b InnerPixels(const cv::Mat1i& labels, int window) {
   cv::copyMakeBorder(labels, padded, reach, reach, reach, reach, cv::BORDER_REPLICATE);
   // All bits set where true; without branches, so that rows are vectorised.
   cv::Mat1i equal(padded.rows, labels.cols);  // within the row alone
-  for (int y = 0; y < padded.rows; ++y) {
+  tbb::parallel_for(0, padded.rows, [&](int y) {
     const int* row = padded[y];
     int* is = equal[y];
     std::fill(is, is + labels.cols, -1);
@@ -80,12 +82,11 @@ cv::Mat1b InnerPixels(const cv::Mat1i& labels, int window) {
       for (int x = 0; x < labels.cols; ++x)
         is[x] &= -static_cast<int>(row[x + k] == row[x + reach]);
     }
-  }
+  });
   cv::Mat1b inner(labels.size());
-  std::vector<int> all(static_cast<std::size_t>(labels.cols));
-  for (int y = 0; y < labels.rows; ++y) {
+  tbb::parallel_for(0, labels.rows, [&](int y) {
     const int* centre = labels[y];
-    std::fill(all.begin(), all.end(), -1);
+    std::vector<int> all(static_cast<std::size_t>(labels.cols), -1);
     for (int k = 0; k < window; ++k) {
       const int *row = padded[y + k] + reach, *is = equal[y + k];
       int* to = all.data();
@@ -95,7 +96,7 @@ cv::Mat1b InnerPixels(const cv::Mat1i& labels, int window) {
     for (int x = 0; x < labels.cols; ++x) {
       inner(y, x) = static_cast<unsigned char>(all[static_cast<std::size_t>(x)]);
     }
-  }
+  });
   return inner;
 }
 

@@ -14,27 +14,40 @@ constexpr int kFollowWindow = 9;  // half-size pixels, odd
 constexpr double kTrustInRegion = 0.02;
 constexpr float kLeastTexture = 4;  // of the weaker direction: half a pixel of deviation
 
-/// The smaller eigenvalue.
-float HeldBy(const Texture& texture, int y, int x) {
-  const float half = (texture.xx(y, x) + texture.yy(y, x)) / 2;
-  const float difference = (texture.xx(y, x) - texture.yy(y, x)) / 2;
-  return half - std::sqrt(difference * difference + texture.xy(y, x) * texture.xy(y, x));
+/// The smaller eigenvalue of the pixels of a row; 0 where the disparity is not known.
+void HoldRow(const Texture& texture, const cv::Mat1f& disparity, int y, float* held) {
+  const float *xx = texture.xx[y], *xy = texture.xy[y], *yy = texture.yy[y], *d = disparity[y];
+  const int columns = disparity.cols;
+#pragma GCC ivdep
+  for (int x = 0; x < columns; ++x) {
+    const float half = (xx[x] + yy[x]) / 2, difference = (xx[x] - yy[x]) / 2;
+    const float least = half - std::sqrt(difference * difference + xy[x] * xy[x]);
+    held[x] = d[x] > 0 ? least : 0.0F;
+  }
 }
 
 double FullPixel(double half) { return 2 * half + 0.5; }
 
-cv::Point BestIn(const cv::Rect& cell, const Texture& texture, const cv::Mat1f& disparity) {
-  float best = kLeastTexture;
-  cv::Point at(-1, -1);
-  for (int y = cell.y; y < cell.y + cell.height; ++y) {
-    for (int x = cell.x; x < cell.x + cell.width; ++x) {
-      if (!(disparity(y, x) > 0) || std::min(texture.xx(y, x), texture.yy(y, x)) <= best) continue;
-      const float held = HeldBy(texture, y, x);
-      if (held <= best) continue;
-      best = held;
-      at = {x, y};
+/// The best of each cell of some rows, the first of equals, where it holds at all.
+std::vector<cv::Point> BestOfRows(const Texture& texture, const cv::Mat1f& disparity, int top,
+                                  int cell_px) {
+  const int columns = disparity.cols, bottom = std::min(top + cell_px, disparity.rows);
+  const auto cells = static_cast<std::size_t>((columns + cell_px - 1) / cell_px);
+  std::vector<float> best(cells, kLeastTexture), held(static_cast<std::size_t>(columns));
+  std::vector<cv::Point> at(cells, {-1, -1});
+  for (int y = top; y < bottom; ++y) {
+    HoldRow(texture, disparity, y, held.data());
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+      const int left = static_cast<int>(cell) * cell_px, right = std::min(left + cell_px, columns);
+      for (int x = left; x < right; ++x) {
+        const float here = held[static_cast<std::size_t>(x)];
+        if (here <= best[cell]) continue;
+        best[cell] = here;
+        at[cell] = {x, y};
+      }
     }
   }
+  std::erase_if(at, [](const cv::Point& point) { return point.x < 0; });
   return at;
 }
 
@@ -113,16 +126,10 @@ cv::Mat2f FollowBack(const cv::Mat1b& now, const FlowPyramid& pyramid, const cv:
 }
 
 std::vector<cv::Point> WellHeld(const Texture& texture, const cv::Mat1f& disparity, int cell_px) {
-  const cv::Rect image({0, 0}, disparity.size());
   std::vector<std::vector<cv::Point>> rows(
       static_cast<std::size_t>((disparity.rows + cell_px - 1) / cell_px));
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t row) {
-    const int top = static_cast<int>(row) * cell_px;
-    for (int left = 0; left < disparity.cols; left += cell_px) {
-      const cv::Point at =
-          BestIn(cv::Rect(left, top, cell_px, cell_px) & image, texture, disparity);
-      if (at.x >= 0) rows[row].push_back(at);
-    }
+    rows[row] = BestOfRows(texture, disparity, static_cast<int>(row) * cell_px, cell_px);
   });
   std::vector<cv::Point> points;
   for (const auto& row : rows) points.insert(points.end(), row.begin(), row.end());

@@ -218,14 +218,14 @@ cv::Mat1f Leaning(const cv::Mat1f& log_odds, const cv::Mat1f& disparity, const c
   cv::add(log_odds, options.bias, leaning);
   const auto unknown = static_cast<float>(options.unknown_bias),
              on_floor = static_cast<float>(options.floor_bias);
-  for (int y = 0; y < leaning.rows; ++y) {
+  tbb::parallel_for(0, leaning.rows, [&](int y) {
     const float* known = disparity[y];
     float* lean = leaning[y];
     for (int x = 0; x < leaning.cols; ++x) lean[x] += known[x] <= 0 ? unknown : 0.0F;
     for (int x = 0; x < leaning.cols; ++x) {
       if (floor(y, x) != 0) lean[x] = std::min(lean[x], 0.0F) + on_floor;
     }
-  }
+  });
   return leaning;
 }
 
