@@ -76,20 +76,21 @@ std::vector<cv::Point2f> FollowPoints(const std::vector<cv::Point>& points, cons
                                       const DenseFrame& then, const cv::Mat2f& flow,
                                       const cv::Mat2f& expected) {
   if (points.empty()) return {};
-  std::vector<cv::Point2f> from, by_flow, by_expectation;
-  for (const cv::Point& at : points) {
-    from.emplace_back(at);
-    by_flow.emplace_back(flow(at));
-    by_expectation.emplace_back(expected(at));
+  std::vector<cv::Point2f> from, guesses;  // all by the flow, then all by expectation
+  for (const cv::Mat2f* places : {&flow, &expected}) {
+    for (const cv::Point& at : points) {
+      from.emplace_back(at);
+      guesses.emplace_back((*places)(at));
+    }
   }
-  std::vector<cv::Mat> pyramid;  // of one level, with derivatives: for both ways
+  std::vector<cv::Mat> pyramid;  // of one level, with derivatives
   cv::buildOpticalFlowPyramid(now.image, pyramid, {kFollowWindow, kFollowWindow}, 0);
-  Followed best = Follow(from, by_flow, pyramid, then.image);
-  const Followed other = Follow(from, by_expectation, pyramid, then.image);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (other.errors[i] < best.errors[i]) best.places[i] = other.places[i];
+  Followed followed = Follow(from, std::move(guesses), pyramid, then.image);
+  for (std::size_t i = 0, other = points.size(); i < points.size(); ++i, ++other) {
+    if (followed.errors[other] < followed.errors[i]) followed.places[i] = followed.places[other];
   }
-  return best.places;
+  followed.places.resize(points.size());
+  return followed.places;
 }
 
 /// The probability that a pixel stands still; hardly any within a region that moves, whatever its
