@@ -146,8 +146,19 @@ void LearnNoise(RobustState& state, const std::vector<GapMotion>& gaps, const Ga
   });
 }
 
+/// What speaks for motion that has ended, down to nothing known.
+void ForgetEnded(const cv::Mat1f& ended, cv::Mat1f& log_odds) {
+  tbb::parallel_for(0, log_odds.rows, [&](int y) {
+    const float* off = ended[y];
+    float* known = log_odds[y];
+    for (int x = 0; x < log_odds.cols; ++x) {
+      known[x] = known[x] > 0 ? std::max(known[x] - off[x], 0.0F) : known[x];
+    }
+  });
+}
+
 cv::Mat1f CompareWithPast(std::vector<GapMotion>& gaps, RobustState& state,
-                          const RobustState& before, const LabelMemory& memory, const Seen& seen,
+                          const RobustState& before, LabelMemory& memory, const Seen& seen,
                           const StereoCamera& half, const RobustOptions& options) {
   if (gaps.empty()) return cv::Mat1f(seen.frame.image.size(), 0.0F);
   std::vector<cv::Mat1f> evidence(kGaps.size());
@@ -176,11 +187,13 @@ cv::Mat1f CompareWithPast(std::vector<GapMotion>& gaps, RobustState& state,
     double& noise = state.flow_noise[gap.slot];
     noise += NoiseRate(gap) * (bounded - noise);
   }
+  cv::Mat1f ended(seen.frame.image.size(), 0.0F);
   for (std::size_t slot = 1; slot < kGaps.size(); ++slot) {
     if (evidence[slot].empty()) continue;
     TakeOffEndedMotion(latest, seen.texture, per_step[slot], options.evidence.least_speed_share,
-                       options.evidence.most[slot], evidence[slot]);
+                       options.evidence.most[slot], evidence[slot], ended);
   }
+  ForgetEnded(ended, memory.log_odds);
   return CombineGaps(evidence, options.evidence);
 }
 

@@ -12,17 +12,24 @@ using Eigen::Vector2d;
 
 constexpr double kShare = 0.5, kMost = 2.5;
 
-/// One pixel's log-odds, of a longer gap that found `found`.
-float Left(const Matrix2d& G, const Vector2d& latest, const Vector2d& per_step, float found,
-           double variance = 0.01) {
+struct Outcome {
+  float left, ended;
+};
+
+/// Of one pixel, of which a longer gap found `found`.
+Outcome Judge(const Matrix2d& G, const Vector2d& latest, const Vector2d& per_step, float found,
+              double variance = 0.01) {
   const auto one = [](double value) { return cv::Mat1f(1, 1, static_cast<float>(value)); };
   const auto two = [](const Vector2d& v) {
     return cv::Mat2f(1, 1, cv::Vec2f(static_cast<float>(v.x()), static_cast<float>(v.y())));
   };
-  cv::Mat1f log_odds = one(found);
+  cv::Mat1f log_odds = one(found), ended = one(0.25);
   TakeOffEndedMotion({two(latest), one(variance)}, {one(G(0, 0)), one(G(0, 1)), one(G(1, 1))},
-                     two(per_step), kShare, kMost, log_odds);
-  return log_odds(0, 0);
+                     two(per_step), kShare, kMost, log_odds, ended);
+  return {log_odds(0, 0), ended(0, 0)};
+}
+float Left(const Matrix2d& G, const Vector2d& latest, const Vector2d& per_step, float found) {
+  return Judge(G, latest, per_step, found).left;
 }
 
 Matrix2d Corner() {
@@ -39,11 +46,15 @@ TEST(TakeOffEndedMotion, TakesOffTheRatioOfTwoNormalDensities) {
   const double against = (off.dot(S * off) - latest.dot(S * latest)) / 2;
   ASSERT_GT(against, 0);
   ASSERT_LT(against, kMost);
-  EXPECT_NEAR(Left(Corner(), latest, per_step, 2.4F, variance), 2.4 - against, 1e-4);
+  const Outcome outcome = Judge(Corner(), latest, per_step, 2.4F, variance);
+  EXPECT_NEAR(outcome.left, 2.4 - against, 1e-4);
+  EXPECT_NEAR(outcome.ended, against, 1e-4);
 }
 
 TEST(TakeOffEndedMotion, WhoWalkedAndStandsNowDoesNotMove) {
-  EXPECT_EQ(Left(Corner(), {0.01, 0}, {2, 0.5}, 30), 0);
+  const Outcome outcome = Judge(Corner(), {0.01, 0}, {2, 0.5}, 30);
+  EXPECT_EQ(outcome.left, 0);
+  EXPECT_EQ(outcome.ended, static_cast<float>(kMost));
 }
 
 TEST(TakeOffEndedMotion, WhoGoesOnKeepsWhatAGapMaySay) {
@@ -58,6 +69,7 @@ TEST(TakeOffEndedMotion, WhatIsTooSlowForOneStepToTellKeepsAlmostAll) {
 TEST(TakeOffEndedMotion, WithoutTextureOrMotionNothingChanges) {
   EXPECT_FLOAT_EQ(Left(Matrix2d::Zero(), {0, 0}, {2, 0.5}, 2), 2);
   EXPECT_FLOAT_EQ(Left(Corner(), {0, 0}, {2, 0.5}, -1.5F), -1.5F);
+  EXPECT_FLOAT_EQ(Judge(Corner(), {0, 0}, {2, 0.5}, -1.5F).ended, 0.25F);  // another gap's
 }
 
 }  // namespace
