@@ -87,6 +87,11 @@ struct Evidence {
            Squared(options.noise_per_displacement) * way.dot(way);
   }
 
+  /// Whether earlier frames have said enough; they, too, were asked for other explanations.
+  bool WasSure(int y, int x) const {
+    return !frames.memory.empty() && frames.memory(y, x) > static_cast<float>(options.sure);
+  }
+
   /// What of a pixel's log-odds something static with another disparity does not explain.
   float Unexplained(int y, int x, float log_odds) const {
     const SeenMotion seen{{x, y},
@@ -192,7 +197,7 @@ void LimitBlocks(const Evidence& evidence, cv::Mat1f& log_odds) {
           at = {x, y};
         }
       }
-      if (clearest <= 0) continue;
+      if (clearest <= 0 || evidence.WasSure(at.y, at.x)) continue;
       const float limit = evidence.Unexplained(at.y, at.x, clearest);
       for (int y = block * kSide; y < bottom; ++y) {
         for (int x = left; x < right; ++x) log_odds(y, x) = std::min(log_odds(y, x), limit);

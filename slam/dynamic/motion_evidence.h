@@ -27,6 +27,7 @@ struct Comparison {
   double flow_noise =
       0.12;                ///< half-size pixels, deviation of the flow where the texture is strong
   cv::Mat1i regions = {};  ///< of the current pixels: > 0 where something known to move has come
+  cv::Mat1f memory = {};   ///< log-odds of what earlier frames said of them; may be empty
 };
 
 /// What is asked of the current frame whatever it is compared with.

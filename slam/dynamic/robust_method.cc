@@ -176,7 +176,8 @@ cv::Mat1f CompareWithPast(std::vector<GapMotion>& gaps, RobustState& state,
                                 gap.motion.T_now_before.inverse(),
                                 Seconds(then.stamp_ns, seen.frame.stamp_ns),
                                 before.flow_noise[gap.slot],
-                                memory.regions.labels};
+                                memory.regions.labels,
+                                memory.log_odds};
     const MotionEvidence found =
         CompareMotion(comparison, seen.texture, seen.around, half, options.evidence);
     gap.evidence = evidence[gap.slot] = found.log_odds;

@@ -116,6 +116,8 @@ struct EvidenceOptions {
   double hidden_misfit = 1.5;  ///< limit of that misfit where the static surface was hidden
   /// Disparities so far apart are two matches, not one measured ill.
   double other_disparity = 1.5;
+  double sure =
+      3;  ///< log-odds of earlier frames from which on nobody asks for what looks the same
   /// As far as something static may be looked for that looks the same: [0, this), at most 128.
   int alias_disparities = 64;
   /// A step of disparity up to which two measurements may show one surface: a constant part and a
@@ -149,6 +151,7 @@ struct EvidenceOptions {
                    CheckRange("misfit_weight", misfit_weight, 0.0, 100.0),
                    CheckRange("hidden_misfit", hidden_misfit, 0.0, 100.0),
                    CheckRange("alias_disparities", alias_disparities, 1, 128),
+                   CheckRange("sure", sure, 0.0, 100.0),
                    CheckRange("other_disparity", other_disparity, 0.1, 100.0),
                    CheckRange("same_surface", same_surface, 0.01, 100.0),
                    CheckRange("same_surface_share", same_surface_share, 0.0, 1.0),
