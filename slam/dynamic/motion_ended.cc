@@ -5,8 +5,11 @@
 namespace aisle::slam::dynamic {
 
 void TakeOffEndedMotion(const LatestStep& step, const Texture& texture, const cv::Mat2f& per_step,
-                        double least_share, double most, cv::Mat1f& log_odds, cv::Mat1f& ended) {
-  const auto share = static_cast<float>(least_share), limit = static_cast<float>(most);
+                        const EvidenceOptions& options, double most, cv::Mat1f& log_odds,
+                        cv::Mat1f& ended) {
+  const auto share = static_cast<float>(options.least_speed_share),
+             noise = static_cast<float>(options.mover_noise * options.mover_noise),
+             limit = static_cast<float>(most);
   tbb::parallel_for(0, log_odds.rows, [&](int y) {
     const float *xx = texture.xx[y], *xy = texture.xy[y], *yy = texture.yy[y];
     const float *residual = step.residual.ptr<float>(y), *velocity = per_step.ptr<float>(y),
@@ -15,7 +18,7 @@ void TakeOffEndedMotion(const LatestStep& step, const Texture& texture, const cv
 #pragma GCC ivdep
     for (int x = 0; x < log_odds.cols; ++x) {
       // S = (G^-1 + s I)^-1 = (G + s det(G) I) / det(I + s G), which G = 0 does not trouble.
-      const float s = variance[x];
+      const float s = noise * variance[x];
       const float held = s * (xx[x] * yy[x] - xy[x] * xy[x]);
       const float det = (1 + s * xx[x]) * (1 + s * yy[x]) - s * xy[x] * (s * xy[x]);
       const float u = velocity[2 * x], v = velocity[2 * x + 1];

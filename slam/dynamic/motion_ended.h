@@ -3,6 +3,7 @@
 #include <opencv2/core.hpp>
 
 #include "slam/dynamic/dense_frame.h"
+#include "slam/dynamic/robust_options.h"
 
 namespace aisle::slam::dynamic {
 
@@ -14,12 +15,13 @@ struct LatestStep {
 
 /// Takes off the log-odds of moving that a longer gap found what the latest step says against it:
 /// who walked a second ago may stand now. `per_step` is the residual of the longer gap, shared out
-/// among its steps. Against "moves still, at no less than `least_share` of that" stands "is
+/// among its steps. Against "moves still, at no less than least_speed_share of that" stands "is
 /// static"; where the ratio of the two densities of the latest residual is for static, it is taken
 /// off, down to zero. Log-odds count up to `most`. What moves too slowly for one step to tell keeps
 /// all. `ended` keeps the most that any gap has lost, of every pixel: what earlier frames said of
 /// the same motion has lost it, too.
 void TakeOffEndedMotion(const LatestStep& step, const Texture& texture, const cv::Mat2f& per_step,
-                        double least_share, double most, cv::Mat1f& log_odds, cv::Mat1f& ended);
+                        const EvidenceOptions& options, double most, cv::Mat1f& log_odds,
+                        cv::Mat1f& ended);
 
 }  // namespace aisle::slam::dynamic

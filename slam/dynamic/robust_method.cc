@@ -191,7 +191,7 @@ cv::Mat1f CompareWithPast(std::vector<GapMotion>& gaps, RobustState& state,
   cv::Mat1f ended(seen.frame.image.size(), 0.0F);
   for (std::size_t slot = 1; slot < kGaps.size(); ++slot) {
     if (evidence[slot].empty()) continue;
-    TakeOffEndedMotion(latest, seen.texture, per_step[slot], options.evidence.least_speed_share,
+    TakeOffEndedMotion(latest, seen.texture, per_step[slot], options.evidence,
                        options.evidence.most[slot], evidence[slot], ended);
   }
   ForgetEnded(ended, memory.log_odds);

@@ -132,6 +132,7 @@ struct EvidenceOptions {
   std::array<double, 3> most = {2.5, 2.5, 1.0};
   /// What a longer gap saw moving has not stopped if it still goes at this share of its mean speed.
   double least_speed_share = 0.5;
+  double mover_noise = 2;      ///< times by which its flow errs more than a static pixel's
   double motion_found = 0.5;   ///< evidence of one gap from which on the others count less ...
   double others_weight = 0.3;  ///< ... when they say static: they were shorter, or saw another
 
@@ -160,6 +161,7 @@ struct EvidenceOptions {
                    CheckRange("edge_share", edge_share, 0.0, 1.0),
                    CheckRange("edge_window_px", edge_window_px, 1, 101),
                    CheckRange("least_speed_share", least_speed_share, 0.0, 1.0),
+                   CheckRange("mover_noise", mover_noise, 1.0, 100.0),
                    CheckRange("motion_found", motion_found, 0.0, 20.0),
                    CheckRange("others_weight", others_weight, 0.0, 1.0));
   }

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-constexpr double kShare = 0.5, kMost = 2.5;
+constexpr double kShare = 0.5, kMost = 2.5, kNoise = 3;  // the last in deviations
 
 struct Outcome {
   float left, ended;
@@ -25,7 +25,8 @@ Outcome Judge(const Matrix2d& G, const Vector2d& latest, const Vector2d& per_ste
   };
   cv::Mat1f log_odds = one(found), ended = one(0.25);
   TakeOffEndedMotion({two(latest), one(variance)}, {one(G(0, 0)), one(G(0, 1)), one(G(1, 1))},
-                     two(per_step), kShare, kMost, log_odds, ended);
+                     two(per_step), {.least_speed_share = kShare, .mover_noise = kNoise}, kMost,
+                     log_odds, ended);
   return {log_odds(0, 0), ended(0, 0)};
 }
 float Left(const Matrix2d& G, const Vector2d& latest, const Vector2d& per_step, float found) {
@@ -40,8 +41,9 @@ Matrix2d Corner() {
 
 TEST(TakeOffEndedMotion, TakesOffTheRatioOfTwoNormalDensities) {
   const double variance = 0.01;
-  const Vector2d latest(0.02, 0.03), per_step(0.3, -0.2);
-  const Matrix2d S = (Corner().inverse() + variance * Matrix2d::Identity()).inverse();
+  const Vector2d latest(0.02, 0.03), per_step(0.9, -0.6);
+  const Matrix2d error = kNoise * kNoise * variance * Matrix2d::Identity();
+  const Matrix2d S = (Corner().inverse() + error).inverse();
   const Vector2d off = latest - kShare * per_step;
   const double against = (off.dot(S * off) - latest.dot(S * latest)) / 2;
   ASSERT_GT(against, 0);
