@@ -41,7 +41,7 @@ struct GapMotion {
   cv::Mat2f expected;    ///< half-size pixels of the earlier frame, were all static
   cv::Mat2f flow;        ///< the same, whatever moved
   EgoMotion motion;
-  cv::Mat1f evidence;  ///< log-odds of moving per half-size pixel, of this gap alone
+  cv::Mat1f evidence;  ///< log-odds of moving per half-size pixel, of this gap, less what ended
   cv::Mat2f per_step;  ///< what the static world leaves unexplained of the flow, for each step
 };
 

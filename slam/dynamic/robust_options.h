@@ -116,8 +116,8 @@ struct EvidenceOptions {
   double hidden_misfit = 1.5;  ///< limit of that misfit where the static surface was hidden
   /// Disparities so far apart are two matches, not one measured ill.
   double other_disparity = 1.5;
-  double sure =
-      3;  ///< log-odds of earlier frames from which on nobody asks for what looks the same
+  /// Log-odds of earlier frames from which on nobody asks for what looks the same.
+  double sure = 3;
   /// As far as something static may be looked for that looks the same: [0, this), at most 128.
   int alias_disparities = 64;
   /// A step of disparity up to which two measurements may show one surface: a constant part and a

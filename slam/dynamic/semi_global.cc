@@ -9,7 +9,6 @@
 #include "slam/dynamic/choose_disparity.h"
 #include "slam/dynamic/cost_paths.h"
 #include "slam/dynamic/disparity.h"
-#include "slam/dynamic/spare_memory.h"
 
 namespace aisle::slam::dynamic {
 namespace {
@@ -28,15 +27,16 @@ class Volume {
   Volume(cv::Size size, int disparities)
       : disparities_(disparities),
         row_(static_cast<std::ptrdiff_t>(size.width) * disparities),
-        bytes_(static_cast<std::size_t>(row_ * size.height)) {}
-  uint8_t* At(int y, int x) { return bytes_.data() + y * row_ + x * disparities_; }
+        bytes_(std::make_unique_for_overwrite<uint8_t[]>(
+            static_cast<std::size_t>(row_ * size.height))) {}
+  uint8_t* At(int y, int x) { return bytes_.get() + y * row_ + x * disparities_; }
   int disparities() const { return disparities_; }
   std::ptrdiff_t row() const { return row_; }
 
  private:
   int disparities_;
   std::ptrdiff_t row_;
-  SpareMemory bytes_;
+  std::unique_ptr<uint8_t[]> bytes_;
 };
 
 StepPrices PricesOf(const SemiGlobalOptions& options) {

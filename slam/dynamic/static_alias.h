@@ -11,8 +11,8 @@ struct AliasViews {
   const DenseFrame& now;
   const cv::Mat1b& then;      ///< the earlier image
   const cv::Mat1f& variance;  ///< of the difference of two grey values, per pixel of the frame
-  /// By which a static point's inverse depth factor grows for each pixel of disparity: the rig's
-  /// way along the axis back to the earlier frame, over focal length times baseline.
+  /// How much farther a static point was, in units of its depth now, for each pixel of disparity:
+  /// the rig's way along the axis since the earlier frame, over focal length times baseline.
   float depth_per_disparity = 0;
 };
 

@@ -2,34 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/slam/dynamic/disparity_agreement.h"
 #include "tests/slam/dynamic/synthetic_stereo.h"
 
 namespace aisle::slam::dynamic {
 namespace {
 
-struct Agreement {
-  double known = 0;  // share of the pixels that see something in both images
-  double close = 0;  // share of those known that are within one pixel of the truth
-};
-
-Agreement Compare(const cv::Mat1f& disparity, const cv::Mat1f& truth) {
-  int seen = 0, known = 0, close = 0;
-  for (int y = 0; y < truth.rows; ++y) {
-    for (int x = 0; x < truth.cols; ++x) {
-      if (truth(y, x) <= 0 || truth(y, x) > static_cast<float>(x)) continue;
-      ++seen;
-      if (disparity(y, x) == kNoDisparity) continue;
-      ++known;
-      if (std::abs(disparity(y, x) - truth(y, x)) < 1.0F) ++close;
-    }
-  }
-  return {1.0 * known / seen, 1.0 * close / known};
-}
-
 TEST(Disparity, AgreesWithTheTruthOfATexturedHall) {
   const auto view =
       test::Render(test::StaticHall(), StereoCamera{}, Eigen::Isometry3d::Identity(), 0);
-  const Agreement agreement = Compare(ComputeDisparity(view.left, view.right, {}), view.disparity);
+  const test::Agreement agreement =
+      test::Compare(ComputeDisparity(view.left, view.right, {}), view.disparity);
   EXPECT_GT(agreement.known, 0.85);
   // The floor is slanted and blurred: it is where SGBM rounds most.
   EXPECT_GT(agreement.close, 0.8);

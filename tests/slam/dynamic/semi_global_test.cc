@@ -9,6 +9,7 @@
 #include "slam/dynamic/choose_disparity.h"
 #include "slam/dynamic/cost_paths.h"
 #include "slam/dynamic/disparity.h"
+#include "tests/slam/dynamic/disparity_agreement.h"
 #include "tests/slam/dynamic/synthetic_stereo.h"
 
 namespace aisle::slam::dynamic {
@@ -180,34 +181,15 @@ TEST(CheckRightToLeft, ForgetsWhatTheRightImageSeesOtherwise) {
   EXPECT_EQ(found, (std::vector<std::int16_t>{-16, -16, -16, -16, -16, -16, 16, 80}));
 }
 
-struct Agreement {
-  double known = 0;  // share of the pixels that see something in both images
-  double close = 0;  // share of those known that are within one pixel of the truth
-};
-
-Agreement Compare(const cv::Mat1f& disparity, const cv::Mat1f& truth) {
-  int seen = 0, known = 0, close = 0;
-  for (int y = 0; y < truth.rows; ++y) {
-    for (int x = 0; x < truth.cols; ++x) {
-      if (truth(y, x) <= 0 || truth(y, x) > static_cast<float>(x)) continue;
-      ++seen;
-      if (disparity(y, x) == kNoDisparity) continue;
-      ++known;
-      if (std::abs(disparity(y, x) - truth(y, x)) < 1.0F) ++close;
-    }
-  }
-  return {1.0 * known / seen, 1.0 * close / known};
-}
-
 test::SyntheticView Hall() {
   return test::Render(test::StaticHall(), StereoCamera{}, Eigen::Isometry3d::Identity(), 0);
 }
 
 TEST(MatchSemiGlobally, AgreesWithTheTruthAsWellAsTheLibrary) {
   const auto view = Hall();
-  const auto own =
-      Compare(MatchSemiGlobally(view.left, view.right, {.max_disparity_px = 96}), view.disparity);
-  const auto library = Compare(ComputeDisparity(view.left, view.right, {}), view.disparity);
+  const auto own = test::Compare(MatchSemiGlobally(view.left, view.right, {.max_disparity_px = 96}),
+                                 view.disparity);
+  const auto library = test::Compare(ComputeDisparity(view.left, view.right, {}), view.disparity);
   EXPECT_GT(own.known, 0.85);
   EXPECT_GT(own.close, library.close - 0.005);
 }
