@@ -8,7 +8,9 @@
 #include "harness/plugs/systems.h"
 #include "harness/report/overlay.h"
 #include "harness/report/stage_sheets.h"
+#include "harness/score/continuity.h"
 #include "harness/score/masks.h"
+#include "harness/score/scorecard.h"
 
 namespace aisle {
 namespace {
@@ -38,23 +40,34 @@ struct Result {
   int frames = 0;
   bool has_truth = false;
   MaskFacts masks;
+  SpellsByKind spells;
   double pixels = 0, rejected = 0;         ///< of all frames
   std::map<std::string, double> stage_ms;  ///< sums
 
-  void Add(const SequenceFrame& shown, const FrameEstimate& estimate) {
+  /// What truth says of the frame, if it says anything.
+  std::optional<FrameFacts> Add(const SequenceFrame& shown, const FrameEstimate& estimate) {
     ++frames;
     pixels += static_cast<double>(shown.images.left.total());
     if (!estimate.regions.mask.empty()) rejected += cv::countNonZero(estimate.regions.mask);
     for (const auto& [stage, ms] : estimate.stage_ms) stage_ms[stage] += ms;
-    if (!shown.truth || shown.truth->dynamic.empty()) return;
+    if (!shown.truth) return std::nullopt;
+    FrameFacts facts;
+    facts.stamp_ns = shown.images.stamp_ns;
+    facts.T_world_rig = shown.truth->T_world_rig;
+    if (shown.truth->dynamic.empty()) return facts;
     has_truth = true;
-    masks += CompareMasks(shown.images.left, *shown.truth, estimate.regions);
+    facts.mask = CompareMasks(shown.images.left, *shown.truth, estimate.regions);
+    masks += *facts.mask;
+    return facts;
   }
 
   Result& operator+=(const Result& more) {
     frames += more.frames;
     has_truth |= more.has_truth;
     masks += more.masks;
+    for (const auto& [kind, more_of_it] : more.spells) {
+      spells[kind].insert(spells[kind].end(), more_of_it.begin(), more_of_it.end());
+    }
     pixels += more.pixels;
     rejected += more.rejected;
     for (const auto& [stage, ms] : more.stage_ms) stage_ms[stage] += ms;
@@ -103,6 +116,7 @@ Result Measure(const BenchView& view, const Options& options) {
                                                              .draw_stages = options.debug_dynamic});
   Result result;
   result.name = sequence->name();
+  std::vector<FrameFacts> facts;
   ProgressLine line;
   int index = 0;
   for (const FrameRequest& request : sequence->Schedule()) {
@@ -113,11 +127,12 @@ Result Measure(const BenchView& view, const Options& options) {
     const SequenceFrame shown = sequence->At(request);
     const FrameEstimate estimate = estimator->Process(shown.images, {});
     if (now < view.from) continue;
-    result.Add(shown, estimate);
+    if (auto of_frame = result.Add(shown, estimate)) facts.push_back(*std::move(of_frame));
     if (!options.out.empty() && now % options.every == 0) {
       Picture(shown, estimate, result, options);
     }
   }
+  result.spells = FollowKinds(facts);
   return result;
 }
 
@@ -125,7 +140,18 @@ std::string Cell(const std::optional<double>& value) {
   return value ? fmt::format("{:8.3f}", *value) : fmt::format("{:>8}", "-");
 }
 
-/// One line: objects by rectangle, then pixels.
+/// How late the last of the large movers was found, and for how many frames one was lost.
+std::string LargeOverTime(const Result& r) {
+  const auto large = r.spells.find("large");
+  if (large == r.spells.end()) return fmt::format("{:>8}{:>8}", "-", "-");
+  const Continuity c = Summarize(large->second);
+  const std::string after =
+      c.delay_max_s ? fmt::format("{}{:.2f}", c.never_found > 0 ? ">" : "", *c.delay_max_s) : "-";
+  const std::string gap = c.gap_max_frames ? fmt::format("{}", *c.gap_max_frames) : "-";
+  return fmt::format("{:>8}{:>8}", after, gap);
+}
+
+/// One line: objects by rectangle, large ones over time, then pixels.
 std::string Line(const std::string& name, const Result& r) {
   const MaskFacts& m = r.masks;
   const auto tp = static_cast<double>(m.true_positives);
@@ -134,17 +160,32 @@ std::string Line(const std::string& name, const Result& r) {
   if (r.has_truth) {
     line += Cell(Ratio(m.objects_found, m.objects_found + m.objects_invented)) +
             Cell(Ratio(m.objects_found, m.objects_found + m.objects_missed)) +
-            Cell(r.PrecisionOfLarge()) + Cell(r.RecallOfLarge()) +
+            Cell(r.PrecisionOfLarge()) + Cell(r.RecallOfLarge()) + LargeOverTime(r) +
             Cell(Ratio(m.iou_sum, m.objects_found)) + Cell(Ratio(tp, union_px)) +
             Cell(Ratio(tp, tp + static_cast<double>(m.false_negatives))) +
             fmt::format("{:7.2f} %", 100 * r.static_wrong());
   } else {
-    line += fmt::format("{:>65}", "-");
+    line += fmt::format("{:>81}", "-");
   }
   line += fmt::format("{:7.2f} %", 100 * r.rejected / std::max(r.pixels, 1.0));
   const auto dynamic = r.stage_ms.find("dynamic");
   if (dynamic != r.stage_ms.end()) line += fmt::format("{:8.1f}", dynamic->second / r.frames);
   return line;
+}
+
+nlohmann::json ToJson(const MoverSpell& spell) {
+  nlohmann::json json = {{"instance", spell.instance},
+                         {"class", spell.object_class},
+                         {"first_ns", spell.first_ns},
+                         {"last_ns", spell.last_ns},
+                         {"frames", spell.frames},
+                         {"mean_speed_mps", spell.mean_speed_mps},
+                         {"largest_share", spell.largest_share},
+                         {"gap_frames", spell.gap_frames},
+                         {"turning_frames", spell.turning_frames},
+                         {"gap_turning_frames", spell.gap_turning_frames}};
+  if (spell.delay_s) json["delay_s"] = *spell.delay_s;
+  return json;
 }
 
 nlohmann::json ToJson(const Result& r) {
@@ -163,6 +204,15 @@ nlohmann::json ToJson(const Result& r) {
   json["pixels"] = {{"true_positives", r.masks.true_positives},
                     {"false_positives", r.masks.false_positives},
                     {"false_negatives", r.masks.false_negatives}};
+  Scorecard scores;
+  AddContinuity(r.spells, {}, &scores);
+  for (const auto& [name, score] : scores) {
+    json["scores"][name] = {{"value", *score.value}, {"unit", score.unit}, {"n", score.n}};
+  }
+  for (const auto& [kind, spells] : r.spells) {
+    json["spells"][kind] = nlohmann::json::array();
+    for (const MoverSpell& spell : spells) json["spells"][kind].push_back(ToJson(spell));
+  }
   return json;
 }
 
@@ -172,9 +222,9 @@ int BenchDynamic(const Options& options) {
   for (const std::string& name : names) views.push_back(ParseView(name));
   fmt::print(
       "{}, after {} frames of warming "
-      "up\n{:28}{:>7}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}{:>8}\n",
+      "up\n{:28}{:>7}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}{:>8}\n",
       options.system, options.warm_up, "view", "frames", "prec.", "recall", "large P", "large R",
-      "box IoU", "px IoU", "px rec.", "static", "all", "ms");
+      "after s", "gap", "box IoU", "px IoU", "px rec.", "static", "all", "ms");
   nlohmann::json rows = nlohmann::json::array();
   Result sum;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -201,7 +251,7 @@ void AddBenchDynamic(CLI::App* bench, Action* action) {
       "dynamic",
       "what a system rejects beside what moves: objects (large R: recall of those of 1 % of the "
       "image at 0.15 m/s or more; large P: share of the regions of 1 % or more of which a tenth or "
-      "more moves), pixels, milliseconds");
+      "more moves), large movers over time, pixels, milliseconds");
   command->add_option("VIEWS", options->views,
                       "scene or folder of a recording, :FROM-TO for some frames (default: ten "
                       "stretches of the scenes)");
@@ -217,7 +267,11 @@ void AddBenchDynamic(CLI::App* bench, Action* action) {
   command->add_option("--every", options->every, "a picture every so many frames; default 10")
       ->check(CLI::Range(1, 100000));
   command->add_option("--json", options->json, "write counts and means there too");
-  command->footer("Example: ./aisle bench dynamic paper/scene2:90-130 --system paper --out masks");
+  command->footer(
+      "Over time, of large movers: after s, the longest that one which stays for 1 s or longer was "
+      "not found (> where one never was); gap, the most frames in a row in which one once found "
+      "was lost. What moves already when a stretch begins counts from its first scored frame on.\n"
+      "Example: ./aisle bench dynamic paper/scene2:90-130 --system paper --out masks");
   command->callback([=] { *action = [=] { return BenchDynamic(*options); }; });
 }
 

@@ -30,6 +30,7 @@ enum class RunStatus {
 
 /// What became of one moving object in one frame.
 struct ObjectOutcome {
+  int instance = 0;  ///< the same object has the same one in every frame of a run
   std::string object_class;
   int pixels = 0;         ///< that move and show
   double share = 0;       ///< of the image that these are

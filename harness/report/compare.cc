@@ -12,12 +12,21 @@ struct Judged {
   double smallest_effect =
       0;  ///< in the score's unit, where a share of the old median is too coarse
 };
-constexpr Judged kJudged[] = {{"coverage", true, 0.01},       {"ate_rmse_m", false},
-                              {"ate_live_rmse_m", false},     {"error_all_p95_m", false},
-                              {"rpe_1s_trans_rmse_m", false}, {"rpe_1s_rot_rmse_deg", false},
-                              {"features_on_movers", false},  {"object_precision", true},
-                              {"object_recall", true},        {"mask_iou", true},
-                              {"static_features_lost", false}};
+constexpr Judged kJudged[] = {{"coverage", true, 0.01},
+                              {"ate_rmse_m", false},
+                              {"ate_live_rmse_m", false},
+                              {"error_all_p95_m", false},
+                              {"rpe_1s_trans_rmse_m", false},
+                              {"rpe_1s_rot_rmse_deg", false},
+                              {"features_on_movers", false},
+                              {"object_precision", true},
+                              {"object_recall", true},
+                              {"mask_iou", true},
+                              {"static_features_lost", false},
+                              {"mover_large_found_within_1s", true},
+                              {"mover_large_gap_max_frames", false, 1},
+                              {"mover_slow_found_within_1s", true},
+                              {"mover_slow_gap_max_frames", false, 1}};
 constexpr const char* kWatched[] = {"ms_process_mean", "ms_render_mean", "peak_rss_mib"};
 
 using Cell = std::tuple<std::string, std::string, std::string>;

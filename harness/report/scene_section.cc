@@ -45,6 +45,19 @@ constexpr Column kMaskColumns[] = {
     {"static features<br>lost [%]", "static_features_lost", 100, 2},
 };
 
+constexpr Column kContinuityColumns[] = {
+    {"large: found<br>in 1 s [%]", "mover_large_found_within_1s", 100, 1},
+    {"large: delay,<br>median [s]", "mover_large_delay_median_s", 1, 2},
+    {"large: delay,<br>max [s]", "mover_large_delay_max_s", 1, 2},
+    {"large: longest<br>gap [frames]", "mover_large_gap_max_frames", 1, 0},
+    {"large: gap in<br>turns [frames]", "mover_large_gap_turning_max_frames", 1, 0},
+    {"slow: found<br>in 1 s [%]", "mover_slow_found_within_1s", 100, 1},
+    {"slow: delay,<br>median [s]", "mover_slow_delay_median_s", 1, 2},
+    {"slow: delay,<br>max [s]", "mover_slow_delay_max_s", 1, 2},
+    {"slow: longest<br>gap [frames]", "mover_slow_gap_max_frames", 1, 0},
+    {"slow: gap in<br>turns [frames]", "mover_slow_gap_turning_max_frames", 1, 0},
+};
+
 template <std::size_t N>
 std::string ScoreTable(const std::vector<SystemRuns>& systems, const Column (&columns)[N]) {
   std::string text = "<div class=\"wide\"><table><tr><th>system";
@@ -63,15 +76,44 @@ std::string ScoreTable(const std::vector<SystemRuns>& systems, const Column (&co
   return text + "</table></div>\n";
 }
 
-std::vector<SystemRuns> WithMasks(const std::vector<SystemRuns>& systems) {
-  std::vector<SystemRuns> masked;
+/// The systems with a run that has any score of that beginning.
+std::vector<SystemRuns> WithScores(const std::vector<SystemRuns>& systems,
+                                   const std::string& beginning) {
+  std::vector<SystemRuns> chosen;
   for (const SystemRuns& system : systems) {
-    const bool has = std::any_of(system.runs.begin(), system.runs.end(), [](const RunRecord* run) {
-      return run->scores.count("mask_iou") > 0;
+    const bool has = std::any_of(system.runs.begin(), system.runs.end(), [&](const RunRecord* run) {
+      const auto first = run->scores.lower_bound(beginning);
+      return first != run->scores.end() && first->first.starts_with(beginning);
     });
-    if (has) masked.push_back(system);
+    if (has) chosen.push_back(system);
   }
-  return masked;
+  return chosen;
+}
+
+std::string MaskTables(const std::vector<SystemRuns>& systems) {
+  std::string text;
+  if (const auto masked = WithScores(systems, "mask_iou"); !masked.empty()) {
+    text +=
+        "<h3>What was rejected</h3>\n" + ScoreTable(masked, kMaskColumns) +
+        "<p class=\"soft small\">Objects by rectangle, found where the overlap (IoU) is 0.5 or "
+        "more, invented where less than half of what was rejected moves. Large movers: recall of "
+        "those of 1 % of the image or more at 0.15 m/s or more; precision: the share of "
+        "regions of that size of which a tenth or more moves; covered: at least half of their "
+        "moving pixels rejected, whatever the rectangles (people who touch make one). Pixels "
+        "over all frames together; static features lost: share of image corners "
+        "on unmoving surfaces under the mask.</p>\n";
+  }
+  if (const auto followed = WithScores(systems, "mover_"); !followed.empty()) {
+    text +=
+        "<h3>How movers were followed</h3>\n" + ScoreTable(followed, kContinuityColumns) +
+        "<p class=\"soft small\">Each time that something is a large mover as above, or as large "
+        "and slow (0.05 to 0.15 m/s): found once at least half of its moving pixels are rejected. "
+        "Delay: until then, of those that stay 1 s or longer; one that is never found counts with "
+        "all its time, the least it would have taken. Longest gap: frames in a row in which one "
+        "once found is lost; in turns: how many frames of a gap the rig turns in, at 10 degrees a "
+        "second or faster. Max and longest: the worst mover of a run.</p>\n";
+  }
+  return text;
 }
 
 std::string Troubles(const std::vector<SystemRuns>& systems) {
@@ -294,18 +336,7 @@ std::string SceneSection(const SceneRuns& scene, const fs::path& report_dir,
       ScenePage(scene), Escape(scene.scene), Escape(scene.twin), first.frames, first.rate_hz,
       scene.systems.front().runs.size(), scene.systems.front().runs.size() == 1 ? "" : "s",
       Escape(first.content_hash));
-  text += Troubles(scene.systems) + ScoreTable(scene.systems, kColumns);
-  if (const std::vector<SystemRuns> masked = WithMasks(scene.systems); !masked.empty()) {
-    text +=
-        "<h3>What was rejected</h3>\n" + ScoreTable(masked, kMaskColumns) +
-        "<p class=\"soft small\">Objects by rectangle, found where the overlap (IoU) is 0.5 or "
-        "more, invented where less than half of what was rejected moves. Large movers: recall of "
-        "those of 1 % of the image or more at 0.15 m/s or more; precision: the share of "
-        "regions of that size of which a tenth or more moves; covered: at least half of their "
-        "moving pixels rejected, whatever the rectangles (people who touch make one). Pixels "
-        "over all frames together; static features lost: share of image corners "
-        "on unmoving surfaces under the mask.</p>\n";
-  }
+  text += Troubles(scene.systems) + ScoreTable(scene.systems, kColumns) + MaskTables(scene.systems);
   text += Charts(scene, report_dir) + Pictures(scene, root) +
           StageSection(scene, report_dir, root) + AllScores(scene) +
           Again(scene, root, report_dir.string());

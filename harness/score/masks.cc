@@ -92,7 +92,8 @@ std::vector<ObjectOutcome> Outcomes(const FrameTruth& truth,
         truth.objects.begin(), truth.objects.end(),
         [&](const ObjectTruth& object) { return object.instance == objects[i].instance; });
     if (known == truth.objects.end()) continue;
-    outcomes.push_back({.object_class = known->object_class,
+    outcomes.push_back({.instance = known->instance,
+                        .object_class = known->object_class,
                         .pixels = objects[i].pixels,
                         .share = objects[i].pixels /
                                  static_cast<double>(std::max<std::size_t>(1, rejected.total())),
@@ -123,6 +124,13 @@ double Iou(const cv::Rect2d& a, const cv::Rect2d& b) {
 bool IsLargeMover(const ObjectOutcome& object, const MaskOptions& options) {
   return object.share >= options.large_share && object.speed_mps >= options.large_speed_mps;
 }
+
+bool IsSlowMover(const ObjectOutcome& object, const MaskOptions& options) {
+  return object.share >= options.large_share && object.speed_mps >= options.slow_speed_mps &&
+         object.speed_mps < options.large_speed_mps;
+}
+
+bool IsCovered(const ObjectOutcome& object) { return object.rejected >= 0.5; }
 
 std::vector<MovingObject> MovingObjects(const FrameTruth& truth, const MaskOptions& options) {
   std::vector<MovingObject> objects;

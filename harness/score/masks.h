@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct MaskOptions {
   /// there is astray where less than a tenth of it moves: it covers no mover, however wide.
   double large_share = 0.01;
   double large_speed_mps = 0.15;  ///< a large mover is at least so fast
+  double slow_speed_mps = 0.05;   ///< a slow one of that share at least so, and slower than a large
   /// Gaps of a mask up to this wide, in pixels, do not part a blob: a strap or a rail in front of a
   /// person does not make two of them.
   int close_gap_px = 15;
@@ -27,8 +29,18 @@ struct MaskOptions {
 /// Intersection over union of two rectangles, in [0, 1]; 0 where both are empty.
 double Iou(const cv::Rect2d& a, const cv::Rect2d& b);
 
+/// Picks objects out of a frame.
+using ObjectRule = std::function<bool(const ObjectOutcome&)>;
+
 /// What must be found by all means: large, and on its way.
 bool IsLargeMover(const ObjectOutcome& object, const MaskOptions& options = {});
+
+/// As large in the image, but creeping: what a rule that waits for motion finds late.
+bool IsSlowMover(const ObjectOutcome& object, const MaskOptions& options = {});
+
+/// At least half of its moving pixels were rejected, whatever the rectangles: two people who touch
+/// make one rectangle, which is neither's.
+bool IsCovered(const ObjectOutcome& object);
 
 /// Something that moves now and must be found.
 struct MovingObject {

@@ -94,6 +94,11 @@ Score Present(double value, const std::string& unit, std::size_t n, const std::s
   return {.value = value, .unit = unit, .alignment = alignment, .n = n, .absent = ""};
 }
 
+Score RatioScore(double part, double whole, const std::string& nothing) {
+  if (whole <= 0) return Absent("1", nothing);
+  return Present(part / whole, "1", static_cast<std::size_t>(whole));
+}
+
 std::string ToText(const Score& score) {
   if (!score.value) return "- (" + score.absent + ")";
   return fmt::format("{:.6g} {} (n = {}{})", *score.value, score.unit == "1" ? "" : score.unit,

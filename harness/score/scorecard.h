@@ -33,7 +33,8 @@ TrajectoryScore ScoreTrajectory(const Trajectory& truth, const Trajectory& estim
 /// errors over all frames with lost ones counted as failures, masks, features, stage times.
 Scorecard ScoreRun(const RunResult& run, const ScoreOptions& options = {});
 
-/// The mask scores of a run alone: object_*, mask_*, static_features_lost.
+/// The mask scores of a run alone: object_*, mask_*, mover_*,
+/// static_features_lost.
 Scorecard ScoreMasks(const RunResult& run);
 
 /// Says in words when positions agree and rotations are off by one constant turn: a file in the
@@ -45,6 +46,9 @@ std::string FrameMismatch(const Trajectory& truth, const Trajectory& estimate,
 Score Present(double value, const std::string& unit, std::size_t n,
               const std::string& alignment = "");
 Score Absent(const std::string& unit, const std::string& why);
+
+/// part / whole over `whole` samples; absent for the reason `nothing` where there are none.
+Score RatioScore(double part, double whole, const std::string& nothing);
 
 /// "value m (n = 12, se3)" or "- (why not)".
 std::string ToText(const Score& score);

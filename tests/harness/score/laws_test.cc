@@ -252,6 +252,16 @@ TEST_F(TwoWhoTouch, AreCoveredByOneRegionThoughItsRectangleFitsOneAlone) {
   EXPECT_DOUBLE_EQ(*scores.at("object_precision").value, 1);
 }
 
+TEST_F(TwoWhoTouch, KeepTheirInstancesForThoseWhoFollowThemOverFrames) {
+  const MaskFacts facts =
+      CompareMasks(cv::Mat1b(200, 300, static_cast<unsigned char>(128)), truth_, {});
+  ASSERT_EQ(facts.objects.size(), 2u);
+  EXPECT_EQ(facts.objects[0].instance, 3);
+  EXPECT_EQ(facts.objects[1].instance, 4);
+  EXPECT_TRUE(IsLargeMover(facts.objects[0]) && !IsSlowMover(facts.objects[0]));
+  EXPECT_TRUE(IsSlowMover(facts.objects[1]) && !IsLargeMover(facts.objects[1]));
+}
+
 TEST_F(TwoWhoTouch, CountAmongTheLargeMoversOnlyOnTheirWay) {
   const Scorecard scores = Reject({{100, 50, 20, 40}});
   EXPECT_DOUBLE_EQ(*scores.at("object_recall").value, 0.5);

@@ -1,0 +1,117 @@
+#include "harness/score/mask_scores.h"
+
+#include "harness/score/boundary.h"
+#include "harness/score/continuity.h"
+#include "harness/score/masks.h"
+#include "harness/score/scorecard.h"
+
+namespace aisle {
+namespace {
+
+/// A range of objects that scores are split by.
+struct Kind {
+  const char* name;
+  std::function<bool(const ObjectOutcome&)> holds;
+};
+
+/// Bounds by what they mean to a stereo rig at 752x480: 2000 pixels are a person at some six
+/// metres; beyond six metres disparity is a few pixels; 0.3 m/s is slower than a stroll, 1.5 m/s
+/// faster than a walk.
+const std::vector<Kind>& Kinds() {
+  using Object = ObjectOutcome;
+  static const std::vector<Kind> kinds = {
+      {"size_small", [](const Object& o) { return o.pixels < 2000; }},
+      {"size_medium", [](const Object& o) { return o.pixels >= 2000 && o.pixels < 20000; }},
+      {"size_large", [](const Object& o) { return o.pixels >= 20000; }},
+      {"distance_below_3m", [](const Object& o) { return o.distance_m < 3; }},
+      {"distance_3_to_6m", [](const Object& o) { return o.distance_m >= 3 && o.distance_m < 6; }},
+      {"distance_above_6m", [](const Object& o) { return o.distance_m >= 6; }},
+      {"speed_below_0.3mps", [](const Object& o) { return o.speed_mps < 0.3; }},
+      {"speed_0.3_to_1.5mps",
+       [](const Object& o) { return o.speed_mps >= 0.3 && o.speed_mps < 1.5; }},
+      {"speed_above_1.5mps", [](const Object& o) { return o.speed_mps >= 1.5; }},
+  };
+  return kinds;
+}
+
+bool IsFound(const ObjectOutcome& object) { return object.found; }
+
+Score ShareOf(const std::vector<ObjectOutcome>& objects, const ObjectRule& asked_for,
+              const ObjectRule& counts) {
+  double asked = 0, counted = 0;
+  for (const ObjectOutcome& object : objects) {
+    if (!asked_for(object)) continue;
+    ++asked;
+    counted += counts(object) ? 1 : 0;
+  }
+  return RatioScore(counted, asked, "no such object moved");
+}
+
+/// Rows only where there is something to say: an object that never was is no finding.
+void AddRecallByKind(const std::vector<ObjectOutcome>& objects, Scorecard* scores) {
+  const auto add = [&](const std::string& name, const ObjectRule& asked_for) {
+    const Score score = ShareOf(objects, asked_for, IsFound);
+    if (score.value) (*scores)["object_recall_" + name] = score;
+  };
+  for (const Kind& kind : Kinds()) add(kind.name, kind.holds);
+  std::set<std::string> classes;
+  for (const ObjectOutcome& object : objects) classes.insert(object.object_class);
+  for (const std::string& name : classes) {
+    add("class_" + name, [&](const ObjectOutcome& object) { return object.object_class == name; });
+  }
+}
+
+/// Large movers alone, and large regions: a wrong speck does not weigh as much as a lost aisle.
+void AddLargeMovers(const MaskFacts& sum, Scorecard* scores) {
+  const ObjectRule is_large = [](const ObjectOutcome& object) { return IsLargeMover(object); };
+  (*scores)["object_precision_large"] = RatioScore(sum.large_regions - sum.large_regions_astray,
+                                                   sum.large_regions, "nothing large was rejected");
+  (*scores)["object_recall_large"] = ShareOf(sum.objects, is_large, IsFound);
+  (*scores)["object_covered_large"] = ShareOf(sum.objects, is_large, IsCovered);
+  (*scores)["object_covered"] = ShareOf(
+      sum.objects, [](const ObjectOutcome&) { return true; }, IsCovered);
+}
+
+}  // namespace
+
+void AddMasks(const std::vector<FrameFacts>& frames, Scorecard* scores) {
+  MaskFacts sum;
+  bool any = false;
+  for (const FrameFacts& frame : frames) {
+    if (!frame.mask) continue;
+    any = true;
+    sum += *frame.mask;
+  }
+  if (!any) return;  // the system makes no masks: no row is clearer than nine empty ones
+  const auto tp = static_cast<double>(sum.true_positives);
+  const auto fp = static_cast<double>(sum.false_positives);
+  const auto fn = static_cast<double>(sum.false_negatives);
+  (*scores)["mask_precision"] = RatioScore(tp, tp + fp, "nothing was rejected");
+  (*scores)["mask_recall"] = RatioScore(tp, tp + fn, "nothing moved");
+  (*scores)["mask_iou"] = RatioScore(tp, tp + fp + fn, "nothing moved, nothing was rejected");
+  const double found = sum.objects_found;
+  const auto count = frames.size();
+  (*scores)["objects_moving"] = Present(found + sum.objects_missed, "1", count);
+  (*scores)["objects_found"] = Present(found, "1", count);
+  (*scores)["objects_missed"] = Present(sum.objects_missed, "1", count);
+  (*scores)["objects_invented"] = Present(sum.objects_invented, "1", count);
+  (*scores)["object_precision"] =
+      RatioScore(found, found + sum.objects_invented, "nothing was rejected");
+  (*scores)["object_recall"] = RatioScore(found, found + sum.objects_missed, "nothing moved");
+  (*scores)["object_iou"] = RatioScore(sum.iou_sum, found, "no object was found");
+  (*scores)["static_features_lost"] =
+      RatioScore(sum.static_corners_lost, sum.static_corners, "no corner on a static surface");
+  const std::optional<double> f = BoundaryF({.truth = sum.outline_truth,
+                                             .truth_met = sum.outline_truth_met,
+                                             .rejected = sum.outline_rejected,
+                                             .rejected_met = sum.outline_rejected_met});
+  (*scores)["mask_boundary_f"] =
+      f ? Present(*f, "1", static_cast<std::size_t>(sum.outline_truth + sum.outline_rejected))
+        : Absent("1", "nothing moved, nothing was rejected");
+  if (sum.objects.empty()) return;  // truth names no objects
+  AddLargeMovers(sum, scores);
+  AddRecallByKind(sum.objects, scores);
+  AddContinuity(FollowKinds(frames), {}, scores);
+}
+
+}  // namespace aisle
