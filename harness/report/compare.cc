@@ -12,6 +12,8 @@ struct Judged {
   double smallest_effect =
       0;  ///< in the score's unit, where a share of the old median is too coarse
 };
+/// Each one more costs all of them power: with nine seeds a side no p is below 4.1e-5, so that an
+/// alpha of 0.01 has room for 243 comparisons that are not equal to the last bit.
 constexpr Judged kJudged[] = {{"coverage", true, 0.01},
                               {"ate_rmse_m", false},
                               {"ate_live_rmse_m", false},
@@ -24,9 +26,7 @@ constexpr Judged kJudged[] = {{"coverage", true, 0.01},
                               {"mask_iou", true},
                               {"static_features_lost", false},
                               {"mover_large_found_within_1s", true},
-                              {"mover_large_gap_max_frames", false, 1},
-                              {"mover_slow_found_within_1s", true},
-                              {"mover_slow_gap_max_frames", false, 1}};
+                              {"mover_large_gap_max_frames", false, 1}};
 constexpr const char* kWatched[] = {"ms_process_mean", "ms_render_mean", "peak_rss_mib"};
 
 using Cell = std::tuple<std::string, std::string, std::string>;

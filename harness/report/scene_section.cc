@@ -1,4 +1,5 @@
 #include <set>
+#include <span>
 
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
@@ -58,8 +59,19 @@ constexpr Column kContinuityColumns[] = {
     {"slow: gap in<br>turns [frames]", "mover_slow_gap_turning_max_frames", 1, 0},
 };
 
-template <std::size_t N>
-std::string ScoreTable(const std::vector<SystemRuns>& systems, const Column (&columns)[N]) {
+/// Those in which any system has a number.
+std::vector<Column> Filled(const std::vector<SystemRuns>& systems,
+                           std::span<const Column> columns) {
+  std::vector<Column> filled;
+  std::ranges::copy_if(columns, std::back_inserter(filled), [&](const Column& column) {
+    return std::ranges::any_of(systems, [&](const SystemRuns& system) {
+      return MedianScore(system.runs, column.score).has_value();
+    });
+  });
+  return filled;
+}
+
+std::string ScoreTable(const std::vector<SystemRuns>& systems, std::span<const Column> columns) {
   std::string text = "<div class=\"wide\"><table><tr><th>system";
   for (const Column& column : columns) text += fmt::format("<th>{}", column.title);
   text += "\n";
@@ -105,7 +117,8 @@ std::string MaskTables(const std::vector<SystemRuns>& systems) {
   }
   if (const auto followed = WithScores(systems, "mover_"); !followed.empty()) {
     text +=
-        "<h3>How movers were followed</h3>\n" + ScoreTable(followed, kContinuityColumns) +
+        "<h3>How movers were followed</h3>\n" +
+        ScoreTable(followed, Filled(followed, kContinuityColumns)) +
         "<p class=\"soft small\">Each time that something is a large mover as above, or as large "
         "and slow (0.05 to 0.15 m/s): found once at least half of its moving pixels are rejected. "
         "Delay: until then, of those that stay 1 s or longer; one that is never found counts with "

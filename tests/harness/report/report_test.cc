@@ -112,6 +112,32 @@ TEST_F(ReportTest, ThePageTellsTheVerdictFirst) {
   EXPECT_THAT(page, HasSubstr("<code>./aisle rerun paper.scene2/live/orbslam2/1 --in "));
 }
 
+/// Somebody walks by for three seconds, of whom the system loses sight for four frames in ten.
+RunResult WithAWalker(RunResult run) {
+  for (std::size_t i = 20; i < 80; ++i) {
+    ObjectOutcome walker;
+    walker.share = 0.02;
+    walker.speed_mps = 1.2;
+    walker.rejected = i % 10 < 6 ? 1 : 0;
+    run.facts[i].mask->objects.push_back(walker);
+  }
+  return run;
+}
+
+TEST_F(ReportTest, AScenesPageTellsHowItsMoversWereFollowed) {
+  const RunResult oracle = WithAWalker(MakeRun("paper/scene2", "oracle", 1, 0.02));
+  const Results results = Make({MakeRun("paper/scene2", "orbslam2", 1, 0.6), oracle}, {});
+  EXPECT_EQ(results.runs[1].scores.at("mover_large_gap_max_frames").value, 4);
+  WriteReport(results, folder_);
+  const std::string page = Read("index.html");
+  const auto table = page.find("How movers were followed");
+  ASSERT_NE(table, std::string::npos);
+  const std::string rows = page.substr(table, page.find("</table>", table) - table);
+  EXPECT_THAT(rows, HasSubstr("</span>oracle<td>100.0<td>0.00<td>0.00<td>4\n"));
+  EXPECT_THAT(rows, Not(HasSubstr("</span>orbslam2")));  // it rejects nothing
+  EXPECT_THAT(rows, Not(HasSubstr("slow")));             // nobody creeps
+}
+
 TEST_F(ReportTest, ThePageObeysTheStrictestPolicy) {
   WriteReport(Make({MakeRun("paper/scene2", "oracle", 1, 0.02)}, {}), folder_);
   std::string page = Read("index.html");
