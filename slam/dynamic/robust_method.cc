@@ -5,6 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "slam/dynamic/join_regions.h"
 #include "slam/dynamic/label_field.h"
 #include "slam/dynamic/motion_evidence.h"
 #include "slam/dynamic/residual_flow.h"
@@ -259,10 +260,11 @@ cv::Mat1f PixelProbability(const cv::Mat1f& log_odds, cv::Size image) {
   return probability;
 }
 
-DynamicRegions ToFullSize(const PixelRegions& regions, cv::Size image) {
+DynamicRegions ToFullSize(const PixelRegions& regions, const cv::Mat1f& disparity, cv::Size image,
+                          const RegionOptions& options) {
   DynamicRegions dynamic;
   dynamic.mask = PixelMask(regions, image);
-  for (const PixelRegion& region : regions.regions) {
+  for (const PixelRegion& region : JoinRegions(regions, disparity, options)) {
     const cv::Rect box(region.box.tl() * 2, region.box.size() * 2);
     dynamic.regions.push_back({region.id, box & cv::Rect({0, 0}, image), region.log_odds});
   }
@@ -293,7 +295,7 @@ void LabelPixels(const DenseFrame& frame, const Scene& scene, LabelMemory& memor
                                             scene.farthest, options.field);
         memory.regions = FindRegions(moving, memory.log_odds, scene.links, memory.regions,
                                      next_region_id, options.field.coupling, options.region);
-        result.dynamic = ToFullSize(memory.regions, image);
+        result.dynamic = ToFullSize(memory.regions, frame.disparity, image, options.region);
       },
       [&] { result.probability = PixelProbability(log_odds, image); });
   result.stages.log_odds = log_odds;

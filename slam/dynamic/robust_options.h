@@ -230,6 +230,9 @@ struct RegionOptions {
   int inner_window_px = 5;                     ///< ... a window of this side, odd
   /// Share of the smaller one of a region and its predecessor that they must have in common.
   double least_overlap = 0.25;
+  /// A region is part of a larger one if this share of its box lies in the other's and their mean
+  /// disparities differ by no more than a step: a constant part and a share.
+  double join_overlap = 0.3, join_disparity = 0.5, join_disparity_share = 0.04;
 
   OptionError Validate() const {
     if (inner_window_px % 2 == 0) {
@@ -243,7 +246,10 @@ struct RegionOptions {
                    CheckRange("birth_inner_px", birth_inner_px, 0, 1000000),
                    CheckRange("keep_inner_px", keep_inner_px, 0, birth_inner_px),
                    CheckRange("inner_window_px", inner_window_px, 1, 31),
-                   CheckRange("least_overlap", least_overlap, 0.0, 1.0));
+                   CheckRange("least_overlap", least_overlap, 0.0, 1.0),
+                   CheckRange("join_overlap", join_overlap, 0.0, 1.0),
+                   CheckRange("join_disparity", join_disparity, 0.0, 100.0),
+                   CheckRange("join_disparity_share", join_disparity_share, 0.0, 1.0));
   }
 };
 
