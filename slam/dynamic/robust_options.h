@@ -117,7 +117,7 @@ struct EvidenceOptions {
   /// Disparities so far apart are two matches, not one measured ill.
   double other_disparity = 1.5;
   /// Log-odds of earlier frames from which on nobody asks for what looks the same.
-  double sure = 3;
+  double sure = 4.5;
   /// As far as something static may be looked for that looks the same: [0, this), at most 128.
   int alias_disparities = 64;
   /// A step of disparity up to which two measurements may show one surface: a constant part and a

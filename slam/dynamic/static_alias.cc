@@ -120,7 +120,7 @@ float GainPerMisfit(float misfit, const EvidenceOptions& options) {
 
 float LimitByAlias(const AliasViews& views, const SeenMotion& seen, float log_odds,
                    const EvidenceOptions& options) {
-  constexpr float kLeastWay = 0.5F;  // pixels that tell one place from another
+  constexpr float kLeastWay = 0.1F;  // pixels that tell one place from another: twice flow's noise
   const cv::Mat1b& now = views.now.image;
   const float reach = static_cast<float>(options.alias_disparities) *
                       std::sqrt(seen.per_disparity.dot(seen.per_disparity));
