@@ -74,6 +74,11 @@ struct Evidence {
            d + static_cast<float>(options.edge_step + options.edge_share * d);
   }
 
+  /// Whether nothing was known at an earlier place as its surface lay beyond the right image then.
+  bool WasBlind(const cv::Vec2f& place, float d, float seen) const {
+    return seen <= 0 && place[0] - d < static_cast<float>(options.blind_px);
+  }
+
   float SameSurface(float d) const {
     return static_cast<float>(options.same_surface + options.same_surface_share * d);
   }
@@ -146,7 +151,8 @@ struct Evidence {
     const float seen = DisparityAround(frames.then.disparity, frames.flow(y, x), d, expected_d);
     const float off = std::min(std::abs(seen - d), std::abs(seen - expected_d));
     const auto speeds = static_cast<float>(options.same_surface_speeds);
-    if (seen <= 0 || off >= SameSurface(d) + speeds * change) return 0;
+    const bool other = seen <= 0 || off >= SameSurface(d) + speeds * change;
+    if (other && !WasBlind(frames.flow(y, x), d, seen)) return 0;
     const float moved = misfit_moved(y, x);
     if (hidden && (std::abs(seen - d) >= SameSurface(d) + change ||
                    moved >= static_cast<float>(options.hidden_misfit))) {

@@ -123,6 +123,8 @@ struct EvidenceOptions {
   /// A step of disparity up to which two measurements may show one surface: a constant part and a
   /// share of the disparity, to which comes what a mover's speed makes of it.
   double same_surface = 0.5, same_surface_share = 0.04, same_surface_speeds = 4;
+  /// So close to the right image's edge the earlier frame may not have known a mover's disparity.
+  int blind_px = 6;
   /// Where something nearer by this step lies within reach, the flow is its flow.
   double edge_step = 0.7, edge_share = 0.08;
   int edge_window_px = 13;  ///< side of that reach, odd
@@ -157,6 +159,7 @@ struct EvidenceOptions {
                    CheckRange("same_surface", same_surface, 0.01, 100.0),
                    CheckRange("same_surface_share", same_surface_share, 0.0, 1.0),
                    CheckRange("same_surface_speeds", same_surface_speeds, 0.0, 100.0),
+                   CheckRange("blind_px", blind_px, 0, 64),
                    CheckRange("edge_step", edge_step, 0.01, 100.0),
                    CheckRange("edge_share", edge_share, 0.0, 1.0),
                    CheckRange("edge_window_px", edge_window_px, 1, 101),

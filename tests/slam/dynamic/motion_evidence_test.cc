@@ -106,6 +106,28 @@ TEST(CompareMotion, FindsAWalkerAcrossBesideAMovingCamera) {
   EXPECT_LT(pair.ShareAbove(1, false), 0.02);
 }
 
+TEST(CompareMotion, FindsWhomTheRightEyeDidNotSeeYetAMomentAgo) {
+  const Pair pair({test::Walker({-1.05, 0.1, 1.6}, {1.2, 0, 0})}, {0, 0, 0.03}, 0.05);
+  const cv::Rect image({0, 0}, pair.moving.size());
+  cv::Mat1f most;  // of the disparities around
+  cv::dilate(pair.then.disparity, most, cv::Mat::ones(3, 3, CV_8U));
+  int unknown_before = 0, found = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const cv::Vec2f& from = pair.flow(y, x);
+      const cv::Point there(cvRound(from[0]), cvRound(from[1]));
+      if (pair.moving(y, x) == 0 || pair.now.disparity(y, x) <= 0 || !image.contains(there))
+        continue;
+      if (most(there) > 0) continue;
+      ++unknown_before;
+      found += pair.log_odds(y, x) > 1 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(unknown_before, 200);
+  EXPECT_GT(found, unknown_before / 2);
+  EXPECT_LT(pair.ShareAbove(1, false), 0.02);
+}
+
 TEST(CompareMotion, FindsAWalkerAlongTheAxisOverALongGap) {
   const Pair pair({test::Walker({0.3, 0.1, 4.5}, {0, 0, -1.0})}, {0, 0, 0.1}, 0.25);
   EXPECT_GT(pair.ShareAbove(1, true), 0.3);
