@@ -140,10 +140,15 @@ std::vector<LoopEdge> AgreeingLoops(const Map& map, const std::vector<LoopEdge>&
   };
   const LoopEdge& newest = loops.back();
   if (!exists(newest) || !IsPlausible(map, newest, options)) return agreeing;
+  int inliers = 0;
   for (const LoopEdge& loop : loops) {
-    if (exists(loop) && Agree(map, newest, loop, options)) agreeing.push_back(loop);
+    if (!exists(loop) || !Agree(map, newest, loop, options)) continue;
+    agreeing.push_back(loop);
+    inliers += loop.inliers;
   }
-  if (std::ssize(agreeing) < options.agreeing) agreeing.clear();
+  const bool too_few =
+      std::ssize(agreeing) < options.agreeing || inliers < options.agreeing_inliers;
+  if (too_few) agreeing.clear();
   return agreeing;
 }
 

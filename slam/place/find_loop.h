@@ -20,12 +20,14 @@ struct LoopOptions {
   AlignPointsOptions align;       ///< the pose between the two keyframes
   int least_inliers = 40;         ///< landmarks of the old place that the new view confirms
   double radius_px = 8;           ///< search for those, pixels of the predicted level
-  int agreeing = 3;               ///< loops that must tell the same correction before it is made
-  int remembered = 10;            ///< keyframes after which an unconfirmed loop is forgotten
-  double agree_m = 0.1;           ///< translation by which two corrections may differ
-  double agree_deg = 1.0;         ///< rotation by which two corrections may differ
-  double drift_share = 0.02;      ///< of the path in between: no correction may be larger, ...
-  double drift_m = 0.3;           ///< ... this aside: racks that look alike stand further apart
+  /// Loops that must tell the same correction before it is made, and the landmarks that they must
+  /// confirm together: three loops that just suffice, or two clear ones.
+  int agreeing = 2, agreeing_inliers = 120;
+  int remembered = 10;        ///< keyframes after which an unconfirmed loop is forgotten
+  double agree_m = 0.1;       ///< translation by which two corrections may differ
+  double agree_deg = 1.0;     ///< rotation by which two corrections may differ
+  double drift_share = 0.02;  ///< of the path in between: no correction may be larger, ...
+  double drift_m = 0.3;       ///< ... this aside: racks that look alike stand further apart
 };
 
 /// Where keyframe `matched` sees keyframe `current`: found from their features alone, then
@@ -43,7 +45,7 @@ std::optional<LoopEdge> FindLoop(const Map& map, KeyframeId current, const WordV
 Eigen::Isometry3d Correction(const Map& map, const LoopEdge& loop);
 
 /// The loops that agree with the newest one (pairwise consistency), itself included, or none where
-/// they are too few or ask for more than odometry can have drifted.
+/// they, or the landmarks they confirm, are too few or ask for more than odometry can have drifted.
 std::vector<LoopEdge> AgreeingLoops(const Map& map, const std::vector<LoopEdge>& loops,
                                     const LoopOptions& options);
 

@@ -136,11 +136,12 @@ TEST_F(LoopPairs, TheOtherVisitIsTheMostAlike) {
   }
 }
 
-/// Loops as a drive would find them, keyframe 1 drifted by `drift_m` from where it is.
-std::vector<LoopEdge> LoopsWithCorrections(const std::vector<double>& corrections_m) {
+/// Loops as a drive would find them, each confirmed by so many landmarks.
+std::vector<LoopEdge> LoopsWithCorrections(const std::vector<double>& corrections_m,
+                                           int inliers = 100) {
   std::vector<LoopEdge> loops;
   for (const double correction_m : corrections_m) {
-    LoopEdge loop{{1}, {0}, Eigen::Isometry3d::Identity(), 100};
+    LoopEdge loop{{1}, {0}, Eigen::Isometry3d::Identity(), inliers};
     loop.T_matched_current.translation().x() = 100 + correction_m;
     loops.push_back(loop);
   }
@@ -155,6 +156,15 @@ TEST_F(LoopPairs, OnlyLoopsThatAgreeAreBelieved) {
   // A rack's pitch after a hundred metres: more than odometry can have drifted.
   EXPECT_TRUE(AgreeingLoops(map, LoopsWithCorrections({2.7, 2.7, 2.7}), options).empty());
   EXPECT_TRUE(AgreeingLoops(map, {}, options).empty());
+}
+
+TEST_F(LoopPairs, TwoClearLoopsAreBelievedAndOfFaintOnesThree) {
+  EXPECT_EQ(AgreeingLoops(map, LoopsWithCorrections({0.2, 0.21}, 60), {}).size(), 2u);
+  EXPECT_TRUE(AgreeingLoops(map, LoopsWithCorrections({0.2, 0.21}, 40), {}).empty());
+  EXPECT_EQ(AgreeingLoops(map, LoopsWithCorrections({0.2, 0.21, 0.19}, 40), {}).size(), 3u);
+  EXPECT_TRUE(AgreeingLoops(map, LoopsWithCorrections({0.2}, 500), {}).empty());
+  // What does not agree confirms nothing.
+  EXPECT_TRUE(AgreeingLoops(map, LoopsWithCorrections({2, 0.2, 0.21}, 50), {}).empty());
 }
 
 }  // namespace
