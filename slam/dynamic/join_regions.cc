@@ -1,7 +1,6 @@
 #include "slam/dynamic/join_regions.h"
 
 #include <cmath>
-#include <numeric>
 
 namespace aisle::slam::dynamic {
 namespace {
@@ -23,15 +22,6 @@ std::vector<double> MeanDisparities(const PixelRegions& regions, const cv::Mat1f
   return sums;
 }
 
-std::vector<std::size_t> LargestFirst(const std::vector<PixelRegion>& regions) {
-  std::vector<std::size_t> order(regions.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return regions[a].pixels > regions[b].pixels;
-  });
-  return order;
-}
-
 PixelRegion United(const PixelRegion& a, const PixelRegion& b) {
   const int pixels = a.pixels + b.pixels;
   return {std::min(a.id, b.id), a.box | b.box, pixels,
@@ -51,7 +41,7 @@ std::vector<PixelRegion> JoinRegions(const PixelRegions& parts, const cv::Mat1f&
     return (box & around).area() >= options.join_overlap * box.area() &&
            std::abs(distance[part] - distance[other]) <= step;
   };
-  for (const std::size_t part : LargestFirst(parts.regions)) {
+  for (std::size_t part = 0; part < parts.regions.size(); ++part) {
     const auto of = std::find_if(largest.begin(), largest.end(),
                                  [&](std::size_t other) { return is_part_of(part, other); });
     if (of == largest.end()) {

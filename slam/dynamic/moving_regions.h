@@ -17,8 +17,8 @@ struct PixelRegion {
 };
 
 struct PixelRegions {
-  cv::Mat1i labels;  ///< per pixel: index into regions + 1; 0 = static
-  std::vector<PixelRegion> regions;
+  cv::Mat1i labels;                  ///< per pixel: index into regions + 1; 0 = static
+  std::vector<PixelRegion> regions;  ///< the largest first
 };
 
 /// Moving pixels that hang together by links that are not too weak, so that two people who meet

@@ -68,9 +68,14 @@ TEST(JoinRegions, PixelsAndBoxesAreKeptAndIdsAreThoseOfTheOldest) {
   int joined = 0;
   for (int trial = 0; trial < 200; ++trial) {
     Picture picture;
+    std::vector<cv::Rect> boxes;
     for (int k = 0; k < 6; ++k) {
-      const cv::Rect box(below(80), below(50), 10 + below(30), 10 + below(20));
-      picture.Put(10 * k + 1, box, 5 + static_cast<float>(below(3)));
+      boxes.emplace_back(below(80), below(50), 10 + below(30), 10 + below(20));
+    }
+    std::ranges::sort(boxes, std::greater(), [](const cv::Rect& box) { return box.area(); });
+    for (int k = 0; k < 6; ++k) {  // the largest is neither the oldest nor the newest
+      picture.Put(10 * ((k + 3) % 6) + 1, boxes[static_cast<std::size_t>(k)],
+                  5 + static_cast<float>(below(3)));
     }
     const auto whole = picture.Joined();
     joined += 6 - static_cast<int>(whole.size());
