@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "slam/dynamic/stopwatch.h"
-#include "slam/feature/extract.h"
 #include "slam/stereo/match_stereo.h"
 
 namespace aisle::slam {
@@ -51,15 +50,23 @@ cv::Mat1b Union(const cv::Mat1b& a, const cv::Mat1b& b) {
   return both;
 }
 
-std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, const ExternalMask& mask,
-                                      const StereoCamera& camera, const SlamOptions& options,
+StereoCorners FindStereoCorners(const StereoImages& images, const FeatureOptions& options) {
+  StereoCorners corners;
+  tbb::parallel_invoke([&] { corners.left = FindCorners(images.left, options); },
+                       [&] { corners.right = FindCorners(images.right, options); });
+  return corners;
+}
+
+std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, StereoCorners corners,
+                                      const ExternalMask& mask, const StereoCamera& camera,
+                                      const SlamOptions& options,
                                       std::map<std::string, double>& stage_ms) {
   EyeFeatures left, right;
   {
     Stopwatch time(stage_ms["extract"]);
     tbb::parallel_invoke(
-        [&] { left = ExtractFeatures(images.left, mask.left, options.feature); },
-        [&] { right = ExtractFeatures(images.right, mask.right, options.feature); });
+        [&] { left = ChooseFeatures(std::move(corners.left), mask.left, options.feature); },
+        [&] { right = ChooseFeatures(std::move(corners.right), mask.right, options.feature); });
   }
   Stopwatch time(stage_ms["stereo"]);
   const std::vector<Disparity> disparities = MatchStereo(left, right, camera, options.stereo);

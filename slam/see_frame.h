@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "slam/feature/extract.h"
 #include "slam/map/frame.h"
 #include "slam/stereo_slam.h"
 
@@ -15,11 +16,18 @@ void CheckImages(const StereoImages& images, const ExternalMask& mask, const Ste
 /// What either mask rejects; an empty one rejects nothing.
 cv::Mat1b Union(const cv::Mat1b& a, const cv::Mat1b& b);
 
+/// The corners of both eyes, found in parallel.
+struct StereoCorners {
+  EyeCorners left, right;
+};
+StereoCorners FindStereoCorners(const StereoImages& images, const FeatureOptions& options);
+
 /// The front end: features of both eyes outside the mask, and what they measure. The deviations
 /// grow as the confidence in the pixel falls: information times confidence. Runs both eyes in
 /// parallel; times go to `stage_ms`.
-std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, const ExternalMask& mask,
-                                      const StereoCamera& camera, const SlamOptions& options,
+std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, StereoCorners corners,
+                                      const ExternalMask& mask, const StereoCamera& camera,
+                                      const SlamOptions& options,
                                       std::map<std::string, double>& stage_ms);
 
 }  // namespace aisle::slam

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <stdexcept>
 
@@ -81,6 +82,8 @@ struct StereoSlam::Impl {
   Impl(const StereoCamera& camera_in, const SlamOptions& options_in);
 
   TrackedFrame Track(const StereoImages& images, const ExternalMask& mask);
+  std::shared_ptr<const Frame> See(const StereoImages& images, const ExternalMask& mask,
+                                   TrackedFrame& result);
   ExternalMask RejectMovers(const StereoImages& images, const ExternalMask& mask,
                             TrackedFrame& result);
   std::optional<FramePose> FindPose(const Frame& frame) const;
@@ -119,9 +122,8 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
   TrackedFrame result;
   result.id = images.id;
   result.stamp_ns = images.stamp_ns;
-  const ExternalMask rejected = RejectMovers(images, mask, result);
   std::shared_ptr<const Frame> frame;
-  arena.execute([&] { frame = SeeFrame(images, rejected, camera, options, result.stage_ms); });
+  arena.execute([&] { frame = See(images, mask, result); });
   result.loop_closed = keeper.TakeDueWork(frame_count, result.stage_ms);
 
   Stopwatch track_time(result.stage_ms["track"]);
@@ -152,6 +154,21 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
   return result;
 }
 
+/// What the frame shows outside movers. Corners depend on the images alone and are found while the
+/// detector leaves threads idle: its time includes what of them it waited for.
+std::shared_ptr<const Frame> StereoSlam::Impl::See(const StereoImages& images,
+                                                   const ExternalMask& mask, TrackedFrame& result) {
+  StereoCorners corners;
+  tbb::task_group beside;
+  beside.run([&] { corners = FindStereoCorners(images, options.feature); });
+  const ExternalMask rejected = RejectMovers(images, mask, result);
+  {
+    Stopwatch time(result.stage_ms["extract"]);
+    beside.wait();
+  }
+  return SeeFrame(images, std::move(corners), rejected, camera, options, result.stage_ms);
+}
+
 /// The caller's mask and what the detector finds moving, together; the latter is noted in `result`.
 ExternalMask StereoSlam::Impl::RejectMovers(const StereoImages& images, const ExternalMask& mask,
                                             TrackedFrame& result) {
@@ -161,8 +178,7 @@ ExternalMask StereoSlam::Impl::RejectMovers(const StereoImages& images, const Ex
   if (state == TrackingState::kTracking) {
     input.T_now_before = ForeseeMotion(journal.memory(), images.stamp_ns, options.track);
   }
-  DynamicOutput found;
-  arena.execute([&] { found = detector.Detect(input); });
+  DynamicOutput found = detector.Detect(input);
   result.dynamic = std::move(found.regions);
   result.dynamic_stages = std::move(found.stages);
   return {Union(mask.left, result.dynamic.mask), Union(mask.right, found.mask_right),

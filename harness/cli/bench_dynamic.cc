@@ -76,13 +76,10 @@ struct Result {
 
   /// Of the objects that must be found: large ones that really go somewhere.
   std::optional<double> RecallOfLarge() const {
-    double asked = 0, found = 0;
-    for (const ObjectOutcome& object : masks.objects) {
-      if (!IsLargeMover(object)) continue;
-      ++asked;
-      found += object.found ? 1 : 0;
-    }
-    return Ratio(found, asked);
+    const ObjectCount large = CountObjects(
+        masks.objects, [](const ObjectOutcome& object) { return IsLargeMover(object); },
+        [](const ObjectOutcome& object) { return object.found; });
+    return Ratio(large.counted, large.asked);
   }
 
   std::optional<double> PrecisionOfLarge() const {

@@ -38,13 +38,8 @@ bool IsFound(const ObjectOutcome& object) { return object.found; }
 
 Score ShareOf(const std::vector<ObjectOutcome>& objects, const ObjectRule& asked_for,
               const ObjectRule& counts) {
-  double asked = 0, counted = 0;
-  for (const ObjectOutcome& object : objects) {
-    if (!asked_for(object)) continue;
-    ++asked;
-    counted += counts(object) ? 1 : 0;
-  }
-  return RatioScore(counted, asked, "no such object moved");
+  const ObjectCount count = CountObjects(objects, asked_for, counts);
+  return RatioScore(count.counted, count.asked, "no such object moved");
 }
 
 /// Rows only where there is something to say: an object that never was is no finding.

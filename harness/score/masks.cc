@@ -132,6 +132,17 @@ bool IsSlowMover(const ObjectOutcome& object, const MaskOptions& options) {
 
 bool IsCovered(const ObjectOutcome& object) { return object.rejected >= 0.5; }
 
+ObjectCount CountObjects(const std::vector<ObjectOutcome>& objects, const ObjectRule& asked_for,
+                         const ObjectRule& counts) {
+  ObjectCount count;
+  for (const ObjectOutcome& object : objects) {
+    if (!asked_for(object)) continue;
+    ++count.asked;
+    count.counted += counts(object) ? 1 : 0;
+  }
+  return count;
+}
+
 std::vector<MovingObject> MovingObjects(const FrameTruth& truth, const MaskOptions& options) {
   std::vector<MovingObject> objects;
   if (!truth.instance.empty() && truth.instance.size() == truth.dynamic.size()) {

@@ -42,6 +42,13 @@ bool IsSlowMover(const ObjectOutcome& object, const MaskOptions& options = {});
 /// make one rectangle, which is neither's.
 bool IsCovered(const ObjectOutcome& object);
 
+/// Of the objects that one rule asks for, how many another holds for.
+struct ObjectCount {
+  int asked = 0, counted = 0;
+};
+ObjectCount CountObjects(const std::vector<ObjectOutcome>& objects, const ObjectRule& asked_for,
+                         const ObjectRule& counts);
+
 /// Something that moves now and must be found.
 struct MovingObject {
   cv::Rect2d box;

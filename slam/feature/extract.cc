@@ -89,23 +89,35 @@ std::vector<int> ShareBudget(const std::vector<int>& available, int budget, doub
   return share;
 }
 
-EyeFeatures ExtractFeatures(const cv::Mat1b& image, const cv::Mat1b& mask,
-                            const FeatureOptions& options) {
-  EyeFeatures eye{BuildPyramid(image, options), {}};
+EyeCorners FindCorners(const cv::Mat1b& image, const FeatureOptions& options) {
+  EyeCorners corners{BuildPyramid(image, options), {}};
+  for (const cv::Mat1b& level : corners.pyramid.levels) {
+    corners.levels.push_back(DetectCorners(level, options));
+  }
+  return corners;
+}
+
+EyeFeatures ChooseFeatures(EyeCorners corners, const cv::Mat1b& mask,
+                           const FeatureOptions& options) {
+  EyeFeatures eye{std::move(corners.pyramid), {}};
   const cv::Mat1f distance_to_mask = DistanceToMask(mask);
-  std::vector<std::vector<Corner>> corners;
   std::vector<int> available;
   for (int level = 0; level < eye.pyramid.size(); ++level) {
-    corners.push_back(DetectCorners(eye.pyramid.levels[static_cast<std::size_t>(level)], options));
-    DropMasked(eye.pyramid, level, distance_to_mask, options.mask_margin_px, corners.back());
-    available.push_back(static_cast<int>(corners.back().size()));
+    std::vector<Corner>& of_level = corners.levels[static_cast<std::size_t>(level)];
+    DropMasked(eye.pyramid, level, distance_to_mask, options.mask_margin_px, of_level);
+    available.push_back(static_cast<int>(of_level.size()));
   }
   const std::vector<int> share = ShareBudget(available, options.features, options.scale);
   for (int level = 0; level < eye.pyramid.size(); ++level) {
     const auto l = static_cast<std::size_t>(level);
-    AppendLevel(eye.pyramid, level, DistributeCorners(corners[l], share[l]), eye.features);
+    AppendLevel(eye.pyramid, level, DistributeCorners(corners.levels[l], share[l]), eye.features);
   }
   return eye;
+}
+
+EyeFeatures ExtractFeatures(const cv::Mat1b& image, const cv::Mat1b& mask,
+                            const FeatureOptions& options) {
+  return ChooseFeatures(FindCorners(image, options), mask, options);
 }
 
 }  // namespace aisle::slam

@@ -3,11 +3,18 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "slam/feature/corners.h"
 #include "slam/feature/feature_options.h"
 #include "slam/feature/features.h"
 #include "slam/feature/pyramid.h"
 
 namespace aisle::slam {
+
+/// Where one eye could have features: known before anybody says what moves.
+struct EyeCorners {
+  Pyramid pyramid;
+  std::vector<std::vector<Corner>> levels;  ///< of each level of the pyramid, by rising (y, x)
+};
 
 /// What one eye sees.
 struct EyeFeatures {
@@ -22,6 +29,11 @@ struct EyeFeatures {
 /// budget is distributed only after the mask has been applied.
 EyeFeatures ExtractFeatures(const cv::Mat1b& image, const cv::Mat1b& mask,
                             const FeatureOptions& options);
+
+/// The same in two steps, the first of which needs no mask.
+EyeCorners FindCorners(const cv::Mat1b& image, const FeatureOptions& options);
+EyeFeatures ChooseFeatures(EyeCorners corners, const cv::Mat1b& mask,
+                           const FeatureOptions& options);
 
 /// Splits `budget` over levels: geometrically as their image areas shrink, never more than a level
 /// has, and what one level cannot use goes to the others.
