@@ -4,30 +4,21 @@
 
 #include <cmath>
 #include <numeric>
-#include <opencv2/imgproc.hpp>
 
 #include "slam/feature/corners.h"
 #include "slam/feature/describe.h"
+#include "slam/feature/mask_margin.h"
 #include "slam/feature/quadtree.h"
 
 namespace aisle::slam {
 namespace {
 
-/// Distance of every pixel to the nearest rejected one; empty where nothing is rejected.
-cv::Mat1f DistanceToMask(const cv::Mat1b& mask) {
-  cv::Mat1f distance;
-  if (mask.empty() || cv::countNonZero(mask) == 0) return distance;
-  cv::distanceTransform(mask == 0, distance, cv::DIST_L2, cv::DIST_MASK_3);
-  return distance;
-}
-
-void DropMasked(const Pyramid& pyramid, int level, const cv::Mat1f& distance_to_mask,
-                double margin_px, std::vector<Corner>& corners) {
-  if (distance_to_mask.empty()) return;
-  const double margin = margin_px * pyramid.scales[static_cast<std::size_t>(level)];
+void DropMasked(const Pyramid& pyramid, int level, const MaskMargin& mask, double margin_px,
+                std::vector<Corner>& corners) {
+  if (mask.rejects_nothing()) return;
+  const Disc disc = ChamferDisc(margin_px * pyramid.scales[static_cast<std::size_t>(level)]);
   std::erase_if(corners, [&](const Corner& corner) {
-    const cv::Point pixel = pyramid.ToFull(cv::Point2d(corner.x, corner.y), level);
-    return distance_to_mask(pixel) <= margin;
+    return mask.Reaches(pyramid.ToFull(cv::Point2d(corner.x, corner.y), level), disc);
   });
 }
 
@@ -100,11 +91,11 @@ EyeCorners FindCorners(const cv::Mat1b& image, const FeatureOptions& options) {
 EyeFeatures ChooseFeatures(EyeCorners corners, const cv::Mat1b& mask,
                            const FeatureOptions& options) {
   EyeFeatures eye{std::move(corners.pyramid), {}};
-  const cv::Mat1f distance_to_mask = DistanceToMask(mask);
+  const MaskMargin margin(mask);
   std::vector<int> available;
   for (int level = 0; level < eye.pyramid.size(); ++level) {
     std::vector<Corner>& of_level = corners.levels[static_cast<std::size_t>(level)];
-    DropMasked(eye.pyramid, level, distance_to_mask, options.mask_margin_px, of_level);
+    DropMasked(eye.pyramid, level, margin, options.mask_margin_px, of_level);
     available.push_back(static_cast<int>(of_level.size()));
   }
   const std::vector<int> share = ShareBudget(available, options.features, options.scale);
