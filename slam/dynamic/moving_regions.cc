@@ -40,7 +40,8 @@ class Sets {
 int LabelComponents(const cv::Mat1b& moving, const Links& links, float least_link,
                     cv::Mat1i& labels) {
   CV_Assert(moving.isContinuous());
-  Sets sets(moving.total());
+  const int pixels = moving.rows * moving.cols;
+  Sets sets(static_cast<std::size_t>(pixels));
   for (int y = 0; y < moving.rows; ++y) {
     for (int x = 0; x < moving.cols; ++x) {
       if (moving(y, x) == 0) continue;
@@ -56,7 +57,7 @@ int LabelComponents(const cv::Mat1b& moving, const Links& links, float least_lin
   labels.create(moving.size());
   const unsigned char* moves = moving[0];
   int *label = labels[0], count = 0;
-  for (int k = 0; k < static_cast<int>(moving.total()); ++k) {
+  for (int k = 0; k < pixels; ++k) {
     if (moves[k] == 0) {
       label[k] = 0;
       continue;
