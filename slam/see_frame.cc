@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "slam/dynamic/stopwatch.h"
+#include "slam/dynamic/common/stopwatch.h"
 #include "slam/stereo/match_stereo.h"
 
 namespace aisle::slam {

@@ -6,8 +6,8 @@
 
 #include <stdexcept>
 
+#include "slam/dynamic/common/stopwatch.h"
 #include "slam/dynamic/dynamic_detector.h"
-#include "slam/dynamic/stopwatch.h"
 #include "slam/foresight.h"
 #include "slam/journal.h"
 #include "slam/map/map_file.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "slam/camera/stereo_camera.h"
-#include "slam/dynamic/dynamic_regions.h"
+#include "slam/dynamic/common/dynamic_regions.h"
 #include "slam/picture/draw_stages.h"
 #include "slam/slam_options.h"
 

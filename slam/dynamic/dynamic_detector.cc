@@ -5,8 +5,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "slam/dynamic/dynamic_stages.h"
-#include "slam/dynamic/paper_method.h"
-#include "slam/dynamic/robust_method.h"
+#include "slam/dynamic/paper/paper_method.h"
+#include "slam/dynamic/robust/robust_method.h"
 
 namespace aisle::slam {
 

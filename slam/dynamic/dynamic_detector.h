@@ -9,8 +9,8 @@
 #include <string>
 
 #include "slam/camera/stereo_camera.h"
+#include "slam/dynamic/common/dynamic_regions.h"
 #include "slam/dynamic/dynamic_options.h"
-#include "slam/dynamic/dynamic_regions.h"
 
 namespace aisle::slam {
 

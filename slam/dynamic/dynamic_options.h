@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "slam/dynamic/paper_options.h"
-#include "slam/dynamic/robust_options.h"
+#include "slam/dynamic/paper/paper_options.h"
+#include "slam/dynamic/robust/robust_options.h"
 
 namespace aisle::slam {
 

@@ -1,6 +1,6 @@
 #include "slam/dynamic/dynamic_stages.h"
 
-#include "slam/dynamic/dense_frame.h"
+#include "slam/dynamic/robust/dense_frame.h"
 
 namespace aisle::slam {
 

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "slam/camera/stereo_camera.h"
-#include "slam/dynamic/dynamic_regions.h"
-#include "slam/dynamic/paper_method.h"
-#include "slam/dynamic/robust_method.h"
+#include "slam/dynamic/common/dynamic_regions.h"
+#include "slam/dynamic/paper/paper_method.h"
+#include "slam/dynamic/robust/robust_method.h"
 
 namespace aisle::slam {
 

@@ -3,9 +3,9 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
-#include "slam/dynamic/disparity.h"
-#include "slam/dynamic/mark_regions.h"
-#include "slam/dynamic/median.h"
+#include "slam/dynamic/common/median.h"
+#include "slam/dynamic/paper/disparity.h"
+#include "slam/dynamic/paper/mark_regions.h"
 
 namespace aisle::slam::picture {
 namespace {

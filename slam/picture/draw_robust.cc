@@ -2,7 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "slam/dynamic/median.h"
+#include "slam/dynamic/common/median.h"
 #include "slam/picture/canvas.h"
 
 namespace aisle::slam::picture {

@@ -4,8 +4,8 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "slam/dynamic/paper_method.h"
-#include "slam/dynamic/robust_method.h"
+#include "slam/dynamic/paper/paper_method.h"
+#include "slam/dynamic/robust/robust_method.h"
 
 namespace aisle::slam::dynamic {
 namespace {

@@ -1,2 +1,4 @@
-# The room's tests read pictures and look at slam/camera's rig as well.
-aisle_tests(slam/dynamic USES slam/camera LINKS opencv_imgcodecs opencv_features2d)
+# Some look at the rig as well, at pictures, or at the whole detector.
+aisle_tests(slam/dynamic/paper USES slam/camera LINKS opencv_features2d)
+aisle_tests(slam/dynamic/robust USES slam/dynamic)
+aisle_tests(slam/dynamic LINKS opencv_imgcodecs)

@@ -1,0 +1,211 @@
+#include "slam/dynamic/robust/dense_frame.h"
+
+#include <tbb/parallel_for.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "slam/dynamic/common/stereo_pair.h"
+#include "slam/dynamic/robust/semi_global.h"
+#include "slam/dynamic/robust/window_sums.h"
+
+namespace aisle::slam::dynamic {
+namespace {
+
+void ForgetPadding(cv::Mat1f& disparity, int most_disparity, int border) {
+  const int columns = std::min(disparity.cols, most_disparity + border);
+  for (int y = 0; y < disparity.rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      const float reach = static_cast<float>(x - border);
+      if (disparity(y, x) > reach) disparity(y, x) = kNoDisparity;
+    }
+  }
+}
+
+void FillRow(float* row, int columns) {
+  for (int x = 0; x < columns;) {
+    if (row[x] >= 0) {
+      ++x;
+      continue;
+    }
+    int end = x;
+    while (end < columns && row[end] < 0) ++end;
+    const float left = x > 0 ? row[x - 1] : kNoDisparity;
+    const float right = end < columns ? row[end] : kNoDisparity;
+    const float fill = left < 0 ? right : right < 0 ? left : std::min(left, right);
+    std::fill(row + x, row + end, std::max(fill, 0.0F));
+    x = end;
+  }
+}
+
+/// The least and the most of every pixel and the middles between it and its neighbours of the row.
+void SpanHalfPixels(const cv::Mat1b& image, cv::Mat1b& low, cv::Mat1b& high) {
+  low.create(image.size());
+  high.create(image.size());
+  cv::Mat1b padded;
+  cv::copyMakeBorder(image, padded, 0, 0, 1, 1, cv::BORDER_REPLICATE);
+  for (int y = 0; y < image.rows; ++y) {
+    const unsigned char* at = padded[y] + 1;
+    unsigned char *lowest = low[y], *highest = high[y];
+#pragma GCC ivdep
+    for (int x = 0; x < image.cols; ++x) {
+      const int left = (at[x] + at[x - 1]) / 2, right = (at[x] + at[x + 1]) / 2;
+      const int here = at[x];
+      lowest[x] = static_cast<unsigned char>(std::min(here, std::min(left, right)));
+      highest[x] = static_cast<unsigned char>(std::max(here, std::max(left, right)));
+    }
+  }
+}
+
+struct StaticRow {
+  float *place, *disparity, *per_disparity;
+};
+
+/// Everything first, without branches, so that it is vectorised; then what lies behind the camera.
+void FindRow(const Eigen::Vector3f& start, const Eigen::Vector3f& step, const Eigen::Vector3f& t,
+             const float* disparity, int columns, const StaticRow& row) {
+  constexpr float kNearest = 0.05F, kNowhere = -1e4F;
+  const float x0 = start.x(), y0 = start.y(), z0 = start.z();
+  const float xs = step.x(), ys = step.y(), zs = step.z();
+  const float tx = t.x(), ty = t.y(), tz = t.z();
+  float *place = row.place, *there = row.disparity, *per = row.per_disparity;
+#pragma GCC ivdep
+  for (int x = 0; x < columns; ++x) {
+    const float d = disparity[x], at = static_cast<float>(x);
+    const float z = std::max(z0 + zs * at + tz * d, kNearest);
+    const float u = (x0 + xs * at + tx * d) / z, v = (y0 + ys * at + ty * d) / z;
+    place[2 * x] = u;
+    place[2 * x + 1] = v;
+    there[x] = d / z;
+    per[2 * x] = (tx - u * tz) / z;
+    per[2 * x + 1] = (ty - v * tz) / z;
+  }
+  for (int x = 0; x < columns; ++x) {
+    if (z0 + zs * static_cast<float>(x) + tz * disparity[x] >= kNearest) continue;
+    place[2 * x] = place[2 * x + 1] = kNowhere;
+    there[x] = per[2 * x] = per[2 * x + 1] = 0;
+  }
+}
+
+struct TextureRow {
+  float *xx, *xy, *yy;
+};
+
+void MultiplyRow(const short* gx, const short* gy, const float* variance, int columns,
+                 const TextureRow& row) {
+  constexpr float kSobelGain = 1.0F / 8;
+  float *xx = row.xx, *xy = row.xy, *yy = row.yy;
+#pragma GCC ivdep
+  for (int x = 0; x < columns; ++x) {
+    const float dx = kSobelGain * static_cast<float>(gx[x]);
+    const float dy = kSobelGain * static_cast<float>(gy[x]);
+    xx[x] = dx * dx / variance[x];
+    xy[x] = dx * dy / variance[x];
+    yy[x] = dy * dy / variance[x];
+  }
+}
+
+void TakeNoiseOff(int pixels, int columns, const TextureRow& row) {
+  constexpr float kNoiseGain = 0.1875F;  // variance of that gradient where each pixel's is one
+  const float noise = kNoiseGain / 2 * static_cast<float>(pixels);
+  float *xx = row.xx, *xy = row.xy, *yy = row.yy;
+#pragma GCC ivdep
+  for (int x = 0; x < columns; ++x) {
+    xx[x] = std::max(xx[x] - noise, 0.0F);
+    yy[x] = std::max(yy[x] - noise, 0.0F);
+    const float most = std::sqrt(xx[x] * yy[x]);  // of a positive matrix
+    xy[x] = std::min(std::max(xy[x], -most), most);
+  }
+}
+
+}  // namespace
+
+StereoCamera HalfCamera(const StereoCamera& camera) {
+  StereoCamera half = camera;
+  half.width = camera.width / 2;
+  half.height = camera.height / 2;
+  half.fx = camera.fx / 2;
+  half.fy = camera.fy / 2;
+  half.cx = (camera.cx - 0.5) / 2;
+  half.cy = (camera.cy - 0.5) / 2;
+  return half;
+}
+
+cv::Mat1b HalfImage(const cv::Mat1b& image) {
+  cv::Mat1b half;
+  cv::resize(image, half, image.size() / 2, 0, 0, cv::INTER_AREA);
+  return half;
+}
+
+cv::Mat1f FillRows(const cv::Mat1f& disparity) {
+  cv::Mat1f filled = disparity.clone();
+  for (int y = 0; y < filled.rows; ++y) FillRow(filled[y], filled.cols);
+  return filled;
+}
+
+DenseFrame MakeDenseFrame(const cv::Mat1b& left, const cv::Mat1b& right,
+                          const SemiGlobalOptions& disparity, const SurfaceOptions& options) {
+  DenseFrame frame;
+  frame.image = HalfImage(left);
+  const cv::Mat1b half_right = HalfImage(right);
+  frame.disparity = MatchSemiGlobally(frame.image, half_right, disparity);
+  SpanHalfPixels(half_right, frame.right_low, frame.right_high);
+  ForgetPadding(frame.disparity, disparity.max_disparity_px, options.border_px);
+  frame.filled = FillRows(frame.disparity);
+  return frame;
+}
+
+cv::Mat1f DifferenceVariance(const cv::Mat1b& image, const SurfaceOptions& options) {
+  std::array<float, 256> of_grey;
+  for (std::size_t grey = 0; grey < of_grey.size(); ++grey) {
+    const double growing = options.brightness_noise * static_cast<double>(grey);
+    of_grey[grey] =
+        static_cast<float>(2 * (growing * growing + options.grey_noise * options.grey_noise));
+  }
+  cv::Mat1f variance;
+  cv::LUT(image, cv::Mat1f(1, 256, of_grey.data()), variance);
+  return variance;
+}
+
+Texture MeasureTexture(const cv::Mat1b& image, const SurfaceOptions& options) {
+  cv::Mat1s gx, gy;
+  cv::Sobel(image, gx, CV_16S, 1, 0);
+  cv::Sobel(image, gy, CV_16S, 0, 1);
+  const cv::Mat1f variance = DifferenceVariance(image, options);
+  Texture products{cv::Mat1f(image.size()), cv::Mat1f(image.size()), cv::Mat1f(image.size())};
+  tbb::parallel_for(0, image.rows, [&](int y) {
+    MultiplyRow(gx[y], gy[y], variance[y], image.cols,
+                {products.xx[y], products.xy[y], products.yy[y]});
+  });
+  const int reach = options.window_px / 2;
+  const cv::Mat1f xx = Reflected(products.xx, reach), xy = Reflected(products.xy, reach),
+                  yy = Reflected(products.yy, reach);
+  Texture texture = products;  // the same memory, which is of no more use
+  tbb::parallel_for(0, image.rows, [&](int y) {
+    std::vector<float> scratch(static_cast<std::size_t>(xx.cols));
+    const TextureRow row{texture.xx[y], texture.xy[y], texture.yy[y]};
+    SumWindows<float>(xx, y, reach, scratch.data(), row.xx);
+    SumWindows<float>(xy, y, reach, scratch.data(), row.xy);
+    SumWindows<float>(yy, y, reach, scratch.data(), row.yy);
+    TakeNoiseOff(options.window_px * options.window_px, image.cols, row);
+  });
+  return texture;
+}
+
+StaticField WhereStatic(const cv::Mat1f& filled, const Eigen::Isometry3d& T_then_now,
+                        const StereoCamera& half) {
+  Eigen::Matrix3d K;
+  K << half.fx, 0, half.cx, 0, half.fy, half.cy, 0, 0, 1;
+  // (x, y, disparity) goes to (A (x, y, 1) + t disparity) / w: linear in homogeneous coordinates.
+  const Eigen::Matrix3f A = (K * T_then_now.linear() * K.inverse()).cast<float>();
+  const Eigen::Vector3f t =
+      (K * T_then_now.translation() / (half.fx * half.baseline_m)).cast<float>();
+  StaticField field{cv::Mat2f(filled.size()), cv::Mat1f(filled.size()), cv::Mat2f(filled.size())};
+  tbb::parallel_for(0, filled.rows, [&](int y) {
+    const Eigen::Vector3f start = A.col(1) * static_cast<float>(y) + A.col(2);
+    FindRow(start, A.col(0), t, filled[y], filled.cols,
+            {field.place.ptr<float>(y), field.disparity[y], field.per_disparity.ptr<float>(y)});
+  });
+  return field;
+}
+
+}  // namespace aisle::slam::dynamic

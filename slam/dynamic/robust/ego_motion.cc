@@ -1,0 +1,305 @@
+#include "slam/dynamic/robust/ego_motion.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+#include <map>
+
+#include "slam/dynamic/common/counter_random.h"
+
+namespace aisle::slam::dynamic {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr int kLeastMatches = 6;
+constexpr int kLeastForNoise = 20;
+/// 99 % of chi-square with six degrees of freedom: how much worse standing still may fit.
+constexpr double kStandingChi2 = 16.8;
+
+/// Measurement noise enters twice, before and now; between consecutive frames the map from one to
+/// the other is close to identity in (u, v, disparity).
+Vector3d InverseDeviation(const MeasurementNoise& noise) {
+  return (std::sqrt(2.0) * noise).cwiseInverse();
+}
+
+/// A match whose point in space is known: it is asked for under many motions.
+struct PlacedMatch {
+  Vector3d before;  // metres
+  Vector3d now;     // as measured
+  double weight;
+};
+
+std::vector<PlacedMatch> Placed(const std::vector<StereoMatch>& matches,
+                                const StereoCamera& camera) {
+  std::vector<PlacedMatch> placed;
+  placed.reserve(matches.size());
+  for (const StereoMatch& match : matches) {
+    placed.push_back({Backproject(camera, match.before), match.now, match.weight});
+  }
+  return placed;
+}
+
+/// Error in units of noise, or nothing behind the camera.
+std::optional<Vector3d> WeightedError(const StereoCamera& camera, const Isometry3d& T,
+                                      const PlacedMatch& match, const Vector3d& inverse_deviation) {
+  const Vector3d point = T * match.before;
+  if (point.z() < 0.05) return std::nullopt;
+  return inverse_deviation.cwiseProduct(Project(camera, point) - match.now);
+}
+
+double Chi2(const StereoCamera& camera, const Isometry3d& T, const PlacedMatch& match,
+            const Vector3d& inverse_deviation) {
+  const auto error = WeightedError(camera, T, match, inverse_deviation);
+  return error ? error->squaredNorm() : std::numeric_limits<double>::infinity();
+}
+
+/// Horn's closed form on three points; nothing if they are close to a line or change their shape.
+std::optional<Isometry3d> AlignTriangles(const std::array<Vector3d, 3>& from,
+                                         const std::array<Vector3d, 3>& to) {
+  const Vector3d from_mean = (from[0] + from[1] + from[2]) / 3,
+                 to_mean = (to[0] + to[1] + to[2]) / 3;
+  const double area = (from[1] - from[0]).cross(from[2] - from[0]).norm();
+  if (area < 1e-3) return std::nullopt;
+  Eigen::Matrix3d correlation = Eigen::Matrix3d::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    correlation += (from[k] - from_mean) * (to[k] - to_mean).transpose();
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Vector3d signs(1, 1, 1);
+  signs.z() = (svd.matrixV() * svd.matrixU().transpose()).determinant() < 0 ? -1 : 1;
+  Isometry3d T = Isometry3d::Identity();
+  T.linear() = svd.matrixV() * signs.asDiagonal() * svd.matrixU().transpose();
+  T.translation() = to_mean - T.linear() * from_mean;
+  return T;
+}
+
+/// Trust behind a motion: full for a match on the spot, none beyond the gate.
+double Support(const std::vector<PlacedMatch>& matches, const StereoCamera& camera,
+               const Isometry3d& T, const Vector3d& inverse_deviation, double gate) {
+  double support = 0;
+  for (const PlacedMatch& match : matches) {
+    const auto error = WeightedError(camera, T, match, inverse_deviation);
+    if (error) support += match.weight * std::max(0.0, 1 - error->squaredNorm() / gate);
+  }
+  return support;
+}
+
+/// Between 0 and 1: how well the vehicle could have done this motion.
+double Plausibility(const Isometry3d& T, const std::optional<MotionPrior>& prior) {
+  if (!prior) return 1;
+  const Vector6d deviation = Difference(prior->T_now_before, T);
+  const double chi2 = deviation.head<3>().squaredNorm() / (prior->sigma_m * prior->sigma_m) +
+                      deviation.tail<3>().squaredNorm() / (prior->sigma_rad * prior->sigma_rad);
+  return 1 / (1 + chi2 / 9);  // three deviations halve it
+}
+
+/// A match drawn with a probability in proportion to its weight.
+std::size_t DrawByWeight(const std::vector<double>& cumulative, CounterRandom& random) {
+  const double at = cumulative.back() * (static_cast<double>(random.Below(1 << 30)) / (1 << 30));
+  const auto found = std::upper_bound(cumulative.begin(), cumulative.end(), at);
+  return std::min(static_cast<std::size_t>(found - cumulative.begin()), cumulative.size() - 1);
+}
+
+std::vector<Isometry3d> SampleMotions(const std::vector<StereoMatch>& matches,
+                                      const StereoCamera& camera, const EgoMotionOptions& options) {
+  std::vector<double> cumulative;
+  double sum = 0;
+  for (const StereoMatch& match : matches) cumulative.push_back(sum += match.weight);
+  std::vector<Isometry3d> motions;
+  for (int k = 0; k < options.hypotheses && sum > 0; ++k) {
+    CounterRandom random(options.seed, static_cast<std::uint64_t>(k));
+    std::array<Vector3d, 3> from, to;
+    for (std::size_t n = 0; n < 3; ++n) {
+      const StereoMatch& match = matches[DrawByWeight(cumulative, random)];
+      from[n] = Backproject(camera, match.before);
+      to[n] = Backproject(camera, match.now);
+    }
+    if (const auto T = AlignTriangles(from, to)) motions.push_back(*T);
+  }
+  return motions;
+}
+
+struct NormalEquations {
+  Matrix6d hessian = Matrix6d::Zero();
+  Vector6d gradient = Vector6d::Zero();
+  double cost = 0;     // robust, of half squared errors
+  double support = 0;  // weight within the gate
+};
+
+/// Geman-McClure weights with the gate as scale: far errors count for next to nothing.
+NormalEquations Linearize(const std::vector<PlacedMatch>& matches, const StereoCamera& camera,
+                          const Isometry3d& T, const Vector3d& inverse_deviation, double gate) {
+  NormalEquations equations;
+  for (const PlacedMatch& match : matches) {
+    const Vector3d point = T * match.before;
+    if (point.z() < 0.05) continue;
+    const Vector3d error = inverse_deviation.cwiseProduct(Project(camera, point) - match.now);
+    const double chi2 = error.squaredNorm(), fall = gate / (gate + chi2);
+    Eigen::Matrix<double, 3, 6> jacobian;
+    jacobian.leftCols<3>() = inverse_deviation.asDiagonal() * ProjectionJacobian(camera, point);
+    jacobian.rightCols<3>() = -jacobian.leftCols<3>() * Skew(point);
+    const double weight = match.weight * fall * fall;
+    equations.hessian.noalias() += weight * jacobian.transpose() * jacobian;
+    equations.gradient.noalias() += weight * jacobian.transpose() * error;
+    equations.cost += match.weight * chi2 * fall;
+    equations.support += chi2 < gate ? match.weight : 0;
+  }
+  return equations;
+}
+
+std::vector<PlacedMatch> Followers(const std::vector<PlacedMatch>& matches,
+                                   const StereoCamera& camera, const Isometry3d& T,
+                                   const Vector3d& inverse_deviation, double gate) {
+  std::vector<PlacedMatch> followers;
+  std::copy_if(matches.begin(), matches.end(), std::back_inserter(followers),
+               [&](const PlacedMatch& m) { return Chi2(camera, T, m, inverse_deviation) < gate; });
+  return followers;
+}
+
+/// The same matches, no cubic metre of the world with more weight than one: what fills space counts
+/// for more than what fills the image, as a person close by does.
+std::vector<StereoMatch> WeighedBySpace(std::vector<StereoMatch> matches,
+                                        const StereoCamera& camera) {
+  using Cube = std::array<int, 3>;
+  std::map<Cube, double> weight_in;
+  std::vector<Cube> cubes;
+  for (const StereoMatch& match : matches) {
+    const Vector3d point = Backproject(camera, match.before);
+    Cube cube{};
+    for (int k = 0; k < 3; ++k) {
+      cube[static_cast<std::size_t>(k)] =
+          static_cast<int>(std::floor(std::clamp(point[k], -1000.0, 1000.0)));
+    }
+    cubes.push_back(cube);
+    weight_in[cube] += match.weight;
+  }
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    matches[i].weight /= std::max(weight_in[cubes[i]], 1.0);
+  }
+  return matches;
+}
+
+std::vector<StereoMatch> Trusted(const std::vector<StereoMatch>& matches) {
+  std::vector<StereoMatch> trusted;
+  std::copy_if(matches.begin(), matches.end(), std::back_inserter(trusted),
+               [](const StereoMatch& match) { return match.weight >= 0.5; });
+  return trusted;
+}
+
+/// An absolute error and the weight of its match.
+using WeightedValue = std::pair<double, double>;
+
+/// The deviation of a normal error whose absolute value lies below three quarters of the weight.
+double DeviationOf(std::vector<WeightedValue>& values) {
+  std::sort(values.begin(), values.end());
+  double whole = 0, below = 0;
+  for (const auto& [value, weight] : values) whole += weight;
+  for (const auto& [value, weight] : values) {
+    below += weight;
+    if (below >= 0.75 * whole) return value / 1.1503;
+  }
+  return values.back().first / 1.1503;
+}
+
+EgoMotionOptions Narrow(EgoMotionOptions options) {
+  options.rounds = 1;
+  return options;
+}
+
+}  // namespace
+
+double MatchChi2(const StereoCamera& camera, const Isometry3d& T, const StereoMatch& match,
+                 const MeasurementNoise& noise) {
+  const PlacedMatch placed{Backproject(camera, match.before), match.now, match.weight};
+  return Chi2(camera, T, placed, InverseDeviation(noise));
+}
+
+EgoMotion RefineEgoMotion(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
+                          const Isometry3d& T_now_before, const MeasurementNoise& noise,
+                          const EgoMotionOptions& options) {
+  const Vector3d inverse_deviation = InverseDeviation(noise);
+  EgoMotion motion;
+  motion.T_now_before = T_now_before;
+  if (std::ssize(matches) < kLeastMatches) return motion;
+  const std::vector<PlacedMatch> placed = Placed(matches, camera);
+  NormalEquations equations;
+  for (int round = options.rounds - 1; round >= 0; --round) {
+    const double gate = options.gate_chi2 * std::pow(3.0, round);  // from wide to narrow
+    for (int k = 0; k < options.iterations; ++k) {
+      equations = Linearize(placed, camera, motion.T_now_before, inverse_deviation, gate);
+      const Matrix6d damped =
+          equations.hessian + 1e-9 * equations.hessian.trace() * Matrix6d::Identity();
+      const Vector6d step = damped.ldlt().solve(-equations.gradient);
+      if (!step.allFinite()) return motion;
+      motion.T_now_before = Retract(motion.T_now_before, step);
+      if (step.norm() < 1e-7) break;
+    }
+  }
+  equations = Linearize(placed, camera, motion.T_now_before, inverse_deviation, options.gate_chi2);
+  // Only the points that follow the motion found may say that it was none: movers would vote for
+  // whatever leaves them alone.
+  const auto followers =
+      Followers(placed, camera, motion.T_now_before, inverse_deviation, options.gate_chi2);
+  const NormalEquations still =
+      Linearize(followers, camera, Isometry3d::Identity(), inverse_deviation, options.gate_chi2);
+  const NormalEquations moving =
+      Linearize(followers, camera, motion.T_now_before, inverse_deviation, options.gate_chi2);
+  motion.standing = still.cost - moving.cost < kStandingChi2;
+  if (motion.standing) motion.T_now_before = Isometry3d::Identity();
+  motion.covariance = equations.hessian.ldlt().solve(Matrix6d::Identity());
+  motion.support = equations.support;
+  motion.found = motion.covariance.allFinite() && equations.support >= kLeastMatches / 2;
+  return motion;
+}
+
+EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
+                            const std::optional<MotionPrior>& prior, const MeasurementNoise& noise,
+                            const EgoMotionOptions& options) {
+  if (std::ssize(matches) < kLeastMatches) return {};
+  // Samples carry the noise of three points: their support is judged with a wider gate.
+  const Vector3d inverse_deviation = InverseDeviation(noise);
+  const double gate = 4 * options.gate_chi2;
+  std::vector<Isometry3d> candidates = {Isometry3d::Identity()};
+  if (prior) candidates.push_back(prior->T_now_before);
+  const auto spread = WeighedBySpace(matches, camera);
+  const auto samples = SampleMotions(spread, camera, options);
+  candidates.insert(candidates.end(), samples.begin(), samples.end());
+
+  const std::vector<PlacedMatch> placed = Placed(spread, camera);
+  std::vector<double> scores(candidates.size());
+  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t k) {
+    scores[k] = Support(placed, camera, candidates[k], inverse_deviation, gate) *
+                Plausibility(candidates[k], prior);
+  });
+  const auto highest = std::max_element(scores.begin(), scores.end());  // the first of equals
+  const Isometry3d& best = candidates[static_cast<std::size_t>(highest - scores.begin())];
+  // What is near and large must not pull while the gate is wide.
+  const EgoMotion close = RefineEgoMotion(spread, camera, best, noise, options);
+  return RefineEgoMotion(matches, camera, close.T_now_before, noise, Narrow(options));
+}
+
+std::optional<MeasurementNoise> MeasureNoise(const std::vector<StereoMatch>& matches,
+                                             const StereoCamera& camera,
+                                             const Isometry3d& T_now_before) {
+  std::array<std::vector<WeightedValue>, 3> errors;
+  for (const StereoMatch& match : WeighedBySpace(Trusted(matches), camera)) {
+    const Vector3d point = T_now_before * Backproject(camera, match.before);
+    if (point.z() < 0.05) continue;
+    const Vector3d error = (match.now - Project(camera, point)).cwiseAbs();
+    for (std::size_t k = 0; k < 3; ++k) {
+      errors[k].emplace_back(error[static_cast<int>(k)], match.weight);
+    }
+  }
+  if (std::ssize(errors[0]) < kLeastForNoise) return std::nullopt;
+  MeasurementNoise noise;
+  for (std::size_t k = 0; k < 3; ++k) {
+    noise[static_cast<int>(k)] = DeviationOf(errors[k]) / std::sqrt(2.0);
+  }
+  return noise;
+}
+
+}  // namespace aisle::slam::dynamic

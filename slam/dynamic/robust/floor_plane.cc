@@ -1,0 +1,96 @@
+#include "slam/dynamic/robust/floor_plane.h"
+
+#include <Eigen/LU>
+
+#include "slam/dynamic/common/counter_random.h"
+
+namespace aisle::slam::dynamic {
+namespace {
+
+constexpr int kEveryRow = 4, kEveryColumn = 6;
+constexpr std::size_t kLeastPoints = 100;
+constexpr float kLeastArea = 500;     // squared pixels, twice the triangle of a sample
+constexpr float kLeastSlope = 0.02F;  // pixels of disparity a row
+constexpr float kHorizon = 0.3F;      // disparity below which a floor is too far to be told
+
+std::vector<Eigen::Vector3f> PointsOfLowerHalf(const cv::Mat1f& disparity) {
+  std::vector<Eigen::Vector3f> points;
+  for (int y = disparity.rows / 2; y < disparity.rows; y += kEveryRow) {
+    for (int x = 0; x < disparity.cols; x += kEveryColumn) {
+      if (disparity(y, x) > kHorizon) {
+        points.emplace_back(static_cast<float>(x), static_cast<float>(y), disparity(y, x));
+      }
+    }
+  }
+  return points;
+}
+
+std::optional<FloorPlane> PlaneThrough(const std::array<Eigen::Vector3f, 3>& points,
+                                       const FloorOptions& options) {
+  Eigen::Matrix3f A;
+  Eigen::Vector3f d;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3f& point = points[static_cast<std::size_t>(k)];
+    A.row(k) << point.x(), point.y(), 1;
+    d[k] = point.z();
+  }
+  if (std::abs(A.determinant()) < kLeastArea) return std::nullopt;
+  const Eigen::Vector3f plane = A.inverse() * d;
+  const bool level = plane.y() >= kLeastSlope &&
+                     std::abs(plane.x()) <= static_cast<float>(options.most_roll) * plane.y();
+  return level ? std::optional(FloorPlane{plane.x(), plane.y(), plane.z()}) : std::nullopt;
+}
+
+double Support(const FloorPlane& plane, const std::vector<Eigen::Vector3f>& points,
+               const FloorOptions& options) {
+  double support = 0;
+  for (const Eigen::Vector3f& point : points) {
+    const double above =
+        point.z() - plane.At(static_cast<int>(point.x()), static_cast<int>(point.y()));
+    const double tolerance = options.disparity + options.disparity_share * point.z();
+    if (std::abs(above) < tolerance) {
+      support += 1;
+    } else if (above < 0) {
+      support -= options.below_weight;
+    }
+  }
+  return support;
+}
+
+}  // namespace
+
+std::optional<FloorPlane> FindFloor(const cv::Mat1f& disparity, const FloorOptions& options) {
+  const std::vector<Eigen::Vector3f> points = PointsOfLowerHalf(disparity);
+  if (points.size() < kLeastPoints) return std::nullopt;
+  std::optional<FloorPlane> best;
+  double most = options.least_support * static_cast<double>(points.size());
+  for (int k = 0; k < options.hypotheses; ++k) {
+    CounterRandom random(options.seed, static_cast<std::uint64_t>(k));
+    std::array<Eigen::Vector3f, 3> sample;
+    for (Eigen::Vector3f& point : sample) {
+      point = points[static_cast<std::size_t>(random.Below(static_cast<int>(points.size())))];
+    }
+    const auto plane = PlaneThrough(sample, options);
+    const double support = plane ? Support(*plane, points, options) : 0;
+    if (support <= most) continue;
+    most = support;
+    best = plane;
+  }
+  return best;
+}
+
+cv::Mat1b FloorMask(const cv::Mat1f& filled, const std::optional<FloorPlane>& floor) {
+  constexpr float kTolerance = 0.35F, kToleranceShare = 0.03F;
+  cv::Mat1b mask(filled.size(), 0);
+  if (!floor) return mask;
+  for (int y = 0; y < filled.rows; ++y) {
+    for (int x = 0; x < filled.cols; ++x) {
+      const float d = floor->At(x, y);
+      const bool on = d > kHorizon && std::abs(filled(y, x) - d) < kTolerance + kToleranceShare * d;
+      mask(y, x) = on ? 255 : 0;
+    }
+  }
+  return mask;
+}
+
+}  // namespace aisle::slam::dynamic

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "slam/dynamic/robust/robust_options.h"
+
+namespace aisle::slam::dynamic {
+
+/// A plane of disparity: d = x_slope * x + y_slope * y + offset, as equation (8).
+struct FloorPlane {
+  float x_slope = 0, y_slope = 0, offset = 0;
+  float At(int x, int y) const {
+    return x_slope * static_cast<float>(x) + y_slope * static_cast<float>(y) + offset;
+  }
+};
+
+/// The level plane in the lower half of the image that most measurements lie on and few below, by
+/// RANSAC; nothing if it has too few of them.
+std::optional<FloorPlane> FindFloor(const cv::Mat1f& disparity, const FloorOptions& options);
+
+/// 255 where the (filled) disparity lies on the floor: what touches it there does not belong to it.
+cv::Mat1b FloorMask(const cv::Mat1f& filled, const std::optional<FloorPlane>& floor);
+
+}  // namespace aisle::slam::dynamic

@@ -1,0 +1,87 @@
+#include "slam/dynamic/robust/label_memory.h"
+
+#include <tbb/parallel_for.h>
+
+namespace aisle::slam::dynamic {
+namespace {
+
+constexpr float kTolerance = 0.5F, kToleranceShare = 0.08F, kPerPixel = 0.1F;
+
+/// How far a pixel of another disparity, so many steps away, is from being the same surface.
+float Difference(float disparity, float d, int steps) {
+  return std::abs(disparity - d) + kPerPixel * static_cast<float>(steps);
+}
+
+/// SameSurface in the midst of the image: all nine, without branches.
+cv::Point SameSurfaceInside(const cv::Mat1f& disparity, cv::Point centre, float d) {
+  float least = kTolerance + kToleranceShare * d;
+  int best = -1;
+  for (int row = 0; row < 3; ++row) {
+    const float* at = disparity[centre.y + row - 1] + centre.x - 1;
+    for (int column = 0; column < 3; ++column) {
+      const float off = Difference(at[column], d, std::abs(column - 1) + std::abs(row - 1));
+      best = off < least ? 3 * row + column : best;
+      least = off < least ? off : least;
+    }
+  }
+  return best < 0 ? cv::Point(-1, -1) : centre + cv::Point(best % 3 - 1, best / 3 - 1);
+}
+
+/// The pixel around a place whose disparity is closest, places further off counting as less close;
+/// outside the image if none is close enough.
+cv::Point SameSurface(const cv::Mat1f& disparity, const cv::Vec2f& place, float d) {
+  const cv::Point centre(cvRound(place[0]), cvRound(place[1]));
+  const cv::Rect image({0, 0}, disparity.size());
+  const cv::Rect inner(1, 1, disparity.cols - 2, disparity.rows - 2);
+  const float tolerance = kTolerance + kToleranceShare * d;
+  if (image.contains(centre) && std::abs(disparity(centre) - d) < std::min(tolerance, kPerPixel)) {
+    return centre;
+  }
+  if (inner.contains(centre)) return SameSurfaceInside(disparity, centre, d);
+  cv::Point best(-1, -1);
+  float least = tolerance;
+  const cv::Rect around = cv::Rect(centre.x - 1, centre.y - 1, 3, 3) & image;
+  for (int y = around.y; y < around.y + around.height; ++y) {
+    for (int x = around.x; x < around.x + around.width; ++x) {
+      const float off =
+          Difference(disparity(y, x), d, std::abs(x - centre.x) + std::abs(y - centre.y));
+      if (off >= least) continue;
+      least = off;
+      best = {x, y};
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+LabelMemory ForgottenMemory(cv::Size size) {
+  return {cv::Mat1f(size, 0.0F), {cv::Mat1i(size, 0), {}}, {}, {}};
+}
+
+LabelMemory CarryMemory(const LabelMemory& previous, const cv::Mat2f& flow, const DenseFrame& now,
+                        const DenseFrame& before) {
+  LabelMemory carried = ForgottenMemory(flow.size());
+  if (previous.log_odds.empty()) return carried;
+  carried.regions.regions = previous.regions.regions;
+  const bool compared_long = !previous.long_log_odds.empty();
+  if (compared_long) {
+    carried.long_log_odds = cv::Mat1f(flow.size(), 0.0F);
+    carried.long_per_step = cv::Mat2f(flow.size(), cv::Vec2f(0, 0));
+  }
+  tbb::parallel_for(0, flow.rows, [&](int y) {
+    for (int x = 0; x < flow.cols; ++x) {
+      const cv::Point from = SameSurface(before.disparity, flow(y, x), now.filled(y, x));
+      if (from.x < 0) continue;
+      carried.log_odds(y, x) = previous.log_odds(from);
+      if (compared_long) {
+        carried.long_log_odds(y, x) = previous.long_log_odds(from);
+        carried.long_per_step(y, x) = previous.long_per_step(from);
+      }
+      carried.regions.labels(y, x) = previous.regions.labels(from);
+    }
+  });
+  return carried;
+}
+
+}  // namespace aisle::slam::dynamic

@@ -1,0 +1,37 @@
+#include "slam/dynamic/robust/motion_ended.h"
+
+#include <tbb/parallel_for.h>
+
+namespace aisle::slam::dynamic {
+
+void TakeOffEndedMotion(const LatestStep& step, const Texture& texture, const cv::Mat2f& per_step,
+                        const EvidenceOptions& options, double most, cv::Mat1f& log_odds,
+                        cv::Mat1f& ended) {
+  const auto share = static_cast<float>(options.least_speed_share),
+             noise = static_cast<float>(options.mover_noise * options.mover_noise),
+             limit = static_cast<float>(most);
+  tbb::parallel_for(0, log_odds.rows, [&](int y) {
+    const float *xx = texture.xx[y], *xy = texture.xy[y], *yy = texture.yy[y];
+    const float *residual = step.residual.ptr<float>(y), *velocity = per_step.ptr<float>(y),
+                *variance = step.variance[y];
+    float *odds = log_odds[y], *off = ended[y];
+#pragma GCC ivdep
+    for (int x = 0; x < log_odds.cols; ++x) {
+      // S = (G^-1 + s I)^-1 = (G + s det(G) I) / det(I + s G), which G = 0 does not trouble.
+      const float s = noise * variance[x];
+      const float held = s * (xx[x] * yy[x] - xy[x] * xy[x]);
+      const float det = (1 + s * xx[x]) * (1 + s * yy[x]) - s * xy[x] * (s * xy[x]);
+      const float u = velocity[2 * x], v = velocity[2 * x + 1];
+      const float su = ((xx[x] + held) * u + xy[x] * v) / det,
+                  sv = (xy[x] * u + (yy[x] + held) * v) / det;
+      const float along = su * residual[2 * x] + sv * residual[2 * x + 1];
+      const float against = share * (share * (su * u + sv * v) / 2 - along);
+      const float taken = std::min(std::max(against, 0.0F), limit);
+      const float left = std::max(std::min(odds[x], limit) - taken, 0.0F);
+      off[x] = odds[x] > 0 ? std::max(off[x], taken) : off[x];
+      odds[x] = odds[x] > 0 ? left : odds[x];
+    }
+  });
+}
+
+}  // namespace aisle::slam::dynamic

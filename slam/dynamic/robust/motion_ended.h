@@ -1,0 +1,27 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "slam/dynamic/robust/dense_frame.h"
+#include "slam/dynamic/robust/robust_options.h"
+
+namespace aisle::slam::dynamic {
+
+/// What the latest step left unexplained, per half-size pixel.
+struct LatestStep {
+  cv::Mat2f residual;  ///< half-size pixels, of the flow, beside the static world's
+  cv::Mat1f variance;  ///< of a static pixel's residual, beyond what texture leaves open
+};
+
+/// Takes off the log-odds of moving that a longer gap found what the latest step says against it:
+/// who walked a second ago may stand now. `per_step` is the residual of the longer gap, shared out
+/// among its steps. Against "moves still, at no less than least_speed_share of that" stands "is
+/// static"; where the ratio of the two densities of the latest residual is for static, it is taken
+/// off, down to zero. Log-odds count up to `most`. What moves too slowly for one step to tell keeps
+/// all. `ended` keeps the most that any gap has lost, of every pixel: what earlier frames said of
+/// the same motion has lost it, too.
+void TakeOffEndedMotion(const LatestStep& step, const Texture& texture, const cv::Mat2f& per_step,
+                        const EvidenceOptions& options, double most, cv::Mat1f& log_odds,
+                        cv::Mat1f& ended);
+
+}  // namespace aisle::slam::dynamic

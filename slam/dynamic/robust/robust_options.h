@@ -1,0 +1,275 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "slam/dynamic/common/option_check.h"
+
+// Every constant of the robust method on one page. Lengths are in pixels of the half-size images
+// unless they say otherwise. What could depend on a scene is in units of noise that is measured
+// while running, or in metres a second; reports/dynamic_methods.md says how the rest was found.
+
+namespace aisle::slam::dynamic {
+
+/// Distances in frames over which motion is looked for: displacement grows with the gap, noise far
+/// less, so the long ones find slow movers and the short one is quick.
+inline constexpr std::array<int, 3> kGaps = {1, 5, 15};
+inline constexpr int kLongestGap = 15;
+
+/// Semi-global matching. Costs and prices are of one path: how many of a pixel's 54 census bits (a
+/// quarter of nine times 24) may differ before another disparity is cheaper.
+struct SemiGlobalOptions {
+  /// Multiple of 32. Of images of half size 64 are 128 full pixels, 0.41 m with the default rig.
+  int max_disparity_px = 64;
+  int small_step = 10;  ///< price of a change of disparity by one
+  /// Price of any other change, halved where the grey value changes by `contrast` and never less
+  /// than the last.
+  int large_step = 70, contrast = 16, least_large_step = 30;
+  int uniqueness_percent = 5;  ///< margin by which the best cost must win
+  int left_right_px = 1;       ///< allowed disagreement of left-to-right and right-to-left
+  int speckle_px = 40;         ///< smaller islands of disparity are dropped; pixels
+  int speckle_step_px = 2;     ///< change of disparity from pixel to pixel that parts islands
+
+  OptionError Validate() const {
+    if (max_disparity_px % 32 != 0) {
+      return fmt::format("max_disparity_px is {}; it must be a multiple of 32", max_disparity_px);
+    }
+    constexpr int kMostPrice = 73;  // with the dearest cost it is half a byte
+    return FirstOf(CheckRange("max_disparity_px", max_disparity_px, 32, 128),
+                   CheckRange("large_step", large_step, 0, kMostPrice),
+                   CheckRange("small_step", small_step, 0, large_step),
+                   CheckRange("least_large_step", least_large_step, small_step, large_step),
+                   CheckRange("contrast", contrast, 1, 10000),
+                   CheckRange("uniqueness_percent", uniqueness_percent, 0, 90),
+                   CheckRange("left_right_px", left_right_px, 0, 128),
+                   CheckRange("speckle_px", speckle_px, 0, 10000),
+                   CheckRange("speckle_step_px", speckle_step_px, 0, 128));
+  }
+};
+
+/// Dense flow between the image and what the static world would look like (DIS).
+struct ResidualFlowOptions {
+  int finest_scale = 1;  ///< 0: patches on half-size pixels, 1: on those of quarter size
+  int descents = 4;      ///< iterations of a patch on each scale
+  /// What the coarser size says of a shift counts as much as a patch whose squared gradients, in
+  /// grey levels per pixel, sum to this.
+  double inertia = 60;
+  int refinements = 2;  ///< variational iterations on each scale
+
+  OptionError Validate() const {
+    return FirstOf(
+        CheckRange("finest_scale", finest_scale, 0, 3), CheckRange("descents", descents, 1, 256),
+        CheckRange("inertia", inertia, 1e-3, 1e6), CheckRange("refinements", refinements, 0, 100));
+  }
+};
+
+/// What is known of a pixel before it is compared.
+struct SurfaceOptions {
+  double grey_noise = 2;           ///< grey levels, deviation of one pixel in the dark
+  double brightness_noise = 0.02;  ///< what grows with brightness: photons, each pixel's own gain
+  int window_px = 7;               ///< side of the window in which texture is gathered, odd
+  /// The stereo matcher sees only padding where a match comes this close to the right image's edge.
+  int border_px = 4;
+
+  OptionError Validate() const {
+    if (window_px % 2 == 0) return fmt::format("window_px is {}; it must be odd", window_px);
+    return FirstOf(CheckRange("grey_noise", grey_noise, 0.1, 100.0),
+                   CheckRange("brightness_noise", brightness_noise, 0.0, 1.0),
+                   CheckRange("window_px", window_px, 3, 31),
+                   CheckRange("border_px", border_px, 0, 64));
+  }
+};
+
+/// Motion of the rig between two frames.
+struct EgoMotionOptions {
+  int cell_px = 12;          ///< one point, that of the best texture, from each square of this side
+  int hypotheses = 60;       ///< three-point samples beside the prediction and standing still
+  double gate_chi2 = 11.34;  ///< 99 % of chi-square with three degrees of freedom
+  /// What a vehicle can do: deviation of its acceleration. A motion that would need many times this
+  /// is not the vehicle's, however many points vote for it.
+  double acceleration_mps2 = 1.5;
+  double angular_acceleration_radps2 = 3;
+  int rounds = 3;      ///< of re-weighting
+  int iterations = 4;  ///< Gauss-Newton steps a round
+  std::uint64_t seed = 3;
+
+  OptionError Validate() const {
+    return FirstOf(
+        CheckRange("cell_px", cell_px, 2, 1000), CheckRange("hypotheses", hypotheses, 0, 100000),
+        CheckRange("gate_chi2", gate_chi2, 1.0, 100.0),
+        CheckRange("acceleration_mps2", acceleration_mps2, 1e-3, 1e3),
+        CheckRange("angular_acceleration_radps2", angular_acceleration_radps2, 1e-3, 1e3),
+        CheckRange("rounds", rounds, 1, 100), CheckRange("iterations", iterations, 1, 100));
+  }
+};
+
+/// From residual flow to the log-odds of moving.
+struct EvidenceOptions {
+  double mover_mps = 0.5;         ///< deviation of a mover's speed, along each axis of the image
+  double disparity_noise = 0.25;  ///< deviation of a disparity
+  /// Errors of calibration and rolling texture grow with the way a point has gone: deviation per
+  /// pixel of displacement.
+  double noise_per_displacement = 0.01;
+  /// Pixels of a window that count as independent when the window's grey values are to say that it
+  /// has moved, and what an ill fit of the moved window takes off.
+  double independent_pixels = 10, misfit_weight = 0.5;
+  double hidden_misfit = 1.5;  ///< limit of that misfit where the static surface was hidden
+  /// Disparities so far apart are two matches, not one measured ill.
+  double other_disparity = 1.5;
+  /// Log-odds of earlier frames from which on nobody asks for what looks the same.
+  double sure = 4.5;
+  /// As far as something static may be looked for that looks the same: [0, this), at most 128.
+  int alias_disparities = 64;
+  /// A step of disparity up to which two measurements may show one surface: a constant part and a
+  /// share of the disparity, to which comes what a mover's speed makes of it.
+  double same_surface = 0.5, same_surface_share = 0.04, same_surface_speeds = 4;
+  /// So close to the right image's edge the earlier frame may not have known a mover's disparity.
+  int blind_px = 6;
+  /// Where something nearer by this step lies within reach, the flow is its flow.
+  double edge_step = 0.7, edge_share = 0.08;
+  int edge_window_px = 13;  ///< side of that reach, odd
+  /// Limits of what one frame may say, per gap: what looks static over a short gap may be slow,
+  /// what looks moved over a long one may have been uncovered.
+  std::array<double, 3> least = {-0.7, -1.5, -1.0};
+  std::array<double, 3> most = {2.5, 2.5, 1.0};
+  /// What a longer gap saw moving has not stopped if it still goes at this share of its mean speed.
+  double least_speed_share = 0.5;
+  double mover_noise = 2;      ///< times by which its flow errs more than a static pixel's
+  double motion_found = 0.5;   ///< evidence of one gap from which on the others count less ...
+  double others_weight = 0.3;  ///< ... when they say static: they were shorter, or saw another
+
+  OptionError Validate() const {
+    if (edge_window_px % 2 == 0) {
+      return fmt::format("edge_window_px is {}; it must be odd", edge_window_px);
+    }
+    for (std::size_t k = 0; k < least.size(); ++k) {
+      const auto error = FirstOf(CheckRange("least", least[k], -20.0, 0.0),
+                                 CheckRange("most", most[k], 0.0, 20.0));
+      if (!error.empty()) return error;
+    }
+    return FirstOf(CheckRange("mover_mps", mover_mps, 0.01, 100.0),
+                   CheckRange("disparity_noise", disparity_noise, 0.01, 10.0),
+                   CheckRange("noise_per_displacement", noise_per_displacement, 0.0, 1.0),
+                   CheckRange("independent_pixels", independent_pixels, 0.1, 1000.0),
+                   CheckRange("misfit_weight", misfit_weight, 0.0, 100.0),
+                   CheckRange("hidden_misfit", hidden_misfit, 0.0, 100.0),
+                   CheckRange("alias_disparities", alias_disparities, 1, 128),
+                   CheckRange("sure", sure, 0.0, 100.0),
+                   CheckRange("other_disparity", other_disparity, 0.1, 100.0),
+                   CheckRange("same_surface", same_surface, 0.01, 100.0),
+                   CheckRange("same_surface_share", same_surface_share, 0.0, 1.0),
+                   CheckRange("same_surface_speeds", same_surface_speeds, 0.0, 100.0),
+                   CheckRange("blind_px", blind_px, 0, 64),
+                   CheckRange("edge_step", edge_step, 0.01, 100.0),
+                   CheckRange("edge_share", edge_share, 0.0, 1.0),
+                   CheckRange("edge_window_px", edge_window_px, 1, 101),
+                   CheckRange("least_speed_share", least_speed_share, 0.0, 1.0),
+                   CheckRange("mover_noise", mover_noise, 1.0, 100.0),
+                   CheckRange("motion_found", motion_found, 0.0, 20.0),
+                   CheckRange("others_weight", others_weight, 0.0, 1.0));
+  }
+};
+
+/// The floor as a plane of disparity.
+struct FloorOptions {
+  int hypotheses = 80;
+  double disparity = 0.3, disparity_share = 0.02;  ///< distance of an inlier from the plane
+  double most_roll = 0.25;     ///< tangent of the floor's slope across the image
+  double below_weight = 2;     ///< a point below a floor speaks so many times against it
+  double least_support = 0.1;  ///< share of the points of the lower half
+  std::uint64_t seed = 5;
+
+  OptionError Validate() const {
+    return FirstOf(CheckRange("hypotheses", hypotheses, 0, 100000),
+                   CheckRange("disparity", disparity, 0.01, 10.0),
+                   CheckRange("disparity_share", disparity_share, 0.0, 1.0),
+                   CheckRange("most_roll", most_roll, 0.0, 10.0),
+                   CheckRange("below_weight", below_weight, 0.0, 100.0),
+                   CheckRange("least_support", least_support, 0.0, 1.0));
+  }
+};
+
+/// The labelling of pixels.
+struct FieldOptions {
+  double memory = 0.75;  ///< share of the log-odds that survives from frame to frame
+  double limit = 6;      ///< of the log-odds, either way
+  /// Log-odds that every pixel leans to static: what nobody has seen move does not; where the
+  /// disparity is unknown; on the floor.
+  double bias = -0.15, unknown_bias = -0.5, floor_bias = -0.5;
+  double coupling = 1;  ///< log-odds by which equal neighbours on one surface agree
+  double disparity = 0.4, disparity_share = 0.04;  ///< step between neighbours that halves it
+  double contrast = 20;                            ///< grey levels; step that halves it further
+  double floor_link = 0.1;  ///< share of the coupling between the floor and what stands on it
+  int sweeps = 4;
+  double moving = 0.5;  ///< log-odds from which on a pixel moves
+  /// Growth into what says nothing, along strong links, and how far: plain cloth has seams.
+  double grow_from = 1, grow_to = -3, grow_link = 0.4;
+  double grow_m = 0.15;  ///< metres
+
+  OptionError Validate() const {
+    return FirstOf(
+        CheckRange("memory", memory, 0.0, 1.0), CheckRange("limit", limit, 1.0, 100.0),
+        CheckRange("bias", bias, -10.0, 0.0), CheckRange("unknown_bias", unknown_bias, -10.0, 0.0),
+        CheckRange("floor_bias", floor_bias, -10.0, 0.0),
+        CheckRange("coupling", coupling, 0.0, 100.0),
+        CheckRange("disparity", disparity, 0.01, 10.0),
+        CheckRange("disparity_share", disparity_share, 0.0, 1.0),
+        CheckRange("contrast", contrast, 0.1, 1e3), CheckRange("floor_link", floor_link, 0.0, 1.0),
+        CheckRange("sweeps", sweeps, 1, 1000), CheckRange("moving", moving, 0.0, limit),
+        CheckRange("grow_from", grow_from, 0.0, limit), CheckRange("grow_to", grow_to, -limit, 0.0),
+        CheckRange("grow_link", grow_link, 0.0, 1.0), CheckRange("grow_m", grow_m, 0.0, 10.0));
+  }
+};
+
+/// From labels to regions.
+struct RegionOptions {
+  double link = 0.25;  ///< weaker links part regions, as a share of the coupling
+  int least_px = 60;   ///< smaller regions are noise
+  /// Mean memory of a region's pixels: what has grown around little evidence does not move.
+  double least_log_odds = 0.5;
+  double core_log_odds = 3;                    ///< memory from which on a pixel is sure to move
+  int birth_core_px = 200, keep_core_px = 30;  ///< such pixels of a region
+  int birth_inner_px = 20, keep_inner_px = 4;  ///< pixels with the region all around, in ...
+  int inner_window_px = 5;                     ///< ... a window of this side, odd
+  /// Share of the smaller one of a region and its predecessor that they must have in common.
+  double least_overlap = 0.25;
+  /// A region is part of a larger one if this share of its box lies in the other's and their mean
+  /// disparities differ by no more than a step: a constant part and a share.
+  double join_overlap = 0.3, join_disparity = 0.5, join_disparity_share = 0.04;
+
+  OptionError Validate() const {
+    if (inner_window_px % 2 == 0) {
+      return fmt::format("inner_window_px is {}; it must be odd", inner_window_px);
+    }
+    return FirstOf(CheckRange("link", link, 0.0, 1.0), CheckRange("least_px", least_px, 1, 1000000),
+                   CheckRange("least_log_odds", least_log_odds, -100.0, 100.0),
+                   CheckRange("core_log_odds", core_log_odds, 0.0, 100.0),
+                   CheckRange("birth_core_px", birth_core_px, 0, 1000000),
+                   CheckRange("keep_core_px", keep_core_px, 0, birth_core_px),
+                   CheckRange("birth_inner_px", birth_inner_px, 0, 1000000),
+                   CheckRange("keep_inner_px", keep_inner_px, 0, birth_inner_px),
+                   CheckRange("inner_window_px", inner_window_px, 1, 31),
+                   CheckRange("least_overlap", least_overlap, 0.0, 1.0),
+                   CheckRange("join_overlap", join_overlap, 0.0, 1.0),
+                   CheckRange("join_disparity", join_disparity, 0.0, 100.0),
+                   CheckRange("join_disparity_share", join_disparity_share, 0.0, 1.0));
+  }
+};
+
+struct RobustOptions {
+  SemiGlobalOptions disparity;
+  SurfaceOptions surface;
+  ResidualFlowOptions flow;
+  EgoMotionOptions ego;
+  EvidenceOptions evidence;
+  FloorOptions floor;
+  FieldOptions field;
+  RegionOptions region;
+
+  OptionError Validate() const {
+    return FirstOf(disparity.Validate(), surface.Validate(), flow.Validate(), ego.Validate(),
+                   evidence.Validate(), floor.Validate(), field.Validate(), region.Validate());
+  }
+};
+
+}  // namespace aisle::slam::dynamic

@@ -1,0 +1,45 @@
+#include "slam/dynamic/robust/floor_plane.h"
+
+#include <gtest/gtest.h>
+
+#include "slam/dynamic/common/counter_random.h"
+
+namespace aisle::slam::dynamic {
+namespace {
+
+/// A floor seen from 1.2 m by a level camera, with noise and a box standing on it.
+cv::Mat1f FloorWithBox(const cv::Rect& box) {
+  CounterRandom random(7, 0);
+  cv::Mat1f disparity(240, 376, 1.0F);
+  for (int y = 126; y < 240; ++y) {
+    for (int x = 0; x < 376; ++x) {
+      const float noise = static_cast<float>(random.Below(1000) - 500) / 2500;
+      disparity(y, x) = 0.1F * static_cast<float>(y - 116) + noise;
+    }
+  }
+  const float foot = disparity(std::min(box.br().y, 239), box.x);
+  disparity(box).setTo(foot);
+  return disparity;
+}
+
+TEST(FindFloor, FindsThePlaneUnderABox) {
+  const cv::Rect box(150, 60, 120, 150);
+  const cv::Mat1f disparity = FloorWithBox(box);
+  const auto floor = FindFloor(disparity, {});
+  ASSERT_TRUE(floor);
+  EXPECT_NEAR(floor->At(50, 200), 8.4, 0.15);
+  EXPECT_NEAR(floor->At(330, 150), 3.4, 0.15);
+  const cv::Mat1b mask = FloorMask(disparity, floor);
+  EXPECT_EQ(mask(220, 50), 255);
+  EXPECT_EQ(mask(120, 200), 0);
+  EXPECT_EQ(cv::countNonZero(mask(cv::Rect(150, 60, 120, 120))), 0);
+}
+
+TEST(FindFloor, AWallIsNone) {
+  EXPECT_FALSE(FindFloor(cv::Mat1f(240, 376, 6.0F), {}));
+  EXPECT_FALSE(FindFloor(cv::Mat1f(240, 376, -1.0F), {}));
+  EXPECT_EQ(cv::countNonZero(FloorMask(cv::Mat1f(240, 376, 6.0F), std::nullopt)), 0);
+}
+
+}  // namespace
+}  // namespace aisle::slam::dynamic

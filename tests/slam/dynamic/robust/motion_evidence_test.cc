@@ -1,0 +1,319 @@
+#include "slam/dynamic/robust/motion_evidence.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "slam/dynamic/robust/label_memory.h"
+#include "slam/dynamic/robust/residual_flow.h"
+#include "tests/slam/dynamic/synthetic_stereo.h"
+
+namespace aisle::slam::dynamic {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Matrix2f;
+using Eigen::Vector2f;
+using Eigen::Vector3d;
+
+/// The logarithm of a normal density in two dimensions.
+double LogNormal(const Eigen::Matrix2d& covariance, const Eigen::Vector2d& r) {
+  return -0.5 * r.dot(covariance.inverse() * r) -
+         std::log(2 * std::numbers::pi * std::sqrt(covariance.determinant()));
+}
+
+TEST(DisplacementLogOdds, IsTheRatioOfTwoNormalDensities) {
+  Matrix2f G;
+  G << 40, 12, 12, 9;
+  for (const Vector2f& r : {Vector2f(0, 0), Vector2f(0.4F, -0.2F), Vector2f(2, 3)}) {
+    const Eigen::Matrix2d measured = G.cast<double>().inverse();
+    const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
+    const double expected = LogNormal(measured + 1.51 * one, r.cast<double>()) -
+                            LogNormal(measured + 0.01 * one, r.cast<double>());
+    EXPECT_NEAR(DisplacementLogOdds(G, r, 0.01F, 1.5F), expected, 1e-3 * (1 + std::abs(expected)));
+  }
+}
+
+TEST(DisplacementLogOdds, WithoutTextureNothingIsKnown) {
+  EXPECT_EQ(DisplacementLogOdds(Matrix2f::Zero(), {5, 5}, 0.01F, 1), 0);
+}
+
+TEST(DisplacementLogOdds, AlongAnEdgeNothingIsKnownAndAcrossItMuch) {
+  Matrix2f edge = Matrix2f::Zero();
+  edge(0, 0) = 100;  // grey changes along x alone
+  EXPECT_LT(DisplacementLogOdds(edge, {0, 4}, 0.01F, 1), 0);
+  EXPECT_GT(DisplacementLogOdds(edge, {4, 0}, 0.01F, 1), 10);
+}
+
+/// Two frames of the hall, what the second makes of the first, and what moves.
+struct Pair {
+  DenseFrame then, now;
+  Texture texture;
+  std::vector<cv::Point> points;
+  cv::Mat2f expected, flow;
+  cv::Mat1f log_odds;
+  cv::Mat1b moving;  // half size
+
+  Pair(const std::vector<test::Panel>& movers, const Vector3d& way, double seconds) {
+    auto panels = test::StaticHall();
+    panels.insert(panels.end(), movers.begin(), movers.end());
+    Isometry3d T_world_now = Isometry3d::Identity();
+    T_world_now.translation() = way;
+    const auto before = test::Render(panels, {}, Isometry3d::Identity(), 0, 2.0);
+    const auto after = test::Render(panels, {}, T_world_now, seconds, 2.0);
+    const RobustOptions options;
+    then = MakeDenseFrame(before.left, before.right, options.disparity, options.surface);
+    now = MakeDenseFrame(after.left, after.right, options.disparity, options.surface);
+    texture = MeasureTexture(now.image, options.surface);
+    points = WellHeld(texture, now.disparity, 12);
+    const StereoCamera half = HalfCamera({});
+    expected = WhereStatic(now.filled, T_world_now, half).place;
+    flow = FollowBack(now.image, MakeFlowPyramid(now.image, options.flow), then.image, expected,
+                      options.flow);
+    log_odds =
+        CompareMotion({now, then, flow, T_world_now, seconds}, texture,
+                      LookAround(now, options.surface, options.evidence), half, options.evidence)
+            .log_odds;
+    moving = cv::Mat1b(now.image.size());
+    for (int y = 0; y < moving.rows; ++y) {
+      for (int x = 0; x < moving.cols; ++x) moving(y, x) = after.moving(2 * y, 2 * x);
+    }
+  }
+
+  /// Share of the pixels that move (or do not) whose log-odds exceed a limit.
+  double ShareAbove(float limit, bool of_movers) const {
+    double all = 0, above = 0;
+    for (int k = 0; k < static_cast<int>(moving.total()); ++k) {
+      if ((moving(k) != 0) != of_movers) continue;
+      ++all;
+      above += log_odds(k) > limit ? 1 : 0;
+    }
+    return above / std::max(all, 1.0);
+  }
+};
+
+TEST(CompareMotion, OfAStaticHallSaysThatItStands) {
+  const Pair pair({}, {0, 0, 0.15}, 0.25);
+  EXPECT_LT(pair.ShareAbove(1, false), 0.02);
+  EXPECT_LT(cv::mean(pair.log_odds)[0], -0.5);
+}
+
+TEST(CompareMotion, FindsAWalkerAcrossBesideAMovingCamera) {
+  const Pair pair({test::Walker({-0.3, 0.1, 3.2}, {1.2, 0, 0})}, {0, 0, 0.03}, 0.05);
+  EXPECT_GT(pair.ShareAbove(1, true), 0.5);
+  EXPECT_LT(pair.ShareAbove(1, false), 0.02);
+}
+
+TEST(CompareMotion, FindsWhomTheRightEyeDidNotSeeYetAMomentAgo) {
+  const Pair pair({test::Walker({-1.05, 0.1, 1.6}, {1.2, 0, 0})}, {0, 0, 0.03}, 0.05);
+  const cv::Rect image({0, 0}, pair.moving.size());
+  cv::Mat1f most;  // of the disparities around
+  cv::dilate(pair.then.disparity, most, cv::Mat::ones(3, 3, CV_8U));
+  int unknown_before = 0, found = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const cv::Vec2f& from = pair.flow(y, x);
+      const cv::Point there(cvRound(from[0]), cvRound(from[1]));
+      if (pair.moving(y, x) == 0 || pair.now.disparity(y, x) <= 0 || !image.contains(there))
+        continue;
+      if (most(there) > 0) continue;
+      ++unknown_before;
+      found += pair.log_odds(y, x) > 1 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(unknown_before, 200);
+  EXPECT_GT(found, unknown_before / 2);
+  EXPECT_LT(pair.ShareAbove(1, false), 0.02);
+}
+
+TEST(CompareMotion, FindsAWalkerAlongTheAxisOverALongGap) {
+  const Pair pair({test::Walker({0.3, 0.1, 4.5}, {0, 0, -1.0})}, {0, 0, 0.1}, 0.25);
+  EXPECT_GT(pair.ShareAbove(1, true), 0.3);
+  EXPECT_LT(pair.ShareAbove(1, false), 0.02);
+}
+
+/// A wall that the rig passes sideways and that moves by `flow_px` in the image, with a disparity
+/// measured as 12 pixels; the pattern repeats after `period` columns. `stereo_px` is its real one.
+double MeanLogOddsOfWall(int period, int flow_px, int stereo_px) {
+  const cv::Size size(160, 60);
+  const auto shifted = [&](int by) {
+    cv::Mat1b image(size);
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = 0; x < size.width; ++x) {
+        const auto column = static_cast<std::uint32_t>((x + by + 10 * period) % period);
+        const double grey = 128 + 60 * test::UnitNoise(1, 1, column);
+        image(y, x) = cv::saturate_cast<unsigned char>(grey);
+      }
+    }
+    cv::GaussianBlur(image, image, {3, 3}, 0.8);
+    return image;
+  };
+  DenseFrame now, then;
+  now.image = shifted(0);
+  now.right_low = now.right_high = shifted(stereo_px);
+  now.disparity = now.filled = cv::Mat1f(size, 12.0F);
+  then = now;
+  then.image = shifted(-flow_px);
+  cv::Mat2f flow(size);
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      flow(y, x) = cv::Vec2f(static_cast<float>(x + flow_px), static_cast<float>(y));
+    }
+  }
+  const StereoCamera half = HalfCamera({});
+  Isometry3d T_then_now = Isometry3d::Identity();
+  T_then_now.translation().x() = half.baseline_m / 2;  // half a pixel for each of disparity
+  const RobustOptions options;
+  const MotionEvidence found =
+      CompareMotion({now, then, flow, T_then_now, 0.25}, MeasureTexture(now.image, options.surface),
+                    LookAround(now, options.surface, options.evidence), half, options.evidence);
+  return cv::mean(found.log_odds(cv::Rect(40, 10, 80, 40)))[0];
+}
+
+TEST(CompareMotion, IsNotMisledByARepeatingPatternMatchedAPeriodOff) {
+  // Static at 4 pixels of disparity: it goes 2, not the 6 that the disparity of 12 would make.
+  EXPECT_LT(MeanLogOddsOfWall(8, 2, 4), 0.5);
+  // The same wall, and flow that is a period off as well.
+  EXPECT_LT(MeanLogOddsOfWall(8, 10, 4), 0.5);
+  // The same motion, and stereo that knows no other answer: it moves by itself.
+  EXPECT_GT(MeanLogOddsOfWall(1000, 2, 12), 2);
+}
+
+TEST(CombineGaps, WhatOneGapFoundIsNotTalkedDownByAShorterOne) {
+  const EvidenceOptions options;
+  const auto one = [](float value) { return cv::Mat1f(1, 1, value); };
+  const auto combined = [&](float a, float b, float c) {
+    return CombineGaps({one(a), one(b), one(c)}, options)(0, 0);
+  };
+  EXPECT_GT(combined(-9, 9, 0), 2);
+  EXPECT_FLOAT_EQ(combined(-9, -9, -9), -0.7F - 1.5F - 1.0F);
+  EXPECT_FLOAT_EQ(combined(9, 0, 0), 2.5F);
+  EXPECT_FLOAT_EQ(combined(0, 0, 0), 0);
+}
+
+TEST(CombineGaps, AGapThatWasNotComparedSaysNothing) {
+  const cv::Mat1f one(1, 1, -0.5F), two(1, 1, 2.0F);
+  EXPECT_FLOAT_EQ(CombineGaps({one, {}, {}}, {})(0, 0), -0.5F);
+  EXPECT_EQ(CombineGaps({one, {}, two}, {})(0, 0),
+            CombineGaps({one, cv::Mat1f(1, 1, 0.0F), two}, {})(0, 0));
+}
+
+TEST(MeasureTexture, IsTheSumOfGradientProductsLessWhatNoiseGives) {
+  const cv::Mat1b image = test::Render(test::StaticHall(), {}, Isometry3d::Identity(), 0, 2.0)
+                              .left(cv::Rect(100, 100, 60, 40));
+  SurfaceOptions options;
+  options.brightness_noise = 0;
+  cv::Mat gx, gy, sum;
+  cv::Sobel(image, gx, CV_64F, 1, 0, 3, 1.0 / 8);
+  cv::Sobel(image, gy, CV_64F, 0, 1, 3, 1.0 / 8);
+  const Texture texture = MeasureTexture(image, options);
+  const double variance = 2 * options.grey_noise * options.grey_noise, noise = 0.1875 / 2 * 49;
+  const auto off = [&](const cv::Mat& product, double less, const cv::Mat1f& found) {
+    cv::boxFilter(product, sum, CV_64F, {7, 7}, {-1, -1}, false);
+    const cv::Mat expected = cv::max(sum / variance - less, less > 0 ? 0.0 : -1e9);
+    cv::Mat measured;
+    found.convertTo(measured, CV_64F);
+    return cv::norm(measured, expected, cv::NORM_INF);
+  };
+  EXPECT_LT(off(gx.mul(gx), noise, texture.xx), 1e-2);
+  EXPECT_LT(off(gy.mul(gy), noise, texture.yy), 1e-2);
+  for (int k = 0; k < static_cast<int>(image.total()); ++k) {
+    EXPECT_LE(texture.xy(k) * texture.xy(k), texture.xx(k) * texture.yy(k) * 1.0001F);
+  }
+}
+
+TEST(FollowBack, FindsTheWayOfStaticPixelsToAFractionOfAPixel) {
+  const Pair pair({}, {0, 0, 0.1}, 0.2);
+  Isometry3d T = Isometry3d::Identity();
+  T.translation() = Vector3d(0, 0, 0.1);
+  const StaticField expected = WhereStatic(pair.now.filled, T, HalfCamera({}));
+  std::vector<double> errors;
+  for (int y = 20; y < 220; y += 3) {
+    for (int x = 80; x < 350; x += 3) {
+      if (pair.now.disparity(y, x) <= 0) continue;
+      errors.push_back(cv::norm(pair.flow(y, x) - expected.place(y, x)));
+    }
+  }
+  std::nth_element(errors.begin(), errors.begin() + std::ssize(errors) / 2, errors.end());
+  EXPECT_LT(errors[errors.size() / 2], 0.2);
+}
+
+TEST(MatchesAlong, AreOnePerCellAndFollowTheRigsMotion) {
+  const Pair pair({}, {0, 0, 0.05}, 0.05);
+  const auto matches = MatchesAlong(pair.points, pair.flow, pair.expected, pair.now, pair.then,
+                                    ForgottenMemory(pair.now.image.size()));
+  ASSERT_GT(matches.size(), 200U);
+  EXPECT_LE(matches.size(), static_cast<std::size_t>((376 / 12 + 1) * (240 / 12)));
+  Isometry3d T_now_then = Isometry3d::Identity();
+  T_now_then.translation() = Vector3d(0, 0, -0.05);
+  const auto follow = std::count_if(matches.begin(), matches.end(), [&](const StereoMatch& match) {
+    return MatchChi2({}, T_now_then, match, {0.3, 0.3, 0.6}) < 11.34;
+  });
+  EXPECT_GT(follow, std::ssize(matches) * 8 / 10);
+}
+
+TEST(MatchesAlong, FindTheirWayWhereTheFlowIsAnothers) {
+  const Pair pair({}, {0, 0, 0.05}, 0.05);
+  cv::Mat2f anothers;
+  cv::add(pair.flow, cv::Scalar(9, -4), anothers);
+  const auto count = [&](const cv::Mat2f& flow) {
+    const auto matches = MatchesAlong(pair.points, flow, pair.expected, pair.now, pair.then,
+                                      ForgottenMemory(pair.now.image.size()));
+    Isometry3d T_now_then = Isometry3d::Identity();
+    T_now_then.translation() = Vector3d(0, 0, -0.05);
+    return std::count_if(matches.begin(), matches.end(), [&](const StereoMatch& match) {
+      return MatchChi2({}, T_now_then, match, {0.3, 0.3, 0.6}) < 11.34;
+    });
+  };
+  EXPECT_GT(count(anothers), count(pair.flow) * 9 / 10);
+}
+
+TEST(MatchesAlong, WhatARegionCoversIsHardlyTrusted) {
+  const Pair pair({}, {0, 0, 0.05}, 0.05);
+  LabelMemory memory = ForgottenMemory(pair.now.image.size());
+  memory.regions.labels.colRange(0, 188).setTo(1);
+  for (const StereoMatch& match :
+       MatchesAlong(pair.points, pair.flow, pair.expected, pair.now, pair.then, memory)) {
+    EXPECT_EQ(match.weight < 0.1, match.now.x() < 2 * 188) << match.now.transpose();
+  }
+}
+
+TEST(FillRows, GapsTakeTheFartherSide) {
+  cv::Mat1f disparity(2, 12, 9.0F);
+  disparity.colRange(6, 12).setTo(4.0F);
+  disparity.colRange(4, 8).setTo(-1.0F);
+  disparity(1, 0) = -1;
+  const cv::Mat1f filled = FillRows(disparity);
+  EXPECT_EQ(filled(0, 3), 9);
+  EXPECT_EQ(filled(0, 4), 4);
+  EXPECT_EQ(filled(0, 7), 4);
+  EXPECT_EQ(filled(1, 0), 9);
+}
+
+TEST(CarryMemory, TakesAMoversMemoryAlongAndLeavesNoTrail) {
+  DenseFrame before, now;
+  before.disparity = before.filled = cv::Mat1f(60, 80, 3.0F);
+  before.disparity(cv::Rect(20, 10, 10, 30)).setTo(12.0F);
+  now.disparity = cv::Mat1f(60, 80, 3.0F);
+  now.disparity(cv::Rect(25, 10, 10, 30)).setTo(12.0F);
+  now.filled = now.disparity;
+  LabelMemory memory = ForgottenMemory({80, 60});
+  memory.log_odds.setTo(-3.0F);
+  memory.log_odds(cv::Rect(20, 10, 10, 30)).setTo(5.0F);
+  cv::Mat2f flow(60, 80);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 80; ++x) {
+      const float way = x >= 22 && x < 38 ? -5.0F : 0.0F;  // spills over the outline
+      flow(y, x) = {static_cast<float>(x) + way, static_cast<float>(y)};
+    }
+  }
+  const cv::Mat1f carried = CarryMemory(memory, flow, now, before).log_odds;
+  for (int x = 0; x < 80; ++x) {
+    EXPECT_EQ(carried(20, x) > 0, x >= 25 && x < 35) << "column " << x;
+  }
+}
+
+}  // namespace
+}  // namespace aisle::slam::dynamic

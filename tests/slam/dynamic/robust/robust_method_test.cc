@@ -1,0 +1,220 @@
+#include "slam/dynamic/robust/robust_method.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "slam/dynamic/dynamic_detector.h"
+#include "tests/slam/dynamic/synthetic_stereo.h"
+
+namespace aisle::slam::dynamic {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr double kStep = 0.05;  // seconds between frames
+
+struct Story {
+  std::vector<test::Panel> movers = {};
+  double speed_mps = 0;  // of the camera, forward
+  double yaw_radps = 0;
+  int frames = 12;
+};
+
+struct Totals {
+  double both = 0, either = 0, truth = 0, static_masked = 0;
+  std::set<int> ids;  // of the regions, from the fourth frame on
+  double IntersectionOverUnion() const { return both / either; }
+  double Recall() const { return both / truth; }
+};
+
+/// Plays a story in the hall; the first three frames, which have no past, do not count.
+Totals Play(const Story& story) {
+  auto panels = test::StaticHall();
+  panels.insert(panels.end(), story.movers.begin(), story.movers.end());
+  Isometry3d T_world_rig = Isometry3d::Identity();
+  RobustState state;
+  Totals totals;
+  for (int k = 0; k < story.frames; ++k) {
+    const auto view = test::Render(panels, {}, T_world_rig, k * kStep, 2.0);
+    RobustResult result =
+        StepRobust(state, {view.left, view.right}, k * 50'000'000LL, std::nullopt, {}, {});
+    state = std::move(result.state);
+    T_world_rig = T_world_rig * Eigen::Translation3d(0, 0, story.speed_mps * kStep) *
+                  Eigen::AngleAxisd(story.yaw_radps * kStep, Vector3d::UnitY());
+    if (k < 3) continue;
+    const cv::Mat1b& mask = result.dynamic.mask;
+    cv::Mat1b both, either;
+    cv::bitwise_and(mask, view.moving, both);
+    cv::bitwise_or(mask, view.moving, either);
+    totals.both += cv::countNonZero(both);
+    totals.either += cv::countNonZero(either);
+    totals.truth += cv::countNonZero(view.moving);
+    totals.static_masked +=
+        static_cast<double>(cv::countNonZero(either) - cv::countNonZero(view.moving)) /
+        static_cast<double>(mask.total()) / (story.frames - 3);
+    for (const DynamicRegion& region : result.dynamic.regions) totals.ids.insert(region.id);
+  }
+  return totals;
+}
+
+TEST(RobustMethod, LeavesAStaticHallAlone) {
+  EXPECT_LT(Play({}).static_masked, 0.015);
+  EXPECT_LT(Play({.speed_mps = 0.6}).static_masked, 0.015);
+  EXPECT_LT(Play({.speed_mps = 0.3, .yaw_radps = 0.4}).static_masked, 0.015);
+}
+
+TEST(RobustMethod, MasksAWalkerBeforeAStandingCamera) {
+  const Totals totals = Play({.movers = {test::Walker({-0.6, 0.1, 3.2}, {1.2, 0, 0})}});
+  EXPECT_GT(totals.Recall(), 0.85);
+  EXPECT_GT(totals.IntersectionOverUnion(), 0.6);
+}
+
+TEST(RobustMethod, MasksAWalkerBeforeATurningCamera) {
+  const Totals totals = Play({.movers = {test::Walker({-0.5, 0.1, 4.2}, {1.0, 0, 0})},
+                              .speed_mps = 0.3,
+                              .yaw_radps = 0.3});
+  EXPECT_GT(totals.Recall(), 0.85);
+  EXPECT_LT(totals.static_masked, 0.02);
+}
+
+TEST(RobustMethod, MasksAWalkerWhoComesAlongTheOpticalAxis) {
+  const Totals totals =
+      Play({.movers = {test::Walker({0.3, 0.1, 4.5}, {0, 0, -1.0})}, .speed_mps = 0.4});
+  EXPECT_GT(totals.Recall(), 0.5);
+}
+
+TEST(RobustMethod, MasksAWalkerWhoLeadsTheWay) {
+  const Totals totals = Play(
+      {.movers = {test::Walker({0.2, 0.1, 2.6}, {0, 0, 0.6})}, .speed_mps = 0.6, .frames = 20});
+  EXPECT_GT(totals.Recall(), 0.4);
+}
+
+TEST(RobustMethod, MasksASlowWalkerOnceTheLongGapSeesHim) {
+  const Totals totals = Play(
+      {.movers = {test::Walker({0.2, 0.1, 3.0}, {0.1, 0, 0})}, .speed_mps = 0.3, .frames = 24});
+  EXPECT_GT(totals.Recall(), 0.4);
+}
+
+RobustResult LastOfFive(int threads) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  auto panels = test::StaticHall();
+  panels.push_back(test::Walker({-0.4, 0.1, 3.0}, {1.2, 0, 0}));
+  RobustResult result;
+  for (int k = 0; k < 5; ++k) {
+    const auto view = test::Render(panels, {}, Isometry3d::Identity(), k * kStep);
+    result = StepRobust(result.state, {view.left, view.right}, k * 50'000'000LL, {}, {}, {});
+  }
+  return result;
+}
+
+TEST(RobustMethod, TakesTheLongerGapsInTurn) {
+  RobustState state;
+  std::vector<std::vector<int>> gaps;
+  for (int k = 0; k < 18; ++k) {
+    const auto view = test::Render(test::StaticHall(), {}, Isometry3d::Identity(), k * kStep, 2.0);
+    RobustResult result =
+        StepRobust(state, {view.left, view.right}, k * 50'000'000LL, std::nullopt, {}, {});
+    state = std::move(result.state);
+    gaps.emplace_back();
+    for (const GapMotion& gap : result.stages.gaps) gaps.back().push_back(gap.gap);
+  }
+  using Gaps = std::vector<int>;
+  EXPECT_EQ(gaps[0], Gaps());
+  EXPECT_EQ(gaps[4], Gaps({1}));
+  for (std::size_t k = 5; k < 15; ++k) EXPECT_EQ(gaps[k], Gaps({1, 5})) << k;
+  EXPECT_EQ(gaps[15], Gaps({1, 15}));
+  EXPECT_EQ(gaps[16], Gaps({1, 5}));
+  EXPECT_EQ(gaps[17], Gaps({1, 15}));
+}
+
+TEST(RobustMethod, OneThreadAndManyGiveTheSameBits) {
+  const RobustResult one = LastOfFive(1), many = LastOfFive(4);
+  EXPECT_EQ(cv::norm(one.dynamic.mask, many.dynamic.mask, cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(one.probability, many.probability, cv::NORM_INF), 0);
+}
+
+TEST(RobustMethod, SurvivesImagesWithoutContentAndGoesOn) {
+  RobustState state;
+  const cv::Mat1b blank(480, 752, 90);
+  for (int k = 0; k < 6; ++k) {
+    const auto view = test::Render(test::StaticHall(), {}, Isometry3d::Identity(), k * kStep);
+    const StereoPair pair =
+        k == 2 || k == 3 ? StereoPair{blank, blank} : StereoPair{view.left, view.right};
+    RobustResult result = StepRobust(state, pair, k * 50'000'000LL, {}, {}, {});
+    EXPECT_EQ(cv::countNonZero(result.dynamic.mask), 0) << "frame " << k;
+    state = std::move(result.state);
+  }
+}
+
+TEST(RobustOptions, DefaultsAreValidAndBrokenRulesAreNamed) {
+  DynamicOptions options;
+  EXPECT_EQ(Validate(options), "");
+  options.robust.field.memory = 1.5;
+  EXPECT_THAT(Validate(options), testing::HasSubstr("memory"));
+}
+
+TEST(RobustOptions, EveryRuleIsCheckedAndNamed) {
+  const auto broken = [](const auto& change) {
+    RobustOptions options;
+    change(options);
+    return options.Validate();
+  };
+  using testing::HasSubstr;
+  EXPECT_EQ(RobustOptions{}.Validate(), "");
+  EXPECT_THAT(broken([](auto& o) { o.surface.grey_noise = 0; }), HasSubstr("grey_noise is 0"));
+  EXPECT_THAT(broken([](auto& o) { o.surface.brightness_noise = -1; }),
+              HasSubstr("brightness_noise"));
+  EXPECT_THAT(broken([](auto& o) { o.surface.window_px = 8; }), HasSubstr("window_px is 8"));
+  EXPECT_THAT(broken([](auto& o) { o.flow.finest_scale = 9; }), HasSubstr("finest_scale"));
+  EXPECT_THAT(broken([](auto& o) { o.ego.rounds = 0; }), HasSubstr("rounds"));
+  EXPECT_THAT(broken([](auto& o) { o.evidence.least[1] = 1; }), HasSubstr("least is 1"));
+  EXPECT_THAT(broken([](auto& o) { o.evidence.edge_window_px = 4; }), HasSubstr("edge_window_px"));
+  EXPECT_THAT(broken([](auto& o) { o.floor.least_support = 2; }), HasSubstr("least_support"));
+  EXPECT_THAT(broken([](auto& o) { o.field.grow_link = 2; }), HasSubstr("grow_link"));
+  EXPECT_THAT(broken([](auto& o) { o.region.keep_core_px = 900; }), HasSubstr("keep_core_px"));
+  EXPECT_THAT(broken([](auto& o) { o.region.keep_inner_px = 900; }), HasSubstr("keep_inner_px"));
+}
+
+TEST(DynamicDetector, BothMethodsMaskBothEyes) {
+  auto panels = test::StaticHall();
+  panels.push_back(test::Walker({-0.4, 0.1, 3.0}, {1.2, 0, 0}));
+  for (const DynamicMethod method : {DynamicMethod::kPaper, DynamicMethod::kRobust}) {
+    DynamicOptions options;
+    options.method = method;
+    DynamicDetector detector(StereoCamera{}, options);
+    DynamicOutput output;
+    for (int k = 0; k < 6; ++k) {
+      const auto view = test::Render(panels, {}, Isometry3d::Identity(), k * kStep);
+      output = detector.Detect({k * 50'000'000LL, view.left, view.right, {}});
+    }
+    ASSERT_GT(cv::countNonZero(output.regions.mask), 1000);
+    // The walker is 3 m away: 17.4 px further to the left in the right eye.
+    const double left = cv::mean(output.regions.mask.colRange(0, 752))[0];
+    const double right = cv::mean(output.mask_right)[0];
+    EXPECT_NEAR(right, left, 0.35 * left);
+  }
+}
+
+TEST(DynamicDetector, WithoutAMethodNothingIsMasked) {
+  DynamicDetector detector(StereoCamera{}, {});
+  const cv::Mat1b image(480, 752, 90);
+  EXPECT_TRUE(detector.Detect({0, image, image, {}}).regions.mask.empty());
+}
+
+TEST(ShiftMaskToRight, MovesEveryPixelByItsDisparity) {
+  cv::Mat1b mask(60, 100, static_cast<unsigned char>(0));
+  mask(cv::Rect(40, 20, 20, 20)).setTo(255);
+  const cv::Mat1b same = ShiftMaskToRight(mask, cv::Mat1f(60, 100, 8.0F));
+  const cv::Mat1b half = ShiftMaskToRight(mask, cv::Mat1f(30, 50, 4.0F));
+  EXPECT_EQ(cv::norm(same, half, cv::NORM_INF), 0);
+  EXPECT_EQ(same(30, 33), 255);
+  EXPECT_EQ(same(30, 31), 0);
+  EXPECT_EQ(same(30, 51), 255);
+  EXPECT_EQ(same(30, 52), 0);
+}
+
+}  // namespace
+}  // namespace aisle::slam::dynamic

@@ -1,0 +1,85 @@
+#include "slam/dynamic/robust/static_alias.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace aisle::slam::dynamic {
+namespace {
+
+constexpr float kFound = 2.5F;
+constexpr int kOwn = 12;  // the disparity that the matcher gives, half-size pixels
+
+/// A wall whose columns repeat after `period`, at `disparity` in the right image, and where the
+/// rig's way has taken it `way` columns to the right in the earlier one.
+struct Wall {
+  DenseFrame now;
+  cv::Mat1b then;
+  cv::Mat1f variance;
+
+  Wall(int period, int disparity, int way) {
+    std::mt19937 random(7);
+    std::vector<unsigned char> greys(static_cast<std::size_t>(period));
+    for (auto& grey : greys) grey = static_cast<unsigned char>(60 + random() % 130);
+    const auto view = [&](int shift) {
+      cv::Mat1b image(40, 160);
+      for (int x = 0; x < image.cols; ++x) {
+        const int column = ((x + shift) % period + period) % period;
+        image.col(x) = greys[static_cast<std::size_t>(column)];
+      }
+      return image;
+    };
+    now.image = view(0);
+    now.right_low = now.right_high = view(disparity);
+    then = view(-way);
+    variance = cv::Mat1f(now.image.size(), 8.0F);
+  }
+
+  /// Of a pixel that flows by `flow` columns; each pixel of disparity makes half of one.
+  float Left(cv::Point at, float flow, float per_disparity = 0.5F) const {
+    const auto x = static_cast<float>(at.x), y = static_cast<float>(at.y);
+    const SeenMotion seen{
+        at, kOwn, {x + flow, y}, {x + kOwn * per_disparity, y}, kOwn, {per_disparity, 0}};
+    return LimitByAlias({now, then, variance}, seen, kFound, {});
+  }
+};
+
+TEST(LimitByAlias, AWallMatchedAPeriodOffIsStatic) {
+  const Wall wall(8, 4, 2);  // its own disparity is 4, the matcher's 12
+  EXPECT_EQ(wall.Left({80, 20}, 2), 0);
+}
+
+TEST(LimitByAlias, AndSoItIsWhereTheFlowIsAPeriodOffAsWell) {
+  const Wall wall(8, 4, 2);
+  EXPECT_EQ(wall.Left({80, 20}, 10), 0);
+  EXPECT_EQ(wall.Left({80, 20}, -6), 0);
+}
+
+TEST(LimitByAlias, WhatDoesNotRepeatAndMovesKeepsAll) {
+  const Wall mover(1000, kOwn, 2);
+  EXPECT_FLOAT_EQ(mover.Left({80, 20}, 2), kFound);
+}
+
+TEST(LimitByAlias, ARepeatingPatternThatNoStaticWayExplainsKeepsAll) {
+  const Wall mover(8, 4, 5);  // static at 4 + 8 k pixels it would go 2 + 4 k, never 5
+  EXPECT_FLOAT_EQ(mover.Left({80, 20}, 5), kFound);
+}
+
+TEST(LimitByAlias, BeforeAStandingRigNoDisparityExplainsAnything) {
+  const Wall wall(8, 4, 2);
+  EXPECT_FLOAT_EQ(wall.Left({80, 20}, 2, 0), kFound);
+}
+
+TEST(LimitByAlias, AtTheEdgesNothingOutsideIsRead) {
+  const Wall wall(8, 4, 2);
+  for (const int x : {0, 1, 11, 12, 14, 20, 157, 159}) {
+    for (const int y : {0, 2, 38, 39}) {
+      const float left = wall.Left({x, y}, 2);
+      EXPECT_GE(left, 0) << x << ", " << y;
+      EXPECT_LE(left, kFound) << x << ", " << y;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace aisle::slam::dynamic
