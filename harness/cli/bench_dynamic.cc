@@ -9,6 +9,7 @@
 #include "harness/report/overlay.h"
 #include "harness/report/stage_sheets.h"
 #include "harness/score/continuity.h"
+#include "harness/score/front_end.h"
 #include "harness/score/masks.h"
 #include "harness/score/scorecard.h"
 
@@ -43,6 +44,12 @@ struct Result {
   SpellsByKind spells;
   double pixels = 0, rejected = 0;         ///< of all frames
   std::map<std::string, double> stage_ms;  ///< sums
+
+  std::map<std::string, double> mean_ms() const {
+    std::map<std::string, double> means = stage_ms;
+    for (auto& [stage, ms] : means) ms /= std::max(frames, 1);
+    return means;
+  }
 
   /// What truth says of the frame, if it says anything.
   std::optional<FrameFacts> Add(const SequenceFrame& shown, const FrameEstimate& estimate) {
@@ -189,7 +196,11 @@ nlohmann::json ToJson(const Result& r) {
   nlohmann::json json = {{"name", r.name},
                          {"frames", r.frames},
                          {"rejected_share", r.rejected / std::max(r.pixels, 1.0)}};
-  for (const auto& [stage, ms] : r.stage_ms) json["ms"][stage] = ms / std::max(r.frames, 1);
+  for (const auto& [stage, ms] : r.mean_ms()) json["ms"][stage] = ms;
+  if (const auto front_end = FrontEndOf(r.mean_ms())) {
+    json["dynamic_ms"] = front_end->dynamic;
+    json["front_end_ms"] = front_end->total();
+  }
   if (!r.has_truth) return json;
   json["objects"] = {{"found", r.masks.objects_found},
                      {"invented", r.masks.objects_invented},
@@ -233,8 +244,10 @@ int BenchDynamic(const Options& options) {
     sum += result;
   }
   fmt::print("{}\n", Line("all", sum));
-  for (const auto& [stage, ms] : sum.stage_ms) {
-    fmt::print("  {:26}{:9.2f} ms\n", stage, ms / std::max(sum.frames, 1));
+  for (const auto& [stage, ms] : sum.mean_ms()) fmt::print("  {:26}{:9.2f} ms\n", stage, ms);
+  if (const auto front_end = FrontEndOf(sum.mean_ms())) {
+    fmt::print("front end: {:.2f} ms a frame, of which tracking {:.2f} ms\n", front_end->total(),
+               front_end->tracking);
   }
   if (!options.json.empty()) WriteFileAtomically(options.json, rows.dump(2) + "\n");
   return kAllPassed;

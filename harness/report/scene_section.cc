@@ -208,6 +208,9 @@ std::string Spread(const SceneRuns& scene) {
                 "A dot per seed, the box holds the middle half, the median as a line.");
 }
 
+/// Times that are no stage of the system's own, or sums of such stages.
+const std::set<std::string> kNoStages = {"process", "render", "total", "tracking", "front_end"};
+
 std::string Stages(const SceneRuns& scene) {
   std::vector<StageRow> rows;
   for (const SystemRuns& system : scene.systems) {
@@ -216,7 +219,7 @@ std::string Stages(const SceneRuns& scene) {
     for (const auto& [name, score] : system.runs.front()->scores) {
       if (!name.starts_with("ms_") || !score.value) continue;
       const std::string stage = name.substr(3, name.size() - 3 - std::string("_mean").size());
-      if (stage == "process" || stage == "render" || stage == "total") continue;
+      if (kNoStages.contains(stage)) continue;
       row.bars.push_back({stage, color++, *MedianScore(system.runs, name)});
     }
     if (!row.bars.empty()) rows.push_back(row);

@@ -1,4 +1,5 @@
 #include "harness/score/coverage.h"
+#include "harness/score/front_end.h"
 #include "harness/score/mask_scores.h"
 #include "harness/score/scorecard.h"
 
@@ -51,6 +52,10 @@ void AddTimes(const RunResult& run, Scorecard* scores) {
   std::map<std::string, std::vector<double>> stages;
   for (const FrameEstimate& estimate : run.estimates) {
     for (const auto& [stage, ms] : estimate.stage_ms) stages[stage].push_back(ms);
+    const auto front_end = FrontEndOf(estimate.stage_ms);
+    if (!front_end) continue;
+    stages["tracking"].push_back(front_end->tracking);
+    stages["front_end"].push_back(front_end->total());
   }
   for (const FrameFacts& frame : run.facts) {
     stages["render"].push_back(frame.render_ms);
