@@ -53,6 +53,24 @@ cv::Point SameSurface(const cv::Mat1f& disparity, const cv::Vec2f& place, float 
   return best;
 }
 
+/// How many pixels of a row, from the left on, lie beyond the right image: up to the first run of
+/// known disparities, single ones being chance matches. 0 in a row that knows of none.
+int ColumnsUnseen(const float* disparity, int columns) {
+  constexpr int kRun = 6;
+  int known = 0;
+  for (int x = 0; x < columns; ++x) {
+    known = disparity[x] > 0 ? known + 1 : 0;
+    if (known == kRun) return x + 1 - kRun;
+  }
+  return 0;
+}
+
+/// The pixel at a place; outside the image (-1, -1).
+cv::Point PixelAt(const cv::Vec2f& place, cv::Size size) {
+  const cv::Point pixel(cvRound(place[0]), cvRound(place[1]));
+  return cv::Rect({0, 0}, size).contains(pixel) ? pixel : cv::Point(-1, -1);
+}
+
 }  // namespace
 
 LabelMemory ForgottenMemory(cv::Size size) {
@@ -70,8 +88,13 @@ LabelMemory CarryMemory(const LabelMemory& previous, const cv::Mat2f& flow, cons
     carried.long_per_step = cv::Mat2f(flow.size(), cv::Vec2f(0, 0));
   }
   tbb::parallel_for(0, flow.rows, [&](int y) {
+    const int unseen = ColumnsUnseen(now.disparity[y], flow.cols);
     for (int x = 0; x < flow.cols; ++x) {
-      const cv::Point from = SameSurface(before.disparity, flow(y, x), now.filled(y, x));
+      // Who leaves to the left is known no less where the right eye loses him first.
+      const bool flow_alone = x < unseen && now.disparity(y, x) <= 0;
+      const cv::Point from = flow_alone
+                                 ? PixelAt(flow(y, x), flow.size())
+                                 : SameSurface(before.disparity, flow(y, x), now.filled(y, x));
       if (from.x < 0) continue;
       carried.log_odds(y, x) = previous.log_odds(from);
       if (compared_long) {

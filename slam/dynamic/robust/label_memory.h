@@ -20,8 +20,9 @@ struct LabelMemory {
 LabelMemory ForgottenMemory(cv::Size size);
 
 /// Takes the memory of the previous frame to the current one along the flow, whatever moved; where
-/// the previous frame shows another surface at the place, nothing is known (0). Regions keep their
-/// ids and sizes.
+/// the previous frame shows another surface at the place, nothing is known (0). At the left border,
+/// beyond the right image, where there is no surface to compare, the flow alone is followed.
+/// Regions keep their ids and sizes.
 LabelMemory CarryMemory(const LabelMemory& previous, const cv::Mat2f& flow, const DenseFrame& now,
                         const DenseFrame& before);
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "slam/dynamic/common/stereo_pair.h"
 #include "slam/dynamic/robust/label_memory.h"
 #include "slam/dynamic/robust/residual_flow.h"
 #include "tests/slam/dynamic/synthetic_stereo.h"
@@ -313,6 +314,25 @@ TEST(CarryMemory, TakesAMoversMemoryAlongAndLeavesNoTrail) {
   for (int x = 0; x < 80; ++x) {
     EXPECT_EQ(carried(20, x) > 0, x >= 25 && x < 35) << "column " << x;
   }
+}
+
+TEST(CarryMemory, FollowsTheFlowAloneBeyondTheRightImageAndNowhereElse) {
+  DenseFrame before, now;
+  before.disparity = before.filled = cv::Mat1f(60, 80, 3.0F);
+  now.disparity = cv::Mat1f(60, 80, 3.0F);
+  now.disparity.colRange(0, 20).setTo(kNoDisparity);   // beyond the right image
+  now.disparity.colRange(40, 50).setTo(kNoDisparity);  // hidden from the right eye
+  now.disparity.row(50).setTo(kNoDisparity);
+  now.filled = cv::Mat1f(60, 80, 1.0F);  // another surface than the mover's
+  LabelMemory memory = ForgottenMemory({80, 60});
+  memory.log_odds.setTo(5.0F);
+  cv::Mat2f flow(60, 80);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 80; ++x) flow(y, x) = {static_cast<float>(x + 5), static_cast<float>(y)};
+  }
+  const cv::Mat1f carried = CarryMemory(memory, flow, now, before).log_odds;
+  for (int x = 0; x < 80; ++x) EXPECT_EQ(carried(20, x) > 0, x < 20) << "column " << x;
+  for (int x = 0; x < 80; ++x) EXPECT_EQ(carried(50, x), 0) << "column " << x;
 }
 
 }  // namespace
