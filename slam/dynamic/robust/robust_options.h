@@ -19,8 +19,8 @@ inline constexpr int kLongestGap = 15;
 /// Semi-global matching. Costs and prices are of one path: how many of a pixel's 54 census bits (a
 /// quarter of nine times 24) may differ before another disparity is cheaper.
 struct SemiGlobalOptions {
-  /// Multiple of 32. Of images of half size 64 are 128 full pixels, 0.41 m with the default rig.
-  int max_disparity_px = 64;
+  /// Multiple of 32. Of images of half size 96 are 192 full pixels, 0.27 m with the default rig.
+  int max_disparity_px = 96;
   int small_step = 10;  ///< price of a change of disparity by one
   /// Price of any other change, halved where the grey value changes by `contrast` and never less
   /// than the last.
