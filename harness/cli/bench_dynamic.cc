@@ -81,12 +81,14 @@ struct Result {
     return *this;
   }
 
-  /// Of the objects that must be found: large ones that really go somewhere.
-  std::optional<double> RecallOfLarge() const {
-    const ObjectCount large = CountObjects(
+  /// Of the objects that must be found, large ones that really go somewhere, those that were.
+  ObjectCount LargeMovers() const {
+    return CountObjects(
         masks.objects, [](const ObjectOutcome& object) { return IsLargeMover(object); },
         [](const ObjectOutcome& object) { return object.found; });
-    return Ratio(large.counted, large.asked);
+  }
+  std::optional<double> RecallOfLarge() const {
+    return Ratio(LargeMovers().counted, LargeMovers().asked);
   }
 
   std::optional<double> PrecisionOfLarge() const {
@@ -205,6 +207,10 @@ nlohmann::json ToJson(const Result& r) {
   json["objects"] = {{"found", r.masks.objects_found},
                      {"invented", r.masks.objects_invented},
                      {"missed", r.masks.objects_missed},
+                     {"large_regions", r.masks.large_regions},
+                     {"large_regions_astray", r.masks.large_regions_astray},
+                     {"large_movers", r.LargeMovers().asked},
+                     {"large_movers_found", r.LargeMovers().counted},
                      {"iou_sum", r.masks.iou_sum}};
   if (const auto precision = r.PrecisionOfLarge())
     json["objects"]["precision_of_large"] = *precision;
