@@ -31,7 +31,11 @@ MappingResult MapKeyframe(Map map, KeyframeId newest, const Vocabulary* vocabula
   MappingResult result;
   if (vocabulary) {
     result.words = vocabulary->Describe(map.At(newest).frame->features.descriptors);
-    result.loop = FindLoop(map, newest, result.words, index, camera, options.fuse.levels, loop);
+    const int levels = options.fuse.levels;
+    if (const auto own = FindLoop(map, newest, result.words, index, camera, levels, loop)) {
+      result.loops = SeenBeside(map, *own, camera, levels, loop);
+      result.loops.push_back(*own);
+    }
   }
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
   result.map = std::move(map);

@@ -12,7 +12,9 @@ struct MappingResult {
   KeyframeId keyframe;             ///< the one worked in
   std::vector<KeyframeId> culled;  ///< keyframes that went
   WordVector words;                ///< of the keyframe; empty without a vocabulary
-  std::optional<LoopEdge> loop;    ///< an older place that it shows
+  /// The older place that it shows, if it does, also as the keyframes beside it see that; its own
+  /// view comes last.
+  std::vector<LoopEdge> loops;
   BundleSummary adjustment;
   double milliseconds = 0;  ///< reported, never decided upon
 };

@@ -48,8 +48,11 @@ void MapKeeper::TakeMapping(MappingResult result, std::int64_t frame_now) {
   std::erase_if(loops_, [&](const LoopEdge& loop) {
     return loop.current.value + options_.loop.remembered < result.keyframe.value;
   });
-  if (!result.loop || adjusting_.pending()) return;
-  loops_.push_back(*result.loop);
+  if (result.loops.empty() || adjusting_.pending()) return;
+  for (const LoopEdge& loop : result.loops) {  // a keyframe has one say
+    const auto has_spoken = [&](const LoopEdge& before) { return before.current == loop.current; };
+    if (std::ranges::none_of(loops_, has_spoken)) loops_.push_back(loop);
+  }
   const std::vector<LoopEdge> agreeing = AgreeingLoops(map_, loops_, options_.loop);
   if (agreeing.empty()) return;
   loops_.clear();

@@ -131,6 +131,18 @@ std::optional<LoopEdge> FindLoop(const Map& map, KeyframeId current, const WordV
   return best;
 }
 
+std::vector<LoopEdge> SeenBeside(const Map& map, const LoopEdge& loop, const StereoCamera& camera,
+                                 int levels, const LoopOptions& options) {
+  std::vector<LoopEdge> seen;
+  for (const Covisible& beside : CovisibleKeyframes(map, loop.current, options.beside_shared)) {
+    const std::int64_t before = loop.current.value - beside.keyframe.value;
+    if (before <= 0 || before > options.beside) continue;
+    const auto same = VerifyLoop(map, beside.keyframe, loop.matched, camera, levels, options);
+    if (same) seen.push_back(*same);
+  }
+  return seen;
+}
+
 std::vector<LoopEdge> AgreeingLoops(const Map& map, const std::vector<LoopEdge>& loops,
                                     const LoopOptions& options) {
   std::vector<LoopEdge> agreeing;

@@ -23,6 +23,8 @@ struct LoopOptions {
   /// Loops that must tell the same correction before it is made, and the landmarks that they must
   /// confirm together: three loops that just suffice, or two clear ones.
   int agreeing = 2, agreeing_inliers = 120;
+  int beside = 3;             ///< keyframes before the newest that are asked for its loop, ...
+  int beside_shared = 30;     ///< ... of those that share so many landmarks with it
   int remembered = 10;        ///< keyframes after which an unconfirmed loop is forgotten
   double agree_m = 0.1;       ///< translation by which two corrections may differ
   double agree_deg = 1.0;     ///< rotation by which two corrections may differ
@@ -40,6 +42,12 @@ std::optional<LoopEdge> VerifyLoop(const Map& map, KeyframeId current, KeyframeI
 std::optional<LoopEdge> FindLoop(const Map& map, KeyframeId current, const WordVector& words,
                                  const PlaceIndex& index, const StereoCamera& camera, int levels,
                                  const LoopOptions& options);
+
+/// The place of `loop` as the last keyframes before its current one see it, those that do. Asked at
+/// once, as Campos et al. (ORB-SLAM3, 2021) do: a rig that stops where it has been before takes no
+/// further keyframe that could agree.
+std::vector<LoopEdge> SeenBeside(const Map& map, const LoopEdge& loop, const StereoCamera& camera,
+                                 int levels, const LoopOptions& options);
 
 /// Where the loop says the current keyframe ought to be, seen from where it is: T_new_old.
 Eigen::Isometry3d Correction(const Map& map, const LoopEdge& loop);

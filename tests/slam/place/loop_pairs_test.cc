@@ -136,6 +136,30 @@ TEST_F(LoopPairs, TheOtherVisitIsTheMostAlike) {
   }
 }
 
+TEST_F(LoopPairs, KeyframesBesideTheNewestAreAskedForItsLoop) {
+  LoopOptions options;
+  options.least_inliers = 25;
+  Keyframe twin =
+      map.At(KeyframeId{1});  // the same view three keyframes later: it shares every landmark
+  twin.id = map.NextKeyframeId();
+  twin.parent = {3};
+  MapEdit edit;
+  edit.new_keyframes = {twin};
+  map.Apply(edit);
+  const auto own = VerifyLoop(map, twin.id, {0}, camera, 8, options);
+  ASSERT_TRUE(own);
+  const std::vector<LoopEdge> beside = SeenBeside(map, *own, camera, 8, options);
+  ASSERT_EQ(beside.size(), 1u);
+  EXPECT_EQ(beside[0].current, KeyframeId{1});
+  EXPECT_EQ(beside[0].matched, KeyframeId{0});
+  EXPECT_NEAR(BodyBaseline(beside[0]), 0.411, 0.02);
+  options.beside = 2;  // it stands further back
+  EXPECT_TRUE(SeenBeside(map, *own, camera, 8, options).empty());
+  options.beside = 3;
+  options.beside_shared = 100000;
+  EXPECT_TRUE(SeenBeside(map, *own, camera, 8, options).empty());
+}
+
 /// Loops as a drive would find them, each confirmed by so many landmarks.
 std::vector<LoopEdge> LoopsWithCorrections(const std::vector<double>& corrections_m,
                                            int inliers = 100) {
