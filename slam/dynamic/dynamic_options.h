@@ -11,7 +11,7 @@ namespace aisle::slam {
 enum class DynamicMethod {
   kNone,    ///< they are not
   kPaper,   ///< epipolar test, superpixels, rectangles: two frames, no memory
-  kRobust,  ///< stereo scene flow against the static world, labelled nodes, memory
+  kRobust,  ///< stereo scene flow against the static world, labelled pixels, memory
 };
 
 struct DynamicOptions {
