@@ -114,41 +114,21 @@ F8 Gather(const Instant& instant, const Light& light, const Points8& p, const Sh
   return irradiance * (light.power() / static_cast<float>(rays));
 }
 
-float Sum(F8 lanes) {
-  float sum = 0;
-  for (int k = 0; k < kLanes; ++k) sum += lanes[k];
-  return sum;
-}
-
-/// Van der Corput's sequence: the binary digits of i behind the point.
-float Halves(unsigned i) {
-  float result = 0;
-  for (float digit = 0.5f; i; i >>= 1, digit /= 2) result += digit * static_cast<float>(i & 1);
-  return result;
-}
-
-/// How likely each light is to be asked: its share of each lane's unshadowed light, summed over
-/// the lanes. Cumulative; the last is the total.
-std::vector<float> LightShares(std::span<const AreaLight> lights,
-                               std::span<const float> light_scale, const Points8& p) {
-  // From two places, so that a light whose middle is behind the horizon is not forgotten.
-  std::vector<F8> unshadowed;
-  F8 total = Wide(0);
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    const Light light(lights[i]);
-    const F8 sum =
-        light.At(p, Wide(-0.6f), Wide(-0.6f)).weight + light.At(p, Wide(0.6f), Wide(0.6f)).weight;
-    unshadowed.push_back(sum * (light.power() * light_scale[i]));
-    total += unshadowed.back();
-  }
-  const F8 scale = Select(total > 0, 1 / Max(total, Wide(1e-20f)), Wide(0));
-  std::vector<float> cumulative;
-  float sum = 0;
-  for (const F8& light : unshadowed) cumulative.push_back(sum += Sum(light * scale));
-  return cumulative;
-}
-
 }  // namespace
+
+SurfacePoint LocatePoint(const LightPoint& point, const TriangleMesh& topology,
+                         std::span<const Eigen::Vector3f> positions,
+                         std::span<const Eigen::Vector3f> normals) {
+  const auto& [a, b, c] = topology.triangles[point.triangle];
+  const float w = 1 - point.u - point.v;
+  Eigen::Vector3f position = w * positions[a] + point.u * positions[b] + point.v * positions[c];
+  const Eigen::Vector3f inward = (positions[a] + positions[b] + positions[c]) / 3 - position;
+  const float length = inward.norm();
+  if (length > 0) position += inward * std::min(0.3f, kDrawIn / length);
+  const Eigen::Vector3f normal =
+      (w * normals[a] + point.u * normals[b] + point.v * normals[c]).normalized();
+  return {position + kLift * normal, normal};
+}
 
 std::vector<SurfacePoint> LocatePoints(const LightGrid& grid, const TriangleMesh& topology,
                                        std::span<const Eigen::Vector3f> positions,
@@ -156,15 +136,7 @@ std::vector<SurfacePoint> LocatePoints(const LightGrid& grid, const TriangleMesh
   std::vector<SurfacePoint> points;
   points.reserve(grid.points.size());
   for (const LightPoint& point : grid.points) {
-    const auto& [a, b, c] = topology.triangles[point.triangle];
-    const float w = 1 - point.u - point.v;
-    Eigen::Vector3f position = w * positions[a] + point.u * positions[b] + point.v * positions[c];
-    const Eigen::Vector3f inward = (positions[a] + positions[b] + positions[c]) / 3 - position;
-    const float length = inward.norm();
-    if (length > 0) position += inward * std::min(0.3f, kDrawIn / length);
-    const Eigen::Vector3f normal =
-        (w * normals[a] + point.u * normals[b] + point.v * normals[c]).normalized();
-    points.push_back({position + kLift * normal, normal});
+    points.push_back(LocatePoint(point, topology, positions, normals));
   }
   return points;
 }
@@ -238,41 +210,6 @@ std::array<float, kLanes> GatherDirectLight(const Instant& instant,
   const F8 grow = Select(traced > 0, unshadowed / Max(traced, Wide(1e-12f)), Wide(1));
   std::array<float, kLanes> result;
   Store(sum * grow, result.data());
-  return result;
-}
-
-std::array<float, kLanes> SampleDirectLight(const Instant& instant,
-                                            std::span<const AreaLight> lights,
-                                            std::span<const float> light_scale,
-                                            std::span<const SurfacePoint> points,
-                                            const SampledLightOptions& options) {
-  const auto samples = static_cast<float>(options.samples);
-  const Points8 p = Load(points);
-  const std::vector<float> shares = LightShares(lights, light_scale, p);
-  std::array<float, kLanes> result{};
-  if (shares.empty() || shares.back() <= 0) return result;
-  const Eigen::Vector2f shift = SpreadPoint(static_cast<int>(options.turn % 4096));
-  F8 sum = Wide(0);
-  std::size_t i = 0;
-  for (int sample = 0; sample < options.samples; ++sample) {
-    const float at = shares.back() * (static_cast<float>(sample) + shift.x()) / samples;
-    while (i + 1 < shares.size() && shares[i] <= at) ++i;
-    const float before = i ? shares[i - 1] : 0, share = shares[i] - before;
-    if (share <= 0) continue;
-    // The rest of the number that chose the light spreads its samples along its longer side.
-    const float along = std::clamp(2 * (at - before) / share - 1, -1.0f, 1.0f);
-    const float turned = Halves(static_cast<unsigned>(sample)) + shift.y();
-    const float across = 2 * (turned - std::floor(turned)) - 1;
-    const AreaLight& light = lights[i];
-    const bool u_is_long = light.half_u.squaredNorm() >= light.half_v.squaredNorm();
-    const Light shape(light);
-    const Sample8 s =
-        shape.At(p, Wide(u_is_long ? along : across), Wide(u_is_long ? across : along));
-    const unsigned blocked = Blocked(instant, p, s, options.occluders);
-    const float weight = shape.power() * light_scale[i] * shares.back() / (share * samples);
-    sum += Select(LanesOf(blocked), Wide(0), s.weight * weight);
-  }
-  Store(sum, result.data());
   return result;
 }
 

@@ -6,17 +6,17 @@
 #include <vector>
 
 #include "simulator/shade/light_grid.h"
+#include "simulator/shade/surface_point.h"
 #include "simulator/trace/tracer.h"
 
 namespace aisle::sim {
 
-/// A place that receives light: position, and the unit normal of the side it faces; world.
-struct SurfacePoint {
-  Eigen::Vector3f position, normal;
-};
-
-/// The grid's points on a posed mesh, lifted off the surface and drawn in from the triangle's
-/// border by a few millimetres, so that they do not lie inside a neighbour they touch.
+/// A grid's point on a posed mesh, lifted off the surface and drawn in from the triangle's border
+/// by a few millimetres, so that it does not lie inside a neighbour it touches.
+SurfacePoint LocatePoint(const LightPoint& point, const TriangleMesh& topology,
+                         std::span<const Eigen::Vector3f> positions,
+                         std::span<const Eigen::Vector3f> normals);
+/// All of them.
 std::vector<SurfacePoint> LocatePoints(const LightGrid& grid, const TriangleMesh& topology,
                                        std::span<const Eigen::Vector3f> positions,
                                        std::span<const Eigen::Vector3f> normals);
@@ -47,19 +47,5 @@ std::array<float, kLanes> GatherDirectLight(const Instant& instant,
                                             std::span<const float> light_scale,
                                             std::span<const SurfacePoint> points,
                                             const DirectLightOptions& options);
-
-struct SampledLightOptions {
-  int samples = 16;        ///< shadow rays a point
-  std::uint32_t turn = 0;  ///< sets another choice of places on the lights
-  GeometryMask occluders = kEverything;
-};
-
-/// The same at a fixed price: the rays are dealt out to the lights by what these give the packet
-/// unshadowed and spread over their areas. Unbiased over `turn`.
-std::array<float, kLanes> SampleDirectLight(const Instant& instant,
-                                            std::span<const AreaLight> lights,
-                                            std::span<const float> light_scale,
-                                            std::span<const SurfacePoint> points,
-                                            const SampledLightOptions& options);
 
 }  // namespace aisle::sim

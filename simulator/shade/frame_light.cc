@@ -5,9 +5,6 @@
 #include <atomic>
 #include <numbers>
 
-#include "simulator/shade/direct_light.h"
-#include "simulator/shade/mover_indirect.h"
-
 namespace aisle::sim {
 namespace {
 
@@ -35,84 +32,48 @@ Seen FindSeen(std::span<const HitImage> images, std::span<const std::int32_t> ba
   return seen;
 }
 
-/// Rays from each point of a mover.
-struct PointRays {
-  int to_lights, to_bodies;
-};
-
-/// Many where a point stands for many pixels, few where the errors of neighbours fall into one
-/// pixel.
-PointRays RaysFor(std::size_t pixels, std::size_t points) {
-  if (pixels >= 96 * points) return {.to_lights = 64, .to_bodies = 16};
-  if (pixels >= 32 * points) return {.to_lights = 48, .to_bodies = 16};
-  if (pixels >= 8 * points) return {.to_lights = 24, .to_bodies = 8};
-  return {.to_lights = 12, .to_bodies = 8};
-}
-
-/// The bits of x with a zero before each.
-std::uint32_t Spread(std::uint32_t x) {
-  x = (x | x << 8) & 0x00ff00ffu;
-  x = (x | x << 4) & 0x0f0f0f0fu;
-  x = (x | x << 2) & 0x33333333u;
-  return (x | x << 1) & 0x55555555u;
-}
-
-constexpr float kFacings = 8;  // cells along each side of the unfolded sphere
-
-/// Orders points so that the eight of a packet face alike: they deal out their rays to the lamps
-/// together, and a point that faced another lamp than the rest would be left with few. Within a
-/// facing the mesh's order, in which neighbours are near, stays.
-void SortByFacing(std::span<const SurfacePoint> places, std::vector<std::uint32_t>* points) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
-  for (const std::uint32_t point : *points) {
-    // The unit sphere folded to a square (octahedral map), along a Z-order curve.
-    const Eigen::Vector3f n =
-        places[point].normal / std::max(places[point].normal.lpNorm<1>(), 1e-6f);
-    const Eigen::Vector2f folded(std::copysign(1 - std::abs(n.y()), n.x()),
-                                 std::copysign(1 - std::abs(n.x()), n.y()));
-    const Eigen::Vector2f at = n.z() < 0 ? folded : Eigen::Vector2f(n.head<2>());
-    const Eigen::Vector2f cell = (at.array() + 1).matrix() * (kFacings / 2);
-    order.emplace_back(
-        Spread(static_cast<std::uint32_t>(std::clamp(cell.x(), 0.0f, kFacings - 1))) |
-            Spread(static_cast<std::uint32_t>(std::clamp(cell.y(), 0.0f, kFacings - 1))) << 1,
-        point);
+/// Points of the triangles that show and of those around them, which an antialiasing ray may meet
+/// though no pixel centre does: 1 by point.
+std::vector<std::uint8_t> PointsOf(const LightGrid& grid, const TriangleMesh& mesh,
+                                   std::span<const std::uint8_t> seen) {
+  std::vector<std::uint8_t> near(mesh.positions.size()), wanted(grid.points.size());
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (!seen[i]) continue;
+    for (const std::uint32_t vertex : mesh.triangles[i]) near[vertex] = 1;
   }
-  std::ranges::sort(order);
-  for (std::size_t i = 0; i < order.size(); ++i) (*points)[i] = order[i].second;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const auto& [a, b, c] = mesh.triangles[i];
+    if (!near[a] && !near[b] && !near[c]) continue;
+    const auto first = static_cast<std::size_t>(grid.patches[i].slot);
+    const std::size_t end = i + 1 < grid.patches.size()
+                                ? static_cast<std::size_t>(grid.patches[i + 1].slot)
+                                : grid.point_of_slot.size();
+    for (std::size_t slot = first; slot < end; ++slot) {
+      const std::uint32_t point = grid.point_of_slot[slot];
+      if (point < LightGrid::kExtrapolated) wanted[point] = 1;
+    }
+  }
+  return wanted;
 }
 
-/// Gives points that were not lit the mean of the lit ones of their triangle, or of the body: an
-/// antialiasing ray may meet a triangle that no pixel centre does.
-void FillUnlit(const LightGrid& grid, const TriangleMesh& mesh, std::vector<float>* light) {
-  constexpr float kUnlit = -1;
+/// Gives points that were not lit the mean of those that were: an antialiasing ray hardly ever
+/// meets one.
+void FillUnlit(std::vector<float>* light) {
   double sum = 0, count = 0;
   for (const float value : *light) {
-    if (value != kUnlit) sum += value, count += 1;
+    if (value >= 0) sum += value, count += 1;
   }
   const float mean = count > 0 ? static_cast<float>(sum / count) : 0;
-  std::vector<float> filled = *light;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const LightPatch& patch = grid.patches[i];
-    const auto slot = static_cast<std::size_t>(patch.slot);
-    float near = 0, lit = 0;
-    const std::array<std::size_t, 3> corners = {slot, slot + 1,
-                                                slot + static_cast<std::size_t>(patch.pitch)};
-    for (const std::size_t corner : corners) {
-      const std::uint32_t point = grid.point_of_slot[corner];
-      if (point < LightGrid::kExtrapolated && (*light)[point] != kUnlit) {
-        near += (*light)[point];
-        lit += 1;
-      }
-    }
-    for (const std::size_t corner : corners) {
-      const std::uint32_t point = grid.point_of_slot[corner];
-      if (point < LightGrid::kExtrapolated && filled[point] == kUnlit && lit > 0) {
-        filled[point] = near / lit;
-      }
-    }
+  for (float& value : *light) value = value < 0 ? mean : value;
+}
+
+/// The size of a pixel at the mover's nearest point, in metres.
+float PixelOn(const Eigen::AlignedBox3f& box, std::span<const EyeView> views) {
+  float size = kInfinity;
+  for (const EyeView& view : views) {
+    size = std::min(size, view.rays->step_x * box.exteriorDistance(view.origin));
   }
-  for (float& value : filled) value = value == kUnlit ? mean : value;
-  *light = std::move(filled);
+  return size;
 }
 
 }  // namespace
@@ -137,6 +98,7 @@ SurfaceTables::SurfaceTables(const World& world, const LightGrid& static_grid, f
   }
   has_normal_maps_ = std::ranges::any_of(
       world.materials(), [](const Material& material) { return material.normal_texture >= 0; });
+  mover_light_ = std::make_unique<MoverLight>(world, mover_grids_, MoverLightOptions{});
   glossy_ =
       std::ranges::any_of(statics_, is_glossy) || std::ranges::any_of(mover_records_, is_glossy);
 }
@@ -153,51 +115,8 @@ MeshPlace SurfaceTables::PlaceOf(const Instant& instant, const HitImage& image,
   return {world_->mover_meshes()[geometry - 1], state.positions, state.normals, triangle, u, v};
 }
 
-void SurfaceTables::LightMover(const Instant& instant, std::size_t mover, const LightVolume& volume,
-                               std::span<const std::uint8_t> visible, std::size_t pixels,
-                               std::span<float> slots) const {
-  const MoverState& state = instant.snapshot().movers[mover];
-  const TriangleMesh& mesh = world_->mover_meshes()[mover];
-  const LightGrid& grid = mover_grids_[mover];
-  std::vector<std::uint8_t> wanted(grid.points.size());
-  for (std::size_t i = 0; i < visible.size(); ++i) {
-    if (!visible[i]) continue;
-    const auto first = static_cast<std::size_t>(grid.patches[i].slot);
-    const std::size_t end = i + 1 < grid.patches.size()
-                                ? static_cast<std::size_t>(grid.patches[i + 1].slot)
-                                : grid.point_of_slot.size();
-    for (std::size_t slot = first; slot < end; ++slot) {
-      const std::uint32_t point = grid.point_of_slot[slot];
-      if (point < LightGrid::kExtrapolated) wanted[point] = 1;
-    }
-  }
-  std::vector<std::uint32_t> points;
-  for (std::uint32_t i = 0; i < wanted.size(); ++i) {
-    if (wanted[i]) points.push_back(i);
-  }
-  if (points.empty()) return;
-  const PointRays rays = RaysFor(pixels, points.size());
-  const std::vector<SurfacePoint> places = LocatePoints(grid, mesh, state.positions, state.normals);
-  SortByFacing(places, &points);
-  const MoverIndirect indirect(instant, world_->lights(), volume, mover, rays.to_bodies);
-  std::vector<float> light(grid.points.size(), -1);
-  tbb::parallel_for(std::size_t{0}, (points.size() + kLanes - 1) / kLanes, [&](std::size_t i) {
-    const std::span packet = std::span(points).subspan(i * kLanes);
-    const std::size_t count = std::min<std::size_t>(kLanes, packet.size());
-    std::array<SurfacePoint, kLanes> eight;
-    for (std::size_t k = 0; k < count; ++k) eight[k] = places[packet[k]];
-    const auto direct = SampleDirectLight(
-        instant, world_->lights(), instant.snapshot().light_scale, std::span(eight).first(count),
-        {.samples = rays.to_lights, .turn = static_cast<std::uint32_t>(i)});
-    for (std::size_t k = 0; k < count; ++k) {
-      light[packet[k]] = direct[k] + indirect.At(eight[k]);
-    }
-  });
-  FillUnlit(grid, mesh, &light);
-  FillSlots(grid, light, slots);
-}
-
-void SurfaceTables::PrepareFrame(const Instant& instant, std::span<const HitImage> images,
+void SurfaceTables::PrepareFrame(const Instant& instant, std::span<const EyeView> views,
+                                 std::span<const HitImage> images,
                                  std::shared_ptr<const LightState> statics,
                                  FrameLight* frame) const {
   frame->statics = std::move(statics);
@@ -212,10 +131,15 @@ void SurfaceTables::PrepareFrame(const Instant& instant, std::span<const HitImag
     const std::span records = std::span(frame->mover_records).subspan(base, triangles);
     const auto seen = std::span(all_seen.records).subspan(base, triangles);
     if (all_seen.pixels[i] == 0) continue;
-    PoseSurfaceTable(world_->mover_meshes()[i], instant.snapshot().movers[i].positions, records);
-    LightMover(instant, i, frame->statics->volume, seen, all_seen.pixels[i] / images.size(),
-               std::span(frame->mover_light)
-                   .subspan(slot_bases_[i], mover_grids_[i].point_of_slot.size()));
+    const TriangleMesh& mesh = world_->mover_meshes()[i];
+    PoseSurfaceTable(mesh, instant.snapshot().movers[i].positions, records);
+    std::vector<float> light =
+        mover_light_->At(instant, i, frame->statics->volume, PointsOf(mover_grids_[i], mesh, seen),
+                         PixelOn(instant.mover_boxes()[i], views));
+    FillUnlit(&light);
+    FillSlots(mover_grids_[i], light,
+              std::span(frame->mover_light)
+                  .subspan(slot_bases_[i], mover_grids_[i].point_of_slot.size()));
   }
 }
 

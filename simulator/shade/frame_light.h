@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "simulator/shade/mover_light.h"
 #include "simulator/shade/normal_map.h"
 #include "simulator/shade/static_light.h"
 #include "simulator/shade/surface_lanes.h"
@@ -34,16 +35,12 @@ class SurfaceTables {
   /// Index in FrameLight::mover_records of a mover's first triangle.
   std::span<const std::int32_t> mover_bases() const { return mover_bases_; }
 
-  /// Poses the movers' records and lights what the images show of them: each visible point by
-  /// shadow rays to the luminaires, and by the indirect light of the space around it.
-  void PrepareFrame(const Instant& instant, std::span<const HitImage> images,
-                    std::shared_ptr<const LightState> statics, FrameLight* frame) const;
+  /// Poses the movers' records and lights what the images of the views show of them.
+  void PrepareFrame(const Instant& instant, std::span<const EyeView> views,
+                    std::span<const HitImage> images, std::shared_ptr<const LightState> statics,
+                    FrameLight* frame) const;
 
  private:
-  void LightMover(const Instant& instant, std::size_t mover, const LightVolume& volume,
-                  std::span<const std::uint8_t> visible, std::size_t pixels,
-                  std::span<float> slots) const;
-
   const World* world_;
   std::vector<SurfaceRecord> statics_;
   bool glossy_ = false, has_normal_maps_ = false;
@@ -52,6 +49,7 @@ class SurfaceTables {
   std::vector<std::size_t> slot_bases_;
   std::size_t slot_count_ = 0;
   std::vector<LightGrid> mover_grids_;
+  std::unique_ptr<MoverLight> mover_light_;
 };
 
 /// Looks up eight neighbouring pixels' (or any eight) hits, whichever family they belong to; lanes

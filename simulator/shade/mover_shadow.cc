@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "simulator/shade/hemisphere.h"
+#include "simulator/shade/mover_blockers.h"
 #include "simulator/shade/other_eye.h"
 #include "simulator/shade/pattern_filter.h"
 #include "simulator/shade/ray_packets.h"
@@ -28,21 +29,6 @@ constexpr float kHalfShare = 0.2f, kQuarterShare = 0.08f;
 const F8 kAlmostThere = Wide(0.998f);  // of the way to a light
 
 F8x3 Wide3(const Eigen::Vector3f& v) { return {Wide(v.x()), Wide(v.y()), Wide(v.z())}; }
-
-/// Lanes whose segment from + t·to, t in [0, 1], meets the box.
-I8 MeetBox(const Eigen::AlignedBox3f& box, const F8x3& from, const F8x3& to) {
-  F8 near = Wide(0), far = Wide(1);
-  const auto slab = [&](float lo, float hi, F8 start, F8 along) {
-    const F8 safe = Select(Abs(along) < 1e-9f, Wide(1e-9f), along);
-    const F8 a = (lo - start) / safe, b = (hi - start) / safe;
-    near = Max(near, Min(a, b));
-    far = Min(far, Max(a, b));
-  };
-  slab(box.min().x(), box.max().x(), from.x, to.x);
-  slab(box.min().y(), box.max().y(), from.y, to.y);
-  slab(box.min().z(), box.max().z(), from.z, to.z);
-  return near <= far;
-}
 
 /// Sample positions of the 4 × 4 pattern for eight pixels of a row: neighbours differ much, and
 /// each 4 × 4 block has all sixteen.
@@ -198,8 +184,7 @@ class Pass {
     return box;
   }
 
-  /// Which lights and movers can matter for a tile: the segment from the middle of the tile's box
-  /// to the light's centre, thickened by whichever is larger, must meet the mover's box.
+  /// Which lights and movers can matter for a tile.
   TileWork Plan(const Tile& tile) const {
     TileWork work;
     const Eigen::AlignedBox3f box = BoxOf(tile);
@@ -210,17 +195,11 @@ class Pass {
         work.near |= MoverBit(m);
       }
     }
-    const F8x3 from = Wide3(box.center());
     for (std::size_t l = 0; l < world_.lights().size(); ++l) {
       const AreaLight& light = world_.lights()[l];
       if (instant_.snapshot().light_scale[l] <= 0) continue;
-      const F8x3 to = Wide3(light.center - box.center());
-      const Eigen::Vector3f thick =
-          (light.half_u.cwiseAbs() + light.half_v.cwiseAbs()).cwiseMax(box.sizes() / 2);
-      GeometryMask mask = 0;
-      for (std::size_t m = 0; m < movers.size(); ++m) {
-        if (Any(MeetBox(Grown(movers[m], thick), from, to))) mask |= MoverBit(m);
-      }
+      const GeometryMask mask =
+          MoversBetween(instant_, box, light.center, light.half_u, light.half_v);
       if (mask) work.blockers.push_back({l, mask, MostLight(light, l, box), 1});
     }
     Thin(MeanLight(tile), &work.blockers);
@@ -271,10 +250,6 @@ class Pass {
     }
   }
 
-  static Eigen::AlignedBox3f Grown(const Eigen::AlignedBox3f& box, const Eigen::Vector3f& by) {
-    return {box.min() - by, box.max() + by};
-  }
-
   /// Lanes whose segment meets the box of any of the movers.
   I8 MayMeet(GeometryMask movers, const F8x3& from, const F8x3& to) const {
     I8 may{};
@@ -282,20 +257,6 @@ class Pass {
       if (movers & MoverBit(m)) may |= MeetBox(instant_.mover_boxes()[m], from, to);
     }
     return may;
-  }
-
-  /// Lanes whose segment a mover blocks; each mover is asked for those alone that meet its box.
-  unsigned BlockedBy(GeometryMask movers, const F8x3& from, const F8x3& to, I8 valid) const {
-    unsigned blocked = 0;
-    for (std::size_t m = 0; m < instant_.mover_boxes().size(); ++m) {
-      if (!(movers & MoverBit(m))) continue;
-      const I8 open = valid & ~LanesOf(blocked);
-      const I8 meet = open & MeetBox(instant_.mover_boxes()[m], from, to);
-      if (!Any(meet)) continue;
-      blocked |= instant_.Occluded(MakeRays(from, to, kAlmostThere, meet), Coherence::kCoherent,
-                                   MoverBit(m));
-    }
-    return blocked;
   }
 
   bool TracePacket(int x, int y, I8 lanes, const TileWork& work, std::vector<float>* raw) const {
@@ -326,7 +287,8 @@ class Pass {
     const F8 here = Dot(to, pixels.normal), there = -Dot(to, Wide3(cross));
     const I8 valid = pixels.active & (here > 0) & (there > 0);
     if (!Any(valid)) return Wide(0);
-    const unsigned blocked = BlockedBy(blocker.movers, pixels.position, to, valid);
+    const unsigned blocked =
+        BlockedByMovers(instant_, blocker.movers, pixels.position, to, kAlmostThere, valid);
     if (!blocked) return Wide(0);
     // What the static world keeps away anyway is not the mover's to take.
     const unsigned dark =

@@ -99,7 +99,7 @@ std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const Eye
   }
   if (!work) work = std::make_unique<Workspace>();
 
-  tables_.PrepareFrame(instant, images, static_light_.At(instant.snapshot().light_scale),
+  tables_.PrepareFrame(instant, views, images, static_light_.At(instant.snapshot().light_scale),
                        &work->frame);
   done("light movers");
   std::vector<cv::Mat1f> radiance;

@@ -51,6 +51,12 @@ inline F8 Gather(const float* base, I8 index) {
 inline I8 GatherInt(const std::int32_t* base, I8 index) {
   return reinterpret_cast<I8>(_mm256_i32gather_epi32(base, reinterpret_cast<__m256i>(index), 4));
 }
+/// Lane by lane from the first on.
+inline float Sum(F8 lanes) {
+  float sum = 0;
+  for (int k = 0; k < 8; ++k) sum += lanes[k];
+  return sum;
+}
 /// Four bytes from each byte offset; the table must have three bytes to spare at its end.
 inline I8 GatherBytes(const std::uint8_t* base, I8 offset) {
   return reinterpret_cast<I8>(_mm256_i32gather_epi32(reinterpret_cast<const int*>(base),

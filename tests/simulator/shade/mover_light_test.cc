@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "simulator/shade/direct_light.h"
+#include "simulator/shade/mover_light.h"
 #include "simulator/shade/shader.h"
 #include "tests/simulator/test_world.h"
 
@@ -57,6 +59,79 @@ TEST(LightOnMovers, ALayerThatNobodySeesTakesNoLight) {
   EXPECT_EQ(cv::countNonZero(truck != same), 0);
   EXPECT_NEAR(cv::mean(layered, truck)[0], cv::mean(expected, truck)[0],
               0.03 * cv::mean(expected, truck)[0]);
+}
+
+/// The hall's figure and truck, 1.5 mm on, as one who stands sways.
+Snapshot Swayed(const World& world, float way) {
+  Snapshot snapshot = world.At(2'000'000'000);
+  for (MoverState& mover : snapshot.movers) {
+    for (Eigen::Vector3f& position : mover.positions) position += Eigen::Vector3f(way, -way, 0);
+  }
+  return snapshot;
+}
+
+/// Mover light of the test hall by itself.
+struct LitHall {
+  LitHall() : world(test::Hall({.boxes = 400, .lights = 8})), tracer(world, {}) {
+    for (const TriangleMesh& mesh : world.mover_meshes())
+      grids.push_back(MakeLightGrid(mesh, 0.08f));
+    light = std::make_unique<MoverLight>(world, grids, MoverLightOptions{});
+  }
+  std::vector<float> At(const Snapshot& snapshot, std::span<const std::uint8_t> wanted) const {
+    const Instant instant = tracer.Pose(snapshot);
+    return light->At(instant, 0, LightVolume(), wanted, 0.004f);
+  }
+
+  World world;
+  Tracer tracer;
+  std::vector<LightGrid> grids;
+  std::unique_ptr<MoverLight> light;
+};
+
+TEST(LightOnMovers, IsTheSameWhateverElseIsSeen) {
+  const LitHall hall;
+  const Snapshot snapshot = Swayed(hall.world, 0);
+  const std::size_t points = hall.grids[0].points.size();
+  const std::vector<float> all = hall.At(snapshot, std::vector<std::uint8_t>(points, 1));
+  std::vector<std::uint8_t> some(points);
+  for (std::size_t i = 0; i < points; i += 7) some[i] = 1;
+  const std::vector<float> few = hall.At(snapshot, some);
+  for (std::size_t i = 0; i < points; ++i) EXPECT_EQ(few[i], some[i] ? all[i] : -1);
+}
+
+TEST(LightOnMovers, HardlyChangesOnOneWhoHardlyMoves) {
+  const LitHall hall;
+  const std::vector<std::uint8_t> wanted(hall.grids[0].points.size(), 1);
+  const std::vector<float> before = hall.At(Swayed(hall.world, 0), wanted);
+  const std::vector<float> after = hall.At(Swayed(hall.world, 1.5e-3f), wanted);
+  double squares = 0, light = 0;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    squares += std::pow(after[i] - before[i], 2);
+    light += before[i];
+  }
+  const auto count = static_cast<double>(wanted.size());
+  // Shadow rays dealt anew for each picture change it by 5 % and more.
+  EXPECT_LT(std::sqrt(squares / count), 0.01 * light / count);
+}
+
+TEST(LightOnMovers, IsWhatManyShadowRaysFind) {
+  const LitHall hall;
+  const Snapshot snapshot = Swayed(hall.world, 0);
+  const std::vector<float> light =
+      hall.At(snapshot, std::vector<std::uint8_t>(hall.grids[0].points.size(), 1));
+  const Instant instant = hall.tracer.Pose(snapshot);
+  const std::vector<SurfacePoint> places =
+      LocatePoints(hall.grids[0], hall.world.mover_meshes()[0], snapshot.movers[0].positions,
+                   snapshot.movers[0].normals);
+  double error = 0, sum = 0;
+  for (std::size_t i = 0; i < places.size(); i += 13) {
+    const float expected =
+        GatherDirectLight(instant, hall.world.lights(), snapshot.light_scale,
+                          std::span(places).subspan(i, 1), {.untraced_share = 0})[0];
+    error += std::abs(light[i] - expected);
+    sum += expected;
+  }
+  EXPECT_LT(error / sum, 0.05);
 }
 
 }  // namespace
