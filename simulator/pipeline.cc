@@ -214,8 +214,9 @@ struct Pipeline::Impl {
     std::vector<HitImage> hits = TakeImages();
     TraceViews(instant, views, {.shuffle = options.tile_shuffle}, &hits);
     lap("trace");
-    const EyeTruth left = LabelHits(world, instant, hits[0], options.dynamic_threshold_mps);
-    const EyeTruth right = LabelHits(world, instant, hits[1], options.dynamic_threshold_mps);
+    const MovingNow moving(world, instant.snapshot(), options.moving);
+    const EyeTruth left = LabelHits(world, instant, hits[0], moving);
+    const EyeTruth right = LabelHits(world, instant, hits[1], moving);
     const std::vector<MoverTruth> movers = DescribeMovers(instant, views[0], left);
     lap("truth");
     std::vector<cv::Mat1f> radiance = shader->Shade(instant, views, hits, lap);
@@ -283,12 +284,12 @@ MotionTruth Pipeline::RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry3
     const std::array<EyeView, 2> views = self.Views(T_world_rig);
     std::vector<HitImage> hits;
     TraceViews(instant, std::span(views).first(1), {}, &hits);
+    const MovingNow moving(self.world, instant.snapshot(), self.options.moving);
     Correspondence found = FindCorrespondence(self.world, instant, self.camera, views[0], hits[0],
                                               self.world.At(next_stamp_ns), T_world_rig_next);
     return MotionTruth{std::move(found.disparity), std::move(found.occluded), std::move(found.flow),
                        std::move(found.scene_flow),
-                       FindMovingShadows(self.world, instant, views[0], hits[0],
-                                         {.threshold_mps = self.options.dynamic_threshold_mps})};
+                       FindMovingShadows(self.world, instant, views[0], hits[0], moving)};
   });
 }
 
@@ -297,7 +298,6 @@ VerifyReport Pipeline::Verify(std::int64_t stamp_ns, const Eigen::Isometry3d& T_
                               const Eigen::Isometry3d& T_world_rig_next) const {
   return impl_->arena.execute([&] {
     const Impl& self = *impl_;
-    const float threshold = self.options.dynamic_threshold_mps;
     const Instant now = self.tracer.Pose(self.world.At(stamp_ns));
     const Instant next = self.tracer.Pose(self.world.At(next_stamp_ns));
     const std::array<EyeView, 2> views = self.Views(T_world_rig);
@@ -305,9 +305,11 @@ VerifyReport Pipeline::Verify(std::int64_t stamp_ns, const Eigen::Isometry3d& T_
     std::vector<HitImage> hits, hits_next;
     TraceViews(now, views, {}, &hits);
     TraceViews(next, std::span(views_next).first(1), {}, &hits_next);
-    const std::array<EyeTruth, 2> eyes = {LabelHits(self.world, now, hits[0], threshold),
-                                          LabelHits(self.world, now, hits[1], threshold)};
-    const cv::Mat1f depth_next = LabelHits(self.world, next, hits_next[0], threshold).depth;
+    const MovingNow moving(self.world, now.snapshot(), self.options.moving);
+    const MovingNow moving_then(self.world, next.snapshot(), self.options.moving);
+    const std::array<EyeTruth, 2> eyes = {LabelHits(self.world, now, hits[0], moving),
+                                          LabelHits(self.world, now, hits[1], moving)};
+    const cv::Mat1f depth_next = LabelHits(self.world, next, hits_next[0], moving_then).depth;
 
     std::array<Agreement, 2> agreement;
     for (std::size_t eye = 0; eye < 2; ++eye) {

@@ -10,15 +10,16 @@
 #include "simulator/sensor/shutter.h"
 #include "simulator/shade/shader.h"
 #include "simulator/simulator.h"
+#include "simulator/truth/moving_now.h"
 #include "simulator/world/world.h"
 
 namespace aisle::sim {
 
 struct PipelineOptions {
-  std::uint64_t seed = 1;               ///< of the sensor noise
-  float dynamic_threshold_mps = 0.05f;  ///< a surface faster than this is dynamic
-  int threads = 0;                      ///< 0: as many as the machine has
-  std::uint64_t tile_shuffle = 0;       ///< order of the tiles; changes no result
+  std::uint64_t seed = 1;          ///< of the sensor noise
+  MovingOptions moving;            ///< which surfaces are dynamic
+  int threads = 0;                 ///< 0: as many as the machine has
+  std::uint64_t tile_shuffle = 0;  ///< order of the tiles; changes no result
   TracerOptions tracer;
   ShadeOptions shade;
   SensorOptions sensor;

@@ -185,7 +185,10 @@ Simulator Simulator::Load(const std::string& scene_file, const std::string& asse
   PipelineOptions pipeline;
   pipeline.seed = options.seed;
   pipeline.threads = options.threads;
-  pipeline.dynamic_threshold_mps = static_cast<float>(scene.dynamic_threshold_mps);
+  // What the exposure is set to, also where an automatic one is longer or shorter: what moves must
+  // not depend on the light.
+  pipeline.moving = {.threshold_mps = static_cast<float>(scene.dynamic_threshold_mps),
+                     .window_ms = scene.sensor.exposure_ms};
   pipeline.tracer.isa = pipeline.shade.statics.isa = options.isa;
   pipeline.shade.statics.cache_folder = DefaultLightCache();
   pipeline.shade.statics.progress = options.light_progress;

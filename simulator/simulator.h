@@ -69,6 +69,12 @@ struct ObjectTruth {
 
 /// Exact truth of the left eye (of the right where it says so) at the stamp. With motion blur or a
 /// rolling shutter on, the stamp is the middle of the middle row's exposure.
+///
+/// What moves "now" is asked about the exposure, since at a single instant an arm that turns back
+/// is at rest: a surface moves now if its fastest speed within sensor.exposure_ms (8 ms unless the
+/// scene says otherwise) around the stamp exceeds Simulator::dynamic_threshold_mps(). The time is
+/// the one set, whether motion blur is on or not and whatever automatic exposure chooses: what
+/// moves does not depend on the light. Depth, labels and boxes are those of the stamp itself.
 struct FrameTruth {
   Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();
   cv::Mat1f depth;         ///< z in metres along the optical axis, inf where nothing was hit
@@ -77,7 +83,7 @@ struct FrameTruth {
   cv::Mat1f depth_right;   ///< z in metres along the right eye's axis, inf where nothing was hit
   cv::Mat1w instance_right;
   cv::Mat1b object_class_right;
-  cv::Mat1b dynamic;  ///< 255 where the surface moves in the world now, faster than the threshold
+  cv::Mat1b dynamic;                 ///< 255 where the surface moves in the world now
   cv::Mat1b dynamic_right;           ///< the same for the right eye
   cv::Mat1b actor;                   ///< 255 on every person and vehicle, moving or not (left)
   cv::Mat1b actor_right;             ///< the same for the right eye
@@ -154,7 +160,7 @@ class Simulator {
   const RigInfo& rig() const;
   int frame_count() const;
   double rate_hz() const;
-  /// Speed above which a surface counts as moving now, from the scene file, in m/s.
+  /// Speed above which a surface counts as moving now, from the scene file, in m/s; see FrameTruth.
   double dynamic_threshold_mps() const;
   const std::vector<InstanceInfo>& instances() const;
   /// Hash of all that decides the pixels: scene, assets it uses, seed, twin. For caches and

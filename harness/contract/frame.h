@@ -50,7 +50,9 @@ struct FrameTruth {
   cv::Mat1w instance;  ///< 0 where nothing was hit
   cv::Mat1f depth_right;
   cv::Mat1w instance_right;
-  cv::Mat1b dynamic;  ///< 255 where the pixel's surface moves in the world now
+  /// 255 where the pixel's surface moves in the world now: at some time of the exposure around the
+  /// stamp it is faster than the scene's threshold.
+  cv::Mat1b dynamic;
   cv::Mat1b dynamic_right;
   cv::Mat1b actor;  ///< 255 on every person and vehicle, moving or not
   cv::Mat1b actor_right;

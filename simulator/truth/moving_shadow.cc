@@ -6,8 +6,6 @@
 #include <array>
 #include <vector>
 
-#include "simulator/truth/surface_velocity.h"
-
 namespace aisle::sim {
 namespace {
 
@@ -40,13 +38,14 @@ Eigen::Vector3f NormalOf(const World& world, const Snapshot& snapshot, const Hit
 }
 
 Places FindPlaces(const World& world, const Instant& instant, const EyeView& view,
-                  const HitImage& hits, int x0, int y, float threshold_mps) {
+                  const HitImage& hits, const MovingNow& moving, int x0, int y) {
   Places places;
   Eigen::AlignedBox3f box;
   for (int k = 0; k < kLanes && x0 + k < hits.width; ++k) {
     const std::size_t i = hits.Index(x0 + k, y);
-    if (hits.geometry[i] == kNoGeometry) continue;
-    if (SurfaceVelocity(world, instant.snapshot(), hits, i).norm() > threshold_mps) continue;
+    const std::uint32_t geometry = hits.geometry[i];
+    if (geometry == kNoGeometry) continue;
+    if (geometry != 0 && moving(geometry - 1, hits.primitive[i], hits.u[i], hits.v[i])) continue;
     const auto lane = static_cast<std::size_t>(k);
     const Eigen::Vector3f direction = view.rotation * view.rays->At(x0 + k, y).homogeneous();
     Eigen::Vector3f normal = NormalOf(world, instant.snapshot(), hits, i);
@@ -88,19 +87,16 @@ Rays8 RaysTo(const Eigen::Vector3f& target, const Places& places, unsigned wante
 
 class ShadowFinder {
  public:
-  ShadowFinder(const World& world, const Instant& instant, const MovingShadowOptions& options)
-      : world_(world), instant_(instant), options_(options) {
-    const Snapshot& snapshot = instant.snapshot();
-    for (std::size_t i = 0; i < snapshot.movers.size(); ++i) {
-      const Eigen::AlignedBox3f& box = instant.mover_boxes()[i];
+  ShadowFinder(const World& world, const Instant& instant, const MovingNow& moving,
+               const MovingShadowOptions& options)
+      : world_(world), instant_(instant), moving_(moving), options_(options) {
+    for (const Eigen::AlignedBox3f& box : instant.mover_boxes()) {
       balls_.push_back({box.center(), box.diagonal().norm() / 2});
-      moves_.push_back(std::ranges::any_of(
-          snapshot.movers[i].velocities,
-          [&](const Eigen::Vector3f& v) { return v.norm() > options.threshold_mps; }));
+      anything_moves_ |= moving.Any(balls_.size() - 1);
     }
   }
 
-  bool AnythingMoves() const { return std::ranges::find(moves_, true) != moves_.end(); }
+  bool AnythingMoves() const { return anything_moves_; }
 
   /// Bits of the places that lie in a moving shadow.
   unsigned Find(const Places& places) const {
@@ -132,7 +128,7 @@ class ShadowFinder {
     const Sphere ball{lamp.center, (lamp.half_u + lamp.half_v).norm()};
     GeometryMask mask = 0;
     for (std::size_t i = 0; i < balls_.size(); ++i) {
-      if (moves_[i] && CanBlock(balls_[i], places.bound, ball)) mask |= MoverBit(i);
+      if (moving_.Any(i) && CanBlock(balls_[i], places.bound, ball)) mask |= MoverBit(i);
     }
     return mask;
   }
@@ -187,13 +183,9 @@ class ShadowFinder {
     unsigned moving = 0;
     for (int k = 0; k < kLanes; ++k) {
       if (!(lit >> k & 1) || hits.geometry[k] == kNoGeometry) continue;
-      const MoverState& mover = instant_.snapshot().movers[hits.geometry[k] - 1];
-      const auto& [a, b, c] =
-          world_.mover_meshes()[hits.geometry[k] - 1].triangles[hits.primitive[k]];
-      const float u = hits.u[k], v = hits.v[k];
-      const Eigen::Vector3f velocity =
-          (1 - u - v) * mover.velocities[a] + u * mover.velocities[b] + v * mover.velocities[c];
-      if (velocity.norm() > options_.threshold_mps) moving |= 1u << k;
+      if (moving_(hits.geometry[k] - 1, hits.primitive[k], hits.u[k], hits.v[k])) {
+        moving |= 1u << k;
+      }
     }
     return moving;
   }
@@ -218,21 +210,23 @@ class ShadowFinder {
 
   const World& world_;
   const Instant& instant_;
+  const MovingNow& moving_;
   const MovingShadowOptions options_;
   std::vector<Sphere> balls_;  ///< around each mover
-  std::vector<bool> moves_;    ///< whether any of it does
+  bool anything_moves_ = false;
 };
 
 }  // namespace
 
 cv::Mat1b FindMovingShadows(const World& world, const Instant& instant, const EyeView& view,
-                            const HitImage& hits, const MovingShadowOptions& options) {
+                            const HitImage& hits, const MovingNow& moving,
+                            const MovingShadowOptions& options) {
   cv::Mat1b mask(hits.height, hits.width, std::uint8_t{0});
-  const ShadowFinder finder(world, instant, options);
+  const ShadowFinder finder(world, instant, moving, options);
   if (!finder.AnythingMoves()) return mask;
   tbb::parallel_for(0, hits.height, [&](int y) {
     for (int x = 0; x < hits.width; x += kLanes) {
-      const Places places = FindPlaces(world, instant, view, hits, x, y, options.threshold_mps);
+      const Places places = FindPlaces(world, instant, view, hits, moving, x, y);
       if (!places.valid) continue;
       const unsigned shadowed = finder.Find(places);
       for (int k = 0; k < kLanes && x + k < hits.width; ++k) {

@@ -3,12 +3,12 @@
 #include <opencv2/core.hpp>
 
 #include "simulator/trace/hit_image.h"
+#include "simulator/truth/moving_now.h"
 #include "simulator/world/world.h"
 
 namespace aisle::sim {
 
 struct MovingShadowOptions {
-  float threshold_mps = 0.05f;  ///< a surface faster than this moves
   /// A pixel is in a moving shadow where moving surfaces keep away more than this share of the
   /// light that luminaires would send it straight through the static world.
   float share = 0.05f;
@@ -19,6 +19,7 @@ struct MovingShadowOptions {
 /// points of its area; direct light only, by the cosines and the distance, whatever the material.
 /// Needs no shading and changes with no shading option.
 cv::Mat1b FindMovingShadows(const World& world, const Instant& instant, const EyeView& view,
-                            const HitImage& hits, const MovingShadowOptions& options);
+                            const HitImage& hits, const MovingNow& moving,
+                            const MovingShadowOptions& options = {});
 
 }  // namespace aisle::sim

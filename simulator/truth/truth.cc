@@ -4,8 +4,6 @@
 
 #include <map>
 
-#include "simulator/truth/surface_velocity.h"
-
 namespace aisle::sim {
 namespace {
 
@@ -118,7 +116,7 @@ Silhouette FindSilhouette(const Instant& instant, const EyeView& view, const Eye
 }  // namespace
 
 EyeTruth LabelHits(const World& world, const Instant& instant, const HitImage& image,
-                   float threshold_mps) {
+                   const MovingNow& moving) {
   const cv::Size size(image.width, image.height);
   EyeTruth truth{cv::Mat1f(size), cv::Mat1w(size), cv::Mat1b(size), cv::Mat1b(size),
                  cv::Mat1b(size)};
@@ -133,7 +131,7 @@ EyeTruth LabelHits(const World& world, const Instant& instant, const HitImage& i
         instance = world.statics().instances[image.primitive[i]];
       } else if (geometry != kNoGeometry) {
         instance = movers[geometry - 1].instance;
-        dynamic = SurfaceVelocity(world, instant.snapshot(), image, i).norm() > threshold_mps;
+        dynamic = moving(geometry - 1, image.primitive[i], image.u[i], image.v[i]);
       }
       truth.depth(y, x) = image.t[i];
       truth.instance(y, x) = instance;

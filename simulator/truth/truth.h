@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "simulator/trace/hit_image.h"
+#include "simulator/truth/moving_now.h"
 #include "simulator/world/world.h"
 
 namespace aisle::sim {
@@ -15,7 +16,7 @@ struct EyeTruth {
   cv::Mat1f depth;         ///< z in metres along the optical axis, infinity where nothing was hit
   cv::Mat1w instance;      ///< index into World::instances(), 0 where nothing was hit
   cv::Mat1b object_class;  ///< ObjectClass values
-  cv::Mat1b dynamic;       ///< 255 where the surface itself moves faster than the threshold
+  cv::Mat1b dynamic;       ///< 255 where the surface itself moves now, see MovingNow
   cv::Mat1b actor;         ///< 255 on every instance that may move, moving or not
 };
 
@@ -33,10 +34,9 @@ struct MoverTruth {
   int dynamic_pixels = 0;  ///< of them, on a surface that moves now
 };
 
-/// Reads the labels off the hits. A pixel is dynamic where the velocity of its surface point
-/// (interpolated from the vertices') exceeds `threshold_mps`.
+/// Reads the labels off the hits. `moving` is asked about the surface point of each.
 EyeTruth LabelHits(const World& world, const Instant& instant, const HitImage& image,
-                   float threshold_mps);
+                   const MovingNow& moving);
 
 /// Every mover that has a pixel in the image, or would have if it stood alone; by instance.
 std::vector<MoverTruth> DescribeMovers(const Instant& instant, const EyeView& view,

@@ -22,7 +22,8 @@ TEST(Raster, AgreesWithTheRayTracerAwayFromSilhouettes) {
     std::vector<HitImage> hits;
     const std::array views = {EyeView(rays, pose)};
     TraceViews(instant, views, {}, &hits);
-    const EyeTruth truth = LabelHits(world, instant, hits[0], 0.05f);
+    const MovingNow moving(world, instant.snapshot(), {});
+    const EyeTruth truth = LabelHits(world, instant, hits[0], moving);
     const Agreement agreement =
         Compare(Rasterize(world, snapshot, camera, pose), truth.depth, truth.instance);
     EXPECT_GT(agreement.compared, camera.width * camera.height / 2);
@@ -44,7 +45,8 @@ TEST(Raster, AgreesThroughALens) {
     std::vector<HitImage> hits;
     const std::array views = {EyeView(rays, pose)};
     TraceViews(instant, views, {}, &hits);
-    const EyeTruth truth = LabelHits(world, instant, hits[0], 0.05f);
+    const MovingNow moving(world, instant.snapshot(), {});
+    const EyeTruth truth = LabelHits(world, instant, hits[0], moving);
     const Agreement agreement =
         Compare(RasterizeThroughLens(world, snapshot, rays, pose), truth.depth, truth.instance);
     EXPECT_GT(agreement.compared, camera.width * camera.height / 3);

@@ -34,10 +34,11 @@ Pictures Take(std::int64_t stamp_ns, const Lens& lens = {}) {
   std::vector<HitImage> hits, hits_next;
   TraceViews(now, views, {}, &hits);
   TraceViews(next, views_next, {}, &hits_next);
-  p.truth = LabelHits(world, now, hits[0], 0.05f);
+  const MovingNow moving(world, now.snapshot(), {}), moving_then(world, next.snapshot(), {});
+  p.truth = LabelHits(world, now, hits[0], moving);
   p.depth_left = p.truth.depth;
-  p.depth_right = LabelHits(world, now, hits[1], 0.05f).depth;
-  p.depth_next = LabelHits(world, next, hits_next[0], 0.05f).depth;
+  p.depth_right = LabelHits(world, now, hits[1], moving).depth;
+  p.depth_next = LabelHits(world, next, hits_next[0], moving_then).depth;
   p.found = FindCorrespondence(world, now, p.camera, views[0], hits[0], next.snapshot(), rig_next);
   p.z_next = DepthInNextEye(views[0], hits[0], p.found, rig_next);
   return p;

@@ -61,7 +61,8 @@ Look LookAt(const Stage& stage) {
   const Instant instant = tracer.Pose(world.At(0));
   std::vector<HitImage> hits;
   TraceViews(instant, std::span(&view, 1), {}, &hits);
-  Look look{FindMovingShadows(world, instant, view, hits[0], {}),
+  const MovingNow moving(world, instant.snapshot(), {});
+  Look look{FindMovingShadows(world, instant, view, hits[0], moving),
             cv::Mat1b(camera.height, camera.width, std::uint8_t{0})};
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {

@@ -70,7 +70,8 @@ Seen Look(WorldParts parts, float threshold) {
   const Instant instant = tracer.Pose(world.At(0));
   std::vector<HitImage> hits;
   TraceViews(instant, views, {}, &hits);
-  Seen seen{LabelHits(world, instant, hits[0], threshold), {}};
+  const MovingNow moving(world, instant.snapshot(), {.threshold_mps = threshold});
+  Seen seen{LabelHits(world, instant, hits[0], moving), {}};
   seen.movers = DescribeMovers(instant, views[0], seen.eye);
   return seen;
 }
