@@ -1,3 +1,4 @@
+#include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
 #include "harness/cli/command.h"
@@ -16,7 +17,20 @@ constexpr double kMaxMedian = 0.05, kMinSsim = 0.95;
 struct RenderOptions {
   SimulatedSequenceOptions simulation;
   int frames = 20;
+  std::string json;
 };
+
+void WriteJson(const RenderCost& cost, const RenderOptions& options) {
+  nlohmann::ordered_json json = {{"scene", options.simulation.scene_name},
+                                 {"seed", options.simulation.seed},
+                                 {"isa", options.simulation.isa},
+                                 {"frames", cost.frames},
+                                 {"pair_ms", cost.pair_ms},
+                                 {"bare_primary_ms", cost.bare_primary_ms},
+                                 {"ratio", cost.ratio}};
+  for (const auto& [stage, ms] : cost.stage_ms) json["stage_ms"][stage] = ms;
+  WriteFileAtomically(options.json, json.dump(2) + "\n");
+}
 
 int BenchRender(RenderOptions options) {
   if (options.simulation.scene_file.empty()) {
@@ -36,6 +50,7 @@ int BenchRender(RenderOptions options) {
   fmt::print("stereo pair with all truth   {:8.2f} ms\n", cost.pair_ms);
   fmt::print("bare primary rays            {:8.2f} ms\n", cost.bare_primary_ms);
   fmt::print("ratio                        {:8.2f}\n", cost.ratio);
+  if (!options.json.empty()) WriteJson(cost, options);
   return kAllPassed;
 }
 
@@ -47,9 +62,11 @@ void AddBenchRender(CLI::App* bench, Action* action) {
                       "scene file (default: scenes/paper/scene3.yaml)");
   command->add_option("--frames", options->frames, "frames spread over the scene (default 20)")
       ->check(CLI::Range(2, 10000));
+  command->add_option("--seed", options->simulation.seed, "of the scene; default 1");
   command->add_option("--isa", options->simulation.isa,
                       "instruction set of the tracer; avx2 (default) or native");
   command->add_option("--threads", options->simulation.threads, "0: all");
+  command->add_option("--json", options->json, "write the medians there too");
   command->callback([=] { *action = [=] { return BenchRender(*options); }; });
 }
 
@@ -146,6 +163,7 @@ void AddBenchLight(CLI::App* bench, Action* action) {
       ->check(CLI::Range(1, 65536));
   command->add_option("--reduce", options->reduce, "compare at 1/N of the camera's size (2)")
       ->check(CLI::Range(1, 16));
+  command->add_option("--seed", options->simulation.seed, "of the scenes; default 1");
   command->add_option("--threads", options->simulation.threads, "0: all");
   command->footer("Exit code 1 where a view misses 5 % median relative error or 0.95 SSIM.");
   command->callback([=] { *action = [=] { return BenchLight(*options); }; });

@@ -100,6 +100,23 @@ TEST_F(CommandLineTest, DrivesFromSeveralStartsDifferFromEachOtherButNotFromThei
   EXPECT_EQ(rendered.at("frames_lost"), nlohmann::json({0.0, 0.0}));
 }
 
+TEST_F(CommandLineTest, WhatRenderingCostsIsWrittenForPrograms) {
+  const std::string json = (folder_ / "render.json").string();
+  const Said said =
+      Run({"bench", "render", scene_, "--frames", "3", "--seed", "2", "--json", json});
+  ASSERT_EQ(said.code, 0) << said.text;
+  const nlohmann::json cost = nlohmann::json::parse(ReadFile(json));
+  EXPECT_EQ(cost.at("seed"), 2);
+  EXPECT_GT(cost.at("bare_primary_ms").get<double>(), 0);
+  EXPECT_GT(cost.at("pair_ms").get<double>(), cost.at("bare_primary_ms").get<double>());
+  EXPECT_NEAR(cost.at("ratio").get<double>(),
+              cost.at("pair_ms").get<double>() / cost.at("bare_primary_ms").get<double>(), 1e-9);
+  for (const char* stage : {"pose", "trace", "truth", "sensor"}) {
+    EXPECT_GE(cost.at("stage_ms").at(stage).get<double>(), 0) << stage;
+  }
+  EXPECT_THAT(Run({"bench", "light", "--help"}).text, HasSubstr("--seed"));
+}
+
 TEST_F(CommandLineTest, TheShellCompletesCommandsOptionsAndValues) {
   const std::string script = (folder_ / "complete.sh").string();
   WriteFileAtomically(script, Run({"completion", "bash"}).text + R"(
