@@ -31,13 +31,13 @@ void Export(const Sequence& sequence, const ExternalRun& run, const ExportOption
     return;
   }
   const std::vector<FrameRequest> schedule = sequence.Schedule();
-  DatasetWriter writer(run.dataset, sequence.calibration(), sequence.rate_hz(), options);
+  DatasetWriter writer(run.dataset, sequence.calibration(), sequence.rate_hz(), schedule, options);
   for (std::size_t i = 0; i < schedule.size(); ++i) {
     if (!writer.Has(schedule[i])) writer.Add(sequence.At(schedule[i]));
     fmt::print("@progress {} {}\n", i + 1, 2 * schedule.size());
     std::fflush(stdout);
   }
-  writer.Finish(schedule, run.open_path());
+  writer.Finish(run.open_path());
   if (options.format == DatasetFormat::kEuroc) {
     WriteVslamLabFiles(run.dataset, sequence.calibration(), sequence.rate_hz(), schedule,
                        options.epoch_ns);

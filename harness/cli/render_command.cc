@@ -55,15 +55,17 @@ std::map<std::string, std::string> ProvenanceOf(const Options& options, std::uin
 
 /// Proves the truth of the frames; the numbers go to truth/proofs.csv.
 int Verify(const SimulationForExport& simulation, const std::vector<FrameRequest>& frames,
-           const std::filesystem::path& out) {
-  std::string table = "frame,raster_agreement,stereo_median_px,flow_median_px,failure\n";
+           const DatasetWriter& writer, const std::filesystem::path& out) {
+  std::string table =
+      "image,scene_frame,raster_agreement,stereo_median_px,flow_median_px,failure\n";
   FrameProof worst{.raster_agreement = 1, .failure = ""};
   std::size_t failures = 0;
   ProgressLine line;
   for (const FrameRequest& frame : frames) {
     const FrameProof proof = simulation.prove(frame);
-    table += fmt::format("{},{},{},{},{}\n", frame.id, proof.raster_agreement,
-                         proof.stereo_median_px, proof.flow_median_px, proof.failure);
+    table +=
+        fmt::format("{},{},{},{},{},{}\n", writer.NameOf(frame), frame.id, proof.raster_agreement,
+                    proof.stereo_median_px, proof.flow_median_px, proof.failure);
     worst.raster_agreement = std::min(worst.raster_agreement, proof.raster_agreement);
     worst.stereo_median_px = std::max(worst.stereo_median_px, proof.stereo_median_px);
     worst.flow_median_px = std::max(worst.flow_median_px, proof.flow_median_px);
@@ -95,7 +97,8 @@ int Render(Options options) {
   export_options.lens = simulation.lens;
   export_options.labels = simulation.labels;
   export_options.provenance = ProvenanceOf(options, simulation.content_hash);
-  DatasetWriter writer(options.out, sequence.calibration(), sequence.rate_hz(), export_options);
+  DatasetWriter writer(options.out, sequence.calibration(), sequence.rate_hz(), wanted,
+                       export_options);
   writer.Begin();
 
   std::vector<FrameRequest> missing;
@@ -115,9 +118,9 @@ int Render(Options options) {
     line.Show(fmt::format("frame {} of {}", i + 1, missing.size()));
   }
   line.Clear();
-  writer.Finish(wanted, simulation.path);
+  writer.Finish(simulation.path);
   fmt::print("{}: {} frames, {} of them made now\n", options.out, wanted.size(), missing.size());
-  return options.verify ? Verify(simulation, wanted, options.out) : kAllPassed;
+  return options.verify ? Verify(simulation, wanted, writer, options.out) : kAllPassed;
 }
 
 }  // namespace
@@ -129,7 +132,8 @@ void AddRenderCommand(CLI::App* app, Action* action) {
   command->add_option("--out", options->out, "folder of the dataset")->required();
   command->add_option("--format", options->format, "euroc (default), kitti or tum")
       ->check(CLI::IsMember({"euroc", "kitti", "tum"}));
-  command->add_option("--frames", options->frames, "A:B, B not included");
+  command->add_option("--frames", options->frames,
+                      "A:B, B not included: the dataset has these frames alone");
   command
       ->add_option("--truth", options->truth,
                    "depth,labels,dynamic,boxes,flow,stereo,shadows or all")
@@ -143,7 +147,7 @@ void AddRenderCommand(CLI::App* app, Action* action) {
                       "instruction set of the tracer; avx2 (default) or native");
   command->add_option("--threads", options->simulation.threads, "0: all; never changes a pixel");
   command->footer(
-      "Stopped, the same command goes on where it was.\n"
+      "Stopped, the same command goes on where it was; frames A:C after A:B add to the folder.\n"
       "Example: ./aisle render scenes/paper/scene2.yaml --out scene2 --truth depth,dynamic");
   command->callback([=] { *action = [=] { return Render(*options); }; });
 }

@@ -20,7 +20,8 @@ enum class DatasetFormat {
 /// "euroc", "kitti", "tum"; throws InputError naming the choices.
 DatasetFormat DatasetFormatFromName(const std::string& name);
 
-/// Which truth is written beside the images, below truth/; each kind in folders of its own.
+/// Which truth is written beside the images, below truth/; each kind in folders of its own, each
+/// file named as the left image it belongs to. truth/README.md says it all to who finds the folder.
 struct TruthSelection {
   bool depth = false;  ///< both eyes as PFM (float metres, inf where nothing was hit), and the left
                        ///< as 16-bit PNG in millimetres (0: nothing, or beyond 65.535 m)
@@ -28,7 +29,8 @@ struct TruthSelection {
       false;  ///< both eyes: instance ids, 16-bit PNG, and classes, 8-bit PNG; labels.json
   bool dynamic = false;  ///< what moves now (both eyes) and every actor, 8-bit PNG, 255 = yes
   bool boxes = false;    ///< boxes/*.json: per object 2-D boxes, 3-D box, velocity
-  bool flow = false;     ///< to the next frame, .flo; scene flow, PFM of 3 channels (metres, world)
+  bool flow = false;     ///< to the next frame, .flo; scene flow, PFM of 3 channels: x, y, z
+                         ///< (metres, world)
   bool stereo = false;   ///< disparity, PFM; pixels hidden from the right eye, 8-bit PNG
   bool shadows = false;  ///< pixels in moving shadows, 8-bit PNG
 
@@ -77,33 +79,44 @@ using PathOfRig = std::function<Eigen::Isometry3d(std::int64_t stamp_ns)>;
 
 /// Writes frames as they come; every image is whole or absent, and one that is there already is
 /// kept. The index files are written by Finish, last: without them the folder is no dataset yet.
+///
+/// A dataset begins wherever in its source its first frame lies, and is numbered by itself: KITTI's
+/// images from 000000, its poses relative to the first, its times from 0, since its readers know
+/// frames by their row alone. EuRoC's and TUM's are named by the source's time plus epoch_ns.
+/// aisle.json says where in the source it begins.
 class DatasetWriter {
  public:
-  /// Throws InputError for a lens that the format cannot state: KITTI and TUM hold rectified
-  /// images.
+  /// `frames` are all frames of the dataset in order, those already there included. Throws
+  /// InputError for a lens that the format cannot state: KITTI and TUM hold rectified images.
+  /// Throws std::invalid_argument without a frame.
   DatasetWriter(std::filesystem::path folder, const StereoCalibration& calibration, double rate_hz,
-                const ExportOptions& options);
+                std::vector<FrameRequest> frames, const ExportOptions& options);
 
-  /// Writes aisle.json, or finds the same one there; throws InputError where the folder was begun
-  /// with other frames.
+  /// Writes aisle.json, or finds the same one there. A folder that was begun may only grow at its
+  /// end: throws InputError where it begins with another frame, has more frames than these, or was
+  /// made of something else.
   void Begin() const;
 
+  /// What the frame's images and truth files are called, without ending.
+  std::string NameOf(const FrameRequest& request) const;
   /// All files of this frame are already there.
   bool Has(const FrameRequest& request) const;
   /// Needs truth, and motion where the selection does; throws std::invalid_argument without.
   void Add(const SequenceFrame& frame, const FrameMotion* motion = nullptr);
-  /// `frames` are all frames of the dataset in order, kept ones included. Clears away what earlier,
-  /// killed writers left half written.
-  void Finish(const std::vector<FrameRequest>& frames, const PathOfRig& path) const;
+  /// Once all frames are there. Clears away what earlier, killed writers left half written.
+  void Finish(const PathOfRig& path) const;
 
  private:
-  std::vector<std::filesystem::path> ImagePaths(const FrameRequest& request) const;
-  std::filesystem::path TruthPath(const char* kind, std::int64_t id, const char* ending) const;
-  std::vector<std::filesystem::path> TruthPaths(std::int64_t id) const;
+  /// Place of a frame in the dataset, from 0; throws std::invalid_argument for one of another.
+  std::int64_t NumberOf(std::int64_t id) const;
+  /// What a stamp of the dataset is more than the source's.
+  std::int64_t StampOffset() const;
+  std::vector<std::filesystem::path> ImagePaths(const std::string& name) const;
 
   const std::filesystem::path folder_;
   const StereoCalibration calibration_;
   const double rate_hz_;
+  const std::vector<FrameRequest> frames_;
   const ExportOptions options_;
 };
 

@@ -6,6 +6,7 @@
 #include "harness/io/image.h"
 #include "harness/io/imu.h"
 #include "harness/io/input_error.h"
+#include "harness/io/truth_files.h"
 
 namespace aisle {
 namespace {
@@ -17,7 +18,6 @@ constexpr const char* kNames[] = {"euroc", "kitti", "tum"};
 /// other spellings is refused by one of them.
 constexpr const char* kYamlOpening = "%YAML 1.0\n---\n";
 constexpr double kTumDepthSteps = 5000;  // per metre: 13.1 m
-constexpr double kDepthSteps = 1000;     // per metre: 65.5 m
 
 std::string Matrix(const Eigen::Isometry3d& pose) {
   std::vector<double> values;
@@ -144,155 +144,39 @@ void FinishTum(const fs::path& folder, const StereoCalibration& c,
   WriteFileAtomically(folder / "groundtruth.txt", FormatTrajectory(truth, TrajectoryFormat::kTum));
 }
 
-/// Metres times `per_metre` in 16 bits, 0 where there is nothing or it lies beyond the range.
-cv::Mat1w DepthInSteps(const cv::Mat1f& depth, double per_metre) {
-  cv::Mat1w steps(depth.size());
-  for (int y = 0; y < depth.rows; ++y) {
-    for (int x = 0; x < depth.cols; ++x) {
-      const double value = std::round(depth(y, x) * per_metre);
-      steps(y, x) = value <= 65535 ? static_cast<unsigned short>(value) : 0;
-    }
-  }
-  return steps;
+// --- All
+// ------------------------------------------------------------------------------------------
+
+fs::path TruthPath(const fs::path& folder, const TruthFile& file, const std::string& name) {
+  return folder / "truth" / file.kind / (name + file.ending);
 }
 
-nlohmann::ordered_json BoxToJson(const cv::Rect2d& box) {
-  return {box.x, box.y, box.width, box.height};
-}
-
-nlohmann::ordered_json VectorToJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-/// 16 numbers, row by row.
-nlohmann::ordered_json PoseToJson(const Eigen::Isometry3d& pose) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (int k = 0; k < 16; ++k) json.push_back(pose.matrix()(k / 4, k % 4));
-  return json;
-}
-
-std::string BoxesJson(const SequenceFrame& frame) {
-  nlohmann::ordered_json json = {{"frame", frame.images.id}, {"stamp_ns", frame.images.stamp_ns}};
-  json["objects"] = nlohmann::ordered_json::array();
-  for (const ObjectTruth& object : frame.truth->objects) {
-    const Eigen::Vector3d &c = object.center_m, &v = object.velocity_mps;
-    json["objects"].push_back({{"instance", object.instance},
-                               {"class", object.object_class},
-                               {"box_visible_px", BoxToJson(object.box_visible)},
-                               {"box_full_px", BoxToJson(object.box_full)},
-                               {"center_world_m", {c.x(), c.y(), c.z()}},
-                               {"extent_m", VectorToJson(object.extent_m)},
-                               {"T_world_object", PoseToJson(object.T_world_object)},
-                               {"velocity_world_mps", {v.x(), v.y(), v.z()}},
-                               {"visible_fraction", object.visible_fraction},
-                               {"visible_pixels", object.visible_pixels},
-                               {"dynamic_pixels", object.dynamic_pixels}});
-  }
-  return json.dump(1) + "\n";
-}
-
-/// Class of every pixel from its instance.
-cv::Mat1b Classes(const cv::Mat1w& instance, const std::vector<LabelInfo>& labels) {
-  cv::Mat1b classes(instance.size());
-  std::transform(instance.begin(), instance.end(), classes.begin(), [&](std::uint16_t id) {
-    return id < labels.size() ? labels[id].class_id : std::uint8_t{0};
-  });
-  return classes;
-}
-
-std::string LabelsJson(const std::vector<LabelInfo>& labels) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (std::size_t id = 0; id < labels.size(); ++id) {
-    json.push_back({{"id", id},
-                    {"name", labels[id].name},
-                    {"class", labels[id].object_class},
-                    {"class_id", labels[id].class_id},
-                    {"moving", labels[id].moving}});
-  }
-  return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
-
-/// Middlebury's .flo; what is unknown is 1e10, by its convention.
-std::string FloFile(const cv::Mat2f& flow) {
-  constexpr float kUnknown = 1e10f;
-  std::string bytes = "PIEH";
-  const auto put = [&](const auto& value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+/// Throws InputError unless the dataset that `mine` describes has all frames of the one in the file
+/// and perhaps more at its end.
+void CheckContinues(const fs::path& file, const nlohmann::ordered_json& mine) {
+  nlohmann::json theirs = nlohmann::json::parse(ReadFile(file), nullptr, false);
+  nlohmann::json asked = mine;
+  const auto number = [](const nlohmann::json& json, const char* key) {
+    return json.is_object() && json.contains(key) && json[key].is_number_integer()
+               ? json[key].get<std::int64_t>()
+               : -1;
   };
-  put(std::int32_t{flow.cols});
-  put(std::int32_t{flow.rows});
-  for (const cv::Vec2f& f : flow) {
-    const bool known = std::isfinite(f[0]) && std::isfinite(f[1]);
-    put(known ? f[0] : kUnknown);
-    put(known ? f[1] : kUnknown);
+  const std::int64_t first = number(theirs, "first_frame"), count = number(theirs, "frames");
+  const std::int64_t my_first = number(asked, "first_frame"), my_count = number(asked, "frames");
+  const std::string remedy = "choose another --out, or delete the folder";
+  if (first >= 0 && count > 0 && (first != my_first || count > my_count)) {
+    throw InputError(file.string(), 0,
+                     fmt::format("the folder was begun with frames {}:{} and may only grow at its "
+                                 "end, {}:{} were asked for: {}",
+                                 first, first + count, my_first, my_first + my_count, remedy));
   }
-  return bytes;
-}
-
-/// A kind of truth file: its folder and ending, and how it is written.
-struct TruthFile {
-  const char* kind;
-  const char* ending;
-  std::function<void(const fs::path&, const SequenceFrame&, const FrameMotion*)> write;
-};
-
-/// A file that is an image as it stands.
-template <typename Image>
-TruthFile Plain(const char* kind, const char* ending, Image FrameTruth::*image) {
-  return {kind, ending, [=](const fs::path& path, const SequenceFrame& frame, const FrameMotion*) {
-            WriteImage(path, (*frame.truth).*image);
-          }};
-}
-template <typename Image>
-TruthFile Plain(const char* kind, const char* ending, Image FrameMotion::*image) {
-  return {kind, ending, [=](const fs::path& path, const SequenceFrame&, const FrameMotion* motion) {
-            WriteImage(path, motion->*image);
-          }};
-}
-
-/// All files of a frame's truth that the selection asks for.
-std::vector<TruthFile> TruthFiles(const ExportOptions& options) {
-  const TruthSelection& truth = options.truth;
-  std::vector<TruthFile> files;
-  if (truth.depth) {
-    files.push_back(Plain("depth", ".pfm", &FrameTruth::depth));
-    files.push_back(Plain("depth_right", ".pfm", &FrameTruth::depth_right));
-    files.push_back({"depth_mm", ".png", [](const auto& path, const auto& frame, const auto*) {
-                       WriteImage(path, DepthInSteps(frame.truth->depth, kDepthSteps));
-                     }});
+  asked["frames"] = count;
+  if (theirs != asked) {
+    throw InputError(file.string(), 0,
+                     "the folder was begun with another scene, seed, twin, instruction set or "
+                     "format: " +
+                         remedy);
   }
-  if (truth.labels) {
-    files.push_back(Plain("instance", ".png", &FrameTruth::instance));
-    files.push_back(Plain("instance_right", ".png", &FrameTruth::instance_right));
-    files.push_back({"class", ".png", [&](const auto& path, const auto& frame, const auto*) {
-                       WriteImage(path, Classes(frame.truth->instance, options.labels));
-                     }});
-    files.push_back({"class_right", ".png", [&](const auto& path, const auto& frame, const auto*) {
-                       WriteImage(path, Classes(frame.truth->instance_right, options.labels));
-                     }});
-  }
-  if (truth.dynamic) {
-    files.push_back(Plain("dynamic", ".png", &FrameTruth::dynamic));
-    files.push_back(Plain("dynamic_right", ".png", &FrameTruth::dynamic_right));
-    files.push_back(Plain("actor", ".png", &FrameTruth::actor));
-  }
-  if (truth.boxes) {
-    files.push_back({"boxes", ".json", [](const auto& path, const auto& frame, const auto*) {
-                       WriteFileAtomically(path, BoxesJson(frame));
-                     }});
-  }
-  if (truth.flow) {
-    files.push_back({"flow", ".flo", [](const auto& path, const auto&, const auto* motion) {
-                       WriteFileAtomically(path, FloFile(motion->flow));
-                     }});
-    files.push_back(Plain("scene_flow", ".pfm", &FrameMotion::scene_flow));
-  }
-  if (truth.stereo) {
-    files.push_back(Plain("disparity", ".pfm", &FrameMotion::disparity));
-    files.push_back(Plain("occluded", ".png", &FrameMotion::occluded));
-  }
-  if (truth.shadows) {
-    files.push_back(Plain("moving_shadow", ".png", &FrameMotion::moving_shadow));
-  }
-  return files;
 }
 
 }  // namespace
@@ -327,8 +211,13 @@ TruthSelection TruthSelectionFromNames(const std::vector<std::string>& names) {
 }
 
 DatasetWriter::DatasetWriter(fs::path folder, const StereoCalibration& calibration, double rate_hz,
-                             const ExportOptions& options)
-    : folder_(std::move(folder)), calibration_(calibration), rate_hz_(rate_hz), options_(options) {
+                             std::vector<FrameRequest> frames, const ExportOptions& options)
+    : folder_(std::move(folder)),
+      calibration_(calibration),
+      rate_hz_(rate_hz),
+      frames_(std::move(frames)),
+      options_(options) {
+  if (frames_.empty()) throw std::invalid_argument("a dataset needs a frame at least");
   if (options_.format != DatasetFormat::kEuroc && options_.lens.model != "none") {
     throw InputError(fmt::format(
         "the scene's lens is {}, and {} holds rectified images only: export it as euroc, or set "
@@ -340,50 +229,68 @@ DatasetWriter::DatasetWriter(fs::path folder, const StereoCalibration& calibrati
 void DatasetWriter::Begin() const {
   nlohmann::ordered_json json = options_.provenance;
   json["format"] = kNames[static_cast<std::size_t>(options_.format)];
-  const std::string mine =
-      json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  json["first_frame"] = frames_.front().id;
+  json["frames"] = frames_.size();
+  json["stamp_offset_ns"] = StampOffset();
+  json["T_world_poses"] =
+      PoseToJson(options_.format == DatasetFormat::kKitti ? frames_.front().T_world_rig
+                                                          : Eigen::Isometry3d::Identity());
   const fs::path file = folder_ / "aisle.json";
-  if (fs::exists(file) && ReadFile(file) != mine) {
-    throw InputError(file.string(), 0,
-                     "the folder was begun with another scene, seed, twin, instruction set or "
-                     "format: choose another --out, or delete the folder");
-  }
-  WriteFileAtomically(file, mine);
+  if (fs::exists(file)) CheckContinues(file, json);
+  WriteFileAtomically(file,
+                      json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   if (options_.truth.labels) {
     WriteFileAtomically(folder_ / "truth/labels.json", LabelsJson(options_.labels));
   }
+  if (!TruthFiles(options_).empty()) {
+    WriteFileAtomically(folder_ / "truth/README.md", TruthReadme(options_.format));
+  }
 }
 
-fs::path DatasetWriter::TruthPath(const char* kind, std::int64_t id, const char* ending) const {
-  return folder_ / "truth" / kind / fmt::format("{:06}{}", id, ending);
+std::int64_t DatasetWriter::NumberOf(std::int64_t id) const {
+  const auto frame = std::ranges::lower_bound(frames_, id, {}, &FrameRequest::id);
+  if (frame == frames_.end() || frame->id != id) {
+    throw std::invalid_argument(fmt::format("frame {} is none of the dataset's", id));
+  }
+  return frame - frames_.begin();
 }
 
-std::vector<fs::path> DatasetWriter::TruthPaths(std::int64_t id) const {
-  std::vector<fs::path> paths;
-  for (const TruthFile& file : TruthFiles(options_)) {
-    paths.push_back(TruthPath(file.kind, id, file.ending));
-  }
-  return paths;
+std::int64_t DatasetWriter::StampOffset() const {
+  return options_.format == DatasetFormat::kKitti ? -frames_.front().stamp_ns : options_.epoch_ns;
 }
 
-std::vector<fs::path> DatasetWriter::ImagePaths(const FrameRequest& request) const {
-  if (options_.format == DatasetFormat::kKitti) {
-    const std::string name = fmt::format("{:06}.png", request.id);
-    return {folder_ / "sequences/00/image_0" / name, folder_ / "sequences/00/image_1" / name};
+std::string DatasetWriter::NameOf(const FrameRequest& request) const {
+  const std::int64_t number = NumberOf(request.id), stamp_ns = request.stamp_ns + StampOffset();
+  switch (options_.format) {
+    case DatasetFormat::kEuroc:
+      return std::to_string(stamp_ns);
+    case DatasetFormat::kKitti:
+      break;
+    case DatasetFormat::kTum:
+      return FormatSeconds(stamp_ns);
   }
-  const std::int64_t stamp_ns = request.stamp_ns + options_.epoch_ns;
-  if (options_.format == DatasetFormat::kEuroc) {
-    const std::string name = fmt::format("{}.png", stamp_ns);
-    return {folder_ / "mav0/cam0/data" / name, folder_ / "mav0/cam1/data" / name};
+  return fmt::format("{:06}", number);
+}
+
+std::vector<fs::path> DatasetWriter::ImagePaths(const std::string& name) const {
+  const std::string file = name + ".png";
+  switch (options_.format) {
+    case DatasetFormat::kEuroc:
+      return {folder_ / "mav0/cam0/data" / file, folder_ / "mav0/cam1/data" / file};
+    case DatasetFormat::kKitti:
+      return {folder_ / "sequences/00/image_0" / file, folder_ / "sequences/00/image_1" / file};
+    case DatasetFormat::kTum:
+      break;
   }
-  const std::string name = FormatSeconds(stamp_ns) + ".png";
-  return {folder_ / "rgb" / name, folder_ / "right" / name, folder_ / "depth" / name};
+  return {folder_ / "rgb" / file, folder_ / "right" / file, folder_ / "depth" / file};
 }
 
 bool DatasetWriter::Has(const FrameRequest& request) const {
-  const std::vector<fs::path> images = ImagePaths(request), truth = TruthPaths(request.id);
-  const auto exists = [](const fs::path& path) { return fs::exists(path); };
-  return std::ranges::all_of(images, exists) && std::ranges::all_of(truth, exists);
+  const std::string name = NameOf(request);
+  return std::ranges::all_of(ImagePaths(name), [](const auto& path) { return fs::exists(path); }) &&
+         std::ranges::all_of(TruthFiles(options_), [&](const TruthFile& file) {
+           return fs::exists(TruthPath(folder_, file, name));
+         });
 }
 
 void DatasetWriter::Add(const SequenceFrame& frame, const FrameMotion* motion) {
@@ -392,26 +299,27 @@ void DatasetWriter::Add(const SequenceFrame& frame, const FrameMotion* motion) {
       (options_.truth.NeedsMotion() && !motion)) {
     throw std::invalid_argument("the frame comes without the truth that was asked for");
   }
-  const std::vector<fs::path> paths =
-      ImagePaths({frame.images.id, frame.images.stamp_ns, frame.truth->T_world_rig});
+  const FrameRequest request{frame.images.id, frame.images.stamp_ns, frame.truth->T_world_rig};
+  const FrameForExport of{frame, motion, NumberOf(request.id), request.stamp_ns + StampOffset()};
+  const std::string name = NameOf(request);
   for (const TruthFile& file : TruthFiles(options_)) {
-    file.write(TruthPath(file.kind, frame.images.id, file.ending), frame, motion);
+    file.write(TruthPath(folder_, file, name), of);
   }
+  const std::vector<fs::path> paths = ImagePaths(name);
   if (paths.size() > 2) WriteImage(paths[2], DepthInSteps(frame.truth->depth, kTumDepthSteps));
   WriteImage(paths[1], frame.images.right);
   WriteImage(paths[0], frame.images.left);
 }
 
-void DatasetWriter::Finish(const std::vector<FrameRequest>& frames, const PathOfRig& path) const {
-  if (frames.empty()) throw std::invalid_argument("a dataset needs a frame at least");
+void DatasetWriter::Finish(const PathOfRig& path) const {
   ClearLeftovers(folder_);
   switch (options_.format) {
     case DatasetFormat::kEuroc:
-      return FinishEuroc(folder_ / "mav0", calibration_, rate_hz_, frames, path, options_);
+      return FinishEuroc(folder_ / "mav0", calibration_, rate_hz_, frames_, path, options_);
     case DatasetFormat::kKitti:
-      return FinishKitti(folder_, calibration_, frames);
+      return FinishKitti(folder_, calibration_, frames_);
     case DatasetFormat::kTum:
-      return FinishTum(folder_, calibration_, frames, options_);
+      return FinishTum(folder_, calibration_, frames_, options_);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "harness/io/image.h"
 
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
@@ -42,6 +43,13 @@ void WriteImage(const std::filesystem::path& path, const cv::Mat& image) {
     throw MachineError(path.string() + ": the image cannot be encoded");
   }
   WriteFileAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+void WriteVectorPfm(const std::filesystem::path& path, const cv::Mat3f& vectors) {
+  // OpenCV takes the last channel for red and writes it first.
+  cv::Mat3f last_first;
+  cv::cvtColor(vectors, last_first, cv::COLOR_RGB2BGR);
+  WriteImage(path, last_first);
 }
 
 cv::Mat1b ReadGreyPng(const std::filesystem::path& path) {

@@ -5,8 +5,12 @@
 
 namespace aisle {
 
-/// Writes PNG or JPEG by the name's ending, aside and renamed. Throws MachineError.
+/// Writes PNG, JPEG or PFM by the name's ending, aside and renamed. Throws MachineError.
 void WriteImage(const std::filesystem::path& path, const cv::Mat& image);
+
+/// Writes a PFM of three channels: the vectors' first, second and third numbers, in this order (as
+/// colours OpenCV would turn them round). Throws MachineError.
+void WriteVectorPfm(const std::filesystem::path& path, const cv::Mat3f& vectors);
 
 /// An 8-bit grey PNG; the size is read from its header before anything is decoded. Throws
 /// InputError when it is no PNG, is not grey, or is larger than 16384 pixels either way.

@@ -9,6 +9,7 @@
 
 #include <csignal>
 
+#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/video/tracking.hpp>
 
@@ -93,14 +94,14 @@ class DatasetTest : public testing::Test {
     options.labels[300] = {"walker", "person", 8, true};
     options.lens = lens_;
     epoch_ns_ = options.epoch_ns;
-    DatasetWriter writer(folder_, kRig, 20, options);
+    DatasetWriter writer(folder_, kRig, 20, requests_, options);
     writer.Begin();
     for (const SequenceFrame& frame : frames_) {
       const FrameMotion motion = Motion(static_cast<int>(frame.images.id));
       writer.Add(frame, &motion);
     }
     for (const FrameRequest& request : requests_) EXPECT_TRUE(writer.Has(request));
-    writer.Finish(requests_, Path);
+    writer.Finish(Path);
   }
   void ExpectEyes(const StereoRecording& recording) const {
     EXPECT_EQ(recording.left.fx, kRig.fx);
@@ -168,6 +169,69 @@ TEST_F(DatasetTest, KittiReadsBack) {
   EXPECT_THAT(Read("sequences/00/times.txt"), testing::StartsWith("0.000000000\n0.050000000\n"));
 }
 
+TEST_F(DatasetTest, APartIsADatasetOfItsOwnInEveryFormat) {
+  const std::vector<SequenceFrame> all = frames_;
+  const std::vector<FrameRequest> all_requests = requests_;
+  for (const auto& [first, last] : {std::pair(2, 5), std::pair(4, 5), std::pair(0, 1)}) {
+    frames_.assign(all.begin() + first, all.begin() + last);
+    requests_.assign(all_requests.begin() + first, all_requests.begin() + last);
+    for (const DatasetFormat format : {DatasetFormat::kEuroc, DatasetFormat::kKitti}) {
+      Export(format, {"depth", "boxes"});
+      const StereoRecording recording = ReadRecording(folder_, format);
+      ExpectEyes(recording);
+      ASSERT_EQ(recording.pairs.size(), frames_.size());
+      ASSERT_EQ(recording.truth.size(), frames_.size());
+      const nlohmann::json about = nlohmann::json::parse(Read("aisle.json"));
+      EXPECT_EQ(about.at("first_frame"), first);
+      EXPECT_EQ(about.at("frames"), last - first);
+      Eigen::Isometry3d T_world_poses;
+      for (int k = 0; k < 16; ++k) {
+        T_world_poses.matrix()(k / 4, k % 4) = about.at("T_world_poses").at(k).get<double>();
+      }
+      for (std::size_t i = 0; i < frames_.size(); ++i) {
+        const std::int64_t stamp_ns = recording.pairs[i].stamp_ns;
+        EXPECT_EQ(stamp_ns, recording.truth[i].stamp_ns);
+        EXPECT_EQ(stamp_ns - about.at("stamp_offset_ns").get<std::int64_t>(),
+                  requests_[i].stamp_ns);
+        EXPECT_TRUE((T_world_poses * recording.truth[i].T_world_rig)
+                        .isApprox(requests_[i].T_world_rig, 1e-9));
+        const std::string name = recording.pairs[i].left.stem().string();
+        const cv::Mat depth =
+            cv::imread((folder_ / "truth/depth" / (name + ".pfm")).string(), cv::IMREAD_UNCHANGED);
+        ASSERT_FALSE(depth.empty()) << name;
+        EXPECT_EQ(depth.at<float>(5, 5), frames_[i].truth->depth(5, 5));
+        const auto boxes = nlohmann::json::parse(Read("truth/boxes/" + name + ".json"));
+        EXPECT_EQ(boxes.at("frame"), i);
+        EXPECT_EQ(boxes.at("stamp_ns"), stamp_ns);
+        EXPECT_EQ(boxes.at("scene_frame"), requests_[i].id);
+      }
+    }
+  }
+}
+
+TEST_F(DatasetTest, AFolderMayGrowAtItsEndAndNowhereElse) {
+  for (const DatasetFormat format :
+       {DatasetFormat::kEuroc, DatasetFormat::kKitti, DatasetFormat::kTum}) {
+    fs::remove_all(folder_);
+    const auto begin = [&](int first, int last) {
+      const std::vector<FrameRequest> part(requests_.begin() + first, requests_.begin() + last);
+      DatasetWriter(folder_, kRig, 20, part, {.format = format}).Begin();
+    };
+    begin(1, 3);
+    begin(1, 3);
+    begin(1, 4);
+    for (const auto& [first, last] : {std::pair(1, 3), std::pair(0, 4), std::pair(2, 5)}) {
+      try {
+        begin(first, last);
+        FAIL() << first << ":" << last;
+      } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("aisle.json: the folder was begun with frames 1:4"));
+      }
+    }
+    begin(1, 5);
+  }
+}
+
 TEST_F(DatasetTest, TumDepthIsMetresTimes5000) {
   Export(DatasetFormat::kTum);
   const std::string first = "depth/1600000000.000000000.png";
@@ -192,8 +256,9 @@ TEST_F(DatasetTest, TruthBesideReadsBack) {
 
 TEST_F(DatasetTest, EveryKindOfTruthReadsBackInOpenCv) {
   Export(DatasetFormat::kEuroc, {"all"});
+  const std::string kStamp2 = "1600000000100000000";  // as the image is called
   const auto image = [&](const std::string& kind, const std::string& ending) {
-    return cv::imread((folder_ / "truth" / kind / ("000002" + ending)).string(),
+    return cv::imread((folder_ / "truth" / kind / (kStamp2 + ending)).string(),
                       cv::IMREAD_UNCHANGED);
   };
   const FrameTruth& truth = *frames_[2].truth;
@@ -207,8 +272,9 @@ TEST_F(DatasetTest, EveryKindOfTruthReadsBackInOpenCv) {
   EXPECT_TRUE(same(image("disparity", ".pfm"), motion.disparity));
   EXPECT_TRUE(same(image("occluded", ".png"), motion.occluded));
   EXPECT_TRUE(same(image("moving_shadow", ".png"), motion.moving_shadow));
-  // OpenCV hands PFM channels over as it took them.
-  EXPECT_TRUE(same(image("scene_flow", ".pfm"), motion.scene_flow));
+  // OpenCV takes the file's channels for red, green, blue and hands them over blue first.
+  const cv::Vec3f& way = image("scene_flow", ".pfm").at<cv::Vec3f>(7, 9);
+  EXPECT_EQ(cv::Vec3f(way[2], way[1], way[0]), motion.scene_flow(7, 9));
   const cv::Mat steps = image("depth_mm", ".png");
   ASSERT_EQ(steps.type(), CV_16U);
   EXPECT_NEAR(steps.at<unsigned short>(5, 5) * 1e-3, truth.depth(5, 5), 0.5e-3);
@@ -217,11 +283,12 @@ TEST_F(DatasetTest, EveryKindOfTruthReadsBackInOpenCv) {
   ASSERT_EQ(classes.type(), CV_8U);
   EXPECT_EQ(classes.at<unsigned char>(3, 3), 8);
   EXPECT_EQ(image("class_right", ".png").at<unsigned char>(3, 3), 5);
-  const cv::Mat2f flow = cv::readOpticalFlow((folder_ / "truth/flow/000002.flo").string());
+  const cv::Mat2f flow =
+      cv::readOpticalFlow((folder_ / "truth/flow" / (kStamp2 + ".flo")).string());
   EXPECT_EQ(flow(7, 9), motion.flow(7, 9));
   EXPECT_GT(flow(0, 1)[0], 1e9f) << "unknown, as Middlebury says it";
   EXPECT_THAT(Read("truth/labels.json"), HasSubstr("\"walker\""));
-  EXPECT_THAT(Read("truth/boxes/000002.json"), HasSubstr("T_world_object"));
+  EXPECT_THAT(Read("truth/boxes/" + kStamp2 + ".json"), HasSubstr("T_world_object"));
 }
 
 TEST_F(DatasetTest, ADistortedLensIsStatedInEurocAndRefusedElsewhere) {
@@ -284,11 +351,11 @@ TEST_F(DatasetTest, LinesAreAsStrictReadersWantThem) {
 TEST_F(DatasetTest, AFolderBegunWithOtherFramesIsNotContinued) {
   ExportOptions options;
   options.provenance = {{"scene", "a"}, {"seed", "1"}};
-  DatasetWriter(folder_, kRig, 20, options).Begin();
-  DatasetWriter(folder_, kRig, 20, options).Begin();
+  DatasetWriter(folder_, kRig, 20, requests_, options).Begin();
+  DatasetWriter(folder_, kRig, 20, requests_, options).Begin();
   options.provenance["seed"] = "2";
   try {
-    DatasetWriter(folder_, kRig, 20, options).Begin();
+    DatasetWriter(folder_, kRig, 20, requests_, options).Begin();
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("choose another --out"));
@@ -315,12 +382,12 @@ TEST_F(DatasetTest, KilledAnywhereItLeavesWholeFilesAndGoesOn) {
   options.provenance = {{"scene", "a"}};
   const FrameMotion motion = Motion(0);
   const auto write = [&] {
-    DatasetWriter writer(folder_, kRig, 20, options);
+    DatasetWriter writer(folder_, kRig, 20, requests_, options);
     writer.Begin();
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       if (!writer.Has(requests_[i])) writer.Add(frames_[i], &motion);
     }
-    writer.Finish(requests_, Path);
+    writer.Finish(Path);
   };
   int kills = 0;
   for (useconds_t after_us = 200; !ExportUntilKilled(write, after_us); after_us += 2500) {
@@ -336,7 +403,7 @@ TEST_F(DatasetTest, KilledAnywhereItLeavesWholeFilesAndGoesOn) {
   }
   EXPECT_GT(kills, 0);
   for (const FrameRequest& request : requests_) {
-    EXPECT_TRUE(DatasetWriter(folder_, kRig, 20, options).Has(request));
+    EXPECT_TRUE(DatasetWriter(folder_, kRig, 20, requests_, options).Has(request));
   }
   ExpectEyes(ReadRecording(folder_, DatasetFormat::kEuroc));
   for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
