@@ -28,6 +28,7 @@ struct GaitState {
 class Gait {
  public:
   Gait() = default;
+  /// Of a route without a jerk limit: speed changes evenly within each phase.
   Gait(Route route, const GaitStyle& style);
 
   GaitState At(double time_s) const;

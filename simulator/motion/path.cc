@@ -2,95 +2,67 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 namespace aisle::sim {
 namespace {
 
+/// Lines shorter than this, between corners that just fit, are left out.
 constexpr double kShortest_m = 1e-6;
 
-/// How a corner is rounded: where the arc begins and ends, measured back from the corner.
-struct Corner {
-  double turn_rad = 0;   ///< change of heading, positive to the left
-  double tangent_m = 0;  ///< distance from the corner to each end of the arc
-};
-
-double HeadingOf(const Eigen::Vector2d& direction) {
-  return std::atan2(direction.y(), direction.x());
-}
-
-Corner RoundCorner(double heading_in, double heading_out, double radius_m, std::size_t index) {
-  const double turn = WrapAngle(heading_out - heading_in);
-  if (std::abs(turn) > 0.999 * std::numbers::pi) {
-    throw std::invalid_argument(
-        fmt::format("waypoint {}: the path turns straight back on itself", index));
+std::vector<CornerShape> ShapesOf(std::span<const Waypoint> waypoints, const Sides& sides) {
+  std::vector<CornerShape> shapes(waypoints.size());  // the ends stay straight
+  for (std::size_t i = 1; i + 1 < waypoints.size(); ++i) {
+    shapes[i] = ShapeCorner(sides.turns_rad[i], waypoints[i].corner_radius_m,
+                            waypoints[i].sharpness_per_m2);
   }
-  return {turn, std::abs(radius_m * std::tan(turn / 2))};
-}
-
-PathPoint Along(const PathPoint& start, double distance) {
-  const double k = start.curvature_per_m;
-  const double half = k * distance / 2;
-  // The chord of an arc: length s·sinc(ks/2), direction half-way through the turn.
-  const double chord = std::abs(half) < 1e-9 ? distance : distance * std::sin(half) / half;
-  const double direction = start.heading_rad + half;
-  return {start.position + chord * Eigen::Vector2d(std::cos(direction), std::sin(direction)),
-          start.heading_rad + k * distance, k};
+  return shapes;
 }
 
 }  // namespace
 
-double WrapAngle(double angle) {
-  const double turns = std::ceil((angle - std::numbers::pi) / (2 * std::numbers::pi));
-  return angle - turns * 2 * std::numbers::pi;
+/// Where the segment ends.
+PathPoint Path::Append(const PathPoint& start, double sharpness, double length, std::size_t side) {
+  if (length <= 0) return start;
+  segments_.push_back({length_m_, length, start, sharpness, static_cast<int>(side)});
+  length_m_ += length;
+  return AlongClothoid(start, sharpness, length);
 }
 
-void Path::Append(const PathPoint& start, double length, std::size_t side) {
-  if (length < kShortest_m) return;
-  segments_.push_back({length_m_, length, start, static_cast<int>(side)});
-  length_m_ += length;
+void Path::AppendCorner(PathPoint start, const CornerShape& shape, std::size_t side) {
+  const double sharpness = std::copysign(shape.sharpness_per_m2, shape.turn_rad);
+  const double curvature = std::copysign(shape.curvature_per_m, shape.turn_rad);
+  PathPoint now = Append(start, sharpness, shape.ramp_m, side);
+  now.curvature_per_m = curvature;
+  now = Append(now, 0, shape.arc_m, side);
+  Append(now, -sharpness, shape.ramp_m, side);
 }
 
 Path Path::Through(std::span<const Waypoint> waypoints) {
-  if (waypoints.size() < 2) throw std::invalid_argument("a path needs at least two points");
-  const std::size_t sides = waypoints.size() - 1;
-  std::vector<double> lengths(sides), headings(sides);
-  for (std::size_t i = 0; i < sides; ++i) {
-    const Eigen::Vector2d side = waypoints[i + 1].position - waypoints[i].position;
-    lengths[i] = side.norm();
-    if (lengths[i] < kShortest_m) {
-      throw std::invalid_argument(
-          fmt::format("waypoint {}: it is at the same place as the one before", i + 1));
-    }
-    headings[i] = HeadingOf(side);
-  }
-  std::vector<Corner> corners(waypoints.size());  // the ends stay straight
-  for (std::size_t i = 1; i < sides; ++i) {
-    corners[i] = RoundCorner(headings[i - 1], headings[i], waypoints[i].corner_radius_m, i);
-  }
+  std::vector<Eigen::Vector2d> points;
+  for (const Waypoint& waypoint : waypoints) points.push_back(waypoint.position);
+  const Sides sides = SidesOf(points);
+  const std::vector<CornerShape> corners = ShapesOf(waypoints, sides);
   Path path;
-  double heading = headings[0];  // accumulated, never wrapped, so that it is continuous
-  for (std::size_t i = 0; i < sides; ++i) {
-    const double straight = lengths[i] - corners[i].tangent_m - corners[i + 1].tangent_m;
+  double heading = sides.headings_rad[0];  // accumulated, never wrapped, so that it is continuous
+  for (std::size_t i = 0; i < sides.lengths_m.size(); ++i) {
+    const CornerShape &before = corners[i], &after = corners[i + 1];
+    const double straight = sides.lengths_m[i] - before.tangent_m - after.tangent_m;
     if (straight < -kShortest_m) {
       throw std::invalid_argument(fmt::format(
           "waypoint {}: a corner radius of {:g} m does not fit: the side before it is {:.3g} m "
           "long, its corners need {:.3g} m",
-          i + 1, waypoints[i + 1].corner_radius_m, lengths[i],
-          corners[i].tangent_m + corners[i + 1].tangent_m));
+          i + 1, waypoints[i + 1].corner_radius_m, sides.lengths_m[i],
+          before.tangent_m + after.tangent_m));
     }
-    const Eigen::Vector2d along(std::cos(headings[i]), std::sin(headings[i]));
-    path.Append({waypoints[i].position + corners[i].tangent_m * along, heading, 0}, straight, i);
-    const Corner& corner = corners[i + 1];
-    if (corner.tangent_m > kShortest_m) {
-      const double radius = waypoints[i + 1].corner_radius_m;
-      path.Append({waypoints[i + 1].position - corner.tangent_m * along, heading,
-                   std::copysign(1 / radius, corner.turn_rad)},
-                  radius * std::abs(corner.turn_rad), i);
+    const Eigen::Vector2d along(std::cos(sides.headings_rad[i]), std::sin(sides.headings_rad[i]));
+    if (straight >= kShortest_m) {
+      path.Append({waypoints[i].position + before.tangent_m * along, heading, 0}, 0, straight, i);
     }
-    heading += corner.turn_rad;
+    path.AppendCorner({waypoints[i + 1].position - after.tangent_m * along, heading, 0}, after, i);
+    heading += after.turn_rad;
   }
   return path;
 }
@@ -101,7 +73,8 @@ PathPoint Path::At(double distance_m) const {
       segments_.begin() + 1, segments_.end(), distance,
       [](double value, const Segment& segment) { return value < segment.start_m; });
   const Segment& segment = *std::prev(after);
-  return Along(segment.start, std::min(distance - segment.start_m, segment.length_m));
+  return AlongClothoid(segment.start, segment.sharpness_per_m2,
+                       std::min(distance - segment.start_m, segment.length_m));
 }
 
 }  // namespace aisle::sim

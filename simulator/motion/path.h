@@ -4,37 +4,31 @@
 #include <span>
 #include <vector>
 
+#include "simulator/motion/clothoid.h"
+#include "simulator/motion/corner.h"
+
 namespace aisle::sim {
 
-/// A point of a path on the floor plane.
-struct PathPoint {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< metres, world x and y
-  double heading_rad = 0;      ///< direction of travel, counter-clockwise from world x
-  double curvature_per_m = 0;  ///< d heading / d distance; positive turns left
-};
-
-/// A corner of a polyline and the radius that rounds it; the ends' radii are ignored.
-struct Waypoint {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();
-  double corner_radius_m = 0;
-};
-
-/// A curve of lines and circular arcs, parameterised by arc length: position and heading are
-/// continuous, curvature is constant on each segment.
+/// A curve of lines, circular arcs and clothoids, parameterised by arc length: position and heading
+/// are continuous, and so is curvature where every corner's sharpness is finite.
 class Path {
  public:
-  /// One line (curvature 0) or arc. A line may turn at its start only where the path was built
-  /// with a corner of radius 0.
+  /// A stretch along which curvature changes evenly: a line (0 throughout), an arc (constant) or a
+  /// clothoid.
   struct Segment {
     double start_m = 0;   ///< arc length at which it begins
     double length_m = 0;  ///< > 0
     PathPoint start;
-    int side = 0;  ///< index of the polyline's side it belongs to; an arc belongs to the one before
+    double sharpness_per_m2 = 0;  ///< d curvature / d distance
+    int side =
+        0;  ///< index of the polyline's side it belongs to; a corner belongs to the one before
+
+    bool IsLine() const { return start.curvature_per_m == 0 && sharpness_per_m2 == 0; }
   };
 
-  /// Rounds the polyline's corners by arcs tangent to both sides. Throws std::invalid_argument when
-  /// there are fewer than two points, two neighbours coincide, a path turns back on itself, or the
-  /// arcs of neighbouring corners overlap (the message names the waypoint's index).
+  /// Rounds the polyline's corners by curves tangent to both sides. Throws std::invalid_argument
+  /// when there are fewer than two points, two neighbours coincide, a path turns back on itself, or
+  /// the curves of neighbouring corners overlap (the message names the waypoint's index).
   static Path Through(std::span<const Waypoint> waypoints);
 
   double length_m() const { return length_m_; }
@@ -43,13 +37,12 @@ class Path {
   PathPoint At(double distance_m) const;
 
  private:
-  void Append(const PathPoint& start, double length_m, std::size_t side);
+  PathPoint Append(const PathPoint& start, double sharpness_per_m2, double length_m,
+                   std::size_t side);
+  void AppendCorner(PathPoint start, const CornerShape& shape, std::size_t side);
 
   std::vector<Segment> segments_;
   double length_m_ = 0;
 };
-
-/// `angle` brought to (-pi, pi].
-double WrapAngle(double angle);
 
 }  // namespace aisle::sim

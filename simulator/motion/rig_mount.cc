@@ -6,12 +6,14 @@
 namespace aisle::sim {
 namespace {
 
-/// 0 before the bump and smooth at its start: (1 - e^{-2t/d}) · e^{-t/d} · sin(wt).
+/// 0 before the bump; from there (1 - e^{-2t/d})^2 · e^{-t/d} · sin(wt), which begins as t^3: the
+/// acceleration is continuous. Scaled so that the envelope's highest value is 0.77.
 double Swing(const Bump& bump, double time_s) {
   const double t = time_s - bump.at_s;
   if (t <= 0) return 0;
-  const double envelope = std::exp(-t / bump.decay_s) * (1 - std::exp(-2 * t / bump.decay_s));
-  return 2 * envelope * std::sin(2 * std::numbers::pi * bump.frequency_hz * t);
+  const double rise = 1 - std::exp(-2 * t / bump.decay_s);
+  return 2.69 * rise * rise * std::exp(-t / bump.decay_s) *
+         std::sin(2 * std::numbers::pi * bump.frequency_hz * t);
 }
 
 }  // namespace

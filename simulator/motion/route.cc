@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulator/motion/cornering.h"
+
 namespace aisle::sim {
 namespace {
 
@@ -12,14 +14,30 @@ constexpr double kSameHeading_rad = 1e-6;
 
 /// A corner as the planner sees it: where, how rounded, by which step.
 struct Corner {
-  Waypoint waypoint;
-  double speed_mps = 0;  ///< on the side that ends here
+  DriveCorner drive;
   int step = 0;
 };
 
-double HeadingBetween(const Waypoint& from, const Waypoint& to) {
-  const Eigen::Vector2d side = to.position - from.position;
+double HeadingBetween(const Corner& from, const Corner& to) {
+  const Eigen::Vector2d side = to.drive.position - from.drive.position;
   return std::atan2(side.y(), side.x());
+}
+
+/// The largest radius with which the corners fit, for the message that theirs does not; empty if
+/// there is none.
+std::string RadiusThatFits(std::vector<DriveCorner> corners, const RouteLimits& limits) {
+  constexpr double kSmaller = 0.95;
+  double largest = 0;
+  for (const DriveCorner& corner : corners) largest = std::max(largest, corner.radius_m);
+  for (double radius = largest; radius > 0.01; radius *= kSmaller) {
+    for (DriveCorner& corner : corners) corner.radius_m = std::min(corner.radius_m, radius);
+    try {
+      Path::Through(TakeCorners(corners, limits).waypoints);
+      return fmt::format("; {:.2g} m fits", std::floor(radius * 100) / 100);
+    } catch (const std::invalid_argument&) {
+    }
+  }
+  return "";
 }
 
 /// Lays legs one after another; the state at the end of the last leg is `now`.
@@ -51,20 +69,21 @@ class Planner {
     Route::Leg leg;
     leg.turn_sign = turn < 0 ? -1 : 1;
     const SpeedLimit limit{std::abs(turn), limits_.turn_rate_rad_s};
-    leg.profile = SpeedProfile::FromRestToRest({&limit, 1}, limits_.turn_acceleration_rad_s2);
+    leg.profile = SpeedProfile::FromRestToRest({&limit, 1}, limits_.turn_acceleration_rad_s2,
+                                               limits_.turn_jerk_rad_s3());
     const double duration = leg.profile.duration_s();
     Append(std::move(leg), duration);
   }
 
   /// Drives through corners; every sharp one is a stop and a turn on the spot.
   void Drive(const std::vector<Corner>& corners, bool reverse) {
-    std::vector<Corner> piece = {{{now_.position, 0}, 0, now_.step}};
+    std::vector<Corner> piece = {{{now_.position, 0, 1}, now_.step}};
     for (std::size_t i = 0; i < corners.size(); ++i) {
       piece.push_back(corners[i]);
       const bool last = i + 1 == corners.size();
       if (!last && !IsSharp(piece[piece.size() - 2], corners[i], corners[i + 1])) continue;
       DrivePiece(piece, reverse);
-      piece = {{{now_.position, 0}, 0, corners[i].step}};
+      piece = {{{now_.position, 0, 1}, corners[i].step}};
     }
   }
 
@@ -74,20 +93,21 @@ class Planner {
 
  private:
   static bool IsSharp(const Corner& before, const Corner& corner, const Corner& after) {
-    const double turn = WrapAngle(HeadingBetween(corner.waypoint, after.waypoint) -
-                                  HeadingBetween(before.waypoint, corner.waypoint));
-    return corner.waypoint.corner_radius_m <= 0 && std::abs(turn) > kSameHeading_rad;
+    const double turn = WrapAngle(HeadingBetween(corner, after) - HeadingBetween(before, corner));
+    return corner.drive.radius_m <= 0 && std::abs(turn) > kSameHeading_rad;
   }
 
   void DrivePiece(const std::vector<Corner>& corners, bool reverse) {
-    std::vector<Waypoint> waypoints;
-    for (const Corner& corner : corners) waypoints.push_back(corner.waypoint);
     const int step = corners[1].step;
+    std::vector<DriveCorner> drive;
+    for (const Corner& corner : corners) drive.push_back(corner.drive);
+    Cornering taken;
     Route::Leg leg;
     try {
-      leg.path = Path::Through(waypoints);
+      taken = TakeCorners(drive, limits_);
+      leg.path = Path::Through(taken.waypoints);
     } catch (const std::invalid_argument& error) {
-      throw RouteError(step, error.what());
+      throw RouteError(step, error.what() + RadiusThatFits(drive, limits_));
     }
     const double behind = reverse ? std::numbers::pi : 0;
     if (step != now_.step) BeginStep(step);
@@ -95,20 +115,15 @@ class Planner {
     leg.reverse = reverse;
     std::vector<SpeedLimit> limits;
     for (const Path::Segment& segment : leg.path.segments()) {
-      const Corner& end = corners[static_cast<std::size_t>(segment.side) + 1];
-      limits.push_back({segment.length_m, Allowed(end.speed_mps, segment)});
-      leg.segment_steps.push_back(end.step);
+      const std::size_t end = static_cast<std::size_t>(segment.side) + 1;
+      const double speed = segment.IsLine() ? drive[end].cruise_mps : taken.speeds_mps[end];
+      limits.push_back({segment.length_m, speed});
+      leg.segment_steps.push_back(corners[end].step);
     }
-    leg.profile = SpeedProfile::FromRestToRest(limits, limits_.acceleration_mps2);
+    leg.profile =
+        SpeedProfile::FromRestToRest(limits, limits_.acceleration_mps2, limits_.jerk_mps3);
     const double duration = leg.profile.duration_s();
     Append(std::move(leg), duration);
-  }
-
-  double Allowed(double speed, const Path::Segment& segment) const {
-    const double curvature = std::abs(segment.start.curvature_per_m);
-    if (curvature == 0) return speed;
-    return std::min({speed, std::sqrt(limits_.lateral_acceleration_mps2 / curvature),
-                     limits_.turn_rate_rad_s / curvature});
   }
 
   void Append(Route::Leg leg, double duration_s);
@@ -163,7 +178,7 @@ std::vector<Corner> CornersFrom(const RoutePlan& plan, std::size_t step) {
     const RouteStep& next = plan.steps[i];
     if (next.go.empty() || next.reverse != plan.steps[step].reverse) break;
     for (const Eigen::Vector2d& point : next.go) {
-      corners.push_back({{point, next.corner_radius_m}, next.speed_mps, static_cast<int>(i)});
+      corners.push_back({{point, next.corner_radius_m, next.speed_mps}, static_cast<int>(i)});
     }
   }
   return corners;

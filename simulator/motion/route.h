@@ -7,24 +7,16 @@
 #include <vector>
 
 #include "simulator/motion/path.h"
+#include "simulator/motion/route_limits.h"
 #include "simulator/motion/speed_profile.h"
 
 namespace aisle::sim {
-
-/// What a mover cannot exceed.
-struct RouteLimits {
-  double acceleration_mps2 = 0.5;          ///< along the path, speeding up and slowing down
-  double lateral_acceleration_mps2 = 0.8;  ///< slows it down in arcs
-  double turn_rate_rad_s = 0.8;            ///< in arcs and on the spot
-  double turn_acceleration_rad_s2 = 1.5;   ///< on the spot
-  bool turns_on_the_spot = true;           ///< false: a car-like vehicle
-};
 
 /// One step of a route: go along points, wait, or turn on the spot. Exactly one of them.
 struct RouteStep {
   std::vector<Eigen::Vector2d> go;  ///< through these points, from where the mover is
   double speed_mps = 1.0;           ///< with `go`: cruising speed
-  double corner_radius_m = 0.5;     ///< with `go`: rounds its corners, 0 stops and turns there
+  double corner_radius_m = 0.5;     ///< with `go`: smallest in its corners, 0 stops and turns there
   bool reverse = false;             ///< with `go`: drives backwards
   std::optional<double> wait_s;
   std::optional<double> turn_to_rad;  ///< world heading to turn to, on the spot, the shorter way
@@ -63,8 +55,10 @@ struct RouteState {
   bool finished = false;       ///< the last step is over
 };
 
-/// A plan made into motion: a pure function of time. Position and heading are continuous; the
-/// velocity is along the heading, always (no sideways motion).
+/// A plan made into motion: a pure function of time. Position, heading and speed are continuous;
+/// the velocity is along the heading, always (no sideways motion). With a finite curvature rate the
+/// curvature is continuous, so that no point fixed to the mover changes its velocity at once; with
+/// a finite jerk the acceleration of the point that the route moves is continuous as well.
 class Route {
  public:
   /// One stretch of a route: a drive along a path, a turn on the spot, or a pause.

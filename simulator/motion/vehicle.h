@@ -22,8 +22,8 @@ double RolledAngle(const Wheel& wheel, const RouteState& now, double heading_at_
 /// of that curvature (Ackermann), positive to the left.
 double SteeringAngle(const Wheel& wheel, double curvature_per_m);
 
-/// Curvature with the jumps between lines and arcs spread over `window_s`, as a driver turns the
-/// wheel; for show only, the track itself keeps its lines and arcs.
+/// Curvature averaged over `window_s`: for show, where a vehicle follows a way without clothoids
+/// (it is pushed by somebody who walks), so that its wheels do not jump between lines and arcs.
 double SmoothCurvature(const Route& route, double time_s, double window_s);
 
 /// A command to the mast: begin to move to a height at a time.

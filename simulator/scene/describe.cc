@@ -8,9 +8,25 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 
 // What bodies and vehicles of each kind can do unless the file says less.
-constexpr RouteLimits kAgvLimits = {0.5, 0.6, 50 * kDegree, 90 * kDegree, true};
-constexpr RouteLimits kPersonLimits = {0.9, 1.2, 110 * kDegree, 250 * kDegree, true};
-constexpr RouteLimits kVehicleLimits = {0.7, 1.2, 45 * kDegree, 90 * kDegree, false};
+constexpr RouteLimits kAgvLimits = {.acceleration_mps2 = 0.5,
+                                    .lateral_acceleration_mps2 = 0.6,
+                                    .turn_rate_rad_s = 50 * kDegree,
+                                    .turn_acceleration_rad_s2 = 90 * kDegree,
+                                    .turns_on_the_spot = true,
+                                    .curvature_rate_per_m_s = 3,
+                                    .lateral_jerk_mps3 = 4};
+constexpr RouteLimits kPersonLimits = {.acceleration_mps2 = 0.9,
+                                       .lateral_acceleration_mps2 = 1.2,
+                                       .turn_rate_rad_s = 110 * kDegree,
+                                       .turn_acceleration_rad_s2 = 250 * kDegree,
+                                       .turns_on_the_spot = true};
+constexpr RouteLimits kVehicleLimits = {.acceleration_mps2 = 0.7,
+                                        .lateral_acceleration_mps2 = 1.2,
+                                        .turn_rate_rad_s = 45 * kDegree,
+                                        .turn_acceleration_rad_s2 = 90 * kDegree,
+                                        .turns_on_the_spot = false,
+                                        .curvature_rate_per_m_s = 0.5,
+                                        .lateral_jerk_mps3 = 4};
 
 constexpr std::initializer_list<const char*> kGoods = {"mixed",   "cartons",   "drums",  "totes",
                                                        "wrapped", "identical", "nothing"};
@@ -61,8 +77,9 @@ void DescribeStep(Fields& f, RouteStep& step, RouteSpec::StepMarks& marks) {
   marks.step = f.mark();
   f.Points({"go", "go through these points", "[[5, 0], [5, 3]]"}, &step.go, &marks.go);
   f.Number({"speed_mps", "cruising speed of this `go`", "0.9"}, &step.speed_mps, {0.02, 20});
-  f.Number({"corner_radius_m", "radius of the corners of this `go`; 0 stops and turns", "0.5"},
-           &step.corner_radius_m, {0, 1000});
+  f.Number(
+      {"corner_radius_m", "smallest radius in the corners of this `go`; 0 stops and turns", "0.5"},
+      &step.corner_radius_m, {0, 1000});
   f.Flag({"reverse", "go backwards", "true"}, &step.reverse);
   f.OptionalNumber({"wait_s", "stand for this long", "2.5"}, &step.wait_s, {0, 3600});
   std::optional<double> degrees;
@@ -70,6 +87,21 @@ void DescribeStep(Fields& f, RouteStep& step, RouteSpec::StepMarks& marks) {
                    {-360, 360});
   if (degrees) step.turn_to_rad = *degrees * kDegree;
   f.Name({"play", "clip the model plays meanwhile", "wave"}, &step.play);
+}
+
+/// What vehicles cannot do at once.
+void DescribeSteering(Fields& f, RouteLimits& limits) {
+  f.Number({"curvature_rate_per_m_s", "steering: change of the way's curvature a second, 1/(m s)",
+            "0.5"},
+           &limits.curvature_rate_per_m_s, {0.01, 1000});
+  f.Number({"lateral_jerk_mps3", "change of the lateral acceleration a second, m/s^3", "4"},
+           &limits.lateral_jerk_mps3, {0.05, 1000});
+  std::optional<double> jerk;
+  f.OptionalNumber(
+      {"jerk_mps3", "change of the acceleration along the way a second, m/s^3; absent: at once",
+       "4"},
+      &jerk, {0.05, 1000});
+  if (jerk) limits.jerk_mps3 = *jerk;
 }
 
 void DescribeRoute(Fields& f, RouteSpec& route) {
@@ -112,6 +144,7 @@ void DescribeRig(Fields& f, RigSpec& rig) {
            {-5, 5});
   f.Degrees({"camera_pitch_deg", "positive looks down", "2"}, &rig.mount.pitch_rad, {-60, 60});
   DescribeRoute(f, rig.route);
+  DescribeSteering(f, rig.route.limits);
   f.ListOf({"bumps", "jolts of the vehicle", "[{at_s: 4, height_m: 0.01}]"}, &rig.bumps,
            DescribeBump);
 }
@@ -247,6 +280,7 @@ void DescribeVehicle(Fields& f, VehicleSpec& vehicle) {
   f.Choice({"level", "takes part from this level of dynamics on", "low"}, &vehicle.level,
            kDynamics);
   DescribeRoute(f, vehicle.route);
+  DescribeSteering(f, vehicle.route.limits);
   f.Flag({"turns_on_the_spot", "as a differential-drive vehicle does", "false"},
          &vehicle.route.limits.turns_on_the_spot);
   f.ListOf({"mast", "lifting and lowering", "[{at_s: 3, height_m: 1.2}]"}, &vehicle.mast,

@@ -13,7 +13,7 @@
 namespace aisle::sim {
 namespace {
 
-/// A driver turns the steering wheel over this time.
+/// Who pushes a vehicle from a line into an arc turns its wheels over this time.
 constexpr double kSteering_s = 0.8;
 /// Forks above the floor when travelling, with and without a load.
 constexpr double kCarriedAt_m = 0.14, kEmptyAt_m = 0.06;
@@ -63,6 +63,7 @@ class Driver {
          double ahead_m)
       : model_(std::move(model)),
         route_(vehicle.route.plan, vehicle.route.limits),
+        steers_(std::isfinite(vehicle.route.limits.curvature_rate_per_m_s)),
         ahead_m_(ahead_m),
         mast_(vehicle.mast, kMastSpeed_mps, kMastAcceleration_mps2),
         fork_rest_m_(vehicle.load == GoodsKind::kNothing ? kEmptyAt_m : kCarriedAt_m) {
@@ -124,7 +125,8 @@ class Driver {
       turn(pedalling_->crank, kNodeLeft, angle);
       for (const int pedal : pedalling_->pedals) turn(pedal, kNodeLeft, -angle);
     }
-    const double curvature = SmoothCurvature(route_, time_s, kSteering_s);
+    const double curvature =
+        steers_ ? state.curvature_per_m : SmoothCurvature(route_, time_s, kSteering_s);
     for (const WheelNode& one : steered_) {
       turn(one.node, kNodeUp, SteeringAngle(one.wheel, curvature));
     }
@@ -138,6 +140,7 @@ class Driver {
 
   std::shared_ptr<const Model> model_;
   Route route_;
+  bool steers_;  ///< its way's curvature is continuous
   double ahead_m_ = 0;
   MastLift mast_;
   double fork_rest_m_;

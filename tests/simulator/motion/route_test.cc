@@ -29,24 +29,6 @@ RoutePlan LoopPlan() {
   return plan;
 }
 
-TEST(Path, AQuarterCircleHasItsLengthAndItsCentre) {
-  const std::vector<Waypoint> corner = {{{0, 0}, 0}, {{3, 0}, 2}, {{3, 5}, 0}};
-  const Path path = Path::Through(corner);
-  EXPECT_NEAR(path.length_m(), 1 + pi + 3, 1e-12);
-  for (double s = 1; s <= 1 + pi; s += 0.1) {
-    EXPECT_NEAR((path.At(s).position - Eigen::Vector2d(1, 2)).norm(), 2, 1e-12);
-    EXPECT_NEAR(path.At(s).heading_rad, (s - 1) / 2, 1e-12);
-  }
-  EXPECT_TRUE(path.At(99).position.isApprox(Eigen::Vector2d(3, 5), 1e-12));
-}
-
-TEST(Path, ACornerThatDoesNotFitIsRefused) {
-  const std::vector<Waypoint> tight = {{{0, 0}, 0}, {{1, 0}, 2}, {{1, 5}, 0}};
-  EXPECT_THROW(Path::Through(tight), std::invalid_argument);
-  const std::vector<Waypoint> back = {{{0, 0}, 0}, {{1, 0}, 0.1}, {{0, 0}, 0}};
-  EXPECT_THROW(Path::Through(back), std::invalid_argument);
-}
-
 TEST(SpeedProfile, ATrapezoidTakesItsTextbookTime) {
   const SpeedLimit limit{13.6, 0.9};
   const SpeedProfile profile = SpeedProfile::FromRestToRest({&limit, 1}, 0.5);
@@ -74,6 +56,50 @@ TEST(SpeedProfile, SpeedIsContinuousAndWithinEveryLimit) {
     before = now.speed_mps;
   }
   EXPECT_NEAR(profile.At(99).distance_m, 6.3, 1e-12);
+}
+
+TEST(SpeedProfile, WithAJerkLimitItKeepsEveryLimitAndItsLength) {
+  const std::vector<SpeedLimit> limits = {{3, 1.0}, {0.3, 0.4}, {0.02, 0.9}, {2, 1.2}, {1, 0.2}};
+  const double h = 1e-4;
+  for (const double jerk : {0.5, 2.0, 4.0, 50.0}) {
+    const SpeedProfile profile = SpeedProfile::FromRestToRest(limits, 0.6, jerk);
+    for (double t = 0; t <= profile.duration_s(); t += 3e-3) {
+      const Travel now = profile.At(t), next = profile.At(t + h);
+      EXPECT_NEAR((next.distance_m - now.distance_m) / h, now.speed_mps, 0.6 * h) << t;
+      EXPECT_NEAR((next.speed_mps - now.speed_mps) / h, now.acceleration_mps2, jerk * h) << t;
+      EXPECT_LE(std::abs(now.acceleration_mps2), 0.6 + 1e-9);
+      EXPECT_LE(std::abs(next.acceleration_mps2 - now.acceleration_mps2), jerk * h * (1 + 1e-6));
+      double start = 0;
+      for (const SpeedLimit& limit : limits) {
+        const bool within = now.distance_m >= start && now.distance_m <= start + limit.length_m;
+        if (within) {
+          EXPECT_LE(now.speed_mps, limit.speed_mps + 1e-9) << t << ", jerk " << jerk;
+        }
+        start += limit.length_m;
+      }
+    }
+    const Travel almost = profile.At(profile.duration_s() - 1e-9);
+    EXPECT_NEAR(almost.distance_m, 6.32, 1e-9);
+    EXPECT_NEAR(almost.speed_mps, 0, 1e-9);
+    EXPECT_NEAR(almost.acceleration_mps2, 0, 1e-6);
+  }
+}
+
+TEST(Route, AStraightDriveKnowsNothingOfSteering) {
+  RoutePlan plan;
+  plan.steps.resize(2);
+  plan.steps[0].go = {{4, 0}, {9, 0}};
+  plan.steps[1].turn_to_rad = 2;
+  RouteLimits steering;
+  steering.curvature_rate_per_m_s = 0.1;
+  steering.lateral_jerk_mps3 = 0.1;
+  const Route walked(plan, {}), driven(plan, steering);
+  EXPECT_EQ(walked.duration_s(), driven.duration_s());
+  for (double t = 0; t < walked.duration_s(); t += 0.013) {
+    EXPECT_EQ(walked.At(t).position, driven.At(t).position);
+    EXPECT_EQ(walked.At(t).heading_rad, driven.At(t).heading_rad);
+    EXPECT_EQ(walked.At(t).speed_mps, driven.At(t).speed_mps);
+  }
 }
 
 TEST(Route, IsContinuousNeverSidewaysAndItsRatesAreItsDerivatives) {
@@ -147,6 +173,26 @@ TEST(Route, ACarCannotTurnOnTheSpotAndTheBlamedStepIsNamed) {
   }
 }
 
+TEST(Route, ACornerThatDoesNotFitSaysWhichRadiusDoes) {
+  RouteLimits limits;
+  limits.curvature_rate_per_m_s = 3;
+  RoutePlan plan;
+  plan.steps.resize(1);
+  plan.steps[0].go = {{8, 0}, {8, 1}, {4, 1}};
+  plan.steps[0].corner_radius_m = 0.6;
+  std::string message;
+  try {
+    Route(plan, limits);
+  } catch (const RouteError& error) {
+    message = error.what();
+  }
+  const std::size_t at = message.rfind("; ");
+  ASSERT_NE(at, std::string::npos) << message;
+  plan.steps[0].corner_radius_m = std::stod(message.substr(at + 2));
+  EXPECT_GT(plan.steps[0].corner_radius_m, 0.4);
+  EXPECT_NO_THROW(Route(plan, limits)) << message;
+}
+
 TEST(Gait, PhaseIsTheIntegralOfSpeedOverStride) {
   const Route route(LoopPlan(), {});
   const GaitStyle style;
@@ -215,6 +261,34 @@ TEST(Vehicle, AxlesOfAllSteeredWheelsMeetInTheCentreOfTheTurn) {
   }
 }
 
+TEST(Vehicle, WheelsSteeredByTheCurvatureNeverSlipSideways) {
+  RoutePlan plan;
+  plan.steps.resize(2);
+  plan.steps[0].go = {{6, 0}, {6, 9}, {0, 9}};
+  plan.steps[0].corner_radius_m = 3;
+  plan.steps[1].go = {{6, 9}};
+  plan.steps[1].reverse = true;
+  RouteLimits limits;
+  limits.turns_on_the_spot = false;
+  limits.curvature_rate_per_m_s = 0.5;
+  const Route route(plan, limits);
+  const double h = 1e-5;
+  for (const Wheel wheel : {Wheel{0, 0.5, 0.3}, Wheel{-1.4, 0.4, 0.2}, Wheel{-1.4, -0.4, 0.2}}) {
+    const auto touches = [&](const RouteState& state) -> Eigen::Vector2d {
+      return state.position +
+             Eigen::Rotation2Dd(state.heading_rad) * Eigen::Vector2d(wheel.x_m, wheel.y_m);
+    };
+    for (double t = 0.05; t < route.duration_s(); t += 0.0317) {
+      const RouteState now = route.At(t);
+      const double ahead = now.heading_rad + SteeringAngle(wheel, now.curvature_per_m);
+      const Eigen::Vector2d axle(-std::sin(ahead), std::cos(ahead));
+      const Eigen::Vector2d velocity =
+          (touches(route.At(t + h)) - touches(route.At(t - h))) / (2 * h);
+      EXPECT_NEAR(velocity.dot(axle), 0, 1e-5) << t << " at " << wheel.x_m;
+    }
+  }
+}
+
 TEST(MastLift, ReachesItsHeightsAndKeepsThem) {
   const std::vector<MastMove> moves = {{1, 1.5}, {10, 0.2}};
   const MastLift mast(moves, 0.4, 0.5);
@@ -223,6 +297,22 @@ TEST(MastLift, ReachesItsHeightsAndKeepsThem) {
   EXPECT_NEAR(mast.HeightAt(60), 0.2, 1e-12);
   const std::vector<MastMove> hasty = {{1, 1.5}, {2, 0}};
   EXPECT_THROW(MastLift(hasty, 0.4, 0.5), std::invalid_argument);
+}
+
+TEST(RigMount, ABumpChangesTheAccelerationGradually) {
+  const Bump bump{2, 0.02, 0.03, 4, 0.25};
+  const auto height = [&](double t) { return RigPose({}, {}, {&bump, 1}, t).translation().z(); };
+  const double h = 1e-3;
+  const auto acceleration = [&](double t) {
+    return (height(t + h) - 2 * height(t) + height(t - h)) / (h * h);
+  };
+  double highest = 0;
+  for (double t = 1.9; t < 4; t += h) {
+    EXPECT_NEAR(acceleration(t + h), acceleration(t), 1.2) << t;
+    highest = std::max(highest, std::abs(height(t) - RigMount{}.height_m));
+  }
+  EXPECT_GT(highest, 0.6 * bump.height_m);
+  EXPECT_LT(highest, bump.height_m);
 }
 
 TEST(RigMount, LooksAlongTheHeadingWithTheImageUpright) {

@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <numbers>
 #include <sstream>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
@@ -170,6 +171,92 @@ TEST(Routes, OfEverySceneObeyTheirVehiclesLimits) {
   }
 }
 
+/// Everything of a scene that steers, by its name.
+std::map<std::string, RouteSpec> SteeredRoutes(const fs::path& file) {
+  const Scene scene = LoadScene(file);
+  std::map<std::string, RouteSpec> routes = {{file.stem().string() + " rig", scene.rig.route}};
+  for (const VehicleSpec& vehicle : scene.vehicles) {
+    if (vehicle.pushed_by.empty()) {
+      routes[file.stem().string() + " " + vehicle.name] = vehicle.route;
+    }
+  }
+  return routes;
+}
+
+/// The times at which a route passes from one law to the next.
+std::vector<double> Seams(const Route& route) {
+  std::vector<double> seams;
+  for (const Route::Leg& leg : route.legs()) {
+    seams.push_back(leg.start_s);
+    for (const auto& phase : leg.profile.phases()) seams.push_back(leg.start_s + phase.start_s);
+    for (const Path::Segment& segment : leg.path.segments()) {
+      double low = 0, high = leg.duration_s;
+      for (int i = 0; i < 60; ++i) {
+        const double middle = (low + high) / 2;
+        (leg.profile.At(middle).distance_m < segment.start_m ? low : high) = middle;
+      }
+      seams.push_back(leg.start_s + high);
+    }
+  }
+  seams.push_back(route.duration_s());
+  return seams;
+}
+
+TEST(Routes, OfEveryVehicleNeitherSteerNorSpeedUpAtOnce) {
+  constexpr double kAround_s = 2e-8;
+  for (const fs::path& file : AllScenes()) {
+    for (const auto& [name, spec] : SteeredRoutes(file)) {
+      for (const double jerk : {spec.limits.jerk_mps3, 4.0}) {
+        RouteLimits limits = spec.limits;
+        limits.jerk_mps3 = jerk;
+        const Route route(spec.plan, limits);
+        for (const double seam : Seams(route)) {
+          const RouteState before = route.At(seam - kAround_s), after = route.At(seam + kAround_s);
+          const double t = seam;
+          EXPECT_NEAR(before.curvature_per_m, after.curvature_per_m, 1e-6) << name << " " << t;
+          EXPECT_NEAR(before.speed_mps, after.speed_mps, 1e-6) << name << " " << t;
+          EXPECT_NEAR(before.yaw_rate_rad_s, after.yaw_rate_rad_s, 1e-6) << name << " " << t;
+          EXPECT_NEAR(before.heading_rad, after.heading_rad, 1e-6) << name << " " << t;
+          if (!std::isfinite(jerk)) continue;
+          EXPECT_NEAR(before.acceleration_mps2, after.acceleration_mps2, 1e-6) << name << " " << t;
+        }
+      }
+    }
+  }
+}
+
+TEST(Routes, OfEveryVehicleKeepWithinSteeringJerkRadiusAndSpeed) {
+  for (const fs::path& file : AllScenes()) {
+    for (const auto& [name, spec] : SteeredRoutes(file)) {
+      const Route route(spec.plan, spec.limits);
+      double tightest = 1e9, fastest = 0;
+      for (const RouteStep& step : spec.plan.steps) {
+        if (step.corner_radius_m > 0) tightest = std::min(tightest, step.corner_radius_m);
+        if (!step.go.empty()) fastest = std::max(fastest, step.speed_mps);
+      }
+      const double h = 1e-4;
+      for (double t = 0; t < std::min(route.duration_s(), 400.0); t += 0.0103) {
+        const RouteState before = route.At(t - h), now = route.At(t), after = route.At(t + h);
+        const double steering = (after.curvature_per_m - before.curvature_per_m) / (2 * h);
+        const double speed = std::abs(now.speed_mps);
+        EXPECT_LE(std::abs(steering), spec.limits.curvature_rate_per_m_s * (1 + 1e-6)) << name;
+        EXPECT_LE(speed * speed * std::abs(steering), spec.limits.lateral_jerk_mps3 * (1 + 1e-6))
+            << name << " " << t;
+        EXPECT_LE(std::abs(now.curvature_per_m), (1 + 1e-12) / tightest) << name << " " << t;
+        EXPECT_LE(speed, fastest + 1e-12) << name << " " << t;
+        if (speed > 0.01) {
+          const double turned = after.heading_rad - before.heading_rad;
+          const double driven = after.odometer_m - before.odometer_m;
+          EXPECT_NEAR(turned / driven, now.curvature_per_m,
+                      spec.limits.curvature_rate_per_m_s * h / speed + 1e-9)
+              << name << " " << t;
+          EXPECT_NEAR((after.position - before.position).norm(), std::abs(driven), 1e-8) << name;
+        }
+      }
+    }
+  }
+}
+
 TEST(Twins, DifferInTheirActorsAlone) {
   const Scene scene = ParseScene(kGood, "s.yaml");
   EXPECT_TRUE(WithoutActors(scene).people.empty());
@@ -216,6 +303,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"[[8, 0]], speed_mps: 0.9", "[[8, 0]], wait_s: 1", "6:7", "a step is one of"},
         Mistake{"[[8, 0]], speed_mps: 0.9", "[[8, 0], [8, 1]], corner_radius_m: 5", "6:7",
                 "a corner radius of 5 m does not fit"},
+        Mistake{"[[8, 0]], speed_mps: 0.9", "[[8, 0], [8, 1.5], [4, 1.5]], corner_radius_m: 0.9",
+                "6:7", "its corners need 1.8"},
+        Mistake{"start: [0, 0]", "start: [0, 0]\n  jerk_mps3: 0", "5:14", "rig.jerk_mps3"},
         Mistake{"height_m: 6", "height_m: 4", "9:5", "above the roof"},
         Mistake{"height_m: 6", "height_m: -6", "7:47", "hall.height_m: expected a number from 2.2"},
         Mistake{"bays: 4", "bays: -4", "11:26", "racks[0].bays: expected a whole number from 1"},

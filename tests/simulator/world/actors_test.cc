@@ -255,6 +255,7 @@ VehicleSpec TruckTurning(const std::string& model, double corner_radius_m = 3) {
   truck.name = "truck";
   truck.model = model;
   truck.route.limits.turns_on_the_spot = false;
+  truck.route.limits.curvature_rate_per_m_s = 0.5;
   truck.route.plan.steps.resize(1);
   truck.route.plan.steps[0].go = {{corner_radius_m + 3, 0}, {corner_radius_m + 3, 8}};
   truck.route.plan.steps[0].corner_radius_m = corner_radius_m;
@@ -284,8 +285,7 @@ TEST_P(EveryVehicle, TyresTouchTheFloorWithoutSliding) {
       ASSERT_GT(state.positions[i].z(), -0.015f) << "at " << t;
       if (state.positions[i].z() > kTouching_m) continue;
       ++touching;
-      // Tyres are wide, so only the middle of the tread stands still in a curve, and the driver
-      // takes a moment to turn the wheels where a line meets an arc.
+      // Tyres are wide: only the middle of the tread stands still in a curve.
       ASSERT_LT(state.velocities[i].norm(), 0.35f) << "at " << t;
     }
   }
