@@ -71,8 +71,10 @@ void FinishEuroc(const fs::path& mav, const StereoCalibration& calibration, doub
                  const ExportOptions& options) {
   std::string index = "#timestamp [ns],filename\n", times;
   Trajectory truth;
+  std::vector<Eigen::Vector3d> velocities_mps;
   for (const FrameRequest& frame : frames) {
     const std::int64_t stamp_ns = frame.stamp_ns + options.epoch_ns;
+    velocities_mps.push_back(VelocityAt(path, frame.stamp_ns, options.imu_rate_hz));
     index += fmt::format("{0},{0}.png\n", stamp_ns);
     times += fmt::format("{}\n", stamp_ns);
     truth.push_back({stamp_ns, frame.T_world_rig});
@@ -84,7 +86,7 @@ void FinishEuroc(const fs::path& mav, const StereoCalibration& calibration, doub
   WriteFileAtomically(mav / "imu0/data.csv", FormatEurocImu(imu, options.epoch_ns));
   WriteFileAtomically(mav / "state_groundtruth_estimate0/sensor.yaml", EurocTruthSensor());
   WriteFileAtomically(mav / "state_groundtruth_estimate0/data.csv",
-                      FormatTrajectory(truth, TrajectoryFormat::kEuroc));
+                      FormatEurocTruth(truth, velocities_mps));
   WriteFileAtomically(mav / "times.txt", times);
   for (int eye = 0; eye < 2; ++eye) {
     const fs::path camera = mav / fmt::format("cam{}", eye);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "harness/contract/estimate.h"
 
@@ -28,6 +29,9 @@ Trajectory ReadTrajectory(const std::filesystem::path& path, TrajectoryFormat fo
 /// The text of a trajectory file. TUM stamps have 9 decimals; every number reads back bit for bit;
 /// no trailing spaces. EuRoC gets all 17 columns, velocities by central differences, biases 0.
 std::string FormatTrajectory(const Trajectory& trajectory, TrajectoryFormat format);
+/// EuRoC's 17 columns with the velocities given, one per pose: m/s, world.
+std::string FormatEurocTruth(const Trajectory& trajectory,
+                             const std::vector<Eigen::Vector3d>& velocities_mps);
 
 /// "1403715529.112143517", "1.4037155e+09" -> nanoseconds, exactly (rounded half up below 1 ns).
 /// False if it is not a plain decimal number or out of range.

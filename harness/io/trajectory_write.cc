@@ -36,12 +36,11 @@ constexpr const char* kEurocHeader =
     "b_w_RS_S_y [rad s^-1], b_w_RS_S_z [rad s^-1], b_a_RS_S_x [m s^-2], b_a_RS_S_y [m s^-2], "
     "b_a_RS_S_z [m s^-2]\n";
 
-std::string EurocLine(const Trajectory& trajectory, std::size_t i) {
-  const Eigen::Isometry3d& pose = trajectory[i].T_world_rig;
-  const Eigen::Vector3d p = pose.translation(), v = VelocityMps(trajectory, i);
-  const Eigen::Quaterniond q(pose.linear());
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},0,0,0,0,0,0\n", trajectory[i].stamp_ns,
-                     p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), v.x(), v.y(), v.z());
+std::string EurocLine(const StampedPose& stamped, const Eigen::Vector3d& v) {
+  const Eigen::Vector3d p = stamped.T_world_rig.translation();
+  const Eigen::Quaterniond q(stamped.T_world_rig.linear());
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},0,0,0,0,0,0\n", stamped.stamp_ns, p.x(),
+                     p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), v.x(), v.y(), v.z());
 }
 
 }  // namespace
@@ -59,9 +58,18 @@ std::string FormatTrajectory(const Trajectory& trajectory, TrajectoryFormat form
         text += KittiLine(trajectory[i]);
         break;
       case TrajectoryFormat::kEuroc:
-        text += EurocLine(trajectory, i);
+        text += EurocLine(trajectory[i], VelocityMps(trajectory, i));
         break;
     }
+  }
+  return text;
+}
+
+std::string FormatEurocTruth(const Trajectory& trajectory,
+                             const std::vector<Eigen::Vector3d>& velocities_mps) {
+  std::string text = kEurocHeader;
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    text += EurocLine(trajectory[i], velocities_mps.at(i));
   }
   return text;
 }

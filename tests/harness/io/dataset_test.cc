@@ -441,6 +441,23 @@ TEST(ImuTest, AMovingRigFeelsItsOwnAcceleration) {
       sample.specific_force.isApprox(turn.transpose() * Eigen::Vector3d(1, 0, kGravityMps2), 1e-5));
 }
 
+TEST(ImuTest, WhatLiesBetweenSamplesIsNotLost) {
+  // Pushed by 2 m/s^2 for 1 ms, between two samples: 2 mm/s.
+  const auto pushed = [](std::int64_t stamp_ns) {
+    const double t = std::max(0.0, static_cast<double>(stamp_ns - 101'200'000) * 1e-9);
+    const double during = std::min(t, 1e-3), after = t - during;
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation().x() = during * during + 2e-3 * after;
+    return pose;
+  };
+  double gained = 0;
+  for (const ImuSample& sample : IdealImu(pushed, 0, 200'000'000, 200)) {
+    gained += sample.specific_force.x() * 5e-3;
+  }
+  EXPECT_NEAR(gained, 2e-3, 1e-9);
+  EXPECT_NEAR(VelocityAt(pushed, 200'000'000, 200).x(), 2e-3, 1e-9);
+}
+
 TEST(RealRecordingTest, EurocAndKittiAreRead) {
   const fs::path data = AISLE_TEST_DATA;
   if (!fs::exists(data / "kitti")) GTEST_SKIP() << "no recordings in " << data;
