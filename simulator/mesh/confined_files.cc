@@ -1,5 +1,6 @@
 #include "simulator/mesh/confined_files.h"
 
+#include <fstream>
 #include <string_view>
 
 namespace aisle::sim {
@@ -14,6 +15,11 @@ bool IsInside(const fs::path& file, const fs::path& root) {
   const auto [end, unused] =
       std::mismatch(real_root.begin(), real_root.end(), real_file.begin(), real_file.end());
   return end == real_root.end();
+}
+
+std::vector<std::uint8_t> ReadBytes(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
 bool ConfinedFiles::Allows(const fs::path& file) const {

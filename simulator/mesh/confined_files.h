@@ -2,12 +2,17 @@
 
 #include <assimp/DefaultIOSystem.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <vector>
 
 namespace aisle::sim {
 
 /// Whether `file`, with links resolved, exists inside the folder `root`.
 bool IsInside(const std::filesystem::path& file, const std::filesystem::path& root);
+
+/// All of a file; empty when it cannot be read.
+std::vector<std::uint8_t> ReadBytes(const std::filesystem::path& file);
 
 /// Lets assimp read regular files inside one folder and nothing else: what a model names may come
 /// from anyone.

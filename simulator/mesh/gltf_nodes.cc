@@ -1,44 +1,26 @@
 #include "simulator/mesh/gltf_nodes.h"
 
-#include <fmt/format.h>
-
-#include <cstring>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <vector>
+#include <assimp/types.h>
 
 namespace aisle::sim {
 namespace {
 
 constexpr int kDeepest = 500;
+constexpr std::size_t kMaxNodes = 100'000;
+constexpr float kUnit = 1e-4f;   ///< that a unit quaternion's length may be off by
+constexpr float kShear = 1e-3f;  ///< that a node's matrix may have, as a share of its largest entry
 
-/// The JSON text of a file: all of a .gltf, the first chunk of a .glb (magic, version, length;
-/// chunk length, "JSON").
-std::string JsonText(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes((std::istreambuf_iterator<char>(stream)), {});
-  constexpr std::size_t kHeader = 20;
-  if (!bytes.starts_with("glTF") || bytes.size() < kHeader) return bytes;
-  std::uint32_t length = 0;
-  std::memcpy(&length, bytes.data() + 12, sizeof(length));
-  return bytes.substr(kHeader, length);
-}
-
-/// Parent of every node, -1 for roots; empty and a message where there is none.
-std::vector<int> ParentsOf(const nlohmann::json& nodes, std::string* error) {
+/// Parent of every node, -1 for roots.
+std::vector<int> ParentsOf(const std::vector<GltfValue>& nodes) {
   std::vector<int> parents(nodes.size(), -1);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (!nodes[i].is_object() || !nodes[i].contains("children")) continue;
-    for (const nlohmann::json& child : nodes[i]["children"]) {
-      if (!child.is_number_unsigned() || child.get<std::size_t>() >= nodes.size()) {
-        *error = fmt::format("node {} names a child that does not exist", i);
-        return {};
-      }
-      int& parent = parents[child.get<std::size_t>()];
+    for (const GltfValue& child : nodes[i].Items("children")) {
+      int& parent = parents[child.IndexBelow(nodes.size(), "node")];
       if (parent >= 0) {
-        *error = fmt::format("node {} is a child of node {} and of node {}",
-                             child.get<std::size_t>(), parent, i);
-        return {};
+        child.Fail(
+            fmt::format("node {} is a child of node {} and of node {}; the nodes of a model "
+                        "must form a tree",
+                        child.Whole(), parent, i));
       }
       parent = static_cast<int>(i);
     }
@@ -46,22 +28,127 @@ std::vector<int> ParentsOf(const nlohmann::json& nodes, std::string* error) {
   return parents;
 }
 
-}  // namespace
-
-std::string GltfNodeError(const std::filesystem::path& file) {
-  const nlohmann::json json = nlohmann::json::parse(JsonText(file), nullptr, false);
-  if (!json.is_object() || !json.contains("nodes") || !json["nodes"].is_array()) return "";
-  std::string error;
-  const std::vector<int> parents = ParentsOf(json["nodes"], &error);
+void CheckTree(const std::vector<GltfValue>& nodes, const std::vector<int>& parents) {
   for (std::size_t i = 0; i < parents.size(); ++i) {
     int above = 0;
     for (int node = parents[i]; node >= 0; node = parents[static_cast<std::size_t>(node)]) {
-      if (node == static_cast<int>(i)) return fmt::format("node {} hangs below itself", i);
-      if (++above > kDeepest)
-        return fmt::format("more than {} nodes hang one below another", kDeepest);
+      if (node == static_cast<int>(i)) {
+        nodes[i].Fail("it hangs below itself; the nodes of a model must form a tree");
+      }
+      if (++above > kDeepest) {
+        nodes[i].Fail(fmt::format("more than {} nodes hang one below another", kDeepest));
+      }
     }
   }
-  return error;
+}
+
+std::vector<std::size_t> RootsOf(const GltfDocument& document, const std::vector<int>& parents) {
+  const GltfValue root = document.root();
+  const std::size_t scenes = root.Count("scenes");
+  const std::size_t shown = root.IndexBelow("scene", scenes, "scene").value_or(0);
+  std::vector<std::size_t> roots;
+  if (scenes == 0) {
+    for (std::size_t i = 0; i < parents.size(); ++i) {
+      if (parents[i] < 0) roots.push_back(i);
+    }
+    return roots;
+  }
+  for (const GltfValue& node : root.Item("scenes", shown).Items("nodes")) {
+    const std::size_t index = node.IndexBelow(parents.size(), "node");
+    if (parents[index] >= 0) node.Fail(fmt::format("node {} is not a root", index));
+    if (std::ranges::find(roots, index) != roots.end()) {
+      node.Fail(fmt::format("node {} is named twice", index));
+    }
+    roots.push_back(index);
+  }
+  return roots;
+}
+
+NodePose PoseFromMatrix(const aiMatrix4x4& matrix) {
+  aiVector3D scale, position;
+  aiQuaternion rotation;
+  matrix.Decompose(scale, rotation, position);
+  return {{position.x, position.y, position.z},
+          Eigen::Quaternionf(rotation.w, rotation.x, rotation.y, rotation.z).normalized(),
+          {scale.x, scale.y, scale.z}};
+}
+
+/// Translation, rotation and scale of a node that is written as a matrix (by columns).
+NodePose DecomposedPose(const GltfValue& node) {
+  const std::vector<float> m = node.Numbers("matrix", 16);
+  const NodePose pose = PoseFromMatrix({m[0], m[4], m[8], m[12], m[1], m[5], m[9], m[13],  //
+                                        m[2], m[6], m[10], m[14], m[3], m[7], m[11], m[15]});
+  const Eigen::Matrix4f given = Eigen::Map<const Eigen::Matrix4f>(m.data());
+  Eigen::Matrix4f again = Eigen::Matrix4f::Identity();
+  again.topLeftCorner<3, 3>() = pose.rotation.toRotationMatrix() * pose.scale.asDiagonal();
+  again.topRightCorner<3, 1>() = pose.translation;
+  const float largest = given.topLeftCorner<3, 3>().cwiseAbs().maxCoeff();
+  if (!((given - again).cwiseAbs().maxCoeff() <= kShear * largest)) {
+    node.Get("matrix").Fail(
+        "it is no translation, rotation and scale, as a node's matrix must be (glTF 2.0, 3.5.3); "
+        "apply shear before the export");
+  }
+  return pose;
+}
+
+NodePose RestOf(const GltfValue& node) {
+  if (node.Has("matrix")) return DecomposedPose(node);
+  const GltfPose stated = StatedPose(node);
+  NodePose pose;
+  if (stated.translation) pose.translation = *stated.translation;
+  if (stated.rotation) pose.rotation = *stated.rotation;
+  if (stated.scale) pose.scale = *stated.scale;
+  if (pose.scale.minCoeff() <= 0) {  // a matrix would not say which axis is mirrored
+    pose.rotation.normalize();
+    return pose;
+  }
+  // By way of the matrix, as for nodes that are written as one: the same bits for both.
+  aiMatrix4x4 translation, scale;
+  aiMatrix4x4::Translation({pose.translation.x(), pose.translation.y(), pose.translation.z()},
+                           translation);
+  aiMatrix4x4::Scaling({pose.scale.x(), pose.scale.y(), pose.scale.z()}, scale);
+  const aiQuaternion rotation(pose.rotation.w(), pose.rotation.x(), pose.rotation.y(),
+                              pose.rotation.z());
+  return PoseFromMatrix(translation * aiMatrix4x4(rotation.GetMatrix()) * scale);
+}
+
+}  // namespace
+
+GltfPose StatedPose(const GltfValue& node) {
+  const std::vector<float> t = node.Numbers("translation", 3), r = node.Numbers("rotation", 4),
+                           s = node.Numbers("scale", 3);
+  GltfPose pose;
+  if (!t.empty()) pose.translation.emplace(t[0], t[1], t[2]);
+  if (!r.empty()) {
+    pose.rotation.emplace(r[3], r[0], r[1], r[2]);
+    const float norm = pose.rotation->norm();
+    if (!(norm > 0)) node.Get("rotation").Fail("it must be a unit quaternion");
+    if (std::abs(norm - 1) > kUnit) pose.rotation->normalize();
+  }
+  if (!s.empty()) pose.scale.emplace(s[0], s[1], s[2]);
+  return pose;
+}
+
+GltfNodes AddGltfNodes(const GltfDocument& document, Model* model) {
+  const std::vector<GltfValue> nodes = document.root().Items("nodes");
+  if (nodes.size() > kMaxNodes) throw ImportError(fmt::format("it has over {} nodes", kMaxNodes));
+  const std::vector<int> parents = ParentsOf(nodes);
+  CheckTree(nodes, parents);
+  GltfNodes known{std::vector<int>(nodes.size(), -1), {}};
+  std::vector<std::size_t> open = RootsOf(document, parents);
+  std::ranges::reverse(open);
+  while (!open.empty()) {
+    const std::size_t index = open.back();
+    open.pop_back();
+    const int parent =
+        parents[index] < 0 ? 0 : known.of_file[static_cast<std::size_t>(parents[index])];
+    known.of_file[index] = static_cast<int>(model->nodes.size());
+    known.in_order.push_back(index);
+    model->nodes.push_back({nodes[index].Text("name", ""), parent, RestOf(nodes[index])});
+    const std::vector<GltfValue> children = nodes[index].Items("children");
+    for (std::size_t i = children.size(); i-- > 0;) open.push_back(children[i].Whole());
+  }
+  return known;
 }
 
 }  // namespace aisle::sim

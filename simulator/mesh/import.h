@@ -31,11 +31,13 @@ struct ImportOptions {
   std::size_t max_triangles = 5'000'000;
   int max_texture_px = 8192;  ///< per side
   std::size_t max_file_bytes = 256u << 20;
+  float max_reach_m = 10'000;  ///< of a vertex at rest from the model's origin, along each axis
 };
 
-/// Reads a .glb, .gltf, .obj or .dae file. Files come from outside, so everything is checked:
-/// numbers finite, indices in range, sizes within the options, nothing opened outside the root,
-/// only PNG and JPEG textures. Throws ImportError.
+/// Reads a .glb, .gltf, .obj or .dae file; what it holds must be what it is named. Files come from
+/// outside, so everything is checked: numbers finite and within reach, indices in range, sizes
+/// within the options, nothing opened outside the root, only PNG and JPEG textures. Throws
+/// ImportError.
 Model ImportModel(const std::filesystem::path& file, const ImportOptions& options = {});
 
 /// One band of an 8-bit sRGB image (grey, BGR or BGRA), sRGB-encoded again: for kLuminance the

@@ -36,12 +36,25 @@ struct VertexWeights {
   std::array<float, 4> weights = {1, 0, 0, 0};
 };
 
-/// Keys of one node in a clip; times in seconds, rising. An empty list keeps the rest pose.
+/// What a value does between two keys (glTF 2.0, appendix C): keep the first, go straight
+/// (rotations along the great circle), or follow a cubic Hermite spline.
+enum class Interpolation { kStep, kLinear, kCubic };
+
+/// A value over time; times in seconds, rising. No keys: the rest pose's value.
+template <class Value>
+struct KeyCurve {
+  std::vector<std::pair<float, Value>> keys;
+  Interpolation interpolation = Interpolation::kLinear;
+  /// For kCubic: the slopes into and out of each key, a second (of rotations: of the coefficients).
+  std::vector<std::array<Value, 2>> slopes;
+};
+
+/// What a clip does to one node.
 struct ClipChannel {
   int node = 0;
-  std::vector<std::pair<float, Eigen::Vector3f>> translations;
-  std::vector<std::pair<float, Eigen::Quaternionf>> rotations;
-  std::vector<std::pair<float, Eigen::Vector3f>> scales;
+  KeyCurve<Eigen::Vector3f> translations;
+  KeyCurve<Eigen::Quaternionf> rotations;
+  KeyCurve<Eigen::Vector3f> scales;
 };
 
 struct Clip {
@@ -64,7 +77,7 @@ struct Model {
   std::vector<Material> materials;
   std::vector<Texture> textures;
 
-  /// Index by name, -1 if there is none.
+  /// Index by name, -1 if there is none; the first where several bear it.
   int FindNode(const std::string& name) const;
   int FindClip(const std::string& name) const;
 };

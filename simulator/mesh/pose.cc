@@ -14,18 +14,49 @@ Eigen::Quaternionf Mix(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b,
   return a.slerp(share, b);
 }
 
-/// Value of a key list at a time; `otherwise` when it has no keys.
+/// Sum of four values with their shares.
+Eigen::Vector3f Sum(const std::array<const Eigen::Vector3f*, 4>& values,
+                    const std::array<float, 4>& shares) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (std::size_t i = 0; i < 4; ++i) sum += shares[i] * *values[i];
+  return sum;
+}
+
+Eigen::Quaternionf Sum(const std::array<const Eigen::Quaternionf*, 4>& values,
+                       const std::array<float, 4>& shares) {
+  Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+  for (std::size_t i = 0; i < 4; ++i) sum += shares[i] * values[i]->coeffs();
+  return Eigen::Quaternionf(sum).normalized();
+}
+
+/// Between keys `after - 1` and `after` by glTF 2.0, appendix C.5: `t` in [0, 1].
 template <class Value>
-Value KeyedValue(const std::vector<std::pair<float, Value>>& keys, float time,
-                 const Value& otherwise) {
+Value OnSpline(const KeyCurve<Value>& curve, std::size_t after, float t) {
+  const std::size_t before = after - 1;
+  const float seconds = curve.keys[after].first - curve.keys[before].first;
+  const float t2 = t * t, t3 = t2 * t;
+  return Sum(
+      {&curve.keys[before].second, &curve.slopes[before][1], &curve.keys[after].second,
+       &curve.slopes[after][0]},
+      {2 * t3 - 3 * t2 + 1, seconds * (t3 - 2 * t2 + t), 3 * t2 - 2 * t3, seconds * (t3 - t2)});
+}
+
+/// Value of a curve at a time; `otherwise` when it has no keys.
+template <class Value>
+Value ValueAt(const KeyCurve<Value>& curve, float time, const Value& otherwise) {
+  const auto& keys = curve.keys;
   if (keys.empty()) return otherwise;
   const auto after = std::upper_bound(keys.begin(), keys.end(), time,
                                       [](float t, const auto& key) { return t < key.first; });
   if (after == keys.begin()) return keys.front().second;
   if (after == keys.end()) return keys.back().second;
   const auto before = std::prev(after);
-  return Mix(before->second, after->second,
-             (time - before->first) / (after->first - before->first));
+  if (curve.interpolation == Interpolation::kStep) return before->second;
+  const float share = (time - before->first) / (after->first - before->first);
+  if (curve.interpolation == Interpolation::kCubic) {
+    return OnSpline(curve, static_cast<std::size_t>(after - keys.begin()), share);
+  }
+  return Mix(before->second, after->second, share);
 }
 
 NodePose Mix(const NodePose& a, const NodePose& b, float share) {
@@ -48,9 +79,9 @@ std::vector<NodePose> PoseOf(const Model& model, const PoseLayer& layer) {
   const float time = static_cast<float>((turns - std::floor(turns)) * clip.duration_s);
   for (const ClipChannel& channel : clip.channels) {
     NodePose& local = locals[static_cast<std::size_t>(channel.node)];
-    local.translation = KeyedValue(channel.translations, time, local.translation);
-    local.rotation = KeyedValue(channel.rotations, time, local.rotation);
-    local.scale = KeyedValue(channel.scales, time, local.scale);
+    local.translation = ValueAt(channel.translations, time, local.translation);
+    local.rotation = ValueAt(channel.rotations, time, local.rotation);
+    local.scale = ValueAt(channel.scales, time, local.scale);
   }
   return locals;
 }
@@ -83,6 +114,31 @@ Eigen::Affine3f VertexMatrix(const VertexWeights& vertex,
     sum.matrix() += vertex.weights[k] * joint_matrices[vertex.joints[k]].matrix();
   }
   return sum;
+}
+
+/// Whether a matrix scales one axis more than another: then normals do not turn as edges do.
+bool Stretches(const Eigen::Affine3f& matrix) {
+  constexpr float kUneven = 1e-4f;  // of the squared scale; rounding stays far below
+  const Eigen::Matrix3f gram = matrix.linear().transpose() * matrix.linear();
+  const float even = gram.trace() / 3;
+  return (gram - even * Eigen::Matrix3f::Identity()).cwiseAbs().maxCoeff() > kUneven * even;
+}
+
+bool FollowsStretching(const VertexWeights& vertex,
+                       std::span<const Eigen::Affine3f> joint_matrices) {
+  for (std::size_t k = 0; k < 4 && vertex.weights[k] > 0; ++k) {
+    if (Stretches(joint_matrices[vertex.joints[k]])) return true;
+  }
+  return false;
+}
+
+/// By the inverse transpose, written with cofactors so that a flattened body has normals too.
+Eigen::Vector3f StretchedNormal(const Eigen::Matrix3f& matrix, const Eigen::Vector3f& normal) {
+  Eigen::Matrix3f cofactors;
+  cofactors << matrix.col(1).cross(matrix.col(2)), matrix.col(2).cross(matrix.col(0)),
+      matrix.col(0).cross(matrix.col(1));
+  const float side = matrix.determinant() < 0 ? -1.0f : 1.0f;
+  return (side * cofactors * normal).normalized();
 }
 
 }  // namespace
@@ -142,10 +198,13 @@ void SkinVertices(const Model& model, std::span<const Eigen::Affine3f> joint_mat
   const std::size_t count = model.bind_positions.size();
   positions->resize(count);
   normals->resize(count);
+  const bool any_stretches = std::ranges::any_of(joint_matrices, Stretches);
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Affine3f matrix = VertexMatrix(model.weights[i], joint_matrices);
+    const bool stretched = any_stretches && FollowsStretching(model.weights[i], joint_matrices);
     (*positions)[i] = matrix * model.bind_positions[i];
-    (*normals)[i] = (matrix.linear() * model.bind_normals[i]).normalized();
+    (*normals)[i] = stretched ? StretchedNormal(matrix.linear(), model.bind_normals[i])
+                              : (matrix.linear() * model.bind_normals[i]).normalized();
   }
 }
 

@@ -40,7 +40,8 @@ NodeFrames PoseNodes(const Model& model, std::span<const PoseLayer> layers,
 /// Matrix of each joint: bind position -> model frame.
 std::vector<Eigen::Affine3f> JointMatrices(const Model& model, const NodeFrames& frames);
 
-/// Linear blend skinning. Outputs are resized to the model's vertices; normals are renormalised.
+/// Linear blend skinning. Outputs are resized to the model's vertices; normals are renormalised
+/// (and follow the inverse transpose where a joint scales one axis more than another).
 void SkinVertices(const Model& model, std::span<const Eigen::Affine3f> joint_matrices,
                   std::vector<Eigen::Vector3f>* positions, std::vector<Eigen::Vector3f>* normals);
 

@@ -23,7 +23,7 @@ Model Arm() {
                  {{0, 1, 0, 0}, {0.5f, 0.5f, 0, 0}}};
   ClipChannel bend;
   bend.node = 1;
-  bend.rotations = {
+  bend.rotations.keys = {
       {0.0f, Eigen::Quaternionf::Identity()},
       {1.0f, Eigen::Quaternionf(Eigen::AngleAxisf(kPi / 2, Eigen::Vector3f::UnitZ()))}};
   arm.clips = {{"bend", 1.0f, {bend}}};
