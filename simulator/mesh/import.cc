@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "simulator/mesh/collada_check.h"
 #include "simulator/mesh/confined_files.h"
 #include "simulator/mesh/gltf_clips.h"
 #include "simulator/mesh/gltf_materials.h"
@@ -55,13 +56,22 @@ Model Import(const fs::path& file, const ImportOptions& options) {
   if (format == ModelFormat::kGlb || format == ModelFormat::kGltf) {
     AddGltfModel(bytes, file, options, &model);
   } else {
-    if (format == ModelFormat::kObj) {
-      CheckObj({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    }
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    format == ModelFormat::kObj ? CheckObj(text) : CheckCollada(text);
     AddAssimpModel(file, format, options, &model);
   }
   FinishModel(options, &model);
   return model;
+}
+
+/// What a file's own words made of an error, fit for one line of a terminal.
+std::string OneLine(std::string text) {
+  constexpr std::size_t kLongest = 400;
+  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+  }
+  return text;
 }
 
 }  // namespace
@@ -74,7 +84,7 @@ Model ImportModel(const fs::path& file, const ImportOptions& given) {
   } catch (const std::bad_alloc&) {
     throw ImportError(fmt::format("{}: it asks for more memory than there is", file.string()));
   } catch (const std::exception& error) {
-    throw ImportError(fmt::format("{}: {}", file.string(), error.what()));
+    throw ImportError(fmt::format("{}: {}", file.string(), OneLine(error.what())));
   }
 }
 

@@ -68,7 +68,8 @@ ModelFormat FormatOf(const std::vector<std::uint8_t>& bytes, const std::filesyst
   const FormatNames& wanted = NamesOf(named);
   if (bytes.empty()) throw ImportError("it is empty; export it again");
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  const std::optional<ModelFormat> held = FormatHeld(text);
+  std::optional<ModelFormat> held = FormatHeld(text);
+  if (!held && named == ModelFormat::kObj) held = named;  // its own check names the line
   if (!held) {
     throw ImportError(
         fmt::format("it is named {}, but does not hold {}, nor any other model that "

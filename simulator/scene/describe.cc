@@ -201,6 +201,7 @@ void DescribeMarking(Fields& f, MarkingSpec& marking) {
 void DescribeProp(Fields& f, PropSpec& prop) {
   prop.mark = f.mark();
   f.Name({"model", "file in assets/kit or assets/street without .glb", "drum", true}, &prop.model);
+  prop.model_mark = f.MarkOf("model");
   f.Point({"at", "where it stands", "[3, 1]", true}, &prop.at);
   f.OptionalPoint({"to", "end of a row of them that begins at `at`", "[30, 1]"}, &prop.to);
   f.Number({"every_m", "from one to the next in a row", "10"}, &prop.every_m, {0.2, 200});
@@ -255,6 +256,7 @@ void DescribePerson(Fields& f, PersonSpec& person) {
   person.route.limits = kPersonLimits;
   f.Name({"name", "unique; ends up in labels and reports", "walker", true}, &person.name);
   f.Name({"model", "file in assets/people without .glb", "worker"}, &person.model);
+  person.model_mark = f.MarkOf("model");
   f.Choice({"level", "takes part from this level of dynamics on", "low"}, &person.level, kDynamics);
   DescribeRoute(f, person.route);
   f.Group({"vary", "what the seed may change", "{time_s: 0.5, speed: 0.1, look: true}"},
@@ -277,6 +279,7 @@ void DescribeVehicle(Fields& f, VehicleSpec& vehicle) {
   vehicle.route.limits = kVehicleLimits;
   f.Name({"name", "unique; ends up in labels and reports", "truck", true}, &vehicle.name);
   f.Name({"model", "file in assets/vehicles without .glb", "forklift"}, &vehicle.model);
+  vehicle.model_mark = f.MarkOf("model");
   f.Choice({"level", "takes part from this level of dynamics on", "low"}, &vehicle.level,
            kDynamics);
   DescribeRoute(f, vehicle.route);

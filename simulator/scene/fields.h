@@ -49,6 +49,8 @@ class Fields {
                     const Element& element) = 0;
   /// Where the map that is being described stands.
   virtual Mark mark() const = 0;
+  /// Where that key of it stands; where the map does if the key is absent.
+  virtual Mark MarkOf(const char* key) const = 0;
   /// Whether the key is there.
   virtual bool Has(const char* key) const = 0;
 

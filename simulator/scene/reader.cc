@@ -10,7 +10,7 @@
 namespace aisle::sim {
 namespace {
 
-Mark MarkOf(const YAML::Node& node) {
+Mark PlaceOf(const YAML::Node& node) {
   const YAML::Mark mark = node.Mark();
   return {mark.line + 1, mark.column + 1};
 }
@@ -57,7 +57,14 @@ bool Within(double value, Range range) { return value >= range.low && value <= r
 YamlReader::YamlReader(YAML::Node map, std::string path, Issues* issues)
     : map_(std::move(map)), path_(std::move(path)), issues_(issues) {}
 
-Mark YamlReader::mark() const { return MarkOf(map_); }
+Mark YamlReader::mark() const { return PlaceOf(map_); }
+
+Mark YamlReader::MarkOf(const char* key) const {
+  for (const auto& entry : map_) {
+    if (entry.first.IsScalar() && entry.first.Scalar() == key) return PlaceOf(entry.first);
+  }
+  return mark();
+}
 
 bool YamlReader::Has(const char* key) const { return static_cast<bool>(map_[key]); }
 
@@ -75,7 +82,7 @@ std::optional<YAML::Node> YamlReader::Find(const Key& key) {
 }
 
 void YamlReader::Expected(const YAML::Node& node, const Key& key, const std::string& what) {
-  issues_->Add(MarkOf(node), PathOf(key.name),
+  issues_->Add(PlaceOf(node), PathOf(key.name),
                fmt::format("expected {}, got {} ({}); example: {}: {}", what, Shown(node), key.help,
                            key.name, key.example));
 }
@@ -177,7 +184,7 @@ void YamlReader::Points(const Key& key, std::vector<Eigen::Vector2d>* values,
       Expected(item, key, fmt::format("a point [x, y] in metres as number {} of the list", i + 1));
     }
     values->push_back(point);
-    marks->push_back(MarkOf(item));
+    marks->push_back(PlaceOf(item));
   }
 }
 
@@ -237,7 +244,7 @@ void YamlReader::ReportKeys() {
     if (std::ranges::find(known_, name) != known_.end()) continue;
     const std::string near = NearestWord(name, known_);
     misspelt.insert(near);
-    issues_->Add(MarkOf(entry.first), PathOf(name.substr(0, 80)),
+    issues_->Add(PlaceOf(entry.first), PathOf(name.substr(0, 80)),
                  near.empty()
                      ? fmt::format("there is no such key; known here: {}", fmt::join(known_, ", "))
                      : fmt::format("there is no such key; did you mean {}?", near));

@@ -28,6 +28,7 @@ class YamlReader : public Fields {
   void List(const Key& key, const std::function<void(std::size_t)>& resize,
             const Element& element) override;
   Mark mark() const override;
+  Mark MarkOf(const char* key) const override;
   bool Has(const char* key) const override;
   /// Reports keys that are missing or unknown; a misspelt one is reported once.
   void ReportKeys();

@@ -129,6 +129,7 @@ struct MarkingSpec {
 /// of them from `at` on.
 struct PropSpec {
   Mark mark;
+  Mark model_mark;  ///< of the key that names the model
   std::string model;
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> to;
@@ -186,6 +187,7 @@ struct PersonSpec {
   std::size_t place = 0;  ///< in the file's list, whoever of it is left out
   std::string name;
   std::string model = "worker";
+  Mark model_mark;  ///< of the key that names it, or of the person
   Dynamics level = Dynamics::kLow;
   RouteSpec route;
   VarySpec vary;
@@ -196,6 +198,7 @@ struct VehicleSpec {
   std::size_t place = 0;  ///< in the file's list, whoever of it is left out
   std::string name;
   std::string model = "forklift";
+  Mark model_mark;  ///< of the key that names it, or of the vehicle
   Dynamics level = Dynamics::kLow;
   RouteSpec route;
   VarySpec vary;

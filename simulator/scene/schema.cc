@@ -49,6 +49,7 @@ class SchemaWriter : public Fields {
     Add(key, std::move(list));
   }
   Mark mark() const override { return {}; }
+  Mark MarkOf(const char* /*key*/) const override { return {}; }
   bool Has(const char*) const override { return false; }
 
   Json Object() const {

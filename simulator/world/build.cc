@@ -35,6 +35,33 @@ struct Cast {
       fmt::format("{}:{}:{}: {}: {}", scene.file, mark.line, mark.column, name, why));
 }
 
+/// Reads every model that the scene names, so that one that is missing or broken is reported with
+/// the place of the key that names it.
+void ReadModels(const Scene& scene, AssetLibrary* assets) {
+  const auto read = [&](const auto& spec, const std::string& whose, const auto& asset_of) {
+    try {
+      assets->Load(asset_of(spec.model));
+    } catch (const std::exception& error) {
+      Refuse(scene, spec.model_mark, whose, error.what());
+    }
+  };
+  for (const PropSpec& prop : scene.props) {
+    read(prop, "props.model", [&](const std::string& model) { return assets->Prop(model); });
+  }
+  for (const PersonSpec& person : scene.people) {
+    read(person, "model of " + person.name, [&](const std::string& model) {
+      assets->Person(model);  // the manifest must know it
+      return "people/" + model;
+    });
+  }
+  for (const VehicleSpec& vehicle : scene.vehicles) {
+    read(vehicle, "model of " + vehicle.name, [&](const std::string& model) {
+      assets->Vehicle(model);
+      return "vehicles/" + model;
+    });
+  }
+}
+
 /// How far ahead of the person behind its handle a pushed vehicle's origin is.
 double AheadOfPusher(const Scene& scene, const VehicleSpec& vehicle, const AssetLibrary& assets) {
   if (vehicle.pushed_by.empty()) return 0;
@@ -84,6 +111,7 @@ World BuildWorld(const Scene& written, const std::string& assets_dir, std::uint6
   Site site(&parts);
   AssetLibrary assets(assets_dir);
   const Scene scene = WithLooks(Seeded(written, seed), seed, assets.PeopleNames());
+  ReadModels(scene, &assets);
   const Palette palette = AddPalette(scene, seed, assets, &parts);
   AddFloor(scene, palette, seed, &site);
   AddMarkings(scene, palette, &site);

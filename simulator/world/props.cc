@@ -1,7 +1,5 @@
 #include "simulator/world/props.h"
 
-#include <stdexcept>
-
 #include "simulator/world/shapes.h"
 
 namespace aisle::sim {
@@ -12,15 +10,6 @@ ObjectClass ClassOfProp(const std::string& asset) {
     if (asset.starts_with(goods)) return ObjectClass::kGoods;
   }
   return asset.starts_with("street/house") ? ObjectClass::kWall : ObjectClass::kFurniture;
-}
-
-std::string AssetOf(const Scene& scene, const PropSpec& prop, const AssetLibrary& assets) {
-  try {
-    return assets.Prop(prop.model);
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(
-        fmt::format("{}:{}:{}: {}", scene.file, prop.mark.line, prop.mark.column, error.what()));
-  }
 }
 
 /// Where the pieces of a row stand; one place without a row.
@@ -41,7 +30,7 @@ void AddProps(const Scene& scene, std::uint64_t seed, AssetLibrary* assets, Ward
               Site* site) {
   for (std::size_t i = 0; i < scene.props.size(); ++i) {
     const PropSpec& prop = scene.props[i];
-    const std::string asset = AssetOf(scene, prop, *assets);
+    const std::string asset = assets->Prop(prop.model);
     const TriangleMesh piece = wardrobe->Wear(assets->Load(asset));
     const std::vector<Eigen::Vector2d> places = PlacesOf(prop);
     for (std::size_t k = 0; k < places.size(); ++k) {
