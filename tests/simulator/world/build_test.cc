@@ -2,6 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 
 #include "simulator/scene/load.h"
 
@@ -109,6 +113,41 @@ TEST(BuildWorld, AMissingModelIsNamedWithItsPlaceInTheFile) {
     EXPECT_THAT(error.what(), testing::HasSubstr("scene2.yaml:"));
     EXPECT_THAT(error.what(), testing::HasSubstr("there is no model 'nobody'"));
   }
+}
+
+TEST(BuildWorld, ABrokenModelIsNamedWithThePlaceOfTheKeyThatNamesIt) {
+  namespace fs = std::filesystem;
+  const fs::path assets = fs::path(testing::TempDir()) / fmt::format("aisle-assets-{}", getpid());
+  fs::create_directories(assets / "people");
+  fs::create_directories(assets / "vehicles");
+  fs::copy_file(fs::path(kAssets) / "manifest.json", assets / "manifest.json",
+                fs::copy_options::overwrite_existing);
+  std::ofstream(assets / "people/worker_anton.glb") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  std::ofstream(assets / "vehicles/forklift.glb") << "glTF";
+  const auto error_of = [&](const std::string& actors) {
+    const std::string text =
+        "about: A hall.\nrig: {start: [0, 0]}\n"
+        "hall: {from: [-3, -3], to: [9, 6]}\nlights: [{height_m: 5}]\n" +
+        actors;
+    try {
+      BuildWorld(ParseScene(text, "hall.yaml"), assets.string(), 1);
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string person =
+      error_of("people:\n  - name: walker\n    start: [1, 0]\n    model: worker_anton\n");
+  EXPECT_THAT(person, testing::StartsWith("hall.yaml:8:5: model of walker: "));
+  EXPECT_THAT(person, testing::HasSubstr("worker_anton.glb: it is named .glb, but holds OBJ text"));
+  const std::string vehicle =
+      error_of("vehicles:\n  - {name: truck, start: [5, 3], model: forklift}\n");
+  EXPECT_THAT(vehicle, testing::StartsWith("hall.yaml:6:34: model of truck: "));
+  EXPECT_THAT(vehicle, testing::HasSubstr("forklift.glb: it is cut"));
+  const std::string prop = error_of("props:\n  - at: [1, 0]\n    model: drum\n");
+  EXPECT_THAT(prop, testing::StartsWith("hall.yaml:7:5: props.model: "));
+  EXPECT_THAT(prop, testing::HasSubstr("drum.glb: there is no such file"));
+  fs::remove_all(assets);
 }
 
 }  // namespace
