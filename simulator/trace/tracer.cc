@@ -2,9 +2,15 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <mutex>
 #include <stdexcept>
+#include <tuple>
+
+#include "simulator/trace/meet.h"
+#include "simulator/trace/overlaps.h"
 
 namespace aisle::sim {
 namespace {
@@ -39,10 +45,13 @@ void CopyPositions(std::span<const Eigen::Vector3f> positions, void* to) {
   std::memcpy(to, positions.data(), positions.size() * sizeof(Eigen::Vector3f));
 }
 
-/// One mesh, alone in a scene.
+/// One mesh, alone in a scene. Robust: boxes are met by true division and with a margin, edges
+/// without a gap. Embree's other way begins at the processor's approximate reciprocal, of which
+/// each maker has his own, and so whether a ray meets a box that it grazes depends on the maker.
 Scene BuildScene(RTCDevice device, const TriangleMesh& mesh, bool moves) {
   Scene scene(rtcNewScene(device));
-  rtcSetSceneFlags(scene.get(), moves ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_NONE);
+  rtcSetSceneFlags(scene.get(), (moves ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_NONE) |
+                                    RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
   rtcSetSceneBuildQuality(scene.get(), moves ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_HIGH);
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetGeometryBuildQuality(geometry, moves ? RTC_BUILD_QUALITY_REFIT : RTC_BUILD_QUALITY_HIGH);
@@ -96,6 +105,33 @@ void Load(const Rays8& rays, RTCRay8* to) {
   std::memset(to->flags, 0, kRow);
 }
 
+/// Where triangles meet or cover each other, any of them may be said to be hit, as the last bit of
+/// a distance has it, and that bit is the maker's too. A hit is in doubt less than this share of a
+/// triangle from its edge, and on a triangle that a larger one overlaps. Doubtful ones are settled
+/// by a rule of our own ...
+constexpr float kNearEdge = 1.0f / 4096;
+/// ... among all triangles whose distance is the same but for this share.
+constexpr float kSameDistance = 1.0f / (1 << 19);
+
+struct Candidate {
+  bool in_doubt = true;
+  std::uint32_t geometry = kNoGeometry, primitive = 0;
+
+  /// Rather without doubt, of which there is but one; then the first of the mesh.
+  bool operator<(const Candidate& other) const {
+    return std::tie(in_doubt, geometry, primitive) <
+           std::tie(other.in_doubt, other.geometry, other.primitive);
+  }
+};
+
+/// A query that passes all triangles that a ray meets, and keeps the first by the rule.
+struct Settling : RTCIntersectContext {
+  const Instant* instant = nullptr;
+  const Rays8* rays = nullptr;
+  std::uint32_t geometry = 0;  ///< whose scene is asked
+  std::array<Candidate, kLanes> first;
+};
+
 }  // namespace
 
 struct Instant::MoverScenes {
@@ -105,6 +141,7 @@ struct Instant::MoverScenes {
 struct Tracer::Impl {
   Device device;
   Scene statics;
+  std::vector<std::uint8_t> overlapped;  ///< by triangle of the static world
   const World* world = nullptr;
   std::mutex pool_mutex;  ///< guards `pool`
   std::vector<std::unique_ptr<Instant::MoverScenes>> pool;
@@ -115,6 +152,7 @@ Tracer::Tracer(const World& world, const TracerOptions& options) : impl_(std::ma
   impl_->world = &world;
   if (!world.statics().mesh.triangles.empty()) {
     impl_->statics = BuildScene(impl_->device.get(), world.statics().mesh, false);
+    impl_->overlapped = FindOverlapped(world.statics().mesh);
   }
   static_box_ = BoxOf(world.statics().mesh.positions);
 }
@@ -155,35 +193,131 @@ Instant::~Instant() {
   tracer_->impl_->pool.push_back(std::move(movers_));
 }
 
+template <typename Ask>
+void Instant::ForEachScene(GeometryMask geometries, const Ask& ask) const {
+  if (tracer_->impl_->statics && (geometries & kStaticOnly)) {
+    ask(tracer_->impl_->statics.get(), 0u);
+  }
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    if (geometries & MoverBit(i)) {
+      ask(movers_->scenes[i].get(), static_cast<std::uint32_t>(i + 1));
+    }
+  }
+}
+
+Instant::Corners Instant::CornersOf(std::uint32_t geometry, std::uint32_t primitive) const {
+  const World& world = *tracer_->impl_->world;
+  const TriangleMesh& mesh =
+      geometry == 0 ? world.statics().mesh : world.mover_meshes()[geometry - 1];
+  const std::span<const Eigen::Vector3f> at =
+      geometry == 0 ? mesh.positions : snapshot_.movers[geometry - 1].positions;
+  const auto& [a, b, c] = mesh.triangles[primitive];
+  return {at[a], at[b], at[c]};
+}
+
+Corners8 Instant::CornersOf(const std::uint32_t* geometry, const std::uint32_t* primitive) const {
+  Corners8 corners;
+  unsigned others = 0;
+  for (int k = 1; k < kLanes; ++k) {
+    others |= (geometry[k] ^ geometry[0]) | (primitive[k] ^ primitive[0]);
+  }
+  if (others == 0 && geometry[0] != kNoGeometry) {  // most packets see one triangle
+    const Corners one = CornersOf(geometry[0], primitive[0]);
+    corners.Fill(one.a, one.b, one.c);
+    return corners;
+  }
+  for (int k = 0; k < kLanes; ++k) {
+    if (geometry[k] == kNoGeometry) {
+      corners.Set(k, Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero());
+      continue;
+    }
+    const Corners at = CornersOf(geometry[k], primitive[k]);
+    corners.Set(k, at.a, at.b, at.c);
+  }
+  return corners;
+}
+
+bool Instant::InDoubt(float inside, std::uint32_t geometry, std::uint32_t primitive) const {
+  return inside < kNearEdge || (geometry == 0 && tracer_->impl_->overlapped[primitive] != 0);
+}
+
+void Instant::Settle(const Rays8& rays, GeometryMask geometries, unsigned lanes,
+                     Hits8* hits) const {
+  Settling query;
+  rtcInitIntersectContext(&query);
+  query.instant = this;
+  query.rays = &rays;
+  query.filter = [](const RTCFilterFunctionNArguments* args) {
+    auto& asked = *static_cast<Settling*>(args->context);
+    alignas(32) std::uint32_t geometry[kLanes], primitive[kLanes];
+    for (unsigned k = 0; k < kLanes; ++k) {
+      geometry[k] = args->valid[k] ? asked.geometry : kNoGeometry;
+      primitive[k] = RTCHitN_primID(args->hit, kLanes, k);
+    }
+    const Meetings8 met = Meet(*asked.rays, asked.instant->CornersOf(geometry, primitive));
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      if (!args->valid[k]) continue;
+      const Candidate candidate{asked.instant->InDoubt(met.inside[k], geometry[k], primitive[k]),
+                                geometry[k], primitive[k]};
+      asked.first[k] = std::min(asked.first[k], candidate);
+      args->valid[k] = 0;  // go on
+    }
+  };
+  alignas(32) RTCRayHit8 packet;
+  Load(rays, &packet.ray);
+  alignas(32) std::int32_t valid[kLanes];
+  for (int k = 0; k < kLanes; ++k) {
+    valid[k] = lanes >> k & 1 ? -1 : 0;
+    packet.ray.tnear[k] = std::max(rays.t_near[k], hits->t[k] * (1 - kSameDistance));
+    packet.ray.tfar[k] = std::min(rays.t_far[k], hits->t[k] * (1 + kSameDistance));
+  }
+  std::memset(packet.hit.geomID, 0xff, kRow);
+  ForEachScene(geometries, [&](RTCScene scene, std::uint32_t id) {
+    query.geometry = id;
+    rtcIntersect8(valid, scene, &query, &packet);
+  });
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    if (query.first[k].geometry == kNoGeometry) continue;
+    hits->geometry[k] = query.first[k].geometry;
+    hits->primitive[k] = query.first[k].primitive;
+  }
+}
+
+unsigned Instant::Place(const Rays8& rays, Hits8* hits) const {
+  const Meetings8 met = Meet(rays, CornersOf(hits->geometry, hits->primitive));
+  unsigned in_doubt = 0;
+  for (int k = 0; k < kLanes; ++k) {
+    const bool hit = hits->geometry[k] != kNoGeometry;
+    hits->t[k] = hit ? met.t[k] : kInfinity;
+    hits->u[k] = std::clamp(met.u[k], 0.0f, 1.0f);
+    hits->v[k] = std::clamp(met.v[k], 0.0f, 1 - hits->u[k]);
+    if (hit && InDoubt(met.inside[k], hits->geometry[k], hits->primitive[k])) in_doubt |= 1u << k;
+  }
+  return in_doubt;
+}
+
 void Instant::Intersect(const Rays8& rays, Coherence coherence, GeometryMask geometries,
                         Hits8* hits) const {
   alignas(32) RTCRayHit8 packet;
   Load(rays, &packet.ray);
   std::memset(packet.hit.geomID, 0xff, kRow);
-  alignas(32) std::uint32_t geometry[kLanes];
-  std::memset(geometry, 0xff, kRow);
+  std::memset(packet.hit.primID, 0, kRow);
+  std::memset(hits->geometry, 0xff, kRow);
   RTCIntersectContext context = Context(coherence);
   // Every scene holds one mesh, number 0: whose it was is told by the call that set it.
-  const auto trace = [&](RTCScene scene, std::uint32_t id) {
+  ForEachScene(geometries, [&](RTCScene scene, std::uint32_t id) {
     std::memset(packet.hit.geomID, 0xff, kRow);
     rtcIntersect8(rays.valid, scene, &context, &packet);
-    for (int k = 0; k < kLanes; ++k) geometry[k] = packet.hit.geomID[k] == 0 ? id : geometry[k];
-  };
-  if (tracer_->impl_->statics && (geometries & kStaticOnly)) {
-    trace(tracer_->impl_->statics.get(), 0);
-  }
-  for (std::size_t i = 0; i < boxes_.size(); ++i) {
-    if (geometries & MoverBit(i)) {
-      trace(movers_->scenes[i].get(), static_cast<std::uint32_t>(i + 1));
+    for (int k = 0; k < kLanes; ++k) {
+      hits->geometry[k] = packet.hit.geomID[k] == 0 ? id : hits->geometry[k];
     }
-  }
-  for (int k = 0; k < kLanes; ++k) {
-    hits->t[k] = geometry[k] == kNoGeometry ? kInfinity : packet.ray.tfar[k];
-  }
-  std::memcpy(hits->geometry, geometry, kRow);
+  });
   std::memcpy(hits->primitive, packet.hit.primID, kRow);
-  std::memcpy(hits->u, packet.hit.u, kRow);
-  std::memcpy(hits->v, packet.hit.v, kRow);
+  // Which triangle was hit is Embree's answer; where, is computed here.
+  if (const unsigned in_doubt = Place(rays, hits); in_doubt != 0) {
+    Settle(rays, geometries, in_doubt, hits);
+    Place(rays, hits);
+  }
 }
 
 unsigned Instant::Occluded(const Rays8& rays, Coherence coherence, GeometryMask geometries) const {

@@ -7,14 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "simulator/trace/meet.h"
 #include "simulator/trace/rays.h"
 #include "simulator/world/world.h"
 
 namespace aisle::sim {
 
 struct TracerOptions {
-  /// Embree's instruction set, as rtcNewDevice takes it; "native" lets Embree choose. The last bits
-  /// of a depth differ between sets and are equal within one, so the set is part of a result.
+  /// Embree's instruction set, as rtcNewDevice takes it; "native" lets Embree choose. Sets with and
+  /// without fused multiplication may disagree whether a ray passes an edge, so the set is part of
+  /// a result.
   std::string isa = "avx2";
 };
 
@@ -45,7 +47,8 @@ class Instant {
   /// World box of each mover, in the snapshot's order.
   std::span<const Eigen::AlignedBox3f> mover_boxes() const { return boxes_; }
 
-  /// Nearest hits.
+  /// Nearest hits. Embree says which triangles; t, u and v follow from these by plain arithmetic,
+  /// and where triangles meet a rule chooses: the same bits on every make of processor.
   void Intersect(const Rays8& rays, Coherence coherence, GeometryMask geometries,
                  Hits8* hits) const;
   /// Bit i is set where valid lane i meets anything at all.
@@ -55,6 +58,21 @@ class Instant {
   friend class Tracer;
   struct MoverScenes;
   Instant(const Tracer& tracer, Snapshot snapshot, std::unique_ptr<MoverScenes> movers);
+
+  /// Calls ask(scene, geometry) for every scene that the rays may meet.
+  template <typename Ask>
+  void ForEachScene(GeometryMask geometries, const Ask& ask) const;
+  struct Corners {
+    const Eigen::Vector3f &a, &b, &c;
+  };
+  Corners CornersOf(std::uint32_t geometry, std::uint32_t primitive) const;
+  Corners8 CornersOf(const std::uint32_t* geometry, const std::uint32_t* primitive) const;
+  bool InDoubt(float inside, std::uint32_t geometry, std::uint32_t primitive) const;
+  /// Sets t, u and v of hits whose triangles are known; the bits of lanes whose triangle is in
+  /// doubt.
+  unsigned Place(const Rays8& rays, Hits8* hits) const;
+  /// Chooses the triangle of such lanes among all that they meet at the same distance.
+  void Settle(const Rays8& rays, GeometryMask geometries, unsigned lanes, Hits8* hits) const;
 
   const Tracer* tracer_;
   Snapshot snapshot_;
