@@ -1,6 +1,7 @@
 #include "simulator/pipeline.h"
 
 #include <tbb/task_arena.h>
+#include <xxhash.h>
 
 #include <chrono>
 #include <mutex>
@@ -45,6 +46,28 @@ double Median(std::vector<double> values) {
   std::ranges::sort(values);
   return values[values.size() / 2];
 }
+
+/// One hash of all that was added, in its order.
+struct StageHasher {
+  std::uint64_t value = 0;
+
+  template <typename Values>
+  StageHasher& Add(const Values& values) {
+    value = XXH3_64bits_withSeed(values.data(), values.size() * sizeof(*values.data()), value);
+    return *this;
+  }
+  StageHasher& Add(const cv::Mat1f& image) { return AddRows(image); }
+  StageHasher& Add(const cv::Mat1b& image) { return AddRows(image); }
+
+ private:
+  StageHasher& AddRows(const cv::Mat& image) {
+    for (int y = 0; y < image.rows; ++y) {
+      value = XXH3_64bits_withSeed(image.ptr(y),
+                                   static_cast<std::size_t>(image.cols) * image.elemSize(), value);
+    }
+    return *this;
+  }
+};
 
 FrameTruth Assemble(const Eigen::Isometry3d& T_world_rig, const EyeTruth& left,
                     const EyeTruth& right, const std::vector<MoverTruth>& movers) {
@@ -334,6 +357,29 @@ VerifyReport Pipeline::Verify(std::int64_t stamp_ns, const Eigen::Isometry3d& T_
                         .flow_median_px = flow.median_px,
                         .stereo_compared = stereo.compared,
                         .flow_compared = flow.compared};
+  });
+}
+
+StageHashes Pipeline::HashStages(int frame_index, std::int64_t stamp_ns,
+                                 const Eigen::Isometry3d& T_world_rig) const {
+  return impl_->arena.execute([&] {
+    const Impl& self = *impl_;
+    const Instant instant = self.tracer.Pose(self.world.At(stamp_ns));
+    const std::array<EyeView, 2> views = self.Views(T_world_rig);
+    std::vector<HitImage> hits;
+    TraceViews(instant, views, {}, &hits);
+    const std::vector<cv::Mat1f> radiance = self.shader->Shade(instant, views, hits);
+    const RenderedFrame frame = self.Render(frame_index, stamp_ns, T_world_rig, nullptr);
+    StageHasher triangles, points, light, linear, pictures;
+    for (std::size_t eye = 0; eye < 2; ++eye) {
+      triangles.Add(hits[eye].geometry).Add(hits[eye].primitive);
+      points.Add(hits[eye].t).Add(hits[eye].u).Add(hits[eye].v);
+      linear.Add(radiance[eye]);
+    }
+    const auto solved = self.shader->static_light().At(instant.snapshot().light_scale);
+    light.Add(solved->total).Add(solved->direct).Add(solved->volume.nodes());
+    pictures.Add(frame.left).Add(frame.right);
+    return StageHashes{triangles.value, points.value, light.value, linear.value, pictures.value};
   });
 }
 

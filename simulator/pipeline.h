@@ -53,6 +53,8 @@ class Pipeline {
                       std::int64_t next_stamp_ns, const Eigen::Isometry3d& T_world_rig_next) const;
   RenderBench Bench(std::span<const std::int64_t> stamps_ns,
                     std::span<const Eigen::Isometry3d> poses) const;
+  StageHashes HashStages(int frame_index, std::int64_t stamp_ns,
+                         const Eigen::Isometry3d& T_world_rig) const;
   LightCheck CheckLight(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig, int samples,
                         int reduce) const;
 

@@ -190,7 +190,11 @@ Simulator Simulator::Load(const std::string& scene_file, const std::string& asse
   pipeline.moving = {.threshold_mps = static_cast<float>(scene.dynamic_threshold_mps),
                      .window_ms = scene.sensor.exposure_ms};
   pipeline.tracer.isa = pipeline.shade.statics.isa = options.isa;
-  pipeline.shade.statics.cache_folder = DefaultLightCache();
+  StaticLightOptions& light = pipeline.shade.statics;
+  for (float* spacing : {&light.texel_m, &light.coarse_texel_m, &light.volume_spacing_m}) {
+    *spacing *= static_cast<float>(options.light_spacing);
+  }
+  if (options.keep_light) light.cache_folder = DefaultLightCache();
   pipeline.shade.statics.progress = options.light_progress;
   SetSensor(scene.sensor, &pipeline);
   impl->pipeline = std::make_unique<Pipeline>(std::move(world), CameraOf(scene.camera), pipeline);
@@ -257,6 +261,11 @@ RenderBench Simulator::Bench(int frames) const {
     poses.push_back(PlannedPose(stamps.back()));
   }
   return impl_->pipeline->Bench(stamps, poses);
+}
+
+StageHashes Simulator::HashStages(int frame_index) const {
+  const std::int64_t stamp_ns = Stamp(frame_index);
+  return impl_->pipeline->HashStages(frame_index, stamp_ns, PlannedPose(stamp_ns));
 }
 
 LightCheck Simulator::CheckLight(int frame_index, int samples, int reduce) const {

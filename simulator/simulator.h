@@ -40,6 +40,9 @@ struct SimulatorOptions {
   Twin twin = Twin::kLive;
   int threads = 0;  ///< 0: as many as the machine has; the bytes are the same for any number
   std::string isa = "avx2";  ///< Embree's instruction set; "native" lets Embree choose
+  /// How much further apart than usual the points of the static light lie: over 1, a draft.
+  double light_spacing = 1;
+  bool keep_light = true;  ///< the solved static light is read from and kept on disk
   /// Told while the static light is solved (once per scene, then kept on disk) the share that is
   /// done, rising to 1; from any thread, one call at a time.
   std::function<void(double)> light_progress = {};
@@ -123,6 +126,15 @@ struct VerifyReport {
   std::string failure() const;
 };
 
+/// The stages of a frame, in the order in which they feed each other.
+inline constexpr std::array kStages = {"triangles", "points", "static light", "radiance",
+                                       "pictures"};
+
+/// A hash of what each of kStages made of a frame for both eyes: which triangle a pixel sees; where
+/// on it (t, u, v); the light on the static world; the radiance before the sensor; the pictures.
+/// For finding where two machines part.
+using StageHashes = std::array<std::uint64_t, kStages.size()>;
+
 /// How long rendering takes, beside the bare cost of its primary rays in the same process.
 struct RenderBench {
   double pair_ms = 0;          ///< a stereo pair with all truth, median
@@ -196,6 +208,9 @@ class Simulator {
   /// Times Render over `frames` frames spread over the scene, and the bare primary rays of the same
   /// frames, interleaved so that both meet the same machine.
   RenderBench Bench(int frames) const;
+
+  /// Renders one planned frame and hashes what its stages made.
+  StageHashes HashStages(int frame_index) const;
 
   /// Renders one planned left image with the nightly light and by path tracing, `samples` paths a
   /// pixel: minutes. Both are compared at a size reduced by a whole factor, which leaves the paths'

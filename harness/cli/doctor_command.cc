@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "harness/cli/command.h"
+#include "harness/cli/doctor_bits.h"
 #include "harness/cli/places.h"
 #include "harness/cli/terminal.h"
 #include "harness/report/record_json.h"
@@ -158,14 +159,34 @@ int Doctor(const std::string& out, bool json) {
 void AddDoctorCommand(CLI::App* app, Action* action) {
   struct Options {
     std::string out = "out";
-    bool json = false;
+    bool bits = false;
+    DoctorBitsOptions of_bits;
   };
   const auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand("doctor", "what this machine has and lacks for the work");
   command->add_option("--out", options->out, "where reports will go; default out");
-  command->add_flag("--json", options->json, "for programs");
-  command->footer("Example: ./aisle doctor");
-  command->callback([=] { *action = [=] { return Doctor(options->out, options->json); }; });
+  const CLI::Option* json =
+      command->add_option("--json", options->of_bits.json, "for programs; with --bits, to a file")
+          ->expected(0, 1);
+  const auto bits = command->add_flag(
+      "--bits", options->bits,
+      "what each stage of a small drive computes on this processor, as hashes, and the first stage "
+      "in which it parts from the makes of processor in reports/baselines/bits.json");
+  command->add_flag("--pictures", options->of_bits.pictures, "the simulator's stages alone")
+      ->needs(bits);
+  command->add_option("--against", options->of_bits.against, "another list, as --json writes it")
+      ->needs(bits);
+  command->add_flag("--keep", options->of_bits.keep, "put this processor's hashes into the list")
+      ->needs(bits);
+  command->add_option("--threads", options->of_bits.threads, "0: all; never changes a bit")
+      ->needs(bits);
+  command->footer("Example: ./aisle doctor --bits");
+  command->callback([=] {
+    *action = [=] {
+      if (options->bits) return DoctorBits(options->of_bits);
+      return Doctor(options->out, json->count() > 0);
+    };
+  });
 }
 
 }  // namespace aisle

@@ -1,0 +1,101 @@
+#include "harness/cli/doctor_bits.h"
+
+#include <cpuid.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "harness/cli/command.h"
+#include "harness/cli/places.h"
+#include "harness/io/file.h"
+#include "harness/io/input_error.h"
+#include "harness/plugs/stage_bits.h"
+#include "harness/report/record_json.h"
+
+namespace aisle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kScene = "smoke/bits";
+
+/// Maker and name as the processor itself says them: an emulator leaves /proc/cpuinfo as the
+/// host's.
+std::string ProcessorName() {
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  std::string name;
+  const auto add = [&name](std::initializer_list<unsigned> words) {
+    for (const unsigned word : words) {
+      char letters[sizeof word];
+      std::memcpy(letters, &word, sizeof word);
+      name.append(letters, strnlen(letters, sizeof word));
+    }
+  };
+  if (__get_cpuid(0, &a, &b, &c, &d) != 0) add({b, d, c});
+  name += ' ';
+  for (const unsigned leaf : {0x80000002u, 0x80000003u, 0x80000004u}) {
+    if (__get_cpuid(leaf, &a, &b, &c, &d) != 0) add({a, b, c, d});
+  }
+  name.erase(name.find_last_not_of(' ') + 1);
+  return Printable(name);
+}
+
+Json ToJson(const std::vector<StageBits>& bits) {
+  Json stages;
+  for (const StageBits& stage : bits) stages[stage.stage] = fmt::format("{:016x}", stage.hash);
+  return stages;
+}
+
+/// The list of makes, or an empty one where there is none yet. Throws InputError.
+Json ReadMakes(const std::string& file, bool may_lack) {
+  if (may_lack && !std::filesystem::exists(file)) return Json::object();
+  try {
+    return Json::parse(ReadFile(file)).at("makes");
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(file + ": no list of hashes by make of processor: " + error.what());
+  }
+}
+
+/// The first stage that both have and that differs; empty where none does.
+std::string FirstDifference(const Json& own, const Json& other) {
+  for (const auto& [stage, hash] : own.items()) {
+    if (other.contains(stage) && other[stage] != hash) return stage;
+  }
+  return "";
+}
+
+}  // namespace
+
+int DoctorBits(const DoctorBitsOptions& options) {
+  const std::string processor = ProcessorName();
+  const std::string list =
+      options.against.empty() ? BaselinePath("bits").string() : options.against;
+  Json makes = ReadMakes(list, options.keep || options.against.empty());
+  const std::vector<StageBits> bits = HashStages({.scene_file = SceneFile(kScene),
+                                                  .assets_dir = AssetsDir().string(),
+                                                  .threads = options.threads,
+                                                  .drive = !options.pictures});
+  const Json own = ToJson(bits);
+  fmt::print("{:14} {}\n", "processor", processor);
+  for (const StageBits& stage : bits) fmt::print("{:14} {:016x}\n", stage.stage, stage.hash);
+  const std::string commit = OwnProvenance().commit;
+  bool differs = false;
+  for (const auto& [make, known] : makes.items()) {
+    const std::string first = FirstDifference(own, known.at("stages"));
+    differs = differs || !first.empty();
+    fmt::print("{} (commit {}): {}\n", make, known.at("commit").get<std::string>(),
+               first.empty() ? "every stage equal" : "the first stage that differs: " + first);
+  }
+  const Json entry = {{"commit", commit}, {"stages", own}};
+  if (!options.json.empty()) {
+    WriteFileAtomically(options.json, Dump({{"scene", kScene}, {"makes", {{processor, entry}}}}));
+  }
+  if (options.keep) {
+    makes[processor] = entry;
+    WriteFileAtomically(list, Dump({{"scene", kScene}, {"makes", makes}}));
+    return kAllPassed;
+  }
+  return differs ? kVerdictFailed : kAllPassed;
+}
+
+}  // namespace aisle
