@@ -5,10 +5,12 @@
 #include "harness/cli/command.h"
 #include "harness/cli/evening.h"
 #include "harness/cli/jobs.h"
+#include "harness/cli/places.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/report/record.h"
 #include "harness/report/record_json.h"
+#include "harness/report/results.h"
 #include "harness/suite/plan.h"
 
 namespace aisle {
@@ -34,6 +36,15 @@ RunSpec FindRun(const Suite& suite, const std::string& id, const std::string& fo
       fmt::format("{}: holds no run '{}'; it holds{}", folder, Printable(id, 200), known));
 }
 
+/// The processor that made a report; empty where its results.json is not there or not whole.
+std::string ProcessorOf(const std::string& folder) {
+  try {
+    return ReadResults(folder).provenance.cpu;
+  } catch (const InputError&) {
+    return "";
+  }
+}
+
 /// How the new run compares with the old one, for people or for programs.
 int Say(const Options& options, const fs::path& out, const std::optional<RunRecord>& before,
         const std::optional<RunRecord>& after) {
@@ -42,10 +53,13 @@ int Say(const Options& options, const fs::path& out, const std::optional<RunReco
       both ? DifferentBits(*before, *after) : std::vector<std::string>{};
   const bool same_inputs = both && before->inputs_hash == after->inputs_hash;
   const std::string run = (out / "runs" / options.id).string();
+  const std::string processor = ProcessorOf(options.in), own = OwnProvenance().cpu;
+  const bool same_processor = processor.empty() || processor == own;
   if (options.json) {
     fmt::print("{}", Dump({{"run", run},
                            {"compared", both},
                            {"same_inputs", same_inputs},
+                           {"same_processor", same_processor},
                            {"differences", differences}}));
   } else if (!both) {
     fmt::print("run: {}\nthere is no earlier result to compare with\n", run);
@@ -57,8 +71,12 @@ int Say(const Options& options, const fs::path& out, const std::optional<RunReco
                same_inputs ? "the same inputs, other results:"
                            : "program, scene or system changed since; other results:");
     for (const std::string& line : differences) fmt::print("  {}\n", line);
+    if (!same_processor) {
+      fmt::print("  made on {}, run again on {}: equal bits are promised on one make alone\n",
+                 processor, own);
+    }
   }
-  return differences.empty() ? kAllPassed : kVerdictFailed;
+  return differences.empty() || !same_processor ? kAllPassed : kVerdictFailed;
 }
 
 int Rerun(const Options& options) {

@@ -172,7 +172,21 @@ void CorrectAndDecide(const CompareOptions& options, std::vector<Comparison>* co
   }
 }
 
+/// Equal bits are promised within one make of processor.
+void NoteOtherProcessor(const Results& before, const Results& after,
+                        std::vector<Comparison>* comparisons) {
+  for (Comparison& c : *comparisons) {
+    if (!IsTested(c)) continue;
+    c.why += fmt::format("; {} was {}: other bits alone say nothing", after.provenance.cpu,
+                         before.provenance.cpu);
+  }
+}
+
 }  // namespace
+
+bool SameProcessor(const Results& a, const Results& b) {
+  return a.provenance.cpu == b.provenance.cpu;
+}
 
 std::string Name(Change change) {
   switch (change) {
@@ -205,6 +219,7 @@ std::vector<Comparison> Compare(const Results& before, const Results& after,
     }
   }
   CorrectAndDecide(options, &comparisons);
+  if (!SameProcessor(before, after)) NoteOtherProcessor(before, after, &comparisons);
   return comparisons;
 }
 

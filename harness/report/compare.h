@@ -43,6 +43,10 @@ struct Comparison {
 std::vector<Comparison> Compare(const Results& before, const Results& after,
                                 const CompareOptions& options = {});
 
+/// Whether both were computed by one make of processor, within which equal inputs give equal bits.
+/// Between makes nothing is presupposed: scores that differ are compared as any others.
+bool SameProcessor(const Results& a, const Results& b);
+
 /// What a comparison needs of a night and no more: fit to be kept under version control.
 Results BaselineOf(const Results& results);
 

@@ -50,6 +50,19 @@ TEST(CompareTest, EqualNightsAreTheSame) {
   EXPECT_TRUE(comparisons.front().bit_equal);
 }
 
+TEST(CompareTest, OtherBitsOnAnotherProcessorAreNoAlarmButAClearShiftIs) {
+  Results before = Night(0.02, 1), after = before, worse = Night(0.04, 2);
+  for (RunRecord& run : after.runs) *run.scores["ate_rmse_m"].value *= 1.04;
+  before.provenance.cpu = "one make";
+  after.provenance.cpu = worse.provenance.cpu = "another";
+  EXPECT_FALSE(SameProcessor(before, after));
+  for (const Comparison& c : Compare(before, after)) {
+    EXPECT_NE(c.change, Change::kWorse);
+    EXPECT_EQ(c.why.find("another was one make") != std::string::npos, !c.bit_equal);
+  }
+  EXPECT_EQ(ChangeOf(Compare(before, worse), "ate_rmse_m"), Change::kWorse);
+}
+
 TEST(CompareTest, CoverageStandsFirstAndFallingCoverageIsWorse) {
   const auto comparisons = Compare(Night(0.02, 1, 1.0), Night(0.01, 2, 0.5));
   EXPECT_EQ(comparisons.front().score, "coverage");
