@@ -152,7 +152,7 @@ struct Pipeline::Impl {
     std::vector<HitImage> hits;
     TraceViews(instant, view, {}, &hits);
     const cv::Mat1f light(shader->Shade(instant, view, hits).front().mul(meter_fall_off));
-    return ChooseExposure(light, WhitePerMs(), options.auto_exposure);
+    return ChooseExposure(light, WhitePerMs(), options.sensor.tone, options.auto_exposure);
   }
 
   double WhitePerMs() const {
@@ -166,7 +166,7 @@ struct Pipeline::Impl {
       sensor.exposure = static_cast<float>(WhitePerMs() * setting.time_ms * setting.gain);
       sensor.gain = setting.gain;
     }
-    return Expose(SpreadByLens(radiance, sensor.blur_px), response[eye], sensor,
+    return Expose(SpreadByLens(radiance, sensor.lens), response[eye], sensor,
                   {options.seed, static_cast<std::uint32_t>(frame_index), eye});
   }
 

@@ -16,10 +16,6 @@
 namespace aisle::sim {
 namespace {
 
-/// Share of white that radiance 1 gives after 1 ms at 0 dB, the aperture of the lens as it were:
-/// lamps of brightness 1 and the default exposure of 8 ms then show a hall in middle grey.
-constexpr double kWhitePerMillisecond = 32.0;
-
 Scene TwinOf(const Scene& written, Twin twin) {
   if (twin == Twin::kNone) return WithDynamics(written, Dynamics::kNone);
   if (twin == Twin::kLow) return WithDynamics(written, Dynamics::kLow);
@@ -71,11 +67,20 @@ void SetSensor(const SensorSpec& spec, PipelineOptions* options) {
   const double gain = std::pow(10.0, spec.gain_db / 20);
   SensorOptions& sensor = options->sensor;
   sensor.gain = static_cast<float>(gain);
-  sensor.exposure = static_cast<float>(spec.exposure_ms * gain * kWhitePerMillisecond);
+  sensor.exposure =
+      static_cast<float>(spec.exposure_ms * gain * (spec.sensitivity_e_per_ms / spec.full_well_e));
+  sensor.full_well_e = static_cast<float>(spec.full_well_e);
+  sensor.read_noise_e = static_cast<float>(spec.read_noise_e);
+  sensor.prnu = static_cast<float>(spec.prnu);
+  sensor.dsnu_e = static_cast<float>(spec.dsnu_e);
+  sensor.black_level = static_cast<float>(spec.black_level);
+  sensor.tone = spec.tone == ToneSpec::kCompanded ? Tone::kCompanded : Tone::kLinear;
   sensor.noise = spec.noise;
   sensor.fixed_pattern = spec.fixed_pattern;
   sensor.vignetting = static_cast<float>(spec.vignetting);
-  sensor.blur_px = static_cast<float>(spec.blur_px);
+  sensor.lens = {.blur_px = static_cast<float>(spec.blur_px),
+                 .field_blur_px = static_cast<float>(spec.field_blur_px),
+                 .glare = static_cast<float>(spec.glare)};
   options->exposure_ms = spec.exposure_ms;
   options->shutter.motion_blur = spec.motion_blur;
   options->shutter.readout_ms = spec.readout_ms;

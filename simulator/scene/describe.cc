@@ -48,10 +48,9 @@ void DescribeCamera(Fields& f, CameraSpec& camera) {
             camera.distortion_coefficients.data(), 4, {-10, 10});
 }
 
-void DescribeSensor(Fields& f, SensorSpec& sensor) {
-  sensor.mark = f.mark();
+void DescribeExposure(Fields& f, SensorSpec& sensor) {
   f.Number({"exposure_ms", "exposure time", "8"}, &sensor.exposure_ms, {0.01, 200});
-  f.Number({"gain_db", "analogue gain; brightens light and noise", "0"}, &sensor.gain_db, {0, 48});
+  f.Number({"gain_db", "analogue gain; brightens light and noise", "6"}, &sensor.gain_db, {0, 48});
   f.Flag({"auto_exposure", "let the camera choose exposure and gain, frame by frame", "true"},
          &sensor.auto_exposure);
   f.Number({"auto_target_grey", "mean grey that automatic exposure aims at", "110"},
@@ -61,18 +60,52 @@ void DescribeSensor(Fields& f, SensorSpec& sensor) {
            &sensor.auto_meter_from, {0, 0.9});
   f.Number({"auto_longest_ms", "longest automatic exposure; then gain rises, to 12 dB", "12"},
            &sensor.auto_longest_ms, {0.2, 200});
-  f.Flag({"noise", "shot and read noise", "true"}, &sensor.noise);
-  f.Flag({"fixed_pattern", "every pixel's own sensitivity and dark signal", "true"},
-         &sensor.fixed_pattern);
-  f.Number({"vignetting", "share of light lost in the corners", "0.25"}, &sensor.vignetting,
-           {0, 0.9});
-  f.Number({"blur_px", "standard deviation of the lens blur", "0.45"}, &sensor.blur_px, {0, 5});
   f.Flag({"motion_blur", "integrate the light over the exposure time", "true"},
          &sensor.motion_blur);
   f.Number({"readout_ms", "rolling shutter: from the first row to the last; 0: all at once", "16"},
            &sensor.readout_ms, {0, 100});
 }
 
+void DescribePixels(Fields& f, SensorSpec& sensor) {
+  f.Flag({"noise", "shot and read noise", "true"}, &sensor.noise);
+  f.Flag({"fixed_pattern", "every pixel's own sensitivity and dark signal", "true"},
+         &sensor.fixed_pattern);
+  f.Number({"sensitivity_e_per_ms", "electrons a millisecond that radiance 1 frees in a pixel",
+            "160000"},
+           &sensor.sensitivity_e_per_ms, {1, 1e8});
+  f.Number({"full_well_e", "electrons at white at 0 dB", "18400"}, &sensor.full_well_e, {100, 1e6});
+  f.Number({"read_noise_e", "temporal noise in the dark, electrons rms", "20"},
+           &sensor.read_noise_e, {0, 1000});
+  f.Number({"prnu", "pixels' sensitivity about their mean, rms share", "0.01"}, &sensor.prnu,
+           {0, 0.2});
+  f.Number({"dsnu_e", "pixels' dark signal about its mean, electrons rms", "10"}, &sensor.dsnu_e,
+           {0, 1000});
+  f.Number({"black_level", "grey levels of the dark, before the tone curve", "2.5"},
+           &sensor.black_level, {0, 64});
+  f.Choice({"tone", "from light to grey; companded: 12 to 10 bit as in the MT9V034", "linear"},
+           &sensor.tone, {"linear", "companded"});
+}
+
+void DescribeLens(Fields& f, SensorSpec& sensor) {
+  f.Number({"vignetting", "share of light lost in the corners", "0.25"}, &sensor.vignetting,
+           {0, 0.9});
+  f.Number({"blur_px", "standard deviation of the lens blur in the middle", "0.5"}, &sensor.blur_px,
+           {0, 5});
+  f.Number({"field_blur_px", "blur that the farthest corner adds, in quadrature", "0.5"},
+           &sensor.field_blur_px, {0, 5});
+  f.Number({"glare", "share of the light that veils the whole picture", "0.04"}, &sensor.glare,
+           {0, 0.5});
+}
+
+void DescribeSensor(Fields& f, SensorSpec& sensor) {
+  f.Choice({"preset", "a camera whose values hold for every key that is not given", "ideal"},
+           &sensor.preset, {"mt9v034", "ideal"});
+  sensor = MakeSensor(sensor.preset);
+  sensor.mark = f.mark();
+  DescribeExposure(f, sensor);
+  DescribePixels(f, sensor);
+  DescribeLens(f, sensor);
+}
 void DescribeStep(Fields& f, RouteStep& step, RouteSpec::StepMarks& marks) {
   marks.step = f.mark();
   f.Points({"go", "go through these points", "[[5, 0], [5, 3]]"}, &step.go, &marks.go);

@@ -9,14 +9,10 @@
 #include "simulator/motion/rig_mount.h"
 #include "simulator/motion/route.h"
 #include "simulator/motion/vehicle.h"
+#include "simulator/scene/mark.h"
+#include "simulator/scene/sensor_spec.h"
 
 namespace aisle::sim {
-
-/// Where in the scene file something stands, from 1; 0: nowhere (a default).
-struct Mark {
-  int line = 0;
-  int column = 0;
-};
 
 /// How busy a scene is. An actor takes part when the scene's level is at least its own.
 enum class Dynamics { kNone, kLow, kMid, kHigh };
@@ -31,23 +27,6 @@ struct CameraSpec {
   double baseline_m = 0.12;
   Distortion distortion = Distortion::kNone;
   std::array<double, 4> distortion_coefficients = {0, 0, 0, 0};
-};
-
-/// What the sensor does to the light.
-struct SensorSpec {
-  Mark mark;
-  double exposure_ms = 8;
-  double gain_db = 0;
-  bool auto_exposure = false;     ///< chooses time and gain itself
-  double auto_target_grey = 110;  ///< mean grey it aims at
-  double auto_meter_from = 0;     ///< share of the height above which the picture is not metered
-  double auto_longest_ms = 12;    ///< exposure time beyond which it takes gain instead
-  bool noise = true;              ///< shot and read noise
-  bool fixed_pattern = true;      ///< every pixel's own sensitivity and dark signal
-  double vignetting = 0.25;       ///< share of light lost in the corners
-  double blur_px = 0.45;          ///< standard deviation of the lens blur
-  bool motion_blur = false;       ///< things move while the shutter is open
-  double readout_ms = 0;          ///< of a rolling shutter, first row to last
 };
 
 /// A route with the places of its parts in the file.

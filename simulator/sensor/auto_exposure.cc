@@ -10,10 +10,13 @@
 namespace aisle::sim {
 namespace {
 
-/// Mean share of white when radiance 1 gives `white`.
-double MeanOf(const cv::Mat1f& light, double white) {
+/// Mean share of white, behind the tone curve, when radiance 1 gives `white`.
+double MeanOf(const cv::Mat1f& light, double white, Tone tone) {
   double sum = 0;
-  for (const float value : light) sum += std::min(1.0, white * double{value});
+  for (const float value : light) {
+    const double share = std::min(1.0, white * double{value});
+    sum += tone == Tone::kCompanded ? double{Compand(static_cast<float>(share))} : share;
+  }
   return sum / static_cast<double>(light.total());
 }
 
@@ -46,7 +49,7 @@ std::string AutoExposureOptions::Validate() const {
   return "";
 }
 
-ExposureSetting ChooseExposure(const cv::Mat1f& view, double white_per_ms,
+ExposureSetting ChooseExposure(const cv::Mat1f& view, double white_per_ms, Tone tone,
                                const AutoExposureOptions& options) {
   constexpr int kBisections = 30;
   const int top = static_cast<int>(options.meter_from * static_cast<float>(view.rows));
@@ -58,7 +61,7 @@ ExposureSetting ChooseExposure(const cv::Mat1f& view, double white_per_ms,
   double low = options.shortest_ms, high = highest;  // ms · gain
   for (int i = 0; i < kBisections; ++i) {
     const double middle = std::sqrt(low * high);
-    (255 * MeanOf(light, middle * white_per_ms) < options.target_grey ? low : high) = middle;
+    (255 * MeanOf(light, middle * white_per_ms, tone) < options.target_grey ? low : high) = middle;
   }
   ExposureSetting setting{std::min(high, options.longest_ms), 1};
   if (high > options.longest_ms) {

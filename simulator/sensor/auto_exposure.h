@@ -3,6 +3,8 @@
 #include <opencv2/core.hpp>
 #include <string>
 
+#include "simulator/sensor/tone.h"
+
 namespace aisle::sim {
 
 /// Exposure control in the manner of the MT9V034's own (AEC and AGC, with its weighted
@@ -29,11 +31,12 @@ struct ExposureSetting {
 /// The setting under which `light` has the target mean, or a lower one where more than the allowed
 /// share would be white. `light` is a coarse picture of the view
 /// that is being taken (of which the rows from `meter_from` on are metered), radiance after the
-/// lens's fall-off; `white_per_ms` the share of white that radiance 1 gives after 1 ms at gain 1.
+/// lens's fall-off; `white_per_ms` the share of white that radiance 1 gives after 1 ms at gain 1,
+/// `tone` the curve behind which the mean is taken.
 /// Values above white count as white, as they do in the picture, so a lamp in view does not darken
 /// the hall. Pure: it remembers no earlier frame, so a frame alone has the exposure that it has in
 /// a sequence; the control has no lag.
-ExposureSetting ChooseExposure(const cv::Mat1f& light, double white_per_ms,
+ExposureSetting ChooseExposure(const cv::Mat1f& light, double white_per_ms, Tone tone,
                                const AutoExposureOptions& options);
 
 }  // namespace aisle::sim

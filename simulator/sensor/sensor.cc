@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 namespace aisle::sim {
 namespace {
@@ -79,10 +78,7 @@ std::string SensorOptions::Validate() const {
   if (!(vignetting >= 0 && vignetting <= 1)) {
     return fmt::format("vignetting is {}, must be in [0, 1]", vignetting);
   }
-  if (!(blur_px >= 0 && blur_px <= 5)) {
-    return fmt::format("blur_px is {}, must be in [0, 5]", blur_px);
-  }
-  return "";
+  return lens.Validate();
 }
 
 cv::Mat1f VignettingMap(int width, int height, const std::vector<float>& ray_x,
@@ -118,16 +114,6 @@ PixelResponse MakeResponse(const cv::Mat1f& vignetting, const SensorOptions& opt
   return response;
 }
 
-cv::Mat1f SpreadByLens(const cv::Mat1f& radiance, float sigma_px) {
-  if (sigma_px <= 0) return radiance;
-  cv::Mat1f spread;
-  // Four deviations hold all of a normal kernel but 6e-5; sharp lenses need no more than 5 × 5.
-  const int size = std::max(5, 2 * static_cast<int>(std::ceil(4 * sigma_px)) + 1);
-  cv::GaussianBlur(radiance, spread, cv::Size(size, size), sigma_px, sigma_px,
-                   cv::BORDER_REPLICATE);
-  return spread;
-}
-
 cv::Mat1b Expose(const cv::Mat1f& radiance, const PixelResponse& response,
                  const SensorOptions& options, const NoiseKey& key) {
   static const std::vector<float> normal = NormalTable();
@@ -138,6 +124,7 @@ cv::Mat1b Expose(const cv::Mat1f& radiance, const PixelResponse& response,
   const float grey_per_electron = 255 / white_e;
   const float read_variance = options.noise ? options.read_noise_e * options.read_noise_e : 0;
   const float shot = options.noise ? 1.0f : 0.0f;
+  const bool companded = options.tone == Tone::kCompanded;
 
   const std::vector<float> nothing(
       response.dark_e.empty() ? static_cast<std::size_t>(radiance.cols) : 0, 0.0f);
@@ -153,7 +140,8 @@ cv::Mat1b Expose(const cv::Mat1f& radiance, const PixelResponse& response,
       const std::uint32_t random = Mix32(row ^ Mix32(static_cast<std::uint32_t>(x)));
       const float deviate = normal[random >> (32 - kTableBits)];
       const float electrons = mean + dark[x] + std::sqrt(shot * mean + read_variance) * deviate;
-      const float value = electrons * grey_per_electron + options.black_level + 0.5f;
+      const float level = electrons * grey_per_electron + options.black_level;
+      const float value = (companded ? 255 * Compand(level / 255) : level) + 0.5f;
       grey[x] = static_cast<std::uint8_t>(std::min(std::max(value, 0.0f), 255.0f));
     }
   });

@@ -5,27 +5,28 @@
 #include <string>
 #include <vector>
 
+#include "simulator/sensor/lens.h"
+#include "simulator/sensor/tone.h"
+
 namespace aisle::sim {
 
-/// A monochrome camera in the manner of onsemi's MT9V034 (752 × 480, 6 µm pixels, global shutter),
-/// the sensor of EuRoC's stereo head. Electrons follow the photon transfer law: the variance of the
-/// signal is its mean plus the read noise's. From the maker's datasheets (MT9V034 Rev. G, MT9V022
-/// Rev. H): array, pixel, analogue gain 1 to 4 in steps of 1/16, linear dynamic range above 55 dB.
-/// They are silent on electrons; full well and read noise are round figures for 6 µm photodiode
-/// pixels of that age whose ratio is the stated range (10000 / 20 = 54 dB), and PRNU and DSNU are
-/// such sensors' usual EMVA 1288 figures: 1 % and half the read noise.
+/// A monochrome camera. Electrons follow the photon transfer law: the variance of the signal is its
+/// mean plus the read noise's. These defaults are a sharp, clean camera with round figures, the
+/// scene file's preset `ideal`; the figures of a real one, which scenes have by default, stand with
+/// their sources in simulator/scene/sensor_spec.h.
 struct SensorOptions {
   float exposure = 1.0f;         ///< grey level, as a share of white, of radiance 1
   float full_well_e = 10000.0f;  ///< electrons at white at gain 1
   float gain = 1.0f;             ///< analogue: white is reached at full_well_e / gain
   float read_noise_e = 20.0f;    ///< rms, electrons
-  float black_level = 2.0f;      ///< grey levels added before rounding
+  float black_level = 2.0f;      ///< grey levels added before the tone curve
+  Tone tone = Tone::kLinear;     ///< from the share of white to grey
   float prnu = 0.01f;            ///< rms of the pixels' sensitivity about their mean, a share
   float dsnu_e = 10.0f;          ///< rms of the pixels' dark signal about their mean, electrons
   bool fixed_pattern = true;     ///< prnu and dsnu
   float vignetting = 0.25f;      ///< share of the light lost in the farthest corner
   bool noise = true;             ///< shot and read noise
-  float blur_px = 0.45f;         ///< standard deviation of the lens's point spread; 0: none
+  LensOptions lens = {};
 
   /// The first rule broken, with name, value and bound; empty if none is.
   std::string Validate() const;
@@ -55,11 +56,8 @@ struct PixelResponse {
 PixelResponse MakeResponse(const cv::Mat1f& vignetting, const SensorOptions& options,
                            std::uint64_t seed, std::uint32_t camera);
 
-/// The image as the lens spreads it: a Gaussian of `sigma_px`; 0 returns it as it is.
-cv::Mat1f SpreadByLens(const cv::Mat1f& radiance, float sigma_px);
-
-/// Linear radiance to 8-bit grey (gamma 1): exposure, pixel response, shot and read noise,
-/// rounding. Parallel over rows; each pixel's noise depends on the key and its place alone.
+/// Linear radiance to 8-bit grey: exposure, pixel response, shot and read noise, black level, tone
+/// curve, rounding. Parallel over rows; each pixel's noise depends on the key and its place alone.
 cv::Mat1b Expose(const cv::Mat1f& radiance, const PixelResponse& response,
                  const SensorOptions& options, const NoiseKey& key);
 

@@ -104,7 +104,7 @@ double MeanDifference(const cv::Mat1b& a, const cv::Mat1b& b) {
 
 TEST(Shutter, BlurIsTheMeanOfManyInstants) {
   PipelineOptions options = NoiselessOptions();
-  options.sensor.blur_px = 0;
+  options.sensor.lens.blur_px = 0;
   options.shutter.motion_blur = true;
   const Pipeline blurred(World(FastHall()), {}, options);
   const Eigen::Isometry3d pose = blurred.world().PlannedRigPose(2 * kSecond);

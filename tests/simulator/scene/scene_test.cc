@@ -316,6 +316,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "3:9", "nothing says of which model"},
         Mistake{"frames: 100", "frames: 100\nsensor: {readout_ms: 45}", "3:9",
                 "a frame comes every 50 ms"},
+        Mistake{"frames: 100", "frames: 100\nsensor: {preset: perfect}", "3:18",
+                "expected one of mt9v034, ideal"},
         Mistake{"to: [20, 8]", "to: [-20, 8]", "7:7", "must lie at least 2 m beyond"},
         Mistake{"  - {rows: 2, per_row: 4, height_m: 5}", "  []", "9:3", "expected at least one"},
         Mistake{"lights:", "light:", "8:1", "did you mean lights?"},
@@ -331,6 +333,39 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"    heading_deg: -90", "    vary: {path_m: 2}\n    heading_deg: -90", "18:9",
                 "people[0]: with seed 8 "},
         Mistake{"people:", "persons:", "12:1", "there is no such key"}));
+
+SensorSpec SensorOf(const std::string& sensor) {
+  return ParseScene(With("frames: 100", "frames: 100\n" + sensor), "s.yaml").sensor;
+}
+
+TEST(Sensor, WithoutAWordIsACameraThatOneCanBuy) {
+  const SensorSpec sensor = SensorOf("");
+  EXPECT_EQ(sensor.preset, SensorPreset::kMt9v034);
+  EXPECT_EQ(sensor.full_well_e, 18400);
+  EXPECT_GT(sensor.glare, 0);
+}
+
+TEST(Sensor, IdealIsSharpAndLinear) {
+  const SensorSpec sensor = SensorOf("sensor: {preset: ideal}");
+  EXPECT_EQ(sensor.tone, ToneSpec::kLinear);
+  EXPECT_EQ(sensor.glare, 0);
+  EXPECT_EQ(sensor.field_blur_px, 0);
+  EXPECT_EQ(sensor.blur_px, 0.45);
+  EXPECT_EQ(sensor.gain_db, 0);
+  // What the white share a millisecond was before there were presets; its bits must not change.
+  EXPECT_EQ(sensor.sensitivity_e_per_ms / sensor.full_well_e, 32.0);
+}
+
+TEST(Sensor, AKeyOverridesThePresetWhereverItStands) {
+  for (const char* text : {"sensor: {preset: ideal, blur_px: 1.25, gain_db: 3}",
+                           "sensor: {gain_db: 3, blur_px: 1.25, preset: ideal}"}) {
+    const SensorSpec sensor = SensorOf(text);
+    EXPECT_EQ(sensor.preset, SensorPreset::kIdeal);
+    EXPECT_EQ(sensor.blur_px, 1.25);
+    EXPECT_EQ(sensor.gain_db, 3);
+    EXPECT_EQ(sensor.full_well_e, 10000);
+  }
+}
 
 TEST(Mistakes, AreAllReportedInOneGo) {
   std::string text = With("frames: 100", "frames: many");

@@ -18,16 +18,16 @@ double MeanGrey(const cv::Mat1f& light, double white_per_ms, const ExposureSetti
 TEST(AutoExposure, TheMeanIsTheTarget) {
   cv::Mat1f light(60, 94);
   cv::randu(light, 0.0f, 1.0f);
-  const ExposureSetting setting = ChooseExposure(light, 0.3, kAuto);
+  const ExposureSetting setting = ChooseExposure(light, 0.3, Tone::kLinear, kAuto);
   EXPECT_EQ(setting.gain, 1);
   EXPECT_NEAR(MeanGrey(light, 0.3, setting), 100, 0.1);
 }
 
 TEST(AutoExposure, ALampInViewDoesNotDarkenTheHall) {
   cv::Mat1f light(60, 94, 0.2f);
-  const double without = ChooseExposure(light, 0.5, kAuto).time_ms;
+  const double without = ChooseExposure(light, 0.5, Tone::kLinear, kAuto).time_ms;
   light.rowRange(0, 2) = 500.0f;
-  const double with = ChooseExposure(light, 0.5, kAuto).time_ms;
+  const double with = ChooseExposure(light, 0.5, Tone::kLinear, kAuto).time_ms;
   EXPECT_LT(with, without);
   EXPECT_GT(with, 0.9 * without);
 }
@@ -35,7 +35,8 @@ TEST(AutoExposure, ALampInViewDoesNotDarkenTheHall) {
 TEST(AutoExposure, ADarkThingBeforeABrightHallDoesNotWashItOut) {
   cv::Mat1f light(60, 94, 0.4f);
   light.colRange(0, 60) = 0.001f;
-  EXPECT_NEAR(MeanGrey(light, 0.3, ChooseExposure(light, 0.3, kAuto)), 255 * 34.0 / 94, 1);
+  EXPECT_NEAR(MeanGrey(light, 0.3, ChooseExposure(light, 0.3, Tone::kLinear, kAuto)),
+              255 * 34.0 / 94, 1);
 }
 
 TEST(AutoExposure, WhatIsAboveTheMeteredRowsDoesNotCount) {
@@ -43,21 +44,23 @@ TEST(AutoExposure, WhatIsAboveTheMeteredRowsDoesNotCount) {
   sky.rowRange(0, 30) = 3.0f;
   AutoExposureOptions lower = kAuto;
   lower.meter_from = 0.5f;
-  EXPECT_LT(ChooseExposure(sky, 0.5, kAuto).time_ms, ChooseExposure(street, 0.5, kAuto).time_ms);
-  EXPECT_EQ(ChooseExposure(sky, 0.5, lower).time_ms, ChooseExposure(street, 0.5, kAuto).time_ms);
+  EXPECT_LT(ChooseExposure(sky, 0.5, Tone::kLinear, kAuto).time_ms,
+            ChooseExposure(street, 0.5, Tone::kLinear, kAuto).time_ms);
+  EXPECT_EQ(ChooseExposure(sky, 0.5, Tone::kLinear, lower).time_ms,
+            ChooseExposure(street, 0.5, Tone::kLinear, kAuto).time_ms);
 }
 
 TEST(AutoExposure, GainComesWhenTimeHasReachedItsLimitAndInTheSensorsSteps) {
   const cv::Mat1f light(60, 94, 0.1f);
   const double white_per_ms = 100.0 / 255 / 0.1 / 23;  // 23 ms at gain 1 would do
-  const ExposureSetting setting = ChooseExposure(light, white_per_ms, kAuto);
+  const ExposureSetting setting = ChooseExposure(light, white_per_ms, Tone::kLinear, kAuto);
   EXPECT_EQ(setting.gain, 2.3125f);
   EXPECT_LE(setting.time_ms, 10);
   EXPECT_NEAR(MeanGrey(light, white_per_ms, setting), 100, 0.1);
 }
 
 TEST(AutoExposure, InTheDarkItStopsAtItsLimits) {
-  const ExposureSetting setting = ChooseExposure(cv::Mat1f(60, 94, 0.0f), 1, kAuto);
+  const ExposureSetting setting = ChooseExposure(cv::Mat1f(60, 94, 0.0f), 1, Tone::kLinear, kAuto);
   EXPECT_EQ(setting.time_ms, 10);
   EXPECT_EQ(setting.gain, 4);
 }

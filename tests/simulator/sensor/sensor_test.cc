@@ -64,23 +64,49 @@ TEST(Expose, NeighbouringPixelsAreUncorrelated) {
   }
 }
 
-TEST(SpreadByLens, KeepsTheLightOfAPoint) {
-  cv::Mat1f point(21, 21, 0.0f);
-  point(10, 10) = 1;
-  const cv::Mat1f spread = SpreadByLens(point, 0.6f);
-  EXPECT_NEAR(cv::sum(spread)[0], 1, 1e-5);
-  EXPECT_LT(spread(10, 10), 0.7f);
+TEST(Expose, ThePhotonTransferCurveGivesBackFullWellAndReadNoise) {
+  // EMVA 1288's own evaluation: variance over mean is a line; its slope is grey levels an electron,
+  // what it leaves in the dark is the read noise. Saturation ends it.
+  const SensorOptions options{
+      .exposure = 1, .full_well_e = 18400, .read_noise_e = 60, .black_level = 10};
+  const auto moments_at = [&](float radiance) {
+    return MomentsOf(Expose(cv::Mat1f(480, 752, radiance), kPlain, options, {3, 0, 0}));
+  };
+  const Moments dark = moments_at(0), low = moments_at(0.2f), high = moments_at(0.8f);
+  EXPECT_NEAR(dark.mean, options.black_level, 0.05);
+  const double slope = (high.variance - low.variance) / (high.mean - low.mean);
+  EXPECT_NEAR(1 / slope, options.full_well_e / 255, 0.02 * options.full_well_e / 255);
+  const double read_e = std::sqrt(dark.variance - 1.0 / 12) / slope;
+  EXPECT_NEAR(read_e, options.read_noise_e, 0.03 * options.read_noise_e);
+  const Moments middle = moments_at(0.5f);
+  EXPECT_NEAR(middle.variance, low.variance + slope * (middle.mean - low.mean),
+              0.02 * middle.variance);
+  const cv::Mat1b saturated = Expose(cv::Mat1f(480, 752, 1.2f), kPlain, options, {3, 0, 0});
+  EXPECT_EQ(cv::countNonZero(saturated != 255), 0);
 }
 
-TEST(SpreadByLens, AWidePointHasItsDeviation) {
-  cv::Mat1f point(61, 61, 0.0f);
-  point(30, 30) = 1;
-  const cv::Mat1f spread = SpreadByLens(point, 2.5f);
-  double variance = 0;
-  for (int x = 0; x < 61; ++x) {
-    variance += cv::sum(spread.col(x))[0] * (x - 30) * (x - 30);
+TEST(Expose, TheToneCurveFollowsTheBlackLevel) {
+  const SensorOptions options{
+      .exposure = 1, .black_level = 2.5f, .tone = Tone::kCompanded, .noise = false};
+  for (const float share : {0.0f, 0.03f, 0.2f, 0.6f, 0.9f}) {
+    const cv::Mat1b grey = Expose(cv::Mat1f(480, 752, share), kPlain, options, {});
+    EXPECT_NEAR(grey(9, 9), 255 * Compand(share + 2.5f / 255), 0.51) << share;
   }
-  EXPECT_NEAR(std::sqrt(variance), 2.5, 0.02);
+}
+
+TEST(Expose, BehindTheToneCurveNoiseIsStretchedByItsSlope) {
+  const SensorOptions options{.exposure = 1,
+                              .full_well_e = 18400,
+                              .gain = 2,
+                              .read_noise_e = 20,
+                              .black_level = 0,
+                              .tone = Tone::kCompanded};
+  const float share = Expand(100.0f / 255);
+  const Moments moments = MomentsOf(Expose(cv::Mat1f(480, 752, share), kPlain, options, {4, 0, 0}));
+  const double electrons = double{share} * 9200;
+  const double sigma = 255 * std::sqrt(electrons + 400) / 9200;  // the curve's slope there is 1
+  EXPECT_NEAR(moments.mean, 100, 0.1);
+  EXPECT_NEAR(moments.variance, sigma * sigma + 1.0 / 12, 0.03 * sigma * sigma);
 }
 
 TEST(MakeResponse, DeviatesAsStatedAndByCameraAndPixelAlone) {

@@ -1,0 +1,97 @@
+#include "simulator/sensor/lens.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace aisle::sim {
+namespace {
+
+/// Share of the glare that stays about its place; the rest spreads evenly.
+constexpr float kLocalGlare = 0.5f;
+/// Pixels of the coarse picture on which the veil is made; far finer than it needs.
+constexpr int kGlareFactor = 16;
+
+cv::Mat1f Blurred(const cv::Mat1f& radiance, float sigma_px) {
+  if (sigma_px <= 0) return radiance;
+  cv::Mat1f spread;
+  // Four deviations hold all of a normal kernel but 6e-5; sharp lenses need no more than 5 × 5.
+  const int size = std::max(5, 2 * static_cast<int>(std::ceil(4 * sigma_px)) + 1);
+  cv::GaussianBlur(radiance, spread, cv::Size(size, size), sigma_px, sigma_px,
+                   cv::BORDER_REPLICATE);
+  return spread;
+}
+
+/// `core` in the middle, `corner` in the corners. A mixture of two normal distributions has the
+/// mixture of their variances, so the weight is the variance's law: the fourth power of the
+/// distance.
+cv::Mat1f MixTowardsCorners(const cv::Mat1f& core, const cv::Mat1f& corner) {
+  cv::Mat1f mixed(core.size());
+  const float x0 = 0.5f * static_cast<float>(core.cols - 1);
+  const float y0 = 0.5f * static_cast<float>(core.rows - 1);
+  const float scale = 1 / std::max(1e-6f, x0 * x0 + y0 * y0);
+  tbb::parallel_for(0, core.rows, [&](int y) {
+    const float dy = static_cast<float>(y) - y0;
+    for (int x = 0; x < core.cols; ++x) {
+      const float dx = static_cast<float>(x) - x0;
+      const float squared = (dx * dx + dy * dy) * scale;
+      mixed[y][x] = core[y][x] + squared * squared * (corner[y][x] - core[y][x]);
+    }
+  });
+  return mixed;
+}
+
+/// Mean in a fixed order.
+float MeanOf(const cv::Mat1f& image) {
+  double sum = 0;
+  for (const float value : image) sum += double{value};
+  return static_cast<float>(sum / static_cast<double>(image.total()));
+}
+
+}  // namespace
+
+std::string LensOptions::Validate() const {
+  const std::array blurs = {std::pair("blur_px", blur_px),
+                            std::pair("field_blur_px", field_blur_px)};
+  for (const auto& [name, value] : blurs) {
+    if (!(value >= 0 && value <= 5)) {
+      return fmt::format("{} is {}, must be in [0, 5]", name, value);
+    }
+  }
+  if (!(glare >= 0 && glare <= 0.5f)) return fmt::format("glare is {}, must be in [0, 0.5]", glare);
+  return "";
+}
+
+cv::Mat1f AddGlare(const cv::Mat1f& radiance, float share) {
+  if (share <= 0) return radiance;
+  const cv::Size coarse_size(std::max(1, radiance.cols / kGlareFactor),
+                             std::max(1, radiance.rows / kGlareFactor));
+  cv::Mat1f coarse, wide, veil;
+  cv::resize(radiance, coarse, coarse_size, 0, 0, cv::INTER_AREA);
+  const double sigma = coarse_size.width / 16.0;
+  // Mirrored at the border, so that what would leave the picture comes back: the sum stays.
+  cv::GaussianBlur(coarse, wide, {0, 0}, sigma, sigma, cv::BORDER_REFLECT);
+  cv::resize(wide, veil, radiance.size(), 0, 0, cv::INTER_LINEAR);
+  const float everywhere = (1 - kLocalGlare) * share * MeanOf(coarse);
+  cv::Mat1f seen(radiance.size());
+  tbb::parallel_for(0, radiance.rows, [&](int y) {
+    for (int x = 0; x < radiance.cols; ++x) {
+      seen[y][x] = (1 - share) * radiance[y][x] + (kLocalGlare * share) * veil[y][x] + everywhere;
+    }
+  });
+  return seen;
+}
+
+cv::Mat1f SpreadByLens(const cv::Mat1f& radiance, const LensOptions& lens) {
+  cv::Mat1f image = Blurred(radiance, lens.blur_px);
+  if (lens.field_blur_px > 0) {
+    image =
+        MixTowardsCorners(image, Blurred(radiance, std::hypot(lens.blur_px, lens.field_blur_px)));
+  }
+  return AddGlare(image, lens.glare);
+}
+
+}  // namespace aisle::sim
