@@ -180,6 +180,7 @@ void AddBenchCommand(CLI::App* app, Action* action) {
   AddBenchSlam(bench, action);
   AddBenchAccuracy(bench, action);
   AddBenchDynamic(bench, action);
+  AddBenchRealism(bench, action);
 }
 
 }  // namespace aisle
