@@ -14,6 +14,11 @@ struct Finish {
   float roughness = 1;
 };
 
+/// How much of a sheet's mottle stays, and up to which difference in grey it is mottle.
+constexpr float kMottle = 0.25f;
+constexpr int kMottleLimit = 40;
+constexpr int kBoardLimit = 24;  // on cartons, whose print differs by more
+
 class Mixer {
  public:
   Mixer(const AssetLibrary& assets, WorldParts* parts) : assets_(assets), parts_(parts) {}
@@ -32,6 +37,11 @@ class Mixer {
   /// A material that shows assets/textures/NAME.png.
   std::uint16_t Shown(const std::string& texture, Finish finish = {}) {
     return Painted(texture, assets_.Picture(texture), finish);
+  }
+
+  /// The same with less mottle than the authored sheet has.
+  std::uint16_t ShownPlainer(const std::string& texture, Finish finish = {}) {
+    return Painted(texture, Plainer(assets_.Picture(texture), kMottle, kMottleLimit), finish);
   }
 
   std::uint16_t Plain(const std::string& name, float albedo, float emission = 0) {
@@ -84,6 +94,25 @@ UvRect Inset(const std::array<float, 4>& rect) {
   return {origin + kInset * size, (1 - 2 * kInset) * size};
 }
 
+/// The sheet of cartons with each side's board plainer; its print stays.
+cv::Mat1b PlainerCartons(const AssetLibrary& assets) {
+  const cv::Mat1b sheet = assets.Picture("cartons");
+  cv::Mat1b plainer = sheet.clone();
+  const auto calm = [&](const std::string& name) {
+    const std::array<float, 4> rect = assets.Rect("cartons", name);
+    const auto pixels = [](float share, int size) {
+      return cvRound(share * static_cast<float>(size));
+    };
+    const cv::Rect box(pixels(rect[0], sheet.cols), pixels(rect[1], sheet.rows),
+                       pixels(rect[2], sheet.cols), pixels(rect[3], sheet.rows));
+    const cv::Rect inside = box & cv::Rect({}, sheet.size());
+    Plainer(sheet(inside), kMottle, kBoardLimit).copyTo(plainer(inside));
+  };
+  for (std::size_t i = 0; i < kCartonSides; ++i) calm(fmt::format("side_{}", i));
+  for (std::size_t i = 0; i < kCartonTops; ++i) calm(fmt::format("top_{}", i));
+  return plainer;
+}
+
 void FindPictures(const AssetLibrary& assets, Palette* palette) {
   const auto find = [&](const std::string& texture, const std::string& name) {
     return Inset(assets.Rect(texture, name));
@@ -115,22 +144,22 @@ Palette AddPalette(const Scene& scene, std::uint64_t seed, const AssetLibrary& a
   Palette palette;
   const HallSpec& hall = scene.hall;
   const FloorLook floor = LookOf(hall.floor);
-  const cv::Mat1b clean = assets.Picture(floor.texture);
+  const cv::Mat1b clean = Plainer(assets.Picture(floor.texture), kMottle, kMottleLimit);
   for (std::size_t i = 0; i < kFloorSheets; ++i) {
     palette.floor[i] =
         mix.Painted(fmt::format("floor_{}", i),
                     WornFloor(clean, Dice(seed, {kFloor, i}), hall.wear), floor.finish);
   }
-  palette.wall = mix.Shown(LookOf(hall.walls));
+  palette.wall = mix.ShownPlainer(LookOf(hall.walls));
   palette.plinth = mix.Plain("plinth", 0.22f);
-  palette.roof = hall.walls == WallKind::kPanels ? palette.wall : mix.Shown("wall_panel");
+  palette.roof = hall.walls == WallKind::kPanels ? palette.wall : mix.ShownPlainer("wall_panel");
   palette.door = mix.Shown("dock_door");
-  palette.steel = mix.Shown("steel", {0.04f, 0.45f});
-  palette.upright = mix.Shown("rack_blue", {0.04f, 0.5f});
-  palette.beam = mix.Shown("rack_beam", {0.04f, 0.4f});
-  palette.wood = mix.Shown("wood_pallet");
-  palette.carton = mix.Shown("cartons");
-  palette.wrap = mix.Shown("shrink_wrap", {0.05f, 0.25f});
+  palette.steel = mix.ShownPlainer("steel", {0.04f, 0.45f});
+  palette.upright = mix.ShownPlainer("rack_blue", {0.04f, 0.5f});
+  palette.beam = mix.ShownPlainer("rack_beam", {0.04f, 0.4f});
+  palette.wood = mix.ShownPlainer("wood_pallet");
+  palette.carton = mix.Painted("cartons", PlainerCartons(assets));
+  palette.wrap = mix.ShownPlainer("shrink_wrap", {0.05f, 0.25f});
   palette.drum = mix.Shown("drum", {0.04f, 0.35f});
   palette.tote = mix.Shown("tote", {0.04f, 0.5f});
   palette.stripes = mix.Shown("column_stripes");
@@ -140,7 +169,8 @@ Palette AddPalette(const Scene& scene, std::uint64_t seed, const AssetLibrary& a
   palette.sign = mix.Shown("signs");
   palette.lamp = mix.Plain("lamp", 0.8f, 1.0f);
   palette.sky = mix.Plain("sky", 0.8f, 0.28f);
-  palette.pavement = hall.walls == WallKind::kSky ? mix.Shown("floor_concrete") : palette.plinth;
+  palette.pavement =
+      hall.walls == WallKind::kSky ? mix.ShownPlainer("floor_concrete") : palette.plinth;
   palette.lamp_housing = mix.Plain("lamp_housing", 0.6f);
   FindPictures(assets, &palette);
   return palette;

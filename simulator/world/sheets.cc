@@ -1,5 +1,6 @@
 #include "simulator/world/sheets.h"
 
+#include <array>
 #include <cmath>
 
 #include "simulator/world/canvas.h"
@@ -43,6 +44,24 @@ void RubOff(Canvas* sheet, Dice* dice, double wear) {
 }
 
 }  // namespace
+
+cv::Mat1b Plainer(const cv::Mat1b& picture, float share, int limit) {
+  std::array<int, 256> count = {};
+  for (const std::uint8_t grey : picture) ++count[grey];
+  int median = 0;
+  for (int below = count[0]; 2 * below < static_cast<int>(picture.total());) {
+    below += count[static_cast<std::size_t>(++median)];
+  }
+  cv::Mat1b curve(1, 256);
+  for (int grey = 0; grey < 256; ++grey) {
+    const float within = static_cast<float>(std::clamp(grey - median, -limit, limit));
+    curve(grey) =
+        static_cast<std::uint8_t>(std::lround(static_cast<float>(grey) - (1 - share) * within));
+  }
+  cv::Mat1b plainer;
+  cv::LUT(picture, curve, plainer);
+  return plainer;
+}
 
 cv::Mat1b WornFloor(const cv::Mat1b& clean, Dice dice, double wear) {
   Canvas sheet(clean);
