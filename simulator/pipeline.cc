@@ -159,15 +159,30 @@ struct Pipeline::Impl {
     return options.sensor.exposure / (options.sensor.gain * options.exposure_ms);
   }
 
-  cv::Mat1b Photograph(const cv::Mat1f& radiance, const ExposureSetting& setting, int frame_index,
-                       std::uint32_t eye) const {
+  /// The sensor as the exposure sets it.
+  SensorOptions SensorFor(const ExposureSetting& setting) const {
     SensorOptions sensor = options.sensor;
     if (options.auto_exposure.on) {
       sensor.exposure = static_cast<float>(WhitePerMs() * setting.time_ms * setting.gain);
       sensor.gain = setting.gain;
     }
+    return sensor;
+  }
+
+  cv::Mat1b Photograph(const cv::Mat1f& radiance, const ExposureSetting& setting, int frame_index,
+                       std::uint32_t eye) const {
+    const SensorOptions sensor = SensorFor(setting);
     return Expose(SpreadByLens(radiance, sensor.lens), response[eye], sensor,
                   {options.seed, static_cast<std::uint32_t>(frame_index), eye});
+  }
+
+  /// The left picture of a sensor without noise and without a pattern of its own.
+  cv::Mat1b WithoutNoise(const cv::Mat1f& radiance, const ExposureSetting& setting) const {
+    SensorOptions sensor = SensorFor(setting);
+    sensor.noise = sensor.fixed_pattern = false;
+    return Expose(SpreadByLens(radiance, sensor.lens),
+                  MakeResponse(FallOff(rays), sensor, options.seed, 0), sensor,
+                  {options.seed, 0, 0});
   }
 
   /// Radiance of the given rows of both eyes at an instant that nobody asks the truth of.
@@ -380,6 +395,25 @@ StageHashes Pipeline::HashStages(int frame_index, std::int64_t stamp_ns,
     light.Add(solved->total).Add(solved->direct).Add(solved->volume.nodes());
     pictures.Add(frame.left).Add(frame.right);
     return StageHashes{triangles.value, points.value, light.value, linear.value, pictures.value};
+  });
+}
+
+PictureChanges Pipeline::CompareInTime(const std::array<Moment, 3>& moments) const {
+  return impl_->arena.execute([&] {
+    const Impl& self = *impl_;
+    const ExposureSetting setting = self.ExposureFor(
+        self.tracer.Pose(self.world.At(moments[0].stamp_ns)), moments[0].T_world_rig);
+    const Studio studio{self.world,
+                        self.tracer,
+                        *self.shader,
+                        self.camera,
+                        self.rays,
+                        self.options.moving,
+                        [&](const cv::Mat1f& light) { return self.WithoutNoise(light, setting); }};
+    const PictureWithFlow first = TakeWithFlow(studio, moments[0], moments[1]);
+    const PictureWithFlow second = TakeWithFlow(studio, moments[1], moments[2]);
+    // Where the points of the third go next is not asked.
+    return aisle::sim::CompareInTime(first, second, TakeWithFlow(studio, moments[2], moments[2]));
   });
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "simulator/camera/stereo_camera.h"
+#include "simulator/proof/picture_in_time.h"
 #include "simulator/sensor/auto_exposure.h"
 #include "simulator/sensor/sensor.h"
 #include "simulator/sensor/shutter.h"
@@ -51,6 +52,9 @@ class Pipeline {
                            const Eigen::Isometry3d& T_world_rig_next) const;
   VerifyReport Verify(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
                       std::int64_t next_stamp_ns, const Eigen::Isometry3d& T_world_rig_next) const;
+  /// Left pictures of three moments without noise, compared along the flow; automatic exposure is
+  /// that of the first.
+  PictureChanges CompareInTime(const std::array<Moment, 3>& moments) const;
   RenderBench Bench(std::span<const std::int64_t> stamps_ns,
                     std::span<const Eigen::Isometry3d> poses) const;
   StageHashes HashStages(int frame_index, std::int64_t stamp_ns,

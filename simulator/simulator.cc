@@ -244,7 +244,7 @@ std::string VerifyReport::failure() const {
   if (flow_median_px > kWarp) {
     return fmt::format("flow misses the next frame by a median of {:.3f} px", flow_median_px);
   }
-  return "";
+  return picture_failure;
 }
 
 MotionTruth Simulator::RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
@@ -254,8 +254,17 @@ MotionTruth Simulator::RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry
 }
 
 VerifyReport Simulator::Verify(int frame_index) const {
-  const std::int64_t now = Stamp(frame_index), next = Stamp(frame_index + 1);
-  return impl_->pipeline->Verify(now, PlannedPose(now), next, PlannedPose(next));
+  const auto moment = [&](int frame) { return Moment{Stamp(frame), PlannedPose(Stamp(frame))}; };
+  const std::array moments = {moment(frame_index), moment(frame_index + 1),
+                              moment(frame_index + 2)};
+  VerifyReport report = impl_->pipeline->Verify(moments[0].stamp_ns, moments[0].T_world_rig,
+                                                moments[1].stamp_ns, moments[1].T_world_rig);
+  const PictureChanges changes = impl_->pipeline->CompareInTime(moments);
+  report.static_change_grey = changes.statics.rms;
+  report.mover_flicker_grey = changes.movers.flicker;
+  report.shadow_flicker_grey = changes.shadows.flicker;
+  report.picture_failure = FailureOf(changes);
+  return report;
 }
 
 RenderBench Simulator::Bench(int frames) const {

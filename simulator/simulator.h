@@ -122,6 +122,11 @@ struct VerifyReport {
   double stereo_median_px = 0;  ///< left warped to right by disparity, error of geometry
   double flow_median_px = 0;    ///< left warped to the next left by flow, as disparity
   int stereo_compared = 0, flow_compared = 0;
+  /// Grey against grey over three frames without noise, see simulator/proof: rms change of things
+  /// at rest along their flow, flicker of movers and of moving shadows; grey levels, 0 where too
+  /// little of it is seen.
+  double static_change_grey = 0, mover_flicker_grey = 0, shadow_flicker_grey = 0;
+  std::string picture_failure = {};  ///< of the three, or empty
   /// The sentence that says what failed its bound (0.999 agreement, 0.05 px), or empty.
   std::string failure() const;
 };
@@ -201,8 +206,8 @@ class Simulator {
                            std::int64_t next_stamp_ns,
                            const Eigen::Isometry3d& T_world_rig_next) const;
 
-  /// Proves one planned frame's truth: against an independent rasteriser, and by warping it to the
-  /// right eye and to the next frame.
+  /// Proves one planned frame: its truth against an independent rasteriser and by warping it to the
+  /// right eye and to the next frame, its picture by warping it to the next two.
   VerifyReport Verify(int frame_index) const;
 
   /// Times Render over `frames` frames spread over the scene, and the bare primary rays of the same

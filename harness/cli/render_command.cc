@@ -57,15 +57,20 @@ std::map<std::string, std::string> ProvenanceOf(const Options& options, std::uin
 int Verify(const SimulationForExport& simulation, const std::vector<FrameRequest>& frames,
            const DatasetWriter& writer, const std::filesystem::path& out) {
   std::string table =
-      "image,scene_frame,raster_agreement,stereo_median_px,flow_median_px,failure\n";
+      "image,scene_frame,raster_agreement,stereo_median_px,flow_median_px,static_change_grey,"
+      "mover_flicker_grey,shadow_flicker_grey,failure\n";
   FrameProof worst{.raster_agreement = 1, .failure = ""};
   std::size_t failures = 0;
   ProgressLine line;
   for (const FrameRequest& frame : frames) {
     const FrameProof proof = simulation.prove(frame);
-    table +=
-        fmt::format("{},{},{},{},{},{}\n", writer.NameOf(frame), frame.id, proof.raster_agreement,
-                    proof.stereo_median_px, proof.flow_median_px, proof.failure);
+    table += fmt::format("{},{},{},{},{},{:.3f},{:.3f},{:.3f},{}\n", writer.NameOf(frame), frame.id,
+                         proof.raster_agreement, proof.stereo_median_px, proof.flow_median_px,
+                         proof.static_change_grey, proof.mover_flicker_grey,
+                         proof.shadow_flicker_grey, proof.failure);
+    worst.static_change_grey = std::max(worst.static_change_grey, proof.static_change_grey);
+    worst.mover_flicker_grey = std::max(worst.mover_flicker_grey, proof.mover_flicker_grey);
+    worst.shadow_flicker_grey = std::max(worst.shadow_flicker_grey, proof.shadow_flicker_grey);
     worst.raster_agreement = std::min(worst.raster_agreement, proof.raster_agreement);
     worst.stereo_median_px = std::max(worst.stereo_median_px, proof.stereo_median_px);
     worst.flow_median_px = std::max(worst.flow_median_px, proof.flow_median_px);
@@ -80,9 +85,13 @@ int Verify(const SimulationForExport& simulation, const std::vector<FrameRequest
   WriteFileAtomically(out / "truth/proofs.csv", table);
   fmt::print(
       "proofs of {} frames: {} failed; at worst the rasteriser agrees on {:.3f} % of the pixels, "
-      "left warps to right within {:.4f} px and to the next frame within {:.4f} px (medians)\n",
+      "left warps to right within {:.4f} px and to the next frame within {:.4f} px (medians); "
+      "along "
+      "the flow things at rest change by {:.2f}, movers flicker by {:.2f} and moving shadows by "
+      "{:.2f} grey levels\n",
       frames.size(), failures, 100 * worst.raster_agreement, worst.stereo_median_px,
-      worst.flow_median_px);
+      worst.flow_median_px, worst.static_change_grey, worst.mover_flicker_grey,
+      worst.shadow_flicker_grey);
   return failures == 0 ? kAllPassed : kVerdictFailed;
 }
 
@@ -139,7 +148,7 @@ void AddRenderCommand(CLI::App* app, Action* action) {
                    "depth,labels,dynamic,boxes,flow,stereo,shadows or all")
       ->delimiter(',');
   command->add_flag("--verify", options->verify,
-                    "prove the truth of every frame: against a rasteriser and by warping");
+                    "prove every frame: truth against a rasteriser and by warping, light in time");
   command->add_option("--twin", options->simulation.twin,
                       "live, empty, frozen, or a level: none, low, mid, high");
   command->add_option("--seed", options->simulation.seed, "seed of the layout and the sensor");

@@ -119,8 +119,14 @@ class SimulatedSequence : public Sequence {
 
   FrameProof Prove(const FrameRequest& request) const {
     const sim::VerifyReport report = simulator_.Verify(static_cast<int>(request.id));
-    return {std::min(report.raster_agreement_left, report.raster_agreement_right),
-            report.stereo_median_px, report.flow_median_px, report.failure()};
+    return {
+        .raster_agreement = std::min(report.raster_agreement_left, report.raster_agreement_right),
+        .stereo_median_px = report.stereo_median_px,
+        .flow_median_px = report.flow_median_px,
+        .static_change_grey = report.static_change_grey,
+        .mover_flicker_grey = report.mover_flicker_grey,
+        .shadow_flicker_grey = report.shadow_flicker_grey,
+        .failure = report.failure()};
   }
 
   SequenceFrame At(const FrameRequest& request) const override {

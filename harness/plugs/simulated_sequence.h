@@ -25,6 +25,8 @@ struct SimulatedSequenceOptions {
 struct FrameProof {
   double raster_agreement = 0;  ///< share of pixels, the worse eye
   double stereo_median_px = 0, flow_median_px = 0;
+  /// Grey levels, rms: from frame to frame on things at rest, and what flickers on the others.
+  double static_change_grey = 0, mover_flicker_grey = 0, shadow_flicker_grey = 0;
   std::string failure;
 };
 
