@@ -50,7 +50,7 @@ void DescribeCamera(Fields& f, CameraSpec& camera) {
 
 void DescribeExposure(Fields& f, SensorSpec& sensor) {
   f.Number({"exposure_ms", "exposure time", "8"}, &sensor.exposure_ms, {0.01, 200});
-  f.Number({"gain_db", "analogue gain; brightens light and noise", "6"}, &sensor.gain_db, {0, 48});
+  f.Number({"gain_db", "analogue gain; brightens light and noise", "3"}, &sensor.gain_db, {0, 48});
   f.Flag({"auto_exposure", "let the camera choose exposure and gain, frame by frame", "true"},
          &sensor.auto_exposure);
   f.Number({"auto_target_grey", "mean grey that automatic exposure aims at", "110"},
@@ -71,7 +71,7 @@ void DescribePixels(Fields& f, SensorSpec& sensor) {
   f.Flag({"fixed_pattern", "every pixel's own sensitivity and dark signal", "true"},
          &sensor.fixed_pattern);
   f.Number({"sensitivity_e_per_ms", "electrons a millisecond that radiance 1 frees in a pixel",
-            "160000"},
+            "226000"},
            &sensor.sensitivity_e_per_ms, {1, 1e8});
   f.Number({"full_well_e", "electrons at white at 0 dB", "18400"}, &sensor.full_well_e, {100, 1e6});
   f.Number({"read_noise_e", "temporal noise in the dark, electrons rms", "20"},
@@ -89,9 +89,9 @@ void DescribePixels(Fields& f, SensorSpec& sensor) {
 void DescribeLens(Fields& f, SensorSpec& sensor) {
   f.Number({"vignetting", "share of light lost in the corners", "0.25"}, &sensor.vignetting,
            {0, 0.9});
-  f.Number({"blur_px", "standard deviation of the lens blur in the middle", "0.5"}, &sensor.blur_px,
-           {0, 5});
-  f.Number({"field_blur_px", "blur that the farthest corner adds, in quadrature", "0.5"},
+  f.Number({"blur_px", "standard deviation of the lens blur in the middle", "0.45"},
+           &sensor.blur_px, {0, 5});
+  f.Number({"field_blur_px", "blur that the farthest corner adds, in quadrature", "0.45"},
            &sensor.field_blur_px, {0, 5});
   f.Number({"glare", "share of the light that veils the whole picture", "0.04"}, &sensor.glare,
            {0, 0.5});

@@ -16,10 +16,10 @@ enum class ToneSpec { kLinear, kCompanded };
 ///    at black but the rounding's 1/12 is 20 electrons. 20 log(18400 / 20) = 59 dB, the datasheet
 ///    (Rev. G) says above 55.
 ///  - prnu, dsnu_e: such sensors' usual 1 % and half the read noise; nothing is published.
-///  - gain_db: at 6 dB the noise at grey 100 behind the tone curve is 1.17 levels, EuRoC's.
+///  - gain_db: at 3 dB the noise about grey 100 behind the tone curve is 1.2 levels, EuRoC's.
 ///  - tone: its own 12 to 10 bit companding, which the datasheet offers for scenes like a hall with
 ///    lamps in view: shadows stay off black while highlights keep their shades.
-///  - sensitivity_e_per_ms: one stop less than `ideal`, to keep highlights.
+///  - sensitivity_e_per_ms: half a stop less than `ideal`, to keep highlights.
 ///  - black_level: 2.5 before the curve, 10 behind it: EuRoC's darkest pixels.
 ///  - blur_px, field_blur_px: reports/sensor.md has the MTF; glare: ISO 9358 indices of such lenses
 ///    are some per cent.
@@ -27,26 +27,26 @@ struct SensorSpec {
   Mark mark;
   SensorPreset preset = SensorPreset::kMt9v034;
   double exposure_ms = 8;
-  double gain_db = 6;
+  double gain_db = 3;
   bool auto_exposure = false;     ///< chooses time and gain itself
   double auto_target_grey = 110;  ///< mean grey it aims at
   double auto_meter_from = 0;     ///< share of the height above which the picture is not metered
   double auto_longest_ms = 12;    ///< exposure time beyond which it takes gain instead
   bool noise = true;              ///< shot and read noise
   bool fixed_pattern = true;      ///< every pixel's own sensitivity and dark signal
-  double sensitivity_e_per_ms = 160000;  ///< electrons that radiance 1 frees in a pixel
+  double sensitivity_e_per_ms = 226000;  ///< electrons that radiance 1 frees in a pixel
   double full_well_e = 18400;            ///< electrons at white at 0 dB
   double read_noise_e = 20;              ///< rms
   double prnu = 0.01;                    ///< rms of the pixels' sensitivity, a share
   double dsnu_e = 10;                    ///< rms of the pixels' dark signal
   double black_level = 2.5;              ///< grey levels before the tone curve
   ToneSpec tone = ToneSpec::kCompanded;
-  double vignetting = 0.25;    ///< share of light lost in the corners
-  double blur_px = 0.5;        ///< standard deviation of the lens blur in the middle
-  double field_blur_px = 0.5;  ///< what the farthest corner adds in quadrature
-  double glare = 0.04;         ///< share of the light that veils the picture
-  bool motion_blur = false;    ///< things move while the shutter is open
-  double readout_ms = 0;       ///< of a rolling shutter, first row to last
+  double vignetting = 0.25;     ///< share of light lost in the corners
+  double blur_px = 0.45;        ///< standard deviation of the lens blur in the middle
+  double field_blur_px = 0.45;  ///< what the farthest corner adds in quadrature
+  double glare = 0.04;          ///< share of the light that veils the picture
+  bool motion_blur = false;     ///< things move while the shutter is open
+  double readout_ms = 0;        ///< of a rolling shutter, first row to last
 };
 
 /// The values that a preset stands for; keys of the file override them.

@@ -35,10 +35,12 @@ cv::Mat1f MixTowardsCorners(const cv::Mat1f& core, const cv::Mat1f& corner) {
   const float scale = 1 / std::max(1e-6f, x0 * x0 + y0 * y0);
   tbb::parallel_for(0, core.rows, [&](int y) {
     const float dy = static_cast<float>(y) - y0;
+    const float *sharp = core[y], *soft = corner[y];
+    float* out = mixed[y];
     for (int x = 0; x < core.cols; ++x) {
       const float dx = static_cast<float>(x) - x0;
       const float squared = (dx * dx + dy * dy) * scale;
-      mixed[y][x] = core[y][x] + squared * squared * (corner[y][x] - core[y][x]);
+      out[x] = sharp[x] + squared * squared * (soft[x] - sharp[x]);
     }
   });
   return mixed;
@@ -78,8 +80,10 @@ cv::Mat1f AddGlare(const cv::Mat1f& radiance, float share) {
   const float everywhere = (1 - kLocalGlare) * share * MeanOf(coarse);
   cv::Mat1f seen(radiance.size());
   tbb::parallel_for(0, radiance.rows, [&](int y) {
+    const float *light = radiance[y], *near = veil[y];
+    float* out = seen[y];
     for (int x = 0; x < radiance.cols; ++x) {
-      seen[y][x] = (1 - share) * radiance[y][x] + (kLocalGlare * share) * veil[y][x] + everywhere;
+      out[x] = (1 - share) * light[x] + (kLocalGlare * share) * near[x] + everywhere;
     }
   });
   return seen;
