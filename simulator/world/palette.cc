@@ -144,7 +144,9 @@ Palette AddPalette(const Scene& scene, std::uint64_t seed, const AssetLibrary& a
   Palette palette;
   const HallSpec& hall = scene.hall;
   const FloorLook floor = LookOf(hall.floor);
-  const cv::Mat1b clean = Plainer(assets.Picture(floor.texture), kMottle, kMottleLimit);
+  cv::Mat1b clean = assets.Picture(floor.texture);
+  // Roads are as mottled as their sheet; floors under a roof are swept.
+  if (hall.floor != FloorKind::kAsphalt) clean = Plainer(clean, kMottle, kMottleLimit);
   for (std::size_t i = 0; i < kFloorSheets; ++i) {
     palette.floor[i] =
         mix.Painted(fmt::format("floor_{}", i),
@@ -169,8 +171,7 @@ Palette AddPalette(const Scene& scene, std::uint64_t seed, const AssetLibrary& a
   palette.sign = mix.Shown("signs");
   palette.lamp = mix.Plain("lamp", 0.8f, 1.0f);
   palette.sky = mix.Plain("sky", 0.8f, 0.28f);
-  palette.pavement =
-      hall.walls == WallKind::kSky ? mix.ShownPlainer("floor_concrete") : palette.plinth;
+  palette.pavement = hall.walls == WallKind::kSky ? mix.Shown("floor_concrete") : palette.plinth;
   palette.lamp_housing = mix.Plain("lamp_housing", 0.6f);
   FindPictures(assets, &palette);
   return palette;
