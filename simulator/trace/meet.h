@@ -1,38 +1,35 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
+#include <array>
 
 #include "simulator/trace/rays.h"
 
 namespace aisle::sim {
 
-/// Eight triangles by their corners; world frame, metres, one row an axis.
+/// A triangle by its corners, world frame, metres; `rim` is how far its rim reaches in: see
+/// Meetings8.
+struct Corners {
+  Eigen::Vector3f a = Eigen::Vector3f::Zero(), b = Eigen::Vector3f::Zero(),
+                  c = Eigen::Vector3f::Zero();
+  float rim = 0;
+};
+
+/// Eight triangles, one row an axis.
 struct alignas(32) Corners8 {
   float a[3][kLanes], b[3][kLanes], c[3][kLanes];
+  float rim[kLanes];
 
-  void Set(int lane, const Eigen::Vector3f& at_a, const Eigen::Vector3f& at_b,
-           const Eigen::Vector3f& at_c) {
-    for (int axis = 0; axis < 3; ++axis) {
-      a[axis][lane] = at_a[axis];
-      b[axis][lane] = at_b[axis];
-      c[axis][lane] = at_c[axis];
-    }
-  }
-  /// The same triangle in all lanes.
-  void Fill(const Eigen::Vector3f& at_a, const Eigen::Vector3f& at_b, const Eigen::Vector3f& at_c) {
-    for (int axis = 0; axis < 3; ++axis) {
-      std::fill_n(a[axis], kLanes, at_a[axis]);
-      std::fill_n(b[axis], kLanes, at_b[axis]);
-      std::fill_n(c[axis], kLanes, at_c[axis]);
-    }
-  }
+  explicit Corners8(const Corners& in_all_lanes);
+  explicit Corners8(const std::array<const Corners*, kLanes>& by_lane);
 };
 
 /// Where eight rays meet the planes of eight triangles: at t of the ray and at barycentrics (u, v)
-/// of the triangle, as in Hit. `inside` is the least of u, v and 1-u-v.
+/// of the triangle, as in Hit, drawn onto it where they lie outside. `on_rim` is -1 where the least
+/// of u, v and 1-u-v is below the triangle's rim, else 0.
 struct alignas(32) Meetings8 {
-  float t[kLanes], u[kLanes], v[kLanes], inside[kLanes];
+  float t[kLanes], u[kLanes], v[kLanes];
+  std::int32_t on_rim[kLanes];
 };
 
 /// Meets ray k with triangle k. Additions, multiplications and divisions alone, as IEEE 754 rounds

@@ -124,6 +124,19 @@ struct Candidate {
   }
 };
 
+std::vector<Corners> CornersOf(const TriangleMesh& mesh) {
+  const std::vector<std::uint8_t> overlapped = FindOverlapped(mesh);
+  std::vector<Corners> corners;
+  corners.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    constexpr float kAllOfIt = 2;  // no hit is farther in
+    const bool doubtful = overlapped[corners.size()] != 0;
+    corners.push_back(
+        {mesh.positions[a], mesh.positions[b], mesh.positions[c], doubtful ? kAllOfIt : kNearEdge});
+  }
+  return corners;
+}
+
 /// A query that passes all triangles that a ray meets, and keeps the first by the rule.
 struct Settling : RTCIntersectContext {
   const Instant* instant = nullptr;
@@ -141,7 +154,7 @@ struct Instant::MoverScenes {
 struct Tracer::Impl {
   Device device;
   Scene statics;
-  std::vector<std::uint8_t> overlapped;  ///< by triangle of the static world
+  std::vector<Corners> corners;  ///< of the static world's triangles
   const World* world = nullptr;
   std::mutex pool_mutex;  ///< guards `pool`
   std::vector<std::unique_ptr<Instant::MoverScenes>> pool;
@@ -152,7 +165,7 @@ Tracer::Tracer(const World& world, const TracerOptions& options) : impl_(std::ma
   impl_->world = &world;
   if (!world.statics().mesh.triangles.empty()) {
     impl_->statics = BuildScene(impl_->device.get(), world.statics().mesh, false);
-    impl_->overlapped = FindOverlapped(world.statics().mesh);
+    impl_->corners = CornersOf(world.statics().mesh);
   }
   static_box_ = BoxOf(world.statics().mesh.positions);
 }
@@ -205,40 +218,33 @@ void Instant::ForEachScene(GeometryMask geometries, const Ask& ask) const {
   }
 }
 
-Instant::Corners Instant::CornersOf(std::uint32_t geometry, std::uint32_t primitive) const {
-  const World& world = *tracer_->impl_->world;
-  const TriangleMesh& mesh =
-      geometry == 0 ? world.statics().mesh : world.mover_meshes()[geometry - 1];
-  const std::span<const Eigen::Vector3f> at =
-      geometry == 0 ? mesh.positions : snapshot_.movers[geometry - 1].positions;
-  const auto& [a, b, c] = mesh.triangles[primitive];
-  return {at[a], at[b], at[c]};
+Corners Instant::MoverCorners(std::uint32_t geometry, std::uint32_t primitive) const {
+  const std::vector<Eigen::Vector3f>& at = snapshot_.movers[geometry - 1].positions;
+  const auto& [a, b, c] = tracer_->impl_->world->mover_meshes()[geometry - 1].triangles[primitive];
+  return {at[a], at[b], at[c], kNearEdge};
 }
 
 Corners8 Instant::CornersOf(const std::uint32_t* geometry, const std::uint32_t* primitive) const {
-  Corners8 corners;
-  unsigned others = 0;
-  for (int k = 1; k < kLanes; ++k) {
-    others |= (geometry[k] ^ geometry[0]) | (primitive[k] ^ primitive[0]);
-  }
-  if (others == 0 && geometry[0] != kNoGeometry) {  // most packets see one triangle
-    const Corners one = CornersOf(geometry[0], primitive[0]);
-    corners.Fill(one.a, one.b, one.c);
-    return corners;
-  }
+  const Corners* statics = tracer_->impl_->corners.data();
+  std::uint32_t others = 0, movers = 0;
   for (int k = 0; k < kLanes; ++k) {
-    if (geometry[k] == kNoGeometry) {
-      corners.Set(k, Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero());
-      continue;
-    }
-    const Corners at = CornersOf(geometry[k], primitive[k]);
-    corners.Set(k, at.a, at.b, at.c);
+    others |= primitive[k] ^ primitive[0];
+    movers |= geometry[k];  // or nothing
   }
-  return corners;
-}
-
-bool Instant::InDoubt(float inside, std::uint32_t geometry, std::uint32_t primitive) const {
-  return inside < kNearEdge || (geometry == 0 && tracer_->impl_->overlapped[primitive] != 0);
+  if (movers == 0 && others == 0) return Corners8(statics[primitive[0]]);
+  std::array<const Corners*, kLanes> by_lane;
+  if (movers == 0) {
+    for (std::size_t k = 0; k < kLanes; ++k) by_lane[k] = &statics[primitive[k]];
+    return Corners8(by_lane);
+  }
+  std::array<Corners, kLanes> own;
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    by_lane[k] = geometry[k] == 0 ? &statics[primitive[k]] : &own[k];
+    if (geometry[k] != 0 && geometry[k] != kNoGeometry) {
+      own[k] = MoverCorners(geometry[k], primitive[k]);
+    }
+  }
+  return Corners8(by_lane);
 }
 
 void Instant::Settle(const Rays8& rays, GeometryMask geometries, unsigned lanes,
@@ -257,8 +263,7 @@ void Instant::Settle(const Rays8& rays, GeometryMask geometries, unsigned lanes,
     const Meetings8 met = Meet(*asked.rays, asked.instant->CornersOf(geometry, primitive));
     for (std::size_t k = 0; k < kLanes; ++k) {
       if (!args->valid[k]) continue;
-      const Candidate candidate{asked.instant->InDoubt(met.inside[k], geometry[k], primitive[k]),
-                                geometry[k], primitive[k]};
+      const Candidate candidate{met.on_rim[k] != 0, geometry[k], primitive[k]};
       asked.first[k] = std::min(asked.first[k], candidate);
       args->valid[k] = 0;  // go on
     }
@@ -289,9 +294,9 @@ unsigned Instant::Place(const Rays8& rays, Hits8* hits) const {
   for (int k = 0; k < kLanes; ++k) {
     const bool hit = hits->geometry[k] != kNoGeometry;
     hits->t[k] = hit ? met.t[k] : kInfinity;
-    hits->u[k] = std::clamp(met.u[k], 0.0f, 1.0f);
-    hits->v[k] = std::clamp(met.v[k], 0.0f, 1 - hits->u[k]);
-    if (hit && InDoubt(met.inside[k], hits->geometry[k], hits->primitive[k])) in_doubt |= 1u << k;
+    hits->u[k] = met.u[k];
+    hits->v[k] = met.v[k];
+    in_doubt |= hit ? static_cast<unsigned>(met.on_rim[k]) & 1u << k : 0u;
   }
   return in_doubt;
 }

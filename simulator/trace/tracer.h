@@ -62,12 +62,8 @@ class Instant {
   /// Calls ask(scene, geometry) for every scene that the rays may meet.
   template <typename Ask>
   void ForEachScene(GeometryMask geometries, const Ask& ask) const;
-  struct Corners {
-    const Eigen::Vector3f &a, &b, &c;
-  };
-  Corners CornersOf(std::uint32_t geometry, std::uint32_t primitive) const;
+  Corners MoverCorners(std::uint32_t geometry, std::uint32_t primitive) const;
   Corners8 CornersOf(const std::uint32_t* geometry, const std::uint32_t* primitive) const;
-  bool InDoubt(float inside, std::uint32_t geometry, std::uint32_t primitive) const;
   /// Sets t, u and v of hits whose triangles are known; the bits of lanes whose triangle is in
   /// doubt.
   unsigned Place(const Rays8& rays, Hits8* hits) const;

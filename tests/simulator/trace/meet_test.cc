@@ -41,15 +41,22 @@ TEST(Meet, GivesTheBarycentricsAndTheDistanceThatThePointWasMadeFrom) {
     const Eigen::Vector3d way = target - from.cast<double>();
     const double slope = std::abs(normal.normalized().dot(way.normalized()));
     if (slope < 0.1 || normal.norm() < 1) continue;
-    Corners8 corners;
-    corners.Fill(a, b, c);
+    const Corners one{a, b, c, 0.1f}, other{c, a, b, 2};
+    std::array<const Corners*, kLanes> by_lane;
+    for (std::size_t k = 0; k < kLanes; ++k) by_lane[k] = k % 3 == 1 ? &other : &one;
     const std::array targets = {Eigen::Vector3f(target.cast<float>())};
-    const Meetings8 met = Meet(Through(from, targets), corners);
+    const Rays8 rays = Through(from, targets);
+    const Meetings8 met = Meet(rays, Corners8(one)), mixed = Meet(rays, Corners8(by_lane));
     for (int k = 0; k < kLanes; ++k) {
+      EXPECT_NEAR(mixed.t[k], 1, 3e-6 / slope);
+      EXPECT_NEAR(mixed.u[k], k % 3 == 1 ? 1 - u - v : u, 1e-5 / slope);
+      EXPECT_NEAR(mixed.v[k], k % 3 == 1 ? u : v, 1e-5 / slope);
+      EXPECT_EQ(mixed.on_rim[k], k % 3 == 1 ? -1 : met.on_rim[k]);
       EXPECT_NEAR(met.t[k], 1, 3e-6 / slope);
       EXPECT_NEAR(met.u[k], u, 1e-5 / slope);
       EXPECT_NEAR(met.v[k], v, 1e-5 / slope);
-      EXPECT_FLOAT_EQ(met.inside[k], std::min({met.u[k], met.v[k], 1 - met.u[k] - met.v[k]}));
+      const float inside = std::min({met.u[k], met.v[k], 1 - met.u[k] - met.v[k]});
+      EXPECT_EQ(met.on_rim[k], inside < 0.1f ? -1 : 0);
     }
   }
 }
