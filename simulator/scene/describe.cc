@@ -1,3 +1,4 @@
+#include <limits>
 #include <numbers>
 
 #include "simulator/scene/fields.h"
@@ -337,7 +338,8 @@ void Fields::Degrees(const Key& key, double* radians, Range range) {
 }
 
 void Fields::OptionalNumber(const Key& key, std::optional<double>* value, Range range) {
-  double number = value->value_or(range.low);
+  // Not a number is in no range: what is absent has no default to tell of.
+  double number = value->value_or(std::numeric_limits<double>::quiet_NaN());
   Number(key, &number, range);
   if (Has(key.name)) *value = number;
 }
