@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the solver or this format changes, so that old files are not read.
-constexpr std::uint64_t kVersion = 6;
+constexpr std::uint64_t kVersion = 7;
 
 struct Header {
   std::uint64_t magic = 0x746867696c736961;  // "aislight"
@@ -33,6 +33,48 @@ std::uint64_t Checksum(const LightState& state) {
   add(state.direct);
   add(state.volume.nodes());
   return sum;
+}
+
+std::uint64_t HashOf(const Texture& texture) {
+  const cv::Mat& image = texture.image;
+  std::uint64_t hash = 0;
+  const auto add = [&](const void* data, std::size_t bytes) {
+    hash = XXH3_64bits_withSeed(data, bytes, hash);
+  };
+  const std::array shape = {image.rows, image.cols, image.type()};
+  add(shape.data(), sizeof(shape));
+  for (int y = 0; y < image.rows; ++y) {
+    add(image.ptr(y), static_cast<std::size_t>(image.cols) * image.elemSize());
+  }
+  return hash;
+}
+
+/// What the solver knows of a material: neither gloss nor normal maps, which shade a pixel only.
+std::uint64_t HashOf(const Material& material, std::span<const Texture> textures) {
+  struct {
+    float albedo, emission;
+    std::uint64_t texture;
+  } const known = {material.albedo, material.emission,
+                   material.albedo_texture < 0
+                       ? 0
+                       : HashOf(textures[static_cast<std::size_t>(material.albedo_texture)])};
+  static_assert(sizeof(known) == 16, "padding would be hashed");
+  return XXH3_64bits(&known, sizeof(known));
+}
+
+/// What each triangle is made of. By content, not by index: movers bring materials of their own,
+/// and which stand before which says nothing of the light.
+std::vector<std::uint64_t> SurfacesOf(const World& world) {
+  const std::vector<std::uint16_t>& materials = world.statics().mesh.materials;
+  std::vector<std::optional<std::uint64_t>> hashes(world.materials().size());
+  std::vector<std::uint64_t> surfaces;
+  surfaces.reserve(materials.size());
+  for (const std::uint16_t material : materials) {
+    auto& hash = hashes[material];
+    if (!hash) hash = HashOf(world.materials()[material], world.textures());
+    surfaces.push_back(*hash);
+  }
+  return surfaces;
 }
 
 fs::path FileOf(const fs::path& folder, std::uint64_t key) {
@@ -77,16 +119,7 @@ std::uint64_t LightKey(const World& world, const StaticLightOptions& options,
   add_all(mesh.normals);
   add_all(mesh.uvs);
   add_all(mesh.triangles);
-  add_all(mesh.materials);
-  for (const Material& m : world.materials()) {
-    add_all(fmt::format("{} {} {}", m.albedo, m.albedo_texture, m.emission));
-  }
-  for (const Texture& texture : world.textures()) {
-    for (int y = 0; y < texture.image.rows; ++y) {
-      add(texture.image.ptr(y),
-          static_cast<std::size_t>(texture.image.cols) * texture.image.elemSize());
-    }
-  }
+  add_all(SurfacesOf(world));
   for (const AreaLight& light : world.lights()) {
     add_all(light.center);
     add_all(light.half_u);

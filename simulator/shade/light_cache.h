@@ -16,8 +16,9 @@ struct StaticLightOptions;
 /// $HOME/.cache/aisle; empty when none of them is set.
 std::filesystem::path DefaultLightCache();
 
-/// Hash of all that decides a solution: the static world, its materials, textures and lamps, the
-/// lamps' setting, and the options.
+/// Hash of all that decides a solution, and of nothing else: the static mesh, what its surfaces
+/// reflect and emit, the lamps and their setting, and the options. Movers and their materials do
+/// not enter, nor does the order of materials: the twins of a scene share a solution.
 std::uint64_t LightKey(const World& world, const StaticLightOptions& options,
                        std::span<const float> light_scale);
 
