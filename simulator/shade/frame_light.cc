@@ -81,15 +81,16 @@ float PixelOn(const Eigen::AlignedBox3f& box, std::span<const EyeView> views) {
 SurfaceTables::SurfaceTables(const World& world, const LightGrid& static_grid, float mover_texel_m)
     : world_(&world) {
   const TriangleMesh& mesh = world.statics().mesh;
-  statics_ = MakeSurfaceTable(mesh, mesh.positions, static_grid.patches, world.materials());
+  statics_ = MakeSurfaceTable(mesh, mesh.positions, static_grid.patches, world.materials(),
+                              Luminaires::kShine);
   const auto is_glossy = [](const SurfaceRecord& record) { return record.f0 > 0; };
   for (std::size_t i = 0; i < world.mover_meshes().size(); ++i) {
     const TriangleMesh& mover = world.mover_meshes()[i];
     LightGrid grid = MakeLightGrid(mover, mover_texel_m);
     mover_bases_.push_back(static_cast<std::int32_t>(mover_records_.size()));
     slot_bases_.push_back(slot_count_);
-    for (SurfaceRecord record :
-         MakeSurfaceTable(mover, mover.positions, grid.patches, world.materials())) {
+    for (SurfaceRecord record : MakeSurfaceTable(mover, mover.positions, grid.patches,
+                                                 world.materials(), Luminaires::kReflect)) {
       record.light.slot += static_cast<std::int32_t>(slot_count_);
       mover_records_.push_back(record);
     }

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the solver or this format changes, so that old files are not read.
-constexpr std::uint64_t kVersion = 7;
+constexpr std::uint64_t kVersion = 8;
 
 struct Header {
   std::uint64_t magic = 0x746867696c736961;  // "aislight"

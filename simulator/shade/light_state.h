@@ -7,7 +7,8 @@
 namespace aisle::sim {
 
 /// Light on the static world under one setting of the lamps. Irradiance by slot of
-/// StaticLight::grid(); luminaires carry what shows as their own radiance.
+/// StaticLight::grid(). Luminaires are read at reflectance 1: what they carry is π · emission +
+/// albedo · irradiance.
 struct LightState {
   std::vector<float> total;   ///< direct + indirect
   std::vector<float> direct;  ///< of it, straight from the luminaires

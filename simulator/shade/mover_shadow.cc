@@ -272,8 +272,15 @@ class Pass {
     if (!Any(lost > 0)) return false;
     const std::size_t i = image_.Index(x, y);
     const F8 kept = 1 - lost / Max(LoadF(&irradiance_[i]), Wide(1e-9f));
-    Store(Select(lanes, kept, LoadF(&(*raw)[i])), &(*raw)[i]);
+    Store(Select(lanes & ~OnLuminaires(i, lanes), kept, LoadF(&(*raw)[i])), &(*raw)[i]);
     return true;
+  }
+
+  /// Nothing darkens a luminaire, whose own radiance outshines what it reflects by far.
+  I8 OnLuminaires(std::size_t pixel, I8 lanes) const {
+    constexpr int kStride = sizeof(SurfaceRecord) / sizeof(float);
+    const I8 record = lanes ? LoadI(&image_.primitive[pixel]) : I8{};
+    return Gather(&tables_.statics()[0].f0, record * kStride) < 0;
   }
 
   /// Irradiance that movers keep from one light, by one shadow ray a pixel.

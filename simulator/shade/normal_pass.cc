@@ -49,7 +49,8 @@ void BendLight(const Instant& instant, const EyeView& view, const HitImage& imag
       if (geometry == kNoGeometry) return;
       const MeshPlace place = tables.PlaceOf(instant, image, i);
       const Material& material = world.materials()[place.topology.materials[place.triangle]];
-      if (material.normal_texture < 0) return;
+      const bool luminaire = geometry == 0 && material.emission > 0;  // what it emits has no normal
+      if (material.normal_texture < 0 || luminaire) return;
       const Eigen::Vector3f ray = view.rotation * view.rays->At(x, y).homogeneous();
       const Eigen::Vector3f position = view.origin + image.t[i] * ray;
       const float pixel_m = image.t[i] * view.rays->step_x;

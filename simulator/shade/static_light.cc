@@ -70,43 +70,55 @@ std::vector<float> DirectAt(const Instant& statics, const World& world,
   return direct;
 }
 
-/// Reflectance around each point of a grid.
+/// Reflectance around a point, over `texel` metres.
+float AlbedoAround(const World& world, const TexturePool& textures, const LightPoint& point,
+                   float texel) {
+  const TriangleMesh& mesh = world.statics().mesh;
+  const Material& material = world.materials()[mesh.materials[point.triangle]];
+  const auto& [a, b, c] = mesh.triangles[point.triangle];
+  const Eigen::Vector2f uv =
+      (1 - point.u - point.v) * mesh.uvs[a] + point.u * mesh.uvs[b] + point.v * mesh.uvs[c];
+  const Eigen::Vector2f du = mesh.uvs[b] - mesh.uvs[a], dv = mesh.uvs[c] - mesh.uvs[a];
+  const Eigen::Vector3f x = mesh.positions[b] - mesh.positions[a];
+  const Eigen::Vector3f y = mesh.positions[c] - mesh.positions[a];
+  const float world_area = x.cross(y).norm();
+  const float uv_area = std::abs(du.x() * dv.y() - du.y() * dv.x());
+  const float width = texel * std::sqrt(uv_area / std::max(world_area, 1e-9f));
+  return material.albedo * textures.SampleWide(material.albedo_texture, uv.x(), uv.y(), width);
+}
+
+/// The same of each point of a grid.
 std::vector<float> AlbedoAt(const World& world, const TexturePool& textures, const LightGrid& grid,
                             float texel) {
-  const TriangleMesh& mesh = world.statics().mesh;
   std::vector<float> albedo;
+  albedo.reserve(grid.points.size());
   for (const LightPoint& point : grid.points) {
-    const Material& material = world.materials()[mesh.materials[point.triangle]];
-    const auto& [a, b, c] = mesh.triangles[point.triangle];
-    const Eigen::Vector2f uv =
-        (1 - point.u - point.v) * mesh.uvs[a] + point.u * mesh.uvs[b] + point.v * mesh.uvs[c];
-    const Eigen::Vector2f du = mesh.uvs[b] - mesh.uvs[a], dv = mesh.uvs[c] - mesh.uvs[a];
-    const Eigen::Vector3f x = mesh.positions[b] - mesh.positions[a];
-    const Eigen::Vector3f y = mesh.positions[c] - mesh.positions[a];
-    const float world_area = x.cross(y).norm();
-    const float uv_area = std::abs(du.x() * dv.y() - du.y() * dv.x());
-    const float width = texel * std::sqrt(uv_area / std::max(world_area, 1e-9f));
-    albedo.push_back(material.albedo *
-                     textures.SampleWide(material.albedo_texture, uv.x(), uv.y(), width));
+    albedo.push_back(AlbedoAround(world, textures, point, texel));
   }
   return albedo;
 }
 
-/// Makes luminaires show their own radiance: what is read is irradiance / π at reflectance 1.
-void PaintLuminaires(const World& world, const LightGrid& grid, std::span<const float> light_scale,
-                     LightState* state) {
+/// Makes luminaires show their own radiance beside what they reflect: their light is read at
+/// reflectance 1, so that the irradiance there becomes albedo · irradiance + π · emission.
+void PaintLuminaires(const World& world, const TexturePool& textures, const LightGrid& grid,
+                     float texel, std::span<const float> light_scale, LightState* state) {
   const TriangleMesh& mesh = world.statics().mesh;
   for (std::size_t i = 0; i < grid.patches.size(); ++i) {
     const Material& material = world.materials()[mesh.materials[i]];
     if (material.emission <= 0) continue;
-    const float value = material.emission * kPi * light_scale[NearestLight(world, i)];
+    const float emitted = material.emission * kPi * light_scale[NearestLight(world, i)];
     const auto first = static_cast<std::size_t>(grid.patches[i].slot);
     const std::size_t end = i + 1 < grid.patches.size()
                                 ? static_cast<std::size_t>(grid.patches[i + 1].slot)
                                 : grid.point_of_slot.size();
+    float albedo = material.albedo;  // slots beyond the edge have that of the one before them
     for (std::size_t slot = first; slot < end; ++slot) {
-      state->total[slot] = value;
-      state->direct[slot] = 0;
+      const std::uint32_t point = grid.point_of_slot[slot];
+      if (point < LightGrid::kExtrapolated) {
+        albedo = AlbedoAround(world, textures, grid.points[point], texel);
+      }
+      state->total[slot] = emitted + albedo * state->total[slot];
+      state->direct[slot] *= albedo;
     }
   }
 }
@@ -163,7 +175,7 @@ LightState StaticLight::Solve(std::span<const float> light_scale) const {
   state.total.resize(state.direct.size());
   FillSlots(fine_, indirect, state.total);
   for (std::size_t i = 0; i < state.total.size(); ++i) state.total[i] += state.direct[i];
-  PaintLuminaires(*world_, fine_, light_scale, &state);
+  PaintLuminaires(*world_, *textures_, fine_, options_.texel_m, light_scale, &state);
 
   state.volume = LightVolume(tracer_->static_box(), options_.volume_spacing_m);
   FillVolume(statics, coarse_, mesh, patches, radiosity, options_.volume_directions, &state.volume);

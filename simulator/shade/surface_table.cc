@@ -30,7 +30,8 @@ void Pose(const TriangleMesh& mesh, std::span<const Eigen::Vector3f> positions, 
 std::vector<SurfaceRecord> MakeSurfaceTable(const TriangleMesh& mesh,
                                             std::span<const Eigen::Vector3f> positions,
                                             std::span<const LightPatch> patches,
-                                            std::span<const Material> materials) {
+                                            std::span<const Material> materials,
+                                            Luminaires luminaires) {
   std::vector<SurfaceRecord> table(mesh.triangles.size());
   for (std::size_t i = 0; i < table.size(); ++i) {
     SurfaceRecord& record = table[i];
@@ -41,7 +42,7 @@ std::vector<SurfaceRecord> MakeSurfaceTable(const TriangleMesh& mesh,
       record.uv2[axis] = mesh.uvs[c][axis] - mesh.uvs[a][axis];
     }
     const Material& material = materials[mesh.materials[i]];
-    const bool luminaire = material.emission > 0;
+    const bool luminaire = material.emission > 0 && luminaires == Luminaires::kShine;
     record.albedo = luminaire ? 1.0f : material.albedo;
     record.texture = luminaire ? -1 : material.albedo_texture;
     const Finish finish = FinishOf(material);

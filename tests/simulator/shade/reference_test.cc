@@ -72,6 +72,45 @@ TEST(Reference, FurnaceOfBrightWallsConvergesToItsClosedForm) {
   EXPECT_NEAR(cv::mean(image)[0], 0.2 / (1 - 0.8), 1e-3);
 }
 
+/// The mean of a view by the production light.
+double MeanOfProduction(const World& world, const Eigen::Isometry3d& pose,
+                        const StereoCamera& camera, const ShadeOptions& options) {
+  const Tracer tracer(world, {});
+  const PixelRays rays = MakePixelRays(camera);
+  const std::array views = {EyeView(rays, pose)};
+  const Instant instant = tracer.Pose(world.At(0));
+  std::vector<HitImage> hits;
+  TraceViews(instant, views, {}, &hits);
+  return cv::mean(Shader(world, tracer, options).Shade(instant, views, hits)[0])[0];
+}
+
+TEST(ProductionLight, LuminairesReflectBesideWhatTheyEmit) {
+  // Seen: e + albedo · E / π with E / π = e · (1 + albedo + … ) of seven surfaces, by the direct
+  // light and six bounces.
+  const float albedo = 0.5f, emission = 1;
+  const double expected = emission * (1 - std::pow(albedo, 8)) / (1 - albedo);
+  const ShadeOptions options{.statics = {.coarse_texel_m = 0.2f, .directions = 256}};
+  EXPECT_NEAR(
+      MeanOfProduction(World(Furnace(albedo, emission)), test::LookAlong({0.1, -0.2, 0.15}, 0.4),
+                       SmallCamera(48, 30), options),
+      expected, 0.02 * expected);
+}
+
+TEST(ProductionLight, ADimLampUnderABrightOneIsThatOfTheReference) {
+  WorldParts parts = Furnace(0.6f, 0.05f);
+  parts.materials.push_back({.name = "bright", .albedo = 0.3f, .emission = 2});
+  parts.statics.mesh.materials[10] = parts.statics.mesh.materials[11] = 1;  // the ceiling
+  parts.lights[5].radiance = 2;
+  const World world(std::move(parts));
+  Eigen::Isometry3d down = Eigen::Isometry3d::Identity();
+  down.linear() = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  const StereoCamera camera = SmallCamera(32, 40);
+  const double reference = cv::mean(Trace(world, down, camera, {.samples = 256, .depth = 16}))[0];
+  ASSERT_GT(reference, 0.3);  // far more than it emits
+  const ShadeOptions options{.statics = {.coarse_texel_m = 0.2f, .directions = 256, .bounces = 12}};
+  EXPECT_NEAR(MeanOfProduction(world, down, camera, options), reference, 0.02 * reference);
+}
+
 /// The vertices and faces of an OBJ file that holds nothing else.
 void AddObj(const std::filesystem::path& file, const Eigen::Vector3f& shift, std::uint16_t material,
             test::MeshBuilder* world) {
