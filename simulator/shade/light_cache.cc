@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the solver or this format changes, so that old files are not read.
-constexpr std::uint64_t kVersion = 8;
+constexpr std::uint64_t kVersion = 9;
 
 struct Header {
   std::uint64_t magic = 0x746867696c736961;  // "aislight"
@@ -49,16 +49,16 @@ std::uint64_t HashOf(const Texture& texture) {
   return hash;
 }
 
-/// What the solver knows of a material: neither gloss nor normal maps, which shade a pixel only.
+/// What the solver knows of a material: not its normal map, which shades a pixel only.
 std::uint64_t HashOf(const Material& material, std::span<const Texture> textures) {
   struct {
-    float albedo, emission;
+    float albedo, emission, specular_f0, roughness;
     std::uint64_t texture;
-  } const known = {material.albedo, material.emission,
+  } const known = {material.albedo, material.emission, material.specular_f0, material.roughness,
                    material.albedo_texture < 0
                        ? 0
                        : HashOf(textures[static_cast<std::size_t>(material.albedo_texture)])};
-  static_assert(sizeof(known) == 16, "padding would be hashed");
+  static_assert(sizeof(known) == 24, "padding would be hashed");
   return XXH3_64bits(&known, sizeof(known));
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "simulator/shade/direct_light.h"
+#include "simulator/shade/gloss.h"
 #include "simulator/shade/light_cache.h"
 #include "simulator/shade/radiosity.h"
 #include "simulator/shade/reference.h"
@@ -87,15 +88,30 @@ float AlbedoAround(const World& world, const TexturePool& textures, const LightP
   return material.albedo * textures.SampleWide(material.albedo_texture, uv.x(), uv.y(), width);
 }
 
-/// The same of each point of a grid.
-std::vector<float> AlbedoAt(const World& world, const TexturePool& textures, const LightGrid& grid,
-                            float texel) {
-  std::vector<float> albedo;
-  albedo.reserve(grid.points.size());
-  for (const LightPoint& point : grid.points) {
-    albedo.push_back(AlbedoAround(world, textures, point, texel));
+/// Share of diffuse light that a finish's lobe sends back, by Malley's measure 2 c dc of cosines.
+float MeanGloss(const Finish& finish) {
+  constexpr int kSteps = 64;
+  if (finish.f0 <= 0) return 0;
+  float sum = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const float squared = (static_cast<float>(i) + 0.5f) / kSteps;
+    sum += GlossShare(finish.f0, finish.roughness, std::sqrt(squared));
   }
-  return albedo;
+  return sum / kSteps;
+}
+
+/// What each point of a grid sends on of the light it receives: the diffuse base, and what its lobe
+/// mirrors, whose energy must not be lost though radiosity spreads it as if it were diffuse.
+std::vector<float> ReflectanceAt(const World& world, const TexturePool& textures,
+                                 const LightGrid& grid, float texel) {
+  std::vector<float> gloss, reflectance;
+  for (const Material& material : world.materials()) gloss.push_back(MeanGloss(FinishOf(material)));
+  reflectance.reserve(grid.points.size());
+  for (const LightPoint& point : grid.points) {
+    const float mirrored = gloss[world.statics().mesh.materials[point.triangle]];
+    reflectance.push_back((1 - mirrored) * AlbedoAround(world, textures, point, texel) + mirrored);
+  }
+  return reflectance;
 }
 
 /// Makes luminaires show their own radiance beside what they reflect: their light is read at
@@ -152,8 +168,8 @@ LightState StaticLight::Solve(std::span<const float> light_scale) const {
   state.direct.resize(fine_.point_of_slot.size());
   FillSlots(fine_, direct, state.direct);
 
-  Patches patches =
-      MakePatches(locate(coarse_), AlbedoAt(*world_, *textures_, coarse_, options_.coarse_texel_m));
+  Patches patches = MakePatches(
+      locate(coarse_), ReflectanceAt(*world_, *textures_, coarse_, options_.coarse_texel_m));
   const std::vector<std::uint32_t> patch_of = PatchesOf(fine_, coarse_, patches);
   CentrePatches(places, patch_of, &patches);
   const Radiosity radiosity = SolveRadiosity(

@@ -77,6 +77,8 @@ TEST(LightKey, WhatTheLightDependsOnChangesIt) {
   const std::vector<std::pair<const char*, std::function<void(WorldParts*)>>> changes = {
       {"albedo", [](WorldParts* p) { p->materials[1].albedo *= 1.001f; }},
       {"emission", [](WorldParts* p) { p->materials[3].emission *= 1.001f; }},
+      {"gloss", [](WorldParts* p) { p->materials[1].specular_f0 = 0.04f; }},
+      {"roughness", [](WorldParts* p) { p->materials[1].roughness = 0.2f; }},
       {"which texture", [](WorldParts* p) { p->materials[0].albedo_texture = 1; }},
       {"texture pixel", [](WorldParts* p) { p->textures[0].image.at<std::uint8_t>(100, 7) ^= 1; }},
       {"texture shape",

@@ -111,6 +111,22 @@ TEST(ProductionLight, ADimLampUnderABrightOneIsThatOfTheReference) {
   EXPECT_NEAR(MeanOfProduction(world, down, camera, options), reference, 0.02 * reference);
 }
 
+TEST(ProductionLight, WhatAGlossyFloorMirrorsReachesTheWalls) {
+  WorldParts parts = Furnace(0.5f, 1);
+  parts.materials.push_back({.name = "wall", .albedo = 0.5f});
+  parts.materials.push_back(
+      {.name = "polished", .albedo = 0.1f, .specular_f0 = 0.3f, .roughness = 0.35f});
+  for (std::size_t i = 0; i < 8; ++i) parts.statics.mesh.materials[i] = 1;
+  parts.statics.mesh.materials[8] = parts.statics.mesh.materials[9] = 2;  // the ceiling shines
+  parts.lights = {parts.lights[5]};
+  const World world(std::move(parts));
+  const Eigen::Isometry3d pose = test::LookAlong({-0.5, 0, 0}, 0);
+  const StereoCamera camera = SmallCamera(24, 24);  // only the wall ahead
+  const double reference = cv::mean(Trace(world, pose, camera, {.samples = 1024, .depth = 12}))[0];
+  const ShadeOptions options{.statics = {.coarse_texel_m = 0.2f, .directions = 256, .bounces = 11}};
+  EXPECT_NEAR(MeanOfProduction(world, pose, camera, options), reference, 0.04 * reference);
+}
+
 /// The vertices and faces of an OBJ file that holds nothing else.
 void AddObj(const std::filesystem::path& file, const Eigen::Vector3f& shift, std::uint16_t material,
             test::MeshBuilder* world) {
