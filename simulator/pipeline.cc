@@ -155,6 +155,24 @@ struct Pipeline::Impl {
     return ChooseExposure(light, WhitePerMs(), options.sensor.tone, options.auto_exposure);
   }
 
+  /// 255 where the left image, `reduce` times smaller, shows a mover or the next pixel does.
+  cv::Mat1b MoversIn(const Moment& moment, int reduce) const {
+    const StereoCamera small = Coarser(camera, reduce);
+    const PixelRays small_rays = MakePixelRays(small);
+    const std::array view = {EyeView(small_rays, EyePose(small, moment.T_world_rig, Eye::kLeft))};
+    std::vector<HitImage> hits;
+    TraceViews(tracer.Pose(world.At(moment.stamp_ns)), view, {}, &hits);
+    cv::Mat1b movers(small.height, small.width, std::uint8_t{0});
+    for (int y = 0; y < small.height; ++y) {
+      for (int x = 0; x < small.width; ++x) {
+        const std::uint32_t geometry = hits[0].geometry[hits[0].Index(x, y)];
+        if (geometry != 0 && geometry != kNoGeometry) movers(y, x) = 255;
+      }
+    }
+    cv::dilate(movers, movers, cv::Mat1b::ones(3, 3));
+    return movers;
+  }
+
   double WhitePerMs() const {
     return options.sensor.exposure / (options.sensor.gain * options.exposure_ms);
   }
@@ -439,6 +457,7 @@ LightCheck Pipeline::CheckLight(std::int64_t stamp_ns, const Eigen::Isometry3d& 
     }
   });
   check.reference = (halves[0] + halves[1]) / 2;
+  check.halves = halves;
   const LightError noise = CompareLight(halves[0], halves[1]);
   check.noise_median_relative = noise.median_relative;
   check.noise_ssim = noise.ssim;
@@ -446,6 +465,29 @@ LightCheck Pipeline::CheckLight(std::int64_t stamp_ns, const Eigen::Isometry3d& 
   check.median_relative_error = error.median_relative;
   check.ssim = error.ssim;
   check.mean_ratio = error.mean_ratio;
+  return check;
+}
+
+LightChangeCheck Pipeline::CheckLightChange(const std::array<Moment, 2>& moments, int samples,
+                                            int reduce) const {
+  LightChangeCheck check;
+  check.now = CheckLight(moments[0].stamp_ns, moments[0].T_world_rig, samples, reduce);
+  const LightCheck then = CheckLight(moments[1].stamp_ns, moments[1].T_world_rig, samples, reduce);
+  cv::Mat1f ours;
+  cv::subtract(then.nightly, check.now.nightly, ours);
+  std::array<cv::Mat1f, 2> halves;
+  for (std::size_t i = 0; i < 2; ++i) {
+    cv::subtract(then.halves[i], check.now.halves[i], halves[i]);
+  }
+  const auto compare = [&](const cv::Mat1b& where) -> LightChangeCheck::Part {
+    const LightChange change = CompareChange(ours, halves, where);
+    return {change.pixels,      change.rms_ours,  change.rms_reference,
+            change.rms_between, change.rms_noise, change.correlation};
+  };
+  cv::Mat1b movers(ours.size(), std::uint8_t{0});
+  for (const Moment& moment : moments) movers |= impl_->MoversIn(moment, reduce);
+  check.everywhere = compare(cv::Mat1b(ours.size(), std::uint8_t{1}));
+  check.on_movers = compare(movers);
   return check;
 }
 

@@ -61,6 +61,8 @@ class Pipeline {
                          const Eigen::Isometry3d& T_world_rig) const;
   LightCheck CheckLight(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig, int samples,
                         int reduce) const;
+  LightChangeCheck CheckLightChange(const std::array<Moment, 2>& moments, int samples,
+                                    int reduce) const;
 
  private:
   struct Impl;

@@ -287,6 +287,12 @@ LightCheck Simulator::CheckLight(int frame_index, int samples, int reduce) const
   return impl_->pipeline->CheckLight(stamp_ns, PlannedPose(stamp_ns), samples, reduce);
 }
 
+LightChangeCheck Simulator::CheckLightChange(int frame_index, int samples, int reduce) const {
+  const auto moment = [&](int frame) { return Moment{Stamp(frame), PlannedPose(Stamp(frame))}; };
+  return impl_->pipeline->CheckLightChange({moment(frame_index), moment(frame_index + 1)}, samples,
+                                           reduce);
+}
+
 std::vector<std::string> CheckSceneFile(const std::string& scene_file) {
   std::vector<std::string> errors = CheckScene(scene_file);
   if (!errors.empty()) return errors;

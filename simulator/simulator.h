@@ -159,6 +159,20 @@ struct LightCheck {
   /// The same of two references of half as many paths each, against each other: what of the error
   /// is the paths' own noise.
   double noise_median_relative = 0, noise_ssim = 0;
+  std::array<cv::Mat1f, 2> halves;  ///< these two; the reference is their mean
+};
+
+/// How the light of one left image changes to the next frame's, beside how the path tracer's does.
+struct LightChangeCheck {
+  struct Part {
+    int pixels = 0;
+    double rms_nightly = 0, rms_reference = 0;  ///< of the changes, in shares of white
+    double rms_between = 0;                     ///< of one change less the other
+    double rms_noise = 0;                       ///< what of it is the paths' own noise
+    double correlation = 0;                     ///< of the two changes
+  };
+  LightCheck now;
+  Part everywhere, on_movers;  ///< the latter in either frame, and the pixel around them
 };
 
 /// The face of the simulator: a scene that can be photographed at any time from any pose. A frame
@@ -222,11 +236,26 @@ class Simulator {
   /// noise the smaller.
   LightCheck CheckLight(int frame_index, int samples, int reduce) const;
 
+  /// The same of a frame, and how it changes to the next one, whose paths have the same seeds.
+  LightChangeCheck CheckLightChange(int frame_index, int samples, int reduce) const;
+
  private:
   struct Impl;
   explicit Simulator(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
+
+struct ForeignOptions {
+  int samples = 256;  ///< paths a pixel
+  int depth = 8;      ///< surfaces a path may touch; 1 shows luminaires alone
+  std::uint64_t seed = 1;
+  int threads = 0;  ///< 0: as many as the machine has
+};
+
+/// Path-traces a scene of another renderer (simulator/foreign tells the dialect), each colour by
+/// itself: linear radiance, channels in OpenCV's order B, G, R. Throws std::runtime_error: "file:
+/// key: what is wrong".
+cv::Mat3f TraceForeignScene(const std::string& file, const ForeignOptions& options);
 
 /// Every mistake in a scene file, one message each (empty: the file is good). Opens no assets.
 std::vector<std::string> CheckSceneFile(const std::string& scene_file);

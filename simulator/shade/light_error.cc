@@ -56,4 +56,34 @@ LightError CompareLight(const cv::Mat1f& ours, const cv::Mat1f& reference) {
   return error;
 }
 
+LightChange CompareChange(const cv::Mat1f& ours, const std::array<cv::Mat1f, 2>& halves,
+                          const cv::Mat1b& where) {
+  LightChange change;
+  double a = 0, b = 0, aa = 0, bb = 0, ab = 0, noise = 0, between = 0;
+  for (int y = 0; y < ours.rows; ++y) {
+    for (int x = 0; x < ours.cols; ++x) {
+      if (!where(y, x)) continue;
+      const double mine = ours(y, x);
+      const double theirs = (halves[0](y, x) + halves[1](y, x)) / 2.0;
+      const double error = (halves[0](y, x) - halves[1](y, x)) / 2.0;
+      a += mine;
+      b += theirs;
+      aa += mine * mine;
+      bb += theirs * theirs;
+      ab += mine * theirs;
+      noise += error * error;
+      between += (mine - theirs) * (mine - theirs);
+      ++change.pixels;
+    }
+  }
+  const double n = std::max(change.pixels, 1);
+  change.rms_ours = std::sqrt(aa / n);
+  change.rms_reference = std::sqrt(bb / n);
+  change.rms_noise = std::sqrt(noise / n);
+  change.rms_between = std::sqrt(between / n);
+  const double spread = (aa - a * a / n) * (bb - b * b / n);
+  change.correlation = spread > 0 ? (ab - a * b / n) / std::sqrt(spread) : 0;
+  return change;
+}
+
 }  // namespace aisle::sim

@@ -44,5 +44,27 @@ TEST(CompareLight, WhatIsOverWhiteIsWhite) {
   EXPECT_NEAR(CompareLight(brighter_lamp, lamp).ssim, 1, 1e-6);
 }
 
+TEST(LightChange, TellsTheErrorOfAChangeFromTheNoiseOfItsReference) {
+  cv::RNG rng(3);
+  cv::Mat1f change(200, 200), noise(200, 200), error(200, 200), ours;
+  rng.fill(change, cv::RNG::NORMAL, 0.01, 0.05);
+  rng.fill(noise, cv::RNG::NORMAL, 0, 0.004);
+  rng.fill(error, cv::RNG::NORMAL, 0, 0.01);
+  cv::add(change, error, ours);
+  std::array<cv::Mat1f, 2> halves;  // their mean is the change, each is off by the noise
+  cv::add(change, noise, halves[0]);
+  cv::subtract(change, noise, halves[1]);
+  cv::Mat1b where(200, 200, std::uint8_t{0});
+  where.rowRange(50, 150).setTo(1);
+  ours.rowRange(0, 50).setTo(9);  // is not asked for
+  const LightChange found = CompareChange(ours, halves, where);
+  EXPECT_EQ(found.pixels, 100 * 200);
+  EXPECT_NEAR(found.rms_reference, std::hypot(0.01, 0.05), 0.001);
+  EXPECT_NEAR(found.rms_between, 0.01, 0.0005);
+  EXPECT_NEAR(found.rms_noise, 0.004, 0.0002);
+  EXPECT_NEAR(found.correlation, 0.05 / std::hypot(0.05, 0.01), 0.003);
+  EXPECT_NEAR(CompareChange(change, halves, where).correlation, 1, 1e-6);
+}
+
 }  // namespace
 }  // namespace aisle::sim

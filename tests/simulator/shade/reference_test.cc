@@ -4,11 +4,10 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <sstream>
 
+#include "simulator/foreign/foreign_scene.h"
 #include "simulator/shade/shader.h"
 #include "tests/simulator/test_world.h"
 
@@ -127,80 +126,6 @@ TEST(ProductionLight, WhatAGlossyFloorMirrorsReachesTheWalls) {
   EXPECT_NEAR(MeanOfProduction(world, pose, camera, options), reference, 0.04 * reference);
 }
 
-/// The vertices and faces of an OBJ file that holds nothing else.
-void AddObj(const std::filesystem::path& file, const Eigen::Vector3f& shift, std::uint16_t material,
-            test::MeshBuilder* world) {
-  std::ifstream in(file);
-  ASSERT_TRUE(in) << file;
-  std::vector<Eigen::Vector3f> vertices;
-  std::string line;
-  while (std::getline(in, line)) {
-    std::istringstream words(line);
-    std::string kind;
-    words >> kind;
-    if (kind == "v") {
-      Eigen::Vector3f v;
-      words >> v.x() >> v.y() >> v.z();
-      vertices.push_back((v + shift) / 100);  // in decimetres: shadow rays' margins are metric
-    } else if (kind == "f") {
-      std::vector<std::size_t> corners;
-      std::string corner;
-      while (words >> corner) {
-        const int index = std::stoi(corner);
-        corners.push_back(index > 0 ? static_cast<std::size_t>(index - 1)
-                                    : vertices.size() - static_cast<std::size_t>(-index));
-      }
-      for (std::size_t i = 2; i < corners.size(); ++i) {
-        const Eigen::Vector3f a = vertices[corners[0]], b = vertices[corners[i - 1]],
-                              c = vertices[corners[i]];
-        const Eigen::Vector3f n = (b - a).cross(c - a).normalized();
-        const auto first = static_cast<std::uint32_t>(world->mesh.positions.size());
-        for (const Eigen::Vector3f& p : {a, b, c}) {
-          world->mesh.positions.push_back(p);
-          world->mesh.normals.push_back(n);
-          world->mesh.uvs.emplace_back(0, 0);
-        }
-        world->mesh.triangles.push_back({first, first + 1, first + 2});
-        world->mesh.materials.push_back(material);
-        world->instances.push_back(1);
-      }
-    }
-  }
-}
-
-/// One band of the Cornell box.
-WorldParts CornellBox(const std::filesystem::path& folder, int band) {
-  constexpr std::array<std::array<float, 3>, 6> kAlbedo = {{{0.45f, 0.3f, 0.9f},
-                                                            {0.885809f, 0.698859f, 0.666422f},
-                                                            {0.570068f, 0.0430135f, 0.0443706f},
-                                                            {0.105421f, 0.37798f, 0.076425f},
-                                                            {0.936461f, 0.740433f, 0.705267f}}};
-  constexpr std::array<float, 3> kRadiance = {18.387f, 10.9873f, 2.75357f};
-  const auto b = static_cast<std::size_t>(band);
-  WorldParts parts;
-  parts.instances.push_back({"box", ObjectClass::kWall, false});
-  for (std::size_t i = 0; i < 5; ++i)
-    parts.materials.push_back({.name = "wall", .albedo = kAlbedo[i][b]});
-  parts.materials[4].emission = kRadiance[b];
-  const std::array<std::pair<const char*, std::uint16_t>, 8> shapes = {{{"luminaire", 4},
-                                                                        {"floor", 1},
-                                                                        {"ceiling", 1},
-                                                                        {"back", 1},
-                                                                        {"greenwall", 3},
-                                                                        {"redwall", 2},
-                                                                        {"smallbox", 0},
-                                                                        {"largebox", 0}}};
-  test::MeshBuilder world;
-  for (const auto& [name, material] : shapes) {
-    const Eigen::Vector3f shift(0, material == 4 ? -0.5f : 0.0f, 0);
-    AddObj(folder / "meshes" / fmt::format("cbox_{}.obj", name), shift, material, &world);
-  }
-  // The luminaire's rectangle, looking down (-y).
-  parts.lights.push_back({{2.78f, 5.483f, 2.795f}, {0.65f, 0, 0}, {0, 0, 0.525f}, kRadiance[b]});
-  parts.statics = {world.mesh, world.instances};
-  return parts;
-}
-
 TEST(Reference, CornellBoxIsThatOfAnotherRendererBlockByBlock) {
   const std::filesystem::path folder = std::filesystem::path(AISLE_TEST_DATA) / "cornell";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
@@ -211,18 +136,12 @@ TEST(Reference, CornellBoxIsThatOfAnotherRendererBlockByBlock) {
   std::vector<cv::Mat> bands;
   cv::split(exr, bands);  // B, G, R
 
-  const double focal = 128 / std::tan(39.3077 / 2 * M_PI / 180);
-  const StereoCamera camera = SmallCamera(256, focal);
-  // The camera looks along +z with y up and, seen along +z, +x to the left.
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear().col(0) = -Eigen::Vector3d::UnitX();
-  pose.linear().col(1) = -Eigen::Vector3d::UnitY();
-  pose.linear().col(2) = Eigen::Vector3d::UnitZ();
-  pose.translation() = Eigen::Vector3d(2.78, 2.73, -8);
+  ForeignScene scene = LoadForeignScene(folder / "cbox-base.json");
   for (int band = 0; band < 3; ++band) {
     // A path of depth 6 has six edges, the first from the eye: it touches six surfaces. Blue is the
     // darkest, so its blocks need more paths.
-    const cv::Mat1f image = Trace(World(CornellBox(folder, band)), pose, camera,
+    const World world(std::move(scene.bands[static_cast<std::size_t>(band)]));
+    const cv::Mat1f image = Trace(world, scene.T_world_camera, scene.camera,
                                   {.samples = band == 2 ? 256 : 128, .depth = 6});
     const cv::Mat1f expected = bands[static_cast<std::size_t>(2 - band)];
     if (const char* pictures = std::getenv("AISLE_TEST_PICTURES")) {

@@ -1,1 +1,1 @@
-aisle_tests(simulator/shade LINKS opencv_imgcodecs)
+aisle_tests(simulator/shade USES simulator/foreign LINKS opencv_imgcodecs)

@@ -1,0 +1,31 @@
+#include <tbb/task_arena.h>
+
+#include "simulator/foreign/foreign_scene.h"
+#include "simulator/shade/reference.h"
+#include "simulator/simulator.h"
+
+namespace aisle::sim {
+
+cv::Mat3f TraceForeignScene(const std::string& file, const ForeignOptions& options) {
+  ForeignScene scene = LoadForeignScene(file);
+  const PixelRays rays = MakePixelRays(scene.camera);
+  const EyeView view(rays, scene.T_world_camera);
+  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+  std::vector<cv::Mat1f> bgr(3);
+  for (std::size_t band = 0; band < 3; ++band) {
+    const World world(std::move(scene.bands[band]));
+    const Tracer tracer(world, {});
+    const TexturePool textures(world.textures());
+    arena.execute([&] {
+      bgr[2 - band] =
+          Reference(world, textures)
+              .Render(tracer.Pose(world.At(0)), view,
+                      {.samples = options.samples, .depth = options.depth, .seed = options.seed});
+    });
+  }
+  cv::Mat3f picture;
+  cv::merge(bgr, picture);
+  return picture;
+}
+
+}  // namespace aisle::sim
