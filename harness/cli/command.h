@@ -40,6 +40,7 @@ void AddBaselineCommand(CLI::App* app, Action* action);
 // Commands of `bench`.
 void AddBenchAccuracy(CLI::App* bench, Action* action);
 void AddBenchDynamic(CLI::App* bench, Action* action);
+void AddBenchLight(CLI::App* bench, Action* action);
 void AddBenchRealism(CLI::App* bench, Action* action);
 void AddBenchSlam(CLI::App* bench, Action* action);
 

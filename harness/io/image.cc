@@ -31,11 +31,15 @@ void CheckPngHeader(const std::string& bytes, const std::string& file) {
   }
 }
 
+/// OpenCV leaves OpenEXR off unless it is told otherwise before it meets the first such file.
+void AllowExr() { setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0); }
+
 }  // namespace
 
 void WriteImage(const std::filesystem::path& path, const cv::Mat& image) {
   constexpr int kJpegQuality = 88;    // overlays stay crisp
   constexpr int kPngCompression = 3;  // grey noise does not shrink further, only takes longer
+  AllowExr();
   std::vector<unsigned char> bytes;
   const std::vector<int> options = {cv::IMWRITE_JPEG_QUALITY, kJpegQuality,
                                     cv::IMWRITE_PNG_COMPRESSION, kPngCompression};
@@ -60,6 +64,25 @@ cv::Mat1b ReadGreyPng(const std::filesystem::path& path) {
   const cv::Mat image = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
   if (image.empty()) throw InputError(path.string(), 0, "is a broken PNG image");
   if (image.type() != CV_8UC1) throw InputError(path.string(), 0, "is not 8-bit grey");
+  return image;
+}
+
+cv::Mat3f ReadLinearImage(const std::filesystem::path& path) {
+  AllowExr();
+  const std::string bytes = ReadFile(path);
+  const std::string ending = path.extension().string();
+  if (ending != ".exr" && ending != ".pfm") {
+    throw InputError(path.string(), 0, "is read as .pfm or .exr only");
+  }
+  const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U,
+                        const_cast<char*>(bytes.data()));  // imdecode only reads
+  cv::Mat image;
+  try {
+    image = cv::imdecode(encoded, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH);
+  } catch (const cv::Exception&) {  // told like any other that cannot be decoded
+  }
+  if (image.empty()) throw InputError(path.string(), 0, "cannot be decoded");
+  if (image.type() != CV_32FC3) throw InputError(path.string(), 0, "has no three float channels");
   return image;
 }
 

@@ -5,7 +5,7 @@
 
 namespace aisle {
 
-/// Writes PNG, JPEG or PFM by the name's ending, aside and renamed. Throws MachineError.
+/// Writes PNG, JPEG, PFM or OpenEXR by the name's ending, aside and renamed. Throws MachineError.
 void WriteImage(const std::filesystem::path& path, const cv::Mat& image);
 
 /// Writes a PFM of three channels: the vectors' first, second and third numbers, in this order (as
@@ -15,5 +15,8 @@ void WriteVectorPfm(const std::filesystem::path& path, const cv::Mat3f& vectors)
 /// An 8-bit grey PNG; the size is read from its header before anything is decoded. Throws
 /// InputError when it is no PNG, is not grey, or is larger than 16384 pixels either way.
 cv::Mat1b ReadGreyPng(const std::filesystem::path& path);
+
+/// A PFM or OpenEXR image of three channels: linear, B, G, R. Throws InputError.
+cv::Mat3f ReadLinearImage(const std::filesystem::path& path);
 
 }  // namespace aisle

@@ -22,20 +22,4 @@ struct RenderCost {
 /// Times `frames` frames spread over the scene. Throws InputError for a bad scene.
 RenderCost MeasureRender(const SimulatedSequenceOptions& options, int frames);
 
-/// One left image by the nightly light beside a path-traced one; linear, in shares of white.
-struct LightComparison {
-  int frame = 0;
-  cv::Mat1f nightly, reference;
-  double median_relative_error = 0;
-  double ssim = 0;
-  double mean_ratio = 0;  ///< nightly over reference
-  /// Of two references of half as many paths each: what of the error is their noise.
-  double noise_median_relative = 0, noise_ssim = 0;
-};
-
-/// `frame` < 0: the middle one; both images are `reduce` times smaller than the camera's. Minutes.
-/// Throws InputError for a bad scene or frame.
-LightComparison CompareLight(const SimulatedSequenceOptions& options, int frame, int samples,
-                             int reduce);
-
 }  // namespace aisle

@@ -1,0 +1,167 @@
+#include <opencv2/core.hpp>
+
+#include "harness/cli/bench_foreign.h"
+#include "harness/cli/command.h"
+#include "harness/cli/places.h"
+#include "harness/io/file.h"
+#include "harness/io/image.h"
+#include "harness/io/input_error.h"
+#include "harness/plugs/light_check.h"
+#include "harness/suite/suite.h"
+
+namespace aisle {
+namespace {
+
+constexpr double kMaxMedian = 0.05, kMinSsim = 0.95;
+
+struct LightOptions {
+  SimulatedSequenceOptions simulation;
+  std::vector<std::string> views;
+  std::string out = "bench_light";
+  LightComparisonOptions comparison;
+  ForeignOptions foreign;
+};
+
+/// Quiet views, busy ones, and each kind of light: "scene:frame".
+const std::vector<std::string> kViews = {
+    "paper/scene1:90",
+    "paper/scene2:170",
+    "paper/scene3:110",
+    "weakness/bump:120",
+    "weakness/forklift_pallet:150",
+    "weakness/glossy_floor:130",
+    "weakness/fill_60:100",
+};
+
+/// "scene:frame", or a scene alone: its middle frame, -1.
+std::pair<std::string, int> SceneAndFrame(const std::string& view) {
+  const std::size_t colon = view.rfind(':');
+  if (colon == std::string::npos) return {view, -1};
+  const std::string digits = view.substr(colon + 1);
+  if (digits.empty() || digits.size() > 6 ||
+      digits.find_first_not_of("0123456789") != std::string::npos) {
+    throw InputError(Printable(view) + ": expected SCENE:FRAME, for example paper/scene2:170");
+  }
+  return {view.substr(0, colon), std::stoi(digits)};
+}
+
+/// Nightly above, reference in the middle, and below how they differ: mid grey none, white and
+/// black 20 % too bright and too dark.
+cv::Mat1b Sheet(const LightComparison& light) {
+  const auto grey = [](const cv::Mat1f& linear) {
+    cv::Mat1f encoded;
+    cv::pow(cv::min(linear, 1.0), 1 / 2.2, encoded);
+    return encoded;
+  };
+  cv::Mat1f difference;
+  cv::divide(light.nightly - light.reference, cv::max(light.reference, 1e-3), difference);
+  cv::Mat1f sheet;
+  cv::vconcat(std::vector<cv::Mat>{grey(light.nightly), grey(light.reference),
+                                   0.5 + difference * (0.5 / 0.2)},
+              sheet);
+  cv::Mat1b bytes;
+  sheet.convertTo(bytes, CV_8U, 255);
+  return bytes;
+}
+
+std::string ChangeHeading() {
+  return "| view | frames | where | pixels | rms of the change, nightly | reference | rms between "
+         "| "
+         "of it noise | correlation |\n|---|---|---|---|---|---|---|---|---|\n";
+}
+
+std::string ChangeLine(const std::string& scene, int frame, const char* where,
+                       const LightComparison::Change& change) {
+  return fmt::format("| {} | {}-{} | {} | {} | {:.5f} | {:.5f} | {:.5f} | {:.5f} | {:.4f} |\n",
+                     scene, frame, frame + 1, where, change.pixels, change.rms_nightly,
+                     change.rms_reference, change.rms_between, change.rms_noise,
+                     change.correlation);
+}
+
+int BenchLight(LightOptions options) {
+  options.simulation.assets_dir = AssetsDir().string();
+  const std::filesystem::path out = options.out;
+  std::filesystem::create_directories(out);
+  std::string table =
+      "| view | frame | median relative error | SSIM | mean, nightly / reference "
+      "| two half references: median | SSIM |\n"
+      "|---|---|---|---|---|---|---|\n";
+  std::string changes;
+  bool good = true;
+  for (const std::string& view : options.views.empty() ? kViews : options.views) {
+    auto [scene, frame] = SceneAndFrame(view);
+    options.simulation.scene_file = SceneFile(scene);
+    options.simulation.scene_name = SceneName(options.simulation.scene_file);
+    options.comparison.frame = frame;
+    const LightComparison light = CompareLight(options.simulation, options.comparison);
+    const std::string line = fmt::format(
+        "| {} | {} | {:.2f} % | {:.4f} | {:.3f} | {:.2f} % | {:.4f} |\n",
+        options.simulation.scene_name, light.frame, 100 * light.median_relative_error, light.ssim,
+        light.mean_ratio, 100 * light.noise_median_relative, light.noise_ssim);
+    fmt::print("{}", line);
+    table += line;
+    for (const auto& [where, change] :
+         {std::pair("everywhere", light.everywhere), std::pair("on movers", light.on_movers)}) {
+      if (!change) continue;
+      const std::string text =
+          ChangeLine(options.simulation.scene_name, light.frame, where, *change);
+      fmt::print("{}", text);
+      changes += text;
+    }
+    std::fflush(stdout);
+    std::string name = options.simulation.scene_name;
+    std::ranges::replace(name, '/', '_');
+    WriteImage(out / fmt::format("{}_{}.png", name, light.frame), Sheet(light));
+    good &= light.median_relative_error <= kMaxMedian && light.ssim >= kMinSsim;
+  }
+  if (!changes.empty()) table += "\n" + ChangeHeading() + changes;
+  WriteFileAtomically(out / "light.md", table);
+  fmt::print("pictures and the table: {}\n", out.string());
+  return good ? kAllPassed : kVerdictFailed;
+}
+
+}  // namespace
+
+void AddBenchLight(CLI::App* bench, Action* action) {
+  const auto options = std::make_shared<LightOptions>();
+  CLI::App* command = bench->add_subcommand(
+      "light", "the nightly light beside path tracing: table and pictures; minutes a view");
+  command->add_option("VIEWS", options->views,
+                      "SCENE or SCENE:FRAME (default: seven views with movers)");
+  command->add_option("--out", options->out, "folder of the table and pictures (bench_light)");
+  command->add_option("--samples", options->comparison.samples, "paths a pixel (default 256)")
+      ->check(CLI::Range(1, 65536));
+  command
+      ->add_option("--reduce", options->comparison.reduce,
+                   "compare at 1/N of the camera's size (2)")
+      ->check(CLI::Range(1, 16));
+  command->add_flag("--next", options->comparison.next,
+                    "compare the change to the next frame too, in shares of white");
+  command->add_option("--seed", options->simulation.seed, "of the scenes; default 1");
+  command->add_option("--threads", options->simulation.threads, "0: all");
+  CLI::Option* foreign = command
+                             ->add_option("--foreign", options->foreign.scene,
+                                          "path-trace this JSON scene of another renderer instead")
+                             ->excludes("VIEWS");
+  command
+      ->add_option("--reference", options->foreign.reference, "compare it with this .exr or .pfm")
+      ->needs(foreign);
+  command->add_option("--depth", options->foreign.depth, "surfaces its paths may touch (8)")
+      ->check(CLI::Range(1, 1000))
+      ->needs(foreign);
+  command->footer(
+      "Exit code 1 where a view misses 5 % median relative error or 0.95 SSIM, or a foreign scene "
+      "its bounds.");
+  command->callback([=] {
+    *action = [=] {
+      if (options->foreign.scene.empty()) return BenchLight(*options);
+      ForeignOptions chosen = options->foreign;
+      chosen.out = options->out;
+      chosen.samples = options->comparison.samples;
+      chosen.threads = options->simulation.threads;
+      return BenchForeign(chosen);
+    };
+  });
+}
+
+}  // namespace aisle
