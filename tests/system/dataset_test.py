@@ -188,7 +188,9 @@ class Exported(unittest.TestCase):
                 start = rotation(*estimate[0, 4:])
                 for pose, row in zip(data.poses, estimate):
                     moved = start.T @ (row[1:4] - estimate[0, 1:4])
-                    np.testing.assert_allclose(moved, (home @ pose)[:3, 3], atol=0.03)
+                    # A quarter of the pixels leaves the SLAM some centimetres off; poses of the
+                    # scene's beginning instead of the part's would be off by decimetres.
+                    np.testing.assert_allclose(moved, (home @ pose)[:3, 3], atol=0.1)
 
     def test_stopped_it_goes_on_and_grows_at_its_end_alone(self):
         for format in ("euroc", "kitti", "tum"):
