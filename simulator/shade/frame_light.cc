@@ -8,15 +8,10 @@
 namespace aisle::sim {
 namespace {
 
-/// What the images show of the movers.
-struct Seen {
-  std::vector<std::uint8_t> records;  ///< 1 where a triangle shows
-  std::vector<std::uint32_t> pixels;  ///< by mover
-};
-
-Seen FindSeen(std::span<const HitImage> images, std::span<const std::int32_t> bases,
-              std::size_t records) {
-  Seen seen{std::vector<std::uint8_t>(records), std::vector<std::uint32_t>(bases.size())};
+/// 1 for each of the movers' triangles that shows in an image.
+std::vector<std::uint8_t> FindSeen(std::span<const HitImage> images,
+                                   std::span<const std::int32_t> bases, std::size_t records) {
+  std::vector<std::uint8_t> seen(records);
   for (const HitImage& image : images) {
     tbb::parallel_for(0, image.height, [&](int y) {
       const std::size_t row = image.Index(0, y);
@@ -24,8 +19,7 @@ Seen FindSeen(std::span<const HitImage> images, std::span<const std::int32_t> ba
         const std::uint32_t geometry = image.geometry[i];
         if (geometry == 0 || geometry == kNoGeometry) continue;
         const auto record = static_cast<std::size_t>(bases[geometry - 1]) + image.primitive[i];
-        std::atomic_ref(seen.records[record]).store(1, std::memory_order_relaxed);
-        std::atomic_ref(seen.pixels[geometry - 1]).fetch_add(1, std::memory_order_relaxed);
+        std::atomic_ref(seen[record]).store(1, std::memory_order_relaxed);
       }
     });
   }
@@ -125,13 +119,13 @@ void SurfaceTables::PrepareFrame(const Instant& instant, std::span<const EyeView
   frame->mover_light.assign(slot_count_, 0);
   const std::size_t movers = instant.snapshot().movers.size();
   if (movers == 0) return;
-  const Seen all_seen = FindSeen(images, mover_bases_, mover_records_.size());
+  const std::vector<std::uint8_t> all_seen = FindSeen(images, mover_bases_, mover_records_.size());
   for (std::size_t i = 0; i < movers; ++i) {
     const auto base = static_cast<std::size_t>(mover_bases_[i]);
     const std::size_t triangles = world_->mover_meshes()[i].triangles.size();
     const std::span records = std::span(frame->mover_records).subspan(base, triangles);
-    const auto seen = std::span(all_seen.records).subspan(base, triangles);
-    if (all_seen.pixels[i] == 0) continue;
+    const auto seen = std::span(all_seen).subspan(base, triangles);
+    if (std::ranges::find(seen, 1) == seen.end()) continue;
     const TriangleMesh& mesh = world_->mover_meshes()[i];
     PoseSurfaceTable(mesh, instant.snapshot().movers[i].positions, records);
     std::vector<float> light =

@@ -23,7 +23,7 @@ struct MoverLightOptions {
 /// point, times the share of it that is seen. That share is asked at nodes of the body's own
 /// surface (bodies by shadow rays whose ends are fixed for each node; the static world by a grid
 /// fixed in space) and spread over the points around. Which points the cameras see decides only
-/// what is computed.
+/// what is computed; how far off they are, how close the nodes lie.
 class MoverLight {
  public:
   /// `world` and `grids` (one a mover) must outlive it.
