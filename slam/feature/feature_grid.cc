@@ -9,7 +9,9 @@ namespace {
 constexpr float kCell = 16;  // pixels: near the usual search radius
 
 int CellOf(float pixel, int cells) {
-  return std::clamp(static_cast<int>(std::floor(pixel / kCell)), 0, cells - 1);
+  // Clamped before it is an integer: a wide search reaches further than those count.
+  return static_cast<int>(
+      std::clamp(std::floor(pixel / kCell), 0.0F, static_cast<float>(cells - 1)));
 }
 
 }  // namespace

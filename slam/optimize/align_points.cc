@@ -83,7 +83,9 @@ std::optional<RefinedPose> AlignPoints(const StereoCamera& camera,
     best = T_rig_world;
     const double all_good = std::pow(most / static_cast<double>(sights.size()), 3);
     const double draws = std::log(1 - options.confidence) / std::log1p(-std::min(all_good, 0.9999));
-    needed = std::min(options.hypotheses, hypothesis + 1 + static_cast<int>(std::ceil(draws)));
+    // Little support asks for more draws than an integer counts.
+    const double more = std::min(std::ceil(draws), static_cast<double>(options.hypotheses));
+    needed = std::min(options.hypotheses, hypothesis + 1 + static_cast<int>(more));
   }
   if (most < 3) return std::nullopt;
   std::vector<PointSight> supporting;

@@ -119,6 +119,7 @@ std::optional<Shift> RefineShift(const Patch& model, const Patch& gradient, cons
     b[1] -= variance / (options.usual_slant * options.usual_slant) * warp.per_column;
     b[2] -= variance / (options.usual_slant * options.usual_slant) * warp.per_row;
     const Eigen::Vector4d step = inverse * b;
+    if (!step.allFinite()) return std::nullopt;  // texture in too few directions
     warp.column += std::clamp(step[0], -1.0, 1.0);
     warp.per_column = std::clamp(warp.per_column + step[1], -0.5, 0.5);
     warp.per_row = std::clamp(warp.per_row + step[2], -0.5, 0.5);

@@ -34,6 +34,13 @@ TEST(FeatureGrid, FindsWhatLookingAtEveryKeypointFinds) {
   }
 }
 
+TEST(FeatureGrid, ASearchWiderThanIntegersCountFindsAll) {
+  std::vector<Keypoint> keypoints(3);
+  keypoints[1].pixel = {300, 200};
+  keypoints[2].pixel = {600, 400};
+  EXPECT_EQ(FeatureGrid(keypoints, {752, 480}).Near({300, 200}, 1e12F, 0, 7).size(), 3u);
+}
+
 TEST(FeatureGrid, AnEmptyGridHoldsNothing) {
   EXPECT_TRUE(FeatureGrid().Near({0, 0}, 1000, 0, 7).empty());
   EXPECT_TRUE(FeatureGrid({}, {752, 480}).Near({0, 0}, 1000, 0, 7).empty());
