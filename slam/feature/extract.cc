@@ -1,7 +1,5 @@
 #include "slam/feature/extract.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numeric>
 
@@ -37,27 +35,6 @@ void AppendLevel(const Pyramid& pyramid, int level, const std::vector<Corner>& c
 }
 
 }  // namespace
-
-std::string Validate(const FeatureOptions& options) {
-  if (options.features < 1) return fmt::format("features = {}; at least 1", options.features);
-  if (options.levels < 1 || options.levels > 16) {
-    return fmt::format("levels = {}; 1 to 16", options.levels);
-  }
-  if (!(options.scale > 1.0)) return fmt::format("scale = {}; above 1", options.scale);
-  if (options.fast_threshold_low < 1 || options.fast_threshold < options.fast_threshold_low ||
-      options.fast_threshold > 254) {
-    return fmt::format("fast_threshold = {}, fast_threshold_low = {}; 1 <= low <= threshold <= 254",
-                       options.fast_threshold, options.fast_threshold_low);
-  }
-  if (options.cell_px < 8) return fmt::format("cell_px = {}; at least 8", options.cell_px);
-  if (options.border_px < 16) {
-    return fmt::format("border_px = {}; at least 16, the reach of orientation", options.border_px);
-  }
-  if (!(options.mask_margin_px >= 0)) {
-    return fmt::format("mask_margin_px = {}; not negative", options.mask_margin_px);
-  }
-  return {};
-}
 
 std::vector<int> ShareBudget(const std::vector<int>& available, int budget, double scale) {
   std::vector<int> share(available.size(), 0);

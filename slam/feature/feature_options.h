@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string>
+#include "slam/common/option_fields.h"
 
 namespace aisle::slam {
 
@@ -16,7 +16,7 @@ struct FeatureOptions {
   double mask_margin_px = 3;   ///< pixels of the level; no corner nearer to a masked pixel
 };
 
-/// The first broken rule with its value, or an empty string.
-std::string Validate(const FeatureOptions& options);
+/// Names every option with its range, unit and a sentence.
+void Describe(OptionFields& fields, FeatureOptions& options);
 
 }  // namespace aisle::slam

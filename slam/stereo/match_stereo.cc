@@ -1,7 +1,5 @@
 #include "slam/stereo/match_stereo.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -76,26 +74,6 @@ void DropMismatched(std::vector<Candidate>& candidates, double worst_to_median) 
 }
 
 }  // namespace
-
-std::string Validate(const StereoOptions& options) {
-  if (options.descriptor_distance < 1 || options.descriptor_distance > 256) {
-    return fmt::format("descriptor_distance = {}; 1 to 256 bits", options.descriptor_distance);
-  }
-  if (options.patch_radius_px < 1 || options.patch_radius_px > 10) {
-    return fmt::format("patch_radius_px = {}; 1 to 10", options.patch_radius_px);
-  }
-  if (options.search_px < 1 || options.search_px > 10) {
-    return fmt::format("search_px = {}; 1 to 10", options.search_px);
-  }
-  if (!(options.worst_to_median > 1)) {
-    return fmt::format("worst_to_median = {}; above 1", options.worst_to_median);
-  }
-  if (!(options.disparity_noise_px > 0) || !(options.image_noise > 0)) {
-    return fmt::format("disparity_noise_px = {}, image_noise = {}; both positive",
-                       options.disparity_noise_px, options.image_noise);
-  }
-  return {};
-}
 
 std::vector<Disparity> MatchStereo(const EyeFeatures& left, const EyeFeatures& right,
                                    const StereoCamera& camera, const StereoOptions& options) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string>
+#include "slam/common/option_fields.h"
 
 namespace aisle::slam {
 
@@ -19,7 +19,7 @@ struct StereoOptions {
   double image_noise = 3.0;   ///< grey levels: deviation of one pixel's brightness
 };
 
-/// The first broken rule with its value, or an empty string.
-std::string Validate(const StereoOptions& options);
+/// Names every option with its range, unit and a sentence.
+void Describe(OptionFields& fields, StereoOptions& options);
 
 }  // namespace aisle::slam
