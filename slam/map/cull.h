@@ -1,5 +1,6 @@
 #pragma once
 
+#include "slam/common/option_fields.h"
 #include "slam/map/map.h"
 
 namespace aisle::slam {
@@ -12,6 +13,9 @@ struct CullOptions {
   int redundant_observers = 3;      ///< "seen elsewhere" is in this many keyframes as sharply
   int recent_keyframes = 2;         ///< the newest keyframes are never culled
 };
+
+/// Names every option with its range, unit and a sentence.
+void Describe(OptionFields& fields, CullOptions& options);
 
 /// Removes landmarks that are hardly found again or that no second keyframe has confirmed.
 MapEdit CullLandmarks(const Map& map, KeyframeId newest, const CullOptions& options);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "slam/camera/stereo_camera.h"
+#include "slam/common/option_fields.h"
 #include "slam/map/map.h"
 
 namespace aisle::slam {
@@ -12,6 +13,9 @@ struct FuseOptions {
   int descriptor_distance = 50;  ///< bits; no match beyond
   int levels = 8;                ///< of the pyramid; set from the feature options
 };
+
+/// Names every option with its range, unit and a sentence.
+void Describe(OptionFields& fields, FuseOptions& options);
 
 /// Looks for the landmarks of `candidates` in keyframe `in`: where one lands on a free feature the
 /// two are linked, where it lands on another landmark's feature the two become one (the better

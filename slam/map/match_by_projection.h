@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slam/camera/stereo_camera.h"
+#include "slam/common/option_fields.h"
 #include "slam/map/map.h"
 
 namespace aisle::slam {
@@ -22,6 +23,9 @@ struct MatchOptions {
   int descriptor_distance = 100;  ///< bits; no match beyond
   double ratio = 0.8;             ///< best must be below this x second best (of the same level)
 };
+
+/// Names every option with its range, unit and a sentence.
+void Describe(OptionFields& fields, MatchOptions& options);
 
 struct Match {
   LandmarkId landmark;

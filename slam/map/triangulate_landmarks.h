@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "slam/camera/stereo_camera.h"
+#include "slam/common/option_fields.h"
 #include "slam/map/map.h"
 
 namespace aisle::slam {
@@ -14,6 +15,9 @@ struct TriangulateOptions {
   double descriptor_ratio = 0.8;   ///< best to second best on the epipolar line
   double worst_depth_ratio = 0.1;  ///< deviation over depth; what two views place worse is left out
 };
+
+/// Names every option with its range, unit and a sentence.
+void Describe(OptionFields& fields, TriangulateOptions& options);
 
 /// Landmarks for features of keyframe `newest` that name none, placed by a free feature of one of
 /// `neighbours` on the epipolar line instead of by disparity: far points, and those that only one

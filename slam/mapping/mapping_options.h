@@ -1,5 +1,6 @@
 #pragma once
 
+#include "slam/common/option_fields.h"
 #include "slam/map/create_landmarks.h"
 #include "slam/map/cull.h"
 #include "slam/map/fuse.h"
@@ -44,5 +45,9 @@ struct MapKeeperOptions {
   GlobalAdjustmentOptions global;
   ScheduleOptions schedule;
 };
+
+/// Names every option with its range, unit and a sentence.
+void Describe(OptionFields& fields, MappingOptions& options);
+void Describe(OptionFields& fields, ScheduleOptions& options);
 
 }  // namespace aisle::slam

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "slam/camera/stereo_camera.h"
+#include "slam/common/option_fields.h"
 #include "slam/map/map.h"
 #include "slam/optimize/bundle.h"
 
@@ -13,6 +14,9 @@ struct LocalAdjustmentOptions {
   int robust_iterations = 4;  ///< first pass
   int final_iterations = 6;   ///< second pass, without outliers
 };
+
+/// Names every option with its range, unit and a sentence.
+void Describe(OptionFields& fields, LocalAdjustmentOptions& options);
 
 /// What an adjustment asks of the map.
 struct Adjustment {
@@ -29,6 +33,9 @@ struct GlobalAdjustmentOptions {
   int robust_iterations = 8;  ///< first pass
   int final_iterations = 8;   ///< second pass, without outliers
 };
+
+/// Names every option with its range, unit and a sentence.
+void Describe(OptionFields& fields, GlobalAdjustmentOptions& options);
 
 /// Adjusts every keyframe but the roots of the map's parts, and every landmark.
 Adjustment AdjustGlobally(const Map& map, const StereoCamera& camera,

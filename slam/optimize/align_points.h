@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "slam/common/option_fields.h"
 #include "slam/optimize/refine_pose.h"
 
 namespace aisle::slam {
@@ -13,6 +14,9 @@ struct AlignPointsOptions {
   int least_inliers = 15;  ///< after refinement; fewer: no pose
   std::uint64_t seed = 1;  ///< of the samples drawn
 };
+
+/// Names every option with its range, unit and a sentence.
+void Describe(OptionFields& fields, AlignPointsOptions& options);
 
 /// The pose from point correspondences of which many may be wrong, without a first guess:
 /// three stereo points and their landmarks make a hypothesis (Horn's closed form on the two

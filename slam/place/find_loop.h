@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "slam/camera/stereo_camera.h"
+#include "slam/common/option_fields.h"
 #include "slam/optimize/adjust_map.h"
 #include "slam/optimize/align_points.h"
 #include "slam/place/place_index.h"
@@ -31,6 +32,9 @@ struct LoopOptions {
   double drift_share = 0.02;  ///< of the path in between: no correction may be larger, ...
   double drift_m = 0.3;       ///< ... this aside: racks that look alike stand further apart
 };
+
+/// Names every option with its range, unit and a sentence.
+void Describe(OptionFields& fields, LoopOptions& options);
 
 /// Where keyframe `matched` sees keyframe `current`: found from their features alone, then
 /// confirmed by the landmarks around the old place. Nothing if the two do not show one place.

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <string>
-
+#include "slam/common/option_fields.h"
 #include "slam/map/match_by_projection.h"
 #include "slam/optimize/align_points.h"
 
@@ -41,14 +40,18 @@ struct TrackOptions {
 
 /// When a frame becomes a keyframe.
 struct KeyframeOptions {
-  double tracked_share = 0.75;   ///< of the reference keyframe's landmarks; below: new keyframe
-  double alarming_share = 0.25;  ///< below: new keyframe, however little time has passed
-  int least_inliers = 15;        ///< a worse frame is no keyframe
-  double close_baselines = 40;   ///< depth up to which a stereo point counts as close
-  int few_close = 100;           ///< tracked close points below this ...
-  int many_new_close = 70;       ///< ... with more untracked than this: new keyframe
-  double least_motion = 0.01;    ///< translation over median depth ...
-  double least_turn_deg = 1.0;   ///< ... or turn since the reference keyframe: no flood at rest
+  double tracked_share = 0.75;  ///< of the reference keyframe's landmarks; below: new keyframe
+  int least_inliers = 15;       ///< a worse frame is no keyframe
+  double close_baselines = 40;  ///< depth up to which a stereo point counts as close
+  int few_close = 100;          ///< tracked close points below this ...
+  int many_new_close = 70;      ///< ... with more untracked than this: new keyframe
+  double least_motion = 0.01;   ///< translation over median depth ...
+  double least_turn_deg = 1.0;  ///< ... or turn since the reference keyframe: no flood at rest
 };
+
+/// Names every option with its range, unit and a sentence.
+void Describe(OptionFields& fields, BlindOptions& options);
+void Describe(OptionFields& fields, TrackOptions& options);
+void Describe(OptionFields& fields, KeyframeOptions& options);
 
 }  // namespace aisle::slam

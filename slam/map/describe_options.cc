@@ -1,0 +1,64 @@
+#include "slam/map/create_landmarks.h"
+#include "slam/map/cull.h"
+#include "slam/map/fuse.h"
+#include "slam/map/match_by_projection.h"
+#include "slam/map/triangulate_landmarks.h"
+
+namespace aisle::slam {
+
+void Describe(OptionFields& fields, MatchOptions& options) {
+  fields.Number(
+      "radius_px", &options.radius_px, {0, 500}, "px",
+      "Search radius around a landmark's predicted pixel, in pixels of its predicted level.");
+  fields.Integer("descriptor_distance", &options.descriptor_distance, {0, 256}, "bits",
+                 "Features whose descriptors differ by more do not match.");
+  fields.Number("ratio", &options.ratio, {0, 1}, "",
+                "A match's distance is at most this share of the second best's.");
+}
+
+void Describe(OptionFields& fields, CreateLandmarksOptions& options) {
+  fields.Number("worst_depth_ratio", &options.worst_depth_ratio, {1e-3, 1}, "",
+                "A stereo point becomes a landmark where its depth's deviation is below this share "
+                "of the depth.");
+}
+
+void Describe(OptionFields& fields, TriangulateOptions& options) {
+  fields.Integer("neighbours", &options.neighbours, {0, 100}, "keyframes",
+                 "Keyframes that a new one is compared with, most covisible first; 0: none.");
+  fields.Integer("descriptor_distance", &options.descriptor_distance, {0, 256}, "bits",
+                 "Features whose descriptors differ by more do not match.");
+  fields.Number(
+      "descriptor_ratio", &options.descriptor_ratio, {0, 1}, "",
+      "A match's distance is at most this share of the second best's on the epipolar line.");
+  fields.Number("worst_depth_ratio", &options.worst_depth_ratio, {1e-3, 1}, "",
+                "Points whose depth's deviation is above this share of the depth are left out.");
+}
+
+void Describe(OptionFields& fields, CullOptions& options) {
+  fields.Number("least_found_ratio", &options.least_found_ratio, {0, 1}, "",
+                "A landmark found in fewer than this share of the frames that should see it goes.");
+  fields.Integer("probation_keyframes", &options.probation_keyframes, {0, 10000}, "keyframes",
+                 "After this many more keyframes a landmark must be confirmed.");
+  fields.Integer("least_weight", &options.least_weight, {0, 1000}, "",
+                 "Observations of a confirmed landmark; those with depth count twice.");
+  fields.Number("redundant_share", &options.redundant_share, {0, 1}, "",
+                "A keyframe goes when more than this share of its landmarks is seen elsewhere.");
+  fields.Integer("redundant_observers", &options.redundant_observers, {1, 1000}, "keyframes",
+                 "A landmark is seen elsewhere when this many other keyframes see it as sharply.");
+  fields.Integer("recent_keyframes", &options.recent_keyframes, {0, 10000}, "keyframes",
+                 "The newest keyframes, this many, are never culled.");
+}
+
+void Describe(OptionFields& fields, FuseOptions& options) {
+  fields.Integer("neighbours", &options.neighbours, {0, 1000}, "keyframes",
+                 "Keyframes that a new one exchanges landmarks with, most covisible first.");
+  fields.Integer("least_shared", &options.least_shared, {1, 10000}, "landmarks",
+                 "Keyframes that share fewer landmarks are no neighbours.");
+  fields.Number(
+      "radius_px", &options.radius_px, {0, 500}, "px",
+      "Search radius around a landmark's predicted pixel, in pixels of its predicted level.");
+  fields.Integer("descriptor_distance", &options.descriptor_distance, {0, 256}, "bits",
+                 "Features whose descriptors differ by more do not match.");
+}
+
+}  // namespace aisle::slam

@@ -1,0 +1,43 @@
+#include "slam/place/find_loop.h"
+
+namespace aisle::slam {
+
+void Describe(OptionFields& fields, LoopOptions& options) {
+  fields.Integer("candidates", &options.candidates, {1, 1000}, "keyframes",
+                 "Keyframes that are matched with a new one, most alike first.");
+  fields.Integer("recent_keyframes", &options.recent_keyframes, {0, 100000}, "keyframes",
+                 "The newest keyframes, this many, are no loop.");
+  fields.Number("likeness_share", &options.likeness_share, {0, 1}, "",
+                "A candidate's bag-of-words similarity is at least this share of that of the least "
+                "similar covisible keyframe.");
+  fields.Integer("descriptor_distance", &options.descriptor_distance, {0, 256}, "bits",
+                 "Features whose descriptors differ by more do not match.");
+  fields.Number("descriptor_ratio", &options.descriptor_ratio, {0, 1}, "",
+                "A match's distance is at most this share of the second best's.");
+  fields.Group("align", &options.align);
+  fields.Integer("least_inliers", &options.least_inliers, {3, 10000}, "landmarks",
+                 "Landmarks of the old place that the new view must confirm.");
+  fields.Number("radius_px", &options.radius_px, {0, 500}, "px",
+                "Search radius for those, in pixels of the predicted level.");
+  fields.Integer("agreeing", &options.agreeing, {1, 100}, "loops",
+                 "Loops that must tell the same correction before it is made.");
+  fields.Integer("agreeing_inliers", &options.agreeing_inliers, {0, 100000}, "landmarks",
+                 "Landmarks that those loops must confirm together.");
+  fields.Integer("beside", &options.beside, {0, 1000}, "keyframes",
+                 "Keyframes before the newest that are asked for the same loop.");
+  fields.Integer(
+      "beside_shared", &options.beside_shared, {1, 10000}, "landmarks",
+      "Of those only the ones that share this many landmarks with the newest are asked.");
+  fields.Integer("remembered", &options.remembered, {0, 100000}, "keyframes",
+                 "An unconfirmed loop is forgotten after this many keyframes.");
+  fields.Number("agree_m", &options.agree_m, {0, 1000}, "m",
+                "Translation by which two agreeing corrections may differ.");
+  fields.Number("agree_deg", &options.agree_deg, {0, 180}, "deg",
+                "Rotation by which two agreeing corrections may differ.");
+  fields.Number("drift_share", &options.drift_share, {0, 10}, "",
+                "No correction is larger than this share of the path in between, drift_m aside.");
+  fields.Number("drift_m", &options.drift_m, {0, 10000}, "m",
+                "Translation of a correction that any loop may ask for.");
+}
+
+}  // namespace aisle::slam

@@ -1,0 +1,75 @@
+#include "slam/track/track_options.h"
+
+namespace aisle::slam {
+
+void Describe(OptionFields& fields, BlindOptions& options) {
+  fields.Number("longest_s", &options.longest_s, {0, 60}, "s",
+                "Longest time without a pose after which motion still predicts one.");
+  fields.Number("half_life_s", &options.half_life_s, {1e-3, 1000}, "s",
+                "Half-life over which the motion before is averaged.");
+  fields.Group("match", &options.match);
+  fields.Number(
+      "grows_px_per_s", &options.grows_px_per_s, {0, 1000}, "px/s",
+      "Growth of the search radius with that time, where the plain one finds too little.");
+  fields.Group("align", &options.align);
+  fields.Integer("least_inliers", &options.least_inliers, {3, 10000}, "",
+                 "A final estimate with fewer inliers is none.");
+  fields.Number("least_share", &options.least_share, {0, 1}, "",
+                "Least share of inliers among the landmarks that should be seen.");
+  fields.Number("off_m_per_s", &options.off_m_per_s, {0, 1000}, "m/s",
+                "A pose further from the predicted one than this times the time is a mistake.");
+  fields.Number(
+      "off_deg_per_s", &options.off_deg_per_s, {0, 1000}, "deg/s",
+      "A pose turned further from the predicted one than this times the time is a mistake.");
+}
+
+void Describe(OptionFields& fields, TrackOptions& options) {
+  fields.Group("motion", &options.motion);
+  fields.Number("wide_factor", &options.wide_factor, {1, 100}, "",
+                "Factor of that search radius in the second attempt, from where the rig was last.");
+  fields.Group("local_map", &options.local_map);
+  fields.Integer("keyframe_distance", &options.keyframe_distance, {0, 256}, "bits",
+                 "Descriptor distance of matches to a keyframe without any prediction.");
+  fields.Number("keyframe_ratio", &options.keyframe_ratio, {0, 1}, "",
+                "Distance of those matches as a share of the second best's.");
+  fields.Group("align", &options.align);
+  fields.Integer("least_motion_matches", &options.least_motion_matches, {0, 10000}, "",
+                 "With fewer matches the prediction from motion has failed.");
+  fields.Integer("least_inliers", &options.least_inliers, {3, 10000}, "",
+                 "With fewer inliers a first estimate has failed.");
+  fields.Integer("least_map_inliers", &options.least_map_inliers, {3, 10000}, "",
+                 "With fewer inliers in the local map the frame is lost.");
+  fields.Number(
+      "convincing_share", &options.convincing_share, {0, 1}, "",
+      "A pose that explains less of the landmarks that should be seen is doubted, and the "
+      "other ways to find one are tried.");
+  fields.Integer("local_keyframes", &options.local_keyframes, {1, 1000}, "keyframes",
+                 "Keyframes of the local map, whose landmarks are looked for.");
+  fields.Number("longest_gap_s", &options.longest_gap_s, {0, 60}, "s",
+                "Motion is not predicted across longer gaps between frames.");
+  fields.Group("blind", &options.blind);
+}
+
+void Describe(OptionFields& fields, KeyframeOptions& options) {
+  fields.Number("tracked_share", &options.tracked_share, {0, 1}, "",
+                "A frame becomes a keyframe when it tracks less than this share of the reference "
+                "keyframe's landmarks.");
+  fields.Integer("least_inliers", &options.least_inliers, {3, 10000}, "",
+                 "A frame with fewer inliers is no keyframe.");
+  fields.Number("close_baselines", &options.close_baselines, {0.1, 10000}, "baselines",
+                "Depth up to which a stereo point counts as close.");
+  fields.Integer("few_close", &options.few_close, {0, 100000}, "",
+                 "A frame becomes a keyframe when it tracks fewer close points than this and has "
+                 "many_new_close others.");
+  fields.Integer("many_new_close", &options.many_new_close, {0, 100000}, "",
+                 "Close points that are not in the map, of which more make a keyframe.");
+  fields.Number(
+      "least_motion", &options.least_motion, {0, 10}, "",
+      "Translation since the reference keyframe, over the median depth, below which there "
+      "is no keyframe unless the rig has turned.");
+  fields.Number("least_turn_deg", &options.least_turn_deg, {0, 180}, "deg",
+                "Turn since the reference keyframe below which there is no keyframe unless the rig "
+                "has gone on.");
+}
+
+}  // namespace aisle::slam
