@@ -1,7 +1,6 @@
 #pragma once
 
-#include <string>
-
+#include "slam/common/option_fields.h"
 #include "slam/dynamic/paper/paper_options.h"
 #include "slam/dynamic/robust/robust_options.h"
 
@@ -21,10 +20,7 @@ struct DynamicOptions {
   bool keep_stages = false;       ///< hand out what every stage found; changes no result
 };
 
-/// The first broken rule with its value, or an empty string.
-inline std::string Validate(const DynamicOptions& options) {
-  const std::string paper = options.paper.Validate();
-  return paper.empty() ? options.robust.Validate() : paper;
-}
+/// Names every option with its range, unit and a sentence.
+void Describe(OptionFields& fields, DynamicOptions& options);
 
 }  // namespace aisle::slam

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "slam/dynamic/common/option_check.h"
+#include "slam/common/option_fields.h"
 
 // Every constant of the paper's method ("Robust Stereo Visual SLAM for Dynamic Environments With
 // Moving Object", sections III-A and III-B) on one page. The paper prints none of their values and
@@ -18,20 +18,6 @@ struct DisparityOptions {
   int uniqueness_percent = 5;  ///< margin by which the best cost must win
   int speckle_px = 100;        ///< smaller islands of disparity are dropped
   int left_right_px = 2;       ///< allowed disagreement of left-to-right and right-to-left
-
-  OptionError Validate() const {
-    if (max_disparity_px % 16 != 0)
-      return fmt::format(
-          "max_disparity_px is {}; it must be a "
-          "multiple of 16",
-          max_disparity_px);
-    if (block_px % 2 == 0) return fmt::format("block_px is {}; it must be odd", block_px);
-    return FirstOf(CheckRange("max_disparity_px", max_disparity_px, 16, 512),
-                   CheckRange("block_px", block_px, 1, 21),
-                   CheckRange("uniqueness_percent", uniqueness_percent, 0, 100),
-                   CheckRange("speckle_px", speckle_px, 0, 10000),
-                   CheckRange("left_right_px", left_right_px, -1, 16));
-  }
 };
 
 /// FAST corners from square regions, thinned by a quadtree.
@@ -41,13 +27,6 @@ struct SpreadOptions {
   int fast_threshold = 20;     ///< grey levels
   int fast_threshold_low = 7;  ///< grey levels, for regions where the first finds nothing
   int border_px = 8;           ///< no point closer than this to the image's edge
-
-  OptionError Validate() const {
-    return FirstOf(CheckRange("points", points, 9, 100000), CheckRange("cell_px", cell_px, 8, 4096),
-                   CheckRange("fast_threshold", fast_threshold, 1, 254),
-                   CheckRange("fast_threshold_low", fast_threshold_low, 1, fast_threshold),
-                   CheckRange("border_px", border_px, 4, 256));
-  }
 };
 
 /// Lucas-Kanade.
@@ -58,13 +37,6 @@ struct FlowOptions {
   /// Largest distance between a point and itself tracked there and back; 0 switches the check off,
   /// as the paper does not mention one.
   double forward_backward_px = 1.0;
-
-  OptionError Validate() const {
-    return FirstOf(CheckRange("window_px", window_px, 5, 101),
-                   CheckRange("pyramid_levels", pyramid_levels, 1, 8),
-                   CheckRange("iterations", iterations, 1, 100),
-                   CheckRange("forward_backward_px", forward_backward_px, 0.0, 100.0));
-  }
 };
 
 /// Fundamental matrix: nine-point algorithm inside RANSAC.
@@ -78,24 +50,12 @@ struct FundamentalOptions {
   /// movers too; the epipolar line is replaced by what it shrinks to, the point itself. The paper
   /// does not mention the case but reports that its scene 1, a standing camera, works. 0: never.
   double standing_flow_px = 0.2;
-
-  OptionError Validate() const {
-    return FirstOf(CheckRange("standing_flow_px", standing_flow_px, 0.0, 100.0),
-                   CheckRange("inlier_px", inlier_px, 1e-3, 100.0),
-                   CheckRange("max_iterations", max_iterations, 1, 1000000),
-                   CheckRange("confidence", confidence, 0.0, 1.0 - 1e-12));
-  }
 };
 
 /// Threshold of the epipolar distance, equation (3): T_epi = alpha + beta * d.
 struct EpipolarOptions {
   double alpha_px = 0.8;  ///< alpha_epi
   double beta = 0.01;     ///< beta_epi, pixels of distance per pixel of disparity
-
-  OptionError Validate() const {
-    return FirstOf(CheckRange("epipolar alpha_px", alpha_px, 0.0, 1000.0),
-                   CheckRange("epipolar beta", beta, 0.0, 1000.0));
-  }
 };
 
 /// Groups of dynamic points, equation (4): T_s = alpha + beta * d, and their regions of interest.
@@ -107,14 +67,6 @@ struct GroupOptions {
   /// A region of interest is the box of its points grown by this share of T_s: the outline to be
   /// found lies outside the outermost points.
   double roi_margin = 1.0;
-
-  OptionError Validate() const {
-    return FirstOf(CheckRange("group alpha_px", alpha_px, 0.0, 10000.0),
-                   CheckRange("group beta", beta, 0.0, 1000.0),
-                   CheckRange("disparity_px", disparity_px, 0.0, 1000.0),
-                   CheckRange("min_points", min_points, 1, 100000),
-                   CheckRange("roi_margin", roi_margin, 0.0, 100.0));
-  }
 };
 
 /// SLIC, equations (5) to (7).
@@ -124,12 +76,6 @@ struct SuperpixelOptions {
   /// N_c as a share of the image's grey range (5th to 95th percentile): "determined from the
   /// image".
   double colour_share = 0.12;
-
-  OptionError Validate() const {
-    return FirstOf(CheckRange("step_px", step_px, 3.0, 500.0),
-                   CheckRange("superpixel iterations", iterations, 1, 1000),
-                   CheckRange("colour_share", colour_share, 1e-3, 10.0));
-  }
 };
 
 /// Disparity plane of a superpixel, equation (8), by RANSAC.
@@ -138,12 +84,6 @@ struct PlaneOptions {
   double inlier_px = 1.0;  ///< disparity residual up to which a pixel supports a plane
   int min_pixels = 12;     ///< superpixels with fewer known disparities have no plane
   std::uint64_t seed = 2;  ///< of the samples
-
-  OptionError Validate() const {
-    return FirstOf(CheckRange("plane iterations", iterations, 1, 100000),
-                   CheckRange("plane inlier_px", inlier_px, 1e-3, 100.0),
-                   CheckRange("min_pixels", min_pixels, 3, 1000000));
-  }
 };
 
 /// Boundary energy, equations (9) to (11); all in squared pixels of disparity.
@@ -151,16 +91,6 @@ struct BoundaryOptions {
   double lambda_occlusion = 15;  ///< price of an occlusion
   double lambda_hinge = 5;       ///< price of a hinge, below the occlusion's
   double lambda_penalty = 30;    ///< added when the surface named as the front lies behind
-
-  OptionError Validate() const {
-    if (!(lambda_occlusion > lambda_hinge && lambda_hinge > 0)) {
-      return fmt::format(
-          "lambda_occlusion is {} and lambda_hinge {}; equation (11) needs "
-          "lambda_occlusion > lambda_hinge > 0",
-          lambda_occlusion, lambda_hinge);
-    }
-    return CheckRange("lambda_penalty", lambda_penalty, 0.0, 1e9);
-  }
 };
 
 /// The search from dynamic points to occlusion boundaries.
@@ -168,8 +98,6 @@ struct MarkOptions {
   /// A point counts only where this many of its four rays found an occlusion: "points not
   /// surrounded by boundaries labelled as occlusion" make no region.
   int min_rays = 2;
-
-  OptionError Validate() const { return CheckRange("min_rays", min_rays, 1, 4); }
 };
 
 /// All of them.
@@ -184,13 +112,19 @@ struct PaperOptions {
   PlaneOptions plane;
   BoundaryOptions boundary;
   MarkOptions mark;
-
-  /// The first broken rule with name, value and bound; empty if all is well.
-  OptionError Validate() const {
-    return FirstOf(disparity.Validate(), spread.Validate(), flow.Validate(), fundamental.Validate(),
-                   epipolar.Validate(), group.Validate(), superpixel.Validate(), plane.Validate(),
-                   boundary.Validate(), mark.Validate());
-  }
 };
+
+/// Each names every option with its range, unit and a sentence.
+void Describe(OptionFields& fields, DisparityOptions& options);
+void Describe(OptionFields& fields, SpreadOptions& options);
+void Describe(OptionFields& fields, FlowOptions& options);
+void Describe(OptionFields& fields, FundamentalOptions& options);
+void Describe(OptionFields& fields, EpipolarOptions& options);
+void Describe(OptionFields& fields, GroupOptions& options);
+void Describe(OptionFields& fields, SuperpixelOptions& options);
+void Describe(OptionFields& fields, PlaneOptions& options);
+void Describe(OptionFields& fields, BoundaryOptions& options);
+void Describe(OptionFields& fields, MarkOptions& options);
+void Describe(OptionFields& fields, PaperOptions& options);
 
 }  // namespace aisle::slam::dynamic

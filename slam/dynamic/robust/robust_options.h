@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "slam/dynamic/common/option_check.h"
+#include "slam/common/option_fields.h"
 
 // Every constant of the robust method on one page. Lengths are in pixels of the half-size images
 // unless they say otherwise. What could depend on a scene is in units of noise that is measured
@@ -29,22 +29,6 @@ struct SemiGlobalOptions {
   int left_right_px = 1;       ///< allowed disagreement of left-to-right and right-to-left
   int speckle_px = 40;         ///< smaller islands of disparity are dropped; pixels
   int speckle_step_px = 2;     ///< change of disparity from pixel to pixel that parts islands
-
-  OptionError Validate() const {
-    if (max_disparity_px % 32 != 0) {
-      return fmt::format("max_disparity_px is {}; it must be a multiple of 32", max_disparity_px);
-    }
-    constexpr int kMostPrice = 73;  // with the dearest cost it is half a byte
-    return FirstOf(CheckRange("max_disparity_px", max_disparity_px, 32, 128),
-                   CheckRange("large_step", large_step, 0, kMostPrice),
-                   CheckRange("small_step", small_step, 0, large_step),
-                   CheckRange("least_large_step", least_large_step, small_step, large_step),
-                   CheckRange("contrast", contrast, 1, 10000),
-                   CheckRange("uniqueness_percent", uniqueness_percent, 0, 90),
-                   CheckRange("left_right_px", left_right_px, 0, 128),
-                   CheckRange("speckle_px", speckle_px, 0, 10000),
-                   CheckRange("speckle_step_px", speckle_step_px, 0, 128));
-  }
 };
 
 /// Dense flow between the image and what the static world would look like (DIS).
@@ -55,12 +39,6 @@ struct ResidualFlowOptions {
   /// grey levels per pixel, sum to this.
   double inertia = 60;
   int refinements = 2;  ///< variational iterations on each scale
-
-  OptionError Validate() const {
-    return FirstOf(
-        CheckRange("finest_scale", finest_scale, 0, 3), CheckRange("descents", descents, 1, 256),
-        CheckRange("inertia", inertia, 1e-3, 1e6), CheckRange("refinements", refinements, 0, 100));
-  }
 };
 
 /// What is known of a pixel before it is compared.
@@ -70,14 +48,6 @@ struct SurfaceOptions {
   int window_px = 7;               ///< side of the window in which texture is gathered, odd
   /// The stereo matcher sees only padding where a match comes this close to the right image's edge.
   int border_px = 4;
-
-  OptionError Validate() const {
-    if (window_px % 2 == 0) return fmt::format("window_px is {}; it must be odd", window_px);
-    return FirstOf(CheckRange("grey_noise", grey_noise, 0.1, 100.0),
-                   CheckRange("brightness_noise", brightness_noise, 0.0, 1.0),
-                   CheckRange("window_px", window_px, 3, 31),
-                   CheckRange("border_px", border_px, 0, 64));
-  }
 };
 
 /// Motion of the rig between two frames.
@@ -92,15 +62,6 @@ struct EgoMotionOptions {
   int rounds = 3;      ///< of re-weighting
   int iterations = 4;  ///< Gauss-Newton steps a round
   std::uint64_t seed = 3;
-
-  OptionError Validate() const {
-    return FirstOf(
-        CheckRange("cell_px", cell_px, 2, 1000), CheckRange("hypotheses", hypotheses, 0, 100000),
-        CheckRange("gate_chi2", gate_chi2, 1.0, 100.0),
-        CheckRange("acceleration_mps2", acceleration_mps2, 1e-3, 1e3),
-        CheckRange("angular_acceleration_radps2", angular_acceleration_radps2, 1e-3, 1e3),
-        CheckRange("rounds", rounds, 1, 100), CheckRange("iterations", iterations, 1, 100));
-  }
 };
 
 /// From residual flow to the log-odds of moving.
@@ -137,37 +98,6 @@ struct EvidenceOptions {
   double mover_noise = 2;      ///< times by which its flow errs more than a static pixel's
   double motion_found = 0.5;   ///< evidence of one gap from which on the others count less ...
   double others_weight = 0.3;  ///< ... when they say static: they were shorter, or saw another
-
-  OptionError Validate() const {
-    if (edge_window_px % 2 == 0) {
-      return fmt::format("edge_window_px is {}; it must be odd", edge_window_px);
-    }
-    for (std::size_t k = 0; k < least.size(); ++k) {
-      const auto error = FirstOf(CheckRange("least", least[k], -20.0, 0.0),
-                                 CheckRange("most", most[k], 0.0, 20.0));
-      if (!error.empty()) return error;
-    }
-    return FirstOf(CheckRange("mover_mps", mover_mps, 0.01, 100.0),
-                   CheckRange("disparity_noise", disparity_noise, 0.01, 10.0),
-                   CheckRange("noise_per_displacement", noise_per_displacement, 0.0, 1.0),
-                   CheckRange("independent_pixels", independent_pixels, 0.1, 1000.0),
-                   CheckRange("misfit_weight", misfit_weight, 0.0, 100.0),
-                   CheckRange("hidden_misfit", hidden_misfit, 0.0, 100.0),
-                   CheckRange("alias_disparities", alias_disparities, 1, 128),
-                   CheckRange("sure", sure, 0.0, 100.0),
-                   CheckRange("other_disparity", other_disparity, 0.1, 100.0),
-                   CheckRange("same_surface", same_surface, 0.01, 100.0),
-                   CheckRange("same_surface_share", same_surface_share, 0.0, 1.0),
-                   CheckRange("same_surface_speeds", same_surface_speeds, 0.0, 100.0),
-                   CheckRange("blind_px", blind_px, 0, 64),
-                   CheckRange("edge_step", edge_step, 0.01, 100.0),
-                   CheckRange("edge_share", edge_share, 0.0, 1.0),
-                   CheckRange("edge_window_px", edge_window_px, 1, 101),
-                   CheckRange("least_speed_share", least_speed_share, 0.0, 1.0),
-                   CheckRange("mover_noise", mover_noise, 1.0, 100.0),
-                   CheckRange("motion_found", motion_found, 0.0, 20.0),
-                   CheckRange("others_weight", others_weight, 0.0, 1.0));
-  }
 };
 
 /// The floor as a plane of disparity.
@@ -178,15 +108,6 @@ struct FloorOptions {
   double below_weight = 2;     ///< a point below a floor speaks so many times against it
   double least_support = 0.1;  ///< share of the points of the lower half
   std::uint64_t seed = 5;
-
-  OptionError Validate() const {
-    return FirstOf(CheckRange("hypotheses", hypotheses, 0, 100000),
-                   CheckRange("disparity", disparity, 0.01, 10.0),
-                   CheckRange("disparity_share", disparity_share, 0.0, 1.0),
-                   CheckRange("most_roll", most_roll, 0.0, 10.0),
-                   CheckRange("below_weight", below_weight, 0.0, 100.0),
-                   CheckRange("least_support", least_support, 0.0, 1.0));
-  }
 };
 
 /// The labelling of pixels.
@@ -205,20 +126,6 @@ struct FieldOptions {
   /// Growth into what says nothing, along strong links, and how far: plain cloth has seams.
   double grow_from = 1, grow_to = -3, grow_link = 0.4;
   double grow_m = 0.15;  ///< metres
-
-  OptionError Validate() const {
-    return FirstOf(
-        CheckRange("memory", memory, 0.0, 1.0), CheckRange("limit", limit, 1.0, 100.0),
-        CheckRange("bias", bias, -10.0, 0.0), CheckRange("unknown_bias", unknown_bias, -10.0, 0.0),
-        CheckRange("floor_bias", floor_bias, -10.0, 0.0),
-        CheckRange("coupling", coupling, 0.0, 100.0),
-        CheckRange("disparity", disparity, 0.01, 10.0),
-        CheckRange("disparity_share", disparity_share, 0.0, 1.0),
-        CheckRange("contrast", contrast, 0.1, 1e3), CheckRange("floor_link", floor_link, 0.0, 1.0),
-        CheckRange("sweeps", sweeps, 1, 1000), CheckRange("moving", moving, 0.0, limit),
-        CheckRange("grow_from", grow_from, 0.0, limit), CheckRange("grow_to", grow_to, -limit, 0.0),
-        CheckRange("grow_link", grow_link, 0.0, 1.0), CheckRange("grow_m", grow_m, 0.0, 10.0));
-  }
 };
 
 /// From labels to regions.
@@ -236,24 +143,6 @@ struct RegionOptions {
   /// A region is part of a larger one if this share of its box lies in the other's and their mean
   /// disparities differ by no more than a step: a constant part and a share.
   double join_overlap = 0.3, join_disparity = 0.5, join_disparity_share = 0.04;
-
-  OptionError Validate() const {
-    if (inner_window_px % 2 == 0) {
-      return fmt::format("inner_window_px is {}; it must be odd", inner_window_px);
-    }
-    return FirstOf(CheckRange("link", link, 0.0, 1.0), CheckRange("least_px", least_px, 1, 1000000),
-                   CheckRange("least_log_odds", least_log_odds, -100.0, 100.0),
-                   CheckRange("core_log_odds", core_log_odds, 0.0, 100.0),
-                   CheckRange("birth_core_px", birth_core_px, 0, 1000000),
-                   CheckRange("keep_core_px", keep_core_px, 0, birth_core_px),
-                   CheckRange("birth_inner_px", birth_inner_px, 0, 1000000),
-                   CheckRange("keep_inner_px", keep_inner_px, 0, birth_inner_px),
-                   CheckRange("inner_window_px", inner_window_px, 1, 31),
-                   CheckRange("least_overlap", least_overlap, 0.0, 1.0),
-                   CheckRange("join_overlap", join_overlap, 0.0, 1.0),
-                   CheckRange("join_disparity", join_disparity, 0.0, 100.0),
-                   CheckRange("join_disparity_share", join_disparity_share, 0.0, 1.0));
-  }
 };
 
 struct RobustOptions {
@@ -265,11 +154,17 @@ struct RobustOptions {
   FloorOptions floor;
   FieldOptions field;
   RegionOptions region;
-
-  OptionError Validate() const {
-    return FirstOf(disparity.Validate(), surface.Validate(), flow.Validate(), ego.Validate(),
-                   evidence.Validate(), floor.Validate(), field.Validate(), region.Validate());
-  }
 };
+
+/// Each names every option with its range, unit and a sentence.
+void Describe(OptionFields& fields, SemiGlobalOptions& options);
+void Describe(OptionFields& fields, ResidualFlowOptions& options);
+void Describe(OptionFields& fields, SurfaceOptions& options);
+void Describe(OptionFields& fields, EgoMotionOptions& options);
+void Describe(OptionFields& fields, EvidenceOptions& options);
+void Describe(OptionFields& fields, FloorOptions& options);
+void Describe(OptionFields& fields, FieldOptions& options);
+void Describe(OptionFields& fields, RegionOptions& options);
+void Describe(OptionFields& fields, RobustOptions& options);
 
 }  // namespace aisle::slam::dynamic

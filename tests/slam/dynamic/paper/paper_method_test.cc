@@ -137,12 +137,12 @@ TEST(PaperMethod, SurvivesImagesWithoutContent) {
 
 TEST(PaperOptions, DefaultsAreValidAndBrokenRulesAreNamed) {
   PaperOptions options;
-  EXPECT_EQ(options.Validate(), "");
+  EXPECT_EQ(Validate(options), "");
   options.boundary.lambda_hinge = 20;
-  EXPECT_THAT(options.Validate(), testing::HasSubstr("lambda_hinge"));
+  EXPECT_THAT(Validate(options), testing::HasSubstr("lambda_hinge"));
   options = {};
   options.disparity.max_disparity_px = 100;
-  EXPECT_THAT(options.Validate(), testing::HasSubstr("multiple of 16"));
+  EXPECT_THAT(Validate(options), testing::HasSubstr("multiple of 16"));
 }
 
 }  // namespace

@@ -160,17 +160,17 @@ TEST(RobustOptions, EveryRuleIsCheckedAndNamed) {
   const auto broken = [](const auto& change) {
     RobustOptions options;
     change(options);
-    return options.Validate();
+    return Validate(options);
   };
   using testing::HasSubstr;
-  EXPECT_EQ(RobustOptions{}.Validate(), "");
+  EXPECT_EQ(Validate(RobustOptions{}), "");
   EXPECT_THAT(broken([](auto& o) { o.surface.grey_noise = 0; }), HasSubstr("grey_noise is 0"));
   EXPECT_THAT(broken([](auto& o) { o.surface.brightness_noise = -1; }),
               HasSubstr("brightness_noise"));
   EXPECT_THAT(broken([](auto& o) { o.surface.window_px = 8; }), HasSubstr("window_px is 8"));
   EXPECT_THAT(broken([](auto& o) { o.flow.finest_scale = 9; }), HasSubstr("finest_scale"));
   EXPECT_THAT(broken([](auto& o) { o.ego.rounds = 0; }), HasSubstr("rounds"));
-  EXPECT_THAT(broken([](auto& o) { o.evidence.least[1] = 1; }), HasSubstr("least is 1"));
+  EXPECT_THAT(broken([](auto& o) { o.evidence.least[1] = 1; }), HasSubstr("least.1 is 1"));
   EXPECT_THAT(broken([](auto& o) { o.evidence.edge_window_px = 4; }), HasSubstr("edge_window_px"));
   EXPECT_THAT(broken([](auto& o) { o.floor.least_support = 2; }), HasSubstr("least_support"));
   EXPECT_THAT(broken([](auto& o) { o.field.grow_link = 2; }), HasSubstr("grow_link"));

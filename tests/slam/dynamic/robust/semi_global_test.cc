@@ -244,10 +244,10 @@ TEST(MatchSemiGlobally, SaysTheSameEverywhereOnAPlainImage) {
 }
 
 TEST(SemiGlobalOptions, NameTheBrokenRule) {
-  EXPECT_EQ(SemiGlobalOptions{}.Validate(), "");
-  EXPECT_NE(SemiGlobalOptions{.max_disparity_px = 48}.Validate(), "");
-  EXPECT_NE(SemiGlobalOptions{.large_step = 74}.Validate(), "");
-  EXPECT_NE(SemiGlobalOptions{.small_step = 71}.Validate(), "");
+  EXPECT_EQ(Validate(SemiGlobalOptions{}), "");
+  EXPECT_NE(Validate(SemiGlobalOptions{.max_disparity_px = 48}), "");
+  EXPECT_NE(Validate(SemiGlobalOptions{.large_step = 74}), "");
+  EXPECT_NE(Validate(SemiGlobalOptions{.small_step = 71}), "");
 }
 
 }  // namespace
