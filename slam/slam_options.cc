@@ -2,42 +2,86 @@
 
 #include <fmt/format.h>
 
+#include "slam/common/nearest_name.h"
+
 namespace aisle::slam {
 namespace {
 
-std::string Validate(const ScheduleOptions& schedule) {
-  for (const auto& [name, value] :
-       {std::pair{"mapping_frames", schedule.mapping_frames},
-        {"loop_frames", schedule.loop_frames},
-        {"keyframes_per_loop_frame", schedule.keyframes_per_loop_frame},
-        {"global_frames", schedule.global_frames},
-        {"keyframes_per_global_frame", schedule.keyframes_per_global_frame}}) {
-    if (value < 1) return fmt::format("{} = {}; at least 1", name, value);
+using Kind = OptionDescription::Kind;
+
+Kind KindOf(const OptionField& field) {
+  struct {
+    Kind operator()(const double*) const { return Kind::kNumber; }
+    Kind operator()(const int*) const { return Kind::kInteger; }
+    Kind operator()(const std::uint64_t*) const { return Kind::kInteger; }
+    Kind operator()(const bool*) const { return Kind::kFlag; }
+    Kind operator()(const OptionChoice&) const { return Kind::kChoice; }
+  } kind_of;
+  return std::visit(kind_of, field.value);
+}
+
+/// What is wrong with a path that names no option.
+std::string UnknownPath(const std::string& path, const OptionFields& fields) {
+  std::vector<std::string> paths;
+  for (const OptionField& field : fields.fields()) {
+    if (field.path.starts_with(path + ".")) {
+      return fmt::format("{} is a group of options, such as {}", path, field.path);
+    }
+    paths.push_back(field.path);
   }
-  if (schedule.free_running && !schedule.background) {
-    return "free_running = true, background = false; free running is about threads";
-  }
-  return {};
+  return fmt::format("there is no option {}{}", path, DidYouMean(path, paths));
 }
 
 }  // namespace
 
+void Describe(OptionFields& fields, SlamOptions& options) {
+  fields.Group("dynamic", &options.dynamic);
+  fields.Group("feature", &options.feature);
+  fields.Group("stereo", &options.stereo);
+  fields.Group("track", &options.track);
+  fields.Group("keyframe", &options.keyframe);
+  fields.Group("mapping", &options.mapping);
+  fields.Group("loop", &options.loop);
+  fields.Group("global", &options.global);
+  fields.Group("schedule", &options.schedule);
+  fields.Number("new_part_after_s", &options.new_part_after_s, {0, 1e6}, "s",
+                "Time without a pose after which a new part of the map is begun.");
+  fields.Integer("least_keyframes", &options.least_keyframes, {0, 100000}, "keyframes",
+                 "A smaller map is given up where a new part is begun.");
+  fields.Number("keypoint_noise_px", &options.keypoint_noise_px, {0.01, 100}, "px",
+                "Deviation of a corner's position, in pixels of its level.");
+  fields.Integer("least_first_points", &options.least_first_points, {10, 10000}, "",
+                 "Stereo points of the frame that starts a map or a part of it.");
+  fields.Require(options.threads >= 0, "threads", options.threads, "be 0 or more");
+  fields.Require(!options.localise_only || !options.map_file.empty(), "localise_only",
+                 options.localise_only,
+                 "be false without a map_file: there is nothing to localise in");
+}
+
+std::vector<OptionDescription> DescribeOptions(const SlamOptions& options) {
+  SlamOptions described = options;
+  const OptionFields fields = FieldsOf(described);
+  std::vector<OptionDescription> descriptions;
+  for (const OptionField& field : fields.fields()) {
+    const auto* choice = std::get_if<OptionChoice>(&field.value);
+    descriptions.push_back({field.path, KindOf(field), TextOf(field), field.unit, field.help,
+                            field.range.low, field.range.high,
+                            choice ? choice->names : std::vector<std::string>{}});
+  }
+  return descriptions;
+}
+
+std::string SetOption(const std::string& path, const std::string& text, SlamOptions* options) {
+  const OptionFields fields = FieldsOf(*options);
+  for (const OptionField& field : fields.fields()) {
+    if (field.path == path) return SetFrom(text, field);
+  }
+  return UnknownPath(path, fields);
+}
+
 std::string Validate(const SlamOptions& options) {
-  if (options.threads < 0) return fmt::format("threads = {}; 0 or more", options.threads);
-  if (!(options.keypoint_noise_px > 0)) {
-    return fmt::format("keypoint_noise_px = {}; it must be positive", options.keypoint_noise_px);
-  }
-  if (options.localise_only && options.map_file.empty()) {
-    return "localise_only = true, map_file is empty; there is nothing to localise in";
-  }
-  if (!(options.new_part_after_s >= 0)) {
-    return fmt::format("new_part_after_s = {}; not negative", options.new_part_after_s);
-  }
-  for (const std::string& error : {Validate(options.schedule), Validate(options.dynamic),
-                                   Validate(options.feature), Validate(options.stereo)}) {
-    if (!error.empty()) return error;
-  }
-  return {};
+  SlamOptions checked = options;
+  return FirstBrokenRule(FieldsOf(checked));
 }
 
 }  // namespace aisle::slam

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "slam/dynamic/dynamic_options.h"
 #include "slam/feature/feature_options.h"
@@ -36,7 +37,31 @@ struct SlamOptions {
   int least_first_points = 60;  ///< stereo points of the frame that starts a map
 };
 
-/// The first broken rule with its value, or an empty string.
+/// Names every option that a user may set with its range, unit and a sentence, and the rules.
+/// Files, threads, localise_only and how the system is run (free_running, background, keep_stages)
+/// belong to whoever drives it.
+void Describe(OptionFields& fields, SlamOptions& options);
+
+/// One option as users name, set and read it.
+struct OptionDescription {
+  std::string path;  ///< "dynamic.robust.field.memory"
+  enum class Kind { kNumber, kInteger, kFlag, kChoice, kText } kind = Kind::kNumber;
+  std::string value;  ///< of the options described: shortest text that reads back to the same bits
+  std::string unit;   ///< "px", "m", "frames", ...; empty: none
+  std::string help;   ///< one sentence
+  double low = 0, high = 0;          ///< of numbers and integers, inclusive
+  std::vector<std::string> choices;  ///< of kChoice
+};
+
+/// Every option with its value in `options`, in the order of the structs.
+std::vector<OptionDescription> DescribeOptions(const SlamOptions& options);
+
+/// Sets one option from text. Returns what is wrong (path not known, with a "did you mean"; not a
+/// number; out of range, with the range), or an empty string. Rules between options are left to
+/// Validate: the other one may be about to be set.
+std::string SetOption(const std::string& path, const std::string& text, SlamOptions* options);
+
+/// The first broken rule with its path, value and bound, or an empty string.
 std::string Validate(const SlamOptions& options);
 
 }  // namespace aisle::slam

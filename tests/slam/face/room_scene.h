@@ -12,7 +12,13 @@ namespace aisle::slam {
 /// known exactly. World axes are those of a camera: x right, y down, z ahead; metres.
 class RoomScene {
  public:
-  StereoCamera camera() const { return {376, 240, 217.6, 217.6, 187.5, 119.5, 0.12}; }
+  /// `halved`: images of half the size and twice the baseline, for tests that need many frames.
+  explicit RoomScene(bool halved = false) : halved_(halved) {}
+
+  StereoCamera camera() const {
+    if (halved_) return {188, 120, 108.8, 108.8, 93.5, 59.5, 0.24};
+    return {376, 240, 217.6, 217.6, 187.5, 119.5, 0.12};
+  }
 
   StereoImages See(std::int64_t id, std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
                    double noise = 2) const {
@@ -49,6 +55,8 @@ class RoomScene {
     const Texture texture(static_cast<std::uint64_t>(20 + 10 * wall), 0.17);
     return texture(hit[(axis + 1) % 3], hit[(axis + 2) % 3]);
   }
+
+  bool halved_;
 };
 
 inline Eigen::Isometry3d PoseAt(double x, double y, double z, double yaw_deg = 0) {
