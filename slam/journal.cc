@@ -15,7 +15,7 @@ void Journal::Note(const Map& map, const Frame& frame, const FramePose& pose, bo
   memory_.reference = pose.local.reference;
   memory_.T_reference_rig = map.PoseOf(memory_.reference).inverse() * T_world_rig;
   memory_.steady_motion = motion ? std::optional(Smoothed(memory_.steady_motion, *motion, seconds,
-                                                          options.blind.half_life_s))
+                                                          options.dead_reckoning.half_life_s))
                                  : std::nullopt;
   memory_.motion = motion;
   memory_.landmarks.clear();

@@ -46,7 +46,7 @@ void MapKeeper::TakeMapping(MappingResult result, std::int64_t frame_now) {
   index_.Add(result.keyframe, result.words);
   for (const KeyframeId gone : result.culled) index_.Remove(gone);
   std::erase_if(loops_, [&](const LoopEdge& loop) {
-    return loop.current.value + options_.loop.remembered < result.keyframe.value;
+    return loop.current.value + options_.loop.pending_keyframes < result.keyframe.value;
   });
   if (result.loops.empty() || adjusting_.pending()) return;
   for (const LoopEdge& loop : result.loops) {  // a keyframe has one say

@@ -7,7 +7,7 @@ void Describe(OptionFields& fields, LoopOptions& options) {
                  "Keyframes that are matched with a new one, most alike first.");
   fields.Integer("recent_keyframes", &options.recent_keyframes, {0, 100000}, "keyframes",
                  "The newest keyframes, this many, are no loop.");
-  fields.Number("likeness_share", &options.likeness_share, {0, 1}, "",
+  fields.Number("similarity_ratio", &options.similarity_ratio, {0, 1}, "",
                 "A candidate's bag-of-words similarity is at least this share of that of the least "
                 "similar covisible keyframe.");
   fields.Integer("descriptor_distance", &options.descriptor_distance, {0, 256}, "bits",
@@ -19,20 +19,20 @@ void Describe(OptionFields& fields, LoopOptions& options) {
                  "Landmarks of the old place that the new view must confirm.");
   fields.Number("radius_px", &options.radius_px, {0, 500}, "px",
                 "Search radius for those, in pixels of the predicted level.");
-  fields.Integer("agreeing", &options.agreeing, {1, 100}, "loops",
+  fields.Integer("consistent_loops", &options.consistent_loops, {1, 100}, "loops",
                  "Loops that must tell the same correction before it is made.");
-  fields.Integer("agreeing_inliers", &options.agreeing_inliers, {0, 100000}, "landmarks",
+  fields.Integer("consistent_inliers", &options.consistent_inliers, {0, 100000}, "landmarks",
                  "Landmarks that those loops must confirm together.");
-  fields.Integer("beside", &options.beside, {0, 1000}, "keyframes",
+  fields.Integer("neighbours", &options.neighbours, {0, 1000}, "keyframes",
                  "Keyframes before the newest that are asked for the same loop.");
   fields.Integer(
-      "beside_shared", &options.beside_shared, {1, 10000}, "landmarks",
+      "neighbour_shared", &options.neighbour_shared, {1, 10000}, "landmarks",
       "Of those only the ones that share this many landmarks with the newest are asked.");
-  fields.Integer("remembered", &options.remembered, {0, 100000}, "keyframes",
+  fields.Integer("pending_keyframes", &options.pending_keyframes, {0, 100000}, "keyframes",
                  "An unconfirmed loop is forgotten after this many keyframes.");
-  fields.Number("agree_m", &options.agree_m, {0, 1000}, "m",
+  fields.Number("consistency_m", &options.consistency_m, {0, 1000}, "m",
                 "Translation by which two agreeing corrections may differ.");
-  fields.Number("agree_deg", &options.agree_deg, {0, 180}, "deg",
+  fields.Number("consistency_deg", &options.consistency_deg, {0, 180}, "deg",
                 "Rotation by which two agreeing corrections may differ.");
   fields.Number("drift_share", &options.drift_share, {0, 10}, "",
                 "No correction is larger than this share of the path in between, drift_m aside.");

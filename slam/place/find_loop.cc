@@ -62,8 +62,8 @@ bool Agree(const Map& map, const LoopEdge& a, const LoopEdge& b, const LoopOptio
   const Eigen::Isometry3d T_a = Correction(map, a) * T_world_rig;
   const Eigen::Isometry3d T_b = Correction(map, b) * T_world_rig;
   const double turn = Eigen::AngleAxisd(T_a.linear().transpose() * T_b.linear()).angle();
-  return (T_a.translation() - T_b.translation()).norm() <= options.agree_m &&
-         turn * 180 / M_PI <= options.agree_deg;
+  return (T_a.translation() - T_b.translation()).norm() <= options.consistency_m &&
+         turn * 180 / M_PI <= options.consistency_deg;
 }
 
 }  // namespace
@@ -122,7 +122,7 @@ std::optional<LoopEdge> FindLoop(const Map& map, KeyframeId current, const WordV
   std::optional<LoopEdge> best;
   int looked_at = 0;
   for (const Lookalike& lookalike : index.Query(words)) {
-    if (lookalike.likeness < options.likeness_share * least_likeness) break;
+    if (lookalike.likeness < options.similarity_ratio * least_likeness) break;
     if (here.contains(lookalike.keyframe) || !map.Find(lookalike.keyframe)) continue;
     if (looked_at++ == options.candidates) break;
     const auto loop = VerifyLoop(map, current, lookalike.keyframe, camera, levels, options);
@@ -134,9 +134,9 @@ std::optional<LoopEdge> FindLoop(const Map& map, KeyframeId current, const WordV
 std::vector<LoopEdge> SeenBeside(const Map& map, const LoopEdge& loop, const StereoCamera& camera,
                                  int levels, const LoopOptions& options) {
   std::vector<LoopEdge> seen;
-  for (const Covisible& beside : CovisibleKeyframes(map, loop.current, options.beside_shared)) {
+  for (const Covisible& beside : CovisibleKeyframes(map, loop.current, options.neighbour_shared)) {
     const std::int64_t before = loop.current.value - beside.keyframe.value;
-    if (before <= 0 || before > options.beside) continue;
+    if (before <= 0 || before > options.neighbours) continue;
     const auto same = VerifyLoop(map, beside.keyframe, loop.matched, camera, levels, options);
     if (same) seen.push_back(*same);
   }
@@ -159,7 +159,7 @@ std::vector<LoopEdge> AgreeingLoops(const Map& map, const std::vector<LoopEdge>&
     inliers += loop.inliers;
   }
   const bool too_few =
-      std::ssize(agreeing) < options.agreeing || inliers < options.agreeing_inliers;
+      std::ssize(agreeing) < options.consistent_loops || inliers < options.consistent_inliers;
   if (too_few) agreeing.clear();
   return agreeing;
 }

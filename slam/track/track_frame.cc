@@ -91,10 +91,10 @@ std::optional<FramePose> RefineInLocalMap(const Scene& scene, const FirstPose& f
 
 /// Whether the rig can have come from where it was predicted to where it was found.
 bool IsNear(const Eigen::Isometry3d& T_predicted_world, const Eigen::Isometry3d& T_found_world,
-            double gap_s, const BlindOptions& blind) {
+            double gap_s, const DeadReckoningOptions& reckoning) {
   const Vector6d off = Difference(T_predicted_world, T_found_world);
-  return off.head<3>().norm() <= blind.off_m_per_s * gap_s &&
-         off.tail<3>().norm() * 180 / M_PI <= blind.off_deg_per_s * gap_s;
+  return off.head<3>().norm() <= reckoning.drift_m_per_s * gap_s &&
+         off.tail<3>().norm() * 180 / M_PI <= reckoning.drift_deg_per_s * gap_s;
 }
 
 }  // namespace
@@ -134,9 +134,9 @@ std::optional<FramePose> TrackFrame(const Map& map, const Frame& frame, const Tr
 std::optional<FramePose> FindAgain(const Map& map, const Frame& frame, const TrackMemory& memory,
                                    const StereoCamera& camera, int levels,
                                    const TrackOptions& options) {
-  const BlindOptions& blind = options.blind;
+  const DeadReckoningOptions& reckoning = options.dead_reckoning;
   const double gap_s = static_cast<double>(frame.stamp_ns - memory.stamp_ns) * 1e-9;
-  if (!memory.steady_motion || gap_s <= 0 || gap_s > blind.longest_s) return std::nullopt;
+  if (!memory.steady_motion || gap_s <= 0 || gap_s > reckoning.longest_s) return std::nullopt;
   const Eigen::Isometry3d T_world_last = map.PoseOf(memory.reference) * memory.T_reference_rig;
   const Eigen::Isometry3d T_predicted_world =
       PredictPose(T_world_last, memory.steady_motion, gap_s).inverse();
@@ -148,17 +148,18 @@ std::optional<FramePose> FindAgain(const Map& map, const Frame& frame, const Tra
   }
 
   TrackOptions sighted = options;
-  sighted.least_map_inliers = blind.least_inliers;
+  sighted.least_map_inliers = reckoning.least_inliers;
   const Scene scene{map, frame, camera, levels, sighted};
-  for (const double grown_px : {0.0, blind.grows_px_per_s * gap_s}) {
-    MatchOptions match_options = blind.match;
+  for (const double grown_px : {0.0, reckoning.radius_growth_px_per_s * gap_s}) {
+    MatchOptions match_options = reckoning.match;
     match_options.radius_px += grown_px;
     const std::vector<Match> matches = MatchByProjection(frame, expected, {}, match_options);
-    const auto pose = AlignPoints(camera, Sights(scene, matches), blind.align);
+    const auto pose = AlignPoints(camera, Sights(scene, matches), reckoning.align);
     if (!pose) continue;
     auto found = RefineInLocalMap(scene, {pose->T_rig_world, Inliers(matches, *pose)});
-    if (found && IsNear(T_predicted_world, found->pose.T_rig_world, gap_s, blind) &&
-        found->pose.inliers >= blind.least_share * static_cast<double>(found->expected.size())) {
+    if (found && IsNear(T_predicted_world, found->pose.T_rig_world, gap_s, reckoning) &&
+        found->pose.inliers >=
+            reckoning.least_share * static_cast<double>(found->expected.size())) {
       return found;
     }
   }

@@ -2,24 +2,24 @@
 
 namespace aisle::slam {
 
-void Describe(OptionFields& fields, BlindOptions& options) {
+void Describe(OptionFields& fields, DeadReckoningOptions& options) {
   fields.Number("longest_s", &options.longest_s, {0, 60}, "s",
                 "Longest time without a pose after which motion still predicts one.");
   fields.Number("half_life_s", &options.half_life_s, {1e-3, 1000}, "s",
                 "Half-life over which the motion before is averaged.");
   fields.Group("match", &options.match);
   fields.Number(
-      "grows_px_per_s", &options.grows_px_per_s, {0, 1000}, "px/s",
+      "radius_growth_px_per_s", &options.radius_growth_px_per_s, {0, 1000}, "px/s",
       "Growth of the search radius with that time, where the plain one finds too little.");
   fields.Group("align", &options.align);
   fields.Integer("least_inliers", &options.least_inliers, {3, 10000}, "",
                  "A final estimate with fewer inliers is none.");
   fields.Number("least_share", &options.least_share, {0, 1}, "",
                 "Least share of inliers among the landmarks that should be seen.");
-  fields.Number("off_m_per_s", &options.off_m_per_s, {0, 1000}, "m/s",
+  fields.Number("drift_m_per_s", &options.drift_m_per_s, {0, 1000}, "m/s",
                 "A pose further from the predicted one than this times the time is a mistake.");
   fields.Number(
-      "off_deg_per_s", &options.off_deg_per_s, {0, 1000}, "deg/s",
+      "drift_deg_per_s", &options.drift_deg_per_s, {0, 1000}, "deg/s",
       "A pose turned further from the predicted one than this times the time is a mistake.");
 }
 
@@ -47,7 +47,7 @@ void Describe(OptionFields& fields, TrackOptions& options) {
                  "Keyframes of the local map, whose landmarks are looked for.");
   fields.Number("longest_gap_s", &options.longest_gap_s, {0, 60}, "s",
                 "Motion is not predicted across longer gaps between frames.");
-  fields.Group("blind", &options.blind);
+  fields.Group("dead_reckoning", &options.dead_reckoning);
 }
 
 void Describe(OptionFields& fields, KeyframeOptions& options) {

@@ -7,16 +7,16 @@
 namespace aisle::slam {
 
 /// How a frame is looked for that comes after a while without sight: where the motion before leads.
-struct BlindOptions {
+struct DeadReckoningOptions {
   double longest_s = 4.0;                         ///< of such a while
   double half_life_s = 0.4;                       ///< over which the motion before is averaged
   MatchOptions match{7, 80, 0.8};                 ///< landmarks around where that leads
-  double grows_px_per_s = 20;                     ///< widens that search when it finds too little
+  double radius_growth_px_per_s = 20;             ///< widens that search when it finds too little
   AlignPointsOptions align{.least_inliers = 12};  ///< the pose from those
-  int least_inliers = 20;    ///< of the final estimate; so near a prediction fewer convince
-  double least_share = 0.2;  ///< they are of the landmarks that should be seen
-  double off_m_per_s = 0.4;  ///< a pose further from the prediction is a mistake
-  double off_deg_per_s = 4;  ///< so is one turned further from it
+  int least_inliers = 20;      ///< of the final estimate; so near a prediction fewer convince
+  double least_share = 0.2;    ///< they are of the landmarks that should be seen
+  double drift_m_per_s = 0.4;  ///< a pose further from the prediction is a mistake
+  double drift_deg_per_s = 4;  ///< so is one turned further from it
 };
 
 /// How a frame finds its pose in the map.
@@ -35,7 +35,7 @@ struct TrackOptions {
   double convincing_share = 0.25;
   int local_keyframes = 20;    ///< whose landmarks are looked for
   double longest_gap_s = 1.0;  ///< motion is not predicted across longer gaps
-  BlindOptions blind;
+  DeadReckoningOptions dead_reckoning;
 };
 
 /// When a frame becomes a keyframe.
@@ -50,7 +50,7 @@ struct KeyframeOptions {
 };
 
 /// Names every option with its range, unit and a sentence.
-void Describe(OptionFields& fields, BlindOptions& options);
+void Describe(OptionFields& fields, DeadReckoningOptions& options);
 void Describe(OptionFields& fields, TrackOptions& options);
 void Describe(OptionFields& fields, KeyframeOptions& options);
 

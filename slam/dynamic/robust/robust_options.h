@@ -21,10 +21,10 @@ inline constexpr int kLongestGap = 15;
 struct SemiGlobalOptions {
   /// Multiple of 32. Of images of half size 96 are 192 full pixels, 0.27 m with the default rig.
   int max_disparity_px = 96;
-  int small_step = 10;  ///< price of a change of disparity by one
-  /// Price of any other change, halved where the grey value changes by `contrast` and never less
-  /// than the last.
-  int large_step = 70, contrast = 16, least_large_step = 30;
+  int p1 = 10;  ///< P1: price of a change of disparity by one
+  /// P2: price of any other change, halved where the grey value changes by `p2_contrast` and never
+  /// less than the last.
+  int p2 = 70, p2_contrast = 16, least_p2 = 30;
   int uniqueness_percent = 5;  ///< margin by which the best cost must win
   int left_right_px = 1;       ///< allowed disagreement of left-to-right and right-to-left
   int speckle_px = 40;         ///< smaller islands of disparity are dropped; pixels

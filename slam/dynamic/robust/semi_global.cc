@@ -41,11 +41,11 @@ class Volume {
 
 StepPrices PricesOf(const SemiGlobalOptions& options) {
   StepPrices prices;
-  prices.small = static_cast<uint8_t>(options.small_step);
+  prices.small = static_cast<uint8_t>(options.p1);
   for (int grey = 0; grey < 256; ++grey) {
-    const int falling = options.large_step * options.contrast / (options.contrast + grey);
+    const int falling = options.p2 * options.p2_contrast / (options.p2_contrast + grey);
     prices.large[static_cast<std::size_t>(grey)] =
-        static_cast<uint8_t>(std::max(falling, options.least_large_step));
+        static_cast<uint8_t>(std::max(falling, options.least_p2));
   }
   return prices;
 }

@@ -80,14 +80,12 @@ constexpr Room kRooms[] = {
      "1e-7"},
     {"dynamic.paper.boundary.lambda_hinge", "100000000", "dynamic.paper.boundary.lambda_occlusion",
      "1e9"},
-    {"dynamic.robust.disparity.small_step", "73", "dynamic.robust.disparity.large_step", "73"},
-    {"dynamic.robust.disparity.small_step", "73", "dynamic.robust.disparity.least_large_step",
-     "73"},
-    {"dynamic.robust.disparity.large_step", "0", "dynamic.robust.disparity.small_step", "0"},
-    {"dynamic.robust.disparity.large_step", "0", "dynamic.robust.disparity.least_large_step", "0"},
-    {"dynamic.robust.disparity.least_large_step", "0", "dynamic.robust.disparity.small_step", "0"},
-    {"dynamic.robust.disparity.least_large_step", "73", "dynamic.robust.disparity.large_step",
-     "73"},
+    {"dynamic.robust.disparity.p1", "73", "dynamic.robust.disparity.p2", "73"},
+    {"dynamic.robust.disparity.p1", "73", "dynamic.robust.disparity.least_p2", "73"},
+    {"dynamic.robust.disparity.p2", "0", "dynamic.robust.disparity.p1", "0"},
+    {"dynamic.robust.disparity.p2", "0", "dynamic.robust.disparity.least_p2", "0"},
+    {"dynamic.robust.disparity.least_p2", "0", "dynamic.robust.disparity.p1", "0"},
+    {"dynamic.robust.disparity.least_p2", "73", "dynamic.robust.disparity.p2", "73"},
     {"dynamic.robust.field.limit", "1", "dynamic.robust.field.grow_to", "-1"},
     {"dynamic.robust.field.moving", "100", "dynamic.robust.field.limit", "100"},
     {"dynamic.robust.field.grow_from", "100", "dynamic.robust.field.limit", "100"},
@@ -168,10 +166,10 @@ TEST(OptionBounds, OfLoopClosingAreSafe) {
   TrainVocabulary(images, base.feature, base.vocabulary_file);
   // So few keyframes make a loop only where little is asked of one.
   base.loop.recent_keyframes = 3;
-  base.loop.likeness_share = 0.2;
+  base.loop.similarity_ratio = 0.2;
   base.loop.least_inliers = 20;
-  base.loop.agreeing = 1;
-  base.loop.agreeing_inliers = 30;
+  base.loop.consistent_loops = 1;
+  base.loop.consistent_inliers = 30;
   base.loop.drift_m = 1;
   ASSERT_GT(DriveThrough(RoundFilm(), base).loops, 0);
   for (const char* group : kOfLoops) ExpectEveryBoundIsSafe(RoundFilm(), base, group);

@@ -125,8 +125,8 @@ TEST(Validate, CoversEveryPartWithItsPath) {
     change(options);
     return Validate(options);
   };
-  EXPECT_EQ(broken([](auto& o) { o.track.blind.match.radius_px = -1; }),
-            "track.blind.match.radius_px is -1; it must lie in [0, 500] px");
+  EXPECT_EQ(broken([](auto& o) { o.track.dead_reckoning.match.radius_px = -1; }),
+            "track.dead_reckoning.match.radius_px is -1; it must lie in [0, 500] px");
   EXPECT_THAT(broken([](auto& o) { o.keyframe.close_baselines = 0; }),
               HasSubstr("keyframe.close_baselines is 0"));
   EXPECT_THAT(broken([](auto& o) { o.mapping.adjust.free_keyframes = 0; }),

@@ -153,10 +153,10 @@ TEST_F(LoopPairs, KeyframesBesideTheNewestAreAskedForItsLoop) {
   EXPECT_EQ(beside[0].current, KeyframeId{1});
   EXPECT_EQ(beside[0].matched, KeyframeId{0});
   EXPECT_NEAR(BodyBaseline(beside[0]), 0.411, 0.02);
-  options.beside = 2;  // it stands further back
+  options.neighbours = 2;  // it stands further back
   EXPECT_TRUE(SeenBeside(map, *own, camera, 8, options).empty());
-  options.beside = 3;
-  options.beside_shared = 100000;
+  options.neighbours = 3;
+  options.neighbour_shared = 100000;
   EXPECT_TRUE(SeenBeside(map, *own, camera, 8, options).empty());
 }
 

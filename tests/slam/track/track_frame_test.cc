@@ -118,7 +118,7 @@ TEST_F(TrackFrameTest, IsFoundAgainWhereItsMotionHasLed) {
 TEST_F(TrackFrameTest, IsNotFoundAgainWhereItsMotionCannotHaveLed) {
   memory.steady_motion = Motion{};
   TrackOptions all_around;
-  all_around.blind.grows_px_per_s = 200;
+  all_around.dead_reckoning.radius_growth_px_per_s = 200;
   const Eigen::Isometry3d aside = At(0.9, 1.2, 2);
   EXPECT_FALSE(FindAgain(map, *world.See(aside, 2'000'000'000), memory, {}, 8, all_around));
   EXPECT_TRUE(FindAgain(map, *world.See(aside, 3'900'000'000), memory, {}, 8, all_around));

@@ -246,8 +246,8 @@ TEST(MatchSemiGlobally, SaysTheSameEverywhereOnAPlainImage) {
 TEST(SemiGlobalOptions, NameTheBrokenRule) {
   EXPECT_EQ(Validate(SemiGlobalOptions{}), "");
   EXPECT_NE(Validate(SemiGlobalOptions{.max_disparity_px = 48}), "");
-  EXPECT_NE(Validate(SemiGlobalOptions{.large_step = 74}), "");
-  EXPECT_NE(Validate(SemiGlobalOptions{.small_step = 71}), "");
+  EXPECT_NE(Validate(SemiGlobalOptions{.p2 = 74}), "");
+  EXPECT_NE(Validate(SemiGlobalOptions{.p1 = 71}), "");
 }
 
 }  // namespace
