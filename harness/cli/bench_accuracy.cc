@@ -47,7 +47,7 @@ struct Outcome {
   std::vector<double> live_m, final_m, lost;
 
   void Add(const RunResult& run) {
-    const Scorecard scores = ScoreRun(run);
+    const Scorecard scores = ScoreRun(run).scores;
     const auto add = [&](const char* score, std::vector<double>* values) {
       const auto found = scores.find(score);
       if (found != scores.end() && found->second.value) {

@@ -6,7 +6,7 @@
 #include "harness/cli/inputs.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/simulated_sequence.h"
-#include "harness/report/record_json.h"
+#include "harness/record/record_json.h"
 #include "harness/suite/suite.h"
 
 namespace aisle {

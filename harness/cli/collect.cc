@@ -4,10 +4,13 @@
 #include "harness/cli/places.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
-#include "harness/report/history.h"
+#include "harness/judge/limit.h"
+#include "harness/judge/twins.h"
+#include "harness/record/history.h"
+#include "harness/report/console.h"
 #include "harness/report/page.h"
 #include "harness/report/report.h"
-#include "harness/report/twins.h"
+#include "harness/report/trends.h"
 
 namespace aisle {
 

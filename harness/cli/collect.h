@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "harness/report/results.h"
+#include "harness/record/results.h"
 #include "harness/suite/suite.h"
 
 namespace aisle {

@@ -10,7 +10,7 @@
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/stage_bits.h"
-#include "harness/report/record_json.h"
+#include "harness/record/record_json.h"
 
 namespace aisle {
 namespace {

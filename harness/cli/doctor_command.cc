@@ -12,7 +12,7 @@
 #include "harness/cli/doctor_bits.h"
 #include "harness/cli/places.h"
 #include "harness/cli/terminal.h"
-#include "harness/report/record_json.h"
+#include "harness/record/record_json.h"
 
 namespace aisle {
 namespace {

@@ -7,7 +7,7 @@
 #include "harness/io/file.h"
 #include "harness/io/frame_store.h"
 #include "harness/io/input_error.h"
-#include "harness/report/record.h"
+#include "harness/record/record.h"
 
 namespace aisle {
 namespace {

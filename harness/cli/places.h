@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "harness/report/results.h"
+#include "harness/record/results.h"
 
 namespace aisle {
 

@@ -1,5 +1,7 @@
 #include "harness/cli/command.h"
 #include "harness/cli/terminal.h"
+#include "harness/judge/limit.h"
+#include "harness/report/console.h"
 #include "harness/report/report.h"
 
 namespace aisle {

@@ -8,9 +8,10 @@
 #include "harness/cli/places.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
-#include "harness/report/record.h"
-#include "harness/report/record_json.h"
-#include "harness/report/results.h"
+#include "harness/judge/bits.h"
+#include "harness/record/record.h"
+#include "harness/record/record_json.h"
+#include "harness/record/results.h"
 #include "harness/suite/plan.h"
 
 namespace aisle {

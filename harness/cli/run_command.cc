@@ -9,7 +9,7 @@
 #include "harness/cli/places.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
-#include "harness/report/compare.h"
+#include "harness/judge/compare.h"
 #include "harness/report/report.h"
 #include "harness/suite/plan.h"
 

@@ -7,7 +7,7 @@
 #include "harness/plugs/cached_sequence.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/systems.h"
-#include "harness/report/record.h"
+#include "harness/record/record.h"
 #include "harness/report/samples.h"
 #include "harness/report/stage_sheets.h"
 #include "harness/report/video.h"
@@ -75,9 +75,10 @@ int RunOneExternal(const Options& options) {
                                   .open_path = open_path});
   result.spec = options.spec;
   result.scene_hash = content_hash;
-  RunRecord record = MakeRecord(result, sequence->rate_hz());
+  const RunScore score = ScoreRun(result);
+  RunRecord record = MakeRecord(result, score, sequence->rate_hz());
   record.inputs_hash = options.inputs_hash;
-  WriteRun(result, record, options.out);
+  WriteRun(result, score, record, options.out);
   return kAllPassed;
 }
 
@@ -128,7 +129,8 @@ int RunOne(const Options& options) {
   result.scene_hash = content_hash;
   result.threads = options.threads;
 
-  RunRecord record = MakeRecord(result, sequence->rate_hz());
+  const RunScore score = ScoreRun(result);
+  RunRecord record = MakeRecord(result, score, sequence->rate_hz());
   record.inputs_hash = options.inputs_hash;
   if (film && film->Finish()) record.artifacts["film"] = folder + "/film.mp4";
   for (const auto& [name, path] : stages.Finish()) record.artifacts[name] = folder + "/" + path;
@@ -137,7 +139,7 @@ int RunOne(const Options& options) {
   for (const std::string& name : samples.Write(std::filesystem::path(options.out) / folder)) {
     record.artifacts[fmt::format("picture_{:02}", number++)] = folder + "/" + name;
   }
-  WriteRun(result, record, options.out);
+  WriteRun(result, score, record, options.out);
   return kAllPassed;
 }
 

@@ -5,7 +5,7 @@
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/trajectory.h"
-#include "harness/report/record_json.h"
+#include "harness/record/record_json.h"
 #include "harness/score/coverage.h"
 #include "harness/score/masks.h"
 

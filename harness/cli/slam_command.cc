@@ -23,7 +23,7 @@ struct Options {
 };
 
 void PrintScores(const RunResult& run) {
-  const Scorecard scores = ScoreRun(run);
+  const Scorecard scores = ScoreRun(run).scores;
   for (const char* name : {"ate_rmse_m", "ate_live_rmse_m", "rpe_trans_rmse_m", "t_rel_percent",
                            "t_rel_short_percent", "coverage", "ms_process_mean"}) {
     const auto score = scores.find(name);

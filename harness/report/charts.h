@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/report/record.h"
+#include "harness/record/frames_csv.h"
 
 namespace aisle {
 

@@ -1,6 +1,7 @@
-#include "harness/report/compare.h"
+#include "harness/report/compare_text.h"
+#include "harness/record/record_json.h"
+
 #include "harness/report/html.h"
-#include "harness/report/record_json.h"
 
 namespace aisle {
 namespace {

@@ -1,7 +1,7 @@
+#include "harness/report/junit.h"
+
 #include <pugixml.hpp>
 #include <sstream>
-
-#include "harness/report/results.h"
 
 namespace aisle {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "harness/report/group.h"
+#include "harness/record/group.h"
 
 namespace aisle {
 

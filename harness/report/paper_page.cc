@@ -1,5 +1,6 @@
 #include "harness/report/paper_page.h"
 
+#include "harness/record/frames_csv.h"
 #include "harness/report/charts.h"
 #include "harness/report/html.h"
 #include "harness/report/tables.h"

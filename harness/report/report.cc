@@ -1,12 +1,14 @@
 #include "harness/report/report.h"
 
 #include "harness/io/file.h"
+#include "harness/report/cost_section.h"
+#include "harness/report/junit.h"
 #include "harness/report/page.h"
 #include "harness/report/paper_page.h"
 #include "harness/report/script.h"
 #include "harness/report/style.h"
+#include "harness/report/summary_csv.h"
 #include "harness/report/tables.h"
-#include "harness/report/twins.h"
 
 namespace aisle {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "harness/report/results.h"
+#include "harness/record/results.h"
 
 namespace aisle {
 

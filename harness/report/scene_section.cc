@@ -3,6 +3,7 @@
 
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/record/frames_csv.h"
 #include "harness/report/charts.h"
 #include "harness/report/html.h"
 #include "harness/report/page.h"

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "harness/record/frames_csv.h"
 #include "harness/report/html.h"
 
 namespace aisle {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/report/group.h"
+#include "harness/record/group.h"
 
 namespace aisle {
 

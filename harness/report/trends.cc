@@ -1,4 +1,5 @@
-#include "harness/report/history.h"
+#include "harness/report/trends.h"
+
 #include "harness/report/html.h"
 #include "harness/report/svg.h"
 

@@ -6,8 +6,8 @@
 namespace aisle {
 namespace {
 
-void AddLiveTrack(const RunResult& run, const ScoreOptions& options, Scorecard* scores) {
-  const TrajectoryScore live = ScoreTrajectory(run.truth, run.trajectory.live, options);
+void AddLiveTrack(const RunResult& run, const TrajectoryScore& live, const ScoreOptions& options,
+                  Scorecard* scores) {
   (*scores)["ate_live_rmse_m"] = live.scores.at("ate_rmse_m");
   AddCoverage(ErrorsOverFrames(run.truth, live), Name(options.alignment.method), scores);
 }
@@ -69,14 +69,17 @@ void AddTimes(const RunResult& run, Scorecard* scores) {
 
 }  // namespace
 
-Scorecard ScoreRun(const RunResult& run, const ScoreOptions& options) {
-  Scorecard scores = ScoreTrajectory(run.truth, run.trajectory.final, options).scores;
-  AddLiveTrack(run, options, &scores);
-  AddMasks(run.facts, &scores);
-  AddFeatures(run, &scores);
-  AddDifficulty(run, &scores);
-  AddTimes(run, &scores);
-  return scores;
+RunScore ScoreRun(const RunResult& run, const ScoreOptions& options) {
+  RunScore score;
+  score.live = ScoreTrajectory(run.truth, run.trajectory.live, options);
+  score.final = ScoreTrajectory(run.truth, run.trajectory.final, options);
+  score.scores = score.final.scores;
+  AddLiveTrack(run, score.live, options, &score.scores);
+  AddMasks(run.facts, &score.scores);
+  AddFeatures(run, &score.scores);
+  AddDifficulty(run, &score.scores);
+  AddTimes(run, &score.scores);
+  return score;
 }
 
 Scorecard ScoreMasks(const RunResult& run) {

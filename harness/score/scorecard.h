@@ -29,9 +29,14 @@ struct TrajectoryScore {
 TrajectoryScore ScoreTrajectory(const Trajectory& truth, const Trajectory& estimate,
                                 const ScoreOptions& options = {});
 
-/// Everything about one run: the final track's ScoreTrajectory, the live track's ATE, coverage,
-/// errors over all frames with lost ones counted as failures, masks, features, stage times.
-Scorecard ScoreRun(const RunResult& run, const ScoreOptions& options = {});
+/// A run held against truth, once: all that its record, its frames and its archives say of it.
+struct RunScore {
+  /// The final track's, the live track's ATE, coverage, errors over all frames with lost ones
+  /// counted as failures, masks, features, stage times.
+  Scorecard scores;
+  TrajectoryScore live, final;  ///< of the two tracks
+};
+RunScore ScoreRun(const RunResult& run, const ScoreOptions& options = {});
 
 /// The mask scores of a run alone: object_*, mask_*, mover_*,
 /// static_features_lost.

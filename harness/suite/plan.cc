@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/io/input_error.h"
-#include "harness/report/record_json.h"
+#include "harness/record/record_json.h"
 
 namespace aisle {
 namespace {

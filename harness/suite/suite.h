@@ -7,7 +7,7 @@
 #include "harness/contract/external.h"
 #include "harness/contract/mask_errors.h"
 #include "harness/contract/run.h"
-#include "harness/report/verdict.h"
+#include "harness/judge/limit.h"
 
 namespace aisle {
 

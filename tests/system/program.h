@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/report/results.h"
+#include "harness/record/results.h"
 #include "harness/suite/process.h"
 
 namespace aisle {

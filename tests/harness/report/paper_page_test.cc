@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "harness/report/tables.h"
-#include "tests/harness/report/night.h"
+#include "tests/harness/record/night.h"
 
 namespace aisle {
 namespace {
@@ -27,7 +27,8 @@ class PaperPageTest : public testing::Test {
     for (int seed = 1; seed <= seeds; ++seed) {
       const RunResult run =
           MakeRun(scene, system, static_cast<std::uint64_t>(seed), 0.1 * (1 << seed), 200);
-      results_.runs.push_back(WriteRun(run, MakeRecord(run, 20), folder_));
+      const RunScore score = ScoreRun(run);
+      results_.runs.push_back(WriteRun(run, score, MakeRecord(run, score, 20), folder_));
     }
   }
   std::string PageText() const { return PaperPage(GroupByScene(results_), folder_); }

@@ -9,12 +9,13 @@
 #include "harness/io/file.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
-#include "harness/report/compare.h"
+#include "harness/judge/limit.h"
 #include "harness/report/html.h"
+#include "harness/report/junit.h"
 #include "harness/report/overlay.h"
 #include "harness/report/samples.h"
 #include "harness/report/simplify.h"
-#include "tests/harness/report/night.h"
+#include "tests/harness/record/night.h"
 
 namespace aisle {
 namespace {
@@ -42,11 +43,12 @@ class ReportTest : public testing::Test {
     results.rerun = "./aisle run scenes/suites/quickstart.yaml";
     results.wall_s = 123.4;
     for (const RunResult& run : runs) {
-      RunRecord record = MakeRecord(run, 20);
+      const RunScore score = ScoreRun(run);
+      RunRecord record = MakeRecord(run, score, 20);
       const std::string folder = "runs/" + RunId(run.spec);
       WriteImage(folder_ / folder / "frame_000001.jpg", cv::Mat1b(504, 752, (unsigned char)90));
       record.artifacts["picture_00"] = folder + "/frame_000001.jpg";
-      results.runs.push_back(WriteRun(run, record, folder_));
+      results.runs.push_back(WriteRun(run, score, record, folder_));
     }
     results.verdicts = Judge(results.runs, limits);
     return results;
@@ -60,35 +62,6 @@ const Limit kTight{
     .score = "ate_rmse_m", .scene = "", .twin = "live", .system = "oracle", .min = {}, .max = 0.02};
 const Limit kBroken{
     .score = "ate_rmse_m", .scene = "", .twin = "", .system = "orbslam2", .min = {}, .max = 0.02};
-
-TEST_F(ReportTest, ResultsReadBackAsTheyWere) {
-  const Results results = Make({MakeRun("paper/scene2", "oracle", 1, 0.01)}, {kTight});
-  const Results read = ResultsFromJson(ToJson(results), "x");
-  EXPECT_EQ(ToJson(read), ToJson(results));
-  const auto record = ReadRun(results.runs[0].spec, folder_);
-  ASSERT_TRUE(record);
-  EXPECT_EQ(ToJson(*record), ToJson(results.runs[0]));
-}
-
-TEST_F(ReportTest, FramesReadBackAsTheyWere) {
-  const std::vector<FrameRow> rows = MakeFrameRows(MakeRun("a", "oracle", 1, 0.01));
-  EXPECT_EQ(ToCsv(FrameRowsFromCsv(ToCsv(rows), "x")), ToCsv(rows));
-}
-
-TEST_F(ReportTest, FramesOfAnotherVersionAreReadByTheirColumns) {
-  const std::string shuffled =
-      "process_ms,render_ms,frame,stamp_ns,state,movers_share,actors_share,features,"
-      "features_on_movers,inliers_on_movers,of_tomorrow\n"
-      "20.5,3,7,350000000,tracking,0.25,0.5,1200,3,1,x\n";
-  const std::vector<FrameRow> rows = FrameRowsFromCsv(shuffled, "x");
-  ASSERT_EQ(rows.size(), 1u);
-  EXPECT_EQ(rows[0].id, 7);
-  EXPECT_EQ(rows[0].state, TrackingState::kTracking);
-  EXPECT_EQ(rows[0].movers_share, 0.25);
-  EXPECT_EQ(rows[0].process_ms, 20.5);
-  EXPECT_FALSE(rows[0].difficulty.parallax_px);
-  EXPECT_FALSE(rows[0].live_m);
-}
 
 TEST_F(ReportTest, AChartWithoutItsFramesSaysWhy) {
   const Results results = Make({MakeRun("paper/scene2", "oracle", 1, 0.02)}, {});
@@ -163,13 +136,6 @@ TEST_F(ReportTest, TwoHundredRunsFitIntoThreeMegabytesWithoutTheirPictures) {
   EXPECT_LT(bytes, 3'000'000u);
 }
 
-TEST_F(ReportTest, ABaselineKeepsWhatAComparisonNeeds) {
-  const Results results = MakeNight({.scenes = 1, .seeds = 9}, folder_);
-  const Results baseline = BaselineOf(results);
-  EXPECT_LT(ToJson(baseline).size(), ToJson(results).size() / 3);
-  EXPECT_EQ(ToJson(Compare(baseline, results)), ToJson(Compare(results, results)));
-}
-
 TEST(SimplifyTest, WhatIsLeftOutIsNearWhatIsDrawn) {
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < 500; ++i) points.emplace_back(i, 20 * std::sin(0.05 * i) + i % 3, 0);
@@ -236,46 +202,6 @@ TEST_F(ReportTest, JunitNamesEveryRunThatCameToItsEnd) {
                "quickstart.s/live/orbslam2/1");
   EXPECT_STREQ(suite.child("testcase").attribute("name").value(), "completes");
   EXPECT_FALSE(suite.child("testcase").child("failure"));
-}
-
-TEST(VerdictTest, AScoreThatIsAbsentFails) {
-  RunRecord run;
-  run.spec = {.scene = "s", .scene_file = "", .twin = "live", .system = "oracle", .seed = 1};
-  run.scores["ate_rmse_m"].absent = "no poses";
-  const auto verdicts = Judge({run}, {kTight});
-  ASSERT_EQ(verdicts.size(), 1u);
-  EXPECT_FALSE(verdicts[0].passed);
-  EXPECT_EQ(verdicts[0].why, "seed 1 has no value: no poses");
-}
-
-TEST(VerdictTest, TheMedianOverSeedsIsHeldAgainstTheBound) {
-  std::vector<RunRecord> runs(3);
-  const double values[] = {0.01, 0.5, 0.015};
-  for (std::size_t i = 0; i < 3; ++i) {
-    runs[i].spec = {.scene = "s", .scene_file = "", .twin = "live", .system = "oracle", .seed = i};
-    runs[i].scores["ate_rmse_m"] = {
-        .value = values[i], .unit = "m", .alignment = "se3", .n = 9, .absent = ""};
-  }
-  const auto verdicts = Judge(runs, {kTight});
-  ASSERT_EQ(verdicts.size(), 1u);
-  EXPECT_TRUE(verdicts[0].passed);
-  EXPECT_DOUBLE_EQ(*verdicts[0].value, 0.015);
-}
-
-TEST(VerdictTest, ALimitThatMatchesNothingFails) {
-  const auto verdicts = Judge({}, {kTight});
-  ASSERT_EQ(verdicts.size(), 1u);
-  EXPECT_FALSE(verdicts[0].passed);
-}
-
-TEST(VerdictTest, ACrashFailsWithoutAnyLimit) {
-  RunRecord run;
-  run.spec.system = "oracle";
-  run.status = RunStatus::kCrashed;
-  run.status_why = "signal 11";
-  const auto verdicts = Judge({run}, {});
-  ASSERT_EQ(verdicts.size(), 1u);
-  EXPECT_EQ(verdicts[0].why, "crashed: signal 11");
 }
 
 TEST(EscapeTest, MarkupAndBrokenBytesAreHarmless) {

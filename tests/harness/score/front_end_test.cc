@@ -30,7 +30,7 @@ TEST(FrontEnd, IsAScoreOfTheRun) {
   run.estimates.resize(2);
   run.estimates[0].stage_ms = {{"dynamic", 30}, {"track", 10}};
   run.estimates[1].stage_ms = {{"dynamic", 20}, {"track", 12}};
-  const Scorecard scores = ScoreRun(run, {});
+  const Scorecard scores = ScoreRun(run).scores;
   EXPECT_DOUBLE_EQ(*scores.at("ms_front_end_mean").value, 36);
   EXPECT_DOUBLE_EQ(*scores.at("ms_tracking_mean").value, 11);
   EXPECT_DOUBLE_EQ(*scores.at("ms_dynamic_mean").value, 25);

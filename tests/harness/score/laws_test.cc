@@ -159,7 +159,7 @@ TEST(CoverageTest, LostFramesCountAsFailures) {
     run.estimates.push_back(estimate);
   }
   run.trajectory.final = run.trajectory.live;
-  const Scorecard scores = ScoreRun(run);
+  const Scorecard scores = ScoreRun(run).scores;
   EXPECT_DOUBLE_EQ(*scores.at("coverage").value, 0.8);
   EXPECT_DOUBLE_EQ(*scores.at("times_lost").value, 1);
   EXPECT_DOUBLE_EQ(*scores.at("recovery_max_s").value, 1.0);

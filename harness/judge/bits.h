@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/record/record.h"
+
+namespace aisle {
+
+/// Scores of two runs that differ and should not: all but times and memory, which belong to the
+/// machine. One line each; empty for equal bits.
+std::vector<std::string> DifferentBits(const RunRecord& a, const RunRecord& b);
+
+}  // namespace aisle

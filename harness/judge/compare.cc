@@ -1,0 +1,275 @@
+#include "harness/judge/compare.h"
+
+#include "harness/score/statistics.h"
+
+namespace aisle {
+namespace {
+
+/// Which way a score is good, and whether it may raise an alarm.
+struct Judged {
+  const char* score;
+  bool more_is_better;
+  double smallest_effect =
+      0;  ///< in the score's unit, where a share of the old median is too coarse
+};
+/// Each one more costs all of them power: with nine seeds a side no p is below 4.1e-5, so that an
+/// alpha of 0.01 has room for 243 comparisons that are not equal to the last bit.
+constexpr Judged kJudged[] = {{"coverage", true, 0.01},
+                              {"ate_rmse_m", false},
+                              {"ate_live_rmse_m", false},
+                              {"error_all_p95_m", false},
+                              {"rpe_1s_trans_rmse_m", false},
+                              {"rpe_1s_rot_rmse_deg", false},
+                              {"features_on_movers", false},
+                              {"object_precision", true},
+                              {"object_recall", true},
+                              {"mask_iou", true},
+                              {"static_features_lost", false},
+                              {"mover_large_found_within_1s", true},
+                              {"mover_large_gap_max_frames", false, 1}};
+constexpr const char* kWatched[] = {"ms_process_mean", "ms_render_mean", "peak_rss_mib"};
+
+using Cell = std::tuple<std::string, std::string, std::string>;
+using ValuesBySeed = std::map<std::uint64_t, double>;
+
+std::map<Cell, std::vector<const RunRecord*>> Cells(const Results& results) {
+  std::map<Cell, std::vector<const RunRecord*>> cells;
+  for (const RunRecord& run : results.runs) {
+    cells[{run.spec.scene, run.spec.twin, run.spec.system}].push_back(&run);
+  }
+  return cells;
+}
+
+ValuesBySeed Values(const std::vector<const RunRecord*>& runs, const std::string& score,
+                    std::string* unit) {
+  ValuesBySeed values;
+  for (const RunRecord* run : runs) {
+    const auto at = run->scores.find(score);
+    if (at == run->scores.end() || !at->second.value) continue;
+    values[run->spec.seed] = *at->second.value;
+    *unit = at->second.unit;
+  }
+  return values;
+}
+
+std::vector<double> Plain(const ValuesBySeed& values) {
+  std::vector<double> plain;
+  for (const auto& [seed, value] : values) plain.push_back(value);
+  return plain;
+}
+
+bool SameSeeds(const ValuesBySeed& a, const ValuesBySeed& b) {
+  return a.size() == b.size() &&
+         std::equal(a.begin(), a.end(), b.begin(),
+                    [](const auto& x, const auto& y) { return x.first == y.first; });
+}
+
+/// New minus old: by seed where the seeds are the same, every new against the old median else.
+std::vector<double> Differences(const ValuesBySeed& before, const ValuesBySeed& after,
+                                bool paired) {
+  const double old_median = Quantile(Plain(before), 0.5);
+  std::vector<double> differences;
+  for (const auto& [seed, value] : after) {
+    differences.push_back(value - (paired ? before.at(seed) : old_median));
+  }
+  return differences;
+}
+
+std::optional<Comparison> CompareScore(const std::vector<const RunRecord*>& before,
+                                       const std::vector<const RunRecord*>& after,
+                                       const std::string& score) {
+  Comparison comparison;
+  comparison.score = score;
+  const ValuesBySeed old_values = Values(before, score, &comparison.unit);
+  const ValuesBySeed new_values = Values(after, score, &comparison.unit);
+  if (old_values.empty() || new_values.empty()) return std::nullopt;
+  comparison.old_n = old_values.size();
+  comparison.new_n = new_values.size();
+  comparison.paired = SameSeeds(old_values, new_values);
+  comparison.bit_equal = old_values == new_values;
+  comparison.old_median = Quantile(Plain(old_values), 0.5);
+  comparison.new_median = Quantile(Plain(new_values), 0.5);
+  comparison.difference = BootstrapMedian(Differences(old_values, new_values, comparison.paired));
+  comparison.p = MannWhitneyP(Plain(old_values), Plain(new_values));
+  return comparison;
+}
+
+/// Fewer seeds a side than this cannot reach a p that survives the correction.
+constexpr std::size_t kFewestSeeds = 5;
+
+void Decide(const Judged& judged, const CompareOptions& options, Comparison* comparison) {
+  Comparison& c = *comparison;
+  const double change = c.new_median - c.old_median;
+  const double effect = judged.smallest_effect > 0
+                            ? judged.smallest_effect
+                            : options.minimum_effect * std::abs(c.old_median);
+  if (c.bit_equal) {
+    c.change = Change::kSame;
+    c.why = "equal to the last digit";
+  } else if (std::abs(change) <= effect && std::abs(c.difference.low) <= effect &&
+             std::abs(c.difference.high) <= effect) {
+    c.change = Change::kSame;
+    c.why = fmt::format("within {:.2g} of the old median", effect);
+  } else if (std::min(c.old_n, c.new_n) < kFewestSeeds) {
+    c.change = Change::kCannotTell;
+    c.why = fmt::format("{} and {} seeds: fewer than {} a side show nothing", c.old_n, c.new_n,
+                        kFewestSeeds);
+  } else if (c.p >= options.alpha || std::abs(change) <= effect) {
+    c.change = Change::kCannotTell;
+    c.why = fmt::format("p = {:.2g} after Holm", c.p);
+  } else {
+    c.change = (change > 0) == judged.more_is_better ? Change::kBetter : Change::kWorse;
+    c.why = fmt::format("p = {:.2g} after Holm", c.p);
+  }
+}
+
+const Judged* FindJudged(const std::string& score) {
+  for (const Judged& judged : kJudged) {
+    if (score == judged.score) return &judged;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> ScoresToCompare() {
+  std::vector<std::string> scores;
+  for (const Judged& judged : kJudged) scores.emplace_back(judged.score);
+  for (const char* watched : kWatched) scores.emplace_back(watched);
+  return scores;
+}
+
+/// Equal bits are no question to chance: they take no share of the alarm that is allowed.
+bool IsTested(const Comparison& c) { return FindJudged(c.score) != nullptr && !c.bit_equal; }
+
+/// The least p that so many seeds can reach, were every new value beyond every old one.
+double LeastP(std::size_t old_n, std::size_t new_n) {
+  std::vector<double> before(old_n), after(new_n);
+  for (std::size_t i = 0; i < old_n; ++i) before[i] = 1e-3 * static_cast<double>(i);
+  for (std::size_t i = 0; i < new_n; ++i) after[i] = 1 + 1e-3 * static_cast<double>(i);
+  return MannWhitneyP(before, after);
+}
+
+void CorrectAndDecide(const CompareOptions& options, std::vector<Comparison>* comparisons) {
+  std::vector<double> p_values;
+  for (const Comparison& c : *comparisons) {
+    if (IsTested(c)) p_values.push_back(c.p);
+  }
+  const std::vector<double> adjusted = HolmAdjusted(p_values);
+  std::size_t next = 0;
+  for (Comparison& c : *comparisons) {
+    const Judged* judged = FindJudged(c.score);
+    if (judged == nullptr) {
+      c.change = Change::kWatched;
+      c.why = "belongs to the machine, is not judged";
+      continue;
+    }
+    if (IsTested(c)) c.p = adjusted[next++];
+    Decide(*judged, options, &c);
+    const double least = LeastP(c.old_n, c.new_n) * static_cast<double>(p_values.size());
+    if (c.change == Change::kCannotTell && least >= options.alpha) {
+      c.why += fmt::format("; {} comparisons with {} and {} seeds cannot go below p = {:.2g}",
+                           p_values.size(), c.old_n, c.new_n, least);
+    }
+  }
+}
+
+/// Equal bits are promised within one make of processor.
+void NoteOtherProcessor(const Results& before, const Results& after,
+                        std::vector<Comparison>* comparisons) {
+  for (Comparison& c : *comparisons) {
+    if (!IsTested(c)) continue;
+    c.why += fmt::format("; {} was {}: other bits alone say nothing", after.provenance.cpu,
+                         before.provenance.cpu);
+  }
+}
+
+}  // namespace
+
+bool SameProcessor(const Results& a, const Results& b) {
+  return a.provenance.cpu == b.provenance.cpu;
+}
+
+std::string Name(Change change) {
+  switch (change) {
+    case Change::kBetter:
+      return "better";
+    case Change::kWorse:
+      return "worse";
+    case Change::kSame:
+      return "same";
+    case Change::kWatched:
+      return "watched";
+    case Change::kCannotTell:
+      break;
+  }
+  return "cannot tell";
+}
+
+std::vector<Comparison> Compare(const Results& before, const Results& after,
+                                const CompareOptions& options) {
+  const auto old_cells = Cells(before), new_cells = Cells(after);
+  std::vector<Comparison> comparisons;
+  for (const auto& [cell, new_runs] : new_cells) {
+    const auto old_runs = old_cells.find(cell);
+    if (old_runs == old_cells.end()) continue;
+    for (const std::string& score : ScoresToCompare()) {
+      std::optional<Comparison> comparison = CompareScore(old_runs->second, new_runs, score);
+      if (!comparison) continue;
+      std::tie(comparison->scene, comparison->twin, comparison->system) = cell;
+      comparisons.push_back(*std::move(comparison));
+    }
+  }
+  CorrectAndDecide(options, &comparisons);
+  if (!SameProcessor(before, after)) NoteOtherProcessor(before, after, &comparisons);
+  return comparisons;
+}
+
+Results BaselineOf(const Results& results) {
+  const std::vector<std::string> compared = ScoresToCompare();
+  Results baseline = results;
+  baseline.verdicts.clear();
+  for (RunRecord& run : baseline.runs) {
+    run.artifacts.clear();
+    run.notes.clear();
+    std::erase_if(run.scores, [&](const auto& entry) {
+      return std::find(compared.begin(), compared.end(), entry.first) == compared.end();
+    });
+  }
+  return baseline;
+}
+
+std::vector<Verdict> GateVerdicts(const Results& before, const Results& after,
+                                  const CompareOptions& options) {
+  std::vector<Verdict> verdicts;
+  const auto old_cells = Cells(before), new_cells = Cells(after);
+  for (const auto& [cell, runs] : old_cells) {
+    if (new_cells.count(cell) > 0) continue;
+    const auto& [scene, twin, system] = cell;
+    verdicts.push_back({.name = fmt::format("{} {} {}: baseline", scene, twin, system),
+                        .passed = false,
+                        .flaky = false,
+                        .value = {},
+                        .limit = {},
+                        .why = "the baseline has this, tonight has not",
+                        .scene = scene,
+                        .twin = twin,
+                        .system = system});
+  }
+  for (const Comparison& c : Compare(before, after, options)) {
+    if (FindJudged(c.score) == nullptr) continue;
+    verdicts.push_back(
+        {.name =
+             fmt::format("{} {} {}: {} against the baseline", c.scene, c.twin, c.system, c.score),
+         .passed = c.change != Change::kWorse,
+         .flaky = false,
+         .value = c.new_median,
+         .limit = c.old_median,
+         .why = fmt::format("{}: {:.4g} was {:.4g} {} ({})", Name(c.change), c.new_median,
+                            c.old_median, c.unit == "1" ? "" : c.unit, c.why),
+         .scene = c.scene,
+         .twin = c.twin,
+         .system = c.system});
+  }
+  return verdicts;
+}
+
+}  // namespace aisle

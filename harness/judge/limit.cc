@@ -1,0 +1,127 @@
+#include "harness/judge/limit.h"
+
+#include "harness/score/statistics.h"
+
+namespace aisle {
+namespace {
+
+using Cell = std::tuple<std::string, std::string, std::string>;  // scene, twin, system
+
+std::string Name(const Cell& cell) {
+  const auto& [scene, twin, system] = cell;
+  return fmt::format("{} {} {}", scene, twin, system);
+}
+
+bool Matches(const Limit& limit, const RunSpec& spec) {
+  return (limit.scene.empty() || limit.scene == spec.scene) &&
+         (limit.twin.empty() || limit.twin == spec.twin) &&
+         (limit.system.empty() || limit.system == spec.system);
+}
+
+/// Runs that differ only by seed, in the order of the suite.
+std::vector<std::pair<Cell, std::vector<const RunRecord*>>> ByCell(
+    const std::vector<RunRecord>& runs, const Limit& limit) {
+  std::vector<std::pair<Cell, std::vector<const RunRecord*>>> cells;
+  for (const RunRecord& run : runs) {
+    if (!Matches(limit, run.spec)) continue;
+    const Cell cell{run.spec.scene, run.spec.twin, run.spec.system};
+    auto at = std::find_if(cells.begin(), cells.end(),
+                           [&](const auto& entry) { return entry.first == cell; });
+    if (at == cells.end()) at = cells.insert(cells.end(), {cell, {}});
+    at->second.push_back(&run);
+  }
+  return cells;
+}
+
+Verdict Bound(const std::string& name, const Limit& limit, double value, std::size_t seeds,
+              const std::string& unit) {
+  Verdict verdict{
+      .name = name, .passed = true, .flaky = false, .value = value, .limit = {}, .why = ""};
+  const std::string what = seeds > 1 ? fmt::format("median of {} seeds", seeds) : "value";
+  const std::string shown_unit = unit == "1" ? "" : " " + unit;
+  const auto hold = [&](double bound, bool holds, const char* relation) {
+    verdict.limit = bound;
+    verdict.passed = verdict.passed && holds;
+    verdict.why += fmt::format("{}{} {:.6g}{} is {}{} {:.6g}", verdict.why.empty() ? "" : "; ",
+                               what, value, shown_unit, holds ? "" : "not ", relation, bound);
+  };
+  if (limit.max) hold(*limit.max, value <= *limit.max, "at most");
+  if (limit.min) hold(*limit.min, value >= *limit.min, "at least");
+  return verdict;
+}
+
+Verdict JudgeCell(const Limit& limit, const Cell& cell, const std::vector<const RunRecord*>& runs) {
+  const std::string name = Name(cell) + ": " + limit.score;
+  std::vector<double> values;
+  std::string unit;
+  for (const RunRecord* run : runs) {
+    const auto score = run->scores.find(limit.score);
+    const bool known = score != run->scores.end();
+    if (known && score->second.value) {
+      values.push_back(*score->second.value);
+      unit = score->second.unit;
+      continue;
+    }
+    const std::string reason = known                     ? score->second.absent
+                               : run->status_why.empty() ? "the run has no such score"
+                                                         : run->status_why;
+    return {.name = name,
+            .passed = false,
+            .flaky = false,
+            .value = {},
+            .limit = limit.max ? limit.max : limit.min,
+            .why = fmt::format("seed {} has no value: {}", run->spec.seed, reason)};
+  }
+  return Bound(name, limit, Quantile(values, 0.5), values.size(), unit);
+}
+
+std::string Filters(const Limit& limit) {
+  std::string text;
+  for (const auto& [key, value] : {std::pair("scene", limit.scene), std::pair("twin", limit.twin),
+                                   std::pair("system", limit.system)}) {
+    if (!value.empty()) text += fmt::format(" {} {}", key, value);
+  }
+  return text.empty() ? " any run" : text;
+}
+
+}  // namespace
+
+std::vector<Verdict> Judge(const std::vector<RunRecord>& runs, const std::vector<Limit>& limits) {
+  std::vector<Verdict> verdicts;
+  for (const RunRecord& run : runs) {
+    if (run.status == RunStatus::kOk || run.status == RunStatus::kLost) continue;
+    verdicts.push_back({.name = RunId(run.spec) + ": completes",
+                        .passed = false,
+                        .flaky = run.flaky,
+                        .value = {},
+                        .limit = {},
+                        .why = Name(run.status) + ": " + run.status_why,
+                        .scene = run.spec.scene,
+                        .twin = run.spec.twin,
+                        .system = run.spec.system});
+  }
+  for (const Limit& limit : limits) {
+    const auto cells = ByCell(runs, limit);
+    if (cells.empty()) {
+      verdicts.push_back({.name = "limit on " + limit.score,
+                          .passed = false,
+                          .flaky = false,
+                          .value = {},
+                          .limit = {},
+                          .why = "no run matches" + Filters(limit)});
+    }
+    for (const auto& [cell, of_cell] : cells) {
+      verdicts.push_back(JudgeCell(limit, cell, of_cell));
+      Verdict& verdict = verdicts.back();
+      std::tie(verdict.scene, verdict.twin, verdict.system) = cell;
+    }
+  }
+  return verdicts;
+}
+
+bool AllPassed(const Results& results) {
+  return std::all_of(results.verdicts.begin(), results.verdicts.end(),
+                     [](const Verdict& verdict) { return verdict.passed; });
+}
+
+}  // namespace aisle

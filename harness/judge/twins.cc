@@ -1,0 +1,87 @@
+#include "harness/judge/twins.h"
+
+namespace aisle {
+namespace {
+
+constexpr const char* kError = "ate_rmse_m";
+
+const SystemRuns* Find(const std::vector<SceneRuns>& scenes, const std::string& scene,
+                       const std::string& twin, const std::string& system) {
+  for (const SceneRuns& runs : scenes) {
+    if (runs.scene != scene || runs.twin != twin) continue;
+    for (const SystemRuns& one : runs.systems) {
+      if (one.system == system) return &one;
+    }
+  }
+  return nullptr;
+}
+
+std::optional<double> Error(const SystemRuns* runs) {
+  return runs == nullptr ? std::nullopt : MedianScore(runs->runs, kError);
+}
+
+std::optional<double> Minus(const std::optional<double>& a, const std::optional<double>& b) {
+  return a && b ? std::optional(*a - *b) : std::nullopt;
+}
+
+}  // namespace
+
+void AddDynamicPenalty(std::vector<RunRecord>* runs) {
+  using Key = std::tuple<std::string, std::string, std::uint64_t>;
+  std::map<Key, Score> empty;
+  for (const RunRecord& run : *runs) {
+    const auto score = run.scores.find(kError);
+    if (run.spec.twin == "empty" && score != run.scores.end()) {
+      empty[{run.spec.scene, run.spec.system, run.spec.seed}] = score->second;
+    }
+  }
+  for (RunRecord& run : *runs) {
+    const auto twin = empty.find({run.spec.scene, run.spec.system, run.spec.seed});
+    const bool moves = run.spec.twin != "empty" && run.spec.twin != "frozen";
+    if (!moves || twin == empty.end()) continue;
+    const auto live = run.scores.find(kError);
+    const bool both = live != run.scores.end() && live->second.value && twin->second.value &&
+                      *twin->second.value > 0;
+    Score& penalty = run.scores["dynamic_penalty"];
+    penalty.unit = std::string(1, '1');
+    if (both) {
+      penalty.value = *live->second.value / *twin->second.value;
+      penalty.n = live->second.n;
+      penalty.alignment = live->second.alignment;
+    } else {
+      penalty.absent = "one of the twins has no ATE";
+    }
+  }
+}
+
+std::vector<CostSplit> SplitCosts(const std::vector<SceneRuns>& scenes) {
+  std::vector<CostSplit> splits;
+  for (const SceneRuns& scene : scenes) {
+    if (scene.twin != "live") continue;
+    const auto oracle_live = Error(Find(scenes, scene.scene, "live", "oracle"));
+    const auto oracle_empty = Error(Find(scenes, scene.scene, "empty", "oracle"));
+    for (const SystemRuns& system : scene.systems) {
+      CostSplit split{.scene = scene.scene,
+                      .system = system.system,
+                      .color = system.color,
+                      .live_m = Error(&system),
+                      .empty_m = {},
+                      .occlusion_m = {},
+                      .motion_m = {},
+                      .mask_m = {},
+                      .penalty = {}};
+      split.empty_m = Error(Find(scenes, scene.scene, "empty", system.system));
+      split.occlusion_m = Minus(oracle_live, oracle_empty);
+      split.motion_m =
+          Minus(split.live_m, Error(Find(scenes, scene.scene, "frozen", system.system)));
+      if (system.system != "oracle") split.mask_m = Minus(split.live_m, oracle_live);
+      if (split.live_m && split.empty_m && *split.empty_m > 0) {
+        split.penalty = *split.live_m / *split.empty_m;
+      }
+      if (split.empty_m || split.motion_m || split.mask_m) splits.push_back(split);
+    }
+  }
+  return splits;
+}
+
+}  // namespace aisle

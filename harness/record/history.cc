@@ -1,0 +1,136 @@
+#include "harness/record/history.h"
+
+#include <sqlite3.h>
+
+#include "harness/io/input_error.h"
+#include "harness/record/group.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The scores whose way through the nights is worth a look.
+constexpr const char* kFollowed[] = {"ate_rmse_m", "coverage", "rpe_1s_trans_rmse_m", "mask_iou",
+                                     "ms_process_mean"};
+
+class Database {
+ public:
+  explicit Database(const fs::path& path) : path_(path.string()) {
+    if (::sqlite3_open(path_.c_str(), &handle_) != SQLITE_OK) Fail("open");
+    ::sqlite3_busy_timeout(handle_, 10'000);  // another night may be writing
+    Run("PRAGMA journal_mode = WAL");
+    Run("CREATE TABLE IF NOT EXISTS medians (suite TEXT, started TEXT, commit_id TEXT, "
+        "scene TEXT, twin TEXT, system TEXT, score TEXT, median REAL, seeds INTEGER, "
+        "PRIMARY KEY (suite, started, scene, twin, system, score)) WITHOUT ROWID");
+  }
+  ~Database() { ::sqlite3_close(handle_); }
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+
+  void Run(const std::string& sql) {
+    if (::sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) Fail("write");
+  }
+  [[noreturn]] void Fail(const char* what) const {
+    throw MachineError(fmt::format("{}: cannot {}: {}", path_, what, ::sqlite3_errmsg(handle_)));
+  }
+  sqlite3* handle() const { return handle_; }
+
+ private:
+  const std::string path_;
+  sqlite3* handle_ = nullptr;
+};
+
+/// A prepared statement whose values are bound, never pasted.
+class Statement {
+ public:
+  Statement(const Database& database, const char* sql) : database_(database) {
+    if (::sqlite3_prepare_v2(database.handle(), sql, -1, &handle_, nullptr) != SQLITE_OK) {
+      database.Fail("read");
+    }
+  }
+  ~Statement() { ::sqlite3_finalize(handle_); }
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  void Bind(int at, const std::string& text) {
+    ::sqlite3_bind_text(handle_, at, text.c_str(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
+  }
+  void Bind(int at, const std::optional<double>& value) {
+    if (value) {
+      ::sqlite3_bind_double(handle_, at, *value);
+    } else {
+      ::sqlite3_bind_null(handle_, at);
+    }
+  }
+  void Bind(int at, std::size_t value) {
+    ::sqlite3_bind_int64(handle_, at, static_cast<sqlite3_int64>(value));
+  }
+  /// True while there is a row.
+  bool Step() {
+    const int code = ::sqlite3_step(handle_);
+    if (code != SQLITE_ROW && code != SQLITE_DONE) database_.Fail("read");
+    return code == SQLITE_ROW;
+  }
+  void Reset() { ::sqlite3_reset(handle_); }
+  std::string Text(int at) const {
+    const unsigned char* text = ::sqlite3_column_text(handle_, at);
+    return text == nullptr ? std::string() : reinterpret_cast<const char*>(text);
+  }
+  std::optional<double> Number(int at) const {
+    if (::sqlite3_column_type(handle_, at) == SQLITE_NULL) return std::nullopt;
+    return ::sqlite3_column_double(handle_, at);
+  }
+
+ private:
+  const Database& database_;
+  sqlite3_stmt* handle_ = nullptr;
+};
+
+}  // namespace
+
+void AppendToHistory(const fs::path& path, const Results& results) {
+  Database database(path);
+  database.Run("BEGIN IMMEDIATE");
+  Statement insert(database, "INSERT OR REPLACE INTO medians VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  for (const SceneRuns& scene : GroupByScene(results)) {
+    for (const SystemRuns& system : scene.systems) {
+      for (const char* score : kFollowed) {
+        insert.Reset();
+        int at = 0;
+        for (const std::string& text :
+             {results.suite, results.started, results.provenance.commit, scene.scene, scene.twin,
+              system.system, std::string(score)}) {
+          insert.Bind(++at, text);
+        }
+        insert.Bind(++at, MedianScore(system.runs, score));
+        insert.Bind(++at, system.runs.size());
+        insert.Step();
+      }
+    }
+  }
+  insert.Reset();
+  database.Run("COMMIT");
+}
+
+std::vector<TrendPoint> ReadHistory(const fs::path& path, const std::string& suite) {
+  std::vector<TrendPoint> points;
+  if (!fs::exists(path)) return points;
+  const Database database(path);
+  Statement select(database,
+                   "SELECT started, commit_id, scene, twin, system, score, median FROM medians "
+                   "WHERE suite = ? ORDER BY started, scene, twin, system, score");
+  select.Bind(1, suite);
+  while (select.Step()) {
+    points.push_back({.started = select.Text(0),
+                      .commit = select.Text(1),
+                      .scene = select.Text(2),
+                      .twin = select.Text(3),
+                      .system = select.Text(4),
+                      .score = select.Text(5),
+                      .median = select.Number(6)});
+  }
+  return points;
+}
+
+}  // namespace aisle

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "harness/contract/run.h"
+#include "harness/contract/score.h"
+#include "harness/score/scorecard.h"
+
+namespace aisle {
+
+/// What a report needs to know of one run; lives as result.json in the run's folder, written last.
+struct RunRecord {
+  RunSpec spec;
+  RunStatus status = RunStatus::kOk;
+  std::string status_why;
+  std::size_t frames = 0;
+  double rate_hz = 0;
+  double wall_s = 0;
+  int threads = 0;
+  std::string content_hash;  ///< of all that decides the pixels, hexadecimal
+  std::string inputs_hash;   ///< of all that decides the run: program, scene, system, seed
+  std::string output_hash;   ///< of the trajectories it left; empty where it left none
+  /// The same inputs, tried again, ended well: what fails is not what they are but when.
+  bool flaky = false;
+  Scorecard scores;
+  std::vector<std::string> notes;
+  std::map<std::string, std::string> artifacts;  ///< name -> path relative to the report's folder
+};
+
+/// A file name whatever a name holds: plain characters stay, a slash becomes a dot, all else an
+/// underscore; no leading dot, at most 81 characters.
+std::string SafeName(const std::string& name);
+
+/// "scene/twin/system/seed" with the slashes of the scene as dots: "paper.scene2/live/oracle/1".
+/// Names a run for `rerun`, and its folder under DIR/runs.
+std::string RunId(const RunSpec& spec);
+
+/// "ok", "lost", "crashed", "timeout", "invalid"; the inverse throws std::invalid_argument.
+std::string Name(RunStatus status);
+RunStatus RunStatusFromName(const std::string& name);
+
+/// `score` is the run's own; `rate_hz` that of its frames.
+RunRecord MakeRecord(const RunResult& run, const RunScore& score, double rate_hz);
+
+std::string ToJson(const RunRecord& record);
+/// Throws InputError when the text is no record.
+RunRecord RecordFromJson(const std::string& text, const std::string& file);
+
+/// Writes trajectories, frames.csv and, last, result.json into `report_dir`/runs/ID. The record
+/// that comes back names the artifacts.
+RunRecord WriteRun(const RunResult& run, const RunScore& score, RunRecord record,
+                   const std::filesystem::path& report_dir);
+
+/// A run's result.json, if it is there and whole.
+std::optional<RunRecord> ReadRun(const RunSpec& spec, const std::filesystem::path& report_dir);
+
+/// The same, if it answers for these inputs and its trajectories still are what it left: a run
+/// that need not be made again.
+std::optional<RunRecord> ReadFinishedRun(const RunSpec& spec, const std::string& inputs_hash,
+                                         const std::filesystem::path& report_dir);
+
+}  // namespace aisle

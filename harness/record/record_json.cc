@@ -1,0 +1,123 @@
+#include "harness/record/record_json.h"
+
+#include "harness/io/input_error.h"
+
+namespace aisle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json ScoreToJson(const Score& score) {
+  Json json;
+  json["value"] = score.value && std::isfinite(*score.value) ? Json(*score.value) : Json(nullptr);
+  json["unit"] = score.unit;
+  json["n"] = score.n;
+  if (!score.alignment.empty()) json["alignment"] = score.alignment;
+  if (!score.absent.empty()) json["absent"] = score.absent;
+  return json;
+}
+
+Score ScoreFromJson(const Json& json) {
+  Score score;
+  if (!json.at("value").is_null()) score.value = json.at("value").get<double>();
+  score.unit = json.at("unit").get<std::string>();
+  score.n = json.at("n").get<std::size_t>();
+  score.alignment = json.value("alignment", "");
+  score.absent = json.value("absent", "");
+  return score;
+}
+
+}  // namespace
+
+std::string Name(RunStatus status) {
+  switch (status) {
+    case RunStatus::kOk:
+      return "ok";
+    case RunStatus::kLost:
+      return "lost";
+    case RunStatus::kCrashed:
+      return "crashed";
+    case RunStatus::kTimeout:
+      return "timeout";
+    case RunStatus::kInvalid:
+      break;
+  }
+  return "invalid";
+}
+
+RunStatus RunStatusFromName(const std::string& name) {
+  for (const auto status : {RunStatus::kOk, RunStatus::kLost, RunStatus::kCrashed,
+                            RunStatus::kTimeout, RunStatus::kInvalid}) {
+    if (Name(status) == name) return status;
+  }
+  throw std::invalid_argument("run status '" + name + "'");
+}
+
+Json RecordToJson(const RunRecord& record) {
+  Json json;
+  json["id"] = RunId(record.spec);
+  json["scene"] = record.spec.scene;
+  json["scene_file"] = record.spec.scene_file;
+  json["twin"] = record.spec.twin;
+  json["system"] = record.spec.system;
+  json["seed"] = record.spec.seed;
+  json["status"] = Name(record.status);
+  json["why"] = record.status_why;
+  json["frames"] = record.frames;
+  json["rate_hz"] = record.rate_hz;
+  json["wall_s"] = record.wall_s;
+  json["threads"] = record.threads;
+  json["content_hash"] = record.content_hash;
+  json["inputs_hash"] = record.inputs_hash;
+  json["output_hash"] = record.output_hash;
+  if (record.flaky) json["flaky"] = true;
+  json["scores"] = Json::object();
+  for (const auto& [name, score] : record.scores) json["scores"][name] = ScoreToJson(score);
+  json["notes"] = record.notes;
+  json["artifacts"] = Json::object();
+  for (const auto& [name, path] : record.artifacts) json["artifacts"][name] = path;
+  return json;
+}
+
+RunRecord RecordFromJson(const Json& json) {
+  RunRecord record;
+  record.spec.scene = json.at("scene").get<std::string>();
+  record.spec.scene_file = json.value("scene_file", "");
+  record.spec.twin = json.at("twin").get<std::string>();
+  record.spec.system = json.at("system").get<std::string>();
+  record.spec.seed = json.at("seed").get<std::uint64_t>();
+  record.status = RunStatusFromName(json.at("status").get<std::string>());
+  record.status_why = json.value("why", "");
+  record.frames = json.at("frames").get<std::size_t>();
+  record.rate_hz = json.value("rate_hz", 0.0);
+  record.wall_s = json.value("wall_s", 0.0);
+  record.threads = json.value("threads", 0);
+  record.content_hash = json.value("content_hash", "");
+  record.inputs_hash = json.value("inputs_hash", "");
+  record.output_hash = json.value("output_hash", "");
+  record.flaky = json.value("flaky", false);
+  for (const auto& [name, score] : json.at("scores").items()) {
+    record.scores[name] = ScoreFromJson(score);
+  }
+  record.notes = json.value("notes", std::vector<std::string>{});
+  for (const auto& [name, path] : json.at("artifacts").items()) {
+    record.artifacts[name] = path.get<std::string>();
+  }
+  return record;
+}
+
+std::string Dump(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string ToJson(const RunRecord& record) { return Dump(RecordToJson(record)); }
+
+RunRecord RecordFromJson(const std::string& text, const std::string& file) {
+  try {
+    return RecordFromJson(Json::parse(text));
+  } catch (const std::exception& error) {
+    throw InputError(file, 0, fmt::format("is no run record: {}", Printable(error.what(), 200)));
+  }
+}
+
+}  // namespace aisle

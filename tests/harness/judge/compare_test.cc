@@ -1,0 +1,114 @@
+#include "harness/judge/compare.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace aisle {
+namespace {
+
+RunRecord MakeRecordOf(const std::string& system, std::uint64_t seed, double ate_m,
+                       double coverage = 1) {
+  RunRecord run;
+  run.spec = {.scene = "s", .scene_file = "", .twin = "live", .system = system, .seed = seed};
+  run.scores["ate_rmse_m"] = {
+      .value = ate_m, .unit = "m", .alignment = "se3", .n = 9, .absent = ""};
+  run.scores["coverage"] = {.value = coverage, .unit = "1", .alignment = "", .n = 9, .absent = ""};
+  return run;
+}
+
+/// Nine seeds around `level`, spread by a tenth.
+Results Night(double level, std::uint64_t noise_seed, double coverage = 1) {
+  std::mt19937_64 random(noise_seed);
+  Results results;
+  for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+    const double noise = static_cast<double>(random() % 2001) / 1000 - 1;
+    results.runs.push_back(MakeRecordOf("oracle", seed, level * (1 + 0.1 * noise), coverage));
+  }
+  return results;
+}
+
+Change ChangeOf(const std::vector<Comparison>& comparisons, const std::string& score) {
+  for (const Comparison& c : comparisons) {
+    if (c.score == score) return c.change;
+  }
+  throw std::logic_error("no " + score);
+}
+
+TEST(CompareTest, AClearShiftIsWorseOneWayAndBetterTheOther) {
+  const Results good = Night(0.02, 1), bad = Night(0.04, 2);
+  EXPECT_EQ(ChangeOf(Compare(good, bad), "ate_rmse_m"), Change::kWorse);
+  EXPECT_EQ(ChangeOf(Compare(bad, good), "ate_rmse_m"), Change::kBetter);
+}
+
+TEST(CompareTest, EqualNightsAreTheSame) {
+  const auto comparisons = Compare(Night(0.02, 1), Night(0.02, 1));
+  EXPECT_EQ(ChangeOf(comparisons, "ate_rmse_m"), Change::kSame);
+  EXPECT_TRUE(comparisons.front().bit_equal);
+}
+
+TEST(CompareTest, OtherBitsOnAnotherProcessorAreNoAlarmButAClearShiftIs) {
+  Results before = Night(0.02, 1), after = before, worse = Night(0.04, 2);
+  for (RunRecord& run : after.runs) *run.scores["ate_rmse_m"].value *= 1.04;
+  before.provenance.cpu = "one make";
+  after.provenance.cpu = worse.provenance.cpu = "another";
+  EXPECT_FALSE(SameProcessor(before, after));
+  for (const Comparison& c : Compare(before, after)) {
+    EXPECT_NE(c.change, Change::kWorse);
+    EXPECT_EQ(c.why.find("another was one make") != std::string::npos, !c.bit_equal);
+  }
+  EXPECT_EQ(ChangeOf(Compare(before, worse), "ate_rmse_m"), Change::kWorse);
+}
+
+TEST(CompareTest, CoverageStandsFirstAndFallingCoverageIsWorse) {
+  const auto comparisons = Compare(Night(0.02, 1, 1.0), Night(0.01, 2, 0.5));
+  EXPECT_EQ(comparisons.front().score, "coverage");
+  EXPECT_EQ(comparisons.front().change, Change::kWorse);
+}
+
+TEST(CompareTest, ThreeSeedsCannotTell) {
+  Results before, after;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    before.runs.push_back(MakeRecordOf("oracle", seed, 0.02));
+    after.runs.push_back(MakeRecordOf("oracle", seed, 0.2));
+  }
+  EXPECT_EQ(ChangeOf(Compare(before, after), "ate_rmse_m"), Change::kCannotTell);
+}
+
+TEST(CompareTest, UnchangedCodeRaisesAFalseAlarmAtMostOnceInAHundredNights) {
+  constexpr int kNights = 200;
+  int alarms = 0;
+  for (int night = 0; night < kNights; ++night) {
+    // Twelve cells a night, all from the same distribution as the night before.
+    Results before, after;
+    std::mt19937_64 random(static_cast<std::uint64_t>(night) + 1000);
+    for (int cell = 0; cell < 12; ++cell) {
+      for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+        const auto draw = [&] { return 0.02 + 0.02 * static_cast<double>(random() % 1000) / 1000; };
+        before.runs.push_back(MakeRecordOf(fmt::format("x{}", cell), seed, draw()));
+        after.runs.push_back(MakeRecordOf(fmt::format("x{}", cell), seed, draw()));
+      }
+    }
+    const auto comparisons = Compare(before, after);
+    alarms += std::any_of(comparisons.begin(), comparisons.end(), [](const Comparison& c) {
+      return c.change == Change::kWorse || c.change == Change::kBetter;
+    });
+  }
+  EXPECT_LE(alarms, kNights / 100);
+}
+
+TEST(GateTest, WhatIsGoneFailsAndWhatIsWorseFails) {
+  const Results baseline = Night(0.02, 1);
+  const auto gone = GateVerdicts(baseline, {});
+  ASSERT_EQ(gone.size(), 1u);
+  EXPECT_FALSE(gone[0].passed);
+  int failed = 0;
+  for (const Verdict& verdict : GateVerdicts(baseline, Night(0.04, 2))) failed += !verdict.passed;
+  EXPECT_EQ(failed, 1);
+  for (const Verdict& verdict : GateVerdicts(baseline, Night(0.02, 3))) {
+    EXPECT_TRUE(verdict.passed) << verdict.name << verdict.why;
+  }
+}
+
+}  // namespace
+}  // namespace aisle

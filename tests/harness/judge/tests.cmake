@@ -1,0 +1,1 @@
+aisle_tests(harness/judge LINKS harness_record_nights)

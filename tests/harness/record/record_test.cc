@@ -1,0 +1,58 @@
+#include "harness/record/record.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "harness/record/frames_csv.h"
+#include "tests/harness/record/night.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RecordTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / fmt::format("aisle_record_{}", ::getpid());
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path folder_;
+};
+
+TEST_F(RecordTest, ResultsReadBackAsTheyWere) {
+  Results results = MakeNight({.scenes = 1, .systems = {"oracle"}}, folder_);
+  results.verdicts = {{.name = "a", .passed = true, .value = 0.01, .limit = 0.02, .why = "less"},
+                      {.name = "b", .flaky = true, .why = "none", .scene = "s"}};
+  const Results read = ResultsFromJson(ToJson(results), "x");
+  EXPECT_EQ(ToJson(read), ToJson(results));
+  const auto record = ReadRun(results.runs[0].spec, folder_);
+  ASSERT_TRUE(record);
+  EXPECT_EQ(ToJson(*record), ToJson(results.runs[0]));
+}
+
+TEST_F(RecordTest, FramesReadBackAsTheyWere) {
+  const RunResult run = MakeRun("a", "oracle", 1, 0.01);
+  const std::vector<FrameRow> rows = MakeFrameRows(run, ScoreRun(run));
+  EXPECT_EQ(ToCsv(FrameRowsFromCsv(ToCsv(rows), "x")), ToCsv(rows));
+}
+
+TEST_F(RecordTest, FramesOfAnotherVersionAreReadByTheirColumns) {
+  const std::string shuffled =
+      "process_ms,render_ms,frame,stamp_ns,state,movers_share,actors_share,features,"
+      "features_on_movers,inliers_on_movers,of_tomorrow\n"
+      "20.5,3,7,350000000,tracking,0.25,0.5,1200,3,1,x\n";
+  const std::vector<FrameRow> rows = FrameRowsFromCsv(shuffled, "x");
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].id, 7);
+  EXPECT_EQ(rows[0].state, TrackingState::kTracking);
+  EXPECT_EQ(rows[0].movers_share, 0.25);
+  EXPECT_EQ(rows[0].process_ms, 20.5);
+  EXPECT_FALSE(rows[0].difficulty.parallax_px);
+  EXPECT_FALSE(rows[0].live_m);
+}
+
+}  // namespace
+}  // namespace aisle
