@@ -8,9 +8,9 @@
 #include "harness/judge/twins.h"
 #include "harness/record/history.h"
 #include "harness/report/console.h"
-#include "harness/report/page.h"
+#include "harness/report/page/page.h"
+#include "harness/report/page/trends.h"
 #include "harness/report/report.h"
-#include "harness/report/trends.h"
 
 namespace aisle {
 

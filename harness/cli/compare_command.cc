@@ -5,10 +5,9 @@
 #include "harness/judge/compare.h"
 #include "harness/record/record_json.h"
 #include "harness/report/compare_text.h"
-#include "harness/report/page.h"
+#include "harness/report/page/page.h"
+#include "harness/report/page/resources.h"
 #include "harness/report/report.h"
-#include "harness/report/script.h"
-#include "harness/report/style.h"
 
 namespace aisle {
 namespace {
@@ -28,8 +27,7 @@ Results ReadEither(const std::string& path) {
 void WritePages(const std::vector<Comparison>& comparisons, const Options& options) {
   const std::filesystem::path out = options.out;
   const std::string title = options.before + " and " + options.after;
-  WriteFileAtomically(out / "style.css", kStyleSheet);
-  WriteFileAtomically(out / "report.js", kScript);
+  WriteResources(out);
   WriteFileAtomically(out / "compare.md", ToMarkdown(comparisons));
   WriteFileAtomically(out / "compare.json", ToJson(comparisons));
   WriteFileAtomically(out / "compare.html",

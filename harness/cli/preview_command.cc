@@ -3,7 +3,7 @@
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/simulated_sequence.h"
-#include "harness/report/overlay.h"
+#include "harness/report/picture/overlay.h"
 #include "harness/suite/suite.h"
 
 namespace aisle {

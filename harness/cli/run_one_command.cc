@@ -8,9 +8,9 @@
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/systems.h"
 #include "harness/record/record.h"
-#include "harness/report/samples.h"
-#include "harness/report/stage_sheets.h"
-#include "harness/report/video.h"
+#include "harness/report/picture/samples.h"
+#include "harness/report/picture/stage_sheets.h"
+#include "harness/report/picture/video.h"
 #include "harness/run/drive.h"
 
 namespace aisle {

@@ -1,7 +1,7 @@
 #include "harness/report/compare_text.h"
 #include "harness/record/record_json.h"
 
-#include "harness/report/html.h"
+#include "harness/report/markup/html.h"
 
 namespace aisle {
 namespace {

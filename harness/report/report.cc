@@ -1,14 +1,13 @@
 #include "harness/report/report.h"
 
 #include "harness/io/file.h"
-#include "harness/report/cost_section.h"
 #include "harness/report/junit.h"
-#include "harness/report/page.h"
-#include "harness/report/paper_page.h"
-#include "harness/report/script.h"
-#include "harness/report/style.h"
+#include "harness/report/page/cost_section.h"
+#include "harness/report/page/page.h"
+#include "harness/report/page/resources.h"
+#include "harness/report/paper/paper_page.h"
+#include "harness/report/paper/tables.h"
 #include "harness/report/summary_csv.h"
-#include "harness/report/tables.h"
 
 namespace aisle {
 namespace {
@@ -63,8 +62,7 @@ void WriteReport(const Results& results, const std::filesystem::path& report_dir
     body += "<p><a href=\"trends.html\">How the nights went</a></p>\n";
   }
   body += ProvenanceFooter(results);
-  WriteFileAtomically(report_dir / "style.css", kStyleSheet);
-  WriteFileAtomically(report_dir / "report.js", kScript);
+  WriteResources(report_dir);
   WriteFileAtomically(report_dir / "tables.md", ToMarkdown(tables));
   WriteFileAtomically(report_dir / "tables.tex", ToLatex(tables));
   WriteFileAtomically(report_dir / "index.html", Page(results.suite, "", body));

@@ -10,11 +10,7 @@
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
 #include "harness/judge/limit.h"
-#include "harness/report/html.h"
 #include "harness/report/junit.h"
-#include "harness/report/overlay.h"
-#include "harness/report/samples.h"
-#include "harness/report/simplify.h"
 #include "tests/harness/record/night.h"
 
 namespace aisle {
@@ -136,22 +132,6 @@ TEST_F(ReportTest, TwoHundredRunsFitIntoThreeMegabytesWithoutTheirPictures) {
   EXPECT_LT(bytes, 3'000'000u);
 }
 
-TEST(SimplifyTest, WhatIsLeftOutIsNearWhatIsDrawn) {
-  std::vector<Eigen::Vector3d> points;
-  for (int i = 0; i < 500; ++i) points.emplace_back(i, 20 * std::sin(0.05 * i) + i % 3, 0);
-  const std::vector<std::size_t> kept = Simplify(points, 1.5);
-  EXPECT_EQ(kept.front(), 0u);
-  EXPECT_EQ(kept.back(), points.size() - 1);
-  EXPECT_LT(kept.size(), points.size() / 3);
-  for (std::size_t k = 1; k < kept.size(); ++k) {
-    const Eigen::ParametrizedLine<double, 3> line =
-        Eigen::ParametrizedLine<double, 3>::Through(points[kept[k - 1]], points[kept[k]]);
-    for (std::size_t i = kept[k - 1]; i < kept[k]; ++i) {
-      EXPECT_LE(line.distance(points[i]), 1.5 + 1e-12);
-    }
-  }
-}
-
 TEST_F(ReportTest, HostileNamesDoNoHarmAnywhere) {
   const std::string hostile[] = {"\"><script>alert(1)</script>",
                                  "../../etc/x",
@@ -202,37 +182,6 @@ TEST_F(ReportTest, JunitNamesEveryRunThatCameToItsEnd) {
                "quickstart.s/live/orbslam2/1");
   EXPECT_STREQ(suite.child("testcase").attribute("name").value(), "completes");
   EXPECT_FALSE(suite.child("testcase").child("failure"));
-}
-
-TEST(EscapeTest, MarkupAndBrokenBytesAreHarmless) {
-  EXPECT_EQ(Escape("<a b=\"c\">&'"), "&lt;a b=&quot;c&quot;&gt;&amp;&#39;");
-  EXPECT_EQ(Escape("\xff\x01ü"), "\xEF\xBF\xBD\xEF\xBF\xBDü");
-  EXPECT_EQ(EscapeUrl("a b/<c>\n"), "a%20b/%3Cc%3E%0A");
-}
-
-TEST(OverlayTest, MovingPixelsTurnRed) {
-  const cv::Mat1b left(480, 752, static_cast<unsigned char>(100));
-  FrameTruth truth;
-  truth.dynamic = cv::Mat1b(480, 752, static_cast<unsigned char>(0));
-  truth.dynamic(cv::Rect(100, 100, 50, 50)) = 255;
-  const cv::Mat3b picture = DrawOverlay(left, &truth, nullptr, "caption");
-  EXPECT_GT(picture(120, 120)[2], picture(120, 120)[0]);
-  EXPECT_EQ(picture(300, 300), cv::Vec3b(100, 100, 100));
-}
-
-TEST(SamplesTest, TheFrameWithTheMostMoversIsAmongThem) {
-  SamplePictures samples(2);
-  const cv::Mat1b left(48, 64, static_cast<unsigned char>(100));
-  for (std::size_t i = 0; i < 20; ++i) {
-    FrameFacts facts;
-    facts.movers_share = i == 13 ? 0.5 : 0.1;
-    samples.See(i, 20, left, nullptr, {}, facts);
-  }
-  const fs::path folder = fs::temp_directory_path() / fmt::format("aisle_samples_{}", ::getpid());
-  EXPECT_THAT(
-      samples.Write(folder),
-      testing::ElementsAre("frame_000005.jpg", "frame_000013_most_movers.jpg", "frame_000015.jpg"));
-  fs::remove_all(folder);
 }
 
 }  // namespace

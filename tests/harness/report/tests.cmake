@@ -1,3 +1,7 @@
+foreach(part markup chart page picture)
+  aisle_tests(harness/report/${part})
+endforeach()
+aisle_tests(harness/report/paper LINKS harness_record_nights)
 # Made-up nights, looked at by a browser where Debian's chromium is there.
 aisle_tests(harness/report LINKS harness_record_nights)
 add_executable(write_night ${CMAKE_SOURCE_DIR}/tests/harness/report/write_night.cc)

@@ -1,0 +1,204 @@
+#include "harness/report/chart/time_chart.h"
+
+#include "harness/report/chart/svg.h"
+
+namespace aisle {
+namespace {
+
+constexpr double kWidth = 860, kLeft = 52, kRight = 846;
+constexpr double kTitle = 26;  ///< height above a panel
+using Points = std::vector<std::pair<double, double>>;
+
+/// Along the axis of time.
+struct Clock {
+  const char* title;
+  std::function<double(const FrameRow& first, const FrameRow& now)> at;
+};
+const Clock kSeconds{"time [s]", [](const FrameRow& first, const FrameRow& now) {
+                       return static_cast<double>(now.stamp_ns - first.stamp_ns) * 1e-9;
+                     }};
+const Clock kFrames{"frame", [](const FrameRow& first, const FrameRow& now) {
+                      return static_cast<double>(now.id - first.id);
+                    }};
+
+/// Values over time, in pieces where frames have none.
+struct Line {
+  std::string name, css;
+  std::vector<Points> pieces = {};
+};
+
+struct Panel {
+  std::string title;
+  double height;  ///< pixels
+  bool filled;    ///< the one line is an area
+  std::vector<Line> lines = {};
+};
+
+using ValueOf = std::function<std::optional<double>(const FrameRow&)>;
+
+Line MakeLine(const std::string& name, const std::string& css, const std::vector<FrameRow>& rows,
+              const Clock& clock, const ValueOf& value) {
+  Line line{name, css, {{}}};
+  for (const FrameRow& row : rows) {
+    if (const std::optional<double> at = value(row)) {
+      line.pieces.back().emplace_back(clock.at(rows.front(), row), *at);
+    } else if (!line.pieces.back().empty()) {
+      line.pieces.emplace_back();
+    }
+  }
+  return line;
+}
+
+double Highest(const Panel& panel) {
+  double highest = 0;
+  for (const Line& line : panel.lines) {
+    for (const Points& piece : line.pieces) {
+      for (const auto& [time, value] : piece) highest = std::max(highest, value);
+    }
+  }
+  return highest;
+}
+
+std::optional<double> Percent(const std::optional<double>& share) {
+  return share ? std::optional(100 * *share) : std::nullopt;
+}
+
+/// A line per system.
+Panel OfSystems(const std::string& title, double height, const std::vector<ChartSeries>& series,
+                const Clock& clock, const ValueOf& value) {
+  Panel panel{title, height, false};
+  for (const ChartSeries& one : series) {
+    panel.lines.push_back(
+        MakeLine(one.name, fmt::format("line c{}", one.color), *one.rows, clock, value));
+  }
+  return panel;
+}
+
+/// What is the same for every system.
+Panel OfScene(const std::string& title, const std::string& css, bool filled,
+              const std::vector<FrameRow>& rows, const Clock& clock, const ValueOf& value) {
+  return {title, 44, filled, {MakeLine(title, css, rows, clock, value)}};
+}
+
+Panel Movers(const std::vector<FrameRow>& rows, const Clock& clock) {
+  return OfScene("pixels that move [%]", "movers", true, rows, clock,
+                 [](const FrameRow& row) { return 100 * row.movers_share; });
+}
+
+Panel Rejected(double height, const std::vector<ChartSeries>& series, const Clock& clock) {
+  return OfSystems("corners rejected", height, series, clock,
+                   [](const FrameRow& row) -> std::optional<double> {
+                     if (!row.corners_rejected) return std::nullopt;
+                     return *row.corners_rejected;
+                   });
+}
+
+std::vector<Panel> Panels(const std::vector<ChartSeries>& series,
+                          const std::vector<FrameRow>& longest) {
+  std::vector<Panel> panels;
+  panels.push_back(OfSystems("error of the live track [cm]", 190, series, kSeconds,
+                             [](const FrameRow& row) { return Percent(row.live_error_m); }));
+  panels.push_back(Movers(longest, kSeconds));
+  panels.push_back(Rejected(64, series, kSeconds));
+  panels.push_back(
+      OfScene("still and textured [%]", "texture", true, longest, kSeconds,
+              [](const FrameRow& row) { return Percent(row.difficulty.static_texture_share); }));
+  Panel motion{"motion of the image [px/frame]", 54, false};
+  const auto add = [&](const char* name, const char* css, std::optional<double> Difficulty::*part) {
+    motion.lines.push_back(MakeLine(name, css, longest, kSeconds,
+                                    [part](const FrameRow& row) { return row.difficulty.*part; }));
+  };
+  add("all", "line s0", &Difficulty::flow_px);
+  add("parallax", "line s1", &Difficulty::parallax_px);
+  add("blur", "line s2", &Difficulty::blur_px);
+  panels.push_back(motion);
+  return panels;
+}
+
+void DropEmptyLines(Panel* panel) {
+  std::erase_if(panel->lines, [](const Line& line) {
+    return std::all_of(line.pieces.begin(), line.pieces.end(), [](const Points& piece) {
+      return std::all_of(piece.begin(), piece.end(), [](const auto& at) { return at.second <= 0; });
+    });
+  });
+}
+
+void Draw(const Panel& panel, const Axis& x, double top, const char* x_title, Svg* svg) {
+  const bool last = *x_title != '\0';
+  const Axis y{0, 1.06 * Highest(panel), top + panel.height, top};
+  svg->Grid(x, y, x_title, panel.title, {.x_labels = last, .y_ticks = panel.height > 100 ? 4 : 2});
+  for (const Line& line : panel.lines) {
+    for (const Points& piece : line.pieces) {
+      Points at;
+      for (const auto& [time, value] : piece) at.emplace_back(x(time), y(value));
+      if (panel.filled) {
+        svg->Area(at, y(0), line.css, line.name);
+      } else {
+        svg->Polyline(at, line.css, line.name);
+      }
+    }
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> LegendOf(const std::vector<Line>& lines) {
+  std::vector<std::pair<std::string, std::string>> entries;
+  for (const Line& line : lines) entries.emplace_back(line.name, line.css);
+  return entries;
+}
+
+/// Panels of which something is known, one under the other.
+std::string DrawPanels(std::vector<Panel> panels, const std::vector<ChartSeries>& series,
+                       const std::vector<FrameRow>& longest, const Clock& clock,
+                       const std::string& label) {
+  std::erase_if(panels, [](const Panel& panel) { return Highest(panel) <= 0; });
+  double height = 30;
+  for (Panel& panel : panels) {
+    DropEmptyLines(&panel);
+    height += kTitle + panel.height;
+  }
+  const Axis x{0, std::max(clock.at(longest.front(), longest.back()), 1e-3), kLeft, kRight};
+  Svg svg(kWidth, height + 34, label);
+  double top = 0;
+  for (const Panel& panel : panels) {
+    top += kTitle;
+    Draw(panel, x, top, &panel == &panels.back() ? clock.title : "", &svg);
+    // Lines that are not systems are named where they are drawn.
+    if (panel.lines.size() > 1 && panel.lines.front().css.find(" s") != std::string::npos) {
+      svg.Legend(LegendOf(panel.lines), kLeft + 230, top - 8);
+    }
+    top += panel.height;
+  }
+  std::vector<std::pair<std::string, std::string>> systems;
+  for (const ChartSeries& one : series) {
+    systems.emplace_back(one.name, fmt::format("line c{}", one.color));
+  }
+  svg.Legend(systems, kLeft, top + 54);
+  return svg.Finish();
+}
+
+}  // namespace
+
+std::string TimeChart(const std::vector<ChartSeries>& series) {
+  const std::vector<FrameRow>* longest = Longest(series);
+  if (longest == nullptr) return "";
+  return DrawPanels(Panels(series, *longest), series, *longest, kSeconds,
+                    "what happened over time");
+}
+
+std::string ErrorOverFrames(const std::vector<ChartSeries>& series) {
+  const std::vector<FrameRow>* longest = Longest(series);
+  if (longest == nullptr) return "";
+  return DrawPanels({OfSystems("error of the live track [m]", 220, series, kFrames,
+                               [](const FrameRow& row) { return row.live_error_m; }),
+                     Movers(*longest, kFrames)},
+                    series, *longest, kFrames, "trajectory error over frames");
+}
+
+std::string RejectedOverFrames(const std::vector<ChartSeries>& series) {
+  const std::vector<FrameRow>* longest = Longest(series);
+  if (longest == nullptr) return "";
+  return DrawPanels({Rejected(220, series, kFrames), Movers(*longest, kFrames)}, series, *longest,
+                    kFrames, "corners rejected over frames");
+}
+
+}  // namespace aisle

@@ -1,8 +1,0 @@
-#pragma once
-
-namespace aisle {
-
-/// The one style sheet of every report: light and dark, no other resource.
-extern const char* const kStyleSheet;
-
-}  // namespace aisle
