@@ -1,7 +1,6 @@
 #include "harness/cli/bench_foreign.h"
 
-#include <opencv2/imgproc.hpp>
-
+#include "harness/bench/foreign.h"
 #include "harness/cli/command.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
@@ -10,42 +9,19 @@
 namespace aisle {
 namespace {
 
-// Other renderers filter their pixels; means over blocks do not feel it.
-constexpr int kBlock_px = 8;
-constexpr double kMeanBound = 0.005, kBlockBound = 0.03, kLeastShare = 0.95;
-constexpr float kBlack = 1e-3f;  // below this blocks are compared as if they were so bright
-
-/// Means over whole blocks.
-cv::Mat3f Blocks(const cv::Mat3f& image) {
-  cv::Mat3f small;
-  const cv::Size size(std::max(1, image.cols / kBlock_px), std::max(1, image.rows / kBlock_px));
-  cv::resize(image, small, size, 0, 0, cv::INTER_AREA);
-  return small;
-}
-
 bool Compare(const cv::Mat3f& ours, const cv::Mat3f& theirs) {
-  const cv::Mat3f a = Blocks(ours), b = Blocks(theirs);
-  const cv::Scalar mean = cv::mean(ours), expected = cv::mean(theirs);
+  const ForeignBounds bounds;
   bool good = true;
-  for (const auto& [name, channel] :
-       {std::pair("red", 2), std::pair("green", 1), std::pair("blue", 0)}) {
-    int close = 0;
-    for (int y = 0; y < a.rows; ++y) {
-      for (int x = 0; x < a.cols; ++x) {
-        const float reference = b(y, x)[channel];
-        close += std::abs(a(y, x)[channel] - reference) <=
-                 static_cast<float>(kBlockBound) * std::max(reference, kBlack);
-      }
-    }
-    const double ratio = mean[channel] / std::max(expected[channel], 1e-12);
-    const double share = close / static_cast<double>(a.total());
+  for (const ChannelComparison& channel : CompareChannels(ours, theirs, bounds)) {
     fmt::print(
         "{:<6} mean {:.6f}, reference {:.6f}, ratio {:.4f}; {:.1f} % of blocks within {:.0f} %\n",
-        name, mean[channel], expected[channel], ratio, 100 * share, 100 * kBlockBound);
-    good &= std::abs(ratio - 1) <= kMeanBound && share >= kLeastShare;
+        channel.name, channel.mean, channel.expected, channel.ratio, 100 * channel.share,
+        100 * bounds.block);
+    good &= Keeps(channel, bounds);
   }
   fmt::print("bounds: means within {:.1f} %, {:.0f} % of blocks of {} x {} pixels: {}\n",
-             100 * kMeanBound, 100 * kLeastShare, kBlock_px, kBlock_px, good ? "kept" : "missed");
+             100 * bounds.mean, 100 * bounds.least_share, bounds.block_px, bounds.block_px,
+             good ? "kept" : "missed");
   return good;
 }
 

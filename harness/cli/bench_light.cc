@@ -1,18 +1,14 @@
-#include <opencv2/core.hpp>
-
+#include "harness/bench/light.h"
 #include "harness/cli/bench_foreign.h"
 #include "harness/cli/command.h"
 #include "harness/cli/places.h"
 #include "harness/io/file.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
-#include "harness/plugs/light_check.h"
 #include "harness/suite/suite.h"
 
 namespace aisle {
 namespace {
-
-constexpr double kMaxMedian = 0.05, kMinSsim = 0.95;
 
 struct LightOptions {
   SimulatedSequenceOptions simulation;
@@ -43,25 +39,6 @@ std::pair<std::string, int> SceneAndFrame(const std::string& view) {
     throw InputError(Printable(view) + ": expected SCENE:FRAME, for example paper/scene2:170");
   }
   return {view.substr(0, colon), std::stoi(digits)};
-}
-
-/// Nightly above, reference in the middle, and below how they differ: mid grey none, white and
-/// black 20 % too bright and too dark.
-cv::Mat1b Sheet(const LightComparison& light) {
-  const auto grey = [](const cv::Mat1f& linear) {
-    cv::Mat1f encoded;
-    cv::pow(cv::min(linear, 1.0), 1 / 2.2, encoded);
-    return encoded;
-  };
-  cv::Mat1f difference;
-  cv::divide(light.nightly - light.reference, cv::max(light.reference, 1e-3), difference);
-  cv::Mat1f sheet;
-  cv::vconcat(std::vector<cv::Mat>{grey(light.nightly), grey(light.reference),
-                                   0.5 + difference * (0.5 / 0.2)},
-              sheet);
-  cv::Mat1b bytes;
-  sheet.convertTo(bytes, CV_8U, 255);
-  return bytes;
 }
 
 std::string ChangeHeading() {
@@ -111,8 +88,8 @@ int BenchLight(LightOptions options) {
     std::fflush(stdout);
     std::string name = options.simulation.scene_name;
     std::ranges::replace(name, '/', '_');
-    WriteImage(out / fmt::format("{}_{}.png", name, light.frame), Sheet(light));
-    good &= light.median_relative_error <= kMaxMedian && light.ssim >= kMinSsim;
+    WriteImage(out / fmt::format("{}_{}.png", name, light.frame), LightSheet(light));
+    good &= Keeps(light);
   }
   if (!changes.empty()) table += "\n" + ChangeHeading() + changes;
   WriteFileAtomically(out / "light.md", table);

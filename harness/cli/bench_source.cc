@@ -1,16 +1,10 @@
 #include "harness/cli/bench_source.h"
 
 #include "harness/cli/places.h"
-#include "harness/io/dataset.h"
 #include "harness/io/input_error.h"
-#include "harness/plugs/cached_sequence.h"
-#include "harness/plugs/recorded_sequence.h"
-#include "harness/plugs/simulated_sequence.h"
 #include "harness/suite/suite.h"
 
 namespace aisle {
-
-namespace fs = std::filesystem;
 
 void AddSourceOptions(CLI::App* command, BenchSource* source) {
   command
@@ -27,10 +21,11 @@ void AddSourceOptions(CLI::App* command, BenchSource* source) {
 }
 
 BenchView ParseView(const std::string& text) {
-  BenchView view{.source = text};
+  BenchView view{.text = text, .path = {}};
+  std::string source = text;
   const std::size_t colon = text.rfind(':');
   if (colon != std::string::npos) {
-    view.source = text.substr(0, colon);
+    source = text.substr(0, colon);
     char rest = 0;
     if (std::sscanf(text.c_str() + colon + 1, "%d-%d%c", &view.from, &view.to, &rest) != 2 ||
         view.from < 0 || view.to <= view.from) {
@@ -38,28 +33,16 @@ BenchView ParseView(const std::string& text) {
                        ": expected SOURCE:FROM-TO, for example paper/scene2:90-130");
     }
   }
-  if (!fs::exists(SceneFile(view.source))) {
-    throw InputError(Printable(view.source) +
+  view.path = SceneFile(source);
+  if (!std::filesystem::exists(view.path)) {
+    throw InputError(Printable(source) +
                      ": neither a scene (a file, or a name like paper/scene2) nor the folder of a "
                      "recording");
   }
+  if (std::filesystem::is_directory(view.path)) return view;
+  view.scene = SceneName(view.path);
+  view.assets_dir = AssetsDir().string();
   return view;
-}
-
-std::unique_ptr<Sequence> OpenSource(const std::string& name, const BenchSource& source) {
-  if (fs::is_directory(name)) return OpenRecording(name, DatasetFormatFromName(source.format));
-  const std::string file = SceneFile(name);
-  const SimulatedSequenceOptions simulation{.scene_file = file,
-                                            .scene_name = SceneName(file),
-                                            .assets_dir = AssetsDir().string(),
-                                            .twin = source.twin,
-                                            .seed = source.seed,
-                                            .threads = source.threads};
-  if (source.frames_dir.empty()) return OpenSimulation(simulation);
-  const fs::path kept = fs::path(source.frames_dir) /
-                        fmt::format("{}_{}_{}", SceneName(file), source.twin, source.seed);
-  return OpenCached(FrameStore(kept),
-                    [simulation](std::uint64_t* hash) { return OpenSimulation(simulation, hash); });
 }
 
 }  // namespace aisle

@@ -6,7 +6,7 @@
 
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
-#include "harness/score/masks.h"
+#include "harness/score/mask_scores.h"
 
 namespace aisle {
 namespace {
@@ -176,7 +176,7 @@ std::vector<FrameRow> MakeFrameRows(const RunResult& run, const RunScore& score)
         .features = facts.features,
         .features_on_movers = facts.features_on_movers,
         .inliers_on_movers = facts.inliers_on_movers,
-        .mask_iou = facts.mask ? PixelIou(*facts.mask) : std::nullopt,
+        .mask_iou = facts.mask ? PixelDetection(*facts.mask).iou.value : std::nullopt,
         .corners_rejected = facts.mask ? std::optional(facts.mask->corners_rejected) : std::nullopt,
         .difficulty = facts.difficulty,
         .render_ms = facts.render_ms,

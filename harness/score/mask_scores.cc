@@ -56,18 +56,45 @@ void AddRecallByKind(const std::vector<ObjectOutcome>& objects, Scorecard* score
   }
 }
 
-/// Large movers alone, and large regions: a wrong speck does not weigh as much as a lost aisle.
+bool IsLarge(const ObjectOutcome& object) { return IsLargeMover(object); }
+
 void AddLargeMovers(const MaskFacts& sum, Scorecard* scores) {
-  const ObjectRule is_large = [](const ObjectOutcome& object) { return IsLargeMover(object); };
-  (*scores)["object_precision_large"] = RatioScore(sum.large_regions - sum.large_regions_astray,
-                                                   sum.large_regions, "nothing large was rejected");
-  (*scores)["object_recall_large"] = ShareOf(sum.objects, is_large, IsFound);
-  (*scores)["object_covered_large"] = ShareOf(sum.objects, is_large, IsCovered);
+  const Detection large = LargeDetection(sum);
+  (*scores)["object_precision_large"] = large.precision;
+  (*scores)["object_recall_large"] = large.recall;
+  (*scores)["object_covered_large"] = ShareOf(sum.objects, IsLarge, IsCovered);
   (*scores)["object_covered"] = ShareOf(
       sum.objects, [](const ObjectOutcome&) { return true; }, IsCovered);
 }
 
 }  // namespace
+
+Detection PixelDetection(const MaskFacts& sum) {
+  const auto tp = static_cast<double>(sum.true_positives);
+  const auto fp = static_cast<double>(sum.false_positives);
+  const auto fn = static_cast<double>(sum.false_negatives);
+  return {.precision = RatioScore(tp, tp + fp, "nothing was rejected"),
+          .recall = RatioScore(tp, tp + fn, "nothing moved"),
+          .iou = RatioScore(tp, tp + fp + fn, "nothing moved, nothing was rejected")};
+}
+
+Detection ObjectDetection(const MaskFacts& sum) {
+  const double found = sum.objects_found;
+  return {.precision = RatioScore(found, found + sum.objects_invented, "nothing was rejected"),
+          .recall = RatioScore(found, found + sum.objects_missed, "nothing moved"),
+          .iou = RatioScore(sum.iou_sum, found, "no object was found")};
+}
+
+ObjectCount CountLargeMovers(const MaskFacts& sum) {
+  return CountObjects(sum.objects, IsLarge, IsFound);
+}
+
+Detection LargeDetection(const MaskFacts& sum) {
+  return {.precision = RatioScore(sum.large_regions - sum.large_regions_astray, sum.large_regions,
+                                  "nothing large was rejected"),
+          .recall = ShareOf(sum.objects, IsLarge, IsFound),
+          .iou = Absent("1", "not asked of large movers")};
+}
 
 void AddMasks(const std::vector<FrameFacts>& frames, Scorecard* scores) {
   MaskFacts sum;
@@ -78,22 +105,18 @@ void AddMasks(const std::vector<FrameFacts>& frames, Scorecard* scores) {
     sum += *frame.mask;
   }
   if (!any) return;  // the system makes no masks: no row is clearer than nine empty ones
-  const auto tp = static_cast<double>(sum.true_positives);
-  const auto fp = static_cast<double>(sum.false_positives);
-  const auto fn = static_cast<double>(sum.false_negatives);
-  (*scores)["mask_precision"] = RatioScore(tp, tp + fp, "nothing was rejected");
-  (*scores)["mask_recall"] = RatioScore(tp, tp + fn, "nothing moved");
-  (*scores)["mask_iou"] = RatioScore(tp, tp + fp + fn, "nothing moved, nothing was rejected");
-  const double found = sum.objects_found;
+  const Detection pixels = PixelDetection(sum), objects = ObjectDetection(sum);
+  (*scores)["mask_precision"] = pixels.precision;
+  (*scores)["mask_recall"] = pixels.recall;
+  (*scores)["mask_iou"] = pixels.iou;
   const auto count = frames.size();
-  (*scores)["objects_moving"] = Present(found + sum.objects_missed, "1", count);
-  (*scores)["objects_found"] = Present(found, "1", count);
+  (*scores)["objects_moving"] = Present(sum.objects_found + sum.objects_missed, "1", count);
+  (*scores)["objects_found"] = Present(sum.objects_found, "1", count);
   (*scores)["objects_missed"] = Present(sum.objects_missed, "1", count);
   (*scores)["objects_invented"] = Present(sum.objects_invented, "1", count);
-  (*scores)["object_precision"] =
-      RatioScore(found, found + sum.objects_invented, "nothing was rejected");
-  (*scores)["object_recall"] = RatioScore(found, found + sum.objects_missed, "nothing moved");
-  (*scores)["object_iou"] = RatioScore(sum.iou_sum, found, "no object was found");
+  (*scores)["object_precision"] = objects.precision;
+  (*scores)["object_recall"] = objects.recall;
+  (*scores)["object_iou"] = objects.iou;
   (*scores)["static_features_lost"] =
       RatioScore(sum.static_corners_lost, sum.static_corners, "no corner on a static surface");
   const std::optional<double> f = BoundaryF({.truth = sum.outline_truth,

@@ -254,12 +254,6 @@ std::string Describe(const MaskOptions& options) {
       options.min_region_pixels, options.close_gap_px, options.match_iou);
 }
 
-std::optional<double> PixelIou(const MaskFacts& masks) {
-  return Ratio(
-      static_cast<double>(masks.true_positives),
-      static_cast<double>(masks.true_positives + masks.false_positives + masks.false_negatives));
-}
-
 std::optional<double> Ratio(double part, double whole) {
   return whole > 0 ? std::optional(part / whole) : std::nullopt;
 }

@@ -93,9 +93,6 @@ MaskFacts CompareMasks(const cv::Mat1b& left, const FrameTruth& truth,
 /// The rule by which objects are counted, in words.
 std::string Describe(const MaskOptions& options);
 
-/// Intersection over union of the pixels that move and those rejected; absent where there are none.
-std::optional<double> PixelIou(const MaskFacts& masks);
-
 /// tp / (tp + fp) and its kin; absent where nothing was there to be counted.
 std::optional<double> Ratio(double part, double whole);
 

@@ -1,0 +1,74 @@
+#include "harness/bench/accuracy.h"
+
+#include "harness/io/input_error.h"
+#include "harness/plugs/systems.h"
+#include "harness/run/drive.h"
+#include "harness/score/scorecard.h"
+
+namespace aisle {
+namespace {
+
+/// Some frames of another sequence.
+class Stretch : public Sequence {
+ public:
+  Stretch(const Sequence& whole, int from, int to) : whole_(whole), from_(from), to_(to) {}
+
+  std::string name() const override { return whole_.name(); }
+  StereoCalibration calibration() const override { return whole_.calibration(); }
+  double rate_hz() const override { return whole_.rate_hz(); }
+  std::vector<FrameRequest> Schedule() const override {
+    const std::vector<FrameRequest> all = whole_.Schedule();
+    const auto clamp = [&](int i) { return std::min<std::ptrdiff_t>(i, std::ssize(all)); };
+    return {all.begin() + clamp(from_), all.begin() + clamp(to_)};
+  }
+  SequenceFrame At(const FrameRequest& request) const override { return whole_.At(request); }
+
+ private:
+  const Sequence& whole_;
+  int from_, to_;
+};
+
+void Add(const RunResult& run, AccuracyOfView* view) {
+  const Scorecard scores = ScoreRun(run).scores;
+  const auto add = [&](const char* score, std::vector<double>* values) {
+    const auto found = scores.find(score);
+    if (found != scores.end() && found->second.value) values->push_back(*found->second.value);
+  };
+  add("ate_live_rmse_m", &view->live_m);
+  add("ate_rmse_m", &view->final_m);
+  view->frames = std::max(view->frames, run.facts.size());
+  view->frames_lost.push_back(static_cast<double>(run.facts.size()) -
+                              static_cast<double>(run.trajectory.live.size()));
+}
+
+}  // namespace
+
+void CheckStarts(const BenchView& view, std::int64_t end, const AccuracyBenchOptions& options) {
+  const std::int64_t last = view.from + std::int64_t{options.starts - 1} * options.step;
+  if (last < end) return;
+  throw InputError(
+      fmt::format("{}: its last start would be frame {}, and it ends before frame {}: fewer "
+                  "--starts or a smaller --step",
+                  Printable(view.text), last, end));
+}
+
+AccuracyOfView MeasureAccuracy(const BenchView& view, const AccuracyBenchOptions& options,
+                               const BenchProgress& progress) {
+  const auto whole = OpenSource(view, options.source);
+  CheckStarts(view, std::ssize(whole->Schedule()), options);
+  const System& system = FindSystem(options.system);
+  AccuracyOfView outcome;
+  for (int start = 0; start < options.starts; ++start) {
+    const Stretch stretch(*whole, view.from + start * options.step, view.to);
+    const auto estimator = system.make(whole->calibration(), {.threads = options.source.threads});
+    const auto observe = [&](const DrivenFrame& frame) {
+      if (!progress) return;
+      progress(fmt::format("{}: start {} of {}, frame {} of {}", view.text, start + 1,
+                           options.starts, frame.index + 1, frame.count));
+    };
+    Add(Drive(stretch, *estimator, MasksFromTruth(system.mask_source), {}, observe), &outcome);
+  }
+  return outcome;
+}
+
+}  // namespace aisle

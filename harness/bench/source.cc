@@ -1,0 +1,31 @@
+#include "harness/bench/source.h"
+
+#include <filesystem>
+
+#include "harness/io/dataset.h"
+#include "harness/plugs/cached_sequence.h"
+#include "harness/plugs/recorded_sequence.h"
+#include "harness/plugs/simulated_sequence.h"
+
+namespace aisle {
+
+namespace fs = std::filesystem;
+
+std::unique_ptr<Sequence> OpenSource(const BenchView& view, const BenchSource& source) {
+  if (fs::is_directory(view.path)) {
+    return OpenRecording(view.path, DatasetFormatFromName(source.format));
+  }
+  const SimulatedSequenceOptions simulation{.scene_file = view.path,
+                                            .scene_name = view.scene,
+                                            .assets_dir = view.assets_dir,
+                                            .twin = source.twin,
+                                            .seed = source.seed,
+                                            .threads = source.threads};
+  if (source.frames_dir.empty()) return OpenSimulation(simulation);
+  const fs::path kept =
+      fs::path(source.frames_dir) / fmt::format("{}_{}_{}", view.scene, source.twin, source.seed);
+  return OpenCached(FrameStore(kept),
+                    [simulation](std::uint64_t* hash) { return OpenSimulation(simulation, hash); });
+}
+
+}  // namespace aisle

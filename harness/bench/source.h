@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "harness/contract/sequence.h"
+
+namespace aisle {
+
+/// Where a bench takes its frames from.
+struct BenchSource {
+  std::string format = "euroc";  ///< of a recording
+  std::string twin = "live";     ///< of a scene
+  std::uint64_t seed = 1;        ///< of a scene
+  std::string frames_dir = {};   ///< keeps what a scene renders; empty: nothing is kept
+  int threads = 0;               ///< 0: all
+};
+
+/// A stretch of a scene or of a recording's folder: frames from `from` on, `to` not included.
+struct BenchView {
+  std::string text;             ///< as it was asked for
+  std::string path;             ///< the scene's file, or the recording's folder
+  std::string scene = {};       ///< its name, "paper/scene2"; empty for a recording
+  std::string assets_dir = {};  ///< meshes and textures of a scene; empty for a recording
+  int from = 0, to = std::numeric_limits<int>::max();
+};
+
+/// The whole scene or recording, whatever the stretch. Kept frames lie in a folder of their own for
+/// each scene, twin and seed, and are used whichever program made them. Throws InputError.
+std::unique_ptr<Sequence> OpenSource(const BenchView& view, const BenchSource& source);
+
+/// Told what a bench is at, a few words, as often as it gets on; may be empty.
+using BenchProgress = std::function<void(const std::string& at)>;
+
+}  // namespace aisle

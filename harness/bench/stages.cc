@@ -1,0 +1,86 @@
+#include "harness/bench/stages.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <opencv2/features2d.hpp>
+
+#include "harness/plugs/systems.h"
+
+namespace aisle {
+namespace {
+
+double ResidentMib() {
+  std::ifstream statm("/proc/self/statm");
+  double pages = 0, resident_pages = 0;
+  statm >> pages >> resident_pages;
+  return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
+double MillisecondsOf(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+  return took.count();
+}
+
+double ReferenceMs(const StereoFrame& frame) {
+  const cv::Ptr<cv::ORB> orb = cv::ORB::create(1200);
+  std::vector<cv::KeyPoint> keypoints;
+  cv::Mat descriptors;
+  return MillisecondsOf([&] {
+    orb->detectAndCompute(frame.left, cv::noArray(), keypoints, descriptors);
+    orb->detectAndCompute(frame.right, cv::noArray(), keypoints, descriptors);
+  });
+}
+
+/// The frames of the view, the first `most` of them.
+std::vector<FrameRequest> FirstOf(const BenchView& view, const std::vector<FrameRequest>& all,
+                                  std::size_t most) {
+  const auto from = std::min(static_cast<std::size_t>(view.from), all.size());
+  const auto to = std::min({static_cast<std::size_t>(view.to), all.size(), from + most});
+  return {all.begin() + static_cast<std::ptrdiff_t>(from),
+          all.begin() + static_cast<std::ptrdiff_t>(to)};
+}
+
+}  // namespace
+
+std::map<std::string, StageTime> MeasureStages(const BenchView& view,
+                                               const StageBenchOptions& options,
+                                               const BenchProgress& progress,
+                                               const std::function<void(const BenchLap&)>& lapped) {
+  const auto sequence = OpenSource(view, options.source);
+  std::map<std::string, StageTime> stages;
+  std::unique_ptr<Estimator> estimator;
+  stages["set_up"].Add(MillisecondsOf([&] {  // what it loads: the visual words
+    estimator = FindSystem(options.system)
+                    .make(sequence->calibration(), {.threads = options.source.threads});
+  }));
+  const std::vector<FrameRequest> schedule =
+      FirstOf(view, sequence->Schedule(), static_cast<std::size_t>(options.frames));
+  const std::int64_t lap_ns = schedule.empty()
+                                  ? 0
+                                  : schedule.back().stamp_ns - schedule.front().stamp_ns +
+                                        static_cast<std::int64_t>(1e9 / sequence->rate_hz());
+  for (int lap = 0; lap < options.laps; ++lap) {
+    FrameEstimate estimate;
+    int lost = 0;
+    for (const FrameRequest& request : schedule) {
+      StereoFrame images = sequence->At(request).images;
+      images.id += lap * std::ssize(schedule);
+      images.stamp_ns += lap * lap_ns;
+      if (options.laps == 1) stages["reference"].Add(ReferenceMs(images));
+      stages["frame"].Add(MillisecondsOf([&] { estimate = estimator->Process(images, {}); }));
+      for (const auto& [stage, ms] : estimate.stage_ms) stages[stage].Add(ms);
+      lost += estimate.state == TrackingState::kTracking ? 0 : 1;
+      if (progress) progress(fmt::format("frame {}", stages["frame"].count));
+    }
+    if (lapped) {
+      lapped({.index = lap, .last = estimate, .lost = lost, .resident_mib = ResidentMib()});
+    }
+  }
+  return stages;
+}
+
+}  // namespace aisle
