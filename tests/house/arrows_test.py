@@ -7,6 +7,7 @@ import arrows
 ROOMS = arrows.read_arrows(
     "simulator/world: simulator/scene\nsimulator/scene: \nsimulator/trace: simulator/world\n"
     "harness/score: harness/contract\nharness/contract: \nharness/plugs: harness/contract,simulator\n"
+    "harness/cli: harness/score\n"
 )
 
 
@@ -30,6 +31,10 @@ class ArrowsTest(unittest.TestCase):
         self.assertEqual(check("harness/plugs/a.cc", f'#include "{face}"'), [])
         self.assertEqual(len(check("harness/plugs/a.cc", f'#include "{inside}"')), 1)
         self.assertEqual(len(check("harness/score/a.cc", f'#include "{face}"')), 1)
+
+    def test_the_roof_keeps_to_its_list_too(self):
+        self.assertEqual(check("harness/cli/a.cc", '#include "harness/contract/run.h"'), [])
+        self.assertEqual(len(check("harness/cli/a.cc", '#include "harness/plugs/systems.h"')), 1)
 
     def test_foreign_libraries_stay_in_their_room(self):
         self.assertEqual(len(check("simulator/world/a.cc", "#include <embree3/rtcore.h>")), 1)
