@@ -13,26 +13,34 @@ namespace aisle {
 /// Which frame is wanted: at a time and from a rig pose. The run asks for the planned pose today;
 /// a vehicle steered by the estimate would ask for another.
 struct FrameRequest {
-  std::int64_t id = 0;
-  std::int64_t stamp_ns = 0;
+  std::int64_t id = 0;        ///< number of the frame, from 0 on
+  std::int64_t stamp_ns = 0;  ///< nanoseconds; the middle of the exposure
+  /// Metres; world right-handed with z up, rig = left rectified camera (x right, y down, z
+  /// forward).
   Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();
 };
 
 struct SequenceFrame {
   StereoFrame images;
-  std::optional<FrameTruth> truth;
+  std::optional<FrameTruth> truth;  ///< absent where nobody knows it, in parts where some is known
 };
 
-/// The socket for a source of stereo frames: a simulation, a recording.
+/// The socket for a source of stereo frames: a simulation, a recording. At is pure and may be
+/// called from several threads at once, in any order: the same request gives the same pixels. It
+/// throws std::runtime_error where a frame cannot be had; that is the source's failure, not the
+/// system's.
 class Sequence {
  public:
   virtual ~Sequence() = default;
-  virtual std::string name() const = 0;
+  virtual std::string name() const = 0;  ///< as reports call it, "paper/scene2"
+  /// Of the rectified pair; does not change.
   virtual StereoCalibration calibration() const = 0;
-  virtual double rate_hz() const = 0;
-  /// The frames as planned, in time order. A recording's poses are its truth or identity.
+  virtual double rate_hz() const = 0;  ///< frames a second as planned, more than 0
+  /// The frames as planned: ids count from 0, stamps rise. A recording's poses are its truth, or
+  /// identity where it has none.
   virtual std::vector<FrameRequest> Schedule() const = 0;
-  /// One frame; pure. A recording ignores the pose and refuses stamps it does not have.
+  /// One frame; the images belong to the caller. A recording ignores the pose and refuses stamps it
+  /// does not have.
   virtual SequenceFrame At(const FrameRequest& request) const = 0;
 };
 
