@@ -1,0 +1,126 @@
+#include "harness/score/score_names.h"
+
+namespace aisle {
+namespace {
+
+/// One description for each statistic of a sample of errors.
+void AddStatistics(const std::string& prefix, const std::string& what,
+                   std::vector<ScoreDescription>* names) {
+  for (const auto& [statistic, word] :
+       {std::pair("rmse", "root mean square"), std::pair("mean", "mean"),
+        std::pair("median", "median"), std::pair("std", "standard deviation"),
+        std::pair("min", "least"), std::pair("max", "largest")}) {
+    names->push_back({prefix + "_" + statistic + "_m", "m", std::string(word) + " of " + what});
+  }
+}
+
+void AddTrajectory(std::vector<ScoreDescription>* names) {
+  AddStatistics("ate", "the final track's distance from truth, aligned by SE(3)", names);
+  names->push_back({"ate_rot_rmse_deg", "deg", "root mean square of its turn from truth"});
+  names->push_back({"ate_live_rmse_m", "m", "ATE of the poses as known at each frame"});
+  for (const auto& [prefix, span] :
+       {std::pair("rpe", "from frame to frame"), std::pair("rpe_1m", "over one metre of path"),
+        std::pair("rpe_1s", "over one second")}) {
+    AddStatistics(std::string(prefix) + "_trans", std::string("the error of motion ") + span,
+                  names);
+    names->push_back({std::string(prefix) + "_rot_rmse_deg", "deg",
+                      std::string("root mean square of the error of turning ") + span});
+  }
+  for (const auto& [suffix, lengths] :
+       {std::pair("", "KITTI's segments of 100 to 800 m"), std::pair("_short", "short segments")}) {
+    names->push_back({std::string("t_rel") + suffix + "_percent", "%",
+                      std::string("translation error over ") + lengths});
+    names->push_back({std::string("r_rel") + suffix + "_deg_per_100m", "deg/100m",
+                      std::string("rotation error over ") + lengths});
+  }
+  names->push_back({"coverage", "1", "share of frames with a pose"});
+  names->push_back({"times_lost", "1", "how often tracking was lost"});
+  names->push_back({"recovery_max_s", "s", "the longest time until it was found again"});
+  for (const char* quantile : {"50", "95"}) {
+    names->push_back({std::string("error_all_p") + quantile + "_m", "m",
+                      std::string("quantile ") + quantile +
+                          " % of the error over all frames, lost ones counted as failures"});
+  }
+  names->push_back({"dynamic_penalty", "1", "ATE of this run over that of its empty twin"});
+}
+
+void AddMasks(std::vector<ScoreDescription>* names) {
+  const std::vector<ScoreDescription> masks = {
+      {"mask_precision", "1", "share of the rejected pixels that move"},
+      {"mask_recall", "1", "share of the moving pixels that are rejected"},
+      {"mask_iou", "1", "intersection over union of rejected and moving pixels"},
+      {"mask_boundary_f", "1", "F-measure of the mask's outline (DAVIS)"},
+      {"object_precision", "1", "share of the rejected regions that are moving objects"},
+      {"object_recall", "1", "share of the moving objects that are found by their rectangle"},
+      {"object_iou", "1", "mean IoU of the rectangles of found objects"},
+      {"object_covered", "1", "share of the moving objects most of whose pixels are rejected"},
+      {"object_precision_large", "1", "share of the large regions that cover something moving"},
+      {"object_recall_large", "1", "recall of objects of 1 % of the image at 0.15 m/s or more"},
+      {"object_covered_large", "1", "share of these most of whose pixels are rejected"},
+      {"object_recall_size_*", "1", "recall of objects by their pixels"},
+      {"object_recall_distance_*", "1", "recall of objects by their distance"},
+      {"object_recall_speed_*", "1", "recall of objects by their speed"},
+      {"object_recall_class_*", "1", "recall of objects by their class"},
+      {"objects_moving", "1", "moving objects, summed over frames"},
+      {"objects_found", "1", "of them, found"},
+      {"objects_missed", "1", "of them, missed"},
+      {"objects_invented", "1", "rejected regions that are no moving object"},
+      {"static_features_lost", "1", "share of the corners on what stands that are rejected"},
+  };
+  names->insert(names->end(), masks.begin(), masks.end());
+  for (const char* kind : {"large", "slow"}) {
+    const std::string mover = std::string("mover_") + kind + "_";
+    const std::string movers = std::string(kind) + " movers";
+    names->push_back({mover + "found", "1", "share of the " + movers + " that are ever found"});
+    names->push_back({mover + "found_within_*", "1", "share of them found within that time"});
+    names->push_back({mover + "delay_median_s", "s", "median time until they are found"});
+    names->push_back({mover + "delay_max_s", "s", "longest time until one is found"});
+    names->push_back({mover + "gap_max_frames", "frames", "longest loss of one once found"});
+    names->push_back(
+        {mover + "gap_turning_max_frames", "frames", "the same, of frames in which the rig turns"});
+  }
+}
+
+void AddFrames(std::vector<ScoreDescription>* names) {
+  const std::vector<ScoreDescription> frames = {
+      {"features_on_movers", "1", "share of the features that sit on moving surfaces"},
+      {"inliers_on_movers_per_frame", "1", "of those that took part in the pose, a frame"},
+      {"difficulty_movers_share", "1", "share of the image that moves"},
+      {"difficulty_static_texture_share", "1", "share of it that stands still and shows texture"},
+      {"difficulty_flow_px", "px", "median motion of static points from frame to frame"},
+      {"difficulty_blur_px", "px", "how far the exposure smears them"},
+      {"difficulty_parallax_px", "px", "the part of their motion that translation made"},
+      {"ms_*_mean", "ms", "wall time of that stage a frame"},
+      {"peak_rss_mib", "MiB", "peak of resident memory"},
+  };
+  names->insert(names->end(), frames.begin(), frames.end());
+}
+
+bool Matches(const std::string& name, const std::string& pattern) {
+  const std::size_t star = pattern.find('*');
+  if (star == std::string::npos) return name == pattern;
+  const std::string head = pattern.substr(0, star), tail = pattern.substr(star + 1);
+  return name.size() > head.size() + tail.size() && name.starts_with(head) && name.ends_with(tail);
+}
+
+}  // namespace
+
+const std::vector<ScoreDescription>& ScoreNames() {
+  static const std::vector<ScoreDescription> names = [] {
+    std::vector<ScoreDescription> all;
+    AddTrajectory(&all);
+    AddMasks(&all);
+    AddFrames(&all);
+    return all;
+  }();
+  return names;
+}
+
+bool IsScoreName(const std::string& name) {
+  const auto& names = ScoreNames();
+  return std::any_of(names.begin(), names.end(), [&](const ScoreDescription& description) {
+    return Matches(name, description.name);
+  });
+}
+
+}  // namespace aisle

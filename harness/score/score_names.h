@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace aisle {
+
+/// What the name of a score stands for.
+struct ScoreDescription {
+  std::string name;  ///< "ate_rmse_m"; a '*' stands for a stage or class that runs bring with them
+  std::string unit;  ///< "1" for shares and counts
+  std::string help;  ///< one sentence
+};
+
+/// Every score that a run can have, in the order in which a page explains them.
+const std::vector<ScoreDescription>& ScoreNames();
+
+/// Whether a run can have a score of that name.
+bool IsScoreName(const std::string& name);
+
+}  // namespace aisle
