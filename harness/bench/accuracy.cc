@@ -56,17 +56,18 @@ AccuracyOfView MeasureAccuracy(const BenchView& view, const AccuracyBenchOptions
                                const BenchProgress& progress) {
   const auto whole = OpenSource(view, options.source);
   CheckStarts(view, std::ssize(whole->Schedule()), options);
-  const System& system = FindSystem(options.system);
+  const MaskSource mask_source = FindSystem(options.system.like).mask_source;
   AccuracyOfView outcome;
   for (int start = 0; start < options.starts; ++start) {
     const Stretch stretch(*whole, view.from + start * options.step, view.to);
-    const auto estimator = system.make(whole->calibration(), {.threads = options.source.threads});
+    const auto estimator =
+        MakeSystem(options.system, whole->calibration(), {.threads = options.source.threads});
     const auto observe = [&](const DrivenFrame& frame) {
       if (!progress) return;
       progress(fmt::format("{}: start {} of {}, frame {} of {}", view.text, start + 1,
                            options.starts, frame.index + 1, frame.count));
     };
-    Add(Drive(stretch, *estimator, MasksFromTruth(system.mask_source), {}, observe), &outcome);
+    Add(Drive(stretch, *estimator, MasksFromTruth(mask_source), {}, observe), &outcome);
   }
   return outcome;
 }

@@ -4,12 +4,13 @@
 #include <vector>
 
 #include "harness/bench/source.h"
+#include "harness/contract/system_spec.h"
 
 namespace aisle {
 
 struct AccuracyBenchOptions {
   BenchSource source{.twin = "empty"};
-  std::string system = "orbslam2";
+  SystemSpec system = BuiltIn("orbslam2");
   int starts = 9;  ///< drives per view
   int step = 1;    ///< frames from one start to the next
 };

@@ -71,9 +71,9 @@ double DynamicOfView::static_wrong() const {
 DynamicOfView MeasureDynamic(const BenchView& view, const DynamicBenchOptions& options,
                              const BenchProgress& progress) {
   const auto sequence = OpenSource(view, options.source);
-  const auto estimator = FindSystem(options.system)
-                             .make(sequence->calibration(), {.threads = options.source.threads,
-                                                             .draw_stages = options.draw_stages});
+  const auto estimator =
+      MakeSystem(options.system, sequence->calibration(),
+                 {.threads = options.source.threads, .draw_stages = options.draw_stages});
   DynamicOfView result;
   result.name = sequence->name();
   std::vector<FrameFacts> facts;

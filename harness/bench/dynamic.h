@@ -5,13 +5,14 @@
 #include <string>
 
 #include "harness/bench/source.h"
+#include "harness/contract/system_spec.h"
 #include "harness/score/continuity.h"
 
 namespace aisle {
 
 struct DynamicBenchOptions {
   BenchSource source{.format = "kitti"};
-  std::string system = "robust";
+  SystemSpec system = BuiltIn("robust");
   int warm_up = 20;           ///< frames before the view's first that are shown but not counted
   std::filesystem::path out;  ///< folder for pictures; empty: none
   int every = 10;             ///< a picture every so many frames

@@ -54,8 +54,8 @@ std::map<std::string, StageTime> MeasureStages(const BenchView& view,
   std::map<std::string, StageTime> stages;
   std::unique_ptr<Estimator> estimator;
   stages["set_up"].Add(MillisecondsOf([&] {  // what it loads: the visual words
-    estimator = FindSystem(options.system)
-                    .make(sequence->calibration(), {.threads = options.source.threads});
+    estimator =
+        MakeSystem(options.system, sequence->calibration(), {.threads = options.source.threads});
   }));
   const std::vector<FrameRequest> schedule =
       FirstOf(view, sequence->Schedule(), static_cast<std::size_t>(options.frames));

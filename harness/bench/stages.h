@@ -6,12 +6,13 @@
 
 #include "harness/bench/source.h"
 #include "harness/contract/estimate.h"
+#include "harness/contract/system_spec.h"
 
 namespace aisle {
 
 struct StageBenchOptions {
   BenchSource source{.twin = "empty"};
-  std::string system = "orbslam2";
+  SystemSpec system = BuiltIn("orbslam2");
   int frames = 100;  ///< of the view's first, at most
   int laps = 1;      ///< drives over the same frames, one after the other
 };

@@ -3,6 +3,7 @@
 #include "harness/bench/accuracy.h"
 #include "harness/cli/bench_source.h"
 #include "harness/cli/command.h"
+#include "harness/cli/system_choice.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
 #include "harness/score/statistics.h"
@@ -13,6 +14,7 @@ namespace {
 struct Options {
   std::vector<std::string> views;
   AccuracyBenchOptions bench;
+  SystemChoice system{.name = "orbslam2", .set = {}};
   std::string json;
 };
 
@@ -30,8 +32,8 @@ int BenchAccuracy(const Options& options) {
     views.push_back(ParseView(text));
     CheckStarts(views.back(), views.back().to, bench);
   }
-  fmt::print("{}, {} starts, {} frames apart: median (least to most)\n", bench.system, bench.starts,
-             bench.step);
+  fmt::print("{}, {} starts, {} frames apart: median (least to most)\n", bench.system.name,
+             bench.starts, bench.step);
   fmt::print("{:28}{:>7}{:>24}{:>24}{:>24}\n", "view", "frames", "live ATE cm", "final ATE cm",
              "frames lost");
   nlohmann::json rows = nlohmann::json::array();
@@ -67,7 +69,7 @@ void AddBenchAccuracy(CLI::App* bench, Action* action) {
                    "scene or folder of a recording, :FROM-TO for some frames")
       ->required();
   AddSourceOptions(command, &options->bench.source);
-  command->add_option("--system", options->bench.system, "default orbslam2");
+  AddSystemChoice(command, &options->system);
   command->add_option("--starts", options->bench.starts, "drives per view; default 9")
       ->check(CLI::Range(1, 1000));
   command->add_option("--step", options->bench.step, "frames from one start to the next; default 1")
@@ -75,7 +77,12 @@ void AddBenchAccuracy(CLI::App* bench, Action* action) {
   command->add_option("--json", options->json, "write every value there too");
   command->footer(
       "Example: ./aisle bench accuracy paper/scene2 weakness/plain_coat --frames-dir frames");
-  command->callback([=] { *action = [=] { return BenchAccuracy(*options); }; });
+  command->callback([=] {
+    *action = [=] {
+      options->bench.system = SpecOf(options->system);
+      return BenchAccuracy(*options);
+    };
+  });
 }
 
 }  // namespace aisle

@@ -1,9 +1,10 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/cli/command.h"
-#include "harness/cli/places.h"
 #include "harness/io/file.h"
+#include "harness/io/places.h"
 #include "harness/plugs/render_cost.h"
+#include "harness/record/provenance.h"
 #include "harness/suite/suite.h"
 
 namespace aisle {

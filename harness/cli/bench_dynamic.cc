@@ -3,6 +3,7 @@
 #include "harness/bench/dynamic.h"
 #include "harness/cli/bench_source.h"
 #include "harness/cli/command.h"
+#include "harness/cli/system_choice.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
 #include "harness/score/front_end.h"
@@ -15,6 +16,7 @@ namespace {
 struct Options {
   std::vector<std::string> views;
   DynamicBenchOptions bench;
+  SystemChoice system{.name = "robust", .set = {}};
   std::string json;
 };
 
@@ -119,7 +121,7 @@ int BenchDynamic(const Options& options) {
   fmt::print(
       "{}, after {} frames of warming "
       "up\n{:28}{:>7}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}{:>8}\n",
-      bench.system, bench.warm_up, "view", "frames", "prec.", "recall", "large P", "large R",
+      bench.system.name, bench.warm_up, "view", "frames", "prec.", "recall", "large P", "large R",
       "after s", "gap", "box IoU", "px IoU", "px rec.", "static", "all", "ms");
   nlohmann::json rows = nlohmann::json::array();
   DynamicOfView sum;
@@ -155,7 +157,7 @@ void AddBenchDynamic(CLI::App* bench, Action* action) {
   command->add_option("VIEWS", options->views,
                       "scene or folder of a recording, :FROM-TO for some frames (default: ten "
                       "stretches of the scenes)");
-  command->add_option("--system", options->bench.system, "default robust");
+  AddSystemChoice(command, &options->system);
   AddSourceOptions(command, &options->bench.source);
   command
       ->add_option("--warm-up", options->bench.warm_up,
@@ -174,7 +176,12 @@ void AddBenchDynamic(CLI::App* bench, Action* action) {
       "not found (> where one never was); gap, the most frames in a row in which one once found "
       "was lost. What moves already when a stretch begins counts from its first scored frame on.\n"
       "Example: ./aisle bench dynamic paper/scene2:90-130 --system paper --out masks");
-  command->callback([=] { *action = [=] { return BenchDynamic(*options); }; });
+  command->callback([=] {
+    *action = [=] {
+      options->bench.system = SpecOf(options->system);
+      return BenchDynamic(*options);
+    };
+  });
 }
 
 }  // namespace aisle

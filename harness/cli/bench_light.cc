@@ -1,10 +1,10 @@
 #include "harness/bench/light.h"
 #include "harness/cli/bench_foreign.h"
 #include "harness/cli/command.h"
-#include "harness/cli/places.h"
 #include "harness/io/file.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
+#include "harness/io/places.h"
 #include "harness/suite/suite.h"
 
 namespace aisle {

@@ -6,6 +6,7 @@
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/places.h"
 #include "harness/picture/realism.h"
 
 namespace aisle {
@@ -103,7 +104,7 @@ std::string Definitions() {
 
 void AddBenchRealism(CLI::App* bench, Action* action) {
   const auto options = std::make_shared<Options>();
-  options->data = (fs::path(AISLE_SOURCE_DIR) / "../shared/data").lexically_normal().string();
+  options->data = (SourceDir() / "../shared/data").lexically_normal().string();
   CLI::App* command = bench->add_subcommand(
       "realism", "contrast, corners, spectrum, tones and noise of pictures beside real cameras'");
   command

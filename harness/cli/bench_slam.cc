@@ -3,6 +3,7 @@
 #include "harness/bench/stages.h"
 #include "harness/cli/bench_source.h"
 #include "harness/cli/command.h"
+#include "harness/cli/system_choice.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
 #include "harness/score/front_end.h"
@@ -13,6 +14,7 @@ namespace {
 struct Options {
   std::string source = "paper/scene1", json;
   StageBenchOptions bench;
+  SystemChoice system{.name = "orbslam2", .set = {}};
 };
 
 void PrintLap(const BenchLap& lap) {
@@ -77,7 +79,7 @@ void AddBenchSlam(CLI::App* bench, Action* action) {
       "SOURCE", options->source,
       "scene or folder of a recording, :FROM-TO for some frames; default paper/scene1");
   AddSourceOptions(slam, &options->bench.source);
-  slam->add_option("--system", options->bench.system, "default orbslam2");
+  AddSystemChoice(slam, &options->system);
   slam->add_option("--frames", options->bench.frames, "at most; default 100")
       ->check(CLI::Range(1, 100000));
   slam->add_option(
@@ -89,7 +91,12 @@ void AddBenchSlam(CLI::App* bench, Action* action) {
   slam->footer(
       "Example: ./aisle bench slam --json slam.json\n"
       "         ./aisle bench slam paper/scene4 --laps 20 --frames 900 --frames-dir f");
-  slam->callback([=] { *action = [=] { return BenchSlam(*options); }; });
+  slam->callback([=] {
+    *action = [=] {
+      options->bench.system = SpecOf(options->system);
+      return BenchSlam(*options);
+    };
+  });
 }
 
 }  // namespace aisle

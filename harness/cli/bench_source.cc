@@ -1,7 +1,7 @@
 #include "harness/cli/bench_source.h"
 
-#include "harness/cli/places.h"
 #include "harness/io/input_error.h"
+#include "harness/io/places.h"
 #include "harness/suite/suite.h"
 
 namespace aisle {

@@ -1,9 +1,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
+#include "harness/campaign/inputs.h"
 #include "harness/cli/command.h"
-#include "harness/cli/inputs.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/record/record_json.h"
@@ -11,6 +12,13 @@
 
 namespace aisle {
 namespace {
+
+std::vector<std::string> Lines(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
 
 std::vector<std::string> Complaints(const std::string& file) {
   try {
@@ -21,7 +29,7 @@ std::vector<std::string> Complaints(const std::string& file) {
     }
     return complaints;
   } catch (const InputError& error) {
-    return {error.what()};
+    return Lines(error.what());
   }
 }
 

@@ -3,17 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-namespace aisle {
+#include "harness/contract/exit_code.h"
 
-/// pytest's codes: testers know them.
-enum ExitCode : int {
-  kAllPassed = 0,
-  kVerdictFailed = 1,
-  kInterrupted = 2,  ///< and resumable
-  kOwnFailure = 3,   ///< ours or the machine's
-  kBadInput = 4,     ///< wrong usage, wrong files
-  kNothingToDo = 5,  ///< nothing was selected
-};
+namespace aisle {
 
 /// What the chosen command will do; returns an exit code.
 using Action = std::function<int()>;
@@ -23,6 +15,7 @@ void AddRunCommand(CLI::App* app, Action* action);
 void AddRunOneCommand(CLI::App* app, Action* action);
 void AddRerunCommand(CLI::App* app, Action* action);
 void AddMergeCommand(CLI::App* app, Action* action);
+void AddSystemsCommand(CLI::App* app, Action* action);
 void AddScoreCommand(CLI::App* app, Action* action);
 void AddCheckCommand(CLI::App* app, Action* action);
 void AddPreviewCommand(CLI::App* app, Action* action);

@@ -3,8 +3,27 @@
 #include <cstdio>
 
 #include "harness/io/input_error.h"
+#include "harness/io/nearest_word.h"
+#include "harness/record/provenance.h"
 
 namespace aisle {
+
+namespace {
+
+/// The command that a misspelt one was meant to be.
+void Suggest(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (!command->get_group().empty()) commands.push_back(command->get_name());
+  }
+  const bool known = std::find(commands.begin(), commands.end(), word) != commands.end();
+  const std::string near = known || word.starts_with("-") ? "" : NearestWord(word, commands);
+  if (!near.empty()) {
+    fmt::print(stderr, "'{}' is no command; did you mean {}?\n", Printable(word), near);
+  }
+}
+
+}  // namespace
 
 void AddCommands(CLI::App* app, Action* action) {
   AddRunCommand(app, action);
@@ -17,6 +36,7 @@ void AddCommands(CLI::App* app, Action* action) {
   AddSlamCommand(app, action);
   AddVocabularyCommand(app, action);
   AddBenchCommand(app, action);
+  AddSystemsCommand(app, action);
   AddScoreCommand(app, action);
   AddReportCommand(app, action);
   AddCompareCommand(app, action);
@@ -28,7 +48,11 @@ void AddCommands(CLI::App* app, Action* action) {
 
 int RunCommandLine(int argc, const char* const* argv) {
   CLI::App app{"aisle: simulation-in-the-loop tests for stereo visual SLAM in dynamic scenes"};
-  app.set_version_flag("--version", AISLE_VERSION);
+  app.name("aisle");
+  app.set_version_flag("--version", [] {
+    const Provenance own = OwnProvenance();
+    return fmt::format("aisle {} ({})", own.version, own.commit);
+  });
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 all passed, 1 a verdict failed, 2 interrupted (resumable), 3 own or "
@@ -39,7 +63,9 @@ int RunCommandLine(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kAllPassed : kBadInput;  // --help is no error
+    const bool is_answer = app.exit(error) == 0;  // --help is no error
+    if (!is_answer && argc > 1) Suggest(app, argv[1]);
+    return is_answer ? kAllPassed : kBadInput;
   }
   try {
     return action();

@@ -6,10 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/cli/command.h"
-#include "harness/cli/places.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/places.h"
 #include "harness/plugs/stage_bits.h"
+#include "harness/record/provenance.h"
 #include "harness/record/record_json.h"
 
 namespace aisle {

@@ -10,8 +10,9 @@
 
 #include "harness/cli/command.h"
 #include "harness/cli/doctor_bits.h"
-#include "harness/cli/places.h"
 #include "harness/cli/terminal.h"
+#include "harness/io/places.h"
+#include "harness/record/provenance.h"
 #include "harness/record/record_json.h"
 
 namespace aisle {
@@ -105,7 +106,7 @@ Finding Tool(const std::string& program, const std::string& use) {
 
 /// Debian's packages that packages.txt of the source tree names.
 Finding Packages() {
-  std::ifstream list(fs::path(AISLE_SOURCE_DIR) / "packages.txt");
+  std::ifstream list(SourceDir() / "packages.txt");
   if (!list) return {"packages", Health::kLacking, "no packages.txt beside the program", ""};
   std::string line, missing;
   int count = 0;
@@ -150,7 +151,7 @@ int Doctor(const std::string& out, bool json) {
     fmt::print("{:10} {:8} {}\n", finding.what, WordOf(finding.health), finding.said);
     if (!finding.remedy.empty()) fmt::print("{:19} -> {}\n", "", finding.remedy);
   }
-  if (json) fmt::print("{}", Dump({{"version", AISLE_VERSION}, {"findings", list}}));
+  if (json) fmt::print("{}", Dump({{"version", OwnProvenance().version}, {"findings", list}}));
   return bad ? kOwnFailure : kAllPassed;
 }
 

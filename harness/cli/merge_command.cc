@@ -1,9 +1,10 @@
 // Parts of a suite that ran on several machines, made one report again.
-#include "harness/cli/collect.h"
+#include "harness/campaign/collect.h"
 #include "harness/cli/command.h"
-#include "harness/cli/places.h"
+#include "harness/cli/publish.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/places.h"
 #include "harness/suite/plan.h"
 
 namespace aisle {
@@ -47,7 +48,7 @@ void Adopt(const RunSpec& spec, const fs::path& from, const fs::path& to) {
 
 int Merge(const Options& options) {
   const PlanFile plan = CommonPlan(options.parts);
-  const std::vector<RunSpec> specs = Plan(plan.suite);
+  const std::vector<RunSpec> specs = Plan(plan.suites);
   double wall_s = 0;
   for (const RunSpec& spec : specs) {
     std::optional<RunRecord> taken;
@@ -68,10 +69,10 @@ int Merge(const Options& options) {
     }
   }
   WriteFileAtomically(fs::path(options.out) / "plan.json", ToJson(plan));
-  Results results = Collect(plan.suite, specs, options.out);
+  Results results = Collect(plan, specs, options.out);
   results.started = NowIso8601();
   results.wall_s = wall_s;
-  results.rerun = plan.command;
+  results.rerun = plan.command + " --out " + options.out;
   return Publish(results, options.out, {.json = options.json});
 }
 

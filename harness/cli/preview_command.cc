@@ -1,7 +1,7 @@
 #include "harness/cli/command.h"
-#include "harness/cli/places.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
+#include "harness/io/places.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/report/picture/overlay.h"
 #include "harness/suite/suite.h"

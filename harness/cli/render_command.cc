@@ -1,11 +1,11 @@
 #include <charconv>
 
 #include "harness/cli/command.h"
-#include "harness/cli/places.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/dataset.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/places.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/run/frames_ahead.h"
 #include "harness/suite/suite.h"

@@ -2,13 +2,14 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "harness/campaign/campaign.h"
 #include "harness/cli/command.h"
-#include "harness/cli/evening.h"
-#include "harness/cli/jobs.h"
-#include "harness/cli/places.h"
+#include "harness/cli/terminal.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/places.h"
 #include "harness/judge/bits.h"
+#include "harness/record/provenance.h"
 #include "harness/record/record.h"
 #include "harness/record/record_json.h"
 #include "harness/record/results.h"
@@ -27,10 +28,13 @@ struct Options {
   bool json = false;
 };
 
-RunSpec FindRun(const Suite& suite, const std::string& id, const std::string& folder) {
+/// The job as it was run. Where there is none of that name, the message says what there is.
+Job FindJob(const std::string& id, const std::string& folder) {
+  const fs::path plan_path = fs::path(folder) / "plan.json";
+  const PlanFile plan = PlanFromJson(ReadFile(plan_path), plan_path.string());
   std::string known;
-  for (const RunSpec& spec : Plan(suite)) {
-    if (RunId(spec) == id) return spec;
+  for (const RunSpec& spec : Plan(plan.suites)) {
+    if (RunId(spec) == id) return ReadJob(JobPath(folder, spec));
     if (known.size() < 400) known += "\n  " + RunId(spec);
   }
   throw InputError(
@@ -80,22 +84,31 @@ int Say(const Options& options, const fs::path& out, const std::optional<RunReco
   return differences.empty() || !same_processor ? kAllPassed : kVerdictFailed;
 }
 
-int Rerun(const Options& options) {
-  const fs::path plan_path = fs::path(options.in) / "plan.json";
-  const PlanFile plan = PlanFromJson(ReadFile(plan_path), plan_path.string());
-  const RunSpec spec = FindRun(plan.suite, options.id, options.in);
-  const std::optional<RunRecord> before = ReadRun(spec, options.in);
-  const fs::path out = options.out.empty() ? fs::path(options.in) / "rerun" : fs::path(options.out);
+/// The same run by this program, into a folder of its own.
+Job AsOfNow(const RunSpec& spec, const Options& options, const fs::path& out) {
   const std::vector<Job> jobs =
-      MakeJobs(plan.suite, {spec}, Fingerprints(),
+      MakeJobs({spec}, Fingerprints(),
                {.out = out, .threads = options.threads, .debug_dynamic = options.debug_dynamic});
-  fs::remove_all(out / "runs" / RunId(spec));
-  Evening evening(out, 1, options.limits);
-  const std::atomic<bool> never = false;
-  evening.Run(jobs, 1, never);
-  if (evening.failure() != 0) return evening.failure();
-  const std::optional<RunRecord> after = ReadRun(spec, out);
-  return Say(options, out, before, after);
+  return jobs.front();
+}
+
+int Rerun(const Options& options) {
+  const Job job = FindJob(options.id, options.in);
+  const std::optional<RunRecord> before = ReadRun(job.spec, options.in);
+  const fs::path out = options.out.empty() ? fs::path(options.in) / "rerun" : fs::path(options.out);
+  const std::vector<Job> again = StillToDo({AsOfNow(job.spec, options, out)}, false);
+  ProgressLine line;
+  const CampaignOutcome outcome =
+      RunCampaign(again, {.at_once = 1, .limits = options.limits, .retry = false},
+                  {.say =
+                       [&](const std::string& text) {
+                         line.Clear();
+                         fmt::print(stderr, "{}\n", text);
+                       },
+                   .show = [&](const std::string& text) { line.Show(text); }});
+  line.Clear();
+  if (outcome.failure != 0) return outcome.failure;
+  return Say(options, out, before, ReadRun(job.spec, out));
 }
 
 }  // namespace

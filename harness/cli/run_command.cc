@@ -1,17 +1,21 @@
 #include <csignal>
 #include <filesystem>
+#include <thread>
 
-#include "harness/cli/collect.h"
+#include "harness/campaign/campaign.h"
+#include "harness/campaign/collect.h"
+#include "harness/campaign/forecast.h"
+#include "harness/campaign/inputs.h"
 #include "harness/cli/command.h"
-#include "harness/cli/evening.h"
-#include "harness/cli/inputs.h"
-#include "harness/cli/jobs.h"
-#include "harness/cli/places.h"
+#include "harness/cli/publish.h"
+#include "harness/cli/terminal.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/places.h"
 #include "harness/judge/compare.h"
+#include "harness/plugs/simulated_sequence.h"
+#include "harness/record/provenance.h"
 #include "harness/report/report.h"
-#include "harness/suite/plan.h"
 
 namespace aisle {
 namespace {
@@ -31,53 +35,12 @@ struct Options {
   bool debug_dynamic = false;
   bool no_retry = false;
   bool gate = false;
+  bool dry_run = false;
   bool json = false;
 };
 
 std::atomic<bool> interrupted = false;
 void OnInterrupt(int) { interrupted = true; }
-
-/// The runs that have no result for these very inputs; what else lies there is taken away.
-std::vector<Job> StillToDo(std::vector<Job> jobs, const fs::path& out, bool resume) {
-  std::vector<Job> todo;
-  for (Job& job : jobs) {
-    if (resume && ReadFinishedRun(job.spec, job.inputs_hash, out)) continue;
-    fs::remove_all(out / "runs" / RunId(job.spec));
-    todo.push_back(std::move(job));
-  }
-  return todo;
-}
-
-bool IsFailure(const std::optional<RunRecord>& record) {
-  return record && record->status != RunStatus::kOk && record->status != RunStatus::kLost;
-}
-
-/// Runs that failed are tried once more, elsewhere: the same inputs that end well the second time
-/// make the run flaky. They never make it good.
-bool LookForFlaky(const std::vector<Job>& jobs, const fs::path& out, const Options& options) {
-  std::vector<Job> again;
-  const fs::path elsewhere = out / "again";
-  for (const Job& job : jobs) {
-    if (!IsFailure(ReadRun(job.spec, out))) continue;
-    again.push_back(job);
-    auto& argv = again.back().argv;
-    *(std::find(argv.begin(), argv.end(), "--out") + 1) = elsewhere.string();
-    fs::remove_all(elsewhere / "runs" / RunId(job.spec));
-  }
-  if (again.empty()) return true;
-  fmt::print(stderr, "aisle: {} failed; once more, to tell flaky from broken\n", again.size());
-  Evening evening(elsewhere, again.size(), options.limits);
-  if (!evening.Run(again, options.jobs, interrupted)) return false;
-  for (const Job& job : again) {
-    const std::optional<RunRecord> second = ReadRun(job.spec, elsewhere);
-    std::optional<RunRecord> first = ReadRun(job.spec, out);
-    if (!second || !first || IsFailure(second)) continue;
-    first->flaky = true;
-    first->status_why += "; a second attempt with the same inputs ended well";
-    WriteFileAtomically(out / "runs" / RunId(job.spec) / "result.json", ToJson(*first));
-  }
-  return true;
-}
 
 void HoldAgainstBaseline(Results* results) {
   const fs::path path = BaselinePath(results->suite);
@@ -87,57 +50,91 @@ void HoldAgainstBaseline(Results* results) {
   }
 }
 
+/// What repeats this very campaign, but for where it goes: parts of one share their plan.
 std::string CommandLine(const Options& options) {
   std::string line = "./aisle run " + Describe(options.inputs);
   if (options.gate) line += " --gate";
   return line;
 }
 
-int RunSuite(const Options& options) {
+/// A baseline speaks of the suite as it is committed, and must be there before the night begins.
+void CheckGate(const Options& options, const PlanFile& plan) {
+  if (!options.gate) return;
+  if (!options.inputs.set.empty()) {
+    throw InputError(
+        "--gate holds a suite against its baseline as it is committed: leave --set out");
+  }
+  if (!fs::exists(BaselinePath(plan.name()))) {
+    throw InputError(BaselinePath(plan.name()).string(), 0,
+                     "no baseline for this suite; make one with `aisle baseline DIR`");
+  }
+}
+
+CampaignOutcome RunToEnd(const std::vector<Job>& jobs, const Options& options) {
+  std::signal(SIGINT, OnInterrupt);
+  std::signal(SIGTERM, OnInterrupt);
+  ProgressLine line;
+  return RunCampaign(jobs,
+                     {.at_once = options.jobs,
+                      .limits = options.limits,
+                      .retry = !options.no_retry,
+                      .interrupted = &interrupted},
+                     {.say =
+                          [&](const std::string& text) {
+                            line.Clear();
+                            fmt::print(stderr, "{}\n", text);
+                          },
+                      .show = [&](const std::string& text) { line.Show(text); }});
+}
+
+/// The runs that this command is to make: the plan's, or a part of them.
+std::vector<RunSpec> SpecsOf(const PlanFile& plan, const Shard& shard) {
+  const std::vector<RunSpec> specs = TakeShard(Plan(plan.suites), shard);
+  fmt::print(stderr, "aisle: {}\n",
+             ToText(ForecastOf(specs, static_cast<int>(std::thread::hardware_concurrency()),
+                               CountSceneFrames)));
+  return specs;
+}
+
+int RunSuites(const Options& options) {
   const std::string started = NowIso8601();
   const Shard shard = ShardFromText(options.shard);
   const PlanFile plan{LoadInputs(options.inputs), CommandLine(options)};
-  CheckScenes(plan.suite);
-  if (options.gate && !fs::exists(BaselinePath(plan.suite.name))) {
-    throw InputError(BaselinePath(plan.suite.name).string(), 0,
-                     "no baseline for this suite; make one with `aisle baseline DIR`");
-  }
-  const std::vector<RunSpec> specs = TakeShard(Plan(plan.suite), shard);
+  CheckScenes(plan.suites);
+  CheckGate(options, plan);
+  const std::vector<RunSpec> specs = SpecsOf(plan, shard);
   if (specs.empty()) {
     fmt::print(stderr, "aisle: part {} holds no run of the suite\n", options.shard);
     return kNothingToDo;
   }
-  const fs::path out =
-      options.out.empty() ? fs::path("out") / plan.suite.name : fs::path(options.out);
-  const std::vector<Job> todo = StillToDo(MakeJobs(plan.suite, specs, Fingerprints(),
+  if (options.dry_run) return kAllPassed;
+  const fs::path out = options.out.empty() ? fs::path("out") / plan.name() : fs::path(options.out);
+  const std::vector<Job> todo = StillToDo(MakeJobs(specs, Fingerprints(),
                                                    {.out = out,
                                                     .threads = options.threads,
                                                     .frame_cache = !options.no_frame_cache,
                                                     .video = !options.no_video,
                                                     .debug_dynamic = options.debug_dynamic}),
-                                          out, options.resume);
+                                          options.resume);
   if (specs.size() > todo.size()) {
     fmt::print(stderr, "aisle: {} of {} runs are already there\n", specs.size() - todo.size(),
                specs.size());
   }
   WriteFileAtomically(out / "plan.json", ToJson(plan));
-
-  std::signal(SIGINT, OnInterrupt);
-  std::signal(SIGTERM, OnInterrupt);
-  Evening evening(out, todo.size(), options.limits);
-  bool finished = evening.Run(todo, options.jobs, interrupted);
-  if (finished && !options.no_retry) finished = LookForFlaky(todo, out, options);
-  if (!finished) {
+  const CampaignOutcome outcome = RunToEnd(todo, options);
+  if (!outcome.finished) {
     fmt::print(stderr, "aisle: interrupted; the same command with --resume goes on from here\n");
     return kInterrupted;
   }
-
-  Results results = Collect(plan.suite, specs, out, {.judge_limits = shard.count == 1});
+  Results results = Collect(plan, specs, out, {.judge_limits = shard.count == 1});
   results.started = started;
-  results.wall_s = evening.wall_s();
-  results.rerun = plan.command;
+  results.wall_s = outcome.wall_s;
+  results.rerun = plan.command + (options.out.empty() ? "" : " --out " + options.out);
   if (options.gate) HoldAgainstBaseline(&results);
-  return Publish(results, out, {.json = options.json, .failure = evening.failure()});
+  return Publish(results, out,
+                 {.json = options.json,
+                  .remember = options.inputs.set.empty(),  // a trial is no night
+                  .failure = outcome.failure});
 }
 
 }  // namespace
@@ -153,6 +150,9 @@ void AddRunCommand(CLI::App* app, Action* action) {
       ->add_option("--twins", inputs->twins,
                    "live, empty, frozen, none, low, mid, high; instead of the suite's")
       ->delimiter(',');
+  command->add_option("--set", inputs->set,
+                      "SYSTEM.PATH=VALUE: an option of one of the systems, for a trial; `aisle "
+                      "systems` lists them");
   command->add_option("--seeds", inputs->seeds, "how many seeds, from 1 on")
       ->check(CLI::Range(1, 1000));
   command->add_option("--seed", inputs->seed, "these very seeds")->delimiter(',');
@@ -169,6 +169,8 @@ void AddRunCommand(CLI::App* app, Action* action) {
   command->add_flag("--resume", options->resume,
                     "keep the finished runs of the report folder, where program, scene and system "
                     "are still the same");
+  command->add_flag("--dry-run", options->dry_run,
+                    "check everything, say how many runs and how long, and stop there");
   command->add_flag("--gate", options->gate, "judge against the baseline too");
   command->add_flag("--no-frame-cache", options->no_frame_cache, "render anew for every run");
   command->add_flag("--no-video", options->no_video, "no film of the runs, ffmpeg or not");
@@ -181,8 +183,10 @@ void AddRunCommand(CLI::App* app, Action* action) {
   command->add_flag("--json", options->json, "results.json on stdout instead of the table");
   command->footer(
       "Example: ./aisle run scenes/suites/quickstart.yaml --seeds 3 --out out/tonight\n"
-      "         ./aisle run scenes/paper/scene2.yaml --systems paper,robust --debug-dynamic");
-  command->callback([=] { *action = [=] { return RunSuite(*options); }; });
+      "         ./aisle run scenes/paper/scene2.yaml --systems paper,robust --debug-dynamic\n"
+      "         ./aisle run scenes/paper/scene2.yaml --systems robust --set "
+      "robust.feature.features=800");
+  command->callback([=] { *action = [=] { return RunSuites(*options); }; });
 }
 
 }  // namespace aisle

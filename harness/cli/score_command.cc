@@ -8,6 +8,7 @@
 #include "harness/record/record_json.h"
 #include "harness/score/coverage.h"
 #include "harness/score/masks.h"
+#include "harness/score/score_names.h"
 
 namespace aisle {
 namespace {
@@ -21,7 +22,7 @@ struct Options {
   double delta = 1;
   double rate_hz = 0;
   std::size_t align_first = 0;
-  bool all_pairs = false, along_estimate = false, json = false;
+  bool all_pairs = false, along_estimate = false, list = false, json = false;
 };
 
 AssociationRule RuleFromName(const std::string& name) {
@@ -154,7 +155,18 @@ int ScoreMasksOnly(const Options& options) {
   return kAllPassed;
 }
 
+int ListScores(bool json) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const ScoreDescription& score : ScoreNames()) {
+    list.push_back({{"name", score.name}, {"unit", score.unit}, {"help", score.help}});
+    if (!json) fmt::print("{:34} {:9} {}\n", score.name, score.unit, score.help);
+  }
+  if (json) fmt::print("{}", Dump({{"scores", list}}));
+  return kAllPassed;
+}
+
 int ScoreFiles(const Options& options) {
+  if (options.list) return ListScores(options.json);
   const bool trajectories = !options.truth.empty() || !options.estimates.empty();
   if (!options.masks_truth.empty()) {
     const int code = ScoreMasksOnly(options);
@@ -226,6 +238,7 @@ void AddScoreCommand(CLI::App* app, Action* action) {
   command->add_option("--masks", options->masks, "folder of masks to score, the same file names")
       ->needs(masks_truth);
   masks_truth->needs(command->get_option("--masks"));
+  command->add_flag("--list", options->list, "every score there is, with unit and meaning");
   command->add_flag("--json", options->json, "for programs");
   command->footer("Example: ./aisle score --truth gt.txt --estimate slam.txt --align se3");
   command->callback([=] { *action = [=] { return ScoreFiles(*options); }; });

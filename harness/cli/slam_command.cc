@@ -1,4 +1,5 @@
 #include "harness/cli/command.h"
+#include "harness/cli/system_choice.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
@@ -14,10 +15,11 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string dataset, format = "euroc", system = "orbslam2", output, live;
+  std::string dataset, format = "euroc", output, live;
   std::string load_map, save_map;  ///< empty: none
   bool localise_only = false;
   std::string masks;  ///< folder of masks to reject by; empty: none
+  SystemChoice system{.name = "orbslam2", .set = {}};
   int threads = 0;
   bool free_running = false;
 };
@@ -41,26 +43,27 @@ MaskMaker MasksOf(const Options& options, std::size_t* masked) {
   };
 }
 
-std::unique_ptr<Estimator> MakeEstimator(const System& system, const Sequence& sequence,
+std::unique_ptr<Estimator> MakeEstimator(const SystemSpec& system, const Sequence& sequence,
                                          const Options& options) {
   if (!options.save_map.empty() &&
       !fs::is_directory(fs::absolute(options.save_map).parent_path())) {
     throw InputError(options.save_map, 0, "its folder does not exist: make it first");
   }
   try {
-    return system.make(sequence.calibration(), {.threads = options.threads,
-                                                .load_map = options.load_map,
-                                                .localise_only = options.localise_only,
-                                                .free_running = options.free_running});
+    return MakeSystem(system, sequence.calibration(),
+                      {.threads = options.threads,
+                       .load_map = options.load_map,
+                       .localise_only = options.localise_only,
+                       .free_running = options.free_running});
   } catch (const std::runtime_error& error) {
     throw InputError(error.what());  // the files a system starts from are input
   }
 }
 
 int RunSlam(const Options& options) {
-  const System& system = FindSystem(options.system);
-  if (system.mask_source != MaskSource::kNone) {
-    throw InputError("system '" + options.system +
+  const SystemSpec system = SpecOf(options.system);
+  if (FindSystem(system.like).mask_source != MaskSource::kNone) {
+    throw InputError("system '" + system.name +
                      "' needs truth about what moves: a recording has none");
   }
   const auto sequence = OpenRecording(options.dataset, DatasetFormatFromName(options.format));
@@ -111,7 +114,7 @@ void AddSlamCommand(CLI::App* app, Action* action) {
   command->add_option("DATASET", options->dataset, "folder of the recording")->required();
   command->add_option("--format", options->format, "euroc (default) or kitti")
       ->check(CLI::IsMember({"euroc", "kitti"}));
-  command->add_option("--system", options->system, "default orbslam2");
+  AddSystemChoice(command, &options->system);
   command->add_option("-o,--output", options->output, "final trajectory, TUM format")->required();
   command->add_option("--live", options->live, "the live trajectory too");
   command->add_option("--masks", options->masks,

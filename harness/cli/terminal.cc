@@ -35,11 +35,4 @@ std::string Abridged(const std::string& text, std::size_t width) {
   return text.size() <= width ? text : "…" + text.substr(text.size() - width + 1);
 }
 
-std::string Duration(double seconds) {
-  const auto whole = static_cast<long>(seconds + 0.5);
-  if (whole >= 3600) return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
-  if (whole >= 60) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
-  return fmt::format("{} s", whole);
-}
-
 }  // namespace aisle

@@ -27,7 +27,4 @@ class ProgressLine {
 /// The text, or its end behind "…" where it is longer than `width` characters.
 std::string Abridged(const std::string& text, std::size_t width);
 
-/// "1 h 02 min", "3 min 20 s", "12 s".
-std::string Duration(double seconds);
-
 }  // namespace aisle

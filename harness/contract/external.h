@@ -6,7 +6,6 @@ namespace aisle {
 
 /// Any other SLAM: a command that reads a dataset from disk and leaves a trajectory.
 struct ExternalSystem {
-  std::string name;
   /// Given to the shell after {dataset}, {calibration}, {output} and {seed} have been filled in.
   std::string command;
   std::string dataset = "euroc";   ///< euroc or kitti: what is exported for it
@@ -15,6 +14,8 @@ struct ExternalSystem {
   /// fields above are then fixed. It holds key frames alone: coverage is not asked for.
   bool vslam_lab = false;
   double timeout_s = 3600;
+
+  bool operator==(const ExternalSystem&) const = default;
 };
 
 }  // namespace aisle

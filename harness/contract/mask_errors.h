@@ -26,11 +26,4 @@ struct MaskErrors {
   }
 };
 
-/// One of our systems that is told its masks, told them badly.
-struct ImperfectSystem {
-  std::string name;
-  std::string like;  ///< "oracle" or "semantic"
-  MaskErrors errors;
-};
-
 }  // namespace aisle

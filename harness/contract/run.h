@@ -8,6 +8,7 @@
 #include "harness/contract/estimate.h"
 #include "harness/contract/frame.h"
 #include "harness/contract/score.h"
+#include "harness/contract/system_spec.h"
 
 namespace aisle {
 
@@ -16,8 +17,10 @@ struct RunSpec {
   std::string scene;       ///< name, e.g. "paper/scene2"
   std::string scene_file;  ///< path
   std::string twin = "live";
-  std::string system;
+  SystemSpec system;
   std::uint64_t seed = 1;
+
+  bool operator==(const RunSpec&) const = default;
 };
 
 enum class RunStatus {

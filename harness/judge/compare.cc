@@ -35,7 +35,7 @@ using ValuesBySeed = std::map<std::uint64_t, double>;
 std::map<Cell, std::vector<const RunRecord*>> Cells(const Results& results) {
   std::map<Cell, std::vector<const RunRecord*>> cells;
   for (const RunRecord& run : results.runs) {
-    cells[{run.spec.scene, run.spec.twin, run.spec.system}].push_back(&run);
+    cells[{run.spec.scene, run.spec.twin, run.spec.system.name}].push_back(&run);
   }
   return cells;
 }

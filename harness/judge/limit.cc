@@ -15,7 +15,7 @@ std::string Name(const Cell& cell) {
 bool Matches(const Limit& limit, const RunSpec& spec) {
   return (limit.scene.empty() || limit.scene == spec.scene) &&
          (limit.twin.empty() || limit.twin == spec.twin) &&
-         (limit.system.empty() || limit.system == spec.system);
+         (limit.system.empty() || limit.system == spec.system.name);
 }
 
 /// Runs that differ only by seed, in the order of the suite.
@@ -24,7 +24,7 @@ std::vector<std::pair<Cell, std::vector<const RunRecord*>>> ByCell(
   std::vector<std::pair<Cell, std::vector<const RunRecord*>>> cells;
   for (const RunRecord& run : runs) {
     if (!Matches(limit, run.spec)) continue;
-    const Cell cell{run.spec.scene, run.spec.twin, run.spec.system};
+    const Cell cell{run.spec.scene, run.spec.twin, run.spec.system.name};
     auto at = std::find_if(cells.begin(), cells.end(),
                            [&](const auto& entry) { return entry.first == cell; });
     if (at == cells.end()) at = cells.insert(cells.end(), {cell, {}});
@@ -86,7 +86,7 @@ std::string Filters(const Limit& limit) {
 
 }  // namespace
 
-std::vector<Verdict> Judge(const std::vector<RunRecord>& runs, const std::vector<Limit>& limits) {
+std::vector<Verdict> JudgeRuns(const std::vector<RunRecord>& runs) {
   std::vector<Verdict> verdicts;
   for (const RunRecord& run : runs) {
     if (run.status == RunStatus::kOk || run.status == RunStatus::kLost) continue;
@@ -98,8 +98,14 @@ std::vector<Verdict> Judge(const std::vector<RunRecord>& runs, const std::vector
                         .why = Name(run.status) + ": " + run.status_why,
                         .scene = run.spec.scene,
                         .twin = run.spec.twin,
-                        .system = run.spec.system});
+                        .system = run.spec.system.name});
   }
+  return verdicts;
+}
+
+std::vector<Verdict> JudgeLimits(const std::vector<RunRecord>& runs,
+                                 const std::vector<Limit>& limits) {
+  std::vector<Verdict> verdicts;
   for (const Limit& limit : limits) {
     const auto cells = ByCell(runs, limit);
     if (cells.empty()) {
@@ -116,6 +122,13 @@ std::vector<Verdict> Judge(const std::vector<RunRecord>& runs, const std::vector
       std::tie(verdict.scene, verdict.twin, verdict.system) = cell;
     }
   }
+  return verdicts;
+}
+
+std::vector<Verdict> Judge(const std::vector<RunRecord>& runs, const std::vector<Limit>& limits) {
+  std::vector<Verdict> verdicts = JudgeRuns(runs);
+  const std::vector<Verdict> held = JudgeLimits(runs, limits);
+  verdicts.insert(verdicts.end(), held.begin(), held.end());
   return verdicts;
 }
 

@@ -15,10 +15,16 @@ struct Limit {
   std::optional<double> min, max;
 };
 
+/// Crashed, timed-out and invalid runs, limits or not.
+std::vector<Verdict> JudgeRuns(const std::vector<RunRecord>& runs);
+
 /// One verdict per limit and per scene, twin and system it speaks of: the median over seeds held
 /// against the bound; a score that is absent in any run fails. A limit that matches no run fails
-/// too: it would otherwise pass for ever. Crashed, timed-out and invalid runs fail by themselves,
-/// limits or not.
+/// too: it would otherwise pass for ever.
+std::vector<Verdict> JudgeLimits(const std::vector<RunRecord>& runs,
+                                 const std::vector<Limit>& limits);
+
+/// Both, for runs that one set of limits speaks of.
 std::vector<Verdict> Judge(const std::vector<RunRecord>& runs, const std::vector<Limit>& limits);
 
 bool AllPassed(const Results& results);

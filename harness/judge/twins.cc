@@ -32,11 +32,11 @@ void AddDynamicPenalty(std::vector<RunRecord>* runs) {
   for (const RunRecord& run : *runs) {
     const auto score = run.scores.find(kError);
     if (run.spec.twin == "empty" && score != run.scores.end()) {
-      empty[{run.spec.scene, run.spec.system, run.spec.seed}] = score->second;
+      empty[{run.spec.scene, run.spec.system.name, run.spec.seed}] = score->second;
     }
   }
   for (RunRecord& run : *runs) {
-    const auto twin = empty.find({run.spec.scene, run.spec.system, run.spec.seed});
+    const auto twin = empty.find({run.spec.scene, run.spec.system.name, run.spec.seed});
     const bool moves = run.spec.twin != "empty" && run.spec.twin != "frozen";
     if (!moves || twin == empty.end()) continue;
     const auto live = run.scores.find(kError);

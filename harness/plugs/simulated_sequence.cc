@@ -7,6 +7,7 @@
 #include <array>
 
 #include "harness/io/input_error.h"
+#include "harness/io/places.h"
 #include "harness/plugs/open_simulator.h"
 
 namespace aisle {
@@ -209,7 +210,15 @@ ScenePlan DrawScenePlan(const SimulatedSequenceOptions& options, double width_px
 }
 
 std::vector<std::string> CheckScene(const std::string& scene_file) {
-  return sim::CheckSceneFile(scene_file);
+  return sim::CheckSceneFile(scene_file, AssetsDir().string());
+}
+
+std::int64_t CountSceneFrames(const std::string& scene_file) {
+  try {
+    return sim::CountSceneFrames(scene_file);
+  } catch (const std::runtime_error& error) {
+    throw InputError(error.what());
+  }
 }
 
 }  // namespace aisle

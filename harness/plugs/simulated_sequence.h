@@ -64,7 +64,10 @@ struct ScenePlan {
 };
 ScenePlan DrawScenePlan(const SimulatedSequenceOptions& options, double width_px);
 
-/// Every mistake in a scene file, one message each.
+/// Every mistake in a scene file, models that are not there among them, one message each.
 std::vector<std::string> CheckScene(const std::string& scene_file);
+
+/// Frames of a scene as its file says. Throws InputError for a bad scene.
+std::int64_t CountSceneFrames(const std::string& scene_file);
 
 }  // namespace aisle

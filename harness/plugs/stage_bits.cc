@@ -33,15 +33,15 @@ sim::Simulator Load(const StageBitsOptions& options) {
 }
 
 std::unique_ptr<Estimator> MakeSlam(const sim::RigInfo& rig, int threads) {
-  return FindSystem("orbslam2")
-      .make({.width = rig.width,
-             .height = rig.height,
-             .fx = rig.fx,
-             .fy = rig.fy,
-             .cx = rig.cx,
-             .cy = rig.cy,
-             .baseline_m = rig.baseline_m},
-            {.threads = threads});
+  return MakeSystem(BuiltIn("orbslam2"),
+                    {.width = rig.width,
+                     .height = rig.height,
+                     .fx = rig.fx,
+                     .fy = rig.fy,
+                     .cx = rig.cx,
+                     .cy = rig.cy,
+                     .baseline_m = rig.baseline_m},
+                    {.threads = threads});
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "harness/plugs/stereo_slam_estimator.h"
 
+#include "harness/io/input_error.h"
 #include "harness/score/masks.h"
 #include "slam/stereo_slam.h"
 
@@ -17,18 +18,6 @@ TrackingState Convert(slam::TrackingState state) {
       break;
   }
   return TrackingState::kLost;
-}
-
-slam::DynamicMethod Convert(Rejection rejection) {
-  switch (rejection) {
-    case Rejection::kPaper:
-      return slam::DynamicMethod::kPaper;
-    case Rejection::kRobust:
-      return slam::DynamicMethod::kRobust;
-    case Rejection::kNone:
-      break;
-  }
-  return slam::DynamicMethod::kNone;
 }
 
 DynamicRegions Convert(const slam::DynamicRegions& found) {
@@ -114,7 +103,38 @@ class StereoSlamEstimator : public Estimator {
   slam::StereoSlam slam_;
 };
 
+slam::SlamOptions OptionsFrom(const std::map<std::string, std::string>& values) {
+  slam::SlamOptions options;
+  for (const auto& [path, value] : values) {
+    const std::string wrong = slam::SetOption(path, value, &options);
+    if (!wrong.empty()) throw InputError(wrong);
+  }
+  return options;
+}
+
 }  // namespace
+
+std::vector<SystemOption> DescribeSlamOptions(const std::map<std::string, std::string>& values) {
+  std::vector<SystemOption> described;
+  for (const slam::OptionDescription& option : slam::DescribeOptions(OptionsFrom(values))) {
+    described.push_back({option.path, static_cast<SystemOption::Kind>(option.kind), option.value,
+                         option.unit, option.help, option.low, option.high, option.choices});
+  }
+  return described;
+}
+
+std::string CheckSlamOption(const std::string& path, const std::string& value) {
+  slam::SlamOptions options;
+  return slam::SetOption(path, value, &options);
+}
+
+std::string CheckSlamOptions(const std::map<std::string, std::string>& values) {
+  slam::SlamOptions options;
+  for (const auto& [path, value] : values) {
+    if (!slam::SetOption(path, value, &options).empty()) return {};  // said of the option itself
+  }
+  return slam::Validate(options);
+}
 
 std::unique_ptr<Estimator> MakeStereoSlamEstimator(const StereoCalibration& calibration,
                                                    const StereoSlamEstimatorOptions& options) {
@@ -126,13 +146,12 @@ std::unique_ptr<Estimator> MakeStereoSlamEstimator(const StereoCalibration& cali
   camera.cx = calibration.cx;
   camera.cy = calibration.cy;
   camera.baseline_m = calibration.baseline_m;
-  slam::SlamOptions slam_options;
+  slam::SlamOptions slam_options = OptionsFrom(options.options);
   slam_options.threads = options.threads;
   slam_options.vocabulary_file = options.vocabulary_file.string();
   slam_options.map_file = options.load_map.string();
   slam_options.localise_only = options.localise_only;
   slam_options.schedule.free_running = options.free_running;
-  slam_options.dynamic.method = Convert(options.rejection);
   slam_options.dynamic.keep_stages = options.draw_stages;
   return std::make_unique<StereoSlamEstimator>(camera, slam_options);
 }

@@ -1,49 +1,90 @@
 #include "harness/plugs/systems.h"
 
 #include "harness/io/input_error.h"
+#include "harness/io/nearest_word.h"
 #include "harness/plugs/place_vocabulary.h"
 #include "harness/plugs/stereo_slam_estimator.h"
 
 namespace aisle {
-namespace {
-
-template <Rejection kRejection>
-std::unique_ptr<Estimator> OurSlamWith(const StereoCalibration& calibration,
-                                       const SystemOptions& options) {
-  return MakeStereoSlamEstimator(calibration, {.threads = options.threads,
-                                               .rejection = kRejection,
-                                               .vocabulary_file = VocabularyFile(),
-                                               .load_map = options.load_map,
-                                               .localise_only = options.localise_only,
-                                               .free_running = options.free_running,
-                                               .draw_stages = options.draw_stages});
-}
-
-}  // namespace
 
 const std::vector<System>& Systems() {
   static const std::vector<System> systems = {
-      {"orbslam2", "our stereo SLAM, nothing rejected: the ORB-SLAM2 row", MaskSource::kNone,
-       OurSlamWith<Rejection::kNone>},
+      {"orbslam2", "our stereo SLAM, nothing rejected: the ORB-SLAM2 row", MaskSource::kNone},
       {"semantic", "no features on any person or vehicle, moving or not: the DynaSLAM row",
-       MaskSource::kActors, OurSlamWith<Rejection::kNone>},
-      {"paper", "our SLAM with the paper's rejection of dynamic regions, as written",
-       MaskSource::kNone, OurSlamWith<Rejection::kPaper>},
-      {"robust", "our SLAM with our best rejection of dynamic regions", MaskSource::kNone,
-       OurSlamWith<Rejection::kRobust>},
+       MaskSource::kActors},
+      {"paper",
+       "our SLAM with the paper's rejection of dynamic regions, as written",
+       MaskSource::kNone,
+       {{"dynamic.method", "paper"}}},
+      {"robust",
+       "our SLAM with our best rejection of dynamic regions",
+       MaskSource::kNone,
+       {{"dynamic.method", "robust"}}},
       {"oracle", "no features on what truth says moves now: the best any rejection could do",
-       MaskSource::kDynamic, OurSlamWith<Rejection::kNone>},
+       MaskSource::kDynamic},
   };
   return systems;
 }
 
 const System& FindSystem(const std::string& name) {
-  std::string known;
+  std::vector<std::string> known;
   for (const System& system : Systems()) {
     if (system.name == name) return system;
-    known += (known.empty() ? "" : ", ") + system.name;
+    known.push_back(system.name);
   }
-  throw InputError("system '" + Printable(name) + "' is not known: expected one of " + known);
+  throw InputError(fmt::format("system '{}' is not known: expected one of {}{}", Printable(name),
+                               fmt::join(known, ", "), DidYouMean(name, known)));
+}
+
+std::vector<SystemOption> OptionsOf(const System& system) {
+  return DescribeSlamOptions(system.options);
+}
+
+std::string CheckOption(const std::string& path, const std::string& value) {
+  return CheckSlamOption(path, value);
+}
+
+std::string CheckOptions(const System& like, const std::map<std::string, std::string>& options) {
+  std::map<std::string, std::string> all = options;
+  all.insert(like.options.begin(), like.options.end());  // what is there already stays
+  return CheckSlamOptions(all);
+}
+
+std::map<std::string, std::string> OptionsFromText(const std::vector<std::string>& assignments,
+                                                   const System& like) {
+  std::map<std::string, std::string> options;
+  for (const std::string& text : assignments) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) {
+      throw InputError(fmt::format("'{}': expected PATH=VALUE, for example feature.features=800",
+                                   Printable(text)));
+    }
+    const std::string path = text.substr(0, equals), value = text.substr(equals + 1);
+    if (const std::string wrong = CheckOption(path, value); !wrong.empty()) throw InputError(wrong);
+    options[path] = value;
+  }
+  if (const std::string wrong = CheckOptions(like, options); !wrong.empty()) {
+    throw InputError(wrong);
+  }
+  return options;
+}
+
+std::unique_ptr<Estimator> MakeSystem(const SystemSpec& spec, const StereoCalibration& calibration,
+                                      const SystemSetup& setup) {
+  if (spec.external) {
+    throw InputError("system '" + spec.name +
+                     "' is a command: it does not run inside this program");
+  }
+  const System& like = FindSystem(spec.like);
+  std::map<std::string, std::string> options = spec.options;
+  options.insert(like.options.begin(), like.options.end());
+  return MakeStereoSlamEstimator(calibration, {.threads = setup.threads,
+                                               .options = std::move(options),
+                                               .vocabulary_file = VocabularyFile(),
+                                               .load_map = setup.load_map,
+                                               .localise_only = setup.localise_only,
+                                               .free_running = setup.free_running,
+                                               .draw_stages = setup.draw_stages});
 }
 
 }  // namespace aisle

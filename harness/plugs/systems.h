@@ -1,29 +1,23 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "harness/contract/estimator.h"
+#include "harness/contract/system_option.h"
+#include "harness/contract/system_spec.h"
 
 namespace aisle {
 
-struct SystemOptions {
-  int threads = 0;                      ///< 0: as many as the machine has; never changes a result
-  std::filesystem::path load_map = {};  ///< of an earlier drive with the same rig; empty: none
-  bool localise_only = false;           ///< the loaded map stays as it is
-  bool draw_stages = false;   ///< estimates can draw how the movers were found; changes no result
-  bool free_running = false;  ///< NOT REPEATABLE: background work as threads happen to run
-};
-
-/// A system under test that runs inside this program.
+/// A system under test that runs inside this program: our SLAM with these options.
 struct System {
   std::string name;         ///< as suites and reports call it
   std::string description;  ///< one sentence
   MaskSource mask_source = MaskSource::kNone;
-  std::function<std::unique_ptr<Estimator>(const StereoCalibration&, const SystemOptions&)> make;
+  std::map<std::string, std::string> options = {};  ///< where it departs from the SLAM's defaults
 };
 
 /// Every system, in the order in which reports list them.
@@ -31,5 +25,33 @@ const std::vector<System>& Systems();
 
 /// Throws InputError naming the known systems.
 const System& FindSystem(const std::string& name);
+
+/// Every option of a built-in system with its value there.
+std::vector<SystemOption> OptionsOf(const System& system);
+
+/// What is wrong with one option and its value, or an empty string.
+std::string CheckOption(const std::string& path, const std::string& value);
+
+/// What is wrong with a variant's options together, each of which is good alone, or an empty
+/// string.
+std::string CheckOptions(const System& like, const std::map<std::string, std::string>& options);
+
+/// Options from the words of a command line, "PATH=VALUE" each. Throws InputError.
+std::map<std::string, std::string> OptionsFromText(const std::vector<std::string>& assignments,
+                                                   const System& like);
+
+/// What a process decides, and no result depends on, or what a drive brings with it.
+struct SystemSetup {
+  int threads = 0;                      ///< 0: as many as the machine has; never changes a result
+  std::filesystem::path load_map = {};  ///< of an earlier drive with the same rig; empty: none
+  bool localise_only = false;           ///< the loaded map stays as it is
+  bool draw_stages = false;   ///< estimates can draw how the movers were found; changes no result
+  bool free_running = false;  ///< NOT REPEATABLE: background work as threads happen to run
+};
+
+/// A built-in system or a variant of one, ready for its first frame. Throws InputError for a
+/// foreign one and for options that do not fit together.
+std::unique_ptr<Estimator> MakeSystem(const SystemSpec& spec, const StereoCalibration& calibration,
+                                      const SystemSetup& setup = {});
 
 }  // namespace aisle

@@ -25,7 +25,7 @@ std::string EvoResultZip(const RunResult& run, const TrajectoryScore& final) {
                                                      ", association: " + final.association + ")"},
                                        {"label", "APE (m)"},
                                        {"ref_name", "truth"},
-                                       {"est_name", run.spec.system}};
+                                       {"est_name", run.spec.system.name}};
   const nlohmann::ordered_json stats = {{"rmse", s.rmse}, {"mean", s.mean}, {"median", s.median},
                                         {"std", s.std},   {"min", s.min},   {"max", s.max},
                                         {"sse", s.sse}};

@@ -20,13 +20,14 @@ std::vector<SceneRuns> GroupByScene(const Results& results) {
   std::map<std::string, int> colors;
   for (const RunRecord& run : results.runs) {
     const RunSpec& spec = run.spec;
-    const int color = colors.emplace(spec.system, static_cast<int>(colors.size())).first->second;
+    const int color =
+        colors.emplace(spec.system.name, static_cast<int>(colors.size())).first->second;
     SceneRuns& scene = FindOrAdd(
         scenes, [&](const SceneRuns& s) { return s.scene == spec.scene && s.twin == spec.twin; },
         SceneRuns{spec.scene, spec.twin, {}});
     SystemRuns& system = FindOrAdd(
-        scene.systems, [&](const SystemRuns& s) { return s.system == spec.system; },
-        SystemRuns{spec.system, color, {}});
+        scene.systems, [&](const SystemRuns& s) { return s.system == spec.system.name; },
+        SystemRuns{spec.system.name, color, {}});
     system.runs.push_back(&run);
   }
   return scenes;

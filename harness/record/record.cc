@@ -23,7 +23,7 @@ std::string SafeName(const std::string& name) {
 
 std::string RunId(const RunSpec& spec) {
   return fmt::format("{}/{}/{}/{}", SafeName(spec.scene), SafeName(spec.twin),
-                     SafeName(spec.system), spec.seed);
+                     SafeName(spec.system.name), spec.seed);
 }
 
 RunRecord MakeRecord(const RunResult& run, const RunScore& score, double rate_hz) {

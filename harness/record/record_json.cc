@@ -1,6 +1,7 @@
 #include "harness/record/record_json.h"
 
 #include "harness/io/input_error.h"
+#include "harness/io/system_spec_json.h"
 
 namespace aisle {
 namespace {
@@ -59,7 +60,8 @@ Json RecordToJson(const RunRecord& record) {
   json["scene"] = record.spec.scene;
   json["scene_file"] = record.spec.scene_file;
   json["twin"] = record.spec.twin;
-  json["system"] = record.spec.system;
+  json["system"] = record.spec.system.name;
+  json["system_spec"] = ToJson(record.spec.system);
   json["seed"] = record.spec.seed;
   json["status"] = Name(record.status);
   json["why"] = record.status_why;
@@ -84,7 +86,10 @@ RunRecord RecordFromJson(const Json& json) {
   record.spec.scene = json.at("scene").get<std::string>();
   record.spec.scene_file = json.value("scene_file", "");
   record.spec.twin = json.at("twin").get<std::string>();
-  record.spec.system = json.at("system").get<std::string>();
+  const std::string system = json.at("system").get<std::string>();
+  record.spec.system = json.contains("system_spec")
+                           ? SystemSpecFromJson(json.at("system_spec"))
+                           : BuiltIn(system);  // a file from before variants
   record.spec.seed = json.at("seed").get<std::uint64_t>();
   record.status = RunStatusFromName(json.at("status").get<std::string>());
   record.status_why = json.value("why", "");

@@ -11,7 +11,7 @@ std::string ToSummaryCsv(const Results& results) {
   for (const auto& [name, unit] : units) text += "," + name;
   text += "\n";
   for (const RunRecord& run : results.runs) {
-    text += fmt::format("{},{},{},{},{},{}", run.spec.scene, run.spec.twin, run.spec.system,
+    text += fmt::format("{},{},{},{},{},{}", run.spec.scene, run.spec.twin, run.spec.system.name,
                         run.spec.seed, Name(run.status), run.frames);
     for (const auto& [name, unit] : units) {
       const auto score = run.scores.find(name);

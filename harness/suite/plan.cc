@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/io/input_error.h"
+#include "harness/io/system_spec_json.h"
 #include "harness/record/record_json.h"
 
 namespace aisle {
@@ -11,40 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kSchema = 1;
-
-Json ToJson(const ExternalSystem& external) {
-  return {{"name", external.name},           {"command", external.command},
-          {"dataset", external.dataset},     {"trajectory", external.trajectory},
-          {"vslam_lab", external.vslam_lab}, {"timeout_s", external.timeout_s}};
-}
-
-ExternalSystem ExternalFromJson(const Json& json) {
-  return {.name = json.at("name").get<std::string>(),
-          .command = json.at("command").get<std::string>(),
-          .dataset = json.at("dataset").get<std::string>(),
-          .trajectory = json.at("trajectory").get<std::string>(),
-          .vslam_lab = json.at("vslam_lab").get<bool>(),
-          .timeout_s = json.at("timeout_s").get<double>()};
-}
-
-Json ToJson(const ImperfectSystem& system) {
-  return {{"name", system.name},
-          {"like", system.like},
-          {"boundary_px", system.errors.boundary_px},
-          {"miss_below_px", system.errors.miss_below_px},
-          {"miss_share", system.errors.miss_share},
-          {"latency_frames", system.errors.latency_frames}};
-}
-
-ImperfectSystem ImperfectFromJson(const Json& json) {
-  return {.name = json.at("name").get<std::string>(),
-          .like = json.at("like").get<std::string>(),
-          .errors = {.boundary_px = json.at("boundary_px").get<double>(),
-                     .miss_below_px = json.at("miss_below_px").get<int>(),
-                     .miss_share = json.at("miss_share").get<double>(),
-                     .latency_frames = json.at("latency_frames").get<int>()}};
-}
+constexpr int kSchema = 2;
 
 Json OrNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
@@ -66,54 +34,65 @@ Limit LimitFromJson(const Json& json) {
           .max = NumberOrNull(json.at("max"))};
 }
 
-PlanFile FromJson(const Json& json) {
-  if (json.at("schema") != kSchema) throw std::invalid_argument("schema is not 1");
-  PlanFile plan;
-  plan.command = json.at("command").get<std::string>();
-  Suite& suite = plan.suite;
+Json ToJson(const Suite& suite) {
+  Json json = {{"suite", suite.name}, {"question", suite.question}};
+  json["scenes"] = Json::array();
+  for (const SuiteScene& scene : suite.scenes) {
+    json["scenes"].push_back({{"name", scene.name}, {"file", scene.file}});
+  }
+  json["systems"] = Json::array();
+  for (const SystemSpec& system : suite.systems) json["systems"].push_back(ToJson(system));
+  json["twins"] = suite.twins;
+  json["seeds"] = suite.seeds;
+  json["limits"] = Json::array();
+  for (const Limit& limit : suite.limits) json["limits"].push_back(ToJson(limit));
+  return json;
+}
+
+Suite SuiteFromJson(const Json& json) {
+  Suite suite;
   suite.name = json.at("suite").get<std::string>();
   suite.question = json.at("question").get<std::string>();
   for (const Json& scene : json.at("scenes")) {
     suite.scenes.push_back(
         {scene.at("name").get<std::string>(), scene.at("file").get<std::string>()});
   }
-  suite.systems = json.at("systems").get<std::vector<std::string>>();
-  for (const Json& external : json.at("externals")) {
-    suite.externals[external.at("name").get<std::string>()] = ExternalFromJson(external);
-  }
-  for (const Json& system : json.at("imperfect")) {
-    suite.imperfect[system.at("name").get<std::string>()] = ImperfectFromJson(system);
+  for (const Json& system : json.at("systems")) {
+    suite.systems.push_back(SystemSpecFromJson(system));
   }
   suite.twins = json.at("twins").get<std::vector<std::string>>();
   suite.seeds = json.at("seeds").get<std::vector<std::uint64_t>>();
   for (const Json& limit : json.at("limits")) suite.limits.push_back(LimitFromJson(limit));
+  return suite;
+}
+
+PlanFile FromJson(const Json& json) {
+  if (json.at("schema") != kSchema) {
+    throw std::invalid_argument(
+        fmt::format("schema is not {}: the folder was made by another version of aisle", kSchema));
+  }
+  PlanFile plan;
+  plan.command = json.at("command").get<std::string>();
+  for (const Json& suite : json.at("suites")) plan.suites.push_back(SuiteFromJson(suite));
   return plan;
+}
+
+template <class Part>
+std::string Joined(const std::vector<Suite>& suites, const char* between, Part Suite::*part) {
+  std::string joined;
+  for (const Suite& suite : suites) joined += (joined.empty() ? "" : between) + suite.*part;
+  return joined;
 }
 
 }  // namespace
 
+std::string PlanFile::name() const { return Joined(suites, "+", &Suite::name); }
+std::string PlanFile::question() const { return Joined(suites, " ", &Suite::question); }
+
 std::string ToJson(const PlanFile& plan) {
-  const Suite& suite = plan.suite;
-  Json json;
-  json["schema"] = kSchema;
-  json["command"] = plan.command;
-  json["suite"] = suite.name;
-  json["question"] = suite.question;
-  json["scenes"] = Json::array();
-  for (const SuiteScene& scene : suite.scenes) {
-    json["scenes"].push_back({{"name", scene.name}, {"file", scene.file}});
-  }
-  json["systems"] = suite.systems;
-  json["externals"] = Json::array();
-  for (const auto& [name, external] : suite.externals) {
-    json["externals"].push_back(ToJson(external));
-  }
-  json["imperfect"] = Json::array();
-  for (const auto& [name, system] : suite.imperfect) json["imperfect"].push_back(ToJson(system));
-  json["twins"] = suite.twins;
-  json["seeds"] = suite.seeds;
-  json["limits"] = Json::array();
-  for (const Limit& limit : suite.limits) json["limits"].push_back(ToJson(limit));
+  Json json = {{"schema", kSchema}, {"command", plan.command}};
+  json["suites"] = Json::array();
+  for (const Suite& suite : plan.suites) json["suites"].push_back(ToJson(suite));
   return Dump(json);
 }
 

@@ -10,8 +10,11 @@ namespace aisle {
 /// What a report folder is meant to hold. plan.json is written before the first run, so that a
 /// folder explains itself: `merge` and `rerun` read it and need no suite file.
 struct PlanFile {
-  Suite suite;
-  std::string command;  ///< the command line that made it
+  std::vector<Suite> suites;  ///< one report answers them all
+  std::string command;        ///< the command line that made it
+
+  std::string name() const;      ///< of the suites, joined by "+"
+  std::string question() const;  ///< of the suites, one after the other
 };
 
 std::string ToJson(const PlanFile& plan);

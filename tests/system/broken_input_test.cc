@@ -60,7 +60,7 @@ class BrokenInputTest : public ProgramTest {
 
 TEST_F(BrokenInputTest, SuitesAndScenes) {
   const std::vector<std::string> run{"run", "{d}/s.yaml"};
-  const std::string example = "for example {name: mine, command: my_slam {dataset} {output}}";
+  const std::string example = "example: command: my_slam {dataset} {output}";
   Expect({
       {{"run", "{d}/none.yaml"}, {}, "aisle: {d}/none.yaml: no such file"},
       {{"run", "{d}"}, {}, "aisle: {d}: is a folder, not a file"},
@@ -70,27 +70,43 @@ TEST_F(BrokenInputTest, SuitesAndScenes) {
        "crosses.\""},
       {run,
        {{"s.yaml", kGood + "seeds: [1, two]\n"}},
-       "aisle: {d}/s.yaml:5:12: 'two' is no whole number, for example 'seeds: 3' or 'seeds: [1, "
-       "7]'"},
+       "aisle: {d}/s.yaml:5:12: seeds: expected how many (1 to 1000), or a list of whole numbers, "
+       "got "
+       "'two' (how many, from 1 on, or a list; each changes who walks, when, how fast and along "
+       "which way); example: seeds: 3"},
       {run, WithSystem("{name: mine}"),
-       "aisle: {d}/s.yaml:4:11: a system of your own needs a name and a command, " + example},
+       "aisle: {d}/s.yaml:4:18: systems[0].name: it needs a 'command', or 'like' with one of our "
+       "systems"},
       {run, WithSystem("{name: mine, command: slam}"),
-       "aisle: {d}/s.yaml:4:33: the command must say where {output} goes, " + example},
+       "aisle: {d}/s.yaml:4:33: systems[0].command: the command must say where {output} goes; " +
+           example},
       {run, WithSystem("{name: oracle, command: \"x {output}\"}"),
-       "aisle: {d}/s.yaml:4:18: 'oracle' is one of ours: choose another name"},
+       "aisle: {d}/s.yaml:4:18: systems[0].name: 'oracle' is one of ours as it is: give the "
+       "variant "
+       "another name; example: {name: oracle_2, like: oracle, options: {feature.features: 800}}"},
       {run, WithSystem("{name: m, command: \"x {output}\", dataset: bag}"),
-       "aisle: {d}/s.yaml:4:53: dataset 'bag' is not known: expected one of euroc, kitti"},
+       "aisle: {d}/s.yaml:4:53: systems[0].dataset: expected one of euroc, kitti, got 'bag' "
+       "(layout "
+       "of the dataset that is exported for it); example: dataset: euroc"},
       {run, WithSystem("{name: m, command: \"x {output}\", timeout_s: 0}"),
-       "aisle: {d}/s.yaml:4:55: expected more than 0 seconds"},
+       "aisle: {d}/s.yaml:4:55: systems[0].timeout_s: expected a number of 0.001 or more, got '0' "
+       "(seconds until the command is ended); example: timeout_s: 600"},
       {run, WithSystem("{name: m, contract: ros, command: x}"),
-       "aisle: {d}/s.yaml:4:31: contract 'ros' is not known: expected one of vslam-lab"},
-      {run, WithSystem("{name: n, like: paper, mask_errors: {}}"),
-       "aisle: {d}/s.yaml:4:27: system 'paper' is not known: expected one of oracle, semantic"},
+       "aisle: {d}/s.yaml:4:31: systems[0].contract: expected one of vslam-lab, got 'ros' "
+       "(vslam-lab: "
+       "the system was wrapped for VSLAM-LAB, unchanged); example: contract: vslam-lab"},
+      {run, WithSystem("{name: n, like: paper, mask_errors: {boundary_px: 1}}"),
+       "aisle: {d}/s.yaml:4:18: systems[0].name: 'mask_errors' are for a system like oracle or "
+       "semantic, which are told their masks"},
       {run, WithSystem("{name: n, like: oracle, mask_errors: {miss_share: 2}}"),
-       "aisle: {d}/s.yaml:4:48: miss_share: expected 0 to 1"},
+       "aisle: {d}/s.yaml:4:61: systems[0].mask_errors.miss_share: expected a number from 0 to 1, "
+       "got "
+       "'2' (share of the others that is missed, each for a while); example: miss_share: 0.05"},
       {run,
        {{"s.yaml", kGood + "limits: [{score: ate_rmse_m, system: paper, max: 1}]\n"}},
-       "aisle: {d}/s.yaml:5:38: this suite's system 'paper' is not known: expected one of oracle"},
+       "aisle: {d}/s.yaml:5:38: limits[0].system: expected one of oracle, got 'paper' (only of "
+       "this "
+       "system); example: system: oracle"},
       {{"run", "{d}/s.yaml", "--systems", "best"},
        {{"s.yaml", kGood}},
        "aisle: --systems: 'best' is not known: expected one of orbslam2, semantic, paper, robust, "

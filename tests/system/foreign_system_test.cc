@@ -15,7 +15,7 @@ class ForeignSystemTest : public ProgramTest {
  protected:
   static const RunRecord& Find(const Results& results, const std::string& system) {
     for (const RunRecord& run : results.runs) {
-      if (run.spec.system == system) return run;
+      if (run.spec.system.name == system) return run;
     }
     throw std::runtime_error("no run of " + system);
   }

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "harness/campaign/process.h"
 #include "harness/io/file.h"
-#include "harness/suite/process.h"
 #include "tests/system/program.h"
 
 namespace aisle {

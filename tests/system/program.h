@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/campaign/process.h"
 #include "harness/record/results.h"
-#include "harness/suite/process.h"
 
 namespace aisle {
 

@@ -43,7 +43,7 @@ std::string SheetsOf(const RunRecord& run, const std::vector<FrameRow>& rows,
     text += fmt::format(
         "<figure><a href=\"{0}\"><img src=\"{0}\" loading=\"lazy\" alt=\"stages of frame {1}, "
         "{2}\"></a><figcaption>{3}</figcaption></figure>\n",
-        root + EscapeUrl(path), FrameOf(name), Escape(run.spec.system),
+        root + EscapeUrl(path), FrameOf(name), Escape(run.spec.system.name),
         Caption(FrameOf(name), rows));
   }
   return text;

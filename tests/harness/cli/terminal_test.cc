@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "harness/io/duration.h"
+
 namespace aisle {
 namespace {
 

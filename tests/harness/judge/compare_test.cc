@@ -10,7 +10,8 @@ namespace {
 RunRecord MakeRecordOf(const std::string& system, std::uint64_t seed, double ate_m,
                        double coverage = 1) {
   RunRecord run;
-  run.spec = {.scene = "s", .scene_file = "", .twin = "live", .system = system, .seed = seed};
+  run.spec = {
+      .scene = "s", .scene_file = "", .twin = "live", .system = BuiltIn(system), .seed = seed};
   run.scores["ate_rmse_m"] = {
       .value = ate_m, .unit = "m", .alignment = "se3", .n = 9, .absent = ""};
   run.scores["coverage"] = {.value = coverage, .unit = "1", .alignment = "", .n = 9, .absent = ""};

@@ -10,7 +10,8 @@ const Limit kTight{
 
 TEST(LimitTest, AScoreThatIsAbsentFails) {
   RunRecord run;
-  run.spec = {.scene = "s", .scene_file = "", .twin = "live", .system = "oracle", .seed = 1};
+  run.spec = {
+      .scene = "s", .scene_file = "", .twin = "live", .system = BuiltIn("oracle"), .seed = 1};
   run.scores["ate_rmse_m"].absent = "no poses";
   const auto verdicts = Judge({run}, {kTight});
   ASSERT_EQ(verdicts.size(), 1u);
@@ -22,7 +23,8 @@ TEST(LimitTest, TheMedianOverSeedsIsHeldAgainstTheBound) {
   std::vector<RunRecord> runs(3);
   const double values[] = {0.01, 0.5, 0.015};
   for (std::size_t i = 0; i < 3; ++i) {
-    runs[i].spec = {.scene = "s", .scene_file = "", .twin = "live", .system = "oracle", .seed = i};
+    runs[i].spec = {
+        .scene = "s", .scene_file = "", .twin = "live", .system = BuiltIn("oracle"), .seed = i};
     runs[i].scores["ate_rmse_m"] = {
         .value = values[i], .unit = "m", .alignment = "se3", .n = 9, .absent = ""};
   }
@@ -40,7 +42,7 @@ TEST(LimitTest, ALimitThatMatchesNothingFails) {
 
 TEST(LimitTest, ACrashFailsWithoutAnyLimit) {
   RunRecord run;
-  run.spec.system = "oracle";
+  run.spec.system = BuiltIn("oracle");
   run.status = RunStatus::kCrashed;
   run.status_why = "signal 11";
   const auto verdicts = Judge({run}, {});

@@ -7,7 +7,7 @@ namespace {
 
 RunRecord Driven(const std::string& system, const std::string& twin, double ate_m) {
   RunRecord run;
-  run.spec = {.scene = "s", .scene_file = "", .twin = twin, .system = system, .seed = 1};
+  run.spec = {.scene = "s", .scene_file = "", .twin = twin, .system = BuiltIn(system), .seed = 1};
   run.scores["ate_rmse_m"] = {
       .value = ate_m, .unit = "m", .alignment = "se3", .n = 9, .absent = ""};
   return run;

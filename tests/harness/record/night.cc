@@ -8,7 +8,7 @@ RunResult MakeRun(const std::string& scene, const std::string& system, std::uint
   run.spec = {.scene = scene,
               .scene_file = "scenes/" + scene + ".yaml",
               .twin = "live",
-              .system = system,
+              .system = BuiltIn(system),
               .seed = seed};
   for (int k = 0; k < static_cast<int>(frames); ++k) {
     const double s = k / 20.0;

@@ -10,14 +10,23 @@ namespace {
 PlanFile Example() {
   PlanFile plan;
   plan.command = "./aisle run x.yaml";
-  Suite& suite = plan.suite;
+  plan.suites.resize(2);
+  plan.suites[1].name = "second";
+  Suite& suite = plan.suites[0];
   suite.name = "x";
   suite.question = "q\n\"><script>";
   suite.scenes = {{"paper/one", "scenes/paper/one.yaml"}, {"paper/two", "scenes/paper/two.yaml"}};
-  suite.systems = {"oracle", "mine", "network"};
-  suite.externals["mine"] = {.name = "mine", .command = "slam {output}", .timeout_s = 12.5};
-  suite.imperfect["network"] = {
-      .name = "network", .like = "semantic", .errors = {.boundary_px = 0.1, .latency_frames = 2}};
+  suite.systems = {BuiltIn("oracle"),
+                   {.name = "mine",
+                    .like = "",
+                    .options = {},
+                    .mask_errors = {},
+                    .external = ExternalSystem{.command = "slam {output}", .timeout_s = 12.5}},
+                   {.name = "network",
+                    .like = "semantic",
+                    .options = {{"feature.features", "0.1"}},
+                    .mask_errors = {.boundary_px = 0.1, .latency_frames = 2},
+                    .external = {}}};
   suite.twins = {"live", "empty"};
   suite.seeds = {3, 1, 18446744073709551615u};
   suite.limits = {
@@ -28,11 +37,14 @@ PlanFile Example() {
 TEST(PlanTest, ComesBackAsItWasWritten) {
   const std::string text = ToJson(Example());
   EXPECT_EQ(ToJson(PlanFromJson(text, "plan.json")), text);
+  const PlanFile back = PlanFromJson(text, "plan.json");
+  EXPECT_EQ(back.suites[0].systems, Example().suites[0].systems);
+  EXPECT_EQ(back.name(), "x+second");
   EXPECT_THROW(PlanFromJson("{}", "plan.json"), InputError);
 }
 
 TEST(ShardTest, PartsAreDisjointAndTogetherTheWholeAndShareNoFrames) {
-  const std::vector<RunSpec> specs = Plan(Example().suite);
+  const std::vector<RunSpec> specs = Plan(Example().suites);
   for (std::size_t count = 1; count <= 15; ++count) {
     std::map<std::string, int> seen;
     std::map<std::string, std::size_t> owner_of_frames;

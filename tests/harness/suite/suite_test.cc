@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
@@ -13,8 +14,26 @@ namespace aisle {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::HasSubstr;
 
-const Vocabulary kNames{{"orbslam2", "oracle"}, {"live", "empty"}};
+/// Two systems with one option, two scores.
+Vocabulary Names() {
+  Vocabulary names;
+  names.systems = {"orbslam2", "oracle"};
+  names.twins = {"live", "empty"};
+  names.check_score = [](const std::string& score) -> std::string {
+    return score == "ate_rmse_m" || score == "coverage" ? "" : "there is no score '" + score + "'";
+  };
+  names.check_option = [](const std::string&, const std::string& path,
+                          const std::string& value) -> std::string {
+    if (path != "feature.features") return "there is no option '" + path + "'";
+    return value == "-1" ? "feature.features: expected 1 to 10000" : "";
+  };
+  names.check_options = [](const std::string&,
+                           const std::map<std::string, std::string>&) -> std::string { return ""; };
+  return names;
+}
+
 constexpr const char* kGood =
     "suite: quick\n"
     "question: Does it hold?\n"
@@ -32,18 +51,25 @@ class SuiteTest : public testing::Test {
 
   Suite Load(const std::string& text) const {
     WriteFileAtomically(root_ / "suites/s.yaml", text);
-    return LoadSuite((root_ / "suites/s.yaml").string(), kNames);
+    return LoadSuite((root_ / "suites/s.yaml").string(), Names());
   }
-  /// The message without the folder before the file's name.
+  /// The messages, without the folder before the file's name.
   std::string Complaint(const std::string& text) const {
     try {
       Load(text);
     } catch (const InputError& error) {
-      const std::string what = error.what();
-      const std::size_t at = what.find("s.yaml");
-      return at == std::string::npos ? what : what.substr(at);
+      std::string what = error.what();
+      const std::string folder = (root_ / "suites/").string();
+      for (std::size_t at; (at = what.find(folder)) != std::string::npos;) {
+        what.erase(at, folder.size());
+      }
+      return what;
     }
     return "no complaint";
+  }
+  /// The same of a suite whose systems are these.
+  std::string ComplaintOfSystem(const std::string& system) const {
+    return Complaint("suite: a\nscenes: [paper/one]\nsystems:\n  - " + system + "\n");
   }
 
   fs::path root_;
@@ -53,6 +79,7 @@ TEST_F(SuiteTest, DefaultsAreTheLiveTwinAndNineSeeds) {
   const Suite suite = Load(kGood);
   EXPECT_EQ(suite.name, "quick");
   EXPECT_EQ(suite.scenes.at(0).name, "paper/one");
+  EXPECT_EQ(suite.systems, (std::vector{BuiltIn("orbslam2"), BuiltIn("oracle")}));
   EXPECT_EQ(suite.twins, std::vector<std::string>{"live"});
   EXPECT_EQ(suite.seeds, (std::vector<std::uint64_t>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
   EXPECT_TRUE(IsSuiteFile((root_ / "suites/s.yaml").string()));
@@ -60,8 +87,9 @@ TEST_F(SuiteTest, DefaultsAreTheLiveTwinAndNineSeeds) {
 }
 
 TEST_F(SuiteTest, TheOpeningCommentAsksWhereNoKeyDoes) {
-  const Suite suite =
-      Load("# Does it\n# hold?\nsuite: q\nscenes: [paper/one]\nsystems: [oracle]\n# not this\n");
+  const Suite suite = Load(
+      "# yaml-language-server: $schema=x\n# Does it\n# hold?\nsuite: q\nscenes: paper/one\n"
+      "systems: oracle\n# not this\n");
   EXPECT_EQ(suite.question, "Does it hold?");
 }
 
@@ -83,57 +111,132 @@ TEST_F(SuiteTest, EveryCellIsPlannedAndFramesAreSharedByNeighbours) {
 TEST_F(SuiteTest, MistakesAreNamedWithPlaceAndRemedy) {
   const std::string good = kGood;
   const std::pair<std::string, std::string> cases[] = {
-      {"suite: a\nquestion: b\nscenes: [paper/one]\n",
-       "s.yaml:1:1: key 'systems' is missing, for example 'systems: [orbslam2, oracle]'"},
-      {good + "colour: red\n",
-       "s.yaml:5:1: unknown key 'colour': expected one of suite, question, scenes, systems, twins, "
-       "seeds, limits"},
+      {"suite: a\nquestion: b\nscenes: [paper/one]\n", "s.yaml:1:1: systems: it is missing"},
+      {good + "colour: red\n", "s.yaml:5:1: colour: there is no such key; known here: suite"},
+      {good + "seds: 3\n", "s.yaml:5:1: seds: there is no such key; did you mean seeds?"},
       {good + "suite: again\n",
        "s.yaml:5:1: key 'suite' appears twice (first in line 1): remove one"},
-      {"suite: a\nquestion: b\nscenes: [paper/one]\nsystems: [best]\n",
-       "s.yaml:4:11: system 'best' is not known: expected one of orbslam2, oracle"},
-      {good + "twins: [dead]\n",
-       "s.yaml:5:9: twin 'dead' is not known: expected one of live, empty"},
+      {"suite: a\nscenes: [paper/one]\nsystems: [orbslam]\n",
+       "s.yaml:3:11: systems[0].name: expected one of orbslam2, oracle (did you mean orbslam2?), "
+       "got 'orbslam'"},
+      {good + "twins: [dead]\n", "s.yaml:5:9: twins: 'dead': expected one of live, empty"},
+      {good + "twins: [live, live]\n", "s.yaml:5:15: twins: 'live' is given twice"},
       {good + "seeds: many\n",
-       "s.yaml:5:8: 'many' is no whole number, for example 'seeds: 3' or 'seeds: [1, 7]'"},
-      {good + "seeds: 0\n", "s.yaml:5:8: expected 1 to 1000 seeds"},
-      {good + "seeds: -1\n",
-       "s.yaml:5:8: '-1' is no whole number, for example 'seeds: 3' or 'seeds: [1, 7]'"},
-      {"suite: ../x\nquestion: b\nscenes: [paper/one]\nsystems: [oracle]\n",
-       "s.yaml:1:8: '../x' is no name: letters, digits, '_', '.' and '-', 1 to 80 of them"},
-      {"suite: \"\\\"><script>\"\nquestion: b\nscenes: [paper/one]\nsystems: [oracle]\n",
-       "s.yaml:1:8: '\"><script>' is no name: letters, digits, '_', '.' and '-', 1 to 80 of them"},
+       "s.yaml:5:8: seeds: expected how many (1 to 1000), or a list of whole numbers, got 'many'"},
+      {good + "seeds: 0\n", "s.yaml:5:8: seeds: expected how many (1 to 1000)"},
+      {good + "seeds: -1\n", "s.yaml:5:8: seeds: expected how many (1 to 1000)"},
+      {good + "seeds: [1, 2, 1]\n", "s.yaml:5:15: seeds: 1 is given twice"},
+      {"suite: ../x\nscenes: [paper/one]\nsystems: [oracle]\n",
+       "s.yaml:1:8: suite: expected a name of letters, digits, '_', '.' and '-', 1 to 80 of them, "
+       "got '../x'"},
       {good + "limits: [{system: oracle, max: 1}]\n",
-       "s.yaml:5:10: a limit needs a score, for example {score: ate_rmse_m, system: oracle, twin: "
-       "live, max: 0.02}"},
-      {good + "limits: [{score: ate_rmse_m}]\n", "s.yaml:5:10: a limit needs 'min', 'max' or both"},
-      {good + "limits: [{score: ate_rmse_m, max: tiny}]\n", "s.yaml:5:35: 'tiny' is no number"},
+       "s.yaml:5:10: limits[0].score: it is missing"},
+      {good + "limits: [{score: ate_rmse, max: 1}]\n",
+       "s.yaml:5:18: limits[0].score: there is no score 'ate_rmse'"},
+      {good + "limits: [{score: ate_rmse_m}]\n", "a limit needs 'min', 'max' or both"},
+      {good + "limits: [{score: ate_rmse_m, min: 2, max: 1}]\n", "it is above 'max'"},
+      {good + "limits: [{score: ate_rmse_m, max: tiny}]\n",
+       "s.yaml:5:35: limits[0].max: expected a number, got 'tiny'"},
       {good + "limits: [{score: ate_rmse_m, twin: empty, max: 1}]\n",
-       "s.yaml:5:36: this suite's twin 'empty' is not known: expected one of live"},
+       "s.yaml:5:36: limits[0].twin: expected one of live"},
       {"suite: &a x\nquestion: *a\n",
        "s.yaml:1:8: anchors (&name) are not allowed: write the value out"},
-      {"just a text\n", "s.yaml:1:1: expected 'key: value' lines, for example 'suite: quickstart'"},
+      {"just a text\n", "s.yaml:1:1: expected 'key: value' lines"},
       {"suite: [a\n", "s.yaml:2:1: is no YAML: end of sequence flow not found"},
       {std::string(40, '[') + std::string(40, ']'), "s.yaml:1:33: nested deeper than 32 levels"},
       {"suite: a\nquestion: [b]\nscenes: [paper/one]\nsystems: [oracle]\n",
-       "s.yaml:2:11: expected a text"},
-      {"suite: a\nquestion: b\nscenes: []\nsystems: [oracle]\n",
-       "s.yaml:3:9: expected a list with an entry at least"},
+       "s.yaml:2:11: question: expected a text, got a list of 1"},
+      {"suite: a\nscenes: []\nsystems: [oracle]\n",
+       "s.yaml:2:9: scenes: expected a list with an entry at least"},
+      {"suite: a\nscenes: [paper/none]\nsystems: [oracle]\n",
+       "s.yaml:2:10: scenes: 'paper/none': there is no such scene below"},
+      {"suite: a\nscenes: [paper/one, ../paper/one.yaml]\nsystems: [oracle]\n",
+       "would both be called 'paper/one'"},
   };
-  for (const auto& [text, expected] : cases) EXPECT_EQ(Complaint(text), expected) << text;
-  EXPECT_THAT(Complaint("suite: a\nquestion: b\nscenes: [paper/none]\nsystems: [oracle]\n"),
-              testing::StartsWith("s.yaml:3:10: scene 'paper/none' is neither below"));
+  for (const auto& [text, expected] : cases) EXPECT_THAT(Complaint(text), HasSubstr(expected));
 }
 
-TEST_F(SuiteTest, ASystemMayBeWrappedForVslamLabOrToldSpoiltMasks) {
+TEST_F(SuiteTest, AllMistakesAreReportedInTheOrderOfTheirPlaces) {
+  EXPECT_THAT(
+      Complaint("suite: a/b\nscenes: [paper/none]\nsystems: [best]\ntwins: [dead]\nseeds: x\n"),
+      testing::MatchesRegex("s.yaml:1:8: .*\ns.yaml:2:10: .*\ns.yaml:3:11: .*\ns.yaml:4:9: .*\n"
+                            "s.yaml:5:8: .*"));
+}
+
+TEST_F(SuiteTest, ASystemIsOursAVariantToldSpoiltMasksOrACommand) {
   const Suite suite = Load(
       "suite: a\nquestion: b\nscenes: [paper/one]\nsystems:\n"
+      "  - {name: fast, like: orbslam2, options: {feature.features: 800}}\n"
+      "  - {name: network, like: oracle, mask_errors: {boundary_px: 2.5, latency_frames: 3}}\n"
       "  - {name: wrapped, contract: vslam-lab, command: slam}\n"
-      "  - {name: network, like: oracle, mask_errors: {boundary_px: 2.5, latency_frames: 3}}\n");
-  EXPECT_EQ(suite.systems, (std::vector<std::string>{"wrapped", "network"}));
-  EXPECT_TRUE(suite.externals.at("wrapped").vslam_lab);
-  EXPECT_EQ(suite.imperfect.at("network").errors,
-            (MaskErrors{.boundary_px = 2.5, .latency_frames = 3}));
+      "  - {name: mine, command: 'slam {dataset} {output}', dataset: kitti, timeout_s: 5}\n");
+  EXPECT_EQ(suite.systems.at(0), (SystemSpec{.name = "fast",
+                                             .like = "orbslam2",
+                                             .options = {{"feature.features", "800"}},
+                                             .mask_errors = {},
+                                             .external = {}}));
+  EXPECT_EQ(suite.systems.at(1).mask_errors, (MaskErrors{.boundary_px = 2.5, .latency_frames = 3}));
+  EXPECT_TRUE(suite.systems.at(2).external->vslam_lab);
+  EXPECT_EQ(suite.systems.at(3).external->dataset, "kitti");
+  EXPECT_EQ(suite.systems.at(3).external->timeout_s, 5);
+}
+
+TEST_F(SuiteTest, PartsOfASystemMustFitTogether) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"{name: oracle, options: {feature.features: 800}}", "'oracle' is one of ours as it is"},
+      {"{name: x}", "it needs a 'command', or 'like' with one of our systems"},
+      {"{name: x, like: oracle, command: 'slam {output}'}", "not both"},
+      {"{name: x, like: orbslam2, mask_errors: {boundary_px: 3}}", "told their masks"},
+      {"{name: x, like: oracle, mask_errors: {boundary_px: 300}}", "from 0 to 100"},
+      {"{name: x, command: slam}", "the command must say where {output} goes"},
+      {"{name: x, command: slam, contract: vslam-lab, dataset: kitti}", "leave both out"},
+      {"{name: x, command: 'slam {output}', timeout_s: 0}", "timeout_s"},
+      {"{name: x, like: oracle, options: {feature.featurs: 8}}",
+       "4:39: systems[0].options: there is no option 'feature.featurs'"},
+      {"{name: x, like: oracle, options: {feature.features: -1}}", "expected 1 to 10000"},
+      {"oracle\n  - oracle", "'oracle' is already taken"},
+  };
+  for (const auto& [system, expected] : cases) {
+    EXPECT_THAT(ComplaintOfSystem(system), HasSubstr(expected)) << system;
+  }
+}
+
+TEST_F(SuiteTest, SeveralSuitesKeepTheirOwnSystemsAndShareEqualCells) {
+  Suite one = Load(kGood), other = Load(kGood);
+  one.seeds = other.seeds = {1};
+  other.systems = {BuiltIn("oracle"), {.name = "fast", .like = "orbslam2"}};
+  const std::vector<RunSpec> specs = Plan(std::vector{one, other});
+  std::vector<std::string> systems;
+  for (const RunSpec& spec : specs) systems.push_back(spec.system.name);
+  EXPECT_EQ(systems, (std::vector<std::string>{"orbslam2", "oracle", "fast"}));
+
+  other.systems.back().name = "orbslam2";
+  other.systems.back().options["feature.features"] = "800";
+  EXPECT_THROW(Plan(std::vector{one, other}), InputError);  // one name, two systems
+  other = one;
+  other.scenes.front().file = (root_ / "paper/two.yaml").string();
+  EXPECT_THROW(Plan(std::vector{one, other}), InputError);  // one name, two scenes
+}
+
+TEST(SuiteSchemaTest, DescribesWhatTheReaderTakes) {
+  const auto schema = nlohmann::json::parse(SuiteSchema(Names()));
+  const auto& properties = schema.at("properties");
+  for (const char* key : {"suite", "question", "scenes", "systems", "twins", "seeds", "limits"}) {
+    EXPECT_TRUE(properties.contains(key)) << key;
+  }
+  EXPECT_EQ(schema.at("required"), (nlohmann::json{"suite", "scenes", "systems"}));
+  const auto& system = properties.at("systems").at("items").at("anyOf");
+  EXPECT_EQ(system.at(0).at("enum"), (nlohmann::json{"orbslam2", "oracle"}));
+  EXPECT_TRUE(system.at(1).at("properties").contains("options"));
+  EXPECT_FALSE(properties.at("limits").at("items").at("properties").at("max").contains("default"));
+}
+
+TEST(SuiteReferenceTest, HasARowForEveryKey) {
+  const std::string page = SuiteReference(Names());
+  for (const char* key : {"`suite`", "`systems[].options`", "`systems[].mask_errors.miss_share`",
+                          "`limits[].max`", "`seeds`"}) {
+    EXPECT_THAT(page, HasSubstr(key));
+  }
 }
 
 TEST(SceneNameTest, IsThePathBelowTheScenesFolder) {

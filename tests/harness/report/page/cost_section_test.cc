@@ -10,7 +10,8 @@ Results Drives(const std::vector<std::pair<std::string, double>>& ate_m_of_twin)
   Results results;
   for (const auto& [twin, ate_m] : ate_m_of_twin) {
     RunRecord run;
-    run.spec = {.scene = "s", .scene_file = "", .twin = twin, .system = "robust", .seed = 1};
+    run.spec = {
+        .scene = "s", .scene_file = "", .twin = twin, .system = BuiltIn("robust"), .seed = 1};
     run.scores["ate_rmse_m"].value = ate_m;
     results.runs.push_back(run);
   }

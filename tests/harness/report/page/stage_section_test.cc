@@ -10,7 +10,7 @@ using testing::HasSubstr;
 
 TEST(StageSection, ShowsTheSheetsOfTheRunThatHasThem) {
   RunRecord plain;
-  plain.spec = {.scene = "a/b", .scene_file = "", .system = "paper", .seed = 1};
+  plain.spec = {.scene = "a/b", .scene_file = "", .system = BuiltIn("paper"), .seed = 1};
   RunRecord drawn = plain;
   drawn.spec.seed = 2;
   drawn.artifacts = {{"stages_000031", "runs/x/stages/000031.jpg"},

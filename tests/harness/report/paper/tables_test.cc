@@ -15,7 +15,8 @@ Results Night(const std::string& started, double ate_m, const std::string& scene
   results.provenance.commit = "abc";
   for (const std::string system : {"orbslam2", "ora|cle_"}) {
     RunRecord run;
-    run.spec = {.scene = scene, .scene_file = "", .twin = "live", .system = system, .seed = 1};
+    run.spec = {
+        .scene = scene, .scene_file = "", .twin = "live", .system = BuiltIn(system), .seed = 1};
     for (const char* name : {"ate_rmse_m", "ate_mean_m", "ate_median_m", "ate_std_m"}) {
       run.scores[name] = {.value = ate_m, .unit = "m", .alignment = "se3", .n = 9, .absent = ""};
     }

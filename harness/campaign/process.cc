@@ -1,4 +1,4 @@
-#include "harness/suite/process.h"
+#include "harness/campaign/process.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -12,8 +12,8 @@
 #include <fstream>
 #include <thread>
 
+#include "harness/campaign/guard.h"
 #include "harness/io/input_error.h"
-#include "harness/suite/guard.h"
 
 namespace aisle {
 namespace {
@@ -147,6 +147,10 @@ void Process::TakeLine(const std::string& line) {
   if (std::sscanf(line.c_str(), "@progress %d %d", &done, &total) == 2) {
     progress_done_ = done;
     progress_total_ = total;
+    return;
+  }
+  if (const std::string_view mark = "@stage "; line.starts_with(mark)) {
+    progress_stage_ = line.substr(mark.size());
     return;
   }
   result_.log += line + "\n";

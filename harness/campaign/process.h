@@ -44,6 +44,8 @@ class Process {
   /// Lines "@progress I N" of its output, latest; 0 of 0 before the first.
   int progress_done() const { return progress_done_; }
   int progress_total() const { return progress_total_; }
+  /// The latest line "@stage WHAT" of its output.
+  const std::string& progress_stage() const { return progress_stage_; }
   const ProcessResult& result() const { return result_; }
 
  private:
@@ -60,6 +62,7 @@ class Process {
   bool killed_ = false;
   std::string partial_line_;
   int progress_done_ = 0, progress_total_ = 0;
+  std::string progress_stage_;
   ProcessResult result_;
 };
 

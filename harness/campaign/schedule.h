@@ -5,19 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "harness/contract/run.h"
-#include "harness/suite/process.h"
+#include "harness/campaign/job.h"
+#include "harness/campaign/process.h"
 
 namespace aisle {
-
-/// A run to be made by a process of its own.
-struct Job {
-  RunSpec spec;
-  std::vector<std::string> argv;
-  /// Jobs with the same frames. The first makes them, the others start when it has ended.
-  std::string frames_key;
-  std::string inputs_hash = {};  ///< of all that decides the run
-};
 
 struct ScheduleOptions {
   int jobs = 1;  ///< processes at once
@@ -27,10 +18,13 @@ struct ScheduleOptions {
 
 struct JobProgress {
   const Job* job = nullptr;
-  int done = 0, total = 0;  ///< frames
+  int done = 0, total = 0;  ///< frames; 0 of 0 before the first
+  std::string stage;        ///< what it does before the first
 };
 
 struct ScheduleEvents {
+  /// The command line of a job's process.
+  std::function<std::vector<std::string>(const Job&)> argv;
   std::function<void(const Job&, const ProcessResult&)> ended;
   /// Some ten times a second: what is running now, and how many jobs have ended.
   std::function<void(const std::vector<JobProgress>&, std::size_t ended)> tick;

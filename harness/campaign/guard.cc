@@ -1,4 +1,4 @@
-#include "harness/suite/guard.h"
+#include "harness/campaign/guard.h"
 
 #include <fcntl.h>
 #include <sys/prctl.h>

@@ -1,5 +1,5 @@
 // Whatever a child does, the harness goes on: the children here are shell scripts that misbehave.
-#include "harness/suite/process.h"
+#include "harness/campaign/process.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <fstream>
 #include <thread>
 
-#include "harness/suite/schedule.h"
+#include "harness/campaign/schedule.h"
 
 namespace aisle {
 namespace {
@@ -124,19 +124,23 @@ TEST(ProcessTest, AProgramThatIsNotThereExits127) {
   EXPECT_EQ(process.result().code, 127);
 }
 
+/// The script of a job that a test has named by it.
+std::vector<std::string> ScriptOf(const Job& job) { return Shell(job.spec.scene); }
+
 TEST(ScheduleTest, OneSystemsCrashTouchesNoOther) {
   std::vector<Job> jobs;
   const char* scripts[] = {"exit 0", "kill -SEGV $$", "exit 0", "exit 3"};
   for (int i = 0; i < 4; ++i) {
     Job job;
     job.spec.seed = static_cast<std::uint64_t>(i);
-    job.argv = Shell(scripts[i]);
+    job.spec.scene = scripts[i];
     job.frames_key = "same";
     jobs.push_back(job);
   }
   std::map<std::uint64_t, ProcessResult> ended;
   const auto note = [&](const Job& job, const ProcessResult& r) { ended[job.spec.seed] = r; };
-  EXPECT_TRUE(RunJobs(jobs, {.jobs = 3, .limits = {}}, {.ended = note, .tick = {}}));
+  EXPECT_TRUE(
+      RunJobs(jobs, {.jobs = 3, .limits = {}}, {.argv = ScriptOf, .ended = note, .tick = {}}));
   ASSERT_EQ(ended.size(), 4u);
   EXPECT_EQ(ended[0].code, 0);
   EXPECT_EQ(ended[1].end, End::kSignalled);
@@ -151,23 +155,24 @@ TEST(ScheduleTest, FramesAreMadeByOneJobAtATime) {
   std::vector<Job> jobs;
   for (int i = 0; i < 2; ++i) {
     Job job;
-    job.argv = Shell(i == 0 ? script : "test ! -d " + lock);
+    job.spec.scene = i == 0 ? script : "test ! -d " + lock;
     job.frames_key = "shared";
     jobs.push_back(job);
   }
   int good = 0;
   const auto note = [&](const Job&, const ProcessResult& r) { good += r.code == 0; };
-  EXPECT_TRUE(RunJobs(jobs, {.jobs = 2, .limits = {}}, {.ended = note, .tick = {}}));
+  EXPECT_TRUE(
+      RunJobs(jobs, {.jobs = 2, .limits = {}}, {.argv = ScriptOf, .ended = note, .tick = {}}));
   EXPECT_EQ(good, 2);
 }
 
 TEST(ScheduleTest, AnInterruptEndsWhatRuns) {
   std::atomic<bool> interrupted = false;
   Job job;
-  job.argv = Shell("sleep 100");
+  job.spec.scene = "sleep 100";
   const auto stop = [&](const std::vector<JobProgress>&, std::size_t) { interrupted = true; };
   EXPECT_FALSE(RunJobs({job}, {.jobs = 1, .limits = {}, .interrupted = &interrupted},
-                       {.ended = {}, .tick = stop}));
+                       {.argv = ScriptOf, .ended = {}, .tick = stop}));
 }
 
 }  // namespace

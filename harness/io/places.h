@@ -3,9 +3,10 @@
 #include <filesystem>
 #include <string>
 
-#include "harness/record/results.h"
-
 namespace aisle {
+
+/// The source tree this program was built from.
+std::filesystem::path SourceDir();
 
 /// Meshes and textures: $AISLE_ASSETS, or assets/ of the source tree this program was built from.
 /// Throws InputError when there is no such folder.
@@ -17,14 +18,8 @@ std::string SceneFile(const std::string& file_or_name);
 /// Rendered frames shared between runs: $AISLE_CACHE, or .cache/ of the source tree.
 std::filesystem::path CacheDir();
 
-/// The results that `run --gate` holds a suite against: reports/baselines/SUITE.json of the tree.
-std::filesystem::path BaselinePath(const std::string& suite);
-
 /// This very program.
 std::filesystem::path OwnExecutable();
-
-/// Version, commit, processor, system.
-Provenance OwnProvenance();
 
 /// Now, UTC: "2026-01-31T02:00:00Z".
 std::string NowIso8601();

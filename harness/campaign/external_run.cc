@@ -1,12 +1,12 @@
-#include "harness/cli/external.h"
+#include "harness/campaign/external_run.h"
 
 #include <thread>
 
+#include "harness/campaign/process.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/vslam_lab.h"
 #include "harness/run/external_result.h"
-#include "harness/suite/process.h"
 
 namespace aisle {
 namespace {

@@ -1,4 +1,4 @@
-#include "harness/suite/schedule.h"
+#include "harness/campaign/schedule.h"
 
 #include <chrono>
 #include <list>
@@ -30,7 +30,8 @@ std::list<const Job*>::iterator NextToStart(std::list<const Job*>& waiting,
 std::vector<JobProgress> ProgressOf(const std::list<Running>& running) {
   std::vector<JobProgress> progress;
   for (const Running& one : running) {
-    progress.push_back({one.job, one.process->progress_done(), one.process->progress_total()});
+    progress.push_back({one.job, one.process->progress_done(), one.process->progress_total(),
+                        one.process->progress_stage()});
   }
   return progress;
 }
@@ -49,7 +50,7 @@ bool RunJobs(const std::vector<Job>& jobs, const ScheduleOptions& options,
     while (static_cast<int>(running.size()) < std::max(options.jobs, 1)) {
       const auto next = NextToStart(waiting, made, running);
       if (next == waiting.end()) break;
-      running.push_back({*next, std::make_unique<Process>((*next)->argv, options.limits)});
+      running.push_back({*next, std::make_unique<Process>(events.argv(**next), options.limits)});
       waiting.erase(next);
     }
     for (auto it = running.begin(); it != running.end();) {

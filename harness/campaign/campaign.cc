@@ -1,0 +1,188 @@
+#include "harness/campaign/campaign.h"
+
+#include <sstream>
+
+#include "harness/contract/exit_code.h"
+#include "harness/io/duration.h"
+#include "harness/io/file.h"
+#include "harness/io/frame_store.h"
+#include "harness/io/input_error.h"
+#include "harness/io/places.h"
+#include "harness/record/record.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string LastLine(const std::string& log) {
+  std::istringstream stream(log);
+  std::string line, last;
+  while (std::getline(stream, line)) {
+    if (!line.empty()) last = line;
+  }
+  return last;
+}
+
+/// The record of a run whose process did not live to write one.
+RunRecord FailedRun(const Job& job, const ProcessResult& result, const ProcessLimits& limits) {
+  RunRecord record;
+  record.spec = job.spec;
+  record.inputs_hash = job.inputs_hash;
+  const bool out_of_bounds =
+      result.end == ProcessResult::End::kTimeout || result.end == ProcessResult::End::kMemory;
+  record.status = out_of_bounds ? RunStatus::kTimeout : RunStatus::kCrashed;
+  record.status_why = Describe(result, limits);
+  if (const std::string last = LastLine(result.log); !last.empty()) {
+    record.status_why += "; last words: " + Printable(last, 160);
+  }
+  record.wall_s = result.wall_s;
+  return record;
+}
+
+/// What the campaign left for others of its runs must not fill the disk before it is over.
+void ShrinkCaches() {
+  constexpr std::uintmax_t kMostBytes = std::uintmax_t{12} << 30;
+  ShrinkStore(CacheDir() / "frames", kMostBytes);
+  ShrinkStore(CacheDir() / "datasets", kMostBytes, std::chrono::hours(24));
+}
+
+bool IsFailure(const std::optional<RunRecord>& record) {
+  return record && record->status != RunStatus::kOk && record->status != RunStatus::kLost;
+}
+
+/// Follows the runs as they come and go.
+class Follower {
+ public:
+  Follower(std::size_t total, const ProcessLimits& limits, const CampaignEvents& events)
+      : total_(total), limits_(limits), events_(events) {}
+
+  void Ended(const Job& job, const ProcessResult& result) {
+    ++ended_;
+    ShrinkCaches();
+    const std::string id = RunId(job.spec);
+    const bool exited = result.end == ProcessResult::End::kExited;
+    if (exited && (result.code == kOwnFailure || result.code == kBadInput)) {
+      failure_ = std::max(failure_, result.code);
+      events_.say(fmt::format("{}: {}", id, Printable(LastLine(result.log), 4096)));
+      return;
+    }
+    const fs::path folder = job.out / "runs" / id;
+    WriteFileAtomically(folder / "log.txt", result.log);
+    if (!exited || result.code != 0) {
+      WriteFileAtomically(folder / "result.json", ToJson(FailedRun(job, result, limits_)));
+    }
+    const std::optional<RunRecord> record = ReadRun(job.spec, job.out);
+    events_.say(fmt::format("[{}/{}] {}  {}  {}", ended_, total_, id,
+                            record ? Name(record->status) : "no result", Duration(result.wall_s)));
+  }
+
+  void Tick(const std::vector<JobProgress>& running) {
+    std::string text = fmt::format("{}/{} runs", ended_, total_);
+    double share = static_cast<double>(ended_);
+    for (const JobProgress& one : running) {
+      text += fmt::format(" | {} {}", RunId(one.job->spec), Describe(one));
+      if (one.total > 0) share += static_cast<double>(one.done) / one.total;
+    }
+    const double elapsed_s = watch_.ElapsedMs() * 1e-3;
+    if (share > 0.02) {
+      const double left_s = elapsed_s * (static_cast<double>(total_) - share) / share;
+      text += " | " + Duration(left_s) + " left";
+    }
+    events_.show(text);
+  }
+
+  int failure() const { return failure_; }
+
+ private:
+  /// Before the first frame the light that stands still is solved, minutes in a large scene.
+  static std::string Describe(const JobProgress& one) {
+    if (one.total == 0) return one.stage.empty() ? "starting" : one.stage;
+    return fmt::format("{}/{}", one.done, one.total);
+  }
+  static std::string Describe(const ProcessResult& result, const ProcessLimits& limits) {
+    return aisle::Describe(result, limits);
+  }
+
+  const std::size_t total_;
+  const ProcessLimits limits_;
+  const CampaignEvents& events_;
+  std::size_t ended_ = 0;
+  int failure_ = 0;
+  Stopwatch watch_;
+};
+
+/// Makes all of `jobs`; false when interrupted.
+bool RunAll(const std::vector<Job>& jobs, const CampaignOptions& options,
+            const CampaignEvents& events, int* failure) {
+  for (const Job& job : jobs) WriteJob(job);
+  Follower follower(jobs.size(), options.limits, events);
+  const auto argv = [](const Job& job) -> std::vector<std::string> {
+    return {OwnExecutable().string(), "run-one", JobPath(job.out, job.spec).string()};
+  };
+  const bool finished = RunJobs(
+      jobs, {.jobs = options.at_once, .limits = options.limits, .interrupted = options.interrupted},
+      {.argv = argv,
+       .ended = [&](const Job& job, const ProcessResult& result) { follower.Ended(job, result); },
+       .tick = [&](const std::vector<JobProgress>& running,
+                   std::size_t) { follower.Tick(running); }});
+  *failure = std::max(*failure, follower.failure());
+  return finished;
+}
+
+/// Those that failed, to be made once more in another folder.
+std::vector<Job> JobsThatFailed(const std::vector<Job>& jobs) {
+  std::vector<Job> again;
+  for (const Job& job : jobs) {
+    if (!IsFailure(ReadRun(job.spec, job.out))) continue;
+    again.push_back(job);
+    again.back().out = job.out / "again";
+    fs::remove_all(again.back().out / "runs" / RunId(job.spec));
+  }
+  return again;
+}
+
+/// Marks the runs that ended well the second time.
+void MarkFlaky(const std::vector<Job>& jobs) {
+  for (const Job& job : jobs) {
+    const std::optional<RunRecord> second = ReadRun(job.spec, job.out / "again");
+    std::optional<RunRecord> first = ReadRun(job.spec, job.out);
+    if (!second || !IsFailure(first) || IsFailure(second)) continue;
+    first->flaky = true;
+    first->status_why += "; a second attempt with the same inputs ended well";
+    WriteFileAtomically(job.out / "runs" / RunId(job.spec) / "result.json", ToJson(*first));
+  }
+}
+
+}  // namespace
+
+CampaignOutcome RunCampaign(const std::vector<Job>& jobs, const CampaignOptions& options,
+                            const CampaignEvents& events) {
+  const Stopwatch watch;
+  CampaignOutcome outcome;
+  outcome.finished = RunAll(jobs, options, events, &outcome.failure);
+  if (outcome.finished && options.retry) {
+    const std::vector<Job> again = JobsThatFailed(jobs);
+    if (!again.empty()) {
+      events.say(
+          fmt::format("aisle: {} failed; once more, to tell flaky from broken", again.size()));
+      int second_failure = 0;  // the first attempt is what counts
+      outcome.finished = RunAll(again, options, events, &second_failure);
+      if (outcome.finished) MarkFlaky(jobs);
+    }
+  }
+  outcome.wall_s = watch.ElapsedMs() * 1e-3;
+  return outcome;
+}
+
+std::vector<Job> StillToDo(std::vector<Job> jobs, bool resume) {
+  std::vector<Job> todo;
+  for (Job& job : jobs) {
+    if (resume && ReadFinishedRun(job.spec, job.inputs_hash, job.out)) continue;
+    fs::remove_all(job.out / "runs" / RunId(job.spec));
+    todo.push_back(std::move(job));
+  }
+  return todo;
+}
+
+}  // namespace aisle

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "harness/campaign/schedule.h"
+#include "harness/run/stopwatch.h"
+
+namespace aisle {
+
+/// Where a campaign tells its user how it goes.
+struct CampaignEvents {
+  std::function<void(const std::string&)> say;   ///< a line that stays
+  std::function<void(const std::string&)> show;  ///< a line that the next one replaces
+};
+
+struct CampaignOptions {
+  int at_once = 1;  ///< processes
+  ProcessLimits limits;
+  bool retry = true;  ///< try failed runs once more, to tell flaky from broken
+  const std::atomic<bool>* interrupted = nullptr;  ///< set from outside: stop soon
+};
+
+struct CampaignOutcome {
+  bool finished = true;  ///< false: interrupted
+  int failure = 0;       ///< 0, or the exit code of what failed on our side
+  double wall_s = 0;
+};
+
+/// Makes the runs, each in a process of its own that reads its job.json, and files the failures of
+/// those that could not do it themselves. Runs that failed are then made once more, elsewhere: the
+/// same inputs that end well the second time make the run flaky, never good.
+CampaignOutcome RunCampaign(const std::vector<Job>& jobs, const CampaignOptions& options,
+                            const CampaignEvents& events);
+
+/// The jobs that have no result for these very inputs; what else lies in their folders is taken
+/// away. Without `resume` all of them.
+std::vector<Job> StillToDo(std::vector<Job> jobs, bool resume);
+
+}  // namespace aisle

@@ -1,0 +1,164 @@
+#include "harness/campaign/inputs.h"
+
+#include <filesystem>
+#include <set>
+
+#include "harness/io/input_error.h"
+#include "harness/io/nearest_word.h"
+#include "harness/plugs/simulated_sequence.h"
+#include "harness/plugs/systems.h"
+#include "harness/score/score_names.h"
+
+namespace aisle {
+namespace {
+
+void CheckNames(const std::vector<std::string>& names, const std::vector<std::string>& known,
+                const std::string& option) {
+  std::set<std::string> seen;
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw InputError(fmt::format("{}: '{}' is not known: expected one of {}{}", option,
+                                   Printable(name), fmt::join(known, ", "),
+                                   DidYouMean(name, known)));
+    }
+    if (!seen.insert(name).second) {
+      throw InputError(fmt::format("{}: '{}' is given twice; keep one of them", option, name));
+    }
+  }
+}
+
+/// A suite's own systems may be chosen by name like any of ours.
+std::vector<SystemSpec> ChooseSystems(const Suite& suite, const std::vector<std::string>& names,
+                                      const Vocabulary& vocabulary) {
+  std::vector<std::string> known = vocabulary.systems;
+  for (const std::string& name : SystemNames(suite)) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
+  }
+  CheckNames(names, known, "--systems");
+  std::vector<SystemSpec> chosen;
+  for (const std::string& name : names) {
+    const auto own = std::find_if(suite.systems.begin(), suite.systems.end(),
+                                  [&](const SystemSpec& spec) { return spec.name == name; });
+    chosen.push_back(own == suite.systems.end() ? BuiltIn(name) : *own);
+  }
+  return chosen;
+}
+
+Suite LoadInput(const std::string& file, const InputOptions& options,
+                const Vocabulary& vocabulary) {
+  Suite suite = IsSuiteFile(file) ? LoadSuite(file, vocabulary) : SuiteOfScene(file);
+  if (!options.systems.empty()) suite.systems = ChooseSystems(suite, options.systems, vocabulary);
+  if (!options.twins.empty()) suite.twins = options.twins;
+  if (options.seeds > 0) {
+    suite.seeds.clear();
+    for (std::uint64_t seed = 1; seed <= options.seeds; ++seed) suite.seeds.push_back(seed);
+  }
+  if (!options.seed.empty()) suite.seeds = options.seed;
+  return suite;
+}
+
+/// One of the systems that "robust.feature.features=800" can mean, and the rest of the text. Names
+/// may hold dots: the longest that fits is meant.
+std::pair<SystemSpec*, std::string> SystemOf(const std::string& text,
+                                             std::vector<SystemSpec>* systems) {
+  std::pair<SystemSpec*, std::string> found{nullptr, ""};
+  std::size_t longest = 0;
+  for (SystemSpec& spec : *systems) {
+    if (spec.name.size() < longest || !text.starts_with(spec.name + ".")) continue;
+    longest = spec.name.size();
+    found = {&spec, text.substr(longest + 1)};
+  }
+  return found;
+}
+
+void SetOptions(const std::vector<std::string>& assignments, std::vector<Suite>* suites) {
+  for (const std::string& text : assignments) {
+    std::set<std::string> names;
+    bool any = false;
+    for (Suite& suite : *suites) {
+      for (const std::string& name : SystemNames(suite)) names.insert(name);
+      const auto [spec, assignment] = SystemOf(text, &suite.systems);
+      if (spec == nullptr) continue;
+      if (spec->external) {
+        throw InputError(
+            fmt::format("--set {}: '{}' is a command: it takes its own options in its "
+                        "words",
+                        Printable(text), spec->name));
+      }
+      any = true;
+      for (const auto& [path, value] : OptionsFromText({assignment}, FindSystem(spec->like))) {
+        spec->options[path] = value;
+      }
+      const std::string wrong = CheckOptions(FindSystem(spec->like), spec->options);
+      if (!wrong.empty()) throw InputError("--set " + Printable(text) + ": " + wrong);
+    }
+    if (!any) {
+      throw InputError(
+          fmt::format("--set {}: expected SYSTEM.PATH=VALUE with one of {}, for example "
+                      "robust.feature.features=800",
+                      Printable(text), fmt::join(names, ", ")));
+    }
+  }
+}
+
+}  // namespace
+
+Vocabulary KnownNames() {
+  Vocabulary vocabulary;
+  for (const System& system : Systems()) vocabulary.systems.push_back(system.name);
+  vocabulary.twins = TwinNames();
+  vocabulary.check_score = [](const std::string& score) -> std::string {
+    if (IsScoreName(score)) return {};
+    std::vector<std::string> known;
+    for (const ScoreDescription& description : ScoreNames()) known.push_back(description.name);
+    return fmt::format("there is no score '{}'{}; `aisle score --list` lists them",
+                       Printable(score), DidYouMean(score, known));
+  };
+  vocabulary.check_option = [](const std::string& like, const std::string& path,
+                               const std::string& value) -> std::string {
+    return like.empty() ? std::string() : CheckOption(path, value);
+  };
+  vocabulary.check_options = [](const std::string& like,
+                                const std::map<std::string, std::string>& options) {
+    return CheckOptions(FindSystem(like), options);
+  };
+  return vocabulary;
+}
+
+std::vector<Suite> LoadInputs(const InputOptions& options) {
+  const Vocabulary vocabulary = KnownNames();
+  CheckNames(options.twins, vocabulary.twins, "--twins");
+  std::vector<Suite> suites;
+  for (const std::string& file : options.files) {
+    suites.push_back(LoadInput(file, options, vocabulary));
+  }
+  SetOptions(options.set, &suites);
+  return suites;
+}
+
+void CheckScenes(const std::vector<Suite>& suites) {
+  std::set<std::string> files;
+  std::string complaints;
+  for (const Suite& suite : suites) {
+    for (const SuiteScene& scene : suite.scenes) {
+      if (!files.insert(scene.file).second) continue;
+      for (const std::string& complaint : CheckScene(scene.file)) complaints += complaint + "\n";
+    }
+  }
+  if (complaints.empty()) return;
+  complaints.pop_back();
+  throw InputError(complaints);
+}
+
+std::string Describe(const InputOptions& options) {
+  std::string line = fmt::format("{}", fmt::join(options.files, " "));
+  if (!options.systems.empty())
+    line += fmt::format(" --systems {}", fmt::join(options.systems, ","));
+  if (!options.twins.empty()) line += fmt::format(" --twins {}", fmt::join(options.twins, ","));
+  if (options.seeds > 0) line += fmt::format(" --seeds {}", options.seeds);
+  if (!options.seed.empty()) line += fmt::format(" --seed {}", fmt::join(options.seed, ","));
+  for (const std::string& text : options.set) line += " --set " + text;
+  return line;
+}
+
+}  // namespace aisle

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/suite/suite.h"
+
+namespace aisle {
+
+/// What a user may say instead of the suite's own.
+struct InputOptions {
+  std::vector<std::string> files;  ///< suites and scenes
+  std::vector<std::string> systems = {}, twins = {};
+  std::vector<std::string> set = {};     ///< "SYSTEM.PATH=VALUE": options of one of the systems
+  std::uint64_t seeds = 0;               ///< a count, from 1 on; 0: the suite's own
+  std::vector<std::uint64_t> seed = {};  ///< these very seeds
+};
+
+/// The names of this program's systems, twins, scores and options.
+Vocabulary KnownNames();
+
+/// The files as suites; one report answers them all. A bare scene asks the plainest question of the
+/// plainest two systems. Throws InputError.
+std::vector<Suite> LoadInputs(const InputOptions& options);
+
+/// Every mistake of every scene, before hours of work begin. Throws InputError with all of them.
+void CheckScenes(const std::vector<Suite>& suites);
+
+/// The part of a command line that says the same again.
+std::string Describe(const InputOptions& options);
+
+}  // namespace aisle

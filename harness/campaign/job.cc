@@ -1,0 +1,121 @@
+#include "harness/campaign/job.h"
+
+#include <nlohmann/json.hpp>
+
+#include "harness/io/file.h"
+#include "harness/io/hash.h"
+#include "harness/io/input_error.h"
+#include "harness/io/places.h"
+#include "harness/io/system_spec_json.h"
+#include "harness/record/record.h"
+#include "harness/record/record_json.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int kSchema = 1;
+
+/// The program that a command starts with counts as well, where it is a file.
+std::uint64_t HashSystem(const SystemSpec& system, std::uint64_t seed) {
+  seed = Hash(ToJson(system).dump(), seed);
+  if (!system.external) return seed;
+  const std::string& command = system.external->command;
+  const fs::path program = command.substr(0, command.find(' '));
+  std::error_code error;
+  return fs::is_regular_file(program, error) ? HashFile(program, seed) : seed;
+}
+
+Job FromJson(const Json& json) {
+  if (json.at("schema") != kSchema) {
+    throw std::invalid_argument(fmt::format("schema is not {}", kSchema));
+  }
+  Job job;
+  job.spec = {.scene = json.at("scene").get<std::string>(),
+              .scene_file = json.at("scene_file").get<std::string>(),
+              .twin = json.at("twin").get<std::string>(),
+              .system = SystemSpecFromJson(json.at("system")),
+              .seed = json.at("seed").get<std::uint64_t>()};
+  job.out = json.at("out").get<std::string>();
+  job.frames = json.at("frames").get<std::string>();
+  job.dataset = json.at("dataset").get<std::string>();
+  job.frames_key = json.at("frames_key").get<std::string>();
+  job.inputs_hash = json.at("inputs_hash").get<std::string>();
+  job.threads = json.at("threads").get<int>();
+  job.video = json.at("video").get<bool>();
+  job.debug_dynamic = json.at("debug_dynamic").get<bool>();
+  return job;
+}
+
+}  // namespace
+
+std::string ToJson(const Job& job) {
+  return Dump({{"schema", kSchema},
+               {"scene", job.spec.scene},
+               {"scene_file", job.spec.scene_file},
+               {"twin", job.spec.twin},
+               {"seed", job.spec.seed},
+               {"system", ToJson(job.spec.system)},
+               {"out", job.out.string()},
+               {"frames", job.frames.string()},
+               {"dataset", job.dataset.string()},
+               {"frames_key", job.frames_key},
+               {"inputs_hash", job.inputs_hash},
+               {"threads", job.threads},
+               {"video", job.video},
+               {"debug_dynamic", job.debug_dynamic}});
+}
+
+Job JobFromJson(const std::string& text, const std::string& file) {
+  try {
+    return FromJson(Json::parse(text));
+  } catch (const std::exception& error) {
+    throw InputError(file, 0, "is no job: " + Printable(error.what(), 200));
+  }
+}
+
+fs::path JobPath(const fs::path& out, const RunSpec& spec) {
+  return out / "runs" / RunId(spec) / "job.json";
+}
+
+void WriteJob(const Job& job) { WriteFileAtomically(JobPath(job.out, job.spec), ToJson(job)); }
+
+Job ReadJob(const fs::path& file) { return JobFromJson(ReadFile(file), file.string()); }
+
+Fingerprints::Fingerprints() : program_(HashFile(OwnExecutable(), HashFolder(AssetsDir()))) {}
+
+std::string Fingerprints::Frames(const RunSpec& spec) const {
+  const std::uint64_t scene = HashFile(spec.scene_file, program_);
+  return fmt::format("{:016x}", Hash(fmt::format("{} {}", spec.twin, spec.seed), scene));
+}
+
+std::string Fingerprints::Run(const RunSpec& spec) const {
+  return fmt::format("{:016x}", HashSystem(spec.system, Hash(Frames(spec), program_)));
+}
+
+std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Fingerprints& fingerprints,
+                          const JobOptions& options) {
+  std::vector<Job> jobs;
+  for (const RunSpec& spec : specs) {
+    Job job{.spec = spec,
+            .out = options.out,
+            .frames = {},
+            .dataset = {},
+            .frames_key = {},
+            .inputs_hash = fingerprints.Run(spec)};
+    job.frames_key = fingerprints.Frames(spec);
+    job.threads = options.threads;
+    job.video = options.video;
+    job.debug_dynamic = options.debug_dynamic;
+    if (options.frame_cache) job.frames = CacheDir() / "frames" / job.frames_key;
+    if (const auto& external = spec.system.external) {
+      job.dataset = CacheDir() / "datasets" / (job.frames_key + "-" + external->dataset);
+    }
+    jobs.push_back(std::move(job));
+  }
+  return jobs;
+}
+
+}  // namespace aisle

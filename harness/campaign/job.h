@@ -1,0 +1,61 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/contract/run.h"
+
+namespace aisle {
+
+/// All that a process needs to make one run. It is written as job.json into the run's folder and is
+/// the only thing that the process reads; fingerprint, resume and rerun come from it as well.
+struct Job {
+  RunSpec spec;
+  std::filesystem::path out;      ///< the report's folder
+  std::filesystem::path frames;   ///< where rendered frames are shared; empty: none are kept
+  std::filesystem::path dataset;  ///< what is exported for a foreign system; empty: it is ours
+  /// Jobs with the same frames. The first makes them, the others start when it has ended.
+  std::string frames_key;
+  std::string inputs_hash;     ///< of all that decides the run; filed with its result
+  int threads = 0;             ///< 0: all; never changes a result
+  bool video = true;           ///< where there is an ffmpeg
+  bool debug_dynamic = false;  ///< draw how the system found what moves; changes no result
+};
+
+std::string ToJson(const Job& job);
+/// Throws InputError when the text is no job.
+Job JobFromJson(const std::string& text, const std::string& file);
+
+/// Where a run's job.json stands in a report's folder.
+std::filesystem::path JobPath(const std::filesystem::path& out, const RunSpec& spec);
+void WriteJob(const Job& job);
+Job ReadJob(const std::filesystem::path& file);
+
+/// Content hashes of all that decides a run, hexadecimal: this program, the assets, the scene file,
+/// twin and seed, and the system with its options or its command. Two runs of equal hash give equal
+/// bits; a finished run of another hash is no answer to tonight's question.
+class Fingerprints {
+ public:
+  Fingerprints();
+  /// Of the frames alone: shared by all systems.
+  std::string Frames(const RunSpec& spec) const;
+  std::string Run(const RunSpec& spec) const;
+
+ private:
+  std::uint64_t program_;
+};
+
+struct JobOptions {
+  std::filesystem::path out;
+  int threads = 0;
+  bool frame_cache = true;
+  bool video = true;
+  bool debug_dynamic = false;
+};
+
+/// The jobs that make the runs.
+std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Fingerprints& fingerprints,
+                          const JobOptions& options);
+
+}  // namespace aisle

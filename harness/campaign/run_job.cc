@@ -1,0 +1,162 @@
+#include "harness/campaign/run_job.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include "harness/campaign/external_run.h"
+#include "harness/io/places.h"
+#include "harness/plugs/cached_sequence.h"
+#include "harness/plugs/simulated_sequence.h"
+#include "harness/plugs/systems.h"
+#include "harness/record/record.h"
+#include "harness/report/picture/samples.h"
+#include "harness/report/picture/stage_sheets.h"
+#include "harness/report/picture/video.h"
+#include "harness/run/drive.h"
+
+namespace aisle {
+namespace {
+
+constexpr std::size_t kFilmEvery = 2;  ///< frames: half the rate is enough to see what happened
+
+SimulatedSequenceOptions SimulationOf(const Job& job) {
+  return {.scene_file = job.spec.scene_file,
+          .scene_name = job.spec.scene,
+          .assets_dir = AssetsDir().string(),
+          .twin = job.spec.twin,
+          .seed = job.spec.seed,
+          .threads = job.threads};
+}
+
+void TellStage(const char* what) {
+  fmt::print("@stage {}\n", what);
+  std::fflush(stdout);
+}
+
+void TellProgress(std::size_t done, std::size_t total) {
+  fmt::print("@progress {} {}\n", done, total);
+  std::fflush(stdout);
+}
+
+std::unique_ptr<Sequence> OpenSequence(const Job& job, std::uint64_t* content_hash) {
+  const auto open = [simulation = SimulationOf(job)](std::uint64_t* hash) {
+    TellStage("opening the scene, solving its light");
+    return OpenSimulation(simulation, hash);
+  };
+  if (job.frames.empty()) return open(content_hash);
+  return OpenCached(FrameStore(job.frames), open, content_hash);
+}
+
+std::filesystem::path FolderOf(const Job& job) {
+  return std::filesystem::path("runs") / RunId(job.spec);
+}
+
+RunRecord RecordOf(const Job& job, const RunResult& result, const RunScore& score,
+                   const Sequence& sequence) {
+  RunRecord record = MakeRecord(result, score, sequence.rate_hz());
+  record.inputs_hash = job.inputs_hash;
+  return record;
+}
+
+void RunForeign(const Job& job) {
+  std::uint64_t content_hash = 0;
+  std::unique_ptr<Sequence> kept_open;
+  const std::unique_ptr<Sequence> sequence = OpenSequence(job, &content_hash);
+  const std::filesystem::path folder = job.out / FolderOf(job);
+  const auto open_path = [&] {
+    PathOfRig path;
+    kept_open = OpenSimulation(SimulationOf(job), nullptr, &path);
+    return path;
+  };
+  RunResult result = RunExternal(*job.spec.system.external, *sequence,
+                                 {.dataset = job.dataset,
+                                  .output = folder / "output.txt",
+                                  .log = folder / "system.log",
+                                  .seed = job.spec.seed,
+                                  .open_path = open_path});
+  result.spec = job.spec;
+  result.scene_hash = content_hash;
+  const RunScore score = ScoreRun(result);
+  WriteRun(result, score, RecordOf(job, result, score, *sequence), job.out);
+}
+
+/// What people look at in the morning: sample pictures, a film, the stages of the rejection.
+class Pictures {
+ public:
+  Pictures(const Job& job, double rate_hz)
+      : out_(job.out),
+        folder_(FolderOf(job)),
+        stages_({.folder = job.out / folder_,
+                 .rate_hz = rate_hz / kFilmEvery,
+                 .film = job.debug_dynamic && job.video}) {
+    if (job.video && Video::Available()) {
+      film_.emplace(out_ / folder_ / "film.mp4", rate_hz / kFilmEvery);
+    }
+  }
+
+  void See(const DrivenFrame& frame) {
+    const FrameTruth* truth = frame.shown.truth ? &*frame.shown.truth : nullptr;
+    samples_.See(frame.index, frame.count, frame.shown.images.left, truth, frame.estimate,
+                 frame.facts);
+    if (film_ && frame.index % kFilmEvery == 0) {
+      cv::Mat3b picture = DrawOverlay(frame.shown.images.left, truth, &frame.estimate, "");
+      cv::resize(picture, picture, {picture.cols / 4 * 2, picture.rows / 4 * 2}, 0, 0,
+                 cv::INTER_AREA);
+      film_->Add(picture);
+    }
+    stages_.See(frame.index, truth, frame.estimate, frame.facts);
+  }
+
+  /// Writes what is left to write and names it all in the record.
+  void Finish(RunRecord* record) {
+    auto& artifacts = record->artifacts;
+    if (film_ && film_->Finish()) artifacts["film"] = (folder_ / "film.mp4").string();
+    for (const auto& [name, path] : stages_.Finish()) artifacts[name] = (folder_ / path).string();
+    if (!stages_.trouble().empty()) record->notes.push_back(stages_.trouble());
+    int number = 0;
+    for (const std::string& name : samples_.Write(out_ / folder_)) {
+      artifacts[fmt::format("picture_{:02}", number++)] = (folder_ / name).string();
+    }
+  }
+
+ private:
+  const std::filesystem::path out_, folder_;
+  SamplePictures samples_;
+  std::optional<Video> film_;
+  StageSheets stages_;
+};
+
+void RunOurs(const Job& job) {
+  const SystemSpec& spec = job.spec.system;
+  std::uint64_t content_hash = 0;
+  const std::unique_ptr<Sequence> sequence = OpenSequence(job, &content_hash);
+  const std::unique_ptr<Estimator> estimator = MakeSystem(
+      spec, sequence->calibration(), {.threads = job.threads, .draw_stages = job.debug_dynamic});
+  const MaskSource source = FindSystem(spec.like).mask_source;
+  const MaskMaker masks = spec.mask_errors == MaskErrors{}
+                              ? MasksFromTruth(source)
+                              : MasksWithErrors(source, spec.mask_errors, job.spec.seed);
+  Pictures pictures(job, sequence->rate_hz());
+  RunResult result = Drive(*sequence, *estimator, masks, {}, [&](const DrivenFrame& frame) {
+    pictures.See(frame);
+    TellProgress(frame.index + 1, frame.count);
+  });
+  result.spec = job.spec;
+  result.scene_hash = content_hash;
+  result.threads = job.threads;
+  const RunScore score = ScoreRun(result);
+  RunRecord record = RecordOf(job, result, score, *sequence);
+  pictures.Finish(&record);
+  WriteRun(result, score, record, job.out);
+}
+
+}  // namespace
+
+void RunJob(const Job& job) {
+  if (job.spec.system.external) {
+    RunForeign(job);
+  } else {
+    RunOurs(job);
+  }
+}
+
+}  // namespace aisle

@@ -1,0 +1,55 @@
+#include "harness/record/provenance.h"
+
+#include <fstream>
+#include <thread>
+
+#include "harness/io/places.h"
+#include "harness/record/record.h"
+
+namespace aisle {
+namespace {
+
+/// The value after `key` in a file of "key separator value" lines.
+std::string LookUp(const std::filesystem::path& file, const std::string& key,
+                   const std::string& separator) {
+  std::ifstream stream(file);
+  std::string line;
+  while (std::getline(stream, line)) {
+    if (!line.starts_with(key)) continue;
+    std::string value = line.substr(std::min(line.find(separator) + separator.size(), line.size()));
+    const std::size_t first = value.find_first_not_of(" \t\""),
+                      last = value.find_last_not_of(" \"");
+    if (first != std::string::npos) return value.substr(first, last - first + 1);
+  }
+  return "unknown";
+}
+
+/// Short commit of the source tree, with "+" where files were changed since.
+std::string SourceCommit() {
+  const std::string command =
+      "git -C '" + SourceDir().string() + "' describe --always --dirty=+ --exclude '*' 2>/dev/null";
+  FILE* pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) return "unknown";
+  char buffer[64] = "";
+  const bool read = std::fgets(buffer, sizeof buffer, pipe) != nullptr;
+  ::pclose(pipe);
+  std::string commit = read ? buffer : "unknown";
+  if (!commit.empty() && commit.back() == '\n') commit.pop_back();
+  return commit;
+}
+
+}  // namespace
+
+Provenance OwnProvenance() {
+  return {.version = AISLE_VERSION,
+          .commit = SourceCommit(),
+          .cpu = LookUp("/proc/cpuinfo", "model name", ":"),
+          .os = LookUp("/etc/os-release", "PRETTY_NAME", "="),
+          .threads = static_cast<int>(std::thread::hardware_concurrency())};
+}
+
+std::filesystem::path BaselinePath(const std::string& suite) {
+  return SourceDir() / "reports" / "baselines" / (SafeName(suite) + ".json");
+}
+
+}  // namespace aisle

@@ -1,0 +1,169 @@
+#include "harness/suite/describe_suite.h"
+
+#include "harness/io/input_error.h"
+
+namespace aisle {
+namespace {
+
+constexpr int kMostSeeds = 1000;
+
+bool IsAmong(const std::string& word, const std::vector<std::string>& words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+void DescribeMaskErrors(Fields& fields, MaskErrors& errors) {
+  fields.Number({"boundary_px", "standard deviation of the outline's shift, pixels", "3"},
+                &errors.boundary_px, {0, 100});
+  fields.Integer({"miss_below_px", "objects that show fewer pixels are never found", "600"},
+                 &errors.miss_below_px, {0, 1e9});
+  fields.Number({"miss_share", "share of the others that is missed, each for a while", "0.05"},
+                &errors.miss_share, {0, 1});
+  fields.Integer({"latency_frames", "the mask is that of so many frames ago", "2"},
+                 &errors.latency_frames, {0, 100});
+}
+
+void DescribeExternal(Fields& fields, ExternalSystem& external) {
+  fields.Text({"command",
+               "the command of a foreign system; {dataset}, {calibration}, {output} and {seed} are "
+               "filled in",
+               "my_slam {dataset} {calibration} {output}"},
+              &external.command);
+  std::string contract;
+  fields.Name(
+      {"contract", "vslam-lab: the system was wrapped for VSLAM-LAB, unchanged", "vslam-lab"},
+      &contract, {{"vslam-lab"}});
+  external.vslam_lab = contract == "vslam-lab";
+  fields.Name({"dataset", "layout of the dataset that is exported for it", "euroc"},
+              &external.dataset, {{"euroc", "kitti"}});
+  fields.Name({"trajectory", "format of what it writes to {output}", "tum"}, &external.trajectory,
+              {{"tum", "kitti", "euroc"}});
+  fields.Number({"timeout_s", "seconds until the command is ended", "600"}, &external.timeout_s,
+                {1e-3, 1e9});
+}
+
+void CheckExternal(Fields& fields, const ExternalSystem& external) {
+  if (!fields.Has("contract") && external.command.find("{output}") == std::string::npos) {
+    fields.Fail("command",
+                "the command must say where {output} goes; example: command: my_slam {dataset} "
+                "{output}");
+  }
+  if (external.vslam_lab && (fields.Has("dataset") || fields.Has("trajectory"))) {
+    fields.Fail("contract", "vslam-lab fixes dataset and trajectory: leave both out");
+  }
+}
+
+void DescribeLimit(Fields& fields, const Vocabulary& vocabulary, const Suite& suite, Limit& limit) {
+  fields.Name({"score", "name of the score, as in results.json", "ate_rmse_m", true}, &limit.score);
+  if (fields.Has("score") && !limit.score.empty()) {
+    if (const std::string wrong = vocabulary.check_score(limit.score); !wrong.empty()) {
+      fields.Fail("score", wrong);
+    }
+  }
+  std::vector<std::string> scenes;
+  for (const SuiteScene& scene : suite.scenes) scenes.push_back(scene.name);
+  fields.Text({"scene", "only on this scene of the suite", "paper/scene2"}, &limit.scene);
+  if (!limit.scene.empty() && !scenes.empty() && !IsAmong(limit.scene, scenes)) {
+    fields.Fail("scene", fmt::format("'{}' is not among this suite's scenes: {}",
+                                     Printable(limit.scene), fmt::join(scenes, ", ")));
+  }
+  fields.Name({"twin", "only in this twin", "live"}, &limit.twin, {suite.twins});
+  fields.Name({"system", "only of this system", "oracle"}, &limit.system, {SystemNames(suite)});
+  fields.OptionalNumber({"min", "the median over seeds may not be below", "0.99"}, &limit.min);
+  fields.OptionalNumber({"max", "the median over seeds may not be above", "0.02"}, &limit.max);
+  if (!limit.min && !limit.max) fields.Fail("score", "a limit needs 'min', 'max' or both");
+  if (limit.min && limit.max && *limit.min > *limit.max) {
+    fields.Fail("min", "it is above 'max': no run could pass");
+  }
+}
+
+/// Names that two systems share would mix their figures up.
+void CheckNames(Fields& fields, const std::vector<SystemSpec>& systems, std::size_t i) {
+  for (std::size_t j = 0; j < i; ++j) {
+    if (systems[j].name.empty() || systems[j].name != systems[i].name) continue;
+    return fields.Fail("name", fmt::format("'{}' is already taken: choose another name",
+                                           Printable(systems[i].name)));
+  }
+}
+
+}  // namespace
+
+void Describe(Fields& fields, const Vocabulary& vocabulary, SystemSpec* spec) {
+  const Words ours{vocabulary.systems};
+  fields.Name(
+      {"name", "what reports call it; a bare word is one of ours as it is", "robust_fast", true},
+      &spec->name, fields.IsPlain() ? ours : Words{});
+  const bool is_ours = IsAmong(spec->name, vocabulary.systems);
+  if (fields.IsPlain()) {
+    if (is_ours) spec->like = spec->name;
+    return;
+  }
+  fields.Name({"like", "the system of ours that it varies", "robust"}, &spec->like, ours);
+  fields.Values({"options", "options that differ from its own, by path; `aisle systems` lists them",
+                 "{feature.features: 800}"},
+                &spec->options, [&](const std::string& path, const std::string& value) {
+                  return vocabulary.check_option(spec->like, path, value);
+                });
+  fields.Group(
+      {"mask_errors", "how the masks are spoilt that one like oracle or semantic is handed",
+       "{boundary_px: 3, miss_share: 0.05}"},
+      [&](Fields& part) { DescribeMaskErrors(part, spec->mask_errors); });
+  ExternalSystem external;
+  DescribeExternal(fields, external);
+  if (fields.Has("command")) {
+    CheckExternal(fields, external);
+    spec->external = external;
+  }
+  if (spec->name.empty()) return;
+  if (is_ours) {
+    return fields.Fail("name",
+                       fmt::format("'{0}' is one of ours as it is: give the variant another "
+                                   "name; example: {{name: {0}_2, like: {0}, options: "
+                                   "{{feature.features: 800}}}}",
+                                   spec->name));
+  }
+  std::string wrong = Validate(*spec);
+  if (wrong.empty() && !spec->like.empty())
+    wrong = vocabulary.check_options(spec->like, spec->options);
+  if (!wrong.empty()) fields.Fail("name", wrong);
+}
+
+void Describe(Fields& fields, const Vocabulary& vocabulary, const Fields::Check& add_scene,
+              Suite* into) {
+  Suite& suite = *into;
+  std::vector<std::string> scenes;
+  fields.Name({"suite", "its name: of the report's folder and the baseline", "quickstart", true},
+              &suite.name);
+  fields.Text({"question", "what it asks; the file's opening comment where absent",
+               "\"Does a person who fills the image spoil the pose?\""},
+              &suite.question);
+  fields.Texts(
+      {"scenes", "scene files, from here or from the scenes folder", "[paper/scene2]", true},
+      &scenes, add_scene);
+  fields.List(
+      {"systems", "what is under test: names of ours, variants of them, commands",
+       "[robust, {name: mine, command: my_slam {dataset} {output}}]", true},
+      [&](std::size_t count) { suite.systems.resize(count); },
+      [&](Fields& part, std::size_t i) {
+        Describe(part, vocabulary, &suite.systems[i]);
+        CheckNames(part, suite.systems, i);
+      },
+      "name");
+  fields.Names({"twins",
+                "versions of each scene: live as written, empty without actors, frozen where they "
+                "stand, none, low, mid or high with those of at most that level",
+                "[live, empty]"},
+               &suite.twins, {vocabulary.twins});
+  fields.CountOrList({"seeds",
+                      "how many, from 1 on, or a list; each changes who walks, when, how fast and "
+                      "along which way",
+                      "3"},
+                     &suite.seeds, kMostSeeds);
+  fields.List(
+      {"limits", "bounds that fail the night", "[{score: ate_rmse_m, system: oracle, max: 0.02}]"},
+      [&](std::size_t count) { suite.limits.resize(count); },
+      [&](Fields& part, std::size_t i) {
+        DescribeLimit(part, vocabulary, suite, suite.limits[i]);
+      });
+}
+
+}  // namespace aisle

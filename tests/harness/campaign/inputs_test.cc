@@ -1,0 +1,148 @@
+#include "harness/campaign/inputs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "harness/io/file.h"
+#include "harness/io/input_error.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const fs::path kTree = AISLE_SOURCE_DIR;
+
+/// The text that a committed file should have; written there where AISLE_WRITE_SCHEMA is set.
+void ExpectCommitted(const fs::path& file, const std::string& text) {
+  if (std::getenv("AISLE_WRITE_SCHEMA") != nullptr) WriteFileAtomically(file, text);
+  EXPECT_EQ(ReadFile(file), text) << file << " is behind: set AISLE_WRITE_SCHEMA=1 and run again";
+}
+
+TEST(SuiteSchemaTest, TheCommittedSchemaIsTheReadersOwn) {
+  ExpectCommitted(kTree / "scenes/suite.schema.json", SuiteSchema(KnownNames()));
+}
+
+TEST(SuiteReferenceTest, TheCommittedPageIsTheReadersOwn) {
+  const std::string head =
+      "# Suite files\n\nA suite asks one question of several systems on several scenes. Every key, "
+      "as the reader\ndescribes it (`tests/harness/campaign` holds this page against it); an "
+      "example stands in\n`scenes/suites/quickstart.yaml`, and `aisle check FILE` names every "
+      "mistake of a file with its place.\n\n";
+  ExpectCommitted(kTree / "reports/docs/suite.md", head + SuiteReference(KnownNames()));
+}
+
+TEST(SuiteFilesTest, EveryCommittedSuiteIsGoodAndNamesTheSchema) {
+  for (const auto& entry : fs::directory_iterator(kTree / "scenes/suites")) {
+    EXPECT_NO_THROW(LoadSuite(entry.path().string(), KnownNames())) << entry.path();
+    EXPECT_THAT(ReadFile(entry.path()),
+                HasSubstr("# yaml-language-server: $schema=../suite.schema.json"));
+  }
+}
+
+class InputsTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    root_ = fs::temp_directory_path() / fmt::format("aisle_inputs_{}", ::getpid());
+    for (const char* scene : {"a/one", "b/one", "a/two"}) {
+      WriteFileAtomically(root_ / "scenes" / (std::string(scene) + ".yaml"), "about: x\n");
+    }
+    first_ = Write("first", "suite: first\nscenes: [a/one]\nsystems: [orbslam2]\nseeds: 1\n");
+    second_ = Write("second", "suite: second\nscenes: [b/one]\nsystems: [robust]\nseeds: 1\n");
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  std::string Write(const std::string& name, const std::string& text) const {
+    const fs::path file = root_ / "scenes/suites" / (name + ".yaml");
+    WriteFileAtomically(file, text);
+    return file.string();
+  }
+  static std::vector<std::string> Cells(const InputOptions& options) {
+    std::vector<std::string> cells;
+    for (const RunSpec& spec : Plan(LoadInputs(options))) {
+      cells.push_back(spec.scene + " " + spec.system.name);
+    }
+    return cells;
+  }
+  static std::string Complaint(const InputOptions& options) {
+    try {
+      Plan(LoadInputs(options));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no complaint";
+  }
+
+  fs::path root_;
+  std::string first_, second_;
+};
+
+TEST_F(InputsTest, EachSuiteIsDrivenWithItsOwnSystems) {
+  EXPECT_EQ(Cells({.files = {first_, second_}}),
+            (std::vector<std::string>{"a/one orbslam2", "b/one robust"}));
+}
+
+TEST_F(InputsTest, TheSameCellOfTwoSuitesIsRunOnce) {
+  EXPECT_EQ(Cells({.files = {first_, first_}}), (std::vector<std::string>{"a/one orbslam2"}));
+}
+
+TEST_F(InputsTest, TwoScenesOfOneNameAreRefused) {
+  const fs::path elsewhere = root_ / "elsewhere";
+  WriteFileAtomically(elsewhere / "x/hall.yaml", "about: x\n");
+  WriteFileAtomically(elsewhere / "y/hall.yaml", "about: y\n");
+  EXPECT_THAT(Complaint({.files = {(elsewhere / "x/hall.yaml").string(),
+                                   (elsewhere / "y/hall.yaml").string()}}),
+              HasSubstr("two suites mean different things by the scene 'hall'"));
+}
+
+TEST_F(InputsTest, ASystemNamedTwiceOrMisspeltIsRefused) {
+  EXPECT_THAT(Complaint({.files = {first_}, .systems = {"robust", "robust"}}),
+              HasSubstr("'robust' is given twice"));
+  EXPECT_THAT(Complaint({.files = {first_}, .systems = {"robsut"}}),
+              HasSubstr("did you mean robust?"));
+}
+
+TEST_F(InputsTest, SetChangesAnOptionOfOneSystem) {
+  const std::vector<Suite> suites =
+      LoadInputs({.files = {first_, second_}, .set = {"robust.feature.features=800"}});
+  EXPECT_TRUE(suites[0].systems[0].options.empty());
+  EXPECT_EQ(suites[1].systems[0].options.at("feature.features"), "800");
+}
+
+TEST_F(InputsTest, SetSaysWhatIsWrong) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"robust.feature.features", "expected PATH=VALUE"},
+      {"robust.feature.featurs=800", "feature.features"},
+      {"robust.feature.features=many", "many"},
+      {"paper.feature.features=800", "expected SYSTEM.PATH=VALUE with one of robust"},
+  };
+  for (const auto& [text, expected] : cases) {
+    EXPECT_THAT(Complaint({.files = {second_}, .set = {text}}), HasSubstr(expected)) << text;
+  }
+}
+
+TEST_F(InputsTest, AVariantOfASuiteMayBeChosenByName) {
+  const std::string file =
+      Write("v",
+            "suite: v\nscenes: [a/one]\nseeds: 1\nsystems: [robust, {name: fast, like: robust, "
+            "options: {feature.features: 500}}]\n");
+  const std::vector<Suite> suites = LoadInputs({.files = {file}, .systems = {"fast", "oracle"}});
+  ASSERT_EQ(suites[0].systems.size(), 2u);
+  EXPECT_EQ(suites[0].systems[0].options.at("feature.features"), "500");
+  EXPECT_EQ(suites[0].systems[1], BuiltIn("oracle"));
+}
+
+TEST_F(InputsTest, ALimitOnAScoreThatDoesNotExistIsAMistakeOfTheFile) {
+  EXPECT_THAT(Complaint({.files = {Write("l",
+                                         "suite: l\nscenes: [a/one]\nsystems: [oracle]\n"
+                                         "limits: [{score: ate_rms_m, max: 1}]\n")}}),
+              HasSubstr("there is no score 'ate_rms_m' (did you mean ate_rmse_m?)"));
+}
+
+}  // namespace
+}  // namespace aisle
