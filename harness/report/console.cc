@@ -1,6 +1,7 @@
 #include "harness/report/console.h"
 
 #include "harness/io/input_error.h"
+#include "harness/report/page/answer.h"
 
 namespace aisle {
 namespace {
@@ -47,6 +48,7 @@ std::string ToConsole(const Results& results, bool color) {
     text += run.status_why.empty() ? "\n" : "  " + Printable(run.status_why, 120) + "\n";
   }
   text += "\n";
+  for (const std::string& sentence : AnswerInWords(results)) text += sentence + "\n";
   std::size_t failed = 0;
   for (const Verdict& verdict : results.verdicts) {
     failed += verdict.passed ? 0 : 1;

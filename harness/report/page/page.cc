@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "harness/report/markup/html.h"
+#include "harness/report/page/answer.h"
 #include "harness/score/significance.h"
 
 namespace aisle {
@@ -118,11 +119,15 @@ std::string VerdictSection(const Results& results, const std::vector<SceneRuns>&
                          : fmt::format("<details><summary>{} held</summary>{}</details>",
                                        passed.size(), held);
   }
+  std::string answer;
+  for (const std::string& sentence : AnswerInWords(results)) {
+    answer += "<p class=\"answer\">" + Escape(sentence) + "</p>\n";
+  }
   return fmt::format(
-      "<h1>{}</h1>\n<p class=\"soft\">{}</p>\n<div class=\"verdict {}\"><strong>{}</strong>{}"
+      "<h1>{}</h1>\n<p class=\"soft\">{}</p>\n{}<div class=\"verdict {}\"><strong>{}</strong>{}"
       "</div>\n{}",
-      Escape(results.suite), Escape(results.question), css, Headline(all, broken, flaky), lists,
-      FailureRate(results.runs));
+      Escape(results.suite), Escape(results.question), answer, css, Headline(all, broken, flaky),
+      lists, FailureRate(results.runs));
 }
 
 std::string OverviewSection(const std::vector<SceneRuns>& scenes, SceneLinks links) {

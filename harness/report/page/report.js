@@ -138,6 +138,24 @@
     const canvas = document.createElement('canvas');
     figure.prepend(canvas);
     figure.hidden = false;
+    // A straight drive is a line to which an error of centimetres adds nothing that can be seen: an
+    // axis that is much shorter than the longest is stretched, by a round number that is said.
+    const round = value => {
+      const power = Math.pow(10, Math.floor(Math.log10(value)));
+      return power * [5, 2, 1].find(digit => digit * power <= value);
+    };
+    const extentOf = k => {
+      const along = tracks.flatMap(track => track.points.map(p => p[k]));
+      return Math.max(...along) - Math.min(...along);
+    };
+    const extents = [0, 1, 2].map(extentOf), longest = Math.max(...extents, 0.1);
+    const stretch = extents.map(extent =>
+      extent < longest / 8 ? Math.min(1000, round(longest / 8 / Math.max(extent, 1e-6))) : 1);
+    const stretched = ['x', 'y', 'z'].map((axis, k) => stretch[k] > 1 ? `${axis} ×${stretch[k]}` : '')
+      .filter(text => text).join(', ');
+    for (const track of tracks) {
+      track.points = track.points.map(p => p.map((v, k) => v * stretch[k]));
+    }
     const all = tracks.flatMap(track => track.points);
     const low = [0, 1, 2].map(k => Math.min(...all.map(p => p[k])));
     const high = [0, 1, 2].map(k => Math.max(...all.map(p => p[k])));
@@ -205,7 +223,7 @@
       pen.setLineDash([]);
       pen.fillStyle = style.getPropertyValue('--soft').trim();
       pen.font = '12px system-ui, sans-serif';
-      pen.fillText(`grid ${step} m`, 8, height - 8);
+      pen.fillText(`grid ${step} m${stretched ? `; stretched: ${stretched}` : ''}`, 8, height - 8);
     };
     canvas.addEventListener('pointerdown', event => {
       dragging = [event.clientX, event.clientY];

@@ -226,7 +226,11 @@ std::string Stages(const SceneRuns& scene) {
     if (!row.bars.empty()) rows.push_back(row);
   }
   if (rows.empty()) return "";
-  return Figure(StageChart(rows), "What the system says of its own stages, mean over all frames.");
+  return Figure(
+      StageChart(rows),
+      "What the system says of its own stages, mean over the frames that had them. Mapping, "
+      "loop closing and global adjustment run beside the frames and in few of them: they "
+      "do not add up to the step.");
 }
 
 /// The drive over time on one side, everything else beside it where the screen is wide.

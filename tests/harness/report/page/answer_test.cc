@@ -1,0 +1,65 @@
+#include "harness/report/page/answer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace aisle {
+namespace {
+
+using testing::ElementsAre;
+
+RunRecord RunOf(const std::string& scene, const std::string& system, std::optional<double> ate_m,
+                std::uint64_t seed = 1) {
+  RunRecord run;
+  run.spec = {scene, scene + ".yaml", "live", BuiltIn(system), seed};
+  run.scores["ate_rmse_m"] = {
+      .value = ate_m, .unit = "m", .alignment = "se3", .n = 1, .absent = ""};
+  return run;
+}
+
+Results Of(std::vector<RunRecord> runs) {
+  Results results;
+  results.runs = std::move(runs);
+  return results;
+}
+
+TEST(AnswerTest, SaysWhoIsOffByHowMuchAndWhatIsWonBack) {
+  EXPECT_THAT(AnswerInWords(Of({RunOf("s", "orbslam2", 1.7), RunOf("s", "robust", 0.02),
+                                RunOf("s", "oracle", 0.0)})),
+              ElementsAre("On s, orbslam2 is off by 1.70 m, robust by 2.0 cm and oracle by 0.0 mm: "
+                          "of what movers cost orbslam2, robust wins back 99 %."));
+  EXPECT_THAT(
+      AnswerInWords(Of({RunOf("s", "orbslam2", 0.5), RunOf("s", "oracle", 0.05)})),
+      ElementsAre("On s, orbslam2 is off by 50 cm and oracle by 5.0 cm: a perfect mask wins "
+                  "back 90 % of it."));
+}
+
+TEST(AnswerTest, WhereMoversCostNothingItSaysSo) {
+  EXPECT_THAT(AnswerInWords(Of({RunOf("s", "orbslam2", 0.0054), RunOf("s", "oracle", 0.004)})),
+              ElementsAre("On s, orbslam2 is off by 0.5 cm and oracle by 0.4 cm: movers cost "
+                          "orbslam2 next to nothing here."));
+}
+
+TEST(AnswerTest, TakesMediansOverSeedsAndTellsWhoIsLost) {
+  EXPECT_THAT(AnswerInWords(Of({RunOf("s", "robust", 0.1, 1), RunOf("s", "robust", 0.2, 2),
+                                RunOf("s", "robust", 0.9, 3), RunOf("s", "mine", 0.1, 1),
+                                RunOf("s", "mine", {}, 2)})),
+              ElementsAre("On s, robust is off by 20 cm and mine has no error to tell."));
+}
+
+TEST(AnswerTest, OfManyScenesTheWorstAreToldAndTheirNumber) {
+  const auto sentences = AnswerInWords(Of({RunOf("a", "robust", 0.1), RunOf("b", "robust", 0.4),
+                                           RunOf("c", "robust", 0.2), RunOf("d", "robust", 0.3)}));
+  EXPECT_THAT(sentences,
+              ElementsAre("On b, robust is off by 40 cm.", "On d, robust is off by 30 cm.",
+                          "On c, robust is off by 20 cm.",
+                          "These are the 3 scenes with the largest errors of 4."));
+}
+
+TEST(AnswerTest, WithoutAnErrorThereIsNothingToSay) {
+  EXPECT_THAT(AnswerInWords(Of({})), ElementsAre());
+  EXPECT_THAT(AnswerInWords(Of({RunOf("s", "robust", {})})), ElementsAre());
+}
+
+}  // namespace
+}  // namespace aisle
