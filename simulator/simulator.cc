@@ -11,6 +11,7 @@
 #include "simulator/scene/load.h"
 #include "simulator/shade/light_cache.h"
 #include "simulator/world/build.h"
+#include "simulator/world/check_models.h"
 #include "simulator/world/plan.h"
 
 namespace aisle::sim {
@@ -293,11 +294,19 @@ LightChangeCheck Simulator::CheckLightChange(int frame_index, int samples, int r
                                            reduce);
 }
 
-std::vector<std::string> CheckSceneFile(const std::string& scene_file) {
+std::vector<std::string> CheckSceneFile(const std::string& scene_file,
+                                        const std::string& assets_dir) {
   std::vector<std::string> errors = CheckScene(scene_file);
   if (!errors.empty()) return errors;
-  if (const std::string error = LensError(LoadScene(scene_file)); !error.empty()) return {error};
-  return {};
+  const Scene scene = LoadScene(scene_file);
+  if (const std::string error = LensError(scene); !error.empty()) errors.push_back(error);
+  if (assets_dir.empty()) return errors;
+  for (const std::string& error : CheckModels(scene, AssetLibrary(assets_dir))) {
+    errors.push_back(error);
+  }
+  return errors;
 }
+
+int CountSceneFrames(const std::string& scene_file) { return LoadScene(scene_file).frames; }
 
 }  // namespace aisle::sim

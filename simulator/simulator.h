@@ -257,7 +257,12 @@ struct ForeignOptions {
 /// key: what is wrong".
 cv::Mat3f TraceForeignScene(const std::string& file, const ForeignOptions& options);
 
-/// Every mistake in a scene file, one message each (empty: the file is good). Opens no assets.
-std::vector<std::string> CheckSceneFile(const std::string& scene_file);
+/// Every mistake in a scene file, one message each (empty: the file is good). Where `assets_dir` is
+/// given, models that its manifest does not have are mistakes too; none is opened.
+std::vector<std::string> CheckSceneFile(const std::string& scene_file,
+                                        const std::string& assets_dir = "");
+
+/// Frames of a scene as its file says. Throws as Simulator's constructor does.
+int CountSceneFrames(const std::string& scene_file);
 
 }  // namespace aisle::sim

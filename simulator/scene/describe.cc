@@ -289,7 +289,7 @@ void DescribePerson(Fields& f, PersonSpec& person) {
   person.mark = f.mark();
   person.route.limits = kPersonLimits;
   f.Name({"name", "unique; ends up in labels and reports", "walker", true}, &person.name);
-  f.Name({"model", "file in assets/people without .glb", "worker"}, &person.model);
+  f.Name({"model", "file in assets/people without .glb", "worker_anton"}, &person.model);
   person.model_mark = f.MarkOf("model");
   f.Choice({"level", "takes part from this level of dynamics on", "low"}, &person.level, kDynamics);
   DescribeRoute(f, person.route);

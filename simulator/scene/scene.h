@@ -165,7 +165,7 @@ struct PersonSpec {
   Mark mark;
   std::size_t place = 0;  ///< in the file's list, whoever of it is left out
   std::string name;
-  std::string model = "worker";
+  std::string model = "worker_anton";
   Mark model_mark;  ///< of the key that names it, or of the person
   Dynamics level = Dynamics::kLow;
   RouteSpec route;

@@ -1,0 +1,29 @@
+#include "simulator/world/check_models.h"
+
+#include <fmt/format.h>
+
+namespace aisle::sim {
+
+std::vector<std::string> CheckModels(const Scene& scene, const AssetLibrary& assets) {
+  std::vector<std::string> messages;
+  const auto check = [&](const Mark& mark, const std::string& whose, const auto& look_up) {
+    try {
+      look_up();
+    } catch (const std::runtime_error& error) {
+      messages.push_back(
+          fmt::format("{}:{}:{}: {}: {}", scene.file, mark.line, mark.column, whose, error.what()));
+    }
+  };
+  for (const PropSpec& prop : scene.props) {
+    check(prop.model_mark, "props.model", [&] { assets.Prop(prop.model); });
+  }
+  for (const PersonSpec& person : scene.people) {
+    check(person.model_mark, "model of " + person.name, [&] { assets.Person(person.model); });
+  }
+  for (const VehicleSpec& vehicle : scene.vehicles) {
+    check(vehicle.model_mark, "model of " + vehicle.name, [&] { assets.Vehicle(vehicle.model); });
+  }
+  return messages;
+}
+
+}  // namespace aisle::sim
