@@ -40,7 +40,7 @@ DynamicOutput DynamicDetector::Impl::DetectByPaper(const DynamicInput& input) {
     stages.paper = PaperTrace{options.paper, std::move(result.stages)};
   }
   Keep(std::move(stages), output);
-  previous = current;
+  previous = {current.left.clone(), current.right.clone()};  // the caller may use its images again
   return output;
 }
 

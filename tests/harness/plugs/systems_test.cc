@@ -1,0 +1,72 @@
+#include "harness/plugs/systems.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "harness/io/input_error.h"
+#include "harness/io/places.h"
+#include "harness/plugs/simulated_sequence.h"
+#include "harness/run/conformance.h"
+
+namespace aisle {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::string ValueOf(const System& system, const std::string& path) {
+  for (const SystemOption& option : OptionsOf(system)) {
+    if (option.path == path) return option.value;
+  }
+  return "no such option";
+}
+
+TEST(SystemsTest, EveryOneHasItsOptionsWithHelpAndAValueThatIsAllowed) {
+  for (const System& system : Systems()) {
+    EXPECT_FALSE(system.description.empty()) << system.name;
+    const std::vector<SystemOption> options = OptionsOf(system);
+    EXPECT_GT(options.size(), 100u);
+    for (const SystemOption& option : options) {
+      EXPECT_FALSE(option.help.empty()) << option.path;
+      EXPECT_EQ(CheckOption(option.path, option.value), "") << option.path;
+    }
+    EXPECT_EQ(CheckOptions(system, {}), "") << system.name;
+  }
+}
+
+TEST(SystemsTest, ASystemIsItsOptions) {
+  EXPECT_EQ(ValueOf(FindSystem("robust"), "dynamic.method"), "robust");
+  EXPECT_EQ(ValueOf(FindSystem("paper"), "dynamic.method"), "paper");
+  EXPECT_EQ(ValueOf(FindSystem("oracle"), "dynamic.method"), "none");
+}
+
+TEST(SystemsTest, OptionsComeFromAssignmentsAndSayWhatIsWrong) {
+  const System& robust = FindSystem("robust");
+  EXPECT_EQ(OptionsFromText({"feature.features=800"}, robust).at("feature.features"), "800");
+  for (const char* bad : {"feature.features", "feature.features=x", "feature.nothing=1"}) {
+    EXPECT_THROW(OptionsFromText({bad}, robust), InputError) << bad;
+  }
+}
+
+TEST(SystemsTest, AForeignSystemDoesNotRunInside) {
+  SystemSpec spec{.name = "mine"};
+  spec.external.emplace();
+  EXPECT_THROW(MakeSystem(spec, {}), InputError);
+}
+
+class OurSlam : public testing::TestWithParam<const char*> {};
+
+TEST_P(OurSlam, KeepsTheContract) {
+  const std::string file = SceneFile("smoke/short");
+  const auto sequence = OpenSimulation(
+      {.scene_file = file, .scene_name = "smoke/short", .assets_dir = AssetsDir().string()});
+  const StereoCalibration calibration = sequence->calibration();
+  EXPECT_THAT(CheckEstimator([&] { return MakeSystem(BuiltIn(GetParam()), calibration); },
+                             *sequence, {.frames = 12}),
+              IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Systems, OurSlam, testing::Values("oracle", "paper", "robust"));
+
+}  // namespace
+}  // namespace aisle
