@@ -9,7 +9,7 @@ namespace aisle::sim {
 cv::Mat3f TraceForeignScene(const std::string& file, const ForeignOptions& options) {
   ForeignScene scene = LoadForeignScene(file);
   const PixelRays rays = MakePixelRays(scene.camera);
-  const EyeView view(rays, scene.T_world_camera);
+  const CameraView view(rays, scene.T_world_camera);
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
   std::vector<cv::Mat1f> bgr(3);
   for (std::size_t band = 0; band < 3; ++band) {

@@ -69,8 +69,8 @@ struct StageHasher {
   }
 };
 
-FrameTruth Assemble(const Eigen::Isometry3d& T_world_rig, const EyeTruth& left,
-                    const EyeTruth& right, const std::vector<MoverTruth>& movers) {
+FrameTruth Assemble(const Eigen::Isometry3d& T_world_rig, const CameraTruth& left,
+                    const CameraTruth& right, const std::vector<MoverTruth>& movers) {
   FrameTruth truth;
   truth.T_world_rig = T_world_rig;
   truth.depth = left.depth;
@@ -113,8 +113,8 @@ struct Pipeline::Impl {
       if (!error.empty()) throw std::invalid_argument("sensor: " + error);
     }
     const cv::Mat1f vignetting = FallOff(rays);
-    for (const std::uint32_t eye : {0u, 1u}) {
-      response[eye] = MakeResponse(vignetting, options.sensor, options.seed, eye);
+    for (const std::uint32_t side : {0u, 1u}) {
+      response[side] = MakeResponse(vignetting, options.sensor, options.seed, side);
     }
     if (options.auto_exposure.on) {
       meter_rays = MakePixelRays(Coarser(camera, kMeterFactor));
@@ -123,9 +123,9 @@ struct Pipeline::Impl {
     arena.execute([&] { shader = std::make_unique<Shader>(world, tracer, options.shade); });
   }
 
-  std::array<EyeView, 2> Views(const Eigen::Isometry3d& T_world_rig) const {
-    return {EyeView(rays, EyePose(camera, T_world_rig, Eye::kLeft)),
-            EyeView(rays, EyePose(camera, T_world_rig, Eye::kRight))};
+  std::array<CameraView, 2> Views(const Eigen::Isometry3d& T_world_rig) const {
+    return {CameraView(rays, CameraPose(camera, T_world_rig, StereoSide::kLeft)),
+            CameraView(rays, CameraPose(camera, T_world_rig, StereoSide::kRight))};
   }
 
   cv::Mat1f FallOff(const PixelRays& of) const {
@@ -144,11 +144,12 @@ struct Pipeline::Impl {
     idle.push_back(std::move(images));
   }
 
-  /// Time and gain of the exposure: as given, or metered on a coarse picture of the left eye's
+  /// Time and gain of the exposure: as given, or metered on a coarse picture of the left camera's
   /// view at this very instant.
   ExposureSetting ExposureFor(const Instant& instant, const Eigen::Isometry3d& T_world_rig) const {
     if (!options.auto_exposure.on) return {options.exposure_ms, options.sensor.gain};
-    const std::array view = {EyeView(meter_rays, EyePose(camera, T_world_rig, Eye::kLeft))};
+    const std::array view = {
+        CameraView(meter_rays, CameraPose(camera, T_world_rig, StereoSide::kLeft))};
     std::vector<HitImage> hits;
     TraceViews(instant, view, {}, &hits);
     const cv::Mat1f light(shader->Shade(instant, view, hits).front().mul(meter_fall_off));
@@ -159,7 +160,8 @@ struct Pipeline::Impl {
   cv::Mat1b MoversIn(const Moment& moment, int reduce) const {
     const StereoCamera small = Coarser(camera, reduce);
     const PixelRays small_rays = MakePixelRays(small);
-    const std::array view = {EyeView(small_rays, EyePose(small, moment.T_world_rig, Eye::kLeft))};
+    const std::array view = {
+        CameraView(small_rays, CameraPose(small, moment.T_world_rig, StereoSide::kLeft))};
     std::vector<HitImage> hits;
     TraceViews(tracer.Pose(world.At(moment.stamp_ns)), view, {}, &hits);
     cv::Mat1b movers(small.height, small.width, std::uint8_t{0});
@@ -188,10 +190,10 @@ struct Pipeline::Impl {
   }
 
   cv::Mat1b Photograph(const cv::Mat1f& radiance, const ExposureSetting& setting, int frame_index,
-                       std::uint32_t eye) const {
+                       std::uint32_t side) const {
     const SensorOptions sensor = SensorFor(setting);
-    return Expose(SpreadByLens(radiance, sensor.lens), response[eye], sensor,
-                  {options.seed, static_cast<std::uint32_t>(frame_index), eye});
+    return Expose(SpreadByLens(radiance, sensor.lens), response[side], sensor,
+                  {options.seed, static_cast<std::uint32_t>(frame_index), side});
   }
 
   /// The left picture of a sensor without noise and without a pattern of its own.
@@ -203,15 +205,16 @@ struct Pipeline::Impl {
                   {options.seed, 0, 0});
   }
 
-  /// Radiance of the given rows of both eyes at an instant that nobody asks the truth of.
+  /// Radiance of the given rows of both cameras at an instant that nobody asks the truth of.
   std::vector<cv::Mat1f> RadianceAt(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
                                     const cv::Range& rows) const {
     const Instant instant = tracer.Pose(world.At(stamp_ns));
     const bool whole = rows.size() == rays.height;
     const PixelRays band = whole ? PixelRays{} : RowsOf(rays, rows.start, rows.end);
     const PixelRays& used = whole ? rays : band;
-    const std::array views = {EyeView(used, EyePose(camera, T_world_rig, Eye::kLeft)),
-                              EyeView(used, EyePose(camera, T_world_rig, Eye::kRight))};
+    const std::array views = {
+        CameraView(used, CameraPose(camera, T_world_rig, StereoSide::kLeft)),
+        CameraView(used, CameraPose(camera, T_world_rig, StereoSide::kRight))};
     std::vector<HitImage> hits = TakeImages();
     TraceViews(instant, views, {.shuffle = options.tile_shuffle}, &hits);
     std::vector<cv::Mat1f> radiance = shader->Shade(instant, views, hits);
@@ -222,7 +225,7 @@ struct Pipeline::Impl {
   /// What reaches the sensor while the shutter is open, given what does at the stamp. The movers
   /// are where they are at each instant, limbs and wheels skinned anew, and so are their shadows;
   /// the rig moves as on its route, from wherever it was put. Averaged in linear light.
-  std::vector<cv::Mat1f> WhileOpen(const Instant& instant, const EyeView& left,
+  std::vector<cv::Mat1f> WhileOpen(const Instant& instant, const CameraView& left,
                                    const HitImage& hits, const ExposureSetting& setting,
                                    const Eigen::Isometry3d& T_world_rig,
                                    std::vector<cv::Mat1f> at_stamp) const {
@@ -240,7 +243,7 @@ struct Pipeline::Impl {
     const int instants = static_cast<int>(plan.offsets_s.size());
     if (instants == 1) return at_stamp;
     std::vector<cv::Mat1f> sum(2);
-    for (cv::Mat1f& eye : sum) eye = cv::Mat1f::zeros(camera.height, camera.width);
+    for (cv::Mat1f& side : sum) side = cv::Mat1f::zeros(camera.height, camera.width);
     for (int k = 0; k < instants; ++k) {
       const double offset_s = plan.offsets_s[static_cast<std::size_t>(k)];
       const bool is_stamp = k == instants / 2;
@@ -251,8 +254,8 @@ struct Pipeline::Impl {
       const std::vector<cv::Mat1f> light =
           is_stamp ? at_stamp
                    : RadianceAt(stamp_ns + std::llround(1e9 * offset_s), rig_at(offset_s), rows);
-      for (std::size_t eye = 0; eye < 2; ++eye) {
-        AddInstant(plan, k, light[eye], rows.start, &sum[eye]);
+      for (std::size_t side = 0; side < 2; ++side) {
+        AddInstant(plan, k, light[side], rows.start, &sum[side]);
       }
     }
     return sum;
@@ -266,13 +269,13 @@ struct Pipeline::Impl {
     };
     const Instant instant = tracer.Pose(world.At(stamp_ns));
     lap("pose");
-    const std::array<EyeView, 2> views = Views(T_world_rig);
+    const std::array<CameraView, 2> views = Views(T_world_rig);
     std::vector<HitImage> hits = TakeImages();
     TraceViews(instant, views, {.shuffle = options.tile_shuffle}, &hits);
     lap("trace");
     const MovingNow moving(world, instant.snapshot(), options.moving);
-    const EyeTruth left = LabelHits(world, instant, hits[0], moving);
-    const EyeTruth right = LabelHits(world, instant, hits[1], moving);
+    const CameraTruth left = LabelHits(world, instant, hits[0], moving);
+    const CameraTruth right = LabelHits(world, instant, hits[1], moving);
     const std::vector<MoverTruth> movers = DescribeMovers(instant, views[0], left);
     lap("truth");
     std::vector<cv::Mat1f> radiance = shader->Shade(instant, views, hits, lap);
@@ -323,7 +326,7 @@ std::array<cv::Mat1f, 2> Pipeline::RenderRadiance(std::int64_t stamp_ns,
                                                   const Eigen::Isometry3d& T_world_rig) const {
   return impl_->arena.execute([&] {
     const Instant instant = impl_->tracer.Pose(impl_->world.At(stamp_ns));
-    const std::array<EyeView, 2> views = impl_->Views(T_world_rig);
+    const std::array<CameraView, 2> views = impl_->Views(T_world_rig);
     std::vector<HitImage> hits;
     TraceViews(instant, views, {}, &hits);
     std::vector<cv::Mat1f> radiance = impl_->shader->Shade(instant, views, hits);
@@ -337,7 +340,7 @@ MotionTruth Pipeline::RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry3
   return impl_->arena.execute([&] {
     const Impl& self = *impl_;
     const Instant instant = self.tracer.Pose(self.world.At(stamp_ns));
-    const std::array<EyeView, 2> views = self.Views(T_world_rig);
+    const std::array<CameraView, 2> views = self.Views(T_world_rig);
     std::vector<HitImage> hits;
     TraceViews(instant, std::span(views).first(1), {}, &hits);
     const MovingNow moving(self.world, instant.snapshot(), self.options.moving);
@@ -356,32 +359,32 @@ VerifyReport Pipeline::Verify(std::int64_t stamp_ns, const Eigen::Isometry3d& T_
     const Impl& self = *impl_;
     const Instant now = self.tracer.Pose(self.world.At(stamp_ns));
     const Instant next = self.tracer.Pose(self.world.At(next_stamp_ns));
-    const std::array<EyeView, 2> views = self.Views(T_world_rig);
-    const std::array<EyeView, 2> views_next = self.Views(T_world_rig_next);
+    const std::array<CameraView, 2> views = self.Views(T_world_rig);
+    const std::array<CameraView, 2> views_next = self.Views(T_world_rig_next);
     std::vector<HitImage> hits, hits_next;
     TraceViews(now, views, {}, &hits);
     TraceViews(next, std::span(views_next).first(1), {}, &hits_next);
     const MovingNow moving(self.world, now.snapshot(), self.options.moving);
     const MovingNow moving_then(self.world, next.snapshot(), self.options.moving);
-    const std::array<EyeTruth, 2> eyes = {LabelHits(self.world, now, hits[0], moving),
-                                          LabelHits(self.world, now, hits[1], moving)};
+    const std::array<CameraTruth, 2> sides = {LabelHits(self.world, now, hits[0], moving),
+                                              LabelHits(self.world, now, hits[1], moving)};
     const cv::Mat1f depth_next = LabelHits(self.world, next, hits_next[0], moving_then).depth;
 
     std::array<Agreement, 2> agreement;
-    for (std::size_t eye = 0; eye < 2; ++eye) {
-      const Eigen::Isometry3d& T_world_eye = views[eye].T_world_eye;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Eigen::Isometry3d& T_world_camera = views[side].T_world_camera;
       const RasterView drawn =
           self.rays.straight
-              ? Rasterize(self.world, now.snapshot(), self.camera, T_world_eye)
-              : RasterizeThroughLens(self.world, now.snapshot(), self.rays, T_world_eye);
-      agreement[eye] = Compare(drawn, eyes[eye].depth, eyes[eye].instance);
+              ? Rasterize(self.world, now.snapshot(), self.camera, T_world_camera)
+              : RasterizeThroughLens(self.world, now.snapshot(), self.rays, T_world_camera);
+      agreement[side] = Compare(drawn, sides[side].depth, sides[side].instance);
     }
     const Correspondence found = FindCorrespondence(self.world, now, self.camera, views[0], hits[0],
                                                     next.snapshot(), T_world_rig_next);
     const WarpCheck stereo =
-        CheckStereo(self.camera, self.rays, eyes[0].depth, eyes[1].depth, found);
+        CheckStereo(self.camera, self.rays, sides[0].depth, sides[1].depth, found);
     const WarpCheck flow =
-        CheckFlow(self.camera, DepthInNextEye(views[0], hits[0], found, T_world_rig_next),
+        CheckFlow(self.camera, DepthInNextCamera(views[0], hits[0], found, T_world_rig_next),
                   depth_next, found.flow);
     return VerifyReport{.raster_agreement_left = agreement[0].share(),
                         .raster_agreement_right = agreement[1].share(),
@@ -398,16 +401,16 @@ StageHashes Pipeline::HashStages(int frame_index, std::int64_t stamp_ns,
   return impl_->arena.execute([&] {
     const Impl& self = *impl_;
     const Instant instant = self.tracer.Pose(self.world.At(stamp_ns));
-    const std::array<EyeView, 2> views = self.Views(T_world_rig);
+    const std::array<CameraView, 2> views = self.Views(T_world_rig);
     std::vector<HitImage> hits;
     TraceViews(instant, views, {}, &hits);
     const std::vector<cv::Mat1f> radiance = self.shader->Shade(instant, views, hits);
     const RenderedFrame frame = self.Render(frame_index, stamp_ns, T_world_rig, nullptr);
     StageHasher triangles, points, light, linear, pictures;
-    for (std::size_t eye = 0; eye < 2; ++eye) {
-      triangles.Add(hits[eye].geometry).Add(hits[eye].primitive);
-      points.Add(hits[eye].t).Add(hits[eye].u).Add(hits[eye].v);
-      linear.Add(radiance[eye]);
+    for (std::size_t side = 0; side < 2; ++side) {
+      triangles.Add(hits[side].geometry).Add(hits[side].primitive);
+      points.Add(hits[side].t).Add(hits[side].u).Add(hits[side].v);
+      linear.Add(radiance[side]);
     }
     const auto solved = self.shader->static_light().At(instant.snapshot().light_scale);
     light.Add(solved->total).Add(solved->direct).Add(solved->volume.nodes());
@@ -450,7 +453,7 @@ LightCheck Pipeline::CheckLight(std::int64_t stamp_ns, const Eigen::Isometry3d& 
     const TexturePool textures(self.world.textures());
     const Reference reference(self.world, textures);
     const PixelRays rays = MakePixelRays(small);
-    const EyeView view(rays, EyePose(small, T_world_rig, Eye::kLeft));
+    const CameraView view(rays, CameraPose(small, T_world_rig, StereoSide::kLeft));
     for (std::size_t i = 0; i < 2; ++i) {
       halves[i] = reference.Render(instant, view, {.samples = (samples + 1) / 2, .seed = i + 1});
       halves[i] *= self.options.sensor.exposure;
@@ -498,7 +501,7 @@ RenderBench Pipeline::Bench(std::span<const std::int64_t> stamps_ns,
     std::map<std::string, std::vector<double>> stages;
     for (std::size_t i = 0; i < stamps_ns.size(); ++i) {
       const Instant instant = impl_->tracer.Pose(impl_->world.At(stamps_ns[i]));
-      const std::array<EyeView, 2> views = impl_->Views(poses[i]);
+      const std::array<CameraView, 2> views = impl_->Views(poses[i]);
       std::vector<HitImage> hits = impl_->TakeImages();
       Stopwatch watch;
       TraceViews(instant, views, {}, &hits);

@@ -43,7 +43,7 @@ class Pipeline {
   /// The pair and its truth. Pure; safe to call from several threads.
   RenderedFrame Render(int frame_index, std::int64_t stamp_ns,
                        const Eigen::Isometry3d& T_world_rig) const;
-  /// Linear radiance of both eyes before the sensor, in the units of the lights.
+  /// Linear radiance of both cameras before the sensor, in the units of the lights.
   std::array<cv::Mat1f, 2> RenderRadiance(std::int64_t stamp_ns,
                                           const Eigen::Isometry3d& T_world_rig) const;
   /// See Simulator.

@@ -18,7 +18,7 @@ struct RigInfo {
   double fx = 0, fy = 0, cx = 0, cy = 0;  ///< pixels; the centre of pixel (0,0) is u = v = 0
   double baseline_m = 0;
   /// "none" (the pair is rectified), "radial-tangential" (k1 k2 p1 p2, as in OpenCV) or
-  /// "equidistant" (k1 k2 k3 k4, as in cv::fisheye); the same in both eyes.
+  /// "equidistant" (k1 k2 k3 k4, as in cv::fisheye); the same in both cameras.
   std::string distortion_model = "none";
   std::array<double, 4> distortion = {0, 0, 0, 0};
 };
@@ -70,8 +70,8 @@ struct ObjectTruth {
   int dynamic_pixels = 0;  ///< of them, on a surface that moves now
 };
 
-/// Exact truth of the left eye (of the right where it says so) at the stamp. With motion blur or a
-/// rolling shutter on, the stamp is the middle of the middle row's exposure.
+/// Exact truth of the left camera (of the right where it says so) at the stamp. With motion blur or
+/// a rolling shutter on, the stamp is the middle of the middle row's exposure.
 ///
 /// What moves "now" is asked about the exposure, since at a single instant an arm that turns back
 /// is at rest: a surface moves now if its fastest speed within sensor.exposure_ms (8 ms unless the
@@ -83,13 +83,13 @@ struct FrameTruth {
   cv::Mat1f depth;         ///< z in metres along the optical axis, inf where nothing was hit
   cv::Mat1w instance;      ///< index into Simulator::instances(), 0 where nothing was hit
   cv::Mat1b object_class;  ///< class ids
-  cv::Mat1f depth_right;   ///< z in metres along the right eye's axis, inf where nothing was hit
+  cv::Mat1f depth_right;   ///< z in metres along the right camera's axis, inf where nothing was hit
   cv::Mat1w instance_right;
   cv::Mat1b object_class_right;
   cv::Mat1b dynamic;                 ///< 255 where the surface moves in the world now
-  cv::Mat1b dynamic_right;           ///< the same for the right eye
+  cv::Mat1b dynamic_right;           ///< the same for the right camera
   cv::Mat1b actor;                   ///< 255 on every person and vehicle, moving or not (left)
-  cv::Mat1b actor_right;             ///< the same for the right eye
+  cv::Mat1b actor_right;             ///< the same for the right camera
   std::vector<ObjectTruth> objects;  ///< by instance id
 };
 
@@ -102,15 +102,15 @@ struct RenderedFrame {
   FrameTruth truth;
 };
 
-/// Where each left pixel's surface point is in the right eye and in the next frame, exactly; and
+/// Where each left pixel's surface point is in the right camera and in the next frame, exactly; and
 /// which pixels lie in moving shadows.
 struct MotionTruth {
   cv::Mat1f disparity;   ///< left u - right u in the rectified pair, pixels; 0: nothing was hit
-  cv::Mat1b occluded;    ///< 255 where the right eye does not see the point
+  cv::Mat1b occluded;    ///< 255 where the right camera does not see the point
   cv::Mat2f flow;        ///< to the next frame's left image, pixels; NaN where it is not in front
   cv::Mat3f scene_flow;  ///< the surface point's own way until then, metres, world
   /// 255 where the surface rests but something that moves takes more than a twentieth of its direct
-  /// light now (left eye).
+  /// light now (left camera).
   cv::Mat1b moving_shadow;
 };
 
@@ -135,9 +135,9 @@ struct VerifyReport {
 inline constexpr std::array kStages = {"triangles", "points", "static light", "radiance",
                                        "pictures"};
 
-/// A hash of what each of kStages made of a frame for both eyes: which triangle a pixel sees; where
-/// on it (t, u, v); the light on the static world; the radiance before the sensor; the pictures.
-/// For finding where two machines part.
+/// A hash of what each of kStages made of a frame for both cameras: which triangle a pixel sees;
+/// where on it (t, u, v); the light on the static world; the radiance before the sensor; the
+/// pictures. For finding where two machines part.
 using StageHashes = std::array<std::uint64_t, kStages.size()>;
 
 /// How long rendering takes, beside the bare cost of its primary rays in the same process.
@@ -214,14 +214,14 @@ class Simulator {
   RenderedFrame Render(int frame_index, std::int64_t stamp_ns,
                        const Eigen::Isometry3d& T_world_rig) const;
 
-  /// Correspondences of a frame with its right eye and with the left image at a next stamp and
+  /// Correspondences of a frame with its right camera and with the left image at a next stamp and
   /// pose.
   MotionTruth RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
                            std::int64_t next_stamp_ns,
                            const Eigen::Isometry3d& T_world_rig_next) const;
 
   /// Proves one planned frame: its truth against an independent rasteriser and by warping it to the
-  /// right eye and to the next frame, its picture by warping it to the next two.
+  /// right camera and to the next frame, its picture by warping it to the next two.
   VerifyReport Verify(int frame_index) const;
 
   /// Times Render over `frames` frames spread over the scene, and the bare primary rays of the same

@@ -26,7 +26,7 @@ std::vector<fs::path> PngsOf(const fs::path& folder) {
     files.push_back(entry.path());
     if (entry.path().filename().string().starts_with("left")) left.push_back(entry.path());
   }
-  if (!left.empty()) files = std::move(left);  // of both eyes in one folder, the left ones
+  if (!left.empty()) files = std::move(left);  // of both cameras in one folder, the left ones
   std::sort(files.begin(), files.end());
   return files;
 }

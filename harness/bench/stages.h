@@ -39,7 +39,7 @@ struct BenchLap {
 };
 
 /// Time by stage of a system, as it tells it; besides "set_up", "frame" (the whole call) and, over
-/// a single lap, "reference": OpenCV's own ORB on both eyes, one after the other: what the same
+/// a single lap, "reference": OpenCV's own ORB on both cameras, one after the other: what the same
 /// machine, as busy as it is at that moment, makes of work that everybody knows.
 std::map<std::string, StageTime> MeasureStages(
     const BenchView& view, const StageBenchOptions& options, const BenchProgress& progress = {},

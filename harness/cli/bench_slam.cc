@@ -53,7 +53,7 @@ int BenchSlam(const Options& options) {
   }
   fmt::print("front end: {:.2f} ms a frame", front_end_ms);
   if (reference_ms > 0) {
-    fmt::print(", {:.2f} times OpenCV's ORB on both eyes", front_end_ms / reference_ms);
+    fmt::print(", {:.2f} times OpenCV's ORB on both cameras", front_end_ms / reference_ms);
   }
   fmt::print("\n");
   if (!options.json.empty()) {

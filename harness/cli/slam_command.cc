@@ -119,7 +119,7 @@ void AddSlamCommand(CLI::App* app, Action* action) {
   command->add_option("--live", options->live, "the live trajectory too");
   command->add_option("--masks", options->masks,
                       "folder of masks to reject by: grey PNGs named by stamp or number, not 0 = "
-                      "reject; right eye in right/; confidence/: 255 = trust, 0 = hardly");
+                      "reject; right camera in right/; confidence/: 255 = trust, 0 = hardly");
   CLI::Option* load = command
                           ->add_option("--load-map", options->load_map,
                                        "go on in the map of an earlier drive with this rig")

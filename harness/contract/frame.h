@@ -38,7 +38,7 @@ struct ObjectTruth {
   int dynamic_pixels = 0;  ///< of them, on a surface that moves now
 };
 
-/// Exact truth at the stamp, left eye unless said otherwise. Images may be empty where a source
+/// Exact truth at the stamp, left camera unless said otherwise. Images may be empty where a source
 /// (recorded data) does not know them.
 struct FrameTruth {
   Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();

@@ -15,7 +15,7 @@ namespace aisle {
 enum class DatasetFormat {
   kEuroc,  ///< ASL: mav0/{cam0, cam1, imu0, state_groundtruth_estimate0}
   kKitti,  ///< odometry: sequences/00/{image_0, image_1}, poses/00.txt
-  kTum,    ///< RGB-D folder with the right eye beside: rgb, right, depth
+  kTum,    ///< RGB-D folder with the right camera beside: rgb, right, depth
 };
 /// "euroc", "kitti", "tum"; throws InputError naming the choices.
 DatasetFormat DatasetFormatFromName(const std::string& name);
@@ -23,15 +23,15 @@ DatasetFormat DatasetFormatFromName(const std::string& name);
 /// Which truth is written beside the images, below truth/; each kind in folders of its own, each
 /// file named as the left image it belongs to. truth/README.md says it all to who finds the folder.
 struct TruthSelection {
-  bool depth = false;  ///< both eyes as PFM (float metres, inf where nothing was hit), and the left
-                       ///< as 16-bit PNG in millimetres (0: nothing, or beyond 65.535 m)
+  bool depth = false;  ///< both cameras as PFM (float metres, inf where nothing was hit), and the
+                       ///< left as 16-bit PNG in millimetres (0: nothing, or beyond 65.535 m)
   bool labels =
-      false;  ///< both eyes: instance ids, 16-bit PNG, and classes, 8-bit PNG; labels.json
-  bool dynamic = false;  ///< what moves now (both eyes) and every actor, 8-bit PNG, 255 = yes
+      false;  ///< both cameras: instance ids, 16-bit PNG, and classes, 8-bit PNG; labels.json
+  bool dynamic = false;  ///< what moves now (both cameras) and every actor, 8-bit PNG, 255 = yes
   bool boxes = false;    ///< boxes/*.json: per object 2-D boxes, 3-D box, velocity
   bool flow = false;     ///< to the next frame, .flo; scene flow, PFM of 3 channels: x, y, z
                          ///< (metres, world)
-  bool stereo = false;   ///< disparity, PFM; pixels hidden from the right eye, 8-bit PNG
+  bool stereo = false;   ///< disparity, PFM; pixels hidden from the right camera, 8-bit PNG
   bool shadows = false;  ///< pixels in moving shadows, 8-bit PNG
 
   bool NeedsMotion() const { return flow || stereo || shadows; }
@@ -46,16 +46,16 @@ struct LabelInfo {
   bool moving = false;  ///< may move at some time
 };
 
-/// Truth that joins a frame to its right eye and to the next frame, and its moving shadows.
+/// Truth that joins a frame to its right camera and to the next frame, and its moving shadows.
 struct FrameMotion {
   cv::Mat1f disparity;      ///< of the rectified pair, pixels; 0 where nothing was hit
-  cv::Mat1b occluded;       ///< 255 where the right eye does not see the point
+  cv::Mat1b occluded;       ///< 255 where the right camera does not see the point
   cv::Mat2f flow;           ///< pixels; NaN where unknown
   cv::Mat3f scene_flow;     ///< metres, world
   cv::Mat1b moving_shadow;  ///< 255 = yes
 };
 
-/// How the lenses of both eyes bend the image, as EuRoC's sensor.yaml says it: "none",
+/// How the lenses of both cameras bend the image, as EuRoC's sensor.yaml says it: "none",
 /// "radial-tangential" (k1 k2 p1 p2) or "equidistant" (k1 k2 k3 k4).
 struct LensCalibration {
   std::string model = "none";
@@ -126,18 +126,18 @@ std::filesystem::path CalibrationPath(const std::filesystem::path& folder, Datas
 // --- Reading
 // --------------------------------------------------------------------------------------
 
-/// One eye of a recording as its calibration file states it.
-struct EyeCalibration {
+/// One camera of a recording as its calibration file states it.
+struct CameraCalibration {
   int width = 0, height = 0;
   double fx = 0, fy = 0, cx = 0, cy = 0;
   std::vector<double>
       distortion;  ///< k1 k2 p1 p2, or an equidistant lens's k1 k2 k3 k4; empty: none
   bool equidistant = false;
-  Eigen::Isometry3d T_body_eye = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_body_camera = Eigen::Isometry3d::Identity();
 };
 
 struct StereoRecording {
-  EyeCalibration left, right;
+  CameraCalibration left, right;
   struct Pair {
     std::int64_t stamp_ns = 0;
     std::filesystem::path left, right;

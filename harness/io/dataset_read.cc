@@ -47,7 +47,7 @@ std::vector<double> NumbersAt(const YAML::Node& node, const std::string& key, st
   return numbers;
 }
 
-EyeCalibration ReadEurocSensor(const fs::path& file) {
+CameraCalibration ReadEurocSensor(const fs::path& file) {
   YAML::Node root;
   std::string text = ReadFile(file, 1 << 20);
   if (text.starts_with("%YAML:")) text.erase(0, text.find('\n') + 1);  // OpenCV's own dialect
@@ -58,28 +58,28 @@ EyeCalibration ReadEurocSensor(const fs::path& file) {
                      "is no YAML: " + error.msg);
   }
   if (!root.IsMap() || !root["T_BS"]) throw InputError(file.string(), 0, "key 'T_BS' is missing");
-  EyeCalibration eye;
+  CameraCalibration camera;
   const std::vector<double> size = NumbersAt(root, "resolution", 2, file);
   const std::vector<double> pinhole = NumbersAt(root, "intrinsics", 4, file);
   const std::vector<double> pose = NumbersAt(root["T_BS"], "data", 16, file);
-  eye.width = static_cast<int>(size[0]);
-  eye.height = static_cast<int>(size[1]);
-  eye.fx = pinhole[0];
-  eye.fy = pinhole[1];
-  eye.cx = pinhole[2];
-  eye.cy = pinhole[3];
+  camera.width = static_cast<int>(size[0]);
+  camera.height = static_cast<int>(size[1]);
+  camera.fx = pinhole[0];
+  camera.fy = pinhole[1];
+  camera.cx = pinhole[2];
+  camera.cy = pinhole[3];
   const std::string model = root["distortion_model"] ? root["distortion_model"].Scalar() : "none";
   if (model != "radial-tangential" && model != "equidistant" && model != "none") {
     throw InputError(file.string(), 0,
                      "distortion model '" + Printable(model) +
                          "': radial-tangential, equidistant and none are read");
   }
-  eye.equidistant = model == "equidistant";
-  if (model != "none") eye.distortion = NumbersAt(root, "distortion_coefficients", 4, file);
+  camera.equidistant = model == "equidistant";
+  if (model != "none") camera.distortion = NumbersAt(root, "distortion_coefficients", 4, file);
   for (int k = 0; k < 12; ++k) {
-    eye.T_body_eye.matrix()(k / 4, k % 4) = pose[static_cast<std::size_t>(k)];
+    camera.T_body_camera.matrix()(k / 4, k % 4) = pose[static_cast<std::size_t>(k)];
   }
-  return eye;
+  return camera;
 }
 
 std::map<std::int64_t, fs::path> ReadEurocIndex(const fs::path& camera) {
@@ -179,7 +179,7 @@ StereoRecording ReadKitti(const fs::path& folder) {
                     .cy = p0[6],
                     .distortion = {}};
   recording.right = recording.left;
-  recording.right.T_body_eye.translation().x() = -calibration.at("P1")[3] / p0[0];
+  recording.right.T_body_camera.translation().x() = -calibration.at("P1")[3] / p0[0];
   std::istringstream times(ReadFile(at.sequence / "times.txt"));
   std::string line;
   for (std::size_t number = 1; times >> line; ++number) {

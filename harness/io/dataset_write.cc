@@ -27,9 +27,9 @@ std::string Matrix(const Eigen::Isometry3d& pose) {
   return fmt::format("{}", fmt::join(values, ", "));
 }
 
-Eigen::Isometry3d EyePose(const StereoCalibration& calibration, int eye) {
+Eigen::Isometry3d CameraPose(const StereoCalibration& calibration, int side) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation().x() = eye * calibration.baseline_m;
+  pose.translation().x() = side * calibration.baseline_m;
   return pose;
 }
 
@@ -37,7 +37,7 @@ Eigen::Isometry3d EyePose(const StereoCalibration& calibration, int eye) {
 // ----------------------------------------------------------------------------------------
 
 std::string EurocCamera(const StereoCalibration& c, const LensCalibration& lens, double rate_hz,
-                        int eye) {
+                        int side) {
   const bool bent = lens.model != "none";
   return fmt::format(
       "{}sensor_type: camera\ncomment: cam{}, {}\n"
@@ -45,8 +45,8 @@ std::string EurocCamera(const StereoCalibration& c, const LensCalibration& lens,
       "rate_hz: {:g}\nresolution: [{}, {}]\ncamera_model: pinhole\n"
       "intrinsics: [{}, {}, {}, {}]\ndistortion_model: {}\n"
       "distortion_coefficients: [{}]\n",
-      kYamlOpening, eye, bent ? "distorted" : "rectified, ideal", Matrix(EyePose(c, eye)), rate_hz,
-      c.width, c.height, c.fx, c.fy, c.cx, c.cy, bent ? lens.model : "radial-tangential",
+      kYamlOpening, side, bent ? "distorted" : "rectified, ideal", Matrix(CameraPose(c, side)),
+      rate_hz, c.width, c.height, c.fx, c.fy, c.cx, c.cy, bent ? lens.model : "radial-tangential",
       fmt::join(lens.coefficients, ", "));
 }
 
@@ -88,10 +88,10 @@ void FinishEuroc(const fs::path& mav, const StereoCalibration& calibration, doub
   WriteFileAtomically(mav / "state_groundtruth_estimate0/data.csv",
                       FormatEurocTruth(truth, velocities_mps));
   WriteFileAtomically(mav / "times.txt", times);
-  for (int eye = 0; eye < 2; ++eye) {
-    const fs::path camera = mav / fmt::format("cam{}", eye);
+  for (int side = 0; side < 2; ++side) {
+    const fs::path camera = mav / fmt::format("cam{}", side);
     WriteFileAtomically(camera / "sensor.yaml",
-                        EurocCamera(calibration, options.lens, rate_hz, eye));
+                        EurocCamera(calibration, options.lens, rate_hz, side));
     WriteFileAtomically(camera / "data.csv", index);
   }
 }

@@ -159,9 +159,9 @@ std::vector<TruthFile> TruthFiles(const ExportOptions& options) {
 std::string TruthReadme(DatasetFormat format) {
   std::string text = R"(# Truth of this dataset
 
-Every file is named as the left image it belongs to. Truth is that of the left eye, of the right one
+Every file is named as the left image it belongs to. Truth is that of the left camera, of the right one
 in folders that end in `_right`, at pixel centres; the centre of pixel (0, 0) is u = 0, v = 0. Camera:
-x right, y down, z forward; the right eye stands at (+baseline, 0, 0). World: z up, metres.
+x right, y down, z forward; the right camera stands at (+baseline, 0, 0). World: z up, metres.
 
 | folder | file | what it holds |
 |---|---|---|
@@ -175,7 +175,7 @@ x right, y down, z forward; the right eye stands at (+baseline, 0, 0). World: z 
 | `flow` | Middlebury .flo | u, v: displacement to the next frame's left image, pixels; 1e10: unknown |
 | `scene_flow` | PFM, 3 channels | x, y, z: the surface point's own way until the next frame, metres, world axes; 0 where it rests |
 | `disparity` | PFM, 1 channel | left u - right u = fx * baseline / z, pixels; 0: nothing was hit |
-| `occluded` | PNG, 8 bit | 255: the right eye does not see the point |
+| `occluded` | PNG, 8 bit | 255: the right camera does not see the point |
 | `moving_shadow` | PNG, 8 bit | 255: the surface rests, and something that moves takes light from it |
 
 PFM: rows from the bottom up, 32-bit floats, little endian (the scale line is negative), channels in the

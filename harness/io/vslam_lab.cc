@@ -17,14 +17,14 @@ std::string Quoted(const std::string& text) {
   return quoted + "'";
 }
 
-std::string Camera(const StereoCalibration& c, double rate_hz, int eye) {
+std::string Camera(const StereoCalibration& c, double rate_hz, int side) {
   return fmt::format(
       "- cam_name: rgb_{}\n  cam_type: gray\n  cam_model: pinhole\n  distortion_type: radtan4\n"
       "  focal_length: [{}, {}]\n  principal_point: [{}, {}]\n"
       "  distortion_coefficients: [0.0, 0.0, 0.0, 0.0]\n  image_dimension: [{}, {}]\n"
       "  fps: {:g}\n  T_BS: [1.0, 0.0, 0.0, {}, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, "
       "0.0, 1.0]\n",
-      eye, c.fx, c.fy, c.cx, c.cy, c.width, c.height, rate_hz, eye * c.baseline_m);
+      side, c.fx, c.fy, c.cx, c.cy, c.width, c.height, rate_hz, side * c.baseline_m);
 }
 
 /// The numbers of one row, or none for a header or a comment.

@@ -10,27 +10,27 @@
 namespace aisle {
 namespace {
 
-cv::Matx33d CameraMatrix(const EyeCalibration& eye) {
-  return {eye.fx, 0, eye.cx, 0, eye.fy, eye.cy, 0, 0, 1};
+cv::Matx33d CameraMatrix(const CameraCalibration& camera) {
+  return {camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1};
 }
 
-bool IsIdeal(const EyeCalibration& eye) {
+bool IsIdeal(const CameraCalibration& camera) {
   // An equidistant lens without coefficients is not a pinhole.
-  return !eye.equidistant && std::all_of(eye.distortion.begin(), eye.distortion.end(),
-                                         [](double coefficient) { return coefficient == 0; });
+  return !camera.equidistant && std::all_of(camera.distortion.begin(), camera.distortion.end(),
+                                            [](double coefficient) { return coefficient == 0; });
 }
 
-/// Parallel eyes of one pinhole, the right one straight to the right.
-bool IsRectified(const EyeCalibration& left, const EyeCalibration& right) {
+/// Parallel cameras of one pinhole, the right one straight to the right.
+bool IsRectified(const CameraCalibration& left, const CameraCalibration& right) {
   constexpr double kTolerance = 1e-9;
-  const Eigen::Isometry3d T_left_right = left.T_body_eye.inverse() * right.T_body_eye;
+  const Eigen::Isometry3d T_left_right = left.T_body_camera.inverse() * right.T_body_camera;
   const bool parallel = T_left_right.linear().isIdentity(kTolerance) &&
                         T_left_right.translation().tail<2>().norm() < kTolerance;
   return parallel && IsIdeal(left) && IsIdeal(right) && left.fx == right.fx &&
          left.fy == right.fy && left.cx == right.cx && left.cy == right.cy;
 }
 
-/// Brings one eye's images onto the common plane.
+/// Brings one camera's images onto the common plane.
 struct Rectifier {
   cv::Mat map_x, map_y;  ///< empty: the image is good as it is
   cv::Mat1b operator()(const cv::Mat1b& image) const {
@@ -44,11 +44,11 @@ struct Rectifier {
 struct Rectification {
   StereoCalibration calibration;
   Rectifier left, right;
-  /// Rotation from the rectified left eye to the left eye as built.
+  /// Rotation from the rectified left camera to the left camera as built.
   Eigen::Matrix3d R_left_rectified = Eigen::Matrix3d::Identity();
 };
 
-Rectification Identity(const EyeCalibration& left, const EyeCalibration& right) {
+Rectification Identity(const CameraCalibration& left, const CameraCalibration& right) {
   Rectification result;
   result.calibration = {
       .width = left.width,
@@ -57,27 +57,27 @@ Rectification Identity(const EyeCalibration& left, const EyeCalibration& right) 
       .fy = left.fy,
       .cx = left.cx,
       .cy = left.cy,
-      .baseline_m = (left.T_body_eye.inverse() * right.T_body_eye).translation().x()};
+      .baseline_m = (left.T_body_camera.inverse() * right.T_body_camera).translation().x()};
   return result;
 }
 
-Rectifier MapsOf(const EyeCalibration& eye, const cv::Matx33d& turn,
+Rectifier MapsOf(const CameraCalibration& camera, const cv::Matx33d& turn,
                  const cv::Matx34d& projection) {
-  const cv::Size size(eye.width, eye.height);
+  const cv::Size size(camera.width, camera.height);
   Rectifier maps;
-  if (eye.equidistant) {
-    cv::fisheye::initUndistortRectifyMap(CameraMatrix(eye), eye.distortion, turn, projection, size,
-                                         CV_32FC1, maps.map_x, maps.map_y);
+  if (camera.equidistant) {
+    cv::fisheye::initUndistortRectifyMap(CameraMatrix(camera), camera.distortion, turn, projection,
+                                         size, CV_32FC1, maps.map_x, maps.map_y);
   } else {
-    cv::initUndistortRectifyMap(CameraMatrix(eye), eye.distortion, turn, projection, size, CV_32FC1,
-                                maps.map_x, maps.map_y);
+    cv::initUndistortRectifyMap(CameraMatrix(camera), camera.distortion, turn, projection, size,
+                                CV_32FC1, maps.map_x, maps.map_y);
   }
   return maps;
 }
 
-Rectification Rectify(const EyeCalibration& left, const EyeCalibration& right) {
+Rectification Rectify(const CameraCalibration& left, const CameraCalibration& right) {
   if (IsRectified(left, right)) return Identity(left, right);
-  const Eigen::Isometry3d T_right_left = right.T_body_eye.inverse() * left.T_body_eye;
+  const Eigen::Isometry3d T_right_left = right.T_body_camera.inverse() * left.T_body_camera;
   cv::Matx33d rotation, left_turn, right_turn;
   cv::Vec3d translation;
   cv::eigen2cv(Eigen::Matrix3d(T_right_left.linear()), rotation);
@@ -116,14 +116,14 @@ class RecordedSequence : public Sequence {
   RecordedSequence(StereoRecording recording, std::string name)
       : recording_(std::move(recording)), name_(std::move(name)) {
     const cv::Mat1b first = ReadGreyPng(recording_.pairs.front().left);
-    for (EyeCalibration* eye : {&recording_.left, &recording_.right}) {
-      if (eye->width == 0) {  // KITTI's calibration does not say
-        eye->width = first.cols;
-        eye->height = first.rows;
+    for (CameraCalibration* camera : {&recording_.left, &recording_.right}) {
+      if (camera->width == 0) {  // KITTI's calibration does not say
+        camera->width = first.cols;
+        camera->height = first.rows;
       }
     }
     rectification_ = Rectify(recording_.left, recording_.right);
-    T_body_rig_ = recording_.left.T_body_eye;
+    T_body_rig_ = recording_.left.T_body_camera;
     T_body_rig_.linear() = T_body_rig_.linear() * rectification_.R_left_rectified;
     for (const StampedPose& pose : recording_.truth) truth_by_stamp_[pose.stamp_ns] = pose;
   }
@@ -175,7 +175,7 @@ class RecordedSequence : public Sequence {
                                  c.width, c.height));
   }
 
-  /// Truth names the body; the rig is the rectified left eye.
+  /// Truth names the body; the rig is the rectified left camera.
   std::optional<Eigen::Isometry3d> TruthAt(std::int64_t stamp_ns) const {
     const auto half_frame_ns = static_cast<std::int64_t>(0.5e9 / std::max(rate_hz(), 1.0));
     const auto after = truth_by_stamp_.lower_bound(stamp_ns);
@@ -207,10 +207,10 @@ std::unique_ptr<Sequence> OpenRecording(const std::filesystem::path& folder, Dat
   StereoRecording recording = ReadRecording(folder, format);
   if (recording.left.width != recording.right.width ||
       recording.left.height != recording.right.height) {
-    throw InputError(folder.string(), 0, "the two eyes differ in size");
+    throw InputError(folder.string(), 0, "the two cameras differ in size");
   }
   if (recording.left.equidistant != recording.right.equidistant) {
-    throw InputError(folder.string(), 0, "the two eyes differ in their distortion model");
+    throw InputError(folder.string(), 0, "the two cameras differ in their distortion model");
   }
   const auto clean = std::filesystem::absolute(folder).lexically_normal();
   const auto name = clean.has_filename() ? clean.filename() : clean.parent_path().filename();

@@ -23,7 +23,7 @@ struct SimulatedSequenceOptions {
 
 /// What the proofs say of one frame, and the sentence about what failed, or none.
 struct FrameProof {
-  double raster_agreement = 0;  ///< share of pixels, the worse eye
+  double raster_agreement = 0;  ///< share of pixels, the worse camera
   double stereo_median_px = 0, flow_median_px = 0;
   /// Grey levels, rms: from frame to frame on things at rest, and what flickers on the others.
   double static_change_grey = 0, mover_flicker_grey = 0, shadow_flicker_grey = 0;

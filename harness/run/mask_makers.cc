@@ -10,8 +10,8 @@ namespace {
 
 /// A network that misses an object misses it for about this long.
 constexpr std::int64_t kMissFrames = 10;
-/// Widest shift between the eyes: a blob of the right mask belongs to the object whose box, moved
-/// left by at most this much, covers it best.
+/// Widest shift between the cameras: a blob of the right mask belongs to the object whose box,
+/// moved left by at most this much, covers it best.
 constexpr int kMaxDisparityPx = 200;
 
 /// Uniform in (0, 1), from its content alone (splitmix64, Steele et al. 2014).
@@ -50,7 +50,7 @@ cv::Mat1b Shifted(const cv::Mat1b& mask, int by_px) {
 struct Fate {
   bool missed = false;
   int shift_px = 0;
-  cv::Rect box;  ///< left eye
+  cv::Rect box;  ///< left camera
 };
 
 Fate FateOf(const cv::Mat1b& object, int instance, std::int64_t frame, const MaskErrors& errors,
@@ -63,7 +63,7 @@ Fate FateOf(const cv::Mat1b& object, int instance, std::int64_t frame, const Mas
   return fate;
 }
 
-/// The right eye has no labels: a blob shares the fate of the object it must belong to.
+/// The right camera has no labels: a blob shares the fate of the object it must belong to.
 const Fate* FateOfRightBlob(const cv::Rect& blob, const std::vector<Fate>& fates) {
   const Fate* best = nullptr;
   int most = 0;

@@ -16,7 +16,7 @@ using MaskMaker = std::function<ExternalMask(const SequenceFrame&)>;
 MaskMaker MasksFromTruth(MaskSource source);
 
 /// Truth's masks as an imperfect network would give them. Errors are drawn from (seed, frame,
-/// object) alone: the same run gives the same masks. A missed object is missed in both eyes.
+/// object) alone: the same run gives the same masks. A missed object is missed in both cameras.
 MaskMaker MasksWithErrors(MaskSource source, const MaskErrors& errors, std::uint64_t seed);
 
 }  // namespace aisle

@@ -7,8 +7,8 @@
 
 namespace aisle::sim {
 
-Eigen::Vector2d Project(const StereoCamera& camera, const Eigen::Vector3d& point_eye) {
-  const Eigen::Vector2d image = Distort(camera.lens, point_eye.hnormalized());
+Eigen::Vector2d Project(const StereoCamera& camera, const Eigen::Vector3d& point_camera) {
+  const Eigen::Vector2d image = Distort(camera.lens, point_camera.hnormalized());
   return {camera.fx * image.x() + camera.cx, camera.fy * image.y() + camera.cy};
 }
 
@@ -98,9 +98,9 @@ StereoCamera Coarser(const StereoCamera& camera, int factor) {
   return coarse;
 }
 
-Eigen::Isometry3d EyePose(const StereoCamera& camera, const Eigen::Isometry3d& T_world_rig,
-                          Eye eye) {
-  if (eye == Eye::kLeft) return T_world_rig;
+Eigen::Isometry3d CameraPose(const StereoCamera& camera, const Eigen::Isometry3d& T_world_rig,
+                             StereoSide side) {
+  if (side == StereoSide::kLeft) return T_world_rig;
   return T_world_rig * Eigen::Translation3d(camera.baseline_m, 0, 0);
 }
 

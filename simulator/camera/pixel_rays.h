@@ -49,8 +49,8 @@ PixelWindow WindowOfRays(const PixelRays& rays, const Eigen::Vector2d& low,
 /// The same camera with pixels `factor` times as large, for a coarse look at the same view.
 StereoCamera Coarser(const StereoCamera& camera, int factor);
 
-/// Where one eye stands: T_world_eye of the pair whose rig (left eye) is at `T_world_rig`.
-Eigen::Isometry3d EyePose(const StereoCamera& camera, const Eigen::Isometry3d& T_world_rig,
-                          Eye eye);
+/// Where one camera stands: T_world_camera of the pair whose rig (left camera) is at `T_world_rig`.
+Eigen::Isometry3d CameraPose(const StereoCamera& camera, const Eigen::Isometry3d& T_world_rig,
+                             StereoSide side);
 
 }  // namespace aisle::sim

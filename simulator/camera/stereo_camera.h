@@ -7,11 +7,11 @@
 
 namespace aisle::sim {
 
-enum class Eye { kLeft = 0, kRight = 1 };
+enum class StereoSide { kLeft = 0, kRight = 1 };
 
-/// A stereo pair of parallel, equal eyes. Camera frame: x right, y down, z forward; the rig frame
-/// is the left camera's; the right camera stands at (+baseline, 0, 0) in it. The centre of pixel
-/// (0, 0) is u = 0, v = 0, as in OpenCV. With a pinhole lens the pair is rectified.
+/// A stereo pair of parallel, equal cameras. Camera frame: x right, y down, z forward; the rig
+/// frame is the left camera's; the right camera stands at (+baseline, 0, 0) in it. The centre of
+/// pixel (0, 0) is u = 0, v = 0, as in OpenCV. With a pinhole lens the pair is rectified.
 struct StereoCamera {
   int width = 752;                                        ///< pixels
   int height = 480;                                       ///< pixels
@@ -20,7 +20,7 @@ struct StereoCamera {
   Lens lens = {};
 };
 
-/// The pixel where a point of the eye's frame (metres, z > 0) appears, inside the image or not.
-Eigen::Vector2d Project(const StereoCamera& camera, const Eigen::Vector3d& point_eye);
+/// The pixel where a point of the camera's frame (metres, z > 0) appears, inside the image or not.
+Eigen::Vector2d Project(const StereoCamera& camera, const Eigen::Vector3d& point_camera);
 
 }  // namespace aisle::sim

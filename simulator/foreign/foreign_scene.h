@@ -17,7 +17,7 @@ class ForeignSceneError : public std::runtime_error {
 
 /// A scene of another renderer, still and in colour.
 struct ForeignScene {
-  StereoCamera camera;  ///< its left eye's is the picture
+  StereoCamera camera;  ///< its left camera's is the picture
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
   std::array<WorldParts, 3> bands;  ///< red, green, blue: alike but for albedo and radiance
 };

@@ -9,11 +9,11 @@ PictureWithFlow TakeWithFlow(const Studio& studio, const Moment& now, const Mome
   const World& world = studio.world;
   const Instant instant = studio.tracer.Pose(world.At(now.stamp_ns));
   const std::array view = {
-      EyeView(studio.rays, EyePose(studio.camera, now.T_world_rig, Eye::kLeft))};
+      CameraView(studio.rays, CameraPose(studio.camera, now.T_world_rig, StereoSide::kLeft))};
   std::vector<HitImage> hits;
   TraceViews(instant, view, {}, &hits);
   const MovingNow moving(world, instant.snapshot(), studio.moving);
-  const EyeTruth truth = LabelHits(world, instant, hits[0], moving);
+  const CameraTruth truth = LabelHits(world, instant, hits[0], moving);
   Correspondence found = FindCorrespondence(world, instant, studio.camera, view[0], hits[0],
                                             world.At(next.stamp_ns), next.T_world_rig);
   PictureWithFlow picture{.grey = {},
@@ -22,7 +22,7 @@ PictureWithFlow TakeWithFlow(const Studio& studio, const Moment& now, const Mome
                           .mover = truth.actor,
                           .shadow = FindMovingShadows(world, instant, view[0], hits[0], moving),
                           .flow = found.flow,
-                          .z_next = DepthInNextEye(view[0], hits[0], found, next.T_world_rig)};
+                          .z_next = DepthInNextCamera(view[0], hits[0], found, next.T_world_rig)};
   studio.expose(studio.shader.Shade(instant, view, hits).front()).convertTo(picture.grey, CV_32F);
   return picture;
 }

@@ -149,10 +149,10 @@ StereoCamera Enclosing(const PixelRays& rays) {
 }  // namespace
 
 RasterView RasterizeThroughLens(const World& world, const Snapshot& snapshot, const PixelRays& rays,
-                                const Eigen::Isometry3d& T_world_eye,
+                                const Eigen::Isometry3d& T_world_camera,
                                 const RasterOptions& options) {
   const StereoCamera wide = Enclosing(rays);
-  const RasterView drawn = Rasterize(world, snapshot, wide, T_world_eye, options);
+  const RasterView drawn = Rasterize(world, snapshot, wide, T_world_camera, options);
   RasterView view{cv::Mat1f(rays.height, rays.width, std::numeric_limits<float>::quiet_NaN()),
                   cv::Mat1w(rays.height, rays.width, std::uint16_t{0})};
   for (int y = 0; y < rays.height; ++y) {
@@ -176,7 +176,7 @@ RasterView RasterizeThroughLens(const World& world, const Snapshot& snapshot, co
 }
 
 RasterView Rasterize(const World& world, const Snapshot& snapshot, const StereoCamera& camera,
-                     const Eigen::Isometry3d& T_world_eye, const RasterOptions& options) {
+                     const Eigen::Isometry3d& T_world_camera, const RasterOptions& options) {
   const std::unique_ptr<osmesa_context, ContextRelease> context(
       OSMesaCreateContextExt(OSMESA_RGBA, 32, 0, 0, nullptr));
   cv::Mat4b color(camera.height, camera.width);
@@ -186,7 +186,7 @@ RasterView Rasterize(const World& world, const Snapshot& snapshot, const StereoC
   }
   OSMesaPixelStore(OSMESA_Y_UP, 1);
   const Eigen::Matrix4d clip_from_world =
-      ClipFromCamera(camera, options) * T_world_eye.inverse().matrix();
+      ClipFromCamera(camera, options) * T_world_camera.inverse().matrix();
   Draw(Collect(world, snapshot), clip_from_world, camera.width, camera.height);
   return ReadBack(color, options);
 }

@@ -23,13 +23,13 @@ struct RasterOptions {
 /// Draws the world at a snapshot with OSMesa (in memory, no display). Throws std::runtime_error
 /// when OSMesa does not start.
 RasterView Rasterize(const World& world, const Snapshot& snapshot, const StereoCamera& camera,
-                     const Eigen::Isometry3d& T_world_eye, const RasterOptions& options = {});
+                     const Eigen::Isometry3d& T_world_camera, const RasterOptions& options = {});
 
 /// The same through a lens: OpenGL draws straight lines only, so a wider pinhole picture is drawn
 /// and read where each pixel's ray meets it: 1/z between four pixels of one plane; NaN and no
 /// instance where they are not, which Compare leaves out. `rays` are the camera's.
 RasterView RasterizeThroughLens(const World& world, const Snapshot& snapshot, const PixelRays& rays,
-                                const Eigen::Isometry3d& T_world_eye,
+                                const Eigen::Isometry3d& T_world_camera,
                                 const RasterOptions& options = {});
 
 /// How far two views of one scene agree away from silhouettes.

@@ -33,8 +33,8 @@ struct Found {
 
 class Edges {
  public:
-  Edges(const World& world, const EyeView& view, const HitImage& image, const SurfaceTables& tables,
-        const cv::Mat1f& radiance)
+  Edges(const World& world, const CameraView& view, const HitImage& image,
+        const SurfaceTables& tables, const cv::Mat1f& radiance)
       : mesh_(world.statics().mesh),
         view_(view),
         image_(image),
@@ -186,7 +186,7 @@ class Edges {
   }
 
   const TriangleMesh& mesh_;
-  const EyeView& view_;
+  const CameraView& view_;
   const HitImage& image_;
   const SurfaceTables& tables_;
   const cv::Mat1f& radiance_;
@@ -235,7 +235,7 @@ float KeptNear(const HitImage& image, std::span<const float> kept, PixelAt pixel
   return share;
 }
 
-Rays8 SampleRays(const EyeView& view, std::span<const PixelAt> pixels) {
+Rays8 SampleRays(const CameraView& view, std::span<const PixelAt> pixels) {
   const PixelRays& rays = *view.rays;
   Rays8 packet;
   for (std::size_t k = 0; k < kLanes; ++k) {
@@ -262,7 +262,7 @@ class Sampler {
  public:
   static constexpr std::size_t kPixels = kLanes / kSamples;  ///< a packet
 
-  Sampler(const Instant& instant, const EyeView& view, const HitImage& image,
+  Sampler(const Instant& instant, const CameraView& view, const HitImage& image,
           const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures,
           std::span<const float> kept, const cv::Mat1f& radiance)
       : instant_(instant),
@@ -314,7 +314,7 @@ class Sampler {
   }
 
   const Instant& instant_;
-  const EyeView& view_;
+  const CameraView& view_;
   const HitImage& image_;
   const SurfaceTables& tables_;
   const FrameLight& frame_;
@@ -326,7 +326,7 @@ class Sampler {
 
 }  // namespace
 
-void AntialiasEdges(const World& world, const Instant& instant, const EyeView& view,
+void AntialiasEdges(const World& world, const Instant& instant, const CameraView& view,
                     const HitImage& image, const SurfaceTables& tables, const FrameLight& frame,
                     const TexturePool& textures, std::span<const float> kept, cv::Mat1f* radiance) {
   const TileGrid grid{image.width, image.height, kTileWidth, kTileHeight};

@@ -14,7 +14,7 @@ namespace aisle::sim {
 /// "Geometric post-process anti-aliasing", 2011); where it is not (thin things, curved outlines),
 /// the pixel becomes the mean of four rays on a rotated grid. `kept` is the share of light that
 /// movers leave, per pixel of the image.
-void AntialiasEdges(const World& world, const Instant& instant, const EyeView& view,
+void AntialiasEdges(const World& world, const Instant& instant, const CameraView& view,
                     const HitImage& image, const SurfaceTables& tables, const FrameLight& frame,
                     const TexturePool& textures, std::span<const float> kept, cv::Mat1f* radiance);
 

@@ -62,9 +62,9 @@ void FillUnlit(std::vector<float>* light) {
 }
 
 /// The size of a pixel at the mover's nearest point, in metres.
-float PixelOn(const Eigen::AlignedBox3f& box, std::span<const EyeView> views) {
+float PixelOn(const Eigen::AlignedBox3f& box, std::span<const CameraView> views) {
   float size = kInfinity;
-  for (const EyeView& view : views) {
+  for (const CameraView& view : views) {
     size = std::min(size, view.rays->step_x * box.exteriorDistance(view.origin));
   }
   return size;
@@ -110,7 +110,7 @@ MeshPlace SurfaceTables::PlaceOf(const Instant& instant, const HitImage& image,
   return {world_->mover_meshes()[geometry - 1], state.positions, state.normals, triangle, u, v};
 }
 
-void SurfaceTables::PrepareFrame(const Instant& instant, std::span<const EyeView> views,
+void SurfaceTables::PrepareFrame(const Instant& instant, std::span<const CameraView> views,
                                  std::span<const HitImage> images,
                                  std::shared_ptr<const LightState> statics,
                                  FrameLight* frame) const {

@@ -36,7 +36,7 @@ class SurfaceTables {
   std::span<const std::int32_t> mover_bases() const { return mover_bases_; }
 
   /// Poses the movers' records and lights what the images of the views show of them.
-  void PrepareFrame(const Instant& instant, std::span<const EyeView> views,
+  void PrepareFrame(const Instant& instant, std::span<const CameraView> views,
                     std::span<const HitImage> images, std::shared_ptr<const LightState> statics,
                     FrameLight* frame) const;
 

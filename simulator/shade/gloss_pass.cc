@@ -59,7 +59,7 @@ struct Glossy8 {
 
 class Pass {
  public:
-  Pass(const Instant& instant, const EyeView& view, const HitImage& image,
+  Pass(const Instant& instant, const CameraView& view, const HitImage& image,
        const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures)
       : instant_(instant),
         view_(view),
@@ -104,9 +104,9 @@ class Pass {
     const F8x3 d = {r(0, 0) * cx + r(0, 1) * cy + r(0, 2), r(1, 0) * cx + r(1, 1) * cy + r(1, 2),
                     r(2, 0) * cx + r(2, 1) * cy + r(2, 2)};
     const F8 inverse = -1 / Sqrt(Dot(d, d));
-    const F8x3 to_eye = {d.x * inverse, d.y * inverse, d.z * inverse};
-    const Frame8 basis(Normal(glossy, i, to_eye));
-    F8x3 out = basis.ToLocal(to_eye);
+    const F8x3 to_camera = {d.x * inverse, d.y * inverse, d.z * inverse};
+    const Frame8 basis(Normal(glossy, i, to_camera));
+    F8x3 out = basis.ToLocal(to_camera);
     out.z = Max(out.z, Wide(kGrazing));
     const F8 t = Select(glossy.lanes, LoadF(&image_.t[i]), Wide(0));
     const LobePoints8 points{.position = {view_.origin.x() + t * d.x + kLift * basis.z.x,
@@ -157,8 +157,8 @@ class Pass {
     return lamps;
   }
 
-  /// The surfaces' normals, on the eye's side.
-  F8x3 Normal(const Glossy8& glossy, std::size_t pixel, const F8x3& to_eye) const {
+  /// The surfaces' normals, on the camera's side.
+  F8x3 Normal(const Glossy8& glossy, std::size_t pixel, const F8x3& to_camera) const {
     F8x3 n = {Wide(0), Wide(0), Wide(1)};
     for (int k = 0; k < kLanes; ++k) {
       if (!glossy.lanes[k]) continue;
@@ -172,12 +172,12 @@ class Pass {
       n.y[k] = normal.y();
       n.z[k] = normal.z();
     }
-    const F8 side = Select(Dot(n, to_eye) < 0, Wide(-1), Wide(1));
+    const F8 side = Select(Dot(n, to_camera) < 0, Wide(-1), Wide(1));
     return {n.x * side, n.y * side, n.z * side};
   }
 
   const Instant& instant_;
-  const EyeView& view_;
+  const CameraView& view_;
   const HitImage& image_;
   const SurfaceTables& tables_;
   const FrameLight& frame_;
@@ -189,7 +189,7 @@ class Pass {
 
 }  // namespace
 
-bool TraceGloss(const Instant& instant, const EyeView& view, const HitImage& image,
+bool TraceGloss(const Instant& instant, const CameraView& view, const HitImage& image,
                 const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures,
                 std::vector<float>* reflectance, std::vector<float>* mirrored) {
   if (!tables.glossy()) return false;

@@ -8,7 +8,7 @@
 
 namespace aisle::sim {
 
-/// Eight places on glossy surfaces, and the way to the eye in their frames.
+/// Eight places on glossy surfaces, and the way to the camera in their frames.
 struct LobePoints8 {
   F8x3 position;  ///< lifted off the surface
   Frame8 basis;
@@ -28,7 +28,7 @@ class LobeLamps {
  public:
   LobeLamps(std::span<const AreaLight> lights, std::span<const float> light_scale);
 
-  /// Radiance towards the eye, for the valid lanes.
+  /// Radiance towards the camera, for the valid lanes.
   F8 Mirrored(const Instant& instant, const LobePoints8& points, const LampChoice8& choice,
               I8 valid) const;
 

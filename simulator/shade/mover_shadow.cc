@@ -6,7 +6,7 @@
 
 #include "simulator/shade/hemisphere.h"
 #include "simulator/shade/mover_blockers.h"
-#include "simulator/shade/other_eye.h"
+#include "simulator/shade/other_camera.h"
 #include "simulator/shade/pattern_filter.h"
 #include "simulator/shade/ray_packets.h"
 #include "simulator/trace/tile_grid.h"
@@ -80,7 +80,7 @@ struct TileWork {
 
 class Pass {
  public:
-  Pass(const Instant& instant, const EyeView& view, const HitImage& image, const World& world,
+  Pass(const Instant& instant, const CameraView& view, const HitImage& image, const World& world,
        const SurfaceTables& tables, const FrameLight& frame, std::span<const float> irradiance,
        const SeenShadows* seen)
       : instant_(instant),
@@ -132,7 +132,7 @@ class Pass {
 
   I8 StaticLanes(int x, int y) const { return LoadI(&image_.geometry[image_.Index(x, y)]) == 0; }
 
-  /// Takes over what the other eye found for the points that both see; what lanes are left.
+  /// Takes over what the other camera found for the points that both see; what lanes are left.
   I8 TakeSeen(int x, int y, std::vector<float>* raw, bool* lost) const {
     const I8 active = StaticLanes(x, y);
     if (!other_ || !Any(active)) return active;
@@ -337,20 +337,20 @@ class Pass {
   }
 
   const Instant& instant_;
-  const EyeView& view_;
+  const CameraView& view_;
   const HitImage& image_;
   const World& world_;
   const SurfaceTables& tables_;
   const FrameLight& frame_;
   std::span<const float> irradiance_;
-  std::optional<OtherEye> other_;
+  std::optional<OtherCamera> other_;
   std::span<const float> other_raw_;
   Pattern pattern_;
 };
 
 }  // namespace
 
-void TraceMoverShadows(const Instant& instant, const EyeView& view, const HitImage& image,
+void TraceMoverShadows(const Instant& instant, const CameraView& view, const HitImage& image,
                        const World& world, const SurfaceTables& tables, const FrameLight& frame,
                        std::span<const float> irradiance, const SeenShadows* seen,
                        std::vector<float>* raw, std::vector<float>* kept) {

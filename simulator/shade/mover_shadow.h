@@ -8,9 +8,9 @@
 
 namespace aisle::sim {
 
-/// What another eye of the same instant found before the filter.
+/// What another camera of the same instant found before the filter.
 struct SeenShadows {
-  const EyeView& view;
+  const CameraView& view;
   const HitImage& image;
   std::span<const float> raw;
 };
@@ -19,9 +19,9 @@ struct SeenShadows {
 /// irradiance that remains, 1 where no mover can matter. Per pixel one shadow ray a light and mover
 /// and a few short rays for indirect light, in a 4 × 4 pattern of directions that a filter over the
 /// same surface then averages. `irradiance` is the static world's, in HitImage rows. Points that
-/// the eye of `seen` (may be null) has traced are taken from there. `raw` is what the filter was
+/// the camera of `seen` (may be null) has traced are taken from there. `raw` is what the filter was
 /// given.
-void TraceMoverShadows(const Instant& instant, const EyeView& view, const HitImage& image,
+void TraceMoverShadows(const Instant& instant, const CameraView& view, const HitImage& image,
                        const World& world, const SurfaceTables& tables, const FrameLight& frame,
                        std::span<const float> irradiance, const SeenShadows* seen,
                        std::vector<float>* raw, std::vector<float>* kept);

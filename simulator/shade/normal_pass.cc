@@ -36,7 +36,7 @@ class OpenLight {
 
 }  // namespace
 
-void BendLight(const Instant& instant, const EyeView& view, const HitImage& image,
+void BendLight(const Instant& instant, const CameraView& view, const HitImage& image,
                const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures,
                std::vector<float>* irradiance) {
   if (!tables.has_normal_maps()) return;

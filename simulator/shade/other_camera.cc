@@ -1,22 +1,22 @@
-#include "simulator/shade/other_eye.h"
+#include "simulator/shade/other_camera.h"
 
 namespace aisle::sim {
 
-OtherEye::OtherEye(const EyeView& view, const HitImage& image)
+OtherCamera::OtherCamera(const CameraView& view, const HitImage& image)
     : image_(&image),
       straight_(view.rays->straight),
-      to_eye_(view.rotation.transpose()),
+      to_camera_(view.rotation.transpose()),
       origin_(view.origin),
       first_x_(view.rays->x[0]),
       first_y_(view.rays->y[0]),
       columns_per_x_(1 / view.rays->step_x),
       rows_per_y_(1 / view.rays->step_y) {}
 
-I8 OtherEye::Find(const F8x3& points, I8 primitive, I8 active, I8* pixels) const {
+I8 OtherCamera::Find(const F8x3& points, I8 primitive, I8 active, I8* pixels) const {
   if (!straight_) return I8{};
   const F8x3 d = {points.x - origin_.x(), points.y - origin_.y(), points.z - origin_.z()};
   const auto along = [&](int axis) {
-    return to_eye_(axis, 0) * d.x + to_eye_(axis, 1) * d.y + to_eye_(axis, 2) * d.z;
+    return to_camera_(axis, 0) * d.x + to_camera_(axis, 1) * d.y + to_camera_(axis, 2) * d.z;
   };
   const F8 depth = along(2);
   const I8 ahead = active & (depth > 1e-3f);

@@ -26,12 +26,12 @@ struct Vertex {
   std::int32_t light = -1;  ///< whose surface this is
 };
 
-/// How a vertex scatters towards the eye's side: a diffuse base and a glossy lobe.
+/// How a vertex scatters towards the camera's side: a diffuse base and a glossy lobe.
 class Scattering {
  public:
-  Scattering(const Vertex& vertex, const Eigen::Vector3f& to_eye)
+  Scattering(const Vertex& vertex, const Eigen::Vector3f& to_camera)
       : finish_(vertex.finish), albedo_(vertex.albedo), basis_(BasisAround(vertex.shading)) {
-    const Eigen::Vector3f local = basis_.transpose() * to_eye.normalized();
+    const Eigen::Vector3f local = basis_.transpose() * to_camera.normalized();
     out_ = {local.x(), local.y(), local.z()};
     if (finish_.f0 <= 0 || out_.z <= 0) {
       finish_ = {};
@@ -299,7 +299,7 @@ class PathPacket {
   Rays8 rays_{};
   std::array<PathRandom, kLanes> random_;
   std::array<float, kLanes> throughput_{}, radiance_{};
-  std::array<float, kLanes> scatter_pdf_{};    ///< of the direction that led here; 0: the eye's
+  std::array<float, kLanes> scatter_pdf_{};    ///< of the direction that led here; 0: the camera's
   std::array<float, kLanes> light_samples_{};  ///< that the vertex before took
   std::vector<float> scratch_;
   std::array<Vertex, kLanes> last_;
@@ -323,7 +323,7 @@ Reference::Reference(const World& world, const TexturePool& textures)
   }
 }
 
-cv::Mat1f Reference::Render(const Instant& instant, const EyeView& view,
+cv::Mat1f Reference::Render(const Instant& instant, const CameraView& view,
                             const ReferenceOptions& options) const {
   const PixelRays& rays = *view.rays;
   cv::Mat1f image(rays.height, rays.width, 0.0f);

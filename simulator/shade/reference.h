@@ -29,7 +29,7 @@ class Reference {
  public:
   Reference(const World& world, const TexturePool& textures);
 
-  cv::Mat1f Render(const Instant& instant, const EyeView& view,
+  cv::Mat1f Render(const Instant& instant, const CameraView& view,
                    const ReferenceOptions& options) const;
 
  private:

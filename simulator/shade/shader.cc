@@ -17,7 +17,7 @@ constexpr float kInvPi = std::numbers::inv_pi_v<float>;
 
 /// Reflectance and irradiance of every pixel, rows as in HitImage.
 void LookUpImage(const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures,
-                 const EyeView& view, const HitImage& image, std::vector<float>* reflectance,
+                 const CameraView& view, const HitImage& image, std::vector<float>* reflectance,
                  std::vector<float>* irradiance) {
   reflectance->resize(image.t.size());
   irradiance->resize(image.t.size());
@@ -83,7 +83,7 @@ Shader::Shader(const World& world, const Tracer& tracer, const ShadeOptions& opt
 
 Shader::~Shader() = default;
 
-std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const EyeView> views,
+std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const CameraView> views,
                                      std::span<const HitImage> images,
                                      const std::function<void(const char*)>& lap) const {
   const auto done = [&](const char* stage) {

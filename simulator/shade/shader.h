@@ -32,7 +32,7 @@ class Shader {
   const StaticLight& static_light() const { return static_light_; }
   /// Radiance by pixel of each view, CV_32F, in the units of the lights. `images` are the hits of
   /// the same views. `lap`, if any, is called with a stage's name at its end. Thread-safe.
-  std::vector<cv::Mat1f> Shade(const Instant& instant, std::span<const EyeView> views,
+  std::vector<cv::Mat1f> Shade(const Instant& instant, std::span<const CameraView> views,
                                std::span<const HitImage> images,
                                const std::function<void(const char*)>& lap = {}) const;
 

@@ -16,7 +16,7 @@ struct Surfaces {
   const float* light = nullptr;  ///< irradiance by slot
 };
 
-/// Eight hits seen from one eye. `dx…` is the ray's direction (z = 1 in the camera, so that t is
+/// Eight hits seen from one camera. `dx…` is the ray's direction (z = 1 in the camera, so that t is
 /// the depth), `record` the index of the triangle's record.
 struct HitLanes {
   F8 t, u, v;

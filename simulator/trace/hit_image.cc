@@ -17,7 +17,7 @@ struct TileOfView {
   Tile tile;
 };
 
-std::vector<TileOfView> MakeTiles(std::span<const EyeView> views, std::uint64_t shuffle) {
+std::vector<TileOfView> MakeTiles(std::span<const CameraView> views, std::uint64_t shuffle) {
   std::vector<TileOfView> tiles;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const TileGrid grid{views[i].rays->width, views[i].rays->height, kTileWidth, kTileHeight};
@@ -45,7 +45,7 @@ void Store(const Hits8& hits, int x, int y, HitImage* image) {
   }
 }
 
-void TraceTile(const Instant& instant, const EyeView& view, const Tile& tile, HitImage* image) {
+void TraceTile(const Instant& instant, const CameraView& view, const Tile& tile, HitImage* image) {
   const GeometryMask geometries =
       GeometriesInWindow(instant, view, tile.x0, tile.y0, tile.x1, tile.y1);
   Hits8 hits;
@@ -59,9 +59,9 @@ void TraceTile(const Instant& instant, const EyeView& view, const Tile& tile, Hi
 
 }  // namespace
 
-EyeView::EyeView(const PixelRays& pixel_rays, const Eigen::Isometry3d& pose)
+CameraView::CameraView(const PixelRays& pixel_rays, const Eigen::Isometry3d& pose)
     : rays(&pixel_rays),
-      T_world_eye(pose),
+      T_world_camera(pose),
       rotation(pose.linear().cast<float>()),
       origin(pose.translation().cast<float>()) {}
 
@@ -78,7 +78,7 @@ void HitImage::Resize(int new_width, int new_height) {
   v.assign(count, 0);
 }
 
-Rays8 PixelPacket(const EyeView& view, int x, int y) {
+Rays8 PixelPacket(const CameraView& view, int x, int y) {
   const PixelRays& rays = *view.rays;
   const Eigen::Matrix3f& r = view.rotation;
   Rays8 packet;
@@ -100,8 +100,8 @@ Rays8 PixelPacket(const EyeView& view, int x, int y) {
   return packet;
 }
 
-GeometryMask GeometriesInWindow(const Instant& instant, const EyeView& view, int x0, int y0, int x1,
-                                int y1) {
+GeometryMask GeometriesInWindow(const Instant& instant, const CameraView& view, int x0, int y0,
+                                int x1, int y1) {
   // A box can show in the window only if no side plane of the window's pyramid has all of it
   // outside. The planes enclose the rays of the window's border (of its corners, for a pinhole),
   // widened by one pixel.
@@ -116,13 +116,13 @@ GeometryMask GeometriesInWindow(const Instant& instant, const EyeView& view, int
   }
   const Eigen::Vector2f lo = window.min() - Eigen::Vector2f(rays.step_x, rays.step_y);
   const Eigen::Vector2f hi = window.max() + Eigen::Vector2f(rays.step_x, rays.step_y);
-  const Eigen::Isometry3f T_eye_world = view.T_world_eye.inverse().cast<float>();
+  const Eigen::Isometry3f T_camera_world = view.T_world_camera.inverse().cast<float>();
   GeometryMask mask = kStaticOnly;
   for (std::size_t i = 0; i < instant.mover_boxes().size(); ++i) {
     int left = 0, right = 0, above = 0, below = 0, behind = 0;
     for (int corner = 0; corner < 8; ++corner) {
       const Eigen::Vector3f p =
-          T_eye_world *
+          T_camera_world *
           instant.mover_boxes()[i].corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner));
       left += p.x() < lo.x() * p.z();
       right += p.x() > hi.x() * p.z();
@@ -135,7 +135,7 @@ GeometryMask GeometriesInWindow(const Instant& instant, const EyeView& view, int
   return mask;
 }
 
-void TraceViews(const Instant& instant, std::span<const EyeView> views, const TraceOrder& order,
+void TraceViews(const Instant& instant, std::span<const CameraView> views, const TraceOrder& order,
                 std::vector<HitImage>* images) {
   images->resize(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {

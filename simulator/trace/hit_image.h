@@ -26,13 +26,13 @@ struct HitImage {
   }
 };
 
-/// One eye of one frame: its pixels' rays, and where it stands. Directions in the world are
+/// One camera of one frame: its pixels' rays, and where it stands. Directions in the world are
 /// rotation · (x, y, 1).
-struct EyeView {
-  EyeView(const PixelRays& pixel_rays, const Eigen::Isometry3d& T_world_eye);
+struct CameraView {
+  CameraView(const PixelRays& pixel_rays, const Eigen::Isometry3d& T_world_camera);
 
   const PixelRays* rays;
-  Eigen::Isometry3d T_world_eye;
+  Eigen::Isometry3d T_world_camera;
   Eigen::Matrix3f rotation;
   Eigen::Vector3f origin;
 };
@@ -45,14 +45,14 @@ struct TraceOrder {
 /// Traces the pixel centres of several views of one instant, in parallel over tiles. `images` has
 /// one entry per view and is reused from frame to frame, because its pages are expensive to touch
 /// for the first time.
-void TraceViews(const Instant& instant, std::span<const EyeView> views, const TraceOrder& order,
+void TraceViews(const Instant& instant, std::span<const CameraView> views, const TraceOrder& order,
                 std::vector<HitImage>* images);
 
 /// The rays of the eight pixels (x + 0…3, y + 0…1).
-Rays8 PixelPacket(const EyeView& view, int x, int y);
+Rays8 PixelPacket(const CameraView& view, int x, int y);
 
 /// Movers whose box may show in the pixels [x0, x1) × [y0, y1), and the static world.
-GeometryMask GeometriesInWindow(const Instant& instant, const EyeView& view, int x0, int y0, int x1,
-                                int y1);
+GeometryMask GeometriesInWindow(const Instant& instant, const CameraView& view, int x0, int y0,
+                                int x1, int y1);
 
 }  // namespace aisle::sim

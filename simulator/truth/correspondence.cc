@@ -10,12 +10,12 @@ namespace aisle::sim {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kNear = 1e-3f;  // m in front of the eye
+constexpr float kNear = 1e-3f;  // m in front of the camera
 
-Eigen::Vector3d PointAt(const EyeView& view, const HitImage& hits, int x, int y) {
+Eigen::Vector3d PointAt(const CameraView& view, const HitImage& hits, int x, int y) {
   const auto ray = static_cast<std::size_t>(y * view.rays->width + x);
   const double t = hits.t[hits.Index(x, y)];
-  return view.T_world_eye * Eigen::Vector3d(t * view.rays->x[ray], t * view.rays->y[ray], t);
+  return view.T_world_camera * Eigen::Vector3d(t * view.rays->x[ray], t * view.rays->y[ray], t);
 }
 
 bool InImage(const StereoCamera& camera, const Eigen::Vector2d& pixel) {
@@ -36,13 +36,13 @@ Eigen::Vector3d FollowOnMover(const World& world, const HitImage& hits, std::siz
 
 /// Bits of the pixels of a packet row that something hides from a point.
 unsigned Hidden(const Instant& instant, const std::array<Eigen::Vector3d, kLanes>& points,
-                const Eigen::Vector3d& eye, unsigned valid) {
+                const Eigen::Vector3d& camera, unsigned valid) {
   // The ray ends just before the surface it starts from: 1e-4 of the way, or 1 mm at 10 m.
   constexpr float kMargin = 1e-4f;
   Rays8 rays;
   for (std::size_t k = 0; k < kLanes; ++k) {
     rays.valid[k] = valid >> k & 1 ? -1 : 0;
-    const Eigen::Vector3f from = eye.cast<float>();
+    const Eigen::Vector3f from = camera.cast<float>();
     const Eigen::Vector3f to =
         rays.valid[k] ? Eigen::Vector3f(points[k].cast<float>() - from) : Eigen::Vector3f::UnitX();
     rays.ox[k] = from.x();
@@ -87,16 +87,17 @@ WarpCheck Summarize(std::vector<double> errors) {
 }  // namespace
 
 Correspondence FindCorrespondence(const World& world, const Instant& instant,
-                                  const StereoCamera& camera, const EyeView& left,
+                                  const StereoCamera& camera, const CameraView& left,
                                   const HitImage& hits, const Snapshot& next,
                                   const Eigen::Isometry3d& T_world_rig_next) {
   const cv::Size size(hits.width, hits.height);
   Correspondence result{cv::Mat1f(size, 0.0f), cv::Mat1b(size, std::uint8_t{255}),
                         cv::Mat2f(size, cv::Vec2f(kNan, kNan)),
                         cv::Mat3f(size, cv::Vec3f(0, 0, 0))};
-  const Eigen::Isometry3d T_world_right = EyePose(camera, left.T_world_eye, Eye::kRight);
+  const Eigen::Isometry3d T_world_right =
+      CameraPose(camera, left.T_world_camera, StereoSide::kRight);
   const Eigen::Isometry3d T_right_world = T_world_right.inverse();
-  const Eigen::Vector3d right_eye = T_world_right.translation();
+  const Eigen::Vector3d right_camera = T_world_right.translation();
   const Eigen::Isometry3d T_next_world = T_world_rig_next.inverse();
   tbb::parallel_for(0, hits.height, [&](int y) {
     for (int x0 = 0; x0 < hits.width; x0 += kLanes) {
@@ -124,7 +125,7 @@ Correspondence FindCorrespondence(const World& world, const Instant& instant,
         result.flow(y, x) =
             cv::Vec2f(static_cast<float>(lands.x() - x), static_cast<float>(lands.y() - y));
       }
-      const unsigned hidden = Hidden(instant, points, right_eye, valid);
+      const unsigned hidden = Hidden(instant, points, right_camera, valid);
       for (int k = 0; k < kLanes && x0 + k < hits.width; ++k) {
         if ((valid & ~hidden) >> k & 1) result.occluded(y, x0 + k) = 0;
       }
@@ -133,9 +134,9 @@ Correspondence FindCorrespondence(const World& world, const Instant& instant,
   return result;
 }
 
-cv::Mat1f DepthInNextEye(const EyeView& left, const HitImage& hits,
-                         const Correspondence& correspondence,
-                         const Eigen::Isometry3d& T_world_rig_next) {
+cv::Mat1f DepthInNextCamera(const CameraView& left, const HitImage& hits,
+                            const Correspondence& correspondence,
+                            const Eigen::Isometry3d& T_world_rig_next) {
   cv::Mat1f depth(hits.height, hits.width, kNan);
   const Eigen::Isometry3d T_next_world = T_world_rig_next.inverse();
   for (int y = 0; y < hits.height; ++y) {

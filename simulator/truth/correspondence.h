@@ -13,7 +13,7 @@ namespace aisle::sim {
 struct Correspondence {
   cv::Mat1f disparity;  ///< fx · baseline / z: left u - right u of a pinhole pair, pixels; 0 where
                         ///< nothing was hit
-  cv::Mat1b occluded;   ///< 255 where something hides the point from the right eye, or it lies
+  cv::Mat1b occluded;   ///< 255 where something hides the point from the right camera, or it lies
                         ///< outside the right image, or nothing was hit
   cv::Mat2f flow;       ///< displacement to the next frame's left image, pixels; NaN where the
                         ///< point is not in front of the camera then, or nothing was hit
@@ -23,7 +23,7 @@ struct Correspondence {
 /// Exact correspondences of the hits in the left image. The surface point of a mover is followed by
 /// its barycentrics on the posed mesh of `next`; the camera is then at `T_world_rig_next`.
 Correspondence FindCorrespondence(const World& world, const Instant& instant,
-                                  const StereoCamera& camera, const EyeView& left,
+                                  const StereoCamera& camera, const CameraView& left,
                                   const HitImage& hits, const Snapshot& next,
                                   const Eigen::Isometry3d& T_world_rig_next);
 
@@ -41,13 +41,13 @@ WarpCheck CheckStereo(const StereoCamera& camera, const PixelRays& rays,
                       const Correspondence& correspondence);
 
 /// Frame against next frame: the depth that a point has then, against the next image's own depth
-/// where the flow lands. `z_next` comes with the flow: the point's depth in the next left eye.
+/// where the flow lands. `z_next` comes with the flow: the point's depth in the next left camera.
 WarpCheck CheckFlow(const StereoCamera& camera, const cv::Mat1f& z_next,
                     const cv::Mat1f& depth_next, const cv::Mat2f& flow);
 
-/// Depth z that each left pixel's point has in the next left eye, NaN where unknown.
-cv::Mat1f DepthInNextEye(const EyeView& left, const HitImage& hits,
-                         const Correspondence& correspondence,
-                         const Eigen::Isometry3d& T_world_rig_next);
+/// Depth z that each left pixel's point has in the next left camera, NaN where unknown.
+cv::Mat1f DepthInNextCamera(const CameraView& left, const HitImage& hits,
+                            const Correspondence& correspondence,
+                            const Eigen::Isometry3d& T_world_rig_next);
 
 }  // namespace aisle::sim

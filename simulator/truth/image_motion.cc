@@ -10,12 +10,12 @@
 namespace aisle::sim {
 
 double ImageMotion(const World& world, const Instant& instant, const StereoCamera& camera,
-                   const EyeView& view, const HitImage& hits,
+                   const CameraView& view, const HitImage& hits,
                    const Eigen::Isometry3d& T_world_first, const Eigen::Isometry3d& T_world_last,
                    double duration_s) {
   constexpr int kEvery = 4;  // pixels
   constexpr double kShare = 0.995;
-  constexpr double kNear = 1e-3;  // m in front of the eye
+  constexpr double kNear = 1e-3;  // m in front of the camera
   const Eigen::Isometry3d T_first_world = T_world_first.inverse();
   const Eigen::Isometry3d T_last_world = T_world_last.inverse();
   std::vector<std::vector<float>> rows(static_cast<std::size_t>((hits.height - 1) / kEvery + 1));
@@ -26,7 +26,7 @@ double ImageMotion(const World& world, const Instant& instant, const StereoCamer
       if (hits.geometry[i] == kNoGeometry) continue;
       const double z = hits.t[i];
       const Eigen::Vector2d ray = view.rays->At(x, y).cast<double>();
-      const Eigen::Vector3d point = view.T_world_eye * Eigen::Vector3d(z * ray.homogeneous());
+      const Eigen::Vector3d point = view.T_world_camera * Eigen::Vector3d(z * ray.homogeneous());
       const Eigen::Vector3d way =
           0.5 * duration_s * SurfaceVelocity(world, instant.snapshot(), hits, i).cast<double>();
       const Eigen::Vector3d first = T_first_world * Eigen::Vector3d(point - way);

@@ -37,7 +37,7 @@ Eigen::Vector3f NormalOf(const World& world, const Snapshot& snapshot, const Hit
   return (positions[b] - positions[a]).cross(positions[c] - positions[a]).normalized();
 }
 
-Places FindPlaces(const World& world, const Instant& instant, const EyeView& view,
+Places FindPlaces(const World& world, const Instant& instant, const CameraView& view,
                   const HitImage& hits, const MovingNow& moving, int x0, int y) {
   Places places;
   Eigen::AlignedBox3f box;
@@ -218,7 +218,7 @@ class ShadowFinder {
 
 }  // namespace
 
-cv::Mat1b FindMovingShadows(const World& world, const Instant& instant, const EyeView& view,
+cv::Mat1b FindMovingShadows(const World& world, const Instant& instant, const CameraView& view,
                             const HitImage& hits, const MovingNow& moving,
                             const MovingShadowOptions& options) {
   cv::Mat1b mask(hits.height, hits.width, std::uint8_t{0});

@@ -18,7 +18,7 @@ struct MovingShadowOptions {
 /// luminaire: brightness there changes though nothing seen does. Each luminaire is sampled at four
 /// points of its area; direct light only, by the cosines and the distance, whatever the material.
 /// Needs no shading and changes with no shading option.
-cv::Mat1b FindMovingShadows(const World& world, const Instant& instant, const EyeView& view,
+cv::Mat1b FindMovingShadows(const World& world, const Instant& instant, const CameraView& view,
                             const HitImage& hits, const MovingNow& moving,
                             const MovingShadowOptions& options = {});
 

@@ -24,16 +24,16 @@ std::map<std::uint16_t, Group> GroupByInstance(const Snapshot& snapshot) {
 }
 
 /// The pixels whose centres its silhouette can cover, by projecting its triangles' corners; parts
-/// behind the eye make it the whole image.
-cv::Rect WindowOf(const Snapshot& snapshot, const Group& group, const EyeView& view) {
+/// behind the camera make it the whole image.
+cv::Rect WindowOf(const Snapshot& snapshot, const Group& group, const CameraView& view) {
   constexpr double kNear = 1e-3;  // m
   const PixelRays& rays = *view.rays;
-  const Eigen::Isometry3d T_eye_world = view.T_world_eye.inverse();
+  const Eigen::Isometry3d T_camera_world = view.T_world_camera.inverse();
   Eigen::AlignedBox2d box;  // x / z, y / z
   bool behind = false, ahead = false;
   for (const std::size_t i : group.movers) {
     for (const Eigen::Vector3f& position : snapshot.movers[i].positions) {
-      const Eigen::Vector3d p = T_eye_world * position.cast<double>();
+      const Eigen::Vector3d p = T_camera_world * position.cast<double>();
       (p.z() > kNear ? ahead : behind) = true;
       if (p.z() > kNear) box.extend(Eigen::Vector2d(p.x() / p.z(), p.y() / p.z()));
     }
@@ -73,7 +73,7 @@ struct Silhouette {
   int dynamic = 0;
 };
 
-Silhouette ScanRows(const Instant& instant, const EyeView& view, const EyeTruth& truth,
+Silhouette ScanRows(const Instant& instant, const CameraView& view, const CameraTruth& truth,
                     const cv::Rect& window, std::uint16_t instance, GeometryMask mask, int y) {
   Silhouette found;
   // Packets are 4 × 2 pixels.
@@ -96,7 +96,7 @@ Silhouette ScanRows(const Instant& instant, const EyeView& view, const EyeTruth&
   return found;
 }
 
-Silhouette FindSilhouette(const Instant& instant, const EyeView& view, const EyeTruth& truth,
+Silhouette FindSilhouette(const Instant& instant, const CameraView& view, const CameraTruth& truth,
                           const cv::Rect& window, std::uint16_t instance, GeometryMask mask) {
   const int bands = (window.height + 1) / 2;
   std::vector<Silhouette> rows(static_cast<std::size_t>(bands));
@@ -115,11 +115,11 @@ Silhouette FindSilhouette(const Instant& instant, const EyeView& view, const Eye
 
 }  // namespace
 
-EyeTruth LabelHits(const World& world, const Instant& instant, const HitImage& image,
-                   const MovingNow& moving) {
+CameraTruth LabelHits(const World& world, const Instant& instant, const HitImage& image,
+                      const MovingNow& moving) {
   const cv::Size size(image.width, image.height);
-  EyeTruth truth{cv::Mat1f(size), cv::Mat1w(size), cv::Mat1b(size), cv::Mat1b(size),
-                 cv::Mat1b(size)};
+  CameraTruth truth{cv::Mat1f(size), cv::Mat1w(size), cv::Mat1b(size), cv::Mat1b(size),
+                    cv::Mat1b(size)};
   const std::span<const MoverState> movers = instant.snapshot().movers;
   tbb::parallel_for(0, image.height, [&](int y) {
     for (int x = 0; x < image.width; ++x) {
@@ -144,8 +144,8 @@ EyeTruth LabelHits(const World& world, const Instant& instant, const HitImage& i
   return truth;
 }
 
-std::vector<MoverTruth> DescribeMovers(const Instant& instant, const EyeView& view,
-                                       const EyeTruth& truth) {
+std::vector<MoverTruth> DescribeMovers(const Instant& instant, const CameraView& view,
+                                       const CameraTruth& truth) {
   std::vector<MoverTruth> result;
   for (const auto& [instance, group] : GroupByInstance(instant.snapshot())) {
     const cv::Rect window = WindowOf(instant.snapshot(), group, view);

@@ -11,8 +11,8 @@
 
 namespace aisle::sim {
 
-/// Exact truth of one eye, at the pixel centres.
-struct EyeTruth {
+/// Exact truth of one camera, at the pixel centres.
+struct CameraTruth {
   cv::Mat1f depth;         ///< z in metres along the optical axis, infinity where nothing was hit
   cv::Mat1w instance;      ///< index into World::instances(), 0 where nothing was hit
   cv::Mat1b object_class;  ///< ObjectClass values
@@ -20,7 +20,7 @@ struct EyeTruth {
   cv::Mat1b actor;         ///< 255 on every instance that may move, moving or not
 };
 
-/// Truth of one moving thing as one eye sees it.
+/// Truth of one moving thing as one camera sees it.
 struct MoverTruth {
   std::uint16_t instance = 0;
   cv::Rect2d box_visible;  ///< pixels; encloses the pixels that show it, empty if none does
@@ -35,11 +35,11 @@ struct MoverTruth {
 };
 
 /// Reads the labels off the hits. `moving` is asked about the surface point of each.
-EyeTruth LabelHits(const World& world, const Instant& instant, const HitImage& image,
-                   const MovingNow& moving);
+CameraTruth LabelHits(const World& world, const Instant& instant, const HitImage& image,
+                      const MovingNow& moving);
 
 /// Every mover that has a pixel in the image, or would have if it stood alone; by instance.
-std::vector<MoverTruth> DescribeMovers(const Instant& instant, const EyeView& view,
-                                       const EyeTruth& truth);
+std::vector<MoverTruth> DescribeMovers(const Instant& instant, const CameraView& view,
+                                       const CameraTruth& truth);
 
 }  // namespace aisle::sim

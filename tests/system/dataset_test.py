@@ -90,7 +90,7 @@ class Exported(unittest.TestCase):
         self.assert_labels_agree(data, i, way)
 
     def assert_pair_agrees(self, data, i, metres, disparity):
-        """What is not hidden from the right eye is there, as deep and of the same label."""
+        """What is not hidden from the right camera is there, as deep and of the same label."""
         seen = data.truth("occluded", i) == 0
         rows, columns = np.nonzero(seen)
         there = np.rint(columns - disparity[seen]).astype(int)
@@ -141,10 +141,10 @@ class Exported(unittest.TestCase):
             self.assertEqual(data.scene_stamps_ns[i], 50_000_000 * k)
             self.assertEqual(data.left[i].stem, data.names[i])
             self.assertEqual(data.right[i].name, data.left[i].name)
-            for eye in ("left", "right"):
-                mine = getattr(data, eye)[i].read_bytes()
-                self.assertEqual(mine, getattr(self.whole, eye)[k].read_bytes())
-                self.assertEqual(read_grey_png(getattr(data, eye)[i]).shape, (240, 376))
+            for camera in ("left", "right"):
+                mine = getattr(data, camera)[i].read_bytes()
+                self.assertEqual(mine, getattr(self.whole, camera)[k].read_bytes())
+                self.assertEqual(read_grey_png(getattr(data, camera)[i]).shape, (240, 376))
             np.testing.assert_allclose(data.poses[i], self.whole.poses[k], atol=1e-9)
         for kind in KINDS:
             there = sorted(path.stem for path in (data.folder / "truth" / kind).iterdir())

@@ -5,7 +5,7 @@
 namespace aisle {
 namespace {
 
-// BGR; readable on grey and apart for colour-blind eyes.
+// BGR; readable on grey and apart for colour-blind cameras.
 const cv::Scalar kMoving(60, 70, 255), kStanding(255, 170, 80), kRejected(240, 220, 40);
 const cv::Scalar kUsed(110, 220, 90), kUnused(170, 170, 170), kOnMover(30, 220, 255);
 const cv::Scalar kText(240, 240, 240), kBar(38, 34, 30);

@@ -25,7 +25,7 @@ TEST(CountWithinTest, TheRealSetsSpanTheRangeAndTheUnknownHaveNoPart) {
   EXPECT_EQ(CountWithin(real, given, 1).known, 2);
 }
 
-TEST(FindPicturesTest, TheLeftEyeOfADatasetIsFoundInItsLayout) {
+TEST(FindPicturesTest, TheLeftCameraOfADatasetIsFoundInItsLayout) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("aisle_find_{}", ::getpid());
   EXPECT_THROW(FindPictures(folder), InputError);
   const cv::Mat1b image(4, 4, static_cast<unsigned char>(7));

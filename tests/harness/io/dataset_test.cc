@@ -103,10 +103,11 @@ class DatasetTest : public testing::Test {
     for (const FrameRequest& request : requests_) EXPECT_TRUE(writer.Has(request));
     writer.Finish(Path);
   }
-  void ExpectEyes(const StereoRecording& recording) const {
+  void ExpectCameras(const StereoRecording& recording) const {
     EXPECT_EQ(recording.left.fx, kRig.fx);
     EXPECT_EQ(recording.left.cy, kRig.cy);
-    const Eigen::Isometry3d T = recording.left.T_body_eye.inverse() * recording.right.T_body_eye;
+    const Eigen::Isometry3d T =
+        recording.left.T_body_camera.inverse() * recording.right.T_body_camera;
     EXPECT_NEAR(T.translation().x(), kRig.baseline_m, 1e-9);
     ASSERT_EQ(recording.pairs.size(), frames_.size());
     for (std::size_t i = 0; i < frames_.size(); ++i) {
@@ -128,7 +129,7 @@ class DatasetTest : public testing::Test {
 TEST_F(DatasetTest, EurocReadsBack) {
   Export(DatasetFormat::kEuroc);
   const StereoRecording recording = ReadRecording(folder_, DatasetFormat::kEuroc);
-  ExpectEyes(recording);
+  ExpectCameras(recording);
   ASSERT_EQ(recording.truth.size(), frames_.size());
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     EXPECT_EQ(recording.truth[i].stamp_ns, requests_[i].stamp_ns + epoch_ns_);
@@ -160,7 +161,7 @@ TEST_F(DatasetTest, EurocHasWhatOtherReadersInsistOn) {
 TEST_F(DatasetTest, KittiReadsBack) {
   Export(DatasetFormat::kKitti);
   const StereoRecording recording = ReadRecording(folder_, DatasetFormat::kKitti);
-  ExpectEyes(recording);
+  ExpectCameras(recording);
   ASSERT_EQ(recording.truth.size(), frames_.size());
   EXPECT_TRUE(recording.truth[0].T_world_rig.isApprox(Eigen::Isometry3d::Identity(), 1e-12));
   EXPECT_EQ(recording.truth[2].stamp_ns, 100'000'000);
@@ -178,7 +179,7 @@ TEST_F(DatasetTest, APartIsADatasetOfItsOwnInEveryFormat) {
     for (const DatasetFormat format : {DatasetFormat::kEuroc, DatasetFormat::kKitti}) {
       Export(format, {"depth", "boxes"});
       const StereoRecording recording = ReadRecording(folder_, format);
-      ExpectEyes(recording);
+      ExpectCameras(recording);
       ASSERT_EQ(recording.pairs.size(), frames_.size());
       ASSERT_EQ(recording.truth.size(), frames_.size());
       const nlohmann::json about = nlohmann::json::parse(Read("aisle.json"));
@@ -405,7 +406,7 @@ TEST_F(DatasetTest, KilledAnywhereItLeavesWholeFilesAndGoesOn) {
   for (const FrameRequest& request : requests_) {
     EXPECT_TRUE(DatasetWriter(folder_, kRig, 20, requests_, options).Has(request));
   }
-  ExpectEyes(ReadRecording(folder_, DatasetFormat::kEuroc));
+  ExpectCameras(ReadRecording(folder_, DatasetFormat::kEuroc));
   for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
     EXPECT_FALSE(entry.path().filename().string().starts_with("."))
         << entry.path() << ": leftovers of a killed process are cleared at the end";
@@ -468,7 +469,7 @@ TEST(RealRecordingTest, EurocAndKittiAreRead) {
   const StereoRecording kitti = ReadRecording(data / "kitti", DatasetFormat::kKitti);
   EXPECT_EQ(kitti.pairs.size(), 51u);
   EXPECT_EQ(kitti.truth.size(), 51u);
-  EXPECT_NEAR(kitti.right.T_body_eye.translation().x(), 0.537, 0.001);
+  EXPECT_NEAR(kitti.right.T_body_camera.translation().x(), 0.537, 0.001);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace aisle {
 namespace {
 
 /// Two objects, 1 of 40x40 and 2 of 10x10 pixels, both moving, seen 8 pixels further left by the
-/// right eye.
+/// right camera.
 SequenceFrame TwoObjects(std::int64_t id) {
   SequenceFrame frame;
   frame.images = {id, id * 50'000'000, cv::Mat1b(120, 200, static_cast<unsigned char>(90)),
@@ -38,7 +38,7 @@ TEST(MaskMakersTest, WithoutErrorsTheMasksAreTruth) {
   EXPECT_TRUE(Same(mask.right, frame.truth->dynamic_right));
 }
 
-TEST(MaskMakersTest, SmallObjectsAreMissedInBothEyes) {
+TEST(MaskMakersTest, SmallObjectsAreMissedInBothCameras) {
   const SequenceFrame frame = TwoObjects(3);
   const ExternalMask mask = MasksWithErrors(MaskSource::kDynamic, {.miss_below_px = 200}, 7)(frame);
   EXPECT_EQ(cv::countNonZero(mask.left), 1600);

@@ -16,7 +16,7 @@ StereoCamera WithLens(LensModel model, const std::array<double, 4>& coefficients
   return camera;
 }
 
-/// EuRoC's left eye, a mild and a strong barrel, a pincushion; fisheyes.
+/// EuRoC's left camera, a mild and a strong barrel, a pincushion; fisheyes.
 std::vector<StereoCamera> Cameras() {
   using enum LensModel;
   std::vector<StereoCamera> cameras = {

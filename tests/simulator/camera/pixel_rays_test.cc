@@ -29,15 +29,15 @@ TEST(PixelRays, PointOnARayProjectsToItsPixelInOpenCv) {
   }
 }
 
-TEST(EyePose, RightEyeStandsOneBaselineAlongTheRigsX) {
+TEST(CameraPose, RightCameraStandsOneBaselineAlongTheRigsX) {
   StereoCamera camera;
   camera.baseline_m = 0.25;
   const Eigen::Isometry3d rig =
       Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized());
-  const Eigen::Isometry3d right = EyePose(camera, rig, Eye::kRight);
+  const Eigen::Isometry3d right = CameraPose(camera, rig, StereoSide::kRight);
   EXPECT_TRUE((rig.inverse() * right.translation()).isApprox(Eigen::Vector3d(0.25, 0, 0), 1e-12));
   EXPECT_TRUE(right.linear().isApprox(rig.linear(), 1e-12));
-  EXPECT_TRUE(EyePose(camera, rig, Eye::kLeft).isApprox(rig));
+  EXPECT_TRUE(CameraPose(camera, rig, StereoSide::kLeft).isApprox(rig));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// What the right eye does not see, held against two opinions that share nothing with the tracer:
-// the rasteriser's depth of the right eye, four times as fine, and every triangle in turn.
+// What the right camera does not see, held against two opinions that share nothing with the tracer:
+// the rasteriser's depth of the right camera, four times as fine, and every triangle in turn.
 #include <gtest/gtest.h>
 
 #include "simulator/camera/pixel_rays.h"
@@ -93,9 +93,9 @@ Found Judge(const View& view) {
   const PixelRays rays = MakePixelRays(camera);
   const std::int64_t stamp_ns = std::llround(1e9 * view.time_s);
   const Eigen::Isometry3d rig = world.PlannedRigPose(stamp_ns);
-  const Eigen::Isometry3d right = EyePose(camera, rig, Eye::kRight);
+  const Eigen::Isometry3d right = CameraPose(camera, rig, StereoSide::kRight);
   const Instant instant = tracer.Pose(world.At(stamp_ns));
-  const EyeView left(rays, rig);
+  const CameraView left(rays, rig);
   std::vector<HitImage> hits;
   TraceViews(instant, std::span(&left, 1), {}, &hits);
   const cv::Mat1b hidden =

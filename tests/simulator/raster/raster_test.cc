@@ -20,10 +20,10 @@ TEST(Raster, AgreesWithTheRayTracerAwayFromSilhouettes) {
     const Snapshot snapshot = world.At(1'500'000'000);
     const Instant instant = tracer.Pose(snapshot);
     std::vector<HitImage> hits;
-    const std::array views = {EyeView(rays, pose)};
+    const std::array views = {CameraView(rays, pose)};
     TraceViews(instant, views, {}, &hits);
     const MovingNow moving(world, instant.snapshot(), {});
-    const EyeTruth truth = LabelHits(world, instant, hits[0], moving);
+    const CameraTruth truth = LabelHits(world, instant, hits[0], moving);
     const Agreement agreement =
         Compare(Rasterize(world, snapshot, camera, pose), truth.depth, truth.instance);
     EXPECT_GT(agreement.compared, camera.width * camera.height / 2);
@@ -43,10 +43,10 @@ TEST(Raster, AgreesThroughALens) {
     camera.lens = lens;
     const PixelRays rays = MakePixelRays(camera);
     std::vector<HitImage> hits;
-    const std::array views = {EyeView(rays, pose)};
+    const std::array views = {CameraView(rays, pose)};
     TraceViews(instant, views, {}, &hits);
     const MovingNow moving(world, instant.snapshot(), {});
-    const EyeTruth truth = LabelHits(world, instant, hits[0], moving);
+    const CameraTruth truth = LabelHits(world, instant, hits[0], moving);
     const Agreement agreement =
         Compare(RasterizeThroughLens(world, snapshot, rays, pose), truth.depth, truth.instance);
     EXPECT_GT(agreement.compared, camera.width * camera.height / 3);

@@ -124,7 +124,7 @@ class GlossyHall : public testing::Test {
   cv::Mat1f Nightly(const World& world, bool gloss) const {
     const Tracer tracer(world, {});
     const PixelRays rays = MakePixelRays(camera);
-    const std::array views = {EyeView(rays, pose)};
+    const std::array views = {CameraView(rays, pose)};
     const Instant instant = tracer.Pose(world.At(2'000'000'000));
     std::vector<HitImage> hits;
     TraceViews(instant, views, {}, &hits);
@@ -136,7 +136,7 @@ class GlossyHall : public testing::Test {
     const TexturePool textures(world.textures());
     const PixelRays rays = MakePixelRays(camera);
     return Reference(world, textures)
-        .Render(tracer.Pose(world.At(2'000'000'000)), EyeView(rays, pose), {.samples = samples});
+        .Render(tracer.Pose(world.At(2'000'000'000)), CameraView(rays, pose), {.samples = samples});
   }
   static WorldParts Polished(WorldParts parts) {
     parts.materials[0].specular_f0 = 0.06f;

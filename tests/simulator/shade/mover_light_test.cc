@@ -37,7 +37,7 @@ cv::Mat1f Shaded(const World& world, cv::Mat1b* truck) {
   camera.cy = 59.5;
   const Tracer tracer(world, {});
   const PixelRays rays = MakePixelRays(camera);
-  const std::array views = {EyeView(rays, test::LookAlong({10.2, 0.2, 1.2}, 0))};
+  const std::array views = {CameraView(rays, test::LookAlong({10.2, 0.2, 1.2}, 0))};
   const Instant instant = tracer.Pose(world.At(2'000'000'000));
   std::vector<HitImage> hits;
   TraceViews(instant, views, {}, &hits);

@@ -6,10 +6,10 @@
 namespace aisle::sim {
 namespace {
 
-/// Two eyes of one instant, in a hall where a truck has just passed.
-class ShadowsOfTwoEyes : public testing::Test {
+/// Two cameras of one instant, in a hall where a truck has just passed.
+class ShadowsOfTwoCameras : public testing::Test {
  protected:
-  ShadowsOfTwoEyes()
+  ShadowsOfTwoCameras()
       : world_(test::Hall({.boxes = 0, .lights = 8})),
         tracer_(world_, {}),
         shader_(world_, tracer_, {.statics = {}, .antialias = false, .gloss = false}),
@@ -22,11 +22,11 @@ class ShadowsOfTwoEyes : public testing::Test {
     rays_ = MakePixelRays(camera_);
   }
 
-  EyeView At(double right_m) const {
+  CameraView At(double right_m) const {
     return {rays_, test::LookAlong({10.2f, 0.2f - static_cast<float>(right_m), 1.2f}, 0)};
   }
 
-  std::vector<cv::Mat1f> Shade(const std::vector<EyeView>& views) {
+  std::vector<cv::Mat1f> Shade(const std::vector<CameraView>& views) {
     TraceViews(instant_, views, {}, &hits_);
     return shader_.Shade(instant_, views, hits_);
   }
@@ -40,19 +40,19 @@ class ShadowsOfTwoEyes : public testing::Test {
   std::vector<HitImage> hits_;
 };
 
-TEST_F(ShadowsOfTwoEyes, FromTheSamePlaceAreTheSame) {
+TEST_F(ShadowsOfTwoCameras, FromTheSamePlaceAreTheSame) {
   const std::vector<cv::Mat1f> pair = Shade({At(0), At(0)});
   EXPECT_EQ(cv::countNonZero(pair[0] != pair[1]), 0);
 }
 
-/// What one eye takes over from the other is what it would have found, but for the noise of
+/// What one camera takes over from the other is what it would have found, but for the noise of
 /// sampling, which the mean over the shadow's blocks holds down.
-TEST_F(ShadowsOfTwoEyes, DoNotDependOnWhichWasTraced) {
+TEST_F(ShadowsOfTwoCameras, DoNotDependOnWhichWasTraced) {
   const cv::Mat1f alone = Shade({At(0.12)})[0];
   const cv::Mat1f second = Shade({At(0), At(0.12)})[1];
   ShadeOptions unshadowed{.statics = {}, .antialias = false, .gloss = false};
   unshadowed.mover_shadows = false;
-  const std::vector<EyeView> views = {At(0.12)};
+  const std::vector<CameraView> views = {At(0.12)};
   TraceViews(instant_, views, {}, &hits_);
   const cv::Mat1f bright = Shader(world_, tracer_, unshadowed).Shade(instant_, views, hits_)[0];
 

@@ -37,33 +37,33 @@ WorldParts Floor(const Eigen::Vector3f* map) {
 }
 
 struct View {
-  View() : rays(MakePixelRays(camera)), eye(rays, test::LookAlong({-2, 0, 1}, 0)) {}
+  View() : rays(MakePixelRays(camera)), left(rays, test::LookAlong({-2, 0, 1}, 0)) {}
 
   StereoCamera camera{.width = 64, .height = 48, .fx = 40, .fy = 40, .cx = 31.5, .cy = 4};
   PixelRays rays;
-  EyeView eye;
+  CameraView left;
 };
 
 cv::Mat1f Nightly(const World& world, const View& view) {
   const Tracer tracer(world, {});
   const Instant instant = tracer.Pose(world.At(0));
   std::vector<HitImage> hits;
-  TraceViews(instant, {&view.eye, 1}, {}, &hits);
+  TraceViews(instant, {&view.left, 1}, {}, &hits);
   return Shader(world, tracer, {.statics = {}, .antialias = false})
-      .Shade(instant, {&view.eye, 1}, hits)[0];
+      .Shade(instant, {&view.left, 1}, hits)[0];
 }
 
 cv::Mat1f Traced(const World& world, const View& view) {
   const Tracer tracer(world, {});
   const TexturePool textures(world.textures());
   return Reference(world, textures)
-      .Render(tracer.Pose(world.At(0)), view.eye, {.samples = 64, .depth = 2});
+      .Render(tracer.Pose(world.At(0)), view.left, {.samples = 64, .depth = 2});
 }
 
 /// How much brighter a floor of that normal is than a level one, at a pixel.
 float TiltGain(const View& view, int x, int y, const Eigen::Vector3f& normal) {
-  const Eigen::Vector3f ray = view.eye.rotation * view.rays.At(x, y).homogeneous();
-  const Eigen::Vector3f to_lamp = kLamp - (view.eye.origin - view.eye.origin.z() / ray.z() * ray);
+  const Eigen::Vector3f ray = view.left.rotation * view.rays.At(x, y).homogeneous();
+  const Eigen::Vector3f to_lamp = kLamp - (view.left.origin - view.left.origin.z() / ray.z() * ray);
   return to_lamp.dot(normal) / to_lamp.z();
 }
 

@@ -51,7 +51,8 @@ cv::Mat1f Trace(const World& world, const Eigen::Isometry3d& pose, const StereoC
   const Tracer tracer(world, {});
   const TexturePool textures(world.textures());
   const PixelRays rays = MakePixelRays(camera);
-  return Reference(world, textures).Render(tracer.Pose(world.At(0)), EyeView(rays, pose), options);
+  return Reference(world, textures)
+      .Render(tracer.Pose(world.At(0)), CameraView(rays, pose), options);
 }
 
 TEST(Reference, FurnaceShowsTheGeometricSeries) {
@@ -76,7 +77,7 @@ double MeanOfProduction(const World& world, const Eigen::Isometry3d& pose,
                         const StereoCamera& camera, const ShadeOptions& options) {
   const Tracer tracer(world, {});
   const PixelRays rays = MakePixelRays(camera);
-  const std::array views = {EyeView(rays, pose)};
+  const std::array views = {CameraView(rays, pose)};
   const Instant instant = tracer.Pose(world.At(0));
   std::vector<HitImage> hits;
   TraceViews(instant, views, {}, &hits);
@@ -138,8 +139,8 @@ TEST(Reference, CornellBoxIsThatOfAnotherRendererBlockByBlock) {
 
   ForeignScene scene = LoadForeignScene(folder / "cbox-base.json");
   for (int band = 0; band < 3; ++band) {
-    // A path of depth 6 has six edges, the first from the eye: it touches six surfaces. Blue is the
-    // darkest, so its blocks need more paths.
+    // A path of depth 6 has six edges, the first from the camera: it touches six surfaces. Blue is
+    // the darkest, so its blocks need more paths.
     const World world(std::move(scene.bands[static_cast<std::size_t>(band)]));
     const cv::Mat1f image = Trace(world, scene.T_world_camera, scene.camera,
                                   {.samples = band == 2 ? 256 : 128, .depth = 6});
@@ -174,7 +175,7 @@ TEST(NightlyLight, AgreesWithTheReferenceInAHallWithMovers) {
   camera.cx = 91.4;
   camera.cy = 62.7;
   const PixelRays rays = MakePixelRays(camera);
-  const std::array views = {EyeView(rays, test::LookAlong({2, 0, 1.4}, 0.05))};
+  const std::array views = {CameraView(rays, test::LookAlong({2, 0, 1.4}, 0.05))};
   const Instant instant = tracer.Pose(world.At(2'000'000'000));
   std::vector<HitImage> hits;
   TraceViews(instant, views, {}, &hits);

@@ -23,7 +23,7 @@ HitImage TraceOne(const World& world, const Eigen::Isometry3d& pose, const Stere
   const Tracer tracer(world, {});
   const PixelRays rays = MakePixelRays(camera);
   std::vector<HitImage> images;
-  const std::array views = {EyeView(rays, pose)};
+  const std::array views = {CameraView(rays, pose)};
   TraceViews(tracer.Pose(world.At(0)), views, {}, &images);
   return images[0];
 }
@@ -74,7 +74,7 @@ TEST(TraceViews, TileOrderDoesNotMatter) {
   const Tracer tracer(world, {});
   const StereoCamera camera;
   const PixelRays rays = MakePixelRays(camera);
-  const std::array views = {EyeView(rays, test::LookAlong({1, 0, 1}, 0))};
+  const std::array views = {CameraView(rays, test::LookAlong({1, 0, 1}, 0))};
   const Instant instant = tracer.Pose(world.At(kSecond));
   std::vector<HitImage> a, b;
   TraceViews(instant, views, {}, &a);
@@ -104,7 +104,7 @@ TEST(Tracer, APoseGivesTheSameHitsWhateverWasPosedBefore) {
   const World world(test::Hall({.boxes = 200}));
   const StereoCamera camera;
   const PixelRays rays = MakePixelRays(camera);
-  const std::array views = {EyeView(rays, test::LookAlong({4, 0, 1}, 0))};
+  const std::array views = {CameraView(rays, test::LookAlong({4, 0, 1}, 0))};
   const Tracer fresh(world, {}), used(world, {});
   for (int i = 9; i > 0; --i) used.Pose(world.At(i * kSecond));
   std::vector<HitImage> a, b;

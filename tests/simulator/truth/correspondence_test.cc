@@ -15,7 +15,7 @@ struct Pictures {
   PixelRays rays;
   cv::Mat1f depth_left, depth_right, depth_next, z_next;
   Correspondence found;
-  EyeTruth truth;
+  CameraTruth truth;
 };
 
 Pictures Take(std::int64_t stamp_ns, const Lens& lens = {}) {
@@ -29,8 +29,9 @@ Pictures Take(std::int64_t stamp_ns, const Lens& lens = {}) {
   const Eigen::Isometry3d rig_next = test::LookAlong({2.06, 0.1, 1.2}, 0.04);
   const Instant now = tracer.Pose(world.At(stamp_ns)),
                 next = tracer.Pose(world.At(stamp_ns + kFrame));
-  const std::array views = {EyeView(rays, rig), EyeView(rays, EyePose(p.camera, rig, Eye::kRight))};
-  const std::array views_next = {EyeView(rays, rig_next)};
+  const std::array views = {CameraView(rays, rig),
+                            CameraView(rays, CameraPose(p.camera, rig, StereoSide::kRight))};
+  const std::array views_next = {CameraView(rays, rig_next)};
   std::vector<HitImage> hits, hits_next;
   TraceViews(now, views, {}, &hits);
   TraceViews(next, views_next, {}, &hits_next);
@@ -40,7 +41,7 @@ Pictures Take(std::int64_t stamp_ns, const Lens& lens = {}) {
   p.depth_right = LabelHits(world, now, hits[1], moving).depth;
   p.depth_next = LabelHits(world, next, hits_next[0], moving_then).depth;
   p.found = FindCorrespondence(world, now, p.camera, views[0], hits[0], next.snapshot(), rig_next);
-  p.z_next = DepthInNextEye(views[0], hits[0], p.found, rig_next);
+  p.z_next = DepthInNextCamera(views[0], hits[0], p.found, rig_next);
   return p;
 }
 

@@ -164,7 +164,7 @@ TEST_F(ArmsOnly, NothingThatMovesDuringTheExposureIsLeftOutAroundReversals) {
   for (const std::int64_t reversal : reversals) {
     for (int k = -5; k < 5; ++k) {
       const std::int64_t stamp_ns = reversal + 2'000'000LL * k;
-      const std::array views = {EyeView(rays, world_.PlannedRigPose(stamp_ns))};
+      const std::array views = {CameraView(rays, world_.PlannedRigPose(stamp_ns))};
       const Instant instant = tracer.Pose(world_.At(stamp_ns));
       std::vector<HitImage> hits;
       TraceViews(instant, views, {}, &hits);

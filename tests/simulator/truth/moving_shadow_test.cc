@@ -41,7 +41,7 @@ WorldParts Build(const Stage& stage) {
   return parts;
 }
 
-/// The mask as an eye at (4, 0, 3) sees it that looks down at the floor under the plate.
+/// The mask as an camera at (4, 0, 3) sees it that looks down at the floor under the plate.
 struct Look {
   cv::Mat1b mask;
   cv::Mat1b shadow_square;  ///< 255 on floor points well inside the shadow, 128 well outside
@@ -57,7 +57,7 @@ Look LookAt(const Stage& stage) {
   pose.linear().col(0) = Eigen::Vector3d::UnitY();
   pose.linear().col(2) = Eigen::Vector3d(-4, 0, -1.2).normalized();
   pose.linear().col(1) = pose.linear().col(2).cross(pose.linear().col(0));
-  const EyeView view(rays, pose);
+  const CameraView view(rays, pose);
   const Instant instant = tracer.Pose(world.At(0));
   std::vector<HitImage> hits;
   TraceViews(instant, std::span(&view, 1), {}, &hits);

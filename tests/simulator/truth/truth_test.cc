@@ -8,7 +8,7 @@
 namespace aisle::sim {
 namespace {
 
-/// A box of one metre that stands 4 m ahead of the eye and moves sideways, in front of a wall.
+/// A box of one metre that stands 4 m ahead of the camera and moves sideways, in front of a wall.
 struct Stage {
   double speed = 1;          ///< m/s, along world y
   bool screen = false;       ///< a second mover hides the left half of the box
@@ -57,7 +57,7 @@ WorldParts Build(const Stage& stage) {
 }
 
 struct Seen {
-  EyeTruth eye;
+  CameraTruth camera;
   std::vector<MoverTruth> movers;
 };
 
@@ -66,13 +66,13 @@ Seen Look(WorldParts parts, float threshold) {
   const Tracer tracer(world, {});
   const StereoCamera camera;
   const PixelRays rays = MakePixelRays(camera);
-  const std::array views = {EyeView(rays, test::LookAlong({0, 0, 0}, 0))};
+  const std::array views = {CameraView(rays, test::LookAlong({0, 0, 0}, 0))};
   const Instant instant = tracer.Pose(world.At(0));
   std::vector<HitImage> hits;
   TraceViews(instant, views, {}, &hits);
   const MovingNow moving(world, instant.snapshot(), {.threshold_mps = threshold});
   Seen seen{LabelHits(world, instant, hits[0], moving), {}};
-  seen.movers = DescribeMovers(instant, views[0], seen.eye);
+  seen.movers = DescribeMovers(instant, views[0], seen.camera);
   return seen;
 }
 
@@ -121,20 +121,20 @@ TEST(Truth, BoxIsWhereTheCameraModelPutsIt) {
   EXPECT_NEAR(box.visible_pixels, 4 * half * half, 6 * half);
   EXPECT_TRUE(box.extent_m.isApproxToConstant(1, 1e-6));
   EXPECT_TRUE(box.center_m.isApprox(Eigen::Vector3d(4.5, 0, 0), 1e-6));
-  EXPECT_NEAR(seen.eye.depth(252, 367), 4, 1e-5);
-  EXPECT_NEAR(seen.eye.depth(10, 10), 10, 1e-5);
-  EXPECT_EQ(seen.eye.instance(252, 367), 2);
-  EXPECT_EQ(seen.eye.object_class(252, 367), static_cast<int>(ObjectClass::kAgv));
+  EXPECT_NEAR(seen.camera.depth(252, 367), 4, 1e-5);
+  EXPECT_NEAR(seen.camera.depth(10, 10), 10, 1e-5);
+  EXPECT_EQ(seen.camera.instance(252, 367), 2);
+  EXPECT_EQ(seen.camera.object_class(252, 367), static_cast<int>(ObjectClass::kAgv));
 }
 
 TEST(Truth, DynamicIsTheSurfacesOwnSpeedAgainstTheThreshold) {
   const Seen moving = Look({.speed = 1});
   EXPECT_EQ(moving.movers[0].dynamic_pixels, moving.movers[0].visible_pixels);
-  EXPECT_EQ(cv::countNonZero(moving.eye.dynamic), moving.movers[0].visible_pixels);
+  EXPECT_EQ(cv::countNonZero(moving.camera.dynamic), moving.movers[0].visible_pixels);
   const Seen creeping = Look({.speed = 0.04});
-  EXPECT_EQ(cv::countNonZero(creeping.eye.dynamic), 0);
-  EXPECT_EQ(cv::countNonZero(creeping.eye.actor), creeping.movers[0].visible_pixels);
-  EXPECT_GT(cv::countNonZero(Look({.speed = 0.04}, 0.03f).eye.dynamic), 0);
+  EXPECT_EQ(cv::countNonZero(creeping.camera.dynamic), 0);
+  EXPECT_EQ(cv::countNonZero(creeping.camera.actor), creeping.movers[0].visible_pixels);
+  EXPECT_GT(cv::countNonZero(Look({.speed = 0.04}, 0.03f).camera.dynamic), 0);
 }
 
 TEST(Truth, OfATurningThingOnlyTheFastPartIsDynamic) {
@@ -142,7 +142,7 @@ TEST(Truth, OfATurningThingOnlyTheFastPartIsDynamic) {
   const Seen seen = Look({.speed = 0, .angular_speed = 1}, 0.6f);
   const StereoCamera c;
   const auto at = [&](double y) {
-    return seen.eye.dynamic(252, static_cast<int>(c.cx - c.fx * y / 4));
+    return seen.camera.dynamic(252, static_cast<int>(c.cx - c.fx * y / 4));
   };
   EXPECT_EQ(at(0.0), 0);
   EXPECT_EQ(at(0.28), 0);
@@ -157,10 +157,10 @@ TEST(Truth, AWavingArmIsDynamicAndTheBodyThatStandsIsNot) {
   const auto pixel = [&](const cv::Mat1b& image, double y) {
     return image(252, static_cast<int>(std::lround(c.cx - c.fx * y / 4)));
   };
-  for (const double y : {-0.45, 0.0, 0.45}) EXPECT_EQ(pixel(seen.eye.dynamic, y), 0) << y;
-  for (const double y : {0.6, 0.9, 1.25}) EXPECT_EQ(pixel(seen.eye.dynamic, y), 255) << y;
-  for (const double y : {0.0, 0.9}) EXPECT_EQ(pixel(seen.eye.actor, y), 255) << y;
-  EXPECT_EQ(cv::countNonZero(Look(BodyWithWavingArm(0), 0.05f).eye.dynamic), 0);
+  for (const double y : {-0.45, 0.0, 0.45}) EXPECT_EQ(pixel(seen.camera.dynamic, y), 0) << y;
+  for (const double y : {0.6, 0.9, 1.25}) EXPECT_EQ(pixel(seen.camera.dynamic, y), 255) << y;
+  for (const double y : {0.0, 0.9}) EXPECT_EQ(pixel(seen.camera.actor, y), 255) << y;
+  EXPECT_EQ(cv::countNonZero(Look(BodyWithWavingArm(0), 0.05f).camera.dynamic), 0);
 }
 
 TEST(Truth, HiddenHalfCountsInTheFullBoxOnly) {
