@@ -14,6 +14,9 @@ struct Measurement {
   Eigen::Vector3d uvd = Eigen::Vector3d::Zero();  ///< pixels of the full left image; d: disparity
   double sigma_px = 1;                            ///< deviation of u and of v
   double sigma_d = 0;                             ///< deviation of the disparity; 0: not measured
+  /// What share of u's error the disparity has as well: 0 where it is measured by itself, 1 where
+  /// it is the left column less a right one that sigma_d is the deviation of.
+  double u_in_d = 0;
 
   bool has_depth() const { return sigma_d > 0; }
 };

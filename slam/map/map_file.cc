@@ -13,7 +13,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "map files are little-endian");
 
 constexpr char kMagic[8] = {'a', 'i', 's', 'l', 'e', 'm', 'a', 'p'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 struct Header {
   char magic[8];
@@ -112,6 +112,7 @@ constexpr auto kMeasurement = [](auto& file, auto& measurement) {
   kVector(file, measurement.uvd);
   file.Value(measurement.sigma_px);
   file.Value(measurement.sigma_d);
+  file.Value(measurement.u_in_d);
 };
 constexpr auto kObservation = [](auto& file, auto& observation) {
   kKeyframeId(file, observation.keyframe);

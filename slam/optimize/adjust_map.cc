@@ -100,13 +100,19 @@ std::vector<bool> WithProjection(const BundleProblem& problem) {
   return has;
 }
 
-/// A robust pass tells outliers, a plain one adjusts without them; all are tested again at the end.
-Adjustment AdjustTwice(MapProblem problem, int robust_iterations, int final_iterations) {
-  Solve(problem.bundle, WithProjection(problem.bundle), {robust_iterations, true});
-  const BundleSummary summary =
-      Solve(problem.bundle, WithinBounds(problem.bundle), {final_iterations, false});
+/// A robust pass tells outliers, a plain one (if it has iterations) adjusts without them; then the
+/// others are tested again, with a second chance all.
+Adjustment AdjustTwice(MapProblem problem, int robust_iterations, int final_iterations,
+                       bool second_chance) {
+  const BundleSummary first =
+      Solve(problem.bundle, WithProjection(problem.bundle), {robust_iterations, true});
+  const std::vector<bool> active = WithinBounds(problem.bundle);
+  if (final_iterations == 0) return {ToEdit(problem, active), first};
+  const BundleSummary summary = Solve(problem.bundle, active, {final_iterations, false});
   if (!summary.usable) return {{}, summary};
-  return {ToEdit(problem, WithinBounds(problem.bundle)), summary};
+  std::vector<bool> kept = WithinBounds(problem.bundle);
+  for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = kept[i] && (active[i] || second_chance);
+  return {ToEdit(problem, kept), summary};
 }
 
 }  // namespace
@@ -136,7 +142,7 @@ Adjustment AdjustLocally(const Map& map, KeyframeId around, const StereoCamera& 
   }
 
   return AdjustTwice(BuildProblem(map, free, fixed, landmarks, camera), options.robust_iterations,
-                     options.final_iterations);
+                     options.final_iterations, options.second_chance);
 }
 
 Adjustment AdjustGlobally(const Map& map, const StereoCamera& camera,
@@ -149,7 +155,7 @@ Adjustment AdjustGlobally(const Map& map, const StereoCamera& camera,
   std::vector<LandmarkId> landmarks;
   for (const Landmark* landmark : map.Landmarks()) landmarks.push_back(landmark->id);
   return AdjustTwice(BuildProblem(map, free, fixed, landmarks, camera), options.robust_iterations,
-                     options.final_iterations);
+                     options.final_iterations, true);
 }
 
 MapEdit JoinParts(const Map& map, const LoopEdge& loop) {

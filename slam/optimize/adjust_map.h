@@ -12,7 +12,8 @@ struct LocalAdjustmentOptions {
   int fixed_keyframes = 20;   ///< others that see the same landmarks, most shared first
   int least_shared = 15;      ///< landmarks; fewer make no neighbours
   int robust_iterations = 4;  ///< first pass
-  int final_iterations = 6;   ///< second pass, without outliers
+  int final_iterations = 6;   ///< second pass, without outliers; 0: there is none
+  bool second_chance = true;  ///< an outlier of the first pass may pass the last test
 };
 
 /// Names every option with its range, unit and a sentence.

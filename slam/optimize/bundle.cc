@@ -29,6 +29,7 @@ BundleProblem::Sight MakeSight(int pose, int point, const Measurement& measureme
                              Chi2Bound(measurement)};
   sight.sqrt_information.diagonal() << 1 / measurement.sigma_px, 1 / measurement.sigma_px,
       measurement.has_depth() ? 1 / measurement.sigma_d : 0.0;
+  sight.sqrt_information(2, 0) = -measurement.u_in_d * sight.sqrt_information(2, 2);
   return sight;
 }
 

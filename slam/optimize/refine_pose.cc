@@ -14,7 +14,9 @@ constexpr double kNearestDepth = 0.05;  // metres; nearer points are not lineari
 Eigen::Vector3d Whitened(const Measurement& measurement, const Eigen::Vector3d& predicted) {
   const Eigen::Vector3d error = measurement.uvd - predicted;
   return {error.x() / measurement.sigma_px, error.y() / measurement.sigma_px,
-          measurement.has_depth() ? error.z() / measurement.sigma_d : 0.0};
+          measurement.has_depth()
+              ? (error.z() - measurement.u_in_d * error.x()) / measurement.sigma_d
+              : 0.0};
 }
 
 /// Sum of weighted squares around one pose, to second order.
@@ -60,6 +62,7 @@ class PoseProblem {
       if (!active[i] || point.z() < kNearestDepth) continue;
       const Eigen::Vector3d error = Whitened(measurement, Project(camera_, point));
       Eigen::Matrix3d by_point = -ProjectionJacobian(camera_, point);
+      by_point.row(2) -= measurement.u_in_d * by_point.row(0);
       by_point.topRows<2>() /= measurement.sigma_px;
       by_point.row(2) *= measurement.has_depth() ? 1.0 / measurement.sigma_d : 0.0;
       Eigen::Matrix<double, 3, 6> jacobian;
@@ -128,8 +131,8 @@ RefinedPose RefinePose(const StereoCamera& camera, const Eigen::Isometry3d& T_ri
   if (options.trust_start) tell_outliers();
   for (int round = 0; round < options.rounds; ++round) {
     const bool robust = round + 1 < options.rounds;
-    refined.T_rig_world =
-        Minimize(problem, refined.T_rig_world, refined.inlier, robust, options.iterations);
+    const Eigen::Isometry3d& start = options.start_anew ? T_rig_world : refined.T_rig_world;
+    refined.T_rig_world = Minimize(problem, start, refined.inlier, robust, options.iterations);
     tell_outliers();
     if (refined.inliers < 3) return refined;
   }

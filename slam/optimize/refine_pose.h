@@ -32,6 +32,7 @@ struct RefinePoseOptions {
   int rounds = 4;       ///< outliers are told apart anew after each; the last is not robustified
   int iterations = 10;  ///< Levenberg-Marquardt steps a round
   bool trust_start = false;  ///< outliers are told apart at the starting pose too, first of all
+  bool start_anew = false;   ///< every round from the starting pose, or from where the last ended
 };
 
 /// A pose and how it came about.

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "slam/optimize/align_points.h"
+#include "slam/optimize/bundle.h"
 
 namespace aisle::slam {
 namespace {
@@ -57,6 +58,55 @@ Eigen::Isometry3d Disturbed(const Eigen::Isometry3d& pose, double translation_m,
   Vector6d motion;
   motion << Eigen::Vector3d::Constant(translation_m), Eigen::Vector3d(1, -1, 0.5) * turn_rad;
   return Retract(pose, motion);
+}
+
+TEST(RefinePose, EqualColumnsCountTheErrorOfEitherEye) {
+  const StereoCamera camera;
+  const Eigen::Vector3d point(0.4, -0.2, 6);
+  Measurement measurement{Project(camera, point), 2, 2, 1};
+  measurement.uvd += Eigen::Vector3d(3, 1, 0.5);  // right column: 3 - 0.5 off
+  const double chi2 = Chi2(camera, Eigen::Isometry3d::Identity(), {point, measurement});
+  EXPECT_NEAR(chi2, (3.0 * 3 + 1 * 1 + 2.5 * 2.5) / 4, 1e-9);
+
+  BundleProblem problem;
+  problem.poses.resize(1);
+  problem.points = {point};
+  EXPECT_NEAR(Chi2(problem, MakeSight(0, 0, measurement)), chi2, 1e-9);
+}
+
+TEST(RefinePose, EqualColumnsFindTheLeastSquaresPose) {
+  SyntheticSights synthetic = MakeSights({.noise = 1});
+  for (PointSight& sight : synthetic.sights) {
+    sight.measurement.sigma_d = sight.measurement.sigma_px;
+    sight.measurement.u_in_d = 1;
+  }
+  const RefinedPose refined = RefinePose({}, synthetic.T_rig_world, synthetic.sights, {});
+  const auto cost = [&](const Eigen::Isometry3d& pose) {
+    double sum = 0;
+    for (std::size_t i = 0; i < synthetic.sights.size(); ++i) {
+      if (refined.inlier[i]) sum += Chi2({}, pose, synthetic.sights[i]);
+    }
+    return sum;
+  };
+  for (int k = 0; k < 6; ++k) {
+    for (const double by : {-2e-4, 2e-4}) {
+      Vector6d step = Vector6d::Zero();
+      step[k] = by;
+      EXPECT_GT(cost(Retract(refined.T_rig_world, step)), cost(refined.T_rig_world)) << k;
+    }
+  }
+}
+
+TEST(RefinePose, StartingAnewEveryRoundBeginsAtTheFirstPose) {
+  const SyntheticSights synthetic = MakeSights({.noise = 0});
+  const Eigen::Isometry3d start = Disturbed(synthetic.T_rig_world, 0.3, 0.1);
+  const auto error = [&](const RefinePoseOptions& options) {
+    const RefinedPose refined = RefinePose({}, start, synthetic.sights, options);
+    return Difference(synthetic.T_rig_world, refined.T_rig_world).norm();
+  };
+  // One step a round: four of them get further than the last one alone.
+  EXPECT_LT(error({.iterations = 1}), 0.1 * error({.iterations = 1, .start_anew = true}));
+  EXPECT_LT(error({.start_anew = true}), 1e-6);
 }
 
 TEST(RefinePose, RecoversTheTruthFromExactSights) {
