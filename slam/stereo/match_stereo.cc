@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/stereo/parabola_alignment.h"
 #include "slam/stereo/patch_alignment.h"
 
 namespace aisle::slam {
@@ -80,6 +81,8 @@ std::vector<Disparity> MatchStereo(const EyeFeatures& left, const EyeFeatures& r
   const double nearest = options.nearest_m > 0 ? options.nearest_m : camera.baseline_m;
   const double largest_disparity = camera.fx * camera.baseline_m / nearest;
   const RowTable rows(right, options.row_band_px);
+  const auto align =
+      options.refinement == RowRefinement::kParabola ? AlignByParabola : AlignAlongRow;
   std::vector<Candidate> candidates(left.features.keypoints.size());
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const int match = BestRightFeature(left, i, right, rows, largest_disparity, options);
@@ -87,7 +90,7 @@ std::vector<Disparity> MatchStereo(const EyeFeatures& left, const EyeFeatures& r
     const Keypoint& keypoint = left.features.keypoints[i];
     const cv::Point2f right_pixel = right.features.keypoints[static_cast<std::size_t>(match)].pixel;
     const auto level = static_cast<std::size_t>(keypoint.level);
-    const auto aligned = AlignAlongRow(
+    const auto aligned = align(
         left.pyramid.levels[level], left.pyramid.ToLevel(keypoint.pixel, keypoint.level),
         right.pyramid.levels[level], right.pyramid.ToLevel(right_pixel, keypoint.level).x, options);
     if (!aligned) continue;

@@ -4,6 +4,12 @@
 
 namespace aisle::slam {
 
+/// How a matched feature's column in the right image is told to less than a pixel.
+enum class RowRefinement {
+  kLeastSquares,  ///< see AlignAlongRow
+  kParabola,      ///< as published of ORB-SLAM2, see AlignByParabola
+};
+
 /// How left features find their disparity.
 struct StereoOptions {
   int descriptor_distance = 75;  ///< bits; no match beyond
@@ -11,6 +17,7 @@ struct StereoOptions {
   double nearest_m = 0;          ///< metres; 0: one baseline
   int patch_radius_px = 5;       ///< pixels of the level, of the square that is compared
   int search_px = 5;             ///< pixels of the level, around the right feature
+  RowRefinement refinement = RowRefinement::kLeastSquares;
   double worst_to_median = 2.1;  ///< matches whose patches differ more than this x median go
   /// Pixels of the level: what no patch shows of a disparity's deviation (calibration, slanted
   /// surfaces). Less makes well-textured far points decide the scale, and calibration biases it.
