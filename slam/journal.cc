@@ -1,5 +1,7 @@
 #include "slam/journal.h"
 
+#include "slam/map/successor.h"
+
 namespace aisle::slam {
 
 void Journal::Note(const Map& map, const Frame& frame, const FramePose& pose, bool goes_on,
@@ -35,6 +37,18 @@ std::vector<MapEdit::Count> Journal::TakeCounts() {
   }
   counts_.clear();
   return counts;
+}
+
+void Journal::CarryOver(const Map& before, const Map& now) {
+  std::map<LandmarkId, std::pair<int, int>> counts;
+  for (const auto& [id, count] : counts_) {
+    const LandmarkId successor = Successor(before, now, id);
+    if (!successor.valid()) continue;
+    counts[successor].first += count.first;
+    counts[successor].second += count.second;
+  }
+  counts_ = std::move(counts);
+  for (LandmarkId& id : memory_.landmarks) id = Successor(before, now, id);
 }
 
 void Journal::ForgetTrack() {

@@ -28,6 +28,9 @@ class Journal {
   /// A map file does not hold the steady motion: who saves one goes on without it as well.
   void ForgetSteadyMotion() { memory_.steady_motion.reset(); }
 
+  /// The map `before` has given way to `now`: landmarks are asked for as they are there.
+  void CarryOver(const Map& before, const Map& now);
+
   /// Forgets the trajectory and the counts: the map they hang on is given up.
   void ForgetTrack();
 

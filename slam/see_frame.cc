@@ -16,13 +16,18 @@ namespace {
 using dynamic::Stopwatch;
 
 Measurement Measure(const Keypoint& keypoint, const Disparity& disparity, double sigma_px,
-                    const cv::Mat1f& confidence) {
+                    bool equal_columns, const cv::Mat1f& confidence) {
   constexpr float kLeast = 1e-4F;  // a pixel worth nothing belongs under a mask
   const float trust = confidence.empty() ? 1.0F : confidence(cv::Point(keypoint.pixel));
   const double widen = 1 / std::sqrt(std::clamp(trust, kLeast, 1.0F));
-  return {{keypoint.pixel.x, keypoint.pixel.y, disparity.value},
-          widen * sigma_px,
-          widen * disparity.sigma};
+  Measurement measurement{{keypoint.pixel.x, keypoint.pixel.y, disparity.value},
+                          widen * sigma_px,
+                          widen * disparity.sigma};
+  if (equal_columns && measurement.has_depth()) {
+    measurement.sigma_d = measurement.sigma_px;
+    measurement.u_in_d = 1;
+  }
+  return measurement;
 }
 
 }  // namespace
@@ -77,8 +82,9 @@ std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, StereoCorners 
   for (std::size_t i = 0; i < disparities.size(); ++i) {
     const Keypoint& keypoint = left.features.keypoints[i];
     const double scale = left.pyramid.scales[static_cast<std::size_t>(keypoint.level)];
-    frame->measurements.push_back(
-        Measure(keypoint, disparities[i], scale * options.keypoint_noise_px, mask.confidence));
+    frame->measurements.push_back(Measure(keypoint, disparities[i],
+                                          scale * options.keypoint_noise_px, options.equal_columns,
+                                          mask.confidence));
   }
   frame->grid = FeatureGrid(left.features.keypoints, images.left.size());
   frame->features = std::move(left.features);

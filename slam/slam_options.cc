@@ -32,14 +32,57 @@ std::string UnknownPath(const std::string& path, const OptionFields& fields) {
   return fmt::format("there is no option {}{}", path, DidYouMean(path, paths));
 }
 
+/// Sets every option to what `base` has published; what the driver owns is no option and stays.
+void StartFrom(Base base, const OptionFields& fields) {
+  SlamOptions published = OptionsOf(base);
+  const OptionFields from = FieldsOf(published);
+  for (std::size_t i = 0; i < fields.fields().size(); ++i) {
+    SetFrom(TextOf(from.fields()[i]), fields.fields()[i]);
+  }
+}
+
+constexpr int kAll = 1'000'000;  // keyframes: no map has more
+
+SlamOptions OrbSlam2Published() {
+  SlamOptions options;
+  options.base = Base::kOrbSlam2;
+  options.keypoint_noise_px = 1;
+  options.equal_columns = true;
+  options.stereo.refinement = RowRefinement::kParabola;
+  options.mapping.triangulate = {
+      .neighbours = 10, .descriptor_distance = 50, .descriptor_ratio = 0.6};
+  options.mapping.fuse.neighbours = 10;
+  options.mapping.adjust = {.free_keyframes = kAll,
+                            .fixed_keyframes = kAll,
+                            .least_shared = 15,
+                            .robust_iterations = 5,
+                            .final_iterations = 10,
+                            .second_chance = false};
+  // Three keyframes in turn, each with its share of points; how far apart is not asked.
+  options.loop.consistent_loops = 3;
+  options.loop.neighbours = 0;
+  options.loop.drift_m = 1e6;
+  options.schedule.mapping_frames = 1;
+  return options;
+}
+
 }  // namespace
 
+SlamOptions OptionsOf(Base base) {
+  return base == Base::kOrbSlam2 ? OrbSlam2Published() : SlamOptions();
+}
+
 void Describe(OptionFields& fields, SlamOptions& options) {
+  fields.Choice("base", &options.base, {"plain", "orbslam2"},
+                "Whose decisions track and keep the map: ours, or the published ORB-SLAM2's; "
+                "setting it sets all other options to that one's.");
   fields.Group("dynamic", &options.dynamic);
   fields.Group("feature", &options.feature);
   fields.Group("stereo", &options.stereo);
   fields.Group("track", &options.track);
   fields.Group("keyframe", &options.keyframe);
+  fields.Group("orbslam2", &options.orbslam2);
+  fields.Group("orbslam2_mapping", &options.orbslam2_mapping);
   fields.Group("mapping", &options.mapping);
   fields.Group("loop", &options.loop);
   fields.Group("global", &options.global);
@@ -50,6 +93,9 @@ void Describe(OptionFields& fields, SlamOptions& options) {
                  "A smaller map is given up where a new part is begun.");
   fields.Number("keypoint_noise_px", &options.keypoint_noise_px, {0.01, 100}, "px",
                 "Deviation of a corner's position, in pixels of its level.");
+  fields.Flag("equal_columns", &options.equal_columns,
+              "A stereo point's right column counts as exact as its left one, whatever its patches "
+              "say.");
   fields.Integer("least_first_points", &options.least_first_points, {10, 10000}, "",
                  "Stereo points of the frame that starts a map or a part of it.");
   fields.Require(options.threads >= 0, "threads", options.threads, "be 0 or more");
@@ -74,7 +120,10 @@ std::vector<OptionDescription> DescribeOptions(const SlamOptions& options) {
 std::string SetOption(const std::string& path, const std::string& text, SlamOptions* options) {
   const OptionFields fields = FieldsOf(*options);
   for (const OptionField& field : fields.fields()) {
-    if (field.path == path) return SetFrom(text, field);
+    if (field.path != path) continue;
+    std::string wrong = SetFrom(text, field);
+    if (wrong.empty() && path == "base") StartFrom(options->base, fields);
+    return wrong;
   }
   return UnknownPath(path, fields);
 }

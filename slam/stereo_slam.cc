@@ -11,11 +11,9 @@
 #include "slam/foresight.h"
 #include "slam/journal.h"
 #include "slam/map/map_file.h"
-#include "slam/map_part.h"
 #include "slam/mapping/map_keeper.h"
-#include "slam/relocalise.h"
 #include "slam/see_frame.h"
-#include "slam/track/keyframe_policy.h"
+#include "slam/tracking_policy.h"
 
 namespace aisle::slam {
 namespace {
@@ -35,6 +33,12 @@ SlamOptions Completed(const StereoCamera& camera, SlamOptions options) {
 std::optional<Vocabulary> LoadWords(const SlamOptions& options) {
   if (options.vocabulary_file.empty()) return std::nullopt;
   return Vocabulary::Load(options.vocabulary_file);
+}
+
+MappingPolicy MappingOf(const SlamOptions& options) {
+  const int frames = options.schedule.mapping_frames;
+  if (options.base == Base::kOrbSlam2) return OrbSlam2Mapping(options.orbslam2_mapping, frames);
+  return PlainMapping(frames);
 }
 
 /// The map of a file, which must have been made by a rig and with features like these.
@@ -86,9 +90,12 @@ struct StereoSlam::Impl {
                                    TrackedFrame& result);
   ExternalMask RejectMovers(const StereoImages& images, const ExternalMask& mask,
                             TrackedFrame& result);
-  std::optional<FramePose> FindPose(const Frame& frame) const;
+  DriveState Drive() const;
+  void TakeDueWork(TrackedFrame& result);
+  bool TakeAsKeyframe(const std::shared_ptr<const Frame>& frame, FramePose& pose);
   std::optional<FramePose> StartPart(const std::shared_ptr<const Frame>& frame);
-  void NoteOutcome(const Frame& frame, const std::optional<FramePose>& pose);
+  void NoteOutcome(const std::shared_ptr<const Frame>& frame, const std::optional<FramePose>& pose,
+                   bool is_keyframe);
   bool IsTimeForANewPart(std::int64_t stamp_ns) const;
 
   const StereoCamera camera;
@@ -101,6 +108,7 @@ struct StereoSlam::Impl {
   std::int64_t frame_count = 0;
   Journal journal;
   MapKeeper keeper;
+  std::unique_ptr<TrackingPolicy> policy;
 };
 
 StereoSlam::Impl::Impl(const StereoCamera& camera_in, const SlamOptions& options_in)
@@ -109,7 +117,8 @@ StereoSlam::Impl::Impl(const StereoCamera& camera_in, const SlamOptions& options
       detector(camera, options.dynamic),
       arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic),
       keeper(camera, {options.mapping, options.loop, options.global, options.schedule},
-             LoadWords(options)) {
+             MappingOf(options), LoadWords(options)),
+      policy(MakeTrackingPolicy(camera, options)) {
   if (options.map_file.empty()) return;
   const SavedMap saved = LoadMapFor(camera, options);
   keeper.Adopt(saved.map);
@@ -124,25 +133,18 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
   result.stamp_ns = images.stamp_ns;
   std::shared_ptr<const Frame> frame;
   arena.execute([&] { frame = See(images, mask, result); });
-  result.loop_closed = keeper.TakeDueWork(frame_count, result.stage_ms);
+  TakeDueWork(result);
 
   Stopwatch track_time(result.stage_ms["track"]);
   const Map& map = keeper.map();
-  std::optional<FramePose> pose = map.empty() ? std::nullopt : FindPose(*frame);
-  // One job at a time: the next keyframe waits for the appointed frame, not for a thread.
+  std::optional<FramePose> pose = map.empty() ? std::nullopt : policy->Find(frame, Drive());
   if (pose) {
-    result.is_keyframe = !options.localise_only && !keeper.busy() &&
-                         NeedsKeyframe(map, *frame, *pose, camera, options.keyframe);
-    if (result.is_keyframe) {
-      MapEdit edit = KeyframeFrom(map, frame, *pose, camera, options.mapping.create);
-      edit.counts = journal.TakeCounts();
-      keeper.WorkIn(edit, frame_count);
-    }
+    result.is_keyframe = !options.localise_only && TakeAsKeyframe(frame, *pose);
   } else if (map.empty() || IsTimeForANewPart(images.stamp_ns)) {
     pose = StartPart(frame);
     result.is_keyframe = pose.has_value();
   }
-  NoteOutcome(*frame, pose);
+  NoteOutcome(frame, pose, result.is_keyframe);
 
   const bool apart = pose && !IsInFirstPart(map, journal.memory().reference);
   result.state = apart ? TrackingState::kApart : state;
@@ -185,25 +187,46 @@ ExternalMask StereoSlam::Impl::RejectMovers(const StereoImages& images, const Ex
           mask.confidence};
 }
 
-std::optional<FramePose> StereoSlam::Impl::FindPose(const Frame& frame) const {
-  const TrackMemory& memory = journal.memory();
-  const int levels = options.feature.levels;
-  if (state != TrackingState::kLost) {
-    return TrackFrame(keeper.map(), frame, memory, camera, levels, options.track);
-  }
-  return Relocalise(keeper.map(), frame, memory, {keeper.vocabulary(), keeper.index()}, frame_count,
-                    camera, levels, options.track);
+DriveState StereoSlam::Impl::Drive() const {
+  return {keeper.map(),
+          journal.memory(),
+          {keeper.vocabulary(), keeper.index()},
+          frame_count,
+          state == TrackingState::kLost};
+}
+
+/// What background work has made of the map by this frame.
+void StereoSlam::Impl::TakeDueWork(TrackedFrame& result) {
+  const MapKeeper::Taken taken = keeper.TakeDueWork(frame_count, result.stage_ms);
+  result.loop_closed = taken.loop_closed;
+  if (!taken.replaced || options.base == Base::kPlain) return;
+  journal.CarryOver(*taken.replaced, keeper.map());
+  policy->CarryOver(*taken.replaced, keeper.map());
+}
+
+/// Adds the frame to the map if it is to be a keyframe.
+bool StereoSlam::Impl::TakeAsKeyframe(const std::shared_ptr<const Frame>& frame, FramePose& pose) {
+  const MapperState mapper{!keeper.busy(), keeper.closing(), keeper.waiting()};
+  const KeyframeVerdict verdict = policy->NeedsKeyframe(keeper.map(), *frame, pose, mapper);
+  if (verdict.hurry) keeper.Hurry(frame_count);
+  if (!verdict.taken) return false;
+  MapEdit edit = policy->MakeKeyframe(keeper.map(), frame, pose);
+  edit.counts = journal.TakeCounts();
+  keeper.WorkIn(edit, frame_count);
+  pose.local.reference = policy->ReferenceOfKeyframe(pose, edit.new_keyframes.front().id);
+  return true;
 }
 
 /// Whether the rig has been lost with open eyes for so long that it may be somewhere new.
 bool StereoSlam::Impl::IsTimeForANewPart(std::int64_t stamp_ns) const {
   if (options.localise_only || !keeper.vocabulary() || !lost_since_ns) return false;
+  if (!policy->BeginsParts()) return false;
   if (!keeper.at_rest()) return false;
   return static_cast<double>(stamp_ns - *lost_since_ns) * 1e-9 >= options.new_part_after_s;
 }
 
 std::optional<FramePose> StereoSlam::Impl::StartPart(const std::shared_ptr<const Frame>& frame) {
-  const auto part = BeginPart(keeper.map(), frame, journal.memory(), camera, options);
+  const auto part = policy->Begin(frame, Drive());
   if (!part) return std::nullopt;
   if (part->anew) {
     keeper.Adopt({});
@@ -214,16 +237,26 @@ std::optional<FramePose> StereoSlam::Impl::StartPart(const std::shared_ptr<const
 }
 
 /// What the next frame has to know of this one.
-void StereoSlam::Impl::NoteOutcome(const Frame& frame, const std::optional<FramePose>& pose) {
+void StereoSlam::Impl::NoteOutcome(const std::shared_ptr<const Frame>& frame,
+                                   const std::optional<FramePose>& pose, bool is_keyframe) {
+  const auto keyframe =
+      is_keyframe ? std::optional(keeper.map().keyframes().rbegin()->first) : std::nullopt;
+  policy->Note(frame, pose ? &*pose : nullptr, keyframe, Drive());
   ++frame_count;
   if (pose) {
-    journal.Note(keeper.map(), frame, *pose, state == TrackingState::kTracking, options.track);
+    journal.Note(keeper.map(), *frame, *pose, state == TrackingState::kTracking, options.track);
     if (options.localise_only) journal.TakeCounts();  // the map stays as it is
     lost_since_ns.reset();
     state = TrackingState::kTracking;
     return;
   }
-  if (!lost_since_ns && frame.size() >= options.least_first_points) lost_since_ns = frame.stamp_ns;
+  if (options.map_file.empty() && policy->GivesUp(keeper.map())) {
+    keeper.FinishWork();
+    keeper.Adopt({});
+    journal.ForgetTrack();
+  }
+  if (!lost_since_ns && frame->size() >= options.least_first_points)
+    lost_since_ns = frame->stamp_ns;
   state = keeper.map().empty() ? TrackingState::kInitializing : TrackingState::kLost;
 }
 

@@ -6,6 +6,17 @@
 
 namespace aisle::slam {
 
+void LookForLoops(const Map& map, KeyframeId newest, const Vocabulary* vocabulary,
+                  const PlaceIndex& index, const StereoCamera& camera, int levels,
+                  const LoopOptions& loop, MappingResult& result) {
+  if (!vocabulary) return;
+  result.words = vocabulary->Describe(map.At(newest).frame->features.descriptors);
+  if (const auto own = FindLoop(map, newest, result.words, index, camera, levels, loop)) {
+    result.loops = SeenBeside(map, *own, camera, levels, loop);
+    result.loops.push_back(*own);
+  }
+}
+
 MappingResult MapKeyframe(Map map, KeyframeId newest, const Vocabulary* vocabulary,
                           const PlaceIndex& index, const StereoCamera& camera,
                           const MappingOptions& options, const LoopOptions& loop) {
@@ -29,14 +40,7 @@ MappingResult MapKeyframe(Map map, KeyframeId newest, const Vocabulary* vocabula
   map.Apply(culling);
 
   MappingResult result;
-  if (vocabulary) {
-    result.words = vocabulary->Describe(map.At(newest).frame->features.descriptors);
-    const int levels = options.fuse.levels;
-    if (const auto own = FindLoop(map, newest, result.words, index, camera, levels, loop)) {
-      result.loops = SeenBeside(map, *own, camera, levels, loop);
-      result.loops.push_back(*own);
-    }
-  }
+  LookForLoops(map, newest, vocabulary, index, camera, options.fuse.levels, loop, result);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
   result.map = std::move(map);
   result.keyframe = newest;

@@ -19,6 +19,11 @@ struct MappingResult {
   double milliseconds = 0;  ///< reported, never decided upon
 };
 
+/// Fills in the words of a keyframe and the older place that it shows, if there is a vocabulary.
+void LookForLoops(const Map& map, KeyframeId newest, const Vocabulary* vocabulary,
+                  const PlaceIndex& index, const StereoCamera& camera, int levels,
+                  const LoopOptions& loop, MappingResult& result);
+
 /// Works the newest keyframe into the map: drops landmarks that have not proven themselves, joins
 /// those that neighbours know too, adjusts poses and points around, and drops keyframes that have
 /// become redundant; then looks for an older place that it shows, if there is a vocabulary. Takes

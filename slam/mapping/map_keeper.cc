@@ -2,18 +2,31 @@
 
 #include <algorithm>
 
+#include "slam/map/successor.h"
+
 namespace aisle::slam {
 
 MapKeeper::MapKeeper(const StereoCamera& camera, const MapKeeperOptions& options,
-                     std::optional<Vocabulary> vocabulary)
-    : camera_(camera), options_(options), vocabulary_(std::move(vocabulary)) {}
+                     MappingPolicy policy, std::optional<Vocabulary> vocabulary)
+    : camera_(camera),
+      options_(options),
+      policy_(std::move(policy)),
+      vocabulary_(std::move(vocabulary)) {}
 
-bool MapKeeper::TakeDueWork(std::int64_t frame_now, std::map<std::string, double>& stage_ms) {
+MapKeeper::Taken MapKeeper::TakeDueWork(std::int64_t frame_now,
+                                        std::map<std::string, double>& stage_ms) {
   double& wait_ms = stage_ms["wait_for_mapping"];
   const bool anytime = options_.schedule.free_running;
-  if (auto result = mapping_.TakeIfDue(frame_now, wait_ms, anytime)) {
-    stage_ms["mapping"] = result->milliseconds;
-    TakeMapping(std::move(*result), frame_now);
+  Taken taken;
+  const auto replace = [&](auto take) {
+    const Map before = map_;
+    take();
+    GoOn(before, frame_now);
+    if (!taken.replaced) taken.replaced = before;
+  };
+  while (auto result = mapping_.TakeIfDue(frame_now, wait_ms, anytime)) {
+    stage_ms["mapping"] += result->milliseconds;
+    replace([&] { TakeMapping(std::move(*result), frame_now); });
   }
   // Not while a keyframe is being worked in: the result of that would undo the correction.
   if (!busy()) {
@@ -22,9 +35,11 @@ bool MapKeeper::TakeDueWork(std::int64_t frame_now, std::map<std::string, double
       map_.Apply(CarryOver(map_, *correction));
     }
   }
-  auto closed = closing_.TakeIfDue(frame_now, wait_ms, anytime);
-  if (closed) TakeClosing(std::move(*closed), frame_now);
-  return closed.has_value();
+  if (auto closed = closing_.TakeIfDue(frame_now, wait_ms, anytime)) {
+    taken.loop_closed = true;
+    replace([&] { TakeClosing(std::move(*closed), frame_now); });
+  }
+  return taken;
 }
 
 void MapKeeper::FinishWork() {
@@ -42,6 +57,27 @@ void MapKeeper::FinishWork() {
 
 void MapKeeper::TakeMapping(MappingResult result, std::int64_t frame_now) {
   map_ = std::move(result.map);
+  worked_on_ = {};
+  if (step_ + 1 == policy_.size()) return FinishMapping(result, frame_now);
+  StartStep(step_ + 1, map_, mapping_.due_frame());
+}
+
+/// The next keyframe that waits is worked in, if nothing else is under way; the others show.
+void MapKeeper::GoOn(const Map& before, std::int64_t frame_now) {
+  if (!busy() && !waiting_.empty()) {
+    const MapEdit next = CarriedOver(waiting_.front(), before, map_);
+    waiting_.pop_front();
+    map_.Apply(next);
+    worked_in_ = next.new_keyframes.front().id;
+    StartStep(0, map_, frame_now);
+  }
+  for (MapEdit& keyframe : waiting_) {
+    keyframe = CarriedOver(keyframe, before, map_);
+    map_.Apply(keyframe);
+  }
+}
+
+void MapKeeper::FinishMapping(const MappingResult& result, std::int64_t frame_now) {
   if (!vocabulary_) return;
   index_.Add(result.keyframe, result.words);
   for (const KeyframeId gone : result.culled) index_.Remove(gone);
@@ -80,12 +116,34 @@ void MapKeeper::TakeClosing(Map closed, std::int64_t frame_now) {
 
 void MapKeeper::WorkIn(const MapEdit& edit, std::int64_t frame_now) {
   map_.Apply(edit);
-  const KeyframeId id = edit.new_keyframes.front().id;
-  mapping_.Start(frame_now + options_.schedule.mapping_frames, options_.schedule.background,
-                 [map = map_, id, this] {
-                   return MapKeyframe(map, id, vocabulary(), index_, camera_, options_.mapping,
-                                      options_.loop);
-                 });
+  if (busy()) {
+    waiting_.push_back(edit);
+    return;
+  }
+  worked_in_ = edit.new_keyframes.front().id;
+  StartStep(0, map_, frame_now);
+}
+
+void MapKeeper::Hurry(std::int64_t frame_now) {
+  if (!mapping_.pending() || !policy_[step_].given_up || given_up_) return;
+  given_up_ = true;
+  Start(Map(worked_on_), frame_now + 1, policy_[step_].given_up);
+}
+
+void MapKeeper::StartStep(std::size_t step, const Map& map, std::int64_t from_frame) {
+  step_ = step;
+  given_up_ = false;
+  const MappingStep& now = policy_[step];
+  const bool hurried = !waiting_.empty();
+  Start(map, from_frame + (hurried ? now.hurried_frames : now.frames),
+        hurried ? now.hurried : now.work);
+}
+
+void MapKeeper::Start(const Map& map, std::int64_t due_frame, const MappingStep::Work& work) {
+  worked_on_ = map;
+  mapping_.Start(due_frame, options_.schedule.background, [map, work, id = worked_in_, this] {
+    return work(map, id, {vocabulary(), index_, camera_, options_.mapping, options_.loop});
+  });
 }
 
 void MapKeeper::AddRoot(const MapEdit& edit) {

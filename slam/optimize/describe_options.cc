@@ -8,7 +8,7 @@ void DescribePasses(OptionFields& fields, int* robust_iterations, int* final_ite
   fields.Integer("robust_iterations", robust_iterations, {0, 1000}, "",
                  "Most iterations of the first pass, with Huber's cost.");
   fields.Integer("final_iterations", final_iterations, {0, 1000}, "",
-                 "Most iterations of the second pass, without outliers.");
+                 "Most iterations of the second pass, without outliers; 0: there is none.");
 }
 
 }  // namespace
@@ -26,13 +26,15 @@ void Describe(OptionFields& fields, AlignPointsOptions& options) {
 }
 
 void Describe(OptionFields& fields, LocalAdjustmentOptions& options) {
-  fields.Integer("free_keyframes", &options.free_keyframes, {1, 1000}, "keyframes",
+  fields.Integer("free_keyframes", &options.free_keyframes, {1, 1e6}, "keyframes",
                  "Keyframes that are adjusted: the new one and its most covisible ones.");
-  fields.Integer("fixed_keyframes", &options.fixed_keyframes, {0, 1000}, "keyframes",
+  fields.Integer("fixed_keyframes", &options.fixed_keyframes, {0, 1e6}, "keyframes",
                  "Others that see the same landmarks and hold them in place, most shared first.");
   fields.Integer("least_shared", &options.least_shared, {1, 10000}, "landmarks",
                  "Keyframes that share fewer landmarks with the new one are not adjusted.");
   DescribePasses(fields, &options.robust_iterations, &options.final_iterations);
+  fields.Flag("second_chance", &options.second_chance,
+              "An observation that the first pass drops may come back after the second.");
 }
 
 void Describe(OptionFields& fields, GlobalAdjustmentOptions& options) {

@@ -36,7 +36,7 @@ void Describe(OptionFields& fields, LoopOptions& options) {
                 "Rotation by which two agreeing corrections may differ.");
   fields.Number("drift_share", &options.drift_share, {0, 10}, "",
                 "No correction is larger than this share of the path in between, drift_m aside.");
-  fields.Number("drift_m", &options.drift_m, {0, 10000}, "m",
+  fields.Number("drift_m", &options.drift_m, {0, 1e6}, "m",
                 "Translation of a correction that any loop may ask for.");
 }
 

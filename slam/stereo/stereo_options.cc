@@ -14,6 +14,9 @@ void Describe(OptionFields& fields, StereoOptions& options) {
                  "Reach of the square that is compared, in pixels of the level.");
   fields.Integer("search_px", &options.search_px, {1, 10}, "px",
                  "Reach of that comparison around the right feature, in pixels of the level.");
+  fields.Choice("refinement", &options.refinement, {"least_squares", "parabola"},
+                "How a match's column is told to less than a pixel: least squares over the patch, "
+                "or a parabola as ORB-SLAM2 has published.");
   fields.Number("worst_to_median", &options.worst_to_median, {1, 1000}, "",
                 "Matches whose patches differ by more than this many medians are dropped.");
   fields.Number("disparity_noise_px", &options.disparity_noise_px, {1e-3, 100}, "px",

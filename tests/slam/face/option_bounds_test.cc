@@ -98,15 +98,20 @@ constexpr Room kRooms[] = {
      "1000000"},
 };
 
+/// The bounds of a number, else everything that the option can be.
+std::vector<std::string> ExtremesOf(const OptionDescription& one) {
+  if (one.kind == OptionDescription::Kind::kFlag) return {"false", "true"};
+  if (!one.choices.empty()) return one.choices;
+  return {fmt::format("{}", one.low), fmt::format("{}", one.high)};
+}
+
 /// Drives the film with every option of a group at its low and at its high bound, one at a time.
 void ExpectEveryBoundIsSafe(const std::vector<StereoImages>& film, const SlamOptions& base,
                             const std::string& group) {
   int driven = 0;
   for (const OptionDescription& one : DescribeOptions(base)) {
     if (!one.path.starts_with(group)) continue;
-    ASSERT_TRUE(one.choices.empty()) << one.path;
-    for (const double bound : {one.low, one.high}) {
-      const std::string text = fmt::format("{}", bound);
+    for (const std::string& text : ExtremesOf(one)) {
       SCOPED_TRACE(one.path + ": " + text);
       SlamOptions options = base;
       ASSERT_EQ(SetOption(one.path, text, &options), "");
@@ -123,15 +128,17 @@ void ExpectEveryBoundIsSafe(const std::vector<StereoImages>& film, const SlamOpt
 }
 
 constexpr const char* kOfEveryDrive[] = {
-    "feature.",          "stereo.",           "track.", "keyframe.", "mapping.", "least_keyframes",
-    "keypoint_noise_px", "least_first_points"};
+    "feature.",        "stereo.",           "track.",        "keyframe.",         "mapping.",
+    "least_keyframes", "keypoint_noise_px", "equal_columns", "least_first_points"};
+constexpr const char* kOfOrbSlam2[] = {"orbslam2.", "orbslam2_mapping."};
 constexpr const char* kOfLoops[] = {"loop.", "global.", "schedule.", "new_part_after_s"};
 
 TEST(OptionBounds, AreAllDriven) {
   for (const OptionDescription& one : DescribeOptions({})) {
     const auto is_of = [&](const char* group) { return one.path.starts_with(group); };
     EXPECT_TRUE(std::ranges::any_of(kOfEveryDrive, is_of) || std::ranges::any_of(kOfLoops, is_of) ||
-                is_of("dynamic.paper.") || is_of("dynamic.robust.") || is_of("dynamic.method"))
+                std::ranges::any_of(kOfOrbSlam2, is_of) || is_of("dynamic.paper.") ||
+                is_of("dynamic.robust.") || is_of("dynamic.method") || is_of("base"))
         << one.path;
   }
 }
@@ -140,6 +147,13 @@ TEST(OptionBounds, OfTheFrontEndTrackingAndMappingAreSafe) {
   const std::vector<StereoImages> film = ShortFilm(8);
   ASSERT_EQ(DriveThrough(film, {}).tracked, 6);
   for (const char* group : kOfEveryDrive) ExpectEveryBoundIsSafe(film, {}, group);
+}
+
+TEST(OptionBounds, OfTheOrbSlam2BaseAreSafe) {
+  const std::vector<StereoImages> film = ShortFilm(12);
+  const SlamOptions base = OptionsOf(Base::kOrbSlam2);
+  ASSERT_EQ(DriveThrough(film, base).tracked, 10);
+  for (const char* group : kOfOrbSlam2) ExpectEveryBoundIsSafe(film, base, group);
 }
 
 TEST(OptionBounds, OfThePapersMethodAreSafe) {

@@ -261,6 +261,53 @@ TEST(StereoSlam, FreeRunningFollowsACameraButPromisesNoBits) {
   EXPECT_THROW(StereoSlam(RoomScene().camera(), options), std::invalid_argument);
 }
 
+SlamOptions OrbSlam2With(int threads, bool background, int mapping_frames) {
+  SlamOptions options = OptionsOf(Base::kOrbSlam2);
+  options.threads = threads;
+  options.schedule.background = background;
+  options.schedule.mapping_frames = mapping_frames;
+  return options;
+}
+
+TEST(OrbSlam2Base, FollowsADriveThroughARoom) {
+  for (const int mapping_frames : {1, 5}) {
+    StereoSlam slam(RoomScene().camera(), OrbSlam2With(2, true, mapping_frames));
+    ExpectFollows(TrackAll(slam, StraightFilm()), StraightPath(), 0.05);
+    EXPECT_EQ(slam.Finish().size(), StraightFilm().size());
+  }
+}
+
+TEST(OrbSlam2Base, GivesTheSameBitsForAnyThreadsAndForInlineMapping) {
+  for (const int mapping_frames : {1, 5}) {
+    const auto run = [&](int threads, bool background) {
+      StereoSlam slam(RoomScene().camera(), OrbSlam2With(threads, background, mapping_frames));
+      TrackAll(slam, StraightFilm());
+      return slam.Finish();
+    };
+    const std::vector<StampedPose> first = run(1, false);
+    for (int i = 0; i < 4; ++i) {
+      const std::vector<StampedPose> again = run(1 + i, i % 2 == 0);
+      ASSERT_EQ(again.size(), first.size());
+      for (std::size_t k = 0; k < first.size(); ++k) {
+        EXPECT_EQ(again[k].T_world_rig.matrix(), first[k].T_world_rig.matrix()) << k;
+      }
+    }
+  }
+}
+
+TEST(OrbSlam2Base, BeginsAnewWhereASmallMapIsLost) {
+  StereoSlam slam(RoomScene().camera(), OrbSlam2With(2, true, 1));
+  slam.Track(StraightFilm()[0]);
+  slam.Track(StraightFilm()[1]);
+  StereoImages black = StraightFilm()[2];
+  black.left = black.right = cv::Mat1b::zeros(black.left.size());
+  EXPECT_EQ(slam.Track(black).state, TrackingState::kInitializing);
+  const TrackedFrame next = slam.Track(StraightFilm()[3]);
+  ASSERT_TRUE(next.T_world_rig);
+  EXPECT_EQ(next.T_world_rig->matrix(), Eigen::Matrix4d::Identity());
+  EXPECT_EQ(slam.Finish().size(), 1u);
+}
+
 TEST(StereoSlam, RefusesImagesOfAnotherSize) {
   StereoSlam slam(RoomScene().camera(), {});
   StereoImages images = StraightFilm()[0];

@@ -1,0 +1,81 @@
+#include "slam/track/orbslam2_local_map.h"
+
+#include <algorithm>
+#include <set>
+
+namespace aisle::slam {
+namespace {
+
+/// How many of the landmarks each keyframe sees.
+std::map<KeyframeId, int> Votes(const Map& map, const std::vector<LandmarkId>& landmarks) {
+  std::map<KeyframeId, int> votes;
+  for (const LandmarkId id : landmarks) {
+    const Landmark* landmark = map.Find(id);
+    if (!landmark) continue;
+    for (const Observation& observation : landmark->observations) ++votes[observation.keyframe];
+  }
+  return votes;
+}
+
+/// Keyframes that grow by others, none twice.
+class Growing {
+ public:
+  explicit Growing(std::vector<KeyframeId>& keyframes)
+      : keyframes_(keyframes), there_(keyframes.begin(), keyframes.end()) {}
+
+  /// Whether it was new.
+  bool Add(KeyframeId id) {
+    if (!id.valid() || !there_.insert(id).second) return false;
+    keyframes_.push_back(id);
+    return true;
+  }
+
+ private:
+  std::vector<KeyframeId>& keyframes_;
+  std::set<KeyframeId> there_;
+};
+
+void Grow(const Map& map, std::vector<KeyframeId>& keyframes, const OrbSlam2Options& options) {
+  constexpr int kLeastShared = 15;  // landmarks; fewer make no neighbours
+  std::multimap<KeyframeId, KeyframeId> children;
+  for (const auto& [id, keyframe] : map.keyframes()) children.emplace(keyframe->parent, id);
+  const std::vector<KeyframeId> observers = keyframes;
+  Growing growing(keyframes);
+  for (const KeyframeId observer : observers) {
+    if (std::ssize(keyframes) > options.local_keyframes) return;
+    std::vector<Covisible> best = CovisibleKeyframes(map, observer, kLeastShared);
+    best.resize(std::min(best.size(), static_cast<std::size_t>(options.neighbours)));
+    for (const Covisible& neighbour : best) {
+      if (growing.Add(neighbour.keyframe)) break;
+    }
+    const auto [first, last] = children.equal_range(observer);
+    for (auto child = first; child != last; ++child) {
+      if (growing.Add(child->second)) break;
+    }
+    if (growing.Add(map.At(observer).parent)) return;
+  }
+}
+
+}  // namespace
+
+LocalMap OrbSlam2LocalMap(const Map& map, const std::vector<LandmarkId>& landmarks,
+                          const OrbSlam2Options& options) {
+  LocalMap local;
+  const std::map<KeyframeId, int> votes = Votes(map, landmarks);
+  int most = 0;
+  for (const auto& [id, count] : votes) {
+    local.keyframes.push_back(id);
+    if (count > most) most = count, local.reference = id;
+  }
+  Grow(map, local.keyframes, options);
+  std::set<LandmarkId> known;
+  for (const KeyframeId keyframe : local.keyframes) {
+    for (const LandmarkId id : map.At(keyframe).landmarks) {
+      const Landmark* landmark = map.Find(id);
+      if (landmark && known.insert(id).second) local.landmarks.push_back(landmark);
+    }
+  }
+  return local;
+}
+
+}  // namespace aisle::slam

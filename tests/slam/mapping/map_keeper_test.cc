@@ -1,0 +1,149 @@
+#include "slam/mapping/map_keeper.h"
+
+#include <gtest/gtest.h>
+
+#include "slam/map/successor.h"
+
+namespace aisle::slam {
+namespace {
+
+/// What a step of the made-up policy did, as a landmark's position tells.
+constexpr double kWhole = 1, kHurried = 2, kGivenUp = 3;
+
+/// A step that leaves a landmark of its own on the keyframe's last feature.
+MappingStep::Work Leave(double mark) {
+  return [mark](Map map, KeyframeId newest, const MappingTools&) {
+    Landmark landmark;
+    landmark.position = {mark, 0, 5};
+    landmark.observations = {{newest, static_cast<int>(map.At(newest).landmarks.size()) - 1}};
+    landmark.created_by = newest;
+    MapEdit edit;
+    edit.new_landmarks = {landmark};
+    map.Apply(edit);
+    MappingResult result;
+    result.map = std::move(map);
+    result.keyframe = newest;
+    return result;
+  };
+}
+
+/// Mapping takes four frames, one where keyframes wait.
+class MapKeeperTest : public testing::TestWithParam<bool> {
+ protected:
+  MapKeeperTest()
+      : keeper({}, Options(), {{4, Leave(kWhole), Leave(kHurried), 1, Leave(kGivenUp)}},
+               std::nullopt) {
+    keeper.AddRoot(NextKeyframe());
+  }
+
+  static MapKeeperOptions Options() {
+    MapKeeperOptions options;
+    options.schedule.background = GetParam();
+    return options;
+  }
+
+  /// Three features; the first one has a new landmark.
+  MapEdit NextKeyframe() const {
+    auto frame = std::make_shared<Frame>();
+    for (int i = 0; i < 3; ++i) {
+      frame->features.keypoints.emplace_back();
+      frame->features.descriptors.emplace_back();
+      frame->measurements.push_back({{10.0 * i, 10, 20}, 1, 1});
+    }
+    Keyframe keyframe;
+    keyframe.id = keeper.map().NextKeyframeId();
+    keyframe.frame = frame;
+    if (keyframe.id.value > 0) keyframe.parent = {keyframe.id.value - 1};
+    keyframe.landmarks.resize(3);
+    Landmark landmark;
+    landmark.position = {100.0 + static_cast<double>(keyframe.id.value), 0, 5};
+    landmark.observations = {{keyframe.id, 0}};
+    landmark.created_by = keyframe.id;
+    MapEdit edit;
+    edit.new_keyframes = {keyframe};
+    edit.new_landmarks = {landmark};
+    return edit;
+  }
+
+  MapKeeper::Taken Take(std::int64_t frame) { return keeper.TakeDueWork(frame, stage_ms); }
+
+  /// What mapping has left on a keyframe; 0: nothing (yet).
+  double MarkOn(int keyframe) const {
+    const Landmark* landmark =
+        keeper.map().Find(keeper.map().At(KeyframeId{keyframe}).landmarks.back());
+    return landmark ? landmark->position.x() : 0;
+  }
+
+  MapKeeper keeper;
+  std::map<std::string, double> stage_ms;
+};
+
+TEST_P(MapKeeperTest, AKeyframeShowsAtOnceAndItsMappingWhenItIsDue) {
+  keeper.WorkIn(NextKeyframe(), 10);
+  EXPECT_TRUE(keeper.map().Find(KeyframeId{1}));
+  Take(13);
+  EXPECT_TRUE(keeper.busy());
+  EXPECT_EQ(MarkOn(1), 0);
+  Take(14);
+  EXPECT_FALSE(keeper.busy());
+  EXPECT_EQ(MarkOn(1), kWhole);
+}
+
+TEST_P(MapKeeperTest, KeyframesThatWaitShowAndAreWorkedInOneByOne) {
+  keeper.WorkIn(NextKeyframe(), 10);
+  for (int frame = 11; frame <= 13; ++frame) keeper.WorkIn(NextKeyframe(), frame);
+  EXPECT_EQ(keeper.waiting(), 3);
+  Take(14);
+  EXPECT_EQ(keeper.waiting(), 2);
+  EXPECT_EQ(keeper.map().keyframes().size(), 5u);
+  EXPECT_EQ(MarkOn(1), kWhole);
+  EXPECT_EQ(MarkOn(2), 0);
+  Take(15), Take(16);
+  EXPECT_EQ(MarkOn(2), kHurried);
+  EXPECT_EQ(MarkOn(3), kHurried);
+  EXPECT_EQ(MarkOn(4), 0);  // nobody waits behind it: it is not hurried
+  Take(20);
+  EXPECT_EQ(MarkOn(4), kWhole);
+  EXPECT_TRUE(keeper.at_rest());
+}
+
+TEST_P(MapKeeperTest, LandmarksOfKeyframesThatWaitAreFoundUnderTheirNewIds) {
+  keeper.WorkIn(NextKeyframe(), 10);
+  keeper.WorkIn(NextKeyframe(), 11);
+  const LandmarkId own = keeper.map().At(KeyframeId{2}).landmarks.front();
+  // A third keyframe sees that landmark too, before either has been worked in.
+  MapEdit third = NextKeyframe();
+  third.new_keyframes.front().landmarks[1] = own;
+  third.counts = {{own, 5, 4}};
+  keeper.WorkIn(third, 12);
+  const auto taken = Take(14);
+  ASSERT_TRUE(taken.replaced);
+  const LandmarkId now = Successor(*taken.replaced, keeper.map(), own);
+  EXPECT_NE(now, own);  // the mapper had given that id to another
+  EXPECT_EQ(keeper.map().At(now).position.x(), 102);
+  EXPECT_EQ(keeper.map().At(KeyframeId{3}).landmarks[1], now);
+  EXPECT_EQ(keeper.map().At(now).predicted, 5);
+}
+
+TEST_P(MapKeeperTest, WhatIsGivenUpIsSeenAtTheNextFrame) {
+  keeper.WorkIn(NextKeyframe(), 10);
+  keeper.Hurry(11);
+  Take(11);
+  EXPECT_EQ(MarkOn(1), 0);
+  Take(12);
+  EXPECT_EQ(MarkOn(1), kGivenUp);
+  keeper.Hurry(12);  // nothing to give up
+  EXPECT_TRUE(keeper.at_rest());
+}
+
+TEST_P(MapKeeperTest, FinishingLeavesNobodyWaiting) {
+  for (int frame = 10; frame < 14; ++frame) keeper.WorkIn(NextKeyframe(), frame);
+  keeper.FinishWork();
+  EXPECT_EQ(keeper.waiting(), 0);
+  for (int k = 1; k <= 4; ++k) EXPECT_GT(MarkOn(k), 0) << k;
+}
+
+INSTANTIATE_TEST_SUITE_P(ThreadedAndNot, MapKeeperTest, testing::Bool());
+
+}  // namespace
+}  // namespace aisle::slam
