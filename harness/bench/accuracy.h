@@ -10,7 +10,7 @@ namespace aisle {
 
 struct AccuracyBenchOptions {
   BenchSource source{.twin = "empty"};
-  SystemSpec system = BuiltIn("orbslam2");
+  SystemSpec system = BuiltIn("plain");
   int starts = 9;  ///< drives per view
   int step = 1;    ///< frames from one start to the next
 };

@@ -12,7 +12,7 @@ namespace aisle {
 
 struct StageBenchOptions {
   BenchSource source{.twin = "empty"};
-  SystemSpec system = BuiltIn("orbslam2");
+  SystemSpec system = BuiltIn("plain");
   int frames = 100;  ///< of the view's first, at most
   int laps = 1;      ///< drives over the same frames, one after the other
 };

@@ -14,7 +14,7 @@ namespace {
 struct Options {
   std::vector<std::string> views;
   AccuracyBenchOptions bench;
-  SystemChoice system{.name = "orbslam2", .set = {}};
+  SystemChoice system{.name = "plain", .set = {}};
   std::string json;
 };
 

@@ -14,7 +14,7 @@ namespace {
 struct Options {
   std::string source = "paper/scene1", json;
   StageBenchOptions bench;
-  SystemChoice system{.name = "orbslam2", .set = {}};
+  SystemChoice system{.name = "plain", .set = {}};
 };
 
 void PrintLap(const BenchLap& lap) {

@@ -19,7 +19,7 @@ struct Options {
   std::string load_map, save_map;  ///< empty: none
   bool localise_only = false;
   std::string masks;  ///< folder of masks to reject by; empty: none
-  SystemChoice system{.name = "orbslam2", .set = {}};
+  SystemChoice system{.name = "plain", .set = {}};
   int threads = 0;
   bool free_running = false;
 };

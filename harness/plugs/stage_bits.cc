@@ -33,7 +33,7 @@ sim::Simulator Load(const StageBitsOptions& options) {
 }
 
 std::unique_ptr<Estimator> MakeSlam(const sim::RigInfo& rig, int threads) {
-  return MakeSystem(BuiltIn("orbslam2"),
+  return MakeSystem(BuiltIn("plain"),
                     {.width = rig.width,
                      .height = rig.height,
                      .fx = rig.fx,

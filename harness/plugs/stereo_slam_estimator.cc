@@ -103,12 +103,21 @@ class StereoSlamEstimator : public Estimator {
   slam::StereoSlam slam_;
 };
 
+/// Sets all of them, the base first: the others differ from what it sets. What is wrong with the
+/// first that cannot be set, or an empty string.
+std::string SetAll(const std::map<std::string, std::string>& values, slam::SlamOptions* options) {
+  std::string wrong;
+  const auto base = values.find("base");
+  if (base != values.end()) wrong = slam::SetOption(base->first, base->second, options);
+  for (const auto& [path, value] : values) {
+    if (wrong.empty() && path != "base") wrong = slam::SetOption(path, value, options);
+  }
+  return wrong;
+}
+
 slam::SlamOptions OptionsFrom(const std::map<std::string, std::string>& values) {
   slam::SlamOptions options;
-  for (const auto& [path, value] : values) {
-    const std::string wrong = slam::SetOption(path, value, &options);
-    if (!wrong.empty()) throw InputError(wrong);
-  }
+  if (const std::string wrong = SetAll(values, &options); !wrong.empty()) throw InputError(wrong);
   return options;
 }
 
@@ -130,9 +139,7 @@ std::string CheckSlamOption(const std::string& path, const std::string& value) {
 
 std::string CheckSlamOptions(const std::map<std::string, std::string>& values) {
   slam::SlamOptions options;
-  for (const auto& [path, value] : values) {
-    if (!slam::SetOption(path, value, &options).empty()) return {};  // said of the option itself
-  }
+  if (!SetAll(values, &options).empty()) return {};  // said of the option itself
   return slam::Validate(options);
 }
 

@@ -13,7 +13,8 @@ namespace aisle {
 
 struct StereoSlamEstimatorOptions {
   int threads = 0;  ///< 0: as many as the machine has; never changes a result
-  /// Options that differ from the SLAM's defaults, by path, as text.
+  /// Options that differ from the SLAM's defaults, by path, as text; where `base` is among them,
+  /// from what that base sets.
   std::map<std::string, std::string> options = {};
   std::filesystem::path vocabulary_file = {};  ///< empty: loops are not closed
   std::filesystem::path load_map = {};         ///< empty: a new map; else goes on in this one

@@ -9,7 +9,11 @@ namespace aisle {
 
 const std::vector<System>& Systems() {
   static const std::vector<System> systems = {
-      {"orbslam2", "our stereo SLAM, nothing rejected: the ORB-SLAM2 row", MaskSource::kNone},
+      {"orbslam2",
+       "the published ORB-SLAM2's tracking, keyframes and mapping, nothing rejected",
+       MaskSource::kNone,
+       {{"base", "orbslam2"}}},
+      {"plain", "our stereo SLAM, nothing rejected", MaskSource::kNone},
       {"semantic", "no features on any person or vehicle, moving or not: the DynaSLAM row",
        MaskSource::kActors},
       {"paper",

@@ -98,7 +98,7 @@ Suite SuiteOfScene(const std::string& scene_file) {
   suite.name = fs::path(name).filename().string();
   suite.question = "How do the systems fare on " + name + "?";
   suite.scenes = {{name, fs::path(scene_file).lexically_normal().string()}};
-  suite.systems = {BuiltIn("orbslam2"), BuiltIn("oracle")};
+  suite.systems = {BuiltIn("plain"), BuiltIn("oracle")};
   suite.seeds = {1};
   return suite;
 }

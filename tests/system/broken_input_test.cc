@@ -109,8 +109,8 @@ TEST_F(BrokenInputTest, SuitesAndScenes) {
        "system); example: system: oracle"},
       {{"run", "{d}/s.yaml", "--systems", "best"},
        {{"s.yaml", kGood}},
-       "aisle: --systems: 'best' is not known: expected one of orbslam2, semantic, paper, robust, "
-       "oracle"},
+       "aisle: --systems: 'best' is not known: expected one of orbslam2, plain, semantic, paper, "
+       "robust, oracle"},
       {{"run", "{d}/s.yaml", "--twins", "undead"},
        {{"s.yaml", kGood}},
        "aisle: --twins: 'undead' is not known: expected one of live, empty, frozen, "
@@ -187,8 +187,8 @@ TEST_F(BrokenInputTest, TrajectoriesMasksAndRecordings) {
        "aisle: system 'oracle' needs truth about what moves: a recording has none"},
       {{"slam", "{d}", "-o", "{d}/o.txt", "--system", "best"},
        {},
-       "aisle: system 'best' is not known: expected one of orbslam2, semantic, paper, robust, "
-       "oracle"},
+       "aisle: system 'best' is not known: expected one of orbslam2, plain, semantic, paper, "
+       "robust, oracle"},
   });
 }
 
@@ -198,7 +198,7 @@ TEST_F(BrokenInputTest, HostileNamesDoNoHarm) {
     const fs::path scene = folder_ / "scenes" / name / "x.yaml";
     WriteFileAtomically(scene, ReadFile(scene_));
     const std::string out = Out("hostile");
-    const Said said = Run({"run", scene.string(), "--systems", "orbslam2", "--out", out});
+    const Said said = Run({"run", scene.string(), "--systems", "plain", "--out", out});
     EXPECT_EQ(said.code, 0) << said.text;
     for (const auto& entry : fs::recursive_directory_iterator(out)) {
       if (entry.path().extension() != ".html") continue;

@@ -48,9 +48,9 @@ TEST_F(CommandLineTest, ProgramsAreAnsweredInJson) {
                                        0);
   EXPECT_NEAR(scored.at("scores").at("coverage").at("value").get<double>(), 2.0 / 3, 1e-12);
 
-  ASSERT_EQ(Run({"run", Suite("json", "  - orbslam2\n"), "--out", Out("a")}).code, 0);
+  ASSERT_EQ(Run({"run", Suite("json", "  - plain\n"), "--out", Out("a")}).code, 0);
   EXPECT_EQ(Answer({"report", Out("a")}, 0).at("runs").size(), 1u);
-  const nlohmann::json again = Answer({"rerun", "short/live/orbslam2/1", "--in", Out("a")}, 0);
+  const nlohmann::json again = Answer({"rerun", "short/live/plain/1", "--in", Out("a")}, 0);
   EXPECT_TRUE(again.at("compared"));
   EXPECT_TRUE(again.at("differences").empty());
   EXPECT_FALSE(Answer({"compare", Out("a"), Out("a")}, 0).at("comparisons").empty());

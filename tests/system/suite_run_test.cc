@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-constexpr const char* kTwo = "  - orbslam2\n  - oracle\n";
+constexpr const char* kTwo = "  - plain\n  - oracle\n";
 
 class SuiteRunTest : public ProgramTest {};
 
@@ -79,12 +79,12 @@ TEST_F(SuiteRunTest, KilledAtAnyMomentAndResumedGivesTheSameBits) {
 }
 
 TEST_F(SuiteRunTest, ResumeTrustsContentsNotNames) {
-  const std::string suite = Suite("trust", "  - orbslam2\n");
+  const std::string suite = Suite("trust", "  - plain\n");
   const std::vector<std::string> resume{"run", suite, "--out", Out("a"), "--resume"};
   ASSERT_EQ(Run({"run", suite, "--out", Out("a")}).code, 0);
   EXPECT_THAT(Run(resume).text, HasSubstr("1 of 1 runs are already there"));
 
-  const fs::path run = fs::path(Out("a")) / "runs/short/live/orbslam2/1";
+  const fs::path run = fs::path(Out("a")) / "runs/short/live/plain/1";
   const std::string whole = ReadFile(run / "final.txt");
   WriteFileAtomically(run / "final.txt", whole.substr(0, whole.size() / 2));
   EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already there")));
