@@ -8,7 +8,7 @@ std::vector<KeyframeId> KeyframesToAsk(const Map& map, const Frame& frame, Keyfr
   std::vector<KeyframeId> asked = {reference};
   if (places.vocabulary) {
     const WordVector words = places.vocabulary->Describe(frame.features.descriptors);
-    for (const Lookalike& one : places.index.Query(words)) {
+    for (const PlaceMatch& one : places.index.Query(words)) {
       if (asked.size() < kAsked) asked.push_back(one.keyframe);
     }
     return asked;

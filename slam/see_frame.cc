@@ -66,7 +66,7 @@ std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, StereoCorners 
                                       const ExternalMask& mask, const StereoCamera& camera,
                                       const SlamOptions& options,
                                       std::map<std::string, double>& stage_ms) {
-  EyeFeatures left, right;
+  ImageFeatures left, right;
   {
     Stopwatch time(stage_ms["extract"]);
     tbb::parallel_invoke(

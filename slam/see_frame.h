@@ -16,14 +16,14 @@ void CheckImages(const StereoImages& images, const ExternalMask& mask, const Ste
 /// What either mask rejects; an empty one rejects nothing.
 cv::Mat1b Union(const cv::Mat1b& a, const cv::Mat1b& b);
 
-/// The corners of both eyes, found in parallel.
+/// The corners of both cameras, found in parallel.
 struct StereoCorners {
-  EyeCorners left, right;
+  ImageCorners left, right;
 };
 StereoCorners FindStereoCorners(const StereoImages& images, const FeatureOptions& options);
 
-/// The front end: features of both eyes outside the mask, and what they measure. The deviations
-/// grow as the confidence in the pixel falls: information times confidence. Runs both eyes in
+/// The front end: features of both cameras outside the mask, and what they measure. The deviations
+/// grow as the confidence in the pixel falls: information times confidence. Runs both cameras in
 /// parallel; times go to `stage_ms`.
 std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, StereoCorners corners,
                                       const ExternalMask& mask, const StereoCamera& camera,

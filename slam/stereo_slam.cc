@@ -8,11 +8,11 @@
 
 #include "slam/dynamic/common/stopwatch.h"
 #include "slam/dynamic/dynamic_detector.h"
-#include "slam/foresight.h"
-#include "slam/journal.h"
 #include "slam/map/map_file.h"
 #include "slam/mapping/map_keeper.h"
 #include "slam/see_frame.h"
+#include "slam/track/predict_motion.h"
+#include "slam/track_record.h"
 #include "slam/tracking_policy.h"
 
 namespace aisle::slam {
@@ -60,7 +60,7 @@ SavedMap LoadMapFor(const StereoCamera& camera, const SlamOptions& options) {
 }
 
 /// What a frame shows, whether or not it finds its place.
-void NoteSights(const Frame& frame, TrackedFrame& result) {
+void NoteObservations(const Frame& frame, TrackedFrame& result) {
   result.features = frame.size();
   result.keypoint_is_inlier.assign(static_cast<std::size_t>(frame.size()), false);
   for (int i = 0; i < frame.size(); ++i) {
@@ -106,7 +106,7 @@ struct StereoSlam::Impl {
   TrackingState state = TrackingState::kInitializing;  // kTracking in any part of the map
   std::optional<std::int64_t> lost_since_ns;  // first frame that shows something but has no pose
   std::int64_t frame_count = 0;
-  Journal journal;
+  TrackRecord track;
   MapKeeper keeper;
   std::unique_ptr<TrackingPolicy> policy;
 };
@@ -122,7 +122,7 @@ StereoSlam::Impl::Impl(const StereoCamera& camera_in, const SlamOptions& options
   if (options.map_file.empty()) return;
   const SavedMap saved = LoadMapFor(camera, options);
   keeper.Adopt(saved.map);
-  journal.GoOnFrom(saved.reference);
+  track.GoOnFrom(saved.reference);
   state = TrackingState::kLost;
 }
 
@@ -146,11 +146,11 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
   }
   NoteOutcome(frame, pose, result.is_keyframe);
 
-  const bool apart = pose && !IsInFirstPart(map, journal.memory().reference);
+  const bool apart = pose && !IsInFirstPart(map, track.memory().reference);
   result.state = apart ? TrackingState::kApart : state;
   result.map_keyframes = static_cast<int>(map.keyframes().size());
   result.map_landmarks = map.landmark_count();
-  NoteSights(*frame, result);
+  NoteObservations(*frame, result);
   if (pose) NotePose(*pose, result);
   if (pose && !apart) result.T_world_rig = pose->pose.T_rig_world.inverse();
   return result;
@@ -178,7 +178,7 @@ ExternalMask StereoSlam::Impl::RejectMovers(const StereoImages& images, const Ex
   Stopwatch time(result.stage_ms["dynamic"]);
   DynamicInput input{images.stamp_ns, images.left, images.right, std::nullopt};
   if (state == TrackingState::kTracking) {
-    input.T_now_before = ForeseeMotion(journal.memory(), images.stamp_ns, options.track);
+    input.T_now_before = PredictMotion(track.memory(), images.stamp_ns, options.track);
   }
   DynamicOutput found = detector.Detect(input);
   result.dynamic = std::move(found.regions);
@@ -189,7 +189,7 @@ ExternalMask StereoSlam::Impl::RejectMovers(const StereoImages& images, const Ex
 
 DriveState StereoSlam::Impl::Drive() const {
   return {keeper.map(),
-          journal.memory(),
+          track.memory(),
           {keeper.vocabulary(), keeper.index()},
           frame_count,
           state == TrackingState::kLost};
@@ -200,7 +200,7 @@ void StereoSlam::Impl::TakeDueWork(TrackedFrame& result) {
   const MapKeeper::Taken taken = keeper.TakeDueWork(frame_count, result.stage_ms);
   result.loop_closed = taken.loop_closed;
   if (!taken.replaced || options.base == Base::kPlain) return;
-  journal.CarryOver(*taken.replaced, keeper.map());
+  track.CarryOver(*taken.replaced, keeper.map());
   policy->CarryOver(*taken.replaced, keeper.map());
 }
 
@@ -211,13 +211,13 @@ bool StereoSlam::Impl::TakeAsKeyframe(const std::shared_ptr<const Frame>& frame,
   if (verdict.hurry) keeper.Hurry(frame_count);
   if (!verdict.taken) return false;
   MapEdit edit = policy->MakeKeyframe(keeper.map(), frame, pose);
-  edit.counts = journal.TakeCounts();
+  edit.counts = track.TakeCounts();
   keeper.WorkIn(edit, frame_count);
   pose.local.reference = policy->ReferenceOfKeyframe(pose, edit.new_keyframes.front().id);
   return true;
 }
 
-/// Whether the rig has been lost with open eyes for so long that it may be somewhere new.
+/// Whether the rig has been lost, with images to look at, for so long that it may be somewhere new.
 bool StereoSlam::Impl::IsTimeForANewPart(std::int64_t stamp_ns) const {
   if (options.localise_only || !keeper.vocabulary() || !lost_since_ns) return false;
   if (!policy->BeginsParts()) return false;
@@ -230,7 +230,7 @@ std::optional<FramePose> StereoSlam::Impl::StartPart(const std::shared_ptr<const
   if (!part) return std::nullopt;
   if (part->anew) {
     keeper.Adopt({});
-    journal.ForgetTrack();
+    track.ForgetTrack();
   }
   keeper.AddRoot(part->edit);
   return PoseOfKeyframe(keeper.map(), part->edit.new_keyframes.front().id);
@@ -244,8 +244,8 @@ void StereoSlam::Impl::NoteOutcome(const std::shared_ptr<const Frame>& frame,
   policy->Note(frame, pose ? &*pose : nullptr, keyframe, Drive());
   ++frame_count;
   if (pose) {
-    journal.Note(keeper.map(), *frame, *pose, state == TrackingState::kTracking, options.track);
-    if (options.localise_only) journal.TakeCounts();  // the map stays as it is
+    track.Note(keeper.map(), *frame, *pose, state == TrackingState::kTracking, options.track);
+    if (options.localise_only) track.TakeCounts();  // the map stays as it is
     lost_since_ns.reset();
     state = TrackingState::kTracking;
     return;
@@ -253,7 +253,7 @@ void StereoSlam::Impl::NoteOutcome(const std::shared_ptr<const Frame>& frame,
   if (options.map_file.empty() && policy->GivesUp(keeper.map())) {
     keeper.FinishWork();
     keeper.Adopt({});
-    journal.ForgetTrack();
+    track.ForgetTrack();
   }
   if (!lost_since_ns && frame->size() >= options.least_first_points)
     lost_since_ns = frame->stamp_ns;
@@ -272,18 +272,18 @@ TrackedFrame StereoSlam::Track(const StereoImages& images, const ExternalMask& m
 
 void StereoSlam::SaveMap(const std::string& file) {
   MapKeeper& keeper = impl_->keeper;
-  Journal& journal = impl_->journal;
+  TrackRecord& track = impl_->track;
   keeper.FinishWork();
   if (keeper.map().empty()) throw std::runtime_error(file + ": there is no map to save yet");
-  keeper.Count(journal.TakeCounts());
-  journal.ForgetSteadyMotion();
-  const KeyframeId reference = keeper.map().StandIn(journal.memory().reference);
+  keeper.Count(track.TakeCounts());
+  track.ForgetSteadyMotion();
+  const KeyframeId reference = keeper.map().StandIn(track.memory().reference);
   slam::SaveMap({impl_->camera, reference, keeper.map()}, file);
 }
 
 std::vector<StampedPose> StereoSlam::Finish() {
   impl_->keeper.FinishWork();
-  return impl_->journal.Trajectory(impl_->keeper.map());
+  return impl_->track.Trajectory(impl_->keeper.map());
 }
 
 }  // namespace aisle::slam

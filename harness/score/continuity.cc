@@ -7,31 +7,31 @@ namespace aisle {
 namespace {
 
 /// A frame in which an object was asked for.
-struct Sighting {
+struct Observation {
   std::size_t frame = 0;
   const ObjectOutcome* object = nullptr;
 };
-using Sightings = std::vector<Sighting>;
+using Observations = std::vector<Observation>;
 
-std::map<int, Sightings> SightingsByInstance(std::span<const FrameFacts> frames,
-                                             const ObjectRule& asked_for) {
-  std::map<int, Sightings> sightings;
+std::map<int, Observations> ObservationsByInstance(std::span<const FrameFacts> frames,
+                                                   const ObjectRule& asked_for) {
+  std::map<int, Observations> observations;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (!frames[i].mask) continue;
     for (const ObjectOutcome& object : frames[i].mask->objects) {
-      if (asked_for(object)) sightings[object.instance].push_back({i, &object});
+      if (asked_for(object)) observations[object.instance].push_back({i, &object});
     }
   }
-  return sightings;
+  return observations;
 }
 
-std::vector<Sightings> PartAtPauses(const Sightings& all, int max_pause_frames) {
-  std::vector<Sightings> parts;
-  for (const Sighting& sighting : all) {
-    const bool goes_on = !parts.empty() && sighting.frame - parts.back().back().frame <=
+std::vector<Observations> PartAtPauses(const Observations& all, int max_pause_frames) {
+  std::vector<Observations> parts;
+  for (const Observation& observation : all) {
+    const bool goes_on = !parts.empty() && observation.frame - parts.back().back().frame <=
                                                static_cast<std::size_t>(max_pause_frames) + 1;
     if (!goes_on) parts.emplace_back();
-    parts.back().push_back(sighting);
+    parts.back().push_back(observation);
   }
   return parts;
 }
@@ -49,16 +49,16 @@ std::vector<bool> TurningFrames(std::span<const FrameFacts> frames, double turni
   return turning;
 }
 
-MoverSpell SpellOf(const Sightings& sightings, std::span<const FrameFacts> frames,
+MoverSpell SpellOf(const Observations& observations, std::span<const FrameFacts> frames,
                    const std::vector<bool>& turning) {
   MoverSpell spell;
-  spell.instance = sightings.front().object->instance;
-  spell.object_class = sightings.front().object->object_class;
-  spell.first_ns = frames[sightings.front().frame].stamp_ns;
-  spell.last_ns = frames[sightings.back().frame].stamp_ns;
-  spell.frames = static_cast<int>(sightings.size());
+  spell.instance = observations.front().object->instance;
+  spell.object_class = observations.front().object->object_class;
+  spell.first_ns = frames[observations.front().frame].stamp_ns;
+  spell.last_ns = frames[observations.back().frame].stamp_ns;
+  spell.frames = static_cast<int>(observations.size());
   int gap = 0, gap_turning = 0;
-  for (const auto& [frame, object] : sightings) {
+  for (const auto& [frame, object] : observations) {
     spell.mean_speed_mps += object->speed_mps / spell.frames;
     spell.largest_share = std::max(spell.largest_share, object->share);
     const bool covered = IsCovered(*object);
@@ -101,8 +101,8 @@ std::vector<MoverSpell> FollowMovers(std::span<const FrameFacts> frames,
                                      const ContinuityOptions& options) {
   const std::vector<bool> turning = TurningFrames(frames, options.turning_dps);
   std::vector<MoverSpell> spells;
-  for (const auto& [instance, sightings] : SightingsByInstance(frames, asked_for)) {
-    for (const Sightings& part : PartAtPauses(sightings, options.max_pause_frames)) {
+  for (const auto& [instance, observations] : ObservationsByInstance(frames, asked_for)) {
+    for (const Observations& part : PartAtPauses(observations, options.max_pause_frames)) {
       spells.push_back(SpellOf(part, frames, turning));
     }
   }

@@ -49,7 +49,7 @@ class DynamicDetector {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Where the right eye sees what a mask rejects in the left: every masked pixel shifted by its
+/// Where the right camera sees what a mask rejects in the left: every masked pixel shifted by its
 /// disparity (pixels; negative = unknown), small gaps between shifted pixels closed. `disparity`
 /// may be smaller than the mask by a whole factor, its values then being in its own pixels.
 cv::Mat1b ShiftMaskToRight(const cv::Mat1b& mask, const cv::Mat1f& disparity);

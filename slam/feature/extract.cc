@@ -57,34 +57,35 @@ std::vector<int> ShareBudget(const std::vector<int>& available, int budget, doub
   return share;
 }
 
-EyeCorners FindCorners(const cv::Mat1b& image, const FeatureOptions& options) {
-  EyeCorners corners{BuildPyramid(image, options), {}};
+ImageCorners FindCorners(const cv::Mat1b& image, const FeatureOptions& options) {
+  ImageCorners corners{BuildPyramid(image, options), {}};
   for (const cv::Mat1b& level : corners.pyramid.levels) {
     corners.levels.push_back(DetectCorners(level, options));
   }
   return corners;
 }
 
-EyeFeatures ChooseFeatures(EyeCorners corners, const cv::Mat1b& mask,
-                           const FeatureOptions& options) {
-  EyeFeatures eye{std::move(corners.pyramid), {}};
+ImageFeatures ChooseFeatures(ImageCorners corners, const cv::Mat1b& mask,
+                             const FeatureOptions& options) {
+  ImageFeatures image{std::move(corners.pyramid), {}};
   const MaskMargin margin(mask);
   std::vector<int> available;
-  for (int level = 0; level < eye.pyramid.size(); ++level) {
+  for (int level = 0; level < image.pyramid.size(); ++level) {
     std::vector<Corner>& of_level = corners.levels[static_cast<std::size_t>(level)];
-    DropMasked(eye.pyramid, level, margin, options.mask_margin_px, of_level);
+    DropMasked(image.pyramid, level, margin, options.mask_margin_px, of_level);
     available.push_back(static_cast<int>(of_level.size()));
   }
   const std::vector<int> share = ShareBudget(available, options.features, options.scale);
-  for (int level = 0; level < eye.pyramid.size(); ++level) {
+  for (int level = 0; level < image.pyramid.size(); ++level) {
     const auto l = static_cast<std::size_t>(level);
-    AppendLevel(eye.pyramid, level, DistributeCorners(corners.levels[l], share[l]), eye.features);
+    AppendLevel(image.pyramid, level, DistributeCorners(corners.levels[l], share[l]),
+                image.features);
   }
-  return eye;
+  return image;
 }
 
-EyeFeatures ExtractFeatures(const cv::Mat1b& image, const cv::Mat1b& mask,
-                            const FeatureOptions& options) {
+ImageFeatures ExtractFeatures(const cv::Mat1b& image, const cv::Mat1b& mask,
+                              const FeatureOptions& options) {
   return ChooseFeatures(FindCorners(image, options), mask, options);
 }
 

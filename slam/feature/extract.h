@@ -10,14 +10,14 @@
 
 namespace aisle::slam {
 
-/// Where one eye could have features: known before anybody says what moves.
-struct EyeCorners {
+/// Where one camera could have features: known before anybody says what moves.
+struct ImageCorners {
   Pyramid pyramid;
   std::vector<std::vector<Corner>> levels;  ///< of each level of the pyramid, by rising (y, x)
 };
 
-/// What one eye sees.
-struct EyeFeatures {
+/// What one camera sees.
+struct ImageFeatures {
   Pyramid pyramid;
   Features features;  ///< by rising level, then (y, x)
 };
@@ -27,13 +27,13 @@ struct EyeFeatures {
 /// `mask`, 255 = reject, is either empty or of the image's size. No feature lies on a rejected
 /// pixel or within the options' margin of one, and what the mask costs is spent elsewhere: the
 /// budget is distributed only after the mask has been applied.
-EyeFeatures ExtractFeatures(const cv::Mat1b& image, const cv::Mat1b& mask,
-                            const FeatureOptions& options);
+ImageFeatures ExtractFeatures(const cv::Mat1b& image, const cv::Mat1b& mask,
+                              const FeatureOptions& options);
 
 /// The same in two steps, the first of which needs no mask.
-EyeCorners FindCorners(const cv::Mat1b& image, const FeatureOptions& options);
-EyeFeatures ChooseFeatures(EyeCorners corners, const cv::Mat1b& mask,
-                           const FeatureOptions& options);
+ImageCorners FindCorners(const cv::Mat1b& image, const FeatureOptions& options);
+ImageFeatures ChooseFeatures(ImageCorners corners, const cv::Mat1b& mask,
+                             const FeatureOptions& options);
 
 /// Splits `budget` over levels: geometrically as their image areas shrink, never more than a level
 /// has, and what one level cannot use goes to the others.

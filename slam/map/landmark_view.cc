@@ -58,8 +58,9 @@ int PredictLevel(const Landmark& landmark, double distance_m, double scale, int 
   return std::clamp(static_cast<int>(std::lround(level)), 0, levels - 1);
 }
 
-bool CanBeSeenFrom(const Landmark& landmark, const Eigen::Vector3d& eye, double scale, int levels) {
-  const Eigen::Vector3d ray = landmark.position - eye;
+bool CanBeSeenFrom(const Landmark& landmark, const Eigen::Vector3d& centre, double scale,
+                   int levels) {
+  const Eigen::Vector3d ray = landmark.position - centre;
   const double distance = ray.norm();
   // Nearest where the top level fits, farthest where the bottom one does, with a fifth to spare.
   const double farthest = landmark.reference_distance_m * std::pow(scale, landmark.reference_level);

@@ -13,8 +13,9 @@ void RefreshView(const Map& map, Landmark& landmark);
 /// nearer is seen larger, at a higher level. Within [0, levels).
 int PredictLevel(const Landmark& landmark, double distance_m, double scale, int levels);
 
-/// Whether a landmark can be expected to be recognised from `eye` (world): seen from within 60
+/// Whether a landmark can be expected to be recognised from `centre` (world): seen from within 60
 /// degrees of where it has been seen, and from a distance at which some level fits.
-bool CanBeSeenFrom(const Landmark& landmark, const Eigen::Vector3d& eye, double scale, int levels);
+bool CanBeSeenFrom(const Landmark& landmark, const Eigen::Vector3d& centre, double scale,
+                   int levels);
 
 }  // namespace aisle::slam

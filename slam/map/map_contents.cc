@@ -46,7 +46,7 @@ void CheckAncestry(const MapContents& contents) {
   }
 }
 
-void CheckSights(const Map& map) {
+void CheckObservations(const Map& map) {
   std::ptrdiff_t named = 0, observed = 0;
   for (const auto& [id, keyframe] : map.keyframes()) {
     Demand(std::ssize(keyframe->landmarks) == keyframe->frame->size(),
@@ -97,7 +97,7 @@ Map::Map(const MapContents& contents) {
   for (const RetiredKeyframe& one : contents.retired) retired_[one.id] = one;
   landmark_count_ = static_cast<int>(contents.landmarks.size());
   next_keyframe_ = contents.next_keyframe;
-  CheckSights(*this);
+  CheckObservations(*this);
 }
 
 }  // namespace aisle::slam

@@ -51,8 +51,8 @@ std::optional<Expected> Expect(const Landmark& landmark, const StereoCamera& cam
   if (in_rig.z() < 0.05) return std::nullopt;
   const Eigen::Vector3d uvd = Project(camera, in_rig);
   if (!InImage(camera, uvd.x(), uvd.y())) return std::nullopt;
-  const Eigen::Vector3d eye = T_rig_world.inverse(Eigen::Isometry).translation();
-  if (!CanBeSeenFrom(landmark, eye, scale, levels)) return std::nullopt;
+  const Eigen::Vector3d centre = T_rig_world.inverse(Eigen::Isometry).translation();
+  if (!CanBeSeenFrom(landmark, centre, scale, levels)) return std::nullopt;
   return Expected{&landmark, uvd, PredictLevel(landmark, in_rig.norm(), scale, levels)};
 }
 

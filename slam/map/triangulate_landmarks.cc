@@ -27,7 +27,7 @@ std::vector<Landmark> TriangulateLandmarks(const Map& map, KeyframeId newest,
   for (int n = 0; n < std::min<int>(options.neighbours, static_cast<int>(neighbours.size())); ++n) {
     const Keyframe& there = map.At(neighbours[static_cast<std::size_t>(n)]);
     const TwoViews views{here, there, camera, there.T_world_rig.inverse() * here.T_world_rig};
-    // Nearer than the two eyes are to each other they see better by themselves.
+    // Nearer than the two cameras are to each other they see better by themselves.
     if (views.T_there_here.translation().norm() < camera.baseline_m) continue;
     std::vector<bool> used_there(there.landmarks.size(), false);
     const std::vector<LineCandidate> candidates =

@@ -39,7 +39,8 @@ std::vector<Landmark> TriangulateLandmarks(const Map& map, KeyframeId newest,
                                            const TriangulateOptions& options,
                                            const PlacePoint& place);
 
-/// The same, placed by rays instead of by disparity: far points, and those that only one eye sees.
+/// The same, placed by rays instead of by disparity: far points, and those that only one camera
+/// sees.
 std::vector<Landmark> TriangulateLandmarks(const Map& map, KeyframeId newest,
                                            const std::vector<KeyframeId>& neighbours,
                                            const StereoCamera& camera,

@@ -129,11 +129,11 @@ MappingStep::Work Adjusting(const OrbSlam2MappingOptions& orbslam2, Extent exten
 PlacePoint OrbSlam2Place(double least_ray_sine) {
   return [least_ray_sine](const TwoViews& views, std::size_t i,
                           std::size_t j) -> std::optional<Eigen::Vector3d> {
-    // Half the angle between the eyes: half a baseline over the depth, hence half a disparity / f.
-    const auto eyes = [&](const Measurement& measurement) {
+    // Half of it is half a baseline over the depth, hence half a disparity / f.
+    const auto stereo_angle = [&](const Measurement& measurement) {
       return measurement.has_depth() ? 2 * std::atan2(measurement.uvd.z() / 2, views.camera.fx) : 0;
     };
-    const double here = eyes(views.Here(i)), there = eyes(views.There(j));
+    const double here = stereo_angle(views.Here(i)), there = stereo_angle(views.There(j));
     const Intersection meeting = Intersect(views, i, j);
     const double rays = std::asin(std::min(1.0, meeting.sine));
     if (rays > std::max({here, there, here + there > 0 ? 0 : least_ray_sine})) return meeting.point;

@@ -37,8 +37,8 @@ MapEdit OrbSlam2CullKeyframes(const Map& map, KeyframeId newest, const StereoCam
 MapEdit OrbSlam2DropUnsupported(const Map& map, const std::vector<LandmarkId>& landmarks,
                                 const OrbSlam2MappingOptions& options);
 
-/// Places a point by the two rays if their angle is wider than that between the two eyes, else by
-/// the disparity of the view that has it better; nothing where neither is.
+/// Places a point by the two rays if their angle is wider than that between the two cameras, else
+/// by the disparity of the view that has it better; nothing where neither is.
 PlacePoint OrbSlam2Place(double least_ray_sine);
 
 /// The neighbours to exchange points with, and theirs.

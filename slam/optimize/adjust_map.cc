@@ -14,7 +14,7 @@ struct MapProblem {
   BundleProblem bundle;
   std::vector<KeyframeId> keyframes;  // of poses
   std::vector<LandmarkId> landmarks;  // of points
-  std::vector<MapEdit::Link> links;   // of sights
+  std::vector<MapEdit::Link> links;   // of observations
 };
 
 bool IsRoot(const Map& map, KeyframeId id) { return !map.At(id).parent.valid(); }
@@ -42,7 +42,7 @@ MapProblem BuildProblem(const Map& map, const std::vector<KeyframeId>& free,
       const auto pose = pose_of.find(observation.keyframe);
       if (pose == pose_of.end()) continue;
       const Frame& frame = *map.At(observation.keyframe).frame;
-      problem.bundle.sights.push_back(MakeSight(
+      problem.bundle.observations.push_back(MakeObservation(
           pose->second, point, frame.measurements[static_cast<std::size_t>(observation.feature)]));
       problem.links.push_back({id, observation});
     }
@@ -52,8 +52,8 @@ MapProblem BuildProblem(const Map& map, const std::vector<KeyframeId>& free,
 
 std::vector<bool> WithinBounds(const BundleProblem& problem) {
   std::vector<bool> within;
-  for (const BundleProblem::Sight& sight : problem.sights) {
-    within.push_back(Chi2(problem, sight) <= sight.chi2_bound);
+  for (const BundleProblem::Observation& observation : problem.observations) {
+    within.push_back(Chi2(problem, observation) <= observation.chi2_bound);
   }
   return within;
 }
@@ -73,16 +73,16 @@ MapEdit ToEdit(const MapProblem& problem, const std::vector<bool>& inlier) {
   return edit;
 }
 
-/// Keyframes other than `free` that see any of the landmarks, most sights first.
+/// Keyframes other than `free` that see any of the landmarks, most observations first.
 std::vector<KeyframeId> OutsideObservers(const Map& map, const std::vector<KeyframeId>& free,
                                          const std::vector<LandmarkId>& landmarks, int most) {
-  std::map<KeyframeId, int> sights;
+  std::map<KeyframeId, int> shared;
   for (const LandmarkId id : landmarks) {
-    for (const Observation& observation : map.At(id).observations) ++sights[observation.keyframe];
+    for (const Observation& observation : map.At(id).observations) ++shared[observation.keyframe];
   }
-  for (const KeyframeId id : free) sights.erase(id);
+  for (const KeyframeId id : free) shared.erase(id);
   std::vector<std::pair<int, KeyframeId>> ranked;
-  for (const auto& [id, count] : sights) ranked.emplace_back(-count, id);
+  for (const auto& [id, count] : shared) ranked.emplace_back(-count, id);
   std::sort(ranked.begin(), ranked.end());
   ranked.resize(std::min(ranked.size(), static_cast<std::size_t>(most)));
   std::vector<KeyframeId> observers;
@@ -90,12 +90,13 @@ std::vector<KeyframeId> OutsideObservers(const Map& map, const std::vector<Keyfr
   return observers;
 }
 
-/// Sights of points that lie before their camera: a point behind it, as two nearly parallel rays
-/// may place one, has no projection to start from, and the solver would end before its first step.
+/// Observations of points that lie before their camera: a point behind it, as two nearly parallel
+/// rays may place one, has no projection to start from, and the solver would end before its first
+/// step.
 std::vector<bool> WithProjection(const BundleProblem& problem) {
   std::vector<bool> has;
-  for (const BundleProblem::Sight& sight : problem.sights) {
-    has.push_back(std::isfinite(Chi2(problem, sight)));
+  for (const BundleProblem::Observation& observation : problem.observations) {
+    has.push_back(std::isfinite(Chi2(problem, observation)));
   }
   return has;
 }

@@ -48,19 +48,20 @@ std::array<std::size_t, 3> DrawThree(std::size_t count, std::uint64_t seed, int 
 }  // namespace
 
 std::optional<RefinedPose> AlignPoints(const StereoCamera& camera,
-                                       const std::vector<PointSight>& sights,
+                                       const std::vector<PointObservation>& observations,
                                        const AlignPointsOptions& options) {
-  std::vector<const PointSight*> deep;  // with depth
-  for (const PointSight& sight : sights) {
-    if (sight.measurement.has_depth() && sight.measurement.uvd.z() > 0) deep.push_back(&sight);
+  std::vector<const PointObservation*> deep;  // with depth
+  for (const PointObservation& observation : observations) {
+    if (observation.measurement.has_depth() && observation.measurement.uvd.z() > 0)
+      deep.push_back(&observation);
   }
   // Near points make better hypotheses: keep those whose depth is known to a twentieth, if they do.
-  const auto is_vague = [](const PointSight* sight) {
-    return sight->measurement.sigma_d > 0.05 * sight->measurement.uvd.z();
+  const auto is_vague = [](const PointObservation* observation) {
+    return observation->measurement.sigma_d > 0.05 * observation->measurement.uvd.z();
   };
   const auto vague = std::stable_partition(deep.begin(), deep.end(), std::not_fn(is_vague));
   if (vague - deep.begin() >= options.least_inliers) deep.erase(vague, deep.end());
-  if (deep.size() < 3 || std::ssize(sights) < options.least_inliers) return std::nullopt;
+  if (deep.size() < 3 || std::ssize(observations) < options.least_inliers) return std::nullopt;
 
   int most = 0, needed = options.hypotheses;
   Eigen::Isometry3d best = Eigen::Isometry3d::Identity();
@@ -68,34 +69,35 @@ std::optional<RefinedPose> AlignPoints(const StereoCamera& camera,
     Eigen::Matrix3d world, rig;
     const std::array<std::size_t, 3> drawn = DrawThree(deep.size(), options.seed, hypothesis);
     for (int i = 0; i < 3; ++i) {
-      const PointSight& sight = *deep[drawn[static_cast<std::size_t>(i)]];
-      world.col(i) = sight.point;
-      rig.col(i) = Backproject(camera, sight.measurement.uvd);
+      const PointObservation& observation = *deep[drawn[static_cast<std::size_t>(i)]];
+      world.col(i) = observation.point;
+      rig.col(i) = Backproject(camera, observation.measurement.uvd);
     }
     const Eigen::Isometry3d T_rig_world = RigidMotion(world, rig);
     int support = 0;
-    for (const PointSight& sight : sights) {
-      support +=
-          Chi2(camera, T_rig_world, sight) <= options.chi2_slack * Chi2Bound(sight.measurement);
+    for (const PointObservation& observation : observations) {
+      support += Chi2(camera, T_rig_world, observation) <=
+                 options.chi2_slack * Chi2Bound(observation.measurement);
     }
     if (support <= most) continue;
     most = support;
     best = T_rig_world;
-    const double all_good = std::pow(most / static_cast<double>(sights.size()), 3);
+    const double all_good = std::pow(most / static_cast<double>(observations.size()), 3);
     const double draws = std::log(1 - options.confidence) / std::log1p(-std::min(all_good, 0.9999));
     // Little support asks for more draws than an integer counts.
     const double more = std::min(std::ceil(draws), static_cast<double>(options.hypotheses));
     needed = std::min(options.hypotheses, hypothesis + 1 + static_cast<int>(more));
   }
   if (most < 3) return std::nullopt;
-  std::vector<PointSight> supporting;
-  for (const PointSight& sight : sights) {
-    if (Chi2(camera, best, sight) <= options.chi2_slack * Chi2Bound(sight.measurement)) {
-      supporting.push_back(sight);
+  std::vector<PointObservation> supporting;
+  for (const PointObservation& observation : observations) {
+    if (Chi2(camera, best, observation) <=
+        options.chi2_slack * Chi2Bound(observation.measurement)) {
+      supporting.push_back(observation);
     }
   }
   const Eigen::Isometry3d near = RefinePose(camera, best, supporting, {}).T_rig_world;
-  const RefinedPose refined = RefinePose(camera, near, sights, {.trust_start = true});
+  const RefinedPose refined = RefinePose(camera, near, observations, {.trust_start = true});
   if (refined.inliers < options.least_inliers || !refined.well_posed) return std::nullopt;
   return refined;
 }

@@ -20,10 +20,10 @@ void Describe(OptionFields& fields, AlignPointsOptions& options);
 
 /// The pose from point correspondences of which many may be wrong, without a first guess:
 /// three stereo points and their landmarks make a hypothesis (Horn's closed form on the two
-/// triangles), the one that most sights support is refined. Defined for any motion, none included.
-/// The same sights and seed give the same pose.
+/// triangles), the one that most observations support is refined. Defined for any motion, none
+/// included. The same observations and seed give the same pose.
 std::optional<RefinedPose> AlignPoints(const StereoCamera& camera,
-                                       const std::vector<PointSight>& sights,
+                                       const std::vector<PointObservation>& observations,
                                        const AlignPointsOptions& options);
 
 }  // namespace aisle::slam

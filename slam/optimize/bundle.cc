@@ -24,20 +24,22 @@ ceres::Solver::Options SolverOptions(const BundleOptions& options, std::size_t p
 
 }  // namespace
 
-BundleProblem::Sight MakeSight(int pose, int point, const Measurement& measurement) {
-  BundleProblem::Sight sight{pose, point, measurement.uvd, Eigen::Matrix3d::Zero(),
-                             Chi2Bound(measurement)};
-  sight.sqrt_information.diagonal() << 1 / measurement.sigma_px, 1 / measurement.sigma_px,
+BundleProblem::Observation MakeObservation(int pose, int point, const Measurement& measurement) {
+  BundleProblem::Observation observation{pose, point, measurement.uvd, Eigen::Matrix3d::Zero(),
+                                         Chi2Bound(measurement)};
+  observation.sqrt_information.diagonal() << 1 / measurement.sigma_px, 1 / measurement.sigma_px,
       measurement.has_depth() ? 1 / measurement.sigma_d : 0.0;
-  sight.sqrt_information(2, 0) = -measurement.u_in_d * sight.sqrt_information(2, 2);
-  return sight;
+  observation.sqrt_information(2, 0) = -measurement.u_in_d * observation.sqrt_information(2, 2);
+  return observation;
 }
 
-double Chi2(const BundleProblem& problem, const BundleProblem::Sight& sight) {
-  const Eigen::Vector3d point = problem.poses[static_cast<std::size_t>(sight.pose)].T_rig_world *
-                                problem.points[static_cast<std::size_t>(sight.point)];
+double Chi2(const BundleProblem& problem, const BundleProblem::Observation& observation) {
+  const Eigen::Vector3d point =
+      problem.poses[static_cast<std::size_t>(observation.pose)].T_rig_world *
+      problem.points[static_cast<std::size_t>(observation.point)];
   if (point.z() < kNearestDepth_m) return std::numeric_limits<double>::infinity();
-  return (sight.sqrt_information * (sight.uvd - Project(problem.camera, point))).squaredNorm();
+  return (observation.sqrt_information * (observation.uvd - Project(problem.camera, point)))
+      .squaredNorm();
 }
 
 BundleSummary Solve(BundleProblem& problem, const std::vector<bool>& active,
@@ -53,16 +55,16 @@ BundleSummary Solve(BundleProblem& problem, const std::vector<bool>& active,
   ceres::Problem ceres_problem(ownership);
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   std::vector<bool> pose_used(poses.size(), false), point_used(points.size(), false);
-  for (std::size_t i = 0; i < problem.sights.size(); ++i) {
-    const BundleProblem::Sight& sight = problem.sights[i];
+  for (std::size_t i = 0; i < problem.observations.size(); ++i) {
+    const BundleProblem::Observation& observation = problem.observations[i];
     if (!active.empty() && !active[i]) continue;
-    const auto pose = static_cast<std::size_t>(sight.pose);
-    const auto point = static_cast<std::size_t>(sight.point);
+    const auto pose = static_cast<std::size_t>(observation.pose);
+    const auto point = static_cast<std::size_t>(observation.point);
     ceres::LossFunction* loss =
-        options.robust ? new ceres::HuberLoss(std::sqrt(sight.chi2_bound)) : nullptr;
+        options.robust ? new ceres::HuberLoss(std::sqrt(observation.chi2_bound)) : nullptr;
     ceres_problem.AddResidualBlock(
-        new SightResidual(problem.camera, sight.uvd, sight.sqrt_information), loss,
-        poses[pose].data(), points[point].data());
+        new ReprojectionResidual(problem.camera, observation.uvd, observation.sqrt_information),
+        loss, poses[pose].data(), points[point].data());
     pose_used[pose] = point_used[point] = true;
   }
   for (std::size_t i = 0; i < poses.size(); ++i) {

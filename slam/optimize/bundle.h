@@ -9,14 +9,14 @@
 
 namespace aisle::slam {
 
-/// Poses, points and sights of one from the other: everything that an adjustment needs, detached
-/// from any map. Local and global adjustment differ in what they put in here.
+/// Poses, points and observations of one from the other: everything that an adjustment needs,
+/// detached from any map. Local and global adjustment differ in what they put in here.
 struct BundleProblem {
   struct Pose {
     Eigen::Isometry3d T_rig_world = Eigen::Isometry3d::Identity();
     bool fixed = false;
   };
-  struct Sight {
+  struct Observation {
     int pose = 0, point = 0;                        ///< indices
     Eigen::Vector3d uvd = Eigen::Vector3d::Zero();  ///< pixels and disparity
     /// Square root of the information over (u, v, disparity): the residual is this times the
@@ -28,15 +28,15 @@ struct BundleProblem {
   StereoCamera camera;
   std::vector<Pose> poses;
   std::vector<Eigen::Vector3d> points;  ///< metres, world
-  std::vector<Sight> sights;
+  std::vector<Observation> observations;
 };
 
-/// A sight with the noise its measurement states.
-BundleProblem::Sight MakeSight(int pose, int point, const Measurement& measurement);
+/// A observation with the noise its measurement states.
+BundleProblem::Observation MakeObservation(int pose, int point, const Measurement& measurement);
 
 struct BundleOptions {
-  int iterations = 10;               ///< at most
-  bool robust = true;                ///< Huber's cost at each sight's chi2_bound, or plain squares
+  int iterations = 10;  ///< at most
+  bool robust = true;   ///< Huber's cost at each observation's chi2_bound, or plain squares
   double relative_tolerance = 1e-4;  ///< of the cost's decrease: good enough to stop
 };
 
@@ -48,12 +48,12 @@ struct BundleSummary {
   std::string message;
 };
 
-/// Minimises the reprojection error over free poses and all points. Sights not `active` (by index;
-/// empty: all are) are left out. One thread: the same bits every time.
+/// Minimises the reprojection error over free poses and all points. Observations not `active` (by
+/// index; empty: all are) are left out. One thread: the same bits every time.
 BundleSummary Solve(BundleProblem& problem, const std::vector<bool>& active,
                     const BundleOptions& options);
 
-/// Squared whitened error of a sight as the problem stands; infinite behind the camera.
-double Chi2(const BundleProblem& problem, const BundleProblem::Sight& sight);
+/// Squared whitened error of a observation as the problem stands; infinite behind the camera.
+double Chi2(const BundleProblem& problem, const BundleProblem::Observation& observation);
 
 }  // namespace aisle::slam

@@ -38,16 +38,16 @@ Robust Huber(double chi2, double bound) {
 
 class PoseProblem {
  public:
-  PoseProblem(const StereoCamera& camera, const std::vector<PointSight>& sights)
-      : camera_(camera), sights_(sights) {}
+  PoseProblem(const StereoCamera& camera, const std::vector<PointObservation>& observations)
+      : camera_(camera), observations_(observations) {}
 
   double Cost(const Eigen::Isometry3d& pose, const std::vector<bool>& active, bool robust) const {
     double cost = 0;
-    for (std::size_t i = 0; i < sights_.size(); ++i) {
+    for (std::size_t i = 0; i < observations_.size(); ++i) {
       if (!active[i]) continue;
-      const double chi2 = Chi2(camera_, pose, sights_[i]);
+      const double chi2 = Chi2(camera_, pose, observations_[i]);
       // A point that has slipped behind the camera costs its bound: no pose gains by hiding it.
-      const double bound = Chi2Bound(sights_[i].measurement);
+      const double bound = Chi2Bound(observations_[i].measurement);
       cost += std::isinf(chi2) ? bound : robust ? Huber(chi2, bound).cost : chi2;
     }
     return cost;
@@ -56,9 +56,9 @@ class PoseProblem {
   Normal Linearize(const Eigen::Isometry3d& pose, const std::vector<bool>& active,
                    bool robust) const {
     Normal normal;
-    for (std::size_t i = 0; i < sights_.size(); ++i) {
-      const Measurement& measurement = sights_[i].measurement;
-      const Eigen::Vector3d point = pose * sights_[i].point;
+    for (std::size_t i = 0; i < observations_.size(); ++i) {
+      const Measurement& measurement = observations_[i].measurement;
+      const Eigen::Vector3d point = pose * observations_[i].point;
       if (!active[i] || point.z() < kNearestDepth) continue;
       const Eigen::Vector3d error = Whitened(measurement, Project(camera_, point));
       Eigen::Matrix3d by_point = -ProjectionJacobian(camera_, point);
@@ -78,7 +78,7 @@ class PoseProblem {
 
  private:
   const StereoCamera& camera_;
-  const std::vector<PointSight>& sights_;
+  const std::vector<PointObservation>& observations_;
 };
 
 Eigen::Isometry3d Minimize(const PoseProblem& problem, Eigen::Isometry3d pose,
@@ -108,23 +108,24 @@ Eigen::Isometry3d Minimize(const PoseProblem& problem, Eigen::Isometry3d pose,
 }  // namespace
 
 double Chi2(const StereoCamera& camera, const Eigen::Isometry3d& T_rig_world,
-            const PointSight& sight) {
-  const Eigen::Vector3d point = T_rig_world * sight.point;
+            const PointObservation& observation) {
+  const Eigen::Vector3d point = T_rig_world * observation.point;
   if (point.z() < kNearestDepth) return std::numeric_limits<double>::infinity();
-  return Whitened(sight.measurement, Project(camera, point)).squaredNorm();
+  return Whitened(observation.measurement, Project(camera, point)).squaredNorm();
 }
 
 RefinedPose RefinePose(const StereoCamera& camera, const Eigen::Isometry3d& T_rig_world,
-                       const std::vector<PointSight>& sights, const RefinePoseOptions& options) {
-  const PoseProblem problem(camera, sights);
+                       const std::vector<PointObservation>& observations,
+                       const RefinePoseOptions& options) {
+  const PoseProblem problem(camera, observations);
   RefinedPose refined;
   refined.T_rig_world = T_rig_world;
-  refined.inlier.assign(sights.size(), true);
+  refined.inlier.assign(observations.size(), true);
   const auto tell_outliers = [&] {
     refined.inliers = 0;
-    for (std::size_t i = 0; i < sights.size(); ++i) {
-      refined.inlier[i] =
-          Chi2(camera, refined.T_rig_world, sights[i]) <= Chi2Bound(sights[i].measurement);
+    for (std::size_t i = 0; i < observations.size(); ++i) {
+      refined.inlier[i] = Chi2(camera, refined.T_rig_world, observations[i]) <=
+                          Chi2Bound(observations[i].measurement);
       refined.inliers += refined.inlier[i];
     }
   };

@@ -19,14 +19,14 @@ inline double Chi2Bound(const Measurement& measurement) {
 }
 
 /// A known point and where it is seen.
-struct PointSight {
+struct PointObservation {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< metres, world
   Measurement measurement;
 };
 
 /// Squared error in units of its variance; infinite behind the camera.
 double Chi2(const StereoCamera& camera, const Eigen::Isometry3d& T_rig_world,
-            const PointSight& sight);
+            const PointObservation& observation);
 
 struct RefinePoseOptions {
   int rounds = 4;       ///< outliers are told apart anew after each; the last is not robustified
@@ -38,7 +38,7 @@ struct RefinePoseOptions {
 /// A pose and how it came about.
 struct RefinedPose {
   Eigen::Isometry3d T_rig_world = Eigen::Isometry3d::Identity();
-  std::vector<bool> inlier;  ///< per sight
+  std::vector<bool> inlier;  ///< per observation
   int inliers = 0;
   bool well_posed = false;  ///< whether the inliers fix all six degrees of freedom
   /// Of a small motion of the rig frame (translation metres, rotation radians; see Retract).
@@ -46,8 +46,9 @@ struct RefinedPose {
 };
 
 /// The pose that minimises the reprojection error of known points, robust against outliers
-/// (Huber weights at first, then hard chi-square gates that every sight may pass again).
+/// (Huber weights at first, then hard chi-square gates that every observation may pass again).
 RefinedPose RefinePose(const StereoCamera& camera, const Eigen::Isometry3d& T_rig_world,
-                       const std::vector<PointSight>& sights, const RefinePoseOptions& options);
+                       const std::vector<PointObservation>& observations,
+                       const RefinePoseOptions& options);
 
 }  // namespace aisle::slam

@@ -48,8 +48,8 @@ bool PoseManifold::MinusJacobian(const double*, double* jacobian) const {
   return true;
 }
 
-bool SightResidual::Evaluate(double const* const* parameters, double* residuals,
-                             double** jacobians) const {
+bool ReprojectionResidual::Evaluate(double const* const* parameters, double* residuals,
+                                    double** jacobians) const {
   const Eigen::Quaterniond rotation(parameters[0]);
   const Eigen::Map<const Eigen::Vector3d> translation(parameters[0] + 4);
   const Eigen::Map<const Eigen::Vector3d> point(parameters[1]);

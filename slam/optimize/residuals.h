@@ -36,10 +36,10 @@ inline constexpr double kNearestDepth_m = 1e-3;
 
 /// Whitened error of a point seen by a pose: sqrt_information (measured - projected) over
 /// (u, v, disparity). Parameters: PoseBlock, point (world).
-class SightResidual final : public ceres::SizedCostFunction<3, 7, 3> {
+class ReprojectionResidual final : public ceres::SizedCostFunction<3, 7, 3> {
  public:
-  SightResidual(const StereoCamera& camera, const Eigen::Vector3d& uvd,
-                const Eigen::Matrix3d& sqrt_information)
+  ReprojectionResidual(const StereoCamera& camera, const Eigen::Vector3d& uvd,
+                       const Eigen::Matrix3d& sqrt_information)
       : camera_(camera), uvd_(uvd), sqrt_information_(sqrt_information) {}
 
   /// False for a point nearer than kNearestDepth_m or behind: at the start that ends the solver,

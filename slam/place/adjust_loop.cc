@@ -22,16 +22,16 @@ BundleProblem BuildProblem(const Map& map, const Frame& frame, const std::vector
     const Landmark& landmark = map.At(matches[i].landmark);
     const auto point = static_cast<int>(problem.points.size());
     problem.points.push_back(landmark.position);
-    problem.sights.push_back(MakeSight(
+    problem.observations.push_back(MakeObservation(
         kNewPose, point, frame.measurements[static_cast<std::size_t>(matches[i].feature)]));
     for (const Observation& observation : landmark.observations) {
       const Keyframe& keyframe = map.At(observation.keyframe);
       const auto next = static_cast<int>(problem.poses.size());
       const auto [pose, is_new] = pose_of.emplace(observation.keyframe, next);
       if (is_new) problem.poses.push_back({keyframe.T_world_rig.inverse(), true});
-      problem.sights.push_back(
-          MakeSight(pose->second, point,
-                    keyframe.frame->measurements[static_cast<std::size_t>(observation.feature)]));
+      problem.observations.push_back(MakeObservation(
+          pose->second, point,
+          keyframe.frame->measurements[static_cast<std::size_t>(observation.feature)]));
     }
   }
   return problem;
@@ -48,8 +48,8 @@ std::optional<AdjustedView> AdjustView(const Map& map, const Frame& frame,
   BundleProblem problem = BuildProblem(map, frame, matches, inlier, T_rig_world, camera);
   const auto within = [&] {
     std::vector<bool> active;
-    for (const BundleProblem::Sight& sight : problem.sights) {
-      active.push_back(Chi2(problem, sight) <= sight.chi2_bound);
+    for (const BundleProblem::Observation& observation : problem.observations) {
+      active.push_back(Chi2(problem, observation) <= observation.chi2_bound);
     }
     return active;
   };
@@ -58,8 +58,9 @@ std::optional<AdjustedView> AdjustView(const Map& map, const Frame& frame,
   }
   if (!Solve(problem, within(), {kIterations, false}).usable) return std::nullopt;
   AdjustedView view{problem.poses[kNewPose].T_rig_world, 0};
-  for (const BundleProblem::Sight& sight : problem.sights) {
-    view.inliers += sight.pose == kNewPose && Chi2(problem, sight) <= sight.chi2_bound;
+  for (const BundleProblem::Observation& observation : problem.observations) {
+    view.inliers +=
+        observation.pose == kNewPose && Chi2(problem, observation) <= observation.chi2_bound;
   }
   return view;
 }

@@ -17,9 +17,10 @@ struct AdjustedView {
 };
 
 /// The pose of a frame that sees old landmarks (`matches`, those with `inlier`), adjusted together
-/// with the landmarks: the old keyframes hold still, and their sights and the new ones share the
-/// error by the noise they state. A pose against landmarks held fixed would inherit the depth error
-/// of the one stereo pair that placed them. Nothing where the adjustment is numerically unsound.
+/// with the landmarks: the old keyframes hold still, and their observations and the new ones share
+/// the error by the noise they state. A pose against landmarks held fixed would inherit the depth
+/// error of the one stereo pair that placed them. Nothing where the adjustment is numerically
+/// unsound.
 std::optional<AdjustedView> AdjustView(const Map& map, const Frame& frame,
                                        const std::vector<Match>& matches,
                                        const std::vector<bool>& inlier,

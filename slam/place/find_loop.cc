@@ -12,14 +12,14 @@
 namespace aisle::slam {
 namespace {
 
-std::vector<PointSight> Sights(const Map& map, const Frame& frame,
-                               const std::vector<Match>& matches) {
-  std::vector<PointSight> sights;
+std::vector<PointObservation> Observations(const Map& map, const Frame& frame,
+                                           const std::vector<Match>& matches) {
+  std::vector<PointObservation> observations;
   for (const Match& match : matches) {
-    sights.push_back({map.At(match.landmark).position,
-                      frame.measurements[static_cast<std::size_t>(match.feature)]});
+    observations.push_back({map.At(match.landmark).position,
+                            frame.measurements[static_cast<std::size_t>(match.feature)]});
   }
-  return sights;
+  return observations;
 }
 
 /// Landmarks of a keyframe and of those most covisible with it.
@@ -79,7 +79,7 @@ std::optional<LoopEdge> VerifyLoop(const Map& map, KeyframeId current, KeyframeI
   const Frame& frame = *map.At(current).frame;
   const std::vector<Match> matches = MatchKeyframe(
       map, map.At(matched), frame, options.descriptor_distance, options.descriptor_ratio);
-  const auto first = AlignPoints(camera, Sights(map, frame, matches), options.align);
+  const auto first = AlignPoints(camera, Observations(map, frame, matches), options.align);
   if (!first) return std::nullopt;
 
   std::vector<Expected> expected;
@@ -89,8 +89,8 @@ std::optional<LoopEdge> VerifyLoop(const Map& map, KeyframeId current, KeyframeI
   }
   const std::vector<Match> confirmed =
       MatchByProjection(frame, expected, {}, {options.radius_px, options.descriptor_distance, 0.9});
-  const RefinedPose refined =
-      RefinePose(camera, first->T_rig_world, Sights(map, frame, confirmed), {.trust_start = true});
+  const RefinedPose refined = RefinePose(
+      camera, first->T_rig_world, Observations(map, frame, confirmed), {.trust_start = true});
   if (refined.inliers < options.least_inliers || !refined.well_posed) return std::nullopt;
   const auto adjusted =
       AdjustView(map, frame, confirmed, refined.inlier, refined.T_rig_world, camera);
@@ -104,13 +104,13 @@ std::optional<LoopEdge> FindLoop(const Map& map, KeyframeId current, const WordV
                                  const LoopOptions& options) {
   // Whatever shares landmarks is here already; a loop looks nearly as much like here as they do.
   std::set<KeyframeId> here = {current};
-  double least_likeness = 1;
+  double least_similarity = 1;
   constexpr int kNeighbourShared = 30;
   for (const Covisible& covisible : CovisibleKeyframes(map, current, 1)) {
     here.insert(covisible.keyframe);
     const WordVector* neighbour = index.Find(covisible.keyframe);
     if (neighbour && covisible.shared >= kNeighbourShared) {
-      least_likeness = std::min(least_likeness, Likeness(words, *neighbour));
+      least_similarity = std::min(least_similarity, Likeness(words, *neighbour));
     }
   }
   const KeyframeId part = RootOf(map, current);
@@ -121,11 +121,11 @@ std::optional<LoopEdge> FindLoop(const Map& map, KeyframeId current, const WordV
   }
   std::optional<LoopEdge> best;
   int looked_at = 0;
-  for (const Lookalike& lookalike : index.Query(words)) {
-    if (lookalike.likeness < options.similarity_ratio * least_likeness) break;
-    if (here.contains(lookalike.keyframe) || !map.Find(lookalike.keyframe)) continue;
+  for (const PlaceMatch& match : index.Query(words)) {
+    if (match.similarity < options.similarity_ratio * least_similarity) break;
+    if (here.contains(match.keyframe) || !map.Find(match.keyframe)) continue;
     if (looked_at++ == options.candidates) break;
-    const auto loop = VerifyLoop(map, current, lookalike.keyframe, camera, levels, options);
+    const auto loop = VerifyLoop(map, current, match.keyframe, camera, levels, options);
     if (loop && (!best || loop->inliers > best->inliers)) best = loop;
   }
   return best;

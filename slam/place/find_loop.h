@@ -15,7 +15,7 @@ namespace aisle::slam {
 struct LoopOptions {
   int candidates = 3;             ///< keyframes looked at closely, most alike first
   int recent_keyframes = 10;      ///< the newest ones are no loop
-  double similarity_ratio = 0.8;  ///< of the likeness to the least alike neighbour
+  double similarity_ratio = 0.8;  ///< of the similarity to the least alike neighbour
   int descriptor_distance = 50;   ///< bits
   double descriptor_ratio = 0.8;  ///< best to second best
   AlignPointsOptions align;       ///< the pose between the two keyframes

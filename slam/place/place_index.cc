@@ -26,17 +26,18 @@ const WordVector* PlaceIndex::Find(KeyframeId id) const {
   return image == images_.end() ? nullptr : &image->second;
 }
 
-std::vector<Lookalike> PlaceIndex::Query(const WordVector& words) const {
-  std::map<KeyframeId, double> likeness;
+std::vector<PlaceMatch> PlaceIndex::Query(const WordVector& words) const {
+  std::map<KeyframeId, double> similarity;
   for (const auto& [word, weight] : words) {
     const auto entries = by_word_.find(word);
     if (entries == by_word_.end()) continue;
-    for (const auto& [id, other] : entries->second) likeness[id] += std::min(weight, other);
+    for (const auto& [id, other] : entries->second) similarity[id] += std::min(weight, other);
   }
-  std::vector<Lookalike> found;
-  for (const auto& [id, value] : likeness) found.push_back({id, value});
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Lookalike& a, const Lookalike& b) { return a.likeness > b.likeness; });
+  std::vector<PlaceMatch> found;
+  for (const auto& [id, value] : similarity) found.push_back({id, value});
+  std::stable_sort(found.begin(), found.end(), [](const PlaceMatch& a, const PlaceMatch& b) {
+    return a.similarity > b.similarity;
+  });
   return found;
 }
 

@@ -9,9 +9,9 @@
 namespace aisle::slam {
 
 /// A keyframe and how much it looks like what was asked for.
-struct Lookalike {
+struct PlaceMatch {
   KeyframeId keyframe;
-  double likeness = 0;  ///< 0 to 1
+  double similarity = 0;  ///< 0 to 1
 };
 
 /// Which keyframes contain which words, so that a query touches only those that share some.
@@ -24,7 +24,7 @@ class PlaceIndex {
   const WordVector* Find(KeyframeId id) const;
 
   /// Keyframes that share a word with the query, most alike first, then older first.
-  std::vector<Lookalike> Query(const WordVector& words) const;
+  std::vector<PlaceMatch> Query(const WordVector& words) const;
 
  private:
   std::map<KeyframeId, WordVector> images_;

@@ -12,13 +12,14 @@ namespace {
 /// Right features by the image rows they could be matched from; indices rise within a row.
 class RowTable {
  public:
-  RowTable(const EyeFeatures& eye, double band_px) : rows_(static_cast<std::size_t>(Height(eye))) {
-    for (int i = 0; i < eye.features.size(); ++i) {
-      const Keypoint& keypoint = eye.features.keypoints[static_cast<std::size_t>(i)];
-      const double band = band_px * eye.pyramid.scales[static_cast<std::size_t>(keypoint.level)];
+  RowTable(const ImageFeatures& image, double band_px)
+      : rows_(static_cast<std::size_t>(Height(image))) {
+    for (int i = 0; i < image.features.size(); ++i) {
+      const Keypoint& keypoint = image.features.keypoints[static_cast<std::size_t>(i)];
+      const double band = band_px * image.pyramid.scales[static_cast<std::size_t>(keypoint.level)];
       const int first = std::max(0, static_cast<int>(std::floor(keypoint.pixel.y - band)));
       const int last =
-          std::min(Height(eye) - 1, static_cast<int>(std::ceil(keypoint.pixel.y + band)));
+          std::min(Height(image) - 1, static_cast<int>(std::ceil(keypoint.pixel.y + band)));
       for (int y = first; y <= last; ++y) rows_[static_cast<std::size_t>(y)].push_back(i);
     }
   }
@@ -29,14 +30,14 @@ class RowTable {
   }
 
  private:
-  static int Height(const EyeFeatures& eye) {
-    return eye.pyramid.levels.empty() ? 1 : eye.pyramid.levels.front().rows;
+  static int Height(const ImageFeatures& image) {
+    return image.pyramid.levels.empty() ? 1 : image.pyramid.levels.front().rows;
   }
   std::vector<std::vector<int>> rows_;
 };
 
 /// The right feature most like left feature i within reach, or -1.
-int BestRightFeature(const EyeFeatures& left, std::size_t i, const EyeFeatures& right,
+int BestRightFeature(const ImageFeatures& left, std::size_t i, const ImageFeatures& right,
                      const RowTable& rows, double largest_disparity, const StereoOptions& options) {
   const Keypoint& keypoint = left.features.keypoints[i];
   int best = -1, least = options.descriptor_distance;
@@ -76,7 +77,7 @@ void DropMismatched(std::vector<Candidate>& candidates, double worst_to_median) 
 
 }  // namespace
 
-std::vector<Disparity> MatchStereo(const EyeFeatures& left, const EyeFeatures& right,
+std::vector<Disparity> MatchStereo(const ImageFeatures& left, const ImageFeatures& right,
                                    const StereoCamera& camera, const StereoOptions& options) {
   const double nearest = options.nearest_m > 0 ? options.nearest_m : camera.baseline_m;
   const double largest_disparity = camera.fx * camera.baseline_m / nearest;

@@ -19,7 +19,7 @@ struct Disparity {
 /// For each left feature its disparity, if the right image shows it: matched along the row band by
 /// descriptor, then aligned to a fraction of a pixel by comparing patches at the feature's level.
 /// The deviation follows from the patch's gradient along the row. Same length as left.features.
-std::vector<Disparity> MatchStereo(const EyeFeatures& left, const EyeFeatures& right,
+std::vector<Disparity> MatchStereo(const ImageFeatures& left, const ImageFeatures& right,
                                    const StereoCamera& camera, const StereoOptions& options);
 
 }  // namespace aisle::slam

@@ -48,7 +48,7 @@ std::optional<RowAlignment> AlignByParabola(const cv::Mat1b& left, cv::Point2d l
   const double before = at(best - 1), least = at(best), after = at(best + 1);
   const double delta = (before - after) / (2 * (before + after - 2 * least));
   if (!(std::abs(delta) <= 1)) return std::nullopt;  // also where all three are equal
-  // The corner lies off its whole pixel by as much in either eye.
+  // The corner lies off its whole pixel by as much in either camera.
   const double off = left_pixel.x - here.x;
   return RowAlignment{start.x + static_cast<double>(best - reach) + delta + off, 0,
                       least / (side * side)};

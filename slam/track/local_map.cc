@@ -7,14 +7,14 @@ namespace {
 
 /// Keyframes that see any of the landmarks, most first, then newer first.
 std::vector<KeyframeId> Observers(const Map& map, const std::vector<LandmarkId>& landmarks) {
-  std::map<KeyframeId, int> sights;
+  std::map<KeyframeId, int> shared;
   for (const LandmarkId id : landmarks) {
     const Landmark* landmark = map.Find(id);
     if (!landmark) continue;
-    for (const Observation& observation : landmark->observations) ++sights[observation.keyframe];
+    for (const Observation& observation : landmark->observations) ++shared[observation.keyframe];
   }
   std::vector<std::pair<int, KeyframeId>> ranked;
-  for (const auto& [keyframe, count] : sights) ranked.emplace_back(count, keyframe);
+  for (const auto& [keyframe, count] : shared) ranked.emplace_back(count, keyframe);
   std::sort(ranked.rbegin(), ranked.rend());
   std::vector<KeyframeId> observers;
   for (const auto& [count, keyframe] : ranked) observers.push_back(keyframe);

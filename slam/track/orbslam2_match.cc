@@ -14,8 +14,8 @@ std::size_t SectorOf(float turn_deg) {
   return static_cast<std::size_t>(sector < 0 ? sector + kSectors : sector);
 }
 
-/// Whether a feature with depth lies too far from where the right eye should see the landmark.
-bool IsOffInRightEye(const Measurement& measurement, const Sought& sought) {
+/// Whether a feature with depth lies too far from where the right camera should see the landmark.
+bool IsOffInRightImage(const Measurement& measurement, const Sought& sought) {
   if (!measurement.has_depth()) return false;
   const double measured = measurement.uvd.x() - measurement.uvd.z();
   return std::abs(measured - (sought.uvd.x() - sought.uvd.z())) > sought.radius_px;
@@ -29,7 +29,7 @@ Match BestFeature(const Frame& frame, const Sought& sought, int distance, double
   for (const int candidate : frame.grid.Near(pixel, static_cast<float>(sought.radius_px),
                                              sought.lowest, sought.highest)) {
     const auto i = static_cast<std::size_t>(candidate);
-    if (taken[i] || IsOffInRightEye(frame.measurements[i], sought)) continue;
+    if (taken[i] || IsOffInRightImage(frame.measurements[i], sought)) continue;
     const int bits = HammingDistance(sought.landmark->descriptor, frame.features.descriptors[i]);
     const int level = frame.features.keypoints[i].level;
     if (bits < best.distance) {

@@ -24,12 +24,12 @@ struct Supported {
 
 RefinedPose Refine(const OrbSlam2Scene& scene, const Eigen::Isometry3d& T_rig_world,
                    const std::vector<Match>& matches) {
-  std::vector<PointSight> sights;
+  std::vector<PointObservation> observations;
   for (const Match& match : matches) {
-    sights.push_back(
+    observations.push_back(
         {scene.map.At(match.landmark).position, scene.frame.measurements[Slot(match.feature)]});
   }
-  return RefinePose(scene.camera, T_rig_world, sights, {.start_anew = true});
+  return RefinePose(scene.camera, T_rig_world, observations, {.start_anew = true});
 }
 
 /// Nothing where too few matches agree or they fix no pose.
@@ -136,14 +136,14 @@ std::vector<Sought> Expected(const OrbSlam2Scene& scene,
   std::vector<LandmarkId> ids;
   for (const Match& match : known) ids.push_back(match.landmark);
   std::ranges::sort(ids);
-  const Eigen::Vector3d eye = T_rig_world.inverse(Eigen::Isometry).translation();
+  const Eigen::Vector3d centre = T_rig_world.inverse(Eigen::Isometry).translation();
   const OrbSlam2Options& options = scene.options;
   std::vector<Sought> sought;
   for (const Landmark* landmark : landmarks) {
     if (std::ranges::binary_search(ids, landmark->id)) continue;
     const auto view = Expect(*landmark, scene.camera, T_rig_world, scene.frame.scale, scene.levels);
     if (!view) continue;
-    const Eigen::Vector3d ray = landmark->position - eye;
+    const Eigen::Vector3d ray = landmark->position - centre;
     const bool ahead = ray.dot(landmark->normal) > options.ahead_cosine * ray.norm();
     const int level = PredictLevelAbove(*landmark, ray.norm(), scene.frame.scale, scene.levels);
     const double radius_px = factor * (ahead ? options.ahead_radius_px : options.aside_radius_px);
@@ -211,12 +211,12 @@ std::optional<Supported> RecogniseLost(const OrbSlam2Scene& scene, const Keyfram
   const OrbSlam2Options& options = scene.options;
   const std::vector<Match> matches = MatchLooks(scene, keyframe, options.lost_ratio);
   if (std::ssize(matches) < options.least_lost_matches) return std::nullopt;
-  std::vector<PointSight> sights;
+  std::vector<PointObservation> observations;
   for (const Match& match : matches) {
-    sights.push_back(
+    observations.push_back(
         {scene.map.At(match.landmark).position, scene.frame.measurements[Slot(match.feature)]});
   }
-  const auto pose = AlignPoints(scene.camera, sights, options.align);
+  const auto pose = AlignPoints(scene.camera, observations, options.align);
   if (!pose) return std::nullopt;
   auto found = RefineFirst(scene, pose->T_rig_world, matches);
   if (found && found->pose.inliers < options.least_found_inliers) {

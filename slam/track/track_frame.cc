@@ -16,13 +16,13 @@ struct Scene {
   const TrackOptions& options;
 };
 
-std::vector<PointSight> Sights(const Scene& scene, const std::vector<Match>& matches) {
-  std::vector<PointSight> sights;
+std::vector<PointObservation> Observations(const Scene& scene, const std::vector<Match>& matches) {
+  std::vector<PointObservation> observations;
   for (const Match& match : matches) {
-    sights.push_back({scene.map.At(match.landmark).position,
-                      scene.frame.measurements[static_cast<std::size_t>(match.feature)]});
+    observations.push_back({scene.map.At(match.landmark).position,
+                            scene.frame.measurements[static_cast<std::size_t>(match.feature)]});
   }
-  return sights;
+  return observations;
 }
 
 std::vector<LandmarkId> Inliers(const std::vector<Match>& matches, const RefinedPose& pose) {
@@ -53,7 +53,7 @@ std::optional<FirstPose> FollowLandmarks(const Scene& scene,
   match_options.radius_px *= widen;
   const std::vector<Match> matches = MatchByProjection(scene.frame, expected, {}, match_options);
   if (std::ssize(matches) < scene.options.least_motion_matches) return std::nullopt;
-  const RefinedPose pose = RefinePose(scene.camera, T_rig_world, Sights(scene, matches), {});
+  const RefinedPose pose = RefinePose(scene.camera, T_rig_world, Observations(scene, matches), {});
   if (pose.inliers < scene.options.least_inliers || !pose.well_posed) return std::nullopt;
   return FirstPose{pose.T_rig_world, Inliers(matches, pose)};
 }
@@ -64,7 +64,7 @@ std::optional<FirstPose> RecogniseKeyframe(const Scene& scene, KeyframeId id) {
   const std::vector<Match> matches =
       MatchKeyframe(scene.map, *keyframe, scene.frame, scene.options.keyframe_distance,
                     scene.options.keyframe_ratio);
-  const auto pose = AlignPoints(scene.camera, Sights(scene, matches), scene.options.align);
+  const auto pose = AlignPoints(scene.camera, Observations(scene, matches), scene.options.align);
   if (!pose) return std::nullopt;
   return FirstPose{pose->T_rig_world, Inliers(matches, *pose)};
 }
@@ -82,7 +82,8 @@ std::optional<FramePose> RefineInLocalMap(const Scene& scene, const FirstPose& f
     result.expected.push_back(landmark->id);
   }
   result.matches = MatchByProjection(scene.frame, expected, {}, scene.options.local_map);
-  result.pose = RefinePose(scene.camera, first.T_rig_world, Sights(scene, result.matches), {});
+  result.pose =
+      RefinePose(scene.camera, first.T_rig_world, Observations(scene, result.matches), {});
   if (result.pose.inliers < scene.options.least_map_inliers || !result.pose.well_posed) {
     return std::nullopt;
   }
@@ -147,14 +148,14 @@ std::optional<FramePose> FindAgain(const Map& map, const Frame& frame, const Tra
     if (one) expected.push_back(*one);
   }
 
-  TrackOptions sighted = options;
-  sighted.least_map_inliers = reckoning.least_inliers;
-  const Scene scene{map, frame, camera, levels, sighted};
+  TrackOptions relaxed = options;
+  relaxed.least_map_inliers = reckoning.least_inliers;
+  const Scene scene{map, frame, camera, levels, relaxed};
   for (const double grown_px : {0.0, reckoning.radius_growth_px_per_s * gap_s}) {
     MatchOptions match_options = reckoning.match;
     match_options.radius_px += grown_px;
     const std::vector<Match> matches = MatchByProjection(frame, expected, {}, match_options);
-    const auto pose = AlignPoints(camera, Sights(scene, matches), reckoning.align);
+    const auto pose = AlignPoints(camera, Observations(scene, matches), reckoning.align);
     if (!pose) continue;
     auto found = RefineInLocalMap(scene, {pose->T_rig_world, Inliers(matches, *pose)});
     if (found && IsNear(T_predicted_world, found->pose.T_rig_world, gap_s, reckoning) &&

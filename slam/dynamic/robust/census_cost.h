@@ -8,7 +8,7 @@
 namespace aisle::slam::dynamic {
 
 /// For each pixel of an image, which of the 24 others of its 5x5 window are darker than it: a
-/// census transform (Zabih and Woodfill 1994), which neither gain nor offset of an eye changes.
+/// census transform (Zabih and Woodfill 1994), which neither gain nor offset of a camera changes.
 /// Eight of the bits in each plane. The image's border is repeated.
 using CensusPlanes = std::array<cv::Mat1b, 3>;
 CensusPlanes CensusTransform(const cv::Mat1b& image);

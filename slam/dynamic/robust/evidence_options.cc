@@ -13,10 +13,10 @@ void DescribeMeasurements(OptionFields& fields, EvidenceOptions& options) {
                 "Deviation of the flow per pixel of displacement.");
   fields.Number("independent_pixels", &options.independent_pixels, {0.1, 1000}, "",
                 "Pixels of a window whose grey values count as independent.");
-  fields.Number("misfit_weight", &options.misfit_weight, {0, 100}, "",
+  fields.Number("difference_weight", &options.difference_weight, {0, 100}, "",
                 "Weight of an ill fit of the moved window against that count.");
-  fields.Number("hidden_misfit", &options.hidden_misfit, {0, 100}, "",
-                "Limit of that misfit where the static surface was hidden.");
+  fields.Number("hidden_difference", &options.hidden_difference, {0, 100}, "",
+                "Limit of that difference where the static surface was hidden.");
 }
 
 /// Which surfaces may be one and the same.

@@ -13,7 +13,7 @@ inline constexpr int kFlowPatch = 8;  ///< side of the patches that are searched
 struct FlowPatch {
   int x = 0, y = 0;              ///< its first pixel
   float sum_x = 0, sum_y = 0;    ///< of its gradients
-  float xx = 0, xy = 0, yy = 0;  ///< inverse of the sums of their products, without the means
+  float xx = 0, xy = 0, yy = 0;  ///< inverse of their structure tensor, without means
 };
 
 /// An image at one size.

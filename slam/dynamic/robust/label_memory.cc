@@ -90,7 +90,7 @@ LabelMemory CarryMemory(const LabelMemory& previous, const cv::Mat2f& flow, cons
   tbb::parallel_for(0, flow.rows, [&](int y) {
     const int unseen = ColumnsUnseen(now.disparity[y], flow.cols);
     for (int x = 0; x < flow.cols; ++x) {
-      // Who leaves to the left is known no less where the right eye loses him first.
+      // Who leaves to the left is known no less where the right camera loses him first.
       const bool flow_alone = x < unseen && now.disparity(y, x) <= 0;
       const cv::Point from = flow_alone
                                  ? PixelAt(flow(y, x), flow.size())

@@ -7,8 +7,8 @@
 
 #include "slam/dynamic/common/median.h"
 #include "slam/dynamic/robust/fast_log.h"
-#include "slam/dynamic/robust/misfit.h"
 #include "slam/dynamic/robust/residual_flow.h"
+#include "slam/dynamic/robust/squared_difference.h"
 #include "slam/dynamic/robust/static_alias.h"
 
 namespace aisle::slam::dynamic {
@@ -61,7 +61,7 @@ struct Evidence {
   const EvidenceOptions& options;
   const Surroundings& around;
   StaticField expected;
-  cv::Mat1f misfit_static, misfit_moved;
+  cv::Mat1f difference_static, difference_moved;
 
   float most;                    // log-odds that matter
   float mover_px_per_disparity;  // image speed of a mover over the gap, for each pixel of disparity
@@ -153,12 +153,12 @@ struct Evidence {
     const auto speeds = static_cast<float>(options.same_surface_speeds);
     const bool other = seen <= 0 || off >= SameSurface(d) + speeds * change;
     if (other && !WasBlind(frames.flow(y, x), d, seen)) return 0;
-    const float moved = misfit_moved(y, x);
+    const float moved = difference_moved(y, x);
     if (hidden && (std::abs(seen - d) >= SameSurface(d) + change ||
-                   moved >= static_cast<float>(options.hidden_misfit))) {
+                   moved >= static_cast<float>(options.hidden_difference))) {
       return 0;
     }
-    const float gain = (misfit_static(y, x) - moved) * GainPerMisfit(moved, options);
+    const float gain = (difference_static(y, x) - moved) * GainPerDifference(moved, options);
     return std::clamp(gain, 0.0F, log_odds);
   }
 };
@@ -177,7 +177,7 @@ std::optional<double> MeasureFlowNoise(const Evidence& evidence) {
                   xy = evidence.texture.xy(y, x);
       if (xx * yy - xy * xy < kLeastTexture * (xx + yy)) continue;
       if (evidence.OtherVariance(y, x) > kMostOther) continue;
-      if (evidence.misfit_moved(y, x) > evidence.misfit_static(y, x)) continue;
+      if (evidence.difference_moved(y, x) > evidence.difference_static(y, x)) continue;
       if (!evidence.frames.regions.empty() && evidence.frames.regions(y, x) > 0) continue;
       const cv::Vec2f r = evidence.frames.flow(y, x) - evidence.expected.place(y, x);
       squares.push_back(r.dot(r));
@@ -247,11 +247,11 @@ MotionEvidence CompareMotion(const Comparison& comparison, const Texture& textur
   tbb::parallel_invoke(
       [&] {
         const cv::Mat1b still = SampleAt(then.image, evidence.expected.place);
-        evidence.misfit_static = Misfit(now.image, still, around.variance);
+        evidence.difference_static = SquaredDifference(now.image, still, around.variance);
       },
       [&] {
         const cv::Mat1b moved = SampleAt(then.image, comparison.flow);
-        evidence.misfit_moved = Misfit(now.image, moved, around.variance);
+        evidence.difference_moved = SquaredDifference(now.image, moved, around.variance);
       });
   const cv::Size size = now.image.size();
   MotionEvidence found{

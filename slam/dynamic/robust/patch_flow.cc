@@ -47,13 +47,13 @@ struct Shift {
   float u = 0, v = 0;
 };
 
-struct Misfit {
+struct PatchDifference {
   float squares = 0;  // without the mean
   float along_x = 0, along_y = 0;
 };
 
-Misfit Compare(const FlowLevel& level, const FlowPatch& patch, const cv::Mat1f& padded,
-               const Shift& shift) {
+PatchDifference Compare(const FlowLevel& level, const FlowPatch& patch, const cv::Mat1f& padded,
+                        const Shift& shift) {
   const Sampler sampler(padded, static_cast<float>(patch.x) + shift.u,
                         static_cast<float>(patch.y) + shift.v);
   Eight sum{}, squares{}, along_x{}, along_y{}, off, gradient_x, gradient_y;
@@ -80,13 +80,13 @@ Shift Descend(const FlowLevel& level, const FlowPatch& patch, const cv::Mat1f& p
   Shift best = start, next = start;
   float least = std::numeric_limits<float>::max();
   for (int k = 0; k <= descents; ++k) {
-    const Misfit misfit = Compare(level, patch, padded, next);
+    const PatchDifference ssd = Compare(level, patch, padded, next);
     const float u = next.u - start.u, v = next.v - start.v;
-    const float energy = misfit.squares + inertia * (u * u + v * v);
+    const float energy = ssd.squares + inertia * (u * u + v * v);
     if (energy >= least) break;
     least = energy;
     best = next;
-    const float x = misfit.along_x + inertia * u, y = misfit.along_y + inertia * v;
+    const float x = ssd.along_x + inertia * u, y = ssd.along_y + inertia * v;
     const float du = patch.xx * x + patch.xy * y;
     const float dv = patch.xy * x + patch.yy * y;
     if (du * du + dv * dv < kEnough * kEnough) break;
@@ -117,9 +117,9 @@ void Spread(const FlowLevel& level, const FlowPatch& patch, const cv::Mat1f& pad
     const int y = patch.y + row;
     Eight off;
     sampler.Subtract(row, level.image[y] + patch.x, off);
-    const Eight misfit = off < 0 ? -off : off;
+    const Eight size = off < 0 ? -off : off;
     const Eight one = Eight{} + 1;
-    const Eight weight = one / (misfit > one ? misfit : one);
+    const Eight weight = one / (size > one ? size : one);
     Add(weight * shift.u, average.u[y] + patch.x);
     Add(weight * shift.v, average.v[y] + patch.x);
     Add(weight, average.weight[y] + patch.x);

@@ -73,8 +73,8 @@ struct EvidenceOptions {
   double noise_per_displacement = 0.01;
   /// Pixels of a window that count as independent when the window's grey values are to say that it
   /// has moved, and what an ill fit of the moved window takes off.
-  double independent_pixels = 10, misfit_weight = 0.5;
-  double hidden_misfit = 1.5;  ///< limit of that misfit where the static surface was hidden
+  double independent_pixels = 10, difference_weight = 0.5;
+  double hidden_difference = 1.5;  ///< limit of that difference where the static surface was hidden
   /// Disparities so far apart are two matches, not one measured ill.
   double other_disparity = 1.5;
   /// Log-odds of earlier frames from which on nobody asks for what looks the same.

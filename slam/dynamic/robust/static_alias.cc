@@ -7,15 +7,15 @@ namespace {
 
 constexpr int kReach = 3, kWindow = 2 * kReach + 1;
 constexpr int kMostDisparities = 128;
-constexpr float kUnknown = 1e6F;  // a misfit that nothing has
+constexpr float kUnknown = 1e6F;  // larger than any squared difference
 
 /// Squared differences between the window around a pixel and those of the right image at each
 /// disparity, as far as the half pixel around cannot explain them (Birchfield and Tomasi, 1998).
 /// Each difference is cut so that their sum fits.
-class StereoMisfits {
+class StereoDifferences {
  public:
   /// For disparities of [0, count), of which windows within the right image are fewer.
-  StereoMisfits(const DenseFrame& frame, cv::Point at, int count)
+  StereoDifferences(const DenseFrame& frame, cv::Point at, int count)
       : count_(std::min(count, at.x - kReach + 1)) {
     if (count_ <= 0) return;
     const int first = at.x - count_ + 1 - kReach;  // column of the farthest window's left edge
@@ -61,8 +61,8 @@ class StereoMisfits {
 
 /// Squared differences between the window around a pixel and the earlier image's around a place
 /// between pixels, cut like those of stereo; exact only up to `most`. Endless outside.
-int MisfitInTime(const cv::Mat1b& now, const cv::Mat1b& then, cv::Point at, const cv::Vec2f& place,
-                 int most) {
+int DifferenceInTime(const cv::Mat1b& now, const cv::Mat1b& then, cv::Point at,
+                     const cv::Vec2f& place, int most) {
   constexpr int kParts = 16, kMostDifference = 36;
   const int left = cvFloor(place[0]), top = cvFloor(place[1]);
   if (left < kReach || top < kReach || left + kReach + 1 >= then.cols ||
@@ -113,9 +113,9 @@ Steps StepsAround(int disparity, const cv::Vec2f& per_disparity) {
 
 }  // namespace
 
-float GainPerMisfit(float misfit, const EvidenceOptions& options) {
+float GainPerDifference(float difference, const EvidenceOptions& options) {
   return static_cast<float>(options.independent_pixels) / 2 /
-         (1 + static_cast<float>(options.misfit_weight) * misfit);
+         (1 + static_cast<float>(options.difference_weight) * difference);
 }
 
 float LimitByAlias(const AliasViews& views, const SeenMotion& seen, float log_odds,
@@ -129,16 +129,16 @@ float LimitByAlias(const AliasViews& views, const SeenMotion& seen, float log_od
   const cv::Point at(std::clamp(seen.at.x, kReach, now.cols - kReach - 1),
                      std::clamp(seen.at.y, kReach, now.rows - kReach - 1));
   const cv::Vec2f shift(static_cast<float>(at.x - seen.at.x), static_cast<float>(at.y - seen.at.y));
-  const StereoMisfits stereo(views.now, at, options.alias_disparities);
+  const StereoDifferences stereo(views.now, at, options.alias_disparities);
   const int own = cvRound(seen.disparity);
   if (own >= stereo.count()) return log_odds;
   const int in_time =
-      MisfitInTime(now, views.then, at, seen.flow + shift, std::numeric_limits<int>::max());
+      DifferenceInTime(now, views.then, at, seen.flow + shift, std::numeric_limits<int>::max());
   if (in_time == std::numeric_limits<int>::max()) return log_odds;
 
   const float unit = kWindow * kWindow * views.variance(seen.at);
   const float moving = static_cast<float>(stereo[own] + in_time) / unit;
-  const float gain = GainPerMisfit(moving, options);
+  const float gain = GainPerDifference(moving, options);
   const int enough = static_cast<int>(std::min((moving + log_odds / gain) * unit, kUnknown));
   int best = enough;
   for (int k = 0; k < stereo.count(); ++k) {
@@ -151,7 +151,7 @@ float LimitByAlias(const AliasViews& views, const SeenMotion& seen, float log_od
                                       views.depth_per_disparity);
       const cv::Vec2f way = place - seen.expected;
       if (way.dot(way) < kLeastWay * kLeastWay) continue;
-      const int then = MisfitInTime(now, views.then, at, place + shift, best - stereo[k]);
+      const int then = DifferenceInTime(now, views.then, at, place + shift, best - stereo[k]);
       if (then < best) best = std::min(best, stereo[k] + then);
     }
   }

@@ -28,7 +28,7 @@ struct SeenMotion {
 
 /// Log-odds of what fits so well against what fits otherwise, for each unit of their difference.
 /// Fits are mean squared differences in units of variance.
-float GainPerMisfit(float misfit, const EvidenceOptions& options);
+float GainPerDifference(float difference, const EvidenceOptions& options);
 
 /// What is left of the log-odds of having moved when the best static explanation has been heard. On
 /// a corrugated wall or a row of equal bars the matcher may be whole periods off, and the flow as

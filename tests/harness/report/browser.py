@@ -98,7 +98,7 @@ class Browser:
         return answer['result'].get('value')
 
     def middle_of(self, selector):
-        """In pixels of the window, the element scrolled into sight."""
+        """In pixels of the window, the element scrolled into observation."""
         element = f'document.querySelector({json.dumps(selector)})'
         self.ask(f'{element}.scrollIntoView({{block: "center"}})')
         box = self.ask(f'(r => [r.x + r.width / 2, r.y + r.height / 2])'

@@ -10,16 +10,16 @@ namespace {
 const std::vector<Eigen::Vector3d> kPoints = {
     {0, 0, 1}, {1, -2, 5}, {-3, 0.4, 12}, {0.1, 0.1, 0.3}, {20, 3, 40}};
 
-TEST(StereoCamera, AgreesWithOpenCvInBothEyes) {
+TEST(StereoCamera, AgreesWithOpenCvInBothCameras) {
   const StereoCamera camera;
   const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
   for (const Eigen::Vector3d& point : kPoints) {
     const Eigen::Vector3d uvd = Project(camera, point);
-    for (const double eye_m : {0.0, camera.baseline_m}) {
+    for (const double offset_m : {0.0, camera.baseline_m}) {
       std::vector<cv::Point2d> pixel;
       cv::projectPoints(std::vector<cv::Point3d>{{point.x(), point.y(), point.z()}},
-                        cv::Vec3d(0, 0, 0), cv::Vec3d(-eye_m, 0, 0), K, cv::noArray(), pixel);
-      const double disparity = eye_m > 0 ? uvd.z() : 0;
+                        cv::Vec3d(0, 0, 0), cv::Vec3d(-offset_m, 0, 0), K, cv::noArray(), pixel);
+      const double disparity = offset_m > 0 ? uvd.z() : 0;
       EXPECT_NEAR(pixel[0].x, uvd.x() - disparity, 1e-9);
       EXPECT_NEAR(pixel[0].y, uvd.y(), 1e-9);
     }

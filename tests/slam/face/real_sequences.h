@@ -61,15 +61,15 @@ inline RealSequence LoadKitti06() {
   return sequence;
 }
 
-/// One eye of an EuRoC rig as its sensor.yaml has it.
-struct EurocEye {
+/// One camera of an EuRoC rig as its sensor.yaml has it.
+struct EurocCamera {
   cv::Matx33d K;
   cv::Mat distortion;
   cv::Matx44d T_body_camera;
 };
 
 /// `intrinsics: [...]` and the like, from the few lines of an EuRoC sensor.yaml that matter here.
-inline EurocEye ReadEurocEye(const std::filesystem::path& file) {
+inline EurocCamera ReadEurocCamera(const std::filesystem::path& file) {
   std::ifstream in(file);
   const std::string text((std::istreambuf_iterator<char>(in)), {});
   const auto numbers = [&](const std::string& key, std::size_t count) {
@@ -91,10 +91,10 @@ inline EurocEye ReadEurocEye(const std::filesystem::path& file) {
           cv::Matx44d(t.data())};
 }
 
-/// Turns the two eyes of an EuRoC rig parallel and equal.
+/// Turns the two cameras of an EuRoC rig parallel and equal.
 class EurocRectifier {
  public:
-  EurocRectifier(const EurocEye& left, const EurocEye& right, cv::Size size) {
+  EurocRectifier(const EurocCamera& left, const EurocCamera& right, cv::Size size) {
     const cv::Matx44d T_right_left = right.T_body_camera.inv() * left.T_body_camera;
     const cv::Mat R(cv::Mat(T_right_left)(cv::Rect(0, 0, 3, 3)).clone());
     const cv::Mat t(cv::Mat(T_right_left)(cv::Rect(3, 0, 1, 3)).clone());
@@ -142,8 +142,8 @@ inline RealSequence LoadEurocStill() {
     files.push_back(entry.path().filename());
   }
   std::sort(files.begin(), files.end());
-  const EurocRectifier rectifier(ReadEurocEye(root / "cam0/sensor.yaml"),
-                                 ReadEurocEye(root / "cam1/sensor.yaml"), {752, 480});
+  const EurocRectifier rectifier(ReadEurocCamera(root / "cam0/sensor.yaml"),
+                                 ReadEurocCamera(root / "cam1/sensor.yaml"), {752, 480});
   RealSequence sequence;
   sequence.camera = rectifier.camera();
   for (std::size_t i = 0; i < files.size(); ++i) {

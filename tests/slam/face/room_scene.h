@@ -41,16 +41,16 @@ class RoomScene {
         noise, seed);
   }
 
-  double Grey(const Eigen::Vector3d& eye, const Eigen::Vector3d& ray) const {
+  double Grey(const Eigen::Vector3d& centre, const Eigen::Vector3d& ray) const {
     const Eigen::Vector3d low(-3, -1.5, -4), high(3, 1.2, 12);
     double nearest = std::numeric_limits<double>::infinity();
     int wall = 0;
     for (int axis = 0; axis < 3; ++axis) {
       if (ray[axis] == 0) continue;
-      const double along = ((ray[axis] > 0 ? high : low)[axis] - eye[axis]) / ray[axis];
+      const double along = ((ray[axis] > 0 ? high : low)[axis] - centre[axis]) / ray[axis];
       if (along < nearest) nearest = along, wall = 2 * axis + (ray[axis] > 0);
     }
-    const Eigen::Vector3d hit = eye + nearest * ray;
+    const Eigen::Vector3d hit = centre + nearest * ray;
     const int axis = wall / 2;
     const Texture texture(static_cast<std::uint64_t>(20 + 10 * wall), 0.17);
     return texture(hit[(axis + 1) % 3], hit[(axis + 2) % 3]);

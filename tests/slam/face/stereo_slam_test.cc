@@ -147,7 +147,7 @@ TEST(StereoSlam, AfterDarknessAnExposureThatSettlesMisleadsNobody) {
 TEST(StereoSlam, WaitsForAFirstFrameWithDepth) {
   StereoSlam slam(RoomScene().camera(), {});
   StereoImages images = StraightFilm()[0];
-  images.right = cv::Mat1b(images.left.size(), std::uint8_t{90});  // a dead right eye
+  images.right = cv::Mat1b(images.left.size(), std::uint8_t{90});  // a dead right camera
   EXPECT_EQ(slam.Track(images).state, TrackingState::kInitializing);
   images.left = images.right;
   EXPECT_EQ(slam.Track(images).state, TrackingState::kInitializing);

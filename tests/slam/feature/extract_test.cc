@@ -17,21 +17,21 @@ cv::Mat1b TexturedImage() {
 }
 
 TEST(ExtractFeatures, SpendsItsBudget) {
-  const EyeFeatures eye = ExtractFeatures(TexturedImage(), {}, {});
-  EXPECT_EQ(eye.features.size(), 1200);
-  EXPECT_EQ(eye.features.keypoints.size(), eye.features.descriptors.size());
-  EXPECT_EQ(eye.pyramid.size(), 8);
+  const ImageFeatures image = ExtractFeatures(TexturedImage(), {}, {});
+  EXPECT_EQ(image.features.size(), 1200);
+  EXPECT_EQ(image.features.keypoints.size(), image.features.descriptors.size());
+  EXPECT_EQ(image.pyramid.size(), 8);
 }
 
 TEST(ExtractFeatures, PutsNothingOnTheMaskAndSpendsTheBudgetElsewhere) {
   cv::Mat1b mask(480, 752, std::uint8_t{0});
   cv::rectangle(mask, cv::Rect(100, 0, 350, 480), 255, cv::FILLED);
   const FeatureOptions options;
-  const EyeFeatures eye = ExtractFeatures(TexturedImage(), mask, options);
-  EXPECT_EQ(eye.features.size(), 1200);
-  for (const Keypoint& keypoint : eye.features.keypoints) {
+  const ImageFeatures image = ExtractFeatures(TexturedImage(), mask, options);
+  EXPECT_EQ(image.features.size(), 1200);
+  for (const Keypoint& keypoint : image.features.keypoints) {
     const double margin =
-        options.mask_margin_px * eye.pyramid.scales[static_cast<std::size_t>(keypoint.level)];
+        options.mask_margin_px * image.pyramid.scales[static_cast<std::size_t>(keypoint.level)];
     const double x = keypoint.pixel.x;
     EXPECT_TRUE(x < 100 - 0.9 * margin || x > 449 + 0.9 * margin) << "x " << x;
   }
@@ -52,9 +52,9 @@ TEST(ExtractFeatures, TakesImagesWithoutAnyFeature) {
 TEST(ExtractFeatures, TakesSmallAndNarrowImages) {
   const cv::Mat1b image = TexturedImage();
   for (const cv::Size size : {cv::Size(64, 64), cv::Size(64, 480), cv::Size(752, 40)}) {
-    const EyeFeatures eye = ExtractFeatures(image(cv::Rect({0, 0}, size)).clone(), {}, {});
-    EXPECT_GT(eye.pyramid.size(), 0);
-    EXPECT_GT(eye.features.size(), 0);
+    const ImageFeatures image = ExtractFeatures(image(cv::Rect({0, 0}, size)).clone(), {}, {});
+    EXPECT_GT(image.pyramid.size(), 0);
+    EXPECT_GT(image.features.size(), 0);
   }
 }
 
@@ -63,8 +63,8 @@ TEST(ExtractFeatures, FindsFaintCornersWhereThereAreNoStrongOnes) {
   const auto faint = [&](double u, double v) {
     return u < 376 ? texture(u, v) : 128 + 0.15 * (texture(u, v) - 128);
   };
-  const EyeFeatures eye = ExtractFeatures(Render({752, 480}, faint), {}, {});
-  const auto& keypoints = eye.features.keypoints;
+  const ImageFeatures image = ExtractFeatures(Render({752, 480}, faint), {}, {});
+  const auto& keypoints = image.features.keypoints;
   EXPECT_GT(std::count_if(keypoints.begin(), keypoints.end(),
                           [](const Keypoint& keypoint) { return keypoint.pixel.x > 392; }),
             30);

@@ -153,7 +153,7 @@ TEST(MapContents, ListsThatContradictEachOtherMakeNoMap) {
   expect_refused("slot twice", [](auto& c) { c.landmarks[1].id = c.landmarks[0].id; });
   expect_refused("slot beyond", [](auto& c) { c.vacant.push_back(1 << 30); });
   expect_refused("unseen landmark", [](auto& c) { c.landmarks[0].observations.clear(); });
-  expect_refused("sight of nothing",
+  expect_refused("observation of nothing",
                  [](auto& c) { c.landmarks[0].observations[0].feature = 9999; });
   expect_refused("name of nothing", [](auto& c) { c.keyframes[0].landmarks[0] = {3, 99}; });
   expect_refused("own parent", [](auto& c) { c.keyframes[3].parent = c.keyframes[3].id; });

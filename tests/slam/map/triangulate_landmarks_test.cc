@@ -7,8 +7,8 @@
 namespace aisle::slam {
 namespace {
 
-/// Keyframes that see the same points with one eye: features without any disparity.
-class OneEyed : public testing::Test {
+/// Keyframes that see the same points with one camera: features without any disparity.
+class Monocular : public testing::Test {
  protected:
   void SetUp() override {
     std::mt19937_64 random(11);
@@ -50,7 +50,7 @@ class OneEyed : public testing::Test {
   Map map;
 };
 
-TEST_F(OneEyed, PlacesEveryPointThatBothSee) {
+TEST_F(Monocular, PlacesEveryPointThatBothSee) {
   const KeyframeId before = See({0, 0, 0}), newest = See({1, 0.1, 0.2});
   const auto landmarks = TriangulateLandmarks(map, newest, {before}, camera, {});
   ASSERT_EQ(landmarks.size(), points.size());
@@ -63,7 +63,7 @@ TEST_F(OneEyed, PlacesEveryPointThatBothSee) {
   }
 }
 
-TEST_F(OneEyed, BesidesNoiseEveryPointIsWithinItsStatedShareOfDepth) {
+TEST_F(Monocular, BesidesNoiseEveryPointIsWithinItsStatedShareOfDepth) {
   const KeyframeId before = See({0, 0, 0}, 0.5), newest = See({1.5, 0, 0}, 0.5);
   const auto landmarks = TriangulateLandmarks(map, newest, {before}, camera, {});
   EXPECT_GT(landmarks.size(), 50u);
@@ -73,14 +73,14 @@ TEST_F(OneEyed, BesidesNoiseEveryPointIsWithinItsStatedShareOfDepth) {
   }
 }
 
-TEST_F(OneEyed, WithoutParallaxNothingIsPlaced) {
+TEST_F(Monocular, WithoutParallaxNothingIsPlaced) {
   const KeyframeId before = See({0, 0, 0}), close = See({0.1, 0, 0}), ahead = See({0.15, 0, 0});
   EXPECT_TRUE(TriangulateLandmarks(map, close, {before}, camera, {}).empty());
   EXPECT_TRUE(TriangulateLandmarks(map, ahead, {before}, camera, {}).empty());
   EXPECT_TRUE(TriangulateLandmarks(map, ahead, {}, camera, {}).empty());
 }
 
-TEST_F(OneEyed, WhatHasMovedOffItsEpipolarLineIsNotMatched) {
+TEST_F(Monocular, WhatHasMovedOffItsEpipolarLineIsNotMatched) {
   const KeyframeId before = See({0, 0, 0});
   for (Eigen::Vector3d& point : points) point.y() += 0.4;
   const KeyframeId newest = See({1, 0, 0});

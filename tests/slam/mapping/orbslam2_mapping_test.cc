@@ -120,7 +120,7 @@ std::optional<Eigen::Vector3d> Placed(const Eigen::Vector3d& point, const Eigen:
   return OrbSlam2Place(0.02)({here, there, camera, T_there_here}, 0, 0);
 }
 
-TEST(OrbSlam2Points, WiderRaysThanEyesPlaceAPointElseDisparityDoes) {
+TEST(OrbSlam2Points, WiderRaysThanTheBaselinePlaceAPointElseDisparityDoes) {
   const Eigen::Vector3d point(0.5, 0.2, 8);
   // Disparities that say 5 % nearer tell which of the two has spoken.
   const auto wide = Placed(point, {0.3, 0, 0}, 1.05, true, true);

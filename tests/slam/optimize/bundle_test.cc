@@ -18,11 +18,11 @@ Eigen::Isometry3d SomePose() {
   return Retract(Eigen::Isometry3d::Identity(), motion);
 }
 
-TEST(SightResidual, DerivativesAgreeWithDifferences) {
+TEST(ReprojectionResidual, DerivativesAgreeWithDifferences) {
   const StereoCamera camera;
   Eigen::Matrix3d root;
   root << 2, 0.1, 0, 0, 1.5, 0, 3, 0, -3;
-  const SightResidual residual(camera, {300, 200, 20}, root);
+  const ReprojectionResidual residual(camera, {300, 200, 20}, root);
   const PoseManifold manifold;
   PoseBlock pose = ToBlock(SomePose());
   Eigen::Vector3d point = SomePose().inverse() * Eigen::Vector3d(0.5, -0.4, 3);
@@ -90,7 +90,7 @@ BundleProblem MakeProblem(bool disturbed) {
       Measurement measurement;
       measurement.uvd = Project(problem.camera, pose * problem.points[static_cast<std::size_t>(i)]);
       measurement.sigma_d = i % 3 ? 0.5 : 0;
-      problem.sights.push_back(MakeSight(p, i, measurement));
+      problem.observations.push_back(MakeObservation(p, i, measurement));
     }
   }
   if (!disturbed) return problem;
@@ -130,7 +130,8 @@ TEST(SolveBundle, LeavesFixedPosesAndGivesTheSameBitsAgain) {
 TEST(SolveBundle, WithNothingToDoDoesNothing) {
   BundleProblem problem = MakeProblem(true);
   const BundleProblem before = problem;
-  const BundleSummary summary = Solve(problem, std::vector<bool>(problem.sights.size(), false), {});
+  const BundleSummary summary =
+      Solve(problem, std::vector<bool>(problem.observations.size(), false), {});
   EXPECT_TRUE(summary.usable);
   EXPECT_EQ(problem.points, before.points);
 }
@@ -160,13 +161,13 @@ TEST(SolveBundle, ReachesTheKnownOptimumOfTheKittiProblem) {
     const auto [place, is_new] = point_of.emplace(point, static_cast<int>(problem.points.size()));
     const auto& T_rig_world = problem.poses[static_cast<std::size_t>(pose - 1)].T_rig_world;
     if (is_new) problem.points.push_back(T_rig_world.inverse() * in_rig);
-    BundleProblem::Sight sight{pose - 1, place->second, {left, v, left - right}, {}, 0};
-    sight.sqrt_information << 1, 0, 0, 1, 0, -1, 0, 1, 0;  // u_left, u_right, v
-    problem.sights.push_back(sight);
+    BundleProblem::Observation observation{pose - 1, place->second, {left, v, left - right}, {}, 0};
+    observation.sqrt_information << 1, 0, 0, 1, 0, -1, 0, 1, 0;  // u_left, u_right, v
+    problem.observations.push_back(observation);
   }
   ASSERT_EQ(problem.poses.size(), 26u);
   ASSERT_EQ(problem.points.size(), 2634u);
-  ASSERT_EQ(problem.sights.size(), 8189u);
+  ASSERT_EQ(problem.observations.size(), 8189u);
 
   const BundleSummary summary = Solve(problem, {}, {100, false, 1e-12});
   EXPECT_NEAR(summary.initial_cost, 14538.674, 14538.674 * 1e-4);

@@ -11,9 +11,9 @@ namespace aisle::slam {
 namespace {
 
 /// Points in front of a rig at a known pose, with their measurements.
-struct SyntheticSights {
+struct SyntheticObservations {
   Eigen::Isometry3d T_rig_world;
-  std::vector<PointSight> sights;
+  std::vector<PointObservation> observations;
 };
 
 struct SyntheticOptions {
@@ -24,32 +24,33 @@ struct SyntheticOptions {
   unsigned seed = 1;
 };
 
-SyntheticSights MakeSights(const SyntheticOptions& options) {
+SyntheticObservations MakeObservations(const SyntheticOptions& options) {
   std::mt19937 random(options.seed);
   std::uniform_real_distribution<double> uniform(0, 1);
   std::normal_distribution<double> normal;
   const StereoCamera camera;
   Vector6d motion;
   for (double& value : motion) value = normal(random);
-  SyntheticSights synthetic;
+  SyntheticObservations synthetic;
   synthetic.T_rig_world = Retract(Eigen::Isometry3d::Identity(), motion);
   for (int i = 0; i < options.points; ++i) {
     const double z = 1 + 14 * uniform(random);
     const Eigen::Vector3d uvd(752 * uniform(random), 480 * uniform(random),
                               camera.fx * camera.baseline_m / z);
-    PointSight sight;
-    sight.point = synthetic.T_rig_world.inverse() * Backproject(camera, uvd);
-    sight.measurement.sigma_px = 0.5 + uniform(random);
-    sight.measurement.sigma_d = 0.2 + 0.3 * uniform(random);
-    const Eigen::Vector3d sigma(sight.measurement.sigma_px, sight.measurement.sigma_px,
-                                sight.measurement.sigma_d);
-    sight.measurement.uvd = uvd;
+    PointObservation observation;
+    observation.point = synthetic.T_rig_world.inverse() * Backproject(camera, uvd);
+    observation.measurement.sigma_px = 0.5 + uniform(random);
+    observation.measurement.sigma_d = 0.2 + 0.3 * uniform(random);
+    const Eigen::Vector3d sigma(observation.measurement.sigma_px, observation.measurement.sigma_px,
+                                observation.measurement.sigma_d);
+    observation.measurement.uvd = uvd;
     for (int k = 0; k < 3; ++k) {
-      sight.measurement.uvd[k] += options.noise * sigma[k] * normal(random);
+      observation.measurement.uvd[k] += options.noise * sigma[k] * normal(random);
     }
-    if (uniform(random) < options.outliers) sight.measurement.uvd.x() += 30 + 60 * uniform(random);
-    if (uniform(random) < options.without_depth) sight.measurement.sigma_d = 0;
-    synthetic.sights.push_back(sight);
+    if (uniform(random) < options.outliers)
+      observation.measurement.uvd.x() += 30 + 60 * uniform(random);
+    if (uniform(random) < options.without_depth) observation.measurement.sigma_d = 0;
+    synthetic.observations.push_back(observation);
   }
   return synthetic;
 }
@@ -60,7 +61,7 @@ Eigen::Isometry3d Disturbed(const Eigen::Isometry3d& pose, double translation_m,
   return Retract(pose, motion);
 }
 
-TEST(RefinePose, EqualColumnsCountTheErrorOfEitherEye) {
+TEST(RefinePose, EqualColumnsCountTheErrorOfEitherCamera) {
   const StereoCamera camera;
   const Eigen::Vector3d point(0.4, -0.2, 6);
   Measurement measurement{Project(camera, point), 2, 2, 1};
@@ -71,20 +72,20 @@ TEST(RefinePose, EqualColumnsCountTheErrorOfEitherEye) {
   BundleProblem problem;
   problem.poses.resize(1);
   problem.points = {point};
-  EXPECT_NEAR(Chi2(problem, MakeSight(0, 0, measurement)), chi2, 1e-9);
+  EXPECT_NEAR(Chi2(problem, MakeObservation(0, 0, measurement)), chi2, 1e-9);
 }
 
 TEST(RefinePose, EqualColumnsFindTheLeastSquaresPose) {
-  SyntheticSights synthetic = MakeSights({.noise = 1});
-  for (PointSight& sight : synthetic.sights) {
-    sight.measurement.sigma_d = sight.measurement.sigma_px;
-    sight.measurement.u_in_d = 1;
+  SyntheticObservations synthetic = MakeObservations({.noise = 1});
+  for (PointObservation& observation : synthetic.observations) {
+    observation.measurement.sigma_d = observation.measurement.sigma_px;
+    observation.measurement.u_in_d = 1;
   }
-  const RefinedPose refined = RefinePose({}, synthetic.T_rig_world, synthetic.sights, {});
+  const RefinedPose refined = RefinePose({}, synthetic.T_rig_world, synthetic.observations, {});
   const auto cost = [&](const Eigen::Isometry3d& pose) {
     double sum = 0;
-    for (std::size_t i = 0; i < synthetic.sights.size(); ++i) {
-      if (refined.inlier[i]) sum += Chi2({}, pose, synthetic.sights[i]);
+    for (std::size_t i = 0; i < synthetic.observations.size(); ++i) {
+      if (refined.inlier[i]) sum += Chi2({}, pose, synthetic.observations[i]);
     }
     return sum;
   };
@@ -98,10 +99,10 @@ TEST(RefinePose, EqualColumnsFindTheLeastSquaresPose) {
 }
 
 TEST(RefinePose, StartingAnewEveryRoundBeginsAtTheFirstPose) {
-  const SyntheticSights synthetic = MakeSights({.noise = 0});
+  const SyntheticObservations synthetic = MakeObservations({.noise = 0});
   const Eigen::Isometry3d start = Disturbed(synthetic.T_rig_world, 0.3, 0.1);
   const auto error = [&](const RefinePoseOptions& options) {
-    const RefinedPose refined = RefinePose({}, start, synthetic.sights, options);
+    const RefinedPose refined = RefinePose({}, start, synthetic.observations, options);
     return Difference(synthetic.T_rig_world, refined.T_rig_world).norm();
   };
   // One step a round: four of them get further than the last one alone.
@@ -109,37 +110,37 @@ TEST(RefinePose, StartingAnewEveryRoundBeginsAtTheFirstPose) {
   EXPECT_LT(error({.start_anew = true}), 1e-6);
 }
 
-TEST(RefinePose, RecoversTheTruthFromExactSights) {
-  const SyntheticSights synthetic = MakeSights({.noise = 0});
+TEST(RefinePose, RecoversTheTruthFromExactObservations) {
+  const SyntheticObservations synthetic = MakeObservations({.noise = 0});
   const RefinedPose refined =
-      RefinePose({}, Disturbed(synthetic.T_rig_world, 0.1, 0.03), synthetic.sights, {});
+      RefinePose({}, Disturbed(synthetic.T_rig_world, 0.1, 0.03), synthetic.observations, {});
   EXPECT_LT(Difference(synthetic.T_rig_world, refined.T_rig_world).norm(), 1e-7);
   EXPECT_EQ(refined.inliers, 200);
   EXPECT_TRUE(refined.well_posed);
 }
 
 TEST(RefinePose, TellsOutliersFromInliers) {
-  const SyntheticSights synthetic =
-      MakeSights({.noise = 0.5, .outliers = 0.4, .without_depth = 0.3});
+  const SyntheticObservations synthetic =
+      MakeObservations({.noise = 0.5, .outliers = 0.4, .without_depth = 0.3});
   const RefinedPose refined =
-      RefinePose({}, Disturbed(synthetic.T_rig_world, 0.03, 0.01), synthetic.sights, {});
+      RefinePose({}, Disturbed(synthetic.T_rig_world, 0.03, 0.01), synthetic.observations, {});
   EXPECT_LT(Difference(synthetic.T_rig_world, refined.T_rig_world).norm(), 0.01);
   EXPECT_GT(refined.inliers, 100);
   EXPECT_LT(refined.inliers, 140);
 }
 
 TEST(RefinePose, WorksWithoutAnyDepth) {
-  const SyntheticSights synthetic = MakeSights({.noise = 0, .without_depth = 1});
+  const SyntheticObservations synthetic = MakeObservations({.noise = 0, .without_depth = 1});
   const RefinedPose refined =
-      RefinePose({}, Disturbed(synthetic.T_rig_world, 0.05, 0.02), synthetic.sights, {});
+      RefinePose({}, Disturbed(synthetic.T_rig_world, 0.05, 0.02), synthetic.observations, {});
   EXPECT_LT(Difference(synthetic.T_rig_world, refined.T_rig_world).norm(), 1e-6);
 }
 
-TEST(RefinePose, TooFewSightsAreNotWellPosed) {
-  SyntheticSights synthetic = MakeSights({.points = 1, .noise = 0});
-  EXPECT_FALSE(RefinePose({}, synthetic.T_rig_world, synthetic.sights, {}).well_posed);
-  synthetic.sights.clear();
-  EXPECT_FALSE(RefinePose({}, synthetic.T_rig_world, synthetic.sights, {}).well_posed);
+TEST(RefinePose, TooFewObservationsAreNotWellPosed) {
+  SyntheticObservations synthetic = MakeObservations({.points = 1, .noise = 0});
+  EXPECT_FALSE(RefinePose({}, synthetic.T_rig_world, synthetic.observations, {}).well_posed);
+  synthetic.observations.clear();
+  EXPECT_FALSE(RefinePose({}, synthetic.T_rig_world, synthetic.observations, {}).well_posed);
 }
 
 /// Normalised estimation error squared: its mean over runs is 6 if the covariance tells the truth.
@@ -147,11 +148,11 @@ TEST(RefinePose, CovarianceExplainsTheErrors) {
   constexpr int kRuns = 200;
   double nees = 0;
   for (unsigned seed = 1; seed <= kRuns; ++seed) {
-    const SyntheticSights synthetic =
-        MakeSights({.points = 120, .without_depth = 0.3, .seed = seed});
+    const SyntheticObservations synthetic =
+        MakeObservations({.points = 120, .without_depth = 0.3, .seed = seed});
     // No gate: cutting the tails of honest noise would make the covariance too proud.
     const RefinedPose refined =
-        RefinePose({}, synthetic.T_rig_world, synthetic.sights, {.rounds = 1});
+        RefinePose({}, synthetic.T_rig_world, synthetic.observations, {.rounds = 1});
     const Vector6d error = Difference(refined.T_rig_world, synthetic.T_rig_world);
     nees += error.dot(refined.covariance.ldlt().solve(error)) / kRuns;
   }
@@ -162,9 +163,9 @@ TEST(RefinePose, CovarianceExplainsTheErrors) {
 
 TEST(AlignPoints, FindsThePoseWithoutAFirstGuess) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
-    const SyntheticSights synthetic =
-        MakeSights({.noise = 0.5, .outliers = 0.5, .without_depth = 0.2, .seed = seed});
-    const auto found = AlignPoints({}, synthetic.sights, {});
+    const SyntheticObservations synthetic =
+        MakeObservations({.noise = 0.5, .outliers = 0.5, .without_depth = 0.2, .seed = seed});
+    const auto found = AlignPoints({}, synthetic.observations, {});
     ASSERT_TRUE(found) << "seed " << seed;
     EXPECT_LT(Difference(synthetic.T_rig_world, found->T_rig_world).norm(), 0.02);
   }
@@ -173,28 +174,30 @@ TEST(AlignPoints, FindsThePoseWithoutAFirstGuess) {
 /// Certainty takes more draws than an integer counts: as many as are allowed are made.
 TEST(AlignPoints, TriesEveryHypothesisWhereNothingLessIsSure) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
-    const SyntheticSights synthetic =
-        MakeSights({.noise = 0.5, .outliers = 0.6, .without_depth = 0.2, .seed = seed});
-    const auto found = AlignPoints({}, synthetic.sights, {.confidence = 1});
+    const SyntheticObservations synthetic =
+        MakeObservations({.noise = 0.5, .outliers = 0.6, .without_depth = 0.2, .seed = seed});
+    const auto found = AlignPoints({}, synthetic.observations, {.confidence = 1});
     ASSERT_TRUE(found) << "seed " << seed;
     EXPECT_LT(Difference(synthetic.T_rig_world, found->T_rig_world).norm(), 0.02);
   }
 }
 
 TEST(AlignPoints, FindsNothingInNonsense) {
-  SyntheticSights synthetic = MakeSights({.outliers = 1});
+  SyntheticObservations synthetic = MakeObservations({.outliers = 1});
   std::mt19937 random(4);
-  std::shuffle(synthetic.sights.begin(), synthetic.sights.end(), random);
-  for (std::size_t i = 0; i < synthetic.sights.size(); ++i) {
-    synthetic.sights[i].point = synthetic.sights[(i * 7 + 3) % synthetic.sights.size()].point;
+  std::shuffle(synthetic.observations.begin(), synthetic.observations.end(), random);
+  for (std::size_t i = 0; i < synthetic.observations.size(); ++i) {
+    synthetic.observations[i].point =
+        synthetic.observations[(i * 7 + 3) % synthetic.observations.size()].point;
   }
-  EXPECT_FALSE(AlignPoints({}, synthetic.sights, {}));
+  EXPECT_FALSE(AlignPoints({}, synthetic.observations, {}));
   EXPECT_FALSE(AlignPoints({}, {}, {}));
 }
 
 TEST(AlignPoints, GivesTheSameBitsAgain) {
-  const SyntheticSights synthetic = MakeSights({.outliers = 0.5});
-  const auto a = AlignPoints({}, synthetic.sights, {}), b = AlignPoints({}, synthetic.sights, {});
+  const SyntheticObservations synthetic = MakeObservations({.outliers = 0.5});
+  const auto a = AlignPoints({}, synthetic.observations, {}),
+             b = AlignPoints({}, synthetic.observations, {});
   ASSERT_TRUE(a && b);
   EXPECT_EQ(a->T_rig_world.matrix(), b->T_rig_world.matrix());
 }

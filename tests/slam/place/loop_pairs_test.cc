@@ -17,21 +17,21 @@ class LoopPairs : public testing::Test {
   void SetUp() override {
     if (!HasRealData("euroc-loop-pairs")) GTEST_SKIP() << "no data at " << AISLE_TEST_DATA;
     const std::filesystem::path root = std::filesystem::path(AISLE_TEST_DATA) / "euroc-loop-pairs";
-    const EurocRectifier rectifier(ReadEurocEye(root / "sensorLeft.yaml"),
-                                   ReadEurocEye(root / "sensorRight.yaml"), {752, 480});
+    const EurocRectifier rectifier(ReadEurocCamera(root / "sensorLeft.yaml"),
+                                   ReadEurocCamera(root / "sensorRight.yaml"), {752, 480});
     camera = rectifier.camera();
     T_body_rig = rectifier.T_body_rig();
     for (int i = 0; i < 4; ++i) {
-      const auto read = [&](const char* eye) {
-        return cv::imread(root / fmt::format("{}_img_{}.png", eye, i), cv::IMREAD_GRAYSCALE);
+      const auto read = [&](const char* side) {
+        return cv::imread(root / fmt::format("{}_img_{}.png", side, i), cv::IMREAD_GRAYSCALE);
       };
       AddKeyframe(rectifier.Rectify(i, i, read("left"), read("right")));
     }
   }
 
   void AddKeyframe(const StereoImages& images) {
-    const EyeFeatures left = ExtractFeatures(images.left, {}, {});
-    const EyeFeatures right = ExtractFeatures(images.right, {}, {});
+    const ImageFeatures left = ExtractFeatures(images.left, {}, {});
+    const ImageFeatures right = ExtractFeatures(images.right, {}, {});
     const std::vector<Disparity> disparities = MatchStereo(left, right, camera, {});
     auto frame = std::make_shared<Frame>();
     frame->features = left.features;

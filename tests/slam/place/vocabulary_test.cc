@@ -53,7 +53,7 @@ TEST(Vocabulary, RecognisesAPlaceSeenAgain) {
     const auto found = index.Query(vocabulary.Describe(world.Image(100 * place, 100)));
     ASSERT_FALSE(found.empty());
     EXPECT_EQ(found.front().keyframe, KeyframeId{place});
-    EXPECT_GT(found.front().likeness, 2 * found[1].likeness);
+    EXPECT_GT(found.front().similarity, 2 * found[1].similarity);
   }
 }
 

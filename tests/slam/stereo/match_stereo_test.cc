@@ -9,7 +9,7 @@ namespace {
 
 const cv::Size kSize(752, 480);
 
-EyeFeatures See(const std::function<double(double, double)>& grey, std::uint64_t noise_seed) {
+ImageFeatures See(const std::function<double(double, double)>& grey, std::uint64_t noise_seed) {
   return ExtractFeatures(Render(kSize, grey, 3, noise_seed), {}, {});
 }
 
@@ -21,8 +21,8 @@ struct Errors {
 /// Matches a textured wall whose disparity is `disparity(v)` and compares.
 Errors ErrorsOf(const std::function<double(double)>& disparity) {
   const Texture texture(3);
-  const EyeFeatures left = See([&](double u, double v) { return texture(u, v); }, 1);
-  const EyeFeatures right =
+  const ImageFeatures left = See([&](double u, double v) { return texture(u, v); }, 1);
+  const ImageFeatures right =
       See([&](double u, double v) { return texture(u + disparity(v), v); }, 2);
   const std::vector<Disparity> found = MatchStereo(left, right, {}, {});
   Errors errors;
@@ -63,8 +63,8 @@ TEST(MatchStereo, FindsTheDisparityOfAFloor) {
 
 TEST(MatchStereo, MatchesNothingBetweenDifferentWorlds) {
   const Texture one(3), other(400);
-  const EyeFeatures left = See([&](double u, double v) { return one(u, v); }, 1);
-  const EyeFeatures right = See([&](double u, double v) { return other(u, v); }, 2);
+  const ImageFeatures left = See([&](double u, double v) { return one(u, v); }, 1);
+  const ImageFeatures right = See([&](double u, double v) { return other(u, v); }, 2);
   const std::vector<Disparity> found = MatchStereo(left, right, {}, {});
   EXPECT_EQ(found.size(), left.features.keypoints.size());
   EXPECT_LT(std::count_if(found.begin(), found.end(),
@@ -72,10 +72,10 @@ TEST(MatchStereo, MatchesNothingBetweenDifferentWorlds) {
             60);
 }
 
-TEST(MatchStereo, TakesEyesThatSeeNothing) {
+TEST(MatchStereo, TakesImagesThatSeeNothing) {
   const Texture texture(3);
-  const EyeFeatures some = See([&](double u, double v) { return texture(u, v); }, 1);
-  const EyeFeatures none = ExtractFeatures(cv::Mat1b(kSize, std::uint8_t{0}), {}, {});
+  const ImageFeatures some = See([&](double u, double v) { return texture(u, v); }, 1);
+  const ImageFeatures none = ExtractFeatures(cv::Mat1b(kSize, std::uint8_t{0}), {}, {});
   EXPECT_TRUE(MatchStereo(none, some, {}, {}).empty());
   for (const Disparity& disparity : MatchStereo(some, none, {}, {})) {
     EXPECT_FALSE(disparity.known());
@@ -88,8 +88,8 @@ TEST(MatchStereo, NothingIsNearerThanTheNearestAskedFor) {
   const StereoCamera camera;
   const double largest = camera.fx * camera.baseline_m / options.nearest_m;
   const Texture texture(3);
-  const EyeFeatures left = See([&](double u, double v) { return texture(u, v); }, 1);
-  const EyeFeatures right = See([&](double u, double v) { return texture(u + 45, v); }, 2);
+  const ImageFeatures left = See([&](double u, double v) { return texture(u, v); }, 1);
+  const ImageFeatures right = See([&](double u, double v) { return texture(u + 45, v); }, 2);
   for (const Disparity& disparity : MatchStereo(left, right, camera, options)) {
     EXPECT_LE(disparity.value, largest + 6);
   }

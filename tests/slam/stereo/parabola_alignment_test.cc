@@ -7,7 +7,7 @@
 namespace aisle::slam {
 namespace {
 
-/// A wall `shift_px` further left in the right eye, without noise, and `brighter` there.
+/// A wall `shift_px` further left in the right camera, without noise, and `brighter` there.
 std::optional<RowAlignment> Align(double shift_px, double start_off_px, double brighter = 0) {
   const Texture texture(3);
   const auto see = [&](double shift, double add) {

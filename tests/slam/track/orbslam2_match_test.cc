@@ -68,7 +68,7 @@ TEST_F(OrbSlam2Match, WindowLevelsAndBitsBoundTheSearch) {
   EXPECT_TRUE(Run({{{100, 100, 20}, 0, 51}}, {one}).empty());
 }
 
-TEST_F(OrbSlam2Match, TheRightEyeIsAskedToo) {
+TEST_F(OrbSlam2Match, TheRightImageIsAskedToo) {
   // 4 px aside in the left image, 4 px the other way in the right one, or along with it.
   EXPECT_TRUE(Run({{{104, 100, 30}, 0, 0}}, {one}).empty());
   EXPECT_EQ(Run({{{104, 100, 24}, 0, 0}}, {one}).size(), 1u);

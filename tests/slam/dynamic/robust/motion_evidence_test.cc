@@ -107,7 +107,7 @@ TEST(CompareMotion, FindsAWalkerAcrossBesideAMovingCamera) {
   EXPECT_LT(pair.ShareAbove(1, false), 0.02);
 }
 
-TEST(CompareMotion, FindsWhomTheRightEyeDidNotSeeYetAMomentAgo) {
+TEST(CompareMotion, FindsWhomTheRightImageDidNotSeeYetAMomentAgo) {
   const Pair pair({test::Walker({-1.05, 0.1, 1.6}, {1.2, 0, 0})}, {0, 0, 0.03}, 0.05);
   const cv::Rect image({0, 0}, pair.moving.size());
   cv::Mat1f most;  // of the disparities around
@@ -321,7 +321,7 @@ TEST(CarryMemory, FollowsTheFlowAloneBeyondTheRightImageAndNowhereElse) {
   before.disparity = before.filled = cv::Mat1f(60, 80, 3.0F);
   now.disparity = cv::Mat1f(60, 80, 3.0F);
   now.disparity.colRange(0, 20).setTo(kNoDisparity);   // beyond the right image
-  now.disparity.colRange(40, 50).setTo(kNoDisparity);  // hidden from the right eye
+  now.disparity.colRange(40, 50).setTo(kNoDisparity);  // hidden from the right camera
   now.disparity.row(50).setTo(kNoDisparity);
   now.filled = cv::Mat1f(60, 80, 1.0F);  // another surface than the mover's
   LabelMemory memory = ForgottenMemory({80, 60});

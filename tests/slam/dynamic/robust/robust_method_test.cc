@@ -178,7 +178,7 @@ TEST(RobustOptions, EveryRuleIsCheckedAndNamed) {
   EXPECT_THAT(broken([](auto& o) { o.region.keep_inner_px = 900; }), HasSubstr("keep_inner_px"));
 }
 
-TEST(DynamicDetector, BothMethodsMaskBothEyes) {
+TEST(DynamicDetector, BothMethodsMaskBothCameras) {
   auto panels = test::StaticHall();
   panels.push_back(test::Walker({-0.4, 0.1, 3.0}, {1.2, 0, 0}));
   for (const DynamicMethod method : {DynamicMethod::kPaper, DynamicMethod::kRobust}) {
@@ -191,7 +191,7 @@ TEST(DynamicDetector, BothMethodsMaskBothEyes) {
       output = detector.Detect({k * 50'000'000LL, view.left, view.right, {}});
     }
     ASSERT_GT(cv::countNonZero(output.regions.mask), 1000);
-    // The walker is 3 m away: 17.4 px further to the left in the right eye.
+    // The walker is 3 m away: 17.4 px further to the left in the right camera.
     const double left = cv::mean(output.regions.mask.colRange(0, 752))[0];
     const double right = cv::mean(output.mask_right)[0];
     EXPECT_NEAR(right, left, 0.35 * left);

@@ -220,7 +220,7 @@ TEST(MatchSemiGlobally, IsTheSameForAnyNumberOfThreads) {
   for (const cv::Mat1f& one : found) EXPECT_EQ(cv::norm(one, found[0], cv::NORM_INF), 0);
 }
 
-TEST(MatchSemiGlobally, IsTheSameUnderOtherGainAndOffsetOfAnEye) {
+TEST(MatchSemiGlobally, IsTheSameUnderOtherGainAndOffsetOfACamera) {
   const cv::Mat1b left = Noise({150, 40}, 7, 120), right = Noise({150, 40}, 8, 120);
   cv::Mat1b brighter;
   right.convertTo(brighter, CV_8U, 2, 10);

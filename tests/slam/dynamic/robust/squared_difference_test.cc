@@ -1,4 +1,4 @@
-#include "slam/dynamic/robust/misfit.h"
+#include "slam/dynamic/robust/squared_difference.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ cv::Mat1b RandomImage(std::uint64_t stream) {
   return image;
 }
 
-TEST(Misfit, IsTheMeanSquareOfWhatDiffersFromTheLocalMean) {
+TEST(SquaredDifference, IsTheMeanSquareOfWhatDiffersFromTheLocalMean) {
   const cv::Mat1b image = RandomImage(1), other = RandomImage(2);
   cv::Mat variance, exact_variance, found;
   RandomImage(3).convertTo(exact_variance, CV_64F, 1, 1);
@@ -30,16 +30,16 @@ TEST(Misfit, IsTheMeanSquareOfWhatDiffersFromTheLocalMean) {
   cv::blur(difference, mean, {11, 11});
   difference -= mean;
   cv::blur(difference.mul(difference) / exact_variance, expected, {5, 5});
-  Misfit(image, other, variance).convertTo(found, CV_64F);
+  SquaredDifference(image, other, variance).convertTo(found, CV_64F);
   EXPECT_LT(cv::norm(found / expected - 1, cv::NORM_INF), 1e-4);
 }
 
-TEST(Misfit, ABrighterCopyFitsPerfectly) {
+TEST(SquaredDifference, ABrighterCopyFitsPerfectly) {
   cv::Mat1b image, brighter;
   cv::min(RandomImage(4), 200, image);
   cv::add(image, 40, brighter);
-  const cv::Mat1f misfit = Misfit(image, brighter, cv::Mat1f(image.size(), 1.0F));
-  EXPECT_EQ(cv::countNonZero(misfit), 0);
+  const cv::Mat1f difference = SquaredDifference(image, brighter, cv::Mat1f(image.size(), 1.0F));
+  EXPECT_EQ(cv::countNonZero(difference), 0);
 }
 
 TEST(FastLog, IsTheLogarithmToAMillionth) {

@@ -1,4 +1,4 @@
-#include "slam/dynamic/robust/misfit.h"
+#include "slam/dynamic/robust/squared_difference.h"
 
 #include <tbb/parallel_for.h>
 
@@ -28,7 +28,8 @@ void SquareRow(const cv::Mat1s& padded, const cv::Mat1f& variance, int y, float*
 
 }  // namespace
 
-cv::Mat1f Misfit(const cv::Mat1b& image, const cv::Mat1b& other, const cv::Mat1f& variance) {
+cv::Mat1f SquaredDifference(const cv::Mat1b& image, const cv::Mat1b& other,
+                            const cv::Mat1f& variance) {
   cv::Mat1s difference;
   cv::subtract(image, other, difference, cv::noArray(), CV_16S);
   const cv::Mat1s padded = Reflected(difference, kMeanReach);
@@ -36,14 +37,14 @@ cv::Mat1f Misfit(const cv::Mat1b& image, const cv::Mat1b& other, const cv::Mat1f
   tbb::parallel_for(0, image.rows, [&](int y) { SquareRow(padded, variance, y, squares[y]); });
 
   const cv::Mat1f around = Reflected(squares, kReach);
-  cv::Mat1f misfit(image.size());
+  cv::Mat1f mean(image.size());
   tbb::parallel_for(0, image.rows, [&](int y) {
     constexpr float kArea = (2 * kReach + 1) * (2 * kReach + 1);
     std::vector<float> scratch(static_cast<std::size_t>(around.cols));
-    SumWindows<float>(around, y, kReach, scratch.data(), misfit[y]);
-    for (int x = 0; x < misfit.cols; ++x) misfit(y, x) /= kArea;
+    SumWindows<float>(around, y, kReach, scratch.data(), mean[y]);
+    for (int x = 0; x < mean.cols; ++x) mean(y, x) /= kArea;
   });
-  return misfit;
+  return mean;
 }
 
 }  // namespace aisle::slam::dynamic

@@ -1,8 +1,8 @@
-#include "slam/foresight.h"
+#include "slam/track/predict_motion.h"
 
 namespace aisle::slam {
 
-std::optional<Eigen::Isometry3d> ForeseeMotion(const TrackMemory& memory, std::int64_t stamp_ns,
+std::optional<Eigen::Isometry3d> PredictMotion(const TrackMemory& memory, std::int64_t stamp_ns,
                                                const TrackOptions& options) {
   const double gap_s = static_cast<double>(stamp_ns - memory.stamp_ns) * 1e-9;
   if (!memory.motion || gap_s <= 0 || gap_s > options.longest_gap_s) return std::nullopt;

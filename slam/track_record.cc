@@ -1,11 +1,11 @@
-#include "slam/journal.h"
+#include "slam/track_record.h"
 
 #include "slam/map/successor.h"
 
 namespace aisle::slam {
 
-void Journal::Note(const Map& map, const Frame& frame, const FramePose& pose, bool goes_on,
-                   const TrackOptions& options) {
+void TrackRecord::Note(const Map& map, const Frame& frame, const FramePose& pose, bool goes_on,
+                       const TrackOptions& options) {
   const Eigen::Isometry3d T_world_rig = pose.pose.T_rig_world.inverse();
   const double seconds = static_cast<double>(frame.stamp_ns - memory_.stamp_ns) * 1e-9;
   std::optional<Motion> motion;
@@ -30,7 +30,7 @@ void Journal::Note(const Map& map, const Frame& frame, const FramePose& pose, bo
   track_.push_back({frame.stamp_ns, memory_.reference, memory_.T_reference_rig});
 }
 
-std::vector<MapEdit::Count> Journal::TakeCounts() {
+std::vector<MapEdit::Count> TrackRecord::TakeCounts() {
   std::vector<MapEdit::Count> counts;
   for (const auto& [landmark, count] : counts_) {
     counts.push_back({landmark, count.first, count.second});
@@ -39,7 +39,7 @@ std::vector<MapEdit::Count> Journal::TakeCounts() {
   return counts;
 }
 
-void Journal::CarryOver(const Map& before, const Map& now) {
+void TrackRecord::CarryOver(const Map& before, const Map& now) {
   std::map<LandmarkId, std::pair<int, int>> counts;
   for (const auto& [id, count] : counts_) {
     const LandmarkId successor = Successor(before, now, id);
@@ -51,12 +51,12 @@ void Journal::CarryOver(const Map& before, const Map& now) {
   for (LandmarkId& id : memory_.landmarks) id = Successor(before, now, id);
 }
 
-void Journal::ForgetTrack() {
+void TrackRecord::ForgetTrack() {
   counts_.clear();
   track_.clear();
 }
 
-std::vector<StampedPose> Journal::Trajectory(const Map& map) const {
+std::vector<StampedPose> TrackRecord::Trajectory(const Map& map) const {
   std::vector<StampedPose> poses;
   if (map.empty()) return poses;
   const KeyframeId largest = LargestPart(map);

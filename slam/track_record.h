@@ -12,7 +12,7 @@ namespace aisle::slam {
 
 /// What a drive remembers of its frames: what the next one builds upon, which landmarks were found,
 /// and the trajectory, every pose as seen from a keyframe, with which it moves.
-class Journal {
+class TrackRecord {
  public:
   const TrackMemory& memory() const { return memory_; }
 

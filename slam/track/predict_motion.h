@@ -10,7 +10,7 @@ namespace aisle::slam {
 
 /// Where motion predicts the rig to have gone since the last frame: T_now_before. Nothing where no
 /// motion is known or the gap is longer than it can be trusted for.
-std::optional<Eigen::Isometry3d> ForeseeMotion(const TrackMemory& memory, std::int64_t stamp_ns,
+std::optional<Eigen::Isometry3d> PredictMotion(const TrackMemory& memory, std::int64_t stamp_ns,
                                                const TrackOptions& options);
 
 }  // namespace aisle::slam
