@@ -10,14 +10,14 @@ RobustTrace TraceOf(const dynamic::RobustState& before, const dynamic::RobustRes
   trace.stages = result.stages;
   trace.probability = result.probability;
   if (trace.stages.gaps.empty()) return trace;
-  const dynamic::GapMotion& shortest = trace.stages.gaps.front();
+  const dynamic::GapTrace& shortest = trace.stages.gaps.front();
   trace.gap_s = static_cast<double>(result.state.stamp_ns - before.stamp_ns) * 1e-9;
-  trace.flow_noise = before.flow_noise.front();
+  trace.flow_noise = before.noise.flow.front();
   const cv::Mat2f expected =
       dynamic::WhereStatic(result.state.frames.back().filled,
                            shortest.motion.T_now_before.inverse(), dynamic::HalfCamera(camera))
           .place;
-  cv::subtract(shortest.flow, expected, trace.residual);
+  cv::subtract(shortest.way.flow, expected, trace.residual);
   return trace;
 }
 

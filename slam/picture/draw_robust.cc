@@ -92,7 +92,7 @@ double MedianLength(const cv::Mat2f& vectors) {
 }
 
 StagePicture DrawFlow(const cv::Mat1b& left, const RobustTrace& trace) {
-  const cv::Mat2f motion = MotionOf(trace.stages.gaps.front().flow);
+  const cv::Mat2f motion = MotionOf(trace.stages.gaps.front().way.flow);
   const double median = MedianLength(motion), most = std::max(2.0, 3 * median);
   const auto& ego = trace.stages.gaps.front().motion;
   const Eigen::Vector3d t = ego.T_now_before.inverse().translation();
@@ -162,15 +162,15 @@ StagePicture DrawGaps(const cv::Mat1b& left, const RobustStages& s) {
   std::string support;
   for (std::size_t k = 0; k < s.gaps.size() && k < 4; ++k) {
     cv::Mat3b one = OnGrey(small);
-    if (!s.gaps[k].evidence.empty()) {
-      TintByLogOdds(Enlarged(s.gaps[k].evidence, tile), kFullLogOdds, one);
+    if (!s.gaps[k].evidence.log_odds.empty()) {
+      TintByLogOdds(Enlarged(s.gaps[k].evidence.log_odds, tile), kFullLogOdds, one);
     }
-    Plate(fmt::format("over {} frame{}", s.gaps[k].gap, s.gaps[k].gap == 1 ? "" : "s"), {4, 22},
-          kNote, one);
+    Plate(fmt::format("over {} frame{}", s.gaps[k].way.gap, s.gaps[k].way.gap == 1 ? "" : "s"),
+          {4, 22}, kNote, one);
     const int column = static_cast<int>(k % 2), row = static_cast<int>(k / 2);
     one.copyTo(picture(cv::Rect({column * tile.width, row * tile.height}, tile)));
-    support +=
-        fmt::format("{}{}: {:.0f}", k == 0 ? "" : ", ", s.gaps[k].gap, s.gaps[k].motion.support);
+    support += fmt::format("{}{}: {:.0f}", k == 0 ? "" : ", ", s.gaps[k].way.gap,
+                           s.gaps[k].motion.support);
   }
   return {"gaps", Framed(picture, "4  Evidence of each gap alone", LogOddsLegend(kFullLogOdds),
                          s.gaps.empty() ? "no past to compare with"

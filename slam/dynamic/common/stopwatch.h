@@ -21,4 +21,11 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// The value of a stage, whose wall time is added to `ms`.
+template <typename Stage>
+auto Timed(double& ms, const Stage& stage) {
+  const Stopwatch time(ms);
+  return stage();
+}
+
 }  // namespace aisle::slam::dynamic

@@ -3,23 +3,13 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
-#include <chrono>
-
+#include "slam/dynamic/common/stopwatch.h"
 #include "slam/dynamic/paper/disparity.h"
 #include "slam/dynamic/paper/mark_regions.h"
 #include "slam/dynamic/paper/spread_features.h"
 
 namespace aisle::slam::dynamic {
 namespace {
-
-/// Runs a stage and notes how long it took.
-template <typename Stage>
-auto Timed(double& ms, const Stage& stage) {
-  const auto start = std::chrono::steady_clock::now();
-  auto result = stage();
-  ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  return result;
-}
 
 SegmentedRoi Segment(const cv::Rect& roi, const cv::Mat1b& left, const cv::Mat1f& disparity,
                      double colour_scale, const PaperOptions& options) {

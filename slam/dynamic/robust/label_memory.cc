@@ -73,13 +73,13 @@ cv::Point PixelAt(const cv::Vec2f& place, cv::Size size) {
 
 }  // namespace
 
-LabelMemory ForgottenMemory(cv::Size size) {
-  return {cv::Mat1f(size, 0.0F), {cv::Mat1i(size, 0), {}}, {}, {}};
+LabelMemory ForgottenMemory(cv::Size size, int next_region_id) {
+  return {cv::Mat1f(size, 0.0F), {cv::Mat1i(size, 0), {}, next_region_id}, {}, {}};
 }
 
 LabelMemory CarryMemory(const LabelMemory& previous, const cv::Mat2f& flow, const DenseFrame& now,
                         const DenseFrame& before) {
-  LabelMemory carried = ForgottenMemory(flow.size());
+  LabelMemory carried = ForgottenMemory(flow.size(), previous.regions.next_id);
   if (previous.log_odds.empty()) return carried;
   carried.regions.regions = previous.regions.regions;
   const bool compared_long = !previous.long_log_odds.empty();

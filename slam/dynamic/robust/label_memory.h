@@ -16,8 +16,8 @@ struct LabelMemory {
   cv::Mat2f long_per_step = {};  ///< its residual, shared out among its steps
 };
 
-/// Nothing known, nothing moving.
-LabelMemory ForgottenMemory(cv::Size size);
+/// Nothing known, nothing moving; the next region is given `next_region_id`.
+LabelMemory ForgottenMemory(cv::Size size, int next_region_id);
 
 /// Takes the memory of the previous frame to the current one along the flow, whatever moved; where
 /// the previous frame shows another surface at the place, nothing is known (0). At the left border,

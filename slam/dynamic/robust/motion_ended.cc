@@ -4,9 +4,10 @@
 
 namespace aisle::slam::dynamic {
 
-void TakeOffEndedMotion(const LatestStep& step, const Texture& texture, const cv::Mat2f& per_step,
-                        const EvidenceOptions& options, double most, cv::Mat1f& log_odds,
-                        cv::Mat1f& ended) {
+EndedMotion TakeOffEndedMotion(const LatestStep& step, const Texture& texture,
+                               const cv::Mat2f& per_step, const cv::Mat1f& log_odds, double most,
+                               const EvidenceOptions& options) {
+  EndedMotion result{cv::Mat1f(log_odds.size()), cv::Mat1f(log_odds.size())};
   const auto share = static_cast<float>(options.least_speed_share),
              noise = static_cast<float>(options.mover_noise * options.mover_noise),
              limit = static_cast<float>(most);
@@ -14,7 +15,8 @@ void TakeOffEndedMotion(const LatestStep& step, const Texture& texture, const cv
     const float *xx = texture.xx[y], *xy = texture.xy[y], *yy = texture.yy[y];
     const float *residual = step.residual.ptr<float>(y), *velocity = per_step.ptr<float>(y),
                 *variance = step.variance[y];
-    float *odds = log_odds[y], *off = ended[y];
+    const float* odds = log_odds[y];
+    float *left = result.log_odds[y], *off = result.taken[y];
 #pragma GCC ivdep
     for (int x = 0; x < log_odds.cols; ++x) {
       // S = (G^-1 + s I)^-1 = (G + s det(G) I) / det(I + s G), which G = 0 does not trouble.
@@ -27,11 +29,12 @@ void TakeOffEndedMotion(const LatestStep& step, const Texture& texture, const cv
       const float along = su * residual[2 * x] + sv * residual[2 * x + 1];
       const float against = share * (share * (su * u + sv * v) / 2 - along);
       const float taken = std::min(std::max(against, 0.0F), limit);
-      const float left = std::max(std::min(odds[x], limit) - taken, 0.0F);
-      off[x] = odds[x] > 0 ? std::max(off[x], taken) : off[x];
-      odds[x] = odds[x] > 0 ? left : odds[x];
+      const float less = std::max(std::min(odds[x], limit) - taken, 0.0F);
+      off[x] = odds[x] > 0 ? taken : 0.0F;
+      left[x] = odds[x] > 0 ? less : odds[x];
     }
   });
+  return result;
 }
 
 }  // namespace aisle::slam::dynamic

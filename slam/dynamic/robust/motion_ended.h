@@ -13,15 +13,19 @@ struct LatestStep {
   cv::Mat1f variance;  ///< of a static pixel's residual, beyond what texture leaves open
 };
 
+/// What is left of a gap's log-odds of moving, and what has been taken off.
+struct EndedMotion {
+  cv::Mat1f log_odds, taken;
+};
+
 /// Takes off the log-odds of moving that a longer gap found what the latest step says against it:
 /// who walked a second ago may stand now. `per_step` is the residual of the longer gap, shared out
 /// among its steps. Against "moves still, at no less than least_speed_share of that" stands "is
 /// static"; where the ratio of the two densities of the latest residual is for static, it is taken
 /// off, down to zero. Log-odds count up to `most`. What moves too slowly for one step to tell keeps
-/// all. `ended` keeps the most that any gap has lost, of every pixel: what earlier frames said of
-/// the same motion has lost it, too.
-void TakeOffEndedMotion(const LatestStep& step, const Texture& texture, const cv::Mat2f& per_step,
-                        const EvidenceOptions& options, double most, cv::Mat1f& log_odds,
-                        cv::Mat1f& ended);
+/// all.
+EndedMotion TakeOffEndedMotion(const LatestStep& step, const Texture& texture,
+                               const cv::Mat2f& per_step, const cv::Mat1f& log_odds, double most,
+                               const EvidenceOptions& options);
 
 }  // namespace aisle::slam::dynamic

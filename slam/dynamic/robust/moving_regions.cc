@@ -160,9 +160,9 @@ std::vector<std::size_t> LargestFirst(const std::vector<Component>& components) 
 }  // namespace
 
 PixelRegions FindRegions(const cv::Mat1b& moving, const cv::Mat1f& log_odds, const Links& links,
-                         const PixelRegions& previous, int& next_id, double coupling,
+                         const PixelRegions& previous, double coupling,
                          const RegionOptions& options) {
-  PixelRegions found;
+  PixelRegions found{.labels = {}, .regions = {}, .next_id = previous.next_id};
   const int count =
       LabelComponents(moving, links, static_cast<float>(options.link * coupling), found.labels);
   const auto components = Describe(found.labels, count, log_odds, previous, options);
@@ -173,7 +173,8 @@ PixelRegions FindRegions(const cv::Mat1b& moving, const cv::Mat1f& log_odds, con
     const int before = Predecessor(component, previous, taken, options);
     if (!IsMoving(component, before >= 0, options)) continue;
     if (before >= 0) taken.insert(before);
-    const int id = before >= 0 ? previous.regions[static_cast<std::size_t>(before)].id : next_id++;
+    const int id =
+        before >= 0 ? previous.regions[static_cast<std::size_t>(before)].id : found.next_id++;
     found.regions.push_back({id, cv::Rect(component.low, component.high + cv::Point(1, 1)),
                              component.pixels, component.sum / component.pixels});
     label_of[c] = static_cast<int>(found.regions.size());

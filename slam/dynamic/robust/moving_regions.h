@@ -19,16 +19,16 @@ struct PixelRegion {
 struct PixelRegions {
   cv::Mat1i labels;                  ///< per pixel: index into regions + 1; 0 = static
   std::vector<PixelRegion> regions;  ///< the largest first
+  int next_id = 0;                   ///< of the next one to be born; no id is given twice
 };
 
 /// Moving pixels that hang together by links that are not too weak, so that two people who meet
 /// stay two, and that speak for motion in the mean. A region is born where enough of its pixels are
 /// sure (by `log_odds`) and enough of it is more than a fringe; it lives on, under its id, with
 /// fewer of both while it covers a good part of its predecessor. Each id goes to the largest of its
-/// heirs; new ones are taken from `next_id`, which is advanced. `previous` has been carried to the
-/// current frame already.
+/// heirs. `previous` has been carried to the current frame already.
 PixelRegions FindRegions(const cv::Mat1b& moving, const cv::Mat1f& log_odds, const Links& links,
-                         const PixelRegions& previous, int& next_id, double coupling,
+                         const PixelRegions& previous, double coupling,
                          const RegionOptions& options);
 
 }  // namespace aisle::slam::dynamic

@@ -10,45 +10,25 @@
 #include "slam/camera/stereo_camera.h"
 #include "slam/dynamic/common/dynamic_regions.h"
 #include "slam/dynamic/common/stereo_pair.h"
-#include "slam/dynamic/robust/dense_frame.h"
-#include "slam/dynamic/robust/ego_motion.h"
 #include "slam/dynamic/robust/floor_plane.h"
-#include "slam/dynamic/robust/label_memory.h"
+#include "slam/dynamic/robust/gap_flow.h"
+#include "slam/dynamic/robust/past_evidence.h"
 #include "slam/dynamic/robust/robust_options.h"
+#include "slam/dynamic/robust/robust_state.h"
 
 namespace aisle::slam::dynamic {
 
-/// All that the method remembers between frames. A value: copies are cheap, as images are shared
-/// and never written again.
-struct RobustState {
-  std::int64_t stamp_ns = 0;
-  std::vector<DenseFrame> frames;  ///< the latest ones, newest last, up to kLongestGap
-  std::optional<Eigen::Isometry3d> T_now_before;  ///< the latest motion of the rig
-  double step_s = 0;                              ///< its duration
-  std::array<MeasurementNoise, kGaps.size()> noise = {MeasurementNoise(0.17, 0.17, 0.5),
-                                                      MeasurementNoise(0.17, 0.17, 0.5),
-                                                      MeasurementNoise(0.25, 0.25, 0.5)};
-  std::array<double, kGaps.size()> flow_noise = {0.1, 0.12, 0.15};  ///< half-size pixels
-  LabelMemory memory;
-  std::size_t long_slot = 0;  ///< in kGaps, of the longer gap compared last; 0: none was
-  int next_region_id = 0;
-};
-
-/// The way back over one gap.
-struct GapMotion {
-  std::size_t slot = 0;  ///< in kGaps
-  int gap = 1;           ///< frames
-  cv::Mat2f expected;    ///< half-size pixels of the earlier frame, were all static
-  cv::Mat2f flow;        ///< the same, whatever moved
+/// One gap whose motion was found.
+struct GapTrace {
+  GapFlow way;
   EgoMotion motion;
-  cv::Mat1f evidence;  ///< log-odds of moving per half-size pixel, of this gap, less what ended
-  cv::Mat2f per_step;  ///< what the static world leaves unexplained of the flow, for each step
+  GapEvidence evidence;
 };
 
 /// What the stages of one step found, for pictures and tests.
 struct RobustStages {
   cv::Mat1f half_disparity;
-  std::vector<GapMotion> gaps;
+  std::vector<GapTrace> gaps;
   std::optional<FloorPlane> floor;
   cv::Mat1b floor_mask;  ///< half size
   cv::Mat1f evidence;    ///< per half-size pixel, of this frame alone

@@ -52,9 +52,9 @@ TEST(ExtractFeatures, TakesImagesWithoutAnyFeature) {
 TEST(ExtractFeatures, TakesSmallAndNarrowImages) {
   const cv::Mat1b image = TexturedImage();
   for (const cv::Size size : {cv::Size(64, 64), cv::Size(64, 480), cv::Size(752, 40)}) {
-    const ImageFeatures image = ExtractFeatures(image(cv::Rect({0, 0}, size)).clone(), {}, {});
-    EXPECT_GT(image.pyramid.size(), 0);
-    EXPECT_GT(image.features.size(), 0);
+    const ImageFeatures found = ExtractFeatures(image(cv::Rect({0, 0}, size)).clone(), {}, {});
+    EXPECT_GT(found.pyramid.size(), 0);
+    EXPECT_GT(found.features.size(), 0);
   }
 }
 

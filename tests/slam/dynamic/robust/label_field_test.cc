@@ -129,58 +129,54 @@ struct Plate {
     log_odds(area).setTo(evidence);
     return *this;
   }
-  PixelRegions Find(const PixelRegions& previous, int& next_id) const {
-    return FindRegions(moving, log_odds, links, previous, next_id, 1, {});
+  PixelRegions Find(const PixelRegions& previous) const {
+    return FindRegions(moving, log_odds, links, previous, 1, {});
   }
 };
 
 TEST(FindRegions, ARegionIsBornOfSurePixelsAndLivesOnWithFewer) {
-  int next_id = 0;
   const RegionOptions options;
   const cv::Rect area(20, 10, 20, 40);
   Plate doubtful;
   doubtful.With(area, 1).With({22, 12, 10, 10}, 5);  // 100 sure pixels: too few for a birth
-  EXPECT_TRUE(doubtful.Find({}, next_id).regions.empty());
-  const PixelRegions born = Plate().With(area, 5).Find({}, next_id);
+  EXPECT_TRUE(doubtful.Find({}).regions.empty());
+  const PixelRegions born = Plate().With(area, 5).Find({});
   ASSERT_EQ(born.regions.size(), 1U);
   EXPECT_EQ(born.regions[0].box, area);
   EXPECT_EQ(born.regions[0].pixels, area.area());
-  const PixelRegions kept = doubtful.Find(born, next_id);
+  const PixelRegions kept = doubtful.Find(born);
   ASSERT_EQ(kept.regions.size(), 1U);
   EXPECT_EQ(kept.regions[0].id, born.regions[0].id);
-  EXPECT_TRUE(Plate().With(area, 1).Find(born, next_id).regions.empty());
+  EXPECT_TRUE(Plate().With(area, 1).Find(born).regions.empty());
 }
 
 TEST(FindRegions, IdsFollowTheirRegionsAndAreNotReused) {
-  int next_id = 0;
-  const PixelRegions first = Plate().With({20, 10, 20, 40}, 5).Find({}, next_id);
+  const PixelRegions first = Plate().With({20, 10, 20, 40}, 5).Find({});
   const PixelRegions second =
-      Plate().With({24, 10, 20, 40}, 5).With({80, 30, 16, 16}, 6).Find(first, next_id);
+      Plate().With({24, 10, 20, 40}, 5).With({80, 30, 16, 16}, 6).Find(first);
   ASSERT_EQ(second.regions.size(), 2U);
   EXPECT_EQ(second.regions[0].id, first.regions[0].id);
   EXPECT_NE(second.regions[1].id, first.regions[0].id);
-  const PixelRegions third = Plate().With({2, 60, 20, 20}, 6).Find(second, next_id);
+  const PixelRegions third = Plate().With({2, 60, 20, 20}, 6).Find(second);
   ASSERT_EQ(third.regions.size(), 1U);
   EXPECT_EQ(third.regions[0].id, 2);
 }
 
 TEST(FindRegions, TwoWhoMeetStayTwoAndOneWhoPartsKeepsHisNameOnce) {
-  int next_id = 0;
   Plate meeting;
   meeting.With({20, 10, 40, 40}, 5).links.right.col(39).setTo(0.1F);  // a step between them
-  const PixelRegions two = meeting.Find({}, next_id);
+  const PixelRegions two = meeting.Find({});
   ASSERT_EQ(two.regions.size(), 2U);
-  const PixelRegions one = Plate().With({20, 10, 40, 40}, 5).Find(two, next_id);
+  const PixelRegions one = Plate().With({20, 10, 40, 40}, 5).Find(two);
   ASSERT_EQ(one.regions.size(), 1U);
-  const PixelRegions parted = meeting.Find(one, next_id);
+  const PixelRegions parted = meeting.Find(one);
   ASSERT_EQ(parted.regions.size(), 2U);
   EXPECT_NE(parted.regions[0].id, parted.regions[1].id);
 }
 
 TEST(FindRegions, SmallOnesAndFringesAreNoise) {
-  int next_id = 0;
-  EXPECT_TRUE(Plate().With({20, 10, 7, 7}, 6).Find({}, next_id).regions.empty());
-  EXPECT_TRUE(Plate().With({20, 10, 4, 60}, 6).Find({}, next_id).regions.empty());
+  EXPECT_TRUE(Plate().With({20, 10, 7, 7}, 6).Find({}).regions.empty());
+  EXPECT_TRUE(Plate().With({20, 10, 4, 60}, 6).Find({}).regions.empty());
 }
 
 }  // namespace

@@ -244,7 +244,7 @@ TEST(FollowBack, FindsTheWayOfStaticPixelsToAFractionOfAPixel) {
 TEST(MatchesAlong, AreOnePerCellAndFollowTheRigsMotion) {
   const Pair pair({}, {0, 0, 0.05}, 0.05);
   const auto matches = MatchesAlong(pair.points, pair.flow, pair.expected, pair.now, pair.then,
-                                    ForgottenMemory(pair.now.image.size()));
+                                    ForgottenMemory(pair.now.image.size(), 0));
   ASSERT_GT(matches.size(), 200U);
   EXPECT_LE(matches.size(), static_cast<std::size_t>((376 / 12 + 1) * (240 / 12)));
   Isometry3d T_now_then = Isometry3d::Identity();
@@ -261,7 +261,7 @@ TEST(MatchesAlong, FindTheirWayWhereTheFlowIsAnothers) {
   cv::add(pair.flow, cv::Scalar(9, -4), anothers);
   const auto count = [&](const cv::Mat2f& flow) {
     const auto matches = MatchesAlong(pair.points, flow, pair.expected, pair.now, pair.then,
-                                      ForgottenMemory(pair.now.image.size()));
+                                      ForgottenMemory(pair.now.image.size(), 0));
     Isometry3d T_now_then = Isometry3d::Identity();
     T_now_then.translation() = Vector3d(0, 0, -0.05);
     return std::count_if(matches.begin(), matches.end(), [&](const StereoMatch& match) {
@@ -273,7 +273,7 @@ TEST(MatchesAlong, FindTheirWayWhereTheFlowIsAnothers) {
 
 TEST(MatchesAlong, WhatARegionCoversIsHardlyTrusted) {
   const Pair pair({}, {0, 0, 0.05}, 0.05);
-  LabelMemory memory = ForgottenMemory(pair.now.image.size());
+  LabelMemory memory = ForgottenMemory(pair.now.image.size(), 0);
   memory.regions.labels.colRange(0, 188).setTo(1);
   for (const StereoMatch& match :
        MatchesAlong(pair.points, pair.flow, pair.expected, pair.now, pair.then, memory)) {
@@ -300,7 +300,7 @@ TEST(CarryMemory, TakesAMoversMemoryAlongAndLeavesNoTrail) {
   now.disparity = cv::Mat1f(60, 80, 3.0F);
   now.disparity(cv::Rect(25, 10, 10, 30)).setTo(12.0F);
   now.filled = now.disparity;
-  LabelMemory memory = ForgottenMemory({80, 60});
+  LabelMemory memory = ForgottenMemory({80, 60}, 0);
   memory.log_odds.setTo(-3.0F);
   memory.log_odds(cv::Rect(20, 10, 10, 30)).setTo(5.0F);
   cv::Mat2f flow(60, 80);
@@ -324,7 +324,7 @@ TEST(CarryMemory, FollowsTheFlowAloneBeyondTheRightImageAndNowhereElse) {
   now.disparity.colRange(40, 50).setTo(kNoDisparity);  // hidden from the right camera
   now.disparity.row(50).setTo(kNoDisparity);
   now.filled = cv::Mat1f(60, 80, 1.0F);  // another surface than the mover's
-  LabelMemory memory = ForgottenMemory({80, 60});
+  LabelMemory memory = ForgottenMemory({80, 60}, 0);
   memory.log_odds.setTo(5.0F);
   cv::Mat2f flow(60, 80);
   for (int y = 0; y < 60; ++y) {

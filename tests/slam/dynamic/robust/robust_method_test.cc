@@ -119,7 +119,7 @@ TEST(RobustMethod, TakesTheLongerGapsInTurn) {
         StepRobust(state, {view.left, view.right}, k * 50'000'000LL, std::nullopt, {}, {});
     state = std::move(result.state);
     gaps.emplace_back();
-    for (const GapMotion& gap : result.stages.gaps) gaps.back().push_back(gap.gap);
+    for (const GapTrace& gap : result.stages.gaps) gaps.back().push_back(gap.way.gap);
   }
   using Gaps = std::vector<int>;
   EXPECT_EQ(gaps[0], Gaps());

@@ -1,0 +1,97 @@
+#include "slam/dynamic/robust/gap_motion.h"
+
+#include <tbb/parallel_for.h>
+
+#include "slam/dynamic/robust/residual_flow.h"
+
+namespace aisle::slam::dynamic {
+namespace {
+
+using Eigen::Isometry3d;
+
+const MeasurementNoise kLeastNoise(0.1, 0.1, 0.2), kMostNoise(1.0, 1.0, 2.0);  // full pixels
+
+using GapMatches = std::vector<std::vector<StereoMatch>>;
+
+GapMatches MatchOverGaps(const RobustState& before, const View& view,
+                         const std::vector<GapFlow>& flows, const LabelMemory& memory,
+                         int cell_px) {
+  const auto points = WellHeld(view.texture, view.frame.disparity, cell_px);
+  GapMatches matches(flows.size());
+  tbb::parallel_for(std::size_t{0}, flows.size(), [&](std::size_t k) {
+    matches[k] = MatchesAlong(points, flows[k].flow, flows[k].expected, view.frame,
+                              FrameAgo(before, flows[k].gap), memory);
+  });
+  return matches;
+}
+
+std::vector<EgoMotion> MotionsOf(const GapMatches& matches, const RobustState& before,
+                                 const std::vector<GapFlow>& flows,
+                                 const std::optional<MotionPrior>& prior,
+                                 const StereoCamera& camera, const EgoMotionOptions& options) {
+  std::vector<EgoMotion> motions(flows.size());
+  if (flows.empty()) return motions;
+  motions[0] = EstimateEgoMotion(matches[0], camera, prior, before.noise.match[0], options);
+  EgoMotionOptions narrow = options;
+  narrow.rounds = 1;  // the frames between have left little to find
+  tbb::parallel_for(std::size_t{1}, flows.size(), [&](std::size_t k) {
+    const Isometry3d expected = MotionOver(flows[k].gap, before, motions[0].T_now_before);
+    motions[k] =
+        RefineEgoMotion(matches[k], camera, expected, before.noise.match[flows[k].slot], narrow);
+  });
+  const auto lost = std::find_if(motions.begin(), motions.end(),
+                                 [](const EgoMotion& motion) { return !motion.found; });
+  motions.erase(lost, motions.end());
+  return motions;
+}
+
+/// The running noise of one gap after what its matches say of it.
+MeasurementNoise Learned(const MeasurementNoise& known, const std::vector<StereoMatch>& matches,
+                         const EgoMotion& motion, const StereoCamera& camera, double rate) {
+  const auto measured = MeasureNoise(matches, camera, motion.T_now_before);
+  if (!measured) return known;
+  const MeasurementNoise bounded = measured->cwiseMax(kLeastNoise).cwiseMin(kMostNoise);
+  return known + rate * (bounded - known);
+}
+
+}  // namespace
+
+double LearningRate(std::size_t slot) {
+  constexpr double kRate = 0.1, kEverySecond = 1 - (1 - kRate) * (1 - kRate);
+  return slot == 0 ? kRate : kEverySecond;
+}
+
+std::optional<MotionPrior> PriorFor(const RobustState& before, std::int64_t stamp_ns,
+                                    const std::optional<Isometry3d>& predicted,
+                                    const EgoMotionOptions& options) {
+  const double step_s = Seconds(before.stamp_ns, stamp_ns);
+  MotionPrior prior;
+  if (predicted) {
+    prior.T_now_before = *predicted;
+  } else if (before.T_now_before && before.step_s > 0) {
+    const Vector6d motion = Difference(Isometry3d::Identity(), *before.T_now_before);
+    prior.T_now_before = Retract(Isometry3d::Identity(), motion * (step_s / before.step_s));
+  } else {
+    return std::nullopt;
+  }
+  constexpr double kLeastM = 0.002, kLeastRad = 0.002;  // of the prediction itself
+  prior.sigma_m = kLeastM + options.acceleration_mps2 * step_s * step_s;
+  prior.sigma_rad = kLeastRad + options.angular_acceleration_radps2 * step_s * step_s;
+  return prior;
+}
+
+GapMotions FindGapMotions(const RobustState& before, const View& view,
+                          const std::vector<GapFlow>& flows, const LabelMemory& memory,
+                          const std::optional<MotionPrior>& prior, const StereoCamera& camera,
+                          const EgoMotionOptions& options) {
+  const GapMatches matches = MatchOverGaps(before, view, flows, memory, options.cell_px);
+  GapMotions found{MotionsOf(matches, before, flows, prior, camera, options), before.noise.match};
+  tbb::parallel_for(std::size_t{0}, found.motions.size(), [&](std::size_t k) {
+    const std::size_t slot = flows[k].slot;
+    found.noise[slot] =
+        Learned(before.noise.match[slot], matches[k], found.motions[k], camera, LearningRate(slot));
+  });
+  return found;
+}
+
+}  // namespace aisle::slam::dynamic

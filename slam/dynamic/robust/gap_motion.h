@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "slam/dynamic/robust/ego_motion.h"
+#include "slam/dynamic/robust/gap_flow.h"
+
+namespace aisle::slam::dynamic {
+
+/// Where the rig is expected now: as the caller predicts, else as it moved before; nothing in the
+/// first frame.
+std::optional<MotionPrior> PriorFor(const RobustState& before, std::int64_t stamp_ns,
+                                    const std::optional<Eigen::Isometry3d>& predicted,
+                                    const EgoMotionOptions& options);
+
+/// The rig's motion over the gaps.
+struct GapMotions {
+  std::vector<EgoMotion> motions;  ///< of the first flows, up to the first not found
+  std::array<MeasurementNoise, kGaps.size()> noise;  ///< with what these have taught
+};
+
+/// Finds the rig's motion over every gap; the longer ones start from what the frames between have
+/// said. `memory` has been carried to the current frame.
+GapMotions FindGapMotions(const RobustState& before, const View& view,
+                          const std::vector<GapFlow>& flows, const LabelMemory& memory,
+                          const std::optional<MotionPrior>& prior, const StereoCamera& camera,
+                          const EgoMotionOptions& options);
+
+/// By which share a value measured over a gap moves the running one, so that all gaps learn at one
+/// pace: a longer gap is measured in every second frame.
+double LearningRate(std::size_t slot);
+
+}  // namespace aisle::slam::dynamic

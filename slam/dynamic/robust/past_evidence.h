@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "slam/dynamic/robust/gap_motion.h"
+
+namespace aisle::slam::dynamic {
+
+/// What one gap says of the current pixels.
+struct GapEvidence {
+  cv::Mat1f log_odds;  ///< of moving per half-size pixel, less what has ended
+  cv::Mat2f per_step;  ///< what the static world leaves unexplained of the flow, for each step
+};
+
+/// What the past says of the current pixels.
+struct PastEvidence {
+  std::vector<GapEvidence> gaps;  ///< of those whose motion is known, in their order
+  cv::Mat1f log_odds;             ///< of all gaps together; 0 where they say nothing
+  cv::Mat1f ended;  ///< log-odds of moving that earlier frames said of motion that has ended
+  std::array<double, kGaps.size()> flow_noise;  ///< with what the comparisons have taught
+};
+
+/// Compares the view with the frames that the motions lead back to; the longer gap that has not its
+/// turn is heard as `memory` has kept it. `memory` has been carried to the current frame.
+PastEvidence WeighPast(const RobustState& before, const View& view,
+                       const std::vector<GapFlow>& flows, const std::vector<EgoMotion>& motions,
+                       const LabelMemory& memory, const StereoCamera& half,
+                       const EvidenceOptions& options);
+
+}  // namespace aisle::slam::dynamic

@@ -1,0 +1,78 @@
+#include "slam/dynamic/robust/pixel_labels.h"
+
+#include <tbb/parallel_for.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "slam/dynamic/common/in_parallel.h"
+#include "slam/dynamic/robust/join_regions.h"
+#include "slam/dynamic/robust/label_field.h"
+
+namespace aisle::slam::dynamic {
+namespace {
+
+/// What leans to static, added.
+cv::Mat1f Leaning(const cv::Mat1f& log_odds, const cv::Mat1f& disparity, const cv::Mat1b& floor,
+                  const FieldOptions& options) {
+  cv::Mat1f leaning;
+  cv::add(log_odds, options.bias, leaning);
+  const auto unknown = static_cast<float>(options.unknown_bias),
+             on_floor = static_cast<float>(options.floor_bias);
+  tbb::parallel_for(0, leaning.rows, [&](int y) {
+    const float* known = disparity[y];
+    float* lean = leaning[y];
+    for (int x = 0; x < leaning.cols; ++x) lean[x] += known[x] <= 0 ? unknown : 0.0F;
+    for (int x = 0; x < leaning.cols; ++x) {
+      if (floor(y, x) != 0) lean[x] = std::min(lean[x], 0.0F) + on_floor;
+    }
+  });
+  return leaning;
+}
+
+cv::Mat1b PixelMask(const PixelRegions& regions, cv::Size image) {
+  cv::Mat1b half, mask;
+  cv::compare(regions.labels, 0, half, cv::CMP_GT);
+  cv::resize(half, mask, image, 0, 0, cv::INTER_LINEAR);
+  cv::threshold(mask, mask, 127, 255, cv::THRESH_BINARY);
+  return mask;
+}
+
+cv::Mat1f PixelProbability(const cv::Mat1f& log_odds, cv::Size image) {
+  cv::Mat1f odds, probability;
+  cv::exp(-log_odds, odds);
+  odds = 1 / (1 + odds);
+  cv::resize(odds, probability, image, 0, 0, cv::INTER_LINEAR);
+  return probability;
+}
+
+DynamicRegions ToFullSize(const PixelRegions& regions, const cv::Mat1f& disparity, cv::Size image,
+                          const RegionOptions& options) {
+  DynamicRegions dynamic;
+  dynamic.mask = PixelMask(regions, image);
+  for (const PixelRegion& region : JoinRegions(regions, disparity, options)) {
+    const cv::Rect box(region.box.tl() * 2, region.box.size() * 2);
+    dynamic.regions.push_back({region.id, box & cv::Rect({0, 0}, image), region.log_odds});
+  }
+  return dynamic;
+}
+
+}  // namespace
+
+PixelLabels LabelPixels(const cv::Mat1f& log_odds, const DenseFrame& frame, const Layout& layout,
+                        const PixelRegions& previous, cv::Size image,
+                        const RobustOptions& options) {
+  const cv::Mat1f leaning = Leaning(log_odds, frame.disparity, layout.floor_mask, options.field);
+  const cv::Mat1f field = SolveField(leaning, layout.links, options.field);
+  auto [regions, probability] = InParallel(
+      [&] {
+        const cv::Mat1b moving = GrowMoving(field, leaning, layout.links, layout.floor_mask,
+                                            layout.farthest, options.field);
+        return FindRegions(moving, log_odds, layout.links, previous, options.field.coupling,
+                           options.region);
+      },
+      [&] { return PixelProbability(field, image); });
+  DynamicRegions dynamic = ToFullSize(regions, frame.disparity, image, options.region);
+  return {field, std::move(regions), std::move(dynamic), std::move(probability)};
+}
+
+}  // namespace aisle::slam::dynamic

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "slam/dynamic/robust/dense_frame.h"
+#include "slam/dynamic/robust/ego_motion.h"
+#include "slam/dynamic/robust/label_memory.h"
+#include "slam/dynamic/robust/robust_options.h"
+
+namespace aisle::slam::dynamic {
+
+/// Noise as measured while running, for each of kGaps.
+struct LearnedNoise {
+  std::array<MeasurementNoise, kGaps.size()> match = {MeasurementNoise(0.17, 0.17, 0.5),
+                                                      MeasurementNoise(0.17, 0.17, 0.5),
+                                                      MeasurementNoise(0.25, 0.25, 0.5)};
+  std::array<double, kGaps.size()> flow = {0.1, 0.12, 0.15};  ///< half-size pixels
+};
+
+/// All that the method remembers between frames. A value: copies are cheap, as images are shared
+/// and never written again.
+struct RobustState {
+  std::int64_t stamp_ns = 0;
+  std::vector<DenseFrame> frames;  ///< the latest ones, newest last, up to kLongestGap
+  std::optional<Eigen::Isometry3d> T_now_before;  ///< the latest motion of the rig
+  double step_s = 0;                              ///< its duration
+  LearnedNoise noise;
+  LabelMemory memory;
+  std::size_t long_slot = 0;  ///< in kGaps, of the longer gap compared last; 0: none was
+};
+
+/// The frame `gap` frames before the current one; `gap` is at most the number of frames.
+inline const DenseFrame& FrameAgo(const RobustState& before, int gap) {
+  return before.frames[before.frames.size() - static_cast<std::size_t>(gap)];
+}
+
+/// The rig's motion since the frame a gap ago, if the latest step was T_now_before.
+inline Eigen::Isometry3d MotionOver(int gap, const RobustState& before,
+                                    const Eigen::Isometry3d& T_now_before) {
+  return T_now_before * before.frames.back().T_world_rig.inverse() *
+         FrameAgo(before, gap).T_world_rig;
+}
+
+inline double Seconds(std::int64_t from_ns, std::int64_t to_ns) {
+  return static_cast<double>(to_ns - from_ns) * 1e-9;
+}
+
+}  // namespace aisle::slam::dynamic

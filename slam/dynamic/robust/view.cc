@@ -1,0 +1,32 @@
+#include "slam/dynamic/robust/view.h"
+
+#include <tbb/parallel_invoke.h>
+
+namespace aisle::slam::dynamic {
+
+View LookAt(const StereoPair& images, std::int64_t stamp_ns, const RobustOptions& options) {
+  View view;
+  tbb::parallel_invoke(
+      [&] {
+        view.frame = MakeDenseFrame(images.left, images.right, options.disparity, options.surface);
+        view.frame.stamp_ns = stamp_ns;
+        view.around = LookAround(view.frame, options.surface, options.evidence);
+      },
+      [&] {
+        const cv::Mat1b half = HalfImage(images.left);
+        view.texture = MeasureTexture(half, options.surface);
+        view.pyramid = MakeFlowPyramid(half, options.flow);
+      });
+  return view;
+}
+
+Layout LayOut(const DenseFrame& frame, const StereoCamera& camera, const RobustOptions& options) {
+  Layout layout;
+  layout.floor = FindFloor(frame.disparity, options.floor);
+  layout.floor_mask = FloorMask(frame.filled, layout.floor);
+  layout.links = LinkPixels(frame.filled, frame.image, layout.floor_mask, options.field);
+  frame.filled.convertTo(layout.farthest, CV_32F, options.field.grow_m / camera.baseline_m);
+  return layout;
+}
+
+}  // namespace aisle::slam::dynamic
