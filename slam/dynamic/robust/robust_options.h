@@ -119,7 +119,7 @@ struct FieldOptions {
   double bias = -0.15, unknown_bias = -0.5, floor_bias = -0.5;
   double coupling = 1;  ///< log-odds by which equal neighbours on one surface agree
   double disparity = 0.4, disparity_share = 0.04;  ///< step between neighbours that halves it
-  double contrast = 20;                            ///< grey levels; step that halves it further
+  double contrast = 14;                            ///< grey levels; step that halves it further
   double floor_link = 0.1;  ///< share of the coupling between the floor and what stands on it
   int sweeps = 4;
   double moving = 0.5;  ///< log-odds from which on a pixel moves
