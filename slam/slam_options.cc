@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <string_view>
+
 #include "slam/common/nearest_name.h"
 
 namespace aisle::slam {
@@ -40,6 +43,27 @@ void StartFrom(Base base, const OptionFields& fields) {
     SetFrom(TextOf(from.fields()[i]), fields.fields()[i]);
   }
 }
+
+/// Options that one base alone looks at. Of two prefixes that fit, the longer one decides.
+struct HeededBy {
+  const char* prefix;
+  std::optional<Base> base;  ///< none: by all
+};
+constexpr HeededBy kHeeded[] = {
+    {"track.", Base::kPlain},
+    {"track.longest_gap_s", std::nullopt},  // the rejection of movers predicts by it
+    {"keyframe.", Base::kPlain},
+    {"mapping.create.", Base::kPlain},
+    {"mapping.cull.", Base::kPlain},
+    {"mapping.triangulate.worst_depth_ratio", Base::kPlain},
+    {"new_part_after_s", Base::kPlain},  // the published system begins no parts
+    {"least_keyframes", Base::kPlain},
+    {"least_first_points", Base::kPlain},
+    {"orbslam2.", Base::kOrbSlam2},
+    {"orbslam2_mapping.", Base::kOrbSlam2},
+};
+
+std::string NameOf(Base base) { return base == Base::kPlain ? "plain" : "orbslam2"; }
 
 constexpr int kAll = 1'000'000;  // keyframes: no map has more
 
@@ -126,6 +150,20 @@ std::string SetOption(const std::string& path, const std::string& text, SlamOpti
     return wrong;
   }
   return UnknownPath(path, fields);
+}
+
+std::string WhyWithoutEffect(const std::string& path, Base base) {
+  std::optional<Base> heeded_by;
+  std::size_t longest = 0;
+  for (const HeededBy& one : kHeeded) {
+    const std::size_t length = std::string_view(one.prefix).size();
+    if (length <= longest || !path.starts_with(one.prefix)) continue;
+    longest = length;
+    heeded_by = one.base;
+  }
+  if (!heeded_by || *heeded_by == base) return {};
+  return fmt::format("{} has no effect with base {}; only base {} looks at it", path, NameOf(base),
+                     NameOf(*heeded_by));
 }
 
 std::string Validate(const SlamOptions& options) {

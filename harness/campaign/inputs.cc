@@ -71,6 +71,18 @@ std::pair<SystemSpec*, std::string> SystemOf(const std::string& text,
   return found;
 }
 
+/// One assignment may need another, whichever comes first: they are held against each other once
+/// all are set. What the suite files say was good before.
+void CheckTogether(const std::vector<Suite>& suites) {
+  for (const Suite& suite : suites) {
+    for (const SystemSpec& spec : suite.systems) {
+      if (spec.external) continue;
+      const std::string wrong = CheckOptions(FindSystem(spec.like), spec.options);
+      if (!wrong.empty()) throw InputError(fmt::format("--set, system '{}': {}", spec.name, wrong));
+    }
+  }
+}
+
 void SetOptions(const std::vector<std::string>& assignments, std::vector<Suite>* suites) {
   for (const std::string& text : assignments) {
     std::set<std::string> names;
@@ -86,11 +98,8 @@ void SetOptions(const std::vector<std::string>& assignments, std::vector<Suite>*
                         Printable(text), spec->name));
       }
       any = true;
-      for (const auto& [path, value] : OptionsFromText({assignment}, FindSystem(spec->like))) {
-        spec->options[path] = value;
-      }
-      const std::string wrong = CheckOptions(FindSystem(spec->like), spec->options);
-      if (!wrong.empty()) throw InputError("--set " + Printable(text) + ": " + wrong);
+      const auto [path, value] = OptionFromText(assignment);
+      spec->options[path] = value;
     }
     if (!any) {
       throw InputError(
@@ -99,6 +108,7 @@ void SetOptions(const std::vector<std::string>& assignments, std::vector<Suite>*
                       Printable(text), fmt::join(names, ", ")));
     }
   }
+  if (!assignments.empty()) CheckTogether(*suites);
 }
 
 }  // namespace

@@ -1,16 +1,29 @@
 #include "harness/cli/command.h"
 #include "harness/cli/terminal.h"
+#include "harness/io/file.h"
 #include "harness/judge/limit.h"
 #include "harness/report/console.h"
+#include "harness/report/paper/into_page.h"
 #include "harness/report/report.h"
 
 namespace aisle {
 namespace {
 
-int Rebuild(const std::string& folder, bool json) {
+struct Options {
+  std::string folder, into;
+  bool json = false;
+};
+
+int Rebuild(const Options& options) {
+  const std::string& folder = options.folder;
   const Results results = ReadResults(folder);
+  if (!options.into.empty()) {
+    WriteFileAtomically(options.into, WithTables(ReadFile(options.into), options.into, results));
+    fmt::print("tables: {}\n", options.into);
+    return kAllPassed;
+  }
   WriteReport(results, folder);
-  if (json) {
+  if (options.json) {
     fmt::print("{}", ToJson(results));
   } else {
     fmt::print("{}report: {}/index.html\n", ToConsole(results, StdoutHasColor()), folder);
@@ -21,13 +34,19 @@ int Rebuild(const std::string& folder, bool json) {
 }  // namespace
 
 void AddReportCommand(CLI::App* app, Action* action) {
-  const auto folder = std::make_shared<std::string>();
-  const auto json = std::make_shared<bool>(false);
+  const auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand("report", "rebuild the pages of a finished run");
-  command->add_option("DIR", *folder, "folder with results.json")->required();
-  command->add_flag("--json", *json, "results.json on stdout instead of the table");
-  command->footer("Example: ./aisle report out/quickstart");
-  command->callback([=] { *action = [=] { return Rebuild(*folder, *json); }; });
+  command->add_option("DIR", options->folder, "folder with results.json")->required();
+  CLI::Option* json =
+      command->add_flag("--json", options->json, "results.json on stdout instead of the table");
+  command
+      ->add_option("--into", options->into,
+                   "write the tables between the marks of this Markdown page, and no other page")
+      ->excludes(json);
+  command->footer(
+      "Example: ./aisle report out/quickstart\n"
+      "         ./aisle report out/paper --into reports/paper.md");
+  command->callback([=] { *action = [=] { return Rebuild(*options); }; });
 }
 
 }  // namespace aisle

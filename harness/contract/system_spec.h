@@ -36,6 +36,15 @@ struct SystemSpec {
 /// A built-in system as it is.
 inline SystemSpec BuiltIn(const std::string& name) { return {.name = name, .like = name}; }
 
+/// Whose decisions one of our systems tracks and maps by: "orbslam2" or "plain"; empty for a foreign
+/// one. The published systems stand on the published base, our own on ours.
+inline std::string BaseOf(const SystemSpec& spec) {
+  if (spec.external) return "";
+  if (const auto base = spec.options.find("base"); base != spec.options.end()) return base->second;
+  const bool published = spec.like == "orbslam2" || spec.like == "semantic" || spec.like == "paper";
+  return published ? "orbslam2" : "plain";
+}
+
 /// Why the parts of a spec do not fit together, or an empty string.
 inline std::string Validate(const SystemSpec& spec) {
   if (spec.name.empty()) return "a system needs a name";

@@ -125,7 +125,9 @@ slam::SlamOptions OptionsFrom(const std::map<std::string, std::string>& values) 
 
 std::vector<SystemOption> DescribeSlamOptions(const std::map<std::string, std::string>& values) {
   std::vector<SystemOption> described;
-  for (const slam::OptionDescription& option : slam::DescribeOptions(OptionsFrom(values))) {
+  const slam::SlamOptions options = OptionsFrom(values);
+  for (const slam::OptionDescription& option : slam::DescribeOptions(options)) {
+    if (!slam::WhyWithoutEffect(option.path, options.base).empty()) continue;
     described.push_back({option.path, static_cast<SystemOption::Kind>(option.kind), option.value,
                          option.unit, option.help, option.low, option.high, option.choices});
   }
@@ -140,6 +142,10 @@ std::string CheckSlamOption(const std::string& path, const std::string& value) {
 std::string CheckSlamOptions(const std::map<std::string, std::string>& values) {
   slam::SlamOptions options;
   if (!SetAll(values, &options).empty()) return {};  // said of the option itself
+  for (const auto& [path, value] : values) {
+    const std::string idle = slam::WhyWithoutEffect(path, options.base);
+    if (!idle.empty()) return idle;
+  }
   return slam::Validate(options);
 }
 

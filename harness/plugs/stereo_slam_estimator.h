@@ -23,14 +23,15 @@ struct StereoSlamEstimatorOptions {
   bool draw_stages = false;   ///< estimates can draw how the movers were found; changes no result
 };
 
-/// Every option of our SLAM; its value where `options` are set, by path. Throws InputError for one
+/// Every option of our SLAM that its base looks at; its value where `options` are set, by path. Throws InputError for one
 /// that cannot be.
 std::vector<SystemOption> DescribeSlamOptions(const std::map<std::string, std::string>& options);
 
 /// What is wrong with one option and its value, or an empty string.
 std::string CheckSlamOption(const std::string& path, const std::string& value);
 
-/// What is wrong with options together, each of which is good alone, or an empty string.
+/// What is wrong with options together, each of which is good alone, or an empty string: a broken
+/// rule, or one that their base does not look at.
 std::string CheckSlamOptions(const std::map<std::string, std::string>& options);
 
 /// Our SLAM behind the Estimator socket. Throws InputError for options that are none.

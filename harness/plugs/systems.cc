@@ -14,17 +14,19 @@ const std::vector<System>& Systems() {
        MaskSource::kNone,
        {{"base", "orbslam2"}}},
       {"plain", "our stereo SLAM, nothing rejected", MaskSource::kNone},
-      {"semantic", "no features on any person or vehicle, moving or not: the DynaSLAM row",
-       MaskSource::kActors},
+      {"semantic",
+       "orbslam2 without features on any person or vehicle, moving or not: the DynaSLAM row",
+       MaskSource::kActors,
+       {{"base", "orbslam2"}}},
       {"paper",
-       "our SLAM with the paper's rejection of dynamic regions, as written",
+       "orbslam2 with the paper's rejection of dynamic regions, as written",
        MaskSource::kNone,
-       {{"dynamic.method", "paper"}}},
+       {{"base", "orbslam2"}, {"dynamic.method", "paper"}}},
       {"robust",
        "our SLAM with our best rejection of dynamic regions",
        MaskSource::kNone,
        {{"dynamic.method", "robust"}}},
-      {"oracle", "no features on what truth says moves now: the best any rejection could do",
+      {"oracle", "our SLAM without features on what truth says moves now: the best rejection",
        MaskSource::kDynamic},
   };
   return systems;
@@ -54,17 +56,22 @@ std::string CheckOptions(const System& like, const std::map<std::string, std::st
   return CheckSlamOptions(all);
 }
 
+std::pair<std::string, std::string> OptionFromText(const std::string& assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos) {
+    throw InputError(fmt::format("'{}': expected PATH=VALUE, for example feature.features=800",
+                                 Printable(assignment)));
+  }
+  const std::string path = assignment.substr(0, equals), value = assignment.substr(equals + 1);
+  if (const std::string wrong = CheckOption(path, value); !wrong.empty()) throw InputError(wrong);
+  return {path, value};
+}
+
 std::map<std::string, std::string> OptionsFromText(const std::vector<std::string>& assignments,
                                                    const System& like) {
   std::map<std::string, std::string> options;
   for (const std::string& text : assignments) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos) {
-      throw InputError(fmt::format("'{}': expected PATH=VALUE, for example feature.features=800",
-                                   Printable(text)));
-    }
-    const std::string path = text.substr(0, equals), value = text.substr(equals + 1);
-    if (const std::string wrong = CheckOption(path, value); !wrong.empty()) throw InputError(wrong);
+    const auto [path, value] = OptionFromText(text);
     options[path] = value;
   }
   if (const std::string wrong = CheckOptions(like, options); !wrong.empty()) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/contract/estimator.h"
@@ -26,17 +27,21 @@ const std::vector<System>& Systems();
 /// Throws InputError naming the known systems.
 const System& FindSystem(const std::string& name);
 
-/// Every option of a built-in system with its value there.
+/// Every option of a built-in system that has an effect there, with its value.
 std::vector<SystemOption> OptionsOf(const System& system);
 
 /// What is wrong with one option and its value, or an empty string.
 std::string CheckOption(const std::string& path, const std::string& value);
 
 /// What is wrong with a variant's options together, each of which is good alone, or an empty
-/// string.
+/// string. One that has no effect in the variant is wrong.
 std::string CheckOptions(const System& like, const std::map<std::string, std::string>& options);
 
-/// Options from the words of a command line, "PATH=VALUE" each. Throws InputError.
+/// An option and its value from a word of a command line, "PATH=VALUE". Throws InputError where
+/// there is no such option or it cannot have that value.
+std::pair<std::string, std::string> OptionFromText(const std::string& assignment);
+
+/// All options of a command line, which must be good together. Throws InputError.
 std::map<std::string, std::string> OptionsFromText(const std::vector<std::string>& assignments,
                                                    const System& like);
 

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "harness/report/paper/base_table.h"
 #include "harness/report/paper/printed.h"
 
 namespace aisle {
@@ -79,7 +80,10 @@ const std::vector<Kind>& Kinds() {
 std::vector<std::string> SystemsOf(const std::vector<SceneRuns>& scenes) {
   std::map<int, std::string> by_color;
   for (const SceneRuns& scene : scenes) {
-    for (const SystemRuns& system : scene.systems) by_color[system.color] = system.system;
+    for (const SystemRuns& system : scene.systems) {
+      if (IsOnAnotherBase(system.runs.front()->spec.system)) continue;
+      by_color[system.color] = system.system;
+    }
   }
   std::vector<std::string> names;
   for (const auto& [color, name] : by_color) names.push_back(name);
@@ -246,6 +250,7 @@ std::vector<NumberTable> PaperTables(const std::vector<SceneRuns>& scenes) {
     if (FollowsThePaper(scenes)) AddPrinted(kind, &table);
     tables.push_back(table);
   }
+  if (auto by_base = BaseTable(scenes)) tables.push_back(std::move(*by_base));
   return tables;
 }
 

@@ -26,7 +26,8 @@ struct NumberTable {
 /// follow it: moving objects (its Table 1) and their detection (2), relative
 /// drift and absolute error (3), absolute error (4), relative error (5), time of the front end (6),
 /// largest error (Fig. 11, of its scenes alone). Medians over seeds and, where there are several,
-/// the least and the most; live twins alone. Tables without a number are left out.
+/// the least and the most; live twins alone. Tables without a number are left out. Last, what the
+/// base and what the rejection contribute (BaseTable).
 std::vector<NumberTable> PaperTables(const std::vector<SceneRuns>& scenes);
 
 std::string ToHtml(const std::vector<NumberTable>& tables);

@@ -114,8 +114,16 @@ TEST_F(InputsTest, SetChangesAnOptionOfOneSystem) {
   EXPECT_EQ(suites[1].systems[0].options.at("feature.features"), "800");
 }
 
+TEST_F(InputsTest, SetOptionsMayNeedEachOtherInAnyOrder) {
+  const std::vector<Suite> suites = LoadInputs(
+      {.files = {second_}, .set = {"robust.orbslam2.map_ratio=0.7", "robust.base=orbslam2"}});
+  EXPECT_EQ(suites[0].systems[0].options.at("base"), "orbslam2");
+}
+
 TEST_F(InputsTest, SetSaysWhatIsWrong) {
   const std::pair<const char*, const char*> cases[] = {
+      {"robust.orbslam2.map_ratio=0.7",
+       "--set, system 'robust': orbslam2.map_ratio has no effect with base plain"},
       {"robust.feature.features", "expected PATH=VALUE"},
       {"robust.feature.featurs=800", "feature.features"},
       {"robust.feature.features=many", "many"},

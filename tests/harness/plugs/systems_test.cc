@@ -40,6 +40,34 @@ TEST(SystemsTest, ASystemIsItsOptions) {
   EXPECT_EQ(ValueOf(FindSystem("oracle"), "dynamic.method"), "none");
 }
 
+TEST(SystemsTest, ThePublishedSystemsStandOnThePublishedBaseAndOursOnOurs) {
+  for (const char* name : {"orbslam2", "semantic", "paper"}) {
+    EXPECT_EQ(ValueOf(FindSystem(name), "base"), "orbslam2") << name;
+  }
+  for (const char* name : {"plain", "robust", "oracle"}) {
+    EXPECT_EQ(ValueOf(FindSystem(name), "base"), "plain") << name;
+  }
+  // A report, which knows no system but by its spec, says the same.
+  for (const System& system : Systems()) {
+    EXPECT_EQ(BaseOf(BuiltIn(system.name)), ValueOf(system, "base")) << system.name;
+  }
+  SystemSpec variant{.name = "mine", .like = "paper", .options = {{"base", "plain"}}};
+  EXPECT_EQ(BaseOf(variant), "plain");
+  variant.external.emplace();
+  EXPECT_EQ(BaseOf(variant), "");
+}
+
+TEST(SystemsTest, AnOptionWithoutEffectIsNeitherListedNorTaken) {
+  EXPECT_EQ(ValueOf(FindSystem("orbslam2"), "track.local_keyframes"), "no such option");
+  EXPECT_EQ(ValueOf(FindSystem("plain"), "orbslam2.map_ratio"), "no such option");
+  EXPECT_EQ(CheckOptions(FindSystem("paper"), {{"track.local_keyframes", "9"}}),
+            "track.local_keyframes has no effect with base orbslam2; only base plain looks at it");
+  EXPECT_EQ(CheckOptions(FindSystem("paper"), {{"track.local_keyframes", "9"}, {"base", "plain"}}),
+            "");
+  EXPECT_THAT(CheckOptions(FindSystem("robust"), {{"orbslam2.map_ratio", "0.9"}}),
+              HasSubstr("only base orbslam2 looks at it"));
+}
+
 TEST(SystemsTest, OptionsComeFromAssignmentsAndSayWhatIsWrong) {
   const System& robust = FindSystem("robust");
   EXPECT_EQ(OptionsFromText({"feature.features=800"}, robust).at("feature.features"), "800");

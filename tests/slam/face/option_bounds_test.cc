@@ -156,6 +156,36 @@ TEST(OptionBounds, OfTheOrbSlam2BaseAreSafe) {
   for (const char* group : kOfOrbSlam2) ExpectEveryBoundIsSafe(film, base, group);
 }
 
+/// A drive that loses its way for two frames, to the last bit.
+std::vector<Eigen::Matrix4d> PosesOf(const std::vector<StereoImages>& film,
+                                     const SlamOptions& options) {
+  StereoSlam slam(RoomScene(true).camera(), options);
+  for (const StereoImages& images : film) slam.Track(images);
+  std::vector<Eigen::Matrix4d> poses;
+  for (const StampedPose& pose : slam.Finish()) poses.push_back(pose.T_world_rig.matrix());
+  return poses;
+}
+
+TEST(OptionsWithoutEffect, ChangeNoBitWithTheirBase) {
+  const std::vector<StereoImages> film = ShortFilm(12);
+  for (const Base base : {Base::kPlain, Base::kOrbSlam2}) {
+    const SlamOptions as_is = OptionsOf(base);
+    SlamOptions changed = as_is;
+    int idle = 0;
+    for (const OptionDescription& one : DescribeOptions(as_is)) {
+      if (WhyWithoutEffect(one.path, base).empty()) continue;
+      ++idle;
+      for (const std::string& text : ExtremesOf(one)) {
+        if (text != one.value) ASSERT_EQ(SetOption(one.path, text, &changed), "");
+      }
+    }
+    EXPECT_GT(idle, 10);
+    const std::vector<Eigen::Matrix4d> poses = PosesOf(film, as_is);
+    EXPECT_GE(poses.size(), 10u);
+    EXPECT_EQ(PosesOf(film, changed), poses);
+  }
+}
+
 TEST(OptionBounds, OfThePapersMethodAreSafe) {
   const std::vector<StereoImages> film = ShortFilm(3);
   SlamOptions base;

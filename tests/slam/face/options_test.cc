@@ -151,6 +151,18 @@ TEST(SetOption, KnowsNothingOfWhatTheDriverOwns) {
   }
 }
 
+TEST(WhyWithoutEffect, NamesTheBaseThatLooksAtTheOption) {
+  EXPECT_EQ(WhyWithoutEffect("track.local_keyframes", Base::kPlain), "");
+  EXPECT_EQ(WhyWithoutEffect("track.local_keyframes", Base::kOrbSlam2),
+            "track.local_keyframes has no effect with base orbslam2; only base plain looks at it");
+  EXPECT_EQ(WhyWithoutEffect("orbslam2.map_ratio", Base::kPlain),
+            "orbslam2.map_ratio has no effect with base plain; only base orbslam2 looks at it");
+  EXPECT_EQ(WhyWithoutEffect("orbslam2.map_ratio", Base::kOrbSlam2), "");
+  // The rejection of movers, which both bases have, predicts the motion across a gap.
+  EXPECT_EQ(WhyWithoutEffect("track.longest_gap_s", Base::kOrbSlam2), "");
+  EXPECT_EQ(WhyWithoutEffect("feature.features", Base::kOrbSlam2), "");
+}
+
 TEST(Validate, CoversEveryPartWithItsPath) {
   EXPECT_EQ(Validate(SlamOptions{}), "");
   EXPECT_EQ(Validate(OptionsOf(Base::kOrbSlam2)), "");

@@ -1,0 +1,124 @@
+#include "harness/report/paper/base_table.h"
+
+#include "harness/score/statistics.h"
+
+namespace aisle {
+namespace {
+
+/// What a system rejects, as the table calls it; empty for one that has no place there.
+std::string RejectionOf(const SystemSpec& spec) {
+  const bool only_base =
+      spec.options.empty() || (spec.options.size() == 1 && spec.options.contains("base"));
+  if (spec.external || !only_base || spec.mask_errors != MaskErrors{}) return "";
+  return spec.like == "orbslam2" || spec.like == "plain" ? "nothing" : spec.like;
+}
+
+/// Runs of one scene by rejection and base.
+using Cells = std::map<std::pair<std::string, std::string>, std::vector<const RunRecord*>>;
+
+Cells CellsOf(const SceneRuns& scene) {
+  Cells cells;
+  for (const SystemRuns& system : scene.systems) {
+    const SystemSpec& spec = system.runs.front()->spec.system;
+    // Of two systems that are the same the first stands for both.
+    const std::string rejection = RejectionOf(spec);
+    if (!rejection.empty()) cells.try_emplace({rejection, BaseOf(spec)}, system.runs);
+  }
+  return cells;
+}
+
+std::vector<double> Errors(const std::vector<const RunRecord*>& runs) {
+  constexpr const char* kScore = "ate_rmse_m";
+  std::vector<double> errors;
+  if (!MedianScore(runs, kScore)) return errors;
+  for (const RunRecord* run : runs) errors.push_back(*run->scores.at(kScore).value);
+  return errors;
+}
+
+std::string MedianText(const std::vector<double>& errors) {
+  return fmt::format("{:.4f}", Quantile(errors, 0.5));
+}
+
+std::string SpreadText(const std::vector<double>& errors) {
+  const auto [least, most] = std::minmax_element(errors.begin(), errors.end());
+  return fmt::format("{:.4f}–{:.4f}", *least, *most);
+}
+
+/// Rejections in the order of their first run, bases by name.
+struct Head {
+  std::vector<std::string> rejections, bases;
+  bool compares = false;  ///< some rejection stands on two bases
+};
+
+Head HeadOf(const std::vector<SceneRuns>& scenes) {
+  Head head;
+  const auto add = [](const std::string& name, std::vector<std::string>* names) {
+    if (std::find(names->begin(), names->end(), name) == names->end()) names->push_back(name);
+  };
+  for (const SceneRuns& scene : scenes) {
+    if (scene.twin != "live") continue;
+    for (const SystemRuns& system : scene.systems) {
+      const SystemSpec& spec = system.runs.front()->spec.system;
+      if (RejectionOf(spec).empty()) continue;
+      add(RejectionOf(spec), &head.rejections);
+      add(BaseOf(spec), &head.bases);
+    }
+    const Cells cells = CellsOf(scene);
+    for (const std::string& rejection : head.rejections) {
+      head.compares |= std::count_if(head.bases.begin(), head.bases.end(), [&](const auto& base) {
+                         return cells.contains({rejection, base});
+                       }) > 1;
+    }
+  }
+  std::sort(head.bases.begin(), head.bases.end());
+  return head;
+}
+
+template <typename TextOf>
+NumberTable::Row RowOf(const std::string& name, const Head& head, const Cells& cells,
+                       const TextOf& text_of) {
+  NumberTable::Row row{.name = name, .cells = {}};
+  for (const std::string& rejection : head.rejections) {
+    for (const std::string& base : head.bases) {
+      const auto at = cells.find({rejection, base});
+      const std::vector<double> errors =
+          at == cells.end() ? std::vector<double>{} : Errors(at->second);
+      row.cells.push_back(errors.empty() ? "-" : text_of(errors));
+    }
+  }
+  return row;
+}
+
+}  // namespace
+
+std::optional<NumberTable> BaseTable(const std::vector<SceneRuns>& scenes) {
+  const Head head = HeadOf(scenes);
+  if (!head.compares) return std::nullopt;
+  NumberTable table{.title = "Absolute trajectory error by rejection and base [m]",
+                    .caption =
+                        "Above, what is rejected; beneath it, whose decisions track and "
+                        "keep the map: the published ORB-SLAM2's or our own (plain). RMSE "
+                        "of the final track, rigid alignment (SE(3)); median over seeds.",
+                    .groups = head.rejections,
+                    .columns = head.bases,
+                    .rows = {}};
+  for (const SceneRuns& scene : scenes) {
+    if (scene.twin != "live") continue;
+    const Cells cells = CellsOf(scene);
+    std::size_t seeds = 0;
+    for (const auto& [cell, runs] : cells) seeds = std::max(seeds, runs.size());
+    table.rows.push_back(RowOf(scene.scene, head, cells, MedianText));
+    if (seeds < 2) continue;
+    table.rows.push_back(RowOf(fmt::format("{} seeds, least–most: {}", seeds, scene.scene), head,
+                               cells, SpreadText));
+    table.rows.back().spread = true;
+  }
+  return table;
+}
+
+bool IsOnAnotherBase(const SystemSpec& spec) {
+  return spec.name != spec.like && !RejectionOf(spec).empty() &&
+         BaseOf(spec) != BaseOf(BuiltIn(spec.like));
+}
+
+}  // namespace aisle
