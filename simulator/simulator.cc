@@ -58,9 +58,8 @@ std::string LensError(const Scene& scene) {
     MakePixelRays(CameraOf(scene.camera));
     return "";
   } catch (const std::invalid_argument& error) {
-    const Mark mark = scene.camera.mark;
-    return fmt::format("{}:{}:{}: camera.distortion_coefficients: {}", scene.file, mark.line,
-                       mark.column, error.what());
+    return fmt::format("{}: camera.distortion_coefficients: {}",
+                       PlaceText(scene.files, scene.camera.mark), error.what());
   }
 }
 
@@ -91,10 +90,10 @@ void SetSensor(const SensorSpec& spec, PipelineOptions* options) {
   options->auto_exposure.longest_ms = spec.auto_longest_ms;
 }
 
-std::string ReadWhole(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
+/// The text of all files, one after the other.
+std::string ReadAll(const std::vector<std::string>& files) {
   std::stringstream text;
-  text << in.rdbuf();
+  for (const std::string& file : files) text << std::ifstream(file, std::ios::binary).rdbuf();
   return text.str();
 }
 
@@ -128,8 +127,8 @@ class Hasher {
   XXH3_state_t* state_;
 };
 
-/// The file, what was made of it, and where the movers are at two times: between them they change
-/// when anything that decides a pixel does.
+/// The files, what was made of them, and where the movers are at two times: between them they
+/// change when anything that decides a pixel does.
 std::uint64_t HashOf(const std::string& scene_text, const World& world, std::int64_t end_ns,
                      const SimulatorOptions& options) {
   Hasher hasher;
@@ -186,7 +185,7 @@ Simulator Simulator::Load(const std::string& scene_file, const std::string& asse
   impl->rig = RigOf(scene.camera);
   World world = BuildWorld(scene, assets_dir, options.seed);
   impl->instances = DescribeInstances(world);
-  impl->hash = HashOf(ReadWhole(scene_file), world,
+  impl->hash = HashOf(ReadAll(scene.files), world,
                       static_cast<std::int64_t>(1e9 * scene.duration_s()), options);
   PipelineOptions pipeline;
   pipeline.seed = options.seed;
@@ -308,5 +307,9 @@ std::vector<std::string> CheckSceneFile(const std::string& scene_file,
 }
 
 int CountSceneFrames(const std::string& scene_file) { return LoadScene(scene_file).frames; }
+
+std::vector<std::string> FilesOfScene(const std::string& scene_file) {
+  return SceneFiles(scene_file);
+}
 
 }  // namespace aisle::sim

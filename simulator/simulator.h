@@ -265,4 +265,8 @@ std::vector<std::string> CheckSceneFile(const std::string& scene_file,
 /// Frames of a scene as its file says. Throws as Simulator's constructor does.
 int CountSceneFrames(const std::string& scene_file);
 
+/// A scene's file and those it extends, nearest first: the scene is what they hold. Of a file with
+/// mistakes, as far as they can be followed.
+std::vector<std::string> FilesOfScene(const std::string& scene_file);
+
 }  // namespace aisle::sim

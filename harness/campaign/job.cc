@@ -7,6 +7,7 @@
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/io/system_spec_json.h"
+#include "harness/plugs/simulated_sequence.h"
 #include "harness/record/record.h"
 #include "harness/record/record_json.h"
 
@@ -87,7 +88,8 @@ Job ReadJob(const fs::path& file) { return JobFromJson(ReadFile(file), file.stri
 Fingerprints::Fingerprints() : program_(HashFile(OwnExecutable(), HashFolder(AssetsDir()))) {}
 
 std::string Fingerprints::Frames(const RunSpec& spec) const {
-  const std::uint64_t scene = HashFile(spec.scene_file, program_);
+  std::uint64_t scene = program_;
+  for (const std::string& file : FilesOfScene(spec.scene_file)) scene = HashFile(file, scene);
   return fmt::format("{:016x}", Hash(fmt::format("{} {}", spec.twin, spec.seed), scene));
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "harness/cli/command.h"
@@ -8,6 +9,7 @@
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/plugs/simulated_sequence.h"
+#include "harness/record/record_json.h"
 #include "harness/report/picture/overlay.h"
 #include "harness/suite/suite.h"
 
@@ -20,6 +22,7 @@ struct Options {
   int samples = 16;
   std::uint64_t seed = 1;
   double plan_px = 560;
+  bool shares = false, json = false;
 };
 
 /// One frame of a scene: how much of the image people and vehicles take.
@@ -27,6 +30,7 @@ struct Sample {
   FrameRequest request;
   double people = 0;  ///< share of the image, 0 to 1
   double actors = 0;  ///< people and vehicles
+  double moving = 0;  ///< what moves now, whoever it belongs to
 };
 
 struct Entry {
@@ -51,57 +55,80 @@ std::vector<std::string> ScenesOf(const std::vector<std::string>& places) {
 }
 
 Sample Measure(const FrameRequest& request, const FrameTruth& truth) {
-  Sample sample{request, 0, 0};
+  Sample sample{.request = request};
   const double pixels = static_cast<double>(truth.instance.total());
   for (const ObjectTruth& object : truth.objects) {
     const double share = object.visible_pixels / pixels;
     sample.actors += share;
     if (object.object_class == "person") sample.people += share;
   }
+  sample.moving = cv::countNonZero(truth.dynamic) / pixels;
   return sample;
 }
 
 /// Shares as a row of blocks, an eighth of the image a step.
-std::string Bars(const std::vector<Sample>& samples) {
+std::string Bars(const std::vector<Sample>& samples, double Sample::*share) {
   static const std::array<const char*, 9> kBlocks = {"·", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
   std::string bars;
   for (const Sample& sample : samples) {
-    const double step = std::ceil(sample.people * 8 - 1e-3);
+    const double step = std::ceil(sample.*share * 8 - 1e-3);
     bars += kBlocks[static_cast<std::size_t>(std::clamp(step, 0.0, 8.0))];
   }
   return bars;
 }
 
+double Mean(const std::vector<Sample>& samples, double Sample::*share) {
+  double mean = 0;
+  for (const Sample& sample : samples) {
+    mean += sample.*share / static_cast<double>(samples.size());
+  }
+  return mean;
+}
+
+double Seconds(const Sample& sample) {
+  return static_cast<double>(sample.request.stamp_ns) * 1e-9;
+}
+
+SimulatedSequenceOptions SimulationOf(const std::string& file, const Options& options) {
+  return {.scene_file = file,
+          .scene_name = SceneName(file),
+          .assets_dir = AssetsDir().string(),
+          .seed = options.seed};
+}
+
+/// Frames spread over the scene.
+std::vector<FrameRequest> Moments(const Sequence& sequence, int samples) {
+  const std::vector<FrameRequest> schedule = sequence.Schedule();
+  std::vector<FrameRequest> moments;
+  for (int i = 0; i < samples; ++i) {
+    moments.push_back(schedule[schedule.size() * static_cast<std::size_t>(2 * i + 1) /
+                               static_cast<std::size_t>(2 * samples)]);
+  }
+  return moments;
+}
+
 /// Photographs the scene through its time; keeps the picture in which actors show most, short of
 /// hiding everything else.
 Entry Photograph(const std::string& file, const Options& options) {
-  SimulatedSequenceOptions simulation;
-  simulation.scene_file = file;
-  simulation.scene_name = SceneName(file);
-  simulation.assets_dir = AssetsDir().string();
-  simulation.seed = options.seed;
+  const SimulatedSequenceOptions simulation = SimulationOf(file, options);
   Entry entry{simulation.scene_name, DrawScenePlan(simulation, options.plan_px), {}};
   const std::unique_ptr<Sequence> sequence = OpenSimulation(simulation);
-  const std::vector<FrameRequest> schedule = sequence->Schedule();
   constexpr double kCrowded = 0.5;
   double best = -1;
   cv::Mat3b picture;
-  for (int i = 0; i < options.samples; ++i) {
-    const std::size_t index = schedule.size() * static_cast<std::size_t>(2 * i + 1) /
-                              static_cast<std::size_t>(2 * options.samples);
-    const SequenceFrame frame = sequence->At(schedule[index]);
-    entry.samples.push_back(Measure(schedule[index], *frame.truth));
+  for (const FrameRequest& moment : Moments(*sequence, options.samples)) {
+    const SequenceFrame frame = sequence->At(moment);
+    entry.samples.push_back(Measure(moment, *frame.truth));
     const double share = entry.samples.back().actors;
     if (share > kCrowded || share <= best) continue;
     best = share;
     const std::string caption =
-        fmt::format("{}  frame {}  {:.1f} s", entry.name, schedule[index].id,
-                    static_cast<double>(schedule[index].stamp_ns) * 1e-9);
+        fmt::format("{}  frame {}  {:.1f} s", entry.name, moment.id, Seconds(entry.samples.back()));
     picture = DrawOverlay(frame.images.left, &*frame.truth, nullptr, caption);
   }
   const std::filesystem::path base = std::filesystem::path(options.output) / entry.name;
   if (picture.empty()) {  // crowded from first to last
-    const SequenceFrame frame = sequence->At(schedule.front());
+    const SequenceFrame frame = sequence->At(sequence->Schedule().front());
     picture = DrawOverlay(frame.images.left, &*frame.truth, nullptr, entry.name);
   }
   WriteImage(base.string() + ".jpg", picture);
@@ -111,17 +138,39 @@ Entry Photograph(const std::string& file, const Options& options) {
 
 std::string Describe(const Entry& entry) {
   const auto most = std::ranges::max_element(entry.samples, {}, &Sample::people);
-  double mean = 0;
-  for (const Sample& sample : entry.samples) {
-    mean += sample.people / static_cast<double>(entry.samples.size());
-  }
   return fmt::format(
       "## {0}\n\n{1}\n\n"
       "People's share of the image over time `{2}`: {3:.1f} % on average, {4:.1f} % at most, at "
       "{5:.1f} s.\n\n"
       "![{0} with its truth drawn over it]({0}.jpg)\n![{0} from above]({0}_plan.png)\n\n",
-      entry.name, entry.plan.about, Bars(entry.samples), 100 * mean, 100 * most->people,
-      static_cast<double>(most->request.stamp_ns) * 1e-9);
+      entry.name, entry.plan.about, Bars(entry.samples, &Sample::people),
+      100 * Mean(entry.samples, &Sample::people), 100 * most->people, Seconds(*most));
+}
+
+/// How much of the image moves now, over the time of each scene: no picture is written.
+int PrintShares(const std::vector<std::string>& files, const Options& options) {
+  nlohmann::ordered_json scenes = nlohmann::ordered_json::array();
+  for (const std::string& file : files) {
+    const std::unique_ptr<Sequence> sequence = OpenSimulation(SimulationOf(file, options));
+    std::vector<Sample> samples;
+    nlohmann::ordered_json shares = nlohmann::ordered_json::array();
+    for (const FrameRequest& moment : Moments(*sequence, options.samples)) {
+      samples.push_back(Measure(moment, *sequence->At(moment).truth));
+      shares.push_back({{"frame", moment.id}, {"moving", samples.back().moving}});
+    }
+    const double mean = Mean(samples, &Sample::moving);
+    const Sample& most = *std::ranges::max_element(samples, {}, &Sample::moving);
+    if (options.json) {
+      scenes.push_back({{"scene", sequence->name()}, {"mean", mean}, {"frames", shares}});
+      continue;
+    }
+    fmt::print("{:28} {}  {:5.1f} % on average, {:5.1f} % at most, at {:.1f} s\n",
+               sequence->name(), Bars(samples, &Sample::moving), 100 * mean, 100 * most.moving,
+               Seconds(most));
+    std::fflush(stdout);
+  }
+  if (options.json) fmt::print("{}", Dump({{"seed", options.seed}, {"scenes", scenes}}));
+  return kAllPassed;
 }
 
 int Gallery(const Options& options) {
@@ -130,6 +179,7 @@ int Gallery(const Options& options) {
     fmt::print(stderr, "no scene file: name scenes or folders of them\n");
     return kNothingToDo;
   }
+  if (options.shares) return PrintShares(files, options);
   std::string page = fmt::format(
       "# Every scene\n\n"
       "Made by `./aisle gallery {} -o {}`. In the pictures, red is what moves now, boxes are "
@@ -159,7 +209,12 @@ void AddGalleryCommand(CLI::App* app, Action* action) {
   command->add_option("--samples", options->samples, "frames looked at in each scene; default 16")
       ->check(CLI::Range(1, 10000));
   command->add_option("--seed", options->seed, "seed of the layout and the sensor");
-  command->footer("Example: ./aisle gallery scenes -o reports/gallery");
+  CLI::Option* shares = command->add_flag(
+      "--shares", options->shares, "print how much of the image moves over time; no picture");
+  command->add_flag("--json", options->json, "the shares for programs")->needs(shares);
+  command->footer(
+      "Example: ./aisle gallery scenes -o reports/gallery\n"
+      "         ./aisle gallery scenes/paper_narrow --shares");
   command->callback([=] { *action = [=] { return Gallery(*options); }; });
 }
 

@@ -213,6 +213,10 @@ std::vector<std::string> CheckScene(const std::string& scene_file) {
   return sim::CheckSceneFile(scene_file, AssetsDir().string());
 }
 
+std::vector<std::string> FilesOfScene(const std::string& scene_file) {
+  return sim::FilesOfScene(scene_file);
+}
+
 std::int64_t CountSceneFrames(const std::string& scene_file) {
   try {
     return sim::CountSceneFrames(scene_file);

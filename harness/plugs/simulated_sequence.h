@@ -67,6 +67,9 @@ ScenePlan DrawScenePlan(const SimulatedSequenceOptions& options, double width_px
 /// Every mistake in a scene file, models that are not there among them, one message each.
 std::vector<std::string> CheckScene(const std::string& scene_file);
 
+/// A scene's file and those it extends, nearest first: what it holds changes with them alone.
+std::vector<std::string> FilesOfScene(const std::string& scene_file);
+
 /// Frames of a scene as its file says. Throws InputError for a bad scene.
 std::int64_t CountSceneFrames(const std::string& scene_file);
 

@@ -1,6 +1,7 @@
 #include <limits>
 #include <numbers>
 
+#include "simulator/scene/extend.h"
 #include "simulator/scene/fields.h"
 
 namespace aisle::sim {
@@ -351,6 +352,10 @@ void Fields::OptionalPoint(const Key& key, std::optional<Eigen::Vector2d>* value
 }
 
 void Describe(Fields& f, Scene& scene) {
+  f.Sentence({kExtendKey,
+              "scene file whose keys hold where this one has none; maps key by key, lists whole",
+              "../paper/scene2.yaml"},
+             &scene.extends);
   f.Sentence({"about", "one sentence on what the scene tests", "\"A person crosses.\"", true},
              &scene.about);
   f.Integer({"frames", "how many stereo pairs", "300"}, &scene.frames, {1, 100000});

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 namespace aisle::sim {
 namespace {
@@ -26,14 +27,15 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
 }  // namespace
 
 void Issues::Add(Mark mark, std::string_view key, std::string_view what) {
-  issues_.push_back({mark, fmt::format("{}:{}:{}: {}{}{}", file_, mark.line, mark.column, key,
+  issues_.push_back({mark, fmt::format("{}: {}{}{}", PlaceText(files_, mark), key,
                                        key.empty() ? "" : ": ", what)});
 }
 
 std::vector<std::string> Issues::Messages() const {
   std::vector<Issue> sorted = issues_;
   std::stable_sort(sorted.begin(), sorted.end(), [](const Issue& a, const Issue& b) {
-    return std::pair(a.mark.line, a.mark.column) < std::pair(b.mark.line, b.mark.column);
+    return std::tuple(a.mark.file, a.mark.line, a.mark.column) <
+           std::tuple(b.mark.file, b.mark.line, b.mark.column);
   });
   std::vector<std::string> messages;
   for (const Issue& issue : sorted) messages.push_back(issue.text);

@@ -8,10 +8,16 @@
 
 namespace aisle::sim {
 
-/// Collects the mistakes in one file, in the order of their places.
+/// Collects the mistakes in a scene file and those it extends, in the order of their places.
 class Issues {
  public:
-  explicit Issues(std::string file) : file_(std::move(file)) {}
+  explicit Issues(std::string file) : files_{std::move(file)} {}
+  explicit Issues(std::vector<std::string> files) : files_(std::move(files)) {}
+
+  /// By the index that a mark has.
+  const std::vector<std::string>& files() const { return files_; }
+  /// The next one that is extended.
+  void AddFile(std::string file) { files_.push_back(std::move(file)); }
 
   void Add(Mark mark, std::string_view key, std::string_view what);
   bool empty() const { return issues_.empty(); }
@@ -22,7 +28,7 @@ class Issues {
     Mark mark;
     std::string text;
   };
-  std::string file_;
+  std::vector<std::string> files_;
   std::vector<Issue> issues_;
 };
 

@@ -3,18 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "simulator/scene/check.h"
 #include "simulator/scene/check_routes.h"
+#include "simulator/scene/extend.h"
 #include "simulator/scene/reader.h"
-#include "simulator/scene/yaml_guard.h"
 
 namespace aisle::sim {
 namespace {
-
-constexpr std::uintmax_t kMaxFileBytes = 1 << 20;
 
 struct Parsed {
   Scene scene;
@@ -31,46 +26,22 @@ Parsed Parse(const std::string& text, const std::string& file) {
   Issues issues(file);
   Scene scene;
   scene.file = file;
-  GuardYaml(text, &issues);
-  if (issues.empty()) {
-    const YAML::Node top = YAML::Load(text);
-    if (top.IsMap()) {
-      YamlReader reader(top, "", &issues);
-      Describe(reader, scene);
-      reader.ReportKeys();
-      NumberPlaces(&scene);
-    } else {
-      issues.Add({1, 1}, "", "expected a map of scene keys; example: about: \"A person crosses.\"");
-    }
+  if (const auto top = ReadExtended(text, &issues)) {
+    YamlReader reader(*top, "", &issues);
+    Describe(reader, scene);
+    reader.ReportKeys();
+    NumberPlaces(&scene);
   }
+  scene.files = issues.files();
   if (issues.empty()) CheckScene(scene, &issues);
   return {std::move(scene), issues.Messages()};
 }
 
-/// The file's text, or why there is none.
-std::string ReadText(const std::filesystem::path& file, std::string* problem) {
-  std::error_code failed;
-  if (!std::filesystem::is_regular_file(file, failed)) {
-    *problem = fmt::format("{}: there is no such file", file.string());
-    return "";
-  }
-  if (std::filesystem::file_size(file, failed) > kMaxFileBytes) {
-    *problem =
-        fmt::format("{}: the file is larger than 1 MiB, too large for a scene", file.string());
-    return "";
-  }
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) *problem = fmt::format("{}: it cannot be read", file.string());
-  return text.str();
-}
-
 Parsed ParseFile(const std::filesystem::path& file) {
   std::string problem;
-  const std::string text = ReadText(file, &problem);
-  if (!problem.empty()) return {{}, {problem}};
-  return Parse(text, file.string());
+  const auto text = ReadSceneText(file, &problem);
+  if (!text) return {{}, {problem}};
+  return Parse(*text, file.string());
 }
 
 Scene SceneOrThrow(Parsed parsed) {
@@ -91,13 +62,20 @@ Scene ParseScene(const std::string& text, const std::string& file) {
 }
 
 std::vector<std::string> CheckSeed(const Scene& scene, std::uint64_t seed) {
-  Issues issues(scene.file);
+  Issues issues(scene.files);
   CheckRoutesOfSeed(scene, seed, &issues);
   return issues.Messages();
 }
 
 std::vector<std::string> CheckScene(const std::filesystem::path& file) {
   return ParseFile(file).messages;
+}
+
+std::vector<std::string> SceneFiles(const std::filesystem::path& file) {
+  Issues issues(file.string());
+  std::string problem;
+  if (const auto text = ReadSceneText(file, &problem)) ReadExtended(*text, &issues);
+  return issues.files();
 }
 
 }  // namespace aisle::sim

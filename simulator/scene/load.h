@@ -20,13 +20,18 @@ class SceneError : public std::runtime_error {
   std::vector<std::string> messages_;
 };
 
-/// Reads and checks a scene file; actors of every level are in it. Throws SceneError with every
-/// mistake that was found.
+/// Reads and checks a scene file, laid over the one it extends if it does; actors of every level
+/// are in it. Throws SceneError with every mistake that was found.
 Scene LoadScene(const std::filesystem::path& file);
 /// The same from text; `file` is for the messages.
 Scene ParseScene(const std::string& text, const std::string& file);
 
-/// Every mistake in the file; empty: it is good. Never throws for what the file holds.
+/// The file and those it extends, nearest first: what decides the scene. Of a file with mistakes,
+/// as far as they can be followed.
+std::vector<std::string> SceneFiles(const std::filesystem::path& file);
+
+/// Every mistake in the file and those it extends; empty: it is good. Never throws for what the
+/// file holds.
 std::vector<std::string> CheckScene(const std::filesystem::path& file);
 
 /// What goes wrong in a good scene when its actors move as this seed has them. The usual seeds are

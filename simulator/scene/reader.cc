@@ -10,35 +10,30 @@
 namespace aisle::sim {
 namespace {
 
-Mark PlaceOf(const YAML::Node& node) {
-  const YAML::Mark mark = node.Mark();
-  return {mark.line + 1, mark.column + 1};
-}
-
 /// A plain decimal number, all of the text. No octal, hexadecimal, '_', inf or nan, all of which
 /// yaml-cpp reads in surprising ways.
-std::optional<double> DecimalNumber(const YAML::Node& node) {
-  if (!node.IsScalar() || node.Tag() == "!") return std::nullopt;  // "!" marks a quoted text
-  const std::string& text = node.Scalar();
+std::optional<double> DecimalNumber(const YamlValue& value) {
+  if (!value.is_text() || value.quoted) return std::nullopt;
+  const std::string& text = value.text;
   const std::size_t first_digit = text.starts_with('-') ? 1 : 0;
   const auto is_digit = [&](std::size_t i) {
     return i < text.size() && text[i] >= '0' && text[i] <= '9';
   };
   if (text.size() > 32 || !is_digit(first_digit)) return std::nullopt;
   if (text[first_digit] == '0' && is_digit(first_digit + 1)) return std::nullopt;
-  double value = 0;
+  double number = 0;
   const char* end = text.data() + text.size();
-  const auto [stopped, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || stopped != end || !std::isfinite(value)) return std::nullopt;
-  return value;
+  const auto [stopped, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || stopped != end || !std::isfinite(number)) return std::nullopt;
+  return number;
 }
 
 /// What stands there, short enough for a message.
-std::string Shown(const YAML::Node& node) {
-  if (node.IsNull()) return "nothing";
-  if (node.IsMap()) return "a map";
-  if (node.IsSequence()) return fmt::format("a list of {}", node.size());
-  std::string text = node.Scalar().substr(0, 40);
+std::string Shown(const YamlValue& value) {
+  if (value.is_null()) return "nothing";
+  if (value.is_map()) return "a map";
+  if (value.is_list()) return fmt::format("a list of {}", value.items.size());
+  std::string text = value.text.substr(0, 40);
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
   }
@@ -54,37 +49,33 @@ bool Within(double value, Range range) { return value >= range.low && value <= r
 
 }  // namespace
 
-YamlReader::YamlReader(YAML::Node map, std::string path, Issues* issues)
-    : map_(std::move(map)), path_(std::move(path)), issues_(issues) {}
+YamlReader::YamlReader(const YamlValue& map, std::string path, Issues* issues)
+    : map_(map), path_(std::move(path)), issues_(issues) {}
 
-Mark YamlReader::mark() const { return PlaceOf(map_); }
+Mark YamlReader::mark() const { return map_.mark; }
 
 Mark YamlReader::MarkOf(const char* key) const {
-  for (const auto& entry : map_) {
-    if (entry.first.IsScalar() && entry.first.Scalar() == key) return PlaceOf(entry.first);
-  }
-  return mark();
+  const YamlEntry* entry = map_.Find(key);
+  return entry ? entry->mark : mark();
 }
 
-bool YamlReader::Has(const char* key) const { return static_cast<bool>(map_[key]); }
+bool YamlReader::Has(const char* key) const { return map_.Find(key) != nullptr; }
 
 std::string YamlReader::PathOf(const std::string& key) const {
   return path_.empty() ? key : path_ + "." + key;
 }
 
-std::optional<YAML::Node> YamlReader::Find(const Key& key) {
+const YamlValue* YamlReader::Find(const Key& key) {
   known_.emplace_back(key.name);
-  const YAML::Node& map = map_;  // the const subscript adds nothing
-  const YAML::Node value = map[key.name];
-  if (value) return value;
+  if (const YamlEntry* entry = map_.Find(key.name)) return &entry->value;
   if (key.required) missing_.push_back(key);
-  return std::nullopt;
+  return nullptr;
 }
 
-void YamlReader::Expected(const YAML::Node& node, const Key& key, const std::string& what) {
-  issues_->Add(PlaceOf(node), PathOf(key.name),
-               fmt::format("expected {}, got {} ({}); example: {}: {}", what, Shown(node), key.help,
-                           key.name, key.example));
+void YamlReader::Expected(const YamlValue& value, const Key& key, const std::string& what) {
+  issues_->Add(value.mark, PathOf(key.name),
+               fmt::format("expected {}, got {} ({}); example: {}: {}", what, Shown(value),
+                           key.help, key.name, key.example));
 }
 
 void YamlReader::Number(const Key& key, double* value, Range range) {
@@ -112,9 +103,9 @@ void YamlReader::Integer(const Key& key, int* value, Range range) {
 void YamlReader::Flag(const Key& key, bool* value) {
   const auto node = Find(key);
   if (!node) return;
-  const bool plain = node->IsScalar() && node->Tag() != "!";
-  if (plain && (node->Scalar() == "true" || node->Scalar() == "false")) {
-    *value = node->Scalar() == "true";
+  const bool plain = node->is_text() && !node->quoted;
+  if (plain && (node->text == "true" || node->text == "false")) {
+    *value = node->text == "true";
   } else {
     Expected(*node, key, "true or false");
   }
@@ -127,7 +118,7 @@ void YamlReader::Name(const Key& key, std::string* value) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-';
   };
-  const std::string text = node->IsScalar() ? node->Scalar() : "";
+  const std::string& text = node->text;
   if (!text.empty() && text.size() <= 80 && std::ranges::all_of(text, allowed)) {
     *value = text;
   } else {
@@ -138,18 +129,18 @@ void YamlReader::Name(const Key& key, std::string* value) {
 void YamlReader::Sentence(const Key& key, std::string* value) {
   const auto node = Find(key);
   if (!node) return;
-  if (node->IsScalar() && !node->Scalar().empty()) {
-    *value = node->Scalar();
+  if (node->is_text() && !node->text.empty()) {
+    *value = node->text;
   } else {
     Expected(*node, key, "a text");
   }
 }
 
-bool YamlReader::ReadPair(const YAML::Node& node, double* values, std::size_t count,
+bool YamlReader::ReadPair(const YamlValue& list, double* values, std::size_t count,
                           Range range) const {
-  if (!node.IsSequence() || node.size() != count) return false;
+  if (!list.is_list() || list.items.size() != count) return false;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto number = DecimalNumber(node[i]);
+    const auto number = DecimalNumber(list.items[i]);
     if (!number || !Within(*number, range)) return false;
     values[i] = *number;
   }
@@ -171,27 +162,27 @@ void YamlReader::Points(const Key& key, std::vector<Eigen::Vector2d>* values,
                         std::vector<Mark>* marks) {
   const auto node = Find(key);
   if (!node) return;
-  if (!node->IsSequence() || node->size() == 0) {
+  if (!node->is_list() || node->items.empty()) {
     Expected(*node, key, "a list of points [x, y]");
     return;
   }
   values->clear();
   marks->clear();
-  for (std::size_t i = 0; i < node->size(); ++i) {
+  for (std::size_t i = 0; i < node->items.size(); ++i) {
     Eigen::Vector2d point = Eigen::Vector2d::Zero();
-    const YAML::Node item = (*node)[i];
+    const YamlValue& item = node->items[i];
     if (!ReadPair(item, point.data(), 2, {-1000, 1000})) {
       Expected(item, key, fmt::format("a point [x, y] in metres as number {} of the list", i + 1));
     }
     values->push_back(point);
-    marks->push_back(PlaceOf(item));
+    marks->push_back(item.mark);
   }
 }
 
 void YamlReader::Group(const Key& key, const Part& part) {
   const auto node = Find(key);
   if (!node) return;
-  if (!node->IsMap()) {
+  if (!node->is_map()) {
     Expected(*node, key, "a map");
     return;
   }
@@ -204,15 +195,15 @@ void YamlReader::List(const Key& key, const std::function<void(std::size_t)>& re
                       const Element& element) {
   const auto node = Find(key);
   if (!node) return;
-  if (!node->IsSequence()) {
+  if (!node->is_list()) {
     Expected(*node, key, "a list");
     return;
   }
-  if (key.required && node->size() == 0) Expected(*node, key, "at least one");
-  resize(node->size());
-  for (std::size_t i = 0; i < node->size(); ++i) {
-    const YAML::Node item = (*node)[i];
-    if (!item.IsMap()) {
+  if (key.required && node->items.empty()) Expected(*node, key, "at least one");
+  resize(node->items.size());
+  for (std::size_t i = 0; i < node->items.size(); ++i) {
+    const YamlValue& item = node->items[i];
+    if (!item.is_map()) {
       Expected(item, key, fmt::format("a map as number {} of the list", i + 1));
       continue;
     }
@@ -225,7 +216,7 @@ void YamlReader::List(const Key& key, const std::function<void(std::size_t)>& re
 void YamlReader::ChoiceIndex(const Key& key, int* index, std::initializer_list<const char*> names) {
   const auto node = Find(key);
   if (!node) return;
-  const std::string text = node->IsScalar() ? node->Scalar() : "";
+  const std::string& text = node->text;
   const auto found = std::ranges::find(names, text);
   if (found != names.end()) {
     *index = static_cast<int>(found - names.begin());
@@ -239,12 +230,11 @@ void YamlReader::ChoiceIndex(const Key& key, int* index, std::initializer_list<c
 
 void YamlReader::ReportKeys() {
   std::set<std::string> misspelt;
-  for (const auto& entry : map_) {
-    const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";
+  for (const auto& [name, place, value] : map_.entries) {
     if (std::ranges::find(known_, name) != known_.end()) continue;
     const std::string near = NearestWord(name, known_);
     misspelt.insert(near);
-    issues_->Add(PlaceOf(entry.first), PathOf(name.substr(0, 80)),
+    issues_->Add(place, PathOf(name.substr(0, 80)),
                  near.empty()
                      ? fmt::format("there is no such key; known here: {}", fmt::join(known_, ", "))
                      : fmt::format("there is no such key; did you mean {}?", near));

@@ -1,20 +1,17 @@
 #pragma once
 
-#include <yaml-cpp/yaml.h>
-
-#include <memory>
-
 #include "simulator/scene/fields.h"
 #include "simulator/scene/issues.h"
+#include "simulator/scene/yaml_tree.h"
 
 namespace aisle::sim {
 
-/// Fills a struct from a YAML map. Mistakes go to `issues` and leave the value as it was. Call
-/// ReportKeys() when the description has been through.
+/// Fills a struct from a YAML map, which outlives it. Mistakes go to `issues` and leave the value
+/// as it was. Call ReportKeys() when the description has been through.
 class YamlReader : public Fields {
  public:
   /// `path` is the dotted path of the map, "" for the top.
-  YamlReader(YAML::Node map, std::string path, Issues* issues);
+  YamlReader(const YamlValue& map, std::string path, Issues* issues);
 
   void Number(const Key& key, double* value, Range range) override;
   void Integer(const Key& key, int* value, Range range) override;
@@ -37,14 +34,13 @@ class YamlReader : public Fields {
   void ChoiceIndex(const Key& key, int* index, std::initializer_list<const char*> names) override;
 
  private:
-  /// The value of a key; remembers a required key that is missing.
-  std::optional<YAML::Node> Find(const Key& key);
+  /// The value of a key, or null; remembers a required key that is missing.
+  const YamlValue* Find(const Key& key);
   std::string PathOf(const std::string& key) const;
-  void Expected(const YAML::Node& node, const Key& key, const std::string& what);
-  std::optional<std::string> Text(const YAML::Node& node) const;
-  bool ReadPair(const YAML::Node& node, double* values, std::size_t count, Range range) const;
+  void Expected(const YamlValue& value, const Key& key, const std::string& what);
+  bool ReadPair(const YamlValue& list, double* values, std::size_t count, Range range) const;
 
-  YAML::Node map_;
+  const YamlValue& map_;
   std::string path_;
   Issues* issues_;
   std::vector<std::string> known_;

@@ -1,6 +1,13 @@
 #include "simulator/scene/scene.h"
 
+#include <fmt/format.h>
+
 namespace aisle::sim {
+
+std::string PlaceText(const std::vector<std::string>& files, Mark mark) {
+  const std::string& file = files.at(static_cast<std::size_t>(mark.file));
+  return fmt::format("{}:{}:{}", file, mark.line, mark.column);
+}
 
 Scene WithoutActors(Scene scene) {
   scene.people.clear();

@@ -189,7 +189,9 @@ struct VehicleSpec {
 /// A scene file as a plain description. Angles are radians here and degrees in the file.
 struct Scene {
   std::string file;
-  std::string about;  ///< the sentence on what it tests
+  std::vector<std::string> files;  ///< that one and those it extends, nearest first
+  std::string extends;  ///< the scene whose keys hold where it has none, as the file says it
+  std::string about;    ///< the sentence on what it tests
   int frames = 300;
   double rate_hz = 20;
   double dynamic_threshold_mps = 0.05;  ///< a surface faster than this moves
@@ -212,6 +214,9 @@ struct Scene {
 
   double duration_s() const { return frames / rate_hz; }
 };
+
+/// "file:line:column" of a mark in a scene's files.
+std::string PlaceText(const std::vector<std::string>& files, Mark mark);
 
 /// The same scene with nobody in it.
 Scene WithoutActors(Scene scene);

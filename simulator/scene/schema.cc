@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "simulator/scene/extend.h"
 #include "simulator/scene/fields.h"
 #include "simulator/scene/load.h"
 
@@ -37,6 +38,7 @@ class SchemaWriter : public Fields {
     SchemaWriter writer;
     part(writer);
     Add(key, writer.Object());
+    if (const Json needs = writer.Requirements(); !needs.empty()) needs_[key.name] = needs;
   }
   void List(const Key& key, const std::function<void(std::size_t)>& resize,
             const Element& element) override {
@@ -44,7 +46,9 @@ class SchemaWriter : public Fields {
     resize(1);
     element(writer, 0);
     resize(0);
-    Json list = {{"type", "array"}, {"items", writer.Object()}};
+    Json item = writer.Object();  // a list is never made of two files: each is whole
+    item.merge_patch(writer.Requirements());
+    Json list = {{"type", "array"}, {"items", std::move(item)}};
     if (key.required) list["minItems"] = 1;
     Add(key, std::move(list));
   }
@@ -55,8 +59,14 @@ class SchemaWriter : public Fields {
   Json Object() const {
     Json object = {{"type", "object"}, {"properties", properties_}};
     object["additionalProperties"] = false;
-    if (!required_.empty()) object["required"] = required_;
     return object;
+  }
+  /// What must be there, the groups included; empty where nothing must.
+  Json Requirements() const {
+    Json requirements = Json::object();
+    if (!required_.empty()) requirements["required"] = required_;
+    if (!needs_.empty()) requirements["properties"] = needs_;
+    return requirements;
   }
 
  protected:
@@ -90,6 +100,7 @@ class SchemaWriter : public Fields {
 
   Json properties_ = Json::object();
   std::vector<std::string> required_;
+  Json needs_ = Json::object();  ///< requirements of groups, by their name
 };
 
 }  // namespace
@@ -100,6 +111,8 @@ std::string SceneSchema() {
   Describe(writer, scene);
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "aisle scene"}};
   schema.update(writer.Object());
+  // A scene that extends another has of it what it does not say itself.
+  schema["anyOf"] = {{{"required", {kExtendKey}}}, writer.Requirements()};
   return schema.dump(2) + "\n";
 }
 

@@ -13,11 +13,9 @@ namespace {
 constexpr std::size_t kMaxDepth = 32;
 constexpr std::size_t kMaxNodes = 100'000;
 
-Mark ToMark(const YAML::Mark& mark) { return {mark.line + 1, mark.column + 1}; }
-
 class Guard : public YAML::EventHandler {
  public:
-  explicit Guard(Issues* issues) : issues_(issues) {}
+  Guard(int file, Issues* issues) : file_(file), issues_(issues) {}
 
   bool went_too_far() const { return nodes_ > kMaxNodes || too_deep_; }
 
@@ -79,6 +77,9 @@ class Guard : public YAML::EventHandler {
     }
   }
 
+  Mark ToMark(const YAML::Mark& mark) const { return {mark.line + 1, mark.column + 1, file_}; }
+
+  const int file_;
   Issues* issues_;
   std::vector<Level> open_;
   std::size_t nodes_ = 0;
@@ -88,15 +89,16 @@ class Guard : public YAML::EventHandler {
 
 }  // namespace
 
-void GuardYaml(const std::string& text, Issues* issues) {
+void GuardYaml(const std::string& text, int file, Issues* issues) {
   std::istringstream stream(text);
-  Guard guard(issues);
+  Guard guard(file, issues);
   try {
     YAML::Parser parser(stream);
     while (parser.HandleNextDocument(guard) && !guard.went_too_far()) {
     }
   } catch (const YAML::Exception& error) {
-    issues->Add(ToMark(error.mark), "", "this is not YAML: " + error.msg);
+    issues->Add({error.mark.line + 1, error.mark.column + 1, file}, "",
+                "this is not YAML: " + error.msg);
   }
 }
 

@@ -31,8 +31,7 @@ struct Cast {
 
 [[noreturn]] void Refuse(const Scene& scene, Mark mark, const std::string& name,
                          const std::string& why) {
-  throw std::runtime_error(
-      fmt::format("{}:{}:{}: {}: {}", scene.file, mark.line, mark.column, name, why));
+  throw std::runtime_error(fmt::format("{}: {}: {}", PlaceText(scene.files, mark), name, why));
 }
 
 /// Reads every model that the scene names, so that one that is missing or broken is reported with

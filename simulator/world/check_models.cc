@@ -11,7 +11,7 @@ std::vector<std::string> CheckModels(const Scene& scene, const AssetLibrary& ass
       look_up();
     } catch (const std::runtime_error& error) {
       messages.push_back(
-          fmt::format("{}:{}:{}: {}: {}", scene.file, mark.line, mark.column, whose, error.what()));
+          fmt::format("{}: {}: {}", PlaceText(scene.files, mark), whose, error.what()));
     }
   };
   for (const PropSpec& prop : scene.props) {

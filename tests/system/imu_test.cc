@@ -107,7 +107,7 @@ constexpr double kMost_m = 1e-3, kMost_rad = 0.01 * pi / 180;
 
 TEST(IdealImu, IntegratesToTheTrajectoryOfEveryScene) {
   int scenes = 0;
-  for (const char* folder : {"paper", "weakness", "street", "smoke"}) {
+  for (const char* folder : {"paper", "paper_narrow", "weakness", "street", "smoke"}) {
     for (const auto& entry :
          fs::directory_iterator(fs::path(AISLE_SOURCE_DIR) / "scenes" / folder)) {
       const sim::Scene scene = sim::LoadScene(entry.path());

@@ -1,0 +1,102 @@
+#include "simulator/scene/extend.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "simulator/scene/yaml_guard.h"
+
+namespace aisle::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMaxFileBytes = 1 << 20;
+constexpr const char* kExample = "; example: extend: ../paper/scene2.yaml";
+
+/// The file that the entry of a scene names, or nothing with the reason in `issues`.
+std::optional<fs::path> BaseOf(const YamlEntry& entry, Issues* issues) {
+  const YamlValue& value = entry.value;
+  if (!value.is_text() || value.text.empty()) {
+    issues->Add(value.mark, kExtendKey,
+                std::string("expected a scene file, as a path from this file's folder") + kExample);
+    return std::nullopt;
+  }
+  const std::vector<std::string>& files = issues->files();
+  fs::path base = fs::path(files.back()).parent_path() / value.text;
+  if (base.extension() != ".yaml") base += ".yaml";
+  base = base.lexically_normal();
+  const auto same = [&](const std::string& file) {
+    return fs::weakly_canonical(file) == fs::weakly_canonical(base);
+  };
+  if (std::ranges::any_of(files, same)) {
+    issues->Add(value.mark, kExtendKey,
+                fmt::format("the scenes extend each other in a circle: {}, {}",
+                            fmt::join(files, ", "), base.string()));
+    return std::nullopt;
+  }
+  return base;
+}
+
+/// One file as a tree; nothing where it is none.
+std::optional<YamlValue> ReadTree(const std::string& text, Issues* issues) {
+  const int file = static_cast<int>(issues->files().size()) - 1;
+  GuardYaml(text, file, issues);
+  if (!issues->empty()) return std::nullopt;
+  YamlValue tree = BuildYamlTree(text, file);
+  if (tree.is_map()) return tree;
+  issues->Add({1, 1, file}, "",
+              "expected a map of scene keys; example: about: \"A person crosses.\"");
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> ReadSceneText(const fs::path& file, std::string* problem) {
+  std::error_code failed;
+  if (!fs::is_regular_file(file, failed)) {
+    *problem = fmt::format("{}: there is no such file", file.string());
+    return std::nullopt;
+  }
+  if (fs::file_size(file, failed) > kMaxFileBytes) {
+    *problem =
+        fmt::format("{}: the file is larger than 1 MiB, too large for a scene", file.string());
+    return std::nullopt;
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (stream) return text.str();
+  *problem = fmt::format("{}: it cannot be read", file.string());
+  return std::nullopt;
+}
+
+std::optional<YamlValue> ReadExtended(const std::string& text, Issues* issues) {
+  std::optional<YamlValue> tree = ReadTree(text, issues);
+  if (!tree) return std::nullopt;
+  std::vector<YamlValue> layers = {std::move(*tree)};
+  while (const YamlEntry* entry = layers.back().Find(kExtendKey)) {
+    const auto base = BaseOf(*entry, issues);
+    if (!base) return std::nullopt;
+    std::string problem;
+    const auto base_text = ReadSceneText(*base, &problem);
+    if (!base_text) {
+      issues->Add(entry->value.mark, kExtendKey, problem + kExample);
+      return std::nullopt;
+    }
+    issues->AddFile(base->string());
+    auto layer = ReadTree(*base_text, issues);
+    if (!layer) return std::nullopt;
+    layers.push_back(std::move(*layer));
+  }
+  YamlValue merged = std::move(layers.back());
+  for (auto over = layers.rbegin() + 1; over != layers.rend(); ++over) {
+    merged = Overridden(std::move(merged), *over);
+  }
+  return merged;
+}
+
+}  // namespace aisle::sim
