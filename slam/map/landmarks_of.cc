@@ -1,17 +1,19 @@
 #include "slam/map/landmarks_of.h"
 
-#include <set>
+#include <algorithm>
 
 namespace aisle::slam {
 
 std::vector<LandmarkId> LandmarksOf(const Map& map, const std::vector<KeyframeId>& keyframes) {
-  std::set<LandmarkId> landmarks;
+  std::vector<LandmarkId> landmarks;
   for (const KeyframeId id : keyframes) {
     for (const LandmarkId landmark : map.At(id).landmarks) {
-      if (landmark.valid()) landmarks.insert(landmark);
+      if (landmark.valid()) landmarks.push_back(landmark);
     }
   }
-  return {landmarks.begin(), landmarks.end()};
+  std::sort(landmarks.begin(), landmarks.end());
+  landmarks.erase(std::unique(landmarks.begin(), landmarks.end()), landmarks.end());
+  return landmarks;
 }
 
 }  // namespace aisle::slam

@@ -228,17 +228,26 @@ void Map::Apply(const MapEdit& edit) {
   }
 }
 
-std::vector<Covisible> CovisibleKeyframes(const Map& map, KeyframeId id, int least_shared) {
-  std::map<KeyframeId, int> shared;
-  for (const LandmarkId landmark_id : map.At(id).landmarks) {
-    const Landmark* landmark = map.Find(landmark_id);
+std::vector<int> CountSeen(const Map& map, std::span<const LandmarkId> landmarks) {
+  std::vector<int> seen(static_cast<std::size_t>(map.NextKeyframeId().value), 0);
+  for (const LandmarkId id : landmarks) {
+    const Landmark* landmark = map.Find(id);
     if (!landmark) continue;
-    for (const Observation& observation : landmark->observations) ++shared[observation.keyframe];
+    for (const Observation& observation : landmark->observations) {
+      ++seen[static_cast<std::size_t>(observation.keyframe.value)];
+    }
   }
-  shared.erase(id);
+  return seen;
+}
+
+std::vector<Covisible> CovisibleKeyframes(const Map& map, KeyframeId id, int least_shared) {
+  std::vector<int> shared = CountSeen(map, map.At(id).landmarks);
+  shared[static_cast<std::size_t>(id.value)] = 0;
   std::vector<Covisible> covisible;
-  for (const auto& [keyframe, count] : shared) {
-    if (count >= least_shared) covisible.push_back({keyframe, count});
+  for (std::size_t i = 0; i < shared.size(); ++i) {
+    if (shared[i] >= std::max(least_shared, 1)) {
+      covisible.push_back({KeyframeId{static_cast<std::int64_t>(i)}, shared[i]});
+    }
   }
   std::stable_sort(covisible.begin(), covisible.end(),
                    [](const Covisible& a, const Covisible& b) { return a.shared > b.shared; });

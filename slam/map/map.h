@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "slam/map/frame.h"
@@ -116,6 +117,8 @@ class Map {
   }
   bool empty() const { return keyframes_.empty(); }
   int landmark_count() const { return landmark_count_; }
+  /// The slots of all landmarks lie below it.
+  int slot_count() const { return static_cast<int>(landmarks_.size()); }
 
   /// Null where there is no such keyframe (any more).
   const Keyframe* Find(KeyframeId id) const;
@@ -157,6 +160,9 @@ class Map {
   int landmark_count_ = 0;
   std::int64_t next_keyframe_ = 0;
 };
+
+/// How many of the landmarks each keyframe sees, by the keyframe's id; 0 for former ones.
+std::vector<int> CountSeen(const Map& map, std::span<const LandmarkId> landmarks);
 
 /// A keyframe and how many landmarks it shares with another.
 struct Covisible {

@@ -76,13 +76,12 @@ MapEdit ToEdit(const MapProblem& problem, const std::vector<bool>& inlier) {
 /// Keyframes other than `free` that see any of the landmarks, most observations first.
 std::vector<KeyframeId> OutsideObservers(const Map& map, const std::vector<KeyframeId>& free,
                                          const std::vector<LandmarkId>& landmarks, int most) {
-  std::map<KeyframeId, int> shared;
-  for (const LandmarkId id : landmarks) {
-    for (const Observation& observation : map.At(id).observations) ++shared[observation.keyframe];
-  }
-  for (const KeyframeId id : free) shared.erase(id);
+  std::vector<int> shared = CountSeen(map, landmarks);
+  for (const KeyframeId id : free) shared[static_cast<std::size_t>(id.value)] = 0;
   std::vector<std::pair<int, KeyframeId>> ranked;
-  for (const auto& [id, count] : shared) ranked.emplace_back(-count, id);
+  for (std::size_t i = 0; i < shared.size(); ++i) {
+    if (shared[i] > 0) ranked.push_back({-shared[i], {static_cast<std::int64_t>(i)}});
+  }
   std::sort(ranked.begin(), ranked.end());
   ranked.resize(std::min(ranked.size(), static_cast<std::size_t>(most)));
   std::vector<KeyframeId> observers;

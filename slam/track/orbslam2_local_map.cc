@@ -6,17 +6,6 @@
 namespace aisle::slam {
 namespace {
 
-/// How many of the landmarks each keyframe sees.
-std::map<KeyframeId, int> Votes(const Map& map, const std::vector<LandmarkId>& landmarks) {
-  std::map<KeyframeId, int> votes;
-  for (const LandmarkId id : landmarks) {
-    const Landmark* landmark = map.Find(id);
-    if (!landmark) continue;
-    for (const Observation& observation : landmark->observations) ++votes[observation.keyframe];
-  }
-  return votes;
-}
-
 /// Keyframes that grow by others, none twice.
 class Growing {
  public:
@@ -61,18 +50,21 @@ void Grow(const Map& map, std::vector<KeyframeId>& keyframes, const OrbSlam2Opti
 LocalMap OrbSlam2LocalMap(const Map& map, const std::vector<LandmarkId>& landmarks,
                           const OrbSlam2Options& options) {
   LocalMap local;
-  const std::map<KeyframeId, int> votes = Votes(map, landmarks);
+  const std::vector<int> votes = CountSeen(map, landmarks);
   int most = 0;
-  for (const auto& [id, count] : votes) {
-    local.keyframes.push_back(id);
-    if (count > most) most = count, local.reference = id;
+  for (std::size_t i = 0; i < votes.size(); ++i) {
+    if (votes[i] == 0) continue;
+    local.keyframes.push_back({static_cast<std::int64_t>(i)});
+    if (votes[i] > most) most = votes[i], local.reference = local.keyframes.back();
   }
   Grow(map, local.keyframes, options);
-  std::set<LandmarkId> known;
+  std::vector<bool> known(static_cast<std::size_t>(map.slot_count()), false);
   for (const KeyframeId keyframe : local.keyframes) {
     for (const LandmarkId id : map.At(keyframe).landmarks) {
       const Landmark* landmark = map.Find(id);
-      if (landmark && known.insert(id).second) local.landmarks.push_back(landmark);
+      if (!landmark || known[static_cast<std::size_t>(id.slot)]) continue;
+      known[static_cast<std::size_t>(id.slot)] = true;
+      local.landmarks.push_back(landmark);
     }
   }
   return local;
