@@ -85,9 +85,7 @@ double Mean(const std::vector<Sample>& samples, double Sample::*share) {
   return mean;
 }
 
-double Seconds(const Sample& sample) {
-  return static_cast<double>(sample.request.stamp_ns) * 1e-9;
-}
+double Seconds(const Sample& sample) { return static_cast<double>(sample.request.stamp_ns) * 1e-9; }
 
 SimulatedSequenceOptions SimulationOf(const std::string& file, const Options& options) {
   return {.scene_file = file,
@@ -164,9 +162,8 @@ int PrintShares(const std::vector<std::string>& files, const Options& options) {
       scenes.push_back({{"scene", sequence->name()}, {"mean", mean}, {"frames", shares}});
       continue;
     }
-    fmt::print("{:28} {}  {:5.1f} % on average, {:5.1f} % at most, at {:.1f} s\n",
-               sequence->name(), Bars(samples, &Sample::moving), 100 * mean, 100 * most.moving,
-               Seconds(most));
+    fmt::print("{:28} {}  {:5.1f} % on average, {:5.1f} % at most, at {:.1f} s\n", sequence->name(),
+               Bars(samples, &Sample::moving), 100 * mean, 100 * most.moving, Seconds(most));
     std::fflush(stdout);
   }
   if (options.json) fmt::print("{}", Dump({{"seed", options.seed}, {"scenes", scenes}}));

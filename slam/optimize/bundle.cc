@@ -2,7 +2,9 @@
 
 #include <ceres/ceres.h>
 
+#include <deque>
 #include <limits>
+#include <map>
 
 #include "slam/optimize/refine_pose.h"
 #include "slam/optimize/residuals.h"
@@ -48,7 +50,13 @@ BundleSummary Solve(BundleProblem& problem, const std::vector<bool>& active,
   for (const BundleProblem::Pose& pose : problem.poses) poses.push_back(ToBlock(pose.T_rig_world));
   std::vector<Eigen::Vector3d> points = problem.points;
 
+  // Tens of thousands of residuals live for one solution: in one place they cost less to make, and
+  // the problem need not count who uses them.
+  std::deque<ReprojectionResidual> residuals;
+  std::map<double, ceres::HuberLoss> losses;  // by bound
   ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ownership.disable_all_safety_checks = true;
   PoseManifold manifold;
@@ -60,10 +68,11 @@ BundleSummary Solve(BundleProblem& problem, const std::vector<bool>& active,
     if (!active.empty() && !active[i]) continue;
     const auto pose = static_cast<std::size_t>(observation.pose);
     const auto point = static_cast<std::size_t>(observation.point);
+    const double bound = observation.chi2_bound;
     ceres::LossFunction* loss =
-        options.robust ? new ceres::HuberLoss(std::sqrt(observation.chi2_bound)) : nullptr;
+        options.robust ? &losses.try_emplace(bound, std::sqrt(bound)).first->second : nullptr;
     ceres_problem.AddResidualBlock(
-        new ReprojectionResidual(problem.camera, observation.uvd, observation.sqrt_information),
+        &residuals.emplace_back(problem.camera, observation.uvd, observation.sqrt_information),
         loss, poses[pose].data(), points[point].data());
     pose_used[pose] = point_used[point] = true;
   }

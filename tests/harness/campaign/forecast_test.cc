@@ -30,5 +30,16 @@ TEST(ForecastTest, FramesAreRenderedOnceForAllSystems) {
                                                    "2,000 stereo pairs to render, 6,000 frames"));
 }
 
+TEST(ForecastTest, AFrameOnThePublishedBaseTakesLonger) {
+  const auto wall_s = [](const std::string& system) {
+    return ForecastOf({{"s", "s.yaml", "live", BuiltIn(system), 1}}, 2,
+                      [](const std::string&) { return std::int64_t{500}; })
+        .wall_s;
+  };
+  EXPECT_EQ(wall_s("robust"), wall_s("plain"));
+  EXPECT_GT(wall_s("orbslam2"), wall_s("plain") + 10);
+  EXPECT_EQ(wall_s("paper"), wall_s("orbslam2"));
+}
+
 }  // namespace
 }  // namespace aisle

@@ -62,7 +62,7 @@ TEST_F(ExtendTest, HoldsWhereTheSceneSaysNothing) {
                                       "people: [{name: alone, start: [6, 2]}]\n"));
   EXPECT_EQ(scene.about, "Narrow.");
   EXPECT_EQ(scene.frames, 100);
-  EXPECT_EQ(scene.camera.fx, 700);
+  EXPECT_EQ(scene.camera.focal_px.x(), 700);
   EXPECT_EQ(scene.camera.baseline_m, 0.2);  // maps key by key
   ASSERT_EQ(scene.people.size(), 1u);       // lists whole
   EXPECT_EQ(scene.people[0].name, "alone");
