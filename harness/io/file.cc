@@ -1,14 +1,14 @@
 #include "harness/io/file.h"
 
 #include <fcntl.h>
+#include <linux/openat2.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 
 #include "harness/io/input_error.h"
 
@@ -29,6 +29,8 @@ class Descriptor {
   Descriptor(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {
     if (fd_ < 0) Fail("open", path);
   }
+  /// Of one that is open already.
+  explicit Descriptor(int fd) : fd_(fd) {}
   ~Descriptor() { ::close(fd_); }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
@@ -59,10 +61,56 @@ void MakeParent(const fs::path& path) {
   if (!path.has_parent_path()) return;
   std::error_code error;
   fs::create_directories(path.parent_path(), error);
+  if (error == std::errc::not_a_directory || error == std::errc::file_exists ||
+      error == std::errc::filename_too_long) {
+    throw InputError(path.parent_path().string(), 0,
+                     error == std::errc::filename_too_long
+                         ? "is too long a name for a folder"
+                         : "is, or lies below, a file: a folder is needed");
+  }
   if (error) {
     throw MachineError(fmt::format("{}: cannot make the folder: {}", path.parent_path().string(),
                                    error.message()));
   }
+}
+
+/// What can be read from where the descriptor stands.
+std::string ReadAll(const Descriptor& file, const fs::path& path, std::size_t max_bytes) {
+  struct stat status {};
+  const bool sized = ::fstat(file.get(), &status) == 0 && S_ISREG(status.st_mode);
+  const auto claimed = sized ? static_cast<std::size_t>(status.st_size) : 0;
+  const auto too_large = [&] {
+    return InputError(path.string(), 0,
+                      fmt::format("is larger than the allowed {} bytes", max_bytes));
+  };
+  if (claimed > max_bytes) throw too_large();
+  constexpr std::size_t kLeastRoom = 65536;
+  std::string bytes(std::max(claimed + 1, kLeastRoom), '\0');
+  std::size_t size = 0;
+  for (;;) {
+    if (size == bytes.size()) bytes.resize(2 * size);
+    const ssize_t count = ::read(file.get(), bytes.data() + size, bytes.size() - size);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) {
+      throw InputError(path.string(), 0, fmt::format("cannot be read: {}", std::strerror(errno)));
+    }
+    if (count == 0) break;
+    size += static_cast<std::size_t>(count);
+    if (size > max_bytes) throw too_large();
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
+/// Opens a file below a folder without leaving it and without waiting; -1 and errno else.
+int OpenBeneath(int folder, const std::string& name) {
+  constexpr auto kFlags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
+  struct open_how how {};
+  how.flags = kFlags;
+  how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;
+  const long file = ::syscall(SYS_openat2, folder, name.c_str(), &how, sizeof how);
+  if (file >= 0 || (errno != ENOSYS && errno != EPERM)) return static_cast<int>(file);
+  return ::openat(folder, name.c_str(), kFlags | O_NOFOLLOW);  // no link at all
 }
 
 }  // namespace
@@ -100,18 +148,53 @@ void ClearLeftovers(const fs::path& folder) {
 
 std::string ReadFile(const fs::path& path, std::size_t max_bytes) {
   std::error_code error;
-  if (!fs::exists(path, error)) throw InputError(path.string(), 0, "no such file");
-  if (fs::is_directory(path, error)) throw InputError(path.string(), 0, "is a folder, not a file");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw InputError(path.string(), 0, "cannot be read");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  std::string bytes = std::move(text).str();
-  if (bytes.size() > max_bytes) {
-    throw InputError(path.string(), 0,
-                     fmt::format("is larger than the allowed {} bytes", max_bytes));
+  const bool there = fs::exists(path, error);
+  if (error == std::errc::filename_too_long) {
+    throw InputError(Printable(path.string(), 80), 0, "is too long a name for a file");
   }
-  return bytes;
+  if (!there) throw InputError(path.string(), 0, "no such file");
+  if (fs::is_directory(path, error)) throw InputError(path.string(), 0, "is a folder, not a file");
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) throw InputError(path.string(), 0, "cannot be read");
+  return ReadAll(Descriptor(file), path, max_bytes);
+}
+
+std::string ReadLeftFile(const fs::path& folder, const std::string& name, std::size_t max_bytes) {
+  const fs::path path = folder / name;
+  const Descriptor within(folder, O_RDONLY | O_DIRECTORY);
+  const int file = OpenBeneath(within.get(), name);
+  if (file < 0) {
+    throw InputError(path.string(), 0,
+                     errno == ENOENT ? "no such file"
+                     : errno == EXDEV || errno == ELOOP
+                         ? "is a link that leads out of its folder"
+                         : fmt::format("cannot be read: {}", std::strerror(errno)));
+  }
+  const Descriptor opened(file);
+  struct stat status {};
+  if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
+    throw InputError(path.string(), 0, "is no regular file");
+  }
+  return ReadAll(opened, path, max_bytes);
+}
+
+bool RemoveFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::remove_all(folder, error);
+  if (!error) return true;
+  // Folders may forbid what takes them away.
+  std::vector<fs::path> closed{folder};
+  while (!closed.empty()) {
+    const fs::path one = closed.back();
+    closed.pop_back();
+    std::error_code ignored;
+    fs::permissions(one, fs::perms::owner_all, fs::perm_options::add, ignored);
+    for (const auto& entry : fs::directory_iterator(one, ignored)) {
+      if (entry.is_directory(ignored) && !entry.is_symlink(ignored)) closed.push_back(entry.path());
+    }
+  }
+  fs::remove_all(folder, error);
+  return !error;
 }
 
 }  // namespace aisle

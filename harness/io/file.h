@@ -13,15 +13,27 @@ enum class Durability {
 };
 
 /// Writes aside, flushes to the disk, then renames: under the final name stands either the old file
-/// or the whole new one, whenever the power goes. Makes missing folders. Throws MachineError.
+/// or the whole new one, whenever the power goes. Makes missing folders. Throws MachineError, and
+/// InputError where the path cannot be one of a file: below a file, or too long.
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes,
                          Durability durability = Durability::kSurvivesPowerLoss);
 
 /// Deletes what killed writers left aside below a folder. Nobody else may be writing there.
 void ClearLeftovers(const std::filesystem::path& folder);
 
-/// The whole file. Throws InputError when it cannot be read or is larger than max_bytes.
+/// The whole file. Throws InputError when it cannot be read or is larger than max_bytes, of which
+/// it reads no more then, whatever the file claims to be.
 std::string ReadFile(const std::filesystem::path& path,
                      std::size_t max_bytes = std::size_t{1} << 30);
+
+/// A file that a program of others left in a folder of its own, by its name there: a regular file
+/// of at most max_bytes. Links that lead out of the folder, pipes and devices are not followed nor
+/// opened to any effect, and nothing is waited for. Throws InputError.
+std::string ReadLeftFile(const std::filesystem::path& folder, const std::string& name,
+                         std::size_t max_bytes);
+
+/// Deletes a folder with all in it, what a program of others forbade to enter too. False where
+/// something stays.
+bool RemoveFolder(const std::filesystem::path& folder);
 
 }  // namespace aisle

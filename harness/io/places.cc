@@ -30,7 +30,8 @@ fs::path AssetsDir() {
 }
 
 std::string SceneFile(const std::string& file_or_name) {
-  if (fs::exists(file_or_name)) return file_or_name;
+  std::error_code error;  // names that no file can have among them
+  if (fs::exists(file_or_name, error)) return file_or_name;
   return (AssetsDir().parent_path() / "scenes" / (file_or_name + ".yaml")).string();
 }
 

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+namespace aisle {
+
+/// Held by one process of all; let go when it ends, however that happens. The file stays.
+class FileLock {
+ public:
+  /// Waits until nobody else holds it. Makes the file and its folder. Throws MachineError.
+  explicit FileLock(const std::filesystem::path& file);
+  /// None where somebody else holds it. Throws MachineError.
+  static std::optional<FileLock> Try(const std::filesystem::path& file);
+
+  FileLock(FileLock&& other) noexcept;
+  FileLock& operator=(FileLock&&) = delete;
+  ~FileLock();
+
+ private:
+  FileLock() = default;
+  int file_ = -1;
+};
+
+}  // namespace aisle

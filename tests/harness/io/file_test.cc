@@ -1,0 +1,91 @@
+// Files that others left: whatever stands there, reading it ends, and ends small.
+#include "harness/io/file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "harness/io/file_lock.h"
+#include "harness/io/input_error.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class FileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / fmt::format("aisle_file_{}", ::getpid());
+    fs::create_directories(folder_ / "left");
+  }
+  void TearDown() override { RemoveFolder(folder_); }
+
+  std::string Left(const std::string& name) const {
+    try {
+      return ReadLeftFile(folder_ / "left", name, 1000);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(FileTest, ALeftFileIsReadWhereItIsOne) {
+  WriteFileAtomically(folder_ / "left/good", "text");
+  fs::create_symlink("good", folder_ / "left/link");
+  EXPECT_EQ(Left("good"), "text");
+  EXPECT_EQ(Left("link"), "text");  // within its folder
+}
+
+TEST_F(FileTest, ALeftFileThatIsNoneIsRefusedAtOnce) {
+  WriteFileAtomically(folder_ / "outside", "truth");
+  ASSERT_EQ(::mkfifo((folder_ / "left/pipe").c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", folder_ / "left/device");
+  fs::create_symlink("../outside", folder_ / "left/out");
+  fs::create_symlink(folder_ / "outside", folder_ / "left/far");
+  fs::create_symlink("circle", folder_ / "left/circle");
+  fs::create_directory(folder_ / "left/folder");
+  WriteFileAtomically(folder_ / "left/sparse", "");
+  ASSERT_EQ(::truncate((folder_ / "left/sparse").c_str(), off_t{60} << 30), 0);
+  EXPECT_THAT(Left("pipe"), HasSubstr("is no regular file"));
+  EXPECT_THAT(Left("folder"), HasSubstr("is no regular file"));
+  EXPECT_THAT(Left("device"), HasSubstr("is a link that leads out of its folder"));
+  EXPECT_THAT(Left("out"), HasSubstr("is a link that leads out of its folder"));
+  EXPECT_THAT(Left("far"), HasSubstr("is a link that leads out of its folder"));
+  EXPECT_THAT(Left("circle"), HasSubstr("is a link that leads out of its folder"));
+  EXPECT_THAT(Left("sparse"), HasSubstr("is larger than the allowed 1000 bytes"));
+  EXPECT_THAT(Left("none"), HasSubstr("no such file"));
+}
+
+TEST_F(FileTest, WhatHasNoEndIsReadToTheLimitAlone) {
+  EXPECT_THROW(ReadFile("/dev/zero", 100'000), InputError);
+}
+
+TEST_F(FileTest, AFolderThatForbidsItIsRemovedAllTheSame) {
+  WriteFileAtomically(folder_ / "left/a/b/c", "text");
+  fs::permissions(folder_ / "left/a/b", fs::perms::none);
+  EXPECT_TRUE(RemoveFolder(folder_ / "left"));
+  EXPECT_FALSE(fs::exists(folder_ / "left"));
+}
+
+TEST_F(FileTest, AFileInTheWayOfAFolderIsTheUsersMistake) {
+  WriteFileAtomically(folder_ / "file", "text");
+  EXPECT_THROW(WriteFileAtomically(folder_ / "file/x", ""), InputError);
+  EXPECT_THROW(WriteFileAtomically(folder_ / std::string(5000, 'n') / "x", ""), InputError);
+  EXPECT_THROW(ReadFile(std::string(5000, 'n')), InputError);
+}
+
+TEST_F(FileTest, ALockIsHeldByOneAtATime) {
+  std::optional<FileLock> first = FileLock::Try(folder_ / "lock");
+  ASSERT_TRUE(first);
+  EXPECT_FALSE(FileLock::Try(folder_ / "lock"));
+  first.reset();
+  EXPECT_TRUE(FileLock::Try(folder_ / "lock"));
+}
+
+}  // namespace
+}  // namespace aisle
