@@ -1,6 +1,7 @@
 #include "harness/cli/command_line.h"
 
 #include <cstdio>
+#include <filesystem>
 
 #include "harness/io/input_error.h"
 #include "harness/io/nearest_word.h"
@@ -72,6 +73,13 @@ int RunCommandLine(int argc, const char* const* argv) {
   } catch (const InputError& error) {
     fmt::print(stderr, "aisle: {}\n", error.what());
     return kBadInput;
+  } catch (const std::filesystem::filesystem_error& error) {
+    const std::error_code code = error.code();
+    const bool impossible = code == std::errc::filename_too_long ||
+                            code == std::errc::not_a_directory ||
+                            code == std::errc::too_many_symbolic_link_levels;
+    fmt::print(stderr, "aisle: {}: {}\n", Printable(error.path1().string(), 80), code.message());
+    return impossible ? kBadInput : kOwnFailure;  // a name that no file can have was given to us
   } catch (const std::exception& error) {
     fmt::print(stderr, "aisle: {}\n", error.what());
     return kOwnFailure;

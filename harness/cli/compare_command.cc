@@ -44,7 +44,7 @@ int CompareReports(const Options& options) {
   if (!options.out.empty()) WritePages(comparisons, options);
   if (comparisons.empty()) return kNothingToDo;
   const bool worse = std::any_of(comparisons.begin(), comparisons.end(),
-                                 [](const Comparison& c) { return c.change == Change::kWorse; });
+                                 [](const Comparison& c) { return IsAlarm(c.change); });
   return worse ? kVerdictFailed : kAllPassed;
 }
 
@@ -65,7 +65,8 @@ int SetBaseline(const std::string& folder, bool json) {
 void AddCompareCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand(
-      "compare", "what changed between two reports: better, worse, same, cannot tell");
+      "compare",
+      "what changed between two reports: better, worse, same, cannot tell, unstable, gone");
   command->add_option("OLD", options->before, "report folder or results.json")->required();
   command->add_option("NEW", options->after, "report folder or results.json")->required();
   command->add_option("--alpha", options->compare.alpha, "chance of any false alarm; default 0.01")

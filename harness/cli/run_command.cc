@@ -10,10 +10,12 @@
 #include "harness/cli/publish.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
+#include "harness/io/file_lock.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
-#include "harness/judge/compare.h"
+#include "harness/judge/gate.h"
 #include "harness/plugs/simulated_sequence.h"
+#include "harness/record/history.h"
 #include "harness/record/provenance.h"
 #include "harness/report/report.h"
 
@@ -42,9 +44,7 @@ struct Options {
 std::atomic<bool> interrupted = false;
 void OnInterrupt(int) { interrupted = true; }
 
-void HoldAgainstBaseline(Results* results) {
-  const fs::path path = BaselinePath(results->suite);
-  const Results baseline = ResultsFromJson(ReadFile(path), path.string());
+void HoldAgainstBaseline(const Results& baseline, Results* results) {
   for (Verdict& verdict : GateVerdicts(baseline, *results)) {
     results->verdicts.push_back(std::move(verdict));
   }
@@ -57,17 +57,45 @@ std::string CommandLine(const Options& options) {
   return line;
 }
 
-/// A baseline speaks of the suite as it is committed, and must be there before the night begins.
-void CheckGate(const Options& options, const PlanFile& plan) {
-  if (!options.gate) return;
+/// A baseline speaks of the suite as it is committed, and must be there, whole, before the night
+/// begins. None where nobody asked for it.
+std::optional<Results> ReadBaseline(const Options& options, const PlanFile& plan) {
+  if (!options.gate) return std::nullopt;
   if (!options.inputs.set.empty()) {
     throw InputError(
         "--gate holds a suite against its baseline as it is committed: leave --set out");
   }
-  if (!fs::exists(BaselinePath(plan.name()))) {
-    throw InputError(BaselinePath(plan.name()).string(), 0,
+  const fs::path path = BaselinePath(plan.name());
+  if (!fs::exists(path)) {
+    throw InputError(path.string(), 0,
                      "no baseline for this suite; make one with `aisle baseline DIR`");
   }
+  Results baseline = ResultsFromJson(ReadFile(path), path.string());
+  if (baseline.runs.empty()) {
+    throw InputError(path.string(), 0, "holds no runs; make it anew with `aisle baseline DIR`");
+  }
+  return baseline;
+}
+
+/// Two nights in one folder would take each other's results away.
+FileLock TakeFolder(const fs::path& out) {
+  if (fs::exists(out) && !fs::is_directory(out)) {
+    throw InputError(out.string(), 0, "is a file: --out needs a folder");
+  }
+  std::optional<FileLock> lock = FileLock::Try(out / ".lock");
+  if (!lock) {
+    throw InputError(out.string(), 0,
+                     "another `aisle run` is at work there: wait for it, or choose another --out");
+  }
+  return *std::move(lock);
+}
+
+/// What the morning would find out, said in the evening; no reason not to drive.
+void WarnOfHistory(const Options& options, const fs::path& out) {
+  if (!options.inputs.set.empty()) return;
+  const std::string trouble = HistoryTrouble(HistoryPath(out));
+  if (trouble.empty()) return;
+  fmt::print(stderr, "aisle: warning: the trends will lack this night: {}\n", trouble);
 }
 
 CampaignOutcome RunToEnd(const std::vector<Job>& jobs, const Options& options) {
@@ -101,7 +129,7 @@ int RunSuites(const Options& options) {
   const Shard shard = ShardFromText(options.shard);
   const PlanFile plan{LoadInputs(options.inputs), CommandLine(options)};
   CheckScenes(plan.suites);
-  CheckGate(options, plan);
+  const std::optional<Results> baseline = ReadBaseline(options, plan);
   const std::vector<RunSpec> specs = SpecsOf(plan, shard);
   if (specs.empty()) {
     fmt::print(stderr, "aisle: part {} holds no run of the suite\n", options.shard);
@@ -109,6 +137,8 @@ int RunSuites(const Options& options) {
   }
   if (options.dry_run) return kAllPassed;
   const fs::path out = options.out.empty() ? fs::path("out") / plan.name() : fs::path(options.out);
+  const FileLock ours = TakeFolder(out);
+  WarnOfHistory(options, out);
   const std::vector<Job> todo = StillToDo(MakeJobs(specs, Fingerprints(),
                                                    {.out = out,
                                                     .threads = options.threads,
@@ -130,7 +160,7 @@ int RunSuites(const Options& options) {
   results.started = started;
   results.wall_s = outcome.wall_s;
   results.rerun = plan.command + (options.out.empty() ? "" : " --out " + options.out);
-  if (options.gate) HoldAgainstBaseline(&results);
+  if (baseline) HoldAgainstBaseline(*baseline, &results);
   return Publish(results, out,
                  {.json = options.json,
                   .remember = options.inputs.set.empty(),  // a trial is no night

@@ -75,6 +75,61 @@ std::vector<double> Differences(const ValuesBySeed& before, const ValuesBySeed& 
   return differences;
 }
 
+const Judged* FindJudged(const std::string& score) {
+  for (const Judged& judged : kJudged) {
+    if (score == judged.score) return &judged;
+  }
+  return nullptr;
+}
+
+/// "seed 3: nothing was rejected": the first that had a value, ran again and has none.
+std::string FirstGone(const ValuesBySeed& before, const ValuesBySeed& now,
+                      const std::vector<const RunRecord*>& after, const std::string& score) {
+  for (const RunRecord* run : after) {
+    const std::uint64_t seed = run->spec.seed;
+    if (!before.contains(seed) || now.contains(seed)) continue;
+    const auto at = run->scores.find(score);
+    const bool said = at != run->scores.end() && !at->second.absent.empty();
+    const std::string why = said                       ? at->second.absent
+                            : !run->status_why.empty() ? run->status_why
+                                                       : "the run has no such score";
+    return fmt::format("seed {}: {}", seed, why);
+  }
+  return "";
+}
+
+/// By how much a value must change at least to be far from another, in the score's unit.
+double FarStep(const Judged& judged, const std::string& unit) {
+  constexpr double kFarShare = 0.2;
+  if (judged.smallest_effect > 0) return 10 * judged.smallest_effect;
+  return unit == "1" ? kFarShare : 0;
+}
+
+bool IsFarWorse(const Judged& judged, double step, double before, double after) {
+  constexpr double kFarTimes = 3;
+  if (judged.more_is_better) return before - after > step;
+  return after > kFarTimes * before && after - before > step;
+}
+
+/// Looks at each seed beside its own past: medians do not see what befalls fewer than half of them.
+void LookForBreaks(const Judged& judged, const ValuesBySeed& before, const ValuesBySeed& after,
+                   Comparison* comparison) {
+  const double step = FarStep(judged, comparison->unit);
+  const std::vector<double> old_values = Plain(before);
+  const double worst = judged.more_is_better
+                           ? *std::min_element(old_values.begin(), old_values.end())
+                           : *std::max_element(old_values.begin(), old_values.end());
+  std::size_t mended = 0;
+  for (const auto& [seed, value] : after) {
+    mended += IsFarWorse(judged, step, value, before.at(seed));
+    if (!IsFarWorse(judged, step, before.at(seed), value)) continue;
+    ++comparison->broken;
+    comparison->mixed = comparison->mixed || IsFarWorse(judged, step, worst, value);
+  }
+  constexpr std::size_t kNoChance = 3;
+  comparison->mixed = comparison->mixed || comparison->broken >= mended + kNoChance;
+}
+
 std::optional<Comparison> CompareScore(const std::vector<const RunRecord*>& before,
                                        const std::vector<const RunRecord*>& after,
                                        const std::string& score) {
@@ -82,12 +137,21 @@ std::optional<Comparison> CompareScore(const std::vector<const RunRecord*>& befo
   comparison.score = score;
   const ValuesBySeed old_values = Values(before, score, &comparison.unit);
   const ValuesBySeed new_values = Values(after, score, &comparison.unit);
-  if (old_values.empty() || new_values.empty()) return std::nullopt;
+  if (old_values.empty()) return std::nullopt;
+  const Judged* judged = FindJudged(score);
+  if (judged != nullptr) comparison.gone = FirstGone(old_values, new_values, after, score);
   comparison.old_n = old_values.size();
   comparison.new_n = new_values.size();
-  comparison.paired = SameSeeds(old_values, new_values);
-  comparison.bit_equal = old_values == new_values;
   comparison.old_median = Quantile(Plain(old_values), 0.5);
+  if (new_values.empty()) {
+    comparison.new_median = std::numeric_limits<double>::quiet_NaN();
+    return comparison.gone.empty() ? std::nullopt : std::optional(comparison);
+  }
+  comparison.paired = SameSeeds(old_values, new_values);
+  if (judged != nullptr && comparison.paired) {
+    LookForBreaks(*judged, old_values, new_values, &comparison);
+  }
+  comparison.bit_equal = old_values == new_values;
   comparison.new_median = Quantile(Plain(new_values), 0.5);
   comparison.difference = BootstrapMedian(Differences(old_values, new_values, comparison.paired));
   comparison.p = MannWhitneyP(Plain(old_values), Plain(new_values));
@@ -103,7 +167,10 @@ void Decide(const Judged& judged, const CompareOptions& options, Comparison* com
   const double effect = judged.smallest_effect > 0
                             ? judged.smallest_effect
                             : options.minimum_effect * std::abs(c.old_median);
-  if (c.bit_equal) {
+  if (!c.gone.empty()) {
+    c.change = Change::kGone;
+    c.why = fmt::format("{} seeds had a value, {} have one; {}", c.old_n, c.new_n, c.gone);
+  } else if (c.bit_equal) {
     c.change = Change::kSame;
     c.why = "equal to the last digit";
   } else if (std::abs(change) <= effect && std::abs(c.difference.low) <= effect &&
@@ -121,13 +188,12 @@ void Decide(const Judged& judged, const CompareOptions& options, Comparison* com
     c.change = (change > 0) == judged.more_is_better ? Change::kBetter : Change::kWorse;
     c.why = fmt::format("p = {:.2g} after Holm", c.p);
   }
-}
-
-const Judged* FindJudged(const std::string& score) {
-  for (const Judged& judged : kJudged) {
-    if (score == judged.score) return &judged;
+  const bool undecided = c.change == Change::kSame || c.change == Change::kCannotTell;
+  if (undecided && c.mixed && std::min(c.old_n, c.new_n) >= kFewestSeeds) {
+    c.change = Change::kUnstable;
+    c.why = fmt::format("{} of {} seeds got far worse, the median alone is {}", c.broken, c.new_n,
+                        c.why);
   }
-  return nullptr;
 }
 
 std::vector<std::string> ScoresToCompare() {
@@ -138,7 +204,9 @@ std::vector<std::string> ScoresToCompare() {
 }
 
 /// Equal bits are no question to chance: they take no share of the alarm that is allowed.
-bool IsTested(const Comparison& c) { return FindJudged(c.score) != nullptr && !c.bit_equal; }
+bool IsTested(const Comparison& c) {
+  return FindJudged(c.score) != nullptr && !c.bit_equal && c.gone.empty();
+}
 
 /// The least p that so many seeds can reach, were every new value beyond every old one.
 double LeastP(std::size_t old_n, std::size_t new_n) {
@@ -198,10 +266,18 @@ std::string Name(Change change) {
       return "same";
     case Change::kWatched:
       return "watched";
+    case Change::kUnstable:
+      return "unstable";
+    case Change::kGone:
+      return "gone";
     case Change::kCannotTell:
       break;
   }
   return "cannot tell";
+}
+
+bool IsAlarm(Change change) {
+  return change == Change::kWorse || change == Change::kUnstable || change == Change::kGone;
 }
 
 std::vector<Comparison> Compare(const Results& before, const Results& after,
@@ -235,41 +311,6 @@ Results BaselineOf(const Results& results) {
     });
   }
   return baseline;
-}
-
-std::vector<Verdict> GateVerdicts(const Results& before, const Results& after,
-                                  const CompareOptions& options) {
-  std::vector<Verdict> verdicts;
-  const auto old_cells = Cells(before), new_cells = Cells(after);
-  for (const auto& [cell, runs] : old_cells) {
-    if (new_cells.count(cell) > 0) continue;
-    const auto& [scene, twin, system] = cell;
-    verdicts.push_back({.name = fmt::format("{} {} {}: baseline", scene, twin, system),
-                        .passed = false,
-                        .flaky = false,
-                        .value = {},
-                        .limit = {},
-                        .why = "the baseline has this, tonight has not",
-                        .scene = scene,
-                        .twin = twin,
-                        .system = system});
-  }
-  for (const Comparison& c : Compare(before, after, options)) {
-    if (FindJudged(c.score) == nullptr) continue;
-    verdicts.push_back(
-        {.name =
-             fmt::format("{} {} {}: {} against the baseline", c.scene, c.twin, c.system, c.score),
-         .passed = c.change != Change::kWorse,
-         .flaky = false,
-         .value = c.new_median,
-         .limit = c.old_median,
-         .why = fmt::format("{}: {:.4g} was {:.4g} {} ({})", Name(c.change), c.new_median,
-                            c.old_median, c.unit == "1" ? "" : c.unit, c.why),
-         .scene = c.scene,
-         .twin = c.twin,
-         .system = c.system});
-  }
-  return verdicts;
 }
 
 }  // namespace aisle

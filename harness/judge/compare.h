@@ -20,26 +20,37 @@ enum class Change {
   kSame,
   kWatched,     ///< time and memory belong to the machine: compared, never judged
   kCannotTell,  ///< a difference that chance may have made, or too few seeds to say
+  kUnstable,    ///< some seeds got far worse while the median says nothing: a mixed distribution
+  kGone,        ///< a seed had a value before, ran again and has none: nothing is left to compare
 };
-/// "better", "worse", "same", "watched", "cannot tell".
+/// "better", "worse", "same", "watched", "cannot tell", "unstable", "gone".
 std::string Name(Change change);
+
+/// What fails a night: worse, unstable and gone.
+bool IsAlarm(Change change);
 
 /// One score of one cell, before and after.
 struct Comparison {
   std::string scene, twin, system, score, unit;
-  std::size_t old_n = 0, new_n = 0;  ///< seeds
-  double old_median = 0, new_median = 0;
+  std::size_t old_n = 0, new_n = 0;       ///< seeds
+  double old_median = 0, new_median = 0;  ///< NaN where no seed has a value
   Interval difference;     ///< 95 % bootstrap of the median of paired differences, new - old
   bool paired = false;     ///< same seeds on both sides: the interval is of paired differences
   bool bit_equal = false;  ///< every value the same to the last digit
-  double p = 1;            ///< Mann-Whitney, Holm-corrected over the whole comparison
+  /// Seeds that got far worse: three times the error they had, a fifth less of a share (a tenth of
+  /// the coverage); and whether that is a mixed distribution, since they lie far beyond all old
+  /// values or are three more than those that got far better.
+  std::size_t broken = 0;
+  bool mixed = false;
+  std::string gone;  ///< the first seed whose value is missing now, and why; empty: none
+  double p = 1;      ///< Mann-Whitney, Holm-corrected over the whole comparison
   Change change = Change::kSame;
   std::string why;
 };
 
-/// Every score that both sides have, coverage first: a system that stops tracking has a smaller
-/// error. Scores of time and memory are compared but never called worse: they belong to the
-/// machine.
+/// Every score that the old side has in a cell of both, coverage first: a system that stops
+/// tracking has a smaller error. Scores of time and memory are compared but never called worse:
+/// they belong to the machine.
 std::vector<Comparison> Compare(const Results& before, const Results& after,
                                 const CompareOptions& options = {});
 
@@ -49,9 +60,5 @@ bool SameProcessor(const Results& a, const Results& b);
 
 /// What a comparison needs of a night and no more: fit to be kept under version control.
 Results BaselineOf(const Results& results);
-
-/// A failed verdict for each score that got worse, and for each cell that is gone.
-std::vector<Verdict> GateVerdicts(const Results& before, const Results& after,
-                                  const CompareOptions& options = {});
 
 }  // namespace aisle

@@ -1,6 +1,10 @@
 #include "harness/record/history.h"
 
 #include <sqlite3.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 
 #include "harness/io/input_error.h"
 #include "harness/record/group.h"
@@ -88,6 +92,31 @@ class Statement {
 };
 
 }  // namespace
+
+std::string HistoryTrouble(const fs::path& path) {
+  std::error_code error;
+  fs::path folder = fs::absolute(path).parent_path();
+  if (!fs::exists(path, error)) {
+    while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
+    if (!fs::is_directory(folder, error)) return folder.string() + ": is no folder";
+    if (::access(folder.c_str(), W_OK) == 0) return "";
+    return fmt::format("{}: cannot be written: {}", folder.string(), std::strerror(errno));
+  }
+  try {
+    Database database(path);
+    Statement check(database, "PRAGMA quick_check(1)");
+    if (check.Step() && check.Text(0) == "ok") {
+      check.Reset();
+      database.Run("BEGIN IMMEDIATE");
+      database.Run("ROLLBACK");
+      return "";
+    }
+    return path.string() + ": is damaged (" + check.Text(0) + "): move it away, a new one is begun";
+  } catch (const MachineError& trouble) {
+    return fmt::format("{}; where it is damaged, move it away and a new one is begun",
+                       trouble.what());
+  }
+}
 
 void AppendToHistory(const fs::path& path, const Results& results) {
   Database database(path);

@@ -15,6 +15,10 @@ struct TrendPoint {
   std::optional<double> median;
 };
 
+/// What would keep a night from being filed there (a damaged file, a folder that cannot be
+/// written), with the remedy; empty: nothing. Makes no file.
+std::string HistoryTrouble(const std::filesystem::path& database);
+
 /// Files tonight's medians in an SQLite file (made where it is missing). The same evening filed
 /// twice is one evening. Throws MachineError.
 void AppendToHistory(const std::filesystem::path& database, const Results& results);

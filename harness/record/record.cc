@@ -80,7 +80,10 @@ std::optional<RunRecord> ReadFinishedRun(const RunSpec& spec, const std::string&
                                          const fs::path& report_dir) {
   std::optional<RunRecord> record = ReadRun(spec, report_dir);
   if (!record || record->inputs_hash != inputs_hash) return std::nullopt;
-  if (record->output_hash.empty()) return record;  // it never came as far as a trajectory
+  if (record->output_hash.empty()) {  // it never came as far as a trajectory
+    // Its process died: by its own fault, or because somebody killed it. A fault shows again.
+    return record->status == RunStatus::kCrashed ? std::nullopt : record;
+  }
   try {
     std::uint64_t hash = 0;
     for (const char* name : {"live.txt", "final.txt", "truth.txt"}) {

@@ -7,16 +7,18 @@ namespace aisle {
 namespace {
 
 std::string Percent(const Comparison& c) {
-  if (c.old_median == 0) return "";
+  if (c.old_median == 0 || c.new_n == 0) return "";
   return fmt::format("{:+.1f} %", 100 * (c.new_median - c.old_median) / std::abs(c.old_median));
 }
 
 std::string Cell(const Comparison& c) { return fmt::format("{} {} {}", c.scene, c.twin, c.system); }
 
+bool IsChange(const Comparison& c) { return IsAlarm(c.change) || c.change == Change::kBetter; }
+
 std::string Painted(const Comparison& c, bool color) {
   const std::string text = fmt::format("{:11}", Name(c.change));
-  if (!color || (c.change != Change::kWorse && c.change != Change::kBetter)) return text;
-  return fmt::format("\x1b[{}m{}\x1b[0m", c.change == Change::kWorse ? "31;1" : "32", text);
+  if (!color || !IsChange(c)) return text;
+  return fmt::format("\x1b[{}m{}\x1b[0m", IsAlarm(c.change) ? "31;1" : "32", text);
 }
 
 std::size_t Count(const std::vector<Comparison>& comparisons, Change change) {
@@ -26,13 +28,19 @@ std::size_t Count(const std::vector<Comparison>& comparisons, Change change) {
 }
 
 std::string Summary(const std::vector<Comparison>& comparisons) {
-  return fmt::format("{} worse, {} better, {} same, {} cannot tell",
-                     Count(comparisons, Change::kWorse), Count(comparisons, Change::kBetter),
-                     Count(comparisons, Change::kSame), Count(comparisons, Change::kCannotTell));
+  std::string text =
+      fmt::format("{} worse, {} better, {} same, {} cannot tell",
+                  Count(comparisons, Change::kWorse), Count(comparisons, Change::kBetter),
+                  Count(comparisons, Change::kSame), Count(comparisons, Change::kCannotTell));
+  for (const Change change : {Change::kUnstable, Change::kGone}) {
+    const std::size_t count = Count(comparisons, change);
+    if (count > 0) text += fmt::format(", {} {}", count, Name(change));
+  }
+  return text;
 }
 
 std::string HtmlRow(const Comparison& c) {
-  const char* css = c.change == Change::kWorse ? "fail" : c.change == Change::kBetter ? "pass" : "";
+  const char* css = IsAlarm(c.change) ? "fail" : c.change == Change::kBetter ? "pass" : "";
   return fmt::format(
       "<tr><td>{}</td><td class=\"left\">{}</td><td class=\"left {}\">{}</td><td>{:.4g}</td>"
       "<td>{:.4g}</td><td>{}</td><td>{:.2g} … {:.2g}</td><td>{}</td><td "
@@ -44,8 +52,7 @@ std::string HtmlRow(const Comparison& c) {
 std::string HtmlTable(const std::vector<Comparison>& comparisons, bool changed) {
   std::string rows;
   for (const Comparison& c : comparisons) {
-    const bool is_change = c.change == Change::kWorse || c.change == Change::kBetter;
-    if (is_change == changed) rows += HtmlRow(c);
+    if (IsChange(c) == changed) rows += HtmlRow(c);
   }
   if (rows.empty()) return "";
   return "<div class=\"wide\"><table><tr><th>scene, twin, system</th><th class=\"left\">score</th>"
@@ -102,7 +109,8 @@ std::string ToJson(const std::vector<Comparison>& comparisons) {
 }
 
 std::string ToHtml(const std::vector<Comparison>& comparisons) {
-  const bool worse = Count(comparisons, Change::kWorse) > 0;
+  const bool worse = std::any_of(comparisons.begin(), comparisons.end(),
+                                 [](const Comparison& c) { return IsAlarm(c.change); });
   std::string text = fmt::format("<div class=\"verdict {}\"><strong>{}</strong></div>\n",
                                  worse ? "failed" : "passed", Summary(comparisons));
   text += HtmlTable(comparisons, true);

@@ -2,9 +2,12 @@
 // parted, merged and repeated.
 #include <gmock/gmock.h>
 
+#include <array>
 #include <random>
+#include <thread>
 
 #include "harness/io/file.h"
+#include "harness/io/file_lock.h"
 #include "tests/system/program.h"
 
 namespace aisle {
@@ -103,6 +106,46 @@ TEST_F(SuiteRunTest, ResumeTrustsContentsNotNames) {
   WriteFileAtomically(suite, moved);
   EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already there")));
   EXPECT_NE(ReadFile(run / "final.txt"), whole);
+}
+
+TEST_F(SuiteRunTest, AHistoryThatCannotBeWrittenIsSaidInTheEveningAndCostsNoReport) {
+  const std::string suite = Suite("trends", "  - plain\n");
+  WriteFileAtomically(folder_ / "history.sqlite", std::string(5000, 'x'));
+  const Said said = Run({"run", suite, "--out", Out("a")});
+  EXPECT_EQ(said.code, 3) << said.text;
+  const std::size_t warned = said.text.find("warning: the trends will lack this night");
+  EXPECT_LT(warned, said.text.find("[1/1]")) << said.text;
+  EXPECT_THAT(said.text, HasSubstr("the trends are without this night"));
+  EXPECT_TRUE(fs::exists(fs::path(Out("a")) / "index.html"));
+  EXPECT_EQ(ResultsOf(Out("a")).runs.size(), 1u);
+}
+
+TEST_F(SuiteRunTest, TwoNightsDoNotShareAFolder) {
+  const std::string suite = Suite("taken", "  - plain\n");
+  const std::optional<FileLock> other = FileLock::Try(fs::path(Out("a")) / ".lock");
+  ASSERT_TRUE(other);
+  const Said said = Run({"run", suite, "--out", Out("a")});
+  EXPECT_EQ(said.code, 4) << said.text;
+  EXPECT_THAT(said.text, HasSubstr("another `aisle run` is at work there"));
+}
+
+TEST_F(SuiteRunTest, ThreeNightsAtOnceShareACache) {
+  // Frames and a dataset that nobody has made yet: all three set about it.
+  const std::string suite =
+      Suite("shared", "  - plain\n  - {name: lists, command: \"ls -R {dataset} # {output}\"}\n",
+            "seeds: [77]\n");
+  std::vector<std::thread> nights;
+  std::array<Said, 3> said;
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    nights.emplace_back([&, i] {
+      said[i] = Run({"run", suite, "--no-retry", "--out", Out(fmt::format("n{}", i))});
+    });
+  }
+  for (std::thread& night : nights) night.join();
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    EXPECT_EQ(said[i].code, 1) << said[i].text;  // one leaves no trajectory
+    EXPECT_EQ(Bits(Out(fmt::format("n{}", i))), Bits(Out("n0")));
+  }
 }
 
 TEST_F(SuiteRunTest, PartsMergeIntoTheWhole) {

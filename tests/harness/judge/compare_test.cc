@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "harness/judge/gate.h"
+
 namespace aisle {
 namespace {
 
@@ -109,6 +111,81 @@ TEST(GateTest, WhatIsGoneFailsAndWhatIsWorseFails) {
   for (const Verdict& verdict : GateVerdicts(baseline, Night(0.02, 3))) {
     EXPECT_TRUE(verdict.passed) << verdict.name << verdict.why;
   }
+}
+
+/// The verdict on one score, which must be there.
+Verdict On(const std::vector<Verdict>& verdicts, const std::string& part) {
+  for (const Verdict& verdict : verdicts) {
+    if (verdict.name.find(part) != std::string::npos) return verdict;
+  }
+  Verdict none;
+  none.name = "no verdict on " + part;
+  none.passed = true;
+  return none;
+}
+
+TEST(GateTest, AScoreThatVanishedFailsAndSaysWhy) {
+  const Results baseline = Night(0.02, 1);
+  Results deleted = baseline, empty = baseline, partly = baseline;
+  for (RunRecord& run : deleted.runs) run.scores.erase("ate_rmse_m");
+  for (RunRecord& run : empty.runs) {
+    run.scores["coverage"].value.reset();
+    run.scores["coverage"].absent = "nobody asked";
+  }
+  partly.runs[3].scores["ate_rmse_m"].value.reset();
+  const Verdict on_deleted = On(GateVerdicts(baseline, deleted), "ate_rmse_m");
+  EXPECT_FALSE(on_deleted.passed) << on_deleted.name;
+  EXPECT_NE(on_deleted.why.find("gone: nothing was 0.0"), std::string::npos) << on_deleted.why;
+  EXPECT_FALSE(on_deleted.value);
+  const Verdict on_empty = On(GateVerdicts(baseline, empty), "coverage");
+  EXPECT_FALSE(on_empty.passed) << on_empty.name;
+  EXPECT_NE(on_empty.why.find("seed 1: nobody asked"), std::string::npos) << on_empty.why;
+  const Verdict on_partly = On(GateVerdicts(baseline, partly), "ate_rmse_m");
+  EXPECT_FALSE(on_partly.passed) << on_partly.name;
+  EXPECT_NE(on_partly.why.find("9 seeds had a value, 8 have one; seed 4"), std::string::npos);
+  // What the baseline never had may stay away.
+  EXPECT_TRUE(On(GateVerdicts(deleted, deleted), "ate_rmse_m").passed);
+}
+
+TEST(GateTest, SeedsThatDidNotRunFail) {
+  const Results baseline = Night(0.02, 1);
+  Results fewer = baseline;
+  fewer.runs.erase(fewer.runs.begin() + 2, fewer.runs.begin() + 4);
+  const Verdict verdict = On(GateVerdicts(baseline, fewer), ": baseline");
+  EXPECT_FALSE(verdict.passed) << verdict.name;
+  EXPECT_EQ(verdict.why, "the baseline has seeds 3, 4, tonight has not");
+}
+
+TEST(GateTest, AFewSeedsThatBreakAreUnstable) {
+  const Results baseline = Night(0.02, 1);
+  Results lost = baseline, mixed = baseline, loose = baseline;
+  lost.runs[5].scores["coverage"].value = 0.3;
+  for (const std::size_t i : {0u, 2u, 4u, 6u}) *mixed.runs[i].scores["ate_rmse_m"].value *= 10;
+  for (const std::size_t i : {0u, 2u, 4u, 6u}) *loose.runs[i].scores["ate_rmse_m"].value *= 1.4;
+  EXPECT_EQ(ChangeOf(Compare(baseline, lost), "coverage"), Change::kUnstable);
+  EXPECT_EQ(ChangeOf(Compare(baseline, mixed), "ate_rmse_m"), Change::kUnstable);
+  EXPECT_EQ(ChangeOf(Compare(mixed, baseline), "ate_rmse_m"), Change::kCannotTell);
+  EXPECT_NE(ChangeOf(Compare(baseline, loose), "ate_rmse_m"), Change::kUnstable);
+  const Verdict verdict = On(GateVerdicts(baseline, mixed), "ate_rmse_m");
+  EXPECT_FALSE(verdict.passed);
+  EXPECT_NE(verdict.why.find("4 of 9 seeds got far worse"), std::string::npos) << verdict.why;
+}
+
+TEST(GateTest, SeedsThatScatterByAFactorOfTwoAreNoAlarm) {
+  int alarms = 0;
+  for (std::uint64_t night = 0; night < 200; ++night) {
+    std::mt19937_64 random(night);
+    std::lognormal_distribution<double> spread(0, 0.35);
+    Results before, after;
+    for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+      before.runs.push_back(MakeRecordOf("x", seed, 0.02 * spread(random)));
+      after.runs.push_back(MakeRecordOf("x", seed, 0.02 * spread(random)));
+    }
+    const auto comparisons = Compare(before, after);
+    alarms += std::any_of(comparisons.begin(), comparisons.end(),
+                          [](const Comparison& c) { return IsAlarm(c.change); });
+  }
+  EXPECT_LE(alarms, 2);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <fstream>
+
 namespace aisle {
 namespace {
 
@@ -47,6 +49,20 @@ TEST_F(HistoryTest, NightsComeBackInOrderAndTheSameNightOnce) {
   EXPECT_THAT(ates, testing::ElementsAre(0.01, 0.03));
   EXPECT_TRUE(ReadHistory(file_, "other").empty());
   EXPECT_TRUE(ReadHistory("/nowhere/at/all.sqlite", "nightly").empty());
+}
+
+TEST_F(HistoryTest, WhatKeepsANightFromItIsKnownBefore) {
+  EXPECT_EQ(HistoryTrouble(file_), "");
+  EXPECT_FALSE(std::filesystem::exists(file_));
+  AppendToHistory(file_, Night("1", 0.01));
+  EXPECT_EQ(HistoryTrouble(file_), "");
+  {
+    std::ofstream damaged(file_, std::ios::in | std::ios::out);
+    damaged << std::string(4096, 'x');
+  }
+  EXPECT_NE(HistoryTrouble(file_).find("not a database"), std::string::npos)
+      << HistoryTrouble(file_);
+  EXPECT_EQ(HistoryTrouble(file_ / "a/history.sqlite"), file_.string() + ": is no folder");
 }
 
 TEST_F(HistoryTest, NamesAreValuesAndNeverStatements) {

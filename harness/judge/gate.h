@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "harness/judge/compare.h"
+
+namespace aisle {
+
+/// A verdict for every score that is judged, failed where it got worse, is unstable or is gone; and
+/// a failed one for each cell, and each seed of a cell, that the baseline has and the night has
+/// not.
+std::vector<Verdict> GateVerdicts(const Results& baseline, const Results& night,
+                                  const CompareOptions& options = {});
+
+}  // namespace aisle
