@@ -17,8 +17,9 @@ struct Options {
   std::string truth, format, times;
   std::vector<std::string> estimates;
   std::string masks_truth, masks;
+  OutlineOptions outline;
   std::string align = "se3", rule = "nearest", unit = "frames";
-  double max_difference_s = -1;
+  std::optional<double> max_difference_s;
   double delta = 1;
   double rate_hz = 0;
   std::size_t align_first = 0;
@@ -45,9 +46,9 @@ Trajectory Read(const std::string& file, const Options& options) {
 ScoreOptions ScoreOptionsOf(const Options& options) {
   ScoreOptions score;
   score.association.rule = RuleFromName(options.rule);
-  if (options.max_difference_s >= 0) {
+  if (options.max_difference_s) {
     score.association.max_difference_ns =
-        static_cast<std::int64_t>(std::llround(options.max_difference_s * 1e9));
+        static_cast<std::int64_t>(std::llround(*options.max_difference_s * 1e9));
   }
   score.alignment.method = AlignmentFromName(options.align);
   score.alignment.first_n = options.align_first;
@@ -142,7 +143,7 @@ void PrintTable(const std::vector<std::string>& files, const std::vector<Traject
 
 int ScoreMasksOnly(const Options& options) {
   TrajectoryScore score;
-  score.scores = ScoreMaskFolders(options.masks_truth, options.masks);
+  score.scores = ScoreMaskFolders(options.masks_truth, options.masks, options.outline);
   if (options.json) {
     RunRecord record;
     record.scores = score.scores;
@@ -163,6 +164,19 @@ int ListScores(bool json) {
   }
   if (json) fmt::print("{}", Dump({{"scores", list}}));
   return kAllPassed;
+}
+
+/// A finite number; CLI11's own checks let nan pass.
+CLI::Validator NumberWithin(double low, double high) {
+  return CLI::Validator(
+      [=](const std::string& text) -> std::string {
+        double value = 0;
+        const bool good = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+        return good
+                   ? ""
+                   : fmt::format("'{}' is no number from {:g} to {:g}", Printable(text), low, high);
+      },
+      "NUMBER");
 }
 
 int ScoreFiles(const Options& options) {
@@ -212,8 +226,8 @@ void AddScoreCommand(CLI::App* app, Action* action) {
   command->add_option("--format", options->format, "of both files; default: by their content")
       ->check(CLI::IsMember({"tum", "kitti", "euroc"}));
   command->add_option("--times", options->times, "KITTI times.txt; default 10 poses a second");
-  command->add_option("--align", options->align, "none, origin, se3 (default) or sim3")
-      ->check(CLI::IsMember({"none", "origin", "se3", "sim3"}));
+  command->add_option("--align", options->align, "none, origin, posyaw, se3 (default) or sim3")
+      ->check(CLI::IsMember({"none", "origin", "posyaw", "se3", "sim3"}));
   command
       ->add_option("--align-first", options->align_first,
                    "align on the first so many pairs only; default: all")
@@ -221,27 +235,54 @@ void AddScoreCommand(CLI::App* app, Action* action) {
   command
       ->add_option("--rate", options->rate_hz,
                    "camera frames a second, for coverage; default: the slower of both files")
-      ->check(CLI::PositiveNumber);
+      ->check(NumberWithin(1e-6, 1e9));
   command->add_option("--association", options->rule, "nearest (default), evo, tum or index")
       ->check(CLI::IsMember({"nearest", "evo", "tum", "index"}));
-  command->add_option("--max-difference", options->max_difference_s,
-                      "seconds between stamps that belong together; default: the rule's own");
+  command
+      ->add_option("--max-difference", options->max_difference_s,
+                   "seconds between stamps that belong together; default: the rule's own")
+      ->check(NumberWithin(0, 1e6));
   command->add_option("--delta", options->delta, "of the relative error; default 1")
-      ->check(CLI::PositiveNumber);
+      ->check(NumberWithin(1e-9, 1e9));
   command->add_option("--unit", options->unit, "of delta: frames (default), metres or seconds")
       ->check(CLI::IsMember({"frames", "metres", "seconds"}));
   command->add_flag("--all-pairs", options->all_pairs, "a relative error from every pose on");
   command->add_flag("--along-estimate", options->along_estimate,
                     "measure metres along the estimate, as evo does");
   auto* masks_truth = command->add_option("--masks-truth", options->masks_truth,
-                                          "folder of true masks: grey PNGs, 0 = static");
+                                          "folder of true masks: PNGs, black = static");
   command->add_option("--masks", options->masks, "folder of masks to score, the same file names")
       ->needs(masks_truth);
   masks_truth->needs(command->get_option("--masks"));
+  auto* px = command
+                 ->add_option("--boundary-px", options->outline.px,
+                              "outlines meet within so many pixels (mask_boundary_f); default 3")
+                 ->check(NumberWithin(0, 1e4))
+                 ->needs(masks_truth);
+  auto* share = command
+                    ->add_option("--boundary-share", options->outline.share,
+                                 "within so much of the image's diagonal")
+                    ->check(NumberWithin(0, 1))
+                    ->needs(masks_truth)
+                    ->excludes(px);
+  command
+      ->add_flag("--boundary-davis", options->outline.davis,
+                 "as DAVIS's own program: its outline, 0.008 of the diagonal, mean over frames")
+      ->needs(masks_truth)
+      ->excludes(px)
+      ->excludes(share);
   command->add_flag("--list", options->list, "every score there is, with unit and meaning");
   command->add_flag("--json", options->json, "for programs");
   command->footer("Example: ./aisle score --truth gt.txt --estimate slam.txt --align se3");
-  command->callback([=] { *action = [=] { return ScoreFiles(*options); }; });
+  command->callback([=] {
+    *action = [=] {
+      try {
+        return ScoreFiles(*options);
+      } catch (const std::invalid_argument& wrong) {  // what options and files do not fit together
+        throw InputError(wrong.what());
+      }
+    };
+  });
 }
 
 }  // namespace aisle

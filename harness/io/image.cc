@@ -31,6 +31,17 @@ void CheckPngHeader(const std::string& bytes, const std::string& file) {
   }
 }
 
+/// Whatever the PNG holds, as it is.
+cv::Mat ReadPng(const std::filesystem::path& path) {
+  const std::string bytes = ReadFile(path);
+  CheckPngHeader(bytes, path.string());
+  const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U,
+                        const_cast<char*>(bytes.data()));  // imdecode only reads
+  const cv::Mat image = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
+  if (image.empty()) throw InputError(path.string(), 0, "is a broken PNG image");
+  return image;
+}
+
 /// OpenCV leaves OpenEXR off unless it is told otherwise before it meets the first such file.
 void AllowExr() { setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0); }
 
@@ -56,13 +67,21 @@ void WriteVectorPfm(const std::filesystem::path& path, const cv::Mat3f& vectors)
   WriteImage(path, last_first);
 }
 
+cv::Mat1b ReadMaskPng(const std::filesystem::path& path) {
+  const cv::Mat image = ReadPng(path);
+  std::vector<cv::Mat> bands;
+  cv::split(image, bands);
+  if (bands.size() == 4) bands.pop_back();  // how opaque it is is no colour
+  cv::Mat1b mask(image.size(), 0), set;
+  for (const cv::Mat& band : bands) {
+    cv::compare(band, 0, set, cv::CMP_NE);
+    cv::bitwise_or(mask, set, mask);
+  }
+  return mask;
+}
+
 cv::Mat1b ReadGreyPng(const std::filesystem::path& path) {
-  const std::string bytes = ReadFile(path);
-  CheckPngHeader(bytes, path.string());
-  const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U,
-                        const_cast<char*>(bytes.data()));  // imdecode only reads
-  const cv::Mat image = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
-  if (image.empty()) throw InputError(path.string(), 0, "is a broken PNG image");
+  const cv::Mat image = ReadPng(path);
   if (image.type() != CV_8UC1) throw InputError(path.string(), 0, "is not 8-bit grey");
   return image;
 }

@@ -16,6 +16,10 @@ void WriteVectorPfm(const std::filesystem::path& path, const cv::Mat3f& vectors)
 /// InputError when it is no PNG, is not grey, or is larger than 16384 pixels either way.
 cv::Mat1b ReadGreyPng(const std::filesystem::path& path);
 
+/// A mask of any PNG: 255 where a pixel is not black, 0 else. Grey (8 or 16 bits), colours, and
+/// palettes as DAVIS has them, whose entry 0 is black. Throws InputError.
+cv::Mat1b ReadMaskPng(const std::filesystem::path& path);
+
 /// A PFM or OpenEXR image of three channels: linear, B, G, R. Throws InputError.
 cv::Mat3f ReadLinearImage(const std::filesystem::path& path);
 

@@ -9,12 +9,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The folder's image for the frame, empty where there is none.
-cv::Mat1b Read(const fs::path& folder, const StereoFrame& frame) {
+cv::Mat1b Read(const fs::path& folder, const StereoFrame& frame,
+               cv::Mat1b (*read)(const fs::path&)) {
   for (const std::string& name :
        {fmt::format("{}.png", frame.stamp_ns), fmt::format("{:06}.png", frame.id)}) {
     const fs::path path = folder / name;
     if (!fs::exists(path)) continue;
-    const cv::Mat1b image = ReadGreyPng(path);
+    const cv::Mat1b image = read(path);
     if (image.size() == frame.left.size()) return image;
     throw InputError(path.string(), 0,
                      fmt::format("is {}x{}, the rectified images are {}x{}", image.cols, image.rows,
@@ -24,9 +25,7 @@ cv::Mat1b Read(const fs::path& folder, const StereoFrame& frame) {
 }
 
 cv::Mat1b ReadMask(const fs::path& folder, const StereoFrame& frame) {
-  cv::Mat1b mask = Read(folder, frame);
-  if (!mask.empty()) cv::compare(mask, 0, mask, cv::CMP_NE);
-  return mask;
+  return Read(folder, frame, ReadMaskPng);
 }
 
 bool HoldsPng(const fs::path& folder) {
@@ -48,7 +47,7 @@ MaskFolder::MaskFolder(const fs::path& folder)
 }
 
 ExternalMask MaskFolder::Find(const StereoFrame& frame) const {
-  return {ReadMask(left_, frame), ReadMask(right_, frame), Read(confidence_, frame)};
+  return {ReadMask(left_, frame), ReadMask(right_, frame), Read(confidence_, frame, ReadGreyPng)};
 }
 
 }  // namespace aisle

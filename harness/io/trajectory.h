@@ -9,7 +9,8 @@
 namespace aisle {
 
 /// TUM: "timestamp tx ty tz qx qy qz qw", '#' comments.
-/// KITTI: 12 numbers a line, the first three rows of T_world_rig; no stamps.
+/// KITTI: 12 numbers a line, the first three rows of T_world_rig; no stamps. Some programs put the
+/// frame's number before them.
 /// EuRoC: csv "stamp in ns, p x y z, q w x y z[, v, biases]".
 enum class TrajectoryFormat { kTum, kKitti, kEuroc };
 
@@ -18,13 +19,23 @@ TrajectoryFormat TrajectoryFormatFromName(const std::string& name);
 /// Judges by the file's first data line. Throws InputError if it is none of the three.
 TrajectoryFormat GuessTrajectoryFormat(const std::filesystem::path& path);
 
+/// In which order the rows of a file with stamps may stand.
+enum class RowOrder {
+  kRising,  ///< by stamp: another one is a mistake
+  kAny,     ///< they are sorted; rows of one stamp stay in the order of the file
+};
+
+/// From one frame of a KITTI file to the next where nothing else is known: the benchmark's 10 Hz.
+inline constexpr std::int64_t kKittiStepNs = 100'000'000;
+
 /// Reads and checks: every number finite, quaternions of norm 1 ± 0.05 (then normalised), stamps
 /// not falling (published files do repeat a stamp here and there). Stamps are parsed as decimals,
 /// never through a double. KITTI poses are kept as written (their rotations are orthonormal to the
-/// printed digits only) and stamped k × 0.1 s unless `times` names a file with a time in seconds
-/// per line. Throws InputError with file:line.
+/// printed digits only) and stamped k × 0.1 s for row k, or for frame k where the rows say it,
+/// unless `times` names a file with a time in seconds per line. Throws InputError with file:line.
 Trajectory ReadTrajectory(const std::filesystem::path& path, TrajectoryFormat format,
-                          const std::filesystem::path& times = {});
+                          const std::filesystem::path& times = {},
+                          RowOrder order = RowOrder::kRising);
 
 /// The text of a trajectory file. TUM stamps have 9 decimals; every number reads back bit for bit;
 /// no trailing spaces. EuRoC gets all 17 columns, velocities by central differences, biases 0.

@@ -79,9 +79,50 @@ double Number(const Row& row, std::size_t index) {
   return value;
 }
 
-Eigen::Vector3d Position(const Row& row, std::size_t first) {
-  return {Number(row, first), Number(row, first + 1), Number(row, first + 2)};
+/// One coordinate of a position. Beyond the bound, twice around the Earth, a double leaves less
+/// than the micrometre that errors are told to, and squares of it drown everything else.
+double Metres(const Row& row, std::size_t index) {
+  constexpr double kFarthestM = 1e8;
+  const double value = Number(row, index);
+  if (std::abs(value) > kFarthestM) {
+    row.Fail(fmt::format("field {} is {}: positions are metres, at most {:g} from the origin",
+                         index + 1, row.fields[index], kFarthestM));
+  }
+  return value;
 }
+
+Eigen::Vector3d Position(const Row& row, std::size_t first) {
+  return {Metres(row, first), Metres(row, first + 1), Metres(row, first + 2)};
+}
+
+/// Holds the order of stamps, row by row.
+class StampOrder {
+ public:
+  explicit StampOrder(RowOrder order) : order_(order) {}
+
+  void Check(const Row& row, std::int64_t stamp_ns, const std::string& what) {
+    // Published files repeat a stamp here and there; one that stands still was not written as time.
+    constexpr std::size_t kMostEqual = 1000;
+    equal_ = rows_ > 0 && stamp_ns == before_ns_ ? equal_ + 1 : 1;
+    if (equal_ > kMostEqual) {
+      row.Fail(fmt::format("{} is that of the {} rows before too: is the first column the time?",
+                           what, kMostEqual));
+    }
+    if (order_ == RowOrder::kRising && rows_ > 0 && stamp_ns < before_ns_) {
+      row.Fail(
+          fmt::format("{} is earlier than the line before ({}): sort the file", what, before_));
+    }
+    ++rows_;
+    before_ns_ = stamp_ns;
+    before_ = what.substr(what.find(' ') + 1);
+  }
+
+ private:
+  const RowOrder order_;
+  std::size_t rows_ = 0, equal_ = 0;
+  std::int64_t before_ns_ = 0;
+  std::string before_;
+};
 
 Eigen::Isometry3d Pose(const Row& row, const Eigen::Vector3d& position, Eigen::Quaterniond q) {
   constexpr double kNormTolerance = 0.05;  // files with three decimals are still rotations
@@ -129,14 +170,19 @@ StampedPose EurocPose(const Row& row) {
   return {stamp_ns, Pose(row, Position(row, 1), q)};
 }
 
+constexpr std::size_t kKittiNumbers = 12;
+
 Eigen::Isometry3d KittiPose(const Row& row) {
-  if (row.fields.size() != 12) {
+  if (row.fields.size() != kKittiNumbers && row.fields.size() != kKittiNumbers + 1) {
     row.Fail(
         fmt::format("{} fields; a KITTI line has 12: three rows of a 3x4 pose", row.fields.size()));
   }
+  const std::size_t first = row.fields.size() - kKittiNumbers;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  for (std::size_t k = 0; k < 12; ++k) {
-    pose.matrix()(static_cast<int>(k / 4), static_cast<int>(k % 4)) = Number(row, k);
+  for (std::size_t k = 0; k < kKittiNumbers; ++k) {
+    const bool is_position = k % 4 == 3;
+    pose.matrix()(static_cast<int>(k / 4), static_cast<int>(k % 4)) =
+        is_position ? Metres(row, first + k) : Number(row, first + k);
   }
   const double off = (pose.linear() * pose.linear().transpose() - Eigen::Matrix3d::Identity())
                          .cwiseAbs()
@@ -148,24 +194,25 @@ Eigen::Isometry3d KittiPose(const Row& row) {
   return pose;
 }
 
-std::vector<std::int64_t> KittiStamps(const fs::path& times, const fs::path& poses,
-                                      std::size_t count) {
-  constexpr std::int64_t kNominalStepNs = 100'000'000;  // the benchmark's 10 Hz
-  std::vector<std::int64_t> stamps(count);
-  if (times.empty()) {
-    for (std::size_t i = 0; i < count; ++i)
-      stamps[i] = static_cast<std::int64_t>(i) * kNominalStepNs;
-    return stamps;
+/// The frame that a row is about: the number before the pose, else how many rows stand above.
+std::size_t KittiFrame(const Row& row, std::size_t rows_above) {
+  if (row.fields.size() == kKittiNumbers) return rows_above;
+  const std::string_view field = row.fields.front();
+  std::uint32_t frame = 0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), frame);
+  if (error != std::errc() || end != field.data() + field.size()) {
+    row.Fail(fmt::format("'{}' before the 12 numbers of the pose is no frame's number",
+                         Printable(std::string(field))));
   }
+  return frame;
+}
+
+/// The time of every frame that the file lists.
+std::vector<std::int64_t> KittiTimes(const fs::path& times) {
+  std::vector<std::int64_t> stamps;
   Table table(times);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Row* row = table.Next();
-    if (row == nullptr) {
-      throw InputError(
-          times.string(), 0,
-          fmt::format("holds {} times but {} holds {} poses", i, poses.string(), count));
-    }
-    stamps[i] = SecondsField(*row);
+  for (const Row* row = table.Next(); row != nullptr; row = table.Next()) {
+    stamps.push_back(SecondsField(*row));
   }
   return stamps;
 }
@@ -173,28 +220,35 @@ std::vector<std::int64_t> KittiStamps(const fs::path& times, const fs::path& pos
 Trajectory ReadKitti(const fs::path& path, const fs::path& times) {
   Table table(path);
   Trajectory trajectory;
+  StampOrder order(RowOrder::kRising);
+  const std::vector<std::int64_t> stamps =
+      times.empty() ? std::vector<std::int64_t>{} : KittiTimes(times);
   for (const Row* row = &table.First(); row != nullptr; row = table.Next()) {
-    trajectory.push_back({0, KittiPose(*row)});
+    const std::size_t frame = KittiFrame(*row, trajectory.size());
+    if (!times.empty() && frame >= stamps.size()) {
+      row->Fail(
+          fmt::format("frame {} has no time: {} holds {}", frame, times.string(), stamps.size()));
+    }
+    const std::int64_t stamp_ns =
+        times.empty() ? static_cast<std::int64_t>(frame) * kKittiStepNs : stamps[frame];
+    order.Check(*row, stamp_ns, fmt::format("frame {}", frame));
+    trajectory.push_back({stamp_ns, KittiPose(*row)});
   }
-  const std::vector<std::int64_t> stamps = KittiStamps(times, path, trajectory.size());
-  for (std::size_t i = 0; i < stamps.size(); ++i) trajectory[i].stamp_ns = stamps[i];
   return trajectory;
 }
 
-Trajectory ReadStamped(const fs::path& path, StampedPose (*pose)(const Row&)) {
+Trajectory ReadStamped(const fs::path& path, StampedPose (*pose)(const Row&), RowOrder order) {
   Table table(path);
   Trajectory trajectory;
-  std::string_view before;
+  StampOrder stamps(order);
   for (const Row* row = &table.First(); row != nullptr; row = table.Next()) {
     trajectory.push_back(pose(*row));
-    const std::string_view stamp = row->fields.front();
-    const std::size_t n = trajectory.size();
-    if (n > 1 && trajectory[n - 1].stamp_ns < trajectory[n - 2].stamp_ns) {
-      row->Fail(fmt::format("stamp {} is earlier than the line before ({}): sort the file",
-                            Printable(std::string(stamp)), Printable(std::string(before))));
-    }
-    before = stamp;
+    stamps.Check(*row, trajectory.back().stamp_ns,
+                 "stamp " + Printable(std::string(row->fields.front())));
   }
+  std::stable_sort(
+      trajectory.begin(), trajectory.end(),
+      [](const StampedPose& a, const StampedPose& b) { return a.stamp_ns < b.stamp_ns; });
   return trajectory;
 }
 
@@ -211,9 +265,13 @@ TrajectoryFormat GuessTrajectoryFormat(const fs::path& path) {
   Table table(path);
   const Row& row = table.First();
   const std::size_t count = row.fields.size();
-  if (count == 12) return TrajectoryFormat::kKitti;
+  if (count == kKittiNumbers) return TrajectoryFormat::kKitti;
   // A EuRoC stamp is whole nanoseconds; TUM seconds of a plausible year are 10 digits at most.
   const bool whole = row.fields[0].find_first_not_of("0123456789") == std::string::npos;
+  constexpr std::size_t kDigitsOfFrames = 9;  // fewer than any stamp in nanoseconds
+  if (count == kKittiNumbers + 1 && whole && row.fields[0].size() <= kDigitsOfFrames) {
+    return TrajectoryFormat::kKitti;
+  }
   if (count >= 8 && whole && (count > 8 || row.fields[0].size() > 12)) {
     return TrajectoryFormat::kEuroc;
   }
@@ -222,12 +280,13 @@ TrajectoryFormat GuessTrajectoryFormat(const fs::path& path) {
                        count));
 }
 
-Trajectory ReadTrajectory(const fs::path& path, TrajectoryFormat format, const fs::path& times) {
+Trajectory ReadTrajectory(const fs::path& path, TrajectoryFormat format, const fs::path& times,
+                          RowOrder order) {
   switch (format) {
     case TrajectoryFormat::kTum:
-      return ReadStamped(path, TumPose);
+      return ReadStamped(path, TumPose, order);
     case TrajectoryFormat::kEuroc:
-      return ReadStamped(path, EurocPose);
+      return ReadStamped(path, EurocPose, order);
     case TrajectoryFormat::kKitti:
       break;
   }

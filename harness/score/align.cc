@@ -58,6 +58,22 @@ Alignment AlignPositions(const Trajectory& truth, const Trajectory& estimate,
   return result;
 }
 
+/// The turn about z that lays the estimate best onto truth: of all such rotations it has the
+/// greatest trace with the covariance.
+Alignment AlignPositionAndYaw(const Trajectory& truth, const Trajectory& estimate,
+                              std::span<const PosePair> pairs) {
+  const Moments moments = MomentsOf(truth, estimate, pairs);
+  const double along = moments.covariance(0, 0) + moments.covariance(1, 1);
+  const double across = moments.covariance(1, 0) - moments.covariance(0, 1);
+  Alignment result;
+  result.rotation_determined = along != 0 || across != 0;
+  const Eigen::Matrix3d rotation =
+      Eigen::AngleAxisd(std::atan2(across, along), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  result.T_truth_estimate.linear() = rotation;
+  result.T_truth_estimate.translation() = moments.mean_truth - rotation * moments.mean_estimate;
+  return result;
+}
+
 }  // namespace
 
 std::string Name(AlignmentMethod method) {
@@ -66,6 +82,8 @@ std::string Name(AlignmentMethod method) {
       return "none";
     case AlignmentMethod::kOrigin:
       return "origin";
+    case AlignmentMethod::kPosYaw:
+      return "posyaw";
     case AlignmentMethod::kSim3:
       return "sim3";
     case AlignmentMethod::kSe3:
@@ -75,11 +93,13 @@ std::string Name(AlignmentMethod method) {
 }
 
 AlignmentMethod AlignmentFromName(const std::string& name) {
-  for (const auto method : {AlignmentMethod::kNone, AlignmentMethod::kOrigin, AlignmentMethod::kSe3,
-                            AlignmentMethod::kSim3}) {
+  for (const auto method :
+       {AlignmentMethod::kNone, AlignmentMethod::kOrigin, AlignmentMethod::kPosYaw,
+        AlignmentMethod::kSe3, AlignmentMethod::kSim3}) {
     if (Name(method) == name) return method;
   }
-  throw std::invalid_argument("alignment '" + name + "': expected none, origin, se3 or sim3");
+  throw std::invalid_argument("alignment '" + name +
+                              "': expected none, origin, posyaw, se3 or sim3");
 }
 
 Alignment Align(const Trajectory& truth, const Trajectory& estimate,
@@ -93,6 +113,8 @@ Alignment Align(const Trajectory& truth, const Trajectory& estimate,
     case AlignmentMethod::kOrigin:
       return {.T_truth_estimate = truth[used.front().truth].T_world_rig *
                                   estimate[used.front().estimate].T_world_rig.inverse()};
+    case AlignmentMethod::kPosYaw:
+      return AlignPositionAndYaw(truth, estimate, used);
     case AlignmentMethod::kSe3:
       return AlignPositions(truth, estimate, used, false);
     case AlignmentMethod::kSim3:

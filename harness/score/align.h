@@ -9,11 +9,14 @@ namespace aisle {
 enum class AlignmentMethod {
   kNone,
   kOrigin,  ///< the first pair's poses are laid on each other, orientation included
+  kPosYaw,  ///< least squares over positions, of what an inertial system cannot observe: position
+            ///< and a turn about the vertical z of both frames
   kSe3,     ///< least squares over positions, rigid (Umeyama 1991 without scale)
   kSim3,    ///< the same with scale; flatters a stereo system, never our default
 };
 
-/// "none", "origin", "se3", "sim3"; the inverse throws std::invalid_argument naming the choices.
+/// "none", "origin", "posyaw", "se3", "sim3"; the inverse throws std::invalid_argument naming the
+/// choices.
 std::string Name(AlignmentMethod method);
 AlignmentMethod AlignmentFromName(const std::string& name);
 

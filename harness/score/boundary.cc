@@ -13,6 +13,24 @@ cv::Mat1b Outline(const cv::Mat1b& mask) {
   return outline;
 }
 
+/// Sets pixels that differ from their neighbour one step away; `step` points right or down.
+void MarkSteps(const cv::Mat1b& mask, cv::Point step, cv::Mat1b* outline) {
+  const cv::Size size(mask.cols - step.x, mask.rows - step.y);
+  if (size.empty()) return;
+  cv::Mat1b differs;
+  cv::bitwise_xor(mask(cv::Rect({}, size)), mask(cv::Rect(step, size)), differs);
+  cv::Mat1b of_these = (*outline)(cv::Rect({}, size));
+  cv::bitwise_or(of_these, differs, of_these);
+}
+
+cv::Mat1b OutlineAsDavis(const cv::Mat1b& mask) {
+  cv::Mat1b outline(mask.size(), 0);
+  for (const cv::Point step : {cv::Point(1, 0), cv::Point(0, 1), cv::Point(1, 1)}) {
+    MarkSteps(mask, step, &outline);
+  }
+  return outline;
+}
+
 /// Outline pixels of `of` that lie within the tolerance of `near`.
 std::int64_t Met(const cv::Mat1b& of, const cv::Mat1b& near, double tolerance_px) {
   if (cv::countNonZero(near) == 0) return 0;
@@ -36,23 +54,29 @@ BoundaryCounts& BoundaryCounts::operator+=(const BoundaryCounts& other) {
   return *this;
 }
 
+BoundaryRule DavisRule(cv::Size size) {
+  return {.tolerance_px = std::ceil(0.008 * std::hypot(size.width, size.height)),
+          .davis_outline = true};
+}
+
 BoundaryCounts CompareBoundaries(const cv::Mat1b& truth, const cv::Mat1b& rejected,
-                                 double tolerance_px) {
+                                 const BoundaryRule& rule) {
   if (truth.size() != rejected.size()) throw std::invalid_argument("masks differ in size");
   // Outlines and all that is near them lie within a margin of the masks: the rest need not be seen.
   cv::Mat1b either;
   cv::bitwise_or(truth, rejected, either);
   const cv::Rect set = cv::boundingRect(either);
   if (set.empty()) return {};
-  const int margin = static_cast<int>(std::ceil(tolerance_px)) + 1;
+  const int margin = static_cast<int>(std::ceil(rule.tolerance_px)) + 2;
   const cv::Rect seen =
       cv::Rect(set.x - margin, set.y - margin, set.width + 2 * margin, set.height + 2 * margin) &
       cv::Rect({}, truth.size());
-  const cv::Mat1b truth_outline = Outline(truth(seen)), rejected_outline = Outline(rejected(seen));
+  const auto outline = rule.davis_outline ? OutlineAsDavis : Outline;
+  const cv::Mat1b truth_outline = outline(truth(seen)), rejected_outline = outline(rejected(seen));
   return {.truth = cv::countNonZero(truth_outline),
-          .truth_met = Met(truth_outline, rejected_outline, tolerance_px),
+          .truth_met = Met(truth_outline, rejected_outline, rule.tolerance_px),
           .rejected = cv::countNonZero(rejected_outline),
-          .rejected_met = Met(rejected_outline, truth_outline, tolerance_px)};
+          .rejected_met = Met(rejected_outline, truth_outline, rule.tolerance_px)};
 }
 
 std::optional<double> BoundaryF(const BoundaryCounts& counts) {

@@ -57,8 +57,9 @@ void CountCorners(const cv::Mat1b& left, const cv::Mat1b& truth, const cv::Mat1b
   }
 }
 
-void CountOutlines(const cv::Mat1b& truth, const cv::Mat1b& rejected, MaskFacts* facts) {
-  const BoundaryCounts counts = CompareBoundaries(truth, rejected);
+void CountOutlines(const cv::Mat1b& truth, const cv::Mat1b& rejected, const BoundaryRule& rule,
+                   MaskFacts* facts) {
+  const BoundaryCounts counts = CompareBoundaries(truth, rejected, rule);
   facts->outline_truth = counts.truth;
   facts->outline_truth_met = counts.truth_met;
   facts->outline_rejected = counts.rejected;
@@ -220,10 +221,11 @@ std::vector<RejectedRegion> RejectedRegions(const std::vector<cv::Rect2d>& boxes
   return regions;
 }
 
-MaskFacts CompareMaskImages(const cv::Mat1b& truth, const cv::Mat1b& rejected) {
+MaskFacts CompareMaskImages(const cv::Mat1b& truth, const cv::Mat1b& rejected,
+                            const BoundaryRule& rule) {
   MaskFacts facts;
   CountPixels(truth, rejected, &facts);
-  CountOutlines(truth, rejected, &facts);
+  CountOutlines(truth, rejected, rule, &facts);
   return facts;
 }
 
@@ -241,7 +243,7 @@ MaskFacts CompareMasks(const cv::Mat1b& left, const FrameTruth& truth,
   CountLarge(claims, options.large_share * static_cast<double>(left.total()), &facts);
   facts.objects = Outcomes(truth, objects, found, rejected);
   CountPixels(dynamic, rejected, &facts);
-  CountOutlines(dynamic, rejected, &facts);
+  CountOutlines(dynamic, rejected, {}, &facts);
   CountCorners(left, dynamic, rejected, options, &facts);
   return facts;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "harness/contract/run.h"
+#include "harness/score/boundary.h"
 
 namespace aisle {
 
@@ -83,7 +84,8 @@ MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth,
                      std::vector<bool>* found = nullptr);
 
 /// Pixels and outlines alone, of masks of one size.
-MaskFacts CompareMaskImages(const cv::Mat1b& truth, const cv::Mat1b& rejected);
+MaskFacts CompareMaskImages(const cv::Mat1b& truth, const cv::Mat1b& rejected,
+                            const BoundaryRule& rule = {});
 
 /// All comparisons of one frame. `truth.dynamic` and `regions.mask` have the size of `left`, or are
 /// empty (nothing moves, nothing is rejected). Throws std::invalid_argument on other sizes.

@@ -82,6 +82,7 @@ std::vector<Span> SelectSpans(const Trajectory& truth, const Trajectory& estimat
     if (options.delta != std::floor(options.delta)) {
       throw std::invalid_argument(fmt::format("delta = {}: frames are whole", options.delta));
     }
+    if (options.delta >= static_cast<double>(pairs.size())) return {};
     return FrameSpans(pairs.size(), static_cast<std::size_t>(options.delta), options.all_pairs);
   }
   const bool on_estimate = options.along_estimate && options.unit == DeltaUnit::kMetres;

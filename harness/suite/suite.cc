@@ -32,7 +32,8 @@ std::optional<std::string> FindScene(const fs::path& folder, const std::string& 
   for (const fs::path& base : {folder, folder / ".."}) {
     for (const char* ending : {"", ".yaml"}) {
       const fs::path candidate = base / (text + ending);
-      if (fs::is_regular_file(candidate)) return candidate.lexically_normal().string();
+      std::error_code error;  // names that no file can have among them
+      if (fs::is_regular_file(candidate, error)) return candidate.lexically_normal().string();
     }
   }
   return std::nullopt;

@@ -92,9 +92,11 @@ TEST_F(BrokenInputTest, SuitesAndScenes) {
        "aisle: {d}/s.yaml:4:55: systems[0].timeout_s: expected a number of 0.001 or more, got '0' "
        "(seconds until the command is ended); example: timeout_s: 600"},
       {run, WithSystem("{name: m, contract: ros, command: x}"),
-       "aisle: {d}/s.yaml:4:31: systems[0].contract: expected one of vslam-lab, got 'ros' "
-       "(vslam-lab: "
-       "the system was wrapped for VSLAM-LAB, unchanged); example: contract: vslam-lab"},
+       "aisle: {d}/s.yaml:4:31: systems[0].contract: expected one of vslam-lab, vslam-lab-python, "
+       "got 'ros' "
+       "(vslam-lab: the system was wrapped for VSLAM-LAB, unchanged; vslam-lab-python: and takes "
+       "its "
+       "arguments as --key value); example: contract: vslam-lab"},
       {run, WithSystem("{name: n, like: paper, mask_errors: {boundary_px: 1}}"),
        "aisle: {d}/s.yaml:4:18: systems[0].name: 'mask_errors' are for a system like oracle or "
        "semantic, which are told their masks"},
@@ -181,6 +183,11 @@ TEST_F(BrokenInputTest, TrajectoriesMasksAndRecordings) {
       {{"score", "--truth", "{d}/t.txt", "--estimate", "{d}/e.txt", "--format", "tum"},
        WithEstimate("0 0 0 0\n"),
        "aisle: {d}/e.txt:1: 4 fields; a TUM line has 8: timestamp tx ty tz qx qy qz qw"},
+      {{"score", "--truth", "{d}/t.txt", "--estimate", "{d}/e.txt", "--delta", "1.5"},
+       WithEstimate(kPoses),
+       "aisle: delta = 1.5: frames are whole"},
+      {score, WithEstimate("0 1e300 0 0 0 0 0 1\n"),
+       "aisle: {d}/e.txt:1: field 2 is 1e300: positions are metres, at most 1e+08 from the origin"},
       {{"score", "--masks-truth", "{d}/none", "--masks", "{d}/none"},
        {},
        "aisle: {d}/none: holds no PNG images"},
@@ -193,6 +200,29 @@ TEST_F(BrokenInputTest, TrajectoriesMasksAndRecordings) {
        "aisle: system 'best' is not known: expected one of orbslam2, plain, semantic, paper, "
        "robust, oracle"},
   });
+}
+
+TEST_F(BrokenInputTest, NumbersThatAreNoneOrTooLarge) {
+  WriteFileAtomically(folder_ / "t.txt", kPoses);
+  const std::string poses = (folder_ / "t.txt").string();
+  const std::vector<std::string> score{"score", "--truth", poses, "--estimate", poses};
+  const std::pair<const char*, const char*> wrong[] = {
+      {"--delta", "nan"},          {"--delta", "1e30"},        {"--delta", "-1"},
+      {"--max-difference", "nan"}, {"--max-difference", "-1"}, {"--max-difference", "1e30"},
+      {"--rate", "nan"},           {"--rate", "inf"}};
+  for (const auto& [option, value] : wrong) {
+    std::vector<std::string> arguments = score;
+    arguments.insert(arguments.end(), {option, value});
+    const Said said = Run(arguments, 30);
+    EXPECT_EQ(said.code, 4) << option << " " << value << ": " << said.text;
+    EXPECT_THAT(said.text, testing::HasSubstr(option));
+  }
+  std::vector<std::string> far = score;
+  far.insert(far.end(), {"--delta", "1e9"});  // whole, and beyond every file
+  EXPECT_EQ(Run(far, 30).code, 0);
+  const Said file = Run({"run", scene_, "--out", poses}, 30);
+  EXPECT_EQ(file.code, 4);
+  EXPECT_THAT(file.text, testing::HasSubstr("t.txt: is a file: --out needs a folder"));
 }
 
 TEST_F(BrokenInputTest, HostileNamesDoNoHarm) {
@@ -210,8 +240,13 @@ TEST_F(BrokenInputTest, HostileNamesDoNoHarm) {
     EXPECT_FALSE(fs::exists("pwned"));
     fs::remove_all(folder_);
   }
-  const Said endless = Run({"run", std::string(4096, 'n')});
-  EXPECT_EQ(endless.code, 4) << endless.text;
+  for (const char* command : {"run", "check", "preview", "report"}) {
+    const Said endless = Run({command, std::string(5000, 'n')});
+    EXPECT_EQ(endless.code, 4) << command << ": " << endless.text;
+  }
+  WriteFileAtomically(folder_ / "s.yaml", "suite: s\nquestion: q\nscenes: [" +
+                                              std::string(5000, 'n') + "]\nsystems: [plain]\n");
+  EXPECT_EQ(Run({"run", (folder_ / "s.yaml").string(), "--dry-run"}).code, 4);
   const Said above = Run({"rerun", "../../../etc/passwd", "--in", Out("none")});
   EXPECT_EQ(above.code, 4) << above.text;
 }

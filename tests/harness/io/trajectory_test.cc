@@ -123,6 +123,44 @@ TEST_F(IoTest, BadLinesAreNamedWithTheirPlace) {
   EXPECT_THROW(ReadTrajectory(folder_, tum), InputError);
 }
 
+TEST_F(IoTest, KittiRowsMayBeginWithTheNumberOfTheirFrame) {
+  const std::string rows = "0 1 0 0 1 0 1 0 0 0 0 1 0\n7 1 0 0 2 0 1 0 0 0 0 1 0\n";
+  const fs::path file = Write("k.txt", rows), times = Write("times.txt", "0\n1\n");
+  ASSERT_EQ(GuessTrajectoryFormat(file), TrajectoryFormat::kKitti);
+  const Trajectory read = ReadTrajectory(file, TrajectoryFormat::kKitti);
+  ASSERT_EQ(read.size(), 2u);
+  EXPECT_EQ(read[1].stamp_ns, 7 * kKittiStepNs);
+  EXPECT_EQ(read[1].T_world_rig.translation(), Eigen::Vector3d(2, 0, 0));
+  EXPECT_THAT(Complaint("x 1 0 0 1 0 1 0 0 0 0 1 0\n", TrajectoryFormat::kKitti),
+              HasSubstr("t.txt:1: 'x' before the 12 numbers of the pose is no frame's number"));
+  EXPECT_THROW(ReadTrajectory(file, TrajectoryFormat::kKitti, times), InputError);
+  // As many columns with a stamp before them are EuRoC's.
+  EXPECT_EQ(GuessTrajectoryFormat(Write("e.txt", "1403636580838555648 0 0 0 1 0 0 0 0 0 0 0 0\n")),
+            TrajectoryFormat::kEuroc);
+}
+
+TEST_F(IoTest, PositionsBeyondTheEarthAreNoMetres) {
+  EXPECT_THAT(Complaint("0 0 1e300 0 0 0 0 1\n", TrajectoryFormat::kTum),
+              HasSubstr("t.txt:1: field 3 is 1e300: positions are metres"));
+  EXPECT_THAT(Complaint("1 0 0 1e9 0 1 0 0 0 0 1 0\n", TrajectoryFormat::kKitti),
+              HasSubstr("t.txt:1: field 4 is 1e9: positions are metres"));
+}
+
+TEST_F(IoTest, ATimeThatStandsStillIsNone) {
+  std::string rows;
+  for (int i = 0; i < 30'000; ++i) rows += "5 0 0 0 0 0 0 1\n";
+  EXPECT_THAT(Complaint(rows, TrajectoryFormat::kTum),
+              HasSubstr("t.txt:1001: stamp 5 is that of the 1000 rows before too"));
+}
+
+TEST_F(IoTest, RowsOfAnyOrderAreSortedWhereThatIsAsked) {
+  const fs::path file = Write("t.txt", "2 2 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n");
+  EXPECT_THROW(ReadTrajectory(file, TrajectoryFormat::kTum), InputError);
+  const Trajectory sorted = ReadTrajectory(file, TrajectoryFormat::kTum, {}, RowOrder::kAny);
+  EXPECT_EQ(sorted.front().T_world_rig.translation().x(), 1);
+  EXPECT_EQ(sorted.back().stamp_ns, 2'000'000'000);
+}
+
 TEST_F(IoTest, CarriageReturnsAndByteOrderMarksDoNoHarm) {
   const fs::path path = Write("t.txt", "\xEF\xBB\xBF# a\r\n1 0 0 0 0 0 0 1\r\n");
   EXPECT_EQ(ReadTrajectory(path, TrajectoryFormat::kTum).size(), 1u);
@@ -164,6 +202,31 @@ SequenceFrame StoredExample() {
   frame.truth->objects[0].object_class = "person";
   frame.truth->objects[0].velocity_mps << 0.5, 0, 0;
   return frame;
+}
+
+/// A PNG of 4x3 pixels with a palette of black, dark red and dark green, as DAVIS stores masks:
+/// rows 0 0 1 0, 0 2 2 0, 0 0 0 0.
+constexpr std::string_view kPaletteMask =
+    "89504e470d0a1a0a0000000d4948445200000004000000030803000000832a5ef400000009504c54"
+    "45000000800000008000a6506553000000134944415478da63606060646060606262000300003900"
+    "06c7e8bbae0000000049454e44ae426082";
+
+TEST_F(IoTest, MasksMayHaveAPaletteColoursOrSixteenBits) {
+  std::string bytes;
+  for (std::size_t i = 0; i < kPaletteMask.size(); i += 2) {
+    bytes += static_cast<char>(std::stoi(std::string(kPaletteMask.substr(i, 2)), nullptr, 16));
+  }
+  const cv::Mat1b mask = ReadMaskPng(Write("palette.png", bytes));
+  ASSERT_EQ(mask.size(), cv::Size(4, 3));
+  EXPECT_EQ(cv::countNonZero(mask), 3);
+  EXPECT_EQ(mask(0, 2), 255);
+  EXPECT_EQ(mask(1, 1), 255);
+  cv::Mat1w labels(3, 4, static_cast<unsigned short>(0));
+  labels(2, 3) = 256;  // whose lower byte is 0
+  WriteImage(folder_ / "labels.png", labels);
+  EXPECT_EQ(ReadMaskPng(folder_ / "labels.png")(2, 3), 255);
+  WriteImage(folder_ / "clear.png", cv::Mat4b(3, 4, cv::Vec4b(0, 0, 0, 255)));
+  EXPECT_EQ(cv::countNonZero(ReadMaskPng(folder_ / "clear.png")), 0);
 }
 
 TEST_F(IoTest, AStoredFrameComesBackToTheBit) {

@@ -61,6 +61,7 @@ TEST_F(SyntheticTest, AbsoluteErrorsAgreeForEveryAlignment) {
               "scale_sim3");
   ExpectClose(Summarize(Translations(Errors(AlignmentMethod::kNone))).rmse, "ate_none_rmse");
   ExpectClose(Summarize(Translations(Errors(AlignmentMethod::kOrigin))).rmse, "ate_origin_rmse");
+  ExpectClose(Summarize(Translations(Errors(AlignmentMethod::kPosYaw))).rmse, "ate_posyaw_rmse");
 }
 
 TEST_F(SyntheticTest, RelativeErrorsAgreeForEveryUnit) {

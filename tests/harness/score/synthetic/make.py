@@ -130,6 +130,15 @@ def main():
             values["ate_se3_rot_rmse"] = rmse([angle_deg((r @ m[:3, :3]).T @ n[:3, :3])
                                                for m, n in zip(p, q)])
     values["ate_none_rmse"] = rmse(np.linalg.norm(x - y, axis=1))
+    # The turn about z by search alone: a grid, then ever finer ones around its best.
+    def yaw_rmse(angle):
+        turned = (x - x.mean(0)) @ rotation(np.array([0, 0, 1.0]), angle).T
+        return rmse(np.linalg.norm(turned - (y - y.mean(0)), axis=1))
+    best, width = 0.0, np.pi
+    for _ in range(40):
+        best = min(np.linspace(best - width, best + width, 41), key=yaw_rmse)
+        width /= 4
+    values["ate_posyaw_rmse"] = yaw_rmse(best)
     origin = q[0] @ np.linalg.inv(p[0])
     values["ate_origin_rmse"] = rmse([np.linalg.norm((origin @ m)[:3, 3] - n[:3, 3])
                                       for m, n in zip(p, q)])
