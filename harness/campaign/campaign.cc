@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "harness/campaign/external_run.h"
 #include "harness/contract/exit_code.h"
 #include "harness/io/duration.h"
 #include "harness/io/file.h"
@@ -68,6 +69,7 @@ class Follower {
       return;
     }
     const fs::path folder = job.out / "runs" / id;
+    RemoveFolder(folder / kGuestFolder);  // what a run that was killed could not take away
     WriteFileAtomically(folder / "log.txt", result.log);
     if (!exited || result.code != 0) {
       WriteFileAtomically(folder / "result.json", ToJson(FailedRun(job, result, limits_)));
@@ -137,7 +139,7 @@ std::vector<Job> JobsThatFailed(const std::vector<Job>& jobs) {
     if (!IsFailure(ReadRun(job.spec, job.out))) continue;
     again.push_back(job);
     again.back().out = job.out / "again";
-    fs::remove_all(again.back().out / "runs" / RunId(job.spec));
+    RemoveFolder(again.back().out / "runs" / RunId(job.spec));
   }
   return again;
 }
@@ -179,7 +181,7 @@ std::vector<Job> StillToDo(std::vector<Job> jobs, bool resume) {
   std::vector<Job> todo;
   for (Job& job : jobs) {
     if (resume && ReadFinishedRun(job.spec, job.inputs_hash, job.out)) continue;
-    fs::remove_all(job.out / "runs" / RunId(job.spec));
+    RemoveFolder(job.out / "runs" / RunId(job.spec));
     todo.push_back(std::move(job));
   }
   return todo;

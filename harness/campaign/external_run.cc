@@ -1,8 +1,14 @@
 #include "harness/campaign/external_run.h"
 
+#include <unistd.h>
+
+#include <cstdlib>
+#include <sstream>
 #include <thread>
 
+#include "harness/campaign/guest_dataset.h"
 #include "harness/campaign/process.h"
+#include "harness/campaign/sandbox.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/vslam_lab.h"
@@ -21,32 +27,42 @@ std::string ShellQuoted(const std::string& text) {
   return quoted + "'";
 }
 
-/// Written last: a dataset without it is not whole.
-fs::path DoneMark(const fs::path& dataset) { return dataset / "complete"; }
+/// The folders of one foreign system in one run. Only the three may it write to.
+class GuestRooms {
+ public:
+  explicit GuestRooms(const fs::path& folder)
+      : folder_(fs::absolute(folder).lexically_normal()),
+        dataset(folder_ / "dataset"),
+        output(folder_ / "output"),
+        temporary(folder_ / "tmp") {
+    RemoveFolder(folder_);
+    for (const fs::path& room : {dataset, output, temporary}) fs::create_directories(room);
+  }
+  ~GuestRooms() { RemoveFolder(folder_); }
+  GuestRooms(const GuestRooms&) = delete;
+  GuestRooms& operator=(const GuestRooms&) = delete;
 
-void Export(const Sequence& sequence, const ExternalRun& run, const ExportOptions& options) {
-  if (fs::exists(DoneMark(run.dataset))) {
-    std::error_code error;
-    fs::last_write_time(run.dataset, fs::file_time_type::clock::now(), error);  // in use
-    return;
-  }
-  const std::vector<FrameRequest> schedule = sequence.Schedule();
-  DatasetWriter writer(run.dataset, sequence.calibration(), sequence.rate_hz(), schedule, options);
-  for (std::size_t i = 0; i < schedule.size(); ++i) {
-    if (!writer.Has(schedule[i])) writer.Add(sequence.At(schedule[i]));
-    fmt::print("@progress {} {}\n", i + 1, 2 * schedule.size());
-    std::fflush(stdout);
-  }
-  writer.Finish(run.open_path());
-  if (options.format == DatasetFormat::kEuroc) {
-    WriteVslamLabFiles(run.dataset, sequence.calibration(), sequence.rate_hz(), schedule,
-                       options.epoch_ns);
-  }
-  WriteFileAtomically(DoneMark(run.dataset), "");
-}
+ private:
+  const fs::path folder_;
 
-ProcessResult RunToEnd(const std::string& command, const ProcessLimits& limits) {
-  Process process({"/bin/sh", "-c", command}, limits);
+ public:
+  const fs::path dataset, output, temporary;
+};
+
+ProcessResult RunToEnd(const std::string& command, const ProcessLimits& limits,
+                       const ExternalSystem& system, const ExternalRun& run,
+                       const GuestRooms& rooms) {
+  SandboxRules rules{.hidden = run.hidden,
+                     .writable = {rooms.dataset, rooms.output, rooms.temporary}};
+  for (const std::string& folder : system.may_write) {
+    std::error_code error;  // what cannot be made cannot be written
+    fs::create_directories(folder, error);
+    rules.writable.emplace_back(folder);
+  }
+  const Sandbox sandbox(rules);
+  Process process(
+      {"/bin/sh", "-c", command}, limits,
+      Confinement{ScrubbedEnvironment(rooms.temporary, system.environment), sandbox.ruleset()});
   while (!process.Poll()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   return process.result();
 }
@@ -60,39 +76,46 @@ Trajectory Truth(const std::vector<FrameRequest>& schedule) {
   return truth;
 }
 
-VslamLabRun LabRun(const ExternalRun& run) {
-  return {.dataset = run.dataset, .output = run.output.parent_path() / "vslam_lab"};
-}
-
-/// Where the trajectory must stand when the command has ended.
-fs::path TrajectoryPath(const ExternalSystem& system, const ExternalRun& run) {
-  return system.vslam_lab ? VslamLabTrajectoryPath(LabRun(run)) : run.output;
+/// What the trajectory is called that the command must leave.
+const char* TrajectoryName(const ExternalSystem& system) {
+  return system.vslam_lab != VslamLabStyle::kNone ? kVslamLabTrajectory : "output.txt";
 }
 
 std::string CommandLine(const ExternalSystem& system, const ExternalRun& run,
-                        DatasetFormat format) {
-  const std::string command = FillIn(
-      system.command, {{"dataset", fs::absolute(run.dataset).string()},
-                       {"calibration", fs::absolute(CalibrationPath(run.dataset, format)).string()},
-                       {"output", fs::absolute(run.output).string()},
-                       {"seed", std::to_string(run.seed)}});
-  return system.vslam_lab ? command + " " + VslamLabArguments(LabRun(run)) : command;
+                        const GuestRooms& rooms, DatasetFormat format) {
+  const std::string command =
+      FillIn(system.command, {{"dataset", rooms.dataset.string()},
+                              {"calibration", CalibrationPath(rooms.dataset, format).string()},
+                              {"output", (rooms.output / TrajectoryName(system)).string()},
+                              {"seed", std::to_string(run.seed)}});
+  if (system.vslam_lab == VslamLabStyle::kNone) return command;
+  return command + " " +
+         VslamLabArguments({.dataset = rooms.dataset, .output = rooms.output}, system.vslam_lab);
 }
 
-Trajectory ReadEstimate(const ExternalSystem& system, const ExternalRun& run,
+/// Stamps of the frames that the rows of a KITTI file are about. Without numbers before the poses
+/// there must be a row for each frame.
+void StampByFrame(const Trajectory& truth, const fs::path& file, Trajectory* estimate) {
+  const auto last = static_cast<std::size_t>(estimate->back().stamp_ns / kKittiStepNs);
+  if (last >= truth.size() || (estimate->size() != truth.size() && last + 1 == estimate->size())) {
+    throw InputError(file.string(), 0,
+                     fmt::format("{} poses for {} frames: KITTI's format has no stamps to tell "
+                                 "which are missing",
+                                 estimate->size(), truth.size()));
+  }
+  for (StampedPose& pose : *estimate) {
+    pose.stamp_ns = truth[static_cast<std::size_t>(pose.stamp_ns / kKittiStepNs)].stamp_ns;
+  }
+}
+
+/// Reads what the system left, once it lies among our own files.
+Trajectory ReadEstimate(const ExternalSystem& system, const fs::path& file,
                         const ExportOptions& options, const Trajectory& truth) {
   const TrajectoryFormat format = TrajectoryFormatFromName(system.trajectory);
-  Trajectory estimate = system.vslam_lab
-                            ? ReadVslamLabTrajectory(VslamLabTrajectoryPath(LabRun(run)))
-                            : ReadTrajectory(run.output, format);
+  Trajectory estimate = system.vslam_lab != VslamLabStyle::kNone ? ReadVslamLabTrajectory(file)
+                                                                 : ReadTrajectory(file, format);
   if (format == TrajectoryFormat::kKitti) {
-    if (estimate.size() != truth.size()) {
-      throw InputError(run.output.string(), 0,
-                       fmt::format("{} poses for {} frames: KITTI's format has no stamps to tell "
-                                   "which are missing",
-                                   estimate.size(), truth.size()));
-    }
-    for (std::size_t i = 0; i < truth.size(); ++i) estimate[i].stamp_ns = truth[i].stamp_ns;
+    StampByFrame(truth, file, &estimate);
   } else if (options.format == DatasetFormat::kEuroc) {
     for (StampedPose& pose : estimate) pose.stamp_ns -= options.epoch_ns;
   }
@@ -104,6 +127,27 @@ RunResult Failure(const Trajectory& truth, RunStatus status, const std::string& 
   result.status = status;
   result.status_why = why;
   return result;
+}
+
+/// What became of a command that ended well: its trajectory, or why there is none.
+RunResult Judge(const ExternalSystem& system, const ExternalRun& run, const GuestRooms& rooms,
+                const ExportOptions& options, const Trajectory& truth) {
+  constexpr std::size_t kLargestTrajectory = std::size_t{128} << 20;
+  const std::string name = TrajectoryName(system);
+  const bool lab = system.vslam_lab != VslamLabStyle::kNone;
+  std::error_code error;
+  if (fs::symlink_status(rooms.output / name, error).type() == fs::file_type::not_found) {
+    return Failure(truth, RunStatus::kInvalid,
+                   "left no trajectory at " + (lab ? name : std::string("{output}")));
+  }
+  try {
+    WriteFileAtomically(run.folder / name, ReadLeftFile(rooms.output, name, kLargestTrajectory));
+    const double min_coverage = lab ? 0 : kMinCoverage;
+    return ResultFromTrajectory(truth, ReadEstimate(system, run.folder / name, options, truth),
+                                min_coverage);
+  } catch (const InputError& wrong) {
+    return Failure(truth, RunStatus::kInvalid, wrong.what());
+  }
 }
 
 }  // namespace
@@ -124,35 +168,62 @@ std::string FillIn(const std::string& command, const std::map<std::string, std::
   return filled;
 }
 
+std::vector<fs::path> FilesNamedBy(const std::string& command) {
+  std::vector<fs::path> files;
+  const auto take = [&](const fs::path& path) {
+    std::error_code error;
+    const bool is_file = fs::is_regular_file(path, error);
+    if (is_file && std::find(files.begin(), files.end(), path) == files.end()) {
+      files.push_back(path);
+    }
+    return is_file;
+  };
+  const auto take_program = [&](const std::string& name) {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path != nullptr ? path : "");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+      if (::access((fs::path(folder) / name).c_str(), X_OK) == 0 && take(fs::path(folder) / name)) {
+        return;
+      }
+    }
+  };
+  constexpr const char* kBetweenWords = " \t\n;|&<>()'\"";
+  for (std::size_t at = 0; at < command.size();) {
+    const std::size_t begin =
+        std::min(command.find_first_not_of(kBetweenWords, at), command.size());
+    const std::size_t end = std::min(command.find_first_of(kBetweenWords, begin), command.size());
+    const std::string word = command.substr(begin, end - begin);
+    at = end;
+    if (word.empty() || take(word)) continue;
+    const std::size_t value = word.find_first_of(":=");
+    if (value != std::string::npos) take(word.substr(value + 1));
+    if (word.find('/') == std::string::npos) take_program(word);
+  }
+  return files;
+}
+
 RunResult RunExternal(const ExternalSystem& system, const Sequence& sequence,
                       const ExternalRun& run) {
-  const ExportOptions options{.format = DatasetFormatFromName(system.dataset)};
-  Export(sequence, run, options);
+  const ExportOptions options{.format = DatasetFormatFromName(system.dataset),
+                              .true_trajectory = false};
+  const GuestRooms rooms(run.folder / kGuestFolder);
+  LayOutDataset(sequence, {.kept = run.dataset, .options = options, .open_path = run.open_path},
+                rooms.dataset);
+  if (system.vslam_lab != VslamLabStyle::kNone) LinkVslamLabImages(rooms.dataset);
   const Trajectory truth = Truth(sequence.Schedule());
-  const fs::path left_there = TrajectoryPath(system, run);
-  fs::create_directories(left_there.parent_path());
-  fs::remove(left_there);
-  const std::string command = CommandLine(system, run, options.format);
+  const std::string command = CommandLine(system, run, rooms, options.format);
   const ProcessLimits limits{.wall_s = system.timeout_s};
-  const ProcessResult ended = RunToEnd(command, limits);
-  WriteFileAtomically(run.log, command + "\n" + ended.log);
+  const ProcessResult ended = RunToEnd(command, limits, system, run, rooms);
+  WriteFileAtomically(run.folder / "system.log",
+                      fmt::format("# {}\n{}\n{}", DescribeSandbox(), command, ended.log));
 
   RunResult result;
   if (ended.end == ProcessResult::End::kTimeout || ended.end == ProcessResult::End::kMemory) {
     result = Failure(truth, RunStatus::kTimeout, Describe(ended, limits));
   } else if (ended.end == ProcessResult::End::kSignalled || ended.code != 0) {
     result = Failure(truth, RunStatus::kCrashed, Describe(ended, limits));
-  } else if (!fs::exists(left_there)) {
-    result = Failure(truth, RunStatus::kInvalid,
-                     "left no trajectory at " + (system.vslam_lab ? left_there.filename().string()
-                                                                  : std::string("{output}")));
   } else {
-    try {
-      const double min_coverage = system.vslam_lab ? 0 : kMinCoverage;
-      result = ResultFromTrajectory(truth, ReadEstimate(system, run, options, truth), min_coverage);
-    } catch (const InputError& error) {
-      result = Failure(truth, RunStatus::kInvalid, error.what());
-    }
+    result = Judge(system, run, rooms, options, truth);
   }
   result.wall_s = ended.wall_s;
   result.peak_rss_mib = ended.peak_rss_mib;

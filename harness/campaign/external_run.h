@@ -10,19 +10,29 @@
 namespace aisle {
 
 struct ExternalRun {
-  std::filesystem::path dataset;  ///< exported there once, shared by all external systems
-  std::filesystem::path output;   ///< where the system leaves its trajectory
-  std::filesystem::path log;
+  std::filesystem::path dataset;  ///< exported there once, for all external systems
+  /// The run's own. What the system leaves is taken there once it has been looked at; it works in a
+  /// folder below it that is gone afterwards.
+  std::filesystem::path folder;
+  std::vector<std::filesystem::path> hidden;  ///< what the system must not see
   std::uint64_t seed = 1;
   std::function<PathOfRig()> open_path;  ///< called only when the dataset must be made
 };
 
-/// Exports the sequence, runs the command in a process group of its own and reads what it left. A
-/// crash, a hang or a trajectory that is none is the system's verdict, not an exception.
+/// Where a foreign system works, below the folder of its run.
+inline constexpr const char* kGuestFolder = "guest";
+
+/// Lays out a dataset without truth for this run alone, runs the command in a process group of its
+/// own, confined to its folders and with a scrubbed environment, and reads what it left. A crash, a
+/// hang or a trajectory that is none is the system's verdict, not an exception.
 RunResult RunExternal(const ExternalSystem& system, const Sequence& sequence,
                       const ExternalRun& run);
 
 /// The command with its placeholders filled in, quoted for the shell.
 std::string FillIn(const std::string& command, const std::map<std::string, std::string>& values);
+
+/// What the words of a command name that is there: its program (on PATH too), scripts, settings,
+/// also behind "key:", "key=" and "--key=". Only of files.
+std::vector<std::filesystem::path> FilesNamedBy(const std::string& command);
 
 }  // namespace aisle

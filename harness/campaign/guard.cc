@@ -1,8 +1,10 @@
 #include "harness/campaign/guard.h"
 
 #include <fcntl.h>
+#include <linux/capability.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,24 +18,48 @@ void DieWithParent(int signal, pid_t parent) {
   if (::getppid() != parent) ::_exit(kNotStarted);  // it died before the line above
 }
 
-/// Only standard streams stay open: a guard must not hold its parent's locks and pipes.
-void KeepOnly(int output) {
+/// Only standard streams stay open: a guard must not hold its parent's locks and pipes. The rules
+/// move to the descriptor above them.
+constexpr int kRuleset = STDERR_FILENO + 1;
+void KeepOnly(const GuardedCommand& command) {
+  // Out of the way of the descriptors that are taken next, whatever their numbers.
+  const int output = ::fcntl(command.output, F_DUPFD, kRuleset + 1);
+  const int ruleset = command.ruleset < 0 ? -1 : ::fcntl(command.ruleset, F_DUPFD, kRuleset + 1);
   const int null = ::open("/dev/null", O_RDONLY);
   ::dup2(null, STDIN_FILENO);
   ::dup2(output, STDOUT_FILENO);
   ::dup2(output, STDERR_FILENO);
-  ::close_range(STDERR_FILENO + 1, ~0U, 0);
+  if (ruleset >= 0) ::dup2(ruleset, kRuleset);
+  ::close_range(static_cast<unsigned>(ruleset >= 0 ? kRuleset + 1 : kRuleset), ~0U, 0);
 }
 
-pid_t Start(char* const* argv, const sigset_t& mask) {
+/// What a program of others must not be able to do, where this process could. The command goes on
+/// as the same user.
+void GiveUpRights(const GuardedCommand& command) {
+  constexpr int kSystemRights[] = {CAP_SYS_ADMIN,  CAP_SYS_MODULE,     CAP_SYS_RAWIO,
+                                   CAP_SYS_PTRACE, CAP_SYS_BOOT,       CAP_MKNOD,
+                                   CAP_SYS_TIME,   CAP_DAC_READ_SEARCH};
+  for (const int right : kSystemRights) ::prctl(PR_CAPBSET_DROP, right);
+  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  constexpr rlim_t kLargestFile = rlim_t{16} << 30;
+  const rlimit size{kLargestFile, kLargestFile};
+  ::setrlimit(RLIMIT_FSIZE, &size);
+  if (command.ruleset < 0) return;
+  // Rather not at all than unbound.
+  if (::syscall(SYS_landlock_restrict_self, kRuleset, 0) != 0) ::_exit(kNotStarted);
+  ::close(kRuleset);
+}
+
+pid_t Start(const GuardedCommand& command, const sigset_t& mask) {
   const pid_t guard = ::getpid();
   const pid_t child = ::fork();
   if (child != 0) return child;
   DieWithParent(SIGKILL, guard);
   const rlimit none{0, 0};
   ::setrlimit(RLIMIT_CORE, &none);
+  if (command.foreign) GiveUpRights(command);
   ::sigprocmask(SIG_SETMASK, &mask, nullptr);
-  ::execv(argv[0], argv);
+  ::execve(command.argv[0], command.argv, command.environment);
   ::_exit(kNotStarted);
 }
 
@@ -99,17 +125,17 @@ sigset_t GuardedSignals() {
   return signals;
 }
 
-void Guard(char* const* argv, int output, int parent, const sigset_t& before) {
+void Guard(const GuardedCommand& command, int parent, const sigset_t& before) {
   ::setsid();
   ::prctl(PR_SET_NAME, kGuardName);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   DieWithParent(SIGTERM, parent);
-  KeepOnly(output);
+  KeepOnly(command);
 
   const sigset_t watched = GuardedSignals();
-  const pid_t child = Start(argv, before);
+  const pid_t child = Start(command, before);
   int status = kNotStarted << 8;
   while (child > 0) {
     const int signal = ::sigwaitinfo(&watched, nullptr);

@@ -4,13 +4,23 @@
 
 namespace aisle {
 
-/// Becomes the guard of one command, after a fork and for good: a process that starts `argv` with
-/// stdout and stderr going to the descriptor `output`, ends as the command ends (same exit code or
-/// signal), and takes everything the command ever started with it, daemons that left its session
-/// too. It does the same at SIGTERM and when `parent` dies, by SIGKILL even. Only calls that are
-/// allowed between fork and exec of a threaded program are made. GuardedSignals() must have been
-/// blocked before the fork; the command gets the mask of `before`.
-[[noreturn]] void Guard(char* const* argv, int output, int parent, const sigset_t& before);
+/// What a guard starts.
+struct GuardedCommand {
+  char* const* argv;
+  char* const* environment;
+  int output;        ///< descriptor where stdout and stderr go
+  int ruleset = -1;  ///< Landlock rules that the command is bound to; -1: none
+  /// Whose command it is: one of others may gain no rights by what it starts, has given up those
+  /// that reach around the file system, and may not fill the disk by one file.
+  bool foreign = false;
+};
+
+/// Becomes the guard of one command, after a fork and for good: a process that starts it, ends as
+/// the command ends (same exit code or signal), and takes everything the command ever started with
+/// it, daemons that left its session too. It does the same at SIGTERM and when `parent` dies, by
+/// SIGKILL even. Only calls that are allowed between fork and exec of a threaded program are made.
+/// GuardedSignals() must have been blocked before the fork; the command gets the mask of `before`.
+[[noreturn]] void Guard(const GuardedCommand& command, int parent, const sigset_t& before);
 
 /// What a guard waits for.
 sigset_t GuardedSignals();

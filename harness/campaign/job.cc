@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/campaign/external_run.h"
 #include "harness/io/file.h"
 #include "harness/io/hash.h"
 #include "harness/io/input_error.h"
@@ -19,14 +20,15 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kSchema = 1;
 
-/// The program that a command starts with counts as well, where it is a file.
+/// Programs, scripts and settings that a command names count as well, where they are files.
 std::uint64_t HashSystem(const SystemSpec& system, std::uint64_t seed) {
   seed = Hash(ToJson(system).dump(), seed);
   if (!system.external) return seed;
-  const std::string& command = system.external->command;
-  const fs::path program = command.substr(0, command.find(' '));
-  std::error_code error;
-  return fs::is_regular_file(program, error) ? HashFile(program, seed) : seed;
+  for (const fs::path& file : FilesNamedBy(system.external->command)) seed = HashFile(file, seed);
+  for (const fs::path path : system.external->depends_on) {
+    seed = fs::is_directory(path) ? HashFolder(path, seed) : HashFile(path, seed);
+  }
+  return seed;
 }
 
 Job FromJson(const Json& json) {
@@ -94,7 +96,9 @@ std::string Fingerprints::Frames(const RunSpec& spec) const {
 }
 
 std::string Fingerprints::Run(const RunSpec& spec) const {
-  return fmt::format("{:016x}", HashSystem(spec.system, Hash(Frames(spec), program_)));
+  const auto [at, is_new] = systems_.try_emplace(spec.system.name);
+  if (is_new) at->second = HashSystem(spec.system, program_);
+  return fmt::format("{:016x}", Hash(Frames(spec), at->second));
 }
 
 std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Fingerprints& fingerprints,

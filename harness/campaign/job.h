@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,9 @@ void WriteJob(const Job& job);
 Job ReadJob(const std::filesystem::path& file);
 
 /// Content hashes of all that decides a run, hexadecimal: this program, the assets, the scene file,
-/// twin and seed, and the system with its options or its command. Two runs of equal hash give equal
-/// bits; a finished run of another hash is no answer to tonight's question.
+/// twin and seed, and the system with its options or its command and the files that names. Two runs
+/// of equal hash give equal bits; a finished run of another hash is no answer to tonight's
+/// question.
 class Fingerprints {
  public:
   Fingerprints();
@@ -44,6 +46,7 @@ class Fingerprints {
 
  private:
   std::uint64_t program_;
+  mutable std::map<std::string, std::uint64_t> systems_;  ///< by name: their files may be large
 };
 
 struct JobOptions {

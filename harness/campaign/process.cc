@@ -54,6 +54,14 @@ double TreeResidentMib(pid_t pid) {
   return sum_mib;
 }
 
+/// As execve takes them, whose signature is older than const.
+std::vector<char*> Pointers(const std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (const std::string& text : texts) pointers.push_back(const_cast<char*>(text.c_str()));
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
 }  // namespace
 
 std::string Describe(const ProcessResult& result, const ProcessLimits& limits) {
@@ -67,17 +75,21 @@ std::string Describe(const ProcessResult& result, const ProcessLimits& limits) {
     case ProcessResult::End::kExited:
       break;
   }
+  constexpr int kShellSays = 128;  // and adds the number of the signal that ended its command
+  const int signal = result.code - kShellSays;
+  if (signal > 0 && signal < SIGRTMIN && ::sigabbrev_np(signal) != nullptr) {
+    return fmt::format("exit code {}: signal {} ({}), as a shell tells it", result.code, signal,
+                       ::strsignal(signal));
+  }
   return fmt::format("exit code {}", result.code);
 }
 
-Process::Process(const std::vector<std::string>& argv, const ProcessLimits& limits)
+Process::Process(const std::vector<std::string>& argv, const ProcessLimits& limits,
+                 const std::optional<Confinement>& confinement)
     : limits_(limits) {
-  std::vector<char*> arguments;
-  for (const std::string& argument : argv) {
-    arguments.push_back(
-        const_cast<char*>(argument.c_str()));  // execv's signature is older than const
-  }
-  arguments.push_back(nullptr);
+  const std::vector<char*> arguments = Pointers(argv);
+  const std::vector<char*> own =
+      confinement ? Pointers(confinement->environment) : std::vector<char*>{};
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) {
     throw MachineError(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
@@ -88,7 +100,14 @@ Process::Process(const std::vector<std::string>& argv, const ProcessLimits& limi
   sigset_t before;
   ::pthread_sigmask(SIG_BLOCK, &guarded, &before);
   pid_ = ::fork();
-  if (pid_ == 0) Guard(arguments.data(), ends[1], parent, before);
+  if (pid_ == 0) {
+    Guard({.argv = arguments.data(),
+           .environment = confinement ? own.data() : ::environ,
+           .output = ends[1],
+           .ruleset = confinement ? confinement->ruleset : -1,
+           .foreign = confinement.has_value()},
+          parent, before);
+  }
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   ::close(ends[1]);
   output_ = ends[0];
@@ -97,6 +116,8 @@ Process::Process(const std::vector<std::string>& argv, const ProcessLimits& limi
     throw MachineError(fmt::format("cannot start {}: {}", argv[0], std::strerror(errno)));
   }
   ::fcntl(output_, F_SETFL, O_NONBLOCK);
+  constexpr int kRoomBytes = 1 << 20;  // a flood waits less for us, who look ten times a second
+  ::fcntl(output_, F_SETPIPE_SZ, kRoomBytes);
 }
 
 Process::~Process() {
@@ -117,6 +138,7 @@ bool Process::Poll() {
   if (::waitpid(pid_, &status, WNOHANG) != pid_) return false;
   ended_ = true;
   ReadOutput();
+  if (!partial_line_.empty()) TakeLine(std::exchange(partial_line_, {}));
   result_.wall_s = NowS() - started_s_;
   if (!killed_) {
     result_.end =
@@ -129,7 +151,7 @@ bool Process::Poll() {
 void Process::ReadOutput() {
   char buffer[8192];
   // A bounded number of reads: a child that floods its output must not hold up the others.
-  for (int round = 0; round < 64; ++round) {
+  for (int round = 0; round < 256; ++round) {
     const ssize_t count = ::read(output_, buffer, sizeof buffer);
     if (count <= 0) return;
     for (const char c : std::string_view(buffer, static_cast<std::size_t>(count))) {

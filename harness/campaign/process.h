@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,14 @@ struct ProcessResult {
   std::string log;          ///< tail of stdout and stderr
 };
 
-/// "exit code 3", "signal 11 (Segmentation fault)", "no end after 600 s", …
+/// How a program of others is started: with nothing of ours but these.
+struct Confinement {
+  std::vector<std::string> environment;  ///< "NAME=VALUE" each
+  int ruleset = -1;                      ///< of a Sandbox; -1: none
+};
+
+/// "exit code 3", "exit code 139: signal 11 (Segmentation fault), as a shell tells it", "signal 11
+/// (Segmentation fault)", "no end after 600 s: killed", …
 std::string Describe(const ProcessResult& result, const ProcessLimits& limits);
 
 /// A child under a guard, in a session of its own: it and all it ever starts end with it, and with
@@ -32,8 +40,10 @@ std::string Describe(const ProcessResult& result, const ProcessLimits& limits);
 /// as a ProcessResult. Not thread-safe.
 class Process {
  public:
-  /// argv[0] is a path. Throws MachineError when it cannot be started.
-  Process(const std::vector<std::string>& argv, const ProcessLimits& limits);
+  /// argv[0] is a path. With our environment and rights where it is not confined. Throws
+  /// MachineError when it cannot be started.
+  Process(const std::vector<std::string>& argv, const ProcessLimits& limits,
+          const std::optional<Confinement>& confinement = {});
   ~Process();  ///< kills what is still running
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;

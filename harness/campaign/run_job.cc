@@ -57,6 +57,12 @@ RunRecord RecordOf(const Job& job, const RunResult& result, const RunScore& scor
   return record;
 }
 
+/// Where truth lies (the scene, the frames and datasets with it) and what other runs and nights
+/// left.
+std::vector<std::filesystem::path> HiddenFromGuests(const Job& job) {
+  return {job.out, CacheDir(), job.spec.scene_file, SourceDir() / "reports" / "baselines"};
+}
+
 void RunForeign(const Job& job) {
   std::uint64_t content_hash = 0;
   std::unique_ptr<Sequence> kept_open;
@@ -69,8 +75,8 @@ void RunForeign(const Job& job) {
   };
   RunResult result = RunExternal(*job.spec.system.external, *sequence,
                                  {.dataset = job.dataset,
-                                  .output = folder / "output.txt",
-                                  .log = folder / "system.log",
+                                  .folder = folder,
+                                  .hidden = HiddenFromGuests(job),
                                   .seed = job.spec.seed,
                                   .open_path = open_path});
   result.spec = job.spec;

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <thread>
 
+#include "harness/campaign/sandbox.h"
 #include "harness/cli/command.h"
 #include "harness/cli/doctor_bits.h"
 #include "harness/cli/terminal.h"
@@ -123,6 +124,16 @@ Finding Packages() {
   return {"packages", Health::kLacking, "missing:" + missing, "apt-get install" + missing};
 }
 
+/// Whether systems of others can be held to their own folders.
+Finding Confinement() {
+  const bool whole = SandboxLevel() >= 6;
+  return {"confine", whole ? Health::kGood : Health::kLacking, DescribeSandbox(),
+          whole
+              ? ""
+              : "systems of others are trusted with more than they should be: Linux 6.12 or newer "
+                "with lsm=landlock,… holds them back"};
+}
+
 std::vector<Finding> Examine(const std::string& out) {
   return {Processor(),
           Memory(),
@@ -130,6 +141,7 @@ std::vector<Finding> Examine(const std::string& out) {
           Disk("reports", out),
           Assets(),
           Packages(),
+          Confinement(),
           Tool("ffmpeg", "a short video of every run"),
           Tool("chromium", "the tests look at the report with it"),
           Tool("git", "the commit in every report")};

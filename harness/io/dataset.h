@@ -65,6 +65,9 @@ struct LensCalibration {
 struct ExportOptions {
   DatasetFormat format = DatasetFormat::kEuroc;
   TruthSelection truth = {};
+  /// The true trajectory goes along (EuRoC's state_groundtruth_estimate0, KITTI's poses, TUM's
+  /// groundtruth.txt); not to a system under test.
+  bool true_trajectory = true;
   /// Added to every stamp of EuRoC and TUM: readers treat 0 as missing. 2020-09-13T12:26:40Z.
   std::int64_t epoch_ns = 1'600'000'000'000'000'000;
   double imu_rate_hz = 200;

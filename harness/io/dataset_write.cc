@@ -84,9 +84,11 @@ void FinishEuroc(const fs::path& mav, const StereoCalibration& calibration, doub
   WriteFileAtomically(mav / "body.yaml", std::string(kYamlOpening) + "comment: the left camera\n");
   WriteFileAtomically(mav / "imu0/sensor.yaml", EurocImuSensor(options.imu_rate_hz));
   WriteFileAtomically(mav / "imu0/data.csv", FormatEurocImu(imu, options.epoch_ns));
-  WriteFileAtomically(mav / "state_groundtruth_estimate0/sensor.yaml", EurocTruthSensor());
-  WriteFileAtomically(mav / "state_groundtruth_estimate0/data.csv",
-                      FormatEurocTruth(truth, velocities_mps));
+  if (options.true_trajectory) {
+    WriteFileAtomically(mav / "state_groundtruth_estimate0/sensor.yaml", EurocTruthSensor());
+    WriteFileAtomically(mav / "state_groundtruth_estimate0/data.csv",
+                        FormatEurocTruth(truth, velocities_mps));
+  }
   WriteFileAtomically(mav / "times.txt", times);
   for (int side = 0; side < 2; ++side) {
     const fs::path camera = mav / fmt::format("cam{}", side);
@@ -109,7 +111,7 @@ std::string KittiCalibration(const StereoCalibration& c) {
 }
 
 void FinishKitti(const fs::path& folder, const StereoCalibration& calibration,
-                 const std::vector<FrameRequest>& frames) {
+                 const std::vector<FrameRequest>& frames, const ExportOptions& options) {
   Trajectory relative;
   std::string times;
   const Eigen::Isometry3d T_first_world = frames.front().T_world_rig.inverse();
@@ -117,8 +119,10 @@ void FinishKitti(const fs::path& folder, const StereoCalibration& calibration,
     relative.push_back({frame.stamp_ns, T_first_world * frame.T_world_rig});
     times += FormatSeconds(frame.stamp_ns - frames.front().stamp_ns) + "\n";
   }
-  WriteFileAtomically(folder / "poses/00.txt",
-                      FormatTrajectory(relative, TrajectoryFormat::kKitti));
+  if (options.true_trajectory) {
+    WriteFileAtomically(folder / "poses/00.txt",
+                        FormatTrajectory(relative, TrajectoryFormat::kKitti));
+  }
   WriteFileAtomically(folder / "sequences/00/calib.txt", KittiCalibration(calibration));
   WriteFileAtomically(folder / "sequences/00/times.txt", times);
 }
@@ -143,7 +147,10 @@ void FinishTum(const fs::path& folder, const StereoCalibration& c,
   WriteFileAtomically(folder / "calibration.txt",
                       fmt::format("# fx fy cx cy baseline_m width height\n{} {} {} {} {} {} {}\n",
                                   c.fx, c.fy, c.cx, c.cy, c.baseline_m, c.width, c.height));
-  WriteFileAtomically(folder / "groundtruth.txt", FormatTrajectory(truth, TrajectoryFormat::kTum));
+  if (options.true_trajectory) {
+    WriteFileAtomically(folder / "groundtruth.txt",
+                        FormatTrajectory(truth, TrajectoryFormat::kTum));
+  }
 }
 
 // --- All
@@ -319,7 +326,7 @@ void DatasetWriter::Finish(const PathOfRig& path) const {
     case DatasetFormat::kEuroc:
       return FinishEuroc(folder_ / "mav0", calibration_, rate_hz_, frames_, path, options_);
     case DatasetFormat::kKitti:
-      return FinishKitti(folder_, calibration_, frames_);
+      return FinishKitti(folder_, calibration_, frames_, options_);
     case DatasetFormat::kTum:
       return FinishTum(folder_, calibration_, frames_, options_);
   }

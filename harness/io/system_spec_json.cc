@@ -21,20 +21,35 @@ MaskErrors MaskErrorsFromJson(const Json& json) {
           .latency_frames = json.at("latency_frames").get<int>()};
 }
 
+constexpr const char* kStyles[] = {"", "vslam-lab", "vslam-lab-python"};
+
+VslamLabStyle StyleFromName(const std::string& name) {
+  for (int k = 0; k < 3; ++k) {
+    if (name == kStyles[k]) return static_cast<VslamLabStyle>(k);
+  }
+  throw std::invalid_argument("contract '" + name + "' is not known");
+}
+
 Json ToJson(const ExternalSystem& external) {
   return {{"command", external.command},
           {"dataset", external.dataset},
           {"trajectory", external.trajectory},
-          {"vslam_lab", external.vslam_lab},
-          {"timeout_s", external.timeout_s}};
+          {"contract", kStyles[static_cast<std::size_t>(external.vslam_lab)]},
+          {"timeout_s", external.timeout_s},
+          {"may_write", external.may_write},
+          {"environment", external.environment},
+          {"depends_on", external.depends_on}};
 }
 
 ExternalSystem ExternalFromJson(const Json& json) {
   return {.command = json.at("command").get<std::string>(),
           .dataset = json.at("dataset").get<std::string>(),
           .trajectory = json.at("trajectory").get<std::string>(),
-          .vslam_lab = json.at("vslam_lab").get<bool>(),
-          .timeout_s = json.at("timeout_s").get<double>()};
+          .vslam_lab = StyleFromName(json.at("contract").get<std::string>()),
+          .timeout_s = json.at("timeout_s").get<double>(),
+          .may_write = json.at("may_write").get<std::vector<std::string>>(),
+          .environment = json.at("environment").get<std::vector<std::string>>(),
+          .depends_on = json.at("depends_on").get<std::vector<std::string>>()};
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 #include "harness/io/vslam_lab.h"
 
+#include <charconv>
 #include <sstream>
 
 #include "harness/io/file.h"
+#include "harness/io/imu.h"
 #include "harness/io/input_error.h"
 #include "harness/io/trajectory.h"
 
@@ -27,6 +29,15 @@ std::string Camera(const StereoCalibration& c, double rate_hz, int side) {
       side, c.fx, c.fy, c.cx, c.cy, c.width, c.height, rate_hz, side * c.baseline_m);
 }
 
+std::string Imu(double rate_hz) {
+  return fmt::format(
+      "imus:\n- imu_name: imu_0\n  a_max: 176.0\n  g_max: 7.8\n"
+      "  sigma_g_c: 1.6968e-04\n  sigma_a_c: 2.0000e-3\n  sigma_gw_c: 1.9393e-05\n"
+      "  sigma_aw_c: 3.0000e-3\n  fps: {:g}\n"
+      "  T_BS: [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]\n",
+      rate_hz);
+}
+
 /// The numbers of one row, or none for a header or a comment.
 std::vector<std::string> Fields(std::string line) {
   std::replace(line.begin(), line.end(), ',', ' ');
@@ -42,9 +53,10 @@ std::vector<std::string> Fields(std::string line) {
 std::string TumLine(std::vector<std::string> fields) {
   constexpr std::size_t kDigitsOfSeconds = 11;  // more before the point: nanoseconds
   const std::string& stamp = fields[0];
-  if (stamp.find_first_of(".eE") == std::string::npos && stamp.size() > kDigitsOfSeconds) {
-    fields[0] = FormatSeconds(std::stoll(stamp));
-  }
+  std::int64_t stamp_ns = 0;
+  const auto [end, error] = std::from_chars(stamp.data(), stamp.data() + stamp.size(), stamp_ns);
+  const bool whole = error == std::errc() && end == stamp.data() + stamp.size();
+  if (whole && stamp.size() > kDigitsOfSeconds) fields[0] = FormatSeconds(stamp_ns);
   return fmt::format("{}\n", fmt::join(fields, " "));
 }
 
@@ -52,33 +64,52 @@ std::string TumLine(std::vector<std::string> fields) {
 
 void WriteVslamLabFiles(const fs::path& dataset, const StereoCalibration& calibration,
                         double rate_hz, const std::vector<FrameRequest>& frames,
-                        std::int64_t epoch_ns) {
+                        const PathOfRig& path, const ExportOptions& options) {
   std::string images = "ts_rgb_0 (ns),path_rgb_0,ts_rgb_1 (ns),path_rgb_1\n";
-  std::string truth = "ts (ns),tx (m),ty (m),tz (m),qx,qy,qz,qw\n";
   for (const FrameRequest& frame : frames) {
-    const std::int64_t stamp_ns = frame.stamp_ns + epoch_ns;
-    images += fmt::format("{0},mav0/cam0/data/{0}.png,{0},mav0/cam1/data/{0}.png\n", stamp_ns);
-    const Eigen::Vector3d p = frame.T_world_rig.translation();
-    const Eigen::Quaterniond q(frame.T_world_rig.linear());
-    truth += fmt::format("{},{},{},{},{},{},{},{}\n", stamp_ns, p.x(), p.y(), p.z(), q.x(), q.y(),
-                         q.z(), q.w());
+    images +=
+        fmt::format("{0},rgb_0/{0}.png,{0},rgb_1/{0}.png\n", frame.stamp_ns + options.epoch_ns);
+  }
+  std::string imu =
+      "ts (ns),wx (rad s^-1),wy (rad s^-1),wz (rad s^-1),ax (m s^-2),ay (m s^-2),az (m s^-2)\n";
+  for (const ImuSample& sample :
+       IdealImu(path, frames.front().stamp_ns, frames.back().stamp_ns, options.imu_rate_hz)) {
+    const Eigen::Vector3d &w = sample.angular_velocity, &a = sample.specific_force;
+    imu += fmt::format("{},{},{},{},{},{},{}\n", sample.stamp_ns + options.epoch_ns, w.x(), w.y(),
+                       w.z(), a.x(), a.y(), a.z());
   }
   WriteFileAtomically(dataset / "rgb.csv", images);
-  WriteFileAtomically(dataset / "groundtruth.csv", truth);
-  WriteFileAtomically(dataset / "calibration.yaml", "cameras:\n" + Camera(calibration, rate_hz, 0) +
-                                                        Camera(calibration, rate_hz, 1));
+  WriteFileAtomically(dataset / "imu_0.csv", imu);
+  WriteFileAtomically(dataset / "calibration.yaml",
+                      "%YAML 1.2\n---\ncameras:\n" + Camera(calibration, rate_hz, 0) +
+                          Camera(calibration, rate_hz, 1) + Imu(options.imu_rate_hz));
 }
 
-std::string VslamLabArguments(const VslamLabRun& run) {
+void LinkVslamLabImages(const fs::path& dataset) {
+  for (int side = 0; side < 2; ++side) {
+    std::error_code error;
+    fs::create_directory_symlink(fmt::format("mav0/cam{}/data", side),
+                                 dataset / fmt::format("rgb_{}", side), error);
+    if (error) throw MachineError(dataset.string() + ": cannot be linked: " + error.message());
+  }
+}
+
+std::string VslamLabArguments(const VslamLabRun& run, VslamLabStyle style) {
   const fs::path dataset = fs::absolute(run.dataset), output = fs::absolute(run.output);
-  return fmt::format(
-      "{} {} {} {} exp_id:00000 mode:stereo", Quoted("sequence_path:" + dataset.string()),
-      Quoted("calibration_yaml:" + (dataset / "calibration.yaml").string()),
-      Quoted("rgb_csv:" + (dataset / "rgb.csv").string()), Quoted("exp_folder:" + output.string()));
-}
-
-fs::path VslamLabTrajectoryPath(const VslamLabRun& run) {
-  return run.output / "00000_KeyFrameTrajectory.csv";
+  const bool python = style == VslamLabStyle::kPython;
+  std::string line;
+  for (const auto& [key, value] :
+       {std::pair<const char*, std::string>("sequence_path", dataset.string()),
+        {"calibration_yaml", (dataset / "calibration.yaml").string()},
+        {"rgb_csv", (dataset / "rgb.csv").string()},
+        {"exp_folder", output.string()},
+        {python ? "exp_it" : "exp_id", "00000"},
+        {"mode", "stereo"}}) {
+    if (!line.empty()) line += ' ';
+    line += python ? fmt::format("--{} {}", key, Quoted(value))
+                   : Quoted(fmt::format("{}:{}", key, value));
+  }
+  return line;
 }
 
 Trajectory ReadVslamLabTrajectory(const fs::path& file) {
@@ -99,7 +130,7 @@ Trajectory ReadVslamLabTrajectory(const fs::path& file) {
   fs::path as_tum = file;
   as_tum.replace_extension(".tum");
   WriteFileAtomically(as_tum, tum);
-  return ReadTrajectory(as_tum, TrajectoryFormat::kTum);
+  return ReadTrajectory(as_tum, TrajectoryFormat::kTum, {}, RowOrder::kAny);
 }
 
 }  // namespace aisle

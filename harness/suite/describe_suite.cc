@@ -1,5 +1,7 @@
 #include "harness/suite/describe_suite.h"
 
+#include <filesystem>
+
 #include "harness/io/input_error.h"
 
 namespace aisle {
@@ -22,6 +24,17 @@ void DescribeMaskErrors(Fields& fields, MaskErrors& errors) {
                  &errors.latency_frames, {0, 100});
 }
 
+std::string CheckAbsolute(const std::string& folder) {
+  return folder.starts_with('/') ? "" : "expected a folder from the root on";
+}
+
+std::string CheckVariable(const std::string& name) {
+  const bool good = name.find_first_not_of(
+                        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                        "0123456789_") == std::string::npos;
+  return good ? "" : "expected the name of a variable";
+}
+
 void DescribeExternal(Fields& fields, ExternalSystem& external) {
   fields.Text({"command",
                "the command of a foreign system; {dataset}, {calibration}, {output} and {seed} are "
@@ -29,16 +42,34 @@ void DescribeExternal(Fields& fields, ExternalSystem& external) {
                "my_slam {dataset} {calibration} {output}"},
               &external.command);
   std::string contract;
-  fields.Name(
-      {"contract", "vslam-lab: the system was wrapped for VSLAM-LAB, unchanged", "vslam-lab"},
-      &contract, {{"vslam-lab"}});
-  external.vslam_lab = contract == "vslam-lab";
+  fields.Name({"contract",
+               "vslam-lab: the system was wrapped for VSLAM-LAB, unchanged; vslam-lab-python: and "
+               "takes its arguments as --key value",
+               "vslam-lab"},
+              &contract, {{"vslam-lab", "vslam-lab-python"}});
+  if (contract == "vslam-lab") external.vslam_lab = VslamLabStyle::kWords;
+  if (contract == "vslam-lab-python") external.vslam_lab = VslamLabStyle::kPython;
   fields.Name({"dataset", "layout of the dataset that is exported for it", "euroc"},
               &external.dataset, {{"euroc", "kitti"}});
   fields.Name({"trajectory", "format of what it writes to {output}", "tum"}, &external.trajectory,
               {{"tum", "kitti", "euroc"}});
   fields.Number({"timeout_s", "seconds until the command is ended", "600"}, &external.timeout_s,
                 {1e-3, 1e9});
+  fields.Texts(
+      {"may_write", "folders where it may write, beside its own of the run", "[/srv/models/cache]"},
+      &external.may_write, CheckAbsolute);
+  fields.Texts({"environment",
+                "variables that it sees, beside PATH, HOME, the locale and those of Python, CUDA, "
+                "OpenMP and ROS",
+                "[MY_LICENCE]"},
+               &external.environment, CheckVariable);
+  fields.Texts({"depends_on",
+                "files and folders that decide what it does, beside those that the command names: "
+                "--resume looks at them",
+                "[models/net.pt]"},
+               &external.depends_on, [](const std::string& path) -> std::string {
+                 return std::filesystem::exists(path) ? "" : "there is no such file or folder";
+               });
 }
 
 void CheckExternal(Fields& fields, const ExternalSystem& external) {
@@ -47,7 +78,8 @@ void CheckExternal(Fields& fields, const ExternalSystem& external) {
                 "the command must say where {output} goes; example: command: my_slam {dataset} "
                 "{output}");
   }
-  if (external.vslam_lab && (fields.Has("dataset") || fields.Has("trajectory"))) {
+  if (external.vslam_lab != VslamLabStyle::kNone &&
+      (fields.Has("dataset") || fields.Has("trajectory"))) {
     fields.Fail("contract", "vslam-lab fixes dataset and trajectory: leave both out");
   }
 }

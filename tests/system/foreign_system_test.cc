@@ -2,6 +2,9 @@
 // and touches nothing else.
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+
+#include "harness/campaign/sandbox.h"
 #include "harness/io/file.h"
 #include "tests/system/program.h"
 
@@ -18,6 +21,17 @@ class ForeignSystemTest : public ProgramTest {
       if (run.spec.system.name == system) return run;
     }
     throw std::runtime_error("no run of " + system);
+  }
+
+  /// A trajectory of the short scene that a stand-in may leave: that of our own SLAM, outside any
+  /// report. Its stamps are the scene's.
+  std::string KnownTrajectory() const {
+    const fs::path known = folder_ / "known.txt";
+    const Said said = Run({"run", Suite("known", "  - plain\n"), "--out", Out("known")});
+    EXPECT_EQ(said.code, 0) << said.text;
+    WriteFileAtomically(known,
+                        ReadFile(fs::path(Out("known")) / "runs/short/live/plain/1/final.txt"));
+    return known.string();
   }
 };
 
@@ -58,34 +72,45 @@ TEST_F(ForeignSystemTest, WhateverItDoesEndsAsItsOwnVerdict) {
   EXPECT_LT(fs::file_size(fs::path(Out("zoo")) / "runs/short/live/floods/1/system.log"), 300000u);
 }
 
-TEST_F(ForeignSystemTest, ThatWasWrappedForVslamLabRunsUnchanged) {
-  // A stand-in that keeps the contract: takes key:value arguments, leaves a key-frame trajectory.
-  const std::string program = (folder_ / "wrapped.sh").string();
-  WriteFileAtomically(program, R"(#!/bin/sh
-for argument in "$@"; do
-  case $argument in
-    sequence_path:*) sequence=${argument#*:} ;;
-    calibration_yaml:*) calibration=${argument#*:} ;;
-    rgb_csv:*) images=${argument#*:} ;;
-    exp_folder:*) folder=${argument#*:} ;;
-    exp_id:*) id=${argument#*:} ;;
-    mode:*) mode=${argument#*:} ;;
+/// A stand-in that keeps VSLAM-LAB's contract and writes its rows from the last to the first; the
+/// arguments come as key:value, or as --key value in Python's style.
+std::string WrappedSystem(const std::string& known) {
+  return fmt::format(R"sh(#!/bin/sh
+while [ $# -gt 0 ]; do
+  case $1 in
+    --*) key=${{1#--}} value=$2; shift 2 ;;
+    *) key=${{1%%:*}} value=${{1#*:}}; shift ;;
   esac
+  eval "$key=\$value"
 done
-[ "$mode" = stereo ] && grep -q 'T_BS' "$calibration" || exit 5
-first=$(sed -n 2p "$images" | cut -d, -f2)
-[ -s "$sequence/$first" ] || exit 6
-sed -n '1p;2~3p' "$sequence/groundtruth.csv" > "$folder/${id}_KeyFrameTrajectory.csv"
-)");
-  const std::string systems =
-      fmt::format("  - {{name: wrapped, contract: vslam-lab, command: \"sh {}\"}}\n", program);
+[ "$mode" = stereo ] && grep -q 'T_BS' "$calibration_yaml" || exit 5
+first=$(sed -n 2p "$rgb_csv" | cut -d, -f2)
+case $first in rgb_0/*) ;; *) exit 6 ;; esac
+[ -s "$sequence_path/$first" ] && [ -s "$sequence_path/rgb_1/${{first#rgb_0/}}" ] || exit 7
+[ "$(wc -l <"$sequence_path/imu_0.csv")" -gt 100 ] || exit 8
+[ ! -e "$sequence_path/groundtruth.csv" ] || exit 9
+awk '!/#/ && NR % 3 == 1 {{ $1 = sprintf("%.0f", ($1 + 1600000000) * 1e9); print }}' '{}' |
+  tac | tr ' ' , >"$exp_folder/${{exp_id:-$exp_it}}_KeyFrameTrajectory.csv"
+)sh",
+                     known);
+}
+
+TEST_F(ForeignSystemTest, ThatWasWrappedForVslamLabRunsUnchanged) {
+  const std::string program = (folder_ / "wrapped.sh").string();
+  WriteFileAtomically(program, WrappedSystem(KnownTrajectory()));
+  const std::string systems = fmt::format(
+      "  - {{name: wrapped, contract: vslam-lab, command: \"sh {0}\"}}\n"
+      "  - {{name: python, contract: vslam-lab-python, command: \"sh {0}\"}}\n",
+      program);
   const Said said = Run({"run", Suite("lab", systems), "--out", Out("lab")});
   EXPECT_EQ(said.code, 0) << said.text;
   const Results results = ResultsOf(Out("lab"));
-  const RunRecord& run = results.runs.at(0);
-  EXPECT_EQ(run.status, RunStatus::kOk) << run.status_why;
-  EXPECT_EQ(run.scores.at("ate_rmse_m").n, 4u);
-  EXPECT_LT(*run.scores.at("ate_rmse_m").value, 1e-6);
+  for (const char* name : {"wrapped", "python"}) {
+    const RunRecord& run = Find(results, name);
+    EXPECT_EQ(run.status, RunStatus::kOk) << name << ": " << run.status_why;
+    EXPECT_EQ(run.scores.at("ate_rmse_m").n, 4u);
+    EXPECT_LT(*run.scores.at("ate_rmse_m").value, 0.05);
+  }
 }
 
 TEST_F(ForeignSystemTest, AnImperfectNetworkRejectsLessThanThePerfectOne) {
@@ -100,11 +125,12 @@ TEST_F(ForeignSystemTest, AnImperfectNetworkRejectsLessThanThePerfectOne) {
 }
 
 TEST_F(ForeignSystemTest, ThatFailsOnceIsFlakyAndNotForgiven) {
-  const std::string mark = Out("been_here");
+  const std::string mark = Out("mark");
+  fs::create_directories(mark);
   const std::string systems = fmt::format(
-      "  - {{name: moody, command: \"test -e {0} && cp {{dataset}}/poses/00.txt {{output}} && "
-      "exit 0; touch {0}; exit 3\", dataset: kitti, trajectory: kitti}}\n",
-      mark);
+      "  - {{name: moody, command: \"test -e {0}/been && cp {1} {{output}} && exit 0; touch "
+      "{0}/been; exit 3\", dataset: kitti, may_write: [{0}]}}\n",
+      mark, KnownTrajectory());
   const Said said = Run({"run", Suite("moody", systems), "--out", Out("moody")});
   EXPECT_EQ(said.code, 1) << said.text;
   const Results results = ResultsOf(Out("moody"));
@@ -114,6 +140,121 @@ TEST_F(ForeignSystemTest, ThatFailsOnceIsFlakyAndNotForgiven) {
   ASSERT_EQ(results.verdicts.size(), 1u);
   EXPECT_TRUE(results.verdicts[0].flaky);
   EXPECT_FALSE(results.verdicts[0].passed);
+}
+
+TEST_F(ForeignSystemTest, SpoilsItsOwnDatasetAlone) {
+  const std::string known = KnownTrajectory();
+  const std::string whole =
+      "test -s {dataset}/mav0/cam1/data.csv && grep -q png {dataset}/mav0/cam0/data.csv && ";
+  const std::string systems = fmt::format(
+      "  - {{name: spoils, command: \"echo 1,none >{{dataset}}/mav0/cam0/data.csv; rm -r "
+      "{{dataset}}/mav0/cam1; chmod 0 {{dataset}}; cp {0} {{output}}\", trajectory: tum}}\n"
+      "  - {{name: reads, command: \"{1}cp {0} {{output}}\"}}\n",
+      known, whole);
+  const Said said = Run({"run", Suite("spoilt", systems), "--out", Out("spoilt")});
+  const Results results = ResultsOf(Out("spoilt"));
+  // The stamps of what is known lack the dataset's epoch, which neither the one nor the other
+  // minds.
+  EXPECT_EQ(Find(results, "spoils").status, RunStatus::kLost) << said.text;
+  EXPECT_EQ(Find(results, "reads").status, RunStatus::kLost) << said.text;
+  EXPECT_FALSE(fs::exists(fs::path(Out("spoilt")) / "runs/short/live/spoils/1/guest"));
+  // What somebody else spoils in the cache, or puts beside it, is noticed and made anew.
+  for (const auto& entry : fs::recursive_directory_iterator(std::getenv("AISLE_CACHE"))) {
+    if (entry.path().filename() == "data.csv" && entry.is_regular_file()) {
+      WriteFileAtomically(entry.path(), "spoilt");
+    }
+  }
+  ASSERT_NE(Run({"run", Suite("spoilt", systems), "--out", Out("again")}).code, 3);
+  EXPECT_EQ(Find(ResultsOf(Out("again")), "reads").status, RunStatus::kLost);
+}
+
+TEST_F(ForeignSystemTest, ThatIsHostileFindsNothingAndHarmsNobody) {
+  if (SandboxLevel() < 6) GTEST_SKIP() << DescribeSandbox();
+  const std::string known = KnownTrajectory();
+  ASSERT_EQ(Run({"run", Suite("first", "  - plain\n"), "--out", Out("first")}).code, 0);
+  const std::string program = (folder_ / "hostile.sh").string();
+  // Reads whatever may hold truth, writes wherever it can, and says what it managed to do.
+  WriteFileAtomically(program, fmt::format(R"(#!/bin/sh
+for file in $(find '{0}' '{1}' "$1" -type f ! -name '*.png' 2>/dev/null); do
+  case $file in
+    "$1"/*) case $file in *groundtruth*|*poses*|*aisle.json|*state_*) echo "truth: $file" ;; esac ;;
+    *.sh|*/known.txt|*/suites/*|*/guest/*) ;;  # what it may see
+    *) head -c 1 "$file" >/dev/null 2>&1 && echo "read: $file" ;;
+  esac
+done
+for place in '{0}' '{1}' '{0}/first' . "$HOME" /tmp /var/tmp /etc; do
+  touch "$place/aisle_was_here" 2>/dev/null && echo "wrote: $place"
+done
+env | grep AISLE && echo "environment"
+cp '{2}' "$2"
+)",
+                                           folder_.string(), std::getenv("AISLE_CACHE"), known));
+  const std::string systems = fmt::format(
+      "  - {{name: hostile, command: \"sh {} {{dataset}} {{output}}\", dataset: kitti}}\n",
+      program);
+  const Said said = Run({"run", Suite("hostile", systems), "--out", Out("hostile")});
+  EXPECT_EQ(said.code, 0) << said.text;
+  const fs::path run = fs::path(Out("hostile")) / "runs/short/live/hostile/1";
+  const std::string log = ReadFile(run / "system.log");
+  for (const char* done : {"read: ", "truth: ", "wrote: ", "environment"}) {
+    EXPECT_THAT(log, testing::Not(HasSubstr(std::string("\n") + done)));
+  }
+  EXPECT_EQ(Find(ResultsOf(Out("hostile")), "hostile").status, RunStatus::kOk);
+  // Nor does it the second time, when its first attempt's folder, with truth, lies beside it.
+  const std::string twice = fmt::format(
+      "  - {{name: hostile, command: \"sh {} {{dataset}} {{output}}; exit 3\", dataset: kitti}}\n",
+      program);
+  EXPECT_EQ(Run({"run", Suite("twice", twice), "--out", Out("twice")}).code, 1);
+  const std::string second =
+      ReadFile(fs::path(Out("twice")) / "again/runs/short/live/hostile/1/system.log");
+  EXPECT_THAT(second, testing::Not(HasSubstr("\nread: ")));
+}
+
+TEST_F(ForeignSystemTest, LeavesWhatNobodyShouldOpen) {
+  const std::string systems =
+      "  - {name: pipe, command: \"mkfifo {output}\"}\n"
+      "  - {name: device, command: \"ln -s /dev/zero {output}\"}\n"
+      "  - {name: sparse, command: \"truncate -s 60G {output}\"}\n"
+      "  - {name: large, command: \"truncate -s 1100M {output}\"}\n"
+      "  - {name: folder, command: \"mkdir {output}\"}\n"
+      "  - {name: still, command: \"yes '5 0 0 0 0 0 0 1' | head -30000 >{output}\"}\n"
+      "  - {name: shell, command: \"sh -c 'kill -SEGV $$'; exit $? # {output}\"}\n";
+  const Said said =
+      Run({"run", Suite("left", systems), "--out", Out("left"), "--no-retry", "--jobs", "2"});
+  EXPECT_EQ(said.code, 1) << said.text;
+  const Results results = ResultsOf(Out("left"));
+  const std::pair<const char*, const char*> expected[] = {
+      {"pipe", "is no regular file"},
+      {"device", "is a link that leads out of its folder"},
+      {"sparse", ""},  // stopped while it was made
+      {"large", "is larger than the allowed"},
+      {"folder", "is no regular file"},
+      {"still", "is the first column the time?"},
+      {"shell", "signal 11 (Segmentation fault)"}};
+  for (const auto& [system, why] : expected) {
+    const RunRecord& run = Find(results, system);
+    EXPECT_TRUE(run.status == RunStatus::kInvalid || run.status == RunStatus::kCrashed) << system;
+    EXPECT_THAT(run.status_why, HasSubstr(why)) << system;
+  }
+}
+
+TEST_F(ForeignSystemTest, IsRunAnewWhenItsScriptHasChanged) {
+  const std::string script = (folder_ / "slam.sh").string();
+  const std::string model = (folder_ / "model.txt").string();
+  const std::string known = KnownTrajectory();
+  WriteFileAtomically(script, "cp " + known + " $1\n");
+  WriteFileAtomically(model, "weights");
+  const std::string suite = Suite(
+      "resumed", fmt::format("  - {{name: mine, command: \"sh {} {{output}}\", dataset: kitti, "
+                             "depends_on: [{}]}}\n",
+                             script, model));
+  const std::vector<std::string> resume{"run", suite, "--out", Out("resumed"), "--resume"};
+  ASSERT_EQ(Run(resume).code, 0);
+  EXPECT_THAT(Run(resume).text, HasSubstr("1 of 1 runs are already there"));
+  WriteFileAtomically(script, "cp " + known + " $1 # another way\n");
+  EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already there")));
+  WriteFileAtomically(model, "other weights");
+  EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already there")));
 }
 
 }  // namespace

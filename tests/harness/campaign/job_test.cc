@@ -47,8 +47,11 @@ TEST(JobTest, AForeignSystemComesBackToo) {
                      .external = ExternalSystem{.command = "slam {output}",
                                                 .dataset = "kitti",
                                                 .trajectory = "euroc",
-                                                .vslam_lab = true,
-                                                .timeout_s = 0.25}};
+                                                .vslam_lab = VslamLabStyle::kPython,
+                                                .timeout_s = 0.25,
+                                                .may_write = {"/srv/cache"},
+                                                .environment = {"LICENCE"},
+                                                .depends_on = {"net.pt", "words"}}};
   EXPECT_EQ(JobFromJson(ToJson(job), "job.json").spec, job.spec);
 }
 

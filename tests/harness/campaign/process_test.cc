@@ -40,6 +40,15 @@ TEST(ProcessTest, ACrashIsASignal) {
   EXPECT_EQ(Describe(result, {}), "signal 11 (Segmentation fault)");
 }
 
+TEST(ProcessTest, ASignalToldByAShellIsNamed) {
+  const ProcessResult result = RunToEnd("sh -c 'kill -SEGV $$'; exit $?");
+  EXPECT_EQ(Describe(result, {}),
+            "exit code 139: signal 11 (Segmentation fault), as a shell tells it");
+  EXPECT_EQ(Describe(RunToEnd("exit 255"), {}), "exit code 255");
+}
+
+TEST(ProcessTest, TheLastLineNeedsNoEnd) { EXPECT_EQ(RunToEnd("printf end").log, "end\n"); }
+
 /// A file for the number of a process that should not outlive its test.
 std::string PidFile(const std::string& name) {
   return testing::TempDir() + fmt::format("aisle_{}_{}", name, ::getpid());

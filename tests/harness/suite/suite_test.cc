@@ -176,7 +176,7 @@ TEST_F(SuiteTest, ASystemIsOursAVariantToldSpoiltMasksOrACommand) {
                                              .mask_errors = {},
                                              .external = {}}));
   EXPECT_EQ(suite.systems.at(1).mask_errors, (MaskErrors{.boundary_px = 2.5, .latency_frames = 3}));
-  EXPECT_TRUE(suite.systems.at(2).external->vslam_lab);
+  EXPECT_EQ(suite.systems.at(2).external->vslam_lab, VslamLabStyle::kWords);
   EXPECT_EQ(suite.systems.at(3).external->dataset, "kitti");
   EXPECT_EQ(suite.systems.at(3).external->timeout_s, 5);
 }

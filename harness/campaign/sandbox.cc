@@ -1,0 +1,181 @@
+#include "harness/campaign/sandbox.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <set>
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The kernel's interface as of version 7, stated here: Debian's header knows version 2.
+struct RulesetAttributes {
+  std::uint64_t file_access = 0, network_access = 0, scopes = 0;
+};
+struct PathRule {
+  std::uint64_t access;
+  std::int32_t parent;
+} __attribute__((packed));
+
+constexpr std::uint64_t kWriteFile = 1 << 1, kReadFile = 1 << 2, kRemoveFolder = 1 << 4,
+                        kRemoveFile = 1 << 5, kMakeDevices = 1 << 6 | 1 << 11, kMakeFolder = 1 << 7,
+                        kMakeFile = 1 << 8, kMakeSocket = 1 << 9, kMakeFifo = 1 << 10,
+                        kMakeLink = 1 << 12, kMoveAcross = 1 << 13, kTruncate = 1 << 14;
+constexpr std::uint64_t kScopeSignals = 1 << 1;
+constexpr int kPathBeneath = 1;
+constexpr unsigned kAskVersion = 1;
+
+/// All that is regulated; running and listing are not.
+std::uint64_t Regulated(int level) {
+  std::uint64_t access = kWriteFile | kReadFile | kRemoveFolder | kRemoveFile | kMakeDevices |
+                         kMakeFolder | kMakeFile | kMakeSocket | kMakeFifo | kMakeLink;
+  if (level >= 2) access |= kMoveAcross;
+  if (level >= 3) access |= kTruncate;
+  return access;
+}
+
+std::size_t AttributeBytes(int level) {
+  return sizeof(std::uint64_t) * (level >= 6 ? 3 : level >= 4 ? 2 : 1);
+}
+
+bool IsAtOrBelow(const fs::path& path, const fs::path& folder) {
+  const auto [end, ignored] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+  return end == folder.end();
+}
+
+/// Adds rules to a set; what cannot be opened gets none and stays closed.
+class Rules {
+ public:
+  Rules(int ruleset, int level, std::vector<fs::path> hidden)
+      : ruleset_(ruleset), level_(level), hidden_(std::move(hidden)) {}
+
+  void Allow(const fs::path& path, std::uint64_t access) const {
+    const int parent = ::open(path.c_str(), O_PATH | O_CLOEXEC);
+    if (parent < 0) return;
+    struct stat status {};
+    ::fstat(parent, &status);
+    if (!S_ISDIR(status.st_mode)) access &= kReadFile | kWriteFile | kTruncate;
+    const PathRule rule{.access = access & Regulated(level_), .parent = parent};
+    ::syscall(SYS_landlock_add_rule, ruleset_, kPathBeneath, &rule, 0);
+    ::close(parent);
+  }
+
+  /// Reading, of all below the folder but what is hidden: rules can allow, not forbid, so the
+  /// folders on the way to what is hidden are opened entry by entry.
+  void AllowReading(const fs::path& folder) const {
+    if (IsANight(folder)) return;  // around the run, as around its second attempt, or beside it
+    if (std::find(hidden_.begin(), hidden_.end(), folder) != hidden_.end()) return;
+    const bool whole = std::none_of(hidden_.begin(), hidden_.end(), [&](const fs::path& hidden) {
+      return IsAtOrBelow(hidden, folder);
+    });
+    if (whole) return Allow(folder, kReadFile);
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+      std::error_code gone;
+      const fs::file_status status = entry.symlink_status(gone);
+      const bool history = entry.path().filename().string().starts_with("history.sqlite");
+      if (gone || fs::is_symlink(status) || history || entry.path() == "/dev") continue;
+      AllowReading(entry.path());
+    }
+  }
+
+  /// Those that hold nothing: neither disks nor the machine's memory.
+  void AllowDevices() const {
+    static const std::set<std::string> kClosed{"mem", "kmem", "port", "kmsg", "nvram", "mcelog"};
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator("/dev", error)) {
+      std::error_code gone;
+      const fs::file_status status = entry.symlink_status(gone);
+      const std::string name = entry.path().filename().string();
+      if (fs::is_character_file(status) && !kClosed.contains(name)) {
+        Allow(entry.path(), kReadFile | kWriteFile | kTruncate);
+      }
+    }
+    for (const char* folder : {"/dev/pts", "/dev/dri", "/dev/nvidia-caps", "/dev/bus"}) {
+      Allow(folder, kReadFile | kWriteFile);
+    }
+    AllowWriting("/dev/shm");  // memory that processes share
+  }
+
+  void AllowWriting(const fs::path& folder) const {
+    Allow(folder, Regulated(level_) & ~kMakeDevices);
+  }
+
+ private:
+  /// A report's folder, finished or not.
+  static bool IsANight(const fs::path& folder) {
+    std::error_code error;
+    const auto holds = [&](const char* name) { return fs::exists(folder / name, error); };
+    return (holds("plan.json") && holds("runs")) || (holds("results.json") && holds("junit.xml"));
+  }
+
+  const int ruleset_;
+  const int level_;
+  const std::vector<fs::path> hidden_;
+};
+
+}  // namespace
+
+int SandboxLevel() {
+  const long level = ::syscall(SYS_landlock_create_ruleset, nullptr, 0, kAskVersion);
+  return level < 0 ? 0 : static_cast<int>(level);
+}
+
+std::string DescribeSandbox() {
+  const int level = SandboxLevel();
+  if (level == 0) return "the kernel has no Landlock: nothing holds commands of others back";
+  const char* files = level < 3 ? "; this kernel cannot keep them from cutting files short" : "";
+  const char* signals = level < 6 ? "; nor from signals to other processes of the user" : "";
+  return fmt::format(
+      "Landlock {}: they read neither truth nor other runs' results, and write into their own "
+      "folders only{}{}",
+      level, files, signals);
+}
+
+Sandbox::Sandbox(const SandboxRules& rules) {
+  const int level = SandboxLevel();
+  if (level == 0) return;
+  const RulesetAttributes attributes{
+      .file_access = Regulated(level), .network_access = 0, .scopes = kScopeSignals};
+  ruleset_ = static_cast<int>(
+      ::syscall(SYS_landlock_create_ruleset, &attributes, AttributeBytes(level), 0));
+  if (ruleset_ < 0) return;
+  std::vector<fs::path> hidden;
+  for (const fs::path& path : rules.hidden) hidden.push_back(fs::weakly_canonical(path));
+  const Rules into(ruleset_, level, hidden);
+  into.AllowReading("/");
+  into.AllowDevices();
+  for (const fs::path& folder : rules.writable) into.AllowWriting(folder);
+}
+
+Sandbox::~Sandbox() {
+  if (ruleset_ >= 0) ::close(ruleset_);
+}
+
+std::vector<std::string> ScrubbedEnvironment(const fs::path& tmpdir,
+                                             const std::vector<std::string>& more) {
+  static const std::set<std::string> kUsual{"PATH", "HOME",       "USER",     "LOGNAME",
+                                            "TZ",   "SHELL",      "LANGUAGE", "LD_LIBRARY_PATH",
+                                            "LANG", "VIRTUAL_ENV"};
+  static const char* const kFamilies[] = {"LC_",  "PYTHON", "CONDA_", "PIXI_",  "CUDA_",
+                                          "OMP_", "MKL_",   "ROS_",   "AMENT_", "OPENBLAS_"};
+  std::vector<std::string> scrubbed{"TMPDIR=" + tmpdir.string()};
+  for (char** entry = ::environ; *entry != nullptr; ++entry) {
+    const std::string text = *entry;
+    const std::string name = text.substr(0, text.find('='));
+    const bool usual = kUsual.contains(name) ||
+                       std::find(more.begin(), more.end(), name) != more.end() ||
+                       std::any_of(std::begin(kFamilies), std::end(kFamilies),
+                                   [&](const char* family) { return name.starts_with(family); });
+    if (usual && name != "TMPDIR") scrubbed.push_back(text);
+  }
+  return scrubbed;
+}
+
+}  // namespace aisle

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace aisle {
+
+/// What a command of others may touch.
+struct SandboxRules {
+  /// Files and folders whose content it must not see: truth, and what other runs left. Beside these
+  /// (among the folders on the way to them) reports and histories of other nights are hidden too.
+  std::vector<std::filesystem::path> hidden;
+  /// Folders where it may read and write, below hidden ones even. Nowhere else may it write, but to
+  /// /dev/shm and devices that hold nothing.
+  std::vector<std::filesystem::path> writable;
+};
+
+/// What the kernel holds commands of others to: the version of its Landlock interface, 0 where it
+/// has none.
+int SandboxLevel();
+
+/// The same in words, for `doctor` and for logs.
+std::string DescribeSandbox();
+
+/// Rules as the kernel takes them (Landlock), ready for a process to be bound to; whoever is bound
+/// stays so with all it starts. Names of files can be listed everywhere, hidden ones too; what is
+/// neither readable nor writable by these rules gives "Permission denied".
+class Sandbox {
+ public:
+  /// Paths must exist. Where the kernel has no Landlock, nobody is held back.
+  explicit Sandbox(const SandboxRules& rules);
+  ~Sandbox();
+  Sandbox(const Sandbox&) = delete;
+  Sandbox& operator=(const Sandbox&) = delete;
+
+  /// A descriptor for landlock_restrict_self, or -1.
+  int ruleset() const { return ruleset_; }
+
+ private:
+  int ruleset_ = -1;
+};
+
+/// The environment of such a command, "NAME=VALUE" each: paths, locale and what steers Python,
+/// CUDA, OpenMP and ROS, those in `more`, and TMPDIR as given. No token or secret of the night goes
+/// along.
+std::vector<std::string> ScrubbedEnvironment(const std::filesystem::path& tmpdir,
+                                             const std::vector<std::string>& more);
+
+}  // namespace aisle
