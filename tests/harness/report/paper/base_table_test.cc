@@ -8,7 +8,7 @@ namespace {
 
 using testing::ElementsAre;
 
-RunRecord Run(const SystemSpec& system, double ate_m, std::uint64_t seed = 1) {
+RunRecord RunOf(const SystemSpec& system, double ate_m, std::uint64_t seed = 1) {
   RunRecord run;
   run.spec = {
       .scene = "paper/scene2", .scene_file = "", .twin = "live", .system = system, .seed = seed};
@@ -25,11 +25,11 @@ TEST(BaseTable, PutsEachRejectionOnBothBases) {
   Results results;
   for (const std::uint64_t seed : {1, 2, 3}) {
     const double more = 0.01 * static_cast<double>(seed);
-    results.runs.push_back(Run(BuiltIn("orbslam2"), 1 + more, seed));
-    results.runs.push_back(Run(BuiltIn("plain"), 0.1 + more, seed));
-    results.runs.push_back(Run(BuiltIn("paper"), 0.2 + more, seed));
-    results.runs.push_back(Run(OnBase("paper", "plain"), 0.05 + more, seed));
-    results.runs.push_back(Run(BuiltIn("robust"), 0.003, seed));
+    results.runs.push_back(RunOf(BuiltIn("orbslam2"), 1 + more, seed));
+    results.runs.push_back(RunOf(BuiltIn("plain"), 0.1 + more, seed));
+    results.runs.push_back(RunOf(BuiltIn("paper"), 0.2 + more, seed));
+    results.runs.push_back(RunOf(OnBase("paper", "plain"), 0.05 + more, seed));
+    results.runs.push_back(RunOf(BuiltIn("robust"), 0.003, seed));
   }
   const auto table = BaseTable(GroupByScene(results));
   ASSERT_TRUE(table);
@@ -49,7 +49,7 @@ TEST(BaseTable, PutsEachRejectionOnBothBases) {
 
 TEST(BaseTable, NeedsARejectionOnTwoBases) {
   Results results;
-  results.runs = {Run(BuiltIn("orbslam2"), 1), Run(BuiltIn("robust"), 0.003)};
+  results.runs = {RunOf(BuiltIn("orbslam2"), 1), RunOf(BuiltIn("robust"), 0.003)};
   EXPECT_FALSE(BaseTable(GroupByScene(results)));
 }
 
@@ -59,8 +59,8 @@ TEST(BaseTable, LeavesOutWhatDiffersByMoreThanItsBase) {
   SystemSpec foreign{.name = "mine"};
   foreign.external.emplace();
   Results results;
-  results.runs = {Run(BuiltIn("orbslam2"), 1), Run(BuiltIn("plain"), 0.1), Run(fast, 2),
-                  Run(blurred, 3), Run(foreign, 4)};
+  results.runs = {RunOf(BuiltIn("orbslam2"), 1), RunOf(BuiltIn("plain"), 0.1), RunOf(fast, 2),
+                  RunOf(blurred, 3), RunOf(foreign, 4)};
   const auto table = BaseTable(GroupByScene(results));
   ASSERT_TRUE(table);
   EXPECT_THAT(table->groups, ElementsAre("nothing"));
@@ -71,8 +71,8 @@ TEST(BaseTable, LeavesOutWhatDiffersByMoreThanItsBase) {
 
 TEST(BaseTable, HasNoNumberWhereASeedHasNone) {
   Results results;
-  results.runs = {Run(BuiltIn("orbslam2"), 1), Run(BuiltIn("plain"), 0.1),
-                  Run(BuiltIn("plain"), 0.1, 2)};
+  results.runs = {RunOf(BuiltIn("orbslam2"), 1), RunOf(BuiltIn("plain"), 0.1),
+                  RunOf(BuiltIn("plain"), 0.1, 2)};
   results.runs.back().scores.clear();
   const auto table = BaseTable(GroupByScene(results));
   ASSERT_TRUE(table);
