@@ -152,7 +152,13 @@ std::string SetOption(const std::string& path, const std::string& text, SlamOpti
   return UnknownPath(path, fields);
 }
 
-std::string WhyWithoutEffect(const std::string& path, Base base) {
+std::string WhyWithoutEffect(const std::string& path, const SlamOptions& options) {
+  if (path.starts_with("dynamic.paper.") && options.dynamic.method != DynamicMethod::kPaper) {
+    return fmt::format("{} has no effect: dynamic.method is not paper", path);
+  }
+  if (path.starts_with("dynamic.robust.") && options.dynamic.method != DynamicMethod::kRobust) {
+    return fmt::format("{} has no effect: dynamic.method is not robust", path);
+  }
   std::optional<Base> heeded_by;
   std::size_t longest = 0;
   for (const HeededBy& one : kHeeded) {
@@ -161,9 +167,9 @@ std::string WhyWithoutEffect(const std::string& path, Base base) {
     longest = length;
     heeded_by = one.base;
   }
-  if (!heeded_by || *heeded_by == base) return {};
-  return fmt::format("{} has no effect with base {}; only base {} looks at it", path, NameOf(base),
-                     NameOf(*heeded_by));
+  if (!heeded_by || *heeded_by == options.base) return {};
+  return fmt::format("{} has no effect with base {}; only base {} looks at it", path,
+                     NameOf(options.base), NameOf(*heeded_by));
 }
 
 std::string Validate(const SlamOptions& options) {

@@ -80,9 +80,10 @@ std::vector<OptionDescription> DescribeOptions(const SlamOptions& options);
 /// to OptionsOf that base; what is set afterwards differs from it.
 std::string SetOption(const std::string& path, const std::string& text, SlamOptions* options);
 
-/// Why the option changes nothing with this base, and what would mend it; an empty string where it
-/// may change something. For what a user has set: Validate and SetOption do not ask.
-std::string WhyWithoutEffect(const std::string& path, Base base);
+/// Why the option changes nothing with this base and this method of finding movers, and what would
+/// mend it; an empty string where it may change something. For what a user has set: Validate and
+/// SetOption do not ask.
+std::string WhyWithoutEffect(const std::string& path, const SlamOptions& options);
 
 /// The first broken rule with its path, value and bound, or an empty string.
 std::string Validate(const SlamOptions& options);

@@ -3,6 +3,7 @@
 #include "harness/io/file.h"
 #include "harness/io/places.h"
 #include "harness/judge/compare.h"
+#include "harness/judge/gate.h"
 #include "harness/record/provenance.h"
 #include "harness/record/record_json.h"
 #include "harness/report/compare_text.h"
@@ -48,10 +49,14 @@ int CompareReports(const Options& options) {
   return worse ? kVerdictFailed : kAllPassed;
 }
 
-int SetBaseline(const std::string& folder, bool json) {
+int SetBaseline(const std::string& folder, const std::string& to, bool json) {
   const Results baseline = BaselineOf(ReadResults(folder));
-  const std::filesystem::path path = BaselinePath(baseline.suite);
+  const std::filesystem::path path =
+      to.empty() ? BaselinePath(baseline.suite) : std::filesystem::path(to);
   WriteFileAtomically(path, ToJson(baseline));
+  if (const std::string blind = BlindFor(baseline); !blind.empty()) {
+    fmt::print(stderr, "aisle: warning: {}\n", blind);
+  }
   if (json) {
     fmt::print("{}", Dump({{"baseline", path.string()}, {"runs", baseline.runs.size()}}));
   } else {
@@ -83,13 +88,18 @@ void AddCompareCommand(CLI::App* app, Action* action) {
 
 void AddBaselineCommand(CLI::App* app, Action* action) {
   const auto folder = std::make_shared<std::string>();
+  const auto to = std::make_shared<std::string>();
   const auto json = std::make_shared<bool>(false);
   CLI::App* command = app->add_subcommand(
       "baseline", "make a report the baseline that `run --gate` holds its suite against");
   command->add_option("DIR", *folder, "folder with results.json")->required();
+  command->add_option(
+      "--to", *to,
+      "file to write, for `run --baseline`; default reports/baselines/SUITE.json of "
+      "the source tree this program was built from");
   command->add_flag("--json", *json, "for programs");
-  command->footer("Example: ./aisle baseline out/quickstart");
-  command->callback([=] { *action = [=] { return SetBaseline(*folder, *json); }; });
+  command->footer("Example: ./aisle baseline out/quickstart --to my_quickstart.json");
+  command->callback([=] { *action = [=] { return SetBaseline(*folder, *to, *json); }; });
 }
 
 }  // namespace aisle

@@ -37,6 +37,7 @@ struct Options {
   bool debug_dynamic = false;
   bool no_retry = false;
   bool gate = false;
+  std::string baseline;
   bool dry_run = false;
   bool json = false;
 };
@@ -54,6 +55,7 @@ void HoldAgainstBaseline(const Results& baseline, Results* results) {
 std::string CommandLine(const Options& options) {
   std::string line = "./aisle run " + Describe(options.inputs);
   if (options.gate) line += " --gate";
+  if (!options.baseline.empty()) line += " --baseline " + options.baseline;
   return line;
 }
 
@@ -65,7 +67,8 @@ std::optional<Results> ReadBaseline(const Options& options, const PlanFile& plan
     throw InputError(
         "--gate holds a suite against its baseline as it is committed: leave --set out");
   }
-  const fs::path path = BaselinePath(plan.name());
+  const fs::path path =
+      options.baseline.empty() ? BaselinePath(plan.name()) : fs::path(options.baseline);
   if (!fs::exists(path)) {
     throw InputError(path.string(), 0,
                      "no baseline for this suite; make one with `aisle baseline DIR`");
@@ -73,6 +76,9 @@ std::optional<Results> ReadBaseline(const Options& options, const PlanFile& plan
   Results baseline = ResultsFromJson(ReadFile(path), path.string());
   if (baseline.runs.empty()) {
     throw InputError(path.string(), 0, "holds no runs; make it anew with `aisle baseline DIR`");
+  }
+  if (const std::string blind = BlindFor(baseline); !blind.empty()) {
+    fmt::print(stderr, "aisle: warning: {}\n", blind);
   }
   return baseline;
 }
@@ -202,6 +208,10 @@ void AddRunCommand(CLI::App* app, Action* action) {
   command->add_flag("--dry-run", options->dry_run,
                     "check everything, say how many runs and how long, and stop there");
   command->add_flag("--gate", options->gate, "judge against the baseline too");
+  command
+      ->add_option("--baseline", options->baseline,
+                   "with --gate: this file instead of reports/baselines/SUITE.json")
+      ->needs("--gate");
   command->add_flag("--no-frame-cache", options->no_frame_cache, "render anew for every run");
   command->add_flag("--no-video", options->no_video, "no film of the runs, ffmpeg or not");
   command->add_flag("--debug-dynamic", options->debug_dynamic,

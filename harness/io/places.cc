@@ -29,10 +29,12 @@ fs::path AssetsDir() {
   return dir;
 }
 
+fs::path ScenesDir() { return AssetsDir().parent_path() / "scenes"; }
+
 std::string SceneFile(const std::string& file_or_name) {
   std::error_code error;  // names that no file can have among them
   if (fs::exists(file_or_name, error)) return file_or_name;
-  return (AssetsDir().parent_path() / "scenes" / (file_or_name + ".yaml")).string();
+  return (ScenesDir() / (file_or_name + ".yaml")).string();
 }
 
 fs::path CacheDir() { return FromEnvironment("AISLE_CACHE", SourceDir() / ".cache"); }

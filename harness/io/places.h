@@ -12,6 +12,9 @@ std::filesystem::path SourceDir();
 /// Throws InputError when there is no such folder.
 std::filesystem::path AssetsDir();
 
+/// The scenes that come with the program: beside the assets.
+std::filesystem::path ScenesDir();
+
 /// A scene given by its file, or by its name in the tree: "paper/scene2".
 std::string SceneFile(const std::string& file_or_name);
 

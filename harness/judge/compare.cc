@@ -158,9 +158,6 @@ std::optional<Comparison> CompareScore(const std::vector<const RunRecord*>& befo
   return comparison;
 }
 
-/// Fewer seeds a side than this cannot reach a p that survives the correction.
-constexpr std::size_t kFewestSeeds = 5;
-
 void Decide(const Judged& judged, const CompareOptions& options, Comparison* comparison) {
   Comparison& c = *comparison;
   const double change = c.new_median - c.old_median;
@@ -232,7 +229,8 @@ void CorrectAndDecide(const CompareOptions& options, std::vector<Comparison>* co
     }
     if (IsTested(c)) c.p = adjusted[next++];
     Decide(*judged, options, &c);
-    const double least = LeastP(c.old_n, c.new_n) * static_cast<double>(p_values.size());
+    const double least =
+        std::min(1.0, LeastP(c.old_n, c.new_n) * static_cast<double>(p_values.size()));
     if (c.change == Change::kCannotTell && least >= options.alpha) {
       c.why += fmt::format("; {} comparisons with {} and {} seeds cannot go below p = {:.2g}",
                            p_values.size(), c.old_n, c.new_n, least);

@@ -69,4 +69,15 @@ std::vector<Verdict> GateVerdicts(const Results& baseline, const Results& night,
   return verdicts;
 }
 
+std::string BlindFor(const Results& baseline) {
+  const auto cells = SeedsByCell(baseline);
+  const auto few = [](const auto& cell) { return cell.second.size() < kFewestSeeds; };
+  const auto count = std::count_if(cells.begin(), cells.end(), few);
+  if (count == 0) return {};
+  return fmt::format(
+      "{} of {} cells of the baseline have fewer than {} seeds: there a change of a median can "
+      "never be told from chance",
+      count, cells.size(), kFewestSeeds);
+}
+
 }  // namespace aisle

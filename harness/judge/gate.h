@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "harness/judge/compare.h"
@@ -11,5 +12,9 @@ namespace aisle {
 /// not.
 std::vector<Verdict> GateVerdicts(const Results& baseline, const Results& night,
                                   const CompareOptions& options = {});
+
+/// What a gate against this baseline cannot see for want of seeds, in a sentence; empty where every
+/// cell has enough.
+std::string BlindFor(const Results& baseline);
 
 }  // namespace aisle

@@ -127,7 +127,7 @@ std::vector<SystemOption> DescribeSlamOptions(const std::map<std::string, std::s
   std::vector<SystemOption> described;
   const slam::SlamOptions options = OptionsFrom(values);
   for (const slam::OptionDescription& option : slam::DescribeOptions(options)) {
-    if (!slam::WhyWithoutEffect(option.path, options.base).empty()) continue;
+    if (!slam::WhyWithoutEffect(option.path, options).empty()) continue;
     described.push_back({option.path, static_cast<SystemOption::Kind>(option.kind), option.value,
                          option.unit, option.help, option.low, option.high, option.choices});
   }
@@ -143,7 +143,7 @@ std::string CheckSlamOptions(const std::map<std::string, std::string>& values) {
   slam::SlamOptions options;
   if (!SetAll(values, &options).empty()) return {};  // said of the option itself
   for (const auto& [path, value] : values) {
-    const std::string idle = slam::WhyWithoutEffect(path, options.base);
+    const std::string idle = slam::WhyWithoutEffect(path, options);
     if (!idle.empty()) return idle;
   }
   return slam::Validate(options);

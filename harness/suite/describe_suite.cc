@@ -102,6 +102,9 @@ void DescribeLimit(Fields& fields, const Vocabulary& vocabulary, const Suite& su
   fields.Name({"system", "only of this system", "oracle"}, &limit.system, {SystemNames(suite)});
   fields.OptionalNumber({"min", "the median over seeds may not be below", "0.99"}, &limit.min);
   fields.OptionalNumber({"max", "the median over seeds may not be above", "0.02"}, &limit.max);
+  if (limit.score == "dynamic_penalty" && !IsAmong("empty", suite.twins)) {
+    fields.Fail("score", "dynamic_penalty needs the twin 'empty' among the suite's twins");
+  }
   if (!limit.min && !limit.max) fields.Fail("score", "a limit needs 'min', 'max' or both");
   if (limit.min && limit.max && *limit.min > *limit.max) {
     fields.Fail("min", "it is above 'max': no run could pass");

@@ -5,6 +5,7 @@
 
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/places.h"
 #include "harness/suite/describe_suite.h"
 #include "harness/suite/suite_reader.h"
 #include "harness/suite/yaml_guard.h"
@@ -29,7 +30,7 @@ std::string OpeningComment(const std::string& text) {
 
 /// The file that a suite of that folder means, or nothing.
 std::optional<std::string> FindScene(const fs::path& folder, const std::string& text) {
-  for (const fs::path& base : {folder, folder / ".."}) {
+  for (const fs::path& base : {folder, folder / "..", ScenesDir()}) {
     for (const char* ending : {"", ".yaml"}) {
       const fs::path candidate = base / (text + ending);
       std::error_code error;  // names that no file can have among them
@@ -43,8 +44,9 @@ std::optional<std::string> FindScene(const fs::path& folder, const std::string& 
 std::string AddScene(const fs::path& folder, const std::string& text, Suite* suite) {
   const std::optional<std::string> file = FindScene(folder, text);
   if (!file) {
-    return fmt::format("there is no such scene below {} nor below {}", folder.string(),
-                       (folder / "..").lexically_normal().string());
+    return fmt::format("there is no such scene in {}, {} or {}",
+                       folder.empty() ? "this folder" : folder.string(),
+                       (folder / "..").lexically_normal().string(), ScenesDir().string());
   }
   const SuiteScene scene{SceneName(*file), *file};
   for (const SuiteScene& other : suite->scenes) {

@@ -1,5 +1,6 @@
 #include "harness/judge/compare.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <random>
@@ -145,6 +146,12 @@ TEST(GateTest, AScoreThatVanishedFailsAndSaysWhy) {
   EXPECT_NE(on_partly.why.find("9 seeds had a value, 8 have one; seed 4"), std::string::npos);
   // What the baseline never had may stay away.
   EXPECT_TRUE(On(GateVerdicts(deleted, deleted), "ate_rmse_m").passed);
+}
+
+TEST(GateTest, SaysWhereSeedsAreTooFewToSeeAnything) {
+  EXPECT_THAT(BlindFor(Night(0.02, 4)),
+              testing::HasSubstr("1 of 1 cells of the baseline have fewer than 5"));
+  EXPECT_EQ(BlindFor(Night(0.02, 5)), "");
 }
 
 TEST(GateTest, SeedsThatDidNotRunFail) {

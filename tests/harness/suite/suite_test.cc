@@ -137,6 +137,8 @@ TEST_F(SuiteTest, MistakesAreNamedWithPlaceAndRemedy) {
       {good + "limits: [{score: ate_rmse_m, min: 2, max: 1}]\n", "it is above 'max'"},
       {good + "limits: [{score: ate_rmse_m, max: tiny}]\n",
        "s.yaml:5:35: limits[0].max: expected a number, got 'tiny'"},
+      {good + "limits: [{score: dynamic_penalty, max: 1}]\n",
+       "s.yaml:5:18: limits[0].score: dynamic_penalty needs the twin 'empty'"},
       {good + "limits: [{score: ate_rmse_m, twin: empty, max: 1}]\n",
        "s.yaml:5:36: limits[0].twin: expected one of live"},
       {"suite: &a x\nquestion: *a\n",
@@ -149,7 +151,7 @@ TEST_F(SuiteTest, MistakesAreNamedWithPlaceAndRemedy) {
       {"suite: a\nscenes: []\nsystems: [oracle]\n",
        "s.yaml:2:9: scenes: expected a list with an entry at least"},
       {"suite: a\nscenes: [paper/none]\nsystems: [oracle]\n",
-       "s.yaml:2:10: scenes: 'paper/none': there is no such scene below"},
+       "s.yaml:2:10: scenes: 'paper/none': there is no such scene in"},
       {"suite: a\nscenes: [paper/one, ../paper/one.yaml]\nsystems: [oracle]\n",
        "would both be called 'paper/one'"},
   };

@@ -173,10 +173,11 @@ TEST(OptionsWithoutEffect, ChangeNoBitWithTheirBase) {
     SlamOptions changed = as_is;
     int idle = 0;
     for (const OptionDescription& one : DescribeOptions(as_is)) {
-      if (WhyWithoutEffect(one.path, base).empty()) continue;
+      if (WhyWithoutEffect(one.path, as_is).empty()) continue;
       ++idle;
       for (const std::string& text : ExtremesOf(one)) {
-        if (text != one.value) ASSERT_EQ(SetOption(one.path, text, &changed), "");
+        if (text == one.value) continue;
+        ASSERT_EQ(SetOption(one.path, text, &changed), "") << one.path;
       }
     }
     EXPECT_GT(idle, 10);

@@ -152,15 +152,27 @@ TEST(SetOption, KnowsNothingOfWhatTheDriverOwns) {
 }
 
 TEST(WhyWithoutEffect, NamesTheBaseThatLooksAtTheOption) {
-  EXPECT_EQ(WhyWithoutEffect("track.local_keyframes", Base::kPlain), "");
-  EXPECT_EQ(WhyWithoutEffect("track.local_keyframes", Base::kOrbSlam2),
+  const SlamOptions plain = OptionsOf(Base::kPlain), orbslam2 = OptionsOf(Base::kOrbSlam2);
+  EXPECT_EQ(WhyWithoutEffect("track.local_keyframes", plain), "");
+  EXPECT_EQ(WhyWithoutEffect("track.local_keyframes", orbslam2),
             "track.local_keyframes has no effect with base orbslam2; only base plain looks at it");
-  EXPECT_EQ(WhyWithoutEffect("orbslam2.map_ratio", Base::kPlain),
+  EXPECT_EQ(WhyWithoutEffect("orbslam2.map_ratio", plain),
             "orbslam2.map_ratio has no effect with base plain; only base orbslam2 looks at it");
-  EXPECT_EQ(WhyWithoutEffect("orbslam2.map_ratio", Base::kOrbSlam2), "");
+  EXPECT_EQ(WhyWithoutEffect("orbslam2.map_ratio", orbslam2), "");
   // The rejection of movers, which both bases have, predicts the motion across a gap.
-  EXPECT_EQ(WhyWithoutEffect("track.longest_gap_s", Base::kOrbSlam2), "");
-  EXPECT_EQ(WhyWithoutEffect("feature.features", Base::kOrbSlam2), "");
+  EXPECT_EQ(WhyWithoutEffect("track.longest_gap_s", orbslam2), "");
+  EXPECT_EQ(WhyWithoutEffect("feature.features", orbslam2), "");
+}
+
+TEST(WhyWithoutEffect, NamesTheMethodThatLooksAtTheOption) {
+  SlamOptions options;
+  options.dynamic.method = DynamicMethod::kRobust;
+  EXPECT_EQ(WhyWithoutEffect("dynamic.robust.field.memory", options), "");
+  EXPECT_EQ(WhyWithoutEffect("dynamic.paper.flow.window_px", options),
+            "dynamic.paper.flow.window_px has no effect: dynamic.method is not paper");
+  options.dynamic.method = DynamicMethod::kNone;
+  EXPECT_EQ(WhyWithoutEffect("dynamic.robust.field.memory", options),
+            "dynamic.robust.field.memory has no effect: dynamic.method is not robust");
 }
 
 TEST(Validate, CoversEveryPartWithItsPath) {
