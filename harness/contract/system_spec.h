@@ -36,8 +36,8 @@ struct SystemSpec {
 /// A built-in system as it is.
 inline SystemSpec BuiltIn(const std::string& name) { return {.name = name, .like = name}; }
 
-/// Whose decisions one of our systems tracks and maps by: "orbslam2" or "plain"; empty for a foreign
-/// one. The published systems stand on the published base, our own on ours.
+/// Whose decisions one of our systems tracks and maps by: "orbslam2" or "plain"; empty for a
+/// foreign one. The published systems stand on the published base, our own on ours.
 inline std::string BaseOf(const SystemSpec& spec) {
   if (spec.external) return "";
   if (const auto base = spec.options.find("base"); base != spec.options.end()) return base->second;

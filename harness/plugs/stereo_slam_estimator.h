@@ -23,8 +23,8 @@ struct StereoSlamEstimatorOptions {
   bool draw_stages = false;   ///< estimates can draw how the movers were found; changes no result
 };
 
-/// Every option of our SLAM that its base looks at; its value where `options` are set, by path. Throws InputError for one
-/// that cannot be.
+/// Every option of our SLAM that its base looks at; its value where `options` are set, by path.
+/// Throws InputError for one that cannot be.
 std::vector<SystemOption> DescribeSlamOptions(const std::map<std::string, std::string>& options);
 
 /// What is wrong with one option and its value, or an empty string.

@@ -5,20 +5,6 @@
 #include "slam/map/successor.h"
 
 namespace aisle::slam {
-namespace {
-
-/// What the map shows of a keyframe that waits: it and the landmarks that it makes. That it sees
-/// older ones too is worked in when its turn comes, as ORB-SLAM2's mapper does: until then none of
-/// them counts as seen once more, and an older keyframe stays the one that shares most.
-MapEdit Announced(MapEdit edit) {
-  for (Keyframe& keyframe : edit.new_keyframes) {
-    keyframe.landmarks.assign(keyframe.landmarks.size(), LandmarkId{});
-  }
-  return edit;
-}
-
-}  // namespace
-
 MapKeeper::MapKeeper(const StereoCamera& camera, const MapKeeperOptions& options,
                      MappingPolicy policy, std::optional<Vocabulary> vocabulary)
     : camera_(camera),
@@ -86,7 +72,7 @@ void MapKeeper::GoOn(const Map& before, std::int64_t frame_now) {
   }
   for (MapEdit& keyframe : waiting_) {
     keyframe = CarriedOver(keyframe, before, map_);
-    map_.Apply(Announced(keyframe));
+    map_.Apply(keyframe);
   }
 }
 
@@ -130,7 +116,7 @@ void MapKeeper::TakeClosing(Map closed, std::int64_t frame_now) {
 void MapKeeper::WorkIn(const MapEdit& edit, std::int64_t frame_now) {
   if (busy()) {
     waiting_.push_back(edit);
-    map_.Apply(Announced(edit));
+    map_.Apply(edit);
     return;
   }
   map_.Apply(edit);
