@@ -101,7 +101,7 @@ TEST_F(BrokenInputTest, SuitesAndScenes) {
        "aisle: {d}/s.yaml:4:18: systems[0].name: 'mask_errors' are for a system like oracle or "
        "semantic, which are told their masks"},
       {run, WithSystem("{name: n, like: paper, options: {keyframe.least_inliers: 20}}"),
-       "aisle: {d}/s.yaml:4:36: systems[0].options: keyframe.least_inliers has no effect with base "
+       "aisle: {d}/s.yaml:4:18: systems[0].name: keyframe.least_inliers has no effect with base "
        "orbslam2; only base plain looks at it"},
       {run, WithSystem("{name: n, like: oracle, mask_errors: {miss_share: 2}}"),
        "aisle: {d}/s.yaml:4:61: systems[0].mask_errors.miss_share: expected a number from 0 to 1, "
