@@ -5,6 +5,7 @@
 #include "slam/map/successor.h"
 
 namespace aisle::slam {
+
 MapKeeper::MapKeeper(const StereoCamera& camera, const MapKeeperOptions& options,
                      MappingPolicy policy, std::optional<Vocabulary> vocabulary)
     : camera_(camera),
@@ -114,12 +115,11 @@ void MapKeeper::TakeClosing(Map closed, std::int64_t frame_now) {
 }
 
 void MapKeeper::WorkIn(const MapEdit& edit, std::int64_t frame_now) {
+  map_.Apply(edit);
   if (busy()) {
     waiting_.push_back(edit);
-    map_.Apply(edit);
     return;
   }
-  map_.Apply(edit);
   worked_in_ = edit.new_keyframes.front().id;
   StartStep(0, map_, frame_now);
 }
