@@ -156,12 +156,15 @@ TEST(OptionBounds, OfTheOrbSlam2BaseAreSafe) {
   for (const char* group : kOfOrbSlam2) ExpectEveryBoundIsSafe(film, base, group);
 }
 
-/// A drive that loses its way for two frames, to the last bit.
+/// Every pose of a drive, as known at its frame and as known at the end.
 std::vector<Eigen::Matrix4d> PosesOf(const std::vector<StereoImages>& film,
                                      const SlamOptions& options) {
   StereoSlam slam(RoomScene(true).camera(), options);
-  for (const StereoImages& images : film) slam.Track(images);
   std::vector<Eigen::Matrix4d> poses;
+  for (const StereoImages& images : film) {
+    const TrackedFrame frame = slam.Track(images);
+    if (frame.T_world_rig) poses.push_back(frame.T_world_rig->matrix());
+  }
   for (const StampedPose& pose : slam.Finish()) poses.push_back(pose.T_world_rig.matrix());
   return poses;
 }
@@ -177,12 +180,12 @@ TEST(OptionsWithoutEffect, ChangeNoBitWithTheirBase) {
       ++idle;
       for (const std::string& text : ExtremesOf(one)) {
         if (text == one.value) continue;
-        ASSERT_EQ(SetOption(one.path, text, &changed), "") << one.path;
+        ASSERT_EQ(SetOption(one.path, text, &changed), "");
       }
     }
     EXPECT_GT(idle, 10);
     const std::vector<Eigen::Matrix4d> poses = PosesOf(film, as_is);
-    EXPECT_GE(poses.size(), 5u);
+    EXPECT_GE(poses.size(), 10u);
     EXPECT_EQ(PosesOf(film, changed), poses);
   }
 }
