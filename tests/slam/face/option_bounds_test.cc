@@ -180,12 +180,12 @@ TEST(OptionsWithoutEffect, ChangeNoBitWithTheirBase) {
       ++idle;
       for (const std::string& text : ExtremesOf(one)) {
         if (text == one.value) continue;
-        ASSERT_EQ(SetOption(one.path, text, &changed), "");
+        ASSERT_EQ(SetOption(one.path, text, &changed), "") << one.path;
       }
     }
     EXPECT_GT(idle, 10);
     const std::vector<Eigen::Matrix4d> poses = PosesOf(film, as_is);
-    EXPECT_GE(poses.size(), 10u);
+    EXPECT_GE(poses.size(), 5u);
     EXPECT_EQ(PosesOf(film, changed), poses);
   }
 }
