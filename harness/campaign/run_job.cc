@@ -57,10 +57,13 @@ RunRecord RecordOf(const Job& job, const RunResult& result, const RunScore& scor
   return record;
 }
 
-/// Where truth lies (the scene, the frames and datasets with it) and what other runs and nights
-/// left.
+/// Where truth lies (the scene, those it extends, the frames and datasets) and what other runs and
+/// nights left.
 std::vector<std::filesystem::path> HiddenFromGuests(const Job& job) {
-  return {job.out, CacheDir(), job.spec.scene_file, SourceDir() / "reports" / "baselines"};
+  std::vector<std::filesystem::path> hidden{job.out, CacheDir(),
+                                            SourceDir() / "reports" / "baselines"};
+  for (const std::string& file : FilesOfScene(job.spec.scene_file)) hidden.emplace_back(file);
+  return hidden;
 }
 
 void RunForeign(const Job& job) {
