@@ -74,6 +74,15 @@ void MakeParent(const fs::path& path) {
   }
 }
 
+/// Why a file that was asked for cannot be read: whoever named it, or the machine.
+[[noreturn]] void FailToRead(const fs::path& path) {
+  const int error = errno;
+  for (const int machine : {EMFILE, ENFILE, ENOMEM, EIO, ENOSPC}) {
+    if (error == machine) Fail("read", path);
+  }
+  throw InputError(path.string(), 0, fmt::format("cannot be read: {}", std::strerror(error)));
+}
+
 /// What can be read from where the descriptor stands.
 std::string ReadAll(const Descriptor& file, const fs::path& path, std::size_t max_bytes) {
   struct stat status {};
@@ -91,9 +100,7 @@ std::string ReadAll(const Descriptor& file, const fs::path& path, std::size_t ma
     if (size == bytes.size()) bytes.resize(2 * size);
     const ssize_t count = ::read(file.get(), bytes.data() + size, bytes.size() - size);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) {
-      throw InputError(path.string(), 0, fmt::format("cannot be read: {}", std::strerror(errno)));
-    }
+    if (count < 0) FailToRead(path);
     if (count == 0) break;
     size += static_cast<std::size_t>(count);
     if (size > max_bytes) throw too_large();
@@ -155,7 +162,7 @@ std::string ReadFile(const fs::path& path, std::size_t max_bytes) {
   if (!there) throw InputError(path.string(), 0, "no such file");
   if (fs::is_directory(path, error)) throw InputError(path.string(), 0, "is a folder, not a file");
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) throw InputError(path.string(), 0, "cannot be read");
+  if (file < 0) FailToRead(path);
   return ReadAll(Descriptor(file), path, max_bytes);
 }
 

@@ -164,6 +164,9 @@ sim::Simulator OpenSimulator(const SimulatedSequenceOptions& options) {
                                  .threads = options.threads,
                                  .isa = options.isa,
                                  .light_progress = LightBar(options.scene_name)});
+  } catch (const std::system_error& error) {
+    if (error.code() == std::errc::not_enough_memory) throw MachineError(error.what());
+    throw InputError(error.what());
   } catch (const std::runtime_error& error) {
     throw InputError(error.what());
   }

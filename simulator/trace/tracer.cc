@@ -7,6 +7,7 @@
 #include <cstring>
 #include <mutex>
 #include <stdexcept>
+#include <system_error>
 #include <tuple>
 
 #include "simulator/trace/meet.h"
@@ -34,6 +35,10 @@ Device NewDevice(const std::string& isa) {
   const std::string config = isa == "native" ? "" : "isa=" + isa;
   Device device(rtcNewDevice(config.c_str()));
   if (!device) {
+    if (rtcGetDeviceError(nullptr) == RTC_ERROR_OUT_OF_MEMORY) {
+      throw std::system_error(std::make_error_code(std::errc::not_enough_memory),
+                              "Embree does not start");
+    }
     throw std::runtime_error(
         fmt::format("Embree does not start with isa '{}'; try avx2, sse4.2 or native", isa));
   }

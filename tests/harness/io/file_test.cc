@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -77,6 +78,17 @@ TEST_F(FileTest, AFileInTheWayOfAFolderIsTheUsersMistake) {
   EXPECT_THROW(WriteFileAtomically(folder_ / "file/x", ""), InputError);
   EXPECT_THROW(WriteFileAtomically(folder_ / std::string(5000, 'n') / "x", ""), InputError);
   EXPECT_THROW(ReadFile(std::string(5000, 'n')), InputError);
+}
+
+TEST_F(FileTest, TooManyOpenFilesAreTheMachinesTrouble) {
+  WriteFileAtomically(folder_ / "file", "text");
+  rlimit before{};
+  ::getrlimit(RLIMIT_NOFILE, &before);
+  const rlimit none{0, before.rlim_max};
+  ::setrlimit(RLIMIT_NOFILE, &none);
+  EXPECT_THROW(ReadFile(folder_ / "file"), MachineError);
+  ::setrlimit(RLIMIT_NOFILE, &before);
+  EXPECT_EQ(ReadFile(folder_ / "file"), "text");
 }
 
 TEST_F(FileTest, ALockIsHeldByOneAtATime) {
