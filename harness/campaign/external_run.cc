@@ -28,25 +28,20 @@ std::string ShellQuoted(const std::string& text) {
 }
 
 /// The folders of one foreign system in one run. Only the three may it write to.
-class GuestRooms {
- public:
-  explicit GuestRooms(const fs::path& folder)
-      : folder_(fs::absolute(folder).lexically_normal()),
-        dataset(folder_ / "dataset"),
-        output(folder_ / "output"),
-        temporary(folder_ / "tmp") {
-    RemoveFolder(folder_);
+struct GuestRooms {
+  explicit GuestRooms(const fs::path& at)
+      : folder(fs::absolute(at).lexically_normal()),
+        dataset(folder / "dataset"),
+        output(folder / "output"),
+        temporary(folder / "tmp") {
+    RemoveFolder(folder);
     for (const fs::path& room : {dataset, output, temporary}) fs::create_directories(room);
   }
-  ~GuestRooms() { RemoveFolder(folder_); }
+  ~GuestRooms() { RemoveFolder(folder); }
   GuestRooms(const GuestRooms&) = delete;
   GuestRooms& operator=(const GuestRooms&) = delete;
 
- private:
-  const fs::path folder_;
-
- public:
-  const fs::path dataset, output, temporary;
+  const fs::path folder, dataset, output, temporary;
 };
 
 ProcessResult RunToEnd(const std::string& command, const ProcessLimits& limits,

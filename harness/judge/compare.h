@@ -8,10 +8,10 @@
 
 namespace aisle {
 
-/// Nine seeds a side show a shift of two standard deviations in 97 nights of 100; three never can.
 /// Fewer seeds a side than this cannot reach a p that survives the correction.
 inline constexpr std::size_t kFewestSeeds = 5;
 
+/// Nine seeds a side show a shift of two standard deviations in 97 nights of 100; three never can.
 struct CompareOptions {
   double alpha = 0.01;          ///< chance of any false alarm in a whole comparison
   double minimum_effect = 0.1;  ///< of the old median; smaller changes are nobody's trouble

@@ -7,14 +7,11 @@ namespace {
 
 /// Keyframes that see any of the landmarks, most first, then newer first.
 std::vector<KeyframeId> Observers(const Map& map, const std::vector<LandmarkId>& landmarks) {
-  std::map<KeyframeId, int> shared;
-  for (const LandmarkId id : landmarks) {
-    const Landmark* landmark = map.Find(id);
-    if (!landmark) continue;
-    for (const Observation& observation : landmark->observations) ++shared[observation.keyframe];
-  }
+  const std::vector<int> shared = CountSeen(map, landmarks);
   std::vector<std::pair<int, KeyframeId>> ranked;
-  for (const auto& [keyframe, count] : shared) ranked.emplace_back(count, keyframe);
+  for (std::size_t i = 0; i < shared.size(); ++i) {
+    if (shared[i] > 0) ranked.push_back({shared[i], {static_cast<std::int64_t>(i)}});
+  }
   std::sort(ranked.rbegin(), ranked.rend());
   std::vector<KeyframeId> observers;
   for (const auto& [count, keyframe] : ranked) observers.push_back(keyframe);

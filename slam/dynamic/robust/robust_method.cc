@@ -29,8 +29,9 @@ cv::Mat1f Accumulate(const cv::Mat1f& known, const PastEvidence& past,
   cv::Mat1f still(known.size());
   tbb::parallel_for(0, known.rows, [&](int y) {
     const float *was = known[y], *off = past.ended[y];
+    float* left = still[y];
     for (int x = 0; x < known.cols; ++x) {
-      still(y, x) = was[x] > 0 ? std::max(was[x] - off[x], 0.0F) : was[x];
+      left[x] = was[x] > 0 ? std::max(was[x] - off[x], 0.0F) : was[x];
     }
   });
   cv::Mat1f log_odds;
