@@ -7,13 +7,11 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "slam/dynamic/common/stopwatch.h"
+#include "slam/common/stopwatch.h"
 #include "slam/stereo/match_stereo.h"
 
 namespace aisle::slam {
 namespace {
-
-using dynamic::Stopwatch;
 
 Measurement Measure(const Keypoint& keypoint, const Disparity& disparity, double sigma_px,
                     bool equal_columns, const cv::Mat1f& confidence) {

@@ -6,7 +6,7 @@
 
 #include <stdexcept>
 
-#include "slam/dynamic/common/stopwatch.h"
+#include "slam/common/stopwatch.h"
 #include "slam/dynamic/dynamic_detector.h"
 #include "slam/map/map_file.h"
 #include "slam/mapping/map_keeper.h"
@@ -17,8 +17,6 @@
 
 namespace aisle::slam {
 namespace {
-
-using dynamic::Stopwatch;
 
 /// The options with what one stage's say to another's. Throws where they or the camera break a
 /// rule.

@@ -2,10 +2,10 @@
 
 #include <unistd.h>
 
-#include <chrono>
 #include <fstream>
 #include <opencv2/features2d.hpp>
 
+#include "harness/common/stopwatch.h"
 #include "harness/plugs/systems.h"
 
 namespace aisle {
@@ -19,10 +19,9 @@ double ResidentMib() {
 }
 
 double MillisecondsOf(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   work();
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-  return took.count();
+  return watch.ElapsedMs();
 }
 
 double ReferenceMs(const StereoFrame& frame) {

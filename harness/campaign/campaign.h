@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "harness/campaign/schedule.h"
-#include "harness/run/stopwatch.h"
+#include "harness/common/stopwatch.h"
 
 namespace aisle {
 

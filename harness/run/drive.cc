@@ -2,8 +2,8 @@
 
 #include <sys/resource.h>
 
+#include "harness/common/stopwatch.h"
 #include "harness/run/frames_ahead.h"
-#include "harness/run/stopwatch.h"
 #include "harness/score/difficulty.h"
 #include "harness/score/masks.h"
 

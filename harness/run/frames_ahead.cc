@@ -1,6 +1,6 @@
 #include "harness/run/frames_ahead.h"
 
-#include "harness/run/stopwatch.h"
+#include "harness/common/stopwatch.h"
 
 namespace aisle {
 

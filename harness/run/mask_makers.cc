@@ -5,6 +5,8 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "harness/common/mix.h"
+
 namespace aisle {
 namespace {
 
@@ -14,15 +16,12 @@ constexpr std::int64_t kMissFrames = 10;
 /// moved left by at most this much, covers it best.
 constexpr int kMaxDisparityPx = 200;
 
-/// Uniform in (0, 1), from its content alone (splitmix64, Steele et al. 2014).
+/// Uniform in (0, 1), from its content alone.
 double Uniform(std::uint64_t seed, std::uint64_t stream, std::int64_t frame, int instance) {
   std::uint64_t z = seed;
   for (const std::uint64_t part :
        {stream, static_cast<std::uint64_t>(frame), static_cast<std::uint64_t>(instance)}) {
-    z += 0x9E3779B97F4A7C15u + part * 0xD1B54A32D192ED03u;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    z ^= z >> 31;
+    z = Mix(z + kGolden + part * 0xD1B54A32D192ED03u);
   }
   return (static_cast<double>(z >> 11) + 0.5) * 0x1.0p-53;
 }

@@ -5,17 +5,15 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "harness/common/mix.h"
 #include "harness/score/statistics.h"
 
 namespace aisle {
 namespace {
 
-/// Splitmix64 (Steele et al. 2014): the n-th number of a stream from its content alone.
+/// The n-th number of a stream, from its content alone.
 std::uint64_t Random(std::uint64_t seed, std::uint64_t n) {
-  std::uint64_t z = seed * 0x9E3779B97F4A7C15u + n * 0xD1B54A32D192ED03u + 0x2545F4914F6CDD1Du;
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-  return z ^ (z >> 31);
+  return Mix(seed * kGolden + n * 0xD1B54A32D192ED03u + 0x2545F4914F6CDD1Du);
 }
 
 /// Twice the mid-ranks of both samples together, a first: whole numbers, so sums are exact.

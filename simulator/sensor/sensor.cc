@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "simulator/common/mix.h"
+
 namespace aisle::sim {
 namespace {
 
@@ -43,13 +45,6 @@ std::vector<float> NormalTable() {
     table[static_cast<std::size_t>(i)] = static_cast<float>(InverseNormal((i + 0.5) / kSize));
   }
   return table;
-}
-
-/// 64 → 64 bits, every input bit reaching every output bit (the finaliser of SplitMix64).
-std::uint64_t Mix(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
 }
 
 /// A hash of a 32-bit counter under a key (Wellons' low-bias mixer), cheap enough for a loop that
@@ -117,8 +112,8 @@ PixelResponse MakeResponse(const cv::Mat1f& vignetting, const SensorOptions& opt
 cv::Mat1b Expose(const cv::Mat1f& radiance, const PixelResponse& response,
                  const SensorOptions& options, const NoiseKey& key) {
   static const std::vector<float> normal = NormalTable();
-  const std::uint64_t stream = Mix(Mix(key.seed + 0x9e3779b97f4a7c15u) ^
-                                   (static_cast<std::uint64_t>(key.frame) << 32 | key.camera));
+  const std::uint64_t stream =
+      Mix(Mix(key.seed + kGolden) ^ (static_cast<std::uint64_t>(key.frame) << 32 | key.camera));
   const float white_e = options.full_well_e / options.gain;
   const float electrons_per_radiance = options.exposure * white_e;
   const float grey_per_electron = 255 / white_e;

@@ -2,7 +2,7 @@
 
 #include <unordered_map>
 
-#include "simulator/shade/hemisphere.h"
+#include "simulator/shade/emitter_rays.h"
 #include "simulator/shade/ray_packets.h"
 
 namespace aisle::sim {
@@ -12,22 +12,12 @@ constexpr float kLift = 2e-3f;        // m, along the normal
 constexpr float kDrawIn = 3e-3f;      // m, towards the triangle's centre
 constexpr float kLightGuard = 0.01f;  // m: shadow rays end so far before the light's own surface
 
-struct Points8 {
-  F8 px, py, pz, nx, ny, nz;
-};
-
-Points8 Load(std::span<const SurfacePoint> points) {
-  Points8 p;
-  for (int k = 0; k < kLanes; ++k) {
-    const SurfacePoint& point = points[std::min(static_cast<std::size_t>(k), points.size() - 1)];
-    p.px[k] = point.position.x();
-    p.py[k] = point.position.y();
-    p.pz[k] = point.position.z();
-    p.nx[k] = point.normal.x();
-    p.ny[k] = point.normal.y();
-    p.nz[k] = point.normal.z();
-  }
-  return p;
+/// Up to eight points in lanes, each with places of its own on the lights from `turn` on.
+Places8 Load(std::span<const SurfacePoint> points, std::uint32_t turn) {
+  std::array<ShadowedPlace, kLanes> places;
+  const std::size_t count = std::min(points.size(), places.size());
+  for (std::size_t i = 0; i < count; ++i) places[i] = {points[i], turn++};
+  return Places8(std::span(places).first(count));
 }
 
 /// Shadow rays to a light that gives such a share of the light, or more. Weak ones need few, as
@@ -51,20 +41,20 @@ class Light {
     area_ = 4 * cross.norm();
     normal_ = cross.normalized();
   }
-  Sample8 At(const Points8& p, F8 a, F8 b) const {
+  Sample8 At(const Places8& p, F8 a, F8 b) const {
     const Eigen::Vector3f &c = light_.center, &u = light_.half_u, &v = light_.half_v;
     Sample8 s;
-    s.dx = c.x() + a * u.x() + b * v.x() - p.px;
-    s.dy = c.y() + a * u.y() + b * v.y() - p.py;
-    s.dz = c.z() + a * u.z() + b * v.z() - p.pz;
+    s.dx = c.x() + a * u.x() + b * v.x() - p.position.x;
+    s.dy = c.y() + a * u.y() + b * v.y() - p.position.y;
+    s.dz = c.z() + a * u.z() + b * v.z() - p.position.z;
     const F8 squared = Max(s.dx * s.dx + s.dy * s.dy + s.dz * s.dz, Wide(1e-6f));
     s.distance = Sqrt(squared);
-    const F8 here = p.nx * s.dx + p.ny * s.dy + p.nz * s.dz;
+    const F8 here = p.normal.x * s.dx + p.normal.y * s.dy + p.normal.z * s.dz;
     const F8 there = -(normal_.x() * s.dx + normal_.y() * s.dy + normal_.z() * s.dz);
     s.weight = Max(here, Wide(0)) * Max(there, Wide(0)) / (squared * squared);
     return s;
   }
-  F8 Unshadowed(const Points8& p) const { return At(p, Wide(0), Wide(0)).weight * power(); }
+  F8 Unshadowed(const Places8& p) const { return At(p, Wide(0), Wide(0)).weight * power(); }
   float power() const { return area_ * light_.radiance; }
 
  private:
@@ -73,41 +63,25 @@ class Light {
   Eigen::Vector3f normal_;
 };
 
-unsigned Blocked(const Instant& instant, const Points8& p, const Sample8& s,
+unsigned Blocked(const Instant& instant, const Places8& p, const Sample8& s,
                  GeometryMask occluders) {
   const I8 valid = s.weight > 0;
   if (!Any(valid)) return 0;
   const F8 t_far = 1 - kLightGuard / Max(s.distance, Wide(2 * kLightGuard));
-  return instant.Occluded(MakeRays({p.px, p.py, p.pz}, {s.dx, s.dy, s.dz}, t_far, valid),
+  return instant.Occluded(MakeRays(p.position, {s.dx, s.dy, s.dz}, t_far, valid),
                           Coherence::kCoherent, occluders);
-}
-
-/// A shift of a light's sample places for each of eight points.
-struct Shifts8 {
-  F8 a, b;
-};
-Shifts8 ShiftsFrom(std::uint32_t first) {
-  Shifts8 shifts;
-  for (int k = 0; k < kLanes; ++k) {
-    const Eigen::Vector2f shift =
-        SpreadPoint(static_cast<int>((first + static_cast<std::uint32_t>(k)) % 65536));
-    shifts.a[k] = shift.x();
-    shifts.b[k] = shift.y();
-  }
-  return shifts;
 }
 
 /// The light's irradiance from so many places on it. They differ from point to point: lamps and the
 /// beams below them stand in line, and places that all points share would all be hidden, or none,
 /// over metres of floor. Nothing is concluded from the first few: where these all see the light,
 /// others may well not.
-F8 Gather(const Instant& instant, const Light& light, const Points8& p, const Shifts8& shifts,
-          int rays, GeometryMask occluders) {
+F8 Gather(const Instant& instant, const Light& light, const Places8& p, int rays,
+          GeometryMask occluders) {
   F8 irradiance = Wide(0);
   for (int i = 0; i < rays; ++i) {
-    const Eigen::Vector2f place = SpreadPoint(i);
-    const F8 a = place.x() + shifts.a, b = place.y() + shifts.b;
-    const Sample8 s = light.At(p, 2 * (a - Floor(a)) - 1, 2 * (b - Floor(b)) - 1);
+    const auto [a, b] = p.PlaceOnEmitter(i);
+    const Sample8 s = light.At(p, a, b);
     const unsigned blocked = Blocked(instant, p, s, occluders);
     irradiance += Select(LanesOf(blocked), Wide(0), s.weight);
   }
@@ -178,7 +152,7 @@ std::array<float, kLanes> GatherDirectLight(const Instant& instant,
                                             std::span<const float> light_scale,
                                             std::span<const SurfacePoint> points,
                                             const DirectLightOptions& options) {
-  const Points8 p = Load(points);
+  const Places8 p = Load(points, options.turn);
   // Strongest first; lanes of a packet are neighbours, so they share the order.
   std::vector<std::pair<float, std::size_t>> order;
   F8 unshadowed = Wide(0);
@@ -195,7 +169,6 @@ std::array<float, kLanes> GatherDirectLight(const Instant& instant,
   std::ranges::sort(order);
   const float all = left, enough = all * options.untraced_share;
 
-  const Shifts8 shifts = ShiftsFrom(options.turn);
   F8 sum = Wide(0), traced = Wide(0);
   for (const auto& [negative, i] : order) {
     if (left <= enough) break;
@@ -205,7 +178,7 @@ std::array<float, kLanes> GatherDirectLight(const Instant& instant,
     const int rays = std::ranges::find_if(kRays, [&](const RaysOfShare& step) {
                        return -negative >= step.share * all;
                      })->rays;
-    sum += Gather(instant, light, p, shifts, rays, options.occluders) * light_scale[i];
+    sum += Gather(instant, light, p, rays, options.occluders) * light_scale[i];
   }
   const F8 grow = Select(traced > 0, unshadowed / Max(traced, Wide(1e-12f)), Wide(1));
   std::array<float, kLanes> result;

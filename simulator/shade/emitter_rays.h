@@ -34,16 +34,21 @@ struct Places8 {
     }
   }
 
+  /// The i-th point of each place on an emitter, in halves of its sides: [-1, 1).
+  std::pair<F8, F8> PlaceOnEmitter(int i) const {
+    const Eigen::Vector2f at = SpreadPoint(i);
+    const F8 a = at.x() + shift_a, b = at.y() + shift_b;
+    return {2 * (a - Floor(a)) - 1, 2 * (b - Floor(b)) - 1};
+  }
+
   F8x3 position, normal;
   F8 shift_a, shift_b;
   I8 valid;
 };
 
-/// The i-th point of each place on an emitter.
+/// The i-th point of each place on an emitter, in the world.
 inline F8x3 PointsOn(const Emitters::Emitter& e, int i, const Places8& places) {
-  const Eigen::Vector2f at = SpreadPoint(i);
-  const F8 a = at.x() + places.shift_a, b = at.y() + places.shift_b;
-  const F8 u = 2 * (a - Floor(a)) - 1, v = 2 * (b - Floor(b)) - 1;
+  const auto [u, v] = places.PlaceOnEmitter(i);
   return {e.center.x() + u * e.half_u.x() + v * e.half_v.x(),
           e.center.y() + u * e.half_u.y() + v * e.half_v.y(),
           e.center.z() + u * e.half_u.z() + v * e.half_v.z()};

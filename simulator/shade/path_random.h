@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "simulator/common/mix.h"
+
 namespace aisle::sim {
 
 /// Random numbers of one path: the n-th depends on (seed, pixel, sample, n) alone. The first
@@ -32,13 +34,6 @@ class PathRandom {
 
  private:
   static constexpr std::uint32_t kSpread = 16;
-  static constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15u;
-
-  static std::uint64_t Mix(std::uint64_t x) {  // SplitMix64's finaliser
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return x ^ (x >> 31);
-  }
   static std::uint32_t Reversed(std::uint32_t x) {
     x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
     x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/common/mix.h"
 #include "simulator/shade/emitter_rays.h"
 #include "simulator/shade/ray_packets.h"
 
@@ -99,8 +100,10 @@ StaticVisibility::Node StaticVisibility::Trace(const Instant& instant, Key key) 
             .seen = std::vector<std::uint8_t>(emitters_.size())};
   if (!node.is_free) return node;
   const std::vector<float> shares = emitters_.Shares(position, all_on_);
-  // All nodes ask for the same points, so that neighbours err alike and a passer-by sees no noise.
-  const std::array<ShadowedPlace, 1> place = {{{{position, Eigen::Vector3f::UnitZ()}, 0}}};
+  // Each node asks for points of its own: lamps and the beams below them stand in line, and points
+  // that all nodes share are hidden together, or none of them, over metres.
+  const std::array<ShadowedPlace, 1> place = {
+      {{{position, Eigen::Vector3f::UnitZ()}, static_cast<std::uint32_t>(Mix(key))}}};
   Places8 lanes{std::span<const ShadowedPlace>(place)};
   // Eight rays of one place share a packet: lane k asks for point i + k.
   for (std::size_t e = 0; e < emitters_.size(); ++e) {

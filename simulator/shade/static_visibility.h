@@ -11,10 +11,10 @@
 namespace aisle::sim {
 
 struct StaticVisibilityOptions {
-  float spacing_m = 0.2f;      ///< of the nodes
-  float rays_per_share = 256;  ///< shadow rays of a node, times an emitter's share of its light
-  int least_rays = 4, most_rays = 32;  ///< for one emitter
-  std::size_t most_nodes = 1u << 20;   ///< kept; then all are forgotten and found again as needed
+  float spacing_m = 0.2f;       ///< of the nodes
+  float rays_per_share = 1024;  ///< shadow rays of a node, times an emitter's share of its light
+  int least_rays = 16, most_rays = 128;  ///< for one emitter
+  std::size_t most_nodes = 1u << 20;     ///< kept; then all are forgotten and found again as needed
 };
 
 /// How much of each emitter the static world leaves free, in free space: known at the nodes of a

@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "slam/common/stopwatch.h"
+
 namespace aisle::slam {
 
 /// One piece of background work whose result is taken at an appointed frame: never earlier, and if
@@ -32,12 +34,7 @@ class BackgroundJob {
   /// by the time spent waiting. What the work threw comes out here.
   std::optional<Result> TakeIfDue(std::int64_t frame, double& wait_ms, bool anytime = false) {
     if (!pending() || !(anytime ? IsReady() : frame >= due_frame_)) return std::nullopt;
-    const auto start = std::chrono::steady_clock::now();
-    Result result = future_.get();
-    const std::chrono::duration<double, std::milli> waited =
-        std::chrono::steady_clock::now() - start;
-    wait_ms += waited.count();
-    return result;
+    return Timed(wait_ms, [this] { return future_.get(); });
   }
 
  private:

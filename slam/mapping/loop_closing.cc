@@ -1,10 +1,10 @@
 #include "slam/mapping/loop_closing.h"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 
 #include "slam/camera/se3.h"
+#include "slam/common/stopwatch.h"
 #include "slam/map/landmarks_of.h"
 
 namespace aisle::slam {
@@ -40,11 +40,9 @@ Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& c
 
 GlobalCorrection CorrectGlobally(const Map& map, const StereoCamera& camera,
                                  const GlobalAdjustmentOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
-  GlobalCorrection correction{map, AdjustGlobally(map, camera, options).edit, 0};
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-  correction.milliseconds = took.count();
-  return correction;
+  double ms = 0;
+  MapEdit adjusted = Timed(ms, [&] { return AdjustGlobally(map, camera, options).edit; });
+  return {map, std::move(adjusted), ms};
 }
 
 MapEdit CarryOver(const Map& now, const GlobalCorrection& correction) {

@@ -1,10 +1,10 @@
 #include "slam/mapping/orbslam2_mapping.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <set>
 
+#include "slam/common/stopwatch.h"
 #include "slam/map/landmarks_of.h"
 
 namespace aisle::slam {
@@ -82,12 +82,11 @@ MappingResult AdjustAndDrop(Map map, KeyframeId newest, const MappingTools& tool
 }
 
 /// Measures how long the work takes; reported, never decided upon.
-MappingStep::Work Timed(MappingStep::Work work) {
+MappingStep::Work WithTime(MappingStep::Work work) {
   return [work = std::move(work)](Map map, KeyframeId newest, const MappingTools& tools) {
-    const auto start = std::chrono::steady_clock::now();
-    MappingResult result = work(std::move(map), newest, tools);
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-    result.milliseconds = took.count();
+    double ms = 0;
+    MappingResult result = Timed(ms, [&] { return work(std::move(map), newest, tools); });
+    result.milliseconds = ms;
     return result;
   };
 }
@@ -100,14 +99,14 @@ MappingResult ResultOf(Map map, KeyframeId newest) {
 }
 
 MappingStep::Work Renewing(const OrbSlam2MappingOptions& orbslam2, bool hurried) {
-  return Timed([orbslam2, hurried](Map map, KeyframeId newest, const MappingTools& tools) {
+  return WithTime([orbslam2, hurried](Map map, KeyframeId newest, const MappingTools& tools) {
     const int neighbours = hurried ? 1 : tools.options.triangulate.neighbours;
     return ResultOf(RenewLandmarks(std::move(map), newest, tools, orbslam2, neighbours), newest);
   });
 }
 
 MappingStep::Work Exchanging(const OrbSlam2MappingOptions& orbslam2) {
-  return Timed([orbslam2](Map map, KeyframeId newest, const MappingTools& tools) {
+  return WithTime([orbslam2](Map map, KeyframeId newest, const MappingTools& tools) {
     return ResultOf(ExchangeLandmarks(std::move(map), newest, tools, orbslam2), newest);
   });
 }
@@ -119,7 +118,7 @@ MappingStep::Work Nothing() {
 }
 
 MappingStep::Work Adjusting(const OrbSlam2MappingOptions& orbslam2, Extent extent) {
-  return Timed([orbslam2, extent](Map map, KeyframeId newest, const MappingTools& tools) {
+  return WithTime([orbslam2, extent](Map map, KeyframeId newest, const MappingTools& tools) {
     return AdjustAndDrop(std::move(map), newest, tools, orbslam2, extent);
   });
 }

@@ -6,16 +6,10 @@
 #include <cmath>
 #include <functional>
 
+#include "slam/common/mix.h"
+
 namespace aisle::slam {
 namespace {
-
-/// A random number that depends on nothing but its arguments (splitmix64's finaliser).
-std::uint64_t Hash(std::uint64_t seed, std::uint64_t counter) {
-  std::uint64_t x = seed * 0x9e3779b97f4a7c15ULL + counter + 0x9e3779b97f4a7c15ULL;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-  return x ^ (x >> 31);
-}
 
 /// The rigid motion that carries `from` onto `to` (columns) in the least-squares sense (Horn 1987;
 /// solved by SVD).
@@ -39,7 +33,7 @@ std::array<std::size_t, 3> DrawThree(std::size_t count, std::uint64_t seed, int 
   std::uint64_t counter = static_cast<std::uint64_t>(hypothesis) * 64;
   for (std::size_t i = 0; i < 3; ++i) {
     do {
-      drawn[i] = Hash(seed, counter++) % count;
+      drawn[i] = Mix(kGolden * (seed + 1) + counter++) % count;
     } while ((i > 0 && drawn[i] == drawn[0]) || (i > 1 && drawn[i] == drawn[1]));
   }
   return drawn;

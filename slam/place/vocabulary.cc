@@ -10,6 +10,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "slam/common/mix.h"
+
 namespace aisle::slam {
 namespace {
 
@@ -29,13 +31,6 @@ std::uint64_t Checksum(const char* bytes, std::size_t count) {
     hash = (hash ^ static_cast<unsigned char>(bytes[i])) * 0x100000001b3ULL;
   }
   return hash;
-}
-
-std::uint64_t Hash(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15ULL;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-  return x ^ (x >> 31);
 }
 
 using Members = std::vector<const Descriptor*>;
@@ -73,7 +68,7 @@ std::vector<Cluster> Divide(const Members& members, const Vocabulary::Options& o
   std::set<Descriptor> first;
   for (int draw = 0; draw < 4 * options.branching && std::ssize(first) < options.branching;
        ++draw) {
-    first.insert(*members[Hash(seed + static_cast<std::uint64_t>(draw)) % members.size()]);
+    first.insert(*members[Mix(kGolden + seed + static_cast<std::uint64_t>(draw)) % members.size()]);
   }
   std::vector<Descriptor> centres(first.begin(), first.end());
   std::vector<Cluster> clusters;
@@ -130,7 +125,7 @@ Vocabulary Vocabulary::Train(const std::vector<std::vector<Descriptor>>& images,
     open.pop_front();
     std::vector<Cluster> clusters;
     if (here.depth < options.depth && std::ssize(here.members) > options.branching) {
-      clusters = Divide(here.members, options, Hash(options.seed) + 1000003 * here.node);
+      clusters = Divide(here.members, options, Mix(kGolden + options.seed) + 1000003 * here.node);
     }
     if (clusters.size() < 2) {
       vocabulary.nodes_[here.node].word = vocabulary.words_++;

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 
+#include "slam/common/mix.h"
+
 namespace aisle::slam::dynamic {
 
 /// Random numbers as a pure function of where they are used: the same (seed, stream, counter) gives
@@ -12,7 +14,7 @@ class CounterRandom {
   CounterRandom(std::uint64_t seed, std::uint64_t stream) : key_(Mix(Mix(seed) ^ stream)) {}
 
   /// The next 64 bits of this stream.
-  std::uint64_t Next() { return Mix(key_ + 0x9e3779b97f4a7c15ULL * ++counter_); }
+  std::uint64_t Next() { return Mix(key_ + kGolden * ++counter_); }
 
   /// Uniform in [0, bound), bound > 0; the bias of 2^-32 per outcome is of no consequence here.
   int Below(int bound) {
@@ -33,12 +35,6 @@ class CounterRandom {
   }
 
  private:
-  static std::uint64_t Mix(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return z ^ (z >> 31);
-  }
-
   std::uint64_t key_;
   std::uint64_t counter_ = 0;
 };

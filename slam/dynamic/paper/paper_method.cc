@@ -3,7 +3,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
-#include "slam/dynamic/common/stopwatch.h"
+#include "slam/common/stopwatch.h"
 #include "slam/dynamic/paper/disparity.h"
 #include "slam/dynamic/paper/mark_regions.h"
 #include "slam/dynamic/paper/spread_features.h"

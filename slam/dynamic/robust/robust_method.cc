@@ -2,8 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "slam/common/stopwatch.h"
 #include "slam/dynamic/common/in_parallel.h"
-#include "slam/dynamic/common/stopwatch.h"
 #include "slam/dynamic/robust/gap_motion.h"
 #include "slam/dynamic/robust/pixel_labels.h"
 #include "slam/dynamic/robust/view.h"

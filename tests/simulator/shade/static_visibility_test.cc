@@ -23,7 +23,9 @@ World WallBeforeALamp() {
   return World(std::move(parts));
 }
 
-float BruteForce(const Instant& instant, const AreaLight& light, const Eigen::Vector3f& from) {
+/// Of an area light or of an emitter.
+template <typename Rectangle>
+float BruteForce(const Instant& instant, const Rectangle& light, const Eigen::Vector3f& from) {
   constexpr int kSide = 40;
   int seen = 0;
   Rays8 rays;
@@ -59,6 +61,57 @@ TEST(StaticVisibility, IsThePartOfALampThatCanBeSeen) {
   }
   EXPECT_GT(partly, 0.1 * kPlaces);  // the penumbra, which is hard, is among the places
   EXPECT_LT(error / kPlaces, 0.03);
+}
+
+/// Sixty lamps in rows, each above a beam that runs along it: what one point of a lamp meets, all
+/// its points meet, and likewise for every lamp.
+World LampsAboveBeams() {
+  WorldParts parts;
+  parts.instances.push_back({"floor", ObjectClass::kFloor, false});
+  parts.materials.resize(1);
+  test::MeshBuilder builder;
+  builder.Quad({-20, -20, 0}, {40, 0, 0}, {0, 40, 0}, 0, 1);
+  for (int x = -5; x < 5; ++x) {
+    for (int y = -3; y < 3; ++y) {
+      const auto cx = 2 * static_cast<float>(x) + 1, cy = 3 * static_cast<float>(y) + 1.5f;
+      parts.lights.push_back({{cx, cy, 6}, {0.6f, 0, 0}, {0, -0.15f, 0}, 3});
+    }
+  }
+  for (int i = -8; i < 8; ++i) {
+    const float x = 1.6f * static_cast<float>(i);  // seen from 1 m as far apart as the lamps
+    builder.Box({x, -12, 5}, {x + 0.3f, 12, 5.1f}, 0, 1);
+  }
+  parts.statics = {builder.mesh, builder.instances};
+  return World(std::move(parts));
+}
+
+TEST(StaticVisibility, ErrsIndependentlyFromPlaceToPlace) {
+  const World world = LampsAboveBeams();
+  const Tracer tracer(world, {});
+  const Instant instant = tracer.Pose({});
+  const Emitters emitters(world.lights(), 0);
+  const StaticVisibility visibility(emitters, world.statics().mesh, {});
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> offset(0, 1);
+  for (const Eigen::Vector3f& corner :
+       {Eigen::Vector3f(-2, -1, 0.5f), Eigen::Vector3f(0.3f, 0.7f, 0.5f),
+        Eigen::Vector3f(-1.3f, 0.2f, 0.5f), Eigen::Vector3f(-0.4f, 0.2f, 0.5f)}) {
+    // Over the size of a body, errors of single nodes cancel; a bias does not.
+    double found = 0, expected = 0;
+    for (int i = 0; i < 60; ++i) {
+      const Eigen::Vector3f at =
+          corner + Eigen::Vector3f(offset(random), offset(random), offset(random));
+      const std::array<ShadowedPlace, 1> place = {{{{at, Eigen::Vector3f::UnitZ()}, 0}}};
+      EmitterVisibility seen(1, emitters.stride());
+      visibility.Shade(instant, place, &seen);
+      for (std::size_t e = 0; e < emitters.size(); ++e) {
+        const float light = emitters.Shares(at, std::vector<float>(world.lights().size(), 1.0f))[e];
+        found += light * seen.Row(0)[e];
+        expected += light * BruteForce(instant, emitters[e], at);
+      }
+    }
+    EXPECT_NEAR(found / expected, 1, 0.01) << corner.transpose();
+  }
 }
 
 TEST(StaticVisibility, DoesNotDependOnWhatWasAskedBefore) {

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-namespace aisle::slam::dynamic {
+namespace aisle::slam {
 
 /// Adds the wall time of its own life to a number of milliseconds. Reported, never decided upon.
 class Stopwatch {
@@ -28,4 +28,4 @@ auto Timed(double& ms, const Stage& stage) {
   return stage();
 }
 
-}  // namespace aisle::slam::dynamic
+}  // namespace aisle::slam
