@@ -1,7 +1,7 @@
 #include <tbb/task_arena.h>
 
 #include "simulator/foreign/foreign_scene.h"
-#include "simulator/shade/reference.h"
+#include "simulator/shade/reference/reference.h"
 #include "simulator/simulator.h"
 
 namespace aisle::sim {

@@ -9,8 +9,8 @@
 
 #include "simulator/camera/pixel_rays.h"
 #include "simulator/raster/raster.h"
-#include "simulator/shade/light_error.h"
-#include "simulator/shade/reference.h"
+#include "simulator/shade/reference/light_error.h"
+#include "simulator/shade/reference/reference.h"
 #include "simulator/trace/hit_image.h"
 #include "simulator/truth/correspondence.h"
 #include "simulator/truth/image_motion.h"

@@ -9,7 +9,7 @@
 #include "simulator/camera/pixel_rays.h"
 #include "simulator/pipeline.h"
 #include "simulator/scene/load.h"
-#include "simulator/shade/light_cache.h"
+#include "simulator/shade/light/light_cache.h"
 #include "simulator/world/build.h"
 #include "simulator/world/check_models.h"
 #include "simulator/world/plan.h"

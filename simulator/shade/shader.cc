@@ -5,10 +5,10 @@
 #include <array>
 #include <numbers>
 
-#include "simulator/shade/antialias.h"
-#include "simulator/shade/gloss_pass.h"
-#include "simulator/shade/mover_shadow.h"
-#include "simulator/shade/normal_pass.h"
+#include "simulator/shade/pass/antialias.h"
+#include "simulator/shade/pass/gloss_pass.h"
+#include "simulator/shade/pass/mover_shadow.h"
+#include "simulator/shade/pass/normal_pass.h"
 
 namespace aisle::sim {
 namespace {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "simulator/shade/frame_light.h"
-#include "simulator/shade/static_light.h"
+#include "simulator/shade/light/static_light.h"
+#include "simulator/shade/pass/frame_light.h"
 #include "simulator/trace/hit_image.h"
 
 namespace aisle::sim {

@@ -1,4 +1,4 @@
-#include "simulator/shade/emitters.h"
+#include "simulator/shade/light/emitters.h"
 
 #include <gtest/gtest.h>
 

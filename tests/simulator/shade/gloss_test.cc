@@ -1,12 +1,12 @@
-#include "simulator/shade/gloss.h"
+#include "simulator/shade/surface/gloss.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "simulator/shade/path_random.h"
-#include "simulator/shade/reference.h"
+#include "simulator/shade/reference/path_random.h"
+#include "simulator/shade/reference/reference.h"
 #include "simulator/shade/shader.h"
 #include "tests/simulator/test_world.h"
 

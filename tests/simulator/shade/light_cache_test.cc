@@ -1,10 +1,10 @@
-#include "simulator/shade/light_cache.h"
+#include "simulator/shade/light/light_cache.h"
 
 #include <gtest/gtest.h>
 
 #include "simulator/scene/load.h"
 #include "simulator/scene/vary.h"
-#include "simulator/shade/static_light.h"
+#include "simulator/shade/light/static_light.h"
 #include "simulator/world/build.h"
 #include "tests/simulator/test_world.h"
 

@@ -1,4 +1,4 @@
-#include "simulator/shade/light_error.h"
+#include "simulator/shade/reference/light_error.h"
 
 #include <gtest/gtest.h>
 

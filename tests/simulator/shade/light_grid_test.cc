@@ -1,8 +1,8 @@
-#include "simulator/shade/light_grid.h"
+#include "simulator/shade/surface/light_grid.h"
 
 #include <gtest/gtest.h>
 
-#include "simulator/shade/direct_light.h"
+#include "simulator/shade/light/direct_light.h"
 #include "tests/simulator/test_world.h"
 
 namespace aisle::sim {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "simulator/shade/direct_light.h"
-#include "simulator/shade/mover_light.h"
+#include "simulator/shade/light/direct_light.h"
+#include "simulator/shade/pass/mover_light.h"
 #include "simulator/shade/shader.h"
 #include "tests/simulator/test_world.h"
 

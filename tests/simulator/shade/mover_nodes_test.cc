@@ -1,8 +1,8 @@
-#include "simulator/shade/mover_nodes.h"
+#include "simulator/shade/pass/mover_nodes.h"
 
 #include <gtest/gtest.h>
 
-#include "simulator/shade/mesh_pieces.h"
+#include "simulator/shade/surface/mesh_pieces.h"
 #include "tests/simulator/test_world.h"
 
 namespace aisle::sim {

@@ -1,8 +1,8 @@
-#include "simulator/shade/normal_map.h"
+#include "simulator/shade/surface/normal_map.h"
 
 #include <gtest/gtest.h>
 
-#include "simulator/shade/reference.h"
+#include "simulator/shade/reference/reference.h"
 #include "simulator/shade/shader.h"
 #include "tests/simulator/test_world.h"
 

@@ -1,4 +1,4 @@
-#include "simulator/shade/reference.h"
+#include "simulator/shade/reference/reference.h"
 
 #include <gtest/gtest.h>
 

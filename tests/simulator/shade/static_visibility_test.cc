@@ -1,10 +1,10 @@
-#include "simulator/shade/static_visibility.h"
+#include "simulator/shade/light/static_visibility.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "simulator/shade/hemisphere.h"
+#include "simulator/shade/lanes/hemisphere.h"
 #include "tests/simulator/test_world.h"
 
 namespace aisle::sim {

@@ -1,1 +1,1 @@
-aisle_tests(simulator/shade USES simulator/foreign LINKS opencv_imgcodecs)
+aisle_tests(simulator/shade USES simulator/foreign simulator/shade/reference LINKS opencv_imgcodecs)

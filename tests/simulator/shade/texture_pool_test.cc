@@ -1,4 +1,4 @@
-#include "simulator/shade/texture_pool.h"
+#include "simulator/shade/surface/texture_pool.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,189 @@
+#include "simulator/shade/light/direct_light.h"
+
+#include <unordered_map>
+
+#include "simulator/shade/lanes/ray_packets.h"
+#include "simulator/shade/light/emitter_rays.h"
+
+namespace aisle::sim {
+namespace {
+
+constexpr float kLift = 2e-3f;        // m, along the normal
+constexpr float kDrawIn = 3e-3f;      // m, towards the triangle's centre
+constexpr float kLightGuard = 0.01f;  // m: shadow rays end so far before the light's own surface
+
+/// Up to eight points in lanes, each with places of its own on the lights from `turn` on.
+Places8 Load(std::span<const SurfacePoint> points, std::uint32_t turn) {
+  std::array<ShadowedPlace, kLanes> places;
+  const std::size_t count = std::min(points.size(), places.size());
+  for (std::size_t i = 0; i < count; ++i) places[i] = {points[i], turn++};
+  return Places8(std::span(places).first(count));
+}
+
+/// Shadow rays to a light that gives such a share of the light, or more. Weak ones need few, as
+/// there are many of them.
+struct RaysOfShare {
+  float share;
+  int rays;
+};
+constexpr std::array<RaysOfShare, 4> kRays = {{{0.15f, 32}, {0.05f, 16}, {0.015f, 8}, {0, 4}}};
+
+/// Light per area and radiance from one place of the light, and the way there.
+struct Sample8 {
+  F8 dx, dy, dz, distance;
+  F8 weight;  ///< cos·cos' / r²
+};
+
+class Light {
+ public:
+  explicit Light(const AreaLight& light) : light_(light) {
+    const Eigen::Vector3f cross = light.half_u.cross(light.half_v);
+    area_ = 4 * cross.norm();
+    normal_ = cross.normalized();
+  }
+  Sample8 At(const Places8& p, F8 a, F8 b) const {
+    const Eigen::Vector3f &c = light_.center, &u = light_.half_u, &v = light_.half_v;
+    Sample8 s;
+    s.dx = c.x() + a * u.x() + b * v.x() - p.position.x;
+    s.dy = c.y() + a * u.y() + b * v.y() - p.position.y;
+    s.dz = c.z() + a * u.z() + b * v.z() - p.position.z;
+    const F8 squared = Max(s.dx * s.dx + s.dy * s.dy + s.dz * s.dz, Wide(1e-6f));
+    s.distance = Sqrt(squared);
+    const F8 here = p.normal.x * s.dx + p.normal.y * s.dy + p.normal.z * s.dz;
+    const F8 there = -(normal_.x() * s.dx + normal_.y() * s.dy + normal_.z() * s.dz);
+    s.weight = Max(here, Wide(0)) * Max(there, Wide(0)) / (squared * squared);
+    return s;
+  }
+  F8 Unshadowed(const Places8& p) const { return At(p, Wide(0), Wide(0)).weight * power(); }
+  float power() const { return area_ * light_.radiance; }
+
+ private:
+  const AreaLight& light_;
+  float area_;
+  Eigen::Vector3f normal_;
+};
+
+unsigned Blocked(const Instant& instant, const Places8& p, const Sample8& s,
+                 GeometryMask occluders) {
+  const I8 valid = s.weight > 0;
+  if (!Any(valid)) return 0;
+  const F8 t_far = 1 - kLightGuard / Max(s.distance, Wide(2 * kLightGuard));
+  return instant.Occluded(MakeRays(p.position, {s.dx, s.dy, s.dz}, t_far, valid),
+                          Coherence::kCoherent, occluders);
+}
+
+/// The light's irradiance from so many places on it. They differ from point to point: lamps and the
+/// beams below them stand in line, and places that all points share would all be hidden, or none,
+/// over metres of floor. Nothing is concluded from the first few: where these all see the light,
+/// others may well not.
+F8 Gather(const Instant& instant, const Light& light, const Places8& p, int rays,
+          GeometryMask occluders) {
+  F8 irradiance = Wide(0);
+  for (int i = 0; i < rays; ++i) {
+    const auto [a, b] = p.PlaceOnEmitter(i);
+    const Sample8 s = light.At(p, a, b);
+    const unsigned blocked = Blocked(instant, p, s, occluders);
+    irradiance += Select(LanesOf(blocked), Wide(0), s.weight);
+  }
+  return irradiance * (light.power() / static_cast<float>(rays));
+}
+
+}  // namespace
+
+SurfacePoint LocatePoint(const LightPoint& point, const TriangleMesh& topology,
+                         std::span<const Eigen::Vector3f> positions,
+                         std::span<const Eigen::Vector3f> normals) {
+  const auto& [a, b, c] = topology.triangles[point.triangle];
+  const float w = 1 - point.u - point.v;
+  Eigen::Vector3f position = w * positions[a] + point.u * positions[b] + point.v * positions[c];
+  const Eigen::Vector3f inward = (positions[a] + positions[b] + positions[c]) / 3 - position;
+  const float length = inward.norm();
+  if (length > 0) position += inward * std::min(0.3f, kDrawIn / length);
+  const Eigen::Vector3f normal =
+      (w * normals[a] + point.u * normals[b] + point.v * normals[c]).normalized();
+  return {position + kLift * normal, normal};
+}
+
+std::vector<SurfacePoint> LocatePoints(const LightGrid& grid, const TriangleMesh& topology,
+                                       std::span<const Eigen::Vector3f> positions,
+                                       std::span<const Eigen::Vector3f> normals) {
+  std::vector<SurfacePoint> points;
+  points.reserve(grid.points.size());
+  for (const LightPoint& point : grid.points) {
+    points.push_back(LocatePoint(point, topology, positions, normals));
+  }
+  return points;
+}
+
+std::vector<std::uint32_t> GroupsOf(std::span<const SurfacePoint> points,
+                                    const GroupOptions& options) {
+  struct Key {
+    std::array<int, 7> parts;
+    bool operator==(const Key&) const = default;
+  };
+  const auto hash = [](const Key& key) {
+    std::size_t value = 0;
+    for (const int part : key.parts) {
+      value = (value ^ static_cast<std::size_t>(part)) * 0x9e3779b97f4a7c15u;
+      value ^= value >> 29;
+    }
+    return value;
+  };
+  // Only looked up, never walked through: its order reaches nothing.
+  std::unordered_map<Key, std::uint32_t, decltype(hash)> first(points.size() / 2, hash);
+  std::vector<std::uint32_t> leaders;
+  leaders.reserve(points.size());
+  for (const SurfacePoint& point : points) {
+    Key key;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      key.parts[i] = static_cast<int>(std::floor(point.position[axis] / options.cell_m));
+      key.parts[i + 3] = static_cast<int>(std::lround(options.normal_steps * point.normal[axis]));
+    }
+    key.parts[6] = static_cast<int>(std::floor(point.normal.dot(point.position) / options.plane_m));
+    const auto index = static_cast<std::uint32_t>(leaders.size());
+    leaders.push_back(first.try_emplace(key, index).first->second);
+  }
+  return leaders;
+}
+
+std::array<float, kLanes> GatherDirectLight(const Instant& instant,
+                                            std::span<const AreaLight> lights,
+                                            std::span<const float> light_scale,
+                                            std::span<const SurfacePoint> points,
+                                            const DirectLightOptions& options) {
+  const Places8 p = Load(points, options.turn);
+  // Strongest first; lanes of a packet are neighbours, so they share the order.
+  std::vector<std::pair<float, std::size_t>> order;
+  F8 unshadowed = Wide(0);
+  float left = 0;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (light_scale[i] <= 0) continue;
+    const F8 light = Light(lights[i]).Unshadowed(p) * light_scale[i];
+    const float sum = Sum(light);
+    if (sum <= 0) continue;
+    unshadowed += light;
+    left += sum;
+    order.emplace_back(-sum, i);
+  }
+  std::ranges::sort(order);
+  const float all = left, enough = all * options.untraced_share;
+
+  F8 sum = Wide(0), traced = Wide(0);
+  for (const auto& [negative, i] : order) {
+    if (left <= enough) break;
+    left += negative;
+    const Light light(lights[i]);
+    traced += light.Unshadowed(p) * light_scale[i];
+    const int rays = std::ranges::find_if(kRays, [&](const RaysOfShare& step) {
+                       return -negative >= step.share * all;
+                     })->rays;
+    sum += Gather(instant, light, p, rays, options.occluders) * light_scale[i];
+  }
+  const F8 grow = Select(traced > 0, unshadowed / Max(traced, Wide(1e-12f)), Wide(1));
+  std::array<float, kLanes> result;
+  Store(sum * grow, result.data());
+  return result;
+}
+
+}  // namespace aisle::sim

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+
+#include "simulator/shade/light/light_state.h"
+#include "simulator/world/world.h"
+
+namespace aisle::sim {
+
+struct StaticLightOptions;
+
+/// The user's folder for solved light: $AISLE_CACHE, else $XDG_CACHE_HOME/aisle, else
+/// $HOME/.cache/aisle; empty when none of them is set.
+std::filesystem::path DefaultLightCache();
+
+/// Hash of all that decides a solution, and of nothing else: the static mesh, what its surfaces
+/// reflect and emit, the lamps and their setting, and the options. Movers and their materials do
+/// not enter, nor does the order of materials: the twins of a scene share a solution.
+std::uint64_t LightKey(const World& world, const StaticLightOptions& options,
+                       std::span<const float> light_scale);
+
+/// A kept solution, or nothing when there is none, or it is damaged, or of another size.
+std::optional<LightState> LoadLight(const std::filesystem::path& folder, std::uint64_t key,
+                                    std::size_t slots);
+
+/// Keeps a solution, written aside and renamed. A folder that cannot be written is no error: the
+/// next run solves again.
+void SaveLight(const std::filesystem::path& folder, std::uint64_t key, const LightState& state);
+
+}  // namespace aisle::sim

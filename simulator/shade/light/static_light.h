@@ -1,0 +1,64 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "simulator/shade/light/light_state.h"
+#include "simulator/shade/surface/light_grid.h"
+#include "simulator/shade/surface/texture_pool.h"
+#include "simulator/trace/tracer.h"
+
+namespace aisle::sim {
+
+struct StaticLightOptions {
+  /// Where solutions are kept from run to run, by content; empty: nowhere.
+  std::filesystem::path cache_folder = {};
+  std::string isa = "avx2";     ///< Embree's, as rays' last bits depend on it
+  float texel_m = 0.06f;        ///< spacing of the direct light's points; soft shadows' resolution
+  float coarse_texel_m = 0.4f;  ///< spacing of the indirect light's points
+  float volume_spacing_m = 0.75f;
+  int directions = 64;                 ///< rays a point that gather indirect light
+  int volume_directions = 256;         ///< the same of the points in free space, which are few
+  int bounces = 6;                     ///< of indirect light
+  std::size_t max_points = 3'000'000;  ///< the spacing is widened until this holds
+  /// Called while a solution is computed (not while one is read) with the share that is done,
+  /// rising to 1; from any thread, one call at a time.
+  std::function<void(double)> progress = {};
+};
+
+/// The light that static luminaires throw on the static world, solved once: direct light by shadow
+/// rays on a fine grid over all surfaces, indirect light as diffuse radiosity on a coarse one (form
+/// factors by cosine-distributed rays, Jacobi iterations). Light is linear in the lamps, so a frame
+/// with some lamps dimmed is the full solution less the dimmed lamps' own.
+class StaticLight {
+ public:
+  /// Solves the case of all lamps on, in parallel.
+  StaticLight(const World& world, const Tracer& tracer, const TexturePool& textures,
+              const StaticLightOptions& options);
+
+  const LightGrid& grid() const { return fine_; }
+  /// The light under lamps dimmed by `light_scale`. Settings met before are remembered.
+  /// Thread-safe.
+  std::shared_ptr<const LightState> At(std::span<const float> light_scale) const;
+
+ private:
+  LightState Solve(std::span<const float> light_scale) const;
+  LightState LoadOrSolve(std::span<const float> light_scale) const;
+  std::shared_ptr<const LightState> Solved(const std::vector<float>& light_scale) const;
+
+  const World* world_;
+  const Tracer* tracer_;
+  const TexturePool* textures_;
+  StaticLightOptions options_;
+  LightGrid fine_, coarse_;
+  std::vector<float> all_on_;
+  mutable std::mutex mutex_;  ///< guards the two caches
+  mutable std::map<std::vector<float>, std::shared_ptr<const LightState>> solved_, composed_;
+};
+
+}  // namespace aisle::sim

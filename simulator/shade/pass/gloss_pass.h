@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "simulator/shade/pass/frame_light.h"
+#include "simulator/trace/hit_image.h"
+
+namespace aisle::sim {
+
+/// What an image's glossy surfaces mirror: one ray a pixel along a facet of the lobe, in a 4 × 4
+/// pattern, filtered over the pattern; the ray's end is looked up as any pixel is, so lamps, goods
+/// and movers are all mirrored. Broad lobes aim a second ray at a lamp instead. Writes radiance to
+/// `mirrored` (0 elsewhere), and takes from `reflectance` what the lobe leaves to the diffuse base.
+/// Returns false, with `mirrored` left as it was, where nothing in the image is glossy.
+bool TraceGloss(const Instant& instant, const CameraView& view, const HitImage& image,
+                const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures,
+                std::vector<float>* reflectance, std::vector<float>* mirrored);
+
+}  // namespace aisle::sim

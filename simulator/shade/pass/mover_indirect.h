@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <span>
+#include <vector>
+
+#include "simulator/shade/light/light_volume.h"
+#include "simulator/shade/light/static_visibility.h"
+
+namespace aisle::sim {
+
+/// What bodies within reach keep of the indirect light that reaches one mover, its own limbs among
+/// them: they hide where it comes from, and their shadow on the floor takes from what the floor
+/// sends up.
+class MoverIndirect {
+ public:
+  /// All must outlive it.
+  MoverIndirect(const Instant& instant, const Emitters& emitters, const StaticVisibility& statics,
+                const LightVolume& volume, std::size_t mover);
+
+  /// Share of the indirect irradiance that is left at a place of the mover's surface. The
+  /// directions that are asked turn with `tangent`, any vector that is fixed to the surface there.
+  float KeptAt(const ShadowedPlace& place, const Eigen::Vector3f& tangent) const;
+
+ private:
+  /// Which of the directions around a normal bodies block, as bits from the first packet on.
+  using Blocked = std::vector<unsigned>;
+  Blocked Probe(const SurfacePoint& point, const Eigen::Matrix3f& basis) const;
+  void ShadeGround(const Emitters& emitters, const StaticVisibility& statics, std::size_t mover);
+  /// Share of its light that the floor keeps where a ray from `from` meets it; 1 if it does not.
+  float KeptByGround(const Eigen::Vector3f& from, const Eigen::Vector3f& direction) const;
+
+  const Instant& instant_;
+  const LightVolume& volume_;
+  GeometryMask bodies_;
+  std::vector<Eigen::Vector3f> directions_;
+  float ground_z_ = 0;                               ///< m
+  Eigen::Vector2i first_ = Eigen::Vector2i::Zero();  ///< node of a grid that is fixed in the world
+  Eigen::Vector2i nodes_ = Eigen::Vector2i::Zero();  ///< along x, y
+  std::vector<float> kept_;                          ///< by node, rows along x
+};
+
+}  // namespace aisle::sim
