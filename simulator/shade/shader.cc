@@ -16,9 +16,9 @@ namespace {
 constexpr float kInvPi = std::numbers::inv_pi_v<float>;
 
 /// Reflectance and irradiance of every pixel, rows as in HitImage.
-void LookUpImage(const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures,
-                 const CameraView& view, const HitImage& image, std::vector<float>* reflectance,
+void LookUpImage(const ShadingView& shading, std::vector<float>* reflectance,
                  std::vector<float>* irradiance) {
+  const auto& [instant, view, image, tables, frame, textures] = shading;
   reflectance->resize(image.t.size());
   irradiance->resize(image.t.size());
   const PixelRays& rays = *view.rays;
@@ -75,8 +75,7 @@ struct Shader::Workspace {
 };
 
 Shader::Shader(const World& world, const Tracer& tracer, const ShadeOptions& options)
-    : world_(&world),
-      options_(options),
+    : options_(options),
       textures_(world.textures()),
       static_light_(world, tracer, textures_, options.statics),
       tables_(world, static_light_.grid(), options.mover_texel_m) {}
@@ -105,27 +104,24 @@ std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const Cam
   std::vector<cv::Mat1f> radiance;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const HitImage& image = images[i];
-    LookUpImage(tables_, work->frame, textures_, views[i], image, &work->reflectance,
-                &work->irradiance);
-    BendLight(instant, views[i], image, tables_, work->frame, textures_, &work->irradiance);
+    const ShadingView shading{instant, views[i], image, tables_, work->frame, textures_};
+    LookUpImage(shading, &work->reflectance, &work->irradiance);
+    BendLight(shading, &work->irradiance);
     done("look up");
     work->kept.assign(image.t.size(), 1);
     if (options_.mover_shadows) {
       const SeenShadows first{views[0], images[0], work->raw_kept[0]};
-      TraceMoverShadows(instant, views[i], image, *world_, tables_, work->frame, work->irradiance,
-                        i > 0 ? &first : nullptr, &work->raw_kept[i > 0 ? 1 : 0], &work->kept);
+      TraceMoverShadows(shading, work->irradiance, i > 0 ? &first : nullptr,
+                        &work->raw_kept[i > 0 ? 1 : 0], &work->kept);
     }
     done("mover shadows");
-    const bool glossy =
-        options_.gloss && TraceGloss(instant, views[i], image, tables_, work->frame, textures_,
-                                     &work->reflectance, &work->mirrored);
+    const bool glossy = options_.gloss && TraceGloss(shading, &work->reflectance, &work->mirrored);
     done("gloss");
     radiance.push_back(
         Combine(image, work->reflectance, work->irradiance, work->kept,
                 glossy ? std::span<const float>(work->mirrored) : std::span<const float>()));
     if (options_.antialias) {
-      AntialiasEdges(*world_, instant, views[i], image, tables_, work->frame, textures_, work->kept,
-                     &radiance.back());
+      AntialiasEdges(shading, work->kept, &radiance.back());
       done("antialias");
     }
   }

@@ -39,7 +39,6 @@ class Shader {
  private:
   struct Workspace;
 
-  const World* world_;
   ShadeOptions options_;
   TexturePool textures_;
   StaticLight static_light_;

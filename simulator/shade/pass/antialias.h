@@ -3,8 +3,7 @@
 #include <opencv2/core.hpp>
 #include <span>
 
-#include "simulator/shade/pass/frame_light.h"
-#include "simulator/trace/hit_image.h"
+#include "simulator/shade/pass/shading_view.h"
 
 namespace aisle::sim {
 
@@ -14,8 +13,6 @@ namespace aisle::sim {
 /// "Geometric post-process anti-aliasing", 2011); where it is not (thin things, curved outlines),
 /// the pixel becomes the mean of four rays on a rotated grid. `kept` is the share of light that
 /// movers leave, per pixel of the image.
-void AntialiasEdges(const World& world, const Instant& instant, const CameraView& view,
-                    const HitImage& image, const SurfaceTables& tables, const FrameLight& frame,
-                    const TexturePool& textures, std::span<const float> kept, cv::Mat1f* radiance);
+void AntialiasEdges(const ShadingView& shading, std::span<const float> kept, cv::Mat1f* radiance);
 
 }  // namespace aisle::sim

@@ -59,17 +59,16 @@ struct Glossy8 {
 
 class Pass {
  public:
-  Pass(const Instant& instant, const CameraView& view, const HitImage& image,
-       const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures)
-      : instant_(instant),
-        view_(view),
-        image_(image),
-        tables_(tables),
-        frame_(frame),
-        textures_(textures),
-        lamps_(tables.world().lights(), instant.snapshot().light_scale),
-        step_{view.rotation.col(0) * view.rays->step_x * kFootprint,
-              view.rotation.col(1) * view.rays->step_y * kFootprint} {}
+  explicit Pass(const ShadingView& shading)
+      : instant_(shading.instant),
+        view_(shading.view),
+        image_(shading.image),
+        tables_(shading.tables),
+        frame_(shading.frame),
+        textures_(shading.textures),
+        lamps_(shading.world().lights(), instant_.snapshot().light_scale),
+        step_{view_.rotation.col(0) * view_.rays->step_x * kFootprint,
+              view_.rotation.col(1) * view_.rays->step_y * kFootprint} {}
 
   Glossy8 Find(int x, int y) const {
     const std::size_t i = image_.Index(x, y);
@@ -189,11 +188,12 @@ class Pass {
 
 }  // namespace
 
-bool TraceGloss(const Instant& instant, const CameraView& view, const HitImage& image,
-                const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures,
-                std::vector<float>* reflectance, std::vector<float>* mirrored) {
+bool TraceGloss(const ShadingView& shading, std::vector<float>* reflectance,
+                std::vector<float>* mirrored) {
+  const SurfaceTables& tables = shading.tables;
+  const HitImage& image = shading.image;
   if (!tables.glossy()) return false;
-  const Pass pass(instant, view, image, tables, frame, textures);
+  const Pass pass(shading);
   const TileGrid grid{image.width, image.height, kTileWidth, kTileHeight};
   std::vector<std::uint8_t> glossy(grid.size());
   std::vector<float> raw(image.t.size());

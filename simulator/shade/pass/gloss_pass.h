@@ -1,10 +1,8 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
-#include "simulator/shade/pass/frame_light.h"
-#include "simulator/trace/hit_image.h"
+#include "simulator/shade/pass/shading_view.h"
 
 namespace aisle::sim {
 
@@ -13,8 +11,7 @@ namespace aisle::sim {
 /// and movers are all mirrored. Broad lobes aim a second ray at a lamp instead. Writes radiance to
 /// `mirrored` (0 elsewhere), and takes from `reflectance` what the lobe leaves to the diffuse base.
 /// Returns false, with `mirrored` left as it was, where nothing in the image is glossy.
-bool TraceGloss(const Instant& instant, const CameraView& view, const HitImage& image,
-                const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures,
-                std::vector<float>* reflectance, std::vector<float>* mirrored);
+bool TraceGloss(const ShadingView& shading, std::vector<float>* reflectance,
+                std::vector<float>* mirrored);
 
 }  // namespace aisle::sim

@@ -3,8 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "simulator/shade/pass/frame_light.h"
-#include "simulator/trace/hit_image.h"
+#include "simulator/shade/pass/shading_view.h"
 
 namespace aisle::sim {
 
@@ -21,9 +20,7 @@ struct SeenShadows {
 /// same surface then averages. `irradiance` is the static world's, in HitImage rows. Points that
 /// the camera of `seen` (may be null) has traced are taken from there. `raw` is what the filter was
 /// given.
-void TraceMoverShadows(const Instant& instant, const CameraView& view, const HitImage& image,
-                       const World& world, const SurfaceTables& tables, const FrameLight& frame,
-                       std::span<const float> irradiance, const SeenShadows* seen,
-                       std::vector<float>* raw, std::vector<float>* kept);
+void TraceMoverShadows(const ShadingView& shading, std::span<const float> irradiance,
+                       const SeenShadows* seen, std::vector<float>* raw, std::vector<float>* kept);
 
 }  // namespace aisle::sim

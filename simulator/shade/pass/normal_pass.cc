@@ -36,9 +36,8 @@ class OpenLight {
 
 }  // namespace
 
-void BendLight(const Instant& instant, const CameraView& view, const HitImage& image,
-               const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures,
-               std::vector<float>* irradiance) {
+void BendLight(const ShadingView& shading, std::vector<float>* irradiance) {
+  const auto& [instant, view, image, tables, frame, textures] = shading;
   if (!tables.has_normal_maps()) return;
   const World& world = tables.world();
   const TileGrid grid{image.width, image.height, kTileWidth, kTileHeight};

@@ -2,16 +2,13 @@
 
 #include <vector>
 
-#include "simulator/shade/pass/frame_light.h"
-#include "simulator/trace/hit_image.h"
+#include "simulator/shade/pass/shading_view.h"
 
 namespace aisle::sim {
 
 /// Turns the light of the pixels that show a normal map to the map's normals: direct light by the
 /// ratio of what all lamps would give the two normals unshadowed, indirect light by that of the
 /// light in the free space around. Does nothing in a world without normal maps.
-void BendLight(const Instant& instant, const CameraView& view, const HitImage& image,
-               const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures,
-               std::vector<float>* irradiance);
+void BendLight(const ShadingView& shading, std::vector<float>* irradiance);
 
 }  // namespace aisle::sim

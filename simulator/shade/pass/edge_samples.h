@@ -1,0 +1,18 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <span>
+#include <vector>
+
+#include "simulator/shade/pass/edge_search.h"
+
+namespace aisle::sim {
+
+/// The mean radiance of four rays on a rotated grid in each of the pixels, which may meet the given
+/// geometries. `kept` is the share of light that movers leave, by pixel; `radiance` that of the
+/// pixels' centres, which samples of the same surface take over.
+std::vector<MixedPixel> SamplePixels(const ShadingView& shading, std::span<const float> kept,
+                                     const cv::Mat1f& radiance, std::span<const PixelAt> pixels,
+                                     GeometryMask geometries);
+
+}  // namespace aisle::sim
