@@ -1,16 +1,16 @@
 #include "simulator/pipeline.h"
 
 #include <tbb/task_arena.h>
-#include <xxhash.h>
 
-#include <chrono>
 #include <mutex>
 #include <opencv2/imgproc.hpp>
 
 #include "simulator/camera/pixel_rays.h"
-#include "simulator/raster/raster.h"
-#include "simulator/shade/reference/light_error.h"
-#include "simulator/shade/reference/reference.h"
+#include "simulator/common/lap_watch.h"
+#include "simulator/proof/light_proof.h"
+#include "simulator/proof/render_bench.h"
+#include "simulator/proof/stage_hashes.h"
+#include "simulator/proof/truth_proof.h"
 #include "simulator/trace/hit_image.h"
 #include "simulator/truth/correspondence.h"
 #include "simulator/truth/image_motion.h"
@@ -20,54 +20,10 @@
 namespace aisle::sim {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Automatic exposure meters on pixels of 8 × 8, which cost a sixty-fourth.
 constexpr int kMeterFactor = 8;
 /// Rows around a band of a rolling shutter, so that filters at its border see their neighbours.
 constexpr int kBandMargin = 8;
-
-/// Wall time since it was made or last read, in milliseconds.
-class Stopwatch {
- public:
-  double Lap() {
-    const Clock::time_point now = Clock::now();
-    const double ms = std::chrono::duration<double, std::milli>(now - start_).count();
-    start_ = now;
-    return ms;
-  }
-
- private:
-  Clock::time_point start_ = Clock::now();
-};
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::ranges::sort(values);
-  return values[values.size() / 2];
-}
-
-/// One hash of all that was added, in its order.
-struct StageHasher {
-  std::uint64_t value = 0;
-
-  template <typename Values>
-  StageHasher& Add(const Values& values) {
-    value = XXH3_64bits_withSeed(values.data(), values.size() * sizeof(*values.data()), value);
-    return *this;
-  }
-  StageHasher& Add(const cv::Mat1f& image) { return AddRows(image); }
-  StageHasher& Add(const cv::Mat1b& image) { return AddRows(image); }
-
- private:
-  StageHasher& AddRows(const cv::Mat& image) {
-    for (int y = 0; y < image.rows; ++y) {
-      value = XXH3_64bits_withSeed(image.ptr(y),
-                                   static_cast<std::size_t>(image.cols) * image.elemSize(), value);
-    }
-    return *this;
-  }
-};
 
 FrameTruth Assemble(const Eigen::Isometry3d& T_world_rig, const CameraTruth& left,
                     const CameraTruth& right, const std::vector<MoverTruth>& movers) {
@@ -154,25 +110,6 @@ struct Pipeline::Impl {
     TraceViews(instant, view, {}, &hits);
     const cv::Mat1f light(shader->Shade(instant, view, hits).front().mul(meter_fall_off));
     return ChooseExposure(light, WhitePerMs(), options.sensor.tone, options.auto_exposure);
-  }
-
-  /// 255 where the left image, `reduce` times smaller, shows a mover or the next pixel does.
-  cv::Mat1b MoversIn(const Moment& moment, int reduce) const {
-    const StereoCamera small = Coarser(camera, reduce);
-    const PixelRays small_rays = MakePixelRays(small);
-    const std::array view = {
-        CameraView(small_rays, CameraPose(small, moment.T_world_rig, StereoSide::kLeft))};
-    std::vector<HitImage> hits;
-    TraceViews(tracer.Pose(world.At(moment.stamp_ns)), view, {}, &hits);
-    cv::Mat1b movers(small.height, small.width, std::uint8_t{0});
-    for (int y = 0; y < small.height; ++y) {
-      for (int x = 0; x < small.width; ++x) {
-        const std::uint32_t geometry = hits[0].geometry[hits[0].Index(x, y)];
-        if (geometry != 0 && geometry != kNoGeometry) movers(y, x) = 255;
-      }
-    }
-    cv::dilate(movers, movers, cv::Mat1b::ones(3, 3));
-    return movers;
   }
 
   double WhitePerMs() const {
@@ -263,7 +200,7 @@ struct Pipeline::Impl {
 
   RenderedFrame Render(int frame_index, std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
                        std::map<std::string, double>* stages) const {
-    Stopwatch watch;
+    LapWatch watch;
     const auto lap = [&](const char* stage) {
       if (stages) (*stages)[stage] += watch.Lap();
     };
@@ -294,6 +231,19 @@ struct Pipeline::Impl {
     lap("sensor");
     GiveBack(std::move(hits));
     return frame;
+  }
+
+  /// What proofs photograph; `setting` is the exposure of their pictures.
+  Studio MakeStudio(const ExposureSetting& setting = {}) const {
+    return {
+        .world = world,
+        .tracer = tracer,
+        .shader = *shader,
+        .camera = camera,
+        .rays = rays,
+        .moving = options.moving,
+        .exposure = options.sensor.exposure,
+        .expose = [this, setting](const cv::Mat1f& light) { return WithoutNoise(light, setting); }};
   }
 
   World world;
@@ -352,177 +302,43 @@ MotionTruth Pipeline::RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry3
   });
 }
 
-VerifyReport Pipeline::Verify(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
-                              std::int64_t next_stamp_ns,
-                              const Eigen::Isometry3d& T_world_rig_next) const {
-  return impl_->arena.execute([&] {
-    const Impl& self = *impl_;
-    const Instant now = self.tracer.Pose(self.world.At(stamp_ns));
-    const Instant next = self.tracer.Pose(self.world.At(next_stamp_ns));
-    const std::array<CameraView, 2> views = self.Views(T_world_rig);
-    const std::array<CameraView, 2> views_next = self.Views(T_world_rig_next);
-    std::vector<HitImage> hits, hits_next;
-    TraceViews(now, views, {}, &hits);
-    TraceViews(next, std::span(views_next).first(1), {}, &hits_next);
-    const MovingNow moving(self.world, now.snapshot(), self.options.moving);
-    const MovingNow moving_then(self.world, next.snapshot(), self.options.moving);
-    const std::array<CameraTruth, 2> sides = {LabelHits(self.world, now, hits[0], moving),
-                                              LabelHits(self.world, now, hits[1], moving)};
-    const cv::Mat1f depth_next = LabelHits(self.world, next, hits_next[0], moving_then).depth;
-
-    std::array<Agreement, 2> agreement;
-    for (std::size_t side = 0; side < 2; ++side) {
-      const Eigen::Isometry3d& T_world_camera = views[side].T_world_camera;
-      const RasterView drawn =
-          self.rays.straight
-              ? Rasterize(self.world, now.snapshot(), self.camera, T_world_camera)
-              : RasterizeThroughLens(self.world, now.snapshot(), self.rays, T_world_camera);
-      agreement[side] = Compare(drawn, sides[side].depth, sides[side].instance);
-    }
-    const Correspondence found = FindCorrespondence(self.world, now, self.camera, views[0], hits[0],
-                                                    next.snapshot(), T_world_rig_next);
-    const WarpCheck stereo =
-        CheckStereo(self.camera, self.rays, sides[0].depth, sides[1].depth, found);
-    const WarpCheck flow =
-        CheckFlow(self.camera, DepthInNextCamera(views[0], hits[0], found, T_world_rig_next),
-                  depth_next, found.flow);
-    return VerifyReport{.raster_agreement_left = agreement[0].share(),
-                        .raster_agreement_right = agreement[1].share(),
-                        .raster_compared = agreement[0].compared + agreement[1].compared,
-                        .stereo_median_px = stereo.median_px,
-                        .flow_median_px = flow.median_px,
-                        .stereo_compared = stereo.compared,
-                        .flow_compared = flow.compared};
-  });
+VerifyReport Pipeline::Verify(const Moment& now, const Moment& next) const {
+  return impl_->arena.execute([&] { return ProveTruth(impl_->MakeStudio(), now, next); });
 }
 
-StageHashes Pipeline::HashStages(int frame_index, std::int64_t stamp_ns,
-                                 const Eigen::Isometry3d& T_world_rig) const {
+StageHashes Pipeline::HashStages(int frame_index, const Moment& moment) const {
   return impl_->arena.execute([&] {
-    const Impl& self = *impl_;
-    const Instant instant = self.tracer.Pose(self.world.At(stamp_ns));
-    const std::array<CameraView, 2> views = self.Views(T_world_rig);
-    std::vector<HitImage> hits;
-    TraceViews(instant, views, {}, &hits);
-    const std::vector<cv::Mat1f> radiance = self.shader->Shade(instant, views, hits);
-    const RenderedFrame frame = self.Render(frame_index, stamp_ns, T_world_rig, nullptr);
-    StageHasher triangles, points, light, linear, pictures;
-    for (std::size_t side = 0; side < 2; ++side) {
-      triangles.Add(hits[side].geometry).Add(hits[side].primitive);
-      points.Add(hits[side].t).Add(hits[side].u).Add(hits[side].v);
-      linear.Add(radiance[side]);
-    }
-    const auto solved = self.shader->static_light().At(instant.snapshot().light_scale);
-    light.Add(solved->total).Add(solved->direct).Add(solved->volume.nodes());
-    pictures.Add(frame.left).Add(frame.right);
-    return StageHashes{triangles.value, points.value, light.value, linear.value, pictures.value};
+    return aisle::sim::HashStages(
+        impl_->MakeStudio(), moment,
+        impl_->Render(frame_index, moment.stamp_ns, moment.T_world_rig, nullptr));
   });
 }
 
 PictureChanges Pipeline::CompareInTime(const std::array<Moment, 3>& moments) const {
   return impl_->arena.execute([&] {
-    const Impl& self = *impl_;
-    const ExposureSetting setting = self.ExposureFor(
-        self.tracer.Pose(self.world.At(moments[0].stamp_ns)), moments[0].T_world_rig);
-    const Studio studio{self.world,
-                        self.tracer,
-                        *self.shader,
-                        self.camera,
-                        self.rays,
-                        self.options.moving,
-                        [&](const cv::Mat1f& light) { return self.WithoutNoise(light, setting); }};
-    const PictureWithFlow first = TakeWithFlow(studio, moments[0], moments[1]);
-    const PictureWithFlow second = TakeWithFlow(studio, moments[1], moments[2]);
-    // Where the points of the third go next is not asked.
-    return aisle::sim::CompareInTime(first, second, TakeWithFlow(studio, moments[2], moments[2]));
+    const ExposureSetting setting = impl_->ExposureFor(
+        impl_->tracer.Pose(impl_->world.At(moments[0].stamp_ns)), moments[0].T_world_rig);
+    return aisle::sim::CompareInTime(impl_->MakeStudio(setting), moments);
   });
 }
 
-LightCheck Pipeline::CheckLight(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
-                                int samples, int reduce) const {
-  const Impl& self = *impl_;
-  const StereoCamera small = Coarser(self.camera, reduce);
-  LightCheck check;
-  const cv::Rect whole(0, 0, small.width * reduce, small.height * reduce);
-  cv::resize(RenderRadiance(stamp_ns, T_world_rig)[0](whole), check.nightly,
-             {small.width, small.height}, 0, 0, cv::INTER_AREA);
-  check.nightly *= self.options.sensor.exposure;
-  std::array<cv::Mat1f, 2> halves;
-  self.arena.execute([&] {
-    const Instant instant = self.tracer.Pose(self.world.At(stamp_ns));
-    const TexturePool textures(self.world.textures());
-    const Reference reference(self.world, textures);
-    const PixelRays rays = MakePixelRays(small);
-    const CameraView view(rays, CameraPose(small, T_world_rig, StereoSide::kLeft));
-    for (std::size_t i = 0; i < 2; ++i) {
-      halves[i] = reference.Render(instant, view, {.samples = (samples + 1) / 2, .seed = i + 1});
-      halves[i] *= self.options.sensor.exposure;
-    }
-  });
-  check.reference = (halves[0] + halves[1]) / 2;
-  check.halves = halves;
-  const LightError noise = CompareLight(halves[0], halves[1]);
-  check.noise_median_relative = noise.median_relative;
-  check.noise_ssim = noise.ssim;
-  const LightError error = CompareLight(check.nightly, check.reference);
-  check.median_relative_error = error.median_relative;
-  check.ssim = error.ssim;
-  check.mean_ratio = error.mean_ratio;
-  return check;
+LightCheck Pipeline::CheckLight(const Moment& moment, int samples, int reduce) const {
+  return impl_->arena.execute(
+      [&] { return aisle::sim::CheckLight(impl_->MakeStudio(), moment, samples, reduce); });
 }
 
 LightChangeCheck Pipeline::CheckLightChange(const std::array<Moment, 2>& moments, int samples,
                                             int reduce) const {
-  LightChangeCheck check;
-  check.now = CheckLight(moments[0].stamp_ns, moments[0].T_world_rig, samples, reduce);
-  const LightCheck then = CheckLight(moments[1].stamp_ns, moments[1].T_world_rig, samples, reduce);
-  cv::Mat1f ours;
-  cv::subtract(then.nightly, check.now.nightly, ours);
-  std::array<cv::Mat1f, 2> halves;
-  for (std::size_t i = 0; i < 2; ++i) {
-    cv::subtract(then.halves[i], check.now.halves[i], halves[i]);
-  }
-  const auto compare = [&](const cv::Mat1b& where) -> LightChangeCheck::Part {
-    const LightChange change = CompareChange(ours, halves, where);
-    return {change.pixels,      change.rms_ours,  change.rms_reference,
-            change.rms_between, change.rms_noise, change.correlation};
-  };
-  cv::Mat1b movers(ours.size(), std::uint8_t{0});
-  for (const Moment& moment : moments) movers |= impl_->MoversIn(moment, reduce);
-  check.everywhere = compare(cv::Mat1b(ours.size(), std::uint8_t{1}));
-  check.on_movers = compare(movers);
-  return check;
+  return impl_->arena.execute(
+      [&] { return aisle::sim::CheckLightChange(impl_->MakeStudio(), moments, samples, reduce); });
 }
 
-RenderBench Pipeline::Bench(std::span<const std::int64_t> stamps_ns,
-                            std::span<const Eigen::Isometry3d> poses) const {
+RenderBench Pipeline::Bench(std::span<const Moment> moments) const {
   return impl_->arena.execute([&] {
-    std::vector<double> pair, bare;
-    std::map<std::string, std::vector<double>> stages;
-    for (std::size_t i = 0; i < stamps_ns.size(); ++i) {
-      const Instant instant = impl_->tracer.Pose(impl_->world.At(stamps_ns[i]));
-      const std::array<CameraView, 2> views = impl_->Views(poses[i]);
-      std::vector<HitImage> hits = impl_->TakeImages();
-      Stopwatch watch;
-      TraceViews(instant, views, {}, &hits);
-      const double bare_ms = watch.Lap();
-      impl_->GiveBack(std::move(hits));
-      std::map<std::string, double> frame_stages;
-      watch.Lap();
-      impl_->Render(static_cast<int>(i), stamps_ns[i], poses[i], &frame_stages);
-      const double pair_ms = watch.Lap();
-      if (i == 0 && stamps_ns.size() > 1) continue;  // buffers are touched for the first time
-      bare.push_back(bare_ms);
-      pair.push_back(pair_ms);
-      for (const auto& [stage, ms] : frame_stages) stages[stage].push_back(ms);
-    }
-    RenderBench result{.pair_ms = Median(pair),
-                       .bare_primary_ms = Median(bare),
-                       .ratio = Median(pair) / Median(bare),
-                       .frames = static_cast<int>(pair.size()),
-                       .stage_ms = {}};
-    for (auto& [stage, ms] : stages) result.stage_ms[stage] = Median(ms);
-    return result;
+    return BenchRender(impl_->MakeStudio(), moments,
+                       [&](int index, const Moment& moment, std::map<std::string, double>* stages) {
+                         impl_->Render(index, moment.stamp_ns, moment.T_world_rig, stages);
+                       });
   });
 }
 

@@ -5,12 +5,12 @@
 #include <string>
 
 #include "simulator/camera/stereo_camera.h"
+#include "simulator/frames.h"
 #include "simulator/proof/picture_in_time.h"
 #include "simulator/sensor/auto_exposure.h"
 #include "simulator/sensor/sensor.h"
 #include "simulator/sensor/shutter.h"
 #include "simulator/shade/shader.h"
-#include "simulator/simulator.h"
 #include "simulator/truth/moving_now.h"
 #include "simulator/world/world.h"
 
@@ -50,17 +50,13 @@ class Pipeline {
   MotionTruth RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
                            std::int64_t next_stamp_ns,
                            const Eigen::Isometry3d& T_world_rig_next) const;
-  VerifyReport Verify(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
-                      std::int64_t next_stamp_ns, const Eigen::Isometry3d& T_world_rig_next) const;
+  VerifyReport Verify(const Moment& now, const Moment& next) const;
   /// Left pictures of three moments without noise, compared along the flow; automatic exposure is
   /// that of the first.
   PictureChanges CompareInTime(const std::array<Moment, 3>& moments) const;
-  RenderBench Bench(std::span<const std::int64_t> stamps_ns,
-                    std::span<const Eigen::Isometry3d> poses) const;
-  StageHashes HashStages(int frame_index, std::int64_t stamp_ns,
-                         const Eigen::Isometry3d& T_world_rig) const;
-  LightCheck CheckLight(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig, int samples,
-                        int reduce) const;
+  RenderBench Bench(std::span<const Moment> moments) const;
+  StageHashes HashStages(int frame_index, const Moment& moment) const;
+  LightCheck CheckLight(const Moment& moment, int samples, int reduce) const;
   LightChangeCheck CheckLightChange(const std::array<Moment, 2>& moments, int samples,
                                     int reduce) const;
 

@@ -147,6 +147,12 @@ std::uint64_t HashOf(const std::string& scene_text, const World& world, std::int
   return hasher.Value();
 }
 
+/// When and from where a frame is taken on the scene's route.
+Moment PlannedMoment(const Simulator& simulator, int frame_index) {
+  const std::int64_t stamp_ns = simulator.Stamp(frame_index);
+  return {stamp_ns, simulator.PlannedPose(stamp_ns)};
+}
+
 std::vector<InstanceInfo> DescribeInstances(const World& world) {
   std::vector<InstanceInfo> instances;
   for (const Instance& instance : world.instances()) {
@@ -254,11 +260,10 @@ MotionTruth Simulator::RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry
 }
 
 VerifyReport Simulator::Verify(int frame_index) const {
-  const auto moment = [&](int frame) { return Moment{Stamp(frame), PlannedPose(Stamp(frame))}; };
-  const std::array moments = {moment(frame_index), moment(frame_index + 1),
-                              moment(frame_index + 2)};
-  VerifyReport report = impl_->pipeline->Verify(moments[0].stamp_ns, moments[0].T_world_rig,
-                                                moments[1].stamp_ns, moments[1].T_world_rig);
+  const std::array moments = {PlannedMoment(*this, frame_index),
+                              PlannedMoment(*this, frame_index + 1),
+                              PlannedMoment(*this, frame_index + 2)};
+  VerifyReport report = impl_->pipeline->Verify(moments[0], moments[1]);
   const PictureChanges changes = impl_->pipeline->CompareInTime(moments);
   report.static_change_grey = changes.statics.rms;
   report.mover_flicker_grey = changes.movers.flicker;
@@ -268,29 +273,25 @@ VerifyReport Simulator::Verify(int frame_index) const {
 }
 
 RenderBench Simulator::Bench(int frames) const {
-  std::vector<std::int64_t> stamps;
-  std::vector<Eigen::Isometry3d> poses;
+  std::vector<Moment> moments;
   for (int i = 0; i < frames; ++i) {
-    stamps.push_back(Stamp(static_cast<int>(std::int64_t{frame_count() - 1} * i / frames)));
-    poses.push_back(PlannedPose(stamps.back()));
+    moments.push_back(
+        PlannedMoment(*this, static_cast<int>(std::int64_t{frame_count() - 1} * i / frames)));
   }
-  return impl_->pipeline->Bench(stamps, poses);
+  return impl_->pipeline->Bench(moments);
 }
 
 StageHashes Simulator::HashStages(int frame_index) const {
-  const std::int64_t stamp_ns = Stamp(frame_index);
-  return impl_->pipeline->HashStages(frame_index, stamp_ns, PlannedPose(stamp_ns));
+  return impl_->pipeline->HashStages(frame_index, PlannedMoment(*this, frame_index));
 }
 
 LightCheck Simulator::CheckLight(int frame_index, int samples, int reduce) const {
-  const std::int64_t stamp_ns = Stamp(frame_index);
-  return impl_->pipeline->CheckLight(stamp_ns, PlannedPose(stamp_ns), samples, reduce);
+  return impl_->pipeline->CheckLight(PlannedMoment(*this, frame_index), samples, reduce);
 }
 
 LightChangeCheck Simulator::CheckLightChange(int frame_index, int samples, int reduce) const {
-  const auto moment = [&](int frame) { return Moment{Stamp(frame), PlannedPose(Stamp(frame))}; };
-  return impl_->pipeline->CheckLightChange({moment(frame_index), moment(frame_index + 1)}, samples,
-                                           reduce);
+  return impl_->pipeline->CheckLightChange(
+      {PlannedMoment(*this, frame_index), PlannedMoment(*this, frame_index + 1)}, samples, reduce);
 }
 
 std::vector<std::string> CheckSceneFile(const std::string& scene_file,

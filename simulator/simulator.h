@@ -1,27 +1,16 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
-namespace aisle::sim {
+#include "simulator/frames.h"
 
-/// Parallel stereo rig; see simulator/camera for the conventions.
-struct RigInfo {
-  int width = 0, height = 0;
-  double fx = 0, fy = 0, cx = 0, cy = 0;  ///< pixels; the centre of pixel (0,0) is u = v = 0
-  double baseline_m = 0;
-  /// "none" (the pair is rectified), "radial-tangential" (k1 k2 p1 p2, as in OpenCV) or
-  /// "equidistant" (k1 k2 k3 k4, as in cv::fisheye); the same in both cameras.
-  std::string distortion_model = "none";
-  std::array<double, 4> distortion = {0, 0, 0, 0};
-};
+namespace aisle::sim {
 
 /// Which version of a scene to play.
 enum class Twin {
@@ -46,133 +35,6 @@ struct SimulatorOptions {
   /// Told while the static light is solved (once per scene, then kept on disk) the share that is
   /// done, rising to 1; from any thread, one call at a time.
   std::function<void(double)> light_progress = {};
-};
-
-/// One labelled thing of the scene; its id in the label image is its index in instances().
-struct InstanceInfo {
-  std::string name;
-  std::string object_class;  ///< "person", "forklift", "rack", …
-  std::uint8_t class_id = 0;
-  bool is_actor = false;
-};
-
-/// What truth says of one actor that has at least one pixel or box in the left image.
-struct ObjectTruth {
-  std::uint16_t instance = 0;
-  cv::Rect2d box_visible;  ///< pixels; encloses the pixels that show it (empty if none)
-  cv::Rect2d box_full;     ///< pixels; as if nothing stood in front, cut at the image border
-  Eigen::Isometry3d T_world_object = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d extent_m = Eigen::Vector3d::Zero();  ///< full sizes of the 3-D box along its axes
-  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();  ///< of the 3-D box, world
-  Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
-  double visible_fraction = 0;  ///< visible pixels / pixels it would have unoccluded, in [0, 1]
-  int visible_pixels = 0;
-  int dynamic_pixels = 0;  ///< of them, on a surface that moves now
-};
-
-/// Exact truth of the left camera (of the right where it says so) at the stamp. With motion blur or
-/// a rolling shutter on, the stamp is the middle of the middle row's exposure.
-///
-/// What moves "now" is asked about the exposure, since at a single instant an arm that turns back
-/// is at rest: a surface moves now if its fastest speed within sensor.exposure_ms (8 ms unless the
-/// scene says otherwise) around the stamp exceeds Simulator::dynamic_threshold_mps(). The time is
-/// the one set, whether motion blur is on or not and whatever automatic exposure chooses: what
-/// moves does not depend on the light. Depth, labels and boxes are those of the stamp itself.
-struct FrameTruth {
-  Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();
-  cv::Mat1f depth;         ///< z in metres along the optical axis, inf where nothing was hit
-  cv::Mat1w instance;      ///< index into Simulator::instances(), 0 where nothing was hit
-  cv::Mat1b object_class;  ///< class ids
-  cv::Mat1f depth_right;   ///< z in metres along the right camera's axis, inf where nothing was hit
-  cv::Mat1w instance_right;
-  cv::Mat1b object_class_right;
-  cv::Mat1b dynamic;                 ///< 255 where the surface moves in the world now
-  cv::Mat1b dynamic_right;           ///< the same for the right camera
-  cv::Mat1b actor;                   ///< 255 on every person and vehicle, moving or not (left)
-  cv::Mat1b actor_right;             ///< the same for the right camera
-  std::vector<ObjectTruth> objects;  ///< by instance id
-};
-
-struct RenderedFrame {
-  std::int64_t stamp_ns = 0;
-  cv::Mat1b left, right;   ///< 8-bit grey, the same instant exactly
-  double exposure_ms = 0;  ///< exposure time of both
-  double smear_ms = 0;     ///< of it, the time over which motion is drawn out: 0, or all of it
-  double gain = 1;         ///< analogue gain of both
-  FrameTruth truth;
-};
-
-/// Where each left pixel's surface point is in the right camera and in the next frame, exactly; and
-/// which pixels lie in moving shadows.
-struct MotionTruth {
-  cv::Mat1f disparity;   ///< left u - right u in the rectified pair, pixels; 0: nothing was hit
-  cv::Mat1b occluded;    ///< 255 where the right camera does not see the point
-  cv::Mat2f flow;        ///< to the next frame's left image, pixels; NaN where it is not in front
-  cv::Mat3f scene_flow;  ///< the surface point's own way until then, metres, world
-  /// 255 where the surface rests but something that moves takes more than a twentieth of its direct
-  /// light now (left camera).
-  cv::Mat1b moving_shadow;
-};
-
-/// What the proofs say of one frame; see simulator/raster and simulator/truth.
-struct VerifyReport {
-  double raster_agreement_left = 0;   ///< share of pixels away from silhouettes where OSMesa agrees
-  double raster_agreement_right = 0;  ///< in label and in depth to 1e-3
-  int raster_compared = 0;
-  double stereo_median_px = 0;  ///< left warped to right by disparity, error of geometry
-  double flow_median_px = 0;    ///< left warped to the next left by flow, as disparity
-  int stereo_compared = 0, flow_compared = 0;
-  /// Grey against grey over three frames without noise, see simulator/proof: rms change of things
-  /// at rest along their flow, flicker of movers and of moving shadows; grey levels, 0 where too
-  /// little of it is seen.
-  double static_change_grey = 0, mover_flicker_grey = 0, shadow_flicker_grey = 0;
-  std::string picture_failure = {};  ///< of the three, or empty
-  /// The sentence that says what failed its bound (0.999 agreement, 0.05 px), or empty.
-  std::string failure() const;
-};
-
-/// The stages of a frame, in the order in which they feed each other.
-inline constexpr std::array kStages = {"triangles", "points", "static light", "radiance",
-                                       "pictures"};
-
-/// A hash of what each of kStages made of a frame for both cameras: which triangle a pixel sees;
-/// where on it (t, u, v); the light on the static world; the radiance before the sensor; the
-/// pictures. For finding where two machines part.
-using StageHashes = std::array<std::uint64_t, kStages.size()>;
-
-/// How long rendering takes, beside the bare cost of its primary rays in the same process.
-struct RenderBench {
-  double pair_ms = 0;          ///< a stereo pair with all truth, median
-  double bare_primary_ms = 0;  ///< primary ray packets of the same two images alone, median
-  double ratio = 0;            ///< pair_ms / bare_primary_ms
-  int frames = 0;
-  std::map<std::string, double> stage_ms;  ///< medians by stage
-};
-
-/// The nightly light of one left image beside the path tracer's, before the sensor: linear, in
-/// shares of the sensor's white.
-struct LightCheck {
-  cv::Mat1f nightly, reference;
-  double median_relative_error = 0;  ///< over pixels
-  double ssim = 0;                   ///< structural similarity, what is over white cut to white
-  double mean_ratio = 0;             ///< nightly over reference
-  /// The same of two references of half as many paths each, against each other: what of the error
-  /// is the paths' own noise.
-  double noise_median_relative = 0, noise_ssim = 0;
-  std::array<cv::Mat1f, 2> halves;  ///< these two; the reference is their mean
-};
-
-/// How the light of one left image changes to the next frame's, beside how the path tracer's does.
-struct LightChangeCheck {
-  struct Part {
-    int pixels = 0;
-    double rms_nightly = 0, rms_reference = 0;  ///< of the changes, in shares of white
-    double rms_between = 0;                     ///< of one change less the other
-    double rms_noise = 0;                       ///< what of it is the paths' own noise
-    double correlation = 0;                     ///< of the two changes
-  };
-  LightCheck now;
-  Part everywhere, on_movers;  ///< the latter in either frame, and the pixel around them
 };
 
 /// The face of the simulator: a scene that can be photographed at any time from any pose. A frame

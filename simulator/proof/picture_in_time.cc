@@ -1,6 +1,7 @@
 #include "simulator/proof/picture_in_time.h"
 
 #include "simulator/truth/correspondence.h"
+#include "simulator/truth/moving_shadow.h"
 #include "simulator/truth/truth.h"
 
 namespace aisle::sim {
@@ -25,6 +26,13 @@ PictureWithFlow TakeWithFlow(const Studio& studio, const Moment& now, const Mome
                           .z_next = DepthInNextCamera(view[0], hits[0], found, next.T_world_rig)};
   studio.expose(studio.shader.Shade(instant, view, hits).front()).convertTo(picture.grey, CV_32F);
   return picture;
+}
+
+PictureChanges CompareInTime(const Studio& studio, const std::array<Moment, 3>& moments) {
+  const PictureWithFlow first = TakeWithFlow(studio, moments[0], moments[1]);
+  const PictureWithFlow second = TakeWithFlow(studio, moments[1], moments[2]);
+  // Where the points of the third go next is not asked.
+  return CompareInTime(first, second, TakeWithFlow(studio, moments[2], moments[2]));
 }
 
 }  // namespace aisle::sim

@@ -2,7 +2,8 @@
 
 Usage: arrows.py SOURCE_DIR ARROWS_FILE. The arrows file is written by CMake, a line per room:
 "simulator/truth: simulator/trace,simulator/world". A room may include itself and whatever it
-reaches through its arrows. Across houses only the two faces are open, and only to harness/plugs
+reaches through its arrows, and its house's nouns (frames.h), which include nothing of ours. Across
+houses only the two faces are open, and only to harness/plugs
 (and to the tests, which may include anything of the room they test).
 """
 
@@ -12,6 +13,7 @@ import sys
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 HOUSES = ("simulator", "slam", "harness")
+NOUNS = {f"{house}/frames.h" for house in HOUSES}  # any room of the house may include them
 FACES = {"simulator": "simulator/simulator.h", "slam": "slam/stereo_slam.h"}
 ROOMS_THAT_SEE = {  # foreign headers that one room alone may see
     "embree3/": {"simulator/trace"},
@@ -63,6 +65,10 @@ def offences(files, arrows):
             elif target_house != house:
                 if room != "harness/plugs" or include != FACES.get(target_house):
                     yield f"{path}: {room} must not know {include}"
+            elif path in NOUNS:
+                yield f"{path}: nouns stand by themselves, without {include}"
+            elif include in NOUNS:
+                continue
             elif room_of(include) not in allowed:
                 yield f"{path}: no arrow leads from {room} to {room_of(include)} ({include})"
         for include in FOREIGN.findall(text):

@@ -36,6 +36,12 @@ class ArrowsTest(unittest.TestCase):
         self.assertEqual(check("harness/cli/a.cc", '#include "harness/contract/run.h"'), [])
         self.assertEqual(len(check("harness/cli/a.cc", '#include "harness/plugs/systems.h"')), 1)
 
+    def test_nouns_are_everybodys_in_their_house_and_stand_alone(self):
+        nouns = "simulator/frames.h"
+        self.assertEqual(check("simulator/scene/a.cc", f'#include "{nouns}"'), [])
+        self.assertEqual(len(check("harness/score/a.cc", f'#include "{nouns}"')), 1)
+        self.assertEqual(len(check(nouns, '#include "simulator/scene/scene.h"')), 1)
+
     def test_foreign_libraries_stay_in_their_room(self):
         self.assertEqual(len(check("simulator/world/a.cc", "#include <embree3/rtcore.h>")), 1)
         self.assertEqual(check("simulator/trace/a.cc", "#include <embree3/rtcore.h>"), [])

@@ -72,9 +72,10 @@ TEST(Pipeline, ShadingAndSensorOptionsNeverChangeTruth) {
 }
 
 TEST(Pipeline, TruthProvesItselfByRasteriserAndWarps) {
-  const VerifyReport report = SmallHall(QuickOptions())
-                                  .Verify(2 * kSecond, kPose, 2 * kSecond + kSecond / 20,
-                                          test::LookAlong({1.55, 0, 1.2}, 0.03));
+  const VerifyReport report =
+      SmallHall(QuickOptions())
+          .Verify({2 * kSecond, kPose},
+                  {2 * kSecond + kSecond / 20, test::LookAlong({1.55, 0, 1.2}, 0.03)});
   EXPECT_EQ(report.failure(), "");
   EXPECT_GT(report.raster_compared, 300'000);
   EXPECT_GT(report.stereo_compared, 200'000);
@@ -181,9 +182,10 @@ TEST(AutoExposure, TheFramesMeanIsTheTargetWhateverTheLight) {
 TEST(Lens, TruthProvesItselfThroughIt) {
   StereoCamera camera;
   camera.lens = {LensModel::kRadialTangential, {-0.28, 0.074, 0.0002, 0.00002}};
-  const VerifyReport report = Pipeline(World(test::Hall({.boxes = 200})), camera, QuickOptions())
-                                  .Verify(2 * kSecond, kPose, 2 * kSecond + kSecond / 20,
-                                          test::LookAlong({1.55, 0, 1.2}, 0.03));
+  const VerifyReport report =
+      Pipeline(World(test::Hall({.boxes = 200})), camera, QuickOptions())
+          .Verify({2 * kSecond, kPose},
+                  {2 * kSecond + kSecond / 20, test::LookAlong({1.55, 0, 1.2}, 0.03)});
   EXPECT_EQ(report.failure(), "");
   EXPECT_GT(report.raster_compared, 200'000);
 }
@@ -201,13 +203,11 @@ TEST(Pipeline, PicturesToLookAt) {
   const RenderedFrame frame = pipeline.Render(0, 2 * kSecond, kPose);
   cv::imwrite(std::string(folder) + "/left.png", frame.left);
   cv::imwrite(std::string(folder) + "/dynamic.png", frame.truth.dynamic);
-  std::vector<std::int64_t> stamps;
-  std::vector<Eigen::Isometry3d> poses;
+  std::vector<Moment> moments;
   for (int i = 0; i < 12; ++i) {
-    stamps.push_back(i * kSecond / 4);
-    poses.push_back(test::LookAlong({1.0 + 0.3 * i, 0, 1.2}, 0.02));
+    moments.push_back({i * kSecond / 4, test::LookAlong({1.0 + 0.3 * i, 0, 1.2}, 0.02)});
   }
-  const RenderBench bench = pipeline.Bench(stamps, poses);
+  const RenderBench bench = pipeline.Bench(moments);
   fmt::print("built in {:.1f} s; mean grey {:.1f}\n", built.count(), cv::mean(frame.left)[0]);
   fmt::print("pair {:.1f} ms, bare {:.1f} ms, ratio {:.2f}\n", bench.pair_ms, bench.bare_primary_ms,
              bench.ratio);

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <array>
+
+#include "simulator/frames.h"
+#include "simulator/proof/studio.h"
+
+namespace aisle::sim {
+
+/// The light of a moment's left image beside path tracing with `samples` paths a pixel, both before
+/// the sensor, compared at a size reduced by a whole factor.
+LightCheck CheckLight(const Studio& studio, const Moment& moment, int samples, int reduce);
+
+/// The same of the first of two moments, and how the light changes to the second. The paths of both
+/// have the same seeds.
+LightChangeCheck CheckLightChange(const Studio& studio, const std::array<Moment, 2>& moments,
+                                  int samples, int reduce);
+
+}  // namespace aisle::sim
