@@ -6,14 +6,14 @@
 
 #include <stdexcept>
 
+#include "slam/base/tracking_policy.h"
 #include "slam/common/stopwatch.h"
 #include "slam/dynamic/dynamic_detector.h"
+#include "slam/front_end/see_frame.h"
 #include "slam/map/map_file.h"
 #include "slam/mapping/map_keeper.h"
-#include "slam/see_frame.h"
 #include "slam/track/predict_motion.h"
-#include "slam/track_record.h"
-#include "slam/tracking_policy.h"
+#include "slam/track/track_record.h"
 
 namespace aisle::slam {
 namespace {

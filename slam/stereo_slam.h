@@ -11,32 +11,11 @@
 
 #include "slam/camera/stereo_camera.h"
 #include "slam/dynamic/common/dynamic_regions.h"
+#include "slam/frames.h"
+#include "slam/options/slam_options.h"
 #include "slam/picture/draw_stages.h"
-#include "slam/slam_options.h"
 
 namespace aisle::slam {
-
-/// One instant of a rectified stereo rig, 8-bit grey. All that the system sees of the world.
-struct StereoImages {
-  std::int64_t id = 0;
-  std::int64_t stamp_ns = 0;
-  cv::Mat1b left, right;
-};
-
-/// Pixels somebody else has declared unusable: 255 = reject. An empty image rejects nothing.
-struct ExternalMask {
-  cv::Mat1b left, right;
-  /// How far each left pixel is trusted, 0 to 1: the information of what is measured there is
-  /// multiplied by it. An empty image trusts all.
-  cv::Mat1f confidence;
-};
-
-enum class TrackingState {
-  kInitializing,  ///< no map yet
-  kTracking,
-  kApart,  ///< tracking in a part of the map whose place in the world is not known (yet)
-  kLost,
-};
 
 /// What is known of a frame at that frame, causally.
 struct TrackedFrame {
@@ -59,11 +38,6 @@ struct TrackedFrame {
   std::vector<cv::Point2f> keypoints;      ///< left image, for scoring where features were spent
   std::vector<bool> keypoint_is_inlier;    ///< per keypoint: took part in the pose
   std::map<std::string, double> stage_ms;  ///< wall time by stage; reported, never decided upon
-};
-
-struct StampedPose {
-  std::int64_t stamp_ns = 0;
-  Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();
 };
 
 /// The face of the SLAM system. One instance per sequence; any number of instances per process.

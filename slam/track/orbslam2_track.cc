@@ -22,22 +22,22 @@ struct Supported {
   std::vector<Match> matches;
 };
 
-RefinedPose Refine(const OrbSlam2Scene& scene, const Eigen::Isometry3d& T_rig_world,
+RefinedPose Refine(const OrbSlam2Context& context, const Eigen::Isometry3d& T_rig_world,
                    const std::vector<Match>& matches) {
   std::vector<PointObservation> observations;
   for (const Match& match : matches) {
     observations.push_back(
-        {scene.map.At(match.landmark).position, scene.frame.measurements[Slot(match.feature)]});
+        {context.map.At(match.landmark).position, context.frame.measurements[Slot(match.feature)]});
   }
-  return RefinePose(scene.camera, T_rig_world, observations, {.start_anew = true});
+  return RefinePose(context.camera, T_rig_world, observations, {.start_anew = true});
 }
 
 /// Nothing where too few matches agree or they fix no pose.
-std::optional<Supported> RefineFirst(const OrbSlam2Scene& scene,
+std::optional<Supported> RefineFirst(const OrbSlam2Context& context,
                                      const Eigen::Isometry3d& T_rig_world,
                                      const std::vector<Match>& matches) {
-  Supported first{Refine(scene, T_rig_world, matches), {}};
-  if (first.pose.inliers < scene.options.least_first_inliers || !first.pose.well_posed) {
+  Supported first{Refine(context, T_rig_world, matches), {}};
+  if (first.pose.inliers < context.options.least_first_inliers || !first.pose.well_posed) {
     return std::nullopt;
   }
   for (std::size_t i = 0; i < matches.size(); ++i) {
@@ -47,13 +47,13 @@ std::optional<Supported> RefineFirst(const OrbSlam2Scene& scene,
 }
 
 /// Levels to look for a feature of the last frame on: it is seen larger from nearer.
-std::pair<int, int> LevelsAround(int level, double ahead_m, const OrbSlam2Scene& scene) {
-  if (ahead_m > scene.camera.baseline_m) return {level, scene.levels - 1};
-  if (-ahead_m > scene.camera.baseline_m) return {0, level};
+std::pair<int, int> LevelsAround(int level, double ahead_m, const OrbSlam2Context& context) {
+  if (ahead_m > context.camera.baseline_m) return {level, context.levels - 1};
+  if (-ahead_m > context.camera.baseline_m) return {0, level};
   return {level - 1, level + 1};
 }
 
-std::vector<Match> FollowLastFrame(const OrbSlam2Scene& scene, const OrbSlam2Memory& memory,
+std::vector<Match> FollowLastFrame(const OrbSlam2Context& context, const OrbSlam2Memory& memory,
                                    const Eigen::Isometry3d& T_rig_world,
                                    const Eigen::Isometry3d& T_world_last, double radius_px) {
   const Eigen::Isometry3d T_last_rig =
@@ -61,20 +61,20 @@ std::vector<Match> FollowLastFrame(const OrbSlam2Scene& scene, const OrbSlam2Mem
   const double ahead_m = T_last_rig.translation().z();
   std::vector<Sought> sought;
   for (const Match& match : memory.matches) {
-    const Landmark* landmark = scene.map.Find(match.landmark);
+    const Landmark* landmark = context.map.Find(match.landmark);
     if (!landmark) continue;
     const Eigen::Vector3d in_rig = T_rig_world * landmark->position;
     if (in_rig.z() <= 0) continue;
-    const Eigen::Vector3d uvd = Project(scene.camera, in_rig);
-    if (!InImage(scene.camera, uvd.x(), uvd.y())) continue;
+    const Eigen::Vector3d uvd = Project(context.camera, in_rig);
+    if (!InImage(context.camera, uvd.x(), uvd.y())) continue;
     const int level = memory.frame->features.keypoints[Slot(match.feature)].level;
-    const auto [lowest, highest] = LevelsAround(level, ahead_m, scene);
+    const auto [lowest, highest] = LevelsAround(level, ahead_m, context);
     sought.push_back(
-        {landmark, uvd, radius_px * std::pow(scene.frame.scale, level), lowest, highest});
+        {landmark, uvd, radius_px * std::pow(context.frame.scale, level), lowest, highest});
   }
-  std::vector<bool> taken(Slot(scene.frame.size()), false);
+  std::vector<bool> taken(Slot(context.frame.size()), false);
   const std::vector<Match> matches =
-      MatchInTurn(scene.frame, sought, scene.options.motion_distance, kNoRatio, taken);
+      MatchInTurn(context.frame, sought, context.options.motion_distance, kNoRatio, taken);
 
   std::map<LandmarkId, float> angles_deg;
   for (const Match& match : memory.matches) {
@@ -83,31 +83,32 @@ std::vector<Match> FollowLastFrame(const OrbSlam2Scene& scene, const OrbSlam2Mem
   std::vector<float> turns_deg;
   for (const Match& match : matches) {
     turns_deg.push_back(angles_deg.at(match.landmark) -
-                        scene.frame.features.keypoints[Slot(match.feature)].angle_deg);
+                        context.frame.features.keypoints[Slot(match.feature)].angle_deg);
   }
   return KeepCommonTurns(matches, turns_deg);
 }
 
-std::optional<Supported> TrackByMotion(const OrbSlam2Scene& scene, const OrbSlam2Memory& memory,
+std::optional<Supported> TrackByMotion(const OrbSlam2Context& context, const OrbSlam2Memory& memory,
                                        const Eigen::Isometry3d& T_world_last) {
-  const OrbSlam2Options& options = scene.options;
+  const OrbSlam2Options& options = context.options;
   if (!memory.T_now_before || memory.frames_since_found < options.found_again_frames) {
     return std::nullopt;
   }
   const Eigen::Isometry3d T_rig_world = *memory.T_now_before * T_world_last.inverse();
   for (const double widen : {1, 2}) {
-    const std::vector<Match> matches =
-        FollowLastFrame(scene, memory, T_rig_world, T_world_last, widen * options.motion_radius_px);
+    const std::vector<Match> matches = FollowLastFrame(context, memory, T_rig_world, T_world_last,
+                                                       widen * options.motion_radius_px);
     if (std::ssize(matches) < options.least_motion_matches) continue;
-    return RefineFirst(scene, T_rig_world, matches);
+    return RefineFirst(context, T_rig_world, matches);
   }
   return std::nullopt;
 }
 
 /// Matches by looks, turned alike.
-std::vector<Match> MatchLooks(const OrbSlam2Scene& scene, const Keyframe& keyframe, double ratio) {
-  const std::vector<Match> matches =
-      MatchKeyframe(scene.map, keyframe, scene.frame, scene.options.reference_distance, ratio);
+std::vector<Match> MatchLooks(const OrbSlam2Context& context, const Keyframe& keyframe,
+                              double ratio) {
+  const std::vector<Match> matches = MatchKeyframe(context.map, keyframe, context.frame,
+                                                   context.options.reference_distance, ratio);
   std::map<LandmarkId, float> angles_deg;
   for (std::size_t i = 0; i < keyframe.landmarks.size(); ++i) {
     angles_deg[keyframe.landmarks[i]] = keyframe.frame->features.keypoints[i].angle_deg;
@@ -115,21 +116,21 @@ std::vector<Match> MatchLooks(const OrbSlam2Scene& scene, const Keyframe& keyfra
   std::vector<float> turns_deg;
   for (const Match& match : matches) {
     turns_deg.push_back(angles_deg.at(match.landmark) -
-                        scene.frame.features.keypoints[Slot(match.feature)].angle_deg);
+                        context.frame.features.keypoints[Slot(match.feature)].angle_deg);
   }
   return KeepCommonTurns(matches, turns_deg);
 }
 
-std::optional<Supported> TrackByReference(const OrbSlam2Scene& scene, KeyframeId reference,
+std::optional<Supported> TrackByReference(const OrbSlam2Context& context, KeyframeId reference,
                                           const Eigen::Isometry3d& T_world_last) {
   const std::vector<Match> matches =
-      MatchLooks(scene, scene.map.At(reference), scene.options.reference_ratio);
-  if (std::ssize(matches) < scene.options.least_reference_matches) return std::nullopt;
-  return RefineFirst(scene, T_world_last.inverse(), matches);
+      MatchLooks(context, context.map.At(reference), context.options.reference_ratio);
+  if (std::ssize(matches) < context.options.least_reference_matches) return std::nullopt;
+  return RefineFirst(context, T_world_last.inverse(), matches);
 }
 
 /// Landmarks that should be seen from a pose, and where; those in `known` left out.
-std::vector<Sought> Expected(const OrbSlam2Scene& scene,
+std::vector<Sought> Expected(const OrbSlam2Context& context,
                              const std::vector<const Landmark*>& landmarks,
                              const Eigen::Isometry3d& T_rig_world, const std::vector<Match>& known,
                              double factor) {
@@ -137,18 +138,19 @@ std::vector<Sought> Expected(const OrbSlam2Scene& scene,
   for (const Match& match : known) ids.push_back(match.landmark);
   std::ranges::sort(ids);
   const Eigen::Vector3d centre = T_rig_world.inverse(Eigen::Isometry).translation();
-  const OrbSlam2Options& options = scene.options;
+  const OrbSlam2Options& options = context.options;
   std::vector<Sought> sought;
   for (const Landmark* landmark : landmarks) {
     if (std::ranges::binary_search(ids, landmark->id)) continue;
-    const auto view = Expect(*landmark, scene.camera, T_rig_world, scene.frame.scale, scene.levels);
+    const auto view =
+        Expect(*landmark, context.camera, T_rig_world, context.frame.scale, context.levels);
     if (!view) continue;
     const Eigen::Vector3d ray = landmark->position - centre;
     const bool ahead = ray.dot(landmark->normal) > options.ahead_cosine * ray.norm();
-    const int level = PredictLevelAbove(*landmark, ray.norm(), scene.frame.scale, scene.levels);
+    const int level = PredictLevelAbove(*landmark, ray.norm(), context.frame.scale, context.levels);
     const double radius_px = factor * (ahead ? options.ahead_radius_px : options.aside_radius_px);
     sought.push_back(
-        {landmark, view->uvd, radius_px * std::pow(scene.frame.scale, level), level - 1, level});
+        {landmark, view->uvd, radius_px * std::pow(context.frame.scale, level), level - 1, level});
   }
   return sought;
 }
@@ -168,86 +170,90 @@ std::vector<LandmarkId> LandmarksOf(const std::vector<Match>& matches) {
 bool ByFeature(const Match& a, const Match& b) { return a.feature < b.feature; }
 
 /// Looks for everything around a first pose, refines it with all of it, and asks for enough.
-std::optional<FramePose> TrackLocalMap(const OrbSlam2Scene& scene, const Supported& first,
+std::optional<FramePose> TrackLocalMap(const OrbSlam2Context& context, const Supported& first,
                                        bool just_found, bool settling) {
-  const OrbSlam2Options& options = scene.options;
+  const OrbSlam2Options& options = context.options;
   FramePose result;
   result.expected = LandmarksOf(first.matches);
-  result.local = OrbSlam2LocalMap(scene.map, result.expected, options);
+  result.local = OrbSlam2LocalMap(context.map, result.expected, options);
   const std::vector<Sought> sought =
-      Expected(scene, result.local.landmarks, first.pose.T_rig_world, first.matches,
+      Expected(context, result.local.landmarks, first.pose.T_rig_world, first.matches,
                just_found ? options.found_again_factor : 1);
   for (const Sought& one : sought) result.expected.push_back(one.landmark->id);
-  std::vector<bool> taken = TakenBy(first.matches, scene.frame);
-  result.matches = MatchInTurn(scene.frame, sought, options.map_distance, options.map_ratio, taken);
+  std::vector<bool> taken = TakenBy(first.matches, context.frame);
+  result.matches =
+      MatchInTurn(context.frame, sought, options.map_distance, options.map_ratio, taken);
   result.matches.insert(result.matches.end(), first.matches.begin(), first.matches.end());
   std::ranges::sort(result.matches, ByFeature);
-  result.pose = Refine(scene, first.pose.T_rig_world, result.matches);
+  result.pose = Refine(context, first.pose.T_rig_world, result.matches);
   const int least = settling ? options.least_inliers_after_loss : options.least_inliers;
   if (result.pose.inliers < least || !result.pose.well_posed) return std::nullopt;
   return result;
 }
 
 /// More matches of a keyframe's landmarks around a pose that has too few.
-std::optional<Supported> SearchMore(const OrbSlam2Scene& scene, const Keyframe& keyframe,
+std::optional<Supported> SearchMore(const OrbSlam2Context& context, const Keyframe& keyframe,
                                     const Supported& first, double radius_px, int distance) {
   std::vector<const Landmark*> landmarks;
   for (const LandmarkId id : keyframe.landmarks) {
-    if (const Landmark* landmark = scene.map.Find(id)) landmarks.push_back(landmark);
+    if (const Landmark* landmark = context.map.Find(id)) landmarks.push_back(landmark);
   }
-  std::vector<Sought> sought = Expected(scene, landmarks, first.pose.T_rig_world, first.matches, 1);
+  std::vector<Sought> sought =
+      Expected(context, landmarks, first.pose.T_rig_world, first.matches, 1);
   for (Sought& one : sought) {
-    one.radius_px = radius_px * std::pow(scene.frame.scale, one.highest);
+    one.radius_px = radius_px * std::pow(context.frame.scale, one.highest);
     ++one.highest;
   }
-  std::vector<bool> taken = TakenBy(first.matches, scene.frame);
-  std::vector<Match> matches = MatchInTurn(scene.frame, sought, distance, kNoRatio, taken);
+  std::vector<bool> taken = TakenBy(first.matches, context.frame);
+  std::vector<Match> matches = MatchInTurn(context.frame, sought, distance, kNoRatio, taken);
   matches.insert(matches.end(), first.matches.begin(), first.matches.end());
   std::ranges::sort(matches, ByFeature);
-  return RefineFirst(scene, first.pose.T_rig_world, matches);
+  return RefineFirst(context, first.pose.T_rig_world, matches);
 }
 
-std::optional<Supported> RecogniseLost(const OrbSlam2Scene& scene, const Keyframe& keyframe) {
-  const OrbSlam2Options& options = scene.options;
-  const std::vector<Match> matches = MatchLooks(scene, keyframe, options.lost_ratio);
+std::optional<Supported> RecogniseLost(const OrbSlam2Context& context, const Keyframe& keyframe) {
+  const OrbSlam2Options& options = context.options;
+  const std::vector<Match> matches = MatchLooks(context, keyframe, options.lost_ratio);
   if (std::ssize(matches) < options.least_lost_matches) return std::nullopt;
   std::vector<PointObservation> observations;
   for (const Match& match : matches) {
     observations.push_back(
-        {scene.map.At(match.landmark).position, scene.frame.measurements[Slot(match.feature)]});
+        {context.map.At(match.landmark).position, context.frame.measurements[Slot(match.feature)]});
   }
-  const auto pose = AlignPoints(scene.camera, observations, options.align);
+  const auto pose = AlignPoints(context.camera, observations, options.align);
   if (!pose) return std::nullopt;
-  auto found = RefineFirst(scene, pose->T_rig_world, matches);
+  auto found = RefineFirst(context, pose->T_rig_world, matches);
   if (found && found->pose.inliers < options.least_found_inliers) {
-    found = SearchMore(scene, keyframe, *found, options.wide_radius_px, options.wide_distance);
+    found = SearchMore(context, keyframe, *found, options.wide_radius_px, options.wide_distance);
   }
   if (found && found->pose.inliers < options.least_found_inliers &&
       found->pose.inliers > options.least_narrow_inliers) {
-    found = SearchMore(scene, keyframe, *found, options.narrow_radius_px, options.narrow_distance);
+    found =
+        SearchMore(context, keyframe, *found, options.narrow_radius_px, options.narrow_distance);
   }
   return found && found->pose.inliers >= options.least_found_inliers ? found : std::nullopt;
 }
 
 }  // namespace
 
-std::optional<FramePose> OrbSlam2Track(const OrbSlam2Scene& scene,
+std::optional<FramePose> OrbSlam2Track(const OrbSlam2Context& context,
                                        const Eigen::Isometry3d& T_world_last, KeyframeId reference,
                                        const OrbSlam2Memory& memory) {
-  std::optional<Supported> first = TrackByMotion(scene, memory, T_world_last);
-  if (!first) first = TrackByReference(scene, reference, T_world_last);
+  std::optional<Supported> first = TrackByMotion(context, memory, T_world_last);
+  if (!first) first = TrackByReference(context, reference, T_world_last);
   if (!first) return std::nullopt;
-  return TrackLocalMap(scene, *first, memory.frames_since_found < scene.options.found_again_frames,
-                       memory.seconds_since_found < scene.options.settles_s);
+  return TrackLocalMap(context, *first,
+                       memory.frames_since_found < context.options.found_again_frames,
+                       memory.seconds_since_found < context.options.settles_s);
 }
 
-std::optional<FramePose> OrbSlam2Relocalise(const OrbSlam2Scene& scene,
+std::optional<FramePose> OrbSlam2Relocalise(const OrbSlam2Context& context,
                                             const std::vector<KeyframeId>& candidates) {
   for (const KeyframeId id : candidates) {
-    const Keyframe* keyframe = scene.map.Find(id);
-    const auto first = keyframe ? RecogniseLost(scene, *keyframe) : std::nullopt;
+    const Keyframe* keyframe = context.map.Find(id);
+    const auto first = keyframe ? RecogniseLost(context, *keyframe) : std::nullopt;
     // Published: the first candidate that holds decides.
-    if (first) return TrackLocalMap(scene, *first, true, true);
+    if (first) return TrackLocalMap(context, *first, true, true);
   }
   return std::nullopt;
 }

@@ -18,26 +18,19 @@ struct OrbSlam2Memory {
   double seconds_since_found = 0;                 ///< likewise
 };
 
-/// What finding a frame looks at.
-struct OrbSlam2Scene {
-  const Map& map;
-  const Frame& frame;
-  const StereoCamera& camera;
-  int levels;
-  const OrbSlam2Options& options;
-};
+using OrbSlam2Context = TrackingContext<OrbSlam2Options>;
 
 /// Finds the frame as ORB-SLAM2 does: from the last frame's landmarks where its motion leads,
 /// whatever that motion is; failing that, or for want of a motion, by the looks of the reference
 /// keyframe from where the last frame was; then with all landmarks around. A pose is believed for
 /// its inliers alone. Nothing if lost.
-std::optional<FramePose> OrbSlam2Track(const OrbSlam2Scene& scene,
+std::optional<FramePose> OrbSlam2Track(const OrbSlam2Context& context,
                                        const Eigen::Isometry3d& T_world_last, KeyframeId reference,
                                        const OrbSlam2Memory& memory);
 
 /// Finds a lost frame by the looks of `candidates`, most alike first: three points make a pose,
 /// which must gather enough inliers, if need be by searching around. Then as above.
-std::optional<FramePose> OrbSlam2Relocalise(const OrbSlam2Scene& scene,
+std::optional<FramePose> OrbSlam2Relocalise(const OrbSlam2Context& context,
                                             const std::vector<KeyframeId>& candidates);
 
 }  // namespace aisle::slam

@@ -7,20 +7,12 @@
 namespace aisle::slam {
 namespace {
 
-/// What every step of finding one frame looks at.
-struct Scene {
-  const Map& map;
-  const Frame& frame;
-  const StereoCamera& camera;
-  int levels;
-  const TrackOptions& options;
-};
-
-std::vector<PointObservation> Observations(const Scene& scene, const std::vector<Match>& matches) {
+std::vector<PointObservation> Observations(const PlainContext& context,
+                                           const std::vector<Match>& matches) {
   std::vector<PointObservation> observations;
   for (const Match& match : matches) {
-    observations.push_back({scene.map.At(match.landmark).position,
-                            scene.frame.measurements[static_cast<std::size_t>(match.feature)]});
+    observations.push_back({context.map.At(match.landmark).position,
+                            context.frame.measurements[static_cast<std::size_t>(match.feature)]});
   }
   return observations;
 }
@@ -39,52 +31,55 @@ struct FirstPose {
   std::vector<LandmarkId> landmarks;
 };
 
-std::optional<FirstPose> FollowLandmarks(const Scene& scene,
+std::optional<FirstPose> FollowLandmarks(const PlainContext& context,
                                          const std::vector<LandmarkId>& landmarks,
                                          const Eigen::Isometry3d& T_rig_world, double widen) {
   std::vector<Expected> expected;
   for (const LandmarkId id : landmarks) {
-    const Landmark* landmark = scene.map.Find(id);
+    const Landmark* landmark = context.map.Find(id);
     if (!landmark) continue;
-    const auto one = Expect(*landmark, scene.camera, T_rig_world, scene.frame.scale, scene.levels);
+    const auto one =
+        Expect(*landmark, context.camera, T_rig_world, context.frame.scale, context.levels);
     if (one) expected.push_back(*one);
   }
-  MatchOptions match_options = scene.options.motion;
+  MatchOptions match_options = context.options.motion;
   match_options.radius_px *= widen;
-  const std::vector<Match> matches = MatchByProjection(scene.frame, expected, {}, match_options);
-  if (std::ssize(matches) < scene.options.least_motion_matches) return std::nullopt;
-  const RefinedPose pose = RefinePose(scene.camera, T_rig_world, Observations(scene, matches), {});
-  if (pose.inliers < scene.options.least_inliers || !pose.well_posed) return std::nullopt;
+  const std::vector<Match> matches = MatchByProjection(context.frame, expected, {}, match_options);
+  if (std::ssize(matches) < context.options.least_motion_matches) return std::nullopt;
+  const RefinedPose pose =
+      RefinePose(context.camera, T_rig_world, Observations(context, matches), {});
+  if (pose.inliers < context.options.least_inliers || !pose.well_posed) return std::nullopt;
   return FirstPose{pose.T_rig_world, Inliers(matches, pose)};
 }
 
-std::optional<FirstPose> RecogniseKeyframe(const Scene& scene, KeyframeId id) {
-  const Keyframe* keyframe = scene.map.Find(id);
+std::optional<FirstPose> RecogniseKeyframe(const PlainContext& context, KeyframeId id) {
+  const Keyframe* keyframe = context.map.Find(id);
   if (!keyframe) return std::nullopt;
   const std::vector<Match> matches =
-      MatchKeyframe(scene.map, *keyframe, scene.frame, scene.options.keyframe_distance,
-                    scene.options.keyframe_ratio);
-  const auto pose = AlignPoints(scene.camera, Observations(scene, matches), scene.options.align);
+      MatchKeyframe(context.map, *keyframe, context.frame, context.options.keyframe_distance,
+                    context.options.keyframe_ratio);
+  const auto pose =
+      AlignPoints(context.camera, Observations(context, matches), context.options.align);
   if (!pose) return std::nullopt;
   return FirstPose{pose->T_rig_world, Inliers(matches, *pose)};
 }
 
 /// Looks for everything around the first pose and refines it with what is found.
-std::optional<FramePose> RefineInLocalMap(const Scene& scene, const FirstPose& first) {
+std::optional<FramePose> RefineInLocalMap(const PlainContext& context, const FirstPose& first) {
   FramePose result;
-  result.local = FindLocalMap(scene.map, first.landmarks, scene.options.local_keyframes);
+  result.local = FindLocalMap(context.map, first.landmarks, context.options.local_keyframes);
   std::vector<Expected> expected;
   for (const Landmark* landmark : result.local.landmarks) {
     const auto one =
-        Expect(*landmark, scene.camera, first.T_rig_world, scene.frame.scale, scene.levels);
+        Expect(*landmark, context.camera, first.T_rig_world, context.frame.scale, context.levels);
     if (!one) continue;
     expected.push_back(*one);
     result.expected.push_back(landmark->id);
   }
-  result.matches = MatchByProjection(scene.frame, expected, {}, scene.options.local_map);
+  result.matches = MatchByProjection(context.frame, expected, {}, context.options.local_map);
   result.pose =
-      RefinePose(scene.camera, first.T_rig_world, Observations(scene, result.matches), {});
-  if (result.pose.inliers < scene.options.least_map_inliers || !result.pose.well_posed) {
+      RefinePose(context.camera, first.T_rig_world, Observations(context, result.matches), {});
+  if (result.pose.inliers < context.options.least_map_inliers || !result.pose.well_posed) {
     return std::nullopt;
   }
   return result;
@@ -100,10 +95,8 @@ bool IsNear(const Eigen::Isometry3d& T_predicted_world, const Eigen::Isometry3d&
 
 }  // namespace
 
-std::optional<FramePose> TrackFrame(const Map& map, const Frame& frame, const TrackMemory& memory,
-                                    const StereoCamera& camera, int levels,
-                                    const TrackOptions& options) {
-  const Scene scene{map, frame, camera, levels, options};
+std::optional<FramePose> TrackFrame(const PlainContext& context, const TrackMemory& memory) {
+  const auto& [map, frame, camera, levels, options] = context;
   const Eigen::Isometry3d T_world_last = map.PoseOf(memory.reference) * memory.T_reference_rig;
   const double gap_s = static_cast<double>(frame.stamp_ns - memory.stamp_ns) * 1e-9;
   const bool gap_is_short = gap_s <= options.longest_gap_s;
@@ -116,25 +109,24 @@ std::optional<FramePose> TrackFrame(const Map& map, const Frame& frame, const Tr
   // a person hides most of the map, whatever follows the person may explain a little more.
   std::optional<FramePose> best;
   const auto attempt = [&](const std::optional<FirstPose>& first) {
-    std::optional<FramePose> found = first ? RefineInLocalMap(scene, *first) : std::nullopt;
+    std::optional<FramePose> found = first ? RefineInLocalMap(context, *first) : std::nullopt;
     const bool convincing =
         found && found->pose.inliers >=
                      options.convincing_share * static_cast<double>(found->expected.size());
     if (convincing || !best) best = std::move(found);
     return convincing;
   };
-  if (attempt(FollowLandmarks(scene, memory.landmarks, T_predicted_world, 1))) return best;
+  if (attempt(FollowLandmarks(context, memory.landmarks, T_predicted_world, 1))) return best;
   // The rig has stopped, or turned on the spot.
-  if (attempt(FollowLandmarks(scene, memory.landmarks, T_last_world, options.wide_factor))) {
+  if (attempt(FollowLandmarks(context, memory.landmarks, T_last_world, options.wide_factor))) {
     return best;
   }
-  attempt(RecogniseKeyframe(scene, memory.reference));
+  attempt(RecogniseKeyframe(context, memory.reference));
   return best;
 }
 
-std::optional<FramePose> FindAgain(const Map& map, const Frame& frame, const TrackMemory& memory,
-                                   const StereoCamera& camera, int levels,
-                                   const TrackOptions& options) {
+std::optional<FramePose> FindAgain(const PlainContext& context, const TrackMemory& memory) {
+  const auto& [map, frame, camera, levels, options] = context;
   const DeadReckoningOptions& reckoning = options.dead_reckoning;
   const double gap_s = static_cast<double>(frame.stamp_ns - memory.stamp_ns) * 1e-9;
   if (!memory.steady_motion || gap_s <= 0 || gap_s > reckoning.longest_s) return std::nullopt;
@@ -150,14 +142,14 @@ std::optional<FramePose> FindAgain(const Map& map, const Frame& frame, const Tra
 
   TrackOptions relaxed = options;
   relaxed.least_map_inliers = reckoning.least_inliers;
-  const Scene scene{map, frame, camera, levels, relaxed};
+  const PlainContext relaxed_context{map, frame, camera, levels, relaxed};
   for (const double grown_px : {0.0, reckoning.radius_growth_px_per_s * gap_s}) {
     MatchOptions match_options = reckoning.match;
     match_options.radius_px += grown_px;
     const std::vector<Match> matches = MatchByProjection(frame, expected, {}, match_options);
-    const auto pose = AlignPoints(camera, Observations(scene, matches), reckoning.align);
+    const auto pose = AlignPoints(camera, Observations(relaxed_context, matches), reckoning.align);
     if (!pose) continue;
-    auto found = RefineInLocalMap(scene, {pose->T_rig_world, Inliers(matches, *pose)});
+    auto found = RefineInLocalMap(relaxed_context, {pose->T_rig_world, Inliers(matches, *pose)});
     if (found && IsNear(T_predicted_world, found->pose.T_rig_world, gap_s, reckoning) &&
         found->pose.inliers >=
             reckoning.least_share * static_cast<double>(found->expected.size())) {
@@ -167,12 +159,9 @@ std::optional<FramePose> FindAgain(const Map& map, const Frame& frame, const Tra
   return std::nullopt;
 }
 
-std::optional<FramePose> LocateByKeyframe(const Map& map, const Frame& frame, KeyframeId keyframe,
-                                          const StereoCamera& camera, int levels,
-                                          const TrackOptions& options) {
-  const Scene scene{map, frame, camera, levels, options};
-  const auto first = RecogniseKeyframe(scene, keyframe);
-  return first ? RefineInLocalMap(scene, *first) : std::nullopt;
+std::optional<FramePose> LocateByKeyframe(const PlainContext& context, KeyframeId keyframe) {
+  const auto first = RecogniseKeyframe(context, keyframe);
+  return first ? RefineInLocalMap(context, *first) : std::nullopt;
 }
 
 }  // namespace aisle::slam

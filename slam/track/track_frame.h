@@ -6,8 +6,11 @@
 #include "slam/track/local_map.h"
 #include "slam/track/motion_model.h"
 #include "slam/track/track_options.h"
+#include "slam/track/tracking_context.h"
 
 namespace aisle::slam {
+
+using PlainContext = TrackingContext<TrackOptions>;
 
 /// What the next frame builds upon.
 struct TrackMemory {
@@ -30,20 +33,14 @@ struct FramePose {
 /// Finds the frame in the map: from where motion predicts it, from where it was, or by recognising
 /// the reference keyframe; the first pose that convinces (TrackOptions::convincing_share), else the
 /// first found at all; refined with everything around. Nothing if lost.
-std::optional<FramePose> TrackFrame(const Map& map, const Frame& frame, const TrackMemory& memory,
-                                    const StereoCamera& camera, int levels,
-                                    const TrackOptions& options);
+std::optional<FramePose> TrackFrame(const PlainContext& context, const TrackMemory& memory);
 
 /// Finds a frame that comes after a while without sight: landmarks are looked for around where the
 /// steady motion leads, the wider the longer the while, and a pose that they agree on is believed
 /// if it lies near there. Nothing where no motion is known or the while was too long.
-std::optional<FramePose> FindAgain(const Map& map, const Frame& frame, const TrackMemory& memory,
-                                   const StereoCamera& camera, int levels,
-                                   const TrackOptions& options);
+std::optional<FramePose> FindAgain(const PlainContext& context, const TrackMemory& memory);
 
 /// Finds the frame by recognising one keyframe, without knowing where it might be.
-std::optional<FramePose> LocateByKeyframe(const Map& map, const Frame& frame, KeyframeId keyframe,
-                                          const StereoCamera& camera, int levels,
-                                          const TrackOptions& options);
+std::optional<FramePose> LocateByKeyframe(const PlainContext& context, KeyframeId keyframe);
 
 }  // namespace aisle::slam

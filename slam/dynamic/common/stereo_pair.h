@@ -2,14 +2,13 @@
 
 #include <opencv2/core.hpp>
 
+#include "slam/stereo/dense/disparity_image.h"
+
 namespace aisle::slam::dynamic {
 
 /// A rectified stereo pair, 8-bit grey, both images of one size.
 struct StereoPair {
   cv::Mat1b left, right;
 };
-
-/// What a disparity image holds where nothing could be matched.
-inline constexpr float kNoDisparity = -1.0F;
 
 }  // namespace aisle::slam::dynamic

@@ -5,8 +5,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "slam/dynamic/common/stereo_pair.h"
-#include "slam/dynamic/robust/semi_global.h"
 #include "slam/dynamic/robust/window_sums.h"
+#include "slam/stereo/dense/semi_global.h"
 
 namespace aisle::slam::dynamic {
 namespace {

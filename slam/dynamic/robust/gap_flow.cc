@@ -21,7 +21,7 @@ std::vector<std::size_t> SlotsInTurn(const RobustState& before) {
 
 std::vector<GapFlow> FollowGaps(const RobustState& before, const View& view,
                                 const Eigen::Isometry3d& T_now_before, const StereoCamera& half,
-                                const ResidualFlowOptions& options) {
+                                const DenseFlowOptions& options) {
   const std::vector<std::size_t> slots = SlotsInTurn(before);
   std::vector<GapFlow> flows(slots.size());
   tbb::parallel_for(std::size_t{0}, slots.size(), [&](std::size_t k) {

@@ -21,6 +21,6 @@ struct GapFlow {
 /// frame to frame. The shortest first; none without a past. `T_now_before` is the expected motion.
 std::vector<GapFlow> FollowGaps(const RobustState& before, const View& view,
                                 const Eigen::Isometry3d& T_now_before, const StereoCamera& half,
-                                const ResidualFlowOptions& options);
+                                const DenseFlowOptions& options);
 
 }  // namespace aisle::slam::dynamic

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
-#include "slam/dynamic/robust/patch_flow.h"
+#include "slam/flow/patch_flow.h"
 
 namespace aisle::slam::dynamic {
 namespace {
@@ -109,7 +109,7 @@ cv::Mat1b SampleAt(const cv::Mat1b& image, const cv::Mat2f& places) {
 }
 
 cv::Mat2f FollowBack(const cv::Mat1b& now, const FlowPyramid& pyramid, const cv::Mat1b& then,
-                     const cv::Mat2f& expected, const ResidualFlowOptions& options) {
+                     const cv::Mat2f& expected, const DenseFlowOptions& options) {
   cv::Mat1b view = now.clone();  // stays where the earlier image did not reach
   cv::remap(then, view, expected, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_TRANSPARENT);
   cv::Mat2f residual = FlowTo(view, pyramid, options);

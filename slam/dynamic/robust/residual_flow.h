@@ -5,9 +5,9 @@
 
 #include "slam/dynamic/robust/dense_frame.h"
 #include "slam/dynamic/robust/ego_motion.h"
-#include "slam/dynamic/robust/flow_pyramid.h"
 #include "slam/dynamic/robust/label_memory.h"
 #include "slam/dynamic/robust/robust_options.h"
+#include "slam/flow/flow_pyramid.h"
 
 namespace aisle::slam::dynamic {
 
@@ -15,7 +15,7 @@ namespace aisle::slam::dynamic {
 /// earlier image is first brought to the view in which every pixel comes from its expected place,
 /// so that only what that leaves unexplained has to be found. `pyramid` is that of the image.
 cv::Mat2f FollowBack(const cv::Mat1b& now, const FlowPyramid& pyramid, const cv::Mat1b& then,
-                     const cv::Mat2f& expected, const ResidualFlowOptions& options);
+                     const cv::Mat2f& expected, const DenseFlowOptions& options);
 
 /// The earlier image at the given places; the image's border is repeated outside.
 cv::Mat1b SampleAt(const cv::Mat1b& image, const cv::Mat2f& places);

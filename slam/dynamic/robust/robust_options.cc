@@ -7,45 +7,6 @@ constexpr const char* kMustBeOdd = "be odd";
 
 }  // namespace
 
-void Describe(OptionFields& fields, SemiGlobalOptions& options) {
-  constexpr OptionRange kPrice{0, 73};  // with the dearest cost it is half a byte
-  fields.Integer("max_disparity_px", &options.max_disparity_px, {32, 128}, "half-size px",
-                 "Disparities searched; a multiple of 32.");
-  fields.Integer("p1", &options.p1, kPrice, "census bits",
-                 "Price of a change of disparity by one (P1).");
-  fields.Integer("p2", &options.p2, kPrice, "census bits",
-                 "Price of any other change of disparity (P2).");
-  fields.Integer("p2_contrast", &options.p2_contrast, {1, 10000}, "grey levels",
-                 "Step of grey that halves P2.");
-  fields.Integer("least_p2", &options.least_p2, kPrice, "census bits",
-                 "Least that P2 falls to by contrast.");
-  fields.Integer("uniqueness_percent", &options.uniqueness_percent, {0, 90}, "%",
-                 "Margin by which the best cost must win.");
-  fields.Integer("left_right_px", &options.left_right_px, {0, 128}, "half-size px",
-                 "Disagreement allowed between left-to-right and right-to-left.");
-  fields.Integer("speckle_px", &options.speckle_px, {0, 10000}, "pixels",
-                 "Smaller islands of disparity are dropped.");
-  fields.Integer("speckle_step_px", &options.speckle_step_px, {0, 128}, "half-size px",
-                 "Change of disparity from pixel to pixel that parts islands.");
-  fields.Require(options.max_disparity_px % 32 == 0, "max_disparity_px", options.max_disparity_px,
-                 "be a multiple of 32");
-  fields.RequireNotAbove("p1", options.p1, "p2", options.p2);
-  fields.RequireNotAbove("p1", options.p1, "least_p2", options.least_p2);
-  fields.RequireNotAbove("least_p2", options.least_p2, "p2", options.p2);
-}
-
-void Describe(OptionFields& fields, ResidualFlowOptions& options) {
-  fields.Integer("finest_scale", &options.finest_scale, {0, 3}, "",
-                 "Halvings of the half-size image on which the finest patches of the flow lie.");
-  fields.Integer("descents", &options.descents, {1, 256}, "",
-                 "Gradient-descent iterations of a patch on each scale.");
-  fields.Number(
-      "inertia", &options.inertia, {1e-3, 1e6}, "(grey levels/px)^2",
-      "Squared gradient of a patch that counts as much as the flow of the coarser scale.");
-  fields.Integer("refinements", &options.refinements, {0, 100}, "",
-                 "Variational iterations on each scale.");
-}
-
 void Describe(OptionFields& fields, SurfaceOptions& options) {
   fields.Number("grey_noise", &options.grey_noise, {0.1, 100}, "grey levels",
                 "Deviation of one pixel in the dark.");

@@ -4,6 +4,8 @@
 #include <cstdint>
 
 #include "slam/common/option_fields.h"
+#include "slam/flow/dense_flow_options.h"
+#include "slam/stereo/dense/semi_global_options.h"
 
 // Every constant of the robust method on one page. Lengths are in pixels of the half-size images
 // unless they say otherwise. What could depend on a scene is in units of noise that is measured
@@ -15,31 +17,6 @@ namespace aisle::slam::dynamic {
 /// less, so the long ones find slow movers and the short one is quick.
 inline constexpr std::array<int, 3> kGaps = {1, 5, 15};
 inline constexpr int kLongestGap = 15;
-
-/// Semi-global matching. Costs and prices are of one path: how many of a pixel's 54 census bits (a
-/// quarter of nine times 24) may differ before another disparity is cheaper.
-struct SemiGlobalOptions {
-  /// Multiple of 32. Of images of half size 96 are 192 full pixels, 0.27 m with the default rig.
-  int max_disparity_px = 96;
-  int p1 = 10;  ///< P1: price of a change of disparity by one
-  /// P2: price of any other change, halved where the grey value changes by `p2_contrast` and never
-  /// less than the last.
-  int p2 = 70, p2_contrast = 16, least_p2 = 30;
-  int uniqueness_percent = 5;  ///< margin by which the best cost must win
-  int left_right_px = 1;       ///< allowed disagreement of left-to-right and right-to-left
-  int speckle_px = 40;         ///< smaller islands of disparity are dropped; pixels
-  int speckle_step_px = 2;     ///< change of disparity from pixel to pixel that parts islands
-};
-
-/// Dense flow between the image and what the static world would look like (DIS).
-struct ResidualFlowOptions {
-  int finest_scale = 1;  ///< 0: patches on half-size pixels, 1: on those of quarter size
-  int descents = 4;      ///< iterations of a patch on each scale
-  /// What the coarser size says of a shift counts as much as a patch whose squared gradients, in
-  /// grey levels per pixel, sum to this.
-  double inertia = 60;
-  int refinements = 2;  ///< variational iterations on each scale
-};
 
 /// What is known of a pixel before it is compared.
 struct SurfaceOptions {
@@ -148,7 +125,7 @@ struct RegionOptions {
 struct RobustOptions {
   SemiGlobalOptions disparity;
   SurfaceOptions surface;
-  ResidualFlowOptions flow;
+  DenseFlowOptions flow;  ///< between the image and what the static world would look like
   EgoMotionOptions ego;
   EvidenceOptions evidence;
   FloorOptions floor;
@@ -157,8 +134,6 @@ struct RobustOptions {
 };
 
 /// Each names every option with its range, unit and a sentence.
-void Describe(OptionFields& fields, SemiGlobalOptions& options);
-void Describe(OptionFields& fields, ResidualFlowOptions& options);
 void Describe(OptionFields& fields, SurfaceOptions& options);
 void Describe(OptionFields& fields, EgoMotionOptions& options);
 void Describe(OptionFields& fields, EvidenceOptions& options);

@@ -3,9 +3,9 @@
 #include "slam/dynamic/common/stereo_pair.h"
 #include "slam/dynamic/robust/dense_frame.h"
 #include "slam/dynamic/robust/floor_plane.h"
-#include "slam/dynamic/robust/flow_pyramid.h"
 #include "slam/dynamic/robust/label_field.h"
 #include "slam/dynamic/robust/motion_evidence.h"
+#include "slam/flow/flow_pyramid.h"
 
 namespace aisle::slam::dynamic {
 

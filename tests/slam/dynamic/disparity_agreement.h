@@ -19,7 +19,7 @@ inline Agreement Compare(const cv::Mat1f& disparity, const cv::Mat1f& truth) {
     for (int x = 0; x < truth.cols; ++x) {
       if (truth(y, x) <= 0 || truth(y, x) > static_cast<float>(x)) continue;
       ++seen;
-      if (disparity(y, x) == dynamic::kNoDisparity) continue;
+      if (disparity(y, x) == kNoDisparity) continue;
       ++known;
       if (std::abs(disparity(y, x) - truth(y, x)) < 1.0F) ++close;
     }

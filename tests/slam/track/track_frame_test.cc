@@ -31,7 +31,7 @@ class TrackFrameTest : public testing::Test {
 
 TEST_F(TrackFrameTest, FindsTheNextFrame) {
   const Eigen::Isometry3d truth = At(0.03, 0.05, 0.5);
-  const auto found = TrackFrame(map, *world.See(truth, 50'000'000), memory, {}, 8, {});
+  const auto found = TrackFrame({map, *world.See(truth, 50'000'000), {}, 8, {}}, memory);
   ASSERT_TRUE(found);
   EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), 1e-4);
   EXPECT_EQ(found->local.reference, memory.reference);
@@ -42,30 +42,30 @@ TEST_F(TrackFrameTest, FindsAFrameThatMotionDidNotPredict) {
   wrong << 20, 0, 0, 0, 3, 0;  // per second
   memory.motion = Motion{wrong};
   const Eigen::Isometry3d truth = At(0.02, 0, 1);
-  const auto found = TrackFrame(map, *world.See(truth, 50'000'000), memory, {}, 8, {});
+  const auto found = TrackFrame({map, *world.See(truth, 50'000'000), {}, 8, {}}, memory);
   ASSERT_TRUE(found);
   EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), 1e-4);
 }
 
 TEST_F(TrackFrameTest, RecognisesTheReferenceKeyframeFromAfar) {
   const Eigen::Isometry3d truth = At(0.8, 1.0, -12);
-  const auto found = TrackFrame(map, *world.See(truth, 50'000'000), memory, {}, 8, {});
+  const auto found = TrackFrame({map, *world.See(truth, 50'000'000), {}, 8, {}}, memory);
   ASSERT_TRUE(found);
   EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), 1e-4);
 }
 
 TEST_F(TrackFrameTest, IsLostWhereNothingIsKnown) {
-  EXPECT_FALSE(TrackFrame(map, *world.See(At(0, 0, 180), 50'000'000), memory, {}, 8, {}));
-  EXPECT_FALSE(TrackFrame(map, *world.See(At(0, 300), 50'000'000), memory, {}, 8, {}));
+  EXPECT_FALSE(TrackFrame({map, *world.See(At(0, 0, 180), 50'000'000), {}, 8, {}}, memory));
+  EXPECT_FALSE(TrackFrame({map, *world.See(At(0, 300), 50'000'000), {}, 8, {}}, memory));
 }
 
 TEST_F(TrackFrameTest, IsFoundAgainWhereItsMotionHasLed) {
   Vector6d ahead;
   ahead << 0, 0, -0.5, 0, 0, 0;  // of T_rig_world, per second
   const auto two_seconds_later = world.See(At(0.1, 1.1, 1), 2'000'000'000);
-  EXPECT_FALSE(FindAgain(map, *two_seconds_later, memory, {}, 8, {}));
+  EXPECT_FALSE(FindAgain({map, *two_seconds_later, {}, 8, {}}, memory));
   memory.steady_motion = Motion{ahead};
-  const auto found = FindAgain(map, *two_seconds_later, memory, {}, 8, {});
+  const auto found = FindAgain({map, *two_seconds_later, {}, 8, {}}, memory);
   ASSERT_TRUE(found);
   EXPECT_LT(Difference(At(0.1, 1.1, 1).inverse(), found->pose.T_rig_world).norm(), 1e-4);
 }
@@ -75,18 +75,18 @@ TEST_F(TrackFrameTest, IsNotFoundAgainWhereItsMotionCannotHaveLed) {
   TrackOptions all_around;
   all_around.dead_reckoning.radius_growth_px_per_s = 200;
   const Eigen::Isometry3d aside = At(0.9, 1.2, 2);
-  EXPECT_FALSE(FindAgain(map, *world.See(aside, 2'000'000'000), memory, {}, 8, all_around));
-  EXPECT_TRUE(FindAgain(map, *world.See(aside, 3'900'000'000), memory, {}, 8, all_around));
-  EXPECT_FALSE(FindAgain(map, *world.See(At(0, 0), 60'000'000'000), memory, {}, 8, all_around));
+  EXPECT_FALSE(FindAgain({map, *world.See(aside, 2'000'000'000), {}, 8, all_around}, memory));
+  EXPECT_TRUE(FindAgain({map, *world.See(aside, 3'900'000'000), {}, 8, all_around}, memory));
+  EXPECT_FALSE(FindAgain({map, *world.See(At(0, 0), 60'000'000'000), {}, 8, all_around}, memory));
 }
 
 TEST_F(TrackFrameTest, AsksForAKeyframeAfterMotionNotAtRest) {
   const auto at_rest_frame = world.See(At(0, 0.001), 50'000'000);
-  const auto at_rest = TrackFrame(map, *at_rest_frame, memory, {}, 8, {});
+  const auto at_rest = TrackFrame({map, *at_rest_frame, {}, 8, {}}, memory);
   ASSERT_TRUE(at_rest);
   EXPECT_FALSE(NeedsKeyframe(map, *at_rest_frame, *at_rest, {}, {}));
   const auto turned_frame = world.See(At(0.2, 0.2, 52), 50'000'000);
-  const auto turned = TrackFrame(map, *turned_frame, memory, {}, 8, {});
+  const auto turned = TrackFrame({map, *turned_frame, {}, 8, {}}, memory);
   ASSERT_TRUE(turned);
   EXPECT_TRUE(NeedsKeyframe(map, *turned_frame, *turned, {}, {}));
 }

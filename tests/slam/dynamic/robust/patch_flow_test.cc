@@ -1,8 +1,8 @@
-#include "slam/dynamic/robust/patch_flow.h"
+#include "slam/flow/patch_flow.h"
 
 #include <gtest/gtest.h>
 
-#include "slam/dynamic/robust/refine_flow.h"
+#include "slam/flow/refine_flow.h"
 #include "tests/slam/dynamic/synthetic_stereo.h"
 
 namespace aisle::slam::dynamic {
@@ -28,7 +28,7 @@ cv::Mat1f Float(const cv::Mat1b& image) {
 }
 
 cv::Mat2f Flow(const cv::Mat1b& image, const cv::Mat1b& view,
-               const ResidualFlowOptions& options = {}) {
+               const DenseFlowOptions& options = {}) {
   return FlowTo(view, MakeFlowPyramid(image, options), options);
 }
 

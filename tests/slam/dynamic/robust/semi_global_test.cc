@@ -1,4 +1,4 @@
-#include "slam/dynamic/robust/semi_global.h"
+#include "slam/stereo/dense/semi_global.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -6,9 +6,9 @@
 #include <random>
 
 #include "slam/dynamic/paper/disparity.h"
-#include "slam/dynamic/robust/census_cost.h"
-#include "slam/dynamic/robust/choose_disparity.h"
-#include "slam/dynamic/robust/cost_paths.h"
+#include "slam/stereo/dense/census_cost.h"
+#include "slam/stereo/dense/choose_disparity.h"
+#include "slam/stereo/dense/cost_paths.h"
 #include "tests/slam/dynamic/disparity_agreement.h"
 #include "tests/slam/dynamic/synthetic_stereo.h"
 

@@ -1,0 +1,92 @@
+#include "slam/front_end/see_frame.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "slam/common/stopwatch.h"
+#include "slam/stereo/match_stereo.h"
+
+namespace aisle::slam {
+namespace {
+
+Measurement Measure(const Keypoint& keypoint, const Disparity& disparity, double sigma_px,
+                    bool equal_columns, const cv::Mat1f& confidence) {
+  constexpr float kLeast = 1e-4F;  // a pixel worth nothing belongs under a mask
+  const float trust = confidence.empty() ? 1.0F : confidence(cv::Point(keypoint.pixel));
+  const double widen = 1 / std::sqrt(std::clamp(trust, kLeast, 1.0F));
+  Measurement measurement{{keypoint.pixel.x, keypoint.pixel.y, disparity.value},
+                          widen * sigma_px,
+                          widen * disparity.sigma};
+  if (equal_columns && measurement.has_depth()) {
+    measurement.sigma_d = measurement.sigma_px;
+    measurement.u_in_d = 1;
+  }
+  return measurement;
+}
+
+}  // namespace
+
+void CheckImages(const StereoImages& images, const ExternalMask& mask, const StereoCamera& camera) {
+  const cv::Size size(camera.width, camera.height);
+  const auto check = [&](const cv::Mat& image, const char* name, bool may_be_empty) {
+    if (image.size() == size || (may_be_empty && image.empty())) return;
+    throw std::invalid_argument(fmt::format("frame {}: {} is {}x{}, the camera {}x{} pixels",
+                                            images.id, name, image.cols, image.rows, size.width,
+                                            size.height));
+  };
+  check(images.left, "the left image", false);
+  check(images.right, "the right image", false);
+  check(mask.left, "the left mask", true);
+  check(mask.right, "the right mask", true);
+  check(mask.confidence, "the confidence", true);
+}
+
+cv::Mat1b Union(const cv::Mat1b& a, const cv::Mat1b& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  cv::Mat1b both;
+  cv::bitwise_or(a, b, both);
+  return both;
+}
+
+StereoCorners FindStereoCorners(const StereoImages& images, const FeatureOptions& options) {
+  StereoCorners corners;
+  tbb::parallel_invoke([&] { corners.left = FindCorners(images.left, options); },
+                       [&] { corners.right = FindCorners(images.right, options); });
+  return corners;
+}
+
+std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, StereoCorners corners,
+                                      const ExternalMask& mask, const StereoCamera& camera,
+                                      const SlamOptions& options,
+                                      std::map<std::string, double>& stage_ms) {
+  ImageFeatures left, right;
+  {
+    Stopwatch time(stage_ms["extract"]);
+    tbb::parallel_invoke(
+        [&] { left = ChooseFeatures(std::move(corners.left), mask.left, options.feature); },
+        [&] { right = ChooseFeatures(std::move(corners.right), mask.right, options.feature); });
+  }
+  Stopwatch time(stage_ms["stereo"]);
+  const std::vector<Disparity> disparities = MatchStereo(left, right, camera, options.stereo);
+  auto frame = std::make_shared<Frame>();
+  frame->id = images.id;
+  frame->stamp_ns = images.stamp_ns;
+  frame->scale = options.feature.scale;
+  for (std::size_t i = 0; i < disparities.size(); ++i) {
+    const Keypoint& keypoint = left.features.keypoints[i];
+    const double scale = left.pyramid.scales[static_cast<std::size_t>(keypoint.level)];
+    frame->measurements.push_back(Measure(keypoint, disparities[i],
+                                          scale * options.keypoint_noise_px, options.equal_columns,
+                                          mask.confidence));
+  }
+  frame->grid = FeatureGrid(left.features.keypoints, images.left.size());
+  frame->features = std::move(left.features);
+  return frame;
+}
+
+}  // namespace aisle::slam

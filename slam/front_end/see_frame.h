@@ -1,0 +1,34 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "slam/feature/extract.h"
+#include "slam/frames.h"
+#include "slam/map/frame.h"
+#include "slam/options/slam_options.h"
+
+namespace aisle::slam {
+
+/// Throws std::invalid_argument that names the image where one is not of the camera's size.
+void CheckImages(const StereoImages& images, const ExternalMask& mask, const StereoCamera& camera);
+
+/// What either mask rejects; an empty one rejects nothing.
+cv::Mat1b Union(const cv::Mat1b& a, const cv::Mat1b& b);
+
+/// The corners of both cameras, found in parallel.
+struct StereoCorners {
+  ImageCorners left, right;
+};
+StereoCorners FindStereoCorners(const StereoImages& images, const FeatureOptions& options);
+
+/// The front end: features of both cameras outside the mask, and what they measure. The deviations
+/// grow as the confidence in the pixel falls: information times confidence. Runs both cameras in
+/// parallel; times go to `stage_ms`.
+std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, StereoCorners corners,
+                                      const ExternalMask& mask, const StereoCamera& camera,
+                                      const SlamOptions& options,
+                                      std::map<std::string, double>& stage_ms);
+
+}  // namespace aisle::slam

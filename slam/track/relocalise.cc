@@ -1,0 +1,34 @@
+#include "slam/track/relocalise.h"
+
+namespace aisle::slam {
+
+std::vector<KeyframeId> KeyframesToAsk(const Map& map, const Frame& frame, KeyframeId reference,
+                                       const Places& places, std::int64_t turn) {
+  constexpr std::size_t kAsked = 6;
+  std::vector<KeyframeId> asked = {reference};
+  if (places.vocabulary) {
+    const WordVector words = places.vocabulary->Describe(frame.features.descriptors);
+    for (const PlaceMatch& one : places.index.Query(words)) {
+      if (asked.size() < kAsked) asked.push_back(one.keyframe);
+    }
+    return asked;
+  }
+  const auto count = static_cast<std::int64_t>(map.keyframes().size());
+  const std::int64_t first = turn * static_cast<std::int64_t>(kAsked - 1);
+  for (std::int64_t i = 0; i < count && asked.size() < kAsked; ++i) {
+    asked.push_back(std::next(map.keyframes().begin(), (first + i) % count)->first);
+  }
+  return asked;
+}
+
+std::optional<FramePose> Relocalise(const PlainContext& context, const TrackMemory& memory,
+                                    const Places& places, std::int64_t turn) {
+  if (auto pose = FindAgain(context, memory)) return pose;
+  for (const KeyframeId id :
+       KeyframesToAsk(context.map, context.frame, memory.reference, places, turn)) {
+    if (auto pose = LocateByKeyframe(context, id)) return pose;
+  }
+  return std::nullopt;
+}
+
+}  // namespace aisle::slam

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+
+#include "slam/map/map.h"
+#include "slam/place/place_index.h"
+#include "slam/track/track_frame.h"
+
+namespace aisle::slam {
+
+/// Where lost frames are looked for by their looks.
+struct Places {
+  const Vocabulary* vocabulary = nullptr;  ///< null: keyframes are asked in turn
+  const PlaceIndex& index;
+};
+
+/// The keyframes that a lost frame is compared with: the last reference, then those that look most
+/// alike or, without a vocabulary, a few in turn, others at every `turn`.
+std::vector<KeyframeId> KeyframesToAsk(const Map& map, const Frame& frame, KeyframeId reference,
+                                       const Places& places, std::int64_t turn);
+
+/// Finds a lost frame: where the rig must be by now, else by asking a few keyframes for their view
+/// of it.
+std::optional<FramePose> Relocalise(const PlainContext& context, const TrackMemory& memory,
+                                    const Places& places, std::int64_t turn);
+
+}  // namespace aisle::slam

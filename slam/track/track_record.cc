@@ -1,0 +1,71 @@
+#include "slam/track/track_record.h"
+
+#include "slam/map/successor.h"
+
+namespace aisle::slam {
+
+void TrackRecord::Note(const Map& map, const Frame& frame, const FramePose& pose, bool goes_on,
+                       const TrackOptions& options) {
+  const Eigen::Isometry3d T_world_rig = pose.pose.T_rig_world.inverse();
+  const double seconds = static_cast<double>(frame.stamp_ns - memory_.stamp_ns) * 1e-9;
+  std::optional<Motion> motion;
+  if (goes_on) {
+    const Eigen::Isometry3d T_world_last = map.PoseOf(memory_.reference) * memory_.T_reference_rig;
+    motion = EstimateMotion(T_world_last, T_world_rig, seconds);
+  }
+  memory_.stamp_ns = frame.stamp_ns;
+  memory_.reference = pose.local.reference;
+  memory_.T_reference_rig = map.PoseOf(memory_.reference).inverse() * T_world_rig;
+  memory_.steady_motion = motion ? std::optional(Smoothed(memory_.steady_motion, *motion, seconds,
+                                                          options.dead_reckoning.half_life_s))
+                                 : std::nullopt;
+  memory_.motion = motion;
+  memory_.landmarks.clear();
+  for (const LandmarkId id : pose.expected) ++counts_[id].first;
+  for (std::size_t i = 0; i < pose.matches.size(); ++i) {
+    if (!pose.pose.inlier[i]) continue;
+    memory_.landmarks.push_back(pose.matches[i].landmark);
+    ++counts_[pose.matches[i].landmark].second;
+  }
+  track_.push_back({frame.stamp_ns, memory_.reference, memory_.T_reference_rig});
+}
+
+std::vector<MapEdit::Count> TrackRecord::TakeCounts() {
+  std::vector<MapEdit::Count> counts;
+  for (const auto& [landmark, count] : counts_) {
+    counts.push_back({landmark, count.first, count.second});
+  }
+  counts_.clear();
+  return counts;
+}
+
+void TrackRecord::CarryOver(const Map& before, const Map& now) {
+  std::map<LandmarkId, std::pair<int, int>> counts;
+  for (const auto& [id, count] : counts_) {
+    const LandmarkId successor = Successor(before, now, id);
+    if (!successor.valid()) continue;
+    counts[successor].first += count.first;
+    counts[successor].second += count.second;
+  }
+  counts_ = std::move(counts);
+  for (LandmarkId& id : memory_.landmarks) id = Successor(before, now, id);
+}
+
+void TrackRecord::ForgetTrack() {
+  counts_.clear();
+  track_.clear();
+}
+
+std::vector<StampedPose> TrackRecord::Trajectory(const Map& map) const {
+  std::vector<StampedPose> poses;
+  if (map.empty()) return poses;
+  const KeyframeId largest = LargestPart(map);
+  const std::map<KeyframeId, KeyframeId> roots = Roots(map);
+  for (const Anchored& anchored : track_) {
+    if (roots.at(map.StandIn(anchored.reference)) != largest) continue;
+    poses.push_back({anchored.stamp_ns, map.PoseOf(anchored.reference) * anchored.T_reference_rig});
+  }
+  return poses;
+}
+
+}  // namespace aisle::slam

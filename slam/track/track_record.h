@@ -1,0 +1,53 @@
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "slam/frames.h"
+#include "slam/map/map.h"
+#include "slam/track/track_frame.h"
+
+namespace aisle::slam {
+
+/// What a drive remembers of its frames: what the next one builds upon, which landmarks were found,
+/// and the trajectory, every pose as seen from a keyframe, with which it moves.
+class TrackRecord {
+ public:
+  const TrackMemory& memory() const { return memory_; }
+
+  /// Notes a frame's pose. `goes_on`: the frame before was tracked too, so the two show a motion.
+  void Note(const Map& map, const Frame& frame, const FramePose& pose, bool goes_on,
+            const TrackOptions& options);
+
+  /// How often landmarks should have been and were found since this was last asked.
+  std::vector<MapEdit::Count> TakeCounts();
+
+  /// A drive begins in a map from a file, which was left at this keyframe.
+  void GoOnFrom(KeyframeId reference) { memory_.reference = reference; }
+  /// A map file does not hold the steady motion: who saves one goes on without it as well.
+  void ForgetSteadyMotion() { memory_.steady_motion.reset(); }
+
+  /// The map `before` has given way to `now`: landmarks are asked for as they are there.
+  void CarryOver(const Map& before, const Map& now);
+
+  /// Forgets the trajectory and the counts: the map they hang on is given up.
+  void ForgetTrack();
+
+  /// Every noted frame where the map now has its keyframe; where the map is in parts, those of the
+  /// largest one.
+  std::vector<StampedPose> Trajectory(const Map& map) const;
+
+ private:
+  struct Anchored {
+    std::int64_t stamp_ns;
+    KeyframeId reference;
+    Eigen::Isometry3d T_reference_rig;
+  };
+
+  TrackMemory memory_;
+  std::map<LandmarkId, std::pair<int, int>> counts_;  // predicted and found
+  std::vector<Anchored> track_;
+};
+
+}  // namespace aisle::slam
