@@ -34,9 +34,11 @@ RunRecord FailedRun(const Job& job, const ProcessResult& result, const ProcessLi
       result.end == ProcessResult::End::kTimeout || result.end == ProcessResult::End::kMemory;
   record.status = out_of_bounds ? RunStatus::kTimeout : RunStatus::kCrashed;
   record.status_why = Describe(result, limits);
-  if (const std::string last = LastLine(result.log); !last.empty()) {
-    record.status_why += "; last words: " + Printable(last, 160);
+  if (const std::string line = TellingLine(result.log); !line.empty()) {
+    record.status_why += "; last words: " + line;
   }
+  record.last_words = LastWords(result.log);
+  record.artifacts["log"] = "runs/" + RunId(job.spec) + "/log.txt";
   record.wall_s = result.wall_s;
   return record;
 }

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "harness/campaign/guest_dataset.h"
+#include "harness/campaign/guest_output.h"
 #include "harness/campaign/process.h"
 #include "harness/campaign/sandbox.h"
 #include "harness/io/file.h"
@@ -58,8 +59,39 @@ ProcessResult RunToEnd(const std::string& command, const ProcessLimits& limits,
   Process process(
       {"/bin/sh", "-c", command}, limits,
       Confinement{ScrubbedEnvironment(rooms.temporary, system.environment), sandbox.ruleset()});
-  while (!process.Poll()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const auto begun = std::chrono::steady_clock::now();
+  double told_s = 0;
+  while (!process.Poll()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - begun;
+    if (!run.progress || since.count() < told_s + 1) continue;
+    told_s = since.count();
+    run.progress(told_s, process.progress_done(), process.progress_total());
+  }
   return process.result();
+}
+
+/// The first line that the system's own command for it prints; a note where it fails.
+std::string VersionOf(const ExternalSystem& system, const ExternalRun& run, const GuestRooms& rooms,
+                      std::vector<std::string>* notes) {
+  if (system.version.empty()) return "";
+  ExternalRun quiet = run;
+  quiet.progress = {};
+  const ProcessLimits limits{.wall_s = 30};
+  const ProcessResult said = RunToEnd(system.version, limits, system, quiet, rooms);
+  const bool good = said.end == ProcessResult::End::kExited && said.code == 0;
+  if (!good) notes->push_back("its version is not known: " + Describe(said, limits));
+  return good ? Printable(said.log.substr(0, said.log.find('\n')), 120) : "";
+}
+
+/// How the dataset calls its frames: by stamps on its own clock.
+std::vector<std::string> StampNames(const Trajectory& truth, const ExportOptions& options) {
+  std::vector<std::string> names;
+  for (const StampedPose& pose : truth) {
+    const bool euroc = options.format == DatasetFormat::kEuroc;
+    names.push_back(std::to_string(pose.stamp_ns + (euroc ? options.epoch_ns : 0)));
+  }
+  return names;
 }
 
 /// Poses of the planned path; KITTI knows no time but the frame's number, relative to the first.
@@ -82,7 +114,8 @@ std::string CommandLine(const ExternalSystem& system, const ExternalRun& run,
       FillIn(system.command, {{"dataset", rooms.dataset.string()},
                               {"calibration", CalibrationPath(rooms.dataset, format).string()},
                               {"output", (rooms.output / TrajectoryName(system)).string()},
-                              {"seed", std::to_string(run.seed)}});
+                              {"seed", std::to_string(run.seed)},
+                              {"source", system.repository}});
   if (system.vslam_lab == VslamLabStyle::kNone) return command;
   return command + " " +
          VslamLabArguments({.dataset = rooms.dataset, .output = rooms.output}, system.vslam_lab);
@@ -207,6 +240,8 @@ RunResult RunExternal(const ExternalSystem& system, const Sequence& sequence,
   if (system.vslam_lab != VslamLabStyle::kNone) LinkVslamLabImages(rooms.dataset);
   const Trajectory truth = Truth(sequence.Schedule());
   const std::string command = CommandLine(system, run, rooms, options.format);
+  std::vector<std::string> notes;
+  const std::string version = VersionOf(system, run, rooms, &notes);
   const ProcessLimits limits{.wall_s = system.timeout_s};
   const ProcessResult ended = RunToEnd(command, limits, system, run, rooms);
   WriteFileAtomically(run.folder / "system.log",
@@ -216,12 +251,19 @@ RunResult RunExternal(const ExternalSystem& system, const Sequence& sequence,
   if (ended.end == ProcessResult::End::kTimeout || ended.end == ProcessResult::End::kMemory) {
     result = Failure(truth, RunStatus::kTimeout, Describe(ended, limits));
   } else if (ended.end == ProcessResult::End::kSignalled || ended.code != 0) {
-    result = Failure(truth, RunStatus::kCrashed, Describe(ended, limits));
+    const std::string line = TellingLine(ended.log);
+    result = Failure(truth, RunStatus::kCrashed,
+                     Describe(ended, limits) + (line.empty() ? "" : "; last words: " + line));
   } else {
     result = Judge(system, run, rooms, options, truth);
+    result.notes = TakeLeftovers(rooms.output, StampNames(truth, options), run.folder);
   }
   result.wall_s = ended.wall_s;
   result.peak_rss_mib = ended.peak_rss_mib;
+  result.last_words = LastWords(ended.log);
+  result.system_version = version;
+  notes.insert(notes.end(), result.notes.begin(), result.notes.end());
+  result.notes = notes;
   return result;
 }
 

@@ -17,6 +17,9 @@ struct ExternalRun {
   std::vector<std::filesystem::path> hidden;  ///< what the system must not see
   std::uint64_t seed = 1;
   std::function<PathOfRig()> open_path;  ///< called only when the dataset must be made
+  /// Called now and then while the system works: seconds since it began, and the frames done and
+  /// there are, 0 of 0 where it prints no "@progress DONE TOTAL".
+  std::function<void(double seconds, int done, int total)> progress = {};
 };
 
 /// Where a foreign system works, below the folder of its run.
@@ -24,7 +27,8 @@ inline constexpr const char* kGuestFolder = "guest";
 
 /// Lays out a dataset without truth for this run alone, runs the command in a process group of its
 /// own, confined to its folders and with a scrubbed environment, and reads what it left. A crash, a
-/// hang or a trajectory that is none is the system's verdict, not an exception.
+/// hang or a trajectory that is none is the system's verdict, not an exception. What it printed is
+/// kept as system.log, what it left beside its trajectory as guest_output.h says.
 RunResult RunExternal(const ExternalSystem& system, const Sequence& sequence,
                       const ExternalRun& run);
 

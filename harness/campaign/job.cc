@@ -40,7 +40,8 @@ Job FromJson(const Json& json) {
               .scene_file = json.at("scene_file").get<std::string>(),
               .twin = json.at("twin").get<std::string>(),
               .system = SystemSpecFromJson(json.at("system")),
-              .seed = json.at("seed").get<std::uint64_t>()};
+              .seed = json.at("seed").get<std::uint64_t>(),
+              .repeat = json.value("repeat", 1)};
   job.out = json.at("out").get<std::string>();
   job.frames = json.at("frames").get<std::string>();
   job.dataset = json.at("dataset").get<std::string>();
@@ -49,6 +50,7 @@ Job FromJson(const Json& json) {
   job.threads = json.at("threads").get<int>();
   job.video = json.at("video").get<bool>();
   job.debug_dynamic = json.at("debug_dynamic").get<bool>();
+  job.frames_in_report = json.value("frames_in_report", "worst");
   return job;
 }
 
@@ -60,6 +62,7 @@ std::string ToJson(const Job& job) {
                {"scene_file", job.spec.scene_file},
                {"twin", job.spec.twin},
                {"seed", job.spec.seed},
+               {"repeat", job.spec.repeat},
                {"system", ToJson(job.spec.system)},
                {"out", job.out.string()},
                {"frames", job.frames.string()},
@@ -68,7 +71,8 @@ std::string ToJson(const Job& job) {
                {"inputs_hash", job.inputs_hash},
                {"threads", job.threads},
                {"video", job.video},
-               {"debug_dynamic", job.debug_dynamic}});
+               {"debug_dynamic", job.debug_dynamic},
+               {"frames_in_report", job.frames_in_report}});
 }
 
 Job JobFromJson(const std::string& text, const std::string& file) {
@@ -115,6 +119,7 @@ std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Fingerprints&
     job.threads = options.threads;
     job.video = options.video;
     job.debug_dynamic = options.debug_dynamic;
+    job.frames_in_report = options.frames_in_report;
     if (options.frame_cache) job.frames = CacheDir() / "frames" / job.frames_key;
     if (const auto& external = spec.system.external) {
       job.dataset = CacheDir() / "datasets" / (job.frames_key + "-" + external->dataset);

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <thread>
 
 #include "harness/campaign/guard.h"
@@ -62,7 +63,44 @@ std::vector<char*> Pointers(const std::vector<std::string>& texts) {
   return pointers;
 }
 
+std::string SignalName(int signal) {
+  const char* name = ::sigabbrev_np(signal);
+  return fmt::format("signal {}{} ({})", signal,
+                     name == nullptr ? "" : fmt::format(", SIG{}", name), ::strsignal(signal));
+}
+
+/// Lines that are not empty, in their order.
+std::vector<std::string> LinesOf(const std::string& log) {
+  std::vector<std::string> lines;
+  std::istringstream stream(log);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.find_first_not_of(" \t\r") != std::string::npos) lines.push_back(line);
+  }
+  return lines;
+}
+
 }  // namespace
+
+std::string LastWords(const std::string& log, std::size_t count) {
+  constexpr std::size_t kWidth = 200;
+  const std::vector<std::string> lines = LinesOf(log);
+  std::string words;
+  for (std::size_t i = lines.size() - std::min(count, lines.size()); i < lines.size(); ++i) {
+    words += Printable(lines[i], kWidth) + "\n";
+  }
+  return words;
+}
+
+std::string TellingLine(const std::string& log) {
+  constexpr std::size_t kWidth = 160;
+  const std::vector<std::string> lines = LinesOf(log);
+  for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
+    for (const char* word : {"ssert", "rror", "xception", "what():", "atal:", "erminate"}) {
+      if (line->find(word) != std::string::npos) return Printable(*line, kWidth);
+    }
+  }
+  return lines.empty() ? "" : Printable(lines.back(), kWidth);
+}
 
 std::string Describe(const ProcessResult& result, const ProcessLimits& limits) {
   switch (result.end) {
@@ -71,15 +109,14 @@ std::string Describe(const ProcessResult& result, const ProcessLimits& limits) {
     case ProcessResult::End::kMemory:
       return fmt::format("more than {:g} MiB of memory: killed", limits.memory_mib);
     case ProcessResult::End::kSignalled:
-      return fmt::format("signal {} ({})", result.code, ::strsignal(result.code));
+      return SignalName(result.code);
     case ProcessResult::End::kExited:
       break;
   }
   constexpr int kShellSays = 128;  // and adds the number of the signal that ended its command
   const int signal = result.code - kShellSays;
   if (signal > 0 && signal < SIGRTMIN && ::sigabbrev_np(signal) != nullptr) {
-    return fmt::format("exit code {}: signal {} ({}), as a shell tells it", result.code, signal,
-                       ::strsignal(signal));
+    return fmt::format("exit code {}: {}, as a shell tells it", result.code, SignalName(signal));
   }
   return fmt::format("exit code {}", result.code);
 }

@@ -31,9 +31,16 @@ struct Confinement {
   int ruleset = -1;                      ///< of a Sandbox; -1: none
 };
 
-/// "exit code 3", "exit code 139: signal 11 (Segmentation fault), as a shell tells it", "signal 11
-/// (Segmentation fault)", "no end after 600 s: killed", …
+/// "exit code 3", "exit code 139: signal 11, SIGSEGV (Segmentation fault), as a shell tells it",
+/// "signal 11, SIGSEGV (Segmentation fault)", "no end after 600 s: killed", …
 std::string Describe(const ProcessResult& result, const ProcessLimits& limits);
+
+/// The last lines of an output, at most `count`, each made harmless and cut at a screen's width.
+std::string LastWords(const std::string& log, std::size_t count = 12);
+
+/// The line of an output that says most about its end: the last one that speaks of an error, else
+/// the last one. Made harmless; empty where nothing was said.
+std::string TellingLine(const std::string& log);
 
 /// A child under a guard, in a session of its own: it and all it ever starts end with it, and with
 /// its parent, however that ends. Whatever it does (crash, hang, flood its output, eat memory) ends

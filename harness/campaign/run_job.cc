@@ -3,15 +3,18 @@
 #include <opencv2/imgproc.hpp>
 
 #include "harness/campaign/external_run.h"
+#include "harness/campaign/guest_output.h"
+#include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/plugs/cached_sequence.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/systems.h"
 #include "harness/record/record.h"
-#include "harness/report/picture/samples.h"
+#include "harness/report/picture/frame_album.h"
 #include "harness/report/picture/stage_sheets.h"
 #include "harness/report/picture/video.h"
 #include "harness/run/drive.h"
+#include "harness/run/playback.h"
 
 namespace aisle {
 namespace {
@@ -66,34 +69,13 @@ std::vector<std::filesystem::path> HiddenFromGuests(const Job& job) {
   return hidden;
 }
 
-void RunForeign(const Job& job) {
-  std::uint64_t content_hash = 0;
-  std::unique_ptr<Sequence> kept_open;
-  const std::unique_ptr<Sequence> sequence = OpenSequence(job, &content_hash);
-  const std::filesystem::path folder = job.out / FolderOf(job);
-  const auto open_path = [&] {
-    PathOfRig path;
-    kept_open = OpenSimulation(SimulationOf(job), nullptr, &path);
-    return path;
-  };
-  RunResult result = RunExternal(*job.spec.system.external, *sequence,
-                                 {.dataset = job.dataset,
-                                  .folder = folder,
-                                  .hidden = HiddenFromGuests(job),
-                                  .seed = job.spec.seed,
-                                  .open_path = open_path});
-  result.spec = job.spec;
-  result.scene_hash = content_hash;
-  const RunScore score = ScoreRun(result);
-  WriteRun(result, score, RecordOf(job, result, score, *sequence), job.out);
-}
-
-/// What people look at in the morning: sample pictures, a film, the stages of the rejection.
+/// What people look at in the morning: single frames, a film, the stages of the rejection.
 class Pictures {
  public:
   Pictures(const Job& job, double rate_hz)
       : out_(job.out),
         folder_(FolderOf(job)),
+        album_(FramesKeptFromName(job.frames_in_report)),
         stages_({.folder = job.out / folder_,
                  .rate_hz = rate_hz / kFilmEvery,
                  .film = job.debug_dynamic && job.video}) {
@@ -104,10 +86,12 @@ class Pictures {
 
   void See(const DrivenFrame& frame) {
     const FrameTruth* truth = frame.shown.truth ? &*frame.shown.truth : nullptr;
-    samples_.See(frame.index, frame.count, frame.shown.images.left, truth, frame.estimate,
-                 frame.facts);
+    cv::Mat3b picture = album_.See(frame.index, frame.count, frame.shown.images.left, truth,
+                                   frame.estimate, frame.facts);
     if (film_ && frame.index % kFilmEvery == 0) {
-      cv::Mat3b picture = DrawOverlay(frame.shown.images.left, truth, &frame.estimate, "");
+      if (picture.empty()) {
+        picture = DrawOverlay(frame.shown.images.left, truth, &frame.estimate, "");
+      }
       cv::resize(picture, picture, {picture.cols / 4 * 2, picture.rows / 4 * 2}, 0, 0,
                  cv::INTER_AREA);
       film_->Add(picture);
@@ -115,24 +99,87 @@ class Pictures {
     stages_.See(frame.index, truth, frame.estimate, frame.facts);
   }
 
-  /// Writes what is left to write and names it all in the record.
-  void Finish(RunRecord* record) {
+  /// Writes what is left to write and names it all in the record. `live`: the errors that say
+  /// which frames are worth a look.
+  void Finish(const TrajectoryScore& live, RunRecord* record) {
     auto& artifacts = record->artifacts;
     if (film_ && film_->Finish()) artifacts["film"] = (folder_ / "film.mp4").string();
     for (const auto& [name, path] : stages_.Finish()) artifacts[name] = (folder_ / path).string();
     if (!stages_.trouble().empty()) record->notes.push_back(stages_.trouble());
+    std::map<std::size_t, double> error_m;
+    for (const PoseError& error : live.errors) error_m[error.pair.truth] = error.translation_m;
     int number = 0;
-    for (const std::string& name : samples_.Write(out_ / folder_)) {
-      artifacts[fmt::format("picture_{:02}", number++)] = (folder_ / name).string();
+    for (const std::string& name : album_.Write(out_ / folder_, error_m)) {
+      artifacts[fmt::format("picture_{:04}", number++)] = (folder_ / name).string();
     }
   }
 
  private:
   const std::filesystem::path out_, folder_;
-  SamplePictures samples_;
+  FrameAlbum album_;
   std::optional<Video> film_;
   StageSheets stages_;
 };
+
+/// Said while a foreign system works: its own count of frames, or how long it has been at it.
+void TellForeignProgress(double seconds, int done, int total, double timeout_s) {
+  if (total > 0)
+    return TellProgress(static_cast<std::size_t>(done), static_cast<std::size_t>(total));
+  TellProgress(0, 0);
+  TellStage(fmt::format("driving, {:.0f} s of at most {:g}", seconds, timeout_s).c_str());
+}
+
+/// Holds a foreign drive against truth, with what it left beside its trajectory, and draws it.
+void Show(const Job& job, const Sequence& sequence, RunResult* result, Pictures* pictures) {
+  TellStage("looking at what it left");
+  try {
+    PlayBack(
+        sequence, Leftovers(job.out / FolderOf(job)),
+        [&](const DrivenFrame& frame) {
+          pictures->See(frame);
+          TellProgress(frame.index + 1, frame.count);
+        },
+        result);
+  } catch (const InputError& wrong) {
+    result->notes.push_back(fmt::format("not used: {}", wrong.what()));
+  }
+}
+
+void RunForeign(const Job& job) {
+  const ExternalSystem& system = *job.spec.system.external;
+  std::uint64_t content_hash = 0;
+  std::unique_ptr<Sequence> kept_open;
+  const std::unique_ptr<Sequence> sequence = OpenSequence(job, &content_hash);
+  const std::filesystem::path folder = job.out / FolderOf(job);
+  const auto open_path = [&] {
+    PathOfRig path;
+    kept_open = OpenSimulation(SimulationOf(job), nullptr, &path);
+    return path;
+  };
+  const auto progress = [&](double seconds, int done, int total) {
+    TellForeignProgress(seconds, done, total, system.timeout_s);
+  };
+  RunResult result = RunExternal(system, *sequence,
+                                 {.dataset = job.dataset,
+                                  .folder = folder,
+                                  .hidden = HiddenFromGuests(job),
+                                  .seed = job.spec.seed,
+                                  .open_path = open_path,
+                                  .progress = progress});
+  result.spec = job.spec;
+  result.scene_hash = content_hash;
+  SpreadWallTime(&result);
+  Pictures pictures(job, sequence->rate_hz());
+  if (!result.trajectory.live.empty()) Show(job, *sequence, &result, &pictures);
+  const RunScore score = ScoreRun(result);
+  RunRecord record = RecordOf(job, result, score, *sequence);
+  record.artifacts["log"] = (FolderOf(job) / "system.log").string();
+  if (std::filesystem::exists(folder / kFeaturesName)) {
+    record.artifacts["features"] = (FolderOf(job) / kFeaturesName).string();
+  }
+  pictures.Finish(score.live, &record);
+  WriteRun(result, score, record, job.out);
+}
 
 void RunOurs(const Job& job) {
   const SystemSpec& spec = job.spec.system;
@@ -154,7 +201,7 @@ void RunOurs(const Job& job) {
   result.threads = job.threads;
   const RunScore score = ScoreRun(result);
   RunRecord record = RecordOf(job, result, score, *sequence);
-  pictures.Finish(&record);
+  pictures.Finish(score.live, &record);
   WriteRun(result, score, record, job.out);
 }
 

@@ -14,7 +14,8 @@ enum class VslamLabStyle {
 
 /// Any other SLAM: a command that reads a dataset from disk and leaves a trajectory.
 struct ExternalSystem {
-  /// Given to the shell after {dataset}, {calibration}, {output} and {seed} have been filled in.
+  /// Given to the shell after {dataset}, {calibration}, {output}, {seed} and {source} have been
+  /// filled in.
   std::string command;
   std::string dataset = "euroc";   ///< euroc or kitti: what is exported for it
   std::string trajectory = "tum";  ///< tum, kitti or euroc: what it writes to {output}
@@ -23,6 +24,13 @@ struct ExternalSystem {
   /// not asked for.
   VslamLabStyle vslam_lab = VslamLabStyle::kNone;
   double timeout_s = 3600;
+  /// A command whose first line of output says which version of the system ran; empty: none.
+  std::string version = {};
+  /// Its sources, for `bisect`: a git repository, which {source} of the command stands for, and the
+  /// command that builds a checkout of it, run there.
+  std::string repository = {}, build = {};
+  /// Times each input is driven, for a system that scatters on one and the same.
+  int repeats = 1;
   /// Folders where it may write, beside its own of the run.
   std::vector<std::string> may_write = {};
   /// Variables of the environment that it sees, beside the usual ones.

@@ -19,6 +19,8 @@ struct RunSpec {
   std::string twin = "live";
   SystemSpec system;
   std::uint64_t seed = 1;
+  /// Which drive over this very input, from 1 on: of systems that scatter on one (`repeats`).
+  int repeat = 1;
 
   bool operator==(const RunSpec&) const = default;
 };
@@ -120,6 +122,9 @@ struct RunResult {
   double peak_rss_mib = 0;
   std::uint64_t scene_hash = 0;
   int threads = 0;
+  std::string system_version = {};      ///< what a foreign system says it is
+  std::string last_words = {};          ///< the last lines of what it printed, harmless text
+  std::vector<std::string> notes = {};  ///< what a reader must know besides
 };
 
 }  // namespace aisle

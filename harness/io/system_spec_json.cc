@@ -31,14 +31,19 @@ VslamLabStyle StyleFromName(const std::string& name) {
 }
 
 Json ToJson(const ExternalSystem& external) {
-  return {{"command", external.command},
-          {"dataset", external.dataset},
-          {"trajectory", external.trajectory},
-          {"contract", kStyles[static_cast<std::size_t>(external.vslam_lab)]},
-          {"timeout_s", external.timeout_s},
-          {"may_write", external.may_write},
-          {"environment", external.environment},
-          {"depends_on", external.depends_on}};
+  Json json = {{"command", external.command},
+               {"dataset", external.dataset},
+               {"trajectory", external.trajectory},
+               {"contract", kStyles[static_cast<std::size_t>(external.vslam_lab)]},
+               {"timeout_s", external.timeout_s},
+               {"may_write", external.may_write},
+               {"environment", external.environment},
+               {"depends_on", external.depends_on}};
+  if (!external.version.empty()) json["version"] = external.version;
+  if (!external.repository.empty()) json["repository"] = external.repository;
+  if (!external.build.empty()) json["build"] = external.build;
+  if (external.repeats > 1) json["repeats"] = external.repeats;
+  return json;
 }
 
 ExternalSystem ExternalFromJson(const Json& json) {
@@ -47,6 +52,10 @@ ExternalSystem ExternalFromJson(const Json& json) {
           .trajectory = json.at("trajectory").get<std::string>(),
           .vslam_lab = StyleFromName(json.at("contract").get<std::string>()),
           .timeout_s = json.at("timeout_s").get<double>(),
+          .version = json.value("version", ""),
+          .repository = json.value("repository", ""),
+          .build = json.value("build", ""),
+          .repeats = json.value("repeats", 1),
           .may_write = json.at("may_write").get<std::vector<std::string>>(),
           .environment = json.at("environment").get<std::vector<std::string>>(),
           .depends_on = json.at("depends_on").get<std::vector<std::string>>()};

@@ -42,13 +42,15 @@ std::map<Cell, std::vector<const RunRecord*>> Cells(const Results& results) {
 
 ValuesBySeed Values(const std::vector<const RunRecord*>& runs, const std::string& score,
                     std::string* unit) {
-  ValuesBySeed values;
+  std::map<std::uint64_t, std::vector<double>> repeats;  // by seed
   for (const RunRecord* run : runs) {
     const auto at = run->scores.find(score);
     if (at == run->scores.end() || !at->second.value) continue;
-    values[run->spec.seed] = *at->second.value;
+    repeats[run->spec.seed].push_back(*at->second.value);
     *unit = at->second.unit;
   }
+  ValuesBySeed values;
+  for (const auto& [seed, of_seed] : repeats) values[seed] = Quantile(of_seed, 0.5);
   return values;
 }
 

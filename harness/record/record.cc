@@ -22,8 +22,9 @@ std::string SafeName(const std::string& name) {
 }
 
 std::string RunId(const RunSpec& spec) {
-  return fmt::format("{}/{}/{}/{}", SafeName(spec.scene), SafeName(spec.twin),
-                     SafeName(spec.system.name), spec.seed);
+  return fmt::format("{}/{}/{}/{}{}", SafeName(spec.scene), SafeName(spec.twin),
+                     SafeName(spec.system.name), spec.seed,
+                     spec.repeat > 1 ? fmt::format("r{}", spec.repeat) : "");
 }
 
 RunRecord MakeRecord(const RunResult& run, const RunScore& score, double rate_hz) {
@@ -38,6 +39,9 @@ RunRecord MakeRecord(const RunResult& run, const RunScore& score, double rate_hz
   record.content_hash = fmt::format("{:016x}", run.scene_hash);
   record.scores = score.scores;
   record.notes = score.final.notes;
+  record.notes.insert(record.notes.end(), run.notes.begin(), run.notes.end());
+  record.system_version = run.system_version;
+  record.last_words = run.last_words;
   return record;
 }
 

@@ -20,9 +20,11 @@ struct RunRecord {
   double rate_hz = 0;
   double wall_s = 0;
   int threads = 0;
-  std::string content_hash;  ///< of all that decides the pixels, hexadecimal
-  std::string inputs_hash;   ///< of all that decides the run: program, scene, system, seed
-  std::string output_hash;   ///< of the trajectories it left; empty where it left none
+  std::string content_hash;    ///< of all that decides the pixels, hexadecimal
+  std::string inputs_hash;     ///< of all that decides the run: program, scene, system, seed
+  std::string output_hash;     ///< of the trajectories it left; empty where it left none
+  std::string system_version;  ///< what a foreign system says it is; empty for ours
+  std::string last_words;      ///< the last lines a foreign system, or one that failed, printed
   /// The same inputs, tried again, ended well: what fails is not what they are but when.
   bool flaky = false;
   Scorecard scores;
@@ -34,7 +36,8 @@ struct RunRecord {
 /// underscore; no leading dot, at most 81 characters.
 std::string SafeName(const std::string& name);
 
-/// "scene/twin/system/seed" with the slashes of the scene as dots: "paper.scene2/live/oracle/1".
+/// "scene/twin/system/seed" with the slashes of the scene as dots: "paper.scene2/live/oracle/1"; a
+/// further drive over the same input ends in "1r2".
 /// Names a run for `rerun`, and its folder under DIR/runs.
 std::string RunId(const RunSpec& spec);
 

@@ -15,6 +15,7 @@ Json ScoreToJson(const Score& score) {
   json["n"] = score.n;
   if (!score.alignment.empty()) json["alignment"] = score.alignment;
   if (!score.absent.empty()) json["absent"] = score.absent;
+  if (!score.basis.empty()) json["basis"] = score.basis;
   return json;
 }
 
@@ -25,6 +26,7 @@ Score ScoreFromJson(const Json& json) {
   score.n = json.at("n").get<std::size_t>();
   score.alignment = json.value("alignment", "");
   score.absent = json.value("absent", "");
+  score.basis = json.value("basis", "");
   return score;
 }
 
@@ -63,6 +65,7 @@ Json RecordToJson(const RunRecord& record) {
   json["system"] = record.spec.system.name;
   json["system_spec"] = ToJson(record.spec.system);
   json["seed"] = record.spec.seed;
+  if (record.spec.repeat > 1) json["repeat"] = record.spec.repeat;
   json["status"] = Name(record.status);
   json["why"] = record.status_why;
   json["frames"] = record.frames;
@@ -73,6 +76,8 @@ Json RecordToJson(const RunRecord& record) {
   json["inputs_hash"] = record.inputs_hash;
   json["output_hash"] = record.output_hash;
   if (record.flaky) json["flaky"] = true;
+  if (!record.system_version.empty()) json["system_version"] = record.system_version;
+  if (!record.last_words.empty()) json["last_words"] = record.last_words;
   json["scores"] = Json::object();
   for (const auto& [name, score] : record.scores) json["scores"][name] = ScoreToJson(score);
   json["notes"] = record.notes;
@@ -91,6 +96,7 @@ RunRecord RecordFromJson(const Json& json) {
                            ? SystemSpecFromJson(json.at("system_spec"))
                            : BuiltIn(system);  // a file from before variants
   record.spec.seed = json.at("seed").get<std::uint64_t>();
+  record.spec.repeat = json.value("repeat", 1);
   record.status = RunStatusFromName(json.at("status").get<std::string>());
   record.status_why = json.value("why", "");
   record.frames = json.at("frames").get<std::size_t>();
@@ -101,6 +107,8 @@ RunRecord RecordFromJson(const Json& json) {
   record.inputs_hash = json.value("inputs_hash", "");
   record.output_hash = json.value("output_hash", "");
   record.flaky = json.value("flaky", false);
+  record.system_version = json.value("system_version", "");
+  record.last_words = json.value("last_words", "");
   for (const auto& [name, score] : json.at("scores").items()) {
     record.scores[name] = ScoreFromJson(score);
   }

@@ -44,8 +44,19 @@ void AddFeatures(const RunResult& run, Scorecard* scores) {
   (*scores)["features_on_movers"] = RatioScore(on_movers, features, "the system shows no features");
   (*scores)["inliers_on_movers_per_frame"] =
       run.facts.empty() ? Absent("1", "no frames")
+      : features == 0   ? Absent("1", "the system shows no features")
                         : Present(inliers_on_movers / static_cast<double>(run.facts.size()), "1",
                                   run.facts.size());
+}
+
+/// Nobody saw the steps of a foreign system: what is not known of them is not 0 ms.
+void KeepKnownTimes(const RunResult& run, std::map<std::string, std::vector<double>>* stages) {
+  const bool ended = run.status != RunStatus::kCrashed && run.status != RunStatus::kTimeout;
+  if (!ended || run.wall_s <= 0) stages->erase("process");
+  const std::vector<double>& render_ms = (*stages)["render"];
+  const bool shown =
+      std::any_of(render_ms.begin(), render_ms.end(), [](double ms) { return ms > 0; });
+  if (!shown) stages->erase("render");
 }
 
 void AddTimes(const RunResult& run, Scorecard* scores) {
@@ -61,8 +72,12 @@ void AddTimes(const RunResult& run, Scorecard* scores) {
     stages["render"].push_back(frame.render_ms);
     stages["process"].push_back(frame.process_ms);
   }
+  if (run.spec.system.external) KeepKnownTimes(run, &stages);
   for (const auto& [stage, ms] : stages) {
     (*scores)["ms_" + stage + "_mean"] = Present(Summarize(ms).mean, "ms", ms.size());
+  }
+  if (run.spec.system.external && scores->contains("ms_process_mean")) {
+    (*scores)["ms_process_mean"].basis = "wall time of the whole process over its frames";
   }
   if (run.peak_rss_mib > 0) (*scores)["peak_rss_mib"] = Present(run.peak_rss_mib, "MiB", 1);
 }

@@ -37,8 +37,8 @@ std::string CheckVariable(const std::string& name) {
 
 void DescribeExternal(Fields& fields, ExternalSystem& external) {
   fields.Text({"command",
-               "the command of a foreign system; {dataset}, {calibration}, {output} and {seed} are "
-               "filled in",
+               "the command of a foreign system; {dataset}, {calibration}, {output}, {seed} and "
+               "{source} are filled in",
                "my_slam {dataset} {calibration} {output}"},
               &external.command);
   std::string contract;
@@ -55,6 +55,22 @@ void DescribeExternal(Fields& fields, ExternalSystem& external) {
               {{"tum", "kitti", "euroc"}});
   fields.Number({"timeout_s", "seconds until the command is ended", "600"}, &external.timeout_s,
                 {1e-3, 1e9});
+  fields.Text({"version", "a command whose first line of output names the version that ran",
+               "my_slam --version"},
+              &external.version);
+  fields.Text({"repository",
+               "git repository of its sources, for `aisle bisect`; {source} of the command stands "
+               "for it",
+               "/srv/my_slam"},
+              &external.repository);
+  fields.Text({"build", "what builds a checkout of the repository, run in it",
+               "cmake -B build && cmake --build build"},
+              &external.build);
+  fields.Integer({"repeats",
+                  "times each input is driven, for a system that scatters on one and the same; "
+                  "shown apart from the spread over seeds",
+                  "5"},
+                 &external.repeats, {1, 100});
   fields.Texts(
       {"may_write", "folders where it may write, beside its own of the run", "[/srv/models/cache]"},
       &external.may_write, CheckAbsolute);

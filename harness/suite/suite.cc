@@ -134,7 +134,10 @@ std::vector<RunSpec> Plan(const Suite& suite) {
     for (const std::string& twin : suite.twins) {
       for (const std::uint64_t seed : suite.seeds) {
         for (const SystemSpec& system : suite.systems) {
-          specs.push_back({scene.name, scene.file, twin, system, seed});
+          const int repeats = system.external ? system.external->repeats : 1;
+          for (int repeat = 1; repeat <= repeats; ++repeat) {
+            specs.push_back({scene.name, scene.file, twin, system, seed, repeat});
+          }
         }
       }
     }

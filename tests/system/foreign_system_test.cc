@@ -142,6 +142,35 @@ TEST_F(ForeignSystemTest, ThatFailsOnceIsFlakyAndNotForgiven) {
   EXPECT_FALSE(results.verdicts[0].passed);
 }
 
+TEST_F(ForeignSystemTest, ThatTellsMoreIsShownWithIt) {
+  const std::string systems = fmt::format(
+      "  - name: tells\n"
+      "    command: \"echo '@progress 3 40'; echo at work; cp {} {{output}}; cd $(dirname "
+      "{{output}}); "
+      "printf 'frame,u,v,used\\n0,10,20,1\\n0,700,400,0\\n' >features.csv\"\n"
+      "    dataset: kitti\n    version: echo v7\n    repeats: 2\n",
+      KnownTrajectory());
+  const Said said = Run({"run", Suite("tells", systems), "--out", Out("tells")});
+  EXPECT_EQ(said.code, 0) << said.text;
+  const Results results = ResultsOf(Out("tells"));
+  ASSERT_EQ(results.runs.size(), 2u);
+  EXPECT_EQ(RunId(results.runs[1].spec), "short/live/tells/1r2");
+  for (const RunRecord& run : results.runs) {
+    EXPECT_EQ(run.status, RunStatus::kOk) << run.status_why;
+    EXPECT_EQ(run.system_version, "v7");
+    EXPECT_EQ(run.last_words, "at work\n");
+    const Score& step = run.scores.at("ms_process_mean");
+    EXPECT_GT(*step.value, 0);
+    EXPECT_THAT(step.basis, HasSubstr("wall time"));
+    EXPECT_EQ(run.scores.at("features_on_movers").n, 2u);
+    EXPECT_GT(*run.scores.at("difficulty_movers_share").value, 0);
+    for (const char* artifact : {"log", "features", "picture_0000", "frames"}) {
+      EXPECT_TRUE(run.artifacts.contains(artifact)) << artifact;
+    }
+  }
+  EXPECT_THAT(ReadFile(fs::path(Out("tells")) / "index.html"), HasSubstr("≈"));
+}
+
 TEST_F(ForeignSystemTest, SpoilsItsOwnDatasetAlone) {
   const std::string known = KnownTrajectory();
   const std::string whole =

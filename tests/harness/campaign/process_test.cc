@@ -37,13 +37,13 @@ TEST(ProcessTest, ExitCodesAndOutputComeBack) {
 TEST(ProcessTest, ACrashIsASignal) {
   const ProcessResult result = RunToEnd("kill -SEGV $$");
   EXPECT_EQ(result.end, End::kSignalled);
-  EXPECT_EQ(Describe(result, {}), "signal 11 (Segmentation fault)");
+  EXPECT_EQ(Describe(result, {}), "signal 11, SIGSEGV (Segmentation fault)");
 }
 
 TEST(ProcessTest, ASignalToldByAShellIsNamed) {
   const ProcessResult result = RunToEnd("sh -c 'kill -SEGV $$'; exit $?");
   EXPECT_EQ(Describe(result, {}),
-            "exit code 139: signal 11 (Segmentation fault), as a shell tells it");
+            "exit code 139: signal 11, SIGSEGV (Segmentation fault), as a shell tells it");
   EXPECT_EQ(Describe(RunToEnd("exit 255"), {}), "exit code 255");
 }
 
