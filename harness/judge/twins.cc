@@ -24,19 +24,30 @@ std::optional<double> Minus(const std::optional<double>& a, const std::optional<
   return a && b ? std::optional(*a - *b) : std::nullopt;
 }
 
+/// What is left of a system's options when those that say how it rejects, and on which base, are
+/// taken away.
+std::map<std::string, std::string> OptionsBesideRejection(const SystemSpec& system) {
+  std::map<std::string, std::string> options = system.options;
+  std::erase_if(options, [](const auto& option) {
+    return option.first == "base" || option.first.starts_with("dynamic.");
+  });
+  return options;
+}
+
 }  // namespace
 
 void AddDynamicPenalty(std::vector<RunRecord>* runs) {
-  using Key = std::tuple<std::string, std::string, std::uint64_t>;
+  using Key = std::tuple<std::string, std::string, std::uint64_t, int>;
   std::map<Key, Score> empty;
   for (const RunRecord& run : *runs) {
     const auto score = run.scores.find(kError);
     if (run.spec.twin == "empty" && score != run.scores.end()) {
-      empty[{run.spec.scene, run.spec.system.name, run.spec.seed}] = score->second;
+      empty[{run.spec.scene, run.spec.system.name, run.spec.seed, run.spec.repeat}] = score->second;
     }
   }
   for (RunRecord& run : *runs) {
-    const auto twin = empty.find({run.spec.scene, run.spec.system.name, run.spec.seed});
+    const auto twin =
+        empty.find({run.spec.scene, run.spec.system.name, run.spec.seed, run.spec.repeat});
     const bool moves = run.spec.twin != "empty" && run.spec.twin != "frozen";
     if (!moves || twin == empty.end()) continue;
     const auto live = run.scores.find(kError);
@@ -54,31 +65,43 @@ void AddDynamicPenalty(std::vector<RunRecord>* runs) {
   }
 }
 
+bool Rejects(const SystemSpec& system) {
+  return !system.external && system.like != "plain" && system.like != "orbslam2";
+}
+
+bool IsWithoutRejection(const SystemSpec& other, const SystemSpec& system) {
+  if (!Rejects(system) || Rejects(other) || other.external) return false;
+  return BaseOf(other) == BaseOf(system) &&
+         OptionsBesideRejection(other) == OptionsBesideRejection(system);
+}
+
 std::vector<CostSplit> SplitCosts(const std::vector<SceneRuns>& scenes) {
   std::vector<CostSplit> splits;
   for (const SceneRuns& scene : scenes) {
     if (scene.twin != "live") continue;
-    const auto oracle_live = Error(Find(scenes, scene.scene, "live", "oracle"));
-    const auto oracle_empty = Error(Find(scenes, scene.scene, "empty", "oracle"));
     for (const SystemRuns& system : scene.systems) {
       CostSplit split{.scene = scene.scene,
                       .system = system.system,
                       .color = system.color,
                       .live_m = Error(&system),
-                      .empty_m = {},
+                      .empty_m = Error(Find(scenes, scene.scene, "empty", system.system)),
                       .occlusion_m = {},
                       .motion_m = {},
-                      .mask_m = {},
+                      .rejection_m = {},
                       .penalty = {}};
-      split.empty_m = Error(Find(scenes, scene.scene, "empty", system.system));
-      split.occlusion_m = Minus(oracle_live, oracle_empty);
-      split.motion_m =
-          Minus(split.live_m, Error(Find(scenes, scene.scene, "frozen", system.system)));
-      if (system.system != "oracle") split.mask_m = Minus(split.live_m, oracle_live);
+      const auto frozen = Error(Find(scenes, scene.scene, "frozen", system.system));
+      split.occlusion_m = Minus(frozen, split.empty_m);
+      split.motion_m = Minus(split.live_m, frozen);
+      for (const SystemRuns& other : scene.systems) {
+        const SystemSpec& spec = system.runs.front()->spec.system;
+        if (IsWithoutRejection(other.runs.front()->spec.system, spec)) {
+          split.rejection_m = Minus(split.live_m, Error(&other));
+        }
+      }
       if (split.live_m && split.empty_m && *split.empty_m > 0) {
         split.penalty = *split.live_m / *split.empty_m;
       }
-      if (split.empty_m || split.motion_m || split.mask_m) splits.push_back(split);
+      if (split.empty_m || split.motion_m || split.rejection_m) splits.push_back(split);
     }
   }
   return splits;

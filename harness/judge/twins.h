@@ -11,18 +11,28 @@ namespace aisle {
 /// scene, system and seed), where there is one.
 void AddDynamicPenalty(std::vector<RunRecord>* runs);
 
-/// Where one system's error on one scene comes from; medians over seeds, metres. What cannot be
-/// told apart is absent.
+/// Whether it rejects what moves. Of ours that is known; what a foreign system does is its own
+/// matter, and nothing of its error is put down to a rejection.
+bool Rejects(const SystemSpec& system);
+
+/// Whether `other` is `system` without its rejection: it rejects nothing and stands on the same
+/// base, with the same options but those of the rejection.
+bool IsWithoutRejection(const SystemSpec& other, const SystemSpec& system);
+
+/// Where one system's error on one scene comes from, told by its own drives alone: the same scene
+/// with nobody in it (`empty`), with everybody standing still (`frozen`), and the same system
+/// without its rejection. Medians over seeds, metres. What cannot be told apart is absent.
 struct CostSplit {
   std::string scene, system;
   int color = 0;
-  std::optional<double> live_m;   ///< the error as it is
-  std::optional<double> empty_m;  ///< without anybody: the system itself
-  std::optional<double>
-      occlusion_m;                 ///< oracle live - oracle empty: what standing in the way costs
-  std::optional<double> motion_m;  ///< system live - system frozen: what it costs that they move
-  std::optional<double> mask_m;    ///< system live - oracle live: what imperfect rejection costs
-  std::optional<double> penalty;   ///< live / empty
+  std::optional<double> live_m;       ///< the error as it is
+  std::optional<double> empty_m;      ///< without anybody: the system itself
+  std::optional<double> occlusion_m;  ///< frozen - empty: what standing in the way costs
+  std::optional<double> motion_m;     ///< live - frozen: what it costs that they move
+  /// live - live of its twin without rejection: below 0 what the rejection wins, above what it
+  /// costs.
+  std::optional<double> rejection_m;
+  std::optional<double> penalty;  ///< live / empty
 };
 
 /// One entry per scene and system that has a live run and something to hold it against.

@@ -1,5 +1,6 @@
 #include "harness/record/group.h"
 
+#include "harness/io/hash.h"
 #include "harness/score/statistics.h"
 
 namespace aisle {
@@ -17,32 +18,86 @@ T& FindOrAdd(std::vector<T>& list, const Same& same, const T& fresh) {
 
 std::vector<SceneRuns> GroupByScene(const Results& results) {
   std::vector<SceneRuns> scenes;
-  std::map<std::string, int> colors;
+  std::set<std::string> names;
+  for (const RunRecord& run : results.runs) names.insert(run.spec.system.name);
+  const std::map<std::string, int> styles = StylesOf(names);
   for (const RunRecord& run : results.runs) {
     const RunSpec& spec = run.spec;
-    const int color =
-        colors.emplace(spec.system.name, static_cast<int>(colors.size())).first->second;
     SceneRuns& scene = FindOrAdd(
         scenes, [&](const SceneRuns& s) { return s.scene == spec.scene && s.twin == spec.twin; },
         SceneRuns{spec.scene, spec.twin, {}});
     SystemRuns& system = FindOrAdd(
         scene.systems, [&](const SystemRuns& s) { return s.system == spec.system.name; },
-        SystemRuns{spec.system.name, color, {}});
+        SystemRuns{spec.system.name, styles.at(spec.system.name), {}});
     system.runs.push_back(&run);
   }
   return scenes;
 }
 
-std::optional<double> MedianScore(const std::vector<const RunRecord*>& runs,
-                                  const std::string& score) {
+std::map<std::string, int> StylesOf(const std::set<std::string>& systems) {
+  static const std::vector<std::string> kOurs{"orbslam2", "plain",  "semantic",
+                                              "paper",    "robust", "oracle"};
+  constexpr int kOthers = kStyles / 2;
+  std::map<std::string, int> styles;
+  std::set<int> taken;
+  for (const std::string& name : systems) {
+    const auto ours = std::find(kOurs.begin(), kOurs.end(), name);
+    if (ours != kOurs.end()) {
+      styles[name] = static_cast<int>(ours - kOurs.begin());
+      continue;
+    }
+    const int wanted = static_cast<int>(Hash(name, 0) % kOthers);
+    int style = wanted;
+    for (int step = 0; step < kOthers && taken.contains(style); ++step) {
+      style = (wanted + step) % kOthers;
+    }
+    taken.insert(style);
+    styles[name] = kOthers + style;
+  }
+  return styles;
+}
+
+std::vector<std::pair<std::string, int>> SystemsInOrder(const std::vector<SceneRuns>& scenes) {
+  std::vector<std::pair<std::string, int>> systems;
+  for (const SceneRuns& scene : scenes) {
+    for (const SystemRuns& system : scene.systems) {
+      const std::pair named{system.system, system.color};
+      if (std::find(systems.begin(), systems.end(), named) == systems.end()) {
+        systems.push_back(named);
+      }
+    }
+  }
+  return systems;
+}
+
+std::vector<double> ScoresOf(const std::vector<const RunRecord*>& runs, const std::string& score) {
   std::vector<double> values;
   for (const RunRecord* run : runs) {
     const auto at = run->scores.find(score);
-    if (at == run->scores.end() || !at->second.value) return std::nullopt;
-    values.push_back(*at->second.value);
+    if (at != run->scores.end() && at->second.value) values.push_back(*at->second.value);
   }
-  if (values.empty()) return std::nullopt;
+  return values;
+}
+
+std::optional<double> MedianScore(const std::vector<const RunRecord*>& runs,
+                                  const std::string& score) {
+  const std::vector<double> values = ScoresOf(runs, score);
+  if (values.empty() || values.size() < runs.size()) return std::nullopt;
   return Quantile(values, 0.5);
+}
+
+const RunRecord* WorstRun(const std::vector<const RunRecord*>& runs) {
+  const auto badness = [](const RunRecord* run) {
+    const auto ate = run->scores.find("ate_rmse_m");
+    const bool known = ate != run->scores.end() && ate->second.value;
+    const bool failed = run->status != RunStatus::kOk;
+    return std::pair(failed, known ? *ate->second.value : 0.0);
+  };
+  const RunRecord* worst = nullptr;
+  for (const RunRecord* run : runs) {
+    if (worst == nullptr || badness(worst) < badness(run)) worst = run;
+  }
+  return worst;
 }
 
 }  // namespace aisle

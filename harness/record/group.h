@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -10,7 +12,7 @@ namespace aisle {
 /// All runs of one system on one version of one scene: they differ by seed.
 struct SystemRuns {
   std::string system;
-  int color = 0;  ///< the same for a system all over the report
+  int color = 0;  ///< style of its lines (StylesOf): the same in every report
   std::vector<const RunRecord*> runs;
 };
 
@@ -20,11 +22,27 @@ struct SceneRuns {
   std::vector<SystemRuns> systems;
 };
 
+/// Styles for systems: a colour, a dash and a marker each, of twelve. Ours have their own; others
+/// get one of the remaining six by their name, so that a system looks the same on every page and in
+/// every night while nobody else of that name's style is beside it.
+inline constexpr int kStyles = 12;
+std::map<std::string, int> StylesOf(const std::set<std::string>& systems);
+
+/// The systems of all scenes with their styles, in the order of the runs.
+std::vector<std::pair<std::string, int>> SystemsInOrder(const std::vector<SceneRuns>& scenes);
+
 /// In the order of the runs. The pointers lead into `results`.
 std::vector<SceneRuns> GroupByScene(const Results& results);
 
 /// Median over the runs that have the score; absent if one of them has not.
 std::optional<double> MedianScore(const std::vector<const RunRecord*>& runs,
                                   const std::string& score);
+
+/// The score's values of the runs that have one, in their order.
+std::vector<double> ScoresOf(const std::vector<const RunRecord*>& runs, const std::string& score);
+
+/// The run that went worst: one that failed first, else the one of the largest error
+/// (`ate_rmse_m`), else the first. Never null for runs there are.
+const RunRecord* WorstRun(const std::vector<const RunRecord*>& runs);
 
 }  // namespace aisle

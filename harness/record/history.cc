@@ -8,6 +8,7 @@
 
 #include "harness/io/input_error.h"
 #include "harness/record/group.h"
+#include "harness/score/statistics.h"
 
 namespace aisle {
 namespace {
@@ -27,6 +28,7 @@ class Database {
     Run("CREATE TABLE IF NOT EXISTS medians (suite TEXT, started TEXT, commit_id TEXT, "
         "scene TEXT, twin TEXT, system TEXT, score TEXT, median REAL, seeds INTEGER, "
         "PRIMARY KEY (suite, started, scene, twin, system, score)) WITHOUT ROWID");
+    AddMissingColumns();
   }
   ~Database() { ::sqlite3_close(handle_); }
   Database(const Database&) = delete;
@@ -41,6 +43,18 @@ class Database {
   sqlite3* handle() const { return handle_; }
 
  private:
+  /// Files of earlier versions lack them.
+  void AddMissingColumns() {
+    for (const char* column : {"low REAL", "high REAL", "failed INTEGER", "limit_value REAL",
+                               "version TEXT", "folder TEXT"}) {
+      const std::string name = std::string(column).substr(0, std::string(column).find(' '));
+      const bool there =
+          ::sqlite3_table_column_metadata(handle_, nullptr, "medians", name.c_str(), nullptr,
+                                          nullptr, nullptr, nullptr, nullptr) == SQLITE_OK;
+      if (!there) Run(fmt::format("ALTER TABLE medians ADD COLUMN {}", column));
+    }
+  }
+
   const std::string path_;
   sqlite3* handle_ = nullptr;
 };
@@ -91,6 +105,42 @@ class Statement {
   sqlite3_stmt* handle_ = nullptr;
 };
 
+/// What the night held the cell's score against.
+std::optional<double> LimitOf(const Results& results, const SceneRuns& scene,
+                              const SystemRuns& system, const std::string& score) {
+  for (const Verdict& verdict : results.verdicts) {
+    if (verdict.scene == scene.scene && verdict.twin == scene.twin &&
+        verdict.system == system.system && verdict.name.ends_with(": " + score)) {
+      return verdict.limit;
+    }
+  }
+  return std::nullopt;
+}
+
+TrendPoint PointOf(const Results& results, const SceneRuns& scene, const SystemRuns& system,
+                   const std::string& score) {
+  TrendPoint point{.started = results.started,
+                   .commit = results.provenance.commit,
+                   .scene = scene.scene,
+                   .twin = scene.twin,
+                   .system = system.system,
+                   .score = score,
+                   .median = {},
+                   .runs = system.runs.size(),
+                   .limit = LimitOf(results, scene, system, score),
+                   .version = system.runs.front()->system_version};
+  const std::vector<double> values = ScoresOf(system.runs, score);
+  if (!values.empty()) {
+    point.low = Quantile(values, 0.25);
+    point.median = Quantile(values, 0.5);
+    point.high = Quantile(values, 0.75);
+  }
+  for (const RunRecord* run : system.runs) {
+    point.failed += run->status != RunStatus::kOk && run->status != RunStatus::kLost ? 1 : 0;
+  }
+  return point;
+}
+
 }  // namespace
 
 std::string HistoryTrouble(const fs::path& path) {
@@ -118,22 +168,36 @@ std::string HistoryTrouble(const fs::path& path) {
   }
 }
 
-void AppendToHistory(const fs::path& path, const Results& results) {
+void AppendToHistory(const fs::path& path, const Results& results, const fs::path& report) {
   Database database(path);
   database.Run("BEGIN IMMEDIATE");
-  Statement insert(database, "INSERT OR REPLACE INTO medians VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement insert(
+      database,
+      "INSERT OR REPLACE INTO medians (suite, started, commit_id, scene, twin, system, "
+      "score, version, folder, median, low, high, limit_value, seeds, failed) "
+      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  const std::string folder =
+      report.empty() ? ""
+                     : fs::absolute(report)
+                           .lexically_normal()
+                           .lexically_relative(fs::absolute(path).lexically_normal().parent_path())
+                           .string();
   for (const SceneRuns& scene : GroupByScene(results)) {
     for (const SystemRuns& system : scene.systems) {
       for (const char* score : kFollowed) {
+        const TrendPoint point = PointOf(results, scene, system, score);
         insert.Reset();
         int at = 0;
         for (const std::string& text :
-             {results.suite, results.started, results.provenance.commit, scene.scene, scene.twin,
-              system.system, std::string(score)}) {
+             {results.suite, point.started, point.commit, point.scene, point.twin, point.system,
+              point.score, point.version, folder}) {
           insert.Bind(++at, text);
         }
-        insert.Bind(++at, MedianScore(system.runs, score));
-        insert.Bind(++at, system.runs.size());
+        for (const auto& value : {point.median, point.low, point.high, point.limit}) {
+          insert.Bind(++at, value);
+        }
+        insert.Bind(++at, point.runs);
+        insert.Bind(++at, point.failed);
         insert.Step();
       }
     }
@@ -147,9 +211,13 @@ std::vector<TrendPoint> ReadHistory(const fs::path& path, const std::string& sui
   if (!fs::exists(path)) return points;
   const Database database(path);
   Statement select(database,
-                   "SELECT started, commit_id, scene, twin, system, score, median FROM medians "
+                   "SELECT started, commit_id, scene, twin, system, score, version, folder, "
+                   "median, low, high, limit_value, seeds, failed FROM medians "
                    "WHERE suite = ? ORDER BY started, scene, twin, system, score");
   select.Bind(1, suite);
+  const auto count = [&](int at) {
+    return static_cast<std::size_t>(std::max(select.Number(at).value_or(0), 0.0));
+  };
   while (select.Step()) {
     points.push_back({.started = select.Text(0),
                       .commit = select.Text(1),
@@ -157,7 +225,14 @@ std::vector<TrendPoint> ReadHistory(const fs::path& path, const std::string& sui
                       .twin = select.Text(3),
                       .system = select.Text(4),
                       .score = select.Text(5),
-                      .median = select.Number(6)});
+                      .median = select.Number(8),
+                      .low = select.Number(9),
+                      .high = select.Number(10),
+                      .runs = count(12),
+                      .failed = count(13),
+                      .limit = select.Number(11),
+                      .version = select.Text(6),
+                      .folder = select.Text(7)});
   }
   return points;
 }

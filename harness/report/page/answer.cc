@@ -1,62 +1,53 @@
 #include "harness/report/page/answer.h"
 
-#include "harness/score/statistics.h"
+#include <functional>
+#include <set>
+
+#include "harness/judge/twins.h"
 
 namespace aisle {
 namespace {
 
 constexpr std::size_t kMostSentences = 3;  ///< more is a table, which stands below
 
+struct SystemError {
+  SystemSpec system;
+  double ate_m = 0;
+};
+
 /// The systems of one scene as written, in the order of the suite, with their median errors.
 struct SceneErrors {
   std::string scene;
-  std::vector<std::pair<std::string, double>> ate_m;
+  std::vector<SystemError> known;
   std::vector<std::string> lost;  ///< systems of which some run has no error
 };
 
-const double* Find(const SceneErrors& errors, const std::string& system) {
-  const auto at = std::find_if(errors.ate_m.begin(), errors.ate_m.end(),
-                               [&](const auto& entry) { return entry.first == system; });
-  return at == errors.ate_m.end() ? nullptr : &at->second;
+/// The first system of the scene of which this is true; null for none.
+const SystemError* Find(const SceneErrors& errors,
+                        const std::function<bool(const SystemSpec&)>& is) {
+  const auto at = std::find_if(errors.known.begin(), errors.known.end(),
+                               [&](const SystemError& one) { return is(one.system); });
+  return at == errors.known.end() ? nullptr : &*at;
 }
 
 double Worst(const SceneErrors& errors) {
   double worst = errors.lost.empty() ? 0 : 1e9;
-  for (const auto& [system, ate_m] : errors.ate_m) worst = std::max(worst, ate_m);
+  for (const SystemError& one : errors.known) worst = std::max(worst, one.ate_m);
   return worst;
 }
 
 std::vector<SceneErrors> CollectErrors(const Results& results) {
-  std::vector<std::string> scenes, systems;
-  std::map<std::pair<std::string, std::string>, std::vector<std::optional<double>>> errors;
-  const auto remember = [](std::vector<std::string>* names, const std::string& name) {
-    if (std::find(names->begin(), names->end(), name) == names->end()) names->push_back(name);
-  };
-  for (const RunRecord& run : results.runs) {
-    if (run.spec.twin != "live") continue;
-    remember(&scenes, run.spec.scene);
-    remember(&systems, run.spec.system.name);
-    const auto ate = run.scores.find("ate_rmse_m");
-    errors[{run.spec.scene, run.spec.system.name}].push_back(
-        ate == run.scores.end() ? std::nullopt : ate->second.value);
-  }
   std::vector<SceneErrors> collected;
-  for (const std::string& scene : scenes) {
-    SceneErrors of_scene{.scene = scene, .ate_m = {}, .lost = {}};
-    for (const std::string& system : systems) {
-      const auto found = errors.find({scene, system});
-      if (found == errors.end()) continue;
-      std::vector<double> values;
-      for (const std::optional<double>& value : found->second) {
-        if (value) values.push_back(*value);
-      }
-      if (values.size() < found->second.size()) {
-        of_scene.lost.push_back(system);
+  for (const SceneRuns& scene : GroupByScene(results)) {
+    if (scene.twin != "live") continue;
+    SceneErrors& of_scene = collected.emplace_back(SceneErrors{scene.scene, {}, {}});
+    for (const SystemRuns& system : scene.systems) {
+      if (const auto ate_m = MedianScore(system.runs, "ate_rmse_m")) {
+        of_scene.known.push_back({system.runs.front()->spec.system, *ate_m});
       } else {
-        of_scene.ate_m.emplace_back(system, Quantile(values, 0.5));
+        of_scene.lost.push_back(system.system);
       }
     }
-    collected.push_back(std::move(of_scene));
   }
   return collected;
 }
@@ -76,42 +67,51 @@ std::string PercentInWords(double share) {
                                        : fmt::format("{:.0f} %", percent);
 }
 
-/// What movers cost the unprotected system beyond one that is told the truth about them, and how
-/// much of that each other system wins back. Nothing where movers cost next to nothing.
-std::string WonBack(const SceneErrors& errors) {
+/// What a rejection wins back of what movers cost the same system without it, beyond one that is
+/// told the truth about them; nothing where one of the three is not there.
+struct WonBack {
+  const SystemError* without = nullptr;
+  const SystemError* told = nullptr;  ///< the oracle on the same base
+};
+
+WonBack MeasureOf(const SceneErrors& errors, const SystemSpec& system) {
+  return {Find(errors, [&](const auto& other) { return IsWithoutRejection(other, system); }),
+          Find(errors, [&](const auto& other) {
+            return other.like == "oracle" && BaseOf(other) == BaseOf(system);
+          })};
+}
+
+std::string WonBackInWords(const SceneErrors& errors) {
   constexpr double kLeastRatio = 1.5;  ///< below it is the noise of one drive
-  const char* unprotected = nullptr;
-  for (const char* name : {"orbslam2", "plain"}) {
-    if (unprotected == nullptr && Find(errors, name) != nullptr) unprotected = name;
-  }
-  const double* oracle = Find(errors, "oracle");
-  if (unprotected == nullptr || oracle == nullptr) return "";
-  const double base = *Find(errors, unprotected);
-  if (base < kLeastRatio * *oracle) {
-    return fmt::format(": movers cost {} next to nothing here", unprotected);
-  }
   std::vector<std::string> parts;
-  for (const auto& [system, ate_m] : errors.ate_m) {
-    if (system == "oracle" || system == unprotected || system == "plain") continue;
-    parts.push_back(ate_m >= base ? system + " wins nothing back"
-                                  : fmt::format("{} wins back {}", system,
-                                                PercentInWords(std::min(
-                                                    (base - ate_m) / (base - *oracle), 1.0))));
+  std::set<std::string> calm;  // systems whom movers cost next to nothing
+  for (const SystemError& one : errors.known) {
+    const auto [without, told] = MeasureOf(errors, one.system);
+    if (without == nullptr || told == nullptr) continue;
+    if (without->ate_m < kLeastRatio * told->ate_m) {
+      calm.insert(without->system.name);
+    } else if (&one != told) {
+      const double share = (without->ate_m - one.ate_m) / (without->ate_m - told->ate_m);
+      parts.push_back(
+          share <= 0 ? one.system.name + " wins nothing back"
+                     : fmt::format("{} wins back {} of what movers cost {}", one.system.name,
+                                   PercentInWords(std::min(share, 1.0)), without->system.name));
+    }
   }
-  if (parts.empty()) {
-    return fmt::format(": a perfect mask wins back {} of it", PercentInWords(1 - *oracle / base));
+  for (const std::string& name : calm) {
+    parts.push_back(fmt::format("movers cost {} next to nothing here", name));
   }
-  return fmt::format(": of what movers cost {}, {}", unprotected, Listed(parts));
+  return parts.empty() ? "" : ": " + Listed(parts);
 }
 
 std::string Sentence(const SceneErrors& errors) {
   std::vector<std::string> parts;
-  for (const auto& [system, ate_m] : errors.ate_m) {
-    parts.push_back(
-        fmt::format("{}{} by {}", system, parts.empty() ? " is off" : "", LengthInWords(ate_m)));
+  for (const auto& [system, ate_m] : errors.known) {
+    parts.push_back(fmt::format("{}{} by {}", system.name, parts.empty() ? " is off" : "",
+                                LengthInWords(ate_m)));
   }
   for (const std::string& system : errors.lost) parts.push_back(system + " has no error to tell");
-  return fmt::format("On {}, {}{}.", errors.scene, Listed(parts), WonBack(errors));
+  return fmt::format("On {}, {}{}.", errors.scene, Listed(parts), WonBackInWords(errors));
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ std::string LengthInWords(double metres) {
 
 std::vector<std::string> AnswerInWords(const Results& results) {
   std::vector<SceneErrors> scenes = CollectErrors(results);
-  std::erase_if(scenes, [](const SceneErrors& errors) { return errors.ate_m.empty(); });
+  std::erase_if(scenes, [](const SceneErrors& errors) { return errors.known.empty(); });
   std::stable_sort(scenes.begin(), scenes.end(),
                    [](const SceneErrors& a, const SceneErrors& b) { return Worst(a) > Worst(b); });
   std::vector<std::string> sentences;

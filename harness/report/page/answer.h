@@ -8,11 +8,11 @@
 namespace aisle {
 
 /// What the runs say, in a few sentences, worst first: how far each system is off on the scenes as
-/// written (medians over seeds of ATE), and how much of what movers cost the unprotected system
-/// each rejection wins back. Empty where no run has an ATE.
+/// written (medians over seeds of ATE), and how much each rejection wins back of what movers cost
+/// the same system without it. Empty where no run has an ATE.
 ///
-///   On paper/scene2, orbslam2 is off by 1.69 m, robust by 0.5 cm and oracle by 0.4 cm: robust wins
-///   back 99.7 % of what movers cost orbslam2.
+///   On paper/scene2, plain is off by 1.69 m, robust by 0.5 cm and oracle by 0.4 cm: robust wins
+///   back 99.7 % of what movers cost plain.
 std::vector<std::string> AnswerInWords(const Results& results);
 
 /// "1.69 m", "0.5 cm", "0.4 mm": two or three figures, in the unit that people would use.

@@ -34,7 +34,7 @@ struct Drives {
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (rows[i].empty()) continue;
-      series.push_back({scene.systems[i].system, scene.systems[i].color % 6, &rows[i]});
+      series.push_back({scene.systems[i].system, scene.systems[i].color, &rows[i]});
     }
   }
 };

@@ -78,15 +78,14 @@ const std::vector<Kind>& Kinds() {
 }
 
 std::vector<std::string> SystemsOf(const std::vector<SceneRuns>& scenes) {
-  std::map<int, std::string> by_color;
+  std::vector<std::string> names;
   for (const SceneRuns& scene : scenes) {
     for (const SystemRuns& system : scene.systems) {
       if (IsOnAnotherBase(system.runs.front()->spec.system)) continue;
-      by_color[system.color] = system.system;
+      const bool known = std::find(names.begin(), names.end(), system.system) != names.end();
+      if (!known) names.push_back(system.system);
     }
   }
-  std::vector<std::string> names;
-  for (const auto& [color, name] : by_color) names.push_back(name);
   return names;
 }
 

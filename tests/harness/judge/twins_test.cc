@@ -13,19 +13,46 @@ RunRecord Driven(const std::string& system, const std::string& twin, double ate_
   return run;
 }
 
-TEST(TwinsTest, TheErrorIsSplitIntoItsCauses) {
+TEST(TwinsTest, TheErrorIsSplitByTheSystemsOwnDrives) {
   Results results;
-  results.runs = {Driven("orbslam2", "live", 0.10), Driven("oracle", "live", 0.03),
-                  Driven("orbslam2", "empty", 0.02), Driven("oracle", "empty", 0.02)};
+  results.runs = {Driven("robust", "live", 0.10), Driven("plain", "live", 0.30),
+                  Driven("robust", "frozen", 0.06), Driven("robust", "empty", 0.02)};
   AddDynamicPenalty(&results.runs);
   EXPECT_DOUBLE_EQ(*results.runs[0].scores.at("dynamic_penalty").value, 5);
-  EXPECT_EQ(results.runs[2].scores.count("dynamic_penalty"), 0u);
+  EXPECT_EQ(results.runs[3].scores.count("dynamic_penalty"), 0u);
   const std::vector<CostSplit> splits = SplitCosts(GroupByScene(results));
-  ASSERT_EQ(splits.size(), 2u);
-  EXPECT_NEAR(*splits[0].occlusion_m, 0.01, 1e-12);
-  EXPECT_NEAR(*splits[0].mask_m, 0.07, 1e-12);
+  ASSERT_EQ(splits.size(), 1u);  // of plain there is nothing to hold against
+  EXPECT_NEAR(*splits[0].occlusion_m, 0.04, 1e-12);
+  EXPECT_NEAR(*splits[0].motion_m, 0.04, 1e-12);
+  EXPECT_NEAR(*splits[0].rejection_m, -0.20, 1e-12);
   EXPECT_DOUBLE_EQ(*splits[0].penalty, 5);
-  EXPECT_FALSE(splits[1].mask_m.has_value());  // the oracle is its own measure
+}
+
+TEST(TwinsTest, OfAForeignSystemNothingIsPutDownToARejection) {
+  Results results;
+  results.runs = {Driven("mine", "live", 0.10), Driven("mine", "empty", 0.02),
+                  Driven("plain", "live", 0.30), Driven("oracle", "live", 0.01)};
+  for (RunRecord& run : results.runs) {
+    if (run.spec.system.name == "mine") {
+      run.spec.system = {.name = "mine", .external = ExternalSystem{.command = "mine"}};
+    }
+  }
+  const std::vector<CostSplit> splits = SplitCosts(GroupByScene(results));
+  ASSERT_EQ(splits[0].system, "mine");
+  EXPECT_FALSE(splits[0].rejection_m.has_value());
+  EXPECT_FALSE(splits[0].occlusion_m.has_value());  // nobody stood still
+}
+
+TEST(TwinsTest, TheTwinWithoutRejectionStandsOnTheSameBase) {
+  const SystemSpec robust = BuiltIn("robust"), paper = BuiltIn("paper");
+  EXPECT_TRUE(IsWithoutRejection(BuiltIn("plain"), robust));
+  EXPECT_FALSE(IsWithoutRejection(BuiltIn("orbslam2"), robust));
+  EXPECT_TRUE(IsWithoutRejection(BuiltIn("orbslam2"), paper));
+  EXPECT_FALSE(IsWithoutRejection(BuiltIn("oracle"), robust));
+  SystemSpec few{.name = "few", .like = "robust", .options = {{"feature.features", "400"}}};
+  EXPECT_FALSE(IsWithoutRejection(BuiltIn("plain"), few));
+  few.options = {{"dynamic.robust.field.memory", "0.4"}};
+  EXPECT_TRUE(IsWithoutRejection(BuiltIn("plain"), few));
 }
 
 }  // namespace

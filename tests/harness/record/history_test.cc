@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -49,6 +50,57 @@ TEST_F(HistoryTest, NightsComeBackInOrderAndTheSameNightOnce) {
   EXPECT_THAT(ates, testing::ElementsAre(0.01, 0.03));
   EXPECT_TRUE(ReadHistory(file_, "other").empty());
   EXPECT_TRUE(ReadHistory("/nowhere/at/all.sqlite", "nightly").empty());
+}
+
+TEST_F(HistoryTest, ANightTellsItsSpreadItsLimitItsFailuresAndWhereItLies) {
+  Results night = Night("2026-01-01T02:00:00Z", 0.02);
+  RunRecord crashed = night.runs.front();
+  crashed.spec.seed = 2;
+  crashed.status = RunStatus::kCrashed;
+  crashed.scores.clear();
+  night.runs.push_back(crashed);
+  night.runs.front().system_version = "v1.4";
+  night.verdicts.push_back({.name = "paper/one live orbslam2: ate_rmse_m",
+                            .limit = 0.05,
+                            .why = "",
+                            .scene = "paper/one",
+                            .twin = "live",
+                            .system = "orbslam2"});
+  AppendToHistory(file_, night, file_.parent_path() / "out" / "night one");
+  bool found = false;
+  for (const TrendPoint& point : ReadHistory(file_, "nightly")) {
+    if (point.system != "orbslam2" || point.score != "ate_rmse_m") continue;
+    found = true;
+    EXPECT_EQ(point.median, 0.02);  // of those that came to an end
+    EXPECT_EQ(point.low, 0.02);
+    EXPECT_EQ(point.limit, 0.05);
+    EXPECT_EQ(point.runs, 2u);
+    EXPECT_EQ(point.failed, 1u);
+    EXPECT_EQ(point.version, "v1.4");
+    EXPECT_EQ(point.folder, "out/night one");
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST_F(HistoryTest, AFileOfAnEarlierVersionIsBroughtUpToDate) {
+  sqlite3* old = nullptr;
+  ASSERT_EQ(::sqlite3_open(file_.c_str(), &old), SQLITE_OK);
+  ASSERT_EQ(::sqlite3_exec(old,
+                           "CREATE TABLE medians (suite TEXT, started TEXT, commit_id TEXT, scene "
+                           "TEXT, twin TEXT, system TEXT, score TEXT, median REAL, seeds INTEGER, "
+                           "PRIMARY KEY (suite, started, scene, twin, system, score)) WITHOUT "
+                           "ROWID; INSERT INTO medians VALUES ('nightly', '1', 'abc', 's', 'live', "
+                           "'plain', 'ate_rmse_m', 0.5, 9)",
+                           nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  ::sqlite3_close(old);
+  AppendToHistory(file_, Night("2", 0.02));
+  const std::vector<TrendPoint> points = ReadHistory(file_, "nightly");
+  ASSERT_FALSE(points.empty());
+  EXPECT_EQ(points.front().median, 0.5);
+  EXPECT_EQ(points.front().runs, 9u);
+  EXPECT_EQ(points.front().failed, 0u);
+  EXPECT_FALSE(points.front().low.has_value());
 }
 
 TEST_F(HistoryTest, WhatKeepsANightFromItIsKnownBefore) {

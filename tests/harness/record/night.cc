@@ -1,5 +1,7 @@
 #include "tests/harness/record/night.h"
 
+#include "harness/io/image.h"
+
 namespace aisle {
 
 RunResult MakeRun(const std::string& scene, const std::string& system, std::uint64_t seed,
@@ -51,6 +53,17 @@ RunResult MakeRun(const std::string& scene, const std::string& system, std::uint
   return run;
 }
 
+void AddPictures(const std::filesystem::path& folder, RunRecord* record) {
+  const std::string runs = "runs/" + RunId(record->spec);
+  int number = 0;
+  for (const int frame : {20, 60, 100, 140}) {
+    const std::string name =
+        fmt::format("{}/frame_{:06}{}.jpg", runs, frame, frame == 140 ? "_worst_error" : "");
+    WriteImage(folder / name, cv::Mat1b(126, 188, static_cast<unsigned char>(60 + frame)));
+    record->artifacts[fmt::format("picture_{:04}", number++)] = name;
+  }
+}
+
 Results MakeNight(const NightOptions& options, const std::filesystem::path& folder) {
   Results results;
   results.provenance = {"0.1.0", "abc1234", "some processor", "Debian", 2};
@@ -67,7 +80,9 @@ Results MakeNight(const NightOptions& options, const std::filesystem::path& fold
       RunRecord record = MakeRecord(run, score, 20);
       for (std::size_t scene = 1; scene <= options.scenes; ++scene) {
         run.spec.scene = record.spec.scene = fmt::format("paper/scene{}", scene);
-        results.runs.push_back(WriteRun(run, score, record, folder));
+        RunRecord shown = record;
+        if (options.pictures) AddPictures(folder, &shown);
+        results.runs.push_back(WriteRun(run, score, shown, folder));
       }
     }
   }

@@ -1,0 +1,99 @@
+#include "harness/judge/change_size.h"
+
+#include <limits>
+#include <set>
+
+namespace aisle {
+namespace {
+
+bool IsOf(const RunRecord& run, const Comparison& c) {
+  return run.spec.scene == c.scene && run.spec.twin == c.twin && run.spec.system.name == c.system;
+}
+
+std::optional<double> ValueOf(const RunRecord& run, const std::string& score) {
+  const auto at = run.scores.find(score);
+  return at == run.scores.end() ? std::nullopt : at->second.value;
+}
+
+using NameOfRun = std::string (*)(const RunRecord&);
+
+std::set<std::string> NamesOf(const Results& results, NameOfRun name) {
+  std::set<std::string> names;
+  for (const RunRecord& run : results.runs) names.insert(name(run));
+  return names;
+}
+
+int Rank(const Comparison& c) {
+  return IsAlarm(c.change) ? 0 : c.change == Change::kBetter ? 1 : 2;
+}
+
+}  // namespace
+
+double SizeOf(const Comparison& comparison) {
+  constexpr double kTiny = 1e-9;
+  if (!comparison.gone.empty() || comparison.new_n == 0) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return std::abs(std::log(std::max(std::abs(comparison.new_median), kTiny) /
+                           std::max(std::abs(comparison.old_median), kTiny)));
+}
+
+void LargestFirst(std::vector<Comparison>* comparisons) {
+  std::stable_sort(comparisons->begin(), comparisons->end(),
+                   [](const Comparison& a, const Comparison& b) {
+                     return std::pair(Rank(a), -SizeOf(a)) < std::pair(Rank(b), -SizeOf(b));
+                   });
+}
+
+std::optional<SeedChange> FarthestSeed(const Results& before, const Results& after,
+                                       const Comparison& comparison) {
+  const double direction = comparison.new_median < comparison.old_median ? -1 : 1;
+  std::optional<SeedChange> farthest;
+  double reach = 0;
+  for (const RunRecord& old_run : before.runs) {
+    const auto old_value =
+        IsOf(old_run, comparison) ? ValueOf(old_run, comparison.score) : std::nullopt;
+    if (!old_value) continue;
+    for (const RunRecord& new_run : after.runs) {
+      if (!IsOf(new_run, comparison) || new_run.spec.seed != old_run.spec.seed ||
+          new_run.spec.repeat != old_run.spec.repeat) {
+        continue;
+      }
+      const auto new_value = ValueOf(new_run, comparison.score);
+      const double moved = new_value ? direction * (*new_value - *old_value)
+                                     : std::numeric_limits<double>::infinity();
+      if (farthest && moved <= reach) continue;
+      farthest = {&old_run, &new_run, *old_value, new_value};
+      reach = moved;
+    }
+  }
+  return farthest;
+}
+
+std::string WhyNothingShared(const Results& before, const Results& after) {
+  constexpr std::size_t kNamed = 4;
+  const std::pair<const char*, NameOfRun> kinds[] = {
+      {"scene", [](const RunRecord& run) { return run.spec.scene; }},
+      {"twin", [](const RunRecord& run) { return run.spec.twin; }},
+      {"system", [](const RunRecord& run) { return run.spec.system.name; }},
+      {"combination of scene, twin and system", [](const RunRecord& run) {
+         return fmt::format("{} {} {}", run.spec.scene, run.spec.twin, run.spec.system.name);
+       }}};
+  for (const auto& [kind, name] : kinds) {
+    const std::set<std::string> old_names = NamesOf(before, name), new_names = NamesOf(after, name);
+    const bool shared = std::any_of(old_names.begin(), old_names.end(),
+                                    [&](const auto& one) { return new_names.contains(one); });
+    if (shared) continue;
+    const auto listed = [&](const std::set<std::string>& names) {
+      if (names.empty()) return std::string("none");
+      std::vector<std::string> few(names.begin(), names.end());
+      if (few.size() > kNamed) few.resize(kNamed);
+      return fmt::format("{}{}", fmt::join(few, ", "), names.size() > kNamed ? ", …" : "");
+    };
+    return fmt::format("the two share no {}: {} before, {} after", kind, listed(old_names),
+                       listed(new_names));
+  }
+  return "";
+}
+
+}  // namespace aisle

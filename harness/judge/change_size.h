@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/judge/compare.h"
+
+namespace aisle {
+
+/// How far the median moved, as a factor's logarithm: the same for twice as much and for half. What
+/// is gone is farther than anything.
+double SizeOf(const Comparison& comparison);
+
+/// Alarms first, then what got better, then all else; each by its size, the largest first.
+void LargestFirst(std::vector<Comparison>* comparisons);
+
+/// One seed on both sides of a comparison.
+struct SeedChange {
+  const RunRecord* before = nullptr;  ///< never null
+  const RunRecord* after = nullptr;   ///< never null
+  double old_value = 0;
+  std::optional<double> new_value = {};  ///< empty: it is gone
+};
+
+/// The seed whose score moved farthest in the direction of the medians; one whose value is gone,
+/// first. Nothing where no seed ran on both sides. The pointers lead into the results.
+std::optional<SeedChange> FarthestSeed(const Results& before, const Results& after,
+                                       const Comparison& comparison);
+
+/// Why two nights have nothing to compare, in a sentence; empty where they share a cell.
+std::string WhyNothingShared(const Results& before, const Results& after);
+
+}  // namespace aisle

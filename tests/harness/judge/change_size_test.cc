@@ -1,0 +1,51 @@
+#include "harness/judge/change_size.h"
+
+#include <gtest/gtest.h>
+
+namespace aisle {
+namespace {
+
+Comparison Of(Change change, double before, double after) {
+  Comparison c;
+  c.change = change;
+  c.old_median = before;
+  c.new_median = after;
+  c.new_n = 9;
+  return c;
+}
+
+TEST(ChangeSizeTest, AlarmsComeFirstAndEachBySize) {
+  std::vector<Comparison> list{Of(Change::kSame, 1, 9), Of(Change::kBetter, 4, 1),
+                               Of(Change::kWorse, 1, 1.5), Of(Change::kWorse, 1, 4)};
+  LargestFirst(&list);
+  EXPECT_EQ(list[0].new_median, 4);
+  EXPECT_EQ(list[1].new_median, 1.5);
+  EXPECT_EQ(list[2].change, Change::kBetter);
+  EXPECT_DOUBLE_EQ(SizeOf(Of(Change::kWorse, 1, 2)), SizeOf(Of(Change::kBetter, 2, 1)));
+}
+
+TEST(ChangeSizeTest, TheSeedThatMovedFarthestIsNamed) {
+  Results before, after;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    RunRecord run;
+    run.spec = {.scene = "s", .scene_file = "", .system = BuiltIn("plain"), .seed = seed};
+    run.scores["ate_rmse_m"].value = 0.1;
+    before.runs.push_back(run);
+    run.scores["ate_rmse_m"].value = seed == 2 ? 0.5 : 0.2;
+    after.runs.push_back(run);
+  }
+  Comparison c = Of(Change::kWorse, 0.1, 0.2);
+  c.scene = "s";
+  c.twin = "live";
+  c.system = "plain";
+  c.score = "ate_rmse_m";
+  EXPECT_EQ(FarthestSeed(before, after, c)->after->spec.seed, 2u);
+  after.runs[2].scores.clear();
+  EXPECT_EQ(FarthestSeed(before, after, c)->after->spec.seed, 3u);  // what is gone is farther
+  EXPECT_EQ(WhyNothingShared(before, after), "");
+  c.scene = "elsewhere";
+  EXPECT_FALSE(FarthestSeed(before, after, c).has_value());
+}
+
+}  // namespace
+}  // namespace aisle
