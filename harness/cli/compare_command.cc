@@ -2,11 +2,13 @@
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
 #include "harness/io/places.h"
+#include "harness/judge/change_size.h"
 #include "harness/judge/compare.h"
 #include "harness/judge/gate.h"
 #include "harness/record/provenance.h"
 #include "harness/record/record_json.h"
 #include "harness/report/compare_text.h"
+#include "harness/report/page/compare_page.h"
 #include "harness/report/page/page.h"
 #include "harness/report/page/resources.h"
 #include "harness/report/report.h"
@@ -26,24 +28,40 @@ Results ReadEither(const std::string& path) {
                                              : ResultsFromJson(ReadFile(path), path);
 }
 
-void WritePages(const std::vector<Comparison>& comparisons, const Options& options) {
-  const std::filesystem::path out = options.out;
-  const std::string title = options.before + " and " + options.after;
+ComparedNight NightOf(const std::string& path, const Results& results) {
+  return {.name = path,
+          .results = &results,
+          .folder = std::filesystem::is_directory(path) ? std::filesystem::path(path)
+                                                        : std::filesystem::path()};
+}
+
+void WritePages(const std::vector<Comparison>& comparisons, const ComparedNight& before,
+                const ComparedNight& after, const std::filesystem::path& out) {
   WriteResources(out);
   WriteFileAtomically(out / "compare.md", ToMarkdown(comparisons));
   WriteFileAtomically(out / "compare.json", ToJson(comparisons));
   WriteFileAtomically(out / "compare.html",
-                      Page("What changed", "", "<h1>What changed</h1>\n" + ToHtml(comparisons)));
+                      Page(fmt::format("What changed from {} to {}", before.name, after.name), "",
+                           ComparePage(comparisons, before, after, out)));
   fmt::print("report: {}\n", (out / "compare.html").string());
 }
 
 int CompareReports(const Options& options) {
   const Results before = ReadEither(options.before);
   const Results after = ReadEither(options.after);
-  const std::vector<Comparison> comparisons = Compare(before, after, options.compare);
+  std::vector<Comparison> comparisons = Compare(before, after, options.compare);
+  LargestFirst(&comparisons);
   fmt::print("{}", options.json ? ToJson(comparisons) : ToConsole(comparisons, StdoutHasColor()));
-  if (!options.out.empty()) WritePages(comparisons, options);
-  if (comparisons.empty()) return kNothingToDo;
+  if (!options.out.empty()) {
+    WritePages(comparisons, NightOf(options.before, before), NightOf(options.after, after),
+               options.out);
+  }
+  if (comparisons.empty()) {
+    const std::string why = WhyNothingShared(before, after);
+    fmt::print(stderr, "aisle: nothing can be compared: {}\n",
+               why.empty() ? "no score of the one is in the other" : why);
+    return kNothingToDo;
+  }
   const bool worse = std::any_of(comparisons.begin(), comparisons.end(),
                                  [](const Comparison& c) { return IsAlarm(c.change); });
   return worse ? kVerdictFailed : kAllPassed;

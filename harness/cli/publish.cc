@@ -2,33 +2,21 @@
 
 #include "harness/cli/command.h"
 #include "harness/cli/terminal.h"
-#include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/judge/limit.h"
 #include "harness/record/history.h"
+#include "harness/report/allure.h"
 #include "harness/report/console.h"
-#include "harness/report/page/page.h"
-#include "harness/report/page/trends.h"
 #include "harness/report/report.h"
 
 namespace aisle {
 namespace {
 
-/// The nights of one suite share a file beside their folders.
-void Remember(const Results& results, const std::filesystem::path& out) {
-  const std::filesystem::path history = HistoryPath(out);
-  AppendToHistory(history, results);
-  const std::string trends = TrendSection(ReadHistory(history, results.suite));
-  if (trends.empty()) return;
-  WriteFileAtomically(out / "trends.html",
-                      Page("Trends of " + results.suite, "",
-                           "<p><a href=\"index.html\">back to the verdict</a></p>\n" + trends));
-}
-
-/// The same; what is in the way is said, and costs the night its place among the trends alone.
+/// The nights of one suite share a file beside their folders. What is in the way is said, and costs
+/// the night its place among the trends alone.
 bool TryToRemember(const Results& results, const std::filesystem::path& out) {
   try {
-    Remember(results, out);
+    AppendToHistory(HistoryPath(out), results, out);
     return true;
   } catch (const MachineError& trouble) {
     fmt::print(stderr, "aisle: the trends are without this night: {}\n", trouble.what());
@@ -42,10 +30,27 @@ std::filesystem::path HistoryPath(const std::filesystem::path& out) {
   return std::filesystem::absolute(out).lexically_normal().parent_path() / "history.sqlite";
 }
 
+ReportOptions WithHistory(const Results& results, const std::filesystem::path& out) {
+  ReportOptions options{.history = {}, .history_file = HistoryPath(out)};
+  try {
+    options.history = ReadHistory(options.history_file, results.suite);
+  } catch (const MachineError&) {
+    return options;  // whoever files nights there says what is wrong with it
+  }
+  // The page of a night knows nothing of later ones.
+  std::erase_if(options.history,
+                [&](const TrendPoint& point) { return point.started > results.started; });
+  const bool filed = !options.history.empty() && options.history.back().started == results.started;
+  if (!filed) options.history.clear();
+  return options;
+}
+
 int Publish(const Results& results, const std::filesystem::path& out,
             const PublishOptions& options) {
   const bool remembered = !options.remember || TryToRemember(results, out);
-  WriteReport(results, out);
+  WriteReport(results, out,
+              remembered && options.remember ? WithHistory(results, out) : ReportOptions{});
+  if (!options.allure.empty()) WriteAllure(results, out, options.allure);
   if (options.json) {
     fmt::print("{}", ToJson(results));
   } else {

@@ -3,16 +3,21 @@
 #include <filesystem>
 
 #include "harness/record/results.h"
+#include "harness/report/report.h"
 
 namespace aisle {
 
 /// The file beside the nights of a suite that remembers their medians.
 std::filesystem::path HistoryPath(const std::filesystem::path& out);
 
+/// What a report says of the nights up to this one; nothing where this one was not filed.
+ReportOptions WithHistory(const Results& results, const std::filesystem::path& out);
+
 struct PublishOptions {
-  bool json = false;     ///< results.json on stdout instead of the table
-  bool remember = true;  ///< file the medians with those of other nights
-  int failure = 0;       ///< exit code of what failed on our side, if anything did
+  bool json = false;                  ///< results.json on stdout instead of the table
+  bool remember = true;               ///< file the medians with those of other nights
+  std::filesystem::path allure = {};  ///< folder for Allure results; empty: none
+  int failure = 0;                    ///< exit code of what failed on our side, if anything did
 };
 
 /// Writes the report, tells the user and returns the exit code. A night that cannot be remembered

@@ -1,7 +1,9 @@
 #include "harness/cli/command.h"
+#include "harness/cli/publish.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
 #include "harness/judge/limit.h"
+#include "harness/report/allure.h"
 #include "harness/report/console.h"
 #include "harness/report/paper/into_page.h"
 #include "harness/report/report.h"
@@ -10,7 +12,7 @@ namespace aisle {
 namespace {
 
 struct Options {
-  std::string folder, into;
+  std::string folder, into, allure;
   bool json = false;
 };
 
@@ -22,7 +24,8 @@ int Rebuild(const Options& options) {
     fmt::print("tables: {}\n", options.into);
     return kAllPassed;
   }
-  WriteReport(results, folder);
+  WriteReport(results, folder, WithHistory(results, folder));
+  if (!options.allure.empty()) WriteAllure(results, folder, options.allure);
   if (options.json) {
     fmt::print("{}", ToJson(results));
   } else {
@@ -43,6 +46,7 @@ void AddReportCommand(CLI::App* app, Action* action) {
       ->add_option("--into", options->into,
                    "write the tables between the marks of this Markdown page, and no other page")
       ->excludes(json);
+  command->add_option("--allure", options->allure, "also write Allure results into this folder");
   command->footer(
       "Example: ./aisle report out/quickstart\n"
       "         ./aisle report out/paper --into reports/paper.md");

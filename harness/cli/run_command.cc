@@ -35,9 +35,11 @@ struct Options {
   bool no_frame_cache = false;
   bool no_video = false;
   bool debug_dynamic = false;
+  std::string frames_in_report = "worst";
   bool no_retry = false;
   bool gate = false;
   std::string baseline;
+  std::string allure;
   bool dry_run = false;
   bool json = false;
 };
@@ -150,7 +152,8 @@ int RunSuites(const Options& options) {
                                                     .threads = options.threads,
                                                     .frame_cache = !options.no_frame_cache,
                                                     .video = !options.no_video,
-                                                    .debug_dynamic = options.debug_dynamic}),
+                                                    .debug_dynamic = options.debug_dynamic,
+                                                    .frames_in_report = options.frames_in_report}),
                                           options.resume);
   if (specs.size() > todo.size()) {
     fmt::print(stderr, "aisle: {} of {} runs are already there\n", specs.size() - todo.size(),
@@ -170,6 +173,7 @@ int RunSuites(const Options& options) {
   return Publish(results, out,
                  {.json = options.json,
                   .remember = options.inputs.set.empty(),  // a trial is no night
+                  .allure = options.allure,
                   .failure = outcome.failure});
 }
 
@@ -212,12 +216,20 @@ void AddRunCommand(CLI::App* app, Action* action) {
       ->add_option("--baseline", options->baseline,
                    "with --gate: this file instead of reports/baselines/SUITE.json")
       ->needs("--gate");
+  command->add_option("--allure", options->allure,
+                      "also write Allure results into this folder: the CI's history of every "
+                      "verdict");
   command->add_flag("--no-frame-cache", options->no_frame_cache, "render anew for every run");
   command->add_flag("--no-video", options->no_video, "no film of the runs, ffmpeg or not");
   command->add_flag("--debug-dynamic", options->debug_dynamic,
                     "draw how `paper` and `robust` found what moves: every stage of every frame as "
                     "a sheet (runs/ID/stages, about 0.7 MB each) and a film; changes no result. "
                     "With --resume, finished runs are not drawn");
+  command
+      ->add_option("--frames-in-report", options->frames_in_report,
+                   "pictures that each run keeps: worst (two dozen, about 1 MB; the default), all "
+                   "(every second frame) or none")
+      ->check(CLI::IsMember({"worst", "all", "none"}));
   command->add_flag("--no-retry", options->no_retry,
                     "do not try failed runs once more to tell flaky from broken");
   command->add_flag("--json", options->json, "results.json on stdout instead of the table");

@@ -1,7 +1,6 @@
 #include "harness/report/compare_text.h"
-#include "harness/record/record_json.h"
 
-#include "harness/report/markup/html.h"
+#include "harness/record/record_json.h"
 
 namespace aisle {
 namespace {
@@ -37,28 +36,6 @@ std::string Summary(const std::vector<Comparison>& comparisons) {
     if (count > 0) text += fmt::format(", {} {}", count, Name(change));
   }
   return text;
-}
-
-std::string HtmlRow(const Comparison& c) {
-  const char* css = IsAlarm(c.change) ? "fail" : c.change == Change::kBetter ? "pass" : "";
-  return fmt::format(
-      "<tr><td>{}</td><td class=\"left\">{}</td><td class=\"left {}\">{}</td><td>{:.4g}</td>"
-      "<td>{:.4g}</td><td>{}</td><td>{:.2g} … {:.2g}</td><td>{}</td><td "
-      "class=\"wrap\">{}</td></tr>\n",
-      Escape(Cell(c)), Escape(c.score), css, Name(c.change), c.old_median, c.new_median, Percent(c),
-      c.difference.low, c.difference.high, std::min(c.old_n, c.new_n), Escape(c.why));
-}
-
-std::string HtmlTable(const std::vector<Comparison>& comparisons, bool changed) {
-  std::string rows;
-  for (const Comparison& c : comparisons) {
-    if (IsChange(c) == changed) rows += HtmlRow(c);
-  }
-  if (rows.empty()) return "";
-  return "<div class=\"wide\"><table><tr><th>scene, twin, system</th><th class=\"left\">score</th>"
-         "<th class=\"left\">change</th><th>before</th><th>after</th><th></th><th>difference, 95 %"
-         "</th><th>seeds</th><th class=\"left\">why</th></tr>\n" +
-         rows + "</table></div>\n";
 }
 
 }  // namespace
@@ -106,22 +83,6 @@ std::string ToJson(const std::vector<Comparison>& comparisons) {
                     {"why", c.why}});
   }
   return Dump({{"schema", 1}, {"comparisons", list}});
-}
-
-std::string ToHtml(const std::vector<Comparison>& comparisons) {
-  const bool worse = std::any_of(comparisons.begin(), comparisons.end(),
-                                 [](const Comparison& c) { return IsAlarm(c.change); });
-  std::string text = fmt::format("<div class=\"verdict {}\"><strong>{}</strong></div>\n",
-                                 worse ? "failed" : "passed", Summary(comparisons));
-  text += HtmlTable(comparisons, true);
-  const std::string rest = HtmlTable(comparisons, false);
-  if (!rest.empty())
-    text += "<details open><summary>unchanged, or cannot tell</summary>" + rest + "</details>\n";
-  return text +
-         "<p class=\"soft small\">Medians over seeds. The interval is a bootstrap of the median "
-         "difference, by seed where both sides have the same seeds. Worse and better need a "
-         "Mann-Whitney test that survives Holm's correction over this whole page, and an effect of "
-         "a tenth of the old median.</p>\n";
 }
 
 }  // namespace aisle

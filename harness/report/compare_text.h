@@ -11,6 +11,5 @@ std::string ToConsole(const std::vector<Comparison>& comparisons, bool color);
 std::string ToMarkdown(const std::vector<Comparison>& comparisons);
 std::string ToJson(const std::vector<Comparison>& comparisons);
 /// The section of a page: what changed first, the rest folded away.
-std::string ToHtml(const std::vector<Comparison>& comparisons);
 
 }  // namespace aisle

@@ -3,6 +3,8 @@
 #include <pugixml.hpp>
 #include <sstream>
 
+#include "harness/record/group.h"
+
 namespace aisle {
 namespace {
 
@@ -20,7 +22,8 @@ void Set(pugi::xml_node node, const char* name, const std::string& value) {
   node.append_attribute(name).set_value(XmlText(value).c_str());
 }
 
-void AddCase(pugi::xml_node suite, const Results& results, const Verdict& verdict) {
+void AddCase(pugi::xml_node suite, const Results& results, const Verdict& verdict,
+             const std::filesystem::path& report_dir) {
   const std::size_t colon = verdict.name.rfind(": ");
   pugi::xml_node test = suite.append_child("testcase");
   Set(test, "classname", results.suite + "." + verdict.name.substr(0, colon));
@@ -29,8 +32,7 @@ void AddCase(pugi::xml_node suite, const Results& results, const Verdict& verdic
   pugi::xml_node failure = test.append_child("failure");
   Set(failure, "type", verdict.flaky ? "flaky" : "limit");
   Set(failure, "message", verdict.why);
-  failure.text().set(
-      XmlText(verdict.name + "\n" + verdict.why + "\nrerun: " + results.rerun).c_str());
+  failure.text().set(XmlText(FailureText(verdict, results, report_dir)).c_str());
 }
 
 /// A run that came to its end, with its time: a suite without limits still says what it did. Those
@@ -62,7 +64,30 @@ void AddProperties(pugi::xml_node suite, const Results& results) {
 
 }  // namespace
 
-std::string ToJunit(const Results& results) {
+std::vector<const RunRecord*> RunsOf(const Verdict& verdict, const Results& results) {
+  std::vector<const RunRecord*> runs;
+  for (const RunRecord& run : results.runs) {
+    if (verdict.name == RunId(run.spec) + ": completes") return {&run};
+    if (run.spec.scene == verdict.scene && run.spec.twin == verdict.twin &&
+        run.spec.system.name == verdict.system) {
+      runs.push_back(&run);
+    }
+  }
+  return runs;
+}
+
+std::string FailureText(const Verdict& verdict, const Results& results,
+                        const std::filesystem::path& report_dir) {
+  std::string text = verdict.name + "\n" + verdict.why + "\n";
+  const RunRecord* run = WorstRun(RunsOf(verdict, results));
+  if (run != nullptr) {
+    text += fmt::format("rerun: ./aisle rerun {} --in {}\n", RunId(run->spec), report_dir.string());
+    if (!run->last_words.empty()) text += "its last words:\n" + run->last_words;
+  }
+  return text + "all of it: " + results.rerun;
+}
+
+std::string ToJunit(const Results& results, const std::filesystem::path& report_dir) {
   std::size_t failures = 0;
   for (const Verdict& verdict : results.verdicts) failures += verdict.passed ? 0 : 1;
   const auto completed =
@@ -80,7 +105,7 @@ std::string ToJunit(const Results& results) {
   }
   Set(suite, "timestamp", results.started);
   AddProperties(suite, results);
-  for (const Verdict& verdict : results.verdicts) AddCase(suite, results, verdict);
+  for (const Verdict& verdict : results.verdicts) AddCase(suite, results, verdict, report_dir);
   for (const RunRecord& run : results.runs) {
     if (Completed(run)) AddRun(suite, results, run);
   }

@@ -3,71 +3,96 @@
 #include "harness/io/file.h"
 #include "harness/report/junit.h"
 #include "harness/report/page/cost_section.h"
+#include "harness/report/page/overview_section.h"
 #include "harness/report/page/page.h"
 #include "harness/report/page/resources.h"
+#include "harness/report/page/scene_section.h"
+#include "harness/report/page/trends.h"
+#include "harness/report/page/verdict_section.h"
 #include "harness/report/paper/paper_page.h"
 #include "harness/report/paper/tables.h"
 #include "harness/report/summary_csv.h"
+#include "harness/report/summary_text.h"
 
 namespace aisle {
 namespace {
 
+namespace fs = std::filesystem;
+
 // Up to here everything stands on one page: a reader of a small suite need not click.
 constexpr std::size_t kScenesOnOnePage = 2;
+constexpr const char* kUp = "<p><a href=\"index.html\">back to the verdict</a></p>\n";
 
-bool HasPrinted(const std::vector<NumberTable>& tables) {
-  return std::any_of(tables.begin(), tables.end(), [](const NumberTable& table) {
-    return std::any_of(table.rows.begin(), table.rows.end(),
-                       [](const NumberTable::Row& row) { return row.printed; });
-  });
+/// The suite file of the command that made it all.
+std::string SuiteFileOf(const Results& results) {
+  for (std::size_t at = 0; at < results.rerun.size();) {
+    const std::size_t end = std::min(results.rerun.find(' ', at), results.rerun.size());
+    const std::string word = results.rerun.substr(at, end - at);
+    if (word.ends_with(".yaml")) return word;
+    at = end + 1;
+  }
+  return "";
+}
+
+/// The tables of the paper belong to its own experiment; elsewhere they are files alone.
+std::string PaperLink(const std::vector<SceneRuns>& scenes, const fs::path& report_dir) {
+  const std::string paper = PaperPage(scenes, report_dir);
+  if (paper.empty()) return "";
+  WriteFileAtomically(report_dir / "paper.html",
+                      Page("the paper's experiment beside ours", "", kUp + paper));
+  return "<h2 id=\"paper\">The paper's experiment</h2>\n<p><a href=\"paper.html\">Its tables and "
+         "figures beside ours, on one page</a></p>\n";
+}
+
+/// True where there is a page of how the nights went, now or from before.
+bool WriteTrends(const Results& results, const fs::path& report_dir, const ReportOptions& options) {
+  const std::string trends = TrendSection(
+      options.history,
+      {.history_dir = options.history_file.parent_path(), .suite_file = SuiteFileOf(results)});
+  if (trends.empty()) return fs::exists(report_dir / "trends.html");
+  WriteFileAtomically(report_dir / "trends.html",
+                      Page("Trends of " + results.suite, "", kUp + trends));
+  return true;
+}
+
+/// Each scene's section: on pages of their own, or one after the other as it comes back.
+std::string WriteScenes(const std::vector<SceneRuns>& scenes, const fs::path& report_dir,
+                        bool own_pages) {
+  std::string sections;
+  for (const SceneRuns& scene : scenes) {
+    const std::string section = SceneSection(scene, report_dir, "");
+    if (own_pages) {
+      WriteFileAtomically(report_dir / ScenePage(scene),
+                          Page(scene.scene + " " + scene.twin, "", kUp + section));
+    } else {
+      sections += section;
+    }
+  }
+  return sections;
 }
 
 }  // namespace
 
-void WriteReport(const Results& results, const std::filesystem::path& report_dir) {
+void WriteReport(const Results& results, const fs::path& report_dir, const ReportOptions& options) {
   const std::vector<SceneRuns> scenes = GroupByScene(results);
   const bool own_pages = scenes.size() > kScenesOnOnePage;
   const SceneLinks links = own_pages ? SceneLinks::kPages : SceneLinks::kAnchors;
-  std::string body = VerdictSection(results, scenes, links) + OverviewSection(scenes, links);
-  body += CostSection(scenes);
+  const bool trends = WriteTrends(results, report_dir, options);
+  std::string body = VerdictSection(results, scenes, links, SinceWhen(options.history));
+  if (trends) body += "<p><a href=\"trends.html\">How the nights went</a></p>\n";
+  body += "<div class=\"sections\"><section>" + OverviewSection(scenes, links) +
+          "</section>\n<section>" + CostSection(scenes) + "</section></div>\n";
+  body += PaperLink(scenes, report_dir) + WriteScenes(scenes, report_dir, own_pages);
+  body += SystemsSection(scenes) + ProvenanceFooter(results);
   const std::vector<NumberTable> tables = PaperTables(scenes);
-  if (const std::string paper = PaperPage(scenes, report_dir); !paper.empty()) {
-    const std::string up = "<p><a href=\"index.html\">back to the verdict</a></p>\n";
-    WriteFileAtomically(report_dir / "paper.html",
-                        Page("the paper's experiment beside ours", "", up + paper));
-    body +=
-        "<h2>The paper's experiment</h2>\n<p><a href=\"paper.html\">Its tables and figures beside "
-        "ours, on one page</a></p>\n";
-  } else if (!tables.empty()) {
-    body += "<h2>The tables of the paper, with our numbers</h2>\n";
-    if (HasPrinted(tables)) {
-      body +=
-          "<p class=\"soft small\">In italics what the paper printed, of its own drives (DynaSLAM "
-          "under semantic): the order of the systems can be compared, not the size of the "
-          "numbers.</p>\n";
-    }
-    body += ToHtml(tables);
-  }
-  for (const SceneRuns& scene : scenes) {
-    const std::string section = SceneSection(scene, report_dir, "");
-    if (own_pages) {
-      const std::string up = "<p><a href=\"index.html\">back to the verdict</a></p>\n";
-      WriteFileAtomically(report_dir / ScenePage(scene),
-                          Page(scene.scene + " " + scene.twin, "", up + section));
-    } else {
-      body += section;
-    }
-  }
-  if (std::filesystem::exists(report_dir / "trends.html")) {
-    body += "<p><a href=\"trends.html\">How the nights went</a></p>\n";
-  }
-  body += ProvenanceFooter(results);
   WriteResources(report_dir);
   WriteFileAtomically(report_dir / "tables.md", ToMarkdown(tables));
   WriteFileAtomically(report_dir / "tables.tex", ToLatex(tables));
   WriteFileAtomically(report_dir / "index.html", Page(results.suite, "", body));
   WriteFileAtomically(report_dir / "summary.csv", ToSummaryCsv(results));
-  WriteFileAtomically(report_dir / "junit.xml", ToJunit(results));
+  WriteFileAtomically(report_dir / "summary.txt",
+                      ToSummaryText(results, ChangesInWords(options.history), report_dir));
+  WriteFileAtomically(report_dir / "junit.xml", ToJunit(results, report_dir));
   WriteFileAtomically(report_dir / "results.json", ToJson(results));
 }
 

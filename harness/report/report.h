@@ -1,13 +1,22 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
+#include "harness/record/history.h"
 #include "harness/record/results.h"
 
 namespace aisle {
 
-/// Writes results.json, summary.csv, junit.xml, index.html with style.css and a page per scene into
-/// the folder; the runs' own files must be there already. Nothing is scored again.
-void WriteReport(const Results& results, const std::filesystem::path& report_dir);
+struct ReportOptions {
+  std::vector<TrendPoint> history = {};     ///< all nights of the suite, this one the last
+  std::filesystem::path history_file = {};  ///< whose folder holds the nights' reports
+};
+
+/// Writes the pages and the machine-readable files of an evening below `report_dir`: index.html, a
+/// page per scene where there are many, paper.html, trends.html from two nights on, results.json,
+/// summary.csv, summary.txt, junit.xml, tables.md and tables.tex. Reads the runs' frames.csv.
+void WriteReport(const Results& results, const std::filesystem::path& report_dir,
+                 const ReportOptions& options = {});
 
 }  // namespace aisle

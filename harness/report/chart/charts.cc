@@ -1,16 +1,13 @@
 #include "harness/report/chart/charts.h"
 
 #include "harness/report/chart/svg.h"
-#include "harness/score/statistics.h"
 
 namespace aisle {
 namespace {
 
-constexpr double kWidth = 860, kLeft = 52, kRight = 846;
+// In units of the map: it grows and shrinks with the page, its letters by steps of the style sheet.
+constexpr double kWidth = 860, kLeft = 84, kRight = 846;
 using Points = std::vector<std::pair<double, double>>;
-
-// --- From above
-// -----------------------------------------------------------------------------------
 
 /// The two world axes along which the truth extends most, in the order x, y, z.
 std::pair<int, int> WidestPlane(const std::vector<FrameRow>& rows) {
@@ -90,8 +87,8 @@ std::string TopViewChart(const std::vector<ChartSeries>& series, TrackKind kind)
   const double scale = (kRight - kLeft) / box.sizes()[across];
   const double plot_height = std::max(60.0, scale * box.sizes()[up]);
   const Axis x{box.min()[across], box.max()[across], kLeft, kRight};
-  const Axis y{box.min()[up], box.max()[up], 24 + plot_height, 24};
-  Svg svg(kWidth, plot_height + 84, "trajectories from above");
+  const Axis y{box.min()[up], box.max()[up], 34 + plot_height, 34};
+  Svg svg = Svg::Map(kWidth, plot_height + 100, "trajectories from above");
   const char* names = "xyz";
   const auto axis_name = [&](int k) { return names[(k == 0) ? ax : ay]; };
   svg.Grid(x, y, fmt::format("{} [m]", axis_name(across)), fmt::format("{} [m]", axis_name(up)));
@@ -112,90 +109,18 @@ std::string TopViewChart(const std::vector<ChartSeries>& series, TrackKind kind)
       if (!track_m) return std::nullopt;
       return at(row.truth_m + magnification * (*track_m - row.truth_m));
     };
-    for (const Points& piece : Pieces(*one.rows, point)) svg.Polyline(piece, css, one.name);
-    legend.emplace_back(one.name, css);
+    const std::vector<Points> pieces = Pieces(*one.rows, point);
+    for (const Points& piece : pieces) svg.Polyline(piece, css, one.name);
+    if (pieces.front().size() < 2) continue;  // it has no track
+    legend.emplace_back(one.seed.empty() ? one.name : one.name + ", " + one.seed, css);
   }
   const auto [start_x, start_y] = at(longest->front().truth_m);
   svg.Circle(start_x, start_y, 4, "start", "start");
-  svg.Legend(legend, kLeft, plot_height + 72);
   const std::string note = magnification == 1
                                ? "deviations to scale"
                                : fmt::format("deviations from truth drawn ×{:g}", magnification);
-  svg.Text(kRight, plot_height + 72, note, "axis", "end");
-  return svg.Finish();
-}
-
-std::string StageChart(const std::vector<StageRow>& rows) {
-  double longest_ms = 1;
-  for (const StageRow& row : rows) {
-    double sum = 0;
-    for (const StageBar& bar : row.bars) sum += bar.ms;
-    longest_ms = std::max(longest_ms, sum);
-  }
-  constexpr double kRowHeight = 30, kNames = 110;
-  const double bottom = 10 + kRowHeight * static_cast<double>(rows.size());
-  const Axis x{0, 1.02 * longest_ms, kNames, kRight};
-  Svg svg(kWidth, bottom + 40, "time per frame by stage");
-  for (const double tick : Ticks(0, longest_ms, 8)) {
-    svg.Line(x(tick), 6, x(tick), bottom, "grid");
-    svg.Text(x(tick), bottom + 15, fmt::format("{:g}", tick), "tick", "middle");
-  }
-  svg.Text(kRight, bottom + 32, "mean per frame [ms]", "axis", "end");
-  double top = 10;
-  for (const StageRow& row : rows) {
-    svg.Text(kNames - 8, top + 16, row.system, "legend", "end");
-    double at_ms = 0;
-    for (const StageBar& bar : row.bars) {
-      const double width = x(at_ms + bar.ms) - x(at_ms);
-      svg.Rect(x(at_ms), top, width, kRowHeight - 8, fmt::format("bar b{}", bar.color % 8),
-               fmt::format("{} {:.2f} ms", bar.name, bar.ms));
-      if (width > 8.0 * static_cast<double>(bar.name.size())) {
-        svg.Text(x(at_ms) + 4, top + 15, bar.name, "inbar");
-      }
-      at_ms += bar.ms;
-    }
-    top += kRowHeight;
-  }
-  return svg.Finish();
-}
-
-std::string SpreadChart(const std::vector<SpreadRow>& rows, const std::string& axis) {
-  double highest = 0;
-  for (const SpreadRow& row : rows) {
-    for (const double value : row.values) highest = std::max(highest, value);
-  }
-  if (highest <= 0) return "";
-  constexpr double kRowHeight = 30, kNames = 110;
-  const double bottom = 10 + kRowHeight * static_cast<double>(rows.size());
-  const Axis x{0, 1.05 * highest, kNames, kRight};
-  Svg svg(kWidth, bottom + 40, "spread over seeds");
-  for (const double tick : Ticks(0, x.high, 8)) {
-    svg.Line(x(tick), 6, x(tick), bottom, "grid");
-    svg.Text(x(tick), bottom + 15, fmt::format("{:g}", tick), "tick", "middle");
-  }
-  svg.Text(kRight, bottom + 32, axis, "axis", "end");
-  double middle = 10 + kRowHeight / 2;
-  for (const SpreadRow& row : rows) {
-    svg.Text(kNames - 8, middle + 4, row.system, "legend", "end");
-    if (row.values.size() > 2) {
-      const double low = x(Quantile(row.values, 0.25)), high = x(Quantile(row.values, 0.75));
-      const double least = x(Quantile(row.values, 0)), most = x(Quantile(row.values, 1));
-      const std::string css = fmt::format("box c{}", row.color);
-      svg.Line(least, middle, low, middle, css);
-      svg.Line(high, middle, most, middle, css);
-      svg.Rect(low, middle - 8, high - low, 16, css);
-    }
-    if (!row.values.empty()) {
-      const double median = x(Quantile(row.values, 0.5));
-      svg.Line(median, middle - 10, median, middle + 10, fmt::format("line c{}", row.color));
-    }
-    for (const double value : row.values) {
-      svg.Circle(x(value), middle, 4, fmt::format("dot d{}", row.color),
-                 fmt::format("{:.4g}", value));
-    }
-    middle += kRowHeight;
-  }
-  return svg.Finish();
+  svg.Text(kLeft, plot_height + 88, note, "axis");
+  return svg.Finish() + Legend(legend);
 }
 
 }  // namespace aisle

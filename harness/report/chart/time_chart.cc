@@ -1,13 +1,14 @@
 #include "harness/report/chart/time_chart.h"
 
 #include "harness/report/chart/svg.h"
+#include "harness/score/statistics.h"
 
 namespace aisle {
 namespace {
 
-constexpr double kWidth = 860, kLeft = 52, kRight = 846;
 constexpr double kTitle = 26;  ///< height above a panel
 using Points = std::vector<std::pair<double, double>>;
+constexpr const char* kMedian = ", median";
 
 /// Along the axis of time.
 struct Clock {
@@ -27,11 +28,18 @@ struct Line {
   std::vector<Points> pieces = {};
 };
 
+/// Where half of the seeds lie (all of them where there are fewer than four), over time.
+struct Band {
+  std::string css;
+  Points low = {}, high = {};
+};
+
 struct Panel {
   std::string title;
   double height;  ///< pixels
   bool filled;    ///< the one line is an area
   std::vector<Line> lines = {};
+  std::vector<Band> bands = {};
 };
 
 using ValueOf = std::function<std::optional<double>(const FrameRow&)>;
@@ -56,6 +64,9 @@ double Highest(const Panel& panel) {
       for (const auto& [time, value] : piece) highest = std::max(highest, value);
     }
   }
+  for (const Band& band : panel.bands) {
+    for (const auto& [time, value] : band.high) highest = std::max(highest, value);
+  }
   return highest;
 }
 
@@ -63,13 +74,57 @@ std::optional<double> Percent(const std::optional<double>& share) {
   return share ? std::optional(100 * *share) : std::nullopt;
 }
 
+/// A system's line; thin where it is one seed of several.
+Line OfOneSeed(const ChartSeries& series, const Clock& clock, const ValueOf& value) {
+  const bool only = series.seeds.empty();
+  return MakeLine(only ? series.name : series.name + ", " + series.seed,
+                  fmt::format("line{} c{}", only ? "" : " thin", series.color), *series.rows, clock,
+                  value);
+}
+
 /// A line per system.
 Panel OfSystems(const std::string& title, double height, const std::vector<ChartSeries>& series,
                 const Clock& clock, const ValueOf& value) {
   Panel panel{title, height, false};
+  for (const ChartSeries& one : series) panel.lines.push_back(OfOneSeed(one, clock, value));
+  return panel;
+}
+
+/// The values of all seeds in one frame of the drive, in rising order of seeds.
+std::vector<double> OverSeeds(const ChartSeries& series, std::size_t frame, const ValueOf& value) {
+  std::vector<double> values;
+  for (const std::vector<FrameRow>* rows : series.seeds) {
+    if (frame >= rows->size()) continue;
+    if (const std::optional<double> one = value((*rows)[frame])) values.push_back(*one);
+  }
+  return values;
+}
+
+/// The median over the seeds, with its band; frames of which fewer than half have a value are left
+/// out.
+void AddMedian(const ChartSeries& series, const Clock& clock, const ValueOf& value, Panel* panel) {
+  Line median{series.name + kMedian, fmt::format("line c{}", series.color), {{}}};
+  Band band{fmt::format("band d{}", series.color)};
+  for (std::size_t frame = 0; frame < series.rows->size(); ++frame) {
+    const std::vector<double> values = OverSeeds(series, frame, value);
+    if (2 * values.size() < series.seeds.size() || values.empty()) continue;
+    const double at = clock.at(series.rows->front(), (*series.rows)[frame]);
+    const double share = values.size() < 4 ? 0 : 0.25;
+    median.pieces.back().emplace_back(at, Quantile(values, 0.5));
+    band.low.emplace_back(at, Quantile(values, share));
+    band.high.emplace_back(at, Quantile(values, 1 - share));
+  }
+  panel->bands.push_back(std::move(band));
+  panel->lines.push_back(std::move(median));
+}
+
+/// A line per system; of several seeds the median with its band, and the worst one thinly.
+Panel OfSeeds(const std::string& title, double height, const std::vector<ChartSeries>& series,
+              const Clock& clock, const ValueOf& value) {
+  Panel panel{title, height, false};
   for (const ChartSeries& one : series) {
-    panel.lines.push_back(
-        MakeLine(one.name, fmt::format("line c{}", one.color), *one.rows, clock, value));
+    if (!one.seeds.empty()) AddMedian(one, clock, value, &panel);
+    panel.lines.push_back(OfOneSeed(one, clock, value));
   }
   return panel;
 }
@@ -96,8 +151,8 @@ Panel Rejected(double height, const std::vector<ChartSeries>& series, const Cloc
 std::vector<Panel> Panels(const std::vector<ChartSeries>& series,
                           const std::vector<FrameRow>& longest) {
   std::vector<Panel> panels;
-  panels.push_back(OfSystems("error of the live track [cm]", 190, series, kSeconds,
-                             [](const FrameRow& row) { return Percent(row.live_error_m); }));
+  panels.push_back(OfSeeds("error of the live track [cm]", 230, series, kSeconds,
+                           [](const FrameRow& row) { return Percent(row.live_error_m); }));
   panels.push_back(Movers(longest, kSeconds));
   panels.push_back(Rejected(64, series, kSeconds));
   panels.push_back(
@@ -127,10 +182,15 @@ void Draw(const Panel& panel, const Axis& x, double top, const char* x_title, Sv
   const bool last = *x_title != '\0';
   const Axis y{0, 1.06 * Highest(panel), top + panel.height, top};
   svg->Grid(x, y, x_title, panel.title, {.x_labels = last, .y_ticks = panel.height > 100 ? 4 : 2});
+  const auto placed = [&](const Points& points) {
+    Points at;
+    for (const auto& [time, value] : points) at.emplace_back(x(time), y(value));
+    return at;
+  };
+  for (const Band& band : panel.bands) svg->Band(placed(band.low), placed(band.high), band.css);
   for (const Line& line : panel.lines) {
     for (const Points& piece : line.pieces) {
-      Points at;
-      for (const auto& [time, value] : piece) at.emplace_back(x(time), y(value));
+      const Points at = placed(piece);
       if (panel.filled) {
         svg->Area(at, y(0), line.css, line.name);
       } else {
@@ -140,40 +200,38 @@ void Draw(const Panel& panel, const Axis& x, double top, const char* x_title, Sv
   }
 }
 
-std::vector<std::pair<std::string, std::string>> LegendOf(const std::vector<Line>& lines) {
+/// Every line once: systems first, then what is the same for all of them.
+std::string LegendOf(const std::vector<Panel>& panels) {
   std::vector<std::pair<std::string, std::string>> entries;
-  for (const Line& line : lines) entries.emplace_back(line.name, line.css);
-  return entries;
+  for (const Panel& panel : panels) {
+    for (const Line& line : panel.lines) {
+      if (line.css.find(" thin ") != std::string::npos) continue;  // the system's own, once more
+      const std::pair entry{line.name.substr(0, line.name.find(kMedian)), line.css};
+      const bool known = std::find(entries.begin(), entries.end(), entry) != entries.end();
+      if (!known && !panel.filled && line.name != panel.title) entries.push_back(entry);
+    }
+  }
+  return Legend(entries);
 }
 
 /// Panels of which something is known, one under the other.
-std::string DrawPanels(std::vector<Panel> panels, const std::vector<ChartSeries>& series,
-                       const std::vector<FrameRow>& longest, const Clock& clock,
-                       const std::string& label) {
+std::string DrawPanels(std::vector<Panel> panels, const std::vector<FrameRow>& longest,
+                       const Clock& clock, const std::string& label) {
   std::erase_if(panels, [](const Panel& panel) { return Highest(panel) <= 0; });
   double height = 30;
   for (Panel& panel : panels) {
     DropEmptyLines(&panel);
     height += kTitle + panel.height;
   }
-  const Axis x{0, std::max(clock.at(longest.front(), longest.back()), 1e-3), kLeft, kRight};
-  Svg svg(kWidth, height + 34, label);
+  const Axis x{0, std::max(clock.at(longest.front(), longest.back()), 1e-3), 0, kAcross};
+  Svg svg = Svg::Chart(height + 6, label);
   double top = 0;
   for (const Panel& panel : panels) {
     top += kTitle;
     Draw(panel, x, top, &panel == &panels.back() ? clock.title : "", &svg);
-    // Lines that are not systems are named where they are drawn.
-    if (panel.lines.size() > 1 && panel.lines.front().css.find(" s") != std::string::npos) {
-      svg.Legend(LegendOf(panel.lines), kLeft + 230, top - 8);
-    }
     top += panel.height;
   }
-  std::vector<std::pair<std::string, std::string>> systems;
-  for (const ChartSeries& one : series) {
-    systems.emplace_back(one.name, fmt::format("line c{}", one.color));
-  }
-  svg.Legend(systems, kLeft, top + 54);
-  return svg.Finish();
+  return svg.Finish() + LegendOf(panels);
 }
 
 }  // namespace
@@ -181,8 +239,7 @@ std::string DrawPanels(std::vector<Panel> panels, const std::vector<ChartSeries>
 std::string TimeChart(const std::vector<ChartSeries>& series) {
   const std::vector<FrameRow>* longest = Longest(series);
   if (longest == nullptr) return "";
-  return DrawPanels(Panels(series, *longest), series, *longest, kSeconds,
-                    "what happened over time");
+  return DrawPanels(Panels(series, *longest), *longest, kSeconds, "what happened over time");
 }
 
 std::string ErrorOverFrames(const std::vector<ChartSeries>& series) {
@@ -191,14 +248,14 @@ std::string ErrorOverFrames(const std::vector<ChartSeries>& series) {
   return DrawPanels({OfSystems("error of the live track [m]", 220, series, kFrames,
                                [](const FrameRow& row) { return row.live_error_m; }),
                      Movers(*longest, kFrames)},
-                    series, *longest, kFrames, "trajectory error over frames");
+                    *longest, kFrames, "trajectory error over frames");
 }
 
 std::string RejectedOverFrames(const std::vector<ChartSeries>& series) {
   const std::vector<FrameRow>* longest = Longest(series);
   if (longest == nullptr) return "";
-  return DrawPanels({Rejected(220, series, kFrames), Movers(*longest, kFrames)}, series, *longest,
-                    kFrames, "corners rejected over frames");
+  return DrawPanels({Rejected(220, series, kFrames), Movers(*longest, kFrames)}, *longest, kFrames,
+                    "corners rejected over frames");
 }
 
 }  // namespace aisle

@@ -61,189 +61,168 @@
   }
 
   // --- Charts: the values under the pointer ---------------------------------------------------
-  const axis = text => {
+  // A panel's data-x and data-y: the values at its two ends and where these are drawn, in the
+  // chart's own thousandths across and pixels down.
+  const axisOf = text => {
     const [low, high, from, to] = text.split(' ').map(Number);
-    return px => low + (px - from) / (to - from) * (high - low);
+    return {value: at => low + (at - from) / (to - from) * (high - low),
+            at: value => from + (value - low) / (high - low) * (to - from), from, to};
   };
   const SVG = 'http://www.w3.org/2000/svg';
-  for (const svg of document.querySelectorAll('svg')) {
-    const panels = [...svg.querySelectorAll('rect.panel')];
-    if (panels.length === 0) continue;
-    // A path is told in steps, in halves of a pixel.
-    const pointsOf = path => {
-      const numbers = path.getAttribute('d').match(/-?\d+/g).map(Number);
-      const points = [];
-      for (let i = 0, x = 0, y = 0; i + 1 < numbers.length; i += 2) {
-        points.push([(x += numbers[i]) / 2, (y += numbers[i + 1]) / 2]);
+  const draw = (name, css, parent) => {
+    const element = document.createElementNS(SVG, name);
+    element.setAttribute('class', css);
+    parent.appendChild(element);
+    return element;
+  };
+  // A path is told in steps, in halves of a pixel.
+  const pointsOf = path => {
+    const numbers = path.getAttribute('d').match(/-?\d+/g).map(Number);
+    const points = [];
+    for (let i = 0, x = 0, y = 0; i + 1 < numbers.length; i += 2) {
+      points.push([(x += numbers[i]) / 2, (y += numbers[i + 1]) / 2]);
+    }
+    return points;
+  };
+  const yAt = (points, x) => {
+    for (let i = 1; i < points.length; ++i) {
+      const [a, b] = [points[i - 1], points[i]];
+      if (b[0] > a[0] && a[0] <= x && x <= b[0]) {
+        return a[1] + (x - a[0]) / (b[0] - a[0]) * (b[1] - a[1]);
       }
-      return points;
-    };
+    }
+    return null;
+  };
+
+  for (const svg of document.querySelectorAll('svg.chart')) {
+    const panels = [...svg.querySelectorAll('rect.panel')];
     const lines = [...svg.querySelectorAll('path[data-name]')].map(
         path => ({name: path.dataset.name, points: pointsOf(path)}));
-    const yAt = (points, x) => {
-      for (let i = 1; i < points.length; ++i) {
-        const [a, b] = [points[i - 1], points[i]];
-        if (b[0] > a[0] && a[0] <= x && x <= b[0]) {
-          return a[1] + (x - a[0]) / (b[0] - a[0]) * (b[1] - a[1]);
-        }
-      }
-      return null;
-    };
+    if (panels.length === 0 || lines.length === 0) continue;
     const readout = document.createElement('p');
     readout.className = 'readout small soft';
     readout.textContent = '\u00a0';
     svg.after(readout);
-    const cursor = document.createElementNS(SVG, 'line');
-    cursor.setAttribute('class', 'cursor');
-    svg.appendChild(cursor);
+    const cursor = draw('line', 'cursor', svg);
+    const inPanel = (points, panel) => {
+      const top = Number(panel.getAttribute('y'));
+      const bottom = top + Number(panel.getAttribute('height'));
+      return points[0][1] >= top - 1 && points[0][1] <= bottom + 1;
+    };
+    const place = across => {
+      const first = panels[0], last = panels[panels.length - 1];
+      cursor.setAttribute('x1', `${across / 10}%`);
+      cursor.setAttribute('x2', `${across / 10}%`);
+      cursor.setAttribute('y1', first.getAttribute('y'));
+      cursor.setAttribute('y2', Number(last.getAttribute('y')) + Number(last.getAttribute('height')));
+    };
     const show = event => {
-      const at = new DOMPoint(event.clientX, event.clientY)
-          .matrixTransform(svg.getScreenCTM().inverse());
-      const first = panels[0].dataset;
-      const x = axis(first.x);
+      const box = panels[0].getBoundingClientRect();
+      const x = axisOf(panels[0].dataset.x);
+      const across = x.from + (event.clientX - box.left) / box.width * (x.to - x.from);
       const values = [];
       for (const panel of panels) {
-        const top = Number(panel.getAttribute('y'));
-        const bottom = top + Number(panel.getAttribute('height'));
         const here = [];
         for (const line of lines) {
-          const y = line.points[0][1] >= top - 1 && line.points[0][1] <= bottom + 1 ?
-              yAt(line.points, at.x) : null;
+          const y = inPanel(line.points, panel) ? yAt(line.points, across) : null;
           if (y === null) continue;
-          const value = axis(panel.dataset.y)(y).toPrecision(3);
+          const value = axisOf(panel.dataset.y).value(y).toPrecision(3);
           here.push(line.name === panel.dataset.title ? value : `${line.name} ${value}`);
         }
         if (here.length > 0) values.push(`${panel.dataset.title}: ${here.join(', ')}`);
       }
-      readout.textContent = `${x(at.x).toPrecision(4)}\n${values.join('\n')}`;
-      cursor.setAttribute('x1', at.x);
-      cursor.setAttribute('x2', at.x);
-      cursor.setAttribute('y1', panels[0].getAttribute('y'));
-      const last = panels[panels.length - 1];
-      cursor.setAttribute('y2', Number(last.getAttribute('y')) + Number(last.getAttribute('height')));
+      const timed = svg.closest('figure').dataset.clock !== undefined || panels.length > 1;
+      readout.textContent =
+          `${timed ? `${x.value(across).toPrecision(4)}\n` : ''}${values.join('\n')}`;
+      place(across);
     };
     for (const panel of panels) panel.addEventListener('pointermove', show);
+    svg.showTime = seconds => place(axisOf(panels[0].dataset.x).at(seconds));
   }
 
-  // --- Tracks in three dimensions: drag to turn, wheel to come closer -------------------------
-  for (const figure of document.querySelectorAll('figure[data-tracks]')) {
-    const tracks = figure.dataset.tracks.split(';').map(text => {
-      const [color, ...steps] = text.split(' ').map(Number);
-      const points = [];
-      for (let i = 0, at = [0, 0, 0]; i + 2 < steps.length; i += 3) {
-        points.push(at = at.map((v, k) => v + steps[i + k] / 1000));
-      }
-      return {color, points};
-    });
-    const canvas = document.createElement('canvas');
-    figure.prepend(canvas);
-    figure.hidden = false;
-    // A straight drive is a line to which an error of centimetres adds nothing that can be seen: an
-    // axis that is much shorter than the longest is stretched, by a round number that is said.
-    const round = value => {
-      const power = Math.pow(10, Math.floor(Math.log10(value)));
-      return power * [5, 2, 1].find(digit => digit * power <= value);
-    };
-    const extentOf = k => {
-      const along = tracks.flatMap(track => track.points.map(p => p[k]));
-      return Math.max(...along) - Math.min(...along);
-    };
-    const extents = [0, 1, 2].map(extentOf), longest = Math.max(...extents, 0.1);
-    const stretch = extents.map(extent =>
-      extent < longest / 8 ? Math.min(1000, round(longest / 8 / Math.max(extent, 1e-6))) : 1);
-    const stretched = ['x', 'y', 'z'].map((axis, k) => stretch[k] > 1 ? `${axis} ×${stretch[k]}` : '')
-      .filter(text => text).join(', ');
-    for (const track of tracks) {
-      track.points = track.points.map(p => p.map((v, k) => v * stretch[k]));
-    }
-    const all = tracks.flatMap(track => track.points);
-    const low = [0, 1, 2].map(k => Math.min(...all.map(p => p[k])));
-    const high = [0, 1, 2].map(k => Math.max(...all.map(p => p[k])));
-    const middle = low.map((v, k) => (v + high[k]) / 2);
-    const extent = Math.max(...high.map((v, k) => v - low[k]), 0.1);
-    // Pixels a metre so that the tracks fill the canvas as it is first turned.
-    let first = null;
-    const fit = (width, height, turned) => {
-      if (first === null) {
-        const seen = all.map(turned);
-        const reach = k => Math.max(...seen.map(p => Math.abs(p[k])), 0.05 * extent);
-        first = {right: reach(0), up: reach(1)};
-      }
-      return 0.42 * Math.min(width / first.right, height / first.up);
-    };
-    let yaw = -0.7, pitch = 0.6, zoom = 1, dragging = null;
+  // --- Frames: one picture under a slider, and where it is in time and space ------------------
+  const worldAxes = {x: 0, y: 1, z: 2};
+  const showPlace = (map, at) => {
+    const panel = map.querySelector('rect.panel');
+    const titles = [...map.querySelectorAll('text.axis')].map(text => text.textContent);
+    const across = titles.find(title => title !== panel.dataset.title);
+    const x = axisOf(panel.dataset.x).at(at[worldAxes[across[0]]]);
+    const y = axisOf(panel.dataset.y).at(at[worldAxes[panel.dataset.title[0]]]);
+    const mark = map.querySelector('.here') || draw('circle', 'here', map);
+    mark.setAttribute('cx', x);
+    mark.setAttribute('cy', y);
+    mark.setAttribute('r', 11);
+  };
 
-    const draw = () => {
-      const ratio = window.devicePixelRatio || 1;
-      const width = canvas.clientWidth, height = canvas.clientHeight;
-      canvas.width = width * ratio;
-      canvas.height = height * ratio;
-      const pen = canvas.getContext('2d');
-      pen.scale(ratio, ratio);
-      pen.clearRect(0, 0, width, height);
-      const style = getComputedStyle(document.documentElement);
-      const turned = p => {
-        const [x, y, z] = p.map((v, k) => v - middle[k]);
-        const along = Math.cos(yaw) * x - Math.sin(yaw) * y;
-        const away = Math.sin(yaw) * x + Math.cos(yaw) * y;
-        return [along, Math.cos(pitch) * z + Math.sin(pitch) * away];
-      };
-      const scale = zoom * fit(width, height, turned);
-      const project = p => {
-        const [right, up] = turned(p);
-        return [width / 2 + scale * right, height / 2 - scale * up];
-      };
-      const line = (points, color, thick, dash) => {
-        pen.beginPath();
-        pen.strokeStyle = color;
-        pen.lineWidth = thick;
-        pen.setLineDash(dash);
-        points.forEach((p, i) => {
-          const [x, y] = project(p);
-          i ? pen.lineTo(x, y) : pen.moveTo(x, y);
-        });
-        pen.stroke();
-      };
-      const step = Math.pow(10, Math.floor(Math.log10(extent)));
-      const rule = style.getPropertyValue('--rule').trim();
-      const ground = low[2];
-      for (let x = Math.floor(low[0] / step); x <= Math.ceil(high[0] / step); ++x) {
-        line([[x * step, Math.floor(low[1] / step) * step, ground],
-              [x * step, Math.ceil(high[1] / step) * step, ground]], rule, 1, []);
-      }
-      for (let y = Math.floor(low[1] / step); y <= Math.ceil(high[1] / step); ++y) {
-        line([[Math.floor(low[0] / step) * step, y * step, ground],
-              [Math.ceil(high[0] / step) * step, y * step, ground]], rule, 1, []);
-      }
-      for (const track of tracks) {
-        const truth = track.color < 0;
-        const color = style.getPropertyValue(truth ? '--truth' : `--c${track.color}`).trim();
-        line(track.points, color, truth ? 2.4 : 1.8, truth ? [6, 4] : []);
-      }
-      pen.setLineDash([]);
-      pen.fillStyle = style.getPropertyValue('--soft').trim();
-      pen.font = '12px system-ui, sans-serif';
-      pen.fillText(`grid ${step} m${stretched ? `; stretched: ${stretched}` : ''}`, 8, height - 8);
+  for (const albums of document.querySelectorAll('.albums')) {
+    const runs = [...albums.querySelectorAll('.album')].map(album => ({
+      name: album.dataset.system,
+      title: album.querySelector('h4').textContent,
+      frames: [...album.querySelectorAll('.pictures a')],
+    }));
+    // The charts that stand before the album belong to the same scene.
+    const charts = [...document.querySelectorAll('.charts')].filter(
+        chart => chart.compareDocumentPosition(albums) & Node.DOCUMENT_POSITION_FOLLOWING).pop();
+    const chart = charts && charts.querySelector('svg.chart');
+    const map = charts && charts.querySelector('svg.map');
+    const viewer = document.createElement('div');
+    viewer.className = 'viewer';
+    const make = (tag, parent = viewer) => parent.appendChild(document.createElement(tag));
+    const tabs = make('div');
+    tabs.className = 'tabs';
+    const link = make('a');
+    const image = make('img', link);
+    const slider = make('input');
+    slider.type = 'range';
+    slider.min = 0;
+    slider.setAttribute('aria-label', 'frame');
+    const words = make('output');
+    let run = null;
+
+    const show = () => {
+      const frame = run.frames[Number(slider.value)];
+      const still = frame.querySelector('img');
+      link.href = frame.href;
+      image.src = frame.href;
+      image.alt = still.alt;
+      words.textContent = `${run.title}: ${still.alt.slice(0, still.alt.lastIndexOf(', '))}`;
+      if (frame.dataset.s === undefined) return;
+      if (chart && chart.showTime) chart.showTime(Number(frame.dataset.s));
+      if (map) showPlace(map, frame.dataset.at.split(' ').map(Number));
     };
-    canvas.addEventListener('pointerdown', event => {
-      dragging = [event.clientX, event.clientY];
-      canvas.setPointerCapture(event.pointerId);
-    });
-    canvas.addEventListener('pointerup', () => { dragging = null; });
-    canvas.addEventListener('pointermove', event => {
-      if (!dragging) return;
-      yaw += (event.clientX - dragging[0]) * 0.01;
-      pitch = Math.max(0, Math.min(1.57, pitch + (event.clientY - dragging[1]) * 0.01));
-      dragging = [event.clientX, event.clientY];
-      draw();
-    });
-    canvas.addEventListener('wheel', event => {
-      event.preventDefault();
-      zoom = Math.max(0.2, Math.min(50, zoom * Math.exp(-event.deltaY * 0.001)));
-      draw();
-    }, {passive: false});
-    new ResizeObserver(draw).observe(canvas);
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
-    draw();
+    const choose = (chosen, seconds) => {
+      run = chosen;
+      for (const tab of tabs.children) {
+        tab.setAttribute('aria-pressed', tab.textContent === run.name);
+      }
+      slider.max = run.frames.length - 1;
+      const distance = frame => Math.abs(Number(frame.dataset.s) - seconds);
+      const worst = run.frames.findIndex(frame => frame.querySelector('img').alt.includes('worst error'));
+      slider.value = seconds === null ? Math.max(worst, 0) :
+          run.frames.reduce((best, frame, i) =>
+              distance(frame) < distance(run.frames[best]) ? i : best, 0);
+      show();
+    };
+    for (const one of runs) {
+      const tab = make('button', tabs);
+      tab.type = 'button';
+      tab.textContent = one.name;
+      tab.addEventListener('click', () => {
+        choose(one, Number(run.frames[Number(slider.value)].dataset.s));
+      });
+    }
+    slider.addEventListener('input', show);
+    viewer.appendChild(albums.querySelector('.colors'));
+    const heading = albums.querySelector('h3');
+    viewer.id = heading.id;
+    heading.removeAttribute('id');
+    albums.hidden = true;
+    const beside = charts && charts.querySelector('.beside');
+    if (beside) {
+      beside.prepend(viewer);
+    } else {
+      albums.before(viewer);
+    }
+    choose(runs[0], null);
   }
 })();

@@ -78,7 +78,7 @@ std::string StageSection(const SceneRuns& scene, const std::filesystem::path& re
         "<h3><span class=\"chip c{}\"></span>{}: stage by stage, where its mask is most "
         "wrong</h3>\n<p class=\"small soft\">{} A picture opens in full size.</p>\n<div "
         "class=\"sheets\">{}</div>\n",
-        system.color % 6, Escape(system.system), LinksOf(*run, root),
+        system.color, Escape(system.system), LinksOf(*run, root),
         SheetsOf(*run, ReadFrameFile(*run, report_dir).rows, root));
   }
   return text;

@@ -2,75 +2,223 @@
 
 #include "harness/report/chart/svg.h"
 #include "harness/report/markup/html.h"
+#include "harness/report/page/night_series.h"
+#include "harness/report/page/parts.h"
+#include "harness/report/page/scene_section.h"
+#include "harness/report/page/trend_chart.h"
 
 namespace aisle {
 namespace {
 
-constexpr double kWidth = 860, kLeft = 52, kRight = 846;
-constexpr const char* kShown = "ate_rmse_m";
+namespace fs = std::filesystem;
 
-/// Nights by system of one scene and twin; the colour is the order of the names.
-using Nights = std::map<std::string, std::vector<std::pair<std::size_t, double>>>;
+constexpr const char* kDrawn[] = {"ate_rmse_m", "ms_process_mean", "coverage"};
 
-std::string TrendChart(const Nights& nights, std::size_t count) {
-  double highest_cm = 0;
-  for (const auto& [system, points] : nights) {
-    for (const auto& [night, cm] : points) highest_cm = std::max(highest_cm, cm);
-  }
-  if (highest_cm <= 0) return "";
-  const Axis x{0, static_cast<double>(count - 1), kLeft, kRight};
-  const Axis y{0, 1.1 * highest_cm, 150, 24};
-  Svg svg(kWidth, 206, "error by night");
-  svg.Grid(x, y, "night", "ATE RMSE [cm], median over seeds");
-  int color = 0;
-  double legend_x = kLeft;
-  for (const auto& [system, points] : nights) {
-    std::vector<std::pair<double, double>> line;
-    for (const auto& [night, cm] : points) line.emplace_back(x(static_cast<double>(night)), y(cm));
-    svg.Polyline(line, fmt::format("line c{}", color % 6), system);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      svg.Circle(line[i].first, line[i].second, 3, fmt::format("dot d{}", color % 6),
-                 fmt::format("{}: {:.2f} cm", system, points[i].second));
+std::string DateOf(const Night& night) { return night.started.substr(0, 10); }
+
+std::string AnchorOf(const NightSeries& series) {
+  return SafeName(fmt::format("{}_{}_{}", series.scene, series.twin, series.score));
+}
+
+std::string Value(const NightSeries& series, double value) {
+  const FollowedScore& followed = Followed(series.score);
+  return fmt::format("{:.3g} {}", followed.factor * value, followed.unit);
+}
+
+std::string ChangeInWords(const NightChange& change, const NightBook& book) {
+  const NightSeries& series = *change.series;
+  const Night& night = book.nights[change.night];
+  const std::string what =
+      change.failing
+          ? fmt::format("{:.0f} of {} runs fail", change.after, series.points.back()->runs)
+          : fmt::format("{} from {} to {}", Followed(series.score).title,
+                        Value(series, change.before), Value(series, change.after));
+  const std::size_t count = book.nights.size() - change.night;
+  return fmt::format("{} {} {}: {} since {} ({}, commit {})", series.scene, series.twin,
+                     series.system, what, DateOf(night),
+                     count == 1 ? "last night" : fmt::format("{} nights", count), night.commit);
+}
+
+/// Where the night shows this scene; empty where its folder is gone.
+std::string PageOf(const Night& night, const NightSeries& series, const TrendPlace& place) {
+  const SceneRuns scene{series.scene, series.twin, {}};
+  if (night.folder.empty() || night.folder.starts_with("..")) return "";
+  const fs::path folder = place.history_dir / night.folder;
+  std::error_code error;
+  const std::string own = ScenePage(scene);
+  const std::string root = place.to_history + EscapeUrl((fs::path(night.folder) / "").string());
+  if (fs::exists(folder / own, error)) return root + EscapeUrl(own);
+  if (fs::exists(folder / "index.html", error)) return root + "index.html#" + EscapeUrl(own);
+  return "";
+}
+
+/// One word to a shell, whatever it holds; names come from others.
+std::string ShellWord(const std::string& text) {
+  const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-/+:@";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// A limit halfway between what was and what is, as `bisect` takes it.
+std::string LimitBetween(const NightChange& change) {
+  if (change.failing) return "completes";
+  const bool rose = change.after > change.before;
+  return fmt::format("{}{}{:.4g}", change.series->score,
+                     rose ? "<=" : ">=", (change.before + change.after) / 2);
+}
+
+/// What to ask next: the command that finds the commit, or where to look for it.
+std::string NextStep(const NightChange& change, const NightBook& book, const TrendPlace& place) {
+  const NightSeries& series = *change.series;
+  const TrendPoint* after = series.points[change.night];
+  const TrendPoint* before = nullptr;
+  for (std::size_t i = change.night; i-- > 0 && before == nullptr;) before = series.points[i];
+  if (before == nullptr) return "";
+  if (!after->version.empty() && !before->version.empty()) {
+    if (after->version == before->version) {
+      return fmt::format(
+          "{} is the same version, {}: look at aisle and the machine, <code>git log "
+          "--oneline {}..{}</code>",
+          Escape(series.system), Escape(after->version), Escape(before->commit),
+          Escape(after->commit));
     }
-    svg.Line(legend_x, 194, legend_x + 18, 194, fmt::format("line c{}", color % 6));
-    svg.Text(legend_x + 24, 198, system, "legend");
-    legend_x += 44 + 7.2 * static_cast<double>(system.size());
-    ++color;
+    const std::string command =
+        fmt::format("./aisle bisect {} {} {} --scene {} --twin {} --system {} --limit {}",
+                    ShellWord(before->version), ShellWord(after->version),
+                    ShellWord(place.suite_file.empty() ? "SUITE.yaml" : place.suite_file),
+                    ShellWord(series.scene), ShellWord(series.twin), ShellWord(series.system),
+                    ShellWord(LimitBetween(change)));
+    return "<code>" + Escape(command) + "</code>";
   }
-  return svg.Finish();
+  if (book.nights[change.night].commit == before->commit) {
+    return "the same commit of aisle: look at the machine, and at what the system's command names";
+  }
+  return fmt::format("<code>git log --oneline {}..{}</code>", Escape(before->commit),
+                     Escape(after->commit));
+}
+
+std::string ChangeItem(const NightChange& change, const NightBook& book, const TrendPlace& place) {
+  const NightSeries& series = *change.series;
+  const auto leading = [&](std::size_t night, const char* word) {
+    const std::string page = PageOf(book.nights[night], series, place);
+    return page.empty() ? "" : fmt::format(" · <a href=\"{}\">{}</a>", page, word);
+  };
+  const std::string next = NextStep(change, book, place);
+  return fmt::format("<li>{}<span class=\"{}\">{}</span>: <a href=\"#{}\">chart</a>{}{}{}\n",
+                     Chip(series.style), change.worse ? "fail" : "pass",
+                     Escape(ChangeInWords(change, book)), AnchorOf(series),
+                     leading(change.night, "that night"),
+                     change.night > 0 ? leading(change.night - 1, "the night before") : "",
+                     next.empty() ? "" : "<br><span class=\"small\">" + next + "</span>");
+}
+
+std::string NightsTable(const NightBook& book, const TrendPlace& place) {
+  std::string text =
+      "<h2 id=\"nights\">The nights</h2>\n<details><summary>all of them</summary><div "
+      "class=\"wide\"><table><tr><th>started<th class=\"left\">commit<th>runs that failed\n";
+  for (const Night& night : book.nights) {
+    std::error_code error;
+    const bool there =
+        !night.folder.empty() && fs::exists(place.history_dir / night.folder / "index.html", error);
+    const std::string started =
+        there ? fmt::format("<a href=\"{}{}\">{}</a>", place.to_history,
+                            EscapeUrl((fs::path(night.folder) / "index.html").string()),
+                            Escape(night.started))
+              : Escape(night.started);
+    text += fmt::format("<tr><td>{}<td class=\"left\">{}<td>{}\n", started, Escape(night.commit),
+                        night.failed);
+  }
+  return text + "</table></div></details>\n";
+}
+
+/// The charts of one scene and twin, side by side where there is room.
+std::string ChartsOf(const NightBook& book, std::size_t first, std::size_t end,
+                     const TrendPlace& place) {
+  const NightSeries& lead = book.series[first];
+  std::string charts;
+  for (const char* score : kDrawn) {
+    std::vector<const NightSeries*> drawn;
+    for (std::size_t i = first; i < end; ++i) {
+      if (book.series[i].score == score) drawn.push_back(&book.series[i]);
+    }
+    const std::string chart = TrendChart(
+        drawn, book.nights, [&](const Night& night) { return PageOf(night, lead, place); });
+    if (chart.empty()) continue;
+    charts += fmt::format("<figure id=\"{}\">{}</figure>\n", AnchorOf(*drawn.front()), chart);
+  }
+  if (charts.empty()) return "";
+  return fmt::format(
+      "<h2 id=\"{}\">{} <span class=\"soft\">{}</span></h2>\n<div "
+      "class=\"charts\">{}</div>\n",
+      SafeName(lead.scene + "_" + lead.twin), Escape(lead.scene), Escape(lead.twin), charts);
+}
+
+std::string ChangeList(const NightBook& book, const std::vector<NightChange>& changes,
+                       const TrendPlace& place) {
+  if (changes.empty()) {
+    return "<p class=\"answer\">Nothing is other than it was: no score has left, and stayed away "
+           "from, what the nights before let one expect.</p>\n";
+  }
+  constexpr std::size_t kShown = 12;
+  std::string text = "<ul class=\"answer changes\">\n";
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    if (i == kShown) {
+      text += fmt::format("</ul><details><summary>{} more</summary><ul>\n", changes.size() - i);
+    }
+    text += ChangeItem(changes[i], book, place);
+  }
+  return text + (changes.size() > kShown ? "</ul></details>\n" : "</ul>\n");
 }
 
 }  // namespace
 
-std::string TrendSection(const std::vector<TrendPoint>& points) {
-  std::vector<std::pair<std::string, std::string>> nights;  // started, commit
-  std::map<std::pair<std::string, std::string>, Nights> by_scene;
-  for (const TrendPoint& point : points) {
-    const std::pair night{point.started, point.commit};
-    if (nights.empty() || nights.back() != night) nights.push_back(night);
-    if (point.score != kShown || !point.median) continue;
-    by_scene[{point.scene, point.twin}][point.system].emplace_back(nights.size() - 1,
-                                                                   100 * *point.median);
-  }
-  if (nights.size() < 2) return "";
+std::string TrendSection(const std::vector<TrendPoint>& points, const TrendPlace& place) {
+  const NightBook book = ReadNights(points);
+  if (book.nights.size() < 2) return "";
   std::string text = fmt::format(
-      "<h1>{} nights</h1>\n<p class=\"soft small\">From {} to {}. Every score of every night is in "
-      "the SQLite file beside the reports.</p>\n",
-      nights.size(), Escape(nights.front().first), Escape(nights.back().first));
-  for (const auto& [scene, of_scene] : by_scene) {
-    text +=
-        fmt::format("<h3>{} <span class=\"soft\">{}</span></h3>\n<figure>{}</figure>\n",
-                    Escape(scene.first), Escape(scene.second), TrendChart(of_scene, nights.size()));
+      "<h1>{} nights</h1>\n{}<p class=\"soft small\">From {} to {}. Since: the first night from "
+      "which on every night lies beyond what the nights before it let one expect, by a tenth of "
+      "their median and four times their median deviation from it. A point leads to its night; "
+      "crosses are nights with runs that failed, dashed lines the limits, bands the middle half of "
+      "the seeds. Every score of every night is in the SQLite file beside the reports.</p>\n",
+      book.nights.size(), ChangeList(book, ChangesOf(book), place),
+      Escape(book.nights.front().started), Escape(book.nights.back().started));
+  for (std::size_t first = 0; first < book.series.size();) {
+    std::size_t end = first;
+    while (end < book.series.size() && book.series[end].scene == book.series[first].scene &&
+           book.series[end].twin == book.series[first].twin) {
+      ++end;
+    }
+    text += ChartsOf(book, first, end, place);
+    first = end;
   }
-  text +=
-      "<details><summary>the nights</summary><div class=\"wide\"><table><tr><th>night</th>"
-      "<th class=\"left\">started</th><th class=\"left\">commit</th></tr>\n";
-  for (std::size_t i = 0; i < nights.size(); ++i) {
-    text +=
-        fmt::format("<tr><td>{}</td><td class=\"left\">{}</td><td class=\"left\">{}</td></tr>\n", i,
-                    Escape(nights[i].first), Escape(nights[i].second));
+  return text + NightsTable(book, place);
+}
+
+SinceNotes SinceWhen(const std::vector<TrendPoint>& points) {
+  SinceNotes notes;
+  const NightBook book = ReadNights(points);
+  if (book.nights.size() < 2) return notes;
+  for (const NightChange& change : ChangesOf(book)) {
+    const NightSeries& series = *change.series;
+    const Night& night = book.nights[change.night];
+    const std::string note =
+        fmt::format("<a class=\"since\" href=\"trends.html#{}\">since {}</a> (commit {})",
+                    AnchorOf(series), Escape(DateOf(night)), Escape(night.commit));
+    const std::string score = change.failing ? "completes" : series.score;
+    notes.try_emplace({series.scene, series.twin, series.system, score}, note);
   }
-  return text + "</table></div></details>\n";
+  return notes;
+}
+
+std::vector<std::string> ChangesInWords(const std::vector<TrendPoint>& points) {
+  const NightBook book = ReadNights(points);
+  std::vector<std::string> lines;
+  if (book.nights.size() < 2) return lines;
+  for (const NightChange& change : ChangesOf(book)) lines.push_back(ChangeInWords(change, book));
+  return lines;
 }
 
 }  // namespace aisle

@@ -80,11 +80,13 @@ class Browser:
             raise RuntimeError(f"{method}: {answer['error']['message']}")
         return answer['result']
 
-    def open(self, url, width=1280, height=900, dark=False, scripts=True):
+    def open(self, url, width=1280, height=900, dark=False, scripts=True, media='',
+             vision='none'):
         self.log.clear()
         self.call('Emulation.setDeviceMetricsOverride', width=width, height=height,
                   deviceScaleFactor=1, mobile=False)
-        self.call('Emulation.setEmulatedMedia', features=[
+        self.call('Emulation.setEmulatedVisionDeficiency', type=vision)
+        self.call('Emulation.setEmulatedMedia', media=media, features=[
             {'name': 'prefers-color-scheme', 'value': 'dark' if dark else 'light'}])
         self.call('Emulation.setScriptExecutionDisabled', value=not scripts)
         self.call('Page.navigate', url=url)
@@ -113,9 +115,20 @@ class Browser:
         for kind in ('mousePressed', 'mouseReleased'):
             self.mouse(kind, at, button='left', clickCount=1)
 
+    def follow(self, selector):
+        """Clicks on what leads to another page, and waits for that page."""
+        self.click(selector)
+        self._await(lambda message: message.get('method') == 'Page.loadEventFired')
+
+    def key(self, name):
+        for kind in ('keyDown', 'keyUp'):
+            self.call('Input.dispatchKeyEvent', type=kind, key=name, code=name,
+                      windowsVirtualKeyCode={'Home': 36, 'End': 35, 'ArrowRight': 39}[name])
+
     def type(self, text):
         self.call('Input.insertText', text=text)
 
-    def picture(self):
-        """PNG of what the window shows."""
-        return base64.b64decode(self.call('Page.captureScreenshot', format='png')['data'])
+    def picture(self, whole=False):
+        """PNG of what the window shows, or of the whole page."""
+        return base64.b64decode(self.call('Page.captureScreenshot', format='png',
+                                          captureBeyondViewport=whole)['data'])

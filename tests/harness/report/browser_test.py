@@ -20,6 +20,33 @@ STRICT = "default-src 'none'; img-src 'self'; style-src 'self'"
 CHROMIUM = shutil.which('chromium')
 
 
+# What is left of linear red, green and blue (Machado, Oliveira and Fernandes, 2009).
+DEUTERANOPIA = ((0.367322, 0.860646, -0.227968), (0.280085, 0.672501, 0.047413),
+                (-0.011820, 0.042940, 0.968881))
+PROTANOPIA = ((0.152286, 1.052583, -0.204868), (0.114503, 0.786281, 0.099216),
+              (-0.003882, -0.048116, 1.051998))
+
+
+def simulated(color, matrix):
+    """Linear red, green and blue of "#rrggbb" as the colour-blind see it."""
+    parts = [int(color[i:i + 2], 16) / 255 for i in (1, 3, 5)]
+    linear = [v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4 for v in parts]
+    return [min(1, max(0, sum(m * v for m, v in zip(row, linear)))) for row in matrix]
+
+
+def lab(linear):
+    r, g, b = linear
+    xyz = (0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505, 0.2126 * r + 0.7152 * g + 0.0722 * b, (
+        0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089
+    x, y, z = [v ** (1 / 3) if v > 0.008856 else 7.787 * v + 16 / 116 for v in xyz]
+    return 116 * y - 16, 500 * (x - y), 200 * (y - z)
+
+
+def distance(one, other):
+    """CIE76."""
+    return sum((a - b) ** 2 for a, b in zip(one, other)) ** 0.5
+
+
 class Server(http.server.SimpleHTTPRequestHandler):
     """Files below /strict/ come under the strict policy, the same ones below /plain/ without."""
 
@@ -91,37 +118,39 @@ class ReportInBrowser(unittest.TestCase):
         page = self.open('scene_paper.scene1_live.html')
         page.mouse('mouseMoved', page.middle_of('svg rect.panel'))
         said = page.ask("document.querySelector('.readout').textContent")
-        self.assertRegex(said, r'error of the live track \[cm\]: orbslam2 [\d.]+, oracle [\d.]+')
+        self.assertRegex(said, r'error of the live track \[cm\]: orbslam2, median [\d.]+, '
+                               r'orbslam2, worst: seed \d [\d.]+, oracle, median [\d.]+')
         self.assertRegex(said, r'pixels that move \[%\]: [\d.]+')
         self.assertRegex(said, r'all [\d.]+, parallax [\d.]+, blur [\d.]+')
 
-    def test_the_tracks_turn_when_dragged(self):
+    def test_the_slider_shows_another_frame_and_where_it_is(self):
         page = self.open('scene_paper.scene1_live.html')
-        at = page.middle_of('canvas')
-        drawn = "document.querySelector('canvas').toDataURL()"
-        before = page.ask(drawn)
-        self.assertGreater(len(before), 2000)
-        page.mouse('mousePressed', at, button='left', clickCount=1)
-        page.mouse('mouseMoved', [at[0] + 60, at[1] + 20], button='left')
-        page.mouse('mouseReleased', [at[0] + 60, at[1] + 20], button='left', clickCount=1)
-        turned = page.ask(drawn)
-        self.assertNotEqual(turned, before)
-        page.mouse('mouseMoved', [at[0] + 120, at[1]])
-        self.assertEqual(page.ask(drawn), turned)
-        page.mouse('mouseWheel', at, deltaX=0, deltaY=-300)
-        self.assertNotEqual(page.ask(drawn), turned)
+        picture = "document.querySelector('.viewer img').src"
+        said = "document.querySelector('.viewer output').textContent"
+        place = "document.querySelector('svg.map .here').getAttribute('cx')"
+        first = [page.ask(what) for what in (picture, said, place)]
+        self.assertRegex(first[1], r'frame \d+, [\d.]+ s: off by [\d.]+ cm')
+        self.assertTrue(page.ask("document.querySelector('.albums').hidden"))
+        page.click('.viewer input[type=range]')
+        page.key('Home')
+        then = [page.ask(what) for what in (picture, said, place)]
+        for before, after in zip(first, then):
+            self.assertNotEqual(before, after)
+        self.assertEqual(page.ask("document.querySelectorAll('.viewer button').length"), 2)
+        page.click('.viewer button:nth-child(2)')
+        self.assertNotEqual(page.ask(picture), then[0])
+        self.assertEqual(page.log, [])
 
     def test_a_broken_limit_leads_to_its_scene_and_back(self):
         page = self.open('index.html')
-        page.click('.verdict li a')
-        page._await(lambda message: message.get('method') == 'Page.loadEventFired')
+        page.follow('.verdict li a')
         self.assertIn('paper/scene1', page.ask("document.querySelector('h2').textContent"))
         self.assertIn('rerun paper.scene1/live', page.ask('document.body.textContent'))
 
     def test_light_and_dark_are_both_readable(self):
         for dark in (False, True):
             page = self.open('index.html', dark=dark)
-            for selector in ('body', '.verdict', '.fail', 'td', 'th', '.soft'):
+            for selector in ('body', '.verdict', '.fail', 'td', 'th', '.soft', 'main a'):
                 self.assertGreaterEqual(self.contrast(selector), 4.5, f'{selector}, dark: {dark}')
 
     def contrast(self, selector):
@@ -144,17 +173,70 @@ class ReportInBrowser(unittest.TestCase):
           return (Math.max(ink, paper) + 0.05) / (Math.min(ink, paper) + 0.05);
         })(''' + repr(selector) + ')')
 
-    def test_nothing_is_wider_than_the_window(self):
-        for width in (400, 1280, 1920):
+    def test_nothing_is_wider_than_the_window_nor_too_small_to_read(self):
+        smallest = """Math.min(...[...document.querySelectorAll('svg text')].filter(
+            text => text.getClientRects().length > 0).map(
+            text => parseFloat(getComputedStyle(text).fontSize) * text.getScreenCTM().a))"""
+        for width in (400, 820, 1400, 2560):
             for name in ('index.html', 'scene_paper.scene1_live.html'):
                 page = self.open(name, width=width)
                 self.assertLessEqual(page.ask('document.documentElement.scrollWidth'), width, name)
+            self.assertGreaterEqual(page.ask(smallest), 10.99, width)
+
+    def test_a_wide_window_is_used_and_a_narrow_one_laid_out_anew(self):
+        drawn = "document.querySelector('svg.chart').getBoundingClientRect()"
+        columns = """new Set([...document.querySelectorAll('.charts figure')].map(
+            figure => Math.round(figure.getBoundingClientRect().left))).size"""
+        heights = []
+        for width, least in ((400, 1), (1400, 2), (2560, 3)):
+            page = self.open('scene_paper.scene1_live.html', width=width)
+            heights.append(page.ask(drawn + '.height'))
+            self.assertGreaterEqual(page.ask(columns), least)
+            self.assertGreater(page.ask("document.querySelector('.charts')"
+                                        '.getBoundingClientRect().width'), 0.8 * width - 240)
+        self.assertEqual(len(set(heights)), 1)  # as high on a phone: not a smaller picture of it
+
+    def test_systems_are_apart_for_the_colour_blind(self):
+        for dark in (False, True):
+            page = self.open('index.html', dark=dark)
+            names = [f'--c{style}' for style in range(12)]
+            colors = [page.ask(f"getComputedStyle(document.documentElement)"
+                               f".getPropertyValue('{name}').trim()") for name in names]
+            for matrix in (DEUTERANOPIA, PROTANOPIA):
+                seen = [lab(simulated(color, matrix)) for color in colors]
+                for i, one in enumerate(seen):
+                    for other in range(i):
+                        self.assertGreater(distance(one, seen[other]), 30 if i < 6 else 20,
+                                           (dark, names[i], names[other]))
+            page.ask('document.body.innerHTML = \'<svg class="chart">\' + [...Array(12).keys()].map('
+                     'i => `<line class="line c${i}"/>`).join("") + "</svg>"')
+            dashes = page.ask("[...document.querySelectorAll('line')].map("
+                              "line => getComputedStyle(line).strokeDasharray)")
+            self.assertGreaterEqual(len(set(dashes)), 11)
+
+    def test_on_paper_the_stills_stand_and_nothing_is_to_be_clicked(self):
+        page = self.open('scene_paper.scene1_live.html', media='print')
+        self.assertEqual(page.ask("getComputedStyle(document.querySelector('.viewer')).display"),
+                         'none')
+        self.assertGreater(page.ask("document.querySelector('.albums').getBoundingClientRect()"
+                                    '.height'), 50)
+        self.assertEqual(page.ask("getComputedStyle(document.querySelector('.contents')).display"),
+                         'none')
+        self.assertEqual(page.ask('getComputedStyle(document.body).backgroundColor'),
+                         'rgb(255, 255, 255)')
+
+    def test_the_contents_lead_to_every_part(self):
+        page = self.open('index.html')
+        targets = page.ask("[...document.querySelectorAll('.contents a')].map("
+                           "a => document.getElementById(a.hash.slice(1)) !== null)")
+        self.assertGreaterEqual(len(targets), 3)
+        self.assertTrue(all(targets))
 
     def whole_without_scripts(self, page):
         self.assertIn('limits broken', page.ask("document.querySelector('.verdict').textContent"))
-        self.assertEqual(page.ask("document.querySelectorAll('.sortable, canvas').length"), 0)
+        self.assertEqual(page.ask("document.querySelectorAll('.sortable, .viewer').length"), 0)
         # The style sheet is in force, and charts have their size and colours.
-        self.assertNotEqual(page.ask("getComputedStyle(document.body).maxWidth"), 'none')
+        self.assertNotEqual(page.ask("getComputedStyle(document.body).paddingLeft"), '8px')
         self.assertGreater(len(page.picture()), 20000)
 
     def test_with_scripts_off_the_page_is_whole(self):
@@ -162,7 +244,7 @@ class ReportInBrowser(unittest.TestCase):
         page = self.open('scene_paper.scene1_live.html', scripts=False)
         self.assertGreater(page.ask("document.querySelector('svg').getBoundingClientRect().height"),
                            200)
-        self.assertTrue(page.ask("document.querySelector('figure[data-tracks]').hidden"))
+        self.assertGreater(page.ask("document.querySelectorAll('.album img').length"), 3)
 
     def test_under_the_strict_policy_the_page_is_whole(self):
         for name in ('index.html', 'scene_paper.scene1_live.html'):

@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
 #include "harness/io/file.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
 #include "harness/judge/limit.h"
+#include "harness/report/allure.h"
 #include "harness/report/junit.h"
 #include "tests/harness/record/night.h"
 
@@ -107,6 +109,101 @@ TEST_F(ReportTest, AScenesPageTellsHowItsMoversWereFollowed) {
   EXPECT_THAT(rows, Not(HasSubstr("slow")));             // nobody creeps
 }
 
+/// A foreign system that crashed, and what it said.
+RunResult Crashed(const std::string& words) {
+  RunResult run = MakeRun("paper/scene2", "mine", 1, 0.1);
+  run.spec.system = {.name = "mine", .external = ExternalSystem{.command = words}};
+  run.status = RunStatus::kCrashed;
+  run.status_why = "exit code 134: signal 6, SIGABRT (Aborted); last words: " + words;
+  run.last_words = words + "\n";
+  run.system_version = words;
+  run.trajectory = {};
+  return run;
+}
+
+TEST_F(ReportTest, ANightThatCrashedIsRedWithoutAnyLimit) {
+  Results results = Make({MakeRun("paper/scene2", "oracle", 1, 0.02), Crashed("boom")}, {});
+  results.verdicts.clear();
+  WriteReport(results, folder_);
+  const std::string page = Read("index.html");
+  EXPECT_THAT(page, HasSubstr("<div class=\"verdict failed\"><strong>1 of 2 runs failed"));
+  EXPECT_THAT(page, HasSubstr("<pre>boom\n</pre>"));
+}
+
+TEST_F(ReportTest, ACellShowsTheMedianOfThoseThatCameToAnEnd) {
+  std::vector<RunResult> runs;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    runs.push_back(MakeRun("paper/scene2", "oracle", seed, 0.02));
+  }
+  runs.back().status = RunStatus::kCrashed;
+  runs.back().trajectory = {};
+  WriteReport(Make(runs, {}), folder_);
+  const std::string page = Read("index.html");
+  const auto errors = page.find("id=\"errors\"");
+  const std::string table = page.substr(errors, page.find("</table>", errors) - errors);
+  EXPECT_THAT(table, HasSubstr("<span class=\"fail\">2/3 ok</span>"));
+  EXPECT_THAT(table, Not(HasSubstr(">- ")));
+}
+
+TEST_F(ReportTest, WhatAForeignSystemSaysIsHarmlessWhereverItIsQuoted) {
+  const std::string hostile = "</pre><script>alert(1)</script>]]>&\x1b[31m\xff";
+  const Results results = Make({MakeRun("paper/scene2", "oracle", 1, 0.02), Crashed(hostile)}, {});
+  WriteReport(results, folder_);
+  WriteAllure(results, folder_, folder_ / "allure");
+  for (const char* name : {"index.html", "paper.html"}) {
+    EXPECT_THAT(Read(name), Not(HasSubstr("<script>"))) << name;
+  }
+  EXPECT_EQ(Read("summary.txt").find('\x1b'), std::string::npos);
+  pugi::xml_document junit;
+  EXPECT_TRUE(junit.load_string(Read("junit.xml").c_str()));
+  for (const auto& entry : fs::directory_iterator(folder_ / "allure")) {
+    if (entry.path().extension() != ".json") continue;
+    EXPECT_TRUE(nlohmann::json::accept(ReadFile(entry.path()))) << entry.path();
+  }
+}
+
+TEST_F(ReportTest, TheSummaryFitsIntoAMail) {
+  std::vector<RunResult> runs;
+  for (int scene = 1; scene <= 30; ++scene) {
+    runs.push_back(MakeRun(fmt::format("s{}", scene), "orbslam2", 1, 0.6));
+  }
+  WriteReport(Make(runs, {kBroken}), folder_);
+  const std::string summary = Read("summary.txt");
+  EXPECT_LE(std::count(summary.begin(), summary.end(), '\n'), 20);
+  EXPECT_THAT(summary, testing::StartsWith("quickstart: 30 of 30 limits broken, 0 of 30 runs"));
+  EXPECT_THAT(summary, HasSubstr("and 24 more"));
+  EXPECT_THAT(summary, HasSubstr("again:  ./aisle run"));
+}
+
+TEST_F(ReportTest, AllureKeepsATestsHistoryFromNightToNight) {
+  Results results = Make({MakeRun("s", "orbslam2", 1, 0.6), Crashed("boom")}, {kBroken});
+  const auto tests = [&] {
+    WriteAllure(results, folder_, folder_ / "allure");
+    std::map<std::string, nlohmann::json> by_name;
+    for (const auto& entry : fs::directory_iterator(folder_ / "allure")) {
+      if (entry.path().extension() != ".json") continue;
+      const nlohmann::json test = nlohmann::json::parse(ReadFile(entry.path()));
+      by_name[test.at("name")] = test;
+    }
+    return by_name;
+  };
+  const auto first = tests();
+  ASSERT_EQ(first.size(), 3u);  // a limit, a crash, and a run that came to its end
+  const nlohmann::json& limit = first.at("s live orbslam2: ate_rmse_m");
+  EXPECT_EQ(limit.at("status"), "failed");
+  EXPECT_THAT(limit.at("statusDetails").at("trace").get<std::string>(),
+              HasSubstr("rerun: ./aisle rerun s/live/orbslam2/1 --in "));
+  EXPECT_EQ(first.at("paper.scene2/live/mine/1: completes").at("status"), "broken");
+  EXPECT_EQ(first.at("s/live/orbslam2/1: completes").at("status"), "passed");
+  results.started = "2026-02-01T02:00:00Z";
+  const auto second = tests();
+  EXPECT_EQ(second.size(), first.size());  // those of the night before are gone
+  for (const auto& [name, test] : first) {
+    EXPECT_EQ(second.at(name).at("historyId"), test.at("historyId"));
+    EXPECT_NE(second.at(name).at("uuid"), test.at("uuid"));
+  }
+}
+
 TEST_F(ReportTest, ThePageObeysTheStrictestPolicy) {
   WriteReport(Make({MakeRun("paper/scene2", "oracle", 1, 0.02)}, {}), folder_);
   std::string page = Read("index.html");
@@ -170,6 +267,16 @@ TEST_F(ReportTest, JunitCarriesTheNumbers) {
   EXPECT_STREQ(test.attribute("classname").value(), "quickstart.s live orbslam2");
   EXPECT_STREQ(test.attribute("name").value(), "ate_rmse_m");
   EXPECT_THAT(test.child("failure").attribute("message").value(), HasSubstr("is not at most 0.02"));
+}
+
+TEST_F(ReportTest, JunitNamesTheRunToRepeatAndQuotesItsLastWords) {
+  const Results results = Make({MakeRun("s", "orbslam2", 1, 0.3), MakeRun("s", "orbslam2", 2, 0.6),
+                                Crashed("map.cc:42: Assertion failed")},
+                               {kBroken});
+  const std::string junit = ToJunit(results, "out/tonight");
+  EXPECT_THAT(junit, HasSubstr("rerun: ./aisle rerun s/live/orbslam2/2 --in out/tonight"));
+  EXPECT_THAT(junit, HasSubstr("rerun: ./aisle rerun paper.scene2/live/mine/1 --in out/tonight"));
+  EXPECT_THAT(junit, HasSubstr("its last words:\nmap.cc:42: Assertion failed"));
 }
 
 TEST_F(ReportTest, JunitNamesEveryRunThatCameToItsEnd) {

@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   aisle::NightOptions options;
   options.scenes = std::stoul(argv[2]);
   options.seeds = std::stoul(argv[3]);
+  options.pictures = true;
   aisle::Results night = aisle::MakeNight(options, argv[1]);
   night.verdicts = aisle::Judge(
       night.runs,

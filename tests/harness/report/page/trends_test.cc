@@ -3,32 +3,110 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/report/page/night_series.h"
+
 namespace aisle {
 namespace {
 
 using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr const char* kHostile = "\"><script>alert(1)</script>";
+
+/// Ten nights; what stands for a night in the month is told each of them.
+struct Month {
+  std::vector<TrendPoint> points;
+  void Add(int day, const std::string& system, std::optional<double> ate_m, std::size_t failed = 0,
+           const std::string& version = "") {
+    points.push_back({.started = fmt::format("2026-01-{:02}T02:00:00Z", day),
+                      .commit = fmt::format("c{}", day),
+                      .scene = kHostile,
+                      .twin = "live",
+                      .system = system,
+                      .score = "ate_rmse_m",
+                      .median = ate_m,
+                      .low = ate_m,
+                      .high = ate_m,
+                      .runs = 9,
+                      .failed = failed,
+                      .limit = 0.03,
+                      .version = version});
+  }
+};
+
+Month Drifting() {
+  Month month;
+  for (int day = 1; day <= 10; ++day) {
+    month.Add(day, "robust", day < 7 ? 0.020 : 0.041);
+    month.Add(day, "ora|cle_", 0.01, 0, day < 4 ? "v1" : "v2");
+  }
+  return month;
+}
 
 TEST(TrendsTest, AreDrawnFromTwoNightsOn) {
-  const std::string hostile = "\"><script>alert(1)</script>";
-  std::vector<TrendPoint> points;
-  const auto add_night = [&](const std::string& started, double ate_m) {
-    for (const char* system : {"orbslam2", "ora|cle_"}) {
-      points.push_back({.started = started,
-                        .commit = "abc",
-                        .scene = hostile,
-                        .twin = "live",
-                        .system = system,
-                        .score = "ate_rmse_m",
-                        .median = ate_m});
-    }
-  };
-  add_night("1", 0.01);
-  EXPECT_EQ(TrendSection(points), "");
-  add_night("2", 0.02);
-  const std::string section = TrendSection(points);
+  Month month;
+  month.Add(1, "robust", 0.02);
+  EXPECT_EQ(TrendSection(month.points, {}), "");
+  month.Add(2, "robust", 0.02);
+  const std::string section = TrendSection(month.points, {});
   EXPECT_THAT(section, HasSubstr("2 nights"));
-  EXPECT_THAT(section, HasSubstr("data-name=\"ora|cle_\""));
-  EXPECT_THAT(section, testing::Not(HasSubstr("<script")));
+  EXPECT_THAT(section, HasSubstr("data-name=\"robust\""));
+  EXPECT_THAT(section, HasSubstr("class=\"limit c4\""));
+  EXPECT_THAT(section, HasSubstr("Nothing is other than it was"));
+  EXPECT_THAT(section, Not(HasSubstr("<script")));
+}
+
+TEST(TrendsTest, SayWhatChangedSinceWhenAndByHowMuch) {
+  const Month month = Drifting();
+  EXPECT_THAT(ChangesInWords(month.points),
+              testing::ElementsAre(std::string(kHostile) +
+                                   " live robust: ATE RMSE from 2 cm to 4.1 cm since 2026-01-07 "
+                                   "(4 nights, commit c7)"));
+  const SinceNotes notes = SinceWhen(month.points);
+  EXPECT_THAT(notes.at({kHostile, "live", "robust", "ate_rmse_m"}), HasSubstr("since 2026-01-07"));
+  EXPECT_THAT(TrendSection(month.points, {}), HasSubstr("git log --oneline c6..c7"));
+}
+
+TEST(TrendsTest, AForeignSystemsVersionsLeadToBisect) {
+  Month month;
+  for (int day = 1; day <= 10; ++day) {
+    month.Add(day, "mine", day < 7 ? 0.02 : 0.04, 0, day < 7 ? "1a2b" : "v2; rm -r 'x'");
+  }
+  const std::string section = TrendSection(month.points, {.suite_file = "mine.yaml"});
+  EXPECT_THAT(section, HasSubstr("./aisle bisect 1a2b "));
+  // A system says its version itself: what is to be pasted into a shell holds one word.
+  EXPECT_THAT(section,
+              HasSubstr("&#39;v2; rm -r &#39;\\&#39;&#39;x&#39;\\&#39;&#39;&#39; mine.yaml"));
+  EXPECT_THAT(section, HasSubstr("--limit &#39;ate_rmse_m&lt;=0.03&#39;"));
+}
+
+TEST(TrendsTest, NightsThatFailedStayAsMarks) {
+  Month month;
+  for (int day = 1; day <= 5; ++day) {
+    month.Add(day, "mine", day < 5 ? std::optional(0.02) : std::nullopt, day < 5 ? 0 : 9);
+  }
+  const std::string section = TrendSection(month.points, {});
+  EXPECT_THAT(section, HasSubstr("class=\"cross\""));
+  EXPECT_THAT(section, HasSubstr("9 of 9 runs failed"));
+  EXPECT_THAT(section, HasSubstr("9 of 9 runs fail since 2026-01-05 (last night"));
+}
+
+TEST(TrendsTest, WhatIsAsItWasIsNoNews) {
+  Month month;
+  for (int day = 1; day <= 10; ++day) month.Add(day, "robust", 0.02 + 0.0001 * (day % 3));
+  EXPECT_THAT(ChangesInWords(month.points), IsEmpty());
+  EXPECT_THAT(SinceWhen(month.points), IsEmpty());
+}
+
+TEST(NightSeriesTest, NightsStandWhereTheirDatesAre) {
+  Month month;
+  month.Add(1, "robust", 0.02);
+  month.Add(5, "robust", 0.02);
+  EXPECT_DOUBLE_EQ(ReadNights(month.points).nights[1].day, 4);
+  month.points[1].started = "5";
+  month.points[0].started = "1";
+  EXPECT_DOUBLE_EQ(ReadNights(month.points).nights[1].day, 1);  // no date: its number
 }
 
 }  // namespace

@@ -1,0 +1,41 @@
+#include "harness/report/page/parts.h"
+
+#include "harness/report/markup/html.h"
+
+namespace aisle {
+
+std::string Chip(int style) { return fmt::format("<span class=\"chip c{}\"></span>", style); }
+
+std::string NameOf(const SystemRuns& system) { return Chip(system.color) + Escape(system.system); }
+
+std::string Figure(const std::string& content, const std::string& caption) {
+  if (content.empty()) return "";
+  return "<figure>" + content + "<figcaption>" + caption + "</figcaption></figure>\n";
+}
+
+std::string Listed(const std::vector<std::string>& parts) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i > 0) text += i + 1 == parts.size() ? " and " : ", ";
+    text += parts[i];
+  }
+  return text;
+}
+
+std::string SeedOf(const RunSpec& spec) {
+  if (spec.repeat == 1) return fmt::format("seed {}", spec.seed);
+  return fmt::format("seed {}, drive {} over it", spec.seed, spec.repeat);
+}
+
+std::string LastWordsOf(const RunRecord& run, const std::string& root) {
+  const auto log = run.artifacts.find("log");
+  std::string link;
+  if (log != run.artifacts.end()) {
+    link = fmt::format(" (<a href=\"{}\">the whole log</a>)", root + EscapeUrl(log->second));
+  }
+  if (run.last_words.empty()) return "";
+  return fmt::format("<details open><summary>its last words</summary><pre>{}</pre>{}</details>\n",
+                     Escape(run.last_words), link);
+}
+
+}  // namespace aisle

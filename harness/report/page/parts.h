@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/record/group.h"
+
+namespace aisle {
+
+// What several sections of a page are made of.
+
+/// A system's mark: the colour and shape of its style, as its lines and points have them.
+std::string Chip(int style);
+/// Mark and name, made harmless.
+std::string NameOf(const SystemRuns& system);
+
+/// A chart with a sentence below it; empty where there is no chart.
+std::string Figure(const std::string& content, const std::string& caption);
+
+/// "a, b and c".
+std::string Listed(const std::vector<std::string>& parts);
+
+/// "seed 3", "seed 3, drive 2 over it".
+std::string SeedOf(const RunSpec& spec);
+
+/// What a foreign system, or a run that failed, said last, folded away; empty where it said
+/// nothing. `root` leads from the page to the report's folder.
+std::string LastWordsOf(const RunRecord& run, const std::string& root);
+
+}  // namespace aisle

@@ -1,0 +1,57 @@
+#include "harness/report/summary_text.h"
+
+#include "harness/io/input_error.h"
+#include "harness/report/page/answer.h"
+
+namespace aisle {
+namespace {
+
+constexpr std::size_t kBroken = 6, kChanges = 5, kWidth = 160;
+
+std::string Headline(const Results& results) {
+  const auto broken = std::count_if(results.verdicts.begin(), results.verdicts.end(),
+                                    [](const Verdict& verdict) { return !verdict.passed; });
+  const auto failed =
+      std::count_if(results.runs.begin(), results.runs.end(), [](const RunRecord& run) {
+        return run.status != RunStatus::kOk && run.status != RunStatus::kLost;
+      });
+  const std::string limits =
+      results.verdicts.empty() ? "nothing was judged"
+      : broken == 0            ? fmt::format("all {} limits held", results.verdicts.size())
+                    : fmt::format("{} of {} limits broken", broken, results.verdicts.size());
+  return fmt::format("{}: {}, {} of {} runs failed", results.suite, limits, failed,
+                     results.runs.size());
+}
+
+/// At most so many of the lines, and how many more there are.
+void Append(const std::vector<std::string>& lines, std::size_t most, std::string* text) {
+  for (std::size_t i = 0; i < std::min(lines.size(), most); ++i) {
+    *text += "  " + Printable(lines[i], kWidth) + "\n";
+  }
+  if (lines.size() > most) *text += fmt::format("  and {} more\n", lines.size() - most);
+}
+
+}  // namespace
+
+std::string ToSummaryText(const Results& results, const std::vector<std::string>& changes,
+                          const std::filesystem::path& report_dir) {
+  std::vector<std::string> broken;
+  for (const Verdict& verdict : results.verdicts) {
+    if (!verdict.passed) broken.push_back(verdict.name + ": " + verdict.why);
+  }
+  std::string text = Printable(Headline(results), kWidth) + "\n";
+  Append(broken, kBroken, &text);
+  if (!changes.empty()) text += "other than before:\n";
+  Append(changes, kChanges, &text);
+  constexpr std::size_t kSentences = 2;  // of the answer: the rest is on the page
+  const std::vector<std::string> answer = AnswerInWords(results);
+  for (std::size_t i = 0; i < std::min(answer.size(), kSentences); ++i) {
+    text += Printable(answer[i], kWidth) + "\n";
+  }
+  return text + fmt::format("report: {}\nagain:  {}\naisle {} ({}), {}\n",
+                            Printable((report_dir / "index.html").string(), kWidth),
+                            Printable(results.rerun, kWidth), results.provenance.version,
+                            results.provenance.commit, Printable(results.started, 40));
+}
+
+}  // namespace aisle

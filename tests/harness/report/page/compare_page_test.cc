@@ -1,0 +1,85 @@
+#include "harness/report/page/compare_page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "harness/io/file.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+class ComparePageTest : public testing::Test {
+ protected:
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// A night of nine seeds on two scenes; the errors of the second are those of the first, times
+  /// `factor`.
+  Results Night(const std::string& name, double factor, const std::string& scene = "a") const {
+    Results night;
+    night.provenance = {"0.2.0", "commit_" + name, "cpu of " + name, "Debian", 2};
+    night.suite = "nightly";
+    night.started = "2026-01-31T02:00:00Z";
+    night.rerun = "./aisle run " + name;
+    for (const auto& [which, times] : {std::pair(scene, 1.0), std::pair(scene + "2", factor)}) {
+      for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+        RunRecord run;
+        run.spec = {.scene = which, .scene_file = "", .system = BuiltIn("robust"), .seed = seed};
+        run.scores["ate_rmse_m"] = {
+            .value = times * (0.02 + 0.001 * static_cast<double>(seed * seed % 7)),
+            .unit = "m",
+            .alignment = "se3",
+            .n = 1,
+            .absent = ""};
+        run.artifacts["picture_0000"] =
+            fmt::format("runs/{}/frame_000040{}.jpg", RunId(run.spec), "_worst_error");
+        WriteFileAtomically(folder_ / name / run.artifacts["picture_0000"], name);
+        night.runs.push_back(run);
+      }
+    }
+    WriteFileAtomically(folder_ / name / "index.html", "");
+    return night;
+  }
+  std::string Page(const Results& before, const Results& after) const {
+    return ComparePage(Compare(before, after), {"out/old", &before, folder_ / "old"},
+                       {"out/new", &after, folder_ / "new"}, folder_ / "compared");
+  }
+
+  const fs::path folder_ = fs::temp_directory_path() / fmt::format("aisle_compare_{}", ::getpid());
+};
+
+TEST_F(ComparePageTest, NamesBothSidesAndLeadsToTheSeedAndItsFrames) {
+  const Results before = Night("old", 1), after = Night("new", 2);
+  const std::string page = Page(before, after);
+  EXPECT_THAT(page, HasSubstr("The largest change: ate_rmse_m of robust on a2 live, from "));
+  for (const char* told : {"out/old", "out/new", "commit_old", "commit_new", "cpu of new",
+                           "./aisle run old", "2026-01-31T02:00:00Z"}) {
+    EXPECT_THAT(page, HasSubstr(told));
+  }
+  EXPECT_THAT(page, HasSubstr("href=\"../new/index.html#scene_a2_live.html\""));
+  EXPECT_THAT(page, HasSubstr("before: robust, seed "));
+  std::size_t copied = 0;
+  for (const auto& entry : fs::directory_iterator(folder_ / "compared" / "pictures")) {
+    copied += entry.is_regular_file() ? 1 : 0;
+  }
+  EXPECT_EQ(copied, 2u);
+}
+
+TEST_F(ComparePageTest, SuitesThatShareNothingSayWhy) {
+  const Results before = Night("old", 1, "a"), after = Night("new", 1, "z");
+  EXPECT_THAT(Page(before, after), HasSubstr("Nothing can be compared: the two share no scene: a, "
+                                             "a2 before, z, z2 after."));
+}
+
+TEST_F(ComparePageTest, HostileNamesAreText) {
+  const std::string hostile = "\"><script>alert(1)</script>";
+  const Results before = Night("old", 1, hostile), after = Night("new", 3, hostile);
+  EXPECT_THAT(Page(before, after), Not(HasSubstr("<script>")));
+}
+
+}  // namespace
+}  // namespace aisle
