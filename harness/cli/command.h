@@ -29,6 +29,7 @@ void AddDoctorCommand(CLI::App* app, Action* action);
 void AddCompletionCommand(CLI::App* app, Action* action);
 void AddCompareCommand(CLI::App* app, Action* action);
 void AddBaselineCommand(CLI::App* app, Action* action);
+void AddBisectCommand(CLI::App* app, Action* action);
 
 // Commands of `bench`.
 void AddBenchAccuracy(CLI::App* bench, Action* action);

@@ -42,6 +42,7 @@ void AddCommands(CLI::App* app, Action* action) {
   AddReportCommand(app, action);
   AddCompareCommand(app, action);
   AddBaselineCommand(app, action);
+  AddBisectCommand(app, action);
   AddCheckCommand(app, action);
   AddDoctorCommand(app, action);
   AddCompletionCommand(app, action);

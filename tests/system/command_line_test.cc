@@ -26,7 +26,7 @@ class CommandLineTest : public ProgramTest {
 TEST_F(CommandLineTest, EveryCommandExplainsItselfByAnExample) {
   for (const char* command :
        {"run", "rerun", "merge", "preview", "gallery", "render", "slam", "vocabulary", "score",
-        "report", "compare", "baseline", "check", "doctor", "completion"}) {
+        "report", "compare", "baseline", "bisect", "check", "doctor", "completion"}) {
     const Said said = Run({command, "--help"});
     EXPECT_EQ(said.code, 0) << command;
     EXPECT_THAT(said.text, HasSubstr(std::string("Example: "))) << command;
