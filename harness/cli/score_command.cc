@@ -23,6 +23,7 @@ struct Options {
   double delta = 1;
   double rate_hz = 0;
   std::size_t align_first = 0;
+  bool all = false;  ///< every score, not the six that matter
   bool all_pairs = false, along_estimate = false, list = false, json = false;
 };
 
@@ -85,15 +86,66 @@ std::string AlignmentInWords(const ScoreOptions& options) {
   return fmt::format("{} on the first {} pairs", name, options.alignment.first_n);
 }
 
+/// What a person asks first; --all has the rest.
+struct Asked {
+  const char* score;
+  const char* rule;
+};
+constexpr Asked kAsked[] = {
+    {"ate_rmse_m", "root mean square distance of the poses from truth, aligned as above"},
+    {"ate_max_m", "the largest of these distances"},
+    {"rpe_trans_rmse_m", "root mean square error of the motion over the step above"},
+    {"rpe_rot_rmse_deg", "the same of the rotation"},
+    {"t_rel_percent", "KITTI's drift over 100 to 800 m, share of the way"},
+    {"coverage", "share of the frames that have a pose: read it before any error"}};
+
+bool IsAsked(const std::string& name, bool all) {
+  return all || std::any_of(std::begin(kAsked), std::end(kAsked),
+                            [&](const Asked& asked) { return name == asked.score; });
+}
+
+/// A path long enough to be told from the others: from the first folder in which they differ.
+std::vector<std::string> TellingNames(const std::vector<std::string>& files) {
+  std::size_t shared = 0;
+  if (files.size() > 1) {
+    const std::string& first = files.front();
+    const auto all_have = [&](std::size_t length) {
+      return std::all_of(files.begin(), files.end(), [&](const std::string& file) {
+        return file.compare(0, length, first, 0, length) == 0;
+      });
+    };
+    for (std::size_t slash = first.find('/'); slash != std::string::npos && all_have(slash + 1);
+         slash = first.find('/', slash + 1)) {
+      shared = slash + 1;
+    }
+  }
+  std::vector<std::string> names;
+  for (const std::string& file : files) names.push_back(Printable(file.substr(shared), 4096));
+  return names;
+}
+
+void PrintScores(const Scorecard& scores, bool all) {
+  if (all) {
+    for (const auto& [name, value] : scores) fmt::print("{:28} {}\n", name, ToText(value));
+    return;
+  }
+  for (const auto& [name, rule] : kAsked) {
+    const auto found = scores.find(name);
+    if (found == scores.end()) continue;
+    fmt::print("{:18} {:40} {}\n", name, ToText(found->second), rule);
+  }
+  fmt::print("\n{} more scores with --all\n", scores.size() - std::size(kAsked));
+}
+
 void PrintText(const TrajectoryScore& score, const ScoreOptions& options, std::size_t truth,
-               std::size_t estimate) {
+               std::size_t estimate, bool all) {
   fmt::print("association  {}: {} pairs of {} true and {} estimated poses\n", score.association,
              score.pairs.size(), truth, estimate);
   fmt::print("alignment    {}, scale {:.9g}\n", AlignmentInWords(options), score.alignment.scale);
   fmt::print("rpe          {}\n", Describe(options.relative));
   fmt::print("frames       {}; error_all_* count lost ones as failures\n\n",
              score.scores.at("coverage").n);
-  for (const auto& [name, value] : score.scores) fmt::print("{:28} {}\n", name, ToText(value));
+  PrintScores(score.scores, all);
   for (const std::string& note : score.notes) fmt::print("\nnote: {}\n", note);
 }
 
@@ -113,24 +165,28 @@ nlohmann::ordered_json ToJson(const TrajectoryScore& score, const ScoreOptions& 
 /// Several estimates side by side, a row per score. Where one has no value, `score` of it alone
 /// says why.
 void PrintTable(const std::vector<std::string>& files, const std::vector<TrajectoryScore>& scores,
-                const ScoreOptions& options) {
-  constexpr std::size_t kWidth = 16;
+                const ScoreOptions& options, bool all) {
+  const std::vector<std::string> names = TellingNames(files);
+  std::size_t width = 12;
+  for (const std::string& name : names)
+    width = std::max(width, std::min<std::size_t>(name.size(), 40));
   fmt::print("association  {}\nalignment    {}\nrpe          {}\n\n{:36}",
              scores.front().association, AlignmentInWords(options), Describe(options.relative), "");
-  for (const std::string& file : files) {
-    const std::string name = Printable(file, 4096);
-    fmt::print(" {:>{}}", name.substr(name.size() - std::min(name.size(), kWidth)), kWidth);
+  for (const std::string& name : names) {
+    fmt::print(" {:>{}}", name.substr(name.size() - std::min(name.size(), width)), width);
   }
   std::map<std::string, std::string> units;
   for (const TrajectoryScore& score : scores) {
-    for (const auto& [name, value] : score.scores) units[name] = value.unit;
+    for (const auto& [name, value] : score.scores) {
+      if (IsAsked(name, all)) units[name] = value.unit;
+    }
   }
   for (const auto& [name, unit] : units) {
     fmt::print("\n{:28} {:7}", name, unit == "1" ? "" : unit);
     for (const TrajectoryScore& score : scores) {
       const auto at = score.scores.find(name);
       const bool has = at != score.scores.end() && at->second.value;
-      fmt::print(" {:>{}}", has ? fmt::format("{:.6g}", *at->second.value) : "-", kWidth);
+      fmt::print(" {:>{}}", has ? fmt::format("{:.6g}", *at->second.value) : "-", width);
     }
   }
   fmt::print("\n");
@@ -205,13 +261,38 @@ int ScoreFiles(const Options& options) {
     fmt::print("{}",
                Dump(list.size() == 1 ? list.front() : nlohmann::ordered_json{{"estimates", list}}));
   } else if (scores.size() == 1) {
-    PrintText(scores.front(), score_options, truth.size(), poses);
+    PrintText(scores.front(), score_options, truth.size(), poses, options.all);
   } else {
-    PrintTable(options.estimates, scores, score_options);
+    PrintTable(options.estimates, scores, score_options, options.all);
   }
   const bool any = std::any_of(scores.begin(), scores.end(),
                                [](const TrajectoryScore& score) { return !score.pairs.empty(); });
   return any ? kAllPassed : kNothingToDo;
+}
+
+void AddMaskOptions(CLI::App* command, Options* options) {
+  auto* masks_truth = command->add_option("--masks-truth", options->masks_truth,
+                                          "folder of true masks: PNGs, black = static");
+  command->add_option("--masks", options->masks, "folder of masks to score, the same file names")
+      ->needs(masks_truth);
+  masks_truth->needs(command->get_option("--masks"));
+  auto* px = command
+                 ->add_option("--boundary-px", options->outline.px,
+                              "outlines meet within so many pixels (mask_boundary_f); default 3")
+                 ->check(NumberWithin(0, 1e4))
+                 ->needs(masks_truth);
+  auto* share = command
+                    ->add_option("--boundary-share", options->outline.share,
+                                 "within so much of the image's diagonal")
+                    ->check(NumberWithin(0, 1))
+                    ->needs(masks_truth)
+                    ->excludes(px);
+  command
+      ->add_flag("--boundary-davis", options->outline.davis,
+                 "as DAVIS's own program: its outline, 0.008 of the diagonal, mean over frames")
+      ->needs(masks_truth)
+      ->excludes(px)
+      ->excludes(share);
 }
 
 }  // namespace
@@ -249,28 +330,8 @@ void AddScoreCommand(CLI::App* app, Action* action) {
   command->add_flag("--all-pairs", options->all_pairs, "a relative error from every pose on");
   command->add_flag("--along-estimate", options->along_estimate,
                     "measure metres along the estimate, as evo does");
-  auto* masks_truth = command->add_option("--masks-truth", options->masks_truth,
-                                          "folder of true masks: PNGs, black = static");
-  command->add_option("--masks", options->masks, "folder of masks to score, the same file names")
-      ->needs(masks_truth);
-  masks_truth->needs(command->get_option("--masks"));
-  auto* px = command
-                 ->add_option("--boundary-px", options->outline.px,
-                              "outlines meet within so many pixels (mask_boundary_f); default 3")
-                 ->check(NumberWithin(0, 1e4))
-                 ->needs(masks_truth);
-  auto* share = command
-                    ->add_option("--boundary-share", options->outline.share,
-                                 "within so much of the image's diagonal")
-                    ->check(NumberWithin(0, 1))
-                    ->needs(masks_truth)
-                    ->excludes(px);
-  command
-      ->add_flag("--boundary-davis", options->outline.davis,
-                 "as DAVIS's own program: its outline, 0.008 of the diagonal, mean over frames")
-      ->needs(masks_truth)
-      ->excludes(px)
-      ->excludes(share);
+  AddMaskOptions(command, options.get());
+  command->add_flag("--all", options->all, "every score, not the six that matter most");
   command->add_flag("--list", options->list, "every score there is, with unit and meaning");
   command->add_flag("--json", options->json, "for programs");
   command->footer("Example: ./aisle score --truth gt.txt --estimate slam.txt --align se3");
