@@ -31,8 +31,7 @@ struct Instant {
 };
 
 Instant InstantOf(const FramePicture& picture, const std::vector<FrameRow>& rows) {
-  Instant instant{fmt::format("frame {}", picture.frame),
-                  fmt::format(" data-frame=\"{}\"", picture.frame)};
+  Instant instant{fmt::format("frame {}", picture.frame), ""};
   if (picture.frame >= rows.size()) {
     if (!picture.lead.empty()) instant.words += "; " + picture.lead;
     return instant;
@@ -40,7 +39,7 @@ Instant InstantOf(const FramePicture& picture, const std::vector<FrameRow>& rows
   const FrameRow& row = rows[picture.frame];
   const double time_s = static_cast<double>(row.stamp_ns - rows.front().stamp_ns) * 1e-9;
   instant.words += fmt::format(", {:.2f} s", time_s);
-  instant.data += fmt::format(" data-s=\"{:.3f}\" data-at=\"{:.3f} {:.3f} {:.3f}\"", time_s,
+  instant.data += fmt::format(" data-s=\"{:.3f}\" data-at=\"{:.2f} {:.2f} {:.2f}\"", time_s,
                               row.truth_m.x(), row.truth_m.y(), row.truth_m.z());
   if (row.live_error_m) instant.words += fmt::format(": off by {:.1f} cm", 100 * *row.live_error_m);
   instant.words += fmt::format(", movers fill {:.1f} %", 100 * row.movers_share);
