@@ -192,9 +192,9 @@ void Svg::Grid(const Axis& x, const Axis& y, const std::string& x_title, const s
   Text(x.from_px, top - 8, y_title, "axis");
   rest_ += fmt::format(
       "<rect x=\"{}\" y=\"{:g}\" width=\"{}\" height=\"{:g}\" class=\"panel\" data-x=\"{:g} {:g} "
-      "{:g} {:g}\" data-y=\"{:g} {:g} {:g} {:g}\" data-title=\"{}\"/>\n",
+      "{:g} {:g}\" data-y=\"{:g} {:g} {:g} {:g}\" data-title=\"{}\"{}/>\n",
       X(x.from_px), top, X(x.to_px - x.from_px), bottom - top, x.low, x.high, x.from_px, x.to_px,
-      y.low, y.high, y.from_px, y.to_px, Escape(y_title));
+      y.low, y.high, y.from_px, y.to_px, Escape(y_title), options.x_lines ? "" : " data-bare");
 }
 
 void Svg::GridAcross(const Axis& x, double top, double bottom, const std::string& title) {

@@ -62,7 +62,7 @@
 
   // --- Charts: the values under the pointer ---------------------------------------------------
   // A panel's data-x and data-y: the values at its two ends and where these are drawn, in the
-  // chart's own thousandths across and pixels down.
+  // chart's own thousandths across and pixels down. Where it is bare, values across say nothing.
   const axisOf = text => {
     const [low, high, from, to] = text.split(' ').map(Number);
     return {value: at => low + (at - from) / (to - from) * (high - low),
@@ -131,9 +131,8 @@
         }
         if (here.length > 0) values.push(`${panel.dataset.title}: ${here.join(', ')}`);
       }
-      const timed = svg.closest('figure').dataset.clock !== undefined || panels.length > 1;
-      readout.textContent =
-          `${timed ? `${x.value(across).toPrecision(4)}\n` : ''}${values.join('\n')}`;
+      const at = 'bare' in panels[0].dataset ? '' : `${x.value(across).toPrecision(4)}\n`;
+      readout.textContent = at + values.join('\n');
       place(across);
     };
     for (const panel of panels) panel.addEventListener('pointermove', show);
