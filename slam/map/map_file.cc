@@ -7,6 +7,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "slam/common/write_aside.h"
+
 namespace aisle::slam {
 namespace {
 
@@ -215,15 +217,7 @@ void SaveMap(const SavedMap& saved, const std::filesystem::path& file) {
   kContents(body, contents);
   Header header{{}, kVersion, 0, body.bytes().size(), Checksum(body.bytes())};
   std::memcpy(header.magic, kMagic, sizeof(kMagic));
-  const std::filesystem::path aside = file.string() + ".part";
-  {
-    std::ofstream out(aside, std::ios::binary);
-    out.write(reinterpret_cast<const char*>(&header), sizeof(header));
-    out.write(body.bytes().data(), static_cast<std::streamsize>(body.bytes().size()));
-    out.flush();
-    if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", aside.string()));
-  }
-  std::filesystem::rename(aside, file);
+  WriteAside(file, {{reinterpret_cast<const char*>(&header), sizeof(header)}, body.bytes()});
 }
 
 SavedMap LoadMap(const std::filesystem::path& file) {

@@ -14,7 +14,7 @@ struct SavedMap {
   Map map;
 };
 
-/// Writes a map: versioned, with a checksum, aside and then renamed. Throws std::runtime_error that
+/// Writes a map: versioned, with a checksum, whole or not at all. Throws std::runtime_error that
 /// names the file.
 void SaveMap(const SavedMap& saved, const std::filesystem::path& file);
 

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "slam/common/mix.h"
+#include "slam/common/write_aside.h"
 
 namespace aisle::slam {
 namespace {
@@ -188,15 +189,7 @@ void Vocabulary::Save(const std::filesystem::path& file) const {
   const std::size_t size = nodes_.size() * sizeof(Node);
   Header header{{}, kVersion, static_cast<std::uint32_t>(nodes_.size()), Checksum(bytes, size)};
   std::memcpy(header.magic, kMagic, sizeof(kMagic));
-  const std::filesystem::path aside = file.string() + ".part";
-  {
-    std::ofstream out(aside, std::ios::binary);
-    out.write(reinterpret_cast<const char*>(&header), sizeof(header));
-    out.write(bytes, static_cast<std::streamsize>(size));
-    out.flush();
-    if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", aside.string()));
-  }
-  std::filesystem::rename(aside, file);
+  WriteAside(file, {{reinterpret_cast<const char*>(&header), sizeof(header)}, {bytes, size}});
 }
 
 Vocabulary Vocabulary::Load(const std::filesystem::path& file) {

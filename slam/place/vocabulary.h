@@ -34,7 +34,7 @@ class Vocabulary {
 
   /// Throws std::runtime_error that names the file and what is wrong with it.
   static Vocabulary Load(const std::filesystem::path& file);
-  /// Written aside, then renamed.
+  /// Whole or not at all. Throws std::runtime_error that names the file.
   void Save(const std::filesystem::path& file) const;
 
   int words() const { return words_; }
