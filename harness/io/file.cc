@@ -57,23 +57,6 @@ fs::path AsideOf(const fs::path& path) {
   return path.parent_path() / name;
 }
 
-void MakeParent(const fs::path& path) {
-  if (!path.has_parent_path()) return;
-  std::error_code error;
-  fs::create_directories(path.parent_path(), error);
-  if (error == std::errc::not_a_directory || error == std::errc::file_exists ||
-      error == std::errc::filename_too_long) {
-    throw InputError(path.parent_path().string(), 0,
-                     error == std::errc::filename_too_long
-                         ? "is too long a name for a folder"
-                         : "is, or lies below, a file: a folder is needed");
-  }
-  if (error) {
-    throw MachineError(fmt::format("{}: cannot make the folder: {}", path.parent_path().string(),
-                                   error.message()));
-  }
-}
-
 /// Why a file that was asked for cannot be read: whoever named it, or the machine.
 [[noreturn]] void FailToRead(const fs::path& path) {
   const int error = errno;
@@ -122,8 +105,25 @@ int OpenBeneath(int folder, const std::string& name) {
 
 }  // namespace
 
+void MakeParentFolder(const fs::path& path) {
+  if (!path.has_parent_path()) return;
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
+  if (error == std::errc::not_a_directory || error == std::errc::file_exists ||
+      error == std::errc::filename_too_long) {
+    throw InputError(path.parent_path().string(), 0,
+                     error == std::errc::filename_too_long
+                         ? "is too long a name for a folder"
+                         : "is, or lies below, a file: a folder is needed");
+  }
+  if (error) {
+    throw MachineError(fmt::format("{}: cannot make the folder: {}", path.parent_path().string(),
+                                   error.message()));
+  }
+}
+
 void WriteFileAtomically(const fs::path& path, std::string_view bytes, Durability durability) {
-  MakeParent(path);
+  MakeParentFolder(path);
   const fs::path aside = AsideOf(path);
   const bool flush = durability == Durability::kSurvivesPowerLoss;
   try {

@@ -12,6 +12,10 @@ enum class Durability {
                          ///< may
 };
 
+/// Makes the folders above a file, those that are missing. Throws MachineError, and InputError
+/// where the path cannot be one of a file: below a file, or too long.
+void MakeParentFolder(const std::filesystem::path& path);
+
 /// Writes aside, flushes to the disk, then renames: under the final name stands either the old file
 /// or the whole new one, whenever the power goes. Makes missing folders. Throws MachineError, and
 /// InputError where the path cannot be one of a file: below a file, or too long.

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <utility>
 
+#include "harness/io/file.h"
 #include "harness/io/input_error.h"
 
 namespace aisle {
@@ -16,8 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 int Open(const fs::path& file) {
-  std::error_code error;
-  fs::create_directories(file.parent_path(), error);
+  MakeParentFolder(file);
   const int opened = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (opened < 0) {
     throw MachineError(

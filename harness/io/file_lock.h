@@ -8,9 +8,10 @@ namespace aisle {
 /// Held by one process of all; let go when it ends, however that happens. The file stays.
 class FileLock {
  public:
-  /// Waits until nobody else holds it. Makes the file and its folder. Throws MachineError.
+  /// Waits until nobody else holds it. Makes the file and its folder. Throws MachineError,
+  /// and InputError where there can be no such folder.
   explicit FileLock(const std::filesystem::path& file);
-  /// None where somebody else holds it. Throws MachineError.
+  /// None where somebody else holds it. Throws likewise.
   static std::optional<FileLock> Try(const std::filesystem::path& file);
 
   FileLock(FileLock&& other) noexcept;

@@ -223,6 +223,9 @@ TEST_F(BrokenInputTest, NumbersThatAreNoneOrTooLarge) {
   const Said file = Run({"run", scene_, "--out", poses}, 30);
   EXPECT_EQ(file.code, 4);
   EXPECT_THAT(file.text, testing::HasSubstr("t.txt: is a file: --out needs a folder"));
+  const Said below = Run({"run", scene_, "--out", poses + "/night"}, 30);
+  EXPECT_EQ(below.code, 4);
+  EXPECT_THAT(below.text, testing::HasSubstr("t.txt/night: is, or lies below, a file"));
 }
 
 TEST_F(BrokenInputTest, HostileNamesDoNoHarm) {
