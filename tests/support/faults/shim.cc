@@ -1,13 +1,17 @@
-// Preloaded into the program and all that it starts: makes one call of one kind fail.
+// Preloaded into the program and all that it starts: makes calls of one kind fail.
 //
-//   AISLE_FAULT=write:17:28   the 17th write (of all processes together) fails with errno 28
-//   AISLE_FAULT=write:0:0     none fails: the calls are counted
+//   AISLE_FAULT=write:17:28      the 17th write (of all processes together) fails with errno 28
+//   AISLE_FAULT=write:0:0        none fails: the calls are counted
+//   AISLE_FAULT=readonly:17:30   whatever changes files, from the 17th on, fails with errno 30
+//   AISLE_FAULT=clock:17:-3600   from the 17th look at it on, the wall clock is an hour behind
 //   AISLE_FAULT_BELOW=DIR     only calls on files below this folder count; mmap and fork always do
 //   AISLE_FAULT_COUNT=FILE    eight bytes, 0 in the beginning: where they count together
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/time.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -78,6 +82,15 @@ bool Fails(const char* kind) {
   return true;
 }
 
+/// The same, for all calls from that one on.
+bool FailsFromThen(const char* kind) {
+  const Plan& plan = ThePlan();
+  if (plan.count == nullptr || std::strcmp(kind, plan.kind) != 0) return false;
+  if (plan.count->fetch_add(1) + 1 < plan.at || plan.at == 0) return false;
+  errno = plan.error;
+  return true;
+}
+
 bool IsOurs(const char* kind) { return std::strcmp(kind, ThePlan().kind) == 0; }
 
 }  // namespace
@@ -98,6 +111,7 @@ int fsync(int fd) {
 
 int rename(const char* from, const char* to) noexcept {
   if (IsOurs("rename") && IsBelow(to) && Fails("rename")) return -1;
+  if (IsOurs("readonly") && IsBelow(to) && FailsFromThen("readonly")) return -1;
   static const auto real = Real<int (*)(const char*, const char*)>("rename");
   return real(from, to);
 }
@@ -108,6 +122,8 @@ int open(const char* path, int flags, ...) {
   const mode_t mode = va_arg(more, mode_t);
   va_end(more);
   if (IsOurs("open") && IsBelow(path) && Fails("open")) return -1;
+  const bool changes = (flags & (O_WRONLY | O_RDWR | O_CREAT | O_TRUNC)) != 0;
+  if (changes && IsOurs("readonly") && IsBelow(path) && FailsFromThen("readonly")) return -1;
   static const auto real = Real<int (*)(const char*, int, ...)>("open");
   return real(path, flags, mode);
 }
@@ -124,6 +140,35 @@ void* mmap(void* at, std::size_t size, int protection, int flags, int fd, off_t 
   if (IsOurs("mmap") && Fails("mmap")) return MAP_FAILED;
   static const auto real = Real<void* (*)(void*, std::size_t, int, int, int, off_t)>("mmap");
   return real(at, size, protection, flags, fd, offset);
+}
+
+int mkdir(const char* path, mode_t mode) noexcept {
+  if (IsOurs("readonly") && IsBelow(path) && FailsFromThen("readonly")) return -1;
+  static const auto real = Real<int (*)(const char*, mode_t)>("mkdir");
+  return real(path, mode);
+}
+
+int unlink(const char* path) noexcept {
+  if (IsOurs("readonly") && IsBelow(path) && FailsFromThen("readonly")) return -1;
+  static const auto real = Real<int (*)(const char*)>("unlink");
+  return real(path);
+}
+
+/// The wall clock alone: no setting of it moves the monotonic one.
+int clock_gettime(clockid_t clock, timespec* now) noexcept {
+  static const auto real = Real<int (*)(clockid_t, timespec*)>("clock_gettime");
+  const int result = real(clock, now);
+  if (clock == CLOCK_REALTIME && IsOurs("clock") && FailsFromThen("clock")) {
+    now->tv_sec += ThePlan().error;
+  }
+  return result;
+}
+
+time_t time(time_t* seconds) noexcept {
+  timespec now{};
+  ::clock_gettime(CLOCK_REALTIME, &now);
+  if (seconds != nullptr) *seconds = now.tv_sec;
+  return now.tv_sec;
 }
 
 pid_t fork() noexcept {
