@@ -49,6 +49,8 @@ cv::Mat3f TraceForeignPicture(const std::string& file, const ForeignPictureOptio
   try {
     return sim::TraceForeignScene(
         file, {.samples = options.samples, .depth = options.depth, .threads = options.threads});
+  } catch (const std::system_error& error) {  // no memory, no process to read a model in
+    throw MachineError(error.what());
   } catch (const std::runtime_error& error) {
     throw InputError(error.what());
   }

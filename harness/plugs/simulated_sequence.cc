@@ -164,9 +164,10 @@ sim::Simulator OpenSimulator(const SimulatedSequenceOptions& options) {
                                  .threads = options.threads,
                                  .isa = options.isa,
                                  .light_progress = LightBar(options.scene_name)});
-  } catch (const std::system_error& error) {
-    if (error.code() == std::errc::not_enough_memory) throw MachineError(error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
     throw InputError(error.what());
+  } catch (const std::system_error& error) {  // no memory, no process to read a model in
+    throw MachineError(error.what());
   } catch (const std::runtime_error& error) {
     throw InputError(error.what());
   }

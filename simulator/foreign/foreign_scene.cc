@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "simulator/mesh/gltf_value.h"
-#include "simulator/mesh/import.h"
+#include "simulator/mesh/door/read_model.h"
 
 namespace aisle::sim {
 namespace {
@@ -181,7 +181,7 @@ class Reader {
       ImportOptions options;
       options.frame = ModelFrame::kAsStored;
       options.root = folder_;
-      TriangleMesh mesh = ImportModel(folder_ / name.Text(), options).mesh;
+      TriangleMesh mesh = ReadModel(folder_ / name.Text(), options).mesh;
       const Eigen::Affine3f transform = Transform(shape);
       const Eigen::Matrix3f of_normals = transform.linear().inverse().transpose();
       for (Eigen::Vector3f& p : mesh.positions) p = transform * p;

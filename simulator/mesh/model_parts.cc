@@ -1,12 +1,12 @@
 #include "simulator/mesh/model_parts.h"
 
+#include "simulator/mesh/check_model.h"
 #include "simulator/mesh/pose.h"
 
 namespace aisle::sim {
 namespace {
 
 constexpr std::size_t kMaxIndex = 65535;  ///< joints and materials are counted in 16 bits
-constexpr int kTimesPerClip = 16;
 
 void Require(bool condition, const char* otherwise) {
   if (!condition) throw ImportError(otherwise);
@@ -103,51 +103,6 @@ void ComputeNormals(std::size_t first_vertex, std::size_t first_triangle, Model*
   }
 }
 
-/// For each joint the box around the vertices that follow it, where they are bound.
-std::vector<Eigen::AlignedBox3f> BoxesOfJoints(const Model& model) {
-  std::vector<Eigen::AlignedBox3f> boxes(model.joints.size());
-  for (std::size_t i = 0; i < model.weights.size(); ++i) {
-    const VertexWeights& follows = model.weights[i];
-    for (std::size_t k = 0; k < 4 && follows.weights[k] > 0; ++k) {
-      boxes[follows.joints[k]].extend(model.bind_positions[i]);
-    }
-  }
-  return boxes;
-}
-
-/// Whether every joint carries its box to within reach; what is blended from it is then as well.
-bool WithinReach(const Model& model, const std::vector<Eigen::AlignedBox3f>& boxes,
-                 const PoseLayer& layer, float reach) {
-  const std::vector<Eigen::Affine3f> matrices = JointMatrices(model, PoseNodes(model, {&layer, 1}));
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (boxes[i].isEmpty()) continue;
-    for (int corner = 0; corner < 8; ++corner) {
-      const auto at = static_cast<Eigen::AlignedBox3f::CornerType>(corner);
-      const Eigen::Vector3f placed = matrices[i] * boxes[i].corner(at);
-      if (!(placed.cwiseAbs().maxCoeff() <= reach)) return false;
-    }
-  }
-  return true;
-}
-
-void CheckClips(const ImportOptions& options, const Model& model) {
-  const std::vector<Eigen::AlignedBox3f> boxes = BoxesOfJoints(model);
-  // A joint may carry vertices that others hold back: thus the tenfold.
-  const float reach = 10 * options.max_reach_m;
-  for (std::size_t clip = 0; clip < model.clips.size(); ++clip) {
-    if (model.clips[clip].channels.empty()) continue;
-    for (int i = 0; i <= kTimesPerClip; ++i) {
-      const double share = std::min(static_cast<double>(i) / kTimesPerClip, 0.999999);
-      const PoseLayer layer{static_cast<int>(clip), share * model.clips[clip].duration_s, 1, -1};
-      if (WithinReach(model, boxes, layer, reach)) continue;
-      throw ImportError(
-          fmt::format("its clip '{}' takes it further than {} m from its origin; check its unit "
-                      "(metres) and its keys",
-                      model.clips[clip].name, reach));
-    }
-  }
-}
-
 }  // namespace
 
 void AddPart(const MeshPart& part, const ImportOptions& options, Model* model) {
@@ -171,20 +126,9 @@ void AddPart(const MeshPart& part, const ImportOptions& options, Model* model) {
 
 void FinishModel(const ImportOptions& options, Model* model) {
   Require(!model->mesh.triangles.empty(), "it has no triangles");
-  for (const std::uint16_t material : model->mesh.materials) {
-    Require(material < model->materials.size(), "a mesh names a material that does not exist");
-  }
   const NodeFrames rest = PoseNodes(*model, {});
   SkinVertices(*model, JointMatrices(*model, rest), &model->mesh.positions, &model->mesh.normals);
-  for (const Eigen::Vector3f& position : model->mesh.positions) {
-    Require(position.allFinite(), "a node's transformation is not finite");
-    if (position.cwiseAbs().maxCoeff() <= options.max_reach_m) continue;
-    throw ImportError(
-        fmt::format("a vertex lies at ({:.4g}, {:.4g}, {:.4g}) m; more than {} m from its origin "
-                    "no model is taken: check its unit (metres) and the scales of its nodes",
-                    position.x(), position.y(), position.z(), options.max_reach_m));
-  }
-  CheckClips(options, *model);
+  CheckModel(*model, options);
 }
 
 }  // namespace aisle::sim

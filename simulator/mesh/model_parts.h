@@ -26,9 +26,8 @@ struct MeshPart {
 /// of range, a number is not finite, weights are negative or all 0, or a limit is passed.
 void AddPart(const MeshPart& part, const ImportOptions& options, Model* model);
 
-/// Fills `model->mesh.positions` and normals with the rest pose. Throws ImportError when the model
-/// has no triangles, a material does not exist, or a vertex comes to lie further than
-/// ImportOptions::max_reach_m from the origin, at rest or at one of the times looked at in a clip.
+/// Fills `model->mesh.positions` and normals with the rest pose and holds the whole to CheckModel.
+/// Throws ImportError.
 void FinishModel(const ImportOptions& options, Model* model);
 
 }  // namespace aisle::sim

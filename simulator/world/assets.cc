@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "simulator/mesh/import.h"
+#include "simulator/mesh/door/read_model.h"
 
 namespace aisle::sim {
 namespace {
@@ -68,6 +68,12 @@ void ReadRects(const std::string& texture, const Json& asset,
   }
 }
 
+bool IsOwnTree(const std::filesystem::path& folder) {
+  std::error_code error;
+  return std::filesystem::equivalent(folder, std::filesystem::path(AISLE_SOURCE_DIR) / "assets",
+                                     error);
+}
+
 template <class Facts>
 const Facts& Find(const std::map<std::string, Facts>& known, const std::string& name,
                   const std::string& kind) {
@@ -81,7 +87,8 @@ const Facts& Find(const std::map<std::string, Facts>& known, const std::string& 
 
 }  // namespace
 
-AssetLibrary::AssetLibrary(std::filesystem::path folder) : folder_(std::move(folder)) {
+AssetLibrary::AssetLibrary(std::filesystem::path folder)
+    : folder_(std::move(folder)), is_own_(IsOwnTree(folder_)) {
   const std::filesystem::path file = folder_ / "manifest.json";
   std::ifstream stream(file);
   if (!stream) throw std::runtime_error(file.string() + ": there is no such file");
@@ -141,7 +148,9 @@ std::shared_ptr<const Model> AssetLibrary::Load(const std::string& asset) {
   if (!model) {
     ImportOptions options;
     options.root = folder_;
-    model = std::make_shared<const Model>(ImportModel(folder_ / (asset + ".glb"), options));
+    const std::filesystem::path file = folder_ / (asset + ".glb");
+    model = std::make_shared<const Model>(is_own_ ? ImportModel(file, options)
+                                                  : ReadModel(file, options));
   }
   return model;
 }

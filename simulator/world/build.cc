@@ -40,6 +40,8 @@ void ReadModels(const Scene& scene, AssetLibrary* assets) {
   const auto read = [&](const auto& spec, const std::string& whose, const auto& asset_of) {
     try {
       assets->Load(asset_of(spec.model));
+    } catch (const std::system_error&) {
+      throw;  // the machine's, not the model's
     } catch (const std::exception& error) {
       Refuse(scene, spec.model_mark, whose, error.what());
     }

@@ -1,2 +1,5 @@
 aisle_tests(simulator/mesh)
 target_compile_definitions(simulator_mesh_test PRIVATE AISLE_PYTHON="${Python3_EXECUTABLE}")
+aisle_tests(simulator/mesh/door)
+target_compile_definitions(simulator_mesh_door_test PRIVATE AISLE_PYTHON="${Python3_EXECUTABLE}")
+add_dependencies(simulator_mesh_door_test aisle_read_model)
