@@ -19,7 +19,7 @@ void CheckSlots(const MapContents& contents) {
   for (const Landmark& landmark : contents.landmarks) {
     use(landmark.id.slot);
     const std::int32_t next = contents.generations[static_cast<std::size_t>(landmark.id.slot)];
-    Demand(landmark.id.generation == next - 1, "a landmark is of another generation");
+    Demand(next > 0 && landmark.id.generation == next - 1, "a landmark is of another generation");
   }
   for (const std::int32_t slot : contents.vacant) use(slot);
   Demand(std::all_of(uses.begin(), uses.end(), [](int count) { return count == 1; }),

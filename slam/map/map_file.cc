@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -180,13 +181,64 @@ constexpr auto kContents = [](auto& file, auto& contents) {
   file.Value(contents.next_keyframe);
 };
 
+void Demand(bool holds, const char* rule) {
+  if (!holds) throw std::invalid_argument(rule);
+}
+
+bool IsPose(const Eigen::Isometry3d& pose) {
+  constexpr double kRounding = 1e-3;  // of many motions, one after the other
+  return pose.matrix().allFinite() &&
+         (pose.linear() * pose.linear().transpose()).isIdentity(kRounding) &&
+         pose.linear().determinant() > 0;
+}
+
+bool IsLevel(int level) {
+  constexpr int kMostLevels = 32;
+  return level >= 0 && level < kMostLevels;
+}
+
+/// The checksum tells accidents; these, what somebody has written on purpose or by another program.
+void CheckFrame(const Frame& frame, const StereoCamera& camera) {
+  Demand(std::isfinite(frame.scale) && frame.scale > 1, "a scale between levels is not above 1");
+  const std::size_t count = frame.features.keypoints.size();
+  Demand(frame.features.descriptors.size() == count && frame.measurements.size() == count,
+         "a keyframe's lists differ in length");
+  for (const Keypoint& keypoint : frame.features.keypoints) {
+    Demand(std::abs(keypoint.pixel.x) <= 2 * static_cast<float>(camera.width) &&
+               std::abs(keypoint.pixel.y) <= 2 * static_cast<float>(camera.height),
+           "a feature lies far outside the image");
+    Demand(IsLevel(keypoint.level), "a feature is of a level that does not exist");
+    Demand(std::isfinite(keypoint.angle_deg) && std::isfinite(keypoint.response),
+           "a feature is not finite");
+  }
+  for (const Measurement& measurement : frame.measurements) {
+    Demand(measurement.uvd.allFinite() && std::isfinite(measurement.u_in_d) &&
+               std::isfinite(measurement.sigma_px) && measurement.sigma_px > 0 &&
+               std::isfinite(measurement.sigma_d) && measurement.sigma_d >= 0,
+           "a measurement is not finite");
+  }
+}
+
+void CheckNumbers(const MapContents& contents, const StereoCamera& camera) {
+  for (const Keyframe& keyframe : contents.keyframes) {
+    Demand(IsPose(keyframe.T_world_rig), "a keyframe's pose is none");
+    CheckFrame(*keyframe.frame, camera);
+  }
+  for (const RetiredKeyframe& one : contents.retired) {
+    Demand(IsPose(one.T_heir_rig), "a keyframe's pose is none");
+  }
+  for (const Landmark& landmark : contents.landmarks) {
+    Demand(landmark.position.allFinite() && landmark.normal.allFinite() &&
+               std::isfinite(landmark.reference_distance_m),
+           "a landmark is not finite");
+    Demand(landmark.predicted >= 0 && landmark.found >= 0, "a landmark was seen less than never");
+    Demand(IsLevel(landmark.reference_level), "a landmark is of a level that does not exist");
+  }
+}
+
 /// What is not in the file but follows from it.
 void RebuildFrame(Keyframe& keyframe, const StereoCamera& camera) {
   auto frame = std::make_shared<Frame>(*keyframe.frame);
-  const std::size_t count = frame->features.keypoints.size();
-  if (frame->features.descriptors.size() != count || frame->measurements.size() != count) {
-    throw std::invalid_argument("a keyframe's lists differ in length");
-  }
   frame->grid = FeatureGrid(frame->features.keypoints, {camera.width, camera.height});
   keyframe.frame = frame;
 }
@@ -198,9 +250,13 @@ SavedMap Decode(Reader file) {
   if (const std::string error = Validate(saved.camera); !error.empty()) {
     throw std::invalid_argument(error);
   }
+  constexpr int kLargestSide = 16384;
+  Demand(saved.camera.width <= kLargestSide && saved.camera.height <= kLargestSide,
+         "its camera has too many pixels");
   kKeyframeId(file, saved.reference);
   kContents(file, contents);
   if (!file.at_end()) throw std::invalid_argument("something follows its end");
+  CheckNumbers(contents, saved.camera);
   for (Keyframe& keyframe : contents.keyframes) RebuildFrame(keyframe, saved.camera);
   saved.map = Map(contents);
   if (!saved.map.Find(saved.reference)) throw std::invalid_argument("it has no reference keyframe");

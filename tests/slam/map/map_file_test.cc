@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <limits>
 
 #include "tests/slam/mapping/ring_world.h"
 
@@ -122,6 +123,33 @@ TEST_F(MapFile, NoDamageGoesUnnoticed) {
   }
   Write(broken, whole + "x");
   EXPECT_THAT(ErrorOf(broken), testing::HasSubstr("is damaged"));
+}
+
+TEST_F(MapFile, NumbersThatNoMapHasAreRefusedThoughTheChecksumIsRight) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const auto expect_refused = [&](const char* what, auto&& spoil) {
+    SavedMap saved = UsedMap();
+    MapContents contents = saved.map.Contents();
+    auto frame = std::make_shared<Frame>(*contents.keyframes[0].frame);
+    spoil(contents, *frame, saved.camera);
+    contents.keyframes[0].frame = frame;
+    saved.map = Map(contents);
+    SaveMap(saved, file);
+    EXPECT_THAT(ErrorOf(file), testing::HasSubstr("is damaged: ")) << what;
+  };
+  expect_refused("no pixel",
+                 [&](auto&, Frame& f, auto&) { f.features.keypoints[0].pixel.x = nan; });
+  expect_refused("far pixel",
+                 [](auto&, Frame& f, auto&) { f.features.keypoints[0].pixel.y = 1e9f; });
+  expect_refused("level", [](auto&, Frame& f, auto&) { f.features.keypoints[0].level = 1 << 30; });
+  expect_refused("scale", [](auto&, Frame& f, auto&) { f.scale = 0; });
+  expect_refused("measured", [&](auto&, Frame& f, auto&) { f.measurements[0].uvd.z() = nan; });
+  expect_refused("image", [](auto&, auto&, StereoCamera& camera) { camera.width = 1 << 30; });
+  expect_refused("pose",
+                 [&](MapContents& c, auto&, auto&) { c.keyframes[0].T_world_rig.linear() *= 3; });
+  expect_refused("landmark",
+                 [&](MapContents& c, auto&, auto&) { c.landmarks[0].position.x() = nan; });
+  expect_refused("never", [](MapContents& c, auto&, auto&) { c.landmarks[0].found = -1; });
 }
 
 TEST_F(MapFile, WhatIsNoMapIsCalledThat) {
