@@ -105,14 +105,15 @@ Finding Tool(const std::string& program, const std::string& use) {
           there ? "" : "optional: apt-get install " + program};
 }
 
-/// Debian's packages that packages.txt of the source tree names.
+/// Debian's packages that packages.txt of the source tree names for every command.
 Finding Packages() {
   std::ifstream list(SourceDir() / "packages.txt");
   if (!list) return {"packages", Health::kLacking, "no packages.txt beside the program", ""};
   std::string line, missing;
   int count = 0;
   while (std::getline(list, line)) {
-    if (line.empty() || line.front() == '#') continue;
+    const bool for_one_command = line.find(':') != std::string::npos;
+    if (line.empty() || line.front() == '#' || for_one_command) continue;
     ++count;
     const bool there = fs::exists("/var/lib/dpkg/info/" + line + ".list") ||
                        fs::exists("/var/lib/dpkg/info/" + line + ":amd64.list");

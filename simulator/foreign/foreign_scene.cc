@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "simulator/mesh/gltf_value.h"
 #include "simulator/mesh/door/read_model.h"
+#include "simulator/mesh/gltf_value.h"
 
 namespace aisle::sim {
 namespace {

@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+"""Fuzzes the readers of bytes: builds the preset `fuzz` and lets every target run for a while.
+
+Usage: ./aisle fuzz [--minutes N | --seconds N] [--page reports/fuzz.md] [TARGET...]
+
+Each target (tests/fuzz/TARGET.cc) begins with its corpus under tests/fuzz/corpus and with what
+earlier runs found of interest (build/fuzz/corpus). An input that breaks a reader lies in
+build/fuzz/found afterwards; `build/fuzz/tests/fuzz/fuzz_TARGET FILE` shows it again. Exits with 1
+where something was found, with 77 without clang.
+"""
+
+import argparse
+import datetime
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+BUILD = ROOT / "build/fuzz"
+SINGLE_INPUT_S, MEMORY_MIB = 25, 3000
+SKIPPED = 77
+PAGE_HEAD = """# What fuzzing the readers found
+
+Written by `./aisle fuzz --page reports/fuzz.md`; libFuzzer of clang with ASan and UBSan. A target
+hands any bytes at all to one reader (`tests/fuzz`); a finding is whatever leaves it but the errors
+its header names.
+
+"""
+
+
+def targets():
+    return sorted(file.stem for file in (ROOT / "tests/fuzz").glob("*.cc") if file.stem != "replay")
+
+
+def build():
+    log = BUILD.with_suffix(".log")
+    log.parent.mkdir(exist_ok=True)
+    with open(log, "w") as out:
+        steps = [["cmake", "--preset", "fuzz"], ["cmake", "--build", "--preset", "fuzz"]]
+        for step in steps:
+            if subprocess.run(step, cwd=ROOT, stdout=out, stderr=out).returncode:
+                sys.exit(f"{' '.join(step)} failed; the whole log is {log}")
+
+
+def figure(pattern, text):
+    found = re.findall(pattern, text)
+    return int(found[-1]) if found else 0
+
+
+class Outcome:
+    """What one run of a target said of itself."""
+
+    def __init__(self, target, seconds, done):
+        text = done.stderr
+        self.target, self.seconds, self.failed = target, seconds, done.returncode != 0
+        self.inputs = figure(r"stat::number_of_executed_units:\s*(\d+)", text)
+        self.edges = figure(r"cov: (\d+)", text)
+        self.kept = figure(r"corp: (\d+)", text)
+        finding = re.search(r"^(?:==\d+==\s*)?(?:ERROR|SUMMARY|terminate|does not hold)[^\n]*", text,
+                            re.MULTILINE)
+        self.finding = finding.group(0) if finding else text[-300:].strip()
+
+
+def fuzz(target, seconds):
+    known, found = BUILD / "corpus" / target, BUILD / "found"
+    known.mkdir(parents=True, exist_ok=True)
+    found.mkdir(exist_ok=True)
+    command = [BUILD / "tests/fuzz" / f"fuzz_{target}", f"-max_total_time={seconds}",
+               f"-timeout={SINGLE_INPUT_S}", f"-rss_limit_mb={MEMORY_MIB}", "-print_final_stats=1",
+               "-seed=1", f"-artifact_prefix={found}/{target}-", known,
+               ROOT / "tests/fuzz/corpus" / target]
+    options = dict(os.environ, ASAN_OPTIONS="allocator_may_return_null=0:max_allocation_size_mb=2048",
+                   LSAN_OPTIONS=f"suppressions={ROOT}/tests/support/lsan.supp")
+    done = subprocess.run(command, env=options, capture_output=True, text=True, errors="replace",
+                          cwd=BUILD)
+    return Outcome(target, seconds, done)
+
+
+def page(outcomes):
+    version = subprocess.run(["clang++", "--version"], capture_output=True, text=True)
+    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True,
+                            text=True)
+    lines = [PAGE_HEAD + f"{datetime.date.today()}, commit {commit.stdout.strip()}, "
+             f"{version.stdout.splitlines()[0]}, {os.cpu_count()} cores.\n",
+             "| target | s | inputs | edges reached | inputs kept | found |",
+             "|---|---|---|---|---|---|"]
+    lines += [f"| {o.target} | {o.seconds} | {o.inputs} | {o.edges} | {o.kept} | "
+              f"{'**' + o.finding + '**' if o.failed else '0'} |" for o in outcomes]
+    lines.append(f"\n{sum(o.inputs for o in outcomes)} inputs in all, "
+                 f"{sum(o.failed for o in outcomes)} findings.\n")
+    return "\n".join(lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="aisle fuzz", description=__doc__.splitlines()[0])
+    parser.add_argument("targets", nargs="*", metavar="TARGET", help="default: all")
+    length = parser.add_mutually_exclusive_group()
+    length.add_argument("--minutes", type=float, help="of each target, 1 if nothing is said")
+    length.add_argument("--seconds", type=int, help="of each target")
+    parser.add_argument("--page", type=pathlib.Path, help="write the figures there")
+    options = parser.parse_args()
+    unknown = set(options.targets) - set(targets())
+    if unknown:
+        sys.exit(f"aisle fuzz: no target {', '.join(sorted(unknown))}; there are "
+                 f"{', '.join(targets())}")
+    if not shutil.which("clang++"):
+        print("aisle fuzz: clang is absent: apt-get install clang libclang-rt-14-dev",
+              file=sys.stderr)
+        return SKIPPED
+    build()
+    seconds = options.seconds or max(1, round(60 * (options.minutes or 1)))
+    outcomes = []
+    for target in options.targets or targets():
+        outcomes.append(fuzz(target, seconds))
+        last = outcomes[-1]
+        print(f"{target}: {last.inputs} inputs in {seconds} s, {last.edges} edges"
+              + (f": {last.finding}" if last.failed else ""), flush=True)
+    if options.page:
+        options.page.write_text(page(outcomes))
+    return 1 if any(outcome.failed for outcome in outcomes) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
