@@ -32,8 +32,8 @@ std::vector<double> Numbers(const std::string& text, const fs::path& file, std::
 /// A list of so many finite numbers under a key.
 std::vector<double> NumbersAt(const YAML::Node& node, const std::string& key, std::size_t count,
                               const fs::path& file) {
-  const YAML::Node list = node[key];
-  if (!list || !list.IsSequence() || list.size() != count) {
+  const YAML::Node list = node.IsMap() ? node[key] : YAML::Node();
+  if (!list.IsDefined() || !list.IsSequence() || list.size() != count) {
     throw InputError(file.string(), 0, fmt::format("key '{}' must hold {} numbers", key, count));
   }
   std::vector<double> numbers;
@@ -60,6 +60,11 @@ CameraCalibration ReadEurocSensor(const fs::path& file) {
   if (!root.IsMap() || !root["T_BS"]) throw InputError(file.string(), 0, "key 'T_BS' is missing");
   CameraCalibration camera;
   const std::vector<double> size = NumbersAt(root, "resolution", 2, file);
+  constexpr double kLargestSide = 16384;
+  if (!std::ranges::all_of(size, [](double side) { return side >= 1 && side <= kLargestSide; })) {
+    throw InputError(file.string(), 0,
+                     fmt::format("resolution {:g} x {:g} is none of a camera", size[0], size[1]));
+  }
   const std::vector<double> pinhole = NumbersAt(root, "intrinsics", 4, file);
   const std::vector<double> pose = NumbersAt(root["T_BS"], "data", 16, file);
   camera.width = static_cast<int>(size[0]);
