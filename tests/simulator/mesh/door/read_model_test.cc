@@ -107,7 +107,7 @@ template <class Mutate>
 void TryMutants(const Scratch& scratch, const std::string& name, const std::string& whole,
                 const Mutate& mutate) {
   int taken = 0, refused = 0, lost = 0;
-  const int count = MutantsWanted(25);
+  const int count = MutantsWanted(10);
   for (int seed = 0; seed < count; ++seed) {
     std::mt19937 random(static_cast<unsigned>(seed));
     const fs::path file = scratch.Write(name, mutate(whole, &random));
