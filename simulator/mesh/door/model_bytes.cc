@@ -79,7 +79,10 @@ template <class T>
 requires Plain<std::remove_const_t<T>>
 void Carry(auto& file, T& value) { file.Put(&value, sizeof(value)); }
 
-void CarryText(auto& file, auto& text) { file.Put(text.data(), file.Count(text, 1)); }
+void CarryText(auto& file, auto& text) {
+  const std::size_t count = file.Count(text, 1);  // moves the text's bytes
+  file.Put(text.data(), count);
+}
 
 /// Plain elements in one go.
 void CarryPlain(auto& file, auto& list) {
