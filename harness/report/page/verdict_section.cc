@@ -114,19 +114,21 @@ std::string VerdictSection(const Results& results, const std::vector<SceneRuns>&
   std::string lists = failed.empty() ? "" : List(failed, "broken, the worst above");
   if (!passed.empty()) {
     const std::string held = List(passed, "held");
-    lists += failed.empty() ? held
-                            : fmt::format("<details><summary>{} held</summary>{}</details>",
-                                          passed.size(), held);
+    constexpr std::size_t kShownHeld = 3;  // what held is no news
+    lists += failed.empty() && passed.size() <= kShownHeld
+                 ? held
+                 : fmt::format("<details><summary>{} held</summary>{}</details>", passed.size(),
+                               held);
   }
   std::string answer;
   for (const std::string& sentence : AnswerInWords(results)) {
     answer += "<p class=\"answer\">" + Escape(sentence) + "</p>\n";
   }
   return fmt::format(
-      "<h1>{}</h1>\n<p class=\"soft\">{}</p>\n<div class=\"verdict {}\"><strong>{}</strong>{}"
-      "</div>\n{}{}",
-      Escape(results.suite), Escape(results.question), css, Headline(results, failed.size(), flaky),
-      lists, answer, FailureRate(results.runs));
+      "<h1>{}</h1>\n<p class=\"soft\">{}</p>\n{}<div class=\"verdict {}\"><strong>{}</strong>{}"
+      "</div>\n{}",
+      Escape(results.suite), Escape(results.question), answer, css,
+      Headline(results, failed.size(), flaky), lists, FailureRate(results.runs));
 }
 
 }  // namespace aisle
