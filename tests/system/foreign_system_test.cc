@@ -259,7 +259,7 @@ TEST_F(ForeignSystemTest, LeavesWhatNobodyShouldOpen) {
       {"large", "is larger than the allowed"},
       {"folder", "is no regular file"},
       {"still", "is the first column the time?"},
-      {"shell", "signal 11 (Segmentation fault)"}};
+      {"shell", "signal 11, SIGSEGV"}};
   for (const auto& [system, why] : expected) {
     const RunRecord& run = Find(results, system);
     EXPECT_TRUE(run.status == RunStatus::kInvalid || run.status == RunStatus::kCrashed) << system;

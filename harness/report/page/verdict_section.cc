@@ -115,10 +115,10 @@ std::string VerdictSection(const Results& results, const std::vector<SceneRuns>&
   if (!passed.empty()) {
     const std::string held = List(passed, "held");
     constexpr std::size_t kShownHeld = 3;  // what held is no news
-    lists += failed.empty() && passed.size() <= kShownHeld
-                 ? held
-                 : fmt::format("<details><summary>{} held</summary>{}</details>", passed.size(),
-                               held);
+    lists +=
+        failed.empty() && passed.size() <= kShownHeld
+            ? held
+            : fmt::format("<details><summary>{} held</summary>{}</details>", passed.size(), held);
   }
   std::string answer;
   for (const std::string& sentence : AnswerInWords(results)) {
