@@ -51,7 +51,7 @@ void ShrinkCaches() {
 }
 
 bool IsFailure(const std::optional<RunRecord>& record) {
-  return record && record->status != RunStatus::kOk && record->status != RunStatus::kLost;
+  return record && !IsComplete(record->status);
 }
 
 /// Follows the runs as they come and go.

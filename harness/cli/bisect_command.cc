@@ -58,7 +58,7 @@ CommitTrial Judge(const std::string& commit, const std::vector<RunRecord>& runs,
   std::vector<const RunRecord*> all;
   for (const RunRecord& run : runs) {
     all.push_back(&run);
-    if (run.status == RunStatus::kOk || run.status == RunStatus::kLost) continue;
+    if (IsComplete(run.status)) continue;
     trial.why = Name(run.status) + ": " + run.status_why;
     trial.state = question.score.empty() ? CommitState::kBad : CommitState::kCannotTell;
     return trial;

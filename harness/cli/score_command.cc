@@ -129,12 +129,14 @@ void PrintScores(const Scorecard& scores, bool all) {
     for (const auto& [name, value] : scores) fmt::print("{:28} {}\n", name, ToText(value));
     return;
   }
+  std::size_t left = scores.size();
   for (const auto& [name, rule] : kAsked) {
     const auto found = scores.find(name);
     if (found == scores.end()) continue;
+    --left;
     fmt::print("{:18} {:40} {}\n", name, ToText(found->second), rule);
   }
-  fmt::print("\n{} more scores with --all\n", scores.size() - std::size(kAsked));
+  fmt::print("\n{} more scores with --all\n", left);
 }
 
 void PrintText(const TrajectoryScore& score, const ScoreOptions& options, std::size_t truth,

@@ -32,6 +32,10 @@ enum class RunStatus {
   kTimeout,  ///< out of time or memory
   kInvalid,  ///< NaN, unordered or foreign stamps
 };
+/// Whether the system answered to the end, however many frames it lost; else the run has failed.
+inline bool IsComplete(RunStatus status) {
+  return status == RunStatus::kOk || status == RunStatus::kLost;
+}
 
 /// What became of one moving object in one frame.
 struct ObjectOutcome {

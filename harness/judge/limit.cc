@@ -89,7 +89,7 @@ std::string Filters(const Limit& limit) {
 std::vector<Verdict> JudgeRuns(const std::vector<RunRecord>& runs) {
   std::vector<Verdict> verdicts;
   for (const RunRecord& run : runs) {
-    if (run.status == RunStatus::kOk || run.status == RunStatus::kLost) continue;
+    if (IsComplete(run.status)) continue;
     verdicts.push_back({.name = RunId(run.spec) + ": completes",
                         .passed = false,
                         .flaky = run.flaky,

@@ -136,7 +136,7 @@ TrendPoint PointOf(const Results& results, const SceneRuns& scene, const SystemR
     point.high = Quantile(values, 0.75);
   }
   for (const RunRecord* run : system.runs) {
-    point.failed += run->status != RunStatus::kOk && run->status != RunStatus::kLost ? 1 : 0;
+    point.failed += IsComplete(run->status) ? 0 : 1;
   }
   return point;
 }

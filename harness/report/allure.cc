@@ -148,7 +148,7 @@ void WriteAllure(const Results& results, const fs::path& report_dir, const fs::p
   const Folder folder(results, report_dir, into);
   for (const Verdict& verdict : results.verdicts) folder.Add(verdict);
   for (const RunRecord& run : results.runs) {
-    if (run.status == RunStatus::kOk || run.status == RunStatus::kLost) folder.Add(run);
+    if (IsComplete(run.status)) folder.Add(run);
   }
   folder.AddEnvironment();
 }

@@ -44,10 +44,6 @@ void AddRun(pugi::xml_node suite, const Results& results, const RunRecord& run) 
   Set(test, "time", fmt::format("{:.1f}", run.wall_s));
 }
 
-bool Completed(const RunRecord& run) {
-  return run.status == RunStatus::kOk || run.status == RunStatus::kLost;
-}
-
 void AddProperties(pugi::xml_node suite, const Results& results) {
   pugi::xml_node properties = suite.append_child("properties");
   const std::pair<const char*, std::string> named[] = {
@@ -90,8 +86,9 @@ std::string FailureText(const Verdict& verdict, const Results& results,
 std::string ToJunit(const Results& results, const std::filesystem::path& report_dir) {
   std::size_t failures = 0;
   for (const Verdict& verdict : results.verdicts) failures += verdict.passed ? 0 : 1;
-  const auto completed =
-      static_cast<std::size_t>(std::count_if(results.runs.begin(), results.runs.end(), Completed));
+  const auto completed = static_cast<std::size_t>(
+      std::count_if(results.runs.begin(), results.runs.end(),
+                    [](const RunRecord& run) { return IsComplete(run.status); }));
   pugi::xml_document document;
   pugi::xml_node root = document.append_child("testsuites");
   pugi::xml_node suite = root.append_child("testsuite");
@@ -107,7 +104,7 @@ std::string ToJunit(const Results& results, const std::filesystem::path& report_
   AddProperties(suite, results);
   for (const Verdict& verdict : results.verdicts) AddCase(suite, results, verdict, report_dir);
   for (const RunRecord& run : results.runs) {
-    if (Completed(run)) AddRun(suite, results, run);
+    if (IsComplete(run.status)) AddRun(suite, results, run);
   }
   std::ostringstream text;
   document.save(text, " ");

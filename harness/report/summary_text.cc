@@ -11,10 +11,8 @@ constexpr std::size_t kBroken = 6, kChanges = 5, kWidth = 160;
 std::string Headline(const Results& results) {
   const auto broken = std::count_if(results.verdicts.begin(), results.verdicts.end(),
                                     [](const Verdict& verdict) { return !verdict.passed; });
-  const auto failed =
-      std::count_if(results.runs.begin(), results.runs.end(), [](const RunRecord& run) {
-        return run.status != RunStatus::kOk && run.status != RunStatus::kLost;
-      });
+  const auto failed = std::count_if(results.runs.begin(), results.runs.end(),
+                                    [](const RunRecord& run) { return !IsComplete(run.status); });
   const std::string limits =
       results.verdicts.empty() ? "nothing was judged"
       : broken == 0            ? fmt::format("all {} limits held", results.verdicts.size())

@@ -41,17 +41,7 @@ FramePose PoseOfKeyframe(const Map& map, KeyframeId id) {
 MapEdit KeyframeFrom(const Map& map, const std::shared_ptr<const Frame>& frame,
                      const FramePose& pose, const StereoCamera& camera,
                      const CreateLandmarksOptions& options) {
-  Keyframe keyframe;
-  keyframe.id = map.NextKeyframeId();
-  keyframe.frame = frame;
-  keyframe.T_world_rig = Normalized(pose.pose.T_rig_world.inverse());
-  keyframe.parent = pose.local.reference;
-  keyframe.landmarks.resize(static_cast<std::size_t>(frame->size()));
-  for (std::size_t i = 0; i < pose.matches.size(); ++i) {
-    if (!pose.pose.inlier[i]) continue;
-    keyframe.landmarks[static_cast<std::size_t>(pose.matches[i].feature)] =
-        pose.matches[i].landmark;
-  }
+  Keyframe keyframe = KeyframeOf(map, frame, pose);
   MapEdit edit;
   edit.new_landmarks = CreateLandmarks(keyframe, camera, options);
   edit.new_keyframes = {std::move(keyframe)};

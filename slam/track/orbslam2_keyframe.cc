@@ -81,18 +81,7 @@ OrbSlam2Verdict OrbSlam2NeedsKeyframe(const Map& map, const Frame& frame, const 
 MapEdit OrbSlam2Keyframe(const Map& map, const std::shared_ptr<const Frame>& frame,
                          const FramePose& pose, const StereoCamera& camera,
                          const OrbSlam2Options& options) {
-  Keyframe keyframe;
-  keyframe.id = map.NextKeyframeId();
-  keyframe.frame = frame;
-  keyframe.T_world_rig = Normalized(pose.pose.T_rig_world.inverse());
-  keyframe.parent = pose.local.reference;
-  keyframe.landmarks.resize(static_cast<std::size_t>(frame->size()));
-  for (std::size_t i = 0; i < pose.matches.size(); ++i) {
-    const Match& match = pose.matches[i];
-    if (pose.pose.inlier[i]) {
-      keyframe.landmarks[static_cast<std::size_t>(match.feature)] = match.landmark;
-    }
-  }
+  Keyframe keyframe = KeyframeOf(map, frame, pose);
   MapEdit edit;
   const double least_disparity = camera.fx / options.close_baselines;
   int points = 0;  // of the nearest that are landmarks by now

@@ -159,6 +159,23 @@ std::optional<FramePose> FindAgain(const PlainContext& context, const TrackMemor
   return std::nullopt;
 }
 
+Keyframe KeyframeOf(const Map& map, const std::shared_ptr<const Frame>& frame,
+                    const FramePose& pose) {
+  Keyframe keyframe;
+  keyframe.id = map.NextKeyframeId();
+  keyframe.frame = frame;
+  keyframe.T_world_rig = Normalized(pose.pose.T_rig_world.inverse());
+  keyframe.parent = pose.local.reference;
+  keyframe.landmarks.resize(static_cast<std::size_t>(frame->size()));
+  for (std::size_t i = 0; i < pose.matches.size(); ++i) {
+    const Match& match = pose.matches[i];
+    if (pose.pose.inlier[i]) {
+      keyframe.landmarks[static_cast<std::size_t>(match.feature)] = match.landmark;
+    }
+  }
+  return keyframe;
+}
+
 std::optional<FramePose> LocateByKeyframe(const PlainContext& context, KeyframeId keyframe) {
   const auto first = RecogniseKeyframe(context, keyframe);
   return first ? RefineInLocalMap(context, *first) : std::nullopt;

@@ -43,4 +43,9 @@ std::optional<FramePose> FindAgain(const PlainContext& context, const TrackMemor
 /// Finds the frame by recognising one keyframe, without knowing where it might be.
 std::optional<FramePose> LocateByKeyframe(const PlainContext& context, KeyframeId keyframe);
 
+/// The next keyframe as a tracked frame becomes it: seen from the pose's reference, with the
+/// landmarks that the pose kept.
+Keyframe KeyframeOf(const Map& map, const std::shared_ptr<const Frame>& frame,
+                    const FramePose& pose);
+
 }  // namespace aisle::slam

@@ -1,14 +1,6 @@
-#include "simulator/mesh/import.h"
-#include "tests/fuzz/fuzz.h"
+#include "tests/fuzz/models.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace aisle;
-  sim::ImportOptions small;
-  small.max_texture_px = 512;
-  small.max_triangles = 100'000;
-  try {
-    sim::ImportModel(fuzz::AsFile(fuzz::Text(data, size), "fuzz.gltf"), small);
-  } catch (const sim::ImportError&) {
-  }
+  aisle::fuzz::ReadAsModel(data, size, "fuzz.gltf");
   return 0;
 }

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "harness/judge/twins.h"
+#include "harness/report/page/parts.h"
 
 namespace aisle {
 namespace {
@@ -50,15 +51,6 @@ std::vector<SceneErrors> CollectErrors(const Results& results) {
     }
   }
   return collected;
-}
-
-std::string Listed(const std::vector<std::string>& parts) {
-  std::string text;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (i > 0) text += i + 1 == parts.size() ? " and " : ", ";
-    text += parts[i];
-  }
-  return text;
 }
 
 std::string PercentInWords(double share) {

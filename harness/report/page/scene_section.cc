@@ -62,7 +62,7 @@ std::string Troubles(const std::vector<SystemRuns>& systems, const std::string& 
             Name(run->status), NameOf(system), SeedOf(run->spec), Escape(run->status_why),
             LastWordsOf(*run, root));
       }
-      if (run->status != RunStatus::kOk && run->status != RunStatus::kLost) continue;
+      if (!IsComplete(run->status)) continue;
       for (const std::string& note : run->notes) {
         text += fmt::format("<p>{}, {}: {}</p>\n", NameOf(system), SeedOf(run->spec), Escape(note));
       }

@@ -9,9 +9,7 @@
 namespace aisle {
 namespace {
 
-bool Failed(const RunRecord& run) {
-  return run.status != RunStatus::kOk && run.status != RunStatus::kLost;
-}
+bool Failed(const RunRecord& run) { return !IsComplete(run.status); }
 
 /// The score a verdict is about: what stands behind its last colon, up to a space.
 std::string ScoreOf(const Verdict& verdict) {
@@ -71,10 +69,7 @@ std::string List(const std::vector<std::string>& items, const std::string& word)
 
 /// How many runs failed, and what so many runs can say of the next ones.
 std::string FailureRate(const std::vector<RunRecord>& runs) {
-  const auto failed =
-      static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), [](const RunRecord& run) {
-        return run.status != RunStatus::kOk && run.status != RunStatus::kLost;
-      }));
+  const auto failed = static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), Failed));
   constexpr std::size_t kWorthSaying = 20;  // below, the bound is no news
   if (failed == 0 && runs.size() < kWorthSaying) return "";
   return fmt::format(

@@ -82,29 +82,24 @@ class Sampler {
   static constexpr std::size_t kPixels = kLanes / kSamples;  ///< a packet
 
   Sampler(const ShadingView& shading, std::span<const float> kept, const cv::Mat1f& radiance)
-      : instant_(shading.instant),
-        view_(shading.view),
-        image_(shading.image),
-        tables_(shading.tables),
-        frame_(shading.frame),
-        textures_(shading.textures),
+      : shading_(shading),
         kept_(kept),
         radiance_(radiance),
         // Half a pixel: the spacing of the samples.
-        step_{view_.rotation.col(0) * view_.rays->step_x * 0.5f,
-              view_.rotation.col(1) * view_.rays->step_y * 0.5f} {}
+        step_{shading_.view.rotation.col(0) * shading_.view.rays->step_x * 0.5f,
+              shading_.view.rotation.col(1) * shading_.view.rays->step_y * 0.5f} {}
 
   /// Up to kPixels pixels.
   void Sample(std::span<const PixelAt> pixels, GeometryMask geometries,
               std::vector<MixedPixel>* mixed) const {
-    const Rays8 rays = SampleRays(view_, pixels);
+    const Rays8 rays = SampleRays(shading_.view, pixels);
     Hits8 hits;
-    instant_.Intersect(rays, Coherence::kCoherent, geometries, &hits);
+    shading_.instant.Intersect(rays, Coherence::kCoherent, geometries, &hits);
     const std::size_t samples = pixels.size() * kSamples;
     std::array<float, kLanes> value;
     bool all_found = true;
     for (std::size_t k = 0; k < samples; ++k) {
-      value[k] = RadianceAround(image_, radiance_, pixels[k / kSamples], hits, k);
+      value[k] = RadianceAround(shading_.image, radiance_, pixels[k / kSamples], hits, k);
       all_found &= value[k] >= 0;
     }
     if (!all_found) {
@@ -113,7 +108,7 @@ class Sampler {
         if (value[k] >= 0) continue;
         value[k] = light[static_cast<int>(k)];
         if (hits.geometry[k] == 0) {
-          value[k] *= KeptNear(image_, kept_, pixels[k / kSamples], hits.t[k]);
+          value[k] *= KeptNear(shading_.image, kept_, pixels[k / kSamples], hits.t[k]);
         }
       }
     }
@@ -127,15 +122,11 @@ class Sampler {
  private:
   F8 LightOf(const Rays8& rays, const Hits8& hits) const {
     const F8x3 directions = {LoadF(rays.dx), LoadF(rays.dy), LoadF(rays.dz)};
-    return RadianceOfHits(tables_, frame_, textures_, directions, hits, step_);
+    return RadianceOfHits(shading_.tables, shading_.frame, shading_.textures, directions, hits,
+                          step_);
   }
 
-  const Instant& instant_;
-  const CameraView& view_;
-  const HitImage& image_;
-  const SurfaceTables& tables_;
-  const FrameLight& frame_;
-  const TexturePool& textures_;
+  const ShadingView& shading_;
   std::span<const float> kept_;
   const cv::Mat1f& radiance_;
   RayStep step_;

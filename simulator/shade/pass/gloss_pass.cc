@@ -60,21 +60,16 @@ struct Glossy8 {
 class Pass {
  public:
   explicit Pass(const ShadingView& shading)
-      : instant_(shading.instant),
-        view_(shading.view),
-        image_(shading.image),
-        tables_(shading.tables),
-        frame_(shading.frame),
-        textures_(shading.textures),
-        lamps_(shading.world().lights(), instant_.snapshot().light_scale),
-        step_{view_.rotation.col(0) * view_.rays->step_x * kFootprint,
-              view_.rotation.col(1) * view_.rays->step_y * kFootprint} {}
+      : shading_(shading),
+        lamps_(shading.world().lights(), shading_.instant.snapshot().light_scale),
+        step_{shading_.view.rotation.col(0) * shading_.view.rays->step_x * kFootprint,
+              shading_.view.rotation.col(1) * shading_.view.rays->step_y * kFootprint} {}
 
   Glossy8 Find(int x, int y) const {
-    const std::size_t i = image_.Index(x, y);
+    const std::size_t i = shading_.image.Index(x, y);
     Glossy8 found{.lanes = {},
-                  .geometry = LoadI(&image_.geometry[i]),
-                  .primitive = LoadI(&image_.primitive[i]),
+                  .geometry = LoadI(&shading_.image.geometry[i]),
+                  .primitive = LoadI(&shading_.image.primitive[i]),
                   .f0 = Wide(0),
                   .roughness = Wide(1)};
     const auto read = [&](I8 lanes, I8 record, const std::vector<SurfaceRecord>& records) {
@@ -84,11 +79,12 @@ class Pass {
       found.f0 = Select(lanes, Gather(&records[0].f0, offset), found.f0);
       found.roughness = Select(lanes, Gather(&records[0].roughness, offset), found.roughness);
     };
-    read(found.geometry == 0, found.primitive, tables_.statics());
+    read(found.geometry == 0, found.primitive, shading_.tables.statics());
     const I8 is_mover = found.geometry > 0;  // "nothing" is -1
     if (Any(is_mover)) {
-      const I8 base = GatherInt(tables_.mover_bases().data(), is_mover ? found.geometry - 1 : I8{});
-      read(is_mover, found.primitive + base, frame_.mover_records);
+      const I8 base =
+          GatherInt(shading_.tables.mover_bases().data(), is_mover ? found.geometry - 1 : I8{});
+      read(is_mover, found.primitive + base, shading_.frame.mover_records);
     }
     found.lanes = found.f0 > 0;
     return found;
@@ -96,10 +92,10 @@ class Pass {
 
   /// Unfiltered radiance of eight pixels, and the diffuse base's share of their reflectance.
   void Trace(int x, int y, const Glossy8& glossy, float* reflectance, float* raw) const {
-    const std::size_t i = image_.Index(x, y);
-    const Eigen::Matrix3f& r = view_.rotation;
-    const auto pixel = static_cast<std::size_t>(y * view_.rays->width + x);
-    const F8 cx = LoadF(&view_.rays->x[pixel]), cy = LoadF(&view_.rays->y[pixel]);
+    const std::size_t i = shading_.image.Index(x, y);
+    const Eigen::Matrix3f& r = shading_.view.rotation;
+    const auto pixel = static_cast<std::size_t>(y * shading_.view.rays->width + x);
+    const F8 cx = LoadF(&shading_.view.rays->x[pixel]), cy = LoadF(&shading_.view.rays->y[pixel]);
     const F8x3 d = {r(0, 0) * cx + r(0, 1) * cy + r(0, 2), r(1, 0) * cx + r(1, 1) * cy + r(1, 2),
                     r(2, 0) * cx + r(2, 1) * cy + r(2, 2)};
     const F8 inverse = -1 / Sqrt(Dot(d, d));
@@ -107,10 +103,10 @@ class Pass {
     const Frame8 basis(Normal(glossy, i, to_camera));
     F8x3 out = basis.ToLocal(to_camera);
     out.z = Max(out.z, Wide(kGrazing));
-    const F8 t = Select(glossy.lanes, LoadF(&image_.t[i]), Wide(0));
-    const LobePoints8 points{.position = {view_.origin.x() + t * d.x + kLift * basis.z.x,
-                                          view_.origin.y() + t * d.y + kLift * basis.z.y,
-                                          view_.origin.z() + t * d.z + kLift * basis.z.z},
+    const F8 t = Select(glossy.lanes, LoadF(&shading_.image.t[i]), Wide(0));
+    const LobePoints8 points{.position = {shading_.view.origin.x() + t * d.x + kLift * basis.z.x,
+                                          shading_.view.origin.y() + t * d.y + kLift * basis.z.y,
+                                          shading_.view.origin.z() + t * d.z + kLift * basis.z.z},
                              .basis = basis,
                              .out = out,
                              .f0 = glossy.f0,
@@ -121,7 +117,7 @@ class Pass {
     // the pattern, and counted twice.
     const I8 asked = glossy.lanes & (y % 2 ? ~broad : WideInt(-1));
     F8 light = MirroredRay(points, row, broad, asked) * Select(broad, Wide(2), Wide(1));
-    if (Any(broad)) light += lamps_.Mirrored(instant_, points, row.lamp, broad);
+    if (Any(broad)) light += lamps_.Mirrored(shading_.instant, points, row.lamp, broad);
     Store(Select(glossy.lanes, light, Wide(0)), raw + i);
     const F8 base = 1 - GlossShare(glossy.f0, glossy.roughness, out.z);
     const F8 old = LoadF(reflectance + i);
@@ -140,9 +136,10 @@ class Pass {
     if (!Any(up)) return Wide(0);
     const F8x3 to = points.basis.ToWorld(in);
     Hits8 hits;
-    instant_.Intersect(MakeRays(points.position, to, Wide(kInfinity), up), Coherence::kIncoherent,
-                       kEverything, &hits);
-    const F8 seen = RadianceOfHits(tables_, frame_, textures_, to, hits, step_);
+    shading_.instant.Intersect(MakeRays(points.position, to, Wide(kInfinity), up),
+                               Coherence::kIncoherent, kEverything, &hits);
+    const F8 seen =
+        RadianceOfHits(shading_.tables, shading_.frame, shading_.textures, to, hits, step_);
     const F8 alpha = points.roughness * points.roughness;
     const F8 weight = Fresnel(points.f0, across) * SmithMasking(in.z, alpha);
     return Select(up & ~(broad & OnLamps(hits)), weight * seen, Wide(0));
@@ -151,7 +148,8 @@ class Pass {
   I8 OnLamps(const Hits8& hits) const {
     I8 lamps{};
     for (int k = 0; k < kLanes; ++k) {
-      if (hits.geometry[k] == 0 && tables_.statics()[hits.primitive[k]].f0 < 0) lamps[k] = -1;
+      if (hits.geometry[k] == 0 && shading_.tables.statics()[hits.primitive[k]].f0 < 0)
+        lamps[k] = -1;
     }
     return lamps;
   }
@@ -162,11 +160,11 @@ class Pass {
     for (int k = 0; k < kLanes; ++k) {
       if (!glossy.lanes[k]) continue;
       const std::size_t i = pixel + static_cast<std::size_t>(k);
-      const MeshPlace place = tables_.PlaceOf(instant_, image_, i);
+      const MeshPlace place = shading_.tables.PlaceOf(shading_.instant, shading_.image, i);
       const Material& material =
-          tables_.world().materials()[place.topology.materials[place.triangle]];
-      const Eigen::Vector3f normal =
-          MappedNormal(place, material, textures_, image_.t[i] * view_.rays->step_x);
+          shading_.tables.world().materials()[place.topology.materials[place.triangle]];
+      const Eigen::Vector3f normal = MappedNormal(place, material, shading_.textures,
+                                                  shading_.image.t[i] * shading_.view.rays->step_x);
       n.x[k] = normal.x();
       n.y[k] = normal.y();
       n.z[k] = normal.z();
@@ -175,12 +173,7 @@ class Pass {
     return {n.x * side, n.y * side, n.z * side};
   }
 
-  const Instant& instant_;
-  const CameraView& view_;
-  const HitImage& image_;
-  const SurfaceTables& tables_;
-  const FrameLight& frame_;
-  const TexturePool& textures_;
+  const ShadingView& shading_;
   LobeLamps lamps_;
   RayStep step_;
   LobePattern pattern_;

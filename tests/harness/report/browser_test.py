@@ -68,11 +68,14 @@ class Server(http.server.SimpleHTTPRequestHandler):
         pass
 
 
-class ReportInBrowser(unittest.TestCase):
+class ServedReport(unittest.TestCase):
+    """What `write` makes in `folder`, served to a browser."""
+    write = []  # program and what follows the folder
+
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.mkdtemp(prefix='aisle_night_')
-        subprocess.run([WRITE_NIGHT, cls.folder, '3', '3'], check=True)
+        cls.folder = tempfile.mkdtemp(prefix='aisle_report_')
+        subprocess.run([cls.write[0], cls.folder, *cls.write[1:]], check=True)
         handler = functools.partial(Server, directory=cls.folder)
         cls.server = http.server.ThreadingHTTPServer(('127.0.0.1', 0), handler)
         threading.Thread(target=cls.server.serve_forever, daemon=True).start()
@@ -86,6 +89,8 @@ class ReportInBrowser(unittest.TestCase):
         cls.server.server_close()
         shutil.rmtree(cls.folder)
 
+
+class ReportInBrowser(ServedReport):
     def open(self, page, policy='plain', **how):
         self.browser.open(f'{self.root}/{policy}/{page}', **how)
         return self.browser
@@ -258,5 +263,5 @@ if __name__ == '__main__':
     if not CHROMIUM:
         print('no chromium: the report was not looked at (apt-get install chromium)')
         sys.exit(77)
-    WRITE_NIGHT = sys.argv.pop(1)
+    ReportInBrowser.write = [sys.argv.pop(1), '3', '3']
     unittest.main()

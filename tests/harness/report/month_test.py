@@ -6,40 +6,17 @@ where Chromium is absent.
 
 usage: month_test.py WRITE_MONTH
 """
-import functools
-import http.server
 import shutil
-import subprocess
 import sys
-import tempfile
-import threading
 import unittest
 
-from browser import Browser
-from browser_test import Server
+from browser_test import ServedReport
 
 CHROMIUM = shutil.which('chromium')
 LAST = '2026-01-30'
 
 
-class BadMonth(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.mkdtemp(prefix='aisle_month_')
-        subprocess.run([WRITE_MONTH, cls.folder], check=True)
-        handler = functools.partial(Server, directory=cls.folder)
-        cls.server = http.server.ThreadingHTTPServer(('127.0.0.1', 0), handler)
-        threading.Thread(target=cls.server.serve_forever, daemon=True).start()
-        cls.root = f'http://127.0.0.1:{cls.server.server_port}'
-        cls.browser = Browser(CHROMIUM)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.__exit__()
-        cls.server.shutdown()
-        cls.server.server_close()
-        shutil.rmtree(cls.folder)
-
+class BadMonth(ServedReport):
     def open(self, page='index.html', **how):
         self.browser.open(f'{self.root}/plain/{LAST}/{page}', **how)
         return self.browser
@@ -139,5 +116,5 @@ if __name__ == '__main__':
     if not CHROMIUM:
         print('no chromium: the month was not looked at (apt-get install chromium)')
         sys.exit(77)
-    WRITE_MONTH = sys.argv.pop(1)
+    BadMonth.write = [sys.argv.pop(1)]
     unittest.main()
