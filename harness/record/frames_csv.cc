@@ -84,6 +84,7 @@ class Cells {
   }
   double Required(const std::string& name) const { return Parse<double>(name); }
   std::int64_t Whole(const std::string& name) const { return Parse<std::int64_t>(name); }
+  int Count(const std::string& name) const { return Parse<int>(name); }
 
   /// NAME_x_m, NAME_y_m and NAME_z_m.
   std::optional<Eigen::Vector3d> Vector(const std::string& name) const {
@@ -100,7 +101,8 @@ class Cells {
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (error != std::errc() || end != cell.data() + cell.size()) {
       throw InputError(file_, number_,
-                       fmt::format("{} is '{}', not a number", name, Printable(cell)));
+                       fmt::format("{} is '{}', not {}", name, Printable(cell),
+                                   std::is_same_v<T, int> ? "a count" : "a number"));
     }
     return value;
   }
@@ -123,13 +125,11 @@ FrameRow RowFrom(const Cells& cells) {
   row.final_error_m = cells.Number("final_error_m");
   row.movers_share = cells.Required("movers_share");
   row.actors_share = cells.Required("actors_share");
-  row.features = static_cast<int>(cells.Whole("features"));
-  row.features_on_movers = static_cast<int>(cells.Whole("features_on_movers"));
-  row.inliers_on_movers = static_cast<int>(cells.Whole("inliers_on_movers"));
+  row.features = cells.Count("features");
+  row.features_on_movers = cells.Count("features_on_movers");
+  row.inliers_on_movers = cells.Count("inliers_on_movers");
   row.mask_iou = cells.Number("mask_iou");
-  if (const auto corners = cells.Number("corners_rejected")) {
-    row.corners_rejected = static_cast<int>(*corners);
-  }
+  if (cells.Number("corners_rejected")) row.corners_rejected = cells.Count("corners_rejected");
   row.difficulty = {.static_texture_share = cells.Number("static_texture_share"),
                     .flow_px = cells.Number("flow_px"),
                     .blur_px = cells.Number("blur_px"),

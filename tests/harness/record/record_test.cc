@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "harness/io/input_error.h"
 #include "harness/record/frames_csv.h"
 #include "tests/harness/record/night.h"
 
@@ -52,6 +53,23 @@ TEST_F(RecordTest, FramesOfAnotherVersionAreReadByTheirColumns) {
   EXPECT_EQ(rows[0].process_ms, 20.5);
   EXPECT_FALSE(rows[0].difficulty.parallax_px);
   EXPECT_FALSE(rows[0].live_m);
+}
+
+TEST_F(RecordTest, ACountOfAFrameThatIsNoneIsSaidWithItsLine) {
+  const RunResult run = MakeRun("a", "oracle", 1, 0.01);
+  std::vector<FrameRow> rows = MakeFrameRows(run, ScoreRun(run));
+  rows.resize(1);
+  rows[0].corners_rejected = 123456789;
+  std::string text = ToCsv(rows);
+  text.insert(text.find("123456789"), "9e");  // 9e123456789, and no int holds the next
+  EXPECT_THROW(FrameRowsFromCsv(text, "x"), InputError);
+  text.replace(text.find("9e"), 2, "99");
+  try {
+    FrameRowsFromCsv(text, "x");
+    ADD_FAILURE() << "read";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("x:2: corners_rejected is '99123456789', not a"));
+  }
 }
 
 }  // namespace
