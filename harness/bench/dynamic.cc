@@ -43,6 +43,7 @@ void Picture(const SequenceFrame& shown, const FrameEstimate& estimate, const st
 }  // namespace
 
 DynamicOfView& DynamicOfView::operator+=(const DynamicOfView& more) {
+  stretches += more.stretches;
   frames += more.frames;
   has_truth |= more.has_truth;
   masks += more.masks;
@@ -76,6 +77,8 @@ DynamicOfView MeasureDynamic(const BenchView& view, const DynamicBenchOptions& o
                  {.threads = options.source.threads, .draw_stages = options.draw_stages});
   DynamicOfView result;
   result.name = sequence->name();
+  result.view = view.text;
+  result.stretches = 1;
   std::vector<FrameFacts> facts;
   int index = 0;
   for (const FrameRequest& request : sequence->Schedule()) {

@@ -21,7 +21,9 @@ struct DynamicBenchOptions {
 
 /// What a system rejected on one stretch, or on several, beside what moved.
 struct DynamicOfView {
-  std::string name;
+  std::string name;   ///< of the scene or recording
+  std::string view;   ///< as it was asked for; of several, the first
+  int stretches = 0;  ///< how many are summed here
   int frames = 0;
   bool has_truth = false;
   MaskFacts masks;                         ///< summed

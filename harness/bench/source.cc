@@ -15,15 +15,16 @@ std::unique_ptr<Sequence> OpenSource(const BenchView& view, const BenchSource& s
   if (fs::is_directory(view.path)) {
     return OpenRecording(view.path, DatasetFormatFromName(source.format));
   }
+  const std::uint64_t seed = view.seed.value_or(source.seed);
   const SimulatedSequenceOptions simulation{.scene_file = view.path,
                                             .scene_name = view.scene,
                                             .assets_dir = view.assets_dir,
                                             .twin = source.twin,
-                                            .seed = source.seed,
+                                            .seed = seed,
                                             .threads = source.threads};
   if (source.frames_dir.empty()) return OpenSimulation(simulation);
   const fs::path kept =
-      fs::path(source.frames_dir) / fmt::format("{}_{}_{}", view.scene, source.twin, source.seed);
+      fs::path(source.frames_dir) / fmt::format("{}_{}_{}", view.scene, source.twin, seed);
   return OpenCached(FrameStore(kept),
                     [simulation](std::uint64_t* hash) { return OpenSimulation(simulation, hash); });
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "harness/contract/sequence.h"
@@ -24,6 +25,7 @@ struct BenchView {
   std::string path;             ///< the scene's file, or the recording's folder
   std::string scene = {};       ///< its name, "paper/scene2"; empty for a recording
   std::string assets_dir = {};  ///< meshes and textures of a scene; empty for a recording
+  std::optional<std::uint64_t> seed = {};  ///< of this view; none: the source's
   int from = 0, to = std::numeric_limits<int>::max();
 };
 

@@ -3,9 +3,12 @@
 #include "harness/bench/dynamic.h"
 #include "harness/cli/bench_source.h"
 #include "harness/cli/command.h"
+#include "harness/cli/dynamic_table.h"
 #include "harness/cli/system_choice.h"
 #include "harness/cli/terminal.h"
+#include "harness/cli/typed_command.h"
 #include "harness/io/file.h"
+#include "harness/report/block/block.h"
 #include "harness/score/front_end.h"
 #include "harness/score/mask_scores.h"
 #include "harness/score/scorecard.h"
@@ -17,7 +20,7 @@ struct Options {
   std::vector<std::string> views;
   DynamicBenchOptions bench;
   SystemChoice system{.name = "robust", .set = {}};
-  std::string json;
+  std::string views_file, json, into;
 };
 
 /// Stretches in which something of every kind moves: across, along the axis, slowly, filling the
@@ -28,39 +31,6 @@ const std::vector<std::string> kViews = {
     "weakness/pure_rotation:60-90", "weakness/optical_axis:40-80", "weakness/fill_60:40-80",
     "weakness/never_moves:60-90",
 };
-
-std::string Cell(const Score& score) {
-  return score.value ? fmt::format("{:8.3f}", *score.value) : fmt::format("{:>8}", "-");
-}
-
-/// How late the last of the large movers was found, and for how many frames one was lost.
-std::string LargeOverTime(const DynamicOfView& r) {
-  const auto large = r.spells.find("large");
-  if (large == r.spells.end()) return fmt::format("{:>8}{:>8}", "-", "-");
-  const Continuity c = Summarize(large->second);
-  const std::string after =
-      c.delay_max_s ? fmt::format("{}{:.2f}", c.never_found > 0 ? ">" : "", *c.delay_max_s) : "-";
-  const std::string gap = c.gap_max_frames ? fmt::format("{}", *c.gap_max_frames) : "-";
-  return fmt::format("{:>8}{:>8}", after, gap);
-}
-
-/// One line: objects by rectangle, large ones over time, then pixels.
-std::string Line(const std::string& name, const DynamicOfView& r) {
-  std::string line = fmt::format("{:28}{:7}", name, r.frames);
-  if (r.has_truth) {
-    const Detection objects = ObjectDetection(r.masks), large = LargeDetection(r.masks),
-                    pixels = PixelDetection(r.masks);
-    line += Cell(objects.precision) + Cell(objects.recall) + Cell(large.precision) +
-            Cell(large.recall) + LargeOverTime(r) + Cell(objects.iou) + Cell(pixels.iou) +
-            Cell(pixels.recall) + fmt::format("{:7.2f} %", 100 * r.static_wrong());
-  } else {
-    line += fmt::format("{:>81}", "-");
-  }
-  line += fmt::format("{:7.2f} %", 100 * r.rejected_share());
-  const auto dynamic = r.stage_ms.find("dynamic");
-  if (dynamic != r.stage_ms.end()) line += fmt::format("{:8.1f}", dynamic->second / r.frames);
-  return line;
-}
 
 nlohmann::json ToJson(const MoverSpell& spell) {
   nlohmann::json json = {{"instance", spell.instance},
@@ -113,35 +83,55 @@ nlohmann::json ToJson(const DynamicOfView& r) {
   return json;
 }
 
-int BenchDynamic(const Options& options) {
-  const DynamicBenchOptions& bench = options.bench;
-  const std::vector<std::string>& names = options.views.empty() ? kViews : options.views;
-  std::vector<BenchView> views;  // all of them, before the first is measured
-  for (const std::string& name : names) views.push_back(ParseView(name));
-  fmt::print(
-      "{}, after {} frames of warming "
-      "up\n{:28}{:>7}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}{:>8}\n",
-      bench.system.name, bench.warm_up, "view", "frames", "prec.", "recall", "large P", "large R",
-      "after s", "gap", "box IoU", "px IoU", "px rec.", "static", "all", "ms");
-  nlohmann::json rows = nlohmann::json::array();
+/// All of them, before the first is measured.
+std::vector<BenchView> ViewsOf(const Options& options) {
+  std::vector<BenchView> views;
+  if (!options.views_file.empty()) views = ReadViews(options.views_file);
+  const bool none = options.views.empty() && views.empty();
+  for (const std::string& name : none ? kViews : options.views) views.push_back(ParseView(name));
+  return views;
+}
+
+DynamicOfView Measure(const BenchView& view, const DynamicBenchOptions& bench) {
+  ProgressLine line;
+  return MeasureDynamic(view, bench, [&](const std::string& at) { line.Show(at); });
+}
+
+void PrintSum(const std::vector<DynamicOfView>& rows) {
   DynamicOfView sum;
-  for (const BenchView& view : views) {
-    ProgressLine line;
-    const DynamicOfView result =
-        MeasureDynamic(view, bench, [&](const std::string& at) { line.Show(at); });
-    line.Clear();
-    fmt::print("{}\n", Line(Abridged(view.text, 27), result));
-    std::fflush(stdout);
-    rows.push_back(ToJson(result));
-    sum += result;
+  for (const DynamicOfView& row : rows) sum += row;
+  const std::vector<DynamicOfView> scenes = ByScene(rows);
+  if (scenes.size() < rows.size()) {
+    for (const DynamicOfView& scene : scenes) {
+      fmt::print("{}\n", DynamicLine("all of " + Abridged(scene.name, 20), scene));
+    }
   }
-  fmt::print("{}\n", Line("all", sum));
+  fmt::print("{}\n", DynamicLine("all", sum));
   for (const auto& [stage, ms] : sum.mean_ms()) fmt::print("  {:26}{:9.2f} ms\n", stage, ms);
   if (const auto front_end = FrontEndOf(sum.mean_ms())) {
     fmt::print("front end: {:.2f} ms a frame, of which tracking {:.2f} ms\n", front_end->total(),
                front_end->tracking);
   }
-  if (!options.json.empty()) WriteFileAtomically(options.json, rows.dump(2) + "\n");
+}
+
+int BenchDynamic(const Options& options) {
+  const DynamicBenchOptions& bench = options.bench;
+  const std::vector<BenchView> views = ViewsOf(options);
+  const BlockPlace place = ParseBlockPlace(options.into, "views");
+  if (!options.into.empty()) WithBlock(ReadFile(place.file), place, "");  // before the first hour
+  fmt::print("{}, after {} frames of warming up\n{}\n", bench.system.name, bench.warm_up,
+             DynamicHeading());
+  nlohmann::json json = nlohmann::json::array();
+  std::vector<DynamicOfView> rows;
+  for (const BenchView& view : views) {
+    rows.push_back(Measure(view, bench));
+    fmt::print("{}\n", DynamicLine(Abridged(view.text, 27), rows.back()));
+    std::fflush(stdout);
+    json.push_back(ToJson(rows.back()));
+  }
+  PrintSum(rows);
+  if (!options.json.empty()) WriteFileAtomically(options.json, json.dump(2) + "\n");
+  if (!options.into.empty()) WriteBlock(place, DynamicTable(ByScene(rows)), TypedCommand());
   return kAllPassed;
 }
 
@@ -155,8 +145,10 @@ void AddBenchDynamic(CLI::App* bench, Action* action) {
       "image at 0.15 m/s or more; large P: share of the regions of 1 % or more of which a tenth or "
       "more moves), large movers over time, pixels, milliseconds");
   command->add_option("VIEWS", options->views,
-                      "scene or folder of a recording, :FROM-TO for some frames (default: ten "
-                      "stretches of the scenes)");
+                      "scene or folder of a recording, :FROM-TO for some frames, @SEED for a seed "
+                      "of its own (default: ten stretches of the scenes)");
+  command->add_option("--views", options->views_file,
+                      "a file of views, one a line; scenes/stretches has some");
   AddSystemChoice(command, &options->system);
   AddSourceOptions(command, &options->bench.source);
   command
@@ -171,6 +163,9 @@ void AddBenchDynamic(CLI::App* bench, Action* action) {
   command->add_option("--every", options->bench.every, "a picture every so many frames; default 10")
       ->check(CLI::Range(1, 100000));
   command->add_option("--json", options->json, "write counts and means there too");
+  command->add_option("--into", options->into,
+                      "PAGE or PAGE#BLOCK: rewrite that block of a Markdown page with the table; "
+                      "the block of a page alone is views");
   command->footer(
       "Over time, of large movers: after s, the longest that one which stays for 1 s or longer was "
       "not found (> where one never was); gap, the most frames in a row in which one once found "

@@ -1,5 +1,9 @@
 #include "harness/cli/bench_source.h"
 
+#include <charconv>
+#include <sstream>
+
+#include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/suite/suite.h"
@@ -20,18 +24,38 @@ void AddSourceOptions(CLI::App* command, BenchSource* source) {
   command->add_option("--threads", source->threads, "0: all");
 }
 
+namespace {
+
+/// Takes "@SEED" off the end of a view.
+std::optional<std::uint64_t> TakeSeed(std::string* text) {
+  const std::size_t at = text->rfind('@');
+  if (at == std::string::npos) return std::nullopt;
+  const char* const digits = text->data() + at + 1;
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(digits, text->data() + text->size(), seed);
+  if (error != std::errc() || end != text->data() + text->size()) {
+    throw InputError(Printable(*text) + ": expected a seed behind @, for example paper/scene2@3");
+  }
+  text->resize(at);
+  return seed;
+}
+
+}  // namespace
+
 BenchView ParseView(const std::string& text) {
   BenchView view{.text = text, .path = {}};
   std::string source = text;
-  const std::size_t colon = text.rfind(':');
+  // An existing folder may have any name.
+  if (!std::filesystem::is_directory(source)) view.seed = TakeSeed(&source);
+  const std::size_t colon = source.rfind(':');
   if (colon != std::string::npos) {
-    source = text.substr(0, colon);
     char rest = 0;
-    if (std::sscanf(text.c_str() + colon + 1, "%d-%d%c", &view.from, &view.to, &rest) != 2 ||
+    if (std::sscanf(source.c_str() + colon + 1, "%d-%d%c", &view.from, &view.to, &rest) != 2 ||
         view.from < 0 || view.to <= view.from) {
       throw InputError(Printable(text) +
                        ": expected SOURCE:FROM-TO, for example paper/scene2:90-130");
     }
+    source.resize(colon);
   }
   view.path = SceneFile(source);
   if (!std::filesystem::exists(view.path)) {
@@ -39,10 +63,30 @@ BenchView ParseView(const std::string& text) {
                      ": neither a scene (a file, or a name like paper/scene2) nor the folder of a "
                      "recording");
   }
-  if (std::filesystem::is_directory(view.path)) return view;
+  if (std::filesystem::is_directory(view.path)) {
+    if (!view.seed) return view;
+    throw InputError(Printable(text) + ": a recording has no seed; leave @ and what follows out");
+  }
   view.scene = SceneName(view.path);
   view.assets_dir = AssetsDir().string();
   return view;
+}
+
+std::vector<BenchView> ReadViews(const std::string& file) {
+  std::istringstream text(ReadFile(file));
+  std::vector<BenchView> views;
+  std::string line;
+  for (int number = 1; std::getline(text, line); ++number) {
+    line.erase(line.find_last_not_of(" \t\r") + 1);
+    if (line.empty() || line.starts_with('#')) continue;
+    try {
+      views.push_back(ParseView(line));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}:{}: {}", Printable(file), number, error.what()));
+    }
+  }
+  if (views.empty()) throw InputError(Printable(file) + ": no view in it; expected one a line");
+  return views;
 }
 
 }  // namespace aisle

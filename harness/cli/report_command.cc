@@ -20,8 +20,9 @@ int Rebuild(const Options& options) {
   const std::string& folder = options.folder;
   const Results results = ReadResults(folder);
   if (!options.into.empty()) {
-    WriteFileAtomically(options.into, WithTables(ReadFile(options.into), options.into, results));
-    fmt::print("tables: {}\n", options.into);
+    const BlockPlace place = ParseBlockPlace(options.into, "tables");
+    WriteFileAtomically(place.file, WithTables(ReadFile(place.file), place, results));
+    fmt::print("tables: {}\n", place.file);
     return kAllPassed;
   }
   WriteReport(results, folder, WithHistory(results, folder));
@@ -44,7 +45,8 @@ void AddReportCommand(CLI::App* app, Action* action) {
       command->add_flag("--json", options->json, "results.json on stdout instead of the table");
   command
       ->add_option("--into", options->into,
-                   "write the tables between the marks of this Markdown page, and no other page")
+                   "PAGE or PAGE#BLOCK: rewrite that block of a Markdown page with the paper's "
+                   "tables, and nothing else; the block of a page alone is tables")
       ->excludes(json);
   command->add_option("--allure", options->allure, "also write Allure results into this folder");
   command->footer(

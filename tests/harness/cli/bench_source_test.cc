@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "harness/io/input_error.h"
 
 namespace aisle {
@@ -34,8 +37,45 @@ TEST(ParseViewTest, AFolderIsARecording) {
 TEST(ParseViewTest, WhatIsNoStretchIsRefused) {
   for (const char* text :
        {"paper/scene2:", "paper/scene2:5", "paper/scene2:9-3", "paper/scene2:-1-3",
-        "paper/scene2:1-3x", "paper/scene22", "nowhere/at/all:1-2"}) {
+        "paper/scene2:1-3x", "paper/scene2@", "paper/scene2:1-3@x", "paper/scene2@1:1-3",
+        "paper/scene22", "nowhere/at/all:1-2"}) {
     EXPECT_THROW(ParseView(text), InputError) << text;
+  }
+}
+
+TEST(ParseViewTest, ASceneMayNameItsSeed) {
+  const BenchView view = ParseView("paper/scene2:90-130@4");
+  EXPECT_EQ(view.text, "paper/scene2:90-130@4");
+  EXPECT_EQ(view.to, 130);
+  EXPECT_EQ(view.seed, 4u);
+  EXPECT_EQ(ParseView("paper/scene2@12").seed, 12u);
+  EXPECT_FALSE(ParseView("paper/scene2").seed);
+  EXPECT_THROW(ParseView(AISLE_SOURCE_DIR "/tests:3-5@2"), InputError);
+}
+
+TEST(ReadViewsTest, ReadsOneALineAndNamesTheLineThatIsWrong) {
+  const std::string file = testing::TempDir() + "views.txt";
+  std::ofstream(file) << "# two\n\npaper/scene2:1-3@2\npaper/scene3  \n";
+  const std::vector<BenchView> views = ReadViews(file);
+  ASSERT_EQ(views.size(), 2u);
+  EXPECT_EQ(views[0].seed, 2u);
+  EXPECT_EQ(views[1].text, "paper/scene3");
+  std::ofstream(file) << "paper/scene2\npaper/scene2:9\n";
+  try {
+    ReadViews(file);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("views.txt:2: paper/scene2:9"), std::string::npos)
+        << error.what();
+  }
+  std::ofstream(file) << "# nothing\n";
+  EXPECT_THROW(ReadViews(file), InputError);
+}
+
+TEST(ReadViewsTest, EveryStretchOfTheTreeIsOne) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(AISLE_SOURCE_DIR "/scenes/stretches")) {
+    EXPECT_NO_THROW(ReadViews(entry.path())) << entry.path();
   }
 }
 

@@ -1,4 +1,4 @@
-foreach(part markup chart page picture)
+foreach(part block markup chart page picture)
   aisle_tests(harness/report/${part} LINKS harness_record_nights)
 endforeach()
 aisle_tests(harness/report/paper LINKS harness_record_nights)

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/bench/dynamic.h"
+
+namespace aisle {
+
+/// Names and figures of one row: objects by rectangle, large ones over time, pixels, time.
+std::string DynamicHeading();
+std::string DynamicLine(const std::string& name, const DynamicOfView& row);
+
+/// Sums over the stretches of each scene, in the order in which the scenes come; stretches as they
+/// are where no scene has two.
+std::vector<DynamicOfView> ByScene(const std::vector<DynamicOfView>& stretches);
+
+/// The rows and, where there are several, their sum, as Markdown. Times are left out: a page is
+/// read on other machines.
+std::string DynamicTable(const std::vector<DynamicOfView>& rows);
+
+}  // namespace aisle
