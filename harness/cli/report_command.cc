@@ -4,6 +4,7 @@
 #include "harness/io/file.h"
 #include "harness/judge/limit.h"
 #include "harness/report/allure.h"
+#include "harness/report/block/score_table.h"
 #include "harness/report/console.h"
 #include "harness/report/paper/into_page.h"
 #include "harness/report/report.h"
@@ -13,15 +14,26 @@ namespace {
 
 struct Options {
   std::string folder, into, allure;
+  std::vector<std::string> scores;
   bool json = false;
 };
+
+std::string WithScores(const std::string& page, const BlockPlace& place, const Results& results,
+                       const std::vector<std::string>& scores) {
+  return WithBlock(page, place,
+                   ScoreTable(results, scores) + "\n" +
+                       BlockFoot(results.provenance, results.rerun, results.started));
+}
 
 int Rebuild(const Options& options) {
   const std::string& folder = options.folder;
   const Results results = ReadResults(folder);
   if (!options.into.empty()) {
     const BlockPlace place = ParseBlockPlace(options.into, "tables");
-    WriteFileAtomically(place.file, WithTables(ReadFile(place.file), place, results));
+    const std::string page = ReadFile(place.file);
+    WriteFileAtomically(place.file, options.scores.empty()
+                                        ? WithTables(page, place, results)
+                                        : WithScores(page, place, results, options.scores));
     fmt::print("tables: {}\n", place.file);
     return kAllPassed;
   }
@@ -48,10 +60,17 @@ void AddReportCommand(CLI::App* app, Action* action) {
                    "PAGE or PAGE#BLOCK: rewrite that block of a Markdown page with the paper's "
                    "tables, and nothing else; the block of a page alone is tables")
       ->excludes(json);
+  command
+      ->add_option("--scores", options->scores,
+                   "with --into: these scores of every scene and system instead, A,B,C")
+      ->delimiter(',')
+      ->needs("--into");
   command->add_option("--allure", options->allure, "also write Allure results into this folder");
   command->footer(
       "Example: ./aisle report out/quickstart\n"
-      "         ./aisle report out/paper --into reports/paper.md");
+      "         ./aisle report out/paper --into reports/paper.md\n"
+      "         ./aisle report out/empty --into reports/slam.md#static --scores "
+      "ate_live_rmse_m,ate_rmse_m");
   command->callback([=] { *action = [=] { return Rebuild(*options); }; });
 }
 

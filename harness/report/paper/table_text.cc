@@ -1,3 +1,4 @@
+#include "harness/report/block/markdown_text.h"
 #include "harness/report/markup/html.h"
 #include "harness/report/paper/tables.h"
 
@@ -29,15 +30,6 @@ std::string LatexText(const std::string& text) {
       default:
         safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     }
-  }
-  return safe;
-}
-
-std::string MarkdownText(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '|' || c == '<' || c == '\\' || c == '`' || c == '*' || c == '[') safe += '\\';
-    safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
   }
   return safe;
 }
