@@ -9,6 +9,7 @@
 #include "harness/plugs/cached_sequence.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/systems.h"
+#include "harness/record/provenance.h"
 #include "harness/record/record.h"
 #include "harness/report/picture/frame_album.h"
 #include "harness/report/picture/stage_sheets.h"
@@ -63,8 +64,7 @@ RunRecord RecordOf(const Job& job, const RunResult& result, const RunScore& scor
 /// Where truth lies (the scene, those it extends, the frames and datasets) and what other runs and
 /// nights left.
 std::vector<std::filesystem::path> HiddenFromGuests(const Job& job) {
-  std::vector<std::filesystem::path> hidden{job.out, CacheDir(),
-                                            SourceDir() / "reports" / "baselines"};
+  std::vector<std::filesystem::path> hidden{job.out, CacheDir(), ShippedBaselines()};
   for (const std::string& file : FilesOfScene(job.spec.scene_file)) hidden.emplace_back(file);
   return hidden;
 }

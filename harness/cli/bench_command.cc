@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
 #include "harness/io/file.h"
 #include "harness/io/places.h"
@@ -54,8 +55,10 @@ void AddBenchRender(CLI::App* bench, Action* action) {
   const auto options = std::make_shared<RenderOptions>();
   CLI::App* command =
       bench->add_subcommand("render", "milliseconds a stereo pair, beside its bare primary rays");
-  command->add_option("SCENE", options->simulation.scene_file,
-                      "scene file (default: scenes/paper/scene3.yaml)");
+  command
+      ->add_option("SCENE", options->simulation.scene_file,
+                   "scene file (default: scenes/paper/scene3.yaml)")
+      ->transform(ByName());
   command->add_option("--frames", options->frames, "frames spread over the scene (default 20)")
       ->check(CLI::Range(2, 10000));
   command->add_option("--seed", options->simulation.seed, "of the scene; default 1");

@@ -79,13 +79,16 @@ int BenchRealism(const Options& options) {
     given.push_back(
         MeasurePictures(Printable(path.filename().string()), folder, options.pictures, show));
   }
-  const std::vector<PictureSet> real = MeasureRealPictures(options.data, options.pictures, show);
+  const fs::path data =
+      options.data.empty() ? OwnFolder() / "../shared/data" : fs::path(options.data);
+  const std::vector<PictureSet> real =
+      MeasureRealPictures(data.lexically_normal().string(), options.pictures, show);
   line.Clear();
   if (real.empty()) {
     fmt::print(
         "no real pictures at {}: --data FOLDER with euroc-v101-still, euroc-loop-pairs or "
         "kitti/sequences/06\n",
-        Printable(options.data));
+        Printable(data.lexically_normal().string()));
   }
   fmt::print("{}", Table(real, given));
   if (!options.into.empty()) WriteBlock(place, Table(real, given), TypedCommand());
@@ -109,7 +112,6 @@ std::string Definitions() {
 
 void AddBenchRealism(CLI::App* bench, Action* action) {
   const auto options = std::make_shared<Options>();
-  options->data = (SourceDir() / "../shared/data").lexically_normal().string();
   CLI::App* command = bench->add_subcommand(
       "realism", "contrast, corners, spectrum, tones and noise of pictures beside real cameras'");
   command
@@ -117,7 +119,7 @@ void AddBenchRealism(CLI::App* bench, Action* action) {
                    "folders of grey PNG pictures, or datasets in EuRoC's, KITTI's or TUM's layout")
       ->required();
   command->add_option("--data", options->data,
-                      fmt::format("folder of the real sets (default {})", options->data));
+                      "folder of the real sets (default: ../shared/data beside the source tree)");
   command->add_option("--pictures", options->pictures, "of a folder, at most, evenly (default 24)")
       ->check(CLI::Range(1, 100000));
   command->add_option("--json", options->json, "write every value there too");

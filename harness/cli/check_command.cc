@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "harness/campaign/inputs.h"
+#include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/simulated_sequence.h"
@@ -82,7 +83,9 @@ void AddCheckCommand(CLI::App* app, Action* action) {
   const auto files = std::make_shared<std::vector<std::string>>();
   const auto json = std::make_shared<bool>(false);
   CLI::App* command = app->add_subcommand("check", "validate scene and suite files");
-  command->add_option("FILE", *files, "scene or suite files, or folders of them")->required();
+  command->add_option("FILE", *files, "scene or suite files, or folders of them")
+      ->required()
+      ->transform(ByName());
   command->add_flag("--json", *json, "for programs");
   command->footer("Example: ./aisle check scenes");
   command->callback([=] { *action = [=] { return Check(*files, *json); }; });

@@ -5,6 +5,7 @@
 
 #include "harness/io/input_error.h"
 #include "harness/io/nearest_word.h"
+#include "harness/io/places.h"
 #include "harness/record/provenance.h"
 
 namespace aisle {
@@ -22,6 +23,17 @@ void Suggest(const CLI::App& app, const std::string& word) {
   if (!near.empty()) {
     fmt::print(stderr, "'{}' is no command; did you mean {}?\n", Printable(word), near);
   }
+}
+
+/// Examples speak of the launcher of a tree; an installed program is called by its name.
+void NameInExamples(CLI::App* app, const std::string& name) {
+  std::string footer = app->get_footer();
+  for (std::size_t at = 0; (at = footer.find("./aisle", at)) != std::string::npos;) {
+    footer.replace(at, std::string("./aisle").size(), name);
+    at += name.size();
+  }
+  app->footer(footer);
+  for (CLI::App* command : app->get_subcommands({})) NameInExamples(command, name);
 }
 
 }  // namespace
@@ -62,6 +74,7 @@ int RunCommandLine(int argc, const char* const* argv) {
       "Example: ./aisle run scenes/suites/quickstart.yaml");
   Action action;
   AddCommands(&app, &action);
+  NameInExamples(&app, OwnCommand());
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

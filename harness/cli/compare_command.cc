@@ -70,7 +70,7 @@ int CompareReports(const Options& options) {
 int SetBaseline(const std::string& folder, const std::string& to, bool json) {
   const Results baseline = BaselineOf(ReadResults(folder));
   const std::filesystem::path path =
-      to.empty() ? BaselinePath(baseline.suite) : std::filesystem::path(to);
+      to.empty() ? NewBaselinePath(baseline.suite) : std::filesystem::path(to);
   WriteFileAtomically(path, ToJson(baseline));
   if (const std::string blind = BlindFor(baseline); !blind.empty()) {
     fmt::print(stderr, "aisle: warning: {}\n", blind);

@@ -107,7 +107,8 @@ Finding Tool(const std::string& program, const std::string& use) {
 
 /// Debian's packages that packages.txt of the source tree names for every command.
 Finding Packages() {
-  std::ifstream list(SourceDir() / "packages.txt");
+  if (IsInstalled()) return {"packages", Health::kGood, "those that this one depends on", ""};
+  std::ifstream list(OwnFolder() / "packages.txt");
   if (!list) return {"packages", Health::kLacking, "no packages.txt beside the program", ""};
   std::string line, missing;
   int count = 0;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
 #include "harness/io/file.h"
 #include "harness/io/image.h"
@@ -179,13 +180,13 @@ int Gallery(const Options& options) {
   if (options.shares) return PrintShares(files, options);
   std::string page = fmt::format(
       "# Every scene\n\n"
-      "Made by `./aisle gallery {} -o {}`. In the pictures, red is what moves now, boxes are "
+      "Made by `{} gallery {} -o {}`. In the pictures, red is what moves now, boxes are "
       "people "
       "and vehicles with their speeds. In the layouts, red is the rig's way, blue the actors'. The "
       "row of blocks is the share of the image that people cover at {} times spread over the "
       "scene, "
       "an eighth of the image a step.\n\n",
-      fmt::join(options.places, " "), options.output, options.samples);
+      OwnCommand(), fmt::join(options.places, " "), options.output, options.samples);
   for (const std::string& file : files) {
     page += Describe(Photograph(file, options));
     fmt::print("{}\n", SceneName(file));
@@ -201,7 +202,9 @@ void AddGalleryCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command =
       app->add_subcommand("gallery", "pictures, layouts and people's image share of many scenes");
-  command->add_option("SCENE", options->places, "scene files or folders of them")->required();
+  command->add_option("SCENE", options->places, "scene files or folders of them")
+      ->required()
+      ->transform(ByName());
   command->add_option("-o,--out", options->output, "folder; default reports/gallery");
   command->add_option("--samples", options->samples, "frames looked at in each scene; default 16")
       ->check(CLI::Range(1, 10000));

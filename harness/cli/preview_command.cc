@@ -1,3 +1,4 @@
+#include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
@@ -62,7 +63,9 @@ int Preview(Options options) {
 void AddPreviewCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand("preview", "one picture with its truth drawn over it");
-  command->add_option("SCENE", options->simulation.scene_file, "scene file")->required();
+  command->add_option("SCENE", options->simulation.scene_file, "scene file, or its name")
+      ->required()
+      ->transform(ByName());
   auto* time = command->add_option("--time", options->time_s, "seconds from the start")
                    ->check(CLI::NonNegativeNumber);
   command->add_option("--frame", options->frame, "frame number; default: the middle one")

@@ -1,5 +1,6 @@
 #include <charconv>
 
+#include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/dataset.h"
@@ -137,7 +138,9 @@ int Render(Options options) {
 void AddRenderCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand("render", "a dataset on disk, with its truth beside it");
-  command->add_option("SCENE", options->simulation.scene_file, "scene file")->required();
+  command->add_option("SCENE", options->simulation.scene_file, "scene file, or its name")
+      ->required()
+      ->transform(ByName());
   command->add_option("--out", options->out, "folder of the dataset")->required();
   command->add_option("--format", options->format, "euroc (default), kitti or tum")
       ->check(CLI::IsMember({"euroc", "kitti", "tum"}));

@@ -6,6 +6,7 @@
 #include "harness/campaign/collect.h"
 #include "harness/campaign/forecast.h"
 #include "harness/campaign/inputs.h"
+#include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
 #include "harness/cli/publish.h"
 #include "harness/cli/terminal.h"
@@ -55,7 +56,7 @@ void HoldAgainstBaseline(const Results& baseline, Results* results) {
 
 /// What repeats this very campaign, but for where it goes: parts of one share their plan.
 std::string CommandLine(const Options& options) {
-  std::string line = "./aisle run " + Describe(options.inputs);
+  std::string line = OwnCommand() + " run " + Describe(options.inputs);
   if (options.gate) line += " --gate";
   if (!options.baseline.empty()) line += " --baseline " + options.baseline;
   return line;
@@ -184,7 +185,10 @@ void AddRunCommand(CLI::App* app, Action* action) {
   CLI::App* command =
       app->add_subcommand("run", "render, drive the systems, score, judge and report");
   InputOptions* inputs = &options->inputs;
-  command->add_option("SUITE_OR_SCENE", inputs->files, "suite or scene files")->required();
+  command
+      ->add_option("SUITE_OR_SCENE", inputs->files, "suite or scene files, or names of those here")
+      ->required()
+      ->transform(ByName());
   command->add_option("--systems", inputs->systems, "instead of the suite's")->delimiter(',');
   command
       ->add_option("--twins", inputs->twins,

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "harness/io/file.h"
+#include "harness/io/places.h"
 
 namespace aisle {
 namespace {
@@ -27,7 +28,7 @@ std::string Quoted(const std::string& word) {
 }  // namespace
 
 std::string RepeatableCommand(const std::vector<std::string>& words) {
-  std::string command = "./aisle";
+  std::string command = OwnCommand();
   for (std::size_t i = 1; i < words.size(); ++i) {
     const std::string name = words[i].substr(0, words[i].find('='));
     if (std::find(kPlaces.begin(), kPlaces.end(), name) == kPlaces.end()) {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
 
 #include "harness/io/input_error.h"
 
@@ -17,12 +18,44 @@ fs::path FromEnvironment(const char* variable, const fs::path& otherwise) {
   return value != nullptr && *value != '\0' ? fs::path(value) : otherwise;
 }
 
+fs::path Home() { return FromEnvironment("HOME", "."); }
+
+/// Of this very process; it does not move while it runs.
+const OwnPlace& Here() {
+  static const OwnPlace place = FindOwnPlace(OwnExecutable());
+  return place;
+}
+
 }  // namespace
 
-fs::path SourceDir() { return AISLE_SOURCE_DIR; }
+OwnPlace FindOwnPlace(const fs::path& executable) {
+  std::error_code error;
+  for (fs::path folder = executable.parent_path(); !folder.empty(); folder = folder.parent_path()) {
+    const fs::path shared = folder / "share" / "aisle";
+    if (fs::exists(shared / "assets", error)) return {shared, true};
+    std::ifstream built(folder / "aisle-built-from");
+    std::string tree;
+    if (std::getline(built, tree)) return {tree, false};
+    if (folder == folder.root_path()) break;
+  }
+  return {};
+}
+
+fs::path OwnFolder() {
+  if (!Here().folder.empty()) return Here().folder;
+  throw InputError(OwnExecutable().string() +
+                   ": neither share/aisle nor a source tree is around it; set AISLE_ASSETS to the "
+                   "folder of assets, with scenes beside it");
+}
+
+bool IsInstalled() { return Here().installed; }
+
+std::string OwnCommand() { return IsInstalled() ? "aisle" : "./aisle"; }
 
 fs::path AssetsDir() {
-  const fs::path dir = FromEnvironment("AISLE_ASSETS", SourceDir() / "assets");
+  const char* given = std::getenv("AISLE_ASSETS");
+  const bool elsewhere = given != nullptr && *given != '\0';
+  const fs::path dir = elsewhere ? fs::path(given) : OwnFolder() / "assets";
   if (!fs::is_directory(dir)) {
     throw InputError(dir.string() + ": no such folder of assets; set AISLE_ASSETS to where it is");
   }
@@ -33,11 +66,26 @@ fs::path ScenesDir() { return AssetsDir().parent_path() / "scenes"; }
 
 std::string SceneFile(const std::string& file_or_name) {
   std::error_code error;  // names that no file can have among them
-  if (fs::exists(file_or_name, error)) return file_or_name;
-  return (ScenesDir() / (file_or_name + ".yaml")).string();
+  if (file_or_name.empty() || fs::exists(file_or_name, error)) return file_or_name;
+  const fs::path scenes = ScenesDir();
+  for (const fs::path& file :
+       {scenes / (file_or_name + ".yaml"), scenes / file_or_name,
+        scenes / "suites" / (file_or_name + ".yaml"), scenes.parent_path() / file_or_name}) {
+    if (fs::exists(file, error)) return file.lexically_normal().string();
+  }
+  return file_or_name;
 }
 
-fs::path CacheDir() { return FromEnvironment("AISLE_CACHE", SourceDir() / ".cache"); }
+fs::path CacheDir() {
+  const bool in_tree = !Here().folder.empty() && !Here().installed;
+  return FromEnvironment("AISLE_CACHE",
+                         in_tree ? Here().folder / ".cache"
+                                 : FromEnvironment("XDG_CACHE_HOME", Home() / ".cache") / "aisle");
+}
+
+fs::path UserDataDir() {
+  return FromEnvironment("XDG_DATA_HOME", Home() / ".local/share") / "aisle";
+}
 
 fs::path OwnExecutable() { return fs::read_symlink("/proc/self/exe"); }
 

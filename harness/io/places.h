@@ -5,21 +5,45 @@
 
 namespace aisle {
 
-/// The source tree this program was built from.
-std::filesystem::path SourceDir();
+/// Where a program of ours finds what comes with it.
+struct OwnPlace {
+  std::filesystem::path folder;  ///< holds assets/ and scenes/; empty: neither is around it
+  bool installed = false;        ///< PREFIX/share/aisle, and no source tree
+};
 
-/// Meshes and textures: $AISLE_ASSETS, or assets/ of the source tree this program was built from.
-/// Throws InputError when there is no such folder.
+/// What is around a program's file: PREFIX/share/aisle, or the tree from which the build folder it
+/// stands in was made. The build writes aisle-built-from there, so that no path of a machine is in
+/// the program itself.
+OwnPlace FindOwnPlace(const std::filesystem::path& executable);
+
+/// What comes with this program: PREFIX/share/aisle where it is installed, the source tree where it
+/// was built. Throws InputError where neither is around it.
+std::filesystem::path OwnFolder();
+
+/// Installed, and not run from a build folder.
+bool IsInstalled();
+
+/// How one calls this program: "aisle" where it is installed, the launcher of a tree otherwise.
+std::string OwnCommand();
+
+/// Meshes and textures: $AISLE_ASSETS, or assets/ of what comes with this program. Throws
+/// InputError when there is no such folder.
 std::filesystem::path AssetsDir();
 
 /// The scenes that come with the program: beside the assets.
 std::filesystem::path ScenesDir();
 
-/// A scene given by its file, or by its name in the tree: "paper/scene2".
+/// A scene, a suite or a folder of them, given by its file or by its name among those that come
+/// with the program: "paper/scene2", "quickstart" (of suites/), "scenes/suites/smoke.yaml". What is
+/// none of these is handed back as it is.
 std::string SceneFile(const std::string& file_or_name);
 
-/// Rendered frames shared between runs: $AISLE_CACHE, or .cache/ of the source tree.
+/// Rendered frames shared between runs: $AISLE_CACHE; .cache/ of the source tree; of an installed
+/// program aisle/ of $XDG_CACHE_HOME or ~/.cache.
 std::filesystem::path CacheDir();
+
+/// What users set and keep, of an installed program: aisle/ of $XDG_DATA_HOME or ~/.local/share.
+std::filesystem::path UserDataDir();
 
 /// This very program.
 std::filesystem::path OwnExecutable();

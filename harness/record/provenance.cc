@@ -24,10 +24,18 @@ std::string LookUp(const std::filesystem::path& file, const std::string& key,
   return "unknown";
 }
 
+/// That of the tree an installed program was built from; `cmake --install` writes it down.
+std::string InstalledCommit() {
+  std::ifstream stream(OwnFolder() / "commit");
+  std::string commit;
+  return std::getline(stream, commit) && !commit.empty() ? commit : "unknown";
+}
+
 /// Short commit of the source tree, with "+" where files were changed since.
 std::string SourceCommit() {
+  if (IsInstalled()) return InstalledCommit();
   const std::string command =
-      "git -C '" + SourceDir().string() + "' describe --always --dirty=+ --exclude '*' 2>/dev/null";
+      "git -C '" + OwnFolder().string() + "' describe --always --dirty=+ --exclude '*' 2>/dev/null";
   FILE* pipe = ::popen(command.c_str(), "r");
   if (pipe == nullptr) return "unknown";
   char buffer[64] = "";
@@ -48,8 +56,20 @@ Provenance OwnProvenance() {
           .threads = static_cast<int>(std::thread::hardware_concurrency())};
 }
 
+std::filesystem::path ShippedBaselines() {
+  return OwnFolder() / (IsInstalled() ? "baselines" : "reports/baselines");
+}
+
 std::filesystem::path BaselinePath(const std::string& suite) {
-  return SourceDir() / "reports" / "baselines" / (SafeName(suite) + ".json");
+  const std::filesystem::path own = NewBaselinePath(suite);
+  std::error_code error;
+  return std::filesystem::exists(own, error) ? own : ShippedBaselines() / own.filename();
+}
+
+std::filesystem::path NewBaselinePath(const std::string& suite) {
+  const std::filesystem::path folder =
+      IsInstalled() ? UserDataDir() / "baselines" : ShippedBaselines();
+  return folder / (SafeName(suite) + ".json");
 }
 
 }  // namespace aisle

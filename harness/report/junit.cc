@@ -3,6 +3,7 @@
 #include <pugixml.hpp>
 #include <sstream>
 
+#include "harness/io/places.h"
 #include "harness/record/group.h"
 
 namespace aisle {
@@ -77,7 +78,8 @@ std::string FailureText(const Verdict& verdict, const Results& results,
   std::string text = verdict.name + "\n" + verdict.why + "\n";
   const RunRecord* run = WorstRun(RunsOf(verdict, results));
   if (run != nullptr) {
-    text += fmt::format("rerun: ./aisle rerun {} --in {}\n", RunId(run->spec), report_dir.string());
+    text += fmt::format("rerun: {} rerun {} --in {}\n", OwnCommand(), RunId(run->spec),
+                        report_dir.string());
     if (!run->last_words.empty()) text += "its last words:\n" + run->last_words;
   }
   return text + "all of it: " + results.rerun;

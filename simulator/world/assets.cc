@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "simulator/common/own_files.h"
 #include "simulator/mesh/door/read_model.h"
 
 namespace aisle::sim {
@@ -69,9 +70,9 @@ void ReadRects(const std::string& texture, const Json& asset,
 }
 
 bool IsOwnTree(const std::filesystem::path& folder) {
+  const std::filesystem::path own = FindOwnFolder(OwnExecutable());
   std::error_code error;
-  return std::filesystem::equivalent(folder, std::filesystem::path(AISLE_SOURCE_DIR) / "assets",
-                                     error);
+  return !own.empty() && std::filesystem::equivalent(folder, own / "assets", error);
 }
 
 template <class Facts>

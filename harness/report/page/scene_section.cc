@@ -1,5 +1,6 @@
 #include "harness/report/page/scene_section.h"
 
+#include "harness/io/places.h"
 #include "harness/report/markup/html.h"
 #include "harness/report/page/album_section.h"
 #include "harness/report/page/answer.h"
@@ -81,7 +82,7 @@ std::string Again(const SceneRuns& scene, const std::string& root, const std::st
         if (name.starts_with("picture_") || IsStageSheet(name)) continue;
         text += fmt::format("<a href=\"{}\">{}</a> ", root + EscapeUrl(path), Escape(name));
       }
-      text += fmt::format("<td class=\"left\"><code>./aisle rerun {} --in {}</code>\n",
+      text += fmt::format("<td class=\"left\"><code>{} rerun {} --in {}</code>\n", OwnCommand(),
                           Escape(RunId(run->spec)), Escape(place));
     }
   }

@@ -1,5 +1,6 @@
 #include "harness/report/page/trends.h"
 
+#include "harness/io/places.h"
 #include "harness/report/chart/svg.h"
 #include "harness/report/markup/html.h"
 #include "harness/report/page/night_series.h"
@@ -85,7 +86,7 @@ std::string NextStep(const NightChange& change, const NightBook& book, const Tre
           Escape(after->commit));
     }
     const std::string command =
-        fmt::format("./aisle bisect {} {} {} --scene {} --twin {} --system {} --limit {}",
+        fmt::format("{} bisect {} {} {} --scene {} --twin {} --system {} --limit {}", OwnCommand(),
                     ShellWord(before->version), ShellWord(after->version),
                     ShellWord(place.suite_file.empty() ? "SUITE.yaml" : place.suite_file),
                     ShellWord(series.scene), ShellWord(series.twin), ShellWord(series.system),

@@ -10,6 +10,7 @@
 #include <span>
 #include <system_error>
 
+#include "simulator/common/own_files.h"
 #include "simulator/mesh/door/model_bytes.h"
 #include "simulator/mesh/door/reading_process.h"
 
@@ -129,9 +130,10 @@ std::string WhyEnded(const Reading& reading, const ModelDoor& door) {
 
 fs::path ReaderProgram() {
   constexpr const char* kName = "aisle-read-model";
-  std::error_code error;
-  const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path() / kName;
-  return fs::exists(beside, error) ? beside : fs::path(AISLE_READ_MODEL);
+  const char* given = std::getenv("AISLE_READ_MODEL");
+  if (given != nullptr && *given != '\0') return given;
+  const fs::path own = FindOwnHelper(OwnExecutable(), kName, fs::path("simulator") / kName);
+  return own.empty() ? fs::path(AISLE_LIBEXEC) / kName : own;  // a program of others: as installed
 }
 
 Model ReadModel(const fs::path& file, const ImportOptions& given, const ModelDoor& door) {

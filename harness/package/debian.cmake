@@ -1,0 +1,39 @@
+# Three packages: the program, its data, and the libraries with their headers.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME aisle)
+set(CPACK_PACKAGE_VENDOR "the aisle developers")
+set(CPACK_PACKAGE_CONTACT "the aisle developers <aisle@localhost>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_COMPONENTS_ALL program data dev)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME aisle)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "aisle-data (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "ffmpeg")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
+  "simulation-in-the-loop tests for stereo visual SLAM in dynamic scenes
+Renders a stereo camera that drives through a warehouse with walking people and
+forklifts, with exact ground truth, drives SLAM systems with it and scores what
+they say of it, in headless runs that end in a verdict, a report and an exit code.")
+
+set(CPACK_DEBIAN_DATA_PACKAGE_NAME aisle-data)
+set(CPACK_DEBIAN_DATA_PACKAGE_ARCHITECTURE all)
+set(CPACK_COMPONENT_DATA_DESCRIPTION
+  "scenes, people, vehicles and goods for aisle
+What the simulated warehouse of aisle is made of, the scenes and suites that come
+with it, and the baselines its gate compares with.")
+
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libaisle-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+list(JOIN AISLE_DEV_PACKAGES ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
+set(CPACK_COMPONENT_DEV_DESCRIPTION
+  "libraries and headers of aisle
+The stereo visual SLAM, the simulator and the scores of aisle as static libraries,
+for find_package(aisle COMPONENTS slam simulator harness).")
+include(CPack)

@@ -1,0 +1,64 @@
+# What `cmake --install` puts where, for find_package(aisle) and for Debian packages (cpack).
+include(CMakePackageConfigHelpers)
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # tests are not packed
+# Debian's packages of the libraries that ours hand on.
+set(AISLE_DEV_PACKAGES libassimp-dev libceres-dev libcli11-dev libeigen3-dev libembree-dev libfmt-dev
+  libopencv-dev libosmesa6-dev libpugixml-dev libspdlog-dev libsqlite3-dev libtbb-dev libxxhash-dev
+  libyaml-cpp-dev nlohmann-json3-dev pkg-config)
+set(AISLE_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/aisle)
+
+# --- The program and what comes with it ------------------------------------------------------------
+install(TARGETS aisle RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+install(TARGETS aisle_read_model RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/aisle
+  COMPONENT program)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/assets ${CMAKE_SOURCE_DIR}/scenes
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/aisle COMPONENT data
+  PATTERN author EXCLUDE PATTERN contact EXCLUDE)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/reports/baselines
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/aisle COMPONENT data)
+# An installed program has no tree to ask which commit it is of.
+install(CODE "execute_process(
+  COMMAND git -C \"${CMAKE_SOURCE_DIR}\" describe --always --dirty=+ --exclude *
+  OUTPUT_FILE \"${CMAKE_BINARY_DIR}/commit\" ERROR_QUIET)" COMPONENT data)
+install(FILES ${CMAKE_BINARY_DIR}/commit DESTINATION ${CMAKE_INSTALL_DATADIR}/aisle COMPONENT data)
+
+# --- Manual pages and completion, as the program itself tells them ----------------------------------
+find_program(AISLE_HELP2MAN help2man)
+add_custom_command(OUTPUT ${CMAKE_BINARY_DIR}/package/aisle.bash
+  COMMAND ${CMAKE_CURRENT_LIST_DIR}/describe.sh $<TARGET_FILE:aisle> ${CMAKE_BINARY_DIR}/package
+          ${PROJECT_VERSION} ${AISLE_HELP2MAN}
+  DEPENDS aisle ${CMAKE_CURRENT_LIST_DIR}/describe.sh VERBATIM)
+add_custom_target(descriptions DEPENDS ${CMAKE_BINARY_DIR}/package/aisle.bash)
+install(FILES ${CMAKE_BINARY_DIR}/package/aisle.bash
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME aisle
+  COMPONENT program OPTIONAL)
+install(DIRECTORY ${CMAKE_BINARY_DIR}/package/man1 DESTINATION ${CMAKE_INSTALL_MANDIR}
+  COMPONENT program OPTIONAL)
+
+# --- The libraries, a component a house ---------------------------------------------------------------
+install(TARGETS aisle_flags aisle_nouns EXPORT aisleNouns COMPONENT dev)
+foreach(house slam simulator harness)
+  get_property(rooms GLOBAL PROPERTY AISLE_ROOMS_${house})
+  install(TARGETS ${rooms} EXPORT aisle_${house} COMPONENT dev
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/aisle)
+  install(EXPORT aisle_${house} NAMESPACE aisle:: DESTINATION ${AISLE_CMAKE_DIR} COMPONENT dev)
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/${house} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/aisle
+    COMPONENT dev FILES_MATCHING PATTERN "*.h" PATTERN package EXCLUDE)
+endforeach()
+install(EXPORT aisleNouns NAMESPACE aisle:: DESTINATION ${AISLE_CMAKE_DIR} COMPONENT dev)
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/aisleConfig.cmake.in
+  ${CMAKE_BINARY_DIR}/aisleConfig.cmake INSTALL_DESTINATION ${AISLE_CMAKE_DIR})
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/aisleConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/aisleConfig.cmake ${CMAKE_BINARY_DIR}/aisleConfigVersion.cmake
+  DESTINATION ${AISLE_CMAKE_DIR} COMPONENT dev)
+
+# --- Debian packages ----------------------------------------------------------------------------------
+foreach(owner program:aisle data:aisle-data dev:libaisle-dev)
+  string(REPLACE ":" ";" owner ${owner})
+  list(GET owner 0 component)
+  list(GET owner 1 package)
+  install(FILES ${CMAKE_CURRENT_LIST_DIR}/copyright
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component})
+endforeach()
+include(${CMAKE_CURRENT_LIST_DIR}/debian.cmake)

@@ -1,0 +1,104 @@
+"""The installed program and libraries do without the source tree.
+
+Usage: install_test.py BUILD_DIR SOURCE_DIR. Installs into a prefix, moves it, and then: no file names
+the tree; the program finds its scenes, draws one, keeps its caches where XDG says and speaks of
+itself by its name; a project elsewhere finds the libraries, links them and drives.
+"""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BUILD, SOURCE = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
+PACKAGE_TEST = pathlib.Path(__file__).resolve().parent
+
+
+def run(*words, **options):
+    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, **options)
+    return done.returncode, done.stdout + done.stderr
+
+
+class Installed(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.holder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.holder.cleanup)
+        root = pathlib.Path(cls.holder.name)
+        code, text = run("cmake", "--install", BUILD, "--prefix", root / "first")
+        assert code == 0, text
+        cls.prefix = (root / "first").rename(root / "moved")
+        cls.home = root / "home"
+        cls.home.mkdir()
+        cls.environment = {
+            key: value
+            for key, value in os.environ.items()
+            if not key.startswith(("AISLE_", "XDG_")) and key != "HOME"
+        } | {"HOME": str(cls.home)}
+
+    def aisle(self, *words, **changed):
+        return run(
+            self.prefix / "bin/aisle", *words, env=self.environment | changed, cwd=self.home
+        )
+
+    def test_no_file_names_the_source_tree(self):
+        named = [
+            path
+            for path in self.prefix.rglob("*")
+            if path.is_file() and str(SOURCE).encode() in path.read_bytes()
+        ]
+        self.assertEqual(named, [])
+
+    def test_scenes_are_found_by_name_and_drawn(self):
+        for name in ("smoke/short", "quickstart", "scenes/suites/smoke.yaml"):
+            code, text = self.aisle("check", name)
+            self.assertEqual(code, 0, text)
+        code, text = self.aisle("preview", "smoke/short", "-o", "short.png")
+        self.assertEqual(code, 0, text)
+        self.assertGreater((self.home / "short.png").stat().st_size, 10000)
+
+    def test_caches_and_baselines_are_the_users(self):
+        code, text = self.aisle("doctor")
+        self.assertIn(f"{self.home}/.cache/aisle", text)
+        elsewhere = self.home / "elsewhere"
+        code, text = self.aisle("doctor", XDG_CACHE_HOME=str(elsewhere))
+        self.assertIn(f"{elsewhere}/aisle", text)
+        code, text = self.aisle("run", "suites/smoke", "--gate", "--dry-run")
+        self.assertEqual(code, 0, text)
+
+    def test_it_calls_itself_by_its_name_and_knows_its_commit(self):
+        _, text = self.aisle("run", "--help")
+        self.assertIn("Example: aisle run", text)
+        self.assertNotIn("./aisle", text)
+        _, text = self.aisle("--version")
+        commit = (self.prefix / "share/aisle/commit").read_text().strip()
+        self.assertTrue(text.rstrip().endswith(f"({commit or 'unknown'})"), text)
+
+    def test_another_project_finds_links_and_drives(self):
+        folder = pathlib.Path(self.holder.name) / "consumer"
+        code, text = run(
+            "cmake", "-S", PACKAGE_TEST / "consumer", "-B", folder, "-G", "Ninja",
+            f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DCMAKE_BUILD_TYPE=Release",
+        )  # fmt: skip
+        self.assertEqual(code, 0, text)
+        code, text = run("cmake", "--build", folder)
+        self.assertEqual(code, 0, text)
+        share = self.prefix / "share/aisle"
+        code, text = run(
+            folder / "drive", share / "scenes/smoke/bits.yaml", share / "assets",
+            env=self.environment | {"AISLE_READ_MODEL": str(self.prefix / "libexec/aisle/aisle-read-model")},
+        )  # fmt: skip
+        self.assertEqual((code, text), (0, "4 of 4 tracked\n"))
+
+    def test_an_old_processor_is_told_so(self):
+        if run("which", "qemu-x86_64")[0]:
+            self.skipTest("qemu-user is not installed")
+        code, text = run("qemu-x86_64", "-cpu", "Nehalem", self.prefix / "bin/aisle", "--version")
+        self.assertEqual(code, 3)
+        self.assertIn("this processor lacks AVX2", text)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
