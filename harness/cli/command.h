@@ -17,6 +17,7 @@ void AddRerunCommand(CLI::App* app, Action* action);
 void AddMergeCommand(CLI::App* app, Action* action);
 void AddSystemsCommand(CLI::App* app, Action* action);
 void AddScoreCommand(CLI::App* app, Action* action);
+void AddScoresCommand(CLI::App* app, Action* action);
 void AddCheckCommand(CLI::App* app, Action* action);
 void AddPreviewCommand(CLI::App* app, Action* action);
 void AddGalleryCommand(CLI::App* app, Action* action);

@@ -51,6 +51,7 @@ void AddCommands(CLI::App* app, Action* action) {
   AddBenchCommand(app, action);
   AddSystemsCommand(app, action);
   AddScoreCommand(app, action);
+  AddScoresCommand(app, action);
   AddReportCommand(app, action);
   AddCompareCommand(app, action);
   AddBaselineCommand(app, action);

@@ -1,0 +1,108 @@
+"""The pages keep what they promise: every link leads somewhere, every command line names commands and
+options that there are, every block of YAML is read by the reader.
+
+Usage: pages_test.py PROGRAM SOURCE_DIR.
+"""
+
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
+PAGES = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "reports").glob("**/*.md"))]
+HELP = {}
+
+
+def help_of(*words):
+    if words not in HELP:
+        run = subprocess.run([PROGRAM, *words, "--help"], capture_output=True, text=True)
+        HELP[words] = run.stdout if run.returncode == 0 else ""
+    return HELP[words]
+
+
+def subcommands(*words):
+    part = re.search(r"^Subcommands:\n(.*?)\n(?:\n|\Z)", help_of(*words) + "\n", re.M | re.S)
+    return re.findall(r"^  ([a-z][a-z-]*)", part.group(1), re.M) if part else []
+
+
+def blocks(text):
+    """(language, body) of each fenced block, and of those that are indented by four."""
+    for language, body in re.findall(r"^```(\w*)\n(.*?)^```$", text, re.M | re.S):
+        yield language, body
+    bare = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
+    for body in re.findall(r"(?:^    .*\n)+", bare, re.M):
+        yield "", re.sub(r"^    ", "", body, flags=re.M)
+
+
+def command_lines(text):
+    """What a reader would type: lines of blocks and code spans that begin with the launcher."""
+    spans = [span.replace("\n", " ") for span in re.findall(r"`(\./aisle [^`]+)`", text)]
+    lines = [
+        line
+        for language, body in blocks(text)
+        if language in ("", "sh", "bash")
+        for line in body.replace("\\\n", " ").splitlines()
+    ]
+    for line in lines + spans:
+        for part in re.split(r"&&|\|\||;", line):
+            if part.strip().startswith("./aisle "):
+                yield part.strip()
+
+
+def anchors(text):
+    titles = re.findall(r"^#+ (.*)$", text, re.M)
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+class Pages(unittest.TestCase):
+    def test_every_link_leads_somewhere(self):
+        for page in PAGES:
+            text = re.sub(r"^```.*?^```$", "", page.read_text(), flags=re.M | re.S)
+            for target in re.findall(r"\]\(([^)\s]+)\)", text):
+                if re.match(r"[a-z]+:", target):
+                    continue
+                name, _, anchor = target.partition("#")
+                place = (page.parent / name) if name else page
+                self.assertTrue(place.exists(), f"{page.relative_to(SOURCE)}: {target}")
+                if anchor:
+                    self.assertIn(anchor, anchors(place.read_text()), f"{page.relative_to(SOURCE)}: {target}")
+
+    def test_every_command_and_option_is_there(self):
+        seen = 0
+        for page in PAGES:
+            for line in command_lines(page.read_text()):
+                words = shlex.split(line.split(" #")[0].split(" >")[0].replace("…", ""), posix=True)[1:]
+                path = ()
+                while len(path) < len(words) and words[len(path)] in subcommands(*path):
+                    path += (words[len(path)],)
+                where = f"{page.relative_to(SOURCE)}: {line}"
+                launcher = words[0] in ("test", "fuzz", "package")  # the launcher's own
+                self.assertTrue(path or launcher or words[0].startswith("-"), where)
+                options = [word.split("=")[0] for word in words if re.match(r"--?[a-zA-Z]", word)]
+                for option in [] if launcher else options:
+                    known = rf"(^|[\s,]){re.escape(option)}([\s,:]|$)"
+                    self.assertRegex(help_of(*path), re.compile(known, re.M), f"{where}: {option}")
+                seen += 1
+        self.assertGreater(seen, 50)
+
+    def test_every_block_of_yaml_is_read(self):
+        seen = 0
+        for page in PAGES:
+            for language, body in blocks(page.read_text()):
+                if language != "yaml" or not re.search(r"^(suite|frames|extend):", body, re.M):
+                    continue
+                with tempfile.TemporaryDirectory() as folder:
+                    file = pathlib.Path(folder) / "block.yaml"
+                    file.write_text(body)
+                    run = subprocess.run([PROGRAM, "check", file], capture_output=True, text=True)
+                    self.assertEqual(run.returncode, 0, f"{page.relative_to(SOURCE)}:\n{body}\n{run.stderr}")
+                seen += 1
+        self.assertGreater(seen, 1)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
