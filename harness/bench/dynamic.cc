@@ -8,24 +8,6 @@
 namespace aisle {
 namespace {
 
-/// What truth says of the frame, if it says anything.
-std::optional<FrameFacts> Add(const SequenceFrame& shown, const FrameEstimate& estimate,
-                              DynamicOfView* view) {
-  ++view->frames;
-  view->pixels += static_cast<double>(shown.images.left.total());
-  if (!estimate.regions.mask.empty()) view->rejected += cv::countNonZero(estimate.regions.mask);
-  for (const auto& [stage, ms] : estimate.stage_ms) view->stage_ms[stage] += ms;
-  if (!shown.truth) return std::nullopt;
-  FrameFacts facts;
-  facts.stamp_ns = shown.images.stamp_ns;
-  facts.T_world_rig = shown.truth->T_world_rig;
-  if (shown.truth->dynamic.empty()) return facts;
-  view->has_truth = true;
-  facts.mask = CompareMasks(shown.images.left, *shown.truth, estimate.regions);
-  view->masks += *facts.mask;
-  return facts;
-}
-
 void Picture(const SequenceFrame& shown, const FrameEstimate& estimate, const std::string& view,
              const DynamicBenchOptions& options) {
   std::string name = view;
@@ -62,6 +44,29 @@ std::map<std::string, double> DynamicOfView::mean_ms() const {
   return means;
 }
 
+void DynamicMeter::Add(const SequenceFrame& shown, const FrameEstimate& estimate) {
+  ++view_.frames;
+  view_.pixels += static_cast<double>(shown.images.left.total());
+  if (!estimate.regions.mask.empty()) view_.rejected += cv::countNonZero(estimate.regions.mask);
+  for (const auto& [stage, ms] : estimate.stage_ms) view_.stage_ms[stage] += ms;
+  if (!shown.truth) return;
+  FrameFacts facts;
+  facts.stamp_ns = shown.images.stamp_ns;
+  facts.T_world_rig = shown.truth->T_world_rig;
+  if (!shown.truth->dynamic.empty()) {
+    view_.has_truth = true;
+    facts.mask = CompareMasks(shown.images.left, *shown.truth, estimate.regions);
+    view_.masks += *facts.mask;
+  }
+  facts_.push_back(std::move(facts));
+}
+
+DynamicOfView DynamicMeter::View() const {
+  DynamicOfView view = view_;
+  view.spells = FollowKinds(facts_);
+  return view;
+}
+
 double DynamicOfView::rejected_share() const { return rejected / std::max(pixels, 1.0); }
 
 double DynamicOfView::static_wrong() const {
@@ -75,27 +80,22 @@ DynamicOfView MeasureDynamic(const BenchView& view, const DynamicBenchOptions& o
   const auto estimator =
       MakeSystem(options.system, sequence->calibration(),
                  {.threads = options.source.threads, .draw_stages = options.draw_stages});
-  DynamicOfView result;
-  result.name = sequence->name();
-  result.view = view.text;
-  result.stretches = 1;
-  std::vector<FrameFacts> facts;
+  DynamicMeter meter(sequence->name(), view.text);
   int index = 0;
   for (const FrameRequest& request : sequence->Schedule()) {
     const int now = index++;
     if (now < view.from - options.warm_up) continue;
     if (now >= view.to) break;
-    if (progress) progress(fmt::format("{}: frame {}", result.name, now));
+    if (progress) progress(fmt::format("{}: frame {}", sequence->name(), now));
     const SequenceFrame shown = sequence->At(request);
     const FrameEstimate estimate = estimator->Process(shown.images, {});
     if (now < view.from) continue;
-    if (auto of_frame = Add(shown, estimate, &result)) facts.push_back(*std::move(of_frame));
+    meter.Add(shown, estimate);
     if (!options.out.empty() && now % options.every == 0) {
-      Picture(shown, estimate, result.name, options);
+      Picture(shown, estimate, sequence->name(), options);
     }
   }
-  result.spells = FollowKinds(facts);
-  return result;
+  return meter.View();
 }
 
 }  // namespace aisle

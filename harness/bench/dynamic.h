@@ -3,8 +3,10 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "harness/bench/source.h"
+#include "harness/contract/estimate.h"
 #include "harness/contract/system_spec.h"
 #include "harness/score/continuity.h"
 
@@ -36,6 +38,24 @@ struct DynamicOfView {
   std::map<std::string, double> mean_ms() const;
   double rejected_share() const;  ///< of all pixels
   double static_wrong() const;    ///< share of the pixels at rest that were rejected
+};
+
+/// Adds up, frame by frame, what a system rejected beside what moves.
+class DynamicMeter {
+ public:
+  /// `name` of the scene or recording; `view`: as it was asked for.
+  DynamicMeter(std::string name, std::string view) {
+    view_.name = std::move(name);
+    view_.view = std::move(view);
+    view_.stretches = 1;
+  }
+  void Add(const SequenceFrame& shown, const FrameEstimate& estimate);
+  /// Of all frames so far.
+  DynamicOfView View() const;
+
+ private:
+  DynamicOfView view_;
+  std::vector<FrameFacts> facts_;
 };
 
 /// Throws InputError.

@@ -81,6 +81,7 @@ void AddBenchCommand(CLI::App* app, Action* action) {
   AddBenchAccuracy(bench, action);
   AddBenchDynamic(bench, action);
   AddBenchRealism(bench, action);
+  AddBenchSensitivity(bench, action);
 }
 
 }  // namespace aisle
