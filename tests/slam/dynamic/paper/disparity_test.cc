@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/slam/dynamic/disparity_agreement.h"
 #include "tests/slam/dynamic/synthetic_stereo.h"
+#include "tests/slam/stereo/dense/disparity_agreement.h"
 
 namespace aisle::slam::dynamic {
 namespace {

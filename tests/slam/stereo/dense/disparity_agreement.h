@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "slam/dynamic/common/stereo_pair.h"
+#include "slam/stereo/dense/disparity_image.h"
 
 // How far a matcher's disparities agree with the truth of a rendered view.
 

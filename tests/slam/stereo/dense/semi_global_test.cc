@@ -9,8 +9,8 @@
 #include "slam/stereo/dense/census_cost.h"
 #include "slam/stereo/dense/choose_disparity.h"
 #include "slam/stereo/dense/cost_paths.h"
-#include "tests/slam/dynamic/disparity_agreement.h"
 #include "tests/slam/dynamic/synthetic_stereo.h"
+#include "tests/slam/stereo/dense/disparity_agreement.h"
 
 namespace aisle::slam::dynamic {
 namespace {
