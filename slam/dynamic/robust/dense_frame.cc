@@ -11,11 +11,11 @@
 namespace aisle::slam::dynamic {
 namespace {
 
-void ForgetPadding(cv::Mat1f& disparity, int most_disparity, int border) {
-  const int columns = std::min(disparity.cols, most_disparity + border);
+void ForgetPadding(cv::Mat1f& disparity, int most_disparity) {
+  const int columns = std::min(disparity.cols, most_disparity + kMatchReach);
   for (int y = 0; y < disparity.rows; ++y) {
     for (int x = 0; x < columns; ++x) {
-      const float reach = static_cast<float>(x - border);
+      const float reach = static_cast<float>(x - kMatchReach);
       if (disparity(y, x) > reach) disparity(y, x) = kNoDisparity;
     }
   }
@@ -143,13 +143,13 @@ cv::Mat1f FillRows(const cv::Mat1f& disparity) {
 }
 
 DenseFrame MakeDenseFrame(const cv::Mat1b& left, const cv::Mat1b& right,
-                          const SemiGlobalOptions& disparity, const SurfaceOptions& options) {
+                          const SemiGlobalOptions& disparity) {
   DenseFrame frame;
   frame.image = HalfImage(left);
   const cv::Mat1b half_right = HalfImage(right);
   frame.disparity = MatchSemiGlobally(frame.image, half_right, disparity);
   SpanHalfPixels(half_right, frame.right_low, frame.right_high);
-  ForgetPadding(frame.disparity, disparity.max_disparity_px, options.border_px);
+  ForgetPadding(frame.disparity, disparity.max_disparity_px);
   frame.filled = FillRows(frame.disparity);
   return frame;
 }

@@ -5,6 +5,7 @@
 
 #include "slam/camera/stereo_camera.h"
 #include "slam/dynamic/robust/robust_options.h"
+#include "slam/stereo/dense/semi_global_options.h"
 
 namespace aisle::slam::dynamic {
 
@@ -32,7 +33,7 @@ cv::Mat1b HalfImage(const cv::Mat1b& image);
 
 /// Disparity on images of half size, without the columns where the matcher saw only padding.
 DenseFrame MakeDenseFrame(const cv::Mat1b& left, const cv::Mat1b& right,
-                          const SemiGlobalOptions& disparity, const SurfaceOptions& options);
+                          const SemiGlobalOptions& disparity);
 
 /// Variance of the difference of two measurements of each grey value.
 cv::Mat1f DifferenceVariance(const cv::Mat1b& image, const SurfaceOptions& options);

@@ -16,8 +16,13 @@ using Eigen::Vector3d;
 
 constexpr int kLeastMatches = 6;
 constexpr int kLeastForNoise = 20;
-/// 99 % of chi-square with six degrees of freedom: how much worse standing still may fit.
-constexpr double kStandingChi2 = 16.8;
+/// 99 % of chi-square: with three degrees of freedom the bound of an inlier, with six how much
+/// worse standing still may fit.
+constexpr double kInlierChi2 = 11.34, kStandingChi2 = 16.8;
+/// Three static points are among so many samples with 99.97 % if half of the matches are.
+constexpr int kHypotheses = 60;
+/// Of re-weighting, each with its Gauss-Newton steps; they end before where nothing changes.
+constexpr int kRounds = 3, kIterations = 4;
 
 /// Measurement noise enters twice, before and now; between consecutive frames the map from one to
 /// the other is close to identity in (u, v, disparity).
@@ -110,7 +115,7 @@ std::vector<Isometry3d> SampleMotions(const std::vector<StereoMatch>& matches,
   double sum = 0;
   for (const StereoMatch& match : matches) cumulative.push_back(sum += match.weight);
   std::vector<Isometry3d> motions;
-  for (int k = 0; k < options.hypotheses && sum > 0; ++k) {
+  for (int k = 0; k < kHypotheses && sum > 0; ++k) {
     CounterRandom random(options.seed, static_cast<std::uint64_t>(k));
     std::array<Vector3d, 3> from, to;
     for (std::size_t n = 0; n < 3; ++n) {
@@ -205,9 +210,41 @@ double DeviationOf(std::vector<WeightedValue>& values) {
   return values.back().first / 1.1503;
 }
 
-EgoMotionOptions Narrow(EgoMotionOptions options) {
-  options.rounds = 1;
-  return options;
+EgoMotion Refine(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
+                 const Isometry3d& T_now_before, const MeasurementNoise& noise, int rounds) {
+  const Vector3d inverse_deviation = InverseDeviation(noise);
+  EgoMotion motion;
+  motion.T_now_before = T_now_before;
+  if (std::ssize(matches) < kLeastMatches) return motion;
+  const std::vector<PlacedMatch> placed = Placed(matches, camera);
+  NormalEquations equations;
+  for (int round = rounds - 1; round >= 0; --round) {
+    const double gate = kInlierChi2 * std::pow(3.0, round);  // from wide to narrow
+    for (int k = 0; k < kIterations; ++k) {
+      equations = Linearize(placed, camera, motion.T_now_before, inverse_deviation, gate);
+      const Matrix6d damped =
+          equations.hessian + 1e-9 * equations.hessian.trace() * Matrix6d::Identity();
+      const Vector6d step = damped.ldlt().solve(-equations.gradient);
+      if (!step.allFinite()) return motion;
+      motion.T_now_before = Retract(motion.T_now_before, step);
+      if (step.norm() < 1e-7) break;
+    }
+  }
+  equations = Linearize(placed, camera, motion.T_now_before, inverse_deviation, kInlierChi2);
+  // Only the points that follow the motion found may say that it was none: movers would vote for
+  // whatever leaves them alone.
+  const auto followers =
+      Followers(placed, camera, motion.T_now_before, inverse_deviation, kInlierChi2);
+  const NormalEquations still =
+      Linearize(followers, camera, Isometry3d::Identity(), inverse_deviation, kInlierChi2);
+  const NormalEquations moving =
+      Linearize(followers, camera, motion.T_now_before, inverse_deviation, kInlierChi2);
+  motion.standing = still.cost - moving.cost < kStandingChi2;
+  if (motion.standing) motion.T_now_before = Isometry3d::Identity();
+  motion.covariance = equations.hessian.ldlt().solve(Matrix6d::Identity());
+  motion.support = equations.support;
+  motion.found = motion.covariance.allFinite() && equations.support >= kLeastMatches / 2;
+  return motion;
 }
 
 }  // namespace
@@ -219,41 +256,8 @@ double MatchChi2(const StereoCamera& camera, const Isometry3d& T, const StereoMa
 }
 
 EgoMotion RefineEgoMotion(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
-                          const Isometry3d& T_now_before, const MeasurementNoise& noise,
-                          const EgoMotionOptions& options) {
-  const Vector3d inverse_deviation = InverseDeviation(noise);
-  EgoMotion motion;
-  motion.T_now_before = T_now_before;
-  if (std::ssize(matches) < kLeastMatches) return motion;
-  const std::vector<PlacedMatch> placed = Placed(matches, camera);
-  NormalEquations equations;
-  for (int round = options.rounds - 1; round >= 0; --round) {
-    const double gate = options.gate_chi2 * std::pow(3.0, round);  // from wide to narrow
-    for (int k = 0; k < options.iterations; ++k) {
-      equations = Linearize(placed, camera, motion.T_now_before, inverse_deviation, gate);
-      const Matrix6d damped =
-          equations.hessian + 1e-9 * equations.hessian.trace() * Matrix6d::Identity();
-      const Vector6d step = damped.ldlt().solve(-equations.gradient);
-      if (!step.allFinite()) return motion;
-      motion.T_now_before = Retract(motion.T_now_before, step);
-      if (step.norm() < 1e-7) break;
-    }
-  }
-  equations = Linearize(placed, camera, motion.T_now_before, inverse_deviation, options.gate_chi2);
-  // Only the points that follow the motion found may say that it was none: movers would vote for
-  // whatever leaves them alone.
-  const auto followers =
-      Followers(placed, camera, motion.T_now_before, inverse_deviation, options.gate_chi2);
-  const NormalEquations still =
-      Linearize(followers, camera, Isometry3d::Identity(), inverse_deviation, options.gate_chi2);
-  const NormalEquations moving =
-      Linearize(followers, camera, motion.T_now_before, inverse_deviation, options.gate_chi2);
-  motion.standing = still.cost - moving.cost < kStandingChi2;
-  if (motion.standing) motion.T_now_before = Isometry3d::Identity();
-  motion.covariance = equations.hessian.ldlt().solve(Matrix6d::Identity());
-  motion.support = equations.support;
-  motion.found = motion.covariance.allFinite() && equations.support >= kLeastMatches / 2;
-  return motion;
+                          const Isometry3d& T_now_before, const MeasurementNoise& noise) {
+  return Refine(matches, camera, T_now_before, noise, 1);
 }
 
 EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
@@ -262,7 +266,7 @@ EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const Stere
   if (std::ssize(matches) < kLeastMatches) return {};
   // Samples carry the noise of three points: their support is judged with a wider gate.
   const Vector3d inverse_deviation = InverseDeviation(noise);
-  const double gate = 4 * options.gate_chi2;
+  const double gate = 4 * kInlierChi2;
   std::vector<Isometry3d> candidates = {Isometry3d::Identity()};
   if (prior) candidates.push_back(prior->T_now_before);
   const auto spread = WeighedBySpace(matches, camera);
@@ -278,8 +282,8 @@ EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const Stere
   const auto highest = std::max_element(scores.begin(), scores.end());  // the first of equals
   const Isometry3d& best = candidates[static_cast<std::size_t>(highest - scores.begin())];
   // What is near and large must not pull while the gate is wide.
-  const EgoMotion close = RefineEgoMotion(spread, camera, best, noise, options);
-  return RefineEgoMotion(matches, camera, close.T_now_before, noise, Narrow(options));
+  const EgoMotion close = Refine(spread, camera, best, noise, kRounds);
+  return RefineEgoMotion(matches, camera, close.T_now_before, noise);
 }
 
 std::optional<MeasurementNoise> MeasureNoise(const std::vector<StereoMatch>& matches,

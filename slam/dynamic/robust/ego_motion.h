@@ -45,10 +45,9 @@ EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const Stere
                             const std::optional<MotionPrior>& prior, const MeasurementNoise& noise,
                             const EgoMotionOptions& options);
 
-/// Only the refinement, from a motion known to be close.
+/// Only the last step of the refinement, from a motion known to be close.
 EgoMotion RefineEgoMotion(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
-                          const Eigen::Isometry3d& T_now_before, const MeasurementNoise& noise,
-                          const EgoMotionOptions& options);
+                          const Eigen::Isometry3d& T_now_before, const MeasurementNoise& noise);
 
 /// Noise of u, v and disparity of one measurement, from the errors that a motion leaves to matches
 /// trusted to be static by more than half: of their body, tails of bad ones included as far as a

@@ -12,6 +12,10 @@ constexpr std::size_t kLeastPoints = 100;
 constexpr float kLeastArea = 500;     // squared pixels, twice the triangle of a sample
 constexpr float kLeastSlope = 0.02F;  // pixels of disparity a row
 constexpr float kHorizon = 0.3F;      // disparity below which a floor is too far to be told
+constexpr float kMostRoll = 0.25F;   // tangent of its slope across the image: no vehicle leans more
+constexpr double kLeastShare = 0.1;  // of the points of the lower half
+constexpr int kHypotheses = 80;      // planes through three points
+constexpr std::uint64_t kSeed = 5;
 
 std::vector<Eigen::Vector3f> PointsOfLowerHalf(const cv::Mat1f& disparity) {
   std::vector<Eigen::Vector3f> points;
@@ -25,8 +29,7 @@ std::vector<Eigen::Vector3f> PointsOfLowerHalf(const cv::Mat1f& disparity) {
   return points;
 }
 
-std::optional<FloorPlane> PlaneThrough(const std::array<Eigen::Vector3f, 3>& points,
-                                       const FloorOptions& options) {
+std::optional<FloorPlane> PlaneThrough(const std::array<Eigen::Vector3f, 3>& points) {
   Eigen::Matrix3f A;
   Eigen::Vector3f d;
   for (int k = 0; k < 3; ++k) {
@@ -36,22 +39,19 @@ std::optional<FloorPlane> PlaneThrough(const std::array<Eigen::Vector3f, 3>& poi
   }
   if (std::abs(A.determinant()) < kLeastArea) return std::nullopt;
   const Eigen::Vector3f plane = A.inverse() * d;
-  const bool level = plane.y() >= kLeastSlope &&
-                     std::abs(plane.x()) <= static_cast<float>(options.most_roll) * plane.y();
+  const bool level = plane.y() >= kLeastSlope && std::abs(plane.x()) <= kMostRoll * plane.y();
   return level ? std::optional(FloorPlane{plane.x(), plane.y(), plane.z()}) : std::nullopt;
 }
 
 double Support(const FloorPlane& plane, const std::vector<Eigen::Vector3f>& points,
-               const FloorOptions& options) {
+               const DisparityTolerance& tolerance) {
   double support = 0;
   for (const Eigen::Vector3f& point : points) {
-    const double above =
-        point.z() - plane.At(static_cast<int>(point.x()), static_cast<int>(point.y()));
-    const double tolerance = options.disparity + options.disparity_share * point.z();
-    if (std::abs(above) < tolerance) {
+    const float floor = plane.At(static_cast<int>(point.x()), static_cast<int>(point.y()));
+    if (tolerance.Same(point.z(), floor)) {
       support += 1;
-    } else if (above < 0) {
-      support -= options.below_weight;
+    } else if (point.z() < floor) {
+      support -= 1;  // nothing lies below a floor
     }
   }
   return support;
@@ -59,19 +59,20 @@ double Support(const FloorPlane& plane, const std::vector<Eigen::Vector3f>& poin
 
 }  // namespace
 
-std::optional<FloorPlane> FindFloor(const cv::Mat1f& disparity, const FloorOptions& options) {
+std::optional<FloorPlane> FindFloor(const cv::Mat1f& disparity,
+                                    const DisparityTolerance& tolerance) {
   const std::vector<Eigen::Vector3f> points = PointsOfLowerHalf(disparity);
   if (points.size() < kLeastPoints) return std::nullopt;
   std::optional<FloorPlane> best;
-  double most = options.least_support * static_cast<double>(points.size());
-  for (int k = 0; k < options.hypotheses; ++k) {
-    CounterRandom random(options.seed, static_cast<std::uint64_t>(k));
+  double most = kLeastShare * static_cast<double>(points.size());
+  for (int k = 0; k < kHypotheses; ++k) {
+    CounterRandom random(kSeed, static_cast<std::uint64_t>(k));
     std::array<Eigen::Vector3f, 3> sample;
     for (Eigen::Vector3f& point : sample) {
       point = points[static_cast<std::size_t>(random.Below(static_cast<int>(points.size())))];
     }
-    const auto plane = PlaneThrough(sample, options);
-    const double support = plane ? Support(*plane, points, options) : 0;
+    const auto plane = PlaneThrough(sample);
+    const double support = plane ? Support(*plane, points, tolerance) : 0;
     if (support <= most) continue;
     most = support;
     best = plane;
@@ -79,15 +80,14 @@ std::optional<FloorPlane> FindFloor(const cv::Mat1f& disparity, const FloorOptio
   return best;
 }
 
-cv::Mat1b FloorMask(const cv::Mat1f& filled, const std::optional<FloorPlane>& floor) {
-  constexpr float kTolerance = 0.35F, kToleranceShare = 0.03F;
+cv::Mat1b FloorMask(const cv::Mat1f& filled, const std::optional<FloorPlane>& floor,
+                    const DisparityTolerance& tolerance) {
   cv::Mat1b mask(filled.size(), 0);
   if (!floor) return mask;
   for (int y = 0; y < filled.rows; ++y) {
     for (int x = 0; x < filled.cols; ++x) {
       const float d = floor->At(x, y);
-      const bool on = d > kHorizon && std::abs(filled(y, x) - d) < kTolerance + kToleranceShare * d;
-      mask(y, x) = on ? 255 : 0;
+      mask(y, x) = d > kHorizon && tolerance.Same(d, filled(y, x)) ? 255 : 0;
     }
   }
   return mask;

@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "slam/dynamic/robust/robust_options.h"
+#include "slam/dynamic/robust/disparity_tolerance.h"
 
 namespace aisle::slam::dynamic {
 
@@ -16,10 +16,13 @@ struct FloorPlane {
 };
 
 /// The level plane in the lower half of the image that most measurements lie on and few below, by
-/// RANSAC; nothing if it has too few of them.
-std::optional<FloorPlane> FindFloor(const cv::Mat1f& disparity, const FloorOptions& options);
+/// RANSAC (Fischler and Bolles 1981) as v-disparity has it (Labayrade et al. 2002); nothing if it
+/// has too few of them.
+std::optional<FloorPlane> FindFloor(const cv::Mat1f& disparity,
+                                    const DisparityTolerance& tolerance);
 
 /// 255 where the (filled) disparity lies on the floor: what touches it there does not belong to it.
-cv::Mat1b FloorMask(const cv::Mat1f& filled, const std::optional<FloorPlane>& floor);
+cv::Mat1b FloorMask(const cv::Mat1f& filled, const std::optional<FloorPlane>& floor,
+                    const DisparityTolerance& tolerance);
 
 }  // namespace aisle::slam::dynamic

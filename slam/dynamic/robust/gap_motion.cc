@@ -15,12 +15,12 @@ using GapMatches = std::vector<std::vector<StereoMatch>>;
 
 GapMatches MatchOverGaps(const RobustState& before, const View& view,
                          const std::vector<GapFlow>& flows, const LabelMemory& memory,
-                         int cell_px) {
-  const auto points = WellHeld(view.texture, view.frame.disparity, cell_px);
+                         const EgoMotionOptions& options) {
+  const auto points = WellHeld(view.texture, view.frame.disparity, options.cell_px);
   GapMatches matches(flows.size());
   tbb::parallel_for(std::size_t{0}, flows.size(), [&](std::size_t k) {
     matches[k] = MatchesAlong(points, flows[k].flow, flows[k].expected, view.frame,
-                              FrameAgo(before, flows[k].gap), memory);
+                              FrameAgo(before, flows[k].gap), memory, options.trust_in_region);
   });
   return matches;
 }
@@ -32,12 +32,10 @@ std::vector<EgoMotion> MotionsOf(const GapMatches& matches, const RobustState& b
   std::vector<EgoMotion> motions(flows.size());
   if (flows.empty()) return motions;
   motions[0] = EstimateEgoMotion(matches[0], camera, prior, before.noise.match[0], options);
-  EgoMotionOptions narrow = options;
-  narrow.rounds = 1;  // the frames between have left little to find
   tbb::parallel_for(std::size_t{1}, flows.size(), [&](std::size_t k) {
     const Isometry3d expected = MotionOver(flows[k].gap, before, motions[0].T_now_before);
-    motions[k] =
-        RefineEgoMotion(matches[k], camera, expected, before.noise.match[flows[k].slot], narrow);
+    // The frames between have left little to find.
+    motions[k] = RefineEgoMotion(matches[k], camera, expected, before.noise.match[flows[k].slot]);
   });
   const auto lost = std::find_if(motions.begin(), motions.end(),
                                  [](const EgoMotion& motion) { return !motion.found; });
@@ -56,9 +54,9 @@ MeasurementNoise Learned(const MeasurementNoise& known, const std::vector<Stereo
 
 }  // namespace
 
-double LearningRate(std::size_t slot) {
-  constexpr double kRate = 0.1, kEverySecond = 1 - (1 - kRate) * (1 - kRate);
-  return slot == 0 ? kRate : kEverySecond;
+double LearningRate(std::size_t slot, const ToleranceOptions& options) {
+  const double kept = 1 - options.learning_rate;
+  return slot == 0 ? options.learning_rate : 1 - kept * kept;
 }
 
 std::optional<MotionPrior> PriorFor(const RobustState& before, std::int64_t stamp_ns,
@@ -83,13 +81,14 @@ std::optional<MotionPrior> PriorFor(const RobustState& before, std::int64_t stam
 GapMotions FindGapMotions(const RobustState& before, const View& view,
                           const std::vector<GapFlow>& flows, const LabelMemory& memory,
                           const std::optional<MotionPrior>& prior, const StereoCamera& camera,
-                          const EgoMotionOptions& options) {
-  const GapMatches matches = MatchOverGaps(before, view, flows, memory, options.cell_px);
-  GapMotions found{MotionsOf(matches, before, flows, prior, camera, options), before.noise.match};
+                          const RobustOptions& options) {
+  const GapMatches matches = MatchOverGaps(before, view, flows, memory, options.ego);
+  GapMotions found{MotionsOf(matches, before, flows, prior, camera, options.ego),
+                   before.noise.match};
   tbb::parallel_for(std::size_t{0}, found.motions.size(), [&](std::size_t k) {
     const std::size_t slot = flows[k].slot;
-    found.noise[slot] =
-        Learned(before.noise.match[slot], matches[k], found.motions[k], camera, LearningRate(slot));
+    found.noise[slot] = Learned(before.noise.match[slot], matches[k], found.motions[k], camera,
+                                LearningRate(slot, options.tolerance));
   });
   return found;
 }

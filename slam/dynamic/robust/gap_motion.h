@@ -26,10 +26,10 @@ struct GapMotions {
 GapMotions FindGapMotions(const RobustState& before, const View& view,
                           const std::vector<GapFlow>& flows, const LabelMemory& memory,
                           const std::optional<MotionPrior>& prior, const StereoCamera& camera,
-                          const EgoMotionOptions& options);
+                          const RobustOptions& options);
 
 /// By which share a value measured over a gap moves the running one, so that all gaps learn at one
 /// pace: a longer gap is measured in every second frame.
-double LearningRate(std::size_t slot);
+double LearningRate(std::size_t slot, const ToleranceOptions& options);
 
 }  // namespace aisle::slam::dynamic

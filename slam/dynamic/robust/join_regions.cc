@@ -5,8 +5,9 @@
 namespace aisle::slam::dynamic {
 namespace {
 
-/// Mean disparity of each region's known pixels; not a number where none is known.
-std::vector<double> MeanDisparities(const PixelRegions& regions, const cv::Mat1f& disparity) {
+/// Mean disparity of each region's known pixels; not a number, which is like none, where none is
+/// known.
+std::vector<float> MeanDisparities(const PixelRegions& regions, const cv::Mat1f& disparity) {
   std::vector<double> sums(regions.regions.size(), 0.0), counts(regions.regions.size(), 0.0);
   for (int y = 0; y < disparity.rows; ++y) {
     const int* label = regions.labels[y];
@@ -18,8 +19,9 @@ std::vector<double> MeanDisparities(const PixelRegions& regions, const cv::Mat1f
       ++counts[region];
     }
   }
-  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= counts[k];
-  return sums;
+  std::vector<float> means(sums.size());
+  for (std::size_t k = 0; k < sums.size(); ++k) means[k] = static_cast<float>(sums[k] / counts[k]);
+  return means;
 }
 
 PixelRegion United(const PixelRegion& a, const PixelRegion& b) {
@@ -31,15 +33,15 @@ PixelRegion United(const PixelRegion& a, const PixelRegion& b) {
 }  // namespace
 
 std::vector<PixelRegion> JoinRegions(const PixelRegions& parts, const cv::Mat1f& disparity,
+                                     const DisparityTolerance& tolerance,
                                      const RegionOptions& options) {
-  const std::vector<double> distance = MeanDisparities(parts, disparity);
+  const std::vector<float> distance = MeanDisparities(parts, disparity);
   std::vector<PixelRegion> whole;
   std::vector<std::size_t> largest;  // part of each whole
   const auto is_part_of = [&](std::size_t part, std::size_t other) {
     const cv::Rect &box = parts.regions[part].box, &around = parts.regions[other].box;
-    const double step = options.join_disparity + options.join_disparity_share * distance[other];
-    return (box & around).area() >= options.join_overlap * box.area() &&
-           std::abs(distance[part] - distance[other]) <= step;
+    return (box & around).area() >= options.overlap * box.area() &&
+           tolerance.Same(distance[other], distance[part]);
   };
   for (std::size_t part = 0; part < parts.regions.size(); ++part) {
     const auto of = std::find_if(largest.begin(), largest.end(),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "slam/dynamic/robust/disparity_tolerance.h"
 #include "slam/dynamic/robust/moving_regions.h"
 
 namespace aisle::slam::dynamic {
@@ -10,6 +11,7 @@ namespace aisle::slam::dynamic {
 /// theirs. `parts` are as FindRegions gives them, the largest first. `disparity`, of half size, is
 /// not positive where it is unknown; nothing is joined to what has no known one.
 std::vector<PixelRegion> JoinRegions(const PixelRegions& parts, const cv::Mat1f& disparity,
+                                     const DisparityTolerance& tolerance,
                                      const RegionOptions& options);
 
 }  // namespace aisle::slam::dynamic

@@ -14,20 +14,22 @@ struct Ends {
 };
 
 struct Tie {
-  float coupling, disparity, disparity_share, contrast, floor_link;
+  float coupling;
+  DisparityTolerance tolerance;
+  float contrast;
 
   /// Surfaces first, without branches, so that it is vectorised; then the floor's edge.
   void Row(const Ends& e, int count, float* links) const {
 #pragma GCC ivdep
     for (int x = 0; x < count; ++x) {
       const float d1 = e.disparity[x], d2 = e.other_disparity[x];
-      const float step = (d1 - d2) / (disparity + disparity_share * (d1 + d2) / 2);
+      const float step = (d1 - d2) / tolerance.At((d1 + d2) / 2);
       const float steps = step * step;
       const float edge = static_cast<float>(std::abs(e.grey[x] - e.other_grey[x])) / contrast;
       links[x] = coupling / ((1 + steps * steps) * (1 + edge));
     }
     for (int x = 0; x < count; ++x) {
-      if ((e.floor[x] != 0) != (e.other_floor[x] != 0)) links[x] = coupling * floor_link;
+      if ((e.floor[x] != 0) != (e.other_floor[x] != 0)) links[x] = 0;
     }
   }
 };
@@ -108,10 +110,9 @@ constexpr int kMostRings = 60;
 }  // namespace
 
 Links LinkPixels(const cv::Mat1f& filled, const cv::Mat1b& image, const cv::Mat1b& floor,
-                 const FieldOptions& options) {
-  const Tie tie{static_cast<float>(options.coupling), static_cast<float>(options.disparity),
-                static_cast<float>(options.disparity_share), static_cast<float>(options.contrast),
-                static_cast<float>(options.floor_link)};
+                 const DisparityTolerance& tolerance, const FieldOptions& options) {
+  const Tie tie{static_cast<float>(options.coupling), tolerance,
+                static_cast<float>(options.contrast)};
   Links links{cv::Mat1f(image.size(), 0.0F), cv::Mat1f(image.size(), 0.0F)};
   tbb::parallel_for(0, image.rows, [&](int y) {
     const auto to = [&](int y2, int dx) {
@@ -123,9 +124,9 @@ Links LinkPixels(const cv::Mat1f& filled, const cv::Mat1b& image, const cv::Mat1
   return links;
 }
 
-cv::Mat1f SolveField(const cv::Mat1f& evidence, const Links& links, const FieldOptions& options) {
+cv::Mat1f SolveField(const cv::Mat1f& evidence, const Links& links) {
   Sweeper sweeper(evidence, links);
-  for (int sweep = 0; sweep < options.sweeps; ++sweep) {
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
     sweep % 2 == 0 ? sweeper.Sweep<1>() : sweeper.Sweep<-1>();
   }
   return sweeper.log_odds();
@@ -139,7 +140,7 @@ cv::Mat1b GrowMoving(const cv::Mat1f& field, const cv::Mat1f& evidence, const Li
   std::vector<cv::Point> front, next;
   for (int y = 0; y < field.rows; ++y) {
     for (int x = 0; x < field.cols; ++x) {
-      if (moving(y, x) != 0 && evidence(y, x) > static_cast<float>(options.grow_from)) {
+      if (moving(y, x) != 0 && evidence(y, x) > static_cast<float>(options.moving)) {
         front.emplace_back(x, y);
       }
     }

@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "slam/dynamic/robust/robust_options.h"
+#include "slam/dynamic/robust/disparity_tolerance.h"
 
 namespace aisle::slam::dynamic {
 
@@ -11,14 +11,17 @@ struct Links {
   cv::Mat1f right, down;
 };
 
-/// Ties within a surface: weak across a step of disparity or of grey, and between the floor and
-/// what stands on it.
+/// Ties within a surface: weak across a step of disparity (halved by the tolerance, and soon none)
+/// or of grey, and none between the floor and what stands on it.
 Links LinkPixels(const cv::Mat1f& filled, const cv::Mat1b& image, const cv::Mat1b& floor,
-                 const FieldOptions& options);
+                 const DisparityTolerance& tolerance, const FieldOptions& options);
+
+/// Sweeps over the image, there and back twice: what more of them change is not seen in any mask.
+inline constexpr int kSweeps = 4;
 
 /// Log-odds of moving per pixel given its own evidence and its neighbours': mean-field sweeps in
-/// alternating raster order.
-cv::Mat1f SolveField(const cv::Mat1f& evidence, const Links& links, const FieldOptions& options);
+/// alternating raster order, with a belief that is linear around zero and saturates.
+cv::Mat1f SolveField(const cv::Mat1f& evidence, const Links& links);
 
 /// 255 for the pixels that move: those of the field above `moving`, and what can be reached from
 /// the surer ones along strong links through pixels whose own evidence does not speak against it,

@@ -5,21 +5,28 @@
 namespace aisle::slam::dynamic {
 namespace {
 
-constexpr float kTolerance = 0.5F, kToleranceShare = 0.08F, kPerPixel = 0.1F;
+/// Which pixel around a place shows the same surface. A step to the side counts as much as a
+/// deviation of the disparity: what lies on the spot is preferred to what is as good beside it.
+struct Surface {
+  float disparity, tolerance, per_step;
 
-/// How far a pixel of another disparity, so many steps away, is from being the same surface.
-float Difference(float disparity, float d, int steps) {
-  return std::abs(disparity - d) + kPerPixel * static_cast<float>(steps);
-}
+  Surface(float d, const DisparityTolerance& rule)
+      : disparity(d), tolerance(2 * rule.At(d)), per_step(rule.noise()) {}
+
+  /// How far a pixel of another disparity, so many steps away, is from being that.
+  float Difference(float other, int steps) const {
+    return std::abs(other - disparity) + per_step * static_cast<float>(steps);
+  }
+};
 
 /// SameSurface in the midst of the image: all nine, without branches.
-cv::Point SameSurfaceInside(const cv::Mat1f& disparity, cv::Point centre, float d) {
-  float least = kTolerance + kToleranceShare * d;
+cv::Point SameSurfaceInside(const cv::Mat1f& disparity, cv::Point centre, const Surface& surface) {
+  float least = surface.tolerance;
   int best = -1;
   for (int row = 0; row < 3; ++row) {
     const float* at = disparity[centre.y + row - 1] + centre.x - 1;
     for (int column = 0; column < 3; ++column) {
-      const float off = Difference(at[column], d, std::abs(column - 1) + std::abs(row - 1));
+      const float off = surface.Difference(at[column], std::abs(column - 1) + std::abs(row - 1));
       best = off < least ? 3 * row + column : best;
       least = off < least ? off : least;
     }
@@ -29,22 +36,22 @@ cv::Point SameSurfaceInside(const cv::Mat1f& disparity, cv::Point centre, float 
 
 /// The pixel around a place whose disparity is closest, places further off counting as less close;
 /// outside the image if none is close enough.
-cv::Point SameSurface(const cv::Mat1f& disparity, const cv::Vec2f& place, float d) {
+cv::Point SameSurface(const cv::Mat1f& disparity, const cv::Vec2f& place, const Surface& surface) {
   const cv::Point centre(cvRound(place[0]), cvRound(place[1]));
   const cv::Rect image({0, 0}, disparity.size());
   const cv::Rect inner(1, 1, disparity.cols - 2, disparity.rows - 2);
-  const float tolerance = kTolerance + kToleranceShare * d;
-  if (image.contains(centre) && std::abs(disparity(centre) - d) < std::min(tolerance, kPerPixel)) {
+  if (image.contains(centre) &&
+      surface.Difference(disparity(centre), 0) < std::min(surface.tolerance, surface.per_step)) {
     return centre;
   }
-  if (inner.contains(centre)) return SameSurfaceInside(disparity, centre, d);
+  if (inner.contains(centre)) return SameSurfaceInside(disparity, centre, surface);
   cv::Point best(-1, -1);
-  float least = tolerance;
+  float least = surface.tolerance;
   const cv::Rect around = cv::Rect(centre.x - 1, centre.y - 1, 3, 3) & image;
   for (int y = around.y; y < around.y + around.height; ++y) {
     for (int x = around.x; x < around.x + around.width; ++x) {
       const float off =
-          Difference(disparity(y, x), d, std::abs(x - centre.x) + std::abs(y - centre.y));
+          surface.Difference(disparity(y, x), std::abs(x - centre.x) + std::abs(y - centre.y));
       if (off >= least) continue;
       least = off;
       best = {x, y};
@@ -78,7 +85,7 @@ LabelMemory ForgottenMemory(cv::Size size, int next_region_id) {
 }
 
 LabelMemory CarryMemory(const LabelMemory& previous, const cv::Mat2f& flow, const DenseFrame& now,
-                        const DenseFrame& before) {
+                        const DenseFrame& before, const DisparityTolerance& tolerance) {
   LabelMemory carried = ForgottenMemory(flow.size(), previous.regions.next_id);
   if (previous.log_odds.empty()) return carried;
   carried.regions.regions = previous.regions.regions;
@@ -92,9 +99,9 @@ LabelMemory CarryMemory(const LabelMemory& previous, const cv::Mat2f& flow, cons
     for (int x = 0; x < flow.cols; ++x) {
       // Who leaves to the left is known no less where the right camera loses him first.
       const bool flow_alone = x < unseen && now.disparity(y, x) <= 0;
-      const cv::Point from = flow_alone
-                                 ? PixelAt(flow(y, x), flow.size())
-                                 : SameSurface(before.disparity, flow(y, x), now.filled(y, x));
+      const cv::Point from =
+          flow_alone ? PixelAt(flow(y, x), flow.size())
+                     : SameSurface(before.disparity, flow(y, x), {now.filled(y, x), tolerance});
       if (from.x < 0) continue;
       carried.log_odds(y, x) = previous.log_odds(from);
       if (compared_long) {

@@ -3,6 +3,7 @@
 #include <opencv2/core.hpp>
 
 #include "slam/dynamic/robust/dense_frame.h"
+#include "slam/dynamic/robust/disparity_tolerance.h"
 #include "slam/dynamic/robust/moving_regions.h"
 
 namespace aisle::slam::dynamic {
@@ -24,6 +25,6 @@ LabelMemory ForgottenMemory(cv::Size size, int next_region_id);
 /// beyond the right image, where there is no surface to compare, the flow alone is followed.
 /// Regions keep their ids and sizes.
 LabelMemory CarryMemory(const LabelMemory& previous, const cv::Mat2f& flow, const DenseFrame& now,
-                        const DenseFrame& before);
+                        const DenseFrame& before, const DisparityTolerance& tolerance);
 
 }  // namespace aisle::slam::dynamic

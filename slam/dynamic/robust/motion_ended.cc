@@ -5,12 +5,12 @@
 namespace aisle::slam::dynamic {
 
 EndedMotion TakeOffEndedMotion(const LatestStep& step, const Texture& texture,
-                               const cv::Mat2f& per_step, const cv::Mat1f& log_odds, double most,
+                               const cv::Mat2f& per_step, const cv::Mat1f& log_odds,
                                const EvidenceOptions& options) {
   EndedMotion result{cv::Mat1f(log_odds.size()), cv::Mat1f(log_odds.size())};
   const auto share = static_cast<float>(options.least_speed_share),
              noise = static_cast<float>(options.mover_noise * options.mover_noise),
-             limit = static_cast<float>(most);
+             limit = static_cast<float>(options.most);
   tbb::parallel_for(0, log_odds.rows, [&](int y) {
     const float *xx = texture.xx[y], *xy = texture.xy[y], *yy = texture.yy[y];
     const float *residual = step.residual.ptr<float>(y), *velocity = per_step.ptr<float>(y),

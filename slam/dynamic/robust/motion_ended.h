@@ -22,10 +22,10 @@ struct EndedMotion {
 /// who walked a second ago may stand now. `per_step` is the residual of the longer gap, shared out
 /// among its steps. Against "moves still, at no less than least_speed_share of that" stands "is
 /// static"; where the ratio of the two densities of the latest residual is for static, it is taken
-/// off, down to zero. Log-odds count up to `most`. What moves too slowly for one step to tell keeps
-/// all.
+/// off, down to zero. Log-odds count up to EvidenceOptions::most. What moves too slowly for one
+/// step to tell keeps all.
 EndedMotion TakeOffEndedMotion(const LatestStep& step, const Texture& texture,
-                               const cv::Mat2f& per_step, const cv::Mat1f& log_odds, double most,
+                               const cv::Mat2f& per_step, const cv::Mat1f& log_odds,
                                const EvidenceOptions& options);
 
 }  // namespace aisle::slam::dynamic

@@ -10,6 +10,7 @@
 #include "slam/dynamic/robust/residual_flow.h"
 #include "slam/dynamic/robust/squared_difference.h"
 #include "slam/dynamic/robust/static_alias.h"
+#include "slam/stereo/dense/semi_global.h"
 
 namespace aisle::slam::dynamic {
 namespace {
@@ -70,17 +71,12 @@ struct Evidence {
 
   /// Whether something nearer is so close that the flow here is its flow.
   bool IsBesideNearer(int y, int x, float d) const {
-    return around.nearest(y, x) >
-           d + static_cast<float>(options.edge_step + options.edge_share * d);
+    return frames.tolerance.IsNearer(d, around.nearest(y, x));
   }
 
   /// Whether nothing was known at an earlier place as its surface lay beyond the right image then.
   bool WasBlind(const cv::Vec2f& place, float d, float seen) const {
-    return seen <= 0 && place[0] - d < static_cast<float>(options.blind_px);
-  }
-
-  float SameSurface(float d) const {
-    return static_cast<float>(options.same_surface + options.same_surface_share * d);
+    return seen <= 0 && place[0] - d < static_cast<float>(kMatchReach);
   }
 
   /// Of a static pixel's flow: what its disparity and the way it has gone add to the flow's own.
@@ -88,13 +84,13 @@ struct Evidence {
     const cv::Vec2f way =
         expected.place(y, x) - cv::Vec2f(static_cast<float>(x), static_cast<float>(y));
     const cv::Vec2f& along = expected.per_disparity(y, x);
-    return Squared(options.disparity_noise) * along.dot(along) +
+    return Squared(frames.tolerance.noise()) * along.dot(along) +
            Squared(options.noise_per_displacement) * way.dot(way);
   }
 
   /// Whether earlier frames have said enough; they, too, were asked for other explanations.
   bool WasSure(int y, int x) const {
-    return !frames.memory.empty() && frames.memory(y, x) > static_cast<float>(options.sure);
+    return !frames.memory.empty() && frames.memory(y, x) > static_cast<float>(frames.sure);
   }
 
   /// What of a pixel's log-odds something static with another disparity does not explain.
@@ -105,7 +101,8 @@ struct Evidence {
                           expected.place(y, x),
                           expected.disparity(y, x),
                           expected.per_disparity(y, x)};
-    const AliasViews views{frames.now, frames.then.image, around.variance, depth_per_disparity};
+    const AliasViews views{frames.now,       frames.then.image,  around.variance,
+                           frames.tolerance, frames.disparities, depth_per_disparity};
     return LimitByAlias(views, seen, std::min(log_odds, most), options);
   }
 
@@ -116,7 +113,7 @@ struct Evidence {
     const float *xx = texture.xx[y], *xy = texture.xy[y], *yy = texture.yy[y];
     float *residual = step.residual.ptr<float>(y), *variances = step.variance[y];
     const float of_flow = Squared(frames.flow_noise),
-                of_disparity = Squared(options.disparity_noise),
+                of_disparity = Squared(frames.tolerance.noise()),
                 of_way = Squared(options.noise_per_displacement);
 #pragma GCC ivdep
     for (int x = 0; x < frames.flow.cols; ++x) {
@@ -143,18 +140,17 @@ struct Evidence {
     if (!inside.contains(to)) return 0;
 
     const float change = disparity_change * d * d;
-    const bool hidden =
-        frames.then.disparity(to) > expected_d + std::max(0.75F, 0.06F * expected_d);
+    const bool hidden = frames.tolerance.IsNearer(expected_d, frames.then.disparity(to));
     if (log_odds <= 0) return hidden ? 0 : log_odds;
     if (IsBesideNearer(y, x, d)) return 0;
 
     const float seen = DisparityAround(frames.then.disparity, frames.flow(y, x), d, expected_d);
     const float off = std::min(std::abs(seen - d), std::abs(seen - expected_d));
-    const auto speeds = static_cast<float>(options.same_surface_speeds);
-    const bool other = seen <= 0 || off >= SameSurface(d) + speeds * change;
+    const float same = frames.tolerance.At(d);
+    const bool other = seen <= 0 || off >= same + frames.tolerance.sigmas() * change;
     if (other && !WasBlind(frames.flow(y, x), d, seen)) return 0;
     const float moved = difference_moved(y, x);
-    if (hidden && (std::abs(seen - d) >= SameSurface(d) + change ||
+    if (hidden && (std::abs(seen - d) >= same + change ||
                    moved >= static_cast<float>(options.hidden_difference))) {
       return 0;
     }
@@ -240,7 +236,7 @@ MotionEvidence CompareMotion(const Comparison& comparison, const Texture& textur
                     WhereStatic(now.filled, comparison.T_then_now, half),
                     {},
                     {},
-                    static_cast<float>(*std::max_element(options.most.begin(), options.most.end())),
+                    static_cast<float>(options.most),
                     static_cast<float>(way_m / half.baseline_m),
                     static_cast<float>(way_m / focal_baseline),
                     static_cast<float>(comparison.T_then_now.translation().z() / focal_baseline)};
@@ -265,21 +261,21 @@ MotionEvidence CompareMotion(const Comparison& comparison, const Texture& textur
   return found;
 }
 
-cv::Mat1f CombineGaps(const std::vector<cv::Mat1f>& gaps, const EvidenceOptions& options) {
-  CV_Assert(!gaps.empty() && gaps.size() <= options.least.size());
+cv::Mat1f CombineGaps(const std::vector<cv::Mat1f>& gaps, double moving,
+                      const EvidenceOptions& options) {
+  CV_Assert(!gaps.empty());
   const auto others = static_cast<float>(options.others_weight),
-             motion_found = static_cast<float>(options.motion_found);
+             motion_found = static_cast<float>(moving);
+  const auto low = static_cast<float>(options.least), high = static_cast<float>(options.most);
   cv::Mat1f combined(gaps[0].size());
   tbb::parallel_for(0, combined.rows, [&](int y) {
     float* sum = combined[y];
     const auto columns = static_cast<std::size_t>(combined.cols);
     std::vector<float> most(columns, 0.0F), against(columns, 0.0F);
     std::fill(sum, sum + columns, 0.0F);
-    for (std::size_t k = 0; k < gaps.size(); ++k) {
-      if (gaps[k].empty()) continue;
-      const float* gap = gaps[k][y];
-      const auto low = static_cast<float>(options.least[k]),
-                 high = static_cast<float>(options.most[k]);
+    for (const cv::Mat1f& said : gaps) {
+      if (said.empty()) continue;
+      const float* gap = said[y];
 #pragma GCC ivdep
       for (std::size_t x = 0; x < columns; ++x) {
         const float one = std::min(std::max(gap[x], low), high);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "slam/dynamic/robust/dense_frame.h"
+#include "slam/dynamic/robust/disparity_tolerance.h"
 #include "slam/dynamic/robust/motion_ended.h"
 #include "slam/dynamic/robust/robust_options.h"
 
@@ -22,12 +23,15 @@ struct Comparison {
   const DenseFrame& now;
   const DenseFrame& then;
   const cv::Mat2f& flow;  ///< from FollowBack
+  DisparityTolerance tolerance;
   Eigen::Isometry3d T_then_now = Eigen::Isometry3d::Identity();
   double seconds = 0.05;  ///< between the two
   double flow_noise =
       0.12;                ///< half-size pixels, deviation of the flow where the texture is strong
   cv::Mat1i regions = {};  ///< of the current pixels: > 0 where something known to move has come
   cv::Mat1f memory = {};   ///< log-odds of what earlier frames said of them; may be empty
+  double sure = 3;         ///< of those, from which on nothing static is searched that looks alike
+  int disparities = 96;    ///< that the matcher searched, and something static may have
 };
 
 /// What is asked of the current frame whatever it is compared with.
@@ -55,8 +59,9 @@ MotionEvidence CompareMotion(const Comparison& comparison, const Texture& textur
                              const EvidenceOptions& options);
 
 /// One evidence from that of several gaps, the shortest first, each within its limits: their sum
-/// where none has found motion; else the strongest, and little of what speaks against it. All but
-/// the shortest may be empty: they say nothing.
-cv::Mat1f CombineGaps(const std::vector<cv::Mat1f>& gaps, const EvidenceOptions& options);
+/// where none has found motion, which is evidence beyond `moving`; else the strongest, and little
+/// of what speaks against it. All but the shortest may be empty: they say nothing.
+cv::Mat1f CombineGaps(const std::vector<cv::Mat1f>& gaps, double moving,
+                      const EvidenceOptions& options);
 
 }  // namespace aisle::slam::dynamic

@@ -1,8 +1,5 @@
 #include "slam/dynamic/robust/moving_regions.h"
 
-#include <tbb/parallel_for.h>
-
-#include <opencv2/imgproc.hpp>
 #include <set>
 
 namespace aisle::slam::dynamic {
@@ -10,7 +7,7 @@ namespace {
 
 struct Component {
   cv::Point low{std::numeric_limits<int>::max(), std::numeric_limits<int>::max()}, high{-1, -1};
-  int pixels = 0, core = 0, inner = 0;
+  int pixels = 0, core = 0;
   double sum = 0;
   std::vector<int> overlap;  // pixels, by the previous region's index
 };
@@ -68,45 +65,11 @@ int LabelComponents(const cv::Mat1b& moving, const Links& links, float least_lin
   return count;
 }
 
-/// 255 where the window around a pixel lies within one component; the image's border is repeated.
-cv::Mat1b InnerPixels(const cv::Mat1i& labels, int window) {
-  const int reach = window / 2;
-  cv::Mat1i padded;
-  cv::copyMakeBorder(labels, padded, reach, reach, reach, reach, cv::BORDER_REPLICATE);
-  // All bits set where true; without branches, so that rows are vectorised.
-  cv::Mat1i equal(padded.rows, labels.cols);  // within the row alone
-  tbb::parallel_for(0, padded.rows, [&](int y) {
-    const int* row = padded[y];
-    int* is = equal[y];
-    std::fill(is, is + labels.cols, -1);
-    for (int k = 0; k < window; ++k) {
-      for (int x = 0; x < labels.cols; ++x)
-        is[x] &= -static_cast<int>(row[x + k] == row[x + reach]);
-    }
-  });
-  cv::Mat1b inner(labels.size());
-  tbb::parallel_for(0, labels.rows, [&](int y) {
-    const int* centre = labels[y];
-    std::vector<int> all(static_cast<std::size_t>(labels.cols), -1);
-    for (int k = 0; k < window; ++k) {
-      const int *row = padded[y + k] + reach, *is = equal[y + k];
-      int* to = all.data();
-#pragma GCC ivdep
-      for (int x = 0; x < labels.cols; ++x) to[x] &= is[x] & -static_cast<int>(row[x] == centre[x]);
-    }
-    for (int x = 0; x < labels.cols; ++x) {
-      inner(y, x) = static_cast<unsigned char>(all[static_cast<std::size_t>(x)]);
-    }
-  });
-  return inner;
-}
-
 std::vector<Component> Describe(const cv::Mat1i& labels, int count, const cv::Mat1f& log_odds,
                                 const PixelRegions& previous, const RegionOptions& options) {
   Component none;
   none.overlap.resize(previous.regions.size(), 0);
   std::vector<Component> components(static_cast<std::size_t>(count) + 1, none);
-  const cv::Mat1b inner = InnerPixels(labels, options.inner_window_px);
   for (int y = 0; y < labels.rows; ++y) {
     for (int x = 0; x < labels.cols; ++x) {
       if (labels(y, x) == 0) continue;
@@ -116,7 +79,6 @@ std::vector<Component> Describe(const cv::Mat1i& labels, int count, const cv::Ma
       ++component.pixels;
       component.sum += log_odds(y, x);
       component.core += log_odds(y, x) > static_cast<float>(options.core_log_odds) ? 1 : 0;
-      component.inner += inner(y, x) != 0 ? 1 : 0;
       const int before = previous.labels.empty() ? 0 : previous.labels(y, x);
       if (before > 0) ++component.overlap[static_cast<std::size_t>(before - 1)];
     }
@@ -138,14 +100,13 @@ int Predecessor(const Component& component, const PixelRegions& previous,
   if (best < 0) return -1;
   const int smaller =
       std::min(component.pixels, previous.regions[static_cast<std::size_t>(best)].pixels);
-  return most >= options.least_overlap * smaller ? best : -1;
+  return most >= options.overlap * smaller ? best : -1;
 }
 
-bool IsMoving(const Component& component, bool known, const RegionOptions& options) {
-  return component.pixels >= options.least_px &&
-         component.sum >= options.least_log_odds * component.pixels &&
-         component.core >= (known ? options.keep_core_px : options.birth_core_px) &&
-         component.inner >= (known ? options.keep_inner_px : options.birth_inner_px);
+bool IsMoving(const Component& component, bool known, double least_mean,
+              const RegionOptions& options) {
+  return component.sum >= least_mean * component.pixels &&
+         component.core >= (known ? options.keep_core_px : options.birth_core_px);
 }
 
 std::vector<std::size_t> LargestFirst(const std::vector<Component>& components) {
@@ -160,18 +121,18 @@ std::vector<std::size_t> LargestFirst(const std::vector<Component>& components) 
 }  // namespace
 
 PixelRegions FindRegions(const cv::Mat1b& moving, const cv::Mat1f& log_odds, const Links& links,
-                         const PixelRegions& previous, double coupling,
+                         const PixelRegions& previous, const FieldOptions& field,
                          const RegionOptions& options) {
   PixelRegions found{.labels = {}, .regions = {}, .next_id = previous.next_id};
-  const int count =
-      LabelComponents(moving, links, static_cast<float>(options.link * coupling), found.labels);
+  const int count = LabelComponents(
+      moving, links, static_cast<float>(options.link * field.coupling), found.labels);
   const auto components = Describe(found.labels, count, log_odds, previous, options);
   std::vector<int> label_of(components.size(), 0);
   std::set<int> taken;
   for (const std::size_t c : LargestFirst(components)) {
     const Component& component = components[c];
     const int before = Predecessor(component, previous, taken, options);
-    if (!IsMoving(component, before >= 0, options)) continue;
+    if (!IsMoving(component, before >= 0, field.moving, options)) continue;
     if (before >= 0) taken.insert(before);
     const int id =
         before >= 0 ? previous.regions[static_cast<std::size_t>(before)].id : found.next_id++;

@@ -27,6 +27,6 @@ struct PastEvidence {
 PastEvidence WeighPast(const RobustState& before, const View& view,
                        const std::vector<GapFlow>& flows, const std::vector<EgoMotion>& motions,
                        const LabelMemory& memory, const StereoCamera& half,
-                       const EvidenceOptions& options);
+                       const DisparityTolerance& tolerance, const RobustOptions& options);
 
 }  // namespace aisle::slam::dynamic

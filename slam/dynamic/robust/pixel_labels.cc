@@ -16,14 +16,13 @@ cv::Mat1f Leaning(const cv::Mat1f& log_odds, const cv::Mat1f& disparity, const c
                   const FieldOptions& options) {
   cv::Mat1f leaning;
   cv::add(log_odds, options.bias, leaning);
-  const auto unknown = static_cast<float>(options.unknown_bias),
-             on_floor = static_cast<float>(options.floor_bias);
+  const auto unlikely = static_cast<float>(options.unlikely_bias);
   tbb::parallel_for(0, leaning.rows, [&](int y) {
     const float* known = disparity[y];
     float* lean = leaning[y];
-    for (int x = 0; x < leaning.cols; ++x) lean[x] += known[x] <= 0 ? unknown : 0.0F;
+    for (int x = 0; x < leaning.cols; ++x) lean[x] += known[x] <= 0 ? unlikely : 0.0F;
     for (int x = 0; x < leaning.cols; ++x) {
-      if (floor(y, x) != 0) lean[x] = std::min(lean[x], 0.0F) + on_floor;
+      if (floor(y, x) != 0) lean[x] = std::min(lean[x], 0.0F) + unlikely;
     }
   });
   return leaning;
@@ -45,11 +44,12 @@ cv::Mat1f PixelProbability(const cv::Mat1f& log_odds, cv::Size image) {
   return probability;
 }
 
-DynamicRegions ToFullSize(const PixelRegions& regions, const cv::Mat1f& disparity, cv::Size image,
+DynamicRegions ToFullSize(const PixelRegions& regions, const cv::Mat1f& disparity,
+                          const DisparityTolerance& tolerance, cv::Size image,
                           const RegionOptions& options) {
   DynamicRegions dynamic;
   dynamic.mask = PixelMask(regions, image);
-  for (const PixelRegion& region : JoinRegions(regions, disparity, options)) {
+  for (const PixelRegion& region : JoinRegions(regions, disparity, tolerance, options)) {
     const cv::Rect box(region.box.tl() * 2, region.box.size() * 2);
     dynamic.regions.push_back({region.id, box & cv::Rect({0, 0}, image), region.log_odds});
   }
@@ -59,19 +59,18 @@ DynamicRegions ToFullSize(const PixelRegions& regions, const cv::Mat1f& disparit
 }  // namespace
 
 PixelLabels LabelPixels(const cv::Mat1f& log_odds, const DenseFrame& frame, const Layout& layout,
-                        const PixelRegions& previous, cv::Size image,
-                        const RobustOptions& options) {
+                        const PixelRegions& previous, const DisparityTolerance& tolerance,
+                        cv::Size image, const RobustOptions& options) {
   const cv::Mat1f leaning = Leaning(log_odds, frame.disparity, layout.floor_mask, options.field);
-  const cv::Mat1f field = SolveField(leaning, layout.links, options.field);
+  const cv::Mat1f field = SolveField(leaning, layout.links);
   auto [regions, probability] = InParallel(
       [&] {
         const cv::Mat1b moving = GrowMoving(field, leaning, layout.links, layout.floor_mask,
                                             layout.farthest, options.field);
-        return FindRegions(moving, log_odds, layout.links, previous, options.field.coupling,
-                           options.region);
+        return FindRegions(moving, log_odds, layout.links, previous, options.field, options.region);
       },
       [&] { return PixelProbability(field, image); });
-  DynamicRegions dynamic = ToFullSize(regions, frame.disparity, image, options.region);
+  DynamicRegions dynamic = ToFullSize(regions, frame.disparity, tolerance, image, options.region);
   return {field, std::move(regions), std::move(dynamic), std::move(probability)};
 }
 

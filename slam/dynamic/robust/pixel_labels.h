@@ -19,6 +19,7 @@ struct PixelLabels {
 /// Labels pixels by their log-odds of moving, known so far, and by how they hang together.
 /// `previous` are the regions of the frame before, carried to this one; `image` is the full size.
 PixelLabels LabelPixels(const cv::Mat1f& log_odds, const DenseFrame& frame, const Layout& layout,
-                        const PixelRegions& previous, cv::Size image, const RobustOptions& options);
+                        const PixelRegions& previous, const DisparityTolerance& tolerance,
+                        cv::Size image, const RobustOptions& options);
 
 }  // namespace aisle::slam::dynamic

@@ -10,8 +10,7 @@
 namespace aisle::slam::dynamic {
 namespace {
 
-constexpr int kFollowWindow = 9;  // half-size pixels, odd
-constexpr double kTrustInRegion = 0.02;
+constexpr int kFollowWindow = 9;    // half-size pixels, odd
 constexpr float kLeastTexture = 4;  // of the weaker direction: half a pixel of deviation
 
 /// The smaller eigenvalue of the pixels of a row; 0 where the disparity is not known.
@@ -95,9 +94,9 @@ std::vector<cv::Point2f> FollowPoints(const std::vector<cv::Point>& points, cons
 
 /// The probability that a pixel stands still; hardly any within a region that moves, whatever its
 /// own evidence: plain cloth shows little.
-double TrustIn(const LabelMemory& memory, cv::Point at) {
+double TrustIn(const LabelMemory& memory, cv::Point at, double in_region) {
   const double trust = 1 / (1 + std::exp(static_cast<double>(memory.log_odds(at))));
-  return memory.regions.labels(at) > 0 ? std::min(trust, kTrustInRegion) : trust;
+  return memory.regions.labels(at) > 0 ? std::min(trust, in_region) : trust;
 }
 
 }  // namespace
@@ -139,7 +138,8 @@ std::vector<cv::Point> WellHeld(const Texture& texture, const cv::Mat1f& dispari
 
 std::vector<StereoMatch> MatchesAlong(const std::vector<cv::Point>& points, const cv::Mat2f& flow,
                                       const cv::Mat2f& expected, const DenseFrame& now,
-                                      const DenseFrame& then, const LabelMemory& memory) {
+                                      const DenseFrame& then, const LabelMemory& memory,
+                                      double trust_in_region) {
   const std::vector<cv::Point2f> places = FollowPoints(points, now, then, flow, expected);
   std::vector<StereoMatch> matches;
   const cv::Rect image({0, 0}, flow.size());
@@ -149,7 +149,7 @@ std::vector<StereoMatch> MatchesAlong(const std::vector<cv::Point>& points, cons
     StereoMatch match;
     match.now = {FullPixel(at.x), FullPixel(at.y), 2.0 * now.disparity(at)};
     match.before = {FullPixel(places[i].x), FullPixel(places[i].y), 2.0 * then.disparity(near)};
-    match.weight = TrustIn(memory, at);
+    match.weight = TrustIn(memory, at, trust_in_region);
     matches.push_back(match);
   }
   return matches;

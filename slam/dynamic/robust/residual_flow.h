@@ -26,9 +26,11 @@ std::vector<cv::Point> WellHeld(const Texture& texture, const cv::Mat1f& dispari
 /// Points measured in both frames; full pixels. Each is followed by itself from where the flow
 /// leads and from where it is expected, whichever fits better: beside something large that moves,
 /// the flow is not its own. What is known of the current pixels sets their weight: the log-odds of
-/// moving, and that a region that moves has come there.
+/// moving, and that a region that moves has come there, in which none has more than
+/// `trust_in_region`.
 std::vector<StereoMatch> MatchesAlong(const std::vector<cv::Point>& points, const cv::Mat2f& flow,
                                       const cv::Mat2f& expected, const DenseFrame& now,
-                                      const DenseFrame& then, const LabelMemory& memory);
+                                      const DenseFrame& then, const LabelMemory& memory,
+                                      double trust_in_region);
 
 }  // namespace aisle::slam::dynamic

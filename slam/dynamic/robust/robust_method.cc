@@ -14,12 +14,12 @@ namespace {
 using Eigen::Isometry3d;
 
 /// What was known of the pixels, where they are now; all is forgotten without a way back.
-LabelMemory CarryTo(const View& view, const std::vector<GapFlow>& flows,
-                    const RobustState& before) {
+LabelMemory CarryTo(const View& view, const std::vector<GapFlow>& flows, const RobustState& before,
+                    const DisparityTolerance& tolerance) {
   if (flows.empty()) {
     return ForgottenMemory(view.frame.image.size(), before.memory.regions.next_id);
   }
-  return CarryMemory(before.memory, flows[0].flow, view.frame, before.frames.back());
+  return CarryMemory(before.memory, flows[0].flow, view.frame, before.frames.back(), tolerance);
 }
 
 /// What is known of the pixels after this frame: what was known, less what has ended, fades, and
@@ -41,10 +41,10 @@ cv::Mat1f Accumulate(const cv::Mat1f& known, const PastEvidence& past,
 }
 
 /// What a gap says in the next frame, where another one has its turn: it fades as memory does.
-cv::Mat1f ToCarry(const GapEvidence& evidence, std::size_t slot, const RobustOptions& options) {
+cv::Mat1f ToCarry(const GapEvidence& evidence, const RobustOptions& options) {
   cv::Mat1f carried;
-  cv::max(evidence.log_odds, options.evidence.least[slot], carried);
-  cv::min(carried, options.evidence.most[slot], carried);
+  cv::max(evidence.log_odds, options.evidence.least, carried);
+  cv::min(carried, options.evidence.most, carried);
   carried *= options.field.memory;
   return carried;
 }
@@ -88,7 +88,7 @@ RobustState Remember(const RobustState& before, const Found& found, const Robust
   if (motions.size() > 1) {
     const GapEvidence& longer = found.past.gaps[motions.size() - 1];
     state.long_slot = found.flows[motions.size() - 1].slot;
-    state.memory.long_log_odds = ToCarry(longer, state.long_slot, options);
+    state.memory.long_log_odds = ToCarry(longer, options);
     state.memory.long_per_step = longer.per_step;
   }
   return state;
@@ -116,6 +116,7 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
                         const std::optional<Isometry3d>& predicted, const StereoCamera& camera,
                         const RobustOptions& options) {
   const StereoCamera half = HalfCamera(camera);
+  const DisparityTolerance tolerance(options.tolerance, DisparityNoise(before.noise));
   const auto prior = PriorFor(before, stamp_ns, predicted, options.ego);
   const Isometry3d T_now_before = prior ? prior->T_now_before : Isometry3d::Identity();
   std::map<std::string, double> ms;
@@ -132,26 +133,26 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
   const auto [rig, layout] = Timed(ms["ego_motion"], [&] {
     return InParallel(
         [&] {
-          LabelMemory memory = CarryTo(view, flows, before);
-          GapMotions motions =
-              FindGapMotions(before, view, flows, memory, prior, camera, options.ego);
+          LabelMemory memory = CarryTo(view, flows, before, tolerance);
+          GapMotions motions = FindGapMotions(before, view, flows, memory, prior, camera, options);
           return std::pair(std::move(memory), std::move(motions));
         },
-        [&] { return LayOut(view.frame, camera, options); });
+        [&] { return LayOut(view.frame, camera, tolerance, options); });
   });
   const auto& [memory, motions] = rig;
 
   // For and against motion: what that leaves unexplained, of this frame and of those before.
   const auto [past, log_odds] = Timed(ms["evidence"], [&] {
     PastEvidence said =
-        WeighPast(before, view, flows, motions.motions, memory, half, options.evidence);
+        WeighPast(before, view, flows, motions.motions, memory, half, tolerance, options);
     cv::Mat1f known = Accumulate(memory.log_odds, said, options.field);
     return std::pair(std::move(said), std::move(known));
   });
 
   // Neighbours on one surface agree; what moves together is one region.
   const PixelLabels labels = Timed(ms["label"], [&] {
-    return LabelPixels(log_odds, view.frame, layout, memory.regions, images.left.size(), options);
+    return LabelPixels(log_odds, view.frame, layout, memory.regions, tolerance, images.left.size(),
+                       options);
   });
 
   const Found found{view, flows, motions, layout, past, log_odds, labels};

@@ -21,6 +21,10 @@ struct LearnedNoise {
   std::array<double, kGaps.size()> flow = {0.1, 0.12, 0.15};  ///< half-size pixels
 };
 
+/// The deviation of one disparity, half-size pixels: the shortest gap, whose flow errs least, tells
+/// it best.
+inline double DisparityNoise(const LearnedNoise& noise) { return noise.match[0].z() / 2; }
+
 /// All that the method remembers between frames. A value: copies are cheap, as images are shared
 /// and never written again.
 struct RobustState {

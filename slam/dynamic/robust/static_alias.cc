@@ -122,14 +122,14 @@ float LimitByAlias(const AliasViews& views, const SeenMotion& seen, float log_od
                    const EvidenceOptions& options) {
   constexpr float kLeastWay = 0.1F;  // pixels that tell one place from another: twice flow's noise
   const cv::Mat1b& now = views.now.image;
-  const float reach = static_cast<float>(options.alias_disparities) *
-                      std::sqrt(seen.per_disparity.dot(seen.per_disparity));
+  const float reach =
+      static_cast<float>(views.disparities) * std::sqrt(seen.per_disparity.dot(seen.per_disparity));
   if (reach < kLeastWay) return log_odds;
   // The window lies within the image.
   const cv::Point at(std::clamp(seen.at.x, kReach, now.cols - kReach - 1),
                      std::clamp(seen.at.y, kReach, now.rows - kReach - 1));
   const cv::Vec2f shift(static_cast<float>(at.x - seen.at.x), static_cast<float>(at.y - seen.at.y));
-  const StereoDifferences stereo(views.now, at, options.alias_disparities);
+  const StereoDifferences stereo(views.now, at, views.disparities);
   const int own = cvRound(seen.disparity);
   if (own >= stereo.count()) return log_odds;
   const int in_time =
@@ -143,8 +143,7 @@ float LimitByAlias(const AliasViews& views, const SeenMotion& seen, float log_od
   int best = enough;
   for (int k = 0; k < stereo.count(); ++k) {
     if (stereo[k] >= best || !stereo.IsValley(k)) continue;
-    const float apart = std::abs(static_cast<float>(k) - seen.disparity);
-    if (apart < static_cast<float>(options.other_disparity)) continue;
+    if (!views.tolerance.IsOther(seen.disparity, static_cast<float>(k))) continue;
     const Steps steps = StepsAround(k, seen.per_disparity);
     for (int s = 0; s < steps.count && stereo[k] < best; ++s) {
       const cv::Vec2f place = PlaceAt(seen, steps.first + static_cast<float>(s) * steps.step,

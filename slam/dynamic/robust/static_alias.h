@@ -3,6 +3,7 @@
 #include <opencv2/core.hpp>
 
 #include "slam/dynamic/robust/dense_frame.h"
+#include "slam/dynamic/robust/disparity_tolerance.h"
 
 namespace aisle::slam::dynamic {
 
@@ -11,6 +12,8 @@ struct AliasViews {
   const DenseFrame& now;
   const cv::Mat1b& then;      ///< the earlier image
   const cv::Mat1f& variance;  ///< of the difference of two grey values, per pixel of the frame
+  DisparityTolerance tolerance;
+  int disparities = 96;  ///< asked for, up to 128
   /// How much farther a static point was, in units of its depth now, for each pixel of disparity:
   /// the rig's way along the axis since the earlier frame, over focal length times baseline.
   float depth_per_disparity = 0;
@@ -33,9 +36,9 @@ float GainPerDifference(float difference, const EvidenceOptions& options);
 /// What is left of the log-odds of having moved when the best static explanation has been heard. On
 /// a corrugated wall or a row of equal bars the matcher may be whole periods off, and the flow as
 /// well; then neither can be taken at its word. But something static with another disparity fits
-/// the right and the earlier image together as well as what moves does. All disparities of
-/// [0, alias_disparities) are heard that are `other_disparity` or more away from the pixel's own.
-/// Without a way that they could move the pixel by (a rig that stands still) nothing is taken off.
+/// the right and the earlier image together as well as what moves does. All disparities that the
+/// matcher searched are heard that are surely other than the pixel's own. Without a way that they
+/// could move the pixel by (a rig that stands still) nothing is taken off.
 float LimitByAlias(const AliasViews& views, const SeenMotion& seen, float log_odds,
                    const EvidenceOptions& options);
 

@@ -8,7 +8,7 @@ View LookAt(const StereoPair& images, std::int64_t stamp_ns, const RobustOptions
   View view;
   tbb::parallel_invoke(
       [&] {
-        view.frame = MakeDenseFrame(images.left, images.right, options.disparity, options.surface);
+        view.frame = MakeDenseFrame(images.left, images.right, options.disparity);
         view.frame.stamp_ns = stamp_ns;
         view.around = LookAround(view.frame, options.surface, options.evidence);
       },
@@ -20,11 +20,12 @@ View LookAt(const StereoPair& images, std::int64_t stamp_ns, const RobustOptions
   return view;
 }
 
-Layout LayOut(const DenseFrame& frame, const StereoCamera& camera, const RobustOptions& options) {
+Layout LayOut(const DenseFrame& frame, const StereoCamera& camera,
+              const DisparityTolerance& tolerance, const RobustOptions& options) {
   Layout layout;
-  layout.floor = FindFloor(frame.disparity, options.floor);
-  layout.floor_mask = FloorMask(frame.filled, layout.floor);
-  layout.links = LinkPixels(frame.filled, frame.image, layout.floor_mask, options.field);
+  layout.floor = FindFloor(frame.disparity, tolerance);
+  layout.floor_mask = FloorMask(frame.filled, layout.floor, tolerance);
+  layout.links = LinkPixels(frame.filled, frame.image, layout.floor_mask, tolerance, options.field);
   frame.filled.convertTo(layout.farthest, CV_32F, options.field.grow_m / camera.baseline_m);
   return layout;
 }

@@ -25,6 +25,7 @@ struct Layout {
   Links links;
   cv::Mat1f farthest;  ///< how far a label may grow, half-size pixels
 };
-Layout LayOut(const DenseFrame& frame, const StereoCamera& camera, const RobustOptions& options);
+Layout LayOut(const DenseFrame& frame, const StereoCamera& camera,
+              const DisparityTolerance& tolerance, const RobustOptions& options);
 
 }  // namespace aisle::slam::dynamic

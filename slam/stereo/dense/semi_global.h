@@ -7,6 +7,11 @@
 
 namespace aisle::slam {
 
+/// A match so close to the right image's edge has looked at padding: its costs reach three pixels
+/// (a 5x5 census summed over 3x3), and the fraction of a disparity is told by one more on each
+/// side.
+inline constexpr int kMatchReach = 4;
+
 /// Disparity of every left pixel in pixels (x_left - x_right >= 0, in sixteenths), kNoDisparity
 /// where unknown, by semi-global matching (Hirschmueller 2008) of census costs along rows and
 /// columns, both ways. Same size as the images, which must be equal in size and not empty. Whole

@@ -88,13 +88,9 @@ constexpr Room kRooms[] = {
     {"dynamic.robust.disparity.least_p2", "73", "dynamic.robust.disparity.p2", "73"},
     {"dynamic.robust.field.limit", "1", "dynamic.robust.field.grow_to", "-1"},
     {"dynamic.robust.field.moving", "100", "dynamic.robust.field.limit", "100"},
-    {"dynamic.robust.field.grow_from", "100", "dynamic.robust.field.limit", "100"},
     {"dynamic.robust.field.grow_to", "-100", "dynamic.robust.field.limit", "100"},
     {"dynamic.robust.region.birth_core_px", "0", "dynamic.robust.region.keep_core_px", "0"},
     {"dynamic.robust.region.keep_core_px", "1000000", "dynamic.robust.region.birth_core_px",
-     "1000000"},
-    {"dynamic.robust.region.birth_inner_px", "0", "dynamic.robust.region.keep_inner_px", "0"},
-    {"dynamic.robust.region.keep_inner_px", "1000000", "dynamic.robust.region.birth_inner_px",
      "1000000"},
 };
 

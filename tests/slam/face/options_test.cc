@@ -38,7 +38,7 @@ TEST(DescribeOptions, TellsEverythingOfAnOption) {
   const OptionDescription& cell = Find(all, "feature.cell_px");
   EXPECT_EQ(cell.kind, Kind::kInteger);
   EXPECT_EQ(cell.unit, "px");
-  EXPECT_EQ(Find(all, "dynamic.robust.evidence.least.1").value, "-1.5");
+  EXPECT_EQ(Find(all, "dynamic.robust.evidence.least").value, "-1");
 }
 
 TEST(DescribeOptions, HasASentenceAndARangeThatHoldsTheDefaultForEach) {

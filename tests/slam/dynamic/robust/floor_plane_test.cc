@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "slam/dynamic/common/counter_random.h"
+#include "tests/slam/dynamic/robust/usual_tolerance.h"
 
 namespace aisle::slam::dynamic {
 namespace {
+
+using test::kUsualTolerance;
 
 /// A floor seen from 1.2 m by a level camera, with noise and a box standing on it.
 cv::Mat1f FloorWithBox(const cv::Rect& box) {
@@ -25,20 +28,21 @@ cv::Mat1f FloorWithBox(const cv::Rect& box) {
 TEST(FindFloor, FindsThePlaneUnderABox) {
   const cv::Rect box(150, 60, 120, 150);
   const cv::Mat1f disparity = FloorWithBox(box);
-  const auto floor = FindFloor(disparity, {});
+  const auto floor = FindFloor(disparity, kUsualTolerance);
   ASSERT_TRUE(floor);
   EXPECT_NEAR(floor->At(50, 200), 8.4, 0.15);
   EXPECT_NEAR(floor->At(330, 150), 3.4, 0.15);
-  const cv::Mat1b mask = FloorMask(disparity, floor);
+  const cv::Mat1b mask = FloorMask(disparity, floor, kUsualTolerance);
   EXPECT_EQ(mask(220, 50), 255);
   EXPECT_EQ(mask(120, 200), 0);
   EXPECT_EQ(cv::countNonZero(mask(cv::Rect(150, 60, 120, 120))), 0);
 }
 
 TEST(FindFloor, AWallIsNone) {
-  EXPECT_FALSE(FindFloor(cv::Mat1f(240, 376, 6.0F), {}));
-  EXPECT_FALSE(FindFloor(cv::Mat1f(240, 376, -1.0F), {}));
-  EXPECT_EQ(cv::countNonZero(FloorMask(cv::Mat1f(240, 376, 6.0F), std::nullopt)), 0);
+  EXPECT_FALSE(FindFloor(cv::Mat1f(240, 376, 6.0F), kUsualTolerance));
+  EXPECT_FALSE(FindFloor(cv::Mat1f(240, 376, -1.0F), kUsualTolerance));
+  const cv::Mat1b none = FloorMask(cv::Mat1f(240, 376, 6.0F), std::nullopt, kUsualTolerance);
+  EXPECT_EQ(cv::countNonZero(none), 0);
 }
 
 }  // namespace

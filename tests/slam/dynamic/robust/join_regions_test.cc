@@ -6,6 +6,8 @@
 #include <random>
 #include <set>
 
+#include "tests/slam/dynamic/robust/usual_tolerance.h"
+
 namespace aisle::slam::dynamic {
 namespace {
 
@@ -22,7 +24,9 @@ struct Picture {
     regions.labels(box) = static_cast<int>(regions.regions.size());
     disparity(box) = at;
   }
-  std::vector<PixelRegion> Joined() const { return JoinRegions(regions, disparity, {}); }
+  std::vector<PixelRegion> Joined() const {
+    return JoinRegions(regions, disparity, test::kUsualTolerance, {});
+  }
 };
 
 TEST(JoinRegions, NoneAreNone) { EXPECT_TRUE(Picture().Joined().empty()); }

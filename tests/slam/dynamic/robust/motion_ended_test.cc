@@ -25,7 +25,7 @@ Outcome Judge(const Matrix2d& G, const Vector2d& latest, const Vector2d& per_ste
   };
   const EndedMotion less = TakeOffEndedMotion(
       {two(latest), one(variance)}, {one(G(0, 0)), one(G(0, 1)), one(G(1, 1))}, two(per_step),
-      one(found), kMost, {.least_speed_share = kShare, .mover_noise = kNoise});
+      one(found), {.most = kMost, .least_speed_share = kShare, .mover_noise = kNoise});
   return {less.log_odds(0, 0), less.taken(0, 0)};
 }
 float Left(const Matrix2d& G, const Vector2d& latest, const Vector2d& per_step, float found) {

@@ -9,6 +9,7 @@
 #include "slam/dynamic/common/stereo_pair.h"
 #include "slam/dynamic/robust/label_memory.h"
 #include "slam/dynamic/robust/residual_flow.h"
+#include "tests/slam/dynamic/robust/usual_tolerance.h"
 #include "tests/slam/dynamic/synthetic_stereo.h"
 
 namespace aisle::slam::dynamic {
@@ -18,6 +19,7 @@ using Eigen::Isometry3d;
 using Eigen::Matrix2f;
 using Eigen::Vector2f;
 using Eigen::Vector3d;
+using test::kUsualTolerance;
 
 /// The logarithm of a normal density in two dimensions.
 double LogNormal(const Eigen::Matrix2d& covariance, const Eigen::Vector2d& r) {
@@ -65,8 +67,8 @@ struct Pair {
     const auto before = test::Render(panels, {}, Isometry3d::Identity(), 0, 2.0);
     const auto after = test::Render(panels, {}, T_world_now, seconds, 2.0);
     const RobustOptions options;
-    then = MakeDenseFrame(before.left, before.right, options.disparity, options.surface);
-    now = MakeDenseFrame(after.left, after.right, options.disparity, options.surface);
+    then = MakeDenseFrame(before.left, before.right, options.disparity);
+    now = MakeDenseFrame(after.left, after.right, options.disparity);
     texture = MeasureTexture(now.image, options.surface);
     points = WellHeld(texture, now.disparity, 12);
     const StereoCamera half = HalfCamera({});
@@ -74,7 +76,7 @@ struct Pair {
     flow = FollowBack(now.image, MakeFlowPyramid(now.image, options.flow), then.image, expected,
                       options.flow);
     log_odds =
-        CompareMotion({now, then, flow, T_world_now, seconds}, texture,
+        CompareMotion({now, then, flow, kUsualTolerance, T_world_now, seconds}, texture,
                       LookAround(now, options.surface, options.evidence), half, options.evidence)
             .log_odds;
     moving = cv::Mat1b(now.image.size());
@@ -168,7 +170,8 @@ double MeanLogOddsOfWall(int period, int flow_px, int stereo_px) {
   T_then_now.translation().x() = half.baseline_m / 2;  // half a pixel for each of disparity
   const RobustOptions options;
   const MotionEvidence found =
-      CompareMotion({now, then, flow, T_then_now, 0.25}, MeasureTexture(now.image, options.surface),
+      CompareMotion({now, then, flow, kUsualTolerance, T_then_now, 0.25},
+                    MeasureTexture(now.image, options.surface),
                     LookAround(now, options.surface, options.evidence), half, options.evidence);
   return cv::mean(found.log_odds(cv::Rect(40, 10, 80, 40)))[0];
 }
@@ -182,23 +185,25 @@ TEST(CompareMotion, IsNotMisledByARepeatingPatternMatchedAPeriodOff) {
   EXPECT_GT(MeanLogOddsOfWall(1000, 2, 12), 2);
 }
 
+constexpr double kMoving = 0.5;  // log-odds from which on a gap says that something moves
+
 TEST(CombineGaps, WhatOneGapFoundIsNotTalkedDownByAShorterOne) {
   const EvidenceOptions options;
   const auto one = [](float value) { return cv::Mat1f(1, 1, value); };
   const auto combined = [&](float a, float b, float c) {
-    return CombineGaps({one(a), one(b), one(c)}, options)(0, 0);
+    return CombineGaps({one(a), one(b), one(c)}, kMoving, options)(0, 0);
   };
   EXPECT_GT(combined(-9, 9, 0), 2);
-  EXPECT_FLOAT_EQ(combined(-9, -9, -9), -0.7F - 1.5F - 1.0F);
-  EXPECT_FLOAT_EQ(combined(9, 0, 0), 2.5F);
+  EXPECT_FLOAT_EQ(combined(-9, -9, -9), 3 * static_cast<float>(options.least));
+  EXPECT_FLOAT_EQ(combined(9, 0, 0), static_cast<float>(options.most));
   EXPECT_FLOAT_EQ(combined(0, 0, 0), 0);
 }
 
 TEST(CombineGaps, AGapThatWasNotComparedSaysNothing) {
   const cv::Mat1f one(1, 1, -0.5F), two(1, 1, 2.0F);
-  EXPECT_FLOAT_EQ(CombineGaps({one, {}, {}}, {})(0, 0), -0.5F);
-  EXPECT_EQ(CombineGaps({one, {}, two}, {})(0, 0),
-            CombineGaps({one, cv::Mat1f(1, 1, 0.0F), two}, {})(0, 0));
+  EXPECT_FLOAT_EQ(CombineGaps({one, {}, {}}, kMoving, {})(0, 0), -0.5F);
+  EXPECT_EQ(CombineGaps({one, {}, two}, kMoving, {})(0, 0),
+            CombineGaps({one, cv::Mat1f(1, 1, 0.0F), two}, kMoving, {})(0, 0));
 }
 
 TEST(MeasureTexture, IsTheSumOfGradientProductsLessWhatNoiseGives) {
@@ -241,10 +246,12 @@ TEST(FollowBack, FindsTheWayOfStaticPixelsToAFractionOfAPixel) {
   EXPECT_LT(errors[errors.size() / 2], 0.2);
 }
 
+constexpr double kTrustInRegion = 0.02;
+
 TEST(MatchesAlong, AreOnePerCellAndFollowTheRigsMotion) {
   const Pair pair({}, {0, 0, 0.05}, 0.05);
   const auto matches = MatchesAlong(pair.points, pair.flow, pair.expected, pair.now, pair.then,
-                                    ForgottenMemory(pair.now.image.size(), 0));
+                                    ForgottenMemory(pair.now.image.size(), 0), kTrustInRegion);
   ASSERT_GT(matches.size(), 200U);
   EXPECT_LE(matches.size(), static_cast<std::size_t>((376 / 12 + 1) * (240 / 12)));
   Isometry3d T_now_then = Isometry3d::Identity();
@@ -261,7 +268,7 @@ TEST(MatchesAlong, FindTheirWayWhereTheFlowIsAnothers) {
   cv::add(pair.flow, cv::Scalar(9, -4), anothers);
   const auto count = [&](const cv::Mat2f& flow) {
     const auto matches = MatchesAlong(pair.points, flow, pair.expected, pair.now, pair.then,
-                                      ForgottenMemory(pair.now.image.size(), 0));
+                                      ForgottenMemory(pair.now.image.size(), 0), kTrustInRegion);
     Isometry3d T_now_then = Isometry3d::Identity();
     T_now_then.translation() = Vector3d(0, 0, -0.05);
     return std::count_if(matches.begin(), matches.end(), [&](const StereoMatch& match) {
@@ -275,9 +282,9 @@ TEST(MatchesAlong, WhatARegionCoversIsHardlyTrusted) {
   const Pair pair({}, {0, 0, 0.05}, 0.05);
   LabelMemory memory = ForgottenMemory(pair.now.image.size(), 0);
   memory.regions.labels.colRange(0, 188).setTo(1);
-  for (const StereoMatch& match :
-       MatchesAlong(pair.points, pair.flow, pair.expected, pair.now, pair.then, memory)) {
-    EXPECT_EQ(match.weight < 0.1, match.now.x() < 2 * 188) << match.now.transpose();
+  for (const StereoMatch& match : MatchesAlong(pair.points, pair.flow, pair.expected, pair.now,
+                                               pair.then, memory, kTrustInRegion)) {
+    EXPECT_EQ(match.weight <= kTrustInRegion, match.now.x() < 2 * 188) << match.now.transpose();
   }
 }
 
@@ -310,7 +317,7 @@ TEST(CarryMemory, TakesAMoversMemoryAlongAndLeavesNoTrail) {
       flow(y, x) = {static_cast<float>(x) + way, static_cast<float>(y)};
     }
   }
-  const cv::Mat1f carried = CarryMemory(memory, flow, now, before).log_odds;
+  const cv::Mat1f carried = CarryMemory(memory, flow, now, before, kUsualTolerance).log_odds;
   for (int x = 0; x < 80; ++x) {
     EXPECT_EQ(carried(20, x) > 0, x >= 25 && x < 35) << "column " << x;
   }
@@ -330,7 +337,7 @@ TEST(CarryMemory, FollowsTheFlowAloneBeyondTheRightImageAndNowhereElse) {
   for (int y = 0; y < 60; ++y) {
     for (int x = 0; x < 80; ++x) flow(y, x) = {static_cast<float>(x + 5), static_cast<float>(y)};
   }
-  const cv::Mat1f carried = CarryMemory(memory, flow, now, before).log_odds;
+  const cv::Mat1f carried = CarryMemory(memory, flow, now, before, kUsualTolerance).log_odds;
   for (int x = 0; x < 80; ++x) EXPECT_EQ(carried(20, x) > 0, x < 20) << "column " << x;
   for (int x = 0; x < 80; ++x) EXPECT_EQ(carried(50, x), 0) << "column " << x;
 }

@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "tests/slam/dynamic/robust/usual_tolerance.h"
+
 namespace aisle::slam::dynamic {
 namespace {
 
@@ -40,7 +42,7 @@ struct Wall {
     const auto x = static_cast<float>(at.x), y = static_cast<float>(at.y);
     const SeenMotion seen{
         at, kOwn, {x + flow, y}, {x + kOwn * per_disparity, y}, kOwn, {per_disparity, 0}};
-    return LimitByAlias({now, then, variance}, seen, kFound, {});
+    return LimitByAlias({now, then, variance, test::kUsualTolerance}, seen, kFound, {});
   }
 };
 
