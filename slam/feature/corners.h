@@ -13,8 +13,9 @@ struct Corner {
   float response = 0;  ///< FAST score, grey levels
 };
 
-/// FAST-9 corners with non-maximum suppression, in rising order of (y, x). Where a cell of the
-/// options' grid has none at the first threshold, it is searched again at the low one.
+/// FAST-9 corners (Rosten and Drummond 2006) with non-maximum suppression, by rising (y, x). Where
+/// a cell of the options' grid has none at the first threshold, it is searched again at the low
+/// one.
 std::vector<Corner> DetectCorners(const cv::Mat1b& level, const FeatureOptions& options);
 
 }  // namespace aisle::slam

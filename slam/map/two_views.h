@@ -42,7 +42,7 @@ std::optional<std::size_t> BestOnLine(const TwoViews& views, std::size_t i,
                                       double ratio);
 
 /// The sine of the angle between two unit rays, both as seen from here, and the point nearest to
-/// both of them.
+/// both of them (the midpoint of Hartley and Sturm 1997).
 struct Intersection {
   double sine = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< metres, rig here; undefined if parallel

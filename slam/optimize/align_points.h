@@ -18,10 +18,10 @@ struct AlignPointsOptions {
 /// Names every option with its range, unit and a sentence.
 void Describe(OptionFields& fields, AlignPointsOptions& options);
 
-/// The pose from point correspondences of which many may be wrong, without a first guess:
-/// three stereo points and their landmarks make a hypothesis (Horn's closed form on the two
-/// triangles), the one that most observations support is refined. Defined for any motion, none
-/// included. The same observations and seed give the same pose.
+/// The pose from point correspondences of which many may be wrong, without a first guess, by RANSAC
+/// (Fischler and Bolles 1981): three stereo points and their landmarks make a hypothesis (Horn
+/// 1987, the closed form on the two triangles), the one that most observations support is refined.
+/// Defined for any motion, none included. The same observations and seed give the same pose.
 std::optional<RefinedPose> AlignPoints(const StereoCamera& camera,
                                        const std::vector<PointObservation>& observations,
                                        const AlignPointsOptions& options);

@@ -31,7 +31,7 @@ struct BundleProblem {
   std::vector<Observation> observations;
 };
 
-/// A observation with the noise its measurement states.
+/// An observation with the noise its measurement states.
 BundleProblem::Observation MakeObservation(int pose, int point, const Measurement& measurement);
 
 struct BundleOptions {
@@ -48,12 +48,13 @@ struct BundleSummary {
   std::string message;
 };
 
-/// Minimises the reprojection error over free poses and all points. Observations not `active` (by
-/// index; empty: all are) are left out. One thread: the same bits every time.
+/// Bundle adjustment (Triggs et al. 2000): minimises the reprojection error over free poses and all
+/// points. Observations not `active` (by index; empty: all are) are left out. One thread, same
+/// bits.
 BundleSummary Solve(BundleProblem& problem, const std::vector<bool>& active,
                     const BundleOptions& options);
 
-/// Squared whitened error of a observation as the problem stands; infinite behind the camera.
+/// Squared whitened error of an observation as the problem stands; infinite behind the camera.
 double Chi2(const BundleProblem& problem, const BundleProblem::Observation& observation);
 
 }  // namespace aisle::slam

@@ -21,7 +21,7 @@ struct PoseGraph {
   std::vector<Edge> edges;
 };
 
-/// Spreads the disagreement of the edges over the free poses. One thread: the same bits every time.
+/// Spreads what edges disagree by over the free poses (Lu and Milios 1997). One thread, same bits.
 BundleSummary Solve(PoseGraph& graph, int iterations);
 
 }  // namespace aisle::slam

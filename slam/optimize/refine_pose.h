@@ -46,7 +46,7 @@ struct RefinedPose {
 };
 
 /// The pose that minimises the reprojection error of known points, robust against outliers
-/// (Huber weights at first, then hard chi-square gates that every observation may pass again).
+/// (Huber 1964 weights at first, then chi-square gates that every observation may pass again).
 RefinedPose RefinePose(const StereoCamera& camera, const Eigen::Isometry3d& T_rig_world,
                        const std::vector<PointObservation>& observations,
                        const RefinePoseOptions& options);

@@ -14,7 +14,8 @@ struct PlaceMatch {
   double similarity = 0;  ///< 0 to 1
 };
 
-/// Which keyframes contain which words, so that a query touches only those that share some.
+/// Which keyframes contain which words (an inverted file, Sivic and Zisserman 2003): a query
+/// touches only those that share some.
 class PlaceIndex {
  public:
   void Add(KeyframeId id, const WordVector& words);

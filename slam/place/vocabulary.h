@@ -27,8 +27,8 @@ class Vocabulary {
     std::uint64_t seed = 1;  ///< of the first centres
   };
 
-  /// Clusters the descriptors of many images (k-medians: majority bits). The same images, in the
-  /// same order, give the same words. At least one descriptor is needed.
+  /// Clusters the descriptors of many images, as Galvez-Lopez and Tardos (2012) do: k-medians, of
+  /// majority bits. Same images in the same order, same words. At least one descriptor is needed.
   static Vocabulary Train(const std::vector<std::vector<Descriptor>>& images,
                           const Options& options);
 
