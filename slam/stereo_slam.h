@@ -11,6 +11,8 @@
 
 #include "slam/camera/stereo_camera.h"
 #include "slam/dynamic/common/dynamic_regions.h"
+#include "slam/dynamic/dynamic_detector.h"
+#include "slam/dynamic/find_losses.h"
 #include "slam/frames.h"
 #include "slam/options/slam_options.h"
 #include "slam/picture/draw_stages.h"

@@ -82,6 +82,7 @@ void AddBenchCommand(CLI::App* app, Action* action) {
   AddBenchDynamic(bench, action);
   AddBenchRealism(bench, action);
   AddBenchSensitivity(bench, action);
+  AddBenchSearch(bench, action);
 }
 
 }  // namespace aisle

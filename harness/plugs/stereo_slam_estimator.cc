@@ -1,8 +1,8 @@
 #include "harness/plugs/stereo_slam_estimator.h"
 
 #include "harness/io/input_error.h"
+#include "harness/plugs/slam_values.h"
 #include "harness/score/masks.h"
-#include "slam/stereo_slam.h"
 
 namespace aisle {
 namespace {
@@ -18,15 +18,6 @@ TrackingState Convert(slam::TrackingState state) {
       break;
   }
   return TrackingState::kLost;
-}
-
-DynamicRegions Convert(const slam::DynamicRegions& found) {
-  DynamicRegions regions;
-  regions.mask = found.mask;
-  for (const slam::DynamicRegion& region : found.regions) {
-    regions.regions.push_back({region.id, region.box, region.evidence});
-  }
-  return regions;
 }
 
 slam::StageTruth Convert(const FrameTruth& truth) {
@@ -56,7 +47,7 @@ FrameEstimate Convert(const slam::TrackedFrame& frame) {
   estimate.stamp_ns = frame.stamp_ns;
   estimate.state = Convert(frame.state);
   estimate.T_world_rig = frame.T_world_rig;
-  estimate.regions = Convert(frame.dynamic);
+  estimate.regions = RegionsFrom(frame.dynamic);
   estimate.counts = {{"features", frame.features},
                      {"stereo_points", frame.stereo_points},
                      {"matched", frame.matched_points},
@@ -103,29 +94,11 @@ class StereoSlamEstimator : public Estimator {
   slam::StereoSlam slam_;
 };
 
-/// Sets all of them, the base first: the others differ from what it sets. What is wrong with the
-/// first that cannot be set, or an empty string.
-std::string SetAll(const std::map<std::string, std::string>& values, slam::SlamOptions* options) {
-  std::string wrong;
-  const auto base = values.find("base");
-  if (base != values.end()) wrong = slam::SetOption(base->first, base->second, options);
-  for (const auto& [path, value] : values) {
-    if (wrong.empty() && path != "base") wrong = slam::SetOption(path, value, options);
-  }
-  return wrong;
-}
-
-slam::SlamOptions OptionsFrom(const std::map<std::string, std::string>& values) {
-  slam::SlamOptions options;
-  if (const std::string wrong = SetAll(values, &options); !wrong.empty()) throw InputError(wrong);
-  return options;
-}
-
 }  // namespace
 
 std::vector<SystemOption> DescribeSlamOptions(const std::map<std::string, std::string>& values) {
   std::vector<SystemOption> described;
-  const slam::SlamOptions options = OptionsFrom(values);
+  const slam::SlamOptions options = SlamOptionsFrom(values);
   for (const slam::OptionDescription& option : slam::DescribeOptions(options)) {
     if (!slam::WhyWithoutEffect(option.path, options).empty()) continue;
     described.push_back({option.path, static_cast<SystemOption::Kind>(option.kind), option.value,
@@ -141,7 +114,7 @@ std::string CheckSlamOption(const std::string& path, const std::string& value) {
 
 std::string CheckSlamOptions(const std::map<std::string, std::string>& values) {
   slam::SlamOptions options;
-  if (!SetAll(values, &options).empty()) return {};  // said of the option itself
+  if (!SetSlamOptions(values, &options).empty()) return {};  // said of the option itself
   for (const auto& [path, value] : values) {
     const std::string idle = slam::WhyWithoutEffect(path, options);
     if (!idle.empty()) return idle;
@@ -151,22 +124,14 @@ std::string CheckSlamOptions(const std::map<std::string, std::string>& values) {
 
 std::unique_ptr<Estimator> MakeStereoSlamEstimator(const StereoCalibration& calibration,
                                                    const StereoSlamEstimatorOptions& options) {
-  slam::StereoCamera camera;
-  camera.width = calibration.width;
-  camera.height = calibration.height;
-  camera.fx = calibration.fx;
-  camera.fy = calibration.fy;
-  camera.cx = calibration.cx;
-  camera.cy = calibration.cy;
-  camera.baseline_m = calibration.baseline_m;
-  slam::SlamOptions slam_options = OptionsFrom(options.options);
+  slam::SlamOptions slam_options = SlamOptionsFrom(options.options);
   slam_options.threads = options.threads;
   slam_options.vocabulary_file = options.vocabulary_file.string();
   slam_options.map_file = options.load_map.string();
   slam_options.localise_only = options.localise_only;
   slam_options.schedule.free_running = options.free_running;
   slam_options.dynamic.keep_stages = options.draw_stages;
-  return std::make_unique<StereoSlamEstimator>(camera, slam_options);
+  return std::make_unique<StereoSlamEstimator>(CameraFrom(calibration), slam_options);
 }
 
 }  // namespace aisle

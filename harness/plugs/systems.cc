@@ -80,17 +80,21 @@ std::map<std::string, std::string> OptionsFromText(const std::vector<std::string
   return options;
 }
 
-std::unique_ptr<Estimator> MakeSystem(const SystemSpec& spec, const StereoCalibration& calibration,
-                                      const SystemSetup& setup) {
+std::map<std::string, std::string> OptionsOfSpec(const SystemSpec& spec) {
   if (spec.external) {
     throw InputError("system '" + spec.name +
                      "' is a command: it does not run inside this program");
   }
-  const System& like = FindSystem(spec.like);
   std::map<std::string, std::string> options = spec.options;
+  const System& like = FindSystem(spec.like);
   options.insert(like.options.begin(), like.options.end());
+  return options;
+}
+
+std::unique_ptr<Estimator> MakeSystem(const SystemSpec& spec, const StereoCalibration& calibration,
+                                      const SystemSetup& setup) {
   return MakeStereoSlamEstimator(calibration, {.threads = setup.threads,
-                                               .options = std::move(options),
+                                               .options = OptionsOfSpec(spec),
                                                .vocabulary_file = VocabularyFile(),
                                                .load_map = setup.load_map,
                                                .localise_only = setup.localise_only,

@@ -45,6 +45,10 @@ std::pair<std::string, std::string> OptionFromText(const std::string& assignment
 std::map<std::string, std::string> OptionsFromText(const std::vector<std::string>& assignments,
                                                    const System& like);
 
+/// Every option of a built-in system or of a variant of one that differs from the SLAM's defaults.
+/// Throws InputError for a foreign one.
+std::map<std::string, std::string> OptionsOfSpec(const SystemSpec& spec);
+
 /// What a process decides, and no result depends on, or what a drive brings with it.
 struct SystemSetup {
   int threads = 0;                      ///< 0: as many as the machine has; never changes a result

@@ -4,10 +4,10 @@
 #include <opencv2/imgproc.hpp>
 
 namespace aisle::slam::dynamic {
+namespace {
 
-cv::Mat1f ComputeDisparity(const cv::Mat1b& left, const cv::Mat1b& right,
-                           const DisparityOptions& options) {
-  CV_Assert(left.size() == right.size() && !left.empty());
+/// In pixels of the images given.
+cv::Mat1f Match(const cv::Mat1b& left, const cv::Mat1b& right, const DisparityOptions& options) {
   const int pad = options.max_disparity_px;
   cv::Mat1b padded_left, padded_right;
   cv::copyMakeBorder(left, padded_left, 0, 0, pad, 0, cv::BORDER_REPLICATE);
@@ -31,6 +31,44 @@ cv::Mat1f ComputeDisparity(const cv::Mat1b& left, const cv::Mat1b& right,
     }
   }
   return disparity;
+}
+
+/// Means of 2x2 pixels; an odd last column or row is left out.
+cv::Mat1b Halved(const cv::Mat1b& image) {
+  const cv::Size half(image.cols / 2, image.rows / 2);
+  cv::Mat1b halved;
+  cv::resize(image(cv::Rect({0, 0}, half * 2)), halved, half, 0, 0, cv::INTER_AREA);
+  return halved;
+}
+
+DisparityOptions Halved(DisparityOptions options) {
+  options.max_disparity_px = (options.max_disparity_px / 2 + 15) / 16 * 16;
+  options.speckle_px /= 4;
+  if (options.left_right_px > 1) options.left_right_px /= 2;
+  return options;
+}
+
+/// Every pixel takes the disparity of the half-size one it was part of.
+cv::Mat1f Doubled(const cv::Mat1f& half, cv::Size size) {
+  cv::Mat1f doubled(size);
+  for (int y = 0; y < size.height; ++y) {
+    const float* from = half[std::min(y / 2, half.rows - 1)];
+    for (int x = 0; x < size.width; ++x) {
+      const float d = from[std::min(x / 2, half.cols - 1)];
+      const bool known = d >= 0.0F && 2 * d <= static_cast<float>(x);
+      doubled(y, x) = known ? 2 * d : kNoDisparity;
+    }
+  }
+  return doubled;
+}
+
+}  // namespace
+
+cv::Mat1f ComputeDisparity(const cv::Mat1b& left, const cv::Mat1b& right,
+                           const DisparityOptions& options) {
+  CV_Assert(left.size() == right.size() && !left.empty());
+  if (!options.half_size || left.cols < 2 || left.rows < 2) return Match(left, right, options);
+  return Doubled(Match(Halved(left), Halved(right), Halved(options)), left.size());
 }
 
 float DisparityNear(const cv::Mat1f& disparity, const cv::Point2f& point, int radius) {

@@ -9,7 +9,8 @@ namespace aisle::slam::dynamic {
 
 /// Disparity of every left pixel in pixels (x_left - x_right >= 0), kNoDisparity where unknown.
 /// Same size as the images, which must be equal in size. The columns that plain SGBM leaves empty
-/// at the left edge are matched as far as the right image reaches.
+/// at the left edge are matched as far as the right image reaches. By half-size images, where the
+/// options say so, disparities are multiples of an eighth and each is that of 2x2 pixels.
 cv::Mat1f ComputeDisparity(const cv::Mat1b& left, const cv::Mat1b& right,
                            const DisparityOptions& options);
 

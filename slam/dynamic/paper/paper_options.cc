@@ -12,6 +12,8 @@ void Describe(OptionFields& fields, DisparityOptions& options) {
                  "Smaller islands of disparity are dropped.");
   fields.Integer("left_right_px", &options.left_right_px, {-1, 16}, "px",
                  "Disagreement allowed between left-to-right and right-to-left; -1: any.");
+  fields.Flag("half_size", &options.half_size,
+              "Match images of half the size; the block then covers twice as much.");
   fields.Require(options.max_disparity_px % 16 == 0, "max_disparity_px", options.max_disparity_px,
                  "be a multiple of 16");
   fields.Require(options.block_px % 2 == 1, "block_px", options.block_px, "be odd");

@@ -27,6 +27,32 @@ TEST(Disparity, NeverPointsBeyondTheRightImage) {
   }
 }
 
+TEST(Disparity, OfHalfTheSizeAgreesAlmostAsOften) {
+  const auto view =
+      test::Render(test::StaticHall(), StereoCamera{}, Eigen::Isometry3d::Identity(), 0);
+  DisparityOptions half;
+  half.half_size = true;
+  const cv::Mat1f disparity = ComputeDisparity(view.left, view.right, half);
+  ASSERT_EQ(disparity.size(), view.left.size());
+  const test::Agreement agreement = test::Compare(disparity, view.disparity);
+  EXPECT_GT(agreement.known, 0.85);
+  EXPECT_GT(agreement.close, 0.75);
+}
+
+TEST(Disparity, OfHalfTheSizeKeepsOddImagesWhole) {
+  const auto view =
+      test::Render(test::StaticHall(), StereoCamera{}, Eigen::Isometry3d::Identity(), 0);
+  const cv::Rect odd(0, 0, 401, 301);
+  DisparityOptions half;
+  half.half_size = true;
+  const cv::Mat1f disparity = ComputeDisparity(view.left(odd), view.right(odd), half);
+  ASSERT_EQ(disparity.size(), odd.size());
+  for (int x = 0; x < disparity.cols; ++x) {
+    ASSERT_LE(disparity(300, x), static_cast<float>(x));
+    ASSERT_EQ(disparity(300, x), disparity(299, x)) << "the last row is its neighbour's";
+  }
+}
+
 TEST(Disparity, IsTheSameForAnyNumberOfThreads) {
   const auto view =
       test::Render(test::StaticHall(), StereoCamera{}, Eigen::Isometry3d::Identity(), 0);

@@ -1,0 +1,235 @@
+#include <nlohmann/json.hpp>
+
+#include "harness/bench/search.h"
+#include "harness/cli/bench_source.h"
+#include "harness/cli/command.h"
+#include "harness/cli/search_axes.h"
+#include "harness/cli/search_table.h"
+#include "harness/cli/system_choice.h"
+#include "harness/cli/terminal.h"
+#include "harness/cli/typed_command.h"
+#include "harness/io/file.h"
+#include "harness/plugs/systems.h"
+#include "harness/report/block/block.h"
+
+namespace aisle {
+namespace {
+
+struct Options {
+  std::string axes, train, judge, time_view = "paper/scene2:85-125@11";
+  SystemChoice system{.name = "paper", .set = {}};
+  std::vector<std::string> also;
+  BenchSource source;
+  SearchOptions search;
+  double time_limit = 1.67;
+  int timed = 8, frontier = 8;
+  std::string json, into;
+};
+
+/// All that is read, before the first frame is rendered.
+struct Inputs {
+  SystemSpec system;
+  std::vector<BenchView> train, judge;
+  BenchView time_view;
+  std::vector<NamedSet> also;
+};
+
+Inputs Read(Options* options) {
+  Inputs inputs{SpecOf(options->system),
+                ReadViews(options->train),
+                ReadViews(options->judge),
+                ParseView(options->time_view),
+                {}};
+  options->search.axes = ReadAxes(options->axes, options->system.name);
+  for (const std::string& text : options->also) {
+    inputs.also.push_back(ParseNamedSet(text, options->system.name));
+  }
+  return inputs;
+}
+
+std::vector<Clip> LoadClips(const std::vector<BenchView>& views, const BenchSource& source) {
+  ProgressLine line;
+  std::vector<Clip> clips;
+  for (const BenchView& view : views) {
+    clips.push_back(LoadClip(view, source, [&](const std::string& at) { line.Show(at); }));
+  }
+  return clips;
+}
+
+std::vector<Trial> Train(const Inputs& inputs, const Options& options) {
+  const std::vector<Clip> clips = LoadClips(inputs.train, options.source);
+  const System& like = FindSystem(options.system.name);
+  fmt::print("{}\n", TrialHeading());
+  double best = -1;
+  return Search(
+      inputs.system, clips, options.search,
+      [&](const OptionSet& set) { return CheckOptions(like, set).empty(); },
+      [&](const Trial& trial) {
+        const bool better = !trial.given_up && trial.score() > best;
+        if (better) best = trial.score();
+        fmt::print("{}{}\n", TrialLine(trial), better ? "  *" : "");
+        std::fflush(stdout);
+      });
+}
+
+/// The best by score whose time keeps the limit; the system as it is where none does.
+OptionSet BestInTime(std::vector<Trial> trials, const Inputs& inputs, const Options& options) {
+  std::erase_if(trials, [](const Trial& trial) { return trial.given_up; });
+  std::stable_sort(trials.begin(), trials.end(),
+                   [](const Trial& a, const Trial& b) { return a.score() > b.score(); });
+  trials.resize(std::min(trials.size(), static_cast<std::size_t>(options.timed)));
+  std::vector<OptionSet> sets;
+  for (const Trial& trial : trials) sets.push_back(trial.options);
+  const std::vector<double> ratios =
+      TimeRatios(inputs.system, sets, inputs.time_view, options.source);
+  OptionSet chosen;
+  bool found = false;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const bool in_time = ratios[i] <= options.time_limit;
+    fmt::print("set {}: {:.2f} times the tracking{}\n", trials[i].index, ratios[i],
+               in_time && !found ? ": taken" : "");
+    if (in_time && !found) chosen = sets[i];
+    found |= in_time;
+  }
+  return chosen;
+}
+
+/// Evenly over the frontier, its ends among them.
+std::vector<Trial> Thinned(const std::vector<Trial>& frontier, int count) {
+  if (static_cast<int>(frontier.size()) <= count) return frontier;
+  std::vector<Trial> thinned;
+  for (int i = 0; i < count; ++i) {
+    const std::size_t at = static_cast<std::size_t>(i) * (frontier.size() - 1) /
+                           static_cast<std::size_t>(std::max(1, count - 1));
+    thinned.push_back(frontier[at]);
+  }
+  return thinned;
+}
+
+std::vector<JudgedSet> JudgeSets(const std::vector<NamedSet>& sets, const std::vector<Clip>& clips,
+                                 const Inputs& inputs, const Options& options) {
+  std::vector<OptionSet> values;
+  for (const NamedSet& set : sets) values.push_back(set.options);
+  const std::vector<double> ratios =
+      TimeRatios(inputs.system, values, inputs.time_view, options.source);
+  std::vector<JudgedSet> judged;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    judged.push_back(Judge(sets[i].name, inputs.system, sets[i].options, clips,
+                           [](const Clip& clip) { return clip.scene; }));
+    judged.back().time_ratio = ratios[i];
+    fmt::print("judged: {}\n", sets[i].name);
+    std::fflush(stdout);
+  }
+  return judged;
+}
+
+std::string ToJson(const std::vector<Trial>& trials) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const Trial& trial : trials) {
+    const DetectorOutcome& o = trial.outcome;
+    rows.push_back({{"set", trial.index},
+                    {"options", trial.options},
+                    {"given_up", trial.given_up},
+                    {"frames", o.frames},
+                    {"score", trial.score()},
+                    {"object_f1", o.object_f1()},
+                    {"pixel_iou", o.pixel_iou()},
+                    {"static_wrong", o.static_wrong()},
+                    {"large_asked", o.large.asked},
+                    {"large_found", o.large.counted},
+                    {"large_across_asked", o.large_across.asked},
+                    {"large_across_found", o.large_across.counted},
+                    {"ms", o.mean_ms()}});
+  }
+  return rows.dump(1) + "\n";
+}
+
+OptionSet OwnValues(const SystemSpec& system, const std::vector<SearchAxis>& axes) {
+  OptionSet own;
+  for (const SystemOption& option : OptionsOf(FindSystem(system.like))) {
+    for (const SearchAxis& axis : axes) {
+      if (axis.path == option.path) own[option.path] = option.value;
+    }
+  }
+  for (const auto& [path, value] : system.options) {
+    if (own.contains(path)) own[path] = value;
+  }
+  return own;
+}
+
+int BenchSearch(Options options) {
+  const Inputs inputs = Read(&options);
+  const BlockPlace place = ParseBlockPlace(options.into, "search");
+  if (!options.into.empty()) WithBlock(ReadFile(place.file), place, "");  // before the first hour
+  SearchReport report{.system = options.system.name,
+                      .axes = options.search.axes,
+                      .own = OwnValues(inputs.system, options.search.axes),
+                      .trials = Train(inputs, options),
+                      .judged = {},
+                      .frontier = {},
+                      .time_limit = options.time_limit};
+  if (!options.json.empty()) WriteFileAtomically(options.json, ToJson(report.trials));
+  std::vector<NamedSet> sets = {{"as it is", {}}};
+  sets.insert(sets.end(), inputs.also.begin(), inputs.also.end());
+  if (report.trials.size() > 1) {
+    sets.push_back({"found", BestInTime(report.trials, inputs, options)});
+  }
+  const std::vector<Clip> clips = LoadClips(inputs.judge, options.source);
+  report.judged = JudgeSets(sets, clips, inputs, options);
+  std::vector<NamedSet> frontier;
+  for (const Trial& trial : Thinned(Frontier(report.trials), options.frontier)) {
+    frontier.push_back({fmt::format("set {}", trial.index), trial.options});
+  }
+  if (report.trials.size() > 1) report.frontier = JudgeSets(frontier, clips, inputs, options);
+  const std::string text = ToMarkdown(report);
+  fmt::print("\n{}", text);
+  if (!options.into.empty()) WriteBlock(place, text, TypedCommand());
+  return kAllPassed;
+}
+
+}  // namespace
+
+void AddBenchSearch(CLI::App* bench, Action* action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = bench->add_subcommand(
+      "search",
+      "look for the constants of a system's detector: sets of options tried on training stretches, "
+      "the best and the frontier judged on others");
+  command->add_option("AXES", options->axes, "file of options, a line each: PATH LOW HIGH [ratio]")
+      ->required();
+  command->add_option("--train", options->train, "file of views to choose by")->required();
+  command->add_option("--judge", options->judge, "file of other views to judge by")->required();
+  AddSystemChoice(command, &options->system);
+  command->add_option("--also", options->also,
+                      "NAME:PATH=VALUE,…: a set that is judged besides; may be given again");
+  command
+      ->add_option("--trials", options->search.trials,
+                   "sets to try; default 200, the first is the system as it is; 1: judge alone")
+      ->check(CLI::Range(1, 1000000));
+  command
+      ->add_option("--explore", options->search.explore,
+                   "of them from the whole space; default 70, the others around the best")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--seed", options->search.seed, "of the search; default 1");
+  command
+      ->add_option("--time-limit", options->time_limit,
+                   "most time of the detector, in times of tracking; default 1.67, the paper's")
+      ->check(CLI::Range(0.0, 1000.0));
+  command->add_option("--time-view", options->time_view,
+                      "stretch on which times are measured; default " + options->time_view);
+  command->add_option("--frames-dir", options->source.frames_dir,
+                      "keep rendered frames there and use what is there");
+  command->add_option("--threads", options->source.threads, "of tracking; 0: all");
+  command->add_option("--json", options->json, "write every set that was tried there");
+  command->add_option("--into", options->into,
+                      "PAGE or PAGE#BLOCK: rewrite that block of a Markdown page with the tables; "
+                      "the block of a page alone is search");
+  command->footer(
+      "The same seed tries the same sets: times steer nothing but which of the best is taken.\n"
+      "Example: ./aisle bench search scenes/searches/paper_axes.txt --train "
+      "scenes/stretches/paper_train.txt --judge scenes/stretches/paper_judge.txt --json "
+      "trials.json");
+  command->callback([=] { *action = [=] { return BenchSearch(*options); }; });
+}
+
+}  // namespace aisle
