@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <opencv2/core.hpp>
@@ -29,6 +30,40 @@ struct InstanceInfo {
   std::string object_class;  ///< "person", "forklift", "rack", …
   std::uint8_t class_id = 0;
   bool is_actor = false;
+};
+
+/// Where an actor is in its own script, and how fast it goes through it. One that waits for a
+/// vehicle falls behind the scene's time.
+struct ActorClock {
+  std::int64_t time_ns = 0;
+  double rate = 1;  ///< of its time over the scene's: 1 as written, 0 stands
+
+  /// The clock `offset_ns` of the scene's time later, the rate unchanged.
+  ActorClock After(std::int64_t offset_ns) const {
+    return {time_ns + std::llround(rate * static_cast<double>(offset_ns)), rate};
+  }
+};
+
+/// How a picture off the planned route is taken.
+struct Shot {
+  Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();  ///< at the stamp
+  /// The rig's velocity (m/s) and turn rate (rad/s) around the stamp, in its own axes.
+  Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
+  Eigen::Vector3d turn_rate_rad_s = Eigen::Vector3d::Zero();
+  std::vector<ActorClock> clocks = {};  ///< per actor, in order; empty: they keep the scene's time
+
+  /// Where the rig is a little before or after the stamp: along the chord of its arc, which is
+  /// good to a thousandth of the way while it turns by less than 10 degrees.
+  Eigen::Isometry3d At(double offset_s) const {
+    const double rate = turn_rate_rad_s.norm();
+    const Eigen::Vector3d axis =
+        rate > 0 ? Eigen::Vector3d(turn_rate_rad_s / rate) : Eigen::Vector3d::UnitZ();
+    const auto turned = [&](double angle) { return Eigen::AngleAxisd(angle, axis); };
+    Eigen::Isometry3d T_rig_moved = Eigen::Isometry3d::Identity();
+    T_rig_moved.linear() = turned(rate * offset_s).toRotationMatrix();
+    T_rig_moved.translation() = turned(rate * offset_s / 2) * (velocity_mps * offset_s);
+    return T_world_rig * T_rig_moved;
+  }
 };
 
 /// What truth says of one actor that has at least one pixel or box in the left image.

@@ -25,6 +25,15 @@ constexpr int kMeterFactor = 8;
 /// Rows around a band of a rolling shutter, so that filters at its border see their neighbours.
 constexpr int kBandMargin = 8;
 
+/// Where the rig is so many seconds after the stamp, or before it.
+using RigAround = std::function<Eigen::Isometry3d(double offset_s)>;
+
+/// The scene's time and the actors' own.
+struct WorldTime {
+  std::int64_t stamp_ns = 0;
+  std::span<const ActorClock> clocks;
+};
+
 FrameTruth Assemble(const Eigen::Isometry3d& T_world_rig, const CameraTruth& left,
                     const CameraTruth& right, const std::vector<MoverTruth>& movers) {
   FrameTruth truth;
@@ -143,9 +152,9 @@ struct Pipeline::Impl {
   }
 
   /// Radiance of the given rows of both cameras at an instant that nobody asks the truth of.
-  std::vector<cv::Mat1f> RadianceAt(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
+  std::vector<cv::Mat1f> RadianceAt(Snapshot snapshot, const Eigen::Isometry3d& T_world_rig,
                                     const cv::Range& rows) const {
-    const Instant instant = tracer.Pose(world.At(stamp_ns));
+    const Instant instant = tracer.Pose(std::move(snapshot));
     const bool whole = rows.size() == rays.height;
     const PixelRays band = whole ? PixelRays{} : RowsOf(rays, rows.start, rows.end);
     const PixelRays& used = whole ? rays : band;
@@ -161,18 +170,12 @@ struct Pipeline::Impl {
 
   /// What reaches the sensor while the shutter is open, given what does at the stamp. The movers
   /// are where they are at each instant, limbs and wheels skinned anew, and so are their shadows;
-  /// the rig moves as on its route, from wherever it was put. Averaged in linear light.
+  /// the rig is where `rig_at` has it. Averaged in linear light.
   std::vector<cv::Mat1f> WhileOpen(const Instant& instant, const CameraView& left,
                                    const HitImage& hits, const ExposureSetting& setting,
-                                   const Eigen::Isometry3d& T_world_rig,
-                                   std::vector<cv::Mat1f> at_stamp) const {
+                                   const RigAround& rig_at, std::vector<cv::Mat1f> at_stamp) const {
     const ShutterOptions& shutter = options.shutter;
     if (!shutter.IsOpenFor(setting.time_ms)) return at_stamp;
-    const std::int64_t stamp_ns = instant.snapshot().stamp_ns;
-    const Eigen::Isometry3d T_rig_planned = T_world_rig * world.PlannedRigPose(stamp_ns).inverse();
-    const auto rig_at = [&](double offset_s) {
-      return T_rig_planned * world.PlannedRigPose(stamp_ns + std::llround(1e9 * offset_s));
-    };
     const double open_s = OpenTime(shutter, setting.time_ms);
     const double motion_px = ImageMotion(world, instant, camera, left, hits, rig_at(-open_s / 2),
                                          rig_at(open_s / 2), open_s);
@@ -190,7 +193,8 @@ struct Pipeline::Impl {
               std::min(camera.height, rows.end + kBandMargin)};
       const std::vector<cv::Mat1f> light =
           is_stamp ? at_stamp
-                   : RadianceAt(stamp_ns + std::llround(1e9 * offset_s), rig_at(offset_s), rows);
+                   : RadianceAt(world.Near(instant.snapshot(), std::llround(1e9 * offset_s)),
+                                rig_at(offset_s), rows);
       for (std::size_t side = 0; side < 2; ++side) {
         AddInstant(plan, k, light[side], rows.start, &sum[side]);
       }
@@ -198,13 +202,23 @@ struct Pipeline::Impl {
     return sum;
   }
 
+  /// The rig moves as on its route, from wherever it was put.
   RenderedFrame Render(int frame_index, std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
                        std::map<std::string, double>* stages) const {
+    const Eigen::Isometry3d T_rig_planned = T_world_rig * world.PlannedRigPose(stamp_ns).inverse();
+    const auto rig_at = [&](double offset_s) {
+      return T_rig_planned * world.PlannedRigPose(stamp_ns + std::llround(1e9 * offset_s));
+    };
+    return Take(frame_index, {stamp_ns, {}}, T_world_rig, rig_at, stages);
+  }
+
+  RenderedFrame Take(int frame_index, const WorldTime& time, const Eigen::Isometry3d& T_world_rig,
+                     const RigAround& rig_at, std::map<std::string, double>* stages) const {
     LapWatch watch;
     const auto lap = [&](const char* stage) {
       if (stages) (*stages)[stage] += watch.Lap();
     };
-    const Instant instant = tracer.Pose(world.At(stamp_ns));
+    const Instant instant = tracer.Pose(world.At(time.stamp_ns, time.clocks));
     lap("pose");
     const std::array<CameraView, 2> views = Views(T_world_rig);
     std::vector<HitImage> hits = TakeImages();
@@ -219,9 +233,9 @@ struct Pipeline::Impl {
     lap("combine");
     const ExposureSetting setting = ExposureFor(instant, T_world_rig);
     lap("meter");
-    radiance = WhileOpen(instant, views[0], hits[0], setting, T_world_rig, std::move(radiance));
+    radiance = WhileOpen(instant, views[0], hits[0], setting, rig_at, std::move(radiance));
     lap("shutter");
-    RenderedFrame frame{.stamp_ns = stamp_ns,
+    RenderedFrame frame{.stamp_ns = instant.snapshot().stamp_ns,
                         .left = Photograph(radiance[0], setting, frame_index, 0),
                         .right = Photograph(radiance[1], setting, frame_index, 1),
                         .exposure_ms = setting.time_ms,
@@ -270,6 +284,14 @@ RenderedFrame Pipeline::Render(int frame_index, std::int64_t stamp_ns,
                                const Eigen::Isometry3d& T_world_rig) const {
   return impl_->arena.execute(
       [&] { return impl_->Render(frame_index, stamp_ns, T_world_rig, nullptr); });
+}
+
+RenderedFrame Pipeline::Render(int frame_index, std::int64_t stamp_ns, const Shot& shot) const {
+  return impl_->arena.execute([&] {
+    return impl_->Take(
+        frame_index, {stamp_ns, shot.clocks}, shot.T_world_rig,
+        [&](double offset_s) { return shot.At(offset_s); }, nullptr);
+  });
 }
 
 std::array<cv::Mat1f, 2> Pipeline::RenderRadiance(std::int64_t stamp_ns,

@@ -43,6 +43,9 @@ class Pipeline {
   /// The pair and its truth. Pure; safe to call from several threads.
   RenderedFrame Render(int frame_index, std::int64_t stamp_ns,
                        const Eigen::Isometry3d& T_world_rig) const;
+  /// The same where rig and actors follow no plan: neither does what blurs while the shutter is
+  /// open.
+  RenderedFrame Render(int frame_index, std::int64_t stamp_ns, const Shot& shot) const;
   /// Linear radiance of both cameras before the sensor, in the units of the lights.
   std::array<cv::Mat1f, 2> RenderRadiance(std::int64_t stamp_ns,
                                           const Eigen::Isometry3d& T_world_rig) const;

@@ -7,8 +7,10 @@
 #include <sstream>
 
 #include "simulator/camera/pixel_rays.h"
+#include "simulator/motion/rig_mount.h"
 #include "simulator/pipeline.h"
 #include "simulator/scene/load.h"
+#include "simulator/scene/vary.h"
 #include "simulator/shade/light/light_cache.h"
 #include "simulator/world/build.h"
 #include "simulator/world/check_models.h"
@@ -171,6 +173,7 @@ struct Simulator::Impl {
   RigInfo rig;
   std::vector<InstanceInfo> instances;
   std::uint64_t hash = 0;
+  std::optional<Ground> ground;
   std::unique_ptr<Pipeline> pipeline;
 };
 
@@ -191,6 +194,7 @@ Simulator Simulator::Load(const std::string& scene_file, const std::string& asse
   impl->rig = RigOf(scene.camera);
   World world = BuildWorld(scene, assets_dir, options.seed);
   impl->instances = DescribeInstances(world);
+  impl->ground.emplace(Seeded(scene, options.seed), world);
   impl->hash = HashOf(ReadAll(scene.files), world,
                       static_cast<std::int64_t>(1e9 * scene.duration_s()), options);
   PipelineOptions pipeline;
@@ -235,6 +239,25 @@ cv::Mat3b Simulator::Plan(double px_per_m) const {
 RenderedFrame Simulator::Render(int frame_index, std::int64_t stamp_ns,
                                 const Eigen::Isometry3d& T_world_rig) const {
   return impl_->pipeline->Render(frame_index, stamp_ns, T_world_rig);
+}
+
+RenderedFrame Simulator::Render(int frame_index, std::int64_t stamp_ns, const Shot& shot) const {
+  return impl_->pipeline->Render(frame_index, stamp_ns, shot);
+}
+
+const DriveSpec& Simulator::drive() const { return impl_->scene.drive; }
+const Ground& Simulator::ground() const { return *impl_->ground; }
+const RouteLimits& Simulator::limits() const { return impl_->scene.rig.route.limits; }
+
+Eigen::Isometry3d Simulator::RigPoseAt(const GroundPose& vehicle, std::int64_t stamp_ns) const {
+  const RigSpec& rig = impl_->scene.rig;
+  return RigPose({.position = vehicle.position, .heading_rad = vehicle.heading_rad}, rig.mount,
+                 rig.bumps, 1e-9 * static_cast<double>(stamp_ns));
+}
+
+Eigen::Isometry3d Simulator::Mount() const {
+  return RigPose({.position = Eigen::Vector2d::Zero(), .heading_rad = 0}, impl_->scene.rig.mount,
+                 {}, 0);
 }
 
 std::string VerifyReport::failure() const {
@@ -308,6 +331,8 @@ std::vector<std::string> CheckSceneFile(const std::string& scene_file,
 }
 
 int CountSceneFrames(const std::string& scene_file) { return LoadScene(scene_file).frames; }
+
+bool IsDriveScene(const std::string& scene_file) { return LoadScene(scene_file).drive.there; }
 
 std::vector<std::string> FilesOfScene(const std::string& scene_file) {
   return SceneFiles(scene_file);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "simulator/frames.h"
+#include "simulator/world/ground.h"
 
 namespace aisle::sim {
 
@@ -76,6 +77,21 @@ class Simulator {
   RenderedFrame Render(int frame_index, std::int64_t stamp_ns,
                        const Eigen::Isometry3d& T_world_rig) const;
 
+  /// The same where the rig follows no plan: wherever it is and however it moves, each actor at a
+  /// time of its own.
+  RenderedFrame Render(int frame_index, std::int64_t stamp_ns, const Shot& shot) const;
+
+  /// What the scene's `drive` says; `there` is false where it has none.
+  const DriveSpec& drive() const;
+  /// The scene seen from above: way, things, actors. Things and actors only where it has a `drive`.
+  const Ground& ground() const;
+  /// What the planned way may ask of the rig.
+  const RouteLimits& limits() const;
+  /// T_world_rig of the rig's vehicle at a place of the floor; its jolts are those of that time.
+  Eigen::Isometry3d RigPoseAt(const GroundPose& vehicle, std::int64_t stamp_ns) const;
+  /// T_vehicle_rig: where the camera is mounted, without any jolt.
+  Eigen::Isometry3d Mount() const;
+
   /// Correspondences of a frame with its right camera and with the left image at a next stamp and
   /// pose.
   MotionTruth RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
@@ -126,6 +142,9 @@ std::vector<std::string> CheckSceneFile(const std::string& scene_file,
 
 /// Frames of a scene as its file says. Throws as Simulator's constructor does.
 int CountSceneFrames(const std::string& scene_file);
+
+/// Whether the scene has a `drive`. Throws likewise.
+bool IsDriveScene(const std::string& scene_file);
 
 /// A scene's file and those it extends, nearest first: the scene is what they hold. Of a file with
 /// mistakes, as far as they can be followed.

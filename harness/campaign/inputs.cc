@@ -5,6 +5,7 @@
 
 #include "harness/io/input_error.h"
 #include "harness/io/nearest_word.h"
+#include "harness/plugs/simulated_drive.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/systems.h"
 #include "harness/score/score_names.h"
@@ -111,6 +112,22 @@ void SetOptions(const std::vector<std::string>& assignments, std::vector<Suite>*
   if (!assignments.empty()) CheckTogether(*suites);
 }
 
+/// Systems that read a whole dataset first, on scenes that they would have to steer through.
+std::string WhoCannotSteer(const Suite& suite) {
+  std::string complaints;
+  for (const SuiteScene& scene : suite.scenes) {
+    if (!CheckScene(scene.file).empty() || !IsDriveScene(scene.file)) continue;
+    for (const SystemSpec& system : suite.systems) {
+      if (!system.external) continue;
+      complaints += fmt::format(
+          "{}: system '{}' reads a dataset and cannot steer: its frames depend on what it says; "
+          "leave it out here\n",
+          scene.file, system.name);
+    }
+  }
+  return complaints;
+}
+
 }  // namespace
 
 Vocabulary KnownNames() {
@@ -143,6 +160,7 @@ std::vector<Suite> LoadInputs(const InputOptions& options) {
     suites.push_back(LoadInput(file, options, vocabulary));
   }
   SetOptions(options.set, &suites);
+  for (Suite& suite : suites) suite = WithLatencies(std::move(suite));
   return suites;
 }
 
@@ -155,6 +173,7 @@ void CheckScenes(const std::vector<Suite>& suites) {
       for (const std::string& complaint : CheckScene(scene.file)) complaints += complaint + "\n";
     }
   }
+  for (const Suite& suite : suites) complaints += WhoCannotSteer(suite);
   if (complaints.empty()) return;
   complaints.pop_back();
   throw InputError(complaints);

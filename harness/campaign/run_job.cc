@@ -2,11 +2,13 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "harness/campaign/closed_run.h"
 #include "harness/campaign/external_run.h"
 #include "harness/campaign/guest_output.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/plugs/cached_sequence.h"
+#include "harness/plugs/simulated_drive.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/systems.h"
 #include "harness/record/provenance.h"
@@ -54,9 +56,8 @@ std::filesystem::path FolderOf(const Job& job) {
   return std::filesystem::path("runs") / RunId(job.spec);
 }
 
-RunRecord RecordOf(const Job& job, const RunResult& result, const RunScore& score,
-                   const Sequence& sequence) {
-  RunRecord record = MakeRecord(result, score, sequence.rate_hz());
+RunRecord RecordOf(const Job& job, const RunResult& result, const RunScore& score, double rate_hz) {
+  RunRecord record = MakeRecord(result, score, rate_hz);
   record.inputs_hash = job.inputs_hash;
   return record;
 }
@@ -172,7 +173,7 @@ void RunForeign(const Job& job) {
   Pictures pictures(job, sequence->rate_hz());
   if (!result.trajectory.live.empty()) Show(job, *sequence, &result, &pictures);
   const RunScore score = ScoreRun(result);
-  RunRecord record = RecordOf(job, result, score, *sequence);
+  RunRecord record = RecordOf(job, result, score, sequence->rate_hz());
   record.artifacts["log"] = (FolderOf(job) / "system.log").string();
   if (std::filesystem::exists(folder / kFeaturesName)) {
     record.artifacts["features"] = (FolderOf(job) / kFeaturesName).string();
@@ -181,38 +182,65 @@ void RunForeign(const Job& job) {
   WriteRun(result, score, record, job.out);
 }
 
-void RunOurs(const Job& job) {
+MaskMaker MasksOf(const Job& job) {
   const SystemSpec& spec = job.spec.system;
+  const MaskSource source = FindSystem(spec.like).mask_source;
+  return spec.mask_errors == MaskErrors{}
+             ? MasksFromTruth(source)
+             : MasksWithErrors(source, spec.mask_errors, job.spec.seed);
+}
+
+std::unique_ptr<Estimator> EstimatorOf(const Job& job, const StereoCalibration& calibration) {
+  return MakeSystem(job.spec.system, calibration,
+                    {.threads = job.threads, .draw_stages = job.debug_dynamic});
+}
+
+/// Scores a drive of one of ours and writes it all down.
+void File(const Job& job, double rate_hz, RunResult result, Pictures* pictures) {
+  result.spec = job.spec;
+  result.threads = job.threads;
+  const RunScore score = ScoreRun(result);
+  RunRecord record = RecordOf(job, result, score, rate_hz);
+  pictures->Finish(score.live, &record);
+  WriteRun(result, score, record, job.out);
+}
+
+void RunOurs(const Job& job) {
   std::uint64_t content_hash = 0;
   const std::unique_ptr<Sequence> sequence = OpenSequence(job, &content_hash);
-  const std::unique_ptr<Estimator> estimator = MakeSystem(
-      spec, sequence->calibration(), {.threads = job.threads, .draw_stages = job.debug_dynamic});
-  const MaskSource source = FindSystem(spec.like).mask_source;
-  const MaskMaker masks = spec.mask_errors == MaskErrors{}
-                              ? MasksFromTruth(source)
-                              : MasksWithErrors(source, spec.mask_errors, job.spec.seed);
+  const std::unique_ptr<Estimator> estimator = EstimatorOf(job, sequence->calibration());
   Pictures pictures(job, sequence->rate_hz());
-  RunResult result = Drive(*sequence, *estimator, masks, {}, [&](const DrivenFrame& frame) {
+  RunResult result = Drive(*sequence, *estimator, MasksOf(job), {}, [&](const DrivenFrame& frame) {
     pictures.See(frame);
     TellProgress(frame.index + 1, frame.count);
   });
-  result.spec = job.spec;
   result.scene_hash = content_hash;
-  result.threads = job.threads;
-  const RunScore score = ScoreRun(result);
-  RunRecord record = RecordOf(job, result, score, *sequence);
-  pictures.Finish(score.live, &record);
-  WriteRun(result, score, record, job.out);
+  File(job, sequence->rate_hz(), std::move(result), &pictures);
+}
+
+/// A scene whose vehicle the system steers: its frames are this run's alone.
+void RunSteering(const Job& job) {
+  std::uint64_t content_hash = 0;
+  TellStage("opening the scene, solving its light");
+  const std::unique_ptr<DriveScene> scene = OpenSimulatedDrive(SimulationOf(job), &content_hash);
+  const std::unique_ptr<Estimator> estimator = EstimatorOf(job, scene->calibration());
+  Pictures pictures(job, scene->rate_hz());
+  const MaskMaker masks = MasksOf(job);
+  RunResult result = RunClosed(*scene, *estimator, masks, job.spec.system.steering, job.spec.seed,
+                               [&](const DrivenFrame& frame) {
+                                 pictures.See(frame);
+                                 TellProgress(frame.index + 1, frame.count);
+                               });
+  result.scene_hash = content_hash;
+  File(job, scene->rate_hz(), std::move(result), &pictures);
 }
 
 }  // namespace
 
 void RunJob(const Job& job) {
-  if (job.spec.system.external) {
-    RunForeign(job);
-  } else {
-    RunOurs(job);
-  }
+  if (job.spec.system.external) return RunForeign(job);
+  if (IsDriveScene(job.spec.scene_file)) return RunSteering(job);
+  RunOurs(job);
 }
 
 }  // namespace aisle

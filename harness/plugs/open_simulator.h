@@ -9,4 +9,7 @@ namespace aisle {
 /// (file:line:column) for a bad scene.
 sim::Simulator OpenSimulator(const SimulatedSequenceOptions& options);
 
+/// Throws InputError for a distorted lens where estimators are to see its pictures.
+void RefuseLens(const sim::Simulator& simulator, const SimulatedSequenceOptions& options);
+
 }  // namespace aisle

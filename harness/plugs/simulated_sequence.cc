@@ -9,6 +9,7 @@
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/plugs/open_simulator.h"
+#include "harness/plugs/simulated_frame.h"
 
 namespace aisle {
 namespace {
@@ -28,39 +29,6 @@ sim::Twin TwinFromName(const std::string& name) {
   if (twin != kTwins.end()) return twin->twin;
   throw InputError(
       fmt::format("twin '{}': expected one of {}", Printable(name), fmt::join(TwinNames(), ", ")));
-}
-
-ObjectTruth Convert(const sim::ObjectTruth& object, const std::string& object_class) {
-  ObjectTruth result;
-  result.instance = object.instance;
-  result.object_class = object_class;
-  result.box_visible = object.box_visible;
-  result.box_full = object.box_full;
-  result.center_m = object.center_m;
-  result.extent_m = object.extent_m;
-  result.T_world_object = object.T_world_object;
-  result.velocity_mps = object.velocity_mps;
-  result.visible_fraction = object.visible_fraction;
-  result.visible_pixels = object.visible_pixels;
-  result.dynamic_pixels = object.dynamic_pixels;
-  return result;
-}
-
-FrameTruth Convert(const sim::FrameTruth& truth, const std::vector<sim::InstanceInfo>& instances) {
-  FrameTruth result;
-  result.T_world_rig = truth.T_world_rig;
-  result.depth = truth.depth;
-  result.instance = truth.instance;
-  result.depth_right = truth.depth_right;
-  result.instance_right = truth.instance_right;
-  result.dynamic = truth.dynamic;
-  result.dynamic_right = truth.dynamic_right;
-  result.actor = truth.actor;
-  result.actor_right = truth.actor_right;
-  for (const sim::ObjectTruth& object : truth.objects) {
-    result.objects.push_back(Convert(object, instances.at(object.instance).object_class));
-  }
-  return result;
 }
 
 /// A bar on stderr where that is a terminal; nothing elsewhere.
@@ -83,16 +51,7 @@ class SimulatedSequence : public Sequence {
 
   std::string name() const override { return name_; }
 
-  StereoCalibration calibration() const override {
-    const sim::RigInfo& rig = simulator_.rig();
-    return {.width = rig.width,
-            .height = rig.height,
-            .fx = rig.fx,
-            .fy = rig.fy,
-            .cx = rig.cx,
-            .cy = rig.cy,
-            .baseline_m = rig.baseline_m};
-  }
+  StereoCalibration calibration() const override { return CalibrationOf(simulator_.rig()); }
 
   double rate_hz() const override { return simulator_.rate_hz(); }
 
@@ -131,12 +90,10 @@ class SimulatedSequence : public Sequence {
   }
 
   SequenceFrame At(const FrameRequest& request) const override {
-    const sim::RenderedFrame frame =
-        simulator_.Render(static_cast<int>(request.id), request.stamp_ns, request.T_world_rig);
-    FrameTruth truth = Convert(frame.truth, simulator_.instances());
-    truth.smear_ms = frame.smear_ms;
-    return {.images = {request.id, frame.stamp_ns, frame.left, frame.right},
-            .truth = std::move(truth)};
+    return FrameOf(
+        request.id,
+        simulator_.Render(static_cast<int>(request.id), request.stamp_ns, request.T_world_rig),
+        simulator_.instances());
   }
 
  private:
@@ -173,9 +130,7 @@ sim::Simulator OpenSimulator(const SimulatedSequenceOptions& options) {
   }
 }
 
-std::unique_ptr<Sequence> OpenSimulation(const SimulatedSequenceOptions& options,
-                                         std::uint64_t* content_hash, PathOfRig* path) {
-  sim::Simulator simulator = OpenSimulator(options);
+void RefuseLens(const sim::Simulator& simulator, const SimulatedSequenceOptions& options) {
   const std::string& lens = simulator.rig().distortion_model;
   if (lens != "none" && !options.any_lens) {
     throw InputError(options.scene_file, 0,
@@ -183,6 +138,12 @@ std::unique_ptr<Sequence> OpenSimulation(const SimulatedSequenceOptions& options
                          ", but a run takes rectified pairs: `aisle render` it as euroc and run "
                          "`aisle slam` on that, which rectifies, or set it to none");
   }
+}
+
+std::unique_ptr<Sequence> OpenSimulation(const SimulatedSequenceOptions& options,
+                                         std::uint64_t* content_hash, PathOfRig* path) {
+  sim::Simulator simulator = OpenSimulator(options);
+  RefuseLens(simulator, options);
   if (content_hash != nullptr) *content_hash = simulator.content_hash();
   auto sequence = std::make_unique<SimulatedSequence>(std::move(simulator), options.scene_name);
   if (path != nullptr) *path = sequence->Path();

@@ -96,6 +96,40 @@ void AddFrames(std::vector<ScoreDescription>* names) {
   names->insert(names->end(), frames.begin(), frames.end());
 }
 
+void AddDrive(std::vector<ScoreDescription>* names) {
+  const std::vector<ScoreDescription> drive = {
+      {"goal_reached", "1", "1 where the vehicle of a closed drive ended within its goal's bounds"},
+      {"route_completion", "1", "share of the planned route that it drove"},
+      {"cross_track_rms_m", "m", "root mean square of the true vehicle's distance from its route"},
+      {"cross_track_max_m", "m", "largest distance of the true vehicle from its route"},
+      {"heading_error_max_deg", "deg", "largest turn of the true vehicle from its route"},
+      {"belief_error_rms_m", "m", "root mean square of where it believed to be from where it was"},
+      {"belief_error_max_m", "m", "largest distance of belief and truth"},
+      {"docking_error_m", "m", "distance of the vehicle from its goal at the end"},
+      {"docking_error_deg", "deg", "turn of the vehicle from its goal at the end"},
+      {"cross_track_truth_steered_rms_m", "m", "cross_track_rms_m of the truth-steered twin"},
+      {"cross_track_truth_steered_max_m", "m", "cross_track_max_m of the truth-steered twin"},
+      {"docking_error_truth_steered_m", "m", "docking_error_m of the truth-steered twin"},
+      {"drive_time_s", "s", "time until the drive ended"},
+      {"time_over_planned", "1", "that time over the planned one"},
+      {"stops", "1", "protective stops, because the system was lost for too long"},
+      {"scanner_stops", "1", "stops by the safety scanner, where one is switched on"},
+      {"stopped_s", "s", "time held by either"},
+      {"lost_s", "s", "time without a pose to steer by"},
+      {"frames_dropped", "1", "share of the camera's frames that the busy system never saw"},
+      {"collisions", "1", "contacts of the vehicle under way, with anything"},
+      {"collisions_static", "1", "of them, with racks, walls, columns, goods and the like"},
+      {"collisions_person", "1", "of them, with people"},
+      {"collision_speed_max_mps", "m/s", "the fastest of them"},
+      {"min_clearance_static_m", "m", "least distance of the footprint from what stands"},
+      {"min_clearance_person_m", "m", "least distance from a person while under way"},
+      {"min_clearance_vehicle_m", "m", "least distance from another vehicle while under way"},
+      {"time_to_collision_min_s", "s", "least gap over closing speed to a person or vehicle"},
+      {"zone_violations", "1", "times the vehicle was too fast in a zone, or in one closed to it"},
+  };
+  names->insert(names->end(), drive.begin(), drive.end());
+}
+
 bool Matches(const std::string& name, const std::string& pattern) {
   const std::size_t star = pattern.find('*');
   if (star == std::string::npos) return name == pattern;
@@ -111,6 +145,7 @@ const std::vector<ScoreDescription>& ScoreNames() {
     AddTrajectory(&all);
     AddMasks(&all);
     AddFrames(&all);
+    AddDrive(&all);
     return all;
   }();
   return names;

@@ -53,6 +53,8 @@ class Fields {
   virtual void Texts(const Key& key, std::vector<std::string>* values, const Check& check) = 0;
   /// A list of whole numbers, each once, or how many of them: 3 means 1, 2, 3.
   virtual void CountOrList(const Key& key, std::vector<std::uint64_t>* values, int most) = 0;
+  /// A list of numbers, each within the range; one alone may drop its brackets.
+  virtual void Numbers(const Key& key, std::vector<double>* values, Range range) = 0;
   /// A map from words to plain values, each held against `check`.
   virtual void Values(const Key& key, std::map<std::string, std::string>* values,
                       const CheckValue& check) = 0;

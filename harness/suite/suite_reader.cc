@@ -207,6 +207,20 @@ void YamlReader::CountOrList(const Key& key, std::vector<std::uint64_t>* values,
   if (!read.empty()) *values = std::move(read);
 }
 
+void YamlReader::Numbers(const Key& key, std::vector<double>* values, Range range) {
+  const auto node = Find(key);
+  if (!node) return;
+  std::vector<double> read;
+  for (const YAML::Node& item : Items(*node, key)) {
+    const auto number = PlainNumber<double>(item);
+    if (!number || !(*number >= range.low && *number <= range.high)) {
+      return Expected(item, key, "a list of numbers" + ToText(range));
+    }
+    read.push_back(*number);
+  }
+  *values = std::move(read);
+}
+
 void YamlReader::Values(const Key& key, std::map<std::string, std::string>* values,
                         const CheckValue& check) {
   const auto node = Find(key);

@@ -22,6 +22,7 @@ class YamlReader : public Fields {
   void Names(const Key& key, std::vector<std::string>* values, const Words& words) override;
   void Texts(const Key& key, std::vector<std::string>* values, const Check& check) override;
   void CountOrList(const Key& key, std::vector<std::uint64_t>* values, int most) override;
+  void Numbers(const Key& key, std::vector<double>* values, Range range) override;
   void Values(const Key& key, std::map<std::string, std::string>* values,
               const CheckValue& check) override;
   void Group(const Key& key, const Part& part) override;

@@ -29,6 +29,9 @@ class ReferenceWriter : public Fields {
   void CountOrList(const Key& key, std::vector<std::uint64_t>* values, int most) override {
     Row(key, fmt::format("1 to {}, or a list", most), fmt::format("{}", values->size()));
   }
+  void Numbers(const Key& key, std::vector<double>*, Range range) override {
+    Row(key, "a list of numbers" + ToText(range), "");
+  }
   void Values(const Key& key, std::map<std::string, std::string>*, const CheckValue&) override {
     Row(key, "a map of values", "");
   }

@@ -39,6 +39,9 @@ class SchemaWriter : public Fields {
     const Json list = {{"type", "array"}, {"items", each}, {"minItems", 1}, {"uniqueItems", true}};
     Add(key, {{"anyOf", {count, list}}})["default"] = values->size();
   }
+  void Numbers(const Key& key, std::vector<double>*, Range range) override {
+    Add(key, ListOf(Numeric("number", range)));
+  }
   void Values(const Key& key, std::map<std::string, std::string>*, const CheckValue&) override {
     const Json value = {{"type", {"number", "boolean", "string"}}};
     Add(key, {{"type", "object"}, {"additionalProperties", value}});

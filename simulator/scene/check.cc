@@ -12,6 +12,31 @@
 namespace aisle::sim {
 namespace {
 
+/// Twice the signed area of a triangle, positive where it turns left.
+double Turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+}
+
+/// What is wrong with a vehicle's outline, or an empty string.
+std::string FootprintError(const std::vector<Eigen::Vector2d>& corners) {
+  const std::size_t n = corners.size();
+  if (n < 3) return "an outline needs at least three corners";
+  if (n > 64) return "an outline has at most 64 corners";
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector2d &a = corners[i], &b = corners[(i + 1) % n];
+    if ((a - b).norm() < 1e-3) return fmt::format("corners {} and the next coincide", i + 1);
+    if (a.norm() > 20) return fmt::format("corner {} is more than 20 m from the axle", i + 1);
+    for (std::size_t k = i + 2; k < n; ++k) {
+      const Eigen::Vector2d &c = corners[k], &d = corners[(k + 1) % n];
+      if ((k + 1) % n == i) continue;
+      if (Turn(a, b, c) * Turn(a, b, d) <= 0 && Turn(c, d, a) * Turn(c, d, b) <= 0) {
+        return fmt::format("its sides {} and {} cross", i + 1, k + 1);
+      }
+    }
+  }
+  return "";
+}
+
 class Checker {
  public:
   Checker(const Scene& scene, Issues* issues) : scene_(scene), issues_(issues) {}
@@ -24,6 +49,7 @@ class Checker {
     CheckNames(scene_.people, "people");
     CheckNames(scene_.vehicles, "vehicles");
     CheckHandles();
+    CheckDrive();
     CheckRoutes(scene_, issues_);
     for (std::size_t i = 0; i < scene_.vehicles.size(); ++i) CheckMast(scene_.vehicles[i], i);
     if (scene_.rig.mount.height_m >= scene_.hall.height_m) {
@@ -157,6 +183,26 @@ class Checker {
       } else if (pusher->level > vehicle.level) {
         issues_->Add(vehicle.mark, key, "its level must be that of its pusher or above");
       }
+    }
+  }
+
+  void CheckDrive() {
+    const DriveSpec& drive = scene_.drive;
+    if (!drive.there) return;
+    if (const std::string wrong = FootprintError(drive.footprint); !wrong.empty()) {
+      issues_->Add(drive.mark, "drive.footprint_m",
+                   wrong + "; example: [[-0.3, -0.3], [0.7, -0.3], [0.7, 0.3], [-0.3, 0.3]]");
+    }
+    for (std::size_t i = 0; i < drive.zones.size(); ++i) {
+      const ZoneSpec& zone = drive.zones[i];
+      CheckInside(zone.mark, fmt::format("drive.zones[{}].from", i), zone.from);
+      CheckInside(zone.mark, fmt::format("drive.zones[{}].to", i), zone.to);
+    }
+    const bool drives = std::ranges::any_of(scene_.rig.route.plan.steps,
+                                            [](const RouteStep& step) { return !step.go.empty(); });
+    if (!drives) {
+      issues_->Add(drive.mark, "drive",
+                   "the rig's route goes nowhere: a closed drive needs a `go` among rig.steps");
     }
   }
 

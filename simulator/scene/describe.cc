@@ -286,6 +286,14 @@ void DescribeVary(Fields& f, VarySpec& vary) {
   f.Number({"path_m", "points of the path moved by up to this", "0.2"}, &vary.path_m, {0, 2});
 }
 
+/// Absent keys leave an actor as blind to the vehicle as its script is.
+void DescribeYields(Fields& f, YieldSpec& yields) {
+  f.Flag({"yields", "waits while the vehicle of a closed drive is near and under way", "true"},
+         &yields.yields);
+  f.Number({"yields_within_m", "how near that is, from its footprint", "2"}, &yields.within_m,
+           {0.1, 50});
+}
+
 void DescribePerson(Fields& f, PersonSpec& person) {
   person.mark = f.mark();
   person.route.limits = kPersonLimits;
@@ -294,6 +302,7 @@ void DescribePerson(Fields& f, PersonSpec& person) {
   person.model_mark = f.MarkOf("model");
   f.Choice({"level", "takes part from this level of dynamics on", "low"}, &person.level, kDynamics);
   DescribeRoute(f, person.route);
+  DescribeYields(f, person.yields);
   f.Group({"vary", "what the seed may change", "{time_s: 0.5, speed: 0.1, look: true}"},
           [&](Fields& vary) {
             DescribeVary(vary, person.vary);
@@ -318,6 +327,7 @@ void DescribeVehicle(Fields& f, VehicleSpec& vehicle) {
   f.Choice({"level", "takes part from this level of dynamics on", "low"}, &vehicle.level,
            kDynamics);
   DescribeRoute(f, vehicle.route);
+  DescribeYields(f, vehicle.yields);
   DescribeSteering(f, vehicle.route.limits);
   f.Flag({"turns_on_the_spot", "as a differential-drive vehicle does", "false"},
          &vehicle.route.limits.turns_on_the_spot);
@@ -370,6 +380,8 @@ void Describe(Fields& f, Scene& scene) {
           [&](Fields& part) { DescribeSensor(part, scene.sensor); });
   f.Group({"rig", "the vehicle that carries the cameras", "{start: [0, 0], steps: []}", true},
           [&](Fields& part) { DescribeRig(part, scene.rig); });
+  f.Group({"drive", "the rig is a vehicle that steers by what the system says", "{}"},
+          [&](Fields& part) { DescribeDrive(part, scene.drive); });
   f.Group({"hall", "the building", "{from: [-5, -8], to: [20, 8]}", true},
           [&](Fields& part) { DescribeHall(part, scene.hall); });
   f.ListOf({"racks", "rows of racking", "[{from: [0, 2.5], bays: 5}]"}, &scene.racks, DescribeRack);

@@ -80,6 +80,9 @@ class Fields {
                            std::initializer_list<const char*> names) = 0;
 };
 
+/// Names every key of a scene's `drive`.
+void DescribeDrive(Fields& fields, DriveSpec& drive);
+
 /// Names every key of a scene file, with ranges and examples.
 void Describe(Fields& fields, Scene& scene);
 

@@ -9,6 +9,7 @@
 #include "simulator/motion/rig_mount.h"
 #include "simulator/motion/route.h"
 #include "simulator/motion/vehicle.h"
+#include "simulator/scene/drive_spec.h"
 #include "simulator/scene/mark.h"
 #include "simulator/scene/sensor_spec.h"
 
@@ -161,6 +162,12 @@ struct VarySpec {
   bool look = false;  ///< of a person: each seed shows another one
 };
 
+/// Whether an actor waits for the vehicle of a closed drive.
+struct YieldSpec {
+  bool yields = false;
+  double within_m = 2;  ///< while the vehicle is that near and under way
+};
+
 struct PersonSpec {
   Mark mark;
   std::size_t place = 0;  ///< in the file's list, whoever of it is left out
@@ -170,6 +177,7 @@ struct PersonSpec {
   Dynamics level = Dynamics::kLow;
   RouteSpec route;
   VarySpec vary;
+  YieldSpec yields;
 };
 
 struct VehicleSpec {
@@ -183,6 +191,7 @@ struct VehicleSpec {
   VarySpec vary;
   std::vector<MastMove> mast;
   GoodsKind load = GoodsKind::kNothing;
+  YieldSpec yields;
   std::string pushed_by;  ///< a person behind its handle: it has that person's route
 };
 
@@ -199,6 +208,7 @@ struct Scene {
   CameraSpec camera;
   SensorSpec sensor;
   RigSpec rig;
+  DriveSpec drive;
   HallSpec hall;
   std::vector<RackSpec> racks;
   std::vector<StackSpec> stacks;

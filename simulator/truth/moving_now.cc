@@ -26,8 +26,8 @@ MovingNow::MovingNow(const World& world, const Snapshot& snapshot, const MovingO
     : world_(world), threshold_mps_(options.threshold_mps), instants_{&snapshot} {
   if (snapshot.movers.empty()) return;
   for (const std::int64_t offset_ns : OffsetsOf(options.window_ms)) {
-    around_.push_back(world.At(snapshot.stamp_ns - offset_ns));
-    around_.push_back(world.At(snapshot.stamp_ns + offset_ns));
+    around_.push_back(world.Near(snapshot, -offset_ns));
+    around_.push_back(world.Near(snapshot, offset_ns));
   }
   for (const Snapshot& other : around_) instants_.push_back(&other);
   for (std::size_t i = 0; i < snapshot.movers.size(); ++i) {

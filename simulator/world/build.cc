@@ -105,6 +105,13 @@ std::vector<Cast> AddActors(const Scene& scene, const Palette& palette, std::uin
   return cast;
 }
 
+/// Velocities of an actor that goes through its script at another rate.
+void Slow(double rate, MoverState* state) {
+  if (rate == 1) return;
+  state->velocity_mps *= rate;
+  for (Eigen::Vector3f& velocity : state->velocities) velocity *= static_cast<float>(rate);
+}
+
 }  // namespace
 
 World BuildWorld(const Scene& written, const std::string& assets_dir, std::uint64_t seed) {
@@ -127,22 +134,26 @@ World BuildWorld(const Scene& written, const std::string& assets_dir, std::uint6
   AddProps(scene, seed, &assets, &wardrobe, &site);
   const std::vector<Cast> cast = AddActors(scene, palette, seed, &assets, &wardrobe, &parts, &site);
 
-  parts.at = [scene, cast](std::int64_t stamp_ns) {
-    const double time_s = static_cast<double>(stamp_ns) * kNanosecond_s;
+  parts.at_clocks = [scene, cast](std::int64_t stamp_ns, std::span<const ActorClock> clocks) {
     Snapshot snapshot;
     snapshot.stamp_ns = stamp_ns;
-    snapshot.light_scale = LightScale(scene, time_s);
-    for (const Cast& actor : cast) {
-      MoverState state = actor.at(scene.frozen ? 0 : time_s);
+    snapshot.clocks.assign(clocks.begin(), clocks.end());
+    snapshot.light_scale = LightScale(scene, static_cast<double>(stamp_ns) * kNanosecond_s);
+    for (std::size_t i = 0; i < cast.size(); ++i) {
+      const ActorClock clock = clocks.empty() ? ActorClock{stamp_ns, 1} : clocks[i];
+      const double time_s = static_cast<double>(clock.time_ns) * kNanosecond_s;
+      MoverState state = cast[i].at(scene.frozen ? 0 : time_s);
       if (scene.frozen) {  // nothing moves, not even a breath
         state.velocity_mps.setZero();
         std::ranges::fill(state.velocities, Eigen::Vector3f::Zero());
       }
-      state.instance = actor.instance;
+      Slow(clock.rate, &state);
+      state.instance = cast[i].instance;
       snapshot.movers.push_back(std::move(state));
     }
     return snapshot;
   };
+  parts.at = [at = parts.at_clocks](std::int64_t stamp_ns) { return at(stamp_ns, {}); };
   const Route route(scene.rig.route.plan, scene.rig.route.limits);
   parts.rig = [route, rig = scene.rig](std::int64_t stamp_ns) {
     const double time_s = static_cast<double>(stamp_ns) * kNanosecond_s;

@@ -71,6 +71,17 @@ Snapshot World::At(std::int64_t stamp_ns) const {
       .stamp_ns = stamp_ns, .movers = {}, .light_scale = std::vector<float>(lights().size(), 1)};
 }
 
+Snapshot World::At(std::int64_t stamp_ns, std::span<const ActorClock> clocks) const {
+  if (clocks.empty() || !parts_.at_clocks) return At(stamp_ns);
+  return parts_.at_clocks(stamp_ns, clocks);
+}
+
+Snapshot World::Near(const Snapshot& snapshot, std::int64_t offset_ns) const {
+  std::vector<ActorClock> clocks = snapshot.clocks;
+  for (ActorClock& clock : clocks) clock = clock.After(offset_ns);
+  return At(snapshot.stamp_ns + offset_ns, clocks);
+}
+
 Eigen::Isometry3d World::PlannedRigPose(std::int64_t stamp_ns) const {
   return parts_.rig ? parts_.rig(stamp_ns) : Eigen::Isometry3d::Identity();
 }

@@ -3,10 +3,12 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "simulator/frames.h"
 #include "simulator/mesh/material.h"
 #include "simulator/mesh/triangle_mesh.h"
 
@@ -70,6 +72,7 @@ struct Snapshot {
   std::int64_t stamp_ns = 0;
   std::vector<MoverState> movers;  ///< in the order of World::mover_meshes()
   std::vector<float> light_scale;  ///< per light: 1 as built, 0 switched off
+  std::vector<ActorClock> clocks = {};  ///< per mover; empty: all keep the scene's time
 };
 
 /// The parts a world is made of. BuildWorld (simulator/world/build.h) makes them from a scene file;
@@ -85,6 +88,8 @@ struct WorldParts {
   /// Everything that moves, at a time after the start of the scene. Pure and thread-safe. None:
   /// nothing moves.
   std::function<Snapshot(std::int64_t stamp_ns)> at;
+  /// The same where each mover has a clock of its own. Pure. None: they have no clocks.
+  std::function<Snapshot(std::int64_t stamp_ns, std::span<const ActorClock> clocks)> at_clocks = {};
   /// Where the route puts the rig (left camera) at a time: T_world_rig. Pure. None: identity.
   std::function<Eigen::Isometry3d(std::int64_t stamp_ns)> rig;
 };
@@ -105,6 +110,10 @@ class World {
 
   /// Everything that moves, at `stamp_ns` after the start of the scene.
   Snapshot At(std::int64_t stamp_ns) const;
+  /// The same by clocks, one per mover; none: all keep the scene's time.
+  Snapshot At(std::int64_t stamp_ns, std::span<const ActorClock> clocks) const;
+  /// The world of a snapshot a little earlier or later, each actor's clock at its rate.
+  Snapshot Near(const Snapshot& snapshot, std::int64_t offset_ns) const;
   /// Where the scene's route puts the rig at that time: T_world_rig.
   Eigen::Isometry3d PlannedRigPose(std::int64_t stamp_ns) const;
 

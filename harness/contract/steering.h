@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace aisle {
+
+/// How a system steers the vehicle of a closed drive; scenes without a `drive` do not look at it.
+struct Steering {
+  /// From the middle of the exposure until its pose can be used, milliseconds.
+  double latency_ms = 0;
+  /// Instead: measured times, milliseconds, one of which is drawn for each frame from (seed,
+  /// frame). Empty: latency_ms holds.
+  std::vector<double> latency_profile_ms = {};
+  /// What happens to frames that arrive while the system works: "newest" keeps the newest for when
+  /// it is done, "drop" keeps none, "pipeline": it takes every frame, answers are late only.
+  std::string queue = "newest";
+  bool scanner = false;           ///< a safety scanner stops the vehicle
+  bool steered_by_truth = false;  ///< the system is shown the drive but does not steer it
+  std::string driver = "";        ///< pure_pursuit or kanayama; empty: as the scene says
+
+  bool operator==(const Steering&) const = default;
+};
+
+}  // namespace aisle

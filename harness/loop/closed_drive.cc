@@ -1,0 +1,351 @@
+#include "harness/loop/closed_drive.h"
+
+#include <algorithm>
+
+#include "harness/common/mix.h"
+#include "harness/loop/contact_watch.h"
+#include "harness/loop/server.h"
+#include "harness/loop/traffic.h"
+#include "harness/vehicle/pilot.h"
+
+namespace aisle {
+namespace {
+
+constexpr std::int64_t kSampleEvery_ns = 50'000'000;
+constexpr double kSettle_s = 0.3;  // standing at the goal before the drive is over
+
+double Seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
+
+std::int64_t Milliseconds(double ms) { return std::llround(1e6 * ms); }
+
+/// How long each frame takes.
+std::function<std::int64_t(std::int64_t)> LatencyOf(const Steering& steering, std::uint64_t seed) {
+  const std::vector<double>& profile = steering.latency_profile_ms;
+  if (profile.empty()) {
+    return [ns = Milliseconds(steering.latency_ms)](std::int64_t) { return ns; };
+  }
+  return [profile, seed](std::int64_t frame) {
+    const std::uint64_t drawn = Mix(Mix(seed + kGolden) + static_cast<std::uint64_t>(frame));
+    return Milliseconds(profile[drawn % profile.size()]);
+  };
+}
+
+QueueRule RuleOf(const Steering& steering) {
+  if (steering.queue == "drop") return QueueRule::kDrop;
+  return steering.queue == "pipeline" ? QueueRule::kPipeline : QueueRule::kNewest;
+}
+
+/// The longest that a healthy system is silent: its latency, and the frames it cannot take
+/// meanwhile.
+double KnownLatency(const Steering& steering) {
+  const std::vector<double>& profile = steering.latency_profile_ms;
+  const double ms = profile.empty() ? steering.latency_ms : *std::ranges::max_element(profile);
+  return 1e-3 * ms;
+}
+
+PilotOptions PilotOf(const Course& course, const Steering& steering) {
+  PilotOptions options;
+  options.driver = course.driver;
+  if (steering.driver == "kanayama") options.driver.law = SteeringLaw::kKanayama;
+  if (steering.driver == "pure_pursuit") options.driver.law = SteeringLaw::kPurePursuit;
+  options.watch.latency_s = KnownLatency(steering);
+  options.T_vehicle_rig = course.T_vehicle_rig;
+  return options;
+}
+
+/// Shows each frame to the system and tells the vehicle the truth instead.
+class ShownOnly : public Localiser {
+ public:
+  explicit ShownOnly(Localiser* shown) : shown_(shown) {}
+  std::optional<Eigen::Isometry3d> Locate(const Exposure& exposure) override {
+    shown_->Locate(exposure);
+    return exposure.T_world_rig;
+  }
+  bool failed() const override { return shown_->failed(); }
+
+ private:
+  Localiser* shown_;
+};
+
+class Loop {
+ public:
+  Loop(const DriveScene& scene, Localiser* localiser, const LoopOptions& options)
+      : scene_(scene),
+        course_(scene.course()),
+        options_(options),
+        localiser_(localiser),
+        server_(localiser, RuleOf(options.steering), LatencyOf(options.steering, options.seed)),
+        pilot_(course_.way, course_.start, PilotOf(course_, options.steering)),
+        odometer_(course_.odometry, course_.plant, options.seed),
+        traffic_(scene),
+        contacts_(course_, &track_) {
+    plant_.pose = course_.start;
+    for (const CourseActor& actor : course_.actors) {
+      track_.actors.push_back({.name = actor.name, .object_class = actor.object_class});
+    }
+    const auto is_drive = [](const WayLeg& leg) { return leg.kind == WayLeg::Kind::kDrive; };
+    on_leg_ =
+        static_cast<std::size_t>(std::ranges::find_if(course_.way, is_drive) - course_.way.begin());
+  }
+
+  DriveTrack Run() {
+    const std::int64_t limit_ns =
+        std::llround(1e9 * (options_.times_planned * course_.planned_s + options_.and_s));
+    contacts_.See(Now(), 0, 0);
+    while (!over_) {
+      Listen();
+      if (now_ns_ == scene_.Stamp(frame_)) Photograph();
+      Listen();
+      if (now_ns_ % options_.tick_ns == 0) Tick();
+      if (now_ns_ >= limit_ns && !over_) End(DriveEnd::kTimeout);
+      if (localiser_->failed()) End(DriveEnd::kFailed);
+      if (!over_) Advance(NextEvent() - now_ns_);
+    }
+    track_.time_s = Seconds(now_ns_);
+    track_.frames_shown = server_.shown();
+    return std::move(track_);
+  }
+
+ private:
+  std::int64_t NextEvent() const {
+    const std::int64_t tick = (now_ns_ / options_.tick_ns + 1) * options_.tick_ns;
+    return std::min(tick, scene_.Stamp(frame_));
+  }
+
+  double Speed() const { return plant_.AheadSpeed(course_.plant.kind); }
+
+  Encounter Now() const { return {now_ns_, plant_.pose, Speed(), traffic_.capsules()}; }
+
+  void Listen() {
+    for (const Answer& answer : server_.Due(now_ns_)) {
+      pilot_.Told(answer.frame_ns, now_ns_, answer.T_slam_rig);
+    }
+  }
+
+  void Photograph() {
+    ++track_.frames_due;
+    Exposure exposure{.id = frame_++, .stamp_ns = now_ns_};
+    exposure.T_world_rig = scene_.RigAt(plant_.pose, now_ns_);
+    exposure.clocks = traffic_.clocks();
+    // The camera's own motion, jolts included, from where it is a little before and after.
+    constexpr std::int64_t kHalf_ns = 2'000'000;
+    const auto rig_at = [&](std::int64_t offset_ns) {
+      const double s = Seconds(offset_ns);
+      return scene_.RigAt(AlongArc(plant_.pose, Speed() * s, plant_.turn_rate_rad_s * s),
+                          now_ns_ + offset_ns);
+    };
+    const Eigen::Isometry3d before = rig_at(-kHalf_ns), after = rig_at(kHalf_ns);
+    const double over_s = Seconds(2 * kHalf_ns);
+    const Eigen::Matrix3d back = exposure.T_world_rig.linear().transpose();
+    exposure.velocity_mps = back * (after.translation() - before.translation()) / over_s;
+    const Eigen::AngleAxisd turn(Eigen::Matrix3d(before.linear().transpose() * after.linear()));
+    exposure.turn_rate_rad_s = turn.angle() * turn.axis() / over_s;
+    server_.Offer(exposure);
+  }
+
+  void Tick() {
+    const double tick_s = Seconds(options_.tick_ns);
+    command_ = pilot_.Decide(now_ns_, tick_s);
+    mode_ = pilot_.mode();
+    if (options_.steering.scanner) HoldByScanner(tick_s);
+    CountTime(tick_s);
+    FollowTruth();
+    if (now_ns_ % kSampleEvery_ns == 0) AddSample();
+    LookForTheEnd(tick_s);
+  }
+
+  void HoldByScanner(double tick_s) {
+    const bool wants = std::abs(command_.speed_mps) > 0;
+    const double toward = command_.speed_mps < 0 ? -1 : 1;
+    const double speed = std::max(std::abs(Speed()), held_ ? options_.scanner.restart_mps : 0.0);
+    const Polygon field = ProtectiveField(course_.footprint, toward * speed,
+                                          course_.plant.stop_mps2, options_.scanner);
+    const bool blocked = wants && IsBlocked(course_, plant_.pose, field, traffic_.capsules());
+    clear_s_ = blocked ? 0 : clear_s_ + tick_s;
+    if (blocked && !held_) ++track_.scanner_stops;
+    if (blocked) held_ = true;
+    if (held_ && clear_s_ >= options_.scanner.clear_s) held_ = false;
+    if (!held_) return;
+    command_ = {.protective_stop = true};
+    mode_ = DriveMode::kScanner;
+  }
+
+  void CountTime(double tick_s) {
+    const bool lost = mode_ == DriveMode::kDegraded || mode_ == DriveMode::kStopped;
+    const bool stopped = mode_ == DriveMode::kStopped || mode_ == DriveMode::kScanner;
+    if (lost) track_.lost_s += tick_s;
+    if (stopped) track_.stopped_s += tick_s;
+    if (mode_ == DriveMode::kStopped && last_mode_ != DriveMode::kStopped) ++track_.stops;
+    last_mode_ = mode_;
+  }
+
+  /// Where the true vehicle is on its route: on the leg that the driver drives, or drove last.
+  void FollowTruth() {
+    const std::size_t leg = pilot_.driver().leg;
+    const bool drives = leg < course_.way.size() && course_.way[leg].kind == WayLeg::Kind::kDrive;
+    if (drives && leg != on_leg_) {
+      before_leg_m_ += course_.way[on_leg_].length_m();
+      on_leg_ = leg;
+      on_leg_m_ = 0;
+    }
+    const WayLeg& on = course_.way[on_leg_];
+    truth_ = Nearest(on, plant_.pose.position, on_leg_m_);
+    on_leg_m_ = std::clamp(truth_.distance_m, 0.0, on.length_m());
+  }
+
+  DriveSample Sample() const {
+    const WayLeg& on = course_.way[on_leg_];
+    const double back = on.reverse ? std::numbers::pi : 0;
+    const bool on_way = mode_ != DriveMode::kWaiting && pilot_.driver().leg == on_leg_;
+    DriveSample sample{.stamp_ns = now_ns_, .truth = plant_.pose, .belief = pilot_.belief()};
+    sample.speed_mps = Speed();
+    sample.yaw_rate_rad_s = plant_.turn_rate_rad_s;
+    sample.cross_track_m = truth_.cross_track_m;
+    sample.heading_error_rad =
+        on_way ? WrapAngle(plant_.pose.heading_rad + back - truth_.heading_rad) : 0;
+    sample.route_m = before_leg_m_ + on_leg_m_;
+    if (const auto by = pilot_.steers_by_ns()) sample.estimate_age_s = Seconds(now_ns_ - *by);
+    sample.clearance_static_m = contacts_.clearance_static_m();
+    sample.clearance_actor_m = contacts_.clearance_actor_m();
+    sample.mode = mode_;
+    return sample;
+  }
+
+  void AddSample() {
+    track_.samples.push_back(Sample());
+    for (std::size_t i = 0; i < track_.actors.size(); ++i) {
+      const Capsule& capsule = traffic_.capsules()[i];
+      track_.actors[i].radius_m = capsule.radius_m;
+      track_.actors[i].from.push_back(capsule.from);
+      track_.actors[i].to.push_back(capsule.to);
+    }
+  }
+
+  void LookForTheEnd(double tick_s) {
+    if (contacts_.hit_static()) return End(DriveEnd::kContact);
+    settled_s_ = pilot_.arrived() ? settled_s_ + tick_s : 0;
+    if (settled_s_ >= kSettle_s) return End(DriveEnd::kArrived);
+    const DriverState& driver = pilot_.driver();
+    const bool pauses =
+        driver.leg < course_.way.size() && course_.way[driver.leg].kind == WayLeg::Kind::kPause;
+    const bool goes_on = pauses || std::abs(Speed()) > 0.01 ||
+                         std::abs(plant_.turn_rate_rad_s) > 0.01 || pilot_.arrived();
+    stands_s_ = goes_on ? 0 : stands_s_ + tick_s;
+    if (stands_s_ >= options_.stands_still_s) End(DriveEnd::kNoProgress);
+  }
+
+  void End(DriveEnd end) {
+    over_ = true;
+    track_.end = end;
+    if (track_.samples.empty() || track_.samples.back().stamp_ns != now_ns_) {
+      AddSample();
+    }
+  }
+
+  void Advance(std::int64_t duration_ns) {
+    const PlantStep step = Move(plant_, command_, Seconds(duration_ns), course_.plant);
+    plant_ = step.state;
+    now_ns_ += duration_ns;
+    pilot_.Rolled(now_ns_, odometer_.Measure(step));
+    traffic_.Advance(duration_ns, At(plant_.pose, course_.footprint), Speed());
+    contacts_.See(Now(), step.way_m, step.turn_rad);
+  }
+
+  const DriveScene& scene_;
+  const Course& course_;
+  const LoopOptions& options_;
+  Localiser* localiser_;
+  DriveTrack track_;
+  Server server_;
+  Pilot pilot_;
+  Odometer odometer_;
+  Traffic traffic_;
+  ContactWatch contacts_;
+  PlantState plant_;
+  DriveCommand command_;
+  DriveMode mode_ = DriveMode::kWaiting, last_mode_ = DriveMode::kWaiting;
+  std::int64_t now_ns_ = 0, frame_ = 0;
+  std::size_t on_leg_ = 0;  ///< of the way: the drive that the true vehicle is held against
+  double on_leg_m_ = 0, before_leg_m_ = 0;
+  OnWay truth_;
+  double settled_s_ = 0, stands_s_ = 0, clear_s_ = 0;
+  bool held_ = false, over_ = false;
+};
+
+}  // namespace
+
+std::string Validate(const Steering& steering) {
+  if (!(steering.latency_ms >= 0 && steering.latency_ms <= 10000)) {
+    return fmt::format("latency_ms is {:g}, expected 0 to 10000", steering.latency_ms);
+  }
+  for (const double ms : steering.latency_profile_ms) {
+    if (!(ms >= 0 && ms <= 10000)) {
+      return fmt::format("a latency of the profile is {:g} ms, expected 0 to 10000", ms);
+    }
+  }
+  const auto is_one_of = [](const std::string& word, std::initializer_list<const char*> words) {
+    return std::ranges::find(words, word) != words.end();
+  };
+  if (!is_one_of(steering.queue, {"newest", "drop", "pipeline"})) {
+    return "queue is '" + steering.queue + "', expected newest, drop or pipeline";
+  }
+  if (!is_one_of(steering.driver, {"", "pure_pursuit", "kanayama"})) {
+    return "driver is '" + steering.driver + "', expected pure_pursuit or kanayama";
+  }
+  return "";
+}
+
+DriveTrack DriveClosed(const DriveScene& scene, Localiser* localiser, const LoopOptions& options) {
+  ShownOnly shown(localiser);
+  Localiser* steers = options.steering.steered_by_truth ? &shown : localiser;
+  return Loop(scene, steers, options).Run();
+}
+
+namespace {
+
+/// What stands near enough to the route to be worth drawing.
+std::vector<FloorThing> ThingsNear(const std::vector<FloorPose>& route,
+                                   const std::vector<StandingThing>& things) {
+  constexpr double kNear_m = 5;
+  constexpr std::size_t kEvery = 25;  // points of the route
+  std::vector<FloorThing> near;
+  for (const StandingThing& thing : things) {
+    for (std::size_t i = 0; i < route.size(); i += kEvery) {
+      const Capsule place{route[i].position, route[i].position, kNear_m};
+      if (Distance(thing.outline, place) > 0) continue;
+      near.push_back({thing.name, thing.object_class, thing.outline});
+      break;
+    }
+  }
+  return near;
+}
+
+}  // namespace
+
+DriveLog LogOf(const Course& course, const Steering& steering) {
+  DriveLog log;
+  for (const WayLeg& leg : course.way) {
+    const double back = leg.reverse ? std::numbers::pi : 0;
+    for (const WayPoint& point : leg.points) {
+      log.route.push_back({point.position, point.heading_rad + back});
+    }
+    log.route_m += leg.length_m();
+  }
+  log.planned_s = course.planned_s;
+  log.goal = log.route.empty() ? course.start : log.route.back();
+  for (const WayLeg& leg : course.way) {
+    if (leg.kind == WayLeg::Kind::kTurn) log.goal.heading_rad = leg.turn_to_rad;
+    if (leg.kind == WayLeg::Kind::kDrive) {
+      log.goal.heading_rad = leg.points.back().heading_rad + (leg.reverse ? std::numbers::pi : 0);
+    }
+  }
+  log.goal_tolerance_m = course.goal_tolerance_m;
+  log.goal_tolerance_rad = course.goal_tolerance_rad;
+  log.footprint = course.footprint;
+  log.things = ThingsNear(log.route, course.things);
+  log.latency_ms = steering.latency_ms;
+  log.steered_by = steering.steered_by_truth ? "truth" : "estimate";
+  return log;
+}
+
+}  // namespace aisle

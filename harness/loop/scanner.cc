@@ -1,0 +1,40 @@
+#include "harness/loop/scanner.h"
+
+#include <algorithm>
+
+namespace aisle {
+
+Polygon ProtectiveField(const Polygon& footprint, double speed_mps, double stop_mps2,
+                        const ScannerOptions& options) {
+  Eigen::Vector2d low = footprint.front(), high = footprint.front();
+  for (const Eigen::Vector2d& corner : footprint) {
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  const double v = std::abs(speed_mps);
+  const double length = v * options.reaction_s + v * v / (2 * stop_mps2) + options.margin_m;
+  const double from = speed_mps < 0 ? low.x() - length : high.x();
+  const double to = speed_mps < 0 ? low.x() : high.x() + length;
+  const double right = low.y() - options.side_m, left = high.y() + options.side_m;
+  return {{from, right}, {to, right}, {to, left}, {from, left}};
+}
+
+bool IsBlocked(const Course& course, const FloorPose& vehicle, const Polygon& field,
+               const std::vector<Capsule>& actors) {
+  const Polygon placed = At(vehicle, field);
+  const double reach = ReachOf(field);
+  const auto blocks = [&](const Capsule& actor) { return Distance(placed, actor) <= 0; };
+  if (std::ranges::any_of(actors, blocks)) return true;
+  return std::ranges::any_of(course.things, [&](const StandingThing& thing) {
+    Eigen::Vector2d low = thing.outline.front(), high = low;
+    for (const Eigen::Vector2d& corner : thing.outline) {
+      low = low.cwiseMin(corner);
+      high = high.cwiseMax(corner);
+    }
+    const Eigen::Vector2d& at = vehicle.position;
+    const double off = (low - at).cwiseMax(at - high).cwiseMax(Eigen::Vector2d::Zero()).norm();
+    return off <= reach && Distance(placed, thing.outline) <= 0;
+  });
+}
+
+}  // namespace aisle

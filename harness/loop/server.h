@@ -1,0 +1,48 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <optional>
+
+#include "harness/loop/localiser.h"
+
+namespace aisle {
+
+/// What the system will have said of a frame, and when.
+struct Answer {
+  std::int64_t frame_ns = 0;
+  std::int64_t due_ns = 0;
+  std::optional<Eigen::Isometry3d> T_slam_rig;
+};
+
+enum class QueueRule { kNewest, kDrop, kPipeline };
+
+/// Latency as a model: one system that takes a while for each frame. Time is the scene's, never the
+/// clock's: what it computes, it computes at once, and hands out when it is due.
+class Server {
+ public:
+  /// `latency_ns` tells how long a frame takes, by its id.
+  Server(Localiser* localiser, QueueRule rule,
+         std::function<std::int64_t(std::int64_t frame)> latency_ns);
+
+  /// A frame arrives at its stamp.
+  void Offer(const Exposure& exposure);
+  /// The answers that are due by now, in order. A frame that waited is begun when the one before it
+  /// is done.
+  std::vector<Answer> Due(std::int64_t now_ns);
+  /// The next time at which something is due; nothing while it is idle.
+  std::optional<std::int64_t> NextDue() const;
+  int shown() const { return shown_; }
+
+ private:
+  void Begin(const Exposure& exposure, std::int64_t at_ns);
+
+  Localiser* localiser_;
+  QueueRule rule_;
+  std::function<std::int64_t(std::int64_t)> latency_ns_;
+  std::deque<Answer> working_;  ///< by time due
+  std::optional<Exposure> waiting_;
+  int shown_ = 0;
+};
+
+}  // namespace aisle

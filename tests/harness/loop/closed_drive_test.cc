@@ -1,0 +1,233 @@
+#include "harness/loop/closed_drive.h"
+
+#include <gtest/gtest.h>
+
+#include "harness/loop/contact_watch.h"
+#include "harness/loop/server.h"
+#include "tests/harness/loop/fake_drive_scene.h"
+
+namespace aisle {
+namespace {
+
+LoopOptions At(double latency_ms) {
+  LoopOptions options;
+  options.steering.latency_ms = latency_ms;
+  return options;
+}
+
+DriveTrack DriveTruth(const DriveScene& scene, const LoopOptions& options = {}) {
+  TruthLocaliser truth;
+  return DriveClosed(scene, &truth, options);
+}
+
+TEST(ClosedDriveTest, KnowingTheTruthItStopsAtItsGoal) {
+  const FakeDriveScene scene;
+  for (const double latency_ms : {0.0, 50.0, 100.0, 200.0}) {
+    const DriveTrack track = DriveTruth(scene, At(latency_ms));
+    EXPECT_EQ(track.end, DriveEnd::kArrived);
+    EXPECT_NEAR(track.samples.back().truth.position.x(), 8, 4e-3) << latency_ms;
+    EXPECT_LT(std::abs(track.samples.back().cross_track_m), 4e-3) << latency_ms;
+    EXPECT_LT(track.time_s, 1.6 * scene.course().planned_s);
+    EXPECT_EQ(track.stops, 0);
+    EXPECT_EQ(track.lost_s, 0);
+  }
+}
+
+TEST(ClosedDriveTest, TheSystemsOwnWorldIsJoinedToTheSite) {
+  DriftingLocaliser elsewhere;
+  const DriveTrack track = DriveClosed(FakeDriveScene(), &elsewhere, {});
+  EXPECT_EQ(track.end, DriveEnd::kArrived);
+  EXPECT_NEAR(track.samples.back().truth.position.x(), 8, 4e-3);
+}
+
+TEST(ClosedDriveTest, WhoBelievesADriftDrivesIt) {
+  DriftingLocaliser drifting(0.02);
+  const DriveTrack track = DriveClosed(FakeDriveScene(), &drifting, {});
+  const DriveSample& end = track.samples.back();
+  // 16 cm off to the left as it believes, so as many to the right in truth.
+  EXPECT_NEAR(end.truth.position.y(), -0.16, 0.02);
+  EXPECT_NEAR(end.cross_track_m, end.truth.position.y(), 1e-9);
+  EXPECT_NEAR(end.belief.position.y(), 0, 0.01);
+}
+
+TEST(ClosedDriveTest, TheSameDriveHasTheSameBits) {
+  const FakeDriveScene scene;
+  DriftingLocaliser one(0.01), other(0.01);
+  EXPECT_EQ(DriveClosed(scene, &one, At(70)), DriveClosed(scene, &other, At(70)));
+  LoopOptions seeded = At(70);
+  seeded.seed = 2;
+  DriftingLocaliser third(0.01);
+  EXPECT_NE(DriveClosed(scene, &third, seeded).samples.back().truth,
+            DriveClosed(scene, &one, At(70)).samples.back().truth);
+}
+
+/// Pictures' truth says rubbish; poses of the plant stay what they are.
+class GarbageTruth : public FakeDriveScene {
+ public:
+  SequenceFrame Take(const Exposure& exposure) const override {
+    SequenceFrame frame = FakeDriveScene::Take(exposure);
+    frame.truth->T_world_rig.translation().setConstant(1e6);
+    return frame;
+  }
+};
+/// Looks at pictures, as a system does.
+class Looking : public DriftingLocaliser {
+ public:
+  explicit Looking(const DriveScene& scene) : DriftingLocaliser(0.01), scene_(scene) {}
+  std::optional<Eigen::Isometry3d> Locate(const Exposure& exposure) override {
+    scene_.Take(exposure);
+    return DriftingLocaliser::Locate(exposure);
+  }
+
+ private:
+  const DriveScene& scene_;
+};
+
+TEST(ClosedDriveTest, GarbageTruthGivesTheSameBits) {
+  const FakeDriveScene honest;
+  const GarbageTruth garbage;
+  Looking one(honest), other(garbage);
+  EXPECT_EQ(DriveClosed(honest, &one, At(50)), DriveClosed(garbage, &other, At(50)));
+}
+
+TEST(ClosedDriveTest, LostForLongItStopsAndGoesOnWhenFoundAgain) {
+  DriftingLocaliser localiser;
+  localiser.lost_from_ns = 4'000'000'000;
+  localiser.lost_to_ns = 8'000'000'000;
+  const DriveTrack track = DriveClosed(FakeDriveScene(), &localiser, {});
+  EXPECT_EQ(track.stops, 1);
+  EXPECT_GT(track.stopped_s, 2);
+  EXPECT_GT(track.lost_s, 3.5);
+  EXPECT_LT(track.lost_s, 5);
+  EXPECT_EQ(track.end, DriveEnd::kArrived);
+}
+
+TEST(ClosedDriveTest, LostForGoodItGivesUpStanding) {
+  DriftingLocaliser localiser;
+  localiser.lost_from_ns = 4'000'000'000;
+  localiser.lost_to_ns = std::numeric_limits<std::int64_t>::max();
+  const DriveTrack track = DriveClosed(FakeDriveScene(), &localiser, {});
+  EXPECT_EQ(track.end, DriveEnd::kNoProgress);
+  EXPECT_EQ(track.samples.back().speed_mps, 0);
+}
+
+TEST(ClosedDriveTest, ARackInTheWayEndsIt) {
+  FakeDriveScene scene;
+  scene.edit().things.push_back({"rack", "rack", {{5, -1}, {6, -1}, {6, 1}, {5, 1}}});
+  const DriveTrack track = DriveTruth(scene);
+  EXPECT_EQ(track.end, DriveEnd::kContact);
+  ASSERT_EQ(track.contacts.size(), 1u);
+  EXPECT_EQ(track.contacts[0].with, "rack");
+  EXPECT_NEAR(track.contacts[0].vehicle.position.x(), 4.3, 0.01);
+  EXPECT_NEAR(track.contacts[0].speed_mps, 0.8, 0.05);
+  EXPECT_EQ(track.min_clearance_static_m, 0);
+}
+
+TEST(ClosedDriveTest, SomebodyInTheWayIsTouchedOnceAndTheDriveGoesOn) {
+  FakeDriveScene scene;
+  scene.Add({"walker", "person"}, {5, 0}, {0, 0});
+  const DriveTrack track = DriveTruth(scene);
+  EXPECT_EQ(track.end, DriveEnd::kArrived);
+  ASSERT_EQ(track.contacts.size(), 1u);
+  EXPECT_EQ(track.contacts[0].object_class, "person");
+  EXPECT_EQ(track.min_clearance_person_m, 0);
+}
+
+TEST(ClosedDriveTest, ClearanceIsThatOfTheFootprintInPassing) {
+  FakeDriveScene scene;
+  scene.Add({"walker", "person"}, {5, 1}, {0, 0});
+  const DriveTrack track = DriveTruth(scene);
+  EXPECT_TRUE(track.contacts.empty());
+  EXPECT_NEAR(track.min_clearance_person_m, 1 - 0.3 - 0.25, 0.01);
+}
+
+TEST(ClosedDriveTest, WhoYieldsWaitsAndIsNotTouched) {
+  FakeDriveScene blind, yielding;
+  blind.Add({"walker", "person"}, {4, 4}, {0, -0.8});
+  yielding.Add({"walker", "person", true, 1.5}, {4, 4}, {0, -0.8});
+  EXPECT_EQ(DriveTruth(blind).contacts.size(), 1u);
+  const DriveTrack track = DriveTruth(yielding);
+  EXPECT_TRUE(track.contacts.empty());
+  EXPECT_GT(track.min_clearance_person_m, 0.5);
+}
+
+TEST(ClosedDriveTest, AScannerPreventsWhatWouldHaveHappened) {
+  FakeDriveScene scene;
+  scene.Add({"walker", "person"}, {5, -1.2}, {0, 0.15});
+  LoopOptions options;
+  EXPECT_EQ(DriveTruth(scene, options).contacts.size(), 1u);
+  options.steering.scanner = true;
+  const DriveTrack track = DriveTruth(scene, options);
+  EXPECT_TRUE(track.contacts.empty());
+  EXPECT_GE(track.scanner_stops, 1);
+  EXPECT_GT(track.stopped_s, 0.5);
+  EXPECT_EQ(track.end, DriveEnd::kArrived);
+}
+
+TEST(ClosedDriveTest, ZonesAreHeldByTheTrueVehicle) {
+  FakeDriveScene scene;
+  scene.edit().zones = {{"slow", {2, -1}, {3, 1}, 0.3}, {"far", {2, 3}, {3, 4}, 0}};
+  const DriveTrack track = DriveTruth(scene);
+  ASSERT_EQ(track.violations.size(), 1u);
+  EXPECT_EQ(track.violations[0].zone, "slow");
+}
+
+TEST(ClosedDriveTest, ShownOnlyASystemDoesNotSteer) {
+  LoopOptions options;
+  options.steering.steered_by_truth = true;
+  DriftingLocaliser drifting(0.05);
+  const DriveTrack track = DriveClosed(FakeDriveScene(), &drifting, options);
+  EXPECT_LT(std::abs(track.samples.back().truth.position.y()), 2e-3);
+  EXPECT_GT(drifting.seen.size(), 100u);
+}
+
+TEST(ServerTest, FramesThatArriveWhileItWorksAreDroppedByTheRule) {
+  const FakeDriveScene scene;
+  const auto seen = [&](QueueRule rule, double ms) {
+    DriftingLocaliser localiser;
+    Server server(&localiser, rule, [=](std::int64_t) { return std::llround(1e6 * ms); });
+    for (std::int64_t k = 0; k < 20; ++k) {
+      Exposure exposure{.id = k, .stamp_ns = scene.Stamp(k)};
+      server.Due(exposure.stamp_ns);
+      server.Offer(exposure);
+    }
+    return localiser.seen.size();
+  };
+  EXPECT_EQ(seen(QueueRule::kNewest, 0), 20u);
+  EXPECT_EQ(seen(QueueRule::kNewest, 50), 20u);
+  EXPECT_EQ(seen(QueueRule::kNewest, 100), 10u);
+  EXPECT_EQ(seen(QueueRule::kDrop, 60), 10u);
+  EXPECT_EQ(seen(QueueRule::kPipeline, 500), 20u);
+}
+
+TEST(ServerTest, AnAnswerIsDueItsLatencyAfterTheSystemCouldBegin) {
+  DriftingLocaliser localiser;
+  Server server(&localiser, QueueRule::kNewest, [](std::int64_t) { return 70'000'000; });
+  server.Offer({.id = 0, .stamp_ns = 0});
+  server.Offer({.id = 1, .stamp_ns = 50'000'000});
+  EXPECT_TRUE(server.Due(69'999'999).empty());
+  ASSERT_EQ(server.Due(70'000'000).size(), 1u);
+  EXPECT_EQ(server.NextDue(), 140'000'000);
+  EXPECT_EQ(server.Due(140'000'000).at(0).frame_ns, 50'000'000);
+}
+
+TEST(ContactWatchTest, AThinPostIsNotJumpedOverBetweenTwoInstants) {
+  FakeDriveScene scene;
+  scene.edit().things.push_back(
+      {"post", "column", {{3, 0}, {3.002, 0}, {3.002, 0.002}, {3, 0.002}}});
+  DriveTrack track;
+  ContactWatch watch(scene.course(), &track);
+  watch.See({.stamp_ns = 0, .vehicle = {}, .speed_mps = 9, .actors = {}}, 0, 0);
+  watch.See({.stamp_ns = 1, .vehicle = {{6, 0}, 0}, .speed_mps = 9, .actors = {}}, 6, 0);
+  EXPECT_EQ(track.contacts.size(), 1u);
+}
+
+TEST(SteeringTest, ItsValuesAreChecked) {
+  EXPECT_EQ(Validate(Steering{}), "");
+  EXPECT_NE(Validate(Steering{.latency_ms = -1}), "");
+  EXPECT_NE(Validate(Steering{.queue = "oldest"}), "");
+  EXPECT_NE(Validate(Steering{.driver = "carrot"}), "");
+}
+
+}  // namespace
+}  // namespace aisle
