@@ -44,7 +44,7 @@ class SystemLocaliser : public Localiser {
 
 }  // namespace
 
-RunResult RunClosed(const DriveScene& scene, Estimator& estimator, const MaskMaker& masks,
+ClosedRun RunClosed(const DriveScene& scene, Estimator& estimator, const MaskMaker& masks,
                     const Steering& steering, std::uint64_t seed, const FrameObserver& observer) {
   DriveLog log = LogOf(scene.course(), steering);
   const LoopOptions options{.steering = steering, .seed = seed};
@@ -61,8 +61,7 @@ RunResult RunClosed(const DriveScene& scene, Estimator& estimator, const MaskMak
       fmt::format("closed loop: every frame was rendered for this run alone; the loop around it "
                   "took {:.2f} ms a frame",
                   log.loop_ms));
-  result.drive = std::move(log);
-  return result;
+  return {std::move(result), std::move(log)};
 }
 
 }  // namespace aisle

@@ -160,7 +160,6 @@ std::vector<Suite> LoadInputs(const InputOptions& options) {
     suites.push_back(LoadInput(file, options, vocabulary));
   }
   SetOptions(options.set, &suites);
-  for (Suite& suite : suites) suite = WithLatencies(std::move(suite));
   return suites;
 }
 

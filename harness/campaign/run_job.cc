@@ -10,7 +10,9 @@
 #include "harness/plugs/cached_sequence.h"
 #include "harness/plugs/simulated_drive.h"
 #include "harness/plugs/simulated_sequence.h"
+#include "harness/plugs/steering_options.h"
 #include "harness/plugs/systems.h"
+#include "harness/record/drive_json.h"
 #include "harness/record/provenance.h"
 #include "harness/record/record.h"
 #include "harness/report/picture/frame_album.h"
@@ -18,6 +20,7 @@
 #include "harness/report/picture/video.h"
 #include "harness/run/drive.h"
 #include "harness/run/playback.h"
+#include "harness/score/drive_scores.h"
 
 namespace aisle {
 namespace {
@@ -196,12 +199,15 @@ std::unique_ptr<Estimator> EstimatorOf(const Job& job, const StereoCalibration& 
 }
 
 /// Scores a drive of one of ours and writes it all down.
-void File(const Job& job, double rate_hz, RunResult result, Pictures* pictures) {
+void File(const Job& job, double rate_hz, RunResult result, Pictures* pictures,
+          const DriveLog* drive = nullptr) {
   result.spec = job.spec;
   result.threads = job.threads;
-  const RunScore score = ScoreRun(result);
+  RunScore score = ScoreRun(result);
+  if (drive != nullptr) score.scores.merge(ScoreDrive(*drive));
   RunRecord record = RecordOf(job, result, score, rate_hz);
   pictures->Finish(score.live, &record);
+  if (drive != nullptr) WriteDrive(*drive, job.out, &record);
   WriteRun(result, score, record, job.out);
 }
 
@@ -226,13 +232,13 @@ void RunSteering(const Job& job) {
   const std::unique_ptr<Estimator> estimator = EstimatorOf(job, scene->calibration());
   Pictures pictures(job, scene->rate_hz());
   const MaskMaker masks = MasksOf(job);
-  RunResult result = RunClosed(*scene, *estimator, masks, job.spec.system.steering, job.spec.seed,
-                               [&](const DrivenFrame& frame) {
-                                 pictures.See(frame);
-                                 TellProgress(frame.index + 1, frame.count);
-                               });
-  result.scene_hash = content_hash;
-  File(job, scene->rate_hz(), std::move(result), &pictures);
+  ClosedRun run = RunClosed(*scene, *estimator, masks, SteeringOf(job.spec.system.options),
+                            job.spec.seed, [&](const DrivenFrame& frame) {
+                              pictures.See(frame);
+                              TellProgress(frame.index + 1, frame.count);
+                            });
+  run.result.scene_hash = content_hash;
+  File(job, scene->rate_hz(), std::move(run.result), &pictures, &run.drive);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "harness/contract/drive_log.h"
 #include "harness/contract/estimate.h"
 #include "harness/contract/frame.h"
 #include "harness/contract/score.h"
@@ -130,7 +129,6 @@ struct RunResult {
   std::string system_version = {};      ///< what a foreign system says it is
   std::string last_words = {};          ///< the last lines of what it printed, harmless text
   std::vector<std::string> notes = {};  ///< what a reader must know besides
-  std::optional<DriveLog> drive = {};   ///< of a closed drive
 };
 
 }  // namespace aisle

@@ -6,7 +6,6 @@
 
 #include "harness/contract/external.h"
 #include "harness/contract/mask_errors.h"
-#include "harness/contract/steering.h"
 
 namespace aisle {
 
@@ -29,7 +28,6 @@ struct SystemSpec {
   std::map<std::string, std::string> options = {};
   /// How the masks are spoilt that `like` is handed; of `oracle` and `semantic` alone.
   MaskErrors mask_errors = {};
-  Steering steering = {};                       ///< in closed drives
   std::optional<ExternalSystem> external = {};  ///< the command, where it is a foreign system
 
   bool operator==(const SystemSpec&) const = default;

@@ -61,24 +61,6 @@ ExternalSystem ExternalFromJson(const Json& json) {
           .depends_on = json.at("depends_on").get<std::vector<std::string>>()};
 }
 
-Json ToJson(const Steering& steering) {
-  return {{"latency_ms", steering.latency_ms},
-          {"latency_profile_ms", steering.latency_profile_ms},
-          {"queue", steering.queue},
-          {"scanner", steering.scanner},
-          {"steered_by_truth", steering.steered_by_truth},
-          {"driver", steering.driver}};
-}
-
-Steering SteeringFromJson(const Json& json) {
-  return {.latency_ms = json.at("latency_ms").get<double>(),
-          .latency_profile_ms = json.at("latency_profile_ms").get<std::vector<double>>(),
-          .queue = json.at("queue").get<std::string>(),
-          .scanner = json.at("scanner").get<bool>(),
-          .steered_by_truth = json.at("steered_by_truth").get<bool>(),
-          .driver = json.at("driver").get<std::string>()};
-}
-
 }  // namespace
 
 Json ToJson(const SystemSpec& spec) {
@@ -86,7 +68,6 @@ Json ToJson(const SystemSpec& spec) {
   if (!spec.like.empty()) json["like"] = spec.like;
   if (!spec.options.empty()) json["options"] = spec.options;
   if (spec.mask_errors != MaskErrors{}) json["mask_errors"] = ToJson(spec.mask_errors);
-  if (spec.steering != Steering{}) json["steering"] = ToJson(spec.steering);
   if (spec.external) json["external"] = ToJson(*spec.external);
   return json;
 }
@@ -99,7 +80,6 @@ SystemSpec SystemSpecFromJson(const Json& json) {
     spec.options = json.at("options").get<std::map<std::string, std::string>>();
   }
   if (json.contains("mask_errors")) spec.mask_errors = MaskErrorsFromJson(json.at("mask_errors"));
-  if (json.contains("steering")) spec.steering = SteeringFromJson(json.at("steering"));
   if (json.contains("external")) spec.external = ExternalFromJson(json.at("external"));
   return spec;
 }

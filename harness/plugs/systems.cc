@@ -3,6 +3,7 @@
 #include "harness/io/input_error.h"
 #include "harness/io/nearest_word.h"
 #include "harness/plugs/place_vocabulary.h"
+#include "harness/plugs/steering_options.h"
 #include "harness/plugs/stereo_slam_estimator.h"
 
 namespace aisle {
@@ -43,15 +44,18 @@ const System& FindSystem(const std::string& name) {
 }
 
 std::vector<SystemOption> OptionsOf(const System& system) {
-  return DescribeSlamOptions(system.options);
+  std::vector<SystemOption> options = DescribeSlamOptions(system.options);
+  for (SystemOption& option : DescribeSteering({})) options.push_back(std::move(option));
+  return options;
 }
 
 std::string CheckOption(const std::string& path, const std::string& value) {
+  if (IsSteeringOption(path)) return CheckSteeringOption(path, value);
   return CheckSlamOption(path, value);
 }
 
 std::string CheckOptions(const System& like, const std::map<std::string, std::string>& options) {
-  std::map<std::string, std::string> all = options;
+  std::map<std::string, std::string> all = WithoutSteering(options);
   all.insert(like.options.begin(), like.options.end());  // what is there already stays
   return CheckSlamOptions(all);
 }
@@ -85,8 +89,8 @@ std::map<std::string, std::string> OptionsOfSpec(const SystemSpec& spec) {
     throw InputError("system '" + spec.name +
                      "' is a command: it does not run inside this program");
   }
-  std::map<std::string, std::string> options = spec.options;
   const System& like = FindSystem(spec.like);
+  std::map<std::string, std::string> options = WithoutSteering(spec.options);
   options.insert(like.options.begin(), like.options.end());
   return options;
 }

@@ -230,6 +230,12 @@ DriveLog DriveLogFromJson(const std::string& text, const std::string& file) {
   }
 }
 
+void WriteDrive(const DriveLog& log, const std::filesystem::path& report_dir, RunRecord* record) {
+  const std::string path = "runs/" + RunId(record->spec) + "/" + kDriveName;
+  WriteFileAtomically(report_dir / path, ToJson(log));
+  record->artifacts["drive"] = path;
+}
+
 std::optional<DriveLog> ReadDrive(const RunRecord& run, const std::filesystem::path& report_dir) {
   const auto file = run.artifacts.find("drive");
   if (file == run.artifacts.end()) return std::nullopt;

@@ -4,7 +4,6 @@
 #include "harness/io/hash.h"
 #include "harness/io/input_error.h"
 #include "harness/io/trajectory.h"
-#include "harness/record/drive_json.h"
 #include "harness/record/evo_result.h"
 #include "harness/record/frames_csv.h"
 
@@ -66,7 +65,6 @@ RunRecord WriteRun(const RunResult& run, const RunScore& score, RunRecord record
   record.output_hash = fmt::format("{:016x}", hash);
   if (const std::string zip = EvoResultZip(run, score.final); !zip.empty())
     write("evo", "evo.zip", zip);
-  if (run.drive) write("drive", kDriveName, ToJson(*run.drive));
   write("frames", "frames.csv", ToCsv(MakeFrameRows(run, score)));
   WriteFileAtomically(report_dir / folder / "result.json", ToJson(record));
   return record;

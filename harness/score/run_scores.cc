@@ -1,5 +1,4 @@
 #include "harness/score/coverage.h"
-#include "harness/score/drive_scores.h"
 #include "harness/score/front_end.h"
 #include "harness/score/mask_scores.h"
 #include "harness/score/scorecard.h"
@@ -95,7 +94,6 @@ RunScore ScoreRun(const RunResult& run, const ScoreOptions& options) {
   AddFeatures(run, &score.scores);
   AddDifficulty(run, &score.scores);
   AddTimes(run, &score.scores);
-  if (run.drive) score.scores.merge(ScoreDrive(*run.drive));
   return score;
 }
 

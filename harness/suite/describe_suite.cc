@@ -24,29 +24,18 @@ void DescribeMaskErrors(Fields& fields, MaskErrors& errors) {
                  &errors.latency_frames, {0, 100});
 }
 
-/// How a system steers the vehicle of scenes that have a `drive`.
-void DescribeSteering(Fields& fields, Steering& steering) {
-  fields.Number({"latency_ms", "from the middle of the exposure until its pose can be used", "80"},
-                &steering.latency_ms, {0, 10000});
-  fields.Numbers(
-      {"latency_profile_ms", "instead: measured times, one of which is drawn for each frame",
-       "[62, 65, 71, 120]"},
-      &steering.latency_profile_ms, {0, 10000});
-  fields.Name({"queue",
-               "frames that arrive while the system works: the newest waits, they are dropped, or "
-               "it takes them all (a pipeline)",
-               "newest"},
-              &steering.queue, {{"newest", "drop", "pipeline"}});
-  std::string safety = "none", steered_by = "estimate";
-  fields.Name(
-      {"safety", "a safety scanner stops the vehicle before whatever is in its way", "scanner"},
-      &safety, {{"none", "scanner"}});
-  fields.Name({"steered_by", "truth: the system is shown the drive but does not steer it", "truth"},
-              &steered_by, {{"estimate", "truth"}});
-  fields.Name({"driver", "the law that follows the way; absent: the scene's", "kanayama"},
-              &steering.driver, {{"pure_pursuit", "kanayama"}});
-  steering.scanner = safety == "scanner";
-  steering.steered_by_truth = steered_by == "truth";
+/// Each of our systems once at each latency, in the place where it stood: "robust_50ms".
+void SweepLatencies(const std::vector<double>& latencies_ms, std::vector<SystemSpec>* systems) {
+  if (latencies_ms.empty()) return;
+  std::vector<SystemSpec> swept;
+  for (const SystemSpec& system : *systems) {
+    for (const double ms : latencies_ms) {
+      swept.push_back(system);
+      swept.back().name = fmt::format("{}_{:g}ms", system.name, ms);
+      swept.back().options["drive.latency_ms"] = fmt::format("{:g}", ms);
+    }
+  }
+  *systems = std::move(swept);
 }
 
 std::string CheckAbsolute(const std::string& folder) {
@@ -183,8 +172,6 @@ void Describe(Fields& fields, const Vocabulary& vocabulary, SystemSpec* spec) {
       {"mask_errors", "how the masks are spoilt that one like oracle or semantic is handed",
        "{boundary_px: 3, miss_share: 0.05}"},
       [&](Fields& part) { DescribeMaskErrors(part, spec->mask_errors); });
-  fields.Group({"drive", "how it steers in scenes that have a `drive`", "{latency_ms: 80}"},
-               [&](Fields& part) { DescribeSteering(part, spec->steering); });
   ExternalSystem external;
   DescribeExternal(fields, external);
   if (fields.Has("command")) {
@@ -226,6 +213,13 @@ void Describe(Fields& fields, const Vocabulary& vocabulary, const Fields::Check&
         CheckNames(part, suite.systems, i);
       },
       "name");
+  std::vector<double> latencies_ms;
+  fields.Numbers({"latencies_ms",
+                  "each of our systems once at each of these latencies, as robust_50ms, in scenes "
+                  "with a `drive`",
+                  "[0, 50, 100, 200]"},
+                 &latencies_ms, {0, 10000});
+  SweepLatencies(latencies_ms, &suite.systems);
   fields.Names({"twins",
                 "versions of each scene: live as written, empty without actors, frozen where they "
                 "stand, none, low, mid or high with those of at most that level",
@@ -236,11 +230,6 @@ void Describe(Fields& fields, const Vocabulary& vocabulary, const Fields::Check&
                       "along which way",
                       "3"},
                      &suite.seeds, kMostSeeds);
-  fields.Numbers({"latencies_ms",
-                  "each system once at each of these latencies, as NAME_50ms; for scenes with a "
-                  "`drive`",
-                  "[0, 50, 100, 200]"},
-                 &suite.latencies_ms, {0, 10000});
   fields.List(
       {"limits", "bounds that fail the night", "[{score: ate_rmse_m, system: oracle, max: 0.02}]"},
       [&](std::size_t count) { suite.limits.resize(count); },

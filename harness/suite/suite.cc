@@ -128,37 +128,6 @@ std::vector<std::string> SystemNames(const Suite& suite) {
   return names;
 }
 
-Suite WithLatencies(Suite suite) {
-  if (suite.latencies_ms.empty()) return suite;
-  const auto named = [](const std::string& name, double ms) {
-    return fmt::format("{}_{:g}ms", name, ms);
-  };
-  std::vector<SystemSpec> systems;
-  for (const SystemSpec& system : suite.systems) {
-    for (const double ms : suite.latencies_ms) {
-      systems.push_back(system);
-      systems.back().name = named(system.name, ms);
-      systems.back().steering.latency_ms = ms;
-      systems.back().steering.latency_profile_ms.clear();
-    }
-  }
-  std::vector<Limit> limits;
-  for (const Limit& limit : suite.limits) {
-    if (limit.system.empty()) {
-      limits.push_back(limit);
-      continue;
-    }
-    for (const double ms : suite.latencies_ms) {
-      limits.push_back(limit);
-      limits.back().system = named(limit.system, ms);
-    }
-  }
-  suite.systems = std::move(systems);
-  suite.limits = std::move(limits);
-  suite.latencies_ms.clear();
-  return suite;
-}
-
 std::vector<RunSpec> Plan(const Suite& suite) {
   std::vector<RunSpec> specs;
   for (const SuiteScene& scene : suite.scenes) {

@@ -27,7 +27,6 @@ struct Suite {
   std::vector<std::string> twins = {"live"};
   /// Nine show a shift of two standard deviations in 97 nights of 100; three never can.
   std::vector<std::uint64_t> seeds = {1, 2, 3, 4, 5, 6, 7, 8, 9};
-  std::vector<double> latencies_ms = {};  ///< a sweep; see WithLatencies
   std::vector<Limit> limits;
 };
 
@@ -69,10 +68,6 @@ std::string SuiteSchema(const Vocabulary& vocabulary);
 
 /// The suite file's page of the reference: every key with its meaning, default and example.
 std::string SuiteReference(const Vocabulary& vocabulary);
-
-/// The suite with its sweep of latencies written out: each system at each of them, named
-/// "robust_50ms", and the limits on it likewise. Without a sweep the suite itself.
-Suite WithLatencies(Suite suite);
 
 /// Every cell of the suite: scenes, then twins, then seeds, then systems; runs that share their
 /// frames are neighbours.

@@ -19,7 +19,7 @@ struct WayPoint {
 struct WayLeg {
   enum class Kind { kDrive, kTurn, kPause } kind = Kind::kPause;
   double duration_s = 0;         ///< as planned
-  std::vector<WayPoint> points;  ///< of a drive: two or more, distances rise from 0
+  std::vector<WayPoint> points = {};  ///< of a drive: two or more, distances rise from 0
   bool reverse = false;          ///< of a drive: backwards
   double turn_to_rad = 0;        ///< of a turn: the vehicle's heading at its end
 

@@ -4,6 +4,7 @@
 #include "harness/report/markup/html.h"
 #include "harness/report/page/album_section.h"
 #include "harness/report/page/answer.h"
+#include "harness/report/page/drive_section.h"
 #include "harness/report/page/parts.h"
 #include "harness/report/page/scene_charts.h"
 #include "harness/report/page/scene_tables.h"
@@ -119,8 +120,8 @@ std::string SceneSection(const SceneRuns& scene, const fs::path& report_dir,
   const auto heading = [&](const char* part, const char* title) {
     return fmt::format("<h3 id=\"{}_{}\">{}</h3>\n", id, part, title);
   };
-  text +=
-      Troubles(scene.systems, root) + heading("scores", "The scores") + ErrorTable(scene.systems);
+  text += Troubles(scene.systems, root) + DriveSection(scene, report_dir, root);
+  text += heading("scores", "The scores") + ErrorTable(scene.systems);
   text += heading("drive", "The drive over time") + SceneCharts(scene, report_dir);
   text += AlbumSection(scene, report_dir, root) + MaskTables(scene.systems) +
           StageSection(scene, report_dir, root) + AllScores(scene);

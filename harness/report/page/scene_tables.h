@@ -16,6 +16,9 @@ std::string ErrorTable(const std::vector<SystemRuns>& systems);
 /// What was rejected and how movers were followed; empty where no system rejects anything.
 std::string MaskTables(const std::vector<SystemRuns>& systems);
 
+/// How a vehicle fared that they steered.
+std::string DriveTable(const std::vector<SystemRuns>& systems);
+
 /// Every score of every run, folded away.
 std::string AllScores(const SceneRuns& scene);
 

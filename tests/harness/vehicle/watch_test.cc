@@ -14,10 +14,11 @@ TEST(WatchTest, LostFramesMakeItCreepThenStopAndGoodOnesGoOn) {
   std::int64_t now = 0;
   for (int k = 0; k < options.lost_frames; ++k) {
     EXPECT_EQ(state.trust, Trust::kGood);
-    state = AfterTime(AfterAnswer(state, false, 0, now += kFrame_ns, options), now, options);
+    now += kFrame_ns;
+    state = AfterTime(AfterAnswer(state, false, 0, now, options), now, options);
   }
   EXPECT_EQ(state.trust, Trust::kCreep);
-  while (now <= 1.1e9) state = AfterTime(state, now += kFrame_ns, options);
+  while (now <= 1'100'000'000) state = AfterTime(state, now += kFrame_ns, options);
   EXPECT_EQ(state.trust, Trust::kStop);
   for (int k = 0; k < options.good_frames; ++k) {
     EXPECT_EQ(state.trust, Trust::kStop);

@@ -1,0 +1,158 @@
+#include "harness/plugs/steering_options.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+#include "harness/io/input_error.h"
+#include "harness/io/nearest_word.h"
+
+namespace aisle {
+namespace {
+
+using Kind = SystemOption::Kind;
+constexpr std::string_view kPrefix = "drive.";
+constexpr double kLongest_ms = 10000;
+
+std::string Joined(const std::vector<double>& values) {
+  return fmt::format("{}", fmt::join(values, ","));
+}
+
+std::optional<double> NumberOf(const std::string& text) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, value);
+  if (read.ec != std::errc() || read.ptr != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+/// "62,65,120" as numbers; nothing where one is none.
+std::optional<std::vector<double>> Times(const std::string& text) {
+  std::vector<double> times;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    const std::optional<double> ms = NumberOf(word);
+    if (!ms || !(*ms >= 0 && *ms <= kLongest_ms)) return std::nullopt;
+    times.push_back(*ms);
+  }
+  return times;
+}
+
+bool TrueWord(const std::string& value, bool* flag) {
+  *flag = value == "true";
+  return *flag || value == "false";
+}
+
+bool ChoiceWord(const std::string& value, const std::vector<std::string>& choices,
+                std::string* chosen) {
+  *chosen = value;
+  return std::ranges::find(choices, value) != choices.end();
+}
+
+const std::vector<std::string> kQueues = {"newest", "drop", "pipeline"};
+const std::vector<std::string> kDrivers = {"scene", "pure_pursuit", "kanayama"};
+
+/// Takes one option; false where it cannot have that value.
+bool Set(const std::string& path, const std::string& value, Steering* steering) {
+  if (path == "drive.latency_ms") {
+    const std::optional<double> ms = NumberOf(value);
+    if (!ms || !(*ms >= 0 && *ms <= kLongest_ms)) return false;
+    steering->latency_ms = *ms;
+    return true;
+  }
+  if (path == "drive.latency_profile_ms") {
+    const auto times = Times(value);
+    if (times) steering->latency_profile_ms = *times;
+    return times.has_value();
+  }
+  if (path == "drive.scanner") return TrueWord(value, &steering->scanner);
+  if (path == "drive.steered_by_truth") return TrueWord(value, &steering->steered_by_truth);
+  if (path == "drive.queue") return ChoiceWord(value, kQueues, &steering->queue);
+  const bool known = ChoiceWord(value, kDrivers, &steering->driver);
+  if (steering->driver == "scene") steering->driver.clear();
+  return known;
+}
+
+}  // namespace
+
+bool IsSteeringOption(const std::string& path) { return path.starts_with(kPrefix); }
+
+std::vector<SystemOption> DescribeSteering(const Steering& steering) {
+  const auto flag = [](bool value) { return std::string(value ? "true" : "false"); };
+  return {{"drive.latency_ms",
+           Kind::kNumber,
+           fmt::format("{:g}", steering.latency_ms),
+           "ms",
+           "from the middle of the exposure until its pose can steer",
+           0,
+           kLongest_ms,
+           {}},
+          {"drive.latency_profile_ms",
+           Kind::kText,
+           Joined(steering.latency_profile_ms),
+           "ms",
+           "instead: measured times, comma between them, one of which is drawn for each frame",
+           0,
+           0,
+           {}},
+          {"drive.queue", Kind::kChoice, steering.queue, "",
+           "frames that arrive while the system works: the newest waits, they are dropped, or it "
+           "takes them all",
+           0, 0, kQueues},
+          {"drive.scanner",
+           Kind::kFlag,
+           flag(steering.scanner),
+           "",
+           "a safety scanner stops the vehicle before whatever stands in its way",
+           0,
+           0,
+           {}},
+          {"drive.steered_by_truth",
+           Kind::kFlag,
+           flag(steering.steered_by_truth),
+           "",
+           "the system is shown the drive but does not steer it",
+           0,
+           0,
+           {}},
+          {"drive.driver", Kind::kChoice, steering.driver.empty() ? "scene" : steering.driver, "",
+           "the law that follows the way, or the scene's own", 0, 0, kDrivers}};
+}
+
+std::string CheckSteeringOption(const std::string& path, const std::string& value) {
+  std::vector<std::string> known;
+  for (const SystemOption& option : DescribeSteering({})) {
+    known.push_back(option.path);
+    if (option.path != path) continue;
+    Steering steering;
+    if (Set(path, value, &steering)) return "";
+    const std::string expected =
+        option.kind == Kind::kChoice ? fmt::format("one of {}", fmt::join(option.choices, ", "))
+        : option.kind == Kind::kFlag ? "true or false"
+        : option.kind == Kind::kText ? "numbers from 0 to 10000 with commas, such as 62,65,120"
+                                     : "a number from 0 to 10000";
+    return fmt::format("option '{}' cannot be '{}': expected {}", path, Printable(value), expected);
+  }
+  return fmt::format("there is no option '{}'{}", Printable(path), DidYouMean(path, known));
+}
+
+Steering SteeringOf(const OptionTexts& options) {
+  Steering steering;
+  for (const auto& [path, value] : options) {
+    if (!IsSteeringOption(path)) continue;
+    const std::string wrong = CheckSteeringOption(path, value);
+    if (!wrong.empty()) throw InputError(wrong);
+    Set(path, value, &steering);
+  }
+  return steering;
+}
+
+OptionTexts WithoutSteering(const OptionTexts& options) {
+  OptionTexts others = options;
+  std::erase_if(others, [](const auto& option) { return IsSteeringOption(option.first); });
+  return others;
+}
+
+}  // namespace aisle

@@ -1,0 +1,112 @@
+#include "harness/report/page/drive_section.h"
+
+#include <list>
+
+#include "harness/record/drive_json.h"
+#include "harness/report/chart/drive_chart.h"
+#include "harness/report/markup/html.h"
+#include "harness/report/page/parts.h"
+#include "harness/report/page/scene_tables.h"
+
+namespace aisle {
+namespace {
+
+double CrossTrackOf(const RunRecord& run) {
+  const auto score = run.scores.find("cross_track_max_m");
+  return score == run.scores.end() ? -1 : score->second.value.value_or(-1);
+}
+
+double CollisionsOf(const RunRecord& run) {
+  const auto score = run.scores.find("collisions");
+  return score == run.scores.end() ? 0 : score->second.value.value_or(0);
+}
+
+/// The run that went worst as a drive: by what it touched, then by how far off it was.
+const RunRecord* WorstDrive(const SystemRuns& system) {
+  const RunRecord* worst = nullptr;
+  for (const RunRecord* run : system.runs) {
+    if (!run->artifacts.contains("drive")) continue;
+    const auto key = [](const RunRecord& one) {
+      return std::pair(CollisionsOf(one), CrossTrackOf(one));
+    };
+    if (worst == nullptr || key(*run) > key(*worst)) worst = run;
+  }
+  return worst;
+}
+
+std::string ContactRows(const std::string& name, const DriveLog& log) {
+  std::string text;
+  for (const Contact& contact : log.track.contacts) {
+    text += fmt::format("<tr><td>{}<td>{:.2f}<td class=\"left\">{} ({})<td>{:.2f}\n", Escape(name),
+                        1e-9 * static_cast<double>(contact.stamp_ns), Escape(contact.with),
+                        Escape(contact.object_class), std::abs(contact.speed_mps));
+  }
+  return text;
+}
+
+std::string HowItEnded(const DriveSeries& one) {
+  const DriveLog& log = *one.log;
+  const DriveSample& end = log.track.samples.back();
+  const double off_mm = 1000 * (end.truth.position - log.goal.position).norm();
+  const double believed_mm = 1000 * (end.belief.position - log.goal.position).norm();
+  const double twin_mm =
+      log.truth_steered.samples.empty()
+          ? 0
+          : 1000 * (log.truth_steered.samples.back().truth.position - log.goal.position).norm();
+  if (log.track.end != DriveEnd::kArrived) {
+    return fmt::format("{}: {} after {:.1f} s, {:.2f} m before its goal", one.name,
+                       Name(log.track.end), log.track.time_s, off_mm / 1000);
+  }
+  return fmt::format(
+      "{}: stands {:.1f} mm from its goal and takes it for {:.1f} mm; told the truth it would "
+      "stand {:.1f} mm off",
+      one.name, off_mm, believed_mm, twin_mm);
+}
+
+}  // namespace
+
+std::string DriveSection(const SceneRuns& scene, const std::filesystem::path& report_dir,
+                         const std::string& root) {
+  std::list<DriveLog> logs;
+  std::vector<DriveSeries> series;
+  std::string films;
+  for (const SystemRuns& system : scene.systems) {
+    const RunRecord* run = WorstDrive(system);
+    if (run == nullptr) continue;
+    std::optional<DriveLog> log = ReadDrive(*run, report_dir);
+    if (!log || log->track.samples.empty()) continue;
+    logs.push_back(*std::move(log));
+    series.push_back({system.system + ", " + SeedOf(run->spec), system.color, &logs.back()});
+    if (const auto film = run->artifacts.find("drive_film"); film != run->artifacts.end()) {
+      films += fmt::format(" <a href=\"{}\">{}</a>", root + EscapeUrl(film->second),
+                           Escape(series.back().name));
+    }
+  }
+  if (series.empty()) return "";
+  std::string text = fmt::format("<h3 id=\"{}_steered\">Steered by what it says</h3>\n",
+                                 SafeName(scene.scene + "_" + scene.twin));
+  text += DriveTable(scene.systems) + "<ul>\n";
+  for (const DriveSeries& one : series) text += "<li>" + Escape(HowItEnded(one)) + ".\n";
+  text += "</ul>\n";
+  text += Figure(DrivePlanChart(series),
+                 "From above: the planned route dashed, the true ways, thinner the ways they "
+                 "believed in; footprints where each was farthest off, where it touched something "
+                 "and where it ended. Of each system its worst seed.");
+  text += Figure(DriveErrorChart(series),
+                 "The true vehicle beside its route; shaded where it was held or had no pose to "
+                 "steer by, crosses where it touched something.");
+  if (!films.empty()) {
+    text += "<p>Films, from above beside the camera's picture:" + films + ".</p>\n";
+  }
+  std::string contacts;
+  for (const DriveSeries& one : series) contacts += ContactRows(one.name, *one.log);
+  if (!contacts.empty()) {
+    text +=
+        "<div class=\"wide\"><table><tr><th>system<th>time<br>[s]<th class=\"left\">touches"
+        "<th>vehicle's speed<br>[m/s]\n" +
+        contacts + "</table></div>\n";
+  }
+  return text;
+}
+
+}  // namespace aisle
