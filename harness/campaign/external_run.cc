@@ -8,6 +8,7 @@
 
 #include "harness/campaign/guest_dataset.h"
 #include "harness/campaign/guest_output.h"
+#include "harness/campaign/guest_rooms.h"
 #include "harness/campaign/process.h"
 #include "harness/campaign/sandbox.h"
 #include "harness/io/file.h"
@@ -27,23 +28,6 @@ std::string ShellQuoted(const std::string& text) {
   for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
 }
-
-/// The folders of one foreign system in one run. Only the three may it write to.
-struct GuestRooms {
-  explicit GuestRooms(const fs::path& at)
-      : folder(fs::absolute(at).lexically_normal()),
-        dataset(folder / "dataset"),
-        output(folder / "output"),
-        temporary(folder / "tmp") {
-    RemoveFolder(folder);
-    for (const fs::path& room : {dataset, output, temporary}) fs::create_directories(room);
-  }
-  ~GuestRooms() { RemoveFolder(folder); }
-  GuestRooms(const GuestRooms&) = delete;
-  GuestRooms& operator=(const GuestRooms&) = delete;
-
-  const fs::path folder, dataset, output, temporary;
-};
 
 ProcessResult RunToEnd(const std::string& command, const ProcessLimits& limits,
                        const ExternalSystem& system, const ExternalRun& run,

@@ -26,8 +26,10 @@ void KeepOnly(const GuardedCommand& command) {
   const int output = ::fcntl(command.output, F_DUPFD, kRuleset + 1);
   const int ruleset = command.ruleset < 0 ? -1 : ::fcntl(command.ruleset, F_DUPFD, kRuleset + 1);
   const int null = ::open("/dev/null", O_RDONLY);
-  ::dup2(null, STDIN_FILENO);
-  ::dup2(output, STDOUT_FILENO);
+  const int input = command.input < 0 ? null : ::fcntl(command.input, F_DUPFD, kRuleset + 1);
+  const int talk = command.talk < 0 ? output : ::fcntl(command.talk, F_DUPFD, kRuleset + 1);
+  ::dup2(input, STDIN_FILENO);
+  ::dup2(talk, STDOUT_FILENO);
   ::dup2(output, STDERR_FILENO);
   if (ruleset >= 0) ::dup2(ruleset, kRuleset);
   ::close_range(static_cast<unsigned>(ruleset >= 0 ? kRuleset + 1 : kRuleset), ~0U, 0);

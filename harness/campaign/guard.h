@@ -9,6 +9,8 @@ struct GuardedCommand {
   char* const* argv;
   char* const* environment;
   int output;        ///< descriptor where stdout and stderr go
+  int input = -1;    ///< where stdin comes from; -1: nothing to read
+  int talk = -1;     ///< where stdout goes instead; -1: with stderr
   int ruleset = -1;  ///< Landlock rules that the command is bound to; -1: none
   /// Whose command it is: one of others may gain no rights by what it starts, has given up those
   /// that reach around the file system, and may not fill the disk by one file.

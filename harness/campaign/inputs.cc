@@ -3,10 +3,12 @@
 #include <filesystem>
 #include <set>
 
+#include "harness/contract/stream.h"
 #include "harness/io/input_error.h"
 #include "harness/io/nearest_word.h"
 #include "harness/plugs/simulated_drive.h"
 #include "harness/plugs/simulated_sequence.h"
+#include "harness/plugs/steering_options.h"
 #include "harness/plugs/systems.h"
 #include "harness/score/score_names.h"
 
@@ -118,10 +120,10 @@ std::string WhoCannotSteer(const Suite& suite) {
   for (const SuiteScene& scene : suite.scenes) {
     if (!CheckScene(scene.file).empty() || !IsDriveScene(scene.file)) continue;
     for (const SystemSpec& system : suite.systems) {
-      if (!system.external) continue;
+      if (!system.external || IsStream(*system.external)) continue;
       complaints += fmt::format(
           "{}: system '{}' reads a dataset and cannot steer: its frames depend on what it says; "
-          "leave it out here\n",
+          "leave it out here, or give it `contract: stream`\n",
           scene.file, system.name);
     }
   }
@@ -143,7 +145,7 @@ Vocabulary KnownNames() {
   };
   vocabulary.check_option = [](const std::string& like, const std::string& path,
                                const std::string& value) -> std::string {
-    return like.empty() ? std::string() : CheckOption(path, value);
+    return like.empty() && !IsSteeringOption(path) ? std::string() : CheckOption(path, value);
   };
   vocabulary.check_options = [](const std::string& like,
                                 const std::map<std::string, std::string>& options) {

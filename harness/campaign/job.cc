@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/campaign/external_run.h"
+#include "harness/contract/stream.h"
 #include "harness/io/file.h"
 #include "harness/io/hash.h"
 #include "harness/io/input_error.h"
@@ -121,7 +122,7 @@ std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Fingerprints&
     job.debug_dynamic = options.debug_dynamic;
     job.frames_in_report = options.frames_in_report;
     if (options.frame_cache) job.frames = CacheDir() / "frames" / job.frames_key;
-    if (const auto& external = spec.system.external) {
+    if (const auto& external = spec.system.external; external && !IsStream(*external)) {
       job.dataset = CacheDir() / "datasets" / (job.frames_key + "-" + external->dataset);
     }
     jobs.push_back(std::move(job));

@@ -122,7 +122,7 @@ std::string Describe(const ProcessResult& result, const ProcessLimits& limits) {
 }
 
 Process::Process(const std::vector<std::string>& argv, const ProcessLimits& limits,
-                 const std::optional<Confinement>& confinement)
+                 const std::optional<Confinement>& confinement, const Talk& talk)
     : limits_(limits) {
   const std::vector<char*> arguments = Pointers(argv);
   const std::vector<char*> own =
@@ -141,6 +141,8 @@ Process::Process(const std::vector<std::string>& argv, const ProcessLimits& limi
     Guard({.argv = arguments.data(),
            .environment = confinement ? own.data() : ::environ,
            .output = ends[1],
+           .input = talk.input,
+           .talk = talk.output,
            .ruleset = confinement ? confinement->ruleset : -1,
            .foreign = confinement.has_value()},
           parent, before);

@@ -42,6 +42,13 @@ std::string LastWords(const std::string& log, std::size_t count = 12);
 /// the last one. Made harmless; empty where nothing was said.
 std::string TellingLine(const std::string& log);
 
+/// Ends of pipes that a child talks by instead of being silent: the child's, the caller's to close
+/// once it is started.
+struct Talk {
+  int input = -1;   ///< its stdin
+  int output = -1;  ///< its stdout; what goes to stderr is its log
+};
+
 /// A child under a guard, in a session of its own: it and all it ever starts end with it, and with
 /// its parent, however that ends. Whatever it does (crash, hang, flood its output, eat memory) ends
 /// as a ProcessResult. Not thread-safe.
@@ -50,7 +57,7 @@ class Process {
   /// argv[0] is a path. With our environment and rights where it is not confined. Throws
   /// MachineError when it cannot be started.
   Process(const std::vector<std::string>& argv, const ProcessLimits& limits,
-          const std::optional<Confinement>& confinement = {});
+          const std::optional<Confinement>& confinement = {}, const Talk& talk = {});
   ~Process();  ///< kills what is still running
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;

@@ -5,6 +5,10 @@
 #include "harness/campaign/closed_run.h"
 #include "harness/campaign/external_run.h"
 #include "harness/campaign/guest_output.h"
+#include "harness/campaign/process.h"
+#include "harness/campaign/stream_system.h"
+#include "harness/contract/stream.h"
+#include "harness/contract/system_fault.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/plugs/cached_sequence.h"
@@ -15,6 +19,7 @@
 #include "harness/record/drive_json.h"
 #include "harness/record/provenance.h"
 #include "harness/record/record.h"
+#include "harness/report/picture/drive_film.h"
 #include "harness/report/picture/frame_album.h"
 #include "harness/report/picture/stage_sheets.h"
 #include "harness/report/picture/video.h"
@@ -79,6 +84,7 @@ class Pictures {
   Pictures(const Job& job, double rate_hz)
       : out_(job.out),
         folder_(FolderOf(job)),
+        rate_hz_(rate_hz),
         album_(FramesKeptFromName(job.frames_in_report)),
         stages_({.folder = job.out / folder_,
                  .rate_hz = rate_hz / kFilmEvery,
@@ -99,8 +105,23 @@ class Pictures {
       cv::resize(picture, picture, {picture.cols / 4 * 2, picture.rows / 4 * 2}, 0, 0,
                  cv::INTER_AREA);
       film_->Add(picture);
+      if (steered_) drive_film_.Keep(frame.request.stamp_ns, picture);
     }
     stages_.See(frame.index, truth, frame.estimate, frame.facts);
+  }
+
+  /// The vehicle is steered: its drive becomes a film of its own.
+  void ExpectDrive() { steered_ = true; }
+  void FinishDrive(const DriveLog& drive, RunRecord* record) const {
+    // Frames that the busy system never saw are missing: as fast as it went all the same.
+    const DriveTrack& track = drive.track;
+    const double share = track.frames_due > 0 ? static_cast<double>(track.frames_shown) /
+                                                    static_cast<double>(track.frames_due)
+                                              : 1;
+    const double rate_hz = std::max(1.0, share * rate_hz_ / kFilmEvery);
+    if (film_ && drive_film_.Write(drive, out_ / folder_ / "drive.mp4", rate_hz)) {
+      record->artifacts["drive_film"] = (folder_ / "drive.mp4").string();
+    }
   }
 
   /// Writes what is left to write and names it all in the record. `live`: the errors that say
@@ -120,6 +141,9 @@ class Pictures {
 
  private:
   const std::filesystem::path out_, folder_;
+  const double rate_hz_;
+  bool steered_ = false;
+  DriveFilm drive_film_;
   FrameAlbum album_;
   std::optional<Video> film_;
   StageSheets stages_;
@@ -187,13 +211,23 @@ void RunForeign(const Job& job) {
 
 MaskMaker MasksOf(const Job& job) {
   const SystemSpec& spec = job.spec.system;
+  if (spec.external) return MasksFromTruth(MaskSource::kNone);
   const MaskSource source = FindSystem(spec.like).mask_source;
   return spec.mask_errors == MaskErrors{}
              ? MasksFromTruth(source)
              : MasksWithErrors(source, spec.mask_errors, job.spec.seed);
 }
 
-std::unique_ptr<Estimator> EstimatorOf(const Job& job, const StereoCalibration& calibration) {
+/// One of ours, or a foreign one behind a stream, which answers frame by frame as ours do.
+std::unique_ptr<Estimator> EstimatorOf(const Job& job, const StereoCalibration& calibration,
+                                       double rate_hz) {
+  if (const auto& external = job.spec.system.external) {
+    return std::make_unique<StreamEstimator>(*external, calibration,
+                                             StreamRun{.folder = job.out / FolderOf(job),
+                                                       .hidden = HiddenFromGuests(job),
+                                                       .seed = job.spec.seed,
+                                                       .rate_hz = rate_hz});
+  }
   return MakeSystem(job.spec.system, calibration,
                     {.threads = job.threads, .draw_stages = job.debug_dynamic});
 }
@@ -207,20 +241,47 @@ void File(const Job& job, double rate_hz, RunResult result, Pictures* pictures,
   if (drive != nullptr) score.scores.merge(ScoreDrive(*drive));
   RunRecord record = RecordOf(job, result, score, rate_hz);
   pictures->Finish(score.live, &record);
-  if (drive != nullptr) WriteDrive(*drive, job.out, &record);
+  if (drive != nullptr) {
+    WriteDrive(*drive, job.out, &record);
+    pictures->FinishDrive(*drive, &record);
+  }
   WriteRun(result, score, record, job.out);
+}
+
+/// A foreign system that did not even begin: its verdict, without a frame.
+void FileStillborn(const Job& job, double rate_hz, const SystemFault& fault) {
+  RunResult result;
+  result.spec = job.spec;
+  result.status = fault.status;
+  result.status_why = fault.what();
+  const RunScore score = ScoreRun(result);
+  WriteRun(result, score, RecordOf(job, result, score, rate_hz), job.out);
+}
+
+/// What a foreign system behind a stream said of itself, and where its log is.
+void Introduce(const Job& job, const Estimator& estimator, RunResult* result) {
+  const auto* stream = dynamic_cast<const StreamEstimator*>(&estimator);
+  if (stream == nullptr) return;
+  result->system_version = stream->version();
+  result->last_words = LastWords(stream->log());
 }
 
 void RunOurs(const Job& job) {
   std::uint64_t content_hash = 0;
   const std::unique_ptr<Sequence> sequence = OpenSequence(job, &content_hash);
-  const std::unique_ptr<Estimator> estimator = EstimatorOf(job, sequence->calibration());
+  std::unique_ptr<Estimator> estimator;
+  try {
+    estimator = EstimatorOf(job, sequence->calibration(), sequence->rate_hz());
+  } catch (const SystemFault& fault) {
+    return FileStillborn(job, sequence->rate_hz(), fault);
+  }
   Pictures pictures(job, sequence->rate_hz());
   RunResult result = Drive(*sequence, *estimator, MasksOf(job), {}, [&](const DrivenFrame& frame) {
     pictures.See(frame);
     TellProgress(frame.index + 1, frame.count);
   });
   result.scene_hash = content_hash;
+  Introduce(job, *estimator, &result);
   File(job, sequence->rate_hz(), std::move(result), &pictures);
 }
 
@@ -229,8 +290,14 @@ void RunSteering(const Job& job) {
   std::uint64_t content_hash = 0;
   TellStage("opening the scene, solving its light");
   const std::unique_ptr<DriveScene> scene = OpenSimulatedDrive(SimulationOf(job), &content_hash);
-  const std::unique_ptr<Estimator> estimator = EstimatorOf(job, scene->calibration());
+  std::unique_ptr<Estimator> estimator;
+  try {
+    estimator = EstimatorOf(job, scene->calibration(), scene->rate_hz());
+  } catch (const SystemFault& fault) {
+    return FileStillborn(job, scene->rate_hz(), fault);
+  }
   Pictures pictures(job, scene->rate_hz());
+  pictures.ExpectDrive();
   const MaskMaker masks = MasksOf(job);
   ClosedRun run = RunClosed(*scene, *estimator, masks, SteeringOf(job.spec.system.options),
                             job.spec.seed, [&](const DrivenFrame& frame) {
@@ -238,13 +305,15 @@ void RunSteering(const Job& job) {
                               TellProgress(frame.index + 1, frame.count);
                             });
   run.result.scene_hash = content_hash;
+  Introduce(job, *estimator, &run.result);
   File(job, scene->rate_hz(), std::move(run.result), &pictures, &run.drive);
 }
 
 }  // namespace
 
 void RunJob(const Job& job) {
-  if (job.spec.system.external) return RunForeign(job);
+  const auto& external = job.spec.system.external;
+  if (external && !IsStream(*external)) return RunForeign(job);
   if (IsDriveScene(job.spec.scene_file)) return RunSteering(job);
   RunOurs(job);
 }

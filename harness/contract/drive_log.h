@@ -66,7 +66,7 @@ struct FloorThing {
 struct ActorTrack {
   std::string name, object_class;
   double radius_m = 0;
-  std::vector<Eigen::Vector2d> from, to;  ///< ends of the line; people's coincide
+  std::vector<Eigen::Vector2d> from = {}, to = {};  ///< ends of the line; people's coincide
   bool operator==(const ActorTrack&) const = default;
 };
 

@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include "harness/contract/system_fault.h"
 #include "harness/score/difficulty.h"
 #include "harness/score/masks.h"
 
@@ -146,6 +147,9 @@ const FrameEstimate* Showing::Show(const FrameRequest& request, const SequenceFr
   FrameEstimate estimate;
   try {
     estimate = estimator_.Process(shown.images, mask);
+  } catch (const SystemFault& fault) {
+    Offend(fault.status, fmt::format("frame {}: {}", shown.images.id, fault.what()));
+    return nullptr;
   } catch (const std::exception& error) {
     Offend(RunStatus::kCrashed, fmt::format("frame {}: {}", shown.images.id, error.what()));
     return nullptr;
@@ -180,6 +184,8 @@ RunResult Showing::Finish(std::size_t frames, double min_coverage) {
     try {
       result_.trajectory.final = estimator_.Finish();
       Offend(RunStatus::kInvalid, FaultOfTrack(result_.trajectory.final));
+    } catch (const SystemFault& fault) {
+      Offend(fault.status, fmt::format("at the end: {}", fault.what()));
     } catch (const std::exception& error) {
       Offend(RunStatus::kCrashed, fmt::format("at the end: {}", error.what()));
     }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "harness/contract/stream.h"
 #include "harness/io/input_error.h"
 
 namespace aisle {
@@ -24,11 +25,15 @@ void DescribeMaskErrors(Fields& fields, MaskErrors& errors) {
                  &errors.latency_frames, {0, 100});
 }
 
-/// Each of our systems once at each latency, in the place where it stood: "robust_50ms".
+/// Each system that can steer once at each latency, in the place where it stood: "robust_50ms".
 void SweepLatencies(const std::vector<double>& latencies_ms, std::vector<SystemSpec>* systems) {
   if (latencies_ms.empty()) return;
   std::vector<SystemSpec> swept;
   for (const SystemSpec& system : *systems) {
+    if (system.external && !IsStream(*system.external)) {
+      swept.push_back(system);  // it cannot steer
+      continue;
+    }
     for (const double ms : latencies_ms) {
       swept.push_back(system);
       swept.back().name = fmt::format("{}_{:g}ms", system.name, ms);
@@ -58,9 +63,11 @@ void DescribeExternal(Fields& fields, ExternalSystem& external) {
   std::string contract;
   fields.Name({"contract",
                "vslam-lab: the system was wrapped for VSLAM-LAB, unchanged; vslam-lab-python: and "
-               "takes its arguments as --key value",
+               "takes its arguments as --key value; stream: it is shown frames on its stdin and "
+               "answers each on its stdout, so that it can steer",
                "vslam-lab"},
-              &contract, {{"vslam-lab", "vslam-lab-python"}});
+              &contract, {{"vslam-lab", "vslam-lab-python", "stream"}});
+  if (contract == "stream") external.dataset = external.trajectory = kStreamFormat;
   if (contract == "vslam-lab") external.vslam_lab = VslamLabStyle::kWords;
   if (contract == "vslam-lab-python") external.vslam_lab = VslamLabStyle::kPython;
   fields.Name({"dataset", "layout of the dataset that is exported for it", "euroc"},
@@ -108,9 +115,9 @@ void CheckExternal(Fields& fields, const ExternalSystem& external) {
                 "the command must say where {output} goes; example: command: my_slam {dataset} "
                 "{output}");
   }
-  if (external.vslam_lab != VslamLabStyle::kNone &&
-      (fields.Has("dataset") || fields.Has("trajectory"))) {
-    fields.Fail("contract", "vslam-lab fixes dataset and trajectory: leave both out");
+  const bool fixed = external.vslam_lab != VslamLabStyle::kNone || IsStream(external);
+  if (fixed && (fields.Has("dataset") || fields.Has("trajectory"))) {
+    fields.Fail("contract", "it fixes dataset and trajectory: leave both out");
   }
 }
 
@@ -186,7 +193,13 @@ void Describe(Fields& fields, const Vocabulary& vocabulary, SystemSpec* spec) {
                                    "{{feature.features: 800}}}}",
                                    spec->name));
   }
-  std::string wrong = Validate(*spec);
+  // How it steers any system can be told that answers frame by frame, whoever made it.
+  SystemSpec others = *spec;
+  if (spec->external && IsStream(*spec->external)) {
+    std::erase_if(others.options,
+                  [](const auto& option) { return option.first.starts_with("drive."); });
+  }
+  std::string wrong = Validate(others);
   if (wrong.empty() && !spec->like.empty())
     wrong = vocabulary.check_options(spec->like, spec->options);
   if (!wrong.empty()) fields.Fail("name", wrong);
@@ -215,8 +228,8 @@ void Describe(Fields& fields, const Vocabulary& vocabulary, const Fields::Check&
       "name");
   std::vector<double> latencies_ms;
   fields.Numbers({"latencies_ms",
-                  "each of our systems once at each of these latencies, as robust_50ms, in scenes "
-                  "with a `drive`",
+                  "each system that can steer once at each of these latencies, as robust_50ms; for "
+                  "scenes with a `drive`",
                   "[0, 50, 100, 200]"},
                  &latencies_ms, {0, 10000});
   SweepLatencies(latencies_ms, &suite.systems);

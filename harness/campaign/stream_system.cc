@@ -1,0 +1,186 @@
+#include "harness/campaign/stream_system.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <optional>
+#include <thread>
+
+#include "harness/campaign/external_run.h"
+#include "harness/campaign/guest_rooms.h"
+#include "harness/campaign/process.h"
+#include "harness/campaign/sandbox.h"
+#include "harness/contract/system_fault.h"
+#include "harness/io/file.h"
+#include "harness/io/input_error.h"
+#include "harness/io/stream_protocol.h"
+
+namespace aisle {
+namespace {
+
+/// A descriptor that is closed with it.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd = -1) : fd_(fd) {}
+  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(fd_, other.fd_);
+    return *this;
+  }
+  ~Descriptor() { Close(); }
+  void Close() {
+    if (fd_ >= 0) ::close(std::exchange(fd_, -1));
+  }
+  int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+struct PipeEnds {
+  Descriptor read, write;
+};
+PipeEnds MakePipe() {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) {
+    throw MachineError(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
+  }
+  constexpr int kRoomBytes = 1 << 20;  // a frame fits
+  ::fcntl(ends[1], F_SETPIPE_SZ, kRoomBytes);
+  return {Descriptor(ends[0]), Descriptor(ends[1])};
+}
+
+RunStatus StatusOf(StreamError::Kind kind) {
+  switch (kind) {
+    case StreamError::Kind::kTimeout:
+      return RunStatus::kTimeout;
+    case StreamError::Kind::kNonsense:
+      return RunStatus::kInvalid;
+    case StreamError::Kind::kClosed:
+      break;
+  }
+  return RunStatus::kCrashed;
+}
+
+}  // namespace
+
+struct StreamEstimator::Impl {
+  Impl(const ExternalSystem& system, const StreamRun& stream_run)
+      : run(stream_run), rooms(run.folder / kGuestFolder) {
+    // A system that died is told by its answer, not by a signal to us.
+    ::signal(SIGPIPE, SIG_IGN);
+    SandboxRules rules{.hidden = run.hidden,
+                       .writable = {rooms.dataset, rooms.output, rooms.temporary}};
+    for (const std::string& folder : system.may_write) {
+      std::error_code error;  // what cannot be made cannot be written
+      std::filesystem::create_directories(folder, error);
+      rules.writable.emplace_back(folder);
+    }
+    sandbox.emplace(rules);
+    command = FillIn(system.command, {{"seed", std::to_string(run.seed)},
+                                      {"output", rooms.output.string()},
+                                      {"source", system.repository}});
+    PipeEnds in = MakePipe(), out = MakePipe();
+    limits.wall_s = 1e9;  // each answer has a time of its own
+    process.emplace(
+        std::vector<std::string>{"/bin/sh", "-c", command}, limits,
+        Confinement{ScrubbedEnvironment(rooms.temporary, system.environment), sandbox->ruleset()},
+        Talk{in.read.get(), out.write.get()});
+    to_system = std::move(in.write);
+    from_system = std::move(out.read);
+    pipe.emplace(from_system.get(), to_system.get(), std::min(run.answer_s, system.timeout_s),
+                 [this] { process->Poll(); });
+  }
+
+  /// Why the process ended, once it has: its end comes a moment after its pipe's.
+  std::string EndInWords() {
+    for (int round = 0; round < 50 && !process->Poll(); ++round) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    if (!process->Poll()) return "closed its output";
+    const std::string line = TellingLine(process->result().log);
+    return Describe(process->result(), limits) + (line.empty() ? "" : "; last words: " + line);
+  }
+
+  [[noreturn]] void Blame(const StreamError& error) {
+    const bool closed = error.kind == StreamError::Kind::kClosed;
+    throw SystemFault(StatusOf(error.kind), closed ? EndInWords() : error.what());
+  }
+
+  StreamMessage Answer() {
+    std::optional<StreamMessage> message = pipe->Receive();
+    if (!message) throw StreamError(StreamError::Kind::kClosed, "the stream is closed");
+    return *std::move(message);
+  }
+
+  const StreamRun run;
+  GuestRooms rooms;
+  std::optional<Sandbox> sandbox;
+  std::string command, version;
+  ProcessLimits limits;
+  Descriptor to_system, from_system;
+  std::optional<StreamPipe> pipe;
+  std::optional<aisle::Process> process;
+};
+
+StreamEstimator::StreamEstimator(const ExternalSystem& system, const StereoCalibration& calibration,
+                                 const StreamRun& run)
+    : impl_(std::make_unique<Impl>(system, run)) {
+  try {
+    impl_->pipe->Send(StreamType::kHello,
+                      FormatHello({.calibration = calibration, .rate_hz = run.rate_hz}));
+    const StreamMessage answer = impl_->Answer();
+    if (answer.type != StreamType::kHello) {
+      throw StreamError(StreamError::Kind::kNonsense, "its first message is no hello");
+    }
+    impl_->version = ReadName(answer.payload);
+  } catch (const StreamError& error) {
+    impl_->Blame(error);
+  }
+}
+
+StreamEstimator::~StreamEstimator() {
+  impl_->process->Poll();
+  try {
+    WriteFileAtomically(impl_->run.folder / "system.log",
+                        fmt::format("# {}\n{}\n{}", DescribeSandbox(), impl_->command, log()));
+  } catch (const std::exception&) {
+    // A log that cannot be written is no reason to lose the run.
+  }
+}
+
+FrameEstimate StreamEstimator::Process(const StereoFrame& frame, const ExternalMask&) {
+  try {
+    impl_->pipe->Send(StreamType::kFrame, FormatFrame(frame));
+    const auto pose = ReadAnswer(impl_->Answer(), frame.id);
+    FrameEstimate estimate;
+    estimate.id = frame.id;
+    estimate.stamp_ns = frame.stamp_ns;
+    estimate.state = pose ? TrackingState::kTracking : TrackingState::kLost;
+    estimate.T_world_rig = pose;
+    return estimate;
+  } catch (const StreamError& error) {
+    impl_->Blame(error);
+  }
+}
+
+Trajectory StreamEstimator::Finish() {
+  try {
+    impl_->pipe->Send(StreamType::kEnd, "");
+    const StreamMessage answer = impl_->Answer();
+    if (answer.type != StreamType::kTrack) {
+      throw StreamError(StreamError::Kind::kNonsense, "its answer to the end is no track");
+    }
+    return ReadTrack(answer.payload);
+  } catch (const StreamError& error) {
+    impl_->Blame(error);
+  }
+}
+
+const std::string& StreamEstimator::version() const { return impl_->version; }
+std::string StreamEstimator::log() const { return impl_->process->result().log; }
+
+}  // namespace aisle
