@@ -1,4 +1,5 @@
 #include "harness/cli/command.h"
+#include "harness/cli/slam_stream.h"
 #include "harness/cli/system_choice.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
@@ -22,6 +23,7 @@ struct Options {
   SystemChoice system{.name = "plain", .set = {}};
   int threads = 0;
   bool free_running = false;
+  bool stream = false;  ///< no dataset: frames come over stdin
 };
 
 void PrintScores(const RunResult& run) {
@@ -43,14 +45,15 @@ MaskMaker MasksOf(const Options& options, std::size_t* masked) {
   };
 }
 
-std::unique_ptr<Estimator> MakeEstimator(const SystemSpec& system, const Sequence& sequence,
+std::unique_ptr<Estimator> MakeEstimator(const SystemSpec& system,
+                                         const StereoCalibration& calibration,
                                          const Options& options) {
   if (!options.save_map.empty() &&
       !fs::is_directory(fs::absolute(options.save_map).parent_path())) {
     throw InputError(options.save_map, 0, "its folder does not exist: make it first");
   }
   try {
-    return MakeSystem(system, sequence.calibration(),
+    return MakeSystem(system, calibration,
                       {.threads = options.threads,
                        .load_map = options.load_map,
                        .localise_only = options.localise_only,
@@ -60,14 +63,29 @@ std::unique_ptr<Estimator> MakeEstimator(const SystemSpec& system, const Sequenc
   }
 }
 
+int RunStream(const SystemSpec& system, const Options& options) {
+  const auto make = [&](const StereoCalibration& calibration) {
+    return MakeEstimator(system, calibration, options);
+  };
+  const std::size_t frames = AnswerStream("aisle " + system.name, make);
+  fmt::print(stderr, "{} frames answered\n", frames);
+  return kAllPassed;
+}
+
 int RunSlam(const Options& options) {
   const SystemSpec system = SpecOf(options.system);
   if (FindSystem(system.like).mask_source != MaskSource::kNone) {
     throw InputError("system '" + system.name +
                      "' needs truth about what moves: a recording has none");
   }
+  if (options.stream) return RunStream(system, options);
+  if (options.dataset.empty() || options.output.empty()) {
+    throw InputError(
+        "slam: expected a DATASET and -o FILE, or --stream; example: ./aisle slam V1_01_easy -o "
+        "v101.txt");
+  }
   const auto sequence = OpenRecording(options.dataset, DatasetFormatFromName(options.format));
-  const auto estimator = MakeEstimator(system, *sequence, options);
+  const auto estimator = MakeEstimator(system, sequence->calibration(), options);
   ProgressLine line;
   std::size_t masked = 0;
   const RunResult run =
@@ -111,11 +129,14 @@ int RunSlam(const Options& options) {
 void AddSlamCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand("slam", "a system on recorded stereo images");
-  command->add_option("DATASET", options->dataset, "folder of the recording")->required();
+  command->add_option("DATASET", options->dataset, "folder of the recording");
   command->add_option("--format", options->format, "euroc (default) or kitti")
       ->check(CLI::IsMember({"euroc", "kitti"}));
   AddSystemChoice(command, &options->system);
-  command->add_option("-o,--output", options->output, "final trajectory, TUM format")->required();
+  command->add_option("-o,--output", options->output, "final trajectory, TUM format");
+  command->add_flag("--stream", options->stream,
+                    "no DATASET: answer the frames that come over stdin, on stdout "
+                    "(reports/docs/stream.md)");
   command->add_option("--live", options->live, "the live trajectory too");
   command->add_option("--masks", options->masks,
                       "folder of masks to reject by: grey PNGs named by stamp or number, not 0 = "

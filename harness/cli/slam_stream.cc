@@ -1,0 +1,60 @@
+#include "harness/cli/slam_stream.h"
+
+#include <unistd.h>
+
+#include "harness/io/input_error.h"
+#include "harness/io/stream_protocol.h"
+
+namespace aisle {
+namespace {
+
+using Kind = StreamError::Kind;
+
+/// The stream as long as there is one: the next message is the frame's or the end's.
+std::size_t Answer(StreamPipe* pipe, const std::string& name, const MakeEstimatorFor& make) {
+  const auto next = [&] {
+    std::optional<StreamMessage> message = pipe->Receive();
+    if (!message) throw StreamError(Kind::kClosed, "the stream ended before its end was said");
+    return *std::move(message);
+  };
+  const StreamMessage greeting = next();
+  if (greeting.type != StreamType::kHello) {
+    throw StreamError(Kind::kNonsense, "the first message is no hello");
+  }
+  const StreamHello hello = ReadHello(greeting.payload);
+  const std::unique_ptr<Estimator> estimator = make(hello.calibration);
+  pipe->Send(StreamType::kHello, FormatName(kStreamVersion, name));
+  for (std::size_t frames = 0;; ++frames) {
+    const StreamMessage message = next();
+    if (message.type == StreamType::kEnd) {
+      pipe->Send(StreamType::kTrack, FormatTrack(estimator->Finish()));
+      return frames;
+    }
+    if (message.type != StreamType::kFrame) {
+      throw StreamError(Kind::kNonsense, "neither a frame nor the end");
+    }
+    const StereoFrame frame = ReadFrame(message.payload, hello.calibration);
+    const FrameEstimate said = estimator->Process(frame, {});
+    pipe->Send(said.T_world_rig ? StreamType::kPose : StreamType::kLost,
+               FormatAnswer(frame.id, said.T_world_rig));
+  }
+}
+
+}  // namespace
+
+std::size_t AnswerStream(const std::string& name, const MakeEstimatorFor& make) {
+  const int talk = ::dup(STDOUT_FILENO);
+  ::dup2(STDERR_FILENO, STDOUT_FILENO);
+  StreamPipe pipe(STDIN_FILENO, talk);
+  try {
+    const std::size_t frames = Answer(&pipe, name, make);
+    ::close(talk);
+    return frames;
+  } catch (const StreamError& error) {
+    ::close(talk);
+    throw InputError(fmt::format("stdin: {}; --stream is for a harness, see reports/docs/stream.md",
+                                 error.what()));
+  }
+}
+
+}  // namespace aisle

@@ -1,0 +1,138 @@
+#include "harness/campaign/stream_system.h"
+
+#include <gtest/gtest.h>
+
+#include "harness/contract/system_fault.h"
+#include "harness/io/file.h"
+#include "harness/io/stream_protocol.h"
+#include "harness/run/showing.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+
+const StereoCalibration kRig{
+    .width = 320, .height = 200, .fx = 180, .fy = 180, .cx = 160, .cy = 100, .baseline_m = 0.1};
+
+class StreamSystemTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / fmt::format("aisle_stream_{}", ::getpid());
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { RemoveFolder(folder_); }
+
+  static ExternalSystem Client(const std::string& words) {
+    ExternalSystem system;
+    system.dataset = system.trajectory = "stream";
+    system.command =
+        fmt::format("exec python3 {}/tests/support/stream/{}", AISLE_SOURCE_DIR, words);
+    return system;
+  }
+
+  /// Shows ten frames to a system, as a drive does.
+  RunResult Show(const ExternalSystem& system, double answer_s = 20) {
+    try {
+      StreamEstimator estimator(system, kRig,
+                                {.folder = folder_, .hidden = {}, .answer_s = answer_s});
+      version_ = estimator.version();
+      const MaskMaker masks = MasksFromTruth(MaskSource::kNone);
+      const FrameObserver observer;
+      Showing showing(kRig, 20, estimator, masks, observer);
+      for (std::int64_t id = 0; id < 10 && !showing.offended(); ++id) {
+        SequenceFrame frame;
+        frame.images = {id, id * 50'000'000, cv::Mat1b(200, 320, std::uint8_t{7}),
+                        cv::Mat1b(200, 320, std::uint8_t{9})};
+        showing.Show({id, frame.images.stamp_ns}, frame, 0, static_cast<std::size_t>(id), 10);
+      }
+      return showing.Finish(10, 0.5);
+    } catch (const SystemFault& fault) {
+      RunResult result;
+      result.status = fault.status;
+      result.status_why = fault.what();
+      return result;
+    }
+  }
+
+  fs::path folder_;
+  std::string version_;
+};
+
+TEST_F(StreamSystemTest, AGoodClientAnswersEveryFrame) {
+  const RunResult run = Show(Client("client.py"));
+  EXPECT_EQ(run.status, RunStatus::kOk) << run.status_why;
+  EXPECT_EQ(run.trajectory.live.size(), 10u);
+  EXPECT_EQ(run.trajectory.final.size(), 10u);
+  EXPECT_EQ(run.trajectory.final[3].stamp_ns, 150'000'000);
+  EXPECT_EQ(version_, "stands still");
+}
+
+TEST_F(StreamSystemTest, TheClientInCppDoesToo) {
+  const std::string program = (folder_ / "client").string();
+  const std::string build = fmt::format(
+      "g++ -std=c++17 -O1 {}/tests/support/stream/client.cpp -o {}", AISLE_SOURCE_DIR, program);
+  ASSERT_EQ(std::system(build.c_str()), 0);
+  ExternalSystem system = Client("");
+  system.command = "exec " + program;
+  const RunResult run = Show(system);
+  EXPECT_EQ(run.status, RunStatus::kOk) << run.status_why;
+  EXPECT_EQ(run.trajectory.final.size(), 10u);
+}
+
+struct Way {
+  const char* name;
+  RunStatus status;
+  const char* says;
+};
+class HostileStreamTest : public StreamSystemTest, public testing::WithParamInterface<Way> {};
+INSTANTIATE_TEST_SUITE_P(
+    Ways, HostileStreamTest,
+    testing::Values(Way{"die", RunStatus::kCrashed, "SIGSEGV"},
+                    Way{"exit", RunStatus::kCrashed, "no more memory for dreams"},
+                    Way{"stall", RunStatus::kTimeout, "no answer within"},
+                    Way{"mute", RunStatus::kTimeout, "no answer within"},
+                    Way{"twice", RunStatus::kInvalid, "due was one to frame 4"},
+                    Way{"nan", RunStatus::kInvalid, "not finite"},
+                    Way{"shear", RunStatus::kInvalid, "quaternion"},
+                    Way{"huge", RunStatus::kInvalid, "bytes, at most"},
+                    Way{"gigabytes", RunStatus::kInvalid, "a message of type"},
+                    Way{"wrong", RunStatus::kInvalid, "answer is to frame 10"},
+                    Way{"type", RunStatus::kInvalid, "type 77"},
+                    Way{"short", RunStatus::kInvalid, "ends too early"},
+                    Way{"version", RunStatus::kInvalid, "version 9"},
+                    Way{"flood", RunStatus::kOk, ""}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST_P(HostileStreamTest, EndsInAVerdictOfItsOwn) {
+  const Way& way = GetParam();
+  const bool hangs = way.status == RunStatus::kTimeout;
+  const RunResult run = Show(Client(fmt::format("hostile.py {}", way.name)), hangs ? 2 : 60);
+  EXPECT_EQ(run.status, way.status) << run.status_why;
+  EXPECT_NE(run.status_why.find(way.says), std::string::npos) << run.status_why;
+}
+
+TEST(StreamProtocolTest, WhatIsWrittenIsReadBack) {
+  const StreamHello hello = ReadHello(FormatHello({.calibration = kRig, .rate_hz = 20}));
+  EXPECT_EQ(hello.calibration.width, kRig.width);
+  EXPECT_EQ(hello.calibration.baseline_m, kRig.baseline_m);
+  StereoFrame frame{5, 250, cv::Mat1b(200, 320), cv::Mat1b(200, 320)};
+  cv::randu(frame.left, 0, 255);
+  cv::randu(frame.right, 0, 255);
+  const StereoFrame read = ReadFrame(FormatFrame(frame), kRig);
+  EXPECT_EQ(read.id, 5);
+  EXPECT_EQ(cv::norm(read.left, frame.left, cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(read.right, frame.right, cv::NORM_INF), 0);
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  pose.translation() << 1, -2, 3;
+  const auto answered = ReadAnswer({StreamType::kPose, FormatAnswer(5, pose)}, 5);
+  EXPECT_TRUE(answered->isApprox(pose, 1e-12));
+  EXPECT_FALSE(ReadAnswer({StreamType::kLost, FormatAnswer(5, {})}, 5));
+  const Trajectory track = ReadTrack(FormatTrack({{50, pose}, {100, pose}}));
+  ASSERT_EQ(track.size(), 2u);
+  EXPECT_TRUE(track[1].T_world_rig.isApprox(pose, 1e-12));
+}
+
+}  // namespace
+}  // namespace aisle
