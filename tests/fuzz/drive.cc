@@ -1,0 +1,13 @@
+#include "harness/io/input_error.h"
+#include "harness/record/drive_json.h"
+#include "tests/fuzz/fuzz.h"
+
+using namespace aisle;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    ToJson(DriveLogFromJson(std::string(reinterpret_cast<const char*>(data), size), "drive.json"));
+  } catch (const InputError&) {
+  }
+  return 0;
+}
