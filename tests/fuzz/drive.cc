@@ -2,9 +2,8 @@
 #include "harness/record/drive_json.h"
 #include "tests/fuzz/fuzz.h"
 
-using namespace aisle;
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace aisle;
   try {
     ToJson(DriveLogFromJson(std::string(reinterpret_cast<const char*>(data), size), "drive.json"));
   } catch (const InputError&) {

@@ -1,10 +1,9 @@
 #include "harness/io/stream_protocol.h"
 #include "tests/fuzz/fuzz.h"
 
-using namespace aisle;
-
 /// The first byte is the message's type, the rest its payload.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace aisle;
   if (size == 0) return 0;
   const std::string payload(reinterpret_cast<const char*>(data) + 1, size - 1);
   const StereoCalibration rig{

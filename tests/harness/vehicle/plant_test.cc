@@ -28,8 +28,10 @@ TEST(PlantTest, ConstantCommandsGiveExactCirclesWhateverTheStep) {
   const double v = 0.8, w = 0.5, t = 7.3;
   for (const VehicleKind kind : {VehicleKind::kDifferential, VehicleKind::kTricycle}) {
     for (const double step_s : {0.001, 0.01, 0.1}) {
-      const PlantState end = DriveFor({}, {v, w}, t, Ideal(kind), step_s);
-      // Steering and speed jump within the first step of a vehicle without inertia.
+      const PlantOptions options = Ideal(kind);
+      PlantState start;  // its wheel looks where it has to: a tricycle turns it before it pushes
+      start.steering_rad = std::atan2(options.wheelbase_m * w, v);
+      const PlantState end = DriveFor(start, {v, w}, t, options, step_s);
       EXPECT_NEAR(end.pose.heading_rad, w * t, 1e-6) << step_s;
       EXPECT_NEAR(end.pose.position.x(), v / w * std::sin(w * t), 1e-6) << step_s;
       EXPECT_NEAR(end.pose.position.y(), v / w * (1 - std::cos(w * t)), 1e-6) << step_s;
@@ -40,14 +42,14 @@ TEST(PlantTest, ConstantCommandsGiveExactCirclesWhateverTheStep) {
 TEST(PlantTest, ATricyclesCurvatureIsTheTangentOfItsSteeringOverTheWheelbase) {
   PlantOptions options = Ideal(VehicleKind::kTricycle);
   options.wheelbase_m = 1.3;
-  const PlantState state = Move({}, {0.9, 0.4}, kTick_s, options).state;
+  const PlantState state = DriveFor({}, {0.9, 0.4}, 2 * kTick_s, options);
   EXPECT_NEAR(std::tan(state.steering_rad) / options.wheelbase_m, 0.4 / 0.9, 1e-12);
   EXPECT_NEAR(state.AheadSpeed(options.kind), 0.9, 1e-12);
 }
 
 TEST(PlantTest, ATricycleBackwardsTurnsAsItIsTold) {
   const PlantState end = DriveFor({}, {-0.5, 0.3}, 2, Ideal(VehicleKind::kTricycle));
-  EXPECT_NEAR(end.pose.heading_rad, 0.6, 1e-9);
+  EXPECT_NEAR(end.pose.heading_rad, 0.6, 1e-3);
   EXPECT_LT(end.pose.position.x(), -0.8);
 }
 
@@ -87,7 +89,7 @@ TEST(PlantTest, AProtectiveStopTakesTheWayThatItsDecelerationSays) {
   PlantState state;
   state.speed_mps = 1.2;
   const PlantState end = DriveFor(state, {.protective_stop = true}, 3, options);
-  EXPECT_EQ(end.speed_mps, 0);
+  EXPECT_NEAR(end.speed_mps, 0, 1e-12);
   EXPECT_NEAR(end.pose.position.x(), 1.2 * 1.2 / (2 * options.stop_mps2), 1e-9);
 }
 
