@@ -13,7 +13,7 @@ struct LoopOptions {
   Steering steering;
   std::uint64_t seed = 1;             ///< of the odometry and the latency profile
   std::int64_t tick_ns = 10'000'000;  ///< of control
-  ScannerOptions scanner;
+  ScannerOptions scanner = {};
   double stands_still_s = 30;  ///< without progress for so long, pauses aside: the end
   double times_planned = 3;    ///< the end after so many times the planned time,
   double and_s = 60;           ///< and so much more
