@@ -259,7 +259,7 @@ void FileStillborn(const Job& job, double rate_hz, const SystemFault& fault) {
 }
 
 /// What a foreign system behind a stream said of itself, and where its log is.
-void Introduce(const Job& job, const Estimator& estimator, RunResult* result) {
+void Introduce(const Estimator& estimator, RunResult* result) {
   const auto* stream = dynamic_cast<const StreamEstimator*>(&estimator);
   if (stream == nullptr) return;
   result->system_version = stream->version();
@@ -281,7 +281,7 @@ void RunOurs(const Job& job) {
     TellProgress(frame.index + 1, frame.count);
   });
   result.scene_hash = content_hash;
-  Introduce(job, *estimator, &result);
+  Introduce(*estimator, &result);
   File(job, sequence->rate_hz(), std::move(result), &pictures);
 }
 
@@ -305,7 +305,7 @@ void RunSteering(const Job& job) {
                               TellProgress(frame.index + 1, frame.count);
                             });
   run.result.scene_hash = content_hash;
-  Introduce(job, *estimator, &run.result);
+  Introduce(*estimator, &run.result);
   File(job, scene->rate_hz(), std::move(run.result), &pictures, &run.drive);
 }
 
