@@ -169,13 +169,12 @@ TEST(RobustOptions, EveryRuleIsCheckedAndNamed) {
               HasSubstr("brightness_noise"));
   EXPECT_THAT(broken([](auto& o) { o.surface.window_px = 8; }), HasSubstr("window_px is 8"));
   EXPECT_THAT(broken([](auto& o) { o.flow.finest_scale = 9; }), HasSubstr("finest_scale"));
-  EXPECT_THAT(broken([](auto& o) { o.ego.rounds = 0; }), HasSubstr("rounds"));
-  EXPECT_THAT(broken([](auto& o) { o.evidence.least[1] = 1; }), HasSubstr("least.1 is 1"));
+  EXPECT_THAT(broken([](auto& o) { o.tolerance.sigmas = 0; }), HasSubstr("tolerance.sigmas is 0"));
+  EXPECT_THAT(broken([](auto& o) { o.ego.cell_px = 0; }), HasSubstr("cell_px"));
+  EXPECT_THAT(broken([](auto& o) { o.evidence.least = 1; }), HasSubstr("least is 1"));
   EXPECT_THAT(broken([](auto& o) { o.evidence.edge_window_px = 4; }), HasSubstr("edge_window_px"));
-  EXPECT_THAT(broken([](auto& o) { o.floor.least_support = 2; }), HasSubstr("least_support"));
   EXPECT_THAT(broken([](auto& o) { o.field.grow_link = 2; }), HasSubstr("grow_link"));
   EXPECT_THAT(broken([](auto& o) { o.region.keep_core_px = 900; }), HasSubstr("keep_core_px"));
-  EXPECT_THAT(broken([](auto& o) { o.region.keep_inner_px = 900; }), HasSubstr("keep_inner_px"));
 }
 
 TEST(DynamicDetector, BothMethodsMaskBothCameras) {

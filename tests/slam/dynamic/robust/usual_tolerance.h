@@ -2,9 +2,9 @@
 
 #include "slam/dynamic/robust/disparity_tolerance.h"
 
-namespace aisle::slam::dynamic::test {
+namespace aisle::slam::test {
 
 /// As it is with the noise that is learned on rendered drives.
-inline const DisparityTolerance kUsualTolerance({}, 0.16);
+inline const dynamic::DisparityTolerance kUsualTolerance({.sigmas = 2, .share = 0.04}, 0.16);
 
-}  // namespace aisle::slam::dynamic::test
+}  // namespace aisle::slam::test
