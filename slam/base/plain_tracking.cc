@@ -1,6 +1,7 @@
 #include "slam/base/plain_tracking.h"
 
 #include "slam/track/keyframe_policy.h"
+#include "slam/track/predict_motion.h"
 
 namespace aisle::slam {
 
@@ -22,12 +23,22 @@ KeyframeVerdict PlainTracking::NeedsKeyframe(const Map& map, const Frame& frame,
 
 MapEdit PlainTracking::MakeKeyframe(const Map& map, const std::shared_ptr<const Frame>& frame,
                                     const FramePose& pose) const {
-  return KeyframeFrom(map, frame, pose, camera_, options_.mapping.create);
+  Keyframe keyframe = KeyframeOf(map, frame, pose);
+  MapEdit edit;
+  edit.new_landmarks = CreateLandmarks(keyframe, camera_, options_.mapping.create);
+  edit.new_keyframes = {std::move(keyframe)};
+  return edit;
 }
 
 std::optional<NewPart> PlainTracking::Begin(const std::shared_ptr<const Frame>& frame,
                                             const DriveState& drive) const {
-  return BeginPart(drive.map, frame, drive.memory, camera_, options_);
+  const Eigen::Isometry3d T_world_rig =
+      ReckonedPose(drive.map, drive.memory, frame->stamp_ns, options_.track);
+  return BeginPart(drive.map, frame, T_world_rig, camera_,
+                   {.create = options_.mapping.create,
+                    .least_points = options_.least_first_points,
+                    .least_keyframes = options_.least_keyframes,
+                    .keeps_world = !options_.map_file.empty()});
 }
 
 }  // namespace aisle::slam

@@ -3,7 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include "slam/base/map_part.h"
+#include "slam/mapping/map_part.h"
+#include "slam/options/slam_options.h"
 #include "slam/track/relocalise.h"
 
 namespace aisle::slam {

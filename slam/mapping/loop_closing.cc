@@ -20,19 +20,19 @@ std::vector<LandmarkId> LandmarksAround(const Map& map, KeyframeId id, const Fus
 }  // namespace
 
 Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& camera,
-              const FuseOptions& options) {
+              const LoopSpreadOptions& spread, const FuseOptions& fuse) {
   const auto best =
       std::max_element(loops.begin(), loops.end(),
                        [](const LoopEdge& a, const LoopEdge& b) { return a.inliers < b.inliers; });
   map.Apply(JoinParts(map, *best));
-  map.Apply(SpreadLoops(map, loops));
+  map.Apply(SpreadLoops(map, loops, spread));
   for (const LoopEdge& loop : loops) {
     if (!map.Find(loop.current) || !map.Find(loop.matched)) continue;
-    const std::vector<LandmarkId> old_place = LandmarksAround(map, loop.matched, options);
-    std::vector<KeyframeId> new_views = FuseNeighbours(map, loop.current, options);
+    const std::vector<LandmarkId> old_place = LandmarksAround(map, loop.matched, fuse);
+    std::vector<KeyframeId> new_views = FuseNeighbours(map, loop.current, fuse);
     new_views.push_back(loop.current);
     for (const KeyframeId view : new_views) {
-      map.Apply(FuseInto(map, view, old_place, camera, options));
+      map.Apply(FuseInto(map, view, old_place, camera, fuse));
     }
   }
   return map;

@@ -12,7 +12,7 @@ namespace aisle::slam {
 /// in one map again; exactness comes from AdjustGlobally after. Takes the map by value and returns
 /// the next one: it can run beside readers. At least one loop.
 Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& camera,
-              const FuseOptions& options);
+              const LoopSpreadOptions& spread, const FuseOptions& fuse);
 
 /// A global adjustment and the map it was made of, which has grown on since.
 struct GlobalCorrection {

@@ -100,7 +100,7 @@ void MapKeeper::StartClosing(const std::vector<LoopEdge>& agreeing, std::int64_t
   const std::int64_t due_frame = frame_now + schedule.loop_frames +
                                  std::ssize(map_.keyframes()) / schedule.keyframes_per_loop_frame;
   closing_.Start(due_frame, schedule.background, [map = map_, agreeing, this] {
-    return CloseLoop(map, agreeing, camera_, options_.mapping.fuse);
+    return CloseLoop(map, agreeing, camera_, options_.loop.spread, options_.mapping.fuse);
   });
 }
 

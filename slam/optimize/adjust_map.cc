@@ -183,9 +183,8 @@ MapEdit JoinParts(const Map& map, const LoopEdge& loop) {
   return edit;
 }
 
-MapEdit SpreadLoops(const Map& map, const std::vector<LoopEdge>& loops) {
-  constexpr int kStrong = 100;  // shared landmarks
-  constexpr int kIterations = 30;
+MapEdit SpreadLoops(const Map& map, const std::vector<LoopEdge>& loops,
+                    const LoopSpreadOptions& options) {
   PoseGraph graph;
   std::vector<KeyframeId> keyframes;
   std::map<KeyframeId, int> index;
@@ -196,22 +195,23 @@ MapEdit SpreadLoops(const Map& map, const std::vector<LoopEdge>& loops) {
   }
   const auto connect = [&](KeyframeId from, KeyframeId to) {
     graph.edges.push_back({index.at(from), index.at(to),
-                           map.At(from).T_world_rig.inverse() * map.At(to).T_world_rig});
+                           map.At(from).T_world_rig.inverse() * map.At(to).T_world_rig,
+                           options.sigma_m, options.sigma_rad});
   };
   for (const KeyframeId id : keyframes) {
     const KeyframeId parent = map.At(id).parent;
     if (parent.valid()) connect(parent, id);
-    for (const Covisible& covisible : CovisibleKeyframes(map, id, kStrong)) {
+    for (const Covisible& covisible : CovisibleKeyframes(map, id, options.strong_shared)) {
       if (covisible.keyframe < id && covisible.keyframe != parent) connect(covisible.keyframe, id);
     }
   }
   for (const LoopEdge& loop : loops) {
     if (!map.Find(loop.matched) || !map.Find(loop.current)) continue;
     graph.edges.push_back({index.at(loop.matched), index.at(loop.current), loop.T_matched_current,
-                           0.02, 0.005, true});
+                           options.sigma_m, options.sigma_rad, true});
   }
   MapEdit edit;
-  if (!Solve(graph, kIterations).usable) return edit;
+  if (!Solve(graph, options.iterations).usable) return edit;
   std::map<KeyframeId, Eigen::Isometry3d> T_new_old;  // of the world around each keyframe
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
     const Eigen::Isometry3d T_world_rig = Normalized(graph.poses[i].T_rig_world.inverse());

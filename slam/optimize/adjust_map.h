@@ -53,8 +53,21 @@ struct LoopEdge {
 /// where the loop says it is. Nothing where both ends are of one part.
 MapEdit JoinParts(const Map& map, const LoopEdge& loop);
 
-/// Spreads the error of loops over the essential graph: spanning tree, strong covisibility, and the
-/// loops. Landmarks move with the first keyframe that saw them.
-MapEdit SpreadLoops(const Map& map, const std::vector<LoopEdge>& loops);
+/// How the error of loops is shared out. What one keyframe tells of another's pose deviates by so
+/// much, neighbours and loops alike: a loop counts for no more than the drift that it corrects.
+struct LoopSpreadOptions {
+  double sigma_m = 0.02;     ///< translation
+  double sigma_rad = 0.005;  ///< rotation
+  int strong_shared = 100;   ///< landmarks from which on two keyframes are held together directly
+  int iterations = 30;
+};
+
+/// Names every option with its range, unit and a sentence.
+void Describe(OptionFields& fields, LoopSpreadOptions& options);
+
+/// Spreads the error of loops over the essential graph (Mur-Artal et al. 2015, III-E): spanning
+/// tree, strong covisibility, and the loops. Landmarks move with the first keyframe that saw them.
+MapEdit SpreadLoops(const Map& map, const std::vector<LoopEdge>& loops,
+                    const LoopSpreadOptions& options);
 
 }  // namespace aisle::slam

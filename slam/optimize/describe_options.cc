@@ -37,6 +37,17 @@ void Describe(OptionFields& fields, LocalAdjustmentOptions& options) {
               "An observation that the first pass drops may come back after the second.");
 }
 
+void Describe(OptionFields& fields, LoopSpreadOptions& options) {
+  fields.Number("sigma_m", &options.sigma_m, {1e-4, 100}, "m",
+                "Deviation of the translation between two keyframes, neighbours or a loop's.");
+  fields.Number("sigma_rad", &options.sigma_rad, {1e-5, 3}, "rad",
+                "Deviation of the rotation between two keyframes, neighbours or a loop's.");
+  fields.Integer("strong_shared", &options.strong_shared, {1, 100000}, "landmarks",
+                 "Keyframes that share so many are held together besides the spanning tree.");
+  fields.Integer("iterations", &options.iterations, {1, 1000}, "",
+                 "Most iterations of the pose graph.");
+}
+
 void Describe(OptionFields& fields, GlobalAdjustmentOptions& options) {
   DescribePasses(fields, &options.robust_iterations, &options.final_iterations);
 }

@@ -13,8 +13,8 @@ struct PoseGraph {
     int from = 0, to = 0;  ///< indices of poses
     /// T_rig_world(from) T_world_rig(to): where `to` stands, seen from `from`.
     Eigen::Isometry3d T_from_to = Eigen::Isometry3d::Identity();
-    double sigma_m = 0.02;      ///< deviation of the translation
-    double sigma_rad = 0.005;   ///< deviation of the rotation
+    double sigma_m = 1;         ///< deviation of the translation
+    double sigma_rad = 1;       ///< deviation of the rotation
     bool may_be_wrong = false;  ///< robustified (a loop), or trusted (neighbours)
   };
   std::vector<BundleProblem::Pose> poses;

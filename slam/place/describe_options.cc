@@ -38,6 +38,7 @@ void Describe(OptionFields& fields, LoopOptions& options) {
                 "No correction is larger than this share of the path in between, drift_m aside.");
   fields.Number("drift_m", &options.drift_m, {0, 1e6}, "m",
                 "Translation of a correction that any loop may ask for.");
+  fields.Group("spread", &options.spread);
 }
 
 }  // namespace aisle::slam

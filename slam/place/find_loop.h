@@ -31,6 +31,7 @@ struct LoopOptions {
   double consistency_deg = 1.0;  ///< rotation by which two corrections may differ
   double drift_share = 0.02;     ///< of the path in between: no correction may be larger, ...
   double drift_m = 0.3;          ///< ... this aside: racks that look alike stand further apart
+  LoopSpreadOptions spread;      ///< of a correction that is made
 };
 
 /// Names every option with its range, unit and a sentence.

@@ -66,7 +66,8 @@ bool NeedsKeyframe(const Map& map, const Frame& frame, const FramePose& pose,
   const ClosePoints close = CountClose(frame, pose, camera.fx / options.close_baselines);
   const bool lacks_close =
       close.tracked < options.few_close && close.untracked > options.many_new_close;
-  const double share = map.keyframes().size() < 2 ? 0.4 : options.tracked_share;
+  const double share =
+      map.keyframes().size() < 2 ? options.first_tracked_share : options.tracked_share;
   return lacks_close || pose.pose.inliers < share * ProvenLandmarks(map, reference);
 }
 

@@ -13,4 +13,9 @@ namespace aisle::slam {
 std::optional<Eigen::Isometry3d> PredictMotion(const TrackMemory& memory, std::int64_t stamp_ns,
                                                const TrackOptions& options);
 
+/// Where the rig would be now if it had kept its motion, for longest_gap_s at most: T_world_rig.
+/// The world's origin while there is no map.
+Eigen::Isometry3d ReckonedPose(const Map& map, const TrackMemory& memory, std::int64_t stamp_ns,
+                               const TrackOptions& options);
+
 }  // namespace aisle::slam

@@ -176,6 +176,20 @@ Keyframe KeyframeOf(const Map& map, const std::shared_ptr<const Frame>& frame,
   return keyframe;
 }
 
+FramePose PoseOfKeyframe(const Map& map, KeyframeId id) {
+  const Keyframe& keyframe = map.At(id);
+  FramePose pose;
+  pose.pose.T_rig_world = keyframe.T_world_rig.inverse();
+  pose.local.reference = id;
+  for (std::size_t i = 0; i < keyframe.landmarks.size(); ++i) {
+    const LandmarkId landmark = keyframe.landmarks[i];
+    if (landmark.valid()) pose.matches.push_back({landmark, static_cast<int>(i), 0});
+  }
+  pose.pose.inliers = static_cast<int>(pose.matches.size());
+  pose.pose.inlier.assign(pose.matches.size(), true);
+  return pose;
+}
+
 std::optional<FramePose> LocateByKeyframe(const PlainContext& context, KeyframeId keyframe) {
   const auto first = RecogniseKeyframe(context, keyframe);
   return first ? RefineInLocalMap(context, *first) : std::nullopt;

@@ -48,4 +48,7 @@ std::optional<FramePose> LocateByKeyframe(const PlainContext& context, KeyframeI
 Keyframe KeyframeOf(const Map& map, const std::shared_ptr<const Frame>& frame,
                     const FramePose& pose);
 
+/// The pose of the frame that keyframe `id` was made of, with all its landmarks taking part.
+FramePose PoseOfKeyframe(const Map& map, KeyframeId id);
+
 }  // namespace aisle::slam

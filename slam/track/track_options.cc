@@ -54,6 +54,8 @@ void Describe(OptionFields& fields, KeyframeOptions& options) {
   fields.Number("tracked_share", &options.tracked_share, {0, 1}, "",
                 "A frame becomes a keyframe when it tracks less than this share of the reference "
                 "keyframe's landmarks.");
+  fields.Number("first_tracked_share", &options.first_tracked_share, {0, 1}, "",
+                "The same while the map has only one keyframe.");
   fields.Integer("least_inliers", &options.least_inliers, {3, 10000}, "",
                  "A frame with fewer inliers is no keyframe.");
   fields.Number("close_baselines", &options.close_baselines, {0.1, 10000}, "baselines",

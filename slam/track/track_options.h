@@ -40,13 +40,14 @@ struct TrackOptions {
 
 /// When a frame becomes a keyframe.
 struct KeyframeOptions {
-  double tracked_share = 0.75;  ///< of the reference keyframe's landmarks; below: new keyframe
-  int least_inliers = 15;       ///< a worse frame is no keyframe
-  double close_baselines = 40;  ///< depth up to which a stereo point counts as close
-  int few_close = 100;          ///< tracked close points below this ...
-  int many_new_close = 70;      ///< ... with more untracked than this: new keyframe
-  double least_motion = 0.01;   ///< translation over median depth ...
-  double least_turn_deg = 1.0;  ///< ... or turn since the reference keyframe: no flood at rest
+  double tracked_share = 0.75;       ///< of the reference keyframe's landmarks; below: new keyframe
+  double first_tracked_share = 0.4;  ///< the same while the map's only keyframe is the reference
+  int least_inliers = 15;            ///< a worse frame is no keyframe
+  double close_baselines = 40;       ///< depth up to which a stereo point counts as close
+  int few_close = 100;               ///< tracked close points below this ...
+  int many_new_close = 70;           ///< ... with more untracked than this: new keyframe
+  double least_motion = 0.01;        ///< translation over median depth ...
+  double least_turn_deg = 1.0;       ///< ... or turn since the reference keyframe: no flood at rest
 };
 
 /// Names every option with its range, unit and a sentence.

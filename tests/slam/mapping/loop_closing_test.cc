@@ -17,7 +17,7 @@ TEST(LoopClosing, SpreadingALoopTakesMostOfTheDriftAway) {
   const double drift_m = Ring().WorstErrorM(Ring().map());
   ASSERT_GT(drift_m, 0.5);
   Map map = Ring().map();
-  map.Apply(SpreadLoops(map, Ring().Loops()));
+  map.Apply(SpreadLoops(map, Ring().Loops(), {}));
   EXPECT_LT(Ring().WorstErrorM(map), 0.4 * drift_m);
   // The new visit and the old one are one place again.
   for (const LoopEdge& loop : Ring().Loops()) {
@@ -30,7 +30,7 @@ TEST(LoopClosing, SpreadingALoopTakesMostOfTheDriftAway) {
 
 TEST(LoopClosing, LandmarksMoveWithTheKeyframesThatSeeThem) {
   Map map = Ring().map();
-  map.Apply(SpreadLoops(map, Ring().Loops()));
+  map.Apply(SpreadLoops(map, Ring().Loops(), {}));
   // Neighbours are corrected nearly alike; a landmark left behind would be hundreds of pixels off.
   for (const Landmark* landmark : map.Landmarks()) {
     for (const Observation& observation : landmark->observations) {
@@ -46,13 +46,13 @@ TEST(LoopClosing, LandmarksMoveWithTheKeyframesThatSeeThem) {
 
 TEST(LoopClosing, WithoutLoopsNothingIsSpread) {
   Map map = Ring().map();
-  map.Apply(SpreadLoops(map, {}));
+  map.Apply(SpreadLoops(map, {}, {}));
   EXPECT_NEAR(Ring().WorstErrorM(map), Ring().WorstErrorM(Ring().map()), 1e-6);
 }
 
 TEST(LoopClosing, AClosedLoopIsOnePlaceAndAsExactAsItsMeasurements) {
-  Map closed = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {});
-  closed.Apply(CarryOver(closed, CorrectGlobally(closed, Ring().camera(), {})));
+  Map closed = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {}, {});
+  closed.Apply(CarryOver(closed, CorrectGlobally(closed, Ring().camera(), {}, {})));
   EXPECT_LT(Ring().WorstErrorM(closed), 0.02);
   // What was mapped twice is one: every second visit shares its landmarks with the first.
   EXPECT_LT(closed.landmark_count(), Ring().map().landmark_count());
@@ -65,16 +65,16 @@ TEST(LoopClosing, AClosedLoopIsOnePlaceAndAsExactAsItsMeasurements) {
 }
 
 TEST(LoopClosing, GivesTheSameBitsAgain) {
-  const Map a = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {});
-  const Map b = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {});
+  const Map a = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {}, {});
+  const Map b = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {}, {});
   for (const auto& [id, keyframe] : a.keyframes()) {
     EXPECT_EQ(keyframe->T_world_rig.matrix(), b.At(id).T_world_rig.matrix()) << id.value;
   }
 }
 
 TEST(LoopClosing, WhatIsMappedDuringTheGlobalAdjustmentMovesAlong) {
-  const Map closed = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {});
-  const GlobalCorrection correction = CorrectGlobally(closed, Ring().camera(), {});
+  const Map closed = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {}, {});
+  const GlobalCorrection correction = CorrectGlobally(closed, Ring().camera(), {}, {});
   // Meanwhile a keyframe joins and sees a landmark of its own.
   Map grown = closed;
   const KeyframeId parent = Ring().Loops().back().current;

@@ -61,7 +61,7 @@ TEST(SolvePoseGraph, ClosesARing) {
     drift << 0.01, 0, -0.005, 0, 0.003, 0;
     // From the older pose to the newer one, with drift.
     const Eigen::Isometry3d T_from_to = Retract(truth[k - 1] * truth[k].inverse(), drift);
-    graph.edges.push_back({i - 1, i, T_from_to});
+    graph.edges.push_back({i - 1, i, T_from_to, 0.02, 0.005});
     graph.poses.push_back({T_from_to.inverse() * graph.poses[k - 1].T_rig_world, false});
   }
   const auto end_error = [&] {
