@@ -39,15 +39,29 @@ TEST(ScaledValueTest, WholeNumbersGoToTheNearestThatTheRulesAllow) {
 }
 
 TEST(ScaledValueTest, NothingWhereTheValueStays) {
-  SystemOption zero{
-      .path = "dynamic.robust.field.bias", .value = "0", .low = -10, .high = 0, .choices = {}};
+  SystemOption zero{.path = "dynamic.robust.field.bias",
+                    .value = "0",
+                    .low = -10,
+                    .high = 0,
+                    .choices = {},
+                    .unit = "",
+                    .help = ""};
   EXPECT_FALSE(ScaledValue(zero, 2, BuiltIn("robust")));
-  SystemOption full{
-      .path = "dynamic.robust.field.memory", .value = "1", .low = 0, .high = 1, .choices = {}};
+  SystemOption full{.path = "dynamic.robust.field.memory",
+                    .value = "1",
+                    .low = 0,
+                    .high = 1,
+                    .choices = {},
+                    .unit = "",
+                    .help = ""};
   EXPECT_FALSE(ScaledValue(full, 2, BuiltIn("robust")));
   EXPECT_EQ(ScaledValue(full, 0.5, BuiltIn("robust")), "0.5");
-  const SystemOption flag{
-      .path = "equal_columns", .kind = Kind::kFlag, .value = "false", .choices = {}};
+  const SystemOption flag{.path = "equal_columns",
+                          .kind = Kind::kFlag,
+                          .value = "false",
+                          .choices = {},
+                          .unit = "",
+                          .help = ""};
   EXPECT_FALSE(ScaledValue(flag, 2, BuiltIn("robust")));
 }
 

@@ -52,7 +52,7 @@ TEST(LoopClosing, WithoutLoopsNothingIsSpread) {
 
 TEST(LoopClosing, AClosedLoopIsOnePlaceAndAsExactAsItsMeasurements) {
   Map closed = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {}, {});
-  closed.Apply(CarryOver(closed, CorrectGlobally(closed, Ring().camera(), {}, {})));
+  closed.Apply(CarryOver(closed, CorrectGlobally(closed, Ring().camera(), {})));
   EXPECT_LT(Ring().WorstErrorM(closed), 0.02);
   // What was mapped twice is one: every second visit shares its landmarks with the first.
   EXPECT_LT(closed.landmark_count(), Ring().map().landmark_count());
@@ -74,7 +74,7 @@ TEST(LoopClosing, GivesTheSameBitsAgain) {
 
 TEST(LoopClosing, WhatIsMappedDuringTheGlobalAdjustmentMovesAlong) {
   const Map closed = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {}, {});
-  const GlobalCorrection correction = CorrectGlobally(closed, Ring().camera(), {}, {});
+  const GlobalCorrection correction = CorrectGlobally(closed, Ring().camera(), {});
   // Meanwhile a keyframe joins and sees a landmark of its own.
   Map grown = closed;
   const KeyframeId parent = Ring().Loops().back().current;
