@@ -20,8 +20,9 @@ struct DenseFrame {
   Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();  ///< by the motions found
 };
 
-/// Information on where a window is, per pixel: the sum of gradient products over the variance of
-/// the difference of two images, in 1 / squared pixels, less what noise alone would give.
+/// The structure tensor (Foerstner and Guelch 1987), per pixel: information on where a window is,
+/// the sum of gradient products over the variance of the difference of two images, in 1 / squared
+/// pixels, less what noise alone would give.
 struct Texture {
   cv::Mat1f xx, xy, yy;
 };

@@ -39,8 +39,8 @@ double MatchChi2(const StereoCamera& camera, const Eigen::Isometry3d& T_now_befo
 
 /// The motion of the rig between two frames from stereo points: candidates are the prediction,
 /// standing still and three-point samples; the one with most trust behind it wins, discounted where
-/// a vehicle could not do it, so a crowd that moves as one does not become the world. Refined by
-/// robust least squares.
+/// a vehicle could not do it, so a crowd that moves as one does not become the world (RANSAC,
+/// Fischler and Bolles 1981). Refined by robust least squares (Geman and McClure 1985).
 EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
                             const std::optional<MotionPrior>& prior, const MeasurementNoise& noise,
                             const EgoMotionOptions& options);

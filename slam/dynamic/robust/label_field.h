@@ -11,8 +11,9 @@ struct Links {
   cv::Mat1f right, down;
 };
 
-/// Ties within a surface: weak across a step of disparity (halved by the tolerance, and soon none)
-/// or of grey, and none between the floor and what stands on it.
+/// Ties within a surface, as the contrast-sensitive ones of Boykov and Jolly (2001): weak across a
+/// step of disparity (halved by the tolerance, and soon none) or of grey, and none between the
+/// floor and what stands on it.
 Links LinkPixels(const cv::Mat1f& filled, const cv::Mat1b& image, const cv::Mat1b& floor,
                  const DisparityTolerance& tolerance, const FieldOptions& options);
 

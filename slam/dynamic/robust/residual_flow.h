@@ -20,7 +20,8 @@ cv::Mat2f FollowBack(const cv::Mat1b& now, const FlowPyramid& pyramid, const cv:
 /// The earlier image at the given places; the image's border is repeated outside.
 cv::Mat1b SampleAt(const cv::Mat1b& image, const cv::Mat2f& places);
 
-/// One pixel of each cell: where the texture holds best, of those with a disparity.
+/// One pixel of each cell: where the texture holds best, by the smaller eigenvalue of the structure
+/// tensor (Shi and Tomasi 1994), of those with a disparity.
 std::vector<cv::Point> WellHeld(const Texture& texture, const cv::Mat1f& disparity, int cell_px);
 
 /// Points measured in both frames; full pixels. Each is followed by itself from where the flow

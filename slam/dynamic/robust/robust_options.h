@@ -9,7 +9,9 @@
 
 // Every constant of the robust method on one page. Lengths are in pixels of the half-size images
 // unless they say otherwise. What could depend on a scene is in units of noise that is measured
-// while running, or in metres a second; reports/dynamic_methods.md says how the rest was found.
+// while running, or in metres a second. What is no option is no matter of taste: bounds of
+// chi-square, effort after which a solver changes nothing, limits of number types and of matchers.
+// reports/sensitivity.md says what halving and doubling each of them does.
 
 namespace aisle::slam::dynamic {
 
@@ -27,7 +29,7 @@ struct SurfaceOptions {
 
 /// How far two disparities of one surface may be apart, see DisparityTolerance.
 struct ToleranceOptions {
-  double sigmas = 2.5;  ///< deviations of the disparity, as it is learned while running
+  double sigmas = 2;    ///< deviations of the disparity, as it is learned while running
   double share = 0.04;  ///< of the disparity: surfaces stretch along the line of sight
   /// By which share a frame moves the noise that is learned, of disparity and of flow.
   double learning_rate = 0.1;
