@@ -123,12 +123,13 @@ std::string Losses(const std::vector<JudgedSet>& sets) {
 }
 
 std::string Training(const SearchReport& report) {
+  if (report.trials.size() < 2) return {};
   int given_up = 0;
   for (const Trial& trial : report.trials) given_up += trial.given_up;
   return fmt::format(
       "{} sets of options of `{}` tried on the training stretches, {} of them given up half way. "
       "Score of a set: mean of objects' F1 and of pixel IoU. Found: the best whose detector takes "
-      "at most {:g} times the tracking.\n",
+      "at most {:g} times the tracking.\n\n",
       report.trials.size(), report.system, given_up, report.time_limit);
 }
 
@@ -149,7 +150,7 @@ std::string TrialLine(const Trial& trial) {
 
 std::string ToMarkdown(const SearchReport& report) {
   std::string text = fmt::format(
-      "{}\n{}\nOn the judging stretches:\n\n{}\nBy scene:\n\n{}\nWhere the large movers of the "
+      "{}{}\nOn the judging stretches:\n\n{}\nBy scene:\n\n{}\nWhere the large movers of the "
       "judging stretches were lost:\n\n{}",
       Training(report), Constants(report), Judged(report.judged), ByScene(report.judged),
       Losses(report.judged));

@@ -6,8 +6,8 @@
 
 // Every constant of the paper's method ("Robust Stereo Visual SLAM for Dynamic Environments With
 // Moving Object", sections III-A and III-B) on one page. The paper prints none of their values and
-// says that they were set by experience; reports/dynamic_methods.md says how each default was
-// found.
+// says that they were set by experience. Those marked "searched" were found together, by trying
+// sets of them on stretches of drives (reports/paper_constants.md): each is good beside the others.
 
 namespace aisle::slam::dynamic {
 
@@ -20,16 +20,16 @@ struct DisparityOptions {
   int left_right_px = 2;       ///< allowed disagreement of left-to-right and right-to-left
   /// Match images of half the size: an eighth of the work. All of the above stay in pixels of the
   /// whole image but block_px, which covers twice as much of the scene then.
-  bool half_size = false;
+  bool half_size = true;
 };
 
 /// FAST corners from square regions, thinned by a quadtree.
 struct SpreadOptions {
-  int points = 500;            ///< N, the leaves of the quadtree
-  int cell_px = 40;            ///< side of the square regions
-  int fast_threshold = 20;     ///< grey levels
-  int fast_threshold_low = 7;  ///< grey levels, for regions where the first finds nothing
-  int border_px = 8;           ///< no point closer than this to the image's edge
+  int points = 305;             ///< N, the leaves of the quadtree; searched
+  int cell_px = 23;             ///< side of the square regions; searched
+  int fast_threshold = 20;      ///< grey levels
+  int fast_threshold_low = 10;  ///< grey levels, where the first finds nothing; searched
+  int border_px = 8;            ///< no point closer than this to the image's edge
 };
 
 /// Lucas-Kanade.
@@ -44,7 +44,7 @@ struct FlowOptions {
 
 /// Fundamental matrix: nine-point algorithm inside RANSAC.
 struct FundamentalOptions {
-  double inlier_px = 0.5;     ///< epipolar distance (2) up to which a pair supports a hypothesis
+  double inlier_px = 0.201;   ///< epipolar distance (2) of a pair that supports one; searched
   int max_iterations = 300;   ///< hypotheses at most
   double confidence = 0.999;  ///< stop when a clean sample has been drawn with this probability
   std::uint64_t seed = 1;     ///< of the samples
@@ -57,25 +57,25 @@ struct FundamentalOptions {
 
 /// Threshold of the epipolar distance, equation (3): T_epi = alpha + beta * d.
 struct EpipolarOptions {
-  double alpha_px = 0.8;  ///< alpha_epi
-  double beta = 0.01;     ///< beta_epi, pixels of distance per pixel of disparity
+  double alpha_px = 0.654;  ///< alpha_epi; searched
+  double beta = 0.00522;    ///< beta_epi, pixels of distance per pixel of disparity; searched
 };
 
 /// Groups of dynamic points, equation (4): T_s = alpha + beta * d, and their regions of interest.
 struct GroupOptions {
-  double alpha_px = 25;     ///< alpha_s
-  double beta = 1.5;        ///< beta_s, pixels of distance per pixel of disparity
-  double disparity_px = 4;  ///< T_disp
-  int min_points = 5;       ///< "more than four dynamic features"
+  double alpha_px = 49.4;     ///< alpha_s; searched
+  double beta = 3.22;         ///< beta_s, pixels of distance per pixel of disparity; searched
+  double disparity_px = 3.5;  ///< T_disp; searched
+  int min_points = 5;         ///< "more than four dynamic features"
   /// A region of interest is the box of its points grown by this share of T_s: the outline to be
-  /// found lies outside the outermost points.
-  double roi_margin = 1.0;
+  /// found lies outside the outermost points. Searched.
+  double roi_margin = 0.567;
 };
 
 /// SLIC, equations (5) to (7).
 struct SuperpixelOptions {
-  double step_px = 14;  ///< S_step = N_s, equation (6): K = image area / S_step^2
-  int iterations = 10;  ///< at most; fewer once nothing changes
+  double step_px = 16.3;  ///< S_step = N_s, equation (6): K = image area / S_step^2; searched
+  int iterations = 10;    ///< at most; fewer once nothing changes
   /// N_c as a share of the image's grey range (5th to 95th percentile): "determined from the
   /// image".
   double colour_share = 0.12;
@@ -89,18 +89,19 @@ struct PlaneOptions {
   std::uint64_t seed = 2;  ///< of the samples
 };
 
-/// Boundary energy, equations (9) to (11); all in squared pixels of disparity.
+/// Boundary energy, equations (9) to (11); all in squared pixels of disparity, all searched.
 struct BoundaryOptions {
-  double lambda_occlusion = 15;  ///< price of an occlusion
-  double lambda_hinge = 5;       ///< price of a hinge, below the occlusion's
-  double lambda_penalty = 30;    ///< added when the surface named as the front lies behind
+  double lambda_occlusion = 18.7;  ///< price of an occlusion
+  double lambda_hinge = 10.7;      ///< price of a hinge, below the occlusion's
+  double lambda_penalty = 17.6;    ///< added when the surface named as the front lies behind
 };
 
 /// The search from dynamic points to occlusion boundaries.
 struct MarkOptions {
   /// A point counts only where this many of its four rays found an occlusion: "points not
-  /// surrounded by boundaries labelled as occlusion" make no region.
-  int min_rays = 2;
+  /// surrounded by boundaries labelled as occlusion" make no region. Searched: one is enough, as
+  /// what faces the floor or fills the region of interest has no boundary on most of its sides.
+  int min_rays = 1;
 };
 
 /// All of them.

@@ -36,7 +36,9 @@ struct TwoFrames {
     current = test::Render(panels, kCamera, T_previous_current, kStep);
     features = SpreadFeatures(previous.left, {});
     tracks = TrackPoints(previous.left, current.left, features, {});
-    disparity = ComputeDisparity(current.left, current.right, {});
+    DisparityOptions whole_size;  // the steps after it are tested on the finest there is
+    whole_size.half_size = false;
+    disparity = ComputeDisparity(current.left, current.right, whole_size);
   }
 
   /// Where a pixel of the previous frame is seen in the current one.
@@ -183,7 +185,7 @@ TEST(FitDisparityPlanesOnAFrame, AreTheTruePlanesOfTheSurfaces) {
   ASSERT_GE(rms.size(), 60U);
   EXPECT_GT(static_cast<double>(rms.size()), 0.9 * static_cast<double>(pure));
   std::sort(rms.begin(), rms.end());
-  EXPECT_LT(rms[rms.size() / 2], 0.3);
+  EXPECT_LT(rms[rms.size() / 2], 0.33);  // pixels, of superpixels of 16 by 16
   EXPECT_LT(rms[rms.size() * 9 / 10], 1.5);
 }
 
