@@ -18,10 +18,10 @@ struct WayPoint {
 /// One stretch: a drive, a turn on the spot, a pause.
 struct WayLeg {
   enum class Kind { kDrive, kTurn, kPause } kind = Kind::kPause;
-  double duration_s = 0;         ///< as planned
+  double duration_s = 0;              ///< as planned
   std::vector<WayPoint> points = {};  ///< of a drive: two or more, distances rise from 0
-  bool reverse = false;          ///< of a drive: backwards
-  double turn_to_rad = 0;        ///< of a turn: the vehicle's heading at its end
+  bool reverse = false;               ///< of a drive: backwards
+  double turn_to_rad = 0;             ///< of a turn: the vehicle's heading at its end
 
   double length_m() const { return points.empty() ? 0 : points.back().distance_m; }
 };

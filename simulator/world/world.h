@@ -70,8 +70,8 @@ struct MoverState {
 /// The moving part of the world at one instant.
 struct Snapshot {
   std::int64_t stamp_ns = 0;
-  std::vector<MoverState> movers;  ///< in the order of World::mover_meshes()
-  std::vector<float> light_scale;  ///< per light: 1 as built, 0 switched off
+  std::vector<MoverState> movers;       ///< in the order of World::mover_meshes()
+  std::vector<float> light_scale;       ///< per light: 1 as built, 0 switched off
   std::vector<ActorClock> clocks = {};  ///< per mover; empty: all keep the scene's time
 };
 

@@ -41,27 +41,27 @@ TEST(ScaledValueTest, WholeNumbersGoToTheNearestThatTheRulesAllow) {
 TEST(ScaledValueTest, NothingWhereTheValueStays) {
   SystemOption zero{.path = "dynamic.robust.field.bias",
                     .value = "0",
+                    .unit = "",
+                    .help = "",
                     .low = -10,
                     .high = 0,
-                    .choices = {},
-                    .unit = "",
-                    .help = ""};
+                    .choices = {}};
   EXPECT_FALSE(ScaledValue(zero, 2, BuiltIn("robust")));
   SystemOption full{.path = "dynamic.robust.field.memory",
                     .value = "1",
+                    .unit = "",
+                    .help = "",
                     .low = 0,
                     .high = 1,
-                    .choices = {},
-                    .unit = "",
-                    .help = ""};
+                    .choices = {}};
   EXPECT_FALSE(ScaledValue(full, 2, BuiltIn("robust")));
   EXPECT_EQ(ScaledValue(full, 0.5, BuiltIn("robust")), "0.5");
   const SystemOption flag{.path = "equal_columns",
                           .kind = Kind::kFlag,
                           .value = "false",
-                          .choices = {},
                           .unit = "",
-                          .help = ""};
+                          .help = "",
+                          .choices = {}};
   EXPECT_FALSE(ScaledValue(flag, 2, BuiltIn("robust")));
 }
 
