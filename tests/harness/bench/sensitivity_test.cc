@@ -97,7 +97,7 @@ TEST(SensitivityTableTest, ARowAnOptionWithBothChanges) {
   Sensitivity sensitivity;
   sensitivity.base = {0.9, 0.8, 0.01};
   OptionSensitivity one;
-  one.option = {.path = "a.b", .value = "2", .choices = {}};
+  one.option = {.path = "a.b", .value = "2", .unit = "", .help = "", .choices = {}};
   one.halved = {"1", {0.85, 0.81, 0.0125}};
   one.effect = 0.05;
   sensitivity.options = {one};
