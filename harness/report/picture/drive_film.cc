@@ -133,11 +133,11 @@ cv::Mat3b DriveView::At(std::size_t index) const {
   sheet.Text(fmt::format("{:.1f} s  {:.2f} m/s  {}", 1e-9 * static_cast<double>(now.stamp_ns),
                          now.speed_mps, InWords(now.mode)),
              0);
-  sheet.Text(
-      fmt::format("off its route {:+.1f} cm, believes {:.1f} cm from truth",
-                  100 * now.cross_track_m, 100 * (now.belief.position - now.truth.position).norm()),
-      1);
-  if (touched != nullptr) sheet.Text("touches " + touched->with, 2);
+  sheet.Text(fmt::format("off its route {:+.1f} cm", 100 * now.cross_track_m), 1);
+  sheet.Text(fmt::format("believes to be {:.1f} cm away",
+                         100 * (now.belief.position - now.truth.position).norm()),
+             2);
+  if (touched != nullptr) sheet.Text("touches " + touched->with, 3);
   return sheet.picture;
 }
 
