@@ -93,10 +93,10 @@ TEST_F(BrokenInputTest, SuitesAndScenes) {
        "(seconds until the command is ended); example: timeout_s: 600"},
       {run, WithSystem("{name: m, contract: ros, command: x}"),
        "aisle: {d}/s.yaml:4:31: systems[0].contract: expected one of vslam-lab, vslam-lab-python, "
-       "got 'ros' "
+       "stream, got 'ros' "
        "(vslam-lab: the system was wrapped for VSLAM-LAB, unchanged; vslam-lab-python: and takes "
-       "its "
-       "arguments as --key value); example: contract: vslam-lab"},
+       "its arguments as --key value; stream: it is shown frames on its stdin and answers each on "
+       "its stdout, so that it can steer); example: contract: vslam-lab"},
       {run, WithSystem("{name: n, like: paper, mask_errors: {boundary_px: 1}}"),
        "aisle: {d}/s.yaml:4:18: systems[0].name: 'mask_errors' are for a system like oracle or "
        "semantic, which are told their masks"},
