@@ -101,7 +101,7 @@ void AddBenchSensitivity(CLI::App* bench, Action* action) {
                       "the block of a page alone is sensitivity");
   command->add_option("--json", options->json, "write every figure there too");
   command->footer(
-      "A value stays within its option's range. The rows of seeds say what luck changes.\n"
+      "A value stays within its option's range.\n"
       "Example: ./aisle bench sensitivity paper/scene2:60-80@2 paper/scene5:420-440@5 --only "
       "dynamic.robust.field --frames-dir frames");
   command->callback([=] {

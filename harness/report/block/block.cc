@@ -1,9 +1,8 @@
 #include "harness/report/block/block.h"
 
-#include <ctime>
-
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/places.h"
 #include "harness/record/provenance.h"
 
 namespace aisle {
@@ -26,13 +25,6 @@ std::size_t LineOf(const std::string& page, const BlockPlace& place, const std::
       Printable(place.file), mark,
       at == std::string::npos ? "is missing" : (once ? "is indented" : "is there twice"),
       place.block, place.block));
-}
-
-std::string Now() {
-  const std::time_t now = std::time(nullptr);
-  char text[sizeof "2026-01-01"] = "";
-  std::strftime(text, sizeof text, "%F", std::gmtime(&now));
-  return text;
 }
 
 }  // namespace
@@ -65,7 +57,7 @@ std::string BlockFoot(const Provenance& from, const std::string& command, const 
 }
 
 void WriteBlock(const BlockPlace& place, const std::string& table, const std::string& command) {
-  const std::string foot = BlockFoot(OwnProvenance(), command, Now());
+  const std::string foot = BlockFoot(OwnProvenance(), command, NowIso8601());
   WriteFileAtomically(place.file, WithBlock(ReadFile(place.file), place, table + "\n" + foot));
 }
 
