@@ -4,11 +4,10 @@
 #include "harness/cli/bench_source.h"
 #include "harness/cli/command.h"
 #include "harness/cli/dynamic_table.h"
+#include "harness/cli/page_block.h"
 #include "harness/cli/system_choice.h"
 #include "harness/cli/terminal.h"
-#include "harness/cli/typed_command.h"
 #include "harness/io/file.h"
-#include "harness/report/block/block.h"
 #include "harness/score/front_end.h"
 #include "harness/score/mask_scores.h"
 #include "harness/score/scorecard.h"
@@ -20,7 +19,8 @@ struct Options {
   std::vector<std::string> views;
   DynamicBenchOptions bench;
   SystemChoice system{.name = "robust", .set = {}};
-  std::string views_file, json, into;
+  std::string views_file, json;
+  PageBlock into{"views"};
 };
 
 /// Stretches in which something of every kind moves: across, along the axis, slowly, filling the
@@ -117,8 +117,7 @@ void PrintSum(const std::vector<DynamicOfView>& rows) {
 int BenchDynamic(const Options& options) {
   const DynamicBenchOptions& bench = options.bench;
   const std::vector<BenchView> views = ViewsOf(options);
-  const BlockPlace place = ParseBlockPlace(options.into, "views");
-  if (!options.into.empty()) WithBlock(ReadFile(place.file), place, "");  // before the first hour
+  options.into.Check();
   fmt::print("{}, after {} frames of warming up\n{}\n", bench.system.name, bench.warm_up,
              DynamicHeading());
   nlohmann::json json = nlohmann::json::array();
@@ -131,7 +130,7 @@ int BenchDynamic(const Options& options) {
   }
   PrintSum(rows);
   if (!options.json.empty()) WriteFileAtomically(options.json, json.dump(2) + "\n");
-  if (!options.into.empty()) WriteBlock(place, DynamicTable(ByScene(rows)), TypedCommand());
+  options.into.Write(DynamicTable(ByScene(rows)));
   return kAllPassed;
 }
 
@@ -163,9 +162,7 @@ void AddBenchDynamic(CLI::App* bench, Action* action) {
   command->add_option("--every", options->bench.every, "a picture every so many frames; default 10")
       ->check(CLI::Range(1, 100000));
   command->add_option("--json", options->json, "write counts and means there too");
-  command->add_option("--into", options->into,
-                      "PAGE or PAGE#BLOCK: rewrite that block of a Markdown page with the table; "
-                      "the block of a page alone is views");
+  options->into.AddTo(command);
   command->footer(
       "Over time, of large movers: after s, the longest that one which stays for 1 s or longer was "
       "not found (> where one never was); gap, the most frames in a row in which one once found "

@@ -1,12 +1,11 @@
 #include "harness/bench/light.h"
 #include "harness/cli/bench_foreign.h"
 #include "harness/cli/command.h"
-#include "harness/cli/typed_command.h"
+#include "harness/cli/page_block.h"
 #include "harness/io/file.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
-#include "harness/report/block/block.h"
 #include "harness/suite/suite.h"
 
 namespace aisle {
@@ -15,7 +14,8 @@ namespace {
 struct LightOptions {
   SimulatedSequenceOptions simulation;
   std::vector<std::string> views;
-  std::string out = "bench_light", into;
+  std::string out = "bench_light";
+  PageBlock into{"views"};
   LightComparisonOptions comparison;
   ForeignOptions foreign;
 };
@@ -61,8 +61,7 @@ int BenchLight(LightOptions options) {
   options.simulation.assets_dir = AssetsDir().string();
   const std::filesystem::path out = options.out;
   std::filesystem::create_directories(out);
-  const BlockPlace place = ParseBlockPlace(options.into, "views");
-  if (!options.into.empty()) WithBlock(ReadFile(place.file), place, "");  // before the first hour
+  options.into.Check();
   std::string table =
       "| view | frame | median relative error | SSIM | mean, nightly / reference "
       "| two half references: median | SSIM |\n"
@@ -97,7 +96,7 @@ int BenchLight(LightOptions options) {
   }
   if (!changes.empty()) table += "\n" + ChangeHeading() + changes;
   WriteFileAtomically(out / "light.md", table);
-  if (!options.into.empty()) WriteBlock(place, table, TypedCommand());
+  options.into.Write(table);
   fmt::print("pictures and the table: {}\n", out.string());
   return good ? kAllPassed : kVerdictFailed;
 }
@@ -111,9 +110,7 @@ void AddBenchLight(CLI::App* bench, Action* action) {
   command->add_option("VIEWS", options->views,
                       "SCENE or SCENE:FRAME (default: seven views with movers)");
   command->add_option("--out", options->out, "folder of the table and pictures (bench_light)");
-  command->add_option("--into", options->into,
-                      "PAGE or PAGE#BLOCK: rewrite that block of a Markdown page with the table; "
-                      "the block of a page alone is views");
+  options->into.AddTo(command);
   command->add_option("--samples", options->comparison.samples, "paths a pixel (default 256)")
       ->check(CLI::Range(1, 65536));
   command

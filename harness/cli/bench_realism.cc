@@ -3,13 +3,12 @@
 
 #include "harness/bench/realism.h"
 #include "harness/cli/command.h"
+#include "harness/cli/page_block.h"
 #include "harness/cli/terminal.h"
-#include "harness/cli/typed_command.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/picture/realism.h"
-#include "harness/report/block/block.h"
 
 namespace aisle {
 namespace {
@@ -18,7 +17,8 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::vector<std::string> folders;
-  std::string data, json, into;
+  std::string data, json;
+  PageBlock into{"sets"};
   int pictures = 24;
 };
 
@@ -67,8 +67,7 @@ nlohmann::json ToJson(const std::vector<PictureSet>& sets, bool real) {
 }
 
 int BenchRealism(const Options& options) {
-  const BlockPlace place = ParseBlockPlace(options.into, "sets");
-  if (!options.into.empty()) WithBlock(ReadFile(place.file), place, "");
+  options.into.Check();
   ProgressLine line;
   const auto show = [&](const std::string& at) { line.Show(at); };
   std::vector<PictureSet> given;
@@ -91,7 +90,7 @@ int BenchRealism(const Options& options) {
         Printable(data.lexically_normal().string()));
   }
   fmt::print("{}", Table(real, given));
-  if (!options.into.empty()) WriteBlock(place, Table(real, given), TypedCommand());
+  options.into.Write(Table(real, given));
   if (!options.json.empty()) {
     nlohmann::json rows = ToJson(real, true);
     for (nlohmann::json& row : ToJson(given, false)) rows.push_back(std::move(row));
@@ -123,9 +122,7 @@ void AddBenchRealism(CLI::App* bench, Action* action) {
   command->add_option("--pictures", options->pictures, "of a folder, at most, evenly (default 24)")
       ->check(CLI::Range(1, 100000));
   command->add_option("--json", options->json, "write every value there too");
-  command->add_option("--into", options->into,
-                      "PAGE or PAGE#BLOCK: rewrite that block of a Markdown page with the table; "
-                      "the block of a page alone is sets");
+  options->into.AddTo(command);
   command->footer(Definitions());
   command->callback([=] { *action = [=] { return BenchRealism(*options); }; });
 }

@@ -3,14 +3,13 @@
 #include "harness/bench/search.h"
 #include "harness/cli/bench_source.h"
 #include "harness/cli/command.h"
+#include "harness/cli/page_block.h"
 #include "harness/cli/search_axes.h"
 #include "harness/cli/search_table.h"
 #include "harness/cli/system_choice.h"
 #include "harness/cli/terminal.h"
-#include "harness/cli/typed_command.h"
 #include "harness/io/file.h"
 #include "harness/plugs/systems.h"
-#include "harness/report/block/block.h"
 
 namespace aisle {
 namespace {
@@ -23,7 +22,8 @@ struct Options {
   SearchOptions search;
   double time_limit = 1.67;
   int timed = 8, frontier = 8;
-  std::string json, into;
+  std::string json;
+  PageBlock into{"search"};
 };
 
 /// All that is read, before the first frame is rendered.
@@ -159,8 +159,7 @@ OptionSet OwnValues(const SystemSpec& system, const std::vector<SearchAxis>& axe
 
 int BenchSearch(Options options) {
   const Inputs inputs = Read(&options);
-  const BlockPlace place = ParseBlockPlace(options.into, "search");
-  if (!options.into.empty()) WithBlock(ReadFile(place.file), place, "");  // before the first hour
+  options.into.Check();
   SearchReport report{.system = options.system.name,
                       .axes = options.search.axes,
                       .own = OwnValues(inputs.system, options.search.axes),
@@ -183,7 +182,7 @@ int BenchSearch(Options options) {
   if (report.trials.size() > 1) report.frontier = JudgeSets(frontier, clips, inputs, options);
   const std::string text = ToMarkdown(report);
   fmt::print("\n{}", text);
-  if (!options.into.empty()) WriteBlock(place, text, TypedCommand());
+  options.into.Write(text);
   return kAllPassed;
 }
 
@@ -221,9 +220,7 @@ void AddBenchSearch(CLI::App* bench, Action* action) {
                       "keep rendered frames there and use what is there");
   command->add_option("--threads", options->source.threads, "of tracking; 0: all");
   command->add_option("--json", options->json, "write every set that was tried there");
-  command->add_option("--into", options->into,
-                      "PAGE or PAGE#BLOCK: rewrite that block of a Markdown page with the tables; "
-                      "the block of a page alone is search");
+  options->into.AddTo(command);
   command->footer(
       "The same seed tries the same sets: times steer nothing but which of the best is taken.\n"
       "Example: ./aisle bench search scenes/searches/paper_axes.txt --train "

@@ -3,13 +3,13 @@
 #include "harness/bench/sensitivity.h"
 #include "harness/cli/bench_source.h"
 #include "harness/cli/command.h"
+#include "harness/cli/page_block.h"
 #include "harness/cli/system_choice.h"
 #include "harness/cli/terminal.h"
 #include "harness/cli/typed_command.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/record/provenance.h"
-#include "harness/report/block/block.h"
 
 namespace aisle {
 namespace {
@@ -18,7 +18,8 @@ struct Options {
   std::vector<std::string> views;
   SensitivityOptions bench;
   SystemChoice system{.name = "robust", .set = {}};
-  std::string views_file, json, into;
+  std::string views_file, json;
+  PageBlock into{"sensitivity"};
 };
 
 using Json = nlohmann::ordered_json;
@@ -56,15 +57,14 @@ int BenchSensitivity(const Options& options) {
   if (!options.views_file.empty()) views = ReadViews(options.views_file);
   for (const std::string& text : options.views) views.push_back(ParseView(text));
   if (views.empty()) throw InputError("no view: expected SCENE:FROM-TO, or --views FILE");
-  const BlockPlace place = ParseBlockPlace(options.into, "sensitivity");
-  if (!options.into.empty()) WithBlock(ReadFile(place.file), place, "");  // before the first hour
+  options.into.Check();
   ProgressLine line;
   const Sensitivity sensitivity =
       MeasureSensitivity(views, options.bench, [&](const std::string& at) { line.Show(at); });
   line.Clear();
   const std::string table = ToMarkdown(sensitivity);
   fmt::print("{}", table);
-  if (!options.into.empty()) WriteBlock(place, table, TypedCommand());
+  options.into.Write(table);
   if (!options.json.empty()) {
     WriteFileAtomically(options.json, ToJson(sensitivity, OwnProvenance()).dump(2) + "\n");
   }
@@ -96,9 +96,7 @@ void AddBenchSensitivity(CLI::App* bench, Action* action) {
       ->add_option("--jobs", options->bench.jobs,
                    "drives side by side, each on one thread; 0: all threads; changes no figure")
       ->check(CLI::Range(0, 1024));
-  command->add_option("--into", options->into,
-                      "PAGE or PAGE#BLOCK: rewrite that block of a Markdown page with the table; "
-                      "the block of a page alone is sensitivity");
+  options->into.AddTo(command);
   command->add_option("--json", options->json, "write every figure there too");
   command->footer(
       "A value stays within its option's range.\n"

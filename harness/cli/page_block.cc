@@ -1,0 +1,27 @@
+#include "harness/cli/page_block.h"
+
+#include "harness/cli/typed_command.h"
+#include "harness/io/file.h"
+#include "harness/report/block/block.h"
+
+namespace aisle {
+
+void PageBlock::AddTo(CLI::App* command) {
+  command->add_option(
+      "--into", into_,
+      "PAGE or PAGE#BLOCK: rewrite that block of a Markdown page with the table; the block of a "
+      "page alone is " +
+          usual_);
+}
+
+void PageBlock::Check() const {
+  if (into_.empty()) return;
+  const BlockPlace place = ParseBlockPlace(into_, usual_);
+  WithBlock(ReadFile(place.file), place, "");
+}
+
+void PageBlock::Write(const std::string& table) const {
+  if (!into_.empty()) WriteBlock(ParseBlockPlace(into_, usual_), table, TypedCommand());
+}
+
+}  // namespace aisle
