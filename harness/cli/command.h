@@ -37,6 +37,7 @@ void AddBenchAccuracy(CLI::App* bench, Action* action);
 void AddBenchDynamic(CLI::App* bench, Action* action);
 void AddBenchLight(CLI::App* bench, Action* action);
 void AddBenchRealism(CLI::App* bench, Action* action);
+void AddBenchRender(CLI::App* bench, Action* action);
 void AddBenchSensitivity(CLI::App* bench, Action* action);
 void AddBenchSearch(CLI::App* bench, Action* action);
 void AddBenchSlam(CLI::App* bench, Action* action);

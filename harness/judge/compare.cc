@@ -26,7 +26,17 @@ constexpr Judged kJudged[] = {{"coverage", true, 0.01},
                               {"mask_iou", true},
                               {"static_features_lost", false},
                               {"mover_large_found_within_1s", true},
-                              {"mover_large_gap_max_frames", false, 1}};
+                              {"mover_large_gap_max_frames", false, 1},
+                              // Of closed drives, which alone have them; whole numbers and lengths
+                              // that are near zero when all is well.
+                              {"goal_reached", true, 0.01},
+                              {"collisions", false, 0.05},
+                              {"cross_track_max_m", false, 0.002},
+                              {"docking_error_m", false, 0.001},
+                              {"docking_error_deg", false, 0.02},
+                              {"min_clearance_static_m", true, 0.01},
+                              {"min_clearance_person_m", true, 0.02},
+                              {"lost_s", false, 0.05}};
 constexpr const char* kWatched[] = {"ms_process_mean", "ms_render_mean", "peak_rss_mib"};
 
 using Cell = std::tuple<std::string, std::string, std::string>;

@@ -102,10 +102,13 @@ TEST_F(CommandLineTest, DrivesFromSeveralStartsDifferFromEachOtherButNotFromThei
 
 TEST_F(CommandLineTest, WhatRenderingCostsIsWrittenForPrograms) {
   const std::string json = (folder_ / "render.json").string();
-  const Said said =
-      Run({"bench", "render", scene_, "--frames", "3", "--seed", "2", "--json", json});
+  const std::string page = (folder_ / "page.md").string();
+  WriteFileAtomically(page, "# Cost\n<!-- begin cost: simulator -->\n<!-- end cost -->\n");
+  const Said said = Run(
+      {"bench", "render", scene_, "--frames", "3", "--seed", "2", "--json", json, "--into", page});
   ASSERT_EQ(said.code, 0) << said.text;
-  const nlohmann::json cost = nlohmann::json::parse(ReadFile(json));
+  EXPECT_THAT(ReadFile(page), HasSubstr("| scene | pair, ms | bare primary rays, ms | ratio |"));
+  const nlohmann::json cost = nlohmann::json::parse(ReadFile(json)).at(0);
   EXPECT_EQ(cost.at("seed"), 2);
   EXPECT_GT(cost.at("bare_primary_ms").get<double>(), 0);
   EXPECT_GT(cost.at("pair_ms").get<double>(), cost.at("bare_primary_ms").get<double>());

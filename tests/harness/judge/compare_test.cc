@@ -70,6 +70,32 @@ TEST(CompareTest, CoverageStandsFirstAndFallingCoverageIsWorse) {
   EXPECT_EQ(comparisons.front().change, Change::kWorse);
 }
 
+/// Nine closed drives, of which the first `touch` have touched something and missed their goal.
+Results Drives(std::uint64_t touch, double docking_m) {
+  Results night = Night(0.02, 1);
+  for (RunRecord& run : night.runs) {
+    const bool touched = run.spec.seed <= touch;
+    const double apart = 1 + 0.01 * static_cast<double>(run.spec.seed);
+    run.scores["goal_reached"] = {touched ? 0.0 : 1.0, "1", "", 1, ""};
+    run.scores["collisions"] = {touched ? 1.0 : 0.0, "1", "", 1, ""};
+    run.scores["docking_error_m"] = {docking_m * apart, "m", "", 1, ""};
+  }
+  return night;
+}
+
+TEST(CompareTest, VehiclesThatTouchSomethingOrDockWorseRaiseAnAlarm) {
+  const Results good = Drives(0, 0.005);
+  const auto some = Compare(good, Drives(3, 0.005));
+  EXPECT_EQ(ChangeOf(some, "collisions"), Change::kUnstable);
+  EXPECT_EQ(ChangeOf(some, "goal_reached"), Change::kUnstable);
+  EXPECT_EQ(ChangeOf(some, "docking_error_m"), Change::kSame);
+  const auto all = Compare(good, Drives(9, 0.05));
+  EXPECT_EQ(ChangeOf(all, "collisions"), Change::kWorse);
+  EXPECT_EQ(ChangeOf(all, "goal_reached"), Change::kWorse);
+  EXPECT_EQ(ChangeOf(all, "docking_error_m"), Change::kWorse);
+  EXPECT_EQ(ChangeOf(Compare(Drives(9, 0.05), good), "collisions"), Change::kBetter);
+}
+
 TEST(CompareTest, ThreeSeedsCannotTell) {
   Results before, after;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
