@@ -5,6 +5,7 @@
 
 #include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
+#include "harness/cli/page_block.h"
 #include "harness/io/file.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
@@ -24,6 +25,7 @@ struct Options {
   std::uint64_t seed = 1;
   double plan_px = 560;
   bool shares = false, json = false;
+  PageBlock into{"shares"};
 };
 
 /// One frame of a scene: how much of the image people and vehicles take.
@@ -148,7 +150,12 @@ std::string Describe(const Entry& entry) {
 
 /// How much of the image moves now, over the time of each scene: no picture is written.
 int PrintShares(const std::vector<std::string>& files, const Options& options) {
+  options.into.Check();
   nlohmann::ordered_json scenes = nlohmann::ordered_json::array();
+  std::string table = fmt::format(
+      "| scene | share of the image that moves, {} times | mean, % | most, % | at, s |\n"
+      "|---|---|---:|---:|---:|\n",
+      options.samples);
   for (const std::string& file : files) {
     const std::unique_ptr<Sequence> sequence = OpenSimulation(SimulationOf(file, options));
     std::vector<Sample> samples;
@@ -159,6 +166,9 @@ int PrintShares(const std::vector<std::string>& files, const Options& options) {
     }
     const double mean = Mean(samples, &Sample::moving);
     const Sample& most = *std::ranges::max_element(samples, {}, &Sample::moving);
+    table +=
+        fmt::format("| {} | `{}` | {:.1f} | {:.1f} | {:.1f} |\n", sequence->name(),
+                    Bars(samples, &Sample::moving), 100 * mean, 100 * most.moving, Seconds(most));
     if (options.json) {
       scenes.push_back({{"scene", sequence->name()}, {"mean", mean}, {"frames", shares}});
       continue;
@@ -167,6 +177,7 @@ int PrintShares(const std::vector<std::string>& files, const Options& options) {
                Bars(samples, &Sample::moving), 100 * mean, 100 * most.moving, Seconds(most));
     std::fflush(stdout);
   }
+  options.into.Write(fmt::format("{}\nSeed {}, twin live, left camera.\n", table, options.seed));
   if (options.json) fmt::print("{}", Dump({{"seed", options.seed}, {"scenes", scenes}}));
   return kAllPassed;
 }
@@ -212,6 +223,7 @@ void AddGalleryCommand(CLI::App* app, Action* action) {
   CLI::Option* shares = command->add_flag(
       "--shares", options->shares, "print how much of the image moves over time; no picture");
   command->add_flag("--json", options->json, "the shares for programs")->needs(shares);
+  options->into.AddTo(command)->needs(shares);
   command->footer(
       "Example: ./aisle gallery scenes -o reports/gallery\n"
       "         ./aisle gallery scenes/paper_narrow --shares");

@@ -6,8 +6,8 @@
 
 namespace aisle {
 
-void PageBlock::AddTo(CLI::App* command) {
-  command->add_option(
+CLI::Option* PageBlock::AddTo(CLI::App* command) {
+  return command->add_option(
       "--into", into_,
       "PAGE or PAGE#BLOCK: rewrite that block of a Markdown page with the table; the block of a "
       "page alone is " +
