@@ -1,5 +1,6 @@
 #include <tbb/task_arena.h>
 
+#include "simulator/common/parallel.h"
 #include "simulator/foreign/foreign_scene.h"
 #include "simulator/shade/reference/reference.h"
 #include "simulator/simulator.h"

@@ -7,6 +7,7 @@
 
 #include "simulator/camera/pixel_rays.h"
 #include "simulator/common/lap_watch.h"
+#include "simulator/common/parallel.h"
 #include "simulator/proof/light_proof.h"
 #include "simulator/proof/render_bench.h"
 #include "simulator/proof/stage_hashes.h"

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
-#include <tbb/task_group.h>
 
 #include <stdexcept>
 
 #include "slam/base/tracking_policy.h"
+#include "slam/common/parallel.h"
 #include "slam/common/stopwatch.h"
 #include "slam/dynamic/dynamic_detector.h"
 #include "slam/front_end/see_frame.h"
@@ -159,12 +159,11 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
 std::shared_ptr<const Frame> StereoSlam::Impl::See(const StereoImages& images,
                                                    const ExternalMask& mask, TrackedFrame& result) {
   StereoCorners corners;
-  tbb::task_group beside;
-  beside.run([&] { corners = FindStereoCorners(images, options.feature); });
+  Beside finding([&] { corners = FindStereoCorners(images, options.feature); });
   const ExternalMask rejected = RejectMovers(images, mask, result);
   {
     Stopwatch time(result.stage_ms["extract"]);
-    beside.wait();
+    finding.Wait();
   }
   return SeeFrame(images, std::move(corners), rejected, camera, options, result.stage_ms);
 }

@@ -1,11 +1,12 @@
 #include "simulator/sensor/lens.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+
+#include "simulator/common/parallel.h"
 
 namespace aisle::sim {
 namespace {
@@ -33,7 +34,7 @@ cv::Mat1f MixTowardsCorners(const cv::Mat1f& core, const cv::Mat1f& corner) {
   const float x0 = 0.5f * static_cast<float>(core.cols - 1);
   const float y0 = 0.5f * static_cast<float>(core.rows - 1);
   const float scale = 1 / std::max(1e-6f, x0 * x0 + y0 * y0);
-  tbb::parallel_for(0, core.rows, [&](int y) {
+  ParallelFor(0, core.rows, [&](int y) {
     const float dy = static_cast<float>(y) - y0;
     const float *sharp = core[y], *soft = corner[y];
     float* out = mixed[y];
@@ -79,7 +80,7 @@ cv::Mat1f AddGlare(const cv::Mat1f& radiance, float share) {
   cv::resize(wide, veil, radiance.size(), 0, 0, cv::INTER_LINEAR);
   const float everywhere = (1 - kLocalGlare) * share * MeanOf(coarse);
   cv::Mat1f seen(radiance.size());
-  tbb::parallel_for(0, radiance.rows, [&](int y) {
+  ParallelFor(0, radiance.rows, [&](int y) {
     const float *light = radiance[y], *near = veil[y];
     float* out = seen[y];
     for (int x = 0; x < radiance.cols; ++x) {

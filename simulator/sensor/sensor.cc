@@ -1,11 +1,10 @@
 #include "simulator/sensor/sensor.h"
 
-#include <tbb/parallel_for.h>
-
 #include <array>
 #include <cmath>
 
 #include "simulator/common/mix.h"
+#include "simulator/common/parallel.h"
 
 namespace aisle::sim {
 namespace {
@@ -124,7 +123,7 @@ cv::Mat1b Expose(const cv::Mat1f& radiance, const PixelResponse& response,
   const std::vector<float> nothing(
       response.dark_e.empty() ? static_cast<std::size_t>(radiance.cols) : 0, 0.0f);
   cv::Mat1b image(radiance.size());
-  tbb::parallel_for(0, radiance.rows, [&](int y) {
+  ParallelFor(0, radiance.rows, [&](int y) {
     const float* light = radiance[y];
     const float* gain = response.gain[y];
     const float* dark = response.dark_e.empty() ? nothing.data() : response.dark_e[y];

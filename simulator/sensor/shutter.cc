@@ -1,10 +1,11 @@
 #include "simulator/sensor/shutter.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "simulator/common/parallel.h"
 
 namespace aisle::sim {
 namespace {
@@ -81,7 +82,7 @@ ShutterPlan PlanShutter(const ShutterOptions& options, double exposure_ms, int r
 void AddInstant(const ShutterPlan& plan, int instant, const cv::Mat1f& image, int first_row,
                 cv::Mat1f* sum) {
   const cv::Range rows = plan.RowsOf(instant);
-  tbb::parallel_for(rows.start, rows.end, [&](int y) {
+  ParallelFor(rows.start, rows.end, [&](int y) {
     const float weight = plan.weights(y, instant);
     const float* from = image[y - first_row];
     float* to = (*sum)[y];

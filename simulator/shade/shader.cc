@@ -1,10 +1,9 @@
 #include "simulator/shade/shader.h"
 
-#include <tbb/parallel_for.h>
-
 #include <array>
 #include <numbers>
 
+#include "simulator/common/parallel.h"
 #include "simulator/shade/pass/antialias.h"
 #include "simulator/shade/pass/gloss_pass.h"
 #include "simulator/shade/pass/mover_shadow.h"
@@ -28,7 +27,7 @@ void LookUpImage(const ShadingView& shading, std::vector<float>* reflectance,
     return RayStep{r.leftCols<2>() * step.right, r.leftCols<2>() * step.down};
   };
   const RayStep everywhere = step_at(0, 0);
-  tbb::parallel_for(0, image.height, [&](int y) {
+  ParallelFor(0, image.height, [&](int y) {
     for (int x = 0; x < image.width; x += kLanes) {
       const std::size_t i = image.Index(x, y);
       // The last packet of a row may reach into the next row's rays; those lanes hit nothing.
@@ -54,7 +53,7 @@ cv::Mat1f Combine(const HitImage& image, std::span<const float> reflectance,
                   std::span<const float> irradiance, std::span<const float> kept,
                   std::span<const float> mirrored) {
   cv::Mat1f radiance(image.height, image.width);
-  tbb::parallel_for(0, image.height, [&](int y) {
+  ParallelFor(0, image.height, [&](int y) {
     const std::size_t row = image.Index(0, y);
     float* to = radiance[y];
     for (std::size_t x = 0; x < static_cast<std::size_t>(image.width); ++x) {

@@ -1,9 +1,8 @@
 #include "simulator/trace/hit_image.h"
 
-#include <tbb/parallel_for.h>
-
 #include <cstring>
 
+#include "simulator/common/parallel.h"
 #include "simulator/trace/tile_grid.h"
 
 namespace aisle::sim {
@@ -142,7 +141,7 @@ void TraceViews(const Instant& instant, std::span<const CameraView> views, const
     (*images)[i].Resize(views[i].rays->width, views[i].rays->height);
   }
   const std::vector<TileOfView> tiles = MakeTiles(views, order.shuffle);
-  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
+  ParallelFor(std::size_t{0}, tiles.size(), [&](std::size_t i) {
     const auto& [view, tile] = tiles[i];
     TraceTile(instant, views[view], tile, &(*images)[view]);
   });

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstddef>
+
+#include "simulator/common/parallel.h"
 
 namespace aisle::sim {
 
@@ -29,7 +29,7 @@ struct TileGrid {
   /// Calls work(i, tile) for each, in parallel.
   template <typename Work>
   void ForEach(const Work& work) const {
-    tbb::parallel_for(std::size_t{0}, size(), [&](std::size_t i) { work(i, At(i)); });
+    ParallelFor(std::size_t{0}, size(), [&](std::size_t i) { work(i, At(i)); });
   }
 };
 

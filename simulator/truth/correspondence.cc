@@ -1,10 +1,10 @@
 #include "simulator/truth/correspondence.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "simulator/common/parallel.h"
 
 namespace aisle::sim {
 namespace {
@@ -99,7 +99,7 @@ Correspondence FindCorrespondence(const World& world, const Instant& instant,
   const Eigen::Isometry3d T_right_world = T_world_right.inverse();
   const Eigen::Vector3d right_camera = T_world_right.translation();
   const Eigen::Isometry3d T_next_world = T_world_rig_next.inverse();
-  tbb::parallel_for(0, hits.height, [&](int y) {
+  ParallelFor(0, hits.height, [&](int y) {
     for (int x0 = 0; x0 < hits.width; x0 += kLanes) {
       std::array<Eigen::Vector3d, kLanes> points;
       unsigned valid = 0;

@@ -1,10 +1,9 @@
 #include "simulator/truth/image_motion.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <vector>
 
+#include "simulator/common/parallel.h"
 #include "simulator/truth/surface_velocity.h"
 
 namespace aisle::sim {
@@ -19,7 +18,7 @@ double ImageMotion(const World& world, const Instant& instant, const StereoCamer
   const Eigen::Isometry3d T_first_world = T_world_first.inverse();
   const Eigen::Isometry3d T_last_world = T_world_last.inverse();
   std::vector<std::vector<float>> rows(static_cast<std::size_t>((hits.height - 1) / kEvery + 1));
-  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t row) {
+  ParallelFor(std::size_t{0}, rows.size(), [&](std::size_t row) {
     const int y = static_cast<int>(row) * kEvery;
     for (int x = 0; x < hits.width; x += kEvery) {
       const std::size_t i = hits.Index(x, y);

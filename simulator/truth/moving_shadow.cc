@@ -1,10 +1,10 @@
 #include "simulator/truth/moving_shadow.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <vector>
+
+#include "simulator/common/parallel.h"
 
 namespace aisle::sim {
 namespace {
@@ -224,7 +224,7 @@ cv::Mat1b FindMovingShadows(const World& world, const Instant& instant, const Ca
   cv::Mat1b mask(hits.height, hits.width, std::uint8_t{0});
   const ShadowFinder finder(world, instant, moving, options);
   if (!finder.AnythingMoves()) return mask;
-  tbb::parallel_for(0, hits.height, [&](int y) {
+  ParallelFor(0, hits.height, [&](int y) {
     for (int x = 0; x < hits.width; x += kLanes) {
       const Places places = FindPlaces(world, instant, view, hits, moving, x, y);
       if (!places.valid) continue;

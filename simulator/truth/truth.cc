@@ -1,8 +1,8 @@
 #include "simulator/truth/truth.h"
 
-#include <tbb/parallel_for.h>
-
 #include <map>
+
+#include "simulator/common/parallel.h"
 
 namespace aisle::sim {
 namespace {
@@ -100,7 +100,7 @@ Silhouette FindSilhouette(const Instant& instant, const CameraView& view, const 
                           const cv::Rect& window, std::uint16_t instance, GeometryMask mask) {
   const int bands = (window.height + 1) / 2;
   std::vector<Silhouette> rows(static_cast<std::size_t>(bands));
-  tbb::parallel_for(0, bands, [&](int band) {
+  ParallelFor(0, bands, [&](int band) {
     rows[static_cast<std::size_t>(band)] =
         ScanRows(instant, view, truth, window, instance, mask, window.y + 2 * band);
   });
@@ -121,7 +121,7 @@ CameraTruth LabelHits(const World& world, const Instant& instant, const HitImage
   CameraTruth truth{cv::Mat1f(size), cv::Mat1w(size), cv::Mat1b(size), cv::Mat1b(size),
                     cv::Mat1b(size)};
   const std::span<const MoverState> movers = instant.snapshot().movers;
-  tbb::parallel_for(0, image.height, [&](int y) {
+  ParallelFor(0, image.height, [&](int y) {
     for (int x = 0; x < image.width; ++x) {
       const std::size_t i = image.Index(x, y);
       const std::uint32_t geometry = image.geometry[i];

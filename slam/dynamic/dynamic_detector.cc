@@ -1,9 +1,8 @@
 #include "slam/dynamic/dynamic_detector.h"
 
-#include <tbb/parallel_for.h>
-
 #include <opencv2/imgproc.hpp>
 
+#include "slam/common/parallel.h"
 #include "slam/dynamic/dynamic_stages.h"
 #include "slam/dynamic/paper/paper_method.h"
 #include "slam/dynamic/robust/robust_method.h"
@@ -80,7 +79,7 @@ DynamicOutput DynamicDetector::Detect(const DynamicInput& input) {
 cv::Mat1b ShiftMaskToRight(const cv::Mat1b& mask, const cv::Mat1f& disparity) {
   const int factor = std::max(1, mask.cols / std::max(1, disparity.cols));
   cv::Mat1b right(mask.size(), static_cast<unsigned char>(0));
-  tbb::parallel_for(0, mask.rows, [&](int y) {
+  ParallelFor(0, mask.rows, [&](int y) {
     const unsigned char* moves = mask[y];
     unsigned char* to_right = right[y];
     const float* known = disparity[std::min(y / factor, disparity.rows - 1)];

@@ -1,12 +1,12 @@
 #include "slam/front_end/see_frame.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "slam/common/parallel.h"
 #include "slam/common/stopwatch.h"
 #include "slam/stereo/match_stereo.h"
 
@@ -55,8 +55,8 @@ cv::Mat1b Union(const cv::Mat1b& a, const cv::Mat1b& b) {
 
 StereoCorners FindStereoCorners(const StereoImages& images, const FeatureOptions& options) {
   StereoCorners corners;
-  tbb::parallel_invoke([&] { corners.left = FindCorners(images.left, options); },
-                       [&] { corners.right = FindCorners(images.right, options); });
+  ParallelInvoke([&] { corners.left = FindCorners(images.left, options); },
+                 [&] { corners.right = FindCorners(images.right, options); });
   return corners;
 }
 
@@ -67,7 +67,7 @@ std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, StereoCorners 
   ImageFeatures left, right;
   {
     Stopwatch time(stage_ms["extract"]);
-    tbb::parallel_invoke(
+    ParallelInvoke(
         [&] { left = ChooseFeatures(std::move(corners.left), mask.left, options.feature); },
         [&] { right = ChooseFeatures(std::move(corners.right), mask.right, options.feature); });
   }

@@ -1,9 +1,8 @@
 #include "simulator/shade/light/radiosity.h"
 
-#include <tbb/parallel_for.h>
-
 #include <numbers>
 
+#include "simulator/common/parallel.h"
 #include "simulator/shade/lanes/hemisphere.h"
 
 namespace aisle::sim {
@@ -118,7 +117,7 @@ Radiosity SolveRadiosity(const Instant& statics, const LightGrid& grid, const Pa
   const std::size_t count = patches.places.size();
   const std::vector<Eigen::Vector3f> directions = CosineDirections(options.directions);
   std::vector<std::uint32_t> partners(count * directions.size());
-  tbb::parallel_for(std::size_t{0}, (count + kLanes - 1) / kLanes, [&](std::size_t i) {
+  ParallelFor(std::size_t{0}, (count + kLanes - 1) / kLanes, [&](std::size_t i) {
     FindPartners(statics, grid, patches, directions, i * kLanes, partners);
   });
 
@@ -128,7 +127,7 @@ Radiosity SolveRadiosity(const Instant& statics, const LightGrid& grid, const Pa
     for (std::size_t i = 0; i < count; ++i) {
       leaving[i] = patches.albedo[i] * (result.direct[i] + result.indirect[i]);
     }
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    ParallelFor(std::size_t{0}, count, [&](std::size_t i) {
       float sum = 0;
       for (std::size_t d = 0; d < directions.size(); ++d) {
         const std::uint32_t partner = partners[i * directions.size() + d];
@@ -144,7 +143,7 @@ void FillVolume(const Instant& statics, const LightGrid& grid, const TriangleMes
                 const Patches& patches, const Radiosity& radiosity, int count,
                 LightVolume* volume) {
   const std::vector<Eigen::Vector3f> directions = SphereDirections(count / kLanes * kLanes);
-  tbb::parallel_for(std::size_t{0}, volume->size(), [&](std::size_t node) {
+  ParallelFor(std::size_t{0}, volume->size(), [&](std::size_t node) {
     const Eigen::Vector3f origin = volume->Position(node);
     LightVolume::Node sum;
     float backs = 0;

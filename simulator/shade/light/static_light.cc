@@ -1,11 +1,11 @@
 #include "simulator/shade/light/static_light.h"
 
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <atomic>
 #include <numbers>
 
+#include "simulator/common/parallel.h"
 #include "simulator/shade/light/direct_light.h"
 #include "simulator/shade/light/light_cache.h"
 #include "simulator/shade/light/radiosity.h"
@@ -57,7 +57,7 @@ std::vector<float> DirectAt(const Instant& statics, const World& world,
                             std::span<const float> light_scale,
                             std::span<const SurfacePoint> points, Progress* progress) {
   std::vector<float> direct(points.size());
-  tbb::parallel_for(std::size_t{0}, (points.size() + kLanes - 1) / kLanes, [&](std::size_t i) {
+  ParallelFor(std::size_t{0}, (points.size() + kLanes - 1) / kLanes, [&](std::size_t i) {
     const std::size_t first = i * kLanes;
     const std::size_t count = std::min<std::size_t>(kLanes, points.size() - first);
     const auto light =
@@ -184,7 +184,7 @@ LightState StaticLight::Solve(std::span<const float> light_scale) const {
   std::vector<float> coarse_slots(coarse_.point_of_slot.size());
   FillSlots(coarse_, coarse_indirect, coarse_slots);
   std::vector<float> indirect(fine_.points.size());
-  tbb::parallel_for(std::size_t{0}, indirect.size(), [&](std::size_t i) {
+  ParallelFor(std::size_t{0}, indirect.size(), [&](std::size_t i) {
     const LightPoint& point = fine_.points[i];
     indirect[i] = ReadLight(coarse_.patches[point.triangle], coarse_slots, point.u, point.v);
   });

@@ -1,11 +1,10 @@
 #include "simulator/shade/light/static_visibility.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "simulator/common/mix.h"
+#include "simulator/common/parallel.h"
 #include "simulator/shade/lanes/ray_packets.h"
 #include "simulator/shade/light/emitter_rays.h"
 
@@ -147,7 +146,7 @@ std::vector<StaticVisibility::NodePtr> StaticVisibility::NodesOf(const Instant& 
     }
   }
   if (missing.empty()) return nodes;
-  tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
+  ParallelFor(std::size_t{0}, missing.size(), [&](std::size_t i) {
     nodes[missing[i]] = std::make_shared<const Node>(Trace(instant, keys[missing[i]]));
   });
   const std::lock_guard lock(mutex_);
@@ -167,7 +166,7 @@ void StaticVisibility::Shade(const Instant& instant, std::span<const ShadowedPla
   std::ranges::sort(keys);
   keys.erase(std::ranges::unique(keys).begin(), keys.end());
   const std::vector<NodePtr> nodes = NodesOf(instant, keys);
-  tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
+  ParallelFor(std::size_t{0}, places.size(), [&](std::size_t i) {
     std::array<const Node*, 8> around;
     float free = 0;
     for (std::size_t c = 0; c < 8; ++c) {

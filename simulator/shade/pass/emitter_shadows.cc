@@ -1,10 +1,9 @@
 #include "simulator/shade/pass/emitter_shadows.h"
 
-#include <tbb/parallel_for.h>
-
 #include <bit>
 #include <cmath>
 
+#include "simulator/common/parallel.h"
 #include "simulator/shade/light/emitter_rays.h"
 #include "simulator/shade/pass/mover_blockers.h"
 
@@ -72,7 +71,7 @@ EmitterVisibility TraceMoverShadowsOn(const Instant& instant, const Emitters& em
                                       std::span<const EmitterRays> plan,
                                       std::span<const ShadowedPlace> places) {
   EmitterVisibility visible(places.size(), emitters.stride());
-  tbb::parallel_for(std::size_t{0}, (places.size() + kLanes - 1) / kLanes, [&](std::size_t packet) {
+  ParallelFor(std::size_t{0}, (places.size() + kLanes - 1) / kLanes, [&](std::size_t packet) {
     const std::size_t first = packet * kLanes;
     const std::span eight =
         places.subspan(first, std::min<std::size_t>(kLanes, places.size() - first));

@@ -1,9 +1,9 @@
 #include "simulator/shade/pass/frame_light.h"
 
-#include <tbb/parallel_for.h>
-
 #include <atomic>
 #include <numbers>
+
+#include "simulator/common/parallel.h"
 
 namespace aisle::sim {
 namespace {
@@ -13,7 +13,7 @@ std::vector<std::uint8_t> FindSeen(std::span<const HitImage> images,
                                    std::span<const std::int32_t> bases, std::size_t records) {
   std::vector<std::uint8_t> seen(records);
   for (const HitImage& image : images) {
-    tbb::parallel_for(0, image.height, [&](int y) {
+    ParallelFor(0, image.height, [&](int y) {
       const std::size_t row = image.Index(0, y);
       for (std::size_t i = row; i < row + static_cast<std::size_t>(image.width); ++i) {
         const std::uint32_t geometry = image.geometry[i];

@@ -1,10 +1,9 @@
 #include "simulator/shade/pass/mover_indirect.h"
 
-#include <tbb/parallel_for.h>
-
 #include <bit>
 #include <numbers>
 
+#include "simulator/common/parallel.h"
 #include "simulator/shade/lanes/hemisphere.h"
 #include "simulator/shade/pass/emitter_shadows.h"
 
@@ -86,7 +85,7 @@ void MoverIndirect::ShadeGround(const Emitters& emitters, const StaticVisibility
   EmitterVisibility open(1, emitters.stride());
   statics.Shade(instant_, middle, &open);
   kept_.assign(places.size(), 1);
-  tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
+  ParallelFor(std::size_t{0}, places.size(), [&](std::size_t i) {
     const SurfacePoint& place = places[i].surface;
     F8 all = Wide(0), seen = Wide(0);
     for (std::size_t e = 0; e < emitters.stride(); e += kLanes) {

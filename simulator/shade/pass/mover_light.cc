@@ -1,9 +1,8 @@
 #include "simulator/shade/pass/mover_light.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
+#include "simulator/common/parallel.h"
 #include "simulator/shade/light/direct_light.h"
 #include "simulator/shade/pass/emitter_shadows.h"
 #include "simulator/shade/pass/mover_indirect.h"
@@ -103,9 +102,8 @@ MoverLight::NodeLight MoverLight::LightNodes(const Instant& instant, std::size_t
   statics_.Shade(instant, places, &light.visible);
   const MoverIndirect indirect(instant, emitters_, statics_, volume, mover);
   light.kept.resize(places.size());
-  tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
-    light.kept[i] = indirect.KeptAt(places[i], tangents[i]);
-  });
+  ParallelFor(std::size_t{0}, places.size(),
+              [&](std::size_t i) { light.kept[i] = indirect.KeptAt(places[i], tangents[i]); });
   return light;
 }
 
@@ -131,7 +129,7 @@ std::vector<float> MoverLight::At(const Instant& instant, std::size_t mover,
   }
   const NodeLight light = LightNodes(instant, mover, volume, nodes, used);
   std::vector<float> result(wanted.size(), -1);
-  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+  ParallelFor(std::size_t{0}, points.size(), [&](std::size_t i) {
     const std::uint32_t point = points[i];
     const SurfacePoint place =
         LocatePoint(grids_[mover].points[point], mesh, state.positions, state.normals);

@@ -1,9 +1,8 @@
 #include "simulator/shade/reference/reference.h"
 
-#include <tbb/parallel_for.h>
-
 #include <numbers>
 
+#include "simulator/common/parallel.h"
 #include "simulator/shade/lanes/hemisphere.h"
 #include "simulator/shade/reference/path_random.h"
 #include "simulator/shade/surface/gloss.h"
@@ -306,7 +305,7 @@ cv::Mat1f Reference::Render(const Instant& instant, const CameraView& view,
                             const ReferenceOptions& options) const {
   const PixelRays& rays = *view.rays;
   cv::Mat1f image(rays.height, rays.width, 0.0f);
-  tbb::parallel_for(0, rays.height, [&](int y) {
+  ParallelFor(0, rays.height, [&](int y) {
     PathPacket packet(*this, instant, options);
     for (int x0 = 0; x0 < rays.width; x0 += kLanes) {
       for (int sample = 0; sample < options.samples; ++sample) {

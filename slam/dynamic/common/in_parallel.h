@@ -1,9 +1,9 @@
 #pragma once
 
-#include <tbb/parallel_invoke.h>
-
 #include <optional>
 #include <utility>
+
+#include "slam/common/parallel.h"
 
 namespace aisle::slam::dynamic {
 
@@ -12,7 +12,7 @@ template <typename First, typename Second>
 auto InParallel(const First& first, const Second& second) {
   std::optional<decltype(first())> a;
   std::optional<decltype(second())> b;
-  tbb::parallel_invoke([&] { a.emplace(first()); }, [&] { b.emplace(second()); });
+  ParallelInvoke([&] { a.emplace(first()); }, [&] { b.emplace(second()); });
   return std::pair(*std::move(a), *std::move(b));
 }
 

@@ -1,8 +1,6 @@
 #include "slam/dynamic/paper/paper_method.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
-
+#include "slam/common/parallel.h"
 #include "slam/common/stopwatch.h"
 #include "slam/dynamic/paper/disparity.h"
 #include "slam/dynamic/paper/mark_regions.h"
@@ -26,7 +24,7 @@ std::vector<SegmentedRoi> SegmentAll(const std::vector<PointGroup>& groups, cons
   std::vector<SegmentedRoi> rois(groups.size());
   if (groups.empty()) return rois;
   const double colour_scale = ColourScale(left, options.superpixel);
-  tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t k) {
+  ParallelFor(std::size_t{0}, groups.size(), [&](std::size_t k) {
     rois[k] = Segment(groups[k].roi, left, disparity, colour_scale, options);
   });
   return rois;
@@ -61,7 +59,7 @@ PaperResult DetectDynamicRegions(const StereoPair& previous, const StereoPair& c
   double disparity_ms = 0, features_ms = 0, flow_ms = 0, fundamental_ms = 0, group_ms = 0,
          segment_ms = 0, mark_ms = 0;
 
-  tbb::parallel_invoke(
+  ParallelInvoke(
       [&] {
         s.disparity = Timed(disparity_ms, [&] {
           return ComputeDisparity(current.left, current.right, options.disparity);

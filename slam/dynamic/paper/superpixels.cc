@@ -1,8 +1,8 @@
 #include "slam/dynamic/paper/superpixels.h"
 
-#include <tbb/parallel_for.h>
-
 #include <numeric>
+
+#include "slam/common/parallel.h"
 
 namespace aisle::slam::dynamic {
 namespace {
@@ -129,7 +129,7 @@ std::vector<int> NearestCentres(Segmentation& s, const std::vector<int>& pixels)
   const std::size_t blocks = (pixels.size() + kBlock - 1) / kBlock;
   std::vector<int> nearest(pixels.size());
   std::vector<std::int64_t> distances(blocks, 0);
-  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+  ParallelFor(std::size_t{0}, blocks, [&](std::size_t block) {
     const std::size_t end = std::min(pixels.size(), (block + 1) * kBlock);
     std::int64_t count = 0;
     for (std::size_t k = block * kBlock; k < end; ++k) {

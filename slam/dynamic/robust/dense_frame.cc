@@ -1,9 +1,8 @@
 #include "slam/dynamic/robust/dense_frame.h"
 
-#include <tbb/parallel_for.h>
-
 #include <opencv2/imgproc.hpp>
 
+#include "slam/common/parallel.h"
 #include "slam/dynamic/common/stereo_pair.h"
 #include "slam/dynamic/robust/window_sums.h"
 #include "slam/stereo/dense/semi_global.h"
@@ -172,7 +171,7 @@ Texture MeasureTexture(const cv::Mat1b& image, const SurfaceOptions& options) {
   cv::Sobel(image, gy, CV_16S, 0, 1);
   const cv::Mat1f variance = DifferenceVariance(image, options);
   Texture products{cv::Mat1f(image.size()), cv::Mat1f(image.size()), cv::Mat1f(image.size())};
-  tbb::parallel_for(0, image.rows, [&](int y) {
+  ParallelFor(0, image.rows, [&](int y) {
     MultiplyRow(gx[y], gy[y], variance[y], image.cols,
                 {products.xx[y], products.xy[y], products.yy[y]});
   });
@@ -180,7 +179,7 @@ Texture MeasureTexture(const cv::Mat1b& image, const SurfaceOptions& options) {
   const cv::Mat1f xx = Reflected(products.xx, reach), xy = Reflected(products.xy, reach),
                   yy = Reflected(products.yy, reach);
   Texture texture = products;  // the same memory, which is of no more use
-  tbb::parallel_for(0, image.rows, [&](int y) {
+  ParallelFor(0, image.rows, [&](int y) {
     std::vector<float> scratch(static_cast<std::size_t>(xx.cols));
     const TextureRow row{texture.xx[y], texture.xy[y], texture.yy[y]};
     SumWindows<float>(xx, y, reach, scratch.data(), row.xx);
@@ -200,7 +199,7 @@ StaticField WhereStatic(const cv::Mat1f& filled, const Eigen::Isometry3d& T_then
   const Eigen::Vector3f t =
       (K * T_then_now.translation() / (half.fx * half.baseline_m)).cast<float>();
   StaticField field{cv::Mat2f(filled.size()), cv::Mat1f(filled.size()), cv::Mat2f(filled.size())};
-  tbb::parallel_for(0, filled.rows, [&](int y) {
+  ParallelFor(0, filled.rows, [&](int y) {
     const Eigen::Vector3f start = A.col(1) * static_cast<float>(y) + A.col(2);
     FindRow(start, A.col(0), t, filled[y], filled.cols,
             {field.place.ptr<float>(y), field.disparity[y], field.per_disparity.ptr<float>(y)});

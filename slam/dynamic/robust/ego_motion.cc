@@ -1,11 +1,10 @@
 #include "slam/dynamic/robust/ego_motion.h"
 
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
 #include <map>
 
+#include "slam/common/parallel.h"
 #include "slam/dynamic/common/counter_random.h"
 
 namespace aisle::slam::dynamic {
@@ -275,7 +274,7 @@ EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const Stere
 
   const std::vector<PlacedMatch> placed = Placed(spread, camera);
   std::vector<double> scores(candidates.size());
-  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t k) {
+  ParallelFor(std::size_t{0}, candidates.size(), [&](std::size_t k) {
     scores[k] = Support(placed, camera, candidates[k], inverse_deviation, gate) *
                 Plausibility(candidates[k], prior);
   });

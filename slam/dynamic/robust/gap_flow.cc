@@ -1,7 +1,6 @@
 #include "slam/dynamic/robust/gap_flow.h"
 
-#include <tbb/parallel_for.h>
-
+#include "slam/common/parallel.h"
 #include "slam/dynamic/robust/residual_flow.h"
 
 namespace aisle::slam::dynamic {
@@ -24,7 +23,7 @@ std::vector<GapFlow> FollowGaps(const RobustState& before, const View& view,
                                 const DenseFlowOptions& options) {
   const std::vector<std::size_t> slots = SlotsInTurn(before);
   std::vector<GapFlow> flows(slots.size());
-  tbb::parallel_for(std::size_t{0}, slots.size(), [&](std::size_t k) {
+  ParallelFor(std::size_t{0}, slots.size(), [&](std::size_t k) {
     const int gap = kGaps[slots[k]];
     const Eigen::Isometry3d T_now_then = MotionOver(gap, before, T_now_before);
     const cv::Mat2f expected = WhereStatic(view.frame.filled, T_now_then.inverse(), half).place;

@@ -1,7 +1,6 @@
 #include "slam/dynamic/robust/gap_motion.h"
 
-#include <tbb/parallel_for.h>
-
+#include "slam/common/parallel.h"
 #include "slam/dynamic/robust/residual_flow.h"
 
 namespace aisle::slam::dynamic {
@@ -18,7 +17,7 @@ GapMatches MatchOverGaps(const RobustState& before, const View& view,
                          const EgoMotionOptions& options) {
   const auto points = WellHeld(view.texture, view.frame.disparity, options.cell_px);
   GapMatches matches(flows.size());
-  tbb::parallel_for(std::size_t{0}, flows.size(), [&](std::size_t k) {
+  ParallelFor(std::size_t{0}, flows.size(), [&](std::size_t k) {
     matches[k] = MatchesAlong(points, flows[k].flow, flows[k].expected, view.frame,
                               FrameAgo(before, flows[k].gap), memory, options.trust_in_region);
   });
@@ -32,7 +31,7 @@ std::vector<EgoMotion> MotionsOf(const GapMatches& matches, const RobustState& b
   std::vector<EgoMotion> motions(flows.size());
   if (flows.empty()) return motions;
   motions[0] = EstimateEgoMotion(matches[0], camera, prior, before.noise.match[0], options);
-  tbb::parallel_for(std::size_t{1}, flows.size(), [&](std::size_t k) {
+  ParallelFor(std::size_t{1}, flows.size(), [&](std::size_t k) {
     const Isometry3d expected = MotionOver(flows[k].gap, before, motions[0].T_now_before);
     // The frames between have left little to find.
     motions[k] = RefineEgoMotion(matches[k], camera, expected, before.noise.match[flows[k].slot]);
@@ -85,7 +84,7 @@ GapMotions FindGapMotions(const RobustState& before, const View& view,
   const GapMatches matches = MatchOverGaps(before, view, flows, memory, options.ego);
   GapMotions found{MotionsOf(matches, before, flows, prior, camera, options.ego),
                    before.noise.match};
-  tbb::parallel_for(std::size_t{0}, found.motions.size(), [&](std::size_t k) {
+  ParallelFor(std::size_t{0}, found.motions.size(), [&](std::size_t k) {
     const std::size_t slot = flows[k].slot;
     found.noise[slot] = Learned(before.noise.match[slot], matches[k], found.motions[k], camera,
                                 LearningRate(slot, options.tolerance));

@@ -1,8 +1,8 @@
 #include "slam/dynamic/robust/label_field.h"
 
-#include <tbb/parallel_for.h>
-
 #include <opencv2/imgproc.hpp>
+
+#include "slam/common/parallel.h"
 
 namespace aisle::slam::dynamic {
 namespace {
@@ -50,7 +50,7 @@ class Sweeper {
     right_ = pad(links.right);
     down_ = pad(links.down);
     belief_ = pad(evidence);
-    tbb::parallel_for(1, evidence.rows + 1, [&](int y) {
+    ParallelFor(1, evidence.rows + 1, [&](int y) {
       float* row = belief_[y];
       for (int x = 1; x <= evidence.cols; ++x) row[x] = Belief(row[x]);
     });
@@ -114,7 +114,7 @@ Links LinkPixels(const cv::Mat1f& filled, const cv::Mat1b& image, const cv::Mat1
   const Tie tie{static_cast<float>(options.coupling), tolerance,
                 static_cast<float>(options.contrast)};
   Links links{cv::Mat1f(image.size(), 0.0F), cv::Mat1f(image.size(), 0.0F)};
-  tbb::parallel_for(0, image.rows, [&](int y) {
+  ParallelFor(0, image.rows, [&](int y) {
     const auto to = [&](int y2, int dx) {
       return Ends{filled[y], filled[y2] + dx, image[y], image[y2] + dx, floor[y], floor[y2] + dx};
     };

@@ -1,6 +1,6 @@
 #include "slam/dynamic/robust/label_memory.h"
 
-#include <tbb/parallel_for.h>
+#include "slam/common/parallel.h"
 
 namespace aisle::slam::dynamic {
 namespace {
@@ -94,7 +94,7 @@ LabelMemory CarryMemory(const LabelMemory& previous, const cv::Mat2f& flow, cons
     carried.long_log_odds = cv::Mat1f(flow.size(), 0.0F);
     carried.long_per_step = cv::Mat2f(flow.size(), cv::Vec2f(0, 0));
   }
-  tbb::parallel_for(0, flow.rows, [&](int y) {
+  ParallelFor(0, flow.rows, [&](int y) {
     const int unseen = ColumnsUnseen(now.disparity[y], flow.cols);
     for (int x = 0; x < flow.cols; ++x) {
       // Who leaves to the left is known no less where the right camera loses him first.

@@ -1,6 +1,6 @@
 #include "slam/dynamic/robust/motion_ended.h"
 
-#include <tbb/parallel_for.h>
+#include "slam/common/parallel.h"
 
 namespace aisle::slam::dynamic {
 
@@ -11,7 +11,7 @@ EndedMotion TakeOffEndedMotion(const LatestStep& step, const Texture& texture,
   const auto share = static_cast<float>(options.least_speed_share),
              noise = static_cast<float>(options.mover_noise * options.mover_noise),
              limit = static_cast<float>(options.most);
-  tbb::parallel_for(0, log_odds.rows, [&](int y) {
+  ParallelFor(0, log_odds.rows, [&](int y) {
     const float *xx = texture.xx[y], *xy = texture.xy[y], *yy = texture.yy[y];
     const float *residual = step.residual.ptr<float>(y), *velocity = per_step.ptr<float>(y),
                 *variance = step.variance[y];

@@ -1,10 +1,8 @@
 #include "slam/dynamic/robust/motion_evidence.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
-
 #include <opencv2/imgproc.hpp>
 
+#include "slam/common/parallel.h"
 #include "slam/dynamic/common/median.h"
 #include "slam/dynamic/robust/fast_log.h"
 #include "slam/dynamic/robust/residual_flow.h"
@@ -186,7 +184,7 @@ std::optional<double> MeasureFlowNoise(const Evidence& evidence) {
 /// Asks for static explanations once for each block of pixels, where motion is clearest.
 void LimitBlocks(const Evidence& evidence, cv::Mat1f& log_odds) {
   constexpr int kSide = 2;
-  tbb::parallel_for(0, (log_odds.rows + kSide - 1) / kSide, [&](int block) {
+  ParallelFor(0, (log_odds.rows + kSide - 1) / kSide, [&](int block) {
     const int bottom = std::min((block + 1) * kSide, log_odds.rows);
     for (int left = 0; left < log_odds.cols; left += kSide) {
       const int right = std::min(left + kSide, log_odds.cols);
@@ -240,7 +238,7 @@ MotionEvidence CompareMotion(const Comparison& comparison, const Texture& textur
                     static_cast<float>(way_m / half.baseline_m),
                     static_cast<float>(way_m / focal_baseline),
                     static_cast<float>(comparison.T_then_now.translation().z() / focal_baseline)};
-  tbb::parallel_invoke(
+  ParallelInvoke(
       [&] {
         const cv::Mat1b still = SampleAt(then.image, evidence.expected.place);
         evidence.difference_static = SquaredDifference(now.image, still, around.variance);
@@ -252,7 +250,7 @@ MotionEvidence CompareMotion(const Comparison& comparison, const Texture& textur
   const cv::Size size = now.image.size();
   MotionEvidence found{
       cv::Mat1f(size), {cv::Mat2f(size), cv::Mat1f(size)}, MeasureFlowNoise(evidence)};
-  tbb::parallel_for(0, now.image.rows, [&](int y) {
+  ParallelFor(0, now.image.rows, [&](int y) {
     float* log_odds = found.log_odds[y];
     evidence.FlowLogOddsOfRow(y, log_odds, found.step);
     for (int x = 0; x < now.image.cols; ++x) log_odds[x] = evidence.At(y, x, log_odds[x]);
@@ -268,7 +266,7 @@ cv::Mat1f CombineGaps(const std::vector<cv::Mat1f>& gaps, double moving,
              motion_found = static_cast<float>(moving);
   const auto low = static_cast<float>(options.least), high = static_cast<float>(options.most);
   cv::Mat1f combined(gaps[0].size());
-  tbb::parallel_for(0, combined.rows, [&](int y) {
+  ParallelFor(0, combined.rows, [&](int y) {
     float* sum = combined[y];
     const auto columns = static_cast<std::size_t>(combined.cols);
     std::vector<float> most(columns, 0.0F), against(columns, 0.0F);

@@ -1,9 +1,8 @@
 #include "slam/dynamic/robust/pixel_labels.h"
 
-#include <tbb/parallel_for.h>
-
 #include <opencv2/imgproc.hpp>
 
+#include "slam/common/parallel.h"
 #include "slam/dynamic/common/in_parallel.h"
 #include "slam/dynamic/robust/join_regions.h"
 #include "slam/dynamic/robust/label_field.h"
@@ -17,7 +16,7 @@ cv::Mat1f Leaning(const cv::Mat1f& log_odds, const cv::Mat1f& disparity, const c
   cv::Mat1f leaning;
   cv::add(log_odds, options.bias, leaning);
   const auto unlikely = static_cast<float>(options.unlikely_bias);
-  tbb::parallel_for(0, leaning.rows, [&](int y) {
+  ParallelFor(0, leaning.rows, [&](int y) {
     const float* known = disparity[y];
     float* lean = leaning[y];
     for (int x = 0; x < leaning.cols; ++x) lean[x] += known[x] <= 0 ? unlikely : 0.0F;

@@ -1,10 +1,9 @@
 #include "slam/dynamic/robust/residual_flow.h"
 
-#include <tbb/parallel_for.h>
-
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include "slam/common/parallel.h"
 #include "slam/flow/patch_flow.h"
 
 namespace aisle::slam::dynamic {
@@ -128,7 +127,7 @@ cv::Mat2f FollowBack(const cv::Mat1b& now, const FlowPyramid& pyramid, const cv:
 std::vector<cv::Point> WellHeld(const Texture& texture, const cv::Mat1f& disparity, int cell_px) {
   std::vector<std::vector<cv::Point>> rows(
       static_cast<std::size_t>((disparity.rows + cell_px - 1) / cell_px));
-  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t row) {
+  ParallelFor(std::size_t{0}, rows.size(), [&](std::size_t row) {
     rows[row] = BestOfRows(texture, disparity, static_cast<int>(row) * cell_px, cell_px);
   });
   std::vector<cv::Point> points;

@@ -1,7 +1,6 @@
 #include "slam/dynamic/robust/robust_method.h"
 
-#include <tbb/parallel_for.h>
-
+#include "slam/common/parallel.h"
 #include "slam/common/stopwatch.h"
 #include "slam/dynamic/common/in_parallel.h"
 #include "slam/dynamic/robust/gap_motion.h"
@@ -27,7 +26,7 @@ LabelMemory CarryTo(const View& view, const std::vector<GapFlow>& flows, const R
 cv::Mat1f Accumulate(const cv::Mat1f& known, const PastEvidence& past,
                      const FieldOptions& options) {
   cv::Mat1f still(known.size());
-  tbb::parallel_for(0, known.rows, [&](int y) {
+  ParallelFor(0, known.rows, [&](int y) {
     const float *was = known[y], *off = past.ended[y];
     float* left = still[y];
     for (int x = 0; x < known.cols; ++x) {

@@ -1,7 +1,6 @@
 #include "slam/dynamic/robust/squared_difference.h"
 
-#include <tbb/parallel_for.h>
-
+#include "slam/common/parallel.h"
 #include "slam/dynamic/robust/window_sums.h"
 
 namespace aisle::slam::dynamic {
@@ -34,11 +33,11 @@ cv::Mat1f SquaredDifference(const cv::Mat1b& image, const cv::Mat1b& other,
   cv::subtract(image, other, difference, cv::noArray(), CV_16S);
   const cv::Mat1s padded = Reflected(difference, kMeanReach);
   cv::Mat1f squares(image.size());
-  tbb::parallel_for(0, image.rows, [&](int y) { SquareRow(padded, variance, y, squares[y]); });
+  ParallelFor(0, image.rows, [&](int y) { SquareRow(padded, variance, y, squares[y]); });
 
   const cv::Mat1f around = Reflected(squares, kReach);
   cv::Mat1f mean(image.size());
-  tbb::parallel_for(0, image.rows, [&](int y) {
+  ParallelFor(0, image.rows, [&](int y) {
     constexpr float kArea = (2 * kReach + 1) * (2 * kReach + 1);
     std::vector<float> scratch(static_cast<std::size_t>(around.cols));
     SumWindows<float>(around, y, kReach, scratch.data(), mean[y]);

@@ -1,12 +1,12 @@
 #include "slam/dynamic/robust/view.h"
 
-#include <tbb/parallel_invoke.h>
+#include "slam/common/parallel.h"
 
 namespace aisle::slam::dynamic {
 
 View LookAt(const StereoPair& images, std::int64_t stamp_ns, const RobustOptions& options) {
   View view;
-  tbb::parallel_invoke(
+  ParallelInvoke(
       [&] {
         view.frame = MakeDenseFrame(images.left, images.right, options.disparity);
         view.frame.stamp_ns = stamp_ns;

@@ -1,8 +1,8 @@
 #include "slam/stereo/dense/census_cost.h"
 
-#include <tbb/parallel_for.h>
-
 #include <opencv2/imgproc.hpp>
+
+#include "slam/common/parallel.h"
 
 namespace aisle::slam {
 namespace {
@@ -97,7 +97,7 @@ CensusPlanes CensusTransform(const cv::Mat1b& image) {
   CensusPlanes planes;
   for (std::size_t plane = 0; plane < planes.size(); ++plane) {
     planes[plane] = cv::Mat1b(image.size());
-    tbb::parallel_for(0, image.rows, [&](int y) {
+    ParallelFor(0, image.rows, [&](int y) {
       std::array<const uint8_t*, 8> others;
       for (std::size_t k = 0; k < others.size(); ++k) {
         const int bit = static_cast<int>(8 * plane + k);

@@ -1,10 +1,9 @@
 #include "slam/stereo/dense/semi_global.h"
 
-#include <tbb/parallel_for.h>
-
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "slam/common/parallel.h"
 #include "slam/stereo/dense/census_cost.h"
 #include "slam/stereo/dense/choose_disparity.h"
 #include "slam/stereo/dense/cost_paths.h"
@@ -103,13 +102,13 @@ std::vector<Winner> FindWinners(const cv::Mat1b& left, const cv::Mat1b& right,
   const CensusPlanes left_planes = CensusTransform(left), right_planes = CensusTransform(right);
   const int disparities = options.max_disparity_px;
   Volume costs(left.size(), disparities), by_rows(left.size(), disparities);
-  tbb::parallel_for(0, (left.rows + kBandRows - 1) / kBandRows, [&](int band) {
+  ParallelFor(0, (left.rows + kBandRows - 1) / kBandRows, [&](int band) {
     const int top = band * kBandRows, bottom = std::min(top + kBandRows, left.rows);
     CensusCosts(left_planes, right_planes, top, bottom, disparities, costs.At(top, 0));
     FollowRows(contrasts.across, top, bottom, prices, costs, by_rows);
   });
   std::vector<Winner> winners(left.total());
-  tbb::parallel_for(0, (left.cols + kStripColumns - 1) / kStripColumns, [&](int strip) {
+  ParallelFor(0, (left.cols + kStripColumns - 1) / kStripColumns, [&](int strip) {
     const int from = strip * kStripColumns, to = std::min(from + kStripColumns, left.cols);
     Volume by_columns({kStripColumns, left.rows}, disparities);
     FollowColumns(contrasts.down, from, to, prices, costs, by_columns);
@@ -141,7 +140,7 @@ cv::Mat1f MatchSemiGlobally(const cv::Mat1b& left, const cv::Mat1b& right,
   CV_Assert(left.size() == right.size() && !left.empty());
   const std::vector<Winner> winners = FindWinners(left, right, options);
   cv::Mat1s sixteenths(left.size());
-  tbb::parallel_for(0, left.rows, [&](int y) {
+  ParallelFor(0, left.rows, [&](int y) {
     CheckRightToLeft(winners.data() + y * left.cols, left.cols, options.left_right_px, kUnknown,
                      sixteenths[y]);
   });

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#if defined(__SANITIZE_THREAD__)
+#include <sanitizer/tsan_interface.h>
+#endif
+
+namespace aisle::sim {
+
+/// Work that is split among threads and awaited. oneTBB orders what was before it, the parts and
+/// what comes after by means that ThreadSanitizer does not see in a packaged library; it is told
+/// here, so that what is left to report are races of our own. Nothing in other builds.
+class ForkAndJoin {
+ public:
+#if defined(__SANITIZE_THREAD__)
+  ForkAndJoin() { __tsan_release(&fork_); }
+  ~ForkAndJoin() { Join(); }
+  ForkAndJoin(const ForkAndJoin&) = delete;
+  ForkAndJoin& operator=(const ForkAndJoin&) = delete;
+  void Join() { __tsan_acquire(&join_); }
+  template <typename Work>
+  auto Part(const Work& work) {
+    return [this, &work](auto... arguments) {
+      __tsan_acquire(&fork_);
+      work(arguments...);
+      __tsan_release(&join_);
+    };
+  }
+
+ private:
+  char fork_ = 0, join_ = 0;  // addresses alone matter
+#else
+  void Join() {}
+  template <typename Work>
+  const Work& Part(const Work& work) {
+    return work;
+  }
+#endif
+};
+
+/// Calls work(i) for first <= i < last, on the threads of the arena at hand, in any order.
+template <typename Index, typename Work>
+void ParallelFor(Index first, Index last, const Work& work) {
+  ForkAndJoin split;
+  tbb::parallel_for(first, last, split.Part(work));
+}
+
+/// Calls each, at the same time where threads are free.
+template <typename... Works>
+void ParallelInvoke(const Works&... works) {
+  ForkAndJoin split;
+  tbb::parallel_invoke(split.Part(works)...);
+}
+
+}  // namespace aisle::sim

@@ -1,0 +1,79 @@
+#include "slam/common/parallel.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+namespace aisle::slam {
+namespace {
+
+TEST(ParallelForTest, EveryIndexComesOnceWithAnyNumberOfThreads) {
+  for (const std::size_t threads : {1, 2, 7}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    std::vector<int> calls(1000, 0);
+    ParallelFor(3, 1000, [&](int i) { ++calls[static_cast<std::size_t>(i)]; });
+    for (std::size_t i = 0; i < calls.size(); ++i) EXPECT_EQ(calls[i], i >= 3 ? 1 : 0) << i;
+  }
+  ParallelFor(5, 5, [](int) { FAIL() << "there is no index"; });
+}
+
+TEST(ParallelForTest, WhatThePartsWroteIsThereAfterwards) {
+  std::vector<std::vector<int>> rows(64);
+  ParallelFor(std::size_t{0}, rows.size(),
+              [&](std::size_t i) { rows[i].assign(i, static_cast<int>(i)); });
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_THAT(rows[i], testing::AllOf(testing::SizeIs(i), testing::Each(static_cast<int>(i))));
+  }
+}
+
+TEST(ParallelForTest, WhatAPartThrowsArrives) {
+  const auto fails = [](int i) {
+    if (i == 40) throw std::runtime_error("forty");
+  };
+  EXPECT_THROW(ParallelFor(0, 100, fails), std::runtime_error);
+  EXPECT_THROW(ParallelInvoke([] {}, [&] { fails(40); }), std::runtime_error);
+}
+
+TEST(BesideTest, IsDoneWhenItHasBeenAwaitedOrEnds) {
+  std::string made;
+  Beside work([&] { made = "made"; });
+  work.Wait();
+  EXPECT_EQ(made, "made");
+  std::atomic<bool> ended = false;
+  {
+    const Beside other([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      ended = true;
+    });
+  }
+  EXPECT_TRUE(ended);
+}
+
+TEST(BesideTest, ThrowsWhereItIsAwaitedAndNowhereElse) {
+  const auto fails = [] { throw std::runtime_error("beside"); };
+  {
+    Beside work(fails);
+    EXPECT_THROW(work.Wait(), std::runtime_error);
+  }
+  const Beside unasked(fails);
+}
+
+#if defined(__SANITIZE_THREAD__)
+// ThreadSanitizer is told what packaged libraries order; it must not overlook what nobody orders.
+TEST(ParallelForDeathTest, RacesOfOurOwnAreReported) {
+  const auto race = [] {
+    int sum = 0;
+    ParallelFor(0, 100000, [&](int i) { sum += i; });
+    std::exit(sum == 0);
+  };
+  EXPECT_EXIT(race(), testing::ExitedWithCode(66), "data race");
+}
+#endif
+
+}  // namespace
+}  // namespace aisle::slam
