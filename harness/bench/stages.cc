@@ -3,10 +3,12 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <numeric>
 #include <opencv2/features2d.hpp>
 
 #include "harness/common/stopwatch.h"
 #include "harness/plugs/systems.h"
+#include "harness/score/statistics.h"
 
 namespace aisle {
 namespace {
@@ -45,6 +47,21 @@ std::vector<FrameRequest> FirstOf(const BenchView& view, const std::vector<Frame
 
 }  // namespace
 
+double StageTime::mean_ms() const {
+  return ms.empty() ? 0
+                    : std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
+}
+
+double StageTime::quantile_ms(double share) const { return ms.empty() ? 0 : Quantile(ms, share); }
+
+std::vector<double> LatencyProfile(const StageTime& time, int times) {
+  std::vector<double> profile;
+  for (int i = 0; i < times && !time.ms.empty(); ++i) {
+    profile.push_back(time.quantile_ms((i + 0.5) / times));
+  }
+  return profile;
+}
+
 std::map<std::string, StageTime> MeasureStages(const BenchView& view,
                                                const StageBenchOptions& options,
                                                const BenchProgress& progress,
@@ -52,7 +69,7 @@ std::map<std::string, StageTime> MeasureStages(const BenchView& view,
   const auto sequence = OpenSource(view, options.source);
   std::map<std::string, StageTime> stages;
   std::unique_ptr<Estimator> estimator;
-  stages["set_up"].Add(MillisecondsOf([&] {  // what it loads: the visual words
+  stages["set_up"].ms.push_back(MillisecondsOf([&] {  // what it loads: the visual words
     estimator =
         MakeSystem(options.system, sequence->calibration(), {.threads = options.source.threads});
   }));
@@ -69,11 +86,12 @@ std::map<std::string, StageTime> MeasureStages(const BenchView& view,
       StereoFrame images = sequence->At(request).images;
       images.id += lap * std::ssize(schedule);
       images.stamp_ns += lap * lap_ns;
-      if (options.laps == 1) stages["reference"].Add(ReferenceMs(images));
-      stages["frame"].Add(MillisecondsOf([&] { estimate = estimator->Process(images, {}); }));
-      for (const auto& [stage, ms] : estimate.stage_ms) stages[stage].Add(ms);
+      if (options.laps == 1) stages["reference"].ms.push_back(ReferenceMs(images));
+      stages["frame"].ms.push_back(
+          MillisecondsOf([&] { estimate = estimator->Process(images, {}); }));
+      for (const auto& [stage, ms] : estimate.stage_ms) stages[stage].ms.push_back(ms);
       lost += estimate.state == TrackingState::kTracking ? 0 : 1;
-      if (progress) progress(fmt::format("frame {}", stages["frame"].count));
+      if (progress) progress(fmt::format("frame {}", stages["frame"].ms.size()));
     }
     if (lapped) {
       lapped({.index = lap, .last = estimate, .lost = lost, .resident_mib = ResidentMib()});

@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "harness/bench/source.h"
 #include "harness/contract/estimate.h"
@@ -17,18 +18,18 @@ struct StageBenchOptions {
   int laps = 1;      ///< drives over the same frames, one after the other
 };
 
-/// Mean and worst of one stage, milliseconds, over the frames in which it ran.
+/// Milliseconds of one stage, of the frames in which it ran.
 struct StageTime {
-  double sum_ms = 0, worst_ms = 0;
-  int count = 0;
+  std::vector<double> ms;
 
-  void Add(double ms) {
-    sum_ms += ms;
-    worst_ms = std::max(worst_ms, ms);
-    ++count;
-  }
-  double mean_ms() const { return count == 0 ? 0 : sum_ms / count; }
+  double mean_ms() const;
+  /// 0 to 1: 0.5 is the median. 0 without frames.
+  double quantile_ms(double share) const;
 };
+
+/// So many times, rising, that stand for all: the middles of as many parts of equal share. What
+/// `drive.latency_profile_ms` takes. Nothing without frames.
+std::vector<double> LatencyProfile(const StageTime& time, int times = 20);
 
 /// What a lap has left behind: a map grows with the place explored, not with the time spent in it.
 struct BenchLap {

@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <nlohmann/json.hpp>
 
 #include "harness/bench/stages.h"
@@ -13,6 +15,7 @@ namespace {
 
 struct Options {
   std::string source = "paper/scene1", json;
+  bool latency_profile = false;
   StageBenchOptions bench;
   SystemChoice system{.name = "plain", .set = {}};
 };
@@ -47,15 +50,21 @@ int BenchSlam(const Options& options) {
   for (const auto& [stage, time] : stages) mean_ms[stage] = time.mean_ms();
   const double front_end_ms = FrontEndOf(mean_ms).value_or(FrontEndMs{}).total();
   const double reference_ms = stages["reference"].mean_ms();
-  fmt::print("{:18} {:>9} {:>9} {:>7}\n", "stage", "mean ms", "worst ms", "frames");
+  fmt::print("{:18} {:>9} {:>9} {:>9} {:>7}\n", "stage", "mean ms", "99 % ms", "worst ms",
+             "frames");
   for (const auto& [stage, time] : stages) {
-    fmt::print("{:18} {:9.2f} {:9.2f} {:7}\n", stage, time.mean_ms(), time.worst_ms, time.count);
+    fmt::print("{:18} {:9.2f} {:9.2f} {:9.2f} {:7}\n", stage, time.mean_ms(),
+               time.quantile_ms(0.99), time.quantile_ms(1), time.ms.size());
   }
   fmt::print("front end: {:.2f} ms a frame", front_end_ms);
   if (reference_ms > 0) {
     fmt::print(", {:.2f} times OpenCV's ORB on both cameras", front_end_ms / reference_ms);
   }
   fmt::print("\n");
+  if (options.latency_profile) {
+    fmt::print("options: {{drive.latency_profile_ms: \"{:.1f}\"}}\n",
+               fmt::join(LatencyProfile(stages["frame"]), ","));
+  }
   if (!options.json.empty()) {
     const nlohmann::json result = {{"extract_ms", stages["extract"].mean_ms()},
                                    {"stereo_ms", stages["stereo"].mean_ms()},
@@ -64,7 +73,8 @@ int BenchSlam(const Options& options) {
                                    {"front_end_ms", front_end_ms},
                                    {"reference_orb_ms", reference_ms},
                                    {"ratio", front_end_ms / std::max(reference_ms, 1e-9)},
-                                   {"frames", stages["frame"].count}};
+                                   {"frame_ms_p99", stages["frame"].quantile_ms(0.99)},
+                                   {"frames", stages["frame"].ms.size()}};
     WriteFileAtomically(options.json, result.dump(2) + "\n");
   }
   return kAllPassed;
@@ -88,8 +98,11 @@ void AddBenchSlam(CLI::App* bench, Action* action) {
           "memory; for a source that ends where it begins")
       ->check(CLI::Range(1, 100000));
   slam->add_option("--json", options->json, "write the means there too");
+  slam->add_flag("--latency-profile", options->latency_profile,
+                 "print what a frame takes as an option of closed drives, for a suite's system");
   slam->footer(
       "Example: ./aisle bench slam --json slam.json\n"
+      "         ./aisle bench slam drive/aisle_dock --system robust --latency-profile\n"
       "         ./aisle bench slam paper/scene4 --laps 20 --frames 900 --frames-dir f");
   slam->callback([=] {
     *action = [=] {
