@@ -142,6 +142,22 @@ TEST(FrameMismatchTest, AConstantTurnOfTheRigIsToldInWords) {
   EXPECT_TRUE(ScoreTrajectory(truth, truth).notes.empty());
 }
 
+TEST(FrameMismatchTest, AStraightDriveSaysNothingOfTheTurnAboutItself) {
+  Trajectory truth, estimate;
+  for (int i = 0; i < 200; ++i) {
+    const double sway_m = 0.005 * std::sin(0.05 * i);
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() << 0.08 * i, sway_m, 0.85;
+    truth.push_back({i * 50'000'000LL, pose});
+    pose.translation().z() += 0.6 * sway_m;  // which a turn by 31 degrees about the way explains
+    estimate.push_back({i * 50'000'000LL, pose});
+  }
+  const TrajectoryScore score = ScoreTrajectory(truth, estimate);
+  ASSERT_TRUE(score.alignment.rotation_determined);
+  EXPECT_GT(RotationAngleDeg(score.alignment.T_truth_estimate.linear()), 20);
+  EXPECT_TRUE(score.notes.empty()) << score.notes.front();
+}
+
 TEST(CoverageTest, LostFramesCountAsFailures) {
   RunResult run;
   for (int i = 0; i < 100; ++i) {
