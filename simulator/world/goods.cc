@@ -52,7 +52,7 @@ void AddCartons(TriangleMesh* mesh, const Palette& palette, const Eigen::Isometr
   };
   const int nx = fitting(footprint.x(), size.x()), ny = fitting(footprint.y(), size.y());
   const int layers = fitting(height, size.z());
-  size.head<2>() = size.head<2>().cwiseMin(footprint);
+  size = size.cwiseMin(Vector3f(footprint.x(), footprint.y(), height));  // low, narrow shelves
   const double sloppy = identical ? 0 : 1;
   for (int layer = 0; layer < layers; ++layer) {
     const bool top = layer + 1 == layers;
@@ -96,7 +96,7 @@ void AddLooseCartons(TriangleMesh* mesh, const Palette& palette, const Eigen::Is
 
 void AddDrums(TriangleMesh* mesh, const Palette& palette, const Eigen::Isometry3f& pose,
               const Vector2f& footprint, float height, Dice dice) {
-  const float radius = std::min(0.29f, footprint.y() / 2 - 0.01f);
+  const float radius = std::min({0.29f, footprint.y() / 2 - 0.01f, footprint.x() / 2});
   const float tall = std::min(0.88f, height);
   const int nx = std::max(1, static_cast<int>(footprint.x() / (2 * radius)));
   for (int i = 0; i < nx; ++i) {
@@ -108,7 +108,9 @@ void AddDrums(TriangleMesh* mesh, const Palette& palette, const Eigen::Isometry3
 
 void AddTotes(TriangleMesh* mesh, const Palette& palette, const Eigen::Isometry3f& pose,
               const Vector2f& footprint, float height, Dice dice) {
-  const Vector3f size(0.59f, 0.39f, 0.3f);
+  // Low, narrow shelves hold smaller ones.
+  const Vector3f size =
+      Vector3f(0.59f, 0.39f, 0.3f).cwiseMin(Vector3f(footprint.x(), footprint.y(), height));
   const int nx = std::max(1, static_cast<int>(footprint.x() / 0.6f + 0.01f));
   const int ny = std::max(1, static_cast<int>(footprint.y() / 0.4f + 0.01f));
   for (int i = 0; i < nx * ny; ++i) {
@@ -119,7 +121,7 @@ void AddTotes(TriangleMesh* mesh, const Palette& palette, const Eigen::Isometry3
       BoxPaint paint = BoxPaint::Whole(palette.tote);
       paint.faces = kNoBottom;
       AddBox(mesh,
-             pose * At(x, y, 0.31f * static_cast<float>(layer) + 0.15f,
+             pose * At(x, y, 0.31f * static_cast<float>(layer) + size.z() / 2,
                        static_cast<float>(0.015 * dice.Signed())),
              size, paint);
     }
