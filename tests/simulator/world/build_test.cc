@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "simulator/scene/load.h"
+#include "tests/simulator/world/mesh_items.h"
 
 namespace aisle::sim {
 namespace {
@@ -40,6 +41,52 @@ TEST(BuildWorld, TheSameSeedGivesTheSameWorldAndAnotherSeedAnother) {
   ASSERT_EQ(one.textures().size(), again.textures().size());
   for (std::size_t i = 0; i < one.textures().size(); ++i) {
     EXPECT_EQ(cv::norm(one.textures()[i].image, again.textures()[i].image, cv::NORM_INF), 0);
+  }
+}
+
+/// A seed decides wear and what lies where, never the building, the furniture or the lamps.
+TEST(BuildWorld, ASeedLeavesTheBuildingAsItIs) {
+  const Scene scene = ParseScene(
+      "about: A hall.\nrig: {start: [0, 0]}\nhall: {from: [-3, -6], to: [14, 6]}\n"
+      "lights: [{height_m: 5}]\nracks: [{from: [0, 3], bays: 2}]\ncolumns: [{at: [5, 0]}]\n"
+      "markings: [{from: [0, -1], to: [4, -1]}]\ndoors: [{wall: east, at_m: 0}]\n"
+      "stacks: [{at: [8, -3]}]\nprops: [{model: drum, at: [1, -3]}]\n"
+      "mezzanines: [{from: [5, -5], to: [12, -2]}]\n",
+      "hall.yaml");
+  const World one = BuildWorld(scene, kAssets, 1), other = BuildWorld(scene, kAssets, 2);
+  ASSERT_EQ(one.instances().size(), other.instances().size());
+  int kept = 0, changed = 0;
+  for (std::size_t i = 1; i < one.instances().size(); ++i) {
+    const std::string& name = one.instances()[i].name;
+    EXPECT_EQ(name, other.instances()[i].name);
+    const auto corners = [&](const World& world) {
+      std::vector<std::array<float, 3>> all;
+      for (const std::size_t t : test::TrianglesOf(world.instances(), world.statics(), name)) {
+        for (const std::uint32_t v : world.statics().mesh.triangles[t]) {
+          const Eigen::Vector3f& p = world.statics().mesh.positions[v];
+          all.push_back({p.x(), p.y(), p.z()});
+        }
+      }
+      return all;
+    };
+    const bool may = name.starts_with("goods") || name.starts_with("stack") ||
+                     name.ends_with("goods") || name.ends_with("fittings");
+    const bool same = corners(one) == corners(other);
+    EXPECT_TRUE(may || same) << name;
+    (same ? kept : changed) += 1;
+  }
+  EXPECT_GT(kept, 8);
+  EXPECT_GT(changed, 2);
+  ASSERT_EQ(one.lights().size(), other.lights().size());
+  for (std::size_t i = 0; i < one.lights().size(); ++i) {
+    EXPECT_EQ(one.lights()[i].center, other.lights()[i].center);
+    EXPECT_EQ(one.lights()[i].radiance, other.lights()[i].radiance);
+  }
+  for (std::size_t i = 0; i < one.textures().size(); ++i) {
+    const std::string& name = one.textures()[i].name;
+    const bool worn = name.starts_with("floor_") || name == "line_paint" || name == "hatch";
+    const double apart = cv::norm(one.textures()[i].image, other.textures()[i].image, cv::NORM_INF);
+    EXPECT_EQ(apart > 0, worn) << name;
   }
 }
 
