@@ -53,28 +53,15 @@ PilotOptions PilotOf(const Course& course, const Steering& steering) {
   return options;
 }
 
-/// Shows each frame to the system and tells the vehicle the truth instead.
-class ShownOnly : public Localiser {
- public:
-  explicit ShownOnly(Localiser* shown) : shown_(shown) {}
-  std::optional<Eigen::Isometry3d> Locate(const Exposure& exposure) override {
-    shown_->Locate(exposure);
-    return exposure.T_world_rig;
-  }
-  bool failed() const override { return shown_->failed(); }
+}  // namespace
 
- private:
-  Localiser* shown_;
-};
-
-class Loop {
+class ClosedDrive::Loop {
  public:
-  Loop(const DriveScene& scene, Localiser* localiser, const LoopOptions& options)
+  Loop(const DriveScene& scene, const LoopOptions& options)
       : scene_(scene),
         course_(scene.course()),
         options_(options),
-        localiser_(localiser),
-        server_(localiser, RuleOf(options.steering), LatencyOf(options.steering, options.seed)),
+        server_(RuleOf(options.steering), LatencyOf(options.steering, options.seed)),
         pilot_(course_.way, course_.start, PilotOf(course_, options.steering)),
         odometer_(course_.odometry, course_.plant, options.seed),
         traffic_(scene),
@@ -86,25 +73,55 @@ class Loop {
     const auto is_drive = [](const WayLeg& leg) { return leg.kind == WayLeg::Kind::kDrive; };
     on_leg_ =
         static_cast<std::size_t>(std::ranges::find_if(course_.way, is_drive) - course_.way.begin());
+    contacts_.See(Now(), 0, 0);
   }
 
-  DriveTrack Run() {
+  const Exposure* Next() {
     const std::int64_t limit_ns =
         std::llround(1e9 * (options_.times_planned * course_.planned_s + options_.and_s));
-    contacts_.See(Now(), 0, 0);
     while (!over_) {
       Listen();
-      if (now_ns_ == scene_.Stamp(frame_)) Photograph();
-      Listen();
+      if (const Exposure* asked = server_.asked()) return asked;
+      if (now_ns_ == scene_.Stamp(frame_)) {
+        Photograph();
+        continue;
+      }
       if (now_ns_ % options_.tick_ns == 0) Tick();
       if (now_ns_ >= limit_ns && !over_) End(DriveEnd::kTimeout);
-      if (localiser_->failed()) End(DriveEnd::kFailed);
+      if (failed_) End(DriveEnd::kFailed);
       if (!over_) Advance(NextEvent() - now_ns_);
     }
-    track_.time_s = Seconds(now_ns_);
-    track_.frames_shown = server_.shown();
-    return std::move(track_);
+    return nullptr;
   }
+
+  void Tell(const std::optional<Eigen::Isometry3d>& T_slam_rig) {
+    const Exposure* asked = server_.asked();
+    if (asked == nullptr) throw std::logic_error("no frame waits for an answer");
+    if (!options_.steering.steered_by_truth) return server_.Tell(T_slam_rig);
+    server_.Tell(Eigen::Isometry3d(asked->T_world_rig));  // shown, and told the truth instead
+  }
+
+  void Fail() { failed_ = true; }
+
+  DriveSample Sample() const {
+    const WayLeg& on = course_.way[on_leg_];
+    const double back = on.reverse ? std::numbers::pi : 0;
+    const bool on_way = mode_ != DriveMode::kWaiting && pilot_.driver().leg == on_leg_;
+    DriveSample sample{.stamp_ns = now_ns_, .truth = plant_.pose, .belief = pilot_.belief()};
+    sample.speed_mps = Speed();
+    sample.yaw_rate_rad_s = plant_.turn_rate_rad_s;
+    sample.cross_track_m = truth_.cross_track_m;
+    sample.heading_error_rad =
+        on_way ? WrapAngle(plant_.pose.heading_rad + back - truth_.heading_rad) : 0;
+    sample.route_m = before_leg_m_ + on_leg_m_;
+    if (const auto by = pilot_.steers_by_ns()) sample.estimate_age_s = Seconds(now_ns_ - *by);
+    sample.clearance_static_m = contacts_.clearance_static_m();
+    sample.clearance_actor_m = contacts_.clearance_actor_m();
+    sample.mode = mode_;
+    return sample;
+  }
+
+  const DriveTrack& track() const { return track_; }
 
  private:
   std::int64_t NextEvent() const {
@@ -141,6 +158,7 @@ class Loop {
     const Eigen::AngleAxisd turn(Eigen::Matrix3d(before.linear().transpose() * after.linear()));
     exposure.turn_rate_rad_s = turn.angle() * turn.axis() / over_s;
     server_.Offer(exposure);
+    track_.frames_shown = server_.shown();
   }
 
   void Tick() {
@@ -193,24 +211,6 @@ class Loop {
     on_leg_m_ = std::clamp(truth_.distance_m, 0.0, on.length_m());
   }
 
-  DriveSample Sample() const {
-    const WayLeg& on = course_.way[on_leg_];
-    const double back = on.reverse ? std::numbers::pi : 0;
-    const bool on_way = mode_ != DriveMode::kWaiting && pilot_.driver().leg == on_leg_;
-    DriveSample sample{.stamp_ns = now_ns_, .truth = plant_.pose, .belief = pilot_.belief()};
-    sample.speed_mps = Speed();
-    sample.yaw_rate_rad_s = plant_.turn_rate_rad_s;
-    sample.cross_track_m = truth_.cross_track_m;
-    sample.heading_error_rad =
-        on_way ? WrapAngle(plant_.pose.heading_rad + back - truth_.heading_rad) : 0;
-    sample.route_m = before_leg_m_ + on_leg_m_;
-    if (const auto by = pilot_.steers_by_ns()) sample.estimate_age_s = Seconds(now_ns_ - *by);
-    sample.clearance_static_m = contacts_.clearance_static_m();
-    sample.clearance_actor_m = contacts_.clearance_actor_m();
-    sample.mode = mode_;
-    return sample;
-  }
-
   void AddSample() {
     track_.samples.push_back(Sample());
     for (std::size_t i = 0; i < track_.actors.size(); ++i) {
@@ -237,6 +237,7 @@ class Loop {
   void End(DriveEnd end) {
     over_ = true;
     track_.end = end;
+    track_.time_s = Seconds(now_ns_);
     if (track_.samples.empty() || track_.samples.back().stamp_ns != now_ns_) {
       AddSample();
     }
@@ -253,8 +254,7 @@ class Loop {
 
   const DriveScene& scene_;
   const Course& course_;
-  const LoopOptions& options_;
-  Localiser* localiser_;
+  const LoopOptions options_;
   DriveTrack track_;
   Server server_;
   Pilot pilot_;
@@ -269,10 +269,21 @@ class Loop {
   double on_leg_m_ = 0, before_leg_m_ = 0;
   OnWay truth_;
   double settled_s_ = 0, stands_s_ = 0, clear_s_ = 0;
-  bool held_ = false, over_ = false;
+  bool held_ = false, over_ = false, failed_ = false;
 };
 
-}  // namespace
+ClosedDrive::ClosedDrive(const DriveScene& scene, const LoopOptions& options)
+    : loop_(std::make_unique<Loop>(scene, options)) {}
+ClosedDrive::ClosedDrive(ClosedDrive&&) noexcept = default;
+ClosedDrive::~ClosedDrive() = default;
+
+const Exposure* ClosedDrive::Next() { return loop_->Next(); }
+void ClosedDrive::Tell(const std::optional<Eigen::Isometry3d>& T_slam_rig) {
+  loop_->Tell(T_slam_rig);
+}
+void ClosedDrive::Fail() { loop_->Fail(); }
+DriveSample ClosedDrive::Now() const { return loop_->Sample(); }
+const DriveTrack& ClosedDrive::track() const { return loop_->track(); }
 
 std::string Validate(const Steering& steering) {
   if (!(steering.latency_ms >= 0 && steering.latency_ms <= 10000)) {
@@ -296,9 +307,12 @@ std::string Validate(const Steering& steering) {
 }
 
 DriveTrack DriveClosed(const DriveScene& scene, Localiser* localiser, const LoopOptions& options) {
-  ShownOnly shown(localiser);
-  Localiser* steers = options.steering.steered_by_truth ? &shown : localiser;
-  return Loop(scene, steers, options).Run();
+  ClosedDrive drive(scene, options);
+  while (const Exposure* frame = drive.Next()) {
+    drive.Tell(localiser->Locate(*frame));
+    if (localiser->failed()) drive.Fail();
+  }
+  return drive.track();
 }
 
 namespace {

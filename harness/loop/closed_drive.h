@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "harness/contract/drive_log.h"
 #include "harness/contract/steering.h"
@@ -26,6 +27,34 @@ std::string Validate(const Steering& steering);
 /// plant, traffic, wheels and camera in one thread, in a time that no clock decides. Of `steering`,
 /// `steered_by_truth` shows the frames to `localiser` and steers by their true pose.
 DriveTrack DriveClosed(const DriveScene& scene, Localiser* localiser, const LoopOptions& options);
+
+/// The same drive from frame to frame, for who asks it rather than being asked:
+///
+///   while (const Exposure* frame = drive.Next()) drive.Tell(pose_of(*frame));
+///
+/// The scene must outlive it.
+class ClosedDrive {
+ public:
+  ClosedDrive(const DriveScene& scene, const LoopOptions& options);
+  ClosedDrive(ClosedDrive&&) noexcept;
+  ~ClosedDrive();
+
+  /// Drives on to the next frame that the system looks at; null when the drive is over. The same
+  /// one again until something is told of it.
+  const Exposure* Next();
+  /// What the system says of that frame: T_slam_rig in a world of its own, or nothing: lost.
+  void Tell(const std::optional<Eigen::Isometry3d>& T_slam_rig);
+  /// It crashed or spoke nonsense: the drive ends at this instant.
+  void Fail();
+  /// The vehicle now.
+  DriveSample Now() const;
+  /// What has been driven so far; whole when the drive is over.
+  const DriveTrack& track() const;
+
+ private:
+  class Loop;
+  std::unique_ptr<Loop> loop_;
+};
 
 /// What a log says of a course and how it was driven; tracks left aside.
 DriveLog LogOf(const Course& course, const Steering& steering);

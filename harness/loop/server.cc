@@ -2,16 +2,21 @@
 
 namespace aisle {
 
-Server::Server(Localiser* localiser, QueueRule rule,
-               std::function<std::int64_t(std::int64_t)> latency_ns)
-    : localiser_(localiser), rule_(rule), latency_ns_(std::move(latency_ns)) {}
+Server::Server(QueueRule rule, std::function<std::int64_t(std::int64_t)> latency_ns)
+    : rule_(rule), latency_ns_(std::move(latency_ns)) {}
 
 void Server::Begin(const Exposure& exposure, std::int64_t at_ns) {
   ++shown_;
   std::int64_t due = at_ns + latency_ns_(exposure.id);
   // Answers come in the order of their frames.
   if (!working_.empty()) due = std::max(due, working_.back().due_ns);
-  working_.push_back({exposure.stamp_ns, due, localiser_->Locate(exposure)});
+  working_.push_back({exposure.stamp_ns, due, std::nullopt});
+  asked_ = exposure;
+}
+
+void Server::Tell(const std::optional<Eigen::Isometry3d>& T_slam_rig) {
+  working_.back().T_slam_rig = T_slam_rig;
+  asked_.reset();
 }
 
 void Server::Offer(const Exposure& exposure) {
@@ -24,7 +29,7 @@ void Server::Offer(const Exposure& exposure) {
 
 std::vector<Answer> Server::Due(std::int64_t now_ns) {
   std::vector<Answer> due;
-  while (!working_.empty() && working_.front().due_ns <= now_ns) {
+  while (!asked_ && !working_.empty() && working_.front().due_ns <= now_ns) {
     due.push_back(working_.front());
     working_.pop_front();
     if (waiting_ && working_.empty()) {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "harness/loop/localiser.h"
+#include "harness/loop/drive_scene.h"
 
 namespace aisle {
 
@@ -18,17 +18,21 @@ struct Answer {
 enum class QueueRule { kNewest, kDrop, kPipeline };
 
 /// Latency as a model: one system that takes a while for each frame. Time is the scene's, never the
-/// clock's: what it computes, it computes at once, and hands out when it is due.
+/// clock's: what it says of a frame is told at once, and handed out when it is due.
 class Server {
  public:
   /// `latency_ns` tells how long a frame takes, by its id.
-  Server(Localiser* localiser, QueueRule rule,
-         std::function<std::int64_t(std::int64_t frame)> latency_ns);
+  Server(QueueRule rule, std::function<std::int64_t(std::int64_t frame)> latency_ns);
 
   /// A frame arrives at its stamp.
   void Offer(const Exposure& exposure);
-  /// The answers that are due by now, in order. A frame that waited is begun when the one before it
-  /// is done.
+  /// The frame that the system has begun and has not said anything of yet; null: none. Until it is
+  /// told, nothing else goes on.
+  const Exposure* asked() const { return asked_ ? &*asked_ : nullptr; }
+  /// What the system says of that frame: T_slam_rig, or nothing.
+  void Tell(const std::optional<Eigen::Isometry3d>& T_slam_rig);
+  /// The answers that are due by now, in order, as far as they are told. A frame that waited is
+  /// begun when the one before it is done.
   std::vector<Answer> Due(std::int64_t now_ns);
   /// The next time at which something is due; nothing while it is idle.
   std::optional<std::int64_t> NextDue() const;
@@ -37,11 +41,10 @@ class Server {
  private:
   void Begin(const Exposure& exposure, std::int64_t at_ns);
 
-  Localiser* localiser_;
   QueueRule rule_;
   std::function<std::int64_t(std::int64_t)> latency_ns_;
-  std::deque<Answer> working_;  ///< by time due
-  std::optional<Exposure> waiting_;
+  std::deque<Answer> working_;  ///< by time due; of `asked_` the last
+  std::optional<Exposure> asked_, waiting_;
   int shown_ = 0;
 };
 

@@ -172,6 +172,24 @@ TEST(ClosedDriveTest, ZonesAreHeldByTheTrueVehicle) {
   EXPECT_EQ(track.violations[0].zone, "slow");
 }
 
+TEST(ClosedDriveTest, AskedFromFrameToFrameItIsTheSameDrive) {
+  const FakeDriveScene scene;
+  for (const char* queue : {"newest", "drop", "pipeline"}) {
+    LoopOptions options = At(120);
+    options.steering.queue = queue;
+    DriftingLocaliser one(0.01), other(0.01);
+    ClosedDrive drive(scene, options);
+    while (const Exposure* frame = drive.Next()) {
+      EXPECT_EQ(drive.Next(), frame);  // the same one until something is told of it
+      EXPECT_LE(frame->stamp_ns, drive.Now().stamp_ns);
+      drive.Tell(one.Locate(*frame));
+    }
+    EXPECT_EQ(drive.Next(), nullptr);
+    EXPECT_THROW(drive.Tell(std::nullopt), std::logic_error);
+    EXPECT_EQ(drive.track(), DriveClosed(scene, &other, options)) << queue;
+  }
+}
+
 TEST(ClosedDriveTest, ShownOnlyASystemDoesNotSteer) {
   LoopOptions options;
   options.steering.steered_by_truth = true;
@@ -181,15 +199,21 @@ TEST(ClosedDriveTest, ShownOnlyASystemDoesNotSteer) {
   EXPECT_GT(drifting.seen.size(), 100u);
 }
 
+void LetAnswer(Server* server, Localiser* localiser) {
+  if (const Exposure* asked = server->asked()) server->Tell(localiser->Locate(*asked));
+}
+
 TEST(ServerTest, FramesThatArriveWhileItWorksAreDroppedByTheRule) {
   const FakeDriveScene scene;
   const auto seen = [&](QueueRule rule, double ms) {
     DriftingLocaliser localiser;
-    Server server(&localiser, rule, [=](std::int64_t) { return std::llround(1e6 * ms); });
+    Server server(rule, [=](std::int64_t) { return std::llround(1e6 * ms); });
     for (std::int64_t k = 0; k < 20; ++k) {
       Exposure exposure{.id = k, .stamp_ns = scene.Stamp(k)};
       server.Due(exposure.stamp_ns);
+      LetAnswer(&server, &localiser);
       server.Offer(exposure);
+      LetAnswer(&server, &localiser);
     }
     return localiser.seen.size();
   };
@@ -202,12 +226,16 @@ TEST(ServerTest, FramesThatArriveWhileItWorksAreDroppedByTheRule) {
 
 TEST(ServerTest, AnAnswerIsDueItsLatencyAfterTheSystemCouldBegin) {
   DriftingLocaliser localiser;
-  Server server(&localiser, QueueRule::kNewest, [](std::int64_t) { return 70'000'000; });
+  Server server(QueueRule::kNewest, [](std::int64_t) { return 70'000'000; });
   server.Offer({.id = 0, .stamp_ns = 0});
+  EXPECT_TRUE(server.Due(80'000'000).empty());  // nobody has said anything of it
+  LetAnswer(&server, &localiser);
   server.Offer({.id = 1, .stamp_ns = 50'000'000});
   EXPECT_TRUE(server.Due(69'999'999).empty());
   ASSERT_EQ(server.Due(70'000'000).size(), 1u);
   EXPECT_EQ(server.NextDue(), 140'000'000);
+  EXPECT_EQ(server.asked()->id, 1);
+  LetAnswer(&server, &localiser);
   EXPECT_EQ(server.Due(140'000'000).at(0).frame_ns, 50'000'000);
 }
 
