@@ -52,27 +52,16 @@ Scorecard ScoreMaskFolders(const std::string& truth_folder, const std::string& m
   RunResult run;
   double sum_f = 0;
   for (const auto& [name, path] : truths) {
-    FrameTruth truth;
-    truth.dynamic = ReadMaskPng(path);
-    DynamicRegions regions;
-    const auto mask = masks.find(name);
-    regions.mask =
-        mask == masks.end() ? cv::Mat1b(truth.dynamic.size(), 0) : ReadMaskPng(mask->second);
-    if (regions.mask.size() != truth.dynamic.size()) {
-      throw InputError(mask->second.string(), 0, "has another size than its true mask");
+    const cv::Mat1b truth = ReadMaskPng(path);
+    const auto found = masks.find(name);
+    const cv::Mat1b mask =
+        found == masks.end() ? cv::Mat1b(truth.size(), 0) : ReadMaskPng(found->second);
+    if (mask.size() != truth.size()) {
+      throw InputError(found->second.string(), 0, "has another size than its true mask");
     }
-    // Without labels an object is a blob of moving pixels.
-    const DynamicRegions true_blobs{.mask = truth.dynamic, .regions = {}};
     FrameFacts facts;
-    facts.mask =
-        CompareMaskImages(truth.dynamic, regions.mask, RuleOf(outline, truth.dynamic.size()));
+    facts.mask = CompareMaskBlobs(truth, mask, RuleOf(outline, truth.size()));
     sum_f += FrameF(*facts.mask);
-    const auto rejected = RejectedRegions(RejectedBoxes(regions, {}), truth.dynamic, regions.mask);
-    const MaskFacts objects = MatchBoxes(RejectedBoxes(true_blobs, {}), rejected, {});
-    facts.mask->objects_found = objects.objects_found;
-    facts.mask->objects_missed = objects.objects_missed;
-    facts.mask->objects_invented = objects.objects_invented;
-    facts.mask->iou_sum = objects.iou_sum;
     run.facts.push_back(facts);
   }
   Scorecard scores = ScoreMasks(run);

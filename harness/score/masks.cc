@@ -229,6 +229,19 @@ MaskFacts CompareMaskImages(const cv::Mat1b& truth, const cv::Mat1b& rejected,
   return facts;
 }
 
+MaskFacts CompareMaskBlobs(const cv::Mat1b& truth, const cv::Mat1b& rejected,
+                           const BoundaryRule& rule) {
+  MaskFacts facts = CompareMaskImages(truth, rejected, rule);
+  const std::vector<cv::Rect2d> claims = RejectedBoxes({.mask = rejected, .regions = {}}, {});
+  const std::vector<cv::Rect2d> blobs = RejectedBoxes({.mask = truth, .regions = {}}, {});
+  const MaskFacts objects = MatchBoxes(blobs, RejectedRegions(claims, truth, rejected), {});
+  facts.objects_found = objects.objects_found;
+  facts.objects_missed = objects.objects_missed;
+  facts.objects_invented = objects.objects_invented;
+  facts.iou_sum = objects.iou_sum;
+  return facts;
+}
+
 MaskFacts CompareMasks(const cv::Mat1b& left, const FrameTruth& truth,
                        const DynamicRegions& regions, const MaskOptions& options) {
   const cv::Mat1b dynamic = OrEmpty(truth.dynamic, left.size(), "truth's dynamic");

@@ -87,6 +87,10 @@ MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth,
 MaskFacts CompareMaskImages(const cv::Mat1b& truth, const cv::Mat1b& rejected,
                             const BoundaryRule& rule = {});
 
+/// The same, and objects where nobody labelled them: each is a blob of moving pixels.
+MaskFacts CompareMaskBlobs(const cv::Mat1b& truth, const cv::Mat1b& rejected,
+                           const BoundaryRule& rule = {});
+
 /// All comparisons of one frame. `truth.dynamic` and `regions.mask` have the size of `left`, or are
 /// empty (nothing moves, nothing is rejected). Throws std::invalid_argument on other sizes.
 MaskFacts CompareMasks(const cv::Mat1b& left, const FrameTruth& truth,
