@@ -1,5 +1,7 @@
 #include "harness/io/places.h"
 
+#include <dlfcn.h>
+#include <link.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -20,9 +22,9 @@ fs::path FromEnvironment(const char* variable, const fs::path& otherwise) {
 
 fs::path Home() { return FromEnvironment("HOME", "."); }
 
-/// Of this very process; it does not move while it runs.
+/// Of this very code; it does not move while it runs.
 const OwnPlace& Here() {
-  static const OwnPlace place = FindOwnPlace(OwnExecutable());
+  static const OwnPlace place = FindOwnPlace(OwnFile());
   return place;
 }
 
@@ -43,7 +45,7 @@ OwnPlace FindOwnPlace(const fs::path& executable) {
 
 fs::path OwnFolder() {
   if (!Here().folder.empty()) return Here().folder;
-  throw InputError(OwnExecutable().string() +
+  throw InputError(OwnFile().string() +
                    ": neither share/aisle nor a source tree is around it; set AISLE_ASSETS to the "
                    "folder of assets, with scenes beside it");
 }
@@ -88,6 +90,16 @@ fs::path UserDataDir() {
 }
 
 fs::path OwnExecutable() { return fs::read_symlink("/proc/self/exe"); }
+
+fs::path OwnFile() {
+  Dl_info info{};
+  link_map* loaded = nullptr;
+  const auto here = reinterpret_cast<const void*>(&OwnFile);
+  const bool known = dladdr1(here, &info, reinterpret_cast<void**>(&loaded), RTLD_DL_LINKMAP) != 0;
+  // The program itself is loaded without a name.
+  if (known && loaded != nullptr && *loaded->l_name != '\0') return fs::absolute(loaded->l_name);
+  return fs::read_symlink("/proc/self/exe");
+}
 
 std::string NowIso8601() {
   const std::time_t now = std::time(nullptr);

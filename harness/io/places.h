@@ -11,9 +11,9 @@ struct OwnPlace {
   bool installed = false;        ///< PREFIX/share/aisle, and no source tree
 };
 
-/// What is around a program's file: PREFIX/share/aisle, or the tree from which the build folder it
-/// stands in was made. The build writes aisle-built-from there, so that no path of a machine is in
-/// the program itself.
+/// What is around a program's or a module's file: PREFIX/share/aisle, or the tree from which the
+/// build folder it stands in was made. The build writes aisle-built-from there, so that no path of
+/// a machine is in the program itself.
 OwnPlace FindOwnPlace(const std::filesystem::path& executable);
 
 /// What comes with this program: PREFIX/share/aisle where it is installed, the source tree where it
@@ -47,6 +47,10 @@ std::filesystem::path UserDataDir();
 
 /// This very program.
 std::filesystem::path OwnExecutable();
+
+/// The file that this code was loaded from: the program's, or a module's within a program of others
+/// (Python's).
+std::filesystem::path OwnFile();
 
 /// Now, UTC: "2026-01-31T02:00:00Z".
 std::string NowIso8601();

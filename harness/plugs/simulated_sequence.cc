@@ -31,16 +31,17 @@ sim::Twin TwinFromName(const std::string& name) {
       fmt::format("twin '{}': expected one of {}", Printable(name), fmt::join(TwinNames(), ", ")));
 }
 
-/// A bar on stderr where that is a terminal; nothing elsewhere.
-std::function<void(double)> LightBar(const std::string& scene) {
-  if (isatty(STDERR_FILENO) == 0) return {};
-  return [scene](double share) {
+/// Tells `told`, and draws a bar on stderr where that is a terminal.
+std::function<void(double)> LightBar(const std::string& scene, std::function<void(double)> told) {
+  if (isatty(STDERR_FILENO) == 0) return told;
+  return [scene, told](double share) {
     constexpr int kWidth = 30;
     const int filled = static_cast<int>(share * kWidth);
     fmt::print(stderr, "\r{}: solving the static light [{:#<{}}{:.<{}}] {:3.0f} %", scene, "",
                filled, "", kWidth - filled, 100 * share);
     if (share >= 1) fmt::print(stderr, "\r\033[K");
     std::fflush(stderr);
+    if (told) told(share);
   };
 }
 
@@ -72,8 +73,12 @@ class SimulatedSequence : public Sequence {
 
   FrameMotion MotionOf(const FrameRequest& request) const {
     const std::int64_t next_ns = simulator_.Stamp(static_cast<int>(request.id) + 1);
-    sim::MotionTruth truth = simulator_.RenderMotion(request.stamp_ns, request.T_world_rig, next_ns,
-                                                     simulator_.PlannedPose(next_ns));
+    return MotionBetween(request, {request.id + 1, next_ns, simulator_.PlannedPose(next_ns)});
+  }
+
+  FrameMotion MotionBetween(const FrameRequest& from, const FrameRequest& to) const {
+    sim::MotionTruth truth =
+        simulator_.RenderMotion(from.stamp_ns, from.T_world_rig, to.stamp_ns, to.T_world_rig);
     return {truth.disparity, truth.occluded, truth.flow, truth.scene_flow, truth.moving_shadow};
   }
 
@@ -115,12 +120,13 @@ const std::vector<std::string>& TwinNames() {
 sim::Simulator OpenSimulator(const SimulatedSequenceOptions& options) {
   const sim::Twin twin = TwinFromName(options.twin);
   try {
-    return sim::Simulator::Load(options.scene_file, options.assets_dir,
-                                {.seed = options.seed,
-                                 .twin = twin,
-                                 .threads = options.threads,
-                                 .isa = options.isa,
-                                 .light_progress = LightBar(options.scene_name)});
+    return sim::Simulator::Load(
+        options.scene_file, options.assets_dir,
+        {.seed = options.seed,
+         .twin = twin,
+         .threads = options.threads,
+         .isa = options.isa,
+         .light_progress = LightBar(options.scene_name, options.light_progress)});
   } catch (const std::filesystem::filesystem_error& error) {
     throw InputError(error.what());
   } catch (const std::system_error& error) {  // no memory, no process to read a model in
@@ -163,6 +169,9 @@ SimulationForExport OpenForExport(const SimulatedSequenceOptions& options) {
   }
   result.path = at->Path();
   result.motion = [at](const FrameRequest& frame) { return at->MotionOf(frame); };
+  result.motion_between = [at](const FrameRequest& from, const FrameRequest& to) {
+    return at->MotionBetween(from, to);
+  };
   result.prove = [at](const FrameRequest& frame) { return at->Prove(frame); };
   result.sequence = std::move(sequence);
   return result;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -19,6 +20,9 @@ struct SimulatedSequenceOptions {
   /// Estimators take rectified pairs, so a scene with a distorted lens is refused unless this says
   /// that the pictures go elsewhere.
   bool any_lens = false;
+  /// Told, beside a bar on a terminal, what share of the static light is solved; from any thread,
+  /// one call at a time. What it throws ends the work.
+  std::function<void(double)> light_progress = {};
 };
 
 /// What the proofs say of one frame, and the sentence about what failed, or none.
@@ -39,6 +43,8 @@ struct SimulationForExport {
   PathOfRig path;
   /// Correspondences to the next frame of the scene, which for the last is the one that would come.
   std::function<FrameMotion(const FrameRequest& frame)> motion;
+  /// The same to any other time and pose.
+  std::function<FrameMotion(const FrameRequest& from, const FrameRequest& to)> motion_between;
   std::function<FrameProof(const FrameRequest& frame)> prove;
 };
 

@@ -1,5 +1,8 @@
 #include "simulator/common/own_files.h"
 
+#include <dlfcn.h>
+#include <link.h>
+
 #include <fstream>
 
 namespace aisle::sim {
@@ -40,6 +43,14 @@ fs::path FindOwnHelper(const fs::path& executable, const std::string& name, cons
   });
 }
 
-fs::path OwnExecutable() { return fs::read_symlink("/proc/self/exe"); }
+fs::path OwnFile() {
+  Dl_info info{};
+  link_map* loaded = nullptr;
+  const auto here = reinterpret_cast<const void*>(&OwnFile);
+  const bool known = dladdr1(here, &info, reinterpret_cast<void**>(&loaded), RTLD_DL_LINKMAP) != 0;
+  // The program itself is loaded without a name.
+  if (known && loaded != nullptr && *loaded->l_name != '\0') return fs::absolute(loaded->l_name);
+  return fs::read_symlink("/proc/self/exe");
+}
 
 }  // namespace aisle::sim

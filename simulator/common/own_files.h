@@ -18,7 +18,8 @@ std::filesystem::path FindOwnFolder(const std::filesystem::path& executable);
 std::filesystem::path FindOwnHelper(const std::filesystem::path& executable,
                                     const std::string& name, const std::filesystem::path& built);
 
-/// The file of this very process.
-std::filesystem::path OwnExecutable();
+/// The file that this code was loaded from: the program's, or a module's within a program of others
+/// (Python's).
+std::filesystem::path OwnFile();
 
 }  // namespace aisle::sim

@@ -70,7 +70,7 @@ void ReadRects(const std::string& texture, const Json& asset,
 }
 
 bool IsOwnTree(const std::filesystem::path& folder) {
-  const std::filesystem::path own = FindOwnFolder(OwnExecutable());
+  const std::filesystem::path own = FindOwnFolder(OwnFile());
   std::error_code error;
   return !own.empty() && std::filesystem::equivalent(folder, own / "assets", error);
 }

@@ -132,7 +132,7 @@ fs::path ReaderProgram() {
   constexpr const char* kName = "aisle-read-model";
   const char* given = std::getenv("AISLE_READ_MODEL");
   if (given != nullptr && *given != '\0') return given;
-  const fs::path own = FindOwnHelper(OwnExecutable(), kName, fs::path("simulator") / kName);
+  const fs::path own = FindOwnHelper(OwnFile(), kName, fs::path("simulator") / kName);
   return own.empty() ? fs::path(AISLE_LIBEXEC) / kName : own;  // a program of others: as installed
 }
 

@@ -45,7 +45,7 @@ TEST_F(OwnFiles, AProgramOfOthersHasNone) {
 }
 
 TEST_F(OwnFiles, ThisTestWasBuiltInThisTree) {
-  EXPECT_TRUE(fs::equivalent(FindOwnFolder(OwnExecutable()), AISLE_SOURCE_DIR));
+  EXPECT_TRUE(fs::equivalent(FindOwnFolder(OwnFile()), AISLE_SOURCE_DIR));
 }
 
 }  // namespace
