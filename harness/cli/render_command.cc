@@ -2,6 +2,7 @@
 
 #include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
+#include "harness/cli/render_bag.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/dataset.h"
 #include "harness/io/file.h"
@@ -96,9 +97,23 @@ int Verify(const SimulationForExport& simulation, const std::vector<FrameRequest
   return failures == 0 ? kAllPassed : kVerdictFailed;
 }
 
+int RenderAsBag(const Options& options) {
+  if (!options.truth.empty() || options.verify) {
+    throw InputError(
+        "--format ros2: a bag holds poses, depth, what moves and boxes as they are: leave --truth "
+        "and --verify out");
+  }
+  const SimulationForExport simulation = OpenForExport(options.simulation);
+  RenderBag(simulation, Select(simulation.sequence->Schedule(), options.frames),
+            options.simulation.scene_file, ProvenanceOf(options, simulation.content_hash),
+            options.out);
+  return kAllPassed;
+}
+
 int Render(Options options) {
   options.simulation.assets_dir = AssetsDir().string();
   options.simulation.scene_name = SceneName(options.simulation.scene_file);
+  if (options.format == "ros2") return RenderAsBag(options);
   ExportOptions export_options{.format = DatasetFormatFromName(options.format),
                                .truth = TruthSelectionFromNames(options.truth)};
   SimulationForExport simulation = OpenForExport(options.simulation);
@@ -142,8 +157,9 @@ void AddRenderCommand(CLI::App* app, Action* action) {
       ->required()
       ->transform(ByName());
   command->add_option("--out", options->out, "folder of the dataset")->required();
-  command->add_option("--format", options->format, "euroc (default), kitti or tum")
-      ->check(CLI::IsMember({"euroc", "kitti", "tum"}));
+  command->add_option("--format", options->format,
+                   "euroc (default), kitti, tum, or ros2: a bag, drive.mcap")
+      ->check(CLI::IsMember({"euroc", "kitti", "tum", "ros2"}));
   command->add_option("--frames", options->frames,
                       "A:B, B not included: the dataset has these frames alone");
   command
@@ -159,7 +175,8 @@ void AddRenderCommand(CLI::App* app, Action* action) {
                       "instruction set of the tracer; avx2 (default) or native");
   command->add_option("--threads", options->simulation.threads, "0: all; never changes a pixel");
   command->footer(
-      "Stopped, the same command goes on where it was; frames A:C after A:B add to the folder.\n"
+      "Stopped, the same command goes on where it was; frames A:C after A:B add to the folder; a bag is "
+      "written anew.\n"
       "Example: ./aisle render scenes/paper/scene2.yaml --out scene2 --truth depth,dynamic");
   command->callback([=] { *action = [=] { return Render(*options); }; });
 }

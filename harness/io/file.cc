@@ -40,9 +40,9 @@ class Descriptor {
   int fd_;
 };
 
-void WriteAll(const Descriptor& file, std::string_view bytes, const fs::path& path) {
+void WriteAll(int file, std::string_view bytes, const fs::path& path) {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(file.get(), bytes.data(), bytes.size());
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) Fail("write", path);
     bytes.remove_prefix(static_cast<std::size_t>(written));
@@ -122,23 +122,39 @@ void MakeParentFolder(const fs::path& path) {
   }
 }
 
-void WriteFileAtomically(const fs::path& path, std::string_view bytes, Durability durability) {
+FileAside::FileAside(const fs::path& path) : path_(path), aside_(AsideOf(path)) {
   MakeParentFolder(path);
-  const fs::path aside = AsideOf(path);
+  fd_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (fd_ < 0) Fail("open", aside_);
+}
+
+FileAside::~FileAside() {
+  if (fd_ < 0) return;
+  ::close(fd_);
+  ::unlink(aside_.c_str());
+}
+
+void FileAside::Append(std::string_view bytes) {
+  WriteAll(fd_, bytes, aside_);
+  size_ += bytes.size();
+}
+
+void FileAside::Commit(Durability durability) {
   const bool flush = durability == Durability::kSurvivesPowerLoss;
-  try {
-    const Descriptor file(aside, O_WRONLY | O_CREAT | O_EXCL);
-    WriteAll(file, bytes, aside);
-    if (flush && ::fsync(file.get()) != 0) Fail("flush", aside);
-    if (::rename(aside.c_str(), path.c_str()) != 0) Fail("rename to", path);
-  } catch (...) {
-    ::unlink(aside.c_str());
-    throw;
-  }
+  if (flush && ::fsync(fd_) != 0) Fail("flush", aside_);
+  if (::rename(aside_.c_str(), path_.c_str()) != 0) Fail("rename to", path_);
+  ::close(fd_);
+  fd_ = -1;
   if (!flush) return;
-  const Descriptor folder(path.has_parent_path() ? path.parent_path() : fs::path("."),
+  const Descriptor folder(path_.has_parent_path() ? path_.parent_path() : fs::path("."),
                           O_RDONLY | O_DIRECTORY);
   ::fsync(folder.get());  // some file systems cannot flush a folder; the file itself is safe
+}
+
+void WriteFileAtomically(const fs::path& path, std::string_view bytes, Durability durability) {
+  FileAside file(path);
+  file.Append(bytes);
+  file.Commit(durability);
 }
 
 void ClearLeftovers(const fs::path& folder) {

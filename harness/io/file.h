@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -21,6 +22,28 @@ void MakeParentFolder(const std::filesystem::path& path);
 /// InputError where the path cannot be one of a file: below a file, or too long.
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes,
                          Durability durability = Durability::kSurvivesPowerLoss);
+
+/// A file that grows aside and gets its name when it is whole: for what is too large to be held at
+/// once. Without Commit nothing is left of it. Not thread-safe.
+class FileAside {
+ public:
+  /// Makes missing folders. Throws as WriteFileAtomically does.
+  explicit FileAside(const std::filesystem::path& path);
+  ~FileAside();
+  FileAside(const FileAside&) = delete;
+  FileAside& operator=(const FileAside&) = delete;
+
+  /// Throws MachineError.
+  void Append(std::string_view bytes);
+  std::uint64_t size() const { return size_; }  ///< bytes so far
+  /// Under the final name from now on, whole. Throws MachineError.
+  void Commit(Durability durability = Durability::kSurvivesPowerLoss);
+
+ private:
+  std::filesystem::path path_, aside_;
+  int fd_ = -1;
+  std::uint64_t size_ = 0;
+};
 
 /// Deletes what killed writers left aside below a folder. Nobody else may be writing there.
 void ClearLeftovers(const std::filesystem::path& folder);

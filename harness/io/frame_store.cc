@@ -10,7 +10,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint32_t kMagic = 0x4D465341;  // "ASFM"
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 // --- Envelope: magic, version, checksum, payload -------------------------------------------------
 
@@ -72,6 +72,8 @@ void PutObject(const ObjectTruth& object, ByteWriter* writer) {
   writer->Put(object.box_visible);
   writer->Put(object.box_full);
   PutVector(object.center_m, writer);
+  PutVector(object.extent_m, writer);
+  PutPose(object.T_world_object, writer);
   PutVector(object.velocity_mps, writer);
   writer->Put(object.visible_fraction);
   writer->Put(object.visible_pixels);
@@ -85,6 +87,8 @@ ObjectTruth GetObject(ByteReader* reader) {
   object.box_visible = reader->Get<cv::Rect2d>();
   object.box_full = reader->Get<cv::Rect2d>();
   object.center_m = GetVector(reader);
+  object.extent_m = GetVector(reader);
+  object.T_world_object = GetPose(reader);
   object.velocity_mps = GetVector(reader);
   object.visible_fraction = reader->Get<double>();
   object.visible_pixels = reader->Get<int>();

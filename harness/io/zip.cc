@@ -1,27 +1,12 @@
 #include "harness/io/zip.h"
 
-#include <array>
 #include <cstdint>
 #include <cstring>
 
+#include "harness/io/crc32.h"
+
 namespace aisle {
 namespace {
-
-/// ISO 3309's polynomial, reflected, as ZIP has it.
-std::uint32_t Crc32(const std::string& bytes) {
-  static const auto table = [] {
-    std::array<std::uint32_t, 256> entries{};
-    for (std::uint32_t i = 0; i < 256; ++i) {
-      std::uint32_t value = i;
-      for (int bit = 0; bit < 8; ++bit) value = (value >> 1) ^ ((value & 1) != 0 ? 0xEDB88320u : 0);
-      entries[i] = value;
-    }
-    return entries;
-  }();
-  std::uint32_t crc = ~0u;
-  for (const char c : bytes) crc = (crc >> 8) ^ table[(crc ^ static_cast<unsigned char>(c)) & 0xff];
-  return ~crc;
-}
 
 template <typename T>
 void Put(T value, std::string* to) {

@@ -167,6 +167,7 @@ SimulationForExport OpenForExport(const SimulatedSequenceOptions& options) {
     result.labels.push_back(
         {instance.name, instance.object_class, instance.class_id, instance.is_actor});
   }
+  result.T_base_rig = at->simulator().Mount();
   result.path = at->Path();
   result.motion = [at](const FrameRequest& frame) { return at->MotionOf(frame); };
   result.motion_between = [at](const FrameRequest& from, const FrameRequest& to) {

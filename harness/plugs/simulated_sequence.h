@@ -40,6 +40,8 @@ struct SimulationForExport {
   std::uint64_t content_hash = 0;
   LensCalibration lens;
   std::vector<LabelInfo> labels;
+  /// Where the camera is mounted: base as REP 103 has it, x ahead, y to the left, z up.
+  Eigen::Isometry3d T_base_rig = Eigen::Isometry3d::Identity();
   PathOfRig path;
   /// Correspondences to the next frame of the scene, which for the last is the one that would come.
   std::function<FrameMotion(const FrameRequest& frame)> motion;

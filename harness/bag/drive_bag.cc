@@ -1,0 +1,216 @@
+#include "harness/bag/drive_bag.h"
+
+#include "harness/bag/frame_messages.h"
+
+namespace aisle {
+namespace {
+
+constexpr const char *kOdomFrame = "odom", *kBaseFrame = "base_link";
+constexpr const char* kRightFrame = "camera_right_optical_frame";
+
+const char* NameOf(TrackingState state) {
+  switch (state) {
+    case TrackingState::kInitializing:
+      return "initializing";
+    case TrackingState::kTracking:
+      return "tracking";
+    case TrackingState::kLost:
+      break;
+  }
+  return "lost";
+}
+
+int CountOf(const FrameEstimate& estimate, const char* name) {
+  const auto found = estimate.counts.find(name);
+  return found == estimate.counts.end() ? 0 : found->second;
+}
+
+ros::TransformStamped Child(const ros::Header& header, const std::string& child,
+                            const Eigen::Isometry3d& T_parent_child) {
+  ros::TransformStamped transform;
+  transform.header = header;
+  transform.child_frame_id = child;
+  transform.transform = ros::TransformOf(T_parent_child);
+  return transform;
+}
+
+ros::PoseStamped Stamped(const ros::Header& header, const Eigen::Isometry3d& T_frame_rig) {
+  ros::PoseStamped pose;
+  pose.header = header;
+  pose.pose = ros::PoseOf(T_frame_rig);
+  return pose;
+}
+
+}  // namespace
+
+std::string RosName(const std::string& name) {
+  std::string plain;
+  for (const char c : name) {
+    plain += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  }
+  const bool good = !plain.empty() && std::isalpha(static_cast<unsigned char>(plain.front()));
+  return good ? plain : "s_" + plain;
+}
+
+Eigen::Isometry3d DriveBagOptions::CameraAhead() {
+  Eigen::Isometry3d T_base_rig = Eigen::Isometry3d::Identity();
+  // Columns: where the camera's right, down and ahead point.
+  T_base_rig.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  return T_base_rig;
+}
+
+DriveBag::DriveBag(const std::filesystem::path& file, const StereoCalibration& calibration,
+                   const DriveBagOptions& options)
+    : calibration_(calibration), options_(options), writer_(file, options.mcap) {}
+
+ros::Header DriveBag::HeaderOf(std::int64_t stamp_ns, const std::string& frame) const {
+  ros::Header header;
+  header.stamp = ros::TimeOf(stamp_ns + options_.epoch_ns);
+  header.frame_id = frame;
+  return header;
+}
+
+template <class T>
+void DriveBag::Write(const std::string& topic, std::int64_t stamp_ns, const T& message,
+                     TopicKind kind) {
+  writer_.Write(writer_.AddChannel<T>(topic, kind), stamp_ns + options_.epoch_ns, message);
+}
+
+void DriveBag::WriteRigFrames(std::int64_t stamp_ns) {
+  if (!first_ns_) first_ns_ = stamp_ns;
+  if (has_rig_) return;
+  has_rig_ = true;
+  Eigen::Isometry3d T_left_right = Eigen::Isometry3d::Identity();
+  T_left_right.translation().x() = calibration_.baseline_m;
+  ros::TFMessage rig;
+  rig.transforms = {Child(HeaderOf(stamp_ns, kMapFrame), kOdomFrame, Eigen::Isometry3d::Identity()),
+                    Child(HeaderOf(stamp_ns, kBaseFrame), kLeftFrame, options_.T_base_rig),
+                    Child(HeaderOf(stamp_ns, kLeftFrame), kRightFrame, T_left_right)};
+  Write("/tf_static", stamp_ns, rig, TopicKind::kLatched);
+}
+
+void DriveBag::AddFrame(const SequenceFrame& frame) {
+  const std::int64_t stamp_ns = frame.images.stamp_ns;
+  WriteRigFrames(stamp_ns);
+  const ros::Header left = HeaderOf(stamp_ns, kLeftFrame), right = HeaderOf(stamp_ns, kRightFrame);
+  if (frame.truth) {
+    const FrameTruth& truth = *frame.truth;
+    const ros::Header map = HeaderOf(stamp_ns, kMapFrame);
+    ros::TFMessage tf;
+    tf.transforms = {Child(HeaderOf(stamp_ns, kOdomFrame), kBaseFrame,
+                           truth.T_world_rig * options_.T_base_rig.inverse())};
+    Write("/tf", stamp_ns, tf);
+    truth_.poses.push_back(Stamped(map, truth.T_world_rig));
+    Write("/truth/pose", stamp_ns, truth_.poses.back());
+  }
+  Write("/left/camera_info", stamp_ns, CameraInfoMessage(left, calibration_, 0));
+  Write("/right/camera_info", stamp_ns, CameraInfoMessage(right, calibration_, 1));
+  Write("/left/image_rect", stamp_ns, ImageMessage(left, frame.images.left));
+  Write("/right/image_rect", stamp_ns, ImageMessage(right, frame.images.right));
+  if (!frame.truth) return;
+  const FrameTruth& truth = *frame.truth;
+  if (!truth.depth.empty()) {
+    Write("/left/depth", stamp_ns, ImageMessage(left, DepthInMillimetres(truth.depth)));
+  }
+  if (truth.dynamic.empty()) return;  // nothing is known of what moves
+  Write("/left/moving", stamp_ns, ImageMessage(left, truth.dynamic));
+  Write("/left/boxes", stamp_ns, ImageBoxes(left, truth.objects));
+  Write("/truth/boxes", stamp_ns, BoxMarkers(HeaderOf(stamp_ns, kMapFrame), truth.objects));
+}
+
+void DriveBag::AddEvent(const std::string& system, std::int64_t stamp_ns, std::uint8_t level,
+                        const std::string& text) {
+  ros::Log log;
+  log.stamp = ros::TimeOf(stamp_ns + options_.epoch_ns);
+  log.level = level;
+  log.name = system;
+  log.msg = text;
+  Write(fmt::format("/{}/events", RosName(system)), stamp_ns, log);
+}
+
+void DriveBag::WriteEvents(const std::string& system, const FrameEstimate& estimate,
+                           TrackingState before) {
+  const std::int64_t at_ns = estimate.stamp_ns;
+  if (estimate.state != before) {
+    const bool lost = estimate.state == TrackingState::kLost;
+    AddEvent(system, at_ns, lost ? ros::kError : ros::kInfo,
+             fmt::format("{}, frame {}", NameOf(estimate.state), estimate.id));
+  }
+  if (CountOf(estimate, "keyframe") > 0) {
+    AddEvent(system, at_ns, ros::kInfo, fmt::format("keyframe, frame {}", estimate.id));
+  }
+  if (CountOf(estimate, "loop_closed") > 0) {
+    AddEvent(system, at_ns, ros::kWarning, fmt::format("loop closed, frame {}", estimate.id));
+  }
+}
+
+void DriveBag::AddEstimate(const std::string& system, const FrameEstimate& estimate,
+                           const FrameTruth* truth) {
+  const std::int64_t stamp_ns = estimate.stamp_ns;
+  if (!first_ns_) first_ns_ = stamp_ns;
+  const std::string name = RosName(system), topic = fmt::format("/{}", name), world = name + "/map";
+  Track& track = tracks_[system];
+  ros::String state;
+  state.data = NameOf(estimate.state);
+  Write(topic + "/state", stamp_ns, state);
+  WriteEvents(system, estimate, track.state);
+  track.state = estimate.state;
+  if (!estimate.regions.mask.empty()) {
+    Write("/left/rejected_" + name, stamp_ns,
+          ImageMessage(HeaderOf(stamp_ns, kLeftFrame), estimate.regions.mask));
+  }
+  if (!estimate.T_world_rig) return;
+  const Eigen::Isometry3d& T_world_rig = *estimate.T_world_rig;
+  if (!track.placed) {
+    track.placed = true;
+    const Eigen::Isometry3d T_map_world = truth == nullptr
+                                              ? Eigen::Isometry3d::Identity()
+                                              : truth->T_world_rig * T_world_rig.inverse();
+    ros::TFMessage placed;
+    placed.transforms = {Child(HeaderOf(stamp_ns, kMapFrame), world, T_map_world)};
+    Write("/tf_static", stamp_ns, placed, TopicKind::kLatched);
+  }
+  const ros::Header header = HeaderOf(stamp_ns, world);
+  ros::TFMessage tf;
+  tf.transforms = {Child(header, name + "/base_link", T_world_rig * options_.T_base_rig.inverse())};
+  Write("/tf", stamp_ns, tf);
+  track.live.poses.push_back(Stamped(header, T_world_rig));
+  Write(topic + "/pose", stamp_ns, track.live.poses.back());
+}
+
+void DriveBag::AddFinalTrack(const std::string& system, const Trajectory& trajectory) {
+  if (trajectory.empty() || !first_ns_) return;
+  const std::string world = RosName(system) + "/map";
+  ros::Path path;
+  path.header = HeaderOf(*first_ns_, world);
+  for (const StampedPose& pose : trajectory) {
+    path.poses.push_back(Stamped(HeaderOf(pose.stamp_ns, world), pose.T_world_rig));
+  }
+  Write(fmt::format("/{}/final_path", RosName(system)), *first_ns_, path, TopicKind::kLatched);
+}
+
+void DriveBag::Attach(const std::string& name, const std::string& media_type,
+                      std::string_view bytes) {
+  writer_.Attach(name, media_type, first_ns_.value_or(0) + options_.epoch_ns, bytes);
+}
+
+void DriveBag::Copy(const BagChannel& channel, std::int64_t log_ns, std::string_view message) {
+  writer_.Write(writer_.AddChannel(channel), log_ns, message);
+}
+
+/// Paths stand at the first stamp, so that viewers show them from the beginning.
+const McapWriter& DriveBag::Finish() {
+  if (!truth_.poses.empty()) {
+    truth_.header = HeaderOf(*first_ns_, kMapFrame);
+    Write("/truth/path", *first_ns_, truth_, TopicKind::kLatched);
+  }
+  for (auto& [system, track] : tracks_) {
+    if (track.live.poses.empty()) continue;
+    track.live.header = HeaderOf(*first_ns_, RosName(system) + "/map");
+    Write(fmt::format("/{}/path", RosName(system)), *first_ns_, track.live, TopicKind::kLatched);
+  }
+  writer_.Finish();
+  return writer_;
+}
+
+}  // namespace aisle

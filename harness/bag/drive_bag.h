@@ -1,0 +1,98 @@
+#pragma once
+
+#include <optional>
+
+#include "harness/bag/mcap_writer.h"
+#include "harness/contract/estimate.h"
+#include "harness/contract/sequence.h"
+#include "harness/ros/geometry.h"
+
+namespace aisle {
+
+/// Frames of reference of a bag. map is truth's world. Each body has one parent: truth's is
+/// base_link (map -> odom -> base_link -> the cameras), each system's is SYSTEM/base_link below
+/// SYSTEM/map, its own world, which is laid onto map by its first pose.
+inline constexpr const char* kMapFrame = "map";
+inline constexpr const char* kLeftFrame = "camera_left_optical_frame";
+
+/// A name as ROS takes one in topics and frames: letters, digits and '_', a letter first.
+std::string RosName(const std::string& name);
+
+struct DriveBagOptions {
+  /// Added to every stamp: tf takes 0 for "the latest", Rerun early stamps for durations.
+  std::int64_t epoch_ns = 1'600'000'000'000'000'000;
+  /// T_base_rig: base_link has x ahead, y to the left, z up; rig is the left camera. By default
+  /// base_link is at the camera.
+  Eigen::Isometry3d T_base_rig = CameraAhead();
+  McapOptions mcap = {};
+
+  /// A camera at the origin that looks along x.
+  static Eigen::Isometry3d CameraAhead();
+};
+
+/// Writes a drive as one bag for `ros2 bag play`, Foxglove, Rerun and evo. Log time and header
+/// stamps are equal: the frames' own plus epoch_ns.
+///
+///   /left/image_rect, /left/camera_info, /right/…    sensor_msgs, the rectified pair, mono8
+///   /left/depth      16UC1 millimetres, 0 unknown    /left/moving    mono8, 255: it moves now
+///   /left/boxes      visualization_msgs/ImageMarker  /truth/boxes    MarkerArray, in map
+///   /truth/pose      PoseStamped of the left camera  /truth/path     Path
+///   /SYSTEM/pose     PoseStamped of the left camera in SYSTEM/map, live; /SYSTEM/path, and
+///   /SYSTEM/final_path, what it says in the end      /SYSTEM/state   std_msgs/String
+///   /left/rejected_SYSTEM   mono8, 255: rejected     /SYSTEM/events  rcl_interfaces/Log
+///   /tf, /tf_static
+///
+/// Truth is written where a frame knows it. Not thread-safe.
+class DriveBag {
+ public:
+  /// Throws as McapWriter does.
+  DriveBag(const std::filesystem::path& file, const StereoCalibration& calibration,
+           const DriveBagOptions& options);
+
+  /// The pair, its camera_info and its truth.
+  void AddFrame(const SequenceFrame& frame);
+  /// What a system said of a frame, with its events: found and lost, keyframe, loop. `truth` lays
+  /// its world onto map; null where nobody knows it.
+  void AddEstimate(const std::string& system, const FrameEstimate& estimate,
+                   const FrameTruth* truth);
+  /// A line of /SYSTEM/events. `level` is ros::kInfo, kWarning or kError.
+  void AddEvent(const std::string& system, std::int64_t stamp_ns, std::uint8_t level,
+                const std::string& text);
+  /// What it says in the end of where it was.
+  void AddFinalTrack(const std::string& system, const Trajectory& track);
+
+  void AddMetadata(const std::string& name, const std::map<std::string, std::string>& values) {
+    writer_.AddMetadata(name, values);
+  }
+  /// A file that goes along: the scene, say.
+  void Attach(const std::string& name, const std::string& media_type, std::string_view bytes);
+
+  /// A message of another bag of the same drive, with its stamp as it is there.
+  void Copy(const BagChannel& channel, std::int64_t log_ns, std::string_view message);
+
+  /// Writes the paths, and closes the file. The writer then says what is in it.
+  const McapWriter& Finish();
+
+ private:
+  struct Track {
+    ros::Path live;
+    TrackingState state = TrackingState::kInitializing;
+    bool placed = false;  ///< its world is laid onto map
+  };
+  ros::Header HeaderOf(std::int64_t stamp_ns, const std::string& frame) const;
+  void WriteRigFrames(std::int64_t stamp_ns);
+  template <class T>
+  void Write(const std::string& topic, std::int64_t stamp_ns, const T& message,
+             TopicKind kind = TopicKind::kStream);
+  void WriteEvents(const std::string& system, const FrameEstimate& estimate, TrackingState before);
+
+  const StereoCalibration calibration_;
+  const DriveBagOptions options_;
+  McapWriter writer_;
+  std::optional<std::int64_t> first_ns_;  ///< stamp of the first frame or estimate
+  bool has_rig_ = false;
+  ros::Path truth_;
+  std::map<std::string, Track> tracks_;
+};
+
+}  // namespace aisle

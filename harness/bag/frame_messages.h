@@ -1,0 +1,26 @@
+#pragma once
+
+#include "harness/contract/frame.h"
+#include "harness/ros/drawing.h"
+
+namespace aisle {
+
+/// Rows without gaps. Grey masks as mono8, depth as 16UC1. Throws std::invalid_argument for another
+/// kind of pixel.
+ros::Image ImageMessage(const ros::Header& header, const cv::Mat& image);
+
+/// Millimetres, 0 where nothing was hit or beyond 65.535 m (REP 118).
+cv::Mat1w DepthInMillimetres(const cv::Mat1f& depth);
+
+/// Of a rectified pair: side 0 is left. -p[3] / p[0] gives the baseline back to the bit.
+ros::CameraInfo CameraInfoMessage(const ros::Header& header, const StereoCalibration& calibration,
+                                  int side);
+
+/// The objects' boxes in space, red where they move; those of frames before are deleted. Objects
+/// whose box is not known are left out.
+ros::MarkerArray BoxMarkers(const ros::Header& header, const std::vector<ObjectTruth>& objects);
+
+/// What shows of them in the left image, as one list of lines.
+ros::ImageMarker ImageBoxes(const ros::Header& header, const std::vector<ObjectTruth>& objects);
+
+}  // namespace aisle
