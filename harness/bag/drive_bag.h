@@ -18,9 +18,12 @@ inline constexpr const char* kLeftFrame = "camera_left_optical_frame";
 /// A name as ROS takes one in topics and frames: letters, digits and '_', a letter first.
 std::string RosName(const std::string& name);
 
+/// Added to the stamps of a scene, which begin at 0: tf takes 0 for "the latest", Rerun early
+/// stamps for durations.
+inline constexpr std::int64_t kBagEpochNs = 1'600'000'000'000'000'000;
+
 struct DriveBagOptions {
-  /// Added to every stamp: tf takes 0 for "the latest", Rerun early stamps for durations.
-  std::int64_t epoch_ns = 1'600'000'000'000'000'000;
+  std::int64_t epoch_ns = kBagEpochNs;  ///< added to every stamp; 0 for a recording's
   /// T_base_rig: base_link has x ahead, y to the left, z up; rig is the left camera. By default
   /// base_link is at the camera.
   Eigen::Isometry3d T_base_rig = CameraAhead();

@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <set>
 
+#include "harness/campaign/source.h"
 #include "harness/contract/stream.h"
 #include "harness/io/input_error.h"
 #include "harness/io/nearest_word.h"
-#include "harness/plugs/simulated_drive.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/steering_options.h"
 #include "harness/plugs/systems.h"
@@ -118,12 +118,29 @@ void SetOptions(const std::vector<std::string>& assignments, std::vector<Suite>*
 std::string WhoCannotSteer(const Suite& suite) {
   std::string complaints;
   for (const SuiteScene& scene : suite.scenes) {
-    if (!CheckScene(scene.file).empty() || !IsDriveScene(scene.file)) continue;
+    if (!CheckSource(scene.file).empty() || !IsDriveSource(scene.file)) continue;
     for (const SystemSpec& system : suite.systems) {
       if (!system.external || IsStream(*system.external)) continue;
       complaints += fmt::format(
           "{}: system '{}' reads a dataset and cannot steer: its frames depend on what it says; "
           "leave it out here, or give it `contract: stream`\n",
+          scene.file, system.name);
+    }
+  }
+  return complaints;
+}
+
+/// Systems that read a whole dataset first: it is written of scenes alone.
+std::string WhoCannotRead(const Suite& suite) {
+  std::string complaints;
+  for (const SuiteScene& scene : suite.scenes) {
+    if (!scene.recorded) continue;
+    for (const SystemSpec& system : suite.systems) {
+      if (!system.external || IsStream(*system.external)) continue;
+      complaints += fmt::format(
+          "{}: system '{}' reads a dataset, which is not written of a recording: give it "
+          "`contract: "
+          "stream`, or run it on the recording itself and `aisle score` what it says\n",
           scene.file, system.name);
     }
   }
@@ -171,10 +188,10 @@ void CheckScenes(const std::vector<Suite>& suites) {
   for (const Suite& suite : suites) {
     for (const SuiteScene& scene : suite.scenes) {
       if (!files.insert(scene.file).second) continue;
-      for (const std::string& complaint : CheckScene(scene.file)) complaints += complaint + "\n";
+      for (const std::string& complaint : CheckSource(scene.file)) complaints += complaint + "\n";
     }
   }
-  for (const Suite& suite : suites) complaints += WhoCannotSteer(suite);
+  for (const Suite& suite : suites) complaints += WhoCannotSteer(suite) + WhoCannotRead(suite);
   if (complaints.empty()) return;
   complaints.pop_back();
   throw InputError(complaints);

@@ -3,15 +3,16 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/campaign/external_run.h"
+#include "harness/campaign/source.h"
 #include "harness/contract/stream.h"
 #include "harness/io/file.h"
 #include "harness/io/hash.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/io/system_spec_json.h"
-#include "harness/plugs/simulated_sequence.h"
 #include "harness/record/record.h"
 #include "harness/record/record_json.h"
+#include "harness/suite/recording.h"
 
 namespace aisle {
 namespace {
@@ -51,6 +52,7 @@ Job FromJson(const Json& json) {
   job.threads = json.at("threads").get<int>();
   job.video = json.at("video").get<bool>();
   job.debug_dynamic = json.at("debug_dynamic").get<bool>();
+  job.mcap = json.value("mcap", false);
   job.frames_in_report = json.value("frames_in_report", "worst");
   return job;
 }
@@ -73,6 +75,7 @@ std::string ToJson(const Job& job) {
                {"threads", job.threads},
                {"video", job.video},
                {"debug_dynamic", job.debug_dynamic},
+               {"mcap", job.mcap},
                {"frames_in_report", job.frames_in_report}});
 }
 
@@ -95,8 +98,7 @@ Job ReadJob(const fs::path& file) { return JobFromJson(ReadFile(file), file.stri
 Fingerprints::Fingerprints() : program_(HashFile(OwnExecutable(), HashFolder(AssetsDir()))) {}
 
 std::string Fingerprints::Frames(const RunSpec& spec) const {
-  std::uint64_t scene = program_;
-  for (const std::string& file : FilesOfScene(spec.scene_file)) scene = HashFile(file, scene);
+  const std::uint64_t scene = HashSource(spec.scene_file, program_);
   return fmt::format("{:016x}", Hash(fmt::format("{} {}", spec.twin, spec.seed), scene));
 }
 
@@ -120,8 +122,11 @@ std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Fingerprints&
     job.threads = options.threads;
     job.video = options.video;
     job.debug_dynamic = options.debug_dynamic;
+    job.mcap = options.mcap;
     job.frames_in_report = options.frames_in_report;
-    if (options.frame_cache) job.frames = CacheDir() / "frames" / job.frames_key;
+    // A recording is read where it is: its frames are files already.
+    if (options.frame_cache && !IsRecording(spec.scene_file))
+      job.frames = CacheDir() / "frames" / job.frames_key;
     if (const auto& external = spec.system.external; external && !IsStream(*external)) {
       job.dataset = CacheDir() / "datasets" / (job.frames_key + "-" + external->dataset);
     }

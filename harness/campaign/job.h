@@ -22,6 +22,7 @@ struct Job {
   int threads = 0;             ///< 0: all; never changes a result
   bool video = true;           ///< where there is an ffmpeg
   bool debug_dynamic = false;  ///< draw how the system found what moves; changes no result
+  bool mcap = false;           ///< leave a bag of what the system said; changes no result
   std::string frames_in_report = "worst";  ///< or all, none: whose pictures are kept
 };
 
@@ -56,6 +57,7 @@ struct JobOptions {
   bool frame_cache = true;
   bool video = true;
   bool debug_dynamic = false;
+  bool mcap = false;
   std::string frames_in_report = "worst";
 };
 

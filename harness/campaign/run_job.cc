@@ -5,13 +5,15 @@
 #include "harness/campaign/closed_run.h"
 #include "harness/campaign/external_run.h"
 #include "harness/campaign/guest_output.h"
+#include "harness/campaign/job_sequence.h"
 #include "harness/campaign/process.h"
+#include "harness/campaign/run_bag.h"
+#include "harness/campaign/source.h"
 #include "harness/campaign/stream_system.h"
 #include "harness/contract/stream.h"
 #include "harness/contract/system_fault.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
-#include "harness/plugs/cached_sequence.h"
 #include "harness/plugs/simulated_drive.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/steering_options.h"
@@ -26,38 +28,16 @@
 #include "harness/run/drive.h"
 #include "harness/run/playback.h"
 #include "harness/score/drive_scores.h"
+#include "harness/suite/recording.h"
 
 namespace aisle {
 namespace {
 
 constexpr std::size_t kFilmEvery = 2;  ///< frames: half the rate is enough to see what happened
 
-SimulatedSequenceOptions SimulationOf(const Job& job) {
-  return {.scene_file = job.spec.scene_file,
-          .scene_name = job.spec.scene,
-          .assets_dir = AssetsDir().string(),
-          .twin = job.spec.twin,
-          .seed = job.spec.seed,
-          .threads = job.threads};
-}
-
-void TellStage(const char* what) {
-  fmt::print("@stage {}\n", what);
-  std::fflush(stdout);
-}
-
 void TellProgress(std::size_t done, std::size_t total) {
   fmt::print("@progress {} {}\n", done, total);
   std::fflush(stdout);
-}
-
-std::unique_ptr<Sequence> OpenSequence(const Job& job, std::uint64_t* content_hash) {
-  const auto open = [simulation = SimulationOf(job)](std::uint64_t* hash) {
-    TellStage("opening the scene, solving its light");
-    return OpenSimulation(simulation, hash);
-  };
-  if (job.frames.empty()) return open(content_hash);
-  return OpenCached(FrameStore(job.frames), open, content_hash);
 }
 
 std::filesystem::path FolderOf(const Job& job) {
@@ -74,7 +54,7 @@ RunRecord RecordOf(const Job& job, const RunResult& result, const RunScore& scor
 /// nights left.
 std::vector<std::filesystem::path> HiddenFromGuests(const Job& job) {
   std::vector<std::filesystem::path> hidden{job.out, CacheDir(), ShippedBaselines()};
-  for (const std::string& file : FilesOfScene(job.spec.scene_file)) hidden.emplace_back(file);
+  for (const std::string& file : FilesOfSource(job.spec.scene_file)) hidden.emplace_back(file);
   return hidden;
 }
 
@@ -149,6 +129,17 @@ class Pictures {
   StageSheets stages_;
 };
 
+/// The run as a bag, where the job asks for one.
+std::optional<RunBag> BagOf(const Job& job, const StereoCalibration& calibration,
+                            bool with_frames) {
+  std::optional<RunBag> bag;
+  if (job.mcap) {
+    bag.emplace(job.out / FolderOf(job) / RunBagName(with_frames), job.spec.system.name,
+                calibration, IsRecording(job.spec.scene_file) ? 0 : kBagEpochNs, with_frames);
+  }
+  return bag;
+}
+
 /// Said while a foreign system works: its own count of frames, or how long it has been at it.
 void TellForeignProgress(double seconds, int done, int total, double timeout_s) {
   if (total > 0)
@@ -158,13 +149,15 @@ void TellForeignProgress(double seconds, int done, int total, double timeout_s) 
 }
 
 /// Holds a foreign drive against truth, with what it left beside its trajectory, and draws it.
-void Show(const Job& job, const Sequence& sequence, RunResult* result, Pictures* pictures) {
+void Show(const Job& job, const Sequence& sequence, RunResult* result, Pictures* pictures,
+          std::optional<RunBag>* bag) {
   TellStage("looking at what it left");
   try {
     PlayBack(
         sequence, Leftovers(job.out / FolderOf(job)),
         [&](const DrivenFrame& frame) {
           pictures->See(frame);
+          if (*bag) (*bag)->See(frame);
           TellProgress(frame.index + 1, frame.count);
         },
         result);
@@ -198,8 +191,10 @@ void RunForeign(const Job& job) {
   result.scene_hash = content_hash;
   SpreadWallTime(&result);
   Pictures pictures(job, sequence->rate_hz());
-  if (!result.trajectory.live.empty()) Show(job, *sequence, &result, &pictures);
+  std::optional<RunBag> bag = BagOf(job, sequence->calibration(), false);
+  if (!result.trajectory.live.empty()) Show(job, *sequence, &result, &pictures, &bag);
   const RunScore score = ScoreRun(result);
+  if (bag) bag->Finish(result, score, nullptr);
   RunRecord record = RecordOf(job, result, score, sequence->rate_hz());
   record.artifacts["log"] = (FolderOf(job) / "system.log").string();
   if (std::filesystem::exists(folder / kFeaturesName)) {
@@ -234,15 +229,17 @@ std::unique_ptr<Estimator> EstimatorOf(const Job& job, const StereoCalibration& 
 
 /// Scores a drive of one of ours and writes it all down.
 void File(const Job& job, double rate_hz, RunResult result, Pictures* pictures,
-          const DriveLog* drive = nullptr) {
+          std::optional<RunBag>* bag, const DriveLog* drive = nullptr) {
   result.spec = job.spec;
   result.threads = job.threads;
   RunScore score = ScoreRun(result);
   if (drive != nullptr) score.scores.merge(ScoreDrive(*drive));
+  if (*bag) (*bag)->Finish(result, score, drive);
   RunRecord record = RecordOf(job, result, score, rate_hz);
   pictures->Finish(score.live, &record);
   if (drive != nullptr) {
     WriteDrive(*drive, job.out, &record);
+    if (*bag) record.artifacts["bag"] = (FolderOf(job) / RunBagName(true)).string();
     pictures->FinishDrive(*drive, &record);
   }
   WriteRun(result, score, record, job.out);
@@ -276,13 +273,15 @@ void RunOurs(const Job& job) {
     return FileStillborn(job, sequence->rate_hz(), fault);
   }
   Pictures pictures(job, sequence->rate_hz());
+  std::optional<RunBag> bag = BagOf(job, sequence->calibration(), false);
   RunResult result = Drive(*sequence, *estimator, MasksOf(job), {}, [&](const DrivenFrame& frame) {
     pictures.See(frame);
+    if (bag) bag->See(frame);
     TellProgress(frame.index + 1, frame.count);
   });
   result.scene_hash = content_hash;
   Introduce(*estimator, &result);
-  File(job, sequence->rate_hz(), std::move(result), &pictures);
+  File(job, sequence->rate_hz(), std::move(result), &pictures, &bag);
 }
 
 /// A scene whose vehicle the system steers: its frames are this run's alone.
@@ -298,15 +297,17 @@ void RunSteering(const Job& job) {
   }
   Pictures pictures(job, scene->rate_hz());
   pictures.ExpectDrive();
+  std::optional<RunBag> bag = BagOf(job, scene->calibration(), true);
   const MaskMaker masks = MasksOf(job);
   ClosedRun run = RunClosed(*scene, *estimator, masks, SteeringOf(job.spec.system.options),
                             job.spec.seed, [&](const DrivenFrame& frame) {
                               pictures.See(frame);
+                              if (bag) bag->See(frame);
                               TellProgress(frame.index + 1, frame.count);
                             });
   run.result.scene_hash = content_hash;
   Introduce(*estimator, &run.result);
-  File(job, scene->rate_hz(), std::move(run.result), &pictures, &run.drive);
+  File(job, scene->rate_hz(), std::move(run.result), &pictures, &bag, &run.drive);
 }
 
 }  // namespace
@@ -314,7 +315,7 @@ void RunSteering(const Job& job) {
 void RunJob(const Job& job) {
   const auto& external = job.spec.system.external;
   if (external && !IsStream(*external)) return RunForeign(job);
-  if (IsDriveScene(job.spec.scene_file)) return RunSteering(job);
+  if (IsDriveSource(job.spec.scene_file)) return RunSteering(job);
   RunOurs(job);
 }
 

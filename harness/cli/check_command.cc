@@ -4,10 +4,10 @@
 #include <sstream>
 
 #include "harness/campaign/inputs.h"
+#include "harness/campaign/source.h"
 #include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
 #include "harness/io/input_error.h"
-#include "harness/plugs/simulated_sequence.h"
 #include "harness/record/record_json.h"
 #include "harness/suite/suite.h"
 
@@ -23,10 +23,10 @@ std::vector<std::string> Lines(const std::string& text) {
 
 std::vector<std::string> Complaints(const std::string& file) {
   try {
-    if (!IsSuiteFile(file)) return CheckScene(file);
+    if (!IsSuiteFile(file)) return CheckSource(file);
     std::vector<std::string> complaints;
     for (const SuiteScene& scene : LoadSuite(file, KnownNames()).scenes) {
-      for (const std::string& complaint : CheckScene(scene.file)) complaints.push_back(complaint);
+      for (const std::string& complaint : CheckSource(scene.file)) complaints.push_back(complaint);
     }
     return complaints;
   } catch (const InputError& error) {

@@ -157,7 +157,8 @@ void AddRenderCommand(CLI::App* app, Action* action) {
       ->required()
       ->transform(ByName());
   command->add_option("--out", options->out, "folder of the dataset")->required();
-  command->add_option("--format", options->format,
+  command
+      ->add_option("--format", options->format,
                    "euroc (default), kitti, tum, or ros2: a bag, drive.mcap")
       ->check(CLI::IsMember({"euroc", "kitti", "tum", "ros2"}));
   command->add_option("--frames", options->frames,
@@ -175,7 +176,8 @@ void AddRenderCommand(CLI::App* app, Action* action) {
                       "instruction set of the tracer; avx2 (default) or native");
   command->add_option("--threads", options->simulation.threads, "0: all; never changes a pixel");
   command->footer(
-      "Stopped, the same command goes on where it was; frames A:C after A:B add to the folder; a bag is "
+      "Stopped, the same command goes on where it was; frames A:C after A:B add to the folder; a "
+      "bag is "
       "written anew.\n"
       "Example: ./aisle render scenes/paper/scene2.yaml --out scene2 --truth depth,dynamic");
   command->callback([=] { *action = [=] { return Render(*options); }; });

@@ -2,10 +2,12 @@
 #include <filesystem>
 #include <thread>
 
+#include "harness/campaign/bags.h"
 #include "harness/campaign/campaign.h"
 #include "harness/campaign/collect.h"
 #include "harness/campaign/forecast.h"
 #include "harness/campaign/inputs.h"
+#include "harness/campaign/source.h"
 #include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
 #include "harness/cli/publish.h"
@@ -15,7 +17,6 @@
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/judge/gate.h"
-#include "harness/plugs/simulated_sequence.h"
 #include "harness/record/history.h"
 #include "harness/record/provenance.h"
 #include "harness/report/report.h"
@@ -36,6 +37,7 @@ struct Options {
   bool no_frame_cache = false;
   bool no_video = false;
   bool debug_dynamic = false;
+  bool mcap = false;
   std::string frames_in_report = "worst";
   bool no_retry = false;
   bool gate = false;
@@ -129,7 +131,7 @@ std::vector<RunSpec> SpecsOf(const PlanFile& plan, const Shard& shard) {
   const std::vector<RunSpec> specs = TakeShard(Plan(plan.suites), shard);
   fmt::print(stderr, "aisle: {}\n",
              ToText(ForecastOf(specs, static_cast<int>(std::thread::hardware_concurrency()),
-                               CountSceneFrames)));
+                               CountSourceFrames)));
   return specs;
 }
 
@@ -148,14 +150,15 @@ int RunSuites(const Options& options) {
   const fs::path out = options.out.empty() ? fs::path("out") / plan.name() : fs::path(options.out);
   const FileLock ours = TakeFolder(out);
   WarnOfHistory(options, out);
-  const std::vector<Job> todo = StillToDo(MakeJobs(specs, Fingerprints(),
-                                                   {.out = out,
-                                                    .threads = options.threads,
-                                                    .frame_cache = !options.no_frame_cache,
-                                                    .video = !options.no_video,
-                                                    .debug_dynamic = options.debug_dynamic,
-                                                    .frames_in_report = options.frames_in_report}),
-                                          options.resume);
+  const std::vector<Job> jobs = MakeJobs(specs, Fingerprints(),
+                                         {.out = out,
+                                          .threads = options.threads,
+                                          .frame_cache = !options.no_frame_cache,
+                                          .video = !options.no_video,
+                                          .debug_dynamic = options.debug_dynamic,
+                                          .mcap = options.mcap,
+                                          .frames_in_report = options.frames_in_report});
+  const std::vector<Job> todo = StillToDo(jobs, options.resume);
   if (specs.size() > todo.size()) {
     fmt::print(stderr, "aisle: {} of {} runs are already there\n", specs.size() - todo.size(),
                specs.size());
@@ -165,6 +168,9 @@ int RunSuites(const Options& options) {
   if (!outcome.finished) {
     fmt::print(stderr, "aisle: interrupted; the same command with --resume goes on from here\n");
     return kInterrupted;
+  }
+  if (options.mcap) {
+    WriteBags(jobs, out, [](const std::string& text) { fmt::print(stderr, "{}\n", text); });
   }
   Results results = Collect(plan, specs, out, {.judge_limits = shard.count == 1});
   results.started = started;
@@ -229,6 +235,10 @@ void AddRunCommand(CLI::App* app, Action* action) {
                     "draw how `paper` and `robust` found what moves: every stage of every frame as "
                     "a sheet (runs/ID/stages, about 0.7 MB each) and a film; changes no result. "
                     "With --resume, finished runs are not drawn");
+  command->add_flag("--mcap", options->mcap,
+                    "a bag of ROS 2 of each scene, twin and seed, with its frames, its truth and "
+                    "what every system said (bags/, about 0.7 MB a frame); changes no result. With "
+                    "--resume, finished runs leave none");
   command
       ->add_option("--frames-in-report", options->frames_in_report,
                    "pictures that each run keeps: worst (two dozen, about 1 MB; the default), all "

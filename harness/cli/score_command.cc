@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "harness/bag/bag_trajectory.h"
 #include "harness/cli/command.h"
 #include "harness/cli/score_masks.h"
 #include "harness/io/file.h"
@@ -39,6 +40,7 @@ DeltaUnit UnitFromName(const std::string& name) {
 }
 
 Trajectory Read(const std::string& file, const Options& options) {
+  if (const std::optional<BagTopic> bag = BagTopicFromText(file)) return ReadBagTrajectory(*bag);
   const TrajectoryFormat format = options.format.empty() ? GuessTrajectoryFormat(file)
                                                          : TrajectoryFormatFromName(options.format);
   return ReadTrajectory(file, format, options.times);
@@ -303,7 +305,9 @@ void AddScoreCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command =
       app->add_subcommand("score", "every metric for anyone's trajectories and masks");
-  command->add_option("--truth", options->truth, "true trajectory");
+  command->add_option(
+      "--truth", options->truth,
+      "true trajectory; also a topic of a bag: drive.mcap:/odom, drive.db3:/tf#base_link");
   command->add_option("--estimate", options->estimates,
                       "estimated trajectory; several are set side by side");
   command->add_option("--format", options->format, "of both files; default: by their content")

@@ -1,3 +1,4 @@
+#include "harness/bag/bag.h"
 #include "harness/cli/command.h"
 #include "harness/cli/slam_stream.h"
 #include "harness/cli/system_choice.h"
@@ -17,6 +18,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string dataset, format = "euroc", output, live;
+  BagRecordingOptions bag;
   std::string load_map, save_map;  ///< empty: none
   bool localise_only = false;
   std::string masks;  ///< folder of masks to reject by; empty: none
@@ -63,6 +65,17 @@ std::unique_ptr<Estimator> MakeEstimator(const SystemSpec& system,
   }
 }
 
+std::unique_ptr<Sequence> Open(const Options& options) {
+  const fs::path path = options.dataset;
+  if (IsBagFile(path) || fs::exists(path / "metadata.yaml")) {
+    return OpenBagRecording(path, options.bag);
+  }
+  if (!options.bag.topics.empty() || options.bag.baseline_m) {
+    throw InputError(options.dataset, 0, "is no bag: --topic and --baseline are for bags");
+  }
+  return OpenRecording(path, DatasetFormatFromName(options.format));
+}
+
 int RunStream(const SystemSpec& system, const Options& options) {
   const auto make = [&](const StereoCalibration& calibration) {
     return MakeEstimator(system, calibration, options);
@@ -84,7 +97,7 @@ int RunSlam(const Options& options) {
         "slam: expected a DATASET and -o FILE, or --stream; example: ./aisle slam V1_01_easy -o "
         "v101.txt");
   }
-  const auto sequence = OpenRecording(options.dataset, DatasetFormatFromName(options.format));
+  const auto sequence = Open(options);
   const auto estimator = MakeEstimator(system, sequence->calibration(), options);
   ProgressLine line;
   std::size_t masked = 0;
@@ -129,9 +142,19 @@ int RunSlam(const Options& options) {
 void AddSlamCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand("slam", "a system on recorded stereo images");
-  command->add_option("DATASET", options->dataset, "folder of the recording");
-  command->add_option("--format", options->format, "euroc (default) or kitti")
+  command->add_option("DATASET", options->dataset,
+                      "folder of the recording, or a bag of ROS 2 (.mcap, .db3)");
+  command->add_option("--format", options->format, "of a folder: euroc (default) or kitti")
       ->check(CLI::IsMember({"euroc", "kitti"}));
+  command
+      ->add_option("--topic", options->bag.topics,
+                   "of a bag with several pairs: the left image, and the right one where its name "
+                   "does not tell it")
+      ->delimiter(',');
+  command
+      ->add_option("--baseline", options->bag.baseline_m,
+                   "metres between the eyes, of a bag whose camera_info lacks it")
+      ->check(CLI::PositiveNumber);
   AddSystemChoice(command, &options->system);
   command->add_option("-o,--output", options->output, "final trajectory, TUM format");
   command->add_flag("--stream", options->stream,
@@ -154,6 +177,7 @@ void AddSlamCommand(CLI::App* app, Action* action) {
       "NOT REPEATABLE: mapping takes effect as threads happen to run, no frame waits");
   command->footer(
       "Example: ./aisle slam V1_01_easy --format euroc -o v101.txt --save-map v1.map\n"
+      "         ./aisle slam drive.mcap --topic /front/left/image_rect -o drive.txt\n"
       "         ./aisle slam V1_02_medium -o v102.txt --load-map v1.map --localise-only");
   command->callback([=] { *action = [=] { return RunSlam(*options); }; });
 }

@@ -45,6 +45,11 @@ inline std::string BaseOf(const SystemSpec& spec) {
   return published ? "orbslam2" : "plain";
 }
 
+/// Whether it is told its masks by truth of what moves, which a recording has not.
+inline bool IsToldMasks(const SystemSpec& spec) {
+  return spec.like == "oracle" || spec.like == "semantic";
+}
+
 /// Why the parts of a spec do not fit together, or an empty string.
 inline std::string Validate(const SystemSpec& spec) {
   if (spec.name.empty()) return "a system needs a name";
@@ -57,8 +62,7 @@ inline std::string Validate(const SystemSpec& spec) {
   if (spec.external && !spec.options.empty()) {
     return "'options' are those of our systems: a command takes its own in its words";
   }
-  const bool told_masks = spec.like == "oracle" || spec.like == "semantic";
-  if (spec.mask_errors != MaskErrors{} && !told_masks) {
+  if (spec.mask_errors != MaskErrors{} && !IsToldMasks(spec)) {
     return "'mask_errors' are for a system like oracle or semantic, which are told their masks";
   }
   return spec.mask_errors.Validate();

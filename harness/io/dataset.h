@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -139,14 +140,31 @@ struct CameraCalibration {
   Eigen::Isometry3d T_body_camera = Eigen::Isometry3d::Identity();
 };
 
-struct StereoRecording {
+/// What a recording says itself of how an eye is brought onto the common plane, as ROS's
+/// camera_info does.
+struct StatedRectification {
+  Eigen::Matrix3d R_rectified_camera = Eigen::Matrix3d::Identity();
+  /// Of the rectified camera; the right one's last column begins with -fx times the baseline.
+  Eigen::Matrix<double, 3, 4> projection = Eigen::Matrix<double, 3, 4>::Zero();
+};
+
+/// Both eyes of a rig.
+struct StereoCameras {
   CameraCalibration left, right;
+  /// Left and right; where absent, the rectification is computed from the cameras' poses.
+  std::optional<std::array<StatedRectification, 2>> stated = {};
+};
+
+struct StereoRecording {
+  StereoCameras cameras;
   struct Pair {
     std::int64_t stamp_ns = 0;
-    std::filesystem::path left, right;
+    std::filesystem::path left, right;  ///< files, or what messages call the images
   };
   std::vector<Pair> pairs;
   Trajectory truth;  ///< empty where the dataset has none
+  /// An image of pair number `pair`, side 0 left, 1 right; from any thread. Throws InputError.
+  std::function<cv::Mat1b(std::size_t pair, int side)> read_image = {};
 };
 
 /// EuRoC (the folder that holds mav0, or mav0 itself) or KITTI odometry (a sequence's folder, or

@@ -5,6 +5,7 @@
 
 #include "harness/io/dataset.h"
 #include "harness/io/file.h"
+#include "harness/io/image.h"
 #include "harness/io/input_error.h"
 
 namespace aisle {
@@ -114,8 +115,8 @@ std::map<std::int64_t, fs::path> ReadEurocIndex(const fs::path& camera) {
 StereoRecording ReadEuroc(const fs::path& folder) {
   const fs::path mav = fs::is_directory(folder / "mav0") ? folder / "mav0" : folder;
   StereoRecording recording;
-  recording.left = ReadEurocSensor(mav / "cam0/sensor.yaml");
-  recording.right = ReadEurocSensor(mav / "cam1/sensor.yaml");
+  recording.cameras.left = ReadEurocSensor(mav / "cam0/sensor.yaml");
+  recording.cameras.right = ReadEurocSensor(mav / "cam1/sensor.yaml");
   const auto right = ReadEurocIndex(mav / "cam1");
   for (const auto& [stamp_ns, image] : ReadEurocIndex(mav / "cam0")) {
     const auto partner = right.find(stamp_ns);
@@ -176,15 +177,15 @@ StereoRecording ReadKitti(const fs::path& folder) {
   const auto calibration = ReadKittiCalibration(at.sequence / "calib.txt");
   StereoRecording recording;
   const std::vector<double>& p0 = calibration.at("P0");
-  recording.left = {.width = 0,
-                    .height = 0,
-                    .fx = p0[0],
-                    .fy = p0[5],
-                    .cx = p0[2],
-                    .cy = p0[6],
-                    .distortion = {}};
-  recording.right = recording.left;
-  recording.right.T_body_camera.translation().x() = -calibration.at("P1")[3] / p0[0];
+  recording.cameras.left = {.width = 0,
+                            .height = 0,
+                            .fx = p0[0],
+                            .fy = p0[5],
+                            .cx = p0[2],
+                            .cy = p0[6],
+                            .distortion = {}};
+  recording.cameras.right = recording.cameras.left;
+  recording.cameras.right.T_body_camera.translation().x() = -calibration.at("P1")[3] / p0[0];
   std::istringstream times(ReadFile(at.sequence / "times.txt"));
   std::string line;
   for (std::size_t number = 1; times >> line; ++number) {
@@ -212,6 +213,9 @@ StereoRecording ReadRecording(const fs::path& folder, DatasetFormat format) {
   StereoRecording recording =
       format == DatasetFormat::kEuroc ? ReadEuroc(folder) : ReadKitti(folder);
   if (recording.pairs.empty()) throw InputError(folder.string(), 0, "holds no stereo pairs");
+  recording.read_image = [pairs = recording.pairs](std::size_t pair, int side) {
+    return ReadGreyPng(side == 0 ? pairs.at(pair).left : pairs.at(pair).right);
+  };
   return recording;
 }
 

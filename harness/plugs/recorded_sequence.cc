@@ -75,7 +75,33 @@ Rectifier MapsOf(const CameraCalibration& camera, const cv::Matx33d& turn,
   return maps;
 }
 
-Rectification Rectify(const CameraCalibration& left, const CameraCalibration& right) {
+/// As the recording itself says.
+Rectification RectifyAsStated(const StereoCameras& cameras) {
+  const auto& [left, right] = *cameras.stated;
+  Rectification result;
+  result.calibration = {.width = cameras.left.width,
+                        .height = cameras.left.height,
+                        .fx = left.projection(0, 0),
+                        .fy = left.projection(1, 1),
+                        .cx = left.projection(0, 2),
+                        .cy = left.projection(1, 2),
+                        .baseline_m = -right.projection(0, 3) / right.projection(0, 0)};
+  const auto maps = [](const CameraCalibration& camera, const StatedRectification& stated) {
+    cv::Matx33d turn;
+    cv::Matx34d projection;
+    cv::eigen2cv(stated.R_rectified_camera, turn);
+    cv::eigen2cv(stated.projection, projection);
+    return MapsOf(camera, turn, projection);
+  };
+  result.left = maps(cameras.left, left);
+  result.right = maps(cameras.right, right);
+  result.R_left_rectified = left.R_rectified_camera.transpose();
+  return result;
+}
+
+Rectification Rectify(const StereoCameras& cameras) {
+  if (cameras.stated) return RectifyAsStated(cameras);
+  const CameraCalibration &left = cameras.left, &right = cameras.right;
   if (IsRectified(left, right)) return Identity(left, right);
   const Eigen::Isometry3d T_right_left = right.T_body_camera.inverse() * left.T_body_camera;
   cv::Matx33d rotation, left_turn, right_turn;
@@ -115,15 +141,15 @@ class RecordedSequence : public Sequence {
  public:
   RecordedSequence(StereoRecording recording, std::string name)
       : recording_(std::move(recording)), name_(std::move(name)) {
-    const cv::Mat1b first = ReadGreyPng(recording_.pairs.front().left);
-    for (CameraCalibration* camera : {&recording_.left, &recording_.right}) {
+    const cv::Mat1b first = recording_.read_image(0, 0);
+    for (CameraCalibration* camera : {&recording_.cameras.left, &recording_.cameras.right}) {
       if (camera->width == 0) {  // KITTI's calibration does not say
         camera->width = first.cols;
         camera->height = first.rows;
       }
     }
-    rectification_ = Rectify(recording_.left, recording_.right);
-    T_body_rig_ = recording_.left.T_body_camera;
+    rectification_ = Rectify(recording_.cameras);
+    T_body_rig_ = recording_.cameras.left.T_body_camera;
     T_body_rig_.linear() = T_body_rig_.linear() * rectification_.R_left_rectified;
     for (const StampedPose& pose : recording_.truth) truth_by_stamp_[pose.stamp_ns] = pose;
   }
@@ -154,10 +180,9 @@ class RecordedSequence : public Sequence {
     if (index >= recording_.pairs.size() || recording_.pairs[index].stamp_ns != request.stamp_ns) {
       throw std::invalid_argument("a recording has no frame at this time");
     }
-    const StereoRecording::Pair& pair = recording_.pairs[index];
     SequenceFrame frame;
-    frame.images = {request.id, request.stamp_ns, rectification_.left(Read(pair.left)),
-                    rectification_.right(Read(pair.right))};
+    frame.images = {request.id, request.stamp_ns, rectification_.left(Read(index, 0)),
+                    rectification_.right(Read(index, 1))};
     if (const auto pose = TruthAt(request.stamp_ns)) {
       frame.truth.emplace();
       frame.truth->T_world_rig = *pose;
@@ -166,11 +191,12 @@ class RecordedSequence : public Sequence {
   }
 
  private:
-  cv::Mat1b Read(const std::filesystem::path& path) const {
-    const cv::Mat1b image = ReadGreyPng(path);
+  cv::Mat1b Read(std::size_t index, int side) const {
+    const cv::Mat1b image = recording_.read_image(index, side);
     const StereoCalibration& c = rectification_.calibration;
     if (image.cols == c.width && image.rows == c.height) return image;
-    throw InputError(path.string(), 0,
+    const StereoRecording::Pair& pair = recording_.pairs[index];
+    throw InputError((side == 0 ? pair.left : pair.right).string(), 0,
                      fmt::format("is {}x{}, the calibration says {}x{}", image.cols, image.rows,
                                  c.width, c.height));
   }
@@ -203,18 +229,27 @@ class RecordedSequence : public Sequence {
 
 }  // namespace
 
+std::unique_ptr<Sequence> MakeRecordedSequence(StereoRecording recording, const std::string& source,
+                                               const std::string& name) {
+  const StereoCameras& cameras = recording.cameras;
+  if (cameras.left.width != cameras.right.width || cameras.left.height != cameras.right.height) {
+    throw InputError(source, 0, "the two cameras differ in size");
+  }
+  if (cameras.left.equidistant != cameras.right.equidistant) {
+    throw InputError(source, 0, "the two cameras differ in their distortion model");
+  }
+  return std::make_unique<RecordedSequence>(std::move(recording), name);
+}
+
 std::unique_ptr<Sequence> OpenRecording(const std::filesystem::path& folder, DatasetFormat format) {
-  StereoRecording recording = ReadRecording(folder, format);
-  if (recording.left.width != recording.right.width ||
-      recording.left.height != recording.right.height) {
-    throw InputError(folder.string(), 0, "the two cameras differ in size");
-  }
-  if (recording.left.equidistant != recording.right.equidistant) {
-    throw InputError(folder.string(), 0, "the two cameras differ in their distortion model");
-  }
   const auto clean = std::filesystem::absolute(folder).lexically_normal();
   const auto name = clean.has_filename() ? clean.filename() : clean.parent_path().filename();
-  return std::make_unique<RecordedSequence>(std::move(recording), name.string());
+  return MakeRecordedSequence(ReadRecording(folder, format), folder.string(), name.string());
+}
+
+std::unique_ptr<Sequence> OpenBagRecording(const std::filesystem::path& file,
+                                           const BagRecordingOptions& options) {
+  return MakeRecordedSequence(ReadBagRecording(file, options), file.string(), file.stem().string());
 }
 
 }  // namespace aisle

@@ -214,9 +214,11 @@ void Describe(Fields& fields, const Vocabulary& vocabulary, const Fields::Check&
   fields.Text({"question", "what it asks; the file's opening comment where absent",
                "\"Does a person who fills the image spoil the pose?\""},
               &suite.question);
-  fields.Texts(
-      {"scenes", "scene files, from here or from the scenes folder", "[paper/scene2]", true},
-      &scenes, add_scene);
+  fields.Texts({"scenes",
+                "scene files, from here or from the scenes folder; bags, and files that describe a "
+                "recording",
+                "[paper/scene2]", true},
+               &scenes, add_scene);
   fields.List(
       {"systems", "what is under test: names of ours, variants of them, commands",
        "[robust, {name: mine, command: my_slam {dataset} {output}}]", true},

@@ -39,6 +39,7 @@ Json ToJson(const Suite& suite) {
   json["scenes"] = Json::array();
   for (const SuiteScene& scene : suite.scenes) {
     json["scenes"].push_back({{"name", scene.name}, {"file", scene.file}});
+    if (scene.recorded) json["scenes"].back()["recorded"] = true;
   }
   json["systems"] = Json::array();
   for (const SystemSpec& system : suite.systems) json["systems"].push_back(ToJson(system));
@@ -54,8 +55,8 @@ Suite SuiteFromJson(const Json& json) {
   suite.name = json.at("suite").get<std::string>();
   suite.question = json.at("question").get<std::string>();
   for (const Json& scene : json.at("scenes")) {
-    suite.scenes.push_back(
-        {scene.at("name").get<std::string>(), scene.at("file").get<std::string>()});
+    suite.scenes.push_back({scene.at("name").get<std::string>(),
+                            scene.at("file").get<std::string>(), scene.value("recorded", false)});
   }
   for (const Json& system : json.at("systems")) {
     suite.systems.push_back(SystemSpecFromJson(system));

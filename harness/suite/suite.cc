@@ -1,12 +1,14 @@
 #include "harness/suite/suite.h"
 
 #include <filesystem>
+#include <span>
 #include <sstream>
 
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/suite/describe_suite.h"
+#include "harness/suite/recording.h"
 #include "harness/suite/suite_reader.h"
 #include "harness/suite/yaml_guard.h"
 
@@ -48,7 +50,7 @@ std::string AddScene(const fs::path& folder, const std::string& text, Suite* sui
                        folder.empty() ? "this folder" : folder.string(),
                        (folder / "..").lexically_normal().string(), ScenesDir().string());
   }
-  const SuiteScene scene{SceneName(*file), *file};
+  const SuiteScene scene{SceneName(*file), *file, IsRecording(*file)};
   for (const SuiteScene& other : suite->scenes) {
     if (other.name != scene.name) continue;
     return fmt::format(
@@ -100,13 +102,16 @@ Suite SuiteOfScene(const std::string& scene_file) {
   Suite suite;
   suite.name = fs::path(name).filename().string();
   suite.question = "How do the systems fare on " + name + "?";
-  suite.scenes = {{name, fs::path(scene_file).lexically_normal().string()}};
-  suite.systems = {BuiltIn("plain"), BuiltIn("oracle")};
+  const bool recorded = IsRecording(scene_file);
+  suite.scenes = {{name, fs::path(scene_file).lexically_normal().string(), recorded}};
+  suite.systems = {BuiltIn("plain"), BuiltIn(recorded ? "robust" : "oracle")};
   suite.seeds = {1};
   return suite;
 }
 
 bool IsSuiteFile(const std::string& file) {
+  const std::string ending = fs::path(file).extension().string();
+  if (ending == ".mcap" || ending == ".db3") return false;
   const YAML::Node root = LoadYaml(file);
   return root.IsMap() && root["suite"];
 }
@@ -131,9 +136,14 @@ std::vector<std::string> SystemNames(const Suite& suite) {
 std::vector<RunSpec> Plan(const Suite& suite) {
   std::vector<RunSpec> specs;
   for (const SuiteScene& scene : suite.scenes) {
-    for (const std::string& twin : suite.twins) {
-      for (const std::uint64_t seed : suite.seeds) {
+    const std::vector<std::string> twins =
+        scene.recorded ? std::vector<std::string>{"live"} : suite.twins;
+    const std::span<const std::uint64_t> seeds(suite.seeds.data(),
+                                               scene.recorded ? 1 : suite.seeds.size());
+    for (const std::string& twin : twins) {
+      for (const std::uint64_t seed : seeds) {
         for (const SystemSpec& system : suite.systems) {
+          if (scene.recorded && IsToldMasks(system)) continue;
           const int repeats = system.external ? system.external->repeats : 1;
           for (int repeat = 1; repeat <= repeats; ++repeat) {
             specs.push_back({scene.name, scene.file, twin, system, seed, repeat});

@@ -14,6 +14,7 @@ namespace aisle {
 struct SuiteScene {
   std::string name;  ///< "paper/scene2": the path below the scenes folder, without its ending
   std::string file;
+  bool recorded = false;  ///< a recording: one twin, one seed, and nobody knows what moves
 
   bool operator==(const SuiteScene&) const = default;
 };
@@ -70,7 +71,8 @@ std::string SuiteSchema(const Vocabulary& vocabulary);
 std::string SuiteReference(const Vocabulary& vocabulary);
 
 /// Every cell of the suite: scenes, then twins, then seeds, then systems; runs that share their
-/// frames are neighbours.
+/// frames are neighbours. A recording is driven once, as it is (twin live, the first seed), and not
+/// by systems that are told what moves.
 std::vector<RunSpec> Plan(const Suite& suite);
 
 /// Every cell of several suites, each once. Throws InputError where two suites mean different

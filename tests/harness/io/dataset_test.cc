@@ -104,10 +104,10 @@ class DatasetTest : public testing::Test {
     writer.Finish(Path);
   }
   void ExpectCameras(const StereoRecording& recording) const {
-    EXPECT_EQ(recording.left.fx, kRig.fx);
-    EXPECT_EQ(recording.left.cy, kRig.cy);
+    EXPECT_EQ(recording.cameras.left.fx, kRig.fx);
+    EXPECT_EQ(recording.cameras.left.cy, kRig.cy);
     const Eigen::Isometry3d T =
-        recording.left.T_body_camera.inverse() * recording.right.T_body_camera;
+        recording.cameras.left.T_body_camera.inverse() * recording.cameras.right.T_body_camera;
     EXPECT_NEAR(T.translation().x(), kRig.baseline_m, 1e-9);
     ASSERT_EQ(recording.pairs.size(), frames_.size());
     for (std::size_t i = 0; i < frames_.size(); ++i) {
@@ -297,10 +297,10 @@ TEST_F(DatasetTest, ADistortedLensIsStatedInEurocAndRefusedElsewhere) {
   Export(DatasetFormat::kEuroc);
   const StereoRecording recording = ReadRecording(folder_, DatasetFormat::kEuroc);
   for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_EQ(recording.left.distortion.at(k), lens_.coefficients[k]);
-    EXPECT_EQ(recording.right.distortion.at(k), lens_.coefficients[k]);
+    EXPECT_EQ(recording.cameras.left.distortion.at(k), lens_.coefficients[k]);
+    EXPECT_EQ(recording.cameras.right.distortion.at(k), lens_.coefficients[k]);
   }
-  EXPECT_FALSE(recording.left.equidistant);
+  EXPECT_FALSE(recording.cameras.left.equidistant);
   EXPECT_THROW(Export(DatasetFormat::kKitti), InputError);
   EXPECT_THROW(Export(DatasetFormat::kTum), InputError);
   lens_.model = "equidistant";

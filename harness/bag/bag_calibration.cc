@@ -1,0 +1,177 @@
+#include "harness/bag/bag_calibration.h"
+
+#include "harness/io/input_error.h"
+#include "harness/ros/definition.h"
+#include "harness/ros/sensor.h"
+
+namespace aisle {
+namespace {
+
+const char* const kCalibrationCure =
+    "give the rig's own file with --calibration (Kalibr, camera_info, OpenCV or EuRoC)";
+
+/// The first message of a topic, if there is one.
+template <class T>
+std::optional<T> FirstMessage(const Bag& bag, const std::string& topic, const std::string& file) {
+  const std::string type = ros::FullTypeName(T::kType);
+  for (const BagEntry& entry : bag.entries()) {
+    const BagChannel& channel = bag.channels()[entry.channel];
+    if (channel.topic != topic || channel.type != type) continue;
+    try {
+      return ros::Deserialize<T>(bag.Read(entry));
+    } catch (const ros::CdrError& error) {
+      throw InputError(file, 0, fmt::format("a message of {} {}", topic, error.what()));
+    }
+  }
+  return std::nullopt;
+}
+
+ros::CameraInfo InfoOf(const Bag& bag, const std::string& image_topic, const std::string& file) {
+  const std::string topic = CameraInfoTopicOf(image_topic);
+  const auto info = FirstMessage<ros::CameraInfo>(bag, topic, file);
+  if (!info) {
+    throw InputError(file, 0,
+                     fmt::format("has no {} beside {}: {}", topic, image_topic, kCalibrationCure));
+  }
+  if (!(info->p[0] > 0) || !(info->p[5] > 0)) {
+    throw InputError(
+        file, 0,
+        fmt::format("{} says that the camera is not calibrated (p begins with {:g}): {}", topic,
+                    info->p[0], kCalibrationCure));
+  }
+  if (info->binning_x > 1 || info->binning_y > 1 || info->roi.width > 0 || info->roi.height > 0) {
+    throw InputError(
+        file, 0,
+        fmt::format("{} says that images are binned or cut out: {}", topic, kCalibrationCure));
+  }
+  return *info;
+}
+
+bool IsRectified(const ros::CameraInfo& info, const std::string& topic) {
+  if (topic.find("rect") != std::string::npos) return true;
+  constexpr std::array<double, 9> kNoTurn = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  return info.r == kNoTurn && std::ranges::all_of(info.d, [](double k) { return k == 0; });
+}
+
+/// T_left_right as /tf_static has it, where it joins the two frames.
+std::optional<Eigen::Isometry3d> RightInLeft(const Bag& bag, const std::string& left,
+                                             const std::string& right) {
+  std::map<std::string, std::pair<std::string, Eigen::Isometry3d>> parents;
+  for (const BagEntry& entry : bag.entries()) {
+    if (bag.channels()[entry.channel].topic != "/tf_static") continue;
+    try {
+      for (const auto& one : ros::Deserialize<ros::TFMessage>(bag.Read(entry)).transforms) {
+        parents[one.child_frame_id] = {one.header.frame_id, ros::IsometryOf(one.transform)};
+      }
+    } catch (const ros::CdrError&) {  // a hint only
+    }
+  }
+  const auto in_root = [&](std::string frame) {
+    Eigen::Isometry3d T_root_frame = Eigen::Isometry3d::Identity();
+    for (std::size_t step = 0; step <= parents.size(); ++step) {  // a circle ends too
+      const auto parent = parents.find(frame);
+      if (parent == parents.end()) break;
+      T_root_frame = parent->second.second * T_root_frame;
+      frame = parent->second.first;
+    }
+    return std::pair(frame, T_root_frame);
+  };
+  const auto [left_root, T_root_left] = in_root(left);
+  const auto [right_root, T_root_right] = in_root(right);
+  if (left_root != right_root || left == right) return std::nullopt;
+  return T_root_left.inverse() * T_root_right;
+}
+
+/// What is wrong with a baseline that is not positive, and its cure.
+std::string BaselineFault(const Bag& bag, const ros::CameraInfo& left, const ros::CameraInfo& right,
+                          const StereoTopics& topics, double baseline_m) {
+  std::string fault =
+      baseline_m == 0
+          ? fmt::format("{} states no baseline: p[3] is 0, and should be -fx times the baseline",
+                        CameraInfoTopicOf(topics.right))
+          : fmt::format(
+                "{} states a baseline of {:g} m: p[3] is -fx times the baseline, and is "
+                "positive",
+                CameraInfoTopicOf(topics.right), baseline_m);
+  if (left.p[3] < 0 && right.p[3] == 0) {
+    return fault + fmt::format(
+                       "; it stands in the other one: left and right are swapped: say "
+                       "--topic {} --topic {}",
+                       topics.right, topics.left);
+  }
+  if (const auto T_left_right = RightInLeft(bag, left.header.frame_id, right.header.frame_id)) {
+    fault += fmt::format("; its /tf_static puts the right camera {:g} m to the right",
+                         T_left_right->translation().x());
+  }
+  return fault + fmt::format(": say --baseline METRES, or {}", kCalibrationCure);
+}
+
+CameraCalibration PinholeOf(const ros::CameraInfo& info, const std::array<double, 4>& pinhole) {
+  CameraCalibration camera;
+  camera.width = static_cast<int>(std::min<std::uint32_t>(info.width, 16384));
+  camera.height = static_cast<int>(std::min<std::uint32_t>(info.height, 16384));
+  camera.fx = pinhole[0];
+  camera.fy = pinhole[1];
+  camera.cx = pinhole[2];
+  camera.cy = pinhole[3];
+  return camera;
+}
+
+CameraCalibration Rectified(const ros::CameraInfo& info) {
+  return PinholeOf(info, {info.p[0], info.p[5], info.p[2], info.p[6]});
+}
+
+/// As built: k and d.
+CameraCalibration Raw(const ros::CameraInfo& info, const std::string& topic,
+                      const std::string& file) {
+  CameraCalibration camera = PinholeOf(info, {info.k[0], info.k[4], info.k[2], info.k[5]});
+  camera.equidistant = info.distortion_model == "equidistant" || info.distortion_model == "fisheye";
+  const std::size_t n = info.d.size();
+  const bool fits = camera.equidistant ? n == 4 : n == 0 || n == 4 || n == 5 || n == 8;
+  const bool known = camera.equidistant || info.distortion_model.empty() ||
+                     info.distortion_model == "plumb_bob" ||
+                     info.distortion_model == "rational_polynomial";
+  if (!known || !fits || !(camera.fx > 0) || !(camera.fy > 0)) {
+    throw InputError(file, 0,
+                     fmt::format("{}: distortion '{}' with {} coefficients: plumb_bob (5), "
+                                 "rational_polynomial (8) and equidistant (4) are read",
+                                 CameraInfoTopicOf(topic), Printable(info.distortion_model), n));
+  }
+  camera.distortion = info.d;
+  return camera;
+}
+
+StatedRectification StatedOf(const ros::CameraInfo& info) {
+  StatedRectification stated;
+  for (int i = 0; i < 9; ++i)
+    stated.R_rectified_camera(i / 3, i % 3) = info.r[static_cast<std::size_t>(i)];
+  for (int i = 0; i < 12; ++i)
+    stated.projection(i / 4, i % 4) = info.p[static_cast<std::size_t>(i)];
+  return stated;
+}
+
+}  // namespace
+
+StereoCameras CamerasOfBag(const Bag& bag, const StereoTopics& topics,
+                           std::optional<double> asked_baseline_m, const std::string& file) {
+  const ros::CameraInfo left = InfoOf(bag, topics.left, file);
+  ros::CameraInfo right = InfoOf(bag, topics.right, file);
+  const double baseline_m = asked_baseline_m.value_or(-right.p[3] / right.p[0]);
+  if (!(baseline_m > 0) || !std::isfinite(baseline_m)) {
+    throw InputError(file, 0, BaselineFault(bag, left, right, topics, baseline_m));
+  }
+  StereoCameras cameras;
+  if (IsRectified(left, topics.left) && IsRectified(right, topics.right)) {
+    cameras.left = Rectified(left);
+    cameras.right = Rectified(right);
+    cameras.right.T_body_camera.translation().x() = baseline_m;
+    return cameras;
+  }
+  if (asked_baseline_m) right.p[3] = -right.p[0] * baseline_m;
+  cameras.left = Raw(left, topics.left, file);
+  cameras.right = Raw(right, topics.right, file);
+  cameras.stated = {StatedOf(left), StatedOf(right)};
+  return cameras;
+}
+
+}  // namespace aisle

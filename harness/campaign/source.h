@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/contract/sequence.h"
+
+namespace aisle {
+
+// What a run takes its frames from, a scene or a recording: one set of questions for both.
+
+/// A recording with its truth. Throws InputError.
+std::unique_ptr<Sequence> OpenRecordingSource(const std::string& file);
+
+/// Every mistake in it, one message each.
+std::vector<std::string> CheckSource(const std::string& file);
+
+/// Whether the system under test steers through it.
+bool IsDriveSource(const std::string& file);
+
+/// Frames that a run of it has. Throws InputError.
+std::int64_t CountSourceFrames(const std::string& file);
+
+/// The files that decide what it holds, nearest first: a scene's and those it extends.
+std::vector<std::string> FilesOfSource(const std::string& file);
+
+/// Hash of all that decides its frames but the program: of a recording's data by names, sizes and
+/// times of change, since it may be larger than memory.
+std::uint64_t HashSource(const std::string& file, std::uint64_t seed);
+
+}  // namespace aisle

@@ -1,0 +1,171 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <lz4frame.h>
+#include <sqlite3.h>
+
+#include <fstream>
+
+#include "harness/bag/bag.h"
+#include "harness/bag/compression.h"
+#include "harness/io/file.h"
+#include "harness/io/input_error.h"
+#include "harness/ros/geometry.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr std::int64_t kStart = 1'600'000'000'000'000'000;
+
+ros::PoseStamped PoseAt(int k) {
+  ros::PoseStamped pose;
+  pose.header.stamp = ros::TimeOf(kStart + k);
+  pose.header.frame_id = "map";
+  pose.pose.position.x = k;
+  return pose;
+}
+
+class McapTest : public testing::Test {
+ protected:
+  McapTest() : folder_(fs::temp_directory_path() / fmt::format("aisle_mcap_{}", ::getpid())) {
+    fs::create_directories(folder_);
+  }
+  ~McapTest() override { fs::remove_all(folder_); }
+
+  /// 200 poses on /a and 100 texts on /b.
+  fs::path Write(const McapOptions& options) const {
+    const fs::path file = folder_ / "x.mcap";
+    McapWriter writer(file, options);
+    const auto a = writer.AddChannel<ros::PoseStamped>("/a");
+    const auto b = writer.AddChannel<ros::String>("/b", TopicKind::kLatched);
+    for (int k = 0; k < 200; ++k) {
+      writer.Write(a, kStart + k, PoseAt(k));
+      ros::String text;
+      text.data = fmt::format("text {}", k);
+      if (k % 2 == 0) writer.Write(b, kStart + k, text);
+    }
+    writer.AddMetadata("scores", {{"ate_rmse_m", "0.01"}});
+    writer.Attach("scene.yaml", "application/yaml", kStart, "frames: 3\n");
+    writer.Finish();
+    EXPECT_EQ(writer.messages(), 300u);
+    return file;
+  }
+
+  fs::path Put(const std::string& bytes) const {
+    const fs::path file = folder_ / "changed.mcap";
+    std::ofstream(file, std::ios::binary) << bytes;
+    return file;
+  }
+
+  static std::string WhyNot(const fs::path& file) {
+    try {
+      const auto bag = OpenBag(file);
+      for (const BagEntry& entry : bag->entries()) bag->Read(entry);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  const fs::path folder_;
+};
+
+void ExpectWhole(const Bag& bag, std::size_t poses = 200) {
+  ASSERT_EQ(bag.channels().size(), 2u);
+  EXPECT_EQ(bag.channels()[0].topic, "/a");
+  EXPECT_EQ(bag.channels()[0].type, "geometry_msgs/msg/PoseStamped");
+  EXPECT_EQ(bag.channels()[0].messages, poses);
+  int k = 0;
+  for (const BagEntry& entry : bag.entries()) {
+    if (entry.channel != 0) continue;
+    EXPECT_EQ(entry.log_ns, kStart + k);
+    EXPECT_EQ(entry.header_ns, kStart + k);
+    EXPECT_EQ(ros::Deserialize<ros::PoseStamped>(bag.Read(entry)).pose.position.x, k);
+    ++k;
+  }
+}
+
+TEST_F(McapTest, WhatIsWrittenIsRead) {
+  for (const McapOptions& options : {McapOptions{}, McapOptions{.chunk_bytes = 1, .zstd_level = 0},
+                                     McapOptions{.chunk_bytes = 1000, .zstd_level = 3}}) {
+    const auto bag = OpenBag(Write(options));
+    ExpectWhole(*bag);
+    EXPECT_EQ(bag->entries().size(), 300u);
+    EXPECT_EQ(bag->metadata().at("scores").at("ate_rmse_m"), "0.01");
+    EXPECT_TRUE(bag->notes().empty());
+    EXPECT_THAT(bag->channels()[1].qos, HasSubstr("durability: 1"));
+    EXPECT_THAT(bag->channels()[0].definition, HasSubstr("MSG: geometry_msgs/Pose\n"));
+  }
+}
+
+TEST_F(McapTest, SameMessagesSameBytes) {
+  const std::string once = ReadFile(Write({}));
+  EXPECT_EQ(ReadFile(Write({})), once);
+}
+
+TEST_F(McapTest, ACutFileGivesWhatCameBefore) {
+  const std::string bytes = ReadFile(Write({.chunk_bytes = 1000, .zstd_level = 0}));
+  const auto bag = OpenBag(Put(bytes.substr(0, bytes.size() / 2)));
+  EXPECT_GT(bag->entries().size(), 50u);
+  EXPECT_LT(bag->entries().size(), 250u);
+  ASSERT_EQ(bag->notes().size(), 1u);
+  EXPECT_THAT(bag->notes()[0], HasSubstr("ends in the middle"));
+}
+
+TEST_F(McapTest, DamageIsSeen) {
+  std::string bytes = ReadFile(Write({.chunk_bytes = 1 << 20, .zstd_level = 0}));
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  EXPECT_THAT(WhyNot(Put(bytes)), HasSubstr("checksum"));
+  EXPECT_THAT(WhyNot(Put("no bag")), HasSubstr("is no MCAP file"));
+  EXPECT_THAT(WhyNot(folder_ / "none.mcap"), HasSubstr("no such file"));
+}
+
+TEST_F(McapTest, Lz4FramesAreRead) {
+  const std::string text(1000, 'a');
+  std::string packed(LZ4F_compressFrameBound(text.size(), nullptr), '\0');
+  packed.resize(
+      LZ4F_compressFrame(packed.data(), packed.size(), text.data(), text.size(), nullptr));
+  EXPECT_EQ(Decompress(packed, "lz4", text.size()), text);
+  EXPECT_THROW(Decompress(packed, "lz4", text.size() + 1), CompressionError);
+  EXPECT_THROW(Decompress(packed, "lz4", text.size() - 1), CompressionError);
+  EXPECT_THROW(Decompress(packed.substr(0, 9), "lz4", text.size()), CompressionError);
+  EXPECT_THROW(Decompress("x", "lzma", 1), CompressionError);
+}
+
+TEST_F(McapTest, ASqliteBagIsRead) {
+  const fs::path file = folder_ / "old bag?.db3";
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
+  sqlite3_exec(database,
+               "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, "
+               "serialization_format TEXT, offered_qos_profiles TEXT);"
+               "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, "
+               "data BLOB);"
+               "INSERT INTO topics VALUES(7, '/a', 'geometry_msgs/msg/PoseStamped', 'cdr', '');"
+               "INSERT INTO topics VALUES(8, '/b', 'std_msgs/msg/String', 'cdr', '')",
+               nullptr, nullptr, nullptr);
+  sqlite3_stmt* insert = nullptr;
+  sqlite3_prepare_v2(database, "INSERT INTO messages(topic_id, timestamp, data) VALUES(7, ?, ?)",
+                     -1, &insert, nullptr);
+  for (int k = 9; k >= 0; --k) {  // not in the order of time
+    std::string bytes = ros::Serialize(PoseAt(k));
+    if (k % 2 == 0) bytes = CompressZstd(bytes, 1);  // as compression mode `message` does
+    sqlite3_reset(insert);
+    sqlite3_bind_int64(insert, 1, kStart + k);
+    sqlite3_bind_blob(insert, 2, bytes.data(), static_cast<int>(bytes.size()), SQLITE_TRANSIENT);
+    ASSERT_EQ(sqlite3_step(insert), SQLITE_DONE);
+  }
+  sqlite3_finalize(insert);
+  sqlite3_close(database);
+  const std::string before = ReadFile(file);
+  ExpectWhole(*OpenBag(file), 10);
+  EXPECT_EQ(ReadFile(file), before);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "nothing beside it";
+  std::ofstream(folder_ / "no.db3") << "no bag";
+  EXPECT_THAT(WhyNot(folder_ / "no.db3"), HasSubstr("no bag of ROS 2"));
+}
+
+}  // namespace
+}  // namespace aisle

@@ -1,0 +1,304 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "harness/bag/bag_recording.h"
+#include "harness/bag/bag_trajectory.h"
+#include "harness/bag/drive_bag.h"
+#include "harness/bag/frame_messages.h"
+#include "harness/bag/grey_image.h"
+#include "harness/io/input_error.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr std::int64_t kStart = 1'600'000'000'000'000'000, kFrameNs = 50'000'000;
+const StereoCalibration kRig{.width = 32,
+                             .height = 24,
+                             .fx = 435.2,
+                             .fy = 435.2,
+                             .cx = 15.5,
+                             .cy = 11.5,
+                             .baseline_m = 0.12};
+
+cv::Mat1b Picture(int seed) {
+  cv::Mat1b image(kRig.height, kRig.width);
+  cv::RNG random(static_cast<std::uint64_t>(seed));
+  random.fill(image, cv::RNG::UNIFORM, 0, 256);
+  return image;
+}
+
+/// A bag as a robot's recorder makes it, each part of it open to mistakes.
+struct RobotBag {
+  std::string left = "/front/left/image_rect", right = "/front/right/image_rect";
+  ros::CameraInfo left_info = CameraInfoMessage({}, kRig, 0),
+                  right_info = CameraInfoMessage({}, kRig, 1);
+  bool infos = true;
+  std::int64_t right_late_ns = 0;
+  int frames = 6;
+
+  void Write(const fs::path& file) const {
+    McapWriter writer(file);
+    const auto pictures = [&](const std::string& topic) {
+      return writer.AddChannel<ros::Image>(topic);
+    };
+    const auto l = pictures(left), r = pictures(right);
+    for (int k = 0; k < frames; ++k) {
+      const std::int64_t stamp_ns = kStart + k * kFrameNs;
+      ros::Header header;
+      header.frame_id = "left_optical";
+      header.stamp = ros::TimeOf(stamp_ns);
+      // Recorded the other way round and late: neither may matter.
+      ros::Header late = header;
+      late.frame_id = "right_optical";
+      late.stamp = ros::TimeOf(stamp_ns + right_late_ns);
+      writer.Write(r, stamp_ns + 7'000'000, ImageMessage(late, Picture(2 * k + 1)));
+      writer.Write(l, stamp_ns + 9'000'000, ImageMessage(header, Picture(2 * k)));
+      if (!infos) continue;
+      const auto info = [&](const std::string& image, ros::CameraInfo message,
+                            const std::string& frame) {
+        message.header.frame_id = frame;
+        writer.Write(writer.AddChannel<ros::CameraInfo>(CameraInfoOf(image)), stamp_ns, message);
+      };
+      info(left, left_info, "left_optical");
+      info(right, right_info, "right_optical");
+    }
+    ros::TFMessage rig;
+    rig.transforms.resize(2);
+    rig.transforms[0].header.frame_id = rig.transforms[1].header.frame_id = "base_link";
+    rig.transforms[0].child_frame_id = "left_optical";
+    rig.transforms[1].child_frame_id = "right_optical";
+    rig.transforms[1].transform.translation.x = 0.25;
+    writer.Write(writer.AddChannel<ros::TFMessage>("/tf_static"), kStart, rig);
+    writer.Finish();
+  }
+  static std::string CameraInfoOf(const std::string& image) {
+    return image.substr(0, image.rfind('/')) + "/camera_info";
+  }
+};
+
+class RecordingTest : public testing::Test {
+ protected:
+  RecordingTest() : folder_(fs::temp_directory_path() / fmt::format("aisle_bag_{}", ::getpid())) {
+    fs::create_directories(folder_);
+  }
+  ~RecordingTest() override { fs::remove_all(folder_); }
+
+  StereoRecording Read(const RobotBag& bag, const BagRecordingOptions& options = {}) const {
+    bag.Write(folder_ / "drive.mcap");
+    return ReadBagRecording(folder_ / "drive.mcap", options);
+  }
+  std::string WhyNot(const RobotBag& bag, const BagRecordingOptions& options = {}) const {
+    try {
+      Read(bag, options);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  const fs::path folder_;
+};
+
+TEST_F(RecordingTest, PairsComeByHeaderStampWithTheirPixels) {
+  const StereoRecording recording = Read({});
+  ASSERT_EQ(recording.pairs.size(), 6u);
+  for (int k = 0; k < 6; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    EXPECT_EQ(recording.pairs[i].stamp_ns, kStart + k * kFrameNs);
+    EXPECT_EQ(cv::norm(recording.read_image(i, 0), Picture(2 * k), cv::NORM_INF), 0);
+    EXPECT_EQ(cv::norm(recording.read_image(i, 1), Picture(2 * k + 1), cv::NORM_INF), 0);
+  }
+  EXPECT_EQ(recording.cameras.left.fx, kRig.fx);
+  EXPECT_EQ(recording.cameras.right.T_body_camera.translation().x(), kRig.baseline_m)
+      << "to the bit";
+  EXPECT_FALSE(recording.cameras.stated);
+}
+
+TEST_F(RecordingTest, OnRectifiedTopicsTheProjectionAloneCounts) {
+  RobotBag bag;
+  bag.left_info.k = bag.right_info.k = {500, 0, 1, 0, 500, 2, 0, 0, 1};
+  bag.left_info.d = bag.right_info.d = {-0.3, 0.1, 0, 0, 0};
+  const StereoRecording recording = Read(bag);
+  EXPECT_EQ(recording.cameras.left.fx, kRig.fx);
+  EXPECT_TRUE(recording.cameras.left.distortion.empty());
+}
+
+TEST_F(RecordingTest, RawTopicsAreRectifiedAsTheyState) {
+  RobotBag bag;
+  bag.left = "/front/left/image_raw";
+  bag.right = "/front/right/image_raw";
+  bag.left_info.d = bag.right_info.d = {-0.3, 0.1, 0, 0, 0};
+  const StereoRecording recording = Read(bag);
+  ASSERT_TRUE(recording.cameras.stated);
+  EXPECT_EQ(recording.cameras.left.distortion.size(), 5u);
+  EXPECT_EQ((*recording.cameras.stated)[0].projection(0, 0), kRig.fx);
+}
+
+TEST_F(RecordingTest, AMissingBaselineIsNamedWithItsCure) {
+  RobotBag bag;
+  bag.right_info.p[3] = 0;
+  EXPECT_THAT(WhyNot(bag), testing::AllOf(HasSubstr("states no baseline"), HasSubstr("0.25 m"),
+                                          HasSubstr("--baseline")));
+  const StereoRecording cured = Read(bag, {.baseline_m = 0.25});
+  EXPECT_EQ(cured.cameras.right.T_body_camera.translation().x(), 0.25);
+}
+
+TEST_F(RecordingTest, AWrongSignAndSwappedEyesAreNamed) {
+  RobotBag bag;
+  bag.right_info.p[3] = -bag.right_info.p[3];
+  EXPECT_THAT(WhyNot(bag), HasSubstr("a baseline of -0.12 m"));
+  RobotBag swapped;
+  std::swap(swapped.left_info, swapped.right_info);
+  EXPECT_THAT(WhyNot(swapped), HasSubstr("--topic /front/right/image_rect --topic /front/left"));
+}
+
+TEST_F(RecordingTest, WhatElseIsMissingIsNamed) {
+  RobotBag blind;
+  blind.infos = false;
+  EXPECT_THAT(WhyNot(blind), HasSubstr("no /front/left/camera_info"));
+  RobotBag late;
+  late.right_late_ns = 5'000'000;
+  EXPECT_THAT(WhyNot(late), HasSubstr("median distance 5.000 ms"));
+  RobotBag nearly;
+  nearly.right_late_ns = 900'000;
+  EXPECT_EQ(Read(nearly).pairs.size(), 6u);
+  RobotBag odd;
+  odd.left = "/a/image_rect";
+  EXPECT_THAT(WhyNot(odd), HasSubstr("--topic LEFT"));
+  EXPECT_EQ(Read(odd, {.topics = {odd.left, odd.right}}).pairs.size(), 6u);
+  EXPECT_THAT(WhyNot({}, {.topics = {"/front/left/image_rec"}}), HasSubstr("image_rect"));
+  RobotBag uncalibrated;
+  uncalibrated.left_info.p = {};
+  EXPECT_THAT(WhyNot(uncalibrated), HasSubstr("not calibrated"));
+}
+
+TEST(GreyImage, EncodingsMeanWhatRosSays) {
+  // One colour everywhere: every mosaic of it must come out as that colour's grey.
+  const cv::Vec3b bgr(40, 90, 200);
+  cv::Mat3b colour(16, 16, bgr);
+  cv::Mat1b expected(1, 1);
+  cv::cvtColor(cv::Mat3b(1, 1, bgr), expected, cv::COLOR_BGR2GRAY);
+  const int grey = expected(0, 0);
+  const auto middle = [](const cv::Mat1b& image) { return static_cast<int>(image(8, 8)); };
+  ros::Image message = ImageMessage({}, colour);
+  EXPECT_EQ(middle(GreyImage(message)), grey);
+  message.encoding = "rgb8";
+  EXPECT_NE(middle(GreyImage(message)), grey);
+  for (const std::string pattern : {"rggb", "bggr", "gbrg", "grbg"}) {
+    cv::Mat1b mosaic(16, 16);
+    for (int y = 0; y < 16; ++y) {
+      for (int x = 0; x < 16; ++x) {
+        const char c = pattern[static_cast<std::size_t>(2 * (y % 2) + x % 2)];
+        mosaic(y, x) = bgr[c == 'b' ? 0 : c == 'g' ? 1 : 2];
+      }
+    }
+    ros::Image bayer = ImageMessage({}, mosaic);
+    bayer.encoding = "bayer_" + pattern + "8";
+    EXPECT_NEAR(middle(GreyImage(bayer)), grey, 1) << pattern;
+  }
+  cv::Mat1w deep(4, 4, std::uint16_t{0x1234});
+  ros::Image wide = ImageMessage({}, deep);
+  EXPECT_EQ(GreyImage(wide)(2, 2), 0x12);
+  wide.is_bigendian = 1;
+  EXPECT_EQ(GreyImage(wide)(2, 2), 0x34);
+  wide.encoding = "polarized8";
+  EXPECT_THROW(GreyImage(wide), ros::CdrError);
+}
+
+TEST(GreyImage, RowsMayHaveGapsAndMustBeThere) {
+  const cv::Mat1b image = Picture(3);
+  ros::Image message = ImageMessage({}, image);
+  message.step += 5;
+  std::vector<std::uint8_t> spaced;
+  for (int y = 0; y < image.rows; ++y) {
+    spaced.insert(spaced.end(), image.ptr(y), image.ptr(y) + image.cols);
+    spaced.insert(spaced.end(), 5, 77);
+  }
+  message.data = spaced;
+  EXPECT_EQ(cv::norm(GreyImage(message), image, cv::NORM_INF), 0);
+  message.data.resize(spaced.size() - 6);
+  EXPECT_THROW(GreyImage(message), ros::CdrError);
+}
+
+TEST(GreyImage, CompressedImagesAreRead) {
+  const cv::Mat1b image = Picture(4);
+  ros::CompressedImage message;
+  message.format = "mono8; png compressed ";
+  cv::imencode(".png", image, message.data);
+  EXPECT_EQ(cv::norm(GreyImage(message), image, cv::NORM_INF), 0);
+  message.data.resize(20);
+  EXPECT_THROW(GreyImage(message), ros::CdrError);
+}
+
+TEST_F(RecordingTest, TrajectoriesOfEveryTypeComeOut) {
+  const fs::path file = folder_ / "poses.mcap";
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() << 1, 2, 3;
+  pose.rotate(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()));
+  {
+    McapWriter writer(file);
+    ros::Header header;
+    header.stamp = ros::TimeOf(kStart);
+    ros::Odometry odometry;
+    odometry.header = header;
+    odometry.pose.pose = ros::PoseOf(pose);
+    writer.Write(writer.AddChannel<ros::Odometry>("/odom"), kStart, odometry);
+    ros::PoseStamped stamped;
+    stamped.header = header;
+    stamped.pose = ros::PoseOf(pose);
+    writer.Write(writer.AddChannel<ros::PoseStamped>("/pose"), kStart, stamped);
+    ros::Path path;
+    path.poses = {stamped};
+    writer.Write(writer.AddChannel<ros::Path>("/path"), kStart, path);
+    ros::TFMessage tf;
+    tf.transforms.resize(2);
+    tf.transforms[0].header = header;
+    tf.transforms[0].child_frame_id = "base_link";
+    tf.transforms[0].transform = ros::TransformOf(pose);
+    writer.Write(writer.AddChannel<ros::TFMessage>("/tf"), kStart, tf);
+    writer.Finish();
+  }
+  for (const char* topic : {"/odom", "/pose", "/path", "/tf#base_link"}) {
+    const auto asked = BagTopicFromText(file.string() + ":" + topic);
+    ASSERT_TRUE(asked) << topic;
+    const Trajectory trajectory = ReadBagTrajectory(*asked);
+    ASSERT_EQ(trajectory.size(), 1u) << topic;
+    EXPECT_EQ(trajectory[0].stamp_ns, kStart);
+    EXPECT_TRUE(trajectory[0].T_world_rig.isApprox(pose, 1e-12)) << topic;
+  }
+  EXPECT_FALSE(BagTopicFromText("truth.txt"));
+  EXPECT_THROW(ReadBagTrajectory(*BagTopicFromText(file.string())), InputError) << "several";
+  EXPECT_THROW(ReadBagTrajectory(*BagTopicFromText(file.string() + ":/tf")), InputError);
+  EXPECT_THROW(ReadBagTrajectory(*BagTopicFromText(file.string() + ":/tf#rig")), InputError);
+  EXPECT_THROW(ReadBagTrajectory(*BagTopicFromText(file.string() + ":/odo")), InputError);
+}
+
+TEST_F(RecordingTest, ADriveBagIsARecording) {
+  const fs::path file = folder_ / "own.mcap";
+  {
+    DriveBag bag(file, kRig, {});
+    for (int k = 0; k < 3; ++k) {
+      SequenceFrame frame;
+      frame.images = {k, k * kFrameNs, Picture(2 * k), Picture(2 * k + 1)};
+      frame.truth.emplace();
+      frame.truth->T_world_rig.translation().x() = k;
+      bag.AddFrame(frame);
+    }
+    bag.Finish();
+  }
+  const StereoRecording recording = ReadBagRecording(file, {});
+  ASSERT_EQ(recording.pairs.size(), 3u);
+  ASSERT_EQ(recording.truth.size(), 3u);
+  EXPECT_EQ(recording.truth[2].T_world_rig.translation().x(), 2);
+  EXPECT_EQ(recording.truth[2].stamp_ns, recording.pairs[2].stamp_ns);
+  EXPECT_EQ(cv::norm(recording.read_image(2, 1), Picture(5), cv::NORM_INF), 0);
+}
+
+}  // namespace
+}  // namespace aisle
