@@ -14,14 +14,14 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the solver or this format changes, so that old files are not read.
-constexpr std::uint64_t kVersion = 9;
+constexpr std::uint64_t kVersion = 10;
 
 struct Header {
   std::uint64_t magic = 0x746867696c736961;  // "aislight"
   std::uint64_t version = kVersion;
   std::uint64_t key = 0;
   std::uint64_t slots = 0, nodes = 0;
-  std::uint64_t checksum = 0;  ///< of the arrays
+  std::uint64_t checksum = 0;  ///< of the arrays and of where the volume lies
 };
 
 std::uint64_t Checksum(const LightState& state) {
@@ -32,6 +32,7 @@ std::uint64_t Checksum(const LightState& state) {
   add(state.total);
   add(state.direct);
   add(state.volume.nodes());
+  add(std::span(&state.volume.shape(), 1));
   return sum;
 }
 

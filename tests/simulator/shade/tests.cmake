@@ -1,1 +1,6 @@
+aisle_tests(simulator/shade/lanes)
+aisle_tests(simulator/shade/surface USES simulator/shade/light)
+aisle_tests(simulator/shade/light)
+aisle_tests(simulator/shade/pass USES simulator/shade)
+aisle_tests(simulator/shade/reference USES simulator/shade simulator/foreign LINKS opencv_imgcodecs)
 aisle_tests(simulator/shade USES simulator/foreign simulator/shade/reference LINKS opencv_imgcodecs)
