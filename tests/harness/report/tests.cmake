@@ -1,5 +1,6 @@
+find_package(pugixml REQUIRED)  # an independent reader of what pages and charts say
 foreach(part block markup chart page picture)
-  aisle_tests(harness/report/${part} LINKS harness_record_nights)
+  aisle_tests(harness/report/${part} LINKS harness_record_nights pugixml::pugixml)
 endforeach()
 aisle_tests(harness/report/paper LINKS harness_record_nights)
 # Made-up nights, looked at by a browser where Debian's chromium is there.
