@@ -1,0 +1,257 @@
+#include "simulator/shade/pass/mover_blockers.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "simulator/camera/pixel_rays.h"
+#include "simulator/shade/pass/lobe_lamps.h"
+#include "simulator/shade/pass/other_camera.h"
+#include "simulator/shade/surface/gloss.h"
+#include "tests/simulator/test_world.h"
+
+namespace aisle::sim {
+namespace {
+
+using Eigen::Vector3f;
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  float In(float low, float high) {
+    return std::uniform_real_distribution<float>(low, high)(engine_);
+  }
+  Vector3f Point(const Eigen::AlignedBox3f& box) {
+    return box.min() + box.sizes().cwiseProduct(Vector3f(In(0, 1), In(0, 1), In(0, 1)));
+  }
+
+ private:
+  std::mt19937 engine_;
+};
+
+Vector3f Lane(const F8x3& v, int k) { return {v.x[k], v.y[k], v.z[k]}; }
+
+void Set(const Vector3f& from, int k, F8x3* to) {
+  to->x[k] = from.x();
+  to->y[k] = from.y();
+  to->z[k] = from.z();
+}
+
+/// A segment of which a fine walk finds a point inside meets the box; one that meets it has a point
+/// of the walk close to it.
+TEST(MeetBox, SaysWhichSegmentsPassThrough) {
+  Random random(1);
+  const Eigen::AlignedBox3f space(Vector3f::Constant(-3), Vector3f::Constant(3));
+  for (int round = 0; round < 300; ++round) {
+    Eigen::AlignedBox3f box(random.Point(space));
+    box.extend(random.Point(space));
+    F8x3 from, to;
+    for (int k = 0; k < 8; ++k) {
+      Set(random.Point(space), k, &from);
+      Vector3f way = random.Point(space);
+      if (k == 3) way.x() = 0;  // along a wall of the box
+      Set(way, k, &to);
+    }
+    const I8 meets = MeetBox(box, from, to);
+    for (int k = 0; k < 8; ++k) {
+      float nearest = 1e9f;
+      for (int i = 0; i <= 400; ++i) {
+        const Vector3f at = Lane(from, k) + static_cast<float>(i) / 400 * Lane(to, k);
+        nearest = std::min(nearest, box.exteriorDistance(at));
+      }
+      if (nearest == 0) {
+        EXPECT_TRUE(meets[k]) << round;
+      }
+      if (meets[k]) {
+        EXPECT_LT(nearest, 0.03f) << round;
+      }
+    }
+  }
+}
+
+struct Stage {
+  World world{test::Hall({.boxes = 0, .lights = 8})};
+  Tracer tracer{world, {}};
+  Instant instant = tracer.Pose(world.At(2'000'000'000));
+};
+
+/// What is left out must not matter: no segment between the box and the lamp meets such a mover.
+TEST(MoversBetween, LeavesOutNoMoverThatBlocksAnything) {
+  const Stage stage;
+  Random random(2);
+  const Eigen::AlignedBox3f hall(Vector3f(1, -4, 0), Vector3f(28, 4, 2));
+  int blocked_at_all = 0, left_out = 0;
+  for (int round = 0; round < 400; ++round) {
+    Eigen::AlignedBox3f box(random.Point(hall));
+    box.extend((box.min() + random.Point({Vector3f::Zero(), Vector3f::Constant(2)})).eval());
+    const AreaLight& light = stage.world.lights()[static_cast<std::size_t>(round) % 8];
+    const GeometryMask mask =
+        MoversBetween(stage.instant, box, light.center, light.half_u, light.half_v);
+    left_out += (mask & MoverBit(0)) == 0;
+    for (int packet = 0; packet < 20; ++packet) {
+      F8x3 from, to;
+      for (int k = 0; k < 8; ++k) {
+        const Vector3f start = random.Point(box);
+        const Vector3f end =
+            light.center + random.In(-1, 1) * light.half_u + random.In(-1, 1) * light.half_v;
+        Set(start, k, &from);
+        Set(end - start, k, &to);
+      }
+      const unsigned all =
+          BlockedByMovers(stage.instant, kMoversOnly, from, to, Wide(1), WideInt(-1));
+      const unsigned of_mask = BlockedByMovers(stage.instant, mask, from, to, Wide(1), WideInt(-1));
+      blocked_at_all += all != 0;
+      ASSERT_EQ(all, of_mask) << round;
+    }
+  }
+  EXPECT_GT(blocked_at_all, 50);
+  EXPECT_GT(left_out, 50) << "and it does leave out some";
+}
+
+TEST(BlockedByMovers, IsWhatRaysAgainstAllMoversFind) {
+  const Stage stage;
+  Random random(3);
+  const Eigen::AlignedBox3f hall(Vector3f(4, -3, 0), Vector3f(18, 3, 2.5f));
+  unsigned any = 0;
+  for (int round = 0; round < 2000; ++round) {
+    F8x3 from, to;
+    for (int k = 0; k < 8; ++k) {
+      const Vector3f start = random.Point(hall);
+      Set(start, k, &from);
+      Set(random.Point(hall) - start, k, &to);
+    }
+    const I8 valid = LanesOf(static_cast<unsigned>(round) & 255u);
+    const unsigned blocked =
+        BlockedByMovers(stage.instant, kMoversOnly, from, to, Wide(0.9f), valid);
+    Rays8 rays;
+    for (int k = 0; k < 8; ++k) {
+      rays.ox[k] = from.x[k], rays.oy[k] = from.y[k], rays.oz[k] = from.z[k];
+      rays.dx[k] = to.x[k], rays.dy[k] = to.y[k], rays.dz[k] = to.z[k];
+      rays.t_near[k] = 0, rays.t_far[k] = 0.9f, rays.valid[k] = valid[k];
+    }
+    ASSERT_EQ(blocked, stage.instant.Occluded(rays, Coherence::kIncoherent, kMoversOnly));
+    any |= blocked;
+  }
+  EXPECT_EQ(any, 255u);
+}
+
+/// The other camera's pixel of a point is the one that sees that point.
+TEST(OtherCamera, FindsThePixelThatShowsTheSamePoint) {
+  const Stage stage;
+  StereoCamera camera;
+  camera.width = 101;
+  camera.height = 60;
+  camera.fx = camera.fy = 70;
+  camera.cx = 48;
+  camera.cy = 33;
+  const PixelRays rays = MakePixelRays(camera);
+  const CameraView left(rays, test::LookAlong({4, 0.1, 1.2}, 0.1));
+  const CameraView right(rays, test::LookAlong({4.1, -0.3, 1.3}, 0.15));
+  std::vector<HitImage> hits;
+  TraceViews(stage.instant, std::vector{left, right}, {}, &hits);
+  const OtherCamera other(left, hits[0]);
+  int found = 0;
+  for (int y = 0; y < camera.height; ++y) {
+    for (int x = 0; x + 8 <= camera.width; x += 8) {
+      const std::size_t i = hits[1].Index(x, y);
+      const I8 active = LoadI(&hits[1].geometry[i]) == 0;
+      F8x3 points{};
+      for (int k = 0; k < 8; ++k) {
+        if (!active[k]) continue;
+        const Eigen::Vector2f ray = rays.At(x + k, y);
+        Set(right.origin + hits[1].t[i + static_cast<std::size_t>(k)] *
+                               (right.rotation * Vector3f(ray.x(), ray.y(), 1)),
+            k, &points);
+      }
+      I8 pixels{};
+      const I8 primitive = LoadI(&hits[1].primitive[i]);
+      const I8 seen = other.Find(points, primitive, active, &pixels);
+      for (int k = 0; k < 8; ++k) {
+        if (!active[k]) {
+          EXPECT_EQ(seen[k], 0);
+          continue;
+        }
+        const Vector3f in_left = left.rotation.transpose() * (Lane(points, k) - left.origin);
+        const double u = camera.fx * in_left.x() / in_left.z() + camera.cx;
+        const double v = camera.fy * in_left.y() / in_left.z() + camera.cy;
+        const int column = static_cast<int>(std::lround(u)), row = static_cast<int>(std::lround(v));
+        const double rounding = std::max(std::abs(u - std::round(u)), std::abs(v - std::round(v)));
+        if (rounding > 0.499) continue;  // on the border of two pixels
+        const bool inside = in_left.z() > 0 && column >= 0 && row >= 0 && column < camera.width &&
+                            row < camera.height;
+        const std::size_t at = inside ? hits[0].Index(column, row) : 0;
+        const bool expected = inside && hits[0].geometry[at] == 0 &&
+                              hits[0].primitive[at] == static_cast<std::uint32_t>(primitive[k]);
+        ASSERT_EQ(seen[k] != 0, expected) << x + k << ", " << y;
+        if (expected) {
+          EXPECT_EQ(pixels[k], static_cast<int>(at));
+        }
+        found += expected;
+      }
+    }
+  }
+  EXPECT_GT(found, 1000);
+}
+
+/// One ray a place, at a lamp chosen by its importance, is right in the mean: the lobe's integral
+/// over all lamps.
+TEST(LobeLamps, MirrorInTheMeanWhatTheIntegralOverTheLampsSays) {
+  WorldParts parts;
+  parts.materials.resize(1);
+  parts.instances.push_back({"floor", ObjectClass::kFloor, false});
+  test::MeshBuilder floor;
+  floor.Quad({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}, 0, 1);
+  parts.statics = {floor.mesh, floor.instances};
+  parts.lights = {{{1, 0, 3}, {0.5f, 0, 0}, {0, -0.3f, 0}, 2},
+                  {{-2, 1, 4}, {0.8f, 0, 0}, {0, -0.2f, 0}, 5},
+                  {{3, 3, 3}, {0.5f, 0, 0}, {0, -0.5f, 0}, 4}};
+  const World world(std::move(parts));
+  const Tracer tracer(world, {});
+  const Instant instant = tracer.Pose(world.At(0));
+  const std::vector<float> scale = {1, 0.5f, 0};
+  const LobeLamps lamps(world.lights(), scale);
+  for (const float roughness : {0.2f, 0.38f}) {
+    const Vector3f out = Vector3f(-0.5f, 0.1f, 0.6f).normalized();
+    const LobePoints8 points{{Wide(0.2f), Wide(-0.1f), Wide(0.002f)},
+                             Frame8({Wide(0), Wide(0), Wide(1)}),
+                             {Wide(out.x()), Wide(out.y()), Wide(out.z())},
+                             Wide(0.05f),
+                             Wide(roughness)};
+    double mean = 0;
+    constexpr int kRounds = 20'000;
+    Random random(4);
+    for (int i = 0; i < kRounds; ++i) {
+      LampChoice8 choice;
+      for (int k = 0; k < 8; ++k) {
+        choice.which[k] = random.In(0, 1);
+        choice.a[k] = random.In(0, 1);
+        choice.b[k] = random.In(0, 1);
+      }
+      mean += Sum(lamps.Mirrored(instant, points, choice, WideInt(-1))) / (8.0 * kRounds);
+    }
+    double expected = 0;
+    constexpr int kSide = 200;
+    for (std::size_t l = 0; l < 2; ++l) {
+      const AreaLight& light = world.lights()[l];
+      const float area = 4 * light.half_u.norm() * light.half_v.norm();
+      for (int c = 0; c < kSide * kSide; ++c) {
+        const float u = (2 * static_cast<float>(c % kSide) + 1) / kSide - 1;
+        const float v = (2 * static_cast<float>(c / kSide) + 1) / kSide - 1;
+        const Vector3f way =
+            light.center + u * light.half_u + v * light.half_v - Vector3f(0.2f, -0.1f, 0.002f);
+        const Vector3f in = way.normalized();
+        const float lobe = EvaluateLobe(Finish{0.05f, roughness}, {out.x(), out.y(), out.z()},
+                                        {in.x(), in.y(), in.z()})
+                               .reflected;
+        expected += static_cast<double>(scale[l] * light.radiance * lobe * in.z() * area /
+                                        way.squaredNorm()) /
+                    (kSide * kSide);
+      }
+    }
+    ASSERT_GT(expected, 0);
+    EXPECT_NEAR(mean, expected, 0.03 * expected) << roughness;
+  }
+}
+
+}  // namespace
+}  // namespace aisle::sim
