@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "harness/io/file.h"
+#include "harness/judge/change_size.h"
 
 namespace aisle {
 namespace {
@@ -67,6 +68,47 @@ TEST_F(ComparePageTest, NamesBothSidesAndLeadsToTheSeedAndItsFrames) {
     copied += entry.is_regular_file() ? 1 : 0;
   }
   EXPECT_EQ(copied, 2u);
+}
+
+/// Held the other way round, what got worse got better: by as much, and nothing else is news.
+TEST_F(ComparePageTest, TheOtherWayRoundIsTheOtherWayRound) {
+  const Results old = Night("old", 1), now = Night("new", 2);
+  const auto said = [](const std::string& page) {
+    const std::size_t at = page.find("Of ");
+    return page.substr(at, page.find(" The largest", at) - at);
+  };
+  const std::string forth = said(Page(old, now)), back = said(Page(now, old));
+  EXPECT_THAT(forth, HasSubstr("1 got worse and 0 better"));
+  EXPECT_THAT(back, HasSubstr("0 got worse and 1 better"));
+  const auto changes = Compare(old, now), mirrored = Compare(now, old);
+  ASSERT_EQ(changes.size(), mirrored.size());
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    EXPECT_EQ(changes[i].old_median, mirrored[i].new_median);
+    EXPECT_NEAR(changes[i].difference.low, -mirrored[i].difference.high, 1e-12);
+    EXPECT_NEAR(SizeOf(changes[i]), SizeOf(mirrored[i]), 1e-12);
+  }
+  EXPECT_THAT(Page(old, old), Not(HasSubstr("id=\"changes\""))) << "a night and itself";
+}
+
+/// From wherever the page stands, its links lead to the two reports and to the pictures beside it.
+TEST_F(ComparePageTest, EveryLinkLeadsToAFile) {
+  const Results old = Night("old", 1), now = Night("new", 2);
+  const fs::path out = folder_ / "deep er" / "compared";
+  const std::string page = ComparePage(Compare(old, now), {"o", &old, folder_ / "old"},
+                                       {"n", &now, folder_ / "new"}, out);
+  fs::create_directories(out);
+  std::size_t links = 0;
+  for (const char* attribute : {"href=\"", "src=\""}) {
+    for (std::size_t at = 0; (at = page.find(attribute, at)) != std::string::npos; ++at) {
+      const std::size_t from = page.find('"', at) + 1;
+      std::string link = page.substr(from, page.find('"', from) - from);
+      link = link.substr(0, link.find('#'));
+      EXPECT_EQ(link.find('%'), std::string::npos) << link;
+      EXPECT_TRUE(fs::exists(out / link)) << link;
+      ++links;
+    }
+  }
+  EXPECT_GT(links, 5u);
 }
 
 TEST_F(ComparePageTest, SuitesThatShareNothingSayWhy) {
