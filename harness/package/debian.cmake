@@ -1,10 +1,15 @@
-# Three packages: the program, its data, and the libraries with their headers.
+# Three packages: the program, its data, and the libraries with their headers; and of a build for
+# Python the module alone.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME aisle)
 set(CPACK_PACKAGE_VENDOR "the aisle developers")
 set(CPACK_PACKAGE_CONTACT "the aisle developers <aisle@localhost>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_COMPONENTS_ALL program data dev)
+if(AISLE_PYTHON)
+  set(CPACK_COMPONENTS_ALL python)
+else()
+  set(CPACK_COMPONENTS_ALL program data dev)
+endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_STRIP_FILES ON)
@@ -36,4 +41,15 @@ set(CPACK_COMPONENT_DEV_DESCRIPTION
   "libraries and headers of aisle
 The stereo visual SLAM, the simulator and the scores of aisle as static libraries,
 for find_package(aisle COMPONENTS slam simulator harness).")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-aisle)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "aisle (= ${PROJECT_VERSION}), python3 (>= 3.11), \
+python3 (<< 3.12), python3-numpy")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+  "aisle as a module of Python
+Renders stereo pictures with their truth into NumPy arrays, tracks them by the
+SLAM of aisle, scores trajectories and masks, and steps a vehicle that steers by
+what a system says.")
 include(CPack)

@@ -53,8 +53,17 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/aisleConfigVersion.cmake
 install(FILES ${CMAKE_BINARY_DIR}/aisleConfig.cmake ${CMAKE_BINARY_DIR}/aisleConfigVersion.cmake
   DESTINATION ${AISLE_CMAKE_DIR} COMPONENT dev)
 
+# --- The module for Python, where this build has it -------------------------------------------------
+if(AISLE_PYTHON)
+  install(TARGETS python_core LIBRARY DESTINATION lib/python3/dist-packages/aisle COMPONENT python)
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/harness/python/aisle
+    DESTINATION lib/python3/dist-packages COMPONENT python)
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/harness/python/examples
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-aisle COMPONENT python)
+endif()
+
 # --- Debian packages ----------------------------------------------------------------------------------
-foreach(owner program:aisle data:aisle-data dev:libaisle-dev)
+foreach(owner program:aisle data:aisle-data dev:libaisle-dev python:python3-aisle)
   string(REPLACE ":" ";" owner ${owner})
   list(GET owner 0 component)
   list(GET owner 1 package)

@@ -1,0 +1,88 @@
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "harness/io/file.h"
+#include "harness/io/trajectory.h"
+#include "harness/python/arrays.h"
+#include "harness/python/track.h"
+
+namespace aisle::python {
+namespace {
+
+using StampArray = py::array_t<std::int64_t, py::array::c_style>;
+
+Track TrackFrom(const StampArray& stamps_ns, const NumberArray& poses) {
+  const bool fits = stamps_ns.ndim() == 1 && poses.ndim() == 3 &&
+                    poses.shape(0) == stamps_ns.shape(0) && poses.shape(1) == 4 &&
+                    poses.shape(2) == 4;
+  if (!fits) throw py::value_error("expected stamps_ns int64 (n,) and poses (n, 4, 4)");
+  Track track;
+  for (py::ssize_t i = 0; i < stamps_ns.shape(0); ++i) {
+    const std::int64_t stamp_ns = stamps_ns.at(i);
+    if (i > 0 && stamp_ns < track.poses.back().stamp_ns) {
+      throw py::value_error(fmt::format("stamps_ns falls at index {}", i));
+    }
+    const NumberArray pose({4, 4}, poses.data(i, 0, 0), poses);
+    track.poses.push_back({stamp_ns, PoseFrom(pose, fmt::format("poses[{}]", i))});
+  }
+  return track;
+}
+
+py::array StampsOf(const Track& track) {
+  py::array_t<std::int64_t> stamps(static_cast<py::ssize_t>(track.poses.size()));
+  for (std::size_t i = 0; i < track.poses.size(); ++i) {
+    stamps.mutable_at(static_cast<py::ssize_t>(i)) = track.poses[i].stamp_ns;
+  }
+  return stamps;
+}
+
+py::array PosesOf(const Track& track) {
+  py::array_t<double> poses(
+      {static_cast<py::ssize_t>(track.poses.size()), py::ssize_t{4}, py::ssize_t{4}});
+  auto at = poses.mutable_unchecked<3>();
+  for (std::size_t i = 0; i < track.poses.size(); ++i) {
+    for (int row = 0; row < 4; ++row) {
+      for (int column = 0; column < 4; ++column) {
+        at(static_cast<py::ssize_t>(i), row, column) =
+            track.poses[i].T_world_rig.matrix()(row, column);
+      }
+    }
+  }
+  return poses;
+}
+
+Track Read(const std::filesystem::path& file, const std::optional<std::string>& format) {
+  return {ReadTrajectory(file,
+                         format ? TrajectoryFormatFromName(*format) : GuessTrajectoryFormat(file))};
+}
+
+void Write(const Track& track, const std::filesystem::path& file, const std::string& format) {
+  WriteFileAtomically(file, FormatTrajectory(track.poses, TrajectoryFormatFromName(format)));
+}
+
+}  // namespace
+
+void BindTrack(py::module_& module) {
+  py::class_<Track>(module, "Trajectory", "Poses by time: stamps do not fall.")
+      .def(py::init(&TrackFrom), py::arg("stamps_ns"), py::arg("poses"),
+           "stamps_ns: int64 (n,). poses: (n, 4, 4), each T_world_rig in metres.")
+      .def_static("read", &Read, py::arg("file"), py::arg("format") = py::none(),
+                  "From a file in TUM's, KITTI's or EuRoC's format; by its content unless `format` "
+                  "says \"tum\", \"kitti\" or\n\"euroc\". Raises InputError with file and line.")
+      .def("write", &Write, py::arg("file"), py::arg("format") = "tum",
+           "To a file; every number of TUM's format reads back to the bit.")
+      .def_property_readonly("stamps_ns", StampsOf, "int64 (n,).")
+      .def_property_readonly("poses", PosesOf, "float64 (n, 4, 4): T_world_rig.")
+      .def("__len__", [](const Track& track) { return track.poses.size(); })
+      .def("__repr__",
+           [](const Track& track) {
+             return fmt::format("<aisle.Trajectory of {} poses>", track.poses.size());
+           })
+      .def(py::pickle(
+          [](const Track& track) { return py::make_tuple(StampsOf(track), PosesOf(track)); },
+          [](const py::tuple& parts) {
+            return TrackFrom(parts[0].cast<StampArray>(), parts[1].cast<NumberArray>());
+          }));
+}
+
+}  // namespace aisle::python
