@@ -31,7 +31,7 @@ def subcommands(*words):
 
 def blocks(text):
     """(language, body) of each fenced block, and of those that are indented by four."""
-    for language, body in re.findall(r"^```(\w*)\n(.*?)^```$", text, re.M | re.S):
+    for language, body in re.findall(r"^```(\w*)[^\n]*\n(.*?)^```$", text, re.M | re.S):
         yield language, body
     bare = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
     for body in re.findall(r"(?:^    .*\n)+", bare, re.M):
@@ -80,7 +80,7 @@ class Pages(unittest.TestCase):
                 while len(path) < len(words) and words[len(path)] in subcommands(*path):
                     path += (words[len(path)],)
                 where = f"{page.relative_to(SOURCE)}: {line}"
-                launcher = words[0] in ("test", "fuzz", "package")  # the launcher's own
+                launcher = words[0] in ("test", "fuzz", "package", "python")  # the launcher's own
                 self.assertTrue(path or launcher or words[0].startswith("-"), where)
                 options = [word.split("=")[0] for word in words if re.match(r"--?[a-zA-Z]", word)]
                 for option in [] if launcher else options:
@@ -97,6 +97,7 @@ class Pages(unittest.TestCase):
                     continue
                 with tempfile.TemporaryDirectory() as folder:
                     file = pathlib.Path(folder) / "block.yaml"
+                    (file.parent / "scenes").symlink_to(SOURCE / "scenes")
                     file.write_text(body)
                     run = subprocess.run([PROGRAM, "check", file], capture_output=True, text=True)
                     self.assertEqual(run.returncode, 0, f"{page.relative_to(SOURCE)}:\n{body}\n{run.stderr}")
