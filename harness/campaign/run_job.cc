@@ -129,15 +129,13 @@ class Pictures {
   StageSheets stages_;
 };
 
-/// The run as a bag, where the job asks for one.
-std::optional<RunBag> BagOf(const Job& job, const StereoCalibration& calibration,
-                            bool with_frames) {
-  std::optional<RunBag> bag;
-  if (job.mcap) {
-    bag.emplace(job.out / FolderOf(job) / RunBagName(with_frames), job.spec.system.name,
-                calibration, IsRecording(job.spec.scene_file) ? 0 : kBagEpochNs, with_frames);
-  }
-  return bag;
+/// The run as a bag; null where the job asks for none.
+std::unique_ptr<RunBag> BagOf(const Job& job, const StereoCalibration& calibration,
+                              bool with_frames) {
+  if (!job.mcap) return nullptr;
+  return std::make_unique<RunBag>(job.out / FolderOf(job) / RunBagName(with_frames),
+                                  job.spec.system.name, calibration,
+                                  IsRecording(job.spec.scene_file) ? 0 : kBagEpochNs, with_frames);
 }
 
 /// Said while a foreign system works: its own count of frames, or how long it has been at it.
@@ -150,14 +148,14 @@ void TellForeignProgress(double seconds, int done, int total, double timeout_s) 
 
 /// Holds a foreign drive against truth, with what it left beside its trajectory, and draws it.
 void Show(const Job& job, const Sequence& sequence, RunResult* result, Pictures* pictures,
-          std::optional<RunBag>* bag) {
+          RunBag* bag) {
   TellStage("looking at what it left");
   try {
     PlayBack(
         sequence, Leftovers(job.out / FolderOf(job)),
         [&](const DrivenFrame& frame) {
           pictures->See(frame);
-          if (*bag) (*bag)->See(frame);
+          if (bag != nullptr) bag->See(frame);
           TellProgress(frame.index + 1, frame.count);
         },
         result);
@@ -191,8 +189,8 @@ void RunForeign(const Job& job) {
   result.scene_hash = content_hash;
   SpreadWallTime(&result);
   Pictures pictures(job, sequence->rate_hz());
-  std::optional<RunBag> bag = BagOf(job, sequence->calibration(), false);
-  if (!result.trajectory.live.empty()) Show(job, *sequence, &result, &pictures, &bag);
+  const std::unique_ptr<RunBag> bag = BagOf(job, sequence->calibration(), false);
+  if (!result.trajectory.live.empty()) Show(job, *sequence, &result, &pictures, bag.get());
   const RunScore score = ScoreRun(result);
   if (bag) bag->Finish(result, score, nullptr);
   RunRecord record = RecordOf(job, result, score, sequence->rate_hz());
@@ -228,18 +226,18 @@ std::unique_ptr<Estimator> EstimatorOf(const Job& job, const StereoCalibration& 
 }
 
 /// Scores a drive of one of ours and writes it all down.
-void File(const Job& job, double rate_hz, RunResult result, Pictures* pictures,
-          std::optional<RunBag>* bag, const DriveLog* drive = nullptr) {
+void File(const Job& job, double rate_hz, RunResult result, Pictures* pictures, RunBag* bag,
+          const DriveLog* drive = nullptr) {
   result.spec = job.spec;
   result.threads = job.threads;
   RunScore score = ScoreRun(result);
   if (drive != nullptr) score.scores.merge(ScoreDrive(*drive));
-  if (*bag) (*bag)->Finish(result, score, drive);
+  if (bag != nullptr) bag->Finish(result, score, drive);
   RunRecord record = RecordOf(job, result, score, rate_hz);
   pictures->Finish(score.live, &record);
   if (drive != nullptr) {
     WriteDrive(*drive, job.out, &record);
-    if (*bag) record.artifacts["bag"] = (FolderOf(job) / RunBagName(true)).string();
+    if (bag != nullptr) record.artifacts["bag"] = (FolderOf(job) / RunBagName(true)).string();
     pictures->FinishDrive(*drive, &record);
   }
   WriteRun(result, score, record, job.out);
@@ -273,7 +271,7 @@ void RunOurs(const Job& job) {
     return FileStillborn(job, sequence->rate_hz(), fault);
   }
   Pictures pictures(job, sequence->rate_hz());
-  std::optional<RunBag> bag = BagOf(job, sequence->calibration(), false);
+  const std::unique_ptr<RunBag> bag = BagOf(job, sequence->calibration(), false);
   RunResult result = Drive(*sequence, *estimator, MasksOf(job), {}, [&](const DrivenFrame& frame) {
     pictures.See(frame);
     if (bag) bag->See(frame);
@@ -281,7 +279,7 @@ void RunOurs(const Job& job) {
   });
   result.scene_hash = content_hash;
   Introduce(*estimator, &result);
-  File(job, sequence->rate_hz(), std::move(result), &pictures, &bag);
+  File(job, sequence->rate_hz(), std::move(result), &pictures, bag.get());
 }
 
 /// A scene whose vehicle the system steers: its frames are this run's alone.
@@ -297,7 +295,7 @@ void RunSteering(const Job& job) {
   }
   Pictures pictures(job, scene->rate_hz());
   pictures.ExpectDrive();
-  std::optional<RunBag> bag = BagOf(job, scene->calibration(), true);
+  const std::unique_ptr<RunBag> bag = BagOf(job, scene->calibration(), true);
   const MaskMaker masks = MasksOf(job);
   ClosedRun run = RunClosed(*scene, *estimator, masks, SteeringOf(job.spec.system.options),
                             job.spec.seed, [&](const DrivenFrame& frame) {
@@ -307,7 +305,7 @@ void RunSteering(const Job& job) {
                             });
   run.result.scene_hash = content_hash;
   Introduce(*estimator, &run.result);
-  File(job, scene->rate_hz(), std::move(run.result), &pictures, &bag, &run.drive);
+  File(job, scene->rate_hz(), std::move(run.result), &pictures, bag.get(), &run.drive);
 }
 
 }  // namespace
