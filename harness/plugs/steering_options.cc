@@ -83,7 +83,7 @@ std::vector<SystemOption> DescribeSteering(const Steering& steering) {
   const auto flag = [](bool value) { return std::string(value ? "true" : "false"); };
   return {{"drive.latency_ms",
            Kind::kNumber,
-           fmt::format("{:g}", steering.latency_ms),
+           fmt::format("{}", steering.latency_ms),
            "ms",
            "from the middle of the exposure until its pose can steer",
            0,
