@@ -12,6 +12,7 @@ if [ -n "$help2man" ]; then
     about=$("$@" --help | sed -n '1s/ *$//p' | sed 's/^aisle: //')
     SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-0} "$help2man" --no-info --section 1 --manual aisle \
       --source "aisle $version" --version-string "$version" --name "$about" "$*" |
+      sed "s/^aisle ${2:-} \\\\- /$name \\\\- /" |  # as whatis looks for it
       gzip -9n >"$folder/man1/$name.1.gz"
   }
   page aisle "$program"

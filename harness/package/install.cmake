@@ -1,5 +1,6 @@
 # What `cmake --install` puts where, for find_package(aisle) and for Debian packages (cpack).
 include(CMakePackageConfigHelpers)
+set(CPACK_PACKAGE_CONTACT "the aisle developers <aisle@localhost>")
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # tests are not packed
 # Debian's packages of the libraries that ours hand on.
 set(AISLE_DEV_PACKAGES libassimp-dev libceres-dev libcli11-dev libeigen3-dev libembree-dev libfmt-dev
@@ -62,11 +63,20 @@ if(AISLE_PYTHON)
     DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-aisle COMPONENT python)
 endif()
 
+# Debian wants a changelog in a form of its own; ours is for people.
+string(TIMESTAMP today "%a, %d %b %Y %H:%M:%S +0000" UTC)  # of SOURCE_DATE_EPOCH where that is set
+file(WRITE ${CMAKE_BINARY_DIR}/package/changelog "aisle (${PROJECT_VERSION}) unstable; urgency=medium\n
+  * CHANGELOG.md of the source says what is new.\n
+ -- ${CPACK_PACKAGE_CONTACT}  ${today}\n")
+execute_process(COMMAND gzip -9nkf ${CMAKE_BINARY_DIR}/package/changelog)
+
 # --- Debian packages ----------------------------------------------------------------------------------
 foreach(owner program:aisle data:aisle-data dev:libaisle-dev python:python3-aisle)
   string(REPLACE ":" ";" owner ${owner})
   list(GET owner 0 component)
   list(GET owner 1 package)
+  install(FILES ${CMAKE_BINARY_DIR}/package/changelog.gz
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component})
   install(FILES ${CMAKE_CURRENT_LIST_DIR}/copyright
     DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component})
 endforeach()

@@ -21,8 +21,10 @@ aisle.Simulator("street/town")
 
 
 def interrupt(script, after_s, **environment):
+    # What runs in a shell's background was told to ignore the signal, and its children with it.
     child = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE,
-                             stderr=subprocess.PIPE, text=True, env=os.environ | environment)
+                             stderr=subprocess.PIPE, text=True, env=os.environ | environment,
+                             preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
     assert child.stdout.readline() == "open\n"
     time.sleep(after_s)
     child.send_signal(signal.SIGINT)

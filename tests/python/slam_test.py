@@ -27,7 +27,7 @@ def test_it_tracks(scene, frames):
 
 def test_it_is_the_programs(program, scene, tmp_path):
     program("render", "smoke/short", "--out", tmp_path / "set")
-    program("slam", tmp_path / "set", "-o", tmp_path / "program.txt")
+    program("slam", tmp_path / "set", "--system", "robust", "-o", tmp_path / "program.txt")
     slam = aisle.Slam(scene.calibration)
     drive(scene, slam)
     ours, theirs = slam.finish(), aisle.Trajectory.read(tmp_path / "program.txt")
