@@ -12,4 +12,16 @@ CLI::Validator ByName() {
           ""};
 }
 
+CLI::Validator SuiteByName() {
+  return {[](std::string& word) {
+            const std::string suite = SceneFile("suites/" + word);
+            const std::string found = SceneFile(word);
+            std::error_code error;
+            const bool folder = std::filesystem::is_directory(found, error);
+            word = folder && std::filesystem::exists(suite, error) ? suite : found;
+            return std::string();
+          },
+          ""};
+}
+
 }  // namespace aisle

@@ -194,7 +194,7 @@ void AddRunCommand(CLI::App* app, Action* action) {
   command
       ->add_option("SUITE_OR_SCENE", inputs->files, "suite or scene files, or names of those here")
       ->required()
-      ->transform(ByName());
+      ->transform(SuiteByName());
   command->add_option("--systems", inputs->systems, "instead of the suite's")->delimiter(',');
   command
       ->add_option("--twins", inputs->twins,

@@ -1,5 +1,5 @@
 # %% [markdown]
-# # A SLAM of one's own in twenty lines: scored, and put at the wheel
+# # A SLAM of one's own in some twenty lines: scored, and put at the wheel
 #
 # Direct stereo odometry at half size: depth by block matching, motion by laying the last picture onto
 # the new one (Gauss-Newton on grey values, Cauchy weights). It is no good system. It is yours.
@@ -39,7 +39,7 @@ def moved(twist):
     return np.eye(4) + m + m @ m / 2 + m @ m @ m / 6
 
 
-# %% The twenty lines.
+# %% All of it.
 class OwnSlam:
     def __init__(self, rig):
         self.f, self.base = rig.fx / 2, rig.baseline_m
