@@ -92,7 +92,47 @@ def png(kind, depth, rows, palette=None):
     return b"\x89PNG\r\n\x1a\n" + data + chunk(b"IEND", b"")
 
 
+def text(bytes_):
+    return struct.pack("<I", len(bytes_)) + bytes_
+
+
+def record(op, body):
+    return struct.pack("<BQ", op, len(body)) + body
+
+
+def cdr_header(stamp=(1, 2), frame=b"map\0"):
+    return b"\0\1\0\0" + struct.pack("<iI", *stamp) + text(frame)
+
+
+def mcap(how):
+    """A bag of one schema, one channel and two messages: bare, in a chunk, or in one of zstd."""
+    schema = struct.pack("<H", 1) + text(b"std_msgs/msg/Header") + text(b"ros2msg") + text(b"x")
+    channel = struct.pack("<HH", 1, 1) + text(b"/a") + text(b"cdr") + struct.pack("<I", 0)
+    records = record(3, schema) + record(4, channel)
+    for k in range(2):
+        records += record(5, struct.pack("<HIQQ", 1, k, k, k) + cdr_header((k, 0)))
+    body, method = records, b""
+    if how == "zstd":  # one raw block behind a head that states the size
+        block = struct.pack("<I", 1 | len(records) << 3)[:3]
+        body = b"\x28\xB5\x2F\xFD\x20" + struct.pack("<B", len(records)) + block + records
+        method = b"zstd"
+    if how != "bare":
+        chunk = struct.pack("<QQQI", 0, 1, len(records), zlib.crc32(records)) + text(method)
+        records = record(6, chunk + struct.pack("<Q", len(body)) + body)
+    metadata = record(12, text(b"aisle") + text(text(b"scene") + text(b"short")))
+    magic = b"\x89MCAP0\r\n"
+    return (magic + record(1, text(b"ros2") + text(b"x")) + records + metadata +
+            record(15, bytes(4)) + record(2, bytes(20)) + magic)
+
+
 def main(reader):
+    for how in ("bare", "chunk", "zstd"):
+        write("mcap", how + ".mcap", mcap(how))
+    image = cdr_header() + struct.pack("<II", 2, 3) + text(b"mono8\0") + b"\0\0" + struct.pack("<I", 3)
+    write("ros_message", "image", b"\4" + image + text(bytes(range(6))))
+    write("ros_message", "compressed", b"\5" + cdr_header() + text(b"png\0") + text(png(0, 8, [b"\0\1"] * 2)))
+    write("ros_message", "transforms", b"\1\0\1\0\0" + struct.pack("<I", 1) + cdr_header()[4:] +
+          text(b"rig\0") + bytes(4) + struct.pack("<7d", 1, 2, 3, 0, 0, 0, 1))
     write("map_file", "two_keyframes.map", small_map())
     write("vocabulary", "two_words.voc", vocabulary())
     write("png", "grey.png", png(0, 8, [b"\0\x80\xff", b"\1\2\3"]))

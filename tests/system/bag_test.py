@@ -115,6 +115,57 @@ class TheProgram(Bag):
         self.assertIn("/left/image_rect", metadata)
 
 
+class ASuite(Bag):
+    """One scene and its own bag, as a recording, in one suite; every run leaves a bag."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        (cls.root / "recorded.yaml").write_text("recording: ros2/drive.mcap\n"
+                                                "topics: [/left/image_rect, /right/image_rect]\n")
+        (cls.root / "both.yaml").write_text(
+            "suite: both\nscenes: [short.yaml, recorded.yaml]\nsystems: [plain, oracle]\n"
+            "twins: [live, empty]\nseeds: [1]\n")
+        cls.out = cls.root / "out"
+        cls.code, cls.said = run("run", cls.root / "both.yaml", "--out", cls.out, "--mcap",
+                                 "--no-video")
+        cls.results = json.loads((cls.out / "results.json").read_text())
+
+    def track(self, scene, name="live.txt"):
+        text = (self.out / "runs" / scene / "live/plain/1" / name).read_text()
+        return [line.split() for line in text.splitlines() if not line.startswith("#")]
+
+    def test_the_recording_is_driven_once_by_those_that_need_no_truth(self):
+        self.assertIn(self.code, (0, 1), self.said)
+        cells = sorted((run["scene"], run["twin"], run["system"]) for run in self.results["runs"])
+        self.assertEqual(cells, [("recorded", "live", "plain"),
+                                 ("short", "empty", "oracle"), ("short", "empty", "plain"),
+                                 ("short", "live", "oracle"), ("short", "live", "plain")])
+        recorded = [run for run in self.results["runs"] if run["scene"] == "recorded"][0]
+        self.assertEqual(recorded["status"], "ok")
+        self.assertIsNotNone(recorded["scores"]["ate_rmse_m"]["value"])
+
+    def test_it_is_the_scene_to_the_bit(self):
+        for name in ("live.txt", "final.txt"):
+            scene, recorded = self.track("short", name), self.track("recorded", name)
+            self.assertEqual([row[1:] for row in scene], [row[1:] for row in recorded])
+            self.assertGreater(len(scene), FRAMES // 2)
+
+    def test_one_bag_holds_the_frames_and_every_system(self):
+        bag = self.out / "bags/short/live/1/drive.mcap"
+        self.assertTrue((bag.parent / "metadata.yaml").is_file())
+        self.assertIn("/oracle/path", (bag.parent / "foxglove_layout.json").read_text())
+        self.assertTrue((self.out / "bags/recorded/live/1/drive.mcap").is_file())
+        for system in ("plain", "oracle"):
+            code, said = run("score", "--truth", f"{bag}:/truth/pose", "--estimate",
+                             f"{bag}:/{system}/final_path", "--json")
+            self.assertEqual(code, 0, said)
+            mine = json.loads(said)["scores"]["ate_rmse_m"]["value"]
+            of_run = [run for run in self.results["runs"] if run["scene"] == "short" and
+                      run["twin"] == "live" and run["system"] == system][0]
+            self.assertAlmostEqual(mine, of_run["scores"]["ate_rmse_m"]["value"], delta=1e-9)
+
+
 class OthersReadIt(Bag):
     @classmethod
     def setUpClass(cls):
