@@ -305,7 +305,7 @@ TEST_F(DatasetTest, ADistortedLensIsStatedInEurocAndRefusedElsewhere) {
   EXPECT_THROW(Export(DatasetFormat::kTum), InputError);
   lens_.model = "equidistant";
   Export(DatasetFormat::kEuroc);
-  EXPECT_TRUE(ReadRecording(folder_, DatasetFormat::kEuroc).left.equidistant);
+  EXPECT_TRUE(ReadRecording(folder_, DatasetFormat::kEuroc).cameras.left.equidistant);
 }
 
 TEST_F(DatasetTest, PosesReadBackToANanometre) {
@@ -464,12 +464,12 @@ TEST(RealRecordingTest, EurocAndKittiAreRead) {
   if (!fs::exists(data / "kitti")) GTEST_SKIP() << "no recordings in " << data;
   const StereoRecording euroc = ReadRecording(data / "euroc-v101-still", DatasetFormat::kEuroc);
   EXPECT_EQ(euroc.pairs.size(), 40u);
-  EXPECT_EQ(euroc.left.width, 752);
-  EXPECT_EQ(euroc.left.distortion.size(), 4u);
+  EXPECT_EQ(euroc.cameras.left.width, 752);
+  EXPECT_EQ(euroc.cameras.left.distortion.size(), 4u);
   const StereoRecording kitti = ReadRecording(data / "kitti", DatasetFormat::kKitti);
   EXPECT_EQ(kitti.pairs.size(), 51u);
   EXPECT_EQ(kitti.truth.size(), 51u);
-  EXPECT_NEAR(kitti.right.T_body_camera.translation().x(), 0.537, 0.001);
+  EXPECT_NEAR(kitti.cameras.right.T_body_camera.translation().x(), 0.537, 0.001);
 }
 
 }  // namespace
