@@ -28,8 +28,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
        {std::pair(euroc, DatasetFormat::kEuroc), std::pair(kitti, DatasetFormat::kKitti)}) {
     try {
       const StereoRecording recording = ReadRecording(folder, format);
-      fuzz::Hold(std::isfinite(recording.cameras.left.fx) && std::isfinite(recording.cameras.right.fx),
-                 "a focal length that is read is finite");
+      fuzz::Hold(
+          std::isfinite(recording.cameras.left.fx) && std::isfinite(recording.cameras.right.fx),
+          "a focal length that is read is finite");
     } catch (const InputError&) {
     }
   }
