@@ -1,0 +1,1 @@
+aisle_tests(harness/cli LINKS harness_record_nights)
