@@ -1,11 +1,13 @@
 #include "harness/bag/drive_bag.h"
 
 #include "harness/bag/frame_messages.h"
+#include "harness/io/truth_files.h"
 
 namespace aisle {
 namespace {
 
 constexpr const char *kOdomFrame = "odom", *kBaseFrame = "base_link";
+constexpr double kMillimetres = 1000;  ///< a metre, as REP 118 has depth in 16 bits
 constexpr const char* kRightFrame = "camera_right_optical_frame";
 
 const char* NameOf(TrackingState state) {
@@ -110,7 +112,7 @@ void DriveBag::AddFrame(const SequenceFrame& frame) {
   if (!frame.truth) return;
   const FrameTruth& truth = *frame.truth;
   if (!truth.depth.empty()) {
-    Write("/left/depth", stamp_ns, ImageMessage(left, DepthInMillimetres(truth.depth)));
+    Write("/left/depth", stamp_ns, ImageMessage(left, DepthInSteps(truth.depth, kMillimetres)));
   }
   if (truth.dynamic.empty()) return;  // nothing is known of what moves
   Write("/left/moving", stamp_ns, ImageMessage(left, truth.dynamic));

@@ -68,16 +68,6 @@ ros::Image ImageMessage(const ros::Header& header, const cv::Mat& image) {
   return message;
 }
 
-cv::Mat1w DepthInMillimetres(const cv::Mat1f& depth) {
-  constexpr float kMost = 65535;
-  cv::Mat1w millimetres(depth.size());
-  std::transform(depth.begin(), depth.end(), millimetres.begin(), [](float z) {
-    const float mm = z * 1000 + 0.5f;
-    return mm < kMost ? static_cast<std::uint16_t>(mm) : std::uint16_t{0};
-  });
-  return millimetres;
-}
-
 ros::CameraInfo CameraInfoMessage(const ros::Header& header, const StereoCalibration& c, int side) {
   ros::CameraInfo info;
   info.header = header;

@@ -9,9 +9,6 @@ namespace aisle {
 /// kind of pixel.
 ros::Image ImageMessage(const ros::Header& header, const cv::Mat& image);
 
-/// Millimetres, 0 where nothing was hit or beyond 65.535 m (REP 118).
-cv::Mat1w DepthInMillimetres(const cv::Mat1f& depth);
-
 /// Of a rectified pair: side 0 is left. -p[3] / p[0] gives the baseline back to the bit.
 ros::CameraInfo CameraInfoMessage(const ros::Header& header, const StereoCalibration& calibration,
                                   int side);
