@@ -138,6 +138,7 @@ class ClosedDrive::Loop {
     for (const Answer& answer : server_.Due(now_ns_)) {
       pilot_.Told(answer.frame_ns, now_ns_, answer.T_slam_rig);
     }
+    track_.frames_shown = server_.shown();  // one that waited may have been begun
   }
 
   void Photograph() {

@@ -179,7 +179,9 @@ TEST(ClosedDriveTest, AskedFromFrameToFrameItIsTheSameDrive) {
     options.steering.queue = queue;
     DriftingLocaliser one(0.01), other(0.01);
     ClosedDrive drive(scene, options);
+    int shown = 0;
     while (const Exposure* frame = drive.Next()) {
+      EXPECT_EQ(drive.track().frames_shown, ++shown);
       EXPECT_EQ(drive.Next(), frame);  // the same one until something is told of it
       EXPECT_LE(frame->stamp_ns, drive.Now().stamp_ns);
       drive.Tell(one.Locate(*frame));
