@@ -97,7 +97,6 @@ class ClosedDrive::Loop {
   void Tell(const std::optional<Eigen::Isometry3d>& T_slam_rig) {
     const Exposure* asked = server_.asked();
     if (asked == nullptr) throw std::logic_error("no frame waits for an answer");
-    track_.frames_shown = server_.shown();  // also of those that waited while it was busy
     if (!options_.steering.steered_by_truth) return server_.Tell(T_slam_rig);
     server_.Tell(Eigen::Isometry3d(asked->T_world_rig));  // shown, and told the truth instead
   }
