@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/calibration/stereo_model.h"
 #include "simulator/frames.h"
 #include "simulator/world/ground.h"
 

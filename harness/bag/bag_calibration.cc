@@ -8,7 +8,7 @@ namespace aisle {
 namespace {
 
 const char* const kCalibrationCure =
-    "record camera_info beside the images, or hand them over as a EuRoC folder with sensor.yaml";
+    "give the rig's own file with --calibration (Kalibr, camera_info, OpenCV or EuRoC)";
 
 /// The first message of a topic, if there is one.
 template <class T>

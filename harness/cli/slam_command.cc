@@ -6,6 +6,7 @@
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/mask_folder.h"
+#include "harness/plugs/calibration.h"
 #include "harness/plugs/recorded_sequence.h"
 #include "harness/plugs/systems.h"
 #include "harness/run/drive.h"
@@ -19,7 +20,8 @@ namespace fs = std::filesystem;
 struct Options {
   std::string dataset, format = "euroc", output, live;
   BagRecordingOptions bag;
-  std::string load_map, save_map;  ///< empty: none
+  std::vector<std::string> calibration;  ///< files of the rig, for a bag without camera_info
+  std::string load_map, save_map;        ///< empty: none
   bool localise_only = false;
   std::string masks;  ///< folder of masks to reject by; empty: none
   SystemChoice system{.name = "plain", .set = {}};
@@ -68,10 +70,13 @@ std::unique_ptr<Estimator> MakeEstimator(const SystemSpec& system,
 std::unique_ptr<Sequence> Open(const Options& options) {
   const fs::path path = options.dataset;
   if (IsBagFile(path) || fs::exists(path / "metadata.yaml")) {
-    return OpenBagRecording(path, options.bag);
+    BagRecordingOptions bag = options.bag;
+    if (!options.calibration.empty()) bag.cameras = ReadCalibration(options.calibration);
+    return OpenBagRecording(path, bag);
   }
-  if (!options.bag.topics.empty() || options.bag.baseline_m) {
-    throw InputError(options.dataset, 0, "is no bag: --topic and --baseline are for bags");
+  if (!options.bag.topics.empty() || options.bag.baseline_m || !options.calibration.empty()) {
+    throw InputError(options.dataset, 0,
+                     "is no bag: --topic, --baseline and --calibration are for bags");
   }
   return OpenRecording(path, DatasetFormatFromName(options.format));
 }
@@ -155,6 +160,12 @@ void AddSlamCommand(CLI::App* app, Action* action) {
       ->add_option("--baseline", options->bag.baseline_m,
                    "metres between the eyes, of a bag whose camera_info lacks it")
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--calibration", options->calibration,
+                   "of a bag without camera_info: Kalibr's camchain, OpenCV's files, or EuRoC's or "
+                   "ROS's of the left and the right camera")
+      ->delimiter(',')
+      ->expected(1, 2);
   AddSystemChoice(command, &options->system);
   command->add_option("-o,--output", options->output, "final trajectory, TUM format");
   command->add_flag("--stream", options->stream,

@@ -170,6 +170,31 @@ void DescribeBump(Fields& f, Bump& bump) {
   f.Number({"decay_s", "time constant of its fading", "0.25"}, &bump.decay_s, {0.02, 10});
 }
 
+void DescribeRigFiles(Fields& f, RigSpec& rig) {
+  rig.files_mark = f.MarkOf(f.Has("trajectory") ? "trajectory" : "calibration");
+  f.Sentence({"calibration",
+              "a real rig's calibration, whose rectified pair is the camera: Kalibr's camchain, "
+              "OpenCV's, KITTI's calib.txt, or of the left camera EuRoC's sensor.yaml or ROS's "
+              "camera_info; instead of camera.focal_px, center_px and baseline_m",
+              "camchain.yaml"},
+             &rig.calibration);
+  f.Sentence({"calibration_right",
+              "of the right camera, or OpenCV's extrinsics, where that is a file of its own",
+              "right.yaml"},
+             &rig.calibration_right);
+  f.Sentence(
+      {"trajectory",
+       "a TUM file whose way the rig drives instead of start and steps: its poses exactly at "
+       "its times, from the first on, and smooth between",
+       "drive.txt"},
+      &rig.trajectory);
+  f.Choice({"trajectory_of",
+            "whose poses these are: camera (left; x right, y down, z ahead) or vehicle (x ahead, z "
+            "up)",
+            "vehicle"},
+           &rig.body, {"camera", "vehicle"});
+}
+
 void DescribeRig(Fields& f, RigSpec& rig) {
   rig.mark = f.mark();
   rig.route.limits = kAgvLimits;
@@ -178,7 +203,8 @@ void DescribeRig(Fields& f, RigSpec& rig) {
   f.Number({"camera_forward_m", "left camera ahead of the axle", "0.3"}, &rig.mount.forward_m,
            {-5, 5});
   f.Degrees({"camera_pitch_deg", "positive looks down", "2"}, &rig.mount.pitch_rad, {-60, 60});
-  DescribeRoute(f, rig.route);
+  DescribeRigFiles(f, rig);
+  if (!f.Has("trajectory")) DescribeRoute(f, rig.route);
   DescribeSteering(f, rig.route.limits);
   f.ListOf({"bumps", "jolts of the vehicle", "[{at_s: 4, height_m: 0.01}]"}, &rig.bumps,
            DescribeBump);

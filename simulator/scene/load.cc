@@ -7,6 +7,7 @@
 #include "simulator/scene/check_routes.h"
 #include "simulator/scene/extend.h"
 #include "simulator/scene/reader.h"
+#include "simulator/scene/rig_files.h"
 
 namespace aisle::sim {
 namespace {
@@ -21,18 +22,25 @@ void NumberPlaces(Scene* scene) {
   for (std::size_t i = 0; i < scene->vehicles.size(); ++i) scene->vehicles[i].place = i;
 }
 
-/// The stages of reading; each needs the one before to have found nothing.
-Parsed Parse(const std::string& text, const std::string& file) {
-  Issues issues(file);
+/// What the text and the files it names say, as far as it is no mistake.
+Scene ReadScene(const std::string& text, const std::string& file, Issues* issues) {
   Scene scene;
   scene.file = file;
-  if (const auto top = ReadExtended(text, &issues)) {
-    YamlReader reader(*top, "", &issues);
+  if (const auto top = ReadExtended(text, issues)) {
+    YamlReader reader(*top, "", issues);
     Describe(reader, scene);
     reader.ReportKeys();
     NumberPlaces(&scene);
   }
-  scene.files = issues.files();
+  scene.files = issues->files();
+  if (issues->empty()) ReadRigFiles(&scene, issues);
+  return scene;
+}
+
+/// The stages of reading; each needs the one before to have found nothing.
+Parsed Parse(const std::string& text, const std::string& file) {
+  Issues issues(file);
+  Scene scene = ReadScene(text, file, &issues);
   if (issues.empty()) CheckScene(scene, &issues);
   return {std::move(scene), issues.Messages()};
 }
@@ -74,8 +82,8 @@ std::vector<std::string> CheckScene(const std::filesystem::path& file) {
 std::vector<std::string> SceneFiles(const std::filesystem::path& file) {
   Issues issues(file.string());
   std::string problem;
-  if (const auto text = ReadSceneText(file, &problem)) ReadExtended(*text, &issues);
-  return issues.files();
+  const auto text = ReadSceneText(file, &problem);
+  return text ? ReadScene(*text, file.string(), &issues).files : issues.files();
 }
 
 }  // namespace aisle::sim

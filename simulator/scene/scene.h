@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/motion/recorded_path.h"
 #include "simulator/motion/rig_mount.h"
 #include "simulator/motion/route.h"
 #include "simulator/motion/vehicle.h"
@@ -42,10 +43,22 @@ struct RouteSpec {
   std::vector<StepMarks> marks;  ///< per step of the plan
 };
 
+/// Whose poses a trajectory file holds.
+enum class TrajectoryBody {
+  kCamera,   ///< the left camera: x right, y down, z ahead
+  kVehicle,  ///< the point the route moves: x ahead, y to the left, z up
+};
+
 struct RigSpec {
   Mark mark;
   RigMount mount;
   RouteSpec route;
+  Mark files_mark;  ///< of the keys that name files
+  /// Files of the user, as the scene names them; empty: none. One of the rig, or of both cameras.
+  std::string calibration, calibration_right;
+  std::string trajectory;        ///< TUM; instead of the route
+  std::vector<TimedPose> poses;  ///< what it holds, from 0 s on
+  TrajectoryBody body = TrajectoryBody::kCamera;
   std::vector<Bump> bumps;
 };
 

@@ -154,6 +154,17 @@ World BuildWorld(const Scene& written, const std::string& assets_dir, std::uint6
     return snapshot;
   };
   parts.at = [at = parts.at_clocks](std::int64_t stamp_ns) { return at(stamp_ns, {}); };
+  if (!scene.rig.poses.empty()) {
+    const RigMount& mount = scene.rig.mount;
+    const Eigen::Isometry3d T_body_rig =
+        scene.rig.body == TrajectoryBody::kCamera
+            ? Eigen::Isometry3d::Identity()
+            : RigPose({.position = Eigen::Vector2d::Zero(), .heading_rad = 0}, mount, {}, 0);
+    parts.rig = [path = RecordedPath(scene.rig.poses), T_body_rig](std::int64_t stamp_ns) {
+      return path.At(stamp_ns) * T_body_rig;
+    };
+    return World(std::move(parts));
+  }
   const Route route(scene.rig.route.plan, scene.rig.route.limits);
   parts.rig = [route, rig = scene.rig](std::int64_t stamp_ns) {
     const double time_s = static_cast<double>(stamp_ns) * kNanosecond_s;

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "simulator/scene/issues.h"
+#include "simulator/scene/scene.h"
+
+namespace aisle::sim {
+
+/// Reads what the scene's rig takes from files of the user: its calibration,
+/// which decides the camera, and its trajectory. Their names are meant from the
+/// folder of the file that gives them, and are added to `scene->files`.
+/// Mistakes go to `issues`.
+void ReadRigFiles(Scene* scene, Issues* issues);
+
+}  // namespace aisle::sim

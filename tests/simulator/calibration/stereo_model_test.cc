@@ -1,0 +1,229 @@
+#include "simulator/calibration/stereo_model.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core/eigen.hpp>
+
+namespace aisle::sim {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// A rig as built, written down in every dialect by this file alone.
+struct Rig {
+  cv::Matx33d k1{458.654, 0, 367.215, 0, 457.296, 248.375, 0, 0, 1};
+  cv::Matx33d k2{457.587, 0, 379.999, 0, 456.134, 255.238, 0, 0, 1};
+  std::vector<double> d1 = {-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05};
+  std::vector<double> d2 = {-0.28368365, 0.07451284, -0.00010473, -3.55590700e-05};
+  Eigen::Isometry3d T_right_left = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_body_left = Eigen::Isometry3d::Identity();
+  cv::Matx33d r1, r2;
+  cv::Matx34d p1, p2;
+  cv::Size size{752, 480};
+
+  Rig() {
+    T_right_left.linear() = (Eigen::AngleAxisd(0.007, Eigen::Vector3d::UnitX()) *
+                             Eigen::AngleAxisd(-0.014, Eigen::Vector3d::UnitY()))
+                                .toRotationMatrix();
+    T_right_left.translation() << -0.110074, 0.000399, -0.000853;
+    T_body_left.linear() = Eigen::AngleAxisd(1.55, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    T_body_left.translation() << -0.0216, -0.0647, 0.0098;
+    cv::Matx33d rotation;
+    cv::Vec3d shift;
+    cv::eigen2cv(Eigen::Matrix3d(T_right_left.linear()), rotation);
+    cv::eigen2cv(Eigen::Vector3d(T_right_left.translation()), shift);
+    cv::Matx44d q;
+    cv::stereoRectify(k1, d1, k2, d2, size, rotation, shift, r1, r2, p1, p2, q,
+                      cv::CALIB_ZERO_DISPARITY, 0);
+  }
+};
+
+template <class Numbers>
+std::string List(const Numbers& numbers) {
+  return fmt::format("[{}]", fmt::join(numbers, ", "));
+}
+template <int m, int n>
+std::string List(const cv::Matx<double, m, n>& matrix) {
+  return List(std::vector<double>(matrix.val, matrix.val + m * n));
+}
+std::string List(const Eigen::Isometry3d& motion, bool nested) {
+  std::vector<std::string> rows;
+  for (int row = 0; row < 4; ++row) {
+    std::vector<double> numbers;
+    for (int column = 0; column < 4; ++column) numbers.push_back(motion.matrix()(row, column));
+    rows.push_back(nested ? List(numbers) : fmt::format("{}", fmt::join(numbers, ", ")));
+  }
+  return fmt::format("[{}]", fmt::join(rows, ", "));
+}
+
+class StereoModelTest : public testing::Test {
+ protected:
+  StereoModelTest()
+      : folder_(fs::temp_directory_path() / fmt::format("aisle_calibration_{}", ::getpid())) {
+    fs::create_directories(folder_);
+  }
+  ~StereoModelTest() override { fs::remove_all(folder_); }
+
+  std::string Put(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+
+  std::vector<std::string> Kalibr() const {
+    const auto camera = [&](const char* name, const cv::Matx33d& k, const std::vector<double>& d) {
+      return fmt::format(
+          "{}:\n  camera_model: pinhole\n  intrinsics: {}\n  distortion_model: radtan\n"
+          "  distortion_coeffs: {}\n  resolution: [752, 480]\n  rostopic: /{}/image_raw\n",
+          name, List(std::vector{k(0, 0), k(1, 1), k(0, 2), k(1, 2)}), List(d), name);
+    };
+    return {Put("camchain.yaml", camera("cam0", rig_.k1, rig_.d1) +
+                                     camera("cam1", rig_.k2, rig_.d2) +
+                                     "  T_cn_cnm1: " + List(rig_.T_right_left, true) + "\n")};
+  }
+  std::vector<std::string> Euroc() const {
+    const auto sensor = [&](const char* name, const cv::Matx33d& k, const std::vector<double>& d,
+                            const Eigen::Isometry3d& T_body_camera) {
+      return Put(name, fmt::format("%YAML:1.0\n---\nsensor_type: camera\nT_BS:\n  cols: 4\n"
+                                   "  rows: 4\n  data: {}\nresolution: [752, 480]\n"
+                                   "camera_model: pinhole\nintrinsics: {}\n"
+                                   "distortion_model: radial-tangential\n"
+                                   "distortion_coefficients: {}\n",
+                                   List(T_body_camera, false),
+                                   List(std::vector{k(0, 0), k(1, 1), k(0, 2), k(1, 2)}), List(d)));
+    };
+    return {sensor("cam0.yaml", rig_.k1, rig_.d1, rig_.T_body_left),
+            sensor("cam1.yaml", rig_.k2, rig_.d2, rig_.T_body_left * rig_.T_right_left.inverse())};
+  }
+  std::vector<std::string> CameraInfo() const {
+    const auto info = [&](const char* name, const cv::Matx33d& k, std::vector<double> d,
+                          const cv::Matx33d& r, const cv::Matx34d& p) {
+      d.push_back(0);
+      return Put(name,
+                 fmt::format("image_width: 752\nimage_height: 480\ncamera_name: {}\n"
+                             "camera_matrix:\n  rows: 3\n  cols: 3\n  data: {}\n"
+                             "distortion_model: plumb_bob\ndistortion_coefficients:\n  rows: 1\n"
+                             "  cols: 5\n  data: {}\nrectification_matrix:\n  rows: 3\n  cols: 3\n"
+                             "  data: {}\nprojection_matrix:\n  rows: 3\n  cols: 4\n  data: {}\n",
+                             name, List(k), List(d), List(r), List(p)));
+    };
+    return {info("left.yaml", rig_.k1, rig_.d1, rig_.r1, rig_.p1),
+            info("right.yaml", rig_.k2, rig_.d2, rig_.r2, rig_.p2)};
+  }
+  std::vector<std::string> OpenCv() const {
+    const auto write = [&](const char* name,
+                           const std::vector<std::pair<std::string, cv::Mat>>& all) {
+      const std::string file = (folder_ / name).string();
+      cv::FileStorage storage(file, cv::FileStorage::WRITE);
+      for (const auto& [key, matrix] : all) storage << key << matrix;
+      return file;
+    };
+    cv::Matx33d rotation;
+    cv::Vec3d shift;
+    cv::eigen2cv(Eigen::Matrix3d(rig_.T_right_left.linear()), rotation);
+    cv::eigen2cv(Eigen::Vector3d(rig_.T_right_left.translation()), shift);
+    return {write("intrinsics.yml", {{"M1", cv::Mat(rig_.k1)},
+                                     {"D1", cv::Mat(rig_.d1)},
+                                     {"M2", cv::Mat(rig_.k2)},
+                                     {"D2", cv::Mat(rig_.d2)}}),
+            write("extrinsics.yml", {{"R", cv::Mat(rotation)},
+                                     {"T", cv::Mat(shift)},
+                                     {"R1", cv::Mat(rig_.r1)},
+                                     {"R2", cv::Mat(rig_.r2)},
+                                     {"P1", cv::Mat(rig_.p1)},
+                                     {"P2", cv::Mat(rig_.p2)}})};
+  }
+  std::vector<std::string> Kitti() const {
+    const auto row = [](const char* name, const cv::Matx34d& p) {
+      return fmt::format("{}: {}\n", name, fmt::join(p.val, p.val + 12, " "));
+    };
+    return {Put("calib.txt", row("P0", rig_.p1) + row("P1", rig_.p2))};
+  }
+  std::string WhyNot(const std::vector<std::string>& files) const {
+    try {
+      ReadStereoModel(files);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  const Rig rig_;
+  const fs::path folder_;
+};
+
+TEST_F(StereoModelTest, FiveDialectsProjectAPointToTheSamePixel) {
+  for (const auto& files : {Kalibr(), Euroc(), CameraInfo(), OpenCv(), Kitti()}) {
+    const RectifiedPair pair = Rectified(ReadStereoModel(files));
+    for (const Eigen::Vector3d& point :
+         {Eigen::Vector3d(0.3, -0.2, 1.5), Eigen::Vector3d(-4, 2, 9), Eigen::Vector3d(10, 1, 40)}) {
+      for (int side = 0; side < 2; ++side) {
+        const cv::Matx34d& p = side == 0 ? rig_.p1 : rig_.p2;
+        const cv::Vec3d expected = p * cv::Vec4d(point.x(), point.y(), point.z(), 1);
+        const double x = point.x() - side * pair.baseline_m;
+        EXPECT_NEAR(pair.fx * x / point.z() + pair.cx, expected[0] / expected[2], 1e-9) << files[0];
+        EXPECT_NEAR(pair.fy * point.y() / point.z() + pair.cy, expected[1] / expected[2], 1e-9)
+            << files[0];
+      }
+    }
+  }
+}
+
+TEST_F(StereoModelTest, CamerasAsBuiltAreReadAsWritten) {
+  for (const auto& files : {Kalibr(), Euroc(), CameraInfo(), OpenCv()}) {
+    const StereoModel model = ReadStereoModel(files);
+    for (const Eigen::Vector3d& point :
+         {Eigen::Vector3d(0.3, -0.2, 1.5), Eigen::Vector3d(-1, 1, 4)}) {
+      const auto pixel = [&](const cv::Matx33d& k, const std::vector<double>& d) {
+        std::vector<cv::Point2d> pixels;
+        cv::projectPoints(std::vector<cv::Point3d>{{point.x(), point.y(), point.z()}}, cv::Vec3d(),
+                          cv::Vec3d(), k, d, pixels);
+        return pixels[0];
+      };
+      const auto own = [](const CameraModel& c) {
+        return cv::Matx33d(c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1);
+      };
+      EXPECT_LT(cv::norm(pixel(own(model.left), model.left.distortion) - pixel(rig_.k1, rig_.d1)),
+                1e-9);
+      EXPECT_LT(cv::norm(pixel(own(model.right), model.right.distortion) - pixel(rig_.k2, rig_.d2)),
+                1e-9);
+    }
+  }
+}
+
+TEST_F(StereoModelTest, TwoFilesWrongWayRoundAreNamed) {
+  std::vector<std::string> euroc = Euroc(), info = CameraInfo();
+  std::swap(euroc[0], euroc[1]);
+  EXPECT_THAT(WhyNot(euroc), HasSubstr("swapped"));
+  std::swap(info[0], info[1]);
+  EXPECT_THAT(WhyNot(info), HasSubstr("swapped"));
+}
+
+TEST_F(StereoModelTest, MillimetresAreNamed) {
+  Rig millimetres = rig_;
+  millimetres.T_right_left.translation() *= 1000;
+  const std::string file = Kalibr()[0];
+  std::ifstream stream(file);
+  std::string text((std::istreambuf_iterator<char>(stream)), {});
+  const std::size_t at = text.find("  T_cn_cnm1");
+  text = text.substr(0, at) + "  T_cn_cnm1: " + List(millimetres.T_right_left, true) + "\n";
+  EXPECT_THAT(WhyNot({Put("mm.yaml", text)}), HasSubstr("millimetres"));
+}
+
+TEST_F(StereoModelTest, WhatIsNoneIsNamedWithWhatIsRead) {
+  EXPECT_THAT(WhyNot({Put("other.yaml", "a: 1\n")}), HasSubstr("camchain"));
+  EXPECT_THAT(WhyNot({(folder_ / "none.yaml").string()}), HasSubstr("no such file"));
+  EXPECT_THAT(WhyNot({Put("bad.yaml", "a: [1\n")}), HasSubstr("is no YAML"));
+  EXPECT_THAT(WhyNot({Put("omni.yaml", "cam0: {camera_model: omni}\ncam1: {}\n")}),
+              HasSubstr("pinhole is read"));
+  EXPECT_THAT(WhyNot({Put("short.yaml", "cam0: {camera_model: pinhole, intrinsics: [1, 2]}\n")}),
+              HasSubstr("expected 4 numbers"));
+}
+
+}  // namespace
+}  // namespace aisle::sim

@@ -1,0 +1,75 @@
+#include "simulator/motion/recorded_path.h"
+
+#include <gtest/gtest.h>
+
+namespace aisle::sim {
+namespace {
+
+constexpr std::int64_t kStepNs = 50'000'000;
+
+/// A curve with a closed form: a screw that speeds up.
+Eigen::Isometry3d Screw(double t) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = (Eigen::AngleAxisd(0.8 * t + 0.1 * t * t, Eigen::Vector3d::UnitZ()) *
+                   Eigen::AngleAxisd(0.3 * std::sin(t), Eigen::Vector3d::UnitX()))
+                      .toRotationMatrix();
+  pose.translation() << std::cos(t), std::sin(t), 0.2 * t * t;
+  return pose;
+}
+
+RecordedPath Path(int poses) {
+  std::vector<TimedPose> knots;
+  for (int i = 0; i < poses; ++i) knots.push_back({7 + i * kStepNs, Screw(i * 0.05)});
+  return RecordedPath(knots);
+}
+
+double Angle(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
+}
+
+TEST(RecordedPath, GoesThroughItsPosesToTheBit) {
+  const RecordedPath path = Path(40);
+  for (int i = 0; i < 40; ++i) {
+    EXPECT_EQ(path.At(7 + i * kStepNs).matrix(), Screw(i * 0.05).matrix());
+  }
+  EXPECT_EQ(path.At(0).matrix(), Screw(0).matrix());
+  EXPECT_EQ(path.At(100 * kStepNs).matrix(), Screw(39 * 0.05).matrix());
+}
+
+TEST(RecordedPath, BetweenThemItIsWhereACurveWouldBe) {
+  const RecordedPath path = Path(40);
+  for (int i = 1; i < 38; ++i) {  // the ends know one neighbour alone
+    const Eigen::Isometry3d between = path.At(7 + i * kStepNs + kStepNs / 2);
+    const Eigen::Isometry3d expected = Screw((i + 0.5) * 0.05);
+    EXPECT_LT((between.translation() - expected.translation()).norm(), 2e-5) << i;
+    EXPECT_LT(Angle(between, expected), 2e-5) << i;
+    EXPECT_TRUE((between.linear() * between.linear().transpose()).isIdentity(1e-12));
+  }
+}
+
+TEST(RecordedPath, VelocityAndTurnRateDoNotJump) {
+  const RecordedPath path = Path(40);
+  constexpr std::int64_t kNear = 10'000;  // ns
+  for (int i = 1; i < 39; ++i) {
+    const std::int64_t at = 7 + i * kStepNs;
+    const Eigen::Isometry3d before = path.At(at - kNear), here = path.At(at),
+                            after = path.At(at + kNear);
+    const Eigen::Vector3d jump =
+        (after.translation() - here.translation()) - (here.translation() - before.translation());
+    EXPECT_LT(jump.norm() / (kNear * 1e-9), 1e-3) << i;  // m/s
+    EXPECT_LT(Angle(Eigen::Isometry3d(before.linear().transpose() * here.linear()),
+                    Eigen::Isometry3d(here.linear().transpose() * after.linear())) /
+                  (kNear * 1e-9),
+              5e-3)
+        << i;
+  }
+}
+
+TEST(RecordedPath, RefusesTimesThatFall) {
+  EXPECT_THROW(RecordedPath({{5, Screw(0)}, {5, Screw(1)}}), std::invalid_argument);
+  EXPECT_THROW(RecordedPath(std::vector<TimedPose>{}), std::invalid_argument);
+  EXPECT_EQ(RecordedPath({{5, Screw(1)}}).At(9).matrix(), Screw(1).matrix());
+}
+
+}  // namespace
+}  // namespace aisle::sim
