@@ -54,6 +54,7 @@ Job FromJson(const Json& json) {
   job.debug_dynamic = json.at("debug_dynamic").get<bool>();
   job.mcap = json.value("mcap", false);
   job.frames_in_report = json.value("frames_in_report", "worst");
+  job.goes_to = json.value("goes_to", std::string());
   return job;
 }
 
@@ -76,7 +77,8 @@ std::string ToJson(const Job& job) {
                {"video", job.video},
                {"debug_dynamic", job.debug_dynamic},
                {"mcap", job.mcap},
-               {"frames_in_report", job.frames_in_report}});
+               {"frames_in_report", job.frames_in_report},
+               {"goes_to", job.goes_to.string()}});
 }
 
 Job JobFromJson(const std::string& text, const std::string& file) {

@@ -24,6 +24,8 @@ struct Job {
   bool debug_dynamic = false;  ///< draw how the system found what moves; changes no result
   bool mcap = false;           ///< leave a bag of what the system said; changes no result
   std::string frames_in_report = "worst";  ///< or all, none: whose pictures are kept
+  /// The report that the run is copied into when it is made; empty: `out` is it. Guests see neither.
+  std::filesystem::path goes_to = {};
 };
 
 std::string ToJson(const Job& job);

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "harness/cli/cluster_commands.h"
 #include "harness/io/input_error.h"
 #include "harness/io/nearest_word.h"
 #include "harness/io/places.h"
@@ -41,8 +42,10 @@ void NameInExamples(CLI::App* app, const std::string& name) {
 void AddCommands(CLI::App* app, Action* action) {
   AddRunCommand(app, action);
   AddRunOneCommand(app, action);
+  AddRunTaskCommand(app, action);
   AddRerunCommand(app, action);
   AddMergeCommand(app, action);
+  AddStatusCommand(app, action);
   AddPreviewCommand(app, action);
   AddGalleryCommand(app, action);
   AddRenderCommand(app, action);

@@ -1,7 +1,10 @@
 // Parts of a suite that ran on several machines, made one report again.
 #include "harness/campaign/collect.h"
 #include "harness/cli/command.h"
+#include "harness/cli/merge_night.h"
 #include "harness/cli/publish.h"
+#include "harness/cluster/copy_run.h"
+#include "harness/cluster/tasks.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
@@ -15,6 +18,7 @@ namespace fs = std::filesystem;
 struct Options {
   std::string out;
   std::vector<std::string> parts;
+  std::string submission;
   bool json = false;
 };
 
@@ -35,18 +39,24 @@ PlanFile CommonPlan(const std::vector<std::string>& parts) {
   return plan;
 }
 
-/// Copies a run's folder; result.json comes last, so that a half copy is no run.
+/// The run's folder as it is there, and nothing of what was here.
 void Adopt(const RunSpec& spec, const fs::path& from, const fs::path& to) {
-  const fs::path source = from / "runs" / RunId(spec), target = to / "runs" / RunId(spec);
-  fs::remove_all(target);
-  for (const auto& entry : fs::recursive_directory_iterator(source)) {
-    if (!entry.is_regular_file() || entry.path().filename() == "result.json") continue;
-    WriteFileAtomically(target / entry.path().lexically_relative(source), ReadFile(entry.path()));
+  fs::remove_all(to / "runs" / RunId(spec));
+  CopyRun(spec, from, to);
+}
+
+/// A folder that the tasks of a cluster filled is whole in itself.
+int MergeOwn(const Options& options) {
+  const fs::path out = fs::absolute(options.out).lexically_normal();
+  if (!HasTasks(out)) {
+    throw InputError(options.out, 0,
+                     "holds no night of a cluster: name the folders of the parts after it");
   }
-  WriteFileAtomically(target / "result.json", ReadFile(source / "result.json"));
+  return MergeNight(out, {.json = options.json, .submission = options.submission});
 }
 
 int Merge(const Options& options) {
+  if (options.parts.empty()) return MergeOwn(options);
   const PlanFile plan = CommonPlan(options.parts);
   const std::vector<RunSpec> specs = Plan(plan.suites);
   double wall_s = 0;
@@ -80,10 +90,14 @@ int Merge(const Options& options) {
 
 void AddMergeCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app->add_subcommand("merge", "join the parts of `run --shard` into one report and judge it");
+  CLI::App* command = app->add_subcommand(
+      "merge",
+      "join the parts of `run --shard`, or what a cluster's tasks left, into one "
+      "report and judge it");
   command->add_option("OUT", options->out, "folder of the whole report")->required();
-  command->add_option("PART", options->parts, "folders of the parts")->required();
+  command->add_option("PART", options->parts,
+                      "folders of the parts; none for a night that a cluster drove");
+  command->add_option("--submission", options->submission, "whose verdict it is")->group("");
   command->add_flag("--json", options->json, "results.json on stdout instead of the table");
   command->footer(
       "Example: ./aisle run scenes/suites/paper.yaml --shard 1/2 --out out/a   # one machine\n"

@@ -9,6 +9,7 @@
 #include "harness/campaign/inputs.h"
 #include "harness/campaign/source.h"
 #include "harness/cli/by_name.h"
+#include "harness/cli/cluster_night.h"
 #include "harness/cli/command.h"
 #include "harness/cli/publish.h"
 #include "harness/cli/terminal.h"
@@ -45,6 +46,7 @@ struct Options {
   std::string allure;
   bool dry_run = false;
   bool json = false;
+  ClusterChoice cluster;
 };
 
 std::atomic<bool> interrupted = false;
@@ -135,6 +137,47 @@ std::vector<RunSpec> SpecsOf(const PlanFile& plan, const Shard& shard) {
   return specs;
 }
 
+/// What a cluster cannot do for us, said before anything is handed over.
+void RefuseOnCluster(const Options& options, const Shard& shard) {
+  if (shard.count > 1) throw InputError("--on cuts the night into tasks itself: leave --shard out");
+  if (options.mcap) throw InputError("--on leaves no bags: leave --mcap out");
+  if (options.cluster.wait && options.cluster.on != "slurm") {
+    throw InputError("--wait follows jobs of slurm; kubectl wait follows those of k8s");
+  }
+}
+
+int HandOver(const Options& options, const PlanFile& plan, const std::vector<RunSpec>& specs,
+             const std::optional<Results>& baseline, const fs::path& out) {
+  constexpr int kUsualThreads = 2;
+  ClusterNight night{.plan = plan,
+                     .runs = {},
+                     .settings = {.threads = options.threads > 0 ? options.threads : kUsualThreads,
+                                  .timeout_s = options.limits.wall_s,
+                                  .memory_mib = options.limits.memory_mib,
+                                  .retry = !options.no_retry,
+                                  .frame_cache = !options.no_frame_cache,
+                                  .video = !options.no_video,
+                                  .debug_dynamic = options.debug_dynamic,
+                                  .frames_in_report = options.frames_in_report,
+                                  .remember = options.inputs.set.empty(),
+                                  .allure = options.allure,
+                                  .gate = baseline.has_value(),
+                                  .started = NowIso8601(),
+                                  .late_s = options.cluster.late_s},
+                     .baseline = baseline,
+                     .out = fs::absolute(out).lexically_normal(),
+                     .resume = options.resume,
+                     .dry_run = options.dry_run,
+                     .json = options.json};
+  const Fingerprints fingerprints;
+  for (const RunSpec& spec : specs) night.runs.push_back({spec, fingerprints.Run(spec)});
+  return RunOnCluster(night, options.cluster);
+}
+
+fs::path ReportFolder(const Options& options, const PlanFile& plan) {
+  return options.out.empty() ? fs::path("out") / plan.name() : fs::path(options.out);
+}
+
 int RunSuites(const Options& options) {
   const std::string started = NowIso8601();
   const Shard shard = ShardFromText(options.shard);
@@ -146,8 +189,14 @@ int RunSuites(const Options& options) {
     fmt::print(stderr, "aisle: part {} holds no run of the suite\n", options.shard);
     return kNothingToDo;
   }
+  const fs::path out = ReportFolder(options, plan);
+  if (!options.cluster.on.empty()) {
+    RefuseOnCluster(options, shard);
+    const std::optional<FileLock> ours =
+        options.dry_run ? std::nullopt : std::optional(TakeFolder(out));
+    return HandOver(options, plan, specs, baseline, out);
+  }
   if (options.dry_run) return kAllPassed;
-  const fs::path out = options.out.empty() ? fs::path("out") / plan.name() : fs::path(options.out);
   const FileLock ours = TakeFolder(out);
   WarnOfHistory(options, out);
   const std::vector<Job> jobs = MakeJobs(specs, Fingerprints(),
@@ -209,6 +258,7 @@ void AddRunCommand(CLI::App* app, Action* action) {
   command->add_option("--out", options->out, "folder of the report; default out/SUITE");
   command->add_option("--shard", options->shard,
                       "only part I of N, for N machines; `aisle merge` joins the parts");
+  AddClusterChoice(command, &options->cluster);
   command->add_option("--jobs", options->jobs, "runs at once")->check(CLI::Range(1, 256));
   command->add_option("--threads", options->threads, "per run; 0: all; never changes a result")
       ->check(CLI::Range(0, 1024));

@@ -1,0 +1,183 @@
+#include "harness/cli/cluster_night.h"
+
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "harness/campaign/forecast.h"
+#include "harness/campaign/source.h"
+#include "harness/cli/cluster_wait.h"
+#include "harness/cli/command.h"
+#include "harness/cli/merge_night.h"
+#include "harness/cluster/kubernetes.h"
+#include "harness/cluster/slurm.h"
+#include "harness/io/file.h"
+#include "harness/io/input_error.h"
+#include "harness/io/places.h"
+#include "harness/record/provenance.h"
+#include "harness/record/record.h"
+
+namespace aisle {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Seconds by what the folder's last night took, where it has all of a task's runs; else by the
+/// forecast.
+TaskCost CostsOf(const fs::path& out) {
+  return [out](const std::vector<TaskRun>& runs) {
+    double last_s = 0;
+    std::vector<RunSpec> specs;
+    for (const TaskRun& run : runs) {
+      const std::optional<RunRecord> record = ReadRun(run.spec, out);
+      last_s = record ? last_s + record->wall_s : std::nan("");
+      specs.push_back(run.spec);
+    }
+    return std::isnan(last_s) ? ForecastOf(specs, 1, CountSourceFrames).wall_s : last_s;
+  };
+}
+
+SlurmOptions SlurmOf(const ClusterNight& night, const ClusterChoice& choice) {
+  return {.name = "aisle-" + SafeName(night.plan.name()),
+          .partition = choice.partition,
+          .time = choice.time,
+          .cpus = night.settings.threads,
+          .at_most = choice.nodes_at_most};
+}
+
+SlurmPaths PathsOf(const ClusterNight& night) {
+  return {.program = OwnExecutable(), .out = night.out, .working_folder = fs::current_path()};
+}
+
+std::string KubernetesOf(const ClusterNight& night, const ClusterChoice& choice,
+                         std::size_t tasks) {
+  return KubernetesJobs(
+      {.name = night.plan.name(),
+       .image = choice.image.empty() ? "aisle:" + OwnProvenance().version : choice.image,
+       .claim = choice.claim,
+       .tasks = tasks,
+       .at_most = choice.nodes_at_most,
+       .cpus = night.settings.threads,
+       .memory_mib = night.settings.memory_mib,
+       .out = night.out,
+       .working_folder = fs::current_path()});
+}
+
+/// The scripts that would be submitted.
+void ShowSlurm(const std::vector<std::size_t>& tasks, const ClusterNight& night,
+               const ClusterChoice& choice) {
+  constexpr std::size_t kUsualLimit = 1001;
+  for (const ArrayPart& part : SplitArray(tasks, kUsualLimit)) {
+    fmt::print("{}\n", TaskScript(part, SlurmOf(night, choice), PathsOf(night)));
+  }
+  fmt::print("{}", MergeScript("SUBMISSION", SlurmOf(night, choice), PathsOf(night)));
+}
+
+/// Takes away what another program or another question left: a half night is no answer.
+void ClearTheWay(const TaskList& list, bool resume, const fs::path& out) {
+  for (const Task& task : list.tasks) {
+    for (const TaskRun& run : task.runs) {
+      if (resume && ReadFinishedRun(run.spec, run.inputs_hash, out)) continue;
+      RemoveFolder(out / "runs" / RunId(run.spec));
+    }
+  }
+}
+
+void WriteNight(const ClusterNight& night, const TaskList& list) {
+  WriteFileAtomically(night.out / "plan.json", ToJson(night.plan));
+  if (night.baseline) {
+    WriteFileAtomically(night.out / "cluster" / "baseline.json", ToJson(*night.baseline));
+  }
+  WriteTasks(list, night.out);
+}
+
+bool IsUnderWay(const fs::path& out) {
+  const std::optional<Submission> submission = ReadSubmission(out);
+  if (!submission) return false;
+  const auto queue = QueueOf(*submission);
+  // Tasks that wait know their number alone: what it means must not change under them.
+  if (!queue) throw MachineError("squeue does not answer, and jobs of this folder may be waiting");
+  return !queue->empty();
+}
+
+int OnSlurm(const ClusterNight& night, const ClusterChoice& choice, const TaskList& list) {
+  if (IsUnderWay(night.out)) {
+    if (!night.resume) {
+      throw InputError(night.out.string(), 0,
+                       "its jobs are still in the queue: `aisle status DIR` tells how they go; "
+                       "scancel them, or follow them with --resume --wait");
+    }
+    fmt::print(stderr, "aisle: its jobs are still in the queue: nothing is submitted\n");
+    return choice.wait ? WaitForVerdict(night.out, {.json = night.json}) : kAllPassed;
+  }
+  ClearTheWay(list, night.resume, night.out);
+  WriteNight(night, list);
+  const std::vector<std::size_t> missing = Unfinished(list, night.out);
+  if (missing.empty()) return MergeNight(night.out, {.json = night.json, .submission = {}});
+  const std::string id = fmt::format("{}-{}", night.settings.started, getpid());
+  const Submission submission = SubmitToSlurm(missing, id, SlurmOf(night, choice), PathsOf(night));
+  fmt::print(stderr, "aisle: tasks {}, merge {}; `{} status {}` tells how they go\n",
+             fmt::join(submission.arrays, ", "), submission.merge, OwnCommand(),
+             night.out.string());
+  return choice.wait ? WaitForVerdict(night.out, {.json = night.json}) : kAllPassed;
+}
+
+int OnKubernetes(const ClusterNight& night, const ClusterChoice& choice, const TaskList& list) {
+  ClearTheWay(list, night.resume, night.out);
+  WriteNight(night, list);
+  const fs::path file = night.out / "cluster" / "jobs.yaml";
+  WriteFileAtomically(file, KubernetesOf(night, choice, list.tasks.size()));
+  const std::string name = KubernetesName(night.plan.name());
+  fmt::print("kubectl apply -f {}\n", file.string());
+  fmt::print("kubectl wait --for=condition=complete --timeout=-1s job/{}\n", name);
+  fmt::print("kubectl patch job {}-merge -p '{{\"spec\":{{\"suspend\":false}}}}'\n", name);
+  return kAllPassed;
+}
+
+}  // namespace
+
+void AddClusterChoice(CLI::App* command, ClusterChoice* choice) {
+  command
+      ->add_option("--on", choice->on,
+                   "who makes the runs: slurm submits a job array and a merge, k8s writes the Jobs "
+                   "as YAML; with --dry-run either prints what it would hand over")
+      ->check(CLI::IsMember({"slurm", "k8s"}));
+  command->add_option("--partition", choice->partition, "with --on slurm: other than the site's");
+  command->add_option("--task-time", choice->time,
+                      "with --on slurm: time limit of a task as sbatch takes it, such as 2:00:00");
+  command->add_option("--image", choice->image, "with --on k8s: container image that holds aisle");
+  command->add_option("--claim", choice->claim,
+                      "with --on k8s: the PersistentVolumeClaim of the report's folder");
+  command
+      ->add_option("--nodes-at-most", choice->nodes_at_most,
+                   "with --on: tasks at once, so that no more nodes than that are taken")
+      ->check(CLI::Range(1, 100000));
+  command
+      ->add_option("--late", choice->late_s,
+                   "with --on: seconds that the merge waits for results which the shared file "
+                   "system does not show yet")
+      ->check(CLI::Range(0.0, 86400.0));
+  command->add_flag("--wait", choice->wait,
+                    "with --on slurm: follow the jobs, end with the verdict's exit code");
+}
+
+int RunOnCluster(const ClusterNight& night, const ClusterChoice& choice) {
+  const TaskList list{.settings = night.settings,
+                      .tasks = CutIntoTasks(night.runs, CostsOf(night.out))};
+  const bool slurm = choice.on == "slurm";
+  if (night.dry_run) {
+    std::vector<std::size_t> all(list.tasks.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    if (slurm) {
+      ShowSlurm(night.resume ? Unfinished(list, night.out) : all, night, choice);
+    } else {
+      fmt::print("{}", KubernetesOf(night, choice, list.tasks.size()));
+    }
+    return kAllPassed;
+  }
+  return slurm ? OnSlurm(night, choice, list) : OnKubernetes(night, choice, list);
+}
+
+}  // namespace aisle
