@@ -3,12 +3,11 @@
 #include <xxhash.h>
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "simulator/camera/pixel_rays.h"
 #include "simulator/motion/rig_mount.h"
 #include "simulator/pipeline.h"
+#include "simulator/scene/essence.h"
 #include "simulator/scene/load.h"
 #include "simulator/scene/vary.h"
 #include "simulator/shade/light/light_cache.h"
@@ -92,13 +91,6 @@ void SetSensor(const SensorSpec& spec, PipelineOptions* options) {
   options->auto_exposure.longest_ms = spec.auto_longest_ms;
 }
 
-/// The text of all files, one after the other.
-std::string ReadAll(const std::vector<std::string>& files) {
-  std::stringstream text;
-  for (const std::string& file : files) text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 class Hasher {
  public:
   Hasher() : state_(XXH3_createState()) { XXH3_64bits_reset(state_); }
@@ -129,12 +121,12 @@ class Hasher {
   XXH3_state_t* state_;
 };
 
-/// The files, what was made of them, and where the movers are at two times: between them they
-/// change when anything that decides a pixel does.
-std::uint64_t HashOf(const std::string& scene_text, const World& world, std::int64_t end_ns,
+/// The scene's essence, what was made of it, and where the movers are at two times: between them
+/// they change when anything that decides a pixel does.
+std::uint64_t HashOf(const std::string& essence, const World& world, std::int64_t end_ns,
                      const SimulatorOptions& options) {
   Hasher hasher;
-  hasher.Add(scene_text);
+  hasher.Add(essence);
   hasher.Add(world.statics().mesh);
   for (const TriangleMesh& mesh : world.mover_meshes()) hasher.Add(mesh);
   for (const Texture& texture : world.textures()) hasher.Add(texture.image);
@@ -195,7 +187,7 @@ Simulator Simulator::Load(const std::string& scene_file, const std::string& asse
   World world = BuildWorld(scene, assets_dir, options.seed);
   impl->instances = DescribeInstances(world);
   impl->ground.emplace(Seeded(scene, options.seed), world);
-  impl->hash = HashOf(ReadAll(scene.files), world,
+  impl->hash = HashOf(EssenceOfScene(scene_file, options.twin), world,
                       static_cast<std::int64_t>(1e9 * scene.duration_s()), options);
   PipelineOptions pipeline;
   pipeline.seed = options.seed;
@@ -336,6 +328,10 @@ bool IsDriveScene(const std::string& scene_file) { return LoadScene(scene_file).
 
 std::vector<std::string> FilesOfScene(const std::string& scene_file) {
   return SceneFiles(scene_file);
+}
+
+std::string EssenceOfScene(const std::string& scene_file, Twin twin) {
+  return EssenceOf(scene_file, twin != Twin::kEmpty);
 }
 
 }  // namespace aisle::sim

@@ -151,4 +151,9 @@ bool IsDriveScene(const std::string& scene_file);
 /// mistakes, as far as they can be followed.
 std::vector<std::string> FilesOfScene(const std::string& scene_file);
 
+/// All of a scene that decides the frames of that twin, as text: neither what it is about nor who
+/// is not to be seen. Scenes of equal essence have equal frames for the same seed, assets and
+/// program. Throws as Simulator::Load does where the file cannot be read.
+std::string EssenceOfScene(const std::string& scene_file, Twin twin);
+
 }  // namespace aisle::sim

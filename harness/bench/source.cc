@@ -25,7 +25,7 @@ std::unique_ptr<Sequence> OpenSource(const BenchView& view, const BenchSource& s
   if (source.frames_dir.empty()) return OpenSimulation(simulation);
   const fs::path kept =
       fs::path(source.frames_dir) / fmt::format("{}_{}_{}", view.scene, source.twin, seed);
-  return OpenCached(FrameStore(kept),
+  return OpenCached(FrameStore(kept), view.scene,
                     [simulation](std::uint64_t* hash) { return OpenSimulation(simulation, hash); });
 }
 

@@ -100,7 +100,7 @@ Job ReadJob(const fs::path& file) { return JobFromJson(ReadFile(file), file.stri
 Fingerprints::Fingerprints() : program_(HashFile(OwnExecutable(), HashFolder(AssetsDir()))) {}
 
 std::string Fingerprints::Frames(const RunSpec& spec) const {
-  const std::uint64_t scene = HashSource(spec.scene_file, program_);
+  const std::uint64_t scene = HashSource(spec.scene_file, spec.twin, program_);
   return fmt::format("{:016x}", Hash(fmt::format("{} {}", spec.twin, spec.seed), scene));
 }
 
@@ -130,7 +130,9 @@ std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Fingerprints&
     if (options.frame_cache && !IsRecording(spec.scene_file))
       job.frames = CacheDir() / "frames" / job.frames_key;
     if (const auto& external = spec.system.external; external && !IsStream(*external)) {
-      job.dataset = CacheDir() / "datasets" / (job.frames_key + "-" + external->dataset);
+      // Frames may be another scene's; what a guest is told of names is not.
+      job.dataset = CacheDir() / "datasets" /
+                    (job.frames_key + "-" + SafeName(spec.scene) + "-" + external->dataset);
     }
     jobs.push_back(std::move(job));
   }

@@ -24,7 +24,8 @@ struct Job {
   bool debug_dynamic = false;  ///< draw how the system found what moves; changes no result
   bool mcap = false;           ///< leave a bag of what the system said; changes no result
   std::string frames_in_report = "worst";  ///< or all, none: whose pictures are kept
-  /// The report that the run is copied into when it is made; empty: `out` is it. Guests see neither.
+  /// The report that the run is copied into when it is made; empty: `out` is it. Guests see
+  /// neither.
   std::filesystem::path goes_to = {};
 };
 
@@ -37,14 +38,14 @@ std::filesystem::path JobPath(const std::filesystem::path& out, const RunSpec& s
 void WriteJob(const Job& job);
 Job ReadJob(const std::filesystem::path& file);
 
-/// Content hashes of all that decides a run, hexadecimal: this program, the assets, the scene file,
-/// twin and seed, and the system with its options or its command and the files that names. Two runs
-/// of equal hash give equal bits; a finished run of another hash is no answer to tonight's
-/// question.
+/// Content hashes of all that decides a run, hexadecimal: this program, the assets, what
+/// can be seen of the scene's twin, the seed, and the system with its options or its command and
+/// the files that names. Two runs of equal hash give equal bits; a finished run of another hash is
+/// no answer to tonight's question.
 class Fingerprints {
  public:
   Fingerprints();
-  /// Of the frames alone: shared by all systems.
+  /// Of the frames alone: shared by all systems, and by scenes that look the same in this twin.
   std::string Frames(const RunSpec& spec) const;
   std::string Run(const RunSpec& spec) const;
 

@@ -24,7 +24,7 @@ void TellStage(const char* what) {
 
 std::unique_ptr<Sequence> OpenSequence(const Job& job, std::uint64_t* content_hash) {
   if (IsRecording(job.spec.scene_file)) {
-    if (content_hash != nullptr) *content_hash = HashSource(job.spec.scene_file, 0);
+    if (content_hash != nullptr) *content_hash = HashSource(job.spec.scene_file, job.spec.twin, 0);
     return OpenRecordingSource(job.spec.scene_file);
   }
   const auto open = [simulation = SimulationOf(job)](std::uint64_t* hash) {
@@ -32,7 +32,7 @@ std::unique_ptr<Sequence> OpenSequence(const Job& job, std::uint64_t* content_ha
     return OpenSimulation(simulation, hash);
   };
   if (job.frames.empty()) return open(content_hash);
-  return OpenCached(FrameStore(job.frames), open, content_hash);
+  return OpenCached(FrameStore(job.frames), job.spec.scene, open, content_hash);
 }
 
 }  // namespace aisle

@@ -82,12 +82,10 @@ std::vector<std::string> FilesOfSource(const std::string& file) {
   return files;
 }
 
-std::uint64_t HashSource(const std::string& file, std::uint64_t seed) {
-  const bool recorded = IsRecording(file);
+std::uint64_t HashSource(const std::string& file, const std::string& twin, std::uint64_t seed) {
+  if (!IsRecording(file)) return Hash(EssenceOfScene(file, twin), seed);
   for (const std::string& one : FilesOfSource(file)) {
-    if (!recorded) {
-      seed = HashFile(one, seed);
-    } else if (fs::is_directory(one)) {
+    if (fs::is_directory(one)) {
       for (const char* index : {"mav0/cam0/data.csv", "times.txt", "mav0/cam0/sensor.yaml",
                                 "mav0/cam1/sensor.yaml", "calib.txt"}) {
         seed = HashOutside(fs::path(one) / index, seed);

@@ -26,8 +26,10 @@ std::int64_t CountSourceFrames(const std::string& file);
 /// The files that decide what it holds, nearest first: a scene's and those it extends.
 std::vector<std::string> FilesOfSource(const std::string& file);
 
-/// Hash of all that decides its frames but the program: of a recording's data by names, sizes and
-/// times of change, since it may be larger than memory.
-std::uint64_t HashSource(const std::string& file, std::uint64_t seed);
+/// Hash of all that decides the frames of that twin but program and assets: of a scene what can be
+/// seen of it, wherever it stands written, so that scenes which differ in actors alone share their
+/// `empty` twin; of a recording's data names, sizes and times of change, since it may be larger
+/// than memory.
+std::uint64_t HashSource(const std::string& file, const std::string& twin, std::uint64_t seed);
 
 }  // namespace aisle

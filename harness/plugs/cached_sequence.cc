@@ -11,14 +11,15 @@ using OpenOriginal = std::function<std::unique_ptr<Sequence>(std::uint64_t*)>;
 
 class CachedSequence : public Sequence {
  public:
-  CachedSequence(FrameStore store, SequenceHeader header, std::unique_ptr<Sequence> original,
-                 OpenOriginal open_original)
+  CachedSequence(FrameStore store, std::string name, SequenceHeader header,
+                 std::unique_ptr<Sequence> original, OpenOriginal open_original)
       : store_(std::move(store)),
+        name_(std::move(name)),
         header_(std::move(header)),
         open_original_(std::move(open_original)),
         original_(std::move(original)) {}
 
-  std::string name() const override { return header_.name; }
+  std::string name() const override { return name_; }
   StereoCalibration calibration() const override { return header_.calibration; }
   double rate_hz() const override { return header_.rate_hz; }
   std::vector<FrameRequest> Schedule() const override { return header_.schedule; }
@@ -54,6 +55,7 @@ class CachedSequence : public Sequence {
   }
 
   const FrameStore store_;
+  const std::string name_;
   const SequenceHeader header_;
   const OpenOriginal open_original_;
   mutable std::mutex mutex_;  ///< guards the opening of the original
@@ -62,21 +64,20 @@ class CachedSequence : public Sequence {
 
 }  // namespace
 
-std::unique_ptr<Sequence> OpenCached(const FrameStore& store, OpenOriginal open_original,
-                                     std::uint64_t* content_hash) {
+std::unique_ptr<Sequence> OpenCached(const FrameStore& store, const std::string& name,
+                                     OpenOriginal open_original, std::uint64_t* content_hash) {
   std::optional<SequenceHeader> header = store.ReadHeader();
   std::unique_ptr<Sequence> original;
   if (!header) {
     header.emplace();
     original = open_original(&header->content_hash);
-    header->name = original->name();
     header->calibration = original->calibration();
     header->rate_hz = original->rate_hz();
     header->schedule = original->Schedule();
     store.WriteHeader(*header);
   }
   if (content_hash != nullptr) *content_hash = header->content_hash;
-  return std::make_unique<CachedSequence>(store, *std::move(header), std::move(original),
+  return std::make_unique<CachedSequence>(store, name, *std::move(header), std::move(original),
                                           std::move(open_original));
 }
 

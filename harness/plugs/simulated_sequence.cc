@@ -192,6 +192,15 @@ std::vector<std::string> FilesOfScene(const std::string& scene_file) {
   return sim::FilesOfScene(scene_file);
 }
 
+std::string EssenceOfScene(const std::string& scene_file, const std::string& twin) {
+  const sim::Twin which = TwinFromName(twin);
+  try {
+    return sim::EssenceOfScene(scene_file, which);
+  } catch (const std::runtime_error& error) {
+    throw InputError(error.what());
+  }
+}
+
 std::int64_t CountSceneFrames(const std::string& scene_file) {
   try {
     return sim::CountSceneFrames(scene_file);

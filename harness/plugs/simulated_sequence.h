@@ -78,6 +78,10 @@ std::vector<std::string> CheckScene(const std::string& scene_file);
 /// A scene's file and those it extends, nearest first: what it holds changes with them alone.
 std::vector<std::string> FilesOfScene(const std::string& scene_file);
 
+/// All of a scene that decides the frames of that twin, as text: scenes of equal essence have equal
+/// frames for the same seed, assets and program. Throws InputError.
+std::string EssenceOfScene(const std::string& scene_file, const std::string& twin);
+
 /// Frames of a scene as its file says. Throws InputError for a bad scene.
 std::int64_t CountSceneFrames(const std::string& scene_file);
 

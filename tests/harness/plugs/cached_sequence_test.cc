@@ -122,9 +122,10 @@ class CachedSequenceTest : public testing::Test {
   CachedSequenceTest() { fs::remove_all(folder_); }
   ~CachedSequenceTest() override { fs::remove_all(folder_); }
 
-  std::unique_ptr<Sequence> Open(std::uint64_t* hash = nullptr) {
+  std::unique_ptr<Sequence> Open(std::uint64_t* hash = nullptr,
+                                 const std::string& name = "made/up") {
     return OpenCached(
-        FrameStore(folder_),
+        FrameStore(folder_), name,
         [this](std::uint64_t* content_hash) {
           if (content_hash != nullptr) *content_hash = 77;
           return std::make_unique<Noise>(&asked_);
@@ -163,6 +164,15 @@ TEST_F(CachedSequenceTest, FramesAreThoseOfTheOriginalWhicheverWayTheyCame) {
     EXPECT_EQ(asked_.opened, 1) << "what is there needs no original";
     EXPECT_EQ(asked_.made, 6) << "each frame is made once";
   }
+}
+
+TEST_F(CachedSequenceTest, TheNameIsTheAskersWhoeverFilledTheStore) {
+  for (const std::string name : {"paper/scene2", "paper/scene3", "paper/scene2"}) {
+    std::uint64_t hash = 0;
+    EXPECT_EQ(Open(&hash, name)->name(), name);
+    EXPECT_EQ(hash, 77u);
+  }
+  EXPECT_EQ(asked_.opened, 1);
 }
 
 TEST_F(CachedSequenceTest, AFrameThatIsDamagedOrGoneIsMadeAnew) {

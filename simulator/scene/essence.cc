@@ -1,0 +1,61 @@
+#include "simulator/scene/essence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "simulator/scene/extend.h"
+#include "simulator/scene/load.h"
+
+namespace aisle::sim {
+namespace {
+
+/// Each part behind its kind and size, so that no two trees have one text.
+void Append(const YamlValue& value, std::string* text) {
+  switch (value.kind) {
+    case YamlValue::Kind::kNull:
+      *text += "~";
+      return;
+    case YamlValue::Kind::kText:
+      *text += fmt::format("{}{}:{}", value.quoted ? "q" : "t", value.text.size(), value.text);
+      return;
+    case YamlValue::Kind::kList:
+      *text += fmt::format("l{}:", value.items.size());
+      for (const YamlValue& item : value.items) Append(item, text);
+      return;
+    case YamlValue::Kind::kMap:
+      break;
+  }
+  std::vector<const YamlEntry*> entries;
+  for (const YamlEntry& entry : value.entries) entries.push_back(&entry);
+  std::sort(entries.begin(), entries.end(),
+            [](const YamlEntry* a, const YamlEntry* b) { return a->key < b->key; });
+  *text += fmt::format("m{}:", entries.size());
+  for (const YamlEntry* entry : entries) {
+    *text += fmt::format("{}:{}", entry->key.size(), entry->key);
+    Append(entry->value, text);
+  }
+}
+
+bool IsSeen(const std::string& key, bool with_actors) {
+  if (key == "about" || key == kExtendKey) return false;
+  return with_actors || (key != "people" && key != "vehicles");
+}
+
+}  // namespace
+
+std::string EssenceOf(const std::filesystem::path& file, bool with_actors) {
+  std::string problem;
+  const auto text = ReadSceneText(file, &problem);
+  if (!text) throw SceneError({problem});
+  Issues issues(file.string());
+  std::optional<YamlValue> top = ReadExtended(*text, &issues);
+  if (!top) throw SceneError(issues.Messages());
+  std::erase_if(top->entries,
+                [&](const YamlEntry& entry) { return !IsSeen(entry.key, with_actors); });
+  std::string essence;
+  Append(*top, &essence);
+  return essence;
+}
+
+}  // namespace aisle::sim
