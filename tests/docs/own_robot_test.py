@@ -14,7 +14,7 @@ import tempfile
 
 def main(program, source):
     page = (pathlib.Path(source) / "reports/docs/own_robot.md").read_text()
-    blocks = re.findall(r"^```\n(.*?)^```$", page, re.M | re.S)
+    blocks = re.findall(r"^```[^\n]*\n(.*?)^```$", page, re.M | re.S)
     with tempfile.TemporaryDirectory(prefix="aisle_own_robot_") as name:
         folder = pathlib.Path(name)
         for block in blocks:
