@@ -4,7 +4,8 @@
 
 namespace aisle {
 
-/// Wall time since it was made. For reports only; nothing is ever decided by it.
+/// Wall time since it was made. For reports, and for how long others are waited for; no score and
+/// no frame is ever decided by it.
 class Stopwatch {
  public:
   double ElapsedMs() const {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 
 #include "simulator/scene/extend.h"
 #include "simulator/scene/load.h"
@@ -37,6 +39,17 @@ void Append(const YamlValue& value, std::string* text) {
   }
 }
 
+/// The bytes of the files that a real rig brings, whose names say nothing.
+void AppendRigFiles(const std::filesystem::path& scene_file, std::size_t scene_files,
+                    std::string* text) {
+  const std::vector<std::string> files = SceneFiles(scene_file);
+  for (std::size_t i = scene_files; i < files.size(); ++i) {
+    std::ostringstream bytes;
+    bytes << std::ifstream(files[i], std::ios::binary).rdbuf();
+    *text += fmt::format("f{}:{}", bytes.view().size(), bytes.view());
+  }
+}
+
 bool IsSeen(const std::string& key, bool with_actors) {
   if (key == "about" || key == kExtendKey) return false;
   return with_actors || (key != "people" && key != "vehicles");
@@ -55,6 +68,7 @@ std::string EssenceOf(const std::filesystem::path& file, bool with_actors) {
                 [&](const YamlEntry& entry) { return !IsSeen(entry.key, with_actors); });
   std::string essence;
   Append(*top, &essence);
+  AppendRigFiles(file, issues.files().size(), &essence);
   return essence;
 }
 

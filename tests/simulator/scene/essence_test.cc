@@ -69,6 +69,20 @@ TEST_F(EssenceTest, AnExtendedSceneIsWhatItAmountsTo) {
             Of(With("100", "101"), true));
 }
 
+TEST_F(EssenceTest, TheFilesOfARealRigCountByWhatTheyHold) {
+  const std::string scene = With("{start: [0, 0], steps: [{go: [[8, 0]], speed_mps: 0.9}]}",
+                                 "{trajectory: way.txt, trajectory_of: vehicle}") +
+                            "lights: [{rows: 2, per_row: 5, height_m: 5.5}]\n";
+  const auto drive = [&](const char* way) {
+    std::ofstream(folder_ / "way.txt") << way;
+    return Of(scene, true);
+  };
+  const std::string own = drive("0 0 0 0 0 0 0 1\n5 2 0 0 0 0 0 1\n");
+  ASSERT_EQ(LoadScene(folder_ / "a.yaml").files.size(), 2u);
+  EXPECT_EQ(drive("0 0 0 0 0 0 0 1\n5 2 0 0 0 0 0 1\n"), own);
+  EXPECT_NE(drive("0 0 0 0 0 0 0 1\n5 3 0 0 0 0 0 1\n"), own);
+}
+
 TEST_F(EssenceTest, WhatCannotBeReadIsSaid) {
   EXPECT_THROW(EssenceOf(folder_ / "none.yaml", true), SceneError);
   EXPECT_THROW(Of("a: [", true), SceneError);
