@@ -1,6 +1,7 @@
 #include "harness/bag/drive_bag.h"
 
 #include "harness/bag/frame_messages.h"
+#include "harness/contract/state_name.h"
 #include "harness/io/truth_files.h"
 
 namespace aisle {
@@ -9,18 +10,6 @@ namespace {
 constexpr const char *kOdomFrame = "odom", *kBaseFrame = "base_link";
 constexpr double kMillimetres = 1000;  ///< a metre, as REP 118 has depth in 16 bits
 constexpr const char* kRightFrame = "camera_right_optical_frame";
-
-const char* NameOf(TrackingState state) {
-  switch (state) {
-    case TrackingState::kInitializing:
-      return "initializing";
-    case TrackingState::kTracking:
-      return "tracking";
-    case TrackingState::kLost:
-      break;
-  }
-  return "lost";
-}
 
 int CountOf(const FrameEstimate& estimate, const char* name) {
   const auto found = estimate.counts.find(name);
@@ -136,7 +125,7 @@ void DriveBag::WriteEvents(const std::string& system, const FrameEstimate& estim
   if (estimate.state != before) {
     const bool lost = estimate.state == TrackingState::kLost;
     AddEvent(system, at_ns, lost ? ros::kError : ros::kInfo,
-             fmt::format("{}, frame {}", NameOf(estimate.state), estimate.id));
+             fmt::format("{}, frame {}", StateName(estimate.state), estimate.id));
   }
   if (CountOf(estimate, "keyframe") > 0) {
     AddEvent(system, at_ns, ros::kInfo, fmt::format("keyframe, frame {}", estimate.id));
@@ -153,7 +142,7 @@ void DriveBag::AddEstimate(const std::string& system, const FrameEstimate& estim
   const std::string name = RosName(system), topic = fmt::format("/{}", name), world = name + "/map";
   Track& track = tracks_[system];
   ros::String state;
-  state.data = NameOf(estimate.state);
+  state.data = StateName(estimate.state);
   Write(topic + "/state", stamp_ns, state);
   WriteEvents(system, estimate, track.state);
   track.state = estimate.state;

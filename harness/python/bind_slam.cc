@@ -3,6 +3,7 @@
 
 #include <mutex>
 
+#include "harness/contract/state_name.h"
 #include "harness/plugs/systems.h"
 #include "harness/python/arrays.h"
 #include "harness/python/module.h"
@@ -11,18 +12,6 @@
 
 namespace aisle::python {
 namespace {
-
-const char* NameOf(TrackingState state) {
-  switch (state) {
-    case TrackingState::kInitializing:
-      return "initializing";
-    case TrackingState::kTracking:
-      return "tracking";
-    case TrackingState::kLost:
-      break;
-  }
-  return "lost";
-}
 
 class Slam {
  public:
@@ -113,7 +102,7 @@ void BindEstimate(py::module_& module) {
   py::class_<FrameEstimate>(module, "Estimate", "What a SLAM says of a frame, at that frame.")
       .def_readonly("stamp_ns", &FrameEstimate::stamp_ns)
       .def_property_readonly(
-          "state", [](const FrameEstimate& estimate) { return NameOf(estimate.state); },
+          "state", [](const FrameEstimate& estimate) { return StateName(estimate.state); },
           "\"initializing\", \"tracking\" or \"lost\".")
       .def_property_readonly(
           "pose",
@@ -133,7 +122,7 @@ void BindEstimate(py::module_& module) {
       .def_readonly("stage_ms", &FrameEstimate::stage_ms, "{stage: wall time in milliseconds}.")
       .def("__repr__", [](const FrameEstimate& estimate) {
         return fmt::format("<aisle.Estimate at {} ns, {}>", estimate.stamp_ns,
-                           NameOf(estimate.state));
+                           StateName(estimate.state));
       });
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <sstream>
 
+#include "harness/contract/state_name.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/score/mask_scores.h"
@@ -16,18 +17,6 @@ constexpr const char* kHeader =
     "final_x_m,final_y_m,final_z_m,final_error_m,movers_share,actors_share,features,"
     "features_on_movers,inliers_on_movers,mask_iou,corners_rejected,static_texture_share,flow_px,"
     "blur_px,parallax_px,render_ms,process_ms";
-const char* Name(TrackingState state) {
-  switch (state) {
-    case TrackingState::kInitializing:
-      return "initializing";
-    case TrackingState::kTracking:
-      return "tracking";
-    case TrackingState::kLost:
-      break;
-  }
-  return "lost";
-}
-
 TrackingState StateFromName(const std::string& name) {
   if (name == "tracking") return TrackingState::kTracking;
   return name == "lost" ? TrackingState::kLost : TrackingState::kInitializing;
@@ -196,7 +185,7 @@ std::string ToCsv(const std::vector<FrameRow>& rows) {
   std::string text = std::string(kHeader) + "\n";
   for (const FrameRow& row : rows) {
     text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{:.3f},{:.3f}\n",
-                        row.id, row.stamp_ns, Name(row.state), Fields(row.truth_m),
+                        row.id, row.stamp_ns, StateName(row.state), Fields(row.truth_m),
                         Fields(row.live_m), Field(row.live_error_m), Fields(row.final_m),
                         Field(row.final_error_m), row.movers_share, row.actors_share, row.features,
                         row.features_on_movers, row.inliers_on_movers, Field(row.mask_iou),
