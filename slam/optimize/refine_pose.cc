@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "slam/optimize/huber.h"
+
 namespace aisle::slam {
 namespace {
 
@@ -25,16 +27,6 @@ struct Normal {
   Vector6d b = Vector6d::Zero();
   double cost = 0;
 };
-
-/// Huber's cost of a squared error and the weight that stands for it in least squares.
-struct Robust {
-  double cost, weight;
-};
-Robust Huber(double chi2, double bound) {
-  if (chi2 <= bound) return {chi2, 1.0};
-  const double root = std::sqrt(chi2 * bound);
-  return {2 * root - bound, root / chi2};
-}
 
 class PoseProblem {
  public:
