@@ -26,7 +26,8 @@ struct ExternalMask {
 enum class TrackingState {
   kInitializing,  ///< no map yet
   kTracking,
-  kApart,  ///< tracking in a part of the map whose place in the world is not known (yet)
+  kApart,     ///< tracking in a part of the map whose place in the world is not known (yet)
+  kCoasting,  ///< too little of the map is seen: the pose is the one that was measured otherwise
   kLost,
 };
 

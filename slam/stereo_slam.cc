@@ -83,15 +83,18 @@ void NotePose(const FramePose& pose, TrackedFrame& result) {
 struct StereoSlam::Impl {
   Impl(const StereoCamera& camera_in, const SlamOptions& options_in);
 
-  TrackedFrame Track(const StereoImages& images, const ExternalMask& mask);
+  TrackedFrame Track(const StereoImages& images, const ExternalMask& mask,
+                     const std::optional<MeasuredMotion>& motion);
   std::shared_ptr<const Frame> See(const StereoImages& images, const ExternalMask& mask,
+                                   const std::optional<MeasuredMotion>& motion,
                                    TrackedFrame& result);
   ExternalMask RejectMovers(const StereoImages& images, const ExternalMask& mask,
-                            TrackedFrame& result);
+                            const std::optional<MeasuredMotion>& motion, TrackedFrame& result);
   DriveState Drive() const;
   void TakeDueWork(TrackedFrame& result);
   bool TakeAsKeyframe(const std::shared_ptr<const Frame>& frame, FramePose& pose);
   std::optional<FramePose> StartPart(const std::shared_ptr<const Frame>& frame);
+  bool Coast(const std::shared_ptr<const Frame>& frame);
   void NoteOutcome(const std::shared_ptr<const Frame>& frame, const std::optional<FramePose>& pose,
                    bool is_keyframe);
   bool IsTimeForANewPart(std::int64_t stamp_ns) const;
@@ -103,6 +106,7 @@ struct StereoSlam::Impl {
 
   TrackingState state = TrackingState::kInitializing;  // kTracking in any part of the map
   std::optional<std::int64_t> lost_since_ns;  // first frame that shows something but has no pose
+  std::int64_t coasting_since_ns = 0;         // of kCoasting: the last frame that was found
   std::int64_t frame_count = 0;
   TrackRecord track;
   MapKeeper keeper;
@@ -124,14 +128,16 @@ StereoSlam::Impl::Impl(const StereoCamera& camera_in, const SlamOptions& options
   state = TrackingState::kLost;
 }
 
-TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalMask& mask) {
+TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalMask& mask,
+                                     const std::optional<MeasuredMotion>& motion) {
   CheckImages(images, mask, camera);
   TrackedFrame result;
   result.id = images.id;
   result.stamp_ns = images.stamp_ns;
   std::shared_ptr<const Frame> frame;
-  arena.execute([&] { frame = See(images, mask, result); });
+  arena.execute([&] { frame = See(images, mask, motion, result); });
   TakeDueWork(result);
+  track.Roll(options.base == Base::kPlain ? motion : std::nullopt);
 
   Stopwatch track_time(result.stage_ms["track"]);
   const Map& map = keeper.map();
@@ -142,25 +148,33 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
     pose = StartPart(frame);
     result.is_keyframe = pose.has_value();
   }
-  NoteOutcome(frame, pose, result.is_keyframe);
+  const bool coasting = !pose && !map.empty() && track.memory().measured;
+  if (coasting) {
+    result.is_keyframe = Coast(frame);
+  } else {
+    NoteOutcome(frame, pose, result.is_keyframe);
+  }
 
-  const bool apart = pose && !IsInFirstPart(map, track.memory().reference);
+  const bool apart = (pose || coasting) && !IsInFirstPart(map, track.memory().reference);
   result.state = apart ? TrackingState::kApart : state;
   result.map_keyframes = static_cast<int>(map.keyframes().size());
   result.map_landmarks = map.landmark_count();
   NoteObservations(*frame, result);
   if (pose) NotePose(*pose, result);
   if (pose && !apart) result.T_world_rig = pose->pose.T_rig_world.inverse();
+  if (coasting && !apart) result.T_world_rig = track.memory().PoseIn(map);
   return result;
 }
 
 /// What the frame shows outside movers. Corners depend on the images alone and are found while the
 /// detector leaves threads idle: its time includes what of them it waited for.
 std::shared_ptr<const Frame> StereoSlam::Impl::See(const StereoImages& images,
-                                                   const ExternalMask& mask, TrackedFrame& result) {
+                                                   const ExternalMask& mask,
+                                                   const std::optional<MeasuredMotion>& motion,
+                                                   TrackedFrame& result) {
   StereoCorners corners;
   Beside finding([&] { corners = FindStereoCorners(images, options.feature); });
-  const ExternalMask rejected = RejectMovers(images, mask, result);
+  const ExternalMask rejected = RejectMovers(images, mask, motion, result);
   {
     Stopwatch time(result.stage_ms["extract"]);
     finding.Wait();
@@ -170,11 +184,12 @@ std::shared_ptr<const Frame> StereoSlam::Impl::See(const StereoImages& images,
 
 /// The caller's mask and what the detector finds moving, together; the latter is noted in `result`.
 ExternalMask StereoSlam::Impl::RejectMovers(const StereoImages& images, const ExternalMask& mask,
+                                            const std::optional<MeasuredMotion>& motion,
                                             TrackedFrame& result) {
   if (options.dynamic.method == DynamicMethod::kNone) return mask;
   Stopwatch time(result.stage_ms["dynamic"]);
-  DynamicInput input{images.stamp_ns, images.left, images.right, std::nullopt};
-  if (state == TrackingState::kTracking) {
+  DynamicInput input{images.stamp_ns, images.left, images.right, std::nullopt, motion};
+  if (state == TrackingState::kTracking && !motion) {
     input.T_now_before = PredictMotion(track.memory(), images.stamp_ns, options.track);
   }
   DynamicOutput found = detector.Detect(input);
@@ -233,6 +248,27 @@ std::optional<FramePose> StereoSlam::Impl::StartPart(const std::shared_ptr<const
   return PoseOfKeyframe(keeper.map(), part->edit.new_keyframes.front().id);
 }
 
+/// Goes by the measured motion. Having done so for a while, a frame that shows enough becomes a
+/// keyframe where it is measured to be, so that those to come have something to be found by.
+bool StereoSlam::Impl::Coast(const std::shared_ptr<const Frame>& frame) {
+  if (state != TrackingState::kCoasting) coasting_since_ns = track.memory().stamp_ns;
+  state = TrackingState::kCoasting;
+  const double while_s = static_cast<double>(frame->stamp_ns - coasting_since_ns) * 1e-9;
+  const bool is_time = !options.localise_only && keeper.at_rest() &&
+                       while_s >= options.track.measured.extend_after_s;
+  const auto edit = is_time ? policy->Extend(frame, Drive()) : std::nullopt;
+  policy->Note(frame, nullptr, std::nullopt, Drive());
+  ++frame_count;
+  if (!edit) {
+    track.Coast(keeper.map(), frame->stamp_ns);
+    return false;
+  }
+  keeper.WorkIn(*edit, frame_count - 1);
+  track.CoastToKeyframe(keeper.map(), frame->stamp_ns, edit->new_keyframes.front().id);
+  coasting_since_ns = frame->stamp_ns;
+  return true;
+}
+
 /// What the next frame has to know of this one.
 void StereoSlam::Impl::NoteOutcome(const std::shared_ptr<const Frame>& frame,
                                    const std::optional<FramePose>& pose, bool is_keyframe) {
@@ -241,7 +277,8 @@ void StereoSlam::Impl::NoteOutcome(const std::shared_ptr<const Frame>& frame,
   policy->Note(frame, pose ? &*pose : nullptr, keyframe, Drive());
   ++frame_count;
   if (pose) {
-    track.Note(keeper.map(), *frame, *pose, state == TrackingState::kTracking, options.track);
+    const bool goes_on = state == TrackingState::kTracking || state == TrackingState::kCoasting;
+    track.Note(keeper.map(), *frame, *pose, goes_on, options.track);
     if (options.localise_only) track.TakeCounts();  // the map stays as it is
     lost_since_ns.reset();
     state = TrackingState::kTracking;
@@ -263,8 +300,10 @@ StereoSlam::StereoSlam(StereoSlam&&) noexcept = default;
 StereoSlam& StereoSlam::operator=(StereoSlam&&) noexcept = default;
 StereoSlam::~StereoSlam() = default;
 
-TrackedFrame StereoSlam::Track(const StereoImages& images, const ExternalMask& mask) {
-  return impl_->Track(images, mask);
+TrackedFrame StereoSlam::Track(const StereoImages& images, const ExternalMask& mask,
+                               const std::optional<MeasuredMotion>& motion) {
+  if (motion) CheckMotion(*motion);
+  return impl_->Track(images, mask, motion);
 }
 
 void StereoSlam::SaveMap(const std::string& file) {

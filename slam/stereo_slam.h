@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "slam/camera/measured_motion.h"
 #include "slam/camera/stereo_camera.h"
 #include "slam/dynamic/common/dynamic_regions.h"
 #include "slam/dynamic/dynamic_detector.h"
@@ -24,12 +25,12 @@ struct TrackedFrame {
   std::int64_t id = 0;
   std::int64_t stamp_ns = 0;
   TrackingState state = TrackingState::kInitializing;
-  std::optional<Eigen::Isometry3d>
-      T_world_rig;         ///< absent unless kTracking; world: first rig pose, or that of map_file
-  int features = 0;        ///< keypoints in the left image after rejection
-  int stereo_points = 0;   ///< of them, with depth
-  int matched_points = 0;  ///< matched to the map
-  int inliers = 0;         ///< kept by pose refinement
+  std::optional<Eigen::Isometry3d> T_world_rig;  ///< absent unless kTracking or kCoasting; world:
+                                                 ///< first rig pose, or that of map_file
+  int features = 0;                              ///< keypoints in the left image after rejection
+  int stereo_points = 0;                         ///< of them, with depth
+  int matched_points = 0;                        ///< matched to the map
+  int inliers = 0;                               ///< kept by pose refinement
   bool is_keyframe = false;
   int map_keyframes = 0;   ///< size of the map after this frame: it grows with the place ...
   int map_landmarks = 0;   ///< ... that has been explored, not with time
@@ -55,7 +56,13 @@ class StereoSlam {
 
   /// Images must have the camera's size; stamps must rise. Hard frames (black, featureless) are not
   /// errors: they come back as kLost or kInitializing.
-  TrackedFrame Track(const StereoImages& images, const ExternalMask& mask = {});
+  ///
+  /// `motion`, where something else than the images tells it: how the rig has moved since the frame
+  /// before. Base::kPlain then believes no pose that contradicts it, and where movers or darkness
+  /// leave too little of the map it goes by it (kCoasting) until the map is seen again. A frame
+  /// without one ends that. Base::kOrbSlam2, like the published system, does without.
+  TrackedFrame Track(const StereoImages& images, const ExternalMask& mask = {},
+                     const std::optional<MeasuredMotion>& motion = {});
 
   /// Writes the map for SlamOptions::map_file of a later drive, which then goes on in it as this
   /// one would after a loss: to the last bit. Waits for background work. Throws std::runtime_error

@@ -18,6 +18,7 @@
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/steering_options.h"
 #include "harness/plugs/systems.h"
+#include "harness/plugs/wheel_odometry.h"
 #include "harness/record/drive_json.h"
 #include "harness/record/provenance.h"
 #include "harness/record/record.h"
@@ -262,9 +263,17 @@ void Introduce(const Estimator& estimator, RunResult* result) {
   result->last_words = LastWords(stream->log());
 }
 
+/// The frames of a job as its system is shown them.
+std::unique_ptr<Sequence> SequenceOf(const Job& job, std::uint64_t* content_hash) {
+  std::unique_ptr<Sequence> sequence = OpenSequence(job, content_hash);
+  const auto odometry = job.spec.system.options.find(kOdometryOption);
+  if (odometry == job.spec.system.options.end() || odometry->second != "true") return sequence;
+  return WithOdometry(std::move(sequence), job.spec.seed);
+}
+
 void RunOurs(const Job& job) {
   std::uint64_t content_hash = 0;
-  const std::unique_ptr<Sequence> sequence = OpenSequence(job, &content_hash);
+  const std::unique_ptr<Sequence> sequence = SequenceOf(job, &content_hash);
   std::unique_ptr<Estimator> estimator;
   try {
     estimator = EstimatorOf(job, sequence->calibration(), sequence->rate_hz());

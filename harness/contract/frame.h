@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,19 @@ struct StereoCalibration {
   double baseline_m = 0;
 };
 
+/// How the rig has moved since the frame before, by other means than images: wheels, say.
+struct MotionMeasurement {
+  Eigen::Isometry3d T_now_before = Eigen::Isometry3d::Identity();  ///< of the rig
+  /// Of a small motion of the rig's frame now: translation (m), then rotation (rad).
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Identity();
+};
+
 /// All that a SLAM may see of one instant.
 struct StereoFrame {
   std::int64_t id = 0;
   std::int64_t stamp_ns = 0;
-  cv::Mat1b left, right;  ///< 8-bit grey
+  cv::Mat1b left, right;                         ///< 8-bit grey
+  std::optional<MotionMeasurement> motion = {};  ///< where the system is told; not of the first
 };
 
 /// What truth says of one person or vehicle in the left image.

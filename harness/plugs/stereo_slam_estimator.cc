@@ -12,6 +12,7 @@ TrackingState Convert(slam::TrackingState state) {
     case slam::TrackingState::kInitializing:
       return TrackingState::kInitializing;
     case slam::TrackingState::kTracking:
+    case slam::TrackingState::kCoasting:  // it stands by its pose
       return TrackingState::kTracking;
     case slam::TrackingState::kApart:  // it cannot say where it is
     case slam::TrackingState::kLost:
@@ -55,7 +56,8 @@ FrameEstimate Convert(const slam::TrackedFrame& frame) {
                      {"keyframe", frame.is_keyframe ? 1 : 0},
                      {"map_keyframes", frame.map_keyframes},
                      {"map_landmarks", frame.map_landmarks},
-                     {"loop_closed", frame.loop_closed ? 1 : 0}};
+                     {"loop_closed", frame.loop_closed ? 1 : 0},
+                     {"coasting", frame.state == slam::TrackingState::kCoasting ? 1 : 0}};
   estimate.stage_ms = frame.stage_ms;
   estimate.keypoints = frame.keypoints;
   estimate.keypoint_is_inlier = frame.keypoint_is_inlier;
@@ -76,8 +78,10 @@ class StereoSlamEstimator : public Estimator {
       : slam_(camera, options) {}
 
   FrameEstimate Process(const StereoFrame& frame, const ExternalMask& mask) override {
+    std::optional<slam::MeasuredMotion> motion;
+    if (frame.motion) motion = {frame.motion->T_now_before, frame.motion->covariance};
     return Convert(slam_.Track({frame.id, frame.stamp_ns, frame.left, frame.right},
-                               {mask.left, mask.right, Share(mask.confidence)}));
+                               {mask.left, mask.right, Share(mask.confidence)}, motion));
   }
 
   Trajectory Finish() override {

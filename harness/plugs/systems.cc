@@ -5,8 +5,23 @@
 #include "harness/plugs/place_vocabulary.h"
 #include "harness/plugs/steering_options.h"
 #include "harness/plugs/stereo_slam_estimator.h"
+#include "harness/plugs/wheel_odometry.h"
 
 namespace aisle {
+namespace {
+
+/// The options that are the SLAM's own.
+std::map<std::string, std::string> OptionsOfSlam(std::map<std::string, std::string> options) {
+  options.erase(kOdometryOption);
+  return WithoutSteering(options);
+}
+
+std::string CheckOdometry(const std::string& value) {
+  if (value == "true" || value == "false") return {};
+  return fmt::format("option {} = {}: expected true or false", kOdometryOption, Printable(value));
+}
+
+}  // namespace
 
 const std::vector<System>& Systems() {
   static const std::vector<System> systems = {
@@ -46,17 +61,25 @@ const System& FindSystem(const std::string& name) {
 std::vector<SystemOption> OptionsOf(const System& system) {
   std::vector<SystemOption> options = DescribeSlamOptions(system.options);
   for (SystemOption& option : DescribeSteering({})) options.push_back(std::move(option));
+  if (BaseOf({.name = system.name, .like = system.name}) == "plain")
+    options.push_back(DescribeOdometry());
   return options;
 }
 
 std::string CheckOption(const std::string& path, const std::string& value) {
   if (IsSteeringOption(path)) return CheckSteeringOption(path, value);
+  if (path == kOdometryOption) return CheckOdometry(value);
   return CheckSlamOption(path, value);
 }
 
 std::string CheckOptions(const System& like, const std::map<std::string, std::string>& options) {
-  std::map<std::string, std::string> all = WithoutSteering(options);
+  std::map<std::string, std::string> all = OptionsOfSlam(options);
   all.insert(like.options.begin(), like.options.end());  // what is there already stays
+  if (const auto base = all.find("base");
+      options.contains(kOdometryOption) && base != all.end() && base->second == "orbslam2") {
+    return fmt::format("option {}: the published ORB-SLAM2 has nothing but its images: {}",
+                       kOdometryOption, "take a system like plain or robust, or set base to plain");
+  }
   return CheckSlamOptions(all);
 }
 
@@ -90,7 +113,7 @@ std::map<std::string, std::string> OptionsOfSpec(const SystemSpec& spec) {
                      "' is a command: it does not run inside this program");
   }
   const System& like = FindSystem(spec.like);
-  std::map<std::string, std::string> options = WithoutSteering(spec.options);
+  std::map<std::string, std::string> options = OptionsOfSlam(spec.options);
   options.insert(like.options.begin(), like.options.end());
   return options;
 }

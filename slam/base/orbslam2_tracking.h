@@ -22,6 +22,11 @@ class OrbSlam2Tracking final : public TrackingPolicy {
   KeyframeId ReferenceOfKeyframe(const FramePose&, KeyframeId id) const override { return id; }
   std::optional<NewPart> Begin(const std::shared_ptr<const Frame>& frame,
                                const DriveState& drive) const override;
+  /// Never: the published system has nothing but its images.
+  std::optional<MapEdit> Extend(const std::shared_ptr<const Frame>&,
+                                const DriveState&) const override {
+    return std::nullopt;
+  }
   bool BeginsParts() const override { return false; }
   bool GivesUp(const Map& map) const override;
   void Note(const std::shared_ptr<const Frame>& frame, const FramePose* pose,

@@ -2,12 +2,15 @@
 
 #include "slam/track/keyframe_policy.h"
 #include "slam/track/predict_motion.h"
+#include "slam/track/track_measured.h"
 
 namespace aisle::slam {
 
 std::optional<FramePose> PlainTracking::Find(const std::shared_ptr<const Frame>& frame,
                                              const DriveState& drive) {
   const PlainContext context{drive.map, *frame, camera_, options_.feature.levels, options_.track};
+  if (drive.memory.measured)
+    return TrackMeasured(context, drive.memory, drive.places, drive.frame_number);
   if (!drive.lost) return TrackFrame(context, drive.memory);
   return Relocalise(context, drive.memory, drive.places, drive.frame_number);
 }
@@ -39,6 +42,23 @@ std::optional<NewPart> PlainTracking::Begin(const std::shared_ptr<const Frame>& 
                     .least_points = options_.least_first_points,
                     .least_keyframes = options_.least_keyframes,
                     .keeps_world = !options_.map_file.empty()});
+}
+
+std::optional<MapEdit> PlainTracking::Extend(const std::shared_ptr<const Frame>& frame,
+                                             const DriveState& drive) const {
+  const Eigen::Isometry3d T_world_rig =
+      drive.memory.PoseIn(drive.map) * drive.memory.measured->T_now_before.inverse();
+  Keyframe keyframe;
+  keyframe.id = drive.map.NextKeyframeId();
+  keyframe.frame = frame;
+  keyframe.T_world_rig = Normalized(T_world_rig);
+  keyframe.parent = drive.map.StandIn(drive.memory.reference);
+  keyframe.landmarks.resize(static_cast<std::size_t>(frame->size()));
+  MapEdit edit;
+  edit.new_landmarks = CreateLandmarks(keyframe, camera_, options_.mapping.create);
+  if (std::ssize(edit.new_landmarks) < options_.least_first_points) return std::nullopt;
+  edit.new_keyframes = {std::move(keyframe)};
+  return edit;
 }
 
 }  // namespace aisle::slam

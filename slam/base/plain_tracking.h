@@ -23,6 +23,8 @@ class PlainTracking final : public TrackingPolicy {
   }
   std::optional<NewPart> Begin(const std::shared_ptr<const Frame>& frame,
                                const DriveState& drive) const override;
+  std::optional<MapEdit> Extend(const std::shared_ptr<const Frame>& frame,
+                                const DriveState& drive) const override;
   bool BeginsParts() const override { return true; }
   bool GivesUp(const Map&) const override { return false; }
   void Note(const std::shared_ptr<const Frame>&, const FramePose*, std::optional<KeyframeId>,

@@ -50,6 +50,10 @@ class TrackingPolicy {
   /// The keyframe that begins a map; nothing where the frame shows too little.
   virtual std::optional<NewPart> Begin(const std::shared_ptr<const Frame>& frame,
                                        const DriveState& drive) const = 0;
+  /// The keyframe that goes on with the map where the frame is measured to be, though it sees
+  /// nothing of it; nothing where the frame shows too little.
+  virtual std::optional<MapEdit> Extend(const std::shared_ptr<const Frame>& frame,
+                                        const DriveState& drive) const = 0;
   /// Whether a lost rig may begin another part of the map.
   virtual bool BeginsParts() const = 0;
   /// Whether the map of a rig that has just been lost is not worth keeping.

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "slam/camera/measured_motion.h"
 #include "slam/camera/stereo_camera.h"
 #include "slam/dynamic/common/dynamic_regions.h"
 #include "slam/dynamic/dynamic_options.h"
@@ -20,6 +21,8 @@ struct DynamicInput {
   cv::Mat1b left, right;  ///< 8-bit grey; not written to, neither now nor later by the caller
   /// Where the caller expects the rig to have moved since the last frame, if it knows.
   std::optional<Eigen::Isometry3d> T_now_before;
+  /// How it has been measured to move, by other means than its images.
+  std::optional<MeasuredMotion> measured = {};
 };
 
 struct DynamicStages;

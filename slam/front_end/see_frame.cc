@@ -1,6 +1,7 @@
 #include "slam/front_end/see_frame.h"
 
 #include <fmt/format.h>
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +44,20 @@ void CheckImages(const StereoImages& images, const ExternalMask& mask, const Ste
   check(mask.left, "the left mask", true);
   check(mask.right, "the right mask", true);
   check(mask.confidence, "the confidence", true);
+}
+
+void CheckMotion(const MeasuredMotion& motion) {
+  const Matrix6d& covariance = motion.covariance;
+  if (!motion.T_now_before.matrix().allFinite() || !covariance.allFinite()) {
+    throw std::invalid_argument("the measured motion or its covariance is not finite");
+  }
+  const double asymmetry = (covariance - covariance.transpose()).cwiseAbs().maxCoeff();
+  const bool definite = Eigen::LLT<Matrix6d>(covariance).info() == Eigen::Success;
+  if (!definite || asymmetry > 1e-9 * covariance.norm()) {
+    throw std::invalid_argument(
+        "the covariance of the measured motion is not symmetric and positive definite: every "
+        "direction needs some uncertainty");
+  }
 }
 
 cv::Mat1b Union(const cv::Mat1b& a, const cv::Mat1b& b) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "slam/camera/measured_motion.h"
 #include "slam/feature/extract.h"
 #include "slam/frames.h"
 #include "slam/map/frame.h"
@@ -13,6 +14,10 @@ namespace aisle::slam {
 
 /// Throws std::invalid_argument that names the image where one is not of the camera's size.
 void CheckImages(const StereoImages& images, const ExternalMask& mask, const StereoCamera& camera);
+
+/// Throws std::invalid_argument where a measured motion is none: not finite, or its covariance not
+/// symmetric and positive definite.
+void CheckMotion(const MeasuredMotion& motion);
 
 /// What either mask rejects; an empty one rejects nothing.
 cv::Mat1b Union(const cv::Mat1b& a, const cv::Mat1b& b);

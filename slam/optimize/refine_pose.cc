@@ -30,11 +30,12 @@ struct Normal {
 
 class PoseProblem {
  public:
-  PoseProblem(const StereoCamera& camera, const std::vector<PointObservation>& observations)
-      : camera_(camera), observations_(observations) {}
+  PoseProblem(const StereoCamera& camera, const std::vector<PointObservation>& observations,
+              const std::optional<PosePrior>& prior)
+      : camera_(camera), observations_(observations), prior_(prior) {}
 
   double Cost(const Eigen::Isometry3d& pose, const std::vector<bool>& active, bool robust) const {
-    double cost = 0;
+    double cost = CostOfPrior(pose);
     for (std::size_t i = 0; i < observations_.size(); ++i) {
       if (!active[i]) continue;
       const double chi2 = Chi2(camera_, pose, observations_[i]);
@@ -64,13 +65,25 @@ class PoseProblem {
       normal.H.noalias() += weight * jacobian.transpose() * jacobian;
       normal.b.noalias() -= weight * jacobian.transpose() * error;
     }
+    if (prior_) {
+      // Near the prior a small motion changes the difference by itself, to first order.
+      normal.H += prior_->information;
+      normal.b -= prior_->information * Difference(prior_->T_rig_world, pose);
+    }
     normal.cost = Cost(pose, active, robust);
     return normal;
   }
 
  private:
+  double CostOfPrior(const Eigen::Isometry3d& pose) const {
+    if (!prior_) return 0;
+    const Vector6d off = Difference(prior_->T_rig_world, pose);
+    return off.dot(prior_->information * off);
+  }
+
   const StereoCamera& camera_;
   const std::vector<PointObservation>& observations_;
+  const std::optional<PosePrior>& prior_;
 };
 
 Eigen::Isometry3d Minimize(const PoseProblem& problem, Eigen::Isometry3d pose,
@@ -109,7 +122,7 @@ double Chi2(const StereoCamera& camera, const Eigen::Isometry3d& T_rig_world,
 RefinedPose RefinePose(const StereoCamera& camera, const Eigen::Isometry3d& T_rig_world,
                        const std::vector<PointObservation>& observations,
                        const RefinePoseOptions& options) {
-  const PoseProblem problem(camera, observations);
+  const PoseProblem problem(camera, observations, options.prior);
   RefinedPose refined;
   refined.T_rig_world = T_rig_world;
   refined.inlier.assign(observations.size(), true);
@@ -127,7 +140,7 @@ RefinedPose RefinePose(const StereoCamera& camera, const Eigen::Isometry3d& T_ri
     const Eigen::Isometry3d& start = options.start_anew ? T_rig_world : refined.T_rig_world;
     refined.T_rig_world = Minimize(problem, start, refined.inlier, robust, options.iterations);
     tell_outliers();
-    if (refined.inliers < 3) return refined;
+    if (refined.inliers < 3 && !options.prior) return refined;
   }
   const Matrix6d information = problem.Linearize(refined.T_rig_world, refined.inlier, false).H;
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(information, Eigen::EigenvaluesOnly);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 #include "slam/camera/se3.h"
@@ -28,11 +29,18 @@ struct PointObservation {
 double Chi2(const StereoCamera& camera, const Eigen::Isometry3d& T_rig_world,
             const PointObservation& observation);
 
+/// Where the rig stands as far as something else than these observations says.
+struct PosePrior {
+  Eigen::Isometry3d T_rig_world = Eigen::Isometry3d::Identity();
+  Matrix6d information = Matrix6d::Zero();  ///< of a small motion of the rig frame
+};
+
 struct RefinePoseOptions {
   int rounds = 4;       ///< outliers are told apart anew after each; the last is not robustified
   int iterations = 10;  ///< Levenberg-Marquardt steps a round
   bool trust_start = false;  ///< outliers are told apart at the starting pose too, first of all
   bool start_anew = false;   ///< every round from the starting pose, or from where the last ended
+  std::optional<PosePrior> prior = {};  ///< counts as one more observation, never an outlier
 };
 
 /// A pose and how it came about.

@@ -7,24 +7,6 @@
 namespace aisle::slam {
 namespace {
 
-std::vector<PointObservation> Observations(const PlainContext& context,
-                                           const std::vector<Match>& matches) {
-  std::vector<PointObservation> observations;
-  for (const Match& match : matches) {
-    observations.push_back({context.map.At(match.landmark).position,
-                            context.frame.measurements[static_cast<std::size_t>(match.feature)]});
-  }
-  return observations;
-}
-
-std::vector<LandmarkId> Inliers(const std::vector<Match>& matches, const RefinedPose& pose) {
-  std::vector<LandmarkId> inliers;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    if (pose.inlier[i]) inliers.push_back(matches[i].landmark);
-  }
-  return inliers;
-}
-
 /// A first pose and the landmarks that support it.
 struct FirstPose {
   Eigen::Isometry3d T_rig_world;
@@ -64,25 +46,8 @@ std::optional<FirstPose> RecogniseKeyframe(const PlainContext& context, Keyframe
   return FirstPose{pose->T_rig_world, Inliers(matches, *pose)};
 }
 
-/// Looks for everything around the first pose and refines it with what is found.
-std::optional<FramePose> RefineInLocalMap(const PlainContext& context, const FirstPose& first) {
-  FramePose result;
-  result.local = FindLocalMap(context.map, first.landmarks, context.options.local_keyframes);
-  std::vector<Expected> expected;
-  for (const Landmark* landmark : result.local.landmarks) {
-    const auto one =
-        Expect(*landmark, context.camera, first.T_rig_world, context.frame.scale, context.levels);
-    if (!one) continue;
-    expected.push_back(*one);
-    result.expected.push_back(landmark->id);
-  }
-  result.matches = MatchByProjection(context.frame, expected, {}, context.options.local_map);
-  result.pose =
-      RefinePose(context.camera, first.T_rig_world, Observations(context, result.matches), {});
-  if (result.pose.inliers < context.options.least_map_inliers || !result.pose.well_posed) {
-    return std::nullopt;
-  }
-  return result;
+std::optional<FramePose> RefineAround(const PlainContext& context, const FirstPose& first) {
+  return RefineInLocalMap(context, first.T_rig_world, first.landmarks, {});
 }
 
 /// Whether the rig can have come from where it was predicted to where it was found.
@@ -94,6 +59,47 @@ bool IsNear(const Eigen::Isometry3d& T_predicted_world, const Eigen::Isometry3d&
 }
 
 }  // namespace
+
+std::vector<PointObservation> Observations(const PlainContext& context,
+                                           const std::vector<Match>& matches) {
+  std::vector<PointObservation> observations;
+  for (const Match& match : matches) {
+    observations.push_back({context.map.At(match.landmark).position,
+                            context.frame.measurements[static_cast<std::size_t>(match.feature)]});
+  }
+  return observations;
+}
+
+std::vector<LandmarkId> Inliers(const std::vector<Match>& matches, const RefinedPose& pose) {
+  std::vector<LandmarkId> inliers;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (pose.inlier[i]) inliers.push_back(matches[i].landmark);
+  }
+  return inliers;
+}
+
+std::optional<FramePose> RefineInLocalMap(const PlainContext& context,
+                                          const Eigen::Isometry3d& T_rig_world,
+                                          const std::vector<LandmarkId>& landmarks,
+                                          const RefinePoseOptions& refine) {
+  FramePose result;
+  result.local = FindLocalMap(context.map, landmarks, context.options.local_keyframes);
+  std::vector<Expected> expected;
+  for (const Landmark* landmark : result.local.landmarks) {
+    const auto one =
+        Expect(*landmark, context.camera, T_rig_world, context.frame.scale, context.levels);
+    if (!one) continue;
+    expected.push_back(*one);
+    result.expected.push_back(landmark->id);
+  }
+  result.matches = MatchByProjection(context.frame, expected, {}, context.options.local_map);
+  result.pose =
+      RefinePose(context.camera, T_rig_world, Observations(context, result.matches), refine);
+  if (result.pose.inliers < context.options.least_map_inliers || !result.pose.well_posed) {
+    return std::nullopt;
+  }
+  return result;
+}
 
 std::optional<FramePose> TrackFrame(const PlainContext& context, const TrackMemory& memory) {
   const auto& [map, frame, camera, levels, options] = context;
@@ -109,7 +115,7 @@ std::optional<FramePose> TrackFrame(const PlainContext& context, const TrackMemo
   // a person hides most of the map, whatever follows the person may explain a little more.
   std::optional<FramePose> best;
   const auto attempt = [&](const std::optional<FirstPose>& first) {
-    std::optional<FramePose> found = first ? RefineInLocalMap(context, *first) : std::nullopt;
+    std::optional<FramePose> found = first ? RefineAround(context, *first) : std::nullopt;
     const bool convincing =
         found && found->pose.inliers >=
                      options.convincing_share * static_cast<double>(found->expected.size());
@@ -149,7 +155,7 @@ std::optional<FramePose> FindAgain(const PlainContext& context, const TrackMemor
     const std::vector<Match> matches = MatchByProjection(frame, expected, {}, match_options);
     const auto pose = AlignPoints(camera, Observations(relaxed_context, matches), reckoning.align);
     if (!pose) continue;
-    auto found = RefineInLocalMap(relaxed_context, {pose->T_rig_world, Inliers(matches, *pose)});
+    auto found = RefineInLocalMap(relaxed_context, pose->T_rig_world, Inliers(matches, *pose), {});
     if (found && IsNear(T_predicted_world, found->pose.T_rig_world, gap_s, reckoning) &&
         found->pose.inliers >=
             reckoning.least_share * static_cast<double>(found->expected.size())) {
@@ -192,7 +198,7 @@ FramePose PoseOfKeyframe(const Map& map, KeyframeId id) {
 
 std::optional<FramePose> LocateByKeyframe(const PlainContext& context, KeyframeId keyframe) {
   const auto first = RecogniseKeyframe(context, keyframe);
-  return first ? RefineInLocalMap(context, *first) : std::nullopt;
+  return first ? RefineAround(context, *first) : std::nullopt;
 }
 
 }  // namespace aisle::slam

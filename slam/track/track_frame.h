@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "slam/camera/measured_motion.h"
 #include "slam/map/map.h"
 #include "slam/track/local_map.h"
 #include "slam/track/motion_model.h"
@@ -20,6 +21,12 @@ struct TrackMemory {
   std::optional<Motion> motion;
   std::optional<Motion> steady_motion;  ///< averaged over a while, see Smoothed
   std::vector<LandmarkId> landmarks;    ///< that took part in the pose
+  /// How the rig has moved since, as measured; its covariance is that of the pose, too. Nothing
+  /// where the way is not known without a gap.
+  std::optional<MeasuredMotion> measured;
+
+  /// Where the rig was: T_world_rig.
+  Eigen::Isometry3d PoseIn(const Map& map) const { return map.PoseOf(reference) * T_reference_rig; }
 };
 
 /// A frame's place in the map.
@@ -34,6 +41,20 @@ struct FramePose {
 /// the reference keyframe; the first pose that convinces (TrackOptions::convincing_share), else the
 /// first found at all; refined with everything around. Nothing if lost.
 std::optional<FramePose> TrackFrame(const PlainContext& context, const TrackMemory& memory);
+
+/// Refines a first pose with all landmarks around it; nothing with fewer inliers than
+/// TrackOptions::least_map_inliers.
+std::optional<FramePose> RefineInLocalMap(const PlainContext& context,
+                                          const Eigen::Isometry3d& T_rig_world,
+                                          const std::vector<LandmarkId>& landmarks,
+                                          const RefinePoseOptions& refine);
+
+/// What a pose is refined from: landmarks and where the frame shows them.
+std::vector<PointObservation> Observations(const PlainContext& context,
+                                           const std::vector<Match>& matches);
+
+/// The landmarks of the matches that a pose keeps.
+std::vector<LandmarkId> Inliers(const std::vector<Match>& matches, const RefinedPose& pose);
 
 /// Finds a frame that comes after a while without sight: landmarks are looked for around where the
 /// steady motion leads, the wider the longer the while, and a pose that they agree on is believed

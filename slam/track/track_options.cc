@@ -23,6 +23,16 @@ void Describe(OptionFields& fields, DeadReckoningOptions& options) {
       "A pose turned further from the predicted one than this times the time is a mistake.");
 }
 
+void Describe(OptionFields& fields, MeasuredMotionOptions& options) {
+  fields.Integer("least_inliers", &options.least_inliers, {3, 10000}, "",
+                 "With fewer inliers the frame is where the measured motion says.");
+  fields.Number("most_chi2", &options.most_chi2, {1, 1e6}, "",
+                "A pose that differs by more from the measured one, over the covariance of the "
+                "difference, is that of something that moves.");
+  fields.Number("extend_after_s", &options.extend_after_s, {0, 1000}, "s",
+                "After so long without the map a frame continues it where it is measured to be.");
+}
+
 void Describe(OptionFields& fields, TrackOptions& options) {
   fields.Group("motion", &options.motion);
   fields.Number("wide_factor", &options.wide_factor, {1, 100}, "",
@@ -48,6 +58,7 @@ void Describe(OptionFields& fields, TrackOptions& options) {
   fields.Number("longest_gap_s", &options.longest_gap_s, {0, 60}, "s",
                 "Motion is not predicted across longer gaps between frames.");
   fields.Group("dead_reckoning", &options.dead_reckoning);
+  fields.Group("measured", &options.measured);
 }
 
 void Describe(OptionFields& fields, KeyframeOptions& options) {

@@ -19,6 +19,18 @@ struct DeadReckoningOptions {
   double drift_deg_per_s = 4;  ///< so is one turned further from it
 };
 
+/// How a frame is looked for whose way from the last one is measured, by wheels say.
+struct MeasuredMotionOptions {
+  /// Of the final estimate: where the rig is is known, so few suffice to know it better.
+  int least_inliers = 10;
+  /// Of the difference between found and measured pose, over its covariance; 99.9 % with six
+  /// degrees of freedom. Beyond it the pose found is that of something that moves.
+  double most_chi2 = 22.46;
+  /// Without the map for so long, and with enough stereo points to be seen, a frame continues it
+  /// where the measurement says that it is.
+  double extend_after_s = 0.5;
+};
+
 /// How a frame finds its pose in the map.
 struct TrackOptions {
   MatchOptions motion{7, 100, 0.9};     ///< landmarks of the last frame, where motion predicts them
@@ -36,6 +48,7 @@ struct TrackOptions {
   int local_keyframes = 20;    ///< whose landmarks are looked for
   double longest_gap_s = 1.0;  ///< motion is not predicted across longer gaps
   DeadReckoningOptions dead_reckoning;
+  MeasuredMotionOptions measured;  ///< where a motion is given: see StereoSlam::Track
 };
 
 /// When a frame becomes a keyframe.
@@ -52,6 +65,7 @@ struct KeyframeOptions {
 
 /// Names every option with its range, unit and a sentence.
 void Describe(OptionFields& fields, DeadReckoningOptions& options);
+void Describe(OptionFields& fields, MeasuredMotionOptions& options);
 void Describe(OptionFields& fields, TrackOptions& options);
 void Describe(OptionFields& fields, KeyframeOptions& options);
 

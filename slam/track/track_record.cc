@@ -20,6 +20,7 @@ void TrackRecord::Note(const Map& map, const Frame& frame, const FramePose& pose
                                                           options.dead_reckoning.half_life_s))
                                  : std::nullopt;
   memory_.motion = motion;
+  memory_.measured = MeasuredMotion{Eigen::Isometry3d::Identity(), pose.pose.covariance};
   memory_.landmarks.clear();
   for (const LandmarkId id : pose.expected) ++counts_[id].first;
   for (std::size_t i = 0; i < pose.matches.size(); ++i) {
@@ -28,6 +29,37 @@ void TrackRecord::Note(const Map& map, const Frame& frame, const FramePose& pose
     ++counts_[pose.matches[i].landmark].second;
   }
   track_.push_back({frame.stamp_ns, memory_.reference, memory_.T_reference_rig});
+}
+
+void TrackRecord::Roll(const std::optional<MeasuredMotion>& motion) {
+  if (memory_.measured && motion) {
+    memory_.measured = Compose(*memory_.measured, *motion);
+  } else {
+    memory_.measured.reset();
+  }
+}
+
+void TrackRecord::Coast(const Map& map, std::int64_t stamp_ns) {
+  const Eigen::Isometry3d T_world_last = map.PoseOf(memory_.reference) * memory_.T_reference_rig;
+  const Eigen::Isometry3d T_world_rig =
+      Normalized(T_world_last * memory_.measured->T_now_before.inverse());
+  const double seconds = static_cast<double>(stamp_ns - memory_.stamp_ns) * 1e-9;
+  memory_.motion = EstimateMotion(T_world_last, T_world_rig, seconds);
+  memory_.stamp_ns = stamp_ns;
+  memory_.T_reference_rig = map.PoseOf(memory_.reference).inverse() * T_world_rig;
+  memory_.measured->T_now_before.setIdentity();
+  track_.push_back({stamp_ns, memory_.reference, memory_.T_reference_rig});
+}
+
+void TrackRecord::CoastToKeyframe(const Map& map, std::int64_t stamp_ns, KeyframeId id) {
+  Coast(map, stamp_ns);
+  const Keyframe& keyframe = map.At(id);
+  memory_.reference = id;
+  memory_.T_reference_rig.setIdentity();
+  for (const LandmarkId landmark : keyframe.landmarks) {
+    if (landmark.valid()) memory_.landmarks.push_back(landmark);
+  }
+  track_.back() = {stamp_ns, memory_.reference, memory_.T_reference_rig};
 }
 
 std::vector<MapEdit::Count> TrackRecord::TakeCounts() {

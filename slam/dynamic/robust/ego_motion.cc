@@ -209,18 +209,38 @@ double DeviationOf(std::vector<WeightedValue>& values) {
   return values.back().first / 1.1503;
 }
 
+/// Adds a measured motion as one more observation.
+void AddMeasured(const std::optional<MotionPrior>& prior, const Isometry3d& T,
+                 NormalEquations& equations) {
+  if (!prior || !prior->information) return;
+  equations.hessian += *prior->information;
+  equations.gradient += *prior->information * Difference(prior->T_now_before, T);
+}
+
+/// The measured motion itself, where the images show too little for another.
+EgoMotion AsMeasured(const std::optional<MotionPrior>& prior) {
+  EgoMotion motion;
+  if (!prior || !prior->information) return motion;
+  motion.found = true;
+  motion.T_now_before = prior->T_now_before;
+  motion.covariance = prior->information->inverse();
+  return motion;
+}
+
 EgoMotion Refine(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
-                 const Isometry3d& T_now_before, const MeasurementNoise& noise, int rounds) {
+                 const Isometry3d& T_now_before, const MeasurementNoise& noise, int rounds,
+                 const std::optional<MotionPrior>& prior) {
   const Vector3d inverse_deviation = InverseDeviation(noise);
   EgoMotion motion;
   motion.T_now_before = T_now_before;
-  if (std::ssize(matches) < kLeastMatches) return motion;
+  if (std::ssize(matches) < kLeastMatches) return AsMeasured(prior);
   const std::vector<PlacedMatch> placed = Placed(matches, camera);
   NormalEquations equations;
   for (int round = rounds - 1; round >= 0; --round) {
     const double gate = kInlierChi2 * std::pow(3.0, round);  // from wide to narrow
     for (int k = 0; k < kIterations; ++k) {
       equations = Linearize(placed, camera, motion.T_now_before, inverse_deviation, gate);
+      AddMeasured(prior, motion.T_now_before, equations);
       const Matrix6d damped =
           equations.hessian + 1e-9 * equations.hessian.trace() * Matrix6d::Identity();
       const Vector6d step = damped.ldlt().solve(-equations.gradient);
@@ -230,6 +250,7 @@ EgoMotion Refine(const std::vector<StereoMatch>& matches, const StereoCamera& ca
     }
   }
   equations = Linearize(placed, camera, motion.T_now_before, inverse_deviation, kInlierChi2);
+  AddMeasured(prior, motion.T_now_before, equations);
   // Only the points that follow the motion found may say that it was none: movers would vote for
   // whatever leaves them alone.
   const auto followers =
@@ -242,8 +263,23 @@ EgoMotion Refine(const std::vector<StereoMatch>& matches, const StereoCamera& ca
   if (motion.standing) motion.T_now_before = Isometry3d::Identity();
   motion.covariance = equations.hessian.ldlt().solve(Matrix6d::Identity());
   motion.support = equations.support;
-  motion.found = motion.covariance.allFinite() && equations.support >= kLeastMatches / 2;
+  const bool held = equations.support >= kLeastMatches / 2 || (prior && prior->information);
+  motion.found = motion.covariance.allFinite() && held;
   return motion;
+}
+
+/// A measured motion made better by the matches that agree with it: whoever does not has no vote,
+/// however many they are.
+EgoMotion RefineMeasured(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
+                         const std::optional<MotionPrior>& prior, const MeasurementNoise& noise) {
+  const Vector3d inverse_deviation = InverseDeviation(noise);
+  const std::vector<PlacedMatch> placed = Placed(matches, camera);
+  std::vector<StereoMatch> agreeing;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const double chi2 = Chi2(camera, prior->T_now_before, placed[i], inverse_deviation);
+    if (chi2 < kInlierChi2) agreeing.push_back(matches[i]);
+  }
+  return Refine(WeighedBySpace(agreeing, camera), camera, prior->T_now_before, noise, 1, prior);
 }
 
 }  // namespace
@@ -256,12 +292,13 @@ double MatchChi2(const StereoCamera& camera, const Isometry3d& T, const StereoMa
 
 EgoMotion RefineEgoMotion(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
                           const Isometry3d& T_now_before, const MeasurementNoise& noise) {
-  return Refine(matches, camera, T_now_before, noise, 1);
+  return Refine(matches, camera, T_now_before, noise, 1, std::nullopt);
 }
 
 EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
                             const std::optional<MotionPrior>& prior, const MeasurementNoise& noise,
                             const EgoMotionOptions& options) {
+  if (prior && prior->information) return RefineMeasured(matches, camera, prior, noise);
   if (std::ssize(matches) < kLeastMatches) return {};
   // Samples carry the noise of three points: their support is judged with a wider gate.
   const Vector3d inverse_deviation = InverseDeviation(noise);
@@ -281,7 +318,7 @@ EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const Stere
   const auto highest = std::max_element(scores.begin(), scores.end());  // the first of equals
   const Isometry3d& best = candidates[static_cast<std::size_t>(highest - scores.begin())];
   // What is near and large must not pull while the gate is wide.
-  const EgoMotion close = Refine(spread, camera, best, noise, kRounds);
+  const EgoMotion close = Refine(spread, camera, best, noise, kRounds, std::nullopt);
   return RefineEgoMotion(matches, camera, close.T_now_before, noise);
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "slam/camera/measured_motion.h"
 #include "slam/camera/se3.h"
 #include "slam/camera/stereo_camera.h"
 #include "slam/dynamic/robust/robust_options.h"
@@ -23,6 +24,15 @@ using MeasurementNoise = Eigen::Vector3d;
 struct MotionPrior {
   Eigen::Isometry3d T_now_before = Eigen::Isometry3d::Identity();
   double sigma_m = 0.01, sigma_rad = 0.01;
+  /// Of a small motion of the current frame, where the motion has been measured: it is one more
+  /// observation then, and stands where the images show too little.
+  std::optional<Matrix6d> information = {};
+};
+
+/// What is known beforehand of the rig's motion since the last frame.
+struct KnownMotion {
+  std::optional<Eigen::Isometry3d> predicted = {};  ///< T_now_before, as the rig has moved before
+  std::optional<MeasuredMotion> measured = {};
 };
 
 struct EgoMotion {

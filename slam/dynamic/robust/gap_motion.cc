@@ -59,12 +59,17 @@ double LearningRate(std::size_t slot, const ToleranceOptions& options) {
 }
 
 std::optional<MotionPrior> PriorFor(const RobustState& before, std::int64_t stamp_ns,
-                                    const std::optional<Isometry3d>& predicted,
-                                    const EgoMotionOptions& options) {
+                                    const KnownMotion& known, const EgoMotionOptions& options) {
   const double step_s = Seconds(before.stamp_ns, stamp_ns);
   MotionPrior prior;
-  if (predicted) {
-    prior.T_now_before = *predicted;
+  if (known.measured) {
+    const Matrix6d& covariance = known.measured->covariance;
+    return MotionPrior{
+        known.measured->T_now_before, std::sqrt(covariance.topLeftCorner<3, 3>().trace() / 3),
+        std::sqrt(covariance.bottomRightCorner<3, 3>().trace() / 3), covariance.inverse()};
+  }
+  if (known.predicted) {
+    prior.T_now_before = *known.predicted;
   } else if (before.T_now_before && before.step_s > 0) {
     const Vector6d motion = Difference(Isometry3d::Identity(), *before.T_now_before);
     prior.T_now_before = Retract(Isometry3d::Identity(), motion * (step_s / before.step_s));

@@ -12,8 +12,7 @@ namespace aisle::slam::dynamic {
 /// Where the rig is expected now: as the caller predicts, else as it moved before; nothing in the
 /// first frame.
 std::optional<MotionPrior> PriorFor(const RobustState& before, std::int64_t stamp_ns,
-                                    const std::optional<Eigen::Isometry3d>& predicted,
-                                    const EgoMotionOptions& options);
+                                    const KnownMotion& known, const EgoMotionOptions& options);
 
 /// The rig's motion over the gaps.
 struct GapMotions {

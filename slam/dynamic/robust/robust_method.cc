@@ -112,11 +112,11 @@ RobustStages TraceOf(const Found& found, std::map<std::string, double> stage_ms)
 }  // namespace
 
 RobustResult StepRobust(const RobustState& before, const StereoPair& images, std::int64_t stamp_ns,
-                        const std::optional<Isometry3d>& predicted, const StereoCamera& camera,
+                        const KnownMotion& known, const StereoCamera& camera,
                         const RobustOptions& options) {
   const StereoCamera half = HalfCamera(camera);
   const DisparityTolerance tolerance(options.tolerance, DisparityNoise(before.noise));
-  const auto prior = PriorFor(before, stamp_ns, predicted, options.ego);
+  const auto prior = PriorFor(before, stamp_ns, known, options.ego);
   const Isometry3d T_now_before = prior ? prior->T_now_before : Isometry3d::Identity();
   std::map<std::string, double> ms;
 

@@ -45,10 +45,10 @@ struct RobustResult {
 };
 
 /// One frame of the robust method: moving regions of the left image from what the previous frames
-/// left in `before`, which is not changed. Stamps must rise. `predicted` is where the caller
+/// left in `before`, which is not changed. Stamps must rise. `known` is where the caller
 /// expects the rig to have moved since the last frame, if it knows (T_now_before).
 RobustResult StepRobust(const RobustState& before, const StereoPair& images, std::int64_t stamp_ns,
-                        const std::optional<Eigen::Isometry3d>& predicted,
-                        const StereoCamera& camera, const RobustOptions& options);
+                        const KnownMotion& known, const StereoCamera& camera,
+                        const RobustOptions& options);
 
 }  // namespace aisle::slam::dynamic

@@ -56,8 +56,7 @@ TEST(RobustOnRealImages, Kitti06IsLeftAloneAndItsMotionFound) {
   double sum = 0, travelled_m = 0;
   const int frames = 30;
   for (int k = 0; k < frames; ++k) {
-    RobustResult result =
-        StepRobust(state, KittiPair(k), k * 100'000'000LL, std::nullopt, KittiCamera(), {});
+    RobustResult result = StepRobust(state, KittiPair(k), k * 100'000'000LL, {}, KittiCamera(), {});
     sum += static_cast<double>(cv::countNonZero(result.dynamic.mask)) /
            static_cast<double>(result.dynamic.mask.total());
     if (k > 0 && result.state.T_now_before) {
@@ -75,8 +74,7 @@ TEST(RobustOnRealImages, RevisitsFarApartDoNotCrash) {
   if (EurocPair(0).left.empty()) GTEST_SKIP() << "no EuRoC pairs under " AISLE_TEST_DATA;
   RobustState state;
   for (int k = 0; k < 8; ++k) {
-    RobustResult result =
-        StepRobust(state, EurocPair(k % 4), k * 50'000'000LL, std::nullopt, {}, {});
+    RobustResult result = StepRobust(state, EurocPair(k % 4), k * 50'000'000LL, {}, {}, {});
     const double share = static_cast<double>(cv::countNonZero(result.dynamic.mask)) /
                          static_cast<double>(result.dynamic.mask.total());
     std::cout << "EuRoC jump " << k << ": " << 100 * share << " % masked\n";

@@ -202,5 +202,41 @@ TEST(AlignPoints, GivesTheSameBitsAgain) {
   EXPECT_EQ(a->T_rig_world.matrix(), b->T_rig_world.matrix());
 }
 
+/// Without a single observation the prior is all that is known.
+TEST(RefinePose, StaysAtThePriorWhereNothingIsSeen) {
+  RefinePoseOptions options;
+  options.prior =
+      PosePrior{Disturbed(Eigen::Isometry3d::Identity(), 0.3, 0.2), 1e4 * Matrix6d::Identity()};
+  const RefinedPose pose = RefinePose({}, Eigen::Isometry3d::Identity(), {}, options);
+  EXPECT_LT(Difference(options.prior->T_rig_world, pose.T_rig_world).norm(), 1e-6);
+  EXPECT_TRUE(pose.well_posed);
+  EXPECT_LT((pose.covariance - 1e-4 * Matrix6d::Identity()).norm(), 1e-8);
+}
+
+/// Two independent sources, each as exact as it says: so is what comes of both (NEES).
+TEST(RefinePose, CovarianceWithAPriorExplainsTheErrors) {
+  std::mt19937 random(9);
+  std::normal_distribution<double> normal;
+  double nees = 0;
+  constexpr int kDraws = 300;
+  for (unsigned n = 0; n < kDraws; ++n) {
+    const SyntheticObservations truth = MakeObservations({.points = 12, .seed = n + 1});
+    Vector6d error;
+    for (int k = 0; k < 6; ++k) error[k] = (k < 3 ? 0.02 : 0.004) * normal(random);
+    Vector6d variances;
+    variances << Eigen::Vector3d::Constant(0.02 * 0.02), Eigen::Vector3d::Constant(0.004 * 0.004);
+    RefinePoseOptions options;
+    options.prior =
+        PosePrior{Retract(truth.T_rig_world, error), Matrix6d(variances.asDiagonal()).inverse()};
+    const RefinedPose pose =
+        RefinePose({}, options.prior->T_rig_world, truth.observations, options);
+    const Vector6d off = Difference(truth.T_rig_world, pose.T_rig_world);
+    nees += off.dot(pose.covariance.ldlt().solve(off)) / kDraws;
+  }
+  // Six degrees of freedom; gates at 95 % cut tails off and let a few good ones go.
+  EXPECT_GT(nees, 5);
+  EXPECT_LT(nees, 8);
+}
+
 }  // namespace
 }  // namespace aisle::slam

@@ -150,5 +150,32 @@ TEST(MeasureNoise, IsNotThatOfACrowdInOnePlace) {
   EXPECT_LT((*beside)[1], 1.5 * (*quiet)[1]);
 }
 
+/// Somebody walks ahead as fast as the rig drives and fills nine tenths of what is matched: a
+/// standing rig explains him. What the wheels say does not let it.
+TEST(EstimateEgoMotion, AMeasuredMotionIsNotOutvotedByWhoGoesAlong) {
+  const Isometry3d truth = Motion({0, 0, -0.05}, 0);
+  const auto matches = MakeMatches(300, 270, truth, {0, 0, 0.05});
+  const EgoMotion captured = EstimateEgoMotion(matches, kCamera, std::nullopt, kNoise, {});
+  EXPECT_LT(captured.T_now_before.translation().norm(), 0.005);
+  MotionPrior prior{Motion({0, 0, -0.0505}, 0), 0.002, 0.002};
+  prior.information = (Vector6d() << Vector3d::Constant(1 / 4e-6), Vector3d::Constant(1 / 4e-6))
+                          .finished()
+                          .asDiagonal();
+  const EgoMotion found = EstimateEgoMotion(matches, kCamera, prior, kNoise, {});
+  ASSERT_TRUE(found.found);
+  EXPECT_FALSE(found.standing);
+  EXPECT_LT((found.T_now_before.translation() - truth.translation()).norm(), 0.002);
+}
+
+TEST(EstimateEgoMotion, WithoutMatchesTheMeasuredMotionStands) {
+  MotionPrior prior{Motion({0.01, 0, -0.05}, 0.02), 0.002, 0.002};
+  EXPECT_FALSE(EstimateEgoMotion({}, kCamera, prior, kNoise, {}).found);
+  prior.information = 1e6 * Matrix6d::Identity();
+  const EgoMotion found = EstimateEgoMotion({}, kCamera, prior, kNoise, {});
+  EXPECT_TRUE(found.found);
+  EXPECT_TRUE(found.T_now_before.isApprox(prior.T_now_before, 0));
+  EXPECT_TRUE(found.covariance.isApprox(1e-6 * Matrix6d::Identity(), 1e-9));
+}
+
 }  // namespace
 }  // namespace aisle::slam::dynamic

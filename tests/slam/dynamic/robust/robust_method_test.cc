@@ -38,8 +38,7 @@ Totals Play(const Story& story) {
   Totals totals;
   for (int k = 0; k < story.frames; ++k) {
     const auto view = test::Render(panels, {}, T_world_rig, k * kStep, 2.0);
-    RobustResult result =
-        StepRobust(state, {view.left, view.right}, k * 50'000'000LL, std::nullopt, {}, {});
+    RobustResult result = StepRobust(state, {view.left, view.right}, k * 50'000'000LL, {}, {}, {});
     state = std::move(result.state);
     T_world_rig = T_world_rig * Eigen::Translation3d(0, 0, story.speed_mps * kStep) *
                   Eigen::AngleAxisd(story.yaw_radps * kStep, Vector3d::UnitY());
@@ -115,8 +114,7 @@ TEST(RobustMethod, TakesTheLongerGapsInTurn) {
   std::vector<std::vector<int>> gaps;
   for (int k = 0; k < 18; ++k) {
     const auto view = test::Render(test::StaticHall(), {}, Isometry3d::Identity(), k * kStep, 2.0);
-    RobustResult result =
-        StepRobust(state, {view.left, view.right}, k * 50'000'000LL, std::nullopt, {}, {});
+    RobustResult result = StepRobust(state, {view.left, view.right}, k * 50'000'000LL, {}, {}, {});
     state = std::move(result.state);
     gaps.emplace_back();
     for (const GapTrace& gap : result.stages.gaps) gaps.back().push_back(gap.way.gap);

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "harness/contract/sequence.h"
+#include "harness/contract/system_option.h"
+#include "harness/vehicle/odometry.h"
+
+namespace aisle {
+
+/// The option of a system that is handed what the wheels measure, beside its images.
+inline constexpr const char* kOdometryOption = "odometry";
+SystemOption DescribeOdometry();
+
+/// What the wheels of a rig's vehicle make of its planned way, for every frame but the first: the
+/// motion of the rig since the frame before. The rig is mounted as the first frame shows it, on a
+/// vehicle that turns about some point beneath it; what the vehicle does besides rolling (jolts) is
+/// not measured, but allowed for. Errors as of an Odometer of a differential drive; the covariance
+/// counts those of its calibration as if they were drawn anew every 5 m.
+std::vector<MotionMeasurement> MeasureByWheels(const std::vector<FrameRequest>& schedule,
+                                               const OdometryOptions& options, std::uint64_t seed);
+
+/// The same frames with what the wheels measured. Throws InputError for a sequence whose way is not
+/// known.
+std::unique_ptr<Sequence> WithOdometry(std::unique_ptr<Sequence> sequence, std::uint64_t seed);
+
+}  // namespace aisle

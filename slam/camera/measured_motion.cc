@@ -1,0 +1,20 @@
+#include "slam/camera/measured_motion.h"
+
+namespace aisle::slam {
+
+Matrix6d Adjoint(const Eigen::Isometry3d& T) {
+  const Eigen::Matrix3d R = T.linear();
+  Matrix6d adjoint = Matrix6d::Zero();
+  adjoint.topLeftCorner<3, 3>() = R;
+  adjoint.topRightCorner<3, 3>() = Skew(T.translation()) * R;
+  adjoint.bottomRightCorner<3, 3>() = R;
+  return adjoint;
+}
+
+MeasuredMotion Compose(const MeasuredMotion& first, const MeasuredMotion& then) {
+  const Matrix6d carry = Adjoint(then.T_now_before);
+  return {Normalized(then.T_now_before * first.T_now_before),
+          carry * first.covariance * carry.transpose() + then.covariance};
+}
+
+}  // namespace aisle::slam

@@ -1,0 +1,81 @@
+#include "slam/track/track_measured.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace aisle::slam {
+namespace {
+
+/// Where the rig is measured to be, and how sure that is.
+struct Reckoned {
+  Eigen::Isometry3d T_rig_world;
+  Matrix6d covariance;
+};
+
+Reckoned ReckonedFrom(const Map& map, const TrackMemory& memory) {
+  const Eigen::Isometry3d T_world_last = map.PoseOf(memory.reference) * memory.T_reference_rig;
+  return {memory.measured->T_now_before * T_world_last.inverse(), memory.measured->covariance};
+}
+
+/// Pixels by which a landmark at middle distance may be off by the error of the measured pose.
+double SearchGrowth(const PlainContext& context, const Reckoned& reckoned) {
+  constexpr double kNear_m = 2, kDeviations = 3;
+  const double metres = std::sqrt(reckoned.covariance.topLeftCorner<3, 3>().diagonal().maxCoeff());
+  const double radians =
+      std::sqrt(reckoned.covariance.bottomRightCorner<3, 3>().diagonal().maxCoeff());
+  return kDeviations * context.camera.fx * (metres / kNear_m + radians);
+}
+
+bool Agrees(const FramePose& found, const Reckoned& reckoned, double most_chi2) {
+  const Vector6d off = Difference(reckoned.T_rig_world, found.pose.T_rig_world);
+  const Matrix6d covariance = reckoned.covariance + found.pose.covariance;
+  return off.dot(covariance.ldlt().solve(off)) <= most_chi2;
+}
+
+std::vector<Expected> ExpectAround(const PlainContext& context, const TrackMemory& memory,
+                                   const Eigen::Isometry3d& T_rig_world) {
+  const auto& [map, frame, camera, levels, options] = context;
+  std::vector<Expected> expected;
+  for (const Landmark* landmark :
+       FindLocalMap(map, memory.landmarks, options.local_keyframes).landmarks) {
+    const auto one = Expect(*landmark, camera, T_rig_world, frame.scale, levels);
+    if (one) expected.push_back(*one);
+  }
+  return expected;
+}
+
+}  // namespace
+
+std::optional<FramePose> TrackMeasured(const PlainContext& context, const TrackMemory& memory,
+                                       const Places& places, std::int64_t turn) {
+  const auto& [map, frame, camera, levels, options] = context;
+  const Reckoned reckoned = ReckonedFrom(map, memory);
+  TrackOptions relaxed = options;
+  relaxed.least_map_inliers = options.measured.least_inliers;
+  const PlainContext relaxed_context{map, frame, camera, levels, relaxed};
+  RefinePoseOptions refine;
+  refine.prior = {reckoned.T_rig_world, reckoned.covariance.inverse()};
+
+  const std::vector<Expected> expected = ExpectAround(context, memory, reckoned.T_rig_world);
+  MatchOptions match = options.motion;
+  match.radius_px += SearchGrowth(context, reckoned);
+  const std::vector<Match> matches = MatchByProjection(frame, expected, {}, match);
+  // First only those vote that agree with the measured pose as it is; it may be off by more than
+  // they allow.
+  for (const bool trusted : {true, false}) {
+    refine.trust_start = trusted;
+    const RefinedPose first =
+        RefinePose(camera, reckoned.T_rig_world, Observations(context, matches), refine);
+    if (first.inliers < options.measured.least_inliers) continue;
+    refine.trust_start = true;
+    auto found =
+        RefineInLocalMap(relaxed_context, first.T_rig_world, Inliers(matches, first), refine);
+    if (found && Agrees(*found, reckoned, options.measured.most_chi2)) return found;
+  }
+  auto found = Relocalise(context, memory, places, turn);
+  if (found && Agrees(*found, reckoned, options.measured.most_chi2)) return found;
+  return std::nullopt;
+}
+
+}  // namespace aisle::slam

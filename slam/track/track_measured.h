@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+
+#include "slam/track/relocalise.h"
+#include "slam/track/track_frame.h"
+
+namespace aisle::slam {
+
+/// Finds a frame whose way from the last one is measured: landmarks are looked for around where
+/// that leads, those vote that agree with it, and it counts itself. A pose that contradicts it is
+/// that of something that moves, and is not believed, however many points it explains. Where
+/// nothing is found around there, keyframes are asked by their looks, under the same test.
+/// TrackMemory::measured must be there. Nothing where the images do not tell.
+std::optional<FramePose> TrackMeasured(const PlainContext& context, const TrackMemory& memory,
+                                       const Places& places, std::int64_t turn);
+
+}  // namespace aisle::slam

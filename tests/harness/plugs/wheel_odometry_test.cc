@@ -1,0 +1,100 @@
+#include "harness/plugs/wheel_odometry.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "harness/contract/floor.h"
+#include "slam/stereo_slam.h"
+
+namespace aisle {
+namespace {
+
+/// A camera 0.8 m above and 0.3 m ahead of the axle, looking down a little, that drives a winding
+/// way of `metres` at 20 frames a second.
+std::vector<FrameRequest> WindingWay(double metres) {
+  Eigen::Isometry3d T_body_rig = Eigen::Isometry3d::Identity();
+  T_body_rig.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  T_body_rig.linear() =
+      T_body_rig.linear() * Eigen::AngleAxisd(-0.1, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  T_body_rig.translation() << 0.3, 0, 0.8;
+  std::vector<FrameRequest> way;
+  FloorPose body{{1, 2}, 0.4};
+  constexpr double kStep_m = 0.045;
+  for (int k = 0; k * kStep_m < metres; ++k) {
+    way.push_back({k, k * 50'000'000LL, InSpace(body) * T_body_rig});
+    body = AlongArc(body, kStep_m, 0.02 * std::sin(0.05 * k));
+  }
+  return way;
+}
+
+slam::MeasuredMotion Whole(const std::vector<MotionMeasurement>& steps) {
+  slam::MeasuredMotion whole = slam::NoMotion();
+  for (const MotionMeasurement& step : steps) {
+    whole = slam::Compose(whole, {step.T_now_before, step.covariance});
+  }
+  return whole;
+}
+
+OdometryOptions Perfect() {
+  return {.radius_error = 0,
+          .inequality = 0,
+          .track_error = 0,
+          .steering_error_rad = 0,
+          .noise_m = 0,
+          .slip_per_mps2 = 0,
+          .counts_per_rev = 1 << 30,
+          .wheel_radius_m = 0.1};
+}
+
+TEST(MeasureByWheels, PerfectWheelsMeasureTheWayItself) {
+  const auto way = WindingWay(20);
+  const auto steps = MeasureByWheels(way, Perfect(), 1);
+  ASSERT_EQ(steps.size(), way.size() - 1);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Eigen::Isometry3d truth = way[i + 1].T_world_rig.inverse() * way[i].T_world_rig;
+    EXPECT_LT(slam::Difference(truth, steps[i].T_now_before).norm(), 1e-7) << i;
+  }
+}
+
+TEST(MeasureByWheels, SameSeedSameBitsAnotherSeedOthers) {
+  const auto way = WindingWay(2);
+  const auto a = MeasureByWheels(way, {}, 7), b = MeasureByWheels(way, {}, 7),
+             c = MeasureByWheels(way, {}, 8);
+  EXPECT_EQ(a.back().T_now_before.matrix(), b.back().T_now_before.matrix());
+  EXPECT_NE(a.back().T_now_before.matrix(), c.back().T_now_before.matrix());
+}
+
+/// Over some metres the errors of calibration dominate and the covariance still bounds them: of
+/// 100 runs the way ahead is off by three deviations at most in nearly all.
+TEST(MeasureByWheels, CovarianceBoundsTheErrorOfAWay) {
+  for (const double metres : {0.5, 5.0}) {
+    const auto way = WindingWay(metres);
+    const Eigen::Isometry3d truth = way.back().T_world_rig.inverse() * way.front().T_world_rig;
+    int within = 0;
+    double nees = 0;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+      const slam::MeasuredMotion whole = Whole(MeasureByWheels(way, {}, seed));
+      const slam::Vector6d off = slam::Difference(whole.T_now_before, truth);
+      const double chi2 = off.dot(whole.covariance.ldlt().solve(off));
+      within += chi2 < 22.46;
+      nees += chi2 / 100;
+    }
+    EXPECT_GE(within, 97) << metres;
+    EXPECT_GT(nees, 0.1) << metres;  // not so wide that it says nothing
+  }
+}
+
+TEST(MeasureByWheels, CovariancesAreSymmetricAndDefinite) {
+  auto way = WindingWay(1);
+  way.push_back(way.back());  // it stops
+  way.back().stamp_ns += 50'000'000;
+  for (const MotionMeasurement& step : MeasureByWheels(way, {}, 3)) {
+    EXPECT_EQ(step.covariance, step.covariance.transpose());
+    EXPECT_EQ((Eigen::LLT<slam::Matrix6d>(step.covariance).info()), Eigen::Success);
+  }
+}
+
+}  // namespace
+}  // namespace aisle

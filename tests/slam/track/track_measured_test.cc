@@ -1,0 +1,101 @@
+#include "slam/track/track_measured.h"
+
+#include <gtest/gtest.h>
+
+#include "slam/map/create_landmarks.h"
+#include "slam/place/place_index.h"
+#include "tests/slam/track/point_world.h"
+
+namespace aisle::slam {
+namespace {
+
+constexpr std::int64_t kStep_ns = 50'000'000;
+
+MeasuredMotion Measured(const Eigen::Isometry3d& T_world_now, double sigma_m, double sigma_rad) {
+  Vector6d variances;
+  variances << Eigen::Vector3d::Constant(sigma_m * sigma_m),
+      Eigen::Vector3d::Constant(sigma_rad * sigma_rad);
+  return {T_world_now.inverse(), variances.asDiagonal()};
+}
+
+/// A map of one keyframe at the world's origin, where the last frame was found.
+class TrackMeasuredTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    Keyframe keyframe;
+    keyframe.id = map.NextKeyframeId();
+    keyframe.frame = world.See(At(0, 0), 0);
+    keyframe.landmarks.resize(static_cast<std::size_t>(keyframe.frame->size()));
+    MapEdit edit;
+    edit.new_landmarks = CreateLandmarks(keyframe, {}, {});
+    edit.new_keyframes = {keyframe};
+    map.Apply(edit);
+    memory.reference = keyframe.id;
+    memory.landmarks = map.At(keyframe.id).landmarks;
+  }
+
+  std::optional<FramePose> Find(const Eigen::Isometry3d& T_world_rig, std::int64_t stamp_ns) {
+    return TrackMeasured({map, *world.See(T_world_rig, stamp_ns), {}, 8, {}}, memory,
+                         {nullptr, index}, 0);
+  }
+
+  PointWorld world;
+  PlaceIndex index;
+  Map map;
+  TrackMemory memory;
+};
+
+TEST_F(TrackMeasuredTest, FindsTheFrameBetterThanItWasMeasured) {
+  const Eigen::Isometry3d truth = At(0.03, 0.05, 0.5);
+  const Eigen::Isometry3d said = At(0.034, 0.044, 0.35);
+  memory.measured = Measured(said, 0.005, 0.003);
+  const auto found = Find(truth, kStep_ns);
+  ASSERT_TRUE(found);
+  const double off = Difference(truth.inverse(), said.inverse()).norm();
+  EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), off / 10);
+}
+
+/// Five of six points go along with the rig, as somebody does who walks ahead and fills the view.
+TEST_F(TrackMeasuredTest, IsNotCapturedByWhoGoesAlong) {
+  const Eigen::Vector3d along(0, 0, 0.3);  // the crowd reaches 14 m away, where little shows
+  world.Move(0, 500, along);
+  const Eigen::Isometry3d truth = At(0, 0.3);
+  const auto captured = TrackFrame({map, *world.See(truth, kStep_ns), {}, 8, {}}, memory);
+  ASSERT_TRUE(captured);
+  EXPECT_GT(Difference(truth.inverse(), captured->pose.T_rig_world).norm(), 0.25);
+
+  memory.measured = Measured(At(0, 0.302), 0.004, 0.002);
+  const auto found = Find(truth, kStep_ns);
+  ASSERT_TRUE(found);
+  EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), 0.015);
+}
+
+TEST_F(TrackMeasuredTest, BelievesNoPoseThatContradictsTheMeasuredOne) {
+  world.Move(0, 600, {0, 0, 0.06});
+  memory.measured = Measured(At(0, 0.06), 0.002, 0.002);
+  EXPECT_FALSE(Find(At(0, 0.06), kStep_ns));
+}
+
+TEST_F(TrackMeasuredTest, TakesUpTheMapAfterAWhileOffByWhatTheMeasurementMayErr) {
+  const Eigen::Isometry3d truth = At(0.4, 1.5, 4);
+  memory.measured = Measured(At(0.36, 1.44, 3.2), 0.04, 0.01);
+  const auto found = Find(truth, 4'000'000'000);
+  ASSERT_TRUE(found);
+  EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), 2e-3);
+}
+
+TEST_F(TrackMeasuredTest, FewPointsSufficeWhereMostAreHidden) {
+  world.Move(12, 600, {0, 500, 0});
+  const Eigen::Isometry3d truth = At(0, 0.05);
+  EXPECT_FALSE(TrackFrame({map, *world.See(truth, kStep_ns), {}, 8, {}}, memory));
+  memory.measured = Measured(At(0, 0.051), 0.002, 0.002);
+  const int seen = world.See(truth, kStep_ns)->size();
+  const auto found = Find(truth, kStep_ns);
+  EXPECT_EQ(found.has_value(), seen >= TrackOptions().measured.least_inliers) << seen;
+  if (found) {
+    EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace aisle::slam
