@@ -140,6 +140,14 @@ class Checker {
       if (prop.to) CheckInside(prop.mark, fmt::format("props[{}].to", i), *prop.to);
     }
     for (std::size_t i = 0; i < scene_.mezzanines.size(); ++i) CheckMezzanine(i);
+    for (std::size_t i = 0; i < scene_.views.size(); ++i) {
+      const ViewSpec& view = scene_.views[i];
+      const std::string key = fmt::format("views[{}]", i);
+      CheckInside(view.mark, key + ".at", view.at);
+      if (view.height_m >= scene_.hall.height_m) {
+        issues_->Add(view.mark, key + ".height_m", "the camera is above the roof");
+      }
+    }
   }
 
   void CheckMezzanine(std::size_t index) {

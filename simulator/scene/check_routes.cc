@@ -187,14 +187,21 @@ class RouteChecker {
   std::vector<Obstacle> obstacles_;
 };
 
+/// Which of a scene's halls it is that a message is about, where there are several.
+std::string InHallText(const Scene& scene, const Scene& seeded) {
+  return scene.varied_halls.empty() ? "" : "in " + seeded.hall.use + " ";
+}
+
 }  // namespace
 
 void CheckRoutesOfSeed(const Scene& scene, std::uint64_t seed, Issues* issues) {
-  RouteChecker(Seeded(scene, seed), fmt::format("with seed {} ", seed), issues).Run();
+  const Scene seeded = Seeded(scene, seed);
+  RouteChecker(seeded, InHallText(scene, seeded) + fmt::format("with seed {} ", seed), issues)
+      .Run();
 }
 
 void CheckRoutes(const Scene& scene, Issues* issues) {
-  RouteChecker(scene, "", issues).Run();
+  RouteChecker(scene, InHallText(scene, scene), issues).Run();
   for (std::uint64_t seed = 1; seed <= kUsualSeeds && issues->empty(); ++seed) {
     CheckRoutesOfSeed(scene, seed, issues);
   }

@@ -30,8 +30,6 @@ constexpr RouteLimits kVehicleLimits = {.acceleration_mps2 = 0.7,
                                         .curvature_rate_per_m_s = 0.5,
                                         .lateral_jerk_mps3 = 4};
 
-constexpr std::initializer_list<const char*> kGoods = {"mixed",   "cartons",   "drums",  "totes",
-                                                       "wrapped", "identical", "nothing"};
 constexpr std::initializer_list<const char*> kDynamics = {"none", "low", "mid", "high"};
 
 void DescribeCamera(Fields& f, CameraSpec& camera) {
@@ -210,102 +208,6 @@ void DescribeRig(Fields& f, RigSpec& rig) {
            DescribeBump);
 }
 
-void DescribeHall(Fields& f, HallSpec& hall) {
-  hall.mark = f.mark();
-  f.Point({"from", "corner with the smallest x and y", "[-5, -8]"}, &hall.from);
-  f.Point({"to", "corner with the largest x and y", "[20, 8]"}, &hall.to);
-  f.Number({"height_m", "floor to roof", "6.5"}, &hall.height_m, {2.2, 100});
-  f.Choice({"floor", "its surface", "concrete"}, &hall.floor,
-           {"concrete", "painted", "glossy", "asphalt"});
-  f.Choice({"walls", "their surface; sky: it is a place in the open", "panels"}, &hall.walls,
-           {"panels", "brick", "plain", "sky"});
-  f.Number({"wear", "how stained and scratched the floor is", "0.5"}, &hall.wear, {0, 1});
-}
-
-void DescribeRack(Fields& f, RackSpec& rack) {
-  rack.mark = f.mark();
-  f.Point({"from", "one end of the row's centre line", "[1, 2.5]", true}, &rack.from);
-  f.Degrees({"heading_deg", "direction of the row from there", "0"}, &rack.heading_rad);
-  f.Integer({"bays", "side by side", "5"}, &rack.bays, {1, 60});
-  f.Number({"bay_m", "width of a bay", "2.7"}, &rack.bay_m, {0.6, 6});
-  f.Number({"depth_m", "front to back", "1.1"}, &rack.depth_m, {0.3, 3});
-  f.Integer({"levels", "beam levels above the floor", "3"}, &rack.levels, {0, 12});
-  f.Number({"level_m", "from one level to the next", "1.6"}, &rack.level_m, {0.3, 4});
-  f.Number({"fill", "share of the places that are taken", "0.85"}, &rack.fill, {0, 1});
-  f.Choice({"goods", "what it stores", "mixed"}, &rack.goods, kGoods);
-}
-
-void DescribeStack(Fields& f, StackSpec& stack) {
-  stack.mark = f.mark();
-  f.Point({"at", "middle of the pallet", "[3, 1]", true}, &stack.at);
-  f.Degrees({"heading_deg", "of the pallet's long side", "90"}, &stack.heading_rad);
-  f.Number({"height_m", "of the goods above the pallet", "1.2"}, &stack.height_m, {0.1, 3});
-  f.Choice({"goods", "what is on it", "cartons"}, &stack.goods, kGoods);
-}
-
-void DescribeColumn(Fields& f, ColumnSpec& column) {
-  column.mark = f.mark();
-  f.Point({"at", "its middle", "[4, 1.6]", true}, &column.at);
-  f.Number({"size_m", "side of its square section", "0.4"}, &column.size_m, {0.1, 2});
-  f.Flag({"striped", "warning stripes up to 1.4 m", "true"}, &column.striped);
-}
-
-void DescribeMarking(Fields& f, MarkingSpec& marking) {
-  marking.mark = f.mark();
-  f.Choice({"kind", "a line, a hatched box, a crossing, or a pavement", "line"}, &marking.kind,
-           {"line", "box", "crossing", "pavement"});
-  f.Point({"from", "start of a line, corner of a box", "[0, 1.2]", true}, &marking.from);
-  f.Point({"to", "end of a line, opposite corner of a box", "[14, 1.2]", true}, &marking.to);
-  f.Number({"width_m", "of the line", "0.1"}, &marking.width_m, {0.02, 4});
-}
-
-void DescribeProp(Fields& f, PropSpec& prop) {
-  prop.mark = f.mark();
-  f.Name({"model", "file in assets/kit or assets/street without .glb", "drum", true}, &prop.model);
-  prop.model_mark = f.MarkOf("model");
-  f.Point({"at", "where it stands", "[3, 1]", true}, &prop.at);
-  f.OptionalPoint({"to", "end of a row of them that begins at `at`", "[30, 1]"}, &prop.to);
-  f.Number({"every_m", "from one to the next in a row", "10"}, &prop.every_m, {0.2, 200});
-  f.Degrees({"heading_deg", "where its front looks", "90"}, &prop.heading_rad);
-  f.Number({"above_m", "how high above the floor it stands", "0"}, &prop.above_m, {0, 20});
-}
-
-void DescribeMezzanine(Fields& f, MezzanineSpec& mezzanine) {
-  mezzanine.mark = f.mark();
-  f.Point({"from", "corner with the smallest x and y", "[2, 3]", true}, &mezzanine.from);
-  f.Point({"to", "corner with the largest x and y", "[9, 6]", true}, &mezzanine.to);
-  f.Number({"height_m", "floor to deck", "2.8"}, &mezzanine.height_m, {2, 10});
-}
-
-void DescribeDoor(Fields& f, DoorSpec& door) {
-  door.mark = f.mark();
-  f.Choice({"wall", "which one: north is +y, east is +x", "east"}, &door.wall,
-           {"north", "south", "east", "west"});
-  f.Number({"at_m", "x or y of its middle along the wall", "0"}, &door.at_m, {-1000, 1000});
-  f.Number({"width_m", "of the opening", "3"}, &door.width_m, {0.6, 20});
-  f.Number({"height_m", "of the opening", "3.5"}, &door.height_m, {1.8, 20});
-}
-
-void DescribeBlackout(Fields& f, Blackout& off) {
-  f.Number({"from_s", "lamps go off", "4", true}, &off.from_s, {0, 3600});
-  f.Number({"to_s", "lamps come on again", "6", true}, &off.to_s, {0, 3600});
-}
-
-void DescribeLights(Fields& f, LightsSpec& lights) {
-  lights.mark = f.mark();
-  f.OptionalPoint({"from", "corner of the lit rectangle; absent: the hall", "[0, -2]"},
-                  &lights.from);
-  f.OptionalPoint({"to", "opposite corner", "[14, 2]"}, &lights.to);
-  f.Integer({"rows", "side by side in y", "2"}, &lights.rows, {1, 50});
-  f.Integer({"per_row", "one after another in x", "5"}, &lights.per_row, {1, 100});
-  f.Number({"height_m", "above the floor", "6"}, &lights.height_m, {1.5, 100});
-  f.Numbers({"size_m", "of the shining surface, along x and y", "[1.5, 0.3]"}, lights.size_m.data(),
-            2, {0.05, 200});
-  f.Number({"brightness", "radiance, 1 is a well-lit warehouse", "1"}, &lights.brightness,
-           {0.001, 100});
-  f.ListOf({"off", "times without light", "[{from_s: 4, to_s: 6}]"}, &lights.off, DescribeBlackout);
-}
-
 void DescribeVary(Fields& f, VarySpec& vary) {
   f.Number({"time_s", "sets out earlier or later by up to this", "0.5"}, &vary.time_s, {0, 60});
   f.Number({"speed", "faster or slower by up to this share", "0.1"}, &vary.speed, {0, 0.5});
@@ -361,7 +263,7 @@ void DescribeVehicle(Fields& f, VehicleSpec& vehicle) {
            DescribeMast);
   f.Name({"pushed_by", "person who holds its handle and whose route it has", "fitter"},
          &vehicle.pushed_by);
-  f.Choice({"load", "goods on its forks", "cartons"}, &vehicle.load, kGoods);
+  f.Choice({"load", "goods on its forks", "cartons"}, &vehicle.load, kGoodsNames);
   f.Group({"vary", "what the seed may change", "{time_s: 0.5, speed: 0.1}"},
           [&](Fields& vary) { DescribeVary(vary, vehicle.vary); });
 }
@@ -388,6 +290,8 @@ void Fields::OptionalPoint(const Key& key, std::optional<Eigen::Vector2d>* value
 }
 
 void Describe(Fields& f, Scene& scene) {
+  // A hall's file says where it is looked at from instead of who drives there.
+  const bool drives = f.Has("rig") || !f.Has(kViewsKey);
   f.Sentence({kExtendKey,
               "scene file whose keys hold where this one has none; maps key by key, lists whole",
               "../paper/scene2.yaml"},
@@ -404,25 +308,20 @@ void Describe(Fields& f, Scene& scene) {
           [&](Fields& part) { DescribeCamera(part, scene.camera); });
   f.Group({"sensor", "what it does to the light", "{exposure_ms: 8}"},
           [&](Fields& part) { DescribeSensor(part, scene.sensor); });
-  f.Group({"rig", "the vehicle that carries the cameras", "{start: [0, 0], steps: []}", true},
+  f.Group({"rig", "the vehicle that carries the cameras", "{start: [0, 0], steps: []}", drives},
           [&](Fields& part) { DescribeRig(part, scene.rig); });
   f.Group({"drive", "the rig is a vehicle that steers by what the system says", "{}"},
           [&](Fields& part) { DescribeDrive(part, scene.drive); });
-  f.Group({"hall", "the building", "{from: [-5, -8], to: [20, 8]}", true},
-          [&](Fields& part) { DescribeHall(part, scene.hall); });
-  f.ListOf({"racks", "rows of racking", "[{from: [0, 2.5], bays: 5}]"}, &scene.racks, DescribeRack);
-  f.ListOf({"stacks", "pallets on the floor", "[{at: [3, 1]}]"}, &scene.stacks, DescribeStack);
-  f.ListOf({"columns", "of the building", "[{at: [4, 1.6]}]"}, &scene.columns, DescribeColumn);
-  f.ListOf({"markings", "paint on the floor", "[{from: [0, 1], to: [14, 1]}]"}, &scene.markings,
-           DescribeMarking);
-  f.ListOf({"props", "pieces of the kit, one or a row", "[{model: drum, at: [3, 1]}]"},
-           &scene.props, DescribeProp);
-  f.ListOf({"mezzanines", "platforms on columns", "[{from: [2, 3], to: [9, 6]}]"},
-           &scene.mezzanines, DescribeMezzanine);
-  f.ListOf({"doors", "dock doors in the walls", "[{wall: east, at_m: 0}]"}, &scene.doors,
-           DescribeDoor);
-  f.ListOf({"lights", "grids of luminaires", "[{rows: 2, per_row: 5, height_m: 6}]", true},
-           &scene.lights, DescribeLights);
+  DescribePremises(f, scene);
+  f.Group(
+      {kVaryKey, "what each seed has otherwise", "{hall: [halls/new.yaml, halls/cold_store.yaml]}"},
+      [&](Fields& vary) {
+        vary.Sentences({"hall",
+                        "files to deal the hall from: seed 1 has the first, each further seed "
+                        "the next, round the list; instead of hall.use",
+                        "[halls/new.yaml, halls/cold_store.yaml]"},
+                       &scene.varied_halls);
+      });
   f.ListOf({"people", "who walks here", "[{name: walker, start: [5, 2]}]"}, &scene.people,
            DescribePerson);
   f.ListOf({"vehicles", "what drives here", "[{name: truck, start: [9, 4]}]"}, &scene.vehicles,

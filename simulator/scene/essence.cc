@@ -51,8 +51,19 @@ void AppendRigFiles(const std::filesystem::path& scene_file, std::size_t scene_f
 }
 
 bool IsSeen(const std::string& key, bool with_actors) {
-  if (key == "about" || key == kExtendKey) return false;
+  if (key == "about" || key == kExtendKey || key == kVaryKey) return false;
   return with_actors || (key != "people" && key != "vehicles");
+}
+
+/// Without what cannot be seen: a hall is what its file holds, whatever that is called.
+YamlValue Seen(YamlValue tree, bool with_actors) {
+  std::erase_if(tree.entries,
+                [&](const YamlEntry& entry) { return !IsSeen(entry.key, with_actors); });
+  const auto hall = std::ranges::find(tree.entries, kHallKey, &YamlEntry::key);
+  if (hall != tree.entries.end()) {
+    std::erase_if(hall->value.entries, [](const YamlEntry& entry) { return entry.key == kUseKey; });
+  }
+  return tree;
 }
 
 }  // namespace
@@ -62,12 +73,11 @@ std::string EssenceOf(const std::filesystem::path& file, bool with_actors) {
   const auto text = ReadSceneText(file, &problem);
   if (!text) throw SceneError({problem});
   Issues issues(file.string());
-  std::optional<YamlValue> top = ReadExtended(*text, &issues);
-  if (!top) throw SceneError(issues.Messages());
-  std::erase_if(top->entries,
-                [&](const YamlEntry& entry) { return !IsSeen(entry.key, with_actors); });
+  std::optional<SceneTrees> trees = ReadExtended(*text, &issues);
+  if (!trees) throw SceneError(issues.Messages());
   std::string essence;
-  Append(*top, &essence);
+  Append(Seen(std::move(trees->top), with_actors), &essence);
+  for (YamlValue& tree : trees->dealt) Append(Seen(std::move(tree), with_actors), &essence);
   AppendRigFiles(file, issues.files().size(), &essence);
   return essence;
 }

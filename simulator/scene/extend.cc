@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "simulator/scene/hall_files.h"
 #include "simulator/scene/yaml_guard.h"
 
 namespace aisle::sim {
@@ -41,16 +42,34 @@ std::optional<fs::path> BaseOf(const YamlEntry& entry, Issues* issues) {
   return base;
 }
 
-/// One file as a tree; nothing where it is none.
-std::optional<YamlValue> ReadTree(const std::string& text, Issues* issues) {
-  const int file = static_cast<int>(issues->files().size()) - 1;
-  GuardYaml(text, file, issues);
-  if (!issues->empty()) return std::nullopt;
-  YamlValue tree = BuildYamlTree(text, file);
-  if (tree.is_map()) return tree;
-  issues->Add({1, 1, file}, "",
-              "expected a map of scene keys; example: about: \"A person crosses.\"");
-  return std::nullopt;
+/// A scene's tree and those of all that it extends, nearest first.
+std::optional<std::vector<YamlValue>> ReadLayers(const std::string& text, Issues* issues) {
+  std::optional<YamlValue> tree = ReadTree(text, issues);
+  if (!tree) return std::nullopt;
+  std::vector<YamlValue> layers = {std::move(*tree)};
+  while (const YamlEntry* entry = layers.back().Find(kExtendKey)) {
+    const auto base = BaseOf(*entry, issues);
+    if (!base) return std::nullopt;
+    std::string problem;
+    const auto base_text = ReadSceneText(*base, &problem);
+    if (!base_text) {
+      issues->Add(entry->value.mark, kExtendKey, problem + kExample);
+      return std::nullopt;
+    }
+    issues->AddFile(base->string());
+    auto layer = ReadTree(*base_text, issues);
+    if (!layer) return std::nullopt;
+    layers.push_back(std::move(*layer));
+  }
+  return layers;
+}
+
+YamlValue Merged(const std::vector<YamlValue>& layers) {
+  YamlValue merged = layers.back();
+  for (auto over = layers.rbegin() + 1; over != layers.rend(); ++over) {
+    merged = Overridden(std::move(merged), *over);
+  }
+  return merged;
 }
 
 }  // namespace
@@ -74,29 +93,38 @@ std::optional<std::string> ReadSceneText(const fs::path& file, std::string* prob
   return std::nullopt;
 }
 
-std::optional<YamlValue> ReadExtended(const std::string& text, Issues* issues) {
-  std::optional<YamlValue> tree = ReadTree(text, issues);
-  if (!tree) return std::nullopt;
-  std::vector<YamlValue> layers = {std::move(*tree)};
-  while (const YamlEntry* entry = layers.back().Find(kExtendKey)) {
-    const auto base = BaseOf(*entry, issues);
-    if (!base) return std::nullopt;
-    std::string problem;
-    const auto base_text = ReadSceneText(*base, &problem);
-    if (!base_text) {
-      issues->Add(entry->value.mark, kExtendKey, problem + kExample);
-      return std::nullopt;
-    }
-    issues->AddFile(base->string());
-    auto layer = ReadTree(*base_text, issues);
-    if (!layer) return std::nullopt;
-    layers.push_back(std::move(*layer));
+std::optional<YamlValue> ReadTree(const std::string& text, Issues* issues) {
+  const int file = static_cast<int>(issues->files().size()) - 1;
+  GuardYaml(text, file, issues);
+  if (!issues->empty()) return std::nullopt;
+  YamlValue tree = BuildYamlTree(text, file);
+  if (tree.is_map()) return tree;
+  issues->Add({1, 1, file}, "",
+              "expected a map of scene keys; example: about: \"A person crosses.\"");
+  return std::nullopt;
+}
+
+std::optional<SceneTrees> ReadExtended(const std::string& text, Issues* issues) {
+  std::optional<std::vector<YamlValue>> layers = ReadLayers(text, issues);
+  if (!layers) return std::nullopt;
+  const auto names = std::ranges::find_if(*layers, NamesHalls);
+  if (names == layers->end()) return SceneTrees{Merged(*layers), {}};
+  const std::vector<NamedHall> halls = HallsOf(*names, issues);
+  std::vector<YamlValue> below;
+  for (const NamedHall& hall : halls) {
+    if (auto tree = ReadHall(hall, issues)) below.push_back(std::move(*tree));
   }
-  YamlValue merged = std::move(layers.back());
-  for (auto over = layers.rbegin() + 1; over != layers.rend(); ++over) {
-    merged = Overridden(std::move(merged), *over);
+  if (!issues->empty()) return std::nullopt;
+  std::for_each(names + 1, layers->end(), RemoveHall);
+  const auto place = layers->insert(names + 1, YamlValue{});
+  SceneTrees trees;
+  for (YamlValue& hall : below) {
+    *place = std::move(hall);
+    trees.dealt.push_back(Merged(*layers));
   }
-  return merged;
+  trees.top = trees.dealt.front();
+  if (halls.front().key == kUseKey) trees.dealt.clear();
+  return trees;
 }
 
 }  // namespace aisle::sim

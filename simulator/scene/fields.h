@@ -37,6 +37,8 @@ class Fields {
   /// A name: letters, digits, '_' and '-', at most 80. Names end up in reports and file names.
   virtual void Name(const Key& key, std::string* value) = 0;
   virtual void Sentence(const Key& key, std::string* value) = 0;
+  /// A list of texts, at least one.
+  virtual void Sentences(const Key& key, std::vector<std::string>* values) = 0;
   /// A fixed number of numbers, [x, y] for a point.
   virtual void Numbers(const Key& key, double* values, std::size_t count, Range range) = 0;
   /// A list of points [x, y], and where each stands.
@@ -80,8 +82,15 @@ class Fields {
                            std::initializer_list<const char*> names) = 0;
 };
 
+/// Kinds of goods, in the order of GoodsKind.
+inline constexpr std::initializer_list<const char*> kGoodsNames = {
+    "mixed", "cartons", "drums", "totes", "wrapped", "identical", "nothing"};
+
 /// Names every key of a scene's `drive`.
 void DescribeDrive(Fields& fields, DriveSpec& drive);
+
+/// Names every key of what a hall's file may hold, `about` left out.
+void DescribePremises(Fields& fields, Premises& premises);
 
 /// Names every key of a scene file, with ranges and examples.
 void Describe(Fields& fields, Scene& scene);

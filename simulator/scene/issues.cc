@@ -38,7 +38,9 @@ std::vector<std::string> Issues::Messages() const {
            std::tuple(b.mark.file, b.mark.line, b.mark.column);
   });
   std::vector<std::string> messages;
-  for (const Issue& issue : sorted) messages.push_back(issue.text);
+  for (const Issue& issue : sorted) {  // a key that several halls share is read with each of them
+    if (messages.empty() || messages.back() != issue.text) messages.push_back(issue.text);
+  }
   return messages;
 }
 

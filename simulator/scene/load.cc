@@ -22,15 +22,37 @@ void NumberPlaces(Scene* scene) {
   for (std::size_t i = 0; i < scene->vehicles.size(); ++i) scene->vehicles[i].place = i;
 }
 
+/// The rig of a hall's own scene is at one view after the other, a frame each.
+void StandAtViews(Scene* scene) {
+  scene->frames = std::max(1, static_cast<int>(scene->views.size()));
+  for (std::size_t i = 0; i < scene->views.size(); ++i) {
+    const ViewSpec& view = scene->views[i];
+    TimedPose pose{std::llround(1e9 * static_cast<double>(i) / scene->rate_hz),
+                   Eigen::Isometry3d::Identity()};
+    pose.T_world_body =
+        RigPose({.position = view.at, .heading_rad = view.heading_rad},
+                {.height_m = view.height_m, .forward_m = 0, .pitch_rad = view.pitch_rad}, {}, 0);
+    scene->rig.poses.push_back(pose);
+  }
+  if (scene->views.empty()) return;
+  scene->rig.mark = scene->rig.route.mark = scene->views.front().mark;
+  scene->rig.route.plan.start = scene->views.front().at;
+}
+
 /// What the text and the files it names say, as far as it is no mistake.
 Scene ReadScene(const std::string& text, const std::string& file, Issues* issues) {
   Scene scene;
   scene.file = file;
-  if (const auto top = ReadExtended(text, issues)) {
-    YamlReader reader(*top, "", issues);
+  if (const auto trees = ReadExtended(text, issues)) {
+    YamlReader reader(trees->top, "", issues);
     Describe(reader, scene);
     reader.ReportKeys();
     NumberPlaces(&scene);
+    for (const YamlValue& tree : trees->dealt) {
+      YamlReader hall(tree, "", issues);
+      DescribePremises(hall, scene.dealt.emplace_back());
+    }
+    if (trees->top.Find("rig") == nullptr) StandAtViews(&scene);
   }
   scene.files = issues->files();
   if (issues->empty()) ReadRigFiles(&scene, issues);
@@ -42,6 +64,12 @@ Parsed Parse(const std::string& text, const std::string& file) {
   Issues issues(file);
   Scene scene = ReadScene(text, file, &issues);
   if (issues.empty()) CheckScene(scene, &issues);
+  for (const Premises& premises : scene.dealt) {  // any of them may be there
+    Scene dealt = scene;
+    static_cast<Premises&>(dealt) = premises;
+    dealt.dealt.clear();
+    if (issues.empty()) CheckScene(dealt, &issues);
+  }
   return {std::move(scene), issues.Messages()};
 }
 

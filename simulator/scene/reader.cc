@@ -136,6 +136,18 @@ void YamlReader::Sentence(const Key& key, std::string* value) {
   }
 }
 
+void YamlReader::Sentences(const Key& key, std::vector<std::string>* values) {
+  const auto node = Find(key);
+  if (!node) return;
+  const auto is_text = [](const YamlValue& item) { return item.is_text() && !item.text.empty(); };
+  if (!node->is_list() || node->items.empty() || !std::ranges::all_of(node->items, is_text)) {
+    Expected(*node, key, "a list of texts");
+    return;
+  }
+  values->clear();
+  for (const YamlValue& item : node->items) values->push_back(item.text);
+}
+
 bool YamlReader::ReadPair(const YamlValue& list, double* values, std::size_t count,
                           Range range) const {
   if (!list.is_list() || list.items.size() != count) return false;

@@ -18,6 +18,7 @@ class YamlReader : public Fields {
   void Flag(const Key& key, bool* value) override;
   void Name(const Key& key, std::string* value) override;
   void Sentence(const Key& key, std::string* value) override;
+  void Sentences(const Key& key, std::vector<std::string>* values) override;
   void Numbers(const Key& key, double* values, std::size_t count, Range range) override;
   void Points(const Key& key, std::vector<Eigen::Vector2d>* values,
               std::vector<Mark>* marks) override;

@@ -69,6 +69,7 @@ enum class WallKind { kPanels, kBrick, kPlain, kSky };
 /// and lamps are then an overcast sky.
 struct HallSpec {
   Mark mark;
+  std::string use;  ///< the file whose hall this is, as the scene names it; empty: its own
   Eigen::Vector2d from = {-5, -8};  ///< the corner with the smallest x and y
   Eigen::Vector2d to = {20, 8};     ///< the corner with the largest x and y
   double height_m = 6.5;
@@ -208,10 +209,35 @@ struct VehicleSpec {
   std::string pushed_by;  ///< a person behind its handle: it has that person's route
 };
 
-/// A scene file as a plain description. Angles are radians here and degrees in the file.
-struct Scene {
+/// A place from which a hall is looked at, by a level camera unless it pitches.
+struct ViewSpec {
+  Mark mark;
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  double heading_rad = 0;
+  double height_m = 1.4;
+  double pitch_rad = 0;  ///< positive looks down
+};
+
+/// The building and all that stands still in it: what a hall's file holds.
+struct Premises {
+  HallSpec hall;
+  std::vector<RackSpec> racks;
+  std::vector<StackSpec> stacks;
+  std::vector<ColumnSpec> columns;
+  std::vector<MarkingSpec> markings;
+  std::vector<PropSpec> props;
+  std::vector<MezzanineSpec> mezzanines;
+  std::vector<DoorSpec> doors;
+  std::vector<LightsSpec> lights;
+  std::vector<ViewSpec> views;
+};
+
+/// A scene file as a plain description. Angles are radians here and degrees in the file. A hall's
+/// file is a scene, too: nobody is there, and the rig stands at each of its views, a frame each.
+struct Scene : Premises {
   std::string file;
-  std::vector<std::string> files;  ///< that one and those it extends, nearest first
+  /// That one and those it extends, nearest first, each hall's file behind them.
+  std::vector<std::string> files;
   std::string extends;  ///< the scene whose keys hold where it has none, as the file says it
   std::string about;    ///< the sentence on what it tests
   int frames = 300;
@@ -222,15 +248,8 @@ struct Scene {
   SensorSpec sensor;
   RigSpec rig;
   DriveSpec drive;
-  HallSpec hall;
-  std::vector<RackSpec> racks;
-  std::vector<StackSpec> stacks;
-  std::vector<ColumnSpec> columns;
-  std::vector<MarkingSpec> markings;
-  std::vector<PropSpec> props;
-  std::vector<MezzanineSpec> mezzanines;
-  std::vector<DoorSpec> doors;
-  std::vector<LightsSpec> lights;
+  std::vector<std::string> varied_halls;  ///< files that seeds deal from, as the scene names them
+  std::vector<Premises> dealt;            ///< what is there with each of them; empty: none varies
   std::vector<PersonSpec> people;
   std::vector<VehicleSpec> vehicles;
   bool frozen = false;  ///< actors stay where they are at time 0

@@ -28,6 +28,10 @@ class SchemaWriter : public Fields {
   void Sentence(const Key& key, std::string*) override {
     Add(key, {{"type", "string"}, {"minLength", 1}});
   }
+  void Sentences(const Key& key, std::vector<std::string>*) override {
+    const Json text = {{"type", "string"}, {"minLength", 1}};
+    Add(key, {{"type", "array"}, {"minItems", 1}, {"items", text}});
+  }
   void Numbers(const Key& key, double*, std::size_t count, Range range) override {
     Add(key, Tuple(count, range));
   }
@@ -111,8 +115,10 @@ std::string SceneSchema() {
   Describe(writer, scene);
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "aisle scene"}};
   schema.update(writer.Object());
-  // A scene that extends another has of it what it does not say itself.
-  schema["anyOf"] = {{{"required", {kExtendKey}}}, writer.Requirements()};
+  // A scene that extends another has of it what it does not say itself; a hall's file with views is
+  // a scene of its own.
+  const Json views = {{"required", {kViewsKey}}};
+  schema["anyOf"] = {{{"required", {kExtendKey}}}, writer.Requirements(), views};
   return schema.dump(2) + "\n";
 }
 

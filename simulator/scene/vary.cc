@@ -25,6 +25,11 @@ RouteSpec Varied(RouteSpec route, const VarySpec& vary, Dice dice) {
 }  // namespace
 
 Scene Seeded(Scene scene, std::uint64_t seed) {
+  if (!scene.dealt.empty()) {
+    static_cast<Premises&>(scene) =
+        scene.dealt[(seed + scene.dealt.size() - 1) % scene.dealt.size()];
+    scene.dealt.clear();
+  }
   for (PersonSpec& person : scene.people) {
     person.route = Varied(person.route, person.vary, Dice(seed, {400, person.place}));
   }

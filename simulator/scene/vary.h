@@ -12,7 +12,8 @@ namespace aisle::sim {
 constexpr std::uint64_t kUsualSeeds = 9;
 
 /// The scene as a seed has it: actors set out earlier or later, faster or slower and take other
-/// ways, within the bounds their `vary` gives. Who is pushed has its pusher's route.
+/// ways, within the bounds their `vary` gives. Who is pushed has its pusher's route. Where halls
+/// vary it is in one of them: seed 1 in the first, each further seed in the next, round the list.
 Scene Seeded(Scene scene, std::uint64_t seed);
 
 /// The scene with the looks a seed deals to those whose `vary` says so: seed 1 leaves them as

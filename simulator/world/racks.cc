@@ -79,6 +79,7 @@ class RackBuilder {
   }
 
   void AddStored(std::uint64_t seed, std::uint64_t row) {
+    if (rack_.goods == GoodsKind::kNothing) return;  // no pallets either
     const int places = std::max(1, static_cast<int>((bay_ - kPost_m) / (kPalletWidth_m + 0.05f)));
     for (int level = 0; level <= rack_.levels; ++level) {
       for (int bay = 0; bay < rack_.bays; ++bay) {

@@ -1,0 +1,135 @@
+#include "simulator/scene/hall_files.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "simulator/common/own_files.h"
+#include "simulator/scene/extend.h"
+
+namespace aisle::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<const char*, 10> kHallKeys = {kHallKey,   "racks",  "stacks",     "columns",
+                                                   "markings", "props",  "mezzanines", "doors",
+                                                   "lights",   kViewsKey};
+constexpr const char* kExample = "; example: use: halls/cold_store.yaml";
+
+/// The value at a path of two keys, or null.
+const YamlValue* Inner(const YamlValue& tree, const char* key, const char* inner) {
+  const YamlEntry* outer = tree.Find(key);
+  const YamlEntry* entry = outer ? outer->value.Find(inner) : nullptr;
+  return entry ? &entry->value : nullptr;
+}
+
+std::string PathOf(const NamedHall& hall) { return hall.key == kUseKey ? "hall.use" : "vary.hall"; }
+
+/// Where the file is, or where it would be beside the one that names it.
+fs::path FileOf(const NamedHall& hall, const Issues& issues) {
+  fs::path name = hall.name;
+  if (name.extension() != ".yaml") name += ".yaml";
+  const std::string& from = issues.files().at(static_cast<std::size_t>(hall.mark.file));
+  const fs::path beside = (fs::path(from).parent_path() / name).lexically_normal();
+  std::error_code failed;
+  if (fs::exists(beside, failed)) return beside;
+  const fs::path own = FindOwnFolder(OwnFile());
+  const fs::path known = (own / "scenes" / name).lexically_normal();
+  return !own.empty() && fs::exists(known, failed) ? known : beside;
+}
+
+/// A hall's file may not take its hall from another one.
+void RefuseAllElse(const YamlValue& tree, Issues* issues) {
+  if (const YamlValue* use = Inner(tree, kHallKey, kUseKey)) {
+    issues->Add(use->mark, "hall.use", "a hall's file says itself what is there; leave it out");
+  }
+  for (const YamlEntry& entry : tree.entries) {
+    if (entry.key == "about" || IsHallKey(entry.key)) continue;
+    issues->Add(entry.mark, entry.key.substr(0, 80),
+                fmt::format("it is no part of a hall, whose file may hold: about, {}",
+                            fmt::join(kHallKeys, ", ")));
+  }
+}
+
+/// Writes the name into the tree, where the scene's own `use` would stand.
+void SetUse(const NamedHall& hall, YamlValue* tree) {
+  auto there = std::ranges::find(tree->entries, kHallKey, &YamlEntry::key);
+  if (there == tree->entries.end()) {
+    YamlValue map;
+    map.kind = YamlValue::Kind::kMap;
+    map.mark = tree->mark;
+    there = tree->entries.insert(there, YamlEntry{kHallKey, tree->mark, std::move(map)});
+  }
+  YamlValue name;
+  name.kind = YamlValue::Kind::kText;
+  name.mark = hall.mark;
+  name.text = hall.name;
+  if (there->value.is_map()) there->value.entries.push_back({kUseKey, hall.mark, std::move(name)});
+}
+
+}  // namespace
+
+bool IsHallKey(const std::string& key) {
+  return std::ranges::find(kHallKeys, key) != kHallKeys.end();
+}
+
+bool NamesHalls(const YamlValue& tree) {
+  return Inner(tree, kHallKey, kUseKey) != nullptr || Inner(tree, kVaryKey, kHallKey) != nullptr;
+}
+
+std::vector<NamedHall> HallsOf(const YamlValue& tree, Issues* issues) {
+  const YamlValue* use = Inner(tree, kHallKey, kUseKey);
+  const YamlValue* varied = Inner(tree, kVaryKey, kHallKey);
+  if (use && varied) {
+    issues->Add(varied->mark, "vary.hall", "hall.use says already which it is; keep one of them");
+    return {};
+  }
+  const auto is_name = [](const YamlValue& item) { return item.is_text() && !item.text.empty(); };
+  if (use) {
+    if (is_name(*use)) return {{use->text, kUseKey, use->mark}};
+    issues->Add(use->mark, "hall.use", std::string("expected a hall's file") + kExample);
+    return {};
+  }
+  std::vector<NamedHall> halls;
+  for (const YamlValue& item : varied->items) {
+    if (is_name(item)) halls.push_back({item.text, kHallKey, item.mark});
+  }
+  if (halls.empty() || halls.size() != varied->items.size()) {
+    issues->Add(varied->mark, "vary.hall",
+                "expected a list of halls' files; example: vary: {hall: [halls/new.yaml, "
+                "halls/cold_store.yaml]}");
+  }
+  return halls;
+}
+
+std::optional<YamlValue> ReadHall(const NamedHall& hall, Issues* issues) {
+  const fs::path file = FileOf(hall, *issues);
+  std::string problem;
+  const auto text = ReadSceneText(file, &problem);
+  if (!text) {
+    issues->Add(hall.mark, PathOf(hall), problem + kExample);
+    return std::nullopt;
+  }
+  issues->AddFile(file.string());
+  std::optional<YamlValue> tree = ReadTree(*text, issues);
+  if (!tree) return std::nullopt;
+  RefuseAllElse(*tree, issues);
+  std::erase_if(tree->entries, [](const YamlEntry& entry) { return entry.key == "about"; });
+  SetUse(hall, &*tree);
+  return tree;
+}
+
+void RemoveHall(YamlValue& tree) {
+  std::erase_if(tree.entries, [](const YamlEntry& entry) { return IsHallKey(entry.key); });
+  const auto vary = std::ranges::find(tree.entries, kVaryKey, &YamlEntry::key);
+  if (vary == tree.entries.end()) return;
+  std::erase_if(vary->value.entries, [](const YamlEntry& entry) { return entry.key == kHallKey; });
+}
+
+std::string HallName(const std::string& file) { return fs::path(file).stem().string(); }
+
+}  // namespace aisle::sim
