@@ -12,7 +12,7 @@ import numpy as np
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
-from lib import cartons, noise, picture, signs, surfaces  # noqa: E402
+from lib import cartons, hall_surfaces, noise, picture, signs, surfaces  # noqa: E402
 from lib.surfaces import flat, mix, scratches, threshold  # noqa: E402
 
 
@@ -354,12 +354,13 @@ TEXTURES = {
     "asphalt": asphalt,
     "cartons": lambda: with_rects(cartons.sheet()),
     "signs": lambda: with_rects(signs.sheet()),
+    **hall_surfaces.TEXTURES,
 }
 
 
 # Stored in grey: nearly so by nature, and the camera is monochrome.
 GREY = {"floor_concrete", "floor_polished", "wall_painted", "wall_panel", "shrink_wrap", "steel", "dock_door",
-        "plain", "asphalt", "wood_pallet", "cartons"}
+        "plain", "asphalt", "wood_pallet", "cartons", *hall_surfaces.TEXTURES}
 
 
 def main():

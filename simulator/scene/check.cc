@@ -140,6 +140,10 @@ class Checker {
       if (prop.to) CheckInside(prop.mark, fmt::format("props[{}].to", i), *prop.to);
     }
     for (std::size_t i = 0; i < scene_.mezzanines.size(); ++i) CheckMezzanine(i);
+    for (std::size_t i = 0; i < scene_.fixtures.size(); ++i) {
+      CheckInside(scene_.fixtures[i].mark, fmt::format("fixtures[{}].at", i),
+                  scene_.fixtures[i].at);
+    }
     for (std::size_t i = 0; i < scene_.views.size(); ++i) {
       const ViewSpec& view = scene_.views[i];
       const std::string key = fmt::format("views[{}]", i);

@@ -8,6 +8,7 @@
 
 #include "simulator/scene/footprint.h"
 #include "simulator/scene/hall.h"
+#include "simulator/scene/obstacles.h"
 #include "simulator/scene/vary.h"
 
 namespace aisle::sim {
@@ -17,42 +18,6 @@ namespace {
 constexpr double kPersonRadius_m = 0.22;
 constexpr double kVehicleRadius_m = 0.5;
 constexpr double kRigRadius_m = 0.3;
-
-/// A rectangle on the floor that nobody can pass.
-struct Obstacle {
-  std::string name;
-  Eigen::Vector2d center;
-  Eigen::Vector2d half;
-  double heading_rad = 0;
-
-  double DistanceTo(const Eigen::Vector2d& point) const {
-    const Eigen::Vector2d local = Eigen::Rotation2Dd(-heading_rad) * (point - center);
-    return (local.cwiseAbs() - half).cwiseMax(0).norm();
-  }
-};
-
-std::vector<Obstacle> ObstaclesOf(const Scene& scene) {
-  std::vector<Obstacle> obstacles;
-  for (std::size_t i = 0; i < scene.racks.size(); ++i) {
-    const RackSpec& rack = scene.racks[i];
-    const double length = rack.bays * rack.bay_m;
-    const Eigen::Vector2d along(std::cos(rack.heading_rad), std::sin(rack.heading_rad));
-    obstacles.push_back({fmt::format("racks[{}]", i),
-                         rack.from + along * length / 2,
-                         {length / 2, rack.depth_m / 2},
-                         rack.heading_rad});
-  }
-  for (std::size_t i = 0; i < scene.stacks.size(); ++i) {
-    const StackSpec& stack = scene.stacks[i];
-    obstacles.push_back({fmt::format("stacks[{}]", i), stack.at, {0.6, 0.4}, stack.heading_rad});
-  }
-  for (std::size_t i = 0; i < scene.columns.size(); ++i) {
-    const ColumnSpec& column = scene.columns[i];
-    const double half = column.size_m / 2;
-    obstacles.push_back({fmt::format("columns[{}]", i), column.at, {half, half}, 0});
-  }
-  return obstacles;
-}
 
 /// Somebody under way.
 struct Walker {

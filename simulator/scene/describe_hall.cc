@@ -15,10 +15,19 @@ void DescribeHall(Fields& f, HallSpec& hall) {
   f.Point({"to", "corner with the largest x and y", "[20, 8]"}, &hall.to);
   f.Number({"height_m", "floor to roof", "6.5"}, &hall.height_m, {2.2, 100});
   f.Choice({"floor", "its surface", "concrete"}, &hall.floor,
-           {"concrete", "painted", "glossy", "asphalt"});
+           {"concrete", "painted", "glossy", "asphalt", "resin", "blocks"});
   f.Choice({"walls", "their surface; sky: it is a place in the open", "panels"}, &hall.walls,
-           {"panels", "brick", "plain", "sky"});
+           {"panels", "brick", "plain", "sky", "cassettes", "insulated", "concrete"});
+  f.Choice({"roof", "what carries it: trusses, steel portals, nothing that shows, concrete ribs",
+            "trusses"},
+           &hall.roof, {"trusses", "portal", "flat", "ribs"});
   f.Number({"wear", "how stained and scratched the floor is", "0.5"}, &hall.wear, {0, 1});
+  f.Number(
+      {"clutter", "how much lies about beside the ways: film, hoses, tools, puddles, chalk", "0.5"},
+      &hall.clutter, {0, 1});
+  f.Number({"cloud", "share of the daylight that passing clouds take at most", "0.6"}, &hall.cloud,
+           {0, 0.95});
+  f.Number({"cloud_s", "about from one cloud to the next", "9"}, &hall.cloud_s, {2, 600});
 }
 
 void DescribeRack(Fields& f, RackSpec& rack) {
@@ -32,6 +41,7 @@ void DescribeRack(Fields& f, RackSpec& rack) {
   f.Number({"level_m", "from one level to the next", "1.6"}, &rack.level_m, {0.3, 4});
   f.Number({"fill", "share of the places that are taken", "0.85"}, &rack.fill, {0, 1});
   f.Choice({"goods", "what it stores", "mixed"}, &rack.goods, kGoodsNames);
+  f.Choice({"paint", "of its posts", "blue"}, &rack.paint, {"blue", "orange", "steel"});
 }
 
 void DescribeStack(Fields& f, StackSpec& stack) {
@@ -44,6 +54,8 @@ void DescribeStack(Fields& f, StackSpec& stack) {
 
 void DescribeColumn(Fields& f, ColumnSpec& column) {
   column.mark = f.mark();
+  f.Choice({"kind", "a square post, a steel section or a round one", "square"}, &column.kind,
+           {"square", "steel", "round"});
   f.Point({"at", "its middle", "[4, 1.6]", true}, &column.at);
   f.Number({"size_m", "side of its square section", "0.4"}, &column.size_m, {0.1, 2});
   f.Flag({"striped", "warning stripes up to 1.4 m", "true"}, &column.striped);
@@ -83,6 +95,23 @@ void DescribeDoor(Fields& f, DoorSpec& door) {
   f.Number({"at_m", "x or y of its middle along the wall", "0"}, &door.at_m, {-1000, 1000});
   f.Number({"width_m", "of the opening", "3"}, &door.width_m, {0.6, 20});
   f.Number({"height_m", "of the opening", "3.5"}, &door.height_m, {1.8, 20});
+  f.Number({"daylight", "it stands open to a day of this radiance; 0: it is closed", "4"},
+           &door.daylight, {0, 100});
+}
+
+void DescribeFixture(Fields& f, FixtureSpec& fixture) {
+  fixture.mark = f.mark();
+  f.Choice({"kind", "what it is", "lathe"}, &fixture.kind,
+           {"strip_curtain", "panel_wall", "evaporator", "lathe", "mill", "drill", "bench",
+            "tool_wall", "tool_cart", "locker", "gas_bottles", "duct", "cable_tray", "cable_drop",
+            "crane", "leveller", "guide_rail"});
+  f.Point({"at", "its middle", "[3, 1]", true}, &fixture.at);
+  f.Degrees({"heading_deg", "where its front looks; its length lies across", "90"},
+            &fixture.heading_rad);
+  f.Number({"length_m", "from its left to its right; 0: as such a thing usually is", "2"},
+           &fixture.length_m, {0, 200});
+  f.Number({"height_m", "its top, or where it hangs; 0: as such a thing usually is", "3"},
+           &fixture.height_m, {0, 50});
 }
 
 void DescribeBlackout(Fields& f, Blackout& off) {
@@ -130,6 +159,9 @@ void DescribePremises(Fields& f, Premises& premises) {
            &premises.mezzanines, DescribeMezzanine);
   f.ListOf({"doors", "dock doors in the walls", "[{wall: east, at_m: 0}]"}, &premises.doors,
            DescribeDoor);
+  f.ListOf({"fixtures", "machines, curtains, ducts: what else a hall has",
+            "[{kind: lathe, at: [3, 1]}]"},
+           &premises.fixtures, DescribeFixture);
   f.ListOf({"lights", "grids of luminaires", "[{rows: 2, per_row: 5, height_m: 6}]", true},
            &premises.lights, DescribeLights);
   f.ListOf({kViewsKey, "from where a hall is shown; a hall's file with views is a scene by itself",

@@ -15,9 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 10> kHallKeys = {kHallKey,   "racks",  "stacks",     "columns",
+constexpr std::array<const char*, 11> kHallKeys = {kHallKey,   "racks",  "stacks",     "columns",
                                                    "markings", "props",  "mezzanines", "doors",
-                                                   "lights",   kViewsKey};
+                                                   "fixtures", "lights", kViewsKey};
 constexpr const char* kExample = "; example: use: halls/cold_store.yaml";
 
 /// The value at a path of two keys, or null.

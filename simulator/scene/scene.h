@@ -62,8 +62,9 @@ struct RigSpec {
   std::vector<Bump> bumps;
 };
 
-enum class FloorKind { kConcrete, kPainted, kGlossy, kAsphalt };
-enum class WallKind { kPanels, kBrick, kPlain, kSky };
+enum class FloorKind { kConcrete, kPainted, kGlossy, kAsphalt, kResin, kBlocks };
+enum class WallKind { kPanels, kBrick, kPlain, kSky, kCassettes, kInsulated, kConcrete };
+enum class RoofKind { kTrusses, kPortal, kFlat, kRibs };
 
 /// The building: a box on the floor z = 0. Walls of sky make it a place in the open: walls, roof
 /// and lamps are then an overcast sky.
@@ -75,10 +76,16 @@ struct HallSpec {
   double height_m = 6.5;
   FloorKind floor = FloorKind::kConcrete;
   WallKind walls = WallKind::kPanels;
-  double wear = 0.5;  ///< how stained and scratched the floor is, 0 to 1
+  RoofKind roof = RoofKind::kTrusses;
+  double wear = 0.5;   ///< how stained and scratched the floor is, 0 to 1
+  double clutter = 0;  ///< how much lies about where nobody passes, 0 to 1
+  double cloud = 0;    ///< share of the daylight that passing clouds take at most
+  double cloud_s = 9;  ///< about from one cloud to the next
 };
 
 enum class GoodsKind { kMixed, kCartons, kDrums, kTotes, kWrapped, kIdentical, kNothing };
+
+enum class RackPaint { kBlue, kOrange, kSteel };
 
 /// A row of racking: bays side by side, from one end along its heading.
 struct RackSpec {
@@ -92,6 +99,7 @@ struct RackSpec {
   double level_m = 1.6;
   double fill = 0.85;  ///< share of the places that are taken
   GoodsKind goods = GoodsKind::kMixed;
+  RackPaint paint = RackPaint::kBlue;  ///< of its posts
 };
 
 /// Goods on a pallet on the floor.
@@ -103,8 +111,11 @@ struct StackSpec {
   GoodsKind goods = GoodsKind::kCartons;
 };
 
+enum class ColumnKind { kSquare, kSteel, kRound };
+
 struct ColumnSpec {
   Mark mark;
+  ColumnKind kind = ColumnKind::kSquare;
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
   double size_m = 0.4;
   bool striped = true;
@@ -148,6 +159,37 @@ struct DoorSpec {
   double at_m = 0;  ///< world x or y of its middle, along the wall
   double width_m = 3;
   double height_m = 3.5;
+  double daylight = 0;  ///< radiance of the day outside where it stands open; 0: it is closed
+};
+
+/// What a hall has besides goods: machines, curtains, ducts.
+enum class FixtureKind {
+  kStripCurtain,
+  kPanelWall,
+  kEvaporator,
+  kLathe,
+  kMill,
+  kDrill,
+  kBench,
+  kToolWall,
+  kToolCart,
+  kLocker,
+  kGasBottles,
+  kDuct,
+  kCableTray,
+  kCableDrop,
+  kCrane,
+  kLeveller,
+  kGuideRail
+};
+
+struct FixtureSpec {
+  Mark mark;
+  FixtureKind kind = FixtureKind::kBench;
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< its middle
+  double heading_rad = 0;                        ///< where its front looks; its length lies across
+  double length_m = 0;                           ///< 0: as such a thing usually is
+  double height_m = 0;                           ///< its top, or where it hangs; 0: as usually
 };
 
 /// A time during which lamps are off.
@@ -228,6 +270,7 @@ struct Premises {
   std::vector<PropSpec> props;
   std::vector<MezzanineSpec> mezzanines;
   std::vector<DoorSpec> doors;
+  std::vector<FixtureSpec> fixtures;
   std::vector<LightsSpec> lights;
   std::vector<ViewSpec> views;
 };

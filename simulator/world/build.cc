@@ -6,6 +6,7 @@
 #include "simulator/motion/rig_mount.h"
 #include "simulator/scene/vary.h"
 #include "simulator/world/actors.h"
+#include "simulator/world/fittings.h"
 #include "simulator/world/props.h"
 #include "simulator/world/warehouse.h"
 
@@ -105,6 +106,15 @@ std::vector<Cast> AddActors(const Scene& scene, const Palette& palette, std::uin
   return cast;
 }
 
+/// What a hall has besides goods, with materials of its own.
+void AddWork(const Scene& scene, const Palette& palette, std::uint64_t seed,
+             const AssetLibrary& assets, WorldParts* parts, Site* site) {
+  if (scene.fixtures.empty() && scene.hall.clutter <= 0) return;
+  const Fittings fittings = AddFittings(assets, parts);
+  AddFixtures(scene, {palette, fittings}, seed, site);
+  AddClutter(scene, {palette, fittings}, seed, site);
+}
+
 /// Velocities of an actor that goes through its script at another rate.
 void Slow(double rate, MoverState* state) {
   if (rate == 1) return;
@@ -130,6 +140,7 @@ World BuildWorld(const Scene& written, const std::string& assets_dir, std::uint6
   AddStacks(scene, palette, seed, &site);
   AddMezzanines(scene, palette, seed, &site);
   AddLights(scene, palette, &parts, &site);
+  AddWork(scene, palette, seed, assets, &parts, &site);
   Wardrobe wardrobe(&parts);
   AddProps(scene, seed, &assets, &wardrobe, &site);
   const std::vector<Cast> cast = AddActors(scene, palette, seed, &assets, &wardrobe, &parts, &site);

@@ -44,6 +44,9 @@ void AddLights(const Scene& scene, const Palette& palette, WorldParts* parts, Si
       }
     });
   }
+  for (const DoorSpec& door : scene.doors) {
+    if (door.daylight > 0) parts->lights.push_back(DaylightOf(scene.hall, door));
+  }
 }
 
 std::vector<float> LightScale(const Scene& scene, double time_s) {
@@ -53,6 +56,9 @@ std::vector<float> LightScale(const Scene& scene, double time_s) {
         grid.off, [&](const Blackout& off) { return time_s >= off.from_s && time_s < off.to_s; });
     scale.insert(scale.end(), static_cast<std::size_t>(grid.rows * grid.per_row),
                  dark ? 0.0f : 1.0f);
+  }
+  for (const DoorSpec& door : scene.doors) {
+    if (door.daylight > 0) scale.push_back(CloudAt(scene.hall, time_s));
   }
   return scale;
 }

@@ -75,16 +75,45 @@ FloorLook LookOf(FloorKind kind) {
       return {"floor_polished", {0.06f, 0.12f}};
     case FloorKind::kAsphalt:
       return {"asphalt", {}};
+    case FloorKind::kResin:
+      return {"floor_resin", {0.05f, 0.28f}};
+    case FloorKind::kBlocks:
+      return {"floor_blocks", {0.03f, 0.5f}};
     case FloorKind::kConcrete:
       break;
   }
   return {"floor_concrete", {0.02f, 0.6f}};
 }
 
-const char* LookOf(WallKind kind) {
-  return kind == WallKind::kPlain   ? "plain"
-         : kind == WallKind::kBrick ? "wall_painted"
-                                    : "wall_panel";
+struct WallLook {
+  const char* texture;
+  float wide_m;
+  bool plainer;  ///< less mottled than it was authored
+};
+
+WallLook LookOf(WallKind kind) {
+  switch (kind) {
+    case WallKind::kPlain:
+      return {"plain", kWallSheet_m, true};
+    case WallKind::kBrick:
+      return {"wall_painted", kWallSheet_m, true};
+    case WallKind::kCassettes:
+      return {"wall_cassette", kWallSheet_m, false};
+    case WallKind::kInsulated:
+      return {"wall_insulated", 4.6f, false};
+    case WallKind::kConcrete:
+      return {"wall_concrete", 4.8f, false};
+    case WallKind::kPanels:
+    case WallKind::kSky:
+      break;
+  }
+  return {"wall_panel", kWallSheet_m, true};
+}
+
+const char* LookOf(RoofKind kind) {
+  return kind == RoofKind::kFlat   ? "wall_insulated"
+         : kind == RoofKind::kRibs ? "wall_concrete"
+                                   : "wall_panel";
 }
 
 /// A rectangle of an atlas, a little inside its border so that neighbours do not bleed in.
@@ -146,15 +175,22 @@ Palette AddPalette(const Scene& scene, std::uint64_t seed, const AssetLibrary& a
   const FloorLook floor = LookOf(hall.floor);
   cv::Mat1b clean = assets.Picture(floor.texture);
   // Roads are as mottled as their sheet; floors under a roof are swept.
-  if (hall.floor != FloorKind::kAsphalt) clean = Plainer(clean, kMottle, kMottleLimit);
+  const bool finer = hall.floor == FloorKind::kResin || hall.floor == FloorKind::kBlocks;
+  if (hall.floor != FloorKind::kAsphalt && !finer) clean = Plainer(clean, kMottle, kMottleLimit);
+  if (finer) clean = cv::repeat(clean, 2, 2);  // these show half as much of the floor
   for (std::size_t i = 0; i < kFloorSheets; ++i) {
     palette.floor[i] =
         mix.Painted(fmt::format("floor_{}", i),
                     WornFloor(clean, Dice(seed, {kFloor, i}), hall.wear), floor.finish);
   }
-  palette.wall = mix.ShownPlainer(LookOf(hall.walls));
+  const WallLook wall = LookOf(hall.walls);
+  palette.wall = wall.plainer ? mix.ShownPlainer(wall.texture) : mix.Shown(wall.texture);
+  palette.wall_wide_m = wall.wide_m;
   palette.plinth = mix.Plain("plinth", 0.22f);
-  palette.roof = hall.walls == WallKind::kPanels ? palette.wall : mix.ShownPlainer("wall_panel");
+  palette.roof =
+      hall.walls == WallKind::kPanels && LookOf(hall.roof) == std::string_view(wall.texture)
+          ? palette.wall
+          : mix.ShownPlainer(LookOf(hall.roof));
   palette.door = mix.Shown("dock_door");
   palette.steel = mix.ShownPlainer("steel", {0.04f, 0.45f});
   palette.upright = mix.ShownPlainer("rack_blue", {0.04f, 0.5f});
@@ -173,6 +209,25 @@ Palette AddPalette(const Scene& scene, std::uint64_t seed, const AssetLibrary& a
   palette.sky = mix.Plain("sky", 0.8f, 0.28f);
   palette.pavement = hall.walls == WallKind::kSky ? mix.Shown("floor_concrete") : palette.plinth;
   palette.lamp_housing = mix.Plain("lamp_housing", 0.6f);
+  palette.posts.fill(palette.upright);
+  const auto painted = [&](RackPaint paint) {
+    return std::ranges::any_of(scene.racks,
+                               [&](const RackSpec& rack) { return rack.paint == paint; });
+  };
+  if (painted(RackPaint::kOrange)) {
+    palette.posts[static_cast<std::size_t>(RackPaint::kOrange)] =
+        mix.ShownPlainer("rack_orange", {0.04f, 0.5f});
+  }
+  if (painted(RackPaint::kSteel)) {
+    palette.posts[static_cast<std::size_t>(RackPaint::kSteel)] =
+        mix.ShownPlainer("steel", {0.08f, 0.4f});
+  }
+  const auto brightest = std::ranges::max_element(scene.doors, {}, &DoorSpec::daylight);
+  if (brightest != scene.doors.end() && brightest->daylight > 0) {
+    const auto day = static_cast<float>(brightest->daylight);
+    palette.day = mix.Plain("day", 0.8f, day);
+    palette.day_yard = mix.Plain("day_yard", 0.4f, 0.3f * day);
+  }
   FindPictures(assets, &palette);
   return palette;
 }

@@ -22,9 +22,11 @@ inline constexpr float kWallSheet_m = 4.0f;
 struct Palette {
   std::array<std::uint16_t, kFloorSheets> floor{};
   std::uint16_t wall = 0, plinth = 0, roof = 0, door = 0;
-  std::uint16_t steel = 0;    ///< bare, scratched
-  std::uint16_t upright = 0;  ///< perforated rack posts: 0.1 m × 0.4 m a repeat
-  std::uint16_t beam = 0;     ///< 1.35 m × 0.34 m a repeat
+  float wall_wide_m = kWallSheet_m;      ///< what a sheet of wall shows of its length
+  std::uint16_t steel = 0;               ///< bare, scratched
+  std::uint16_t upright = 0;             ///< perforated rack posts: 0.1 m × 0.4 m a repeat
+  std::array<std::uint16_t, 3> posts{};  ///< the same by RackPaint
+  std::uint16_t beam = 0;                ///< 1.35 m × 0.34 m a repeat
   std::uint16_t wood = 0;
   std::uint16_t carton = 0;  ///< atlas
   std::uint16_t wrap = 0;    ///< shrink-wrapped goods
@@ -33,6 +35,7 @@ struct Palette {
   std::uint16_t sign = 0;  ///< atlas
   std::uint16_t lamp = 0, lamp_housing = 0;
   std::uint16_t sky = 0, pavement = 0;
+  std::uint16_t day = 0, day_yard = 0;  ///< what an open door shows
 
   std::array<UvRect, kCartonSides> carton_sides;
   std::array<UvRect, kCartonTops> carton_tops;

@@ -22,6 +22,7 @@ class RackBuilder {
         mesh_(mesh),
         pose_(At(static_cast<float>(rack.from.x()), static_cast<float>(rack.from.y()), 0,
                  static_cast<float>(rack.heading_rad))),
+        post_(palette.posts[static_cast<std::size_t>(rack.paint)]),
         half_depth_(static_cast<float>(rack.depth_m) / 2),
         bay_(static_cast<float>(rack.bay_m)),
         level_(static_cast<float>(rack.level_m)) {}
@@ -33,16 +34,15 @@ class RackBuilder {
       const float x = bay_ * static_cast<float>(i);
       for (const float y : {-half_depth_ + kPost_m / 2, half_depth_ - kPost_m / 2}) {
         const Vector3f size(kPost_m, kPost_m * 0.8f, height());
-        BoxPaint paint = BoxPaint::Whole(palette_.upright, {{0, 0}, {1, height() / 0.4f}});
+        BoxPaint paint = BoxPaint::Whole(post_, {{0, 0}, {1, height() / 0.4f}});
         AddBox(mesh_, pose_ * At(x, y, height() / 2), size, paint);
         AddGuard(x, y);
       }
       for (float z = 0.3f; z + 0.7f < height(); z += 1.4f) {  // bracing
         const float y = half_depth_ - kPost_m;
-        AddBar(mesh_, pose_ * Vector3f(x, -y, z), pose_ * Vector3f(x, y, z + 0.7f), 0.035f,
-               palette_.upright);
+        AddBar(mesh_, pose_ * Vector3f(x, -y, z), pose_ * Vector3f(x, y, z + 0.7f), 0.035f, post_);
         AddBar(mesh_, pose_ * Vector3f(x, y, z + 0.7f),
-               pose_ * Vector3f(x, -y, std::min(z + 1.4f, height())), 0.035f, palette_.upright);
+               pose_ * Vector3f(x, -y, std::min(z + 1.4f, height())), 0.035f, post_);
       }
     }
   }
@@ -138,6 +138,7 @@ class RackBuilder {
   const Palette& palette_;
   TriangleMesh* mesh_;
   Eigen::Isometry3f pose_;
+  std::uint16_t post_;
   float half_depth_, bay_, level_;
 };
 

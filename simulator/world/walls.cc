@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "simulator/world/wall_frame.h"
 #include "simulator/world/warehouse.h"
 
 namespace aisle::sim {
@@ -10,40 +11,9 @@ using Eigen::Vector3f;
 
 constexpr float kPlinth_m = 0.35f;
 
-/// One wall seen from inside: `corner` is its left end on the floor, `along` points right.
-struct Wall {
-  Vector3f corner, along, inward;
-  float length = 0;
-
-  /// A point of the wall: metres to the right, up, and into the hall.
-  Vector3f At(float right, float up, float in) const {
-    return corner + right * along + up * Vector3f::UnitZ() + in * inward;
-  }
-  /// Frame at a point: x into the hall, y to the left seen from inside.
-  Eigen::Isometry3f Frame(float right, float up, float in) const {
-    Eigen::Isometry3f pose = Eigen::Isometry3f::Identity();
-    pose.linear().col(0) = inward;
-    pose.linear().col(1) = Vector3f::UnitZ().cross(inward);
-    pose.linear().col(2) = Vector3f::UnitZ();
-    pose.translation() = At(right, up, in);
-    return pose;
-  }
-};
-
-/// North, south, east, west, as in WallSide.
-std::array<Wall, 4> WallsOf(const HallSpec& hall) {
-  const Vector2f low = hall.from.cast<float>(), high = hall.to.cast<float>();
-  const Vector3f x = Vector3f::UnitX(), y = Vector3f::UnitY();
-  const Vector2f size = high - low;
-  return {{{{low.x(), high.y(), 0}, x, -y, size.x()},
-           {{high.x(), low.y(), 0}, -x, y, size.x()},
-           {{high.x(), high.y(), 0}, -y, -x, size.y()},
-           {{low.x(), low.y(), 0}, y, x, size.y()}}};
-}
-
 void AddWallFace(TriangleMesh* mesh, const Wall& wall, float height, const Palette& palette) {
   const UvRect uv{{0, 1 - (height - kPlinth_m) / kWallSheet_m},
-                  {wall.length / kWallSheet_m, (height - kPlinth_m) / kWallSheet_m}};
+                  {wall.length / palette.wall_wide_m, (height - kPlinth_m) / kWallSheet_m}};
   AddQuad(mesh, wall.At(0, height, 0), wall.length * wall.along, Vector3f(0, 0, kPlinth_m - height),
           uv, palette.wall);
   AddQuad(mesh, wall.At(0, kPlinth_m, 0.04f), wall.length * wall.along, Vector3f(0, 0, -kPlinth_m),
@@ -98,6 +68,24 @@ void AddSky(const HallSpec& hall, const Palette& palette, Site* site) {
 
 }  // namespace
 
+std::array<Wall, 4> WallsOf(const HallSpec& hall) {
+  const Vector2f low = hall.from.cast<float>(), high = hall.to.cast<float>();
+  const Vector3f x = Vector3f::UnitX(), y = Vector3f::UnitY();
+  const Vector2f size = high - low;
+  return {{{{low.x(), high.y(), 0}, x, -y, size.x()},
+           {{high.x(), low.y(), 0}, -x, y, size.x()},
+           {{high.x(), high.y(), 0}, -y, -x, size.y()},
+           {{low.x(), low.y(), 0}, y, x, size.y()}}};
+}
+
+Opening OpeningOf(const HallSpec& hall, const DoorSpec& door) {
+  const Wall wall = WallsOf(hall)[static_cast<std::size_t>(door.wall)];
+  const bool along_x = door.wall == WallSide::kNorth || door.wall == WallSide::kSouth;
+  const float at = static_cast<float>(door.at_m);
+  return {wall, std::abs(at - (along_x ? wall.corner.x() : wall.corner.y())),
+          static_cast<float>(door.width_m), static_cast<float>(door.height_m)};
+}
+
 void AddWalls(const Scene& scene, const Palette& palette, std::uint64_t seed, Site* site) {
   const HallSpec& hall = scene.hall;
   if (hall.walls == WallKind::kSky) return AddSky(hall, palette, site);
@@ -108,41 +96,30 @@ void AddWalls(const Scene& scene, const Palette& palette, std::uint64_t seed, Si
   for (std::size_t i = 0; i < walls.size(); ++i) {
     site->Add(kNames[i], ObjectClass::kWall,
               [&](TriangleMesh* mesh) { AddWallFace(mesh, walls[i], height, palette); });
-    if (hall.walls == WallKind::kPlain) continue;  // plain means nothing to hold on to
+    // Plain means nothing to hold on to; panels that keep the cold in are not drilled.
+    if (hall.walls == WallKind::kPlain || hall.walls == WallKind::kInsulated ||
+        hall.walls == WallKind::kCassettes) {
+      continue;
+    }
     site->Add(std::string(kNames[i]) + "_fittings", ObjectClass::kFurniture,
               [&](TriangleMesh* mesh) {
                 AddWallFittings(mesh, walls[i], height, palette, Dice(seed, {210, i}));
               });
   }
-  site->Add("roof", ObjectClass::kWall, [&](TriangleMesh* mesh) {
-    const Vector2f low = hall.from.cast<float>(), size = (hall.to - hall.from).cast<float>();
-    AddQuad(mesh, {low.x(), low.y(), height}, {size.x(), 0, 0}, {0, size.y(), 0},
-            {{0, 0}, size / 4}, palette.roof);
-    for (float x = low.x() + 2.5f; x < low.x() + size.x(); x += 5) {  // trusses
-      const float bottom = height - 0.55f, top = height - 0.12f;
-      AddBar(mesh, {x, low.y(), bottom}, {x, low.y() + size.y(), bottom}, 0.14f, palette.steel);
-      AddBar(mesh, {x, low.y(), top}, {x, low.y() + size.y(), top}, 0.14f, palette.steel);
-      for (float y = low.y(); y + 0.8f < low.y() + size.y(); y += 1.6f) {
-        AddBar(mesh, {x, y, bottom}, {x, y + 0.8f, top}, 0.06f, palette.steel);
-        AddBar(mesh, {x, y + 0.8f, top}, {x, y + 1.6f, bottom}, 0.06f, palette.steel);
-      }
-    }
-  });
+  AddRoof(scene, palette, site);
 }
 
 void AddDoors(const Scene& scene, const Palette& palette, Site* site) {
-  const std::array<Wall, 4> walls = WallsOf(scene.hall);
   for (std::size_t i = 0; i < scene.doors.size(); ++i) {
     const DoorSpec& door = scene.doors[i];
-    const Wall& wall = walls[static_cast<std::size_t>(door.wall)];
-    const bool along_x = door.wall == WallSide::kNorth || door.wall == WallSide::kSouth;
-    const float at = static_cast<float>(door.at_m);
-    const float middle = std::abs(at - (along_x ? wall.corner.x() : wall.corner.y()));
-    const float width = static_cast<float>(door.width_m),
-                height = static_cast<float>(door.height_m);
+    const auto& [wall, middle, width, height] = OpeningOf(scene.hall, door);
     site->Add(fmt::format("door_{}", i), ObjectClass::kFurniture, [&](TriangleMesh* mesh) {
-      const Vector3f leaf(0.06f, width, height);
-      AddBox(mesh, wall.Frame(middle, height / 2, 0.07f), leaf, BoxPaint::Whole(palette.door));
+      if (door.daylight > 0) {
+        AddOpenDoor(scene.hall, door, palette, mesh);
+      } else {
+        const Vector3f leaf(0.06f, width, height);
+        AddBox(mesh, wall.Frame(middle, height / 2, 0.07f), leaf, BoxPaint::Whole(palette.door));
+      }
       const Vector3f post(0.24f, 0.2f, height + 0.2f);
       for (const float side : {-1.0f, 1.0f}) {
         AddBox(mesh, wall.Frame(middle + side * (width / 2 + 0.1f), post.z() / 2, 0.14f), post,

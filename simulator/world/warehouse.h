@@ -30,6 +30,15 @@ class Site {
 void AddFloor(const Scene& scene, const Palette& palette, std::uint64_t seed, Site* site);
 void AddMarkings(const Scene& scene, const Palette& palette, Site* site);
 void AddWalls(const Scene& scene, const Palette& palette, std::uint64_t seed, Site* site);
+/// What carries the roof, and its skin.
+void AddRoof(const Scene& scene, const Palette& palette, Site* site);
+/// A door that stands open: the day outside, its leaf run up.
+void AddOpenDoor(const HallSpec& hall, const DoorSpec& door, const Palette& palette,
+                 TriangleMesh* mesh);
+/// The light that falls through an open door.
+AreaLight DaylightOf(const HallSpec& hall, const DoorSpec& door);
+/// What share of the daylight clouds leave at a time.
+float CloudAt(const HallSpec& hall, double time_s);
 void AddDoors(const Scene& scene, const Palette& palette, Site* site);
 void AddColumns(const Scene& scene, const Palette& palette, Site* site);
 void AddRacks(const Scene& scene, const Palette& palette, std::uint64_t seed, Site* site);

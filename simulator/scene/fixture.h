@@ -1,0 +1,16 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "simulator/scene/scene.h"
+
+namespace aisle::sim {
+
+/// How large a fixture is: depth along its front's direction, length across, and its height: its
+/// top, or the underside of what hangs.
+Eigen::Vector3d SizeOf(const FixtureSpec& fixture);
+
+/// Whether nobody can pass where it is: it stands there, and is no curtain and nothing flat.
+bool Blocks(const FixtureSpec& fixture);
+
+}  // namespace aisle::sim
