@@ -8,6 +8,7 @@
 #include "simulator/motion/rig_mount.h"
 #include "simulator/pipeline.h"
 #include "simulator/scene/essence.h"
+#include "simulator/scene/hall_files.h"
 #include "simulator/scene/load.h"
 #include "simulator/scene/vary.h"
 #include "simulator/shade/light/light_cache.h"
@@ -328,6 +329,10 @@ bool IsDriveScene(const std::string& scene_file) { return LoadScene(scene_file).
 
 std::vector<std::string> FilesOfScene(const std::string& scene_file) {
   return SceneFiles(scene_file);
+}
+
+std::string HallOfScene(const std::string& scene_file, std::uint64_t seed) {
+  return HallName(Seeded(LoadScene(scene_file), seed).hall.use);
 }
 
 std::string EssenceOfScene(const std::string& scene_file, Twin twin) {

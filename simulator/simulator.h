@@ -151,6 +151,10 @@ bool IsDriveScene(const std::string& scene_file);
 /// mistakes, as far as they can be followed.
 std::vector<std::string> FilesOfScene(const std::string& scene_file);
 
+/// The hall that a seed of a scene is in, by its file's name ("cold_store"); empty where the scene
+/// says itself what is there. Throws as Simulator::Load does.
+std::string HallOfScene(const std::string& scene_file, std::uint64_t seed);
+
 /// All of a scene that decides the frames of that twin, as text: neither what it is about nor who
 /// is not to be seen. Scenes of equal essence have equal frames for the same seed, assets and
 /// program. Throws as Simulator::Load does where the file cannot be read.

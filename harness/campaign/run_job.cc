@@ -48,6 +48,7 @@ std::filesystem::path FolderOf(const Job& job) {
 RunRecord RecordOf(const Job& job, const RunResult& result, const RunScore& score, double rate_hz) {
   RunRecord record = MakeRecord(result, score, rate_hz);
   record.inputs_hash = job.inputs_hash;
+  record.hall = HallOfSource(job.spec.scene_file, job.spec.seed);
   return record;
 }
 

@@ -65,6 +65,10 @@ std::vector<std::string> CheckSource(const std::string& file) {
 
 bool IsDriveSource(const std::string& file) { return !IsRecording(file) && IsDriveScene(file); }
 
+std::string HallOfSource(const std::string& file, std::uint64_t seed) {
+  return IsRecording(file) ? "" : HallOfScene(file, seed);
+}
+
 std::int64_t CountSourceFrames(const std::string& file) {
   if (!IsRecording(file)) return CountSceneFrames(file);
   return std::ssize(OpenRecordingSource(file)->Schedule());

@@ -40,6 +40,7 @@ struct Entry {
   std::string name;
   ScenePlan plan;
   std::vector<Sample> samples;
+  std::size_t frames = 0;
 };
 
 std::vector<std::string> ScenesOf(const std::vector<std::string>& places) {
@@ -108,16 +109,37 @@ std::vector<FrameRequest> Moments(const Sequence& sequence, int samples) {
   return moments;
 }
 
+/// So many frames at most make a sheet: the views of a hall.
+constexpr std::size_t kViews = 6;
+
+/// All frames, one below the other.
+cv::Mat3b Sheet(const Sequence& sequence, const std::string& name) {
+  cv::Mat sheet;
+  for (const FrameRequest& moment : sequence.Schedule()) {
+    const SequenceFrame frame = sequence.At(moment);
+    const std::string caption = fmt::format("{}  view {}", name, moment.id + 1);
+    const cv::Mat3b picture = DrawOverlay(frame.images.left, &*frame.truth, nullptr, caption);
+    if (sheet.empty()) {
+      sheet = picture;
+    } else {
+      cv::vconcat(sheet, picture, sheet);
+    }
+  }
+  return sheet;
+}
+
 /// Photographs the scene through its time; keeps the picture in which actors show most, short of
 /// hiding everything else.
 Entry Photograph(const std::string& file, const Options& options) {
   const SimulatedSequenceOptions simulation = SimulationOf(file, options);
-  Entry entry{simulation.scene_name, DrawScenePlan(simulation, options.plan_px), {}};
+  Entry entry{simulation.scene_name, DrawScenePlan(simulation, options.plan_px), {}, 0};
   const std::unique_ptr<Sequence> sequence = OpenSimulation(simulation);
+  entry.frames = sequence->Schedule().size();
   constexpr double kCrowded = 0.5;
   double best = -1;
   cv::Mat3b picture;
-  for (const FrameRequest& moment : Moments(*sequence, options.samples)) {
+  const int samples = entry.frames <= kViews ? 0 : options.samples;
+  for (const FrameRequest& moment : Moments(*sequence, samples)) {
     const SequenceFrame frame = sequence->At(moment);
     entry.samples.push_back(Measure(moment, *frame.truth));
     const double share = entry.samples.back().actors;
@@ -128,7 +150,9 @@ Entry Photograph(const std::string& file, const Options& options) {
     picture = DrawOverlay(frame.images.left, &*frame.truth, nullptr, caption);
   }
   const std::filesystem::path base = std::filesystem::path(options.output) / entry.name;
-  if (picture.empty()) {  // crowded from first to last
+  if (sequence->Schedule().size() <= kViews) {
+    picture = Sheet(*sequence, entry.name);
+  } else if (picture.empty()) {  // crowded from first to last
     const SequenceFrame frame = sequence->At(sequence->Schedule().front());
     picture = DrawOverlay(frame.images.left, &*frame.truth, nullptr, entry.name);
   }
@@ -138,6 +162,11 @@ Entry Photograph(const std::string& file, const Options& options) {
 }
 
 std::string Describe(const Entry& entry) {
+  if (entry.frames <= kViews) {
+    return fmt::format(
+        "## {0}\n\n{1}\n\n![{0} from its views]({0}.jpg)\n![{0} from above]({0}_plan.png)\n\n",
+        entry.name, entry.plan.about);
+  }
   const auto most = std::ranges::max_element(entry.samples, {}, &Sample::people);
   return fmt::format(
       "## {0}\n\n{1}\n\n"

@@ -201,6 +201,14 @@ std::string EssenceOfScene(const std::string& scene_file, const std::string& twi
   }
 }
 
+std::string HallOfScene(const std::string& scene_file, std::uint64_t seed) {
+  try {
+    return sim::HallOfScene(scene_file, seed);
+  } catch (const std::runtime_error& error) {
+    throw InputError(error.what());
+  }
+}
+
 std::int64_t CountSceneFrames(const std::string& scene_file) {
   try {
     return sim::CountSceneFrames(scene_file);

@@ -82,6 +82,10 @@ std::vector<std::string> FilesOfScene(const std::string& scene_file);
 /// frames for the same seed, assets and program. Throws InputError.
 std::string EssenceOfScene(const std::string& scene_file, const std::string& twin);
 
+/// The hall that a seed of it is in, by its file's name; empty where the scene says itself what is
+/// there. Throws InputError for a bad scene.
+std::string HallOfScene(const std::string& scene_file, std::uint64_t seed);
+
 /// Frames of a scene as its file says. Throws InputError for a bad scene.
 std::int64_t CountSceneFrames(const std::string& scene_file);
 

@@ -14,6 +14,7 @@ namespace aisle {
 /// What a report needs to know of one run; lives as result.json in the run's folder, written last.
 struct RunRecord {
   RunSpec spec;
+  std::string hall;  ///< where it ran: "cold_store"; empty: in the scene's own
   RunStatus status = RunStatus::kOk;
   std::string status_why;
   std::size_t frames = 0;

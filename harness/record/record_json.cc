@@ -66,6 +66,7 @@ Json RecordToJson(const RunRecord& record) {
   json["system_spec"] = ToJson(record.spec.system);
   json["seed"] = record.spec.seed;
   if (record.spec.repeat > 1) json["repeat"] = record.spec.repeat;
+  if (!record.hall.empty()) json["hall"] = record.hall;
   json["status"] = Name(record.status);
   json["why"] = record.status_why;
   json["frames"] = record.frames;
@@ -98,6 +99,7 @@ RunRecord RecordFromJson(const Json& json) {
   record.spec.seed = json.at("seed").get<std::uint64_t>();
   record.spec.repeat = json.value("repeat", 1);
   record.status = RunStatusFromName(json.at("status").get<std::string>());
+  record.hall = json.value("hall", "");
   record.status_why = json.value("why", "");
   record.frames = json.at("frames").get<std::size_t>();
   record.rate_hz = json.value("rate_hz", 0.0);

@@ -121,20 +121,25 @@ def strip_pvc():
     """A curtain's strip 20 cm wide, 2.4 m long: cloudy, scuffed by loads, dirty towards its foot."""
     size = (1024, 128)
     y, x = np.mgrid[0:1024, 0:128] + 0.5
-    image = flat(size, (0.66, 0.68, 0.67))
+    image = flat(size, (0.83, 0.85, 0.84))
     image *= (1.0 + 0.05 * noise.picture(size, 2.2, 261, 1))[..., None]
     rim = np.minimum(x, 128 - x)
-    image = mix(image, (0.88, 0.89, 0.88), 0.8 * noise.step(7, 2, rim))
+    image = mix(image, (0.88, 0.89, 0.88), 0.8 * noise.step(5, 2, rim))
     image = mix(image, (0.90, 0.90, 0.90), 0.55 * scratches(size, 120, 262, (40, 300), (0.5, 1.6), np.pi / 2))
     dirt = noise.step(500, 1000, y) * threshold(noise.picture(size, 2.0, 263, 2, (0.3, 1.0)), -0.6, 1.4)
-    return mix(image, (0.30, 0.29, 0.28), 0.55 * dirt), {"tile_m": [0.2, 2.4]}
+    return mix(image, (0.40, 0.39, 0.38), 0.40 * dirt), {"tile_m": [0.2, 2.4]}
 
 
 def enamel():
     """Machine enamel, pale grey: oily hand marks, chips along nothing in particular, drips; 1 m."""
-    image = surfaces.paint((0.62, 0.65, 0.62), 271, (512, 512), 0.9)
-    oil = noise.picture((512, 512), 2.3, 272, 2, (0.4, 1.0))
-    return mix(image, (0.22, 0.20, 0.17), 0.55 * threshold(oil, 0.9, 2.0)), {"tile_m": [1.0, 1.0]}
+    size = (512, 512)
+    image = flat(size, (0.64, 0.67, 0.64)) * (1.0 + 0.02 * noise.picture(size, 2.6, 271, 1))[..., None]
+    image = mix(image, (0.40, 0.40, 0.37), 0.30 * threshold(noise.picture(size, 2.6, 272, 1), 0.6, 2.2))
+    runs = noise.picture(size, 2.2, 273, 2, (0.1, 1.0))
+    image = mix(image, (0.33, 0.31, 0.27), 0.30 * threshold(runs, 1.3, 2.6))
+    image = mix(image, (0.42, 0.42, 0.40), 0.45 * scratches(size, 22, 274, (10, 70)))
+    chips = threshold(noise.picture(size, 1.9, 275, 6), 2.9, 3.1)
+    return mix(image, (0.24, 0.21, 0.19), 0.8 * chips), {"tile_m": [1.0, 1.0]}
 
 
 def checker_plate():
