@@ -19,6 +19,7 @@ struct Material {
   float specular_f0 = 0.0f;  ///< reflectance at normal incidence, 0: purely diffuse
   float roughness = 1.0f;    ///< perceptual; GGX alpha is its square
   float emission = 0.0f;     ///< emitted radiance, relative units; > 0 marks a luminaire
+  float transmission = 0;    ///< share of light that goes straight through; of movers only
 };
 
 /// One image: albedo textures are 8-bit grey with sRGB transfer, normal maps have x, y and z as

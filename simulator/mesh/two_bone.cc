@@ -14,7 +14,8 @@ Affine3f Turn(const Vector3f& about, const Vector3f& from, const Vector3f& to) {
          Eigen::Translation3f(-about);
 }
 
-/// Applies a motion to a node and all below it. Parents come before children.
+}  // namespace
+
 void MoveSubtree(const Model& model, int top, const Affine3f& motion, NodeFrames* frames) {
   std::vector<bool> below(model.nodes.size(), false);
   for (std::size_t i = static_cast<std::size_t>(top); i < below.size(); ++i) {
@@ -24,8 +25,6 @@ void MoveSubtree(const Model& model, int top, const Affine3f& motion, NodeFrames
     if (below[i]) (*frames)[i] = motion * (*frames)[i];
   }
 }
-
-}  // namespace
 
 void ReachFor(const Model& model, const Limb& limb, const Affine3f& target, float reach,
               NodeFrames* frames) {

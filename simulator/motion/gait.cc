@@ -81,7 +81,14 @@ GaitState Gait::At(double time_s) const {
   const double elapsed = std::clamp(time_s - leg.start_s, 0.0, leg.duration_s);
   const double speed = FootArm(leg) * leg.profile.At(elapsed).speed_mps;
   const auto& [before, density] = steps_[index];
-  return {before + density * CyclesWithin(leg, elapsed), Amplitude(speed) / density};
+  return {Limped(before + density * CyclesWithin(leg, elapsed)), Amplitude(speed) / density};
+}
+
+/// The same count of half cycles, but the first half of each goes by faster than the second.
+double Gait::Limped(double cycles) const {
+  if (style_.limp == 0) return cycles;
+  const double turn = 2 * std::numbers::pi;
+  return cycles + style_.limp / turn * std::sin(turn * (cycles - style_.rest_phase));
 }
 
 }  // namespace aisle::sim

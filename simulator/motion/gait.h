@@ -12,6 +12,7 @@ struct GaitStyle {
   double duration_s = 1.1;
   double longest_stride_m = 1.4;  ///< faster than it carries, only the cadence rises
   double rest_phase = 0;          ///< of standing: every walk begins and ends half cycles from it
+  double limp = 0;  ///< share by which the first half of each cycle from there is shorter, below 1
   double natural_speed_mps() const { return stride_m / duration_s; }
 };
 
@@ -35,6 +36,7 @@ class Gait {
 
  private:
   double Amplitude(double speed_mps) const;
+  double Limped(double cycles) const;
   double CyclesWithin(const Route::Leg& leg, double elapsed_s) const;
   double CyclesWhile(double from_mps, double acceleration_mps2, double duration_s) const;
 

@@ -67,6 +67,15 @@ Path Path::Through(std::span<const Waypoint> waypoints) {
   return path;
 }
 
+Path Path::OfArcs(PathPoint start, std::span<const Arc> arcs) {
+  Path path;
+  for (const Arc& arc : arcs) {
+    start.curvature_per_m = arc.curvature_per_m;
+    start = path.Append(start, 0, arc.length_m, path.segments_.size());
+  }
+  return path;
+}
+
 PathPoint Path::At(double distance_m) const {
   const double distance = std::clamp(distance_m, 0.0, length_m_);
   const auto after = std::upper_bound(

@@ -26,12 +26,20 @@ class Path {
     bool IsLine() const { return start.curvature_per_m == 0 && sharpness_per_m2 == 0; }
   };
 
+  struct Arc {
+    double length_m = 0;  ///< >= 0
+    double curvature_per_m = 0;
+  };
+
   /// Rounds the polyline's corners by curves tangent to both sides. Throws std::invalid_argument
   /// when there are fewer than two points, two neighbours coincide, a path turns back on itself, or
   /// the curves of neighbouring corners overlap (the message names the waypoint's index).
   static Path Through(std::span<const Waypoint> waypoints);
 
   double length_m() const { return length_m_; }
+  /// Arcs one after another, each tangent to the one before; none of no length.
+  static Path OfArcs(PathPoint start, std::span<const Arc> arcs);
+
   const std::vector<Segment>& segments() const { return segments_; }
   /// The point at a distance from the start, clamped to [0, length_m()].
   PathPoint At(double distance_m) const;

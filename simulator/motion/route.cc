@@ -87,6 +87,25 @@ class Planner {
     }
   }
 
+  void Follow(const PacedLeg& paced) {
+    if (paced.pause_s > 0) Pause(paced.pause_s);
+    if (paced.turn_rad != 0) TurnTo(now_.heading_rad + paced.turn_rad);
+    if (paced.pieces.empty()) return;
+    std::vector<Path::Arc> arcs;
+    std::vector<SpeedProfile::Stretch> stretches;
+    Route::Leg leg;
+    for (const PacedPiece& piece : paced.pieces) {
+      arcs.push_back({(piece.from_mps + piece.to_mps) / 2 * piece.duration_s,
+                      piece.curvature_per_m});
+      stretches.push_back({piece.duration_s, piece.to_mps});
+    }
+    leg.path = Path::OfArcs({now_.position, now_.heading_rad, 0}, arcs);
+    leg.profile = SpeedProfile::Paced(paced.pieces.front().from_mps, stretches);
+    leg.segment_steps.assign(leg.path.segments().size(), -1);
+    const double duration = leg.profile.duration_s();
+    Append(std::move(leg), duration);
+  }
+
   std::vector<Route::Leg> TakeLegs() { return std::move(legs_); }
   RouteState now() const { return now_; }
   double time_s() const { return time_s_; }
@@ -188,6 +207,7 @@ std::vector<Corner> CornersFrom(const RoutePlan& plan, std::size_t step) {
 
 Route::Route(const RoutePlan& plan, const RouteLimits& limits) {
   Planner planner(plan, limits);
+  for (const PacedLeg& leg : plan.paced) planner.Follow(leg);
   for (std::size_t i = 0; i < plan.steps.size();) {
     const RouteStep& step = plan.steps[i];
     planner.BeginStep(static_cast<int>(i));

@@ -23,12 +23,28 @@ struct RouteStep {
   std::string play;                   ///< clip played meanwhile; empty: the mover's usual
 };
 
+/// A stretch of a paced way: an arc, along which speed changes evenly.
+struct PacedPiece {
+  double duration_s = 0;           ///< > 0
+  double from_mps = 0, to_mps = 0; ///< not both 0
+  double curvature_per_m = 0;      ///< positive turns left
+};
+
+/// A leg of a way whose times are known beforehand, from rest to rest: one of a drive, a turn on
+/// the spot and a pause.
+struct PacedLeg {
+  std::vector<PacedPiece> pieces;
+  double turn_rad = 0;
+  double pause_s = 0;
+};
+
 /// A mover's way through the scene, as a plain description.
 struct RoutePlan {
   Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< metres, world
   double heading_rad = 0;                           ///< at the start
   double start_s = 0;                               ///< stands until then
   std::vector<RouteStep> steps;
+  std::vector<PacedLeg> paced;  ///< instead of steps
 };
 
 /// A plan that cannot be driven, and the step that is to blame.

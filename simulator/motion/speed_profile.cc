@@ -129,6 +129,21 @@ SpeedProfile SpeedProfile::FromRestToRest(std::span<const SpeedLimit> limits, do
   return Trapezoids(Widened(limits, window_s / 2), acceleration).AveragedOver(window_s);
 }
 
+SpeedProfile SpeedProfile::Paced(double from_mps, std::span<const Stretch> stretches) {
+  SpeedProfile profile;
+  double speed = from_mps;
+  for (const Stretch& stretch : stretches) {
+    if (!(stretch.duration_s > 0)) throw std::invalid_argument("a paced stretch takes no time");
+    const double acceleration = (stretch.to_mps - speed) / stretch.duration_s;
+    profile.phases_.push_back(
+        {profile.duration_s_, stretch.duration_s, {profile.length_m_, speed, acceleration}, 0});
+    profile.length_m_ += (speed + stretch.to_mps) / 2 * stretch.duration_s;
+    profile.duration_s_ += stretch.duration_s;
+    speed = stretch.to_mps;
+  }
+  return profile;
+}
+
 Travel SpeedProfile::At(double time_s) const {
   if (phases_.empty() || time_s <= 0) return {};
   if (time_s >= duration_s_) return {length_m_, 0, 0};

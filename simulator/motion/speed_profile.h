@@ -40,6 +40,14 @@ class SpeedProfile {
   static SpeedProfile FromRestToRest(std::span<const SpeedLimit> limits, double acceleration_mps2,
                                      double jerk_mps3 = std::numeric_limits<double>::infinity());
 
+  /// Speeds that are known beforehand: each stretch goes evenly from the speed of the one before to
+  /// its own within its time. Throws std::invalid_argument unless all times are positive.
+  struct Stretch {
+    double duration_s = 0;
+    double to_mps = 0;
+  };
+  static SpeedProfile Paced(double from_mps, std::span<const Stretch> stretches);
+
   double duration_s() const { return duration_s_; }
   double length_m() const { return length_m_; }
   const std::vector<Phase>& phases() const { return phases_; }

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <set>
 
+#include "simulator/scene/check_mechanisms.h"
 #include "simulator/scene/check_routes.h"
+#include "simulator/scene/crowd.h"
 #include "simulator/scene/hall.h"
 
 namespace aisle::sim {
@@ -48,7 +50,11 @@ class Checker {
     CheckStanding();
     CheckNames(scene_.people, "people");
     CheckNames(scene_.vehicles, "vehicles");
+    CheckNames(scene_.mechanisms, "mechanisms");
     CheckHandles();
+    CheckMechanisms(scene_, issues_);
+    CheckBeams();
+    CheckCrowd();
     CheckDrive();
     CheckRoutes(scene_, issues_);
     for (std::size_t i = 0; i < scene_.vehicles.size(); ++i) CheckMast(scene_.vehicles[i], i);
@@ -196,6 +202,53 @@ class Checker {
         issues_->Add(vehicle.mark, key, "its level must be that of its pusher or above");
       }
     }
+  }
+
+  void CheckBeams() {
+    const HallSpec& hall = scene_.hall;
+    for (std::size_t i = 0; i < scene_.beams.size(); ++i) {
+      const BeamSpec& beam = scene_.beams[i];
+      const std::string key = fmt::format("beams[{}]", i);
+      CheckInside(beam.mark, key + ".at_m", beam.at.head<2>());
+      if (beam.at.z() < 0 || beam.at.z() > hall.height_m) {
+        issues_->Add(beam.mark, key + ".at_m",
+                     fmt::format("{:g} m is below the floor or above the roof at {:g} m",
+                                 beam.at.z(), hall.height_m));
+      }
+      if (beam.kind == BeamKind::kSpot && !beam.moves.empty()) {
+        issues_->Add(beam.mark, key + ".moves", "only the sun has moves; a spot turns by rate_hz");
+      }
+      if (beam.kind == BeamKind::kSun && beam.rate_rad_s != 0) {
+        issues_->Add(beam.mark, key + ".rate_hz", "only a spot turns; the sun goes by moves");
+      }
+      if (beam.kind == BeamKind::kSun && hall.walls == WallKind::kSky) {
+        issues_->Add(beam.mark, key, "under a sky there are no windows");
+      }
+      std::vector<JointMove> times;
+      for (const SunMove& move : beam.moves) times.push_back({move.at_s, 0, move.over_s});
+      const std::string wrong = MovesError(times);
+      if (!wrong.empty()) issues_->Add(beam.mark, key + ".moves", wrong);
+    }
+  }
+
+  void CheckCrowd() {
+    const CrowdSpec& crowd = scene_.crowd;
+    if (crowd.people == 0) return;
+    if (crowd.in && crowd.between_racks) {
+      issues_->Add(crowd.mark, "crowd", "`in` and `between_racks` both say where: give one");
+    }
+    if (crowd.between_racks) {
+      for (const int rack : *crowd.between_racks) {
+        if (rack < static_cast<int>(scene_.racks.size())) continue;
+        issues_->Add(crowd.mark, "crowd.between_racks",
+                     fmt::format("there is no racks[{}]; there are {}, counted from 0", rack,
+                                 scene_.racks.size()));
+        return;
+      }
+    }
+    const CrowdArea area = CrowdAreaOf(scene_);
+    CheckInside(crowd.mark, "crowd.in", area.from);
+    CheckInside(crowd.mark, "crowd.in", area.to);
   }
 
   void CheckDrive() {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "simulator/scene/crowd.h"
 #include "simulator/scene/footprint.h"
 #include "simulator/scene/hall.h"
 #include "simulator/scene/obstacles.h"
@@ -27,7 +28,9 @@ struct Walker {
   std::string key, name;
 };
 
-std::string KeyOf(const PersonSpec& person) { return fmt::format("people[{}]", person.place); }
+std::string KeyOf(const PersonSpec& person) {
+  return person.crowd > 0 ? "crowd" : fmt::format("people[{}]", person.place);
+}
 std::string KeyOf(const VehicleSpec& vehicle) { return fmt::format("vehicles[{}]", vehicle.place); }
 
 /// The line to blame for where a mover is.
@@ -160,9 +163,16 @@ std::string InHallText(const Scene& scene, const Scene& seeded) {
 }  // namespace
 
 void CheckRoutesOfSeed(const Scene& scene, std::uint64_t seed, Issues* issues) {
-  const Scene seeded = Seeded(scene, seed);
-  RouteChecker(seeded, InHallText(scene, seeded) + fmt::format("with seed {} ", seed), issues)
-      .Run();
+  try {
+    const Scene seeded = Seeded(scene, seed);
+    RouteChecker(seeded, InHallText(scene, seeded) + fmt::format("with seed {} ", seed), issues)
+        .Run();
+  } catch (const CrowdError& error) {
+    issues->Add(scene.crowd.mark, "crowd", fmt::format("with seed {} {}", seed, error.what()));
+  } catch (const RouteError& error) {
+    // One that is not the crowd's was reported where it is written.
+    if (issues->empty()) throw;
+  }
 }
 
 void CheckRoutes(const Scene& scene, Issues* issues) {

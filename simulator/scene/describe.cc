@@ -231,6 +231,10 @@ void DescribePerson(Fields& f, PersonSpec& person) {
   f.Choice({"level", "takes part from this level of dynamics on", "low"}, &person.level, kDynamics);
   DescribeRoute(f, person.route);
   DescribeYields(f, person.yields);
+  f.Number({"limp", "share by which the right leg's stance is shorter", "0.3"}, &person.limp,
+           {0, 0.7});
+  f.Flag({"natural", "leans as it speeds up and turns, and looks where it is going", "true"},
+         &person.natural);
   f.Group({"vary", "what the seed may change", "{time_s: 0.5, speed: 0.1, look: true}"},
           [&](Fields& vary) {
             DescribeVary(vary, person.vary);
@@ -326,6 +330,15 @@ void Describe(Fields& f, Scene& scene) {
            DescribePerson);
   f.ListOf({"vehicles", "what drives here", "[{name: truck, start: [9, 4]}]"}, &scene.vehicles,
            DescribeVehicle);
+  f.ListOf({"mechanisms", "what else moves: doors, chains, conveyors, what is pushed and carried",
+            "[{name: gate, at: [6, 1], parts: [{size_m: [0.1, 2, 2], joint: {kind: slider}}]}]"},
+           &scene.mechanisms, DescribeMechanism);
+  f.ListOf({"beams", "lights that move: beacons, and sunlight through windows",
+            "[{name: beacon, at_m: [7, 1.5, 2.2], rate_hz: 1.2}]"},
+           &scene.beams, DescribeBeam);
+  f.Group({"crowd", "people who walk to and fro and keep out of each other's way",
+           "{people: 12, in: [2, -1.2, 14, 1.2]}"},
+          [&](Fields& part) { DescribeCrowd(part, scene.crowd); });
 }
 
 }  // namespace aisle::sim

@@ -52,7 +52,7 @@ void AppendRigFiles(const std::filesystem::path& scene_file, std::size_t scene_f
 
 bool IsSeen(const std::string& key, bool with_actors) {
   if (key == "about" || key == kExtendKey || key == kVaryKey) return false;
-  return with_actors || (key != "people" && key != "vehicles");
+  return with_actors || (key != "people" && key != "vehicles" && key != "crowd");
 }
 
 /// Without what cannot be seen: a hall is what its file holds, whatever that is called.

@@ -7,10 +7,10 @@ namespace aisle::sim {
 
 /// What a scene's pixels and truth are decided by, as text in a form of its own: the file laid over
 /// those it extends and the hall it takes (each of them, where halls vary), keys in order, without
-/// comments, without `about` and the name of the extended file, and without `people` and `vehicles`
-/// where they are not to be seen; then the bytes of the files that its rig brings. Scenes of equal
-/// essence give equal frames for the same twin, seed and assets. Throws SceneError where the file
-/// cannot be read as YAML; other mistakes are not looked for.
+/// comments, without `about` and the name of the extended file, and without `people`, `vehicles`
+/// and `crowd` where they are not to be seen; then the bytes of the files that its rig brings.
+/// Scenes of equal essence give equal frames for the same twin, seed and assets. Throws SceneError
+/// where the file cannot be read as YAML; other mistakes are not looked for.
 std::string EssenceOf(const std::filesystem::path& file, bool with_actors);
 
 }  // namespace aisle::sim

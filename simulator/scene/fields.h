@@ -91,6 +91,14 @@ void DescribeDrive(Fields& fields, DriveSpec& drive);
 
 /// Names every key of what a hall's file may hold, `about` left out.
 void DescribePremises(Fields& fields, Premises& premises);
+/// Names every key of one of a scene's `mechanisms`.
+void DescribeMechanism(Fields& fields, MechanismSpec& mechanism);
+
+/// Names every key of one of a scene's `beams`.
+void DescribeBeam(Fields& fields, BeamSpec& beam);
+
+/// Names every key of a scene's `crowd`.
+void DescribeCrowd(Fields& fields, CrowdSpec& crowd);
 
 /// Names every key of a scene file, with ranges and examples.
 void Describe(Fields& fields, Scene& scene);

@@ -20,6 +20,7 @@ struct Parsed {
 void NumberPlaces(Scene* scene) {
   for (std::size_t i = 0; i < scene->people.size(); ++i) scene->people[i].place = i;
   for (std::size_t i = 0; i < scene->vehicles.size(); ++i) scene->vehicles[i].place = i;
+  for (std::size_t i = 0; i < scene->mechanisms.size(); ++i) scene->mechanisms[i].place = i;
 }
 
 /// The rig of a hall's own scene is at one view after the other, a frame each.

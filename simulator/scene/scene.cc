@@ -9,9 +9,37 @@ std::string PlaceText(const std::vector<std::string>& files, Mark mark) {
   return fmt::format("{}:{}:{}", file, mark.line, mark.column);
 }
 
+namespace {
+
+/// Those that people bring stay away with these; others stand as at the start.
+void Calm(std::vector<MechanismSpec>* mechanisms, const auto& is_calm) {
+  std::erase_if(*mechanisms, [&](const MechanismSpec& one) {
+    return is_calm(one) && one.IsBrought();
+  });
+  for (MechanismSpec& one : *mechanisms) {
+    if (!is_calm(one)) continue;
+    one.still = true;
+    one.taken.clear();
+  }
+}
+
+/// They shine on, but as at the start.
+void Calm(std::vector<BeamSpec>* beams, const auto& is_calm) {
+  for (BeamSpec& one : *beams) {
+    if (!is_calm(one)) continue;
+    one.rate_rad_s = 0;
+    one.moves.clear();
+  }
+}
+
+}  // namespace
+
 Scene WithoutActors(Scene scene) {
   scene.people.clear();
   scene.vehicles.clear();
+  scene.crowd.people = 0;
+  Calm(&scene.mechanisms, [](const MechanismSpec&) { return true; });
+  Calm(&scene.beams, [](const BeamSpec&) { return true; });
   return scene;
 }
 
@@ -24,6 +52,8 @@ Scene WithDynamics(Scene scene, Dynamics dynamics) {
   const auto too_busy = [&](const auto& actor) { return actor.level > dynamics; };
   std::erase_if(scene.people, too_busy);
   std::erase_if(scene.vehicles, too_busy);
+  Calm(&scene.mechanisms, too_busy);
+  Calm(&scene.beams, too_busy);
   scene.dynamics = dynamics;
   return scene;
 }

@@ -10,14 +10,15 @@
 #include "simulator/motion/rig_mount.h"
 #include "simulator/motion/route.h"
 #include "simulator/motion/vehicle.h"
+#include "simulator/scene/beam_spec.h"
+#include "simulator/scene/crowd_spec.h"
 #include "simulator/scene/drive_spec.h"
+#include "simulator/scene/kinds.h"
 #include "simulator/scene/mark.h"
+#include "simulator/scene/mechanism_spec.h"
 #include "simulator/scene/sensor_spec.h"
 
 namespace aisle::sim {
-
-/// How busy a scene is. An actor takes part when the scene's level is at least its own.
-enum class Dynamics { kNone, kLow, kMid, kHigh };
 
 enum class Distortion { kNone, kRadialTangential, kEquidistant };
 
@@ -82,8 +83,6 @@ struct HallSpec {
   double cloud = 0;    ///< share of the daylight that passing clouds take at most
   double cloud_s = 9;  ///< about from one cloud to the next
 };
-
-enum class GoodsKind { kMixed, kCartons, kDrums, kTotes, kWrapped, kIdentical, kNothing };
 
 enum class RackPaint { kBlue, kOrange, kSteel };
 
@@ -234,6 +233,9 @@ struct PersonSpec {
   RouteSpec route;
   VarySpec vary;
   YieldSpec yields;
+  int crowd = 0;         ///< which of the crowd it is, from 1; 0: one of the file's list
+  double limp = 0;       ///< share by which the right leg's stance is shorter
+  bool natural = false;  ///< leans as it speeds up and turns, and looks where it is going
 };
 
 struct VehicleSpec {
@@ -295,6 +297,9 @@ struct Scene : Premises {
   std::vector<Premises> dealt;            ///< what is there with each of them; empty: none varies
   std::vector<PersonSpec> people;
   std::vector<VehicleSpec> vehicles;
+  std::vector<MechanismSpec> mechanisms;
+  std::vector<BeamSpec> beams;
+  CrowdSpec crowd;
   bool frozen = false;  ///< actors stay where they are at time 0
 
   double duration_s() const { return frames / rate_hz; }
@@ -303,11 +308,12 @@ struct Scene : Premises {
 /// "file:line:column" of a mark in a scene's files.
 std::string PlaceText(const std::vector<std::string>& files, Mark mark);
 
-/// The same scene with nobody in it.
+/// The same scene with nobody in it; mechanisms stand still.
 Scene WithoutActors(Scene scene);
 /// The same scene with everybody standing where they are at time 0.
 Scene Frozen(Scene scene);
-/// The same scene with those actors only whose level is at most `dynamics`.
+/// The same scene with those actors only whose level is at most `dynamics`; mechanisms above it
+/// stand still.
 Scene WithDynamics(Scene scene, Dynamics dynamics);
 
 }  // namespace aisle::sim

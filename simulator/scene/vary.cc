@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "simulator/scene/crowd.h"
 #include "simulator/scene/dice.h"
 
 namespace aisle::sim {
@@ -40,6 +41,7 @@ Scene Seeded(Scene scene, std::uint64_t seed) {
     vehicle.route.plan = pusher->route.plan;
     vehicle.route.limits = pusher->route.limits;
   }
+  AddCrowd(seed, &scene);
   return scene;
 }
 
@@ -49,6 +51,10 @@ Scene WithLooks(Scene scene, std::uint64_t seed, const std::vector<std::string>&
     if (!person.vary.look) std::erase(circle, person.model);
   }
   for (PersonSpec& person : scene.people) {
+    if (person.crowd > 0 && !models.empty()) {
+      person.model = models[(static_cast<std::size_t>(person.crowd) + 3 * seed) % models.size()];
+      continue;
+    }
     const auto own = std::ranges::find(circle, person.model);
     if (!person.vary.look || own == circle.end()) continue;
     const auto place = static_cast<std::uint64_t>(own - circle.begin());

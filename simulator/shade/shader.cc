@@ -5,6 +5,8 @@
 
 #include "simulator/common/parallel.h"
 #include "simulator/shade/pass/antialias.h"
+#include "simulator/shade/pass/beam_light.h"
+#include "simulator/shade/pass/clear_pass.h"
 #include "simulator/shade/pass/gloss_pass.h"
 #include "simulator/shade/pass/mover_shadow.h"
 #include "simulator/shade/pass/normal_pass.h"
@@ -65,11 +67,31 @@ cv::Mat1f Combine(const HitImage& image, std::span<const float> reflectance,
   return radiance;
 }
 
+/// What moving lights add to a picture, and what is seen through clear panes: most worlds have
+/// neither.
+void AddBeams(std::span<const float> reflectance, std::span<const float> beams,
+              std::span<const float> glow, const HitImage& image, cv::Mat1f* radiance) {
+  ParallelFor(0, image.height, [&](int y) {
+    const std::size_t row = image.Index(0, y);
+    float* to = (*radiance)[y];
+    for (std::size_t x = 0; x < static_cast<std::size_t>(image.width); ++x) {
+      to[x] += reflectance[row + x] * beams[row + x] * kInvPi + glow[row + x];
+    }
+  });
+}
+
+void AddThrough(std::span<const float> through, const HitImage& image, cv::Mat1f* radiance) {
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) (*radiance)(y, x) += through[image.Index(x, y)];
+  }
+}
+
 }  // namespace
 
 struct Shader::Workspace {
   FrameLight frame;
   std::vector<float> reflectance, irradiance, kept, mirrored;
+  std::vector<float> beams, glow, through;
   std::array<std::vector<float>, 2> raw_kept;  ///< of the first view, and of the one at work
 };
 
@@ -97,8 +119,14 @@ std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const Cam
   }
   if (!work) work = std::make_unique<Workspace>();
 
+  std::vector<std::vector<BehindClear>> behind;  // by view
+  std::vector<Hits8> beyond;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    behind.push_back(TraceBehindClear(instant, views[i], images[i]));
+    for (const BehindClear& one : behind.back()) beyond.push_back(one.hits);
+  }
   tables_.PrepareFrame(instant, views, images, static_light_.At(instant.snapshot().light_scale),
-                       &work->frame);
+                       &work->frame, beyond);
   done("light movers");
   std::vector<cv::Mat1f> radiance;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -119,6 +147,17 @@ std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const Cam
     radiance.push_back(
         Combine(image, work->reflectance, work->irradiance, work->kept,
                 glossy ? std::span<const float>(work->mirrored) : std::span<const float>()));
+    const bool has_beams = tables_.world().has_beams();
+    if (has_beams) {
+      TraceBeams(shading, &work->beams, &work->glow);
+      AddBeams(work->reflectance, work->beams, work->glow, image, &radiance.back());
+      done("beams");
+    }
+    if (!behind[i].empty()) {
+      ShadeBehindClear(shading, behind[i], has_beams, &work->through);
+      AddThrough(work->through, image, &radiance.back());
+      done("behind clear panes");
+    }
     if (options_.antialias) {
       AntialiasEdges(shading, work->kept, &radiance.back());
       done("antialias");

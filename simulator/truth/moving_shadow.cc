@@ -90,9 +90,11 @@ class ShadowFinder {
   ShadowFinder(const World& world, const Instant& instant, const MovingNow& moving,
                const MovingShadowOptions& options)
       : world_(world), instant_(instant), moving_(moving), options_(options) {
-    for (const Eigen::AlignedBox3f& box : instant.mover_boxes()) {
+    for (std::size_t m = 0; m < instant.mover_boxes().size(); ++m) {
+      const Eigen::AlignedBox3f& box = instant.mover_boxes()[m];
       balls_.push_back({box.center(), box.diagonal().norm() / 2});
-      anything_moves_ |= moving.Any(balls_.size() - 1);
+      casts_.push_back(instant.snapshot().movers[m].casts_shadow && moving.Any(m));
+      anything_moves_ |= casts_.back();
     }
   }
 
@@ -128,7 +130,7 @@ class ShadowFinder {
     const Sphere ball{lamp.center, (lamp.half_u + lamp.half_v).norm()};
     GeometryMask mask = 0;
     for (std::size_t i = 0; i < balls_.size(); ++i) {
-      if (moving_.Any(i) && CanBlock(balls_[i], places.bound, ball)) mask |= MoverBit(i);
+      if (casts_[i] && CanBlock(balls_[i], places.bound, ball)) mask |= MoverBit(i);
     }
     return mask;
   }
@@ -213,6 +215,7 @@ class ShadowFinder {
   const MovingNow& moving_;
   const MovingShadowOptions options_;
   std::vector<Sphere> balls_;  ///< around each mover
+  std::vector<bool> casts_;    ///< whether it moves and keeps light away
   bool anything_moves_ = false;
 };
 

@@ -9,11 +9,15 @@
 
 namespace aisle::sim {
 
+/// Where an actor holds things, world: the hands of a person, the forks of a truck. Pure.
+using Grip = std::function<Eigen::Isometry3d(double time_s)>;
+
 /// An actor as the world needs it: its topology and where everything of it is at a time. `at` is
 /// pure and leaves the instance index to the caller.
 struct Actor {
   TriangleMesh mesh;  ///< materials are the world's
   std::function<MoverState(double time_s)> at;
+  Grip grip = {};  ///< none: it cannot hold anything
 };
 
 /// Adds the materials and textures of models to a world, each model once.
@@ -28,10 +32,11 @@ class Wardrobe {
   std::map<const Model*, std::uint16_t> first_material_;
 };
 
-/// A walking person. One whose steps play walk_carry has a box in the arms, from first to last.
+/// A walking person. One whose steps play walk_carry has a box in the arms, from first to last,
+/// unless it `shares_load`: what it carries then is somebody else's too.
 /// Throws RouteError, or std::runtime_error when the model lacks a clip.
 Actor MakePerson(const PersonSpec& person, AssetLibrary* assets, const Palette& palette, Dice dice,
-                 Wardrobe* wardrobe);
+                 Wardrobe* wardrobe, bool shares_load = false);
 
 /// A vehicle with rolling and steered wheels and a mast, perhaps with a load. Its origin runs
 /// `ahead_m` before the route, as that of a truck does which is pushed.

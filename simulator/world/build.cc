@@ -7,6 +7,7 @@
 #include "simulator/scene/vary.h"
 #include "simulator/world/actors.h"
 #include "simulator/world/fittings.h"
+#include "simulator/world/mechanism.h"
 #include "simulator/world/props.h"
 #include "simulator/world/warehouse.h"
 
@@ -28,6 +29,9 @@ ObjectClass ClassOfVehicle(const std::string& model) {
 struct Cast {
   std::uint16_t instance = 0;
   std::function<MoverState(double)> at;
+  std::size_t clock = 0;  ///< index of the actor whose clock it keeps
+  std::string name = {};
+  Grip grip = {};
 };
 
 [[noreturn]] void Refuse(const Scene& scene, Mark mark, const std::string& name,
@@ -49,6 +53,13 @@ void ReadModels(const Scene& scene, AssetLibrary* assets) {
   };
   for (const PropSpec& prop : scene.props) {
     read(prop, "props.model", [&](const std::string& model) { return assets->Prop(model); });
+  }
+  for (const MechanismSpec& mechanism : scene.mechanisms) {
+    for (const PartSpec& part : mechanism.parts) {
+      if (part.shape != PartShape::kModel) continue;
+      read(part, "mechanisms.parts.model",
+           [&](const std::string& model) { return assets->Prop(model); });
+    }
   }
   for (const PersonSpec& person : scene.people) {
     read(person, "model of " + person.name, [&](const std::string& model) {
@@ -78,6 +89,51 @@ double AheadOfPusher(const Scene& scene, const VehicleSpec& vehicle, const Asset
   return hands - assets.Vehicle(vehicle.model).handle_m;
 }
 
+bool SharesLoad(const Scene& scene, const std::string& person) {
+  return std::ranges::any_of(scene.mechanisms, [&](const MechanismSpec& one) {
+    return one.front_by == person || one.rear_by == person;
+  });
+}
+
+/// Who holds a mechanism, if anybody does.
+const std::string& HolderOf(const MechanismSpec& mechanism) {
+  if (!mechanism.pushed_by.empty() || mechanism.taken.empty()) {
+    return mechanism.pushed_by.empty() ? mechanism.rear_by : mechanism.pushed_by;
+  }
+  return mechanism.taken.front().by;
+}
+
+/// Mechanisms come after the actors who hold them, and keep these' clocks.
+void AddMechanisms(const Scene& scene, const Palette& palette, std::uint64_t seed,
+                   AssetLibrary* assets, Wardrobe* wardrobe, WorldParts* parts, Site* site,
+                   std::vector<Cast>* cast) {
+  PartPaints paints(palette, parts);
+  for (const MechanismSpec& mechanism : scene.mechanisms) {
+    const auto find = [&](const std::string& name) {
+      const auto holder = std::ranges::find(*cast, name, &Cast::name);
+      if (holder == cast->end() || !holder->grip) {
+        throw std::runtime_error(fmt::format("'{}' is nobody who could hold it", name));
+      }
+      return holder->grip;
+    };
+    try {
+      std::vector<MechanismMesh> made =
+          MakeMechanism(mechanism, find, assets, wardrobe, &paints, seed, site);
+      if (made.empty()) continue;
+      const std::uint16_t instance = site->Add(mechanism.name, ClassOf(mechanism), true);
+      const auto holder = std::ranges::find(*cast, HolderOf(mechanism), &Cast::name);
+      for (MechanismMesh& one : made) {
+        parts->mover_meshes.push_back(std::move(one.mesh));
+        const std::size_t clock =
+            holder == cast->end() ? cast->size() : static_cast<std::size_t>(holder - cast->begin());
+        cast->push_back({instance, std::move(one.at), clock, mechanism.name, {}});
+      }
+    } catch (const std::exception& error) {
+      Refuse(scene, mechanism.mark, mechanism.name, error.what());
+    }
+  }
+}
+
 std::vector<Cast> AddActors(const Scene& scene, const Palette& palette, std::uint64_t seed,
                             AssetLibrary* assets, Wardrobe* wardrobe, WorldParts* parts,
                             Site* site) {
@@ -86,14 +142,16 @@ std::vector<Cast> AddActors(const Scene& scene, const Palette& palette, std::uin
     try {
       Actor actor = make();
       parts->mover_meshes.push_back(std::move(actor.mesh));
-      cast.push_back({site->Add(spec.name, object_class, true), std::move(actor.at)});
+      cast.push_back({site->Add(spec.name, object_class, true), std::move(actor.at), cast.size(),
+                      spec.name, std::move(actor.grip)});
     } catch (const std::exception& error) {
       Refuse(scene, spec.mark, spec.name, error.what());
     }
   };
   for (const PersonSpec& person : scene.people) {
     enter(person, ObjectClass::kPerson, [&] {
-      return MakePerson(person, assets, palette, Dice(seed, {430, person.place}), wardrobe);
+      return MakePerson(person, assets, palette, Dice(seed, {430, person.place}), wardrobe,
+                        SharesLoad(scene, person.name));
     });
   }
   for (const VehicleSpec& vehicle : scene.vehicles) {
@@ -141,17 +199,25 @@ World BuildWorld(const Scene& written, const std::string& assets_dir, std::uint6
   AddMezzanines(scene, palette, seed, &site);
   AddLights(scene, palette, &parts, &site);
   AddWork(scene, palette, seed, assets, &parts, &site);
+  AddWindows(scene, palette, &parts, &site);
   Wardrobe wardrobe(&parts);
   AddProps(scene, seed, &assets, &wardrobe, &site);
-  const std::vector<Cast> cast = AddActors(scene, palette, seed, &assets, &wardrobe, &parts, &site);
+  std::vector<Cast> cast = AddActors(scene, palette, seed, &assets, &wardrobe, &parts, &site);
+  AddMechanisms(scene, palette, seed, &assets, &wardrobe, &parts, &site, &cast);
 
+  parts.has_beams = !scene.beams.empty();
   parts.at_clocks = [scene, cast](std::int64_t stamp_ns, std::span<const ActorClock> clocks) {
     Snapshot snapshot;
     snapshot.stamp_ns = stamp_ns;
     snapshot.clocks.assign(clocks.begin(), clocks.end());
     snapshot.light_scale = LightScale(scene, static_cast<double>(stamp_ns) * kNanosecond_s);
+    if (!scene.beams.empty()) {
+      const double time_s = scene.frozen ? 0 : static_cast<double>(stamp_ns) * kNanosecond_s;
+      snapshot.beams = BeamsAt(scene, time_s, &snapshot.beam_bounce);
+    }
     for (std::size_t i = 0; i < cast.size(); ++i) {
-      const ActorClock clock = clocks.empty() ? ActorClock{stamp_ns, 1} : clocks[i];
+      const std::size_t whose = cast[i].clock;
+      const ActorClock clock = whose < clocks.size() ? clocks[whose] : ActorClock{stamp_ns, 1};
       const double time_s = static_cast<double>(clock.time_ns) * kNanosecond_s;
       MoverState state = cast[i].at(scene.frozen ? 0 : time_s);
       if (scene.frozen) {  // nothing moves, not even a breath

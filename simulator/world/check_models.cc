@@ -17,6 +17,12 @@ std::vector<std::string> CheckModels(const Scene& scene, const AssetLibrary& ass
   for (const PropSpec& prop : scene.props) {
     check(prop.model_mark, "props.model", [&] { assets.Prop(prop.model); });
   }
+  for (const MechanismSpec& mechanism : scene.mechanisms) {
+    for (const PartSpec& part : mechanism.parts) {
+      if (part.shape != PartShape::kModel) continue;
+      check(part.model_mark, "mechanisms.parts.model", [&] { assets.Prop(part.model); });
+    }
+  }
   for (const PersonSpec& person : scene.people) {
     check(person.model_mark, "model of " + person.name, [&] { assets.Person(person.model); });
   }

@@ -60,6 +60,11 @@ std::vector<float> LightScale(const Scene& scene, double time_s) {
   for (const DoorSpec& door : scene.doors) {
     if (door.daylight > 0) scale.push_back(CloudAt(scene.hall, time_s));
   }
+  // Windows shine as the sky behind them does.
+  scale.insert(
+      scale.end(),
+      static_cast<std::size_t>(std::ranges::count(scene.beams, BeamKind::kSun, &BeamSpec::kind)),
+      1.0f);
   return scale;
 }
 

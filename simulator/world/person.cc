@@ -8,6 +8,7 @@
 #include "simulator/world/actors.h"
 #include "simulator/world/footing.h"
 #include "simulator/world/held.h"
+#include "simulator/world/manners.h"
 #include "simulator/world/shapes.h"
 
 namespace aisle::sim {
@@ -22,6 +23,10 @@ constexpr std::array<std::string_view, 4> kWalks = {"walk_creep", "walk_slow", "
 /// Walking with a box; standing with it is its twin.
 constexpr const char* kCarry = "walk_carry";
 
+/// What the simulator poses itself, where a model has no clip of that name.
+constexpr std::array<std::string_view, 2> kManners = {"kneel", "look_back"};
+constexpr double kKneeling_s = 1.4, kLookingBack_s = 0.6;
+
 /// A clip by its facts; one that walks has a stride, negative backwards.
 struct PlayedClip {
   int clip = -1;
@@ -33,7 +38,11 @@ struct PlayedClip {
 class Walker {
  public:
   Walker(const PersonSpec& person, std::shared_ptr<const Model> model, const PersonFacts& facts)
-      : model_(std::move(model)), route_(person.route.plan, person.route.limits) {
+      : model_(std::move(model)),
+        route_(person.route.plan, person.route.limits),
+        manners_(*model_),
+        limp_(person.limp),
+        natural_(person.natural) {
     stand_ = RequireClip("stand");
     const int walk = RequireClip("walk");
     for (const auto& [name, clip] : facts.clips) {
@@ -50,12 +59,20 @@ class Walker {
     for (const WalkClip& one : walks_) {
       if (one.clip == walk) style = {one.stride_m, one.duration_s, walks_.back().stride_m};
     }
+    style.limp = person.limp;
     stride_m_ = style.stride_m;
     for (const RouteStep& step : person.route.plan.steps) {
-      plays_.push_back(step.play);
+      const bool is_manner = std::ranges::count(kManners, step.play) > 0 &&
+                             !clips_.contains(step.play);
+      has_manners_ = has_manners_ || is_manner;
+      poses_.push_back(is_manner ? step.play : "");
+      plays_.push_back(is_manner ? "" : step.play);
+      if (is_manner) continue;
       carries_ = carries_ || step.play == kCarry;
       if (!step.play.empty() && !clips_.contains(step.play)) RequireClip(step.play);
     }
+    FindHands(facts);
+    if (has_manners_) MeasureSteps();
     footing_ = std::make_unique<Footing>(model_, route_, walks_, stand_, style);
   }
 
@@ -63,22 +80,81 @@ class Walker {
 
   bool carries() const { return carries_; }
 
+  /// Where the hands hold what is carried, or else the handle of what is pushed.
+  Eigen::Isometry3d GripAt(double time_s) const {
+    const Eigen::Isometry3d place = ObjectPose(route_.At(time_s));
+    if (!carries_) return place * Eigen::Translation3d(handle_ahead_m_, 0, 0);
+    const Eigen::Affine3f moved = FramesAt(time_s)[chest_] * carry_chest_.inverse();
+    Eigen::Isometry3d hands = place;
+    hands.matrix() *= moved.matrix().cast<double>();
+    return hands * Eigen::Translation3d(carry_centre_m_);
+  }
+
   /// Matrix of each joint of the model as it is shown (with what it holds): bind position -> world.
   std::vector<Eigen::Affine3f> WorldJoints(const Model& shown, double time_s) const {
-    const std::vector<PoseLayer> walk = WalkLayersAt(time_s);
-    const NodeFrames walking = PoseNodes(*model_, walk);
-    std::vector<PoseLayer> layers = walk;
-    if (route_.At(time_s).speed_mps < 0) TurnBackwards(time_s, &layers);
-    AddPlayed(time_s, &layers);
-    NodeFrames frames = PoseNodes(*model_, layers);
-    footing_->Apply(time_s, walking, &frames);
-    std::vector<Eigen::Affine3f> joints = JointMatrices(shown, frames);
+    std::vector<Eigen::Affine3f> joints = JointMatrices(shown, FramesAt(time_s));
     const Eigen::Affine3f place(ObjectPose(route_.At(time_s)).cast<float>());
     for (Eigen::Affine3f& joint : joints) joint = place * joint;
     return joints;
   }
 
  private:
+  /// The skeleton in the object's frame.
+  NodeFrames FramesAt(double time_s) const {
+    const std::vector<PoseLayer> walk = WalkLayersAt(time_s);
+    const NodeFrames walking = PoseNodes(*model_, walk);
+    std::vector<PoseLayer> layers = walk;
+    if (route_.At(time_s).speed_mps < 0) TurnBackwards(time_s, &layers);
+    AddPlayed(time_s, &layers);
+    NodeFrames frames = PoseNodes(*model_, layers);
+    if (natural_) manners_.Balance(route_, time_s, &frames);
+    footing_->Apply(time_s, walking, &frames);
+    if (has_manners_) AddManner(time_s, &frames);
+    if (limp_ > 0) {
+      const GaitState gait = footing_->gait().At(time_s);
+      manners_.Lurch(gait.cycles, std::min(1.0, gait.amplitude) * limp_ / 0.4, &frames);
+    }
+    return frames;
+  }
+
+  /// What this step of the route has the simulator pose.
+  void AddManner(double time_s, NodeFrames* frames) const {
+    const RouteState state = route_.At(time_s);
+    if (state.finished || state.step < 0) return;
+    const std::string& pose = poses_[static_cast<std::size_t>(state.step)];
+    if (pose.empty()) return;
+    const double duration_s = step_durations_s_[static_cast<std::size_t>(state.step)];
+    if (pose == "kneel") manners_.Kneel(Held(state.step_elapsed_s, duration_s, kKneeling_s), frames);
+    if (pose == "look_back") {
+      manners_.LookBack(Held(state.step_elapsed_s, duration_s, kLookingBack_s), frames);
+    }
+  }
+
+  /// How long each step takes.
+  void MeasureSteps() {
+    step_durations_s_.assign(plays_.size(), 0);
+    constexpr double kTick_s = 0.02;
+    for (double t = 0; t < route_.duration_s(); t += kTick_s) {
+      const RouteState state = route_.At(t);
+      if (state.step < 0) continue;
+      double& longest = step_durations_s_[static_cast<std::size_t>(state.step)];
+      longest = std::max(longest, state.step_elapsed_s);
+    }
+  }
+
+  /// What the clips say of the hands.
+  void FindHands(const PersonFacts& facts) {
+    const auto push = facts.clips.find("walk_push");
+    if (push != facts.clips.end()) handle_ahead_m_ = push->second.handle_ahead_m;
+    const auto carry = facts.clips.find(kCarry);
+    const int chest = model_->FindNode("chest");
+    if (!carries_ || carry == facts.clips.end() || !carry->second.box || chest < 0) return;
+    const PoseLayer layer{model_->FindClip(kCarry), 0, 1, -1};
+    chest_ = static_cast<std::size_t>(chest);
+    carry_chest_ = PoseNodes(*model_, {&layer, 1})[chest_];
+    carry_centre_m_ = carry->second.box->centre_m.cast<double>();
+  }
+
   int RequireClip(const std::string& name) const {
     const int clip = model_->FindClip(name);
     if (clip < 0) {
@@ -163,7 +239,17 @@ class Walker {
   std::map<std::string, PlayedClip> clips_;
   std::unique_ptr<const Footing> footing_;
   std::vector<std::string> plays_;  ///< per step of the route
+  Manners manners_;
+  std::vector<std::string> poses_;  ///< per step: what the simulator poses itself
+  std::vector<double> step_durations_s_;
+  bool has_manners_ = false;
+  double limp_ = 0;
+  bool natural_ = false;
   bool carries_ = false;
+  double handle_ahead_m_ = 0;
+  std::size_t chest_ = 0;
+  Eigen::Affine3f carry_chest_ = Eigen::Affine3f::Identity();
+  Eigen::Vector3d carry_centre_m_ = Eigen::Vector3d::Zero();
 };
 
 /// A taped carton, somewhere in the picture atlas.
@@ -189,12 +275,12 @@ Model WithBox(const Model& model, const TriangleMesh& box) {
 }  // namespace
 
 Actor MakePerson(const PersonSpec& person, AssetLibrary* assets, const Palette& palette, Dice dice,
-                 Wardrobe* wardrobe) {
+                 Wardrobe* wardrobe, bool shares_load) {
   const PersonFacts& facts = assets->Person(person.model);
   std::shared_ptr<const Model> model = assets->Load("people/" + person.model);
   TriangleMesh mesh = wardrobe->Wear(model);
   const auto walker = std::make_shared<const Walker>(person, model, facts);
-  if (walker->carries()) {
+  if (walker->carries() && !shares_load) {
     const auto carry = facts.clips.find(kCarry);
     if (carry == facts.clips.end() || !carry->second.box) {
       throw std::runtime_error(fmt::format("assets/manifest.json names no box for {}", kCarry));
@@ -207,7 +293,8 @@ Actor MakePerson(const PersonSpec& person, AssetLibrary* assets, const Palette& 
             return SkinState(
                 *model, [&](double t) { return walker->WorldJoints(*model, t); },
                 [&](double t) { return walker->RouteAt(t); }, time_s);
-          }};
+          },
+          [walker](double time_s) { return walker->GripAt(time_s); }};
 }
 
 }  // namespace aisle::sim

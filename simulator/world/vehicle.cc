@@ -94,6 +94,14 @@ class Driver {
     return state;
   }
 
+  /// Where a node is in the world.
+  Eigen::Isometry3d NodeAt(int node, double time_s) const {
+    const RouteState state = RouteAt(time_s);
+    const NodeFrames frames = PoseNodes(*model_, RiderAt(state), MovesAt(state, time_s));
+    return ObjectPose(state) *
+           Eigen::Isometry3d(frames[static_cast<std::size_t>(node)].matrix().cast<double>());
+  }
+
   std::vector<Eigen::Affine3f> WorldJoints(double time_s) const {
     const RouteState state = RouteAt(time_s);
     std::vector<Eigen::Affine3f> joints =
@@ -179,10 +187,12 @@ Actor MakeVehicle(const VehicleSpec& vehicle, AssetLibrary* assets, const Palett
         *model, [&](double t) { return driver->WorldJoints(t); },
         [&](double t) { return driver->RouteAt(t); }, time_s);
   };
+  Grip grip;
+  if (forks >= 0) grip = [driver, forks](double time_s) { return driver->NodeAt(forks, time_s); };
   if (vehicle.route.plan.steps.empty() && vehicle.mast.empty()) {  // parked for good
-    return {std::move(mesh), [state = at(0)](double) { return state; }};
+    return {std::move(mesh), [state = at(0)](double) { return state; }, grip};
   }
-  return {std::move(mesh), at};
+  return {std::move(mesh), at, grip};
 }
 
 }  // namespace aisle::sim

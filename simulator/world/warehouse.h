@@ -47,6 +47,13 @@ void AddMezzanines(const Scene& scene, const Palette& palette, std::uint64_t see
 /// Also the area lights themselves, in the order of the scene's grids.
 void AddLights(const Scene& scene, const Palette& palette, WorldParts* parts, Site* site);
 
+/// The windows through which the sun shines: panes as bright as an overcast sky, and their bars.
+void AddWindows(const Scene& scene, const Palette& palette, WorldParts* parts, Site* site);
+
+/// The scene's moving lights at a time, and in *bounce the irradiance that their light gives
+/// everywhere after it met a surface.
+std::vector<Beam> BeamsAt(const Scene& scene, double time_s, float* bounce);
+
 /// What share of each light shines at a time, in the order of AddLights.
 std::vector<float> LightScale(const Scene& scene, double time_s);
 

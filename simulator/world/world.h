@@ -65,6 +65,22 @@ struct MoverState {
   Eigen::Isometry3d T_world_object =
       Eigen::Isometry3d::Identity();                       ///< z up, x ahead, on the floor
   Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();  ///< of the object's origin
+  bool casts_shadow = true;  ///< false: all of it is seen through, and so it is lit through
+};
+
+/// A moving light at one instant. It lights straight from where it is, without size: its shadows
+/// are sharp but for the sun's own breadth.
+struct Beam {
+  enum class Kind { kSpot, kSun } kind = Kind::kSpot;
+  Eigen::Vector3f origin = Eigen::Vector3f::Zero();  ///< spot; middle of a window; metres, world
+  Eigen::Vector3f toward = Eigen::Vector3f::UnitX(); ///< spot: unit, where it shines; sun: unit, up
+                                                     ///< its rays to where it stands
+  /// Spot: intensity, radiance units m²; sun: irradiance across its rays.
+  float power = 0;
+  float cos_inner = 1, cos_outer = 1;  ///< spot: full light within, none beyond
+  Eigen::Vector3f half_u = Eigen::Vector3f::Zero(), half_v = Eigen::Vector3f::Zero();  ///< window
+  int columns = 1, rows = 1;           ///< of panes
+  float bar_u = 0, bar_v = 0;          ///< breadth of bars, shares of a pane
 };
 
 /// The moving part of the world at one instant.
@@ -73,6 +89,8 @@ struct Snapshot {
   std::vector<MoverState> movers;       ///< in the order of World::mover_meshes()
   std::vector<float> light_scale;       ///< per light: 1 as built, 0 switched off
   std::vector<ActorClock> clocks = {};  ///< per mover; empty: all keep the scene's time
+  std::vector<Beam> beams = {};         ///< moving lights that shine now
+  float beam_bounce = 0;  ///< irradiance that their light gives everywhere after it met a surface
 };
 
 /// The parts a world is made of. BuildWorld (simulator/world/build.h) makes them from a scene file;
@@ -92,6 +110,7 @@ struct WorldParts {
   std::function<Snapshot(std::int64_t stamp_ns, std::span<const ActorClock> clocks)> at_clocks = {};
   /// Where the route puts the rig (left camera) at a time: T_world_rig. Pure. None: identity.
   std::function<Eigen::Isometry3d(std::int64_t stamp_ns)> rig;
+  bool has_beams = false;  ///< snapshots may have beams
 };
 
 /// The scene, laid out: immutable once built, shared by any number of threads.
@@ -107,6 +126,7 @@ class World {
   const std::vector<AreaLight>& lights() const { return parts_.lights; }
   const StaticWorld& statics() const { return parts_.statics; }
   const std::vector<TriangleMesh>& mover_meshes() const { return parts_.mover_meshes; }
+  bool has_beams() const { return parts_.has_beams; }
 
   /// Everything that moves, at `stamp_ns` after the start of the scene.
   Snapshot At(std::int64_t stamp_ns) const;

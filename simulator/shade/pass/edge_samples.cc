@@ -1,8 +1,10 @@
 #include "simulator/shade/pass/edge_samples.h"
 
 #include <array>
+#include <numbers>
 
 #include "simulator/shade/lanes/wide.h"
+#include "simulator/shade/pass/beam_light.h"
 
 namespace aisle::sim {
 namespace {
@@ -55,28 +57,6 @@ float KeptNear(const HitImage& image, std::span<const float> kept, PixelAt pixel
   return share;
 }
 
-Rays8 SampleRays(const CameraView& view, std::span<const PixelAt> pixels) {
-  const PixelRays& rays = *view.rays;
-  Rays8 packet;
-  for (std::size_t k = 0; k < kLanes; ++k) {
-    const PixelAt pixel = pixels[std::min(k / kSamples, pixels.size() - 1)];
-    const auto& [ox, oy] = kOffsets[k % kSamples];
-    const PixelRays::Step step = rays.StepAt(pixel.x, pixel.y);
-    const Eigen::Vector2f ray = rays.At(pixel.x, pixel.y) + ox * step.right + oy * step.down;
-    const Eigen::Vector3f d = view.rotation * ray.homogeneous();
-    packet.ox[k] = view.origin.x();
-    packet.oy[k] = view.origin.y();
-    packet.oz[k] = view.origin.z();
-    packet.dx[k] = d.x();
-    packet.dy[k] = d.y();
-    packet.dz[k] = d.z();
-    packet.t_near[k] = 0;
-    packet.t_far[k] = kInfinity;
-    packet.valid[k] = -1;
-  }
-  return packet;
-}
-
 class Sampler {
  public:
   static constexpr std::size_t kPixels = kLanes / kSamples;  ///< a packet
@@ -122,8 +102,17 @@ class Sampler {
  private:
   F8 LightOf(const Rays8& rays, const Hits8& hits) const {
     const F8x3 directions = {LoadF(rays.dx), LoadF(rays.dy), LoadF(rays.dz)};
-    return RadianceOfHits(shading_.tables, shading_.frame, shading_.textures, directions, hits,
-                          step_);
+    if (!shading_.world().has_beams()) {
+      return RadianceOfHits(shading_.tables, shading_.frame, shading_.textures, directions, hits,
+                            step_);
+    }
+    const SurfaceLanes seen = LookUpHits(shading_.tables, shading_.frame, shading_.textures,
+                                         LoadI(hits.geometry), LoadI(hits.primitive),
+                                         {LoadF(hits.t), LoadF(hits.u), LoadF(hits.v), directions.x,
+                                          directions.y, directions.z, I8{}},
+                                         step_);
+    const F8 beams = BeamsAtHits(shading_, BeamLight(shading_.instant), rays, hits);
+    return seen.reflectance * (seen.irradiance + beams) * std::numbers::inv_pi_v<float>;
   }
 
   const ShadingView& shading_;
@@ -133,6 +122,28 @@ class Sampler {
 };
 
 }  // namespace
+
+Rays8 SampleRays(const CameraView& view, std::span<const PixelAt> pixels) {
+  const PixelRays& rays = *view.rays;
+  Rays8 packet;
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const PixelAt pixel = pixels[std::min(k / kSamples, pixels.size() - 1)];
+    const auto& [ox, oy] = kOffsets[k % kSamples];
+    const PixelRays::Step step = rays.StepAt(pixel.x, pixel.y);
+    const Eigen::Vector2f ray = rays.At(pixel.x, pixel.y) + ox * step.right + oy * step.down;
+    const Eigen::Vector3f d = view.rotation * ray.homogeneous();
+    packet.ox[k] = view.origin.x();
+    packet.oy[k] = view.origin.y();
+    packet.oz[k] = view.origin.z();
+    packet.dx[k] = d.x();
+    packet.dy[k] = d.y();
+    packet.dz[k] = d.z();
+    packet.t_near[k] = 0;
+    packet.t_far[k] = kInfinity;
+    packet.valid[k] = -1;
+  }
+  return packet;
+}
 
 std::vector<MixedPixel> SamplePixels(const ShadingView& shading, std::span<const float> kept,
                                      const cv::Mat1f& radiance, std::span<const PixelAt> pixels,

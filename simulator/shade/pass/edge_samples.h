@@ -8,6 +8,9 @@
 
 namespace aisle::sim {
 
+/// Four rays on a rotated grid in each of up to two pixels.
+Rays8 SampleRays(const CameraView& view, std::span<const PixelAt> pixels);
+
 /// The mean radiance of four rays on a rotated grid in each of the pixels, which may meet the given
 /// geometries. `kept` is the share of light that movers leave, by pixel; `radiance` that of the
 /// pixels' centres, which samples of the same surface take over.

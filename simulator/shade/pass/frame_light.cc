@@ -113,13 +113,20 @@ MeshPlace SurfaceTables::PlaceOf(const Instant& instant, const HitImage& image,
 void SurfaceTables::PrepareFrame(const Instant& instant, std::span<const CameraView> views,
                                  std::span<const HitImage> images,
                                  std::shared_ptr<const LightState> statics,
-                                 FrameLight* frame) const {
+                                 FrameLight* frame, std::span<const Hits8> beyond) const {
   frame->statics = std::move(statics);
   if (frame->mover_records.size() != mover_records_.size()) frame->mover_records = mover_records_;
   frame->mover_light.assign(slot_count_, 0);
   const std::size_t movers = instant.snapshot().movers.size();
   if (movers == 0) return;
-  const std::vector<std::uint8_t> all_seen = FindSeen(images, mover_bases_, mover_records_.size());
+  std::vector<std::uint8_t> all_seen = FindSeen(images, mover_bases_, mover_records_.size());
+  for (const Hits8& hits : beyond) {
+    for (int k = 0; k < kLanes; ++k) {
+      if (hits.geometry[k] == 0 || hits.geometry[k] == kNoGeometry) continue;
+      all_seen[static_cast<std::size_t>(mover_bases_[hits.geometry[k] - 1]) + hits.primitive[k]] =
+          1;
+    }
+  }
   for (std::size_t i = 0; i < movers; ++i) {
     const auto base = static_cast<std::size_t>(mover_bases_[i]);
     const std::size_t triangles = world_->mover_meshes()[i].triangles.size();

@@ -27,6 +27,7 @@ GeometryMask MoversBetween(const Instant& instant, const Eigen::AlignedBox3f& bo
   const F8x3 to = {Wide(way.x()), Wide(way.y()), Wide(way.z())};
   GeometryMask mask = 0;
   for (std::size_t m = 0; m < instant.mover_boxes().size(); ++m) {
+    if (!CastsShadow(instant, m)) continue;
     if (Any(MeetBox(Grown(instant.mover_boxes()[m], thick), from, to))) mask |= MoverBit(m);
   }
   return mask;

@@ -15,6 +15,11 @@ inline Eigen::AlignedBox3f Grown(const Eigen::AlignedBox3f& box, const Eigen::Ve
   return {box.min() - by, box.max() + by};
 }
 
+/// Whether a mover keeps light away: clear panes do not.
+inline bool CastsShadow(const Instant& instant, std::size_t mover) {
+  return instant.snapshot().movers[mover].casts_shadow;
+}
+
 /// Movers that may stand between any point of a box and any point of a rectangle: the segment
 /// between their middles, thickened by whichever is larger, must meet the mover's box.
 GeometryMask MoversBetween(const Instant& instant, const Eigen::AlignedBox3f& box,

@@ -6,6 +6,7 @@
 #include "simulator/common/parallel.h"
 #include "simulator/shade/lanes/hemisphere.h"
 #include "simulator/shade/pass/emitter_shadows.h"
+#include "simulator/shade/pass/mover_blockers.h"
 
 namespace aisle::sim {
 namespace {
@@ -26,7 +27,7 @@ GeometryMask Around(const Instant& instant, std::size_t mover) {
   const Eigen::AlignedBox3f box(boxes[mover].min() - reach, boxes[mover].max() + reach);
   GeometryMask mask = 0;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (box.intersects(boxes[i])) mask |= MoverBit(i);
+    if (CastsShadow(instant, i) && box.intersects(boxes[i])) mask |= MoverBit(i);
   }
   return mask;
 }

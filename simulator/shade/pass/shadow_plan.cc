@@ -90,6 +90,7 @@ ShadowPlan PlanShadows(const ShadingView& shading, std::span<const float> irradi
   if (box.isEmpty()) return work;
   const auto& movers = shading.instant.mover_boxes();
   for (std::size_t m = 0; m < movers.size(); ++m) {
+    if (!CastsShadow(shading.instant, m)) continue;
     if (Grown(movers[m], Eigen::Vector3f::Constant(kAmbientReach)).intersects(box)) {
       work.near |= MoverBit(m);
     }

@@ -1,0 +1,134 @@
+#include "simulator/scene/check_mechanisms.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "simulator/scene/hall.h"
+
+namespace aisle::sim {
+namespace {
+
+class Checker {
+ public:
+  Checker(const Scene& scene, const MechanismSpec& one, std::string key, Issues* issues)
+      : scene_(scene), one_(one), key_(std::move(key)), issues_(issues) {}
+
+  void Run() {
+    if (!one_.IsBrought() && !InHall(scene_.hall, one_.at, 0)) {
+      Say(one_.mark, ".at",
+          fmt::format("[{:g}, {:g}] is outside {}", one_.at.x(), one_.at.y(),
+                      HallText(scene_.hall)));
+    }
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < one_.parts.size(); ++i) CheckPart(i, &names);
+    CheckPeople();
+    for (std::size_t i = 0; i < one_.taken.size(); ++i) CheckTaken(i);
+  }
+
+ private:
+  void Say(Mark mark, const std::string& part, const std::string& what) {
+    issues_->Add(mark, key_ + part, what);
+  }
+
+  void CheckPart(std::size_t index, std::set<std::string>* names) {
+    const PartSpec& part = one_.parts[index];
+    const std::string key = fmt::format(".parts[{}]", index);
+    if (!part.on.empty() && !names->contains(part.on)) {
+      Say(part.mark, key + ".on",
+          fmt::format("no part before it is named '{}'; a part stands after what it is on",
+                      part.on));
+    }
+    if (!part.name.empty() && !names->insert(part.name).second) {
+      Say(part.mark, key + ".name", fmt::format("'{}' is taken by another part", part.name));
+    }
+    if (part.shape == PartShape::kModel && part.model.empty()) {
+      Say(part.mark, key + ".model", "a shape: model names one; example: model: roll_cage");
+    }
+    const std::string wrong = JointError(part.joint);
+    if (!wrong.empty()) Say(part.mark, key + ".joint", wrong);
+  }
+
+  static std::string JointError(const Joint& joint) {
+    using Kind = Joint::Kind;
+    if (std::abs(joint.axis.norm() - 1) > 1e-6) return "its axis is [0, 0, 0]";
+    const bool moves = joint.kind == Kind::kHinge || joint.kind == Kind::kSlider;
+    if (moves && joint.moves.empty()) {
+      return "a hinge or slider needs moves; example: moves: [{at_s: 3, to_m: 2, over_s: 2}]";
+    }
+    if (!moves && !joint.moves.empty()) return "only a hinge or a slider has moves";
+    const bool swings = joint.kind == Kind::kPendulum || joint.kind == Kind::kChain;
+    if (swings && joint.swing == 0) {
+      return joint.kind == Kind::kChain ? "a chain needs swing_m; example: swing_m: 0.4"
+                                        : "a pendulum needs swing_deg; example: swing_deg: 12";
+    }
+    const bool runs = joint.kind == Kind::kSpin || joint.kind == Kind::kBelt;
+    if (runs && joint.speed == 0) {
+      return joint.kind == Kind::kSpin ? "a spin needs rate_hz; example: rate_hz: 1.5"
+                                       : "a belt needs speed_mps; example: speed_mps: 0.4";
+    }
+    if (runs && joint.run.to_s < joint.run.from_s + joint.run.ramp_s) {
+      return "`until_s` must be at least `ramp_s` later than `from_s`";
+    }
+    if (joint.kind == Kind::kChain && std::abs(joint.axis.z()) > 1e-6) {
+      return "a chain swings level: the third number of its axis is 0";
+    }
+    return MovesError(joint.moves);
+  }
+
+  /// A person who is there when it is.
+  void CheckPerson(const std::string& name, const char* key) {
+    const auto found = std::ranges::find(scene_.people, name, &PersonSpec::name);
+    if (found == scene_.people.end()) {
+      Say(one_.mark, key, fmt::format("there is nobody '{}' among the people", name));
+    } else if (found->level > one_.level) {
+      Say(one_.mark, key, "its level must be that of who brings it or above");
+    }
+  }
+
+  void CheckPeople() {
+    if (one_.front_by.empty() != one_.rear_by.empty()) {
+      Say(one_.mark, "", "`front_by` and `rear_by` go together: two people carry it");
+    }
+    const int ways = !one_.pushed_by.empty() + !one_.front_by.empty() + !one_.taken.empty();
+    if (ways > 1) Say(one_.mark, "", "it is pushed, carried or taken: one of them");
+    for (const auto& [name, key] : {std::pair(one_.pushed_by, ".pushed_by"),
+                                    std::pair(one_.front_by, ".front_by"),
+                                    std::pair(one_.rear_by, ".rear_by")}) {
+      if (!name.empty()) CheckPerson(name, key);
+    }
+  }
+
+  void CheckTaken(std::size_t index) {
+    const TakenSpec& taken = one_.taken[index];
+    const std::string key = fmt::format(".taken[{}]", index);
+    const auto found = std::ranges::find(scene_.vehicles, taken.by, &VehicleSpec::name);
+    if (found == scene_.vehicles.end()) {
+      Say(taken.mark, key + ".by", fmt::format("there is no '{}' among the vehicles", taken.by));
+    } else if (found->level > one_.level) {
+      Say(taken.mark, key + ".by", "its level must be that of the vehicle that takes it or above");
+    }
+    if (taken.until_s <= taken.at_s) {
+      Say(taken.mark, key, "`until_s` must be later than `at_s`");
+    }
+    if (index > 0 && taken.at_s < one_.taken[index - 1].until_s) {
+      Say(taken.mark, key + ".at_s", "the one before still has it");
+    }
+  }
+
+  const Scene& scene_;
+  const MechanismSpec& one_;
+  std::string key_;
+  Issues* issues_;
+};
+
+}  // namespace
+
+void CheckMechanisms(const Scene& scene, Issues* issues) {
+  for (std::size_t i = 0; i < scene.mechanisms.size(); ++i) {
+    Checker(scene, scene.mechanisms[i], fmt::format("mechanisms[{}]", i), issues).Run();
+  }
+}
+
+}  // namespace aisle::sim

@@ -1,0 +1,125 @@
+#include "simulator/scene/crowd.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "simulator/motion/crowd.h"
+#include "simulator/scene/footprint.h"
+#include "simulator/scene/obstacles.h"
+
+namespace aisle::sim {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kRigRadius_m = 0.45, kPersonRadius_m = 0.25;
+
+/// Places of one disc of a mover, `ahead_m` of its origin.
+CrowdIntruder DiscOf(const Route& route, double ahead_m, double radius_m, double duration_s) {
+  CrowdIntruder disc{{}, radius_m};
+  const int steps = static_cast<int>(std::ceil(duration_s / kCrowdStep_s)) + 1;
+  for (int i = 0; i <= steps; ++i) {
+    const RouteState state = route.At(i * kCrowdStep_s);
+    disc.places.emplace_back(state.position + ahead_m * Eigen::Vector2d(std::cos(state.heading_rad),
+                                                                       std::sin(state.heading_rad)));
+  }
+  return disc;
+}
+
+std::vector<CrowdIntruder> IntrudersOf(const Scene& scene) {
+  const double duration_s = scene.duration_s() + 5;
+  std::vector<CrowdIntruder> all;
+  const Route rig(scene.rig.route.plan, scene.rig.route.limits);
+  all.push_back(DiscOf(rig, 0.1, kRigRadius_m, duration_s));
+  for (const PersonSpec& person : scene.people) {
+    const Route route(person.route.plan, person.route.limits);
+    all.push_back(DiscOf(route, 0, kPersonRadius_m, duration_s));
+  }
+  for (const VehicleSpec& vehicle : scene.vehicles) {
+    const Footprint footprint = FootprintOf(vehicle.model);
+    const Route route(vehicle.route.plan, vehicle.route.limits);
+    const double length = footprint.front_m - footprint.back_m;
+    const int discs = 1 + static_cast<int>(std::ceil(length / footprint.radius_m));
+    for (int i = 0; i < discs; ++i) {
+      const double ahead = footprint.back_m + length * i / std::max(1, discs - 1);
+      all.push_back(DiscOf(route, ahead, footprint.radius_m, duration_s));
+    }
+  }
+  return all;
+}
+
+int PeopleAt(const CrowdSpec& crowd, Dynamics level) {
+  return (crowd.people * static_cast<int>(level) + 2) / 3;
+}
+
+}  // namespace
+
+CrowdArea CrowdAreaOf(const Scene& scene) {
+  const CrowdSpec& crowd = scene.crowd;
+  if (crowd.in) {
+    const auto& [x0, y0, x1, y1] = *crowd.in;
+    return {{std::min(x0, x1), std::min(y0, y1)}, {std::max(x0, x1), std::max(y0, y1)}};
+  }
+  if (!crowd.between_racks) return {scene.hall.from, scene.hall.to};
+  // Boxes around both rows; the aisle is what lies between them, as long as both are.
+  std::array<Eigen::AlignedBox2d, 2> rows;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const RackSpec& rack = scene.racks.at(static_cast<std::size_t>((*crowd.between_racks)[i]));
+    const Eigen::Vector2d along(std::cos(rack.heading_rad), std::sin(rack.heading_rad));
+    const Eigen::Vector2d across(-along.y(), along.x());
+    for (const double end : {0.0, rack.bays * rack.bay_m}) {
+      for (const double side : {-0.5, 0.5}) {
+        rows[i].extend(rack.from + end * along + side * rack.depth_m * across);
+      }
+    }
+  }
+  CrowdArea area{rows[0].min().cwiseMax(rows[1].min()), rows[0].max().cwiseMin(rows[1].max())};
+  for (int axis = 0; axis < 2; ++axis) {  // where they do not overlap, the gap is the aisle
+    if (area.from[axis] > area.to[axis]) std::swap(area.from[axis], area.to[axis]);
+  }
+  return area;
+}
+
+void AddCrowd(std::uint64_t seed, Scene* scene) {
+  const int people = PeopleAt(scene->crowd, scene->dynamics);
+  if (people == 0) return;
+  CrowdPlan plan;
+  plan.people = people;
+  const CrowdArea area = CrowdAreaOf(*scene);
+  plan.from = area.from, plan.to = area.to;
+  plan.speed_mps = scene->crowd.speed_mps;
+  plan.speed_spread_mps = scene->crowd.speed_spread_mps;
+  plan.pause_s = scene->crowd.pause_s;
+  plan.distance_m = scene->crowd.distance_m;
+  plan.duration_s = scene->duration_s();
+  plan.limits = {.acceleration_mps2 = 0.9,
+                 .lateral_acceleration_mps2 = 1.2,
+                 .turn_rate_rad_s = 110 * kDegree,
+                 .turn_acceleration_rad_s2 = 250 * kDegree,
+                 .turns_on_the_spot = true};
+  for (const Obstacle& obstacle : ObstaclesOf(*scene)) {
+    plan.blocks.push_back({obstacle.center, obstacle.half, obstacle.heading_rad});
+  }
+  plan.intruders = IntrudersOf(*scene);
+  std::vector<RoutePlan> routes;
+  try {
+    routes = WalkCrowd(plan, seed);
+  } catch (const std::invalid_argument& error) {
+    throw CrowdError(error.what());
+  }
+  for (std::size_t i = 0; i < routes.size(); ++i) {
+    PersonSpec person;
+    person.mark = person.model_mark = person.route.mark = scene->crowd.mark;
+    person.place = 1000 + i;
+    person.name = fmt::format("crowd_{}", i + 1);
+    person.crowd = static_cast<int>(i) + 1;
+    person.natural = true;
+    person.route.plan = std::move(routes[i]);
+    person.route.limits = plan.limits;
+    scene->people.push_back(std::move(person));
+  }
+}
+
+}  // namespace aisle::sim

@@ -1,0 +1,119 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "simulator/scene/crowd.h"
+#include "simulator/scene/load.h"
+#include "simulator/scene/vary.h"
+
+/// What a scene file says of mechanisms, beams and crowds, and what it is told where that is wrong.
+namespace aisle::sim {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const std::string kHall = R"(about: Things happen.
+frames: 200
+rig: {start: [0, 0], steps: [{go: [[3, 0]], speed_mps: 0.3}]}
+hall: {from: [-5, -8], to: [20, 8], height_m: 6}
+racks: [{from: [3, 3], bays: 4}, {from: [3, -3], bays: 4}]
+lights: [{rows: 1, per_row: 2, height_m: 5}]
+people:
+  - {name: anton, start: [5, 1.5], level: mid, steps: [{go: [[5, -1.5]], speed_mps: 1.2}]}
+)";
+
+std::vector<std::string> MessagesOf(const std::string& text) {
+  try {
+    ParseScene(kHall + text, "s.yaml");
+  } catch (const SceneError& error) {
+    return error.messages();
+  }
+  return {};
+}
+
+std::string Gate(const std::string& part) {
+  return "mechanisms: [{name: gate, at: [6, 1], parts: [{size_m: [1, 1, 1], joint: {" + part +
+         "}}]}]\n";
+}
+
+TEST(Mechanisms, AreToldWhatTheirJointsLack) {
+  EXPECT_THAT(MessagesOf(Gate("kind: slider")),
+              ElementsAre(HasSubstr("mechanisms[0].parts[0].joint: a hinge or slider needs moves; "
+                                    "example: moves: [{at_s: 3, to_m: 2, over_s: 2}]")));
+  EXPECT_THAT(MessagesOf(Gate("kind: spin")), ElementsAre(HasSubstr("a spin needs rate_hz")));
+  EXPECT_THAT(MessagesOf(Gate("kind: belt")), ElementsAre(HasSubstr("a belt needs speed_mps")));
+  EXPECT_THAT(MessagesOf(Gate("kind: chain")), ElementsAre(HasSubstr("a chain needs swing_m")));
+  EXPECT_THAT(MessagesOf(Gate("kind: pendulum")),
+              ElementsAre(HasSubstr("a pendulum needs swing_deg")));
+  EXPECT_THAT(MessagesOf(Gate("kind: spin, rate_hz: 1, axis: [0, 0, 0]")),
+              ElementsAre(HasSubstr("its axis is [0, 0, 0]")));
+  EXPECT_THAT(MessagesOf(Gate("kind: hinge, moves: [{at_s: 1, over_s: 3, to_deg: 9}, {at_s: 2}]")),
+              ElementsAre(HasSubstr("move 1 begins at 2 s, but the one before needs until 4 s")));
+  EXPECT_THAT(MessagesOf(Gate("kind: spin, rate_hz: 1, from_s: 2, until_s: 2.1")),
+              ElementsAre(HasSubstr("`until_s` must be at least `ramp_s` later than `from_s`")));
+  EXPECT_THAT(MessagesOf(Gate("kind: spin, rate_hz: 1, turns: 2")),
+              ElementsAre(HasSubstr("turns: there is no such key")));
+}
+
+TEST(Mechanisms, AreToldWhoIsNotThere) {
+  const auto with = [](const std::string& keys) {
+    return "mechanisms: [{name: cart, " + keys + ", parts: [{size_m: [1, 1, 1]}]}]\n";
+  };
+  EXPECT_THAT(MessagesOf(with("level: mid, pushed_by: bea")),
+              ElementsAre(HasSubstr("pushed_by: there is nobody 'bea' among the people")));
+  EXPECT_THAT(MessagesOf(with("pushed_by: anton")),
+              ElementsAre(HasSubstr("its level must be that of who brings it or above")));
+  EXPECT_THAT(MessagesOf(with("level: mid, front_by: anton")),
+              ElementsAre(HasSubstr("`front_by` and `rear_by` go together")));
+  EXPECT_THAT(MessagesOf(with("at: [6, 1], taken: [{by: truck, at_s: 3}]")),
+              ElementsAre(HasSubstr("taken[0].by: there is no 'truck' among the vehicles")));
+  EXPECT_THAT(MessagesOf(with("at: [60, 1]")), ElementsAre(HasSubstr("[60, 1] is outside the hall")));
+  EXPECT_THAT(
+      MessagesOf("mechanisms: [{name: a, at: [6, 1], parts: [{on: b, size_m: [1, 1, 1]}]}]\n"),
+      ElementsAre(HasSubstr("parts[0].on: no part before it is named 'b'")));
+  EXPECT_THAT(MessagesOf("mechanisms: [{name: anton, at: [6, 1], parts: [{size_m: [1, 1, 1]}]}]\n"),
+              ElementsAre(HasSubstr("'anton' is taken by another actor")));
+}
+
+TEST(Beams, AreToldWhatDoesNotGo) {
+  EXPECT_THAT(MessagesOf("beams: [{name: b, at_m: [6, 1, 9]}]\n"),
+              ElementsAre(HasSubstr("beams[0].at_m: 9 m is below the floor or above the roof")));
+  EXPECT_THAT(MessagesOf("beams: [{name: b, kind: sun, at_m: [6, 1, 5], rate_hz: 1}]\n"),
+              ElementsAre(HasSubstr("only a spot turns")));
+}
+
+TEST(Crowd, IsThreeLinesAndAsBusyAsTheScene) {
+  const std::string crowd = "crowd:\n  people: 12\n  in: [4, -2, 13, 2]\n";
+  const Scene scene = ParseScene(kHall + crowd, "s.yaml");
+  const auto people = [&](Dynamics level) {
+    return Seeded(WithDynamics(scene, level), 1).people.size();
+  };
+  EXPECT_EQ(people(Dynamics::kNone), 0u);
+  EXPECT_EQ(people(Dynamics::kLow), 4u);
+  EXPECT_EQ(people(Dynamics::kMid), 9u) << "eight and anton";
+  EXPECT_EQ(people(Dynamics::kHigh), 13u);
+  EXPECT_EQ(Seeded(WithoutActors(scene), 1).people.size(), 0u);
+}
+
+TEST(Crowd, WalksInANamedAisle) {
+  const Scene scene = ParseScene(kHall + "crowd: {people: 3, between_racks: [0, 1]}\n", "s.yaml");
+  const CrowdArea area = CrowdAreaOf(scene);
+  EXPECT_NEAR(area.from.y(), -3 + 0.55, 1e-9);
+  EXPECT_NEAR(area.to.y(), 3 - 0.55, 1e-9);
+  EXPECT_NEAR(area.from.x(), 3, 1e-9);
+  EXPECT_NEAR(area.to.x(), 3 + 4 * 2.7, 1e-9);
+}
+
+TEST(Crowd, IsToldWhatDoesNotGo) {
+  EXPECT_THAT(MessagesOf("crowd: {people: 60, in: [4, -1, 6, 1]}\n"),
+              ElementsAre(HasSubstr("crowd: with seed 1 there is no room for 60 people")));
+  EXPECT_THAT(MessagesOf("crowd: {people: 6, between_racks: [0, 7]}\n"),
+              ElementsAre(HasSubstr("there is no racks[7]; there are 2, counted from 0")));
+  EXPECT_THAT(MessagesOf("crowd: {people: 6, in: [4, -1, 60, 1]}\n"),
+              ElementsAre(HasSubstr("[60, 1] is outside the hall")));
+  EXPECT_THAT(MessagesOf("crowd: {in: [4, -1, 6, 1]}\n"),
+              ElementsAre(HasSubstr("crowd.people: it is missing")));
+}
+
+}  // namespace
+}  // namespace aisle::sim

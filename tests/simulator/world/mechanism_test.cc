@@ -1,0 +1,226 @@
+#include "simulator/world/mechanism.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "simulator/scene/load.h"
+#include "simulator/truth/moving_now.h"
+#include "simulator/world/build.h"
+
+namespace aisle::sim {
+namespace {
+
+const std::string kAssets = std::string(AISLE_SOURCE_DIR) + "/assets";
+
+const std::string kHall = R"(about: Things move.
+frames: 200
+rig: {start: [0, 0], steps: []}
+hall: {from: [-5, -8], to: [20, 8], height_m: 6}
+lights: [{rows: 1, per_row: 2, height_m: 5}]
+)";
+
+const std::string kJoints = R"(mechanisms:
+  - name: all
+    at: [5, 1]
+    heading_deg: 20
+    parts:
+      - {name: arm, size_m: [1, 0.1, 0.1], at_m: [0, 0, 2], joint: {kind: hinge, axis: [0, 0, 1], moves: [{at_s: 1, to_deg: 70, over_s: 1.5}]}}
+      - {on: arm, size_m: [0.2, 0.2, 0.2], at_m: [0.5, 0, 0], joint: {kind: spin, axis: [1, 0, 0], rate_hz: 0.7, from_s: 2}}
+      - {size_m: [0.1, 1, 1], at_m: [2, 0, 0.5], joint: {kind: slider, axis: [0, 1, 0], moves: [{at_s: 2, to_m: 1, over_s: 2}]}}
+      - {shape: link, size_m: [0.1, 0.03, 0.14], at_m: [3, 0, 4], count: 10, joint: {kind: chain, axis: [1, 0, 0], length_m: 1, swing_m: 0.2, at_s: 0.5}}
+      - {shape: cylinder, size_m: [0.1, 0.1, 0.5], at_m: [4, 0, 1], roll_deg: 90, count: 3, step_m: [0.2, 0, 0], delay_s: 0.3, joint: {kind: pendulum, axis: [0, 1, 0], swing_deg: 20, length_m: 0.7, decay_s: 2, at_s: 0.2}}
+      - {size_m: [5, 0.2, 0.2], at_m: [2, 2, 0.1]}
+)";
+
+World Build(const std::string& text) {
+  return BuildWorld(ParseScene(kHall + text, "s.yaml"), kAssets, 1);
+}
+
+const MoverState& StateOf(const World& world, const Snapshot& snapshot, const std::string& name) {
+  for (const MoverState& mover : snapshot.movers) {
+    if (world.instances()[mover.instance].name == name) return mover;
+  }
+  throw std::runtime_error("nobody is called " + name);
+}
+
+std::int64_t Nano(double time_s) { return std::llround(1e9 * time_s); }
+
+/// Every vertex's velocity is what its positions before and after say.
+void ExpectVelocitiesOfPositions(const World& world, const std::string& name,
+                                 const std::vector<double>& times, float bound_mps) {
+  constexpr double kHalf_s = 0.002;
+  for (const double t : times) {
+    const Snapshot now = world.At(Nano(t));
+    const MoverState& state = StateOf(world, now, name);
+    const Snapshot earlier = world.At(Nano(t - kHalf_s)), later = world.At(Nano(t + kHalf_s));
+    const MoverState& before = StateOf(world, earlier, name);
+    const MoverState& after = StateOf(world, later, name);
+    for (std::size_t i = 0; i < state.positions.size(); ++i) {
+      const Eigen::Vector3f numeric =
+          (after.positions[i] - before.positions[i]) / static_cast<float>(2 * kHalf_s);
+      ASSERT_LT((numeric - state.velocities[i]).norm(), bound_mps)
+          << name << ", vertex " << i << " at " << t << " s";
+    }
+  }
+}
+
+TEST(Mechanism, VelocitiesAreThoseOfItsVertices) {
+  const World world = Build(kJoints);
+  std::vector<double> times;
+  for (int k = 0; k < 60; ++k) times.push_back(0.0537 + 0.1013 * k);
+  ExpectVelocitiesOfPositions(world, "all", times, 4e-3f);
+}
+
+/// What moves now is what brute force says of the corners: a point moves iff where it is a moment
+/// later is not where it was.
+TEST(Mechanism, TheMaskIsWhatBruteForceFinds) {
+  const World world = Build(kJoints);
+  constexpr double kHalf_s = 0.002;
+  constexpr float kThreshold = 0.05f;
+  int moving = 0, resting = 0;
+  for (int step = 0; step < 50; ++step) {
+    const double t = 0.0731 + 0.0917 * step;
+    const Snapshot now = world.At(Nano(t));
+    const Snapshot before = world.At(Nano(t - kHalf_s)), after = world.At(Nano(t + kHalf_s));
+    const MovingNow mask(world, now, {.threshold_mps = kThreshold, .window_ms = 0.5});
+    const TriangleMesh& mesh = world.mover_meshes()[0];
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+      const std::uint32_t corner = mesh.triangles[i][0];
+      const float speed =
+          (after.movers[0].positions[corner] - before.movers[0].positions[corner]).norm() /
+          static_cast<float>(2 * kHalf_s);
+      if (std::abs(speed - kThreshold) < 5e-3f) continue;
+      ASSERT_EQ(mask(0, i, 0, 0), speed > kThreshold) << "triangle " << i << " at " << t << " s";
+      ++(speed > kThreshold ? moving : resting);
+    }
+  }
+  EXPECT_GT(moving, 1000);
+  EXPECT_GT(resting, 1000);
+}
+
+TEST(Mechanism, PartsWithoutAJointArePartOfTheBuilding) {
+  const World world = Build(kJoints);
+  const auto& instances = world.instances();
+  const auto frame = std::ranges::find(instances, "all_frame", &Instance::name);
+  const auto mover = std::ranges::find(instances, "all", &Instance::name);
+  ASSERT_NE(frame, instances.end());
+  ASSERT_NE(mover, instances.end());
+  EXPECT_FALSE(frame->is_actor);
+  EXPECT_TRUE(mover->is_actor);
+  const auto index = static_cast<std::uint16_t>(frame - instances.begin());
+  EXPECT_EQ(std::ranges::count(world.statics().instances, index), 12) << "a box";
+}
+
+TEST(Mechanism, StandsStillBelowItsLevel) {
+  const Scene calm = WithDynamics(ParseScene(kHall + kJoints, "s.yaml"), Dynamics::kNone);
+  const World world = BuildWorld(calm, kAssets, 1);
+  const Snapshot first = world.At(0), later = world.At(Nano(2.5));
+  EXPECT_EQ(first.movers[0].positions, later.movers[0].positions);
+  for (const Eigen::Vector3f& v : later.movers[0].velocities) EXPECT_EQ(v.norm(), 0);
+  const World lively = Build(kJoints);
+  EXPECT_NE(lively.At(Nano(2.5)).movers[0].positions, first.movers[0].positions);
+}
+
+const std::string kFork = R"(vehicles:
+  - name: truck
+    model: forklift
+    start: [5, -1]
+    heading_deg: 90
+    start_s: 1
+    mast: [{at_s: 3, height_m: 0.4}]
+    steps: [{go: [[5, 0.2]], speed_mps: 0.6}, {wait_s: 2}, {go: [[5, -1.5]], speed_mps: 0.6, reverse: true}]
+mechanisms:
+  - name: load
+    class: goods
+    at: [5, 1.5]
+    heading_deg: 90
+    taken: [{by: truck, at_s: 3.8, until_s: 7.5}]
+    parts: [{shape: pallet, goods: cartons}]
+)";
+
+/// Rests to the bit until it is taken, goes with the forks as one body, and rests where it is left.
+TEST(Mechanism, AForkTakesAndLeavesIt) {
+  const World world = Build(kFork);
+  const auto at = [&](double t) { return StateOf(world, world.At(Nano(t)), "load"); };
+  EXPECT_EQ(at(0).positions, at(3.75).positions);
+  EXPECT_EQ(at(7.6).positions, at(30).positions);
+  float jump = 0;
+  for (const double seam : {3.8, 7.5}) {
+    const MoverState before = at(seam - 1e-6), after = at(seam + 1e-6);
+    for (std::size_t i = 0; i < before.positions.size(); ++i) {
+      jump = std::max(jump, (before.positions[i] - after.positions[i]).norm());
+    }
+  }
+  EXPECT_LT(jump, 1e-4f) << "it neither jumps when taken nor when left";
+  const MoverState start = at(0), carried = at(6.5);
+  EXPECT_GT((carried.positions[0] - start.positions[0]).norm(), 0.3f);
+  for (std::size_t i = 1; i < start.positions.size(); i += 37) {
+    EXPECT_NEAR((carried.positions[i] - carried.positions[0]).norm(),
+                (start.positions[i] - start.positions[0]).norm(), 1e-4);
+  }
+  ExpectVelocitiesOfPositions(world, "load", {1.0, 5.5, 6.1, 6.9, 9.0}, 0.02f);
+}
+
+const std::string kCarried = R"(people:
+  - name: rear
+    model: worker_anton
+    start: [3, 1]
+    start_s: 0.5
+    steps: [{go: [[9, 1]], speed_mps: 0.8, play: walk_carry}]
+  - name: front
+    model: worker_bea
+    start: [6.2, 1]
+    heading_deg: 180
+    start_s: 0.5
+    steps: [{go: [[12.2, 1]], speed_mps: 0.8, play: walk_carry, reverse: true}]
+mechanisms:
+  - {name: crate, class: goods, front_by: front, rear_by: rear, parts: [{paint: wood, size_m: [2.8, 0.4, 0.28]}]}
+)";
+
+TEST(Mechanism, TwoPeopleCarryItBetweenThem) {
+  const World world = Build(kCarried);
+  for (const double t : {0.2, 2.0, 4.1, 6.3, 15.0}) {
+    const Snapshot now = world.At(Nano(t));
+    const MoverState& crate = StateOf(world, now, "crate");
+    const Eigen::Vector3d rear = StateOf(world, now, "rear").T_world_object.translation();
+    const Eigen::Vector3d front = StateOf(world, now, "front").T_world_object.translation();
+    const Eigen::Vector3d middle = crate.T_world_object.translation();
+    EXPECT_NEAR(middle.x(), (rear.x() + front.x()) / 2, 0.1) << t;
+    EXPECT_NEAR(middle.y(), 1, 0.1);
+    EXPECT_NEAR(middle.z(), 1.1, 0.15) << "hands are at the height of the elbows";
+    EXPECT_GT((crate.T_world_object.linear().col(0)).dot(Eigen::Vector3d::UnitX()), 0.98);
+  }
+  ExpectVelocitiesOfPositions(world, "crate", {1.9, 3.3, 5.2}, 0.05f);
+  const Scene calm = WithDynamics(ParseScene(kHall + kCarried, "s.yaml"), Dynamics::kNone);
+  EXPECT_TRUE(BuildWorld(calm, kAssets, 1).mover_meshes().empty()) << "it stays away with them";
+}
+
+/// A light that turns is no thing that moves.
+TEST(Beams, MoveThoughNothingElseDoes) {
+  const World world = Build(R"(beams:
+  - {name: sweep, at_m: [6, 0, 2], rate_hz: 1, brightness: 4}
+  - {name: sun, kind: sun, at_m: [6, 0, 5.9], in_roof: true, elevation_deg: 60, moves: [{at_s: 0, over_s: 5, azimuth_deg: 30, elevation_deg: 50, share: 0.5}]}
+)");
+  ASSERT_TRUE(world.has_beams());
+  const Snapshot first = world.At(0), later = world.At(Nano(0.3));
+  ASSERT_EQ(first.beams.size(), 2u);
+  EXPECT_TRUE(first.movers.empty()) << "nothing is there that could move";
+  // A turn a second: 108 degrees.
+  EXPECT_NEAR(first.beams[0].toward.dot(later.beams[0].toward), std::cos(0.6 * std::numbers::pi),
+              1e-5);
+  EXPECT_NE(first.beams[1].toward, later.beams[1].toward);
+  EXPECT_NEAR(world.At(Nano(9)).beams[1].power, 0.5 * first.beams[1].power, 1e-6);
+  EXPECT_EQ(first.light_scale.size(), world.lights().size());
+}
+
+TEST(Beams, RestBelowTheirLevel) {
+  const std::string text =
+      "beams: [{name: sweep, at_m: [6, 0, 2], rate_hz: 1, brightness: 4, level: mid}]\n";
+  const World calm =
+      BuildWorld(WithDynamics(ParseScene(kHall + text, "s.yaml"), Dynamics::kLow), kAssets, 1);
+  EXPECT_EQ(calm.At(0).beams[0].toward, calm.At(Nano(0.3)).beams[0].toward);
+}
+
+}  // namespace
+}  // namespace aisle::sim
