@@ -1,12 +1,14 @@
 """Renders the contact sheets assets/contact/*.jpg from the committed files.
 
 Run: blender -b --factory-startup -P assets/author/contact.py -- [sheet ...]
-Sheets: people, backs, faces, walk, clips, vehicles, kit, street, textures.
+Sheets: people, backs, faces, walk, clips, vehicles, kit, street, textures, and by aisle's own camera, which
+needs ./aisle built: near (vehicles from 1 m), beside (from 2.5 m), town (a street from 10 m).
 """
 
 import glob
 import os
 import sys
+import tempfile
 
 import bpy
 import numpy as np
@@ -15,7 +17,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(HERE)
 sys.path.insert(0, HERE)
 
-from lib import figure, gltf, picture, studio  # noqa: E402
+from lib import figure, gltf, photo, picture, studio  # noqa: E402
 
 
 def fresh(samples=10):
@@ -149,7 +151,80 @@ def textures():
     save("textures", pictures, 6)
 
 
-SHEETS = {f.__name__: f for f in (people, backs, faces, walk, clips, vehicles, kit, street, textures)}
+# Vehicles in photographs: (model, middle ahead of its origin, half its length).
+PHOTOGRAPHED = (
+    ("car_red", 1.28, 2.0), ("car_silver", 1.37, 2.3), ("car_van", 1.52, 2.45), ("bus", 2.35, 5.3),
+    ("forklift_driver", -0.5, 1.7), ("order_picker", -0.3, 1.5), ("scrubber", 0.3, 1.0), ("tow_tractor", 0.5, 1.0),
+)  # fmt: skip
+HALL = """hall: {{from: [-8, -9], to: [{end}, 9], height_m: 7}}
+lights:
+  - {{rows: 4, per_row: {lamps}, height_m: 6.6, size_m: [1.6, 0.4], brightness: 0.55}}
+vehicles:
+"""
+
+
+def photographs(scene, views, size, focal):
+    """By aisle's own camera: grey, as methods see it."""
+    aisle = os.environ.get("AISLE_PROGRAM", os.path.join(ROOT, "..", "aisle"))
+    with tempfile.TemporaryDirectory() as folder:
+        return [studio.load(path) for path in photo.shoot(aisle, folder, scene, views, size, focal)]
+
+
+def vehicle_photographs(apart, turns):
+    """Pictures of every vehicle in a hall from `apart` metres beside it, at turns (degrees, 0 ahead)."""
+    scene = HALL.format(end=14 * len(PHOTOGRAPHED) + 4, lamps=3 * len(PHOTOGRAPHED))
+    views = []
+    for i, (model, ahead, half) in enumerate(PHOTOGRAPHED):
+        x = 14 * i
+        scene += f"  - {{name: v{i}, model: {model}, level: none, start: [{x}, 0]}}\n"
+        for turn in turns:
+            a = np.radians(turn)
+            wide = 1.25 if model == "bus" else 0.9 if model.startswith("car") else 0.5
+            place = np.array([half * np.cos(a) + apart * np.cos(a), (wide + apart) * np.sin(a)])
+            look = np.array([x + ahead + 0.55 * half * np.cos(a), 0.4 * wide * np.sin(a)])
+            eye = (x + ahead + place[0], place[1], 1.35)
+            views.append((eye, (look[0], look[1], 0.80 if apart < 2 else 0.9)))
+    return photographs(scene, views, (448, 320), 300)
+
+
+def near():
+    save("near", vehicle_photographs(1.0, (40, 150)), 4)
+
+
+def beside():
+    save("beside", vehicle_photographs(2.5, (35, 145)), 4)
+
+
+def town():
+    """Houses and trees across a street, and along it."""
+    scene = """hall: {from: [-15, -30], to: [95, 30], height_m: 40, floor: asphalt, walls: sky, wear: 0.4}
+lights:
+  - {rows: 2, per_row: 4, height_m: 39, size_m: [54, 58], brightness: 0.28}
+sensor: {auto_exposure: true, auto_meter_from: 0.5, auto_target_grey: 95}
+markings:
+  - {kind: pavement, from: [-15, -30], to: [95, -5]}
+  - {kind: pavement, from: [-15, 9], to: [95, 30]}
+props:
+  - {model: house_brick, at: [5, -9], heading_deg: 90}
+  - {model: house_plaster, at: [19, -9], heading_deg: 90}
+  - {model: house_grey, at: [33, -9], heading_deg: 90}
+  - {model: house_shop, at: [5, 13], heading_deg: -90}
+  - {model: house_tall, at: [19, 13], heading_deg: -90}
+  - {model: tree_round, at: [48, -6], heading_deg: 0}
+  - {model: tree_slim, at: [55, -6], heading_deg: 0}
+  - {model: hedge, at: [49.5, -7], heading_deg: 90}
+  - {model: hedge, at: [52.55, -7], heading_deg: 90}
+  - {model: tree_round, at: [33, 10], heading_deg: 90}
+vehicles:
+  - {name: a, model: car_red, level: none, start: [28, -3.4]}
+  - {name: b, model: bus, level: none, start: [34, 6], heading_deg: 180}
+"""
+    views = [((x, y, 1.65), (x, t, 3.2)) for x, y, t in ((5, 1, -9), (19, 1, -9), (33, 1, -9), (5, 3, 13), (19, 3, 13))]
+    views += [((51.5, 4, 1.65), (51.5, -6, 3.0)), ((14, 1.5, 1.65), (40, 1, 2.4)), ((60, 2, 1.65), (30, 1, 2.6))]
+    save("town", photographs(scene, views, (448, 320), 300), 4)
+
+
+SHEETS = {f.__name__: f for f in (people, backs, faces, walk, clips, vehicles, kit, street, textures, near, beside, town)}
 
 
 def main():

@@ -34,7 +34,8 @@ CONVENTIONS = {
     "negative backwards. slip_m, sink_m: measured on the exported file",
     "vehicle": "origin on the floor below the axle named by `origin`; wheels turn about their local "
     "y, steered nodes about z, mast nodes slide along z. ridden: once every development_m its "
-    "crank and its rider's clip go round, its pedals staying level",
+    "crank and its rider's clip go round, its pedals staying level. hitch_m: along x from the origin "
+    "to what couples it, `ahead` (a drawbar's eye) and `behind` (a pin)",
 }
 
 

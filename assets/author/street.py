@@ -10,7 +10,7 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
-from lib import facades, street_parts  # noqa: E402
+from lib import facades, street_parts, trees  # noqa: E402
 
 
 def pieces():
@@ -18,9 +18,9 @@ def pieces():
         name: lambda *a, look=look: facades.house(*a, **look)
         for name, look in facades.HOUSES.items()
     }
-    made["tree_round"] = lambda *a: street_parts.tree(*a, 1, 7.5, 4.6, (0.27, 0.40, 0.15))
-    made["tree_slim"] = lambda *a: street_parts.tree(*a, 2, 9.0, 3.4, (0.32, 0.42, 0.20))
-    made["hedge"] = street_parts.hedge
+    made["tree_round"] = lambda *a: trees.tree(*a, 1, 7.5, 5.0, (0.27, 0.38, 0.15))
+    made["tree_slim"] = lambda *a: trees.tree(*a, 2, 9.0, 3.8, (0.32, 0.41, 0.20), 0.15, 150, 58)
+    made["hedge"] = trees.hedge
     made["lamp_post"] = street_parts.lamp_post
     for k, name in enumerate(("priority", "speed", "parking", "crossing")):
         made[f"sign_{name}"] = lambda *a, k=k: street_parts.traffic_sign(*a, k)

@@ -10,7 +10,9 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
-from lib import agv, body, car, cyclist, forklift, pallet_jack, reach_truck  # noqa: E402
+from lib import (  # noqa: E402
+    agv, body, bus, car, cyclist, forklift, order_picker, pallet_jack, reach_truck, scrubber, tow_train,
+)
 
 DRIVER = body.Person(
     name="driver",
@@ -24,6 +26,32 @@ DRIVER = body.Person(
     skin=(0.74, 0.54, 0.43),
     hair_colour=(0.12, 0.09, 0.07),
     helmet_colour=(0.12, 0.20, 0.36),
+)
+CLEANER = body.Person(
+    name="cleaner",
+    seed=12,
+    height_m=1.68,
+    shoulders=0.96,
+    girth=1.0,
+    belly=0.01,
+    top="shirt",
+    head_wear="none",
+    skin=(0.50, 0.34, 0.26),
+    hair_colour=(0.06, 0.05, 0.05),
+    helmet_colour=(0.12, 0.20, 0.36),
+)
+PICKER = body.Person(
+    name="picker",
+    seed=19,
+    height_m=1.78,
+    shoulders=1.0,
+    girth=0.97,
+    belly=0.0,
+    top="jacket",
+    head_wear="helmet",
+    skin=(0.78, 0.58, 0.47),
+    hair_colour=(0.30, 0.22, 0.14),
+    helmet_colour=(0.85, 0.70, 0.12),
 )
 RIDER = body.Person(
     name="rider",
@@ -39,11 +67,11 @@ RIDER = body.Person(
     helmet_colour=(0.80, 0.80, 0.82),
 )
 CARS = {
-    "car_white": ("hatch", (0.82, 0.82, 0.80), 51),
-    "car_red": ("hatch", (0.48, 0.06, 0.07), 52),
-    "car_dark": ("saloon", (0.07, 0.08, 0.10), 53),
-    "car_silver": ("saloon", (0.55, 0.56, 0.57), 54),
-    "car_van": ("van", (0.74, 0.74, 0.70), 55),
+    "car_white": ("hatch", (0.86, 0.86, 0.85), 51),
+    "car_red": ("hatch", (0.50, 0.05, 0.06), 52),
+    "car_dark": ("saloon", (0.10, 0.115, 0.15), 53),
+    "car_silver": ("saloon", (0.62, 0.63, 0.64), 54),
+    "car_van": ("van", (0.80, 0.80, 0.78), 55),
 }
 VEHICLES = {
     **{name: lambda *a, look=look: car.build(*a, *look) for name, look in CARS.items()},
@@ -51,6 +79,12 @@ VEHICLES = {
     "forklift": forklift.build,
     "forklift_driver": lambda *a: forklift.build(*a, driver=DRIVER),
     "reach_truck": lambda *a: reach_truck.build(*a, driver=DRIVER),
+    "bus": lambda *a: bus.build(*a, (0.86, 0.85, 0.80), (0.10, 0.33, 0.30), 61),
+    "tow_tractor": lambda *a: tow_train.tractor(*a, DRIVER),
+    "tow_trailer": lambda *a: tow_train.trailer(*a, "cage"),
+    "tow_trailer_totes": lambda *a: tow_train.trailer(*a, "totes"),
+    "scrubber": lambda *a: scrubber.build(*a, CLEANER),
+    "order_picker": lambda *a: order_picker.build(*a, PICKER),
     "pallet_jack": pallet_jack.build,
     "agv": agv.build,
 }

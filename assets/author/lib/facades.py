@@ -4,7 +4,8 @@ the front, which looks along +x; the house lies behind it."""
 import numpy as np
 
 from . import noise, surfaces
-from .solid import Machine
+from .house_parts import SHEET, Wall, downpipe, gutter, slope
+from .solid import Machine, around
 
 STOREY = 2.9
 
@@ -43,26 +44,42 @@ def tiles(colour, seed, size=512):
     return np.clip(np.array(colour) * (tone * shade * round_)[..., None], 0, 1)
 
 
-def window_pictures(seed, size=(256, 1024)):
-    """Four window panes side by side: dark rooms with curtains, blinds, a lamp, reflections."""
+def window_pictures(seed, size=(256, 1280)):
+    """Five panes side by side: dark rooms with curtains, a blind, a lamp, plants; the last is frosted."""
     rng = np.random.default_rng(seed)
     image = np.zeros((*size, 3))
     y, x = np.mgrid[0 : size[0], 0:256] / 256.0
-    for k in range(4):
-        pane = np.ones((size[0], 256, 3)) * (0.05 + 0.05 * rng.random())
-        pane += (0.16 * np.clip(1 - 1.6 * y - 0.5 * x + 0.3 * k, 0, 1))[..., None]
-        if k in (0, 2):  # curtains to the sides
-            folds = 0.55 + 0.14 * np.sin(2 * np.pi * (11 * x + 0.6 * np.sin(3 * y)))
-            side = (np.abs(x - 0.5) > 0.26 + 0.05 * k * (1 - y))
-            pane[side] = folds[side][:, None] * np.array((0.95, 0.93, 0.86))
-        if k == 1:  # blind half down
-            down = y < 0.42
-            slats = 0.62 + 0.12 * np.sin(2 * np.pi * 18 * y)
-            pane[down] = slats[down][:, None]
-        if k == 3:  # plants on the sill
-            for cx in (0.25, 0.6, 0.78):
-                leaf = (x - cx) ** 2 / 0.012 + (y - 0.86) ** 2 / 0.03 < 1 + 0.5 * np.sin(40 * x + 31 * y)
-                pane[leaf] = (0.13, 0.26, 0.10)
+    for k in range(5):
+        room = 0.045 + 0.05 * np.exp(-(((x - 0.6) / 0.5) ** 2 + ((y - 0.35) / 0.4) ** 2))
+        pane = np.repeat(room[..., None], 3, 2)
+        if k in (0, 2):  # curtains to the sides, gathered, deep in shade at their edges
+            gather = 0.22 + 0.07 * k - 0.10 * np.abs(y - 0.62) * (y > 0.3)
+            near = np.abs(x - 0.5) - (0.5 - gather)
+            folds = 0.50 + 0.17 * np.sin(2 * np.pi * (13 * x + 0.35 * np.sin(2.2 * y + k))) * np.clip(1.2 - 0.4 * y, 0, 1)
+            tone = folds * (1 - 0.45 * (y < 0.06)) * (0.85 - 0.25 * y)
+            colour = np.array((0.92, 0.90, 0.83) if k == 0 else (0.62, 0.52, 0.44))
+            pane[near > 0] = (tone[..., None] * colour)[near > 0]
+            edge = (near <= 0) & (near > -0.02)
+            pane[edge] *= 0.5
+        if k == 1:  # a blind half down
+            down = y < 0.46
+            slats = 0.50 + 0.16 * ((y * 24) % 1) - 0.30 * (((y * 24) % 1) > 0.9)
+            cord = np.abs(np.abs(x - 0.5) - 0.3) < 0.006
+            pane[down] = slats[down][:, None] * np.array((0.95, 0.94, 0.90))
+            pane[down & cord] *= 0.7
+        if k == 3:  # net curtain above, plants on the sill
+            net = (y < 0.55 + 0.04 * np.cos(4 * np.pi * x)) & (y > 0.02)
+            veil = 0.40 + 0.08 * np.sin(2 * np.pi * 17 * x + np.sin(5 * y))
+            pane[net] = 0.35 * pane[net] + 0.65 * veil[net][:, None]
+            for cx in (0.22, 0.52, 0.80):
+                for _ in range(46):
+                    px, py = cx + 0.07 * rng.standard_normal(), 0.84 + 0.075 * rng.standard_normal()
+                    leaf = ((x - px) / 0.022) ** 2 + ((y - py) / 0.012) ** 2 < 1
+                    pane[leaf] = np.array((0.10, 0.20, 0.07)) * rng.uniform(0.6, 1.8)
+                pot = (np.abs(x - cx) < 0.065 - 0.15 * (y - 0.92)) & (y > 0.91)
+                pane[pot] = (0.36, 0.19, 0.12)
+        if k == 4:
+            pane = np.ones((size[0], 256, 3)) * 0.30 + 0.05 * noise.picture((256, 256), 1.0, seed)[..., None]
         image[:, 256 * k : 256 * (k + 1)] = pane
     return np.clip(image, 0, 1)
 
@@ -73,8 +90,9 @@ HOUSES = {
     "house_grey": dict(wall="plaster", colour=(0.56, 0.60, 0.62), roof=(0.26, 0.26, 0.28), width=9.0, storeys=2, columns=3, gable=True, seed=3),
     "house_shop": dict(wall="brick", colour=(0.62, 0.50, 0.38), roof=(0.30, 0.29, 0.29), width=14.0, storeys=3, columns=6, gable=False, seed=4),
     "house_tall": dict(wall="plaster", colour=(0.68, 0.46, 0.36), roof=(0.28, 0.22, 0.20), width=10.0, storeys=4, columns=4, gable=False, seed=5),
-}
-DEPTH = 9.0
+}  # fmt: skip
+DEPTH, BASE = 9.0, 0.5
+DOORS = ((0.16, 0.26, 0.20), (0.40, 0.12, 0.10), (0.15, 0.20, 0.34))
 
 
 def house(name, folder, path, wall, colour, roof, width, storeys, columns, gable, seed):
@@ -82,88 +100,191 @@ def house(name, folder, path, wall, colour, roof, width, storeys, columns, gable
     picture = brick if wall == "brick" else plaster
     m.material("wall", picture(colour, seed), 2.0 if wall == "brick" else 2.9, 0.95)
     m.material("plinth", plaster((0.38, 0.37, 0.36), seed + 9, 256), 1.7)
-    m.material("roof", tiles(roof, seed + 2), 2.0)
-    m.material("trim", surfaces.paint((0.86, 0.85, 0.82), seed + 3, (256, 256), 1.2), 0.8)
-    m.material("door", surfaces.paint([(0.16, 0.26, 0.20), (0.40, 0.12, 0.10), (0.15, 0.20, 0.34)][seed % 3], seed, (256, 256)), 1.1)
-    m.material("metal", surfaces.metal((0.30, 0.31, 0.32), seed + 5, (256, 256)), 0.8)
-    m.material("panes", window_pictures(seed + 6), None, 0.15)
-    top = 0.5 + storeys * STOREY
-    m.box(m.name, "wall", (-DEPTH / 2, 0, top / 2), (DEPTH, width, top), 0.01, segments=1)
-    m.box(m.name, "plinth", (-DEPTH / 2, 0, 0.25), (DEPTH + 0.10, width + 0.10, 0.5), 0.02, segments=1)
-    openings(m, width, storeys, columns, seed, name == "house_shop")
+    m.material("roof", tiles(roof, seed + 2), 1.0)
+    m.material("door", surfaces.paint(DOORS[seed % 3], seed, (256, 256), 0.4), 1.1, 0.35)
+    m.material("panes", window_pictures(seed + 6), None, 0.05, 0.05)
+    stone = (0.66, 0.63, 0.57) if wall == "brick" else tuple(min(1.0, 1.12 * c) for c in colour)
+    m.material("stone", plaster(stone, seed + 4, 256), 1.3, 0.9)
+    m.plain("trim", (0.86, 0.855, 0.84), 0.5)
+    m.plain("sill", (0.60, 0.59, 0.56) if seed % 2 else (0.34, 0.35, 0.37), 0.6)
+    m.plain("reveal", tuple(0.95 * c for c in (colour if wall != "brick" else stone)), 0.95)
+    m.plain("metal", (0.36, 0.37, 0.38), 0.38, 0.4)
+    top = BASE + storeys * STOREY
+    front(m, width, storeys, columns, seed, top, name == "house_shop", wall)
+    rest(m, width, storeys, columns, seed, top)
+    m.box(m.name, "plinth", (-DEPTH / 2, 0, BASE / 2), (DEPTH + 0.10, width + 0.10, BASE), 0.015, segments=1)
     roofing(m, width, top, gable, seed)
-    m.bar(m.name, "metal", (0.09, width / 2 - 0.25, 0.2), (0.09, width / 2 - 0.25, top), 0.05, 8)
-    for side in (-1, 1):  # the back and the sides have windows too
-        for k in range(2):
-            for s in range(storeys):
-                y = side * (width / 2 + 0.03)
-                at = (-DEPTH * (0.3 + 0.4 * k), y, 0.5 + STOREY * s + 1.55)
-                pane(m, at, (-side, 0, 0), (0, side, 0), 0.9, 1.25, (seed + k + s) % 4)
     m.finish(path, {"footprint_m": [DEPTH, width], "height_m": top})
 
 
-def openings(m, width, storeys, columns, seed, shop):
+def front(m, width, storeys, columns, seed, top, shop, kind):
+    """The side to the street: door, windows, string courses, perhaps a shop."""
     rng = np.random.default_rng(seed)
-    pitch = width / columns
-    door = int(rng.integers(0, columns))
+    wall = Wall(m, (0, 0, 0), (1, 0, 0), width)
+    pitch, door = width / columns, int(rng.integers(0, columns))
+    holes, doors, panes = [], [], []
     for s in range(storeys):
         for c in range(columns):
-            y = (c + 0.5) * pitch - width / 2
+            u = (c + 0.5) * pitch - width / 2
+            v = BASE + STOREY * s + 1.55
             if s == 0 and c == door:
-                entrance(m, y)
+                doors.append((u - 0.60, u + 0.60, BASE, BASE + 2.45))
             elif s == 0 and shop:
-                pane(m, (0.03, y, 1.75), (0, 1, 0), (1, 0, 0), pitch - 0.5, 2.0, int(rng.integers(4)))
+                panes.append(((u - pitch / 2 + 0.22, u + pitch / 2 - 0.22, 0.85, 2.75), int(rng.integers(4)), 0))
             else:
-                pane(m, (0.03, y, 0.5 + STOREY * s + 1.55), (0, 1, 0), (1, 0, 0), 1.15, 1.45, int(rng.integers(4)))
-    if shop:
-        m.box(m.name, "door", (0.10, 0, 3.08), (0.20, width - 0.4, 0.50), 0.03)
-        m.box(m.name, "trim", (0.55, 0, 2.80), (0.9, width - 1.0, 0.06), 0.02)
+                panes.append(((u - 0.58, u + 0.58, v - 0.73, v + 0.73), int(rng.integers(4)), 1))
+    holes = doors + [p[0] for p in panes]
+    wall.face("wall", top, [(a, b, c, d) for a, b, c, d in holes])
+    for k, hole in enumerate(doors):
+        wall.door(hole, seed, True)
+        wall.surround(hole, out=0.05, t=0.16)
+    for k, (hole, which, bars) in enumerate(panes):
+        big = hole[1] - hole[0] > 1.3
+        wall.window(hole, which, bars=0 if big else bars, transom=not big or seed % 2 == 0)
+        if seed % 3 != 0 and not big:
+            wall.surround(hole, key=seed % 2 == 0 and kind != "brick")
+        if seed == 2 and not big and k % 5 in (1, 3):
+            wall.shutters(hole)
     for s in range(1, storeys):
-        m.box(m.name, "trim", (0.02, 0, 0.5 + STOREY * s), (0.10, width + 0.02, 0.14), 0.02, segments=1)
+        wall.block("stone", (-width / 2 - 0.02, width / 2 + 0.02), (BASE + STOREY * s - 0.09, BASE + STOREY * s + 0.09), (-0.02, 0.05), 0.02, 2)
+    for k, dz in enumerate((0.30, 0.20, 0.10)):  # the cornice grows outwards
+        wall.block("stone", (-width / 2 - 0.02, width / 2 + 0.02), (top - dz - 0.08, top - dz + 0.04), (-0.02, 0.05 + 0.05 * k), 0.015, 2)
+    if kind == "brick" or seed == 5:  # quoins
+        for side in (-1, 1):
+            for j, v in enumerate(np.arange(BASE + 0.05, top - 0.5, 0.36)):
+                long = 0.48 if j % 2 else 0.30
+                u = sorted((side * width / 2, side * (width / 2 - long)))
+                wall.block("stone", (u[0] - 0.022 * (side < 0), u[1] + 0.022 * (side > 0)), (v, v + 0.33), (-0.05, 0.024), 0.010)
+    if shop:
+        wall.block("door", (-width / 2 + 0.1, width / 2 - 0.1), (2.86, 3.34), (-0.01, 0.10), 0.02, 2)
+        wall.block("trim", (-width / 2 + 0.05, width / 2 - 0.05), (3.34, 3.42), (-0.01, 0.18), 0.02, 2)
+        awning(wall, (-width / 2 + 0.3, width / 2 - 0.3), 2.84)
+        for k in range(columns + 1):
+            u = np.clip(k * pitch - width / 2, -width / 2 + 0.14, width / 2 - 0.14)
+            wall.block("door", (u - 0.13, u + 0.13), (0.0, 2.86), (-0.01, 0.06), 0.012)
+    bell = doors[0][1] + 0.30
+    wall.block("metal", (bell, bell + 0.10), (BASE + 1.20, BASE + 1.42), (0.0, 0.02), 0.004)
+    m.bar(m.name, "metal", tuple(wall.at(bell + 0.05, BASE + 2.05, 0)), tuple(wall.at(bell + 0.05, BASE + 2.05, 0.12)), 0.015, 8)
+    m.lathe(m.name, "trim", tuple(wall.at(bell + 0.05, BASE + 1.90, 0.14)), (0, 0, 1), [(0.0, 0.0), (0.02, 0.05), (0.09, 0.07), (0.16, 0.05), (0.19, 0.0)], 14)
 
 
-def pane(m, centre, right, out, w, h, which):
-    """A window: glass a hand behind a white frame with a bar, a sill below."""
-    centre, right, out, up = (np.array(v, float) for v in (centre, right, out, (0, 0, 1)))
+def awning(wall, u, v):
+    """A sunblind rolled half out, with a scalloped edge."""
+    out, drop = 0.95, 0.42
+    n = int((u[1] - u[0]) / 0.35)
+    us = np.linspace(*u, n + 1)
+    for k, (a, b) in enumerate(zip(us, us[1:])):
+        material = "door" if k % 2 else "trim"
+        w = [0.05, out / 2, out]
+        z = [v, v - drop * 0.45, v - drop]
+        quads = [[(a, z[i + 1], w[i + 1]), (b, z[i + 1], w[i + 1]), (b, z[i], w[i]), (a, z[i], w[i])] for i in range(2)]
+        mid = (a + b) / 2
+        quads += [[(a, z[2] - 0.12, out), (mid, z[2] - 0.17, out), (mid, z[2], out), (a, z[2], out)], [(mid, z[2] - 0.17, out), (b, z[2] - 0.12, out), (b, z[2], out), (mid, z[2], out)]]
+        wall.quads(material, quads)
+    for a in u:
+        wall.m.bar(wall.m.name, "metal", tuple(wall.at(a, v - 0.5, 0.02)), tuple(wall.at(a, v - drop, out)), 0.014, 6)
 
-    def bar(at, along, across):
-        size = np.abs(right) * along + np.abs(out) * 0.09 + up * across
-        m.box(m.name, "trim", tuple(centre + at), tuple(size), 0.01, segments=1)
 
-    for s in (-1, 1):
-        bar(right * s * (w / 2), 0.09, h + 0.09)
-        bar(up * s * (h / 2), w, 0.09)
-    bar(right * 0.0, 0.05, h)
-    bar(up * 0.18 * h, w, 0.05)
-    bar(up * -(h / 2 + 0.08) + out * 0.06, w + 0.24, 0.06)
-    m.decal(m.name, "panes", tuple(centre - 0.005 * out), tuple(right * w), tuple(up * h), (256 * which, 0, 256, 256), (256, 1024))
-
-
-def entrance(m, y):
-    m.box(m.name, "door", (0.03, y, 1.55), (0.10, 1.05, 2.1), 0.02)
-    for s in (-1, 1):
-        m.box(m.name, "trim", (0.05, y + s * 0.60, 1.55), (0.14, 0.14, 2.2), 0.015)
-        m.box(m.name, "door", (0.085, y + s * 0.24, 2.05), (0.03, 0.34, 0.70), 0.02)
-        m.box(m.name, "door", (0.085, y + s * 0.24, 1.05), (0.03, 0.34, 0.70), 0.02)
-    m.box(m.name, "trim", (0.10, y, 2.70), (0.24, 1.5, 0.14), 0.03)
-    m.box(m.name, "plinth", (0.42, y, 0.16), (0.84, 1.7, 0.32), 0.03)
-    m.box(m.name, "plinth", (0.24, y, 0.40), (0.48, 1.5, 0.18), 0.03)
-    m.box(m.name, "metal", (0.11, y + 0.40, 1.5), (0.06, 0.05, 0.16), 0.015)
+def rest(m, width, storeys, columns, seed, top):
+    """The other three walls, with fewer windows."""
+    for foot, out, wide, count in (
+        ((-DEPTH / 2, width / 2, 0), (0, 1, 0), DEPTH, 2),
+        ((-DEPTH / 2, -width / 2, 0), (0, -1, 0), DEPTH, 2),
+        ((-DEPTH, 0, 0), (-1, 0, 0), width, columns),
+    ):
+        wall = Wall(m, foot, out, wide)
+        holes = [
+            ((c + 0.5) * wide / count - wide / 2 - 0.48, (c + 0.5) * wide / count - wide / 2 + 0.48, BASE + STOREY * s + 0.95, BASE + STOREY * s + 2.2)
+            for s in range(storeys)
+            for c in range(count)
+        ]
+        wall.face("wall", top, holes)
+        for k, hole in enumerate(holes):
+            wall.window(hole, (seed + k) % 4, bars=1, transom=False, sashes=False)
 
 
 def roofing(m, width, top, gable, seed):
     rise, over = 3.0 if gable else 2.4, 0.45
+    n = m.name
     if gable:  # the gable looks to the street
+        half = DEPTH / 2 + over
+        lean = (rise + 0.10) / (width / 2)
         for s in (-1, 1):
-            slope = [(-(width / 2 + over) * s, top - 0.25), (0.0, top + rise), (0.0, top + rise + 0.16), (-(width / 2 + over) * s, top - 0.07)]
-            m.prism(m.name, "roof", slope, -DEPTH - over, over, "x", 0.004, 1)
-        m.prism(m.name, "wall", [(-width / 2, top - 0.01), (width / 2, top - 0.01), (0.0, top + rise - 0.05)], -DEPTH, 0.0, "x", 0.002, 1)
-        pane(m, (0.03, 0, top + 1.0), (0, 1, 0), (1, 0, 0), 0.95, 1.1, 0)
+            eave = (width / 2 + over, top - over * lean + 0.05)
+            slope_at(m, eave, (0.0, top + rise + 0.15), half, ((0, s, 0), (1, 0, 0)), (-DEPTH / 2, 0))
+            y = s * (width / 2 + over + 0.05)
+            gutter(m, (-DEPTH - over, y, eave[1] - 0.02), (over, y, eave[1] - 0.02))
+            downpipe(m, (-0.3, y, eave[1] - 0.06), (-0.3, s * (width / 2 + 0.06), 0.15), (0, s, 0))
+            for x in (0.0, -DEPTH):  # barge boards
+                m.beam(n, "trim", (x + (over - 0.02 if x == 0 else -over + 0.02), s * (width / 2 + over), eave[1] - 0.10), (x + (over - 0.02 if x == 0 else -over + 0.02), 0, top + rise + 0.02), 0.03, 0.20)
+        m.prism(n, "wall", [(-width / 2, top - 0.01), (width / 2, top - 0.01), (0.0, top + rise)], -DEPTH, -0.001, "x", 0.0, 1)
+        wall = Wall(m, (0.001, 0, 0), (1, 0, 0), width)
+        c = top + 1.0
+        wall.surround((-0.42, 0.42, c - 0.5, c + 0.5), t=0.09)
+        wall.pane(-0.42, 0.42, c - 0.5, c + 0.5, 0.006, 0)
+        for u, v in (((-0.42, -0.36), (c - 0.5, c + 0.5)), ((0.36, 0.42), (c - 0.5, c + 0.5)), ((-0.03, 0.03), (c - 0.5, c + 0.5)), ((-0.36, 0.36), (c - 0.5, c - 0.43)), ((-0.36, 0.36), (c + 0.43, c + 0.5)), ((-0.36, 0.36), (c + 0.12, c + 0.17))):
+            wall.block("trim", u, v, (0.0, 0.035), 0.004)
+        wall.block("sill", (-0.52, 0.52), (c - 0.57, c - 0.5), (0, 0.10), 0.008)
+        ridge(m, (-DEPTH - over, 0, top + rise + 0.17), (over, 0, top + rise + 0.17))
+        stack = (-DEPTH * 0.55, width * (0.2 if seed % 2 else -0.25))
+        foot = top + rise * (1 - abs(stack[1]) / (width / 2)) - 0.2
     else:
-        for a, b in ((over, -DEPTH / 2), (-DEPTH - over, -DEPTH / 2)):
-            slope = [(a, top - 0.1), (b, top + rise), (b, top + rise + 0.16), (a, top + 0.08)]
-            m.prism(m.name, "roof", slope, -width / 2 - 0.1, width / 2 + 0.1, "y", 0.004, 1)
-        m.prism(m.name, "wall", [(0.0, top - 0.01), (-DEPTH, top - 0.01), (-DEPTH / 2, top + rise - 0.1)], -width / 2, width / 2, "y", 0.002, 1)
-        m.bar(m.name, "metal", (over + 0.05, -width / 2, top - 0.05), (over + 0.05, width / 2, top - 0.05), 0.07, 8)
-    m.box(m.name, "wall", (-DEPTH * 0.55, width * (0.2 if seed % 2 else -0.25), top + rise), (0.55, 0.9, 1.8), 0.02, segments=1)
-    m.box(m.name, "plinth", (-DEPTH * 0.55, width * (0.2 if seed % 2 else -0.25), top + rise + 0.95), (0.7, 1.05, 0.14), 0.02, segments=1)
+        half = width / 2 + 0.16
+        lean = (rise + 0.10) / (DEPTH / 2)
+        for s, x in ((1, 0.0), (-1, -DEPTH)):
+            eave = (DEPTH / 2 + over, top - over * lean + 0.05)
+            slope_at(m, eave, (0.0, top + rise + 0.15), half, ((s, 0, 0), (0, 1, 0)), (-DEPTH / 2, 0))
+            at = x + s * (over + 0.05)
+            gutter(m, (at, -half, eave[1] - 0.02), (at, half, eave[1] - 0.02))
+            downpipe(m, (at, width / 2 - 0.25, eave[1] - 0.06), (x + s * 0.09, width / 2 - 0.25, 0.15), (s, 0, 0))
+            m.box(n, "trim", (x + s * over / 2, 0, top - over * lean * 0.5 - 0.06), (over, 2 * half - 0.02, 0.04), 0.004)
+            m.box(n, "trim", (x + s * over, 0, eave[1] - 0.06), (0.03, 2 * half - 0.02, 0.18), 0.006)
+        m.prism(n, "wall", [(0.0, top - 0.01), (-DEPTH, top - 0.01), (-DEPTH / 2, top + rise)], -width / 2, width / 2, "y", 0.0, 1)
+        for s in (-1, 1):
+            for a in (over, -DEPTH - over):
+                m.beam(n, "trim", (a, s * half, top - over * lean - 0.02), (-DEPTH / 2, s * half, top + rise + 0.04), 0.03, 0.16)
+        ridge(m, (-DEPTH / 2, -half, top + rise + 0.17), (-DEPTH / 2, half, top + rise + 0.17))
+        skylights(m, width, top, rise, seed)
+        stack = (-DEPTH * 0.55, width * (0.2 if seed % 2 else -0.25))
+        foot = top + rise * (1 - abs(stack[0] + DEPTH / 2) / (DEPTH / 2)) - 0.2
+    chimney(m, stack, foot, top + rise + 1.0)
+
+
+def slope_at(m, eave, ridge_at, half, axis, middle):
+    """A slope about the house's middle line instead of about the origin."""
+    before = m.at[m.name].copy()
+    m.at[m.name] = before - np.array([middle[0], middle[1], 0.0])
+    slope(m, eave, ridge_at, half, axis)
+    m.at[m.name] = before
+
+
+def ridge(m, a, b):
+    """Half-round ridge tiles, each over the next."""
+    a, b = np.array(a, float), np.array(b, float)
+    count = int(np.linalg.norm(b - a) / 0.36)
+    for k in range(count):
+        p, q = a + (b - a) * k / count, a + (b - a) * (k + 1.06) / count
+        m.stem(m.name, "roof", [p - [0, 0, 0.05], q - [0, 0, 0.065]], [0.115, 0.095], 8)
+
+
+def chimney(m, at, foot, top):
+    x, y = at
+    n = m.name
+    m.box(n, "wall", (x, y, (foot + top) / 2), (0.55, 0.95, top - foot), 0.01, segments=1)
+    m.box(n, "stone", (x, y, top - 0.14), (0.66, 1.06, 0.10), 0.012)
+    m.box(n, "stone", (x, y, top + 0.02), (0.72, 1.12, 0.10), 0.02)
+    m.box(n, "metal", (x, y, foot + 0.32), (0.64, 1.04, 0.05), 0.005)
+    for s in (-1, 1):
+        m.lathe(n, "reveal", (x, y + s * 0.24, top + 0.06), (0, 0, 1), [(0, 0.13), (0.08, 0.12), (0.34, 0.10), (0.36, 0.125), (0.42, 0.125), (0.42, 0.09), (0.2, 0.085), (0.2, 0.0)], 14)
+
+
+def skylights(m, width, top, rise, seed):
+    """Windows in the roof's slope."""
+    lean = np.arctan2(rise + 0.10, DEPTH / 2)
+    for k, y in enumerate(np.linspace(-0.3 * width, 0.3 * width, 2 + seed % 2)):
+        d = 1.7
+        c = np.array([-d * np.cos(lean) + 0.0, y, top + 0.18 + d * np.sin(lean)])
+        turn = around("Y", np.degrees(lean))
+        m.box(m.name, "metal", tuple(c), (1.18, 0.80, 0.16), 0.012, turn)
+        u, n = np.array([-np.cos(lean), 0, np.sin(lean)]), np.array([np.sin(lean), 0, np.cos(lean)])
+        m.decal(m.name, "panes", tuple(c + 0.083 * n), (0, 0.62, 0), tuple(u * 1.0), (256 * 4 + 20, 20, 40, 40), SHEET)

@@ -15,11 +15,11 @@ COLOUR = (0.90, 0.47, 0.07)
 def build(name, folder, path, driver=None):
     """The truck; with a driver (a body.Person) it is manned."""
     m = Machine(name, folder)
-    parts.materials(m, "AISLE 25E", "07", COLOUR, (0.27, 0.275, 0.28))
+    parts.materials(m, "AISLE 25E", "07", COLOUR, (0.36, 0.365, 0.37))
     chassis(m, name)
     counterweight(m, name)
     guard(m, name)
-    cockpit(m, name)
+    cockpit(m, name, driver is not None)
     wheels(m, name)
     mast(m, name)
     signs(m, name)
@@ -141,19 +141,21 @@ def counterweight(m, n):
     for i in range(8):
         m.box(n, "mast_steel", (-1.76 + 0.045 * i, 0, 1.095), (0.016, 0.44, 0.012), 0.003)
     for s in (-1, 1):
-        m.box(n, "plastic", (-2.03, s * 0.45, 0.955), (0.10, 0.12, 0.10), 0.02)
+        m.box(n, "plastic", (-2.03, s * 0.45, 0.955), (0.10, 0.13, 0.14), 0.02)
+        for dz, glass in ((0.035, "amber"), (0.0, "red"), (-0.035, "lens")):
+            parts.egg(m, n, glass, (-2.083, s * 0.45, 0.955 + dz), (0.020, 0.10, 0.030), 3.2, 8, 14)
 
 
 def guard(m, n):
     top = 2.20
     for s in (-1, 1):
-        m.beam(n, "plastic", (0.24, s * 0.47, 0.70), (0.10, s * 0.47, 1.30), 0.055, 0.075)
-        m.beam(n, "plastic", (0.10, s * 0.47, 1.28), (-0.16, s * 0.46, top), 0.055, 0.075)
-        m.beam(n, "plastic", (-1.30, s * 0.47, 1.00), (-1.22, s * 0.46, top), 0.055, 0.085)
-        m.beam(n, "plastic", (-0.10, s * 0.46, top), (-1.30, s * 0.46, top + 0.03), 0.055, 0.07)
+        m.beam(n, "grey_paint", (0.24, s * 0.47, 0.70), (0.10, s * 0.47, 1.30), 0.055, 0.075)
+        m.beam(n, "grey_paint", (0.10, s * 0.47, 1.28), (-0.16, s * 0.46, top), 0.055, 0.075)
+        m.beam(n, "grey_paint", (-1.30, s * 0.47, 1.00), (-1.22, s * 0.46, top), 0.055, 0.085)
+        m.beam(n, "grey_paint", (-0.10, s * 0.46, top), (-1.30, s * 0.46, top + 0.03), 0.055, 0.07)
         m.pipe(
             n,
-            "plastic",
+            "grey_paint",
             [
                 (-1.17, s * 0.40, 1.55),
                 (-1.12, s * 0.38, 1.62),
@@ -166,7 +168,7 @@ def guard(m, n):
     for i, x in enumerate(np.linspace(-0.13, -1.26, 9)):
         m.beam(
             n,
-            "plastic",
+            "grey_paint",
             (x, -0.46, top + 0.005 + 0.003 * i),
             (x, 0.46, top + 0.005 + 0.003 * i),
             0.03 if 0 < i < 8 else 0.06,
@@ -174,21 +176,18 @@ def guard(m, n):
         )
     for s in (-1, 1):
         parts.lamp(m, n, (-0.04, s * 0.50, 2.05), (1, 0, -0.15))
-        m.bar(n, "plastic", (-0.14, s * 0.47, 2.05), (-0.08, s * 0.50, 2.05), 0.015, 8)
-        m.pipe(
-            n,
-            "plastic",
-            [(0.07, s * 0.48, 1.45), (0.10, s * 0.60, 1.52), (0.10, s * 0.66, 1.62)],
-            0.010,
-            6,
-        )
-        m.box(n, "plastic", (0.105, s * 0.67, 1.70), (0.03, 0.11, 0.17), 0.012)
-        m.box(n, "chrome", (0.090, s * 0.67, 1.70), (0.006, 0.095, 0.15), 0.004)
+        m.bar(n, "grey_paint", (-0.14, s * 0.47, 2.05), (-0.08, s * 0.50, 2.05), 0.015, 8)
+        m.pipe(n, "seal", [(0.07, s * 0.48, 1.45), (0.10, s * 0.60, 1.52), (0.10, s * 0.66, 1.62)], 0.010, 8)
+        parts.mirror(m, n, (0.105, s * 0.67, 1.70), (0.05, 0.13, 0.19))
+        # A strip of light along the roof's edge.
+        m.box(n, "lens", (-0.70, s * 0.492, top + 0.02), (0.90, 0.008, 0.018), 0.003)
     parts.lamp(m, n, (-1.33, 0.0, 2.16), (-1, 0, -0.3), 0.05)
 
 
-def cockpit(m, n):
+def cockpit(m, n, belted):
     parts.seat(m, n, *SEAT)
+    x, y, z = SEAT
+    m.pipe(n, "belt", [(x - 0.10, 0.25, z + 0.16), (x + 0.14, 0.22, z + 0.30), (x + 0.18, 0.0, z + 0.33), (x + 0.14, -0.22, z + 0.30), (x - 0.06, -0.25, z + 0.16)], 0.016, 6) if belted else None
     parts.steering_wheel(m, n, WHEEL, (-0.62, 0, 0.78))
     m.box(n, "rubber", (-0.20, 0, 0.61), (0.60, 0.80, 0.03), 0.006)
     m.box(n, "plastic", (-0.20, 0, 0.53), (0.58, 0.70, 0.14), 0.01)
@@ -357,7 +356,6 @@ def signs(m, n):
         parts.label(m, n, "warning", (-1.72, s * 0.5615, 0.86), (s * -0.15, 0, 0), (0, 0, 0.15))
         parts.label(m, n, "plate", (-0.62, s * 0.5415, 0.46), (s * -0.18, 0, 0), (0, 0, 0.12))
         parts.label(m, n, "no_riders", (-0.95, s * 0.5415, 0.46), (s * -0.14, 0, 0), (0, 0, 0.14))
-        parts.label(m, n, "lamp", (-2.085, s * 0.45, 0.955), (0, -0.085, 0), (0, 0, 0.085))
         parts.label(m, n, "fork_warning", (0.43, s * 0.4015, 1.55), (s * -0.11, 0, 0), (0, 0, 0.09))
         parts.label(m, n, "hazard", (0.43, s * 0.4015, 0.75), (0, 0, s * 0.90), (s * 0.12, 0, 0))
     parts.label(m, n, "hazard", (-2.1165, 0, 0.74), (0, -0.86, 0), (-0.012, 0, 0.10))

@@ -2,6 +2,7 @@
 
 import math
 
+import bmesh
 import numpy as np
 from mathutils import Vector
 
@@ -11,19 +12,22 @@ from .solid import around
 
 def materials(m, name, number, colour, second=(0.16, 0.165, 0.17), seed=1):
     """The usual materials of an industrial truck."""
-    m.material("paint", surfaces.paint(colour, seed), 0.9)
-    m.material("grey_paint", surfaces.paint(second, seed + 10), 0.8)
-    m.material("mast_steel", surfaces.metal((0.17, 0.17, 0.175), seed + 20), 0.5)
-    m.material("steel", surfaces.metal((0.42, 0.42, 0.43), seed + 30, grease=0.4), 0.5, 0.5)
-    m.material("chrome", surfaces.metal((0.74, 0.75, 0.76), seed + 40, grease=0.2), 0.4, 0.3)
-    m.material("rubber", surfaces.rubber(seed + 50), 0.3, 0.9)
-    m.material("plastic", surfaces.plastic((0.12, 0.12, 0.13), seed + 60), 0.3)
-    m.material("vinyl", surfaces.plastic((0.17, 0.16, 0.16), seed + 70), 0.25)
-    m.material("rim", surfaces.paint((0.80, 0.79, 0.74), seed + 80, (256, 256), 1.4), 0.5)
+    m.material("paint", surfaces.paint(colour, seed), 0.9, 0.35)
+    m.material("grey_paint", surfaces.paint(second, seed + 10, (256, 256)), 0.8, 0.38)
+    m.material("mast_steel", surfaces.metal((0.27, 0.27, 0.275), seed + 20, (256, 256)), 0.5, 0.38, 0.3)
+    m.material("steel", surfaces.metal((0.46, 0.46, 0.47), seed + 30, (256, 256), grease=0.4), 0.5, 0.38, 0.3)
+    m.material("rubber", surfaces.rubber(seed + 50, (128, 128)), 0.3, 0.9)
     m.material("labels", labels.sheet(name, number, colour, seed + 90), None)
-    m.material("amber", surfaces.plastic((0.88, 0.46, 0.07), seed + 100, (128, 128)), 0.2, 0.3)
-    m.material("lens", surfaces.plastic((0.88, 0.88, 0.84), seed + 110, (128, 128)), 0.2, 0.3)
-    m.material("red", surfaces.plastic((0.66, 0.07, 0.06), seed + 120, (128, 128)), 0.2, 0.3)
+    m.plain("chrome", (0.80, 0.80, 0.80), 0.12, 1.0)
+    m.plain("mirror", (0.90, 0.90, 0.90), 0.05, 1.0)
+    m.plain("plastic", (0.20, 0.20, 0.21), 0.5)
+    m.plain("seal", (0.13, 0.13, 0.135), 0.5)
+    m.plain("vinyl", (0.25, 0.245, 0.24), 0.6)
+    m.plain("rim", (0.78, 0.77, 0.73), 0.35, 0.1)
+    m.plain("amber", (0.95, 0.52, 0.08), 0.15)
+    m.plain("lens", (0.94, 0.94, 0.92), 0.06)
+    m.plain("red", (0.66, 0.06, 0.05), 0.12)
+    m.plain("belt", (0.80, 0.36, 0.08), 0.7)
 
 
 def label(m, node, which, centre, right, up):
@@ -61,9 +65,8 @@ def wheel(m, node, radius, width, outward, lugs=24, hub=0.55, bolts=8):
                 "rubber",
                 np.array(c) + np.array(at),
                 (2 * np.pi * r / lugs * 0.52, w * 0.90, 0.028),
-                0.003,
+                0.0,
                 rotate,
-                1,
             )
     face = outward * (w - 0.035)
     dish = [
@@ -167,29 +170,41 @@ def steering_wheel(m, node, centre, axis, radius=0.18):
 
 
 def lamp(m, node, centre, forward, radius=0.06, glass="lens"):
-    """Round work lamp looking along `forward`."""
-    m.lathe(
-        node,
-        "plastic",
-        centre,
-        forward,
-        [
-            (-0.07, 0.0),
-            (-0.07, 0.45 * radius),
-            (-0.03, radius),
-            (0.015, radius * 1.05),
-            (0.015, radius * 0.9),
-        ],
-        20,
-    )
-    m.lathe(
-        node,
-        glass,
-        centre,
-        forward,
-        [(0.008, radius * 0.92), (0.018, radius * 0.5), (0.020, 0.0)],
-        20,
-    )
+    """Round work lamp looking along `forward`: housing, bright bowl, lens within, rim."""
+    r = radius
+    housing = [(-0.075, 0.0), (-0.075, 0.40 * r), (-0.05, 0.78 * r), (-0.02, r), (0.012, 1.06 * r), (0.020, 1.03 * r), (0.020, 0.93 * r)]
+    m.lathe(node, "plastic", centre, forward, housing, 24)
+    m.lathe(node, "chrome", centre, forward, [(0.018, 0.93 * r), (0.004, 0.80 * r), (-0.016, 0.45 * r)], 24)
+    m.lathe(node, glass, centre, forward, [(-0.016, 0.46 * r), (-0.004, 0.40 * r), (0.004, 0.22 * r), (0.006, 0.0)], 20)
+
+
+def mirror(m, node, centre, size=(0.07, 0.19, 0.14), back=-1):
+    """A rear-view mirror: shell, rim and glass that looks backwards."""
+    x, y, z = centre
+    egg(m, node, "seal", centre, size, 3.2, cut=0.45 * back if back < 0 else None)
+    egg(m, node, "mirror", (x + back * 0.27 * size[0], y, z), (0.010, 0.86 * size[1], 0.84 * size[2]), 4.5)
+
+
+def egg(m, n, material, centre, size, power=2.6, rings=11, sides=16, cut=None):
+    """A rounded box: a superellipsoid; cut flattens it behind x = cut (relative, -1..1)."""
+    b = bmesh.new()
+    grid = []
+    put = lambda v, e: np.sign(v) * np.abs(v) ** (2 / e)  # noqa: E731
+    for lat in np.linspace(-np.pi / 2, np.pi / 2, rings):
+        row = []
+        for lon in np.linspace(0, 2 * np.pi, sides, endpoint=False):
+            x = put(np.cos(lat), power) * put(np.cos(lon), power)
+            y = put(np.cos(lat), power) * put(np.sin(lon), power)
+            z = put(np.sin(lat), power)
+            if cut is not None:
+                x = max(x, cut)
+            row.append(b.verts.new(Vector(np.array(centre) + np.array(size) / 2 * (x, y, z))))
+        grid.append(row)
+    for a, c in zip(grid, grid[1:]):
+        for i in range(sides):
+            b.faces.new([a[i], a[(i + 1) % sides], c[(i + 1) % sides], c[i]])
+    bmesh.ops.remove_doubles(b, verts=b.verts, dist=1e-5)
+    m.add(n, b, material)
 
 
 def beacon(m, node):

@@ -24,11 +24,24 @@ class Machine:
         self.nodes, self.at = {}, {}
         self.node(name, None, (0, 0, 0))
 
-    def material(self, name, image, tile_m=0.6, roughness=0.7):
-        """A material from a picture that covers tile_m metres (None: a decal sheet)."""
+    def material(self, name, image, tile_m=0.6, roughness=0.7, metallic=0.0):
+        """A material from a picture that covers tile_m metres (None: a decal sheet; a function: where a
+        point of the machine lies in it)."""
         loaded = picture.jpeg_image(image, name, self.folder, 86)
         self.materials[name] = figure.material(loaded, name, roughness)
+        shader(self.materials[name]).inputs["Metallic"].default_value = metallic
         self.tiles[name] = tile_m
+
+    def plain(self, name, colour, roughness=0.7, metallic=0.0):
+        """A material of one colour (sRGB): no picture to carry."""
+        made = bpy.data.materials.new(name)
+        made.use_nodes = True
+        inputs = shader(made).inputs
+        linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in colour]
+        inputs["Base Color"].default_value = (*linear, 1.0)
+        inputs["Roughness"].default_value = roughness
+        inputs["Metallic"].default_value = metallic
+        self.materials[name], self.tiles[name] = made, 1.0
 
     def node(self, name, parent, place):
         """A node at `place` (machine frame) below parent."""
@@ -173,6 +186,44 @@ class Machine:
             loop[layer].uv = ((x + w * (i + 1) / 2) / width, 1.0 - (y + h * (1 - j) / 2) / height)
         self.add(node, b, material, uv=True)
 
+    def stem(self, node, material, points, radii, sides):
+        """A tapering pipe without ends; the texture runs along it."""
+        points = [Vector(p) for p in points]
+        b = bmesh.new()
+        layer = b.loops.layers.uv.verify()
+        rings, side, far = [], None, 0.0
+        for i, (p, radius) in enumerate(zip(points, radii)):
+            ahead = (points[min(i + 1, len(points) - 1)] - points[max(i - 1, 0)]).normalized()
+            side = ahead.orthogonal().normalized() if side is None else (side - side.dot(ahead) * ahead).normalized()
+            other = ahead.cross(side)
+            far += (p - points[i - 1]).length if i else 0.0
+            ring = [b.verts.new(p + float(radius) * (math.cos(t) * side + math.sin(t) * other)) for t in np.arange(sides) * 2 * np.pi / sides]
+            rings.append((ring, far))
+        for (r, u), (s, v) in zip(rings, rings[1:]):
+            for i in range(sides):
+                face = b.faces.new([r[i], r[(i + 1) % sides], s[(i + 1) % sides], s[i]])
+                turn = (i / sides, (i + 1) / sides, (i + 1) / sides, i / sides)
+                for loop, t, w in zip(face.loops, turn, (u, u, v, v)):
+                    loop[layer].uv = (t, w / self.tiles[material])
+        self.add(node, b, material, uv=True)
+
+    def mesh(self, node, material, vertices, faces, uvs, normals):
+        """Triangles with normals of their own, given in the machine's frame; one uv a vertex."""
+        data = bpy.data.meshes.new(f"{node}_{material}")
+        data.from_pydata((np.asarray(vertices) - self.at[node]).tolist(), [], np.asarray(faces).tolist())
+        data.materials.append(self.materials[material])
+        data.polygons.foreach_set("use_smooth", np.ones(len(faces), bool))
+        data.uv_layers.new(name="uv").data.foreach_set("uv", np.asarray(uvs)[np.asarray(faces).ravel()].ravel())
+        data.use_auto_smooth = True
+        data.normals_split_custom_set_from_vertices(np.asarray(normals).tolist())
+        thing = bpy.data.objects.new(data.name, data)
+        bpy.context.scene.collection.objects.link(thing)
+        thing.parent = self.nodes[node]
+
+    def same(self, node, as_node):
+        """Gives a node what another one carries, once for both."""
+        self.nodes[node].data = self.nodes[as_node].data
+
     def adopt(self, thing, parent):
         """Hangs a finished object, given in the machine's frame, below a node."""
         thing.parent = self.nodes[parent]
@@ -186,6 +237,10 @@ class Machine:
             del thing["pieces"]
         self.nodes[self.name]["aisle"] = facts
         figure.export(path)
+
+
+def shader(material):
+    return material.node_tree.nodes["Principled BSDF"]
 
 
 def chamfer(b, width, segments):
@@ -211,6 +266,10 @@ def place(b, turn, centre):
 def project(b, layer, tile):
     """Box projection: the texture runs upright on walls."""
     for face in b.faces:
+        if callable(tile):
+            for loop in face.loops:
+                loop[layer].uv = tile(loop.vert.co)
+            continue
         n = face.normal
         big = max(range(3), key=lambda i: abs(n[i]))
         for loop in face.loops:

@@ -66,11 +66,17 @@ def shoot(camera, place, target, lens, size):
     scene.render.filepath = path
     scene.render.image_settings.file_format = "PNG"
     bpy.ops.render.render(write_still=True)
+    return load(path)
+
+
+def load(path):
+    """A picture file (h, w, 3) in sRGB."""
     image = bpy.data.images.load(path)
-    flat = np.empty(size[0] * size[1] * 4, np.float32)
+    w, h = image.size
+    flat = np.empty(w * h * 4, np.float32)
     image.pixels.foreach_get(flat)
     bpy.data.images.remove(image)
-    return flat.reshape(size[1], size[0], 4)[::-1, :, :3].copy()
+    return flat.reshape(h, w, 4)[::-1, :, :3].copy()
 
 
 # The importer of Blender 3.4 still uses an alias that newer numpy dropped.
