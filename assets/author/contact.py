@@ -114,8 +114,8 @@ def vehicles():
         c, r = (low + high) / 2, float(np.linalg.norm(high - low)) / 2
         for place in ((1.9, 1.3, 0.6), (-1.9, 1.5, 0.75)):
             eye = c + np.array(place) * r * 1.02
-            pictures.append(studio.shoot(camera, eye, tuple(c - [0, 0, 0.03 * r]), 46, (360, 290)))
-    save("vehicles", pictures, 4)
+            pictures.append(studio.shoot(camera, eye, tuple(c - [0, 0, 0.03 * r]), 46, (300, 242)))
+    save("vehicles", pictures, 6)
 
 
 def kit(folder="kit"):
