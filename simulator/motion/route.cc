@@ -222,12 +222,43 @@ Route::Route(const RoutePlan& plan, const RouteLimits& limits) {
     i += joined;
   }
   legs_ = planner.TakeLegs();
+  start_.position = plan.start;
+  start_.heading_rad = plan.heading_rad;
   end_ = planner.now();
   end_.finished = true;
   duration_s_ = planner.time_s();
+  behind_m_ = plan.behind_m;
+  for (const Leg& leg : legs_) {
+    if (behind_m_ == 0 || (!leg.reverse && leg.turn_sign == 0)) continue;
+    throw RouteError(leg.start.step, leg.reverse ? "a trailer cannot follow backwards"
+                                                 : "a trailer cannot follow a turn on the spot");
+  }
 }
 
 RouteState Route::At(double time_s) const {
+  const RouteState lead = LeadAt(time_s);
+  if (behind_m_ == 0) return lead;
+  RouteState state = lead;
+  state.odometer_m = lead.odometer_m - behind_m_;
+  state.position = start_.position + state.odometer_m * Eigen::Vector2d(std::cos(start_.heading_rad),
+                                                                        std::sin(start_.heading_rad));
+  state.heading_rad = start_.heading_rad;
+  state.curvature_per_m = 0;
+  for (const Leg& leg : legs_) {
+    const double along = state.odometer_m - leg.start.odometer_m;
+    if (along < 0) break;
+    if (leg.path.length_m() == 0) continue;
+    const PathPoint point = leg.path.At(along);
+    const double turned = point.heading_rad - leg.path.At(0).heading_rad;
+    state.position = point.position;
+    state.heading_rad = leg.start.heading_rad + turned;
+    state.curvature_per_m = along <= leg.path.length_m() ? point.curvature_per_m : 0;
+  }
+  state.yaw_rate_rad_s = state.curvature_per_m * state.speed_mps;
+  return state;
+}
+
+RouteState Route::LeadAt(double time_s) const {
   if (legs_.empty() || time_s >= duration_s_) {
     RouteState state = end_;
     state.step_elapsed_s = time_s - duration_s_;

@@ -45,6 +45,9 @@ struct RoutePlan {
   double start_s = 0;                               ///< stands until then
   std::vector<RouteStep> steps;
   std::vector<PacedLeg> paced;  ///< instead of steps
+  /// How far behind along its way the mover is: that of a trailer, by the track from the origin of
+  /// who tows it to its own. Before the way's start it stands on a line backwards from there.
+  double behind_m = 0;
 };
 
 /// A plan that cannot be driven, and the step that is to blame.
@@ -91,7 +94,8 @@ class Route {
   };
 
   Route() = default;
-  /// Throws RouteError naming the step that cannot be driven.
+  /// Throws RouteError naming the step that cannot be driven, or that a trailer cannot follow
+  /// (backwards, on the spot).
   Route(const RoutePlan& plan, const RouteLimits& limits);
 
   double duration_s() const { return duration_s_; }  ///< until it stands for good
@@ -99,9 +103,11 @@ class Route {
   RouteState At(double time_s) const;
 
  private:
+  RouteState LeadAt(double time_s) const;
+
   std::vector<Leg> legs_;
-  RouteState end_;
-  double duration_s_ = 0;
+  RouteState start_, end_;
+  double duration_s_ = 0, behind_m_ = 0;
 };
 
 }  // namespace aisle::sim

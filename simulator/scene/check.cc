@@ -55,6 +55,7 @@ class Checker {
     CheckMechanisms(scene_, issues_);
     CheckBeams();
     CheckCrowd();
+    CheckHitches();
     CheckDrive();
     CheckRoutes(scene_, issues_);
     for (std::size_t i = 0; i < scene_.vehicles.size(); ++i) CheckMast(scene_.vehicles[i], i);
@@ -249,6 +250,38 @@ class Checker {
     const CrowdArea area = CrowdAreaOf(scene_);
     CheckInside(crowd.mark, "crowd.in", area.from);
     CheckInside(crowd.mark, "crowd.in", area.to);
+  }
+
+  /// Who is towed has a vehicle before it that drives, and no steps of its own.
+  void CheckHitches() {
+    for (std::size_t i = 0; i < scene_.vehicles.size(); ++i) {
+      const VehicleSpec& vehicle = scene_.vehicles[i];
+      const std::string key = fmt::format("vehicles[{}].towed_by", i);
+      if (vehicle.towed_by.empty()) {
+        if (vehicle.behind_m != 0) {
+          issues_->Add(vehicle.mark, fmt::format("vehicles[{}].behind_m", i),
+                       "only a vehicle that is towed is behind one; name it by `towed_by`");
+        }
+        continue;
+      }
+      const auto tractor = std::ranges::find(scene_.vehicles, vehicle.towed_by, &VehicleSpec::name);
+      if (tractor == scene_.vehicles.end()) {
+        issues_->Add(vehicle.mark, key,
+                     fmt::format("there is no '{}' among the vehicles", vehicle.towed_by));
+      } else if (!tractor->towed_by.empty() || !tractor->pushed_by.empty()) {
+        issues_->Add(vehicle.mark, key,
+                     "it must drive itself: every trailer of a train names the tractor, and by "
+                     "`behind_m` how far behind that it is");
+      } else if (!vehicle.route.plan.steps.empty() || !vehicle.pushed_by.empty()) {
+        issues_->Add(vehicle.mark, key,
+                     "it goes where its tractor goes; leave out `steps` and `pushed_by`");
+      } else if (vehicle.behind_m <= 0) {
+        issues_->Add(vehicle.mark, key,
+                     "needs `behind_m`, above 0; the first trailer of tow_tractor: 1.78");
+      } else if (tractor->level > vehicle.level) {
+        issues_->Add(vehicle.mark, key, "its level must be that of its tractor or above");
+      }
+    }
   }
 
   void CheckDrive() {

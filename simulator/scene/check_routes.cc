@@ -26,6 +26,7 @@ struct Walker {
   Route way;
   Footprint footprint;
   std::string key, name;
+  std::string train;  ///< the vehicle that tows it, or its own name; "": nobody's
 };
 
 std::string KeyOf(const PersonSpec& person) {
@@ -43,10 +44,10 @@ Mark MarkOf(const RouteSpec& route, const RouteState& state) {
 class RouteChecker {
  public:
   RouteChecker(const Scene& scene, std::string seeded, Issues* issues)
-      : scene_(scene),
+      : scene_(Coupled(scene)),
         seeded_(std::move(seeded)),
         issues_(issues),
-        obstacles_(ObstaclesOf(scene)) {}
+        obstacles_(ObstaclesOf(scene_)) {}
 
   void Run() {
     CheckRoute(scene_.rig.route, "rig", kRigRadius_m);
@@ -54,7 +55,8 @@ class RouteChecker {
       CheckRoute(person.route, KeyOf(person), kPersonRadius_m);
     }
     for (const VehicleSpec& vehicle : scene_.vehicles) {
-      if (vehicle.pushed_by.empty()) CheckRoute(vehicle.route, KeyOf(vehicle), kVehicleRadius_m);
+      if (!vehicle.pushed_by.empty()) continue;
+      CheckRoute(vehicle.route, KeyOf(vehicle), kVehicleRadius_m);
     }
     if (issues_->empty()) CheckMeetings();
   }
@@ -116,8 +118,9 @@ class RouteChecker {
   /// The rig and the actors never run into one another.
   void CheckMeetings() {
     const auto walker = [](const RouteSpec& route, const Footprint& footprint,
-                           const std::string& key, const std::string& name) {
-      return Walker{&route, Route(route.plan, route.limits), footprint, key, name};
+                           const std::string& key, const std::string& name,
+                           const std::string& train = "") {
+      return Walker{&route, Route(route.plan, route.limits), footprint, key, name, train};
     };
     std::vector<Walker> walkers = {
         walker(scene_.rig.route, {0, 0, kRigRadius_m}, "rig", "the rig")};
@@ -126,8 +129,9 @@ class RouteChecker {
     }
     for (const VehicleSpec& vehicle : scene_.vehicles) {
       if (!vehicle.pushed_by.empty()) continue;  // goes where its pusher goes
-      walkers.push_back(
-          walker(vehicle.route, FootprintOf(vehicle.model), KeyOf(vehicle), vehicle.name));
+      walkers.push_back(walker(vehicle.route, FootprintOf(vehicle.model), KeyOf(vehicle),
+                               vehicle.name,
+                               vehicle.towed_by.empty() ? vehicle.name : vehicle.towed_by));
     }
     for (std::size_t i = 0; i < walkers.size(); ++i) {
       for (std::size_t k = i + 1; k < walkers.size(); ++k) CheckMeeting(walkers[i], walkers[k]);
@@ -135,6 +139,7 @@ class RouteChecker {
   }
 
   void CheckMeeting(const Walker& one, const Walker& other) {
+    if (!one.train.empty() && one.train == other.train) return;  // coupled
     constexpr double kStep_s = 0.05;
     const double needed_m = one.footprint.radius_m + other.footprint.radius_m;
     for (double t = 0; t <= scene_.duration_s(); t += kStep_s) {
@@ -149,7 +154,7 @@ class RouteChecker {
     }
   }
 
-  const Scene& scene_;
+  Scene scene_;
   std::string seeded_;
   Issues* issues_;
   std::vector<Obstacle> obstacles_;

@@ -267,6 +267,11 @@ void DescribeVehicle(Fields& f, VehicleSpec& vehicle) {
            DescribeMast);
   f.Name({"pushed_by", "person who holds its handle and whose route it has", "fitter"},
          &vehicle.pushed_by);
+  f.Name({"towed_by", "vehicle whose way it follows, as a trailer does", "tractor"},
+         &vehicle.towed_by);
+  f.Number(
+      {"behind_m", "with `towed_by`: from that vehicle's origin to its own, along the way", "1.78"},
+      &vehicle.behind_m, {0, 100});
   f.Choice({"load", "goods on its forks", "cartons"}, &vehicle.load, kGoodsNames);
   f.Group({"vary", "what the seed may change", "{time_s: 0.5, speed: 0.1}"},
           [&](Fields& vary) { DescribeVary(vary, vehicle.vary); });

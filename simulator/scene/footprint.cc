@@ -41,6 +41,11 @@ Footprint FootprintOf(const std::string& model) {
   if (model.starts_with("agv")) return {-0.25, 0.3, 0.38};
   if (model.starts_with("pallet_jack")) return {-1.4, 0, 0.25};
   if (model.starts_with("reach_truck")) return {-1.4, 0.2, 0.55};
+  if (model.starts_with("bus")) return {-1.8, 6.5, 1.2};
+  if (model.starts_with("tow_tractor")) return {-0.1, 1.1, 0.45};
+  if (model.starts_with("tow_trailer")) return {-0.4, 0.4, 0.45};
+  if (model.starts_with("scrubber")) return {-0.3, 0.9, 0.42};
+  if (model.starts_with("order_picker")) return {-1.4, 1.1, 0.45};
   return {-1.5, 1.0, 0.62};  // forklifts
 }
 

@@ -251,6 +251,8 @@ struct VehicleSpec {
   GoodsKind load = GoodsKind::kNothing;
   YieldSpec yields;
   std::string pushed_by;  ///< a person behind its handle: it has that person's route
+  std::string towed_by;   ///< a vehicle whose way it follows, `behind_m` of that way behind it
+  double behind_m = 0;
 };
 
 /// A place from which a hall is looked at, by a level camera unless it pitches.

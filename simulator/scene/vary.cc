@@ -25,6 +25,17 @@ RouteSpec Varied(RouteSpec route, const VarySpec& vary, Dice dice) {
 
 }  // namespace
 
+Scene Coupled(Scene scene) {
+  for (VehicleSpec& vehicle : scene.vehicles) {
+    const auto tractor = std::ranges::find(scene.vehicles, vehicle.towed_by, &VehicleSpec::name);
+    if (vehicle.towed_by.empty() || tractor == scene.vehicles.end()) continue;
+    vehicle.route.plan = tractor->route.plan;
+    vehicle.route.plan.behind_m = vehicle.behind_m;
+    vehicle.route.limits = tractor->route.limits;
+  }
+  return scene;
+}
+
 Scene Seeded(Scene scene, std::uint64_t seed) {
   if (!scene.dealt.empty()) {
     static_cast<Premises&>(scene) =
@@ -42,7 +53,7 @@ Scene Seeded(Scene scene, std::uint64_t seed) {
     vehicle.route.limits = pusher->route.limits;
   }
   AddCrowd(seed, &scene);
-  return scene;
+  return Coupled(std::move(scene));
 }
 
 Scene WithLooks(Scene scene, std::uint64_t seed, const std::vector<std::string>& models) {

@@ -20,7 +20,7 @@ constexpr double kNanosecond_s = 1e-9;
 ObjectClass ClassOfVehicle(const std::string& model) {
   if (model.starts_with("agv")) return ObjectClass::kAgv;
   if (model.starts_with("pallet_jack")) return ObjectClass::kPalletJack;
-  if (model.starts_with("car")) return ObjectClass::kCar;
+  if (model.starts_with("car") || model.starts_with("bus")) return ObjectClass::kCar;
   if (model.starts_with("cyclist")) return ObjectClass::kCyclist;
   return ObjectClass::kForklift;
 }

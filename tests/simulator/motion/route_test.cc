@@ -299,6 +299,72 @@ TEST(MastLift, ReachesItsHeightsAndKeepsThem) {
   EXPECT_THROW(MastLift(hasty, 0.4, 0.5), std::invalid_argument);
 }
 
+/// A way forwards, with a corner, a pause and another corner.
+RoutePlan TowPlan() {
+  RoutePlan plan;
+  plan.start = {1, 2};
+  plan.heading_rad = pi / 2;
+  plan.start_s = 0.4;
+  plan.steps.resize(3);
+  plan.steps[0].go = {{1, 9}, {6, 9}};
+  plan.steps[0].corner_radius_m = 1.5;
+  plan.steps[1].wait_s = 1;
+  plan.steps[2].go = {{11, 9}, {11, 2}};
+  plan.steps[2].corner_radius_m = 1.2;
+  return plan;
+}
+
+TEST(Trailer, IsWhereItsTractorWasThatFarBack) {
+  RouteLimits limits;
+  const Route tractor(TowPlan(), limits);
+  RoutePlan plan = TowPlan();
+  plan.behind_m = 2.3;
+  const Route trailer(plan, limits);
+  for (double t = 0; t < tractor.duration_s() + 2; t += 0.07) {
+    const double back = tractor.At(t).odometer_m - plan.behind_m;
+    const RouteState state = trailer.At(t);
+    EXPECT_DOUBLE_EQ(state.speed_mps, tractor.At(t).speed_mps);
+    if (back <= 0) {  // on the line backwards from the start
+      EXPECT_NEAR((state.position - Eigen::Vector2d(1, 2 + back)).norm(), 0, 1e-9) << t;
+      EXPECT_NEAR(state.heading_rad, pi / 2, 1e-12) << t;
+      continue;
+    }
+    double low = 0, high = t;  // when the tractor was there
+    for (int i = 0; i < 80; ++i) {
+      const double middle = (low + high) / 2;
+      (tractor.At(middle).odometer_m < back ? low : high) = middle;
+    }
+    EXPECT_NEAR((state.position - tractor.At(high).position).norm(), 0, 1e-6) << t;
+    EXPECT_NEAR(state.heading_rad, tractor.At(high).heading_rad, 1e-5) << t;
+  }
+}
+
+TEST(Trailer, MovesAsItsSpeedAndYawRateSay) {
+  RoutePlan plan = TowPlan();
+  plan.behind_m = 1.7;
+  RouteLimits limits;
+  limits.curvature_rate_per_m_s = 0.8;
+  const Route trailer(plan, limits);
+  constexpr double kStep = 1e-5;
+  for (double t = 0.5; t < trailer.duration_s() + 1; t += 0.0637) {
+    const RouteState before = trailer.At(t - kStep), now = trailer.At(t), after = trailer.At(t + kStep);
+    const Eigen::Vector2d ahead(std::cos(now.heading_rad), std::sin(now.heading_rad));
+    EXPECT_NEAR(((after.position - before.position) / (2 * kStep) - now.speed_mps * ahead).norm(), 0,
+                1e-3)
+        << t;
+    EXPECT_NEAR((after.heading_rad - before.heading_rad) / (2 * kStep), now.yaw_rate_rad_s, 1e-3)
+        << t;
+  }
+}
+
+TEST(Trailer, CannotFollowBackwards) {
+  RoutePlan plan = TowPlan();
+  plan.behind_m = 1;
+  plan.steps[2].reverse = true;
+  plan.steps[2].go = {{4, 9}};
+  EXPECT_THROW(Route(plan, {}), RouteError);
+}
+
 TEST(RigMount, ABumpChangesTheAccelerationGradually) {
   const Bump bump{2, 0.02, 0.03, 4, 0.25};
   const auto height = [&](double t) { return RigPose({}, {}, {&bump, 1}, t).translation().z(); };

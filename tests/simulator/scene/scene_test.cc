@@ -176,7 +176,7 @@ std::map<std::string, RouteSpec> SteeredRoutes(const fs::path& file) {
   const Scene scene = LoadScene(file);
   std::map<std::string, RouteSpec> routes = {{file.stem().string() + " rig", scene.rig.route}};
   for (const VehicleSpec& vehicle : scene.vehicles) {
-    if (vehicle.pushed_by.empty()) {
+    if (vehicle.pushed_by.empty() && vehicle.towed_by.empty()) {
       routes[file.stem().string() + " " + vehicle.name] = vehicle.route;
     }
   }
