@@ -13,3 +13,4 @@ run people
 /usr/bin/python3 "$here/measure.py"
 /usr/bin/python3 "$here/manifest.py"
 blender -b --factory-startup -noaudio --python-exit-code 1 -P "$here/contact.py"
+blender -b --factory-startup -noaudio --python-exit-code 1 -P "$here/near.py"  # needs the built program

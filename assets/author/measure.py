@@ -1,4 +1,4 @@
-"""Prints foot slip and floor penetration of every clip of people's .glb files (needs numpy only).
+"""Measures the people: slip and floor penetration of every clip, and the body's proportions.
 
 Run: /usr/bin/python3 assets/author/measure.py [file.glb ...]; exits 1 where a limit is broken.
 """
@@ -10,7 +10,7 @@ import sys
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
-from lib import feet, gltf  # noqa: E402
+from lib import feet, gltf, proportions  # noqa: E402
 
 SLIP_LIMIT_M, SINK_LIMIT_M = 0.02, 0.01
 
@@ -20,10 +20,14 @@ def main():
     worst = 0
     for path in files:
         glb = gltf.Glb(path)
-        facts = next(
-            n["extras"]["aisle"] for n in glb.json["nodes"] if "aisle" in n.get("extras", {})
+        found = proportions.measure(glb)
+        wrong = proportions.wrong(found)
+        worst |= bool(wrong)
+        print(
+            f"{os.path.basename(path):24} head 1/{1 / found['head']:.2f} of the height, shoulders "
+            f"{found['shoulders']:.3f} {'LIMIT BROKEN: ' + ', '.join(wrong) if wrong else ''}"
         )
-        for clip, info in facts["clips"].items():
+        for clip, info in glb.facts()["clips"].items():
             m = feet.measure(glb, clip, info.get("stride_m", 0.0), info.get("turn_deg", 0.0))
             bad = m["slip_m"] > SLIP_LIMIT_M or m["sink_m"] > SINK_LIMIT_M
             worst |= bad

@@ -6,6 +6,13 @@ from . import gait, pose as ps, rig
 from .figure import FPS
 
 
+def gaze(p, yaw=0.0, down=0.0):
+    """Turns both eyes away from straight ahead of the head, in degrees to the left and down."""
+    head = p["turn"].get("head", p["turn"].get("neck", p["turn"].get("chest", np.eye(3))))
+    for side, _ in rig.SIDES:
+        p["turn"][f"eye_{side}"] = head @ ps.rz(yaw) @ ps.ry(down)
+
+
 def walking(person, joint, style):
     """A walking clip whose duration is a whole number of frames and whose speed is kept exactly."""
     stride, duration = gait.cadence(style, person.height_m)
@@ -13,7 +20,13 @@ def walking(person, joint, style):
     style.stride_m, style.duration_s = stride, frames / FPS
     walker = gait.Walker(person, joint, style)
     facts = {"stride_m": round(stride, 6), "speed_mps": round(stride * FPS / frames, 6)}
-    return walker.pose, frames, facts
+
+    def poses(u):  # the floor some ten metres ahead
+        p = walker.pose(u)
+        gaze(p, down=6.0)
+        return p
+
+    return poses, frames, facts
 
 
 def planted(person, joint, crouch=0.004, sway=0.0, lean=1.0):
@@ -47,6 +60,7 @@ def standing(person, joint):
         p["pelvis"] = p["pelvis"] + np.array([0.004 * np.sin(w + 1.0), 0, -0.004 * np.cos(2 * w)])
         p["turn"]["chest"] = p["turn"]["chest"] @ ps.ry(-1.1 * breath)
         p["turn"]["head"] = ps.rz(3.0 * np.sin(w + 0.5)) @ ps.ry(2.0 + np.sin(w))
+        gaze(p, 5.0 * np.sin(2 * w + 1.0), 2.0)
         plant_feet(p, person, joint)
         for side, sign in rig.SIDES:
             gait.hang_arm(
@@ -90,6 +104,7 @@ def turning(person, joint, degrees):
         walker.trunk(p, u)
         p["turn"]["head"] = p["turn"]["chest"] @ ps.rz(18.0 * ahead)
         p["turn"]["neck"] = ps.unit_mean(p["turn"]["chest"], p["turn"]["head"])
+        gaze(p, 14.0 * ahead, 4.0)
         for side, sign in rig.SIDES:
             gait.hang_arm(p, joint, side, sign, 3.0 + 4.0 * np.sin(2 * np.pi * u), 11.0, 20.0)
         return p
@@ -173,6 +188,7 @@ def picking(person, joint):
         }
         p["turn"]["head"] = ps.ry(float(ease(u, knots, look)))
         p["turn"]["neck"] = ps.unit_mean(p["turn"]["chest"], p["turn"]["head"])
+        gaze(p, down=22.0)
         plant_feet(p, person, joint, 0.26)
         for side, sign in rig.SIDES:
             wrist = ease(u, knots, hand) * [1, sign, 1] * s
@@ -211,6 +227,7 @@ def looking(person, joint):
         p["turn"]["chest"] = p["turn"]["chest"] @ ps.rz(0.22 * a)
         p["turn"]["head"] = ps.rz(a) @ ps.ry(3.0 + 4.0 * np.sin(6 * np.pi * u))
         p["turn"]["neck"] = ps.unit_mean(p["turn"]["chest"], p["turn"]["head"])
+        gaze(p, np.clip(1.5 * (float(ease((u + 0.03) % 1.0, knots, angle)) - a), -28, 28), 2.0)
         plant_feet(p, person, joint)
         for side, sign in rig.SIDES:
             gait.hang_arm(p, joint, side, sign, 3.0 + 0.05 * sign * a, 9.0, 18.0)

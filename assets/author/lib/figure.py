@@ -1,4 +1,4 @@
-"""Assembles a person in Blender: unwrap, painted texture, armature, clips, and the .glb file."""
+"""Assembles a person in Blender: unwrap, painted sheets, armature, clips, and the .glb file."""
 
 import os
 import tempfile
@@ -7,10 +7,10 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Quaternion
 
-from . import mesh, paint, picture, pose, rig
+from . import hair, mesh, paint, person_file, picture, pose, rig, sheets, shell
 
 FPS = 40
-DENSITY = {"head": 2.0, "hair": 1.1, "hands": 1.25, "helmet": 1.0, "vest": 1.1}
+DENSITY = {"head": 2.1, "cap": 0.9, "locks": 0.55, "hands": 1.2, "helmet": 1.0, "vest": 1.1, "eyes": 3.2, "collar": 1.0, "glasses": 0.4}
 
 
 def reset():
@@ -19,15 +19,15 @@ def reset():
     bpy.context.scene.render.fps = FPS
 
 
-def join(parts, name):
+def join(parts, name, scale):
     """One mesh object from all parts; returns (object, part index of every triangle)."""
     vertices, triangles, owner, skin, start = [], [], [], [], 0
     for i, part in enumerate(parts.values()):
-        vertices.append(part["vertices"])
-        triangles.append(part["triangles"] + start)
-        owner.append(np.full(len(part["triangles"]), i))
+        vertices.append(part["v"] * scale)
+        triangles.append(part["t"] + start)
+        owner.append(np.full(len(part["t"]), i))
         skin.append(part["weights"])
-        start += len(part["vertices"])
+        start += len(part["v"])
     vertices, triangles = np.concatenate(vertices), np.concatenate(triangles)
     data = bpy.data.meshes.new(name)
     data.from_pydata(vertices.tolist(), [], triangles.tolist())
@@ -42,14 +42,31 @@ def join(parts, name):
     return thing, np.concatenate(owner)
 
 
-def unwrap(thing, owner, names):
-    """Smart projection, part by part scaled to its importance, packed into one sheet."""
+def flattened(parts, scale):
+    """Where vertices lie for unwrapping: cloth as its pattern, without folds."""
+    return np.concatenate([(p["v"] if n == "locks" else p["material"]) * scale for n, p in parts.items()])
+
+
+def unwrap(thing, owner, parts, scale):
+    """Smart projection, part by part scaled to its importance, packed into one sheet.
+
+    Of the locks only the first few are unwrapped; the others are painted like them.
+    """
+    own = np.ones(len(owner), bool)
+    if "locks" in parts:
+        place = list(parts).index("locks")
+        each = 4 * hair.SEGMENTS
+        mine = np.nonzero(owner == place)[0]
+        own[mine[hair.KINDS * each :]] = False
+    shown = np.empty(len(thing.data.vertices) * 3)
+    thing.data.vertices.foreach_get("co", shown)
+    thing.data.vertices.foreach_set("co", flattened(parts, scale).ravel())
     bpy.ops.object.select_all(action="DESELECT")
     bpy.context.view_layer.objects.active = thing
     thing.select_set(True)
     thing.data.uv_layers.new(name="uv")
+    choose(thing, own)
     bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.uv.smart_project(
         angle_limit=np.radians(72),
         island_margin=0.0,
@@ -58,81 +75,33 @@ def unwrap(thing, owner, names):
         scale_to_bounds=False,
     )
     bpy.ops.object.mode_set(mode="OBJECT")
-    uv = read_uv(thing)
-    scale = np.array([DENSITY.get(n, 1.0) for n in names])[owner]
-    uv = uv * scale[:, None, None]
+    uv = sheets.read_uv(thing)
+    density = np.array([DENSITY.get(n, 1.0) for n in parts])[owner]
+    uv = uv * density[:, None, None]
     thing.data.uv_layers[0].data.foreach_set("uv", uv.ravel())
+    choose(thing, own)
     bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.uv.select_all(action="SELECT")
-    bpy.ops.uv.pack_islands(rotate=True, margin=0.003)
+    bpy.ops.uv.pack_islands(rotate=True, margin=0.002)
     bpy.ops.object.mode_set(mode="OBJECT")
-    return read_uv(thing)
+    thing.data.vertices.foreach_set("co", shown)
+    uv = sheets.read_uv(thing)
+    if "locks" in parts:
+        uv[mine] = np.resize(uv[mine[: hair.KINDS * each]], uv[mine].shape)
+        thing.data.uv_layers[0].data.foreach_set("uv", uv.ravel())
+    thing.data.update()
+    return uv, own
 
 
-def read_uv(thing):
-    """UVs (T, 3, 2) of a triangle mesh."""
-    flat = np.empty(len(thing.data.loops) * 2)
-    thing.data.uv_layers[0].data.foreach_get("uv", flat)
-    return flat.reshape(-1, 3, 2)
-
-
-def bake(thing, uv, owner, names, painter, size):
-    """Paints the sheet: (size, size, 3)."""
-    count = len(thing.data.vertices)
-    co, no = np.empty(count * 3), np.empty(count * 3)
-    thing.data.vertices.foreach_get("co", co)
-    thing.data.vertices.foreach_get("normal", no)
-    co, no = co.reshape(-1, 3), no.reshape(-1, 3)
-    index = np.array([p.vertices[:] for p in thing.data.polygons])
-    which = np.full((size, size), -1)
-    where, normal = np.zeros((size, size, 3)), np.zeros((size, size, 3))
-    for t, (tri, corners) in enumerate(zip(uv, index)):
-        a = tri * [size, size] * [1, -1] + [0, size]
-        lo = np.clip(np.floor(a.min(0) - 1.5).astype(int), 0, size - 1)
-        hi = np.clip(np.ceil(a.max(0) + 1.5).astype(int), 0, size)
-        gx, gy = np.meshgrid(np.arange(lo[0], hi[0]) + 0.5, np.arange(lo[1], hi[1]) + 0.5)
-        d = np.array(
-            [[a[1, 0] - a[0, 0], a[2, 0] - a[0, 0]], [a[1, 1] - a[0, 1], a[2, 1] - a[0, 1]]]
-        )
-        det = d[0, 0] * d[1, 1] - d[0, 1] * d[1, 0]
-        if abs(det) < 1e-9:
-            continue
-        x, y = gx - a[0, 0], gy - a[0, 1]
-        v, w = (d[1, 1] * x - d[0, 1] * y) / det, (d[0, 0] * y - d[1, 0] * x) / det
-        edge = np.sqrt(abs(det)) + 1e-6
-        inside = (v > -1.0 / edge) & (w > -1.0 / edge) & (v + w < 1 + 1.0 / edge)
-        centre = (v >= 0) & (w >= 0) & (v + w <= 1)
-        iy, ix = gy.astype(int), gx.astype(int)
-        write = inside & ((which[iy, ix] < 0) | centre)
-        iy, ix, v, w = iy[write], ix[write], v[write][:, None], w[write][:, None]
-        p, n = co[corners], no[corners]
-        where[iy, ix] = p[0] + v * (p[1] - p[0]) + w * (p[2] - p[0])
-        normal[iy, ix] = n[0] + v * (n[1] - n[0]) + w * (n[2] - n[0])
-        which[iy, ix] = owner[t]
-    sheet = np.zeros((size, size, 3))
-    for i, name in enumerate(names):
-        mine = which == i
-        n = normal[mine]
-        n /= np.linalg.norm(n, axis=1, keepdims=True) + 1e-9
-        sheet[mine] = painter.colour(name, where[mine], n)
-    return spread(sheet, which >= 0, 10)
-
-
-def spread(sheet, known, times):
-    """Grows painted areas outwards so that filtering never meets bare sheet."""
-    known = known.copy()
-    for _ in range(times):
-        total, count = np.zeros_like(sheet), np.zeros(known.shape)
-        for dy, dx in ((0, 1), (1, 0), (0, -1), (-1, 0)):
-            k = np.roll(known, (dy, dx), (0, 1))
-            total += np.roll(sheet, (dy, dx), (0, 1)) * k[..., None]
-            count += k
-        new = ~known & (count > 0)
-        sheet[new] = total[new] / count[new][:, None]
-        known |= new
-    sheet[~known] = sheet[known].mean(0)
-    return sheet
+def choose(thing, faces):
+    """Selects faces (a mask) and what belongs to them."""
+    data = thing.data
+    chosen = np.zeros(len(data.vertices), bool)
+    chosen[np.array([p.vertices[:] for p in data.polygons])[faces].ravel()] = True
+    data.vertices.foreach_set("select", chosen)
+    data.edges.foreach_set("select", np.zeros(len(data.edges), bool))
+    data.polygons.foreach_set("select", faces)
+    data.update()
 
 
 def armature(joint, name):
@@ -194,17 +163,24 @@ def curve(action, path, axis, times, values):
     c.update()
 
 
-def material(image, name, roughness=0.85):
-    """A matt material with one base-colour picture."""
+def material(image, name, roughness=0.85, bumps=None):
+    """A material with one base-colour picture and perhaps a normal map."""
     m = bpy.data.materials.new(name)
+    m["roughness"] = roughness
     m.use_nodes = True
-    nodes = m.node_tree.nodes
+    nodes, links = m.node_tree.nodes, m.node_tree.links
     shader = nodes["Principled BSDF"]
     shader.inputs["Roughness"].default_value = roughness
     shader.inputs["Specular"].default_value = 0.3
     texture = nodes.new("ShaderNodeTexImage")
     texture.image = image
-    m.node_tree.links.new(texture.outputs["Color"], shader.inputs["Base Color"])
+    links.new(texture.outputs["Color"], shader.inputs["Base Color"])
+    if bumps is not None:
+        slopes = nodes.new("ShaderNodeTexImage")
+        slopes.image = bumps
+        turn = nodes.new("ShaderNodeNormalMap")
+        links.new(slopes.outputs["Color"], turn.inputs["Color"])
+        links.new(turn.outputs["Normal"], shader.inputs["Normal"])
     return m
 
 
@@ -230,22 +206,37 @@ def export(path):
     os.replace(part, path)
 
 
+def dressed(person, folder, size, detail, bumps=True):
+    """The painted mesh of the person: (object, parts, shapes)."""
+    parts, shapes = mesh.build(person, detail)
+    thing, owner = join(parts, person.name, shapes.scale)
+    uv, own = unwrap(thing, owner, parts, shapes.scale)
+    painter = paint.Painter(person, shapes)
+    colour, slopes = sheets.bake(thing, uv, np.where(own, owner, -1), parts, painter, size, shapes.scale)
+    image = picture.jpeg_image(colour, person.name, folder)
+    normal = None
+    if bumps:
+        normal = picture.jpeg_image(slopes, person.name + "_normal", folder, 92)
+        normal.colorspace_settings.name = "Non-Color"
+    made = {}
+    for i, name in enumerate(parts):
+        key = paint.finish(person, name)
+        if key not in made:
+            made[key] = len(thing.data.materials)
+            thing.data.materials.append(material(image, f"{person.name}_{key[0]}", key[1], normal))
+    index = np.array([made[paint.finish(person, n)] for n in parts])[owner]
+    thing.data.polygons.foreach_set("material_index", index.astype(np.int32))
+    thing.data.update()
+    return thing, parts, shapes
+
+
 def still(person, shape, folder, size=512, detail=0.45):
     """The person as a rigid object held in one pose; shape(joint) makes the pose."""
-    parts, shapes = mesh.build(person, detail)
-    for name, part in parts.items():
-        part["paired"] = name in mesh.PAIRED
-    thing, owner = join(parts, person.name)
+    thing, parts, shapes = dressed(person, folder, size, detail)
     thing.vertex_groups.clear()
-    names = list(parts)
-    uv = unwrap(thing, owner, names)
-    sheet = bake(thing, uv, owner, names, paint.Painter(person, shapes, parts), size)
-    thing.data.materials.append(
-        material(picture.jpeg_image(sheet, person.name, folder), person.name)
-    )
     held = shape(shapes.joint)
     skin = np.concatenate([p["weights"] for p in parts.values()])
-    rest = np.concatenate([p["vertices"] for p in parts.values()])
+    rest = np.concatenate([p["v"] * shapes.scale for p in parts.values()])
     moved = np.zeros_like(rest)
     for b, (bone, (_, head, _)) in enumerate(rig.BONES.items()):
         at, turn = pose.place(held, shapes.joint, bone)
@@ -257,16 +248,7 @@ def still(person, shape, folder, size=512, detail=0.45):
 
 def on_bones(person, folder, size, detail=1.0):
     """The person's mesh on its skeleton in the rest pose: (mesh, armature, its shapes)."""
-    parts, shapes = mesh.build(person, detail)
-    for name, part in parts.items():
-        part["paired"] = name in mesh.PAIRED
-    thing, owner = join(parts, person.name)
-    names = list(parts)
-    uv = unwrap(thing, owner, names)
-    painter = paint.Painter(person, shapes, parts)
-    sheet = bake(thing, uv, owner, names, painter, size)
-    image = picture.jpeg_image(sheet, person.name, folder)
-    thing.data.materials.append(material(image, person.name))
+    thing, _, shapes = dressed(person, folder, size, detail)
     bones = armature(shapes.joint, "skeleton")
     thing.parent = bones
     modifier = thing.modifiers.new("skeleton", "ARMATURE")
@@ -279,12 +261,34 @@ def build(person, clips, path, size=1024):
     """Makes the person with clips {name: (pose function, duration in seconds, extras)}."""
     reset()
     with tempfile.TemporaryDirectory() as folder:
-        thing, bones, shapes = on_bones(person, folder, size)
-        details = {"height_m": person.height_m, "clips": {}}
-        for name, (poses, frames, extras) in clips(person, shapes.joint).items():
-            clip(bones, shapes.joint, name, poses, frames)
-            details["clips"][name] = dict(duration_s=frames / FPS, **extras)
-        bones["aisle"] = details
-        bones.animation_data.action = None
-        export(path)
-    return thing, bones
+        thing, parts, shapes = dressed(person, folder, size, 1.0)
+        pictures = []
+        for suffix in ("", "_normal"):
+            with open(os.path.join(folder, person.name + suffix + ".jpg"), "rb") as f:
+                pictures.append(f.read())
+    details, keys = {"height_m": person.height_m, "clips": {}}, {}
+    for name, (poses, frames, extras) in clips(person, shapes.joint).items():
+        keys[name] = person_file.sampled(poses, frames)
+        details["clips"][name] = dict(duration_s=frames / FPS, **extras)
+    person_file.write(path, person.name, arrays(thing, parts, shapes), pictures, keys, FPS, details)
+
+
+def arrays(thing, parts, shapes):
+    """What person_file writes of the mesh."""
+    v = np.concatenate([p["v"] for p in parts.values()]) * shapes.scale
+    t = np.array([p.vertices[:] for p in thing.data.polygons])
+    uv = sheets.read_uv(thing).reshape(-1, 2)
+    unique, corner = np.unique(np.rint(uv * 65536), axis=0, return_inverse=True)
+    material = np.empty(len(t), np.int32)
+    thing.data.polygons.foreach_get("material_index", material)
+    return {
+        "v": v,
+        "n": shell.normals(v, t),
+        "uv": unique / 65536,
+        "weights": np.concatenate([p["weights"] for p in parts.values()]),
+        "t": t,
+        "corners": corner.reshape(-1, 3),
+        "material": material,
+        "finishes": [(m.name.split("_")[-1], round(m["roughness"], 3)) for m in thing.data.materials],
+        "joint": shapes.joint,
+    }

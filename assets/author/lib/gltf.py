@@ -121,16 +121,22 @@ class Glb:
     def vertices(self, clip=None, seconds=0.0, only=None):
         """Vertices in the object's frame (z up), skinned where the node has a skin.
 
-        only picks rows of the single mesh of a person, to save time.
+        only picks rows, counted through all primitives in turn, to save time.
         """
-        only = slice(None) if only is None else only
-        world, out = self.node_matrices(clip, seconds), []
+        world, out, start = self.node_matrices(clip, seconds), [], 0
         for i, node in enumerate(self.json["nodes"]):
             if "mesh" not in node:
                 continue
             for primitive in self.json["meshes"][node["mesh"]]["primitives"]:
                 attributes = primitive["attributes"]
-                p = self.read(attributes["POSITION"])[only].astype(float)
+                count = self.json["accessors"][attributes["POSITION"]]["count"]
+                rows = slice(None)
+                if only is not None:
+                    rows = only[(only >= start) & (only < start + count)] - start
+                    start += count
+                    if not len(rows):
+                        continue
+                p = self.read(attributes["POSITION"])[rows].astype(float)
                 p = np.hstack([p, np.ones((len(p), 1))])
                 if "skin" not in node:
                     out.append((p @ world[i].T)[:, :3])
@@ -138,8 +144,8 @@ class Glb:
                 skin = self.json["skins"][node["skin"]]
                 inverse = self.read(skin["inverseBindMatrices"]).astype(float).reshape(-1, 4, 4)
                 bones = np.stack([world[j] @ m.T for j, m in zip(skin["joints"], inverse)])
-                joints = self.read(attributes["JOINTS_0"])[only].astype(int)
-                w = self.read(attributes["WEIGHTS_0"])[only].astype(float)
+                joints = self.read(attributes["JOINTS_0"])[rows].astype(int)
+                w = self.read(attributes["WEIGHTS_0"])[rows].astype(float)
                 w = w / w.sum(1, keepdims=True)
                 blend = np.einsum("vk,vkij->vij", w, bones[joints])
                 out.append(np.einsum("vij,vj->vi", blend, p)[:, :3])

@@ -11,6 +11,7 @@ from .noise import step
 
 SIDES = (("left", 1.0), ("right", -1.0))
 ARM_ANGLE = np.radians(30.0)
+ON_HEAD = ("cap", "locks", "helmet", "glasses", "eyes")  # parts that move with the head alone
 
 # bone: (parent, head joint, tail joint); the deform tree of every person.
 BONES = {
@@ -34,6 +35,8 @@ for _side, _ in SIDES:
             f"toes_{_side}": (f"foot_{_side}", f"ball_{_side}", f"toe_{_side}"),
         }
     )
+for _side, _ in SIDES:  # behind all others, whose order stays
+    BONES[f"eye_{_side}"] = ("head", f"eye_{_side}", f"gaze_{_side}")
 
 
 def joints(person):
@@ -72,6 +75,10 @@ def joints(person):
     for side, sign in SIDES:
         for name, at in chain.items():
             out[f"{name}_{side}"] = at * (1.0, sign, 1.0)
+    k = (1.75 / person.height_m) ** 0.4  # the head's scale, as in head.face_frame
+    for side, sign in SIDES:
+        eye = np.array([0.0735, 0.0315 * sign * person.face.apart, -0.118]) * k + [0, 0, 1.755]
+        out[f"eye_{side}"], out[f"gaze_{side}"] = eye, eye + [0.03, 0, 0]
     return {name: np.asarray(at, float) * s for name, at in out.items()}
 
 
@@ -136,7 +143,7 @@ def weights(part, p, joint, scale, armness):
         thigh = mine * step(-0.07, 0.09, drop) * (1 - armness)
         if part == "coat":
             thigh = thigh * 0.75
-        if part not in ("head", "hair", "helmet"):
+        if part not in ("head", *ON_HEAD):
             leg(thigh, side, False)
             reach = along(f"shoulder_{side}", f"elbow_{side}")
             upper = (sign * p[:, 1] > 0) * armness * step(-0.045, 0.075, reach)
@@ -150,7 +157,10 @@ def weights(part, p, joint, scale, armness):
             girdle = np.maximum(girdle, (sign * p[:, 1] > 0) * armness)
             give(f"clavicle_{side}", (rest - thigh - upper).clip(0) * girdle)
             rest = rest - thigh - upper - (rest - thigh - upper).clip(0) * girdle
-    if part in ("hair", "helmet"):
+    if part == "eyes":
+        for side, sign in SIDES:
+            give(f"eye_{side}", (sign * p[:, 1] > 0).astype(float))
+    elif part in ON_HEAD:
         give("head", rest)
     else:
         rest = rest.clip(0)

@@ -76,12 +76,29 @@ def loft(p, rows, power=2.3):
 
 
 def grid(field, lo, hi, step):
-    """Samples field on a grid; returns (values, origin, step)."""
+    """Samples field on a grid, finely only near its surface; returns (values, origin, step)."""
     lo, hi = np.asarray(lo, float), np.asarray(hi, float)
-    counts = np.ceil((hi - lo) / step).astype(int) + 1
-    axes = [lo[i] + step * np.arange(counts[i]) for i in range(3)]
+    coarse = 4
+    cells = np.ceil((hi - lo) / (coarse * step)).astype(int)
+    axes = [lo[i] + coarse * step * np.arange(cells[i] + 1) for i in range(3)]
     p = np.stack(np.meshgrid(*axes, indexing="ij"), -1).reshape(-1, 3)
-    return field(p).reshape(counts), lo, step
+    values = field(p).reshape(cells + 1)
+    for axis in range(3):
+        values = _between(values, axis, coarse)
+    near = np.nonzero(np.abs(values) < 1.6 * coarse * step)
+    values[near] = field(lo + step * np.stack(near, -1))
+    return values, lo, step
+
+
+def _between(values, axis, times):
+    """Linear interpolation along one axis, `times` as fine."""
+    v = np.moveaxis(values, axis, 0)
+    out = np.empty((times * (len(v) - 1) + 1, *v.shape[1:]))
+    for k in range(times):
+        t = k / times
+        out[k:-1:times] = v[:-1] * (1 - t) + v[1:] * t
+    out[-1] = v[-1]
+    return np.moveaxis(out, 0, axis)
 
 
 def sample(sampled, p, outside=0.2):
@@ -157,7 +174,7 @@ def surface(field, lo, hi, step):
         quad = np.stack(ring, -1)
         quad[flip] = quad[flip][:, ::-1]
         quads.append(quad)
-    for _ in range(2):
+    for _ in range(1):
         d, n = field(vertices), gradient(field, vertices)
         vertices = vertices - np.clip(d, -step, step)[:, None] * n
     return vertices, np.concatenate(quads), sampled
@@ -165,5 +182,6 @@ def surface(field, lo, hi, step):
 
 def gradient(field, p, h=1e-3):
     """Unit outward normal of the field at p."""
-    g = np.stack([field(p + h * e) - field(p - h * e) for e in np.eye(3)], -1)
+    here = field(p)
+    g = np.stack([field(p + h * e) - here for e in np.eye(3)], -1)
     return g / (np.sqrt((g * g).sum(1, keepdims=True)) + 1e-12)
