@@ -25,7 +25,7 @@ constexpr double kSharpTurn_rad = 1.0;    // what it then turns at once
 constexpr double kArrived_m = 0.45;
 constexpr double kAhead_s = 3.5;          // for so long an intruder must not come to where one stands
 constexpr double kPatience_s = 2.5;       // standing because of others; then another goal is better
-constexpr int kAttempts = 8, kGoalTries = 200;
+constexpr int kAttempts = 24, kGoalTries = 120;
 
 double Wrap(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 
@@ -162,6 +162,52 @@ class Crowd {
     }
   }
 
+  /// Somebody comes: to the nearest place out of the way.
+  void Escape(Walker* walker) {
+    walker->rest_s = 0;
+    if (FreeOfIntruders(walker->goal, time_s_, time_s_ + 2 * kAhead_s, 0.1)) return;
+    double nearest = 1e9;
+    for (int i = 0; i < kGoalTries; ++i) {
+      const double angle = 2 * std::numbers::pi * random_.Unit(), way = 0.4 + 2 * random_.Unit();
+      const Vector2d at = walker->position + way * Vector2d(std::cos(angle), std::sin(angle));
+      if (way > nearest || !FreeOfBlocks(at, plan_.radius_m + 0.05) ||
+          !FreeOfIntruders(at, time_s_, time_s_ + 2 * kAhead_s, 0.1)) {
+        continue;
+      }
+      nearest = way;
+      walker->goal = at;
+    }
+  }
+
+  /// Whether the next metre in a direction is free as all stand now.
+  bool ClearAhead(std::size_t k, double heading, double way_m) const {
+    const Vector2d ahead(std::cos(heading), std::sin(heading));
+    for (double way = 0.2; way <= way_m; way += 0.2) {
+      const Vector2d at = walkers_[k].position + way * ahead;
+      if (!FreeOfBlocks(at, plan_.radius_m)) return false;
+      for (std::size_t i = 0; i < walkers_.size(); ++i) {
+        if (i == k) continue;
+        const double apart = (walkers_[i].position - at).norm();
+        if (apart < plan_.distance_m + 0.05 &&
+            apart < (walkers_[i].position - walkers_[k].position).norm()) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  /// The direction nearest to the goal's in which there is room; none: there is none.
+  std::optional<double> ClearWay(std::size_t k) const {
+    const Vector2d way = walkers_[k].goal - walkers_[k].position;
+    const double straight = std::atan2(way.y(), way.x());
+    const double reach = std::clamp(way.norm(), 0.4, 1.0);
+    for (const double aside : {0.0, 0.4, -0.4, 0.8, -0.8, 1.2, -1.2, 1.6, -1.6}) {
+      if (ClearAhead(k, straight + aside, reach)) return straight + aside;
+    }
+    return std::nullopt;
+  }
+
   double TurnTime(double turn) const {
     const SpeedLimit limit{std::abs(turn), plan_.limits.turn_rate_rad_s};
     return SpeedProfile::FromRestToRest({&limit, 1}, plan_.limits.turn_acceleration_rad_s2)
@@ -188,10 +234,15 @@ class Crowd {
   void Step(std::size_t k) {
     Walker& walker = walkers_[k];
     if (time_s_ < walker.busy_until_s - 1e-9) return Remain(k);
-    if ((walker.goal - walker.position).norm() < kArrived_m) Arrive(&walker);
+    threatened_ = !FreeOfIntruders(walker.position, time_s_, time_s_ + kAhead_s, 0.1);
+    if (threatened_) {
+      Escape(&walker);
+    } else if ((walker.goal - walker.position).norm() < kArrived_m) {
+      Arrive(&walker);
+    }
     if (walker.rest_s > 0) return Rest(k);
     const Vector2d force = ForceOn(k);
-    if (walker.speed == 0 && StandStill(k, force)) return;
+    if (walker.speed == 0 && StandStill(k)) return;
     if (TryWays(k, force)) return;
     const double next = std::max(0.0, walker.speed - kBraking_mps2 * kStep_s);
     if (walker.speed > 0) return Take(k, {kStep_s, walker.speed, next, 0});
@@ -229,8 +280,8 @@ class Crowd {
     }
   }
 
-  /// Who stands turns first to where it is drawn; who has been held for long wants elsewhere.
-  bool StandStill(std::size_t k, const Vector2d& force) {
+  /// Who stands turns first to where there is room; who has been held for long wants elsewhere.
+  bool StandStill(std::size_t k) {
     Walker& walker = walkers_[k];
     if (time_s_ < walker.busy_until_s - 1e-9) {
       Remain(k);
@@ -240,9 +291,14 @@ class Crowd {
       walker.held_s = 0;
       ChooseGoal(&walker);
     }
-    Vector2d drawn = force;
-    if (drawn.norm() < 1e-6) drawn = walker.goal - walker.position;
-    const double turn = Wrap(std::atan2(drawn.y(), drawn.x()) - walker.heading);
+    const std::optional<double> way = ClearWay(k);
+    if (!way) {
+      Stand(&walker, kStep_s);
+      walker.held_s += kStep_s;
+      Remain(k);
+      return true;
+    }
+    const double turn = Wrap(*way - walker.heading);
     if (std::abs(turn) < kSharpTurn_rad) return false;
     Turn(&walker, turn);
     Remain(k);
@@ -278,7 +334,11 @@ class Crowd {
     const Walker& walker = walkers_[k];
     const Vector2d ahead(std::cos(walker.heading), std::sin(walker.heading));
     const Vector2d left(-ahead.y(), ahead.x());
-    const double along = std::clamp(force.dot(ahead), -kBraking_mps2, kFastening_mps2);
+    double along = std::clamp(force.dot(ahead), -kBraking_mps2, kFastening_mps2);
+    // Slow as it is, it goes on while there is room: forces alone would have it dither.
+    if (walker.speed < kSlow_mps && ClearAhead(k, walker.heading, 0.4)) {
+      along = std::max(along, 0.7 * kFastening_mps2);
+    }
     const double yaw = std::clamp(force.dot(left) / std::max(walker.speed, kSlow_mps),
                                   -kTurnRate_rad_s, kTurnRate_rad_s);
     for (const double less : {0.0, 0.7, 1.4}) {
@@ -329,7 +389,8 @@ class Crowd {
       const double t = time_s_ + kStep_s * static_cast<double>(s + 1);
       if (!FreeOfIntruders(way[s], t, t, kBetween_m)) return false;
     }
-    return FreeOfIntruders(way.back(), stands_s, stands_s + kAhead_s, kBetween_m);
+    return FreeOfIntruders(way.back(), stands_s, stands_s + (threatened_ ? 0.5 : kAhead_s),
+                           kBetween_m);
   }
 
   void Take(std::size_t k, const PacedPiece& piece) {
@@ -368,6 +429,7 @@ class Crowd {
   const CrowdPlan& plan_;
   CrowdRandom random_;
   double time_s_ = 0;
+  bool threatened_ = false;  ///< who steps now stands where an intruder will come
   std::vector<Walker> walkers_;
   std::vector<Braking> plans_;  ///< of each: from its last step on
 };

@@ -55,7 +55,7 @@ struct CrowdPlan {
 /// Nobody comes nearer to another than distance_m, by induction and not by force: a step is taken
 /// only if all could brake after it without meeting, and who finds none brakes. Seeded; the same
 /// bits for the same plan and seed. Throws std::invalid_argument when there is no room for so many,
-/// or an intruder runs into somebody in each of eight attempts.
+/// or an intruder runs into somebody in each of 24 attempts.
 std::vector<RoutePlan> WalkCrowd(const CrowdPlan& plan, std::uint64_t seed);
 
 }  // namespace aisle::sim

