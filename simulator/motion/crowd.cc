@@ -20,11 +20,11 @@ constexpr double kStep_s = kCrowdStep_s;
 constexpr double kFastening_mps2 = 0.9, kBraking_mps2 = 2.0;
 constexpr double kTurnRate_rad_s = 1.9;
 constexpr double kMostCurvature_per_m = 2.2;
-constexpr double kSlow_mps = 0.3;         // slower, a body turns on the spot rather than in a curve
-constexpr double kSharpTurn_rad = 1.0;    // what it then turns at once
+constexpr double kSlow_mps = 0.3;       // slower, a body turns on the spot rather than in a curve
+constexpr double kSharpTurn_rad = 1.0;  // what it then turns at once
 constexpr double kArrived_m = 0.45;
-constexpr double kAhead_s = 3.5;          // for so long an intruder must not come to where one stands
-constexpr double kPatience_s = 2.5;       // standing because of others; then another goal is better
+constexpr double kAhead_s = 3.5;     // for so long an intruder must not come to where one stands
+constexpr double kPatience_s = 2.5;  // standing because of others; then another goal is better
 constexpr int kAttempts = 24, kGoalTries = 120;
 
 double Wrap(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
@@ -101,7 +101,8 @@ class Crowd {
   bool FreeOfIntruders(const Vector2d& at, double from_s, double until_s, double margin) const {
     for (const CrowdIntruder& intruder : plan_.intruders) {
       for (double t = from_s; t <= until_s; t += kStep_s) {
-        if ((intruder.At(t) - at).norm() < intruder.radius_m + plan_.radius_m + margin) return false;
+        if ((intruder.At(t) - at).norm() < intruder.radius_m + plan_.radius_m + margin)
+          return false;
       }
     }
     return true;
@@ -343,8 +344,8 @@ class Crowd {
                                   -kTurnRate_rad_s, kTurnRate_rad_s);
     for (const double less : {0.0, 0.7, 1.4}) {
       for (const double more : {0.0, 0.8, -0.8, 1.6, -1.6}) {
-        const double next = std::clamp(walker.speed + (along - less) * kStep_s, 0.0,
-                                       1.3 * walker.likes_mps);
+        const double next =
+            std::clamp(walker.speed + (along - less) * kStep_s, 0.0, 1.3 * walker.likes_mps);
         const double mean = (walker.speed + next) / 2;
         if (mean <= 0) continue;
         const double curvature = std::clamp((yaw + more) / std::max(mean, kSlow_mps),
@@ -422,8 +423,8 @@ class Crowd {
     }
   }
 
-  /// Between two steps bodies that go past each other at w m/s come nearer than at both ends by less
-  /// than (w step)² / 8 distance: 28 mm at 3.6 m/s and half a metre.
+  /// Between two steps bodies that go past each other at w m/s come nearer than at both ends by
+  /// less than (w step)² / 8 distance: 28 mm at 3.6 m/s and half a metre.
   static constexpr double kBetween_m = 0.03;
 
   const CrowdPlan& plan_;

@@ -10,14 +10,14 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kRelaxation_s = 0.5;
-constexpr double kPersonPotential = 2.1, kPersonRange_m = 0.3;   // V0 (m²/s²), sigma
-constexpr double kBorderPotential = 10, kBorderRange_m = 0.2;    // U0 (m²/s²), R
-constexpr double kStride_s = 2;                                  // Delta t of the ellipse
+constexpr double kPersonPotential = 2.1, kPersonRange_m = 0.3;  // V0 (m²/s²), sigma
+constexpr double kBorderPotential = 10, kBorderRange_m = 0.2;   // U0 (m²/s²), R
+constexpr double kStride_s = 2;                                 // Delta t of the ellipse
 const double kSightCosine = std::cos(100 * std::numbers::pi / 180);
 constexpr double kUnseen = 0.5;
-constexpr double kForesight_s = 3;       // how far people see an intruder coming
-constexpr double kIntruder_mps2 = 2.2;   // most that one pushes
-constexpr double kMost_mps2 = 6;         // bounds each push
+constexpr double kForesight_s = 3;      // how far people see an intruder coming
+constexpr double kIntruder_mps2 = 2.2;  // most that one pushes
+constexpr double kMost_mps2 = 6;        // bounds each push
 
 Vector2d Bounded(const Vector2d& force) {
   const double norm = force.norm();

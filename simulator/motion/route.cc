@@ -95,8 +95,8 @@ class Planner {
     std::vector<SpeedProfile::Stretch> stretches;
     Route::Leg leg;
     for (const PacedPiece& piece : paced.pieces) {
-      arcs.push_back({(piece.from_mps + piece.to_mps) / 2 * piece.duration_s,
-                      piece.curvature_per_m});
+      arcs.push_back(
+          {(piece.from_mps + piece.to_mps) / 2 * piece.duration_s, piece.curvature_per_m});
       stretches.push_back({piece.duration_s, piece.to_mps});
     }
     leg.path = Path::OfArcs({now_.position, now_.heading_rad, 0}, arcs);

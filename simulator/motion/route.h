@@ -25,9 +25,9 @@ struct RouteStep {
 
 /// A stretch of a paced way: an arc, along which speed changes evenly.
 struct PacedPiece {
-  double duration_s = 0;           ///< > 0
-  double from_mps = 0, to_mps = 0; ///< not both 0
-  double curvature_per_m = 0;      ///< positive turns left
+  double duration_s = 0;            ///< > 0
+  double from_mps = 0, to_mps = 0;  ///< not both 0
+  double curvature_per_m = 0;       ///< positive turns left
 };
 
 /// A leg of a way whose times are known beforehand, from rest to rest: one of a drive, a turn on

@@ -93,9 +93,9 @@ class Checker {
     }
     const int ways = !one_.pushed_by.empty() + !one_.front_by.empty() + !one_.taken.empty();
     if (ways > 1) Say(one_.mark, "", "it is pushed, carried or taken: one of them");
-    for (const auto& [name, key] : {std::pair(one_.pushed_by, ".pushed_by"),
-                                    std::pair(one_.front_by, ".front_by"),
-                                    std::pair(one_.rear_by, ".rear_by")}) {
+    for (const auto& [name, key] :
+         {std::pair(one_.pushed_by, ".pushed_by"), std::pair(one_.front_by, ".front_by"),
+          std::pair(one_.rear_by, ".rear_by")}) {
       if (!name.empty()) CheckPerson(name, key);
     }
   }

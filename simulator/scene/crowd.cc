@@ -22,8 +22,9 @@ CrowdIntruder DiscOf(const Route& route, double ahead_m, double radius_m, double
   const int steps = static_cast<int>(std::ceil(duration_s / kCrowdStep_s)) + 1;
   for (int i = 0; i <= steps; ++i) {
     const RouteState state = route.At(i * kCrowdStep_s);
-    disc.places.emplace_back(state.position + ahead_m * Eigen::Vector2d(std::cos(state.heading_rad),
-                                                                       std::sin(state.heading_rad)));
+    disc.places.emplace_back(
+        state.position +
+        ahead_m * Eigen::Vector2d(std::cos(state.heading_rad), std::sin(state.heading_rad)));
   }
   return disc;
 }

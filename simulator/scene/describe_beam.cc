@@ -17,8 +17,7 @@ void DescribeSunMove(Fields& f, SunMove& move) {
 
 void DescribeWindow(Fields& f, BeamSpec& beam) {
   f.Numbers({"size_m", "window: width and height", "[2, 1.5]"}, beam.size_m.data(), 2, {0.1, 100});
-  f.Degrees({"facing_deg", "window: azimuth of its normal, into the hall", "90"},
-            &beam.facing_rad);
+  f.Degrees({"facing_deg", "window: azimuth of its normal, into the hall", "90"}, &beam.facing_rad);
   f.Flag({"in_roof", "window: it lies level instead; facing_deg then is the way up its height",
           "true"},
          &beam.is_roof);
@@ -73,8 +72,9 @@ void DescribeCrowd(Fields& f, CrowdSpec& crowd) {
             in.data(), 4, {-1000, 1000});
   if (f.Has("in")) crowd.in = in;
   std::array<double, 2> racks = {0, 0};
-  f.Numbers({"between_racks", "instead of `in`: the aisle between two rows, by their places in "
-                              "`racks`, from 0",
+  f.Numbers({"between_racks",
+             "instead of `in`: the aisle between two rows, by their places in "
+             "`racks`, from 0",
              "[0, 1]"},
             racks.data(), 2, {0, 1000});
   if (f.Has("between_racks")) {

@@ -51,8 +51,9 @@ void DescribeJoint(Fields& f, Joint& joint) {
   if (f.Has("rate_hz")) joint.speed = turns * 2 * std::numbers::pi;
   f.Number({"speed_mps", "of a belt", "0.4"}, &joint.speed, {-20, 20});
   DescribeRun(f, joint.run);
-  f.Number({"length_m", "pendulum: of the simple one that swings alike; chain: top to free end; "
-                        "belt: way until a copy comes round",
+  f.Number({"length_m",
+            "pendulum: of the simple one that swings alike; chain: top to free end; "
+            "belt: way until a copy comes round",
             "2"},
            &joint.length_m, {0.01, 1000});
   double swing_deg = joint.swing / kDegree;
@@ -81,32 +82,32 @@ void DescribeLooks(Fields& f, PartSpec& part) {
   f.Choice({"goods", "of shape pallet: what is on it", "cartons"}, &part.goods,
            {"mixed", "cartons", "drums", "totes", "wrapped", "identical", "nothing"});
   f.Number({"goods_m", "of shape pallet: height of the goods", "1"}, &part.goods_m, {0.1, 3});
-  Vector(f, {"size_m", "of a box along x, y and z; of the box around a cylinder along z or a link",
-             "[0.1, 2.4, 2.5]"},
+  Vector(f,
+         {"size_m", "of a box along x, y and z; of the box around a cylinder along z or a link",
+          "[0.1, 2.4, 2.5]"},
          &part.size_m, {0.001, 100});
-  Vector(f, {"center_m", "middle of the shape in its joint's frame; of a pallet its foot",
-             "[0, 0, 1.25]"},
+  Vector(f,
+         {"center_m", "middle of the shape in its joint's frame; of a pallet its foot",
+          "[0, 0, 1.25]"},
          &part.center_m);
 }
 
 void DescribePart(Fields& f, PartSpec& part) {
   part.mark = f.mark();
   f.Name({"name", "what other parts are `on`", "arm"}, &part.name);
-  f.Name({"on", "a part named before, whose motion it shares; absent: the mechanism itself",
-          "arm"},
+  f.Name({"on", "a part named before, whose motion it shares; absent: the mechanism itself", "arm"},
          &part.on);
   DescribeLooks(f, part);
-  Vector(f, {"at_m", "where its joint is, in the frame of what it is on", "[0, 0, 1]"},
-         &part.at_m);
+  Vector(f, {"at_m", "where its joint is, in the frame of what it is on", "[0, 0, 1]"}, &part.at_m);
   f.Degrees({"heading_deg", "of its joint's frame, about z", "90"}, &part.heading_rad);
-  f.Degrees({"roll_deg", "of its joint's frame, about x, after that; 90 lays a cylinder along y",
-             "90"},
-            &part.roll_rad);
+  f.Degrees(
+      {"roll_deg", "of its joint's frame, about x, after that; 90 lays a cylinder along y", "90"},
+      &part.roll_rad);
   f.Integer({"count", "copies of it; of a chain its links, of a belt what lies on it", "12"},
             &part.count, {1, 400});
   Vector(f, {"step_m", "from copy to copy", "[0, 0.2, 0]"}, &part.step_m);
-  f.Number({"delay_s", "by which each copy moves later than the one before", "0.1"},
-           &part.delay_s, {0, 60});
+  f.Number({"delay_s", "by which each copy moves later than the one before", "0.1"}, &part.delay_s,
+           {0, 60});
   f.Group({"joint", "how it moves; absent: not at all", "{kind: spin, rate_hz: 1}"},
           [&](Fields& joint) { DescribeJoint(joint, part.joint); });
 }
@@ -115,8 +116,8 @@ void DescribeTaken(Fields& f, TakenSpec& taken) {
   taken.mark = f.mark();
   f.Name({"by", "a vehicle with forks", "truck", true}, &taken.by);
   f.Number({"at_s", "when the forks have it", "6", true}, &taken.at_s, {0, 3600});
-  f.Number({"until_s", "when they leave it where it is then; absent: never", "20"},
-           &taken.until_s, {0, 1e9});
+  f.Number({"until_s", "when they leave it where it is then; absent: never", "20"}, &taken.until_s,
+           {0, 1e9});
 }
 
 }  // namespace

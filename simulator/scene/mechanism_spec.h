@@ -46,16 +46,16 @@ struct PartSpec {
   PartShape shape = PartShape::kBox;
   PartPaint paint = PartPaint::kSteel;
   std::string model;
-  double goods_m = 1;                                        ///< of a pallet: height of its goods
-  GoodsKind goods = GoodsKind::kCartons;                     ///< of a pallet
-  Eigen::Vector3d size_m = Eigen::Vector3d::Constant(0.1);   ///< box; cylinder, link: the box around
-  Eigen::Vector3d at_m = Eigen::Vector3d::Zero();            ///< the joint, in what it is on
-  double heading_rad = 0;                                    ///< of the joint's frame, about z
-  double roll_rad = 0;                                       ///< of it about x, after that
-  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();        ///< the shape, in the joint's frame
-  int count = 1;                                             ///< copies
-  Eigen::Vector3d step_m = Eigen::Vector3d::Zero();          ///< from copy to copy
-  double delay_s = 0;                                        ///< by which each copy is later
+  double goods_m = 1;                                       ///< of a pallet: height of its goods
+  GoodsKind goods = GoodsKind::kCartons;                    ///< of a pallet
+  Eigen::Vector3d size_m = Eigen::Vector3d::Constant(0.1);  ///< box; cylinder, link: the box around
+  Eigen::Vector3d at_m = Eigen::Vector3d::Zero();           ///< the joint, in what it is on
+  double heading_rad = 0;                                   ///< of the joint's frame, about z
+  double roll_rad = 0;                                      ///< of it about x, after that
+  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();       ///< the shape, in the joint's frame
+  int count = 1;                                            ///< copies
+  Eigen::Vector3d step_m = Eigen::Vector3d::Zero();         ///< from copy to copy
+  double delay_s = 0;                                       ///< by which each copy is later
   Joint joint;
 };
 
@@ -79,11 +79,11 @@ struct MechanismSpec {
   double above_m = 0;
   double heading_rad = 0;
   std::vector<PartSpec> parts;
-  std::string pushed_by;              ///< a person; its frame is then before that one's hands
-  double reach_m = 0;                 ///< from those hands to its origin
-  std::string front_by, rear_by;      ///< two people who carry it by its ends
-  std::vector<TakenSpec> taken;       ///< in the order of their times
-  bool still = false;                 ///< it never moves: the scene is calmer than its level
+  std::string pushed_by;          ///< a person; its frame is then before that one's hands
+  double reach_m = 0;             ///< from those hands to its origin
+  std::string front_by, rear_by;  ///< two people who carry it by its ends
+  std::vector<TakenSpec> taken;   ///< in the order of their times
+  bool still = false;             ///< it never moves: the scene is calmer than its level
 
   bool IsBrought() const { return !pushed_by.empty() || !front_by.empty(); }
 };

@@ -13,9 +13,8 @@ namespace {
 
 /// Those that people bring stay away with these; others stand as at the start.
 void Calm(std::vector<MechanismSpec>* mechanisms, const auto& is_calm) {
-  std::erase_if(*mechanisms, [&](const MechanismSpec& one) {
-    return is_calm(one) && one.IsBrought();
-  });
+  std::erase_if(*mechanisms,
+                [&](const MechanismSpec& one) { return is_calm(one) && one.IsBrought(); });
   for (MechanismSpec& one : *mechanisms) {
     if (!is_calm(one)) continue;
     one.still = true;

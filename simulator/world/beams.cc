@@ -101,7 +101,8 @@ void AddWindow(TriangleMesh* mesh, const BeamSpec& beam, const Palette& palette,
   const Vector3f front = at + 0.03f * pane.normal.cast<float>();
   const auto thick = static_cast<float>(std::max(0.03, beam.bar_m));
   for (int i = 0; i <= beam.columns; ++i) {
-    const Vector3f x = front + (2 * static_cast<float>(i) / static_cast<float>(beam.columns) - 1) * u;
+    const Vector3f x =
+        front + (2 * static_cast<float>(i) / static_cast<float>(beam.columns) - 1) * u;
     AddBar(mesh, x - v, x + v, thick, palette.lamp_housing);
   }
   for (int i = 0; i <= beam.rows; ++i) {
@@ -119,8 +120,8 @@ void AddWindows(const Scene& scene, const Palette& palette, WorldParts* parts, S
     const Pane pane = PaneOf(beam);
     const Vector3f u = pane.half_u.cast<float>(), v = pane.half_v.cast<float>();
     const bool inward = u.cross(v).dot(pane.normal.cast<float>()) > 0;
-    parts->lights.push_back({(beam.at + 0.021 * pane.normal).cast<float>(), inward ? u : Vector3f(-u),
-                             v, parts->materials[palette.sky].emission});
+    parts->lights.push_back({(beam.at + 0.021 * pane.normal).cast<float>(),
+                             inward ? u : Vector3f(-u), v, parts->materials[palette.sky].emission});
     site->Add("window_" + beam.name, ObjectClass::kFurniture,
               [&](TriangleMesh* mesh) { AddWindow(mesh, beam, palette, palette.sky); });
   }
@@ -136,7 +137,8 @@ std::vector<Beam> BeamsAt(const Scene& scene, double time_s, float* bounce) {
     flux += FluxOf(spec, beam);
     beams.push_back(beam);
   }
-  // As in an integrating sphere (Ulbricht 1900): all that is reflected at least once, spread evenly.
+  // As in an integrating sphere (Ulbricht 1900): all that is reflected at least once, spread
+  // evenly.
   *bounce = static_cast<float>(flux * kReflectance / (1 - kReflectance) / InnerArea(scene.hall));
   return beams;
 }

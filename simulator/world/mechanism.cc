@@ -11,7 +11,9 @@ namespace {
 /// Half of the time over which what holds a mechanism is differenced.
 constexpr double kHalfStep_s = 0.0005;
 
-Placement Resting(const Eigen::Isometry3d& pose) { return {pose.matrix(), Eigen::Matrix4d::Zero()}; }
+Placement Resting(const Eigen::Isometry3d& pose) {
+  return {pose.matrix(), Eigen::Matrix4d::Zero()};
+}
 
 Eigen::Isometry3d Stand(const MechanismSpec& mechanism) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -100,7 +102,8 @@ struct Body {
 /// The parts and what they are on.
 class Linkage {
  public:
-  Linkage(std::vector<PartSpec> parts, Root root) : parts_(std::move(parts)), root_(std::move(root)) {
+  Linkage(std::vector<PartSpec> parts, Root root)
+      : parts_(std::move(parts)), root_(std::move(root)) {
     for (const PartSpec& part : parts_) {
       const auto below = std::ranges::find_if(
           parts_, [&](const PartSpec& one) { return !part.on.empty() && one.name == part.on; });
@@ -124,7 +127,8 @@ class Linkage {
       std::vector<Placement>& placed = all.emplace_back();
       for (int copy = 0; copy < part.count; ++copy) {
         const double time = time_s - copy * part.delay_s;
-        const Placement own = Resting(Seat(part, copy)) * JointAt(part.joint, copy, part.count, time);
+        const Placement own =
+            Resting(Seat(part, copy)) * JointAt(part.joint, copy, part.count, time);
         if (on_[i] < 0) {
           placed.push_back(root * own);
           continue;
@@ -200,8 +204,7 @@ ObjectClass ClassOf(const MechanismSpec& mechanism) {
 std::vector<MechanismMesh> MakeMechanism(const MechanismSpec& mechanism, const FindGrip& find,
                                          AssetLibrary* assets, Wardrobe* wardrobe,
                                          PartPaints* paints, std::uint64_t seed, Site* site) {
-  const auto linkage =
-      std::make_shared<const Linkage>(mechanism.parts, Root(mechanism, find));
+  const auto linkage = std::make_shared<const Linkage>(mechanism.parts, Root(mechanism, find));
   const auto at_start = linkage->At(0);
   std::array<Body, 2> bodies;  // solid, clear
   TriangleMesh frame;

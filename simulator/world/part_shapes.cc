@@ -106,7 +106,10 @@ std::uint16_t PartPaints::Of(PartPaint paint) {
       material = {.name = "film", .albedo = 0.3f, .specular_f0 = 0.5f, .roughness = 0.14f};
       break;
     case PartPaint::kGlass:  // two faces of n = 1.5
-      material = {.name = "glass", .albedo = 0.05f, .specular_f0 = 0.08f, .roughness = 0.04f,
+      material = {.name = "glass",
+                  .albedo = 0.05f,
+                  .specular_f0 = 0.08f,
+                  .roughness = 0.04f,
                   .transmission = 0.82f};
       break;
     case PartPaint::kGlow:

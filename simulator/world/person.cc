@@ -62,8 +62,8 @@ class Walker {
     style.limp = person.limp;
     stride_m_ = style.stride_m;
     for (const RouteStep& step : person.route.plan.steps) {
-      const bool is_manner = std::ranges::count(kManners, step.play) > 0 &&
-                             !clips_.contains(step.play);
+      const bool is_manner =
+          std::ranges::count(kManners, step.play) > 0 && !clips_.contains(step.play);
       has_manners_ = has_manners_ || is_manner;
       poses_.push_back(is_manner ? step.play : "");
       plays_.push_back(is_manner ? "" : step.play);
@@ -124,7 +124,8 @@ class Walker {
     const std::string& pose = poses_[static_cast<std::size_t>(state.step)];
     if (pose.empty()) return;
     const double duration_s = step_durations_s_[static_cast<std::size_t>(state.step)];
-    if (pose == "kneel") manners_.Kneel(Held(state.step_elapsed_s, duration_s, kKneeling_s), frames);
+    if (pose == "kneel")
+      manners_.Kneel(Held(state.step_elapsed_s, duration_s, kKneeling_s), frames);
     if (pose == "look_back") {
       manners_.LookBack(Held(state.step_elapsed_s, duration_s, kLookingBack_s), frames);
     }
@@ -289,7 +290,8 @@ Actor MakePerson(const PersonSpec& person, AssetLibrary* assets, const Palette& 
     model = std::make_shared<const Model>(WithBox(*model, box));
     AddMesh(&mesh, Eigen::Isometry3f::Identity(), box);
   }
-  return {std::move(mesh), [walker, model](double time_s) {
+  return {std::move(mesh),
+          [walker, model](double time_s) {
             return SkinState(
                 *model, [&](double t) { return walker->WorldJoints(*model, t); },
                 [&](double t) { return walker->RouteAt(t); }, time_s);

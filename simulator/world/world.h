@@ -72,15 +72,15 @@ struct MoverState {
 /// are sharp but for the sun's own breadth.
 struct Beam {
   enum class Kind { kSpot, kSun } kind = Kind::kSpot;
-  Eigen::Vector3f origin = Eigen::Vector3f::Zero();  ///< spot; middle of a window; metres, world
-  Eigen::Vector3f toward = Eigen::Vector3f::UnitX(); ///< spot: unit, where it shines; sun: unit, up
-                                                     ///< its rays to where it stands
+  Eigen::Vector3f origin = Eigen::Vector3f::Zero();   ///< spot; middle of a window; metres, world
+  Eigen::Vector3f toward = Eigen::Vector3f::UnitX();  ///< spot: unit, where it shines; sun: unit,
+                                                      ///< up its rays to where it stands
   /// Spot: intensity, radiance units m²; sun: irradiance across its rays.
   float power = 0;
   float cos_inner = 1, cos_outer = 1;  ///< spot: full light within, none beyond
   Eigen::Vector3f half_u = Eigen::Vector3f::Zero(), half_v = Eigen::Vector3f::Zero();  ///< window
-  int columns = 1, rows = 1;           ///< of panes
-  float bar_u = 0, bar_v = 0;          ///< breadth of bars, shares of a pane
+  int columns = 1, rows = 1;                                                           ///< of panes
+  float bar_u = 0, bar_v = 0;  ///< breadth of bars, shares of a pane
 };
 
 /// The moving part of the world at one instant.

@@ -10,9 +10,9 @@
 namespace aisle::sim {
 namespace {
 
-constexpr float kLift = 2e-3f;        // m off the surface, so that a ray does not meet it
-constexpr float kHousing = 0.2f;      // m around a spot, where its own housing is
-constexpr float kBeforeWindow = 0.12f;  // m, where bars and lintel are
+constexpr float kLift = 2e-3f;           // m off the surface, so that a ray does not meet it
+constexpr float kHousing = 0.2f;         // m around a spot, where its own housing is
+constexpr float kBeforeWindow = 0.12f;   // m, where bars and lintel are
 constexpr float kSunRadius = 0.004654f;  // tangent of half the sun's breadth, 0.533 degrees
 constexpr float kSoftest = 1e-4f;
 
@@ -60,8 +60,8 @@ F8 BeamLight::Unshadowed(const Beam& beam, const F8x3& position, const F8x3& nor
   if (beam.kind == Beam::Kind::kSpot) {
     const F8 squared = Max(Dot(to, to), Wide(kHousing * kHousing)), distance = Sqrt(squared);
     const F8 along = -Dot(to, toward) / distance;
-    const F8 edge = SmoothStep((along - beam.cos_outer) /
-                               std::max(beam.cos_inner - beam.cos_outer, 1e-5f));
+    const F8 edge =
+        SmoothStep((along - beam.cos_outer) / std::max(beam.cos_inner - beam.cos_outer, 1e-5f));
     *way = to;
     *share = Max(1 - kHousing / distance, Wide(0));
     return beam.power * edge * Max(Dot(to, normal), Wide(0)) / (squared * distance);
@@ -80,8 +80,8 @@ F8 BeamLight::Unshadowed(const Beam& beam, const F8x3& position, const F8x3& nor
   };
   *way = {distance * toward.x, distance * toward.y, distance * toward.z};
   *share = Max(1 - kBeforeWindow / Max(distance, Wide(kBeforeWindow)), Wide(0));
-  const F8 open = through(beam.half_u, beam.columns, beam.bar_u) *
-                  through(beam.half_v, beam.rows, beam.bar_v);
+  const F8 open =
+      through(beam.half_u, beam.columns, beam.bar_u) * through(beam.half_v, beam.rows, beam.bar_v);
   const F8 light = beam.power * open * Max(Dot(toward, normal), Wide(0));
   return Select(distance > 0, light, Wide(0));
 }
@@ -96,8 +96,8 @@ F8 BeamLight::At(const F8x3& position, const F8x3& normal, I8 valid) const {
     const F8 light = Unshadowed(beam, lifted, normal, &way, &share);
     const I8 lit = valid & (light > 0);
     if (!Any(lit)) continue;
-    const unsigned blocked = instant_.Occluded(MakeRays(lifted, way, share, lit),
-                                               Coherence::kCoherent, blockers_);
+    const unsigned blocked =
+        instant_.Occluded(MakeRays(lifted, way, share, lit), Coherence::kCoherent, blockers_);
     sum += Select(lit & ~LanesOf(blocked), light, Wide(0));
   }
   return Select(valid, sum, Wide(0));

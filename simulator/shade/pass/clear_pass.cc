@@ -57,12 +57,12 @@ void ShadeBehindClear(const ShadingView& shading, std::span<const BehindClear> b
                      shading.view.rotation.col(1) * shading.view.rays->step_y * 0.5f};
   ParallelFor(std::size_t{0}, behind.size(), [&](std::size_t i) {
     const BehindClear& one = behind[i];
-    const SurfaceLanes seen = LookUpHits(
-        shading.tables, shading.frame, shading.textures, LoadI(one.hits.geometry),
-        LoadI(one.hits.primitive),
-        {LoadF(one.hits.t), LoadF(one.hits.u), LoadF(one.hits.v), LoadF(one.rays.dx),
-         LoadF(one.rays.dy), LoadF(one.rays.dz), I8{}},
-        step);
+    const SurfaceLanes seen =
+        LookUpHits(shading.tables, shading.frame, shading.textures, LoadI(one.hits.geometry),
+                   LoadI(one.hits.primitive),
+                   {LoadF(one.hits.t), LoadF(one.hits.u), LoadF(one.hits.v), LoadF(one.rays.dx),
+                    LoadF(one.rays.dy), LoadF(one.rays.dz), I8{}},
+                   step);
     F8 irradiance = seen.irradiance;
     if (has_beams) irradiance += BeamsAtHits(shading, beams, one.rays, one.hits);
     const F8 radiance = seen.reflectance * irradiance * std::numbers::inv_pi_v<float>;

@@ -112,8 +112,8 @@ MeshPlace SurfaceTables::PlaceOf(const Instant& instant, const HitImage& image,
 
 void SurfaceTables::PrepareFrame(const Instant& instant, std::span<const CameraView> views,
                                  std::span<const HitImage> images,
-                                 std::shared_ptr<const LightState> statics,
-                                 FrameLight* frame, std::span<const Hits8> beyond) const {
+                                 std::shared_ptr<const LightState> statics, FrameLight* frame,
+                                 std::span<const Hits8> beyond) const {
   frame->statics = std::move(statics);
   if (frame->mover_records.size() != mover_records_.size()) frame->mover_records = mover_records_;
   frame->mover_light.assign(slot_count_, 0);

@@ -14,8 +14,8 @@ using Kind = Joint::Kind;
 Joint Make(Kind kind) {
   Joint joint;
   joint.kind = kind;
-  joint.axis = kind == Kind::kChain ? Eigen::Vector3d(0.6, 0.8, 0)
-                                    : Eigen::Vector3d(0.48, 0.64, 0.6);
+  joint.axis =
+      kind == Kind::kChain ? Eigen::Vector3d(0.6, 0.8, 0) : Eigen::Vector3d(0.48, 0.64, 0.6);
   joint.length_m = 1.7;
   joint.decay_s = 4;
   joint.at_s = 0.5;
@@ -56,8 +56,8 @@ TEST(Joint, RatesAreTheDerivativesOfPoses) {
 }
 
 TEST(Joint, RestsExactlyBeforeBetweenAndAfterItsMoves) {
-  for (const Kind kind : {Kind::kHinge, Kind::kSlider, Kind::kPendulum, Kind::kChain, Kind::kSpin,
-                          Kind::kBelt}) {
+  for (const Kind kind :
+       {Kind::kHinge, Kind::kSlider, Kind::kPendulum, Kind::kChain, Kind::kSpin, Kind::kBelt}) {
     const Joint joint = Make(kind);
     EXPECT_EQ(JointAt(joint, 0, 3, 0.1).rate.norm(), 0) << static_cast<int>(kind);
   }

@@ -67,7 +67,8 @@ TEST(Mechanisms, AreToldWhoIsNotThere) {
               ElementsAre(HasSubstr("`front_by` and `rear_by` go together")));
   EXPECT_THAT(MessagesOf(with("at: [6, 1], taken: [{by: truck, at_s: 3}]")),
               ElementsAre(HasSubstr("taken[0].by: there is no 'truck' among the vehicles")));
-  EXPECT_THAT(MessagesOf(with("at: [60, 1]")), ElementsAre(HasSubstr("[60, 1] is outside the hall")));
+  EXPECT_THAT(MessagesOf(with("at: [60, 1]")),
+              ElementsAre(HasSubstr("[60, 1] is outside the hall")));
   EXPECT_THAT(
       MessagesOf("mechanisms: [{name: a, at: [6, 1], parts: [{on: b, size_m: [1, 1, 1]}]}]\n"),
       ElementsAre(HasSubstr("parts[0].on: no part before it is named 'b'")));

@@ -32,7 +32,8 @@ std::int64_t Nano(double time_s) { return std::llround(1e9 * time_s); }
 /// What moves now is what brute force says of the corners: a point moves iff where it is a moment
 /// later is not where it was.
 TEST(Mechanism, TheMaskIsWhatBruteForceFinds) {
-  const World world = BuildWorld(ParseScene(kHall + kJoints, "s.yaml"), std::string(AISLE_SOURCE_DIR) + "/assets", 1);
+  const World world = BuildWorld(ParseScene(kHall + kJoints, "s.yaml"),
+                                 std::string(AISLE_SOURCE_DIR) + "/assets", 1);
   constexpr double kHalf_s = 0.002;
   constexpr float kThreshold = 0.05f;
   int moving = 0, resting = 0;
