@@ -345,7 +345,8 @@ class Crowd {
     for (const double less : {0.0, 0.7, 1.4}) {
       for (const double more : {0.0, 0.8, -0.8, 1.6, -1.6}) {
         const double next =
-            std::clamp(walker.speed + (along - less) * kStep_s, 0.0, 1.3 * walker.likes_mps);
+            std::clamp(walker.speed + std::max(along - less, -kBraking_mps2) * kStep_s, 0.0,
+                       1.3 * walker.likes_mps);
         const double mean = (walker.speed + next) / 2;
         if (mean <= 0) continue;
         const double curvature = std::clamp((yaw + more) / std::max(mean, kSlow_mps),

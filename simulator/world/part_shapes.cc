@@ -107,10 +107,10 @@ std::uint16_t PartPaints::Of(PartPaint paint) {
       break;
     case PartPaint::kGlass:  // two faces of n = 1.5
       material = {.name = "glass",
-                  .albedo = 0.05f,
+                  .albedo = 0.1f,
                   .specular_f0 = 0.08f,
                   .roughness = 0.04f,
-                  .transmission = 0.82f};
+                  .transmission = 0.74f};
       break;
     case PartPaint::kGlow:
       material = {.name = "glow", .albedo = 0.8f, .emission = 3};
