@@ -56,7 +56,9 @@ struct Floor {
     test::MeshBuilder pane;
     pane.Quad({-2, -2, 1}, {4, 0, 0}, {0, 4, 0}, 1, 2);
     parts.mover_meshes = {pane.mesh};
-    MoverState state{.instance = 2, .positions = pane.mesh.positions};
+    MoverState state;
+    state.instance = 2;
+    state.positions = pane.mesh.positions;
     state.normals = pane.mesh.normals;
     state.velocities.assign(state.positions.size(), Eigen::Vector3f::Zero());
     state.casts_shadow = false;
