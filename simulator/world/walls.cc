@@ -27,16 +27,31 @@ const UvRect& AnySign(const Palette& palette, Dice* dice) {
   return palette.wall_signs[static_cast<std::size_t>(dice->Pick(count))];
 }
 
-/// Pipes, cable trays, cabinets, extinguishers: what every wall collects.
+/// What doors that stand open cover of each wall: from, to, metres to its right.
+std::array<std::vector<Vector2f>, 4> OpeningsOf(const Scene& scene) {
+  std::array<std::vector<Vector2f>, 4> openings;
+  for (const DoorSpec& door : scene.doors) {
+    if (door.daylight <= 0) continue;
+    const auto& [wall, middle, width, height] = OpeningOf(scene.hall, door);
+    const float half = width / 2 + 0.3f;
+    openings[static_cast<std::size_t>(door.wall)].emplace_back(middle - half, middle + half);
+  }
+  return openings;
+}
+
+/// Pipes, cable trays, cabinets, extinguishers: what every wall collects; no posts in `openings`.
 void AddWallFittings(TriangleMesh* mesh, const Wall& wall, float height, const Palette& palette,
-                     Dice dice) {
+                     const std::vector<Vector2f>& openings, Dice dice) {
   const float tray = height * 0.62f;
   AddBar(mesh, wall.At(0.1f, tray, 0.12f), wall.At(wall.length - 0.1f, tray, 0.12f), 0.12f,
          palette.steel);
   AddBar(mesh, wall.At(0.1f, tray + 0.5f, 0.07f), wall.At(wall.length - 0.1f, tray + 0.5f, 0.07f),
          0.06f, palette.lamp_housing);
   for (float at = 2; at < wall.length - 1; at += static_cast<float>(dice.Between(3, 6))) {
-    AddBar(mesh, wall.At(at, 0, 0.08f), wall.At(at, height, 0.08f), 0.16f, palette.steel);
+    const auto covers = [&](const Vector2f& open) { return at > open.x() && at < open.y(); };
+    if (!std::ranges::any_of(openings, covers)) {
+      AddBar(mesh, wall.At(at, 0, 0.08f), wall.At(at, height, 0.08f), 0.16f, palette.steel);
+    }
     const float beside = at + 0.7f;
     if (dice.Chance(0.35)) {
       const Vector3f size(0.25f, 0.8f, 1.1f);
@@ -91,6 +106,7 @@ void AddWalls(const Scene& scene, const Palette& palette, std::uint64_t seed, Si
   if (hall.walls == WallKind::kSky) return AddSky(hall, palette, site);
   const float height = static_cast<float>(hall.height_m);
   const std::array<Wall, 4> walls = WallsOf(hall);
+  const std::array<std::vector<Vector2f>, 4> openings = OpeningsOf(scene);
   constexpr std::array<const char*, 4> kNames = {"wall_north", "wall_south", "wall_east",
                                                  "wall_west"};
   for (std::size_t i = 0; i < walls.size(); ++i) {
@@ -103,7 +119,7 @@ void AddWalls(const Scene& scene, const Palette& palette, std::uint64_t seed, Si
     }
     site->Add(std::string(kNames[i]) + "_fittings", ObjectClass::kFurniture,
               [&](TriangleMesh* mesh) {
-                AddWallFittings(mesh, walls[i], height, palette, Dice(seed, {210, i}));
+                AddWallFittings(mesh, walls[i], height, palette, openings[i], Dice(seed, {210, i}));
               });
   }
   AddRoof(scene, palette, site);
