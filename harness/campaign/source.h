@@ -20,8 +20,8 @@ std::vector<std::string> CheckSource(const std::string& file);
 /// Whether the system under test steers through it.
 bool IsDriveSource(const std::string& file);
 
-/// The hall that a seed of a scene is in ("cold_store"); empty where it is the scene's own, and of a
-/// recording. Throws InputError.
+/// The hall that a seed of a scene is in ("cold_store"); empty where it is the scene's own, and of
+/// a recording. Throws InputError.
 std::string HallOfSource(const std::string& file, std::uint64_t seed);
 
 /// Frames that a run of it has. Throws InputError.

@@ -83,7 +83,8 @@ void WriteReport(const Results& results, const fs::path& report_dir, const Repor
   if (trends) body += "<p><a href=\"trends.html\">How the nights went</a></p>\n";
   body += "<div class=\"sections\"><section>" + OverviewSection(scenes, links) +
           "</section>\n<section>" + CostSection(scenes) + "</section></div>\n";
-  body += HallSection(scenes) + PaperLink(scenes, report_dir) + WriteScenes(scenes, report_dir, own_pages);
+  body += HallSection(scenes) + PaperLink(scenes, report_dir) +
+          WriteScenes(scenes, report_dir, own_pages);
   body += SystemsSection(scenes) + ProvenanceFooter(results);
   const std::vector<NumberTable> tables = PaperTables(scenes);
   WriteResources(report_dir);

@@ -37,9 +37,9 @@ Fittings AddFittings(const AssetLibrary& assets, WorldParts* parts) {
   f.peg = add("pegboard", 1, 0.04f, 0.5f, "pegboard");
   f.fins = add("fins", 0.16f, 0.05f, 0.5f);
   f.film = add("stretch_film", 0.6f, 0.06f, 0.15f);
-  f.puddle = add("puddle", 0.11f, 0.03f, 0.03f);
+  f.puddle = add("puddle", 0.06f, 0.03f, 0.03f);
   f.oil = add("oil", 0.025f, 0.045f, 0.1f);
-  f.chalk = add("chalk", 0.8f, 0, 1);
+  f.chalk = add("chalk", 0.5f, 0, 1);
   f.dust = add("dust", 0.33f, 0, 1);
   f.card = add("card", 0.33f, 0, 1);
   return f;
