@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "simulator/scene/extend.h"
@@ -107,6 +108,21 @@ class SchemaWriter : public Fields {
   Json needs_ = Json::object();  ///< requirements of groups, by their name
 };
 
+/// What must be there where a file says the rest: `less` of the top's keys need not, and `key` must
+/// have `inner`.
+Json Otherwise(Json needs, const std::vector<std::string>& less, const char* key,
+               const char* inner) {
+  Json required = Json::array({key});
+  for (const Json& name : needs["required"]) {
+    if (name != key && std::ranges::find(less, name.get<std::string>()) == less.end()) {
+      required.push_back(name);
+    }
+  }
+  needs["required"] = required;
+  needs["properties"][key]["required"] = {inner};
+  return needs;
+}
+
 }  // namespace
 
 std::string SceneSchema() {
@@ -115,10 +131,14 @@ std::string SceneSchema() {
   Describe(writer, scene);
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "aisle scene"}};
   schema.update(writer.Object());
-  // A scene that extends another has of it what it does not say itself; a hall's file with views is
-  // a scene of its own.
-  const Json views = {{"required", {kViewsKey}}};
-  schema["anyOf"] = {{{"required", {kExtendKey}}}, writer.Requirements(), views};
+  // A scene that extends another has of it what it does not say itself, one that names a hall the
+  // lamps; a hall's file with views is a scene of its own.
+  const Json needs = writer.Requirements(), views = {{"required", {kViewsKey}}};
+  schema["anyOf"] = {{{"required", {kExtendKey}}},
+                     needs,
+                     views,
+                     Otherwise(needs, {"lights"}, kHallKey, kUseKey),
+                     Otherwise(needs, {kHallKey, "lights"}, kVaryKey, kHallKey)};
   return schema.dump(2) + "\n";
 }
 

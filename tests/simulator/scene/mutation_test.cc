@@ -20,14 +20,16 @@ std::string TextOf(const fs::path& file) {
   return text.str();
 }
 
-/// Those that say all themselves: of another scene's keys nothing in the text can be changed.
+/// Those that say all themselves: of another file's keys nothing in the text can be changed.
 std::vector<fs::path> ProjectScenes() {
   std::vector<fs::path> files;
   for (const auto& entry :
        fs::recursive_directory_iterator(fs::path(AISLE_SOURCE_DIR) / "scenes")) {
     const fs::path& file = entry.path();
     if (file.extension() != ".yaml" || file.parent_path().filename() == "suites") continue;
-    if (TextOf(file).find("\nextend:") == std::string::npos) files.push_back(file);
+    const std::string text = TextOf(file);
+    const bool whole = text.find("\nextend:") == std::string::npos;
+    if (whole && text.find("hall: {use:") == std::string::npos) files.push_back(file);
   }
   std::ranges::sort(files);
   return files;
