@@ -143,8 +143,9 @@ void AddCrane(const Maker& make, const Vector3f& size, float roof, Dice dice) {
         Hanging({0.5f, y, z + 0.12f}, {0.5f, y + 0.9f, z + 0.12f}, 0.35f, 10);
     make.Pipe(loop, 0.014f, make.f.dark, 6);
   }
-  make.Pipe(Hanging({0.5f, crab, z}, {0.52f, crab + 0.05f, 1.5f}, 0), 0.012f, make.f.dark, 6);
-  make.Block({0.52f, crab + 0.05f, 1.32f}, {0.07f, 0.09f, 0.34f}, make.f.brass, 0.02f);
+  const float pendant = half - 1.2f;  // its buttons are left at the side, out of everybody's way
+  make.Pipe({{0.5f, pendant, z}, {0.52f, pendant + 0.05f, 1.5f}}, 0.012f, make.f.dark, 6);
+  make.Block({0.52f, pendant + 0.05f, 1.32f}, {0.07f, 0.09f, 0.34f}, make.f.brass, 0.02f);
 }
 
 void AddLeveller(const Maker& make, const Vector3f& size, Dice dice) {
