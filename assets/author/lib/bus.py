@@ -45,7 +45,7 @@ def build(name, folder, path, colour, second, seed):
     for side in (1, -1):
         p = panels.Panels(f, (shift - LENGTH / 2 + 1.15, shift + LENGTH / 2 - 1.2, 1.35))
         draw(p, shift, side)
-        mesh = p.mesh(DEPTHS, drop=("under", "arch"), colours={"lamp": "frame", "glass": "frame"}, sides=(side,), coarse=0.24, turn_deg=10, fine=0.04)
+        mesh = p.mesh(DEPTHS, drop=("under", "arch"), colours={"lamp": "frame", "glass": "frame"}, sides=(side,), coarse=0.28, turn_deg=13, fine=0.06, rounds=3)
         panels.hang(m, name, mesh, MATERIAL.get, lambda v: np.stack(over(v.T), 1))
     trim(m, name, p, shift)
     for end, x in (("rear", 0.0), ("front", FRONT + shift)):
@@ -54,7 +54,7 @@ def build(name, folder, path, colour, second, seed):
             parent = m.node(f"steer_front_{label}", name, at) if end == "front" else name
             node = m.node(f"wheel_{end}_{label}", parent, (x, s * (TRACK / 2 + 0.03), RADIUS))
             if end == "rear":
-                road_wheel.wheel(m, node, RADIUS, 0.29, s, rim=0.58, spokes=10, sides=40, grooves=4)
+                road_wheel.wheel(m, node, RADIUS, 0.29, s, rim=0.58, spokes=7, sides=32, grooves=3)
             else:
                 m.same(node, f"wheel_rear_{label}")
     m.finish(path, facts())

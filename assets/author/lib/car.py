@@ -22,7 +22,7 @@ def build(name, folder, path, shape, colour, seed):
     half = form["length"] / 2
     p = panels.Panels(moved, (shift - half + 0.62, shift + half - 0.62, 0.66))
     draw(p, form, shift)
-    mesh = p.mesh(DEPTHS, drop=("under", "arch"), colours={"glass": "frame", "lamp": "bezel", "gap": "gap"})
+    mesh = p.mesh(DEPTHS, drop=("under", "arch"), colours={"glass": "frame", "lamp": "bezel", "gap": "gap"}, turn_deg=13.0 if "panels" in form else 10.0)
     count = panels.hang(m, name, mesh, MATERIAL.get, lambda v: np.stack(car_parts.over(v.T), 1))
     trim(m, name, p, form, shift)
     for end, x in (("rear", 0.0), ("front", form["axles"][1] + shift)):
