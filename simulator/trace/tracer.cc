@@ -73,9 +73,13 @@ Scene BuildScene(RTCDevice device, const TriangleMesh& mesh, bool moves) {
   return scene;
 }
 
+/// Moves a mover's vertices, unless they are there already.
 void Refit(RTCScene scene, std::span<const Eigen::Vector3f> positions) {
   RTCGeometry geometry = rtcGetGeometry(scene, 0);
-  CopyPositions(positions, rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
+  void* held = rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+  // What is parked is where it was: a street has dozens of such cars.
+  if (std::memcmp(held, positions.data(), positions.size() * sizeof(Eigen::Vector3f)) == 0) return;
+  CopyPositions(positions, held);
   rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
   rtcCommitGeometry(geometry);
   rtcCommitScene(scene);
