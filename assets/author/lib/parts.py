@@ -12,10 +12,10 @@ from .solid import around
 
 def materials(m, name, number, colour, second=(0.16, 0.165, 0.17), seed=1):
     """The usual materials of an industrial truck."""
-    m.material("paint", surfaces.paint(colour, seed), 0.9, 0.35)
-    m.material("grey_paint", surfaces.paint(second, seed + 10, (256, 256)), 0.8, 0.38)
-    m.material("mast_steel", surfaces.metal((0.27, 0.27, 0.275), seed + 20, (256, 256)), 0.5, 0.38, 0.3)
-    m.material("steel", surfaces.metal((0.46, 0.46, 0.47), seed + 30, (256, 256), grease=0.4), 0.5, 0.38, 0.3)
+    m.material("paint", surfaces.paint(colour, seed), 0.9, 0.5)
+    m.material("grey_paint", surfaces.paint(second, seed + 10, (256, 256)), 0.8, 0.5)
+    m.material("mast_steel", surfaces.metal((0.27, 0.27, 0.275), seed + 20, (256, 256)), 0.5, 0.6)
+    m.material("steel", surfaces.metal((0.46, 0.46, 0.47), seed + 30, (256, 256), grease=0.4), 0.5, 0.5)
     m.material("rubber", surfaces.rubber(seed + 50, (128, 128)), 0.3, 0.9)
     m.material("labels", labels.sheet(name, number, colour, seed + 90), None)
     m.plain("chrome", (0.80, 0.80, 0.80), 0.12, 1.0)
@@ -23,7 +23,7 @@ def materials(m, name, number, colour, second=(0.16, 0.165, 0.17), seed=1):
     m.plain("plastic", (0.20, 0.20, 0.21), 0.5)
     m.plain("seal", (0.13, 0.13, 0.135), 0.5)
     m.plain("vinyl", (0.25, 0.245, 0.24), 0.6)
-    m.plain("rim", (0.78, 0.77, 0.73), 0.35, 0.1)
+    m.plain("rim", (0.78, 0.77, 0.73), 0.5)
     m.plain("amber", (0.95, 0.52, 0.08), 0.15)
     m.plain("lens", (0.94, 0.94, 0.92), 0.06)
     m.plain("red", (0.66, 0.06, 0.05), 0.12)

@@ -18,6 +18,8 @@ def build(name, folder, path, driver):
     m = Machine(name, folder)
     parts.materials(m, "AISLE S90", "31", COLOUR, (0.10, 0.36, 0.52), seed=31)
     car_parts.materials(m, COLOUR, 31)
+    m.plain("steel", (0.48, 0.48, 0.48), 0.5)
+    m.plain("rim", (0.70, 0.705, 0.71), 0.5)
     m.plain("blue", (0.08, 0.34, 0.52), 0.35)
     m.plain("brush", (0.10, 0.20, 0.42), 0.9)
     m.plain("water", (0.30, 0.31, 0.30), 0.15)

@@ -20,6 +20,8 @@ def tractor(name, folder, path, driver):
     m = Machine(name, folder)
     parts.materials(m, "AISLE T30", "12", COLOUR, (0.34, 0.35, 0.36), seed=23)
     car_parts.materials(m, COLOUR, 23)
+    m.plain("steel", (0.48, 0.48, 0.48), 0.5)
+    m.plain("rim", (0.70, 0.705, 0.71), 0.5)
     body(m, name)
     fittings(m, name)
     for side, s in (("left", 1), ("right", -1)):
