@@ -1,8 +1,8 @@
 """Renders the contact sheets assets/contact/*.jpg from the committed files.
 
 Run: blender -b --factory-startup -P assets/author/contact.py -- [sheet ...]
-Sheets: people, backs, faces, walk, clips, vehicles, kit, street, textures, and by aisle's own camera, which
-needs ./aisle built: near (vehicles from 1 m), beside (from 2.5 m), town (a street from 10 m).
+Sheets: walk, clips, vehicles, kit, street, textures (near.py makes those of the people), and by aisle's own
+camera, which needs ./aisle built: near (vehicles from 1 m), beside (from 2.5 m), town (a street from 10 m).
 """
 
 import glob
@@ -34,39 +34,6 @@ def save(name, pictures, columns):
     os.makedirs(os.path.join(ROOT, "contact"), exist_ok=True)
     sheet = studio.montage(pictures, columns)
     picture.jpeg_image(sheet, name, os.path.join(ROOT, "contact"), 85)
-
-
-def people():
-    pictures = []
-    for path in files("people"):
-        camera = fresh()
-        things = studio.bring(path)
-        studio.play(things, "stand", 0.0)
-        pictures.append(studio.shoot(camera, (4.4, 1.6, 1.35), (0, 0, 0.97), 72, (200, 380)))
-    save("people", pictures, 10)
-
-
-def backs():
-    pictures = []
-    for path in files("people"):
-        camera = fresh()
-        things = studio.bring(path)
-        studio.play(things, "walk", 0.12)
-        pictures.append(studio.shoot(camera, (-4.2, 2.0, 1.35), (0, 0, 0.97), 72, (200, 380)))
-    save("people_walking", pictures, 10)
-
-
-def faces():
-    pictures = []
-    for path in files("people"):
-        camera = fresh(16)
-        things = studio.bring(path)
-        studio.play(things, "stand", 0.0)
-        tall = next(t for t in things if t.type == "ARMATURE")["aisle"]["height_m"]
-        pictures.append(
-            studio.shoot(camera, (1.3, 0.5, tall - 0.02), (0.02, 0, tall - 0.17), 88, (220, 240))
-        )
-    save("faces", pictures, 5)
 
 
 def walk():
@@ -224,7 +191,7 @@ vehicles:
     save("town", photographs(scene, views, (448, 320), 300), 4)
 
 
-SHEETS = {f.__name__: f for f in (people, backs, faces, walk, clips, vehicles, kit, street, textures, near, beside, town)}
+SHEETS = {f.__name__: f for f in (walk, clips, vehicles, kit, street, textures, near, beside, town)}
 
 
 def main():

@@ -1,8 +1,8 @@
 """Contact sheets of the people 1 m and 2.5 m before the camera, rendered by aisle itself.
 
 Run: blender -b --factory-startup -P assets/author/near.py -- [path of the aisle program]
-Writes assets/contact/people_1m.jpg (who looks at the camera, who looks aside) and people_2_5m.jpg
-(standing, from behind while walking away). Blender only reads and writes the pictures.
+Writes assets/contact/people_1m.jpg, people_2_5m.jpg and people_2_5m_backs.jpg. Blender only reads
+and writes the pictures.
 """
 
 import glob
@@ -18,10 +18,10 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(HERE)
 sys.path.insert(0, HERE)
 
-from lib import gltf, picture, studio  # noqa: E402
+from lib import picture, studio  # noqa: E402
 
-SCENE = """about: One person before the camera.
-frames: {frames}
+SCENE = """about: People abreast before the camera.
+frames: 3
 rate_hz: 20
 sensor: {{exposure_ms: 4}}
 rig:
@@ -34,33 +34,33 @@ hall: {{from: [-4, -4], to: [9, 4], height_m: 4.5, walls: panels, floor: concret
 lights:
   - {{rows: 2, per_row: 4, height_m: 4.2}}
 people:
-  - name: who
+{people}"""
+PERSON = """  - name: {model}
     model: {model}
-    start: [{far}, 0]
+    start: [{far}, {aside:.2f}]
     heading_deg: {heading}
-    steps:
-      - {step}
+    steps: [{{wait_s: 9}}]
 """
+# name: (distance, people in a picture, metres between them, eye, pitch, heading, crop (x, y, w, h))
+SHEETS = {
+    "people_1m": (1.0, 2, 0.68, 1.55, -4, 190, (76, 20, 600, 460)),
+    "people_2_5m": (2.5, 4, 0.80, 0.95, 0, 165, (86, 60, 580, 400)),
+    "people_2_5m_backs": (2.5, 4, 0.80, 0.95, 0, 20, (86, 60, 580, 400)),
+}
 
 
-def shoot(program, folder, model, height, view):
-    """One picture (h, w, 3) of a person."""
-    far, heading, frame, step = view
-    near = far < 2
-    text = SCENE.format(
-        frames=frame + 2,
-        eye=round(height - 0.15 if near else 0.95, 3),
-        pitch=-6 if near else 0,
-        model=model,
-        far=far,
-        heading=heading,
-        step=step,
+def shoot(program, folder, models, view):
+    """One picture (h, w, 3) of people abreast."""
+    far, _, apart, eye, pitch, heading, _ = view
+    middle = (len(models) - 1) / 2
+    people = "".join(
+        PERSON.format(model=m, far=far, aside=apart * (middle - i), heading=heading)
+        for i, m in enumerate(models)
     )
-    scene = os.path.join(folder, f"{model}.yaml")
+    scene, out = os.path.join(folder, "scene.yaml"), os.path.join(folder, models[0])
     with open(scene, "w", encoding="utf-8") as f:
-        f.write(text)
-    out = os.path.join(folder, f"{model}_{far}_{heading}")
-    wanted = ["--out", out, "--frames", f"{frame}:{frame + 1}"]
+        f.write(SCENE.format(eye=eye, pitch=pitch, people=people))
+    wanted = ["--out", out, "--frames", "1:2"]
     subprocess.run([program, "render", scene, *wanted], check=True, stdout=subprocess.DEVNULL)
     image = bpy.data.images.load(glob.glob(out + "/mav0/cam0/data/*.png")[0])
     w, h = image.size
@@ -70,30 +70,18 @@ def shoot(program, folder, model, height, view):
     return flat.reshape(h, w, 4)[::-1, :, :3].copy()
 
 
-STAND = "{wait_s: 9}"
-SHEETS = {  # name: (views (distance, heading, frame, step), crop (x, y, w, h))
-    "people_1m": (((1.0, 195, 1, STAND), (1.0, 125, 1, STAND)), (226, 60, 300, 420)),
-    "people_2_5m": (
-        ((2.5, 165, 1, STAND), (2.3, 15, 12, "{go: [[8, 1.5]], speed_mps: 1.2}")),
-        (276, 75, 200, 380),
-    ),
-}
-
-
 def main():
     given = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
     program = given[0] if given else os.path.join(ROOT, "..", "build/release/harness/cli/aisle")
     os.environ["AISLE_ASSETS"] = ROOT
-    for name, (views, (x, y, w, h)) in SHEETS.items():
-        pictures = []
+    models = sorted(f[:-4] for f in os.listdir(os.path.join(ROOT, "people")) if f.endswith(".glb"))
+    for name, view in SHEETS.items():
+        pictures, (x, y, w, h) = [], view[-1]
         with tempfile.TemporaryDirectory() as folder:
-            for path in sorted(glob.glob(os.path.join(ROOT, "people", "*.glb"))):
-                model = os.path.basename(path)[:-4]
-                height = gltf.Glb(path).facts()["height_m"]
-                for view in views:
-                    shot = shoot(program, folder, model, height, view)
-                    pictures.append(shot[y : y + h, x : x + w])
-        sheet = studio.montage(pictures, 8)
+            for i in range(0, len(models), view[1]):
+                shot = shoot(program, folder, models[i : i + view[1]], view)
+                pictures.append(shot[y : y + h, x : x + w])
+        sheet = studio.montage(pictures, 2)
         picture.jpeg_image(sheet, name, os.path.join(ROOT, "contact"), 82)
 
 

@@ -8,7 +8,7 @@ import sys
 
 TOTAL_BYTES = 90_000_000
 VOCABULARY_BYTES = 8_000_000
-TRIANGLES = {"person": (8_000, 22_000), "vehicle": (2_000, 60_000), "kit": (12, 20_000), "street": (12, 40_000)}
+TRIANGLES = {"person": (8_000, 30_000), "vehicle": (2_000, 60_000), "kit": (12, 20_000), "street": (12, 40_000)}
 CLIPS = {
     "stand",
     "walk_creep",

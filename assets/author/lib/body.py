@@ -190,8 +190,7 @@ class Shapes:
         palm = np.cross(down, ahead)  # medial: towards the body for the left hand
         palm *= -np.sign(palm[1])
         at = lambda s, f, n: w + s * down + f * ahead + n * palm
-        squash = None
-        d = sdf.capsule(q, w - 0.06 * down, at(0.01, 0, 0), 0.0255 * g, 0.0250 * g, squash)
+        d = sdf.capsule(q, w - 0.06 * down, at(0.01, 0, 0), 0.0255 * g, 0.0250 * g)
         for f0, f1 in ((-0.024, -0.030), (-0.009, -0.011), (0.008, 0.009), (0.022, 0.028)):
             d = sdf.union(
                 d, sdf.capsule(q, at(0.020, 0.6 * f0, 0), at(0.086, f1, -0.002), 0.0140 * g, 0.0110 * g), 0.010

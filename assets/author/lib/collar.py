@@ -3,7 +3,7 @@
 import numpy as np
 
 from . import shell
-from .noise import lattice
+from .noise import ridged
 
 AROUND = 72
 
@@ -33,7 +33,7 @@ def neckline(v, t):
     return np.stack([np.interp(at, s, p[:, k]) for k in range(3)], -1), s[-1]
 
 
-def widths(kind, far, whole, back):
+def widths(kind, far, whole):
     """(height of the stand, width of the leaf, padding) at arc lengths `far` from the front."""
     half = whole / 2
     s = far / half  # 0 in front, 1 at the back
@@ -58,7 +58,7 @@ def make(tailor, fine):
     p, whole = neckline(fine.v, fine.t)
     arc = np.arange(AROUND) * whole / AROUND
     far = np.minimum(arc, whole - arc)
-    stand, leaf, pad = widths(kind, far, whole, None)
+    stand, leaf, pad = widths(kind, far, whole)
     n, _, _ = fine.at(p)
     along = np.roll(p, -1, 0) - np.roll(p, 1, 0)
     along /= np.linalg.norm(along, axis=1, keepdims=True)
@@ -80,11 +80,10 @@ def make(tailor, fine):
         for share in (0.2, 0.4, 0.6, 0.8, 0.95, 1.0):
             reach = np.maximum(leaf, 0.002)[:, None] * share
             foot = p + away * reach
-            _, _, _ = 0, 0, 0
             place = np.array([fine.tree.find_nearest(x)[0] for x in foot.tolist()])
             normal, _, _ = fine.at(foot)
             puff = 0.0045 + pad * np.sin(np.pi * share) + 0.35 * stand * max(0.0, 1 - 2.2 * share)
-            wobble = 0.004 * (kind == "hood") * (lattice(foot * 24.0, 3) - 0.5)
+            wobble = 0.012 * (kind == "hood") * (ridged(foot * (13.0, 13.0, 34.0), 3) - 0.6) * np.sin(np.pi * min(share, 0.9))
             rows.append(place + (puff + wobble)[:, None] * normal)
         rows.append(rows[-1] - 0.0035 * normal)
     v = np.concatenate(rows)

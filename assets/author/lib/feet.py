@@ -23,8 +23,8 @@ def measure(glb, clip, stride=0.0, turn_deg=0.0, samples=240):
     last, single = [None, None], [np.zeros((len(s), 2)) for s in sides]
     if not np.isfinite(glb.vertices(clip, 0.9 * duration)).all():
         raise ValueError(f"clip {clip} is not finite")
-    for t in times:
-        v = glb.vertices(clip, (t % 1.0) * duration, soles)
+    places = glb.track(clip, (times % 1.0) * duration, soles)
+    for t, v in zip(times, places):
         lowest = []
         for k, side in enumerate(sides):
             p = v[side]

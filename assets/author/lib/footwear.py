@@ -44,13 +44,16 @@ def shoes(shapes, q):
         [0.090, 0.112, 0.116, 0.104, 0.080, 0.060, 0.052, 0.036],
     )
     if shapes.person.shoes != "boots":
-        top = np.interp(t, [0, 0.12, 0.3, 0.42, 0.55, 0.75, 0.92, 1.0], [0.078, 0.080, 0.078, 0.086, 0.074, 0.054, 0.045, 0.032])
+        top = np.interp(
+            t,
+            [0, 0.12, 0.3, 0.42, 0.55, 0.75, 0.92, 1.0],
+            [0.078, 0.080, 0.078, 0.086, 0.074, 0.054, 0.045, 0.032],
+        )
     y = local[:, 1] - bend
     side = np.abs(y) - half * (1.0 - lean * step(0.02, 0.11, z))
     ends = np.maximum(-x, x - length)
     upper = sdf.common(sdf.common(side, ends, 0.02), z - top, 0.032)
     sole = sdf.common(sdf.common(np.abs(y) - half - welt, ends - welt, 0.012), z - sole_m, 0.004)
-    gap = np.abs(z - sole_m - 0.002) - 0.0015
     d = sdf.union(upper, sole, 0.002)
     a = u["ankle_left"]
     shaft = sdf.capsule(q, a + [-0.010, 0, 0.005], a + [-0.014, 0, shaft_m], 0.041, 0.045)

@@ -115,7 +115,7 @@ class Feet:
         self.scale = height / 1.75
         self.stride, _ = cadence(gait, height)
         v = gait.speed_mps
-        self.gait, self.side = gait, side
+        self.gait, self.side, self.known = gait, side, {}
         self.sign = 1.0 if side == "left" else -1.0
         self.offset = 0.0 if side == "left" else 0.5
         self.duty = float(np.interp(v, [0.1, 0.6, 1.3, 2.0], [0.70, 0.665, 0.62, 0.585]))
@@ -146,6 +146,12 @@ class Feet:
 
     def pitch(self, tau):
         """Foot angle, positive heel up, at tau in [0, 1) since heel strike."""
+        if tau not in self.known:
+            self.known[tau] = self.angle(tau)
+        return self.known[tau]
+
+    def angle(self, tau):
+        """pitch(), computed."""
         d, k = self.duty, self.strength
         h = 1 - d
         knots = [
@@ -270,14 +276,16 @@ class Walker:
             self.joint["ankle_left"] - self.joint["knee_left"]
         )
         low, high = 0.75 * self.scale, 1.0 * self.scale
+        times = np.linspace(0, 1, 40, endpoint=False)
+        ankles = {s: [self.feet[s].local(u)[0] for u in times] for s, _ in rig.SIDES}
         for _ in range(14):
             z = 0.5 * (low + high)
             far = 0.0
-            for u in np.linspace(0, 1, 40, endpoint=False):
+            for i, u in enumerate(times):
                 p = self.base(u, z)
                 for side, _ in rig.SIDES:
                     hip = ps.joint_at(p, self.joint, f"hip_{side}", "pelvis")
-                    far = max(far, np.linalg.norm(self.feet[side].local(u)[0] - hip))
+                    far = max(far, np.linalg.norm(ankles[side][i] - hip))
             low, high = (z, high) if far < 0.9982 * leg else (low, z)
         return low - self.gait.crouch * self.scale
 

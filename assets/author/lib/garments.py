@@ -160,7 +160,7 @@ class Tailor:
             held = np.maximum(held, 0.5 * step(0.05, 0.0, np.abs(v[:, 1])) * (v[:, 0] > 0) * (arm < 0.5))
         under = p.vest * step(0.84, 0.88, v[:, 2]) * (1 - arm) * step(0.23, 0.19, np.abs(v[:, 1]))
         most = np.where(under > 0.5, UNDER_VEST - 0.008, 0.2)
-        inside = 0.007 if c.sleeve == "long" else 0.005
+        inside = 0.007 if c.sleeve == "long" else np.where(v[:, 2] < 1.06, 0.018, 0.005)
         cloth = drape.Cloth(bend=c.bend, inside_m=inside)
         hung = drape.hang(v, t, np.stack([along, wide], -1), axis, held, self.wide, most, cloth, p.seed)
         return hung, t, v

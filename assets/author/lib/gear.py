@@ -15,9 +15,8 @@ def head_wear(person, q):
 def helmet(person, f):
     """An industrial helmet: shell with a ridge, grooves, gutter, peak; tilted a little back."""
     m = mirrored(f)
-    g = f + [0, 0, 0]
-    shell = sdf.ellipsoid(g, (-0.010, 0, 0.046), (0.128, 0.105, 0.098))
-    ridge = sdf.ellipsoid(g, (-0.010, 0, 0.046), (0.132, 0.030, 0.1015))
+    shell = sdf.ellipsoid(f, (-0.010, 0, 0.046), (0.128, 0.105, 0.098))
+    ridge = sdf.ellipsoid(f, (-0.010, 0, 0.046), (0.132, 0.030, 0.1015))
     shell = sdf.union(shell, ridge, 0.006)
     for y in (0.046, 0.068):
         groove = sdf.capsule(m, (-0.085, y, 0.138 - 0.35 * (y - 0.046)), (0.060, y, 0.142 - 0.35 * (y - 0.046)), 0.007, 0.007)
@@ -29,7 +28,7 @@ def helmet(person, f):
     peak = sdf.ellipsoid(f * [1, 1, 0], (0.045, 0, 0), (0.128, 0.092, 1.0))
     brim = sdf.union(rim, np.maximum(peak, 0.03 - f[:, 0]), 0.02)
     droop = tilt + 0.001 - 0.22 * (f[:, 0] - 0.09).clip(0) - 2.2 * m[:, 1] ** 2 * ahead
-    leaf = sdf.common(brim, np.abs(f[:, 2] - droop) - 0.0026, 0.0022)
+    leaf = sdf.common(brim, np.abs(f[:, 2] - droop) - 0.0042, 0.003)
     return sdf.union(d, leaf, 0.006)
 
 
@@ -44,17 +43,16 @@ def cap(person, f):
     d = sdf.union(d, button, 0.002)
     peak = sdf.ellipsoid(f * [1, 1, 0], (0.082, 0, 0), (0.086, 0.078, 1.0))
     droop = tilt + 0.003 - 0.28 * (f[:, 0] - 0.085).clip(0) - 5.0 * m[:, 1] ** 2
-    leaf = sdf.common(np.maximum(peak, 0.05 - f[:, 0]), np.abs(f[:, 2] - droop) - 0.0022, 0.002)
+    leaf = sdf.common(np.maximum(peak, 0.05 - f[:, 0]), np.abs(f[:, 2] - droop) - 0.0040, 0.003)
     return sdf.union(d, leaf, 0.004)
 
 
 def beanie(person, f):
     """A knitted hat with a turned-up edge."""
     tilt = 0.040 + 0.22 * f[:, 0]
-    tall = np.where(f[:, 2] > 0.06, 1.0, 0.0)
     d = head.skull(person, f) - 0.011 - 0.006 * step(0.09, 0.13, f[:, 2])
     d = sdf.union(d, sdf.ellipsoid(f, (-0.035, 0, 0.100), (0.060, 0.058, 0.040)), 0.03)
-    d = sdf.common(d, tilt - f[:, 2], 0.004) + 0.0 * tall
+    d = sdf.common(d, tilt - f[:, 2], 0.004)
     edge = np.maximum(head.skull(person, f) - 0.017, np.abs(f[:, 2] - tilt - 0.026) - 0.028)
     return sdf.union(d, sdf.common(edge, tilt - 0.001 - f[:, 2], 0.004), 0.003)
 

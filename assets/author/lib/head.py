@@ -51,7 +51,7 @@ def beard_mask(person, f):
     top = -0.050 * L + 0.75 * (0.060 - x).clip(0, 0.1)
     jaw = step(top + 0.008, top - 0.010, z) * step(-0.012, 0.006, x) * step(-0.150, -0.125, z)
     bare = near(a, 0, 0.024) ** 2 * step(0.010, 0.006, np.abs(z - zm)) * step(0.06, 0.08, x)
-    corner = step(0.010, 0.020, np.abs(a - 0.030)) * 0 + step(zm + 0.02, zm - 0.004, z)
+    corner = step(zm + 0.02, zm - 0.004, z)
     return np.clip(np.maximum(jaw * np.maximum(corner, step(0.026, 0.034, a)) * (1 - bare), lip), 0, 1)
 
 
@@ -136,6 +136,8 @@ def head(person, q):
     if not person.female:
         throat = sdf.capsule(f, (0.037, 0, -0.150), (0.042, 0, -0.165), 0.010, 0.009)
         neck = sdf.union(neck, throat, 0.015)
+    floor = sdf.capsule(f, (0.060, 0, -0.093 * L), (0.016, 0, -0.124 * L), 0.019, 0.032)
+    d = sdf.union(d, floor, 0.02)
     muscle = sdf.capsule(m, (-0.030, 0.052, -0.055), (0.030, 0.016, -0.215), 0.011, 0.010)
     neck = sdf.union(neck, muscle, 0.016)
     return sdf.union(d, neck, 0.018) * k

@@ -15,7 +15,7 @@ from . import body, collar, footwear, garments, gear, hair, head, rig, sdf, shel
 SOLIDS = {
     "head": ((-0.16, -0.13, 1.38), (0.17, 0.13, 1.79), 0.0028, 6000),
     "cap": ((-0.17, -0.13, 1.42), (0.14, 0.13, 1.82), 0.0045, 900),
-    "helmet": ((-0.19, -0.15, 1.58), (0.25, 0.15, 1.85), 0.0040, 2200),
+    "helmet": ((-0.19, -0.15, 1.58), (0.25, 0.15, 1.85), 0.0034, 2200),
     "hands": ((-0.05, 0.35, 0.62), (0.24, 0.64, 1.06), 0.0026, 1500),
     "shoes": ((-0.12, 0.03, -0.02), (0.27, 0.20, 0.26), 0.0042, 1200),
     "arms": ((-0.10, 0.20, 0.85), (0.16, 0.62, 1.42), 0.0060, 800),
@@ -42,8 +42,8 @@ def parts_of(person):
     return out
 
 
-def decimate(v, t, triangles, weight=None):
-    """Collapses edges until the budget is met; what weighs more keeps more triangles."""
+def decimate(v, t, triangles):
+    """Collapses edges until the budget is met."""
     mesh = bpy.data.meshes.new("part")
     mesh.from_pydata(v.tolist(), [], t.tolist())
     thing = bpy.data.objects.new("part", mesh)
@@ -51,12 +51,6 @@ def decimate(v, t, triangles, weight=None):
     modifier = thing.modifiers.new("d", "DECIMATE")
     modifier.ratio = min(1.0, triangles / len(t))
     modifier.use_collapse_triangulate = True
-    if weight is not None:
-        group = thing.vertex_groups.new(name="keep")
-        for i, w in enumerate(weight):
-            group.add([i], float(w), "REPLACE")
-        modifier.vertex_group, modifier.vertex_group_factor = "keep", 1.0
-        modifier.invert_vertex_group = True
     done = thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
     done.calc_loop_triangles()
     out = np.empty(len(done.vertices) * 3)
@@ -124,14 +118,8 @@ def cloth(made, budget):
 def solid(name, shapes, field, detail):
     lo, hi, step, budget = SOLIDS[name]
     v, quads, sampled = sdf.surface(field, np.array(lo), np.array(hi), step)
-    t, weight = shell.triangulate(quads), None
-    if name == "head":
-        f, _ = head.face_frame(shapes.person, v)
-        face = (f[:, 0] > 0.045) * (np.abs(f[:, 2] + 0.02) < 0.065)
-        ears = (np.abs(f[:, 1]) > 0.070) * (np.abs(f[:, 0] + 0.01) < 0.035)
-        weight = np.where(face, 1.0, np.where(ears, 0.9, 0.45))
-    v, t = decimate(v, t, budget * detail, weight)
-    v = v - sdf.gradient(field, v) * np.clip(field(v), -0.003, 0.003)[:, None]
+    v, t = decimate(v, shell.triangulate(quads), budget * detail)
+    v = v - sdf.gradient(field, v) * np.clip(field(v), -0.02, 0.02)[:, None]
     if name in PAIRED:
         t = np.concatenate([t, t[:, ::-1] + len(v)])
         v = np.concatenate([v, v * [1, -1, 1]])

@@ -162,10 +162,6 @@ class Cloths:
             seams = seams + 0.7 * arm * line(s - cuff_end, 0.0008)
         else:
             seams = seams + 0.9 * arm * line(r - 0.190, 0.0010) * (cut.collar != "lapel")
-            if cut.collar == "lapel":
-                for k in range(3):
-                    d = np.hypot(r - 0.205 - 0.016 * k, x - 0.02)
-                    buttons = np.maximum(buttons, arm * step(0.0060, 0.0045, d) * (x < 0.03) * 0)
         return np.clip(seams, 0, 1), rise, np.clip(buttons, 0, 1)
 
     def ribs(self, q):
@@ -258,8 +254,7 @@ class Cloths:
         for sign in (1, -1):
             low = plate(y - sign * 0.092, z - 1.020, 0.056, 0.038)
             seams, rise = seams + front * line(low, 0.0007), rise + front * raised(low, 0.0022)
-        chest = plate(y + 0.030, z - 1.20, 0.030, 0.055)
-        return np.clip(seams, 0, 1), rise + 0 * chest
+        return np.clip(seams, 0, 1), rise
 
     def tape(self, q):
         """1 on the reflective tape."""

@@ -1,5 +1,7 @@
 """Paint of skin, faces, eyes and hair."""
 
+import dataclasses
+
 import numpy as np
 
 from . import hair, head
@@ -160,7 +162,7 @@ class Skin:
         forehead = band(z, 0.036, 0.070, 0.006) * step(0.045, 0.03, a) * (x > 0.05)
         lines = deep * forehead * c.age * ridged(np.stack([0 * x, y * 4, z * 120 + 0.5 * np.cos(a * 60)], -1), c.seed)
         crow = near(a, 0.056, 0.008) * near(z, -0.001, 0.011) * (x > 0.03)
-        lines = lines + deep * c.age * crow * ridged(np.stack([0 * x, 0 * x, (z + 0.001) * 260], -1) * (1, 1, 1), 2)
+        lines = lines + deep * c.age * crow * ridged(np.stack([0 * x, 0 * x, (z + 0.001) * 260], -1), 2)
         brow = 0.0010 * self.brows(f)
         lips = 0.0004 * ridged(f * (40, 420, 30), 6) * near(z, head.mouth_height(c), 0.007) * (a < 0.022) * (x > 0.08)
         beard = 0.0011 * head.beard_mask(c, f) * ridged(f * (260, 260, 90), 7) * (c.beard in ("full", "moustache"))
@@ -169,6 +171,4 @@ class Skin:
 
 def shaven(person):
     """The same person with a beard, to know where it would grow."""
-    import dataclasses
-
     return dataclasses.replace(person, beard="full")

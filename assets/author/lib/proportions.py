@@ -7,7 +7,7 @@ shoulders are 0.259 of it wide; the rule of thumb of drawing is 1/7.5 and 1/4.
 import numpy as np
 
 HEAD = (1 / 8.4, 1 / 6.6)  # of stature: small people have the larger heads
-SHOULDERS = (0.205, 0.285)
+SHOULDERS = (0.205, 0.300)  # in the clothes they wear
 
 
 def skin_of(glb):
@@ -30,14 +30,15 @@ def measure(glb):
     height = glb.facts()["height_m"]
     skin = skin_of(glb)
     face = skin[skin[:, 2] > 0.8 * height]
-    front = face[(np.abs(face[:, 1]) < 0.015) & (face[:, 0] > face[:, 0].max() - 0.062)]
+    front = face[(np.abs(face[:, 1]) < 0.03) & (face[:, 0] > face[:, 0].max() - 0.062)]
     head = face[:, 2].max() - front[:, 2].min()
     v = glb.vertices()
     side = np.arange(0.08, 0.36, 0.006) * height / 1.75
     top = [v[np.abs(np.abs(v[:, 1]) - y) < 0.006][:, 2].max() for y in side]
     top = np.convolve(np.pad(top, 2, mode="edge"), np.ones(5) / 5, "valid")
-    fall = np.diff(top) / np.diff(side)
-    end = side[1:][(fall < -1.0) & (side[1:] > 0.12)][0]
+    fall = (top[5:] - top[:-5]) / (side[5:] - side[:-5])  # over 3 cm: a vest's edge is no shoulder
+    middle = (side[5:] + side[:-5]) / 2
+    end = middle[(fall < -1.0) & (middle > 0.165 * height / 1.75)][0]
     return {"head": float(head / height), "shoulders": float(2 * end / height)}
 
 
