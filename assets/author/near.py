@@ -1,6 +1,6 @@
 """Contact sheets of the people 1 m and 2.5 m before the camera, rendered by aisle itself.
 
-Run: blender -b --factory-startup -P assets/author/near.py -- [path of the aisle program]
+Run: blender -b --factory-startup -P assets/author/near.py -- [path of the aisle program [sheet ...]]
 Writes assets/contact/people_1m.jpg, people_2_5m.jpg and people_2_5m_backs.jpg. Blender only reads
 and writes the pictures.
 """
@@ -75,7 +75,8 @@ def main():
     program = given[0] if given else os.path.join(ROOT, "..", "build/release/harness/cli/aisle")
     os.environ["AISLE_ASSETS"] = ROOT
     models = sorted(f[:-4] for f in os.listdir(os.path.join(ROOT, "people")) if f.endswith(".glb"))
-    for name, view in SHEETS.items():
+    for name in given[1:] or SHEETS:
+        view = SHEETS[name]
         pictures, (x, y, w, h) = [], view[-1]
         with tempfile.TemporaryDirectory() as folder:
             for i in range(0, len(models), view[1]):
