@@ -10,6 +10,7 @@
 
 #include "simulator/calibration/stereo_model.h"
 #include "simulator/frames.h"
+#include "simulator/import_model.h"
 #include "simulator/world/ground.h"
 
 namespace aisle::sim {

@@ -8,7 +8,9 @@
 #include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
 #include "harness/io/input_error.h"
+#include "harness/plugs/user_model.h"
 #include "harness/record/record_json.h"
+#include "harness/suite/recording.h"
 #include "harness/suite/suite.h"
 
 namespace aisle {
@@ -53,7 +55,10 @@ std::vector<std::string> FilesOf(const std::vector<std::string>& places) {
 
 void PrintText(const std::string& file, const std::vector<std::string>& complaints) {
   for (const std::string& complaint : complaints) fmt::print(stderr, "{}\n", complaint);
-  if (complaints.empty()) fmt::print("{}: good\n", file);
+  if (!complaints.empty()) return;
+  fmt::print("{}: good\n", file);
+  if (IsSuiteFile(file) || IsRecording(file)) return;
+  for (const std::string& line : DescribeMeshes(file)) fmt::print("  {}\n", line);
 }
 
 int Check(const std::vector<std::string>& places, bool json) {

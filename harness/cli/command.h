@@ -19,6 +19,7 @@ void AddSystemsCommand(CLI::App* app, Action* action);
 void AddScoreCommand(CLI::App* app, Action* action);
 void AddScoresCommand(CLI::App* app, Action* action);
 void AddCheckCommand(CLI::App* app, Action* action);
+void AddImportMeshCommand(CLI::App* app, Action* action);
 void AddPreviewCommand(CLI::App* app, Action* action);
 void AddGalleryCommand(CLI::App* app, Action* action);
 void AddRenderCommand(CLI::App* app, Action* action);

@@ -46,6 +46,7 @@ void AddCommands(CLI::App* app, Action* action) {
   AddRerunCommand(app, action);
   AddMergeCommand(app, action);
   AddStatusCommand(app, action);
+  AddImportMeshCommand(app, action);
   AddPreviewCommand(app, action);
   AddGalleryCommand(app, action);
   AddRenderCommand(app, action);

@@ -89,8 +89,9 @@ void CheckCurve(const KeyCurve<Value>& curve) {
   }
 }
 
-void CheckSurfaces(const Model& model, const ImportOptions& options) {
-  for (const Texture& texture : model.textures) {
+void CheckSurfaces(const std::vector<Material>& materials, const std::vector<Texture>& textures,
+                   const ImportOptions& options) {
+  for (const Texture& texture : textures) {
     const cv::Mat& image = texture.image;
     Require(image.type() == CV_8UC1 || image.type() == CV_8UC3,
             "a texture is neither grey nor a normal map");
@@ -99,10 +100,10 @@ void CheckSurfaces(const Model& model, const ImportOptions& options) {
             "a texture is larger than allowed");
   }
   const auto is_texture = [&](int index, int type) {
-    return index == -1 || (IsIn(index, model.textures.size()) &&
-                           model.textures[static_cast<std::size_t>(index)].image.type() == type);
+    return index == -1 || (IsIn(index, textures.size()) &&
+                           textures[static_cast<std::size_t>(index)].image.type() == type);
   };
-  for (const Material& material : model.materials) {
+  for (const Material& material : materials) {
     Require(is_texture(material.albedo_texture, CV_8UC1) &&
                 is_texture(material.normal_texture, CV_8UC3),
             "a material names a texture that does not exist");
@@ -110,6 +111,16 @@ void CheckSurfaces(const Model& model, const ImportOptions& options) {
                               material.roughness, material.emission}) {
       Require(std::isfinite(value), "a material is not finite");
     }
+  }
+}
+
+void CheckColour(const Model& model, const ImportOptions& options) {
+  Require(model.colour.empty() || model.colour.size() == 3, "a colour has three bands");
+  for (const ModelSurfaces& band : model.colour) {
+    Require(band.materials.size() == model.materials.size() &&
+                band.textures.size() == model.textures.size(),
+            "its bands differ in their materials or textures");
+    CheckSurfaces(band.materials, band.textures, options);
   }
 }
 
@@ -186,7 +197,8 @@ void CheckModel(const Model& model, const ImportOptions& options) {
   CheckReach(model, options);
   CheckMesh(model);
   CheckSkeleton(model);
-  CheckSurfaces(model, options);
+  CheckSurfaces(model.materials, model.textures, options);
+  CheckColour(model, options);
   CheckClips(model, options);
 }
 

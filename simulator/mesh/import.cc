@@ -2,14 +2,17 @@
 
 #include <numbers>
 
+#include "simulator/mesh/bands.h"
 #include "simulator/mesh/collada_check.h"
 #include "simulator/mesh/confined_files.h"
 #include "simulator/mesh/gltf_clips.h"
+#include "simulator/mesh/gltf_left_out.h"
 #include "simulator/mesh/gltf_materials.h"
 #include "simulator/mesh/gltf_meshes.h"
 #include "simulator/mesh/import_assimp.h"
 #include "simulator/mesh/model_parts.h"
 #include "simulator/mesh/obj_check.h"
+#include "simulator/mesh/stated_frame.h"
 
 namespace aisle::sim {
 namespace {
@@ -34,15 +37,20 @@ void AddGltfModel(const Bytes& bytes, const fs::path& file, const ImportOptions&
   const GltfNodes nodes = AddGltfNodes(document, model);
   AddGltfClips(document, nodes, options, model);
   AddGltfMeshes(document, nodes, options, model);
-  AddGltfMaterials(document, file, options, model);
+  ForEachBand(options, model, [&](const ImportOptions& band) {
+    AddGltfMaterials(document, file, band, model);
+  });
+  model->left_out = LeftOutOfGltf(document);
 }
 
-/// What stands above the file's own nodes: the turn from y up to z up, or nothing.
-ModelNode TopNode(ModelFrame frame) {
+/// What stands above the file's own nodes: the turn to z up, if there is one, and its unit.
+ModelNode TopNode(UpAxis up, ModelFrame frame, float scale) {
   ModelNode top;
-  if (frame == ModelFrame::kZUp) {
-    top.rest.rotation = Eigen::AngleAxisf(std::numbers::pi_v<float> / 2, Eigen::Vector3f::UnitX());
-  }
+  top.rest.scale *= scale;
+  if (frame == ModelFrame::kAsStored || up == UpAxis::kZ) return top;
+  constexpr float kQuarter = std::numbers::pi_v<float> / 2;
+  top.rest.rotation = up == UpAxis::kX ? Eigen::AngleAxisf(-kQuarter, Eigen::Vector3f::UnitY())
+                                       : Eigen::AngleAxisf(kQuarter, Eigen::Vector3f::UnitX());
   return top;
 }
 
@@ -50,13 +58,18 @@ Model Import(const fs::path& file, const ImportOptions& options) {
   CheckFile(file, options);
   const Bytes bytes = ReadBytes(file);
   const ModelFormat format = FormatOf(bytes, file);
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const StatedFrame stated = FrameStatedIn(format, text);
+  if (options.must_state) RequireStated(stated, options);
   Model model;
   model.name = file.stem().string();
-  model.nodes.push_back(TopNode(options.frame));
+  // An importer has applied what the file states: an option takes its place.
+  const float scale = options.unit_m > 0 ? options.unit_m / stated.unit_m.value_or(1) : 1;
+  const UpAxis up = options.up == UpAxis::kAsStated ? UpAxis::kY : options.up;
+  model.nodes.push_back(TopNode(up, options.frame, scale));
   if (format == ModelFormat::kGlb || format == ModelFormat::kGltf) {
     AddGltfModel(bytes, file, options, &model);
   } else {
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     format == ModelFormat::kObj ? CheckObj(text) : CheckCollada(text);
     AddAssimpModel(file, format, options, &model);
   }
@@ -79,6 +92,7 @@ std::string OneLine(std::string text) {
 Model ImportModel(const fs::path& file, const ImportOptions& given) {
   ImportOptions options = given;
   if (options.root.empty()) options.root = fs::absolute(file).parent_path();
+  if (!(options.unit_m >= 0 && options.unit_m <= 1e4f)) options.unit_m = 0;
   try {
     return Import(file, options);
   } catch (const std::bad_alloc&) {

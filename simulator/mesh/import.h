@@ -17,15 +17,29 @@ class ImportError : public std::runtime_error {
 /// Which one band of a coloured material is kept.
 enum class Band { kLuminance, kRed, kGreen, kBlue };
 
+/// Which of a file's axes points up.
+enum class UpAxis {
+  kAsStated,  ///< what the file or its format says; y of an OBJ file, which says nothing
+  kX,
+  kY,
+  kZ,
+};
+
 /// The frame of an imported model.
 enum class ModelFrame {
-  kZUp,       ///< z up: the file's y-up (x, y, z) becomes (x, -z, y)
+  kZUp,       ///< z up: y-up (x, y, z) becomes (x, -z, y), x-up (-z, y, x)
   kAsStored,  ///< y up, as glTF stores it
 };
 
 struct ImportOptions {
   ModelFrame frame = ModelFrame::kZUp;
   Band band = Band::kLuminance;
+  bool colour = false;  ///< also fills Model::colour
+  /// Metres of the file's unit; 0: what the file or its format says, a metre where neither does.
+  float unit_m = 0;
+  UpAxis up = UpAxis::kAsStated;
+  /// A file whose unit or upward axis nobody states is refused rather than taken as metres, y up.
+  bool must_state = false;
   /// Files the model refers to must lie inside this folder. Empty: the model's own.
   std::filesystem::path root;
   std::size_t max_triangles = 5'000'000;

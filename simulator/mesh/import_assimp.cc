@@ -1,13 +1,16 @@
 #include "simulator/mesh/import_assimp.h"
 
 #include <assimp/BaseImporter.h>
+#include <assimp/config.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
 
+#include "simulator/mesh/assimp_left_out.h"
 #include "simulator/mesh/assimp_materials.h"
+#include "simulator/mesh/bands.h"
 #include "simulator/mesh/confined_files.h"
 #include "simulator/mesh/model_parts.h"
 
@@ -200,6 +203,9 @@ void AddAssimpModel(const fs::path& file, ModelFormat format, const ImportOption
                     Model* model) {
   Assimp::Importer importer;
   KeepImporterOf(format, &importer);
+  // Otherwise the file's own axis is turned to y, and then the one that is asked for.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION,
+                           options.up != UpAxis::kAsStated);
   importer.SetIOHandler(new ConfinedFiles(options.root, options.max_file_bytes));  // takes it over
   const aiScene* scene = nullptr;
   try {
@@ -211,7 +217,10 @@ void AddAssimpModel(const fs::path& file, ModelFormat format, const ImportOption
     throw ImportError(fmt::format("it cannot be read: {}", importer.GetErrorString()));
   }
   SceneReader(*scene, options, model).Read();
-  AddAssimpMaterials(*scene, file, format == ModelFormat::kCollada, options, model);
+  ForEachBand(options, model, [&](const ImportOptions& band) {
+    AddAssimpMaterials(*scene, file, format == ModelFormat::kCollada, band, model);
+  });
+  model->left_out = LeftOutOf(*scene);
 }
 
 }  // namespace aisle::sim

@@ -63,6 +63,12 @@ struct Clip {
   std::vector<ClipChannel> channels;
 };
 
+/// Materials and textures of one band of a coloured model.
+struct ModelSurfaces {
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+};
+
 /// An imported file: all its meshes as one, each vertex following up to four joints. A rigid part
 /// is a vertex that follows one node. Coordinates are those of `ImportOptions::frame`.
 struct Model {
@@ -76,6 +82,10 @@ struct Model {
   std::vector<Clip> clips;
   std::vector<Material> materials;
   std::vector<Texture> textures;
+  /// Red, green and blue, if they were asked for: like materials and textures but for the band.
+  std::vector<ModelSurfaces> colour;
+  /// What the file has and the model has not, each a phrase: "2 cameras".
+  std::vector<std::string> left_out;
 
   /// Index by name, -1 if there is none; the first where several bear it.
   int FindNode(const std::string& name) const;

@@ -28,6 +28,7 @@ void DescribeHall(Fields& f, HallSpec& hall) {
   f.Number({"cloud", "share of the daylight that passing clouds take at most", "0.6"}, &hall.cloud,
            {0, 0.95});
   f.Number({"cloud_s", "about from one cloud to the next", "9"}, &hall.cloud_s, {2, 600});
+  DescribeHallMesh(f, hall);
 }
 
 void DescribeRack(Fields& f, RackSpec& rack) {
@@ -72,8 +73,10 @@ void DescribeMarking(Fields& f, MarkingSpec& marking) {
 
 void DescribeProp(Fields& f, PropSpec& prop) {
   prop.mark = f.mark();
-  f.Name({"model", "file in assets/kit or assets/street without .glb", "drum", true}, &prop.model);
+  f.Name({"model", "file in assets/kit or assets/street without .glb", "drum", true, "mesh"},
+         &prop.model);
   prop.model_mark = f.MarkOf("model");
+  DescribePropMesh(f, prop);
   f.Point({"at", "where it stands", "[3, 1]", true}, &prop.at);
   f.OptionalPoint({"to", "end of a row of them that begins at `at`", "[30, 1]"}, &prop.to);
   f.Number({"every_m", "from one to the next in a row", "10"}, &prop.every_m, {0.2, 200});

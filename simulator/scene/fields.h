@@ -16,6 +16,7 @@ struct Key {
   const char* help;     ///< a sentence on what it is, with its unit
   const char* example;  ///< what may stand after the colon
   bool required = false;
+  const char* unless = nullptr;  ///< another key of the same map, in whose place it may be missing
 };
 
 struct Range {
@@ -91,6 +92,7 @@ void DescribeDrive(Fields& fields, DriveSpec& drive);
 
 /// Names every key of what a hall's file may hold, `about` left out.
 void DescribePremises(Fields& fields, Premises& premises);
+
 /// Names every key of one of a scene's `mechanisms`.
 void DescribeMechanism(Fields& fields, MechanismSpec& mechanism);
 
@@ -99,6 +101,11 @@ void DescribeBeam(Fields& fields, BeamSpec& beam);
 
 /// Names every key of a scene's `crowd`.
 void DescribeCrowd(Fields& fields, CrowdSpec& crowd);
+
+/// A key that names a mesh of the user's own; the keys of a hall and of a prop that is one.
+void DescribeMesh(Fields& fields, const char* help, MeshSpec& mesh);
+void DescribeHallMesh(Fields& fields, HallSpec& hall);
+void DescribePropMesh(Fields& fields, PropSpec& prop);
 
 /// Names every key of a scene file, with ranges and examples.
 void Describe(Fields& fields, Scene& scene);

@@ -6,6 +6,7 @@
 #include "simulator/scene/check.h"
 #include "simulator/scene/check_routes.h"
 #include "simulator/scene/extend.h"
+#include "simulator/scene/mesh_files.h"
 #include "simulator/scene/reader.h"
 #include "simulator/scene/rig_files.h"
 
@@ -57,6 +58,7 @@ Scene ReadScene(const std::string& text, const std::string& file, Issues* issues
   }
   scene.files = issues->files();
   if (issues->empty()) ReadRigFiles(&scene, issues);
+  if (issues->empty()) FindMeshFiles(&scene, issues);
   return scene;
 }
 

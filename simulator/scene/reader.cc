@@ -68,7 +68,7 @@ std::string YamlReader::PathOf(const std::string& key) const {
 const YamlValue* YamlReader::Find(const Key& key) {
   known_.emplace_back(key.name);
   if (const YamlEntry* entry = map_.Find(key.name)) return &entry->value;
-  if (key.required) missing_.push_back(key);
+  if (key.required && (key.unless == nullptr || !Has(key.unless))) missing_.push_back(key);
   return nullptr;
 }
 

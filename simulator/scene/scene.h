@@ -63,6 +63,22 @@ struct RigSpec {
   std::vector<Bump> bumps;
 };
 
+/// What a thing of a user's own is, in labels; as ObjectClass (simulator/world) from floor on.
+enum class MeshLabel { kFloor, kWall, kColumn, kRack, kGoods, kLuminaire, kFurniture };
+
+/// A mesh of a user's own.
+struct MeshSpec {
+  Mark mark;         ///< of the key that names it
+  std::string name;  ///< as the scene does; empty: none
+  std::string file;  ///< where that is
+};
+
+/// Nodes of a mesh whose names match a pattern, and what they are.
+struct LabelRule {
+  std::string nodes;  ///< * stands for anything, ? for one character; upper case is as lower case
+  MeshLabel label = MeshLabel::kFurniture;
+};
+
 enum class FloorKind { kConcrete, kPainted, kGlossy, kAsphalt, kResin, kBlocks };
 enum class WallKind { kPanels, kBrick, kPlain, kSky, kCassettes, kInsulated, kConcrete };
 enum class RoofKind { kTrusses, kPortal, kFlat, kRibs };
@@ -82,6 +98,8 @@ struct HallSpec {
   double clutter = 0;  ///< how much lies about where nobody passes, 0 to 1
   double cloud = 0;    ///< share of the daylight that passing clouds take at most
   double cloud_s = 9;  ///< about from one cloud to the next
+  MeshSpec mesh;          ///< instead of floor, walls and roof
+  std::vector<LabelRule> labels;
 };
 
 enum class RackPaint { kBlue, kOrange, kSteel };
@@ -135,6 +153,8 @@ struct PropSpec {
   Mark mark;
   Mark model_mark;  ///< of the key that names the model
   std::string model;
+  MeshSpec mesh;  ///< instead of the model
+  MeshLabel label = MeshLabel::kFurniture;
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> to;
   double every_m = 10;  ///< in a row
@@ -283,8 +303,9 @@ struct Premises {
 /// file is a scene, too: nobody is there, and the rig stands at each of its views, a frame each.
 struct Scene : Premises {
   std::string file;
-  /// That one and those it extends, nearest first, each hall's file behind them.
+  /// That one and those it extends, nearest first, each hall's file behind them; then others.
   std::vector<std::string> files;
+  std::vector<std::string> mesh_files;  ///< of them, the user's own meshes
   std::string extends;  ///< the scene whose keys hold where it has none, as the file says it
   std::string about;    ///< the sentence on what it tests
   int frames = 300;

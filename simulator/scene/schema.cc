@@ -70,6 +70,10 @@ class SchemaWriter : public Fields {
   Json Requirements() const {
     Json requirements = Json::object();
     if (!required_.empty()) requirements["required"] = required_;
+    if (either_.size() == 1) requirements["anyOf"] = either_.front();
+    if (either_.size() > 1) {
+      for (const Json& one : either_) requirements["allOf"].push_back({{"anyOf", one}});
+    }
     if (!needs_.empty()) requirements["properties"] = needs_;
     return requirements;
   }
@@ -99,12 +103,17 @@ class SchemaWriter : public Fields {
   Json& Add(const Key& key, Json property) {
     Json described = {{"description", std::string(key.help) + "; e.g. " + key.example}};
     described.update(property);
-    if (key.required) required_.emplace_back(key.name);
+    if (key.required && key.unless == nullptr) required_.emplace_back(key.name);
+    if (key.required && key.unless != nullptr) {
+      either_.push_back(Json::array({{{"required", Json::array({key.name})}},
+                                     {{"required", Json::array({key.unless})}}}));
+    }
     return properties_[key.name] = std::move(described);
   }
 
   Json properties_ = Json::object();
   std::vector<std::string> required_;
+  std::vector<Json> either_;    ///< for a key in whose place another may stand, the two
   Json needs_ = Json::object();  ///< requirements of groups, by their name
 };
 

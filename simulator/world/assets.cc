@@ -8,6 +8,8 @@
 
 #include "simulator/common/own_files.h"
 #include "simulator/mesh/door/read_model.h"
+#include "simulator/mesh/kept/kept_model.h"
+#include "simulator/mesh/still.h"
 
 namespace aisle::sim {
 namespace {
@@ -153,6 +155,12 @@ std::shared_ptr<const Model> AssetLibrary::Load(const std::string& asset) {
     model = std::make_shared<const Model>(is_own_ ? ImportModel(file, options)
                                                   : ReadModel(file, options));
   }
+  return model;
+}
+
+std::shared_ptr<const Model> AssetLibrary::LoadStill(const std::string& file) {
+  std::shared_ptr<const Model>& model = models_["still:" + file];
+  if (!model) model = std::make_shared<const Model>(StillOf(OpenUserModel(file)));
   return model;
 }
 

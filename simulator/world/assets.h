@@ -67,6 +67,8 @@ class AssetLibrary {
   cv::Mat1b Picture(const std::string& texture) const;
   /// A named rectangle of an atlas: left, top, width, height in shares of the picture.
   std::array<float, 4> Rect(const std::string& texture, const std::string& name) const;
+  /// A mesh of the user's own, as it stands at rest. Throws ImportError.
+  std::shared_ptr<const Model> LoadStill(const std::string& file);
   /// The model of "people/NAME", "vehicles/NAME", "kit/NAME" or "street/NAME".
   std::shared_ptr<const Model> Load(const std::string& asset);
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "simulator/mesh/import.h"
 #include "simulator/motion/rig_mount.h"
 #include "simulator/scene/vary.h"
 #include "simulator/world/actors.h"
 #include "simulator/world/fittings.h"
 #include "simulator/world/mechanism.h"
+#include "simulator/world/own_hall.h"
 #include "simulator/world/props.h"
 #include "simulator/world/warehouse.h"
 
@@ -42,6 +44,14 @@ struct Cast {
 /// Reads every model that the scene names, so that one that is missing or broken is reported with
 /// the place of the key that names it.
 void ReadModels(const Scene& scene, AssetLibrary* assets) {
+  const auto read_mesh = [&](const MeshSpec& mesh, const std::string& whose) {
+    try {
+      if (!mesh.name.empty()) assets->LoadStill(mesh.file);
+    } catch (const ImportError& error) {
+      Refuse(scene, mesh.mark, whose, error.what());
+    }
+  };
+  read_mesh(scene.hall.mesh, "hall.mesh");
   const auto read = [&](const auto& spec, const std::string& whose, const auto& asset_of) {
     try {
       assets->Load(asset_of(spec.model));
@@ -52,6 +62,8 @@ void ReadModels(const Scene& scene, AssetLibrary* assets) {
     }
   };
   for (const PropSpec& prop : scene.props) {
+    read_mesh(prop.mesh, "props.mesh");
+    if (!prop.mesh.name.empty()) continue;
     read(prop, "props.model", [&](const std::string& model) { return assets->Prop(model); });
   }
   for (const MechanismSpec& mechanism : scene.mechanisms) {
@@ -189,9 +201,12 @@ World BuildWorld(const Scene& written, const std::string& assets_dir, std::uint6
   const Scene scene = WithLooks(Seeded(written, seed), seed, assets.PeopleNames());
   ReadModels(scene, &assets);
   const Palette palette = AddPalette(scene, seed, assets, &parts);
-  AddFloor(scene, palette, seed, &site);
+  Wardrobe wardrobe(&parts);
+  const bool is_own = !scene.hall.mesh.name.empty();
+  if (is_own) AddOwnHall(scene, &assets, &wardrobe, &site);
+  if (!is_own) AddFloor(scene, palette, seed, &site);
   AddMarkings(scene, palette, &site);
-  AddWalls(scene, palette, seed, &site);
+  if (!is_own) AddWalls(scene, palette, seed, &site);
   AddDoors(scene, palette, &site);
   AddColumns(scene, palette, &site);
   AddRacks(scene, palette, seed, &site);
@@ -200,7 +215,6 @@ World BuildWorld(const Scene& written, const std::string& assets_dir, std::uint6
   AddLights(scene, palette, &parts, &site);
   AddWork(scene, palette, seed, assets, &parts, &site);
   AddWindows(scene, palette, &parts, &site);
-  Wardrobe wardrobe(&parts);
   AddProps(scene, seed, &assets, &wardrobe, &site);
   std::vector<Cast> cast = AddActors(scene, palette, seed, &assets, &wardrobe, &parts, &site);
   AddMechanisms(scene, palette, seed, &assets, &wardrobe, &parts, &site, &cast);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "simulator/mesh/kept/kept_model.h"
+
 namespace aisle::sim {
 
 std::vector<std::string> CheckModels(const Scene& scene, const AssetLibrary& assets) {
@@ -14,7 +16,13 @@ std::vector<std::string> CheckModels(const Scene& scene, const AssetLibrary& ass
           fmt::format("{}: {}: {}", PlaceText(scene.files, mark), whose, error.what()));
     }
   };
+  const auto check_mesh = [&](const MeshSpec& mesh, const std::string& whose) {
+    if (!mesh.name.empty()) check(mesh.mark, whose, [&] { CheckUserModel(mesh.file); });
+  };
+  check_mesh(scene.hall.mesh, "hall.mesh");
   for (const PropSpec& prop : scene.props) {
+    check_mesh(prop.mesh, "props.mesh");
+    if (!prop.mesh.name.empty()) continue;
     check(prop.model_mark, "props.model", [&] { assets.Prop(prop.model); });
   }
   for (const MechanismSpec& mechanism : scene.mechanisms) {

@@ -13,7 +13,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "model bytes are little-endian");
 
 constexpr std::array<char, 8> kMagic = {'a', 'i', 's', 'l', 'e', 'm', 'd', 'l'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 struct Header {
   std::array<char, 8> magic = kMagic;
@@ -195,6 +195,11 @@ constexpr auto kTexture = [](auto& file, auto& texture) {
   CarryImage(file, texture.image);
 };
 
+constexpr auto kSurfaces = [](auto& file, auto& surfaces) {
+  CarryEach(file, surfaces.materials, kLeast, kMaterial);
+  CarryEach(file, surfaces.textures, kLeast, kTexture);
+};
+
 constexpr auto kModel = [](auto& file, auto& model) {
   CarryText(file, model.name);
   CarryPlain(file, model.mesh.positions);
@@ -210,6 +215,8 @@ constexpr auto kModel = [](auto& file, auto& model) {
   CarryEach(file, model.clips, kLeast, kClip);
   CarryEach(file, model.materials, kLeast, kMaterial);
   CarryEach(file, model.textures, kLeast, kTexture);
+  CarryEach(file, model.colour, kLeast, kSurfaces);
+  CarryEach(file, model.left_out, kLeast, [](auto& to, auto& phrase) { CarryText(to, phrase); });
 };
 
 }  // namespace

@@ -34,6 +34,10 @@ std::vector<std::string> ArgumentsOf(const Request& request) {
           options.root.string(),
           std::to_string(static_cast<int>(options.frame)),
           std::to_string(static_cast<int>(options.band)),
+          std::to_string(static_cast<int>(options.colour)),
+          fmt::format("{}", options.unit_m),
+          std::to_string(static_cast<int>(options.up)),
+          std::to_string(static_cast<int>(options.must_state)),
           std::to_string(options.max_triangles),
           std::to_string(options.max_texture_px),
           std::to_string(options.max_file_bytes),
@@ -62,12 +66,16 @@ Request ParseRequest(std::span<const char* const> arguments) {
   request.options.root = arguments[1];
   request.options.frame = static_cast<ModelFrame>(NumberIn<int>(arguments[2]));
   request.options.band = static_cast<Band>(NumberIn<int>(arguments[3]));
-  request.options.max_triangles = NumberIn<std::size_t>(arguments[4]);
-  request.options.max_texture_px = NumberIn<int>(arguments[5]);
-  request.options.max_file_bytes = NumberIn<std::size_t>(arguments[6]);
-  request.options.max_reach_m = NumberIn<float>(arguments[7]);
-  request.limits.memory_bytes = NumberIn<std::size_t>(arguments[8]);
-  request.limits.time_s = NumberIn<double>(arguments[9]);
+  request.options.colour = NumberIn<int>(arguments[4]) != 0;
+  request.options.unit_m = NumberIn<float>(arguments[5]);
+  request.options.up = static_cast<UpAxis>(NumberIn<int>(arguments[6]));
+  request.options.must_state = NumberIn<int>(arguments[7]) != 0;
+  request.options.max_triangles = NumberIn<std::size_t>(arguments[8]);
+  request.options.max_texture_px = NumberIn<int>(arguments[9]);
+  request.options.max_file_bytes = NumberIn<std::size_t>(arguments[10]);
+  request.options.max_reach_m = NumberIn<float>(arguments[11]);
+  request.limits.memory_bytes = NumberIn<std::size_t>(arguments[12]);
+  request.limits.time_s = NumberIn<double>(arguments[13]);
   return request;
 }
 
