@@ -96,8 +96,10 @@ cv::Mat1b Photograph(const Model& model, const Eigen::AlignedBox3f& box, double 
 }
 
 UpAxis UpNamed(char up) {
-  return up == 'x' ? UpAxis::kX : up == 'y' ? UpAxis::kY : up == 'z' ? UpAxis::kZ
-                                                                     : UpAxis::kAsStated;
+  return up == 'x'   ? UpAxis::kX
+         : up == 'y' ? UpAxis::kY
+         : up == 'z' ? UpAxis::kZ
+                     : UpAxis::kAsStated;
 }
 
 std::vector<std::string> ShownNodes(const Model& model) {

@@ -9,11 +9,11 @@ namespace aisle::sim {
 
 /// How a mesh of a user's own is taken in.
 struct ModelImport {
-  std::string file;     ///< .glb, .gltf, .obj or .dae
-  std::string output;   ///< ends with .aislemesh; a record is written beside it
-  std::string licence;  ///< under which the user has it, in the user's words; recorded
-  double unit_m = 0;    ///< metres of the file's unit; 0: what the file or its format says
-  char up = 0;          ///< 'x', 'y' or 'z'; 0: what the file or its format says
+  std::string file;      ///< .glb, .gltf, .obj or .dae
+  std::string output;    ///< ends with .aislemesh; a record is written beside it
+  std::string licence;   ///< under which the user has it, in the user's words; recorded
+  double unit_m = 0;     ///< metres of the file's unit; 0: what the file or its format says
+  char up = 0;           ///< 'x', 'y' or 'z'; 0: what the file or its format says
   bool skinned = false;  ///< keeps skeleton and animations; otherwise it stands as at rest
 };
 

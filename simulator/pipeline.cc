@@ -86,7 +86,12 @@ struct Pipeline::Impl {
       meter_rays = MakePixelRays(Coarser(camera, kMeterFactor));
       meter_fall_off = FallOff(meter_rays);
     }
-    arena.execute([&] { shader = std::make_unique<Shader>(world, tracer, options.shade); });
+    arena.execute([&] {
+      shader = std::make_unique<Shader>(world, tracer, options.shade);
+      for (std::size_t band = 0; world.has_colour() && band < 3; ++band) {
+        bands.push_back(std::make_unique<Band>(*this, band));
+      }
+    });
   }
 
   std::array<CameraView, 2> Views(const Eigen::Isometry3d& T_world_rig) const {
@@ -154,7 +159,7 @@ struct Pipeline::Impl {
 
   /// Radiance of the given rows of both cameras at an instant that nobody asks the truth of.
   std::vector<cv::Mat1f> RadianceAt(Snapshot snapshot, const Eigen::Isometry3d& T_world_rig,
-                                    const cv::Range& rows) const {
+                                    const cv::Range& rows, const Shader& with) const {
     const Instant instant = tracer.Pose(std::move(snapshot));
     const bool whole = rows.size() == rays.height;
     const PixelRays band = whole ? PixelRays{} : RowsOf(rays, rows.start, rows.end);
@@ -164,7 +169,7 @@ struct Pipeline::Impl {
         CameraView(used, CameraPose(camera, T_world_rig, StereoSide::kRight))};
     std::vector<HitImage> hits = TakeImages();
     TraceViews(instant, views, {.shuffle = options.tile_shuffle}, &hits);
-    std::vector<cv::Mat1f> radiance = shader->Shade(instant, views, hits);
+    std::vector<cv::Mat1f> radiance = with.Shade(instant, views, hits);
     GiveBack(std::move(hits));
     return radiance;
   }
@@ -174,7 +179,8 @@ struct Pipeline::Impl {
   /// the rig is where `rig_at` has it. Averaged in linear light.
   std::vector<cv::Mat1f> WhileOpen(const Instant& instant, const CameraView& left,
                                    const HitImage& hits, const ExposureSetting& setting,
-                                   const RigAround& rig_at, std::vector<cv::Mat1f> at_stamp) const {
+                                   const RigAround& rig_at, const Shader& with,
+                                   std::vector<cv::Mat1f> at_stamp) const {
     const ShutterOptions& shutter = options.shutter;
     if (!shutter.IsOpenFor(setting.time_ms)) return at_stamp;
     const double open_s = OpenTime(shutter, setting.time_ms);
@@ -195,7 +201,7 @@ struct Pipeline::Impl {
       const std::vector<cv::Mat1f> light =
           is_stamp ? at_stamp
                    : RadianceAt(world.Near(instant.snapshot(), std::llround(1e9 * offset_s)),
-                                rig_at(offset_s), rows);
+                                rig_at(offset_s), rows, with);
       for (std::size_t side = 0; side < 2; ++side) {
         AddInstant(plan, k, light[side], rows.start, &sum[side]);
       }
@@ -204,13 +210,44 @@ struct Pipeline::Impl {
   }
 
   /// The rig moves as on its route, from wherever it was put.
-  RenderedFrame Render(int frame_index, std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
-                       std::map<std::string, double>* stages) const {
+  RigAround AsPlanned(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig) const {
     const Eigen::Isometry3d T_rig_planned = T_world_rig * world.PlannedRigPose(stamp_ns).inverse();
-    const auto rig_at = [&](double offset_s) {
+    return [this, stamp_ns, T_rig_planned](double offset_s) -> Eigen::Isometry3d {
       return T_rig_planned * world.PlannedRigPose(stamp_ns + std::llround(1e9 * offset_s));
     };
-    return Take(frame_index, {stamp_ns, {}}, T_world_rig, rig_at, stages);
+  }
+
+  RenderedFrame Render(int frame_index, std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
+                       std::map<std::string, double>* stages) const {
+    return Take(frame_index, {stamp_ns, {}}, T_world_rig, AsPlanned(stamp_ns, T_world_rig), stages);
+  }
+
+  std::array<cv::Mat3b, 2> TakeColour(int frame_index, std::int64_t stamp_ns,
+                                      const Eigen::Isometry3d& T_world_rig) const {
+    if (bands.empty()) throw std::logic_error("the world has no colour");
+    const Instant instant = tracer.Pose(world.At(stamp_ns));
+    const std::array<CameraView, 2> views = Views(T_world_rig);
+    std::vector<HitImage> hits = TakeImages();
+    TraceViews(instant, views, {.shuffle = options.tile_shuffle}, &hits);
+    const ExposureSetting setting = ExposureFor(instant, T_world_rig);
+    const RigAround rig_at = AsPlanned(stamp_ns, T_world_rig);
+    std::array<std::array<cv::Mat, 3>, 2> planes;
+    for (std::size_t band = 0; band < bands.size(); ++band) {
+      const Shader& with = *bands[band]->shader;
+      const std::vector<cv::Mat1f> light = WhileOpen(instant, views[0], hits[0], setting, rig_at,
+                                                     with, with.Shade(instant, views, hits));
+      for (std::size_t side = 0; side < 2; ++side) {
+        const auto camera_number = static_cast<std::uint32_t>(2 + 2 * band + side);
+        const SensorOptions sensor = SensorFor(setting);
+        planes[side][2 - band] =
+            Expose(SpreadByLens(light[side], sensor.lens), bands[band]->response[side], sensor,
+                   {options.seed, static_cast<std::uint32_t>(frame_index), camera_number});
+      }
+    }
+    GiveBack(std::move(hits));
+    std::array<cv::Mat3b, 2> pictures;
+    for (std::size_t side = 0; side < 2; ++side) cv::merge(planes[side], pictures[side]);
+    return pictures;
   }
 
   RenderedFrame Take(int frame_index, const WorldTime& time, const Eigen::Isometry3d& T_world_rig,
@@ -234,7 +271,7 @@ struct Pipeline::Impl {
     lap("combine");
     const ExposureSetting setting = ExposureFor(instant, T_world_rig);
     lap("meter");
-    radiance = WhileOpen(instant, views[0], hits[0], setting, rig_at, std::move(radiance));
+    radiance = WhileOpen(instant, views[0], hits[0], setting, rig_at, *shader, std::move(radiance));
     lap("shutter");
     RenderedFrame frame{.stamp_ns = instant.snapshot().stamp_ns,
                         .left = Photograph(radiance[0], setting, frame_index, 0),
@@ -261,6 +298,23 @@ struct Pipeline::Impl {
         .expose = [this, setting](const cv::Mat1f& light) { return WithoutNoise(light, setting); }};
   }
 
+  /// The world as one band of light sees it, its light, and the pixels behind that band's filter.
+  struct Band {
+    Band(const Impl& of, std::size_t index)
+        : world(of.world.InBand(index)),
+          shader(std::make_unique<Shader>(world, of.tracer, of.options.shade)) {
+      const cv::Mat1f vignetting = of.FallOff(of.rays);
+      for (const std::uint32_t side : {0u, 1u}) {
+        const auto camera_number = static_cast<std::uint32_t>(2 + 2 * index + side);
+        response[side] =
+            MakeResponse(vignetting, of.options.sensor, of.options.seed, camera_number);
+      }
+    }
+    World world;
+    std::unique_ptr<Shader> shader;
+    std::array<PixelResponse, 2> response;
+  };
+
   World world;
   StereoCamera camera;
   PipelineOptions options;
@@ -271,7 +325,8 @@ struct Pipeline::Impl {
   cv::Mat1f meter_fall_off;  ///< of the lens, on the coarse picture
   Tracer tracer;
   std::unique_ptr<Shader> shader;
-  mutable std::mutex mutex;  ///< guards idle
+  std::vector<std::unique_ptr<Band>> bands;  ///< red, green, blue where the world has colour
+  mutable std::mutex mutex;                  ///< guards idle
   mutable std::vector<std::vector<HitImage>> idle;
 };
 
@@ -292,6 +347,23 @@ RenderedFrame Pipeline::Render(int frame_index, std::int64_t stamp_ns, const Sho
     return impl_->Take(
         frame_index, {stamp_ns, shot.clocks}, shot.T_world_rig,
         [&](double offset_s) { return shot.At(offset_s); }, nullptr);
+  });
+}
+
+std::array<cv::Mat3b, 2> Pipeline::RenderColour(int frame_index, std::int64_t stamp_ns,
+                                                const Eigen::Isometry3d& T_world_rig) const {
+  return impl_->arena.execute(
+      [&] { return impl_->TakeColour(frame_index, stamp_ns, T_world_rig); });
+}
+
+cv::Mat1f Pipeline::RenderDepth(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig) const {
+  return impl_->arena.execute([&] {
+    const Instant instant = impl_->tracer.Pose(impl_->world.At(stamp_ns));
+    const std::array<CameraView, 2> views = impl_->Views(T_world_rig);
+    std::vector<HitImage> hits;
+    TraceViews(instant, std::span(views).first(1), {}, &hits);
+    const MovingNow moving(impl_->world, instant.snapshot(), impl_->options.moving);
+    return LabelHits(impl_->world, instant, hits[0], moving).depth;
   });
 }
 

@@ -46,6 +46,13 @@ class Pipeline {
   /// The same where rig and actors follow no plan: neither does what blurs while the shutter is
   /// open.
   RenderedFrame Render(int frame_index, std::int64_t stamp_ns, const Shot& shot) const;
+  /// The pair in colour (B, G, R), as a camera of three sensors behind the same lens takes it:
+  /// exposure and gain are those of the grey picture, each band has noise of its own. The world
+  /// must have colour; throws std::logic_error. Costs three shadings.
+  std::array<cv::Mat3b, 2> RenderColour(int frame_index, std::int64_t stamp_ns,
+                                        const Eigen::Isometry3d& T_world_rig) const;
+  /// FrameTruth::depth alone: primary rays, no light.
+  cv::Mat1f RenderDepth(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig) const;
   /// Linear radiance of both cameras before the sensor, in the units of the lights.
   std::array<cv::Mat1f, 2> RenderRadiance(std::int64_t stamp_ns,
                                           const Eigen::Isometry3d& T_world_rig) const;

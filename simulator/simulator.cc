@@ -138,6 +138,7 @@ std::uint64_t HashOf(const std::string& essence, const World& world, std::int64_
   for (const std::int64_t stamp_ns : {std::int64_t{0}, end_ns / 2}) {
     for (const MoverState& mover : world.At(stamp_ns).movers) hasher.Add(mover.positions);
   }
+  if (!options.pair.empty()) hasher.Add("pair " + options.pair);
   hasher.Add(fmt::format("{} {} {}", options.seed, static_cast<int>(options.twin), options.isa));
   return hasher.Value();
 }
@@ -179,7 +180,13 @@ Simulator Simulator::Load(const std::string& scene_file, const std::string& asse
                           const SimulatorOptions& options) {
   auto impl = std::make_unique<Impl>();
   impl->scene = TwinOf(LoadScene(scene_file), options.twin);
+  const std::string pair = options.pair.empty() ? impl->scene.rig.pair : options.pair;
+  impl->scene = WithPair(std::move(impl->scene), pair);
+  impl->scene.camera.colour = impl->scene.camera.colour && options.colour;
   const Scene& scene = impl->scene;
+  if (scene.rig.pair != pair) {
+    throw SceneError({fmt::format("{}: the rig has no pair '{}'", scene_file, pair)});
+  }
   if (const std::string error = LensError(scene); !error.empty()) throw std::runtime_error(error);
   if (auto troubles = CheckSeed(scene, options.seed); !troubles.empty()) {
     throw SceneError(std::move(troubles));
@@ -236,6 +243,19 @@ RenderedFrame Simulator::Render(int frame_index, std::int64_t stamp_ns,
 
 RenderedFrame Simulator::Render(int frame_index, std::int64_t stamp_ns, const Shot& shot) const {
   return impl_->pipeline->Render(frame_index, stamp_ns, shot);
+}
+
+const std::string& Simulator::pair() const { return impl_->scene.rig.pair; }
+bool Simulator::has_colour() const { return impl_->pipeline->world().has_colour(); }
+
+std::array<cv::Mat3b, 2> Simulator::RenderColour(int frame_index, std::int64_t stamp_ns,
+                                                 const Eigen::Isometry3d& T_world_rig) const {
+  return impl_->pipeline->RenderColour(frame_index, stamp_ns, T_world_rig);
+}
+
+cv::Mat1f Simulator::RenderDepth(std::int64_t stamp_ns,
+                                 const Eigen::Isometry3d& T_world_rig) const {
+  return impl_->pipeline->RenderDepth(stamp_ns, T_world_rig);
 }
 
 const DriveSpec& Simulator::drive() const { return impl_->scene.drive; }

@@ -11,6 +11,7 @@
 #include "simulator/calibration/stereo_model.h"
 #include "simulator/frames.h"
 #include "simulator/import_model.h"
+#include "simulator/scene/bag_poses.h"
 #include "simulator/world/ground.h"
 
 namespace aisle::sim {
@@ -30,7 +31,9 @@ enum class Twin {
 struct SimulatorOptions {
   std::uint64_t seed = 1;
   Twin twin = Twin::kLive;
-  int threads = 0;  ///< 0: as many as the machine has; the bytes are the same for any number
+  std::string pair = {};  ///< of the rig's pairs the one that is shown; empty: the scene's choice
+  bool colour = false;    ///< RenderColour will be asked for, where the scene's camera has colour
+  int threads = 0;        ///< 0: as many as the machine has; the bytes are the same for any number
   std::string isa = "avx2";  ///< Embree's instruction set; "native" lets Embree choose
   /// How much further apart than usual the points of the static light lie: over 1, a draft.
   double light_spacing = 1;
@@ -82,6 +85,18 @@ class Simulator {
   /// The same where the rig follows no plan: wherever it is and however it moves, each actor at a
   /// time of its own.
   RenderedFrame Render(int frame_index, std::int64_t stamp_ns, const Shot& shot) const;
+
+  /// Of a rig with several pairs the one that is shown; "" is that of `camera`.
+  const std::string& pair() const;
+  /// Whether the scene's camera has colour too.
+  bool has_colour() const;
+  /// The pair in colour (B, G, R) where it has: as Render's, by a camera of three sensors. Throws
+  /// std::logic_error where it has not.
+  std::array<cv::Mat3b, 2> RenderColour(int frame_index, std::int64_t stamp_ns,
+                                        const Eigen::Isometry3d& T_world_rig) const;
+
+  /// FrameTruth::depth of a time and pose, without its picture.
+  cv::Mat1f RenderDepth(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig) const;
 
   /// What the scene's `drive` says; `there` is false where it has none.
   const DriveSpec& drive() const;

@@ -80,7 +80,7 @@ void DriveBag::WriteRigFrames(std::int64_t stamp_ns) {
   Write("/tf_static", stamp_ns, rig, TopicKind::kLatched);
 }
 
-void DriveBag::AddFrame(const SequenceFrame& frame) {
+void DriveBag::AddFrame(const SequenceFrame& frame, const std::array<cv::Mat3b, 2>* colour) {
   const std::int64_t stamp_ns = frame.images.stamp_ns;
   WriteRigFrames(stamp_ns);
   const ros::Header left = HeaderOf(stamp_ns, kLeftFrame), right = HeaderOf(stamp_ns, kRightFrame);
@@ -98,6 +98,10 @@ void DriveBag::AddFrame(const SequenceFrame& frame) {
   Write("/right/camera_info", stamp_ns, CameraInfoMessage(right, calibration_, 1));
   Write("/left/image_rect", stamp_ns, ImageMessage(left, frame.images.left));
   Write("/right/image_rect", stamp_ns, ImageMessage(right, frame.images.right));
+  if (colour != nullptr) {
+    Write("/left/image_rect_color", stamp_ns, ColourMessage(left, (*colour)[0]));
+    Write("/right/image_rect_color", stamp_ns, ColourMessage(right, (*colour)[1]));
+  }
   if (!frame.truth) return;
   const FrameTruth& truth = *frame.truth;
   if (!truth.depth.empty()) {

@@ -37,6 +37,7 @@ struct DriveBagOptions {
 /// stamps are equal: the frames' own plus epoch_ns.
 ///
 ///   /left/image_rect, /left/camera_info, /right/…    sensor_msgs, the rectified pair, mono8
+///   /left/image_rect_color, /right/…                 rgb8, where the frames have colour
 ///   /left/depth      16UC1 millimetres, 0 unknown    /left/moving    mono8, 255: it moves now
 ///   /left/boxes      visualization_msgs/ImageMarker  /truth/boxes    MarkerArray, in map
 ///   /truth/pose      PoseStamped of the left camera  /truth/path     Path
@@ -52,8 +53,8 @@ class DriveBag {
   DriveBag(const std::filesystem::path& file, const StereoCalibration& calibration,
            const DriveBagOptions& options);
 
-  /// The pair, its camera_info and its truth.
-  void AddFrame(const SequenceFrame& frame);
+  /// The pair, its camera_info and its truth; left and right in colour (B, G, R), if there are any.
+  void AddFrame(const SequenceFrame& frame, const std::array<cv::Mat3b, 2>* colour = nullptr);
   /// What a system said of a frame, with its events: found and lost, keyframe, loop. `truth` lays
   /// its world onto map; null where nobody knows it.
   void AddEstimate(const std::string& system, const FrameEstimate& estimate,

@@ -1,5 +1,7 @@
 #include "harness/bag/frame_messages.h"
 
+#include <opencv2/imgproc.hpp>
+
 #include "harness/ros/geometry.h"
 
 namespace aisle {
@@ -65,6 +67,14 @@ ros::Image ImageMessage(const ros::Header& header, const cv::Mat& image) {
   for (int y = 0; y < image.rows; ++y) {
     std::memcpy(message.data.data() + step * static_cast<std::size_t>(y), image.ptr(y), step);
   }
+  return message;
+}
+
+ros::Image ColourMessage(const ros::Header& header, const cv::Mat3b& picture) {
+  cv::Mat rgb;
+  cv::cvtColor(picture, rgb, cv::COLOR_BGR2RGB);
+  ros::Image message = ImageMessage(header, rgb);
+  message.encoding = "rgb8";
   return message;
 }
 

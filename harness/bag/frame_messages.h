@@ -9,6 +9,9 @@ namespace aisle {
 /// kind of pixel.
 ros::Image ImageMessage(const ros::Header& header, const cv::Mat& image);
 
+/// A colour picture (B, G, R) as rgb8.
+ros::Image ColourMessage(const ros::Header& header, const cv::Mat3b& picture);
+
 /// Of a rectified pair: side 0 is left. -p[3] / p[0] gives the baseline back to the bit.
 ros::CameraInfo CameraInfoMessage(const ros::Header& header, const StereoCalibration& calibration,
                                   int side);

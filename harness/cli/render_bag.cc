@@ -24,7 +24,10 @@ void RenderBag(const SimulationForExport& simulation, const std::vector<FrameReq
   FramesAhead ahead(sequence, frames, 3);
   ProgressLine line;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    bag.AddFrame(ahead.Next().frame);
+    const SequenceFrame frame = ahead.Next().frame;
+    std::optional<std::array<cv::Mat3b, 2>> colour;
+    if (simulation.colour) colour = simulation.colour(frames[i]);
+    bag.AddFrame(frame, colour ? &*colour : nullptr);
     line.Show(fmt::format("frame {} of {}", i + 1, frames.size()));
   }
   line.Clear();

@@ -17,7 +17,7 @@ namespace {
 
 struct Options {
   SimulatedSequenceOptions simulation;
-  std::string out, format = "euroc", frames;
+  std::string out, format = "euroc", frames, pair;
   std::vector<std::string> truth;
   bool verify = false;
 };
@@ -47,12 +47,28 @@ std::vector<FrameRequest> Select(const std::vector<FrameRequest>& schedule,
           schedule.begin() + static_cast<std::ptrdiff_t>(last)};
 }
 
-std::map<std::string, std::string> ProvenanceOf(const Options& options, std::uint64_t hash) {
-  return {{"scene", options.simulation.scene_name},
-          {"seed", std::to_string(options.simulation.seed)},
-          {"twin", options.simulation.twin},
-          {"isa", options.simulation.isa},
-          {"content_hash", fmt::format("{:016x}", hash)}};
+/// A pose as the 16 numbers of its matrix, row by row.
+std::string MatrixText(const Eigen::Isometry3d& pose) {
+  std::string text;
+  for (int k = 0; k < 16; ++k) {
+    text += fmt::format("{}{}", k > 0 ? " " : "", pose.matrix()(k / 4, k % 4));
+  }
+  return text;
+}
+
+std::map<std::string, std::string> ProvenanceOf(const Options& options,
+                                                const SimulationForExport& simulation) {
+  std::map<std::string, std::string> provenance = {
+      {"scene", options.simulation.scene_name},
+      {"seed", std::to_string(options.simulation.seed)},
+      {"twin", options.simulation.twin},
+      {"isa", options.simulation.isa},
+      {"content_hash", fmt::format("{:016x}", simulation.content_hash)}};
+  if (!simulation.pair.empty()) {
+    provenance["pair"] = simulation.pair;
+    provenance["T_vehicle_left_camera"] = MatrixText(simulation.T_base_rig);
+  }
+  return provenance;
 }
 
 /// Proves the truth of the frames; the numbers go to truth/proofs.csv.
@@ -103,10 +119,9 @@ int RenderAsBag(const Options& options) {
         "--format ros2: a bag holds poses, depth, what moves and boxes as they are: leave --truth "
         "and --verify out");
   }
-  const SimulationForExport simulation = OpenForExport(options.simulation);
+  const SimulationForExport simulation = OpenForExport(options.simulation, options.pair);
   RenderBag(simulation, Select(simulation.sequence->Schedule(), options.frames),
-            options.simulation.scene_file, ProvenanceOf(options, simulation.content_hash),
-            options.out);
+            options.simulation.scene_file, ProvenanceOf(options, simulation), options.out);
   return kAllPassed;
 }
 
@@ -116,12 +131,13 @@ int Render(Options options) {
   if (options.format == "ros2") return RenderAsBag(options);
   ExportOptions export_options{.format = DatasetFormatFromName(options.format),
                                .truth = TruthSelectionFromNames(options.truth)};
-  SimulationForExport simulation = OpenForExport(options.simulation);
+  SimulationForExport simulation = OpenForExport(options.simulation, options.pair);
   const Sequence& sequence = *simulation.sequence;
   const std::vector<FrameRequest> wanted = Select(sequence.Schedule(), options.frames);
   export_options.lens = simulation.lens;
+  export_options.colour = static_cast<bool>(simulation.colour);
   export_options.labels = simulation.labels;
-  export_options.provenance = ProvenanceOf(options, simulation.content_hash);
+  export_options.provenance = ProvenanceOf(options, simulation);
   DatasetWriter writer(options.out, sequence.calibration(), sequence.rate_hz(), wanted,
                        export_options);
   writer.Begin();
@@ -134,12 +150,11 @@ int Render(Options options) {
   ProgressLine line;
   for (std::size_t i = 0; i < missing.size(); ++i) {
     const SequenceFrame frame = frames.Next().frame;
-    if (export_options.truth.NeedsMotion()) {
-      const FrameMotion motion = simulation.motion(missing[i]);
-      writer.Add(frame, &motion);
-    } else {
-      writer.Add(frame);
-    }
+    std::optional<FrameMotion> motion;
+    if (export_options.truth.NeedsMotion()) motion = simulation.motion(missing[i]);
+    std::optional<ColourPair> colour;
+    if (export_options.colour) colour = simulation.colour(missing[i]);
+    writer.Add(frame, motion ? &*motion : nullptr, colour ? &*colour : nullptr);
     line.Show(fmt::format("frame {} of {}", i + 1, missing.size()));
   }
   line.Clear();
@@ -171,6 +186,8 @@ void AddRenderCommand(CLI::App* app, Action* action) {
                     "prove every frame: truth against a rasteriser and by warping, light in time");
   command->add_option("--twin", options->simulation.twin,
                       "live, empty, frozen, or a level: none, low, mid, high");
+  command->add_option("--pair", options->pair,
+                      "of the rig's pairs the one to render; default: the one systems are shown");
   command->add_option("--seed", options->simulation.seed, "seed of the layout and the sensor");
   command->add_option("--isa", options->simulation.isa,
                       "instruction set of the tracer; avx2 (default) or native");

@@ -56,6 +56,9 @@ struct FrameMotion {
   cv::Mat1b moving_shadow;  ///< 255 = yes
 };
 
+/// Left and right picture in colour: B, G, R.
+using ColourPair = std::array<cv::Mat3b, 2>;
+
 /// How the lenses of both cameras bend the image, as EuRoC's sensor.yaml says it: "none",
 /// "radial-tangential" (k1 k2 p1 p2) or "equidistant" (k1 k2 k3 k4).
 struct LensCalibration {
@@ -73,6 +76,8 @@ struct ExportOptions {
   std::int64_t epoch_ns = 1'600'000'000'000'000'000;
   double imu_rate_hz = 200;
   LensCalibration lens = {};
+  bool colour =
+      false;  ///< colour pictures go along: cam0_rgb, image_2, rgb_colour and their rights
   std::vector<LabelInfo> labels = {};  ///< by instance id
   /// What the frames were made of, for aisle.json; a folder with another is not continued.
   std::map<std::string, std::string> provenance = {};
@@ -105,8 +110,9 @@ class DatasetWriter {
   std::string NameOf(const FrameRequest& request) const;
   /// All files of this frame are already there.
   bool Has(const FrameRequest& request) const;
-  /// Needs truth, and motion where the selection does; throws std::invalid_argument without.
-  void Add(const SequenceFrame& frame, const FrameMotion* motion = nullptr);
+  /// Needs truth, and motion and colour where the options do; throws std::invalid_argument without.
+  void Add(const SequenceFrame& frame, const FrameMotion* motion = nullptr,
+           const ColourPair* colour = nullptr);
   /// Once all frames are there. Clears away what earlier, killed writers left half written.
   void Finish(const PathOfRig& path) const;
 
@@ -116,6 +122,7 @@ class DatasetWriter {
   /// What a stamp of the dataset is more than the source's.
   std::int64_t StampOffset() const;
   std::vector<std::filesystem::path> ImagePaths(const std::string& name) const;
+  std::vector<std::filesystem::path> ColourPaths(const std::string& name) const;
 
   const std::filesystem::path folder_;
   const StereoCalibration calibration_;

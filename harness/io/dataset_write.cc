@@ -95,6 +95,11 @@ void FinishEuroc(const fs::path& mav, const StereoCalibration& calibration, doub
     WriteFileAtomically(camera / "sensor.yaml",
                         EurocCamera(calibration, options.lens, rate_hz, side));
     WriteFileAtomically(camera / "data.csv", index);
+    if (!options.colour) continue;
+    const fs::path colour = mav / fmt::format("cam{}_rgb", side);
+    WriteFileAtomically(colour / "sensor.yaml",
+                        EurocCamera(calibration, options.lens, rate_hz, side));
+    WriteFileAtomically(colour / "data.csv", index);
   }
 }
 
@@ -136,7 +141,9 @@ void FinishTum(const fs::path& folder, const StereoCalibration& c,
   Trajectory truth;
   for (const FrameRequest& frame : frames) {
     const std::string stamp = FormatSeconds(frame.stamp_ns + options.epoch_ns);
-    for (const char* name : {"rgb", "right", "depth"}) {
+    std::vector<std::string> names = {"rgb", "right", "depth"};
+    if (options.colour) names.insert(names.end(), {"rgb_colour", "right_colour"});
+    for (const std::string& name : names) {
       lists[name] += fmt::format("{0} {1}/{0}.png\n", stamp, name);
     }
     truth.push_back({frame.stamp_ns + options.epoch_ns, frame.T_world_rig});
@@ -294,15 +301,32 @@ std::vector<fs::path> DatasetWriter::ImagePaths(const std::string& name) const {
   return {folder_ / "rgb" / file, folder_ / "right" / file, folder_ / "depth" / file};
 }
 
+std::vector<fs::path> DatasetWriter::ColourPaths(const std::string& name) const {
+  if (!options_.colour) return {};
+  const std::string file = name + ".png";
+  switch (options_.format) {
+    case DatasetFormat::kEuroc:
+      return {folder_ / "mav0/cam0_rgb/data" / file, folder_ / "mav0/cam1_rgb/data" / file};
+    case DatasetFormat::kKitti:
+      return {folder_ / "sequences/00/image_2" / file, folder_ / "sequences/00/image_3" / file};
+    case DatasetFormat::kTum:
+      break;
+  }
+  return {folder_ / "rgb_colour" / file, folder_ / "right_colour" / file};
+}
+
 bool DatasetWriter::Has(const FrameRequest& request) const {
   const std::string name = NameOf(request);
-  return std::ranges::all_of(ImagePaths(name), [](const auto& path) { return fs::exists(path); }) &&
+  const auto is_there = [](const fs::path& path) { return fs::exists(path); };
+  return std::ranges::all_of(ImagePaths(name), is_there) &&
+         std::ranges::all_of(ColourPaths(name), is_there) &&
          std::ranges::all_of(TruthFiles(options_), [&](const TruthFile& file) {
            return fs::exists(TruthPath(folder_, file, name));
          });
 }
 
-void DatasetWriter::Add(const SequenceFrame& frame, const FrameMotion* motion) {
+void DatasetWriter::Add(const SequenceFrame& frame, const FrameMotion* motion,
+                        const ColourPair* colour) {
   const bool wants_depth = options_.truth.depth || options_.format == DatasetFormat::kTum;
   if (!frame.truth || (wants_depth && frame.truth->depth.empty()) ||
       (options_.truth.NeedsMotion() && !motion)) {
@@ -316,6 +340,11 @@ void DatasetWriter::Add(const SequenceFrame& frame, const FrameMotion* motion) {
   }
   const std::vector<fs::path> paths = ImagePaths(name);
   if (paths.size() > 2) WriteImage(paths[2], DepthInSteps(frame.truth->depth, kTumDepthSteps));
+  const std::vector<fs::path> colours = ColourPaths(name);
+  for (std::size_t side = 0; side < colours.size(); ++side) {
+    if (colour == nullptr) throw std::invalid_argument("the frame comes without colour");
+    WriteImage(colours[side], (*colour)[side]);
+  }
   WriteImage(paths[1], frame.images.right);
   WriteImage(paths[0], frame.images.left);
 }

@@ -8,11 +8,18 @@
 
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
+#include "harness/plugs/bag_poses.h"
 #include "harness/plugs/open_simulator.h"
 #include "harness/plugs/simulated_frame.h"
 
 namespace aisle {
 namespace {
+
+/// Before anybody reads a scene: its rig may drive the way in a bag.
+[[maybe_unused]] const bool kBagsAreRead = [] {
+  ReadBagsForScenes();
+  return true;
+}();
 
 struct NamedTwin {
   std::string_view name;
@@ -117,13 +124,23 @@ const std::vector<std::string>& TwinNames() {
   return names;
 }
 
-sim::Simulator OpenSimulator(const SimulatedSequenceOptions& options) {
+namespace {
+
+/// What of a scene is asked for, over what systems are shown.
+struct Shown {
+  std::string pair = {};
+  bool colour = false;
+};
+
+sim::Simulator Open(const SimulatedSequenceOptions& options, const Shown& shown) {
   const sim::Twin twin = TwinFromName(options.twin);
   try {
     return sim::Simulator::Load(
         options.scene_file, options.assets_dir,
         {.seed = options.seed,
          .twin = twin,
+         .pair = shown.pair,
+         .colour = shown.colour,
          .threads = options.threads,
          .isa = options.isa,
          .light_progress = LightBar(options.scene_name, options.light_progress)});
@@ -135,6 +152,10 @@ sim::Simulator OpenSimulator(const SimulatedSequenceOptions& options) {
     throw InputError(error.what());
   }
 }
+
+}  // namespace
+
+sim::Simulator OpenSimulator(const SimulatedSequenceOptions& options) { return Open(options, {}); }
 
 void RefuseLens(const sim::Simulator& simulator, const SimulatedSequenceOptions& options) {
   const std::string& lens = simulator.rig().distortion_model;
@@ -156,8 +177,10 @@ std::unique_ptr<Sequence> OpenSimulation(const SimulatedSequenceOptions& options
   return sequence;
 }
 
-SimulationForExport OpenForExport(const SimulatedSequenceOptions& options) {
-  auto sequence = std::make_unique<SimulatedSequence>(OpenSimulator(options), options.scene_name);
+SimulationForExport OpenForExport(const SimulatedSequenceOptions& options,
+                                  const std::string& pair) {
+  const Shown shown{.pair = pair, .colour = true};
+  auto sequence = std::make_unique<SimulatedSequence>(Open(options, shown), options.scene_name);
   const SimulatedSequence* at = sequence.get();
   const sim::RigInfo& rig = at->simulator().rig();
   SimulationForExport result;
@@ -168,6 +191,13 @@ SimulationForExport OpenForExport(const SimulatedSequenceOptions& options) {
         {instance.name, instance.object_class, instance.class_id, instance.is_actor});
   }
   result.T_base_rig = at->simulator().Mount();
+  if (at->simulator().has_colour()) {
+    result.colour = [at](const FrameRequest& frame) {
+      return at->simulator().RenderColour(static_cast<int>(frame.id), frame.stamp_ns,
+                                          frame.T_world_rig);
+    };
+  }
+  result.pair = at->simulator().pair();
   result.path = at->Path();
   result.motion = [at](const FrameRequest& frame) { return at->MotionOf(frame); };
   result.motion_between = [at](const FrameRequest& from, const FrameRequest& to) {
@@ -176,6 +206,13 @@ SimulationForExport OpenForExport(const SimulatedSequenceOptions& options) {
   result.prove = [at](const FrameRequest& frame) { return at->Prove(frame); };
   result.sequence = std::move(sequence);
   return result;
+}
+
+std::function<cv::Mat1f(const FrameRequest&)> OpenDepth(const SimulatedSequenceOptions& options) {
+  const auto simulator = std::make_shared<const sim::Simulator>(OpenSimulator(options));
+  return [simulator](const FrameRequest& frame) {
+    return simulator->RenderDepth(frame.stamp_ns, frame.T_world_rig);
+  };
 }
 
 ScenePlan DrawScenePlan(const SimulatedSequenceOptions& options, double width_px) {

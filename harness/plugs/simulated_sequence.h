@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -38,6 +39,9 @@ struct FrameProof {
 struct SimulationForExport {
   std::unique_ptr<Sequence> sequence;
   std::uint64_t content_hash = 0;
+  /// Left and right in colour (B, G, R); none where the scene's camera has no colour.
+  std::function<std::array<cv::Mat3b, 2>(const FrameRequest& frame)> colour = {};
+  std::string pair = {};  ///< of a rig with several pairs, the one that is shown
   LensCalibration lens;
   std::vector<LabelInfo> labels;
   /// Where the camera is mounted: base as REP 103 has it, x ahead, y to the left, z up.
@@ -50,8 +54,14 @@ struct SimulationForExport {
   std::function<FrameProof(const FrameRequest& frame)> prove;
 };
 
-/// Throws as OpenSimulation does. Takes any lens.
-SimulationForExport OpenForExport(const SimulatedSequenceOptions& options);
+/// `pair` is the one of the rig's pairs that is shown; empty: the scene's choice. Throws as
+/// OpenSimulation does. Takes any lens.
+SimulationForExport OpenForExport(const SimulatedSequenceOptions& options,
+                                  const std::string& pair = "");
+
+/// Depth of the left camera at any frame, in metres, inf where nothing was hit: what stored frames
+/// are without. Throws as OpenSimulation does.
+std::function<cv::Mat1f(const FrameRequest&)> OpenDepth(const SimulatedSequenceOptions& options);
 
 /// The versions of a scene: live (as written), empty (no actors), frozen (all stand still), and
 /// none, low, mid, high: as written at that level of dynamics.

@@ -9,11 +9,11 @@ namespace aisle {
 
 /// A mesh of the user's own that is to be taken in.
 struct UserModelRequest {
-  std::string file;     ///< .glb, .gltf, .obj or .dae
-  std::string output;   ///< .aislemesh
-  std::string licence;  ///< recorded as it is
-  double unit_m = 0;    ///< metres of its unit; 0: what the file says
-  char up = 0;          ///< x, y or z; 0: what the file says
+  std::string file;      ///< .glb, .gltf, .obj or .dae
+  std::string output;    ///< .aislemesh
+  std::string licence;   ///< recorded as it is
+  double unit_m = 0;     ///< metres of its unit; 0: what the file says
+  char up = 0;           ///< x, y or z; 0: what the file says
   bool skinned = false;  ///< with its skeleton and animations
 };
 

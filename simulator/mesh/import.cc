@@ -37,9 +37,8 @@ void AddGltfModel(const Bytes& bytes, const fs::path& file, const ImportOptions&
   const GltfNodes nodes = AddGltfNodes(document, model);
   AddGltfClips(document, nodes, options, model);
   AddGltfMeshes(document, nodes, options, model);
-  ForEachBand(options, model, [&](const ImportOptions& band) {
-    AddGltfMaterials(document, file, band, model);
-  });
+  ForEachBand(options, model,
+              [&](const ImportOptions& band) { AddGltfMaterials(document, file, band, model); });
   model->left_out = LeftOutOfGltf(document);
 }
 

@@ -11,9 +11,8 @@ std::vector<ModelNode> NamedByPath(const std::vector<ModelNode>& nodes) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const int parent = nodes[i].parent;
     const std::string above = parent < 0 ? "" : named[static_cast<std::size_t>(parent)].name;
-    named.push_back({above.empty() ? nodes[i].name : above + "/" + nodes[i].name,
-                     i == 0 ? -1 : 0,
-                     {}});
+    named.push_back(
+        {above.empty() ? nodes[i].name : above + "/" + nodes[i].name, i == 0 ? -1 : 0, {}});
   }
   return named;
 }
@@ -33,8 +32,7 @@ std::size_t PutOut(std::vector<Material>* materials) {
 Model StillOf(Model model) {
   LeftOut out;
   out.Add(model.clips.size(), "animation");
-  out.Add(PutOut(&model.materials),
-          "material's emission (lamps are a scene's `lights`)",
+  out.Add(PutOut(&model.materials), "material's emission (lamps are a scene's `lights`)",
           "materials' emission (lamps are a scene's `lights`)");
   for (ModelSurfaces& band : model.colour) PutOut(&band.materials);
   for (std::string& phrase : out.Take()) model.left_out.push_back(std::move(phrase));

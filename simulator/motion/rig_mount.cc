@@ -18,6 +18,14 @@ double Swing(const Bump& bump, double time_s) {
 
 }  // namespace
 
+Eigen::Matrix3d MountTurn(const RigMount& mount) {
+  using Eigen::AngleAxisd, Eigen::Vector3d;
+  return (AngleAxisd(-mount.yaw_rad, Vector3d::UnitY()) *
+          AngleAxisd(-mount.pitch_rad, Vector3d::UnitX()) *
+          AngleAxisd(mount.roll_rad, Vector3d::UnitZ()))
+      .toRotationMatrix();
+}
+
 Eigen::Isometry3d RigPose(const RouteState& state, const RigMount& mount,
                           std::span<const Bump> bumps, double time_s) {
   double height = mount.height_m, pitch = mount.pitch_rad;
@@ -29,10 +37,15 @@ Eigen::Isometry3d RigPose(const RouteState& state, const RigMount& mount,
   Eigen::Matrix3d level;  // columns: right, down, forward
   level << s, 0, c, -c, 0, s, 0, -1, 0;
   Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();
-  T_world_rig.linear() =
-      level * Eigen::AngleAxisd(-pitch, Eigen::Vector3d::UnitX()).toRotationMatrix();
-  T_world_rig.translation() << state.position.x() + mount.forward_m * c,
-      state.position.y() + mount.forward_m * s, height;
+  if (mount.yaw_rad == 0 && mount.roll_rad == 0) {  // one turn, as it has always been summed
+    T_world_rig.linear() =
+        level * Eigen::AngleAxisd(-pitch, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  } else {  // a jolt turns the vehicle, wherever the camera looks
+    const Eigen::AngleAxisd jolt(mount.pitch_rad - pitch, Eigen::Vector3d::UnitX());
+    T_world_rig.linear() = level * jolt.toRotationMatrix() * MountTurn(mount);
+  }
+  T_world_rig.translation() << state.position.x() + mount.forward_m * c - mount.left_m * s,
+      state.position.y() + mount.forward_m * s + mount.left_m * c, height;
   return T_world_rig;
 }
 

@@ -62,6 +62,7 @@ class Checker {
     if (scene_.rig.mount.height_m >= scene_.hall.height_m) {
       issues_->Add(scene_.rig.mark, "rig.camera_height_m", "the camera is above the roof");
     }
+    CheckPairs();
   }
 
  private:
@@ -92,6 +93,24 @@ class Checker {
                       "but a frame comes every {:g} ms",
                       exposure_ms, scene_.sensor.readout_ms, frame_ms));
     }
+  }
+
+  void CheckPairs() {
+    const RigSpec& rig = scene_.rig;
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < rig.pairs.size(); ++i) {
+      const PairSpec& pair = rig.pairs[i];
+      const std::string key = fmt::format("rig.pairs[{}]", i);
+      if (!pair.name.empty() && !names.insert(pair.name).second) {
+        issues_->Add(pair.mark, key + ".name", fmt::format("'{}' is taken", pair.name));
+      }
+      if (pair.mount.height_m >= scene_.hall.height_m) {
+        issues_->Add(pair.mark, key + ".camera_height_m", "the camera is above the roof");
+      }
+    }
+    if (rig.pair.empty() || names.contains(rig.pair)) return;
+    issues_->Add(rig.pair_mark, "rig.pair",
+                 fmt::format("there is no pair '{}' among rig.pairs", rig.pair));
   }
 
   void CheckLights() {

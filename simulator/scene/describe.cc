@@ -46,6 +46,8 @@ void DescribeCamera(Fields& f, CameraSpec& camera) {
   f.Numbers({"distortion_coefficients", "k1 k2 p1 p2, or k1 k2 k3 k4 of an equidistant lens",
              "[-0.28, 0.07, 0, 0]"},
             camera.distortion_coefficients.data(), 4, {-10, 10});
+  f.Flag({"colour", "exports have colour pictures beside the grey ones; systems see grey", "true"},
+         &camera.colour);
 }
 
 void DescribeExposure(Fields& f, SensorSpec& sensor) {
@@ -137,9 +139,10 @@ void DescribeSteering(Fields& f, RouteLimits& limits) {
   if (jerk) limits.jerk_mps3 = *jerk;
 }
 
-void DescribeRoute(Fields& f, RouteSpec& route) {
+/// `unless` is a key in whose place the start may be missing.
+void DescribeRoute(Fields& f, RouteSpec& route, const char* unless = nullptr) {
   route.mark = f.mark();
-  f.Point({"start", "where it stands at first, x and y in metres", "[0, 0]", true},
+  f.Point({"start", "where it stands at first, x and y in metres", "[0, 0]", true, unless},
           &route.plan.start);
   f.Degrees({"heading_deg", "where it looks at first, counter-clockwise from x", "90"},
             &route.plan.heading_rad);
@@ -168,22 +171,51 @@ void DescribeBump(Fields& f, Bump& bump) {
   f.Number({"decay_s", "time constant of its fading", "0.25"}, &bump.decay_s, {0.02, 10});
 }
 
-void DescribeRigFiles(Fields& f, RigSpec& rig) {
-  rig.files_mark = f.MarkOf(f.Has("trajectory") ? "trajectory" : "calibration");
+/// Keys that name the calibration of a pair, of the rig's or of another one.
+template <class Spec>
+void DescribeCalibration(Fields& f, Spec& pair) {
   f.Sentence({"calibration",
               "a real rig's calibration, whose rectified pair is the camera: Kalibr's camchain, "
               "OpenCV's, KITTI's calib.txt, or of the left camera EuRoC's sensor.yaml or ROS's "
               "camera_info; instead of camera.focal_px, center_px and baseline_m",
               "camchain.yaml"},
-             &rig.calibration);
+             &pair.calibration);
   f.Sentence({"calibration_right",
               "of the right camera, or OpenCV's extrinsics, where that is a file of its own",
               "right.yaml"},
-             &rig.calibration_right);
+             &pair.calibration_right);
+}
+
+/// Where a pair sits on its vehicle.
+void DescribeMount(Fields& f, RigMount& mount) {
+  f.Number({"camera_height_m", "left camera above the floor", "0.8"}, &mount.height_m, {0.05, 10});
+  f.Number({"camera_forward_m", "left camera ahead of the axle", "0.3"}, &mount.forward_m, {-5, 5});
+  f.Number({"camera_left_m", "left camera to the left of the axle's middle", "0.06"}, &mount.left_m,
+           {-5, 5});
+  f.Degrees({"camera_pitch_deg", "positive looks down", "2"}, &mount.pitch_rad, {-60, 60});
+  f.Degrees({"camera_yaw_deg", "positive looks to the left", "180"}, &mount.yaw_rad);
+  f.Degrees({"camera_roll_deg", "positive lowers its right side", "1.5"}, &mount.roll_rad,
+            {-180, 180});
+}
+
+void DescribePair(Fields& f, PairSpec& pair) {
+  pair.mark = f.mark();
+  f.Name({"name", "by which rig.pair and render --pair know it", "rear", true}, &pair.name);
+  DescribeMount(f, pair.mount);
+  pair.has_camera = f.Has("camera");
+  f.Group({"camera", "its cameras; absent: as the scene's", "{focal_px: [300, 300]}"},
+          [&](Fields& part) { DescribeCamera(part, pair.camera); });
+  pair.files_mark = f.MarkOf("calibration");
+  DescribeCalibration(f, pair);
+}
+
+void DescribeRigFiles(Fields& f, RigSpec& rig) {
+  rig.files_mark = f.MarkOf(f.Has("trajectory") ? "trajectory" : "calibration");
+  DescribeCalibration(f, rig);
   f.Sentence(
       {"trajectory",
-       "a TUM file whose way the rig drives instead of start and steps: its poses exactly at "
-       "its times, from the first on, and smooth between",
+       "a TUM file, or FILE.mcap:/topic of a bag, whose way the rig drives instead of start and "
+       "steps: its poses exactly at its times, from the first on, and smooth between",
        "drive.txt"},
       &rig.trajectory);
   f.Choice({"trajectory_of",
@@ -196,13 +228,14 @@ void DescribeRigFiles(Fields& f, RigSpec& rig) {
 void DescribeRig(Fields& f, RigSpec& rig) {
   rig.mark = f.mark();
   rig.route.limits = kAgvLimits;
-  f.Number({"camera_height_m", "left camera above the floor", "0.8"}, &rig.mount.height_m,
-           {0.05, 10});
-  f.Number({"camera_forward_m", "left camera ahead of the axle", "0.3"}, &rig.mount.forward_m,
-           {-5, 5});
-  f.Degrees({"camera_pitch_deg", "positive looks down", "2"}, &rig.mount.pitch_rad, {-60, 60});
+  DescribeMount(f, rig.mount);
   DescribeRigFiles(f, rig);
-  if (!f.Has("trajectory")) DescribeRoute(f, rig.route);
+  f.ListOf(
+      {"pairs", "more stereo pairs on the same vehicle", "[{name: rear, camera_yaw_deg: 180}]"},
+      &rig.pairs, DescribePair);
+  f.Name({"pair", "the pair that systems are shown; absent: the rig's own", "rear"}, &rig.pair);
+  rig.pair_mark = f.MarkOf("pair");
+  if (!f.Has("trajectory")) DescribeRoute(f, rig.route, "trajectory");
   DescribeSteering(f, rig.route.limits);
   f.ListOf({"bumps", "jolts of the vehicle", "[{at_s: 4, height_m: 0.01}]"}, &rig.bumps,
            DescribeBump);

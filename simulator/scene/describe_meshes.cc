@@ -3,13 +3,13 @@
 namespace aisle::sim {
 namespace {
 
-constexpr std::initializer_list<const char*> kLabels = {
-    "floor", "wall", "column", "rack", "goods", "luminaire", "furniture"};
+constexpr std::initializer_list<const char*> kLabels = {"floor", "wall",      "column",   "rack",
+                                                        "goods", "luminaire", "furniture"};
 
 void DescribeRule(Fields& f, LabelRule& rule) {
-  f.Sentence({"nodes", "names of nodes; * stands for anything, ? for one character", "\"Regal*\"",
-              true},
-             &rule.nodes);
+  f.Sentence(
+      {"nodes", "names of nodes; * stands for anything, ? for one character", "\"Regal*\"", true},
+      &rule.nodes);
   f.Choice({"label", "what they are", "rack"}, &rule.label, kLabels);
 }
 

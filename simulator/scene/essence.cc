@@ -39,14 +39,45 @@ void Append(const YamlValue& value, std::string* text) {
   }
 }
 
-/// The bytes of the files that a real rig brings, whose names say nothing.
-void AppendRigFiles(const std::filesystem::path& scene_file, std::size_t scene_files,
-                    std::string* text) {
-  const std::vector<std::string> files = SceneFiles(scene_file);
-  for (std::size_t i = scene_files; i < files.size(); ++i) {
-    std::ostringstream bytes;
-    bytes << std::ifstream(files[i], std::ios::binary).rdbuf();
-    *text += fmt::format("f{}:{}", bytes.view().size(), bytes.view());
+std::string BytesOf(const std::string& file) {
+  std::ostringstream bytes;
+  bytes << std::ifstream(file, std::ios::binary).rdbuf();
+  return std::move(bytes).str();
+}
+
+/// FNV-1a, 64 bits: for what is too large to be kept as it is.
+std::uint64_t DigestOf(std::string_view bytes) {
+  std::uint64_t digest = 0xcbf29ce484222325;
+  for (const char byte : bytes) {
+    digest = (digest ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+  }
+  return digest;
+}
+
+/// The poses of a bag, of which all else does not matter.
+std::string TextOf(const std::vector<TimedPose>& poses) {
+  std::string text;
+  for (const TimedPose& pose : poses) {
+    text += fmt::format("{}", pose.time_ns);
+    for (int i = 0; i < 12; ++i) text += fmt::format(" {}", pose.T_world_body(i / 4, i % 4));
+  }
+  return text;
+}
+
+/// What the files hold that a scene names, whose names say nothing.
+void AppendNamedFiles(const std::filesystem::path& scene_file, std::size_t scene_files,
+                      std::string* text) {
+  const Scene scene = ReadSceneLoosely(scene_file);
+  for (std::size_t i = scene_files; i < scene.files.size(); ++i) {
+    const std::string& file = scene.files[i];
+    const bool is_mesh = std::ranges::find(scene.mesh_files, file) != scene.mesh_files.end();
+    const bool is_bag = file.ends_with(".mcap") || file.ends_with(".db3");
+    const std::string bytes = is_bag ? TextOf(scene.rig.poses) : BytesOf(file);
+    if (is_mesh || is_bag) {
+      *text += fmt::format("h{}:{:016x}", bytes.size(), DigestOf(bytes));
+    } else {
+      *text += fmt::format("f{}:{}", bytes.size(), bytes);
+    }
   }
 }
 
@@ -78,7 +109,7 @@ std::string EssenceOf(const std::filesystem::path& file, bool with_actors) {
   std::string essence;
   Append(Seen(std::move(trees->top), with_actors), &essence);
   for (YamlValue& tree : trees->dealt) Append(Seen(std::move(tree), with_actors), &essence);
-  AppendRigFiles(file, issues.files().size(), &essence);
+  AppendNamedFiles(file, issues.files().size(), &essence);
   return essence;
 }
 

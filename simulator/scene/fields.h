@@ -102,7 +102,7 @@ void DescribeBeam(Fields& fields, BeamSpec& beam);
 /// Names every key of a scene's `crowd`.
 void DescribeCrowd(Fields& fields, CrowdSpec& crowd);
 
-/// A key that names a mesh of the user's own; the keys of a hall and of a prop that is one.
+/// A key that names a mesh of the user's own; the keys of a hall, a person and a prop with one.
 void DescribeMesh(Fields& fields, const char* help, MeshSpec& mesh);
 void DescribeHallMesh(Fields& fields, HallSpec& hall);
 void DescribePropMesh(Fields& fields, PropSpec& prop);

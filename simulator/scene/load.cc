@@ -110,11 +110,20 @@ std::vector<std::string> CheckScene(const std::filesystem::path& file) {
   return ParseFile(file).messages;
 }
 
-std::vector<std::string> SceneFiles(const std::filesystem::path& file) {
+Scene ReadSceneLoosely(const std::filesystem::path& file) {
   Issues issues(file.string());
   std::string problem;
-  const auto text = ReadSceneText(file, &problem);
-  return text ? ReadScene(*text, file.string(), &issues).files : issues.files();
+  if (const auto text = ReadSceneText(file, &problem)) {
+    return ReadScene(*text, file.string(), &issues);
+  }
+  Scene scene;
+  scene.file = file.string();
+  scene.files = issues.files();
+  return scene;
+}
+
+std::vector<std::string> SceneFiles(const std::filesystem::path& file) {
+  return ReadSceneLoosely(file).files;
 }
 
 }  // namespace aisle::sim

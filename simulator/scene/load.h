@@ -26,8 +26,11 @@ Scene LoadScene(const std::filesystem::path& file);
 /// The same from text; `file` is for the messages.
 Scene ParseScene(const std::string& text, const std::string& file);
 
-/// The file and those it extends, nearest first: what decides the scene. Of a file with mistakes,
-/// as far as they can be followed.
+/// What the file says as far as it can be read, held to nothing.
+Scene ReadSceneLoosely(const std::filesystem::path& file);
+
+/// The file and those it extends, nearest first, then those it names: what decides the scene. Of a
+/// file with mistakes, as far as they can be followed.
 std::vector<std::string> SceneFiles(const std::filesystem::path& file);
 
 /// Every mistake in the file and those it extends; empty: it is good. Never throws for what the

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "simulator/calibration/stereo_model.h"
+#include "simulator/scene/bag_poses.h"
 
 namespace aisle::sim {
 namespace {
@@ -23,28 +24,36 @@ std::string Resolved(const Scene& scene, Mark mark, const std::string& name) {
 // --- Calibration
 // ---------------------------------------------------------------------------------
 
-void ReadCalibration(Scene* scene, Issues* issues) {
-  const RigSpec& rig = scene->rig;
-  std::vector<std::string> files = {Resolved(*scene, rig.files_mark, rig.calibration)};
-  if (!rig.calibration_right.empty()) {
-    files.push_back(Resolved(*scene, rig.files_mark, rig.calibration_right));
+/// What a calibration makes of a pair's cameras; `key` and `mark` are for the messages.
+struct CalibrationFiles {
+  Mark mark;
+  std::string key, left, right;
+};
+
+void ReadCalibration(const CalibrationFiles& named, CameraSpec* camera, Scene* scene,
+                     Issues* issues) {
+  if (named.left.empty()) {
+    if (named.right.empty()) return;
+    issues->Add(named.mark, named.key + "_right", "calibration, of the left camera, is missing");
+    return;
   }
+  std::vector<std::string> files = {Resolved(*scene, named.mark, named.left)};
+  if (!named.right.empty()) files.push_back(Resolved(*scene, named.mark, named.right));
   try {
     StereoModel model = ReadStereoModel(files);
-    CameraSpec& camera = scene->camera;
     if (model.left.width == 0) {  // OpenCV's and KITTI's files do not say it
-      model.left.width = camera.size_px[0];
-      model.left.height = camera.size_px[1];
+      model.left.width = camera->size_px[0];
+      model.left.height = camera->size_px[1];
     }
     const RectifiedPair pair = Rectified(model);
-    camera.size_px = {pair.width, pair.height};
-    camera.focal_px = {pair.fx, pair.fy};
-    camera.center_px = {pair.cx, pair.cy};
-    camera.baseline_m = pair.baseline_m;
-    camera.distortion = Distortion::kNone;
+    camera->size_px = {pair.width, pair.height};
+    camera->focal_px = {pair.fx, pair.fy};
+    camera->center_px = {pair.cx, pair.cy};
+    camera->baseline_m = pair.baseline_m;
+    camera->distortion = Distortion::kNone;
     scene->files.insert(scene->files.end(), files.begin(), files.end());
   } catch (const std::runtime_error& error) {
-    issues->Add(rig.files_mark, "rig.calibration", error.what());
+    issues->Add(named.mark, named.key, error.what());
   }
 }
 
@@ -109,11 +118,14 @@ std::string ReadPoses(const std::string& file, std::vector<TimedPose>* poses) {
 
 void ReadTrajectory(Scene* scene, Issues* issues) {
   RigSpec& rig = scene->rig;
-  const std::string file = Resolved(*scene, rig.files_mark, rig.trajectory);
+  const auto [name, topic] = SplitBagTopic(rig.trajectory);
+  const std::string file = Resolved(*scene, rig.files_mark, name);
   const auto add = [&](const std::string& what) {
     issues->Add(rig.files_mark, "rig.trajectory", what);
   };
-  if (const std::string wrong = ReadPoses(file, &rig.poses); !wrong.empty()) return add(wrong);
+  const std::string wrong =
+      topic.empty() ? ReadPoses(file, &rig.poses) : ReadBagPoses(file + ":" + topic, &rig.poses);
+  if (!wrong.empty()) return add(wrong);
   scene->files.push_back(file);
   const std::int64_t first_ns = rig.poses.front().time_ns;
   for (TimedPose& pose : rig.poses) pose.time_ns -= first_ns;
@@ -145,11 +157,15 @@ void ReadTrajectory(Scene* scene, Issues* issues) {
 }  // namespace
 
 void ReadRigFiles(Scene* scene, Issues* issues) {
-  const RigSpec& rig = scene->rig;
-  if (!rig.calibration.empty()) ReadCalibration(scene, issues);
-  if (rig.calibration.empty() && !rig.calibration_right.empty()) {
-    issues->Add(rig.files_mark, "rig.calibration_right",
-                "calibration, of the left camera, is missing");
+  RigSpec& rig = scene->rig;
+  ReadCalibration({rig.files_mark, "rig.calibration", rig.calibration, rig.calibration_right},
+                  &scene->camera, scene, issues);
+  for (std::size_t i = 0; i < rig.pairs.size(); ++i) {
+    PairSpec& pair = rig.pairs[i];
+    if (!pair.has_camera) pair.camera = scene->camera;
+    ReadCalibration({pair.files_mark, fmt::format("rig.pairs[{}].calibration", i), pair.calibration,
+                     pair.calibration_right},
+                    &pair.camera, scene, issues);
   }
   if (!rig.trajectory.empty()) ReadTrajectory(scene, issues);
 }

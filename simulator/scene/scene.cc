@@ -9,6 +9,18 @@ std::string PlaceText(const std::vector<std::string>& files, Mark mark) {
   return fmt::format("{}:{}:{}", file, mark.line, mark.column);
 }
 
+Scene WithPair(Scene scene, const std::string& name) {
+  RigSpec& rig = scene.rig;
+  for (const PairSpec& pair : rig.pairs) {
+    if (pair.name != name) continue;
+    rig.first_mount = rig.mount;
+    rig.mount = pair.mount;
+    scene.camera = pair.camera;
+    rig.pair = name;
+  }
+  return scene;
+}
+
 namespace {
 
 /// Those that people bring stay away with these; others stand as at the start.

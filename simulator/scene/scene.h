@@ -30,6 +30,7 @@ struct CameraSpec {
   double baseline_m = 0.12;
   Distortion distortion = Distortion::kNone;
   std::array<double, 4> distortion_coefficients = {0, 0, 0, 0};
+  bool colour = false;  ///< exports have colour pictures beside the grey ones
 };
 
 /// A route with the places of its parts in the file.
@@ -50,14 +51,30 @@ enum class TrajectoryBody {
   kVehicle,  ///< the point the route moves: x ahead, y to the left, z up
 };
 
+/// Another stereo pair of the rig.
+struct PairSpec {
+  Mark mark;
+  std::string name;
+  RigMount mount;
+  bool has_camera = false;  ///< else it is as the scene's
+  CameraSpec camera;
+  Mark files_mark;
+  std::string calibration, calibration_right;  ///< as of the rig
+};
+
 struct RigSpec {
   Mark mark;
-  RigMount mount;
+  RigMount mount;               ///< of the pair that is shown
+  std::vector<PairSpec> pairs;  ///< besides the one of `camera`
+  std::string pair;             ///< which of them is shown; empty: that of `camera`
+  Mark pair_mark;
+  /// Of the pair of `camera`, whose poses a trajectory of the camera holds; where another is shown.
+  std::optional<RigMount> first_mount;
   RouteSpec route;
   Mark files_mark;  ///< of the keys that name files
   /// Files of the user, as the scene names them; empty: none. One of the rig, or of both cameras.
   std::string calibration, calibration_right;
-  std::string trajectory;        ///< TUM; instead of the route
+  std::string trajectory;        ///< TUM, or FILE.mcap:/topic; instead of the route
   std::vector<TimedPose> poses;  ///< what it holds, from 0 s on
   TrajectoryBody body = TrajectoryBody::kCamera;
   std::vector<Bump> bumps;
@@ -331,6 +348,8 @@ struct Scene : Premises {
 /// "file:line:column" of a mark in a scene's files.
 std::string PlaceText(const std::vector<std::string>& files, Mark mark);
 
+/// The same scene as the rig's pair of that name sees it; of "" as `camera` does.
+Scene WithPair(Scene scene, const std::string& name);
 /// The same scene with nobody in it; mechanisms stand still.
 Scene WithoutActors(Scene scene);
 /// The same scene with everybody standing where they are at time 0.

@@ -105,15 +105,15 @@ class SchemaWriter : public Fields {
     described.update(property);
     if (key.required && key.unless == nullptr) required_.emplace_back(key.name);
     if (key.required && key.unless != nullptr) {
-      either_.push_back(Json::array({{{"required", Json::array({key.name})}},
-                                     {{"required", Json::array({key.unless})}}}));
+      either_.push_back(Json::array(
+          {{{"required", Json::array({key.name})}}, {{"required", Json::array({key.unless})}}}));
     }
     return properties_[key.name] = std::move(described);
   }
 
   Json properties_ = Json::object();
   std::vector<std::string> required_;
-  std::vector<Json> either_;    ///< for a key in whose place another may stand, the two
+  std::vector<Json> either_;     ///< for a key in whose place another may stand, the two
   Json needs_ = Json::object();  ///< requirements of groups, by their name
 };
 

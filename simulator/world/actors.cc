@@ -17,6 +17,7 @@ TriangleMesh Wardrobe::Wear(const std::shared_ptr<const Model>& model) {
       model.get(), static_cast<std::uint16_t>(parts_->materials.size()));
   if (is_new) {
     const int first_texture = static_cast<int>(parts_->textures.size());
+    worn_.push_back({model, parts_->materials.size(), parts_->textures.size()});
     for (Material material : model->materials) {
       if (material.albedo_texture >= 0) material.albedo_texture += first_texture;
       if (material.normal_texture >= 0) material.normal_texture += first_texture;

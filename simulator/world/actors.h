@@ -23,13 +23,21 @@ struct Actor {
 /// Adds the materials and textures of models to a world, each model once.
 class Wardrobe {
  public:
+  /// A model's first material and texture in the world.
+  struct Worn {
+    std::shared_ptr<const Model> model;
+    std::size_t first_material = 0, first_texture = 0;
+  };
+
   explicit Wardrobe(WorldParts* parts) : parts_(parts) {}
+  const std::vector<Worn>& worn() const { return worn_; }
   /// The model's mesh with the world's material indices.
   TriangleMesh Wear(const std::shared_ptr<const Model>& model);
 
  private:
   WorldParts* parts_;
   std::map<const Model*, std::uint16_t> first_material_;
+  std::vector<Worn> worn_;
 };
 
 /// A walking person. One whose steps play walk_carry has a box in the arms, from first to last,

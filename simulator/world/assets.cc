@@ -71,6 +71,12 @@ void ReadRects(const std::string& texture, const Json& asset,
   }
 }
 
+ImportOptions WithColour(bool colour) {
+  ImportOptions options;
+  options.colour = colour;
+  return options;
+}
+
 bool IsOwnTree(const std::filesystem::path& folder) {
   const std::filesystem::path own = FindOwnFolder(OwnFile());
   std::error_code error;
@@ -90,8 +96,8 @@ const Facts& Find(const std::map<std::string, Facts>& known, const std::string& 
 
 }  // namespace
 
-AssetLibrary::AssetLibrary(std::filesystem::path folder)
-    : folder_(std::move(folder)), is_own_(IsOwnTree(folder_)) {
+AssetLibrary::AssetLibrary(std::filesystem::path folder, bool colour)
+    : folder_(std::move(folder)), is_own_(IsOwnTree(folder_)), colour_(colour) {
   const std::filesystem::path file = folder_ / "manifest.json";
   std::ifstream stream(file);
   if (!stream) throw std::runtime_error(file.string() + ": there is no such file");
@@ -129,12 +135,20 @@ const std::string& AssetLibrary::Prop(const std::string& name) const {
 }
 
 cv::Mat1b AssetLibrary::Picture(const std::string& texture) const {
+  const cv::Mat picture = ColourPicture(texture);
+  if (picture.empty()) {
+    throw ImportError((folder_ / "textures" / (texture + ".png")).string() +
+                      ": there is no such file");
+  }
+  return GreyOf(picture, Band::kLuminance);
+}
+
+cv::Mat AssetLibrary::ColourPicture(const std::string& texture) const {
   const std::filesystem::path file = folder_ / "textures" / (texture + ".png");
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw ImportError(file.string() + ": there is no such file");
+  if (!stream) return {};
   const std::vector<std::uint8_t> bytes((std::istreambuf_iterator<char>(stream)), {});
-  return GreyOf(DecodeImage(bytes, file.string(), ImportOptions().max_texture_px),
-                Band::kLuminance);
+  return DecodeImage(bytes, file.string(), ImportOptions().max_texture_px);
 }
 
 std::array<float, 4> AssetLibrary::Rect(const std::string& texture, const std::string& name) const {
@@ -151,6 +165,7 @@ std::shared_ptr<const Model> AssetLibrary::Load(const std::string& asset) {
   if (!model) {
     ImportOptions options;
     options.root = folder_;
+    options.colour = colour_;
     const std::filesystem::path file = folder_ / (asset + ".glb");
     model = std::make_shared<const Model>(is_own_ ? ImportModel(file, options)
                                                   : ReadModel(file, options));

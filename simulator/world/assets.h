@@ -53,8 +53,9 @@ struct VehicleFacts {
 /// one of their own (simulator/mesh/door), which costs a fifth of a second each.
 class AssetLibrary {
  public:
-  /// Throws std::runtime_error when the manifest is missing or not as expected.
-  explicit AssetLibrary(std::filesystem::path folder);
+  /// With `colour`, models come with theirs. Throws std::runtime_error when the manifest is missing
+  /// or not as expected.
+  explicit AssetLibrary(std::filesystem::path folder, bool colour = false);
 
   /// Facts of people/NAME or vehicles/NAME. Throws std::runtime_error naming what there is.
   const PersonFacts& Person(const std::string& name) const;
@@ -65,6 +66,8 @@ class AssetLibrary {
   const std::string& Prop(const std::string& name) const;
   /// The picture assets/textures/NAME.png in grey. Throws ImportError.
   cv::Mat1b Picture(const std::string& texture) const;
+  /// The same as it is stored: of one channel or three; empty where there is none of that name.
+  cv::Mat ColourPicture(const std::string& texture) const;
   /// A named rectangle of an atlas: left, top, width, height in shares of the picture.
   std::array<float, 4> Rect(const std::string& texture, const std::string& name) const;
   /// A mesh of the user's own, as it stands at rest. Throws ImportError.
@@ -75,6 +78,7 @@ class AssetLibrary {
  private:
   std::filesystem::path folder_;
   bool is_own_ = false;  ///< the project's own tree
+  bool colour_ = false;
   std::map<std::string, PersonFacts> people_;
   std::map<std::string, VehicleFacts> vehicles_;
   std::map<std::string, std::string> props_;

@@ -197,7 +197,7 @@ void Slow(double rate, MoverState* state) {
 World BuildWorld(const Scene& written, const std::string& assets_dir, std::uint64_t seed) {
   WorldParts parts;
   Site site(&parts);
-  AssetLibrary assets(assets_dir);
+  AssetLibrary assets(assets_dir, written.camera.colour);
   const Scene scene = WithLooks(Seeded(written, seed), seed, assets.PeopleNames());
   ReadModels(scene, &assets);
   const Palette palette = AddPalette(scene, seed, assets, &parts);
@@ -218,6 +218,7 @@ World BuildWorld(const Scene& written, const std::string& assets_dir, std::uint6
   AddProps(scene, seed, &assets, &wardrobe, &site);
   std::vector<Cast> cast = AddActors(scene, palette, seed, &assets, &wardrobe, &parts, &site);
   AddMechanisms(scene, palette, seed, &assets, &wardrobe, &parts, &site, &cast);
+  if (scene.camera.colour) parts.colour = ColourOf(parts, wardrobe.worn(), assets);
 
   parts.has_beams = !scene.beams.empty();
   parts.at_clocks = [scene, cast](std::int64_t stamp_ns, std::span<const ActorClock> clocks) {
@@ -246,11 +247,15 @@ World BuildWorld(const Scene& written, const std::string& assets_dir, std::uint6
   };
   parts.at = [at = parts.at_clocks](std::int64_t stamp_ns) { return at(stamp_ns, {}); };
   if (!scene.rig.poses.empty()) {
-    const RigMount& mount = scene.rig.mount;
-    const Eigen::Isometry3d T_body_rig =
-        scene.rig.body == TrajectoryBody::kCamera
-            ? Eigen::Isometry3d::Identity()
-            : RigPose({.position = Eigen::Vector2d::Zero(), .heading_rad = 0}, mount, {}, 0);
+    const auto mounted = [](const RigMount& mount) {
+      return RigPose({.position = Eigen::Vector2d::Zero(), .heading_rad = 0}, mount, {}, 0);
+    };
+    Eigen::Isometry3d T_body_rig = Eigen::Isometry3d::Identity();
+    if (scene.rig.body == TrajectoryBody::kVehicle) {
+      T_body_rig = mounted(scene.rig.mount);
+    } else if (scene.rig.first_mount) {  // the poses are the other pair's
+      T_body_rig = mounted(*scene.rig.first_mount).inverse() * mounted(scene.rig.mount);
+    }
     parts.rig = [path = RecordedPath(scene.rig.poses), T_body_rig](std::int64_t stamp_ns) {
       return path.At(stamp_ns) * T_body_rig;
     };

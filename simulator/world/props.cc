@@ -56,9 +56,10 @@ void AddProps(const Scene& scene, std::uint64_t seed, AssetLibrary* assets, Ward
       const double turn = prop.heading_rad + (prop.to ? 0.04 * dice.Signed() : 0);
       const Eigen::Vector3f at(places[k].cast<float>().x(), places[k].cast<float>().y(),
                                static_cast<float>(prop.above_m));
-      site->Add(fmt::format("{}_{}_{}", what.name, i, k), what.object_class, [&](TriangleMesh* mesh) {
-        AddMesh(mesh, At(at.x(), at.y(), at.z(), static_cast<float>(turn)), piece);
-      });
+      site->Add(fmt::format("{}_{}_{}", what.name, i, k), what.object_class,
+                [&](TriangleMesh* mesh) {
+                  AddMesh(mesh, At(at.x(), at.y(), at.z(), static_cast<float>(turn)), piece);
+                });
     }
   }
 }

@@ -65,6 +65,14 @@ World::World(WorldParts parts) : parts_(std::move(parts)) {
   if (parts_.lights.empty()) throw std::invalid_argument("there is no light");
 }
 
+World World::InBand(std::size_t band) const {
+  WorldParts parts = parts_;
+  parts.materials = parts_.colour.at(band).materials;
+  parts.textures = parts_.colour.at(band).textures;
+  parts.colour.clear();
+  return World(std::move(parts));
+}
+
 Snapshot World::At(std::int64_t stamp_ns) const {
   if (parts_.at) return parts_.at(stamp_ns);
   return {

@@ -93,6 +93,12 @@ struct Snapshot {
   float beam_bounce = 0;  ///< irradiance that their light gives everywhere after it met a surface
 };
 
+/// What surfaces are like in one band of colour: as many materials and textures as the world has.
+struct BandSurfaces {
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+};
+
 /// The parts a world is made of. BuildWorld (simulator/world/build.h) makes them from a scene file;
 /// tests make their own.
 struct WorldParts {
@@ -111,6 +117,7 @@ struct WorldParts {
   /// Where the route puts the rig (left camera) at a time: T_world_rig. Pure. None: identity.
   std::function<Eigen::Isometry3d(std::int64_t stamp_ns)> rig;
   bool has_beams = false;  ///< snapshots may have beams
+  std::vector<BandSurfaces> colour = {};  ///< red, green, blue; none: the world is grey
 };
 
 /// The scene, laid out: immutable once built, shared by any number of threads.
@@ -127,6 +134,9 @@ class World {
   const StaticWorld& statics() const { return parts_.statics; }
   const std::vector<TriangleMesh>& mover_meshes() const { return parts_.mover_meshes; }
   bool has_beams() const { return parts_.has_beams; }
+  bool has_colour() const { return !parts_.colour.empty(); }
+  /// The same world as one band of light sees it, 0 red to 2 blue; it must have colour.
+  World InBand(std::size_t band) const;
 
   /// Everything that moves, at `stamp_ns` after the start of the scene.
   Snapshot At(std::int64_t stamp_ns) const;

@@ -52,8 +52,17 @@ def _unfilter(kind, row, before, step):
     return out
 
 
+def read_colour_png(path):
+    """(height, width, 3), uint8, in the order red, green, blue."""
+    return _read_png(path, colour=2)
+
+
 def read_grey_png(path):
     """(height, width), uint8 or uint16."""
+    return _read_png(path, colour=0)
+
+
+def _read_png(path, colour):
     data = pathlib.Path(path).read_bytes()
     assert data[:8] == b"\x89PNG\r\n\x1a\n", path
     at, packed, header = 8, b"", None
@@ -67,14 +76,17 @@ def read_grey_png(path):
         if kind == b"IDAT":
             packed += body
         at += 12 + size
-    width, height, depth, colour, _, _, interlaced = header
-    assert depth in (8, 16) and colour == 0 and interlaced == 0, (path, header)
-    step = depth // 8
+    width, height, depth, kind, _, _, interlaced = header
+    assert depth in (8, 16) and kind == colour and interlaced == 0, (path, header)
+    assert colour == 0 or depth == 8, (path, header)
+    step = 3 if colour == 2 else depth // 8
     lines = np.frombuffer(zlib.decompress(packed), np.uint8).reshape(height, 1 + step * width)
     before, rows = np.zeros(step * width, np.uint8), []
     for line in lines:
         before = _unfilter(line[0], line[1:], before, step)
         rows.append(before)
+    if colour == 2:
+        return np.array(rows).reshape(height, width, 3)
     return np.array(rows).view(">u2" if step == 2 else np.uint8).astype(
         np.uint16 if step == 2 else np.uint8)
 

@@ -1,0 +1,57 @@
+#include "simulator/scene/bag_poses.h"
+
+#include <fmt/format.h>
+
+#include <mutex>
+
+namespace aisle::sim {
+namespace {
+
+std::mutex reader_mutex;  ///< guards TheReader()
+
+BagPoseReader& TheReader() {
+  static BagPoseReader reader;
+  return reader;
+}
+
+}  // namespace
+
+void ReadBagsWith(BagPoseReader reader) {
+  const std::lock_guard lock(reader_mutex);
+  TheReader() = std::move(reader);
+}
+
+std::pair<std::string, std::string> SplitBagTopic(const std::string& text) {
+  for (const char* bag : {".mcap:", ".db3:"}) {
+    const std::size_t at = text.find(bag);
+    if (at == std::string::npos) continue;
+    const std::size_t colon = at + std::string(bag).size() - 1;
+    return {text.substr(0, colon), text.substr(colon + 1)};
+  }
+  return {text, ""};
+}
+
+std::string ReadBagPoses(const std::string& file_and_topic, std::vector<TimedPose>* poses) {
+  BagPoseReader reader;
+  {
+    const std::lock_guard lock(reader_mutex);
+    reader = TheReader();
+  }
+  if (!reader) return file_and_topic + ": bags are read by the program aisle alone";
+  try {
+    *poses = reader(file_and_topic);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  for (std::size_t i = 0; i < poses->size(); ++i) {
+    if (!(*poses)[i].T_world_body.matrix().allFinite()) {
+      return file_and_topic + ": a pose is not finite";
+    }
+    if (i > 0 && (*poses)[i].time_ns <= (*poses)[i - 1].time_ns) {
+      return file_and_topic + ": its stamps do not rise";
+    }
+  }
+  return poses->empty() ? file_and_topic + ": holds no pose" : "";
+}
+
+}  // namespace aisle::sim
