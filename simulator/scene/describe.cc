@@ -262,6 +262,7 @@ void DescribePerson(Fields& f, PersonSpec& person) {
   f.Name({"model", "file in assets/people without .glb", "worker_anton"}, &person.model);
   person.model_mark = f.MarkOf("model");
   f.Choice({"level", "takes part from this level of dynamics on", "low"}, &person.level, kDynamics);
+  DescribePersonFiles(f, person);
   DescribeRoute(f, person.route);
   DescribeYields(f, person.yields);
   f.Number({"limp", "share by which the right leg's stance is shorter", "0.3"}, &person.limp,

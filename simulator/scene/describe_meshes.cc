@@ -32,6 +32,22 @@ void DescribeHallMesh(Fields& f, HallSpec& hall) {
            &hall.labels, DescribeRule);
 }
 
+void DescribePersonFiles(Fields& f, PersonSpec& person) {
+  CaptureSpec& capture = person.capture;
+  f.Sentence({"bvh",
+              "a recorded motion, a BVH file, played once from start_s on: its first frame stands "
+              "at `start` and looks along heading_deg; instead of steps",
+              "walk.bvh"},
+             &capture.bvh.name);
+  capture.bvh.mark = f.MarkOf("bvh");
+  DescribeMesh(f, "a skinned model of one's own instead of `model`: .glb, or import-mesh --skinned",
+               capture.mesh);
+  f.Sentence({"clip", "of that model's animations the one it plays; absent: the only one", "Walk"},
+             &capture.clip);
+  f.Number({"stride_m", "way that one turn of that clip walks; 0: it plays by the clock", "1.4"},
+           &capture.stride_m, {0, 20});
+}
+
 void DescribePropMesh(Fields& f, PropSpec& prop) {
   DescribeMesh(f, "a mesh of one's own instead of `model`: .aislemesh or .glb", prop.mesh);
   f.Choice({"label", "what such a mesh is", "furniture"}, &prop.label, kLabels);

@@ -105,6 +105,7 @@ void DescribeCrowd(Fields& fields, CrowdSpec& crowd);
 /// A key that names a mesh of the user's own; the keys of a hall, a person and a prop with one.
 void DescribeMesh(Fields& fields, const char* help, MeshSpec& mesh);
 void DescribeHallMesh(Fields& fields, HallSpec& hall);
+void DescribePersonFiles(Fields& fields, PersonSpec& person);
 void DescribePropMesh(Fields& fields, PropSpec& prop);
 
 /// Names every key of a scene file, with ranges and examples.

@@ -10,33 +10,57 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void Find(MeshSpec* mesh, const std::string& key, Scene* scene, Issues* issues) {
-  if (mesh->name.empty()) return;
-  const auto index = static_cast<std::size_t>(mesh->mark.file);
-  const std::string& from = index < scene->files.size() ? scene->files[index] : scene->file;
-  mesh->file = (fs::path(from).parent_path() / mesh->name).lexically_normal().string();
+using Files = std::vector<std::string>;
+
+/// Where a file is that a key names; adds it to `files`.
+void Find(MeshSpec* named, const std::string& key, const Scene& scene, Files* files,
+          Issues* issues) {
+  if (named->name.empty()) return;
+  const auto index = static_cast<std::size_t>(named->mark.file);
+  const std::string& from = index < scene.files.size() ? scene.files[index] : scene.file;
+  named->file = (fs::path(from).parent_path() / named->name).lexically_normal().string();
   std::error_code failed;
-  if (!fs::is_regular_file(mesh->file, failed)) {
-    issues->Add(mesh->mark, key, fmt::format("there is no such file: {}", mesh->file));
+  if (!fs::is_regular_file(named->file, failed)) {
+    issues->Add(named->mark, key, fmt::format("there is no such file: {}", named->file));
     return;
   }
-  if (std::ranges::find(scene->mesh_files, mesh->file) != scene->mesh_files.end()) return;
-  scene->mesh_files.push_back(mesh->file);
+  if (std::ranges::find(*files, named->file) == files->end()) files->push_back(named->file);
+}
+
+void FindOfPerson(PersonSpec* person, Scene* scene, Issues* issues) {
+  CaptureSpec& capture = person->capture;
+  const std::string key = fmt::format("people[{}]", person->place);
+  Find(&capture.bvh, key + ".bvh", *scene, &scene->motion_files, issues);
+  Find(&capture.mesh, key + ".mesh", *scene, &scene->mesh_files, issues);
+  if (!capture.bvh.name.empty() && !person->route.plan.steps.empty()) {
+    issues->Add(capture.bvh.mark, key, "it goes where its motion goes; leave out `steps`");
+  }
+  if (!capture.bvh.name.empty() && scene->drive.there) {
+    issues->Add(
+        capture.bvh.mark, key,
+        "a closed drive must know where people walk; give them `steps` instead of a motion");
+  }
+  if (capture.mesh.name.empty() && (!capture.clip.empty() || capture.stride_m > 0)) {
+    issues->Add(person->mark, key, "`clip` and `stride_m` are of a `mesh`; name one");
+  }
 }
 
 }  // namespace
 
 void FindMeshFiles(Scene* scene, Issues* issues) {
-  Find(&scene->hall.mesh, "hall.mesh", scene, issues);
+  Find(&scene->hall.mesh, "hall.mesh", *scene, &scene->mesh_files, issues);
   for (std::size_t i = 0; i < scene->props.size(); ++i) {
     PropSpec& prop = scene->props[i];
     const std::string key = fmt::format("props[{}]", i);
     if (!prop.mesh.name.empty() && !prop.model.empty()) {
       issues->Add(prop.mesh.mark, key, "it has a `model` and a `mesh`; give one of them");
     }
-    Find(&prop.mesh, key + ".mesh", scene, issues);
+    Find(&prop.mesh, key + ".mesh", *scene, &scene->mesh_files, issues);
   }
-  scene->files.insert(scene->files.end(), scene->mesh_files.begin(), scene->mesh_files.end());
+  for (PersonSpec& person : scene->people) FindOfPerson(&person, scene, issues);
+  for (const Files* files : {&scene->mesh_files, &scene->motion_files}) {
+    scene->files.insert(scene->files.end(), files->begin(), files->end());
+  }
 }
 
 }  // namespace aisle::sim

@@ -260,12 +260,21 @@ struct YieldSpec {
   double within_m = 2;  ///< while the vehicle is that near and under way
 };
 
+/// What a person of the user's own brings.
+struct CaptureSpec {
+  MeshSpec bvh;         ///< a recorded motion, instead of the route's steps
+  MeshSpec mesh;        ///< a skinned model, instead of `model`
+  std::string clip;     ///< of the mesh's animations the one it plays; empty: the only one
+  double stride_m = 0;  ///< way during one turn of that clip; 0: it plays by the clock
+};
+
 struct PersonSpec {
   Mark mark;
   std::size_t place = 0;  ///< in the file's list, whoever of it is left out
   std::string name;
   std::string model = "worker_anton";
   Mark model_mark;  ///< of the key that names it, or of the person
+  CaptureSpec capture;
   Dynamics level = Dynamics::kLow;
   RouteSpec route;
   VarySpec vary;
@@ -323,6 +332,7 @@ struct Scene : Premises {
   /// That one and those it extends, nearest first, each hall's file behind them; then others.
   std::vector<std::string> files;
   std::vector<std::string> mesh_files;  ///< of them, the user's own meshes
+  std::vector<std::string> motion_files;  ///< and recorded motions
   std::string extends;  ///< the scene whose keys hold where it has none, as the file says it
   std::string about;    ///< the sentence on what it tests
   int frames = 300;

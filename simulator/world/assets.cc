@@ -175,7 +175,14 @@ std::shared_ptr<const Model> AssetLibrary::Load(const std::string& asset) {
 
 std::shared_ptr<const Model> AssetLibrary::LoadStill(const std::string& file) {
   std::shared_ptr<const Model>& model = models_["still:" + file];
-  if (!model) model = std::make_shared<const Model>(StillOf(OpenUserModel(file)));
+  if (!model)
+    model = std::make_shared<const Model>(StillOf(OpenUserModel(file, WithColour(colour_))));
+  return model;
+}
+
+std::shared_ptr<const Model> AssetLibrary::LoadSkinned(const std::string& file) {
+  std::shared_ptr<const Model>& model = models_["skinned:" + file];
+  if (!model) model = std::make_shared<const Model>(OpenUserModel(file, WithColour(colour_)));
   return model;
 }
 

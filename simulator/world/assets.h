@@ -72,6 +72,8 @@ class AssetLibrary {
   std::array<float, 4> Rect(const std::string& texture, const std::string& name) const;
   /// A mesh of the user's own, as it stands at rest. Throws ImportError.
   std::shared_ptr<const Model> LoadStill(const std::string& file);
+  /// A skinned model of the user's own, with its animations. Throws ImportError.
+  std::shared_ptr<const Model> LoadSkinned(const std::string& file);
   /// The model of "people/NAME", "vehicles/NAME", "kit/NAME" or "street/NAME".
   std::shared_ptr<const Model> Load(const std::string& asset);
 

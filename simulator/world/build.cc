@@ -7,6 +7,8 @@
 #include "simulator/motion/rig_mount.h"
 #include "simulator/scene/vary.h"
 #include "simulator/world/actors.h"
+#include "simulator/world/captured_person.h"
+#include "simulator/world/colour.h"
 #include "simulator/world/fittings.h"
 #include "simulator/world/mechanism.h"
 #include "simulator/world/own_hall.h"
@@ -74,6 +76,7 @@ void ReadModels(const Scene& scene, AssetLibrary* assets) {
     }
   }
   for (const PersonSpec& person : scene.people) {
+    if (!person.capture.mesh.name.empty()) continue;  // read where it is made
     read(person, "model of " + person.name, [&](const std::string& model) {
       assets->Person(model);  // the manifest must know it
       return "people/" + model;
@@ -162,6 +165,7 @@ std::vector<Cast> AddActors(const Scene& scene, const Palette& palette, std::uin
   };
   for (const PersonSpec& person : scene.people) {
     enter(person, ObjectClass::kPerson, [&] {
+      if (IsCaptured(person)) return MakeCapturedPerson(person, assets, wardrobe);
       return MakePerson(person, assets, palette, Dice(seed, {430, person.place}), wardrobe,
                         SharesLoad(scene, person.name));
     });

@@ -32,6 +32,8 @@ std::vector<std::string> CheckModels(const Scene& scene, const AssetLibrary& ass
     }
   }
   for (const PersonSpec& person : scene.people) {
+    check_mesh(person.capture.mesh, "mesh of " + person.name);
+    if (!person.capture.mesh.name.empty()) continue;
     check(person.model_mark, "model of " + person.name, [&] { assets.Person(person.model); });
   }
   for (const VehicleSpec& vehicle : scene.vehicles) {

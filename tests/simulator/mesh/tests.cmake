@@ -3,3 +3,4 @@ target_compile_definitions(simulator_mesh_test PRIVATE AISLE_PYTHON="${Python3_E
 aisle_tests(simulator/mesh/door)
 target_compile_definitions(simulator_mesh_door_test PRIVATE AISLE_PYTHON="${Python3_EXECUTABLE}")
 add_dependencies(simulator_mesh_door_test aisle_read_model)
+aisle_tests(simulator/mesh/capture USES simulator/mesh)

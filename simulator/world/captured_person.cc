@@ -1,0 +1,151 @@
+#include "simulator/world/captured_person.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "simulator/mesh/capture/retarget.h"
+#include "simulator/mesh/pose.h"
+
+namespace aisle::sim {
+namespace {
+
+constexpr double kHalfStep_s = 0.005;  ///< over which the body's speed is differenced
+
+std::vector<Eigen::Affine3f> Placed(const Model& model, const NodeFrames& frames,
+                                    const RouteState& place) {
+  std::vector<Eigen::Affine3f> joints = JointMatrices(model, frames);
+  const Eigen::Affine3f T_world_object(ObjectPose(place).cast<float>());
+  for (Eigen::Affine3f& joint : joints) joint = T_world_object * joint;
+  return joints;
+}
+
+/// A recorded motion, laid down at the person's start.
+class Played {
+ public:
+  Played(const PersonSpec& person, const Model& base, const Clip& clip)
+      : start_s_(person.route.plan.start_s) {
+    auto model = std::make_shared<Model>(base);
+    model->clips.push_back(clip);
+    clip_ = static_cast<int>(model->clips.size()) - 1;
+    duration_s_ = clip.duration_s;
+    pelvis_ = static_cast<std::size_t>(model->FindNode("pelvis"));
+    ahead_in_pelvis_ =
+        PoseNodes(*model, {})[pelvis_].rotation().transpose() * Eigen::Vector3f::UnitX();
+    model_ = std::move(model);
+    origin_ = {.position = person.route.plan.start, .heading_rad = person.route.plan.heading_rad};
+  }
+
+  const Model& model() const { return *model_; }
+
+  std::vector<Eigen::Affine3f> WorldJoints(double time_s) const {
+    return Placed(*model_, FramesAt(time_s), origin_);
+  }
+
+  /// Where the body is: below its pelvis, facing as that does.
+  RouteState RouteAt(double time_s) const {
+    RouteState state = PlaceAt(time_s);
+    const Eigen::Vector2d way =
+        PlaceAt(time_s + kHalfStep_s).position - PlaceAt(time_s - kHalfStep_s).position;
+    state.speed_mps =
+        way.dot(Eigen::Vector2d(std::cos(state.heading_rad), std::sin(state.heading_rad))) /
+        (2 * kHalfStep_s);
+    return state;
+  }
+
+ private:
+  NodeFrames FramesAt(double time_s) const {
+    constexpr double kBeforeItsEnd = 1 - 1e-6;  // at its end a clip would begin anew
+    const double time = std::clamp(time_s - start_s_, 0.0, kBeforeItsEnd * duration_s_);
+    const PoseLayer layer{clip_, time, 1, -1};
+    return PoseNodes(*model_, {&layer, 1});
+  }
+
+  RouteState PlaceAt(double time_s) const {
+    const Eigen::Affine3f T_object_pelvis = FramesAt(time_s)[pelvis_];
+    const Eigen::Isometry3d T_world_object = ObjectPose(origin_);
+    const Eigen::Vector3d place =
+        T_world_object * Eigen::Vector3f(T_object_pelvis.translation()).cast<double>();
+    const Eigen::Vector3d ahead =
+        T_world_object.linear() *
+        Eigen::Vector3f(T_object_pelvis.linear() * ahead_in_pelvis_).cast<double>();
+    RouteState state;
+    state.position = place.head<2>();
+    state.heading_rad = std::atan2(ahead.y(), ahead.x());
+    return state;
+  }
+
+  std::shared_ptr<const Model> model_;
+  int clip_ = 0;
+  double duration_s_ = 0, start_s_ = 0;
+  std::size_t pelvis_ = 0;
+  Eigen::Vector3f ahead_in_pelvis_;
+  RouteState origin_;
+};
+
+int ClipOf(const Model& model, const std::string& name) {
+  if (name.empty() && model.clips.size() == 1) return 0;
+  const int clip = model.FindClip(name);
+  if (clip >= 0) return clip;
+  std::string names;
+  for (const Clip& one : model.clips) names += (names.empty() ? "" : ", ") + one.name;
+  throw std::runtime_error(fmt::format("clip '{}': the model '{}' has {}", name, model.name,
+                                       names.empty() ? "no animation" : "the animations " + names));
+}
+
+/// A model of the user's own that plays a clip along its route.
+class Own {
+ public:
+  Own(const PersonSpec& person, std::shared_ptr<const Model> model)
+      : model_(std::move(model)),
+        route_(person.route.plan, person.route.limits),
+        clip_(ClipOf(*model_, person.capture.clip)),
+        duration_s_(model_->clips[static_cast<std::size_t>(clip_)].duration_s),
+        stride_m_(person.capture.stride_m) {}
+
+  const Model& model() const { return *model_; }
+  RouteState RouteAt(double time_s) const { return route_.At(time_s); }
+
+  std::vector<Eigen::Affine3f> WorldJoints(double time_s) const {
+    const RouteState state = route_.At(time_s);
+    const double time = stride_m_ > 0 ? state.odometer_m / stride_m_ * duration_s_ : time_s;
+    const PoseLayer layer{clip_, time, 1, -1};
+    return Placed(*model_, PoseNodes(*model_, {&layer, 1}), state);
+  }
+
+ private:
+  std::shared_ptr<const Model> model_;
+  Route route_;
+  int clip_;
+  double duration_s_, stride_m_;
+};
+
+template <class Body>
+Actor ActorOf(TriangleMesh mesh, std::shared_ptr<const Body> body) {
+  return {std::move(mesh), [body](double time_s) {
+            return SkinState(
+                body->model(), [&](double t) { return body->WorldJoints(t); },
+                [&](double t) { return body->RouteAt(t); }, time_s);
+          }};
+}
+
+}  // namespace
+
+bool IsCaptured(const PersonSpec& person) {
+  return !person.capture.bvh.name.empty() || !person.capture.mesh.name.empty();
+}
+
+Actor MakeCapturedPerson(const PersonSpec& person, AssetLibrary* assets, Wardrobe* wardrobe) {
+  const CaptureSpec& capture = person.capture;
+  const std::shared_ptr<const Model> model = capture.mesh.name.empty()
+                                                 ? assets->Load("people/" + person.model)
+                                                 : assets->LoadSkinned(capture.mesh.file);
+  TriangleMesh mesh = wardrobe->Wear(model);
+  if (capture.bvh.name.empty()) {
+    return ActorOf<Own>(std::move(mesh), std::make_shared<const Own>(person, model));
+  }
+  const Retargeted motion = Retarget(ReadBvh(capture.bvh.file), *model);
+  return ActorOf<Played>(std::move(mesh),
+                         std::make_shared<const Played>(person, *model, motion.clip));
+}
+
+}  // namespace aisle::sim
