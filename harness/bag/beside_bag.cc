@@ -55,6 +55,17 @@ Json Split(const Json& first, const Json& second, const char* direction) {
   return {{"first", first}, {"second", second}, {"direction", direction}};
 }
 
+/// The plan with a column of stills to its right.
+Json BesidePlan(const Json& plan, const std::vector<std::string>& stills, Json* panels) {
+  Json column;
+  for (std::size_t i = stills.size(); i-- > 0;) {
+    const std::string panel = fmt::format("Image!worst_{}", i + 1);
+    (*panels)[panel] = {{"imageMode", {{"imageTopic", stills[i]}}}};
+    column = column.is_null() ? Json(panel) : Split(panel, column, "column");
+  }
+  return column.is_null() ? plan : Split(plan, column, "row");
+}
+
 }  // namespace
 
 std::string RosbagMetadata(const McapWriter& bag, const std::string& file_name) {
@@ -80,7 +91,8 @@ std::string RosbagMetadata(const McapWriter& bag, const std::string& file_name) 
   return text;
 }
 
-std::string FoxgloveLayout(const std::vector<std::string>& systems) {
+std::string FoxgloveLayout(const std::vector<std::string>& systems,
+                           const std::vector<std::string>& stills) {
   Json panels = {{"3D!plan", PlanPanel(systems)},
                  {"Image!left", ImagePanel("/left/image_rect")},
                  {"Image!moving", ImagePanel("/left/moving")}};
@@ -98,6 +110,7 @@ std::string FoxgloveLayout(const std::vector<std::string>& systems) {
     second = Split("Image!moving", "Image!rejected", "row");
     below = Split("3D!plan", Split("StateTransitions!states", "RosOut!events", "column"), "row");
   }
+  below = BesidePlan(below, stills, &panels);
   const Json layout = {{"configById", panels},
                        {"globalVariables", Json::object()},
                        {"userNodes", Json::object()},
@@ -106,10 +119,17 @@ std::string FoxgloveLayout(const std::vector<std::string>& systems) {
   return layout.dump(1) + "\n";
 }
 
+bool IsAttached(const std::filesystem::path& file) {
+  constexpr std::array<const char*, 6> kLarge = {".aislemesh", ".glb", ".gltf",
+                                                 ".mcap",      ".db3", ".bvh"};
+  return std::ranges::find(kLarge, file.extension()) == kLarge.end();
+}
+
 void WriteBesideBag(const std::filesystem::path& bag_file, const McapWriter& bag,
-                    const std::vector<std::string>& systems) {
+                    const std::vector<std::string>& systems,
+                    const std::vector<std::string>& stills) {
   const std::filesystem::path folder = bag_file.parent_path();
-  WriteFileAtomically(folder / "foxglove_layout.json", FoxgloveLayout(systems));
+  WriteFileAtomically(folder / "foxglove_layout.json", FoxgloveLayout(systems, stills));
   WriteFileAtomically(folder / "metadata.yaml", RosbagMetadata(bag, bag_file.filename().string()));
 }
 

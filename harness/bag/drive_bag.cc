@@ -1,5 +1,7 @@
 #include "harness/bag/drive_bag.h"
 
+#include <opencv2/imgproc.hpp>
+
 #include "harness/bag/frame_messages.h"
 #include "harness/contract/state_name.h"
 #include "harness/io/truth_files.h"
@@ -182,6 +184,20 @@ void DriveBag::AddFinalTrack(const std::string& system, const Trajectory& trajec
     path.poses.push_back(Stamped(HeaderOf(pose.stamp_ns, world), pose.T_world_rig));
   }
   Write(fmt::format("/{}/final_path", RosName(system)), *first_ns_, path, TopicKind::kLatched);
+}
+
+void DriveBag::AddStill(const std::string& topic, const cv::Mat1b& picture,
+                        const std::string& text) {
+  constexpr int kMargin = 6;
+  const double size = std::clamp(picture.cols / 900.0, 0.3, 1.5);
+  cv::Mat1b still = picture.clone();
+  const cv::Point at(kMargin, still.rows - kMargin);
+  for (const auto& [grey, width] : {std::pair{0.0, 4}, std::pair{255.0, 1}}) {
+    cv::putText(still, text, at, cv::FONT_HERSHEY_SIMPLEX, size, cv::Scalar(grey), width,
+                cv::LINE_AA);
+  }
+  const std::int64_t stamp_ns = first_ns_.value_or(0);
+  Write(topic, stamp_ns, ImageMessage(HeaderOf(stamp_ns, kLeftFrame), still), TopicKind::kLatched);
 }
 
 void DriveBag::Attach(const std::string& name, const std::string& media_type,

@@ -44,6 +44,7 @@ struct DriveBagOptions {
 ///   /SYSTEM/pose     PoseStamped of the left camera in SYSTEM/map, live; /SYSTEM/path, and
 ///   /SYSTEM/final_path, what it says in the end      /SYSTEM/state   std_msgs/String
 ///   /left/rejected_SYSTEM   mono8, 255: rejected     /SYSTEM/events  rcl_interfaces/Log
+///   /SYSTEM/worst_1, _2, …  mono8, stills of the frames in which it was farthest off
 ///   /tf, /tf_static
 ///
 /// Truth is written where a frame knows it. Not thread-safe.
@@ -64,6 +65,9 @@ class DriveBag {
                 const std::string& text);
   /// What it says in the end of where it was.
   void AddFinalTrack(const std::string& system, const Trajectory& track);
+
+  /// A still picture that stands from the first stamp on, with a line of text in it.
+  void AddStill(const std::string& topic, const cv::Mat1b& picture, const std::string& text);
 
   void AddMetadata(const std::string& name, const std::map<std::string, std::string>& values) {
     writer_.AddMetadata(name, values);

@@ -33,6 +33,7 @@ void RenderBag(const SimulationForExport& simulation, const std::vector<FrameReq
   line.Clear();
   bag.AddMetadata("aisle", provenance);
   for (const std::string& text : FilesOfScene(scene_file)) {
+    if (!IsAttached(text)) continue;
     bag.Attach(std::filesystem::path(text).filename().string(), "application/yaml", ReadFile(text));
   }
   WriteBesideBag(file, bag.Finish(), {});
