@@ -30,7 +30,11 @@ def main(program, source):
                 return 1
             print(done.stdout.strip())
         missing = [path for path in ("lotte.png", "out/lotte/index.html", "recorded.txt",
-                                     "out/lotte/bags/lotte/live/1/metadata.yaml")
+                                     "hall.png", "hall.aislemesh.json",
+                                     "out/lotte/bags/lotte/live/1/metadata.yaml",
+                                     "out/front/mav0/cam0_rgb/data.csv",
+                                     "out/rear/mav0/cam1/data.csv",
+                                     "out/front_bag/drive.mcap")
                    if not (folder / path).is_file()]
         if missing:
             print("the page promises what is not there:", missing)
