@@ -240,8 +240,9 @@ RouteState Route::At(double time_s) const {
   if (behind_m_ == 0) return lead;
   RouteState state = lead;
   state.odometer_m = lead.odometer_m - behind_m_;
-  state.position = start_.position + state.odometer_m * Eigen::Vector2d(std::cos(start_.heading_rad),
-                                                                        std::sin(start_.heading_rad));
+  state.position =
+      start_.position + state.odometer_m * Eigen::Vector2d(std::cos(start_.heading_rad),
+                                                           std::sin(start_.heading_rad));
   state.heading_rad = start_.heading_rad;
   state.curvature_per_m = 0;
   for (const Leg& leg : legs_) {

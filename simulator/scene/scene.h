@@ -115,7 +115,7 @@ struct HallSpec {
   double clutter = 0;  ///< how much lies about where nobody passes, 0 to 1
   double cloud = 0;    ///< share of the daylight that passing clouds take at most
   double cloud_s = 9;  ///< about from one cloud to the next
-  MeshSpec mesh;          ///< instead of floor, walls and roof
+  MeshSpec mesh;       ///< instead of floor, walls and roof
   std::vector<LabelRule> labels;
 };
 
@@ -331,7 +331,7 @@ struct Scene : Premises {
   std::string file;
   /// That one and those it extends, nearest first, each hall's file behind them; then others.
   std::vector<std::string> files;
-  std::vector<std::string> mesh_files;  ///< of them, the user's own meshes
+  std::vector<std::string> mesh_files;    ///< of them, the user's own meshes
   std::vector<std::string> motion_files;  ///< and recorded motions
   std::string extends;  ///< the scene whose keys hold where it has none, as the file says it
   std::string about;    ///< the sentence on what it tests

@@ -116,7 +116,7 @@ struct WorldParts {
   std::function<Snapshot(std::int64_t stamp_ns, std::span<const ActorClock> clocks)> at_clocks = {};
   /// Where the route puts the rig (left camera) at a time: T_world_rig. Pure. None: identity.
   std::function<Eigen::Isometry3d(std::int64_t stamp_ns)> rig;
-  bool has_beams = false;  ///< snapshots may have beams
+  bool has_beams = false;                 ///< snapshots may have beams
   std::vector<BandSurfaces> colour = {};  ///< red, green, blue; none: the world is grey
 };
 

@@ -347,10 +347,11 @@ TEST(Trailer, MovesAsItsSpeedAndYawRateSay) {
   const Route trailer(plan, limits);
   constexpr double kStep = 1e-5;
   for (double t = 0.5; t < trailer.duration_s() + 1; t += 0.0637) {
-    const RouteState before = trailer.At(t - kStep), now = trailer.At(t), after = trailer.At(t + kStep);
+    const RouteState before = trailer.At(t - kStep), now = trailer.At(t),
+                     after = trailer.At(t + kStep);
     const Eigen::Vector2d ahead(std::cos(now.heading_rad), std::sin(now.heading_rad));
-    EXPECT_NEAR(((after.position - before.position) / (2 * kStep) - now.speed_mps * ahead).norm(), 0,
-                1e-3)
+    EXPECT_NEAR(((after.position - before.position) / (2 * kStep) - now.speed_mps * ahead).norm(),
+                0, 1e-3)
         << t;
     EXPECT_NEAR((after.heading_rad - before.heading_rad) / (2 * kStep), now.yaw_rate_rad_s, 1e-3)
         << t;

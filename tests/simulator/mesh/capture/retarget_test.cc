@@ -103,8 +103,12 @@ TEST(Retarget, FindsTheContactsThatWereMade) {
       const bool found = std::ranges::any_of(walk.contacts[side], [&](const auto& contact) {
         return contact[0] <= index && index <= contact[1];
       });
-      if (phase > 0.04 && phase < MadeWalk::kStance - 0.04) EXPECT_TRUE(found) << frame;
-      if (phase > MadeWalk::kStance + 0.08 && phase < 0.92) EXPECT_FALSE(found) << frame;
+      if (phase > 0.04 && phase < MadeWalk::kStance - 0.04) {
+        EXPECT_TRUE(found) << frame;
+      }
+      if (phase > MadeWalk::kStance + 0.08 && phase < 0.92) {
+        EXPECT_FALSE(found) << frame;
+      }
     }
   }
 }
