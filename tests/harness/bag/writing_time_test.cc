@@ -46,7 +46,7 @@ SequenceFrame FrameNumber(int id) {
   truth.depth = cv::Mat1f(kHeight, kWidth);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
-      truth.depth(y, x) = 2 + 0.01f * static_cast<float>(y) + (x / 150) % 2;
+      truth.depth(y, x) = 2 + 0.01f * static_cast<float>(y) + static_cast<float>((x / 150) % 2);
     }
   }
   truth.dynamic = cv::Mat1b(kHeight, kWidth, std::uint8_t{0});
