@@ -1,8 +1,10 @@
 #include "simulator/proof/picture_change.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 namespace aisle::sim {
 namespace {
@@ -12,6 +14,8 @@ constexpr int kWindow = 9;           // px
 constexpr int kShadowReach = 12;     // px
 constexpr int kOutline = 2;          // px
 constexpr float kSameDepth = 0.02f;  // share
+/// Three quarters of what is Gaussian with a deviation of 1 lie within this of its mean.
+constexpr double kGaussQuartile = 1.1503;
 
 /// 255 where all pixels within kOutline show one thing without a jump in depth.
 cv::Mat1b AwayFromOutlines(const PictureWithFlow& picture) {
@@ -66,11 +70,18 @@ cv::Mat1f WindowMeans(const cv::Mat1f& change, const cv::Mat1b& wanted) {
   return mean;
 }
 
+double UpperQuartile(std::vector<double>* values) {
+  const auto at = values->begin() + static_cast<std::ptrdiff_t>(values->size() * 3 / 4);
+  std::ranges::nth_element(*values, at);
+  return *at;
+}
+
 PictureChange Summarize(const cv::Mat1f& change, const cv::Mat1f& change_next,
                         const cv::Mat2f& flow, const cv::Mat1b& wanted) {
   const cv::Mat1f first = WindowMeans(change, wanted);
   PictureChange result;
-  double squares = 0, curvature = 0;
+  double squares = 0;
+  std::vector<double> curvature;
   for (int y = 0; y < first.rows; ++y) {
     for (int x = 0; x < first.cols; ++x) {
       if (std::isnan(first(y, x))) continue;
@@ -79,13 +90,13 @@ PictureChange Summarize(const cv::Mat1f& change, const cv::Mat1f& change_next,
           Sample(change_next, static_cast<float>(x) + f[0], static_cast<float>(y) + f[1]);
       if (std::isnan(second)) continue;
       squares += first(y, x) * first(y, x);
-      curvature += (second - first(y, x)) * (second - first(y, x));
+      curvature.push_back(std::abs(second - first(y, x)));
       ++result.compared;
     }
   }
   if (result.compared == 0) return result;
   result.rms = std::sqrt(squares / result.compared);
-  result.flicker = std::sqrt(curvature / result.compared / 3);
+  result.flicker = UpperQuartile(&curvature) / kGaussQuartile / std::sqrt(3.0);
   return result;
 }
 
@@ -132,7 +143,7 @@ PictureChanges CompareInTime(const PictureWithFlow& first, const PictureWithFlow
 
 std::string FailureOf(const PictureChanges& changes) {
   constexpr double kMostAtRest = 2.5, kMostFlicker = 2;  // grey levels
-  constexpr int kFewWindows = 100;
+  constexpr int kFewWindows = 500;  // a waist that the arm swings past has some two hundred
   const auto& [statics, movers, shadows] = changes;
   if (statics.compared >= kFewWindows && statics.rms > kMostAtRest) {
     return fmt::format(

@@ -19,11 +19,12 @@ struct PictureWithFlow {
 /// How much brightness changes along the true flow, in grey levels: of what is a point's own, only
 /// light that really changes is left, and whatever the renderer deals anew for each frame.
 struct PictureChange {
-  double rms = 0;      ///< of the change from one picture to the next, of means over 9 × 9 pixels
-  double flicker = 0;  ///< rms of the change of that change over √3: as large as `rms` where the
-                       ///< light of each picture has noise of its own, small where light changes
-                       ///< smoothly
-  int compared = 0;    ///< windows
+  double rms = 0;  ///< of the change from one picture to the next, of means over 9 × 9 pixels
+  /// Deviation of the change of that change over √3, from the upper quartile of its amount: as
+  /// large as `rms` where the light of each picture has noise of its own, small where light changes
+  /// smoothly, and where a shadow really sweeps over less than a quarter of what is seen.
+  double flicker = 0;
+  int compared = 0;  ///< windows
 };
 
 /// By what the pixels show: things at rest outside moving shadows, movers, moving shadows.
@@ -33,7 +34,7 @@ struct PictureChanges {
 
 /// The sentence that says what changed more than light on surfaces does, or empty. Bounds, in grey
 /// levels: things at rest 2.5 from picture to picture, movers and moving shadows a flicker of 2;
-/// what fewer than a hundred windows show is not judged.
+/// what fewer than five hundred windows show is not judged.
 std::string FailureOf(const PictureChanges& changes);
 
 /// Grey of `next` where the points of `now` are then, less their grey now; NaN where something else

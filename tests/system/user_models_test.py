@@ -160,7 +160,8 @@ props: [{{mesh: cupboard.aislemesh, label: column, at: [8, 0]}}]
             aisle("render", scene, "--out", out, "--truth", "depth,labels", "--frames", "0:1")
             depth = dataset_reader.read_pfm(next((out / "truth/depth").glob("*.pfm")))
             self.assertAlmostEqual(float(depth[60, 80]), 8 - 0.4 - 0.5, delta=1e-4)  # the prop
-            self.assertAlmostEqual(float(depth[30, 80]), 9.5, delta=1e-4)  # the wall behind it
+            self.assertAlmostEqual(float(depth[45, 80]), 9.5, delta=1e-4)  # the wall, over the prop
+            self.assertAlmostEqual(float(depth[30, 80]), 3 * 80 / 30, delta=1e-4)  # the ceiling
             self.assertAlmostEqual(float(depth[110, 80]), 1 * 80 / 50, delta=1e-4)  # the floor
             self.assertTrue((depth < 100).all())
             labels = json.loads((out / "truth/labels.json").read_text())

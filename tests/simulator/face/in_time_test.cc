@@ -34,7 +34,7 @@ TEST_P(InTime, GreyFollowsTheFlow) {
 
 INSTANTIATE_TEST_SUITE_P(FiveScenes, InTime,
                          testing::Values(View{"smoke/short", 12}, View{"paper/scene3", 102},
-                                         View{"weakness/plain_coat", 60},
+                                         View{"weakness/plain_coat", 140},
                                          View{"weakness/forklift_pallet", 150},
                                          View{"weakness/fill_60", 100}));
 

@@ -189,7 +189,8 @@ TEST_F(Pairs, SeeAColumnWhereOpenCvProjectsIt) {
       const int both = cv::countNonZero(shown & expected);
       const int either = cv::countNonZero(shown | expected);
       EXPECT_GT(cv::countNonZero(shown), 2000) << pair.name << " " << side;
-      EXPECT_GT(static_cast<double>(both) / either, 0.96) << pair.name << " " << side;
+      // Plinth, stripes and sign stand out by centimetres; a degree is an eighth of its width.
+      EXPECT_GT(static_cast<double>(both) / either, 0.94) << pair.name << " " << side;
     }
   }
 }

@@ -298,7 +298,7 @@ INSTANTIATE_TEST_SUITE_P(Models, EveryVehicle,
                                          Turning{"agv", 3}, Turning{"cyclist", 3},
                                          Turning{"car_white", 7}, Turning{"car_red", 7},
                                          Turning{"car_dark", 7}, Turning{"car_silver", 7},
-                                         Turning{"car_van", 7}, Turning{"bus", 7},
+                                         Turning{"car_van", 7}, Turning{"bus", 11},
                                          Turning{"tow_tractor", 3}, Turning{"tow_trailer", 3},
                                          Turning{"tow_trailer_totes", 3}, Turning{"scrubber", 3},
                                          Turning{"order_picker", 3}));
