@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import drape, sdf, shell
+from . import border, drape, sdf, shell
 from .body import mirrored, near
 from .noise import step
 
@@ -51,6 +51,7 @@ BOTTOMS = {
     "chinos": ((0.091, 0.084, 0.069, 0.066, 0.061), 0.04, 0.16),
 }
 VEST_OUT, UNDER_VEST = 0.030, 0.024
+VEST_CLEAR = 0.008  # metres between a vest and the top below it
 
 
 def limb(q, line, point=None):
@@ -79,6 +80,11 @@ class Tailor:
     def over_legs(self, q):
         """The body with a skirt's width between the legs, so that a coat hangs straight."""
         return sdf.union(self.shapes.bare(q), self.shapes.trunk(q, -0.012, 0.45), 0.02)
+
+    def armless(self, q):
+        """What a vest hangs on: the body without its arms, which would tear the armholes down."""
+        slope = sdf.capsule(mirrored(q), (-0.024, 0.010, 1.500), self.shapes.unit["shoulder_left"] + [-0.006, -0.030, 0.014], 0.050, 0.034)
+        return sdf.union(sdf.union(self.shapes.trunk(q), slope, 0.035), self.shapes.legs(q), 0.035)
 
     def sleeve(self, q, loose, short):
         """Tubes round the arms that run on beyond the cuff."""
@@ -221,27 +227,34 @@ class Tailor:
         slope = sdf.capsule(m, (-0.024, 0.010, 1.500), u["shoulder_left"] + [-0.006, -0.025, 0.018], 0.050, 0.038)
         return sdf.union(d, slope - VEST_OUT, 0.03)
 
-    def vest(self):
-        """A warning vest over everything."""
+    def vest(self, below):
+        """A warning vest over everything; `below` is the hung top (mesh.Surface), which it clears."""
         u = self.shapes.unit
         v, quads, _ = sdf.surface(self.vest_field, (-0.26, -0.30, 0.76), (0.28, 0.30, 1.58), CELL)
         t = shell.triangulate(quads)
         arm = u["elbow_left"] - u["shoulder_left"]
         start = u["shoulder_left"] + [0, 0.050, 0.055]
 
+        a, wide_m = u["shoulder_left"], 0.050 * self.person.girth**0.7 + self.cut.loose + 0.030
+
         def level(q):
             m = mirrored(q)
             hole = -sdf.capsule(m, start, start + 0.45 * arm + [0, -0.005, 0], 0.090, 0.078)
+            hole = -sdf.union(-hole, sdf.capsule(m, a + 0.22 * arm, a + 0.8 * arm, wide_m, wide_m), 0.03)  # clear of the sleeve
             neck = -sdf.capsule(q, (0.15, 0, 1.24), (0.06, 0, 1.50), 0.012, 0.098)
             back = -sdf.ellipsoid(q, (-0.02, 0, 1.56), (0.10, 0.098, 0.085))
-            return np.maximum.reduce([0.83 - q[:, 2], hole, neck, back])
+            neck = -sdf.union(-neck, -back, 0.04)  # no corner where they meet on the shoulder
+            return np.maximum.reduce([0.83 - q[:, 2], hole, neck])
 
         v, t = self.cut_out(v, t, level)
+        v = border.settle(v, t, self.vest_field, level)
         z = v[:, 2]
         along = 0.012 + 0.03 * near(z, 1.03, 0.10)
         wide = 0.015 + 0.03 * step(1.25, 0.95, z)
         held = np.maximum(0.9 * step(1.40, 1.44, z), 0.0)
         cloth = drape.Cloth(bend=0.35, inside_m=UNDER_VEST)
         axis = np.tile([0.0, 0, 1.0], (len(v), 1))
-        hung = drape.hang(v, t, np.stack([along, wide], -1), axis, held, self.body, np.full(len(v), 0.2), cloth, self.person.seed + 80)
-        return hung, t, v
+        trunk = sdf.grid(self.armless, (-0.30, -0.40, 0.60), (0.30, 0.40, 1.62), 0.009)
+        hung = drape.hang(v, t, np.stack([along, wide], -1), axis, held, trunk, np.full(len(v), 0.2), cloth, self.person.seed + 80)
+        hung = border.bind(hung, v, t)
+        return border.over(hung, t, below, VEST_CLEAR, self.shapes.armness), t, v

@@ -30,6 +30,7 @@ class Style:
     cap: float = 0.006  # thickness of the cap
     hang: float = 0.0  # how much gravity bends the locks
     front: float = 0.070  # height of the hairline over the eyes
+    aside: bool = False  # whether the fringe is kept off the face
 
 
 CUTS = {
@@ -38,7 +39,7 @@ CUTS = {
     "crop": Style(length=(0.010, 0.008), locks=150, width=0.009, lift=0.002, cap=0.0035),
     "back": Style(length=(0.060, 0.028), comb="back", lift=0.009, front=0.076),
     "bob": Style(length=(0.185, 0.150), comb="down", locks=120, width=0.026, lift=0.007, hang=1.0, low=-0.075),
-    "long": Style(length=(0.27, 0.25), comb="down", locks=130, width=0.028, lift=0.007, hang=1.0, low=-0.080, wave=0.004),
+    "long": Style(length=(0.27, 0.25), comb="down", locks=130, width=0.028, lift=0.007, hang=1.0, low=-0.080, wave=0.004, aside=True),
     "bun": Style(length=(0.10, 0.085), comb="bun", locks=110, width=0.020, lift=0.004, front=0.074),
     "tail": Style(length=(0.10, 0.085), comb="tail", locks=110, width=0.020, lift=0.004, front=0.072),
     "curls": Style(length=(0.045, 0.040), comb="curl", locks=230, width=0.014, lift=0.010, wave=0.011, cap=0.012),
@@ -160,7 +161,9 @@ def add(person, style, root, number, rng, v, t, material):
         ups.append(normal)
         p = p + length / SEGMENTS * d
         fall = style.hang * (0.5 if s < 0.3 else 1.4)
-        d = d + fall * np.array([0, 0, -1.0])
+        if style.aside and p[0, 0] > 0.025:  # a fringe is combed aside before it falls
+            fall *= step(0.055, 0.025, p[0, 0])
+            d = unit3(d + [-0.6, 1.4 if p[0, 1] > 0 else -1.4, 0.0])
         if style.comb in ("bun", "tail"):
             to = KNOT - p[0]
             d = d + 1.5 * to / (np.linalg.norm(to) + 0.01)

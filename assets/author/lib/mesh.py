@@ -10,6 +10,7 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from . import body, collar, footwear, garments, gear, hair, head, rig, sdf, shell
+from .noise import step
 
 # part: (box, grid step, triangles)
 SOLIDS = {
@@ -21,6 +22,8 @@ SOLIDS = {
     "arms": ((-0.10, 0.20, 0.85), (0.16, 0.62, 1.42), 0.0060, 800),
 }
 CLOTH = {"top": 4200, "trousers": 3100, "vest": 2000}
+# A vest's edge lies on cloth that bends sharply: a deep hem would come out through its own front.
+HEMS = {"vest": {"thick_m": 0.005, "deep_m": 0.005}}
 PAIRED = ("hands", "shoes", "arms")
 
 
@@ -104,12 +107,12 @@ def barycentric(p, a, b, c):
     return out / out.sum(1, keepdims=True)
 
 
-def cloth(made, budget):
-    """A hung garment, decimated, with turned hems."""
+def cloth(made, budget, **hems):
+    """A hung garment, decimated, with turned hems (shell.hem)."""
     hung, t, pattern = made
     fine = Surface(hung, t, pattern)
     v, low = decimate(hung, t, budget)
-    v, low, parents = shell.hem(v, low)
+    v, low, parents = shell.hem(v, low, **hems)
     _, material, _ = fine.at(v[: parents.max() + 1])
     material = material[parents] + v - v[parents]
     return {"v": v, "t": low, "material": material, "fine": fine}
@@ -154,10 +157,13 @@ def build(person, detail=1.0):
             v, t = collar.make(tailor, out["top"]["fine"])
             out[name] = {"v": v, "t": t, "material": v, "fine": None}
         else:
-            made = {"top": tailor.top, "trousers": tailor.bottom, "vest": tailor.vest}[name]()
-            out[name] = cloth(made, CLOTH[name] * detail)
+            made = {"top": tailor.top, "trousers": tailor.bottom, "vest": lambda: tailor.vest(out["top"]["fine"])}[name]()
+            out[name] = cloth(made, CLOTH[name] * detail, **HEMS.get(name, {}))
     for name, part in out.items():
         where = part["v"] if name == "locks" else part["material"]
+        if name == "vest":  # shoulders move as what is worn below, so that it does not come through
+            share = step(1.10, 1.20, where[:, 2])[:, None]
+            where = where + share * (out["top"]["fine"].at(part["v"])[1] - where)
         armness = np.ones(len(where)) if name == "arms" else shapes.armness(where)
         kind = "coat" if name == "top" and garments.TOPS[person.top].hem < 0.7 else name
         part["weights"] = rig.weights(kind, where * shapes.scale, shapes.joint, shapes.scale, armness)

@@ -31,7 +31,8 @@ class Gear:
         rgb *= (1.0 + 0.07 * (fractal(f * 40.0, 4, c.seed) - 0.5))[:, None]
         scratch = step(0.80, 0.90, ridged(f * (30, 110, 60), c.seed + 2)) * step(0.5, 0.6, fractal(f * 20, 3, 4))
         rgb = over(rgb, rgb[0] * 0.72, 0.4 * scratch)
-        rgb = over(rgb, np.array((0.10, 0.10, 0.11)), (n[:, 2] < -0.5) * (z < 0.085))
+        inside = step(0.95, 0.90, np.hypot((x + 0.010) / 0.128, y / 0.105))  # the brim is of the shell's colour
+        rgb = over(rgb, np.array((0.10, 0.10, 0.11)), inside * step(-0.3, -0.6, n[:, 2]) * (z < 0.085))
         if c.plain:
             return rgb
         logo = np.maximum(np.abs(y) - 0.022, np.abs(z - 0.094) - 0.012)
