@@ -10,6 +10,7 @@ run kit
 run street
 run vehicles
 run people
+/usr/bin/python3 "$here/pack.py" "$here"/../{kit,street,vehicles,people}/*.glb
 /usr/bin/python3 "$here/measure.py"
 /usr/bin/python3 "$here/manifest.py"
 blender -b --factory-startup -noaudio --python-exit-code 1 -P "$here/contact.py"

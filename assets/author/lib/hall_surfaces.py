@@ -50,8 +50,8 @@ def floor_resin():
 
 def wall_insulated():
     """Cold-store sandwich panels 1.15 m wide: fine lining, sealed joints, rub marks; 4.6 m by 4 m."""
-    size = (1024, 1152)
-    y, x = np.mgrid[0:1024, 0:1152] + 0.5
+    size = (1024, 1024)
+    y, x = (np.mgrid[0:1024, 0:1024] + 0.5) * np.array([1, 1.125]).reshape(2, 1, 1)  # 4.6 m by 4 m
     image = flat(size, (0.86, 0.87, 0.87))
     image *= (1.0 + 0.012 * np.cos(x * 2 * np.pi / 12.0))[..., None]
     rng = np.random.default_rng(231)
@@ -69,14 +69,14 @@ def wall_insulated():
     frost = noise.picture(size, 2.3, 235, 2)
     image = mix(image, (0.97, 0.98, 0.98), 0.5 * threshold(frost, 1.2, 2.2) * noise.step(420, 60, y))
     for at in rng.integers(20, 1000, 9):
-        picture.disc(image, float(rng.integers(12, 1140)), float(at), 4.0, (0.72, 0.72, 0.72))
+        picture.disc(image, float(rng.integers(12, 1012)), float(at), 4.0, (0.72, 0.72, 0.72))
     return image, {"tile_m": [4.6, 4.0]}
 
 
 def wall_concrete():
     """Precast concrete, formwork marks: boards' joints, tie holes, pores, water streaks; 4.8 m by 4 m."""
-    size = (1024, 1228)
-    y, x = np.mgrid[0:1024, 0:1228] + 0.5
+    size = (1024, 1024)
+    y, x = (np.mgrid[0:1024, 0:1024] + 0.5) * np.array([1, 1228 / 1024]).reshape(2, 1, 1)  # 4.8 m by 4 m
     image = flat(size, (0.60, 0.595, 0.58))
     image *= (1.0 + 0.05 * noise.picture(size, 2.5, 241, 1) + 0.025 * noise.picture(size, 1.5, 242, 8))[..., None]
     lift = (y // 341.4).astype(int) * 2 + (x // 614).astype(int)
@@ -86,7 +86,7 @@ def wall_concrete():
     image = mix(image, (0.34, 0.335, 0.33), 0.75 * noise.step(2.0, 0.4, joint))
     for row in range(3):
         for column in range(6):
-            cx, cy = 102 + 204.6 * column, 60 + 341.4 * row + (220 if row != 1 else 0)
+            cx, cy = 85 + 170.6 * column, 60 + 341.4 * row + (220 if row != 1 else 0)
             picture.disc(image, cx, cy, 7, (0.22, 0.22, 0.21))
             picture.disc(image, cx, cy, 4.6, (0.38, 0.38, 0.37))
     pores = noise.picture(size, 0.3, 244)
