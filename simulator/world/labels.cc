@@ -7,21 +7,21 @@
 namespace aisle::sim {
 namespace {
 
-constexpr std::array<std::pair<const char*, MeshLabel>, 27> kTable = {{
-    {"*floor*", MeshLabel::kFloor},         {"*ground*", MeshLabel::kFloor},
-    {"*boden*", MeshLabel::kFloor},         {"*slab*", MeshLabel::kFloor},
-    {"*rack*", MeshLabel::kRack},           {"*shel*", MeshLabel::kRack},
-    {"*regal*", MeshLabel::kRack},          {"*pallet*", MeshLabel::kGoods},
-    {"*carton*", MeshLabel::kGoods},        {"*goods*", MeshLabel::kGoods},
-    {"*crate*", MeshLabel::kGoods},         {"*drum*", MeshLabel::kGoods},
-    {"*tote*", MeshLabel::kGoods},          {"*kiste*", MeshLabel::kGoods},
-    {"*column*", MeshLabel::kColumn},       {"*pillar*", MeshLabel::kColumn},
-    {"*saeule*", MeshLabel::kColumn},       {"*stuetze*", MeshLabel::kColumn},
-    {"*lamp*", MeshLabel::kLuminaire},      {"*light*", MeshLabel::kLuminaire},
-    {"*luminaire*", MeshLabel::kLuminaire}, {"*leuchte*", MeshLabel::kLuminaire},
-    {"*wall*", MeshLabel::kWall},           {"*roof*", MeshLabel::kWall},
-    {"*ceiling*", MeshLabel::kWall},        {"*wand*", MeshLabel::kWall},
-    {"*dach*", MeshLabel::kWall},
+constexpr std::array<std::pair<const char*, MeshLabel>, 28> kTable = {{
+    {"*floor*", MeshLabel::kFloor},       {"*ground*", MeshLabel::kFloor},
+    {"*boden*", MeshLabel::kFloor},       {"*slab*", MeshLabel::kFloor},
+    {"*rack*", MeshLabel::kRack},         {"*shelf*", MeshLabel::kRack},
+    {"*shelv*", MeshLabel::kRack},        {"*regal*", MeshLabel::kRack},
+    {"*pallet*", MeshLabel::kGoods},      {"*carton*", MeshLabel::kGoods},
+    {"*goods*", MeshLabel::kGoods},       {"*crate*", MeshLabel::kGoods},
+    {"*drum*", MeshLabel::kGoods},        {"*tote*", MeshLabel::kGoods},
+    {"*kiste*", MeshLabel::kGoods},       {"*column*", MeshLabel::kColumn},
+    {"*pillar*", MeshLabel::kColumn},     {"*saeule*", MeshLabel::kColumn},
+    {"*stuetze*", MeshLabel::kColumn},    {"*lamp*", MeshLabel::kLuminaire},
+    {"*light*", MeshLabel::kLuminaire},   {"*luminaire*", MeshLabel::kLuminaire},
+    {"*leuchte*", MeshLabel::kLuminaire}, {"*wall*", MeshLabel::kWall},
+    {"*roof*", MeshLabel::kWall},         {"*ceiling*", MeshLabel::kWall},
+    {"*wand*", MeshLabel::kWall},         {"*dach*", MeshLabel::kWall},
 }};
 
 char Lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }

@@ -1,4 +1,4 @@
-"""Borders of garments that end on cloth, not on skin: armholes and necklines of a vest.
+"""Borders of garments that end on cloth, not on skin: armholes and necklines of a vest, a jacket over trousers.
 
 A border is kept on one smooth curve from the cut to the decimated mesh: hanging may fold the cloth,
 but a bound edge does not ruffle.
@@ -89,4 +89,22 @@ def over(v, t, below, clear_m, armness, rounds=6):
         push = around(around(n))
         push /= np.linalg.norm(push, axis=1, keepdims=True) + 1e-9
         v = v + np.maximum(soft, 0.6 * lift) * push
+    return v
+
+
+def under(v, t, above, clear_m, covered, rounds=4):
+    """v pushed in until what is covered (mask) stays clear_m below the garment `above` (vertices, triangles)."""
+    around, _, _ = neighbours(t, len(v))
+    tree = BVHTree.FromPolygons(above[0].tolist(), above[1].tolist())
+    for _ in range(rounds):
+        found = [tree.find_nearest(p) for p in v.tolist()]
+        place = np.array([f[0] for f in found])
+        n = np.array([f[1] for f in found])
+        height = ((v - place) * n).sum(1)
+        near = np.linalg.norm(v - place, axis=1) < 0.06  # not the far side of the garment
+        push = np.where(covered & near, np.maximum(height + clear_m, 0.0), 0.0)[:, None]
+        if push.max() < 2e-4:
+            break
+        soft = np.where(covered[:, None], np.maximum(push, 0.7 * around(push)), 0.0)
+        v = v - soft * n
     return v

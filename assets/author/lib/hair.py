@@ -164,6 +164,7 @@ def add(person, style, root, number, rng, v, t, material):
         if style.aside and p[0, 0] > 0.025:  # a fringe is combed aside before it falls
             fall *= step(0.055, 0.025, p[0, 0])
             d = unit3(d + [-0.6, 1.4 if p[0, 1] > 0 else -1.4, 0.0])
+        d = d + fall * np.array([0, 0, -1.0])
         if style.comb in ("bun", "tail"):
             to = KNOT - p[0]
             d = d + 1.5 * to / (np.linalg.norm(to) + 0.01)

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from . import body, collar, footwear, garments, gear, hair, head, rig, sdf, shell
+from . import body, border, collar, footwear, garments, gear, hair, head, rig, sdf, shell
 from .noise import step
 
 # part: (box, grid step, triangles)
@@ -24,6 +24,7 @@ SOLIDS = {
 CLOTH = {"top": 4200, "trousers": 3100, "vest": 2000}
 # A vest's edge lies on cloth that bends sharply: a deep hem would come out through its own front.
 HEMS = {"vest": {"thick_m": 0.005, "deep_m": 0.005}}
+TUCKED = (0.010, 0.03)  # metres below the jacket, and from its hem on
 PAIRED = ("hands", "shoes", "arms")
 
 
@@ -129,6 +130,15 @@ def solid(name, shapes, field, detail):
     return {"v": v, "t": t, "material": v, "fine": None, "field": field}
 
 
+def tuck_in(person, out):
+    """Trousers go under the jacket: hung apart, they came through it at the small of the back."""
+    if "top" not in out or "trousers" not in out:
+        return
+    legs, top = out["trousers"], out["top"]
+    covered = legs["v"][:, 2] > max(garments.TOPS[person.top].hem + TUCKED[1], 0.82)
+    legs["v"] = border.under(legs["v"], legs["t"], (top["v"], top["t"]), TUCKED[0], covered)
+
+
 def build(person, detail=1.0):
     """Returns (parts, shapes)."""
     shapes, out = body.Shapes(person), {}
@@ -159,6 +169,7 @@ def build(person, detail=1.0):
         else:
             made = {"top": tailor.top, "trousers": tailor.bottom, "vest": lambda: tailor.vest(out["top"]["fine"])}[name]()
             out[name] = cloth(made, CLOTH[name] * detail, **HEMS.get(name, {}))
+    tuck_in(person, out)
     for name, part in out.items():
         where = part["v"] if name == "locks" else part["material"]
         if name == "vest":  # shoulders move as what is worn below, so that it does not come through
