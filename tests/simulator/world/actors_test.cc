@@ -257,7 +257,8 @@ VehicleSpec TruckTurning(const std::string& model, double corner_radius_m = 3) {
   truck.route.limits.turns_on_the_spot = false;
   truck.route.limits.curvature_rate_per_m_s = 0.5;
   truck.route.plan.steps.resize(1);
-  truck.route.plan.steps[0].go = {{corner_radius_m + 3, 0}, {corner_radius_m + 3, corner_radius_m + 5}};
+  truck.route.plan.steps[0].go = {{corner_radius_m + 3, 0},
+                                  {corner_radius_m + 3, corner_radius_m + 5}};
   truck.route.plan.steps[0].corner_radius_m = corner_radius_m;
   return truck;
 }
