@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "simulator/mesh/material.h"
@@ -21,9 +22,23 @@ struct MeshPlace {
 /// The interpolated vertex normal there, unit.
 Eigen::Vector3f SmoothNormal(const MeshPlace& place);
 
-/// The same, bent by the material's normal map if it has one, averaged over a footprint `width_m`
-/// wide. As in glTF 2.0 the map's x points along growing u, its y against growing v (up in the
-/// picture), its z along the normal; the tangents are the triangle's own.
+/// The axes of a normal map at a place, unit, and where it is read there.
+struct MapAxes {
+  Eigen::Vector3f smooth;         ///< its z, the surface's own
+  Eigen::Vector3f right, upward;  ///< its x and y
+  MapPoint point;
+};
+
+/// None where the material has no normal map, or the triangle no extent on it. `width_m` is the
+/// footprint.
+std::optional<MapAxes> AxesOfMap(const MeshPlace& place, const Material& material, float width_m);
+
+/// The normal that a map's x and y make there.
+Eigen::Vector3f BentNormal(const MapAxes& axes, const Eigen::Vector2f& bend);
+
+/// The smooth normal, bent by the material's normal map if it has one, averaged over a footprint
+/// `width_m` wide. As in glTF 2.0 the map's x points along growing u, its y against growing v (up
+/// in the picture), its z along the normal; the tangents are the triangle's own.
 Eigen::Vector3f MappedNormal(const MeshPlace& place, const Material& material,
                              const TexturePool& textures, float width_m);
 

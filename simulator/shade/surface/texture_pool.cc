@@ -153,11 +153,30 @@ float TexturePool::SampleWide(int texture, float u, float v, float width) const 
   return Sample(WideInt(texture), Wide(u), Wide(v), step, zero, zero, step)[0];
 }
 
-Eigen::Vector2f TexturePool::SampleNormal(int texture, float u, float v, float width) const {
-  const int second = second_[static_cast<std::size_t>(texture)];
-  if (second < 0) return Eigen::Vector2f::Zero();
-  const Eigen::Vector2f share(SampleWide(texture, u, v, width), SampleWide(second, u, v, width));
-  return 2 * share - Eigen::Vector2f::Ones();
+std::array<Eigen::Vector2f, kMapPoints> TexturePool::SampleNormals(
+    std::span<const MapPoint> points) const {
+  I8 texture = WideInt(-1);
+  F8 u = Wide(0), v = Wide(0), width = Wide(0);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const MapPoint& point = points[k];
+    const int second = second_[static_cast<std::size_t>(point.texture)];
+    if (second < 0) continue;
+    for (const std::size_t lane : {2 * k, 2 * k + 1}) {
+      texture[lane] = lane % 2 == 0 ? point.texture : second;
+      u[lane] = point.u;
+      v[lane] = point.v;
+      width[lane] = point.width;
+    }
+  }
+  const F8 zero = Wide(0);
+  const F8 share = Sample(texture, u, v, width, zero, zero, width);
+  std::array<Eigen::Vector2f, kMapPoints> bends;
+  for (std::size_t k = 0; k < kMapPoints; ++k) {
+    const bool read = texture[2 * k] >= 0;
+    bends[k] = read ? Eigen::Vector2f(2 * share[2 * k] - 1, 2 * share[2 * k + 1] - 1)
+                    : Eigen::Vector2f(0, 0);
+  }
+  return bends;
 }
 
 }  // namespace aisle::sim

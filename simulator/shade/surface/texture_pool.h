@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,6 +10,14 @@
 #include "simulator/shade/lanes/wide.h"
 
 namespace aisle::sim {
+
+/// Where a normal map is read: texture coordinates and the side of the square that is averaged.
+struct MapPoint {
+  int texture = -1;
+  float u = 0, v = 0, width = 0;
+};
+/// Normal maps read at once: each takes two of eight lanes.
+inline constexpr std::size_t kMapPoints = 4;
 
 /// All albedo textures with their mip pyramids in one block of bytes, so that eight lanes can read
 /// eight textures at once. Sides are powers of two (others are resampled), every row ends with a
@@ -28,7 +37,11 @@ class TexturePool {
   /// Mean over a square footprint of `width` in texture coordinates; one point.
   float SampleWide(int texture, float u, float v, float width) const;
   /// Mean x and y of a normal map, in [-1, 1], likewise; none where the texture is no normal map.
-  Eigen::Vector2f SampleNormal(int texture, float u, float v, float width) const;
+  Eigen::Vector2f SampleNormal(const MapPoint& point) const {
+    return SampleNormals({&point, 1})[0];
+  }
+  /// The same of up to kMapPoints points at once.
+  std::array<Eigen::Vector2f, kMapPoints> SampleNormals(std::span<const MapPoint> points) const;
 
  private:
   F8 Bilinear(I8 texture, I8 size, I8 level, F8 u, F8 v) const;
