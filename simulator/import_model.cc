@@ -40,7 +40,7 @@ WorldParts StudioFor(const Model& model, const Eigen::AlignedBox3f& box, float s
                      {.name = "wall", .albedo = 0.75f},
                      {.name = "lamp", .albedo = 0.5f, .emission = 2}};
   TriangleMesh& mesh = parts.statics.mesh;
-  constexpr float kHalf = 9, kHigh = 9, kLamp = 5;
+  constexpr float kHalf = 9, kHigh = 6, kLamp = 4;
   const float sheet = scale * static_cast<float>(grid_m);
   const UvRect tiled{Eigen::Vector2f::Constant(-kHalf / sheet),
                      Eigen::Vector2f::Constant(2 * kHalf / sheet)};
@@ -51,7 +51,7 @@ WorldParts StudioFor(const Model& model, const Eigen::AlignedBox3f& box, float s
   AddQuad(&mesh, {kHalf, -kHalf, kHigh}, -x, -z, {}, 1);
   AddQuad(&mesh, {-kHalf, -kHalf, kHigh}, y, -z, {}, 1);
   AddQuad(&mesh, {-kHalf, -kHalf, kHigh}, x, y, {}, 1);
-  const Eigen::Vector3f lamp(-3, -3, kHigh - 0.05f);
+  const Eigen::Vector3f lamp(3, -4, kHigh - 0.05f);  // over the photographer
   AddQuad(&mesh, lamp + Eigen::Vector3f(-kLamp, -kLamp, 0), {2 * kLamp, 0, 0}, {0, 2 * kLamp, 0},
           {}, 2);
   parts.lights.push_back({lamp, {kLamp, 0, 0}, {0, -kLamp, 0}, 2});
@@ -86,7 +86,9 @@ cv::Mat1b Photograph(const Model& model, const Eigen::AlignedBox3f& box, double 
   camera.cx = (kWidth - 1) / 2.0;
   camera.cy = (kHeight - 1) / 2.0;
   PipelineOptions options;
-  options.sensor.exposure = 0.55f;
+  options.auto_exposure.on = true;
+  options.auto_exposure.longest_ms = 60;
+  options.sensor.tone = Tone::kCompanded;
   options.sensor.noise = false;
   const Pipeline pipeline(World(StudioFor(model, box, scale, grid_m)), camera, options);
   const Eigen::Vector3d middle(0, 0, 0.5 * scale * box.sizes().z());
