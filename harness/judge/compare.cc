@@ -76,6 +76,23 @@ bool SameSeeds(const ValuesBySeed& a, const ValuesBySeed& b) {
                     [](const auto& x, const auto& y) { return x.first == y.first; });
 }
 
+/// Where enough seeds stand on both sides, those alone: a seed is compared with its own past, and
+/// one that a side lacks would move that side's median by itself. How many are left out.
+std::size_t KeepShared(ValuesBySeed* before, ValuesBySeed* after) {
+  ValuesBySeed old_shared, new_shared;
+  for (const auto& [seed, value] : *before) {
+    const auto at = after->find(seed);
+    if (at == after->end()) continue;
+    old_shared[seed] = value;
+    new_shared[seed] = at->second;
+  }
+  if (old_shared.size() < kFewestSeeds) return 0;
+  const std::size_t left_out = before->size() + after->size() - 2 * old_shared.size();
+  *before = std::move(old_shared);
+  *after = std::move(new_shared);
+  return left_out;
+}
+
 /// New minus old: by seed where the seeds are the same, every new against the old median else.
 std::vector<double> Differences(const ValuesBySeed& before, const ValuesBySeed& after,
                                 bool paired) {
@@ -147,11 +164,12 @@ std::optional<Comparison> CompareScore(const std::vector<const RunRecord*>& befo
                                        const std::string& score) {
   Comparison comparison;
   comparison.score = score;
-  const ValuesBySeed old_values = Values(before, score, &comparison.unit);
-  const ValuesBySeed new_values = Values(after, score, &comparison.unit);
+  ValuesBySeed old_values = Values(before, score, &comparison.unit);
+  ValuesBySeed new_values = Values(after, score, &comparison.unit);
   if (old_values.empty()) return std::nullopt;
   const Judged* judged = FindJudged(score);
   if (judged != nullptr) comparison.gone = FirstGone(old_values, new_values, after, score);
+  if (comparison.gone.empty()) comparison.left_out = KeepShared(&old_values, &new_values);
   comparison.old_n = old_values.size();
   comparison.new_n = new_values.size();
   comparison.old_median = Quantile(Plain(old_values), 0.5);
@@ -196,6 +214,10 @@ void Decide(const Judged& judged, const CompareOptions& options, Comparison* com
   } else {
     c.change = (change > 0) == judged.more_is_better ? Change::kBetter : Change::kWorse;
     c.why = fmt::format("p = {:.2g} after Holm", c.p);
+  }
+  if (c.left_out > 0) {
+    c.why += fmt::format("; {} seed{} of one side alone left out", c.left_out,
+                         c.left_out == 1 ? "" : "s");
   }
   const bool undecided = c.change == Change::kSame || c.change == Change::kCannotTell;
   if (undecided && c.mixed && std::min(c.old_n, c.new_n) >= kFewestSeeds) {

@@ -35,7 +35,8 @@ bool IsAlarm(Change change);
 /// One score of one cell, before and after.
 struct Comparison {
   std::string scene, twin, system, score, unit;
-  std::size_t old_n = 0, new_n = 0;       ///< seeds
+  std::size_t old_n = 0, new_n = 0;       ///< seeds compared
+  std::size_t left_out = 0;               ///< seeds of one side alone, where enough are of both
   double old_median = 0, new_median = 0;  ///< NaN where no seed has a value
   Interval difference;     ///< 95 % bootstrap of the median of paired differences, new - old
   bool paired = false;     ///< same seeds on both sides: the interval is of paired differences

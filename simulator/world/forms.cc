@@ -12,20 +12,6 @@ using Eigen::Vector3f;
 
 constexpr float kTurn = 2 * std::numbers::pi_v<float>;
 
-std::uint32_t AddVertex(TriangleMesh* mesh, const Vector3f& position, const Vector3f& normal,
-                        const Vector2f& uv) {
-  mesh->positions.push_back(position);
-  mesh->normals.push_back(normal);
-  mesh->uvs.push_back(uv);
-  return static_cast<std::uint32_t>(mesh->positions.size() - 1);
-}
-
-void AddTriangle(TriangleMesh* mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c,
-                 std::uint16_t material) {
-  mesh->triangles.push_back({a, b, c});
-  mesh->materials.push_back(material);
-}
-
 /// Four corners counter-clockwise seen from outside; turned round where `flip`.
 void AddPatch(TriangleMesh* mesh, const std::array<std::uint32_t, 4>& v, std::uint16_t material,
               bool flip = false) {

@@ -9,20 +9,6 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-std::uint32_t AddVertex(TriangleMesh* mesh, const Vector3f& position, const Vector3f& normal,
-                        const Vector2f& uv) {
-  mesh->positions.push_back(position);
-  mesh->normals.push_back(normal);
-  mesh->uvs.push_back(uv);
-  return static_cast<std::uint32_t>(mesh->positions.size() - 1);
-}
-
-void AddTriangle(TriangleMesh* mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c,
-                 std::uint16_t material) {
-  mesh->triangles.push_back({a, b, c});
-  mesh->materials.push_back(material);
-}
-
 struct FaceAxes {
   Vector3f normal, right, down;
 };
@@ -36,6 +22,20 @@ const std::array<FaceAxes, 6>& Faces() {
 }
 
 }  // namespace
+
+std::uint32_t AddVertex(TriangleMesh* mesh, const Vector3f& position, const Vector3f& normal,
+                        const Vector2f& uv) {
+  mesh->positions.push_back(position);
+  mesh->normals.push_back(normal);
+  mesh->uvs.push_back(uv);
+  return static_cast<std::uint32_t>(mesh->positions.size() - 1);
+}
+
+void AddTriangle(TriangleMesh* mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                 std::uint16_t material) {
+  mesh->triangles.push_back({a, b, c});
+  mesh->materials.push_back(material);
+}
 
 void AddQuad(TriangleMesh* mesh, const Vector3f& corner, const Vector3f& right,
              const Vector3f& down, const UvRect& uv, std::uint16_t material) {

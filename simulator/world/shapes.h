@@ -8,6 +8,14 @@
 
 namespace aisle::sim {
 
+/// Appends a vertex; its index.
+std::uint32_t AddVertex(TriangleMesh* mesh, const Eigen::Vector3f& position,
+                        const Eigen::Vector3f& normal, const Eigen::Vector2f& uv);
+
+/// Appends a triangle of vertices that are there, counter-clockwise from outside.
+void AddTriangle(TriangleMesh* mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                 std::uint16_t material);
+
 /// A rectangle of a texture: (0, 0) is its top left corner; beyond [0, 1] textures repeat.
 struct UvRect {
   Eigen::Vector2f origin = Eigen::Vector2f::Zero();

@@ -96,6 +96,29 @@ TEST(CompareTest, VehiclesThatTouchSomethingOrDockWorseRaiseAnAlarm) {
   EXPECT_EQ(ChangeOf(Compare(Drives(9, 0.05), good), "collisions"), Change::kBetter);
 }
 
+/// The seed with the largest error is not there to be compared: the others are as they were, and
+/// one of them that breaks is seen beside its own past.
+TEST(CompareTest, ASeedThatOneSideLacksIsLeftOutOfBoth) {
+  const Results before = Night(0.02, 1);
+  Results fewer = before;
+  const auto ate = [](const RunRecord& run) { return *run.scores.at("ate_rmse_m").value; };
+  std::erase_if(fewer.runs, [&](const RunRecord& run) {
+    return std::all_of(before.runs.begin(), before.runs.end(),
+                       [&](const RunRecord& other) { return ate(other) <= ate(run); });
+  });
+  ASSERT_EQ(fewer.runs.size(), 8u);
+  for (const auto& [old_side, new_side] : {std::pair{before, fewer}, std::pair{fewer, before}}) {
+    const Comparison same = Compare(old_side, new_side).at(1);
+    EXPECT_EQ(same.score, "ate_rmse_m");
+    EXPECT_TRUE(same.bit_equal && same.paired);
+    EXPECT_EQ(same.old_n, 8u);
+    EXPECT_EQ(same.left_out, 1u);
+    EXPECT_THAT(same.why, testing::HasSubstr("1 seed of one side alone left out"));
+  }
+  *fewer.runs.at(3).scores["ate_rmse_m"].value *= 20;
+  EXPECT_EQ(ChangeOf(Compare(before, fewer), "ate_rmse_m"), Change::kUnstable);
+}
+
 TEST(CompareTest, ThreeSeedsCannotTell) {
   Results before, after;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {

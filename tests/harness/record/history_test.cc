@@ -7,26 +7,12 @@
 
 #include <fstream>
 
+#include "tests/harness/record/two_systems.h"
+
 namespace aisle {
 namespace {
 
 namespace fs = std::filesystem;
-
-Results Night(const std::string& started, double ate_m, const std::string& scene = "paper/one") {
-  Results results;
-  results.suite = "nightly";
-  results.started = started;
-  results.provenance.commit = "abc";
-  for (const std::string system : {"orbslam2", "ora|cle_"}) {
-    RunRecord run;
-    run.spec = {
-        .scene = scene, .scene_file = "", .twin = "live", .system = BuiltIn(system), .seed = 1};
-    run.scores["ate_rmse_m"] = {
-        .value = ate_m, .unit = "m", .alignment = "se3", .n = 9, .absent = ""};
-    results.runs.push_back(run);
-  }
-  return results;
-}
 
 class HistoryTest : public testing::Test {
  protected:

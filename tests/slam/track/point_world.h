@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "slam/camera/stereo_camera.h"
+#include "slam/map/create_landmarks.h"
 #include "slam/map/map.h"
+#include "slam/track/track_frame.h"
 
 namespace aisle::slam {
 
@@ -57,6 +59,20 @@ inline Eigen::Isometry3d At(double x, double z, double yaw_deg = 0) {
   pose.translation() << x, 0, z;
   pose.linear() = Eigen::AngleAxisd(yaw_deg * M_PI / 180, Eigen::Vector3d::UnitY()).matrix();
   return pose;
+}
+
+/// A map of one keyframe, taken of this world at its origin, and what tracking remembers of it.
+inline void BeginAtOrigin(const PointWorld& world, Map* map, TrackMemory* memory) {
+  Keyframe keyframe;
+  keyframe.id = map->NextKeyframeId();
+  keyframe.frame = world.See(At(0, 0), 0);
+  keyframe.landmarks.resize(static_cast<std::size_t>(keyframe.frame->size()));
+  MapEdit edit;
+  edit.new_landmarks = CreateLandmarks(keyframe, {}, {});
+  edit.new_keyframes = {keyframe};
+  map->Apply(edit);
+  memory->reference = keyframe.id;
+  memory->landmarks = map->At(keyframe.id).landmarks;
 }
 
 }  // namespace aisle::slam

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "slam/map/create_landmarks.h"
 #include "slam/track/keyframe_policy.h"
 #include "tests/slam/track/point_world.h"
 
@@ -11,18 +10,7 @@ namespace {
 
 class TrackFrameTest : public testing::Test {
  protected:
-  void SetUp() override {
-    Keyframe keyframe;
-    keyframe.id = map.NextKeyframeId();
-    keyframe.frame = world.See(At(0, 0), 0);
-    keyframe.landmarks.resize(static_cast<std::size_t>(keyframe.frame->size()));
-    MapEdit edit;
-    edit.new_landmarks = CreateLandmarks(keyframe, {}, {});
-    edit.new_keyframes = {keyframe};
-    map.Apply(edit);
-    memory.reference = keyframe.id;
-    memory.landmarks = map.At(keyframe.id).landmarks;
-  }
+  void SetUp() override { BeginAtOrigin(world, &map, &memory); }
 
   PointWorld world;
   Map map;

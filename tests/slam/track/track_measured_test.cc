@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "slam/map/create_landmarks.h"
 #include "slam/place/place_index.h"
 #include "tests/slam/track/point_world.h"
 
@@ -21,18 +20,7 @@ MeasuredMotion Measured(const Eigen::Isometry3d& T_world_now, double sigma_m, do
 /// A map of one keyframe at the world's origin, where the last frame was found.
 class TrackMeasuredTest : public testing::Test {
  protected:
-  void SetUp() override {
-    Keyframe keyframe;
-    keyframe.id = map.NextKeyframeId();
-    keyframe.frame = world.See(At(0, 0), 0);
-    keyframe.landmarks.resize(static_cast<std::size_t>(keyframe.frame->size()));
-    MapEdit edit;
-    edit.new_landmarks = CreateLandmarks(keyframe, {}, {});
-    edit.new_keyframes = {keyframe};
-    map.Apply(edit);
-    memory.reference = keyframe.id;
-    memory.landmarks = map.At(keyframe.id).landmarks;
-  }
+  void SetUp() override { BeginAtOrigin(world, &map, &memory); }
 
   std::optional<FramePose> Find(const Eigen::Isometry3d& T_world_rig, std::int64_t stamp_ns) {
     return TrackMeasured({map, *world.See(T_world_rig, stamp_ns), {}, 8, {}}, memory,
