@@ -267,8 +267,7 @@ void Introduce(const Estimator& estimator, RunResult* result) {
 /// The frames of a job as its system is shown them.
 std::unique_ptr<Sequence> SequenceOf(const Job& job, std::uint64_t* content_hash) {
   std::unique_ptr<Sequence> sequence = OpenSequence(job, content_hash);
-  const auto odometry = job.spec.system.options.find(kOdometryOption);
-  if (odometry == job.spec.system.options.end() || odometry->second != "true") return sequence;
+  if (!WantsOdometry(job.spec.system)) return sequence;
   return WithOdometry(std::move(sequence), job.spec.seed);
 }
 
@@ -297,7 +296,8 @@ void RunOurs(const Job& job) {
 void RunSteering(const Job& job) {
   std::uint64_t content_hash = 0;
   TellStage("opening the scene, solving its light");
-  const std::unique_ptr<DriveScene> scene = OpenSimulatedDrive(SimulationOf(job), &content_hash);
+  std::unique_ptr<DriveScene> scene = OpenSimulatedDrive(SimulationOf(job), &content_hash);
+  if (WantsOdometry(job.spec.system)) scene = WithOdometry(std::move(scene));
   std::unique_ptr<Estimator> estimator;
   try {
     estimator = EstimatorOf(job, scene->calibration(), scene->rate_hz());

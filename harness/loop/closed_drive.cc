@@ -145,6 +145,7 @@ class ClosedDrive::Loop {
     Exposure exposure{.id = frame_++, .stamp_ns = now_ns_};
     exposure.T_world_rig = scene_.RigAt(plant_.pose, now_ns_);
     exposure.clocks = traffic_.clocks();
+    exposure.wheels = wheels_;
     // The camera's own motion, jolts included, from where it is a little before and after.
     constexpr std::int64_t kHalf_ns = 2'000'000;
     const auto rig_at = [&](std::int64_t offset_ns) {
@@ -247,7 +248,9 @@ class ClosedDrive::Loop {
     const PlantStep step = Move(plant_, command_, Seconds(duration_ns), course_.plant);
     plant_ = step.state;
     now_ns_ += duration_ns;
-    pilot_.Rolled(now_ns_, odometer_.Measure(step));
+    const FloorPose measured = odometer_.Measure(step);
+    wheels_.Add(measured);
+    pilot_.Rolled(now_ns_, measured);
     traffic_.Advance(duration_ns, At(plant_.pose, course_.footprint), Speed());
     contacts_.See(Now(), step.way_m, step.turn_rad);
   }
@@ -259,6 +262,7 @@ class ClosedDrive::Loop {
   Server server_;
   Pilot pilot_;
   Odometer odometer_;
+  Reckoning wheels_;
   Traffic traffic_;
   ContactWatch contacts_;
   PlantState plant_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,9 @@ struct Exposure {
   Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();     ///< of the rig, in its own axes
   Eigen::Vector3d turn_rate_rad_s = Eigen::Vector3d::Zero();  ///< likewise
   std::vector<ScriptClock> clocks = {};                       ///< per actor
+  Reckoning wheels = {};                                      ///< of the vehicle's odometer, by now
+  /// The same at the frame that the system looked at before this one; none: this is its first.
+  std::optional<Reckoning> wheels_before = {};
 };
 
 /// The socket for a world in which a vehicle drives by itself. All of it is pure; Take throws

@@ -12,6 +12,8 @@ void Server::Begin(const Exposure& exposure, std::int64_t at_ns) {
   if (!working_.empty()) due = std::max(due, working_.back().due_ns);
   working_.push_back({exposure.stamp_ns, due, std::nullopt});
   asked_ = exposure;
+  asked_->wheels_before = wheels_before_;
+  wheels_before_ = exposure.wheels;
 }
 
 void Server::Tell(const std::optional<Eigen::Isometry3d>& T_slam_rig) {

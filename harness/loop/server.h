@@ -45,6 +45,7 @@ class Server {
   std::function<std::int64_t(std::int64_t)> latency_ns_;
   std::deque<Answer> working_;  ///< by time due; of `asked_` the last
   std::optional<Exposure> asked_, waiting_;
+  std::optional<Reckoning> wheels_before_;  ///< at the frame begun last
   int shown_ = 0;
 };
 

@@ -36,6 +36,19 @@ slam::Matrix6d BodyCovariance(double way_m, double turn_rad, const OdometryOptio
   return variances.asDiagonal();
 }
 
+/// A motion of the body as one of the rig. `way_m` and `turn_rad` are all that the body rolled and
+/// turned in it.
+MotionMeasurement MotionOfRig(const FloorPose& moved, double way_m, double turn_rad,
+                              const Eigen::Isometry3d& T_body_rig, const OdometryOptions& options,
+                              const PlantOptions& plant) {
+  MotionMeasurement motion;
+  motion.T_now_before = T_body_rig.inverse() * InSpace(moved).inverse() * T_body_rig;
+  const slam::Matrix6d to_rig = slam::Adjoint(T_body_rig.inverse());
+  motion.covariance = to_rig * BodyCovariance(way_m, turn_rad, options, plant) * to_rig.transpose();
+  motion.covariance = (motion.covariance + motion.covariance.transpose()).eval() / 2;
+  return motion;
+}
+
 /// Hands the frames of another sequence on, with what the wheels measured.
 class SequenceWithOdometry : public Sequence {
  public:
@@ -59,7 +72,42 @@ class SequenceWithOdometry : public Sequence {
   std::vector<MotionMeasurement> measured_;
 };
 
+/// Hands the pictures of another drive on, with what the wheels measured.
+class DriveWithOdometry : public DriveScene {
+ public:
+  explicit DriveWithOdometry(std::unique_ptr<DriveScene> scene) : scene_(std::move(scene)) {}
+
+  const Course& course() const override { return scene_->course(); }
+  StereoCalibration calibration() const override { return scene_->calibration(); }
+  double rate_hz() const override { return scene_->rate_hz(); }
+  std::int64_t Stamp(std::int64_t frame) const override { return scene_->Stamp(frame); }
+  Capsule ActorAt(std::size_t actor, std::int64_t time_ns) const override {
+    return scene_->ActorAt(actor, time_ns);
+  }
+  Eigen::Isometry3d RigAt(const FloorPose& vehicle, std::int64_t stamp_ns) const override {
+    return scene_->RigAt(vehicle, stamp_ns);
+  }
+  SequenceFrame Take(const Exposure& exposure) const override {
+    SequenceFrame frame = scene_->Take(exposure);
+    if (!exposure.wheels_before) return frame;
+    const Reckoning &before = *exposure.wheels_before, &now = exposure.wheels;
+    const Course& course = scene_->course();
+    frame.images.motion = MotionOfRig(before.pose.inverse() * now.pose, now.way_m - before.way_m,
+                                      now.turn_rad - before.turn_rad, course.T_vehicle_rig,
+                                      course.odometry, course.plant);
+    return frame;
+  }
+
+ private:
+  std::unique_ptr<DriveScene> scene_;
+};
+
 }  // namespace
+
+bool WantsOdometry(const SystemSpec& system) {
+  const auto said = system.options.find(kOdometryOption);
+  return said != system.options.end() && said->second == "true";
+}
 
 SystemOption DescribeOdometry() {
   return {kOdometryOption,
@@ -80,7 +128,6 @@ std::vector<MotionMeasurement> MeasureByWheels(const std::vector<FrameRequest>& 
   Odometer odometer(options, plant, seed);
   const Eigen::Isometry3d T_body_rig =
       InSpace(BodyBeneath(schedule.front().T_world_rig)).inverse() * schedule.front().T_world_rig;
-  const slam::Matrix6d to_rig = slam::Adjoint(T_body_rig.inverse());
   double speed_mps = 0;
   for (std::size_t i = 1; i < schedule.size(); ++i) {
     const FloorPose moved =
@@ -96,11 +143,7 @@ std::vector<MotionMeasurement> MeasureByWheels(const std::vector<FrameRequest>& 
     // The rig stands off the axle: what the wheels err is what their arc errs.
     const FloorPose arc = AlongArc({}, step.way_m, step.turn_rad);
     const FloorPose said = moved * arc.inverse() * odometer.Measure(step);
-    MotionMeasurement& motion = measured.emplace_back();
-    motion.T_now_before = T_body_rig.inverse() * InSpace(said).inverse() * T_body_rig;
-    motion.covariance =
-        to_rig * BodyCovariance(step.way_m, step.turn_rad, options, plant) * to_rig.transpose();
-    motion.covariance = (motion.covariance + motion.covariance.transpose()).eval() / 2;
+    measured.push_back(MotionOfRig(said, step.way_m, step.turn_rad, T_body_rig, options, plant));
   }
   return measured;
 }
@@ -116,6 +159,10 @@ std::unique_ptr<Sequence> WithOdometry(std::unique_ptr<Sequence> sequence, std::
                      "scene, or a recording with truth");
   }
   return std::make_unique<SequenceWithOdometry>(std::move(sequence), seed);
+}
+
+std::unique_ptr<DriveScene> WithOdometry(std::unique_ptr<DriveScene> scene) {
+  return std::make_unique<DriveWithOdometry>(std::move(scene));
 }
 
 }  // namespace aisle

@@ -5,6 +5,8 @@
 
 #include "harness/contract/sequence.h"
 #include "harness/contract/system_option.h"
+#include "harness/contract/system_spec.h"
+#include "harness/loop/drive_scene.h"
 #include "harness/vehicle/odometry.h"
 
 namespace aisle {
@@ -12,6 +14,8 @@ namespace aisle {
 /// The option of a system that is handed what the wheels measure, beside its images.
 inline constexpr const char* kOdometryOption = "odometry";
 SystemOption DescribeOdometry();
+/// Whether a system is to be handed it.
+bool WantsOdometry(const SystemSpec& system);
 
 /// What the wheels of a rig's vehicle make of its planned way, for every frame but the first: the
 /// motion of the rig since the frame before. The rig is mounted as the first frame shows it, on a
@@ -24,5 +28,10 @@ std::vector<MotionMeasurement> MeasureByWheels(const std::vector<FrameRequest>& 
 /// The same frames with what the wheels measured. Throws InputError for a sequence whose way is not
 /// known.
 std::unique_ptr<Sequence> WithOdometry(std::unique_ptr<Sequence> sequence, std::uint64_t seed);
+
+/// The same drive, whose pictures come with what the vehicle's own wheels have measured since the
+/// picture that the system looked at before: the very readings by which the vehicle steers between
+/// pictures.
+std::unique_ptr<DriveScene> WithOdometry(std::unique_ptr<DriveScene> scene);
 
 }  // namespace aisle

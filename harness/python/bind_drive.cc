@@ -6,6 +6,7 @@
 #include "harness/plugs/simulated_drive.h"
 #include "harness/plugs/steering_options.h"
 #include "harness/plugs/systems.h"
+#include "harness/plugs/wheel_odometry.h"
 #include "harness/python/arrays.h"
 #include "harness/python/frame.h"
 #include "harness/python/module.h"
@@ -70,6 +71,7 @@ class Drive {
                                              .threads = threads};
     const py::gil_scoped_release others_may_run;
     scene_ = OpenSimulatedDrive(simulated);
+    if (WantsOdometry(spec)) scene_ = WithOdometry(std::move(scene_));
   }
 
   FramePtr Reset() {

@@ -26,6 +26,18 @@ struct OdometryOptions {
   double wheel_radius_m = 0.1;
 };
 
+/// What an odometer has made of a drive so far.
+struct Reckoning {
+  FloorPose pose;                  ///< of the vehicle, from where it began
+  double way_m = 0, turn_rad = 0;  ///< all that it rolled and turned, whichever way
+
+  void Add(const FloorPose& moved) {
+    pose = pose * moved;
+    way_m += moved.position.norm();
+    turn_rad += std::abs(moved.heading_rad);
+  }
+};
+
 /// Reads a vehicle's encoders. A plain value: a copy goes on as the original would. Numbers are
 /// drawn from (seed, step, wheel) alone.
 class Odometer {

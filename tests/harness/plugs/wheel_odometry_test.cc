@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "harness/contract/floor.h"
+#include "harness/loop/closed_drive.h"
 #include "slam/stereo_slam.h"
+#include "tests/harness/loop/fake_drive_scene.h"
 
 namespace aisle {
 namespace {
@@ -94,6 +96,60 @@ TEST(MeasureByWheels, CovariancesAreSymmetricAndDefinite) {
     EXPECT_EQ(step.covariance, step.covariance.transpose());
     EXPECT_EQ((Eigen::LLT<slam::Matrix6d>(step.covariance).info()), Eigen::Success);
   }
+}
+
+/// Looks at what every picture is handed, and tells the truth.
+class LooksAtMotion : public Localiser {
+ public:
+  explicit LooksAtMotion(const DriveScene& scene) : scene_(scene) {}
+
+  std::optional<Eigen::Isometry3d> Locate(const Exposure& exposure) override {
+    const std::optional<MotionMeasurement> motion = scene_.Take(exposure).images.motion;
+    EXPECT_EQ(motion.has_value(), !ids.empty());
+    if (motion) {
+      const Eigen::Isometry3d truth = exposure.T_world_rig.inverse() * before_;
+      const slam::Vector6d error = slam::Difference(truth, motion->T_now_before);
+      worst = std::max(worst, error.norm());
+      surprise += error.dot(motion->covariance.llt().solve(error));
+    }
+    before_ = exposure.T_world_rig;
+    ids.push_back(exposure.id);
+    return exposure.T_world_rig;
+  }
+  double worst = 0, surprise = 0;  ///< of the errors: the largest, the sum of Mahalanobis' squares
+  std::vector<std::int64_t> ids;
+
+ private:
+  const DriveScene& scene_;
+  Eigen::Isometry3d before_ = Eigen::Isometry3d::Identity();
+};
+
+TEST(WithOdometry, AClosedDriveHandsOutTheMotionSinceThePictureLookedAtBefore) {
+  auto fake = std::make_unique<FakeDriveScene>();
+  fake->edit().odometry = Perfect();
+  const std::unique_ptr<DriveScene> scene = WithOdometry(std::move(fake));
+  for (const double latency_ms : {0.0, 120.0}) {
+    LooksAtMotion system(*scene);
+    LoopOptions options;
+    options.steering.latency_ms = latency_ms;
+    EXPECT_EQ(DriveClosed(*scene, &system, options).end, DriveEnd::kArrived);
+    EXPECT_LT(system.worst, 1e-6) << latency_ms;
+    const auto shown = static_cast<std::int64_t>(system.ids.size());
+    // At 120 ms it looks at every third picture at the most.
+    EXPECT_EQ(system.ids.back() + 1 >= 2 * shown, latency_ms > 0);
+  }
+}
+
+TEST(WithOdometry, WheelsThatErrAreAsFarOffAsTheySay) {
+  auto fake = std::make_unique<FakeDriveScene>();
+  fake->edit().odometry = {.radius_error = 0.005};
+  const std::unique_ptr<DriveScene> scene = WithOdometry(std::move(fake));
+  LooksAtMotion system(*scene);
+  DriveClosed(*scene, &system, {});
+  // Three of six directions err here; a body that heaves and nods on its floor errs in the others.
+  const double mean = system.surprise / static_cast<double>(system.ids.size() - 1);
+  EXPECT_GT(mean, 0.5);
+  EXPECT_LT(mean, 6);
 }
 
 }  // namespace
