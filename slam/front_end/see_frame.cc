@@ -99,6 +99,8 @@ std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, StereoCorners 
                                           scale * options.keypoint_noise_px, options.equal_columns,
                                           mask.confidence));
   }
+  const bool aligns = options.base == Base::kPlain && options.track.patch.radius_px > 0;
+  if (aligns) frame->patches = CutPatches(left);
   frame->grid = FeatureGrid(left.features.keypoints, images.left.size());
   frame->features = std::move(left.features);
   return frame;

@@ -6,6 +6,7 @@
 
 #include "slam/feature/feature_grid.h"
 #include "slam/feature/features.h"
+#include "slam/feature/patch.h"
 
 namespace aisle::slam {
 
@@ -27,6 +28,7 @@ struct Frame {
   std::int64_t stamp_ns = 0;
   Features features;                      ///< of the left image
   std::vector<Measurement> measurements;  ///< of features[i]
+  std::vector<FeaturePatch> patches;      ///< of features[i]; or none at all
   FeatureGrid grid;                       ///< over features
   double scale = 1.2;                     ///< between pyramid levels
 

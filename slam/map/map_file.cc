@@ -16,7 +16,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "map files are little-endian");
 
 constexpr char kMagic[8] = {'a', 'i', 's', 'l', 'e', 'm', 'a', 'p'};
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 struct Header {
   char magic[8];
@@ -117,6 +117,9 @@ constexpr auto kMeasurement = [](auto& file, auto& measurement) {
   file.Value(measurement.sigma_d);
   file.Value(measurement.u_in_d);
 };
+constexpr auto kPatch = [](auto& file, auto& patch) {
+  for (auto& grey : patch.grey) file.Value(grey);
+};
 constexpr auto kObservation = [](auto& file, auto& observation) {
   kKeyframeId(file, observation.keyframe);
   file.Value(observation.feature);
@@ -129,6 +132,7 @@ constexpr auto kFrame = [](auto& file, auto& frame) {
   CarryAll(file, frame.features.keypoints, kKeypoint);
   CarryAll(file, frame.features.descriptors, kDescriptor);
   CarryAll(file, frame.measurements, kMeasurement);
+  CarryAll(file, frame.patches, kPatch);
 };
 
 constexpr auto kKeyframe = [](auto& file, auto& keyframe) {
@@ -201,7 +205,8 @@ bool IsLevel(int level) {
 void CheckFrame(const Frame& frame, const StereoCamera& camera) {
   Demand(std::isfinite(frame.scale) && frame.scale > 1, "a scale between levels is not above 1");
   const std::size_t count = frame.features.keypoints.size();
-  Demand(frame.features.descriptors.size() == count && frame.measurements.size() == count,
+  Demand(frame.features.descriptors.size() == count && frame.measurements.size() == count &&
+             (frame.patches.empty() || frame.patches.size() == count),
          "a keyframe's lists differ in length");
   for (const Keypoint& keypoint : frame.features.keypoints) {
     Demand(std::abs(keypoint.pixel.x) <= 2 * static_cast<float>(camera.width) &&

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "slam/map/match_keyframe.h"
+#include "slam/track/align_matches.h"
 
 namespace aisle::slam {
 namespace {
@@ -50,6 +51,18 @@ std::optional<FramePose> RefineAround(const PlainContext& context, const FirstPo
   return RefineInLocalMap(context, first.T_rig_world, first.landmarks, {});
 }
 
+/// The frame with what its matches have been found to measure.
+std::shared_ptr<const Frame> WithMeasurements(const std::shared_ptr<const Frame>& frame,
+                                              const FramePose& pose) {
+  if (pose.measurements.empty() || frame->patches.empty()) return frame;
+  auto measured = std::make_shared<Frame>(*frame);
+  for (std::size_t i = 0; i < pose.matches.size(); ++i) {
+    measured->measurements[static_cast<std::size_t>(pose.matches[i].feature)] =
+        pose.measurements[i];
+  }
+  return measured;
+}
+
 /// Whether the rig can have come from where it was predicted to where it was found.
 bool IsNear(const Eigen::Isometry3d& T_predicted_world, const Eigen::Isometry3d& T_found_world,
             double gap_s, const DeadReckoningOptions& reckoning) {
@@ -66,6 +79,16 @@ std::vector<PointObservation> Observations(const PlainContext& context,
   for (const Match& match : matches) {
     observations.push_back({context.map.At(match.landmark).position,
                             context.frame.measurements[static_cast<std::size_t>(match.feature)]});
+  }
+  return observations;
+}
+
+std::vector<PointObservation> Observations(const PlainContext& context,
+                                           const std::vector<Match>& matches,
+                                           const std::vector<Measurement>& measurements) {
+  std::vector<PointObservation> observations;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    observations.push_back({context.map.At(matches[i].landmark).position, measurements[i]});
   }
   return observations;
 }
@@ -93,8 +116,9 @@ std::optional<FramePose> RefineInLocalMap(const PlainContext& context,
     result.expected.push_back(landmark->id);
   }
   result.matches = MatchByProjection(context.frame, expected, {}, context.options.local_map);
-  result.pose =
-      RefinePose(context.camera, T_rig_world, Observations(context, result.matches), refine);
+  result.measurements = AlignMatches(context, T_rig_world, result.matches);
+  result.pose = RefinePose(context.camera, T_rig_world,
+                           Observations(context, result.matches, result.measurements), refine);
   if (result.pose.inliers < context.options.least_map_inliers || !result.pose.well_posed) {
     return std::nullopt;
   }
@@ -169,7 +193,7 @@ Keyframe KeyframeOf(const Map& map, const std::shared_ptr<const Frame>& frame,
                     const FramePose& pose) {
   Keyframe keyframe;
   keyframe.id = map.NextKeyframeId();
-  keyframe.frame = frame;
+  keyframe.frame = WithMeasurements(frame, pose);
   keyframe.T_world_rig = Normalized(pose.pose.T_rig_world.inverse());
   keyframe.parent = pose.local.reference;
   keyframe.landmarks.resize(static_cast<std::size_t>(frame->size()));

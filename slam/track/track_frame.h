@@ -31,8 +31,9 @@ struct TrackMemory {
 
 /// A frame's place in the map.
 struct FramePose {
-  RefinedPose pose;            ///< inlier[i] tells of matches[i]
-  std::vector<Match> matches;  ///< features to landmarks, by rising feature
+  RefinedPose pose;                            ///< inlier[i] tells of matches[i]
+  std::vector<Match> matches;                  ///< features to landmarks, by rising feature
+  std::vector<Measurement> measurements = {};  ///< of matches[i]; or none: those of the frame
   LocalMap local;
   std::vector<LandmarkId> expected;  ///< landmarks that should have been seen
 };
@@ -49,9 +50,13 @@ std::optional<FramePose> RefineInLocalMap(const PlainContext& context,
                                           const std::vector<LandmarkId>& landmarks,
                                           const RefinePoseOptions& refine);
 
-/// What a pose is refined from: landmarks and where the frame shows them.
+/// What a pose is refined from: landmarks and where the frame shows them, by its features alone or
+/// as `measurements` has it of each match.
 std::vector<PointObservation> Observations(const PlainContext& context,
                                            const std::vector<Match>& matches);
+std::vector<PointObservation> Observations(const PlainContext& context,
+                                           const std::vector<Match>& matches,
+                                           const std::vector<Measurement>& measurements);
 
 /// The landmarks of the matches that a pose keeps.
 std::vector<LandmarkId> Inliers(const std::vector<Match>& matches, const RefinedPose& pose);
@@ -65,7 +70,7 @@ std::optional<FramePose> FindAgain(const PlainContext& context, const TrackMemor
 std::optional<FramePose> LocateByKeyframe(const PlainContext& context, KeyframeId keyframe);
 
 /// The next keyframe as a tracked frame becomes it: seen from the pose's reference, with the
-/// landmarks that the pose kept.
+/// landmarks that the pose kept and where it has found them.
 Keyframe KeyframeOf(const Map& map, const std::shared_ptr<const Frame>& frame,
                     const FramePose& pose);
 

@@ -38,6 +38,7 @@ void Describe(OptionFields& fields, TrackOptions& options) {
   fields.Number("wide_factor", &options.wide_factor, {1, 100}, "",
                 "Factor of that search radius in the second attempt, from where the rig was last.");
   fields.Group("local_map", &options.local_map);
+  fields.Group("patch", &options.patch);
   fields.Integer("keyframe_distance", &options.keyframe_distance, {0, 256}, "bits",
                  "Descriptor distance of matches to a keyframe without any prediction.");
   fields.Number("keyframe_ratio", &options.keyframe_ratio, {0, 1}, "",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "slam/common/option_fields.h"
+#include "slam/map/align_patch.h"
 #include "slam/map/match_by_projection.h"
 #include "slam/optimize/align_points.h"
 
@@ -36,6 +37,7 @@ struct TrackOptions {
   MatchOptions motion{7, 100, 0.9};     ///< landmarks of the last frame, where motion predicts them
   double wide_factor = 3;               ///< widens that search when it finds too little
   MatchOptions local_map{3, 100, 0.8};  ///< the other landmarks around
+  PatchOptions patch;                   ///< where exactly those have been met
   int keyframe_distance = 50;           ///< bits; matches to a keyframe without any prediction
   double keyframe_ratio = 0.75;         ///< best to second best of those
   AlignPointsOptions align;             ///< the pose from those

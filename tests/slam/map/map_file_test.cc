@@ -163,7 +163,7 @@ TEST_F(MapFile, WhatIsNoMapIsCalledThat) {
   std::string bytes = BytesOf(file);
   bytes[8] = 9;
   Write(file, bytes);
-  EXPECT_THAT(ErrorOf(file), testing::HasSubstr("is of version 9, this program reads version 2"));
+  EXPECT_THAT(ErrorOf(file), testing::HasSubstr("is of version 9, this program reads version 3"));
 }
 
 TEST_F(MapFile, AFileThatCannotBeWrittenSaysSo) {
