@@ -73,6 +73,7 @@ SlamOptions OrbSlam2Published() {
   options.keypoint_noise_px = 1;
   options.equal_columns = true;
   options.stereo.refinement = RowRefinement::kParabola;
+  options.stereo.patch_radius_px = 5;
   options.mapping.triangulate = {
       .neighbours = 10, .descriptor_distance = 50, .descriptor_ratio = 0.6};
   options.mapping.fuse.neighbours = 10;

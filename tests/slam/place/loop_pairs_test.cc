@@ -107,7 +107,9 @@ TEST_F(LoopPairs, ARevisitIsWhereTheFivePointMethodSeesIt) {
     ASSERT_TRUE(loop);
     const Eigen::Isometry3d ours = loop->T_matched_current.inverse();
     const Eigen::Isometry3d theirs = FivePointPose({current}, {matched});
-    EXPECT_LT(Eigen::AngleAxisd(ours.linear().transpose() * theirs.linear()).angle(), 0.01);
+    // From one camera, a turn looks like a step aside: over baselines of a tenth of the depth, 0.15
+    // in the direction is worth 0.015 in the rotation.
+    EXPECT_LT(Eigen::AngleAxisd(ours.linear().transpose() * theirs.linear()).angle(), 0.015);
     EXPECT_GT(ours.translation().normalized().dot(theirs.translation()), std::cos(0.15));
   }
 }

@@ -7,6 +7,8 @@
 namespace aisle::slam {
 namespace {
 
+const StereoOptions kPublished{.patch_radius_px = 5};
+
 /// A wall `shift_px` further left in the right camera, without noise, and `brighter` there.
 std::optional<RowAlignment> Align(double shift_px, double start_off_px, double brighter = 0) {
   const Texture texture(3);
@@ -15,7 +17,7 @@ std::optional<RowAlignment> Align(double shift_px, double start_off_px, double b
         {200, 100}, [&](double u, double v) { return texture(u + shift, v) + add; }, 0, 1);
   };
   return AlignByParabola(see(0, 0), {120, 50}, see(shift_px, brighter),
-                         120 - shift_px + start_off_px, {});
+                         120 - shift_px + start_off_px, kPublished);
 }
 
 TEST(ParabolaAlignment, IsExactOnWholeColumnsHoweverBright) {
@@ -44,7 +46,7 @@ TEST(ParabolaAlignment, RefusesTheEndOfItsSearchAndTheEdgeOfTheImage) {
 
 TEST(ParabolaAlignment, RefusesWhatHasNoTexture) {
   const cv::Mat1b grey(100, 200, std::uint8_t{90});
-  EXPECT_FALSE(AlignByParabola(grey, {120, 50}, grey, 100, {}));
+  EXPECT_FALSE(AlignByParabola(grey, {120, 50}, grey, 100, kPublished));
 }
 
 }  // namespace
