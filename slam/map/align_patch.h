@@ -18,7 +18,7 @@ struct PatchOptions {
   double least_correlation = 0.8;  ///< normalised; below: not the same thing
   double image_noise = 3;          ///< grey levels: deviation of one pixel's brightness
   /// Of the corner's deviation: what remains once its patch is aligned, however good the texture.
-  double noise_share = 0.3;
+  double noise_share = 0.5;
 };
 
 /// Names every option with its range, unit and a sentence.

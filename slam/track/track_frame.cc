@@ -51,6 +51,21 @@ std::optional<FramePose> RefineAround(const PlainContext& context, const FirstPo
   return RefineInLocalMap(context, first.T_rig_world, first.landmarks, {});
 }
 
+/// Refines a pose that corners have found by where exactly their patches are. Seen from far off
+/// where it was made, the map itself is less exact than those: where they reject too many of the
+/// landmarks that the pose stands on, it stays as it is.
+void Sharpen(const PlainContext& context, const RefinePoseOptions& refine, FramePose* found) {
+  constexpr double kStillAgree = 0.7;
+  if (context.frame.patches.empty()) return;
+  std::vector<Measurement> measurements =
+      AlignMatches(context, found->pose.T_rig_world, found->matches);
+  RefinedPose sharp = RefinePose(context.camera, found->pose.T_rig_world,
+                                 Observations(context, found->matches, measurements), refine);
+  if (!sharp.well_posed || sharp.inliers < kStillAgree * found->pose.inliers) return;
+  found->pose = std::move(sharp);
+  found->measurements = std::move(measurements);
+}
+
 /// The frame with what its matches have been found to measure.
 std::shared_ptr<const Frame> WithMeasurements(const std::shared_ptr<const Frame>& frame,
                                               const FramePose& pose) {
@@ -116,12 +131,12 @@ std::optional<FramePose> RefineInLocalMap(const PlainContext& context,
     result.expected.push_back(landmark->id);
   }
   result.matches = MatchByProjection(context.frame, expected, {}, context.options.local_map);
-  result.measurements = AlignMatches(context, T_rig_world, result.matches);
-  result.pose = RefinePose(context.camera, T_rig_world,
-                           Observations(context, result.matches, result.measurements), refine);
+  result.pose =
+      RefinePose(context.camera, T_rig_world, Observations(context, result.matches), refine);
   if (result.pose.inliers < context.options.least_map_inliers || !result.pose.well_posed) {
     return std::nullopt;
   }
+  Sharpen(context, refine, &result);
   return result;
 }
 
