@@ -7,8 +7,7 @@
 namespace aisle::slam {
 namespace {
 
-constexpr int kLargestRadius = 6;
-constexpr int kLargestSide = 2 * kLargestRadius + 1;
+constexpr int kLargestSide = 2 * kLargestPatchRadius + 1;
 using Pixels = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kLargestSide * kLargestSide, 1>;
 
 /// Bilinear; NaN outside.
@@ -103,25 +102,6 @@ std::optional<AlignedPoint> AlignPatch(const FeaturePatch& before, const Eigen::
     return found;
   }
   return std::nullopt;
-}
-
-void Describe(OptionFields& fields, PatchOptions& options) {
-  fields.Integer("radius_px", &options.radius_px, {0, kLargestRadius}, "px",
-                 "Reach of the square by which a landmark is found to a fraction of a pixel, in "
-                 "pixels of the level; 0: corners stay where they were found.");
-  fields.Integer("iterations", &options.iterations, {1, 100}, "",
-                 "Most steps; a patch that has not settled by then is not aligned.");
-  fields.Number("most_shift_px", &options.most_shift_px, {0.1, 6}, "px",
-                "A landmark further from its corner is none of it, in pixels of the level.");
-  fields.Number("most_scale", &options.most_scale, {1, 2}, "",
-                "Patches whose pixels differ by a larger factor in size are not compared.");
-  fields.Number("least_correlation", &options.least_correlation, {0, 1}, "",
-                "Patches that correlate less do not show the same.");
-  fields.Number("image_noise", &options.image_noise, {0.01, 100}, "grey levels",
-                "Deviation of one pixel's brightness.");
-  fields.Number("noise_share", &options.noise_share, {0, 1}, "",
-                "Share of a corner's deviation that remains once its patch is aligned, however "
-                "good the texture.");
 }
 
 }  // namespace aisle::slam

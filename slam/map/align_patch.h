@@ -8,6 +8,9 @@
 
 namespace aisle::slam {
 
+/// A square of more leaves the patch as soon as it is shifted.
+inline constexpr int kLargestPatchRadius = FeaturePatch::kReach - 1;
+
 /// How a landmark is found to a fraction of a pixel: FAST's corners lie on whole pixels and jump
 /// from frame to frame, what surrounds them does not.
 struct PatchOptions {

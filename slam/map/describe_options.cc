@@ -1,3 +1,4 @@
+#include "slam/map/align_patch.h"
 #include "slam/map/create_landmarks.h"
 #include "slam/map/cull.h"
 #include "slam/map/fuse.h"
@@ -14,6 +15,25 @@ void Describe(OptionFields& fields, MatchOptions& options) {
                  "Features whose descriptors differ by more do not match.");
   fields.Number("ratio", &options.ratio, {0, 1}, "",
                 "A match's distance is at most this share of the second best's.");
+}
+
+void Describe(OptionFields& fields, PatchOptions& options) {
+  fields.Integer("radius_px", &options.radius_px, {0, kLargestPatchRadius}, "px",
+                 "Reach of the square by which a landmark is found to a fraction of a pixel, in "
+                 "pixels of the level; 0: corners stay where they were found.");
+  fields.Integer("iterations", &options.iterations, {1, 100}, "",
+                 "Most steps; a patch that has not settled by then is not aligned.");
+  fields.Number("most_shift_px", &options.most_shift_px, {0.1, 6}, "px",
+                "A landmark further from its corner is none of it, in pixels of the level.");
+  fields.Number("most_scale", &options.most_scale, {1, 2}, "",
+                "Patches whose pixels differ by a larger factor in size are not compared.");
+  fields.Number("least_correlation", &options.least_correlation, {0, 1}, "",
+                "Patches that correlate less do not show the same.");
+  fields.Number("image_noise", &options.image_noise, {0.01, 100}, "grey levels",
+                "Deviation of one pixel's brightness.");
+  fields.Number("noise_share", &options.noise_share, {0, 1}, "",
+                "Share of a corner's deviation that remains once its patch is aligned, however "
+                "good the texture.");
 }
 
 void Describe(OptionFields& fields, CreateLandmarksOptions& options) {

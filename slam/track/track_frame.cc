@@ -66,12 +66,14 @@ void Sharpen(const PlainContext& context, const RefinePoseOptions& refine, Frame
   found->measurements = std::move(measurements);
 }
 
-/// The frame with what its matches have been found to measure.
+/// The frame with what the landmarks that the pose keeps have been found to measure. Other features
+/// may become landmarks of their own, where they are themselves.
 std::shared_ptr<const Frame> WithMeasurements(const std::shared_ptr<const Frame>& frame,
                                               const FramePose& pose) {
   if (pose.measurements.empty() || frame->patches.empty()) return frame;
   auto measured = std::make_shared<Frame>(*frame);
   for (std::size_t i = 0; i < pose.matches.size(); ++i) {
+    if (!pose.pose.inlier[i]) continue;
     measured->measurements[static_cast<std::size_t>(pose.matches[i].feature)] =
         pose.measurements[i];
   }
