@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/campaign/external_run.h"
+#include "harness/campaign/renderer_hash.h"
 #include "harness/campaign/source.h"
 #include "harness/contract/stream.h"
 #include "harness/io/file.h"
@@ -97,10 +98,11 @@ void WriteJob(const Job& job) { WriteFileAtomically(JobPath(job.out, job.spec), 
 
 Job ReadJob(const fs::path& file) { return JobFromJson(ReadFile(file), file.string()); }
 
-Fingerprints::Fingerprints() : program_(HashFile(OwnExecutable(), HashFolder(AssetsDir()))) {}
+Fingerprints::Fingerprints()
+    : renderer_(HashFolder(AssetsDir(), RendererHash())), program_(HashFile(OwnExecutable())) {}
 
 std::string Fingerprints::Frames(const RunSpec& spec) const {
-  const std::uint64_t scene = HashSource(spec.scene_file, spec.twin, program_);
+  const std::uint64_t scene = HashSource(spec.scene_file, spec.twin, renderer_);
   return fmt::format("{:016x}", Hash(fmt::format("{} {}", spec.twin, spec.seed), scene));
 }
 

@@ -41,7 +41,7 @@ Job ReadJob(const std::filesystem::path& file);
 /// Content hashes of all that decides a run, hexadecimal: this program, the assets, what
 /// can be seen of the scene's twin, the seed, and the system with its options or its command and
 /// the files that names. Two runs of equal hash give equal bits; a finished run of another hash is
-/// no answer to tonight's question.
+/// no answer to tonight's question. Of the program, frames know what renders them alone.
 class Fingerprints {
  public:
   Fingerprints();
@@ -50,6 +50,7 @@ class Fingerprints {
   std::string Run(const RunSpec& spec) const;
 
  private:
+  std::uint64_t renderer_;
   std::uint64_t program_;
   mutable std::map<std::string, std::uint64_t> systems_;  ///< by name: their files may be large
 };
