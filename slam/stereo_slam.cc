@@ -94,6 +94,7 @@ struct StereoSlam::Impl {
   void TakeDueWork(TrackedFrame& result);
   bool TakeAsKeyframe(const std::shared_ptr<const Frame>& frame, FramePose& pose);
   std::optional<FramePose> StartPart(const std::shared_ptr<const Frame>& frame);
+  bool CanCoast(std::int64_t stamp_ns) const;
   bool Coast(const std::shared_ptr<const Frame>& frame);
   void NoteOutcome(const std::shared_ptr<const Frame>& frame, const std::optional<FramePose>& pose,
                    bool is_keyframe);
@@ -137,7 +138,8 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
   std::shared_ptr<const Frame> frame;
   arena.execute([&] { frame = See(images, mask, motion, result); });
   TakeDueWork(result);
-  track.Roll(options.base == Base::kPlain ? motion : std::nullopt);
+  track.Roll(options.base == Base::kPlain ? motion : std::nullopt, images.stamp_ns,
+             options.track.inertia);
 
   Stopwatch track_time(result.stage_ms["track"]);
   const Map& map = keeper.map();
@@ -148,7 +150,7 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
     pose = StartPart(frame);
     result.is_keyframe = pose.has_value();
   }
-  const bool coasting = !pose && !map.empty() && track.memory().measured;
+  const bool coasting = !pose && !map.empty() && CanCoast(images.stamp_ns);
   if (coasting) {
     result.is_keyframe = Coast(frame);
   } else {
@@ -188,14 +190,15 @@ ExternalMask StereoSlam::Impl::RejectMovers(const StereoImages& images, const Ex
                                             TrackedFrame& result) {
   if (options.dynamic.method == DynamicMethod::kNone) return mask;
   Stopwatch time(result.stage_ms["dynamic"]);
-  DynamicInput input{images.stamp_ns, images.left, images.right, std::nullopt, motion};
-  if (state == TrackingState::kTracking && !motion) {
-    input.T_now_before = PredictMotion(track.memory(), images.stamp_ns, options.track);
+  DynamicInput input{images.stamp_ns, images.left, images.right, {}, motion};
+  const bool found = state == TrackingState::kTracking || state == TrackingState::kCoasting;
+  if (found && !motion) {
+    input.expected = PredictMotion(track.memory(), images.stamp_ns, options.track);
   }
-  DynamicOutput found = detector.Detect(input);
-  result.dynamic = std::move(found.regions);
-  result.dynamic_stages = std::move(found.stages);
-  return {Union(mask.left, result.dynamic.mask), Union(mask.right, found.mask_right),
+  DynamicOutput moving = detector.Detect(input);
+  result.dynamic = std::move(moving.regions);
+  result.dynamic_stages = std::move(moving.stages);
+  return {Union(mask.left, result.dynamic.mask), Union(mask.right, moving.mask_right),
           mask.confidence};
 }
 
@@ -248,23 +251,36 @@ std::optional<FramePose> StereoSlam::Impl::StartPart(const std::shared_ptr<const
   return PoseOfKeyframe(keeper.map(), part->edit.new_keyframes.front().id);
 }
 
-/// Goes by the measured motion. Having done so for a while, a frame that shows enough becomes a
-/// keyframe where it is measured to be, so that those to come have something to be found by.
+/// Whether the pose of a frame that is not found in the map is known all the same: by a measured
+/// motion, or for a short while by the rig's inertia.
+bool StereoSlam::Impl::CanCoast(std::int64_t stamp_ns) const {
+  const TrackMemory& memory = track.memory();
+  if (memory.measured) return true;
+  if (options.base != Base::kPlain || !memory.carried) return false;
+  if (state == TrackingState::kTracking) return true;
+  const double while_s = static_cast<double>(stamp_ns - coasting_since_ns) * 1e-9;
+  return state == TrackingState::kCoasting && while_s <= options.track.inertia.longest_s;
+}
+
+/// Goes by the measured motion, or by inertia. Having gone by measurements for a while, a frame
+/// that shows enough becomes a keyframe where it is measured to be, so that those to come have
+/// something to be found by.
 bool StereoSlam::Impl::Coast(const std::shared_ptr<const Frame>& frame) {
   if (state != TrackingState::kCoasting) coasting_since_ns = track.memory().stamp_ns;
   state = TrackingState::kCoasting;
   const double while_s = static_cast<double>(frame->stamp_ns - coasting_since_ns) * 1e-9;
-  const bool is_time = !options.localise_only && keeper.at_rest() &&
+  const bool is_time = !options.localise_only && keeper.at_rest() && track.memory().measured &&
                        while_s >= options.track.measured.extend_after_s;
   const auto edit = is_time ? policy->Extend(frame, Drive()) : std::nullopt;
   policy->Note(frame, nullptr, std::nullopt, Drive());
   ++frame_count;
   if (!edit) {
-    track.Coast(keeper.map(), frame->stamp_ns);
+    track.Coast(keeper.map(), frame->stamp_ns, options.track.inertia);
     return false;
   }
   keeper.WorkIn(*edit, frame_count - 1);
-  track.CoastToKeyframe(keeper.map(), frame->stamp_ns, edit->new_keyframes.front().id);
+  track.CoastToKeyframe(keeper.map(), frame->stamp_ns, edit->new_keyframes.front().id,
+                        options.track.inertia);
   coasting_since_ns = frame->stamp_ns;
   return true;
 }

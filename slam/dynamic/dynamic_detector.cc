@@ -46,7 +46,7 @@ DynamicOutput DynamicDetector::Impl::DetectByPaper(const DynamicInput& input) {
 DynamicOutput DynamicDetector::Impl::DetectRobustly(const DynamicInput& input) {
   dynamic::RobustResult result =
       dynamic::StepRobust(state, {input.left, input.right}, input.stamp_ns,
-                          {input.T_now_before, input.measured}, camera, options.robust);
+                          {input.expected, input.measured}, camera, options.robust);
   DynamicStages stages{.left = input.left};
   if (options.keep_stages) stages.robust = TraceOf(state, result, camera);
   DynamicOutput output;

@@ -19,8 +19,8 @@ namespace aisle::slam {
 struct DynamicInput {
   std::int64_t stamp_ns = 0;
   cv::Mat1b left, right;  ///< 8-bit grey; not written to, neither now nor later by the caller
-  /// Where the caller expects the rig to have moved since the last frame, if it knows.
-  std::optional<Eigen::Isometry3d> T_now_before;
+  /// Where the caller expects the rig to have moved since the last frame, and how sure that is.
+  std::optional<MeasuredMotion> expected = {};
   /// How it has been measured to move, by other means than its images.
   std::optional<MeasuredMotion> measured = {};
 };

@@ -2,11 +2,11 @@
 
 namespace aisle::slam {
 
-std::optional<Eigen::Isometry3d> PredictMotion(const TrackMemory& memory, std::int64_t stamp_ns,
-                                               const TrackOptions& options) {
+std::optional<MeasuredMotion> PredictMotion(const TrackMemory& memory, std::int64_t stamp_ns,
+                                            const TrackOptions& options) {
   const double gap_s = static_cast<double>(stamp_ns - memory.stamp_ns) * 1e-9;
-  if (!memory.motion || gap_s <= 0 || gap_s > options.longest_gap_s) return std::nullopt;
-  return PredictPose(Eigen::Isometry3d::Identity(), memory.motion, gap_s).inverse();
+  if (!memory.velocity || gap_s <= 0 || gap_s > options.longest_gap_s) return std::nullopt;
+  return Carry(*memory.velocity, gap_s, options.inertia);
 }
 
 Eigen::Isometry3d ReckonedPose(const Map& map, const TrackMemory& memory, std::int64_t stamp_ns,

@@ -8,10 +8,10 @@
 
 namespace aisle::slam {
 
-/// Where motion predicts the rig to have gone since the last frame: T_now_before. Nothing where no
-/// motion is known or the gap is longer than it can be trusted for.
-std::optional<Eigen::Isometry3d> PredictMotion(const TrackMemory& memory, std::int64_t stamp_ns,
-                                               const TrackOptions& options);
+/// Where the rig's velocity carries it from the last frame to `stamp_ns`. Nothing where that is not
+/// known or the gap is longer than it can be trusted for.
+std::optional<MeasuredMotion> PredictMotion(const TrackMemory& memory, std::int64_t stamp_ns,
+                                            const TrackOptions& options);
 
 /// Where the rig would be now if it had kept its motion, for longest_gap_s at most: T_world_rig.
 /// The world's origin while there is no map.

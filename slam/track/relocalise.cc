@@ -26,7 +26,8 @@ std::optional<FramePose> Relocalise(const PlainContext& context, const TrackMemo
   if (auto pose = FindAgain(context, memory)) return pose;
   for (const KeyframeId id :
        KeyframesToAsk(context.map, context.frame, memory.reference, places, turn)) {
-    if (auto pose = LocateByKeyframe(context, id)) return pose;
+    const auto pose = LocateByKeyframe(context, id);
+    if (pose && CanBeThere(context, memory, *pose)) return pose;
   }
   return std::nullopt;
 }

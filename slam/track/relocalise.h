@@ -20,7 +20,7 @@ std::vector<KeyframeId> KeyframesToAsk(const Map& map, const Frame& frame, Keyfr
                                        const Places& places, std::int64_t turn);
 
 /// Finds a lost frame: where the rig must be by now, else by asking a few keyframes for their view
-/// of it.
+/// of it, as far as it can be there.
 std::optional<FramePose> Relocalise(const PlainContext& context, const TrackMemory& memory,
                                     const Places& places, std::int64_t turn);
 

@@ -80,6 +80,22 @@ std::shared_ptr<const Frame> WithMeasurements(const std::shared_ptr<const Frame>
   return measured;
 }
 
+double SecondsSince(const TrackMemory& memory, const Frame& frame) {
+  return static_cast<double>(frame.stamp_ns - memory.stamp_ns) * 1e-9;
+}
+
+/// Where the steady motion leads after a while without sight: T_rig_world.
+std::optional<Eigen::Isometry3d> DeadReckoned(const PlainContext& context,
+                                              const TrackMemory& memory) {
+  const double gap_s = SecondsSince(memory, context.frame);
+  const bool known =
+      memory.steady_motion && gap_s > 0 && gap_s <= context.options.dead_reckoning.longest_s;
+  if (!known) return std::nullopt;
+  const Eigen::Isometry3d T_world_last =
+      context.map.PoseOf(memory.reference) * memory.T_reference_rig;
+  return PredictPose(T_world_last, memory.steady_motion, gap_s).inverse();
+}
+
 /// Whether the rig can have come from where it was predicted to where it was found.
 bool IsNear(const Eigen::Isometry3d& T_predicted_world, const Eigen::Isometry3d& T_found_world,
             double gap_s, const DeadReckoningOptions& reckoning) {
@@ -142,10 +158,15 @@ std::optional<FramePose> RefineInLocalMap(const PlainContext& context,
   return result;
 }
 
+bool IsConvincing(const FramePose& found, const TrackOptions& options) {
+  return found.pose.inliers >=
+         options.convincing_share * static_cast<double>(found.expected.size());
+}
+
 std::optional<FramePose> TrackFrame(const PlainContext& context, const TrackMemory& memory) {
   const auto& [map, frame, camera, levels, options] = context;
   const Eigen::Isometry3d T_world_last = map.PoseOf(memory.reference) * memory.T_reference_rig;
-  const double gap_s = static_cast<double>(frame.stamp_ns - memory.stamp_ns) * 1e-9;
+  const double gap_s = SecondsSince(memory, frame);
   const bool gap_is_short = gap_s <= options.longest_gap_s;
   const Eigen::Isometry3d T_predicted_world =
       PredictPose(T_world_last, gap_is_short ? memory.motion : std::nullopt, gap_s).inverse();
@@ -157,9 +178,7 @@ std::optional<FramePose> TrackFrame(const PlainContext& context, const TrackMemo
   std::optional<FramePose> best;
   const auto attempt = [&](const std::optional<FirstPose>& first) {
     std::optional<FramePose> found = first ? RefineAround(context, *first) : std::nullopt;
-    const bool convincing =
-        found && found->pose.inliers >=
-                     options.convincing_share * static_cast<double>(found->expected.size());
+    const bool convincing = found && IsConvincing(*found, options);
     if (convincing || !best) best = std::move(found);
     return convincing;
   };
@@ -172,14 +191,20 @@ std::optional<FramePose> TrackFrame(const PlainContext& context, const TrackMemo
   return best;
 }
 
+bool CanBeThere(const PlainContext& context, const TrackMemory& memory, const FramePose& found) {
+  const double gap_s = SecondsSince(memory, context.frame);
+  const auto T_predicted_world = DeadReckoned(context, memory);
+  return !T_predicted_world ||
+         IsNear(*T_predicted_world, found.pose.T_rig_world, gap_s, context.options.dead_reckoning);
+}
+
 std::optional<FramePose> FindAgain(const PlainContext& context, const TrackMemory& memory) {
   const auto& [map, frame, camera, levels, options] = context;
   const DeadReckoningOptions& reckoning = options.dead_reckoning;
-  const double gap_s = static_cast<double>(frame.stamp_ns - memory.stamp_ns) * 1e-9;
-  if (!memory.steady_motion || gap_s <= 0 || gap_s > reckoning.longest_s) return std::nullopt;
-  const Eigen::Isometry3d T_world_last = map.PoseOf(memory.reference) * memory.T_reference_rig;
-  const Eigen::Isometry3d T_predicted_world =
-      PredictPose(T_world_last, memory.steady_motion, gap_s).inverse();
+  const double gap_s = SecondsSince(memory, frame);
+  const auto reckoned = DeadReckoned(context, memory);
+  if (!reckoned) return std::nullopt;
+  const Eigen::Isometry3d& T_predicted_world = *reckoned;
   std::vector<Expected> expected;
   for (const Landmark* landmark :
        FindLocalMap(map, memory.landmarks, options.local_keyframes).landmarks) {

@@ -19,11 +19,15 @@ struct TrackMemory {
   KeyframeId reference;  ///< the pose is remembered as seen from it
   Eigen::Isometry3d T_reference_rig = Eigen::Isometry3d::Identity();
   std::optional<Motion> motion;
-  std::optional<Motion> steady_motion;  ///< averaged over a while, see Smoothed
-  std::vector<LandmarkId> landmarks;    ///< that took part in the pose
+  std::optional<Motion> steady_motion;     ///< averaged over a while, see Smoothed
+  std::vector<LandmarkId> landmarks;       ///< that took part in the pose
+  std::optional<Velocity> velocity;        ///< as the poses tell it
+  Matrix6d covariance = Matrix6d::Zero();  ///< of the pose: of a small motion of the rig frame
   /// How the rig has moved since, as measured; its covariance is that of the pose, too. Nothing
   /// where the way is not known without a gap.
   std::optional<MeasuredMotion> measured;
+  /// The same as its inertia carries it on; where nothing is measured, and its velocity is known.
+  std::optional<MeasuredMotion> carried;
 
   /// Where the rig was: T_world_rig.
   Eigen::Isometry3d PoseIn(const Map& map) const { return map.PoseOf(reference) * T_reference_rig; }
@@ -37,6 +41,9 @@ struct FramePose {
   LocalMap local;
   std::vector<LandmarkId> expected;  ///< landmarks that should have been seen
 };
+
+/// Whether a pose explains TrackOptions::convincing_share of what should be seen from it.
+bool IsConvincing(const FramePose& found, const TrackOptions& options);
 
 /// Finds the frame in the map: from where motion predicts it, from where it was, or by recognising
 /// the reference keyframe; the first pose that convinces (TrackOptions::convincing_share), else the
@@ -65,6 +72,10 @@ std::vector<LandmarkId> Inliers(const std::vector<Match>& matches, const Refined
 /// steady motion leads, the wider the longer the while, and a pose that they agree on is believed
 /// if it lies near there. Nothing where no motion is known or the while was too long.
 std::optional<FramePose> FindAgain(const PlainContext& context, const TrackMemory& memory);
+
+/// Whether a frame that comes after a while without sight can be where it was found: racks look
+/// alike, and no rig is at the next one at once. True where the steady motion tells nothing.
+bool CanBeThere(const PlainContext& context, const TrackMemory& memory, const FramePose& found);
 
 /// Finds the frame by recognising one keyframe, without knowing where it might be.
 std::optional<FramePose> LocateByKeyframe(const PlainContext& context, KeyframeId keyframe);

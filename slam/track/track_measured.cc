@@ -13,9 +13,9 @@ struct Reckoned {
   Matrix6d covariance;
 };
 
-Reckoned ReckonedFrom(const Map& map, const TrackMemory& memory) {
+Reckoned ReckonedFrom(const Map& map, const TrackMemory& memory, const MeasuredMotion& way) {
   const Eigen::Isometry3d T_world_last = map.PoseOf(memory.reference) * memory.T_reference_rig;
-  return {memory.measured->T_now_before * T_world_last.inverse(), memory.measured->covariance};
+  return {way.T_now_before * T_world_last.inverse(), way.covariance};
 }
 
 /// Pixels by which a landmark at middle distance may be off by the error of the measured pose.
@@ -50,7 +50,7 @@ std::vector<Expected> ExpectAround(const PlainContext& context, const TrackMemor
 std::optional<FramePose> TrackMeasured(const PlainContext& context, const TrackMemory& memory,
                                        const Places& places, std::int64_t turn) {
   const auto& [map, frame, camera, levels, options] = context;
-  const Reckoned reckoned = ReckonedFrom(map, memory);
+  const Reckoned reckoned = ReckonedFrom(map, memory, *memory.measured);
   TrackOptions relaxed = options;
   relaxed.least_map_inliers = options.measured.least_inliers;
   const PlainContext relaxed_context{map, frame, camera, levels, relaxed};
@@ -76,6 +76,20 @@ std::optional<FramePose> TrackMeasured(const PlainContext& context, const TrackM
   auto found = Relocalise(context, memory, places, turn);
   if (found && Agrees(*found, reckoned, options.measured.most_chi2)) return found;
   return std::nullopt;
+}
+
+std::optional<FramePose> TrackCarried(const PlainContext& context, const TrackMemory& memory,
+                                      const Places& places, std::int64_t turn) {
+  auto found = TrackFrame(context, memory);
+  if (!memory.carried) return found;
+  const Reckoned reckoned = ReckonedFrom(context.map, memory, *memory.carried);
+  if (found && (IsConvincing(*found, context.options) ||
+                Agrees(*found, reckoned, context.options.inertia.most_chi2))) {
+    return found;
+  }
+  TrackMemory carried = memory;
+  carried.measured = memory.carried;
+  return TrackMeasured(context, carried, places, turn);
 }
 
 }  // namespace aisle::slam

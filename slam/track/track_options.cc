@@ -59,6 +59,7 @@ void Describe(OptionFields& fields, TrackOptions& options) {
   fields.Number("longest_gap_s", &options.longest_gap_s, {0, 60}, "s",
                 "Motion is not predicted across longer gaps between frames.");
   fields.Group("dead_reckoning", &options.dead_reckoning);
+  fields.Group("inertia", &options.inertia);
   fields.Group("measured", &options.measured);
 }
 

@@ -4,6 +4,7 @@
 #include "slam/map/align_patch.h"
 #include "slam/map/match_by_projection.h"
 #include "slam/optimize/align_points.h"
+#include "slam/track/inertia.h"
 
 namespace aisle::slam {
 
@@ -14,8 +15,8 @@ struct DeadReckoningOptions {
   MatchOptions match{7, 80, 0.8};                 ///< landmarks around where that leads
   double radius_growth_px_per_s = 20;             ///< widens that search when it finds too little
   AlignPointsOptions align{.least_inliers = 12};  ///< the pose from those
-  int least_inliers = 20;      ///< of the final estimate; so near a prediction fewer convince
-  double least_share = 0.2;    ///< they are of the landmarks that should be seen
+  int least_inliers = 12;      ///< of the final estimate; so near a prediction fewer convince
+  double least_share = 0.1;    ///< they are of the landmarks that should be seen
   double drift_m_per_s = 0.4;  ///< a pose further from the prediction is a mistake
   double drift_deg_per_s = 4;  ///< so is one turned further from it
 };
@@ -50,6 +51,7 @@ struct TrackOptions {
   int local_keyframes = 20;    ///< whose landmarks are looked for
   double longest_gap_s = 1.0;  ///< motion is not predicted across longer gaps
   DeadReckoningOptions dead_reckoning;
+  InertiaOptions inertia;
   MeasuredMotionOptions measured;  ///< where a motion is given: see StereoSlam::Track
 };
 

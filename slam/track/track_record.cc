@@ -9,10 +9,18 @@ void TrackRecord::Note(const Map& map, const Frame& frame, const FramePose& pose
   const Eigen::Isometry3d T_world_rig = pose.pose.T_rig_world.inverse();
   const double seconds = static_cast<double>(frame.stamp_ns - memory_.stamp_ns) * 1e-9;
   std::optional<Motion> motion;
+  std::optional<Velocity> velocity;
   if (goes_on) {
     const Eigen::Isometry3d T_world_last = map.PoseOf(memory_.reference) * memory_.T_reference_rig;
     motion = EstimateMotion(T_world_last, T_world_rig, seconds);
+    const Eigen::Isometry3d T_now_before = T_world_rig.inverse() * T_world_last;
+    const Matrix6d carried = Adjoint(T_now_before);
+    const MeasuredMotion step{
+        T_now_before, pose.pose.covariance + carried * memory_.covariance * carried.transpose()};
+    if (motion) velocity = Learn(memory_.velocity, step, seconds, options.inertia);
   }
+  memory_.velocity = velocity;
+  memory_.covariance = pose.pose.covariance;
   memory_.stamp_ns = frame.stamp_ns;
   memory_.reference = pose.local.reference;
   memory_.T_reference_rig = map.PoseOf(memory_.reference).inverse() * T_world_rig;
@@ -31,7 +39,14 @@ void TrackRecord::Note(const Map& map, const Frame& frame, const FramePose& pose
   track_.push_back({frame.stamp_ns, memory_.reference, memory_.T_reference_rig});
 }
 
-void TrackRecord::Roll(const std::optional<MeasuredMotion>& motion) {
+void TrackRecord::Roll(const std::optional<MeasuredMotion>& motion, std::int64_t stamp_ns,
+                       const InertiaOptions& inertia) {
+  memory_.carried.reset();
+  const double seconds = static_cast<double>(stamp_ns - memory_.stamp_ns) * 1e-9;
+  if (!motion && memory_.velocity && seconds > 0) {
+    memory_.carried = Compose({Eigen::Isometry3d::Identity(), memory_.covariance},
+                              Carry(*memory_.velocity, seconds, inertia));
+  }
   if (memory_.measured && motion) {
     memory_.measured = Compose(*memory_.measured, *motion);
   } else {
@@ -39,20 +54,23 @@ void TrackRecord::Roll(const std::optional<MeasuredMotion>& motion) {
   }
 }
 
-void TrackRecord::Coast(const Map& map, std::int64_t stamp_ns) {
+void TrackRecord::Coast(const Map& map, std::int64_t stamp_ns, const InertiaOptions& inertia) {
+  const MeasuredMotion way = memory_.measured ? *memory_.measured : *memory_.carried;
   const Eigen::Isometry3d T_world_last = map.PoseOf(memory_.reference) * memory_.T_reference_rig;
-  const Eigen::Isometry3d T_world_rig =
-      Normalized(T_world_last * memory_.measured->T_now_before.inverse());
+  const Eigen::Isometry3d T_world_rig = Normalized(T_world_last * way.T_now_before.inverse());
   const double seconds = static_cast<double>(stamp_ns - memory_.stamp_ns) * 1e-9;
   memory_.motion = EstimateMotion(T_world_last, T_world_rig, seconds);
   memory_.stamp_ns = stamp_ns;
   memory_.T_reference_rig = map.PoseOf(memory_.reference).inverse() * T_world_rig;
-  memory_.measured->T_now_before.setIdentity();
+  memory_.covariance = way.covariance;
+  if (memory_.measured) memory_.measured->T_now_before.setIdentity();
+  if (memory_.velocity) memory_.velocity = Coasted(*memory_.velocity, seconds, inertia);
   track_.push_back({stamp_ns, memory_.reference, memory_.T_reference_rig});
 }
 
-void TrackRecord::CoastToKeyframe(const Map& map, std::int64_t stamp_ns, KeyframeId id) {
-  Coast(map, stamp_ns);
+void TrackRecord::CoastToKeyframe(const Map& map, std::int64_t stamp_ns, KeyframeId id,
+                                  const InertiaOptions& inertia) {
+  Coast(map, stamp_ns, inertia);
   const Keyframe& keyframe = map.At(id);
   memory_.reference = id;
   memory_.T_reference_rig.setIdentity();

@@ -20,16 +20,18 @@ class TrackRecord {
   void Note(const Map& map, const Frame& frame, const FramePose& pose, bool goes_on,
             const TrackOptions& options);
 
-  /// Notes how the rig has been measured to move from the last frame to the one that comes; what
-  /// was measured before it is of no use where nothing was.
-  void Roll(const std::optional<MeasuredMotion>& motion);
+  /// Notes how the rig has been measured to move from the last frame to the one that comes, at
+  /// `stamp_ns`; what was measured before it is of no use where nothing was.
+  void Roll(const std::optional<MeasuredMotion>& motion, std::int64_t stamp_ns,
+            const InertiaOptions& inertia);
 
-  /// Notes a frame's pose of which nothing but the measured motion tells (there is one). What was
-  /// seen last is looked for in the next frame too.
-  void Coast(const Map& map, std::int64_t stamp_ns);
+  /// Notes a frame's pose of which nothing but the measured motion tells, or inertia (there is one
+  /// of them). What was seen last is looked for in the next frame too.
+  void Coast(const Map& map, std::int64_t stamp_ns, const InertiaOptions& inertia);
 
   /// The same of a frame that has become keyframe `id`: its landmarks are looked for as well.
-  void CoastToKeyframe(const Map& map, std::int64_t stamp_ns, KeyframeId id);
+  void CoastToKeyframe(const Map& map, std::int64_t stamp_ns, KeyframeId id,
+                       const InertiaOptions& inertia);
 
   /// How often landmarks should have been and were found since this was last asked.
   std::vector<MapEdit::Count> TakeCounts();

@@ -18,6 +18,8 @@ constexpr int kLeastForNoise = 20;
 /// 99 % of chi-square: with three degrees of freedom the bound of an inlier, with six how much
 /// worse standing still may fit.
 constexpr double kInlierChi2 = 11.34, kStandingChi2 = 16.8;
+/// 99.99 % with six degrees of freedom: beyond it a motion contradicts its prior.
+constexpr double kImpossibleChi2 = 27.9;
 /// Three static points are among so many samples with 99.97 % if half of the matches are.
 constexpr int kHypotheses = 60;
 /// Of re-weighting, each with its Gauss-Newton steps; they end before where nothing changes.
@@ -92,13 +94,28 @@ double Support(const std::vector<PlacedMatch>& matches, const StereoCamera& came
   return support;
 }
 
+/// A prior as one more observation.
+struct Expectation {
+  Isometry3d T_now_before;
+  Matrix6d information;
+
+  double Chi2Of(const Isometry3d& T) const {
+    const Vector6d deviation = Difference(T_now_before, T);
+    return deviation.dot(information * deviation);
+  }
+};
+using MaybeExpected = std::optional<Expectation>;
+
+MaybeExpected Expected(const std::optional<MotionPrior>& prior) {
+  if (!prior) return std::nullopt;
+  return Expectation{prior->T_now_before, prior->covariance.inverse()};
+}
+
 /// Between 0 and 1: how well the vehicle could have done this motion.
-double Plausibility(const Isometry3d& T, const std::optional<MotionPrior>& prior) {
-  if (!prior) return 1;
-  const Vector6d deviation = Difference(prior->T_now_before, T);
-  const double chi2 = deviation.head<3>().squaredNorm() / (prior->sigma_m * prior->sigma_m) +
-                      deviation.tail<3>().squaredNorm() / (prior->sigma_rad * prior->sigma_rad);
-  return 1 / (1 + chi2 / 9);  // three deviations halve it
+double Plausibility(const Isometry3d& T, const MaybeExpected& expected) {
+  if (!expected) return 1;
+  const double chi2 = expected->Chi2Of(T);
+  return chi2 < kImpossibleChi2 ? 1 / (1 + chi2 / 9) : 0;  // three deviations halve it
 }
 
 /// A match drawn with a probability in proportion to its weight.
@@ -209,38 +226,36 @@ double DeviationOf(std::vector<WeightedValue>& values) {
   return values.back().first / 1.1503;
 }
 
-/// Adds a measured motion as one more observation.
-void AddMeasured(const std::optional<MotionPrior>& prior, const Isometry3d& T,
-                 NormalEquations& equations) {
-  if (!prior || !prior->information) return;
-  equations.hessian += *prior->information;
-  equations.gradient += *prior->information * Difference(prior->T_now_before, T);
+void AddExpected(const MaybeExpected& expected, const Isometry3d& T, NormalEquations& equations) {
+  if (!expected) return;
+  equations.hessian += expected->information;
+  equations.gradient += expected->information * Difference(expected->T_now_before, T);
 }
 
-/// The measured motion itself, where the images show too little for another.
-EgoMotion AsMeasured(const std::optional<MotionPrior>& prior) {
+/// The expected motion itself, where the images show too little for another.
+EgoMotion AsExpected(const MaybeExpected& expected) {
   EgoMotion motion;
-  if (!prior || !prior->information) return motion;
+  if (!expected) return motion;
   motion.found = true;
-  motion.T_now_before = prior->T_now_before;
-  motion.covariance = prior->information->inverse();
+  motion.T_now_before = expected->T_now_before;
+  motion.covariance = expected->information.inverse();
   return motion;
 }
 
 EgoMotion Refine(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
                  const Isometry3d& T_now_before, const MeasurementNoise& noise, int rounds,
-                 const std::optional<MotionPrior>& prior) {
+                 const MaybeExpected& expected) {
   const Vector3d inverse_deviation = InverseDeviation(noise);
   EgoMotion motion;
   motion.T_now_before = T_now_before;
-  if (std::ssize(matches) < kLeastMatches) return AsMeasured(prior);
+  if (std::ssize(matches) < kLeastMatches) return AsExpected(expected);
   const std::vector<PlacedMatch> placed = Placed(matches, camera);
   NormalEquations equations;
   for (int round = rounds - 1; round >= 0; --round) {
     const double gate = kInlierChi2 * std::pow(3.0, round);  // from wide to narrow
     for (int k = 0; k < kIterations; ++k) {
       equations = Linearize(placed, camera, motion.T_now_before, inverse_deviation, gate);
-      AddMeasured(prior, motion.T_now_before, equations);
+      AddExpected(expected, motion.T_now_before, equations);
       const Matrix6d damped =
           equations.hessian + 1e-9 * equations.hessian.trace() * Matrix6d::Identity();
       const Vector6d step = damped.ldlt().solve(-equations.gradient);
@@ -250,7 +265,7 @@ EgoMotion Refine(const std::vector<StereoMatch>& matches, const StereoCamera& ca
     }
   }
   equations = Linearize(placed, camera, motion.T_now_before, inverse_deviation, kInlierChi2);
-  AddMeasured(prior, motion.T_now_before, equations);
+  AddExpected(expected, motion.T_now_before, equations);
   // Only the points that follow the motion found may say that it was none: movers would vote for
   // whatever leaves them alone.
   const auto followers =
@@ -263,7 +278,7 @@ EgoMotion Refine(const std::vector<StereoMatch>& matches, const StereoCamera& ca
   if (motion.standing) motion.T_now_before = Isometry3d::Identity();
   motion.covariance = equations.hessian.ldlt().solve(Matrix6d::Identity());
   motion.support = equations.support;
-  const bool held = equations.support >= kLeastMatches / 2 || (prior && prior->information);
+  const bool held = equations.support >= kLeastMatches / 2 || expected;
   motion.found = motion.covariance.allFinite() && held;
   return motion;
 }
@@ -271,15 +286,16 @@ EgoMotion Refine(const std::vector<StereoMatch>& matches, const StereoCamera& ca
 /// A measured motion made better by the matches that agree with it: whoever does not has no vote,
 /// however many they are.
 EgoMotion RefineMeasured(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
-                         const std::optional<MotionPrior>& prior, const MeasurementNoise& noise) {
+                         const Expectation& measured, const MeasurementNoise& noise) {
   const Vector3d inverse_deviation = InverseDeviation(noise);
   const std::vector<PlacedMatch> placed = Placed(matches, camera);
   std::vector<StereoMatch> agreeing;
   for (std::size_t i = 0; i < matches.size(); ++i) {
-    const double chi2 = Chi2(camera, prior->T_now_before, placed[i], inverse_deviation);
+    const double chi2 = Chi2(camera, measured.T_now_before, placed[i], inverse_deviation);
     if (chi2 < kInlierChi2) agreeing.push_back(matches[i]);
   }
-  return Refine(WeighedBySpace(agreeing, camera), camera, prior->T_now_before, noise, 1, prior);
+  return Refine(WeighedBySpace(agreeing, camera), camera, measured.T_now_before, noise, 1,
+                measured);
 }
 
 }  // namespace
@@ -298,8 +314,9 @@ EgoMotion RefineEgoMotion(const std::vector<StereoMatch>& matches, const StereoC
 EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
                             const std::optional<MotionPrior>& prior, const MeasurementNoise& noise,
                             const EgoMotionOptions& options) {
-  if (prior && prior->information) return RefineMeasured(matches, camera, prior, noise);
-  if (std::ssize(matches) < kLeastMatches) return {};
+  const MaybeExpected expected = Expected(prior);
+  if (prior && prior->measured) return RefineMeasured(matches, camera, *expected, noise);
+  if (std::ssize(matches) < kLeastMatches) return AsExpected(expected);
   // Samples carry the noise of three points: their support is judged with a wider gate.
   const Vector3d inverse_deviation = InverseDeviation(noise);
   const double gate = 4 * kInlierChi2;
@@ -313,13 +330,15 @@ EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const Stere
   std::vector<double> scores(candidates.size());
   ParallelFor(std::size_t{0}, candidates.size(), [&](std::size_t k) {
     scores[k] = Support(placed, camera, candidates[k], inverse_deviation, gate) *
-                Plausibility(candidates[k], prior);
+                Plausibility(candidates[k], expected);
   });
   const auto highest = std::max_element(scores.begin(), scores.end());  // the first of equals
   const Isometry3d& best = candidates[static_cast<std::size_t>(highest - scores.begin())];
   // What is near and large must not pull while the gate is wide.
-  const EgoMotion close = Refine(spread, camera, best, noise, kRounds, std::nullopt);
-  return RefineEgoMotion(matches, camera, close.T_now_before, noise);
+  const EgoMotion close = Refine(spread, camera, best, noise, kRounds, expected);
+  const EgoMotion found = Refine(matches, camera, close.T_now_before, noise, 1, expected);
+  const bool possible = !expected || expected->Chi2Of(found.T_now_before) < kImpossibleChi2;
+  return *highest > 0 && possible ? found : AsExpected(expected);
 }
 
 std::optional<MeasurementNoise> MeasureNoise(const std::vector<StereoMatch>& matches,

@@ -20,18 +20,17 @@ struct StereoMatch {
 /// Deviations of u, v and disparity of one measurement, pixels.
 using MeasurementNoise = Eigen::Vector3d;
 
-/// Where the rig is expected to have moved, and how far it may deviate (metres, radians).
+/// Where the rig is expected to have moved: as its wheels measure, or as its inertia carries it on.
+/// One more observation beside the images, which stands where those show too little.
 struct MotionPrior {
   Eigen::Isometry3d T_now_before = Eigen::Isometry3d::Identity();
-  double sigma_m = 0.01, sigma_rad = 0.01;
-  /// Of a small motion of the current frame, where the motion has been measured: it is one more
-  /// observation then, and stands where the images show too little.
-  std::optional<Matrix6d> information = {};
+  Matrix6d covariance = 1e-4 * Matrix6d::Identity();  ///< of a small motion of the current frame
+  bool measured = false;  ///< the images may make it better, but not say something else
 };
 
 /// What is known beforehand of the rig's motion since the last frame.
 struct KnownMotion {
-  std::optional<Eigen::Isometry3d> predicted = {};  ///< T_now_before, as the rig has moved before
+  std::optional<MeasuredMotion> expected = {};  ///< as its inertia carries it on
   std::optional<MeasuredMotion> measured = {};
 };
 
@@ -47,10 +46,11 @@ struct EgoMotion {
 double MatchChi2(const StereoCamera& camera, const Eigen::Isometry3d& T_now_before,
                  const StereoMatch& match, const MeasurementNoise& noise);
 
-/// The motion of the rig between two frames from stereo points: candidates are the prediction,
-/// standing still and three-point samples; the one with most trust behind it wins, discounted where
-/// a vehicle could not do it, so a crowd that moves as one does not become the world (RANSAC,
-/// Fischler and Bolles 1981). Refined by robust least squares (Geman and McClure 1985).
+/// The motion of the rig between two frames from stereo points: candidates are the prior,
+/// standing still and three-point samples; of those that a vehicle can do after what it did
+/// before, the one with most trust behind it wins, so a crowd that moves as one does not become the
+/// world (RANSAC, Fischler and Bolles 1981). Refined by robust least squares (Geman and McClure
+/// 1985); the prior itself where none of them is possible.
 EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
                             const std::optional<MotionPrior>& prior, const MeasurementNoise& noise,
                             const EgoMotionOptions& options);

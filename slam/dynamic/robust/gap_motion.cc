@@ -60,26 +60,18 @@ double LearningRate(std::size_t slot, const ToleranceOptions& options) {
 
 std::optional<MotionPrior> PriorFor(const RobustState& before, std::int64_t stamp_ns,
                                     const KnownMotion& known, const EgoMotionOptions& options) {
-  const double step_s = Seconds(before.stamp_ns, stamp_ns);
-  MotionPrior prior;
-  if (known.measured) {
-    const Matrix6d& covariance = known.measured->covariance;
-    return MotionPrior{
-        known.measured->T_now_before, std::sqrt(covariance.topLeftCorner<3, 3>().trace() / 3),
-        std::sqrt(covariance.bottomRightCorner<3, 3>().trace() / 3), covariance.inverse()};
-  }
-  if (known.predicted) {
-    prior.T_now_before = *known.predicted;
-  } else if (before.T_now_before && before.step_s > 0) {
-    const Vector6d motion = Difference(Isometry3d::Identity(), *before.T_now_before);
-    prior.T_now_before = Retract(Isometry3d::Identity(), motion * (step_s / before.step_s));
-  } else {
-    return std::nullopt;
-  }
-  constexpr double kLeastM = 0.002, kLeastRad = 0.002;  // of the prediction itself
-  prior.sigma_m = kLeastM + options.acceleration_mps2 * step_s * step_s;
-  prior.sigma_rad = kLeastRad + options.angular_acceleration_radps2 * step_s * step_s;
-  return prior;
+  if (known.measured)
+    return MotionPrior{known.measured->T_now_before, known.measured->covariance, true};
+  if (known.expected) return MotionPrior{known.expected->T_now_before, known.expected->covariance};
+  if (!before.motion || before.step_s <= 0) return std::nullopt;
+  const double step_s = Seconds(before.stamp_ns, stamp_ns), steps = step_s / before.step_s;
+  const Vector6d motion = Difference(Isometry3d::Identity(), before.motion->T_now_before);
+  Vector6d deviation;
+  deviation << Eigen::Vector3d::Constant(options.acceleration_mps2 * step_s * step_s),
+      Eigen::Vector3d::Constant(options.angular_acceleration_radps2 * step_s * step_s);
+  const Matrix6d jerk = deviation.cwiseAbs2().asDiagonal();
+  return MotionPrior{Retract(Isometry3d::Identity(), motion * steps),
+                     steps * steps * before.motion->covariance + jerk};
 }
 
 GapMotions FindGapMotions(const RobustState& before, const View& view,

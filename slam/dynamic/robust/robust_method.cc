@@ -78,7 +78,7 @@ RobustState Remember(const RobustState& before, const Found& found, const Robust
   state.stamp_ns = found.view.frame.stamp_ns;
   state.frames = WithFrame(before.frames, found.view.frame, motions);
   if (!motions.empty()) {
-    state.T_now_before = motions[0].T_now_before;
+    state.motion = motions[0];
     state.step_s = Seconds(before.stamp_ns, state.stamp_ns);
   }
   state.noise = {found.motions.noise, found.past.flow_noise};

@@ -29,9 +29,9 @@ inline double DisparityNoise(const LearnedNoise& noise) { return noise.match[0].
 /// and never written again.
 struct RobustState {
   std::int64_t stamp_ns = 0;
-  std::vector<DenseFrame> frames;  ///< the latest ones, newest last, up to kLongestGap
-  std::optional<Eigen::Isometry3d> T_now_before;  ///< the latest motion of the rig
-  double step_s = 0;                              ///< its duration
+  std::vector<DenseFrame> frames;   ///< the latest ones, newest last, up to kLongestGap
+  std::optional<EgoMotion> motion;  ///< the latest of the rig
+  double step_s = 0;                ///< its duration
   LearnedNoise noise;
   LabelMemory memory;
   std::size_t long_slot = 0;  ///< in kGaps, of the longer gap compared last; 0: none was

@@ -59,8 +59,8 @@ TEST(RobustOnRealImages, Kitti06IsLeftAloneAndItsMotionFound) {
     RobustResult result = StepRobust(state, KittiPair(k), k * 100'000'000LL, {}, KittiCamera(), {});
     sum += static_cast<double>(cv::countNonZero(result.dynamic.mask)) /
            static_cast<double>(result.dynamic.mask.total());
-    if (k > 0 && result.state.T_now_before) {
-      travelled_m += result.state.T_now_before->translation().norm();
+    if (k > 0 && result.state.motion) {
+      travelled_m += result.state.motion->T_now_before.translation().norm();
     }
     state = std::move(result.state);
   }

@@ -84,7 +84,7 @@ DynamicOutput LastOf(DynamicMethod method, bool keep_stages, int frames = kFrame
     output = detector.Detect({.stamp_ns = k * 50'000'000LL,
                               .left = view.left,
                               .right = view.right,
-                              .T_now_before = std::nullopt});
+                              .expected = std::nullopt});
   }
   return output;
 }

@@ -15,6 +15,7 @@ TrackMemory Ahead() {
   TrackMemory memory;
   memory.reference = {0};
   memory.motion = EstimateMotion(At(0, 0), At(0, 0.05), 0.05);
+  memory.velocity = Velocity{.per_second = memory.motion->per_second};
   return memory;
 }
 
@@ -35,7 +36,7 @@ Map MapWithOneKeyframe() {
 TEST(PredictMotion, GoesOnAsBefore) {
   const auto predicted = PredictMotion(Ahead(), kSecond / 10, {});
   ASSERT_TRUE(predicted);
-  EXPECT_TRUE(predicted->isApprox(At(0, 0.1).inverse(), 1e-9));
+  EXPECT_TRUE(predicted->T_now_before.isApprox(At(0, 0.1).inverse(), 1e-9));
 }
 
 TEST(PredictMotion, KnowsNothingWithoutMotionOrAfterTooLongAGap) {

@@ -85,5 +85,49 @@ TEST_F(TrackMeasuredTest, FewPointsSufficeWhereMostAreHidden) {
   }
 }
 
+/// Nothing is measured, but the rig has gone ahead by 6 m/s. Most of the map is hidden by somebody
+/// who goes along, and more is seen of him than beside him.
+TEST_F(TrackMeasuredTest, ARigInMotionIsNotStoppedByWhoHidesMostOfTheMap) {
+  world.Move(0, 90, {0, 0, 0.3});
+  world.Move(150, 600, {0, 500, 0});
+  const Eigen::Isometry3d truth = At(0, 0.3);
+  const auto frame = world.See(truth, kStep_ns);
+  const PlainContext context{map, *frame, {}, 8, {}};
+  const auto captured = TrackCarried(context, memory, {nullptr, index}, 0);
+  ASSERT_TRUE(captured);
+  EXPECT_FALSE(IsConvincing(*captured, context.options));
+  EXPECT_GT(Difference(truth.inverse(), captured->pose.T_rig_world).norm(), 0.25);
+
+  memory.carried = Measured(At(0, 0.302), 0.004, 0.007);
+  const auto found = TrackCarried(context, memory, {nullptr, index}, 0);
+  ASSERT_TRUE(found);
+  EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), 0.015);
+}
+
+TEST_F(TrackMeasuredTest, WhatExplainsAllThatShouldBeSeenIsBelievedAgainstInertia) {
+  const Eigen::Isometry3d truth = At(0, 0);  // an emergency stop
+  memory.carried = Measured(At(0, 0.3), 0.004, 0.007);
+  const auto frame = world.See(truth, kStep_ns);
+  const auto found = TrackCarried({map, *frame, {}, 8, {}}, memory, {nullptr, index}, 0);
+  ASSERT_TRUE(found);
+  EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), 1e-3);
+}
+
+/// The rig was last seen at the origin, going ahead by a metre a second; racks look alike.
+TEST_F(TrackMeasuredTest, NoRigIsAtTheNextRackAtOnce) {
+  memory.steady_motion = EstimateMotion(At(0, 0), At(0, 0.05), 0.05);
+  const auto frame = world.See(At(0, 1), 1'000'000'000);
+  const auto CanBe = [&](const Eigen::Isometry3d& pose, const TrackMemory& known) {
+    FramePose found;
+    found.pose.T_rig_world = pose.inverse();
+    return CanBeThere({map, *frame, {}, 8, {}}, known, found);
+  };
+  EXPECT_TRUE(CanBe(At(0, 1.1), memory));
+  EXPECT_FALSE(CanBe(At(2.7, 1), memory));
+  EXPECT_FALSE(CanBe(At(0, 1, 90), memory));
+  memory.steady_motion.reset();
+  EXPECT_TRUE(CanBe(At(2.7, 1), memory));
+}
+
 }  // namespace
 }  // namespace aisle::slam
