@@ -12,6 +12,7 @@
 #include "slam/front_end/see_frame.h"
 #include "slam/map/map_file.h"
 #include "slam/mapping/map_keeper.h"
+#include "slam/track/continuity.h"
 #include "slam/track/predict_motion.h"
 #include "slam/track/track_record.h"
 
@@ -94,7 +95,7 @@ struct StereoSlam::Impl {
   void TakeDueWork(TrackedFrame& result);
   bool TakeAsKeyframe(const std::shared_ptr<const Frame>& frame, FramePose& pose);
   std::optional<FramePose> StartPart(const std::shared_ptr<const Frame>& frame);
-  bool CanCoast(std::int64_t stamp_ns) const;
+  bool CanCoast(const Frame& frame) const;
   bool Coast(const std::shared_ptr<const Frame>& frame);
   void NoteOutcome(const std::shared_ptr<const Frame>& frame, const std::optional<FramePose>& pose,
                    bool is_keyframe);
@@ -109,6 +110,7 @@ struct StereoSlam::Impl {
   std::optional<std::int64_t> lost_since_ns;  // first frame that shows something but has no pose
   std::int64_t coasting_since_ns = 0;         // of kCoasting: the last frame that was found
   std::int64_t frame_count = 0;
+  std::shared_ptr<const Frame> last_sight;  // the last frame that shows something
   TrackRecord track;
   MapKeeper keeper;
   std::unique_ptr<TrackingPolicy> policy;
@@ -150,12 +152,13 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
     pose = StartPart(frame);
     result.is_keyframe = pose.has_value();
   }
-  const bool coasting = !pose && !map.empty() && CanCoast(images.stamp_ns);
+  const bool coasting = !pose && !map.empty() && CanCoast(*frame);
   if (coasting) {
     result.is_keyframe = Coast(frame);
   } else {
     NoteOutcome(frame, pose, result.is_keyframe);
   }
+  if (ShowsSomething(*frame)) last_sight = frame;
 
   const bool apart = (pose || coasting) && !IsInFirstPart(map, track.memory().reference);
   result.state = apart ? TrackingState::kApart : state;
@@ -253,23 +256,27 @@ std::optional<FramePose> StereoSlam::Impl::StartPart(const std::shared_ptr<const
 
 /// Whether the pose of a frame that is not found in the map is known all the same: by a measured
 /// motion, or for a short while by the rig's inertia.
-bool StereoSlam::Impl::CanCoast(std::int64_t stamp_ns) const {
+bool StereoSlam::Impl::CanCoast(const Frame& frame) const {
   const TrackMemory& memory = track.memory();
   if (memory.measured) return true;
   if (options.base != Base::kPlain || !memory.carried) return false;
-  if (state == TrackingState::kTracking) return true;
-  const double while_s = static_cast<double>(stamp_ns - coasting_since_ns) * 1e-9;
-  return state == TrackingState::kCoasting && while_s <= options.track.inertia.longest_s;
+  const double while_s = static_cast<double>(frame.stamp_ns - coasting_since_ns) * 1e-9;
+  const bool early =
+      state == TrackingState::kTracking || while_s <= options.track.inertia.longest_s;
+  const bool found = state == TrackingState::kTracking || state == TrackingState::kCoasting;
+  if (!found || !early) return false;
+  // After the dark it may see another place.
+  return !ShowsSomething(frame) || !last_sight || ShareView(*last_sight, frame);
 }
 
-/// Goes by the measured motion, or by inertia. Having gone by measurements for a while, a frame
-/// that shows enough becomes a keyframe where it is measured to be, so that those to come have
-/// something to be found by.
+/// Goes by the measured motion, or by inertia. Having done so for a while, a frame that shows
+/// enough becomes a keyframe where it is known to be, so that those to come have something to be
+/// found by; by inertia alone only where it has been watched all the way.
 bool StereoSlam::Impl::Coast(const std::shared_ptr<const Frame>& frame) {
   if (state != TrackingState::kCoasting) coasting_since_ns = track.memory().stamp_ns;
   state = TrackingState::kCoasting;
   const double while_s = static_cast<double>(frame->stamp_ns - coasting_since_ns) * 1e-9;
-  const bool is_time = !options.localise_only && keeper.at_rest() && track.memory().measured &&
+  const bool is_time = !options.localise_only && keeper.at_rest() &&
                        while_s >= options.track.measured.extend_after_s;
   const auto edit = is_time ? policy->Extend(frame, Drive()) : std::nullopt;
   policy->Note(frame, nullptr, std::nullopt, Drive());
@@ -328,7 +335,8 @@ void StereoSlam::SaveMap(const std::string& file) {
   keeper.FinishWork();
   if (keeper.map().empty()) throw std::runtime_error(file + ": there is no map to save yet");
   keeper.Count(track.TakeCounts());
-  track.ForgetSteadyMotion();
+  track.ForgetMotion();
+  if (impl_->state == TrackingState::kCoasting) impl_->state = TrackingState::kLost;
   const KeyframeId reference = keeper.map().StandIn(track.memory().reference);
   slam::SaveMap({impl_->camera, reference, keeper.map()}, file);
 }

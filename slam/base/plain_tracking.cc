@@ -47,7 +47,7 @@ std::optional<NewPart> PlainTracking::Begin(const std::shared_ptr<const Frame>& 
 std::optional<MapEdit> PlainTracking::Extend(const std::shared_ptr<const Frame>& frame,
                                              const DriveState& drive) const {
   const Eigen::Isometry3d T_world_rig =
-      drive.memory.PoseIn(drive.map) * drive.memory.measured->T_now_before.inverse();
+      drive.memory.PoseIn(drive.map) * drive.memory.Way().T_now_before.inverse();
   Keyframe keyframe;
   keyframe.id = drive.map.NextKeyframeId();
   keyframe.frame = frame;

@@ -29,6 +29,8 @@ struct TrackMemory {
   /// The same as its inertia carries it on; where nothing is measured, and its velocity is known.
   std::optional<MeasuredMotion> carried;
 
+  /// How the rig has moved since, by what is known of it; something must be.
+  const MeasuredMotion& Way() const { return measured ? *measured : *carried; }
   /// Where the rig was: T_world_rig.
   Eigen::Isometry3d PoseIn(const Map& map) const { return map.PoseOf(reference) * T_reference_rig; }
 };

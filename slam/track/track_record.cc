@@ -43,7 +43,7 @@ void TrackRecord::Roll(const std::optional<MeasuredMotion>& motion, std::int64_t
                        const InertiaOptions& inertia) {
   memory_.carried.reset();
   const double seconds = static_cast<double>(stamp_ns - memory_.stamp_ns) * 1e-9;
-  if (!motion && memory_.velocity && seconds > 0) {
+  if (!motion && memory_.velocity && seconds > 0 && seconds <= inertia.longest_s) {
     memory_.carried = Compose({Eigen::Isometry3d::Identity(), memory_.covariance},
                               Carry(*memory_.velocity, seconds, inertia));
   }
@@ -55,7 +55,7 @@ void TrackRecord::Roll(const std::optional<MeasuredMotion>& motion, std::int64_t
 }
 
 void TrackRecord::Coast(const Map& map, std::int64_t stamp_ns, const InertiaOptions& inertia) {
-  const MeasuredMotion way = memory_.measured ? *memory_.measured : *memory_.carried;
+  const MeasuredMotion way = memory_.Way();
   const Eigen::Isometry3d T_world_last = map.PoseOf(memory_.reference) * memory_.T_reference_rig;
   const Eigen::Isometry3d T_world_rig = Normalized(T_world_last * way.T_now_before.inverse());
   const double seconds = static_cast<double>(stamp_ns - memory_.stamp_ns) * 1e-9;

@@ -38,8 +38,12 @@ class TrackRecord {
 
   /// A drive begins in a map from a file, which was left at this keyframe.
   void GoOnFrom(KeyframeId reference) { memory_.reference = reference; }
-  /// A map file does not hold the steady motion: who saves one goes on without it as well.
-  void ForgetSteadyMotion() { memory_.steady_motion.reset(); }
+  /// A map file does not hold how the rig moved: who saves one goes on without knowing, as well.
+  void ForgetMotion() {
+    memory_.steady_motion.reset();
+    memory_.velocity.reset();
+    memory_.carried.reset();
+  }
 
   /// The map `before` has given way to `now`: landmarks are asked for as they are there.
   void CarryOver(const Map& before, const Map& now);

@@ -13,6 +13,7 @@ constexpr float kLeastArea = 500;     // squared pixels, twice the triangle of a
 constexpr float kLeastSlope = 0.02F;  // pixels of disparity a row
 constexpr float kHorizon = 0.3F;      // disparity below which a floor is too far to be told
 constexpr float kMostRoll = 0.25F;   // tangent of its slope across the image: no vehicle leans more
+constexpr double kMostPitch = 1;     // tangent of the camera's
 constexpr double kLeastShare = 0.1;  // of the points of the lower half
 constexpr int kHypotheses = 80;      // planes through three points
 constexpr std::uint64_t kSeed = 5;
@@ -29,6 +30,15 @@ std::vector<Eigen::Vector3f> PointsOfLowerHalf(const cv::Mat1f& disparity) {
   return points;
 }
 
+/// Whether a vehicle that stands on the plane could see it so. A plane n X = h has the disparity
+/// (b / h) (n_x x + n_y y + n_z f), x and y from the principal point.
+bool IsLevel(const FloorPlane& plane, const StereoCamera& camera) {
+  if (plane.y_slope < kLeastSlope) return false;
+  const double ahead = plane.x_slope * camera.cx + plane.y_slope * camera.cy + plane.offset;
+  return std::abs(plane.x_slope) <= kMostRoll * plane.y_slope &&
+         std::abs(ahead) <= kMostPitch * camera.fy * plane.y_slope;
+}
+
 std::optional<FloorPlane> PlaneThrough(const std::array<Eigen::Vector3f, 3>& points) {
   Eigen::Matrix3f A;
   Eigen::Vector3f d;
@@ -39,8 +49,7 @@ std::optional<FloorPlane> PlaneThrough(const std::array<Eigen::Vector3f, 3>& poi
   }
   if (std::abs(A.determinant()) < kLeastArea) return std::nullopt;
   const Eigen::Vector3f plane = A.inverse() * d;
-  const bool level = plane.y() >= kLeastSlope && std::abs(plane.x()) <= kMostRoll * plane.y();
-  return level ? std::optional(FloorPlane{plane.x(), plane.y(), plane.z()}) : std::nullopt;
+  return FloorPlane{plane.x(), plane.y(), plane.z()};
 }
 
 double Support(const FloorPlane& plane, const std::vector<Eigen::Vector3f>& points,
@@ -59,7 +68,7 @@ double Support(const FloorPlane& plane, const std::vector<Eigen::Vector3f>& poin
 
 }  // namespace
 
-std::optional<FloorPlane> FindFloor(const cv::Mat1f& disparity,
+std::optional<FloorPlane> FindFloor(const cv::Mat1f& disparity, const StereoCamera& camera,
                                     const DisparityTolerance& tolerance) {
   const std::vector<Eigen::Vector3f> points = PointsOfLowerHalf(disparity);
   if (points.size() < kLeastPoints) return std::nullopt;
@@ -72,7 +81,8 @@ std::optional<FloorPlane> FindFloor(const cv::Mat1f& disparity,
       point = points[static_cast<std::size_t>(random.Below(static_cast<int>(points.size())))];
     }
     const auto plane = PlaneThrough(sample);
-    const double support = plane ? Support(*plane, points, tolerance) : 0;
+    const bool possible = plane && IsLevel(*plane, camera);
+    const double support = possible ? Support(*plane, points, tolerance) : 0;
     if (support <= most) continue;
     most = support;
     best = plane;

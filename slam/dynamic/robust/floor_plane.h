@@ -3,6 +3,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
+#include "slam/camera/stereo_camera.h"
 #include "slam/dynamic/robust/disparity_tolerance.h"
 
 namespace aisle::slam::dynamic {
@@ -17,8 +18,9 @@ struct FloorPlane {
 
 /// The level plane in the lower half of the image that most measurements lie on and few below, by
 /// RANSAC (Fischler and Bolles 1981) as v-disparity has it (Labayrade et al. 2002); nothing if it
-/// has too few of them.
-std::optional<FloorPlane> FindFloor(const cv::Mat1f& disparity,
+/// has too few of them. A back close by is a plane as well, but no camera of a vehicle is pitched
+/// so far that it were level. `camera` is that of the disparity.
+std::optional<FloorPlane> FindFloor(const cv::Mat1f& disparity, const StereoCamera& camera,
                                     const DisparityTolerance& tolerance);
 
 /// 255 where the (filled) disparity lies on the floor: what touches it there does not belong to it.

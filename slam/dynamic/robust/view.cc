@@ -23,7 +23,7 @@ View LookAt(const StereoPair& images, std::int64_t stamp_ns, const RobustOptions
 Layout LayOut(const DenseFrame& frame, const StereoCamera& camera,
               const DisparityTolerance& tolerance, const RobustOptions& options) {
   Layout layout;
-  layout.floor = FindFloor(frame.disparity, tolerance);
+  layout.floor = FindFloor(frame.disparity, HalfCamera(camera), tolerance);
   layout.floor_mask = FloorMask(frame.filled, layout.floor, tolerance);
   layout.links = LinkPixels(frame.filled, frame.image, layout.floor_mask, tolerance, options.field);
   frame.filled.convertTo(layout.farthest, CV_32F, options.field.grow_m / camera.baseline_m);

@@ -162,7 +162,8 @@ TEST_F(MapOfADrive, ALostRigMapsAnewAndJoinsTheOldMapWhereItRecognisesIt) {
   for (const TrackedFrame& frame : drive.live) {
     apart += frame.state == TrackingState::kApart;
     joined += frame.loop_closed;
-    EXPECT_EQ(frame.T_world_rig.has_value(), frame.state == TrackingState::kTracking);
+    EXPECT_EQ(frame.T_world_rig.has_value(),
+              frame.state == TrackingState::kTracking || frame.state == TrackingState::kCoasting);
   }
   EXPECT_GT(apart, 20);
   EXPECT_GE(joined, 1);
@@ -170,10 +171,13 @@ TEST_F(MapOfADrive, ALostRigMapsAnewAndJoinsTheOldMapWhereItRecognisesIt) {
   ASSERT_EQ(last.state, TrackingState::kTracking);
   EXPECT_LT((last.T_world_rig->translation() - RoundPath().back().translation()).norm(), 0.04);
 
-  // In the end it is one trajectory: the frames that were apart stand where they were.
+  // In the end it is one trajectory: the frames that were apart stand where they were. In the dark
+  // it was thought to go on.
   EXPECT_GE(std::ssize(drive.final_track), std::ssize(drive.shown) - 2 * kBlackFrames);
   for (const StampedPose& pose : drive.final_track) {
-    const std::size_t frame = drive.shown[static_cast<std::size_t>(pose.stamp_ns / kFrameNs)];
+    const auto at = static_cast<std::size_t>(pose.stamp_ns / kFrameNs);
+    if (drive.live[at].state == TrackingState::kCoasting) continue;
+    const std::size_t frame = drive.shown[at];
     EXPECT_LT((pose.T_world_rig.translation() - RoundPath()[frame].translation()).norm(), 0.06)
         << "frame " << frame;
   }

@@ -39,21 +39,26 @@ class MeasuredDrive {
 };
 
 TEST(MeasuredMotion, CarriesTheRigThroughTheDarkAndIsLeftWhenItSeesAgain) {
-  const MeasuredDrive drive(40, 0.2);
+  const MeasuredDrive drive(44, 0.2);
   StereoSlam with(RoomScene().camera(), {}), without(RoomScene().camera(), {});
   for (int i = 0; i < drive.frames(); ++i) {
-    const bool dark = i >= 12 && i < 30;
+    const bool dark = i >= 12 && i < 36;
     const StereoImages images = dark ? drive.Dark(i) : drive.See(i);
     const TrackedFrame frame = with.Track(images, {}, drive.Wheels(i));
     EXPECT_EQ(frame.state, dark ? TrackingState::kCoasting : TrackingState::kTracking) << i;
     ASSERT_TRUE(frame.T_world_rig) << i;
     EXPECT_LT(drive.ErrorM(frame, i), 0.02) << i;
+    if (i >= 36) continue;
+    const TrackedFrame by_inertia = without.Track(images);
+    const bool gone = dark && i > 31;  // a second after frame 11
     if (dark) {
-      EXPECT_EQ(without.Track(images).state, TrackingState::kLost) << i;
+      EXPECT_EQ(by_inertia.state, gone ? TrackingState::kLost : TrackingState::kCoasting) << i;
     }
-    if (!dark && i < 12) without.Track(images);
+    if (dark && !gone) {
+      EXPECT_LT(drive.ErrorM(by_inertia, i), 0.1) << i;
+    }
   }
-  EXPECT_EQ(with.Finish().size(), 40u);
+  EXPECT_EQ(with.Finish().size(), 44u);
 }
 
 /// It sees again where nothing of the map is left to be seen: the map goes on from there.
@@ -73,18 +78,16 @@ TEST(MeasuredMotion, ExtendsTheMapWhereNothingOfItIsSeen) {
   EXPECT_GE(tracked_after, 12);
 }
 
-TEST(MeasuredMotion, AFrameWithoutOneEndsTheCoasting) {
-  const MeasuredDrive drive(20, 0);
+/// Frames 15 on go on by inertia, until a second after the last frame that was seen.
+TEST(MeasuredMotion, WithoutOneTheRigCoastsForASecondInAll) {
+  const MeasuredDrive drive(36, 0);
   StereoSlam slam(RoomScene().camera(), {});
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < drive.frames(); ++i) {
     const auto wheels = i < 15 ? drive.Wheels(i) : std::nullopt;
     const TrackedFrame frame = slam.Track(i < 10 ? drive.See(i) : drive.Dark(i), {}, wheels);
-    if (i >= 15) {
-      EXPECT_EQ(frame.state, TrackingState::kLost) << i;
-    }
-    if (i >= 15) {
-      EXPECT_FALSE(frame.T_world_rig);
-    }
+    if (i < 10) continue;
+    EXPECT_EQ(frame.state, i <= 29 ? TrackingState::kCoasting : TrackingState::kLost) << i;
+    EXPECT_EQ(frame.T_world_rig.has_value(), i <= 29) << i;
   }
 }
 

@@ -141,7 +141,7 @@ TEST(OptionBounds, AreAllDriven) {
 
 TEST(OptionBounds, OfTheFrontEndTrackingAndMappingAreSafe) {
   const std::vector<StereoImages> film = ShortFilm(8);
-  ASSERT_EQ(DriveThrough(film, {}).tracked, 6);
+  ASSERT_EQ(DriveThrough(film, {}).tracked, 8);
   for (const char* group : kOfEveryDrive) ExpectEveryBoundIsSafe(film, {}, group);
 }
 

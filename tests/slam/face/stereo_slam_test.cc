@@ -100,14 +100,12 @@ TEST(StereoSlam, ComesBackAfterFramesThatShowNothing) {
       images.right = images.left.clone();
     }
     const TrackedFrame tracked = slam.Track(images);
-    EXPECT_EQ(tracked.state, black || white ? TrackingState::kLost : TrackingState::kTracking)
+    EXPECT_EQ(tracked.state, black || white ? TrackingState::kCoasting : TrackingState::kTracking)
         << "frame " << i;
-    EXPECT_EQ(tracked.T_world_rig.has_value(), tracked.state == TrackingState::kTracking);
-    if (tracked.T_world_rig) {
-      EXPECT_LT(ErrorM(*tracked.T_world_rig, StraightPath()[i]), 0.03) << "frame " << i;
-    }
+    ASSERT_TRUE(tracked.T_world_rig) << "frame " << i;
+    EXPECT_LT(ErrorM(*tracked.T_world_rig, StraightPath()[i]), 0.03) << "frame " << i;
   }
-  EXPECT_EQ(slam.Finish().size(), StraightFilm().size() - 4);
+  EXPECT_EQ(slam.Finish().size(), StraightFilm().size());
 }
 
 TEST(StereoSlam, DrivesOnThroughDarknessAndKnowsWhereItIsWhenTheLightReturns) {
@@ -117,10 +115,9 @@ TEST(StereoSlam, DrivesOnThroughDarknessAndKnowsWhereItIsWhenTheLightReturns) {
     const bool dark = i >= 10 && i < 26;  // 0.8 s and a metre
     if (dark) images.left = images.right = cv::Mat1b(images.left.size(), std::uint8_t{0});
     const TrackedFrame tracked = slam.Track(images);
-    ASSERT_EQ(tracked.state, dark ? TrackingState::kLost : TrackingState::kTracking)
+    ASSERT_EQ(tracked.state, dark ? TrackingState::kCoasting : TrackingState::kTracking)
         << "frame " << i;
-    if (dark) continue;
-    EXPECT_LT(ErrorM(*tracked.T_world_rig, StraightPath()[i]), 0.04) << "frame " << i;
+    EXPECT_LT(ErrorM(*tracked.T_world_rig, StraightPath()[i]), dark ? 0.1 : 0.04) << "frame " << i;
   }
 }
 
@@ -136,11 +133,12 @@ TEST(StereoSlam, AfterDarknessAnExposureThatSettlesMisleadsNobody) {
     shown.left.convertTo(images.left, CV_8U, gain);
     shown.right.convertTo(images.right, CV_8U, gain);
     const TrackedFrame tracked = slam.Track(images);
-    if (dark || settled) {
-      EXPECT_EQ(tracked.T_world_rig.has_value(), settled) << "frame " << i;
+    if (settled) {
+      EXPECT_EQ(tracked.state, TrackingState::kTracking) << "frame " << i;
     }
-    if (!tracked.T_world_rig) continue;
-    EXPECT_LT(ErrorM(*tracked.T_world_rig, StraightPath()[i]), 0.04) << "frame " << i;
+    if (!tracked.T_world_rig) continue;  // overexposed, it may look like another place
+    EXPECT_LT(ErrorM(*tracked.T_world_rig, StraightPath()[i]), settled ? 0.04 : 0.1)
+        << "frame " << i;
   }
 }
 

@@ -10,6 +10,8 @@ namespace {
 
 using test::kUsualTolerance;
 
+const StereoCamera kCamera{376, 240, 217.6, 217.6, 183.6, 126.1, 0.12};
+
 /// A floor seen from 1.2 m by a level camera, with noise and a box standing on it.
 cv::Mat1f FloorWithBox(const cv::Rect& box) {
   CounterRandom random(7, 0);
@@ -28,7 +30,7 @@ cv::Mat1f FloorWithBox(const cv::Rect& box) {
 TEST(FindFloor, FindsThePlaneUnderABox) {
   const cv::Rect box(150, 60, 120, 150);
   const cv::Mat1f disparity = FloorWithBox(box);
-  const auto floor = FindFloor(disparity, kUsualTolerance);
+  const auto floor = FindFloor(disparity, kCamera, kUsualTolerance);
   ASSERT_TRUE(floor);
   EXPECT_NEAR(floor->At(50, 200), 8.4, 0.15);
   EXPECT_NEAR(floor->At(330, 150), 3.4, kUsualTolerance.At(3.4F) / 2);
@@ -38,9 +40,18 @@ TEST(FindFloor, FindsThePlaneUnderABox) {
   EXPECT_EQ(cv::countNonZero(mask(cv::Rect(150, 60, 120, 120))), 0);
 }
 
+/// Half a metre ahead, leaning back by eight degrees; it fills the view.
+TEST(FindFloor, ABackCloseByIsNone) {
+  cv::Mat1f disparity(240, 376);
+  for (int y = 0; y < 240; ++y) {
+    disparity.row(y).setTo(52.0F + 0.034F * static_cast<float>(y - 126));
+  }
+  EXPECT_FALSE(FindFloor(disparity, kCamera, kUsualTolerance));
+}
+
 TEST(FindFloor, AWallIsNone) {
-  EXPECT_FALSE(FindFloor(cv::Mat1f(240, 376, 6.0F), kUsualTolerance));
-  EXPECT_FALSE(FindFloor(cv::Mat1f(240, 376, -1.0F), kUsualTolerance));
+  EXPECT_FALSE(FindFloor(cv::Mat1f(240, 376, 6.0F), kCamera, kUsualTolerance));
+  EXPECT_FALSE(FindFloor(cv::Mat1f(240, 376, -1.0F), kCamera, kUsualTolerance));
   const cv::Mat1b none = FloorMask(cv::Mat1f(240, 376, 6.0F), std::nullopt, kUsualTolerance);
   EXPECT_EQ(cv::countNonZero(none), 0);
 }

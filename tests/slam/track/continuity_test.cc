@@ -1,0 +1,47 @@
+#include "slam/track/continuity.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace aisle::slam {
+namespace {
+
+Frame FrameOf(std::uint64_t seed, int features) {
+  std::mt19937_64 random(seed);
+  Frame frame;
+  for (int i = 0; i < features; ++i) {
+    frame.features.keypoints.emplace_back();
+    frame.features.descriptors.push_back({random(), random(), random(), random()});
+  }
+  return frame;
+}
+
+TEST(ShareView, TellsACutFromAView) {
+  const Frame before = FrameOf(1, 1200);
+  Frame now = FrameOf(2, 1200);
+  EXPECT_FALSE(ShareView(before, now));
+  for (std::size_t i = 0; i < 30; ++i) {  // a tenth of their bits have changed
+    now.features.descriptors[i] = before.features.descriptors[100 + i];
+    now.features.descriptors[i][0] ^= 0x11111111'11111111;
+    now.features.descriptors[i][1] ^= 0xff;
+  }
+  EXPECT_TRUE(ShareView(before, now));
+}
+
+/// A wall of one tile: everything looks like everything.
+TEST(ShareView, LikenessThatIsNobodysOwnTellsNothing) {
+  Frame before = FrameOf(1, 200), now = FrameOf(2, 200);
+  for (Descriptor& one : before.features.descriptors) one = {};
+  for (Descriptor& one : now.features.descriptors) one = {1, 0, 0, 0};
+  EXPECT_FALSE(ShareView(before, now));
+}
+
+TEST(ShowsSomething, IsNotSaidOfTheDark) {
+  EXPECT_FALSE(ShowsSomething(Frame()));
+  EXPECT_FALSE(ShowsSomething(FrameOf(1, 5)));
+  EXPECT_TRUE(ShowsSomething(FrameOf(1, 300)));
+}
+
+}  // namespace
+}  // namespace aisle::slam
