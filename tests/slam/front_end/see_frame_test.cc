@@ -144,7 +144,8 @@ TEST(SeeFrame, TrustsAPixelAsFarAsItIsTold) {
   }
   ExternalMask none;
   none.confidence = cv::Mat1f(kCamera.height, kCamera.width, 0.0f);
-  for (const Measurement& m : See(none)->measurements) {
+  const auto worthless = See(none);  // outlives the loop over what it holds
+  for (const Measurement& m : worthless->measurements) {
     EXPECT_TRUE(std::isfinite(m.sigma_px)) << "a pixel worth nothing is worth hardly anything";
   }
 }
