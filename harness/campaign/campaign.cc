@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "harness/campaign/equal_runs.h"
 #include "harness/campaign/external_run.h"
 #include "harness/contract/exit_code.h"
 #include "harness/io/duration.h"
@@ -81,6 +82,13 @@ class Follower {
                             record ? Name(record->status) : "no result", Duration(result.wall_s)));
   }
 
+  /// `job` was given the answer of its equal.
+  void Answered(const Job& job, const Job& equal) {
+    ++ended_;
+    events_.say(
+        fmt::format("[{}/{}] {}  as {}", ended_, total_, RunId(job.spec), RunId(equal.spec)));
+  }
+
   void Tick(const std::vector<JobProgress>& running) {
     std::string text = fmt::format("{}/{} runs", ended_, total_);
     double share = static_cast<double>(ended_);
@@ -116,20 +124,45 @@ class Follower {
   Stopwatch watch_;
 };
 
-/// Makes all of `jobs`; false when interrupted.
-bool RunAll(const std::vector<Job>& jobs, const CampaignOptions& options,
-            const CampaignEvents& events, int* failure) {
+/// Drives all of `jobs`; false when interrupted.
+bool DriveAll(const std::vector<Job>& jobs, const CampaignOptions& options, Follower* follower,
+              const std::function<void(const Job&)>& ended) {
   for (const Job& job : jobs) WriteJob(job);
-  Follower follower(jobs.size(), options.limits, events);
   const auto argv = [](const Job& job) -> std::vector<std::string> {
     return {OwnExecutable().string(), "run-one", JobPath(job.out, job.spec).string()};
   };
-  const bool finished = RunJobs(
+  return RunJobs(
       jobs, {.jobs = options.at_once, .limits = options.limits, .interrupted = options.interrupted},
       {.argv = argv,
-       .ended = [&](const Job& job, const ProcessResult& result) { follower.Ended(job, result); },
+       .ended =
+           [&](const Job& job, const ProcessResult& result) {
+             follower->Ended(job, result);
+             ended(job);
+           },
        .tick = [&](const std::vector<JobProgress>& running,
-                   std::size_t) { follower.Tick(running); }});
+                   std::size_t) { follower->Tick(running); }});
+}
+
+/// Makes all of `jobs`, equal ones by one drive; false when interrupted. A drive that fails answers
+/// for itself alone: its equals are driven after all.
+bool RunAll(const std::vector<Job>& jobs, const CampaignOptions& options,
+            const CampaignEvents& events, int* failure) {
+  Follower follower(jobs.size(), options.limits, events);
+  const EqualRuns runs = GroupEqual(jobs);
+  std::vector<Job> unanswered;
+  const auto answer = [&](const Job& driven) {
+    const auto equals = runs.answered.find(RunId(driven.spec));
+    if (equals == runs.answered.end()) return;
+    for (const Job& equal : equals->second) {
+      if (AnswerFrom(driven, equal)) {
+        follower.Answered(equal, driven);
+      } else {
+        unanswered.push_back(equal);
+      }
+    }
+  };
+  const bool finished = DriveAll(runs.driven, options, &follower, answer) &&
+                        DriveAll(unanswered, options, &follower, [](const Job&) {});
   *failure = std::max(*failure, follower.failure());
   return finished;
 }
@@ -179,12 +212,22 @@ CampaignOutcome RunCampaign(const std::vector<Job>& jobs, const CampaignOptions&
   return outcome;
 }
 
-std::vector<Job> StillToDo(std::vector<Job> jobs, bool resume) {
-  std::vector<Job> todo;
-  for (Job& job : jobs) {
-    if (resume && ReadFinishedRun(job.spec, job.inputs_hash, job.out)) continue;
+std::vector<Job> StillToDo(const std::vector<Job>& jobs, bool resume) {
+  std::map<std::string, const Job*> finished;  // by inputs
+  std::vector<Job> todo, left;
+  for (const Job& job : jobs) {
+    if (resume && ReadFinishedRun(job.spec, job.inputs_hash, job.out)) {
+      finished.try_emplace(job.inputs_hash, &job);
+      continue;
+    }
     RemoveFolder(job.out / "runs" / RunId(job.spec));
-    todo.push_back(std::move(job));
+    left.push_back(job);
+  }
+  for (const Job& job : left) {
+    const auto equal = finished.find(job.inputs_hash);
+    const bool answered =
+        equal != finished.end() && AreEqual(*equal->second, job) && AnswerFrom(*equal->second, job);
+    if (!answered) todo.push_back(job);
   }
   return todo;
 }

@@ -31,13 +31,14 @@ struct CampaignOutcome {
 };
 
 /// Makes the runs, each in a process of its own that reads its job.json, and files the failures of
-/// those that could not do it themselves. Runs that failed are then made once more, elsewhere: the
+/// those that could not do it themselves. Of runs of equal inputs one is driven, and its answer is
+/// filed for the others. Runs that failed are then made once more, elsewhere: the
 /// same inputs that end well the second time make the run flaky, never good.
 CampaignOutcome RunCampaign(const std::vector<Job>& jobs, const CampaignOptions& options,
                             const CampaignEvents& events);
 
-/// The jobs that have no result for these very inputs; what else lies in their folders is taken
-/// away. Without `resume` all of them.
-std::vector<Job> StillToDo(std::vector<Job> jobs, bool resume);
+/// The jobs that have no result for these very inputs, nor an equal that has; what else lies in
+/// their folders is taken away. Without `resume` all of them.
+std::vector<Job> StillToDo(const std::vector<Job>& jobs, bool resume);
 
 }  // namespace aisle

@@ -33,11 +33,13 @@ std::string Counted(std::size_t count, const char* noun) {
 
 }  // namespace
 
-Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFrames& count_frames) {
+Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFrames& count_frames,
+                    const FramesKey& frames_key) {
   std::map<std::string, std::int64_t> frames_of;
   std::set<std::string> twins, systems;
   std::set<std::uint64_t> seeds;
-  std::set<std::tuple<std::string, std::string, std::uint64_t>> rendered;
+  std::set<std::string> rendered;
+  std::set<std::pair<std::string, std::string>> driven;  // frames, system
   Forecast forecast{.runs = specs.size()};
   double drive_core_s = 0;
   for (const RunSpec& spec : specs) {
@@ -46,11 +48,15 @@ Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFra
     twins.insert(spec.twin);
     systems.insert(spec.system.name);
     seeds.insert(spec.seed);
+    const std::string key = frames_key(spec);
+    if (rendered.insert(key).second) forecast.pairs += frames->second;
+    const bool asked_each_time = spec.system.external || spec.repeat > 1;
+    if (!asked_each_time && !driven.insert({key, spec.system.name}).second) {
+      ++forecast.answered;
+      continue;
+    }
     forecast.system_frames += frames->second;
     drive_core_s += static_cast<double>(frames->second) * FrameCoreS(spec.system);
-    if (rendered.insert({spec.scene, spec.twin, spec.seed}).second) {
-      forecast.pairs += frames->second;
-    }
   }
   forecast.scenes = frames_of.size();
   forecast.twins = twins.size();
@@ -64,11 +70,14 @@ Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFra
 }
 
 std::string ToText(const Forecast& f) {
+  const std::string answered =
+      f.answered > 0 ? fmt::format(", {} answered by another of equal inputs", f.answered) : "";
   return fmt::format(
-      "{}: {}, {}, {}, {}; {} stereo pairs to render, {} frames to drive; about {} with every core "
+      "{}: {}, {}, {}, {}{}; {} stereo pairs to render, {} frames to drive; about {} with every "
+      "core "
       "free, {:.1f} GB of kept frames",
       Counted(f.runs, "run"), Counted(f.scenes, "scene"), Counted(f.twins, "twin"),
-      Counted(f.systems, "system"), Counted(f.seeds, "seed"), WithThousands(f.pairs),
+      Counted(f.systems, "system"), Counted(f.seeds, "seed"), answered, WithThousands(f.pairs),
       WithThousands(f.system_frames), Duration(f.wall_s), f.cache_bytes * 1e-9);
 }
 

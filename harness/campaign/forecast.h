@@ -10,9 +10,10 @@ namespace aisle {
 /// What making these runs will take, before hours of work begin.
 struct Forecast {
   std::size_t scenes = 0, twins = 0, systems = 0, seeds = 0, runs = 0;
-  std::size_t renders = 0;         ///< scene, twin and seed: what is rendered once for all systems
+  std::size_t renders = 0;         ///< what is rendered once for all systems
   std::int64_t pairs = 0;          ///< stereo pairs to render
   std::int64_t system_frames = 0;  ///< frames that systems are driven through
+  std::size_t answered = 0;        ///< runs that another's drive answers, for equal inputs
   double wall_s = 0;       ///< on this machine's cores; a guess, right within a factor of two
   double cache_bytes = 0;  ///< of kept frames, of which the newest 12 GiB stay
 };
@@ -20,7 +21,12 @@ struct Forecast {
 /// Frames of a scene as written, by its file. Throws InputError for a bad scene.
 using CountFrames = std::function<std::int64_t(const std::string& scene_file)>;
 
-Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFrames& count_frames);
+/// What tells the frames of one run from another's; equal ones are rendered once, and one of our
+/// systems is driven through them once.
+using FramesKey = std::function<std::string(const RunSpec& spec)>;
+
+Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFrames& count_frames,
+                    const FramesKey& frames_key);
 
 /// "5 scenes x 2 twins x 5 systems x 9 seeds = 450 runs; 54,000 pairs to render, …".
 std::string ToText(const Forecast& forecast);

@@ -35,7 +35,10 @@ TaskCost CostsOf(const fs::path& out) {
       last_s = record ? last_s + record->wall_s : std::nan("");
       specs.push_back(run.spec);
     }
-    return std::isnan(last_s) ? ForecastOf(specs, 1, CountSourceFrames).wall_s : last_s;
+    if (!std::isnan(last_s)) return last_s;
+    // A task has the frames of one scene, twin and seed.
+    const auto frames_key = [](const RunSpec&) { return std::string(); };
+    return ForecastOf(specs, 1, CountSourceFrames, frames_key).wall_s;
   };
 }
 

@@ -3,11 +3,11 @@
 #include "harness/cli/command.h"
 #include "harness/cli/merge_night.h"
 #include "harness/cli/publish.h"
-#include "harness/cluster/copy_run.h"
 #include "harness/cluster/tasks.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
+#include "harness/record/copy_run.h"
 #include "harness/suite/plan.h"
 
 namespace aisle {

@@ -129,11 +129,13 @@ CampaignOutcome RunToEnd(const std::vector<Job>& jobs, const Options& options) {
 }
 
 /// The runs that this command is to make: the plan's, or a part of them.
-std::vector<RunSpec> SpecsOf(const PlanFile& plan, const Shard& shard) {
+std::vector<RunSpec> SpecsOf(const PlanFile& plan, const Shard& shard,
+                             const Fingerprints& fingerprints) {
   const std::vector<RunSpec> specs = TakeShard(Plan(plan.suites), shard);
+  const auto frames_key = [&](const RunSpec& spec) { return fingerprints.Frames(spec); };
   fmt::print(stderr, "aisle: {}\n",
              ToText(ForecastOf(specs, static_cast<int>(std::thread::hardware_concurrency()),
-                               CountSourceFrames)));
+                               CountSourceFrames, frames_key)));
   return specs;
 }
 
@@ -147,7 +149,8 @@ void RefuseOnCluster(const Options& options, const Shard& shard) {
 }
 
 int HandOver(const Options& options, const PlanFile& plan, const std::vector<RunSpec>& specs,
-             const std::optional<Results>& baseline, const fs::path& out) {
+             const Fingerprints& fingerprints, const std::optional<Results>& baseline,
+             const fs::path& out) {
   constexpr int kUsualThreads = 2;
   ClusterNight night{.plan = plan,
                      .runs = {},
@@ -169,7 +172,6 @@ int HandOver(const Options& options, const PlanFile& plan, const std::vector<Run
                      .resume = options.resume,
                      .dry_run = options.dry_run,
                      .json = options.json};
-  const Fingerprints fingerprints;
   for (const RunSpec& spec : specs) night.runs.push_back({spec, fingerprints.Run(spec)});
   return RunOnCluster(night, options.cluster);
 }
@@ -184,7 +186,8 @@ int RunSuites(const Options& options) {
   const PlanFile plan{LoadInputs(options.inputs), CommandLine(options)};
   CheckScenes(plan.suites);
   const std::optional<Results> baseline = ReadBaseline(options, plan);
-  const std::vector<RunSpec> specs = SpecsOf(plan, shard);
+  const Fingerprints fingerprints;
+  const std::vector<RunSpec> specs = SpecsOf(plan, shard, fingerprints);
   if (specs.empty()) {
     fmt::print(stderr, "aisle: part {} holds no run of the suite\n", options.shard);
     return kNothingToDo;
@@ -194,12 +197,12 @@ int RunSuites(const Options& options) {
     RefuseOnCluster(options, shard);
     const std::optional<FileLock> ours =
         options.dry_run ? std::nullopt : std::optional(TakeFolder(out));
-    return HandOver(options, plan, specs, baseline, out);
+    return HandOver(options, plan, specs, fingerprints, baseline, out);
   }
   if (options.dry_run) return kAllPassed;
   const FileLock ours = TakeFolder(out);
   WarnOfHistory(options, out);
-  const std::vector<Job> jobs = MakeJobs(specs, Fingerprints(),
+  const std::vector<Job> jobs = MakeJobs(specs, fingerprints,
                                          {.out = out,
                                           .threads = options.threads,
                                           .frame_cache = !options.no_frame_cache,

@@ -8,11 +8,11 @@
 
 #include "harness/campaign/campaign.h"
 #include "harness/cli/cluster_commands.h"
-#include "harness/cluster/copy_run.h"
 #include "harness/cluster/scratch.h"
 #include "harness/cluster/tasks.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/record/copy_run.h"
 #include "harness/record/record.h"
 
 namespace aisle {

@@ -164,6 +164,50 @@ TEST_F(SuiteRunTest, PartsMergeIntoTheWhole) {
   EXPECT_EQ(ResultsOf(Out("merged")).verdicts.size(), ResultsOf(Out("whole")).verdicts.size());
 }
 
+TEST_F(SuiteRunTest, OneDriveAnswersForEqualRuns) {
+  // Another actor in the same hall: without actors the two are one.
+  const std::string other = (folder_ / "scenes/other.yaml").string();
+  std::string text = ReadFile(scene_);
+  const std::size_t pace = text.find("speed_mps: 1.1");
+  ASSERT_NE(pace, std::string::npos);
+  WriteFileAtomically(other, text.replace(pace, 14, "speed_mps: 0.8"));
+  const std::string suite = Suite("twice",
+                                  "  - plain\n  - robust\n  - {name: shows, command: \"ls "
+                                  "{dataset} # {output}\"}\n",
+                                  "seeds: 1\ntwins: [live, empty]\n");
+  std::string both = ReadFile(suite);
+  both.replace(both.find(scene_), scene_.size(), scene_ + ", " + other);
+  WriteFileAtomically(suite, both);
+  const Said said = Run({"run", suite, "--no-retry", "--out", Out("both")});
+  EXPECT_EQ(said.code, 1) << said.text;  // the foreign one leaves no trajectory
+  EXPECT_THAT(said.text, HasSubstr("12 runs"));
+  EXPECT_THAT(said.text, HasSubstr("2 answered by another of equal inputs"));
+  EXPECT_THAT(said.text, HasSubstr("other/empty/robust/1  as short/empty/robust/1"));
+  EXPECT_THAT(said.text, testing::Not(HasSubstr("other/empty/shows/1  as")));
+  EXPECT_THAT(said.text, testing::Not(HasSubstr("other/live/robust/1  as")));
+
+  const std::string ours = "plain,robust";
+  ASSERT_EQ(Run({"run", other, "--systems", ours, "--twins", "empty", "--out", Out("alone")}).code,
+            0);
+  const auto bits = Bits(Out("both")), alone = Bits(Out("alone"));
+  for (const char* id : {"other/empty/plain/1", "other/empty/robust/1"}) {
+    EXPECT_EQ(bits.at(id), alone.at(id)) << id;
+  }
+  for (const RunRecord& run : ResultsOf(Out("both")).runs) {
+    for (const auto& [name, path] : run.artifacts) {
+      EXPECT_TRUE(path.starts_with("runs/" + RunId(run.spec) + "/")) << path;
+      EXPECT_TRUE(fs::exists(fs::path(Out("both")) / path)) << path;
+    }
+  }
+  EXPECT_EQ(Run({"rerun", "other/empty/plain/1", "--in", Out("both")}).code, 0);
+
+  // What was lost of it is not driven again either.
+  fs::remove_all(fs::path(Out("both")) / "runs/other/empty/plain/1");
+  const Said resumed = Run({"run", suite, "--no-retry", "--out", Out("both"), "--resume"});
+  EXPECT_THAT(resumed.text, HasSubstr("12 of 12 runs are already there"));
+  EXPECT_EQ(Bits(Out("both")), bits);
+}
+
 TEST_F(SuiteRunTest, OneRunIsRepeatedToTheLastBit) {
   const std::string suite = Suite("again", "  - robust\n");
   ASSERT_EQ(Run({"run", suite, "--out", Out("a"), "--threads", "2"}).code, 0);

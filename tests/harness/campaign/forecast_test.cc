@@ -6,6 +6,10 @@
 namespace aisle {
 namespace {
 
+std::string ByName(const RunSpec& spec) {
+  return fmt::format("{} {} {}", spec.scene, spec.twin, spec.seed);
+}
+
 TEST(ForecastTest, FramesAreRenderedOnceForAllSystems) {
   std::vector<RunSpec> specs;
   for (const char* twin : {"live", "empty"}) {
@@ -20,25 +24,42 @@ TEST(ForecastTest, FramesAreRenderedOnceForAllSystems) {
     ++asked;
     return std::int64_t{500};
   };
-  const Forecast forecast = ForecastOf(specs, 2, count);
+  const Forecast forecast = ForecastOf(specs, 2, count, ByName);
   EXPECT_EQ(asked, 1);
   EXPECT_EQ(forecast.runs, 12u);
   EXPECT_EQ(forecast.pairs, 4 * 500);
   EXPECT_EQ(forecast.system_frames, 12 * 500);
-  EXPECT_NEAR(ForecastOf(specs, 4, count).wall_s, forecast.wall_s / 2, 1e-9);
+  EXPECT_NEAR(ForecastOf(specs, 4, count, ByName).wall_s, forecast.wall_s / 2, 1e-9);
   EXPECT_THAT(ToText(forecast), testing::HasSubstr("12 runs: 1 scene, 2 twins, 3 systems, 2 seeds; "
                                                    "2,000 stereo pairs to render, 6,000 frames"));
 }
 
 TEST(ForecastTest, AFrameOnThePublishedBaseTakesLonger) {
   const auto wall_s = [](const std::string& system) {
-    return ForecastOf({{"s", "s.yaml", "live", BuiltIn(system), 1}}, 2,
-                      [](const std::string&) { return std::int64_t{500}; })
+    return ForecastOf(
+               {{"s", "s.yaml", "live", BuiltIn(system), 1}}, 2,
+               [](const std::string&) { return std::int64_t{500}; }, ByName)
         .wall_s;
   };
   EXPECT_EQ(wall_s("robust"), wall_s("plain"));
   EXPECT_GT(wall_s("orbslam2"), wall_s("plain") + 10);
   EXPECT_EQ(wall_s("paper"), wall_s("orbslam2"));
+}
+
+TEST(ForecastTest, EqualRunsAreDrivenOnce) {
+  const auto count = [](const std::string&) { return std::int64_t{500}; };
+  const auto same = [](const RunSpec&) { return std::string("one hall, nobody in it"); };
+  SystemSpec foreign{.name = "mine"};
+  foreign.external = ExternalSystem{.command = "mine {output}"};
+  const std::vector<RunSpec> specs{{"a", "a.yaml", "empty", BuiltIn("plain"), 1},
+                                   {"b", "b.yaml", "empty", BuiltIn("plain"), 1},
+                                   {"a", "a.yaml", "empty", foreign, 1},
+                                   {"b", "b.yaml", "empty", foreign, 1}};
+  const Forecast forecast = ForecastOf(specs, 2, count, same);
+  EXPECT_EQ(forecast.pairs, 500);
+  EXPECT_EQ(forecast.system_frames, 3 * 500);  // a foreign system is asked each time
+  EXPECT_EQ(forecast.answered, 1u);
+  EXPECT_THAT(ToText(forecast), testing::HasSubstr(", 1 answered by another of equal inputs; "));
 }
 
 }  // namespace

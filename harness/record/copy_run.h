@@ -13,4 +13,10 @@ namespace aisle {
 void CopyRun(const RunSpec& spec, const std::filesystem::path& from,
              const std::filesystem::path& to);
 
+/// Files what the run `from` left as the answer of another run of the same report: all but its job,
+/// under the other's name, with a note that says whose drive it was. For runs of equal inputs; the
+/// other is in `hall`. Throws as CopyRun does.
+void CopyRunAs(const RunSpec& from, const RunSpec& to, const std::string& hall,
+               const std::filesystem::path& report_dir);
+
 }  // namespace aisle
