@@ -161,8 +161,9 @@ bool RunAll(const std::vector<Job>& jobs, const CampaignOptions& options,
       }
     }
   };
-  const bool finished = DriveAll(runs.driven, options, &follower, answer) &&
-                        DriveAll(unanswered, options, &follower, [](const Job&) {});
+  const bool finished =
+      DriveAll(LongestFirst(runs.driven, options.seconds), options, &follower, answer) &&
+      DriveAll(unanswered, options, &follower, [](const Job&) {});
   *failure = std::max(*failure, follower.failure());
   return finished;
 }

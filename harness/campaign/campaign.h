@@ -3,6 +3,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct CampaignOptions {
   int at_once = 1;  ///< processes
   ProcessLimits limits;
   bool retry = true;  ///< try failed runs once more, to tell flaky from broken
+  std::map<std::string, double> seconds = {};      ///< what runs are thought to take, by RunId
   const std::atomic<bool>* interrupted = nullptr;  ///< set from outside: stop soon
 };
 

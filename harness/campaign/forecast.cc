@@ -3,6 +3,7 @@
 #include <set>
 
 #include "harness/io/duration.h"
+#include "harness/record/record.h"
 
 namespace aisle {
 namespace {
@@ -67,6 +68,23 @@ Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFra
   forecast.wall_s = (render_core_s + drive_core_s) / std::max(cores, 1);
   forecast.cache_bytes = static_cast<double>(forecast.pairs) * kFrameBytes;
   return forecast;
+}
+
+std::map<std::string, double> ExpectedSeconds(const std::vector<RunSpec>& specs,
+                                              const std::filesystem::path& out,
+                                              const CountFrames& count_frames) {
+  std::map<std::string, std::int64_t> frames_of;
+  std::map<std::string, double> seconds;
+  for (const RunSpec& spec : specs) {
+    if (const std::optional<RunRecord> last = ReadRun(spec, out)) {
+      seconds[RunId(spec)] = last->wall_s;
+      continue;
+    }
+    const auto [frames, is_new] = frames_of.try_emplace(spec.scene_file, 0);
+    if (is_new) frames->second = count_frames(spec.scene_file);
+    seconds[RunId(spec)] = static_cast<double>(frames->second) * FrameCoreS(spec.system);
+  }
+  return seconds;
 }
 
 std::string ToText(const Forecast& f) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <filesystem>
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,6 +30,12 @@ using FramesKey = std::function<std::string(const RunSpec& spec)>;
 
 Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFrames& count_frames,
                     const FramesKey& frames_key);
+
+/// Seconds each run is thought to take, its frames there already, by RunId: what it took in the
+/// report's folder the last time, else by its frames and its system.
+std::map<std::string, double> ExpectedSeconds(const std::vector<RunSpec>& specs,
+                                              const std::filesystem::path& out,
+                                              const CountFrames& count_frames);
 
 /// "5 scenes x 2 twins x 5 systems x 9 seeds = 450 runs; 54,000 pairs to render, …".
 std::string ToText(const Forecast& forecast);

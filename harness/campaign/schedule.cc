@@ -1,9 +1,12 @@
 #include "harness/campaign/schedule.h"
 
+#include <algorithm>
 #include <chrono>
 #include <list>
 #include <memory>
 #include <thread>
+
+#include "harness/record/record.h"
 
 namespace aisle {
 namespace {
@@ -37,6 +40,32 @@ std::vector<JobProgress> ProgressOf(const std::list<Running>& running) {
 }
 
 }  // namespace
+
+std::vector<Job> LongestFirst(const std::vector<Job>& jobs,
+                              const std::map<std::string, double>& seconds) {
+  struct Group {
+    double seconds = 0;
+    std::vector<std::pair<double, const Job*>> jobs;
+  };
+  std::vector<Group> groups;
+  std::map<std::string, std::size_t> index;  // by frames
+  for (const Job& job : jobs) {
+    const auto [at, is_new] = index.try_emplace(job.frames_key, groups.size());
+    if (is_new) groups.emplace_back();
+    Group& group = groups[at->second];
+    const auto known = seconds.find(RunId(job.spec));
+    const double job_s = known == seconds.end() ? 0 : known->second;
+    group.seconds += job_s;
+    group.jobs.emplace_back(job_s, &job);
+  }
+  std::ranges::stable_sort(groups, std::greater(), &Group::seconds);
+  std::vector<Job> ordered;
+  for (Group& group : groups) {
+    std::ranges::stable_sort(group.jobs, std::greater(), &std::pair<double, const Job*>::first);
+    for (const auto& [job_s, job] : group.jobs) ordered.push_back(*job);
+  }
+  return ordered;
+}
 
 bool RunJobs(const std::vector<Job>& jobs, const ScheduleOptions& options,
              const ScheduleEvents& events) {

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,12 @@ struct ScheduleEvents {
   /// Some ten times a second: what is running now, and how many jobs have ended.
   std::function<void(const std::vector<JobProgress>&, std::size_t ended)> tick;
 };
+
+/// The order in which few workers are done soon: jobs of the same frames stay together, since kept
+/// frames are bounded; the group that takes longest comes first, and in it the longest job. Equals,
+/// and those without a time, keep their order. `seconds`: by RunId.
+std::vector<Job> LongestFirst(const std::vector<Job>& jobs,
+                              const std::map<std::string, double>& seconds);
 
 /// Runs every job, in order where there is room. True if all ended; false if interrupted (running
 /// children are killed: they leave nothing half-written under a final name).

@@ -111,7 +111,8 @@ void WarnOfHistory(const Options& options, const fs::path& out) {
   fmt::print(stderr, "aisle: warning: the trends will lack this night: {}\n", trouble);
 }
 
-CampaignOutcome RunToEnd(const std::vector<Job>& jobs, const Options& options) {
+CampaignOutcome RunToEnd(const std::vector<Job>& jobs, const Options& options,
+                         const std::map<std::string, double>& seconds) {
   std::signal(SIGINT, OnInterrupt);
   std::signal(SIGTERM, OnInterrupt);
   ProgressLine line;
@@ -119,6 +120,7 @@ CampaignOutcome RunToEnd(const std::vector<Job>& jobs, const Options& options) {
                      {.at_once = options.jobs,
                       .limits = options.limits,
                       .retry = !options.no_retry,
+                      .seconds = seconds,
                       .interrupted = &interrupted},
                      {.say =
                           [&](const std::string& text) {
@@ -210,13 +212,14 @@ int RunSuites(const Options& options) {
                                           .debug_dynamic = options.debug_dynamic,
                                           .mcap = options.mcap,
                                           .frames_in_report = options.frames_in_report});
+  const std::map<std::string, double> seconds = ExpectedSeconds(specs, out, CountSourceFrames);
   const std::vector<Job> todo = StillToDo(jobs, options.resume);
   if (specs.size() > todo.size()) {
     fmt::print(stderr, "aisle: {} of {} runs are already there\n", specs.size() - todo.size(),
                specs.size());
   }
   WriteFileAtomically(out / "plan.json", ToJson(plan));
-  const CampaignOutcome outcome = RunToEnd(todo, options);
+  const CampaignOutcome outcome = RunToEnd(todo, options, seconds);
   if (!outcome.finished) {
     fmt::print(stderr, "aisle: interrupted; the same command with --resume goes on from here\n");
     return kInterrupted;
