@@ -1,5 +1,6 @@
 #include "harness/report/paper/base_table.h"
 
+#include "harness/report/paper/spread.h"
 #include "harness/score/statistics.h"
 
 namespace aisle {
@@ -35,13 +36,10 @@ std::vector<double> Errors(const std::vector<const RunRecord*>& runs) {
   return errors;
 }
 
-std::string MedianText(const std::vector<double>& errors) {
-  return fmt::format("{:.4f}", Quantile(errors, 0.5));
-}
+std::string ErrorText(double error_m) { return fmt::format("{:.4f}", error_m); }
 
-std::string SpreadText(const std::vector<double>& errors) {
-  const auto [least, most] = std::minmax_element(errors.begin(), errors.end());
-  return fmt::format("{:.4f}–{:.4f}", *least, *most);
+std::string MedianText(const std::vector<double>& errors) {
+  return ErrorText(Quantile(errors, 0.5));
 }
 
 /// Rejections in the order of their first run, bases by name.
@@ -109,8 +107,9 @@ std::optional<NumberTable> BaseTable(const std::vector<SceneRuns>& scenes) {
     for (const auto& [cell, runs] : cells) seeds = std::max(seeds, runs.size());
     table.rows.push_back(RowOf(scene.scene, head, cells, MedianText));
     if (seeds < 2) continue;
-    table.rows.push_back(RowOf(fmt::format("{} seeds, least–most: {}", seeds, scene.scene), head,
-                               cells, SpreadText));
+    table.rows.push_back(
+        RowOf(SpreadRowName(seeds, scene.scene), head, cells,
+              [](const std::vector<double>& errors) { return SpreadText(errors, ErrorText); }));
     table.rows.back().spread = true;
   }
   return table;

@@ -17,7 +17,7 @@ struct NumberTable {
     std::string name;
     std::vector<std::string> cells;  ///< groups × columns; "-" where there is no number
     bool printed = false;            ///< by the paper, not measured here
-    bool spread = false;             ///< least and most over the seeds of the row above
+    bool spread = false;             ///< how the seeds of the row above differ
   };
   std::vector<Row> rows;
 };
@@ -25,9 +25,10 @@ struct NumberTable {
 /// The tables of the paper with our numbers, and what it printed beneath those of the scenes that
 /// follow it: moving objects (its Table 1) and their detection (2), relative
 /// drift and absolute error (3), absolute error (4), relative error (5), time of the front end (6),
-/// largest error (Fig. 11, of its scenes alone). Medians over seeds and, where there are several,
-/// the least and the most; live twins alone. Tables without a number are left out. Last, what the
-/// base and what the rejection contribute (BaseTable).
+/// largest error (Fig. 11, of its scenes alone); and what movers cost, where there are empty twins.
+/// Medians over seeds and, where there are several, how they differ (SpreadText); live twins alone.
+/// Tables without a number are left out. Last, what the base and what the rejection contribute
+/// (BaseTable).
 std::vector<NumberTable> PaperTables(const std::vector<SceneRuns>& scenes);
 
 std::string ToHtml(const std::vector<NumberTable>& tables);

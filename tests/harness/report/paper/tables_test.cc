@@ -22,5 +22,16 @@ TEST(TablesTest, EveryWritingHasTheNumbersAndEscapesItsOwnMarks) {
   EXPECT_THAT(ToLatex(tables), HasSubstr("paper/one & 0.0123"));
 }
 
+TEST(TablesTest, WhatMoversCostIsATableWhereTwinsTellIt) {
+  Results results = Night("a", 0.01234);
+  for (RunRecord& run : results.runs) {
+    run.scores["dynamic_penalty"].value = run.spec.system.name == "orbslam2" ? 1.25 : 1.0;
+  }
+  const auto tables = PaperTables(GroupByScene(results));
+  ASSERT_EQ(tables.size(), 3u);
+  EXPECT_EQ(tables[2].title, "What movers cost");
+  EXPECT_THAT(ToMarkdown(tables), HasSubstr("| 1.25 | 1.00 |"));
+}
+
 }  // namespace
 }  // namespace aisle

@@ -1,0 +1,28 @@
+#include "harness/report/paper/spread.h"
+
+#include <algorithm>
+
+#include "harness/score/significance.h"
+
+namespace aisle {
+namespace {
+
+/// Of fewer values the interval is their range, or close to it.
+constexpr std::size_t kLeastForInterval = 5;
+
+}  // namespace
+
+std::string SpreadText(const std::vector<double>& values,
+                       const std::function<std::string(double)>& text) {
+  const auto [least, most] = std::ranges::minmax(values);
+  if (values.size() < kLeastForInterval) return text(least) + "–" + text(most);
+  const Interval median = BootstrapMedian(values);
+  return fmt::format("{} [{}–{}] {}", text(least), text(median.low), text(median.high), text(most));
+}
+
+std::string SpreadRowName(std::size_t seeds, const std::string& scene) {
+  const char* what = seeds < kLeastForInterval ? "least–most" : "least [95 % of the median] most";
+  return fmt::format("{} seeds, {}: {}", seeds, what, scene);
+}
+
+}  // namespace aisle

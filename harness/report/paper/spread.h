@@ -1,0 +1,18 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace aisle {
+
+/// What the seeds of a cell say beside their median: "0.31–0.52", the least and the most; from five
+/// seeds on "0.31 [0.35–0.50] 0.52", between them the bootstrap's 95 % interval of the median.
+/// `text` writes one value.
+std::string SpreadText(const std::vector<double>& values,
+                       const std::function<std::string(double)>& text);
+
+/// Says what such a row holds.
+std::string SpreadRowName(std::size_t seeds, const std::string& scene);
+
+}  // namespace aisle
