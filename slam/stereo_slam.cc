@@ -266,7 +266,7 @@ bool StereoSlam::Impl::CanCoast(const Frame& frame) const {
   const bool found = state == TrackingState::kTracking || state == TrackingState::kCoasting;
   if (!found || !early) return false;
   // After the dark it may see another place.
-  return !ShowsSomething(frame) || !last_sight || ShareView(*last_sight, frame);
+  return !last_sight || !IsCut(*last_sight, frame);
 }
 
 /// Goes by the measured motion, or by inertia. Having done so for a while, a frame that shows

@@ -1,10 +1,13 @@
 #include "slam/track/continuity.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace aisle::slam {
 namespace {
 
+/// Fewer features may all lie on what a mover close by had hidden until now.
+constexpr int kTelling = 300;
 constexpr int kLeastAlike = 20;
 constexpr int kAlike = 50;      // bits
 constexpr double kRatio = 0.8;  // best to second best
@@ -27,13 +30,14 @@ bool HasLikeness(const Descriptor& descriptor, const Frame& frame) {
 
 bool ShowsSomething(const Frame& frame) { return frame.size() >= 60; }
 
-bool ShareView(const Frame& before, const Frame& now) {
+bool IsCut(const Frame& before, const Frame& now) {
+  if (std::min(before.size(), now.size()) < kTelling) return false;
   int alike = 0;
   for (const Descriptor& descriptor : now.features.descriptors) {
     alike += HasLikeness(descriptor, before);
-    if (alike >= kLeastAlike) return true;
+    if (alike >= kLeastAlike) return false;
   }
-  return false;
+  return true;
 }
 
 }  // namespace aisle::slam

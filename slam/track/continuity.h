@@ -7,8 +7,9 @@ namespace aisle::slam {
 /// Whether a frame shows more than noise.
 bool ShowsSomething(const Frame& frame);
 
-/// Whether two frames show one view, moved, by what of their features looks alike; if not, the rig
-/// was carried or frames are missing between them.
-bool ShareView(const Frame& before, const Frame& now);
+/// Whether `now` shows another place than the frame `before` it: too little of what they show looks
+/// alike for one view that has moved. The rig was carried, or frames are missing between them.
+/// Never said of frames that show little.
+bool IsCut(const Frame& before, const Frame& now);
 
 }  // namespace aisle::slam

@@ -17,24 +17,29 @@ Frame FrameOf(std::uint64_t seed, int features) {
   return frame;
 }
 
-TEST(ShareView, TellsACutFromAView) {
+TEST(IsCut, IsToldFromAViewThatMoves) {
   const Frame before = FrameOf(1, 1200);
   Frame now = FrameOf(2, 1200);
-  EXPECT_FALSE(ShareView(before, now));
+  EXPECT_TRUE(IsCut(before, now));
   for (std::size_t i = 0; i < 30; ++i) {  // a tenth of their bits have changed
     now.features.descriptors[i] = before.features.descriptors[100 + i];
     now.features.descriptors[i][0] ^= 0x11111111'11111111;
     now.features.descriptors[i][1] ^= 0xff;
   }
-  EXPECT_TRUE(ShareView(before, now));
+  EXPECT_FALSE(IsCut(before, now));
 }
 
 /// A wall of one tile: everything looks like everything.
-TEST(ShareView, LikenessThatIsNobodysOwnTellsNothing) {
-  Frame before = FrameOf(1, 200), now = FrameOf(2, 200);
+TEST(IsCut, LikenessThatIsNobodysOwnTellsNothing) {
+  Frame before = FrameOf(1, 400), now = FrameOf(2, 400);
   for (Descriptor& one : before.features.descriptors) one = {};
   for (Descriptor& one : now.features.descriptors) one = {1, 0, 0, 0};
-  EXPECT_FALSE(ShareView(before, now));
+  EXPECT_TRUE(IsCut(before, now));
+}
+
+TEST(IsCut, IsNotSaidOfWhatShowsBesideAMover) {
+  EXPECT_FALSE(IsCut(FrameOf(1, 1200), FrameOf(2, 200)));
+  EXPECT_FALSE(IsCut(FrameOf(1, 200), FrameOf(2, 1200)));
 }
 
 TEST(ShowsSomething, IsNotSaidOfTheDark) {
