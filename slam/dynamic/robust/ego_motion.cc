@@ -266,15 +266,18 @@ EgoMotion Refine(const std::vector<StereoMatch>& matches, const StereoCamera& ca
   }
   equations = Linearize(placed, camera, motion.T_now_before, inverse_deviation, kInlierChi2);
   AddExpected(expected, motion.T_now_before, equations);
-  // Only the points that follow the motion found may say that it was none: movers would vote for
-  // whatever leaves them alone.
+  // Only the points that follow the motion found, and what was expected, may say that it was none:
+  // movers would vote for whatever leaves them alone.
   const auto followers =
       Followers(placed, camera, motion.T_now_before, inverse_deviation, kInlierChi2);
   const NormalEquations still =
       Linearize(followers, camera, Isometry3d::Identity(), inverse_deviation, kInlierChi2);
   const NormalEquations moving =
       Linearize(followers, camera, motion.T_now_before, inverse_deviation, kInlierChi2);
-  motion.standing = still.cost - moving.cost < kStandingChi2;
+  const double against =
+      expected ? expected->Chi2Of(Isometry3d::Identity()) - expected->Chi2Of(motion.T_now_before)
+               : 0;
+  motion.standing = still.cost - moving.cost + against < kStandingChi2;
   if (motion.standing) motion.T_now_before = Isometry3d::Identity();
   motion.covariance = equations.hessian.ldlt().solve(Matrix6d::Identity());
   motion.support = equations.support;

@@ -102,6 +102,18 @@ TEST(EstimateEgoMotion, ARigInMotionIsNotStoppedByWhoGoesAlong) {
   EXPECT_LT((found.T_now_before.translation() - truth.translation()).norm(), 0.005);
 }
 
+/// Three far points follow the motion, too few and too far to tell that it was not zero.
+TEST(EstimateEgoMotion, ThreeFarPointsDoNotStopARigThatIsExpectedToGo) {
+  const Isometry3d truth = Motion({0, 0, -0.045}, 0);
+  auto matches = MakeMatches(300, 297, truth, {0, 0, 0.045});
+  for (std::size_t k = 0; k < 297; ++k) matches[k].weight = 0.01;
+  const MotionPrior prior{Motion({0, 0, -0.043}, 0), 2e-5 * Matrix6d::Identity()};
+  const EgoMotion found = EstimateEgoMotion(matches, kCamera, prior, kNoise, {});
+  ASSERT_TRUE(found.found);
+  EXPECT_FALSE(found.standing);
+  EXPECT_LT((found.T_now_before.translation() - truth.translation()).norm(), 0.005);
+}
+
 TEST(EstimateEgoMotion, GoesOnAsExpectedWhereNothingSeenIsPossible) {
   const auto matches = MakeMatches(300, 300, Isometry3d::Identity(), {0, 0, 0});
   const MotionPrior prior{Motion({0, 0, -0.045}, 0), 1e-6 * Matrix6d::Identity()};
