@@ -1,6 +1,7 @@
 #include "slam/dynamic/robust/floor_plane.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "slam/dynamic/common/counter_random.h"
 
@@ -15,6 +16,7 @@ constexpr float kHorizon = 0.3F;      // disparity below which a floor is too fa
 constexpr float kMostRoll = 0.25F;   // tangent of its slope across the image: no vehicle leans more
 constexpr double kMostPitch = 1;     // tangent of the camera's
 constexpr double kLeastShare = 0.1;  // of the points of the lower half
+constexpr float kLeastDepth = 1.5F;  // farthest to nearest of nine tenths of what is seen of it
 constexpr int kHypotheses = 80;      // planes through three points
 constexpr std::uint64_t kSeed = 5;
 
@@ -66,6 +68,20 @@ double Support(const FloorPlane& plane, const std::vector<Eigen::Vector3f>& poin
   return support;
 }
 
+/// Whether it is seen over a range of distances, as a floor is and a belly is not.
+bool LeadsAway(const FloorPlane& plane, const std::vector<Eigen::Vector3f>& points,
+               const DisparityTolerance& tolerance) {
+  std::vector<float> disparities;
+  for (const Eigen::Vector3f& point : points) {
+    const float floor = plane.At(static_cast<int>(point.x()), static_cast<int>(point.y()));
+    if (tolerance.Same(point.z(), floor)) disparities.push_back(point.z());
+  }
+  if (disparities.empty()) return false;
+  std::ranges::sort(disparities);
+  const std::size_t tail = disparities.size() / 20;
+  return disparities[disparities.size() - 1 - tail] >= kLeastDepth * disparities[tail];
+}
+
 }  // namespace
 
 std::optional<FloorPlane> FindFloor(const cv::Mat1f& disparity, const StereoCamera& camera,
@@ -87,7 +103,7 @@ std::optional<FloorPlane> FindFloor(const cv::Mat1f& disparity, const StereoCame
     most = support;
     best = plane;
   }
-  return best;
+  return best && LeadsAway(*best, points, tolerance) ? best : std::nullopt;
 }
 
 cv::Mat1b FloorMask(const cv::Mat1f& filled, const std::optional<FloorPlane>& floor,

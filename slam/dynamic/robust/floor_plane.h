@@ -19,7 +19,8 @@ struct FloorPlane {
 /// The level plane in the lower half of the image that most measurements lie on and few below, by
 /// RANSAC (Fischler and Bolles 1981) as v-disparity has it (Labayrade et al. 2002); nothing if it
 /// has too few of them. A back close by is a plane as well, but no camera of a vehicle is pitched
-/// so far that it were level. `camera` is that of the disparity.
+/// so far that it were level; a belly is level in parts, and near in all of them. `camera` is that
+/// of the disparity.
 std::optional<FloorPlane> FindFloor(const cv::Mat1f& disparity, const StereoCamera& camera,
                                     const DisparityTolerance& tolerance);
 

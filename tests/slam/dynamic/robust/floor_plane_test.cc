@@ -49,6 +49,17 @@ TEST(FindFloor, ABackCloseByIsNone) {
   EXPECT_FALSE(FindFloor(disparity, kCamera, kUsualTolerance));
 }
 
+/// A third of a metre ahead of a narrow lens, bulging: what is below leans as a floor would, and is
+/// hardly nearer than what is above.
+TEST(FindFloor, ABellyCloseByIsNone) {
+  const StereoCamera narrow{376, 240, 350, 350, 183.6, 126.1, 0.12};
+  cv::Mat1f disparity(240, 376);
+  for (int y = 0; y < 240; ++y) {
+    disparity.row(y).setTo(115.0F + 0.36F * static_cast<float>(std::max(y - 126, 0)));
+  }
+  EXPECT_FALSE(FindFloor(disparity, narrow, kUsualTolerance));
+}
+
 TEST(FindFloor, AWallIsNone) {
   EXPECT_FALSE(FindFloor(cv::Mat1f(240, 376, 6.0F), kCamera, kUsualTolerance));
   EXPECT_FALSE(FindFloor(cv::Mat1f(240, 376, -1.0F), kCamera, kUsualTolerance));
