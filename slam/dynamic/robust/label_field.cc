@@ -124,6 +124,22 @@ Links LinkPixels(const cv::Mat1f& filled, const cv::Mat1b& image, const cv::Mat1
   return links;
 }
 
+void LinkUnseen(const cv::Mat1f& disparity, const std::vector<int>& unseen,
+                const FieldOptions& options, Links* links) {
+  const auto coupling = static_cast<float>(options.coupling);
+  const auto is_unseen = [&](int y, int x) {
+    return x < unseen[static_cast<std::size_t>(y)] && disparity(y, x) < 0;
+  };
+  for (int y = 0; y < disparity.rows; ++y) {
+    const int columns = unseen[static_cast<std::size_t>(y)];
+    for (int x = 0; x < columns; ++x) {
+      if (!is_unseen(y, x)) continue;
+      if (x + 1 == columns || is_unseen(y, x + 1)) links->right(y, x) = coupling;
+      if (y + 1 < disparity.rows && is_unseen(y + 1, x)) links->down(y, x) = coupling;
+    }
+  }
+}
+
 cv::Mat1f SolveField(const cv::Mat1f& evidence, const Links& links) {
   Sweeper sweeper(evidence, links);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {

@@ -26,6 +26,7 @@ Layout LayOut(const DenseFrame& frame, const StereoCamera& camera,
   layout.floor = FindFloor(frame.disparity, HalfCamera(camera), tolerance);
   layout.floor_mask = FloorMask(frame.filled, layout.floor, tolerance);
   layout.links = LinkPixels(frame.filled, frame.image, layout.floor_mask, tolerance, options.field);
+  LinkUnseen(frame.disparity, frame.unseen, options.field, &layout.links);
   frame.filled.convertTo(layout.farthest, CV_32F, options.field.grow_m / camera.baseline_m);
   return layout;
 }

@@ -35,6 +35,24 @@ TEST(LinkPixels, SurfacesHoldTogetherAndStepsEdgesAndTheFloorPart) {
   EXPECT_EQ(links.down(69, 5), 0);  // from the wall to the floor
 }
 
+TEST(LinkUnseen, TiesWhatOneCameraSeesOfSomethingCloseBy) {
+  Square square;
+  square.disparity.setTo(40.0F);
+  square.disparity.colRange(0, 30).setTo(-1.0F);
+  square.disparity(cv::Rect(0, 0, 4, 80)).setTo(2.0F);  // seen past it
+  square.image.colRange(20, 80).setTo(200);             // something printed on it
+  Links links = square.links();
+  std::vector<int> unseen(80, 30);
+  unseen[50] = 0;
+  LinkUnseen(square.disparity, unseen, {}, &links);
+  const auto full = static_cast<float>(FieldOptions{}.coupling);
+  EXPECT_EQ(links.right(10, 19), full);
+  EXPECT_EQ(links.right(10, 29), full);  // to what both see
+  EXPECT_EQ(links.down(10, 19), full);
+  EXPECT_LT(links.right(10, 3), 0.01F * full);
+  EXPECT_LT(links.right(50, 19), 0.2F * full);  // a row without
+}
+
 TEST(SolveField, WithoutLinksIsTheEvidence) {
   cv::Mat1f evidence(80, 80, -0.5F);
   evidence(4, 4) = 3;
