@@ -7,7 +7,7 @@ namespace aisle::slam {
 namespace {
 
 /// Fewer features may all lie on what a mover close by had hidden until now.
-constexpr int kTelling = 300;
+constexpr int kTelling = 600;
 constexpr int kLeastAlike = 20;
 constexpr int kAlike = 50;      // bits
 constexpr double kRatio = 0.8;  // best to second best

@@ -97,7 +97,7 @@ struct RegionOptions {
 };
 
 struct RobustOptions {
-  SemiGlobalOptions disparity;
+  SemiGlobalOptions disparity;  ///< at half size, and at a quarter for what is nearer
   SurfaceOptions surface;
   ToleranceOptions tolerance;
   DenseFlowOptions flow;  ///< between the image and what the static world would look like

@@ -31,15 +31,15 @@ TEST(IsCut, IsToldFromAViewThatMoves) {
 
 /// A wall of one tile: everything looks like everything.
 TEST(IsCut, LikenessThatIsNobodysOwnTellsNothing) {
-  Frame before = FrameOf(1, 400), now = FrameOf(2, 400);
+  Frame before = FrameOf(1, 800), now = FrameOf(2, 800);
   for (Descriptor& one : before.features.descriptors) one = {};
   for (Descriptor& one : now.features.descriptors) one = {1, 0, 0, 0};
   EXPECT_TRUE(IsCut(before, now));
 }
 
 TEST(IsCut, IsNotSaidOfWhatShowsBesideAMover) {
-  EXPECT_FALSE(IsCut(FrameOf(1, 1200), FrameOf(2, 200)));
-  EXPECT_FALSE(IsCut(FrameOf(1, 200), FrameOf(2, 1200)));
+  EXPECT_FALSE(IsCut(FrameOf(1, 1200), FrameOf(2, 500)));
+  EXPECT_FALSE(IsCut(FrameOf(1, 500), FrameOf(2, 1200)));
 }
 
 TEST(ShowsSomething, IsNotSaidOfTheDark) {
