@@ -34,16 +34,17 @@ TEST(ForecastTest, FramesAreRenderedOnceForAllSystems) {
                                                    "2,000 stereo pairs to render, 6,000 frames"));
 }
 
-TEST(ForecastTest, AFrameOnThePublishedBaseTakesLonger) {
+TEST(ForecastTest, AFrameTakesLongerOnThePublishedBaseAndWhereMoversAreFound) {
   const auto wall_s = [](const std::string& system) {
     return ForecastOf(
                {{"s", "s.yaml", "live", BuiltIn(system), 1}}, 2,
                [](const std::string&) { return std::int64_t{500}; }, ByName)
         .wall_s;
   };
-  EXPECT_EQ(wall_s("robust"), wall_s("plain"));
-  EXPECT_GT(wall_s("orbslam2"), wall_s("plain") + 10);
-  EXPECT_EQ(wall_s("paper"), wall_s("orbslam2"));
+  EXPECT_GT(wall_s("orbslam2"), wall_s("plain") + 5);
+  EXPECT_GT(wall_s("robust"), wall_s("plain") + 5);
+  EXPECT_GT(wall_s("paper"), wall_s("orbslam2") + 5);
+  EXPECT_EQ(wall_s("oracle"), wall_s("plain"));
 }
 
 TEST(ForecastTest, EqualRunsAreDrivenOnce) {
