@@ -5,14 +5,11 @@
 #include "harness/record/record.h"
 
 namespace aisle {
-namespace {
 
-bool IsOnlyItsInputs(const Job& job) { return !job.spec.system.external && job.spec.repeat == 1; }
-
-}  // namespace
+bool IsOnlyItsInputs(const RunSpec& spec) { return !spec.system.external && spec.repeat == 1; }
 
 bool AreEqual(const Job& a, const Job& b) {
-  return IsOnlyItsInputs(a) && IsOnlyItsInputs(b) && a.inputs_hash == b.inputs_hash &&
+  return IsOnlyItsInputs(a.spec) && IsOnlyItsInputs(b.spec) && a.inputs_hash == b.inputs_hash &&
          a.out == b.out;
 }
 

@@ -9,9 +9,12 @@
 
 namespace aisle {
 
+/// Whether a run is decided by what its frames show and its system is. Foreign systems see the
+/// scene's name as well and may scatter, and repeats ask just that: those are driven each time.
+bool IsOnlyItsInputs(const RunSpec& spec);
+
 /// Jobs, and which of them are answered by another's drive: of equal inputs come equal bits. The
-/// `empty` twins of scenes that differ in actors alone are such. Foreign systems are asked each
-/// time: they see the scene's name and may scatter; so are repeats, which ask just that.
+/// `empty` twins of scenes that differ in actors alone are such.
 struct EqualRuns {
   std::vector<Job> driven;
   std::map<std::string, std::vector<Job>> answered;  ///< by the RunId of the one that is driven

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "harness/campaign/equal_runs.h"
 #include "harness/io/duration.h"
 #include "harness/record/record.h"
 
@@ -23,6 +24,22 @@ double FrameCoreS(const SystemSpec& system) {
   return base;
 }
 
+/// The frames of scenes, each counted once.
+class FrameCounts {
+ public:
+  explicit FrameCounts(const CountFrames& count) : count_(count) {}
+  std::int64_t Of(const RunSpec& spec) {
+    const auto [at, is_new] = frames_.try_emplace(spec.scene_file, 0);
+    if (is_new) at->second = count_(spec.scene_file);
+    return at->second;
+  }
+  std::size_t scenes() const { return frames_.size(); }
+
+ private:
+  const CountFrames& count_;
+  std::map<std::string, std::int64_t> frames_;
+};
+
 std::string WithThousands(std::int64_t number) {
   std::string digits = std::to_string(number), text;
   for (std::size_t i = 0; i < digits.size(); ++i) {
@@ -40,7 +57,7 @@ std::string Counted(std::size_t count, const char* noun) {
 
 Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFrames& count_frames,
                     const FramesKey& frames_key) {
-  std::map<std::string, std::int64_t> frames_of;
+  FrameCounts counts(count_frames);
   std::set<std::string> twins, systems;
   std::set<std::uint64_t> seeds;
   std::set<std::string> rendered;
@@ -48,22 +65,20 @@ Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFra
   Forecast forecast{.runs = specs.size()};
   double drive_core_s = 0;
   for (const RunSpec& spec : specs) {
-    const auto [frames, is_new] = frames_of.try_emplace(spec.scene_file, 0);
-    if (is_new) frames->second = count_frames(spec.scene_file);
+    const std::int64_t frames = counts.Of(spec);
     twins.insert(spec.twin);
     systems.insert(spec.system.name);
     seeds.insert(spec.seed);
     const std::string key = frames_key(spec);
-    if (rendered.insert(key).second) forecast.pairs += frames->second;
-    const bool asked_each_time = spec.system.external || spec.repeat > 1;
-    if (!asked_each_time && !driven.insert({key, spec.system.name}).second) {
+    if (rendered.insert(key).second) forecast.pairs += frames;
+    if (IsOnlyItsInputs(spec) && !driven.insert({key, spec.system.name}).second) {
       ++forecast.answered;
       continue;
     }
-    forecast.system_frames += frames->second;
-    drive_core_s += static_cast<double>(frames->second) * FrameCoreS(spec.system);
+    forecast.system_frames += frames;
+    drive_core_s += static_cast<double>(frames) * FrameCoreS(spec.system);
   }
-  forecast.scenes = frames_of.size();
+  forecast.scenes = counts.scenes();
   forecast.twins = twins.size();
   forecast.systems = systems.size();
   forecast.seeds = seeds.size();
@@ -77,16 +92,14 @@ Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFra
 std::map<std::string, double> ExpectedSeconds(const std::vector<RunSpec>& specs,
                                               const std::filesystem::path& out,
                                               const CountFrames& count_frames) {
-  std::map<std::string, std::int64_t> frames_of;
+  FrameCounts counts(count_frames);
   std::map<std::string, double> seconds;
   for (const RunSpec& spec : specs) {
     if (const std::optional<RunRecord> last = ReadRun(spec, out)) {
       seconds[RunId(spec)] = last->wall_s;
       continue;
     }
-    const auto [frames, is_new] = frames_of.try_emplace(spec.scene_file, 0);
-    if (is_new) frames->second = count_frames(spec.scene_file);
-    seconds[RunId(spec)] = static_cast<double>(frames->second) * FrameCoreS(spec.system);
+    seconds[RunId(spec)] = static_cast<double>(counts.Of(spec)) * FrameCoreS(spec.system);
   }
   return seconds;
 }
