@@ -86,6 +86,14 @@ std::optional<double> MedianScore(const std::vector<const RunRecord*>& runs,
   return Quantile(values, 0.5);
 }
 
+bool AreWholeDrives(const std::vector<const RunRecord*>& runs) {
+  constexpr double kWhole = 0.99;
+  const std::vector<double> coverage = ScoresOf(runs, "coverage");
+  return (coverage.empty() || Quantile(coverage, 0.5) >= kWhole) &&
+         std::all_of(runs.begin(), runs.end(),
+                     [](const RunRecord* run) { return run->status == RunStatus::kOk; });
+}
+
 const RunRecord* WorstRun(const std::vector<const RunRecord*>& runs) {
   const auto badness = [](const RunRecord* run) {
     const auto ate = run->scores.find("ate_rmse_m");

@@ -38,6 +38,11 @@ std::vector<SceneRuns> GroupByScene(const Results& results);
 std::optional<double> MedianScore(const std::vector<const RunRecord*>& runs,
                                   const std::string& score);
 
+/// Whether an error of these runs is one of whole drives and may be held against another's: every
+/// run came to its end, and half of them have a pose for 99 % of the frames or more. A track with
+/// the hard part missing has a small error. Runs that do not tell their coverage count as whole.
+bool AreWholeDrives(const std::vector<const RunRecord*>& runs);
+
 /// The score's values of the runs that have one, in their order.
 std::vector<double> ScoresOf(const std::vector<const RunRecord*>& runs, const std::string& score);
 

@@ -14,6 +14,7 @@ constexpr std::size_t kMostSentences = 3;  ///< more is a table, which stands be
 struct SystemError {
   SystemSpec system;
   double ate_m = 0;
+  std::optional<double> coverage;  ///< [0, 1]; nothing where the error is of whole drives
 };
 
 /// The systems of one scene as written, in the order of the suite, with their median errors.
@@ -44,7 +45,9 @@ std::vector<SceneErrors> CollectErrors(const Results& results) {
     SceneErrors& of_scene = collected.emplace_back(SceneErrors{scene.scene, {}, {}});
     for (const SystemRuns& system : scene.systems) {
       if (const auto ate_m = MedianScore(system.runs, "ate_rmse_m")) {
-        of_scene.known.push_back({system.runs.front()->spec.system, *ate_m});
+        of_scene.known.push_back(
+            {system.runs.front()->spec.system, *ate_m,
+             AreWholeDrives(system.runs) ? std::nullopt : MedianScore(system.runs, "coverage")});
       } else {
         of_scene.lost.push_back(system.system);
       }
@@ -79,10 +82,10 @@ std::string WonBackInWords(const SceneErrors& errors) {
   std::set<std::string> calm;  // systems whom movers cost next to nothing
   for (const SystemError& one : errors.known) {
     const auto [without, told] = MeasureOf(errors, one.system);
-    if (without == nullptr || told == nullptr) continue;
+    if (without == nullptr || told == nullptr || told->coverage) continue;
     if (without->ate_m < kLeastRatio * told->ate_m) {
       calm.insert(without->system.name);
-    } else if (&one != told) {
+    } else if (&one != told && !one.coverage) {
       const double share = (without->ate_m - one.ate_m) / (without->ate_m - told->ate_m);
       parts.push_back(
           share <= 0 ? one.system.name + " wins nothing back"
@@ -98,9 +101,12 @@ std::string WonBackInWords(const SceneErrors& errors) {
 
 std::string Sentence(const SceneErrors& errors) {
   std::vector<std::string> parts;
-  for (const auto& [system, ate_m] : errors.known) {
-    parts.push_back(fmt::format("{}{} by {}", system.name, parts.empty() ? " is off" : "",
-                                LengthInWords(ate_m)));
+  for (const auto& [system, ate_m, coverage] : errors.known) {
+    parts.push_back(fmt::format(
+        "{}{} by {}{}", system.name, parts.empty() ? " is off" : "", LengthInWords(ate_m),
+        coverage
+            ? fmt::format(" over the {} of the frames it has a pose for", PercentInWords(*coverage))
+            : ""));
   }
   for (const std::string& system : errors.lost) parts.push_back(system + " has no error to tell");
   return fmt::format("On {}, {}{}.", errors.scene, Listed(parts), WonBackInWords(errors));

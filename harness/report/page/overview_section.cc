@@ -28,8 +28,8 @@ std::string ErrorCell(const SystemRuns& system, const std::optional<double>& lea
   const auto ate_m = MedianOf(system, "ate_rmse_m"), coverage = MedianOf(system, "coverage");
   std::string cell = ate_m ? fmt::format("{:.2f}", 100 * *ate_m) : "-";
   if (coverage && *coverage < 0.9995) cell += fmt::format(" ({:.1f} %)", 100 * *coverage);
-  return fmt::format("<td class=\"{}\">{}{}", ate_m && ate_m == least_m ? "best" : "", cell,
-                     StatusMark(system));
+  const bool is_best = ate_m && ate_m == least_m && AreWholeDrives(system.runs);
+  return fmt::format("<td class=\"{}\">{}{}", is_best ? "best" : "", cell, StatusMark(system));
 }
 
 std::string SceneRow(const SceneRuns& scene,
@@ -37,7 +37,8 @@ std::string SceneRow(const SceneRuns& scene,
   std::optional<double> least_m;
   for (const SystemRuns& system : scene.systems) {
     const auto ate_m = MedianOf(system, "ate_rmse_m");
-    if (ate_m && (!least_m || *ate_m < *least_m)) least_m = ate_m;
+    if (!ate_m || !AreWholeDrives(system.runs)) continue;
+    if (!least_m || *ate_m < *least_m) least_m = ate_m;
   }
   std::string row = fmt::format("<tr><td><a href=\"{}\">{}</a><td class=\"left\">{}",
                                 LinkTo(scene, links), Escape(scene.scene), Escape(scene.twin));
@@ -72,7 +73,8 @@ std::string OverviewSection(const std::vector<SceneRuns>& scenes, SceneLinks lin
   return text +
          "</table></div>\n<p class=\"soft small\">RMSE over the final track in centimetres, "
          "positions aligned rigidly (SE(3)), never scaled; median over the seeds that came to an "
-         "end; coverage where it is not complete. The least of each row is bold.</p>\n";
+         "end; coverage where it is not complete. Bold is the least of each row among the systems "
+         "whose every run came to its end with a pose for 99 % of the frames.</p>\n";
 }
 
 std::string SystemsSection(const std::vector<SceneRuns>& scenes) {

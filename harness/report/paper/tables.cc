@@ -57,6 +57,11 @@ const std::vector<Kind>& Kinds() {
         {"mean", "ate_mean_m", 1, 4},
         {"median", "ate_median_m", 1, 4},
         {"S.D.", "ate_std_m", 1, 4}}},
+      {kNotThePapers,
+       "Frames with a pose [%]",
+       "What share of its drive each error above is of; a track with the hard part missing has a "
+       "small error. Median over seeds. The paper states none.",
+       {{"coverage", "coverage", 100, 1}}},
       {5,
        "Relative pose error, translation [m]",
        "From each frame to the next; median over seeds. The paper's Table 5.",

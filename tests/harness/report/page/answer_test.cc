@@ -56,6 +56,18 @@ TEST(AnswerTest, TakesMediansOverSeedsAndTellsWhoIsLost) {
               ElementsAre("On s, robust is off by 20 cm and mine has no error to tell."));
 }
 
+TEST(AnswerTest, AnErrorOfHalfADriveSaysSoAndWinsNothingBack) {
+  RunRecord half = RunOf("s", "robust", 0.007);
+  half.scores["coverage"] = {.value = 0.49, .unit = "1", .alignment = "", .n = 1, .absent = ""};
+  RunRecord lost = half;
+  lost.status = RunStatus::kLost;
+  for (const RunRecord& part : {half, lost}) {
+    EXPECT_THAT(AnswerInWords(Of({RunOf("s", "plain", 0.5), part, RunOf("s", "oracle", 0.02)})),
+                ElementsAre("On s, plain is off by 50 cm, robust by 0.7 cm over the 49 % of the "
+                            "frames it has a pose for and oracle by 2.0 cm."));
+  }
+}
+
 TEST(AnswerTest, OfManyScenesTheWorstAreToldAndTheirNumber) {
   const auto sentences = AnswerInWords(Of({RunOf("a", "robust", 0.1), RunOf("b", "robust", 0.4),
                                            RunOf("c", "robust", 0.2), RunOf("d", "robust", 0.3)}));

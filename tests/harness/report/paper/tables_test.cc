@@ -33,5 +33,14 @@ TEST(TablesTest, WhatMoversCostIsATableWhereTwinsTellIt) {
   EXPECT_THAT(ToMarkdown(tables), HasSubstr("| 1.25 | 1.00 |"));
 }
 
+TEST(TablesTest, WhatShareOfTheDriveAnErrorIsOfStandsUnderIt) {
+  Results results = Night("a", 0.01234);
+  for (RunRecord& run : results.runs) run.scores["coverage"].value = 0.5;
+  const auto tables = PaperTables(GroupByScene(results));
+  ASSERT_EQ(tables.size(), 3u);
+  EXPECT_EQ(tables[2].title, "Frames with a pose [%]");
+  EXPECT_THAT(ToMarkdown(tables), HasSubstr("| 50.0 | 50.0 |"));
+}
+
 }  // namespace
 }  // namespace aisle
