@@ -1,22 +1,56 @@
 #include "slam/map/create_landmarks.h"
 
-namespace aisle::slam {
+#include <algorithm>
+#include <limits>
 
-bool PlacesPoint(const Measurement& measurement, const CreateLandmarksOptions& options) {
-  // depth = f b / d, so its relative deviation is the disparity's.
-  return measurement.has_depth() && measurement.uvd.z() > 0 &&
-         measurement.sigma_d < options.worst_depth_ratio * measurement.uvd.z();
+namespace aisle::slam {
+namespace {
+
+/// Deviation of a stereo point's depth over the depth; infinite without one. The depth is f b / d,
+/// so it is the disparity's.
+double DepthRatio(const Measurement& measurement) {
+  const bool has_depth = measurement.has_depth() && measurement.uvd.z() > 0;
+  return has_depth ? measurement.sigma_d / measurement.uvd.z()
+                   : std::numeric_limits<double>::infinity();
 }
+
+/// The features that become landmarks, rising.
+std::vector<int> ChooseFeatures(const Keyframe& keyframe, const CreateLandmarksOptions& options) {
+  std::vector<std::pair<double, int>> placed;  // depth ratio, feature
+  int good = 0;                                // landmarks that are there, and points as good
+  for (int i = 0; i < std::ssize(keyframe.landmarks); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (keyframe.landmarks[at].valid()) {
+      ++good;
+      continue;
+    }
+    const double ratio = DepthRatio(keyframe.frame->measurements[at]);
+    if (ratio < options.worst_depth_ratio) ++good;
+    if (ratio < std::max(options.worst_depth_ratio, options.worst_depth_ratio_then)) {
+      placed.push_back({ratio, i});
+    }
+  }
+  std::sort(placed.begin(), placed.end());
+  std::vector<int> chosen;
+  int more = options.least - good;
+  for (const auto& [ratio, feature] : placed) {
+    if (ratio < options.worst_depth_ratio || more-- > 0) chosen.push_back(feature);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+}  // namespace
 
 std::vector<Landmark> CreateLandmarks(const Keyframe& keyframe, const StereoCamera& camera,
                                       const CreateLandmarksOptions& options) {
   std::vector<Landmark> landmarks;
-  for (std::size_t i = 0; i < keyframe.landmarks.size(); ++i) {
-    const Measurement& measurement = keyframe.frame->measurements[i];
-    if (keyframe.landmarks[i].valid() || !PlacesPoint(measurement, options)) continue;
+  for (const int feature : ChooseFeatures(keyframe, options)) {
+    const auto at = static_cast<std::size_t>(feature);
     Landmark landmark;
-    landmark.position = keyframe.T_world_rig * Backproject(camera, measurement.uvd);
-    landmark.observations = {{keyframe.id, static_cast<int>(i)}};
+    landmark.position =
+        keyframe.T_world_rig * Backproject(camera, keyframe.frame->measurements[at].uvd);
+    landmark.observations = {{keyframe.id, feature}};
     landmark.created_by = keyframe.id;
     landmark.predicted = landmark.found = 1;
     landmarks.push_back(landmark);

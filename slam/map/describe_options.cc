@@ -40,6 +40,10 @@ void Describe(OptionFields& fields, CreateLandmarksOptions& options) {
   fields.Number("worst_depth_ratio", &options.worst_depth_ratio, {1e-3, 1}, "",
                 "A stereo point becomes a landmark where its depth's deviation is below this share "
                 "of the depth.");
+  fields.Integer("least", &options.least, {0, 10000}, "landmarks",
+                 "A keyframe with fewer takes the best of its poorer points as well.");
+  fields.Number("worst_depth_ratio_then", &options.worst_depth_ratio_then, {1e-3, 1}, "",
+                "Deviation of depth over depth of such a point; worse ones never.");
 }
 
 void Describe(OptionFields& fields, TriangulateOptions& options) {
