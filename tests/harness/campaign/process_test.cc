@@ -11,8 +11,6 @@
 #include <fstream>
 #include <thread>
 
-#include "harness/campaign/schedule.h"
-
 namespace aisle {
 namespace {
 
@@ -131,57 +129,6 @@ TEST(ProcessTest, AProgramThatIsNotThereExits127) {
   Process process({"/no/such/program"}, {});
   while (!process.Poll()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   EXPECT_EQ(process.result().code, 127);
-}
-
-/// The script of a job that a test has named by it.
-std::vector<std::string> ScriptOf(const Job& job) { return Shell(job.spec.scene); }
-
-TEST(ScheduleTest, OneSystemsCrashTouchesNoOther) {
-  std::vector<Job> jobs;
-  const char* scripts[] = {"exit 0", "kill -SEGV $$", "exit 0", "exit 3"};
-  for (int i = 0; i < 4; ++i) {
-    Job job;
-    job.spec.seed = static_cast<std::uint64_t>(i);
-    job.spec.scene = scripts[i];
-    job.frames_key = "same";
-    jobs.push_back(job);
-  }
-  std::map<std::uint64_t, ProcessResult> ended;
-  const auto note = [&](const Job& job, const ProcessResult& r) { ended[job.spec.seed] = r; };
-  EXPECT_TRUE(
-      RunJobs(jobs, {.jobs = 3, .limits = {}}, {.argv = ScriptOf, .ended = note, .tick = {}}));
-  ASSERT_EQ(ended.size(), 4u);
-  EXPECT_EQ(ended[0].code, 0);
-  EXPECT_EQ(ended[1].end, End::kSignalled);
-  EXPECT_EQ(ended[2].code, 0);
-  EXPECT_EQ(ended[3].code, 3);
-}
-
-TEST(ScheduleTest, FramesAreMadeByOneJobAtATime) {
-  const std::string lock = testing::TempDir() + fmt::format("aisle_lock_{}", ::getpid());
-  // The first to come makes the folder; a second one beside it would fail.
-  const std::string script = "mkdir " + lock + " || exit 9; sleep 0.2; rmdir " + lock;
-  std::vector<Job> jobs;
-  for (int i = 0; i < 2; ++i) {
-    Job job;
-    job.spec.scene = i == 0 ? script : "test ! -d " + lock;
-    job.frames_key = "shared";
-    jobs.push_back(job);
-  }
-  int good = 0;
-  const auto note = [&](const Job&, const ProcessResult& r) { good += r.code == 0; };
-  EXPECT_TRUE(
-      RunJobs(jobs, {.jobs = 2, .limits = {}}, {.argv = ScriptOf, .ended = note, .tick = {}}));
-  EXPECT_EQ(good, 2);
-}
-
-TEST(ScheduleTest, AnInterruptEndsWhatRuns) {
-  std::atomic<bool> interrupted = false;
-  Job job;
-  job.spec.scene = "sleep 100";
-  const auto stop = [&](const std::vector<JobProgress>&, std::size_t) { interrupted = true; };
-  EXPECT_FALSE(RunJobs({job}, {.jobs = 1, .limits = {}, .interrupted = &interrupted},
-                       {.argv = ScriptOf, .ended = {}, .tick = stop}));
 }
 
 }  // namespace

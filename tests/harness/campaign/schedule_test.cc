@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <queue>
 #include <random>
 
@@ -77,6 +79,57 @@ TEST(ScheduleTest, ANightEndsCloseToItsBound) {
     EXPECT_LT(EndOf(LongestFirst(jobs, seconds), seconds, workers), 1.05 * bound_s) << workers;
   }
   EXPECT_GT(EndOf(jobs, seconds, 8), 1.3 * all_s / 8);  // as planned
+}
+
+/// The script of a job that a test has named by it.
+std::vector<std::string> ScriptOf(const Job& job) { return {"/bin/sh", "-c", job.spec.scene}; }
+
+TEST(ScheduleTest, OneSystemsCrashTouchesNoOther) {
+  std::vector<Job> jobs;
+  const char* scripts[] = {"exit 0", "kill -SEGV $$", "exit 0", "exit 3"};
+  for (int i = 0; i < 4; ++i) {
+    Job job;
+    job.spec.seed = static_cast<std::uint64_t>(i);
+    job.spec.scene = scripts[i];
+    job.frames_key = "same";
+    jobs.push_back(job);
+  }
+  std::map<std::uint64_t, ProcessResult> ended;
+  const auto note = [&](const Job& job, const ProcessResult& r) { ended[job.spec.seed] = r; };
+  EXPECT_TRUE(
+      RunJobs(jobs, {.jobs = 3, .limits = {}}, {.argv = ScriptOf, .ended = note, .tick = {}}));
+  ASSERT_EQ(ended.size(), 4u);
+  EXPECT_EQ(ended[0].code, 0);
+  EXPECT_EQ(ended[1].end, ProcessResult::End::kSignalled);
+  EXPECT_EQ(ended[2].code, 0);
+  EXPECT_EQ(ended[3].code, 3);
+}
+
+TEST(ScheduleTest, FramesAreMadeByOneJobAtATime) {
+  const std::string lock = testing::TempDir() + fmt::format("aisle_lock_{}", ::getpid());
+  // The first to come makes the folder; a second one beside it would fail.
+  const std::string script = "mkdir " + lock + " || exit 9; sleep 0.2; rmdir " + lock;
+  std::vector<Job> jobs;
+  for (int i = 0; i < 2; ++i) {
+    Job job;
+    job.spec.scene = i == 0 ? script : "test ! -d " + lock;
+    job.frames_key = "shared";
+    jobs.push_back(job);
+  }
+  int good = 0;
+  const auto note = [&](const Job&, const ProcessResult& r) { good += r.code == 0; };
+  EXPECT_TRUE(
+      RunJobs(jobs, {.jobs = 2, .limits = {}}, {.argv = ScriptOf, .ended = note, .tick = {}}));
+  EXPECT_EQ(good, 2);
+}
+
+TEST(ScheduleTest, AnInterruptEndsWhatRuns) {
+  std::atomic<bool> interrupted = false;
+  Job job;
+  job.spec.scene = "sleep 100";
+  const auto stop = [&](const std::vector<JobProgress>&, std::size_t) { interrupted = true; };
+  EXPECT_FALSE(RunJobs({job}, {.jobs = 1, .limits = {}, .interrupted = &interrupted},
+                       {.argv = ScriptOf, .ended = {}, .tick = stop}));
 }
 
 }  // namespace
