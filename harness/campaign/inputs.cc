@@ -47,6 +47,19 @@ std::vector<SystemSpec> ChooseSystems(const Suite& suite, const std::vector<std:
   return chosen;
 }
 
+/// A limit on what the user leaves out is not asked this time. The file itself drives whatever its
+/// limits name, or was refused.
+void LeaveOutLimits(Suite* suite) {
+  const auto left_out = [](const std::string& name, const std::vector<std::string>& chosen) {
+    return !name.empty() && std::ranges::count(chosen, name) == 0;
+  };
+  suite->limits_left_out = std::erase_if(suite->limits, [&](const Limit& limit) {
+    const std::string needed = limit.score == "dynamic_penalty" ? "empty" : "";
+    return left_out(limit.twin, suite->twins) || left_out(needed, suite->twins) ||
+           left_out(limit.system, SystemNames(*suite));
+  });
+}
+
 Suite LoadInput(const std::string& file, const InputOptions& options,
                 const Vocabulary& vocabulary) {
   Suite suite = IsSuiteFile(file) ? LoadSuite(file, vocabulary) : SuiteOfScene(file);
@@ -57,6 +70,7 @@ Suite LoadInput(const std::string& file, const InputOptions& options,
     for (std::uint64_t seed = 1; seed <= options.seeds; ++seed) suite.seeds.push_back(seed);
   }
   if (!options.seed.empty()) suite.seeds = options.seed;
+  LeaveOutLimits(&suite);
   return suite;
 }
 

@@ -20,7 +20,8 @@ struct InputOptions {
 Vocabulary KnownNames();
 
 /// The files as suites; one report answers them all. A bare scene asks the plainest question of the
-/// plainest two systems. Throws InputError.
+/// plainest two systems. Limits on systems and twins that are left out go with them. Throws
+/// InputError.
 std::vector<Suite> LoadInputs(const InputOptions& options);
 
 /// Every mistake of every scene, before hours of work begin. Throws InputError with all of them.

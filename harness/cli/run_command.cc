@@ -130,6 +130,14 @@ CampaignOutcome RunToEnd(const std::vector<Job>& jobs, const Options& options,
                       .show = [&](const std::string& text) { line.Show(text); }});
 }
 
+void TellLimitsLeftOut(const std::vector<Suite>& suites) {
+  std::size_t left_out = 0;
+  for (const Suite& suite : suites) left_out += suite.limits_left_out;
+  if (left_out == 0) return;
+  fmt::print(stderr, "aisle: {} on systems or twins left out here: not judged\n",
+             left_out == 1 ? "a limit is" : fmt::format("{} limits are", left_out));
+}
+
 /// The runs that this command is to make: the plan's, or a part of them.
 std::vector<RunSpec> SpecsOf(const PlanFile& plan, const Shard& shard,
                              const Fingerprints& fingerprints) {
@@ -187,6 +195,7 @@ int RunSuites(const Options& options) {
   const Shard shard = ShardFromText(options.shard);
   const PlanFile plan{LoadInputs(options.inputs), CommandLine(options)};
   CheckScenes(plan.suites);
+  TellLimitsLeftOut(plan.suites);
   const std::optional<Results> baseline = ReadBaseline(options, plan);
   const Fingerprints fingerprints;
   const std::vector<RunSpec> specs = SpecsOf(plan, shard, fingerprints);

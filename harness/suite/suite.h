@@ -29,6 +29,8 @@ struct Suite {
   /// Nine show a shift of two standard deviations in 97 nights of 100; three never can.
   std::vector<std::uint64_t> seeds = {1, 2, 3, 4, 5, 6, 7, 8, 9};
   std::vector<Limit> limits;
+  /// How many of the file's limits are on systems or twins that the command line leaves out.
+  std::size_t limits_left_out = 0;
 };
 
 /// What a suite may name.

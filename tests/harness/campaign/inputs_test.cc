@@ -152,5 +152,28 @@ TEST_F(InputsTest, ALimitOnAScoreThatDoesNotExistIsAMistakeOfTheFile) {
               HasSubstr("there is no score 'ate_rms_m' (did you mean ate_rmse_m?)"));
 }
 
+TEST_F(InputsTest, LimitsGoWithWhatTheUserLeavesOut) {
+  const std::string file =
+      Write("m",
+            "suite: m\nscenes: [a/one]\nsystems: [plain, oracle]\ntwins: [live, empty]\nseeds: 1\n"
+            "limits:\n"
+            "  - {score: ate_rmse_m, system: plain, max: 1}\n"
+            "  - {score: ate_rmse_m, system: oracle, twin: empty, max: 2}\n"
+            "  - {score: ate_rmse_m, max: 3}\n"
+            "  - {score: dynamic_penalty, twin: live, system: plain, max: 4}\n");
+  const auto bounds = [&](const InputOptions& options) {
+    const Suite suite = LoadInputs(options).front();
+    EXPECT_EQ(suite.limits.size() + suite.limits_left_out, 4u);
+    std::vector<double> most;
+    for (const Limit& limit : suite.limits) most.push_back(*limit.max);
+    return most;
+  };
+  EXPECT_THAT(bounds({.files = {file}}), testing::ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(bounds({.files = {file}, .twins = {"live"}}), testing::ElementsAre(1, 3));
+  EXPECT_THAT(bounds({.files = {file}, .systems = {"plain"}}), testing::ElementsAre(1, 3, 4));
+  EXPECT_THAT(bounds({.files = {file}, .systems = {"robust"}}), testing::ElementsAre(3));
+  EXPECT_THAT(bounds({.files = {file}, .seeds = 3}), testing::ElementsAre(1, 2, 3, 4));
+}
+
 }  // namespace
 }  // namespace aisle
