@@ -32,6 +32,16 @@ std::string Cell(const std::vector<const RunRecord*>& runs, const std::string& s
   return fmt::format("{:.4g} ({:.4g} to {:.4g})", *median, *least, *most);
 }
 
+/// Whether such runs are asked for any of the scores: an empty twin has no dynamic penalty. Where
+/// they are and have no value, or failed, a reader must see it.
+bool AreAsked(const std::vector<const RunRecord*>& runs, const std::vector<std::string>& scores) {
+  return std::ranges::any_of(runs, [&](const RunRecord* run) {
+    return run->status != RunStatus::kOk || std::ranges::any_of(scores, [&](const auto& score) {
+             return run->scores.contains(score);
+           });
+  });
+}
+
 }  // namespace
 
 std::string ScoreTable(const Results& results, const std::vector<std::string>& scores) {
@@ -43,6 +53,7 @@ std::string ScoreTable(const Results& results, const std::vector<std::string>& s
   }
   for (const SceneRuns& scene : GroupByScene(results)) {
     for (const SystemRuns& system : scene.systems) {
+      if (!AreAsked(system.runs, scores)) continue;
       rows +=
           fmt::format("| {} | {} | {} | {} |", MarkdownText(scene.scene), MarkdownText(scene.twin),
                       MarkdownText(system.system), system.runs.size());

@@ -32,6 +32,16 @@ TEST(ScoreTable, HasARowASystemAndTheSpreadOverSeeds) {
   EXPECT_THAT(ScoreTable(results, {"coverage"}), testing::HasSubstr("| 3 | - |"));
 }
 
+TEST(ScoreTable, HasNoRowForRunsThatAreNotAskedForTheScores) {
+  Results results;
+  results.runs = {RunWith(1, 0.5), RunWith(1, 0.25)};
+  results.runs[0].scores["dynamic_penalty"].value = 2;
+  results.runs[1].spec.twin = "empty";
+  EXPECT_THAT(ScoreTable(results, {"dynamic_penalty"}), testing::Not(testing::HasSubstr("empty")));
+  results.runs[1].status = RunStatus::kLost;
+  EXPECT_THAT(ScoreTable(results, {"dynamic_penalty"}), testing::HasSubstr("| empty | plain |"));
+}
+
 TEST(ScoreTable, RefusesAScoreThatNoRunHas) {
   Results results;
   results.runs = {RunWith(1, 0.5)};
