@@ -16,8 +16,10 @@ const SystemRuns* Find(const std::vector<SceneRuns>& scenes, const std::string& 
   return nullptr;
 }
 
+/// Nothing where it is one of less than whole drives: it cannot be held against others.
 std::optional<double> Error(const SystemRuns* runs) {
-  return runs == nullptr ? std::nullopt : MedianScore(runs->runs, kError);
+  return runs == nullptr || !AreWholeDrives(runs->runs) ? std::nullopt
+                                                        : MedianScore(runs->runs, kError);
 }
 
 std::optional<double> Minus(const std::optional<double>& a, const std::optional<double>& b) {

@@ -21,7 +21,8 @@ bool IsWithoutRejection(const SystemSpec& other, const SystemSpec& system);
 
 /// Where one system's error on one scene comes from, told by its own drives alone: the same scene
 /// with nobody in it (`empty`), with everybody standing still (`frozen`), and the same system
-/// without its rejection. Medians over seeds, metres. What cannot be told apart is absent.
+/// without its rejection. Medians over seeds, metres. What cannot be told apart is absent, and so
+/// is what is not of whole drives (AreWholeDrives).
 struct CostSplit {
   std::string scene, system;
   int color = 0;

@@ -28,6 +28,17 @@ TEST(TwinsTest, TheErrorIsSplitByTheSystemsOwnDrives) {
   EXPECT_DOUBLE_EQ(*splits[0].penalty, 5);
 }
 
+TEST(TwinsTest, WhatIsNotOfAWholeDriveIsHeldAgainstNothing) {
+  Results results;
+  results.runs = {Driven("robust", "live", 0.001), Driven("plain", "live", 0.30),
+                  Driven("oracle", "live", 0.01)};
+  results.runs[0].scores["coverage"].value = 0.09;
+  const std::vector<CostSplit> splits = SplitCosts(GroupByScene(results));
+  ASSERT_EQ(splits.size(), 1u);
+  EXPECT_EQ(splits[0].system, "oracle");
+  EXPECT_NEAR(*splits[0].rejection_m, -0.29, 1e-12);
+}
+
 TEST(TwinsTest, OfAForeignSystemNothingIsPutDownToARejection) {
   Results results;
   results.runs = {Driven("mine", "live", 0.10), Driven("mine", "empty", 0.02),
