@@ -7,6 +7,7 @@
 #include "harness/contract/stream.h"
 #include "harness/io/input_error.h"
 #include "harness/io/nearest_word.h"
+#include "harness/judge/twins.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/steering_options.h"
 #include "harness/plugs/systems.h"
@@ -54,8 +55,8 @@ void LeaveOutLimits(Suite* suite) {
     return !name.empty() && std::ranges::count(chosen, name) == 0;
   };
   suite->limits_left_out = std::erase_if(suite->limits, [&](const Limit& limit) {
-    const std::string needed = limit.score == "dynamic_penalty" ? "empty" : "";
-    return left_out(limit.twin, suite->twins) || left_out(needed, suite->twins) ||
+    return left_out(limit.twin, suite->twins) ||
+           left_out(TwinNeededBy(limit.score), suite->twins) ||
            left_out(limit.system, SystemNames(*suite));
   });
 }

@@ -67,6 +67,10 @@ void AddDynamicPenalty(std::vector<RunRecord>* runs) {
   }
 }
 
+std::string TwinNeededBy(const std::string& score) {
+  return score == "dynamic_penalty" ? "empty" : "";
+}
+
 bool Rejects(const SystemSpec& system) {
   return !system.external && system.like != "plain" && system.like != "orbslam2";
 }

@@ -11,6 +11,9 @@ namespace aisle {
 /// scene, system and seed), where there is one.
 void AddDynamicPenalty(std::vector<RunRecord>* runs);
 
+/// The twin that a score cannot be told without; empty for one that each run has by itself.
+std::string TwinNeededBy(const std::string& score);
+
 /// Whether it rejects what moves. Of ours that is known; what a foreign system does is its own
 /// matter, and nothing of its error is put down to a rejection.
 bool Rejects(const SystemSpec& system);

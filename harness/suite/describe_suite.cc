@@ -4,6 +4,7 @@
 
 #include "harness/contract/stream.h"
 #include "harness/io/input_error.h"
+#include "harness/judge/twins.h"
 
 namespace aisle {
 namespace {
@@ -139,8 +140,10 @@ void DescribeLimit(Fields& fields, const Vocabulary& vocabulary, const Suite& su
   fields.Name({"system", "only of this system", "oracle"}, &limit.system, {SystemNames(suite)});
   fields.OptionalNumber({"min", "the median over seeds may not be below", "0.99"}, &limit.min);
   fields.OptionalNumber({"max", "the median over seeds may not be above", "0.02"}, &limit.max);
-  if (limit.score == "dynamic_penalty" && !IsAmong("empty", suite.twins)) {
-    fields.Fail("score", "dynamic_penalty needs the twin 'empty' among the suite's twins");
+  const std::string needed = TwinNeededBy(limit.score);
+  if (!needed.empty() && !IsAmong(needed, suite.twins)) {
+    fields.Fail("score",
+                fmt::format("{} needs the twin '{}' among the suite's twins", limit.score, needed));
   }
   if (!limit.min && !limit.max) fields.Fail("score", "a limit needs 'min', 'max' or both");
   if (limit.min && limit.max && *limit.min > *limit.max) {

@@ -16,25 +16,23 @@ double DepthRatio(const Measurement& measurement) {
 
 /// The features that become landmarks, rising.
 std::vector<int> ChooseFeatures(const Keyframe& keyframe, const CreateLandmarksOptions& options) {
-  std::vector<std::pair<double, int>> placed;  // depth ratio, feature
-  int good = 0;                                // landmarks that are there, and points as good
+  std::vector<std::pair<double, int>> free;  // depth ratio, feature
+  int landmarks = 0;                         // that are there, and chosen
   for (int i = 0; i < std::ssize(keyframe.landmarks); ++i) {
     const auto at = static_cast<std::size_t>(i);
     if (keyframe.landmarks[at].valid()) {
-      ++good;
-      continue;
-    }
-    const double ratio = DepthRatio(keyframe.frame->measurements[at]);
-    if (ratio < options.worst_depth_ratio) ++good;
-    if (ratio < std::max(options.worst_depth_ratio, options.worst_depth_ratio_then)) {
-      placed.push_back({ratio, i});
+      ++landmarks;
+    } else {
+      free.push_back({DepthRatio(keyframe.frame->measurements[at]), i});
     }
   }
-  std::sort(placed.begin(), placed.end());
+  std::sort(free.begin(), free.end());
   std::vector<int> chosen;
-  int more = options.least - good;
-  for (const auto& [ratio, feature] : placed) {
-    if (ratio < options.worst_depth_ratio || more-- > 0) chosen.push_back(feature);
+  for (const auto& [ratio, feature] : free) {
+    const bool is_needed = landmarks < options.least && ratio < options.worst_depth_ratio_then;
+    if (ratio >= options.worst_depth_ratio && !is_needed) break;
+    chosen.push_back(feature);
+    ++landmarks;
   }
   std::sort(chosen.begin(), chosen.end());
   return chosen;
