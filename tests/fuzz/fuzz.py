@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
 """Fuzzes the readers of bytes: builds the preset `fuzz` and lets every target run for a while.
 
-Usage: ./aisle fuzz [--minutes N | --seconds N] [--page reports/fuzz.md] [TARGET...]
+Usage: ./aisle fuzz [--minutes N | --seconds N] [--jobs N] [--page reports/fuzz.md] [TARGET...]
 
 Each target (tests/fuzz/TARGET.cc) begins with its corpus under tests/fuzz/corpus and with what
 earlier runs found of interest (build/fuzz/corpus). An input that breaks a reader lies in
 build/fuzz/found afterwards; `build/fuzz/tests/fuzz/fuzz_TARGET FILE` shows it again. Exits with 1
 where something was found, with 77 without clang.
+
+The page is written after every target, and keeps the rows of targets that this call does not run:
+an hour of each may be spread over several nights.
 """
 
 import argparse
+import concurrent.futures
 import datetime
 import os
 import pathlib
@@ -79,19 +83,41 @@ def fuzz(target, seconds):
     return Outcome(target, seconds, done)
 
 
-def page(outcomes):
-    version = subprocess.run(["clang++", "--version"], capture_output=True, text=True)
-    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True,
-                            text=True)
-    lines = [PAGE_HEAD + f"{datetime.date.today()}, commit {commit.stdout.strip()}, "
-             f"{version.stdout.splitlines()[0]}, {os.cpu_count()} cores.\n",
-             "| target | s | inputs | edges reached | inputs kept | found |",
-             "|---|---|---|---|---|---|"]
-    lines += [f"| {o.target} | {o.seconds} | {o.inputs} | {o.edges} | {o.kept} | "
-              f"{'**' + o.finding + '**' if o.failed else '0'} |" for o in outcomes]
-    lines.append(f"\n{sum(o.inputs for o in outcomes)} inputs in all, "
-                 f"{sum(o.failed for o in outcomes)} findings.\n")
+def output(*command):
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True).stdout
+
+
+def row(outcome):
+    """The page's line of one target, with the day and the commit that it ran at."""
+    commit = output("git", "describe", "--always", "--dirty").strip()
+    found = f"**{outcome.finding.replace('|', '/')}**" if outcome.failed else "0"
+    return (f"| {outcome.target} | {outcome.seconds} | {outcome.inputs} | {outcome.edges} | "
+            f"{outcome.kept} | {found} | {commit}, {datetime.date.today()} |")
+
+
+def rows_of(page):
+    """The lines of a page's targets, by target; of a page that is absent, none."""
+    text = page.read_text() if page.exists() else ""
+    known = {line.split("|")[1].strip(): line for line in text.splitlines() if line.startswith("| ")}
+    return {target: line for target, line in known.items() if target in targets()}
+
+
+def page(rows):
+    cells = [line.split("|") for line in rows.values()]
+    clang = output("clang++", "--version").splitlines()[0]
+    lines = [PAGE_HEAD + f"{clang}, {os.cpu_count()} cores.\n",
+             "| target | s | inputs | edges reached | inputs kept | found | commit, day |",
+             "|---|---|---|---|---|---|---|"]
+    lines += [rows[target] for target in sorted(rows)]
+    lines.append(f"\n{sum(int(cell[3]) for cell in cells)} inputs in all, "
+                 f"{sum(cell[6].strip() != '0' for cell in cells)} findings.\n")
     return "\n".join(lines)
+
+
+def write_aside(file, text):
+    aside = file.with_name(file.name + ".part")
+    aside.write_text(text)
+    aside.replace(file)
 
 
 def main():
@@ -100,6 +126,7 @@ def main():
     length = parser.add_mutually_exclusive_group()
     length.add_argument("--minutes", type=float, help="of each target, 1 if nothing is said")
     length.add_argument("--seconds", type=int, help="of each target")
+    parser.add_argument("--jobs", type=int, default=1, help="targets at a time, 1 if not said")
     parser.add_argument("--page", type=pathlib.Path, help="write the figures there")
     options = parser.parse_args()
     unknown = set(options.targets) - set(targets())
@@ -112,15 +139,19 @@ def main():
         return SKIPPED
     build()
     seconds = options.seconds or max(1, round(60 * (options.minutes or 1)))
-    outcomes = []
-    for target in options.targets or targets():
-        outcomes.append(fuzz(target, seconds))
-        last = outcomes[-1]
-        print(f"{target}: {last.inputs} inputs in {seconds} s, {last.edges} edges"
-              + (f": {last.finding}" if last.failed else ""), flush=True)
-    if options.page:
-        options.page.write_text(page(outcomes))
-    return 1 if any(outcome.failed for outcome in outcomes) else 0
+    rows = rows_of(options.page) if options.page else {}
+    failed = False
+    with concurrent.futures.ThreadPoolExecutor(max_workers=max(1, options.jobs)) as pool:
+        running = [pool.submit(fuzz, target, seconds) for target in options.targets or targets()]
+        for future in concurrent.futures.as_completed(running):
+            last = future.result()
+            failed = failed or last.failed
+            print(f"{last.target}: {last.inputs} inputs in {seconds} s, {last.edges} edges"
+                  + (f": {last.finding}" if last.failed else ""), flush=True)
+            rows[last.target] = row(last)
+            if options.page:
+                write_aside(options.page, page(rows))
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":
