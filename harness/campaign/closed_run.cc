@@ -1,7 +1,6 @@
 #include "harness/campaign/closed_run.h"
 
 #include "harness/common/stopwatch.h"
-#include "harness/loop/closed_drive.h"
 #include "harness/run/showing.h"
 
 namespace aisle {
@@ -45,11 +44,13 @@ class SystemLocaliser : public Localiser {
 }  // namespace
 
 ClosedRun RunClosed(const DriveScene& scene, Estimator& estimator, const MaskMaker& masks,
-                    const Steering& steering, std::uint64_t seed, const FrameObserver& observer) {
+                    const Steering& steering, std::uint64_t seed, const FrameObserver& observer,
+                    const std::optional<TaughtCourse>& taught) {
   DriveLog log = LogOf(scene.course(), steering);
-  const LoopOptions options{.steering = steering, .seed = seed};
+  LoopOptions options{.steering = steering, .seed = seed};
   TruthLocaliser truth;
   log.truth_steered = DriveClosed(scene, &truth, options);
+  options.taught = taught;
   Showing showing(scene.calibration(), scene.rate_hz(), estimator, masks, observer);
   SystemLocaliser system(scene, &showing);
   const Stopwatch watch;

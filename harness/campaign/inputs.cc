@@ -177,6 +177,10 @@ Vocabulary KnownNames() {
   };
   vocabulary.check_option = [](const std::string& like, const std::string& path,
                                const std::string& value) -> std::string {
+    if (like.empty() && path == "drive.taught" && value == "true") {
+      return "option drive.taught: a system of your own keeps no map that is known here: one of "
+             "ours can be taught";
+    }
     return like.empty() && !IsSteeringOption(path) ? std::string() : CheckOption(path, value);
   };
   vocabulary.check_options = [](const std::string& like,

@@ -11,6 +11,7 @@
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/io/system_spec_json.h"
+#include "harness/plugs/steering_options.h"
 #include "harness/record/record.h"
 #include "harness/record/record_json.h"
 #include "harness/suite/recording.h"
@@ -47,6 +48,7 @@ Job FromJson(const Json& json) {
               .repeat = json.value("repeat", 1)};
   job.out = json.at("out").get<std::string>();
   job.frames = json.at("frames").get<std::string>();
+  job.led_frames = json.value("led_frames", "");
   job.dataset = json.at("dataset").get<std::string>();
   job.frames_key = json.at("frames_key").get<std::string>();
   job.inputs_hash = json.at("inputs_hash").get<std::string>();
@@ -71,6 +73,7 @@ std::string ToJson(const Job& job) {
                {"system", ToJson(job.spec.system)},
                {"out", job.out.string()},
                {"frames", job.frames.string()},
+               {"led_frames", job.led_frames.string()},
                {"dataset", job.dataset.string()},
                {"frames_key", job.frames_key},
                {"inputs_hash", job.inputs_hash},
@@ -129,8 +132,14 @@ std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Fingerprints&
     job.mcap = options.mcap;
     job.frames_in_report = options.frames_in_report;
     // A recording is read where it is: its frames are files already.
-    if (options.frame_cache && !IsRecording(spec.scene_file))
+    if (options.frame_cache && !IsRecording(spec.scene_file)) {
       job.frames = CacheDir() / "frames" / job.frames_key;
+      if (SteeringOf(spec.system.options).taught) {
+        RunSpec led = spec;
+        led.twin = "empty";
+        job.led_frames = CacheDir() / "frames" / (fingerprints.Frames(led) + "-led");
+      }
+    }
     if (const auto& external = spec.system.external; external && !IsStream(*external)) {
       // Frames may be another scene's; what a guest is told of names is not.
       job.dataset = CacheDir() / "datasets" /

@@ -13,8 +13,10 @@ namespace aisle {
 /// the only thing that the process reads; fingerprint, resume and rerun come from it as well.
 struct Job {
   RunSpec spec;
-  std::filesystem::path out;      ///< the report's folder
-  std::filesystem::path frames;   ///< where rendered frames are shared; empty: none are kept
+  std::filesystem::path out;     ///< the report's folder
+  std::filesystem::path frames;  ///< where rendered frames are shared; empty: none are kept
+  /// Where pictures are shared that a vehicle is led past, not steered; empty: none are kept.
+  std::filesystem::path led_frames = {};
   std::filesystem::path dataset;  ///< what is exported for a foreign system; empty: it is ours
   /// Jobs with the same frames. The first makes them, the others start when it has ended.
   std::string frames_key;

@@ -10,10 +10,12 @@
 #include "harness/campaign/run_bag.h"
 #include "harness/campaign/source.h"
 #include "harness/campaign/stream_system.h"
+#include "harness/campaign/teaching.h"
 #include "harness/contract/stream.h"
 #include "harness/contract/system_fault.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
+#include "harness/plugs/cached_drive.h"
 #include "harness/plugs/simulated_drive.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/steering_options.h"
@@ -216,7 +218,7 @@ MaskMaker MasksOf(const Job& job) {
 
 /// One of ours, or a foreign one behind a stream, which answers frame by frame as ours do.
 std::unique_ptr<Estimator> EstimatorOf(const Job& job, const StereoCalibration& calibration,
-                                       double rate_hz) {
+                                       double rate_hz, const std::filesystem::path& map = {}) {
   if (const auto& external = job.spec.system.external) {
     return std::make_unique<StreamEstimator>(*external, calibration,
                                              StreamRun{.folder = job.out / FolderOf(job),
@@ -225,7 +227,7 @@ std::unique_ptr<Estimator> EstimatorOf(const Job& job, const StereoCalibration& 
                                                        .rate_hz = rate_hz});
   }
   return MakeSystem(job.spec.system, calibration,
-                    {.threads = job.threads, .draw_stages = job.debug_dynamic});
+                    {.threads = job.threads, .load_map = map, .draw_stages = job.debug_dynamic});
 }
 
 /// Scores a drive of one of ours and writes it all down.
@@ -292,15 +294,46 @@ void RunOurs(const Job& job) {
   File(job, sequence->rate_hz(), std::move(result), &pictures, bag.get());
 }
 
+/// `kept`: where its pictures are shared; empty: they are this run's alone.
+std::unique_ptr<DriveScene> OpenDrive(const Job& job, const std::string& twin,
+                                      std::uint64_t* content_hash,
+                                      const std::filesystem::path& kept = {}) {
+  TellStage("opening the scene, solving its light");
+  SimulatedSequenceOptions options = SimulationOf(job);
+  options.twin = twin;
+  std::unique_ptr<DriveScene> scene = OpenSimulatedDrive(options, content_hash);
+  if (!kept.empty()) scene = WithKeptFrames(std::move(scene), FrameStore(kept));
+  return WantsOdometry(job.spec.system) ? WithOdometry(std::move(scene)) : std::move(scene);
+}
+
+/// Where its map lies until the system has read it; the rest of what a teaching leaves.
+struct Taught {
+  std::filesystem::path map;
+  std::optional<TaughtCourse> course;
+};
+
+/// Leads the vehicle through the scene before anybody is there, where the job asks for it.
+Taught TeachFirst(const Job& job, const Steering& steering) {
+  if (!steering.taught) return {};
+  Taught taught{.map = job.out / FolderOf(job) / "taught.map", .course = {}};
+  const std::unique_ptr<DriveScene> scene = OpenDrive(job, "empty", nullptr, job.led_frames);
+  const auto estimator = EstimatorOf(job, scene->calibration(), scene->rate_hz());
+  TellStage("being led along its way");
+  taught.course = Teach(*scene, *estimator, MasksOf(job), job.spec.seed, taught.map);
+  return taught;
+}
+
 /// A scene whose vehicle the system steers: its frames are this run's alone.
 void RunSteering(const Job& job) {
   std::uint64_t content_hash = 0;
-  TellStage("opening the scene, solving its light");
-  std::unique_ptr<DriveScene> scene = OpenSimulatedDrive(SimulationOf(job), &content_hash);
-  if (WantsOdometry(job.spec.system)) scene = WithOdometry(std::move(scene));
+  const Steering steering = SteeringOf(job.spec.system.options);
+  const std::unique_ptr<DriveScene> scene = OpenDrive(job, job.spec.twin, &content_hash);
   std::unique_ptr<Estimator> estimator;
+  Taught taught;
   try {
-    estimator = EstimatorOf(job, scene->calibration(), scene->rate_hz());
+    taught = TeachFirst(job, steering);
+    estimator = EstimatorOf(job, scene->calibration(), scene->rate_hz(), taught.map);
+    if (!taught.map.empty()) std::filesystem::remove(taught.map);
   } catch (const SystemFault& fault) {
     return FileStillborn(job, scene->rate_hz(), fault);
   }
@@ -308,12 +341,18 @@ void RunSteering(const Job& job) {
   pictures.ExpectDrive();
   const std::unique_ptr<RunBag> bag = BagOf(job, scene->calibration(), true);
   const MaskMaker masks = MasksOf(job);
-  ClosedRun run = RunClosed(*scene, *estimator, masks, SteeringOf(job.spec.system.options),
-                            job.spec.seed, [&](const DrivenFrame& frame) {
-                              pictures.See(frame);
-                              if (bag) bag->See(frame);
-                              TellProgress(frame.index + 1, frame.count);
-                            });
+  const auto observer = [&](const DrivenFrame& frame) {
+    pictures.See(frame);
+    if (bag) bag->See(frame);
+    TellProgress(frame.index + 1, frame.count);
+  };
+  ClosedRun run =
+      RunClosed(*scene, *estimator, masks, steering, job.spec.seed, observer, taught.course);
+  if (taught.course) {
+    run.result.notes.push_back(
+        "its way was taught: it was led along it once, without actors, and drove by its map of "
+        "that");
+  }
   run.result.scene_hash = content_hash;
   Introduce(*estimator, &run.result);
   File(job, scene->rate_hz(), std::move(run.result), &pictures, bag.get(), &run.drive);

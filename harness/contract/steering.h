@@ -17,7 +17,10 @@ struct Steering {
   std::string queue = "newest";
   bool scanner = false;           ///< a safety scanner stops the vehicle
   bool steered_by_truth = false;  ///< the system is shown the drive but does not steer it
-  std::string driver = "";        ///< pure_pursuit or kanayama; empty: as the scene says
+  /// The way is taught first: the vehicle is led along it once, in the scene without actors, and
+  /// then drives as the system's own map of that says. Needs a system that keeps a map.
+  bool taught = false;
+  std::string driver = "";  ///< pure_pursuit or kanayama; empty: as the scene says
 
   bool operator==(const Steering&) const = default;
 };

@@ -43,8 +43,10 @@ double KnownLatency(const Steering& steering) {
   return 1e-3 * ms;
 }
 
-PilotOptions PilotOf(const Course& course, const Steering& steering) {
+PilotOptions PilotOf(const Course& course, const LoopOptions& loop) {
+  const Steering& steering = loop.steering;
   PilotOptions options;
+  if (loop.taught) options.T_site_slam = loop.taught->T_site_slam;
   options.driver = course.driver;
   if (steering.driver == "kanayama") options.driver.law = SteeringLaw::kKanayama;
   if (steering.driver == "pure_pursuit") options.driver.law = SteeringLaw::kPurePursuit;
@@ -62,7 +64,8 @@ class ClosedDrive::Loop {
         course_(scene.course()),
         options_(options),
         server_(RuleOf(options.steering), LatencyOf(options.steering, options.seed)),
-        pilot_(course_.way, course_.start, PilotOf(course_, options.steering)),
+        pilot_(options.taught ? options.taught->way : course_.way, course_.start,
+               PilotOf(course_, options)),
         odometer_(course_.odometry, course_.plant, options.seed),
         traffic_(scene),
         contacts_(course_, &track_) {
@@ -297,6 +300,9 @@ std::string Validate(const Steering& steering) {
     if (!(ms >= 0 && ms <= 10000)) {
       return fmt::format("a latency of the profile is {:g} ms, expected 0 to 10000", ms);
     }
+  }
+  if (steering.taught && steering.steered_by_truth) {
+    return "taught and steered_by_truth are both true: who steers by truth needs no teaching";
   }
   const auto is_one_of = [](const std::string& word, std::initializer_list<const char*> words) {
     return std::ranges::find(words, word) != words.end();

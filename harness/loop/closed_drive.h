@@ -10,11 +10,19 @@
 
 namespace aisle {
 
+/// A way that was taught (TaughtWay) and the map that it was taught in.
+struct TaughtCourse {
+  Way way;
+  Eigen::Isometry3d T_site_slam = Eigen::Isometry3d::Identity();
+};
+
 struct LoopOptions {
   Steering steering;
   std::uint64_t seed = 1;             ///< of the odometry and the latency profile
   std::int64_t tick_ns = 10'000'000;  ///< of control
   ScannerOptions scanner = {};
+  /// What the vehicle drives by instead of the course's own way; scores stay with that one.
+  std::optional<TaughtCourse> taught = {};
   double stands_still_s = 30;  ///< without progress for so long, pauses aside: the end
   double times_planned = 3;    ///< the end after so many times the planned time,
   double and_s = 60;           ///< and so much more

@@ -2,7 +2,7 @@
 
 #include <mutex>
 
-#include "harness/score/difficulty.h"
+#include "harness/plugs/cached_frame.h"
 
 namespace aisle {
 namespace {
@@ -27,16 +27,7 @@ class CachedSequence : public Sequence {
   SequenceFrame At(const FrameRequest& request) const override {
     if (!IsPlanned(request)) return Original().At(request);
     if (std::optional<SequenceFrame> kept = store_.Read(request.id)) return *std::move(kept);
-    SequenceFrame made = Original().At(request);
-    if (made.truth) {
-      if (!made.truth->depth.empty()) made.truth->depth_grid = DepthGrid(made.truth->depth);
-      for (cv::Mat* image : std::initializer_list<cv::Mat*>{
-               &made.truth->depth, &made.truth->depth_right, &made.truth->instance_right}) {
-        image->release();
-      }
-    }
-    store_.Write(made);
-    return made;
+    return MakeAndKeep(store_, [&] { return Original().At(request); });
   }
 
  private:

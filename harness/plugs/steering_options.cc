@@ -69,6 +69,7 @@ bool Set(const std::string& path, const std::string& value, Steering* steering) 
   }
   if (path == "drive.scanner") return TrueWord(value, &steering->scanner);
   if (path == "drive.steered_by_truth") return TrueWord(value, &steering->steered_by_truth);
+  if (path == "drive.taught") return TrueWord(value, &steering->taught);
   if (path == "drive.queue") return ChoiceWord(value, kQueues, &steering->queue);
   const bool known = ChoiceWord(value, kDrivers, &steering->driver);
   if (steering->driver == "scene") steering->driver.clear();
@@ -114,6 +115,15 @@ std::vector<SystemOption> DescribeSteering(const Steering& steering) {
            flag(steering.steered_by_truth),
            "",
            "the system is shown the drive but does not steer it",
+           0,
+           0,
+           {}},
+          {"drive.taught",
+           Kind::kFlag,
+           flag(steering.taught),
+           "",
+           "the vehicle is led along its way first, without actors, and then drives by the map of "
+           "that",
            0,
            0,
            {}},

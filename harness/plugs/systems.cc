@@ -2,6 +2,7 @@
 
 #include "harness/io/input_error.h"
 #include "harness/io/nearest_word.h"
+#include "harness/loop/closed_drive.h"
 #include "harness/plugs/place_vocabulary.h"
 #include "harness/plugs/steering_options.h"
 #include "harness/plugs/stereo_slam_estimator.h"
@@ -80,6 +81,7 @@ std::string CheckOptions(const System& like, const std::map<std::string, std::st
     return fmt::format("option {}: the published ORB-SLAM2 has nothing but its images: {}",
                        kOdometryOption, "take a system like plain or robust, or set base to plain");
   }
+  if (const std::string wrong = Validate(SteeringOf(options)); !wrong.empty()) return wrong;
   return CheckSlamOptions(all);
 }
 

@@ -60,6 +60,8 @@ class Drive {
     // Without a system only the steering can have options; any system checks those.
     const SystemSpec spec = SpecFrom(system.value_or("plain"), options);
     steering_ = SteeringOf(spec.options);
+    if (steering_.taught)
+      throw py::value_error("drive.taught: a suite teaches, this drive does not");
     if (system) {
       spec_ = spec;
       masks_ = MasksFromTruth(FindSystem(*system).mask_source);

@@ -12,7 +12,10 @@ constexpr std::int64_t kSpeedOver_ns = 100'000'000;
 }  // namespace
 
 Pilot::Pilot(const Way& way, const FloorPose& start, const PilotOptions& options)
-    : options_(options), way_(Prepare(way, options.driver)), belief_(start) {
+    : options_(options),
+      way_(Prepare(way, options.driver)),
+      belief_(start),
+      T_site_slam_(options.T_site_slam) {
   rolled_.push_back({.stamp_ns = 0, .pose = start});
 }
 

@@ -14,14 +14,17 @@ struct PilotOptions {
   WatchOptions watch;
   /// T_vehicle_rig: where the camera is mounted, as commissioned.
   Eigen::Isometry3d T_vehicle_rig = Eigen::Isometry3d::Identity();
+  /// Where the SLAM's world lies on the site, where a teaching has told; else the first pose does.
+  std::optional<Eigen::Isometry3d> T_site_slam = {};
 };
 
 /// The computer of a vehicle: what its wheels and its SLAM say goes in, commands come out. It knows
 /// its planned way and where it was put at the start, nothing else; truth has no way in.
 ///
 /// The SLAM's world is joined to the site's once, by the first pose: at that frame the vehicle is
-/// where its wheels put it, which at the first frame is the start. From then on poses are believed
-/// as they are. Between them, and over their age, the wheels carry the belief on.
+/// where its wheels put it, which at the first frame is the start; or beforehand, by a teaching.
+/// From then on poses are believed as they are. Between them, and over their age, the wheels carry
+/// the belief on.
 class Pilot {
  public:
   Pilot(const Way& way, const FloorPose& start, const PilotOptions& options);

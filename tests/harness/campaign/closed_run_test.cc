@@ -1,14 +1,18 @@
 #include "harness/campaign/closed_run.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
+#include "harness/campaign/teaching.h"
+#include "harness/contract/system_fault.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/loop/closed_drive.h"
 #include "harness/loop/localiser.h"
+#include "harness/plugs/cached_drive.h"
 #include "harness/plugs/simulated_drive.h"
 #include "harness/plugs/systems.h"
 #include "harness/record/drive_json.h"
@@ -109,6 +113,49 @@ TEST_F(ClosedRunTest, ArrivesAndHasTheSameBitsOnOneThreadOrManyAndWithGarbageFor
   const auto alone = Open(1);
   EXPECT_EQ(Drive(*alone, 1).drive.track, run.drive.track);
   EXPECT_EQ(Drive(GarbageTruth(*scene)).drive.track, run.drive.track);
+}
+
+TEST_F(ClosedRunTest, ATaughtWayIsDrivenByTheMapOfTheTeaching) {
+  const auto scene = WithKeptFrames(Open(), FrameStore(folder_ / "led"));
+  const MaskMaker masks = MasksFromTruth(MaskSource::kNone);
+  const fs::path map = folder_ / "taught.map";
+  const auto teach = [&] {
+    const auto estimator = MakeSystem(BuiltIn("plain"), scene->calibration());
+    return Teach(*scene, *estimator, masks, 1, map);
+  };
+  const TaughtCourse taught = teach();
+  // Once more, of kept frames: the same way, the same map.
+  const std::string bytes = ReadFile(map);
+  EXPECT_EQ(teach().way.back().points.back().position, taught.way.back().points.back().position);
+  EXPECT_TRUE(ReadFile(map) == bytes);
+
+  const auto estimator = MakeSystem(BuiltIn("plain"), scene->calibration(), {.load_map = map});
+  const Steering steering{.latency_ms = 60};
+  const ClosedRun run = RunClosed(*scene, *estimator, masks, steering, 1, {}, taught);
+  EXPECT_EQ(run.drive.track.end, DriveEnd::kArrived);
+  EXPECT_NEAR(run.drive.track.samples.back().truth.position.x(), 2, 0.01);
+  // It goes on in the map: there is one before its first frame.
+  EXPECT_GT(run.result.estimates.front().counts.at("map_keyframes"), 2);
+  // The twin that is told the truth is the one without a teaching.
+  TruthLocaliser truth;
+  EXPECT_EQ(run.drive.truth_steered, DriveClosed(*scene, &truth, {.steering = steering}));
+}
+
+TEST_F(ClosedRunTest, WhoSeesNothingWhileItIsLedIsTaughtNothing) {
+  const auto scene = Open();
+  const auto estimator = MakeSystem(BuiltIn("plain"), scene->calibration());
+  const MaskMaker nothing_left = [](const SequenceFrame& frame) {
+    const cv::Mat1b all(frame.images.left.size(), 255);
+    return ExternalMask{all, all};
+  };
+  try {
+    Teach(*scene, *estimator, nothing_left, 1, folder_ / "taught.map");
+    ADD_FAILURE() << "taught";
+  } catch (const SystemFault& fault) {
+    EXPECT_EQ(fault.status, RunStatus::kLost);
+    EXPECT_THAT(fault.what(), testing::HasSubstr("could not be taught"));
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "taught.map"));
 }
 
 TEST_F(ClosedRunTest, WhatIsWrittenIsReadBack) {

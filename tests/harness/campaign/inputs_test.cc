@@ -134,6 +134,19 @@ TEST_F(InputsTest, SetSaysWhatIsWrong) {
   }
 }
 
+TEST_F(InputsTest, WhoKeepsNoMapThatIsKnownHereCannotBeTaught) {
+  const auto with = [&](const std::string& options) {
+    return Write("t", "suite: t\nscenes: [a/one]\nseeds: 1\nsystems:\n  - {name: mine, contract: " +
+                          ("stream, command: slam, options: {" + options + "}}\n"));
+  };
+  EXPECT_EQ(LoadInputs({.files = {with("drive.latency_ms: 20")}}).size(), 1u);
+  EXPECT_THAT(Complaint({.files = {with("drive.taught: true")}}), HasSubstr("keeps no map"));
+  EXPECT_THAT(
+      Complaint({.files = {second_},
+                 .set = {"robust.drive.taught=true", "robust.drive.steered_by_truth=true"}}),
+      HasSubstr("needs no teaching"));
+}
+
 TEST_F(InputsTest, AVariantOfASuiteMayBeChosenByName) {
   const std::string file =
       Write("v",

@@ -20,6 +20,7 @@ Job Example() {
               .seed = 18446744073709551615u};
   job.out = "out/x y";
   job.frames = "/frames";
+  job.led_frames = "/frames/led";
   job.frames_key = "the key of the frames";
   job.inputs_hash = "the hash of the inputs";
   job.threads = 3;
@@ -34,6 +35,7 @@ TEST(JobTest, ComesBackAsItWasWritten) {
   EXPECT_EQ(back.spec, Example().spec);
   EXPECT_EQ(ToJson(back), text);
   EXPECT_EQ(back.out, Example().out);
+  EXPECT_EQ(back.led_frames, Example().led_frames);
   EXPECT_FALSE(back.video);
   EXPECT_TRUE(back.debug_dynamic);
 }

@@ -4,6 +4,7 @@
 
 #include "harness/loop/contact_watch.h"
 #include "harness/loop/server.h"
+#include "harness/vehicle/taught_way.h"
 #include "tests/harness/loop/fake_drive_scene.h"
 
 namespace aisle {
@@ -48,6 +49,41 @@ TEST(ClosedDriveTest, WhoBelievesADriftDrivesIt) {
   EXPECT_NEAR(end.truth.position.y(), -0.16, 0.02);
   EXPECT_NEAR(end.cross_track_m, end.truth.position.y(), 1e-9);
   EXPECT_NEAR(end.belief.position.y(), 0, 0.01);
+}
+
+TEST(ClosedDriveTest, WhoWasTaughtByTheSameDriftArrives) {
+  const FakeDriveScene scene;
+  const Course& course = scene.course();
+  DriftingLocaliser drifting(0.02);
+  // What it says along the way, at the places of the way themselves.
+  LoopOptions options;
+  options.taught.emplace();
+  std::vector<TaughtPose> poses;
+  for (const WayPoint& point : course.way[1].points) {
+    const FloorPose led{point.position, point.heading_rad};
+    const Exposure exposure{.T_world_rig = scene.RigAt(led, 0)};
+    const Eigen::Isometry3d said = *drifting.Locate(exposure);
+    if (poses.empty()) options.taught->T_site_slam = exposure.T_world_rig * said.inverse();
+    poses.push_back(
+        {led, FromAbove(options.taught->T_site_slam * said * course.T_vehicle_rig.inverse())});
+  }
+  options.taught->way = TaughtWay(course.way, poses);
+  const DriveSample end = DriveClosed(scene, &drifting, options).samples.back();
+  EXPECT_NEAR(end.truth.position.x(), 8, 4e-3);
+  // Not to the millimetre: by this map one looks ahead while one goes 1.1 degrees aside.
+  EXPECT_NEAR(end.truth.position.y(), 0, 8e-3);
+  EXPECT_NEAR(end.belief.position.y(), 0.16, 0.01) << "which it believes to be 16 cm aside";
+}
+
+TEST(ClosedDriveTest, ATaughtMapSaysWhereTheVehicleStands) {
+  // The map's world is 5 cm to the left of the site's: put at its start, it drives to where the
+  // map has its way.
+  const FakeDriveScene scene;
+  LoopOptions options;
+  options.taught = {scene.course().way, Eigen::Isometry3d::Identity()};
+  options.taught->T_site_slam.translation().y() = 0.05;
+  TruthLocaliser truth;
+  EXPECT_NEAR(DriveClosed(scene, &truth, options).samples.back().truth.position.y(), -0.05, 4e-3);
 }
 
 TEST(ClosedDriveTest, TheSameDriveHasTheSameBits) {
@@ -257,6 +293,8 @@ TEST(SteeringTest, ItsValuesAreChecked) {
   EXPECT_NE(Validate(Steering{.latency_ms = -1}), "");
   EXPECT_NE(Validate(Steering{.queue = "oldest"}), "");
   EXPECT_NE(Validate(Steering{.driver = "carrot"}), "");
+  EXPECT_EQ(Validate(Steering{.taught = true}), "");
+  EXPECT_NE(Validate(Steering{.steered_by_truth = true, .taught = true}), "");
 }
 
 }  // namespace

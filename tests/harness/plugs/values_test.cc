@@ -24,6 +24,7 @@ TEST(SteeringOptions, WhatIsDescribedIsReadBackAsTheSame) {
     steering.queue = std::array{"newest", "drop", "pipeline"}[static_cast<std::size_t>(round % 3)];
     steering.scanner = round % 2;
     steering.steered_by_truth = round / 2 % 2;
+    steering.taught = round % 3 == 1;
     steering.driver =
         std::array{"", "pure_pursuit", "kanayama"}[static_cast<std::size_t>(round / 3 % 3)];
     OptionTexts texts;
@@ -43,17 +44,12 @@ TEST(SteeringOptions, WhatIsDescribedIsReadBackAsTheSame) {
 
 TEST(SteeringOptions, RefuseWhatTheyCannotBeAndSayWhatTheyCan) {
   const std::vector<std::pair<std::string, std::string>> wrong = {
-      {"drive.latency_ms", "-1"},
-      {"drive.latency_ms", "10001"},
-      {"drive.latency_ms", "nan"},
-      {"drive.latency_ms", "5 "},
-      {"drive.latency_ms", ""},
-      {"drive.latency_profile_ms", "5,,6"},
-      {"drive.latency_profile_ms", "x"},
-      {"drive.queue", "oldest"},
-      {"drive.scanner", "yes"},
-      {"drive.steered_by_truth", "1"},
-      {"drive.driver", ""},
+      {"drive.latency_ms", "-1"},        {"drive.latency_ms", "10001"},
+      {"drive.latency_ms", "nan"},       {"drive.latency_ms", "5 "},
+      {"drive.latency_ms", ""},          {"drive.latency_profile_ms", "5,,6"},
+      {"drive.latency_profile_ms", "x"}, {"drive.queue", "oldest"},
+      {"drive.scanner", "yes"},          {"drive.steered_by_truth", "1"},
+      {"drive.taught", "yes"},           {"drive.driver", ""},
       {"drive.drivers", "scene"}};
   for (const auto& [path, value] : wrong) {
     const std::string message = CheckSteeringOption(path, value);
