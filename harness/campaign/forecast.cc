@@ -4,6 +4,7 @@
 
 #include "harness/campaign/equal_runs.h"
 #include "harness/io/duration.h"
+#include "harness/plugs/steering_options.h"
 #include "harness/record/record.h"
 
 namespace aisle {
@@ -56,13 +57,14 @@ std::string Counted(std::size_t count, const char* noun) {
 }  // namespace
 
 Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFrames& count_frames,
-                    const FramesKey& frames_key) {
+                    const FramesKey& frames_key, const IsSteered& is_steered) {
   FrameCounts counts(count_frames);
   std::set<std::string> twins, systems;
   std::set<std::uint64_t> seeds;
   std::set<std::string> rendered;
   std::set<std::pair<std::string, std::string>> driven;  // frames, system
   Forecast forecast{.runs = specs.size()};
+  std::int64_t kept_pairs = 0;
   double drive_core_s = 0;
   for (const RunSpec& spec : specs) {
     const std::int64_t frames = counts.Of(spec);
@@ -70,14 +72,23 @@ Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFra
     systems.insert(spec.system.name);
     seeds.insert(spec.seed);
     const std::string key = frames_key(spec);
-    if (rendered.insert(key).second) forecast.pairs += frames;
+    const bool steered = is_steered(spec.scene_file);
+    const bool taught = steered && SteeringOf(spec.system.options).taught;
+    const auto render_once = [&](const std::string& what) {
+      if (rendered.insert(what).second) kept_pairs += frames;
+    };
+    if (!steered) render_once(key);
+    if (taught) render_once(fmt::format("led {} {}", spec.scene_file, spec.seed));
     if (IsOnlyItsInputs(spec) && !driven.insert({key, spec.system.name}).second) {
       ++forecast.answered;
       continue;
     }
-    forecast.system_frames += frames;
-    drive_core_s += static_cast<double>(frames) * FrameCoreS(spec.system);
+    if (steered) forecast.pairs += frames;
+    const std::int64_t shown = taught ? 2 * frames : frames;
+    forecast.system_frames += shown;
+    drive_core_s += static_cast<double>(shown) * FrameCoreS(spec.system);
   }
+  forecast.pairs += kept_pairs;
   forecast.scenes = counts.scenes();
   forecast.twins = twins.size();
   forecast.systems = systems.size();
@@ -85,7 +96,7 @@ Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFra
   forecast.renders = rendered.size();
   const double render_core_s = static_cast<double>(forecast.pairs) * kPairCoreS;
   forecast.wall_s = (render_core_s + drive_core_s) / std::max(cores, 1);
-  forecast.cache_bytes = static_cast<double>(forecast.pairs) * kFrameBytes;
+  forecast.cache_bytes = static_cast<double>(kept_pairs) * kFrameBytes;
   return forecast;
 }
 

@@ -28,8 +28,12 @@ using CountFrames = std::function<std::int64_t(const std::string& scene_file)>;
 /// systems is driven through them once.
 using FramesKey = std::function<std::string(const RunSpec& spec)>;
 
+/// Whether systems steer through a scene, by its file: what they see is then theirs alone, but what
+/// a vehicle is led past when its way is taught.
+using IsSteered = std::function<bool(const std::string& scene_file)>;
+
 Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFrames& count_frames,
-                    const FramesKey& frames_key);
+                    const FramesKey& frames_key, const IsSteered& is_steered);
 
 /// Seconds each run is thought to take, its frames there already, by RunId: what it took in the
 /// report's folder the last time, else by its frames and its system.

@@ -38,7 +38,7 @@ TaskCost CostsOf(const fs::path& out) {
     if (!std::isnan(last_s)) return last_s;
     // A task has the frames of one scene, twin and seed.
     const auto frames_key = [](const RunSpec&) { return std::string(); };
-    return ForecastOf(specs, 1, CountSourceFrames, frames_key).wall_s;
+    return ForecastOf(specs, 1, CountSourceFrames, frames_key, IsDriveSource).wall_s;
   };
 }
 

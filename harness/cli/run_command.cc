@@ -145,7 +145,7 @@ std::vector<RunSpec> SpecsOf(const PlanFile& plan, const Shard& shard,
   const auto frames_key = [&](const RunSpec& spec) { return fingerprints.Frames(spec); };
   fmt::print(stderr, "aisle: {}\n",
              ToText(ForecastOf(specs, static_cast<int>(std::thread::hardware_concurrency()),
-                               CountSourceFrames, frames_key)));
+                               CountSourceFrames, frames_key, IsDriveSource)));
   return specs;
 }
 

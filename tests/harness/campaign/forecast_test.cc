@@ -6,6 +6,8 @@
 namespace aisle {
 namespace {
 
+bool Led(const std::string&) { return false; }
+
 std::string ByName(const RunSpec& spec) {
   return fmt::format("{} {} {}", spec.scene, spec.twin, spec.seed);
 }
@@ -24,12 +26,12 @@ TEST(ForecastTest, FramesAreRenderedOnceForAllSystems) {
     ++asked;
     return std::int64_t{500};
   };
-  const Forecast forecast = ForecastOf(specs, 2, count, ByName);
+  const Forecast forecast = ForecastOf(specs, 2, count, ByName, Led);
   EXPECT_EQ(asked, 1);
   EXPECT_EQ(forecast.runs, 12u);
   EXPECT_EQ(forecast.pairs, 4 * 500);
   EXPECT_EQ(forecast.system_frames, 12 * 500);
-  EXPECT_NEAR(ForecastOf(specs, 4, count, ByName).wall_s, forecast.wall_s / 2, 1e-9);
+  EXPECT_NEAR(ForecastOf(specs, 4, count, ByName, Led).wall_s, forecast.wall_s / 2, 1e-9);
   EXPECT_THAT(ToText(forecast), testing::HasSubstr("12 runs: 1 scene, 2 twins, 3 systems, 2 seeds; "
                                                    "2,000 stereo pairs to render, 6,000 frames"));
 }
@@ -38,7 +40,7 @@ TEST(ForecastTest, AFrameTakesLongerOnThePublishedBaseAndWhereMoversAreFound) {
   const auto wall_s = [](const std::string& system) {
     return ForecastOf(
                {{"s", "s.yaml", "live", BuiltIn(system), 1}}, 2,
-               [](const std::string&) { return std::int64_t{500}; }, ByName)
+               [](const std::string&) { return std::int64_t{500}; }, ByName, Led)
         .wall_s;
   };
   EXPECT_GT(wall_s("orbslam2"), wall_s("plain") + 5);
@@ -56,11 +58,28 @@ TEST(ForecastTest, EqualRunsAreDrivenOnce) {
                                    {"b", "b.yaml", "empty", BuiltIn("plain"), 1},
                                    {"a", "a.yaml", "empty", foreign, 1},
                                    {"b", "b.yaml", "empty", foreign, 1}};
-  const Forecast forecast = ForecastOf(specs, 2, count, same);
+  const Forecast forecast = ForecastOf(specs, 2, count, same, Led);
   EXPECT_EQ(forecast.pairs, 500);
   EXPECT_EQ(forecast.system_frames, 3 * 500);  // a foreign system is asked each time
   EXPECT_EQ(forecast.answered, 1u);
   EXPECT_THAT(ToText(forecast), testing::HasSubstr(", 1 answered by another of equal inputs; "));
+}
+
+TEST(ForecastTest, WhatSystemsSteerThroughIsRenderedForEachAlone) {
+  const auto count = [](const std::string&) { return std::int64_t{500}; };
+  const auto steered = [](const std::string&) { return true; };
+  SystemSpec taught = BuiltIn("plain"), other = BuiltIn("robust");
+  taught.name = "taught";
+  taught.options["drive.taught"] = other.options["drive.taught"] = "true";
+  const std::vector<RunSpec> specs{{"d", "d.yaml", "live", BuiltIn("plain"), 1},
+                                   {"d", "d.yaml", "live", taught, 1},
+                                   {"d", "d.yaml", "live", other, 1}};
+  const Forecast forecast = ForecastOf(specs, 2, count, ByName, steered);
+  // Three drives, and once the way that both are led along.
+  EXPECT_EQ(forecast.pairs, 4 * 500);
+  EXPECT_EQ(forecast.system_frames, 5 * 500);
+  EXPECT_NEAR(forecast.cache_bytes, ForecastOf({specs[0]}, 2, count, ByName, Led).cache_bytes, 1);
+  EXPECT_EQ(ForecastOf({specs[0]}, 2, count, ByName, steered).cache_bytes, 0);
 }
 
 }  // namespace
