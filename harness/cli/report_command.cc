@@ -13,7 +13,7 @@ namespace aisle {
 namespace {
 
 struct Options {
-  std::string folder, into, allure;
+  std::string folder, into, titled, allure;
   std::vector<std::string> scores;
   bool json = false;
 };
@@ -32,7 +32,7 @@ int Rebuild(const Options& options) {
     const BlockPlace place = ParseBlockPlace(options.into, "tables");
     const std::string page = ReadFile(place.file);
     WriteFileAtomically(place.file, options.scores.empty()
-                                        ? WithTables(page, place, results)
+                                        ? WithTables(page, place, results, options.titled)
                                         : WithScores(page, place, results, options.scores));
     fmt::print("tables: {}\n", place.file);
     return kAllPassed;
@@ -60,11 +60,17 @@ void AddReportCommand(CLI::App* app, Action* action) {
                    "PAGE or PAGE#BLOCK: rewrite that block of a Markdown page with the paper's "
                    "tables, and nothing else; the block of a page alone is tables")
       ->excludes(json);
+  CLI::Option* scores =
+      command
+          ->add_option("--scores", options->scores,
+                       "with --into: these scores of every scene and system instead, A,B,C")
+          ->delimiter(',')
+          ->needs("--into");
   command
-      ->add_option("--scores", options->scores,
-                   "with --into: these scores of every scene and system instead, A,B,C")
-      ->delimiter(',')
-      ->needs("--into");
+      ->add_option("--titled", options->titled,
+                   "with --into: those of the tables alone whose title holds this")
+      ->needs("--into")
+      ->excludes(scores);
   command->add_option("--allure", options->allure, "also write Allure results into this folder");
   command->footer(
       "Example: ./aisle report out/quickstart\n"

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/io/input_error.h"
+
 namespace aisle {
 namespace {
 
@@ -32,6 +34,22 @@ TEST(IntoPage, WritesTheTablesWithWhatTheyAreOf) {
   EXPECT_THAT(page, HasSubstr("1.2500"));
   EXPECT_THAT(page,
               HasSubstr("`./aisle run scenes/suites/paper.yaml --out out/paper`; commit abc, "));
+}
+
+TEST(IntoPage, WritesTheTablesThatWereAskedFor) {
+  const std::string empty = "<!-- begin tables: slam -->\n<!-- end tables -->\n";
+  const BlockPlace place{.file = "page.md", .block = "tables"};
+  const std::string all = WithTables(empty, place, OneRun());
+  const std::string one = WithTables(empty, place, OneRun(), "Absolute trajectory error");
+  EXPECT_THAT(all, HasSubstr("## Drift and absolute error"));
+  EXPECT_THAT(one, testing::Not(HasSubstr("## Drift and absolute error")));
+  EXPECT_THAT(one, HasSubstr("## Absolute trajectory error [m]"));
+  try {
+    WithTables(empty, place, OneRun(), "no such");
+    ADD_FAILURE() << "there is one";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("no table's title holds 'no such'; there are: "));
+  }
 }
 
 }  // namespace
