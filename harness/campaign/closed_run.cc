@@ -51,6 +51,7 @@ ClosedRun RunClosed(const DriveScene& scene, Estimator& estimator, const MaskMak
   TruthLocaliser truth;
   log.truth_steered = DriveClosed(scene, &truth, options);
   options.taught = taught;
+  log.taught = taught.has_value();
   Showing showing(scene.calibration(), scene.rate_hz(), estimator, masks, observer);
   SystemLocaliser system(scene, &showing);
   const Stopwatch watch;

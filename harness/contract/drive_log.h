@@ -110,6 +110,7 @@ struct DriveLog {
   std::vector<FloorThing> things;          ///< that stand near the route
   double latency_ms = 0;
   std::string steered_by;  ///< "estimate" or "truth"
+  bool taught = false;     ///< by a taught way; beliefs are places of the map of that teaching
   DriveTrack track;
   /// The same vehicle at the same latency, told its true pose: what of the error is the driver's.
   DriveTrack truth_steered;

@@ -189,6 +189,7 @@ DriveLog FromJson(const Json& json) {
   }
   log.latency_ms = json.at("latency_ms").get<double>();
   log.steered_by = json.at("steered_by").get<std::string>();
+  log.taught = json.value("taught", false);
   log.track = TrackFromJson(json.at("track"));
   log.truth_steered = TrackFromJson(json.at("truth_steered"));
   return log;
@@ -212,6 +213,7 @@ std::string ToJson(const DriveLog& log) {
                {"things", Json::array()},
                {"latency_ms", log.latency_ms},
                {"steered_by", log.steered_by},
+               {"taught", log.taught},
                {"track", ToJson(log.track)},
                {"truth_steered", ToJson(log.truth_steered)}};
   for (const FloorPose& pose : log.route) json["route"].push_back(ToJson(pose));

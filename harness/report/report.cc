@@ -3,6 +3,7 @@
 #include "harness/io/file.h"
 #include "harness/report/junit.h"
 #include "harness/report/page/cost_section.h"
+#include "harness/report/page/drive_outcome.h"
 #include "harness/report/page/hall_section.h"
 #include "harness/report/page/overview_section.h"
 #include "harness/report/page/page.h"
@@ -81,6 +82,9 @@ void WriteReport(const Results& results, const fs::path& report_dir, const Repor
   const bool trends = WriteTrends(results, report_dir, options);
   std::string body = VerdictSection(results, scenes, links, SinceWhen(options.history));
   if (trends) body += "<p><a href=\"trends.html\">How the nights went</a></p>\n";
+  if (const std::string drives = DriveOverview(scenes, links); !drives.empty()) {
+    body += "<section>" + drives + "</section>\n";
+  }
   body += "<div class=\"sections\"><section>" + OverviewSection(scenes, links) +
           "</section>\n<section>" + CostSection(scenes) + "</section></div>\n";
   body += HallSection(scenes) + PaperLink(scenes, report_dir) +

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "harness/judge/twins.h"
+#include "harness/report/page/drive_outcome.h"
 #include "harness/report/page/parts.h"
 
 namespace aisle {
@@ -22,6 +23,8 @@ struct SceneErrors {
   std::string scene;
   std::vector<SystemError> known;
   std::vector<std::string> lost;  ///< systems of which some run has no error
+  std::string drives = {};        ///< how those that steer ended, in words; empty: nobody steers
+  double worst_docking_m = 0;
 };
 
 /// The first system of the scene of which this is true; null for none.
@@ -33,6 +36,7 @@ const SystemError* Find(const SceneErrors& errors,
 }
 
 double Worst(const SceneErrors& errors) {
+  if (!errors.drives.empty()) return errors.worst_docking_m;
   double worst = errors.lost.empty() ? 0 : 1e9;
   for (const SystemError& one : errors.known) worst = std::max(worst, one.ate_m);
   return worst;
@@ -43,7 +47,11 @@ std::vector<SceneErrors> CollectErrors(const Results& results) {
   for (const SceneRuns& scene : GroupByScene(results)) {
     if (scene.twin != "live") continue;
     SceneErrors& of_scene = collected.emplace_back(SceneErrors{scene.scene, {}, {}});
+    of_scene.drives = DriveSentence(scene);
     for (const SystemRuns& system : scene.systems) {
+      if (const auto outcome = OutcomeOf(system.runs)) {
+        of_scene.worst_docking_m = std::max(of_scene.worst_docking_m, outcome->docking_m);
+      }
       if (const auto ate_m = MedianScore(system.runs, "ate_rmse_m")) {
         of_scene.known.push_back(
             {system.runs.front()->spec.system, *ate_m,
@@ -100,6 +108,7 @@ std::string WonBackInWords(const SceneErrors& errors) {
 }
 
 std::string Sentence(const SceneErrors& errors) {
+  if (!errors.drives.empty()) return errors.drives;
   std::vector<std::string> parts;
   for (const auto& [system, ate_m, coverage] : errors.known) {
     parts.push_back(fmt::format(
@@ -123,7 +132,9 @@ std::string LengthInWords(double metres) {
 
 std::vector<std::string> AnswerInWords(const Results& results) {
   std::vector<SceneErrors> scenes = CollectErrors(results);
-  std::erase_if(scenes, [](const SceneErrors& errors) { return errors.known.empty(); });
+  std::erase_if(scenes, [](const SceneErrors& errors) {
+    return errors.known.empty() && errors.drives.empty();
+  });
   std::stable_sort(scenes.begin(), scenes.end(),
                    [](const SceneErrors& a, const SceneErrors& b) { return Worst(a) > Worst(b); });
   std::vector<std::string> sentences;

@@ -10,7 +10,8 @@ namespace aisle {
 /// What the runs say, in a few sentences, worst first: how far each system is off on the scenes as
 /// written (medians over seeds of ATE), and how much each rejection wins back of what movers cost
 /// the same system without it. An error of less than whole drives (AreWholeDrives) says of how
-/// much it is and wins nothing back. Empty where no run has an ATE.
+/// much it is and wins nothing back. Of a scene whose vehicle the systems steer it says where that
+/// ended (DriveSentence). Empty where no run has an ATE or steers.
 ///
 ///   On paper/scene2, plain is off by 1.69 m, robust by 0.5 cm and oracle by 0.4 cm: robust wins
 ///   back 99.7 % of what movers cost plain.

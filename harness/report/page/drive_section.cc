@@ -57,10 +57,12 @@ std::string HowItEnded(const DriveSeries& one) {
     return fmt::format("{}: {} after {:.1f} s, {:.2f} m before its goal", one.name,
                        Name(log.track.end), log.track.time_s, off_mm / 1000);
   }
+  const std::string believed =
+      log.taught ? fmt::format("by a map that has it {:.1f} mm elsewhere", believed_mm)
+                 : fmt::format("and takes it for {:.1f} mm", believed_mm);
   return fmt::format(
-      "{}: stands {:.1f} mm from its goal and takes it for {:.1f} mm; told the truth it would "
-      "stand {:.1f} mm off",
-      one.name, off_mm, believed_mm, twin_mm);
+      "{}: stands {:.1f} mm from its goal {}; told the truth it would stand {:.1f} mm off",
+      one.name, off_mm, believed, twin_mm);
 }
 
 }  // namespace

@@ -134,6 +134,7 @@ TEST_F(ClosedRunTest, ATaughtWayIsDrivenByTheMapOfTheTeaching) {
   const ClosedRun run = RunClosed(*scene, *estimator, masks, steering, 1, {}, taught);
   EXPECT_EQ(run.drive.track.end, DriveEnd::kArrived);
   EXPECT_NEAR(run.drive.track.samples.back().truth.position.x(), 2, 0.01);
+  EXPECT_TRUE(DriveLogFromJson(ToJson(run.drive), "drive.json").taught);
   // It goes on in the map: there is one before its first frame.
   EXPECT_GT(run.result.estimates.front().counts.at("map_keyframes"), 2);
   // The twin that is told the truth is the one without a teaching.
