@@ -103,8 +103,10 @@ void AddDrive(std::vector<ScoreDescription>* names) {
       {"cross_track_rms_m", "m", "root mean square of the true vehicle's distance from its route"},
       {"cross_track_max_m", "m", "largest distance of the true vehicle from its route"},
       {"heading_error_max_deg", "deg", "largest turn of the true vehicle from its route"},
-      {"belief_error_rms_m", "m", "root mean square of where it believed to be from where it was"},
-      {"belief_error_max_m", "m", "largest distance of belief and truth"},
+      {"belief_error_rms_m", "m",
+       "root mean square of where it believed to be from where it was; by a taught way the map's "
+       "own error is in it"},
+      {"belief_error_max_m", "m", "largest distance of belief and truth, likewise"},
       {"docking_error_m", "m", "distance of the vehicle from its goal at the end"},
       {"docking_error_deg", "deg", "turn of the vehicle from its goal at the end"},
       {"cross_track_truth_steered_rms_m", "m", "cross_track_rms_m of the truth-steered twin"},
