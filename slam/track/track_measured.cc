@@ -45,12 +45,11 @@ std::vector<Expected> ExpectAround(const PlainContext& context, const TrackMemor
   return expected;
 }
 
-}  // namespace
-
-std::optional<FramePose> TrackMeasured(const PlainContext& context, const TrackMemory& memory,
-                                       const Places& places, std::int64_t turn) {
+/// Looks for landmarks around where the rig is measured to be. Those vote that agree with that, and
+/// it counts itself. Nothing where what they tell contradicts it.
+std::optional<FramePose> FindAround(const PlainContext& context, const TrackMemory& memory,
+                                    const Reckoned& reckoned) {
   const auto& [map, frame, camera, levels, options] = context;
-  const Reckoned reckoned = ReckonedFrom(map, memory, *memory.measured);
   TrackOptions relaxed = options;
   relaxed.least_map_inliers = options.measured.least_inliers;
   const PlainContext relaxed_context{map, frame, camera, levels, relaxed};
@@ -73,23 +72,36 @@ std::optional<FramePose> TrackMeasured(const PlainContext& context, const TrackM
         RefineInLocalMap(relaxed_context, first.T_rig_world, Inliers(matches, first), refine);
     if (found && Agrees(*found, reckoned, options.measured.most_chi2)) return found;
   }
-  auto found = Relocalise(context, memory, places, turn);
-  if (found && Agrees(*found, reckoned, options.measured.most_chi2)) return found;
   return std::nullopt;
+}
+
+/// By their looks keyframes may tell of anywhere; only what agrees is believed.
+std::optional<FramePose> FindByLooks(const PlainContext& context, const TrackMemory& memory,
+                                     const Reckoned& reckoned, const Places& places,
+                                     std::int64_t turn) {
+  auto found = Relocalise(context, memory, places, turn);
+  if (found && Agrees(*found, reckoned, context.options.measured.most_chi2)) return found;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<FramePose> TrackMeasured(const PlainContext& context, const TrackMemory& memory,
+                                       const Places& places, std::int64_t turn) {
+  const Reckoned reckoned = ReckonedFrom(context.map, memory, *memory.measured);
+  if (auto found = FindAround(context, memory, reckoned)) return found;
+  return FindByLooks(context, memory, reckoned, places, turn);
 }
 
 std::optional<FramePose> TrackCarried(const PlainContext& context, const TrackMemory& memory,
                                       const Places& places, std::int64_t turn) {
   auto found = TrackFrame(context, memory);
-  if (!memory.carried) return found;
+  if (!memory.carried || (found && IsConvincing(*found, context.options))) return found;
   const Reckoned reckoned = ReckonedFrom(context.map, memory, *memory.carried);
-  if (found && (IsConvincing(*found, context.options) ||
-                Agrees(*found, reckoned, context.options.inertia.most_chi2))) {
-    return found;
-  }
-  TrackMemory carried = memory;
-  carried.measured = memory.carried;
-  return TrackMeasured(context, carried, places, turn);
+  if (found && !Agrees(*found, reckoned, context.options.inertia.most_chi2)) found.reset();
+  auto around = FindAround(context, memory, reckoned);
+  if (around && (!found || around->pose.inliers > found->pose.inliers)) return around;
+  return found ? found : FindByLooks(context, memory, reckoned, places, turn);
 }
 
 }  // namespace aisle::slam

@@ -15,9 +15,10 @@ namespace aisle::slam {
 std::optional<FramePose> TrackMeasured(const PlainContext& context, const TrackMemory& memory,
                                        const Places& places, std::int64_t turn);
 
-/// Finds the frame in the map as TrackFrame does. What that finds must explain enough of what
-/// should be seen or be where the rig's inertia can have carried it; else the frame is looked for
-/// there, as if inertia were a measurement. Nothing if neither finds it.
+/// Finds the frame in the map as TrackFrame does. A pose that explains too little of what should be
+/// seen must be where the rig's inertia can have carried it, and contends with what is found by
+/// looking there, as if inertia were a measurement: who explains more is believed. Nothing if
+/// neither finds it.
 std::optional<FramePose> TrackCarried(const PlainContext& context, const TrackMemory& memory,
                                       const Places& places, std::int64_t turn);
 

@@ -45,7 +45,10 @@ class PointWorld {
 
   /// From here on, points `from` to `to` (not included) have gone to elsewhere, by so much.
   void Move(std::size_t from, std::size_t to, const Eigen::Vector3d& by) {
-    for (std::size_t i = from; i < to; ++i) points_[i] += by;
+    Move(from, to, Eigen::Isometry3d(Eigen::Translation3d(by)));
+  }
+  void Move(std::size_t from, std::size_t to, const Eigen::Isometry3d& T_after_before) {
+    for (std::size_t i = from; i < to; ++i) points_[i] = T_after_before * points_[i];
   }
 
  private:

@@ -104,6 +104,25 @@ TEST_F(TrackMeasuredTest, ARigInMotionIsNotStoppedByWhoHidesMostOfTheMap) {
   EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), 0.015);
 }
 
+/// At five frames a second inertia allows for much, standing still by who goes along among it. More
+/// of the map is seen from where it leads.
+TEST_F(TrackMeasuredTest, WhatInertiaAllowsContendsWithWhatIsFoundWhereItLeads) {
+  const Eigen::Isometry3d truth = At(0, 0.25, 5);
+  world.Move(0, 60, truth);
+  world.Move(180, 600, {0, 500, 0});
+  const auto frame = world.See(truth, kStep_ns);
+  const PlainContext context{map, *frame, {}, 8, {}};
+  const auto captured = TrackFrame(context, memory);
+  ASSERT_TRUE(captured);
+  EXPECT_FALSE(IsConvincing(*captured, context.options));
+  EXPECT_LT(Difference(memory.PoseIn(map).inverse(), captured->pose.T_rig_world).norm(), 0.01);
+
+  memory.carried = Measured(At(0, 0.2, 3), 0.06, 0.12);
+  const auto found = TrackCarried(context, memory, {nullptr, index}, 0);
+  ASSERT_TRUE(found);
+  EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), 0.015);
+}
+
 TEST_F(TrackMeasuredTest, WhatExplainsAllThatShouldBeSeenIsBelievedAgainstInertia) {
   const Eigen::Isometry3d truth = At(0, 0);  // an emergency stop
   memory.carried = Measured(At(0, 0.3), 0.004, 0.007);
