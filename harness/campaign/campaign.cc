@@ -48,6 +48,7 @@ RunRecord FailedRun(const Job& job, const ProcessResult& result, const ProcessLi
 void ShrinkCaches() {
   constexpr std::uintmax_t kMostBytes = std::uintmax_t{12} << 30;
   ShrinkStore(CacheDir() / "frames", kMostBytes);
+  ShrinkStore(CacheDir() / "taught", kMostBytes / 4);
   ShrinkStore(CacheDir() / "datasets", kMostBytes, std::chrono::hours(24));
 }
 

@@ -1,9 +1,11 @@
 #include "harness/campaign/forecast.h"
 
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "harness/campaign/equal_runs.h"
 #include "harness/io/duration.h"
+#include "harness/io/system_spec_json.h"
 #include "harness/plugs/steering_options.h"
 #include "harness/record/record.h"
 
@@ -62,7 +64,7 @@ Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFra
   std::set<std::string> twins, systems;
   std::set<std::uint64_t> seeds;
   std::set<std::string> rendered;
-  std::set<std::pair<std::string, std::string>> driven;  // frames, system
+  std::set<std::pair<std::string, std::string>> driven, taught;  // frames, system
   Forecast forecast{.runs = specs.size()};
   std::int64_t kept_pairs = 0;
   double drive_core_s = 0;
@@ -73,18 +75,22 @@ Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFra
     seeds.insert(spec.seed);
     const std::string key = frames_key(spec);
     const bool steered = is_steered(spec.scene_file);
-    const bool taught = steered && SteeringOf(spec.system.options).taught;
     const auto render_once = [&](const std::string& what) {
       if (rendered.insert(what).second) kept_pairs += frames;
     };
     if (!steered) render_once(key);
-    if (taught) render_once(fmt::format("led {} {}", spec.scene_file, spec.seed));
     if (IsOnlyItsInputs(spec) && !driven.insert({key, spec.system.name}).second) {
       ++forecast.answered;
       continue;
     }
+    std::int64_t shown = frames;
     if (steered) forecast.pairs += frames;
-    const std::int64_t shown = taught ? 2 * frames : frames;
+    if (steered && SteeringOf(spec.system.options).taught) {
+      const RunSpec led = AsLed(spec);
+      const std::string led_key = frames_key(led) + "-led";
+      render_once(led_key);
+      if (taught.insert({led_key, ToJson(led.system).dump()}).second) shown += frames;
+    }
     forecast.system_frames += shown;
     drive_core_s += static_cast<double>(shown) * FrameCoreS(spec.system);
   }

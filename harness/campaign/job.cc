@@ -49,6 +49,7 @@ Job FromJson(const Json& json) {
   job.out = json.at("out").get<std::string>();
   job.frames = json.at("frames").get<std::string>();
   job.led_frames = json.value("led_frames", "");
+  job.teaching = json.value("teaching", "");
   job.dataset = json.at("dataset").get<std::string>();
   job.frames_key = json.at("frames_key").get<std::string>();
   job.inputs_hash = json.at("inputs_hash").get<std::string>();
@@ -74,6 +75,7 @@ std::string ToJson(const Job& job) {
                {"out", job.out.string()},
                {"frames", job.frames.string()},
                {"led_frames", job.led_frames.string()},
+               {"teaching", job.teaching.string()},
                {"dataset", job.dataset.string()},
                {"frames_key", job.frames_key},
                {"inputs_hash", job.inputs_hash},
@@ -115,6 +117,11 @@ std::string Fingerprints::Run(const RunSpec& spec) const {
   return fmt::format("{:016x}", Hash(Frames(spec), at->second));
 }
 
+std::string Fingerprints::Teaching(const RunSpec& spec) const {
+  const RunSpec led = AsLed(spec);
+  return fmt::format("{:016x}", Hash(Frames(led), HashSystem(led.system, program_)));
+}
+
 std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Fingerprints& fingerprints,
                           const JobOptions& options) {
   std::vector<Job> jobs;
@@ -135,9 +142,8 @@ std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Fingerprints&
     if (options.frame_cache && !IsRecording(spec.scene_file)) {
       job.frames = CacheDir() / "frames" / job.frames_key;
       if (SteeringOf(spec.system.options).taught) {
-        RunSpec led = spec;
-        led.twin = "empty";
-        job.led_frames = CacheDir() / "frames" / (fingerprints.Frames(led) + "-led");
+        job.led_frames = CacheDir() / "frames" / (fingerprints.Frames(AsLed(spec)) + "-led");
+        job.teaching = CacheDir() / "taught" / fingerprints.Teaching(spec);
       }
     }
     if (const auto& external = spec.system.external; external && !IsStream(*external)) {

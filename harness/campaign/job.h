@@ -17,6 +17,9 @@ struct Job {
   std::filesystem::path frames;  ///< where rendered frames are shared; empty: none are kept
   /// Where pictures are shared that a vehicle is led past, not steered; empty: none are kept.
   std::filesystem::path led_frames = {};
+  /// Where what the system was taught by being led is shared with its other drives through the
+  /// scene; empty: it is kept nowhere.
+  std::filesystem::path teaching = {};
   std::filesystem::path dataset;  ///< what is exported for a foreign system; empty: it is ours
   /// Jobs with the same frames. The first makes them, the others start when it has ended.
   std::string frames_key;
@@ -50,6 +53,9 @@ class Fingerprints {
   /// Of the frames alone: shared by all systems, and by scenes that look the same in this twin.
   std::string Frames(const RunSpec& spec) const;
   std::string Run(const RunSpec& spec) const;
+  /// Of what a system is taught by being led through the scene: however it steers afterwards, with
+  /// whomever in its way.
+  std::string Teaching(const RunSpec& spec) const;
 
  private:
   std::uint64_t renderer_;

@@ -306,37 +306,43 @@ std::unique_ptr<DriveScene> OpenDrive(const Job& job, const std::string& twin,
   return WantsOdometry(job.spec.system) ? WithOdometry(std::move(scene)) : std::move(scene);
 }
 
-/// Where its map lies until the system has read it; the rest of what a teaching leaves.
-struct Taught {
-  std::filesystem::path map;
-  std::optional<TaughtCourse> course;
-};
-
-/// Leads the vehicle through the scene before anybody is there, where the job asks for it.
-Taught TeachFirst(const Job& job, const Steering& steering) {
-  if (!steering.taught) return {};
-  Taught taught{.map = job.out / FolderOf(job) / "taught.map", .course = {}};
+/// Leads the vehicle through the scene before anybody is there, or takes what is kept of that. The
+/// map is written to `map_file`.
+Teaching TeachFirst(const Job& job, const std::filesystem::path& map_file) {
+  if (!job.teaching.empty()) {
+    if (auto kept = ReadTeaching(job.teaching, map_file)) return *std::move(kept);
+  }
   const std::unique_ptr<DriveScene> scene = OpenDrive(job, "empty", nullptr, job.led_frames);
   const auto estimator = EstimatorOf(job, scene->calibration(), scene->rate_hz());
   TellStage("being led along its way");
-  taught.course = Teach(*scene, *estimator, MasksOf(job), job.spec.seed, taught.map);
-  return taught;
+  Teaching teaching = Teach(*scene, *estimator, MasksOf(job), job.spec.seed, map_file);
+  if (!job.teaching.empty()) KeepTeaching(teaching, map_file, job.teaching);
+  return teaching;
 }
 
 /// A scene whose vehicle the system steers: its frames are this run's alone.
 void RunSteering(const Job& job) {
-  std::uint64_t content_hash = 0;
   const Steering steering = SteeringOf(job.spec.system.options);
+  const std::filesystem::path map =
+      steering.taught ? job.out / FolderOf(job) / "taught.map" : std::filesystem::path();
+  std::optional<Teaching> teaching;
+  std::optional<SystemFault> fault;
+  try {
+    if (steering.taught) teaching = TeachFirst(job, map);
+  } catch (const SystemFault& taught_nothing) {
+    fault = taught_nothing;
+  }
+  std::uint64_t content_hash = 0;
   const std::unique_ptr<DriveScene> scene = OpenDrive(job, job.spec.twin, &content_hash);
   std::unique_ptr<Estimator> estimator;
-  Taught taught;
   try {
-    taught = TeachFirst(job, steering);
-    estimator = EstimatorOf(job, scene->calibration(), scene->rate_hz(), taught.map);
-    if (!taught.map.empty()) std::filesystem::remove(taught.map);
-  } catch (const SystemFault& fault) {
-    return FileStillborn(job, scene->rate_hz(), fault);
+    if (!fault) estimator = EstimatorOf(job, scene->calibration(), scene->rate_hz(), map);
+  } catch (const SystemFault& stillborn) {
+    fault = stillborn;
   }
+  std::error_code error;
+  std::filesystem::remove(map, error);
+  if (fault) return FileStillborn(job, scene->rate_hz(), *fault);
   Pictures pictures(job, scene->rate_hz());
   pictures.ExpectDrive();
   const std::unique_ptr<RunBag> bag = BagOf(job, scene->calibration(), true);
@@ -346,9 +352,9 @@ void RunSteering(const Job& job) {
     if (bag) bag->See(frame);
     TellProgress(frame.index + 1, frame.count);
   };
-  ClosedRun run =
-      RunClosed(*scene, *estimator, masks, steering, job.spec.seed, observer, taught.course);
-  if (taught.course) {
+  const auto taught = teaching ? std::optional(TaughtBy(*teaching, scene->course())) : std::nullopt;
+  ClosedRun run = RunClosed(*scene, *estimator, masks, steering, job.spec.seed, observer, taught);
+  if (taught) {
     run.result.notes.push_back(
         "its way was taught: it was led along it once, without actors, and drove by its map of "
         "that");

@@ -1,13 +1,24 @@
 #include "harness/campaign/teaching.h"
 
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "harness/contract/system_fault.h"
+#include "harness/io/file.h"
+#include "harness/io/hash.h"
+#include "harness/io/input_error.h"
 #include "harness/loop/localiser.h"
-#include "harness/vehicle/taught_way.h"
 
 namespace aisle {
 namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr int kSchema = 1;
+constexpr const char* kPosesName = "teaching.json";
+constexpr const char* kMapName = "taught.map";
+constexpr std::size_t kLargestMap = std::size_t{8} << 30;
 
 /// Below this share of frames with a pose nothing has been taught.
 constexpr double kLeastShare = 0.5;
@@ -40,8 +51,8 @@ class Looking : public Localiser {
 
 }  // namespace
 
-TaughtCourse Teach(const DriveScene& scene, Estimator& estimator, const MaskMaker& masks,
-                   std::uint64_t seed, const std::filesystem::path& map_file) {
+Teaching Teach(const DriveScene& scene, Estimator& estimator, const MaskMaker& masks,
+               std::uint64_t seed, const fs::path& map_file) {
   Looking looking(scene, estimator, masks);
   const LoopOptions led{.steering = {.steered_by_truth = true}, .seed = seed};
   const DriveTrack track = DriveClosed(scene, &looking, led);
@@ -55,25 +66,74 @@ TaughtCourse Teach(const DriveScene& scene, Estimator& estimator, const MaskMake
                                   said.size(), shown));
   }
   // Where the teaching began the map is the site's.
-  const Course& course = scene.course();
   const auto T_site_rig = [&](const StampedPose& pose) {
     return looking.T_site_rig().at(pose.stamp_ns);
   };
-  TaughtCourse taught;
-  taught.T_site_slam = T_site_rig(said.front()) * said.front().T_world_rig.inverse();
-  const Eigen::Isometry3d T_rig_vehicle = course.T_vehicle_rig.inverse();
-  std::vector<TaughtPose> poses;
+  Teaching teaching;
+  teaching.T_site_slam = T_site_rig(said.front()) * said.front().T_world_rig.inverse();
+  const Eigen::Isometry3d T_rig_vehicle = scene.course().T_vehicle_rig.inverse();
   for (const StampedPose& pose : said) {
-    poses.push_back({FromAbove(T_site_rig(pose) * T_rig_vehicle),
-                     FromAbove(taught.T_site_slam * pose.T_world_rig * T_rig_vehicle)});
+    teaching.poses.push_back({FromAbove(T_site_rig(pose) * T_rig_vehicle),
+                              FromAbove(teaching.T_site_slam * pose.T_world_rig * T_rig_vehicle)});
   }
-  taught.way = TaughtWay(course.way, poses);
   try {
     estimator.SaveMap(map_file);
   } catch (const std::runtime_error& error) {
     throw SystemFault(RunStatus::kCrashed, error.what());
   }
-  return taught;
+  return teaching;
+}
+
+TaughtCourse TaughtBy(const Teaching& teaching, const Course& course) {
+  return {TaughtWay(course.way, teaching.poses), teaching.T_site_slam};
+}
+
+void KeepTeaching(const Teaching& teaching, const fs::path& map_file, const fs::path& folder) {
+  const std::string map = ReadFile(map_file, kLargestMap);
+  Json json = {{"schema", kSchema}, {"map_hash", Hash(map)}};
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      json["T_site_slam"].push_back(teaching.T_site_slam.matrix()(row, column));
+    }
+  }
+  for (const TaughtPose& pose : teaching.poses) {
+    json["poses"].push_back({pose.led.position.x(), pose.led.position.y(), pose.led.heading_rad,
+                             pose.said.position.x(), pose.said.position.y(),
+                             pose.said.heading_rad});
+  }
+  // Who finds the poses finds the map that they belong to.
+  WriteFileAtomically(folder / kMapName, map, Durability::kSurvivesProcessLoss);
+  WriteFileAtomically(folder / kPosesName, json.dump(), Durability::kSurvivesProcessLoss);
+}
+
+std::optional<Teaching> ReadTeaching(const fs::path& folder, const fs::path& map_file) {
+  std::error_code error;
+  if (!fs::exists(folder / kPosesName, error)) return std::nullopt;
+  try {
+    const Json json = Json::parse(ReadFile(folder / kPosesName));
+    const std::string map = ReadFile(folder / kMapName, kLargestMap);
+    if (json.at("schema") != kSchema || json.at("map_hash") != Hash(map)) return std::nullopt;
+    Teaching teaching;
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 4; ++column) {
+        teaching.T_site_slam.matrix()(row, column) = json.at("T_site_slam").at(4 * row + column);
+      }
+    }
+    for (const Json& pose : json.at("poses")) {
+      const auto floor = [&](std::size_t at) {
+        return FloorPose{{pose.at(at).get<double>(), pose.at(at + 1).get<double>()},
+                         pose.at(at + 2).get<double>()};
+      };
+      teaching.poses.push_back({floor(0), floor(3)});
+    }
+    WriteFileAtomically(map_file, map, Durability::kSurvivesProcessLoss);
+    fs::last_write_time(folder, fs::file_time_type::clock::now(),
+                        error);  // used: not to be deleted
+    return teaching;
+  } catch (const InputError&) {  // deleted under our hands
+  } catch (const Json::exception&) {
+  }
+  return std::nullopt;
 }
 
 }  // namespace aisle

@@ -165,4 +165,11 @@ OptionTexts WithoutSteering(const OptionTexts& options) {
   return others;
 }
 
+RunSpec AsLed(RunSpec spec) {
+  spec.twin = "empty";
+  spec.system.name.clear();
+  spec.system.options = WithoutSteering(spec.system.options);
+  return spec;
+}
+
 }  // namespace aisle

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/contract/run.h"
 #include "harness/contract/steering.h"
 #include "harness/contract/system_option.h"
 
@@ -28,5 +29,9 @@ Steering SteeringOf(const OptionTexts& options);
 
 /// The options that are none of them.
 OptionTexts WithoutSteering(const OptionTexts& options);
+
+/// The run in which a system is taught its way (Steering::taught): nobody is there, and neither its
+/// name nor how it will steer counts. Runs that are led alike are taught the same.
+RunSpec AsLed(RunSpec spec);
 
 }  // namespace aisle

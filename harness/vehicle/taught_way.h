@@ -11,6 +11,7 @@ namespace aisle {
 struct TaughtPose {
   FloorPose led;   ///< true, of the site
   FloorPose said;  ///< in the map, joined to the site at the start
+  bool operator==(const TaughtPose&) const = default;
 };
 
 /// A way as the map has it: what the SLAM said while the vehicle was led along `planned`, so that

@@ -123,11 +123,27 @@ TEST_F(ClosedRunTest, ATaughtWayIsDrivenByTheMapOfTheTeaching) {
     const auto estimator = MakeSystem(BuiltIn("plain"), scene->calibration());
     return Teach(*scene, *estimator, masks, 1, map);
   };
-  const TaughtCourse taught = teach();
+  const Teaching teaching = teach();
+  const TaughtCourse taught = TaughtBy(teaching, scene->course());
   // Once more, of kept frames: the same way, the same map.
   const std::string bytes = ReadFile(map);
-  EXPECT_EQ(teach().way.back().points.back().position, taught.way.back().points.back().position);
+  EXPECT_EQ(teach().poses, teaching.poses);
   EXPECT_TRUE(ReadFile(map) == bytes);
+
+  // Kept for other drives, and not believed when it is damaged.
+  const fs::path kept = folder_ / "kept", copy = folder_ / "copy.map";
+  EXPECT_FALSE(ReadTeaching(kept, copy));
+  KeepTeaching(teaching, map, kept);
+  const auto read = ReadTeaching(kept, copy);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->poses, teaching.poses);
+  EXPECT_EQ(read->T_site_slam.matrix(), teaching.T_site_slam.matrix());
+  EXPECT_TRUE(ReadFile(copy) == bytes);
+  WriteFileAtomically(kept / "taught.map", bytes.substr(1));
+  EXPECT_FALSE(ReadTeaching(kept, copy));
+  KeepTeaching(teaching, map, kept);
+  WriteFileAtomically(kept / "teaching.json", R"({"schema": 1})");
+  EXPECT_FALSE(ReadTeaching(kept, copy));
 
   const auto estimator = MakeSystem(BuiltIn("plain"), scene->calibration(), {.load_map = map});
   const Steering steering{.latency_ms = 60};

@@ -71,13 +71,17 @@ TEST(ForecastTest, WhatSystemsSteerThroughIsRenderedForEachAlone) {
   SystemSpec taught = BuiltIn("plain"), other = BuiltIn("robust");
   taught.name = "taught";
   taught.options["drive.taught"] = other.options["drive.taught"] = "true";
+  SystemSpec late = taught;
+  late.name = "late";
+  late.options["drive.latency_ms"] = "50";
   const std::vector<RunSpec> specs{{"d", "d.yaml", "live", BuiltIn("plain"), 1},
                                    {"d", "d.yaml", "live", taught, 1},
+                                   {"d", "d.yaml", "live", late, 1},
                                    {"d", "d.yaml", "live", other, 1}};
   const Forecast forecast = ForecastOf(specs, 2, count, ByName, steered);
-  // Three drives, and once the way that both are led along.
-  EXPECT_EQ(forecast.pairs, 4 * 500);
-  EXPECT_EQ(forecast.system_frames, 5 * 500);
+  // Four drives, and once the way that three are led along; two of them are taught the same.
+  EXPECT_EQ(forecast.pairs, 5 * 500);
+  EXPECT_EQ(forecast.system_frames, 6 * 500);
   EXPECT_NEAR(forecast.cache_bytes, ForecastOf({specs[0]}, 2, count, ByName, Led).cache_bytes, 1);
   EXPECT_EQ(ForecastOf({specs[0]}, 2, count, ByName, steered).cache_bytes, 0);
 }

@@ -21,6 +21,7 @@ Job Example() {
   job.out = "out/x y";
   job.frames = "/frames";
   job.led_frames = "/frames/led";
+  job.teaching = "/taught/a";
   job.frames_key = "the key of the frames";
   job.inputs_hash = "the hash of the inputs";
   job.threads = 3;
@@ -36,8 +37,33 @@ TEST(JobTest, ComesBackAsItWasWritten) {
   EXPECT_EQ(ToJson(back), text);
   EXPECT_EQ(back.out, Example().out);
   EXPECT_EQ(back.led_frames, Example().led_frames);
+  EXPECT_EQ(back.teaching, Example().teaching);
   EXPECT_FALSE(back.video);
   EXPECT_TRUE(back.debug_dynamic);
+}
+
+TEST(FingerprintsTest, ATeachingIsSharedHoweverItIsDrivenBy) {
+  const Fingerprints fingerprints;
+  RunSpec spec{.scene = "drive/aisle_dock",
+               .scene_file = AISLE_SOURCE_DIR "/scenes/drive/aisle_dock.yaml",
+               .twin = "live",
+               .system = {.name = "a", .like = "plain", .options = {{"drive.taught", "true"}}},
+               .seed = 1};
+  const std::string teaching = fingerprints.Teaching(spec);
+  RunSpec other = spec;
+  other.twin = "empty";
+  other.system.name = "b";
+  other.system.options["drive.latency_ms"] = "50";
+  EXPECT_EQ(fingerprints.Teaching(other), teaching);
+  EXPECT_NE(fingerprints.Run(other), fingerprints.Run(spec));
+  other.system.options["feature.features"] = "800";
+  EXPECT_NE(fingerprints.Teaching(other), teaching);
+  other = spec;
+  other.system.like = "robust";
+  EXPECT_NE(fingerprints.Teaching(other), teaching);
+  other = spec;
+  other.seed = 2;
+  EXPECT_NE(fingerprints.Teaching(other), teaching);
 }
 
 TEST(JobTest, AForeignSystemComesBackToo) {
