@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <map>
-#include <sstream>
 
 #include "harness/contract/state_name.h"
 #include "harness/io/file.h"
@@ -17,7 +16,7 @@ constexpr const char* kHeader =
     "final_x_m,final_y_m,final_z_m,final_error_m,movers_share,actors_share,features,"
     "features_on_movers,inliers_on_movers,mask_iou,corners_rejected,static_texture_share,flow_px,"
     "blur_px,parallax_px,render_ms,process_ms";
-TrackingState StateFromName(const std::string& name) {
+TrackingState StateFromName(std::string_view name) {
   if (name == "tracking") return TrackingState::kTracking;
   return name == "lost" ? TrackingState::kLost : TrackingState::kInitializing;
 }
@@ -31,34 +30,34 @@ std::string Fields(const std::optional<Eigen::Vector3d>& v) {
   return v ? fmt::format("{},{},{}", v->x(), v->y(), v->z()) : ",,";
 }
 
-std::vector<std::string> Split(const std::string& line) {
-  std::vector<std::string> cells(1);
-  for (const char c : line) {
-    if (c == ',') {
-      cells.emplace_back();
-    } else if (c != '\r') {
-      cells.back() += c;
-    }
+/// The cells of a line, as parts of it.
+void Split(std::string_view line, std::vector<std::string_view>* cells) {
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  cells->clear();
+  for (std::size_t at = 0; at <= line.size();) {
+    const std::size_t end = std::min(line.find(',', at), line.size());
+    cells->push_back(line.substr(at, end - at));
+    at = end + 1;
   }
-  return cells;
 }
 
 /// Where each column stands, by its name: files of other versions have more of them, or fewer.
-using Columns = std::map<std::string, std::size_t>;
+using Columns = std::map<std::string, std::size_t, std::less<>>;
 
 /// The fields of one line, by name of column.
 class Cells {
  public:
-  Cells(const Columns& columns, const std::string& line, const std::string& file,
-        std::size_t number)
-      : columns_(columns), file_(file), number_(number), cells_(Split(line)) {
+  Cells(const Columns& columns, std::string_view line, const std::string& file, std::size_t number,
+        std::vector<std::string_view>* room)
+      : columns_(columns), file_(file), number_(number), cells_(*room) {
+    Split(line, room);
     if (cells_.size() != columns.size()) {
       throw InputError(file, number,
                        fmt::format("{} columns, not {}", cells_.size(), columns.size()));
     }
   }
 
-  const std::string& Text(const std::string& name) const {
+  std::string_view Text(std::string_view name) const {
     const auto column = columns_.find(name);
     if (column == columns_.end()) {
       throw InputError(file_, 1, fmt::format("no column {}: made by another version", name));
@@ -67,30 +66,30 @@ class Cells {
   }
 
   /// An empty field, or no such column: absent.
-  std::optional<double> Number(const std::string& name) const {
-    if (columns_.count(name) == 0 || Text(name).empty()) return std::nullopt;
-    return Parse<double>(name);
+  std::optional<double> Number(std::string_view name) const {
+    const auto column = columns_.find(name);
+    if (column == columns_.end() || cells_[column->second].empty()) return std::nullopt;
+    return Parse<double>(name, cells_[column->second]);
   }
-  double Required(const std::string& name) const { return Parse<double>(name); }
-  std::int64_t Whole(const std::string& name) const { return Parse<std::int64_t>(name); }
-  int Count(const std::string& name) const { return Parse<int>(name); }
+  double Required(std::string_view name) const { return Parse<double>(name, Text(name)); }
+  std::int64_t Whole(std::string_view name) const { return Parse<std::int64_t>(name, Text(name)); }
+  int Count(std::string_view name) const { return Parse<int>(name, Text(name)); }
 
-  /// NAME_x_m, NAME_y_m and NAME_z_m.
-  std::optional<Eigen::Vector3d> Vector(const std::string& name) const {
-    if (!Number(name + "_x_m")) return std::nullopt;
-    return Eigen::Vector3d(Required(name + "_x_m"), Required(name + "_y_m"),
-                           Required(name + "_z_m"));
+  std::optional<Eigen::Vector3d> Vector(std::string_view x, std::string_view y,
+                                        std::string_view z) const {
+    const std::optional<double> first = Number(x);
+    if (!first) return std::nullopt;
+    return Eigen::Vector3d(*first, Required(y), Required(z));
   }
 
  private:
   template <typename T>
-  T Parse(const std::string& name) const {
+  T Parse(std::string_view name, std::string_view cell) const {
     T value{};
-    const std::string& cell = Text(name);
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (error != std::errc() || end != cell.data() + cell.size()) {
       throw InputError(file_, number_,
-                       fmt::format("{} is '{}', not {}", name, Printable(cell),
+                       fmt::format("{} is '{}', not {}", name, Printable(std::string(cell)),
                                    std::is_same_v<T, int> ? "a count" : "a number"));
     }
     return value;
@@ -99,7 +98,7 @@ class Cells {
   const Columns& columns_;
   const std::string& file_;
   std::size_t number_;
-  std::vector<std::string> cells_;
+  const std::vector<std::string_view>& cells_;
 };
 
 FrameRow RowFrom(const Cells& cells) {
@@ -107,10 +106,11 @@ FrameRow RowFrom(const Cells& cells) {
   row.id = cells.Whole("frame");
   row.stamp_ns = cells.Whole("stamp_ns");
   row.state = StateFromName(cells.Text("state"));
-  row.truth_m = cells.Vector("truth").value_or(Eigen::Vector3d::Zero());
-  row.live_m = cells.Vector("live");
+  row.truth_m =
+      cells.Vector("truth_x_m", "truth_y_m", "truth_z_m").value_or(Eigen::Vector3d::Zero());
+  row.live_m = cells.Vector("live_x_m", "live_y_m", "live_z_m");
   row.live_error_m = cells.Number("live_error_m");
-  row.final_m = cells.Vector("final");
+  row.final_m = cells.Vector("final_x_m", "final_y_m", "final_z_m");
   row.final_error_m = cells.Number("final_error_m");
   row.movers_share = cells.Required("movers_share");
   row.actors_share = cells.Required("actors_share");
@@ -197,14 +197,21 @@ std::string ToCsv(const std::vector<FrameRow>& rows) {
 }
 
 std::vector<FrameRow> FrameRowsFromCsv(const std::string& text, const std::string& file) {
-  std::istringstream stream(text);
-  std::string line;
-  std::getline(stream, line);
+  std::string_view rest = text;
+  const auto next_line = [&] {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    const std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    return line;
+  };
+  std::vector<std::string_view> cells;
+  Split(next_line(), &cells);
   Columns columns;
-  for (const std::string& name : Split(line)) columns.emplace(name, columns.size());
+  for (const std::string_view name : cells) columns.emplace(name, columns.size());
   std::vector<FrameRow> rows;
-  for (std::size_t number = 2; std::getline(stream, line); ++number) {
-    if (!line.empty()) rows.push_back(RowFrom(Cells(columns, line, file, number)));
+  for (std::size_t number = 2; !rest.empty(); ++number) {
+    const std::string_view line = next_line();
+    if (!line.empty()) rows.push_back(RowFrom(Cells(columns, line, file, number, &cells)));
   }
   return rows;
 }

@@ -1,6 +1,7 @@
 #include "harness/score/significance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -83,16 +84,42 @@ double BinomialTail(std::size_t failures, std::size_t runs, double rate) {
   return sum;
 }
 
+/// Median of a draw with replacement that took each of the sorted values so many times.
+double MedianOfDrawn(std::span<const double> sorted, std::span<const int> drawn) {
+  const std::size_t count = drawn.size();
+  std::array<double, 2> middle{};  // the same one twice where the count is odd
+  std::size_t at = 0, passed = 0;
+  for (const std::size_t side : {0u, 1u}) {
+    const std::size_t wanted = (count - 1 + side) / 2;
+    while (passed + static_cast<std::size_t>(drawn[at]) <= wanted) {
+      passed += static_cast<std::size_t>(drawn[at++]);
+    }
+    middle[side] = sorted[at];
+  }
+  return Quantile(middle, 0.5);
+}
+
 }  // namespace
 
 Interval BootstrapMedian(std::span<const double> values, double confidence, int resamples,
                          std::uint64_t seed) {
   if (values.empty()) throw std::invalid_argument("BootstrapMedian: no values");
-  std::vector<double> medians, draw(values.size());
+  std::vector<double> sorted(values.begin(), values.end());
+  std::ranges::sort(sorted);
+  std::vector<std::size_t> place;  // of each value among the sorted
+  for (const double value : values) {
+    place.push_back(
+        static_cast<std::size_t>(std::ranges::lower_bound(sorted, value) - sorted.begin()));
+  }
+  std::vector<double> medians;
+  std::vector<int> drawn(values.size());  // how often, by place
   std::uint64_t n = 0;
   for (int r = 0; r < resamples; ++r) {
-    for (double& value : draw) value = values[Random(seed, n++) % values.size()];
-    medians.push_back(Quantile(draw, 0.5));
+    std::ranges::fill(drawn, 0);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      ++drawn[place[Random(seed, n++) % values.size()]];
+    }
+    medians.push_back(MedianOfDrawn(sorted, drawn));
   }
   const double tail = (1 - confidence) / 2;
   return {Quantile(medians, tail), Quantile(medians, 1 - tail)};

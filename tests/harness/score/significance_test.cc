@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace aisle {
@@ -50,6 +51,44 @@ TEST(BootstrapTest, TheIntervalHoldsTheMedianAndRepeats) {
   EXPECT_LT(interval.high - interval.low, 8);
   EXPECT_EQ(BootstrapMedian(values).low, interval.low);
   EXPECT_EQ(BootstrapMedian(std::vector<double>{2}).high, 2);
+}
+
+double Choose(int n, int k) {
+  return std::exp(std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0));
+}
+
+/// The median of a draw of n (odd) is at most the k-th of the sorted values where more than half of
+/// the draws are: Bin(n, k / n) (Efron 1979, section 10).
+TEST(BootstrapTest, FollowsTheExactDistributionOfADrawsMedian) {
+  for (const int n : {3, 5, 9, 25}) {
+    std::vector<double> values;  // 1 to n, in disorder
+    for (int i = 0; i < n; ++i) values.push_back(1 + i * 7 % n);
+    const auto chance_of_at_most = [&](int k) {
+      double sum = 0;
+      for (int hits = (n + 1) / 2; hits <= n; ++hits) {
+        sum +=
+            Choose(n, hits) * std::pow(k / double(n), hits) * std::pow(1 - k / double(n), n - hits);
+      }
+      return sum;
+    };
+    for (const double tail : {0.1, 0.3}) {
+      int low = 1, high = 1;
+      while (chance_of_at_most(low) < tail) ++low;
+      while (chance_of_at_most(high) < 1 - tail) ++high;
+      const Interval interval = BootstrapMedian(values, 1 - 2 * tail, 20'000);
+      EXPECT_EQ(interval.low, low) << n;
+      EXPECT_EQ(interval.high, high) << n;
+    }
+  }
+}
+
+TEST(BootstrapTest, ADrawOfTwoMayLieBetweenThem) {
+  const std::vector<double> values = {2, 0};  // 0, 1 and 2 with one, two and one chance in four
+  EXPECT_EQ(BootstrapMedian(values, 0.4).low, 1);
+  EXPECT_EQ(BootstrapMedian(values, 0.4).high, 1);
+  EXPECT_EQ(BootstrapMedian(values, 0.9).low, 0);
+  EXPECT_EQ(BootstrapMedian(values, 0.9).high, 2);
+  EXPECT_EQ(BootstrapMedian(std::vector<double>{4, 4, 4, 4}).low, 4);
 }
 
 TEST(FailureRateTest, ZeroFailuresStillLeaveABound) {
