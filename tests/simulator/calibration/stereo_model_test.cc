@@ -2,12 +2,15 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
+
+#include "tests/support/arbitrary.h"
 
 namespace aisle::sim {
 namespace {
@@ -34,6 +37,10 @@ struct Rig {
     T_right_left.translation() << -0.110074, 0.000399, -0.000853;
     T_body_left.linear() = Eigen::AngleAxisd(1.55, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     T_body_left.translation() << -0.0216, -0.0647, 0.0098;
+    Rectify();
+  }
+
+  void Rectify() {
     cv::Matx33d rotation;
     cv::Vec3d shift;
     cv::eigen2cv(Eigen::Matrix3d(T_right_left.linear()), rotation);
@@ -153,7 +160,7 @@ class StereoModelTest : public testing::Test {
     return "";
   }
 
-  const Rig rig_;
+  Rig rig_;
   const fs::path folder_;
 };
 
@@ -194,6 +201,55 @@ TEST_F(StereoModelTest, CamerasAsBuiltAreReadAsWritten) {
                 1e-9);
     }
   }
+}
+
+/// Any two cameras of about one kind, side by side, turned a little against each other.
+Rig AnyRig() {
+  Rig rig;
+  for (cv::Matx33d* k : {&rig.k1, &rig.k2}) {
+    (*k)(0, 0) = AnyNumberIn(300, 900);
+    (*k)(1, 1) = (*k)(0, 0) * AnyNumberIn(0.98, 1.02);
+    (*k)(0, 2) = AnyNumberIn(340, 410);
+    (*k)(1, 2) = AnyNumberIn(210, 270);
+  }
+  for (std::vector<double>* d : {&rig.d1, &rig.d2}) {
+    *d = {AnyNumberIn(-0.3, 0.3), AnyNumberIn(-0.1, 0.1), AnyNumberIn(-1e-3, 1e-3),
+          AnyNumberIn(-1e-3, 1e-3)};
+  }
+  const auto turn = [] { return AnyNumberIn(-0.02, 0.02); };
+  rig.T_right_left.linear() = (Eigen::AngleAxisd(turn(), Eigen::Vector3d::UnitX()) *
+                               Eigen::AngleAxisd(turn(), Eigen::Vector3d::UnitY()) *
+                               Eigen::AngleAxisd(turn(), Eigen::Vector3d::UnitZ()))
+                                  .toRotationMatrix();
+  rig.T_right_left.translation() << -AnyNumberIn(0.05, 2), AnyNumberIn(-1e-3, 1e-3),
+      AnyNumberIn(-1e-3, 1e-3);
+  rig.T_body_left = AnyPose(1);
+  rig.Rectify();
+  return rig;
+}
+
+TEST_F(StereoModelTest, AnyRigIsReadAsWritten) {
+  EXPECT_TRUE(rc::check([this] {
+    rig_ = AnyRig();
+    for (const auto& files : {Kalibr(), Euroc(), CameraInfo(), OpenCv()}) {
+      const StereoModel model = ReadStereoModel(files);
+      const std::pair<const CameraModel*, const cv::Matx33d*> cameras[] = {
+          {&model.left, &rig_.k1}, {&model.right, &rig_.k2}};
+      for (const auto& [camera, k] : cameras) {
+        RC_ASSERT(camera->fx == (*k)(0, 0) && camera->fy == (*k)(1, 1));
+        RC_ASSERT(camera->cx == (*k)(0, 2) && camera->cy == (*k)(1, 2));
+        const std::vector<double>& lens = k == &rig_.k1 ? rig_.d1 : rig_.d2;
+        RC_ASSERT(std::equal(lens.begin(), lens.end(), camera->distortion.begin()));
+      }
+      if (model.stated && files[0].ends_with("left.yaml")) continue;  // it says no more than that
+      RC_ASSERT(model.T_right_left.isApprox(rig_.T_right_left, 1e-12));
+    }
+    for (const auto& files : {CameraInfo(), OpenCv(), Kitti()}) {
+      const RectifiedPair pair = Rectified(ReadStereoModel(files));
+      RC_ASSERT(pair.fx == rig_.p1(0, 0) && pair.cy == rig_.p1(1, 2));
+      RC_ASSERT(std::abs(pair.baseline_m + rig_.p2(0, 3) / rig_.p2(0, 0)) < 1e-12);
+    }
+  }));
 }
 
 TEST_F(StereoModelTest, TwoFilesWrongWayRoundAreNamed) {

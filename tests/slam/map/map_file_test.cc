@@ -1,7 +1,9 @@
 #include "slam/map/map_file.h"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <fstream>
 #include <limits>
 
@@ -102,6 +104,37 @@ TEST_F(MapFile, ALoadedMapGrowsOnAsTheOriginalDoes) {
   SaveMap(a, folder / "a.map");
   SaveMap(b, folder / "b.map");
   EXPECT_EQ(BytesOf(folder / "a.map"), BytesOf(folder / "b.map"));
+}
+
+/// What a full disk does to a writer: files of this process end at so many bytes.
+class FilesEndAt {
+ public:
+  explicit FilesEndAt(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+  }
+  ~FilesEndAt() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = nullptr;
+};
+
+TEST_F(MapFile, AFullDiskLeavesTheOldMapAndNothingAside) {
+  SaveMap(UsedMap(), file);
+  const std::string whole = BytesOf(file);
+  for (const std::size_t room : {std::size_t{0}, std::size_t{100}, whole.size() - 1}) {
+    const FilesEndAt full(room);
+    EXPECT_THROW(SaveMap(UsedMap(), file), std::runtime_error) << room;
+    EXPECT_THROW(SaveMap(UsedMap(), folder / "new.map"), std::runtime_error) << room;
+  }
+  EXPECT_EQ(BytesOf(file), whole);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}), 1);
 }
 
 TEST_F(MapFile, NoDamageGoesUnnoticed) {

@@ -1,0 +1,1 @@
+aisle_tests(simulator/calibration LINKS rapidcheck)

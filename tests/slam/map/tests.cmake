@@ -1,0 +1,1 @@
+aisle_tests(slam/map LINKS rapidcheck)
