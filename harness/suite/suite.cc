@@ -138,8 +138,9 @@ std::vector<RunSpec> Plan(const Suite& suite) {
   for (const SuiteScene& scene : suite.scenes) {
     const std::vector<std::string> twins =
         scene.recorded ? std::vector<std::string>{"live"} : suite.twins;
+    const std::size_t most_seeds = scene.recorded ? 1 : suite.seeds.size();
     const std::span<const std::uint64_t> seeds(suite.seeds.data(),
-                                               scene.recorded ? 1 : suite.seeds.size());
+                                               std::min(suite.seeds.size(), most_seeds));
     for (const std::string& twin : twins) {
       for (const std::uint64_t seed : seeds) {
         for (const SystemSpec& system : suite.systems) {

@@ -1,1 +1,1 @@
-aisle_tests(harness/bag LINKS opencv_imgcodecs opencv_imgproc)
+aisle_tests(harness/bag LINKS opencv_imgcodecs opencv_imgproc rapidcheck)

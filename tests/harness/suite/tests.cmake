@@ -1,0 +1,1 @@
+aisle_tests(harness/suite LINKS rapidcheck)
