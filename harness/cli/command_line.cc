@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <new>
 
 #include "harness/cli/cluster_commands.h"
 #include "harness/io/input_error.h"
@@ -99,6 +100,9 @@ int RunCommandLine(int argc, const char* const* argv) {
                             code == std::errc::too_many_symbolic_link_levels;
     fmt::print(stderr, "aisle: {}: {}\n", Printable(error.path1().string(), 80), code.message());
     return impossible ? kBadInput : kOwnFailure;  // a name that no file can have was given to us
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "aisle: the machine has no memory left for this\n");
+    return kOwnFailure;
   } catch (const std::exception& error) {
     fmt::print(stderr, "aisle: {}\n", error.what());
     return kOwnFailure;

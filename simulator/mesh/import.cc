@@ -95,7 +95,7 @@ Model ImportModel(const fs::path& file, const ImportOptions& given) {
   try {
     return Import(file, options);
   } catch (const std::bad_alloc&) {
-    throw ImportError(fmt::format("{}: it asks for more memory than there is", file.string()));
+    throw;  // whose fault it is depends on how much there was
   } catch (const std::exception& error) {
     throw ImportError(fmt::format("{}: {}", file.string(), OneLine(error.what())));
   }

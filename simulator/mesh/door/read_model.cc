@@ -26,6 +26,7 @@ struct Request {
   fs::path file;
   ImportOptions options;
   ReadingLimits limits;
+  bool pictures = false;  ///< the model has some
 };
 
 std::vector<std::string> ArgumentsOf(const Request& request) {
@@ -43,7 +44,8 @@ std::vector<std::string> ArgumentsOf(const Request& request) {
           std::to_string(options.max_file_bytes),
           fmt::format("{}", options.max_reach_m),
           std::to_string(request.limits.memory_bytes),
-          fmt::format("{}", request.limits.time_s)};
+          fmt::format("{}", request.limits.time_s),
+          std::to_string(static_cast<int>(request.pictures))};
 }
 
 template <class Number>
@@ -76,6 +78,7 @@ Request ParseRequest(std::span<const char* const> arguments) {
   request.options.max_reach_m = NumberIn<float>(arguments[11]);
   request.limits.memory_bytes = NumberIn<std::size_t>(arguments[12]);
   request.limits.time_s = NumberIn<double>(arguments[13]);
+  request.pictures = NumberIn<int>(arguments[14]) != 0;
   return request;
 }
 
@@ -123,6 +126,19 @@ std::string WhyEnded(const Reading& reading, const ModelDoor& door) {
   return {};
 }
 
+/// What a reader makes of it: one without pictures, which starts ten times as soon, and where it
+/// meets one the other.
+Reading Read(Request* request, const ModelDoor& door) {
+  const fs::path program = door.program.empty() ? ReaderProgram() : door.program;
+  const auto run = [&] {
+    return RunReader(program, ArgumentsOf(*request), door.limits, door.most_bytes);
+  };
+  Reading reading = run();
+  if (reading.end != Reading::End::kExited || reading.code != kNeedsPictures) return reading;
+  request->pictures = true;
+  return run();
+}
+
 [[noreturn]] void FailAsItEnded(const fs::path& file, const Reading& reading,
                                 const ModelDoor& door) {
   if (const std::string why = WhyEnded(reading, door); !why.empty()) {
@@ -147,8 +163,7 @@ fs::path ReaderProgram() {
 Model ReadModel(const fs::path& file, const ImportOptions& given, const ModelDoor& door) {
   Request request{file, given, door.limits};
   if (request.options.root.empty()) request.options.root = fs::absolute(file).parent_path();
-  const Reading reading = RunReader(door.program.empty() ? ReaderProgram() : door.program,
-                                    ArgumentsOf(request), door.limits, door.most_bytes);
+  const Reading reading = Read(&request, door);
   if (reading.end != Reading::End::kExited || reading.code != kRead) {
     FailAsItEnded(file, reading, door);
   }
@@ -159,14 +174,29 @@ Model ReadModel(const fs::path& file, const ImportOptions& given, const ModelDoo
   }
 }
 
-int RunReadModel(int argc, const char* const* argv) {
+namespace {
+
+/// The file's bytes, or one ImportError: within the limits that are set for a file, memory that is
+/// not there is too much of it.
+std::string ReadHere(const Request& request) {
+  try {
+    return EncodeModel(ImportModel(request.file, request.options));
+  } catch (const std::bad_alloc&) {
+    throw ImportError(request.file.string() + ": it asks for more memory than it may have");
+  }
+}
+
+}  // namespace
+
+int RunReadModel(int argc, const char* const* argv, void (*load_pictures)()) {
   std::string bytes;
   try {
     const Request request =
         ParseRequest(std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
+    if (request.pictures) load_pictures();
     cv::setNumThreads(1);  // it may start none
     ConfineThisProcess(request.options.root, request.limits);
-    bytes = EncodeModel(ImportModel(request.file, request.options));
+    bytes = ReadHere(request);
   } catch (const ImportError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return kNotAModel;

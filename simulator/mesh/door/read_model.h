@@ -23,8 +23,13 @@ Model ReadModel(const std::filesystem::path& file, const ImportOptions& options 
 /// `aisle-read-model` beside the running program, or where this build has put it.
 std::filesystem::path ReaderProgram();
 
+/// What a reader ends with that met a picture and has no decoder: it is started again, with one.
+inline constexpr int kNeedsPictures = 6;
+
 /// The reader's side: reads the file that the arguments name, within its limits, and writes the
-/// model's bytes to stdout or one line to stderr. Returns the exit code.
-int RunReadModel(int argc, const char* const* argv);
+/// model's bytes to stdout or one line to stderr. Returns the exit code. Calls `load_pictures`,
+/// which makes pictures readable and may throw, where it is told that there are some: before it is
+/// confined, when it may still open libraries.
+int RunReadModel(int argc, const char* const* argv, void (*load_pictures)());
 
 }  // namespace aisle::sim

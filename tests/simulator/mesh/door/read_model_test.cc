@@ -90,6 +90,22 @@ TEST(ReadModel, AMachineThatFailsItIsNotTheFilesFault) {
   EXPECT_THROW(ReadModel(file, {}, Behind(scratch, "exit 3")), std::system_error);
 }
 
+TEST(ReadModel, AReaderThatMeetsAPictureIsStartedAgainWithADecoderAndOnlyOnce) {
+  const Scratch scratch;
+  const fs::path file = scratch.Write("m.glb", "glTF");
+  const ModelDoor twice =
+      Behind(scratch, "test \"${15}\" = 1 || exit 6; echo it has a decoder >&2; exit 4");
+  EXPECT_EQ(ErrorAtTheDoor(file, twice), file.string() + ": it has a decoder");
+  EXPECT_THROW(ReadModel(file, {}, Behind(scratch, "exit 6")), std::system_error);
+}
+
+TEST(ReadModel, AReaderIsLinkedWithoutTheDecodersOfPictures) {
+  // They are nine tenths of what it costs to start one.
+  const std::string list = fmt::format("readelf -d \"{}\" | grep -q ", ReaderProgram().string());
+  ASSERT_EQ(std::system((list + "opencv_core").c_str()), 0);
+  EXPECT_NE(std::system((list + "opencv_imgcodecs").c_str()), 0);
+}
+
 TEST(ReadModel, MemoryThatAFileAsksForIsNotTaken) {
   const Scratch scratch;
   ModelDoor door;
@@ -101,6 +117,26 @@ TEST(ReadModel, MemoryThatAFileAsksForIsNotTaken) {
   } catch (const std::exception& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("worker_anton.glb: "));
   }
+}
+
+TEST(ReadModel, MemoryThatAFileMayNotHaveIsTheFilesFault) {
+  // Somewhere between what the program takes and what the model does.
+  const fs::path file = kAssets / "people/worker_anton.glb";
+  int refused = 0, read = 0;
+  for (std::size_t mib = 32; mib <= 1024 && read == 0; mib += 8) {
+    ModelDoor door;
+    door.limits.memory_bytes = mib << 20;
+    try {
+      ReadModel(file, {}, door);
+      ++read;
+    } catch (const ImportError& error) {
+      refused +=
+          std::string(error.what()).find("more memory than it may have") != std::string::npos;
+    } catch (const std::exception&) {  // not enough for the program itself
+    }
+  }
+  EXPECT_EQ(read, 1);
+  EXPECT_GT(refused, 0);
 }
 
 template <class Mutate>
