@@ -1,6 +1,7 @@
 #include "harness/plugs/simulated_drive.h"
 
 #include "harness/io/input_error.h"
+#include "harness/plugs/ask_simulator.h"
 #include "harness/plugs/open_simulator.h"
 #include "harness/plugs/simulated_frame.h"
 
@@ -136,11 +137,7 @@ class SimulatedDrive : public DriveScene {
 }  // namespace
 
 bool IsDriveScene(const std::string& scene_file) {
-  try {
-    return sim::IsDriveScene(scene_file);
-  } catch (const std::runtime_error& error) {
-    throw InputError(error.what());
-  }
+  return AskSimulator([&] { return sim::IsDriveScene(scene_file); });
 }
 
 std::unique_ptr<DriveScene> OpenSimulatedDrive(const SimulatedSequenceOptions& options,

@@ -8,6 +8,7 @@
 
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
+#include "harness/plugs/ask_simulator.h"
 #include "harness/plugs/bag_poses.h"
 #include "harness/plugs/open_simulator.h"
 #include "harness/plugs/simulated_frame.h"
@@ -134,7 +135,7 @@ struct Shown {
 
 sim::Simulator Open(const SimulatedSequenceOptions& options, const Shown& shown) {
   const sim::Twin twin = TwinFromName(options.twin);
-  try {
+  return AskSimulator([&] {
     return sim::Simulator::Load(
         options.scene_file, options.assets_dir,
         {.seed = options.seed,
@@ -144,13 +145,7 @@ sim::Simulator Open(const SimulatedSequenceOptions& options, const Shown& shown)
          .threads = options.threads,
          .isa = options.isa,
          .light_progress = LightBar(options.scene_name, options.light_progress)});
-  } catch (const std::filesystem::filesystem_error& error) {
-    throw InputError(error.what());
-  } catch (const std::system_error& error) {  // no memory, no process to read a model in
-    throw MachineError(error.what());
-  } catch (const std::runtime_error& error) {
-    throw InputError(error.what());
-  }
+  });
 }
 
 }  // namespace
@@ -231,27 +226,15 @@ std::vector<std::string> FilesOfScene(const std::string& scene_file) {
 
 std::string EssenceOfScene(const std::string& scene_file, const std::string& twin) {
   const sim::Twin which = TwinFromName(twin);
-  try {
-    return sim::EssenceOfScene(scene_file, which);
-  } catch (const std::runtime_error& error) {
-    throw InputError(error.what());
-  }
+  return AskSimulator([&] { return sim::EssenceOfScene(scene_file, which); });
 }
 
 std::string HallOfScene(const std::string& scene_file, std::uint64_t seed) {
-  try {
-    return sim::HallOfScene(scene_file, seed);
-  } catch (const std::runtime_error& error) {
-    throw InputError(error.what());
-  }
+  return AskSimulator([&] { return sim::HallOfScene(scene_file, seed); });
 }
 
 std::int64_t CountSceneFrames(const std::string& scene_file) {
-  try {
-    return sim::CountSceneFrames(scene_file);
-  } catch (const std::runtime_error& error) {
-    throw InputError(error.what());
-  }
+  return AskSimulator([&] { return sim::CountSceneFrames(scene_file); });
 }
 
 }  // namespace aisle

@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 
 #include "simulator/scene/hall_files.h"
 #include "simulator/scene/yaml_guard.h"
@@ -85,10 +87,15 @@ std::optional<std::string> ReadSceneText(const fs::path& file, std::string* prob
         fmt::format("{}: the file is larger than 1 MiB, too large for a scene", file.string());
     return std::nullopt;
   }
+  errno = 0;
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
   if (stream) return text.str();
+  for (const int of_the_machine : {EMFILE, ENFILE, ENOMEM, EIO}) {
+    if (errno != of_the_machine) continue;
+    throw std::system_error(errno, std::generic_category(), file.string() + ": cannot be read");
+  }
   *problem = fmt::format("{}: it cannot be read", file.string());
   return std::nullopt;
 }

@@ -25,7 +25,8 @@ struct SceneTrees {
   std::vector<YamlValue> dealt;  ///< the same with each hall of vary.hall; empty: none varies
 };
 
-/// The text of a scene file; where there is none, nothing and why in `problem`.
+/// The text of a scene file; where there is none, nothing and why in `problem`. Throws
+/// std::system_error where the machine fails the file: too many are open, a broken disk.
 std::optional<std::string> ReadSceneText(const std::filesystem::path& file, std::string* problem);
 
 /// One file's text as a tree, a map; its name is the last that `issues` has. Nothing where it is

@@ -26,6 +26,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = ROOT / "build/fuzz"
 SINGLE_INPUT_S, MEMORY_MIB = 25, 3000
 SKIPPED = 77
+OTHERS = "\n## "  # where other programs' parts of the page begin
 PAGE_HEAD = """# What fuzzing the readers found
 
 Written by `./aisle fuzz --page reports/fuzz.md`; libFuzzer of clang with ASan and UBSan. A target
@@ -95,9 +96,16 @@ def row(outcome):
             f"{outcome.kept} | {found} | {commit}, {datetime.date.today()} |")
 
 
+def parts_of(page):
+    """What this program writes of a page, and the blocks of others behind it."""
+    text = page.read_text() if page.exists() else ""
+    own, mark, others = text.partition(OTHERS)
+    return own, mark + others
+
+
 def rows_of(page):
     """The lines of a page's targets, by target; of a page that is absent, none."""
-    text = page.read_text() if page.exists() else ""
+    text, _ = parts_of(page)
     known = {line.split("|")[1].strip(): line for line in text.splitlines() if line.startswith("| ")}
     return {target: line for target, line in known.items() if target in targets()}
 
@@ -150,7 +158,7 @@ def main():
                   + (f": {last.finding}" if last.failed else ""), flush=True)
             rows[last.target] = row(last)
             if options.page:
-                write_aside(options.page, page(rows))
+                write_aside(options.page, page(rows) + parts_of(options.page)[1])
     return 1 if failed else 0
 
 

@@ -82,6 +82,47 @@ TEST_F(CommandLineTest, MasksOfOthersGetTheScoresThatAHandWouldReckon) {
   EXPECT_DOUBLE_EQ(value("mask_iou"), 1200.0 / 5200);
 }
 
+TEST_F(CommandLineTest, OutlinesMeetWithinAShareOfTheDiagonal) {
+  // A square that is two pixels off: 0.008 of the diagonal of 160 x 120 are 1.6, rounded up.
+  const std::pair<int, double> shifts[] = {{2, 1}, {40, 0}};
+  for (const auto& [shift, f] : shifts) {
+    WriteImage(folder_ / "truth/1.png", Square(10, 40));
+    WriteImage(folder_ / "masks/1.png", Square(10 + shift, 40 + shift));
+    const nlohmann::json scores =
+        Answer({"score", "--masks-truth", (folder_ / "truth").string(), "--masks",
+                (folder_ / "masks").string(), "--boundary-davis"},
+               0)
+            .at("scores");
+    EXPECT_NEAR(scores.at("mask_boundary_f").at("value").get<double>(), f, 0.05) << shift;
+  }
+}
+
+TEST_F(CommandLineTest, AYawIsAlignedAwayAndATiltIsNot) {
+  std::string truth, yawed, tilted;
+  for (int i = 0; i < 20; ++i) {
+    const double x = 0.1 * i, y = 0.01 * i * i;
+    truth += fmt::format("{} {} {} 0 0 0 0 1\n", i, x, y);
+    yawed += fmt::format("{} {} {} 2 0 0 0.7071067811865476 0.7071067811865476\n", i, 3 - y, x);
+    tilted += fmt::format("{} {} 0 {} 0.7071067811865476 0 0 0.7071067811865476\n", i, x, y);
+  }
+  for (const auto& [name, text] :
+       {std::pair("t", truth), std::pair("y", yawed), std::pair("l", tilted)}) {
+    WriteFileAtomically(folder_ / name, text);
+  }
+  const auto error = [&](const char* estimate, const char* align) {
+    return Answer({"score", "--truth", (folder_ / "t").string(), "--estimate",
+                   (folder_ / estimate).string(), "--align", align},
+                  0)
+        .at("scores")
+        .at("ate_rmse_m")
+        .at("value")
+        .get<double>();
+  };
+  EXPECT_LT(error("y", "posyaw"), 1e-9);
+  EXPECT_LT(error("l", "se3"), 1e-9);
+  EXPECT_GT(error("l", "posyaw"), 0.1);
+}
+
 TEST_F(CommandLineTest, DrivesFromSeveralStartsDifferFromEachOtherButNotFromTheirRepetition) {
   const auto bench = [&](const std::string& json) {
     const Said said =

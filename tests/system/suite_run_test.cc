@@ -120,6 +120,48 @@ TEST_F(SuiteRunTest, AHistoryThatCannotBeWrittenIsSaidInTheEveningAndCostsNoRepo
   EXPECT_EQ(ResultsOf(Out("a")).runs.size(), 1u);
 }
 
+TEST_F(SuiteRunTest, ABaselineThatIsNoneIsSaidBeforeTheNight) {
+  const std::string suite = Suite("gated", "  - plain\n"), baseline = Out("baseline.json");
+  for (const char* text : {"", "{\"schema\": 1, \"runs\": [", "[1]", "{\"schema\": 1}"}) {
+    WriteFileAtomically(baseline, text);
+    const Said said = Run({"run", suite, "--out", Out("a"), "--gate", "--baseline", baseline});
+    EXPECT_EQ(said.code, 4) << said.text;
+    EXPECT_THAT(said.text, HasSubstr("baseline.json: is no results file"));
+    EXPECT_FALSE(fs::exists(Out("a")));
+  }
+}
+
+TEST_F(SuiteRunTest, ScoresThatAMaskTakesAwayFailTheGate) {
+  // Who misses everything has no precision any more: the score is gone, which is no pass.
+  const auto network = [](const char* share) {
+    return fmt::format("  - {{name: network, like: oracle, mask_errors: {{miss_share: {}}}}}\n",
+                       share);
+  };
+  ASSERT_EQ(Run({"run", Suite("gate", network("0")), "--out", Out("good")}).code, 0);
+  const std::string baseline = Out("good") + "/results.json";
+  ASSERT_TRUE(ResultsOf(Out("good")).runs[0].scores.at("mask_precision").value);
+  const Said same = Run(
+      {"run", Suite("gate", network("0")), "--out", Out("same"), "--gate", "--baseline", baseline});
+  EXPECT_EQ(same.code, 0) << same.text;
+  const Said blind = Run({"run", Suite("gate", network("1")), "--out", Out("blind"), "--gate",
+                          "--baseline", baseline});
+  EXPECT_EQ(blind.code, 1) << blind.text;
+  EXPECT_THAT(blind.text, HasSubstr("gone: "));
+}
+
+TEST_F(SuiteRunTest, TwoScenesThatWouldShareTheirNameAreRefused) {
+  for (const char* file : {"x/mini.yaml", "y/mini.yaml"}) {
+    WriteFileAtomically(folder_ / file, ReadFile(scene_));
+  }
+  WriteFileAtomically(folder_ / "s.yaml",
+                      "suite: s\nquestion: q\nscenes: [x/mini.yaml, y/mini.yaml]\n"
+                      "systems: [plain]\nseeds: 1\n");
+  const Said said = Run({"run", (folder_ / "s.yaml").string(), "--out", Out("a")});
+  EXPECT_EQ(said.code, 4) << said.text;
+  EXPECT_THAT(said.text, HasSubstr("y/mini.yaml would both be called 'mini'"));
+  EXPECT_FALSE(fs::exists(Out("a")));
+}
+
 TEST_F(SuiteRunTest, TwoNightsDoNotShareAFolder) {
   const std::string suite = Suite("taken", "  - plain\n");
   const std::optional<FileLock> other = FileLock::Try(fs::path(Out("a")) / ".lock");
