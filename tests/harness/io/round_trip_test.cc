@@ -68,8 +68,7 @@ TEST_F(RoundTripTest, TrajectoriesOfEveryFormat) {
 
 TEST_F(RoundTripTest, StampsInSeconds) {
   EXPECT_TRUE(rc::check([] {
-    const auto stamp_ns = AnyWhole<std::int64_t>();
-    RC_PRE(stamp_ns != std::numeric_limits<std::int64_t>::min());
+    const auto stamp_ns = AnyWhole<std::int64_t>() % 9'000'000'000'000'000'000;  // what is read
     std::int64_t read = 0;
     RC_ASSERT(ParseSecondsToNs(FormatSeconds(stamp_ns), &read));
     RC_ASSERT(read == stamp_ns);

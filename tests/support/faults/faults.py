@@ -8,9 +8,9 @@ Usage: python3 tests/support/faults/faults.py PROGRAM SHIM SCENE [--points 12] [
 Counts the calls of each kind in a night in peace, then drives it again with a single one failing, at
 so many points spread over it: a full disk, a broken one, too many files, no memory, a signal. The
 program must end with 0 (it coped) or 3 and a sentence (exit code 1 where a run of its own died of
-it), never by a signal, never late; and the same command with --resume must give the same bits. Two kinds stay as they have
-become: files that can no longer be changed, which is a fault as the others, and a wall clock that has
-jumped, of which a night may notice nothing.
+it), never by a signal, never late; and the same command with --resume must give the same bits. Two
+kinds stay as they have become: files that can no longer be changed, which is a fault as the others,
+and a wall clock that has jumped, of which a night may notice nothing.
 
 With --all it is every single call instead (every_fault.py says how), for as many minutes as there
 are, and goes on the next time where it stopped.
