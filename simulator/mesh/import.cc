@@ -1,6 +1,7 @@
 #include "simulator/mesh/import.h"
 
 #include <numbers>
+#include <system_error>
 
 #include "simulator/mesh/bands.h"
 #include "simulator/mesh/collada_check.h"
@@ -95,7 +96,8 @@ Model ImportModel(const fs::path& file, const ImportOptions& given) {
   try {
     return Import(file, options);
   } catch (const std::bad_alloc&) {
-    throw;  // whose fault it is depends on how much there was
+    // Whose fault it is depends on how much there was.
+    throw std::system_error(std::make_error_code(std::errc::not_enough_memory), file.string());
   } catch (const std::exception& error) {
     throw ImportError(fmt::format("{}: {}", file.string(), OneLine(error.what())));
   }

@@ -51,7 +51,7 @@ struct ImportOptions {
 /// Reads a .glb, .gltf, .obj or .dae file; what it holds must be what it is named. Files come from
 /// outside, so everything is checked: numbers finite and within reach, indices in range, sizes
 /// within the options, nothing opened outside the root, only PNG and JPEG textures. Throws
-/// ImportError, and std::bad_alloc where there is no memory for it.
+/// ImportError, and std::system_error where there is no memory for it.
 Model ImportModel(const std::filesystem::path& file, const ImportOptions& options = {});
 
 /// One band of an 8-bit sRGB image (grey, BGR or BGRA), sRGB-encoded again: for kLuminance the

@@ -179,10 +179,14 @@ namespace {
 /// The file's bytes, or one ImportError: within the limits that are set for a file, memory that is
 /// not there is too much of it.
 std::string ReadHere(const Request& request) {
+  const ImportError too_much(request.file.string() + ": it asks for more memory than it may have");
   try {
     return EncodeModel(ImportModel(request.file, request.options));
   } catch (const std::bad_alloc&) {
-    throw ImportError(request.file.string() + ": it asks for more memory than it may have");
+    throw too_much;
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::not_enough_memory) throw;
+    throw too_much;
   }
 }
 
