@@ -2,6 +2,8 @@
 
 #include <sys/resource.h>
 
+#include <new>
+
 #include "harness/contract/system_fault.h"
 #include "harness/score/difficulty.h"
 #include "harness/score/masks.h"
@@ -150,6 +152,8 @@ const FrameEstimate* Showing::Show(const FrameRequest& request, const SequenceFr
   } catch (const SystemFault& fault) {
     Offend(fault.status, fmt::format("frame {}: {}", shown.images.id, fault.what()));
     return nullptr;
+  } catch (const std::bad_alloc&) {
+    throw;  // the machine's, of which the system shall not be accused
   } catch (const std::exception& error) {
     Offend(RunStatus::kCrashed, fmt::format("frame {}: {}", shown.images.id, error.what()));
     return nullptr;
@@ -186,6 +190,8 @@ RunResult Showing::Finish(std::size_t frames, double min_coverage) {
       Offend(RunStatus::kInvalid, FaultOfTrack(result_.trajectory.final));
     } catch (const SystemFault& fault) {
       Offend(fault.status, fmt::format("at the end: {}", fault.what()));
+    } catch (const std::bad_alloc&) {
+      throw;  // the machine's, of which the system shall not be accused
     } catch (const std::exception& error) {
       Offend(RunStatus::kCrashed, fmt::format("at the end: {}", error.what()));
     }

@@ -53,7 +53,7 @@ class CountingSequence : public Sequence {
 /// Says the truth, unless told to misbehave at one frame.
 class ScriptedEstimator : public Estimator {
  public:
-  enum class Sin { kNone, kThrows, kSaysNan, kSaysShear, kLosesTheRest, kWrongFrame };
+  enum class Sin { kNone, kThrows, kHasNoMemory, kSaysNan, kSaysShear, kLosesTheRest, kWrongFrame };
   explicit ScriptedEstimator(Sin sin = Sin::kNone) : sin_(sin) {}
 
   FrameEstimate Process(const StereoFrame& frame, const ExternalMask& mask) override {
@@ -80,6 +80,8 @@ class ScriptedEstimator : public Estimator {
         break;
       case Sin::kThrows:
         throw std::runtime_error("cannot go on");
+      case Sin::kHasNoMemory:
+        throw std::bad_alloc();
       case Sin::kSaysNan:
         estimate->T_world_rig->translation().x() = std::nan("");
         break;
@@ -144,6 +146,10 @@ TEST(DriveTest, MisbehaviourIsTheSystemsOwnVerdict) {
     EXPECT_EQ(run.status_why, why);
     EXPECT_EQ(run.trajectory.live.size(), 10u);  // what was said before stands
   }
+}
+
+TEST(DriveTest, MemoryThatIsNotThereIsNotTheSystemsFault) {
+  EXPECT_THROW(DriveWith(Sin::kHasNoMemory), std::bad_alloc);
 }
 
 TEST(DriveTest, ASequenceThatFailsIsNotTheSystemsFault) {
