@@ -14,8 +14,15 @@ bool StdoutHasColor() {
 
 ProgressLine::ProgressLine() : terminal_(::isatty(STDERR_FILENO) != 0) {}
 
-void ProgressLine::Show(const std::string& text) {
-  if (!terminal_) return;
+void ProgressLine::Show(const std::string& text, Clock::time_point now) {
+  if (!terminal_) {
+    constexpr std::chrono::minutes kBetweenLines(1);
+    if (!said_) said_ = now;
+    if (now - *said_ < kBetweenLines) return;
+    fmt::print(stderr, "{}\n", text);
+    said_ = now;
+    return;
+  }
   winsize size{};
   ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size);
   const std::size_t width = size.ws_col > 1 ? size.ws_col - 1U : 79U;

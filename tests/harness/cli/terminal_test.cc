@@ -35,5 +35,17 @@ TEST(TerminalTest, WhereNobodyLooksThereIsNeitherColourNorProgress) {
   EXPECT_EQ(said, "");
 }
 
+TEST(TerminalTest, InALogProgressIsALineAMinute) {
+  testing::internal::CaptureStderr();
+  {
+    ProgressLine line;
+    for (int second = 0; second < 150; ++second) {
+      line.Show(fmt::format("at {} s", second),
+                ProgressLine::Clock::time_point{} + std::chrono::seconds(second));
+    }
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "at 60 s\nat 120 s\n");
+}
+
 }  // namespace
 }  // namespace aisle
