@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "simulator/calibration/stereo_model.h"
+#include "simulator/common/light_progress.h"
 #include "simulator/frames.h"
 #include "simulator/import_model.h"
 #include "simulator/scene/bag_poses.h"
@@ -38,9 +39,8 @@ struct SimulatorOptions {
   /// How much further apart than usual the points of the static light lie: over 1, a draft.
   double light_spacing = 1;
   bool keep_light = true;  ///< the solved static light is read from and kept on disk
-  /// Told while the static light is solved (once per scene, then kept on disk) the share that is
-  /// done, rising to 1; from any thread, one call at a time.
-  std::function<void(double)> light_progress = {};
+  /// Told while the static light is solved (once per scene, then kept on disk).
+  TellLight light_progress = {};
 };
 
 /// The face of the simulator: a scene that can be photographed at any time from any pose. A frame

@@ -14,7 +14,10 @@ SimulatedSequenceOptions SimulationOf(const Job& job) {
           .assets_dir = AssetsDir().string(),
           .twin = job.spec.twin,
           .seed = job.spec.seed,
-          .threads = job.threads};
+          .threads = job.threads,
+          .light_progress = [](const LightWork& work) {
+            TellStage(("solving its light: " + Describe(work)).c_str());
+          }};
 }
 
 void TellStage(const char* what) {
@@ -28,7 +31,7 @@ std::unique_ptr<Sequence> OpenSequence(const Job& job, std::uint64_t* content_ha
     return OpenRecordingSource(job.spec.scene_file);
   }
   const auto open = [simulation = SimulationOf(job)](std::uint64_t* hash) {
-    TellStage("opening the scene, solving its light");
+    TellStage("opening the scene");
     return OpenSimulation(simulation, hash);
   };
   if (job.frames.empty()) return open(content_hash);

@@ -298,7 +298,7 @@ void RunOurs(const Job& job) {
 std::unique_ptr<DriveScene> OpenDrive(const Job& job, const std::string& twin,
                                       std::uint64_t* content_hash,
                                       const std::filesystem::path& kept = {}) {
-  TellStage("opening the scene, solving its light");
+  TellStage("opening the scene");
   SimulatedSequenceOptions options = SimulationOf(job);
   options.twin = twin;
   std::unique_ptr<DriveScene> scene = OpenSimulatedDrive(options, content_hash);

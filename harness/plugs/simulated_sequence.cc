@@ -1,7 +1,6 @@
 #include "harness/plugs/simulated_sequence.h"
 
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -37,20 +36,6 @@ sim::Twin TwinFromName(const std::string& name) {
   if (twin != kTwins.end()) return twin->twin;
   throw InputError(
       fmt::format("twin '{}': expected one of {}", Printable(name), fmt::join(TwinNames(), ", ")));
-}
-
-/// Tells `told`, and draws a bar on stderr where that is a terminal.
-std::function<void(double)> LightBar(const std::string& scene, std::function<void(double)> told) {
-  if (isatty(STDERR_FILENO) == 0) return told;
-  return [scene, told](double share) {
-    constexpr int kWidth = 30;
-    const int filled = static_cast<int>(share * kWidth);
-    fmt::print(stderr, "\r{}: solving the static light [{:#<{}}{:.<{}}] {:3.0f} %", scene, "",
-               filled, "", kWidth - filled, 100 * share);
-    if (share >= 1) fmt::print(stderr, "\r\033[K");
-    std::fflush(stderr);
-    if (told) told(share);
-  };
 }
 
 class SimulatedSequence : public Sequence {
@@ -127,6 +112,11 @@ const std::vector<std::string>& TwinNames() {
 
 namespace {
 
+std::function<void(const sim::LightProgress&)> TellerOf(const SimulatedSequenceOptions& options) {
+  const auto teller = std::make_shared<LightTeller>(options.scene_name, options.light_progress);
+  return [teller](const sim::LightProgress& at) { teller->Tell(at.phase, at.share); };
+}
+
 /// What of a scene is asked for, over what systems are shown.
 struct Shown {
   std::string pair = {};
@@ -144,7 +134,7 @@ sim::Simulator Open(const SimulatedSequenceOptions& options, const Shown& shown)
          .colour = shown.colour,
          .threads = options.threads,
          .isa = options.isa,
-         .light_progress = LightBar(options.scene_name, options.light_progress)});
+         .light_progress = TellerOf(options)});
   });
 }
 

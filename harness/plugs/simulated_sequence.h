@@ -7,6 +7,7 @@
 
 #include "harness/contract/sequence.h"
 #include "harness/io/dataset.h"
+#include "harness/plugs/light_teller.h"
 
 namespace aisle {
 
@@ -21,9 +22,7 @@ struct SimulatedSequenceOptions {
   /// Estimators take rectified pairs, so a scene with a distorted lens is refused unless this says
   /// that the pictures go elsewhere.
   bool any_lens = false;
-  /// Told, beside a bar on a terminal, what share of the static light is solved; from any thread,
-  /// one call at a time. What it throws ends the work.
-  std::function<void(double)> light_progress = {};
+  TellLightWork light_progress = {};  ///< beside a bar on a terminal
 };
 
 /// What the proofs say of one frame, and the sentence about what failed, or none.

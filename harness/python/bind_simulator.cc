@@ -17,8 +17,8 @@ struct Interrupted : std::exception {};
 
 /// Lets Python look after its signals now and then. They belong to the thread that called; others
 /// that help it pass by.
-std::function<void(double)> AnswerSignals() {
-  return [caller = std::this_thread::get_id()](double) {
+TellLightWork AnswerSignals() {
+  return [caller = std::this_thread::get_id()](const LightWork&) {
     if (std::this_thread::get_id() != caller) return;
     const py::gil_scoped_acquire lock;
     if (PyErr_CheckSignals() != 0) throw Interrupted();

@@ -134,6 +134,11 @@ std::uint64_t LightKey(const World& world, const StaticLightOptions& options,
   return key;
 }
 
+bool HasLight(const fs::path& folder, std::uint64_t key) {
+  std::error_code error;
+  return fs::exists(FileOf(folder, key), error);
+}
+
 std::optional<LightState> LoadLight(const fs::path& folder, std::uint64_t key, std::size_t slots) {
   constexpr std::uint64_t kMaxNodes = 100'000'000;
   std::ifstream in(FileOf(folder, key), std::ios::binary);

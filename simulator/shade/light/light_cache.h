@@ -22,6 +22,9 @@ std::filesystem::path DefaultLightCache();
 std::uint64_t LightKey(const World& world, const StaticLightOptions& options,
                        std::span<const float> light_scale);
 
+/// Whether there seems to be a kept solution.
+bool HasLight(const std::filesystem::path& folder, std::uint64_t key);
+
 /// A kept solution, or nothing when there is none, or it is damaged, or of another size.
 std::optional<LightState> LoadLight(const std::filesystem::path& folder, std::uint64_t key,
                                     std::size_t slots);

@@ -113,12 +113,15 @@ std::vector<float> MeanByPatch(const LightGrid& fine, std::span<const float> val
 }
 
 Radiosity SolveRadiosity(const Instant& statics, const LightGrid& grid, const Patches& patches,
-                         std::vector<float> direct, const RadiosityOptions& options) {
+                         std::vector<float> direct, const RadiosityOptions& options,
+                         SolveWatch* watch) {
   const std::size_t count = patches.places.size();
   const std::vector<Eigen::Vector3f> directions = CosineDirections(options.directions);
   std::vector<std::uint32_t> partners(count * directions.size());
+  watch->Begin(count);
   ParallelFor(std::size_t{0}, (count + kLanes - 1) / kLanes, [&](std::size_t i) {
     FindPartners(statics, grid, patches, directions, i * kLanes, partners);
+    watch->Add(kLanes);
   });
 
   Radiosity result{.direct = std::move(direct), .indirect = std::vector<float>(count)};
@@ -140,9 +143,10 @@ Radiosity SolveRadiosity(const Instant& statics, const LightGrid& grid, const Pa
 }
 
 void FillVolume(const Instant& statics, const LightGrid& grid, const TriangleMesh& mesh,
-                const Patches& patches, const Radiosity& radiosity, int count,
-                LightVolume* volume) {
+                const Patches& patches, const Radiosity& radiosity, int count, LightVolume* volume,
+                SolveWatch* watch) {
   const std::vector<Eigen::Vector3f> directions = SphereDirections(count / kLanes * kLanes);
+  watch->Begin(volume->size());
   ParallelFor(std::size_t{0}, volume->size(), [&](std::size_t node) {
     const Eigen::Vector3f origin = volume->Position(node);
     LightVolume::Node sum;
@@ -173,6 +177,7 @@ void FillVolume(const Instant& statics, const LightGrid& grid, const TriangleMes
     }
     const auto n = static_cast<float>(directions.size());
     volume->Set(node, {sum.mean / n, sum.slope / n, backs > 0.25f * n ? 0.0f : 1.0f});
+    watch->Add(1);
   });
 }
 

@@ -5,6 +5,7 @@
 
 #include "simulator/shade/light/direct_light.h"
 #include "simulator/shade/light/light_volume.h"
+#include "simulator/shade/light/solve_watch.h"
 
 namespace aisle::sim {
 
@@ -43,13 +44,14 @@ struct RadiosityOptions {
   int bounces = 6;
 };
 
-/// Solves indirect = gather(albedo · (direct + indirect)).
+/// Solves indirect = gather(albedo · (direct + indirect)). The watch counts patches.
 Radiosity SolveRadiosity(const Instant& statics, const LightGrid& grid, const Patches& patches,
-                         std::vector<float> direct, const RadiosityOptions& options);
+                         std::vector<float> direct, const RadiosityOptions& options,
+                         SolveWatch* watch);
 
-/// Fills the volume's nodes with what they see of the solution.
+/// Fills the volume's nodes with what they see of the solution. The watch counts nodes.
 void FillVolume(const Instant& statics, const LightGrid& grid, const TriangleMesh& mesh,
                 const Patches& patches, const Radiosity& radiosity, int directions,
-                LightVolume* volume);
+                LightVolume* volume, SolveWatch* watch);
 
 }  // namespace aisle::sim

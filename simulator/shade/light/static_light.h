@@ -1,14 +1,16 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <span>
 #include <vector>
 
+#include "simulator/common/light_progress.h"
 #include "simulator/shade/light/light_state.h"
+#include "simulator/shade/light/radiosity.h"
+#include "simulator/shade/light/solve_watch.h"
 #include "simulator/shade/surface/light_grid.h"
 #include "simulator/shade/surface/texture_pool.h"
 #include "simulator/trace/tracer.h"
@@ -26,9 +28,9 @@ struct StaticLightOptions {
   int volume_directions = 256;         ///< the same of the points in free space, which are few
   int bounces = 6;                     ///< of indirect light
   std::size_t max_points = 3'000'000;  ///< the spacing is widened until this holds
-  /// Called while a solution is computed (not while one is read) with the share that is done,
-  /// rising to 1; from any thread, one call at a time.
-  std::function<void(double)> progress = {};
+  /// Called while a solution is computed, or waited for while another process computes it; not
+  /// while one is read.
+  TellLight progress = {};
 };
 
 /// The light that static luminaires throw on the static world, solved once: direct light by shadow
@@ -47,7 +49,9 @@ class StaticLight {
   std::shared_ptr<const LightState> At(std::span<const float> light_scale) const;
 
  private:
-  LightState Solve(std::span<const float> light_scale) const;
+  LightState Solve(std::span<const float> light_scale, SolveWatch* watch) const;
+  void AddIndirect(const Patches& patches, const Radiosity& radiosity, LightState* state) const;
+  std::vector<SolveWatch::Foreseen> Foreseen() const;
   LightState LoadOrSolve(std::span<const float> light_scale) const;
   std::shared_ptr<const LightState> Solved(const std::vector<float>& light_scale) const;
 

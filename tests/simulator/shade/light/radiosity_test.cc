@@ -50,8 +50,9 @@ TEST(Radiosity, InAFurnaceIsTheGeometricSeries) {
         MakePatches(room.points, std::vector<float>(room.points.size(), albedo));
     for (const int bounces : {1, 2, 6}) {
       const std::vector<float> direct(patches.places.size(), 10.0f);
+      SolveWatch watch({}, {});
       const Radiosity solved = SolveRadiosity(room.instant, room.grid, patches, direct,
-                                              {.directions = 64, .bounces = bounces});
+                                              {.directions = 64, .bounces = bounces}, &watch);
       double expected = 0;
       for (int n = 1; n <= bounces; ++n) expected += 10 * std::pow(albedo, n);
       for (const float indirect : solved.indirect) {
@@ -78,7 +79,8 @@ TEST(Radiosity, IsLinearInTheDirectLightAndNeverMoreThanArrives) {
     both[i] = 2 * a[i] + b[i];
   }
   const auto solve = [&](const std::vector<float>& direct) {
-    return SolveRadiosity(room.instant, room.grid, patches, direct, {}).indirect;
+    SolveWatch watch({}, {});
+    return SolveRadiosity(room.instant, room.grid, patches, direct, {}, &watch).indirect;
   };
   const std::vector<float> of_a = solve(a), of_b = solve(b), of_both = solve(both);
   const float brightest = std::ranges::max(a), most = std::ranges::max(patches.albedo);
@@ -145,7 +147,9 @@ TEST(FillVolume, FreeSpaceSeesTheWallsAndTheInsideOfThingsDoesNotCount) {
                        std::vector<float>(patches.places.size(), 4.0f)};
   LightVolume volume(Eigen::AlignedBox3f(Vector3f(0.5f, 0.5f, 0.5f), Vector3f(3.5f, 2.5f, 2)),
                      0.5f);
-  FillVolume(room.instant, room.grid, room.world.statics().mesh, patches, even, 256, &volume);
+  SolveWatch watch({}, {});
+  FillVolume(room.instant, room.grid, room.world.statics().mesh, patches, even, 256, &volume,
+             &watch);
   for (std::size_t i = 0; i < volume.size(); ++i) {
     const Vector3f at = volume.Position(i);
     const bool inside = (at.array() > 0).all() && at.x() < 4 && at.y() < 3 && at.z() < 2.5f;
@@ -157,7 +161,9 @@ TEST(FillVolume, FreeSpaceSeesTheWallsAndTheInsideOfThingsDoesNotCount) {
   // Outside, close to a wall, half of all ways meet its back.
   LightVolume close(Eigen::AlignedBox3f(Vector3f(4.01f, 1, 1), Vector3f(4.02f, 1.01f, 1.01f)),
                     0.01f);
-  FillVolume(room.instant, room.grid, room.world.statics().mesh, patches, even, 256, &close);
+  SolveWatch another({}, {});
+  FillVolume(room.instant, room.grid, room.world.statics().mesh, patches, even, 256, &close,
+             &another);
   EXPECT_EQ(close.node(0).mean, 0);
   EXPECT_EQ(close.node(0).weight, 0);
 }

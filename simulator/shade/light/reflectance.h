@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "simulator/shade/light/light_state.h"
+#include "simulator/shade/surface/light_grid.h"
+#include "simulator/shade/surface/texture_pool.h"
+#include "simulator/world/world.h"
+
+namespace aisle::sim {
+
+/// What each point of a grid sends on of the light it receives, over `texel` metres: the diffuse
+/// base, and what its lobe mirrors, whose energy must not be lost though radiosity spreads it as if
+/// it were diffuse.
+std::vector<float> ReflectanceAt(const World& world, const TexturePool& textures,
+                                 const LightGrid& grid, float texel);
+
+/// Makes luminaires show their own radiance beside what they reflect: their light is read at
+/// reflectance 1, so that the irradiance there becomes albedo · irradiance + π · emission.
+void PaintLuminaires(const World& world, const TexturePool& textures, const LightGrid& grid,
+                     float texel, std::span<const float> light_scale, LightState* state);
+
+}  // namespace aisle::sim
