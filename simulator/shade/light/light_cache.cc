@@ -82,6 +82,18 @@ fs::path FileOf(const fs::path& folder, std::uint64_t key) {
   return folder / fmt::format("light-{:016x}.bin", key);
 }
 
+/// Takes away what others began to write aside of a file and did not finish. One who is still at it
+/// (which the lock forbids, but a lock can be lost) only fails to keep what he solved.
+void RemoveHalves(const fs::path& file) {
+  std::error_code error;
+  const std::string begin = file.filename().string() + ".";
+  for (const auto& entry : fs::directory_iterator(file.parent_path(), error)) {
+    if (!entry.path().filename().string().starts_with(begin)) continue;
+    std::error_code stays;
+    fs::remove(entry.path(), stays);
+  }
+}
+
 template <typename T>
 void Write(std::ofstream& out, std::span<const T> values) {
   out.write(reinterpret_cast<const char*>(values.data()),
@@ -139,6 +151,10 @@ bool HasLight(const fs::path& folder, std::uint64_t key) {
   return fs::exists(FileOf(folder, key), error);
 }
 
+fs::path LockFileOf(const fs::path& folder, std::uint64_t key) {
+  return folder / fmt::format("light-{:016x}.lock", key);
+}
+
 std::optional<LightState> LoadLight(const fs::path& folder, std::uint64_t key, std::size_t slots) {
   constexpr std::uint64_t kMaxNodes = 100'000'000;
   std::ifstream in(FileOf(folder, key), std::ios::binary);
@@ -168,6 +184,7 @@ void SaveLight(const fs::path& folder, std::uint64_t key, const LightState& stat
   std::error_code error;
   fs::create_directories(folder, error);
   const fs::path file = FileOf(folder, key);
+  RemoveHalves(file);
   fs::path aside = file;
   aside += fmt::format(".{}", getpid());
   Header header;

@@ -25,12 +25,15 @@ std::uint64_t LightKey(const World& world, const StaticLightOptions& options,
 /// Whether there seems to be a kept solution.
 bool HasLight(const std::filesystem::path& folder, std::uint64_t key);
 
+/// Where who solves it holds his LightLock.
+std::filesystem::path LockFileOf(const std::filesystem::path& folder, std::uint64_t key);
+
 /// A kept solution, or nothing when there is none, or it is damaged, or of another size.
 std::optional<LightState> LoadLight(const std::filesystem::path& folder, std::uint64_t key,
                                     std::size_t slots);
 
-/// Keeps a solution, written aside and renamed. A folder that cannot be written is no error: the
-/// next run solves again.
+/// Keeps a solution, written aside and renamed; what another left aside when it died goes. A folder
+/// that cannot be written is no error: the next run solves again.
 void SaveLight(const std::filesystem::path& folder, std::uint64_t key, const LightState& state);
 
 }  // namespace aisle::sim

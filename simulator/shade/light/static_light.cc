@@ -2,9 +2,12 @@
 
 #include <tbb/task_arena.h>
 
+#include <thread>
+
 #include "simulator/common/parallel.h"
 #include "simulator/shade/light/direct_light.h"
 #include "simulator/shade/light/light_cache.h"
+#include "simulator/shade/light/light_lock.h"
 #include "simulator/shade/light/radiosity.h"
 #include "simulator/shade/light/reflectance.h"
 #include "simulator/shade/light/solve_watch.h"
@@ -46,6 +49,17 @@ std::vector<float> DirectAt(const Instant& statics, const World& world,
     watch->Add(count);
   });
   return direct;
+}
+
+/// The lock, once nobody else has it; none if its holder has fallen silent.
+std::optional<LightLock> TakeOrWait(const std::filesystem::path& file, const TellLight& tell) {
+  constexpr auto kBetweenLooks = std::chrono::milliseconds(100);
+  for (LightWait wait(file);;) {
+    if (std::optional<LightLock> lock = LightLock::Try(file)) return lock;
+    if (!wait.Look()) return std::nullopt;
+    if (tell) tell({"another run solves it", wait.share()});
+    std::this_thread::sleep_for(kBetweenLooks);
+  }
 }
 
 }  // namespace
@@ -138,11 +152,20 @@ LightState StaticLight::LoadOrSolve(std::span<const float> light_scale) const {
     return state;
   }
   const std::uint64_t key = LightKey(*world_, options_, light_scale);
-  if (std::optional<LightState> kept =
-          LoadLight(options_.cache_folder, key, fine_.point_of_slot.size())) {
-    return *std::move(kept);
-  }
-  SolveWatch watch(options_.progress, Foreseen());
+  const auto kept = [&] {
+    return LoadLight(options_.cache_folder, key, fine_.point_of_slot.size());
+  };
+  // The one who has the lock solves; others wait for what he leaves. He may have left it between
+  // our look and our lock, so who has it looks once more.
+  if (std::optional<LightState> state = kept()) return *std::move(state);
+  const std::optional<LightLock> lock =
+      TakeOrWait(LockFileOf(options_.cache_folder, key), options_.progress);
+  if (std::optional<LightState> state = kept()) return *std::move(state);
+  const TellLight tell = [&](const LightProgress& progress) {
+    if (lock) lock->Beat(progress.share);
+    if (options_.progress) options_.progress(progress);
+  };
+  SolveWatch watch(tell, Foreseen());
   LightState state = Solve(light_scale, &watch);
   watch.Begin(1);
   SaveLight(options_.cache_folder, key, state);
