@@ -57,6 +57,11 @@ inline float Sum(F8 lanes) {
   for (int k = 0; k < 8; ++k) sum += lanes[k];
   return sum;
 }
+/// Eight bytes, each a lane from 0 to 255.
+inline I8 LoadBytes(const std::uint8_t* from) {
+  return reinterpret_cast<I8>(
+      _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from))));
+}
 /// Four bytes from each byte offset; the table must have three bytes to spare at its end.
 inline I8 GatherBytes(const std::uint8_t* base, I8 offset) {
   return reinterpret_cast<I8>(_mm256_i32gather_epi32(reinterpret_cast<const int*>(base),

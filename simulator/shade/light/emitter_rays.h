@@ -46,9 +46,20 @@ struct Places8 {
   I8 valid;
 };
 
-/// The i-th point of each place on an emitter, in the world.
-inline F8x3 PointsOn(const Emitters::Emitter& e, int i, const Places8& places) {
-  const auto [u, v] = places.PlaceOnEmitter(i);
+/// The same for one place, eight points at a time: lane k holds the (first + k)-th.
+inline std::pair<F8, F8> EightOnEmitter(const Places8& one, int first) {
+  F8 a, b;
+  for (int k = 0; k < kLanes; ++k) {
+    const Eigen::Vector2f at = SpreadPoint(first + k);
+    a[k] = at.x() + one.shift_a[0];
+    b[k] = at.y() + one.shift_b[0];
+  }
+  return {2 * (a - Floor(a)) - 1, 2 * (b - Floor(b)) - 1};
+}
+
+/// Points given in halves of an emitter's sides, in the world.
+inline F8x3 PointsOn(const Emitters::Emitter& e, const std::pair<F8, F8>& at) {
+  const auto& [u, v] = at;
   return {e.center.x() + u * e.half_u.x() + v * e.half_v.x(),
           e.center.y() + u * e.half_u.y() + v * e.half_v.y(),
           e.center.z() + u * e.half_u.z() + v * e.half_v.z()};

@@ -33,25 +33,27 @@ Eigen::Vector3i CellOf(std::uint64_t key) {
   return cell;
 }
 
-/// The eight nodes around a position.
+/// The cell of eight nodes around a position: its lowest corner, and what each corner counts.
 struct Cell {
-  std::array<std::uint64_t, 8> keys;
+  std::uint64_t low;
   std::array<float, 8> weights;
 };
 
 Cell CellAround(const Eigen::Vector3f& position, float spacing) {
   const Eigen::Vector3f at = (position / spacing).array() - 0.5f;
   const Eigen::Vector3f low = at.array().floor(), f = at - low;
-  const Eigen::Vector3i first = low.cast<int>();
-  Cell cell;
+  Cell cell{.low = KeyOf(low.cast<int>()), .weights = {}};
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Vector3i step(corner & 1, corner >> 1 & 1, corner >> 2);
     float weight = 1;
     for (int axis = 0; axis < 3; ++axis) weight *= step[axis] ? f[axis] : 1 - f[axis];
-    cell.keys[static_cast<std::size_t>(corner)] = KeyOf(first + step);
     cell.weights[static_cast<std::size_t>(corner)] = weight;
   }
   return cell;
+}
+
+std::uint64_t CornerOf(std::uint64_t low, int corner) {
+  return KeyOf(CellOf(low) + Eigen::Vector3i(corner & 1, corner >> 1 & 1, corner >> 2));
 }
 
 }  // namespace
@@ -96,15 +98,17 @@ bool StaticVisibility::InsideSomething(const Instant& instant,
 StaticVisibility::Node StaticVisibility::Trace(const Instant& instant, Key key) const {
   const Eigen::Vector3f position = PositionOf(key);
   Node node{.is_free = !InsideSomething(instant, position),
-            .seen = std::vector<std::uint8_t>(emitters_.size())};
+            .seen = std::vector<std::uint8_t>(emitters_.stride())};
   if (!node.is_free) return node;
   const std::vector<float> shares = emitters_.Shares(position, all_on_);
   // Each node asks for points of its own: lamps and the beams below them stand in line, and points
   // that all nodes share are hidden together, or none of them, over metres.
   const std::array<ShadowedPlace, 1> place = {
       {{{position, Eigen::Vector3f::UnitZ()}, static_cast<std::uint32_t>(Mix(key))}}};
-  Places8 lanes{std::span<const ShadowedPlace>(place)};
-  // Eight rays of one place share a packet: lane k asks for point i + k.
+  const Places8 own{std::span<const ShadowedPlace>(place)};
+  const F8x3 from = {Wide(position.x()), Wide(position.y()), Wide(position.z())};
+  // Eight rays of one place share a packet; where they end on an emitter, all emitters share.
+  std::vector<std::pair<F8, F8>> ends;
   for (std::size_t e = 0; e < emitters_.size(); ++e) {
     const Emitters::Emitter& emitter = emitters_[e];
     if ((position - emitter.center).dot(emitter.normal) <= 0) continue;
@@ -112,16 +116,10 @@ StaticVisibility::Node StaticVisibility::Trace(const Instant& instant, Key key) 
         RaysForShare(shares[e], options_.rays_per_share, options_.least_rays, options_.most_rays);
     int seen = 0;
     for (int first = 0; first < rays; first += kLanes) {
-      F8x3 to;
-      I8 valid{};
-      for (int k = 0; k < kLanes && first + k < rays; ++k) {
-        const F8x3 point = PointsOn(emitter, first + k, lanes);
-        to.x[k] = point.x[0] - position.x();
-        to.y[k] = point.y[0] - position.y();
-        to.z[k] = point.z[0] - position.z();
-        valid[k] = -1;
-      }
-      const F8x3 from = {Wide(position.x()), Wide(position.y()), Wide(position.z())};
+      const auto packet = static_cast<std::size_t>(first / kLanes);
+      if (packet == ends.size()) ends.push_back(EightOnEmitter(own, first));
+      const I8 valid = LanesOf(rays - first < kLanes ? (1u << (rays - first)) - 1 : 255u);
+      const F8x3 to = Minus(PointsOn(emitter, ends[packet]), from);
       const unsigned blocked = instant.Occluded(MakeRays(from, to, Wide(kAlmostAtEmitter), valid),
                                                 Coherence::kCoherent, kStaticOnly);
       seen += std::popcount(Bits(valid) & ~blocked);
@@ -155,39 +153,62 @@ std::vector<StaticVisibility::NodePtr> StaticVisibility::NodesOf(const Instant& 
   return nodes;
 }
 
-void StaticVisibility::Shade(const Instant& instant, std::span<const ShadowedPlace> places,
-                             EmitterVisibility* visible) const {
-  std::vector<Cell> cells;
+std::vector<std::array<const StaticVisibility::Node*, 8>> StaticVisibility::Around(
+    const Instant& instant, std::span<const Key> lows, std::vector<NodePtr>* held) const {
   std::vector<Key> keys;
-  for (const ShadowedPlace& place : places) {
-    cells.push_back(CellAround(place.surface.position, options_.spacing_m));
-    keys.insert(keys.end(), cells.back().keys.begin(), cells.back().keys.end());
+  keys.reserve(8 * lows.size());
+  for (const Key low : lows) {
+    for (int corner = 0; corner < 8; ++corner) keys.push_back(CornerOf(low, corner));
   }
   std::ranges::sort(keys);
   keys.erase(std::ranges::unique(keys).begin(), keys.end());
-  const std::vector<NodePtr> nodes = NodesOf(instant, keys);
+  *held = NodesOf(instant, keys);
+  std::vector<std::array<const Node*, 8>> around(lows.size());
+  for (std::size_t i = 0; i < lows.size(); ++i) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const auto at = std::ranges::lower_bound(keys, CornerOf(lows[i], corner)) - keys.begin();
+      around[i][static_cast<std::size_t>(corner)] = (*held)[static_cast<std::size_t>(at)].get();
+    }
+  }
+  return around;
+}
+
+void StaticVisibility::Shade(const Instant& instant, std::span<const ShadowedPlace> places,
+                             EmitterVisibility* visible) const {
+  std::vector<Cell> cells;
+  std::vector<Key> lows;
+  cells.reserve(places.size());
+  lows.reserve(places.size());
+  for (const ShadowedPlace& place : places) {
+    cells.push_back(CellAround(place.surface.position, options_.spacing_m));
+    lows.push_back(cells.back().low);
+  }
+  std::ranges::sort(lows);
+  lows.erase(std::ranges::unique(lows).begin(), lows.end());
+  std::vector<NodePtr> held;
+  const std::vector<std::array<const Node*, 8>> corners = Around(instant, lows, &held);
   ParallelFor(std::size_t{0}, places.size(), [&](std::size_t i) {
-    std::array<const Node*, 8> around;
-    float free = 0;
-    for (std::size_t c = 0; c < 8; ++c) {
-      const auto at = std::ranges::lower_bound(keys, cells[i].keys[c]) - keys.begin();
-      around[c] = nodes[static_cast<std::size_t>(at)].get();
-      if (around[c]->is_free) free += cells[i].weights[c];
-    }
-    if (free <= 0) return;  // in a hole narrower than the grid: nothing is known, nothing taken
-    const std::span row = visible->Row(i);
-    std::vector<float> seen(emitters_.size());
-    for (std::size_t c = 0; c < 8; ++c) {
-      if (!around[c]->is_free) continue;
-      const float weight = cells[i].weights[c] / (free * 255);
-      for (std::size_t e = 0; e < seen.size(); ++e) {
-        seen[e] += weight * static_cast<float>(around[c]->seen[e]);
-      }
-    }
-    for (std::size_t e = 0; e < seen.size(); ++e) {
-      if (row[e] != EmitterVisibility::kBelowHorizon) row[e] *= seen[e];
-    }
+    const auto at = std::ranges::lower_bound(lows, cells[i].low) - lows.begin();
+    Multiply(corners[static_cast<std::size_t>(at)], cells[i].weights, visible->Row(i));
   });
+}
+
+void StaticVisibility::Multiply(const std::array<const Node*, 8>& corners,
+                                const std::array<float, 8>& weights, std::span<float> row) {
+  float free = 0;
+  for (std::size_t c = 0; c < 8; ++c) {
+    if (corners[c]->is_free) free += weights[c];
+  }
+  if (free <= 0) return;  // in a hole narrower than the grid: nothing is known, nothing taken
+  for (std::size_t e = 0; e < row.size(); e += kLanes) {
+    F8 seen = Wide(0);
+    for (std::size_t c = 0; c < 8; ++c) {
+      if (!corners[c]->is_free) continue;
+      seen += weights[c] / (free * 255) * ToFloat(LoadBytes(&corners[c]->seen[e]));
+    }
+    const F8 before = LoadF(&row[e]);
+    Store(Select(before == EmitterVisibility::kBelowHorizon, before, before * seen), &row[e]);
+  }
 }
 
 }  // namespace aisle::sim

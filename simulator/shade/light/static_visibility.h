@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -36,7 +37,7 @@ class StaticVisibility {
   using Key = std::uint64_t;
   struct Node {
     bool is_free = true;
-    std::vector<std::uint8_t> seen;  ///< by emitter, 255: all of it
+    std::vector<std::uint8_t> seen;  ///< by emitter, in whole packets, 255: all of it
   };
   using NodePtr = std::shared_ptr<const Node>;
 
@@ -45,6 +46,12 @@ class StaticVisibility {
   bool InsideSomething(const Instant& instant, const Eigen::Vector3f& position) const;
   /// The nodes of the keys, traced where they are new.
   std::vector<NodePtr> NodesOf(const Instant& instant, std::span<const Key> keys) const;
+  /// The eight nodes of each cell, given by its lowest; `held` keeps them.
+  std::vector<std::array<const Node*, 8>> Around(const Instant& instant, std::span<const Key> lows,
+                                                 std::vector<NodePtr>* held) const;
+  /// Multiplies a row by what nodes with these weights leave.
+  static void Multiply(const std::array<const Node*, 8>& corners,
+                       const std::array<float, 8>& weights, std::span<float> row);
 
   const Emitters& emitters_;
   const TriangleMesh& topology_;

@@ -15,27 +15,35 @@ constexpr int kMostRays = 16;
 // Emitters that give less are taken to be seen as well as the others.
 constexpr float kUntracedShare = 0.005f;
 
-/// Writes what eight places see of one emitter.
-void TraceEmitter(const Instant& instant, const Emitters& emitters, std::size_t emitter,
-                  const EmitterRays& plan, const Places8& places, std::size_t count,
-                  EmitterVisibility* out, std::size_t first) {
-  const Emitters::Emitter& e = emitters[emitter];
+/// Eight places, and where the rays of each end on an emitter, which is the same on all emitters.
+struct AskingPlaces {
+  AskingPlaces(std::span<const ShadowedPlace> eight, int most_rays) : places(eight) {
+    for (int ray = 0; ray < most_rays; ++ray) ends.push_back(places.PlaceOnEmitter(ray));
+    for (const ShadowedPlace& place : eight) box.extend(place.surface.position);
+  }
+  Places8 places;
+  std::vector<std::pair<F8, F8>> ends;
+  Eigen::AlignedBox3f box;
+};
+
+/// What eight places see of one emitter.
+F8 TraceEmitter(const Instant& instant, const Emitters::Emitter& e, const EmitterRays& plan,
+                const AskingPlaces& asking) {
+  const Places8& places = asking.places;
   const F8x3 n = {Wide(e.normal.x()), Wide(e.normal.y()), Wide(e.normal.z())};
+  const GeometryMask movers =
+      MoversIn(Shaft(asking.box, e.center, e.half_u, e.half_v), instant, plan.movers);
   F8 seen = Wide(0), asked = Wide(0);
-  for (int ray = 0; ray < plan.rays; ++ray) {
-    const F8x3 to = Minus(PointsOn(e, ray, places), places.position);
+  for (std::size_t ray = 0; ray < static_cast<std::size_t>(plan.rays); ++ray) {
+    const F8x3 to = Minus(PointsOn(e, asking.ends[ray]), places.position);
     const I8 valid = places.valid & (Dot(to, places.normal) > 0) & (Dot(to, n) < 0);
     if (!Any(valid)) continue;
     const unsigned blocked =
-        BlockedByMovers(instant, plan.movers, places.position, to, Wide(kAlmostAtEmitter), valid);
+        BlockedByMovers(instant, movers, places.position, to, Wide(kAlmostAtEmitter), valid);
     asked += Select(valid, Wide(1), Wide(0));
     seen += Select(valid & ~LanesOf(blocked), Wide(1), Wide(0));
   }
-  for (std::size_t k = 0; k < count; ++k) {
-    const int lane = static_cast<int>(k);
-    out->Row(first + k)[emitter] =
-        asked[lane] > 0 ? seen[lane] / asked[lane] : EmitterVisibility::kBelowHorizon;
-  }
+  return Select(asked > 0, seen / Max(asked, Wide(1)), Wide(EmitterVisibility::kBelowHorizon));
 }
 
 /// Gives emitters that were too weak to be asked the mean of the others.
@@ -71,14 +79,19 @@ EmitterVisibility TraceMoverShadowsOn(const Instant& instant, const Emitters& em
                                       std::span<const EmitterRays> plan,
                                       std::span<const ShadowedPlace> places) {
   EmitterVisibility visible(places.size(), emitters.stride());
+  int most_rays = 0;
+  for (const EmitterRays& one : plan) most_rays = std::max(most_rays, one.rays);
   ParallelFor(std::size_t{0}, (places.size() + kLanes - 1) / kLanes, [&](std::size_t packet) {
     const std::size_t first = packet * kLanes;
     const std::span eight =
         places.subspan(first, std::min<std::size_t>(kLanes, places.size() - first));
-    const Places8 lanes(eight);
+    const AskingPlaces asking(eight, most_rays);
     for (std::size_t i = 0; i < plan.size(); ++i) {
       if (plan[i].rays == 0) continue;
-      TraceEmitter(instant, emitters, i, plan[i], lanes, eight.size(), &visible, first);
+      const F8 seen = TraceEmitter(instant, emitters[i], plan[i], asking);
+      for (std::size_t k = 0; k < eight.size(); ++k) {
+        visible.Row(first + k)[i] = seen[static_cast<int>(k)];
+      }
     }
     for (std::size_t k = 0; k < eight.size(); ++k) FillUnasked(plan, visible.Row(first + k));
   });

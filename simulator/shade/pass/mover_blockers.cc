@@ -1,22 +1,28 @@
 #include "simulator/shade/pass/mover_blockers.h"
 
+#include <algorithm>
+
 #include "simulator/shade/lanes/ray_packets.h"
 
 namespace aisle::sim {
+namespace {
 
-I8 MeetBox(const Eigen::AlignedBox3f& box, const F8x3& from, const F8x3& to) {
-  F8 near = Wide(0), far = Wide(1);
-  const auto slab = [&](float lo, float hi, F8 start, F8 along) {
-    const F8 safe = Select(Abs(along) < 1e-9f, Wide(1e-9f), along);
-    const F8 a = (lo - start) / safe, b = (hi - start) / safe;
-    near = Max(near, Min(a, b));
-    far = Min(far, Max(a, b));
-  };
-  slab(box.min().x(), box.max().x(), from.x, to.x);
-  slab(box.min().y(), box.max().y(), from.y, to.y);
-  slab(box.min().z(), box.max().z(), from.z, to.z);
-  return near <= far;
+constexpr float kAroundShaft = 4e-3f;  // m; points are lifted off their surfaces by half of that
+constexpr float kStraight = 1e-3f;     // m: an end of a shaft that hardly moves aside
+
+/// Narrows [near, far] to the shares t of the way where t·way <= most.
+bool Narrow(float way, float most, float* near, float* far) {
+  if (way > kStraight) {
+    *far = std::min(*far, most / way);
+  } else if (way < -kStraight) {
+    *near = std::max(*near, most / way);
+  } else if (most < -kStraight) {
+    return false;
+  }
+  return *near <= *far;
 }
+
+}  // namespace
 
 GeometryMask MoversBetween(const Instant& instant, const Eigen::AlignedBox3f& box,
                            const Eigen::Vector3f& center, const Eigen::Vector3f& half_u,
@@ -31,6 +37,33 @@ GeometryMask MoversBetween(const Instant& instant, const Eigen::AlignedBox3f& bo
     if (Any(MeetBox(Grown(instant.mover_boxes()[m], thick), from, to))) mask |= MoverBit(m);
   }
   return mask;
+}
+
+Shaft::Shaft(const Eigen::AlignedBox3f& from, const Eigen::Vector3f& center,
+             const Eigen::Vector3f& half_u, const Eigen::Vector3f& half_v)
+    : from_(Grown(from, Eigen::Vector3f::Constant(kAroundShaft))) {
+  const Eigen::Vector3f half = half_u.cwiseAbs() + half_v.cwiseAbs();
+  low_way_ = center - half - from_.min();
+  high_way_ = center + half - from_.max();
+}
+
+bool Shaft::Meets(const Eigen::AlignedBox3f& box) const {
+  float near = 0, far = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float below = box.max()[axis] + kAroundShaft - from_.min()[axis];
+    const float above = from_.max()[axis] - (box.min()[axis] - kAroundShaft);
+    if (!Narrow(low_way_[axis], below, &near, &far)) return false;
+    if (!Narrow(-high_way_[axis], above, &near, &far)) return false;
+  }
+  return true;
+}
+
+GeometryMask MoversIn(const Shaft& shaft, const Instant& instant, GeometryMask movers) {
+  GeometryMask met = 0;
+  for (std::size_t m = 0; m < instant.mover_boxes().size(); ++m) {
+    if (movers & MoverBit(m) && shaft.Meets(instant.mover_boxes()[m])) met |= MoverBit(m);
+  }
+  return met;
 }
 
 unsigned BlockedByMovers(const Instant& instant, GeometryMask movers, const F8x3& from,

@@ -7,8 +7,25 @@
 
 namespace aisle::sim {
 
-/// Lanes whose segment from + t·to, t in [0, 1], meets the box.
-I8 MeetBox(const Eigen::AlignedBox3f& box, const F8x3& from, const F8x3& to);
+/// Lanes whose segment from + t·to, t in [0, 1], meets the lane's box from `low` to `high`.
+inline I8 MeetBoxes(const F8x3& low, const F8x3& high, const F8x3& from, const F8x3& to) {
+  F8 near = Wide(0), far = Wide(1);
+  const auto slab = [&](F8 lo, F8 hi, F8 start, F8 along) {
+    const F8 safe = Select(Abs(along) < 1e-9f, Wide(1e-9f), along);
+    const F8 a = (lo - start) / safe, b = (hi - start) / safe;
+    near = Max(near, Min(a, b));
+    far = Min(far, Max(a, b));
+  };
+  slab(low.x, high.x, from.x, to.x);
+  slab(low.y, high.y, from.y, to.y);
+  slab(low.z, high.z, from.z, to.z);
+  return near <= far;
+}
+/// The same where all lanes have one box.
+inline I8 MeetBox(const Eigen::AlignedBox3f& box, const F8x3& from, const F8x3& to) {
+  return MeetBoxes({Wide(box.min().x()), Wide(box.min().y()), Wide(box.min().z())},
+                   {Wide(box.max().x()), Wide(box.max().y()), Wide(box.max().z())}, from, to);
+}
 
 /// The box, wider by that much on each side.
 inline Eigen::AlignedBox3f Grown(const Eigen::AlignedBox3f& box, const Eigen::Vector3f& by) {
@@ -25,6 +42,24 @@ inline bool CastsShadow(const Instant& instant, std::size_t mover) {
 GeometryMask MoversBetween(const Instant& instant, const Eigen::AlignedBox3f& box,
                            const Eigen::Vector3f& center, const Eigen::Vector3f& half_u,
                            const Eigen::Vector3f& half_v);
+
+/// The space that segments from a box to a rectangle pass, and a little around it: at each share of
+/// the way it is a box between the two.
+class Shaft {
+ public:
+  Shaft(const Eigen::AlignedBox3f& from, const Eigen::Vector3f& center,
+        const Eigen::Vector3f& half_u, const Eigen::Vector3f& half_v);
+
+  /// False only if no segment comes within a millimetre of the box.
+  bool Meets(const Eigen::AlignedBox3f& box) const;
+
+ private:
+  Eigen::AlignedBox3f from_;
+  Eigen::Vector3f low_way_, high_way_;  ///< of the box's corners
+};
+
+/// Those of the movers whose boxes the shaft meets.
+GeometryMask MoversIn(const Shaft& shaft, const Instant& instant, GeometryMask movers);
 
 /// Lanes (as bits) of whose segment from + t·to, t in [0, t_far], one of the movers blocks some;
 /// each mover is asked for those lanes alone that meet its box.

@@ -45,6 +45,18 @@ TEST(Places8, FewerPointsAreAmongMoreAndEachPlaceHasItsOwn) {
   }
 }
 
+TEST(EightOnEmitter, AreTheSamePointsOneALane) {
+  const std::array<ShadowedPlace, 1> place = {{{{{1, 2, 3}, {0, 0, 1}}, 4711}}};
+  const Places8 one{std::span<const ShadowedPlace>(place)};
+  for (int first = 0; first < 128; first += kLanes) {
+    const auto [a, b] = EightOnEmitter(one, first);
+    for (int k = 0; k < kLanes; ++k) {
+      EXPECT_EQ(a[k], one.PlaceOnEmitter(first + k).first[0]);
+      EXPECT_EQ(b[k], one.PlaceOnEmitter(first + k).second[0]);
+    }
+  }
+}
+
 /// Cutting loses nothing: the pieces' areas and powers sum to the lamps', and each lies in its own.
 TEST(Emitters, ArePiecesOfTheirLampsThatSumToThem) {
   std::mt19937 random(6);

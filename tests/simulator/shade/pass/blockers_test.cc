@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
 #include <random>
 
 #include "simulator/camera/pixel_rays.h"
@@ -106,6 +108,78 @@ TEST(MoversBetween, LeavesOutNoMoverThatBlocksAnything) {
   }
   EXPECT_GT(blocked_at_all, 50);
   EXPECT_GT(left_out, 50) << "and it does leave out some";
+}
+
+TEST(MeetBoxes, AsksEachLaneForItsOwnBox) {
+  Random random(7);
+  const Eigen::AlignedBox3f space(Vector3f::Constant(-3), Vector3f::Constant(3));
+  for (int round = 0; round < 200; ++round) {
+    F8x3 low, high, from, to;
+    std::array<Eigen::AlignedBox3f, 8> boxes;
+    for (int k = 0; k < 8; ++k) {
+      Eigen::AlignedBox3f& box = boxes[static_cast<std::size_t>(k)];
+      box = Eigen::AlignedBox3f(random.Point(space));
+      box.extend(random.Point(space));
+      Set(box.min(), k, &low);
+      Set(box.max(), k, &high);
+      Set(random.Point(space), k, &from);
+      Set(random.Point(space), k, &to);
+    }
+    const I8 meets = MeetBoxes(low, high, from, to);
+    for (int k = 0; k < 8; ++k) {
+      EXPECT_EQ(meets[k], MeetBox(boxes[static_cast<std::size_t>(k)], from, to)[k]);
+    }
+  }
+}
+
+/// A shaft says no only where no segment comes near, and it does say no beside a long thin one.
+TEST(Shaft, MeetsAllThatItsSegmentsPass) {
+  Random random(5);
+  const Eigen::AlignedBox3f space(Vector3f(-6, -6, 0), Vector3f(6, 6, 3));
+  int met = 0, left_out = 0;
+  for (int round = 0; round < 3000; ++round) {
+    Eigen::AlignedBox3f from(random.Point(space)), box(random.Point(space));
+    from.extend(from.min() + Vector3f(random.In(0, 1), random.In(0, 1), random.In(0, 0.1f)));
+    box.extend(box.min() + Vector3f(random.In(0.1f, 1), random.In(0.1f, 1), random.In(0.1f, 2)));
+    const Vector3f center(random.In(-8, 8), random.In(-8, 8), 5);
+    const Vector3f half_u(random.In(0, 1), random.In(0, 1), 0), half_v(0, -0.2f, 0);
+    const bool meets = Shaft(from, center, half_u, half_v).Meets(box);
+    for (int packet = 0; packet < 8; ++packet) {
+      F8x3 start, way;
+      for (int k = 0; k < 8; ++k) {
+        const Vector3f at = random.Point(from);
+        Set(at, k, &start);
+        Set(center + random.In(-1, 1) * half_u + random.In(-1, 1) * half_v - at, k, &way);
+      }
+      const bool passes = Any(MeetBox(box, start, way));
+      ASSERT_TRUE(meets || !passes) << round;
+      met += passes;
+    }
+    left_out += !meets;
+  }
+  EXPECT_GT(met, 500);
+  EXPECT_GT(left_out, 1500);
+}
+
+TEST(Shaft, LeavesOutMoversThatAThickSegmentDoesNot) {
+  const Stage stage;
+  Random random(6);
+  const Eigen::AlignedBox3f hall(Vector3f(1, -4, 0), Vector3f(28, 4, 0.1f));
+  int loose = 0, tight = 0;
+  for (int round = 0; round < 2000; ++round) {
+    Eigen::AlignedBox3f box(random.Point(hall));
+    box.extend((box.min() + Vector3f(random.In(0, 0.3f), random.In(0, 0.3f), 0)).eval());
+    const AreaLight& light = stage.world.lights()[static_cast<std::size_t>(round) % 8];
+    const GeometryMask mask =
+        MoversBetween(stage.instant, box, light.center, light.half_u, light.half_v);
+    const GeometryMask in =
+        MoversIn(Shaft(box, light.center, light.half_u, light.half_v), stage.instant, mask);
+    EXPECT_EQ(in & ~mask, 0u);
+    loose += std::popcount(mask);
+    tight += std::popcount(in);
+  }
+  EXPECT_GT(tight, 0);
+  EXPECT_LT(tight, loose);
 }
 
 TEST(BlockedByMovers, IsWhatRaysAgainstAllMoversFind) {
