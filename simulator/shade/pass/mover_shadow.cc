@@ -44,7 +44,7 @@ class SeenBefore {
   std::span<const float> raw_;
 };
 
-/// Averages the pattern in the tiles that lost light and those around them.
+/// Averages the pattern in the tiles that lost light and those around them; `kept` is 1 before.
 void Filter(const ShadingView& shading, const TileGrid& grid, std::span<const std::uint8_t> lost,
             std::span<const float> raw, std::vector<float>* kept) {
   const PatternFilter filter(shading.image, shading.tables.statics(), raw);
@@ -61,7 +61,7 @@ void Filter(const ShadingView& shading, const TileGrid& grid, std::span<const st
     if (!near) return;
     ForRows(tile, kLanes, [&](int x, int y) {
       const I8 is_static = pixels.Lanes(x, y);
-      if (Any(is_static)) filter.Packet(x, y, is_static, kept);
+      if (Any(is_static) && !filter.OnesAround(x, y)) filter.Packet(x, y, is_static, kept);
     });
   });
 }
@@ -74,6 +74,7 @@ void TraceMoverShadows(const ShadingView& shading, std::span<const float> irradi
   raw->assign(irradiance.size(), 1);
   if (shading.instant.snapshot().movers.empty() || shading.tables.statics().empty()) return;
   const SeenBefore before(shading, seen);
+  const ShadowPlanner planner(shading, irradiance);
   const ShadowRays rays(shading, irradiance);
   const TileGrid grid{shading.image.width, shading.image.height, kTileWidth, kTileHeight};
   std::vector<std::uint8_t> lost(grid.size());
@@ -85,7 +86,7 @@ void TraceMoverShadows(const ShadingView& shading, std::span<const float> irradi
       open[packet] = before.TakeOver(x, y, raw, &any_lost);
       any_open |= Any(open[packet++]);
     });
-    const ShadowPlan plan = any_open ? PlanShadows(shading, irradiance, tile) : ShadowPlan{};
+    const ShadowPlan plan = any_open ? planner.Plan(tile, open) : ShadowPlan{};
     packet = 0;
     if (!plan.empty()) {
       ForRows(tile, kLanes, [&](int x, int y) {

@@ -16,9 +16,7 @@ constexpr float kSameWay = 0.9f;  // cosine between normals
 
 void PatternFilter::Packet(int x, int y, I8 wanted, std::vector<float>* means) const {
   const std::size_t i = image_.Index(x, y);
-  const bool inside =
-      x > 0 && y >= kReach && x + 2 * kLanes <= image_.width && y + kReach < image_.height;
-  if (inside) {
+  if (Inside(x, y)) {
     Store(Select(wanted, Mean8(i), LoadF(&(*means)[i])), &(*means)[i]);
     return;
   }
@@ -26,6 +24,21 @@ void PatternFilter::Packet(int x, int y, I8 wanted, std::vector<float>* means) c
     const std::size_t at = i + static_cast<std::size_t>(k);
     if (wanted[k]) (*means)[at] = Mean(x + k, y);
   }
+}
+
+bool PatternFilter::OnesAround(int x, int y) const {
+  if (!Inside(x, y)) return false;
+  const auto stride = static_cast<std::size_t>(image_.stride);
+  const float* first = &raw_[image_.Index(x, y) - kReach * stride - kReach];
+  I8 other{};
+  for (std::size_t row = 0; row < 2 * kReach + 1; ++row, first += stride) {
+    other |= (LoadF(first) != 1) | (LoadF(first + 2 * kReach) != 1);
+  }
+  return !Any(other);
+}
+
+bool PatternFilter::Inside(int x, int y) const {
+  return x > 0 && y >= kReach && x + 2 * kLanes <= image_.width && y + kReach < image_.height;
 }
 
 bool PatternFilter::SameSurface(std::size_t i, std::size_t j) const {

@@ -32,8 +32,13 @@ class PatternFilter {
   /// Writes the means (not below 0) of the wanted ones of the pixels (x, y) to (x + 7, y); x is a
   /// multiple of eight.
   void Packet(int x, int y, I8 wanted, std::vector<float>* means) const;
+  /// Whether all samples that these eight pixels' means could be taken from are 1: then so are
+  /// these. May say no though they are.
+  bool OnesAround(int x, int y) const;
 
  private:
+  /// Whether all pixels that Packet reads around its own lie in the image.
+  bool Inside(int x, int y) const;
   bool SameSurface(std::size_t i, std::size_t j) const;
   float Mean(int x, int y) const;
   F8 Mean8(std::size_t i) const;

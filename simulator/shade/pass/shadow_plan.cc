@@ -1,6 +1,7 @@
 #include "simulator/shade/pass/shadow_plan.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "simulator/shade/pass/mover_blockers.h"
 #include "simulator/shade/pass/static_pixels.h"
@@ -14,12 +15,22 @@ constexpr float kUntracedShare = 0.02f;
 // fourth row of the pattern only.
 constexpr float kHalfShare = 0.2f, kQuarterShare = 0.08f;
 
-/// Around what the tile shows of the static world.
-Eigen::AlignedBox3f BoxOf(const StaticPixels& pixels, const Tile& tile) {
+F8x3 Wide3(const Eigen::Vector3f& v) { return {Wide(v.x()), Wide(v.y()), Wide(v.z())}; }
+F8x3 Plus(const F8x3& a, const F8x3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+void SetLane(const Eigen::Vector3f& v, std::size_t k, F8x3* to) {
+  to->x[k] = v.x();
+  to->y[k] = v.y();
+  to->z[k] = v.z();
+}
+
+/// Around what lanes(x, y) of the tile's packets show.
+template <typename Lanes>
+Eigen::AlignedBox3f BoxOf(const StaticPixels& pixels, const Tile& tile, const Lanes& lanes) {
   const F8 infinity = Wide(kInfinity);
   F8x3 lo = {infinity, infinity, infinity}, hi = {-infinity, -infinity, -infinity};
   ForRows(tile, kLanes, [&](int x, int y) {
-    const I8 active = pixels.Lanes(x, y);
+    const I8 active = lanes(x, y);
+    if (!Any(active)) return;
     const F8x3 p = pixels.PositionsOf(x, y, active);
     const auto extend = [&](F8 value, F8* low, F8* high) {
       *low = Min(*low, Select(active, value, infinity));
@@ -83,27 +94,79 @@ void Thin(float mean, std::vector<ShadowBlocker>* blockers) {
 
 }  // namespace
 
-ShadowPlan PlanShadows(const ShadingView& shading, std::span<const float> irradiance,
-                       const Tile& tile) {
+ShadowPlanner::ShadowPlanner(const ShadingView& shading, std::span<const float> irradiance)
+    : shading_(shading), irradiance_(irradiance) {
+  const std::vector<AreaLight>& lights = shading.world().lights();
+  lights_.resize((lights.size() + kLanes - 1) / kLanes);
+  for (std::size_t i = 0; i < lights_.size() * kLanes; ++i) {
+    const AreaLight& light = lights[std::min(i, lights.size() - 1)];
+    const Eigen::Vector3f half_size = light.half_u.cwiseAbs() + light.half_v.cwiseAbs();
+    Lights8& eight = lights_[i / kLanes];
+    const std::size_t k = i % kLanes;
+    SetLane(light.center, k, &eight.center);
+    SetLane(half_size, k, &eight.half_size);
+    const bool is_on = i < lights.size() && shading.instant.snapshot().light_scale[i] > 0;
+    eight.is_on[k] = is_on ? -1 : 0;
+  }
+}
+
+std::vector<GeometryMask> ShadowPlanner::MoversBefore(const Eigen::AlignedBox3f& box) const {
+  const Instant& instant = shading_.instant;
+  const Eigen::Vector3f start = box.center(), half = box.sizes() / 2;
+  const F8x3 from = Wide3(start);
+  std::vector<GeometryMask> movers(lights_.size() * kLanes);
+  for (std::size_t packet = 0; packet < lights_.size(); ++packet) {
+    const Lights8& lights = lights_[packet];
+    if (!Any(lights.is_on)) continue;
+    const F8x3 way = Minus(lights.center, from);
+    const F8x3 thick = {Max(lights.half_size.x, Wide(half.x())),
+                        Max(lights.half_size.y, Wide(half.y())),
+                        Max(lights.half_size.z, Wide(half.z()))};
+    for (std::size_t m = 0; m < instant.mover_boxes().size(); ++m) {
+      if (!CastsShadow(instant, m)) continue;
+      const Eigen::AlignedBox3f& mover = instant.mover_boxes()[m];
+      const F8x3 low = Minus(Wide3(mover.min()), thick), high = Plus(Wide3(mover.max()), thick);
+      unsigned met = Bits(lights.is_on & MeetBoxes(low, high, from, way));
+      for (; met; met &= met - 1) {
+        movers[packet * kLanes + static_cast<std::size_t>(std::countr_zero(met))] |= MoverBit(m);
+      }
+    }
+  }
+  return movers;
+}
+
+ShadowPlan ShadowPlanner::Plan(const Tile& tile, std::span<const I8> open) const {
   ShadowPlan work;
-  const Eigen::AlignedBox3f box = BoxOf(StaticPixels(shading), tile);
+  const StaticPixels pixels(shading_);
+  const Eigen::AlignedBox3f box =
+      BoxOf(pixels, tile, [&](int x, int y) { return pixels.Lanes(x, y); });
   if (box.isEmpty()) return work;
-  const auto& movers = shading.instant.mover_boxes();
+  const auto& movers = shading_.instant.mover_boxes();
   for (std::size_t m = 0; m < movers.size(); ++m) {
-    if (!CastsShadow(shading.instant, m)) continue;
+    if (!CastsShadow(shading_.instant, m)) continue;
     if (Grown(movers[m], Eigen::Vector3f::Constant(kAmbientReach)).intersects(box)) {
       work.near |= MoverBit(m);
     }
   }
-  for (std::size_t l = 0; l < shading.world().lights().size(); ++l) {
-    const AreaLight& light = shading.world().lights()[l];
-    const float scale = shading.instant.snapshot().light_scale[l];
-    if (scale <= 0) continue;
-    const GeometryMask mask =
-        MoversBetween(shading.instant, box, light.center, light.half_u, light.half_v);
-    if (mask) work.blockers.push_back({l, mask, MostLight(light, scale, box), 1});
+  const std::vector<AreaLight>& lights = shading_.world().lights();
+  const std::vector<GeometryMask> before = MoversBefore(box);
+  for (std::size_t l = 0; l < lights.size(); ++l) {
+    if (!before[l]) continue;
+    const float scale = shading_.instant.snapshot().light_scale[l];
+    work.blockers.push_back({l, before[l], MostLight(lights[l], scale, box), 1});
   }
-  Thin(MeanLight(shading.image, irradiance, tile), &work.blockers);
+  if (work.blockers.empty()) return work;
+  Thin(MeanLight(shading_.image, irradiance_, tile), &work.blockers);
+  // Which lights are too weak was asked of all that may be in the way at all; what is traced is
+  // what may be in the way of these pixels.
+  std::size_t packet = 0;
+  const Eigen::AlignedBox3f asked = BoxOf(pixels, tile, [&](int, int) { return open[packet++]; });
+  std::erase_if(work.blockers, [&](ShadowBlocker& blocker) {
+    const AreaLight& light = lights[blocker.light];
+    blocker.movers = MoversIn(Shaft(asked, light.center, light.half_u, light.half_v),
+                              shading_.instant, blocker.movers);
+    return blocker.movers == 0;
+  });
   return work;
 }
 

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "simulator/shade/lanes/wide.h"
 #include "simulator/shade/pass/shading_view.h"
 #include "simulator/trace/tile_grid.h"
 
@@ -25,9 +26,31 @@ struct ShadowPlan {
 
 inline constexpr float kAmbientReach = 1.2f;  ///< m: how far a mover darkens indirect light
 
-/// Which lights and movers can matter for what a tile shows of the static world, whose irradiance,
-/// in HitImage rows, tells which lights are too weak for that.
-ShadowPlan PlanShadows(const ShadingView& shading, std::span<const float> irradiance,
-                       const Tile& tile);
+/// Finds out which lights and movers can matter for what tiles of a picture show of the static
+/// world.
+class ShadowPlanner {
+ public:
+  /// Both must outlive it; `irradiance`, of the static world in HitImage rows, tells which lights
+  /// are too weak to matter.
+  ShadowPlanner(const ShadingView& shading, std::span<const float> irradiance);
+
+  /// `open`: the lanes of the tile's packets, in reading order, that are to be traced. Which lights
+  /// are too weak is a question of the whole tile.
+  ShadowPlan Plan(const Tile& tile, std::span<const I8> open) const;
+
+ private:
+  /// Eight lights; those beyond the last one are off.
+  struct Lights8 {
+    F8x3 center, half_size;
+    I8 is_on;
+  };
+
+  /// By light: the movers that may stand between it and a box.
+  std::vector<GeometryMask> MoversBefore(const Eigen::AlignedBox3f& box) const;
+
+  const ShadingView& shading_;
+  std::span<const float> irradiance_;
+  std::vector<Lights8> lights_;
+};
 
 }  // namespace aisle::sim

@@ -105,6 +105,27 @@ TEST(PatternFilter, IsTheMeanOfTheSameSurfaceInEveryPacketAndAtEveryBorder) {
   }
 }
 
+/// Packets around which every sample is 1 may be left out: their means are exactly 1.
+TEST(PatternFilter, WithOnesAroundGivesOnes) {
+  Picture p = Seen(3);
+  std::ranges::fill(p.raw, 1.0f);
+  p.raw[p.image.Index(kWidth / 2, kHeight / 2)] = 0.5f;
+  const PatternFilter filter(p.image, p.statics, p.raw);
+  int left_out = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; x += kLanes) {
+      std::vector<float> means(p.image.t.size(), 1.0f);
+      filter.Packet(x, y, LoadI(&p.image.geometry[p.image.Index(x, y)]) != -1, &means);
+      const bool ones = std::ranges::count(means, 1.0f) == std::ssize(means);
+      if (filter.OnesAround(x, y)) {
+        EXPECT_TRUE(ones) << x << ", " << y;
+      }
+      left_out += filter.OnesAround(x, y);
+    }
+  }
+  EXPECT_GT(left_out, 0);
+}
+
 /// Over the pattern's sixteen samples each counts the same: a value that depends on the sample
 /// alone becomes the mean of all, wherever the pixel lies in its block.
 TEST(PatternFilter, OnOnePlaneEverySampleCountsTheSame) {
