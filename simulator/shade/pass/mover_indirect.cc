@@ -5,6 +5,7 @@
 
 #include "simulator/common/parallel.h"
 #include "simulator/shade/lanes/hemisphere.h"
+#include "simulator/shade/lanes/ray_packets.h"
 #include "simulator/shade/pass/emitter_shadows.h"
 #include "simulator/shade/pass/mover_blockers.h"
 
@@ -12,9 +13,9 @@ namespace aisle::sim {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr int kDirections = 16;         // a place
-constexpr float kReach = 1.0f;          // m: how far a body darkens itself
-constexpr float kReflection = 0.15f;    // what the blocking parts send on in turn
+constexpr std::size_t kDirections = 16;  // a place
+constexpr float kReach = 1.0f;           // m: how far a body darkens itself
+constexpr float kReflection = 0.15f;     // what the blocking parts send on in turn
 constexpr float kGroundReach = 1.2f;    // m: how far around a body its shadow on the floor is known
 constexpr float kGroundSpacing = 0.3f;  // m
 constexpr float kDark = 1e-9f;
@@ -53,9 +54,14 @@ MoverIndirect::MoverIndirect(const Instant& instant, const Emitters& emitters,
     : instant_(instant),
       volume_(volume),
       bodies_(Around(instant, mover)),
-      directions_(CosineDirections(kDirections)),
       ground_z_(
           static_cast<float>(instant.snapshot().movers[mover].T_world_object.translation().z())) {
+  const std::vector<Eigen::Vector3f> directions = CosineDirections(kDirections);
+  for (std::size_t d = 0; d < directions.size(); ++d) {
+    directions_[d / kLanes].x[d % kLanes] = directions[d].x();
+    directions_[d / kLanes].y[d % kLanes] = directions[d].y();
+    directions_[d / kLanes].z[d % kLanes] = directions[d].z();
+  }
   const Eigen::AlignedBox3f& box = instant.mover_boxes()[mover];
   const auto node = [](float at) { return static_cast<int>(std::floor(at / kGroundSpacing)); };
   for (int axis = 0; axis < 2; ++axis) {
@@ -95,44 +101,60 @@ void MoverIndirect::ShadeGround(const Emitters& emitters, const StaticVisibility
       seen += light * Max(LoadF(&left.Row(i)[e]), Wide(0));
     }
     int blocked = 0;
-    for (const unsigned lanes : Probe(place, Eigen::Matrix3f::Identity())) {
-      blocked += std::popcount(lanes);
-    }
-    const float sky = 1 - static_cast<float>(blocked) / kDirections * (1 - kReflection);
+    for (const I8 lanes : Probe(place, directions_)) blocked += std::popcount(Bits(lanes));
+    const float sky =
+        1 - static_cast<float>(blocked) / static_cast<float>(kDirections) * (1 - kReflection);
     const float indirect = volume_.Irradiance(place.position, place.normal);
     kept_[i] = (Sum(seen) + sky * indirect + kDark) / (Sum(all) + indirect + kDark);
   });
 }
 
-MoverIndirect::Blocked MoverIndirect::Probe(const SurfacePoint& point,
-                                            const Eigen::Matrix3f& basis) const {
-  Blocked blocked;
-  Rays8 rays;
-  for (std::size_t d = 0; d < directions_.size(); d += kLanes) {
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      SetRay(point.position, basis * directions_[d + k], kReach, static_cast<int>(k), &rays);
-    }
-    blocked.push_back(instant_.Occluded(rays, Coherence::kIncoherent, bodies_));
+MoverIndirect::Directions MoverIndirect::Turned(const Eigen::Matrix3f& basis) const {
+  Directions turned;
+  for (std::size_t packet = 0; packet < kPackets; ++packet) {
+    const F8x3& d = directions_[packet];
+    // The order in which a 3 x 3 matrix of Eigen's sums.
+    const auto row = [&](int i) {
+      return basis(i, 0) * d.x + (basis(i, 1) * d.y + basis(i, 2) * d.z);
+    };
+    turned[packet] = {row(0), row(1), row(2)};
+  }
+  return turned;
+}
+
+std::array<I8, MoverIndirect::kPackets> MoverIndirect::Probe(const SurfacePoint& point,
+                                                             const Directions& directions) const {
+  const Eigen::Vector3f& p = point.position;
+  const F8x3 from = {Wide(p.x()), Wide(p.y()), Wide(p.z())};
+  std::array<I8, kPackets> blocked;
+  for (std::size_t packet = 0; packet < kPackets; ++packet) {
+    blocked[packet] =
+        LanesOf(instant_.Occluded(MakeRays(from, directions[packet], Wide(kReach), WideInt(-1)),
+                                  Coherence::kIncoherent, bodies_));
   }
   return blocked;
 }
 
-float MoverIndirect::KeptByGround(const Eigen::Vector3f& from,
-                                  const Eigen::Vector3f& direction) const {
+F8 MoverIndirect::KeptByGround(const Eigen::Vector3f& from, const F8x3& directions) const {
   const float height = from.z() - ground_z_;
-  if (direction.z() >= -1e-3f || height < 0) return 1;
-  const Eigen::Vector3f meets = from - height / direction.z() * direction;
-  const Eigen::Vector2f at = meets.head<2>() / kGroundSpacing - first_.cast<float>();
-  const float x = std::floor(at.x()), y = std::floor(at.y());
-  if (!(x >= 0 && y >= 0 && x + 1 < static_cast<float>(nodes_.x()) &&
-        y + 1 < static_cast<float>(nodes_.y()))) {
-    return 1;
-  }
-  const float fx = at.x() - x, fy = at.y() - y;
-  const auto i = static_cast<std::size_t>(static_cast<int>(y) * nodes_.x() + static_cast<int>(x));
-  const std::size_t below = i + static_cast<std::size_t>(nodes_.x());
-  return (1 - fy) * ((1 - fx) * kept_[i] + fx * kept_[i + 1]) +
-         fy * ((1 - fx) * kept_[below] + fx * kept_[below + 1]);
+  const I8 down = directions.z < -1e-3f;
+  if (height < 0 || !Any(down)) return Wide(1);
+  const F8 length = height / Select(down, directions.z, Wide(-1));
+  const F8 at_x =
+      (from.x() - length * directions.x) / kGroundSpacing - static_cast<float>(first_.x());
+  const F8 at_y =
+      (from.y() - length * directions.y) / kGroundSpacing - static_cast<float>(first_.y());
+  const F8 x = Floor(at_x), y = Floor(at_y);
+  const I8 inside = down & (x >= 0) & (y >= 0) & (x + 1 < static_cast<float>(nodes_.x())) &
+                    (y + 1 < static_cast<float>(nodes_.y()));
+  if (!Any(inside)) return Wide(1);
+  const I8 i = inside ? ToInt(y) * nodes_.x() + ToInt(x) : I8{};
+  const I8 below = i + nodes_.x();
+  const F8 fx = at_x - x, fy = at_y - y;
+  const float* kept = kept_.data();
+  const F8 mixed = (1 - fy) * ((1 - fx) * Gather(kept, i) + fx * Gather(kept, i + 1)) +
+                   fy * ((1 - fx) * Gather(kept, below) + fx * Gather(kept, below + 1));
+  return Select(inside, mixed, Wide(1));
 }
 
 float MoverIndirect::KeptAt(const ShadowedPlace& place, const Eigen::Vector3f& tangent) const {
@@ -141,17 +163,20 @@ float MoverIndirect::KeptAt(const ShadowedPlace& place, const Eigen::Vector3f& t
   const float irradiance = light.Irradiance(point.normal);
   if (irradiance <= 0) return 1;
   const float angle = 2 * kPi * SpreadPoint(static_cast<int>(place.id % 65536)).x();
-  const Eigen::Matrix3f basis = SurfaceBasis(point.normal, tangent, angle);
-  const Blocked blocked = Probe(point, basis);
+  const Directions directions = Turned(SurfaceBasis(point.normal, tangent, angle));
+  const std::array<I8, kPackets> blocked = Probe(point, directions);
   float lost = 0;
-  for (std::size_t d = 0; d < directions_.size(); ++d) {
-    const Eigen::Vector3f direction = basis * directions_[d];
-    const float radiance = std::max(0.0f, light.mean + light.slope.dot(direction));
-    const bool is_blocked = blocked[d / kLanes] >> (d % kLanes) & 1;
-    lost += is_blocked ? radiance - kReflection * light.mean
-                       : radiance * (1 - KeptByGround(point.position, direction));
+  for (std::size_t packet = 0; packet < kPackets; ++packet) {
+    const F8x3& d = directions[packet];
+    const F8 radiance =
+        Max(Wide(0),
+            light.mean + (light.slope.x() * d.x + (light.slope.y() * d.y + light.slope.z() * d.z)));
+    const F8 of_blocked = radiance - kReflection * light.mean;
+    const F8 of_ground = radiance * (1 - KeptByGround(point.position, d));
+    const F8 of_all = Select(blocked[packet], of_blocked, of_ground);
+    for (int k = 0; k < kLanes; ++k) lost += of_all[k];
   }
-  const float share = kPi / static_cast<float>(directions_.size());
+  const float share = kPi / static_cast<float>(kDirections);
   return std::clamp(1 - share * lost / irradiance, 0.0f, 1.0f);
 }
 

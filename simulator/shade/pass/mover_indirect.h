@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <span>
 #include <vector>
 
+#include "simulator/shade/lanes/wide.h"
 #include "simulator/shade/light/light_volume.h"
 #include "simulator/shade/light/static_visibility.h"
 
@@ -23,17 +25,20 @@ class MoverIndirect {
   float KeptAt(const ShadowedPlace& place, const Eigen::Vector3f& tangent) const;
 
  private:
-  /// Which of the directions around a normal bodies block, as bits from the first packet on.
-  using Blocked = std::vector<unsigned>;
-  Blocked Probe(const SurfacePoint& point, const Eigen::Matrix3f& basis) const;
+  static constexpr std::size_t kPackets = 2;  ///< of eight directions around a normal
+  using Directions = std::array<F8x3, kPackets>;
+  /// The directions around a normal, given as the third axis of the basis.
+  Directions Turned(const Eigen::Matrix3f& basis) const;
+  /// Lanes of directions that bodies block.
+  std::array<I8, kPackets> Probe(const SurfacePoint& point, const Directions& directions) const;
   void ShadeGround(const Emitters& emitters, const StaticVisibility& statics, std::size_t mover);
-  /// Share of its light that the floor keeps where a ray from `from` meets it; 1 if it does not.
-  float KeptByGround(const Eigen::Vector3f& from, const Eigen::Vector3f& direction) const;
+  /// Shares of its light that the floor keeps where rays from `from` meet it; 1 if they do not.
+  F8 KeptByGround(const Eigen::Vector3f& from, const F8x3& directions) const;
 
   const Instant& instant_;
   const LightVolume& volume_;
   GeometryMask bodies_;
-  std::vector<Eigen::Vector3f> directions_;
+  Directions directions_;                            ///< around z
   float ground_z_ = 0;                               ///< m
   Eigen::Vector2i first_ = Eigen::Vector2i::Zero();  ///< node of a grid that is fixed in the world
   Eigen::Vector2i nodes_ = Eigen::Vector2i::Zero();  ///< along x, y

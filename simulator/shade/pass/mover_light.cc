@@ -26,6 +26,8 @@ float DirectAt(const SurfacePoint& place, const Emitters& emitters,
                const MoverNodes::Stencil& stencil, std::span<const std::uint32_t> row_of_node) {
   F8 sum = Wide(0);
   for (std::size_t i = 0; i < emitters.stride(); i += kLanes) {
+    const F8 unshadowed = emitters.Unshadowed(place, light_scale, i);
+    if (!Any(unshadowed > 0)) continue;
     F8 seen = Wide(0), weights = Wide(0);
     for (std::size_t k = 0; k < MoverNodes::kNeighbours; ++k) {
       const float weight = stencil.weights[k];
@@ -35,7 +37,7 @@ float DirectAt(const SurfacePoint& place, const Emitters& emitters,
       seen += Select(above, weight * value, Wide(0));
       weights += Select(above, Wide(weight), Wide(0));
     }
-    sum += emitters.Unshadowed(place, light_scale, i) * seen / Max(weights, Wide(1e-9f));
+    sum += unshadowed * seen / Max(weights, Wide(1e-9f));
   }
   return Sum(sum);
 }
