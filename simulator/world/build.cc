@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "simulator/common/parallel.h"
 #include "simulator/mesh/import.h"
 #include "simulator/motion/rig_mount.h"
 #include "simulator/scene/vary.h"
@@ -234,7 +235,8 @@ World BuildWorld(const Scene& written, const std::string& assets_dir, std::uint6
       const double time_s = scene.frozen ? 0 : static_cast<double>(stamp_ns) * kNanosecond_s;
       snapshot.beams = BeamsAt(scene, time_s, &snapshot.beam_bounce);
     }
-    for (std::size_t i = 0; i < cast.size(); ++i) {
+    snapshot.movers.resize(cast.size());
+    ParallelFor(std::size_t{0}, cast.size(), [&](std::size_t i) {
       const std::size_t whose = cast[i].clock;
       const ActorClock clock = whose < clocks.size() ? clocks[whose] : ActorClock{stamp_ns, 1};
       const double time_s = static_cast<double>(clock.time_ns) * kNanosecond_s;
@@ -245,8 +247,8 @@ World BuildWorld(const Scene& written, const std::string& assets_dir, std::uint6
       }
       Slow(clock.rate, &state);
       state.instance = cast[i].instance;
-      snapshot.movers.push_back(std::move(state));
-    }
+      snapshot.movers[i] = std::move(state);
+    });
     return snapshot;
   };
   parts.at = [at = parts.at_clocks](std::int64_t stamp_ns) { return at(stamp_ns, {}); };

@@ -116,7 +116,7 @@ void SurfaceTables::PrepareFrame(const Instant& instant, std::span<const CameraV
                                  std::span<const Hits8> beyond) const {
   frame->statics = std::move(statics);
   if (frame->mover_records.size() != mover_records_.size()) frame->mover_records = mover_records_;
-  frame->mover_light.assign(slot_count_, 0);
+  frame->mover_light.resize(slot_count_);
   const std::size_t movers = instant.snapshot().movers.size();
   if (movers == 0) return;
   std::vector<std::uint8_t> all_seen = FindSeen(images, mover_bases_, mover_records_.size());
@@ -127,22 +127,26 @@ void SurfaceTables::PrepareFrame(const Instant& instant, std::span<const CameraV
           1;
     }
   }
-  for (std::size_t i = 0; i < movers; ++i) {
+  // Movers side by side: much of the work on a small one is too little to be split.
+  ParallelFor(std::size_t{0}, movers, [&](std::size_t i) {
     const auto base = static_cast<std::size_t>(mover_bases_[i]);
     const std::size_t triangles = world_->mover_meshes()[i].triangles.size();
     const std::span records = std::span(frame->mover_records).subspan(base, triangles);
     const auto seen = std::span(all_seen).subspan(base, triangles);
-    if (std::ranges::find(seen, 1) == seen.end()) continue;
+    const std::span slots =
+        std::span(frame->mover_light).subspan(slot_bases_[i], mover_grids_[i].point_of_slot.size());
+    if (std::ranges::find(seen, 1) == seen.end()) {
+      std::ranges::fill(slots, 0.0f);
+      return;
+    }
     const TriangleMesh& mesh = world_->mover_meshes()[i];
     PoseSurfaceTable(mesh, instant.snapshot().movers[i].positions, records);
     std::vector<float> light =
         mover_light_->At(instant, i, frame->statics->volume, PointsOf(mover_grids_[i], mesh, seen),
                          PixelOn(instant.mover_boxes()[i], views));
     FillUnlit(&light);
-    FillSlots(mover_grids_[i], light,
-              std::span(frame->mover_light)
-                  .subspan(slot_bases_[i], mover_grids_[i].point_of_slot.size()));
-  }
+    FillSlots(mover_grids_[i], light, slots);
+  });
 }
 
 SurfaceLanes LookUpHits(const SurfaceTables& tables, const FrameLight& frame,
