@@ -137,7 +137,7 @@ TEST(Shaft, MeetsAllThatItsSegmentsPass) {
   Random random(5);
   const Eigen::AlignedBox3f space(Vector3f(-6, -6, 0), Vector3f(6, 6, 3));
   int met = 0, left_out = 0;
-  for (int round = 0; round < 3000; ++round) {
+  for (int round = 0; round < 6000; ++round) {
     Eigen::AlignedBox3f from(random.Point(space)), box(random.Point(space));
     from.extend(from.min() + Vector3f(random.In(0, 1), random.In(0, 1), random.In(0, 0.1f)));
     box.extend(box.min() + Vector3f(random.In(0.1f, 1), random.In(0.1f, 1), random.In(0.1f, 2)));
