@@ -126,15 +126,14 @@ struct Shown {
 sim::Simulator Open(const SimulatedSequenceOptions& options, const Shown& shown) {
   const sim::Twin twin = TwinFromName(options.twin);
   return AskSimulator([&] {
-    return sim::Simulator::Load(
-        options.scene_file, options.assets_dir,
-        {.seed = options.seed,
-         .twin = twin,
-         .pair = shown.pair,
-         .colour = shown.colour,
-         .threads = options.threads,
-         .isa = options.isa,
-         .light_progress = TellerOf(options)});
+    return sim::Simulator::Load(options.scene_file, options.assets_dir,
+                                {.seed = options.seed,
+                                 .twin = twin,
+                                 .pair = shown.pair,
+                                 .colour = shown.colour,
+                                 .threads = options.threads,
+                                 .isa = options.isa,
+                                 .light_progress = TellerOf(options)});
   });
 }
 
