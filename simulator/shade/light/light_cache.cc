@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 
 // Raised whenever the solver or this format changes, so that old files are not read.
 constexpr std::uint64_t kVersion = 10;
+constexpr const char* kUnfinished = ".begun";
 
 struct Header {
   std::uint64_t magic = 0x746867696c736961;  // "aislight"
@@ -94,6 +95,26 @@ void RemoveHalves(const fs::path& file) {
   }
 }
 
+struct KeptFile {
+  fs::path path;
+  fs::file_time_type used;
+  std::uintmax_t bytes;
+};
+
+std::vector<KeptFile> KeptFiles(const fs::path& folder) {
+  std::vector<KeptFile> files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const fs::path name = entry.path().filename();
+    const bool is_light = name.extension() == ".bin" || name.extension() == kUnfinished;
+    if (!is_light || !name.string().starts_with("light-")) continue;
+    std::error_code gone;
+    const KeptFile file{entry.path(), entry.last_write_time(gone), entry.file_size(gone)};
+    if (!gone) files.push_back(file);
+  }
+  return files;
+}
+
 template <typename T>
 void Write(std::ofstream& out, std::span<const T> values) {
   out.write(reinterpret_cast<const char*>(values.data()),
@@ -155,6 +176,12 @@ fs::path LockFileOf(const fs::path& folder, std::uint64_t key) {
   return folder / fmt::format("light-{:016x}.lock", key);
 }
 
+fs::path UnfinishedFileOf(const fs::path& folder, std::uint64_t key) {
+  fs::path file = FileOf(folder, key);
+  file += kUnfinished;
+  return file;
+}
+
 std::optional<LightState> LoadLight(const fs::path& folder, std::uint64_t key, std::size_t slots) {
   constexpr std::uint64_t kMaxNodes = 100'000'000;
   std::ifstream in(FileOf(folder, key), std::ios::binary);
@@ -177,7 +204,21 @@ std::optional<LightState> LoadLight(const fs::path& folder, std::uint64_t key, s
   }
   state.volume = LightVolume(shape, std::move(nodes));
   if (Checksum(state) != header.checksum) return std::nullopt;
+  std::error_code error;
+  fs::last_write_time(FileOf(folder, key), fs::file_time_type::clock::now(), error);  // was used
   return state;
+}
+
+void ShrinkLight(const fs::path& folder, std::uintmax_t most_bytes) {
+  std::vector<KeptFile> kept = KeptFiles(folder);
+  std::sort(kept.begin(), kept.end(),
+            [](const KeptFile& a, const KeptFile& b) { return a.used > b.used; });
+  std::uintmax_t total = 0;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    total += kept[i].bytes;
+    std::error_code error;  // another process may have been quicker
+    if (i > 0 && total > most_bytes) fs::remove(kept[i].path, error);
+  }
 }
 
 void SaveLight(const fs::path& folder, std::uint64_t key, const LightState& state) {

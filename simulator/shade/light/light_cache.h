@@ -28,9 +28,17 @@ bool HasLight(const std::filesystem::path& folder, std::uint64_t key);
 /// Where who solves it holds his LightLock.
 std::filesystem::path LockFileOf(const std::filesystem::path& folder, std::uint64_t key);
 
+/// Where he keeps what he has of it. SaveLight takes it away.
+std::filesystem::path UnfinishedFileOf(const std::filesystem::path& folder, std::uint64_t key);
+
 /// A kept solution, or nothing when there is none, or it is damaged, or of another size.
 std::optional<LightState> LoadLight(const std::filesystem::path& folder, std::uint64_t key,
                                     std::size_t slots);
+
+/// Deletes kept and unfinished solutions, least recently used first, until at most `most_bytes`
+/// remain; the last used one stays whatever its size. Who is reading one reads on; who comes later
+/// solves again.
+void ShrinkLight(const std::filesystem::path& folder, std::uintmax_t most_bytes);
 
 /// Keeps a solution, written aside and renamed; what another left aside when it died goes. A folder
 /// that cannot be written is no error: the next run solves again.

@@ -11,6 +11,7 @@
 #include "simulator/shade/light/radiosity.h"
 #include "simulator/shade/light/reflectance.h"
 #include "simulator/shade/light/solve_watch.h"
+#include "simulator/shade/light/unfinished_light.h"
 
 namespace aisle::sim {
 namespace {
@@ -32,22 +33,35 @@ LightGrid GridWithin(const TriangleMesh& mesh, float texel, std::size_t max_poin
   return grid;
 }
 
+/// Direct light at points, piece by piece; `unfinished`, where there is one, has the first of them
+/// already and is given the others.
 std::vector<float> DirectAt(const Instant& statics, const World& world,
                             std::span<const float> light_scale,
-                            std::span<const SurfacePoint> points, SolveWatch* watch) {
-  std::vector<float> direct(points.size());
+                            std::span<const SurfacePoint> points, UnfinishedLight* unfinished,
+                            SolveWatch* watch) {
+  constexpr std::size_t kPiece = std::size_t{1} << 16;  // some seconds of one processor
+  static_assert(kPiece % kLanes == 0, "lanes are filled alike wherever it goes on");
+  std::vector<float> direct;
+  if (unfinished) direct = unfinished->TakeBegun();
+  std::size_t begin = std::min(direct.size(), points.size());
+  direct.resize(points.size());
   watch->Begin(points.size());
-  ParallelFor(std::size_t{0}, (points.size() + kLanes - 1) / kLanes, [&](std::size_t i) {
-    const std::size_t first = i * kLanes;
-    const std::size_t count = std::min<std::size_t>(kLanes, points.size() - first);
-    const auto light =
-        GatherDirectLight(statics, world.lights(), light_scale, points.subspan(first, count),
-                          {.untraced_share = kUntracedShare,
-                           .turn = static_cast<std::uint32_t>(first),
-                           .occluders = kStaticOnly});
-    for (std::size_t k = 0; k < count; ++k) direct[first + k] = light[k];
-    watch->Add(count);
-  });
+  watch->Add(begin);
+  for (std::size_t end; begin < points.size(); begin = end) {
+    end = std::min(points.size(), begin + kPiece);
+    ParallelFor(std::size_t{0}, (end - begin + kLanes - 1) / kLanes, [&](std::size_t i) {
+      const std::size_t first = begin + i * kLanes;
+      const std::size_t count = std::min<std::size_t>(kLanes, end - first);
+      const auto light =
+          GatherDirectLight(statics, world.lights(), light_scale, points.subspan(first, count),
+                            {.untraced_share = kUntracedShare,
+                             .turn = static_cast<std::uint32_t>(first),
+                             .occluders = kStaticOnly});
+      for (std::size_t k = 0; k < count; ++k) direct[first + k] = light[k];
+      watch->Add(count);
+    });
+    if (unfinished) unfinished->Append(std::span(direct).subspan(begin, end - begin));
+  }
   return direct;
 }
 
@@ -83,12 +97,14 @@ StaticLight::StaticLight(const World& world, const Tracer& tracer, const Texture
   Solved(all_on_);
 }
 
-LightState StaticLight::Solve(std::span<const float> light_scale, SolveWatch* watch) const {
+LightState StaticLight::Solve(std::span<const float> light_scale, UnfinishedLight* unfinished,
+                              SolveWatch* watch) const {
   const TriangleMesh& mesh = world_->statics().mesh;
   const Instant statics = tracer_->Pose({});
 
   const std::vector<SurfacePoint> places = LocatePoints(fine_, mesh, mesh.positions, mesh.normals);
-  const std::vector<float> direct = DirectAt(statics, *world_, light_scale, places, watch);
+  const std::vector<float> direct =
+      DirectAt(statics, *world_, light_scale, places, unfinished, watch);
   watch->Begin(4);
   LightState state;
   state.direct.resize(fine_.point_of_slot.size());
@@ -147,7 +163,7 @@ void StaticLight::AddIndirect(const Patches& patches, const Radiosity& radiosity
 LightState StaticLight::LoadOrSolve(std::span<const float> light_scale) const {
   if (options_.cache_folder.empty()) {
     SolveWatch watch(options_.progress, Foreseen());
-    LightState state = Solve(light_scale, &watch);
+    LightState state = Solve(light_scale, nullptr, &watch);
     watch.End();
     return state;
   }
@@ -166,9 +182,12 @@ LightState StaticLight::LoadOrSolve(std::span<const float> light_scale) const {
     if (options_.progress) options_.progress(progress);
   };
   SolveWatch watch(tell, Foreseen());
-  LightState state = Solve(light_scale, &watch);
+  std::optional<UnfinishedLight> unfinished;
+  if (lock) unfinished.emplace(options_.cache_folder, key);
+  LightState state = Solve(light_scale, unfinished ? &*unfinished : nullptr, &watch);
   watch.Begin(1);
   SaveLight(options_.cache_folder, key, state);
+  ShrinkLight(options_.cache_folder, options_.cache_bytes);
   watch.End();
   return state;
 }

@@ -17,9 +17,12 @@
 
 namespace aisle::sim {
 
+class UnfinishedLight;
+
 struct StaticLightOptions {
   /// Where solutions are kept from run to run, by content; empty: nowhere.
   std::filesystem::path cache_folder = {};
+  std::uintmax_t cache_bytes = std::uintmax_t{4} << 30;  ///< what is kept there at most
   std::string isa = "avx2";     ///< Embree's, as rays' last bits depend on it
   float texel_m = 0.06f;        ///< spacing of the direct light's points; soft shadows' resolution
   float coarse_texel_m = 0.4f;  ///< spacing of the indirect light's points
@@ -49,7 +52,8 @@ class StaticLight {
   std::shared_ptr<const LightState> At(std::span<const float> light_scale) const;
 
  private:
-  LightState Solve(std::span<const float> light_scale, SolveWatch* watch) const;
+  LightState Solve(std::span<const float> light_scale, UnfinishedLight* unfinished,
+                   SolveWatch* watch) const;
   void AddIndirect(const Patches& patches, const Radiosity& radiosity, LightState* state) const;
   std::vector<SolveWatch::Foreseen> Foreseen() const;
   LightState LoadOrSolve(std::span<const float> light_scale) const;

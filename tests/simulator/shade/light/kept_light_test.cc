@@ -104,5 +104,26 @@ TEST_F(KeptLight, InAFolderThatCannotBeIsNoError) {
   EXPECT_FALSE(LoadLight(folder_, 1, 10));
 }
 
+/// Solved in the order of their keys, and then the oldest is used: the second one is in the way.
+TEST_F(KeptLight, OfLongAgoMakesRoomForWhatIsUsed) {
+  for (const std::uint64_t key : {1, 2, 3}) {
+    SaveLight(folder_, key, Random(6, 100));
+    fs::last_write_time(folder_ / fmt::format("light-{:016x}.bin", key),
+                        fs::file_time_type::clock::now() - std::chrono::hours(9 - key));
+  }
+  std::ofstream(folder_ / "of-another.bin") << std::string(100'000, 'x');
+  const std::uintmax_t one = fs::file_size(folder_ / fmt::format("light-{:016x}.bin", 1));
+  EXPECT_TRUE(LoadLight(folder_, 1, 100));
+  ShrinkLight(folder_, 3 * one);
+  EXPECT_TRUE(HasLight(folder_, 1) && HasLight(folder_, 2) && HasLight(folder_, 3));
+  ShrinkLight(folder_, 3 * one - 1);
+  EXPECT_TRUE(HasLight(folder_, 1) && HasLight(folder_, 3));
+  EXPECT_FALSE(HasLight(folder_, 2));
+  ShrinkLight(folder_, 0);
+  EXPECT_TRUE(HasLight(folder_, 1)) << "what was used last stays";
+  EXPECT_FALSE(HasLight(folder_, 3));
+  EXPECT_TRUE(fs::exists(folder_ / "of-another.bin"));
+}
+
 }  // namespace
 }  // namespace aisle::sim

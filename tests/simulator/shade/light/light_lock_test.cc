@@ -155,14 +155,17 @@ TEST_F(LightLockTest, TheLightOfOneWhoDiedIsSolvedByWhoWaits) {
   EXPECT_TRUE(HasLight(folder_, key));
 }
 
-/// What ends the work half-way (Ctrl-C in Python) leaves nothing that could be taken for light.
-TEST_F(LightLockTest, ASolutionThatIsBrokenOffLeavesNothing) {
+/// What ends the work half-way (Ctrl-C in Python) leaves what it has for who goes on, and nothing
+/// that could be taken for light.
+TEST_F(LightLockTest, ASolutionThatIsBrokenOffLeavesWhatItHas) {
   const Hall hall;
   const auto progress = [&](const LightProgress& at) {
     if (at.phase == std::string("reflected light")) throw std::runtime_error("enough");
   };
   EXPECT_THROW(StaticLight(hall.world, hall.tracer, hall.textures, hall.Draft(folder_, progress)),
                std::runtime_error);
+  const std::uint64_t key = LightKey(hall.world, hall.Draft(folder_), hall.all_on);
+  EXPECT_TRUE(fs::remove(UnfinishedFileOf(folder_, key)));
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
