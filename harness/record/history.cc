@@ -22,25 +22,26 @@ constexpr const char* kFollowed[] = {"ate_rmse_m", "coverage", "rpe_1s_trans_rms
 class Database {
  public:
   explicit Database(const fs::path& path) : path_(path.string()) {
-    if (::sqlite3_open(path_.c_str(), &handle_) != SQLITE_OK) Fail("open");
-    ::sqlite3_busy_timeout(handle_, 10'000);  // another night may be writing
+    sqlite3* opened = nullptr;
+    const int code = ::sqlite3_open(path_.c_str(), &opened);
+    handle_.reset(opened);  // also one that could not be opened has to be closed
+    if (code != SQLITE_OK) Fail("open");
+    ::sqlite3_busy_timeout(opened, 10'000);  // another night may be writing
     Run("PRAGMA journal_mode = WAL");
     Run("CREATE TABLE IF NOT EXISTS medians (suite TEXT, started TEXT, commit_id TEXT, "
         "scene TEXT, twin TEXT, system TEXT, score TEXT, median REAL, seeds INTEGER, "
         "PRIMARY KEY (suite, started, scene, twin, system, score)) WITHOUT ROWID");
     AddMissingColumns();
   }
-  ~Database() { ::sqlite3_close(handle_); }
-  Database(const Database&) = delete;
-  Database& operator=(const Database&) = delete;
 
   void Run(const std::string& sql) {
-    if (::sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) Fail("write");
+    if (::sqlite3_exec(handle(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
+      Fail("write");
   }
   [[noreturn]] void Fail(const char* what) const {
-    throw MachineError(fmt::format("{}: cannot {}: {}", path_, what, ::sqlite3_errmsg(handle_)));
+    throw MachineError(fmt::format("{}: cannot {}: {}", path_, what, ::sqlite3_errmsg(handle())));
   }
-  sqlite3* handle() const { return handle_; }
+  sqlite3* handle() const { return handle_.get(); }
 
  private:
   /// Files of earlier versions lack them.
@@ -49,14 +50,17 @@ class Database {
                                "version TEXT", "folder TEXT"}) {
       const std::string name = std::string(column).substr(0, std::string(column).find(' '));
       const bool there =
-          ::sqlite3_table_column_metadata(handle_, nullptr, "medians", name.c_str(), nullptr,
+          ::sqlite3_table_column_metadata(handle(), nullptr, "medians", name.c_str(), nullptr,
                                           nullptr, nullptr, nullptr, nullptr) == SQLITE_OK;
       if (!there) Run(fmt::format("ALTER TABLE medians ADD COLUMN {}", column));
     }
   }
 
+  struct Close {
+    void operator()(sqlite3* handle) const { ::sqlite3_close(handle); }
+  };
   const std::string path_;
-  sqlite3* handle_ = nullptr;
+  std::unique_ptr<sqlite3, Close> handle_;
 };
 
 /// A prepared statement whose values are bound, never pasted.

@@ -274,7 +274,7 @@ TEST_F(DatasetTest, EveryKindOfTruthReadsBackInOpenCv) {
   EXPECT_TRUE(same(image("occluded", ".png"), motion.occluded));
   EXPECT_TRUE(same(image("moving_shadow", ".png"), motion.moving_shadow));
   // OpenCV takes the file's channels for red, green, blue and hands them over blue first.
-  const cv::Vec3f& way = image("scene_flow", ".pfm").at<cv::Vec3f>(7, 9);
+  const cv::Vec3f way = image("scene_flow", ".pfm").at<cv::Vec3f>(7, 9);
   EXPECT_EQ(cv::Vec3f(way[2], way[1], way[0]), motion.scene_flow(7, 9));
   const cv::Mat steps = image("depth_mm", ".png");
   ASSERT_EQ(steps.type(), CV_16U);

@@ -50,9 +50,7 @@ class Night:
         self.counter.write_bytes(struct.pack("Q", 0))
         self.hit.unlink(missing_ok=True)
         if fault:
-            # A program built with ASan minds libraries that stand before the sanitizer's own.
-            environment.update(ASAN_OPTIONS="verify_asan_link_order=0", LD_PRELOAD=str(self.shim),
-                               AISLE_FAULT=fault,
+            environment.update(LD_PRELOAD=str(self.shim), AISLE_FAULT=fault,
                                AISLE_FAULT_BELOW=str(below or self.folder),
                                AISLE_FAULT_COUNT=str(self.counter))
         done = subprocess.run(self.command, env=environment, capture_output=True, text=True,
