@@ -29,22 +29,34 @@ std::size_t FrameNumber(const std::string& text, const std::string& whole) {
   throw InputError("--frames " + Printable(whole) + ": expected A:B, for example 100:200");
 }
 
-/// A:B is half open; A or B may be left out.
-std::vector<FrameRequest> Select(const std::vector<FrameRequest>& schedule,
-                                 const std::string& frames) {
-  if (frames.empty()) return schedule;
+/// Half open.
+struct FrameRange {
+  std::size_t first = 0, last = std::numeric_limits<std::size_t>::max();
+};
+
+/// A:B; A or B may be left out, or all.
+FrameRange RangeFromText(const std::string& frames) {
+  FrameRange range;
+  if (frames.empty()) return range;
   const std::size_t colon = frames.find(':');
   if (colon == std::string::npos) FrameNumber("", frames);
   const std::string from = frames.substr(0, colon), to = frames.substr(colon + 1);
-  const std::size_t first = from.empty() ? 0 : FrameNumber(from, frames);
-  const std::size_t last =
-      to.empty() ? schedule.size() : std::min(FrameNumber(to, frames), schedule.size());
-  if (first >= last) {
-    throw InputError(fmt::format("--frames {}: selects nothing of the frames 0 to {}", frames,
-                                 schedule.size() - 1));
+  if (!from.empty()) range.first = FrameNumber(from, frames);
+  if (!to.empty()) range.last = FrameNumber(to, frames);
+  if (range.first >= range.last) {
+    throw InputError("--frames " + Printable(frames) + ": selects nothing");
   }
-  return {schedule.begin() + static_cast<std::ptrdiff_t>(first),
-          schedule.begin() + static_cast<std::ptrdiff_t>(last)};
+  return range;
+}
+
+std::vector<FrameRequest> Select(const std::vector<FrameRequest>& schedule, FrameRange range) {
+  range.last = std::min(range.last, schedule.size());
+  if (range.first >= range.last) {
+    throw InputError(
+        fmt::format("--frames selects nothing of the frames 0 to {}", schedule.size() - 1));
+  }
+  return {schedule.begin() + static_cast<std::ptrdiff_t>(range.first),
+          schedule.begin() + static_cast<std::ptrdiff_t>(range.last)};
 }
 
 /// A pose as the 16 numbers of its matrix, row by row.
@@ -119,8 +131,9 @@ int RenderAsBag(const Options& options) {
         "--format ros2: a bag holds poses, depth, what moves and boxes as they are: leave --truth "
         "and --verify out");
   }
+  const FrameRange range = RangeFromText(options.frames);
   const SimulationForExport simulation = OpenForExport(options.simulation, options.pair);
-  RenderBag(simulation, Select(simulation.sequence->Schedule(), options.frames),
+  RenderBag(simulation, Select(simulation.sequence->Schedule(), range),
             options.simulation.scene_file, ProvenanceOf(options, simulation), options.out);
   return kAllPassed;
 }
@@ -131,9 +144,10 @@ int Render(Options options) {
   if (options.format == "ros2") return RenderAsBag(options);
   ExportOptions export_options{.format = DatasetFormatFromName(options.format),
                                .truth = TruthSelectionFromNames(options.truth)};
+  const FrameRange range = RangeFromText(options.frames);
   SimulationForExport simulation = OpenForExport(options.simulation, options.pair);
   const Sequence& sequence = *simulation.sequence;
-  const std::vector<FrameRequest> wanted = Select(sequence.Schedule(), options.frames);
+  const std::vector<FrameRequest> wanted = Select(sequence.Schedule(), range);
   export_options.lens = simulation.lens;
   export_options.colour = static_cast<bool>(simulation.colour);
   export_options.labels = simulation.labels;
