@@ -52,8 +52,8 @@ FrameRange RangeFromText(const std::string& frames) {
 std::vector<FrameRequest> Select(const std::vector<FrameRequest>& schedule, FrameRange range) {
   range.last = std::min(range.last, schedule.size());
   if (range.first >= range.last) {
-    throw InputError(
-        fmt::format("--frames selects nothing of the frames 0 to {}", schedule.size() - 1));
+    throw InputError(fmt::format("--frames: nothing from frame {} on; there are 0 to {}",
+                                 range.first, schedule.size() - 1));
   }
   return {schedule.begin() + static_cast<std::ptrdiff_t>(range.first),
           schedule.begin() + static_cast<std::ptrdiff_t>(range.last)};

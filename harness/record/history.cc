@@ -35,8 +35,9 @@ class Database {
   }
 
   void Run(const std::string& sql) {
-    if (::sqlite3_exec(handle(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
+    if (::sqlite3_exec(handle(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) {
       Fail("write");
+    }
   }
   [[noreturn]] void Fail(const char* what) const {
     throw MachineError(fmt::format("{}: cannot {}: {}", path_, what, ::sqlite3_errmsg(handle())));

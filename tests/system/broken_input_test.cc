@@ -228,6 +228,23 @@ TEST_F(BrokenInputTest, NumbersThatAreNoneOrTooLarge) {
   EXPECT_THAT(below.text, testing::HasSubstr("t.txt/night: is, or lies below, a file"));
 }
 
+/// Before the scene is looked at, whose light takes half a minute: it is broken, too.
+TEST_F(BrokenInputTest, FramesToRenderAreReadFirst) {
+  const Files files = {{"broken.yaml", "rate_hz: quick\n"}};
+  const auto render = [](const std::string& frames) {
+    return std::vector<std::string>{"render",  "{d}/broken.yaml", "--out",
+                                    "{d}/out", "--frames",        frames};
+  };
+  Expect({{render("1"), files, "aisle: --frames 1: expected A:B, for example 100:200"},
+          {render("a:b"), files, "aisle: --frames a:b: expected A:B, for example 100:200"},
+          {render("5:2"), files, "aisle: --frames 5:2: selects nothing"}});
+  const Said beyond =
+      Run({"render", scene_, "--out", (folder_ / "out").string(), "--frames", "99:"});
+  EXPECT_EQ(beyond.code, 4);
+  EXPECT_THAT(beyond.text,
+              testing::HasSubstr("--frames: nothing from frame 99 on; there are 0 to 11"));
+}
+
 TEST_F(BrokenInputTest, HostileNamesDoNoHarm) {
   for (const std::string& name : {std::string("\"><script>alert(1)</script>"), std::string("a\nb"),
                                   std::string("'; rm -rf x"), std::string("$(touch pwned)")}) {

@@ -16,14 +16,6 @@
 #include <cstring>
 #include <stdexcept>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define AISLE_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define AISLE_SANITIZED 1
-#endif
-#endif
-
 namespace aisle::sim {
 namespace {
 
@@ -41,9 +33,7 @@ void LimitSpending(const ReadingLimits& limits) {
   Limit(RLIMIT_FSIZE, 0);  // pipes are no files
   Limit(RLIMIT_NOFILE, 64);
   Limit(RLIMIT_CPU, static_cast<rlim_t>(limits.time_s) + 1);
-#ifndef AISLE_SANITIZED
-  Limit(RLIMIT_AS, limits.memory_bytes);
-#endif
+  if (BoundsMemory()) Limit(RLIMIT_AS, limits.memory_bytes);
 }
 
 // Landlock's interface as of version 6, stated here: Debian's header knows version 2.
@@ -155,6 +145,17 @@ void ForbidCalls() {
 }
 
 }  // namespace
+
+bool BoundsMemory() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return false;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+  return false;
+#endif
+#endif
+  return true;
+}
 
 void ConfineThisProcess(const std::filesystem::path& readable_folder, const ReadingLimits& limits) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);

@@ -14,8 +14,12 @@ struct ReadingLimits {
 /// Binds this process, for good: it reads below one folder and writes nowhere, opens no connection,
 /// starts nothing, cannot look into other processes, has no more memory and time than that, and
 /// dies with its parent. Files go by Landlock, calls by a filter of the kernel (seccomp); a kernel
-/// that has not got one of them does without. Address space is not bounded under AddressSanitizer,
-/// which reserves terabytes. Throws std::runtime_error where a kernel that has them refuses.
+/// that has not got one of them does without. Throws std::runtime_error where a kernel that has
+/// them refuses.
 void ConfineThisProcess(const std::filesystem::path& readable_folder, const ReadingLimits& limits);
+
+/// Whether it bounds memory: not in builds with a sanitizer, which reserves terabytes of address
+/// space.
+bool BoundsMemory();
 
 }  // namespace aisle::sim

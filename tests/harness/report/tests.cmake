@@ -15,4 +15,4 @@ add_test(NAME harness/report_in_browser COMMAND ${Python3_EXECUTABLE}
 add_test(NAME harness/month_in_browser COMMAND ${Python3_EXECUTABLE}
   ${CMAKE_SOURCE_DIR}/tests/harness/report/month_test.py $<TARGET_FILE:write_month>)
 set_tests_properties(harness/report_in_browser harness/month_in_browser PROPERTIES
-  SKIP_RETURN_CODE 77)
+  SKIP_RETURN_CODE 77 TIMEOUT 600)

@@ -11,3 +11,4 @@ target_precompile_headers(door_mutants REUSE_FROM aisle_pch)
 add_dependencies(door_mutants aisle_read_model)
 add_test(NAME simulator/mesh/door_mutants COMMAND ${Python3_EXECUTABLE}
   ${CMAKE_SOURCE_DIR}/tests/support/door/mutants.py $<TARGET_FILE:door_mutants> --count 25)
+set_tests_properties(simulator/mesh/door_mutants PROPERTIES TIMEOUT 600)

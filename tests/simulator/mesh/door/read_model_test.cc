@@ -106,15 +106,8 @@ TEST(ReadModel, AReaderIsLinkedWithoutTheDecodersOfPictures) {
   EXPECT_NE(std::system((list + "opencv_imgcodecs").c_str()), 0);
 }
 
-// A sanitizer takes address space without end, so a reader that is built with one has no bound.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kHasMemoryBound = false;
-#else
-constexpr bool kHasMemoryBound = true;
-#endif
-
 TEST(ReadModel, MemoryThatAFileAsksForIsNotTaken) {
-  if (!kHasMemoryBound) GTEST_SKIP() << "no memory bound under a sanitizer";
+  if (!BoundsMemory()) GTEST_SKIP() << "no memory bound under a sanitizer";
   const Scratch scratch;
   ModelDoor door;
   door.limits.memory_bytes = std::size_t{64} << 20;  // less than the program itself takes
@@ -128,7 +121,7 @@ TEST(ReadModel, MemoryThatAFileAsksForIsNotTaken) {
 }
 
 TEST(ReadModel, MemoryThatAFileMayNotHaveIsTheFilesFault) {
-  if (!kHasMemoryBound) GTEST_SKIP() << "no memory bound under a sanitizer";
+  if (!BoundsMemory()) GTEST_SKIP() << "no memory bound under a sanitizer";
   // Somewhere between what the program takes and what the model does.
   const fs::path file = kAssets / "people/worker_anton.glb";
   int refused = 0, read = 0;

@@ -26,7 +26,7 @@ class Unfinished : public testing::Test {
     std::iota(light.begin(), light.end(), first);
     return light;
   }
-  /// Three pieces of 100 points, the last byte of which is in place `end()`.
+  /// Three pieces of 100 points.
   void WriteThree() const {
     UnfinishedLight light(folder_, 7);
     for (const float first : {0.f, 100.f, 200.f}) light.Append(From(first, 100));
@@ -108,7 +108,7 @@ TEST_F(Unfinished, SolutionGoesOnToTheSameBits) {
                              .directions = 16};
   const std::uint64_t key = LightKey(world, options, all_on);
   const auto solve = [&] { return *StaticLight(world, tracer, textures, options).At(all_on); };
-  std::vector<float> direct;  // as it lies there when its phase is over
+  // What lies there when the direct light is done, kept from being taken away.
   options.progress = [&](const LightProgress& at) {
     if (at.phase == std::string("patches")) {
       fs::copy_file(UnfinishedFileOf(folder_, key), UnfinishedFileOf(folder_, 1),
@@ -118,7 +118,7 @@ TEST_F(Unfinished, SolutionGoesOnToTheSameBits) {
   const LightState whole = solve();
   EXPECT_FALSE(fs::exists(UnfinishedFileOf(folder_, key)));
   fs::rename(UnfinishedFileOf(folder_, 1), UnfinishedFileOf(folder_, key));
-  direct = UnfinishedLight(folder_, key).TakeBegun();
+  std::vector<float> direct = UnfinishedLight(folder_, key).TakeBegun();
   ASSERT_GT(direct.size(), 1000u);
 
   options.progress = {};
