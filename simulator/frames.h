@@ -156,7 +156,8 @@ struct RenderBench {
   double bare_primary_ms = 0;  ///< primary ray packets of the same two images alone, median
   double ratio = 0;            ///< pair_ms / bare_primary_ms
   int frames = 0;
-  std::map<std::string, double> stage_ms;  ///< medians by stage
+  std::int64_t triangles = 0, moving_triangles = 0;  ///< of the world; the movers' among them
+  std::map<std::string, double> stage_ms;            ///< medians by stage
 };
 
 /// The nightly light of one left image beside the path tracer's, before the sensor: linear, in

@@ -7,6 +7,7 @@ void AddBenchCommand(CLI::App* app, Action* action) {
   bench->require_subcommand(1);
   bench->footer("Example: ./aisle bench render --frames 20");
   AddBenchRender(bench, action);
+  AddBenchGrowth(bench, action);
   AddBenchLight(bench, action);
   AddBenchSlam(bench, action);
   AddBenchAccuracy(bench, action);

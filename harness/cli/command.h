@@ -36,6 +36,7 @@ void AddBisectCommand(CLI::App* app, Action* action);
 // Commands of `bench`.
 void AddBenchAccuracy(CLI::App* bench, Action* action);
 void AddBenchDynamic(CLI::App* bench, Action* action);
+void AddBenchGrowth(CLI::App* bench, Action* action);
 void AddBenchLight(CLI::App* bench, Action* action);
 void AddBenchRealism(CLI::App* bench, Action* action);
 void AddBenchRender(CLI::App* bench, Action* action);

@@ -10,6 +10,8 @@ RenderCost MeasureRender(const SimulatedSequenceOptions& options, int frames) {
                   .bare_primary_ms = bench.bare_primary_ms,
                   .ratio = bench.ratio,
                   .frames = bench.frames,
+                  .triangles = bench.triangles,
+                  .moving_triangles = bench.moving_triangles,
                   .stage_ms = {bench.stage_ms.begin(), bench.stage_ms.end()}};
   std::ranges::sort(cost.stage_ms, std::greater<>{}, &std::pair<std::string, double>::second);
   return cost;

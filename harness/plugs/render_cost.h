@@ -16,6 +16,7 @@ struct RenderCost {
   double bare_primary_ms = 0;  ///< primary ray packets of the same two images alone
   double ratio = 0;            ///< pair_ms / bare_primary_ms
   int frames = 0;
+  std::int64_t triangles = 0, moving_triangles = 0;      ///< of the world; the movers' among them
   std::vector<std::pair<std::string, double>> stage_ms;  ///< dearest first
 };
 

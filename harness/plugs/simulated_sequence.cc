@@ -133,6 +133,7 @@ sim::Simulator Open(const SimulatedSequenceOptions& options, const Shown& shown)
                                  .colour = shown.colour,
                                  .threads = options.threads,
                                  .isa = options.isa,
+                                 .light_spacing = options.light_spacing,
                                  .light_progress = TellerOf(options)});
   });
 }

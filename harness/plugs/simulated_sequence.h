@@ -19,6 +19,7 @@ struct SimulatedSequenceOptions {
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0: as many as the machine has; never changes a pixel
   std::string isa = "avx2";
+  double light_spacing = 1;  ///< how much further apart than usual the static light's points lie
   /// Estimators take rectified pairs, so a scene with a distorted lens is refused unless this says
   /// that the pictures go elsewhere.
   bool any_lens = false;

@@ -62,7 +62,7 @@ class Planner {
     const double turn = WrapAngle(heading_rad - now_.heading_rad);
     if (std::abs(turn) < kSameHeading_rad) return;
     if (!limits_.turns_on_the_spot) {
-      throw RouteError(now_.step, fmt::format("it would have to turn by {:.0f} degrees on the "
+      throw RouteError(now_.step, fmt::format("it would have to turn by {:.3g} degrees on the "
                                               "spot, which this vehicle cannot",
                                               turn * 180 / std::numbers::pi));
     }

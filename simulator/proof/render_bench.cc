@@ -40,6 +40,10 @@ RenderBench BenchRender(const Studio& studio, std::span<const Moment> moments,
                      .ratio = Median(pair) / Median(bare),
                      .frames = static_cast<int>(pair.size()),
                      .stage_ms = {}};
+  for (const TriangleMesh& mesh : studio.world.mover_meshes()) {
+    result.moving_triangles += std::ssize(mesh.triangles);
+  }
+  result.triangles = result.moving_triangles + std::ssize(studio.world.statics().mesh.triangles);
   for (auto& [stage, ms] : stages) result.stage_ms[stage] = Median(ms);
   return result;
 }
