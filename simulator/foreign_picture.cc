@@ -1,5 +1,3 @@
-#include <tbb/task_arena.h>
-
 #include "simulator/common/parallel.h"
 #include "simulator/foreign/foreign_scene.h"
 #include "simulator/shade/reference/reference.h"
@@ -11,13 +9,13 @@ cv::Mat3f TraceForeignScene(const std::string& file, const ForeignOptions& optio
   ForeignScene scene = LoadForeignScene(file);
   const PixelRays rays = MakePixelRays(scene.camera);
   const CameraView view(rays, scene.T_world_camera);
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+  const Arena arena(options.threads);
   std::vector<cv::Mat1f> bgr(3);
   for (std::size_t band = 0; band < 3; ++band) {
     const World world(std::move(scene.bands[band]));
     const Tracer tracer(world, {});
     const TexturePool textures(world.textures());
-    arena.execute([&] {
+    arena.Execute([&] {
       bgr[2 - band] =
           Reference(world, textures)
               .Render(tracer.Pose(world.At(0)), view,

@@ -1,7 +1,5 @@
 #include "simulator/pipeline.h"
 
-#include <tbb/task_arena.h>
-
 #include <mutex>
 #include <opencv2/imgproc.hpp>
 
@@ -71,7 +69,7 @@ struct Pipeline::Impl {
       : world(std::move(made_world)),
         camera(stereo_camera),
         options(given),
-        arena(given.threads > 0 ? given.threads : tbb::task_arena::automatic),
+        arena(given.threads),
         rays(MakePixelRays(camera)),
         tracer(world, options.tracer) {
     for (const std::string& error : {options.sensor.Validate(), options.shutter.Validate(),
@@ -86,7 +84,7 @@ struct Pipeline::Impl {
       meter_rays = MakePixelRays(Coarser(camera, kMeterFactor));
       meter_fall_off = FallOff(meter_rays);
     }
-    arena.execute([&] {
+    arena.Execute([&] {
       shader = std::make_unique<Shader>(world, tracer, options.shade);
       for (std::size_t band = 0; world.has_colour() && band < 3; ++band) {
         bands.push_back(std::make_unique<Band>(*this, band));
@@ -318,7 +316,7 @@ struct Pipeline::Impl {
   World world;
   StereoCamera camera;
   PipelineOptions options;
-  mutable tbb::task_arena arena;
+  Arena arena;
   PixelRays rays;
   std::array<PixelResponse, 2> response;
   PixelRays meter_rays;      ///< for automatic exposure only
@@ -338,12 +336,12 @@ const World& Pipeline::world() const { return impl_->world; }
 
 RenderedFrame Pipeline::Render(int frame_index, std::int64_t stamp_ns,
                                const Eigen::Isometry3d& T_world_rig) const {
-  return impl_->arena.execute(
+  return impl_->arena.Execute(
       [&] { return impl_->Render(frame_index, stamp_ns, T_world_rig, nullptr); });
 }
 
 RenderedFrame Pipeline::Render(int frame_index, std::int64_t stamp_ns, const Shot& shot) const {
-  return impl_->arena.execute([&] {
+  return impl_->arena.Execute([&] {
     return impl_->Take(
         frame_index, {stamp_ns, shot.clocks}, shot.T_world_rig,
         [&](double offset_s) { return shot.At(offset_s); }, nullptr);
@@ -352,12 +350,12 @@ RenderedFrame Pipeline::Render(int frame_index, std::int64_t stamp_ns, const Sho
 
 std::array<cv::Mat3b, 2> Pipeline::RenderColour(int frame_index, std::int64_t stamp_ns,
                                                 const Eigen::Isometry3d& T_world_rig) const {
-  return impl_->arena.execute(
+  return impl_->arena.Execute(
       [&] { return impl_->TakeColour(frame_index, stamp_ns, T_world_rig); });
 }
 
 cv::Mat1f Pipeline::RenderDepth(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig) const {
-  return impl_->arena.execute([&] {
+  return impl_->arena.Execute([&] {
     const Instant instant = impl_->tracer.Pose(impl_->world.At(stamp_ns));
     const std::array<CameraView, 2> views = impl_->Views(T_world_rig);
     std::vector<HitImage> hits;
@@ -369,7 +367,7 @@ cv::Mat1f Pipeline::RenderDepth(std::int64_t stamp_ns, const Eigen::Isometry3d& 
 
 std::array<cv::Mat1f, 2> Pipeline::RenderRadiance(std::int64_t stamp_ns,
                                                   const Eigen::Isometry3d& T_world_rig) const {
-  return impl_->arena.execute([&] {
+  return impl_->arena.Execute([&] {
     const Instant instant = impl_->tracer.Pose(impl_->world.At(stamp_ns));
     const std::array<CameraView, 2> views = impl_->Views(T_world_rig);
     std::vector<HitImage> hits;
@@ -382,7 +380,7 @@ std::array<cv::Mat1f, 2> Pipeline::RenderRadiance(std::int64_t stamp_ns,
 MotionTruth Pipeline::RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
                                    std::int64_t next_stamp_ns,
                                    const Eigen::Isometry3d& T_world_rig_next) const {
-  return impl_->arena.execute([&] {
+  return impl_->arena.Execute([&] {
     const Impl& self = *impl_;
     const Instant instant = self.tracer.Pose(self.world.At(stamp_ns));
     const std::array<CameraView, 2> views = self.Views(T_world_rig);
@@ -398,11 +396,11 @@ MotionTruth Pipeline::RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry3
 }
 
 VerifyReport Pipeline::Verify(const Moment& now, const Moment& next) const {
-  return impl_->arena.execute([&] { return ProveTruth(impl_->MakeStudio(), now, next); });
+  return impl_->arena.Execute([&] { return ProveTruth(impl_->MakeStudio(), now, next); });
 }
 
 StageHashes Pipeline::HashStages(int frame_index, const Moment& moment) const {
-  return impl_->arena.execute([&] {
+  return impl_->arena.Execute([&] {
     return aisle::sim::HashStages(
         impl_->MakeStudio(), moment,
         impl_->Render(frame_index, moment.stamp_ns, moment.T_world_rig, nullptr));
@@ -410,7 +408,7 @@ StageHashes Pipeline::HashStages(int frame_index, const Moment& moment) const {
 }
 
 PictureChanges Pipeline::CompareInTime(const std::array<Moment, 3>& moments) const {
-  return impl_->arena.execute([&] {
+  return impl_->arena.Execute([&] {
     const ExposureSetting setting = impl_->ExposureFor(
         impl_->tracer.Pose(impl_->world.At(moments[0].stamp_ns)), moments[0].T_world_rig);
     return aisle::sim::CompareInTime(impl_->MakeStudio(setting), moments);
@@ -418,18 +416,18 @@ PictureChanges Pipeline::CompareInTime(const std::array<Moment, 3>& moments) con
 }
 
 LightCheck Pipeline::CheckLight(const Moment& moment, int samples, int reduce) const {
-  return impl_->arena.execute(
+  return impl_->arena.Execute(
       [&] { return aisle::sim::CheckLight(impl_->MakeStudio(), moment, samples, reduce); });
 }
 
 LightChangeCheck Pipeline::CheckLightChange(const std::array<Moment, 2>& moments, int samples,
                                             int reduce) const {
-  return impl_->arena.execute(
+  return impl_->arena.Execute(
       [&] { return aisle::sim::CheckLightChange(impl_->MakeStudio(), moments, samples, reduce); });
 }
 
 RenderBench Pipeline::Bench(std::span<const Moment> moments) const {
-  return impl_->arena.execute([&] {
+  return impl_->arena.Execute([&] {
     return BenchRender(impl_->MakeStudio(), moments,
                        [&](int index, const Moment& moment, std::map<std::string, double>* stages) {
                          impl_->Render(index, moment.stamp_ns, moment.T_world_rig, stages);

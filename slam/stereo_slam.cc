@@ -1,7 +1,6 @@
 #include "slam/stereo_slam.h"
 
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
 
 #include <stdexcept>
 
@@ -104,7 +103,7 @@ struct StereoSlam::Impl {
   const StereoCamera camera;
   const SlamOptions options;
   DynamicDetector detector;
-  tbb::task_arena arena;
+  Arena arena;
 
   TrackingState state = TrackingState::kInitializing;  // kTracking in any part of the map
   std::optional<std::int64_t> lost_since_ns;  // first frame that shows something but has no pose
@@ -120,7 +119,7 @@ StereoSlam::Impl::Impl(const StereoCamera& camera_in, const SlamOptions& options
     : camera(camera_in),
       options(Completed(camera_in, options_in)),
       detector(camera, options.dynamic),
-      arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic),
+      arena(options.threads),
       keeper(camera, {options.mapping, options.loop, options.global, options.schedule},
              MappingOf(options), LoadWords(options)),
       policy(MakeTrackingPolicy(camera, options)) {
@@ -138,7 +137,7 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
   result.id = images.id;
   result.stamp_ns = images.stamp_ns;
   std::shared_ptr<const Frame> frame;
-  arena.execute([&] { frame = See(images, mask, motion, result); });
+  arena.Execute([&] { frame = See(images, mask, motion, result); });
   TakeDueWork(result);
   track.Roll(options.base == Base::kPlain ? motion : std::nullopt, images.stamp_ns,
              options.track.inertia);

@@ -1,7 +1,10 @@
 #pragma once
 
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <type_traits>
+#include <utility>
 
 #if defined(__SANITIZE_THREAD__)
 #include <sanitizer/tsan_interface.h>
@@ -9,51 +12,115 @@
 
 namespace aisle::sim {
 
-/// Work that is split among threads and awaited. oneTBB orders what was before it, the parts and
-/// what comes after by means that ThreadSanitizer does not see in a packaged library; it is told
-/// here, so that what is left to report are races of our own. Nothing in other builds.
-class ForkAndJoin {
- public:
+/// Work on the threads of oneTBB, which only parallel.cc knows. It orders what was before the work,
+/// its parts and what comes after by means that ThreadSanitizer does not see; so parallel.cc is
+/// built without it, and it is told here, where work is lent to other threads and taken back. What
+/// it then reports are races of our own.
+namespace internal {
+
+inline void Release([[maybe_unused]] const char& sign) {
 #if defined(__SANITIZE_THREAD__)
-  ForkAndJoin() { __tsan_release(&fork_); }
-  ~ForkAndJoin() { Join(); }
-  ForkAndJoin(const ForkAndJoin&) = delete;
-  ForkAndJoin& operator=(const ForkAndJoin&) = delete;
-  void Join() { __tsan_acquire(&join_); }
-  /// What this hands over is made after the fork and read before it is acquired: only that is not
-  /// looked at. GCC never inlines the work, which is, into what is not.
-  template <typename Work>
-  auto Part(const Work& work) {
-    return [ this, &work ](auto... arguments) __attribute__((no_sanitize_thread)) {
-      __tsan_acquire(&fork_);
-      work(arguments...);
-      __tsan_release(&join_);
-    };
-  }
+  __tsan_release(const_cast<char*>(&sign));
+#endif
+}
+inline void Acquire([[maybe_unused]] const char& sign) {
+#if defined(__SANITIZE_THREAD__)
+  __tsan_acquire(const_cast<char*>(&sign));
+#endif
+}
+
+/// Lent work without its type: call(work, first, last) does the part [first, last) of it.
+struct Part {
+  const void* work;
+  void (*call)(const void* work, std::ptrdiff_t first, std::ptrdiff_t last);
+};
+
+/// Borrows what is called with the first of a part and its end, or without anything. It must have
+/// been done by the end of this.
+template <typename Work>
+class Lent {
+ public:
+  explicit Lent(const Work& work) : work_(work) { Release(begun_); }
+  Lent(const Lent&) = delete;
+  Lent& operator=(const Lent&) = delete;
+  ~Lent() { TakeBack(); }
+  void TakeBack() const { Acquire(done_); }
+  Part part() const { return {this, &Call}; }
 
  private:
-  char fork_ = 0, join_ = 0;  // addresses alone matter
-#else
-  void Join() {}
-  template <typename Work>
-  const Work& Part(const Work& work) {
-    return work;
+  struct Doing {
+    explicit Doing(const Lent& lent) : done(lent.done_) { Acquire(lent.begun_); }
+    ~Doing() { Release(done); }
+    const char& done;
+  };
+
+  static void Call(const void* lent, [[maybe_unused]] std::ptrdiff_t first,
+                   [[maybe_unused]] std::ptrdiff_t last) {
+    const auto& self = *static_cast<const Lent*>(lent);
+    const Doing doing(self);
+    if constexpr (std::is_invocable_v<const Work&>) {
+      self.work_();
+    } else {
+      self.work_(first, last);
+    }
   }
-#endif
+
+  const Work& work_;
+  char begun_ = 0, done_ = 0;  // addresses alone matter
 };
+
+void SplitRange(std::ptrdiff_t first, std::ptrdiff_t last, Part part);
+void DoIsolated(Part part);
+
+struct Threads;
+struct EndThreads {
+  void operator()(Threads* threads) const;
+};
+std::unique_ptr<Threads, EndThreads> MakeThreads(int count);
+void DoOn(Threads& threads, Part part);
+
+}  // namespace internal
 
 /// Calls work(i) for first <= i < last, on the threads of the arena at hand, in any order.
 template <typename Index, typename Work>
 void ParallelFor(Index first, Index last, const Work& work) {
-  ForkAndJoin split;
-  tbb::parallel_for(first, last, split.Part(work));
+  const auto part = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t i = begin; i < end; ++i) work(static_cast<Index>(i));
+  };
+  const internal::Lent lent(part);
+  internal::SplitRange(static_cast<std::ptrdiff_t>(first), static_cast<std::ptrdiff_t>(last),
+                       lent.part());
 }
 
-/// Calls each, at the same time where threads are free.
-template <typename... Works>
-void ParallelInvoke(const Works&... works) {
-  ForkAndJoin split;
-  tbb::parallel_invoke(split.Part(works)...);
+/// Calls work(); while it waits for its parts, the caller's thread does nothing else.
+template <typename Work>
+void Isolated(const Work& work) {
+  const internal::Lent lent(work);
+  internal::DoIsolated(lent.part());
 }
+
+/// Threads of its own for what is executed in it.
+class Arena {
+ public:
+  /// 0 or fewer: as many threads as there are processors.
+  explicit Arena(int threads) : threads_(internal::MakeThreads(threads)) {}
+
+  /// work(), on the caller's thread or, where others have taken all places, on one of them.
+  template <typename Work>
+  auto Execute(const Work& work) const {
+    using Value = std::invoke_result_t<const Work&>;
+    if constexpr (std::is_void_v<Value>) {
+      const internal::Lent lent(work);
+      internal::DoOn(*threads_, lent.part());
+    } else {
+      std::optional<Value> value;
+      Execute([&] { value.emplace(work()); });
+      return *std::move(value);
+    }
+  }
+
+ private:
+  std::unique_ptr<internal::Threads, internal::EndThreads> threads_;
+};
 
 }  // namespace aisle::sim

@@ -1,7 +1,5 @@
 #include "simulator/shade/light/static_light.h"
 
-#include <tbb/task_arena.h>
-
 #include <thread>
 
 #include "simulator/common/parallel.h"
@@ -196,8 +194,7 @@ std::shared_ptr<const LightState> StaticLight::Solved(const std::vector<float>& 
   auto& found = solved_[scale];
   // Isolated: a thread that holds the mutex must not pick up another frame's work while it waits.
   if (!found) {
-    tbb::this_task_arena::isolate(
-        [&] { found = std::make_shared<LightState>(LoadOrSolve(scale)); });
+    Isolated([&] { found = std::make_shared<LightState>(LoadOrSolve(scale)); });
   }
   return found;
 }

@@ -1,10 +1,11 @@
 #include "simulator/sensor/lens.h"
 
 #include <gtest/gtest.h>
-#include <tbb/task_arena.h>
 
 #include <complex>
 #include <numbers>
+
+#include "simulator/common/parallel.h"
 
 namespace aisle::sim {
 namespace {
@@ -103,8 +104,8 @@ TEST(SpreadByLens, BitsDoNotDependOnThreads) {
   const cv::Mat1f light = RandomLight(752, 480);
   const LensOptions lens{.blur_px = 0.7f, .field_blur_px = 0.7f, .glare = 0.04f};
   cv::Mat1f one, two;
-  tbb::task_arena(1).execute([&] { one = SpreadByLens(light, lens); });
-  tbb::task_arena(2).execute([&] { two = SpreadByLens(light, lens); });
+  Arena(1).Execute([&] { one = SpreadByLens(light, lens); });
+  Arena(2).Execute([&] { two = SpreadByLens(light, lens); });
   EXPECT_EQ(cv::norm(one, two, cv::NORM_INF), 0);
 }
 

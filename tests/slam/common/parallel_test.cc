@@ -63,6 +63,36 @@ TEST(BesideTest, ThrowsWhereItIsAwaitedAndNowhereElse) {
   const Beside unasked(fails);
 }
 
+TEST(ArenaTest, GivesWhatIsMadeInIt) {
+  const Arena arena(3);
+  std::vector<int> squares(100);
+  arena.Execute([&] { ParallelFor(0, 100, [&](int i) { squares[std::size_t(i)] = i * i; }); });
+  EXPECT_EQ(squares.back(), 99 * 99);
+  const auto made = arena.Execute([] { return std::make_unique<int>(7); });
+  EXPECT_EQ(*made, 7);
+  EXPECT_THROW(arena.Execute([] { throw std::runtime_error("arena"); }), std::runtime_error);
+}
+
+// One place for many callers: what they want done is done by whom they do not know.
+TEST(ArenaTest, WorkOfManyCallersArrives) {
+  const Arena arena(1);
+  std::vector<std::string> made(8);
+  {
+    std::vector<std::jthread> callers;
+    for (std::size_t k = 0; k < made.size(); ++k) {
+      callers.emplace_back([&arena, &text = made[k], k] {
+        for (int i = 0; i < 50; ++i) {
+          const std::string had = text;
+          text = arena.Execute([&] { return had + static_cast<char>('a' + k); });
+        }
+      });
+    }
+  }
+  for (std::size_t k = 0; k < made.size(); ++k) {
+    EXPECT_EQ(made[k], std::string(50, static_cast<char>('a' + k)));
+  }
+}
+
 #if defined(__SANITIZE_THREAD__)
 // ThreadSanitizer is told what packaged libraries order; it must not overlook what nobody orders.
 TEST(ParallelForDeathTest, RacesOfOurOwnAreReported) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "slam/camera/stereo_camera.h"
+#include "slam/common/parallel.h"
 
 // A world of textured rectangles seen by a stereo rig, with exact depth and motion masks: small
 // enough to be read and believed. Every pixel is a function of its ray alone.
@@ -100,24 +101,22 @@ inline SyntheticView Render(const std::vector<Panel>& panels, const StereoCamera
   const auto frame = static_cast<std::uint32_t>(std::lround(time_s * 1000));
   const Eigen::Isometry3d T_world_right =
       T_world_rig * Eigen::Translation3d(camera.baseline_m, 0, 0);
-  cv::parallel_for_(cv::Range(0, camera.height), [&](const cv::Range& rows) {
-    for (int v = rows.start; v < rows.end; ++v) {
-      for (int u = 0; u < camera.width; ++u) {
-        const double x = (u - camera.cx) / camera.fx, y = (v - camera.cy) / camera.fy;
-        const auto pixel = static_cast<std::uint32_t>(v * camera.width + u);
-        const PanelHit left = Look(panels, T_world_rig, x, y, time_s);
-        const PanelHit right = Look(panels, T_world_right, x, y, time_s);
-        view.left(v, u) =
-            cv::saturate_cast<unsigned char>(left.grey + noise * UnitNoise(frame, 0, pixel));
-        view.right(v, u) =
-            cv::saturate_cast<unsigned char>(right.grey + noise * UnitNoise(frame, 1, pixel));
-        const bool hit = left.panel >= 0;
-        view.disparity(v, u) =
-            hit ? static_cast<float>(camera.fx * camera.baseline_m / left.depth_m) : 0.0F;
-        view.panel(v, u) = static_cast<unsigned char>(left.panel + 1);
-        view.moving(v, u) =
-            hit && panels[static_cast<std::size_t>(left.panel)].velocity_mps.norm() > 0 ? 255 : 0;
-      }
+  ParallelFor(0, camera.height, [&](int v) {
+    for (int u = 0; u < camera.width; ++u) {
+      const double x = (u - camera.cx) / camera.fx, y = (v - camera.cy) / camera.fy;
+      const auto pixel = static_cast<std::uint32_t>(v * camera.width + u);
+      const PanelHit left = Look(panels, T_world_rig, x, y, time_s);
+      const PanelHit right = Look(panels, T_world_right, x, y, time_s);
+      view.left(v, u) =
+          cv::saturate_cast<unsigned char>(left.grey + noise * UnitNoise(frame, 0, pixel));
+      view.right(v, u) =
+          cv::saturate_cast<unsigned char>(right.grey + noise * UnitNoise(frame, 1, pixel));
+      const bool hit = left.panel >= 0;
+      view.disparity(v, u) =
+          hit ? static_cast<float>(camera.fx * camera.baseline_m / left.depth_m) : 0.0F;
+      view.panel(v, u) = static_cast<unsigned char>(left.panel + 1);
+      view.moving(v, u) =
+          hit && panels[static_cast<std::size_t>(left.panel)].velocity_mps.norm() > 0 ? 255 : 0;
     }
   });
   return view;
