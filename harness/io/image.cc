@@ -88,16 +88,15 @@ cv::Mat1b ReadGreyPng(const std::filesystem::path& path) {
 
 cv::Mat3f ReadLinearImage(const std::filesystem::path& path) {
   AllowExr();
-  const std::string bytes = ReadFile(path);
+  ReadFile(path);  // says what keeps it from being read; OpenCV does not
   const std::string ending = path.extension().string();
   if (ending != ".exr" && ending != ".pfm") {
     throw InputError(path.string(), 0, "is read as .pfm or .exr only");
   }
-  const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U,
-                        const_cast<char*>(bytes.data()));  // imdecode only reads
+  // From the file: of bytes it makes a file of its own, which it leaves behind if they are broken.
   cv::Mat image;
   try {
-    image = cv::imdecode(encoded, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH);
+    image = cv::imread(path.string(), cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH);
   } catch (const cv::Exception&) {  // told like any other that cannot be decoded
   }
   if (image.empty()) throw InputError(path.string(), 0, "cannot be decoded");

@@ -33,10 +33,25 @@ std::vector<std::string> Argv(const std::vector<std::string>& arguments) {
 
 fs::path ProgramTest::root_;
 
+namespace {
+
+/// What all tests share: scenes and the cache of their frames.
+class SharedFolder : public testing::Environment {
+ public:
+  explicit SharedFolder(fs::path path) : path_(std::move(path)) {}
+  void TearDown() override { fs::remove_all(path_); }
+
+ private:
+  fs::path path_;
+};
+
+}  // namespace
+
 void ProgramTest::SetUpTestSuite() {
   if (!root_.empty()) return;
   root_ = fs::temp_directory_path() / fmt::format("aisle_system_{}", ::getpid());
   fs::create_directories(root_);
+  testing::AddGlobalTestEnvironment(new SharedFolder(root_));
   ::setenv("AISLE_CACHE", (root_ / "cache").c_str(), 1);
 }
 

@@ -48,9 +48,19 @@ TEST(ProcessTest, ASignalToldByAShellIsNamed) {
 TEST(ProcessTest, TheLastLineNeedsNoEnd) { EXPECT_EQ(RunToEnd("printf end").log, "end\n"); }
 
 /// A file for the number of a process that should not outlive its test.
-std::string PidFile(const std::string& name) {
-  return testing::TempDir() + fmt::format("aisle_{}_{}", name, ::getpid());
-}
+/// Where a process leaves its number; goes with its owner.
+class PidFile {
+ public:
+  explicit PidFile(const std::string& name)
+      : path_(testing::TempDir() + fmt::format("aisle_{}_{}", name, ::getpid())) {}
+  PidFile(const PidFile&) = delete;
+  PidFile& operator=(const PidFile&) = delete;
+  ~PidFile() { std::filesystem::remove(path_); }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
 
 /// Whether the process whose number the file holds is dead, or will be within two seconds.
 bool IsGone(const std::string& pid_file) {
@@ -67,7 +77,8 @@ bool IsGone(const std::string& pid_file) {
 }
 
 TEST(ProcessTest, AHangIsEndedWithAllItsChildren) {
-  const std::string file = PidFile("grandchild");
+  const PidFile number("grandchild");
+  const std::string& file = number.path();
   const ProcessLimits limits{.wall_s = 2};
   const ProcessResult result = RunToEnd("sleep 100 & echo $! > " + file + "; wait", limits);
   EXPECT_EQ(result.end, End::kTimeout);
@@ -81,13 +92,15 @@ std::string Daemon(const std::string& pid_file) {
 }
 
 TEST(ProcessTest, DaemonsEndWithTheCommandThatStartedThem) {
-  const std::string file = PidFile("daemon");
+  const PidFile number("daemon");
+  const std::string& file = number.path();
   EXPECT_EQ(RunToEnd(Daemon(file) + "exit 4").code, 4);
   EXPECT_TRUE(IsGone(file));
 }
 
 TEST(ProcessTest, AllEndsWhenTheHarnessItselfIsKilled) {
-  const std::string file = PidFile("orphan");
+  const PidFile number("orphan");
+  const std::string& file = number.path();
   const pid_t harness = ::fork();
   if (harness == 0) {
     Process process(Shell(Daemon(file) + "sleep 100"), {});

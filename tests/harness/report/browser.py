@@ -3,6 +3,7 @@ import base64
 import json
 import os
 import shutil
+import signal
 import subprocess
 import tempfile
 
@@ -26,7 +27,7 @@ class Browser:
              '--disable-dev-shm-usage', '--remote-debugging-pipe',
              f'--user-data-dir={self._profile}', 'about:blank'],
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-            preexec_fn=plug, close_fds=False)
+            preexec_fn=plug, close_fds=False, start_new_session=True)
         os.close(told)
         os.close(said)
         self._buffer = b''
@@ -44,7 +45,7 @@ class Browser:
 
     def __exit__(self, *_):
         os.close(self._out)
-        self._process.kill()
+        os.killpg(self._process.pid, signal.SIGKILL)  # its children write into the profile as well
         self._process.wait()
         os.close(self._in)
         shutil.rmtree(self._profile, ignore_errors=True)
