@@ -70,6 +70,8 @@ int BenchSlam(const Options& options) {
                                    {"stereo_ms", stages["stereo"].mean_ms()},
                                    {"track_ms", stages["track"].mean_ms()},
                                    {"map_ms", stages["mapping"].mean_ms()},
+                                   {"dynamic_ms", stages["dynamic"].mean_ms()},
+                                   {"dynamic_ms_p99", stages["dynamic"].quantile_ms(0.99)},
                                    {"front_end_ms", front_end_ms},
                                    {"reference_orb_ms", reference_ms},
                                    {"ratio", front_end_ms / std::max(reference_ms, 1e-9)},
