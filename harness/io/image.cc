@@ -1,5 +1,6 @@
 #include "harness/io/image.h"
 
+#include <bit>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -42,6 +43,20 @@ cv::Mat ReadPng(const std::filesystem::path& path) {
   return image;
 }
 
+/// A portable float map: rows from the bottom, channels as they come. OpenCV encodes it by way of a
+/// temporary file, which a killed program leaves behind.
+std::string EncodePfm(const cv::Mat& image) {
+  static_assert(std::endian::native == std::endian::little);  // as the minus says
+  std::string bytes =
+      fmt::format("P{}\n{} {}\n-1\n", image.channels() == 3 ? 'F' : 'f', image.cols, image.rows);
+  const std::size_t row_bytes = static_cast<std::size_t>(image.cols) * image.elemSize();
+  bytes.reserve(bytes.size() + row_bytes * static_cast<std::size_t>(image.rows));
+  for (int y = image.rows - 1; y >= 0; --y) {
+    bytes.append(reinterpret_cast<const char*>(image.ptr(y)), row_bytes);
+  }
+  return bytes;
+}
+
 /// OpenCV leaves OpenEXR off unless it is told otherwise before it meets the first such file.
 void AllowExr() { setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0); }
 
@@ -50,6 +65,14 @@ void AllowExr() { setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0); }
 void WriteImage(const std::filesystem::path& path, const cv::Mat& image) {
   constexpr int kJpegQuality = 88;    // overlays stay crisp
   constexpr int kPngCompression = 3;  // grey noise does not shrink further, only takes longer
+  if (path.extension() == ".pfm" && image.type() == CV_32FC1) {
+    return WriteFileAtomically(path, EncodePfm(image));
+  }
+  if (path.extension() == ".pfm" && image.type() == CV_32FC3) {
+    cv::Mat3f rgb;
+    cv::cvtColor(image, rgb, cv::COLOR_BGR2RGB);
+    return WriteVectorPfm(path, rgb);
+  }
   AllowExr();
   std::vector<unsigned char> bytes;
   const std::vector<int> options = {cv::IMWRITE_JPEG_QUALITY, kJpegQuality,
@@ -61,10 +84,7 @@ void WriteImage(const std::filesystem::path& path, const cv::Mat& image) {
 }
 
 void WriteVectorPfm(const std::filesystem::path& path, const cv::Mat3f& vectors) {
-  // OpenCV takes the last channel for red and writes it first.
-  cv::Mat3f last_first;
-  cv::cvtColor(vectors, last_first, cv::COLOR_RGB2BGR);
-  WriteImage(path, last_first);
+  WriteFileAtomically(path, EncodePfm(vectors));
 }
 
 cv::Mat1b ReadMaskPng(const std::filesystem::path& path) {

@@ -5,7 +5,8 @@
 
 namespace aisle {
 
-/// Writes PNG, JPEG, PFM or OpenEXR by the name's ending, aside and renamed. Throws MachineError.
+/// Writes PNG, JPEG, PFM or OpenEXR (colours as B, G, R) by the name's ending, aside and renamed.
+/// Throws MachineError.
 void WriteImage(const std::filesystem::path& path, const cv::Mat& image);
 
 /// Writes a PFM of three channels: the vectors' first, second and third numbers, in this order (as

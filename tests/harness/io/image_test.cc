@@ -6,6 +6,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
@@ -15,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class ReadLinearImageTest : public testing::Test {
+class FloatImageTest : public testing::Test {
  protected:
   void SetUp() override {
     fs::create_directories(folder_ / "temp");
@@ -33,7 +35,7 @@ class ReadLinearImageTest : public testing::Test {
   const fs::path folder_ = fs::temp_directory_path() / fmt::format("aisle_image_{}", ::getpid());
 };
 
-TEST_F(ReadLinearImageTest, GivesTheRowsOfAPortableFloatMapFromTheTop) {
+TEST_F(FloatImageTest, GivesTheRowsOfAPortableFloatMapFromTheTop) {
   // Bottom row first; red, green, blue.
   const float values[] = {1, 2, 3, 4, 5, 6};
   std::string text = "PF\n1 2\n-1.0\n";
@@ -44,7 +46,28 @@ TEST_F(ReadLinearImageTest, GivesTheRowsOfAPortableFloatMapFromTheTop) {
   EXPECT_EQ(image(1, 0), cv::Vec3f(3, 2, 1));
 }
 
-TEST_F(ReadLinearImageTest, OfABrokenFileLeavesNothingBehind) {
+TEST_F(FloatImageTest, IsWrittenAsOpenCvReadsAndWritesIt) {
+  cv::Mat1f grey(3, 5);
+  cv::Mat3f colours(4, 3);
+  cv::RNG rng(5);
+  rng.fill(grey, cv::RNG::NORMAL, 0, 100);
+  rng.fill(colours, cv::RNG::NORMAL, 0, 100);
+  for (const cv::Mat& image : {cv::Mat(grey), cv::Mat(grey.colRange(1, 4)), cv::Mat(colours)}) {
+    const fs::path ours = folder_ / "ours.pfm", theirs = folder_ / "theirs.pfm";
+    WriteImage(ours, image);
+    cv::imwrite(theirs.string(), image);
+    EXPECT_EQ(ReadFile(ours), ReadFile(theirs));
+    const cv::Mat back = cv::imread(ours.string(), cv::IMREAD_UNCHANGED);
+    EXPECT_EQ(cv::norm(back, image, cv::NORM_INF), 0);
+  }
+  WriteVectorPfm(folder_ / "vectors.pfm", colours);
+  cv::Mat3f first_last;
+  cv::cvtColor(ReadLinearImage(folder_ / "vectors.pfm"), first_last, cv::COLOR_BGR2RGB);
+  EXPECT_EQ(cv::norm(first_last, colours, cv::NORM_INF), 0);
+  EXPECT_TRUE(fs::is_empty(folder_ / "temp"));
+}
+
+TEST_F(FloatImageTest, LeavesNothingBehindWhereItIsBroken) {
   for (const char* text : {"PF\n 2\n-1.0\n2 2\n", "Pf\n2 0\n0\n", "PF\n2 2\n-1.0\nshort", "exr"}) {
     const fs::path file = Write("broken.pfm", text);
     EXPECT_THROW(ReadLinearImage(file), InputError) << text;
@@ -52,7 +75,7 @@ TEST_F(ReadLinearImageTest, OfABrokenFileLeavesNothingBehind) {
   EXPECT_TRUE(fs::is_empty(folder_ / "temp"));
 }
 
-TEST_F(ReadLinearImageTest, SaysWhatKeepsItFromTheFile) {
+TEST_F(FloatImageTest, SaysWhatKeepsItFromTheFile) {
   EXPECT_THROW(ReadLinearImage(folder_ / "absent.pfm"), InputError);
   EXPECT_THROW(ReadLinearImage(Write("image.png", "PF\n1 1\n-1.0\n0000")), InputError);
 }
