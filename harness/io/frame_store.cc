@@ -39,8 +39,7 @@ std::optional<std::string> ReadChecked(const fs::path& path) {
   return std::nullopt;
 }
 
-// --- Payloads
-// -------------------------------------------------------------------------------------
+// --- Payloads ------------------------------------------------------------------------------------
 
 void PutPose(const Eigen::Isometry3d& pose, ByteWriter* writer) {
   for (int row = 0; row < 3; ++row) {
