@@ -43,7 +43,8 @@ def frame(number, features):
             + counted([struct.pack("<ffiff", 100 + 50 * i, 80, 0, 10, 30) for i in range(features)])
             + counted([struct.pack("<4Q", i, 2, 3, 4) for i in range(features)])
             + counted([struct.pack("<6d", 100 + 50 * i, 80, 12, 1, 0.5, 0)
-                       for i in range(features)]))
+                       for i in range(features)])
+            + counted([bytes([40 + i]) * 15 * 15 for i in range(features)]))
 
 
 def keyframe(number, parent, landmarks):
@@ -62,9 +63,9 @@ def small_map():
     body = struct.pack("<ii5dq", 752, 480, 435.2, 435.2, 367.2, 252.2, 0.12, 1)
     body += counted([keyframe(0, -1, [0, 1, -1]), keyframe(1, 0, [1, -1, 0])])
     body += counted([landmark(0, [(0, 0), (1, 2)]), landmark(1, [(0, 1), (1, 0)])])
-    body += counted([struct.pack("<i", 0)] * 3) + counted([struct.pack("<i", 2)])
+    body += counted([struct.pack("<i", 1)] * 3) + counted([struct.pack("<i", 2)])
     body += counted([]) + struct.pack("<q", 2)
-    return b"aislemap" + struct.pack("<IIQQ", 2, 0, len(body), map_checksum(body)) + body
+    return b"aislemap" + struct.pack("<IIQQ", 3, 0, len(body), map_checksum(body)) + body
 
 
 def vocabulary():
@@ -152,8 +153,8 @@ def main(reader):
         write("gltf", "inline.gltf", (folder / "text_inline.gltf").read_bytes())
         for name in ("same_names", "splines"):
             file = folder / (name + ".glb")
-            limits = [str(file), str(folder), "0", "0", "5000000", "8192", str(1 << 28), "10000",
-                      str(4 << 30), "120"]
+            limits = [str(file), str(folder), "0", "0", "0", "0", "0", "0", "5000000", "8192",
+                      str(1 << 28), "10000", str(4 << 30), "120", "1"]
             write("model_bytes", name, subprocess.run([reader] + limits, check=True,
                                                       capture_output=True).stdout)
 

@@ -43,4 +43,8 @@ inline void Hold(bool condition, const char* what) {
   std::abort();
 }
 
+/// How many inputs the reader took. Where it takes nothing of a corpus, that is of a format that is
+/// no more, and mutants of it try nothing.
+inline long taken = 0;
+
 }  // namespace aisle::fuzz

@@ -12,6 +12,7 @@ inline void ReadAsModel(const std::uint8_t* data, std::size_t size, const std::s
   small.max_triangles = 100'000;
   try {
     sim::ImportModel(AsFile(Text(data, size), name), small);
+    ++taken;
   } catch (const sim::ImportError&) {
   }
 }

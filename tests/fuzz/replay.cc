@@ -63,14 +63,19 @@ int main(int argc, char** argv) {
     std::cerr << folder << ": holds nothing\n";
     return 1;
   }
-  long inputs = 0;
-  std::mt19937 random(1);
+  std::vector<std::string> seeds;
   for (const fs::path& file : files) {
     std::ifstream in(file, std::ios::binary);
-    const std::string whole(std::istreambuf_iterator<char>(in), {});
-    Feed(whole);
-    ++inputs;
-    for (int i = 0; i < mutants; ++i, ++inputs) Feed(Mutant(whole, &random));
+    Feed(seeds.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()));
+  }
+  if (aisle::fuzz::taken == 0) {
+    std::cerr << folder << ": nothing of it is taken; is it of an older format?\n";
+    return 1;
+  }
+  auto inputs = std::ssize(seeds);
+  std::mt19937 random(1);
+  for (const std::string& seed : seeds) {
+    for (int i = 0; i < mutants; ++i, ++inputs) Feed(Mutant(seed, &random));
   }
   std::cout << inputs << " inputs, nothing found\n";
 }

@@ -28,6 +28,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       default:
         ReadTrack(payload);
     }
+    ++fuzz::taken;
   } catch (const StreamError&) {
   }
   return 0;

@@ -11,6 +11,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto attempt = [](const auto& read) {
     try {
       read();
+      ++fuzz::taken;
     } catch (const InputError&) {
     }
   };
