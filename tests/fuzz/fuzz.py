@@ -91,7 +91,9 @@ def output(*command):
 
 def row(outcome):
     """The page's line of one target, with the day and the commit that it ran at."""
-    commit = output("git", "describe", "--always", "--dirty").strip()
+    commit = output("git", "describe", "--always").strip()
+    if output("git", "status", "--porcelain", "--", ".", ":!reports"):  # where the page lies
+        commit += "-dirty"
     found = f"**{outcome.finding.replace('|', '/')}**" if outcome.failed else "0"
     return (f"| {outcome.target} | {outcome.seconds} | {outcome.inputs} | {outcome.edges} | "
             f"{outcome.kept} | {found} | {commit}, {datetime.date.today()} |")

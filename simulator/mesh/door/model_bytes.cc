@@ -237,7 +237,9 @@ Model DecodeModel(std::string_view bytes, const ImportOptions& options) {
   std::memcpy(&header, bytes.data(), sizeof(header));
   bytes.remove_prefix(sizeof(header));
   if (header.magic != kMagic) throw ImportError("its bytes are not a model's");
-  if (header.version != kVersion) throw ImportError("its bytes are of another version");
+  if (header.version != kVersion || header.unused != 0) {
+    throw ImportError("its bytes are of another version");
+  }
   if (header.size != bytes.size()) throw ImportError("its bytes are not as many as they say");
   if (header.checksum != XXH3_64bits(bytes.data(), bytes.size())) {
     throw ImportError("its bytes are damaged: checksum");
