@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
 #include <map>
+#include <numeric>
 
 #include "slam/common/parallel.h"
 #include "slam/dynamic/common/counter_random.h"
@@ -18,6 +19,8 @@ constexpr int kLeastForNoise = 20;
 /// 99 % of chi-square: with three degrees of freedom the bound of an inlier, with six how much
 /// worse standing still may fit.
 constexpr double kInlierChi2 = 11.34, kStandingChi2 = 16.8;
+/// Samples carry the noise of three points: their support is judged with a wider gate.
+constexpr double kSampleGate = 4 * kInlierChi2;
 /// 99.99 % with six degrees of freedom: beyond it a motion contradicts its prior.
 constexpr double kImpossibleChi2 = 27.9;
 /// Three static points are among so many samples with 99.97 % if half of the matches are.
@@ -111,6 +114,12 @@ MaybeExpected Expected(const std::optional<MotionPrior>& prior) {
   return Expectation{prior->T_now_before, prior->covariance.inverse()};
 }
 
+/// The same where the rig is jolted.
+MaybeExpected ExpectedInAJolt(const std::optional<MotionPrior>& prior) {
+  if (!prior || prior->jolt.isZero()) return std::nullopt;
+  return Expectation{prior->T_now_before, (prior->covariance + prior->jolt).inverse()};
+}
+
 /// Between 0 and 1: how well the vehicle could have done this motion.
 double Plausibility(const Isometry3d& T, const MaybeExpected& expected) {
   if (!expected) return 1;
@@ -140,6 +149,16 @@ std::vector<Isometry3d> SampleMotions(const std::vector<StereoMatch>& matches,
       to[n] = Backproject(camera, match.now);
     }
     if (const auto T = AlignTriangles(from, to)) motions.push_back(*T);
+  }
+  return motions;
+}
+
+/// Of motions what a jolt may have done, the rest as expected: three points tell little more than
+/// how the rig has tilted.
+std::vector<Isometry3d> AsJolts(std::vector<Isometry3d> motions, const MotionPrior& prior) {
+  const Vector6d may = prior.jolt.diagonal().unaryExpr([](double v) { return v > 0 ? 1.0 : 0.0; });
+  for (Isometry3d& T : motions) {
+    T = Retract(prior.T_now_before, may.cwiseProduct(Difference(prior.T_now_before, T)));
   }
   return motions;
 }
@@ -301,6 +320,40 @@ EgoMotion RefineMeasured(const std::vector<StereoMatch>& matches, const StereoCa
                 measured);
 }
 
+/// Of the candidates the one with most trust behind it, refined; what is expected where none of
+/// them is possible. `spread` are the matches weighed by space.
+EgoMotion MostTrusted(const std::vector<Isometry3d>& candidates,
+                      const std::vector<StereoMatch>& spread,
+                      const std::vector<StereoMatch>& matches, const StereoCamera& camera,
+                      const MeasurementNoise& noise, const MaybeExpected& expected) {
+  const Vector3d inverse_deviation = InverseDeviation(noise);
+  const std::vector<PlacedMatch> placed = Placed(spread, camera);
+  std::vector<double> scores(candidates.size());
+  ParallelFor(std::size_t{0}, candidates.size(), [&](std::size_t k) {
+    scores[k] = Support(placed, camera, candidates[k], inverse_deviation, kSampleGate) *
+                Plausibility(candidates[k], expected);
+  });
+  const auto highest = std::max_element(scores.begin(), scores.end());  // the first of equals
+  if (*highest <= 0) return AsExpected(expected);
+  const Isometry3d& best = candidates[static_cast<std::size_t>(highest - scores.begin())];
+  // What is near and large must not pull while the gate is wide.
+  const EgoMotion close = Refine(spread, camera, best, noise, kRounds, expected);
+  const EgoMotion found = Refine(matches, camera, close.T_now_before, noise, 1, expected);
+  const bool possible = !expected || expected->Chi2Of(found.T_now_before) < kImpossibleChi2;
+  return possible ? found : AsExpected(expected);
+}
+
+/// Whether most of the trust lies in matches that follow a motion.
+bool IsOfMost(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
+              const Isometry3d& T_now_before, const MeasurementNoise& noise) {
+  const auto trust = [](double sum, const PlacedMatch& match) { return sum + match.weight; };
+  const std::vector<PlacedMatch> placed = Placed(matches, camera);
+  const auto followers =
+      Followers(placed, camera, T_now_before, InverseDeviation(noise), kSampleGate);
+  return 2 * std::accumulate(followers.begin(), followers.end(), 0.0, trust) >
+         std::accumulate(placed.begin(), placed.end(), 0.0, trust);
+}
+
 }  // namespace
 
 double MatchChi2(const StereoCamera& camera, const Isometry3d& T, const StereoMatch& match,
@@ -320,28 +373,18 @@ EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const Stere
   const MaybeExpected expected = Expected(prior);
   if (prior && prior->measured) return RefineMeasured(matches, camera, *expected, noise);
   if (std::ssize(matches) < kLeastMatches) return AsExpected(expected);
-  // Samples carry the noise of three points: their support is judged with a wider gate.
-  const Vector3d inverse_deviation = InverseDeviation(noise);
-  const double gate = 4 * kInlierChi2;
   std::vector<Isometry3d> candidates = {Isometry3d::Identity()};
   if (prior) candidates.push_back(prior->T_now_before);
   const auto spread = WeighedBySpace(matches, camera);
   const auto samples = SampleMotions(spread, camera, options);
   candidates.insert(candidates.end(), samples.begin(), samples.end());
 
-  const std::vector<PlacedMatch> placed = Placed(spread, camera);
-  std::vector<double> scores(candidates.size());
-  ParallelFor(std::size_t{0}, candidates.size(), [&](std::size_t k) {
-    scores[k] = Support(placed, camera, candidates[k], inverse_deviation, gate) *
-                Plausibility(candidates[k], expected);
-  });
-  const auto highest = std::max_element(scores.begin(), scores.end());  // the first of equals
-  const Isometry3d& best = candidates[static_cast<std::size_t>(highest - scores.begin())];
-  // What is near and large must not pull while the gate is wide.
-  const EgoMotion close = Refine(spread, camera, best, noise, kRounds, expected);
-  const EgoMotion found = Refine(matches, camera, close.T_now_before, noise, 1, expected);
-  const bool possible = !expected || expected->Chi2Of(found.T_now_before) < kImpossibleChi2;
-  return *highest > 0 && possible ? found : AsExpected(expected);
+  const EgoMotion smooth = MostTrusted(candidates, spread, matches, camera, noise, expected);
+  const MaybeExpected jolted = ExpectedInAJolt(prior);
+  if (!jolted || IsOfMost(spread, camera, smooth.T_now_before, noise)) return smooth;
+  const EgoMotion jolt =
+      MostTrusted(AsJolts(samples, *prior), spread, matches, camera, noise, jolted);
+  return IsOfMost(spread, camera, jolt.T_now_before, noise) ? jolt : smooth;
 }
 
 std::optional<MeasurementNoise> MeasureNoise(const std::vector<StereoMatch>& matches,

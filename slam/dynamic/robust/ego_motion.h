@@ -26,6 +26,8 @@ struct MotionPrior {
   Eigen::Isometry3d T_now_before = Eigen::Isometry3d::Identity();
   Matrix6d covariance = 1e-4 * Matrix6d::Identity();  ///< of a small motion of the current frame
   bool measured = false;  ///< the images may make it better, but not say something else
+  /// What a jolt may add to the covariance, as a sill gives it that wheels go over; zero: no jolts.
+  Matrix6d jolt = Matrix6d::Zero();
 };
 
 /// What is known beforehand of the rig's motion since the last frame.
@@ -50,7 +52,8 @@ double MatchChi2(const StereoCamera& camera, const Eigen::Isometry3d& T_now_befo
 /// standing still and three-point samples; of those that a vehicle can do after what it did
 /// before, the one with most trust behind it wins, so a crowd that moves as one does not become the
 /// world (RANSAC, Fischler and Bolles 1981). Refined by robust least squares (Geman and McClure
-/// 1985); the prior itself where none of them is possible.
+/// 1985). Where less than half of the trust is behind that and a jolt explains more than half, it
+/// was a jolt; the prior itself where nothing is possible.
 EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
                             const std::optional<MotionPrior>& prior, const MeasurementNoise& noise,
                             const EgoMotionOptions& options);

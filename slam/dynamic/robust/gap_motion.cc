@@ -51,6 +51,17 @@ MeasurementNoise Learned(const MeasurementNoise& known, const std::vector<Stereo
   return known + rate * (bounded - known);
 }
 
+/// What wheels that go over something add to the rig's motion within a frame: heave, pitch and roll
+/// of an upright camera. Where it goes and how it turns on the ground stays as it was, which is
+/// what tells a jolt from somebody who fills the view.
+Matrix6d OfAJolt(double step_s, const EgoMotionOptions& options) {
+  const double heave = options.jolt_mps2 * step_s * step_s,
+               tilt = options.jolt_radps2 * step_s * step_s;
+  Vector6d deviation;
+  deviation << 0, heave, 0, tilt, 0, tilt;
+  return deviation.cwiseAbs2().asDiagonal();
+}
+
 }  // namespace
 
 double LearningRate(std::size_t slot, const ToleranceOptions& options) {
@@ -62,16 +73,19 @@ std::optional<MotionPrior> PriorFor(const RobustState& before, std::int64_t stam
                                     const KnownMotion& known, const EgoMotionOptions& options) {
   if (known.measured)
     return MotionPrior{known.measured->T_now_before, known.measured->covariance, true};
-  if (known.expected) return MotionPrior{known.expected->T_now_before, known.expected->covariance};
+  const double step_s = Seconds(before.stamp_ns, stamp_ns);
+  const Matrix6d jolt = OfAJolt(step_s, options);
+  if (known.expected)
+    return MotionPrior{known.expected->T_now_before, known.expected->covariance, false, jolt};
   if (!before.motion || before.step_s <= 0) return std::nullopt;
-  const double step_s = Seconds(before.stamp_ns, stamp_ns), steps = step_s / before.step_s;
+  const double steps = step_s / before.step_s;
   const Vector6d motion = Difference(Isometry3d::Identity(), before.motion->T_now_before);
   Vector6d deviation;
   deviation << Eigen::Vector3d::Constant(options.acceleration_mps2 * step_s * step_s),
       Eigen::Vector3d::Constant(options.angular_acceleration_radps2 * step_s * step_s);
   const Matrix6d jerk = deviation.cwiseAbs2().asDiagonal();
   return MotionPrior{Retract(Isometry3d::Identity(), motion * steps),
-                     steps * steps * before.motion->covariance + jerk};
+                     steps * steps * before.motion->covariance + jerk, false, jolt};
 }
 
 GapMotions FindGapMotions(const RobustState& before, const View& view,

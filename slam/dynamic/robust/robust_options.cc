@@ -34,6 +34,10 @@ void Describe(OptionFields& fields, EgoMotionOptions& options) {
                 "Deviation of the vehicle's acceleration.");
   fields.Number("angular_acceleration_radps2", &options.angular_acceleration_radps2, {1e-3, 1e3},
                 "rad/s^2", "Deviation of the vehicle's angular acceleration.");
+  fields.Number("jolt_mps2", &options.jolt_mps2, {0, 1e4}, "m/s^2",
+                "Deviation of the vertical acceleration where wheels go over something; 0: never.");
+  fields.Number("jolt_radps2", &options.jolt_radps2, {0, 1e4}, "rad/s^2",
+                "Deviation of the angular acceleration of pitch and roll there; 0: never.");
   fields.Number("trust_in_region", &options.trust_in_region, {0, 1}, "",
                 "Most trust in a point of a region that moves.");
   fields.Seed("seed", &options.seed, "Seed of the samples drawn.");

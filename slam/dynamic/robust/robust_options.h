@@ -42,6 +42,8 @@ struct EgoMotionOptions {
   /// is not the vehicle's, however many points vote for it.
   double acceleration_mps2 = 1.5;
   double angular_acceleration_radps2 = 3;
+  /// The same of a jolt, as a sill gives it: heave, and pitch and roll.
+  double jolt_mps2 = 10, jolt_radps2 = 20;
   double trust_in_region = 0.02;  ///< in a point of a region that moves, whatever its own evidence
   std::uint64_t seed = 3;
 };

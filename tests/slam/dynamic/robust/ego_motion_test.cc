@@ -123,6 +123,40 @@ TEST(EstimateEgoMotion, GoesOnAsExpectedWhereNothingSeenIsPossible) {
   EXPECT_TRUE(found.covariance.isApprox(prior.covariance));
 }
 
+/// The rig goes ahead at 1 m/s, as it has; inertia expects that, and allows for a jolt or not.
+MotionPrior GoesAhead(bool jolts) {
+  MotionPrior prior{Motion({0, 0, -0.05}, 0)};
+  Vector6d deviation;
+  deviation << Vector3d::Constant(0.004), Vector3d::Constant(0.008);
+  prior.covariance = deviation.cwiseAbs2().asDiagonal();
+  if (!jolts) return prior;
+  Vector6d jolt;
+  jolt << 0, 0.025, 0, 0.05, 0, 0.05;
+  prior.jolt = jolt.cwiseAbs2().asDiagonal();
+  return prior;
+}
+
+TEST(EstimateEgoMotion, AJoltOfAllThatIsSeenIsTheRigs) {
+  Isometry3d truth = Motion({0, 0.01, -0.05}, 0);
+  truth.rotate(Eigen::AngleAxisd(0.06, Vector3d::UnitX()));
+  const auto matches = MakeMatches(300, 60, truth, {0.06, 0, 0});
+  const EgoMotion without = EstimateEgoMotion(matches, kCamera, GoesAhead(false), kNoise, {});
+  EXPECT_GT(Difference(truth, without.T_now_before).tail<3>().norm(), 0.03);
+  const EgoMotion found = EstimateEgoMotion(matches, kCamera, GoesAhead(true), kNoise, {});
+  ASSERT_TRUE(found.found);
+  EXPECT_GT(found.support, 100);
+  EXPECT_LT((found.T_now_before.translation() - truth.translation()).norm(), 0.003);
+  EXPECT_LT(Difference(truth, found.T_now_before).tail<3>().norm(), 0.001);
+}
+
+TEST(EstimateEgoMotion, WhoWalksBeforeMostOfTheViewIsNoJolt) {
+  const Isometry3d truth = Motion({0, 0, -0.05}, 0);
+  const auto matches = MakeMatches(300, 240, truth, {0.07, 0, 0.02});
+  const EgoMotion found = EstimateEgoMotion(matches, kCamera, GoesAhead(true), kNoise, {});
+  ASSERT_TRUE(found.found);
+  EXPECT_LT((found.T_now_before.translation() - truth.translation()).norm(), 0.004);
+}
+
 TEST(EstimateEgoMotion, DistrustedPointsDoNotVote) {
   const Isometry3d truth = Motion({0, 0, -0.04}, 0);
   auto matches = MakeMatches(300, 200, truth, {0.08, 0, 0});
