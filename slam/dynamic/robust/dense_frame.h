@@ -20,6 +20,7 @@ struct DenseFrame {
   /// by, which goes on there; 0 in most.
   std::vector<int> unseen;
   std::int64_t stamp_ns = 0;
+  int number = 0;  ///< counts frames since the way back was lost
   Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();  ///< by the motions found
 };
 

@@ -4,6 +4,8 @@ namespace aisle::slam::dynamic {
 void Describe(OptionFields& fields, EvidenceOptions& options) {
   fields.Number("mover_mps", &options.mover_mps, {0.01, 100}, "m/s",
                 "Deviation of a mover's speed along each axis of the image.");
+  fields.Number("mover_m", &options.mover_m, {0.01, 100}, "m",
+                "Deviation of a mover's way over a longer gap, along each axis of the image.");
   fields.Number("noise_per_displacement", &options.noise_per_displacement, {0, 1}, "px/px",
                 "Deviation of the flow per pixel of displacement.");
   fields.Number("independent_pixels", &options.independent_pixels, {0.1, 1000}, "",

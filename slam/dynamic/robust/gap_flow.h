@@ -10,7 +10,7 @@ namespace aisle::slam::dynamic {
 
 /// Where the current pixels were, over one gap.
 struct GapFlow {
-  std::size_t slot = 0;  ///< in kGaps
+  std::size_t slot = 0;  ///< of the gap
   int gap = 1;           ///< frames
   cv::Mat2f expected;    ///< half-size pixels of the earlier frame, were all static
   cv::Mat2f flow;        ///< the same, whatever moved

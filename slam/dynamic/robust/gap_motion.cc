@@ -66,7 +66,7 @@ Matrix6d OfAJolt(double step_s, const EgoMotionOptions& options) {
 
 double LearningRate(std::size_t slot, const ToleranceOptions& options) {
   const double kept = 1 - options.learning_rate;
-  return slot == 0 ? options.learning_rate : 1 - kept * kept;
+  return slot == 0 ? options.learning_rate : 1 - std::pow(kept, kSlots - 1);
 }
 
 std::optional<MotionPrior> PriorFor(const RobustState& before, std::int64_t stamp_ns,

@@ -16,8 +16,8 @@ std::optional<MotionPrior> PriorFor(const RobustState& before, std::int64_t stam
 
 /// The rig's motion over the gaps.
 struct GapMotions {
-  std::vector<EgoMotion> motions;  ///< of the first flows, up to the first not found
-  std::array<MeasurementNoise, kGaps.size()> noise;  ///< with what these have taught
+  std::vector<EgoMotion> motions;              ///< of the first flows, up to the first not found
+  std::array<MeasurementNoise, kSlots> noise;  ///< with what these have taught
 };
 
 /// Finds the rig's motion over every gap; the longer ones start from what the frames between have
@@ -28,7 +28,7 @@ GapMotions FindGapMotions(const RobustState& before, const View& view,
                           const RobustOptions& options);
 
 /// By which share a value measured over a gap moves the running one, so that all gaps learn at one
-/// pace: a longer gap is measured in every second frame.
+/// pace: each of the longer gaps is measured in its turn.
 double LearningRate(std::size_t slot, const ToleranceOptions& options);
 
 }  // namespace aisle::slam::dynamic

@@ -4,13 +4,13 @@
 
 namespace aisle::slam::dynamic {
 
-EndedMotion TakeOffEndedMotion(const LatestStep& step, const Texture& texture,
+EndedMotion TakeOffEndedMotion(const LatestStep& step, int steps, const Texture& texture,
                                const cv::Mat2f& per_step, const cv::Mat1f& log_odds,
                                const EvidenceOptions& options) {
   EndedMotion result{cv::Mat1f(log_odds.size()), cv::Mat1f(log_odds.size())};
   const auto share = static_cast<float>(options.least_speed_share),
              noise = static_cast<float>(options.mover_noise * options.mover_noise),
-             limit = static_cast<float>(options.most);
+             limit = static_cast<float>(options.most), way = static_cast<float>(steps);
   ParallelFor(0, log_odds.rows, [&](int y) {
     const float *xx = texture.xx[y], *xy = texture.xy[y], *yy = texture.yy[y];
     const float *residual = step.residual.ptr<float>(y), *velocity = per_step.ptr<float>(y),
@@ -23,7 +23,7 @@ EndedMotion TakeOffEndedMotion(const LatestStep& step, const Texture& texture,
       const float s = noise * variance[x];
       const float held = s * (xx[x] * yy[x] - xy[x] * xy[x]);
       const float det = (1 + s * xx[x]) * (1 + s * yy[x]) - s * xy[x] * (s * xy[x]);
-      const float u = velocity[2 * x], v = velocity[2 * x + 1];
+      const float u = way * velocity[2 * x], v = way * velocity[2 * x + 1];
       const float su = ((xx[x] + held) * u + xy[x] * v) / det,
                   sv = (xy[x] * u + (yy[x] + held) * v) / det;
       const float along = su * residual[2 * x] + sv * residual[2 * x + 1];

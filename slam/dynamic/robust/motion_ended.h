@@ -7,7 +7,7 @@
 
 namespace aisle::slam::dynamic {
 
-/// What the latest step left unexplained, per half-size pixel.
+/// What one comparison left unexplained, per half-size pixel.
 struct LatestStep {
   cv::Mat2f residual;  ///< half-size pixels, of the flow, beside the static world's
   cv::Mat1f variance;  ///< of a static pixel's residual, beyond what texture leaves open
@@ -18,13 +18,13 @@ struct EndedMotion {
   cv::Mat1f log_odds, taken;
 };
 
-/// Takes off the log-odds of moving that a longer gap found what the latest step says against it:
-/// who walked a second ago may stand now. `per_step` is the residual of the longer gap, shared out
-/// among its steps. Against "moves still, at no less than least_speed_share of that" stands "is
-/// static"; where the ratio of the two densities of the latest residual is for static, it is taken
-/// off, down to zero. Log-odds count up to EvidenceOptions::most. What moves too slowly for one
-/// step to tell keeps all.
-EndedMotion TakeOffEndedMotion(const LatestStep& step, const Texture& texture,
+/// Takes off the log-odds of moving that a gap found what another comparison says against it: who
+/// walked a second ago may stand now. `per_step` is the residual of that gap, shared out among its
+/// steps, of which the other comparison spans `steps`. Against "moves still, at no less than
+/// least_speed_share of that" stands "is static"; where the ratio of the two densities of the other
+/// residual is for static, it is taken off, down to zero. Log-odds count up to
+/// EvidenceOptions::most. What moves too slowly for the other to tell keeps all.
+EndedMotion TakeOffEndedMotion(const LatestStep& step, int steps, const Texture& texture,
                                const cv::Mat2f& per_step, const cv::Mat1f& log_odds,
                                const EvidenceOptions& options);
 

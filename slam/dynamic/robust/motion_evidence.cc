@@ -225,7 +225,7 @@ MotionEvidence CompareMotion(const Comparison& comparison, const Texture& textur
                              const Surroundings& around, const StereoCamera& half,
                              const EvidenceOptions& options) {
   const DenseFrame &now = comparison.now, &then = comparison.then;
-  const double way_m = options.mover_mps * comparison.seconds;
+  const double way_m = std::min(options.mover_mps * comparison.seconds, options.mover_m);
   const double focal_baseline = half.fx * half.baseline_m;
   Evidence evidence{comparison,
                     texture,

@@ -30,44 +30,68 @@ double Learned(double known, const std::optional<double>& measured, double rate)
   return known + rate * (std::clamp(*measured, kLeastFlowNoise, kMostFlowNoise) - known);
 }
 
+/// The same step where it says something, and nothing elsewhere.
+LatestStep WhereKnown(LatestStep step, const cv::Mat1f& log_odds) {
+  const cv::Mat unknown = log_odds == 0;
+  step.residual = step.residual.clone();
+  step.variance = step.variance.clone();
+  step.variance.setTo(1e6F, unknown);
+  return step;
+}
+
+/// What a gap says in its turn, and where others have seen motion that is not refuted, what they
+/// say if it is more.
+GapEvidence Together(const GapEvidence& carried, const GapEvidence& own) {
+  if (carried.log_odds.empty()) return own;
+  GapEvidence both{own.log_odds.clone(), own.per_step.clone()};
+  const cv::Mat other = (carried.log_odds > 0) & (carried.log_odds > own.log_odds);
+  carried.log_odds.copyTo(both.log_odds, other);
+  carried.per_step.copyTo(both.per_step, other);
+  return both;
+}
+
 }  // namespace
 
 PastEvidence WeighPast(const RobustState& before, const View& view,
                        const std::vector<GapFlow>& flows, const std::vector<EgoMotion>& motions,
                        const LabelMemory& memory, const StereoCamera& half,
                        const DisparityTolerance& tolerance, const RobustOptions& options) {
-  PastEvidence past{{}, cv::Mat1f(view.frame.image.size(), 0.0F), {}, before.noise.flow};
+  PastEvidence past{{}, {}, cv::Mat1f(view.frame.image.size(), 0.0F), {}, before.noise.flow};
   past.ended = past.log_odds.clone();
   if (motions.empty()) return past;
 
-  std::array<GapEvidence, kGaps.size()> said;  // by slot
-  if (before.long_slot > 0) {
-    said[before.long_slot] = {memory.long_log_odds, memory.long_per_step};
-  }
-  LatestStep latest;
+  std::vector<LatestStep> steps;
   for (std::size_t k = 0; k < motions.size(); ++k) {
     const std::size_t slot = flows[k].slot;
-    const MotionEvidence found =
+    MotionEvidence found =
         CompareOver(flows[k], motions[k], before, view, memory, half, tolerance, options);
-    said[slot].log_odds = found.log_odds;
-    said[slot].per_step = found.step.residual / flows[k].gap;
-    if (slot == 0) latest = found.step;
+    cv::Mat2f per_step;
+    per_step = found.step.residual / flows[k].gap;
+    past.gaps.push_back({found.log_odds, per_step});
+    steps.push_back(std::move(found.step));
     past.flow_noise[slot] =
         Learned(before.noise.flow[slot], found.flow_noise, LearningRate(slot, options.tolerance));
   }
 
-  std::vector<cv::Mat1f> log_odds = {said[0].log_odds};
-  for (std::size_t slot = 1; slot < kGaps.size(); ++slot) {
-    if (!said[slot].log_odds.empty()) {
-      const EndedMotion less = TakeOffEndedMotion(latest, view.texture, said[slot].per_step,
-                                                  said[slot].log_odds, options.evidence);
-      said[slot].log_odds = less.log_odds;
-      past.ended = cv::max(past.ended, less.taken);
+  const auto take_off = [&](const LatestStep& step, int count, GapEvidence& said) {
+    const EndedMotion less = TakeOffEndedMotion(step, count, view.texture, said.per_step,
+                                                said.log_odds, options.evidence);
+    said.log_odds = less.log_odds;
+    past.ended = cv::max(past.ended, less.taken);
+  };
+  past.longer = {memory.long_log_odds, memory.long_per_step};
+  if (!past.longer.log_odds.empty()) take_off(steps[0], flows[0].gap, past.longer);
+  if (motions.size() > 1) {
+    GapEvidence& own = past.gaps[1];
+    take_off(steps[0], flows[0].gap, own);
+    // What swings may be where it was over a longer way, and has moved nevertheless.
+    if (!past.longer.log_odds.empty() && flows[1].slot < before.long_slot) {
+      take_off(WhereKnown(steps[1], own.log_odds), flows[1].gap, past.longer);
     }
-    log_odds.push_back(said[slot].log_odds);
+    past.longer = Together(past.longer, own);
   }
-  for (std::size_t k = 0; k < motions.size(); ++k) past.gaps.push_back(said[flows[k].slot]);
-  past.log_odds = CombineGaps(log_odds, options.field.moving, options.evidence);
+  past.log_odds = CombineGaps({past.gaps[0].log_odds, past.longer.log_odds}, options.field.moving,
+                              options.evidence);
   return past;
 }
 

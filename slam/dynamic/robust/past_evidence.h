@@ -17,13 +17,15 @@ struct GapEvidence {
 /// What the past says of the current pixels.
 struct PastEvidence {
   std::vector<GapEvidence> gaps;  ///< of those whose motion is known, in their order
+  GapEvidence longer = {};        ///< of the longer gaps together, each of them as of its last turn
   cv::Mat1f log_odds;             ///< of all gaps together; 0 where they say nothing
   cv::Mat1f ended;  ///< log-odds of moving that earlier frames said of motion that has ended
-  std::array<double, kGaps.size()> flow_noise;  ///< with what the comparisons have taught
+  std::array<double, kSlots> flow_noise;  ///< with what the comparisons have taught
 };
 
-/// Compares the view with the frames that the motions lead back to; the longer gap that has not its
-/// turn is heard as `memory` has kept it. `memory` has been carried to the current frame.
+/// Compares the view with the frames that the motions lead back to; the longer gaps that have not
+/// their turn are heard as `memory` has kept them, less what the comparisons refute. `memory` has
+/// been carried to the current frame.
 PastEvidence WeighPast(const RobustState& before, const View& view,
                        const std::vector<GapFlow>& flows, const std::vector<EgoMotion>& motions,
                        const LabelMemory& memory, const StereoCamera& half,

@@ -39,25 +39,24 @@ cv::Mat1f Accumulate(const cv::Mat1f& known, const PastEvidence& past,
   return log_odds;
 }
 
-/// What a gap says in the next frame, where another one has its turn: it fades as memory does.
+/// What the longer gaps say in the next frame, where another one has its turn.
 cv::Mat1f ToCarry(const GapEvidence& evidence, const RobustOptions& options) {
+  if (evidence.log_odds.empty()) return {};
   cv::Mat1f carried;
   cv::max(evidence.log_odds, options.evidence.least, carried);
   cv::min(carried, options.evidence.most, carried);
-  carried *= options.field.memory;
+  carried *= options.field.longer;
   return carried;
 }
 
-std::vector<DenseFrame> WithFrame(std::vector<DenseFrame> frames, DenseFrame now,
-                                  const std::vector<EgoMotion>& motions) {
+std::vector<DenseFrame> FramesWith(std::vector<DenseFrame> frames, DenseFrame now,
+                                   const std::vector<EgoMotion>& motions) {
   if (motions.empty()) {
     frames.clear();  // the way back is lost: a new past begins
   } else {
     now.T_world_rig = Normalized(frames.back().T_world_rig * motions[0].T_now_before.inverse());
   }
-  if (std::ssize(frames) >= kLongestGap) frames.erase(frames.begin());
-  frames.push_back(std::move(now));
-  return frames;
+  return WithFrame(std::move(frames), std::move(now));
 }
 
 /// All that one step has found.
@@ -76,20 +75,16 @@ RobustState Remember(const RobustState& before, const Found& found, const Robust
   const std::vector<EgoMotion>& motions = found.motions.motions;
   RobustState state = before;
   state.stamp_ns = found.view.frame.stamp_ns;
-  state.frames = WithFrame(before.frames, found.view.frame, motions);
+  state.frames = FramesWith(before.frames, found.view.frame, motions);
   if (!motions.empty()) {
     state.motion = motions[0];
     state.step_s = Seconds(before.stamp_ns, state.stamp_ns);
   }
   state.noise = {found.motions.noise, found.past.flow_noise};
   state.memory = {found.log_odds, found.labels.regions};
-  state.long_slot = 0;
-  if (motions.size() > 1) {
-    const GapEvidence& longer = found.past.gaps[motions.size() - 1];
-    state.long_slot = found.flows[motions.size() - 1].slot;
-    state.memory.long_log_odds = ToCarry(longer, options);
-    state.memory.long_per_step = longer.per_step;
-  }
+  state.long_slot = motions.size() > 1 ? found.flows[motions.size() - 1].slot : 0;
+  state.memory.long_log_odds = ToCarry(found.past.longer, options);
+  state.memory.long_per_step = found.past.longer.per_step;
   return state;
 }
 

@@ -47,6 +47,8 @@ void Describe(OptionFields& fields, FieldOptions& options) {
   constexpr OptionRange kBias{-10, 0};
   fields.Number("memory", &options.memory, {0, 1}, "",
                 "Share of the log-odds of moving that survives from frame to frame.");
+  fields.Number("longer", &options.longer, {0, 1}, "",
+                "The same share of what the longer gaps say that have not their turn.");
   fields.Number("limit", &options.limit, {1, 100}, "log-odds",
                 "Bound of the log-odds, either way.");
   fields.Number("bias", &options.bias, kBias, "log-odds", "Leaning of every pixel to static.");

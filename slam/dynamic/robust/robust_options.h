@@ -18,7 +18,11 @@ namespace aisle::slam::dynamic {
 /// Distances in frames over which motion is looked for: displacement grows with the gap, noise far
 /// less, so the long ones find slow movers and the short one is quick.
 inline constexpr std::array<int, 3> kGaps = {1, 5, 15};
-inline constexpr int kLongestGap = 15;
+/// Gaps are known by slots: those of kGaps, and the keyframe's, whose gap is longer than them and
+/// chosen in each frame.
+inline constexpr std::size_t kKeyframeSlot = kGaps.size(), kSlots = kGaps.size() + 1;
+/// Frames older than the longest of kGaps are kept up to this age, one in so many.
+inline constexpr int kLongestGap = 60, kKeyframeEvery = 5;
 
 /// What is known of a pixel before it is compared.
 struct SurfaceOptions {
@@ -51,6 +55,7 @@ struct EgoMotionOptions {
 /// From residual flow to the log-odds of moving.
 struct EvidenceOptions {
   double mover_mps = 0.5;  ///< deviation of a mover's speed, along each axis of the image
+  double mover_m = 0.5;    ///< and of its way over a longer gap: what goes farther is seen sooner
   /// Errors of calibration and rolling texture grow with the way a point has gone: deviation per
   /// pixel of displacement.
   double noise_per_displacement = 0.01;
@@ -74,6 +79,7 @@ struct EvidenceOptions {
 /// The labelling of pixels.
 struct FieldOptions {
   double memory = 0.75;  ///< share of the log-odds that survives from frame to frame
+  double longer = 0.5;   ///< the same of what the longer gaps say that have not their turn
   double limit = 6;      ///< of the log-odds, either way
   /// Log-odds that every pixel leans to static: what nobody has seen move does not; and more where
   /// the disparity is unknown, and on the floor.

@@ -13,12 +13,12 @@
 
 namespace aisle::slam::dynamic {
 
-/// Noise as measured while running, for each of kGaps.
+/// Noise as measured while running, by slot of the gap.
 struct LearnedNoise {
-  std::array<MeasurementNoise, kGaps.size()> match = {MeasurementNoise(0.17, 0.17, 0.5),
-                                                      MeasurementNoise(0.17, 0.17, 0.5),
-                                                      MeasurementNoise(0.25, 0.25, 0.5)};
-  std::array<double, kGaps.size()> flow = {0.1, 0.12, 0.15};  ///< half-size pixels
+  std::array<MeasurementNoise, kSlots> match = {
+      MeasurementNoise(0.17, 0.17, 0.5), MeasurementNoise(0.17, 0.17, 0.5),
+      MeasurementNoise(0.25, 0.25, 0.5), MeasurementNoise(0.25, 0.25, 0.5)};
+  std::array<double, kSlots> flow = {0.1, 0.12, 0.15, 0.15};  ///< half-size pixels
 };
 
 /// The deviation of one disparity, half-size pixels: the shortest gap, whose flow errs least, tells
@@ -29,18 +29,26 @@ inline double DisparityNoise(const LearnedNoise& noise) { return noise.match[0].
 /// and never written again.
 struct RobustState {
   std::int64_t stamp_ns = 0;
-  std::vector<DenseFrame> frames;   ///< the latest ones, newest last, up to kLongestGap
+  /// The latest ones and keyframes before them, newest last; see WithFrame.
+  std::vector<DenseFrame> frames;
   std::optional<EgoMotion> motion;  ///< the latest of the rig
   double step_s = 0;                ///< its duration
   LearnedNoise noise;
   LabelMemory memory;
-  std::size_t long_slot = 0;  ///< in kGaps, of the longer gap compared last; 0: none was
+  std::size_t long_slot = 0;  ///< of the longer gap compared last; 0: none was
 };
 
-/// The frame `gap` frames before the current one; `gap` is at most the number of frames.
-inline const DenseFrame& FrameAgo(const RobustState& before, int gap) {
-  return before.frames[before.frames.size() - static_cast<std::size_t>(gap)];
+/// How many frames before the current one a kept frame was.
+inline int GapTo(const DenseFrame& frame, const RobustState& before) {
+  return before.frames.back().number + 1 - frame.number;
 }
+
+/// The frame `gap` frames before the current one, which must be one of those kept.
+const DenseFrame& FrameAgo(const RobustState& before, int gap);
+
+/// The frames kept when a new one has come: of the latest, all that kGaps lead back to; of those
+/// before, up to kLongestGap, one in kKeyframeEvery. The new one is given the next number.
+std::vector<DenseFrame> WithFrame(std::vector<DenseFrame> frames, DenseFrame now);
 
 /// The rig's motion since the frame a gap ago, if the latest step was T_now_before.
 inline Eigen::Isometry3d MotionOver(int gap, const RobustState& before,

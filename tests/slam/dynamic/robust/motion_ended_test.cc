@@ -18,14 +18,15 @@ struct Outcome {
 
 /// Of one pixel, of which a longer gap found `found`.
 Outcome Judge(const Matrix2d& G, const Vector2d& latest, const Vector2d& per_step, float found,
-              double variance = 0.01) {
+              double variance = 0.01, int steps = 1) {
   const auto one = [](double value) { return cv::Mat1f(1, 1, static_cast<float>(value)); };
   const auto two = [](const Vector2d& v) {
     return cv::Mat2f(1, 1, cv::Vec2f(static_cast<float>(v.x()), static_cast<float>(v.y())));
   };
-  const EndedMotion less = TakeOffEndedMotion(
-      {two(latest), one(variance)}, {one(G(0, 0)), one(G(0, 1)), one(G(1, 1))}, two(per_step),
-      one(found), {.most = kMost, .least_speed_share = kShare, .mover_noise = kNoise});
+  const EndedMotion less =
+      TakeOffEndedMotion({two(latest), one(variance)}, steps,
+                         {one(G(0, 0)), one(G(0, 1)), one(G(1, 1))}, two(per_step), one(found),
+                         {.most = kMost, .least_speed_share = kShare, .mover_noise = kNoise});
   return {less.log_odds(0, 0), less.taken(0, 0)};
 }
 float Left(const Matrix2d& G, const Vector2d& latest, const Vector2d& per_step, float found) {
@@ -65,6 +66,14 @@ TEST(TakeOffEndedMotion, WhoGoesOnKeepsWhatAGapMaySay) {
 
 TEST(TakeOffEndedMotion, WhatIsTooSlowForOneStepToTellKeepsAlmostAll) {
   EXPECT_NEAR(Left(Corner(), {0, 0}, {0.04, 0.02}, 2), 2, 0.02);
+}
+
+TEST(TakeOffEndedMotion, OverManyStepsTheSlowerIsTold) {
+  const Vector2d per_step(0.04, 0.02);
+  EXPECT_EQ(Judge(Corner(), {0, 0}, per_step, 2, 0.01, 60).left, 0);
+  EXPECT_FLOAT_EQ(Judge(Corner(), 60 * per_step, per_step, 2, 0.01, 60).left, 2);
+  // Who has set out in the midst of them goes on.
+  EXPECT_FLOAT_EQ(Judge(Corner(), 25 * per_step, per_step, 2, 0.01, 60).left, 2);
 }
 
 TEST(TakeOffEndedMotion, WithoutTextureOrMotionNothingChanges) {
