@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
@@ -49,11 +50,21 @@ std::vector<char*> Pointers(const std::vector<std::string>& texts) {
   return pointers;
 }
 
-/// Where libraries lie is all that the program must know of the environment.
+/// What the program must know of the environment: where libraries lie and, in a build that is
+/// watched, what ThreadSanitizer is to leave out.
 std::vector<std::string> Environment() {
-  const char* libraries = std::getenv("LD_LIBRARY_PATH");
-  if (libraries == nullptr) return {};
-  return {fmt::format("LD_LIBRARY_PATH={}", libraries)};
+#ifdef __SANITIZE_THREAD__
+  constexpr std::array kKnown = {"LD_LIBRARY_PATH", "TSAN_OPTIONS"};
+#else
+  constexpr std::array kKnown = {"LD_LIBRARY_PATH"};
+#endif
+  std::vector<std::string> environment;
+  for (const char* name : kKnown) {
+    if (const char* value = std::getenv(name)) {
+      environment.push_back(fmt::format("{}={}", name, value));
+    }
+  }
+  return environment;
 }
 
 pid_t Start(const std::filesystem::path& program, const std::vector<std::string>& arguments,
