@@ -12,7 +12,7 @@ namespace aisle::slam::dynamic {
 struct LabelMemory {
   cv::Mat1f log_odds;  ///< per half-size pixel, without the neighbours' share
   PixelRegions regions;
-  /// What the longer of the gaps said in that frame alone; empty if none was compared.
+  /// What the longer gaps have said, each in its turn, faded since; empty if none was compared.
   cv::Mat1f long_log_odds = {};
   cv::Mat2f long_per_step = {};  ///< its residual, shared out among its steps
 };

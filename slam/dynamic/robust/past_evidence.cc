@@ -33,7 +33,6 @@ double Learned(double known, const std::optional<double>& measured, double rate)
 /// The same step where it says something, and nothing elsewhere.
 LatestStep WhereKnown(LatestStep step, const cv::Mat1f& log_odds) {
   const cv::Mat unknown = log_odds == 0;
-  step.residual = step.residual.clone();
   step.variance = step.variance.clone();
   step.variance.setTo(1e6F, unknown);
   return step;

@@ -37,7 +37,8 @@ int FramesBelow(const std::vector<double>& shares, int from, double least) {
       std::count_if(shares.begin() + from, shares.end(), [&](double s) { return s < least; }));
 }
 
-TEST(SlowMovers, AreFoundWithinASecondAndHeldBesideAMovingRig) {
+/// Above 0.1 m/s within a second, below within two.
+TEST(SlowMovers, AreFoundAndHeldBesideAMovingRig) {
   for (const double speed : {0.06, 0.12}) {
     const auto shares = MaskedShares(test::Walker({0.2, 0.1, 3.4}, {speed, 0, 0}), 0.3, 60);
     EXPECT_EQ(FramesBelow(shares, speed < 0.1 ? 40 : 21, 0.5), 0) << speed << " m/s";
