@@ -6,7 +6,6 @@
 #include "slam/dynamic/common/median.h"
 #include "slam/dynamic/robust/fast_log.h"
 #include "slam/dynamic/robust/residual_flow.h"
-#include "slam/dynamic/robust/squared_difference.h"
 #include "slam/dynamic/robust/static_alias.h"
 #include "slam/stereo/dense/semi_global.h"
 
@@ -99,7 +98,7 @@ struct Evidence {
                           expected.place(y, x),
                           expected.disparity(y, x),
                           expected.per_disparity(y, x)};
-    const AliasViews views{frames.now,       frames.then.image,  around.variance,
+    const AliasViews views{frames.now,       frames.then.image,  around.noise.fine,
                            frames.tolerance, frames.disparities, depth_per_disparity};
     return LimitByAlias(views, seen, std::min(log_odds, most), options);
   }
@@ -215,7 +214,7 @@ float DisplacementLogOdds(const Eigen::Matrix2f& G, const Eigen::Vector2f& r, fl
 
 Surroundings LookAround(const DenseFrame& frame, const SurfaceOptions& surface,
                         const EvidenceOptions& options) {
-  Surroundings around{DifferenceVariance(frame.image, surface), {}};
+  Surroundings around{ExpectDifferences(frame.image, surface), {}};
   cv::dilate(frame.filled, around.nearest,
              cv::Mat::ones(options.edge_window_px, options.edge_window_px, CV_8U));
   return around;
@@ -241,11 +240,11 @@ MotionEvidence CompareMotion(const Comparison& comparison, const Texture& textur
   ParallelInvoke(
       [&] {
         const cv::Mat1b still = SampleAt(then.image, evidence.expected.place);
-        evidence.difference_static = SquaredDifference(now.image, still, around.variance);
+        evidence.difference_static = SquaredDifference(now.image, still, around.noise);
       },
       [&] {
         const cv::Mat1b moved = SampleAt(then.image, comparison.flow);
-        evidence.difference_moved = SquaredDifference(now.image, moved, around.variance);
+        evidence.difference_moved = SquaredDifference(now.image, moved, around.noise);
       });
   const cv::Size size = now.image.size();
   MotionEvidence found{

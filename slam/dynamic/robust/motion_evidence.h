@@ -9,6 +9,7 @@
 #include "slam/dynamic/robust/disparity_tolerance.h"
 #include "slam/dynamic/robust/motion_ended.h"
 #include "slam/dynamic/robust/robust_options.h"
+#include "slam/dynamic/robust/squared_difference.h"
 
 namespace aisle::slam::dynamic {
 
@@ -36,8 +37,8 @@ struct Comparison {
 
 /// What is asked of the current frame whatever it is compared with.
 struct Surroundings {
-  cv::Mat1f variance;  ///< of the difference of two grey values
-  cv::Mat1f nearest;   ///< largest disparity within EvidenceOptions::edge_window_px
+  DifferenceNoise noise;  ///< of its pixels
+  cv::Mat1f nearest;      ///< largest disparity within EvidenceOptions::edge_window_px
 };
 Surroundings LookAround(const DenseFrame& frame, const SurfaceOptions& surface,
                         const EvidenceOptions& options);

@@ -12,6 +12,8 @@ void Describe(OptionFields& fields, SurfaceOptions& options) {
                 "Deviation of one pixel in the dark.");
   fields.Number("brightness_noise", &options.brightness_noise, {0, 1}, "",
                 "Deviation that grows with brightness, as a share of it.");
+  fields.Number("shading_noise", &options.shading_noise, {0, 10}, "",
+                "Deviation of the mean of 5x5 pixels by glare and shadow, as a share of it.");
   fields.Integer("window_px", &options.window_px, {3, 31}, "half-size px",
                  "Side of the window in which texture is gathered; odd.");
   fields.Require(options.window_px % 2 == 1, "window_px", options.window_px, kMustBeOdd);

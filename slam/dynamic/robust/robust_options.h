@@ -28,7 +28,10 @@ inline constexpr int kLongestGap = 60, kKeyframeEvery = 5;
 struct SurfaceOptions {
   double grey_noise = 2;           ///< grey levels, deviation of one pixel in the dark
   double brightness_noise = 0.02;  ///< what grows with brightness: photons, each pixel's own gain
-  int window_px = 7;               ///< side of the window in which texture is gathered, odd
+  /// By which share of itself the mean of a few pixels may change: a lamp's glare wanders over a
+  /// static surface as the rig passes it, and lamps are blotted out.
+  double shading_noise = 0.1;
+  int window_px = 7;  ///< side of the window in which texture is gathered, odd
 };
 
 /// How far two disparities of one surface may be apart, see DisparityTolerance.

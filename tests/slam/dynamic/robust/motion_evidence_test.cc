@@ -50,6 +50,31 @@ TEST(DisplacementLogOdds, AlongAnEdgeNothingIsKnownAndAcrossItMuch) {
   EXPECT_GT(DisplacementLogOdds(edge, {4, 0}, 0.01F, 1), 10);
 }
 
+/// A lamp's reflection: light that is added to both images of a pair.
+struct Glare {
+  cv::Point2d at = {400, 200};     ///< full pixels of the left image
+  double deviation_px = 12;        ///< its size
+  double grey = 0;                 ///< levels at its centre
+  cv::Point2d per_frame = {1, 5};  ///< the way it goes from frame to frame
+};
+
+void AddGlare(const Glare& glare, cv::Point2d at, cv::Mat1b& image) {
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const cv::Point2d off = cv::Point2d(x, y) - at;
+      const double light =
+          glare.grey * std::exp(-off.dot(off) / 2 / std::pow(glare.deviation_px, 2));
+      image(y, x) = cv::saturate_cast<unsigned char>(image(y, x) + light);
+    }
+  }
+}
+
+/// On the surface that is seen there.
+void AddGlare(const Glare& glare, cv::Point2d at, test::SyntheticView& view) {
+  AddGlare(glare, at, view.left);
+  AddGlare(glare, at - cv::Point2d(view.disparity(cv::Point(at)), 0), view.right);
+}
+
 /// Two frames of the hall, what the second makes of the first, and what moves.
 struct Pair {
   DenseFrame then, now;
@@ -59,14 +84,18 @@ struct Pair {
   cv::Mat1f log_odds;
   cv::Mat1b moving;  // half size
 
-  Pair(const std::vector<test::Panel>& movers, const Vector3d& way, double seconds) {
+  Pair(const std::vector<test::Panel>& movers, const Vector3d& way, double seconds,
+       const Glare& glare = {}, const SurfaceOptions& surface = {}) {
     auto panels = test::StaticHall();
     panels.insert(panels.end(), movers.begin(), movers.end());
     Isometry3d T_world_now = Isometry3d::Identity();
     T_world_now.translation() = way;
-    const auto before = test::Render(panels, {}, Isometry3d::Identity(), 0, 2.0);
-    const auto after = test::Render(panels, {}, T_world_now, seconds, 2.0);
-    const RobustOptions options;
+    auto before = test::Render(panels, {}, Isometry3d::Identity(), 0, 2.0);
+    auto after = test::Render(panels, {}, T_world_now, seconds, 2.0);
+    AddGlare(glare, glare.at, before);
+    AddGlare(glare, glare.at + glare.per_frame, after);
+    RobustOptions options;
+    options.surface = surface;
     then = MakeDenseFrame(before.left, before.right, options.disparity);
     now = MakeDenseFrame(after.left, after.right, options.disparity);
     texture = MeasureTexture(now.image, options.surface);
@@ -101,6 +130,25 @@ TEST(CompareMotion, OfAStaticHallSaysThatItStands) {
   const Pair pair({}, {0, 0, 0.15}, 0.25);
   EXPECT_LT(pair.ShareAbove(1, false), 0.02);
   EXPECT_LT(cv::mean(pair.log_odds)[0], -0.5);
+}
+
+TEST(CompareMotion, GlareThatWandersOverPlainGoodsIsHardlyAMover) {
+  test::Panel goods;
+  goods.centre = {0.1, -0.1, 3};
+  goods.half_width = goods.half_height = 0.8;
+  goods.brightness = 140;
+  goods.contrast = 12;
+  const auto claimed = [&](double shading_noise) {
+    SurfaceOptions surface;
+    surface.shading_noise = shading_noise;
+    Glare glare;
+    glare.grey = 90;
+    const Pair pair({goods}, {0, 0, 0.03}, 0.05, glare, surface);
+    return pair.ShareAbove(0.5, false);
+  };
+  const double if_unknown = claimed(0);
+  EXPECT_GT(if_unknown, 0.001);
+  EXPECT_LT(claimed(SurfaceOptions().shading_noise), if_unknown / 4);
 }
 
 TEST(CompareMotion, FindsAWalkerAcrossBesideAMovingCamera) {

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "slam/dynamic/common/counter_random.h"
+#include "slam/dynamic/robust/dense_frame.h"
 #include "slam/dynamic/robust/fast_log.h"
 
 namespace aisle::slam::dynamic {
@@ -20,17 +21,21 @@ cv::Mat1b RandomImage(std::uint64_t stream) {
   return image;
 }
 
-TEST(SquaredDifference, IsTheMeanSquareOfWhatDiffersFromTheLocalMean) {
+TEST(SquaredDifference, IsTheMeanSquareOfWhatDiffersFromTheMeanAroundAndOfThatMean) {
   const cv::Mat1b image = RandomImage(1), other = RandomImage(2);
-  cv::Mat variance, exact_variance, found;
-  RandomImage(3).convertTo(exact_variance, CV_64F, 1, 1);
-  exact_variance.convertTo(variance, CV_32F);
-  cv::Mat difference, mean, expected;
+  cv::Mat of_fine, of_coarse, found;
+  RandomImage(3).convertTo(of_fine, CV_64F, 1, 1);
+  RandomImage(5).convertTo(of_coarse, CV_64F, 1, 1);
+  DifferenceNoise noise;
+  of_fine.convertTo(noise.fine, CV_32F);
+  of_coarse.convertTo(noise.coarse, CV_32F);
+  cv::Mat difference, around, far_around, expected;
   cv::subtract(image, other, difference, cv::noArray(), CV_64F);
-  cv::blur(difference, mean, {11, 11});
-  difference -= mean;
-  cv::blur(difference.mul(difference) / exact_variance, expected, {5, 5});
-  SquaredDifference(image, other, variance).convertTo(found, CV_64F);
+  cv::blur(difference, around, {5, 5});
+  cv::blur(difference, far_around, {11, 11});
+  const cv::Mat fine = difference - around, coarse = around - far_around;
+  cv::blur(fine.mul(fine) / of_fine + coarse.mul(coarse) / of_coarse, expected, {5, 5});
+  SquaredDifference(image, other, noise).convertTo(found, CV_64F);
   EXPECT_LT(cv::norm(found / expected - 1, cv::NORM_INF), 1e-4);
 }
 
@@ -38,8 +43,20 @@ TEST(SquaredDifference, ABrighterCopyFitsPerfectly) {
   cv::Mat1b image, brighter;
   cv::min(RandomImage(4), 200, image);
   cv::add(image, 40, brighter);
-  const cv::Mat1f difference = SquaredDifference(image, brighter, cv::Mat1f(image.size(), 1.0F));
+  const cv::Mat1f difference =
+      SquaredDifference(image, brighter, ExpectDifferences(image, SurfaceOptions()));
   EXPECT_EQ(cv::countNonZero(difference), 0);
+}
+
+TEST(ExpectDifferences, TheMeanAroundChangesByAShareOfItsBrightnessBesides) {
+  const cv::Mat1b image = RandomImage(6);
+  SurfaceOptions options;
+  options.shading_noise = 0.25;
+  const DifferenceNoise noise = ExpectDifferences(image, options);
+  EXPECT_EQ(cv::norm(noise.fine, DifferenceVariance(image, options), cv::NORM_INF), 0);
+  const cv::Point somewhere(17, 11);
+  const double shading = 0.25 * image(somewhere);
+  EXPECT_NEAR(noise.coarse(somewhere) - noise.fine(somewhere), shading * shading, 1e-2);
 }
 
 TEST(FastLog, IsTheLogarithmToAMillionth) {
