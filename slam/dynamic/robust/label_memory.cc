@@ -78,6 +78,34 @@ cv::Point PixelAt(const cv::Vec2f& place, cv::Size size) {
   return cv::Rect({0, 0}, size).contains(pixel) ? pixel : cv::Point(-1, -1);
 }
 
+constexpr int kNowhere = -1;
+
+/// Where the pixels of a row were in the frame before: numbers of pixels in raster order.
+void FindSources(const cv::Mat2f& flow, int y, const DenseFrame& now, const DenseFrame& before,
+                 const DisparityTolerance& tolerance, std::vector<int>& sources) {
+  const float *disparity = now.disparity[y], *filled = now.filled[y];
+  const cv::Vec2f* places = flow[y];
+  const int unseen = ColumnsUnseen(disparity, flow.cols);
+  for (int x = 0; x < flow.cols; ++x) {
+    // Who leaves to the left is known no less where the right camera loses him first.
+    const bool flow_alone = x < unseen && disparity[x] <= 0;
+    const cv::Point from = flow_alone
+                               ? PixelAt(places[x], flow.size())
+                               : SameSurface(before.disparity, places[x], {filled[x], tolerance});
+    sources[static_cast<std::size_t>(x)] = from.x < 0 ? kNowhere : from.y * flow.cols + from.x;
+  }
+}
+
+/// A row of what was known there, and nothing where that is nowhere.
+template <typename Known>
+void Take(const cv::Mat_<Known>& before, const std::vector<int>& sources, Known* row) {
+  CV_DbgAssert(before.isContinuous());
+  const Known* known = before[0];
+  for (std::size_t x = 0; x < sources.size(); ++x) {
+    row[x] = sources[x] == kNowhere ? Known() : known[sources[x]];
+  }
+}
+
 }  // namespace
 
 LabelMemory ForgottenMemory(cv::Size size, int next_region_id) {
@@ -86,30 +114,23 @@ LabelMemory ForgottenMemory(cv::Size size, int next_region_id) {
 
 LabelMemory CarryMemory(const LabelMemory& previous, const cv::Mat2f& flow, const DenseFrame& now,
                         const DenseFrame& before, const DisparityTolerance& tolerance) {
-  LabelMemory carried = ForgottenMemory(flow.size(), previous.regions.next_id);
-  if (previous.log_odds.empty()) return carried;
-  carried.regions.regions = previous.regions.regions;
+  if (previous.log_odds.empty()) return ForgottenMemory(flow.size(), previous.regions.next_id);
+  const cv::Size size = flow.size();
+  LabelMemory carried{cv::Mat1f(size),
+                      {cv::Mat1i(size), previous.regions.regions, previous.regions.next_id}};
   const bool compared_long = !previous.long_log_odds.empty();
   if (compared_long) {
-    carried.long_log_odds = cv::Mat1f(flow.size(), 0.0F);
-    carried.long_per_step = cv::Mat2f(flow.size(), cv::Vec2f(0, 0));
+    carried.long_log_odds.create(size);
+    carried.long_per_step.create(size);
   }
   ParallelFor(0, flow.rows, [&](int y) {
-    const int unseen = ColumnsUnseen(now.disparity[y], flow.cols);
-    for (int x = 0; x < flow.cols; ++x) {
-      // Who leaves to the left is known no less where the right camera loses him first.
-      const bool flow_alone = x < unseen && now.disparity(y, x) <= 0;
-      const cv::Point from =
-          flow_alone ? PixelAt(flow(y, x), flow.size())
-                     : SameSurface(before.disparity, flow(y, x), {now.filled(y, x), tolerance});
-      if (from.x < 0) continue;
-      carried.log_odds(y, x) = previous.log_odds(from);
-      if (compared_long) {
-        carried.long_log_odds(y, x) = previous.long_log_odds(from);
-        carried.long_per_step(y, x) = previous.long_per_step(from);
-      }
-      carried.regions.labels(y, x) = previous.regions.labels(from);
-    }
+    std::vector<int> sources(static_cast<std::size_t>(flow.cols));
+    FindSources(flow, y, now, before, tolerance, sources);
+    Take(previous.log_odds, sources, carried.log_odds[y]);
+    Take(previous.regions.labels, sources, carried.regions.labels[y]);
+    if (!compared_long) return;
+    Take(previous.long_log_odds, sources, carried.long_log_odds[y]);
+    Take(previous.long_per_step, sources, carried.long_per_step[y]);
   });
   return carried;
 }
