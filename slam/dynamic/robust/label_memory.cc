@@ -99,7 +99,7 @@ void FindSources(const cv::Mat2f& flow, int y, const DenseFrame& now, const Dens
 /// A row of what was known there, and nothing where that is nowhere.
 template <typename Known>
 void Take(const cv::Mat_<Known>& before, const std::vector<int>& sources, Known* row) {
-  CV_DbgAssert(before.isContinuous());
+  CV_Assert(before.isContinuous());
   const Known* known = before[0];
   for (std::size_t x = 0; x < sources.size(); ++x) {
     row[x] = sources[x] == kNowhere ? Known() : known[sources[x]];
