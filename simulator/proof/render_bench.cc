@@ -24,7 +24,7 @@ RenderBench BenchRender(const Studio& studio, std::span<const Moment> moments,
     const Instant instant = studio.At(moments[i]);
     const std::array<CameraView, 2> views = studio.Views(moments[i]);
     LapWatch watch;
-    TraceViews(instant, views, {}, &hits);
+    TraceViews(instant, views, {.single_packets = true}, &hits);
     const double bare_ms = watch.Lap();
     std::map<std::string, double> frame_stages;
     watch.Lap();

@@ -1,8 +1,12 @@
 #include "simulator/trace/hit_image.h"
 
+#include <immintrin.h>
+
+#include <array>
 #include <cstring>
 
 #include "simulator/common/parallel.h"
+#include "simulator/trace/mover_windows.h"
 #include "simulator/trace/tile_grid.h"
 
 namespace aisle::sim {
@@ -44,16 +48,34 @@ void Store(const Hits8& hits, int x, int y, HitImage* image) {
   }
 }
 
-void TraceTile(const Instant& instant, const CameraView& view, const Tile& tile, HitImage* image) {
-  const GeometryMask geometries =
-      GeometriesInWindow(instant, view, tile.x0, tile.y0, tile.x1, tile.y1);
-  Hits8 hits;
+/// Neighbours that may meet the same movers are asked together.
+void TraceTile(const Instant& instant, const CameraView& view, const MoverWindows& movers,
+               const Tile& tile, std::size_t most, HitImage* image) {
+  std::array<Rays8, Instant::kMostPackets> rays;
+  std::array<Hits8, Instant::kMostPackets> hits;
   for (int y = tile.y0; y < tile.y1; y += kPacketHeight) {
+    GeometryMask asked = 0;
+    std::size_t count = 0;
+    int first = tile.x0;
+    const auto trace = [&] {
+      instant.Intersect(std::span(rays).first(count), Coherence::kCoherent, asked, hits);
+      for (std::size_t i = 0; i < count; ++i, first += kPacketWidth)
+        Store(hits[i], first, y, image);
+      count = 0;
+    };
     for (int x = tile.x0; x < tile.x1; x += kPacketWidth) {
-      instant.Intersect(PixelPacket(view, x, y), Coherence::kCoherent, geometries, &hits);
-      Store(hits, x, y, image);
+      const GeometryMask may = movers.In(x, y, x + kPacketWidth, y + kPacketHeight);
+      if (count == most || (count > 0 && may != asked)) trace();
+      asked = may;
+      rays[count++] = PixelPacket(view, x, y);
     }
+    trace();
   }
+}
+
+/// A row of four floats, and another below.
+__m256 TwoRows(const float* upper, const float* lower) {
+  return _mm256_set_m128(_mm_loadu_ps(lower), _mm_loadu_ps(upper));
 }
 
 }  // namespace
@@ -80,58 +102,29 @@ void HitImage::Resize(int new_width, int new_height) {
 Rays8 PixelPacket(const CameraView& view, int x, int y) {
   const PixelRays& rays = *view.rays;
   const Eigen::Matrix3f& r = view.rotation;
+  const bool has_lower = y + 1 < rays.height;
+  const auto upper = static_cast<std::size_t>(y * rays.width + x);
+  const std::size_t lower = has_lower ? upper + static_cast<std::size_t>(rays.width) : upper;
+  // A packet that reaches beyond its row reads into the next one, or into the padding.
+  const __m256 cx = TwoRows(&rays.x[upper], &rays.x[lower]);
+  const __m256 cy = TwoRows(&rays.y[upper], &rays.y[lower]);
   Rays8 packet;
-  for (int k = 0; k < kLanes; ++k) {
-    const int px = x + k % kPacketWidth, py = y + k / kPacketWidth;
-    const bool inside = px < rays.width && py < rays.height;
-    const auto i = static_cast<std::size_t>(inside ? py * rays.width + px : 0);
-    const float cx = rays.x[i], cy = rays.y[i];
-    packet.ox[k] = view.origin.x();
-    packet.oy[k] = view.origin.y();
-    packet.oz[k] = view.origin.z();
-    packet.dx[k] = r(0, 0) * cx + r(0, 1) * cy + r(0, 2);
-    packet.dy[k] = r(1, 0) * cx + r(1, 1) * cy + r(1, 2);
-    packet.dz[k] = r(2, 0) * cx + r(2, 1) * cy + r(2, 2);
-    packet.t_near[k] = 0;
-    packet.t_far[k] = kInfinity;
-    packet.valid[k] = inside ? -1 : 0;
-  }
+  const auto fill = [](float value, float* row) { _mm256_store_ps(row, _mm256_set1_ps(value)); };
+  fill(view.origin.x(), packet.ox);
+  fill(view.origin.y(), packet.oy);
+  fill(view.origin.z(), packet.oz);
+  _mm256_store_ps(packet.dx, r(0, 0) * cx + r(0, 1) * cy + r(0, 2));
+  _mm256_store_ps(packet.dy, r(1, 0) * cx + r(1, 1) * cy + r(1, 2));
+  _mm256_store_ps(packet.dz, r(2, 0) * cx + r(2, 1) * cy + r(2, 2));
+  fill(0, packet.t_near);
+  fill(kInfinity, packet.t_far);
+  const __m256i column = _mm256_setr_epi32(0, 1, 2, 3, 0, 1, 2, 3);
+  const int rows = has_lower ? -1 : 0;
+  const __m256i in_rows = _mm256_setr_epi32(-1, -1, -1, -1, rows, rows, rows, rows);
+  const __m256i in_columns = _mm256_cmpgt_epi32(_mm256_set1_epi32(rays.width - x), column);
+  _mm256_store_si256(reinterpret_cast<__m256i*>(packet.valid),
+                     _mm256_and_si256(in_rows, in_columns));
   return packet;
-}
-
-GeometryMask GeometriesInWindow(const Instant& instant, const CameraView& view, int x0, int y0,
-                                int x1, int y1) {
-  // A box can show in the window only if no side plane of the window's pyramid has all of it
-  // outside. The planes enclose the rays of the window's border (of its corners, for a pinhole),
-  // widened by one pixel.
-  const PixelRays& rays = *view.rays;
-  Eigen::AlignedBox2f window;
-  for (const int y : {y0, y1 - 1}) {
-    for (const int x : {x0, x1 - 1}) window.extend(rays.At(x, y));
-  }
-  if (!rays.straight) {
-    for (int x = x0; x < x1; ++x) window.extend(rays.At(x, y0)).extend(rays.At(x, y1 - 1));
-    for (int y = y0; y < y1; ++y) window.extend(rays.At(x0, y)).extend(rays.At(x1 - 1, y));
-  }
-  const Eigen::Vector2f lo = window.min() - Eigen::Vector2f(rays.step_x, rays.step_y);
-  const Eigen::Vector2f hi = window.max() + Eigen::Vector2f(rays.step_x, rays.step_y);
-  const Eigen::Isometry3f T_camera_world = view.T_world_camera.inverse().cast<float>();
-  GeometryMask mask = kStaticOnly;
-  for (std::size_t i = 0; i < instant.mover_boxes().size(); ++i) {
-    int left = 0, right = 0, above = 0, below = 0, behind = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-      const Eigen::Vector3f p =
-          T_camera_world *
-          instant.mover_boxes()[i].corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner));
-      left += p.x() < lo.x() * p.z();
-      right += p.x() > hi.x() * p.z();
-      above += p.y() < lo.y() * p.z();
-      below += p.y() > hi.y() * p.z();
-      behind += p.z() < 0;
-    }
-    if (std::max({left, right, above, below, behind}) < 8) mask |= MoverBit(i);
-  }
-  return mask;
 }
 
 void TraceViews(const Instant& instant, std::span<const CameraView> views, const TraceOrder& order,
@@ -140,10 +133,13 @@ void TraceViews(const Instant& instant, std::span<const CameraView> views, const
   for (std::size_t i = 0; i < views.size(); ++i) {
     (*images)[i].Resize(views[i].rays->width, views[i].rays->height);
   }
+  std::vector<MoverWindows> movers;
+  for (const CameraView& view : views) movers.emplace_back(instant, view);
   const std::vector<TileOfView> tiles = MakeTiles(views, order.shuffle);
   ParallelFor(std::size_t{0}, tiles.size(), [&](std::size_t i) {
     const auto& [view, tile] = tiles[i];
-    TraceTile(instant, views[view], tile, &(*images)[view]);
+    TraceTile(instant, views[view], movers[view], tile,
+              order.single_packets ? 1 : Instant::kMostPackets, &(*images)[view]);
   });
 }
 

@@ -37,9 +37,12 @@ struct CameraView {
   Eigen::Vector3f origin;
 };
 
+/// Changes no result; tests and benches use it.
 struct TraceOrder {
-  /// 0: tiles in reading order; else a seed that shuffles them. Changes no result; tests use it.
+  /// 0: tiles in reading order; else a seed that shuffles them.
   std::uint64_t shuffle = 0;
+  /// Whether packets of eight rays are traced one by one instead of side by side.
+  bool single_packets = false;
 };
 
 /// Traces the pixel centres of several views of one instant, in parallel over tiles. `images` has
@@ -50,9 +53,5 @@ void TraceViews(const Instant& instant, std::span<const CameraView> views, const
 
 /// The rays of the eight pixels (x + 0…3, y + 0…1).
 Rays8 PixelPacket(const CameraView& view, int x, int y);
-
-/// Movers whose box may show in the pixels [x0, x1) × [y0, y1), and the static world.
-GeometryMask GeometriesInWindow(const Instant& instant, const CameraView& view, int x0, int y0,
-                                int x1, int y1);
 
 }  // namespace aisle::sim

@@ -1,6 +1,9 @@
 #include "simulator/trace/meet.h"
 
+#include <immintrin.h>
+
 #include <algorithm>
+#include <cstddef>
 
 namespace aisle::sim {
 
@@ -13,16 +16,35 @@ Corners8::Corners8(const Corners& one) {
   std::fill_n(rim, kLanes, one.rim);
 }
 
+// Eight corners of eight floats are turned over in registers: rows that are written lane by lane
+// and then read whole have to wait for the memory.
 Corners8::Corners8(const std::array<const Corners*, kLanes>& by_lane) {
-  for (std::size_t k = 0; k < kLanes; ++k) {
-    const Corners& one = *by_lane[k];
-    for (int axis = 0; axis < 3; ++axis) {
-      a[axis][k] = one.a[axis];
-      b[axis][k] = one.b[axis];
-      c[axis][k] = one.c[axis];
-    }
-    rim[k] = one.rim;
+  static_assert(offsetof(Corners, rim) == 9 * sizeof(float));
+  const auto from = [&](std::size_t lane) { return by_lane[lane]->a.data(); };
+  __m256 pairs[kLanes], fours[kLanes];
+  for (std::size_t k = 0; k < kLanes; k += 2) {
+    const __m256 first = _mm256_loadu_ps(from(k)), second = _mm256_loadu_ps(from(k + 1));
+    pairs[k] = _mm256_unpacklo_ps(first, second);
+    pairs[k + 1] = _mm256_unpackhi_ps(first, second);
   }
+  for (std::size_t k = 0; k < kLanes; k += 4) {
+    for (std::size_t half = 0; half < 2; ++half) {
+      const __m256 first = pairs[k + half], second = pairs[k + 2 + half];
+      fours[k + 2 * half] = _mm256_shuffle_ps(first, second, _MM_SHUFFLE(1, 0, 1, 0));
+      fours[k + 2 * half + 1] = _mm256_shuffle_ps(first, second, _MM_SHUFFLE(3, 2, 3, 2));
+    }
+  }
+  const std::array<float*, kLanes> rows = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1]};
+  for (std::size_t k = 0; k < 4; ++k) {
+    _mm256_store_ps(rows[k], _mm256_permute2f128_ps(fours[k], fours[k + 4], 0x20));
+    _mm256_store_ps(rows[k + 4], _mm256_permute2f128_ps(fours[k], fours[k + 4], 0x31));
+  }
+  const auto row = [&](std::size_t i) {
+    return _mm256_setr_ps(from(0)[i], from(1)[i], from(2)[i], from(3)[i], from(4)[i], from(5)[i],
+                          from(6)[i], from(7)[i]);
+  };
+  _mm256_store_ps(c[2], row(8));
+  _mm256_store_ps(rim, row(9));
 }
 
 Meetings8 Meet(const Rays8& rays, const Corners8& triangles) {

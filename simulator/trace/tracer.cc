@@ -1,6 +1,7 @@
 #include "simulator/trace/tracer.h"
 
 #include <embree3/rtcore.h>
+#include <immintrin.h>
 
 #include <algorithm>
 #include <array>
@@ -98,20 +99,33 @@ RTCIntersectContext Context(Coherence coherence) {
   return context;
 }
 
-constexpr std::size_t kRow = sizeof(float) * kLanes;
+/// A row in one move: what is written in pieces and read whole has to wait for the memory.
+void CopyRow(const void* from, void* to) {
+  _mm256_store_si256(static_cast<__m256i*>(to),
+                     _mm256_load_si256(static_cast<const __m256i*>(from)));
+}
+
+void FillRow(std::int32_t value, void* to) {
+  _mm256_store_si256(static_cast<__m256i*>(to), _mm256_set1_epi32(value));
+}
 
 void Load(const Rays8& rays, RTCRay8* to) {
-  std::memcpy(to->org_x, rays.ox, kRow);
-  std::memcpy(to->org_y, rays.oy, kRow);
-  std::memcpy(to->org_z, rays.oz, kRow);
-  std::memcpy(to->dir_x, rays.dx, kRow);
-  std::memcpy(to->dir_y, rays.dy, kRow);
-  std::memcpy(to->dir_z, rays.dz, kRow);
-  std::memcpy(to->tnear, rays.t_near, kRow);
-  std::memcpy(to->tfar, rays.t_far, kRow);
-  std::memset(to->time, 0, kRow);
-  std::memset(to->mask, 0xff, kRow);
-  std::memset(to->flags, 0, kRow);
+  CopyRow(rays.ox, to->org_x);
+  CopyRow(rays.oy, to->org_y);
+  CopyRow(rays.oz, to->org_z);
+  CopyRow(rays.dx, to->dir_x);
+  CopyRow(rays.dy, to->dir_y);
+  CopyRow(rays.dz, to->dir_z);
+  CopyRow(rays.t_near, to->tnear);
+  CopyRow(rays.t_far, to->tfar);
+  FillRow(0, to->time);
+  FillRow(-1, to->mask);
+  FillRow(0, to->flags);
+}
+
+/// Rays of a stream have no mask: those that end before they begin meet nothing.
+void LeaveOut(const std::int32_t* valid, RTCRay8* rays) {
+  for (int k = 0; k < kLanes; ++k) rays->tfar[k] = valid[k] ? rays->tfar[k] : -kInfinity;
 }
 
 /// Where triangles meet or cover each other, any of them may be said to be hit, as the last bit of
@@ -285,7 +299,7 @@ void Instant::Settle(const Rays8& rays, GeometryMask geometries, unsigned lanes,
     packet.ray.tnear[k] = std::max(rays.t_near[k], hits->t[k] * (1 - kSameDistance));
     packet.ray.tfar[k] = std::min(rays.t_far[k], hits->t[k] * (1 + kSameDistance));
   }
-  std::memset(packet.hit.geomID, 0xff, kRow);
+  FillRow(-1, packet.hit.geomID);
   ForEachScene(geometries, [&](RTCScene scene, std::uint32_t id) {
     query.geometry = id;
     rtcIntersect8(valid, scene, &query, &packet);
@@ -312,33 +326,58 @@ unsigned Instant::Place(const Rays8& rays, Hits8* hits) const {
 
 void Instant::Intersect(const Rays8& rays, Coherence coherence, GeometryMask geometries,
                         Hits8* hits) const {
-  alignas(32) RTCRayHit8 packet;
-  Load(rays, &packet.ray);
-  std::memset(packet.hit.geomID, 0xff, kRow);
-  std::memset(packet.hit.primID, 0, kRow);
-  std::memset(hits->geometry, 0xff, kRow);
+  Intersect({&rays, 1}, coherence, geometries, {hits, 1});
+}
+
+void Instant::Intersect(std::span<const Rays8> rays, Coherence coherence, GeometryMask geometries,
+                        std::span<Hits8> hits) const {
+  alignas(32) RTCRayHit8 packets[kMostPackets];
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    Load(rays[i], &packets[i].ray);
+    LeaveOut(rays[i].valid, &packets[i].ray);
+    FillRow(0, packets[i].hit.primID);
+    FillRow(-1, hits[i].geometry);
+  }
   RTCIntersectContext context = Context(coherence);
   // Every scene holds one mesh, number 0: whose it was is told by the call that set it.
   ForEachScene(geometries, [&](RTCScene scene, std::uint32_t id) {
-    std::memset(packet.hit.geomID, 0xff, kRow);
-    rtcIntersect8(rays.valid, scene, &context, &packet);
-    for (int k = 0; k < kLanes; ++k) {
-      hits->geometry[k] = packet.hit.geomID[k] == 0 ? id : hits->geometry[k];
+    for (std::size_t i = 0; i < rays.size(); ++i) FillRow(-1, packets[i].hit.geomID);
+    if (rays.size() == 1) {
+      rtcIntersect8(rays[0].valid, scene, &context, &packets[0]);
+    } else {
+      rtcIntersectNM(scene, &context, reinterpret_cast<RTCRayHitN*>(packets), kLanes,
+                     static_cast<unsigned>(rays.size()), sizeof(RTCRayHit8));
+    }
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      for (int k = 0; k < kLanes; ++k) {
+        hits[i].geometry[k] = packets[i].hit.geomID[k] == 0 ? id : hits[i].geometry[k];
+      }
     }
   });
-  std::memcpy(hits->primitive, packet.hit.primID, kRow);
   // Which triangle was hit is Embree's answer; where, is computed here.
-  if (const unsigned in_doubt = Place(rays, hits); in_doubt != 0) {
-    Settle(rays, geometries, in_doubt, hits);
-    Place(rays, hits);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    CopyRow(packets[i].hit.primID, hits[i].primitive);
+    if (const unsigned in_doubt = Place(rays[i], &hits[i]); in_doubt != 0) {
+      Settle(rays[i], geometries, in_doubt, &hits[i]);
+      Place(rays[i], &hits[i]);
+    }
   }
+}
+
+Meetings8 Instant::MeetStatic(const Rays8& rays,
+                              const std::array<std::uint32_t, kLanes>& triangles) const {
+  std::array<const Corners*, kLanes> by_lane;
+  for (std::size_t k = 0; k < kLanes; ++k) by_lane[k] = &tracer_->impl_->corners[triangles[k]];
+  Corners8 corners(by_lane);
+  FillRow(0, corners.rim);
+  return Meet(rays, corners);
 }
 
 unsigned Instant::Occluded(const Rays8& rays, Coherence coherence, GeometryMask geometries) const {
   alignas(32) RTCRay8 packet;
   Load(rays, &packet);
   alignas(32) std::int32_t open[kLanes];
-  std::memcpy(open, rays.valid, kRow);
+  CopyRow(rays.valid, open);
   RTCIntersectContext context = Context(coherence);
   unsigned blocked = 0, valid = 0;
   for (int k = 0; k < kLanes; ++k) valid |= rays.valid[k] ? 1u << k : 0u;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -51,6 +52,14 @@ class Instant {
   /// and where triangles meet a rule chooses: the same bits on every make of processor.
   void Intersect(const Rays8& rays, Coherence coherence, GeometryMask geometries,
                  Hits8* hits) const;
+  /// The same for up to kMostPackets packets side by side, which is faster; `hits` has one a
+  /// packet.
+  void Intersect(std::span<const Rays8> rays, Coherence coherence, GeometryMask geometries,
+                 std::span<Hits8> hits) const;
+  static constexpr std::size_t kMostPackets = 8;
+  /// Where the rays meet the static world's triangles, one by lane, whatever may stand before them;
+  /// `on_rim` is -1 where they pass them by.
+  Meetings8 MeetStatic(const Rays8& rays, const std::array<std::uint32_t, kLanes>& triangles) const;
   /// Bit i is set where valid lane i meets anything at all.
   unsigned Occluded(const Rays8& rays, Coherence coherence, GeometryMask geometries) const;
 

@@ -22,6 +22,9 @@ inline I8 LoadI(const void* from) {
   return reinterpret_cast<I8>(_mm256_loadu_si256(static_cast<const __m256i*>(from)));
 }
 inline void Store(F8 value, float* to) { _mm256_storeu_ps(to, reinterpret_cast<__m256>(value)); }
+inline void StoreI(I8 value, void* to) {
+  _mm256_storeu_si256(static_cast<__m256i*>(to), reinterpret_cast<__m256i>(value));
+}
 inline bool Any(I8 mask) { return _mm256_movemask_ps(reinterpret_cast<__m256>(mask)) != 0; }
 /// Bit k is set where lane k of a comparison is.
 inline unsigned Bits(I8 mask) {

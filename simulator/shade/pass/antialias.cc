@@ -2,6 +2,7 @@
 
 #include "simulator/shade/pass/edge_samples.h"
 #include "simulator/shade/pass/edge_search.h"
+#include "simulator/trace/mover_windows.h"
 
 namespace aisle::sim {
 namespace {
@@ -12,15 +13,14 @@ constexpr int kTileWidth = 64, kTileHeight = 16;
 
 void AntialiasEdges(const ShadingView& shading, std::span<const float> kept, cv::Mat1f* radiance) {
   const TileGrid grid{shading.image.width, shading.image.height, kTileWidth, kTileHeight};
+  const MoverWindows movers(shading.instant, shading.view);
   std::vector<std::vector<MixedPixel>> tiles(grid.size());
   grid.ForEach([&](std::size_t i, const Tile& tile) {
     TileEdges found = FindEdges(shading, *radiance, tile);
     tiles[i] = std::move(found.mixed);
     if (found.unknown.empty()) return;
-    const GeometryMask geometries =
-        GeometriesInWindow(shading.instant, shading.view, tile.x0, tile.y0, tile.x1, tile.y1);
     const std::vector<MixedPixel> sampled =
-        SamplePixels(shading, kept, *radiance, found.unknown, geometries);
+        SamplePixels(shading, kept, *radiance, found.unknown, movers);
     tiles[i].insert(tiles[i].end(), sampled.begin(), sampled.end());
   });
   // All new values are known before the first pixel changes.

@@ -29,20 +29,25 @@ class Edges {
     TileEdges found;
     for (int x = tile.x0; x < tile.x1; x += kLanes) {
       for (int y = tile.y0; y < tile.y1; ++y) {
-        for (unsigned left = Candidates(x, y); left; left &= left - 1) {
-          Classify({x + std::countr_zero(left), y}, &found);
-        }
+        const Sides sides = Candidates(x, y);
+        unsigned left = sides[0] | sides[1] | sides[2] | sides[3];
+        for (; left; left &= left - 1) Classify(x, y, std::countr_zero(left), sides, &found);
       }
     }
     return found;
   }
 
  private:
-  /// Which of eight pixels of a row may differ from a neighbour: few do, and eight at a time are
-  /// quickly asked. At the image's border all may.
-  unsigned Candidates(int x, int y) const {
+  static constexpr std::array<PixelAt, 4> kSteps = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+  /// By step: bits of the pixels among eight that may differ from their neighbour there.
+  using Sides = std::array<unsigned, kSteps.size()>;
+
+  /// Few pixels of a row of eight differ from a neighbour, and eight at a time are quickly asked.
+  /// At the image's border all may.
+  Sides Candidates(int x, int y) const {
     if (x == 0 || y == 0 || y + 1 == image_.height || x + kLanes >= image_.width) {
-      return (1u << std::min(kLanes, image_.width - x)) - 1;
+      const unsigned all = (1u << std::min(kLanes, image_.width - x)) - 1;
+      return {all, all, all, all};
     }
     const std::size_t i = image_.Index(x, y);
     const auto stride = static_cast<std::size_t>(image_.stride);
@@ -50,35 +55,35 @@ class Edges {
     const F8 mine = LoadF(&radiance_(y, x));
     const auto differs = [&](std::size_t j, const float* radiance) {
       const F8 other = LoadF(radiance);
-      return ((LoadI(&image_.geometry[j]) != geometry) |
-              (LoadI(&image_.primitive[j]) != primitive)) &
-             (Abs(mine - other) > kContrast * Max(mine, other));
+      return Bits(
+          ((LoadI(&image_.geometry[j]) != geometry) | (LoadI(&image_.primitive[j]) != primitive)) &
+          (Abs(mine - other) > kContrast * Max(mine, other)));
     };
-    const I8 any = differs(i - 1, &radiance_(y, x - 1)) | differs(i + 1, &radiance_(y, x + 1)) |
-                   differs(i - stride, &radiance_(y - 1, x)) |
-                   differs(i + stride, &radiance_(y + 1, x));
-    return Bits(any);
+    return {differs(i - 1, &radiance_(y, x - 1)), differs(i + 1, &radiance_(y, x + 1)),
+            differs(i - stride, &radiance_(y - 1, x)), differs(i + stride, &radiance_(y + 1, x))};
   }
 
-  void Classify(PixelAt p, TileEdges* found) const {
-    constexpr std::array<PixelAt, 4> kSteps = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
-    std::array<bool, 4> differs{};
+  /// The pixel `lane` to the right of (x, y).
+  void Classify(int x, int y, int lane, const Sides& sides, TileEdges* found) const {
+    const PixelAt p = {x + lane, y};
+    std::array<bool, kSteps.size()> differs{};
     bool any = false;
-    for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < kSteps.size(); ++i) {
+      if (!(sides[i] >> lane & 1)) continue;
       const PixelAt q = {p.x + kSteps[i].x, p.y + kSteps[i].y};
       differs[i] =
           q.x >= 0 && q.y >= 0 && q.x < image_.width && q.y < image_.height && Differ(p, q);
       any |= differs[i];
     }
     if (!any) return;
-    if (MixFaint(p, kSteps, differs, found)) return;
+    if (MixFaint(p, differs, found)) return;
     if ((differs[0] && differs[1]) || (differs[2] && differs[3])) {  // a thing one pixel wide
       found->unknown.push_back(p);
       return;
     }
     float share = 0;  // of the pixel that the neighbour's surface covers
     PixelAt other = p;
-    for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < kSteps.size(); ++i) {
       if (!differs[i]) continue;
       const PixelAt q = {p.x + kSteps[i].x, p.y + kSteps[i].y};
       const bool p_is_near = image_.t[Index(p)] <= image_.t[Index(q)];
@@ -99,13 +104,12 @@ class Edges {
 
   /// Where all sides are nearly as bright, the edge is given the place it has on average: the other
   /// side covers a quarter of the pixel.
-  bool MixFaint(PixelAt p, std::span<const PixelAt> steps, std::span<const bool> differs,
-                TileEdges* found) const {
+  bool MixFaint(PixelAt p, std::span<const bool> differs, TileEdges* found) const {
     const float mine = radiance_(p.y, p.x);
     float sum = 0, count = 0;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
+    for (std::size_t i = 0; i < kSteps.size(); ++i) {
       if (!differs[i]) continue;
-      const float other = radiance_(p.y + steps[i].y, p.x + steps[i].x);
+      const float other = radiance_(p.y + kSteps[i].y, p.x + kSteps[i].x);
       if (std::abs(other - mine) > kFaint * std::max(other, mine)) return false;
       sum += other;
       count += 1;

@@ -91,8 +91,10 @@ SurfaceTables::SurfaceTables(const World& world, const LightGrid& static_grid, f
     slot_count_ += grid.point_of_slot.size();
     mover_grids_.push_back(std::move(grid));
   }
-  has_normal_maps_ = std::ranges::any_of(
-      world.materials(), [](const Material& material) { return material.normal_texture >= 0; });
+  const auto is_mapped = [](const Material& material) { return material.normal_texture >= 0; };
+  has_normal_maps_ = std::ranges::any_of(world.materials(), is_mapped);
+  statics_have_normal_maps_ = std::ranges::any_of(
+      mesh.materials, [&](const auto material) { return is_mapped(world.materials()[material]); });
   mover_light_ = std::make_unique<MoverLight>(world, mover_grids_, MoverLightOptions{});
   glossy_ =
       std::ranges::any_of(statics_, is_glossy) || std::ranges::any_of(mover_records_, is_glossy);

@@ -30,6 +30,8 @@ class SurfaceTables {
   /// Whether anything in the world has a glossy lobe.
   bool glossy() const { return glossy_; }
   bool has_normal_maps() const { return has_normal_maps_; }
+  /// Whether any surface of the static world has one.
+  bool statics_have_normal_maps() const { return statics_have_normal_maps_; }
   /// Where a pixel that hit something lies on its mesh.
   MeshPlace PlaceOf(const Instant& instant, const HitImage& image, std::size_t pixel) const;
   /// Index in FrameLight::mover_records of a mover's first triangle.
@@ -44,7 +46,7 @@ class SurfaceTables {
  private:
   const World* world_;
   std::vector<SurfaceRecord> statics_;
-  bool glossy_ = false, has_normal_maps_ = false;
+  bool glossy_ = false, has_normal_maps_ = false, statics_have_normal_maps_ = false;
   std::vector<SurfaceRecord> mover_records_;
   std::vector<std::int32_t> mover_bases_;
   std::vector<std::size_t> slot_bases_;

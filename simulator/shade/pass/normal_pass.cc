@@ -106,6 +106,7 @@ void BendLight(const ShadingView& shading, std::vector<float>* irradiance) {
   const auto& [instant, view, image, tables, frame, textures] = shading;
   if (!tables.has_normal_maps()) return;
   const World& world = tables.world();
+  const bool plain_statics = !tables.statics_have_normal_maps();
   const OpenLamps lamps(instant, world);
   const TileGrid grid{image.width, image.height, kTileWidth, kTileHeight};
   grid.ForEach([&](std::size_t, const Tile& tile) {
@@ -113,7 +114,7 @@ void BendLight(const ShadingView& shading, std::vector<float>* irradiance) {
     ForRows(tile, 1, [&](int x, int y) {
       const std::size_t i = image.Index(x, y);
       const std::uint32_t geometry = image.geometry[i];
-      if (geometry == kNoGeometry) return;
+      if (geometry == kNoGeometry || (geometry == 0 && plain_statics)) return;
       const MeshPlace place = tables.PlaceOf(instant, image, i);
       const Material& material = world.materials()[place.topology.materials[place.triangle]];
       const bool luminaire = geometry == 0 && material.emission > 0;  // what it emits has no normal

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <opencv2/imgproc.hpp>
+
 #include "simulator/shade/shader.h"
 #include "tests/simulator/test_world.h"
 
@@ -132,6 +134,39 @@ TEST(Shader, AntialiasingChangesEdgesAlone) {
   }
   EXPECT_GT(changed, 50);
   EXPECT_LT(changed, hard.rows * hard.cols / 3);
+}
+
+/// The mean of sixteen pixels in the place of one, sharp edges and all, is what a pixel of that
+/// size collects.
+TEST(Shader, AntialiasingComesNearTheMeanOfSixteenPixels) {
+  ShadeOptions smooth = Stage::Options();
+  smooth.antialias = true;
+  const auto parts = [] { return test::Hall({.boxes = 2000, .lights = 6}); };
+  const Stage hard_stage(parts()), soft_stage(parts(), smooth);
+  StereoCamera fine = hard_stage.camera;
+  fine.width *= 4, fine.height *= 4;
+  fine.fx *= 4, fine.fy *= 4;
+  fine.cx = 4 * (fine.cx + 0.5) - 0.5, fine.cy = 4 * (fine.cy + 0.5) - 0.5;
+  const PixelRays fine_rays = MakePixelRays(fine);
+  CameraView close = hard_stage.At(0);
+  close.rays = &fine_rays;
+  const cv::Mat1f hard = hard_stage.Picture(), soft = soft_stage.Picture();
+  cv::Mat1f mean;
+  cv::resize(hard_stage.Shade({close})[0], mean, hard.size(), 0, 0, cv::INTER_AREA);
+  double hard_error = 0, soft_error = 0;
+  for (int y = 0; y < hard.rows; ++y) {
+    for (int x = 0; x < hard.cols; ++x) {
+      if (hard(y, x) == soft(y, x)) continue;
+      // In shares, as lamps would outweigh all else.
+      const auto error = [&](float value) {
+        return std::abs(value - mean(y, x)) / std::max(mean(y, x), 1e-6f);
+      };
+      hard_error += std::min(error(hard(y, x)), 1.0f);
+      soft_error += std::min(error(soft(y, x)), 1.0f);
+    }
+  }
+  EXPECT_GT(hard_error, 10);
+  EXPECT_LT(soft_error, 0.5 * hard_error);
 }
 
 }  // namespace

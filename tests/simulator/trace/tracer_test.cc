@@ -4,6 +4,7 @@
 
 #include "simulator/camera/pixel_rays.h"
 #include "simulator/trace/hit_image.h"
+#include "simulator/trace/mover_windows.h"
 #include "tests/simulator/test_world.h"
 
 namespace aisle::sim {
@@ -82,6 +83,137 @@ TEST(TraceViews, TileOrderDoesNotMatter) {
   EXPECT_EQ(a[0].t, b[0].t);
   EXPECT_EQ(a[0].primitive, b[0].primitive);
   EXPECT_EQ(a[0].u, b[0].u);
+}
+
+/// A figure and a truck in the hall as seen from afar, close by and from within, straight and
+/// through a lens.
+std::vector<StereoCamera> Cameras() {
+  StereoCamera straight;
+  straight.width = 188;
+  straight.height = 120;
+  straight.fx = straight.fy = 110;
+  straight.cx = 93.5;
+  straight.cy = 59.5;
+  StereoCamera bent = straight;
+  bent.lens = {LensModel::kRadialTangential, {-0.28, 0.07, 0.0002, 0.00002}};
+  return {straight, bent};
+}
+
+std::vector<Eigen::Isometry3d> PlacesAround(const Instant& instant) {
+  std::vector<Eigen::Isometry3d> places;
+  for (const Eigen::AlignedBox3f& box : instant.mover_boxes()) {
+    const Eigen::Vector3d middle = box.center().cast<double>();
+    for (const double away : {4.0, 0.9, 0.0, -0.2}) {
+      places.push_back(test::LookAlong(middle - Eigen::Vector3d(away, 0.1, 0), 0.2));
+    }
+  }
+  return places;
+}
+
+TEST(TraceViews, MeetsWhatRaysMeetThatAskForEverything) {
+  const World world(test::Hall({.boxes = 200}));
+  const Tracer tracer(world, {});
+  const Instant instant = tracer.Pose(world.At(kSecond));
+  int on_movers = 0;
+  for (const StereoCamera& camera : Cameras()) {
+    const PixelRays rays = MakePixelRays(camera);
+    for (const Eigen::Isometry3d& place : PlacesAround(instant)) {
+      const std::array views = {CameraView(rays, place)};
+      std::vector<HitImage> together, alone;
+      TraceViews(instant, views, {}, &together);
+      TraceViews(instant, views, {.single_packets = true}, &alone);
+      EXPECT_EQ(together[0].geometry, alone[0].geometry);
+      EXPECT_EQ(together[0].primitive, alone[0].primitive);
+      EXPECT_EQ(together[0].t, alone[0].t);
+      for (int y = 0; y < camera.height; y += 2) {
+        for (int x = 0; x < camera.width; x += 4) {
+          Hits8 hits;
+          instant.Intersect(PixelPacket(views[0], x, y), Coherence::kCoherent, kEverything, &hits);
+          for (int k = 0; k < kLanes; ++k) {
+            const std::size_t i = together[0].Index(x + k % 4, y + k / 4);
+            ASSERT_EQ(together[0].geometry[i], hits.geometry[k]) << x << ", " << y;
+            ASSERT_EQ(together[0].primitive[i], hits.primitive[k]);
+            on_movers += hits.geometry[k] != 0 && hits.geometry[k] != kNoGeometry;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(on_movers, 10000);
+}
+
+TEST(MoverWindows, HoldEveryRayOfAPixelThatMeetsAMover) {
+  const World world(test::Hall({.boxes = 200}));
+  const Tracer tracer(world, {});
+  const Instant instant = tracer.Pose(world.At(kSecond));
+  cv::RNG rng(5);
+  int on_movers = 0, spared = 0;
+  for (const StereoCamera& camera : Cameras()) {
+    const PixelRays rays = MakePixelRays(camera);
+    for (const Eigen::Isometry3d& place : PlacesAround(instant)) {
+      const CameraView view(rays, place);
+      const MoverWindows windows(instant, view);
+      for (int i = 0; i < 4000; ++i) {
+        const int x = rng.uniform(0, camera.width), y = rng.uniform(0, camera.height);
+        const GeometryMask may = windows.In(x, y, x + 1, y + 1);
+        const PixelRays::Step step = rays.StepAt(x, y);
+        Rays8 packet = PixelPacket(view, x, y);
+        for (int k = 0; k < kLanes; ++k) {
+          const Eigen::Vector2f ray = rays.At(x, y) + rng.uniform(-0.5f, 0.5f) * step.right +
+                                      rng.uniform(-0.5f, 0.5f) * step.down;
+          const Eigen::Vector3f way = view.rotation * ray.homogeneous();
+          packet.dx[k] = way.x();
+          packet.dy[k] = way.y();
+          packet.dz[k] = way.z();
+          packet.valid[k] = -1;
+        }
+        Hits8 hits;
+        instant.Intersect(packet, Coherence::kCoherent, kMoversOnly, &hits);
+        spared += may == kStaticOnly;
+        for (int k = 0; k < kLanes; ++k) {
+          if (hits.geometry[k] == kNoGeometry) continue;
+          ++on_movers;
+          ASSERT_TRUE(may & MoverBit(hits.geometry[k] - 1)) << x << ", " << y;
+        }
+      }
+    }
+  }
+  EXPECT_GT(on_movers, 10000);
+  EXPECT_GT(spared, 10000);
+}
+
+TEST(Instant, MeetsATriangleThatIsAskedForWhateverStandsBeforeIt) {
+  const World world(test::Hall({.boxes = 200, .movers = false}));
+  const Tracer tracer(world, {});
+  const Instant instant = tracer.Pose(world.At(kSecond));
+  const StereoCamera camera;
+  const PixelRays rays = MakePixelRays(camera);
+  const CameraView view(rays, test::LookAlong({1, 0, 1}, 0));
+  int met = 0, passed = 0;
+  for (int y = 0; y < camera.height; y += 20) {
+    for (int x = 0; x + 4 < camera.width; x += 20) {
+      const Rays8 packet = PixelPacket(view, x, y);
+      Hits8 hits;
+      instant.Intersect(packet, Coherence::kCoherent, kStaticOnly, &hits);
+      // Each lane asks for what its neighbour meets.
+      std::array<std::uint32_t, kLanes> asked;
+      for (std::size_t k = 0; k < kLanes; ++k) asked[k] = hits.primitive[(k + 1) % kLanes];
+      const Meetings8 found = instant.MeetStatic(packet, asked);
+      for (std::size_t k = 0; k < kLanes; ++k) {
+        if (asked[k] == hits.primitive[k]) {
+          EXPECT_EQ(found.t[k], hits.t[k]);
+          EXPECT_EQ(found.on_rim[k], 0);
+          ++met;
+        } else if (found.on_rim[k] == 0 && found.t[k] > 0) {
+          EXPECT_GE(found.t[k], hits.t[k] * (1 - 1e-5f)) << "nothing is before the nearest";
+        } else {
+          ++passed;
+        }
+      }
+    }
+  }
+  EXPECT_GT(met, 1000);
+  EXPECT_GT(passed, 10);
 }
 
 TEST(TraceViews, OddImageSizesAreWhole) {
