@@ -150,9 +150,11 @@ inline constexpr std::array kStages = {"triangles", "points", "static light", "r
 /// pictures. For finding where two machines part.
 using StageHashes = std::array<std::uint64_t, kStages.size()>;
 
-/// How long rendering takes, beside the bare cost of its primary rays in the same process.
+/// How long rendering a frame of a drive takes, beside the bare cost of its primary rays in the
+/// same process.
 struct RenderBench {
-  double pair_ms = 0;          ///< a stereo pair with all truth, median
+  double pair_ms = 0;        ///< a stereo pair with all truth, median
+  double after_jump_ms = 0;  ///< one that comes after a jump to another place of the drive, median
   double bare_primary_ms = 0;  ///< primary ray packets of the same two images alone, median
   double ratio = 0;            ///< pair_ms / bare_primary_ms
   int frames = 0;

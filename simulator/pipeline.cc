@@ -426,9 +426,9 @@ LightChangeCheck Pipeline::CheckLightChange(const std::array<Moment, 2>& moments
       [&] { return aisle::sim::CheckLightChange(impl_->MakeStudio(), moments, samples, reduce); });
 }
 
-RenderBench Pipeline::Bench(std::span<const Moment> moments) const {
+RenderBench Pipeline::Bench(std::span<const FrameInDrive> frames) const {
   return impl_->arena.Execute([&] {
-    return BenchRender(impl_->MakeStudio(), moments,
+    return BenchRender(impl_->MakeStudio(), frames,
                        [&](int index, const Moment& moment, std::map<std::string, double>* stages) {
                          impl_->Render(index, moment.stamp_ns, moment.T_world_rig, stages);
                        });

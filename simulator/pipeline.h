@@ -64,7 +64,7 @@ class Pipeline {
   /// Left pictures of three moments without noise, compared along the flow; automatic exposure is
   /// that of the first.
   PictureChanges CompareInTime(const std::array<Moment, 3>& moments) const;
-  RenderBench Bench(std::span<const Moment> moments) const;
+  RenderBench Bench(std::span<const FrameInDrive> frames) const;
   StageHashes HashStages(int frame_index, const Moment& moment) const;
   LightCheck CheckLight(const Moment& moment, int samples, int reduce) const;
   LightChangeCheck CheckLightChange(const std::array<Moment, 2>& moments, int samples,

@@ -309,12 +309,12 @@ VerifyReport Simulator::Verify(int frame_index) const {
 }
 
 RenderBench Simulator::Bench(int frames) const {
-  std::vector<Moment> moments;
+  std::vector<FrameInDrive> spread;
   for (int i = 0; i < frames; ++i) {
-    moments.push_back(
-        PlannedMoment(*this, static_cast<int>(std::int64_t{frame_count() - 1} * i / frames)));
+    const int frame = static_cast<int>(std::int64_t{frame_count() - 1} * i / frames);
+    spread.push_back({PlannedMoment(*this, std::max(0, frame - 1)), PlannedMoment(*this, frame)});
   }
-  return impl_->pipeline->Bench(moments);
+  return impl_->pipeline->Bench(spread);
 }
 
 StageHashes Simulator::HashStages(int frame_index) const {

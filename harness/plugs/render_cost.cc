@@ -7,6 +7,7 @@ namespace aisle {
 RenderCost MeasureRender(const SimulatedSequenceOptions& options, int frames) {
   const sim::RenderBench bench = OpenSimulator(options).Bench(frames);
   RenderCost cost{.pair_ms = bench.pair_ms,
+                  .after_jump_ms = bench.after_jump_ms,
                   .bare_primary_ms = bench.bare_primary_ms,
                   .ratio = bench.ratio,
                   .frames = bench.frames,

@@ -12,7 +12,8 @@ namespace aisle {
 /// What rendering a scene costs, beside the bare primary rays of the same images in the same
 /// process. Medians over `frames`, milliseconds.
 struct RenderCost {
-  double pair_ms = 0;          ///< a stereo pair with all truth
+  double pair_ms = 0;          ///< a stereo pair with all truth, the drive's last frame before it
+  double after_jump_ms = 0;    ///< one that comes after a jump to another place of the drive
   double bare_primary_ms = 0;  ///< primary ray packets of the same two images alone
   double ratio = 0;            ///< pair_ms / bare_primary_ms
   int frames = 0;

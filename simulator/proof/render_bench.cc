@@ -15,27 +15,29 @@ double Median(std::vector<double> values) {
 
 }  // namespace
 
-RenderBench BenchRender(const Studio& studio, std::span<const Moment> moments,
+RenderBench BenchRender(const Studio& studio, std::span<const FrameInDrive> frames,
                         const RenderStages& render) {
-  std::vector<double> pair, bare;
+  std::vector<double> pair, after_jump, bare;
   std::map<std::string, std::vector<double>> stages;
   std::vector<HitImage> hits;
-  for (std::size_t i = 0; i < moments.size(); ++i) {
-    const Instant instant = studio.At(moments[i]);
-    const std::array<CameraView, 2> views = studio.Views(moments[i]);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const auto& [before, now] = frames[i];
     LapWatch watch;
-    TraceViews(instant, views, {.single_packets = true}, &hits);
-    const double bare_ms = watch.Lap();
-    std::map<std::string, double> frame_stages;
+    std::map<std::string, double> jump_stages, frame_stages;
+    render(static_cast<int>(i), before, &jump_stages);
+    // The first touches buffers for the first time.
+    if (const double jump_ms = watch.Lap(); i > 0) after_jump.push_back(jump_ms);
+    const Instant instant = studio.At(now);
+    const std::array<CameraView, 2> views = studio.Views(now);
     watch.Lap();
-    render(static_cast<int>(i), moments[i], &frame_stages);
-    const double pair_ms = watch.Lap();
-    if (i == 0 && moments.size() > 1) continue;
-    bare.push_back(bare_ms);
-    pair.push_back(pair_ms);
+    TraceViews(instant, views, {.single_packets = true}, &hits);
+    bare.push_back(watch.Lap());
+    render(static_cast<int>(i), now, &frame_stages);
+    pair.push_back(watch.Lap());
     for (const auto& [stage, ms] : frame_stages) stages[stage].push_back(ms);
   }
   RenderBench result{.pair_ms = Median(pair),
+                     .after_jump_ms = Median(after_jump),
                      .bare_primary_ms = Median(bare),
                      .ratio = Median(pair) / Median(bare),
                      .frames = static_cast<int>(pair.size()),

@@ -15,9 +15,9 @@ using RenderStages =
     std::function<void(int index, const Moment& moment, std::map<std::string, double>* stages)>;
 
 /// Times `render` and the bare primary rays of the same moments in turn, so that both meet the same
-/// machine; medians. Of several moments the first, which touches buffers for the first time, does
-/// not count.
-RenderBench BenchRender(const Studio& studio, std::span<const Moment> moments,
+/// machine; medians. Each frame comes after the one before it, as in a drive, which is timed apart:
+/// it came after a jump.
+RenderBench BenchRender(const Studio& studio, std::span<const FrameInDrive> frames,
                         const RenderStages& render);
 
 }  // namespace aisle::sim

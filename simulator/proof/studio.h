@@ -19,6 +19,11 @@ struct Moment {
   Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();
 };
 
+/// A frame of a drive and the one before it.
+struct FrameInDrive {
+  Moment before, now;
+};
+
 /// A world that can be photographed. All must outlive it.
 struct Studio {
   const World& world;

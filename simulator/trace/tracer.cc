@@ -373,6 +373,27 @@ Meetings8 Instant::MeetStatic(const Rays8& rays,
   return Meet(rays, corners);
 }
 
+void Instant::Occluded(std::span<const Rays8> rays, Coherence coherence, GeometryMask geometries,
+                       std::span<unsigned> blocked) const {
+  alignas(32) RTCRay8 packets[kMostPackets];
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    Load(rays[i], &packets[i]);
+    LeaveOut(rays[i].valid, &packets[i]);
+  }
+  RTCIntersectContext context = Context(coherence);
+  // A ray that was blocked ends before it begins, and so in no further scene.
+  ForEachScene(geometries, [&](RTCScene scene, std::uint32_t) {
+    rtcOccludedNM(scene, &context, reinterpret_cast<RTCRayN*>(packets), kLanes,
+                  static_cast<unsigned>(rays.size()), sizeof(RTCRay8));
+  });
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    blocked[i] = 0;
+    for (int k = 0; k < kLanes; ++k) {
+      if (rays[i].valid[k] && packets[i].tfar[k] < 0) blocked[i] |= 1u << k;
+    }
+  }
+}
+
 unsigned Instant::Occluded(const Rays8& rays, Coherence coherence, GeometryMask geometries) const {
   alignas(32) RTCRay8 packet;
   Load(rays, &packet);

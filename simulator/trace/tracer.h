@@ -62,6 +62,10 @@ class Instant {
   Meetings8 MeetStatic(const Rays8& rays, const std::array<std::uint32_t, kLanes>& triangles) const;
   /// Bit i is set where valid lane i meets anything at all.
   unsigned Occluded(const Rays8& rays, Coherence coherence, GeometryMask geometries) const;
+  /// The same for up to kMostPackets packets side by side, which is faster; `blocked` has one a
+  /// packet.
+  void Occluded(std::span<const Rays8> rays, Coherence coherence, GeometryMask geometries,
+                std::span<unsigned> blocked) const;
 
  private:
   friend class Tracer;

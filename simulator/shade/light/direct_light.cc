@@ -63,13 +63,9 @@ class Light {
   Eigen::Vector3f normal_;
 };
 
-unsigned Blocked(const Instant& instant, const Places8& p, const Sample8& s,
-                 GeometryMask occluders) {
-  const I8 valid = s.weight > 0;
-  if (!Any(valid)) return 0;
+Rays8 RaysTo(const Places8& p, const Sample8& s) {
   const F8 t_far = 1 - kLightGuard / Max(s.distance, Wide(2 * kLightGuard));
-  return instant.Occluded(MakeRays(p.position, {s.dx, s.dy, s.dz}, t_far, valid),
-                          Coherence::kCoherent, occluders);
+  return MakeRays(p.position, {s.dx, s.dy, s.dz}, t_far, s.weight > 0);
 }
 
 /// The light's irradiance from so many places on it. They differ from point to point: lamps and the
@@ -78,12 +74,25 @@ unsigned Blocked(const Instant& instant, const Places8& p, const Sample8& s,
 /// others may well not.
 F8 Gather(const Instant& instant, const Light& light, const Places8& p, int rays,
           GeometryMask occluders) {
+  constexpr std::size_t kMost = Instant::kMostPackets;
+  F8 weights[kMost];
+  std::array<Rays8, kMost> packets;
+  std::array<unsigned, kMost> blocked;
+  std::size_t count = 0;
   F8 irradiance = Wide(0);
   for (int i = 0; i < rays; ++i) {
     const auto [a, b] = p.PlaceOnEmitter(i);
     const Sample8 s = light.At(p, a, b);
-    const unsigned blocked = Blocked(instant, p, s, occluders);
-    irradiance += Select(LanesOf(blocked), Wide(0), s.weight);
+    if (Any(s.weight > 0)) {
+      weights[count] = s.weight;
+      packets[count++] = RaysTo(p, s);
+    }
+    if (count == 0 || (count < kMost && i + 1 < rays)) continue;
+    instant.Occluded(std::span(packets).first(count), Coherence::kCoherent, occluders, blocked);
+    for (std::size_t k = 0; k < count; ++k) {
+      irradiance += Select(LanesOf(blocked[k]), Wide(0), weights[k]);
+    }
+    count = 0;
   }
   return irradiance * (light.power() / static_cast<float>(rays));
 }

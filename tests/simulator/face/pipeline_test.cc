@@ -203,11 +203,13 @@ TEST(Pipeline, PicturesToLookAt) {
   const RenderedFrame frame = pipeline.Render(0, 2 * kSecond, kPose);
   cv::imwrite(std::string(folder) + "/left.png", frame.left);
   cv::imwrite(std::string(folder) + "/dynamic.png", frame.truth.dynamic);
-  std::vector<Moment> moments;
-  for (int i = 0; i < 12; ++i) {
-    moments.push_back({i * kSecond / 4, test::LookAlong({1.0 + 0.3 * i, 0, 1.2}, 0.02)});
-  }
-  const RenderBench bench = pipeline.Bench(moments);
+  const auto at = [](double s) {
+    return Moment{static_cast<std::int64_t>(s * kSecond),
+                  test::LookAlong({1.0 + 1.2 * s, 0, 1.2}, 0.02)};
+  };
+  std::vector<FrameInDrive> frames;
+  for (int i = 0; i < 12; ++i) frames.push_back({at(0.25 * i), at(0.25 * i + 0.05)});
+  const RenderBench bench = pipeline.Bench(frames);
   fmt::print("built in {:.1f} s; mean grey {:.1f}\n", built.count(), cv::mean(frame.left)[0]);
   fmt::print("pair {:.1f} ms, bare {:.1f} ms, ratio {:.2f}\n", bench.pair_ms, bench.bare_primary_ms,
              bench.ratio);

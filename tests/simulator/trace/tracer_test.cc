@@ -246,24 +246,30 @@ TEST(Tracer, APoseGivesTheSameHitsWhateverWasPosedBefore) {
   EXPECT_EQ(a[0].u, b[0].u);
 }
 
+/// Rays from anywhere in the hall to anywhere, a quarter of the lanes left out.
+Rays8 RandomRays(cv::RNG* rng) {
+  Rays8 rays;
+  for (int k = 0; k < kLanes; ++k) {
+    rays.ox[k] = rng->uniform(1.0f, 28.0f);
+    rays.oy[k] = rng->uniform(-1.0f, 1.0f);
+    rays.oz[k] = rng->uniform(0.2f, 2.0f);
+    rays.dx[k] = rng->uniform(-1.0f, 1.0f);
+    rays.dy[k] = rng->uniform(-1.0f, 1.0f);
+    rays.dz[k] = rng->uniform(-1.0f, 1.0f);
+    rays.t_near[k] = 0;
+    rays.t_far[k] = rng->uniform(0.1f, 6.0f);
+    rays.valid[k] = rng->uniform(0, 4) ? -1 : 0;
+  }
+  return rays;
+}
+
 TEST(Instant, OcclusionAgreesWithIntersection) {
   const World world(test::Hall({.boxes = 200}));
   const Tracer tracer(world, {});
   const Instant instant = tracer.Pose(world.At(kSecond));
   cv::RNG rng(3);
   for (int i = 0; i < 200; ++i) {
-    Rays8 rays;
-    for (int k = 0; k < kLanes; ++k) {
-      rays.ox[k] = rng.uniform(1.0f, 28.0f);
-      rays.oy[k] = rng.uniform(-1.0f, 1.0f);
-      rays.oz[k] = rng.uniform(0.2f, 2.0f);
-      rays.dx[k] = rng.uniform(-1.0f, 1.0f);
-      rays.dy[k] = rng.uniform(-1.0f, 1.0f);
-      rays.dz[k] = rng.uniform(-1.0f, 1.0f);
-      rays.t_near[k] = 0;
-      rays.t_far[k] = rng.uniform(0.1f, 6.0f);
-      rays.valid[k] = rng.uniform(0, 4) ? -1 : 0;
-    }
+    const Rays8 rays = RandomRays(&rng);
     for (const GeometryMask mask : {kEverything, kStaticOnly, kMoversOnly}) {
       Hits8 hits;
       instant.Intersect(rays, Coherence::kIncoherent, mask, &hits);
@@ -273,6 +279,42 @@ TEST(Instant, OcclusionAgreesWithIntersection) {
       }
     }
   }
+}
+
+TEST(Instant, PacketsSideBySideMeetWhatEachMeetsAlone) {
+  const World world(test::Hall({.boxes = 200}));
+  const Tracer tracer(world, {});
+  const Instant instant = tracer.Pose(world.At(kSecond));
+  cv::RNG rng(4);
+  int met = 0;
+  for (int i = 0; i < 60; ++i) {
+    std::array<Rays8, Instant::kMostPackets> rays;
+    for (Rays8& packet : rays) packet = RandomRays(&rng);
+    const auto some = std::span(rays).first(1 + static_cast<std::size_t>(i) % rays.size());
+    for (const GeometryMask mask : {kEverything, kStaticOnly, kMoversOnly}) {
+      for (const Coherence coherence : {Coherence::kCoherent, Coherence::kIncoherent}) {
+        std::array<Hits8, Instant::kMostPackets> together;
+        std::array<unsigned, Instant::kMostPackets> blocked;
+        instant.Intersect(some, coherence, mask, together);
+        instant.Occluded(some, coherence, mask, blocked);
+        for (std::size_t p = 0; p < some.size(); ++p) {
+          Hits8 alone;
+          instant.Intersect(some[p], coherence, mask, &alone);
+          EXPECT_EQ(blocked[p], instant.Occluded(some[p], coherence, mask));
+          for (int k = 0; k < kLanes; ++k) {
+            ASSERT_EQ(together[p].geometry[k], alone.geometry[k]);
+            if (alone.geometry[k] == kNoGeometry) continue;
+            ++met;
+            EXPECT_EQ(together[p].primitive[k], alone.primitive[k]);
+            EXPECT_EQ(together[p].t[k], alone.t[k]);
+            EXPECT_EQ(together[p].u[k], alone.u[k]);
+            EXPECT_EQ(together[p].v[k], alone.v[k]);
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(met, 1000);
 }
 
 }  // namespace
