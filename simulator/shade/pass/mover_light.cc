@@ -124,7 +124,7 @@ std::vector<float> MoverLight::At(const Instant& instant, std::size_t mover,
       if (nodes.stencils[i].weights[k] > 0) row_of_node[nodes.stencils[i].nodes[k]] = 1;
     }
   }
-  for (std::uint32_t node = 0; node < row_of_node.size(); ++node) {
+  for (const std::uint32_t node : nodes.in_order) {
     if (!row_of_node[node]) continue;
     row_of_node[node] = static_cast<std::uint32_t>(used.size());
     used.push_back(node);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <unordered_map>
 
 namespace aisle::sim {
@@ -73,6 +74,40 @@ std::vector<std::uint32_t> Spread(std::span<const SurfacePoint> points,
   return nodes;
 }
 
+/// The side of a cube that a normal points to.
+std::uint64_t SideOf(const Eigen::Vector3f& normal) {
+  Eigen::Index axis;
+  normal.cwiseAbs().maxCoeff(&axis);
+  return 2 * static_cast<std::uint64_t>(axis) + (normal[axis] < 0 ? 1 : 0);
+}
+
+/// The number of a cell on a curve that fills space (Morton 1966).
+std::uint64_t CurveAt(const Eigen::Vector3i& cell) {
+  std::uint64_t place = 0;
+  for (int bit = 15; bit >= 0; --bit) {
+    for (int axis = 0; axis < 3; ++axis) {
+      place = place << 1 | static_cast<std::uint64_t>(cell[axis] >> bit & 1);
+    }
+  }
+  return place;
+}
+
+std::vector<std::uint32_t> Ordered(std::span<const SurfacePoint> points,
+                                   std::span<const std::uint32_t> nodes, float spacing_m) {
+  Eigen::AlignedBox3f box;
+  for (const std::uint32_t point : nodes) box.extend(points[point].position);
+  std::vector<std::tuple<std::uint64_t, std::uint64_t, std::uint32_t>> keys;
+  for (std::uint32_t node = 0; node < nodes.size(); ++node) {
+    const SurfacePoint& at = points[nodes[node]];
+    const Eigen::Vector3i cell = ((at.position - box.min()) / spacing_m).cast<int>();
+    keys.emplace_back(SideOf(at.normal), CurveAt(cell), node);
+  }
+  std::ranges::sort(keys);
+  std::vector<std::uint32_t> order;
+  for (const auto& [side, place, node] : keys) order.push_back(node);
+  return order;
+}
+
 MoverNodes::Stencil StencilOf(const BodyPoint& point, std::span<const SurfacePoint> points,
                               const MoverNodes& nodes, const NodeCells& cells) {
   std::vector<std::pair<float, std::uint32_t>> near;
@@ -103,8 +138,11 @@ MoverNodes::Stencil StencilOf(const BodyPoint& point, std::span<const SurfacePoi
 
 MoverNodes ChooseNodes(std::span<const SurfacePoint> points, std::span<const std::uint32_t> pieces,
                        float spacing_m) {
-  MoverNodes nodes{
-      .spacing_m = spacing_m, .points = Spread(points, pieces, spacing_m), .stencils = {}};
+  MoverNodes nodes{.spacing_m = spacing_m,
+                   .points = Spread(points, pieces, spacing_m),
+                   .in_order = {},
+                   .stencils = {}};
+  nodes.in_order = Ordered(points, nodes.points, spacing_m);
   NodeCells cells(kReach * spacing_m);
   for (std::size_t i = 0; i < nodes.points.size(); ++i) {
     const std::uint32_t point = nodes.points[i];

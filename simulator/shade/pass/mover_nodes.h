@@ -20,7 +20,10 @@ struct MoverNodes {
 
   float spacing_m = 0;
   std::vector<std::uint32_t> points;  ///< the nodes: indices of the body's points
-  std::vector<Stencil> stencils;      ///< by point
+  /// All nodes, so that those side by side lie near each other and face alike: their rays take like
+  /// ways.
+  std::vector<std::uint32_t> in_order;
+  std::vector<Stencil> stencils;  ///< by point
 };
 
 /// `points` of the body in its bind pose; `pieces`, by point: what belongs to another piece of the

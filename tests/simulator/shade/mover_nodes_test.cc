@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "simulator/shade/surface/mesh_pieces.h"
 #include "tests/simulator/test_world.h"
 
@@ -60,6 +62,30 @@ TEST(MoverNodes, StandForNearPointsOfTheSamePieceThatFaceAlike) {
       ASSERT_NEAR(sum, 1, 1e-5) << "point " << i << " at " << spacing;
     }
   }
+}
+
+TEST(MoverNodes, InOrderLieNearTheNextAndFaceAlike) {
+  const TriangleMesh mesh = Shells();
+  const std::vector<SurfacePoint> points = PointsOf(mesh);
+  const MoverNodes nodes = ChooseNodes(points, PiecesOf(mesh), 0.05f);
+  std::vector<std::uint32_t> sorted = nodes.in_order;
+  std::ranges::sort(sorted);
+  std::vector<std::uint32_t> all(nodes.points.size());
+  std::iota(all.begin(), all.end(), 0u);
+  EXPECT_EQ(sorted, all) << "each once";
+  Eigen::AlignedBox3f body;
+  for (const SurfacePoint& point : points) body.extend(point.position);
+  double way = 0;
+  int turned = 0;
+  for (std::size_t i = 1; i < nodes.in_order.size(); ++i) {
+    const SurfacePoint& a = points[nodes.points[nodes.in_order[i - 1]]];
+    const SurfacePoint& b = points[nodes.points[nodes.in_order[i]]];
+    way += (a.position - b.position).norm();
+    turned += a.normal.dot(b.normal) < 0;
+  }
+  const double steps = static_cast<double>(nodes.in_order.size() - 1);
+  EXPECT_LT(way / steps, 0.15 * body.sizes().norm());
+  EXPECT_LT(turned, 0.02 * steps);
 }
 
 }  // namespace
