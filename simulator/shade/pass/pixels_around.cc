@@ -102,13 +102,15 @@ F8 PixelsAround::RadianceOf(const Hits8& hits) const {
   F8 nearest = Wide(kInfinity), found = Wide(-1);
   for (std::size_t n = 0; n < kPixels; ++n) {
     const Seen& seen = seen_[n];
-    // Movers' triangles are small: there the same body at the same depth will do.
+    // Movers' triangles are small: there the same body at the same depth will do, the nearer the
+    // better, as a limb may be before another.
+    const F8 apart = Abs(seen.t - t);
     const I8 same_surface = geometry == 0  ? seen.primitive == primitive
-                            : geometry > 0 ? Abs(seen.t - t) <= kSameDepth * t
+                            : geometry > 0 ? apart <= kSameDepth * t
                                            : WideInt(-1);
     const F8 x = kSampleX - static_cast<float>(kSteps[n].x);
     const F8 y = kSampleY - static_cast<float>(kSteps[n].y);
-    const F8 away = x * x + y * y;
+    const F8 away = Select(geometry > 0, apart, x * x + y * y);
     const I8 nearer = (seen.geometry == geometry) & same_surface & (away < nearest);
     nearest = Select(nearer, away, nearest);
     found = Select(nearer, seen.radiance, found);

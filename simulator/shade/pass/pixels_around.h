@@ -42,8 +42,8 @@ class PixelsAround {
   I8 BehindSomething(const Rays8& rays, const Hits8& hits, const F8x3& normals,
                      const Eigen::Vector3f& right, const Eigen::Vector3f& down) const;
 
-  /// Radiance of the nearest pixel around that shows the same surface as a sample, -1 where none
-  /// does: most samples then need no look-up.
+  /// Radiance of the nearest pixel around that shows the same surface as a sample, on movers of the
+  /// nearest in depth, -1 where none does: most samples then need no look-up.
   F8 RadianceOf(const Hits8& hits) const;
 
  private:
