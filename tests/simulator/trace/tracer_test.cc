@@ -88,12 +88,7 @@ TEST(TraceViews, TileOrderDoesNotMatter) {
 /// A figure and a truck in the hall as seen from afar, close by and from within, straight and
 /// through a lens.
 std::vector<StereoCamera> Cameras() {
-  StereoCamera straight;
-  straight.width = 188;
-  straight.height = 120;
-  straight.fx = straight.fy = 110;
-  straight.cx = 93.5;
-  straight.cy = 59.5;
+  const StereoCamera straight = Coarser(StereoCamera{}, 4);
   StereoCamera bent = straight;
   bent.lens = {LensModel::kRadialTangential, {-0.28, 0.07, 0.0002, 0.00002}};
   return {straight, bent};
