@@ -6,11 +6,10 @@
 #include "simulator/shade/pass/beam_light.h"
 #include "simulator/shade/pass/edge_samples.h"
 #include "simulator/shade/pass/mover_blockers.h"
+#include "simulator/shade/pass/pixels_around.h"
 
 namespace aisle::sim {
 namespace {
-
-constexpr int kSamples = 4;
 
 float TransmissionOf(const World& world, const HitImage& image, std::size_t pixel) {
   const TriangleMesh& mesh = world.mover_meshes()[image.geometry[pixel] - 1];
