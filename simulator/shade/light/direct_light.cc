@@ -1,7 +1,6 @@
 #include "simulator/shade/light/direct_light.h"
 
-#include <unordered_map>
-
+#include "simulator/common/parallel.h"
 #include "simulator/shade/lanes/ray_packets.h"
 #include "simulator/shade/light/emitter_rays.h"
 
@@ -11,6 +10,7 @@ namespace {
 constexpr float kLift = 2e-3f;        // m, along the normal
 constexpr float kDrawIn = 3e-3f;      // m, towards the triangle's centre
 constexpr float kLightGuard = 0.01f;  // m: shadow rays end so far before the light's own surface
+constexpr int kLeastRays = 2, kMostRays = 32;  // to one light
 
 /// Up to eight points in lanes, each with places of its own on the lights from `turn` on.
 Places8 Load(std::span<const SurfacePoint> points, std::uint32_t turn) {
@@ -19,14 +19,6 @@ Places8 Load(std::span<const SurfacePoint> points, std::uint32_t turn) {
   for (std::size_t i = 0; i < count; ++i) places[i] = {points[i], turn++};
   return Places8(std::span(places).first(count));
 }
-
-/// Shadow rays to a light that gives such a share of the light, or more. Weak ones need few, as
-/// there are many of them.
-struct RaysOfShare {
-  float share;
-  int rays;
-};
-constexpr std::array<RaysOfShare, 4> kRays = {{{0.15f, 32}, {0.05f, 16}, {0.015f, 8}, {0, 4}}};
 
 /// Light per area and radiance from one place of the light, and the way there.
 struct Sample8 {
@@ -99,9 +91,10 @@ F8 Gather(const Instant& instant, const Light& light, const Places8& p, int rays
 
 }  // namespace
 
-SurfacePoint LocatePoint(const LightPoint& point, const TriangleMesh& topology,
+SurfacePoint LocatePoint(const LightGrid& grid, std::size_t index, const TriangleMesh& topology,
                          std::span<const Eigen::Vector3f> positions,
                          std::span<const Eigen::Vector3f> normals) {
+  const LightPoint& point = grid.points[index];
   const auto& [a, b, c] = topology.triangles[point.triangle];
   const float w = 1 - point.u - point.v;
   Eigen::Vector3f position = w * positions[a] + point.u * positions[b] + point.v * positions[c];
@@ -116,44 +109,24 @@ SurfacePoint LocatePoint(const LightPoint& point, const TriangleMesh& topology,
 std::vector<SurfacePoint> LocatePoints(const LightGrid& grid, const TriangleMesh& topology,
                                        std::span<const Eigen::Vector3f> positions,
                                        std::span<const Eigen::Vector3f> normals) {
-  std::vector<SurfacePoint> points;
-  points.reserve(grid.points.size());
-  for (const LightPoint& point : grid.points) {
-    points.push_back(LocatePoint(point, topology, positions, normals));
-  }
+  std::vector<SurfacePoint> points(grid.points.size());
+  ParallelFor(std::size_t{0}, points.size(), [&](std::size_t i) {
+    points[i] = LocatePoint(grid, i, topology, positions, normals);
+  });
   return points;
 }
 
-std::vector<std::uint32_t> GroupsOf(std::span<const SurfacePoint> points,
-                                    const GroupOptions& options) {
-  struct Key {
-    std::array<int, 7> parts;
-    bool operator==(const Key&) const = default;
-  };
-  const auto hash = [](const Key& key) {
-    std::size_t value = 0;
-    for (const int part : key.parts) {
-      value = (value ^ static_cast<std::size_t>(part)) * 0x9e3779b97f4a7c15u;
-      value ^= value >> 29;
-    }
-    return value;
-  };
-  // Only looked up, never walked through: its order reaches nothing.
-  std::unordered_map<Key, std::uint32_t, decltype(hash)> first(points.size() / 2, hash);
-  std::vector<std::uint32_t> leaders;
-  leaders.reserve(points.size());
-  for (const SurfacePoint& point : points) {
-    Key key;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<std::size_t>(axis);
-      key.parts[i] = static_cast<int>(std::floor(point.position[axis] / options.cell_m));
-      key.parts[i + 3] = static_cast<int>(std::lround(options.normal_steps * point.normal[axis]));
-    }
-    key.parts[6] = static_cast<int>(std::floor(point.normal.dot(point.position) / options.plane_m));
-    const auto index = static_cast<std::uint32_t>(leaders.size());
-    leaders.push_back(first.try_emplace(key, index).first->second);
+std::array<float, kLanes> UnshadowedLight(std::span<const AreaLight> lights,
+                                          std::span<const float> light_scale,
+                                          std::span<const SurfacePoint> points) {
+  const Places8 p = Load(points, 0);
+  F8 sum = Wide(0);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (light_scale[i] > 0) sum += Light(lights[i]).Unshadowed(p) * light_scale[i];
   }
-  return leaders;
+  std::array<float, kLanes> result;
+  Store(sum, result.data());
+  return result;
 }
 
 std::array<float, kLanes> GatherDirectLight(const Instant& instant,
@@ -184,9 +157,8 @@ std::array<float, kLanes> GatherDirectLight(const Instant& instant,
     left += negative;
     const Light light(lights[i]);
     traced += light.Unshadowed(p) * light_scale[i];
-    const int rays = std::ranges::find_if(kRays, [&](const RaysOfShare& step) {
-                       return -negative >= step.share * all;
-                     })->rays;
+    const auto by_share = static_cast<int>(-negative / all * static_cast<float>(options.rays));
+    const int rays = std::clamp(by_share, kLeastRays, kMostRays);
     sum += Gather(instant, light, p, rays, options.occluders) * light_scale[i];
   }
   const F8 grow = Select(traced > 0, unshadowed / Max(traced, Wide(1e-12f)), Wide(1));

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the solver or this format changes, so that old files are not read.
-constexpr std::uint64_t kVersion = 10;
+constexpr std::uint64_t kVersion = 13;
 constexpr const char* kUnfinished = ".begun";
 
 struct Header {
@@ -161,9 +161,10 @@ std::uint64_t LightKey(const World& world, const StaticLightOptions& options,
     add(&light.radiance, sizeof(light.radiance));
   }
   add_all(light_scale);
-  add_all(fmt::format("{} {} {} {} {} {} {} {}", options.isa, options.texel_m,
-                      options.coarse_texel_m, options.volume_spacing_m, options.directions,
-                      options.volume_directions, options.bounces, options.max_points));
+  add_all(fmt::format("{} {} {} {} {} {} {} {} {} {}", options.isa, options.texel_m,
+                      options.coarse_texel_m, options.volume_spacing_m, options.volume_height_m,
+                      options.directions, options.volume_directions, options.bounces,
+                      options.max_points, options.max_nodes));
   return key;
 }
 
@@ -199,7 +200,7 @@ std::optional<LightState> LoadLight(const fs::path& folder, std::uint64_t key, s
   state.direct.resize(slots);
   if (!Read(in, std::span(&shape, 1)) || !Read(in, std::span(state.total)) ||
       !Read(in, std::span(state.direct)) || !Read(in, std::span(nodes)) ||
-      static_cast<std::uint64_t>(shape.count.cast<std::int64_t>().prod()) != header.nodes) {
+      shape.size() != header.nodes) {
     return std::nullopt;
   }
   state.volume = LightVolume(shape, std::move(nodes));

@@ -9,13 +9,17 @@ namespace aisle::sim {
 LightVolume::LightVolume(const Shape& shape, std::vector<Node> nodes)
     : shape_(shape), nodes_(std::move(nodes)) {}
 
-LightVolume::LightVolume(const Eigen::AlignedBox3f& box, float spacing_m) {
-  shape_.origin = box.min();
-  shape_.spacing = spacing_m;
-  for (int i = 0; i < 3; ++i) {
-    shape_.count[i] = 2 + static_cast<int>(box.sizes()[i] / spacing_m);
-  }
-  nodes_.resize(static_cast<std::size_t>(shape_.count.prod()));
+LightVolume::LightVolume(const Eigen::AlignedBox3f& box, float spacing_m)
+    : shape_(ShapeOf(box, spacing_m)), nodes_(shape_.size()) {}
+
+std::size_t LightVolume::Shape::size() const {
+  return static_cast<std::size_t>(count.cast<std::int64_t>().prod());
+}
+
+LightVolume::Shape LightVolume::ShapeOf(const Eigen::AlignedBox3f& box, float spacing_m) {
+  Shape shape{.origin = box.min(), .spacing = spacing_m};
+  for (int i = 0; i < 3; ++i) shape.count[i] = 2 + static_cast<int>(box.sizes()[i] / spacing_m);
+  return shape;
 }
 
 Eigen::Vector3f LightVolume::Position(std::size_t node) const {

@@ -23,7 +23,11 @@ class LightVolume {
     Eigen::Vector3f origin = Eigen::Vector3f::Zero();  ///< of the first node
     float spacing = 1;                                 ///< m
     Eigen::Vector3i count = Eigen::Vector3i::Zero();   ///< nodes along x, y, z
+
+    std::size_t size() const;  ///< nodes in all
   };
+  /// Of nodes that reach from a box's least corner to beyond its greatest.
+  static Shape ShapeOf(const Eigen::AlignedBox3f& box, float spacing_m);
 
   LightVolume() = default;
   LightVolume(const Shape& shape, std::vector<Node> nodes);

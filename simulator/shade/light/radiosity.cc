@@ -11,6 +11,12 @@ namespace {
 constexpr std::uint32_t kDark = 0xffffffffu;  // the ray met nothing, or the back of something
 constexpr float kPi = std::numbers::pi_v<float>;
 
+/// The radiosity of a patch.
+float LeavingOf(const Patches& patches, const Radiosity& light, std::size_t patch) {
+  return patches.albedo[patch] * (light.direct[patch] + light.indirect[patch]) +
+         patches.emitted[patch];
+}
+
 /// Which patch each ray of a patch meets. Eight neighbouring patches shoot in the same local
 /// direction together, so that their paths are alike.
 void FindPartners(const Instant& statics, const LightGrid& grid, const Patches& patches,
@@ -42,9 +48,14 @@ void FindPartners(const Instant& statics, const LightGrid& grid, const Patches& 
 
 }  // namespace
 
-Patches MakePatches(std::span<const SurfacePoint> points, std::span<const float> albedo) {
+Patches MakePatches(std::span<const std::uint32_t> things, std::span<const SurfacePoint> points,
+                    const Leaving& leaving) {
+  // Patches cost rays, points next to nothing: of many points each patch takes more.
+  constexpr float kCell = 0.33f, kFewPoints = 750'000;
+  const float cell =
+      kCell * std::max(1.0f, std::sqrt(static_cast<float>(points.size()) / kFewPoints));
   const std::vector<std::uint32_t> leaders =
-      GroupsOf(points, {.cell_m = 0.33f, .normal_steps = 3, .plane_m = 0.04f});
+      GroupsOf(points, things, {.cell_m = cell, .normal_steps = 3, .plane_m = 0.12f * cell});
   Patches patches;
   std::vector<float> members;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -53,15 +64,20 @@ Patches MakePatches(std::span<const SurfacePoint> points, std::span<const float>
       patch = static_cast<std::uint32_t>(patches.places.size());
       patches.places.push_back(points[i]);
       patches.albedo.push_back(0);
+      patches.emitted.push_back(0);
       members.push_back(0);
     } else {
       patch = patches.of_point[leaders[i]];
     }
     patches.of_point.push_back(patch);
-    patches.albedo[patch] += albedo[i];
+    patches.albedo[patch] += leaving.albedo[i];
+    patches.emitted[patch] += leaving.emitted[i];
     members[patch] += 1;
   }
-  for (std::size_t i = 0; i < members.size(); ++i) patches.albedo[i] /= members[i];
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    patches.albedo[i] /= members[i];
+    patches.emitted[i] /= members[i];
+  }
   return patches;
 }
 
@@ -128,7 +144,7 @@ Radiosity SolveRadiosity(const Instant& statics, const LightGrid& grid, const Pa
   std::vector<float> leaving(count);
   for (int bounce = 0; bounce < options.bounces; ++bounce) {
     for (std::size_t i = 0; i < count; ++i) {
-      leaving[i] = patches.albedo[i] * (result.direct[i] + result.indirect[i]);
+      leaving[i] = LeavingOf(patches, result, i);
     }
     ParallelFor(std::size_t{0}, count, [&](std::size_t i) {
       float sum = 0;
@@ -169,8 +185,7 @@ void FillVolume(const Instant& statics, const LightGrid& grid, const TriangleMes
         }
         const std::uint32_t p =
             patches.of_point[NearestPoint(grid, hits.primitive[k], hits.u[k], hits.v[k])];
-        const float radiance =
-            patches.albedo[p] * (radiosity.direct[p] + radiosity.indirect[p]) / kPi;
+        const float radiance = LeavingOf(patches, radiosity, p) / kPi;
         sum.mean += radiance;
         sum.slope += 3 * radiance * directions[d + k];
       }

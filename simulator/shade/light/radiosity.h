@@ -5,6 +5,7 @@
 
 #include "simulator/shade/light/direct_light.h"
 #include "simulator/shade/light/light_volume.h"
+#include "simulator/shade/light/point_groups.h"
 #include "simulator/shade/light/solve_watch.h"
 
 namespace aisle::sim {
@@ -13,11 +14,19 @@ namespace aisle::sim {
 struct Patches {
   std::vector<SurfacePoint> places;
   std::vector<float> albedo;
+  std::vector<float> emitted;           ///< radiosity of their own
   std::vector<std::uint32_t> of_point;  ///< by point of the grid: its patch
 };
 
-/// Groups a grid's points (coplanar ones within a third of a metre); `albedo` is by point.
-Patches MakePatches(std::span<const SurfacePoint> points, std::span<const float> albedo);
+/// What a grid's points send out: of the light they receive, and by themselves.
+struct Leaving {
+  std::vector<float> albedo, emitted;
+};
+
+/// Groups a grid's points, which are at `points`, within a third of a metre, or more where they are
+/// many: coplanar ones, and loose ones that face alike. `things` as of LooseThings.
+Patches MakePatches(std::span<const std::uint32_t> things, std::span<const SurfacePoint> points,
+                    const Leaving& leaving);
 
 /// Which patch each point of a finer grid over the same mesh lies in.
 std::vector<std::uint32_t> PatchesOf(const LightGrid& fine, const LightGrid& coarse,
@@ -44,7 +53,7 @@ struct RadiosityOptions {
   int bounces = 6;
 };
 
-/// Solves indirect = gather(albedo · (direct + indirect)). The watch counts patches.
+/// Solves indirect = gather(albedo · (direct + indirect) + emitted). The watch counts patches.
 Radiosity SolveRadiosity(const Instant& statics, const LightGrid& grid, const Patches& patches,
                          std::vector<float> direct, const RadiosityOptions& options,
                          SolveWatch* watch);

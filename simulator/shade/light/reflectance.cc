@@ -54,13 +54,25 @@ std::vector<float> ReflectanceAt(const World& world, const TexturePool& textures
   return reflectance;
 }
 
+std::vector<float> EmittedAt(const World& world, const LightGrid& grid, float sky) {
+  std::vector<float> emitted(grid.points.size());
+  ParallelFor(std::size_t{0}, emitted.size(), [&](std::size_t i) {
+    const std::uint32_t triangle = grid.points[i].triangle;
+    const float emission = world.materials()[world.statics().mesh.materials[triangle]].emission;
+    if (emission > 0 && !LightShown(world, triangle)) emitted[i] = kPi * emission * sky;
+  });
+  return emitted;
+}
+
 void PaintLuminaires(const World& world, const TexturePool& textures, const LightGrid& grid,
-                     float texel, std::span<const float> light_scale, LightState* state) {
+                     float texel, std::span<const float> light_scale, float sky,
+                     LightState* state) {
   const TriangleMesh& mesh = world.statics().mesh;
   ParallelFor(std::size_t{0}, grid.patches.size(), [&](std::size_t i) {
     const Material& material = world.materials()[mesh.materials[i]];
     if (material.emission <= 0) return;
-    const float emitted = material.emission * kPi * light_scale[NearestLight(world, i)];
+    const auto light = LightShown(world, i);
+    const float emitted = material.emission * kPi * (light ? light_scale[*light] : sky);
     const auto first = static_cast<std::size_t>(grid.patches[i].slot);
     const std::size_t end = i + 1 < grid.patches.size()
                                 ? static_cast<std::size_t>(grid.patches[i + 1].slot)

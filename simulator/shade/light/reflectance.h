@@ -15,9 +15,13 @@ namespace aisle::sim {
 std::vector<float> ReflectanceAt(const World& world, const TexturePool& textures,
                                  const LightGrid& grid, float texel);
 
+/// What each point of a grid sends out by itself: π · emission of what shines and is no lamp's,
+/// which is the sky, dimmed by `sky`. A lamp's light is traced.
+std::vector<float> EmittedAt(const World& world, const LightGrid& grid, float sky);
+
 /// Makes luminaires show their own radiance beside what they reflect: their light is read at
 /// reflectance 1, so that the irradiance there becomes albedo · irradiance + π · emission.
 void PaintLuminaires(const World& world, const TexturePool& textures, const LightGrid& grid,
-                     float texel, std::span<const float> light_scale, LightState* state);
+                     float texel, std::span<const float> light_scale, float sky, LightState* state);
 
 }  // namespace aisle::sim

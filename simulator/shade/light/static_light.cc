@@ -8,6 +8,7 @@
 #include "simulator/shade/light/light_lock.h"
 #include "simulator/shade/light/radiosity.h"
 #include "simulator/shade/light/reflectance.h"
+#include "simulator/shade/light/shared_visibility.h"
 #include "simulator/shade/light/solve_watch.h"
 #include "simulator/shade/light/unfinished_light.h"
 
@@ -17,42 +18,39 @@ namespace {
 // The faint lamps are the far ones, which racks hide more often than the near: taking them to be as
 // visible as these would brighten the racks by this share.
 constexpr float kUntracedShare = 0.003f;
+/// Shadow rays of a point to all lamps: nobody sees the noise of one leaf among others.
+constexpr int kRays = 128, kRaysOfLoose = 32;
 
-/// The grid at the spacing at which it has few enough points: they fall with its square, down to
-/// what the vertices need. Each try is told.
-LightGrid GridWithin(const TriangleMesh& mesh, float texel, std::size_t max_points,
-                     SolveWatch* watch) {
-  LightGrid grid = MakeLightGrid(mesh, texel);
-  for (int i = 0; i < 8 && grid.points.size() > max_points; ++i) {
-    watch->Add(0);
-    texel *= 1.3f;
-    grid = MakeLightGrid(mesh, texel);
-  }
-  return grid;
+/// The grid at the spacing at which the triangles that are larger than it have few enough points:
+/// they fall with its square. What is smaller shares its points' light.
+LightGrid GridWithin(const TriangleMesh& mesh, float texel, std::size_t max_points) {
+  for (int i = 0; i < 8 && PointsAbout(mesh, texel) > max_points; ++i) texel *= 1.3f;
+  return MakeLightGrid(mesh, texel);
 }
 
-/// Direct light at points, piece by piece; `unfinished`, where there is one, has the first of them
-/// already and is given the others.
-std::vector<float> DirectAt(const Instant& statics, const World& world,
-                            std::span<const float> light_scale,
-                            std::span<const SurfacePoint> points, UnfinishedLight* unfinished,
-                            SolveWatch* watch) {
+/// Direct light at places, of which the first so many are fixed, piece by piece; `unfinished`,
+/// where there is one, has the first of them already and is given the others.
+std::vector<float> TraceDirect(const Instant& statics, const World& world,
+                               std::span<const float> light_scale,
+                               std::span<const SurfacePoint> places, std::size_t fixed,
+                               UnfinishedLight* unfinished, SolveWatch* watch) {
   constexpr std::size_t kPiece = std::size_t{1} << 16;  // some seconds of one processor
   static_assert(kPiece % kLanes == 0, "lanes are filled alike wherever it goes on");
   std::vector<float> direct;
   if (unfinished) direct = unfinished->TakeBegun();
-  std::size_t begin = std::min(direct.size(), points.size());
-  direct.resize(points.size());
-  watch->Begin(points.size());
+  std::size_t begin = std::min(direct.size(), places.size());
+  direct.resize(places.size());
+  watch->Begin(places.size());
   watch->Add(begin);
-  for (std::size_t end; begin < points.size(); begin = end) {
-    end = std::min(points.size(), begin + kPiece);
+  for (std::size_t end; begin < places.size(); begin = end) {
+    end = std::min(places.size(), begin + kPiece);
     ParallelFor(std::size_t{0}, (end - begin + kLanes - 1) / kLanes, [&](std::size_t i) {
       const std::size_t first = begin + i * kLanes;
       const std::size_t count = std::min<std::size_t>(kLanes, end - first);
       const auto light =
-          GatherDirectLight(statics, world.lights(), light_scale, points.subspan(first, count),
+          GatherDirectLight(statics, world.lights(), light_scale, places.subspan(first, count),
                             {.untraced_share = kUntracedShare,
+                             .rays = first < fixed ? kRays : kRaysOfLoose,
                              .turn = static_cast<std::uint32_t>(first),
                              .occluders = kStaticOnly});
       for (std::size_t k = 0; k < count; ++k) direct[first + k] = light[k];
@@ -61,6 +59,20 @@ std::vector<float> DirectAt(const Instant& statics, const World& world,
     if (unfinished) unfinished->Append(std::span(direct).subspan(begin, end - begin));
   }
   return direct;
+}
+
+/// Direct light at the points of a grid, which are at `places`.
+std::vector<float> DirectAt(const Instant& statics, const World& world,
+                            std::span<const float> light_scale, const LightGrid& grid,
+                            const Things& things, std::span<const SurfacePoint> places,
+                            UnfinishedLight* unfinished, SolveWatch* watch) {
+  const SharedVisibility shared = ShareVisibility(LooseThings(grid, world.statics().mesh, things),
+                                                  places, world.lights(), light_scale);
+  std::vector<SurfacePoint> traced;
+  traced.reserve(shared.traced.size());
+  for (const std::uint32_t point : shared.traced) traced.push_back(places[point]);
+  return shared.Spread(
+      TraceDirect(statics, world, light_scale, traced, shared.fixed, unfinished, watch));
 }
 
 /// The lock, once nobody else has it; none if its holder has fallen silent.
@@ -89,8 +101,9 @@ StaticLight::StaticLight(const World& world, const Tracer& tracer, const Texture
                          HasLight(options_.cache_folder, LightKey(world, options_, all_on_));
     SolveWatch watch(is_kept ? TellLight() : options_.progress, {{"laying its points", 0}});
     watch.Begin(1);
-    fine_ = GridWithin(mesh, options_.texel_m, options_.max_points, &watch);
-    coarse_ = GridWithin(mesh, options_.coarse_texel_m, options_.max_points / 4, &watch);
+    fine_ = GridWithin(mesh, options_.texel_m, options_.max_points);
+    watch.Add(0);
+    coarse_ = GridWithin(mesh, options_.coarse_texel_m, options_.max_points);
   }
   Solved(all_on_);
 }
@@ -100,17 +113,21 @@ LightState StaticLight::Solve(std::span<const float> light_scale, UnfinishedLigh
   const TriangleMesh& mesh = world_->statics().mesh;
   const Instant statics = tracer_->Pose({});
 
+  const Things things = ThingsOf(mesh);
   const std::vector<SurfacePoint> places = LocatePoints(fine_, mesh, mesh.positions, mesh.normals);
   const std::vector<float> direct =
-      DirectAt(statics, *world_, light_scale, places, unfinished, watch);
+      DirectAt(statics, *world_, light_scale, fine_, things, places, unfinished, watch);
   watch->Begin(4);
   LightState state;
   state.direct.resize(fine_.point_of_slot.size());
   FillSlots(fine_, direct, state.direct);
   watch->Add(1);
-  Patches patches =
-      MakePatches(LocatePoints(coarse_, mesh, mesh.positions, mesh.normals),
-                  ReflectanceAt(*world_, *textures_, coarse_, options_.coarse_texel_m));
+  // A solution for some lamps is taken off the whole, which keeps the sky.
+  const float sky = std::ranges::equal(light_scale, all_on_) ? 1.0f : 0.0f;
+  Patches patches = MakePatches(
+      LooseThings(coarse_, mesh, things), LocatePoints(coarse_, mesh, mesh.positions, mesh.normals),
+      {ReflectanceAt(*world_, *textures_, coarse_, options_.coarse_texel_m),
+       EmittedAt(*world_, coarse_, sky)});
   watch->Add(1);
   const std::vector<std::uint32_t> patch_of = PatchesOf(fine_, coarse_, patches);
   watch->Add(1);
@@ -119,19 +136,26 @@ LightState StaticLight::Solve(std::span<const float> light_scale, UnfinishedLigh
       statics, coarse_, patches, MeanByPatch(fine_, direct, patch_of, patches.places.size()),
       {.directions = options_.directions, .bounces = options_.bounces}, watch);
   AddIndirect(patches, radiosity, &state);
-  PaintLuminaires(*world_, *textures_, fine_, options_.texel_m, light_scale, &state);
-  state.volume = LightVolume(tracer_->static_box(), options_.volume_spacing_m);
+  PaintLuminaires(*world_, *textures_, fine_, options_.texel_m, light_scale, sky, &state);
+  state.volume = EmptyVolume();
   FillVolume(statics, coarse_, mesh, patches, radiosity, options_.volume_directions, &state.volume,
              watch);
   return state;
+}
+
+LightVolume StaticLight::EmptyVolume() const {
+  Eigen::AlignedBox3f box = tracer_->static_box();
+  box.max().z() = std::min(box.max().z(), box.min().z() + options_.volume_height_m);
+  float spacing = options_.volume_spacing_m;
+  while (LightVolume::ShapeOf(box, spacing).size() > options_.max_nodes) spacing *= 1.1f;
+  return LightVolume(box, spacing);
 }
 
 std::vector<SolveWatch::Foreseen> StaticLight::Foreseen() const {
   // Seconds of one processor a point, as measured in a hall; only their ratios matter.
   const auto fine = static_cast<double>(fine_.points.size());
   const auto coarse = static_cast<double>(coarse_.points.size());
-  const auto nodes =
-      static_cast<double>(LightVolume(tracer_->static_box(), options_.volume_spacing_m).size());
+  const auto nodes = static_cast<double>(EmptyVolume().size());
   return {{"direct light", 32e-6 * fine},
           {"patches", 2e-7 * fine + 1e-6 * coarse},
           {"reflected light", 17e-6 * coarse},

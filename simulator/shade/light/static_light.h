@@ -27,10 +27,13 @@ struct StaticLightOptions {
   float texel_m = 0.06f;        ///< spacing of the direct light's points; soft shadows' resolution
   float coarse_texel_m = 0.4f;  ///< spacing of the indirect light's points
   float volume_spacing_m = 0.75f;
+  /// Above the lowest point of the static world: what moves higher takes the light of there.
+  float volume_height_m = 6;
   int directions = 64;                 ///< rays a point that gather indirect light
   int volume_directions = 256;         ///< the same of the points in free space, which are few
   int bounces = 6;                     ///< of indirect light
-  std::size_t max_points = 3'000'000;  ///< the spacing is widened until this holds
+  std::size_t max_points = 3'000'000;  ///< the spacing is widened until this holds, and
+  std::size_t max_nodes = 200'000;     ///< this of the points in free space
   /// Called while a solution is computed, or waited for while another process computes it; not
   /// while one is read.
   TellLight progress = {};
@@ -55,6 +58,7 @@ class StaticLight {
   LightState Solve(std::span<const float> light_scale, UnfinishedLight* unfinished,
                    SolveWatch* watch) const;
   void AddIndirect(const Patches& patches, const Radiosity& radiosity, LightState* state) const;
+  LightVolume EmptyVolume() const;
   std::vector<SolveWatch::Foreseen> Foreseen() const;
   LightState LoadOrSolve(std::span<const float> light_scale) const;
   std::shared_ptr<const LightState> Solved(const std::vector<float>& light_scale) const;

@@ -94,9 +94,9 @@ MoverLight::NodeLight MoverLight::LightNodes(const Instant& instant, std::size_t
   std::vector<ShadowedPlace> places;
   std::vector<Eigen::Vector3f> tangents;
   for (const std::uint32_t node : used) {
-    const LightPoint& point = grid.points[nodes.points[node]];
-    places.push_back({LocatePoint(point, mesh, state.positions, state.normals), node});
-    const auto& [a, b, c] = mesh.triangles[point.triangle];
+    const std::uint32_t point = nodes.points[node];
+    places.push_back({LocatePoint(grid, point, mesh, state.positions, state.normals), node});
+    const auto& [a, b, c] = mesh.triangles[grid.points[point].triangle];
     tangents.push_back(state.positions[b] - state.positions[a]);
   }
   const std::vector<EmitterRays> plan = PlanEmitterRays(instant, emitters_, box, kMoversOnly);
@@ -134,7 +134,7 @@ std::vector<float> MoverLight::At(const Instant& instant, std::size_t mover,
   ParallelFor(std::size_t{0}, points.size(), [&](std::size_t i) {
     const std::uint32_t point = points[i];
     const SurfacePoint place =
-        LocatePoint(grids_[mover].points[point], mesh, state.positions, state.normals);
+        LocatePoint(grids_[mover], point, mesh, state.positions, state.normals);
     const MoverNodes::Stencil& stencil = nodes.stencils[point];
     result[point] =
         DirectAt(place, emitters_, instant.snapshot().light_scale, light.visible, stencil,

@@ -265,8 +265,10 @@ class PathPacket {
     }
     if (front && material.emission > 0 && is_static) {
       vertex.light = scene_.light_of_triangle_[triangle];
-      vertex.emission = material.emission *
-                        instant_.snapshot().light_scale[static_cast<std::size_t>(vertex.light)];
+      vertex.emission = material.emission;
+      if (vertex.light >= 0) {
+        vertex.emission *= instant_.snapshot().light_scale[static_cast<std::size_t>(vertex.light)];
+      }
     }
     return vertex;
   }
@@ -297,7 +299,8 @@ Reference::Reference(const World& world, const TexturePool& textures)
   const TriangleMesh& mesh = world.statics().mesh;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const bool shines = world.materials()[mesh.materials[i]].emission > 0;
-    light_of_triangle_.push_back(shines ? static_cast<std::int32_t>(NearestLight(world, i)) : -1);
+    const auto light = shines ? LightShown(world, i) : std::nullopt;
+    light_of_triangle_.push_back(light ? static_cast<std::int32_t>(*light) : -1);
   }
 }
 

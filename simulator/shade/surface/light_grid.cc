@@ -70,7 +70,10 @@ class Builder {
       AddLarge(triangle, layout);
     }
   }
-  LightGrid Take() { return std::move(grid_); }
+  LightGrid Take(float texel) {
+    grid_.spacing_m = texel;
+    return std::move(grid_);
+  }
 
  private:
   std::uint32_t NewPoint(std::uint32_t triangle, const Eigen::Vector2f& uv) {
@@ -144,7 +147,19 @@ LightGrid MakeLightGrid(const TriangleMesh& mesh, float texel_m) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     builder.Add(static_cast<std::uint32_t>(i), LayOut(mesh, i, texel_m));
   }
-  return builder.Take();
+  return builder.Take(texel_m);
+}
+
+std::size_t PointsAbout(const TriangleMesh& mesh, float texel_m) {
+  std::size_t points = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Layout layout = LayOut(mesh, i, texel_m);
+    const auto columns = static_cast<std::size_t>(layout.columns),
+               rows = static_cast<std::size_t>(layout.rows);
+    if (columns * rows == 1) continue;
+    points += ((columns + 1) * (rows + 1) + columns + rows) / 2;
+  }
+  return points;
 }
 
 void FillSlots(const LightGrid& grid, std::span<const float> point_values,

@@ -28,6 +28,7 @@ struct LightPatch {
 /// seams to pack). Triangles smaller than a texel share the points at their vertices. Points are
 /// what is evaluated; slots are what is read, several of which may show one point.
 struct LightGrid {
+  float spacing_m = 0;              ///< as it was asked for
   std::vector<LightPatch> patches;  ///< per triangle
   std::vector<LightPoint> points;
   std::vector<std::uint32_t> point_of_slot;  ///< or kUnused, kExtrapolated
@@ -39,6 +40,9 @@ struct LightGrid {
 };
 
 LightGrid MakeLightGrid(const TriangleMesh& mesh, float texel_m);
+
+/// About how many points a grid of that spacing gives the triangles that have points of their own.
+std::size_t PointsAbout(const TriangleMesh& mesh, float texel_m);
 
 /// The slots' values from the points'.
 void FillSlots(const LightGrid& grid, std::span<const float> point_values,

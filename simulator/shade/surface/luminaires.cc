@@ -1,16 +1,16 @@
 #include "simulator/shade/surface/luminaires.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace aisle::sim {
 
-std::size_t NearestLight(const World& world, std::size_t triangle) {
+std::optional<std::size_t> LightShown(const World& world, std::size_t triangle) {
+  constexpr float kDeepest = 0.3f;  // m
   const TriangleMesh& mesh = world.statics().mesh;
   const auto& [a, b, c] = mesh.triangles[triangle];
   const Eigen::Vector3f middle = (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3;
-  std::size_t best = 0;
-  float nearest = std::numeric_limits<float>::infinity();
+  std::optional<std::size_t> best;
+  float nearest = kDeepest;
   for (std::size_t i = 0; i < world.lights().size(); ++i) {
     const AreaLight& light = world.lights()[i];
     const Eigen::Vector3f d = middle - light.center;

@@ -101,5 +101,20 @@ TEST(GatherDirectLight, MatchesTheFormFactorOfARectangle) {
   EXPECT_NEAR(light, M_PI * 3 * 4 * quarter, 5e-3 * light);
 }
 
+TEST(LightGrid, PointsAboutAreThoseOfTheLargerTriangles) {
+  const TriangleMesh mesh = Assorted();
+  for (const float texel : {0.02f, 0.05f, 0.3f}) {
+    const LightGrid grid = MakeLightGrid(mesh, texel);
+    EXPECT_EQ(grid.spacing_m, texel);
+    std::size_t larger = 0;
+    for (const LightPoint& point : grid.points) {
+      const LightPatch& patch = grid.patches[point.triangle];
+      larger += patch.pitch > 2 || std::max({patch.t0, patch.tu, patch.tv}) > 1 ? 1 : 0;
+    }
+    const auto about = static_cast<double>(PointsAbout(mesh, texel));
+    EXPECT_NEAR(about, static_cast<double>(larger), 0.25 * static_cast<double>(larger)) << texel;
+  }
+}
+
 }  // namespace
 }  // namespace aisle::sim

@@ -127,7 +127,7 @@ TEST(LightOnMovers, IsWhatManyShadowRaysFind) {
   for (std::size_t i = 0; i < places.size(); i += 13) {
     const float expected =
         GatherDirectLight(instant, hall.world.lights(), snapshot.light_scale,
-                          std::span(places).subspan(i, 1), {.untraced_share = 0})[0];
+                          std::span(places).subspan(i, 1), {.untraced_share = 0, .rays = 512})[0];
     error += std::abs(light[i] - expected);
     sum += expected;
   }

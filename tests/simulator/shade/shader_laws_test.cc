@@ -94,6 +94,29 @@ TEST(Shader, ADimmedLampTakesAwayAndNeverAdds) {
   }
 }
 
+/// What shines and is no lamp's, as a sky does, lights the hall, and stays when a lamp goes out:
+/// that takes as much away as without a sky.
+TEST(Shader, TheSkyLightsAndStaysWhenALampGoesOut) {
+  const auto hall = [](float emission) {
+    WorldParts parts = test::Hall({.boxes = 60, .movers = false, .lights = 6});
+    parts.materials[1].emission = emission;  // of the walls
+    return Stage(std::move(parts));
+  };
+  const Stage dull = hall(0), open = hall(2);
+  std::vector<float> scale(6, 1.0f);
+  scale[1] = 0.25f;
+  const cv::Mat1f lit = dull.Picture(), under_sky = open.Picture();
+  const auto taken = [&](const Stage& stage, const cv::Mat1f& whole) {
+    cv::Mat1f difference;
+    cv::subtract(whole, stage.Shade({stage.At(0)}, scale)[0], difference);
+    return difference;
+  };
+  EXPECT_LT(cv::norm(taken(open, under_sky), taken(dull, lit), cv::NORM_INF),
+            1e-3 * cv::norm(lit, cv::NORM_INF));
+  const int brighter = cv::countNonZero(under_sky > lit);
+  EXPECT_GT(brighter, 0.95 * static_cast<double>(lit.total())) << "cartons and floor too";
+}
+
 TEST(Shader, MoversTakeLightFromTheWorldAndNeverAdd) {
   ShadeOptions bright = Stage::Options();
   bright.mover_shadows = false;

@@ -41,13 +41,23 @@ struct Solved {
       grid, world.statics().mesh, world.statics().mesh.positions, world.statics().mesh.normals);
 };
 
+std::vector<std::uint32_t> AllFixed(std::size_t points) {
+  return std::vector<std::uint32_t>(points, kFixed);
+}
+
+/// Nothing shines by itself, nothing is loose.
+Patches PatchesIn(const Solved& room, std::vector<float> albedo) {
+  const std::size_t count = albedo.size();
+  return MakePatches(AllFixed(count), room.points,
+                     {std::move(albedo), std::vector<float>(count, 0)});
+}
+
 /// In a furnace every ray meets what leaves every wall: after n bounces the indirect light is
 /// E (ρ + ρ² + … + ρⁿ), whatever the room's shape.
 TEST(Radiosity, InAFurnaceIsTheGeometricSeries) {
   const Solved room;
   for (const float albedo : {0.0f, 0.3f, 0.8f}) {
-    const Patches patches =
-        MakePatches(room.points, std::vector<float>(room.points.size(), albedo));
+    const Patches patches = PatchesIn(room, std::vector<float>(room.points.size(), albedo));
     for (const int bounces : {1, 2, 6}) {
       const std::vector<float> direct(patches.places.size(), 10.0f);
       SolveWatch watch({}, {});
@@ -63,6 +73,27 @@ TEST(Radiosity, InAFurnaceIsTheGeometricSeries) {
   }
 }
 
+/// Walls that all shine by M and reflect ρ receive M (1 + ρ + ρ² + …), and the air sees it all.
+TEST(Radiosity, WhatShinesByItselfLightsTheOthers) {
+  const Solved room;
+  const std::size_t count = room.points.size();
+  const float albedo = 0.4f, emitted = 3;
+  const Patches patches =
+      MakePatches(AllFixed(count), room.points,
+                  {std::vector<float>(count, albedo), std::vector<float>(count, emitted)});
+  const std::vector<float> dark(patches.places.size(), 0);
+  SolveWatch watch({}, {});
+  const Radiosity solved = SolveRadiosity(room.instant, room.grid, patches, dark,
+                                          {.directions = 64, .bounces = 12}, &watch);
+  const double expected = emitted / (1 - albedo);
+  for (const float indirect : solved.indirect) ASSERT_NEAR(indirect, expected, 1e-3);
+  LightVolume volume(Eigen::AlignedBox3f(Vector3f(1, 1, 1), Vector3f(2, 2, 1.5f)), 0.5f);
+  SolveWatch another({}, {});
+  FillVolume(room.instant, room.grid, room.world.statics().mesh, patches, solved, 256, &volume,
+             &another);
+  EXPECT_NEAR(volume.node(0).mean, expected / std::numbers::pi, 1e-2);
+}
+
 /// Light is linear in its sources, and walls that reflect less send less.
 TEST(Radiosity, IsLinearInTheDirectLightAndNeverMoreThanArrives) {
   const Solved room;
@@ -70,7 +101,7 @@ TEST(Radiosity, IsLinearInTheDirectLightAndNeverMoreThanArrives) {
   std::uniform_real_distribution<float> unit(0, 1);
   std::vector<float> albedo(room.points.size());
   for (float& a : albedo) a = 0.9f * unit(random);
-  const Patches patches = MakePatches(room.points, albedo);
+  const Patches patches = PatchesIn(room, albedo);
   const std::size_t count = patches.places.size();
   std::vector<float> a(count), b(count), both(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -95,7 +126,7 @@ TEST(Patches, ArePartsOfThePointsWithTheirMeanAlbedo) {
   const Solved room;
   std::vector<float> albedo(room.points.size());
   for (std::size_t i = 0; i < albedo.size(); ++i) albedo[i] = 0.1f * static_cast<float>(i % 7);
-  const Patches patches = MakePatches(room.points, albedo);
+  const Patches patches = PatchesIn(room, albedo);
   ASSERT_EQ(patches.of_point.size(), room.points.size());
   EXPECT_LT(patches.places.size(), room.points.size()) << "neighbours share a patch";
   std::vector<double> sum(patches.places.size()), members(patches.places.size());
@@ -116,7 +147,7 @@ TEST(Patches, ArePartsOfThePointsWithTheirMeanAlbedo) {
 
 TEST(Patches, MeansOfOneValueAreThatValueAndMiddlesAreTheirOwnPoints) {
   const Solved room;
-  Patches patches = MakePatches(room.points, std::vector<float>(room.points.size(), 0.5f));
+  Patches patches = PatchesIn(room, std::vector<float>(room.points.size(), 0.5f));
   const LightGrid fine = MakeLightGrid(room.world.statics().mesh, 0.1f);
   const auto fine_points =
       LocatePoints(fine, room.world.statics().mesh, room.world.statics().mesh.positions,
@@ -142,7 +173,7 @@ TEST(Patches, MeansOfOneValueAreThatValueAndMiddlesAreTheirOwnPoints) {
 TEST(FillVolume, FreeSpaceSeesTheWallsAndTheInsideOfThingsDoesNotCount) {
   const Solved room;
   const float albedo = 0.5f;
-  const Patches patches = MakePatches(room.points, std::vector<float>(room.points.size(), albedo));
+  const Patches patches = PatchesIn(room, std::vector<float>(room.points.size(), albedo));
   const Radiosity even{std::vector<float>(patches.places.size(), 8.0f),
                        std::vector<float>(patches.places.size(), 4.0f)};
   LightVolume volume(Eigen::AlignedBox3f(Vector3f(0.5f, 0.5f, 0.5f), Vector3f(3.5f, 2.5f, 2)),
@@ -166,28 +197,6 @@ TEST(FillVolume, FreeSpaceSeesTheWallsAndTheInsideOfThingsDoesNotCount) {
              &another);
   EXPECT_EQ(close.node(0).mean, 0);
   EXPECT_EQ(close.node(0).weight, 0);
-}
-
-TEST(Groups, AreNearAlikeAndLedByOneOfTheirOwn) {
-  std::mt19937 random(9);
-  std::uniform_real_distribution<float> place(0, 0.5f), way(-1, 1);
-  std::vector<SurfacePoint> points;
-  for (int i = 0; i < 3000; ++i) {
-    points.push_back({{place(random), place(random), place(random)},
-                      Vector3f(way(random), way(random), way(random)).normalized()});
-  }
-  const GroupOptions options;
-  const std::vector<std::uint32_t> leaders = GroupsOf(points, options);
-  std::size_t groups = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    ASSERT_LE(leaders[i], i) << "its group's first";
-    EXPECT_EQ(leaders[leaders[i]], leaders[i]);
-    groups += leaders[i] == i;
-    const SurfacePoint &a = points[i], &b = points[leaders[i]];
-    EXPECT_LE((a.position - b.position).cwiseAbs().maxCoeff(), options.cell_m + 1e-5f);
-    EXPECT_LE((a.normal - b.normal).cwiseAbs().maxCoeff(), 1 / options.normal_steps + 1e-5f);
-  }
-  EXPECT_LT(groups, points.size());
 }
 
 }  // namespace

@@ -63,6 +63,18 @@ TEST(LightVolume, ReproducesALinearFieldAndStaysAtItsBorderOutside) {
   }
 }
 
+TEST(LightVolume, ShapesReachOverTheirBox) {
+  const Eigen::AlignedBox3f box(Vector3f(-1, 2, 0), Vector3f(4, 2.2f, 3));
+  for (const float spacing : {0.3f, 0.5f, 7.0f}) {
+    const LightVolume volume(box, spacing);
+    EXPECT_EQ(LightVolume::ShapeOf(box, spacing).size(), volume.size());
+    const Vector3f last = volume.Position(volume.size() - 1);
+    EXPECT_TRUE((last.array() >= box.max().array()).all()) << spacing;
+    EXPECT_TRUE((last.array() <= box.max().array() + 2 * spacing).all()) << spacing;
+    EXPECT_EQ(volume.Position(0), box.min());
+  }
+}
+
 TEST(LightVolume, NodesInsideThingsDoNotDarkenWhatIsBesideThem) {
   LightVolume volume(Eigen::AlignedBox3f(Vector3f::Zero(), Vector3f::Ones()), 1.0f);
   for (std::size_t i = 0; i < volume.size(); ++i) volume.Set(i, {5, {1, 0, 0}, 1});

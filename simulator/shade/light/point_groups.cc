@@ -1,0 +1,122 @@
+#include "simulator/shade/light/point_groups.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+
+namespace aisle::sim {
+namespace {
+
+/// Keys of numbers without padding. Only looked up, never walked through: no order reaches a
+/// result.
+template <typename Key>
+struct PartsHash {
+  std::size_t operator()(const Key& key) const {
+    std::size_t value = 0;
+    for (const auto part : key) {
+      value = (value ^ static_cast<std::size_t>(part)) * 0x9e3779b97f4a7c15u;
+      value ^= value >> 29;
+    }
+    return value;
+  }
+};
+
+/// For each of so many the first with the same key.
+template <typename Key, typename KeyOf>
+std::vector<std::uint32_t> FirstOfEach(std::size_t count, const KeyOf& key_of) {
+  std::unordered_map<Key, std::uint32_t, PartsHash<Key>> first(count / 2);
+  std::vector<std::uint32_t> firsts;
+  firsts.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto index = static_cast<std::uint32_t>(i);
+    firsts.push_back(first.try_emplace(key_of(i), index).first->second);
+  }
+  return firsts;
+}
+
+/// For each vertex the first that is in the same place.
+std::vector<std::uint32_t> FirstsInPlace(std::span<const Eigen::Vector3f> positions) {
+  using Place = std::array<int, 3>;
+  return FirstOfEach<Place>(positions.size(), [&](std::size_t v) {
+    const Eigen::Vector3f p = positions[v] + Eigen::Vector3f::Zero();  // no two zeros
+    return Place{std::bit_cast<int>(p.x()), std::bit_cast<int>(p.y()), std::bit_cast<int>(p.z())};
+  });
+}
+
+std::array<int, 3> Rounded(const Eigen::Vector3f& normal, float steps) {
+  const auto round = [&](float n) { return static_cast<int>(std::lround(steps * n)); };
+  return {round(normal.x()), round(normal.y()), round(normal.z())};
+}
+
+constexpr int kNoFacing = 1000;  // more than any rounded normal has
+
+}  // namespace
+
+Things ThingsOf(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> parent = FirstsInPlace(mesh.positions);
+  const auto find = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& corners : mesh.triangles) {
+    const std::uint32_t thing = find(corners[0]);
+    for (const std::size_t c : {1u, 2u}) parent[find(corners[c])] = thing;
+  }
+  std::vector<Eigen::AlignedBox3f> boxes(parent.size());
+  for (std::uint32_t v = 0; v < parent.size(); ++v) {
+    parent[v] = find(v);
+    boxes[parent[v]].extend(mesh.positions[v]);
+  }
+  Things things{std::move(parent), {}};
+  things.size_m.reserve(boxes.size());
+  for (const Eigen::AlignedBox3f& box : boxes) {
+    things.size_m.push_back(box.isEmpty() ? 0 : box.sizes().maxCoeff());
+  }
+  return things;
+}
+
+std::vector<std::uint32_t> LooseThings(const LightGrid& grid, const TriangleMesh& mesh,
+                                       const Things& things) {
+  std::vector<std::uint32_t> loose;
+  loose.reserve(grid.points.size());
+  for (const LightPoint& point : grid.points) {
+    const std::uint32_t thing = things.of_vertex[mesh.triangles[point.triangle][0]];
+    loose.push_back(things.size_m[thing] <= grid.spacing_m / 2 ? thing : kFixed);
+  }
+  return loose;
+}
+
+std::vector<std::uint32_t> GroupsOfThings(std::span<const SurfacePoint> points,
+                                          std::span<const std::uint32_t> things) {
+  constexpr float kSteps = 1.5f;
+  using Key = std::array<int, 4>;
+  return FirstOfEach<Key>(points.size(), [&](std::size_t i) {
+    const std::uint32_t thing = things[i];
+    if (thing == kFixed) return Key{static_cast<int>(i), kNoFacing, 0, 0};
+    const std::array<int, 3> facing = Rounded(points[i].normal, kSteps);
+    return Key{static_cast<int>(thing), facing[0], facing[1], facing[2]};
+  });
+}
+
+std::vector<std::uint32_t> GroupsOf(std::span<const SurfacePoint> points,
+                                    std::span<const std::uint32_t> things,
+                                    const GroupOptions& options) {
+  using Key = std::array<int, 8>;
+  return FirstOfEach<Key>(points.size(), [&](std::size_t i) {
+    const auto& [position, normal] = points[i];
+    const bool is_loose = !things.empty() && things[i] != kFixed;
+    const auto cell = [&](float at, float size) { return static_cast<int>(std::floor(at / size)); };
+    const std::array<int, 3> facing = Rounded(normal, options.normal_steps);
+    return Key{cell(position.x(), options.cell_m),
+               cell(position.y(), options.cell_m),
+               cell(position.z(), options.cell_m),
+               facing[0],
+               facing[1],
+               facing[2],
+               is_loose ? 0 : cell(normal.dot(position), options.plane_m),
+               is_loose ? 1 : 0};
+  });
+}
+
+}  // namespace aisle::sim
