@@ -2,8 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numeric>
 #include <unordered_map>
+
+#include "simulator/shade/surface/mesh_pieces.h"
 
 namespace aisle::sim {
 namespace {
@@ -35,40 +36,19 @@ std::vector<std::uint32_t> FirstOfEach(std::size_t count, const KeyOf& key_of) {
   return firsts;
 }
 
-/// For each vertex the first that is in the same place.
-std::vector<std::uint32_t> FirstsInPlace(std::span<const Eigen::Vector3f> positions) {
-  using Place = std::array<int, 3>;
-  return FirstOfEach<Place>(positions.size(), [&](std::size_t v) {
-    const Eigen::Vector3f p = positions[v] + Eigen::Vector3f::Zero();  // no two zeros
-    return Place{std::bit_cast<int>(p.x()), std::bit_cast<int>(p.y()), std::bit_cast<int>(p.z())};
-  });
-}
-
 std::array<int, 3> Rounded(const Eigen::Vector3f& normal, float steps) {
   const auto round = [&](float n) { return static_cast<int>(std::lround(steps * n)); };
   return {round(normal.x()), round(normal.y()), round(normal.z())};
 }
 
-constexpr int kNoFacing = 1000;  // more than any rounded normal has
-
 }  // namespace
 
 Things ThingsOf(const TriangleMesh& mesh) {
-  std::vector<std::uint32_t> parent = FirstsInPlace(mesh.positions);
-  const auto find = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const auto& corners : mesh.triangles) {
-    const std::uint32_t thing = find(corners[0]);
-    for (const std::size_t c : {1u, 2u}) parent[find(corners[c])] = thing;
+  Things things{PiecesOf(mesh), {}};
+  std::vector<Eigen::AlignedBox3f> boxes(mesh.positions.size());
+  for (std::size_t v = 0; v < boxes.size(); ++v) {
+    boxes[things.of_vertex[v]].extend(mesh.positions[v]);
   }
-  std::vector<Eigen::AlignedBox3f> boxes(parent.size());
-  for (std::uint32_t v = 0; v < parent.size(); ++v) {
-    parent[v] = find(v);
-    boxes[parent[v]].extend(mesh.positions[v]);
-  }
-  Things things{std::move(parent), {}};
   things.size_m.reserve(boxes.size());
   for (const Eigen::AlignedBox3f& box : boxes) {
     things.size_m.push_back(box.isEmpty() ? 0 : box.sizes().maxCoeff());
@@ -92,10 +72,8 @@ std::vector<std::uint32_t> GroupsOfThings(std::span<const SurfacePoint> points,
   constexpr float kSteps = 1.5f;
   using Key = std::array<int, 4>;
   return FirstOfEach<Key>(points.size(), [&](std::size_t i) {
-    const std::uint32_t thing = things[i];
-    if (thing == kFixed) return Key{static_cast<int>(i), kNoFacing, 0, 0};
     const std::array<int, 3> facing = Rounded(points[i].normal, kSteps);
-    return Key{static_cast<int>(thing), facing[0], facing[1], facing[2]};
+    return Key{static_cast<int>(things[i]), facing[0], facing[1], facing[2]};
   });
 }
 

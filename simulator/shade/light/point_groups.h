@@ -13,9 +13,9 @@ namespace aisle::sim {
 /// Of a point that lies on no loose thing.
 inline constexpr std::uint32_t kFixed = 0xffffffffu;
 
-/// What hangs together: triangles with a corner in the same place.
+/// What hangs together: the pieces of a mesh, and how large they are.
 struct Things {
-  std::vector<std::uint32_t> of_vertex;  ///< one of the thing's vertices, the same for all of them
+  std::vector<std::uint32_t> of_vertex;  ///< as of PiecesOf
   std::vector<float> size_m;             ///< longest side of the box around it, at that vertex
 };
 Things ThingsOf(const TriangleMesh& mesh);
@@ -25,8 +25,7 @@ Things ThingsOf(const TriangleMesh& mesh);
 std::vector<std::uint32_t> LooseThings(const LightGrid& grid, const TriangleMesh& mesh,
                                        const Things& things);
 
-/// Groups the points of each loose thing that face alike; for each point, its group's first. A
-/// fixed one is a group of its own.
+/// Groups the points of each thing that face alike; for each point, its group's first.
 std::vector<std::uint32_t> GroupsOfThings(std::span<const SurfacePoint> points,
                                           std::span<const std::uint32_t> things);
 

@@ -22,7 +22,7 @@ constexpr float kUntracedShare = 0.003f;
 constexpr int kRays = 128, kRaysOfLoose = 32;
 
 /// The grid at the spacing at which the triangles that are larger than it have few enough points:
-/// they fall with its square. What is smaller shares its points' light.
+/// they fall with its square. Smaller ones have points at their vertices, whatever the spacing.
 LightGrid GridWithin(const TriangleMesh& mesh, float texel, std::size_t max_points) {
   for (int i = 0; i < 8 && PointsAbout(mesh, texel) > max_points; ++i) texel *= 1.3f;
   return MakeLightGrid(mesh, texel);
