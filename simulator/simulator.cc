@@ -90,6 +90,7 @@ void SetSensor(const SensorSpec& spec, PipelineOptions* options) {
   options->auto_exposure.target_grey = static_cast<float>(spec.auto_target_grey);
   options->auto_exposure.meter_from = static_cast<float>(spec.auto_meter_from);
   options->auto_exposure.longest_ms = spec.auto_longest_ms;
+  options->auto_exposure.step_ev = spec.auto_step_ev;
 }
 
 class Hasher {

@@ -62,6 +62,8 @@ void DescribeExposure(Fields& f, SensorSpec& sensor) {
            &sensor.auto_meter_from, {0, 0.9});
   f.Number({"auto_longest_ms", "longest automatic exposure; then gain rises, to 12 dB", "12"},
            &sensor.auto_longest_ms, {0.2, 200});
+  f.Number({"auto_step_ev", "stops by which automatic exposure steps; 0: any change", "0.5"},
+           &sensor.auto_step_ev, {0, 4});
   f.Flag({"motion_blur", "integrate the light over the exposure time", "true"},
          &sensor.motion_blur);
   f.Number({"readout_ms", "rolling shutter: from the first row to the last; 0: all at once", "16"},

@@ -32,6 +32,7 @@ struct SensorSpec {
   double auto_target_grey = 110;  ///< mean grey it aims at
   double auto_meter_from = 0;     ///< share of the height above which the picture is not metered
   double auto_longest_ms = 12;    ///< exposure time beyond which it takes gain instead
+  double auto_step_ev = 0;        ///< stops between the settings it has; 0: has any
   bool noise = true;              ///< shot and read noise
   bool fixed_pattern = true;      ///< every pixel's own sensitivity and dark signal
   double sensitivity_e_per_ms = 226000;  ///< electrons that radiance 1 frees in a pixel

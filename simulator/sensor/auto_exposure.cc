@@ -20,6 +20,13 @@ double MeanOf(const cv::Mat1f& light, double white, Tone tone) {
   return sum / static_cast<double>(light.total());
 }
 
+/// The largest of the products of time and gain that the control has, up to one, both in ms.
+double StepBelow(double product, const AutoExposureOptions& options) {
+  if (options.step_ev <= 0) return product;
+  const double stops = std::log2(product / options.shortest_ms);
+  return options.shortest_ms * std::exp2(options.step_ev * std::floor(stops / options.step_ev));
+}
+
 /// The radiance that `share` of the picture exceeds.
 double BrightestBut(const cv::Mat1f& light, double share) {
   std::vector<float> values(light.begin(), light.end());
@@ -45,6 +52,7 @@ std::string AutoExposureOptions::Validate() const {
     return fmt::format("shortest_ms is {} and longest_ms {}: 0 < shortest_ms ≤ longest_ms",
                        shortest_ms, longest_ms);
   }
+  if (!(step_ev >= 0)) return fmt::format("step_ev is {}, must be ≥ 0", step_ev);
   if (!(highest_gain >= 1)) return fmt::format("highest_gain is {}, must be ≥ 1", highest_gain);
   return "";
 }
@@ -63,11 +71,12 @@ ExposureSetting ChooseExposure(const cv::Mat1f& view, double white_per_ms, Tone 
     const double middle = std::sqrt(low * high);
     (255 * MeanOf(light, middle * white_per_ms, tone) < options.target_grey ? low : high) = middle;
   }
-  ExposureSetting setting{std::min(high, options.longest_ms), 1};
-  if (high > options.longest_ms) {
-    const double steps = std::ceil(16 * (high / options.longest_ms - 1) - 1e-9);
+  const double product = StepBelow(high, options);
+  ExposureSetting setting{std::min(product, options.longest_ms), 1};
+  if (product > options.longest_ms) {
+    const double steps = std::ceil(16 * (product / options.longest_ms - 1) - 1e-9);
     setting.gain = std::min(static_cast<float>(1 + steps / 16), options.highest_gain);
-    setting.time_ms = std::min(options.longest_ms, high / setting.gain);
+    setting.time_ms = std::min(options.longest_ms, product / setting.gain);
   }
   return setting;
 }

@@ -18,6 +18,10 @@ struct AutoExposureOptions {
   double shortest_ms = 0.1;   ///< exposure time
   double longest_ms = 12;     ///< exposure time
   float highest_gain = 4;     ///< the sensor's analogue gain goes from 1 to 4 in steps of 1/16
+  /// Stops between one product of time and gain and the next that it chooses, from `shortest_ms`
+  /// on; 0: it chooses any. Controls that step leave pictures of one place that differ in
+  /// brightness.
+  double step_ev = 0;
 
   /// The first rule broken, with name, value and bound; empty if none is.
   std::string Validate() const;

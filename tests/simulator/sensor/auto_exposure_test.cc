@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <set>
+
 namespace aisle::sim {
 namespace {
 
@@ -65,10 +68,30 @@ TEST(AutoExposure, InTheDarkItStopsAtItsLimits) {
   EXPECT_EQ(setting.gain, 4);
 }
 
+TEST(AutoExposure, StepsBelowWhatItWouldChooseAndByWholeStepsAlone) {
+  AutoExposureOptions steps = kAuto;
+  steps.step_ev = 0.5;
+  std::set<double> settings;
+  for (int k = 0; k < 60; ++k) {
+    const cv::Mat1f light(60, 94, static_cast<float>(0.5 * std::exp2(0.05 * k)));  // three stops
+    const ExposureSetting any = ChooseExposure(light, 0.3, Tone::kLinear, kAuto),
+                          stepped = ChooseExposure(light, 0.3, Tone::kLinear, steps);
+    const double less = std::log2(any.time_ms * any.gain / (stepped.time_ms * stepped.gain));
+    EXPECT_GE(less, -1e-9);
+    EXPECT_LT(less, 0.5);
+    const double stops = std::log2(stepped.time_ms * stepped.gain / steps.shortest_ms);
+    EXPECT_NEAR(stops / steps.step_ev, std::round(stops / steps.step_ev), 1e-6);
+    settings.insert(stepped.time_ms * stepped.gain);
+  }
+  EXPECT_GE(settings.size(), 6U);
+  EXPECT_LE(settings.size(), 7U);
+}
+
 TEST(AutoExposure, ValidateNamesTheBrokenRule) {
   EXPECT_EQ(AutoExposureOptions{}.Validate(), "");
   EXPECT_THAT(AutoExposureOptions{.target_grey = 300}.Validate(), testing::HasSubstr("300"));
   EXPECT_THAT(AutoExposureOptions{.meter_from = 1}.Validate(), testing::HasSubstr("meter_from"));
+  EXPECT_THAT(AutoExposureOptions{.step_ev = -1}.Validate(), testing::HasSubstr("step_ev is -1"));
   EXPECT_THAT(AutoExposureOptions{.longest_ms = 0.01}.Validate(), testing::HasSubstr("longest_ms"));
 }
 
