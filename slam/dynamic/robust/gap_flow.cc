@@ -80,10 +80,10 @@ std::vector<GapFlow> FollowGaps(const RobustState& before, const View& view,
   ParallelFor(std::size_t{0}, turns.size(), [&](std::size_t k) {
     const auto [slot, gap] = turns[k];
     const Eigen::Isometry3d T_now_then = MotionOver(gap, before, T_now_before);
-    const cv::Mat2f expected = WhereStatic(view.frame.filled, T_now_then.inverse(), half).place;
-    flows[k] = {
-        slot, gap, expected,
-        FollowBack(view.frame.image, view.pyramid, FrameAgo(before, gap).image, expected, options)};
+    const StaticField expected = WhereStatic(view.frame.filled, T_now_then.inverse(), half);
+    const cv::Mat2f flow = FollowBack(view.frame.image, view.pyramid, FrameAgo(before, gap).image,
+                                      expected.place, options);
+    flows[k] = {slot, gap, expected, flow};
   });
   return flows;
 }

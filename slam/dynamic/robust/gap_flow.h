@@ -12,8 +12,8 @@ namespace aisle::slam::dynamic {
 struct GapFlow {
   std::size_t slot = 0;  ///< of the gap
   int gap = 1;           ///< frames
-  cv::Mat2f expected;    ///< half-size pixels of the earlier frame, were all static
-  cv::Mat2f flow;        ///< the same, whatever moved
+  StaticField expected;  ///< were all static, by the expected motion
+  cv::Mat2f flow;        ///< half-size pixels of the earlier frame, whatever moved
 };
 
 /// The flow over the gaps that are compared in this frame: of those that the past reaches back to

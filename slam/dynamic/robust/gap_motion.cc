@@ -18,7 +18,7 @@ GapMatches MatchOverGaps(const RobustState& before, const View& view,
   const auto points = WellHeld(view.texture, view.frame.disparity, options.cell_px);
   GapMatches matches(flows.size());
   ParallelFor(std::size_t{0}, flows.size(), [&](std::size_t k) {
-    matches[k] = MatchesAlong(points, flows[k].flow, flows[k].expected, view.frame,
+    matches[k] = MatchesAlong(points, flows[k].flow, flows[k].expected.place, view.frame,
                               FrameAgo(before, flows[k].gap), memory, options.trust_in_region);
   });
   return matches;

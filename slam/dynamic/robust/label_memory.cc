@@ -1,6 +1,7 @@
 #include "slam/dynamic/robust/label_memory.h"
 
 #include "slam/common/parallel.h"
+#include "slam/dynamic/robust/earlier_disparity.h"
 
 namespace aisle::slam::dynamic {
 namespace {
@@ -8,14 +9,15 @@ namespace {
 /// Which pixel around a place shows the same surface. A step to the side counts as much as a
 /// deviation of the disparity: what lies on the spot is preferred to what is as good beside it.
 struct Surface {
-  float disparity, tolerance, per_step;
+  EarlierDisparity disparity;
+  float tolerance, per_step;
 
-  Surface(float d, const DisparityTolerance& rule)
-      : disparity(d), tolerance(2 * rule.At(d)), per_step(rule.noise()) {}
+  Surface(float now, float if_static, const DisparityTolerance& rule)
+      : disparity(now, if_static), tolerance(2 * rule.At(now)), per_step(rule.noise()) {}
 
   /// How far a pixel of another disparity, so many steps away, is from being that.
   float Difference(float other, int steps) const {
-    return std::abs(other - disparity) + per_step * static_cast<float>(steps);
+    return disparity.DistanceTo(other) + per_step * static_cast<float>(steps);
   }
 };
 
@@ -81,17 +83,18 @@ cv::Point PixelAt(const cv::Vec2f& place, cv::Size size) {
 constexpr int kNowhere = -1;
 
 /// Where the pixels of a row were in the frame before: numbers of pixels in raster order.
-void FindSources(const cv::Mat2f& flow, int y, const DenseFrame& now, const DenseFrame& before,
-                 const DisparityTolerance& tolerance, std::vector<int>& sources) {
-  const float *disparity = now.disparity[y], *filled = now.filled[y];
+void FindSources(const cv::Mat2f& flow, const cv::Mat1f& if_static, int y, const DenseFrame& now,
+                 const DenseFrame& before, const DisparityTolerance& tolerance,
+                 std::vector<int>& sources) {
+  const float *disparity = now.disparity[y], *filled = now.filled[y], *then = if_static[y];
   const cv::Vec2f* places = flow[y];
   const int unseen = ColumnsUnseen(disparity, flow.cols);
   for (int x = 0; x < flow.cols; ++x) {
     // Who leaves to the left is known no less where the right camera loses him first.
     const bool flow_alone = x < unseen && disparity[x] <= 0;
-    const cv::Point from = flow_alone
-                               ? PixelAt(places[x], flow.size())
-                               : SameSurface(before.disparity, places[x], {filled[x], tolerance});
+    const Surface surface(filled[x], then[x], tolerance);
+    const cv::Point from = flow_alone ? PixelAt(places[x], flow.size())
+                                      : SameSurface(before.disparity, places[x], surface);
     sources[static_cast<std::size_t>(x)] = from.x < 0 ? kNowhere : from.y * flow.cols + from.x;
   }
 }
@@ -112,8 +115,9 @@ LabelMemory ForgottenMemory(cv::Size size, int next_region_id) {
   return {cv::Mat1f(size, 0.0F), {cv::Mat1i(size, 0), {}, next_region_id}, {}, {}};
 }
 
-LabelMemory CarryMemory(const LabelMemory& previous, const cv::Mat2f& flow, const DenseFrame& now,
-                        const DenseFrame& before, const DisparityTolerance& tolerance) {
+LabelMemory CarryMemory(const LabelMemory& previous, const cv::Mat2f& flow,
+                        const cv::Mat1f& if_static, const DenseFrame& now, const DenseFrame& before,
+                        const DisparityTolerance& tolerance) {
   if (previous.log_odds.empty()) return ForgottenMemory(flow.size(), previous.regions.next_id);
   const cv::Size size = flow.size();
   LabelMemory carried{cv::Mat1f(size),
@@ -125,7 +129,7 @@ LabelMemory CarryMemory(const LabelMemory& previous, const cv::Mat2f& flow, cons
   }
   ParallelFor(0, flow.rows, [&](int y) {
     std::vector<int> sources(static_cast<std::size_t>(flow.cols));
-    FindSources(flow, y, now, before, tolerance, sources);
+    FindSources(flow, if_static, y, now, before, tolerance, sources);
     Take(previous.log_odds, sources, carried.log_odds[y]);
     Take(previous.regions.labels, sources, carried.regions.labels[y]);
     if (!compared_long) return;

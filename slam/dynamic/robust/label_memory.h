@@ -23,8 +23,10 @@ LabelMemory ForgottenMemory(cv::Size size, int next_region_id);
 /// Takes the memory of the previous frame to the current one along the flow, whatever moved; where
 /// the previous frame shows another surface at the place, nothing is known (0). At the left border,
 /// beyond the right image, where there is no surface to compare, the flow alone is followed.
-/// Regions keep their ids and sizes.
-LabelMemory CarryMemory(const LabelMemory& previous, const cv::Mat2f& flow, const DenseFrame& now,
-                        const DenseFrame& before, const DisparityTolerance& tolerance);
+/// `if_static`: the disparities then, were nothing moving (StaticField). Regions keep their ids and
+/// sizes.
+LabelMemory CarryMemory(const LabelMemory& previous, const cv::Mat2f& flow,
+                        const cv::Mat1f& if_static, const DenseFrame& now, const DenseFrame& before,
+                        const DisparityTolerance& tolerance);
 
 }  // namespace aisle::slam::dynamic

@@ -4,6 +4,7 @@
 
 #include "slam/common/parallel.h"
 #include "slam/dynamic/common/median.h"
+#include "slam/dynamic/robust/earlier_disparity.h"
 #include "slam/dynamic/robust/fast_log.h"
 #include "slam/dynamic/robust/residual_flow.h"
 #include "slam/dynamic/robust/static_alias.h"
@@ -36,15 +37,16 @@ inline float LogOddsOf(const Held& h, float static_variance, float mover_varianc
   return (chi2_static - chi2_moving - FastLog(det_moving / det_static)) / 2;
 }
 
-/// What the earlier frame saw around a place: of the disparities there, the one nearest to either
-/// of those that would make sense; negative if none is known.
-float DisparityAround(const cv::Mat1f& disparity, const cv::Vec2f& place, float one, float other) {
+/// What the earlier frame saw around a place: of the disparities there, the one nearest to those
+/// that would make sense; negative if none is known.
+float DisparityAround(const cv::Mat1f& disparity, const cv::Vec2f& place,
+                      const EarlierDisparity& sensible) {
   const int cx = cvRound(place[0]), cy = cvRound(place[1]);
   float best = -1, least = std::numeric_limits<float>::infinity();
   for (int y = std::max(cy - 1, 0); y <= std::min(cy + 1, disparity.rows - 1); ++y) {
     for (int x = std::max(cx - 1, 0); x <= std::min(cx + 1, disparity.cols - 1); ++x) {
       const float d = disparity(y, x);
-      const float distance = std::min(std::abs(d - one), std::abs(d - other));
+      const float distance = sensible.DistanceTo(d);
       if (d <= 0 || distance >= least) continue;
       least = distance;
       best = d;
@@ -141,9 +143,9 @@ struct Evidence {
     if (log_odds <= 0) return hidden ? 0 : log_odds;
     if (IsBesideNearer(y, x, d)) return 0;
 
-    const float seen = DisparityAround(frames.then.disparity, frames.flow(y, x), d, expected_d);
-    const float off = std::min(std::abs(seen - d), std::abs(seen - expected_d));
-    const float same = frames.tolerance.At(d);
+    const EarlierDisparity sensible(d, expected_d);
+    const float seen = DisparityAround(frames.then.disparity, frames.flow(y, x), sensible);
+    const float off = sensible.DistanceTo(seen), same = frames.tolerance.At(d);
     const bool other = seen <= 0 || off >= same + frames.tolerance.sigmas() * change;
     if (other && !WasBlind(frames.flow(y, x), d, seen)) return 0;
     const float moved = difference_moved(y, x);

@@ -18,7 +18,8 @@ LabelMemory CarryTo(const View& view, const std::vector<GapFlow>& flows, const R
   if (flows.empty()) {
     return ForgottenMemory(view.frame.image.size(), before.memory.regions.next_id);
   }
-  return CarryMemory(before.memory, flows[0].flow, view.frame, before.frames.back(), tolerance);
+  return CarryMemory(before.memory, flows[0].flow, flows[0].expected.disparity, view.frame,
+                     before.frames.back(), tolerance);
 }
 
 /// What is known of the pixels after this frame: what was known, less what has ended, fades, and

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "slam/dynamic/common/stereo_pair.h"
+#include "slam/dynamic/robust/earlier_disparity.h"
 #include "slam/dynamic/robust/label_memory.h"
 #include "slam/dynamic/robust/residual_flow.h"
 #include "tests/slam/dynamic/robust/usual_tolerance.h"
@@ -348,6 +349,26 @@ TEST(FillRows, GapsTakeTheFartherSide) {
   EXPECT_EQ(filled(1, 0), 9);
 }
 
+TEST(EarlierDisparity, IsAnythingBetweenGoingAlongAndComingTowards) {
+  const EarlierDisparity of_who_is_approached(12, 10), of_who_is_left(10, 12);
+  for (const float sensible : {8.0F, 9.0F, 10.0F, 11.0F, 12.0F}) {
+    EXPECT_EQ(of_who_is_approached.DistanceTo(sensible), 0) << sensible;
+  }
+  EXPECT_FLOAT_EQ(of_who_is_approached.DistanceTo(5), 3);
+  EXPECT_FLOAT_EQ(of_who_is_approached.DistanceTo(14), 2);
+  EXPECT_EQ(of_who_is_left.DistanceTo(14), 0);
+  EXPECT_FLOAT_EQ(of_who_is_left.DistanceTo(9), 1);
+}
+
+TEST(EarlierDisparity, IsThatOfNowWhereTheStaticOneIsBehindTheCamera) {
+  EXPECT_FLOAT_EQ(EarlierDisparity(12, -1).DistanceTo(10), 2);
+  EXPECT_EQ(EarlierDisparity(12, 0).DistanceTo(12), 0);
+}
+
+TEST(EarlierDisparity, IsNeverLessThanNothing) {
+  EXPECT_FLOAT_EQ(EarlierDisparity(4, 1).DistanceTo(-1), 1);  // 2 * 1 - 4 is no disparity
+}
+
 TEST(CarryMemory, TakesAMoversMemoryAlongAndLeavesNoTrail) {
   DenseFrame before, now;
   before.disparity = before.filled = cv::Mat1f(60, 80, 3.0F);
@@ -365,10 +386,32 @@ TEST(CarryMemory, TakesAMoversMemoryAlongAndLeavesNoTrail) {
       flow(y, x) = {static_cast<float>(x) + way, static_cast<float>(y)};
     }
   }
-  const cv::Mat1f carried = CarryMemory(memory, flow, now, before, kUsualTolerance).log_odds;
+  const cv::Mat1f carried =
+      CarryMemory(memory, flow, now.filled, now, before, kUsualTolerance).log_odds;
   for (int x = 0; x < 80; ++x) {
     EXPECT_EQ(carried(20, x) > 0, x >= 25 && x < 35) << "column " << x;
   }
+}
+
+TEST(CarryMemory, KnowsASurfaceThatTheRigHasComeNearer) {
+  DenseFrame before, now;
+  now.disparity = now.filled = cv::Mat1f(60, 80, 12.0F);
+  const cv::Mat1f if_static(60, 80, 10.0F);
+  before.disparity = cv::Mat1f(60, 80);
+  before.disparity.colRange(0, 20).setTo(12.0F);   // went along with the rig
+  before.disparity.colRange(20, 40).setTo(10.0F);  // stood
+  before.disparity.colRange(40, 60).setTo(8.0F);   // came towards it
+  before.disparity.colRange(60, 80).setTo(5.0F);   // is another surface
+  before.filled = before.disparity;
+  LabelMemory memory = ForgottenMemory({80, 60}, 0);
+  memory.log_odds.setTo(5.0F);
+  cv::Mat2f flow(60, 80);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 80; ++x) flow(y, x) = {static_cast<float>(x), static_cast<float>(y)};
+  }
+  const cv::Mat1f carried =
+      CarryMemory(memory, flow, if_static, now, before, kUsualTolerance).log_odds;
+  for (int x = 0; x < 80; ++x) EXPECT_EQ(carried(20, x) > 0, x <= 60) << "column " << x;
 }
 
 TEST(CarryMemory, FollowsTheFlowAloneBeyondTheRightImageAndNowhereElse) {
@@ -385,7 +428,8 @@ TEST(CarryMemory, FollowsTheFlowAloneBeyondTheRightImageAndNowhereElse) {
   for (int y = 0; y < 60; ++y) {
     for (int x = 0; x < 80; ++x) flow(y, x) = {static_cast<float>(x + 5), static_cast<float>(y)};
   }
-  const cv::Mat1f carried = CarryMemory(memory, flow, now, before, kUsualTolerance).log_odds;
+  const cv::Mat1f carried =
+      CarryMemory(memory, flow, now.filled, now, before, kUsualTolerance).log_odds;
   for (int x = 0; x < 80; ++x) EXPECT_EQ(carried(20, x) > 0, x < 20) << "column " << x;
   for (int x = 0; x < 80; ++x) EXPECT_EQ(carried(50, x), 0) << "column " << x;
 }

@@ -84,6 +84,15 @@ TEST(RobustMethod, MasksAWalkerWhoComesAlongTheOpticalAxis) {
   EXPECT_GT(totals.Recall(), 0.5);
 }
 
+TEST(RobustMethod, MasksATruckThatComesAsFastAsTheRigDrives) {
+  test::Panel truck = test::Walker({-1.2, -0.1, 11.5}, {0, 0, -9.0});
+  truck.half_width = 1.0;
+  truck.half_height = 1.1;
+  const Totals totals = Play({.movers = {truck}, .speed_mps = 9.0, .frames = 10});
+  EXPECT_GT(totals.Recall(), 0.8);
+  EXPECT_LT(totals.static_masked, 0.02);
+}
+
 TEST(RobustMethod, MasksAWalkerWhoLeadsTheWay) {
   const Totals totals = Play(
       {.movers = {test::Walker({0.2, 0.1, 2.6}, {0, 0, 0.6})}, .speed_mps = 0.6, .frames = 20});
