@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/imgproc.hpp>
+
 #include "simulator/trace/tracer.h"
 #include "tests/simulator/test_world.h"
 
@@ -42,6 +44,72 @@ TEST(FindOverlapped, NeighboursThatShareAnEdgeDoNotOverlap) {
                1);
   }
   EXPECT_EQ(Count(FindOverlapped(tiles.mesh)), 0u);
+}
+
+/// Triangles of any size in a few planes, each through the origin's neighbourhood.
+TriangleMesh TrianglesInPlanes(int triangles, int planes) {
+  cv::RNG rng(5);
+  TriangleMesh mesh;
+  std::vector<std::array<Eigen::Vector3f, 2>> axes;
+  for (int k = 0; k < planes; ++k) {
+    const Eigen::Vector3f normal =
+        Eigen::Vector3f(rng.uniform(-1.f, 1.f), rng.uniform(-1.f, 1.f), rng.uniform(-1.f, 1.f))
+            .normalized();
+    const Eigen::Vector3f along = normal.unitOrthogonal();
+    axes.push_back({along, normal.cross(along)});
+  }
+  for (int i = 0; i < triangles; ++i) {
+    const auto& [u, v] = axes[static_cast<std::size_t>(i % planes)];
+    const float size = rng.uniform(0.05f, 0.6f), s = rng.uniform(-2.f, 2.f),
+                t = rng.uniform(-2.f, 2.f);
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (int k = 0; k < 3; ++k) {
+      mesh.positions.push_back((s + size * rng.uniform(-1.f, 1.f)) * u +
+                               (t + size * rng.uniform(-1.f, 1.f)) * v);
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+/// What OpenCV says two triangles of one plane have in common, square metres.
+float CommonArea(const TriangleMesh& mesh, std::size_t one, std::size_t other) {
+  const auto at = [&](std::size_t triangle, std::size_t corner) {
+    return mesh.positions[mesh.triangles[triangle][corner]];
+  };
+  const Eigen::Vector3f u = (at(one, 1) - at(one, 0)).normalized();
+  const Eigen::Vector3f v = u.cross(at(one, 2) - at(one, 0)).cross(u).normalized();
+  const auto flat = [&](std::size_t triangle) {
+    std::vector<cv::Point2f> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3f from = at(triangle, k) - at(one, 0);
+      corners.emplace_back(from.dot(u), from.dot(v));
+    }
+    return corners;
+  };
+  std::vector<cv::Point2f> common;
+  return cv::intersectConvexConvex(flat(one), flat(other), common);
+}
+
+TEST(FindOverlapped, SaysOfManyTrianglesWhatOpenCVSaysOfEachPair) {
+  constexpr int kPlanes = 5;
+  const TriangleMesh mesh = TrianglesInPlanes(500, kPlanes);
+  const std::vector<std::uint8_t> marks = FindOverlapped(mesh);
+  const auto area = [&](std::size_t i) { return CommonArea(mesh, i, i); };
+  int in_doubt = 0;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    float most = 0;  // that a larger one has in common with it
+    for (std::size_t j = i % kPlanes; j < marks.size(); j += kPlanes) {
+      if (i != j && area(j) > area(i)) most = std::max(most, CommonArea(mesh, i, j));
+    }
+    constexpr float kTouch = 1e-5f;
+    in_doubt += most > 0 && most < kTouch ? 1 : 0;
+    if (most > 0 && most < kTouch) continue;
+    EXPECT_EQ(marks[i] != 0, most > 0) << i;
+  }
+  EXPECT_LT(in_doubt, 20);
+  EXPECT_GT(Count(marks), 100u);
+  EXPECT_LT(Count(marks), 480u);
 }
 
 TEST(Instant, OfTwoSurfacesInOnePlaneTheLargerIsHitWhicheverWasBuiltFirst) {
