@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "simulator/common/parallel.h"
 
 namespace aisle::sim {
 namespace {
@@ -36,6 +39,10 @@ Layout LayOut(const TriangleMesh& mesh, std::size_t triangle, float texel) {
           Cells(length[(origin + 1) % 3], texel)};
 }
 
+std::size_t SlotsOf(const Layout& layout) {
+  return static_cast<std::size_t>(layout.columns + 1) * static_cast<std::size_t>(layout.rows + 1);
+}
+
 LightPatch MakePatch(const Layout& layout, std::int32_t slot) {
   const auto s = static_cast<float>(layout.columns), t = static_cast<float>(layout.rows);
   LightPatch patch;
@@ -58,8 +65,14 @@ LightPatch MakePatch(const Layout& layout, std::int32_t slot) {
 
 class Builder {
  public:
-  explicit Builder(const TriangleMesh& mesh)
-      : mesh_(mesh), point_of_vertex_(mesh.positions.size(), LightGrid::kUnused) {}
+  Builder(const TriangleMesh& mesh, std::span<const Layout> layouts)
+      : mesh_(mesh), point_of_vertex_(mesh.positions.size(), LightGrid::kUnused) {
+    // A street has millions of patches: to move them as they grow in number costs as much again.
+    std::size_t slots = 0;
+    for (const Layout& layout : layouts) slots += SlotsOf(layout);
+    grid_.patches.reserve(layouts.size());
+    grid_.point_of_slot.reserve(slots);
+  }
 
   void Add(std::uint32_t triangle, const Layout& layout) {
     grid_.patches.push_back(
@@ -143,23 +156,31 @@ Cell FindCell(const LightPatch& patch, float u, float v) {
 }  // namespace
 
 LightGrid MakeLightGrid(const TriangleMesh& mesh, float texel_m) {
-  Builder builder(mesh);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    builder.Add(static_cast<std::uint32_t>(i), LayOut(mesh, i, texel_m));
+  std::vector<Layout> layouts(mesh.triangles.size());
+  ParallelFor(std::size_t{0}, layouts.size(),
+              [&](std::size_t i) { layouts[i] = LayOut(mesh, i, texel_m); });
+  Builder builder(mesh, layouts);
+  for (std::size_t i = 0; i < layouts.size(); ++i) {
+    builder.Add(static_cast<std::uint32_t>(i), layouts[i]);
   }
   return builder.Take(texel_m);
 }
 
 std::size_t PointsAbout(const TriangleMesh& mesh, float texel_m) {
-  std::size_t points = 0;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Layout layout = LayOut(mesh, i, texel_m);
-    const auto columns = static_cast<std::size_t>(layout.columns),
-               rows = static_cast<std::size_t>(layout.rows);
-    if (columns * rows == 1) continue;
-    points += ((columns + 1) * (rows + 1) + columns + rows) / 2;
-  }
-  return points;
+  constexpr std::size_t kPart = 65536;
+  const std::size_t triangles = mesh.triangles.size();
+  std::vector<std::size_t> points((triangles + kPart - 1) / kPart);
+  ParallelFor(std::size_t{0}, points.size(), [&](std::size_t part) {
+    const std::size_t end = std::min((part + 1) * kPart, triangles);
+    for (std::size_t i = part * kPart; i < end; ++i) {
+      const Layout layout = LayOut(mesh, i, texel_m);
+      const auto columns = static_cast<std::size_t>(layout.columns),
+                 rows = static_cast<std::size_t>(layout.rows);
+      if (columns * rows == 1) continue;
+      points[part] += ((columns + 1) * (rows + 1) + columns + rows) / 2;
+    }
+  });
+  return std::accumulate(points.begin(), points.end(), std::size_t{0});
 }
 
 void FillSlots(const LightGrid& grid, std::span<const float> point_values,
