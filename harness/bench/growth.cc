@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -165,6 +166,36 @@ std::string GrowthTable(const std::vector<GrowthRow>& rows) {
         row.cost.pair_ms, row.cost.bare_primary_ms, row.cost.ratio, row.of_none);
   }
   return table;
+}
+
+double SerialShare(double one_ms, double many_ms, int threads) {
+  return std::clamp((threads * many_ms / one_ms - 1) / (threads - 1), 0.0, 1.0);
+}
+
+double SpeedUp(double serial_share, int threads) {
+  return 1 / (serial_share + (1 - serial_share) / threads);
+}
+
+std::string ScalingTable(const std::vector<GrowthRow>& rows) {
+  constexpr int kThreadsOfARun = 4;
+  std::string table;
+  for (const GrowthRow& one : rows) {
+    const auto many = std::ranges::find_if(
+        rows, [&](const GrowthRow& row) { return row.threads > 1 && row.scene == one.scene; });
+    if (one.threads != 1 || many == rows.end()) continue;
+    const double share = SerialShare(one.cost.pair_ms, many->cost.pair_ms, many->threads);
+    table += fmt::format("| {} | {} | {:.3f} |", one.scene.actors, many->threads, share);
+    for (const int cores : {4, 8, 16}) {
+      table += fmt::format(" {:.1f} | {:.1f} |", SpeedUp(share, cores),
+                           SpeedUp(share, kThreadsOfARun) * cores / kThreadsOfARun);
+    }
+    table += '\n';
+  }
+  if (table.empty()) return "";
+  return "| actors | threads | serial share | 4 cores | as 1 x 4 | 8 cores | as 2 x 4 | 16 cores | "
+         "as 4 x 4 "
+         "|\n|---|---|---|---|---|---|---|---|---|\n" +
+         table;
 }
 
 }  // namespace aisle

@@ -15,6 +15,8 @@ struct GrowthScene {
   int rack_levels = 3;  ///< 0: a bare hall; what is static, and its triangles, grow with them
   int width = 752, height = 480;  ///< pixels; the view stays as wide
   int frames = 8;                 ///< one after the other, at 20 Hz
+
+  bool operator==(const GrowthScene&) const = default;
 };
 inline constexpr int kMostGrowthActors = 12;
 
@@ -54,5 +56,16 @@ std::vector<GrowthRow> MeasureGrowth(const GrowthOptions& options,
 
 /// A row a line, with the heading.
 std::string GrowthTable(const std::vector<GrowthRow>& rows);
+
+/// The share of a pair's work that is done one after the other, so that it takes `one_ms` on one
+/// thread and `many_ms` on several (Amdahl 1967); waiting for memory counts as such. In [0, 1].
+double SerialShare(double one_ms, double many_ms, int threads);
+/// How many times as fast it is then on more threads.
+double SpeedUp(double serial_share, int threads);
+
+/// For each number of actors that was measured on one thread and on several: the serial share, and
+/// what follows from it for machines with more cores, one run on all of them or runs of four
+/// threads beside each other. Empty where there is none.
+std::string ScalingTable(const std::vector<GrowthRow>& rows);
 
 }  // namespace aisle

@@ -25,8 +25,10 @@ int BenchGrowth(const Options& options) {
                row.of_none);
     std::fflush(stdout);
   });
-  options.into.Write(fmt::format("{}\nIsa {}, {}, medians of {} frames, one after the other.\n",
-                                 GrowthTable(rows), bench.isa, OwnProvenance().cpu, bench.frames));
+  const std::string scaling = ScalingTable(rows);
+  options.into.Write(fmt::format("{}{}{}\nIsa {}, {}, medians of {} frames, one after the other.\n",
+                                 GrowthTable(rows), scaling.empty() ? "" : "\n", scaling, bench.isa,
+                                 OwnProvenance().cpu, bench.frames));
   return kAllPassed;
 }
 

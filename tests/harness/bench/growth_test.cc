@@ -73,5 +73,31 @@ TEST(GrowthTable, HasARowALine) {
                         "| 12 |"));
 }
 
+TEST(Scaling, OfAmdahlsLawIsItsInverse) {
+  for (const double share : {0.0, 0.05, 0.3, 1.0}) {
+    for (const int threads : {2, 3, 8}) {
+      EXPECT_NEAR(SerialShare(400, 400 / SpeedUp(share, threads), threads), share, 1e-12);
+    }
+  }
+  EXPECT_DOUBLE_EQ(SpeedUp(0, 16), 16);
+  EXPECT_DOUBLE_EQ(SpeedUp(1, 16), 1);
+  EXPECT_DOUBLE_EQ(SpeedUp(0.05, 16), 16 / 1.75);
+  EXPECT_EQ(SerialShare(100, 40, 2), 0);  // faster than twice: noise
+}
+
+TEST(ScalingTable, SetsOneThreadBesideSeveralOfTheSameScene) {
+  GrowthRow two{.scene = {.actors = 3}, .threads = 2, .cost = {}};
+  two.cost.pair_ms = 210;
+  GrowthRow wide = two, other = two, one = two;
+  wide.scene.width = 1280;
+  wide.cost.pair_ms = 500;
+  other.scene.actors = 0;
+  one.threads = 1;
+  one.cost.pair_ms = 400;
+  EXPECT_THAT(ScalingTable({wide, other, two, one}),
+              HasSubstr("\n| 3 | 2 | 0.050 | 3.5 | 3.5 | 5.9 | 7.0 | 9.1 | 13.9 |\n"));
+  EXPECT_EQ(ScalingTable({wide, two}), "");
+}
+
 }  // namespace
 }  // namespace aisle
