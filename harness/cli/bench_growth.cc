@@ -26,6 +26,7 @@ int BenchGrowth(const Options& options) {
     std::fflush(stdout);
   });
   const std::string scaling = ScalingTable(rows);
+  if (!scaling.empty()) fmt::print("\nIn times as fast as one thread:\n{}", scaling);
   options.into.Write(fmt::format("{}{}{}\nIsa {}, {}, medians of {} frames, one after the other.\n",
                                  GrowthTable(rows), scaling.empty() ? "" : "\n", scaling, bench.isa,
                                  OwnProvenance().cpu, bench.frames));
