@@ -70,8 +70,7 @@ struct Pipeline::Impl {
         camera(stereo_camera),
         options(given),
         arena(given.threads),
-        rays(MakePixelRays(camera)),
-        tracer(world, options.tracer) {
+        rays(MakePixelRays(camera)) {
     for (const std::string& error : {options.sensor.Validate(), options.shutter.Validate(),
                                      options.auto_exposure.Validate()}) {
       if (!error.empty()) throw std::invalid_argument("sensor: " + error);
@@ -85,7 +84,8 @@ struct Pipeline::Impl {
       meter_fall_off = FallOff(meter_rays);
     }
     arena.Execute([&] {
-      shader = std::make_unique<Shader>(world, tracer, options.shade);
+      tracer = std::make_unique<Tracer>(world, options.tracer);
+      shader = std::make_unique<Shader>(world, *tracer, options.shade);
       for (std::size_t band = 0; world.has_colour() && band < 3; ++band) {
         bands.push_back(std::make_unique<Band>(*this, band));
       }
@@ -158,7 +158,7 @@ struct Pipeline::Impl {
   /// Radiance of the given rows of both cameras at an instant that nobody asks the truth of.
   std::vector<cv::Mat1f> RadianceAt(Snapshot snapshot, const Eigen::Isometry3d& T_world_rig,
                                     const cv::Range& rows, const Shader& with) const {
-    const Instant instant = tracer.Pose(std::move(snapshot));
+    const Instant instant = tracer->Pose(std::move(snapshot));
     const bool whole = rows.size() == rays.height;
     const PixelRays band = whole ? PixelRays{} : RowsOf(rays, rows.start, rows.end);
     const PixelRays& used = whole ? rays : band;
@@ -223,7 +223,7 @@ struct Pipeline::Impl {
   std::array<cv::Mat3b, 2> TakeColour(int frame_index, std::int64_t stamp_ns,
                                       const Eigen::Isometry3d& T_world_rig) const {
     if (bands.empty()) throw std::logic_error("the world has no colour");
-    const Instant instant = tracer.Pose(world.At(stamp_ns));
+    const Instant instant = tracer->Pose(world.At(stamp_ns));
     const std::array<CameraView, 2> views = Views(T_world_rig);
     std::vector<HitImage> hits = TakeImages();
     TraceViews(instant, views, {.shuffle = options.tile_shuffle}, &hits);
@@ -254,7 +254,7 @@ struct Pipeline::Impl {
     const auto lap = [&](const char* stage) {
       if (stages) (*stages)[stage] += watch.Lap();
     };
-    const Instant instant = tracer.Pose(world.At(time.stamp_ns, time.clocks));
+    const Instant instant = tracer->Pose(world.At(time.stamp_ns, time.clocks));
     lap("pose");
     const std::array<CameraView, 2> views = Views(T_world_rig);
     std::vector<HitImage> hits = TakeImages();
@@ -287,7 +287,7 @@ struct Pipeline::Impl {
   Studio MakeStudio(const ExposureSetting& setting = {}) const {
     return {
         .world = world,
-        .tracer = tracer,
+        .tracer = *tracer,
         .shader = *shader,
         .camera = camera,
         .rays = rays,
@@ -300,7 +300,7 @@ struct Pipeline::Impl {
   struct Band {
     Band(const Impl& of, std::size_t index)
         : world(of.world.InBand(index)),
-          shader(std::make_unique<Shader>(world, of.tracer, of.options.shade)) {
+          shader(std::make_unique<Shader>(world, *of.tracer, of.options.shade)) {
       const cv::Mat1f vignetting = of.FallOff(of.rays);
       for (const std::uint32_t side : {0u, 1u}) {
         const auto camera_number = static_cast<std::uint32_t>(2 + 2 * index + side);
@@ -321,7 +321,7 @@ struct Pipeline::Impl {
   std::array<PixelResponse, 2> response;
   PixelRays meter_rays;      ///< for automatic exposure only
   cv::Mat1f meter_fall_off;  ///< of the lens, on the coarse picture
-  Tracer tracer;
+  std::unique_ptr<Tracer> tracer;
   std::unique_ptr<Shader> shader;
   std::vector<std::unique_ptr<Band>> bands;  ///< red, green, blue where the world has colour
   mutable std::mutex mutex;                  ///< guards idle
@@ -356,7 +356,7 @@ std::array<cv::Mat3b, 2> Pipeline::RenderColour(int frame_index, std::int64_t st
 
 cv::Mat1f Pipeline::RenderDepth(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig) const {
   return impl_->arena.Execute([&] {
-    const Instant instant = impl_->tracer.Pose(impl_->world.At(stamp_ns));
+    const Instant instant = impl_->tracer->Pose(impl_->world.At(stamp_ns));
     const std::array<CameraView, 2> views = impl_->Views(T_world_rig);
     std::vector<HitImage> hits;
     TraceViews(instant, std::span(views).first(1), {}, &hits);
@@ -368,7 +368,7 @@ cv::Mat1f Pipeline::RenderDepth(std::int64_t stamp_ns, const Eigen::Isometry3d& 
 std::array<cv::Mat1f, 2> Pipeline::RenderRadiance(std::int64_t stamp_ns,
                                                   const Eigen::Isometry3d& T_world_rig) const {
   return impl_->arena.Execute([&] {
-    const Instant instant = impl_->tracer.Pose(impl_->world.At(stamp_ns));
+    const Instant instant = impl_->tracer->Pose(impl_->world.At(stamp_ns));
     const std::array<CameraView, 2> views = impl_->Views(T_world_rig);
     std::vector<HitImage> hits;
     TraceViews(instant, views, {}, &hits);
@@ -382,7 +382,7 @@ MotionTruth Pipeline::RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry3
                                    const Eigen::Isometry3d& T_world_rig_next) const {
   return impl_->arena.Execute([&] {
     const Impl& self = *impl_;
-    const Instant instant = self.tracer.Pose(self.world.At(stamp_ns));
+    const Instant instant = self.tracer->Pose(self.world.At(stamp_ns));
     const std::array<CameraView, 2> views = self.Views(T_world_rig);
     std::vector<HitImage> hits;
     TraceViews(instant, std::span(views).first(1), {}, &hits);
@@ -410,7 +410,7 @@ StageHashes Pipeline::HashStages(int frame_index, const Moment& moment) const {
 PictureChanges Pipeline::CompareInTime(const std::array<Moment, 3>& moments) const {
   return impl_->arena.Execute([&] {
     const ExposureSetting setting = impl_->ExposureFor(
-        impl_->tracer.Pose(impl_->world.At(moments[0].stamp_ns)), moments[0].T_world_rig);
+        impl_->tracer->Pose(impl_->world.At(moments[0].stamp_ns)), moments[0].T_world_rig);
     return aisle::sim::CompareInTime(impl_->MakeStudio(setting), moments);
   });
 }
