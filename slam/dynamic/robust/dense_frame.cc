@@ -4,6 +4,7 @@
 
 #include "slam/common/parallel.h"
 #include "slam/dynamic/common/stereo_pair.h"
+#include "slam/dynamic/robust/pixel_noise.h"
 #include "slam/dynamic/robust/window_sums.h"
 #include "slam/stereo/dense/semi_global.h"
 
@@ -182,15 +183,18 @@ cv::Mat1f FillRows(const cv::Mat1f& disparity, const std::vector<int>& unseen) {
   return filled;
 }
 
+cv::Mat1b QuietHalfImage(const cv::Mat1b& image) {
+  return WithoutNoise(HalfImage(image), MeasurePixelNoise(image));
+}
+
 DenseFrame MakeDenseFrame(const cv::Mat1b& left, const cv::Mat1b& right,
                           const SemiGlobalOptions& disparity) {
   DenseFrame frame;
-  frame.image = HalfImage(left);
-  const cv::Mat1b half_right = HalfImage(right);
-  frame.disparity = Match(frame.image, half_right, disparity);
+  frame.image = left;
+  frame.disparity = Match(left, right, disparity);
   frame.unseen.resize(static_cast<std::size_t>(frame.image.rows));
-  LookNearer(half_right, disparity, frame);
-  SpanHalfPixels(half_right, frame.right_low, frame.right_high);
+  LookNearer(right, disparity, frame);
+  SpanHalfPixels(right, frame.right_low, frame.right_high);
   frame.filled = FillRows(frame.disparity, frame.unseen);
   return frame;
 }

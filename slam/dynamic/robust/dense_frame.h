@@ -36,7 +36,11 @@ StereoCamera HalfCamera(const StereoCamera& camera);
 
 cv::Mat1b HalfImage(const cv::Mat1b& image);
 
-/// Disparity on images of half size, without the columns where the matcher saw only padding.
+/// The same, less the noise that the image itself shows.
+cv::Mat1b QuietHalfImage(const cv::Mat1b& image);
+
+/// Disparity of images that are of half size already, without the columns where the matcher saw
+/// only padding.
 DenseFrame MakeDenseFrame(const cv::Mat1b& left, const cv::Mat1b& right,
                           const SemiGlobalOptions& disparity);
 

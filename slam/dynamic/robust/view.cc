@@ -5,17 +5,19 @@
 namespace aisle::slam::dynamic {
 
 View LookAt(const StereoPair& images, std::int64_t stamp_ns, const RobustOptions& options) {
+  cv::Mat1b left, right;
+  ParallelInvoke([&] { left = QuietHalfImage(images.left); },
+                 [&] { right = QuietHalfImage(images.right); });
   View view;
   ParallelInvoke(
       [&] {
-        view.frame = MakeDenseFrame(images.left, images.right, options.disparity);
+        view.frame = MakeDenseFrame(left, right, options.disparity);
         view.frame.stamp_ns = stamp_ns;
         view.around = LookAround(view.frame, options.surface, options.evidence);
       },
       [&] {
-        const cv::Mat1b half = HalfImage(images.left);
-        view.texture = MeasureTexture(half, options.surface);
-        view.pyramid = MakeFlowPyramid(half, options.flow);
+        view.texture = MeasureTexture(left, options.surface);
+        view.pyramid = MakeFlowPyramid(left, options.flow);
       });
   return view;
 }

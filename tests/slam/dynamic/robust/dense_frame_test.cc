@@ -40,7 +40,7 @@ std::pair<cv::Mat1b, cv::Mat1b> PairWithSomethingNear(const cv::Range& near_rows
 
 TEST(MakeDenseFrame, SeesWhatIsNearerThanTheSearchReaches) {
   const auto [left, right] = PairWithSomethingNear({160, 400});
-  const DenseFrame frame = MakeDenseFrame(left, right, {});
+  const DenseFrame frame = MakeDenseFrame(HalfImage(left), HalfImage(right), {});
   int near = 0, wall = 0, chance = 0;
   for (int x = 150; x < 370; ++x) {
     near += std::abs(frame.disparity(140, x) - 130) < 1;

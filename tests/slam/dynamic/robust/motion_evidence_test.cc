@@ -97,8 +97,8 @@ struct Pair {
     AddGlare(glare, glare.at + glare.per_frame, after);
     RobustOptions options;
     options.surface = surface;
-    then = MakeDenseFrame(before.left, before.right, options.disparity);
-    now = MakeDenseFrame(after.left, after.right, options.disparity);
+    then = MakeDenseFrame(HalfImage(before.left), HalfImage(before.right), options.disparity);
+    now = MakeDenseFrame(HalfImage(after.left), HalfImage(after.right), options.disparity);
     texture = MeasureTexture(now.image, options.surface);
     points = WellHeld(texture, now.disparity, 12);
     const StereoCamera half = HalfCamera({});
