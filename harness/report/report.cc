@@ -2,6 +2,7 @@
 
 #include "harness/io/file.h"
 #include "harness/report/junit.h"
+#include "harness/report/page/answer.h"
 #include "harness/report/page/cost_section.h"
 #include "harness/report/page/drive_outcome.h"
 #include "harness/report/page/hall_section.h"
@@ -53,7 +54,7 @@ bool WriteTrends(const Results& results, const fs::path& report_dir, const Repor
       {.history_dir = options.history_file.parent_path(), .suite_file = SuiteFileOf(results)});
   if (trends.empty()) return fs::exists(report_dir / "trends.html");
   WriteFileAtomically(report_dir / "trends.html",
-                      Page("Trends of " + results.suite, "", kUp + trends));
+                      Page("Trends of " + ReportTitle(results), "", kUp + trends));
   return true;
 }
 
@@ -94,7 +95,7 @@ void WriteReport(const Results& results, const fs::path& report_dir, const Repor
   WriteResources(report_dir);
   WriteFileAtomically(report_dir / "tables.md", ToMarkdown(tables));
   WriteFileAtomically(report_dir / "tables.tex", ToLatex(tables));
-  WriteFileAtomically(report_dir / "index.html", Page(results.suite, "", body));
+  WriteFileAtomically(report_dir / "index.html", Page(ReportTitle(results), "", body));
   WriteFileAtomically(report_dir / "summary.csv", ToSummaryCsv(results));
   WriteFileAtomically(report_dir / "summary.txt",
                       ToSummaryText(results, ChangesInWords(options.history), report_dir));

@@ -88,7 +88,17 @@ std::string Joined(const std::vector<Suite>& suites, const char* between, Part S
 }  // namespace
 
 std::string PlanFile::name() const { return Joined(suites, "+", &Suite::name); }
-std::string PlanFile::question() const { return Joined(suites, " ", &Suite::question); }
+
+std::string PlanFile::question() const {
+  std::vector<std::string> bare_scenes;
+  for (const Suite& suite : suites) {
+    if (suite.scenes.size() != 1) break;
+    if (suite.question != QuestionOfScenes({suite.scenes[0].name})) break;
+    bare_scenes.push_back(suite.scenes[0].name);
+  }
+  if (bare_scenes.size() == suites.size()) return QuestionOfScenes(bare_scenes);
+  return Joined(suites, " ", &Suite::question);
+}
 
 std::string ToJson(const PlanFile& plan) {
   Json json = {{"schema", kSchema}, {"command", plan.command}};

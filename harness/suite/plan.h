@@ -14,7 +14,7 @@ struct PlanFile {
   std::string command;        ///< the command line that made it
 
   std::string name() const;      ///< of the suites, joined by "+"
-  std::string question() const;  ///< of the suites, one after the other
+  std::string question() const;  ///< of the suites, one after the other; bare scenes ask once
 };
 
 std::string ToJson(const PlanFile& plan);

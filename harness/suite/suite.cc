@@ -97,11 +97,22 @@ Suite LoadSuite(const std::string& file, const Vocabulary& vocabulary) {
   return suite;
 }
 
+std::string QuestionOfScenes(const std::vector<std::string>& scene_names) {
+  constexpr std::size_t kShown = 2, kMostNamed = 3;
+  const std::size_t count = scene_names.size();
+  if (count > kMostNamed) {
+    const std::vector<std::string> shown(scene_names.begin(), scene_names.begin() + kShown);
+    return fmt::format("How do the systems fare on {} and {} more?", fmt::join(shown, ", "),
+                       count - kShown);
+  }
+  return fmt::format("How do the systems fare on {}?", fmt::join(scene_names, ", "));
+}
+
 Suite SuiteOfScene(const std::string& scene_file) {
   const std::string name = SceneName(scene_file);
   Suite suite;
   suite.name = fs::path(name).filename().string();
-  suite.question = "How do the systems fare on " + name + "?";
+  suite.question = QuestionOfScenes({name});
   const bool recorded = IsRecording(scene_file);
   suite.scenes = {{name, fs::path(scene_file).lexically_normal().string(), recorded}};
   suite.systems = {BuiltIn("plain"), BuiltIn(recorded ? "robust" : "oracle")};

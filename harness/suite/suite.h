@@ -57,6 +57,9 @@ Suite LoadSuite(const std::string& file, const Vocabulary& vocabulary);
 /// A suite that asks one thing of one scene: what a bare scene file on the command line means.
 Suite SuiteOfScene(const std::string& scene_file);
 
+/// What suites of bare scenes ask: of more than three, the first two are named.
+std::string QuestionOfScenes(const std::vector<std::string>& scene_names);
+
 /// True where the file's top level has the key `suite`; false for a scene. Throws InputError.
 bool IsSuiteFile(const std::string& file);
 

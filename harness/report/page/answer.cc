@@ -123,6 +123,19 @@ std::string Sentence(const SceneErrors& errors) {
 
 }  // namespace
 
+std::string ReportTitle(const Results& results) {
+  constexpr std::size_t kShown = 2, kMostParts = 3;
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= results.suite.size();) {
+    const std::size_t end = std::min(results.suite.find('+', begin), results.suite.size());
+    parts.push_back(results.suite.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  if (parts.size() <= kMostParts) return results.suite;
+  const std::vector<std::string> shown(parts.begin(), parts.begin() + kShown);
+  return fmt::format("{} and {} more", fmt::join(shown, " + "), parts.size() - kShown);
+}
+
 std::string LengthInWords(double metres) {
   if (metres >= 1) return fmt::format("{:.2f} m", metres);
   if (metres >= 0.1) return fmt::format("{:.0f} cm", 100 * metres);

@@ -17,6 +17,10 @@ namespace aisle {
 ///   back 99.7 % of what movers cost plain.
 std::vector<std::string> AnswerInWords(const Results& results);
 
+/// The suite's name as a heading: of more than three driven together, whose names are joined by
+/// "+", the first two and how many more.
+std::string ReportTitle(const Results& results);
+
 /// "1.69 m", "0.5 cm", "0.4 mm": two or three figures, in the unit that people would use.
 std::string LengthInWords(double metres);
 

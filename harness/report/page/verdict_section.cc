@@ -122,7 +122,7 @@ std::string VerdictSection(const Results& results, const std::vector<SceneRuns>&
   return fmt::format(
       "<h1>{}</h1>\n<p class=\"soft\">{}</p>\n{}<div class=\"verdict {}\"><strong>{}</strong>{}"
       "</div>\n{}",
-      Escape(results.suite), Escape(results.question), answer, css,
+      Escape(ReportTitle(results)), Escape(results.question), answer, css,
       Headline(results, failed.size(), flaky), lists, FailureRate(results.runs));
 }
 

@@ -43,6 +43,24 @@ TEST(PlanTest, ComesBackAsItWasWritten) {
   EXPECT_THROW(PlanFromJson("{}", "plan.json"), InputError);
 }
 
+TEST(PlanTest, SuitesOfBareScenesAskOneQuestion) {
+  PlanFile plan;
+  const auto drive = [&](const std::string& name) {
+    Suite& suite = plan.suites.emplace_back();
+    suite.question = QuestionOfScenes({name});
+    suite.scenes = {{name, name + ".yaml"}};
+  };
+  drive("drive/one");
+  EXPECT_EQ(plan.question(), "How do the systems fare on drive/one?");
+  drive("drive/two");
+  EXPECT_EQ(plan.question(), "How do the systems fare on drive/one, drive/two?");
+  drive("drive/three");
+  drive("drive/four");
+  EXPECT_EQ(plan.question(), "How do the systems fare on drive/one, drive/two and 2 more?");
+  plan.suites.emplace_back().question = "Which one wins?";
+  EXPECT_TRUE(plan.question().ends_with("drive/four? Which one wins?")) << plan.question();
+}
+
 TEST(ShardTest, PartsAreDisjointAndTogetherTheWholeAndShareNoFrames) {
   const std::vector<RunSpec> specs = Plan(Example().suites);
   for (std::size_t count = 1; count <= 15; ++count) {

@@ -32,6 +32,16 @@ TEST(AnswerTest, SaysWhoIsOffByHowMuchAndWhatIsWonBack) {
               ElementsAre("On s, plain is off by 50 cm and oracle by 5.0 cm."));
 }
 
+TEST(ReportTitle, OfManySuitesNamesTwo) {
+  Results results;
+  for (const std::string suite : {"night", "one+two+three"}) {
+    results.suite = suite;
+    EXPECT_EQ(ReportTitle(results), suite);
+  }
+  results.suite = "one+two+three+four";
+  EXPECT_EQ(ReportTitle(results), "one + two and 2 more");
+}
+
 TEST(AnswerTest, OnlyARejectionWinsBackAndOnlyFromItsOwnTwin) {
   RunRecord mine = RunOf("s", "mine", 0.1);
   mine.spec.system = {.name = "mine", .external = ExternalSystem{.command = "mine"}};
