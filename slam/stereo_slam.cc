@@ -77,6 +77,19 @@ void NotePose(const FramePose& pose, TrackedFrame& result) {
   }
 }
 
+/// What not to look at, and how the rig has moved since the last frame, if the search for movers
+/// has told.
+struct Rejection {
+  ExternalMask mask;
+  std::optional<MeasuredMotion> rig_motion = {};
+};
+
+/// What a frame shows outside movers, and the same motion.
+struct Sight {
+  std::shared_ptr<const Frame> frame;
+  std::optional<MeasuredMotion> rig_motion;
+};
+
 }  // namespace
 
 /// Finds frames in the map that `keeper` keeps, and gives it keyframes.
@@ -85,11 +98,10 @@ struct StereoSlam::Impl {
 
   TrackedFrame Track(const StereoImages& images, const ExternalMask& mask,
                      const std::optional<MeasuredMotion>& motion);
-  std::shared_ptr<const Frame> See(const StereoImages& images, const ExternalMask& mask,
-                                   const std::optional<MeasuredMotion>& motion,
-                                   TrackedFrame& result);
-  ExternalMask RejectMovers(const StereoImages& images, const ExternalMask& mask,
-                            const std::optional<MeasuredMotion>& motion, TrackedFrame& result);
+  Sight See(const StereoImages& images, const ExternalMask& mask,
+            const std::optional<MeasuredMotion>& motion, TrackedFrame& result);
+  Rejection RejectMovers(const StereoImages& images, const ExternalMask& mask,
+                         const std::optional<MeasuredMotion>& motion, TrackedFrame& result);
   DriveState Drive() const;
   void TakeDueWork(TrackedFrame& result);
   bool TakeAsKeyframe(const std::shared_ptr<const Frame>& frame, FramePose& pose);
@@ -99,6 +111,10 @@ struct StereoSlam::Impl {
   void NoteOutcome(const std::shared_ptr<const Frame>& frame, const std::optional<FramePose>& pose,
                    bool is_keyframe);
   bool IsTimeForANewPart(std::int64_t stamp_ns) const;
+  /// Whether it is known where the rig was at the last frame.
+  bool IsFound() const {
+    return state == TrackingState::kTracking || state == TrackingState::kCoasting;
+  }
 
   const StereoCamera camera;
   const SlamOptions options;
@@ -136,11 +152,12 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
   TrackedFrame result;
   result.id = images.id;
   result.stamp_ns = images.stamp_ns;
-  std::shared_ptr<const Frame> frame;
-  arena.Execute([&] { frame = See(images, mask, motion, result); });
+  Sight sight;
+  arena.Execute([&] { sight = See(images, mask, motion, result); });
+  const std::shared_ptr<const Frame>& frame = sight.frame;
   TakeDueWork(result);
   track.Roll(options.base == Base::kPlain ? motion : std::nullopt, images.stamp_ns,
-             options.track.inertia);
+             options.track.inertia, IsFound() ? sight.rig_motion : std::nullopt);
 
   Stopwatch track_time(result.stage_ms["track"]);
   const Map& map = keeper.map();
@@ -172,36 +189,35 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
 
 /// What the frame shows outside movers. Corners depend on the images alone and are found while the
 /// detector leaves threads idle: its time includes what of them it waited for.
-std::shared_ptr<const Frame> StereoSlam::Impl::See(const StereoImages& images,
-                                                   const ExternalMask& mask,
-                                                   const std::optional<MeasuredMotion>& motion,
-                                                   TrackedFrame& result) {
+Sight StereoSlam::Impl::See(const StereoImages& images, const ExternalMask& mask,
+                            const std::optional<MeasuredMotion>& motion, TrackedFrame& result) {
   StereoCorners corners;
   Beside finding([&] { corners = FindStereoCorners(images, options.feature); });
-  const ExternalMask rejected = RejectMovers(images, mask, motion, result);
+  const Rejection rejected = RejectMovers(images, mask, motion, result);
   {
     Stopwatch time(result.stage_ms["extract"]);
     finding.Wait();
   }
-  return SeeFrame(images, std::move(corners), rejected, camera, options, result.stage_ms);
+  return {SeeFrame(images, std::move(corners), rejected.mask, camera, options, result.stage_ms),
+          rejected.rig_motion};
 }
 
 /// The caller's mask and what the detector finds moving, together; the latter is noted in `result`.
-ExternalMask StereoSlam::Impl::RejectMovers(const StereoImages& images, const ExternalMask& mask,
-                                            const std::optional<MeasuredMotion>& motion,
-                                            TrackedFrame& result) {
-  if (options.dynamic.method == DynamicMethod::kNone) return mask;
+Rejection StereoSlam::Impl::RejectMovers(const StereoImages& images, const ExternalMask& mask,
+                                         const std::optional<MeasuredMotion>& motion,
+                                         TrackedFrame& result) {
+  if (options.dynamic.method == DynamicMethod::kNone) return {mask};
   Stopwatch time(result.stage_ms["dynamic"]);
   DynamicInput input{images.stamp_ns, images.left, images.right, {}, motion};
-  const bool found = state == TrackingState::kTracking || state == TrackingState::kCoasting;
-  if (found && !motion) {
+  if (IsFound() && !motion) {
     input.expected = PredictMotion(track.memory(), images.stamp_ns, options.track);
   }
   DynamicOutput moving = detector.Detect(input);
   result.dynamic = std::move(moving.regions);
   result.dynamic_stages = std::move(moving.stages);
-  return {Union(mask.left, result.dynamic.mask), Union(mask.right, moving.mask_right),
-          mask.confidence};
+  return {{Union(mask.left, result.dynamic.mask), Union(mask.right, moving.mask_right),
+           mask.confidence},
+          moving.rig_motion};
 }
 
 DriveState StereoSlam::Impl::Drive() const {
@@ -262,8 +278,7 @@ bool StereoSlam::Impl::CanCoast(const Frame& frame) const {
   const double while_s = static_cast<double>(frame.stamp_ns - coasting_since_ns) * 1e-9;
   const bool early =
       state == TrackingState::kTracking || while_s <= options.track.inertia.longest_s;
-  const bool found = state == TrackingState::kTracking || state == TrackingState::kCoasting;
-  if (!found || !early) return false;
+  if (!IsFound() || !early) return false;
   // After the dark it may see another place.
   return !last_sight || !IsCut(*last_sight, frame);
 }
@@ -299,8 +314,7 @@ void StereoSlam::Impl::NoteOutcome(const std::shared_ptr<const Frame>& frame,
   policy->Note(frame, pose ? &*pose : nullptr, keyframe, Drive());
   ++frame_count;
   if (pose) {
-    const bool goes_on = state == TrackingState::kTracking || state == TrackingState::kCoasting;
-    track.Note(keeper.map(), *frame, *pose, goes_on, options.track);
+    track.Note(keeper.map(), *frame, *pose, IsFound(), options.track);
     if (options.localise_only) track.TakeCounts();  // the map stays as it is
     lost_since_ns.reset();
     state = TrackingState::kTracking;

@@ -53,6 +53,10 @@ DynamicOutput DynamicDetector::Impl::DetectRobustly(const DynamicInput& input) {
   output.mask_right = ShiftMaskToRight(result.dynamic.mask, result.stages.half_disparity);
   output.regions = std::move(result.dynamic);
   output.probability = std::move(result.probability);
+  if (!result.stages.gaps.empty()) {
+    const dynamic::EgoMotion& motion = result.stages.gaps.front().motion;
+    output.rig_motion = MeasuredMotion{motion.T_now_before, motion.covariance};
+  }
   output.stage_ms = std::move(result.stages.stage_ms);
   state = std::move(result.state);
   Keep(std::move(stages), output);

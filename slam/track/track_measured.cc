@@ -96,9 +96,12 @@ std::optional<FramePose> TrackMeasured(const PlainContext& context, const TrackM
 std::optional<FramePose> TrackCarried(const PlainContext& context, const TrackMemory& memory,
                                       const Places& places, std::int64_t turn) {
   auto found = TrackFrame(context, memory);
-  if (!memory.carried || (found && IsConvincing(*found, context.options))) return found;
+  if (!memory.carried) return found;
+  const bool convincing = found && IsConvincing(*found, context.options);
+  if (convincing && memory.velocity) return found;
   const Reckoned reckoned = ReckonedFrom(context.map, memory, *memory.carried);
   if (found && !Agrees(*found, reckoned, context.options.inertia.most_chi2)) found.reset();
+  if (found && convincing) return found;
   auto around = FindAround(context, memory, reckoned);
   if (around && (!found || around->pose.inliers > found->pose.inliers)) return around;
   return found ? found : FindByLooks(context, memory, reckoned, places, turn);

@@ -40,12 +40,13 @@ void TrackRecord::Note(const Map& map, const Frame& frame, const FramePose& pose
 }
 
 void TrackRecord::Roll(const std::optional<MeasuredMotion>& motion, std::int64_t stamp_ns,
-                       const InertiaOptions& inertia) {
+                       const InertiaOptions& inertia, const std::optional<MeasuredMotion>& seen) {
   memory_.carried.reset();
   const double seconds = static_cast<double>(stamp_ns - memory_.stamp_ns) * 1e-9;
-  if (!motion && memory_.velocity && seconds > 0 && seconds <= inertia.longest_s) {
-    memory_.carried = Compose({Eigen::Isometry3d::Identity(), memory_.covariance},
-                              Carry(*memory_.velocity, seconds, inertia));
+  if (!motion && seconds > 0 && seconds <= inertia.longest_s) {
+    const std::optional<MeasuredMotion> step =
+        memory_.velocity ? Carry(*memory_.velocity, seconds, inertia) : seen;
+    if (step) memory_.carried = Compose({Eigen::Isometry3d::Identity(), memory_.covariance}, *step);
   }
   if (memory_.measured && motion) {
     memory_.measured = Compose(*memory_.measured, *motion);

@@ -21,9 +21,11 @@ class TrackRecord {
             const TrackOptions& options);
 
   /// Notes how the rig has been measured to move from the last frame to the one that comes, at
-  /// `stamp_ns`; what was measured before it is of no use where nothing was.
+  /// `stamp_ns`; what was measured before it is of no use where nothing was. `seen`: how it has
+  /// moved since the last noted frame by the images, where anybody knows: in place of inertia while
+  /// there is no velocity that it could carry on.
   void Roll(const std::optional<MeasuredMotion>& motion, std::int64_t stamp_ns,
-            const InertiaOptions& inertia);
+            const InertiaOptions& inertia, const std::optional<MeasuredMotion>& seen = {});
 
   /// Notes a frame's pose of which nothing but the measured motion tells, or inertia (there is one
   /// of them). What was seen last is looked for in the next frame too.

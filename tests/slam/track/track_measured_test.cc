@@ -125,11 +125,32 @@ TEST_F(TrackMeasuredTest, WhatInertiaAllowsContendsWithWhatIsFoundWhereItLeads) 
 
 TEST_F(TrackMeasuredTest, WhatExplainsAllThatShouldBeSeenIsBelievedAgainstInertia) {
   const Eigen::Isometry3d truth = At(0, 0);  // an emergency stop
+  memory.velocity = Velocity{};
   memory.carried = Measured(At(0, 0.3), 0.004, 0.007);
   const auto frame = world.See(truth, kStep_ns);
   const auto found = TrackCarried({map, *frame, {}, 8, {}}, memory, {nullptr, index}, 0);
   ASSERT_TRUE(found);
   EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), 1e-3);
+}
+
+/// The drive has just begun: what the images have shown of the rig's motion is no inertia, which a
+/// jolt or a brake may belie. The crowd is all that should be seen.
+TEST_F(TrackMeasuredTest, ADriveThatBeginsBehindACrowdDoesNotGoAlongWithIt) {
+  world.Move(0, 500, {0, 0, 0.3});
+  const Eigen::Isometry3d truth = At(0, 0.3);
+  const auto frame = world.See(truth, kStep_ns);
+  const PlainContext context{map, *frame, {}, 8, {}};
+  memory.velocity = Velocity{};
+  memory.carried = Measured(At(0, 0.302), 0.004, 0.007);
+  const auto captured = TrackCarried(context, memory, {nullptr, index}, 0);
+  ASSERT_TRUE(captured);
+  EXPECT_TRUE(IsConvincing(*captured, context.options));
+  EXPECT_GT(Difference(truth.inverse(), captured->pose.T_rig_world).norm(), 0.25);
+
+  memory.velocity.reset();
+  const auto found = TrackCarried(context, memory, {nullptr, index}, 0);
+  ASSERT_TRUE(found);
+  EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), 0.015);
 }
 
 /// The rig was last seen at the origin, going ahead by a metre a second; racks look alike.
