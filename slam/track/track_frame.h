@@ -26,7 +26,8 @@ struct TrackMemory {
   /// How the rig has moved since, as measured; its covariance is that of the pose, too. Nothing
   /// where the way is not known without a gap.
   std::optional<MeasuredMotion> measured;
-  /// The same as its inertia carries it on; where nothing is measured, and its velocity is known.
+  /// The same as its inertia carries it on, or while no velocity is known, as the images have shown
+  /// it; where nothing is measured and one of them tells.
   std::optional<MeasuredMotion> carried;
 
   /// How the rig has moved since, by what is known of it; something must be.
