@@ -17,8 +17,8 @@ std::optional<FramePose> TrackMeasured(const PlainContext& context, const TrackM
 
 /// Finds the frame in the map as TrackFrame does. A pose that explains too little of what should be
 /// seen must be where the rig's inertia can have carried it, and contends with what is found by
-/// looking there, as if inertia were a measurement: who explains more is believed. While there is no
-/// velocity, and what is carried is what the images have shown of the rig's motion, no pose may
+/// looking there, as if inertia were a measurement: who explains more is believed. While there is
+/// no velocity, and what is carried is what the images have shown of the rig's motion, no pose may
 /// contradict it. Nothing if neither finds it.
 std::optional<FramePose> TrackCarried(const PlainContext& context, const TrackMemory& memory,
                                       const Places& places, std::int64_t turn);
