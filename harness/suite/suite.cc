@@ -4,6 +4,7 @@
 #include <span>
 #include <sstream>
 
+#include "harness/common/first_of_many.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
@@ -98,14 +99,7 @@ Suite LoadSuite(const std::string& file, const Vocabulary& vocabulary) {
 }
 
 std::string QuestionOfScenes(const std::vector<std::string>& scene_names) {
-  constexpr std::size_t kShown = 2, kMostNamed = 3;
-  const std::size_t count = scene_names.size();
-  if (count > kMostNamed) {
-    const std::vector<std::string> shown(scene_names.begin(), scene_names.begin() + kShown);
-    return fmt::format("How do the systems fare on {} and {} more?", fmt::join(shown, ", "),
-                       count - kShown);
-  }
-  return fmt::format("How do the systems fare on {}?", fmt::join(scene_names, ", "));
+  return fmt::format("How do the systems fare on {}?", FirstOfMany(scene_names, ", "));
 }
 
 Suite SuiteOfScene(const std::string& scene_file) {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <set>
 
+#include "harness/common/first_of_many.h"
 #include "harness/judge/twins.h"
 #include "harness/report/page/drive_outcome.h"
 #include "harness/report/page/parts.h"
@@ -124,16 +125,13 @@ std::string Sentence(const SceneErrors& errors) {
 }  // namespace
 
 std::string ReportTitle(const Results& results) {
-  constexpr std::size_t kShown = 2, kMostParts = 3;
   std::vector<std::string> parts;
   for (std::size_t begin = 0; begin <= results.suite.size();) {
     const std::size_t end = std::min(results.suite.find('+', begin), results.suite.size());
     parts.push_back(results.suite.substr(begin, end - begin));
     begin = end + 1;
   }
-  if (parts.size() <= kMostParts) return results.suite;
-  const std::vector<std::string> shown(parts.begin(), parts.begin() + kShown);
-  return fmt::format("{} and {} more", fmt::join(shown, " + "), parts.size() - kShown);
+  return FirstOfMany(parts, " + ");
 }
 
 std::string LengthInWords(double metres) {

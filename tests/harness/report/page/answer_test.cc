@@ -34,10 +34,10 @@ TEST(AnswerTest, SaysWhoIsOffByHowMuchAndWhatIsWonBack) {
 
 TEST(ReportTitle, OfManySuitesNamesTwo) {
   Results results;
-  for (const std::string suite : {"night", "one+two+three"}) {
-    results.suite = suite;
-    EXPECT_EQ(ReportTitle(results), suite);
-  }
+  results.suite = "night";
+  EXPECT_EQ(ReportTitle(results), "night");
+  results.suite = "one+two+three";
+  EXPECT_EQ(ReportTitle(results), "one + two + three");
   results.suite = "one+two+three+four";
   EXPECT_EQ(ReportTitle(results), "one + two and 2 more");
 }
