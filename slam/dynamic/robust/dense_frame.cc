@@ -95,6 +95,17 @@ void SpanHalfPixels(const cv::Mat1b& image, cv::Mat1b& low, cv::Mat1b& high) {
   }
 }
 
+/// The noise that the method counts with.
+GreyVariance UsualVariance(const SurfaceOptions& options) {
+  GreyVariance variance;
+  for (std::size_t grey = 0; grey < variance.size(); ++grey) {
+    const double growing = options.brightness_noise * static_cast<double>(grey);
+    variance[grey] =
+        static_cast<float>(growing * growing + options.grey_noise * options.grey_noise);
+  }
+  return variance;
+}
+
 struct StaticRow {
   float *place, *disparity, *per_disparity;
 };
@@ -183,8 +194,13 @@ cv::Mat1f FillRows(const cv::Mat1f& disparity, const std::vector<int>& unseen) {
   return filled;
 }
 
-cv::Mat1b QuietHalfImage(const cv::Mat1b& image) {
-  return WithoutNoise(HalfImage(image), MeasurePixelNoise(image));
+cv::Mat1b QuietHalfImage(const cv::Mat1b& image, const SurfaceOptions& options) {
+  GreyVariance noise = MeasurePixelNoise(image);
+  const GreyVariance usual = UsualVariance(options);
+  for (std::size_t grey = 0; grey < noise.size(); ++grey) {
+    noise[grey] = std::max(noise[grey] - usual[grey], 0.0F);
+  }
+  return WithoutNoise(HalfImage(image), noise);
 }
 
 DenseFrame MakeDenseFrame(const cv::Mat1b& left, const cv::Mat1b& right,
@@ -200,12 +216,8 @@ DenseFrame MakeDenseFrame(const cv::Mat1b& left, const cv::Mat1b& right,
 }
 
 cv::Mat1f DifferenceVariance(const cv::Mat1b& image, const SurfaceOptions& options) {
-  std::array<float, 256> of_grey;
-  for (std::size_t grey = 0; grey < of_grey.size(); ++grey) {
-    const double growing = options.brightness_noise * static_cast<double>(grey);
-    of_grey[grey] =
-        static_cast<float>(2 * (growing * growing + options.grey_noise * options.grey_noise));
-  }
+  GreyVariance of_grey = UsualVariance(options);
+  for (float& of_one : of_grey) of_one *= 2;
   cv::Mat1f variance;
   cv::LUT(image, cv::Mat1f(1, 256, of_grey.data()), variance);
   return variance;

@@ -36,8 +36,9 @@ StereoCamera HalfCamera(const StereoCamera& camera);
 
 cv::Mat1b HalfImage(const cv::Mat1b& image);
 
-/// The same, less the noise that the image itself shows.
-cv::Mat1b QuietHalfImage(const cv::Mat1b& image);
+/// The same, less the noise that the image itself shows and the method does not count with: in
+/// usual light nothing, as what is fainter than usual noise may be the texture of a floor.
+cv::Mat1b QuietHalfImage(const cv::Mat1b& image, const SurfaceOptions& options);
 
 /// Disparity of images that are of half size already, without the columns where the matcher saw
 /// only padding.

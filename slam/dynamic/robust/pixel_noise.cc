@@ -1,5 +1,6 @@
 #include "slam/dynamic/robust/pixel_noise.h"
 
+#include <algorithm>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -75,6 +76,9 @@ GreyVariance MeasurePixelNoise(const cv::Mat1b& image) {
 }
 
 cv::Mat1b WithoutNoise(const cv::Mat1b& image, const GreyVariance& noise) {
+  if (std::all_of(noise.begin(), noise.end(), [](float variance) { return variance <= 0; })) {
+    return image;
+  }
   constexpr int kReach = 2, kArea = (2 * kReach + 1) * (2 * kReach + 1);
   const cv::Mat1b padded = Reflected(image, kReach);
   cv::Mat1w grey;  // 25 of them fit

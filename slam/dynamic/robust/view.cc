@@ -6,8 +6,8 @@ namespace aisle::slam::dynamic {
 
 View LookAt(const StereoPair& images, std::int64_t stamp_ns, const RobustOptions& options) {
   cv::Mat1b left, right;
-  ParallelInvoke([&] { left = QuietHalfImage(images.left); },
-                 [&] { right = QuietHalfImage(images.right); });
+  ParallelInvoke([&] { left = QuietHalfImage(images.left, options.surface); },
+                 [&] { right = QuietHalfImage(images.right, options.surface); });
   View view;
   ParallelInvoke(
       [&] {
