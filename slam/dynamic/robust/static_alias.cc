@@ -142,7 +142,9 @@ float LimitByAlias(const AliasViews& views, const SeenMotion& seen, float log_od
   const int enough = static_cast<int>(std::min((moving + log_odds / gain) * unit, kUnknown));
   int best = enough;
   for (int k = 0; k < stereo.count(); ++k) {
-    if (stereo[k] >= best || !stereo.IsValley(k)) continue;
+    if (stereo[k] >= best) continue;
+    // What runs along the rows fits a whole range of disparities without a valley in it.
+    if (!stereo.IsValley(k) && stereo[k] > stereo[own]) continue;
     if (!views.tolerance.IsOther(seen.disparity, static_cast<float>(k))) continue;
     const Steps steps = StepsAround(k, seen.per_disparity);
     for (int s = 0; s < steps.count && stereo[k] < best; ++s) {

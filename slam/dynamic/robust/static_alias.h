@@ -37,8 +37,9 @@ float GainPerDifference(float difference, const EvidenceOptions& options);
 /// a corrugated wall or a row of equal bars the matcher may be whole periods off, and the flow as
 /// well; then neither can be taken at its word. But something static with another disparity fits
 /// the right and the earlier image together as well as what moves does. All disparities that the
-/// matcher searched are heard that are surely other than the pixel's own. Without a way that they
-/// could move the pixel by (a rig that stands still) nothing is taken off.
+/// matcher searched are heard that are surely other than the pixel's own and fit the right image
+/// better than their neighbours, or as well as the pixel's own does: along a beam all do. Without a
+/// way that they could move the pixel by (a rig that stands still) nothing is taken off.
 float LimitByAlias(const AliasViews& views, const SeenMotion& seen, float log_odds,
                    const EvidenceOptions& options);
 

@@ -67,6 +67,27 @@ TEST(LimitByAlias, ARepeatingPatternThatNoStaticWayExplainsKeepsAll) {
   EXPECT_FLOAT_EQ(mover.Left({80, 20}, 5), kFound);
 }
 
+/// A beam that runs along the rows looks much the same at every disparity: the lamp that is
+/// mirrored in it lets the fit fall evenly towards the far, and no disparity between fits better
+/// than both its neighbours.
+TEST(LimitByAlias, ABeamAlongTheRowsMayBeAtAnyDisparityThatFitsAsWell) {
+  const cv::Point at(80, 20);
+  std::mt19937 random(7);
+  DenseFrame now;
+  now.image.create(40, 160);
+  for (int y = 0; y < now.image.rows; ++y)
+    now.image.row(y) = static_cast<unsigned char>(60 + random() % 130);
+  cv::Mat1b right = now.image.clone();
+  for (int x = 0; x < right.cols; ++x) right.col(x) += (at.x - x) / 4;
+  now.right_low = now.right_high = right;
+  cv::Mat1b then(now.image.size());
+  const int way = 2;  // as at disparity 4
+  for (int y = 0; y < then.rows; ++y) now.image.row(std::max(y - way, 0)).copyTo(then.row(y));
+  const cv::Mat1f variance(now.image.size(), 8.0F);
+  const SeenMotion seen{at, kOwn, {80, 20.0F + way}, {80, 20 + 0.5F * kOwn}, kOwn, {0, 0.5F}};
+  EXPECT_EQ(LimitByAlias({now, then, variance, test::kUsualTolerance}, seen, kFound, {}), 0);
+}
+
 TEST(LimitByAlias, BeforeAStandingRigNoDisparityExplainsAnything) {
   const Wall wall(8, 4, 2);
   EXPECT_FLOAT_EQ(wall.Left({80, 20}, 2, 0), kFound);
