@@ -25,6 +25,8 @@ constexpr double kSampleGate = 4 * kInlierChi2;
 constexpr double kImpossibleChi2 = 27.9;
 /// Three static points are among so many samples with 99.97 % if half of the matches are.
 constexpr int kHypotheses = 60;
+/// Refined before they are compared where no motion has most of the trust.
+constexpr std::size_t kContenders = 10;
 /// Of re-weighting, each with its Gauss-Newton steps; they end before where nothing changes.
 constexpr int kRounds = 3, kIterations = 4;
 
@@ -320,29 +322,6 @@ EgoMotion RefineMeasured(const std::vector<StereoMatch>& matches, const StereoCa
                 measured);
 }
 
-/// Of the candidates the one with most trust behind it, refined; what is expected where none of
-/// them is possible. `spread` are the matches weighed by space.
-EgoMotion MostTrusted(const std::vector<Isometry3d>& candidates,
-                      const std::vector<StereoMatch>& spread,
-                      const std::vector<StereoMatch>& matches, const StereoCamera& camera,
-                      const MeasurementNoise& noise, const MaybeExpected& expected) {
-  const Vector3d inverse_deviation = InverseDeviation(noise);
-  const std::vector<PlacedMatch> placed = Placed(spread, camera);
-  std::vector<double> scores(candidates.size());
-  ParallelFor(std::size_t{0}, candidates.size(), [&](std::size_t k) {
-    scores[k] = Support(placed, camera, candidates[k], inverse_deviation, kSampleGate) *
-                Plausibility(candidates[k], expected);
-  });
-  const auto highest = std::max_element(scores.begin(), scores.end());  // the first of equals
-  if (*highest <= 0) return AsExpected(expected);
-  const Isometry3d& best = candidates[static_cast<std::size_t>(highest - scores.begin())];
-  // What is near and large must not pull while the gate is wide.
-  const EgoMotion close = Refine(spread, camera, best, noise, kRounds, expected);
-  const EgoMotion found = Refine(matches, camera, close.T_now_before, noise, 1, expected);
-  const bool possible = !expected || expected->Chi2Of(found.T_now_before) < kImpossibleChi2;
-  return possible ? found : AsExpected(expected);
-}
-
 /// Whether most of the trust lies in matches that follow a motion.
 bool IsOfMost(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
               const Isometry3d& T_now_before, const MeasurementNoise& noise) {
@@ -352,6 +331,47 @@ bool IsOfMost(const std::vector<StereoMatch>& matches, const StereoCamera& camer
       Followers(placed, camera, T_now_before, InverseDeviation(noise), kSampleGate);
   return 2 * std::accumulate(followers.begin(), followers.end(), 0.0, trust) >
          std::accumulate(placed.begin(), placed.end(), 0.0, trust);
+}
+
+struct Candidate {
+  Isometry3d T_now_before;
+  double trust = 0;
+};
+
+bool LessTrusted(const Candidate& a, const Candidate& b) { return a.trust < b.trust; }
+
+/// Of the motions the one with most trust behind it, refined; what is expected where none of
+/// them is possible. `spread` are the matches weighed by space. Where none has most of the trust,
+/// the best are refined before they are compared (locally optimised RANSAC: Chum, Matas and Kittler
+/// 2003): standing still is exact for whoever goes along with the rig, a sample of the world has
+/// the noise of its three points.
+EgoMotion MostTrusted(const std::vector<Isometry3d>& motions,
+                      const std::vector<StereoMatch>& spread,
+                      const std::vector<StereoMatch>& matches, const StereoCamera& camera,
+                      const MeasurementNoise& noise, const MaybeExpected& expected) {
+  const Vector3d inverse_deviation = InverseDeviation(noise);
+  const std::vector<PlacedMatch> placed = Placed(spread, camera);
+  const auto judged = [&](const Isometry3d& T) {
+    const double support = Support(placed, camera, T, inverse_deviation, kSampleGate);
+    return Candidate{T, support * Plausibility(T, expected)};
+  };
+  std::vector<Candidate> best(motions.size());
+  ParallelFor(std::size_t{0}, best.size(), [&](std::size_t k) { best[k] = judged(motions[k]); });
+  std::stable_sort(best.begin(), best.end(),
+                   [](const Candidate& a, const Candidate& b) { return LessTrusted(b, a); });
+  if (best.front().trust <= 0) return AsExpected(expected);
+  const bool of_most = IsOfMost(spread, camera, best.front().T_now_before, noise);
+  best.resize(of_most ? 1 : std::min(best.size(), kContenders));
+  ParallelFor(std::size_t{0}, best.size(), [&](std::size_t k) {
+    // Who is near and large must not pull while the gate is wide; where somebody has, the motion
+    // stays as it was.
+    const EgoMotion close = Refine(spread, camera, best[k].T_now_before, noise, kRounds, expected);
+    best[k] = std::max(best[k], judged(close.T_now_before), LessTrusted);
+  });
+  const Candidate& most = *std::max_element(best.begin(), best.end(), LessTrusted);
+  const EgoMotion found = Refine(matches, camera, most.T_now_before, noise, 1, expected);
+  const bool possible = !expected || expected->Chi2Of(found.T_now_before) < kImpossibleChi2;
+  return possible ? found : AsExpected(expected);
 }
 
 }  // namespace

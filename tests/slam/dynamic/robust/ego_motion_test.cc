@@ -102,6 +102,19 @@ TEST(EstimateEgoMotion, ARigInMotionIsNotStoppedByWhoGoesAlong) {
   EXPECT_LT((found.T_now_before.translation() - truth.translation()).norm(), 0.005);
 }
 
+/// Who goes along at the rig's speed does not move in the image, and a sample of three points has
+/// no noise there; a sample of the world, which fills more of space, has the noise of all three.
+TEST(EstimateEgoMotion, AWorldOfLittleMoreIsNotLostToTheNoiseOfItsSamples) {
+  const Isometry3d truth = Motion({0, 0, -0.12}, 0);
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    auto matches = MakeMatches(300, 150, truth, {0, 0, 0.12}, seed);
+    for (std::size_t k = 150; k < matches.size(); ++k) matches[k].weight = 0.06;
+    const EgoMotion found = EstimateEgoMotion(matches, kCamera, std::nullopt, kNoise, {});
+    ASSERT_TRUE(found.found);
+    EXPECT_LT((found.T_now_before.translation() - truth.translation()).norm(), 0.01) << seed;
+  }
+}
+
 /// Three far points follow the motion, too few and too far to tell that it was not zero.
 TEST(EstimateEgoMotion, ThreeFarPointsDoNotStopARigThatIsExpectedToGo) {
   const Isometry3d truth = Motion({0, 0, -0.045}, 0);
