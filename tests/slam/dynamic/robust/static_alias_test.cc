@@ -75,8 +75,9 @@ TEST(LimitByAlias, ABeamAlongTheRowsMayBeAtAnyDisparityThatFitsAsWell) {
   std::mt19937 random(7);
   DenseFrame now;
   now.image.create(40, 160);
-  for (int y = 0; y < now.image.rows; ++y)
+  for (int y = 0; y < now.image.rows; ++y) {
     now.image.row(y) = static_cast<unsigned char>(60 + random() % 130);
+  }
   cv::Mat1b right = now.image.clone();
   for (int x = 0; x < right.cols; ++x) right.col(x) += (at.x - x) / 4;
   now.right_low = now.right_high = right;
