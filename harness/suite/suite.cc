@@ -8,6 +8,7 @@
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
+#include "harness/record/record.h"
 #include "harness/suite/describe_suite.h"
 #include "harness/suite/recording.h"
 #include "harness/suite/suite_reader.h"
@@ -53,11 +54,16 @@ std::string AddScene(const fs::path& folder, const std::string& text, Suite* sui
   }
   const SuiteScene scene{SceneName(*file), *file, IsRecording(*file)};
   for (const SuiteScene& other : suite->scenes) {
-    if (other.name != scene.name) continue;
-    return fmt::format(
-        "{} and {} would both be called '{}': rename one, or put them below folders of a folder "
-        "called scenes",
-        other.file, scene.file, scene.name);
+    if (other.name == scene.name) {
+      return fmt::format(
+          "{} and {} would both be called '{}': rename one, or put them below folders of a folder "
+          "called scenes",
+          other.file, scene.file, scene.name);
+    }
+    if (SafeName(other.name) == SafeName(scene.name)) {
+      return fmt::format("{} and {} would share the run folder '{}': rename one", other.file,
+                         scene.file, SafeName(scene.name));
+    }
   }
   suite->scenes.push_back(scene);
   return "";
@@ -74,6 +80,26 @@ void RequireSame(const std::vector<Value>& ones, const std::vector<Value>& other
           "rename one or run them one after the other",
           what, one.name));
     }
+  }
+}
+
+/// Adds those that are not there yet. Folders of runs are told apart by letters, digits and the
+/// first 80 characters of a name: two runs of one folder would be given one run's figures.
+void AddEachOnce(const std::vector<RunSpec>& more, std::vector<RunSpec>* specs,
+                 std::map<std::string, std::size_t>* by_id) {
+  for (const RunSpec& spec : more) {
+    const auto [at, is_new] = by_id->try_emplace(RunId(spec), specs->size());
+    if (is_new) {
+      specs->push_back(spec);
+      continue;
+    }
+    const RunSpec& other = (*specs)[at->second];
+    if (other == spec) continue;
+    throw InputError(fmt::format(
+        "'{}' ({}, system {}) and '{}' ({}, system {}) would share the run folder '{}': rename "
+        "one, or run them one after the other",
+        other.scene, other.scene_file, other.system.name, spec.scene, spec.scene_file,
+        spec.system.name, at->first));
   }
 }
 
@@ -163,6 +189,7 @@ std::vector<RunSpec> Plan(const Suite& suite) {
 
 std::vector<RunSpec> Plan(const std::vector<Suite>& suites) {
   std::vector<RunSpec> specs;
+  std::map<std::string, std::size_t> by_id;
   for (std::size_t i = 0; i < suites.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       RequireSame(suites[j].systems, suites[i].systems, "system", std::equal_to<SystemSpec>());
@@ -172,9 +199,7 @@ std::vector<RunSpec> Plan(const std::vector<Suite>& suites) {
                            fs::absolute(other.file).lexically_normal();
                   });
     }
-    for (const RunSpec& spec : Plan(suites[i])) {
-      if (std::find(specs.begin(), specs.end(), spec) == specs.end()) specs.push_back(spec);
-    }
+    AddEachOnce(Plan(suites[i]), &specs, &by_id);
   }
   return specs;
 }

@@ -23,7 +23,7 @@ struct SuiteScene {
 struct Suite {
   std::string name;
   std::string question;
-  std::vector<SuiteScene> scenes;   ///< names are unique
+  std::vector<SuiteScene> scenes;   ///< names are unique, as folders too (SafeName)
   std::vector<SystemSpec> systems;  ///< names are unique
   std::vector<std::string> twins = {"live"};
   /// Nine show a shift of two standard deviations in 97 nights of 100; three never can.
@@ -81,7 +81,8 @@ std::string SuiteReference(const Vocabulary& vocabulary);
 std::vector<RunSpec> Plan(const Suite& suite);
 
 /// Every cell of several suites, each once. Throws InputError where two suites mean different
-/// things by one name of a system or scene: their figures would be mixed up.
+/// things by one name of a system or scene, or two runs would share a folder: their figures would
+/// be mixed up.
 std::vector<RunSpec> Plan(const std::vector<Suite>& suites);
 
 }  // namespace aisle

@@ -154,7 +154,12 @@ TEST_F(SuiteTest, MistakesAreNamedWithPlaceAndRemedy) {
        "s.yaml:2:10: scenes: 'paper/none': there is no such scene in"},
       {"suite: a\nscenes: [paper/one, ../paper/one.yaml]\nsystems: [oracle]\n",
        "would both be called 'paper/one'"},
+      {"suite: a\nscenes: [paper/dock_1, \"paper/dock 1\"]\nsystems: [oracle]\n",
+       "paper/dock 1.yaml would share the run folder 'paper.dock_1': rename one"},
   };
+  for (const char* file : {"paper/dock_1.yaml", "paper/dock 1.yaml"}) {
+    WriteFileAtomically(root_ / file, "scene: dock\n");
+  }
   for (const auto& [text, expected] : cases) EXPECT_THAT(Complaint(text), HasSubstr(expected));
 }
 
@@ -218,6 +223,25 @@ TEST_F(SuiteTest, SeveralSuitesKeepTheirOwnSystemsAndShareEqualCells) {
   other = one;
   other.scenes.front().file = (root_ / "paper/two.yaml").string();
   EXPECT_THROW(Plan(std::vector{one, other}), InputError);  // one name, two scenes
+}
+
+TEST_F(SuiteTest, TwoScenesOfOneRunFolderAreRefused) {
+  const std::string long_name(80, 'x');
+  const std::pair<std::string, std::string> pairs[] = {
+      {"dock 1", "dock_1"}, {"a/b", "a.b"}, {long_name + "1", long_name + "2"}};
+  for (const auto& [name, other_name] : pairs) {
+    Suite one = Load(kGood), other = one;
+    one.scenes = {{.name = name, .file = name + ".yaml"}};
+    other.scenes = {{.name = other_name, .file = other_name + ".yaml"}};
+    try {
+      Plan(std::vector{one, other});
+      ADD_FAILURE() << name;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(name + ".yaml"));
+      EXPECT_THAT(error.what(), HasSubstr(other_name + ".yaml"));
+      EXPECT_THAT(error.what(), HasSubstr("would share the run folder"));
+    }
+  }
 }
 
 TEST(SuiteSchemaTest, DescribesWhatTheReaderTakes) {
