@@ -5,16 +5,23 @@
 
 #include "harness/io/places.h"
 #include "harness/record/group.h"
+#include "harness/report/markup/html.h"
 
 namespace aisle {
 namespace {
 
-/// XML 1.0 has no way to write most control bytes.
+/// XML 1.0 (section 2.2) has no way to write most control bytes, U+FFFE and U+FFFF: they are left
+/// out. Bytes that are no UTF-8 are replaced. One of them would cost the reader every verdict.
 std::string XmlText(const std::string& text) {
   std::string clean;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x20 || c == '\n' || c == '\t') clean += c;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = CharacterLength(text, at);
+    const std::string character = length == 0 ? "\xEF\xBF\xBD" : text.substr(at, length);
+    const auto first = static_cast<unsigned char>(character[0]);
+    const bool is_control = first < 0x20 && first != '\n' && first != '\t';
+    const bool is_none = character == "\xEF\xBF\xBE" || character == "\xEF\xBF\xBF";
+    if (!is_control && !is_none) clean += character;
+    at += std::max<std::size_t>(length, 1);
   }
   return clean;
 }

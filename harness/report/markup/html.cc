@@ -15,23 +15,6 @@ bool MayFollow(unsigned char first, unsigned char second) {
   return low <= second && second <= high;
 }
 
-/// Length of the well-formed UTF-8 character at `at`; 0 if there is none.
-std::size_t CharacterLength(const std::string& text, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
-  const unsigned char first = byte(0);
-  if (first < 0x80) return 1;
-  const std::size_t length = first < 0xC2   ? 0
-                             : first < 0xE0 ? 2
-                             : first < 0xF0 ? 3
-                             : first < 0xF5 ? 4
-                                            : 0;
-  if (length == 0 || at + length > text.size() || !MayFollow(first, byte(1))) return 0;
-  for (std::size_t i = 2; i < length; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-  }
-  return length;
-}
-
 std::string EscapeAscii(char c) {
   switch (c) {
     case '&':
@@ -53,6 +36,22 @@ std::string EscapeAscii(char c) {
 }
 
 }  // namespace
+
+std::size_t CharacterLength(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
+  const unsigned char first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first < 0xC2   ? 0
+                             : first < 0xE0 ? 2
+                             : first < 0xF0 ? 3
+                             : first < 0xF5 ? 4
+                                            : 0;
+  if (length == 0 || at + length > text.size() || !MayFollow(first, byte(1))) return 0;
+  for (std::size_t i = 2; i < length; ++i) {
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+  }
+  return length;
+}
 
 std::string Escape(const std::string& text) {
   std::string escaped;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <bit>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
@@ -277,6 +278,52 @@ TEST_F(ReportTest, JunitNamesTheRunToRepeatAndQuotesItsLastWords) {
   EXPECT_THAT(junit, HasSubstr("rerun: ./aisle rerun s/live/orbslam2/2 --in out/tonight"));
   EXPECT_THAT(junit, HasSubstr("rerun: ./aisle rerun paper.scene2/live/mine/1 --in out/tonight"));
   EXPECT_THAT(junit, HasSubstr("its last words:\nmap.cc:42: Assertion failed"));
+}
+
+/// The code points of UTF-8 text, strictly: overlong forms, surrogates and stray bytes throw.
+std::u32string CodePoints(const std::string& text) {
+  std::u32string points;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text.at(at + i)); };
+    const int more = byte(0) < 0x80 ? 0 : std::countl_one(byte(0)) - 1;
+    if (more > 3 || (more == 0 && byte(0) >= 0x80)) throw std::runtime_error("a stray byte");
+    char32_t point = more == 0 ? byte(0) : byte(0) & (0x3Fu >> more);
+    for (int i = 1; i <= more; ++i) {
+      if ((byte(static_cast<std::size_t>(i)) & 0xC0) != 0x80) throw std::runtime_error("too short");
+      point = point << 6 | (byte(static_cast<std::size_t>(i)) & 0x3Fu);
+    }
+    constexpr char32_t kLeast[] = {0, 0x80, 0x800, 0x10000};
+    if (point < kLeast[more]) throw std::runtime_error("overlong");
+    points += point;
+    at += static_cast<std::size_t>(more) + 1;
+  }
+  return points;
+}
+
+/// Char of XML 1.0, section 2.2.
+bool IsXmlCharacter(char32_t c) {
+  return c == 0x9 || c == 0xA || c == 0xD || (c >= 0x20 && c <= 0xD7FF) ||
+         (c >= 0xE000 && c <= 0xFFFD) || (c >= 0x10000 && c <= 0x10FFFF);
+}
+
+TEST_F(ReportTest, JunitIsWellFormedWhateverASystemSays) {
+  const std::string said =
+      "ä\xEF\xBF\xBE\xEF\xBF\xBF😀 \xEF\xBF\xBD\x01\x1b\xFF\xC0\xAF\xED\xA0\x80\xE2\x82 <&\"]]>";
+  Results results = Make({Crashed("x")}, {});
+  results.suite = said;
+  results.runs.at(0).last_words = said;
+  results.verdicts.at(0).name = said;
+  results.verdicts.at(0).why = said;
+  results.verdicts.at(0).scene = results.runs.at(0).spec.scene;
+  results.verdicts.at(0).twin = results.runs.at(0).spec.twin;
+  results.verdicts.at(0).system = results.runs.at(0).spec.system.name;
+  const std::string junit = ToJunit(results);
+  for (const char32_t c : CodePoints(junit)) {
+    EXPECT_TRUE(IsXmlCharacter(c)) << static_cast<std::uint32_t>(c);
+  }
+  EXPECT_THAT(junit, HasSubstr("its last words:\nä😀 "));
+  pugi::xml_document document;
+  EXPECT_TRUE(document.load_string(junit.c_str()));
 }
 
 TEST_F(ReportTest, JunitNamesEveryRunThatCameToItsEnd) {
