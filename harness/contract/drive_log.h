@@ -42,7 +42,7 @@ struct Contact {
   std::int64_t stamp_ns = 0;
   std::string with;          ///< its name in the scene
   std::string object_class;  ///< "rack", "person", …
-  double speed_mps = 0;      ///< of the vehicle
+  double speed_mps = 0;      ///< of the vehicle; turning on the spot, of its farthest corner
   FloorPose vehicle;
   bool is_actor = false;
   bool operator==(const Contact&) const = default;

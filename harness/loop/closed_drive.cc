@@ -1,6 +1,7 @@
 #include "harness/loop/closed_drive.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "harness/common/mix.h"
 #include "harness/loop/contact_watch.h"
@@ -35,6 +36,12 @@ QueueRule RuleOf(const Steering& steering) {
   return steering.queue == "pipeline" ? QueueRule::kPipeline : QueueRule::kNewest;
 }
 
+double MeanLatency_ms(const Steering& steering) {
+  const std::vector<double>& profile = steering.latency_profile_ms;
+  if (profile.empty()) return steering.latency_ms;
+  return std::accumulate(profile.begin(), profile.end(), 0.0) / static_cast<double>(profile.size());
+}
+
 /// The longest that a healthy system is silent: its latency, and the frames it cannot take
 /// meanwhile.
 double KnownLatency(const Steering& steering) {
@@ -43,14 +50,14 @@ double KnownLatency(const Steering& steering) {
   return 1e-3 * ms;
 }
 
-PilotOptions PilotOf(const Course& course, const LoopOptions& loop) {
+PilotOptions PilotOf(const Course& course, double frame_s, const LoopOptions& loop) {
   const Steering& steering = loop.steering;
   PilotOptions options;
   if (loop.taught) options.T_site_slam = loop.taught->T_site_slam;
   options.driver = course.driver;
   if (steering.driver == "kanayama") options.driver.law = SteeringLaw::kKanayama;
   if (steering.driver == "pure_pursuit") options.driver.law = SteeringLaw::kPurePursuit;
-  options.watch.latency_s = KnownLatency(steering);
+  options.watch.latency_s = KnownLatency(steering) + frame_s;
   options.T_vehicle_rig = course.T_vehicle_rig;
   return options;
 }
@@ -65,7 +72,7 @@ class ClosedDrive::Loop {
         options_(options),
         server_(RuleOf(options.steering), LatencyOf(options.steering, options.seed)),
         pilot_(options.taught ? options.taught->way : course_.way, course_.start,
-               PilotOf(course_, options)),
+               PilotOf(course_, 1 / scene.rate_hz(), options)),
         odometer_(course_.odometry, course_.plant, options.seed),
         traffic_(scene),
         contacts_(course_, &track_) {
@@ -83,12 +90,12 @@ class ClosedDrive::Loop {
     const std::int64_t limit_ns =
         std::llround(1e9 * (options_.times_planned * course_.planned_s + options_.and_s));
     while (!over_) {
+      // Who is done as a frame arrives and takes the newest takes this one; who drops what comes
+      // while it works has to be done before it comes.
+      if (server_.rule() == QueueRule::kNewest) PhotographIfDue();
       Listen();
       if (const Exposure* asked = server_.asked()) return asked;
-      if (now_ns_ == scene_.Stamp(frame_)) {
-        Photograph();
-        continue;
-      }
+      if (PhotographIfDue()) continue;
       if (now_ns_ % options_.tick_ns == 0) Tick();
       if (now_ns_ >= limit_ns && !over_) End(DriveEnd::kTimeout);
       if (failed_) End(DriveEnd::kFailed);
@@ -134,13 +141,22 @@ class ClosedDrive::Loop {
 
   double Speed() const { return plant_.AheadSpeed(course_.plant.kind); }
 
-  Encounter Now() const { return {now_ns_, plant_.pose, Speed(), traffic_.capsules()}; }
+  Encounter Now() const {
+    return {now_ns_, plant_.pose, Speed(), traffic_.capsules(), plant_.turn_rate_rad_s};
+  }
 
   void Listen() {
     for (const Answer& answer : server_.Due(now_ns_)) {
       pilot_.Told(answer.frame_ns, now_ns_, answer.T_slam_rig);
     }
     track_.frames_shown = server_.shown();  // one that waited may have been begun
+  }
+
+  /// False where no frame is due, or the system is yet to tell of one.
+  bool PhotographIfDue() {
+    if (now_ns_ != scene_.Stamp(frame_) || server_.asked() != nullptr) return false;
+    Photograph();
+    return true;
   }
 
   void Photograph() {
@@ -177,12 +193,8 @@ class ClosedDrive::Loop {
   }
 
   void HoldByScanner(double tick_s) {
-    const bool wants = std::abs(command_.speed_mps) > 0;
-    const double toward = command_.speed_mps < 0 ? -1 : 1;
-    const double speed = std::max(std::abs(Speed()), held_ ? options_.scanner.restart_mps : 0.0);
-    const Polygon field = ProtectiveField(course_.footprint, toward * speed,
-                                          course_.plant.stop_mps2, options_.scanner);
-    const bool blocked = wants && IsBlocked(course_, plant_.pose, field, traffic_.capsules());
+    const bool wants = std::abs(command_.speed_mps) > 0 || std::abs(command_.turn_rate_rad_s) > 0;
+    const bool blocked = wants && (command_.speed_mps == 0 ? IsTurnBlocked() : IsWayBlocked());
     clear_s_ = blocked ? 0 : clear_s_ + tick_s;
     if (blocked && !held_) ++track_.scanner_stops;
     if (blocked) held_ = true;
@@ -192,8 +204,37 @@ class ClosedDrive::Loop {
     mode_ = DriveMode::kScanner;
   }
 
+  bool IsWayBlocked() const {
+    const ScannerOptions& scanner = options_.scanner;
+    const double toward = command_.speed_mps < 0 ? -1 : 1;
+    const double speed = std::max(std::abs(Speed()), held_ ? scanner.restart_mps : 0.0);
+    const Polygon field =
+        ProtectiveField(course_.footprint, toward * speed, course_.plant.stop_mps2, scanner);
+    return IsBlocked(course_, plant_.pose, field, traffic_.capsules());
+  }
+
+  /// On the spot, as far as it turns before it can stand.
+  bool IsTurnBlocked() const {
+    const ScannerOptions& scanner = options_.scanner;
+    const double toward = command_.turn_rate_rad_s < 0 ? -1 : 1;
+    const double rate =
+        std::max(std::abs(plant_.turn_rate_rad_s), held_ ? scanner.restart_rad_s : 0.0);
+    const double turn =
+        rate * scanner.reaction_s + rate * rate / (2 * course_.plant.turn_acceleration_rad_s2);
+    const Polygon field = TurningField(course_.footprint, scanner);
+    constexpr double kStep_rad = 0.05;
+    const int steps = static_cast<int>(std::ceil(turn / kStep_rad));
+    for (int k = 0; k <= steps; ++k) {
+      const FloorPose there = AlongArc(plant_.pose, 0, toward * std::min(k * kStep_rad, turn));
+      if (IsBlocked(course_, there, field, traffic_.capsules())) return true;
+    }
+    return false;
+  }
+
   void CountTime(double tick_s) {
-    const bool lost = mode_ == DriveMode::kDegraded || mode_ == DriveMode::kStopped;
+    const bool never_told =
+        !pilot_.steers_by_ns() && Seconds(now_ns_) > KnownLatency(options_.steering);
+    const bool lost = mode_ == DriveMode::kDegraded || mode_ == DriveMode::kStopped || never_told;
     const bool stopped = mode_ == DriveMode::kStopped || mode_ == DriveMode::kScanner;
     if (lost) track_.lost_s += tick_s;
     if (stopped) track_.stopped_s += tick_s;
@@ -230,8 +271,10 @@ class ClosedDrive::Loop {
     settled_s_ = pilot_.arrived() ? settled_s_ + tick_s : 0;
     if (settled_s_ >= kSettle_s) return End(DriveEnd::kArrived);
     const DriverState& driver = pilot_.driver();
-    const bool pauses =
-        driver.leg < course_.way.size() && course_.way[driver.leg].kind == WayLeg::Kind::kPause;
+    // Who has no pose does not pause: it stands.
+    const bool pauses = mode_ == DriveMode::kWaiting && pilot_.steers_by_ns() &&
+                        driver.leg < course_.way.size() &&
+                        course_.way[driver.leg].kind == WayLeg::Kind::kPause;
     const bool goes_on = pauses || std::abs(Speed()) > 0.01 ||
                          std::abs(plant_.turn_rate_rad_s) > 0.01 || pilot_.arrived();
     stands_s_ = goes_on ? 0 : stands_s_ + tick_s;
@@ -367,7 +410,7 @@ DriveLog LogOf(const Course& course, const Steering& steering) {
   log.goal_tolerance_rad = course.goal_tolerance_rad;
   log.footprint = course.footprint;
   log.things = ThingsNear(log.route, course.things);
-  log.latency_ms = steering.latency_ms;
+  log.latency_ms = MeanLatency_ms(steering);
   log.steered_by = steering.steered_by_truth ? "truth" : "estimate";
   return log;
 }

@@ -34,6 +34,12 @@ FloorPose ContactWatch::VehicleAt(double share) const {
   return AlongArc(before_->vehicle, share * way_m_, share * turn_rad_);
 }
 
+/// The vehicle's own speed; of one that turns on the spot that of its farthest corner.
+double ContactWatch::TouchSpeed(const Encounter& now) const {
+  return std::abs(now.speed_mps) > kUnderWay_mps ? now.speed_mps
+                                                 : std::abs(now.turn_rate_rad_s) * reach_m_;
+}
+
 /// Whether a distance that changes by at most `moved_m` over the whole step reaches 0 between two
 /// shares of it: halves the step until the motion is a millimetre.
 template <class DistanceAt>
@@ -76,7 +82,7 @@ void ContactWatch::SeeThings(const Encounter& now, const Polygon& footprint, dou
                              : distance <= 0;
     const std::string key = fmt::format("thing {}", i);
     Touch(touches, key,
-          {now.stamp_ns, thing.name, thing.object_class, now.speed_mps, now.vehicle, false});
+          {now.stamp_ns, thing.name, thing.object_class, TouchSpeed(now), now.vehicle, false});
     if (distance > kLetGo_m) touching_.erase(key);
     thing_distances_[i] = distance;
   }
@@ -85,7 +91,7 @@ void ContactWatch::SeeThings(const Encounter& now, const Polygon& footprint, dou
 
 void ContactWatch::SeeActors(const Encounter& now, const Polygon& footprint, double moved_m) {
   actor_m_ = kInfinity;
-  const bool under_way = std::abs(now.speed_mps) > kUnderWay_mps;
+  const bool under_way = std::abs(TouchSpeed(now)) > kUnderWay_mps;
   for (std::size_t i = 0; i < now.actors.size(); ++i) {
     const CourseActor& actor = course_.actors[i];
     const Capsule& there = now.actors[i];
@@ -104,10 +110,12 @@ void ContactWatch::SeeActors(const Encounter& now, const Polygon& footprint, dou
     }
     const bool touches =
         before_ ? TouchesBetween(between, 0, 1, distances_[i], distance, moved) : distance <= 0;
-    const std::string key = fmt::format("actor {}", i);
-    Touch(touches, key,
-          {now.stamp_ns, actor.name, actor.object_class, now.speed_mps, now.vehicle, true});
-    if (distance > kLetGo_m) touching_.erase(key);
+    // Somebody who touches the vehicle that stands, and is then driven into, is touched twice.
+    const std::string key = fmt::format("actor {}", i), driven_into = key + " under way";
+    Touch(touches, under_way ? driven_into : key,
+          {now.stamp_ns, actor.name, actor.object_class, TouchSpeed(now), now.vehicle, true});
+    if (touches) touching_.insert(key);
+    if (distance > kLetGo_m) touching_.erase(key), touching_.erase(driven_into);
     if (under_way && before_) {
       double& least = actor.object_class == "person" ? track_->min_clearance_person_m
                                                      : track_->min_clearance_vehicle_m;
@@ -125,10 +133,11 @@ void ContactWatch::SeeActors(const Encounter& now, const Polygon& footprint, dou
 
 void ContactWatch::SeeZones(const Encounter& now, const Polygon& footprint) {
   constexpr double kTooFast_mps = 0.02;  // over the zone's speed
-  for (const CourseZone& zone : course_.zones) {
+  for (std::size_t i = 0; i < course_.zones.size(); ++i) {
+    const CourseZone& zone = course_.zones[i];
     const Polygon area = {
         zone.low, {zone.high.x(), zone.low.y()}, zone.high, {zone.low.x(), zone.high.y()}};
-    const std::string key = "zone " + zone.name;
+    const std::string key = fmt::format("zone {}", i);  // names may be given twice
     const bool within = Distance(footprint, area) <= 0;
     const bool breaks =
         within && (zone.speed_mps == 0 || std::abs(now.speed_mps) > zone.speed_mps + kTooFast_mps);

@@ -16,6 +16,7 @@ struct Encounter {
   FloorPose vehicle;
   double speed_mps = 0;
   std::vector<Capsule> actors;
+  double turn_rate_rad_s = 0;
 };
 
 /// Looks out for what the vehicle touches, from instant to instant and swept between them, and for
@@ -43,6 +44,7 @@ class ContactWatch {
   bool TouchesBetween(const DistanceAt& distance, double from, double to, double at_from,
                       double at_to, double moved_m) const;
   FloorPose VehicleAt(double share) const;
+  double TouchSpeed(const Encounter& now) const;
 
   const Course& course_;
   DriveTrack* track_;

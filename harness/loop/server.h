@@ -36,6 +36,7 @@ class Server {
   std::vector<Answer> Due(std::int64_t now_ns);
   /// The next time at which something is due; nothing while it is idle.
   std::optional<std::int64_t> NextDue() const;
+  QueueRule rule() const { return rule_; }
   int shown() const { return shown_; }
 
  private:

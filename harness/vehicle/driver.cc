@@ -75,7 +75,8 @@ DriverStep DriveLeg(const Way& way, DriverState state, const DriverInput& input,
 DriverStep TurnLeg(const Way& way, const DriverState& state, const DriverInput& input,
                    const DriverOptions& options) {
   const double lag = input.turn_rate_rad_s * options.lag_s;
-  const double left = WrapAngle(way[state.leg].turn_to_rad - input.belief.heading_rad) - lag;
+  // Both headings go on beyond half a turn: which way to turn is the plan's, also for half a turn.
+  const double left = way[state.leg].turn_to_rad - input.belief.heading_rad - lag;
   if (std::abs(left) <= options.turn_arrive_rad) {
     return Stands(input) ? NextLeg(state, way) : DriverStep{state, {}};
   }

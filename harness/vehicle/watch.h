@@ -12,7 +12,7 @@ struct WatchOptions {
   double stop_s = 1.0;   ///< without a pose for so long: protective stop
   int good_frames = 10;  ///< so many poses in a row after a stop: go on
   double jump_m = 0.2;   ///< but not if they lie farther than this from where its wheels put it
-  double latency_s = 0;  ///< known: answers are always that late
+  double latency_s = 0;  ///< known: so much time passes between two answers of a healthy system
 
   std::string Validate() const;  ///< the first broken rule, or an empty string
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "simulator/scene/crowd.h"
 #include "simulator/scene/footprint.h"
@@ -50,7 +51,10 @@ class RouteChecker {
         obstacles_(ObstaclesOf(scene_)) {}
 
   void Run() {
-    CheckRoute(scene_.rig.route, "rig", kRigRadius_m);
+    RouteSpec rig = scene_.rig.route;
+    rig.limits.turns_on_the_spot = TurnsOnTheSpot();
+    CheckRoute(rig, "rig", kRigRadius_m);
+    if (issues_->empty()) CheckBends();
     for (const PersonSpec& person : scene_.people) {
       CheckRoute(person.route, KeyOf(person), kPersonRadius_m);
     }
@@ -84,6 +88,34 @@ class RouteChecker {
       issues_->Add(known ? route.marks[static_cast<std::size_t>(error.step())].step : route.mark,
                    known ? fmt::format("{}.steps[{}]", key, error.step()) : key,
                    seeded_ + error.what());
+    }
+  }
+
+  /// Whether the vehicle of a closed drive can do what the planner may ask of the rig.
+  bool TurnsOnTheSpot() const {
+    constexpr double kAcross_rad = 89.9 * std::numbers::pi / 180;
+    const DriveSpec& drive = scene_.drive;
+    return !drive.there || drive.kind != DriveKind::kTricycle ||
+           drive.max_steering_rad >= kAcross_rad;
+  }
+
+  /// No bend of the rig's route is tighter than a steered wheel can follow.
+  void CheckBends() {
+    if (TurnsOnTheSpot()) return;
+    const RouteSpec& route = scene_.rig.route;
+    const double tightest = std::tan(scene_.drive.max_steering_rad) / scene_.drive.wheelbase_m;
+    constexpr double kStep_s = 0.05, kRounding = 1e-6;
+    const Route way(route.plan, route.limits);
+    for (double t = 0; t <= way.duration_s(); t += kStep_s) {
+      const RouteState state = way.At(t);
+      if (std::abs(state.curvature_per_m) <= tightest + kRounding) continue;
+      issues_->Add(
+          MarkOf(route, state), fmt::format("rig.steps[{}]", state.step),
+          fmt::format("{}it bends with a radius of {:.2g} m, this vehicle turns with {:.2g} "
+                      "m at the tightest (drive.max_steering_deg, drive.wheelbase_m); a "
+                      "larger corner_radius_m helps",
+                      seeded_, 1 / std::abs(state.curvature_per_m), 1 / tightest));
+      return;
     }
   }
 

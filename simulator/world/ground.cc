@@ -177,10 +177,18 @@ std::vector<GroundThing> ThingsOf(const Scene& scene, const World& world) {
   return things;
 }
 
-int PusherOf(const Scene& scene, const VehicleSpec& vehicle) {
+/// Among the actors, people first: who pushes a vehicle, or tows it.
+int MovedBy(const Scene& scene, const VehicleSpec& vehicle) {
   const auto pusher = std::ranges::find(scene.people, vehicle.pushed_by, &PersonSpec::name);
-  const bool pushed = !vehicle.pushed_by.empty() && pusher != scene.people.end();
-  return pushed ? static_cast<int>(pusher - scene.people.begin()) : -1;
+  if (!vehicle.pushed_by.empty() && pusher != scene.people.end()) {
+    return static_cast<int>(pusher - scene.people.begin());
+  }
+  const auto tractor = std::ranges::find(scene.vehicles, vehicle.towed_by, &VehicleSpec::name);
+  if (!vehicle.towed_by.empty() && tractor != scene.vehicles.end()) {
+    return static_cast<int>(scene.people.size()) +
+           static_cast<int>(tractor - scene.vehicles.begin());
+  }
+  return -1;
 }
 
 }  // namespace
@@ -210,7 +218,7 @@ Ground::Ground(const Scene& scene, const World& world)
                        .radius_m = footprint.radius_m,
                        .yields = vehicle.yields.yields,
                        .yields_within_m = vehicle.yields.within_m,
-                       .goes_with = PusherOf(scene, vehicle)});
+                       .goes_with = MovedBy(scene, vehicle)});
     routes_.emplace_back(vehicle.route.plan, vehicle.route.limits);
   }
   const Snapshot first = world.At(0);

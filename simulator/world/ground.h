@@ -44,7 +44,7 @@ struct GroundActor {
   double radius_m = 0;
   bool yields = false;
   double yields_within_m = 0;
-  int goes_with = -1;  ///< index of the actor that pushes it, whose clock it keeps; -1: none
+  int goes_with = -1;  ///< index of who pushes or tows it, whose clock it keeps; -1: none
 };
 struct GroundPose {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();

@@ -97,33 +97,62 @@ TEST(ClosedDriveTest, TheSameDriveHasTheSameBits) {
             DriveClosed(scene, &one, At(70)).samples.back().truth);
 }
 
-/// Pictures' truth says rubbish; poses of the plant stay what they are.
-class GarbageTruth : public FakeDriveScene {
- public:
-  SequenceFrame Take(const Exposure& exposure) const override {
-    SequenceFrame frame = FakeDriveScene::Take(exposure);
-    frame.truth->T_world_rig.translation().setConstant(1e6);
-    return frame;
+TEST(ClosedDriveTest, WhoIsDoneAsAFrameArrivesTakesThatFrame) {
+  DriftingLocaliser localiser;
+  DriveClosed(FakeDriveScene(), &localiser, At(100));
+  ASSERT_GT(localiser.seen.size(), 50u);
+  for (std::size_t i = 0; i < localiser.seen.size(); ++i) {
+    ASSERT_EQ(localiser.seen[i], 2 * static_cast<std::int64_t>(i)) << "every other, none later";
   }
-};
-/// Looks at pictures, as a system does.
-class Looking : public DriftingLocaliser {
+}
+
+TEST(ClosedDriveTest, WhoNeverHasAPoseGivesUpAndWasLost) {
+  DriftingLocaliser lost;
+  lost.lost_to_ns = std::numeric_limits<std::int64_t>::max();
+  const DriveTrack track = DriveClosed(FakeDriveScene(), &lost, {});
+  EXPECT_EQ(track.end, DriveEnd::kNoProgress);
+  EXPECT_NEAR(track.lost_s, track.time_s, 0.1);
+}
+
+TEST(ClosedDriveTest, LostInAPauseForGoodItGivesUp) {
+  FakeDriveScene scene;
+  scene.edit().way.front().duration_s = 8;
+  DriftingLocaliser localiser;
+  localiser.lost_from_ns = 2'000'000'000;
+  localiser.lost_to_ns = std::numeric_limits<std::int64_t>::max();
+  const DriveTrack track = DriveClosed(scene, &localiser, {});
+  EXPECT_EQ(track.end, DriveEnd::kNoProgress);
+  EXPECT_GT(track.lost_s, 20);
+}
+
+/// A rate at which the watch's patience is shorter than the time between two frames.
+class SlowCamera : public FakeDriveScene {
  public:
-  explicit Looking(const DriveScene& scene) : DriftingLocaliser(0.01), scene_(scene) {}
-  std::optional<Eigen::Isometry3d> Locate(const Exposure& exposure) override {
-    scene_.Take(exposure);
-    return DriftingLocaliser::Locate(exposure);
-  }
-
- private:
-  const DriveScene& scene_;
+  double rate_hz() const override { return 2; }
+  std::int64_t Stamp(std::int64_t frame) const override { return frame * 500'000'000; }
 };
 
-TEST(ClosedDriveTest, GarbageTruthGivesTheSameBits) {
-  const FakeDriveScene honest;
-  const GarbageTruth garbage;
-  Looking one(honest), other(garbage);
-  EXPECT_EQ(DriveClosed(honest, &one, At(50)), DriveClosed(garbage, &other, At(50)));
+TEST(ClosedDriveTest, ASlowCameraIsNoLostSystem) {
+  DriftingLocaliser localiser;
+  const DriveTrack track = DriveClosed(SlowCamera(), &localiser, {});
+  EXPECT_EQ(track.end, DriveEnd::kArrived);
+  EXPECT_EQ(track.lost_s, 0);
+}
+
+TEST(ClosedDriveTest, AScannerWatchesTurnsOnTheSpotToo) {
+  FakeDriveScene scene;
+  scene.edit().way = {{.kind = WayLeg::Kind::kPause, .duration_s = 0.5},
+                      {.kind = WayLeg::Kind::kTurn, .duration_s = 3, .turn_to_rad = 1.5},
+                      scene.course().way[1]};
+  scene.Add({"beside", "person"}, {0.45, 0.7}, {0, 0});
+  LoopOptions options;
+  const DriveTrack blind = DriveTruth(scene, options);
+  ASSERT_EQ(blind.contacts.size(), 1u);
+  EXPECT_GT(blind.contacts[0].speed_mps, 0.1) << "its nose is under way, if its axle is not";
+  options.steering.scanner = true;
+  const DriveTrack track = DriveTruth(scene, options);
+  EXPECT_TRUE(track.contacts.empty());
+  EXPECT_GE(track.scanner_stops, 1);
 }
 
 TEST(ClosedDriveTest, LostForLongItStopsAndGoesOnWhenFoundAgain) {
@@ -286,6 +315,33 @@ TEST(ContactWatchTest, AThinPostIsNotJumpedOverBetweenTwoInstants) {
   watch.See({.stamp_ns = 0, .vehicle = {}, .speed_mps = 9, .actors = {}}, 0, 0);
   watch.See({.stamp_ns = 1, .vehicle = {{6, 0}, 0}, .speed_mps = 9, .actors = {}}, 6, 0);
   EXPECT_EQ(track.contacts.size(), 1u);
+}
+
+TEST(ContactWatchTest, WhoTouchesTheStandingVehicleAndIsDrivenIntoIsACollision) {
+  FakeDriveScene scene;
+  scene.Add({"walker", "person"}, {0.9, 0}, {0, 0});
+  DriveTrack track;
+  ContactWatch watch(scene.course(), &track);
+  const std::vector<Capsule> there = {scene.ActorAt(0, 0)};
+  watch.See({.stamp_ns = 0, .vehicle = {}, .speed_mps = 0, .actors = there}, 0, 0);
+  watch.See({.stamp_ns = 1, .vehicle = {}, .speed_mps = 0, .actors = there}, 0, 0);
+  ASSERT_EQ(track.contacts.size(), 1u);
+  watch.See({.stamp_ns = 2, .vehicle = {{0.1, 0}, 0}, .speed_mps = 0.5, .actors = there}, 0.1, 0);
+  watch.See({.stamp_ns = 3, .vehicle = {{0.2, 0}, 0}, .speed_mps = 0.5, .actors = there}, 0.1, 0);
+  watch.See({.stamp_ns = 4, .vehicle = {{0.2, 0}, 0}, .speed_mps = 0, .actors = there}, 0, 0);
+  ASSERT_EQ(track.contacts.size(), 2u);
+  EXPECT_EQ(track.contacts[1].speed_mps, 0.5);
+}
+
+TEST(ContactWatchTest, ZonesOfOneNameAreApart) {
+  FakeDriveScene scene;
+  scene.edit().zones = {{"slow", {-1, -1}, {1, 1}, 0.3}, {"slow", {20, -1}, {21, 1}, 0.3}};
+  DriveTrack track;
+  ContactWatch watch(scene.course(), &track);
+  for (std::int64_t k = 0; k < 5; ++k) {
+    watch.See({.stamp_ns = k, .vehicle = {}, .speed_mps = 0.9, .actors = {}}, 0, 0);
+  }
+  EXPECT_EQ(track.violations.size(), 1u);
 }
 
 TEST(SteeringTest, ItsValuesAreChecked) {

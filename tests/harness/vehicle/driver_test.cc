@@ -144,6 +144,16 @@ TEST(DriverLegsTest, PausesLastAndTurnsEndWhereTheyShould) {
   EXPECT_NEAR(with.time_s - without.time_s, 2.5, 0.02);
 }
 
+TEST(DriverLegsTest, HalfATurnIsTurnedThePlansWayWhateverTheBelief) {
+  const Way way = {{.kind = WayLeg::Kind::kTurn, .turn_to_rad = std::numbers::pi}};
+  for (const double heading : {-3e-3, 0.0, 3e-3}) {
+    PlantState start;
+    start.pose.heading_rad = heading;
+    const Driven driven = DriveTrue(way, {}, {}, start);
+    EXPECT_NEAR(driven.end.pose.heading_rad, std::numbers::pi, 3e-3) << heading;
+  }
+}
+
 TEST(DriverLegsTest, CreepsWhileItKnowsNoPose) {
   const DriverOptions options;
   const Way way = Prepare({Straight(20, 1.5)}, options);

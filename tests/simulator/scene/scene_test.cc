@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 const fs::path kScenes = fs::path(AISLE_SOURCE_DIR) / "scenes";
 const fs::path kSchema = kScenes / "scene.schema.json";
@@ -200,6 +201,24 @@ std::vector<double> Seams(const Route& route) {
   }
   seams.push_back(route.duration_s());
   return seams;
+}
+
+TEST(Routes, OfASteeredVehicleAskForNothingItsWheelCannotDo) {
+  const auto drive = [](const std::string& steps, const std::string& vehicle) {
+    return MessagesOf("about: A vehicle turns.\nrig: {start: [0, 0], steps: [" + steps +
+                      "]}\nhall: {from: [-3, -6], to: [12, 9]}\n" +
+                      "lights: [{height_m: 5}]\ndrive: {" + vehicle + "}\n");
+  };
+  const std::string corner = "{go: [[4, 0], [4, 4]], speed_mps: 0.8, corner_radius_m: 0.9}";
+  const std::string spot = "{go: [[4, 0]], speed_mps: 0.8}, {turn_to_deg: 90}";
+  EXPECT_THAT(drive(spot, "kind: tricycle"),
+              ElementsAre(HasSubstr("rig.steps[1]: it would have to turn by 90 degrees on the "
+                                    "spot, which this vehicle cannot")));
+  EXPECT_THAT(drive(spot, "kind: differential"), IsEmpty());
+  EXPECT_THAT(drive(spot, "kind: tricycle, max_steering_deg: 90"), IsEmpty());
+  EXPECT_THAT(drive(corner, "kind: tricycle, wheelbase_m: 1.6, max_steering_deg: 45"),
+              ElementsAre(HasSubstr("this vehicle turns with 1.6 m at the tightest")));
+  EXPECT_THAT(drive(corner, "kind: tricycle"), IsEmpty());
 }
 
 TEST(Routes, OfEveryVehicleNeitherSteerNorSpeedUpAtOnce) {

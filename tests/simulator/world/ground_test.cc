@@ -167,6 +167,25 @@ TEST(GroundActors, AreWhereTheWorldShowsThemAtEveryTime) {
   EXPECT_THAT(ground.actors()[2].object_class, "pallet_jack");
 }
 
+TEST(GroundActors, TrailersKeepTheirTractorsClock) {
+  const Scene scene = ParseScene(
+      "about: A train.\n"
+      "rig: {start: [0, -3], steps: [{go: [[4, -3]], speed_mps: 0.8}]}\n"
+      "drive: {height_m: 1.0}\n"
+      "hall: {from: [-6, -6], to: [14, 7]}\nlights: [{height_m: 5}]\n"
+      "people:\n  - {name: walker, start: [8, 5], steps: [{go: [[10, 5]]}]}\n"
+      "vehicles:\n"
+      "  - {name: tractor, model: tow_tractor, start: [2, 2], yields: true,\n"
+      "     steps: [{go: [[8, 2]], speed_mps: 1}]}\n"
+      "  - {name: trailer, model: tow_trailer, start: [0.22, 2], towed_by: tractor, behind_m: "
+      "1.78}\n",
+      "train.yaml");
+  const Ground ground(Seeded(scene, 1), BuildWorld(scene, kAssets, 1));
+  ASSERT_EQ(ground.actors().size(), 3u);
+  EXPECT_TRUE(ground.actors()[1].yields);
+  EXPECT_EQ(ground.actors()[2].goes_with, 1);
+}
+
 /// Every place of the plan shows what is there: x to the right, y up.
 TEST(DrawPlan, ShowsThingsWhereTheyStandAndTheWayOfTheRig) {
   const double px_per_m = 20;
