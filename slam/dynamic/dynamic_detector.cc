@@ -23,6 +23,7 @@ struct DynamicDetector::Impl {
 /// Hands out the stages with the regions they led to, if anybody asked for them.
 void DynamicDetector::Impl::Keep(DynamicStages stages, DynamicOutput& output) const {
   if (!options.keep_stages) return;
+  stages.left = stages.left.clone();  // the caller may use its images again
   stages.regions = output.regions;
   output.stages = std::make_shared<const DynamicStages>(std::move(stages));
 }

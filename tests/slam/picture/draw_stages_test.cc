@@ -109,6 +109,18 @@ TEST_P(EitherMethod, KeepingTheStagesChangesNoBit) {
   }
 }
 
+TEST_P(EitherMethod, TheStagesKeepTheImageThoughTheCallerUsesItAgain) {
+  DynamicOptions options;
+  options.method = GetParam();
+  options.keep_stages = true;
+  DynamicDetector detector({}, options);
+  cv::Mat1b left = Views()[0].left.clone(), right = Views()[0].right.clone();
+  const DynamicOutput output = detector.Detect({.left = left, .right = right});
+  left = 0;
+  right = 0;
+  EXPECT_EQ(cv::norm(output.stages->left, Views()[0].left, cv::NORM_INF), 0);
+}
+
 TEST_P(EitherMethod, DrawsNineStagesOfOneSizeAndTheSameOnesTwice) {
   const DynamicOutput output = LastOf(GetParam(), true);
   const auto once = DrawStages(*output.stages, {}), twice = DrawStages(*output.stages, {});
