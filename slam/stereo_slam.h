@@ -25,12 +25,16 @@ struct TrackedFrame {
   std::int64_t id = 0;
   std::int64_t stamp_ns = 0;
   TrackingState state = TrackingState::kInitializing;
-  std::optional<Eigen::Isometry3d> T_world_rig;  ///< absent unless kTracking or kCoasting; world:
-                                                 ///< first rig pose, or that of map_file
-  int features = 0;                              ///< keypoints in the left image after rejection
-  int stereo_points = 0;                         ///< of them, with depth
-  int matched_points = 0;                        ///< matched to the map
-  int inliers = 0;                               ///< kept by pose refinement
+  /// Absent unless kTracking or kCoasting. World: first rig pose, or that of map_file. A drive that
+  /// has been lost while its map was still small gives that up (never one of map_file), and the
+  /// world begins anew: the next first pose is the identity again for Base::kOrbSlam2, for
+  /// Base::kPlain where the motion before the loss has led. What was told before is then of another
+  /// world, and not in Finish's trajectory.
+  std::optional<Eigen::Isometry3d> T_world_rig;
+  int features = 0;        ///< keypoints in the left image after rejection
+  int stereo_points = 0;   ///< of them, with depth
+  int matched_points = 0;  ///< matched to the map
+  int inliers = 0;         ///< kept by pose refinement
   bool is_keyframe = false;
   int map_keyframes = 0;   ///< size of the map after this frame: it grows with the place ...
   int map_landmarks = 0;   ///< ... that has been explored, not with time
@@ -65,8 +69,13 @@ class StereoSlam {
                      const std::optional<MeasuredMotion>& motion = {});
 
   /// Writes the map for SlamOptions::map_file of a later drive, which then goes on in it as this
-  /// one would after a loss: to the last bit. Waits for background work. Throws std::runtime_error
-  /// where the file cannot be written or there is no map yet.
+  /// one would after a loss: to the last bit. Throws std::runtime_error where the file cannot be
+  /// written or there is no map yet.
+  ///
+  /// This drive goes on as well, but not as it would have done without: background work is waited
+  /// for and its results taken before the frames that they were due at, the velocity and the loops
+  /// that nothing else has confirmed yet are forgotten, and kCoasting becomes kLost. Best after the
+  /// last frame.
   void SaveMap(const std::string& file);
 
   /// Ends the run: waits for background work and returns the final trajectory, every tracked frame
