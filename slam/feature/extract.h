@@ -35,8 +35,9 @@ ImageCorners FindCorners(const cv::Mat1b& image, const FeatureOptions& options);
 ImageFeatures ChooseFeatures(ImageCorners corners, const cv::Mat1b& mask,
                              const FeatureOptions& options);
 
-/// Splits `budget` over levels: geometrically as their image areas shrink, never more than a level
-/// has, and what one level cannot use goes to the others.
+/// Splits `budget` over levels: geometrically as the sides of their images shrink (by `scale` each,
+/// not by its square as their areas do), never more than a level has, and what one level cannot use
+/// goes to the others.
 std::vector<int> ShareBudget(const std::vector<int>& available, int budget, double scale);
 
 }  // namespace aisle::slam
