@@ -27,7 +27,9 @@ class Database {
     handle_.reset(opened);  // also one that could not be opened has to be closed
     if (code != SQLITE_OK) Fail("open");
     ::sqlite3_busy_timeout(opened, 10'000);  // another night may be writing
-    Run("PRAGMA journal_mode = WAL");
+    // Not WAL, which needs all writers on one host: nights of a cluster share a network folder. A
+    // file of before that somebody else reads just now is converted another time.
+    ::sqlite3_exec(opened, "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
     Run("CREATE TABLE IF NOT EXISTS medians (suite TEXT, started TEXT, commit_id TEXT, "
         "scene TEXT, twin TEXT, system TEXT, score TEXT, median REAL, seeds INTEGER, "
         "PRIMARY KEY (suite, started, scene, twin, system, score)) WITHOUT ROWID");

@@ -20,7 +20,7 @@ class HistoryTest : public testing::Test {
     file_ = fs::temp_directory_path() / fmt::format("aisle_history_{}.sqlite", ::getpid());
   }
   void TearDown() override {
-    for (const char* ending : {"", "-wal", "-shm"}) fs::remove(file_.string() + ending);
+    for (const char* ending : {"", "-journal", "-wal", "-shm"}) fs::remove(file_.string() + ending);
   }
   fs::path file_;
 };
@@ -36,6 +36,21 @@ TEST_F(HistoryTest, NightsComeBackInOrderAndTheSameNightOnce) {
   EXPECT_THAT(ates, testing::ElementsAre(0.01, 0.03));
   EXPECT_TRUE(ReadHistory(file_, "other").empty());
   EXPECT_TRUE(ReadHistory("/nowhere/at/all.sqlite", "nightly").empty());
+}
+
+TEST_F(HistoryTest, IsOneFileThatSeveralHostsMayShare) {
+  sqlite3* of_before = nullptr;  // those had SQLite's WAL, whose index is one host's memory
+  ASSERT_EQ(sqlite3_open(file_.c_str(), &of_before), SQLITE_OK);
+  sqlite3_exec(of_before, "PRAGMA journal_mode = WAL; CREATE TABLE x (y)", nullptr, nullptr,
+               nullptr);
+  sqlite3_close(of_before);
+  AppendToHistory(file_, Night("2026-01-02T02:00:00Z", 0.02));
+  // Bytes 18 and 19 of the header: 1 is the rollback journal, 2 the WAL.
+  std::ifstream stream(file_, std::ios::binary);
+  std::string header(20, ' ');
+  stream.read(header.data(), 20);
+  EXPECT_EQ(header.substr(18), "\1\1");
+  EXPECT_FALSE(ReadHistory(file_, "nightly").empty());
 }
 
 TEST_F(HistoryTest, ANightTellsItsSpreadItsLimitItsFailuresAndWhereItLies) {
