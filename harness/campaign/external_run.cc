@@ -228,7 +228,7 @@ RunResult RunExternal(const ExternalSystem& system, const Sequence& sequence,
   const std::string version = VersionOf(system, run, rooms, &notes);
   const ProcessLimits limits{.wall_s = system.timeout_s};
   const ProcessResult ended = RunToEnd(command, limits, system, run, rooms);
-  WriteFileAtomically(run.folder / "system.log",
+  WriteFileAtomically(run.folder / kSystemLogName,
                       fmt::format("# {}\n{}\n{}", DescribeSandbox(), command, ended.log));
 
   RunResult result;

@@ -11,6 +11,7 @@
 namespace aisle {
 
 /// Files that a foreign system may leave beside its trajectory; neither is asked for.
+inline constexpr const char* kSystemLogName = "system.log";   ///< what it printed
 inline constexpr const char* kFeaturesName = "features.csv";  ///< as ReadFeatures has it
 inline constexpr const char* kMasksFolder = "masks";          ///< what it rejects: not black
 

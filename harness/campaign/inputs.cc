@@ -8,6 +8,7 @@
 #include "harness/io/input_error.h"
 #include "harness/io/nearest_word.h"
 #include "harness/judge/twins.h"
+#include "harness/loop/closed_drive.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/steering_options.h"
 #include "harness/plugs/systems.h"
@@ -89,13 +90,29 @@ std::pair<SystemSpec*, std::string> SystemOf(const std::string& text,
   return found;
 }
 
+/// One option of a system behind a stream: how it steers.
+std::string CheckSteeringOfOthers(const std::string& path, const std::string& value) {
+  if (path == "drive.taught" && value == "true") {
+    return "option drive.taught: a system of your own keeps no map that is known here: one of "
+           "ours can be taught";
+  }
+  return CheckOption(path, value);
+}
+
+std::string CheckSteering(const OptionTexts& options) {
+  for (const auto& [path, value] : options) {
+    if (std::string wrong = CheckSteeringOfOthers(path, value); !wrong.empty()) return wrong;
+  }
+  return Validate(SteeringOf(options));
+}
+
 /// One assignment may need another, whichever comes first: they are held against each other once
 /// all are set. What the suite files say was good before.
 void CheckTogether(const std::vector<Suite>& suites) {
   for (const Suite& suite : suites) {
     for (const SystemSpec& spec : suite.systems) {
-      if (spec.external) continue;
-      const std::string wrong = CheckOptions(FindSystem(spec.like), spec.options);
+      const std::string wrong = spec.external ? CheckSteering(spec.options)
+                                              : CheckOptions(FindSystem(spec.like), spec.options);
       if (!wrong.empty()) throw InputError(fmt::format("--set, system '{}': {}", spec.name, wrong));
     }
   }
@@ -109,7 +126,8 @@ void SetOptions(const std::vector<std::string>& assignments, std::vector<Suite>*
       for (const std::string& name : SystemNames(suite)) names.insert(name);
       const auto [spec, assignment] = SystemOf(text, &suite.systems);
       if (spec == nullptr) continue;
-      if (spec->external) {
+      // How it steers is ours to say, as in suites; the rest is in its command's words.
+      if (spec->external && !(IsStream(*spec->external) && IsSteeringOption(assignment))) {
         throw InputError(
             fmt::format("--set {}: '{}' is a command: it takes its own options in its "
                         "words",
@@ -177,11 +195,8 @@ Vocabulary KnownNames() {
   };
   vocabulary.check_option = [](const std::string& like, const std::string& path,
                                const std::string& value) -> std::string {
-    if (like.empty() && path == "drive.taught" && value == "true") {
-      return "option drive.taught: a system of your own keeps no map that is known here: one of "
-             "ours can be taught";
-    }
-    return like.empty() && !IsSteeringOption(path) ? std::string() : CheckOption(path, value);
+    if (!like.empty()) return CheckOption(path, value);
+    return IsSteeringOption(path) ? CheckSteeringOfOthers(path, value) : std::string();
   };
   vocabulary.check_options = [](const std::string& like,
                                 const std::map<std::string, std::string>& options) {

@@ -143,6 +143,12 @@ std::unique_ptr<RunBag> BagOf(const Job& job, const StereoCalibration& calibrati
                                   IsRecording(job.spec.scene_file) ? 0 : kBagEpochNs, with_frames);
 }
 
+/// What a foreign system printed is kept beside its run.
+void NameLog(const Job& job, RunRecord* record) {
+  if (!job.spec.system.external) return;
+  record->artifacts["log"] = (FolderOf(job) / kSystemLogName).string();
+}
+
 /// Said while a foreign system works: its own count of frames, or how long it has been at it.
 void TellForeignProgress(double seconds, int done, int total, double timeout_s) {
   if (total > 0)
@@ -199,7 +205,7 @@ void RunForeign(const Job& job) {
   const RunScore score = ScoreRun(result);
   if (bag) bag->Finish(result, score, nullptr);
   RunRecord record = RecordOf(job, result, score, sequence->rate_hz());
-  record.artifacts["log"] = (FolderOf(job) / "system.log").string();
+  NameLog(job, &record);
   if (std::filesystem::exists(folder / kFeaturesName)) {
     record.artifacts["features"] = (FolderOf(job) / kFeaturesName).string();
   }
@@ -239,6 +245,7 @@ void File(const Job& job, double rate_hz, RunResult result, Pictures* pictures, 
   if (drive != nullptr) score.scores.merge(ScoreDrive(*drive));
   if (bag != nullptr) bag->Finish(result, score, drive);
   RunRecord record = RecordOf(job, result, score, rate_hz);
+  NameLog(job, &record);
   pictures->Finish(score.live, &record);
   if (drive != nullptr) {
     WriteDrive(*drive, job.out, &record);
@@ -248,22 +255,29 @@ void File(const Job& job, double rate_hz, RunResult result, Pictures* pictures, 
   WriteRun(result, score, record, job.out);
 }
 
-/// A foreign system that did not even begin: its verdict, without a frame.
+/// A system that did not even begin: its verdict, without a frame.
 void FileStillborn(const Job& job, double rate_hz, const SystemFault& fault) {
   RunResult result;
   result.spec = job.spec;
   result.status = fault.status;
   result.status_why = fault.what();
+  const std::filesystem::path log = job.out / FolderOf(job) / kSystemLogName;
+  if (job.spec.system.external && std::filesystem::exists(log)) {
+    result.last_words = LastWords(ReadFile(log));
+  }
   const RunScore score = ScoreRun(result);
-  WriteRun(result, score, RecordOf(job, result, score, rate_hz), job.out);
+  RunRecord record = RecordOf(job, result, score, rate_hz);
+  NameLog(job, &record);
+  WriteRun(result, score, record, job.out);
 }
 
-/// What a foreign system behind a stream said of itself, and where its log is.
+/// What a foreign system behind a stream said of itself, and what it took.
 void Introduce(const Estimator& estimator, RunResult* result) {
   const auto* stream = dynamic_cast<const StreamEstimator*>(&estimator);
   if (stream == nullptr) return;
   result->system_version = stream->version();
   result->last_words = LastWords(stream->log());
+  result->peak_rss_mib = stream->peak_rss_mib();
 }
 
 /// The frames of a job as its system is shown them.

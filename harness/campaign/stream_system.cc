@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "harness/campaign/external_run.h"
+#include "harness/campaign/guest_output.h"
 #include "harness/campaign/guest_rooms.h"
 #include "harness/campaign/process.h"
 #include "harness/campaign/sandbox.h"
@@ -95,19 +96,43 @@ struct StreamEstimator::Impl {
                  [this] { process->Poll(); });
   }
 
+  ~Impl() {
+    // Also of a system that never answered the greeting: then one wants to read it most.
+    process->Poll();
+    try {
+      WriteFileAtomically(
+          run.folder / kSystemLogName,
+          fmt::format("# {}\n{}\n{}", DescribeSandbox(), command, process->result().log));
+    } catch (const std::exception&) {
+      // A log that cannot be written is no reason to lose the run.
+    }
+  }
+
+  /// Asks; whoever has spoken before is out of turn, also if its answer would have fitted.
+  void Ask(StreamType type, const std::string& payload) {
+    if (pipe->HasUnread()) {
+      throw StreamError(StreamError::Kind::kNonsense, "it spoke before it was asked");
+    }
+    pipe->Send(type, payload);
+  }
+
   /// Why the process ended, once it has: its end comes a moment after its pipe's.
   std::string EndInWords() {
     for (int round = 0; round < 50 && !process->Poll(); ++round) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-    if (!process->Poll()) return "closed its output";
+    if (!process->Poll()) return "closed its end of the stream and goes on";
     const std::string line = TellingLine(process->result().log);
     return Describe(process->result(), limits) + (line.empty() ? "" : "; last words: " + line);
   }
 
   [[noreturn]] void Blame(const StreamError& error) {
-    const bool closed = error.kind == StreamError::Kind::kClosed;
-    throw SystemFault(StatusOf(error.kind), closed ? EndInWords() : error.what());
+    if (error.kind != StreamError::Kind::kClosed) {
+      throw SystemFault(StatusOf(error.kind), error.what());
+    }
+    const std::string words = EndInWords();
+    const bool for_memory = process->result().end == ProcessResult::End::kMemory;
+    throw SystemFault(for_memory ? RunStatus::kTimeout : RunStatus::kCrashed, words);
   }
 
   StreamMessage Answer() {
@@ -142,19 +167,11 @@ StreamEstimator::StreamEstimator(const ExternalSystem& system, const StereoCalib
   }
 }
 
-StreamEstimator::~StreamEstimator() {
-  impl_->process->Poll();
-  try {
-    WriteFileAtomically(impl_->run.folder / "system.log",
-                        fmt::format("# {}\n{}\n{}", DescribeSandbox(), impl_->command, log()));
-  } catch (const std::exception&) {
-    // A log that cannot be written is no reason to lose the run.
-  }
-}
+StreamEstimator::~StreamEstimator() = default;
 
 FrameEstimate StreamEstimator::Process(const StereoFrame& frame, const ExternalMask&) {
   try {
-    impl_->pipe->Send(StreamType::kFrame, FormatFrame(frame));
+    impl_->Ask(StreamType::kFrame, FormatFrame(frame));
     const auto pose = ReadAnswer(impl_->Answer(), frame.id);
     FrameEstimate estimate;
     estimate.id = frame.id;
@@ -169,7 +186,7 @@ FrameEstimate StreamEstimator::Process(const StereoFrame& frame, const ExternalM
 
 Trajectory StreamEstimator::Finish() {
   try {
-    impl_->pipe->Send(StreamType::kEnd, "");
+    impl_->Ask(StreamType::kEnd, "");
     const StreamMessage answer = impl_->Answer();
     if (answer.type != StreamType::kTrack) {
       throw StreamError(StreamError::Kind::kNonsense, "its answer to the end is no track");
@@ -181,6 +198,10 @@ Trajectory StreamEstimator::Finish() {
 }
 
 const std::string& StreamEstimator::version() const { return impl_->version; }
+double StreamEstimator::peak_rss_mib() const {
+  impl_->process->Poll();
+  return impl_->process->result().peak_rss_mib;
+}
 std::string StreamEstimator::log() const { return impl_->process->result().log; }
 
 }  // namespace aisle

@@ -36,6 +36,7 @@ class StreamEstimator : public Estimator {
   const std::string& version() const;  ///< what it calls itself
   /// What it wrote to stderr so far; written as system.log into the run's folder at the end.
   std::string log() const;
+  double peak_rss_mib() const;  ///< of its processes, so far
 
  private:
   struct Impl;

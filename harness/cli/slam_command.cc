@@ -81,11 +81,28 @@ std::unique_ptr<Sequence> Open(const Options& options) {
   return OpenRecording(path, DatasetFormatFromName(options.format));
 }
 
+/// What a stream has no use for: frames come in and poses go out by it alone.
+void RefuseBesideStream(const Options& options) {
+  for (const auto& [name, value] :
+       {std::pair("a DATASET", &options.dataset), std::pair("-o", &options.output),
+        std::pair("--live", &options.live), std::pair("--masks", &options.masks)}) {
+    if (value->empty()) continue;
+    throw InputError(
+        fmt::format("slam --stream: {} has no place beside it, frames and poses go over "
+                    "stdin and stdout",
+                    name));
+  }
+}
+
 int RunStream(const SystemSpec& system, const Options& options) {
+  RefuseBesideStream(options);
   const auto make = [&](const StereoCalibration& calibration) {
     return MakeEstimator(system, calibration, options);
   };
-  const std::size_t frames = AnswerStream("aisle " + system.name, make);
+  const auto finish = [&](Estimator* estimator) {
+    if (!options.save_map.empty()) estimator->SaveMap(options.save_map);
+  };
+  const std::size_t frames = AnswerStream("aisle " + system.name, make, finish);
   fmt::print(stderr, "{} frames answered\n", frames);
   return kAllPassed;
 }

@@ -11,7 +11,8 @@ namespace {
 using Kind = StreamError::Kind;
 
 /// The stream as long as there is one: the next message is the frame's or the end's.
-std::size_t Answer(StreamPipe* pipe, const std::string& name, const MakeEstimatorFor& make) {
+std::size_t Answer(StreamPipe* pipe, const std::string& name, const MakeEstimatorFor& make,
+                   const FinishEstimator& finish) {
   const auto next = [&] {
     std::optional<StreamMessage> message = pipe->Receive();
     if (!message) throw StreamError(Kind::kClosed, "the stream ended before its end was said");
@@ -28,6 +29,7 @@ std::size_t Answer(StreamPipe* pipe, const std::string& name, const MakeEstimato
     const StreamMessage message = next();
     if (message.type == StreamType::kEnd) {
       pipe->Send(StreamType::kTrack, FormatTrack(estimator->Finish()));
+      finish(estimator.get());
       return frames;
     }
     if (message.type != StreamType::kFrame) {
@@ -42,12 +44,13 @@ std::size_t Answer(StreamPipe* pipe, const std::string& name, const MakeEstimato
 
 }  // namespace
 
-std::size_t AnswerStream(const std::string& name, const MakeEstimatorFor& make) {
+std::size_t AnswerStream(const std::string& name, const MakeEstimatorFor& make,
+                         const FinishEstimator& finish) {
   const int talk = ::dup(STDOUT_FILENO);
   ::dup2(STDERR_FILENO, STDOUT_FILENO);
   StreamPipe pipe(STDIN_FILENO, talk);
   try {
-    const std::size_t frames = Answer(&pipe, name, make);
+    const std::size_t frames = Answer(&pipe, name, make, finish);
     ::close(talk);
     return frames;
   } catch (const StreamError& error) {

@@ -7,7 +7,8 @@ namespace aisle {
 
 /// How a system steers the vehicle of a closed drive; scenes without a `drive` do not look at it.
 struct Steering {
-  /// From the middle of the exposure until its pose can be used, milliseconds.
+  /// What the system takes for a frame, milliseconds: from the middle of the exposure until its
+  /// pose can be used, but for frames that waited while it worked, which are older by their wait.
   double latency_ms = 0;
   /// Instead: measured times, milliseconds, one of which is drawn for each frame from (seed,
   /// frame). Empty: latency_ms holds.

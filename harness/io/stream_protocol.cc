@@ -4,6 +4,8 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -224,15 +226,21 @@ double StreamPipe::Deadline() const {
 bool StreamPipe::Wait(int fd, short events, double until_s) const {
   constexpr int kSlice_ms = 50;
   while (true) {
+    // Also where bytes keep coming: one now and then does not buy more time.
+    if (NowS() > until_s) {
+      throw StreamError(Kind::kTimeout, fmt::format("no answer within {:g} s", timeout_s_));
+    }
     pollfd watched{fd, events, 0};
     const int ready = ::poll(&watched, 1, kSlice_ms);
     if (while_waiting_) while_waiting_();
     if (ready > 0) return (watched.revents & (events | POLLHUP)) != 0;
     if (ready < 0 && errno != EINTR) return false;
-    if (NowS() > until_s) {
-      throw StreamError(Kind::kTimeout, fmt::format("no answer within {:g} s", timeout_s_));
-    }
   }
+}
+
+bool StreamPipe::HasUnread() const {
+  pollfd watched{read_fd_, POLLIN, 0};
+  return ::poll(&watched, 1, 0) > 0 && (watched.revents & POLLIN) != 0;
 }
 
 void StreamPipe::Send(StreamType type, const std::string& payload) {
@@ -277,7 +285,14 @@ std::optional<StreamMessage> StreamPipe::Receive() {
   if (!ReadAll(reinterpret_cast<char*>(head.data()), sizeof head, until_s)) return std::nullopt;
   const std::uint32_t last_type = static_cast<std::uint32_t>(StreamType::kTrack);
   if (head[1] < 1 || head[1] > last_type) {
-    Nonsense(fmt::format("a message of type {}, expected 1 to {}", head[1], last_type));
+    const std::string text(reinterpret_cast<const char*>(head.data()), sizeof head);
+    const bool is_text = std::ranges::all_of(
+        text, [](unsigned char c) { return std::isprint(c) != 0 || std::isspace(c) != 0; });
+    Nonsense(fmt::format("a message of type {}, expected 1 to {}{}", head[1], last_type,
+                         is_text ? fmt::format(": it begins with the text '{}': stdout belongs to "
+                                               "the stream, print to stderr",
+                                               Printable(text))
+                                 : ""));
   }
   if (head[0] > kLargestStreamMessage) {
     Nonsense(fmt::format("a message of {} bytes, at most {} are allowed", head[0],

@@ -74,6 +74,8 @@ class StreamPipe {
   void Send(StreamType type, const std::string& payload);
   /// The next message; nothing where the other side has closed between two of them.
   std::optional<StreamMessage> Receive();
+  /// Whether the other side has written what nobody has read yet.
+  bool HasUnread() const;
 
  private:
   bool Wait(int fd, short events, double until_s) const;

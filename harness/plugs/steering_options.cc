@@ -86,7 +86,7 @@ std::vector<SystemOption> DescribeSteering(const Steering& steering) {
            Kind::kNumber,
            fmt::format("{}", steering.latency_ms),
            "ms",
-           "from the middle of the exposure until its pose can steer",
+           "that the system takes for a frame; one that waited for its turn is older by that",
            0,
            kLongest_ms,
            {}},

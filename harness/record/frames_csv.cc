@@ -149,7 +149,8 @@ TrackOnTruth LayOnTruth(std::size_t frames, const Trajectory& estimate,
 }  // namespace
 
 std::vector<FrameRow> MakeFrameRows(const RunResult& run, const RunScore& score) {
-  const bool has_truth = run.truth.size() == run.facts.size();
+  // More truth than frames: of those that a run that ended early was never shown.
+  const bool has_truth = run.truth.size() >= run.facts.size();
   const TrackOnTruth live = LayOnTruth(run.truth.size(), run.trajectory.live, score.live);
   const TrackOnTruth final = LayOnTruth(run.truth.size(), run.trajectory.final, score.final);
   std::vector<FrameRow> rows;

@@ -4,6 +4,19 @@
 #include "harness/run/showing.h"
 
 namespace aisle {
+namespace {
+
+/// Who ended before its time has no pose for the frames that it was never shown: they are truth to
+/// be covered all the same. Only where all that was shown had its truth, so that the rest has one.
+void AddNeverShown(const std::vector<FrameRequest>& schedule, RunResult* result) {
+  const std::size_t shown = result->facts.size();
+  if (shown == 0 || result->truth.size() != shown) return;
+  for (std::size_t i = shown; i < schedule.size(); ++i) {
+    result->truth.push_back({schedule[i].stamp_ns, schedule[i].T_world_rig});
+  }
+}
+
+}  // namespace
 
 RunResult Drive(const Sequence& sequence, Estimator& estimator, const MaskMaker& masks,
                 const DriveOptions& options, const FrameObserver& observer) {
@@ -14,7 +27,9 @@ RunResult Drive(const Sequence& sequence, Estimator& estimator, const MaskMaker&
     const FramesAhead::Frame next = frames.Next();
     showing.Show(schedule[i], next.frame, next.made_ms, i, schedule.size());
   }
-  return showing.Finish(schedule.size(), options.min_coverage);
+  RunResult result = showing.Finish(schedule.size(), options.min_coverage);
+  AddNeverShown(schedule, &result);
+  return result;
 }
 
 }  // namespace aisle

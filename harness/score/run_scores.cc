@@ -1,3 +1,4 @@
+#include "harness/contract/stream.h"
 #include "harness/score/coverage.h"
 #include "harness/score/front_end.h"
 #include "harness/score/mask_scores.h"
@@ -76,7 +77,8 @@ void AddTimes(const RunResult& run, Scorecard* scores) {
   for (const auto& [stage, ms] : stages) {
     (*scores)["ms_" + stage + "_mean"] = Present(Summarize(ms).mean, "ms", ms.size());
   }
-  if (run.spec.system.external && scores->contains("ms_process_mean")) {
+  const auto& external = run.spec.system.external;
+  if (external && !IsStream(*external) && scores->contains("ms_process_mean")) {
     (*scores)["ms_process_mean"].basis = "wall time of the whole process over its frames";
   }
   if (run.peak_rss_mib > 0) (*scores)["peak_rss_mib"] = Present(run.peak_rss_mib, "MiB", 1);

@@ -120,6 +120,20 @@ TEST_F(InputsTest, SetOptionsMayNeedEachOtherInAnyOrder) {
   EXPECT_EQ(suites[0].systems[0].options.at("base"), "orbslam2");
 }
 
+TEST_F(InputsTest, SetTellsASystemOfOthersHowToSteerAndNothingElse) {
+  const std::string mine =
+      Write("m",
+            "suite: m\nscenes: [a/one]\nseeds: 1\nsystems:\n  - {name: mine, contract: stream, "
+            "command: slam}\n  - {name: files, command: 'slam {dataset} {output}'}\n");
+  const std::vector<Suite> suites =
+      LoadInputs({.files = {mine}, .set = {"mine.drive.latency_ms=100"}});
+  EXPECT_EQ(suites[0].systems[0].options.at("drive.latency_ms"), "100");
+  EXPECT_THAT(Complaint({.files = {mine}, .set = {"mine.drive.latency_ms=-1"}}), HasSubstr("-1"));
+  EXPECT_THAT(Complaint({.files = {mine}, .set = {"mine.features=9"}}), HasSubstr("in its words"));
+  EXPECT_THAT(Complaint({.files = {mine}, .set = {"files.drive.latency_ms=9"}}),
+              HasSubstr("in its words"));
+}
+
 TEST_F(InputsTest, SetSaysWhatIsWrong) {
   const std::pair<const char*, const char*> cases[] = {
       {"robust.orbslam2.map_ratio=0.7",
@@ -141,6 +155,9 @@ TEST_F(InputsTest, WhoKeepsNoMapThatIsKnownHereCannotBeTaught) {
   };
   EXPECT_EQ(LoadInputs({.files = {with("drive.latency_ms: 20")}}).size(), 1u);
   EXPECT_THAT(Complaint({.files = {with("drive.taught: true")}}), HasSubstr("keeps no map"));
+  EXPECT_THAT(
+      Complaint({.files = {with("drive.scanner: true")}, .set = {"mine.drive.taught=true"}}),
+      HasSubstr("keeps no map"));
   EXPECT_THAT(
       Complaint({.files = {second_},
                  .set = {"robust.drive.taught=true", "robust.drive.steered_by_truth=true"}}),

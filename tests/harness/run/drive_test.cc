@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "harness/run/frames_ahead.h"
+#include "harness/score/scorecard.h"
 
 namespace aisle {
 namespace {
@@ -145,6 +146,8 @@ TEST(DriveTest, MisbehaviourIsTheSystemsOwnVerdict) {
     EXPECT_EQ(run.status, status);
     EXPECT_EQ(run.status_why, why);
     EXPECT_EQ(run.trajectory.live.size(), 10u);  // what was said before stands
+    EXPECT_EQ(run.truth.size(), 40u) << "frames that it was never shown are not covered";
+    EXPECT_DOUBLE_EQ(*ScoreRun(run).scores.at("coverage").value, 0.25);
   }
 }
 

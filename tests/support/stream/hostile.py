@@ -1,6 +1,7 @@
 """A system behind aisle's stream that misbehaves: hostile.py WAY [FRAME].
 
-die, exit, stall, twice, nan, shear, huge, gigabytes, wrong, type, short, mute, version, flood, ok
+die, exit, stall, dribble, twice, ahead, text, nan, shear, huge, gigabytes, wrong, type, short,
+mute, version, flood, ok
 """
 
 import os
@@ -31,6 +32,18 @@ def misbehave(number):
         sys.exit("Error: no more memory for dreams")
     if WAY == "stall":
         time.sleep(3600)
+    if WAY == "dribble":
+        os.write(1, struct.pack("<II", 64 << 20, POSE))
+        while True:
+            os.write(1, b"\x01")
+            time.sleep(0.02)
+    if WAY == "text":
+        print("frame 3 tracked", flush=True)
+    if WAY == "ahead":
+        poses = [struct.pack("<q7d", number + k, *IDENTITY) for k in range(5)]
+        os.write(1, b"".join(struct.pack("<II", len(pose), POSE) + pose for pose in poses))
+        while True:
+            receive()
     if WAY == "twice":
         send(POSE, struct.pack("<q7d", number, *IDENTITY))
     if WAY == "nan":
