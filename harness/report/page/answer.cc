@@ -49,10 +49,11 @@ std::vector<SceneErrors> CollectErrors(const Results& results) {
     if (scene.twin != "live") continue;
     SceneErrors& of_scene = collected.emplace_back(SceneErrors{scene.scene, {}, {}});
     of_scene.drives = DriveSentence(scene);
+    for (const auto& [system, outcome] : OutcomesOf(scene)) {
+      const double docking_m = outcome.drove() ? outcome.docking_m : 1e9;
+      of_scene.worst_docking_m = std::max(of_scene.worst_docking_m, docking_m);
+    }
     for (const SystemRuns& system : scene.systems) {
-      if (const auto outcome = OutcomeOf(system.runs)) {
-        of_scene.worst_docking_m = std::max(of_scene.worst_docking_m, outcome->docking_m);
-      }
       if (const auto ate_m = MedianScore(system.runs, "ate_rmse_m")) {
         of_scene.known.push_back(
             {system.runs.front()->spec.system, *ate_m,

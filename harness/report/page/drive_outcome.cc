@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/contract/stream.h"
 #include "harness/report/markup/html.h"
 #include "harness/report/page/answer.h"
 #include "harness/report/page/parts.h"
@@ -23,35 +24,60 @@ void AddWrong(const std::string& what, std::size_t count, std::size_t runs,
 }
 
 std::string Cell(const DriveOutcome& outcome, bool is_best) {
-  const std::string docking = outcome.docking_m < 1
+  const std::string docking = !outcome.drove() ? ""
+                              : outcome.docking_m < 1
                                   ? fmt::format("{:.1f} mm", 1000 * outcome.docking_m)
                                   : fmt::format("{:.2f} m", outcome.docking_m);
   const std::string wrongs = WrongsInWords(outcome);
   return fmt::format("<td class=\"{}\">{}{}", is_best ? "best" : "", docking,
-                     wrongs.empty() ? "" : "<br><span class=\"fail\">" + wrongs + "</span>");
+                     wrongs.empty() ? ""
+                                    : (docking.empty() ? "" : "<br>") +
+                                          ("<span class=\"fail\">" + wrongs + "</span>"));
 }
 
-}  // namespace
+bool CanSteer(const SystemRuns& system) {
+  const auto& external = system.runs.front()->spec.system.external;
+  return !external || IsStream(*external);
+}
 
-std::optional<DriveOutcome> OutcomeOf(const std::vector<const RunRecord*>& runs) {
-  const std::vector<double> docking = ScoresOf(runs, "docking_error_m");
-  if (docking.empty()) return std::nullopt;
-  DriveOutcome outcome{.docking_m = Quantile(docking, 0.5)};
+DriveOutcome OutcomeOf(const std::vector<const RunRecord*>& runs) {
+  DriveOutcome outcome{.runs = runs.size()};
+  std::vector<double> docking;
   for (const RunRecord* run : runs) {
-    if (!run->scores.contains("docking_error_m")) continue;
+    const auto end = run->scores.find("docking_error_m");
+    if (end == run->scores.end() || !end->second.value) {
+      ++outcome.undriven;
+      continue;
+    }
+    docking.push_back(*end->second.value);
     const double things = ValueOf(*run, "collisions_static"),
                  people = ValueOf(*run, "collisions_person");
-    ++outcome.runs;
     outcome.missed += ValueOf(*run, "goal_reached") < 1 ? 1 : 0;
     outcome.hit_things += things > 0 ? 1 : 0;
     outcome.hit_people += people > 0 ? 1 : 0;
     outcome.hit_others += ValueOf(*run, "collisions") > things + people ? 1 : 0;
   }
+  if (!docking.empty()) outcome.docking_m = Quantile(docking, 0.5);
   return outcome;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, DriveOutcome>> OutcomesOf(const SceneRuns& scene) {
+  std::vector<std::pair<std::string, DriveOutcome>> outcomes;
+  bool any_drove = false;
+  for (const SystemRuns& system : scene.systems) {
+    const DriveOutcome outcome = OutcomeOf(system.runs);
+    any_drove = any_drove || outcome.drove();
+    if (outcome.drove() || CanSteer(system)) outcomes.emplace_back(system.system, outcome);
+  }
+  if (!any_drove) outcomes.clear();
+  return outcomes;
 }
 
 std::string WrongsInWords(const DriveOutcome& outcome) {
   std::vector<std::string> wrongs;
+  AddWrong("never drives", outcome.undriven, outcome.runs, &wrongs);
   AddWrong("misses its goal", outcome.missed, outcome.runs, &wrongs);
   AddWrong("touches what stands", outcome.hit_things, outcome.runs, &wrongs);
   AddWrong("runs into people", outcome.hit_people, outcome.runs, &wrongs);
@@ -61,13 +87,12 @@ std::string WrongsInWords(const DriveOutcome& outcome) {
 
 std::string DriveSentence(const SceneRuns& scene) {
   std::vector<std::string> parts;
-  for (const SystemRuns& system : scene.systems) {
-    const auto outcome = OutcomeOf(system.runs);
-    if (!outcome) continue;
-    const std::string wrongs = WrongsInWords(*outcome);
-    parts.push_back(fmt::format("{} ends {} from its goal{}", system.system,
-                                LengthInWords(outcome->docking_m),
-                                wrongs.empty() ? "" : " (" + wrongs + ")"));
+  for (const auto& [system, outcome] : OutcomesOf(scene)) {
+    const std::string wrongs = WrongsInWords(outcome);
+    parts.push_back(outcome.drove() ? fmt::format("{} ends {} from its goal{}", system,
+                                                  LengthInWords(outcome.docking_m),
+                                                  wrongs.empty() ? "" : " (" + wrongs + ")")
+                                    : fmt::format("{} {}", system, wrongs));
   }
   return parts.empty() ? "" : fmt::format("On {}, {}.", scene.scene, Listed(parts));
 }
@@ -78,12 +103,10 @@ std::string DriveOverview(const std::vector<SceneRuns>& scenes, SceneLinks links
   for (const SceneRuns& scene : scenes) {
     std::map<std::string, DriveOutcome> outcomes;
     std::optional<double> least_m;
-    for (const SystemRuns& system : scene.systems) {
-      const auto outcome = OutcomeOf(system.runs);
-      if (!outcome) continue;
-      outcomes[system.system] = *outcome;
-      if (outcome->is_clean() && (!least_m || outcome->docking_m < *least_m)) {
-        least_m = outcome->docking_m;
+    for (const auto& [system, outcome] : OutcomesOf(scene)) {
+      outcomes[system] = outcome;
+      if (outcome.is_clean() && (!least_m || outcome.docking_m < *least_m)) {
+        least_m = outcome.docking_m;
       }
     }
     if (outcomes.empty()) continue;
@@ -104,7 +127,8 @@ std::string DriveOverview(const std::vector<SceneRuns>& scenes, SceneLinks links
   for (const auto& [name, style] : systems) text += "<th>" + Chip(style) + Escape(name);
   return text + "\n" + rows +
          "</table></div>\n<p class=\"soft small\">The true vehicle's distance from its goal when "
-         "its drive was over, median over seeds, and what went wrong. Bold is the least of each "
+         "its drive was over, median over the seeds that drove, and what went wrong. Bold is the "
+         "least of each "
          "row among the systems of which every drive reached its goal and touched nothing.</p>\n";
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/report/page/answer.h"
+#include "harness/report/page/scene_tables.h"
 
 namespace aisle {
 namespace {
@@ -48,19 +49,20 @@ TEST(DriveOutcome, CountsTheSeedsThatWentWrongAndTakesTheMedian) {
   const Results results = Of({Drive("robust", 0.002, 1), Drive("robust", 0.004, 2),
                               Crashed(Drive("robust", 3.0, 3), 0, 1)});
   const auto scenes = GroupByScene(results);
-  const auto outcome = OutcomeOf(scenes[0].systems[0].runs);
-  ASSERT_TRUE(outcome);
-  EXPECT_EQ(outcome->docking_m, 0.004);
-  EXPECT_FALSE(outcome->is_clean());
-  EXPECT_EQ(WrongsInWords(*outcome), "misses its goal in 1 of 3 and runs into people in 1 of 3");
+  const auto outcomes = OutcomesOf(scenes[0]);
+  ASSERT_EQ(outcomes.size(), 1u);
+  const DriveOutcome& outcome = outcomes[0].second;
+  EXPECT_EQ(outcome.docking_m, 0.004);
+  EXPECT_FALSE(outcome.is_clean());
+  EXPECT_EQ(WrongsInWords(outcome), "misses its goal in 1 of 3 and runs into people in 1 of 3");
 }
 
 TEST(DriveOutcome, ARunIntoAVehicleIsOneOfNeitherKind) {
   RunRecord run = Drive("robust", 0.002);
   run.scores["collisions"].value = 1;
   const Results results = Of({run});
-  const auto outcome = OutcomeOf(GroupByScene(results)[0].systems[0].runs);
-  EXPECT_EQ(WrongsInWords(*outcome), "runs into vehicles");
+  const auto outcomes = OutcomesOf(GroupByScene(results)[0]);
+  EXPECT_EQ(WrongsInWords(outcomes.at(0).second), "runs into vehicles");
 }
 
 TEST(DriveOverview, BoldIsTheLeastOfThoseThatDidNothingWrong) {
@@ -70,6 +72,55 @@ TEST(DriveOverview, BoldIsTheLeastOfThoseThatDidNothingWrong) {
   EXPECT_THAT(text, HasSubstr("<td class=\"best\">1.1 mm"));
   EXPECT_THAT(text, HasSubstr("<td class=\"\">20.0 mm"));
   EXPECT_THAT(text, HasSubstr("0.1 mm<br><span class=\"fail\">misses its goal"));
+}
+
+/// What never got as far as its drive has no score: killed, or teaching failed.
+RunRecord Undriven(const std::string& system, std::uint64_t seed = 1) {
+  RunRecord run = Drive(system, 0, seed);
+  run.scores.clear();
+  run.status = RunStatus::kTimeout;
+  return run;
+}
+
+TEST(DriveOverview, WhoeverDidNotDriveInEverySeedIsNeverTheBest) {
+  std::vector<RunRecord> runs;
+  for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+    runs.push_back(seed <= 6 ? Drive("robust", 0.001, seed) : Undriven("robust", seed));
+    runs.push_back(Drive("plain", 0.002, seed));
+    runs.push_back(Undriven("orbslam2", seed));
+  }
+  const Results results = Of(runs);
+  const std::string text = DriveOverview(GroupByScene(results), SceneLinks{});
+  EXPECT_THAT(text, HasSubstr("<td class=\"best\">2.0 mm"));
+  EXPECT_THAT(text,
+              HasSubstr("<td class=\"\">1.0 mm<br><span class=\"fail\">never drives in 3 of 9"));
+  EXPECT_THAT(text, HasSubstr("<td class=\"\"><span class=\"fail\">never drives</span>"));
+  const std::string sentence = DriveSentence(GroupByScene(results)[0]);
+  EXPECT_THAT(sentence, HasSubstr("robust ends 0.1 cm from its goal (never drives in 3 of 9)"));
+  EXPECT_THAT(sentence, HasSubstr("orbslam2 never drives"));
+}
+
+TEST(DriveOverview, WhoCannotSteerIsNotBlamedForNotDriving) {
+  RunRecord led = Undriven("plain");
+  led.spec.system = {.name = "foreign", .external = ExternalSystem{.command = "x {output}"}};
+  led.status = RunStatus::kOk;
+  const Results results = Of({Drive("robust", 0.001), led});
+  EXPECT_THAT(DriveOverview(GroupByScene(results), SceneLinks{}),
+              testing::Not(HasSubstr("never drives")));
+}
+
+/// Five of nine goals: no median says so.
+TEST(DriveTable, GoalsAndTouchesAreMeansOverTheDrives) {
+  std::vector<RunRecord> runs;
+  for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+    RunRecord run = Drive("robust", 0.001, seed);
+    runs.push_back(seed <= 4 ? Crashed(run, 2, 1) : run);
+  }
+  const Results results = Of(runs);
+  const std::string table = DriveTable(GroupByScene(results)[0].systems);
+  EXPECT_THAT(table, HasSubstr("<th>touches<br>a drive"));
+  EXPECT_THAT(table, HasSubstr("<td>56<td>1.0<"));
+  EXPECT_THAT(table, HasSubstr("<td>1.3<"));
 }
 
 TEST(DriveOverview, IsNotThereWhereNobodySteers) {
