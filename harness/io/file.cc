@@ -169,7 +169,9 @@ void ClearLeftovers(const fs::path& folder) {
   for (const fs::path& path : leftovers) fs::remove(path, error);
 }
 
-std::string ReadFile(const fs::path& path, std::size_t max_bytes) {
+namespace {
+
+int OpenToRead(const fs::path& path) {
   std::error_code error;
   const bool there = fs::exists(path, error);
   if (error == std::errc::filename_too_long) {
@@ -179,7 +181,25 @@ std::string ReadFile(const fs::path& path, std::size_t max_bytes) {
   if (fs::is_directory(path, error)) throw InputError(path.string(), 0, "is a folder, not a file");
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) FailToRead(path);
-  return ReadAll(Descriptor(file), path, max_bytes);
+  return file;
+}
+
+}  // namespace
+
+std::string ReadFile(const fs::path& path, std::size_t max_bytes) {
+  return ReadAll(Descriptor(OpenToRead(path)), path, max_bytes);
+}
+
+void ReadInPieces(const fs::path& path, const std::function<void(std::string_view)>& take) {
+  const Descriptor file(OpenToRead(path));
+  std::string piece(std::size_t{1} << 20, '\0');
+  while (true) {
+    const ssize_t count = ::read(file.get(), piece.data(), piece.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) FailToRead(path);
+    if (count == 0) return;
+    take(std::string_view(piece).substr(0, static_cast<std::size_t>(count)));
+  }
 }
 
 std::string ReadLeftFile(const fs::path& folder, const std::string& name, std::size_t max_bytes) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -47,6 +48,11 @@ class FileAside {
 
 /// Deletes what killed writers left aside below a folder. Nobody else may be writing there.
 void ClearLeftovers(const std::filesystem::path& folder);
+
+/// The file's bytes in order, a piece at a time, however many they are. Throws InputError when it
+/// cannot be read.
+void ReadInPieces(const std::filesystem::path& path,
+                  const std::function<void(std::string_view)>& take);
 
 /// The whole file. Throws InputError when it cannot be read or is larger than max_bytes, of which
 /// it reads no more then, whatever the file claims to be.

@@ -2,6 +2,9 @@
 
 #include <xxhash.h>
 
+#include <memory>
+#include <new>
+
 #include "harness/io/file.h"
 
 namespace aisle {
@@ -13,7 +16,15 @@ std::uint64_t Hash(std::string_view bytes, std::uint64_t seed) {
 }
 
 std::uint64_t HashFile(const fs::path& path, std::uint64_t seed) {
-  return Hash(ReadFile(path), seed);
+  // A system's weights may be larger than memory should hold.
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
+                                                                       XXH3_freeState);
+  if (!state) throw std::bad_alloc();
+  XXH3_64bits_reset_withSeed(state.get(), seed);
+  ReadInPieces(path, [&](std::string_view piece) {
+    XXH3_64bits_update(state.get(), piece.data(), piece.size());
+  });
+  return XXH3_64bits_digest(state.get());
 }
 
 std::uint64_t HashFolder(const fs::path& folder, std::uint64_t seed) {

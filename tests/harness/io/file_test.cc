@@ -10,6 +10,7 @@
 #include <exception>
 
 #include "harness/io/file_lock.h"
+#include "harness/io/hash.h"
 #include "harness/io/input_error.h"
 
 namespace aisle {
@@ -99,6 +100,19 @@ TEST_F(FileTest, TooManyOpenFilesAreTheMachinesTrouble) {
   ASSERT_TRUE(thrown);
   EXPECT_THROW(std::rethrow_exception(thrown), MachineError);
   EXPECT_EQ(ReadFile(folder_ / "file"), "text");
+}
+
+TEST_F(FileTest, AFilesHashIsThatOfItsBytesHoweverManyTheyAre) {
+  std::string bytes;
+  for (int i = 0; i < 300'000; ++i) bytes += fmt::format("{} ", i * i % 9973);
+  WriteFileAtomically(folder_ / "file", bytes);
+  EXPECT_EQ(HashFile(folder_ / "file", 7), Hash(bytes, 7));
+  WriteFileAtomically(folder_ / "empty", "");
+  EXPECT_EQ(HashFile(folder_ / "empty", 7), Hash("", 7));
+  WriteFileAtomically(folder_ / "weights", "");
+  fs::resize_file(folder_ / "weights", (std::uintmax_t{1} << 30) + 1);  // more than is read at once
+  EXPECT_NO_THROW(HashFile(folder_ / "weights"));
+  EXPECT_THROW(HashFile(folder_ / "none"), InputError);
 }
 
 TEST_F(FileTest, ALockIsHeldByOneAtATime) {
