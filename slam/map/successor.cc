@@ -1,20 +1,37 @@
 #include "slam/map/successor.h"
 
+#include <algorithm>
+
 namespace aisle::slam {
+namespace {
+
+/// Whether a keyframe sees both with one feature: then they are the same landmark.
+bool SharesObservation(const Landmark& before, const Landmark& now) {
+  return std::ranges::any_of(before.observations, [&](const Observation& one) {
+    return std::ranges::binary_search(now.observations, one);
+  });
+}
+
+}  // namespace
 
 LandmarkId Successor(const Map& before, const Map& now, LandmarkId id) {
   const Landmark* old = before.Find(id);
   if (!old) return {};
+  // The two maps may have given the same id to different landmarks since they parted. The keyframe
+  // that brought them does not tell, as it brings many: where it was added to both, its landmarks
+  // have the ids of one another.
   const Landmark* same = now.Find(id);
-  // The two maps may have given the same id to different landmarks since they parted.
-  if (same && same->created_by == old->created_by) return id;
+  if (same && same->created_by != old->created_by) same = nullptr;
+  if (same && SharesObservation(*old, *same)) return id;
   for (const Observation& observation : old->observations) {
     const Keyframe* keyframe = now.Find(observation.keyframe);
     if (!keyframe) continue;
     const LandmarkId there = keyframe->landmarks[static_cast<std::size_t>(observation.feature)];
     if (there.valid()) return there;
   }
-  return {};
+  // A keyframe that was added to both still sees all its landmarks: this one was in both before,
+  // and has only lost those who saw it then.
+  return same ? id : LandmarkId{};
 }
 
 MapEdit CarriedOver(MapEdit edit, const Map& before, const Map& now) {

@@ -42,10 +42,11 @@ class MapKeeperTest : public testing::TestWithParam<bool> {
     return options;
   }
 
-  /// Three features; the first one has a new landmark.
-  MapEdit NextKeyframe() const {
+  /// Features with a new landmark each, and two more without.
+  MapEdit NextKeyframe(int landmarks = 1) const {
+    const int features = landmarks + 2;
     auto frame = std::make_shared<Frame>();
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < features; ++i) {
       frame->features.keypoints.emplace_back();
       frame->features.descriptors.emplace_back();
       frame->measurements.push_back({{10.0 * i, 10, 20}, 1, 1});
@@ -54,14 +55,16 @@ class MapKeeperTest : public testing::TestWithParam<bool> {
     keyframe.id = keeper.map().NextKeyframeId();
     keyframe.frame = frame;
     if (keyframe.id.value > 0) keyframe.parent = {keyframe.id.value - 1};
-    keyframe.landmarks.resize(3);
-    Landmark landmark;
-    landmark.position = {100.0 + static_cast<double>(keyframe.id.value), 0, 5};
-    landmark.observations = {{keyframe.id, 0}};
-    landmark.created_by = keyframe.id;
+    keyframe.landmarks.resize(static_cast<std::size_t>(features));
     MapEdit edit;
     edit.new_keyframes = {keyframe};
-    edit.new_landmarks = {landmark};
+    for (int i = 0; i < landmarks; ++i) {
+      Landmark landmark;
+      landmark.position = {100.0 + static_cast<double>(keyframe.id.value), 1.0 * i, 5};
+      landmark.observations = {{keyframe.id, i}};
+      landmark.created_by = keyframe.id;
+      edit.new_landmarks.push_back(landmark);
+    }
     return edit;
   }
 
@@ -123,6 +126,30 @@ TEST_P(MapKeeperTest, LandmarksOfKeyframesThatWaitAreFoundUnderTheirNewIds) {
   EXPECT_EQ(keeper.map().At(now).position.x(), 102);
   EXPECT_EQ(keeper.map().At(KeyframeId{3}).landmarks[1], now);
   EXPECT_EQ(keeper.map().At(now).predicted, 5);
+}
+
+TEST_P(MapKeeperTest, LandmarksOfOneKeyframeThatWaitsAreNotTakenForEachOther) {
+  keeper.WorkIn(NextKeyframe(), 10);
+  keeper.WorkIn(NextKeyframe(4), 11);
+  const std::vector<LandmarkId> own = keeper.map().At(KeyframeId{2}).landmarks;
+  MapEdit third = NextKeyframe(0);
+  third.new_keyframes.front().landmarks[0] = own[2];
+  third.counts = {{own[2], 5, 4}};
+  keeper.WorkIn(third, 12);
+  const auto taken = Take(14);
+  ASSERT_TRUE(taken.replaced);
+  // What the mapper has placed takes the first of their ids, and all of them move up.
+  const Landmark* shifted = keeper.map().Find(own[2]);
+  ASSERT_TRUE(shifted);
+  ASSERT_EQ(shifted->created_by, KeyframeId{2});
+  for (std::size_t i = 0; i < 4; ++i) {
+    const LandmarkId now = Successor(*taken.replaced, keeper.map(), own[i]);
+    ASSERT_TRUE(now.valid());
+    EXPECT_EQ(keeper.map().At(now).position.y(), 1.0 * static_cast<double>(i));
+  }
+  const Landmark& seen = keeper.map().At(keeper.map().At(KeyframeId{3}).landmarks[0]);
+  EXPECT_EQ(seen.position.y(), 2);
+  EXPECT_EQ(seen.predicted, 5);
 }
 
 TEST_P(MapKeeperTest, WhatIsGivenUpIsSeenAtTheNextFrame) {
