@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "slam/camera/se3.h"
+
 namespace aisle::slam {
 namespace {
 
@@ -10,6 +12,18 @@ bool SharesObservation(const Landmark& before, const Landmark& now) {
   return std::ranges::any_of(before.observations, [&](const Observation& one) {
     return std::ranges::binary_search(now.observations, one);
   });
+}
+
+/// The world around its parent may have moved, as far as a loop was wide: the keyframe and what it
+/// has brought go with it. To the last bit they stay where it has not.
+void MoveWithParent(const Map& before, const Map& now, Keyframe& keyframe,
+                    std::vector<Landmark>& brought) {
+  const Eigen::Isometry3d T_then = before.PoseOf(keyframe.parent);
+  const Eigen::Isometry3d T_now = now.PoseOf(keyframe.parent);
+  if (T_now.matrix() == T_then.matrix()) return;
+  const Eigen::Isometry3d T_new_old = T_now * T_then.inverse();
+  keyframe.T_world_rig = Normalized(T_new_old * keyframe.T_world_rig);
+  for (Landmark& landmark : brought) landmark.position = T_new_old * landmark.position;
 }
 
 }  // namespace
@@ -36,7 +50,10 @@ LandmarkId Successor(const Map& before, const Map& now, LandmarkId id) {
 
 MapEdit CarriedOver(MapEdit edit, const Map& before, const Map& now) {
   for (Keyframe& keyframe : edit.new_keyframes) {
-    if (keyframe.parent.valid()) keyframe.parent = now.StandIn(keyframe.parent);
+    if (keyframe.parent.valid()) {
+      MoveWithParent(before, now, keyframe, edit.new_landmarks);
+      keyframe.parent = now.StandIn(keyframe.parent);
+    }
     for (LandmarkId& landmark : keyframe.landmarks) {
       if (landmark.valid()) landmark = Successor(before, now, landmark);
     }

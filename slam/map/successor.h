@@ -9,7 +9,8 @@ namespace aisle::slam {
 /// under another id. Invalid where it is gone.
 LandmarkId Successor(const Map& before, const Map& now, LandmarkId id);
 
-/// A new keyframe for the map `before`, as it has to be told to `now`.
+/// A new keyframe for the map `before`, as it has to be told to `now`: it and what it has brought
+/// stand to the keyframe it was tracked from as before, wherever that has moved.
 MapEdit CarriedOver(MapEdit keyframe, const Map& before, const Map& now);
 
 }  // namespace aisle::slam
