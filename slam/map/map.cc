@@ -23,6 +23,11 @@ Node* Own(std::shared_ptr<const Node>& node) {
 
 }  // namespace
 
+const std::map<KeyframeId, RetiredKeyframe>& Map::retired() const {
+  static const std::map<KeyframeId, RetiredKeyframe> none;
+  return retired_ ? *retired_ : none;
+}
+
 const Keyframe* Map::Find(KeyframeId id) const {
   const auto found = keyframes_.find(id);
   return found == keyframes_.end() ? nullptr : found->second.get();
@@ -59,22 +64,22 @@ Eigen::Isometry3d Map::PoseOf(KeyframeId id) const {
   Eigen::Isometry3d T_heir_rig = Eigen::Isometry3d::Identity();
   for (;;) {
     if (const Keyframe* keyframe = Find(id)) return keyframe->T_world_rig * T_heir_rig;
-    const auto retired = retired_.find(id);
-    if (retired == retired_.end()) {
+    const auto gone = retired().find(id);
+    if (gone == retired().end()) {
       throw std::logic_error(fmt::format("keyframe {} was never in the map", id.value));
     }
-    T_heir_rig = retired->second.T_heir_rig * T_heir_rig;
-    id = retired->second.heir;
+    T_heir_rig = gone->second.T_heir_rig * T_heir_rig;
+    id = gone->second.heir;
   }
 }
 
 KeyframeId Map::StandIn(KeyframeId id) const {
   while (!Find(id)) {
-    const auto retired = retired_.find(id);
-    if (retired == retired_.end()) {
+    const auto gone = retired().find(id);
+    if (gone == retired().end()) {
       throw std::logic_error(fmt::format("keyframe {} was never in the map", id.value));
     }
-    id = retired->second.heir;
+    id = gone->second.heir;
   }
   return id;
 }
@@ -174,12 +179,17 @@ void Map::Remove(KeyframeId id) {
   }
   const KeyframeId heir = keyframe->parent;
   if (const Keyframe* parent = Find(heir)) {
-    retired_[id] = {id, heir, parent->T_world_rig.inverse() * keyframe->T_world_rig};
+    Retire({id, heir, parent->T_world_rig.inverse() * keyframe->T_world_rig});
   }
   for (auto& [other, node] : keyframes_) {
     if (node->parent == id) Own(node)->parent = heir;
   }
   keyframes_.erase(id);
+}
+
+void Map::Retire(const RetiredKeyframe& one) {
+  if (!retired_) retired_ = std::make_shared<std::map<KeyframeId, RetiredKeyframe>>();
+  Own(retired_)->insert_or_assign(one.id, one);
 }
 
 void Map::Apply(const MapEdit& edit) {

@@ -115,6 +115,9 @@ class Map {
   const std::map<KeyframeId, std::shared_ptr<const Keyframe>>& keyframes() const {
     return keyframes_;
   }
+  /// Keyframes that are gone, by rising id. They grow with driving, not with the place: copies of a
+  /// map have them in common until one of them loses a keyframe.
+  const std::map<KeyframeId, RetiredKeyframe>& retired() const;
   bool empty() const { return keyframes_.empty(); }
   int landmark_count() const { return landmark_count_; }
   /// The slots of all landmarks lie below it.
@@ -151,12 +154,13 @@ class Map {
   void MergeInto(LandmarkId gone, LandmarkId kept);
   void Remove(LandmarkId id);
   void Remove(KeyframeId id);
+  void Retire(const RetiredKeyframe& one);
 
   std::map<KeyframeId, std::shared_ptr<const Keyframe>> keyframes_;
   std::vector<std::shared_ptr<const Landmark>> landmarks_;  // by slot; null where vacant
   std::vector<std::int32_t> generations_;                   // of each slot's next tenant
   std::vector<std::int32_t> vacant_;
-  std::map<KeyframeId, RetiredKeyframe> retired_;
+  std::shared_ptr<const std::map<KeyframeId, RetiredKeyframe>> retired_;  // null where none
   int landmark_count_ = 0;
   std::int64_t next_keyframe_ = 0;
 };

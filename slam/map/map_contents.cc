@@ -77,7 +77,7 @@ MapContents Map::Contents() const {
   for (const Landmark* landmark : Landmarks()) contents.landmarks.push_back(*landmark);
   contents.generations = generations_;
   contents.vacant = vacant_;
-  for (const auto& [id, retired] : retired_) contents.retired.push_back(retired);
+  for (const auto& [id, gone] : retired()) contents.retired.push_back(gone);
   contents.next_keyframe = next_keyframe_;
   return contents;
 }
@@ -94,7 +94,7 @@ Map::Map(const MapContents& contents) {
   }
   generations_ = contents.generations;
   vacant_ = contents.vacant;
-  for (const RetiredKeyframe& one : contents.retired) retired_[one.id] = one;
+  for (const RetiredKeyframe& one : contents.retired) Retire(one);
   landmark_count_ = static_cast<int>(contents.landmarks.size());
   next_keyframe_ = contents.next_keyframe;
   CheckObservations(*this);

@@ -38,11 +38,11 @@ Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& c
   return map;
 }
 
-GlobalCorrection CorrectGlobally(const Map& map, const StereoCamera& camera,
+GlobalCorrection CorrectGlobally(Map map, const StereoCamera& camera,
                                  const GlobalAdjustmentOptions& options) {
   double ms = 0;
   MapEdit adjusted = Timed(ms, [&] { return AdjustGlobally(map, camera, options).edit; });
-  return {map, std::move(adjusted), ms};
+  return {std::move(map), std::move(adjusted), ms};
 }
 
 MapEdit CarryOver(const Map& now, const GlobalCorrection& correction) {

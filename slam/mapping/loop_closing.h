@@ -22,7 +22,7 @@ struct GlobalCorrection {
 };
 
 /// Adjusts all of a map, see AdjustGlobally.
-GlobalCorrection CorrectGlobally(const Map& map, const StereoCamera& camera,
+GlobalCorrection CorrectGlobally(Map map, const StereoCamera& camera,
                                  const GlobalAdjustmentOptions& options);
 
 /// What a correction asks of the map as it is `now`: keyframes move with what was made of them, and

@@ -18,15 +18,16 @@ MapKeeper::Taken MapKeeper::TakeDueWork(std::int64_t frame_now,
   double& wait_ms = stage_ms["wait_for_mapping"];
   const bool anytime = options_.schedule.free_running;
   Taken taken;
-  const auto replace = [&](auto take) {
-    const Map before = map_;
-    take();
+  // Maps are moved, not copied: even their tables are long after a long drive.
+  const auto replace = [&](Map next, auto go_on) {
+    Map before = std::exchange(map_, std::move(next));
+    go_on();
     GoOn(before, frame_now);
-    if (!taken.replaced) taken.replaced = before;
+    if (!taken.replaced) taken.replaced = std::move(before);
   };
   while (auto result = mapping_.TakeIfDue(frame_now, wait_ms, anytime)) {
     stage_ms["mapping"] += result->milliseconds;
-    replace([&] { TakeMapping(std::move(*result), frame_now); });
+    replace(std::move(result->map), [&] { GoOnAfterMapping(*result, frame_now); });
   }
   // Not while a keyframe is being worked in: the result of that would undo the correction.
   if (!busy()) {
@@ -37,7 +38,7 @@ MapKeeper::Taken MapKeeper::TakeDueWork(std::int64_t frame_now,
   }
   if (auto closed = closing_.TakeIfDue(frame_now, wait_ms, anytime)) {
     taken.loop_closed = true;
-    replace([&] { TakeClosing(std::move(*closed), frame_now); });
+    replace(std::move(*closed), [&] { StartAdjusting(frame_now); });
   }
   return taken;
 }
@@ -55,11 +56,10 @@ void MapKeeper::FinishWork() {
   loops_.clear();
 }
 
-void MapKeeper::TakeMapping(MappingResult result, std::int64_t frame_now) {
-  map_ = std::move(result.map);
+void MapKeeper::GoOnAfterMapping(const MappingResult& result, std::int64_t frame_now) {
   worked_on_ = {};
   if (step_ + 1 == policy_.size()) return FinishMapping(result, frame_now);
-  StartStep(step_ + 1, map_, mapping_.due_frame());
+  StartStep(step_ + 1, mapping_.due_frame());
 }
 
 /// The next keyframe that waits is worked in, if nothing else is under way; the others show.
@@ -69,7 +69,7 @@ void MapKeeper::GoOn(const Map& before, std::int64_t frame_now) {
     waiting_.pop_front();
     map_.Apply(next);
     worked_in_ = next.new_keyframes.front().id;
-    StartStep(0, map_, frame_now);
+    StartStep(0, frame_now);
   }
   for (MapEdit& keyframe : waiting_) {
     keyframe = CarriedOver(keyframe, before, map_);
@@ -99,19 +99,20 @@ void MapKeeper::StartClosing(const std::vector<LoopEdge>& agreeing, std::int64_t
   const ScheduleOptions& schedule = options_.schedule;
   const std::int64_t due_frame = frame_now + schedule.loop_frames +
                                  std::ssize(map_.keyframes()) / schedule.keyframes_per_loop_frame;
-  closing_.Start(due_frame, schedule.background, [map = map_, agreeing, this] {
-    return CloseLoop(map, agreeing, camera_, options_.loop.spread, options_.mapping.fuse);
+  closing_.Start(due_frame, schedule.background, [map = map_, agreeing, this]() mutable {
+    return CloseLoop(std::move(map), agreeing, camera_, options_.loop.spread,
+                     options_.mapping.fuse);
   });
 }
 
 /// Tracking goes on in the closed map, which is made exact meanwhile.
-void MapKeeper::TakeClosing(Map closed, std::int64_t frame_now) {
-  map_ = std::move(closed);
+void MapKeeper::StartAdjusting(std::int64_t frame_now) {
   const ScheduleOptions& schedule = options_.schedule;
   const std::int64_t due_frame = frame_now + schedule.global_frames +
                                  std::ssize(map_.keyframes()) / schedule.keyframes_per_global_frame;
-  adjusting_.Start(due_frame, schedule.background,
-                   [map = map_, this] { return CorrectGlobally(map, camera_, options_.global); });
+  adjusting_.Start(due_frame, schedule.background, [map = map_, this]() mutable {
+    return CorrectGlobally(std::move(map), camera_, options_.global);
+  });
 }
 
 void MapKeeper::WorkIn(const MapEdit& edit, std::int64_t frame_now) {
@@ -121,29 +122,31 @@ void MapKeeper::WorkIn(const MapEdit& edit, std::int64_t frame_now) {
     return;
   }
   worked_in_ = edit.new_keyframes.front().id;
-  StartStep(0, map_, frame_now);
+  StartStep(0, frame_now);
 }
 
 void MapKeeper::Hurry(std::int64_t frame_now) {
   if (!mapping_.pending() || !policy_[step_].given_up || given_up_) return;
   given_up_ = true;
-  Start(Map(worked_on_), frame_now + 1, policy_[step_].given_up);
+  Start(std::move(worked_on_), frame_now + 1, policy_[step_].given_up);
 }
 
-void MapKeeper::StartStep(std::size_t step, const Map& map, std::int64_t from_frame) {
+void MapKeeper::StartStep(std::size_t step, std::int64_t from_frame) {
   step_ = step;
   given_up_ = false;
   const MappingStep& now = policy_[step];
   const bool hurried = !waiting_.empty();
-  Start(map, from_frame + (hurried ? now.hurried_frames : now.frames),
+  if (now.given_up) worked_on_ = map_;
+  Start(map_, from_frame + (hurried ? now.hurried_frames : now.frames),
         hurried ? now.hurried : now.work);
 }
 
-void MapKeeper::Start(const Map& map, std::int64_t due_frame, const MappingStep::Work& work) {
-  worked_on_ = map;
-  mapping_.Start(due_frame, options_.schedule.background, [map, work, id = worked_in_, this] {
-    return work(map, id, {vocabulary(), index_, camera_, options_.mapping, options_.loop});
-  });
+void MapKeeper::Start(Map map, std::int64_t due_frame, const MappingStep::Work& work) {
+  mapping_.Start(due_frame, options_.schedule.background,
+                 [map = std::move(map), work, id = worked_in_, this]() mutable {
+                   return work(std::move(map), id,
+                               {vocabulary(), index_, camera_, options_.mapping, options_.loop});
+                 });
 }
 
 void MapKeeper::AddRoot(const MapEdit& edit) {

@@ -69,12 +69,12 @@ class MapKeeper {
   void Count(const std::vector<MapEdit::Count>& counts);
 
  private:
-  void TakeMapping(MappingResult result, std::int64_t frame_now);
+  void GoOnAfterMapping(const MappingResult& result, std::int64_t frame_now);
   void FinishMapping(const MappingResult& result, std::int64_t frame_now);
-  void StartStep(std::size_t step, const Map& map, std::int64_t from_frame);
-  void Start(const Map& map, std::int64_t due_frame, const MappingStep::Work& work);
+  void StartStep(std::size_t step, std::int64_t from_frame);
+  void Start(Map map, std::int64_t due_frame, const MappingStep::Work& work);
   void GoOn(const Map& before, std::int64_t frame_now);
-  void TakeClosing(Map closed, std::int64_t frame_now);
+  void StartAdjusting(std::int64_t frame_now);
   void StartClosing(const std::vector<LoopEdge>& agreeing, std::int64_t frame_now);
   void Index(KeyframeId id);
 
@@ -88,7 +88,7 @@ class MapKeeper {
   std::size_t step_ = 0;         // of the policy, under way or last taken
   bool given_up_ = false;        // what is left of it is under way
   KeyframeId worked_in_;         // its keyframe
-  Map worked_on_;                // what the step under way began with
+  Map worked_on_;                // what the step under way began with, if it can be given up
   std::deque<MapEdit> waiting_;  // keyframes, as map_ shows them
 
   // Declared last: they end before what they read.

@@ -114,6 +114,28 @@ TEST(Map, StaysWholeUnderAnyEdits) {
   }
 }
 
+TEST(Map, CopiesHaveFormerKeyframesInCommon) {
+  Map map;
+  AddKeyframe(map, 1);
+  MapEdit culling;
+  for (int k = 1; k <= 1000; ++k) culling.removed_keyframes.push_back(AddKeyframe(map, 1, {k - 1}));
+  map.Apply(culling);
+  Map copy = map;
+  ASSERT_EQ(copy.retired().size(), 1000u);
+  EXPECT_EQ(&copy.retired(), &map.retired());  // not one of them is copied
+  // What is added to the map, and what changes in it, parts them no more.
+  const KeyframeId another = AddKeyframe(copy, 1, {0});
+  AddLandmark(copy, {{another, 0}});
+  EXPECT_EQ(&copy.retired(), &map.retired());
+  MapEdit again;
+  again.removed_keyframes = {another};
+  copy.Apply(again);
+  EXPECT_EQ(copy.retired().size(), 1001u);
+  EXPECT_EQ(map.retired().size(), 1000u);
+  EXPECT_EQ(map.StandIn({1000}), KeyframeId{0});
+  EXPECT_EQ(copy.PoseOf(another).translation().x(), 1001);
+}
+
 TEST(Map, ACopyDoesNotSeeLaterEdits) {
   Map map;
   const KeyframeId keyframe = AddKeyframe(map, 3);
