@@ -17,9 +17,13 @@ std::vector<LandmarkId> LandmarksAround(const Map& map, KeyframeId id) {
   return LandmarksOf(map, keyframes);
 }
 
-/// Keyframes after `from`, `newest` included.
-std::ptrdiff_t KeyframesSince(const Map& map, KeyframeId from) {
-  return std::distance(map.keyframes().upper_bound(from), map.keyframes().end());
+/// Every keyframe before this one has at least `count` others after it; none where there are not so
+/// many. Found once, as the map may be large and is asked of every landmark around.
+KeyframeId FirstOfNewest(const Map& map, int count) {
+  if (count <= 0) return map.NextKeyframeId();
+  const auto& keyframes = map.keyframes();
+  if (count > std::ssize(keyframes)) return {};
+  return std::prev(keyframes.end(), count)->first;
 }
 
 int LevelOf(const Map& map, const Observation& observation) {
@@ -57,11 +61,11 @@ bool IsRedundant(const Map& map, const Keyframe& keyframe, const std::set<Keyfra
 
 MapEdit CullLandmarks(const Map& map, KeyframeId newest, const CullOptions& options) {
   MapEdit edit;
+  const KeyframeId probation = FirstOfNewest(map, options.probation_keyframes);
   for (const LandmarkId id : LandmarksAround(map, newest)) {
     const Landmark& landmark = map.At(id);
     const bool rarely_found = landmark.found < options.least_found_ratio * landmark.predicted;
-    const auto age = KeyframesSince(map, landmark.created_by);
-    const bool unconfirmed = age >= options.probation_keyframes &&
+    const bool unconfirmed = landmark.created_by < probation &&
                              (landmark.observations.size() < 2 ||
                               ObservationWeight(map, landmark) < options.least_weight);
     if (rarely_found || unconfirmed) edit.removed_landmarks.push_back(id);
@@ -71,11 +75,12 @@ MapEdit CullLandmarks(const Map& map, KeyframeId newest, const CullOptions& opti
 
 MapEdit CullKeyframes(const Map& map, KeyframeId newest, const CullOptions& options) {
   MapEdit edit;
+  const KeyframeId recent = FirstOfNewest(map, options.recent_keyframes);
   std::set<KeyframeId> going;
   for (const Covisible& neighbour : CovisibleKeyframes(map, newest, 1)) {
     const KeyframeId id = neighbour.keyframe;
     const bool is_root = !map.At(id).parent.valid();  // a part of the map hangs on it
-    if (is_root || KeyframesSince(map, id) < options.recent_keyframes) continue;
+    if (is_root || id >= recent) continue;
     if (IsRedundant(map, map.At(id), going, options)) going.insert(id);
   }
   edit.removed_keyframes.assign(going.begin(), going.end());

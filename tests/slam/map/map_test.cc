@@ -215,6 +215,22 @@ TEST(CullLandmarks, RemovesTheUnconfirmedAndTheHardlyFound) {
   ExpectWhole(map);
 }
 
+TEST(CullLandmarks, ProbationCountsTheKeyframesThatAreThere) {
+  Map map;
+  for (int k = 0; k < 6; ++k) AddKeyframe(map, 1, {k - 1});
+  MapEdit edit;
+  edit.removed_keyframes = {{3}};
+  map.Apply(edit);
+  AddLandmark(map, {{{2}, 0}, {{5}, 0}});  // since it came: keyframes 4 and 5
+  CullOptions options;
+  options.least_weight = 99;
+  for (const int probation : {0, 1, 2, 3, 4, 5, 6, 1000}) {
+    options.probation_keyframes = probation;
+    EXPECT_EQ(CullLandmarks(map, {5}, options).removed_landmarks.size(), probation <= 2)
+        << probation;
+  }
+}
+
 TEST(CullKeyframes, RemovesOnlyWhatOthersShowAsWell) {
   Map map;
   std::vector<KeyframeId> ids;
