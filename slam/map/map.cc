@@ -101,6 +101,7 @@ void Map::Insert(const Keyframe& keyframe) {
   next_keyframe_ = keyframe.id.value + 1;
   auto node = std::make_shared<Keyframe>(keyframe);
   if (!Find(node->parent)) node->parent = {};
+  part_count_ += !node->parent.valid();
   node->landmarks.assign(keyframe.landmarks.size(), LandmarkId{});
   keyframes_.emplace(keyframe.id, std::move(node));
   for (std::size_t i = 0; i < keyframe.landmarks.size(); ++i) {
@@ -182,14 +183,20 @@ void Map::Remove(KeyframeId id) {
     Retire({id, heir, parent->T_world_rig.inverse() * keyframe->T_world_rig});
   }
   for (auto& [other, node] : keyframes_) {
-    if (node->parent == id) Own(node)->parent = heir;
+    if (node->parent == id) SetParent(*Own(node), heir);
   }
+  part_count_ -= !heir.valid();
   keyframes_.erase(id);
 }
 
 void Map::Retire(const RetiredKeyframe& one) {
   if (!retired_) retired_ = std::make_shared<std::map<KeyframeId, RetiredKeyframe>>();
   Own(retired_)->insert_or_assign(one.id, one);
+}
+
+void Map::SetParent(Keyframe& keyframe, KeyframeId parent) {
+  part_count_ += keyframe.parent.valid() - parent.valid();
+  keyframe.parent = parent;
 }
 
 void Map::Apply(const MapEdit& edit) {
@@ -208,7 +215,7 @@ void Map::Apply(const MapEdit& edit) {
     if (Keyframe* keyframe = Change(id)) keyframe->T_world_rig = T_world_rig;
   }
   for (const auto& [id, parent] : edit.parents) {
-    if (Find(parent) && parent < id && Find(id)) Change(id)->parent = parent;
+    if (Find(parent) && parent < id && Find(id)) SetParent(*Change(id), parent);
   }
   for (const auto& [id, position] : edit.positions) {
     if (Landmark* landmark = Change(id)) landmark->position = position;

@@ -120,6 +120,8 @@ class Map {
   const std::map<KeyframeId, RetiredKeyframe>& retired() const;
   bool empty() const { return keyframes_.empty(); }
   int landmark_count() const { return landmark_count_; }
+  /// Keyframes without a parent: the parts of the map, see RootOf.
+  int part_count() const { return part_count_; }
   /// The slots of all landmarks lie below it.
   int slot_count() const { return static_cast<int>(landmarks_.size()); }
 
@@ -155,6 +157,7 @@ class Map {
   void Remove(LandmarkId id);
   void Remove(KeyframeId id);
   void Retire(const RetiredKeyframe& one);
+  void SetParent(Keyframe& keyframe, KeyframeId parent);
 
   std::map<KeyframeId, std::shared_ptr<const Keyframe>> keyframes_;
   std::vector<std::shared_ptr<const Landmark>> landmarks_;  // by slot; null where vacant
@@ -162,6 +165,7 @@ class Map {
   std::vector<std::int32_t> vacant_;
   std::shared_ptr<const std::map<KeyframeId, RetiredKeyframe>> retired_;  // null where none
   int landmark_count_ = 0;
+  int part_count_ = 0;
   std::int64_t next_keyframe_ = 0;
 };
 

@@ -87,6 +87,7 @@ Map::Map(const MapContents& contents) {
   CheckAncestry(contents);
   for (const Keyframe& keyframe : contents.keyframes) {
     keyframes_.emplace(keyframe.id, std::make_shared<Keyframe>(keyframe));
+    part_count_ += !keyframe.parent.valid();
   }
   landmarks_.resize(contents.generations.size());
   for (const Landmark& landmark : contents.landmarks) {

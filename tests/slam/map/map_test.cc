@@ -73,6 +73,9 @@ void ExpectWhole(const Map& map) {
   }
   EXPECT_EQ(named, observed);
   EXPECT_EQ(std::ssize(map.Landmarks()), map.landmark_count());
+  int roots = 0;
+  for (const auto& [id, root] : Roots(map)) roots += id == root;
+  EXPECT_EQ(map.part_count(), roots);
 }
 
 TEST(Map, StaysWholeUnderAnyEdits) {
@@ -91,7 +94,10 @@ TEST(Map, StaysWholeUnderAnyEdits) {
       return all.empty() ? LandmarkId{} : all[static_cast<std::size_t>(pick(all.size()))]->id;
     };
     MapEdit edit;
-    if (pick(3) == 0) edit.new_keyframes = {MakeKeyframe(map, 12, any_keyframe())};
+    if (pick(3) == 0) {
+      const bool apart = pick(8) == 0;  // the first of a part of its own
+      edit.new_keyframes = {MakeKeyframe(map, 12, apart ? KeyframeId{} : any_keyframe())};
+    }
     for (int i = 0; i < 4; ++i) {
       Landmark landmark;
       landmark.observations = {{any_keyframe(), pick(12)}, {any_keyframe(), pick(12)}};
@@ -103,6 +109,7 @@ TEST(Map, StaysWholeUnderAnyEdits) {
     edit.cuts.push_back({any_landmark(), {any_keyframe(), pick(12)}});
     edit.positions.push_back({any_landmark(), {1, 1, 1}});
     if (pick(4) == 0) edit.removed_landmarks.push_back(any_landmark());
+    if (pick(4) == 0) edit.parents.push_back({any_keyframe(), any_keyframe()});
     if (pick(6) == 0) {
       const KeyframeId going = any_keyframe();
       if (going != map.keyframes().begin()->first) edit.removed_keyframes.push_back(going);

@@ -75,6 +75,10 @@ TEST(IsInFirstPart, KeyframesOfALaterPartAreNot) {
   EXPECT_TRUE(IsInFirstPart(map, {0}));
   EXPECT_TRUE(IsInFirstPart(map, {5}));
   EXPECT_FALSE(IsInFirstPart(map, {6}));
+  MapEdit join;
+  join.parents = {{{6}, {5}}};
+  map.Apply(join);
+  EXPECT_TRUE(IsInFirstPart(map, {6}));
 }
 
 }  // namespace
