@@ -40,6 +40,10 @@ void CheckAncestry(const MapContents& contents) {
     last = keyframe.id;
     Demand(known.emplace(keyframe.id, keyframe.parent).second, "a keyframe is retired too");
   }
+  // Numbers are given one by one, and tables of that length are made for every frame.
+  Demand(std::ssize(known) == contents.next_keyframe &&
+             (known.empty() || known.rbegin()->first.value < contents.next_keyframe),
+         "the next keyframe's number is not that of those which are or were there");
   for (const auto& [id, ancestor] : known) {
     Demand(!ancestor.valid() || (ancestor < id && known.contains(ancestor)),
            "a keyframe's parent does not exist");

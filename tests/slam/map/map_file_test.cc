@@ -221,6 +221,15 @@ TEST(MapContents, ListsThatContradictEachOtherMakeNoMap) {
   expect_refused("parent unknown", [](auto& c) { c.keyframes.erase(c.keyframes.begin()); });
   expect_refused("order", [](auto& c) { std::swap(c.keyframes[0], c.keyframes[1]); });
   expect_refused("number", [](auto& c) { c.next_keyframe = 3; });
+  expect_refused("one number too far", [](auto& c) { ++c.next_keyframe; });
+  expect_refused("number beyond memory",
+                 [](auto& c) { c.next_keyframe = std::numeric_limits<std::int64_t>::max(); });
+  expect_refused("keyframe and number beyond memory", [](auto& c) {
+    c.keyframes.back().id.value = std::int64_t{1} << 50;
+    c.next_keyframe = (std::int64_t{1} << 50) + 1;
+  });
+  expect_refused("retired in the future",
+                 [](auto& c) { c.retired.back().id.value = c.next_keyframe; });
 }
 
 }  // namespace
