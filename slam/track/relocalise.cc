@@ -5,7 +5,7 @@ namespace aisle::slam {
 std::vector<KeyframeId> KeyframesToAsk(const Map& map, const Frame& frame, KeyframeId reference,
                                        const Places& places, std::int64_t turn) {
   constexpr std::size_t kAsked = 6;
-  std::vector<KeyframeId> asked = {reference};
+  std::vector<KeyframeId> asked = {map.StandIn(reference)};
   if (places.vocabulary) {
     const WordVector words = places.vocabulary->Describe(frame.features.descriptors);
     for (const PlaceMatch& one : places.index.Query(words)) {

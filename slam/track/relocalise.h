@@ -14,8 +14,9 @@ struct Places {
   const PlaceIndex& index;
 };
 
-/// The keyframes that a lost frame is compared with: the last reference, then those that look most
-/// alike or, without a vocabulary, a few in turn, others at every `turn`.
+/// The keyframes that a lost frame is compared with: the last reference, or what stands for it
+/// where it is gone, then those that look most alike or, without a vocabulary, a few in turn,
+/// others at every `turn`.
 std::vector<KeyframeId> KeyframesToAsk(const Map& map, const Frame& frame, KeyframeId reference,
                                        const Places& places, std::int64_t turn);
 

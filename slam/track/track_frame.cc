@@ -187,7 +187,7 @@ std::optional<FramePose> TrackFrame(const PlainContext& context, const TrackMemo
   if (attempt(FollowLandmarks(context, memory.landmarks, T_last_world, options.wide_factor))) {
     return best;
   }
-  attempt(RecogniseKeyframe(context, memory.reference));
+  attempt(RecogniseKeyframe(context, map.StandIn(memory.reference)));
   return best;
 }
 

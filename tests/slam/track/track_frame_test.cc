@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "slam/track/keyframe_policy.h"
+#include "slam/track/relocalise.h"
 #include "tests/slam/track/point_world.h"
 
 namespace aisle::slam {
@@ -40,6 +41,26 @@ TEST_F(TrackFrameTest, RecognisesTheReferenceKeyframeFromAfar) {
   const auto found = TrackFrame({map, *world.See(truth, 50'000'000), {}, 8, {}}, memory);
   ASSERT_TRUE(found);
   EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), 1e-4);
+}
+
+TEST_F(TrackFrameTest, AsksWhatStandsForAReferenceThatIsGone) {
+  Keyframe keyframe;
+  keyframe.id = map.NextKeyframeId();
+  keyframe.parent = memory.reference;
+  keyframe.frame = world.See(At(0, 0), 0);
+  keyframe.landmarks.resize(static_cast<std::size_t>(keyframe.frame->size()));
+  MapEdit edit;
+  edit.new_keyframes = {keyframe};
+  edit.removed_keyframes = {keyframe.id};
+  map.Apply(edit);
+  const KeyframeId heir = std::exchange(memory.reference, keyframe.id);
+  const Eigen::Isometry3d truth = At(0.8, 1.0, -12);  // too far to follow landmarks to
+  const auto frame = world.See(truth, 50'000'000);
+  const auto found = TrackFrame({map, *frame, {}, 8, {}}, memory);
+  ASSERT_TRUE(found);
+  EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), 1e-4);
+  const PlaceIndex none;
+  EXPECT_EQ(KeyframesToAsk(map, *frame, memory.reference, {nullptr, none}, 0).front(), heir);
 }
 
 TEST_F(TrackFrameTest, IsLostWhereNothingIsKnown) {
