@@ -181,8 +181,9 @@ StereoCamera HalfCamera(const StereoCamera& camera) {
 }
 
 cv::Mat1b HalfImage(const cv::Mat1b& image) {
+  const cv::Size size = image.size() / 2;
   cv::Mat1b half;
-  cv::resize(image, half, image.size() / 2, 0, 0, cv::INTER_AREA);
+  cv::resize(image(cv::Rect({0, 0}, size * 2)), half, size, 0, 0, cv::INTER_AREA);
   return half;
 }
 

@@ -34,6 +34,7 @@ struct Texture {
 /// The camera whose pixels are 2x2 of the given one's.
 StereoCamera HalfCamera(const StereoCamera& camera);
 
+/// The means of 2x2 pixels; an odd last column or row is left out.
 cv::Mat1b HalfImage(const cv::Mat1b& image);
 
 /// The same, less the noise that the image itself shows and the method does not count with: in

@@ -27,20 +27,38 @@ cv::Mat1f Leaning(const cv::Mat1f& log_odds, const cv::Mat1f& disparity, const c
   return leaning;
 }
 
+/// Each pixel of half size is 2x2 of the image's; a last column or row that is odd is as the one
+/// beside it.
+cv::Mat AtFullSize(const cv::Mat& half, cv::Size image) {
+  const cv::Size even = half.size() * 2;
+  cv::Mat full;
+  cv::resize(half, full, even, 0, 0, cv::INTER_LINEAR);
+  if (even == image) return full;
+  cv::copyMakeBorder(full, full, 0, image.height - even.height, 0, image.width - even.width,
+                     cv::BORDER_REPLICATE);
+  return full;
+}
+
+/// The same of a box in an image of half size.
+cv::Rect BoxAtFullSize(const cv::Rect& box, cv::Size half, cv::Size image) {
+  const cv::Point end(box.br().x == half.width ? image.width : box.br().x * 2,
+                      box.br().y == half.height ? image.height : box.br().y * 2);
+  return {box.tl() * 2, end};
+}
+
 cv::Mat1b PixelMask(const PixelRegions& regions, cv::Size image) {
-  cv::Mat1b half, mask;
+  cv::Mat1b half;
   cv::compare(regions.labels, 0, half, cv::CMP_GT);
-  cv::resize(half, mask, image, 0, 0, cv::INTER_LINEAR);
+  cv::Mat1b mask = AtFullSize(half, image);
   cv::threshold(mask, mask, 127, 255, cv::THRESH_BINARY);
   return mask;
 }
 
 cv::Mat1f PixelProbability(const cv::Mat1f& log_odds, cv::Size image) {
-  cv::Mat1f odds, probability;
+  cv::Mat1f odds;
   cv::exp(-log_odds, odds);
   odds = 1 / (1 + odds);
-  cv::resize(odds, probability, image, 0, 0, cv::INTER_LINEAR);
-  return probability;
+  return AtFullSize(odds, image);
 }
 
 DynamicRegions ToFullSize(const PixelRegions& regions, const cv::Mat1f& disparity,
@@ -49,8 +67,8 @@ DynamicRegions ToFullSize(const PixelRegions& regions, const cv::Mat1f& disparit
   DynamicRegions dynamic;
   dynamic.mask = PixelMask(regions, image);
   for (const PixelRegion& region : JoinRegions(regions, disparity, tolerance, options)) {
-    const cv::Rect box(region.box.tl() * 2, region.box.size() * 2);
-    dynamic.regions.push_back({region.id, box & cv::Rect({0, 0}, image), region.log_odds});
+    const cv::Rect box = BoxAtFullSize(region.box, disparity.size(), image);
+    dynamic.regions.push_back({region.id, box, region.log_odds});
   }
   return dynamic;
 }

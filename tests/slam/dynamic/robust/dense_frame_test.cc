@@ -38,6 +38,16 @@ std::pair<cv::Mat1b, cv::Mat1b> PairWithSomethingNear(const cv::Range& near_rows
   return pair;
 }
 
+TEST(HalfImage, PixelsAreTwoByTwoWhereTheSizeIsOddToo) {
+  const cv::Mat1b image = Cloth({1241, 375}, 2);
+  const cv::Mat1b half = HalfImage(image);
+  ASSERT_EQ(half.size(), cv::Size(620, 187));
+  for (const cv::Point at : {cv::Point(0, 0), cv::Point(310, 93), cv::Point(619, 186)}) {
+    const double mean = cv::mean(image(cv::Rect(2 * at.x, 2 * at.y, 2, 2)))[0];
+    EXPECT_NEAR(half(at), mean, 0.51) << at;
+  }
+}
+
 TEST(MakeDenseFrame, SeesWhatIsNearerThanTheSearchReaches) {
   const auto [left, right] = PairWithSomethingNear({160, 400});
   const DenseFrame frame = MakeDenseFrame(HalfImage(left), HalfImage(right), {});

@@ -71,6 +71,39 @@ TEST(RobustMethod, MasksAWalkerBeforeAStandingCamera) {
   EXPECT_GT(totals.IntersectionOverUnion(), 0.6);
 }
 
+TEST(RobustMethod, AnOddLastRowAndColumnAreAsThoseBesideThem) {
+  StereoCamera odd, even;
+  odd.width = even.width + 1;
+  odd.height = even.height + 1;
+  const cv::Rect whole(0, 0, odd.width, odd.height), inner(0, 0, even.width, even.height);
+  auto panels = test::StaticHall();
+  panels.push_back(test::Walker({2.3, 0.6, 3.2}, {1.2, 0, 0}));  // leaves at the right edge
+  RobustState of_odd, of_even;
+  int at_edge = 0;
+  for (int k = 0; k < 8; ++k) {
+    const auto view = test::Render(panels, odd, Isometry3d::Identity(), k * kStep);
+    const std::int64_t stamp_ns = k * 50'000'000LL;
+    RobustResult a = StepRobust(of_odd, {view.left, view.right}, stamp_ns, {}, odd, {});
+    RobustResult b = StepRobust(of_even, {view.left(inner).clone(), view.right(inner).clone()},
+                                stamp_ns, {}, even, {});
+    of_odd = std::move(a.state);
+    of_even = std::move(b.state);
+    const cv::Mat1b& mask = a.dynamic.mask;
+    ASSERT_EQ(mask.size(), whole.size());
+    EXPECT_EQ(cv::norm(mask(inner), b.dynamic.mask, cv::NORM_INF), 0);
+    EXPECT_EQ(cv::norm(mask.col(even.width), mask.col(even.width - 1), cv::NORM_INF), 0);
+    EXPECT_EQ(cv::norm(mask.row(even.height), mask.row(even.height - 1), cv::NORM_INF), 0);
+    at_edge += cv::countNonZero(mask.col(even.width));
+    ASSERT_EQ(a.dynamic.regions.size(), b.dynamic.regions.size());
+    for (std::size_t i = 0; i < a.dynamic.regions.size(); ++i) {
+      const cv::Rect box = a.dynamic.regions[i].box;
+      EXPECT_EQ(box & inner, b.dynamic.regions[i].box);
+      EXPECT_EQ(box & whole, box);
+    }
+  }
+  EXPECT_GT(at_edge, 0);
+}
+
 TEST(RobustMethod, MasksAWalkerInTheNoiseOfLittleLight) {
   const Totals totals = Play({.movers = {test::Walker({-0.6, 0.1, 3.2}, {1.2, 0, 0})},
                               .speed_mps = 0.3,
