@@ -1,5 +1,7 @@
 #include "harness/judge/limit.h"
 
+#include <limits>
+
 #include "harness/score/statistics.h"
 
 namespace aisle {
@@ -50,27 +52,92 @@ Verdict Bound(const std::string& name, const Limit& limit, double value, std::si
   return verdict;
 }
 
-Verdict JudgeCell(const Limit& limit, const Cell& cell, const std::vector<const RunRecord*>& runs) {
+/// Why a run has no value of a score.
+std::string WhyAbsent(const RunRecord& run, const std::string& score) {
+  const auto at = run.scores.find(score);
+  if (at != run.scores.end()) return at->second.absent;
+  return run.status_why.empty() ? "the run has no such score" : run.status_why;
+}
+
+std::optional<double> ValueOf(const RunRecord& run, const std::string& score) {
+  const auto at = run.scores.find(score);
+  return at == run.scores.end() ? std::nullopt : at->second.value;
+}
+
+/// How far a value lies beyond the nearer bound; not above zero where it holds both.
+double Excess(const Limit& limit, double value) {
+  double excess = -std::numeric_limits<double>::infinity();
+  if (limit.max) excess = std::max(excess, value - *limit.max);
+  if (limit.min) excess = std::max(excess, *limit.min - value);
+  return excess;
+}
+
+std::string BoundInWords(const Limit& limit) {
+  std::string text = limit.max ? fmt::format("at most {:.6g}", *limit.max) : "";
+  if (limit.min) text += fmt::format("{}at least {:.6g}", text.empty() ? "" : " and ", *limit.min);
+  return text;
+}
+
+/// Every seed by itself: "5 of 9 seeds are at least 1, needed are 9; the worst is 0 of seed 3".
+Verdict JudgeShare(const Limit& limit, const Cell& cell,
+                   const std::vector<const RunRecord*>& runs) {
+  std::map<std::uint64_t, bool> holds;  // by seed; all its repeats must
+  const RunRecord *worst = nullptr, *without = nullptr;
+  for (const RunRecord* run : runs) {
+    const std::optional<double> value = ValueOf(*run, limit.score);
+    bool& seed_holds = holds.try_emplace(run->spec.seed, true).first->second;
+    seed_holds = seed_holds && value && Excess(limit, *value) <= 0;
+    if (!value && without == nullptr) without = run;
+    if (value && (worst == nullptr ||
+                  Excess(limit, *value) > Excess(limit, *ValueOf(*worst, limit.score)))) {
+      worst = run;
+    }
+  }
+  const auto held = static_cast<std::size_t>(
+      std::count_if(holds.begin(), holds.end(), [](const auto& seed) { return seed.second; }));
+  constexpr double kRounding = 1e-9;  // 0.07 of 100 seeds are seven
+  const auto needed = static_cast<std::size_t>(
+      std::ceil(*limit.share * static_cast<double>(holds.size()) - kRounding));
+  Verdict verdict{.name = Name(cell) + ": " + limit.score,
+                  .passed = held >= needed,
+                  .flaky = false,
+                  .value = {},
+                  .limit = limit.max ? limit.max : limit.min,
+                  .why = ""};
+  verdict.why = fmt::format("{} of {} seeds {} {}, needed {} {}", held, holds.size(),
+                            held == 1 ? "is" : "are", BoundInWords(limit),
+                            needed == 1 ? "is" : "are", needed);
+  if (worst != nullptr) {
+    const Score& score = worst->scores.at(limit.score);
+    verdict.value = score.value;
+    verdict.why += fmt::format("; the worst is {:.6g}{} of seed {}", *score.value,
+                               score.unit == "1" ? "" : " " + score.unit, worst->spec.seed);
+  }
+  if (without != nullptr) {
+    verdict.why += fmt::format("; seed {} has no value: {}", without->spec.seed,
+                               WhyAbsent(*without, limit.score));
+  }
+  return verdict;
+}
+
+Verdict JudgeMedian(const Limit& limit, const Cell& cell,
+                    const std::vector<const RunRecord*>& runs) {
   const std::string name = Name(cell) + ": " + limit.score;
   std::vector<double> values;
   std::string unit;
   for (const RunRecord* run : runs) {
-    const auto score = run->scores.find(limit.score);
-    const bool known = score != run->scores.end();
-    if (known && score->second.value) {
-      values.push_back(*score->second.value);
-      unit = score->second.unit;
+    if (const std::optional<double> value = ValueOf(*run, limit.score)) {
+      values.push_back(*value);
+      unit = run->scores.at(limit.score).unit;
       continue;
     }
-    const std::string reason = known                     ? score->second.absent
-                               : run->status_why.empty() ? "the run has no such score"
-                                                         : run->status_why;
     return {.name = name,
             .passed = false,
             .flaky = false,
             .value = {},
             .limit = limit.max ? limit.max : limit.min,
-            .why = fmt::format("seed {} has no value: {}", run->spec.seed, reason)};
+            .why = fmt::format("seed {} has no value: {}", run->spec.seed,
+                               WhyAbsent(*run, limit.score))};
   }
   return Bound(name, limit, Quantile(values, 0.5), values.size(), unit);
 }
@@ -117,7 +184,8 @@ std::vector<Verdict> JudgeLimits(const std::vector<RunRecord>& runs,
                           .why = "no run matches" + Filters(limit)});
     }
     for (const auto& [cell, of_cell] : cells) {
-      verdicts.push_back(JudgeCell(limit, cell, of_cell));
+      verdicts.push_back(limit.share ? JudgeShare(limit, cell, of_cell)
+                                     : JudgeMedian(limit, cell, of_cell));
       Verdict& verdict = verdicts.back();
       std::tie(verdict.scene, verdict.twin, verdict.system) = cell;
     }

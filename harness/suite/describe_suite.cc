@@ -138,8 +138,20 @@ void DescribeLimit(Fields& fields, const Vocabulary& vocabulary, const Suite& su
   }
   fields.Name({"twin", "only in this twin", "live"}, &limit.twin, {suite.twins});
   fields.Name({"system", "only of this system", "oracle"}, &limit.system, {SystemNames(suite)});
-  fields.OptionalNumber({"min", "the median over seeds may not be below", "0.99"}, &limit.min);
-  fields.OptionalNumber({"max", "the median over seeds may not be above", "0.02"}, &limit.max);
+  fields.OptionalNumber(
+      {"min", "the median over seeds, or a share of them, may not be below", "0.99"}, &limit.min,
+      {});
+  fields.OptionalNumber(
+      {"max", "the median over seeds, or a share of them, may not be above", "0.02"}, &limit.max,
+      {});
+  fields.OptionalNumber({"share",
+                         "the share of the seeds that must hold the bound, each by itself: 1 is "
+                         "every seed; absent: their median must",
+                         "1"},
+                        &limit.share, {0, 1});
+  if (limit.share && *limit.share <= 0) {
+    fields.Fail("share", "it must be above 0: no seed would have to hold the bound");
+  }
   const std::string needed = TwinNeededBy(limit.score);
   if (!needed.empty() && !IsAmong(needed, suite.twins)) {
     fields.Fail("score",

@@ -45,7 +45,7 @@ class Fields {
   virtual void Text(const Key& key, std::string* value) = 0;
   virtual void Number(const Key& key, double* value, Range range) = 0;
   /// One that may be absent; then `*value` stays empty.
-  virtual void OptionalNumber(const Key& key, std::optional<double>* value) = 0;
+  virtual void OptionalNumber(const Key& key, std::optional<double>* value, Range range) = 0;
   virtual void Integer(const Key& key, int* value, Range range) = 0;
   /// A list of names, each once; one alone may drop its brackets.
   virtual void Names(const Key& key, std::vector<std::string>* values, const Words& words) = 0;

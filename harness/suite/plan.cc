@@ -21,8 +21,10 @@ std::optional<double> NumberOrNull(const Json& json) {
 }
 
 Json ToJson(const Limit& limit) {
-  return {{"score", limit.score},   {"scene", limit.scene},     {"twin", limit.twin},
-          {"system", limit.system}, {"min", OrNull(limit.min)}, {"max", OrNull(limit.max)}};
+  Json json = {{"score", limit.score},   {"scene", limit.scene},     {"twin", limit.twin},
+               {"system", limit.system}, {"min", OrNull(limit.min)}, {"max", OrNull(limit.max)}};
+  if (limit.share) json["share"] = *limit.share;
+  return json;
 }
 
 Limit LimitFromJson(const Json& json) {
@@ -31,7 +33,8 @@ Limit LimitFromJson(const Json& json) {
           .twin = json.at("twin").get<std::string>(),
           .system = json.at("system").get<std::string>(),
           .min = NumberOrNull(json.at("min")),
-          .max = NumberOrNull(json.at("max"))};
+          .max = NumberOrNull(json.at("max")),
+          .share = json.contains("share") ? NumberOrNull(json.at("share")) : std::nullopt};
 }
 
 Json ToJson(const Suite& suite) {
@@ -74,6 +77,8 @@ PlanFile FromJson(const Json& json) {
   }
   PlanFile plan;
   plan.command = json.at("command").get<std::string>();
+  plan.gate = json.value("gate", false);
+  plan.trial = json.value("trial", false);
   for (const Json& suite : json.at("suites")) plan.suites.push_back(SuiteFromJson(suite));
   return plan;
 }
@@ -102,6 +107,8 @@ std::string PlanFile::question() const {
 
 std::string ToJson(const PlanFile& plan) {
   Json json = {{"schema", kSchema}, {"command", plan.command}};
+  if (plan.gate) json["gate"] = true;
+  if (plan.trial) json["trial"] = true;
   json["suites"] = Json::array();
   for (const Suite& suite : plan.suites) json["suites"].push_back(ToJson(suite));
   return Dump(json);

@@ -12,6 +12,8 @@ namespace aisle {
 struct PlanFile {
   std::vector<Suite> suites;  ///< one report answers them all
   std::string command;        ///< the command line that made it
+  bool gate = false;          ///< it is held against baseline.json beside it, once it is whole
+  bool trial = false;         ///< other systems, options or seeds than the suite's: no night of it
 
   std::string name() const;      ///< of the suites, joined by "+"
   std::string question() const;  ///< of the suites, one after the other; bare scenes ask once

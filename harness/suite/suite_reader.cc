@@ -1,6 +1,7 @@
 #include "harness/suite/suite_reader.h"
 
 #include <charconv>
+#include <limits>
 #include <set>
 
 #include "harness/io/input_error.h"
@@ -129,13 +130,14 @@ void YamlReader::Number(const Key& key, double* value, Range range) {
   }
 }
 
-void YamlReader::OptionalNumber(const Key& key, std::optional<double>* value) {
+void YamlReader::OptionalNumber(const Key& key, std::optional<double>* value, Range range) {
   if (!Has(key.name)) {
     known_.emplace_back(key.name);
     return;
   }
-  double number = 0;
-  Number(key, &number, {});
+  // What is no number in the range is told, and breaks no further rule.
+  double number = std::numeric_limits<double>::quiet_NaN();
+  Number(key, &number, range);
   *value = number;
 }
 

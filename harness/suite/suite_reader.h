@@ -17,7 +17,7 @@ class YamlReader : public Fields {
   void Name(const Key& key, std::string* value, const Words& words) override;
   void Text(const Key& key, std::string* value) override;
   void Number(const Key& key, double* value, Range range) override;
-  void OptionalNumber(const Key& key, std::optional<double>* value) override;
+  void OptionalNumber(const Key& key, std::optional<double>* value, Range range) override;
   void Integer(const Key& key, int* value, Range range) override;
   void Names(const Key& key, std::vector<std::string>* values, const Words& words) override;
   void Texts(const Key& key, std::vector<std::string>* values, const Check& check) override;

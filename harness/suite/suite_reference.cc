@@ -16,7 +16,9 @@ class ReferenceWriter : public Fields {
   void Number(const Key& key, double* value, Range range) override {
     Row(key, "a number" + ToText(range), fmt::format("{}", *value));
   }
-  void OptionalNumber(const Key& key, std::optional<double>*) override { Row(key, "a number", ""); }
+  void OptionalNumber(const Key& key, std::optional<double>*, Range range) override {
+    Row(key, "a number" + ToText(range), "");
+  }
   void Integer(const Key& key, int* value, Range range) override {
     Row(key, "a whole number" + ToText(range), fmt::format("{}", *value));
   }

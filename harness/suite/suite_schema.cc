@@ -21,8 +21,9 @@ class SchemaWriter : public Fields {
   void Number(const Key& key, double* value, Range range) override {
     Add(key, Numeric("number", range))["default"] = *value;
   }
-  void OptionalNumber(const Key& key, std::optional<double>*) override {
-    Add(key, {{"type", "number"}});
+  void OptionalNumber(const Key& key, std::optional<double>*, Range range) override {
+    const bool is_any = range.low <= -1e9 && range.high >= 1e9;
+    Add(key, is_any ? Json{{"type", "number"}} : Numeric("number", range));
   }
   void Integer(const Key& key, int* value, Range range) override {
     Add(key, Numeric("integer", range))["default"] = *value;

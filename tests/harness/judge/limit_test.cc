@@ -34,6 +34,82 @@ TEST(LimitTest, TheMedianOverSeedsIsHeldAgainstTheBound) {
   EXPECT_DOUBLE_EQ(*verdicts[0].value, 0.015);
 }
 
+/// Nine drives, of which those of the last seeds touch a rack and miss their goal.
+std::vector<RunRecord> Drives(std::uint64_t bad) {
+  std::vector<RunRecord> runs;
+  for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+    RunRecord& run = runs.emplace_back();
+    run.spec = {
+        .scene = "s", .scene_file = "", .twin = "live", .system = BuiltIn("robust"), .seed = seed};
+    const bool is_bad = seed > 9 - bad;
+    run.scores["goal_reached"] = {is_bad ? 0.0 : 1.0, "1", "", 1, ""};
+    run.scores["collisions_static"] = {is_bad ? static_cast<double>(seed) : 0, "1", "", 1, ""};
+    run.scores["docking_error_m"] = {0.001 * static_cast<double>(seed), "m", "", 1, ""};
+  }
+  return runs;
+}
+
+Verdict Held(const std::vector<RunRecord>& runs, const Limit& limit) {
+  const std::vector<Verdict> verdicts = JudgeLimits(runs, {limit});
+  EXPECT_EQ(verdicts.size(), 1u);
+  return verdicts.at(0);
+}
+
+TEST(LimitTest, AShareHoldsEachSeedWhereTheMedianSeesNothing) {
+  Limit untouched{.score = "collisions_static", .max = 0},
+      reached{.score = "goal_reached", .min = 1};
+  EXPECT_TRUE(Held(Drives(4), untouched).passed);
+  EXPECT_TRUE(Held(Drives(4), reached).passed);
+  untouched.share = reached.share = 1;
+  const Verdict touched = Held(Drives(4), untouched), missed = Held(Drives(4), reached);
+  EXPECT_FALSE(touched.passed);
+  EXPECT_EQ(touched.why, "5 of 9 seeds are at most 0, needed are 9; the worst is 9 of seed 9");
+  EXPECT_EQ(touched.value, 9);
+  EXPECT_FALSE(missed.passed);
+  EXPECT_EQ(missed.why, "5 of 9 seeds are at least 1, needed are 9; the worst is 0 of seed 6");
+  EXPECT_FALSE(Held(Drives(1), untouched).passed);
+  EXPECT_TRUE(Held(Drives(0), untouched).passed);
+  EXPECT_TRUE(Held(Drives(0), reached).passed);
+}
+
+TEST(LimitTest, AShareBelowOneLetsSoManySeedsGo) {
+  Limit docks{.score = "docking_error_m", .max = 0.0075, .share = 7.0 / 9};
+  const Verdict held = Held(Drives(0), docks);
+  EXPECT_TRUE(held.passed) << held.why;
+  EXPECT_EQ(held.why,
+            "7 of 9 seeds are at most 0.0075, needed are 7; the worst is 0.009 m of seed 9");
+  docks.share = 0.8;
+  EXPECT_FALSE(Held(Drives(0), docks).passed);
+  docks.min = 0.0015;  // seed 1 is below: six are within, and seed 9 is farthest off
+  EXPECT_EQ(Held(Drives(0), docks).why,
+            "6 of 9 seeds are at most 0.0075 and at least 0.0015, needed are 8; the worst is 0.009 "
+            "m of seed 9");
+}
+
+TEST(LimitTest, ASeedWithoutItsScoreDoesNotHoldItsShare) {
+  std::vector<RunRecord> runs = Drives(0);
+  runs[4].scores.erase("goal_reached");
+  runs[4].status_why = "killed at the time limit";
+  Limit reached{.score = "goal_reached", .min = 1, .share = 1};
+  const Verdict verdict = Held(runs, reached);
+  EXPECT_FALSE(verdict.passed);
+  EXPECT_EQ(verdict.why,
+            "8 of 9 seeds are at least 1, needed are 9; the worst is 1 of seed 1; seed 5 has no "
+            "value: killed at the time limit");
+  reached.share = 0.88;
+  EXPECT_TRUE(Held(runs, reached).passed);
+}
+
+/// A seed that is driven twice holds its bound where both drives do.
+TEST(LimitTest, ASharesSeedsHoldInAllTheirRepeats) {
+  std::vector<RunRecord> runs = Drives(0);
+  runs.push_back(runs[2]);
+  runs.back().spec.repeat = 2;
+  *runs.back().scores["collisions_static"].value = 1;
+  EXPECT_EQ(Held(runs, {.score = "collisions_static", .max = 0, .share = 1}).why,
+            "8 of 9 seeds are at most 0, needed are 9; the worst is 1 of seed 3");
+}
+
 TEST(LimitTest, ALimitThatMatchesNothingFails) {
   const auto verdicts = Judge({}, {kTight});
   ASSERT_EQ(verdicts.size(), 1u);

@@ -43,6 +43,15 @@ TEST(PlanTest, ComesBackAsItWasWritten) {
   EXPECT_THROW(PlanFromJson("{}", "plan.json"), InputError);
 }
 
+/// Plans of before have no share, and are written as they were where a limit has none.
+TEST(PlanTest, ALimitsShareIsKeptAndMayBeMissing) {
+  PlanFile plan = Example();
+  EXPECT_EQ(ToJson(plan).find("\"share\""), std::string::npos);
+  EXPECT_FALSE(PlanFromJson(ToJson(plan), "plan.json").suites[0].limits[0].share);
+  plan.suites[0].limits[0].share = 0.95;
+  EXPECT_EQ(PlanFromJson(ToJson(plan), "plan.json").suites[0].limits[0].share, 0.95);
+}
+
 TEST(PlanTest, SuitesOfBareScenesAskOneQuestion) {
   PlanFile plan;
   const auto drive = [&](const std::string& name) {

@@ -48,9 +48,13 @@ bool Equal(const Suite& a, const Suite& b) {
 
 TEST(PlanRoundTrip, KeepsEverySuite) {
   EXPECT_TRUE(rc::check([] {
-    const PlanFile plan{.suites = AnyList(3, AnySuite), .command = AnyText()};
+    const PlanFile plan{.suites = AnyList(3, AnySuite),
+                        .command = AnyText(),
+                        .gate = AnyOf(0, 1) == 1,
+                        .trial = AnyOf(0, 1) == 1};
     const PlanFile read = PlanFromJson(ToJson(plan), "x");
     RC_ASSERT(read.command == plan.command);
+    RC_ASSERT(read.gate == plan.gate && read.trial == plan.trial);
     RC_ASSERT(std::equal(read.suites.begin(), read.suites.end(), plan.suites.begin(),
                          plan.suites.end(),
                          [](const Suite& x, const Suite& y) { return Equal(x, y); }));
