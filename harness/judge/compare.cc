@@ -1,5 +1,6 @@
 #include "harness/judge/compare.h"
 
+#include "harness/judge/breaks.h"
 #include "harness/score/statistics.h"
 
 namespace aisle {
@@ -13,7 +14,7 @@ struct Judged {
       0;  ///< in the score's unit, where a share of the old median is too coarse
 };
 /// Each one more costs all of them power: with nine seeds a side no p is below 4.1e-5, so that an
-/// alpha of 0.01 has room for 243 comparisons that are not equal to the last bit.
+/// alpha of 0.01 has room for 231 comparisons that are not equal to the last bit.
 constexpr Judged kJudged[] = {{"coverage", true, 0.01},
                               {"ate_rmse_m", false},
                               {"ate_live_rmse_m", false},
@@ -37,6 +38,10 @@ constexpr Judged kJudged[] = {{"coverage", true, 0.01},
                               {"min_clearance_static_m", true, 0.01},
                               {"min_clearance_person_m", true, 0.02},
                               {"lost_s", false, 0.05}};
+/// The share of alpha that seeds that break may use up: medians, whose p has a floor, need the
+/// rest.
+constexpr double kAlphaOfBreaks = 0.05;
+
 constexpr const char* kWatched[] = {"ms_process_mean", "ms_render_mean", "peak_rss_mib"};
 
 using Cell = std::tuple<std::string, std::string, std::string>;
@@ -140,23 +145,32 @@ bool IsFarWorse(const Judged& judged, double step, double before, double after) 
   return after > kFarTimes * before && after - before > step;
 }
 
+/// How bad a value is, on a scale on which scatter is a factor: errors and what a share lacks grow
+/// as their logarithms, but for differences that are nobody's trouble; clearances shrink likewise.
+double Badness(const Judged& judged, const std::string& unit, double value) {
+  constexpr double kTiny = 1e-12;
+  const double least = std::max(kTiny, FarStep(judged, unit) / 10);
+  if (!judged.more_is_better) return std::log(std::max(value, 0.0) + least);
+  if (unit == "1") return std::log(std::max(1 - value, 0.0) + least);
+  return -std::log(std::max(value, 0.0) + least);
+}
+
 /// Looks at each seed beside its own past: medians do not see what befalls fewer than half of them.
 void LookForBreaks(const Judged& judged, const ValuesBySeed& before, const ValuesBySeed& after,
                    Comparison* comparison) {
   const double step = FarStep(judged, comparison->unit);
-  const std::vector<double> old_values = Plain(before);
-  const double worst = judged.more_is_better
-                           ? *std::min_element(old_values.begin(), old_values.end())
-                           : *std::max_element(old_values.begin(), old_values.end());
-  std::size_t mended = 0;
-  for (const auto& [seed, value] : after) {
-    mended += IsFarWorse(judged, step, value, before.at(seed));
-    if (!IsFarWorse(judged, step, before.at(seed), value)) continue;
-    ++comparison->broken;
-    comparison->mixed = comparison->mixed || IsFarWorse(judged, step, worst, value);
+  std::vector<double> old_badness, broken;
+  for (const auto& [seed, value] : before) {
+    old_badness.push_back(Badness(judged, comparison->unit, value));
   }
-  constexpr std::size_t kNoChance = 3;
-  comparison->mixed = comparison->mixed || comparison->broken >= mended + kNoChance;
+  for (const auto& [seed, value] : after) {
+    if (!IsFarWorse(judged, step, before.at(seed), value)) continue;
+    broken.push_back(Badness(judged, comparison->unit, value));
+  }
+  comparison->broken = broken.size();
+  if (before.size() >= kFewestSeeds) {
+    comparison->break_p = BreakP(old_badness, broken, after.size());
+  }
 }
 
 std::optional<Comparison> CompareScore(const std::vector<const RunRecord*>& before,
@@ -220,10 +234,11 @@ void Decide(const Judged& judged, const CompareOptions& options, Comparison* com
                          c.left_out == 1 ? "" : "s");
   }
   const bool undecided = c.change == Change::kSame || c.change == Change::kCannotTell;
-  if (undecided && c.mixed && std::min(c.old_n, c.new_n) >= kFewestSeeds) {
+  if (undecided && c.break_p < options.alpha) {
     c.change = Change::kUnstable;
-    c.why = fmt::format("{} of {} seeds got far worse, the median alone is {}", c.broken, c.new_n,
-                        c.why);
+    c.why =
+        fmt::format("{} of {} seeds got far worse (p = {:.2g} after Holm), the median alone is {}",
+                    c.broken, c.new_n, c.break_p, c.why);
   }
 }
 
@@ -248,11 +263,14 @@ double LeastP(std::size_t old_n, std::size_t new_n) {
 }
 
 void CorrectAndDecide(const CompareOptions& options, std::vector<Comparison>* comparisons) {
-  std::vector<double> p_values;
+  std::vector<double> p_values, break_p_values;
   for (const Comparison& c : *comparisons) {
-    if (IsTested(c)) p_values.push_back(c.p);
+    if (!IsTested(c)) continue;
+    p_values.push_back(c.p);
+    break_p_values.push_back(c.break_p);
   }
   const std::vector<double> adjusted = HolmAdjusted(p_values);
+  const std::vector<double> breaks_adjusted = HolmAdjusted(break_p_values);
   std::size_t next = 0;
   for (Comparison& c : *comparisons) {
     const Judged* judged = FindJudged(c.score);
@@ -261,10 +279,15 @@ void CorrectAndDecide(const CompareOptions& options, std::vector<Comparison>* co
       c.why = "belongs to the machine, is not judged";
       continue;
     }
-    if (IsTested(c)) c.p = adjusted[next++];
+    if (IsTested(c)) {
+      c.p = std::min(1.0, adjusted[next] / (1 - kAlphaOfBreaks));
+      c.break_p = std::min(1.0, breaks_adjusted[next] / kAlphaOfBreaks);
+      ++next;
+    }
     Decide(*judged, options, &c);
     const double least =
-        std::min(1.0, LeastP(c.old_n, c.new_n) * static_cast<double>(p_values.size()));
+        std::min(1.0, LeastP(c.old_n, c.new_n) * static_cast<double>(p_values.size()) /
+                          (1 - kAlphaOfBreaks));
     if (c.change == Change::kCannotTell && least >= options.alpha) {
       c.why += fmt::format("; {} comparisons with {} and {} seeds cannot go below p = {:.2g}",
                            p_values.size(), c.old_n, c.new_n, least);

@@ -13,7 +13,10 @@ inline constexpr std::size_t kFewestSeeds = 5;
 
 /// Nine seeds a side show a shift of two standard deviations in 97 nights of 100; three never can.
 struct CompareOptions {
-  double alpha = 0.01;          ///< chance of any false alarm in a whole comparison
+  /// Chance of any false alarm in a whole comparison: 19 of 20 parts are for medians, one is for
+  /// seeds that break, which are told by far smaller p.
+  double alpha = 0.01;
+
   double minimum_effect = 0.1;  ///< of the old median; smaller changes are nobody's trouble
 };
 
@@ -42,12 +45,11 @@ struct Comparison {
   bool paired = false;     ///< same seeds on both sides: the interval is of paired differences
   bool bit_equal = false;  ///< every value the same to the last digit
   /// Seeds that got far worse: three times the error they had, a fifth less of a share (a tenth of
-  /// the coverage); and whether that is a mixed distribution, since they lie far beyond all old
-  /// values or are three more than those that got far better.
+  /// the coverage).
   std::size_t broken = 0;
-  bool mixed = false;
-  std::string gone;  ///< the first seed whose value is missing now, and why; empty: none
-  double p = 1;      ///< Mann-Whitney, Holm-corrected over the whole comparison
+  std::string gone;    ///< the first seed whose value is missing now, and why; empty: none
+  double p = 1;        ///< Mann-Whitney, Holm-corrected over the whole comparison
+  double break_p = 1;  ///< of a mixed distribution (BreakP), Holm-corrected likewise
   Change change = Change::kSame;
   std::string why;
 };
