@@ -10,6 +10,7 @@
 #include "harness/io/frame_store.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
+#include "harness/record/provenance.h"
 #include "harness/record/record.h"
 
 namespace aisle {
@@ -41,6 +42,7 @@ RunRecord FailedRun(const Job& job, const ProcessResult& result, const ProcessLi
   record.last_words = LastWords(result.log);
   record.artifacts["log"] = "runs/" + RunId(job.spec) + "/log.txt";
   record.wall_s = result.wall_s;
+  SayWhoMadeIt(&record);
   return record;
 }
 

@@ -45,7 +45,6 @@ std::vector<Verdict> JudgeSuites(const std::vector<Suite>& suites,
 Results Collect(const PlanFile& plan, const std::vector<RunSpec>& specs,
                 const std::filesystem::path& out, const CollectOptions& options) {
   Results results;
-  results.provenance = OwnProvenance();
   results.suite = plan.name();
   results.question = plan.question();
   for (const RunSpec& spec : specs) {
@@ -55,6 +54,7 @@ Results Collect(const PlanFile& plan, const std::vector<RunSpec>& specs,
       results.verdicts.push_back(Missing(spec));
     }
   }
+  results.provenance = ProvenanceOf(results.runs);
   AddDynamicPenalty(&results.runs);
   Append(JudgeRuns(results.runs), &results.verdicts);
   if (options.judge_limits) Append(JudgeSuites(plan.suites, results.runs), &results.verdicts);

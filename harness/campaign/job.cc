@@ -24,11 +24,27 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kSchema = 1;
 
+/// The files that a command names below {source}, which it knows by that name alone.
+std::vector<fs::path> FilesInSource(const ExternalSystem& system) {
+  constexpr std::string_view kSource = "{source}";
+  std::vector<fs::path> files;
+  const std::string& command = system.command;
+  for (std::size_t at = 0; (at = command.find(kSource, at)) != std::string::npos;) {
+    at += kSource.size();
+    const std::size_t end = std::min(command.find_first_of(" \t\n;|&<>()'\"", at), command.size());
+    std::error_code error;
+    const fs::path file = system.repository + command.substr(at, end - at);
+    if (fs::is_regular_file(file, error)) files.push_back(file);
+  }
+  return files;
+}
+
 /// Programs, scripts and settings that a command names count as well, where they are files.
 std::uint64_t HashSystem(const SystemSpec& system, std::uint64_t seed) {
   seed = Hash(ToJson(system).dump(), seed);
   if (!system.external) return seed;
   for (const fs::path& file : FilesNamedBy(system.external->command)) seed = HashFile(file, seed);
+  for (const fs::path& file : FilesInSource(*system.external)) seed = HashFile(file, seed);
   for (const fs::path path : system.external->depends_on) {
     seed = fs::is_directory(path) ? HashFolder(path, seed) : HashFile(path, seed);
   }
@@ -107,8 +123,9 @@ Fingerprints::Fingerprints()
     : renderer_(HashFolder(AssetsDir(), RendererHash())), program_(HashFile(OwnExecutable())) {}
 
 std::string Fingerprints::Frames(const RunSpec& spec) const {
-  const std::uint64_t scene = HashSource(spec.scene_file, spec.twin, renderer_);
-  return fmt::format("{:016x}", Hash(fmt::format("{} {}", spec.twin, spec.seed), scene));
+  const auto [at, is_new] = sources_.try_emplace({spec.scene_file, spec.twin});
+  if (is_new) at->second = HashSource(spec.scene_file, spec.twin, renderer_);
+  return fmt::format("{:016x}", Hash(fmt::format("{} {}", spec.twin, spec.seed), at->second));
 }
 
 std::string Fingerprints::Run(const RunSpec& spec) const {

@@ -61,6 +61,8 @@ class Fingerprints {
   std::uint64_t renderer_;
   std::uint64_t program_;
   mutable std::map<std::string, std::uint64_t> systems_;  ///< by name: their files may be large
+  /// By file and twin: a recording may have many files.
+  mutable std::map<std::pair<std::string, std::string>, std::uint64_t> sources_;
 };
 
 struct JobOptions {

@@ -46,6 +46,36 @@ std::uint64_t HashOutside(const fs::path& path, std::uint64_t seed) {
   return Hash(fmt::format("{} {} {}", path.string(), error ? 0 : size, error ? 0 : changed), seed);
 }
 
+/// All files below, in the order of their names.
+std::uint64_t HashFolderOutside(const fs::path& folder, std::uint64_t seed) {
+  constexpr std::size_t kMostFiles = 1'000'000;  // 13 hours of stereo at 10 Hz: more is a mistake
+  std::set<fs::path> files;
+  std::error_code error;
+  constexpr auto kLinksToo = fs::directory_options::follow_directory_symlink |
+                             fs::directory_options::skip_permission_denied;
+  for (fs::recursive_directory_iterator at(folder, kLinksToo, error), end; !error && at != end;
+       at.increment(error)) {
+    std::error_code none;  // a link that leads nowhere is no folder
+    if (!at->is_directory(none)) files.insert(at->path());
+    if (files.size() > kMostFiles) {
+      throw InputError(folder.string(), 0,
+                       fmt::format("holds more than {} files: name the folder of the recording "
+                                   "alone",
+                                   kMostFiles));
+    }
+  }
+  if (error) throw InputError(folder.string(), 0, "cannot be read: " + error.message());
+  for (const fs::path& file : files) seed = HashOutside(file, seed);
+  return seed;
+}
+
+/// A sequence of KITTI has its truth beside it: ROOT/sequences/NN and ROOT/poses/NN.txt.
+fs::path KittiPosesOf(const fs::path& sequence) {
+  fs::path clean = fs::absolute(sequence).lexically_normal();
+  if (!clean.has_filename()) clean = clean.parent_path();
+  return clean.parent_path().parent_path() / "poses" / (clean.filename().string() + ".txt");
+}
+
 }  // namespace
 
 std::unique_ptr<Sequence> OpenRecordingSource(const std::string& file) {
@@ -90,10 +120,7 @@ std::uint64_t HashSource(const std::string& file, const std::string& twin, std::
   if (!IsRecording(file)) return Hash(EssenceOfScene(file, twin), seed);
   for (const std::string& one : FilesOfSource(file)) {
     if (fs::is_directory(one)) {
-      for (const char* index : {"mav0/cam0/data.csv", "times.txt", "mav0/cam0/sensor.yaml",
-                                "mav0/cam1/sensor.yaml", "calib.txt"}) {
-        seed = HashOutside(fs::path(one) / index, seed);
-      }
+      seed = HashOutside(KittiPosesOf(one), HashFolderOutside(one, seed));
     } else {
       seed = HashOutside(one, seed);
     }

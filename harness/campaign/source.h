@@ -32,8 +32,8 @@ std::vector<std::string> FilesOfSource(const std::string& file);
 
 /// Hash of all that decides the frames of that twin but program and assets: of a scene what can be
 /// seen of it, wherever it stands written, so that scenes which differ in actors alone share their
-/// `empty` twin; of a recording's data names, sizes and times of change, since it may be larger
-/// than memory.
+/// `empty` twin; of a recording names, sizes and times of change of all its files and of its truth,
+/// since it may be larger than memory. Throws InputError where its folder holds a million files.
 std::uint64_t HashSource(const std::string& file, const std::string& twin, std::uint64_t seed);
 
 }  // namespace aisle

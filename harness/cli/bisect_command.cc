@@ -55,6 +55,10 @@ Question QuestionFromText(const std::string& text) {
 CommitTrial Judge(const std::string& commit, const std::vector<RunRecord>& runs,
                   const Question& question) {
   CommitTrial trial{.commit = commit};
+  if (runs.empty()) {  // silence is no pass
+    trial.why = "a run left no result";
+    return trial;
+  }
   std::vector<const RunRecord*> all;
   for (const RunRecord& run : runs) {
     all.push_back(&run);
@@ -153,20 +157,26 @@ class Trials {
     return Describe(result, options_.limits) + (line.empty() ? "" : "; " + line);
   }
 
+  /// Empty where one of the runs left no result.
   std::vector<RunRecord> Drive(const fs::path& folder) const {
     const std::vector<Job> jobs =
         StillToDo(MakeJobs(Plan(suite_), Fingerprints(),
                            {.out = folder, .video = false, .frames_in_report = "none"}),
                   false);
     ProgressLine line;
-    RunCampaign(jobs, {.at_once = 1, .limits = options_.limits, .retry = false},
-                {.say = [](const std::string&) {},
-                 .show = [&](const std::string& text) { line.Show(text); }});
+    std::string said;
+    const CampaignOutcome outcome =
+        RunCampaign(jobs, {.at_once = 1, .limits = options_.limits, .retry = false},
+                    {.say = [&](const std::string& text) { said += "\n" + text; },
+                     .show = [&](const std::string& text) { line.Show(text); }});
     line.Clear();
+    // Our own failure says nothing of the commit.
+    if (outcome.failure != 0) throw MachineError("the runs could not be made:" + said);
     std::vector<RunRecord> records;
     for (const Job& job : jobs) {
       if (const auto record = ReadRun(job.spec, folder)) records.push_back(*record);
     }
+    if (records.size() < jobs.size()) return {};
     return records;
   }
 

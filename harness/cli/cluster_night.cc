@@ -11,6 +11,8 @@
 #include "harness/cli/cluster_wait.h"
 #include "harness/cli/command.h"
 #include "harness/cli/merge_night.h"
+#include "harness/cli/night_baseline.h"
+#include "harness/cli/publish.h"
 #include "harness/cluster/kubernetes.h"
 #include "harness/cluster/slurm.h"
 #include "harness/io/file.h"
@@ -78,8 +80,11 @@ void ShowSlurm(const std::vector<std::size_t>& tasks, const ClusterNight& night,
   fmt::print("{}", MergeScript("SUBMISSION", SlurmOf(night, choice), PathsOf(night)));
 }
 
-/// Takes away what another program or another question left: a half night is no answer.
+/// Takes away what another program or another question left: a half night is no answer. What says
+/// that the last one is over goes first: should this one never begin, nothing speaks for it.
 void ClearTheWay(const TaskList& list, bool resume, const fs::path& out) {
+  ForgetSubmission(out);
+  RemoveReport(out);
   for (const Task& task : list.tasks) {
     for (const TaskRun& run : task.runs) {
       if (resume && ReadFinishedRun(run.spec, run.inputs_hash, out)) continue;
@@ -90,19 +95,8 @@ void ClearTheWay(const TaskList& list, bool resume, const fs::path& out) {
 
 void WriteNight(const ClusterNight& night, const TaskList& list) {
   WriteFileAtomically(night.out / "plan.json", ToJson(night.plan));
-  if (night.baseline) {
-    WriteFileAtomically(night.out / "cluster" / "baseline.json", ToJson(*night.baseline));
-  }
+  if (night.baseline) WriteNightBaseline(*night.baseline, night.out);
   WriteTasks(list, night.out);
-}
-
-bool IsUnderWay(const fs::path& out) {
-  const std::optional<Submission> submission = ReadSubmission(out);
-  if (!submission) return false;
-  const auto queue = QueueOf(*submission);
-  // Tasks that wait know their number alone: what it means must not change under them.
-  if (!queue) throw MachineError("squeue does not answer, and jobs of this folder may be waiting");
-  return !queue->empty();
 }
 
 int OnSlurm(const ClusterNight& night, const ClusterChoice& choice, const TaskList& list) {
@@ -118,8 +112,11 @@ int OnSlurm(const ClusterNight& night, const ClusterChoice& choice, const TaskLi
   ClearTheWay(list, night.resume, night.out);
   WriteNight(night, list);
   const std::vector<std::size_t> missing = Unfinished(list, night.out);
-  if (missing.empty()) return MergeNight(night.out, {.json = night.json, .submission = {}});
   const std::string id = fmt::format("{}-{}", night.settings.started, getpid());
+  if (missing.empty()) {  // `status` asks for the verdict of a submission, though it has no job
+    WriteSubmission({.id = id, .arrays = {}, .merge = {}}, night.out);
+    return MergeNight(night.out, {.json = night.json, .submission = id});
+  }
   const Submission submission = SubmitToSlurm(missing, id, SlurmOf(night, choice), PathsOf(night));
   fmt::print(stderr, "aisle: tasks {}, merge {}; `{} status {}` tells how they go\n",
              fmt::join(submission.arrays, ", "), submission.merge, OwnCommand(),
@@ -164,6 +161,18 @@ void AddClusterChoice(CLI::App* command, ClusterChoice* choice) {
       ->check(CLI::Range(0.0, 86400.0));
   command->add_flag("--wait", choice->wait,
                     "with --on slurm: follow the jobs, end with the verdict's exit code");
+}
+
+bool IsUnderWay(const fs::path& out) {
+  const std::optional<Submission> submission = ReadSubmission(out);
+  if (!submission || submission->arrays.empty()) return false;
+  const auto queue = QueueOf(*submission);
+  if (queue) return !queue->empty();
+  // A verdict comes when all tasks have ended.
+  const std::optional<ClusterVerdict> verdict = ReadVerdict(out);
+  if (verdict && verdict->submission == submission->id) return false;
+  throw MachineError(out.string() +
+                     ": squeue does not answer, and jobs of this folder may be waiting");
 }
 
 int RunOnCluster(const ClusterNight& night, const ClusterChoice& choice) {

@@ -35,6 +35,10 @@ struct ClusterNight {
   bool resume = false, dry_run = false, json = false;
 };
 
+/// Whether jobs that were submitted for the folder wait or run: what their numbers mean, and what
+/// they leave, must not change under them. Throws MachineError where the queue does not answer.
+bool IsUnderWay(const std::filesystem::path& out);
+
 /// Writes the plan and hands what is missing to the batch system; `wait` follows it to the verdict.
 /// Returns an exit code: the verdict's where it waited, 0 where the jobs are handed over. Throws
 /// InputError and MachineError.

@@ -2,6 +2,7 @@
 #include "harness/campaign/collect.h"
 #include "harness/cli/command.h"
 #include "harness/cli/merge_night.h"
+#include "harness/cli/night_baseline.h"
 #include "harness/cli/publish.h"
 #include "harness/cluster/tasks.h"
 #include "harness/io/file.h"
@@ -39,10 +40,77 @@ PlanFile CommonPlan(const std::vector<std::string>& parts) {
   return plan;
 }
 
-/// The run's folder as it is there, and nothing of what was here.
-void Adopt(const RunSpec& spec, const fs::path& from, const fs::path& to) {
-  fs::remove_all(to / "runs" / RunId(spec));
-  CopyRun(spec, from, to);
+/// The baseline that all parts brought along; none where the plan asks for no gate.
+std::optional<Results> CommonBaseline(const PlanFile& plan, const std::vector<std::string>& parts) {
+  if (!plan.gate) return std::nullopt;
+  Results baseline = ReadNightBaseline(parts.front());
+  for (const std::string& part : parts) {
+    if (ToJson(ReadNightBaseline(part)) == ToJson(baseline)) continue;
+    throw InputError(part + "/baseline.json", 0,
+                     "is another baseline than " + parts.front() +
+                         "/baseline.json: run both parts against the same one");
+  }
+  return baseline;
+}
+
+/// A run of the plan and the first of the parts that has it.
+struct Found {
+  std::string part;
+  RunRecord record;
+};
+
+/// Throws InputError where two parts answer for other inputs, or were made by other programs: their
+/// figures are of no one night.
+std::vector<Found> FindRuns(const std::vector<RunSpec>& specs,
+                            const std::vector<std::string>& parts) {
+  std::vector<Found> found;
+  for (const RunSpec& spec : specs) {
+    std::optional<RunRecord> taken;
+    for (const std::string& part : parts) {
+      std::optional<RunRecord> record = ReadRun(spec, part);
+      if (!record) continue;
+      if (taken && taken->inputs_hash != record->inputs_hash) {
+        throw InputError(part + "/runs/" + RunId(spec), 0,
+                         "was made by another program, scene or system than the same run of "
+                         "another part: run both parts with the same commit");
+      }
+      if (!found.empty() && !SameProgram(found.front().record, *record)) {
+        throw InputError(
+            part + "/runs/" + RunId(spec), 0,
+            fmt::format("was made by another program (commit {}) than {}/runs/{} (commit {}): run "
+                        "all parts with the same commit",
+                        record->commit.empty() ? "unknown" : Printable(record->commit, 60),
+                        found.front().part, RunId(found.front().record.spec),
+                        found.front().record.commit.empty()
+                            ? "unknown"
+                            : Printable(found.front().record.commit, 60)));
+      }
+      if (taken) continue;
+      taken = record;
+      found.push_back({part, *std::move(record)});
+    }
+  }
+  return found;
+}
+
+bool IsPart(const fs::path& out, const std::vector<std::string>& parts) {
+  return std::any_of(parts.begin(), parts.end(), [&](const std::string& part) {
+    return fs::exists(out) && fs::equivalent(out, part);
+  });
+}
+
+/// The runs' folders as they are there, and nothing of what was here: of a run that no part has, an
+/// earlier night's must not answer. A part that is joined with others in its own folder keeps its.
+void Adopt(const std::vector<RunSpec>& specs, const std::vector<Found>& found,
+           const std::vector<std::string>& parts, const fs::path& out) {
+  if (!IsPart(out, parts)) {
+    for (const RunSpec& spec : specs) RemoveFolder(out / "runs" / RunId(spec));
+  }
+  for (const Found& run : found) {
+    if (fs::exists(out) && fs::equivalent(out, run.part)) continue;
+    RemoveFolder(out / "runs" / RunId(run.record.spec));
+    CopyRun(run.record.spec, run.part, out);
+  }
 }
 
 /// A folder that the tasks of a cluster filled is whole in itself.
@@ -59,31 +127,18 @@ int Merge(const Options& options) {
   if (options.parts.empty()) return MergeOwn(options);
   const PlanFile plan = CommonPlan(options.parts);
   const std::vector<RunSpec> specs = Plan(plan.suites);
-  double wall_s = 0;
-  for (const RunSpec& spec : specs) {
-    std::optional<RunRecord> taken;
-    for (const std::string& part : options.parts) {
-      const std::optional<RunRecord> record = ReadRun(spec, part);
-      if (!record) continue;
-      if (taken && taken->inputs_hash != record->inputs_hash) {
-        throw InputError(part + "/runs/" + RunId(spec), 0,
-                         "was made by another program, scene or system than the same run of "
-                         "another part: run both parts with the same commit");
-      }
-      if (taken) continue;
-      taken = record;
-      wall_s += record->wall_s;
-      if (!fs::exists(options.out) || !fs::equivalent(options.out, part)) {
-        Adopt(spec, part, options.out);
-      }
-    }
-  }
+  const std::optional<Results> baseline = CommonBaseline(plan, options.parts);
+  const std::vector<Found> found = FindRuns(specs, options.parts);
+  RemoveReport(options.out);
+  Adopt(specs, found, options.parts, options.out);
   WriteFileAtomically(fs::path(options.out) / "plan.json", ToJson(plan));
+  if (baseline) WriteNightBaseline(*baseline, options.out);
   Results results = Collect(plan, specs, options.out);
   results.started = NowIso8601();
-  results.wall_s = wall_s;
+  for (const Found& run : found) results.wall_s += run.record.wall_s;
   results.rerun = plan.command + " --out " + options.out;
-  return Publish(results, options.out, {.json = options.json});
+  if (baseline) HoldAgainstBaseline(*baseline, &results);
+  return Publish(results, options.out, {.json = options.json, .remember = !plan.trial});
 }
 
 }  // namespace

@@ -3,12 +3,12 @@
 #include <thread>
 
 #include "harness/campaign/collect.h"
+#include "harness/cli/night_baseline.h"
 #include "harness/cli/publish.h"
 #include "harness/cluster/submission.h"
 #include "harness/cluster/tasks.h"
 #include "harness/common/stopwatch.h"
 #include "harness/io/file.h"
-#include "harness/judge/gate.h"
 
 namespace aisle {
 namespace {
@@ -53,13 +53,7 @@ int MergeNight(const fs::path& out, const MergeNightOptions& options) {
   results.started = list.settings.started;
   results.wall_s = WallOf(results);
   results.rerun = plan.command + " --out " + out.string();
-  if (list.settings.gate) {
-    const fs::path baseline = out / "cluster" / "baseline.json";
-    for (Verdict& verdict :
-         GateVerdicts(ResultsFromJson(ReadFile(baseline), baseline.string()), results)) {
-      results.verdicts.push_back(std::move(verdict));
-    }
-  }
+  if (list.settings.gate) HoldAgainstBaseline(ReadNightBaseline(out), &results);
   const int code = Publish(
       results, out,
       {.json = options.json, .remember = list.settings.remember, .allure = list.settings.allure});

@@ -2,6 +2,7 @@
 
 #include "harness/cli/command.h"
 #include "harness/cli/terminal.h"
+#include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/judge/limit.h"
 #include "harness/record/history.h"
@@ -27,7 +28,18 @@ bool TryToRemember(const Results& results, const std::filesystem::path& out) {
 }  // namespace
 
 std::filesystem::path HistoryPath(const std::filesystem::path& out) {
-  return std::filesystem::absolute(out).lexically_normal().parent_path() / "history.sqlite";
+  std::filesystem::path folder = std::filesystem::absolute(out).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();  // "night/" and "." name a folder too
+  return folder.parent_path() / "history.sqlite";
+}
+
+void RemoveReport(const std::filesystem::path& out) {
+  for (const char* file : {"results.json", "junit.xml", "summary.txt", "summary.csv", "index.html",
+                           "tables.md", "tables.tex"}) {
+    std::error_code error;
+    std::filesystem::remove(out / file, error);
+    if (error) throw MachineError(fmt::format("{}: {}", (out / file).string(), error.message()));
+  }
 }
 
 ReportOptions WithHistory(const Results& results, const std::filesystem::path& out) {

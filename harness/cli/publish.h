@@ -13,6 +13,10 @@ std::filesystem::path HistoryPath(const std::filesystem::path& out);
 /// What a report says of the nights up to this one; nothing where this one was not filed.
 ReportOptions WithHistory(const Results& results, const std::filesystem::path& out);
 
+/// Takes away what a report says of its runs, so that nobody takes the last night's word for the
+/// one that begins. What comes of it is written anew.
+void RemoveReport(const std::filesystem::path& out);
+
 struct PublishOptions {
   bool json = false;                  ///< results.json on stdout instead of the table
   bool remember = true;               ///< file the medians with those of other nights

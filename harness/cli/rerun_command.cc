@@ -41,8 +41,10 @@ Job FindJob(const std::string& id, const std::string& folder) {
       fmt::format("{}: holds no run '{}'; it holds{}", folder, Printable(id, 200), known));
 }
 
-/// The processor that made a report; empty where its results.json is not there or not whole.
-std::string ProcessorOf(const std::string& folder) {
+/// The processor that made a run; of results of before that of their report, empty where its
+/// results.json is not there or not whole.
+std::string ProcessorOf(const std::optional<RunRecord>& run, const std::string& folder) {
+  if (run && !run->cpu.empty()) return run->cpu;
   try {
     return ReadResults(folder).provenance.cpu;
   } catch (const InputError&) {
@@ -58,7 +60,7 @@ int Say(const Options& options, const fs::path& out, const std::optional<RunReco
       both ? DifferentBits(*before, *after) : std::vector<std::string>{};
   const bool same_inputs = both && before->inputs_hash == after->inputs_hash;
   const std::string run = (out / "runs" / options.id).string();
-  const std::string processor = ProcessorOf(options.in), own = OwnProvenance().cpu;
+  const std::string processor = ProcessorOf(before, options.in), own = OwnProvenance().cpu;
   const bool same_processor = processor.empty() || processor == own;
   if (options.json) {
     fmt::print("{}", Dump({{"run", run},

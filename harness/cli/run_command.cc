@@ -11,8 +11,10 @@
 #include "harness/cli/by_name.h"
 #include "harness/cli/cluster_night.h"
 #include "harness/cli/command.h"
+#include "harness/cli/night_baseline.h"
 #include "harness/cli/publish.h"
 #include "harness/cli/terminal.h"
+#include "harness/cluster/submission.h"
 #include "harness/io/file.h"
 #include "harness/io/file_lock.h"
 #include "harness/io/input_error.h"
@@ -52,18 +54,18 @@ struct Options {
 std::atomic<bool> interrupted = false;
 void OnInterrupt(int) { interrupted = true; }
 
-void HoldAgainstBaseline(const Results& baseline, Results* results) {
-  for (Verdict& verdict : GateVerdicts(baseline, *results)) {
-    results->verdicts.push_back(std::move(verdict));
-  }
-}
-
 /// What repeats this very campaign, but for where it goes: parts of one share their plan.
 std::string CommandLine(const Options& options) {
   std::string line = OwnCommand() + " run " + Describe(options.inputs);
   if (options.gate) line += " --gate";
   if (!options.baseline.empty()) line += " --baseline " + options.baseline;
   return line;
+}
+
+/// Other systems, options or seeds than the suite's make medians of another kind: among the trends
+/// they would stand as a night's.
+bool IsTrial(const InputOptions& inputs) {
+  return !inputs.set.empty() || !inputs.systems.empty() || !inputs.seed.empty();
 }
 
 /// A baseline speaks of the suite as it is committed, and must be there, whole, before the night
@@ -103,9 +105,19 @@ FileLock TakeFolder(const fs::path& out) {
   return *std::move(lock);
 }
 
+/// A night of this machine in a folder that a cluster filled: `status` must not go on telling of
+/// the cluster's.
+void LeaveTheCluster(const fs::path& out) {
+  if (IsUnderWay(out)) {
+    throw InputError(out.string(), 0,
+                     "its jobs are still in the queue: `aisle status DIR` tells how they go; wait "
+                     "for them, scancel them, or choose another --out");
+  }
+  ForgetSubmission(out);
+}
+
 /// What the morning would find out, said in the evening; no reason not to drive.
-void WarnOfHistory(const Options& options, const fs::path& out) {
-  if (!options.inputs.set.empty()) return;
+void WarnOfHistory(const fs::path& out) {
   const std::string trouble = HistoryTrouble(HistoryPath(out));
   if (trouble.empty()) return;
   fmt::print(stderr, "aisle: warning: the trends will lack this night: {}\n", trouble);
@@ -172,7 +184,7 @@ int HandOver(const Options& options, const PlanFile& plan, const std::vector<Run
                                   .video = !options.no_video,
                                   .debug_dynamic = options.debug_dynamic,
                                   .frames_in_report = options.frames_in_report,
-                                  .remember = options.inputs.set.empty(),
+                                  .remember = !plan.trial,
                                   .allure = options.allure,
                                   .gate = baseline.has_value(),
                                   .started = NowIso8601(),
@@ -193,7 +205,10 @@ fs::path ReportFolder(const Options& options, const PlanFile& plan) {
 int RunSuites(const Options& options) {
   const std::string started = NowIso8601();
   const Shard shard = ShardFromText(options.shard);
-  const PlanFile plan{LoadInputs(options.inputs), CommandLine(options)};
+  const PlanFile plan{.suites = LoadInputs(options.inputs),
+                      .command = CommandLine(options),
+                      .gate = options.gate,
+                      .trial = IsTrial(options.inputs)};
   CheckScenes(plan.suites);
   TellLimitsLeftOut(plan.suites);
   const std::optional<Results> baseline = ReadBaseline(options, plan);
@@ -212,7 +227,10 @@ int RunSuites(const Options& options) {
   }
   if (options.dry_run) return kAllPassed;
   const FileLock ours = TakeFolder(out);
-  WarnOfHistory(options, out);
+  LeaveTheCluster(out);
+  const bool whole = shard.count == 1;
+  const bool remember = whole && !plan.trial;  // neither a part nor a trial is a night
+  if (remember) WarnOfHistory(out);
   const std::vector<Job> jobs = MakeJobs(specs, fingerprints,
                                          {.out = out,
                                           .threads = options.threads,
@@ -222,12 +240,14 @@ int RunSuites(const Options& options) {
                                           .mcap = options.mcap,
                                           .frames_in_report = options.frames_in_report});
   const std::map<std::string, double> seconds = ExpectedSeconds(specs, out, CountSourceFrames);
+  RemoveReport(out);
   const std::vector<Job> todo = StillToDo(jobs, options.resume);
   if (specs.size() > todo.size()) {
     fmt::print(stderr, "aisle: {} of {} runs are already there\n", specs.size() - todo.size(),
                specs.size());
   }
   WriteFileAtomically(out / "plan.json", ToJson(plan));
+  if (baseline) WriteNightBaseline(*baseline, out);
   const CampaignOutcome outcome = RunToEnd(todo, options, seconds);
   if (!outcome.finished) {
     fmt::print(stderr, "aisle: interrupted; the same command with --resume goes on from here\n");
@@ -236,14 +256,14 @@ int RunSuites(const Options& options) {
   if (options.mcap) {
     WriteBags(jobs, out, [](const std::string& text) { fmt::print(stderr, "{}\n", text); });
   }
-  Results results = Collect(plan, specs, out, {.judge_limits = shard.count == 1});
+  Results results = Collect(plan, specs, out, {.judge_limits = whole});
   results.started = started;
   results.wall_s = outcome.wall_s;
   results.rerun = plan.command + (options.out.empty() ? "" : " --out " + options.out);
-  if (baseline) HoldAgainstBaseline(*baseline, &results);
+  if (baseline && whole) HoldAgainstBaseline(*baseline, &results);
   return Publish(results, out,
                  {.json = options.json,
-                  .remember = options.inputs.set.empty(),  // a trial is no night
+                  .remember = remember,
                   .allure = options.allure,
                   .failure = outcome.failure});
 }
@@ -286,7 +306,8 @@ void AddRunCommand(CLI::App* app, Action* action) {
                     "are still the same");
   command->add_flag("--dry-run", options->dry_run,
                     "check everything, say how many runs and how long, and stop there");
-  command->add_flag("--gate", options->gate, "judge against the baseline too");
+  command->add_flag("--gate", options->gate,
+                    "judge against the baseline too; of parts `aisle merge` does it");
   command
       ->add_option("--baseline", options->baseline,
                    "with --gate: this file instead of reports/baselines/SUITE.json")

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/io/file.h"
+#include "harness/io/input_error.h"
 #include "harness/record/record_json.h"
 
 namespace aisle {
@@ -46,6 +47,15 @@ std::optional<ClusterVerdict> ReadVerdict(const fs::path& out) {
     return ClusterVerdict{.submission = json.at("submission").get<std::string>(),
                           .exit_code = json.at("exit_code").get<int>()};
   });
+}
+
+void ForgetSubmission(const fs::path& out) {
+  for (const char* file : {"verdict.json", "submission.json"}) {
+    const fs::path path = out / "cluster" / file;
+    std::error_code error;
+    fs::remove(path, error);
+    if (error) throw MachineError(fmt::format("{}: {}", path.string(), error.message()));
+  }
 }
 
 }  // namespace aisle

@@ -31,4 +31,7 @@ std::optional<Submission> ReadSubmission(const std::filesystem::path& out);
 void WriteVerdict(const ClusterVerdict& verdict, const std::filesystem::path& out);
 std::optional<ClusterVerdict> ReadVerdict(const std::filesystem::path& out);
 
+/// Takes both away, the verdict first: a folder that begins another night answers for none.
+void ForgetSubmission(const std::filesystem::path& out);
+
 }  // namespace aisle

@@ -34,7 +34,7 @@ struct TaskSettings {
   std::string frames_in_report = "worst";
   bool remember = true;  ///< the merge files the night among the trends
   std::string allure;    ///< folder for Allure results; empty: none
-  bool gate = false;     ///< the merge holds the night against cluster/baseline.json
+  bool gate = false;     ///< the merge holds the night against baseline.json
   std::string started;   ///< when it was submitted, UTC
   double late_s = 60;    ///< how long the merge waits for results that do not show yet
 };

@@ -1,8 +1,11 @@
 #include "harness/record/provenance.h"
 
+#include <fmt/ranges.h>
+
 #include <fstream>
 #include <thread>
 
+#include "harness/io/hash.h"
 #include "harness/io/places.h"
 #include "harness/record/record.h"
 
@@ -54,6 +57,26 @@ Provenance OwnProvenance() {
           .cpu = LookUp("/proc/cpuinfo", "model name", ":"),
           .os = LookUp("/etc/os-release", "PRETTY_NAME", "="),
           .threads = static_cast<int>(std::thread::hardware_concurrency())};
+}
+
+void SayWhoMadeIt(RunRecord* record) {
+  static const Provenance kOwn = OwnProvenance();  // asks git: once a process
+  static const std::string kProgram = fmt::format("{:016x}", HashFile(OwnExecutable()));
+  record->program = kProgram;
+  record->commit = kOwn.commit;
+  record->cpu = kOwn.cpu;
+}
+
+Provenance ProvenanceOf(const std::vector<RunRecord>& runs) {
+  std::set<std::string> commits, processors;
+  for (const RunRecord& run : runs) {
+    if (!run.commit.empty()) commits.insert(run.commit);
+    if (!run.cpu.empty()) processors.insert(run.cpu);
+  }
+  Provenance provenance = OwnProvenance();
+  if (!commits.empty()) provenance.commit = fmt::format("{}", fmt::join(commits, ", "));
+  if (!processors.empty()) provenance.cpu = fmt::format("{}", fmt::join(processors, ", "));
+  return provenance;
 }
 
 std::filesystem::path ShippedBaselines() {

@@ -10,6 +10,13 @@ namespace aisle {
 /// Version, commit, processor and system of this program, here and now.
 Provenance OwnProvenance();
 
+/// Program, commit and processor of this process into the record of a run that it made.
+void SayWhoMadeIt(RunRecord* record);
+
+/// Of a night: commits and processors of its runs, joined where there are several; what no run
+/// says, and the rest, from this program here.
+Provenance ProvenanceOf(const std::vector<RunRecord>& runs);
+
 /// Folder of the baselines that come with the program.
 std::filesystem::path ShippedBaselines();
 

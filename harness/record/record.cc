@@ -6,6 +6,7 @@
 #include "harness/io/trajectory.h"
 #include "harness/record/evo_result.h"
 #include "harness/record/frames_csv.h"
+#include "harness/record/provenance.h"
 
 namespace aisle {
 namespace fs = std::filesystem;
@@ -45,6 +46,13 @@ RunRecord MakeRecord(const RunResult& run, const RunScore& score, double rate_hz
   return record;
 }
 
+bool SameProgram(const RunRecord& a, const RunRecord& b) {
+  if (a.program == b.program) return true;
+  // A tree with changes of its own, or none at all, names no program.
+  const bool commit_tells = !a.commit.empty() && a.commit != "unknown" && !a.commit.ends_with('+');
+  return commit_tells && a.commit == b.commit;
+}
+
 RunRecord WriteRun(const RunResult& run, const RunScore& score, RunRecord record,
                    const fs::path& report_dir) {
   const std::string folder = "runs/" + RunId(run.spec);
@@ -66,6 +74,7 @@ RunRecord WriteRun(const RunResult& run, const RunScore& score, RunRecord record
   if (const std::string zip = EvoResultZip(run, score.final); !zip.empty())
     write("evo", "evo.zip", zip);
   write("frames", "frames.csv", ToCsv(MakeFrameRows(run, score)));
+  SayWhoMadeIt(&record);
   WriteFileAtomically(report_dir / folder / "result.json", ToJson(record));
   return record;
 }

@@ -21,11 +21,14 @@ struct RunRecord {
   double rate_hz = 0;
   double wall_s = 0;
   int threads = 0;
-  std::string content_hash;    ///< of all that decides the pixels, hexadecimal
-  std::string inputs_hash;     ///< of all that decides the run: program, scene, system, seed
-  std::string output_hash;     ///< of the trajectories it left; empty where it left none
-  std::string system_version;  ///< what a foreign system says it is; empty for ours
-  std::string last_words;      ///< the last lines a foreign system, or one that failed, printed
+  std::string content_hash;  ///< of all that decides the pixels, hexadecimal
+  std::string inputs_hash;   ///< of all that decides the run: program, scene, system, seed
+  std::string output_hash;   ///< of the trajectories it left; empty where it left none
+  /// What made it and where: the runs of one night may come from several machines. Empty in results
+  /// of before.
+  std::string program, commit, cpu;  ///< hash of the program, its tree's commit, the processor
+  std::string system_version;        ///< what a foreign system says it is; empty for ours
+  std::string last_words;  ///< the last lines a foreign system, or one that failed, printed
   /// The same inputs, tried again, ended well: what fails is not what they are but when.
   bool flaky = false;
   Scorecard scores;
@@ -53,8 +56,12 @@ std::string ToJson(const RunRecord& record);
 /// Throws InputError when the text is no record.
 RunRecord RecordFromJson(const std::string& text, const std::string& file);
 
+/// Whether two runs were made by one program: by its hash, or, of programs built on two machines,
+/// by the commit where that tells all. Of runs that do not say it is supposed.
+bool SameProgram(const RunRecord& a, const RunRecord& b);
+
 /// Writes trajectories, frames.csv and, last, result.json into `report_dir`/runs/ID. The record
-/// that comes back names the artifacts.
+/// that comes back names the artifacts and this program and machine as its makers.
 RunRecord WriteRun(const RunResult& run, const RunScore& score, RunRecord record,
                    const std::filesystem::path& report_dir);
 

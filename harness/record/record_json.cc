@@ -76,6 +76,9 @@ Json RecordToJson(const RunRecord& record) {
   json["content_hash"] = record.content_hash;
   json["inputs_hash"] = record.inputs_hash;
   json["output_hash"] = record.output_hash;
+  if (!record.program.empty()) json["program"] = record.program;
+  if (!record.commit.empty()) json["commit"] = record.commit;
+  if (!record.cpu.empty()) json["cpu"] = record.cpu;
   if (record.flaky) json["flaky"] = true;
   if (!record.system_version.empty()) json["system_version"] = record.system_version;
   if (!record.last_words.empty()) json["last_words"] = record.last_words;
@@ -108,6 +111,9 @@ RunRecord RecordFromJson(const Json& json) {
   record.content_hash = json.value("content_hash", "");
   record.inputs_hash = json.value("inputs_hash", "");
   record.output_hash = json.value("output_hash", "");
+  record.program = json.value("program", "");
+  record.commit = json.value("commit", "");
+  record.cpu = json.value("cpu", "");
   record.flaky = json.value("flaky", false);
   record.system_version = json.value("system_version", "");
   record.last_words = json.value("last_words", "");

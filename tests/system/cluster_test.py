@@ -187,6 +187,53 @@ class WithoutAQueue(unittest.TestCase):
         self.assertIn("#SBATCH --partition=\"night\"", text)
         self.assertFalse((root / "dry").exists())
 
+    def test_an_old_verdict_does_not_speak_for_a_night_that_never_began(self):
+        out = self.plan("never")
+        code, text = aisle("run", self.suite, "--out", out, "--no-video")
+        self.assertEqual(code, 0, text)
+        (out / "cluster/submission.json").write_text('{"id": "a", "arrays": ["1"], "merge": "2"}')
+        (out / "cluster/verdict.json").write_text('{"submission": "a", "exit_code": 0}')
+        queue = dict(os.environ, PATH=f"{self.commands(sbatch='exit 1')}:{os.environ['PATH']}")
+        self.assertEqual(aisle("status", out, environment=queue)[0], 0)
+        code, text = aisle("run", self.suite, "--out", out, "--on", "slurm", environment=queue)
+        self.assertEqual(code, 3, text)
+        self.assertEqual(aisle("status", out, environment=queue)[0], 2)
+        self.assertFalse((out / "results.json").exists())
+
+    def test_a_night_with_nothing_missing_has_its_verdict_told(self):
+        out = root / "nothing"
+        code, text = aisle("run", self.suite, "--out", out, "--no-video")
+        self.assertEqual(code, 0, text)
+        baseline = json.loads((out / "results.json").read_text())
+        baseline["runs"].append(dict(baseline["runs"][0], seed=77, id="tiny/live/plain/77"))
+        (root / "more.json").write_text(json.dumps(baseline))  # a seed that the night has not
+        queue = dict(os.environ, PATH=f"{self.commands(sbatch='exit 1')}:{os.environ['PATH']}")
+        code, text = aisle("run", self.suite, "--out", out, "--on", "slurm", "--resume", "--gate",
+                           "--baseline", root / "more.json", "--late", 0, environment=queue)
+        self.assertEqual(code, 1, text)
+        self.assertEqual(aisle("status", out, environment=queue)[0], 1)
+
+    def test_a_folder_whose_jobs_wait_is_not_taken(self):
+        out = self.plan("waits")
+        (out / "cluster/submission.json").write_text('{"id": "a", "arrays": ["1"], "merge": "2"}')
+        full = self.commands(squeue='echo "1|PENDING"')
+        queue = dict(os.environ, PATH=f"{full}:{os.environ['PATH']}")
+        code, text = aisle("run", self.suite, "--out", out, "--no-video", environment=queue)
+        self.assertEqual(code, 4, text)
+        self.assertIn("its jobs are still in the queue", text)
+        queue["PATH"] = f"{self.commands()}:{os.environ['PATH']}"
+        code, text = aisle("run", self.suite, "--out", out, "--no-video", environment=queue)
+        self.assertEqual(code, 0, text)
+        self.assertFalse((out / "cluster/submission.json").exists())
+
+    def commands(self, **scripts):
+        """A folder with a batch system's commands that do just this; others answer nothing."""
+        folder = pathlib.Path(tempfile.mkdtemp(dir=root))
+        for name in ("sbatch", "squeue", "scontrol"):
+            (folder / name).write_text(f"#!/bin/sh\n{scripts.get(name, 'exit 0')}\n")
+            (folder / name).chmod(0o755)
+        return folder
+
     def test_what_a_cluster_cannot_do_is_refused(self):
         for more in (["--mcap"], ["--shard", "1/2"]):
             code, text = aisle("run", self.suite, "--out", root / "no", "--on", "slurm", *more)

@@ -206,6 +206,117 @@ TEST_F(SuiteRunTest, PartsMergeIntoTheWhole) {
   EXPECT_EQ(ResultsOf(Out("merged")).verdicts.size(), ResultsOf(Out("whole")).verdicts.size());
 }
 
+TEST_F(SuiteRunTest, AMergeHoldsNothingOfAnEarlierOne) {
+  const std::string suite = Suite("stale", "  - plain\n", "seeds: 2\n");
+  for (const char* part : {"1", "2"}) {
+    ASSERT_EQ(Run({"run", suite, "--out", Out(part), "--shard", std::string(part) + "/2"}).code, 0);
+  }
+  ASSERT_EQ(Run({"run", suite, "--out", Out("trial"), "--seed", "1"}).code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "history.sqlite")) << "neither parts nor trials are nights";
+  ASSERT_EQ(Run({"merge", Out("merged"), Out("1"), Out("2")}).code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "history.sqlite"));
+  fs::remove_all(fs::path(Out("2")) / "runs");  // the second night was killed at once
+  const Said said = Run({"merge", Out("merged"), Out("1"), Out("2")});
+  EXPECT_EQ(said.code, 1) << said.text;
+  EXPECT_THAT(said.text, HasSubstr("no result"));
+  EXPECT_EQ(ResultsOf(Out("merged")).runs.size(), 1u);
+}
+
+TEST_F(SuiteRunTest, PartsOfTwoProgramsAreNotMerged) {
+  const std::string suite = Suite("programs", "  - plain\n", "seeds: 2\n");
+  for (const char* part : {"1", "2"}) {
+    ASSERT_EQ(Run({"run", suite, "--out", Out(part), "--shard", std::string(part) + "/2"}).code, 0);
+  }
+  const RunRecord made = ResultsOf(Out("2")).runs.at(0);
+  EXPECT_FALSE(made.program.empty());
+  const auto pretend = [&](const std::string& program, const std::string& commit,
+                           const std::string& cpu) {
+    RunRecord record = made;
+    record.program = program;
+    record.commit = commit;
+    record.cpu = cpu;
+    WriteFileAtomically(fs::path(Out("2")) / "runs" / RunId(made.spec) / "result.json",
+                        ToJson(record));
+  };
+  pretend("another", "another", made.cpu);
+  const Said other = Run({"merge", Out("merged"), Out("1"), Out("2")});
+  EXPECT_EQ(other.code, 4) << other.text;
+  EXPECT_THAT(other.text, HasSubstr("was made by another program (commit another)"));
+  EXPECT_FALSE(fs::exists(fs::path(Out("merged")) / "results.json"));
+
+  // The machines that made the runs are told, not the one that joins them.
+  pretend(made.program, made.commit, "A processor of others");
+  ASSERT_EQ(Run({"merge", Out("merged"), Out("1"), Out("2")}).code, 0);
+  const Results merged = ResultsOf(Out("merged"));
+  EXPECT_THAT(merged.provenance.cpu, HasSubstr("A processor of others"));
+  EXPECT_THAT(merged.provenance.cpu, HasSubstr(made.cpu));
+  EXPECT_EQ(merged.runs.at(0).cpu, made.cpu);
+  EXPECT_EQ(merged.runs.at(1).cpu, "A processor of others");
+  const Said again = Run({"rerun", RunId(made.spec), "--in", Out("merged"), "--json"});
+  EXPECT_THAT(again.text, HasSubstr("\"same_processor\": false"));
+}
+
+TEST_F(SuiteRunTest, TheGateIsHeldAgainstTheWholeNotItsParts) {
+  const auto network = [](const char* share) {
+    return fmt::format("  - {{name: network, like: oracle, mask_errors: {{miss_share: {}}}}}\n",
+                       share);
+  };
+  const char* seeds = "seeds: 2\n";
+  ASSERT_EQ(Run({"run", Suite("gate", network("0"), seeds), "--out", Out("good")}).code, 0);
+  const std::string baseline = Out("good") + "/results.json";
+  for (const char* share : {"0", "1"}) {
+    const std::string suite = Suite("gate", network(share), seeds);
+    for (const char* part : {"1", "2"}) {
+      const Said said = Run({"run", suite, "--out", Out(part), "--shard", std::string(part) + "/2",
+                             "--gate", "--baseline", baseline});
+      EXPECT_EQ(said.code, 0) << said.text;
+    }
+    const Said merged = Run({"merge", Out("merged"), Out("1"), Out("2")});
+    EXPECT_EQ(merged.code, share == std::string("0") ? 0 : 1) << merged.text;
+    EXPECT_EQ(merged.text.find("gone: ") != std::string::npos, share == std::string("1"));
+  }
+  fs::remove(fs::path(Out("2")) / "baseline.json");
+  const Said without = Run({"merge", Out("merged"), Out("1"), Out("2")});
+  EXPECT_EQ(without.code, 4) << without.text;
+  EXPECT_THAT(without.text, HasSubstr("baseline.json: is gone"));
+}
+
+TEST_F(SuiteRunTest, BisectCallsNoCommitGoodThatItCouldNotDrive) {
+  const std::string repository = (folder_ / "mine").string();
+  fs::create_directories(repository);
+  const std::string commit =
+      "git -c user.name=a -c user.email=a@b commit -q --allow-empty -m change";
+  ASSERT_EQ(
+      std::system(fmt::format("cd '{}' && git init -q && {} && git tag v1 && {} && git tag v2",
+                              repository, commit, commit)
+                      .c_str()),
+      0);
+  const std::string suite = Suite(
+      "mine", fmt::format("  - {{name: mine, command: 'sh {{source}}/slam {{output}}', repository: "
+                          "{}, build: 'true'}}\n",
+                          repository));
+  const std::string cache = std::getenv("AISLE_CACHE");
+  WriteFileAtomically(folder_ / "full", "no folder: nothing can be kept there");
+  ::setenv("AISLE_CACHE", (folder_ / "full").c_str(), 1);
+  const Said said = Run({"bisect", "v1", "v2", suite, "--scene", "short", "--limit", "completes",
+                         "--out", Out("bisect")});
+  ::setenv("AISLE_CACHE", cache.c_str(), 1);
+  EXPECT_EQ(said.code, 3) << said.text;
+  EXPECT_THAT(said.text, HasSubstr("the runs could not be made"));
+  EXPECT_THAT(said.text, testing::Not(HasSubstr("good")));
+}
+
+TEST_F(SuiteRunTest, ANightThatDoesNotEndLeavesNoReportOfTheLast) {
+  ASSERT_EQ(Run({"run", Suite("green", "  - plain\n"), "--out", Out("a")}).code, 0);
+  const std::string longer = Suite("green", "  - plain\n", "seeds: 40\n");
+  ASSERT_TRUE(Kill({"run", longer, "--out", Out("a")}, 3));
+  for (const char* file :
+       {"results.json", "junit.xml", "summary.txt", "summary.csv", "index.html"}) {
+    EXPECT_FALSE(fs::exists(fs::path(Out("a")) / file)) << file;
+  }
+  EXPECT_EQ(Run({"report", Out("a")}).code, 4);
+}
+
 TEST_F(SuiteRunTest, OneDriveAnswersForEqualRuns) {
   // Another actor in the same hall: without actors the two are one.
   const std::string other = (folder_ / "scenes/other.yaml").string();

@@ -1,7 +1,9 @@
 #include "harness/campaign/job.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include "harness/io/file.h"
 #include "harness/io/input_error.h"
 
 namespace aisle {
@@ -64,6 +66,32 @@ TEST(FingerprintsTest, ATeachingIsSharedHoweverItIsDrivenBy) {
   other = spec;
   other.seed = 2;
   EXPECT_NE(fingerprints.Teaching(other), teaching);
+}
+
+TEST(FingerprintsTest, WhatACommandNamesInItsSourcesCounts) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / fmt::format("aisle_in_source_{}", ::getpid());
+  const fs::path source = folder / "my slam";  // a folder's name may hold a space
+  const auto fingerprint = [&] {
+    ExternalSystem external{.command = "{source}/build/slam --settings={source}/set.yaml {output}"};
+    external.repository = source.string();
+    return Fingerprints().Run(
+        {.scene = "smoke/short",
+         .scene_file = AISLE_SOURCE_DIR "/scenes/smoke/short.yaml",
+         .twin = "live",
+         .system =
+             {.name = "mine", .like = "", .options = {}, .mask_errors = {}, .external = external},
+         .seed = 1});
+  };
+  for (const char* file : {"build/slam", "set.yaml"}) {
+    const std::string before = fingerprint();
+    WriteFileAtomically(source / file, "made yesterday");
+    const std::string made = fingerprint();
+    EXPECT_NE(made, before) << file;
+    WriteFileAtomically(source / file, "made today");
+    EXPECT_NE(fingerprint(), made) << file;
+  }
+  fs::remove_all(folder);
 }
 
 TEST(JobTest, AForeignSystemComesBackToo) {

@@ -155,6 +155,15 @@ TEST(DynamicTable, HasARowForEachAndTheirSumAllOfOneWidth) {
   }
 }
 
+TEST(HistoryPath, IsBesideTheNightHoweverItsFolderIsNamed) {
+  const fs::path beside = "/out/history.sqlite";
+  for (const char* out : {"/out/2026-01-31", "/out/2026-01-31/", "/out/2026-01-31/.",
+                          "/out/2026-01-30/../2026-01-31/"}) {
+    EXPECT_EQ(HistoryPath(out), beside) << out;
+  }
+  EXPECT_EQ(HistoryPath("."), fs::current_path().parent_path() / "history.sqlite");
+}
+
 /// A page of last week's night must look as it did then.
 TEST(WithHistory, APageKnowsOfItsOwnNightAndThoseBeforeAlone) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("aisle_nights_{}", ::getpid());

@@ -38,6 +38,9 @@ RunRecord AnyRecord() {
   record.content_hash = AnyText();
   record.inputs_hash = AnyText();
   record.output_hash = AnyText();
+  record.program = AnyText();
+  record.commit = AnyText();
+  record.cpu = AnyText();
   record.system_version = AnyText();
   record.last_words = AnyText();
   record.flaky = AnyFlag();
@@ -60,6 +63,7 @@ bool Equal(const RunRecord& a, const RunRecord& b) {
          a.status_why == b.status_why && a.frames == b.frames && a.rate_hz == b.rate_hz &&
          a.wall_s == b.wall_s && a.threads == b.threads && a.content_hash == b.content_hash &&
          a.inputs_hash == b.inputs_hash && a.output_hash == b.output_hash &&
+         a.program == b.program && a.commit == b.commit && a.cpu == b.cpu &&
          a.system_version == b.system_version && a.last_words == b.last_words &&
          a.flaky == b.flaky && a.notes == b.notes && a.artifacts == b.artifacts &&
          std::equal(a.scores.begin(), a.scores.end(), b.scores.begin(), b.scores.end(), same_score);
