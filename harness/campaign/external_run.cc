@@ -226,7 +226,7 @@ RunResult RunExternal(const ExternalSystem& system, const Sequence& sequence,
   const std::string command = CommandLine(system, run, rooms, options.format);
   std::vector<std::string> notes;
   const std::string version = VersionOf(system, run, rooms, &notes);
-  const ProcessLimits limits{.wall_s = system.timeout_s};
+  const ProcessLimits limits{.wall_s = system.timeout_s, .memory_mib = run.memory_mib};
   const ProcessResult ended = RunToEnd(command, limits, system, run, rooms);
   WriteFileAtomically(run.folder / kSystemLogName,
                       fmt::format("# {}\n{}\n{}", DescribeSandbox(), command, ended.log));

@@ -73,6 +73,7 @@ Job FromJson(const Json& json) {
   job.video = json.at("video").get<bool>();
   job.debug_dynamic = json.at("debug_dynamic").get<bool>();
   job.mcap = json.value("mcap", false);
+  job.memory_mib = json.value("memory_mib", job.memory_mib);
   job.frames_in_report = json.value("frames_in_report", "worst");
   job.goes_to = json.value("goes_to", std::string());
   return job;
@@ -99,6 +100,7 @@ std::string ToJson(const Job& job) {
                {"video", job.video},
                {"debug_dynamic", job.debug_dynamic},
                {"mcap", job.mcap},
+               {"memory_mib", job.memory_mib},
                {"frames_in_report", job.frames_in_report},
                {"goes_to", job.goes_to.string()}});
 }
@@ -154,6 +156,7 @@ std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Fingerprints&
     job.video = options.video;
     job.debug_dynamic = options.debug_dynamic;
     job.mcap = options.mcap;
+    job.memory_mib = options.memory_mib;
     job.frames_in_report = options.frames_in_report;
     // A recording is read where it is: its frames are files already.
     if (options.frame_cache && !IsRecording(spec.scene_file)) {

@@ -28,6 +28,7 @@ struct Job {
   bool video = true;           ///< where there is an ffmpeg
   bool debug_dynamic = false;  ///< draw how the system found what moves; changes no result
   bool mcap = false;           ///< leave a bag of what the system said; changes no result
+  double memory_mib = 8192;    ///< of a foreign system's processes together
   std::string frames_in_report = "worst";  ///< or all, none: whose pictures are kept
   /// The report that the run is copied into when it is made; empty: `out` is it. Guests see
   /// neither.
@@ -72,6 +73,7 @@ struct JobOptions {
   bool video = true;
   bool debug_dynamic = false;
   bool mcap = false;
+  double memory_mib = 8192;
   std::string frames_in_report = "worst";
 };
 

@@ -194,6 +194,7 @@ void RunForeign(const Job& job) {
                                   .folder = folder,
                                   .hidden = HiddenFromGuests(job),
                                   .seed = job.spec.seed,
+                                  .memory_mib = job.memory_mib,
                                   .open_path = open_path,
                                   .progress = progress});
   result.spec = job.spec;
@@ -230,7 +231,8 @@ std::unique_ptr<Estimator> EstimatorOf(const Job& job, const StereoCalibration& 
                                              StreamRun{.folder = job.out / FolderOf(job),
                                                        .hidden = HiddenFromGuests(job),
                                                        .seed = job.spec.seed,
-                                                       .rate_hz = rate_hz});
+                                                       .rate_hz = rate_hz,
+                                                       .memory_mib = job.memory_mib});
   }
   return MakeSystem(job.spec.system, calibration,
                     {.threads = job.threads, .load_map = map, .draw_stages = job.debug_dynamic});

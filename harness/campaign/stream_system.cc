@@ -86,6 +86,7 @@ struct StreamEstimator::Impl {
                                       {"source", system.repository}});
     PipeEnds in = MakePipe(), out = MakePipe();
     limits.wall_s = 1e9;  // each answer has a time of its own
+    limits.memory_mib = run.memory_mib;
     process.emplace(
         std::vector<std::string>{"/bin/sh", "-c", command}, limits,
         Confinement{ScrubbedEnvironment(rooms.temporary, system.environment), sandbox->ruleset()},

@@ -14,7 +14,8 @@ struct StreamRun {
   std::filesystem::path folder;               ///< the run's own; the system works below it
   std::vector<std::filesystem::path> hidden;  ///< what the system must not see
   std::uint64_t seed = 1;
-  double rate_hz = 20;  ///< of the camera
+  double rate_hz = 20;       ///< of the camera
+  double memory_mib = 8192;  ///< of its processes together
   /// Longest time for one answer; the system's own `timeout_s` where that is shorter.
   double answer_s = 60;
 };

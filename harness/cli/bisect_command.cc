@@ -159,10 +159,12 @@ class Trials {
 
   /// Empty where one of the runs left no result.
   std::vector<RunRecord> Drive(const fs::path& folder) const {
-    const std::vector<Job> jobs =
-        StillToDo(MakeJobs(Plan(suite_), Fingerprints(),
-                           {.out = folder, .video = false, .frames_in_report = "none"}),
-                  false);
+    const std::vector<Job> jobs = StillToDo(MakeJobs(Plan(suite_), Fingerprints(),
+                                                     {.out = folder,
+                                                      .video = false,
+                                                      .memory_mib = options_.limits.memory_mib,
+                                                      .frames_in_report = "none"}),
+                                            false);
     ProgressLine line;
     std::string said;
     const CampaignOutcome outcome =

@@ -88,9 +88,11 @@ int Say(const Options& options, const fs::path& out, const std::optional<RunReco
 
 /// The same run by this program, into a folder of its own.
 Job AsOfNow(const RunSpec& spec, const Options& options, const fs::path& out) {
-  const std::vector<Job> jobs =
-      MakeJobs({spec}, Fingerprints(),
-               {.out = out, .threads = options.threads, .debug_dynamic = options.debug_dynamic});
+  const std::vector<Job> jobs = MakeJobs({spec}, Fingerprints(),
+                                         {.out = out,
+                                          .threads = options.threads,
+                                          .debug_dynamic = options.debug_dynamic,
+                                          .memory_mib = options.limits.memory_mib});
   return jobs.front();
 }
 

@@ -238,6 +238,7 @@ int RunSuites(const Options& options) {
                                           .video = !options.no_video,
                                           .debug_dynamic = options.debug_dynamic,
                                           .mcap = options.mcap,
+                                          .memory_mib = options.limits.memory_mib,
                                           .frames_in_report = options.frames_in_report});
   const std::map<std::string, double> seconds = ExpectedSeconds(specs, out, CountSourceFrames);
   RemoveReport(out);

@@ -89,6 +89,7 @@ int RunTask(const Options& options) {
                                           .frame_cache = settings.frame_cache,
                                           .video = settings.video,
                                           .debug_dynamic = settings.debug_dynamic,
+                                          .memory_mib = settings.memory_mib,
                                           .frames_in_report = settings.frames_in_report});
   int failure = 0;
   for (Job job : jobs) {  // one by one: what is done is handed in before a limit comes

@@ -29,6 +29,7 @@ Job Example() {
   job.threads = 3;
   job.video = false;
   job.debug_dynamic = true;
+  job.memory_mib = 32000;
   return job;
 }
 
@@ -42,6 +43,7 @@ TEST(JobTest, ComesBackAsItWasWritten) {
   EXPECT_EQ(back.teaching, Example().teaching);
   EXPECT_FALSE(back.video);
   EXPECT_TRUE(back.debug_dynamic);
+  EXPECT_EQ(back.memory_mib, 32000);
 }
 
 TEST(FingerprintsTest, ATeachingIsSharedHoweverItIsDrivenBy) {
