@@ -1,10 +1,13 @@
 #include "harness/cli/command.h"
 #include "harness/cli/terminal.h"
+#include "harness/common/first_of_many.h"
 #include "harness/io/file.h"
+#include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/judge/change_size.h"
 #include "harness/judge/compare.h"
 #include "harness/judge/gate.h"
+#include "harness/judge/missing.h"
 #include "harness/record/provenance.h"
 #include "harness/record/record_json.h"
 #include "harness/report/compare_text.h"
@@ -12,6 +15,7 @@
 #include "harness/report/page/page.h"
 #include "harness/report/page/resources.h"
 #include "harness/report/report.h"
+#include "harness/suite/plan.h"
 
 namespace aisle {
 namespace {
@@ -35,11 +39,12 @@ ComparedNight NightOf(const std::string& path, const Results& results) {
                                                         : std::filesystem::path()};
 }
 
-void WritePages(const std::vector<Comparison>& comparisons, const ComparedNight& before,
-                const ComparedNight& after, const std::filesystem::path& out) {
+void WritePages(const std::vector<Comparison>& comparisons, const std::vector<MissingRuns>& missing,
+                const ComparedNight& before, const ComparedNight& after,
+                const std::filesystem::path& out) {
   WriteResources(out);
-  WriteFileAtomically(out / "compare.md", ToMarkdown(comparisons));
-  WriteFileAtomically(out / "compare.json", ToJson(comparisons));
+  WriteFileAtomically(out / "compare.md", ToMarkdown(comparisons, missing));
+  WriteFileAtomically(out / "compare.json", ToJson(comparisons, missing));
   WriteFileAtomically(out / "compare.html",
                       Page(fmt::format("What changed from {} to {}", before.name, after.name), "",
                            ComparePage(comparisons, before, after, out)));
@@ -51,9 +56,11 @@ int CompareReports(const Options& options) {
   const Results after = ReadEither(options.after);
   std::vector<Comparison> comparisons = Compare(before, after, options.compare);
   LargestFirst(&comparisons);
-  fmt::print("{}", options.json ? ToJson(comparisons) : ToConsole(comparisons, StdoutHasColor()));
+  const std::vector<MissingRuns> missing = MissingRunsOf(before, after);
+  fmt::print("{}", options.json ? ToJson(comparisons, missing)
+                                : ToConsole(comparisons, missing, StdoutHasColor()));
   if (!options.out.empty()) {
-    WritePages(comparisons, NightOf(options.before, before), NightOf(options.after, after),
+    WritePages(comparisons, missing, NightOf(options.before, before), NightOf(options.after, after),
                options.out);
   }
   if (comparisons.empty()) {
@@ -64,11 +71,30 @@ int CompareReports(const Options& options) {
   }
   const bool worse = std::any_of(comparisons.begin(), comparisons.end(),
                                  [](const Comparison& c) { return IsAlarm(c.change); });
-  return worse ? kVerdictFailed : kAllPassed;
+  return worse || !missing.empty() ? kVerdictFailed : kAllPassed;
 }
 
-int SetBaseline(const std::string& folder, const std::string& to, bool json) {
-  const Results baseline = BaselineOf(ReadResults(folder));
+/// A gate holds no night against what the baseline has not: holes are frozen in by nobody unasked.
+void RefuseUnfinished(const Results& results, const std::filesystem::path& folder) {
+  const std::filesystem::path plan = folder / "plan.json";
+  std::vector<RunSpec> planned;
+  if (std::filesystem::exists(plan)) {
+    planned = Plan(PlanFromJson(ReadFile(plan), plan.string()).suites);
+  }
+  const std::vector<std::string> unfinished = UnfinishedRuns(results, planned);
+  if (unfinished.empty()) return;
+  throw InputError(
+      folder.string(), 0,
+      fmt::format("{} of its runs failed or {} missing, and a gate would never ask for "
+                  "them: {}; run it again with --resume, or say --anyway",
+                  unfinished.size(), unfinished.size() == 1 ? "is" : "are",
+                  FirstOfMany(unfinished, ", ")));
+}
+
+int SetBaseline(const std::string& folder, const std::string& to, bool anyway, bool json) {
+  const Results results = ReadResults(folder);
+  if (!anyway) RefuseUnfinished(results, folder);
+  const Results baseline = BaselineOf(results);
   const std::filesystem::path path =
       to.empty() ? NewBaselinePath(baseline.suite) : std::filesystem::path(to);
   WriteFileAtomically(path, ToJson(baseline));
@@ -100,14 +126,18 @@ void AddCompareCommand(CLI::App* app, Action* action) {
       ->check(CLI::NonNegativeNumber);
   command->add_option("--out", options->out, "folder for compare.html, .md and .json");
   command->add_flag("--json", options->json, "for programs");
-  command->footer("Example: ./aisle compare out/yesterday out/tonight --out out/compared");
+  command->footer(
+      "Exit code 1 where a score is worse, unstable or gone, or cells or seeds of OLD are missing "
+      "in "
+      "NEW;\n5 where the two share nothing.\n"
+      "Example: ./aisle compare out/yesterday out/tonight --out out/compared");
   command->callback([=] { *action = [=] { return CompareReports(*options); }; });
 }
 
 void AddBaselineCommand(CLI::App* app, Action* action) {
   const auto folder = std::make_shared<std::string>();
   const auto to = std::make_shared<std::string>();
-  const auto json = std::make_shared<bool>(false);
+  const auto anyway = std::make_shared<bool>(false), json = std::make_shared<bool>(false);
   CLI::App* command = app->add_subcommand(
       "baseline", "make a report the baseline that `run --gate` holds its suite against");
   command->add_option("DIR", *folder, "folder with results.json")->required();
@@ -115,9 +145,10 @@ void AddBaselineCommand(CLI::App* app, Action* action) {
       "--to", *to,
       "file to write, for `run --baseline`; default reports/baselines/SUITE.json of "
       "the source tree this program was built from");
+  command->add_flag("--anyway", *anyway, "even where runs failed or are missing");
   command->add_flag("--json", *json, "for programs");
   command->footer("Example: ./aisle baseline out/quickstart --to my_quickstart.json");
-  command->callback([=] { *action = [=] { return SetBaseline(*folder, *to, *json); }; });
+  command->callback([=] { *action = [=] { return SetBaseline(*folder, *to, *anyway, *json); }; });
 }
 
 }  // namespace aisle

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "harness/judge/missing.h"
+
 namespace aisle {
 namespace {
 
@@ -15,17 +17,40 @@ std::map<Cell, std::set<std::uint64_t>> SeedsByCell(const Results& results) {
   return seeds;
 }
 
-Verdict Failed(const Cell& cell, const std::string& why) {
-  const auto& [scene, twin, system] = cell;
-  return {.name = fmt::format("{} {} {}: baseline", scene, twin, system),
+Verdict OfMissing(const MissingRuns& missing) {
+  return {.name = fmt::format("{} {} {}: baseline", missing.scene, missing.twin, missing.system),
           .passed = false,
           .flaky = false,
           .value = {},
           .limit = {},
-          .why = why,
-          .scene = scene,
-          .twin = twin,
-          .system = system};
+          .why = missing.is_whole ? "the baseline has this, tonight has not"
+                                  : fmt::format("the baseline has seeds {}, tonight has not",
+                                                fmt::join(missing.seeds, ", ")),
+          .scene = missing.scene,
+          .twin = missing.twin,
+          .system = missing.system};
+}
+
+/// Scenes and systems that are new since the baseline: nothing fails, and nothing is judged.
+std::optional<Verdict> WithoutBaseline(const Results& baseline, const Results& night) {
+  constexpr std::size_t kNamed = 4;
+  std::vector<std::string> names;
+  std::size_t cells = 0;
+  for (const MissingRuns& added : MissingRunsOf(night, baseline)) {
+    if (!added.is_whole) continue;
+    if (++cells > kNamed) continue;
+    names.push_back(fmt::format("{} {} {}", added.scene, added.twin, added.system));
+  }
+  if (cells == 0) return std::nullopt;
+  return Verdict{
+      .name = kWithoutBaseline,
+      .passed = true,
+      .flaky = false,
+      .value = {},
+      .limit = {},
+      .why = fmt::format("{} cell{} no baseline and {} held against nothing: {}{}", cells,
+                         cells == 1 ? " has" : "s have", cells == 1 ? "is" : "are",
+                         fmt::join(names, ", "), cells > kNamed ? ", …" : "")};
 }
 
 Verdict OfScore(const Comparison& c) {
@@ -49,20 +74,10 @@ Verdict OfScore(const Comparison& c) {
 std::vector<Verdict> GateVerdicts(const Results& baseline, const Results& night,
                                   const CompareOptions& options) {
   std::vector<Verdict> verdicts;
-  const auto tonight = SeedsByCell(night);
-  for (const auto& [cell, seeds] : SeedsByCell(baseline)) {
-    const auto now = tonight.find(cell);
-    if (now == tonight.end()) {
-      verdicts.push_back(Failed(cell, "the baseline has this, tonight has not"));
-      continue;
-    }
-    std::vector<std::uint64_t> missing;
-    std::set_difference(seeds.begin(), seeds.end(), now->second.begin(), now->second.end(),
-                        std::back_inserter(missing));
-    if (missing.empty()) continue;
-    verdicts.push_back(Failed(
-        cell, fmt::format("the baseline has seeds {}, tonight has not", fmt::join(missing, ", "))));
+  for (const MissingRuns& missing : MissingRunsOf(baseline, night)) {
+    verdicts.push_back(OfMissing(missing));
   }
+  if (const auto added = WithoutBaseline(baseline, night)) verdicts.push_back(*added);
   for (const Comparison& c : Compare(baseline, night, options)) {
     if (c.change != Change::kWatched) verdicts.push_back(OfScore(c));
   }

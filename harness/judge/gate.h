@@ -7,9 +7,12 @@
 
 namespace aisle {
 
-/// A verdict for every score that is judged, failed where it got worse, is unstable or is gone; and
-/// a failed one for each cell, and each seed of a cell, that the baseline has and the night has
-/// not.
+/// The name of the verdict that counts cells of a night which the baseline has not.
+inline constexpr const char* kWithoutBaseline = "gate: cells without a baseline";
+
+/// A verdict for every score that is judged, failed where it got worse, is unstable or is gone; a
+/// failed one for each cell, and each seed of a cell, that the baseline has and the night has not;
+/// and one that is passed but says so where the night has cells that the baseline has not.
 std::vector<Verdict> GateVerdicts(const Results& baseline, const Results& night,
                                   const CompareOptions& options = {});
 

@@ -10,7 +10,17 @@ std::string Percent(const Comparison& c) {
   return fmt::format("{:+.1f} %", 100 * (c.new_median - c.old_median) / std::abs(c.old_median));
 }
 
-std::string Cell(const Comparison& c) { return fmt::format("{} {} {}", c.scene, c.twin, c.system); }
+/// "SCENE TWIN SYSTEM" of whatever is about one of them.
+template <class OfCell>
+std::string Cell(const OfCell& of) {
+  return fmt::format("{} {} {}", of.scene, of.twin, of.system);
+}
+
+std::string Lacking(const MissingRuns& one) {
+  return one.is_whole ? "the old side has it, the new one has not"
+                      : fmt::format("the old side has seeds {}, the new one has not",
+                                    fmt::join(one.seeds, ", "));
+}
 
 bool IsChange(const Comparison& c) { return IsAlarm(c.change) || c.change == Change::kBetter; }
 
@@ -40,19 +50,27 @@ std::string Summary(const std::vector<Comparison>& comparisons) {
 
 }  // namespace
 
-std::string ToConsole(const std::vector<Comparison>& comparisons, bool color) {
+std::string ToConsole(const std::vector<Comparison>& comparisons,
+                      const std::vector<MissingRuns>& missing, bool color) {
   std::size_t width = 10;
   for (const Comparison& c : comparisons) width = std::max(width, Cell(c).size());
+  for (const MissingRuns& one : missing) width = std::max(width, Cell(one).size());
   std::string text = fmt::format("{:{}}  {:20} {:11} {:>11} {:>11} {:>9}\n", "scene twin system",
                                  width, "score", "change", "before", "after", "");
   for (const Comparison& c : comparisons) {
     text += fmt::format("{:{}}  {:20} {} {:>11.4g} {:>11.4g} {:>9}  {}\n", Cell(c), width, c.score,
                         Painted(c, color), c.old_median, c.new_median, Percent(c), c.why);
   }
-  return text + Summary(comparisons) + "\n";
+  for (const MissingRuns& one : missing) {
+    const std::string word = fmt::format("{:11}", "missing");
+    text += fmt::format("{:{}}  {:20} {} {}\n", Cell(one), width, "",
+                        color ? fmt::format("\x1b[31;1m{}\x1b[0m", word) : word, Lacking(one));
+  }
+  return text + Summary(comparisons) + (missing.empty() ? "" : "; " + InWords(missing)) + "\n";
 }
 
-std::string ToMarkdown(const std::vector<Comparison>& comparisons) {
+std::string ToMarkdown(const std::vector<Comparison>& comparisons,
+                       const std::vector<MissingRuns>& missing) {
   std::string text =
       "| scene, twin, system | score | change | before | after | | why "
       "|\n|---|---|---|--:|--:|--:|---|\n";
@@ -60,10 +78,14 @@ std::string ToMarkdown(const std::vector<Comparison>& comparisons) {
     text += fmt::format("| {} | {} | {} | {:.4g} | {:.4g} | {} | {} |\n", Cell(c), c.score,
                         Name(c.change), c.old_median, c.new_median, Percent(c), c.why);
   }
+  for (const MissingRuns& one : missing) {
+    text += fmt::format("| {} | | missing | | | | {} |\n", Cell(one), Lacking(one));
+  }
   return text;
 }
 
-std::string ToJson(const std::vector<Comparison>& comparisons) {
+std::string ToJson(const std::vector<Comparison>& comparisons,
+                   const std::vector<MissingRuns>& missing) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Comparison& c : comparisons) {
     list.push_back({{"scene", c.scene},
@@ -82,7 +104,15 @@ std::string ToJson(const std::vector<Comparison>& comparisons) {
                     {"p_holm", c.p},
                     {"why", c.why}});
   }
-  return Dump({{"schema", 1}, {"comparisons", list}});
+  nlohmann::ordered_json lacking = nlohmann::ordered_json::array();
+  for (const MissingRuns& one : missing) {
+    lacking.push_back({{"scene", one.scene},
+                       {"twin", one.twin},
+                       {"system", one.system},
+                       {"seeds", one.seeds},
+                       {"whole", one.is_whole}});
+  }
+  return Dump({{"schema", 1}, {"comparisons", list}, {"missing", lacking}});
 }
 
 }  // namespace aisle

@@ -4,12 +4,16 @@
 #include <vector>
 
 #include "harness/judge/compare.h"
+#include "harness/judge/missing.h"
 
 namespace aisle {
 
-std::string ToConsole(const std::vector<Comparison>& comparisons, bool color);
-std::string ToMarkdown(const std::vector<Comparison>& comparisons);
-std::string ToJson(const std::vector<Comparison>& comparisons);
-/// The section of a page: what changed first, the rest folded away.
+/// What changed, and what the old side has and the new one lacks.
+std::string ToConsole(const std::vector<Comparison>& comparisons,
+                      const std::vector<MissingRuns>& missing, bool color);
+std::string ToMarkdown(const std::vector<Comparison>& comparisons,
+                       const std::vector<MissingRuns>& missing);
+std::string ToJson(const std::vector<Comparison>& comparisons,
+                   const std::vector<MissingRuns>& missing);
 
 }  // namespace aisle

@@ -1,6 +1,7 @@
 #include "harness/report/console.h"
 
 #include "harness/io/input_error.h"
+#include "harness/judge/gate.h"
 #include "harness/report/page/answer.h"
 
 namespace aisle {
@@ -52,6 +53,7 @@ std::string ToConsole(const Results& results, bool color) {
   std::size_t failed = 0;
   for (const Verdict& verdict : results.verdicts) {
     failed += verdict.passed ? 0 : 1;
+    if (verdict.name == kWithoutBaseline) continue;  // said last, where it is not overlooked
     text +=
         fmt::format("{}  {}: {}\n",
                     verdict.passed ? Painted("pass", "32", color) : Painted("FAIL", "31;1", color),
@@ -62,6 +64,9 @@ std::string ToConsole(const Results& results, bool color) {
   } else {
     text += fmt::format("{} of {} verdicts passed\n", results.verdicts.size() - failed,
                         results.verdicts.size());
+  }
+  for (const Verdict& verdict : results.verdicts) {
+    if (verdict.name == kWithoutBaseline) text += verdict.why + "\n";
   }
   return text;
 }

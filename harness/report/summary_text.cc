@@ -1,6 +1,7 @@
 #include "harness/report/summary_text.h"
 
 #include "harness/io/input_error.h"
+#include "harness/judge/gate.h"
 #include "harness/report/page/answer.h"
 
 namespace aisle {
@@ -39,6 +40,9 @@ std::string ToSummaryText(const Results& results, const std::vector<std::string>
   }
   std::string text = Printable(Headline(results), kWidth) + "\n";
   Append(broken, kBroken, &text);
+  for (const Verdict& verdict : results.verdicts) {
+    if (verdict.name == kWithoutBaseline) text += "  " + Printable(verdict.why, kWidth) + "\n";
+  }
   if (!changes.empty()) text += "other than before:\n";
   Append(changes, kChanges, &text);
   constexpr std::size_t kSentences = 2;  // of the answer: the rest is on the page

@@ -5,6 +5,7 @@
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/judge/change_size.h"
+#include "harness/judge/missing.h"
 #include "harness/report/markup/html.h"
 #include "harness/report/page/album_section.h"
 #include "harness/report/page/parts.h"
@@ -175,11 +176,28 @@ std::string Answer(const std::vector<Comparison>& comparisons, const ComparedNig
                     [](const Comparison& c) { return c.change == Change::kBetter; });
   std::string text =
       fmt::format("Of {} scores {} got worse and {} better.", comparisons.size(), worse, better);
+  const std::string missing = InWords(MissingRunsOf(*before.results, *after.results));
+  if (!missing.empty()) text += fmt::format(" Of what was there, {}.", missing);
   const Comparison& first = comparisons.front();
   if (!IsChange(first)) return text;
   return text + fmt::format(" The largest change: {} of {} on {} {}, from {} to {}.", first.score,
                             first.system, first.scene, first.twin, Value(first, first.old_median),
                             first.new_n > 0 ? Value(first, first.new_median) : "nothing");
+}
+
+/// What was there before and is not now; empty where everything is.
+std::string MissingTable(const std::vector<MissingRuns>& missing) {
+  if (missing.empty()) return "";
+  std::string rows;
+  for (const MissingRuns& one : missing) {
+    rows += fmt::format(
+        "<tr><td>{} {}<td class=\"left\">{}<td class=\"left fail\">{}\n", Escape(one.scene),
+        Escape(one.twin), Escape(one.system),
+        one.is_whole ? "all of it" : fmt::format("seeds {}", fmt::join(one.seeds, ", ")));
+  }
+  return "<h2 id=\"missing\">Missing since before</h2>\n<div class=\"wide\"><table><tr><th>scene, "
+         "twin<th class=\"left\">system<th class=\"left\">missing\n" +
+         rows + "</table></div>\n";
 }
 
 /// The frames of the largest changes, before and after.
@@ -206,13 +224,16 @@ std::string Pairs(const std::vector<Comparison>& comparisons, const ComparedNigh
 std::string ComparePage(std::vector<Comparison> comparisons, const ComparedNight& before,
                         const ComparedNight& after, const fs::path& out) {
   LargestFirst(&comparisons);
-  const bool worse = std::any_of(comparisons.begin(), comparisons.end(),
-                                 [](const Comparison& c) { return IsAlarm(c.change); });
+  const std::vector<MissingRuns> missing = MissingRunsOf(*before.results, *after.results);
+  const bool worse =
+      !missing.empty() || std::any_of(comparisons.begin(), comparisons.end(),
+                                      [](const Comparison& c) { return IsAlarm(c.change); });
   const char* css = comparisons.empty() ? "" : worse ? "failed" : "passed";
   std::string text =
       fmt::format("<h1>What changed</h1>\n<div class=\"verdict {}\"><strong>{}</strong></div>\n",
                   css, Escape(Answer(comparisons, before, after)));
   text += SidesTable(before, after, out);
+  if (!comparisons.empty()) text += MissingTable(missing);
   if (const std::string changes = Table(comparisons, true, before, after, out); !changes.empty()) {
     text += "<h2 id=\"changes\">The changes, the largest first</h2>\n" + changes;
   }

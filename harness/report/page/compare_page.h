@@ -15,9 +15,10 @@ struct ComparedNight {
   std::filesystem::path folder;  ///< of its report; empty for a results file alone
 };
 
-/// What changed between two nights: both by name, date, commit, machine and command; the changes by
-/// their size, each with its scene, the seed that moved farthest, and that seed's frames before and
-/// after, which are copied below `out`. Or why there is nothing to compare.
+/// What changed between two nights: both by name, date, commit, machine and command; what of the
+/// one is missing in the other; the changes by their size, each with its scene, the seed that moved
+/// farthest, and that seed's frames before and after, which are copied below `out`. Or why there is
+/// nothing to compare.
 std::string ComparePage(std::vector<Comparison> comparisons, const ComparedNight& before,
                         const ComparedNight& after, const std::filesystem::path& out);
 

@@ -250,6 +250,17 @@ TEST(GateTest, SeedsThatDidNotRunFail) {
   EXPECT_EQ(verdict.why, "the baseline has seeds 3, 4, tonight has not");
 }
 
+TEST(GateTest, CellsThatTheBaselineLacksAreCountedAndFailNothing) {
+  const Results baseline = Night(0.02, 1);
+  Results night = baseline;
+  night.runs.push_back(MakeRecordOf("new", 1, 0.02));
+  EXPECT_EQ(On(GateVerdicts(baseline, night), kWithoutBaseline).why,
+            "1 cell has no baseline and is held against nothing: s live new");
+  EXPECT_TRUE(On(GateVerdicts(baseline, night), kWithoutBaseline).passed);
+  EXPECT_THAT(On(GateVerdicts(baseline, baseline), kWithoutBaseline).name,
+              testing::HasSubstr("no verdict on"));
+}
+
 TEST(GateTest, AFewSeedsThatBreakAreUnstable) {
   const Results baseline = Night(0.02, 1);
   Results lost = baseline, mixed = baseline, loose = baseline;

@@ -14,9 +14,21 @@ TEST(CompareTextTest, EveryWritingNamesTheChange) {
   worse.old_median = 0.02;
   worse.new_median = 0.04;
   worse.change = Change::kWorse;
-  EXPECT_THAT(ToConsole({worse}, false), HasSubstr("1 worse"));
-  EXPECT_THAT(ToMarkdown({worse}), HasSubstr("| ate_rmse_m | worse |"));
-  EXPECT_THAT(ToJson({worse}), HasSubstr("\"change\": \"worse\""));
+  EXPECT_THAT(ToConsole({worse}, {}, false), HasSubstr("1 worse"));
+  EXPECT_THAT(ToMarkdown({worse}, {}), HasSubstr("| ate_rmse_m | worse |"));
+  EXPECT_THAT(ToJson({worse}, {}), HasSubstr("\"change\": \"worse\""));
+}
+
+TEST(CompareTextTest, EveryWritingNamesWhatIsMissing) {
+  const std::vector<MissingRuns> missing = {
+      {.scene = "a", .twin = "live", .system = "mine", .seeds = {1, 2}, .is_whole = true},
+      {.scene = "b", .twin = "live", .system = "mine", .seeds = {3}}};
+  const std::string console = ToConsole({}, missing, false);
+  EXPECT_THAT(console, HasSubstr("the old side has it, the new one has not"));
+  EXPECT_THAT(console, HasSubstr("the old side has seeds 3, the new one has not"));
+  EXPECT_THAT(console, HasSubstr("0 cannot tell; 1 cell and 1 seed of 1 other are missing\n"));
+  EXPECT_THAT(ToMarkdown({}, missing), HasSubstr("| a live mine | | missing |"));
+  EXPECT_THAT(ToJson({}, missing), HasSubstr("\"whole\": true"));
 }
 
 }  // namespace

@@ -11,9 +11,12 @@
 #include "harness/io/file.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
+#include "harness/judge/gate.h"
 #include "harness/judge/limit.h"
 #include "harness/report/allure.h"
+#include "harness/report/console.h"
 #include "harness/report/junit.h"
+#include "harness/report/summary_text.h"
 #include "tests/harness/record/night.h"
 
 namespace aisle {
@@ -256,6 +259,16 @@ TEST_F(ReportTest, HostileNamesDoNoHarmAnywhere) {
   pugi::xml_document document;
   EXPECT_TRUE(document.load_string(Read("junit.xml").c_str()));
   EXPECT_EQ(ReadResults(folder_).runs.size(), std::size(hostile));
+}
+
+TEST_F(ReportTest, CellsWithoutABaselineAreSaidInTheMorning) {
+  Results results = Make({MakeRun("s", "oracle", 1, 0.01)}, {kTight});
+  Verdict& without = results.verdicts.emplace_back();
+  without.name = kWithoutBaseline;
+  without.passed = true;
+  without.why = "3 cells have no baseline";
+  EXPECT_TRUE(ToConsole(results, false).ends_with("verdicts passed\n3 cells have no baseline\n"));
+  EXPECT_THAT(ToSummaryText(results, {}, folder_), HasSubstr("  3 cells have no baseline\n"));
 }
 
 TEST_F(ReportTest, JunitCarriesTheNumbers) {

@@ -117,6 +117,19 @@ TEST_F(ComparePageTest, SuitesThatShareNothingSayWhy) {
                                              "a2 before, z, z2 after."));
 }
 
+TEST_F(ComparePageTest, WhatVanishedIsCountedAndListed) {
+  const Results before = Night("old", 1);
+  Results after = before;
+  std::erase_if(after.runs,
+                [](const RunRecord& run) { return run.spec.scene == "a2" || run.spec.seed > 5; });
+  const std::string page = Page(before, after);
+  EXPECT_THAT(page, HasSubstr("verdict failed"));
+  EXPECT_THAT(page, HasSubstr("Of what was there, 1 cell and 4 seeds of 1 other are missing."));
+  EXPECT_THAT(page, HasSubstr("all of it"));
+  EXPECT_THAT(page, HasSubstr("seeds 6, 7, 8, 9"));
+  EXPECT_THAT(Page(after, before), Not(HasSubstr("missing"))) << "what is new is not missing";
+}
+
 TEST_F(ComparePageTest, HostileNamesAreText) {
   const std::string hostile = "\"><script>alert(1)</script>";
   const Results before = Night("old", 1, hostile), after = Night("new", 3, hostile);
