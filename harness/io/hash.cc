@@ -16,6 +16,8 @@ std::uint64_t Hash(std::string_view bytes, std::uint64_t seed) {
 }
 
 std::uint64_t HashFile(const fs::path& path, std::uint64_t seed) {
+  std::error_code error;  // what is no file may have no end: it is read as far as files may go
+  if (!fs::is_regular_file(path, error)) return Hash(ReadFile(path), seed);
   // A system's weights may be larger than memory should hold.
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
                                                                        XXH3_freeState);

@@ -7,16 +7,6 @@
 namespace aisle {
 namespace {
 
-using Cell = std::tuple<std::string, std::string, std::string>;  // scene, twin, system
-
-std::map<Cell, std::set<std::uint64_t>> SeedsByCell(const Results& results) {
-  std::map<Cell, std::set<std::uint64_t>> seeds;
-  for (const RunRecord& run : results.runs) {
-    seeds[{run.spec.scene, run.spec.twin, run.spec.system.name}].insert(run.spec.seed);
-  }
-  return seeds;
-}
-
 Verdict OfMissing(const MissingRuns& missing) {
   return {.name = fmt::format("{} {} {}: baseline", missing.scene, missing.twin, missing.system),
           .passed = false,

@@ -1,30 +1,25 @@
 #include "harness/judge/missing.h"
 
 #include <algorithm>
-#include <map>
-#include <set>
-#include <tuple>
 
 #include "harness/record/record.h"
 
 namespace aisle {
 namespace {
 
-using Cell = std::tuple<std::string, std::string, std::string>;  // scene, twin, system
-
-std::map<Cell, std::set<std::uint64_t>> SeedsByCell(const Results& results) {
-  std::map<Cell, std::set<std::uint64_t>> seeds;
-  for (const RunRecord& run : results.runs) {
-    seeds[{run.spec.scene, run.spec.twin, run.spec.system.name}].insert(run.spec.seed);
-  }
-  return seeds;
-}
-
 std::string Counted(std::size_t count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
 }  // namespace
+
+std::map<CellOfNight, std::set<std::uint64_t>> SeedsByCell(const Results& results) {
+  std::map<CellOfNight, std::set<std::uint64_t>> seeds;
+  for (const RunRecord& run : results.runs) {
+    seeds[{run.spec.scene, run.spec.twin, run.spec.system.name}].insert(run.spec.seed);
+  }
+  return seeds;
+}
 
 std::vector<MissingRuns> MissingRunsOf(const Results& before, const Results& after) {
   std::vector<MissingRuns> missing;
