@@ -20,14 +20,7 @@ ContactWatch::ContactWatch(const Course& course, DriveTrack* track)
       reach_m_(ReachOf(course.footprint)),
       distances_(course.actors.size(), kInfinity),
       thing_distances_(course.things.size(), kInfinity) {
-  for (const StandingThing& thing : course.things) {
-    Box box{thing.outline.front(), thing.outline.front()};
-    for (const Eigen::Vector2d& corner : thing.outline) {
-      box.low = box.low.cwiseMin(corner);
-      box.high = box.high.cwiseMax(corner);
-    }
-    boxes_.push_back(box);
-  }
+  for (const StandingThing& thing : course.things) boxes_.push_back(BoxOf(thing.outline));
 }
 
 FloorPose ContactWatch::VehicleAt(double share) const {

@@ -33,9 +33,6 @@ class ContactWatch {
   bool hit_static() const { return hit_static_; }
 
  private:
-  struct Box {
-    Eigen::Vector2d low, high;
-  };
   void SeeThings(const Encounter& now, const Polygon& footprint, double moved_m);
   void SeeActors(const Encounter& now, const Polygon& footprint, double moved_m);
   void SeeZones(const Encounter& now, const Polygon& footprint);

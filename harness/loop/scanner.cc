@@ -6,18 +6,6 @@ namespace aisle {
 
 namespace {
 
-struct Extent {
-  Eigen::Vector2d low, high;
-};
-Extent ExtentOf(const Polygon& polygon) {
-  Extent extent{polygon.front(), polygon.front()};
-  for (const Eigen::Vector2d& corner : polygon) {
-    extent.low = extent.low.cwiseMin(corner);
-    extent.high = extent.high.cwiseMax(corner);
-  }
-  return extent;
-}
-
 Polygon Rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
   return {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
 }
@@ -26,7 +14,7 @@ Polygon Rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
 
 Polygon ProtectiveField(const Polygon& footprint, double speed_mps, double stop_mps2,
                         const ScannerOptions& options) {
-  const auto [low, high] = ExtentOf(footprint);
+  const auto [low, high] = BoxOf(footprint);
   const double v = std::abs(speed_mps);
   const double length = v * options.reaction_s + v * v / (2 * stop_mps2) + options.margin_m;
   const double from = speed_mps < 0 ? low.x() - length : high.x();
@@ -36,7 +24,7 @@ Polygon ProtectiveField(const Polygon& footprint, double speed_mps, double stop_
 }
 
 Polygon TurningField(const Polygon& footprint, const ScannerOptions& options) {
-  const auto [low, high] = ExtentOf(footprint);
+  const auto [low, high] = BoxOf(footprint);
   const Eigen::Vector2d wider(options.margin_m, options.side_m);
   return Rectangle(low - wider, high + wider);
 }
@@ -48,7 +36,7 @@ bool IsBlocked(const Course& course, const FloorPose& vehicle, const Polygon& fi
   const auto blocks = [&](const Capsule& actor) { return Distance(placed, actor) <= 0; };
   if (std::ranges::any_of(actors, blocks)) return true;
   return std::ranges::any_of(course.things, [&](const StandingThing& thing) {
-    const auto [low, high] = ExtentOf(thing.outline);
+    const auto [low, high] = BoxOf(thing.outline);
     const Eigen::Vector2d& at = vehicle.position;
     const double off = (low - at).cwiseMax(at - high).cwiseMax(Eigen::Vector2d::Zero()).norm();
     return off <= reach && Distance(placed, thing.outline) <= 0;

@@ -76,4 +76,13 @@ double ReachOf(const Polygon& polygon) {
   return reach;
 }
 
+Box BoxOf(const Polygon& polygon) {
+  Box box{polygon.front(), polygon.front()};
+  for (const Eigen::Vector2d& corner : polygon) {
+    box.low = box.low.cwiseMin(corner);
+    box.high = box.high.cwiseMax(corner);
+  }
+  return box;
+}
+
 }  // namespace aisle

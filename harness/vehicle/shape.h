@@ -32,4 +32,10 @@ double Distance(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen:
 /// The farthest corner from the frame's origin: bounds how far any point moves in a turn.
 double ReachOf(const Polygon& polygon);
 
+/// The smallest rectangle along the axes that holds a polygon.
+struct Box {
+  Eigen::Vector2d low, high;
+};
+Box BoxOf(const Polygon& polygon);
+
 }  // namespace aisle
