@@ -13,12 +13,14 @@ namespace {
 constexpr std::size_t kMaxBytes = 1 << 20;
 constexpr int kMaxDepth = 32;
 
-/// Sees the document as a stream of events, before any tree exists.
+/// Sees the text as a stream of events, before any tree exists.
 class Guard : public YAML::EventHandler {
  public:
   explicit Guard(const std::string& file) : file_(file) {}
 
-  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (++documents_ == 2) FailAt(file_, mark, "expected one YAML document, got more");
+  }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { Check(mark, anchor); }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
@@ -51,6 +53,7 @@ class Guard : public YAML::EventHandler {
   }
 
   const std::string& file_;
+  int documents_ = 0;
   int depth_ = 0;
 };
 
@@ -84,7 +87,8 @@ YAML::Node ParseYaml(const std::string& text, const std::string& file) {
     std::istringstream events(text);
     YAML::Parser parser(events);
     Guard guard(file);
-    parser.HandleNextDocument(guard);
+    while (parser.HandleNextDocument(guard)) {
+    }
     YAML::Node node = YAML::Load(text);
     RefuseDuplicateKeys(node, file);
     return node;

@@ -116,6 +116,7 @@ TEST_F(SuiteTest, MistakesAreNamedWithPlaceAndRemedy) {
       {good + "seds: 3\n", "s.yaml:5:1: seds: there is no such key; did you mean seeds?"},
       {good + "suite: again\n",
        "s.yaml:5:1: key 'suite' appears twice (first in line 1): remove one"},
+      {good + "---\nlimits: [{nonsense: 1}]\n", "s.yaml:5:1: expected one YAML document, got more"},
       {"suite: a\nscenes: [paper/one]\nsystems: [orbslam]\n",
        "s.yaml:3:11: systems[0].name: expected one of orbslam2, oracle (did you mean orbslam2?), "
        "got 'orbslam'"},
