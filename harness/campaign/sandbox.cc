@@ -1,6 +1,7 @@
 #include "harness/campaign/sandbox.h"
 
 #include <fcntl.h>
+#include <fmt/ranges.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -14,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The kernel's interface as of version 7, stated here: Debian's header knows version 2.
+// The kernel's interface as of version 6, stated here: Debian's header knows version 2.
 struct RulesetAttributes {
   std::uint64_t file_access = 0, network_access = 0, scopes = 0;
 };
@@ -127,15 +128,16 @@ int SandboxLevel() {
   return level < 0 ? 0 : static_cast<int>(level);
 }
 
-std::string DescribeSandbox() {
-  const int level = SandboxLevel();
+std::string DescribeSandbox(int level) {
   if (level == 0) return "the kernel has no Landlock: nothing holds commands of others back";
-  const char* files = level < 3 ? "; this kernel cannot keep them from cutting files short" : "";
-  const char* signals = level < 6 ? "; nor from signals to other processes of the user" : "";
+  std::vector<const char*> open;
+  if (level < 3) open.push_back("cutting files short");
+  if (level < 6) open.push_back("sending signals to other processes of the user");
   return fmt::format(
       "Landlock {}: they read neither truth nor other runs' results, and write into their own "
       "folders only{}{}",
-      level, files, signals);
+      level, open.empty() ? "" : "; this kernel cannot keep them from ",
+      fmt::join(open, " nor from "));
 }
 
 Sandbox::Sandbox(const SandboxRules& rules) {

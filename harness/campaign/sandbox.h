@@ -21,7 +21,7 @@ struct SandboxRules {
 int SandboxLevel();
 
 /// The same in words, for `doctor` and for logs.
-std::string DescribeSandbox();
+std::string DescribeSandbox(int level = SandboxLevel());
 
 /// Rules as the kernel takes them (Landlock), ready for a process to be bound to; whoever is bound
 /// stays so with all it starts. Names of files can be listed everywhere, hidden ones too; what is

@@ -17,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::Contains;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -112,6 +113,19 @@ TEST_F(BoundSandboxTest, OthersCannotBeSignalled) {
   EXPECT_EQ(::waitpid(other, nullptr, WNOHANG), 0);
   ::kill(other, SIGKILL);
   ::waitpid(other, nullptr, 0);
+}
+
+TEST(DescribeSandboxTest, WhatAKernelCannotPreventIsOneSentence) {
+  const std::string cannot = "; this kernel cannot keep them from ";
+  const std::string kills = "sending signals to other processes of the user";
+  EXPECT_THAT(DescribeSandbox(6), Not(HasSubstr("cannot")));
+  for (const int level : {3, 4, 5}) {
+    EXPECT_THAT(DescribeSandbox(level), EndsWith("only" + cannot + kills));
+  }
+  for (const int level : {1, 2}) {
+    EXPECT_THAT(DescribeSandbox(level),
+                EndsWith("only" + cannot + "cutting files short nor from " + kills));
+  }
 }
 
 TEST_F(SandboxTest, NeitherSecretsNorDescriptorsGoAlong) {
