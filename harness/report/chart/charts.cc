@@ -25,6 +25,22 @@ const std::optional<Eigen::Vector3d>& PositionOf(const FrameRow& row, TrackKind 
   return kind == TrackKind::kLive ? row.live_m : row.final_m;
 }
 
+/// Whether the frames that both have show the vehicle at the same places: where the systems steer,
+/// each has a drive of its own.
+bool IsSameDrive(const std::vector<FrameRow>& a, const std::vector<FrameRow>& b) {
+  constexpr double kSame_m = 1e-3;
+  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+    if (a[i].id == b[j].id) {
+      if ((a[i++].truth_m - b[j++].truth_m).norm() > kSame_m) return false;
+    } else if (a[i].id < b[j].id) {
+      ++i;
+    } else {
+      ++j;
+    }
+  }
+  return true;
+}
+
 /// 1, 2, 5, 10, …: the factor that makes the largest deviation a visible part of the extent.
 double Magnification(const std::vector<ChartSeries>& series, TrackKind kind, double extent_m) {
   double largest_m = 0;
@@ -73,8 +89,11 @@ std::string TopViewChart(const std::vector<ChartSeries>& series, TrackKind kind)
   if (longest == nullptr) return "";
   const auto [ax, ay] = WidestPlane(*longest);
   Eigen::AlignedBox2d box;
-  for (const FrameRow& row : *longest)
-    box.extend(Eigen::Vector2d(row.truth_m[ax], row.truth_m[ay]));
+  for (const ChartSeries& one : series) {
+    for (const FrameRow& row : *one.rows) {
+      box.extend(Eigen::Vector2d(row.truth_m[ax], row.truth_m[ay]));
+    }
+  }
   const double extent_m = std::max(box.sizes().maxCoeff(), 0.1);
   const double magnification = Magnification(series, kind, extent_m);
   const double margin_m = 0.09 * extent_m;
@@ -87,7 +106,10 @@ std::string TopViewChart(const std::vector<ChartSeries>& series, TrackKind kind)
   const double scale = (kRight - kLeft) / box.sizes()[across];
   const double plot_height = std::max(60.0, scale * box.sizes()[up]);
   const Axis x{box.min()[across], box.max()[across], kLeft, kRight};
-  const Axis y{box.min()[up], box.max()[up], 34 + plot_height, 34};
+  // Seen from above, y grows to the left of x: with y across, x grows downwards.
+  const bool down = swap && ax == 0 && ay == 1;
+  const double low_px = down ? 34 : 34 + plot_height, high_px = down ? 34 + plot_height : 34;
+  const Axis y{box.min()[up], box.max()[up], low_px, high_px};
   Svg svg = Svg::Map(kWidth, plot_height + 100, "trajectories from above");
   const char* names = "xyz";
   const auto axis_name = [&](int k) { return names[(k == 0) ? ax : ay]; };
@@ -97,21 +119,29 @@ std::string TopViewChart(const std::vector<ChartSeries>& series, TrackKind kind)
     const Eigen::Vector2d q(p[ax], p[ay]);
     return std::pair(x(q[across]), y(q[up]));
   };
-  std::vector<std::pair<std::string, std::string>> legend = {{"truth", "truth"}};
-  for (const Points& piece :
-       Pieces(*longest, [&](const FrameRow& row) { return std::optional(at(row.truth_m)); })) {
-    svg.Polyline(piece, "truth");
-  }
+  std::vector<std::pair<std::string, std::string>> legend;
+  const auto draw_truth = [&](const std::vector<FrameRow>& rows, const std::string& css,
+                              const std::string& name) {
+    Points way;
+    for (const FrameRow& row : rows) way.push_back(at(row.truth_m));
+    svg.Polyline(way, css);
+    legend.emplace_back(name, css);
+  };
+  const bool one_drive = std::all_of(series.begin(), series.end(), [&](const ChartSeries& one) {
+    return IsSameDrive(*longest, *one.rows);
+  });
+  if (one_drive) draw_truth(*longest, "truth", "truth");
   for (const ChartSeries& one : series) {
+    if (!one_drive) {
+      draw_truth(*one.rows, fmt::format("truth c{}", one.color), "truth of " + one.name);
+    }
     const std::string css = fmt::format("line c{}", one.color);
     const auto point = [&](const FrameRow& row) -> std::optional<std::pair<double, double>> {
       const auto& track_m = PositionOf(row, kind);
       if (!track_m) return std::nullopt;
       return at(row.truth_m + magnification * (*track_m - row.truth_m));
     };
-    const std::vector<Points> pieces = Pieces(*one.rows, point);
-    for (const Points& piece : pieces) svg.Polyline(piece, css, one.name);
-    if (pieces.front().size() < 2) continue;  // it has no track
+    if (!svg.Pieces(Pieces(*one.rows, point), css, one.name)) continue;  // it has no track
     legend.emplace_back(one.seed.empty() ? one.name : one.name + ", " + one.seed, css);
   }
   const auto [start_x, start_y] = at(longest->front().truth_m);

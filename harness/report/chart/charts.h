@@ -24,7 +24,8 @@ const std::vector<FrameRow>* Longest(const std::vector<ChartSeries>& series);
 // light and dark and the page's policy may forbid everything else.
 
 enum class TrackKind { kLive, kFinal };
-/// Truth and every track of that kind from above, the plane of greatest extent, equal scales. Where
+/// Truth and every track of that kind from above, the plane of greatest extent, equal scales; of
+/// vehicles that were steered, each with its own truth. Where
 /// deviations are too small to be seen they are drawn magnified, and the caption says how much.
 std::string TopViewChart(const std::vector<ChartSeries>& series, TrackKind kind = TrackKind::kLive);
 

@@ -136,6 +136,17 @@ void Svg::Polyline(const Points& points, const std::string& css, const std::stri
   lines_ += Path(PathData(points), css, name);
 }
 
+bool Svg::Pieces(const std::vector<Points>& pieces, const std::string& css,
+                 const std::string& name) {
+  std::string dots;  // one path of all: a track with a pose in every second frame has hundreds
+  for (const Points& piece : pieces) {
+    Polyline(piece, css, name);
+    if (piece.size() == 1) dots += PathData(piece);
+  }
+  if (!dots.empty()) lines_ += Path(dots, css + " point", "");
+  return std::any_of(pieces.begin(), pieces.end(), [](const Points& p) { return !p.empty(); });
+}
+
 void Svg::Area(const Points& points, double base_y, const std::string& css,
                const std::string& name) {
   if (points.size() < 2) return;

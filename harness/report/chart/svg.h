@@ -49,6 +49,10 @@ class Svg {
   /// pixel.
   void Polyline(const std::vector<std::pair<double, double>>& points, const std::string& css,
                 const std::string& name = "");
+  /// A line with gaps: a named line per piece, and a dot for each piece of a single point. Whether
+  /// anything was drawn.
+  bool Pieces(const std::vector<std::vector<std::pair<double, double>>>& pieces,
+              const std::string& css, const std::string& name = "");
   /// What lies between a line and `base_y`.
   void Area(const std::vector<std::pair<double, double>>& points, double base_y,
             const std::string& css, const std::string& name = "");

@@ -101,20 +101,26 @@ std::vector<double> OverSeeds(const ChartSeries& series, std::size_t frame, cons
 }
 
 /// The median over the seeds, with its band; frames of which fewer than half have a value are left
-/// out.
+/// out, and leave a gap.
 void AddMedian(const ChartSeries& series, const Clock& clock, const ValueOf& value, Panel* panel) {
   Line median{series.name + kMedian, fmt::format("line c{}", series.color), {{}}};
-  Band band{fmt::format("band d{}", series.color)};
+  const std::string css = fmt::format("band d{}", series.color);
+  std::vector<Band> bands{{css}};
   for (std::size_t frame = 0; frame < series.rows->size(); ++frame) {
     const std::vector<double> values = OverSeeds(series, frame, value);
-    if (2 * values.size() < series.seeds.size() || values.empty()) continue;
+    if (2 * values.size() < series.seeds.size() || values.empty()) {
+      if (median.pieces.back().empty()) continue;
+      median.pieces.emplace_back();
+      bands.push_back({css});
+      continue;
+    }
     const double at = clock.at(series.rows->front(), (*series.rows)[frame]);
     const double share = values.size() < 4 ? 0 : 0.25;
     median.pieces.back().emplace_back(at, Quantile(values, 0.5));
-    band.low.emplace_back(at, Quantile(values, share));
-    band.high.emplace_back(at, Quantile(values, 1 - share));
+    bands.back().low.emplace_back(at, Quantile(values, share));
+    bands.back().high.emplace_back(at, Quantile(values, 1 - share));
   }
-  panel->bands.push_back(std::move(band));
+  std::move(bands.begin(), bands.end(), std::back_inserter(panel->bands));
   panel->lines.push_back(std::move(median));
 }
 
@@ -189,14 +195,13 @@ void Draw(const Panel& panel, const Axis& x, double top, const char* x_title, Sv
   };
   for (const Band& band : panel.bands) svg->Band(placed(band.low), placed(band.high), band.css);
   for (const Line& line : panel.lines) {
-    for (const Points& piece : line.pieces) {
-      const Points at = placed(piece);
-      if (panel.filled) {
-        svg->Area(at, y(0), line.css, line.name);
-      } else {
-        svg->Polyline(at, line.css, line.name);
-      }
+    std::vector<Points> pieces;
+    for (const Points& piece : line.pieces) pieces.push_back(placed(piece));
+    if (!panel.filled) {
+      svg->Pieces(pieces, line.css, line.name);
+      continue;
     }
+    for (const Points& piece : pieces) svg->Area(piece, y(0), line.css, line.name);
   }
 }
 

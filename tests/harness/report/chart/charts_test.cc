@@ -131,6 +131,104 @@ TEST(TimeChart, ALostTrackLeavesAGap) {
   EXPECT_NEAR(paths[1].points.front().first, 1000.0 * 60 / 99, 0.5);
 }
 
+/// The median over seeds has the gap of the frames that every seed lost, and so has its band.
+TEST(TimeChart, WhatEverySeedLostIsAGapOfTheMedian) {
+  std::vector<std::vector<FrameRow>> seeds(5, Drive(100, 0.3));
+  for (std::vector<FrameRow>& rows : seeds) {
+    for (std::size_t i = 40; i < 60; ++i) rows[i].live_error_m.reset();
+  }
+  ChartSeries series{"lost", 1, &seeds[0], "worst: seed 1"};
+  for (const std::vector<FrameRow>& rows : seeds) series.seeds.push_back(&rows);
+  const SvgReader reader(TimeChart({series}));
+  std::vector<SvgReader::Path> median = reader.Paths("line c1");
+  std::erase_if(median, [](const auto& path) { return path.name != "lost, median"; });
+  for (const auto& pieces : {median, reader.Paths("band d1")}) {
+    ASSERT_EQ(pieces.size(), 2u);
+    for (const SvgReader::Path& piece : pieces) {
+      for (const auto& [x, y] : piece.points) {
+        EXPECT_TRUE(x < 1000.0 * 39.5 / 99 || x > 1000.0 * 59.5 / 99) << x;
+      }
+    }
+  }
+}
+
+TEST(TimeChart, APoseInEverySecondFrameIsDrawn) {
+  std::vector<FrameRow> rows = Drive(100, 0.3);
+  for (std::size_t i = 0; i < rows.size(); i += 2) {
+    rows[i].live_error_m.reset();
+    rows[i].live_m.reset();
+  }
+  for (const std::string& chart :
+       {TimeChart({{"blinks", 1, &rows}}), TopViewChart({{"blinks", 1, &rows}})}) {
+    const auto dots = SvgReader(chart).Paths("line c1");
+    ASSERT_EQ(dots.size(), chart.find("class=\"map\"") == std::string::npos ? 2u : 1u);
+    EXPECT_EQ(dots[0].points.size(), 100u) << "of 50 frames, each as a place and a step of none";
+    EXPECT_NE(chart.find("</svg>blinks</span>"), std::string::npos) << "named below";
+  }
+}
+
+TEST(TopViewChart, NamesATrackThatBeginsWithASinglePose) {
+  std::vector<FrameRow> rows = Drive(100, 0.3);
+  rows[1].live_m.reset();
+  EXPECT_NE(TopViewChart({{"late", 1, &rows}}).find("</svg>late</span>"), std::string::npos);
+  for (FrameRow& row : rows) row.live_m.reset();
+  EXPECT_EQ(TopViewChart({{"late", 1, &rows}}).find("late"), std::string::npos);
+}
+
+/// Seen from above and never mirrored: a turn to the left is one on the page.
+TEST(TopViewChart, TurnsLeftWhereTheVehicleDoesHoweverThePageIsTurned) {
+  for (const bool along_y : {false, true}) {
+    std::vector<FrameRow> rows = Drive(100, 0.1);
+    for (int i = 0; i < 100; ++i) {
+      const double ahead = 0.1 * std::min(i, 75), left = 0.1 * std::max(0, i - 75);
+      FrameRow& row = rows[static_cast<std::size_t>(i)];
+      row.truth_m = along_y ? Eigen::Vector3d(-left, ahead, 0) : Eigen::Vector3d(ahead, left, 0);
+      row.live_m = row.truth_m;
+    }
+    const std::string chart = TopViewChart({{"one", 1, &rows}});
+    for (const char* css : {"truth", "line c1"}) {
+      const auto way = SvgReader(chart).Paths(css).at(0).points;
+      ASSERT_GE(way.size(), 3u);
+      const auto& [ax, ay] = way.front();
+      const auto& [bx, by] = way[1];  // the corner: a straight line has no points of its own
+      const auto& [cx, cy] = way.back();
+      // The page's y grows downwards: a left turn has a negative cross product there.
+      EXPECT_LT((bx - ax) * (cy - by) - (by - ay) * (cx - bx), -100) << along_y << css;
+    }
+    // What the axes say is where the corner is drawn.
+    const pugi::xml_node panel = SvgReader(chart).All("rect", "panel").at(0);
+    std::istringstream y(panel.attribute("data-y").value());
+    double low, high, from, to;
+    y >> low >> high >> from >> to;
+    EXPECT_EQ(from < to, along_y) << "x grows downwards where y lies across";
+  }
+}
+
+/// Who steers has a drive of its own: each system's truth is drawn, and all of them are in sight.
+TEST(TopViewChart, DrivesThatDifferHaveEachTheirTruth) {
+  const std::vector<FrameRow> one = Drive(100, 0.05);
+  std::vector<FrameRow> astray = Drive(60, 0.05);
+  for (FrameRow& row : astray) row.truth_m.y() -= 0.1 * static_cast<double>(row.id);
+  const std::string chart = TopViewChart({{"one", 1, &one}, {"astray", 2, &astray}});
+  const SvgReader reader(chart);
+  EXPECT_EQ(reader.Paths("truth c1").size(), 1u);
+  ASSERT_EQ(reader.Paths("truth c2").size(), 1u);
+  EXPECT_EQ(reader.Paths("truth").size(), 2u);
+  EXPECT_NE(chart.find("truth of astray"), std::string::npos);
+  const pugi::xml_node panel = reader.All("rect", "panel").at(0);
+  const double top = panel.attribute("y").as_double();
+  const double bottom = top + panel.attribute("height").as_double();
+  const auto way = reader.Paths("truth c2").at(0).points;
+  for (const auto& [x, y] : way) {
+    EXPECT_GT(y, top);
+    EXPECT_LT(y, bottom);
+  }
+  const std::vector<FrameRow> shorter = Drive(60, 0.05);
+  const SvgReader same(TopViewChart({{"one", 1, &one}, {"short", 2, &shorter}}));
+  ASSERT_EQ(same.Paths("truth").size(), 1u) << "one drive, one truth";
+  EXPECT_EQ(same.Paths("truth").at(0).css, "truth");
+}
+
 /// Equal scales; deviations are drawn as many times as large as the caption says.
 TEST(TopViewChart, DrawsToScaleAndSaysHowMuchDeviationsAreMagnified) {
   for (const double error_m : {0.004, 0.05, 2.0}) {

@@ -102,6 +102,21 @@ TEST(Svg, AreasReachTheirBaseAndBandsGoOutAndBack) {
   EXPECT_TRUE(reader.Paths("line").empty()) << "one point is no line";
 }
 
+TEST(Svg, APieceOfOnePointIsADotAtItsPlace) {
+  Svg svg = Svg::Chart(100, "pieces");
+  EXPECT_TRUE(svg.Pieces({{{10, 20}}, {{30, 20}, {50, 60}}, {}, {{70, 40}}}, "line c1", "one"));
+  EXPECT_FALSE(svg.Pieces({{}}, "line c2", "none"));
+  EXPECT_FALSE(svg.Pieces({}, "line c2", "none"));
+  const SvgReader reader(svg.Finish());
+  const auto paths = reader.Paths("line c1");
+  ASSERT_EQ(paths.size(), 2u) << "the line, and all dots together";
+  using Points = std::vector<std::pair<double, double>>;
+  EXPECT_EQ(paths[0].points, (Points{{30, 20}, {50, 60}}));
+  EXPECT_EQ(paths[1].points, (Points{{10, 20}, {10, 20}, {70, 40}, {70, 40}}));
+  EXPECT_EQ(paths[1].css, "line c1 point");
+  EXPECT_TRUE(reader.Paths("line c2").empty());
+}
+
 /// Whatever a system is called, the chart stays well-formed and says that very name.
 TEST(Svg, HostileNamesAreTextAndNothingElse) {
   const std::string name = "<script>\"&'>]]><!-- \xC3\xA4";
