@@ -62,10 +62,19 @@ RecordedPath::RecordedPath(std::vector<TimedPose> poses) : poses_(std::move(pose
   }
 }
 
+Eigen::Isometry3d RecordedPath::Beyond(std::size_t end, std::int64_t time_ns) const {
+  const double away_s = Seconds(poses_[end].time_ns, time_ns);
+  Eigen::Isometry3d pose = poses_[end].T_world_body;
+  pose.translation() += velocity_mps_[end] * away_s;
+  pose.linear() = poses_[end].T_world_body.linear() * Exp(turn_rate_rad_s_[end] * away_s);
+  return pose;
+}
+
 Eigen::Isometry3d RecordedPath::At(std::int64_t time_ns) const {
   const auto after = std::ranges::lower_bound(poses_, time_ns, {}, &TimedPose::time_ns);
-  if (after == poses_.end()) return poses_.back().T_world_body;
-  if (after == poses_.begin() || after->time_ns == time_ns) return after->T_world_body;
+  if (after == poses_.end()) return Beyond(poses_.size() - 1, time_ns);
+  if (after->time_ns == time_ns) return after->T_world_body;
+  if (after == poses_.begin()) return Beyond(0, time_ns);
   const auto k = static_cast<std::size_t>(after - poses_.begin()), i = k - 1;
   const TimedPose &a = poses_[i], &b = poses_[k];
   const double span_s = Seconds(a.time_ns, b.time_ns);

@@ -14,7 +14,9 @@ struct TimedPose {
 /// A path through given poses: exactly those at their times, to the bit, and smooth between, with
 /// continuous velocity and turn rate. Each knot's are those of its neighbours' chord; between two
 /// knots run cubic Hermite curves, of the position and of the rotation vector from the first.
-/// Before the first and after the last it stands.
+/// Before the first and after the last it goes on with that pose's velocity and turn rate: a
+/// recording is cut out of a drive, and what is differenced across its ends must see no stop. A
+/// path of a single pose stands.
 class RecordedPath {
  public:
   RecordedPath() = default;
@@ -25,6 +27,9 @@ class RecordedPath {
   std::int64_t duration_ns() const { return poses_.back().time_ns - poses_.front().time_ns; }
 
  private:
+  /// Before the first or after the last pose, whose index is `end`.
+  Eigen::Isometry3d Beyond(std::size_t end, std::int64_t time_ns) const;
+
   std::vector<TimedPose> poses_;
   std::vector<Eigen::Vector3d> velocity_mps_;     ///< world
   std::vector<Eigen::Vector3d> turn_rate_rad_s_;  ///< in the body's axes

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "harness/io/trajectory.h"
+#include "simulator/motion/recorded_path.h"
 #include "simulator/motion/rig_mount.h"
 #include "simulator/scene/load.h"
 
@@ -104,6 +105,25 @@ Drift WorstDrift(const Path& path, double duration_s) {
 }
 
 constexpr double kMost_m = 1e-3, kMost_rad = 0.01 * pi / 180;
+
+TEST(IdealImu, OfARecordingThatBeginsInMotionFeelsNoStart) {
+  const Eigen::Vector3d velocity(1.2, -0.3, 0);
+  std::vector<sim::TimedPose> poses;
+  for (std::int64_t i = 0; i <= 40; ++i) {
+    poses.push_back({i * 50'000'000, Eigen::Isometry3d::Identity()});
+    poses.back().T_world_body.translation() = 0.05 * static_cast<double>(i) * velocity;
+  }
+  const sim::RecordedPath recorded(poses);
+  const auto path = [&](std::int64_t time_ns) { return recorded.At(time_ns); };
+  const std::int64_t last_ns = poses.back().time_ns;
+  for (const ImuSample& sample : IdealImu(path, 0, last_ns, 200)) {
+    EXPECT_NEAR(sample.specific_force.norm(), kGravityMps2, 1e-6) << sample.stamp_ns;
+    EXPECT_LT(sample.angular_velocity.norm(), 1e-9) << sample.stamp_ns;
+  }
+  for (const std::int64_t stamp_ns : {std::int64_t{0}, last_ns / 2, last_ns}) {
+    EXPECT_LT((VelocityAt(path, stamp_ns, 200) - velocity).norm(), 1e-9) << stamp_ns;
+  }
+}
 
 TEST(IdealImu, IntegratesToTheTrajectoryOfEveryScene) {
   int scenes = 0;

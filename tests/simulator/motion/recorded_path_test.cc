@@ -32,8 +32,31 @@ TEST(RecordedPath, GoesThroughItsPosesToTheBit) {
   for (int i = 0; i < 40; ++i) {
     EXPECT_EQ(path.At(7 + i * kStepNs).matrix(), Screw(i * 0.05).matrix());
   }
-  EXPECT_EQ(path.At(0).matrix(), Screw(0).matrix());
-  EXPECT_EQ(path.At(100 * kStepNs).matrix(), Screw(39 * 0.05).matrix());
+}
+
+TEST(RecordedPath, BeyondItsEndsItGoesOnAsItCameThere) {
+  // A screw of constant velocity and turn rate is one and the same curve inside and outside.
+  const auto even = [](double t) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() = Eigen::AngleAxisd(0.3 + 0.7 * t, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    pose.translation() << 1.2 * t, 3 - 0.4 * t, 0.1 * t;
+    return pose;
+  };
+  std::vector<TimedPose> knots;
+  for (int i = 0; i < 20; ++i) knots.push_back({i * kStepNs, even(i * 0.05)});
+  const RecordedPath path(knots);
+  for (double t = -0.4; t < 1.4; t += 0.013) {
+    const Eigen::Isometry3d at = path.At(std::llround(t * 1e9));
+    EXPECT_LT((at.translation() - even(t).translation()).norm(), 1e-8) << t;
+    EXPECT_LT(Angle(at, even(t)), 1e-7) << t;
+  }
+}
+
+TEST(RecordedPath, OfOnePoseStands) {
+  const RecordedPath path({{5, Screw(1)}});
+  for (const std::int64_t t : {-kStepNs, std::int64_t{5}, kStepNs}) {
+    EXPECT_EQ(path.At(t).matrix(), Screw(1).matrix());
+  }
 }
 
 TEST(RecordedPath, BetweenThemItIsWhereACurveWouldBe) {
@@ -50,7 +73,7 @@ TEST(RecordedPath, BetweenThemItIsWhereACurveWouldBe) {
 TEST(RecordedPath, VelocityAndTurnRateDoNotJump) {
   const RecordedPath path = Path(40);
   constexpr std::int64_t kNear = 10'000;  // ns
-  for (int i = 1; i < 39; ++i) {
+  for (int i = 0; i < 40; ++i) {
     const std::int64_t at = 7 + i * kStepNs;
     const Eigen::Isometry3d before = path.At(at - kNear), here = path.At(at),
                             after = path.At(at + kNear);
@@ -68,7 +91,6 @@ TEST(RecordedPath, VelocityAndTurnRateDoNotJump) {
 TEST(RecordedPath, RefusesTimesThatFall) {
   EXPECT_THROW(RecordedPath({{5, Screw(0)}, {5, Screw(1)}}), std::invalid_argument);
   EXPECT_THROW(RecordedPath(std::vector<TimedPose>{}), std::invalid_argument);
-  EXPECT_EQ(RecordedPath({{5, Screw(1)}}).At(9).matrix(), Screw(1).matrix());
 }
 
 }  // namespace
