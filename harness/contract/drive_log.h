@@ -10,6 +10,11 @@
 
 namespace aisle {
 
+/// A vehicle that is no faster stands: what touches it then is not its doing. Who watches for
+/// contacts splits "touched" from "driven into" by it, and the score leaves out the former by the
+/// same bound.
+inline constexpr double kUnderWay_mps = 0.02;
+
 /// What a vehicle under way is doing.
 enum class DriveMode {
   kDriving,

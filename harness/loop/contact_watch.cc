@@ -6,11 +6,10 @@ namespace aisle {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFinest_m = 1e-3;  // swept motion is looked at in steps of this at the coarsest
-constexpr double kLetGo_m = 0.02;   // a contact is over when they are this far apart again
-constexpr double kFar_m = 3;        // of no interest
-constexpr double kUnderWay_mps = 0.02;  // what runs into a vehicle that stands is not its doing
-constexpr double kClosing_mps = 0.05;   // slower is no approach
+constexpr double kFinest_m = 1e-3;     // swept motion is looked at in steps of this at the coarsest
+constexpr double kLetGo_m = 0.02;      // a contact is over when they are this far apart again
+constexpr double kFar_m = 3;           // of no interest
+constexpr double kClosing_mps = 0.05;  // slower is no approach
 
 }  // namespace
 

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
+#include "harness/contract/drive_log.h"
+
 namespace aisle {
 namespace {
 
 constexpr double kSlowing_s = 0.5;  // from walking to standing
 constexpr double kPatience_s = 3;   // a vehicle that stands as long is not waited for
-constexpr double kUnderWay_mps = 0.02;
 
 }  // namespace
 

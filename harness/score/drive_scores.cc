@@ -8,8 +8,6 @@ namespace aisle {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-/// A vehicle that stands has not run into anybody.
-constexpr double kUnderWay_mps = 0.02;
 
 struct Deviation {
   double rms = 0, max = 0;
