@@ -1,5 +1,6 @@
 #include "harness/score/associate.h"
 
+#include <map>
 #include <stdexcept>
 #include <tuple>
 
@@ -51,9 +52,28 @@ std::vector<PosePair> AssociateLikeEvo(const Trajectory& truth, const Trajectory
   return pairs;
 }
 
+/// Pairs that were taken, by their truth.
+class TakenPairs {
+ public:
+  /// Whether the pair is before one of them in truth and behind it in the estimate, or the other
+  /// way round.
+  bool AreCrossedBy(std::size_t truth, std::size_t estimate) const {
+    const auto next = estimate_of_.lower_bound(truth);
+    if (next != estimate_of_.end() && next->second < estimate) return true;
+    return next != estimate_of_.begin() && std::prev(next)->second > estimate;
+  }
+  void Take(std::size_t truth, std::size_t estimate) { estimate_of_.emplace(truth, estimate); }
+
+ private:
+  std::map<std::size_t, std::size_t> estimate_of_;
+};
+
+/// Whether a pair may cross one that was taken.
+enum class Crossing { kAllowed, kRefused };
+
 /// Closest pairs first, each pose at most once. `bound_ns` is inclusive.
 std::vector<PosePair> AssociateGreedily(const Trajectory& truth, const Trajectory& estimate,
-                                        std::int64_t bound_ns) {
+                                        std::int64_t bound_ns, Crossing crossing) {
   std::vector<std::tuple<std::int64_t, std::size_t, std::size_t>> candidates;
   for (std::size_t e = 0; e < estimate.size(); ++e) {
     const std::int64_t stamp = estimate[e].stamp_ns;
@@ -64,10 +84,13 @@ std::vector<PosePair> AssociateGreedily(const Trajectory& truth, const Trajector
   }
   std::sort(candidates.begin(), candidates.end());
   std::vector<bool> truth_taken(truth.size()), estimate_taken(estimate.size());
+  TakenPairs taken;
   std::vector<PosePair> pairs;
   for (const auto& [distance, t, e] : candidates) {
     if (truth_taken[t] || estimate_taken[e]) continue;
+    if (crossing == Crossing::kRefused && taken.AreCrossedBy(t, e)) continue;
     truth_taken[t] = estimate_taken[e] = true;
+    taken.Take(t, e);
     pairs.push_back({t, e});
   }
   std::sort(pairs.begin(), pairs.end(),
@@ -128,11 +151,12 @@ std::vector<PosePair> Associate(const Trajectory& truth, const Trajectory& estim
     case AssociationRule::kEvo:
       return AssociateLikeEvo(truth, estimate, bound_ns);
     case AssociationRule::kTum:
-      return AssociateGreedily(truth, estimate, bound_ns - 1);  // strict, in whole nanoseconds
+      // Strict, in whole nanoseconds.
+      return AssociateGreedily(truth, estimate, bound_ns - 1, Crossing::kAllowed);
     case AssociationRule::kNearest:
       break;
   }
-  return AssociateGreedily(truth, estimate, bound_ns);
+  return AssociateGreedily(truth, estimate, bound_ns, Crossing::kRefused);
 }
 
 std::string Describe(AssociationRule rule, std::int64_t max_difference_ns) {

@@ -12,13 +12,13 @@ namespace aisle {
 enum class AssociationRule {
   /// Ours: smallest |dt| first, each pose used once, |dt| at most half a frame (half the smaller of
   /// the two median intervals, unless given). Equal |dt|: the earlier truth, then the earlier
-  /// estimate.
+  /// estimate. What would cross a closer pair stays alone: where a stamp of each is missing, the
+  /// poses that are left over do not belong together.
   kNearest,
   /// evo: each stamp of the shorter trajectory (the estimate's on equal length) takes the nearest
-  /// of
-  /// the other, |dt| <= 0.01 s. Not one-to-one.
+  /// of the other, |dt| <= 0.01 s. Not one-to-one.
   kEvo,
-  /// TUM scripts: as kNearest, with |dt| < 0.02 s, strictly.
+  /// TUM scripts: closest first, one to one, |dt| < 0.02 s, strictly; pairs may cross.
   kTum,
   /// KITTI: no stamps, the i-th belongs to the i-th.
   kIndex,
@@ -29,7 +29,8 @@ struct AssociationOptions {
   std::optional<std::int64_t> max_difference_ns = {};  ///< the rule's own where absent
 };
 
-/// Indices of poses that belong together; rising in both.
+/// Indices of poses that belong together. Rising in both with kNearest and kIndex; with kEvo one
+/// side may repeat; with kTum rising in truth alone.
 struct PosePair {
   std::size_t truth = 0;
   std::size_t estimate = 0;

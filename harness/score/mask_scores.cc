@@ -80,7 +80,12 @@ Detection PixelDetection(const MaskFacts& sum) {
 
 Detection ObjectDetection(const MaskFacts& sum) {
   const double found = sum.objects_found;
-  return {.precision = RatioScore(found, found + sum.objects_invented, "nothing was rejected"),
+  const bool rejected = sum.true_positives + sum.false_positives + sum.large_regions > 0;
+  const char* no_region = rejected
+                              ? "what was rejected are specks and parts of movers alone, which "
+                                "are neither found nor invented"
+                              : "nothing was rejected";
+  return {.precision = RatioScore(found, found + sum.objects_invented, no_region),
           .recall = RatioScore(found, found + sum.objects_missed, "nothing moved"),
           .iou = RatioScore(sum.iou_sum, found, "no object was found")};
 }
@@ -126,7 +131,10 @@ void AddMasks(const std::vector<FrameFacts>& frames, Scorecard* scores) {
   (*scores)["mask_boundary_f"] =
       f ? Present(*f, "1", static_cast<std::size_t>(sum.outline_truth + sum.outline_rejected))
         : Absent("1", "nothing moved, nothing was rejected");
-  if (sum.objects.empty()) return;  // truth names no objects
+  if (sum.objects.empty()) {  // nothing moved, or truth names no objects
+    if (sum.large_regions > 0) (*scores)["object_precision_large"] = LargeDetection(sum).precision;
+    return;
+  }
   AddLargeMovers(sum, scores);
   AddRecallByKind(sum.objects, scores);
   AddContinuity(FollowKinds(frames), {}, scores);

@@ -50,7 +50,8 @@ void AddMasks(std::vector<ScoreDescription>* names) {
       {"mask_recall", "1", "share of the moving pixels that are rejected"},
       {"mask_iou", "1", "intersection over union of rejected and moving pixels"},
       {"mask_boundary_f", "1", "F-measure of the mask's outline (DAVIS)"},
-      {"object_precision", "1", "share of the rejected regions that are moving objects"},
+      {"object_precision", "1",
+       "share of the rejected regions that are moving objects, parts of such left out"},
       {"object_recall", "1", "share of the moving objects that are found by their rectangle"},
       {"object_iou", "1", "mean IoU of the rectangles of found objects"},
       {"object_covered", "1", "share of the moving objects most of whose pixels are rejected"},
@@ -90,7 +91,7 @@ void AddFrames(std::vector<ScoreDescription>* names) {
       {"difficulty_flow_px", "px", "median motion of static points from frame to frame"},
       {"difficulty_blur_px", "px", "how far the exposure smears them"},
       {"difficulty_parallax_px", "px", "the part of their motion that translation made"},
-      {"ms_*_mean", "ms", "wall time of that stage a frame"},
+      {"ms_*_mean", "ms", "mean wall time of that stage over the frames that had it"},
       {"peak_rss_mib", "MiB", "peak of resident memory"},
   };
   names->insert(names->end(), frames.begin(), frames.end());

@@ -115,6 +115,46 @@ TEST(ScoreLaws, AssociationIsOneToOneAndWithinItsBound) {
   }));
 }
 
+/// Whatever is missing on either side and however wide the bound: no pair crosses another.
+TEST(ScoreLaws, AssociationNeverCrossesWhateverIsMissing) {
+  EXPECT_TRUE(rc::check([] {
+    Trajectory truth, estimate;
+    for (int i = 0; i < 40; ++i) {
+      const StampedPose pose{i * 10'000'000LL, RandomPose(5)};
+      if (*rc::gen::inRange(0, 5) > 0) truth.push_back(pose);
+      if (*rc::gen::inRange(0, 5) > 0) estimate.push_back(pose);
+    }
+    const AssociationOptions wide{.max_difference_ns = 25'000'000};
+    const auto pairs = Associate(truth, estimate, wide);
+    for (std::size_t i = 1; i < pairs.size(); ++i) {
+      RC_ASSERT(pairs[i].truth > pairs[i - 1].truth);
+      RC_ASSERT(pairs[i].estimate > pairs[i - 1].estimate);
+    }
+  }));
+}
+
+/// Of two files that lack a stamp each, the poses left over are no pair: the estimate is perfect.
+TEST(ScoreLaws, APerfectEstimateHasNoErrorHoweverWideTheBound) {
+  Trajectory truth, estimate;
+  for (int i = 0; i < 100; ++i) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() << 0.5 * i, std::sin(0.2 * i), 0;
+    if (i != 50) truth.push_back({i * 10'000'000LL, pose});
+    if (i != 52) estimate.push_back({i * 10'000'000LL, pose});
+  }
+  for (const std::int64_t bound_ns : {5'000'000, 25'000'000}) {
+    ScoreOptions options;
+    options.association.max_difference_ns = bound_ns;
+    const TrajectoryScore score = ScoreTrajectory(truth, estimate, options);
+    EXPECT_EQ(score.pairs.size(), 98u);
+    EXPECT_LT(*score.scores.at("ate_max_m").value, 1e-9) << bound_ns;
+  }
+  // The TUM scripts do pair them, and a figure of theirs can be had.
+  const auto tum =
+      Associate(truth, estimate, {.rule = AssociationRule::kTum, .max_difference_ns = 25'000'000});
+  EXPECT_EQ(tum.size(), 99u);
+}
+
 TEST(ScoreLaws, OverlapIsSymmetricAndAtMostOne) {
   EXPECT_TRUE(rc::check([] {
     const auto box = [] { return cv::Rect2d(Real(0, 50), Real(0, 50), Real(1, 50), Real(1, 50)); };

@@ -54,6 +54,45 @@ TEST(DetectionTest, WhereNothingWasThereThereIsNoShare) {
   }
 }
 
+/// Where half of a wide region moves it is a part of a mover, neither found nor invented: precision
+/// has no sample, which is not the same as no rejection.
+TEST(DetectionTest, RejectedPartsAreNotNothing) {
+  cv::Mat1b left(200, 300, static_cast<unsigned char>(128));
+  FrameTruth truth;
+  truth.dynamic = cv::Mat1b(200, 300, static_cast<unsigned char>(0));
+  truth.instance = cv::Mat1w(200, 300, static_cast<unsigned short>(0));
+  truth.dynamic(cv::Rect(20, 20, 40, 120)) = 255;
+  truth.instance(cv::Rect(20, 20, 40, 120)) = 3;
+  DynamicRegions half;
+  half.mask = cv::Mat1b(200, 300, static_cast<unsigned char>(0));
+  half.mask(cv::Rect(20, 20, 40, 30)) = 255;
+  const Score parts = ObjectDetection(CompareMasks(left, truth, half)).precision;
+  const Score nothing = ObjectDetection(CompareMasks(left, truth, {})).precision;
+  EXPECT_FALSE(parts.value);
+  EXPECT_FALSE(nothing.value);
+  EXPECT_EQ(nothing.absent, "nothing was rejected");
+  EXPECT_EQ(parts.absent.find("nothing"), std::string::npos) << parts.absent;
+  EXPECT_NE(Describe(MaskOptions{}).find("less than half"), std::string::npos) << "the rule";
+}
+
+/// What is blanked where nothing moves is a false rejection: its precision is 0 and not silence.
+TEST(DetectionTest, LargeRegionsAreJudgedWhereNothingMoves) {
+  FrameFacts frame;
+  frame.mask.emplace();
+  frame.mask->false_positives = 20'000;
+  frame.mask->objects_invented = 2;
+  frame.mask->large_regions = frame.mask->large_regions_astray = 2;
+  Scorecard scores;
+  AddMasks({frame}, &scores);
+  ASSERT_TRUE(scores.contains("object_precision_large"));
+  EXPECT_EQ(scores.at("object_precision_large").value, 0.0);
+  EXPECT_EQ(scores.at("object_precision_large").n, 2u);
+  frame.mask->large_regions = frame.mask->large_regions_astray = 0;
+  Scorecard small;
+  AddMasks({frame}, &small);
+  EXPECT_FALSE(small.contains("object_precision_large"));
+}
+
 TEST(DetectionTest, ARunsScoresAreTheSameShares) {
   FrameFacts frame;
   frame.mask = Facts();
