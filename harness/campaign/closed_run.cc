@@ -6,9 +6,6 @@
 namespace aisle {
 namespace {
 
-/// The share of shown frames with a pose below which a closed run counts as lost.
-constexpr double kMinCoverage = 0.5;
-
 /// The system under test tells where the vehicle is, from pictures taken where it is.
 class SystemLocaliser : public Localiser {
  public:

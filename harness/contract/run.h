@@ -32,6 +32,9 @@ enum class RunStatus {
   kTimeout,  ///< out of time or memory
   kInvalid,  ///< NaN, unordered or foreign stamps
 };
+/// Below this share of frames with a pose a run is lost.
+inline constexpr double kMinCoverage = 0.5;
+
 /// Whether the system answered to the end, however many frames it lost; else the run has failed.
 inline bool IsComplete(RunStatus status) {
   return status == RunStatus::kOk || status == RunStatus::kLost;

@@ -13,7 +13,7 @@ namespace aisle {
 struct DriveOptions {
   std::size_t frames_ahead = 4;  ///< frames made ahead of the estimator
   /// Below this share of frames with a pose the run counts as lost.
-  double min_coverage = 0.5;
+  double min_coverage = kMinCoverage;
 };
 
 /// One frame as it passed: what was shown, what was said, and what came of it.

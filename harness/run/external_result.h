@@ -8,6 +8,6 @@ namespace aisle {
 /// frame has a pose where the estimate has one within half a frame (one to one). Live and final
 /// track are the same: nobody says what was known when. Lost below `min_coverage`.
 RunResult ResultFromTrajectory(const Trajectory& truth, const Trajectory& estimate,
-                               double min_coverage = 0.5);
+                               double min_coverage = kMinCoverage);
 
 }  // namespace aisle
