@@ -4,6 +4,7 @@
 
 #include "harness/campaign/equal_runs.h"
 #include "harness/campaign/external_run.h"
+#include "harness/common/stopwatch.h"
 #include "harness/contract/exit_code.h"
 #include "harness/io/duration.h"
 #include "harness/io/file.h"

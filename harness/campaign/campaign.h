@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "harness/campaign/schedule.h"
-#include "harness/common/stopwatch.h"
 
 namespace aisle {
 

@@ -99,7 +99,6 @@ Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFra
   forecast.twins = twins.size();
   forecast.systems = systems.size();
   forecast.seeds = seeds.size();
-  forecast.renders = rendered.size();
   const double render_core_s = static_cast<double>(forecast.pairs) * kPairCoreS;
   forecast.wall_s = (render_core_s + drive_core_s) / std::max(cores, 1);
   forecast.cache_bytes = static_cast<double>(kept_pairs) * kFrameBytes;

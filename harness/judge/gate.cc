@@ -1,7 +1,5 @@
 #include "harness/judge/gate.h"
 
-#include <set>
-
 #include "harness/judge/missing.h"
 
 namespace aisle {
