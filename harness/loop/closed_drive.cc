@@ -12,7 +12,9 @@
 namespace aisle {
 namespace {
 
+constexpr std::int64_t kTick_ns = 10'000'000;  // of control
 constexpr std::int64_t kSampleEvery_ns = 50'000'000;
+static_assert(kSampleEvery_ns % kTick_ns == 0, "samples are taken in ticks");
 constexpr double kSettle_s = 0.3;  // standing at the goal before the drive is over
 
 double Seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
@@ -31,20 +33,14 @@ std::function<std::int64_t(std::int64_t)> LatencyOf(const Steering& steering, st
   };
 }
 
-QueueRule RuleOf(const Steering& steering) {
-  if (steering.queue == "drop") return QueueRule::kDrop;
-  return steering.queue == "pipeline" ? QueueRule::kPipeline : QueueRule::kNewest;
-}
-
 double MeanLatency_ms(const Steering& steering) {
   const std::vector<double>& profile = steering.latency_profile_ms;
   if (profile.empty()) return steering.latency_ms;
   return std::accumulate(profile.begin(), profile.end(), 0.0) / static_cast<double>(profile.size());
 }
 
-/// The longest that a healthy system is silent: its latency, and the frames it cannot take
-/// meanwhile.
-double KnownLatency(const Steering& steering) {
+/// The longest that the system takes for a frame.
+double LongestLatency_s(const Steering& steering) {
   const std::vector<double>& profile = steering.latency_profile_ms;
   const double ms = profile.empty() ? steering.latency_ms : *std::ranges::max_element(profile);
   return 1e-3 * ms;
@@ -55,9 +51,9 @@ PilotOptions PilotOf(const Course& course, double frame_s, const LoopOptions& lo
   PilotOptions options;
   if (loop.taught) options.T_site_slam = loop.taught->T_site_slam;
   options.driver = course.driver;
-  if (steering.driver == "kanayama") options.driver.law = SteeringLaw::kKanayama;
-  if (steering.driver == "pure_pursuit") options.driver.law = SteeringLaw::kPurePursuit;
-  options.watch.latency_s = KnownLatency(steering) + frame_s;
+  options.driver.law = steering.driver.value_or(course.driver.law);
+  // The longest that a healthy system is silent: it works, and its next frame is yet to come.
+  options.watch.latency_s = LongestLatency_s(steering) + frame_s;
   options.T_vehicle_rig = course.T_vehicle_rig;
   return options;
 }
@@ -70,7 +66,7 @@ class ClosedDrive::Loop {
       : scene_(scene),
         course_(scene.course()),
         options_(options),
-        server_(RuleOf(options.steering), LatencyOf(options.steering, options.seed)),
+        server_(options.steering.queue, LatencyOf(options.steering, options.seed)),
         pilot_(options.taught ? options.taught->way : course_.way, course_.start,
                PilotOf(course_, 1 / scene.rate_hz(), options)),
         odometer_(course_.odometry, course_.plant, options.seed),
@@ -87,8 +83,8 @@ class ClosedDrive::Loop {
   }
 
   const Exposure* Next() {
-    const std::int64_t limit_ns =
-        std::llround(1e9 * (options_.times_planned * course_.planned_s + options_.and_s));
+    const std::int64_t limit_ns = std::llround(
+        1e9 * (options_.timeout_over_planned * course_.planned_s + options_.timeout_extra_s));
     while (!over_) {
       // Who is done as a frame arrives and takes the newest takes this one; who drops what comes
       // while it works has to be done before it comes.
@@ -96,7 +92,7 @@ class ClosedDrive::Loop {
       Listen();
       if (const Exposure* asked = server_.asked()) return asked;
       if (PhotographIfDue()) continue;
-      if (now_ns_ % options_.tick_ns == 0) Tick();
+      if (now_ns_ % kTick_ns == 0) Tick();
       if (now_ns_ >= limit_ns && !over_) End(DriveEnd::kTimeout);
       if (failed_) End(DriveEnd::kFailed);
       if (!over_) Advance(NextEvent() - now_ns_);
@@ -135,7 +131,7 @@ class ClosedDrive::Loop {
 
  private:
   std::int64_t NextEvent() const {
-    const std::int64_t tick = (now_ns_ / options_.tick_ns + 1) * options_.tick_ns;
+    const std::int64_t tick = (now_ns_ / kTick_ns + 1) * kTick_ns;
     return std::min(tick, scene_.Stamp(frame_));
   }
 
@@ -182,7 +178,7 @@ class ClosedDrive::Loop {
   }
 
   void Tick() {
-    const double tick_s = Seconds(options_.tick_ns);
+    const double tick_s = Seconds(kTick_ns);
     command_ = pilot_.Decide(now_ns_, tick_s);
     mode_ = pilot_.mode();
     if (options_.steering.scanner) HoldByScanner(tick_s);
@@ -232,8 +228,9 @@ class ClosedDrive::Loop {
   }
 
   void CountTime(double tick_s) {
+    // The first frame is taken as the drive begins.
     const bool never_told =
-        !pilot_.steers_by_ns() && Seconds(now_ns_) > KnownLatency(options_.steering);
+        !pilot_.steers_by_ns() && Seconds(now_ns_) > LongestLatency_s(options_.steering);
     const bool lost = mode_ == DriveMode::kDegraded || mode_ == DriveMode::kStopped || never_told;
     const bool stopped = mode_ == DriveMode::kStopped || mode_ == DriveMode::kScanner;
     if (lost) track_.lost_s += tick_s;
@@ -278,7 +275,7 @@ class ClosedDrive::Loop {
     const bool goes_on = pauses || std::abs(Speed()) > 0.01 ||
                          std::abs(plant_.turn_rate_rad_s) > 0.01 || pilot_.arrived();
     stands_s_ = goes_on ? 0 : stands_s_ + tick_s;
-    if (stands_s_ >= options_.stands_still_s) End(DriveEnd::kNoProgress);
+    if (stands_s_ >= options_.no_progress_after_s) End(DriveEnd::kNoProgress);
   }
 
   void End(DriveEnd end) {
@@ -336,25 +333,19 @@ DriveSample ClosedDrive::Now() const { return loop_->Sample(); }
 const DriveTrack& ClosedDrive::track() const { return loop_->track(); }
 
 std::string Validate(const Steering& steering) {
-  if (!(steering.latency_ms >= 0 && steering.latency_ms <= 10000)) {
-    return fmt::format("latency_ms is {:g}, expected 0 to 10000", steering.latency_ms);
+  const auto is_latency = [](double ms) { return ms >= 0 && ms <= kLongestLatency_ms; };
+  if (!is_latency(steering.latency_ms)) {
+    return fmt::format("latency_ms is {:g}, expected 0 to {:g}", steering.latency_ms,
+                       kLongestLatency_ms);
   }
   for (const double ms : steering.latency_profile_ms) {
-    if (!(ms >= 0 && ms <= 10000)) {
-      return fmt::format("a latency of the profile is {:g} ms, expected 0 to 10000", ms);
+    if (!is_latency(ms)) {
+      return fmt::format("a latency of the profile is {:g} ms, expected 0 to {:g}", ms,
+                         kLongestLatency_ms);
     }
   }
   if (steering.taught && steering.steered_by_truth) {
     return "taught and steered_by_truth are both true: who steers by truth needs no teaching";
-  }
-  const auto is_one_of = [](const std::string& word, std::initializer_list<const char*> words) {
-    return std::ranges::find(words, word) != words.end();
-  };
-  if (!is_one_of(steering.queue, {"newest", "drop", "pipeline"})) {
-    return "queue is '" + steering.queue + "', expected newest, drop or pipeline";
-  }
-  if (!is_one_of(steering.driver, {"", "pure_pursuit", "kanayama"})) {
-    return "driver is '" + steering.driver + "', expected pure_pursuit or kanayama";
   }
   return "";
 }

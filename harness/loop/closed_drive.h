@@ -18,14 +18,13 @@ struct TaughtCourse {
 
 struct LoopOptions {
   Steering steering;
-  std::uint64_t seed = 1;             ///< of the odometry and the latency profile
-  std::int64_t tick_ns = 10'000'000;  ///< of control
+  std::uint64_t seed = 1;  ///< of the odometry and the latency profile
   ScannerOptions scanner = {};
   /// What the vehicle drives by instead of the course's own way; scores stay with that one.
   std::optional<TaughtCourse> taught = {};
-  double stands_still_s = 30;  ///< without progress for so long, pauses aside: the end
-  double times_planned = 3;    ///< the end after so many times the planned time,
-  double and_s = 60;           ///< and so much more
+  double no_progress_after_s = 30;  ///< of standing, pauses aside: the end
+  /// The end after so many times the planned time, and so much more.
+  double timeout_over_planned = 3, timeout_extra_s = 60;
 };
 
 /// What is wrong with how a system steers, or an empty string.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "harness/contract/steering.h"
 #include "harness/loop/drive_scene.h"
 
 namespace aisle {
@@ -14,8 +15,6 @@ struct Answer {
   std::int64_t due_ns = 0;
   std::optional<Eigen::Isometry3d> T_slam_rig;
 };
-
-enum class QueueRule { kNewest, kDrop, kPipeline };
 
 /// Latency as a model: one system that takes a while for each frame. Time is the scene's, never the
 /// clock's: what it says of a frame is told at once, and handed out when it is due.

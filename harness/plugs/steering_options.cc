@@ -14,7 +14,6 @@ namespace {
 
 using Kind = SystemOption::Kind;
 constexpr std::string_view kPrefix = "drive.";
-constexpr double kLongest_ms = 10000;
 
 std::string Joined(const std::vector<double>& values) {
   return fmt::format("{}", fmt::join(values, ","));
@@ -34,7 +33,7 @@ std::optional<std::vector<double>> Times(const std::string& text) {
   std::istringstream words(text);
   for (std::string word; std::getline(words, word, ',');) {
     const std::optional<double> ms = NumberOf(word);
-    if (!ms || !(*ms >= 0 && *ms <= kLongest_ms)) return std::nullopt;
+    if (!ms || !(*ms >= 0 && *ms <= kLongestLatency_ms)) return std::nullopt;
     times.push_back(*ms);
   }
   return times;
@@ -45,20 +44,36 @@ bool TrueWord(const std::string& value, bool* flag) {
   return *flag || value == "false";
 }
 
-bool ChoiceWord(const std::string& value, const std::vector<std::string>& choices,
-                std::string* chosen) {
-  *chosen = value;
-  return std::ranges::find(choices, value) != choices.end();
+/// The choice of that word; nothing where there is none.
+template <class Choice>
+std::optional<Choice> ChoiceOf(const std::string& word, const auto& words) {
+  const auto at = std::ranges::find(words, word);
+  if (at == words.end()) return std::nullopt;
+  return static_cast<Choice>(at - words.begin());
 }
 
-const std::vector<std::string> kQueues = {"newest", "drop", "pipeline"};
-const std::vector<std::string> kDrivers = {"scene", "pure_pursuit", "kanayama"};
+std::string WordOf(auto choice, const auto& words) {
+  return words.at(static_cast<std::size_t>(choice));
+}
+
+constexpr const char* kAsTheScene = "scene";
+
+bool SetDriver(const std::string& value, Steering* steering) {
+  steering->driver = ChoiceOf<SteeringLaw>(value, kSteeringLawWords);
+  return steering->driver || value == kAsTheScene;
+}
+
+bool SetQueue(const std::string& value, Steering* steering) {
+  const auto rule = ChoiceOf<QueueRule>(value, kQueueRuleWords);
+  steering->queue = rule.value_or(steering->queue);
+  return rule.has_value();
+}
 
 /// Takes one option; false where it cannot have that value.
 bool Set(const std::string& path, const std::string& value, Steering* steering) {
   if (path == "drive.latency_ms") {
     const std::optional<double> ms = NumberOf(value);
-    if (!ms || !(*ms >= 0 && *ms <= kLongest_ms)) return false;
+    if (!ms || !(*ms >= 0 && *ms <= kLongestLatency_ms)) return false;
     steering->latency_ms = *ms;
     return true;
   }
@@ -70,10 +85,8 @@ bool Set(const std::string& path, const std::string& value, Steering* steering) 
   if (path == "drive.scanner") return TrueWord(value, &steering->scanner);
   if (path == "drive.steered_by_truth") return TrueWord(value, &steering->steered_by_truth);
   if (path == "drive.taught") return TrueWord(value, &steering->taught);
-  if (path == "drive.queue") return ChoiceWord(value, kQueues, &steering->queue);
-  const bool known = ChoiceWord(value, kDrivers, &steering->driver);
-  if (steering->driver == "scene") steering->driver.clear();
-  return known;
+  if (path == "drive.queue") return SetQueue(value, steering);
+  return SetDriver(value, steering);
 }
 
 }  // namespace
@@ -82,13 +95,15 @@ bool IsSteeringOption(const std::string& path) { return path.starts_with(kPrefix
 
 std::vector<SystemOption> DescribeSteering(const Steering& steering) {
   const auto flag = [](bool value) { return std::string(value ? "true" : "false"); };
+  std::vector<std::string> drivers = {kAsTheScene};
+  drivers.insert(drivers.end(), kSteeringLawWords.begin(), kSteeringLawWords.end());
   return {{"drive.latency_ms",
            Kind::kNumber,
            fmt::format("{}", steering.latency_ms),
            "ms",
            "that the system takes for a frame; one that waited for its turn is older by that",
            0,
-           kLongest_ms,
+           kLongestLatency_ms,
            {}},
           {"drive.latency_profile_ms",
            Kind::kText,
@@ -98,10 +113,15 @@ std::vector<SystemOption> DescribeSteering(const Steering& steering) {
            0,
            0,
            {}},
-          {"drive.queue", Kind::kChoice, steering.queue, "",
+          {"drive.queue",
+           Kind::kChoice,
+           WordOf(steering.queue, kQueueRuleWords),
+           "",
            "frames that arrive while the system works: the newest waits, they are dropped, or it "
            "takes them all",
-           0, 0, kQueues},
+           0,
+           0,
+           {kQueueRuleWords.begin(), kQueueRuleWords.end()}},
           {"drive.scanner",
            Kind::kFlag,
            flag(steering.scanner),
@@ -127,8 +147,9 @@ std::vector<SystemOption> DescribeSteering(const Steering& steering) {
            0,
            0,
            {}},
-          {"drive.driver", Kind::kChoice, steering.driver.empty() ? "scene" : steering.driver, "",
-           "the law that follows the way, or the scene's own", 0, 0, kDrivers}};
+          {"drive.driver", Kind::kChoice,
+           steering.driver ? WordOf(*steering.driver, kSteeringLawWords) : kAsTheScene, "",
+           "the law that follows the way, or the scene's own", 0, 0, drivers}};
 }
 
 std::string CheckSteeringOption(const std::string& path, const std::string& value) {
@@ -141,8 +162,10 @@ std::string CheckSteeringOption(const std::string& path, const std::string& valu
     const std::string expected =
         option.kind == Kind::kChoice ? fmt::format("one of {}", fmt::join(option.choices, ", "))
         : option.kind == Kind::kFlag ? "true or false"
-        : option.kind == Kind::kText ? "numbers from 0 to 10000 with commas, such as 62,65,120"
-                                     : "a number from 0 to 10000";
+        : option.kind == Kind::kText
+            ? fmt::format("numbers from 0 to {:g} with commas, such as 62,65,120",
+                          kLongestLatency_ms)
+            : fmt::format("a number from 0 to {:g}", kLongestLatency_ms);
     return fmt::format("option '{}' cannot be '{}': expected {}", path, Printable(value), expected);
   }
   return fmt::format("there is no option '{}'{}", Printable(path), DidYouMean(path, known));

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "harness/contract/steering.h"
 #include "harness/contract/stream.h"
 #include "harness/io/input_error.h"
 #include "harness/judge/twins.h"
@@ -248,7 +249,7 @@ void Describe(Fields& fields, const Vocabulary& vocabulary, const Fields::Check&
                   "each system that can steer once at each of these latencies, as robust_50ms; for "
                   "scenes with a `drive`",
                   "[0, 50, 100, 200]"},
-                 &latencies_ms, {0, 10000});
+                 &latencies_ms, {0, kLongestLatency_ms});
   SweepLatencies(latencies_ms, &suite.systems);
   fields.Names({"twins",
                 "versions of each scene: live as written, empty without actors, frozen where they "

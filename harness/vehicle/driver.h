@@ -3,18 +3,11 @@
 #include <cstddef>
 #include <string>
 
+#include "harness/contract/steering.h"
 #include "harness/vehicle/plant.h"
 #include "harness/vehicle/way.h"
 
 namespace aisle {
-
-enum class SteeringLaw {
-  /// Regulated pure pursuit (Coulter 1992; Macenski et al. 2023): an arc through a point of the way
-  /// a look-ahead d away, curvature = 2 y / d^2. Cuts corners a little, hides latency.
-  kPurePursuit,
-  /// Kanayama et al. 1990, along the way: turn = curvature v + v (k_y y + k_theta sin theta).
-  kKanayama,
-};
 
 /// How a driver follows its way.
 struct DriverOptions {

@@ -239,7 +239,7 @@ TEST(ClosedDriveTest, ZonesAreHeldByTheTrueVehicle) {
 
 TEST(ClosedDriveTest, AskedFromFrameToFrameItIsTheSameDrive) {
   const FakeDriveScene scene;
-  for (const char* queue : {"newest", "drop", "pipeline"}) {
+  for (const QueueRule queue : {QueueRule::kNewest, QueueRule::kDrop, QueueRule::kPipeline}) {
     LoopOptions options = At(120);
     options.steering.queue = queue;
     DriftingLocaliser one(0.01), other(0.01);
@@ -253,8 +253,18 @@ TEST(ClosedDriveTest, AskedFromFrameToFrameItIsTheSameDrive) {
     }
     EXPECT_EQ(drive.Next(), nullptr);
     EXPECT_THROW(drive.Tell(std::nullopt), std::logic_error);
-    EXPECT_EQ(drive.track(), DriveClosed(scene, &other, options)) << queue;
+    EXPECT_EQ(drive.track(), DriveClosed(scene, &other, options));
   }
+}
+
+TEST(ClosedDriveTest, ASampleIsTakenEveryFiftyMilliseconds) {
+  const std::vector<DriveSample> samples = DriveTruth(FakeDriveScene(), At(60)).samples;
+  ASSERT_GT(samples.size(), 20u);
+  for (std::size_t k = 0; k + 1 < samples.size(); ++k) {
+    EXPECT_EQ(samples[k].stamp_ns, static_cast<std::int64_t>(k) * 50'000'000);
+  }
+  const std::int64_t last = samples.back().stamp_ns - samples.end()[-2].stamp_ns;
+  EXPECT_TRUE(0 < last && last <= 50'000'000) << last;
 }
 
 TEST(ClosedDriveTest, ShownOnlyASystemDoesNotSteer) {
@@ -347,8 +357,8 @@ TEST(ContactWatchTest, ZonesOfOneNameAreApart) {
 TEST(SteeringTest, ItsValuesAreChecked) {
   EXPECT_EQ(Validate(Steering{}), "");
   EXPECT_NE(Validate(Steering{.latency_ms = -1}), "");
-  EXPECT_NE(Validate(Steering{.queue = "oldest"}), "");
-  EXPECT_NE(Validate(Steering{.driver = "carrot"}), "");
+  EXPECT_EQ(Validate(Steering{.latency_profile_ms = {1, 10'001}}),
+            "a latency of the profile is 10001 ms, expected 0 to 10000");
   EXPECT_EQ(Validate(Steering{.taught = true}), "");
   EXPECT_NE(Validate(Steering{.steered_by_truth = true, .taught = true}), "");
 }

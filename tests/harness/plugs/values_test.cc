@@ -21,12 +21,11 @@ TEST(SteeringOptions, WhatIsDescribedIsReadBackAsTheSame) {
     Steering steering;
     steering.latency_ms = round % 3 ? ms(random) : 62.5;
     for (int i = 0; i < round % 5; ++i) steering.latency_profile_ms.push_back(ms(random));
-    steering.queue = std::array{"newest", "drop", "pipeline"}[static_cast<std::size_t>(round % 3)];
+    steering.queue = static_cast<QueueRule>(round % 3);
     steering.scanner = round % 2;
     steering.steered_by_truth = round / 2 % 2;
     steering.taught = round % 3 == 1;
-    steering.driver =
-        std::array{"", "pure_pursuit", "kanayama"}[static_cast<std::size_t>(round / 3 % 3)];
+    if (round / 3 % 3 > 0) steering.driver = static_cast<SteeringLaw>(round / 3 % 3 - 1);
     OptionTexts texts;
     for (const SystemOption& option : DescribeSteering(steering)) {
       EXPECT_TRUE(IsSteeringOption(option.path));
@@ -42,6 +41,18 @@ TEST(SteeringOptions, WhatIsDescribedIsReadBackAsTheSame) {
   EXPECT_EQ(SteeringOf({}), Steering{});
 }
 
+TEST(SteeringOptions, SpeakOfChoicesInTheWordsOfFiles) {
+  const Steering steering = SteeringOf({{"drive.queue", "pipeline"}, {"drive.driver", "kanayama"}});
+  EXPECT_EQ(steering.queue, QueueRule::kPipeline);
+  EXPECT_EQ(steering.driver, SteeringLaw::kKanayama);
+  EXPECT_EQ(SteeringOf({{"drive.queue", "drop"}}).queue, QueueRule::kDrop);
+  EXPECT_EQ(SteeringOf({{"drive.queue", "newest"}}).queue, QueueRule::kNewest);
+  EXPECT_EQ(SteeringOf({{"drive.driver", "pure_pursuit"}}).driver, SteeringLaw::kPurePursuit);
+  EXPECT_EQ(SteeringOf({{"drive.driver", "scene"}}).driver, std::nullopt);
+  EXPECT_EQ(CheckSteeringOption("drive.latency_ms", "x"),
+            "option 'drive.latency_ms' cannot be 'x': expected a number from 0 to 10000");
+}
+
 TEST(SteeringOptions, RefuseWhatTheyCannotBeAndSayWhatTheyCan) {
   const std::vector<std::pair<std::string, std::string>> wrong = {
       {"drive.latency_ms", "-1"},        {"drive.latency_ms", "10001"},
@@ -50,7 +61,7 @@ TEST(SteeringOptions, RefuseWhatTheyCannotBeAndSayWhatTheyCan) {
       {"drive.latency_profile_ms", "x"}, {"drive.queue", "oldest"},
       {"drive.scanner", "yes"},          {"drive.steered_by_truth", "1"},
       {"drive.taught", "yes"},           {"drive.driver", ""},
-      {"drive.drivers", "scene"}};
+      {"drive.driver", "carrot"},        {"drive.drivers", "scene"}};
   for (const auto& [path, value] : wrong) {
     const std::string message = CheckSteeringOption(path, value);
     EXPECT_THAT(message, testing::HasSubstr(path)) << value;
