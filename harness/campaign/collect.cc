@@ -47,6 +47,7 @@ Results Collect(const PlanFile& plan, const std::vector<RunSpec>& specs,
   Results results;
   results.suite = plan.name();
   results.question = plan.question();
+  results.suite_file = plan.suite_file;
   for (const RunSpec& spec : specs) {
     if (std::optional<RunRecord> record = ReadRun(spec, out)) {
       results.runs.push_back(*std::move(record));

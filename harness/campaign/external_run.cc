@@ -13,6 +13,7 @@
 #include "harness/campaign/sandbox.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/shell_word.h"
 #include "harness/io/vslam_lab.h"
 #include "harness/run/external_result.h"
 
@@ -20,12 +21,6 @@ namespace aisle {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string ShellQuoted(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 ProcessResult RunToEnd(const std::string& command, const ProcessLimits& limits,
                        const ExternalSystem& system, const ExternalRun& run,
@@ -171,7 +166,7 @@ std::string FillIn(const std::string& command, const std::map<std::string, std::
     if (value == values.end()) {
       filled += command[at++];
     } else {
-      filled += ShellQuoted(value->second);
+      filled += ShellWord(value->second);
       at = end + 1;
     }
   }

@@ -7,6 +7,7 @@
 #include "harness/contract/stream.h"
 #include "harness/io/input_error.h"
 #include "harness/io/nearest_word.h"
+#include "harness/io/shell_word.h"
 #include "harness/judge/twins.h"
 #include "harness/loop/closed_drive.h"
 #include "harness/plugs/simulated_sequence.h"
@@ -232,13 +233,18 @@ void CheckScenes(const std::vector<Suite>& suites) {
 }
 
 std::string Describe(const InputOptions& options) {
-  std::string line = fmt::format("{}", fmt::join(options.files, " "));
-  if (!options.systems.empty())
-    line += fmt::format(" --systems {}", fmt::join(options.systems, ","));
-  if (!options.twins.empty()) line += fmt::format(" --twins {}", fmt::join(options.twins, ","));
+  std::vector<std::string> files;
+  for (const std::string& file : options.files) files.push_back(ShellWord(file));
+  std::string line = fmt::format("{}", fmt::join(files, " "));
+  const auto add_names = [&](const char* option, const std::vector<std::string>& names) {
+    if (names.empty()) return;
+    line += fmt::format(" {} {}", option, ShellWord(fmt::format("{}", fmt::join(names, ","))));
+  };
+  add_names("--systems", options.systems);
+  add_names("--twins", options.twins);
   if (options.seeds > 0) line += fmt::format(" --seeds {}", options.seeds);
   if (!options.seed.empty()) line += fmt::format(" --seed {}", fmt::join(options.seed, ","));
-  for (const std::string& text : options.set) line += " --set " + text;
+  for (const std::string& text : options.set) line += " --set " + ShellWord(text);
   return line;
 }
 

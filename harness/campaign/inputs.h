@@ -27,7 +27,7 @@ std::vector<Suite> LoadInputs(const InputOptions& options);
 /// Every mistake of every scene, before hours of work begin. Throws InputError with all of them.
 void CheckScenes(const std::vector<Suite>& suites);
 
-/// The part of a command line that says the same again.
+/// The part of a command line that says the same again, for a shell.
 std::string Describe(const InputOptions& options);
 
 }  // namespace aisle

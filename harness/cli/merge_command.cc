@@ -8,6 +8,7 @@
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
+#include "harness/io/shell_word.h"
 #include "harness/record/copy_run.h"
 #include "harness/suite/plan.h"
 
@@ -136,7 +137,7 @@ int Merge(const Options& options) {
   Results results = Collect(plan, specs, options.out);
   results.started = NowIso8601();
   for (const Found& run : found) results.wall_s += run.record.wall_s;
-  results.rerun = plan.command + " --out " + options.out;
+  results.rerun = plan.command + " --out " + ShellWord(options.out);
   if (baseline) HoldAgainstBaseline(*baseline, &results);
   return Publish(results, options.out, {.json = options.json, .remember = !plan.trial});
 }

@@ -9,6 +9,7 @@
 #include "harness/cluster/tasks.h"
 #include "harness/common/stopwatch.h"
 #include "harness/io/file.h"
+#include "harness/io/shell_word.h"
 
 namespace aisle {
 namespace {
@@ -52,7 +53,7 @@ int MergeNight(const fs::path& out, const MergeNightOptions& options) {
   Results results = Collect(plan, Plan(plan.suites), out);
   results.started = list.settings.started;
   results.wall_s = WallOf(results);
-  results.rerun = plan.command + " --out " + out.string();
+  results.rerun = plan.command + " --out " + ShellWord(out.string());
   if (list.settings.gate) HoldAgainstBaseline(ReadNightBaseline(out), &results);
   const int code = Publish(
       results, out,

@@ -19,6 +19,7 @@
 #include "harness/io/file_lock.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
+#include "harness/io/shell_word.h"
 #include "harness/judge/gate.h"
 #include "harness/record/history.h"
 #include "harness/record/provenance.h"
@@ -58,7 +59,7 @@ void OnInterrupt(int) { interrupted = true; }
 std::string CommandLine(const Options& options) {
   std::string line = OwnCommand() + " run " + Describe(options.inputs);
   if (options.gate) line += " --gate";
-  if (!options.baseline.empty()) line += " --baseline " + options.baseline;
+  if (!options.baseline.empty()) line += " --baseline " + ShellWord(options.baseline);
   return line;
 }
 
@@ -207,6 +208,7 @@ int RunSuites(const Options& options) {
   const Shard shard = ShardFromText(options.shard);
   const PlanFile plan{.suites = LoadInputs(options.inputs),
                       .command = CommandLine(options),
+                      .suite_file = options.inputs.files.front(),
                       .gate = options.gate,
                       .trial = IsTrial(options.inputs)};
   CheckScenes(plan.suites);
@@ -260,7 +262,7 @@ int RunSuites(const Options& options) {
   Results results = Collect(plan, specs, out, {.judge_limits = whole});
   results.started = started;
   results.wall_s = outcome.wall_s;
-  results.rerun = plan.command + (options.out.empty() ? "" : " --out " + options.out);
+  results.rerun = plan.command + (options.out.empty() ? "" : " --out " + ShellWord(options.out));
   if (baseline && whole) HoldAgainstBaseline(*baseline, &results);
   return Publish(results, out,
                  {.json = options.json,

@@ -7,17 +7,12 @@
 
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/shell_word.h"
 
 namespace aisle {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string ShellWord(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 /// A value of an #SBATCH line, which sbatch reads by rules of its own: what it cannot hold is
 /// refused rather than guessed at.

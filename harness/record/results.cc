@@ -51,6 +51,7 @@ Results FromJson(const Json& json) {
   results.question = json.value("question", "");
   results.started = json.at("started").get<std::string>();
   results.rerun = json.value("rerun", "");
+  results.suite_file = json.value("suite_file", "");
   results.wall_s = json.at("wall_s").get<double>();
   for (const Json& run : json.at("runs")) results.runs.push_back(RecordFromJson(run));
   for (const Json& verdict : json.at("verdicts")) {
@@ -82,6 +83,7 @@ std::string ToJson(const Results& results) {
   json["question"] = results.question;
   json["started"] = results.started;
   json["rerun"] = results.rerun;
+  if (!results.suite_file.empty()) json["suite_file"] = results.suite_file;
   json["wall_s"] = results.wall_s;
   Json runs = Json::array(), verdicts = Json::array();
   for (const RunRecord& run : results.runs) runs.push_back(RecordToJson(run));

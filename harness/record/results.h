@@ -23,6 +23,8 @@ struct Results {
   std::string question;  ///< what the suite asks, one sentence
   std::string started;   ///< UTC, ISO 8601
   std::string rerun;     ///< the command line that made it
+  /// The first of the suite and scene files that it was made of; empty in results of before.
+  std::string suite_file = {};
   double wall_s = 0;
   std::vector<RunRecord> runs;
   std::vector<Verdict> verdicts;

@@ -26,17 +26,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t kScenesOnOnePage = 2;
 constexpr const char* kUp = "<p><a href=\"index.html\">back to the verdict</a></p>\n";
 
-/// The suite file of the command that made it all.
-std::string SuiteFileOf(const Results& results) {
-  for (std::size_t at = 0; at < results.rerun.size();) {
-    const std::size_t end = std::min(results.rerun.find(' ', at), results.rerun.size());
-    const std::string word = results.rerun.substr(at, end - at);
-    if (word.ends_with(".yaml")) return word;
-    at = end + 1;
-  }
-  return "";
-}
-
 /// The tables of the paper belong to its own experiment; elsewhere they are files alone.
 std::string PaperLink(const std::vector<SceneRuns>& scenes, const fs::path& report_dir) {
   const std::string paper = PaperPage(scenes, report_dir);
@@ -51,7 +40,7 @@ std::string PaperLink(const std::vector<SceneRuns>& scenes, const fs::path& repo
 bool WriteTrends(const Results& results, const fs::path& report_dir, const ReportOptions& options) {
   const std::string trends = TrendSection(
       options.history,
-      {.history_dir = options.history_file.parent_path(), .suite_file = SuiteFileOf(results)});
+      {.history_dir = options.history_file.parent_path(), .suite_file = results.suite_file});
   if (trends.empty()) return fs::exists(report_dir / "trends.html");
   WriteFileAtomically(report_dir / "trends.html",
                       Page("Trends of " + ReportTitle(results), "", kUp + trends));

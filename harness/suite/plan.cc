@@ -77,6 +77,7 @@ PlanFile FromJson(const Json& json) {
   }
   PlanFile plan;
   plan.command = json.at("command").get<std::string>();
+  plan.suite_file = json.value("suite_file", "");
   plan.gate = json.value("gate", false);
   plan.trial = json.value("trial", false);
   for (const Json& suite : json.at("suites")) plan.suites.push_back(SuiteFromJson(suite));
@@ -107,6 +108,7 @@ std::string PlanFile::question() const {
 
 std::string ToJson(const PlanFile& plan) {
   Json json = {{"schema", kSchema}, {"command", plan.command}};
+  if (!plan.suite_file.empty()) json["suite_file"] = plan.suite_file;
   if (plan.gate) json["gate"] = true;
   if (plan.trial) json["trial"] = true;
   json["suites"] = Json::array();

@@ -12,6 +12,7 @@ namespace aisle {
 struct PlanFile {
   std::vector<Suite> suites;  ///< one report answers them all
   std::string command;        ///< the command line that made it
+  std::string suite_file;     ///< the first of the files it names; empty in plans of before
   bool gate = false;          ///< it is held against baseline.json beside it, once it is whole
   bool trial = false;         ///< other systems, options or seeds than the suite's: no night of it
 

@@ -19,7 +19,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     const std::string file = fuzz::AsFile(fuzz::Text(data, size), "fuzz.yaml").string();
     if (!IsSuiteFile(file)) return 0;
-    const PlanFile plan{{LoadSuite(file, vocabulary)}, "fuzz"};
+    const PlanFile plan{{LoadSuite(file, vocabulary)}, "fuzz", file};
     const std::string text = ToJson(plan);
     fuzz::Hold(ToJson(PlanFromJson(text, "plan.json")) == text, "a plan reads back as written");
     ++fuzz::taken;

@@ -114,6 +114,15 @@ TEST_F(InputsTest, SetChangesAnOptionOfOneSystem) {
   EXPECT_EQ(suites[1].systems[0].options.at("feature.features"), "800");
 }
 
+TEST(DescribeInputsTest, AShellReadsTheSameAgain) {
+  EXPECT_EQ(Describe({.files = {"my suites/night.yaml", "b.yaml"},
+                      .systems = {"robust", "paper"},
+                      .set = {"mine.words=it's on", "robust.feature.features=800"},
+                      .seeds = 3}),
+            "'my suites/night.yaml' b.yaml --systems robust,paper --seeds 3 "
+            "--set 'mine.words=it'\\''s on' --set robust.feature.features=800");
+}
+
 TEST_F(InputsTest, SetOptionsMayNeedEachOtherInAnyOrder) {
   const std::vector<Suite> suites = LoadInputs(
       {.files = {second_}, .set = {"robust.orbslam2.map_ratio=0.7", "robust.base=orbslam2"}});

@@ -113,13 +113,14 @@ TEST(RecordRoundTrip, OfANightAndSoOfABaseline) {
                           .question = AnyText(),
                           .started = AnyText(),
                           .rerun = AnyText(),
+                          .suite_file = AnyText(),
                           .wall_s = AnyNumber(),
                           .runs = AnyList(3, AnyRecord),
                           .verdicts = AnyList(3, AnyVerdict)};
     const Results read = ResultsFromJson(ToJson(results), "x");
     RC_ASSERT(read.suite == results.suite && read.question == results.question);
     RC_ASSERT(read.started == results.started && read.rerun == results.rerun);
-    RC_ASSERT(read.wall_s == results.wall_s);
+    RC_ASSERT(read.suite_file == results.suite_file && read.wall_s == results.wall_s);
     RC_ASSERT(read.provenance.cpu == results.provenance.cpu);
     RC_ASSERT(read.provenance.threads == results.provenance.threads);
     RC_ASSERT(AllEqual(read.runs, results.runs));

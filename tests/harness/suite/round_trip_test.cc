@@ -50,10 +50,11 @@ TEST(PlanRoundTrip, KeepsEverySuite) {
   EXPECT_TRUE(rc::check([] {
     const PlanFile plan{.suites = AnyList(3, AnySuite),
                         .command = AnyText(),
+                        .suite_file = AnyText(),
                         .gate = AnyOf(0, 1) == 1,
                         .trial = AnyOf(0, 1) == 1};
     const PlanFile read = PlanFromJson(ToJson(plan), "x");
-    RC_ASSERT(read.command == plan.command);
+    RC_ASSERT(read.command == plan.command && read.suite_file == plan.suite_file);
     RC_ASSERT(read.gate == plan.gate && read.trial == plan.trial);
     RC_ASSERT(std::equal(read.suites.begin(), read.suites.end(), plan.suites.begin(),
                          plan.suites.end(),
