@@ -18,6 +18,16 @@ struct Corner {
   int step = 0;
 };
 
+/// When a profile has come so far: to the last bit, since speed may be nothing there.
+double TimeAt(const SpeedProfile& profile, double distance_m) {
+  double before_s = 0, reached_s = profile.duration_s();
+  while (true) {
+    const double middle_s = (before_s + reached_s) / 2;
+    if (middle_s <= before_s || middle_s >= reached_s) return reached_s;
+    (profile.At(middle_s).distance_m < distance_m ? before_s : reached_s) = middle_s;
+  }
+}
+
 double HeadingBetween(const Corner& from, const Corner& to) {
   const Eigen::Vector2d side = to.drive.position - from.drive.position;
   return std::atan2(side.y(), side.x());
@@ -101,7 +111,7 @@ class Planner {
     }
     leg.path = Path::OfArcs({now_.position, now_.heading_rad, 0}, arcs);
     leg.profile = SpeedProfile::Paced(paced.pieces.front().from_mps, stretches);
-    leg.segment_steps.assign(leg.path.segments().size(), -1);
+    leg.segment_steps.resize(leg.path.segments().size());
     const double duration = leg.profile.duration_s();
     Append(std::move(leg), duration);
   }
@@ -137,12 +147,29 @@ class Planner {
       const std::size_t end = static_cast<std::size_t>(segment.side) + 1;
       const double speed = segment.IsLine() ? drive[end].cruise_mps : taken.speeds_mps[end];
       limits.push_back({segment.length_m, speed});
-      leg.segment_steps.push_back(corners[end].step);
+      leg.segment_steps.push_back({corners[end].step, 0});
     }
     leg.profile =
         SpeedProfile::FromRestToRest(limits, limits_.acceleration_mps2, limits_.jerk_mps3);
     const double duration = leg.profile.duration_s();
+    const double last_step_start_s = TimeSteps(&leg);
     Append(std::move(leg), duration);
+    step_start_s_ = last_step_start_s;
+  }
+
+  /// Steps that join in one drive begin where the segment before ends. Returns when the last began.
+  double TimeSteps(Route::Leg* leg) const {
+    double start_s = step_start_s_;
+    int step = now_.step;
+    for (std::size_t i = 0; i < leg->segment_steps.size(); ++i) {
+      Route::Leg::SegmentStep& segment = leg->segment_steps[i];
+      if (segment.step != step) {
+        start_s = time_s_ + TimeAt(leg->profile, leg->path.segments()[i].start_m);
+      }
+      step = segment.step;
+      segment.start_s = start_s;
+    }
+    return start_s;
   }
 
   void Append(Route::Leg leg, double duration_s);
@@ -157,7 +184,7 @@ class Planner {
 RouteState StateIn(const Route::Leg& leg, double elapsed_s) {
   const Travel travel = leg.profile.At(elapsed_s);
   RouteState state = leg.start;
-  state.step_elapsed_s = leg.start_s + elapsed_s - leg.step_start_s;
+  double step_start_s = leg.step_start_s;
   if (leg.turn_sign != 0) {
     state.heading_rad += leg.turn_sign * travel.distance_m;
     state.yaw_rate_rad_s = leg.turn_sign * travel.speed_mps;
@@ -173,9 +200,12 @@ RouteState StateIn(const Route::Leg& leg, double elapsed_s) {
     state.odometer_m += sign * travel.distance_m;
     const auto& segments = leg.path.segments();
     for (std::size_t i = 0; i < segments.size(); ++i) {
-      if (segments[i].start_m <= travel.distance_m) state.step = leg.segment_steps[i];
+      if (segments[i].start_m > travel.distance_m) break;
+      state.step = leg.segment_steps[i].step;
+      step_start_s = leg.segment_steps[i].start_s;
     }
   }
+  state.step_elapsed_s = leg.start_s + elapsed_s - step_start_s;
   return state;
 }
 

@@ -89,8 +89,13 @@ class Route {
     SpeedProfile profile;  ///< metres of a drive, radians of a turn, empty in a pause
     double turn_sign = 0;  ///< ±1 in a turn
     bool reverse = false;
-    std::vector<int> segment_steps;  ///< of a drive: step of each path segment
-    double step_start_s = 0;         ///< when its step began
+    double step_start_s = 0;  ///< when its step began; in a drive, the first of its steps
+    /// Of a drive: the step of each path segment, and when that step began.
+    struct SegmentStep {
+      int step = -1;
+      double start_s = 0;
+    };
+    std::vector<SegmentStep> segment_steps;
   };
 
   Route() = default;

@@ -25,7 +25,7 @@ std::vector<WayPoint> PointsOf(const Route::Leg& leg, const RoutePlan& plan,
     const PathPoint point = leg.path.At(at);
     std::size_t segment = 0;
     while (segment + 1 < segments.size() && segments[segment + 1].start_m <= at) ++segment;
-    const auto step = static_cast<std::size_t>(leg.segment_steps[segment]);
+    const auto step = static_cast<std::size_t>(leg.segment_steps[segment].step);
     const double bend = std::max(std::abs(point.curvature_per_m), 1e-9);
     points.push_back({.distance_m = at,
                       .position = point.position,

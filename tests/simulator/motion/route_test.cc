@@ -158,6 +158,36 @@ TEST(Route, JoinedStepsDoNotStopBetweenThem) {
   EXPECT_NEAR(slowest, 0.5, 1e-9);
 }
 
+TEST(Route, JoinedStepsEachBeginWhereTheOneBeforeEnds) {
+  RoutePlan plan;
+  plan.start_s = 0.7;
+  plan.steps.resize(4);
+  plan.steps[0].go = {{4, 0}, {4, 3}};
+  plan.steps[1].go = {{8, 3}};
+  plan.steps[1].speed_mps = 0.5;
+  plan.steps[2].go = {{10, 3}, {10, 6}};
+  plan.steps[2].corner_radius_m = 0;  // stops and turns within the step
+  plan.steps[3].go = {{10, 9}};
+  RouteLimits limits;
+  limits.turns_on_the_spot = true;
+  const Route route(plan, limits);
+  constexpr double kTick_s = 5e-4;
+  int step = -1, begun = 0;
+  double elapsed_s = 0;
+  for (double t = 0; t < route.duration_s(); t += kTick_s) {
+    const RouteState state = route.At(t);
+    if (state.step != step) {
+      EXPECT_LT(state.step_elapsed_s, 1e-3) << "step " << state.step;
+      ++begun;
+    } else if (state.step >= 0) {
+      EXPECT_NEAR(state.step_elapsed_s - elapsed_s, kTick_s, 1e-9) << t;
+    }
+    step = state.step;
+    elapsed_s = state.step_elapsed_s;
+  }
+  EXPECT_EQ(begun, 4);
+}
+
 TEST(Route, ACarCannotTurnOnTheSpotAndTheBlamedStepIsNamed) {
   RouteLimits car;
   car.turns_on_the_spot = false;
