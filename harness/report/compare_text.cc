@@ -1,6 +1,7 @@
 #include "harness/report/compare_text.h"
 
 #include "harness/record/record_json.h"
+#include "harness/report/block/markdown_text.h"
 
 namespace aisle {
 namespace {
@@ -8,6 +9,11 @@ namespace {
 std::string Percent(const Comparison& c) {
   if (c.old_median == 0 || c.new_n == 0) return "";
   return fmt::format("{:+.1f} %", 100 * (c.new_median - c.old_median) / std::abs(c.old_median));
+}
+
+/// What it is now; a score that is gone is nothing.
+std::string After(const Comparison& c) {
+  return c.new_n > 0 ? fmt::format("{:.4g}", c.new_median) : "nothing";
 }
 
 /// "SCENE TWIN SYSTEM" of whatever is about one of them.
@@ -58,8 +64,8 @@ std::string ToConsole(const std::vector<Comparison>& comparisons,
   std::string text = fmt::format("{:{}}  {:20} {:11} {:>11} {:>11} {:>9}\n", "scene twin system",
                                  width, "score", "change", "before", "after", "");
   for (const Comparison& c : comparisons) {
-    text += fmt::format("{:{}}  {:20} {} {:>11.4g} {:>11.4g} {:>9}  {}\n", Cell(c), width, c.score,
-                        Painted(c, color), c.old_median, c.new_median, Percent(c), c.why);
+    text += fmt::format("{:{}}  {:20} {} {:>11.4g} {:>11} {:>9}  {}\n", Cell(c), width, c.score,
+                        Painted(c, color), c.old_median, After(c), Percent(c), c.why);
   }
   for (const MissingRuns& one : missing) {
     const std::string word = fmt::format("{:11}", "missing");
@@ -75,11 +81,12 @@ std::string ToMarkdown(const std::vector<Comparison>& comparisons,
       "| scene, twin, system | score | change | before | after | | why "
       "|\n|---|---|---|--:|--:|--:|---|\n";
   for (const Comparison& c : comparisons) {
-    text += fmt::format("| {} | {} | {} | {:.4g} | {:.4g} | {} | {} |\n", Cell(c), c.score,
-                        Name(c.change), c.old_median, c.new_median, Percent(c), c.why);
+    text += fmt::format("| {} | {} | {} | {:.4g} | {} | {} | {} |\n", MarkdownText(Cell(c)),
+                        MarkdownText(c.score), Name(c.change), c.old_median, After(c), Percent(c),
+                        MarkdownText(c.why));
   }
   for (const MissingRuns& one : missing) {
-    text += fmt::format("| {} | | missing | | | | {} |\n", Cell(one), Lacking(one));
+    text += fmt::format("| {} | | missing | | | | {} |\n", MarkdownText(Cell(one)), Lacking(one));
   }
   return text;
 }

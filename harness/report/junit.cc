@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "harness/io/places.h"
+#include "harness/io/shell_word.h"
 #include "harness/record/group.h"
 #include "harness/report/markup/html.h"
 
@@ -85,8 +86,8 @@ std::string FailureText(const Verdict& verdict, const Results& results,
   std::string text = verdict.name + "\n" + verdict.why + "\n";
   const RunRecord* run = WorstRun(RunsOf(verdict, results));
   if (run != nullptr) {
-    text += fmt::format("rerun: {} rerun {} --in {}\n", OwnCommand(), RunId(run->spec),
-                        report_dir.string());
+    text += fmt::format("rerun: {} rerun {} --in {}\n", OwnCommand(), ShellWord(RunId(run->spec)),
+                        ShellWord(report_dir.string()));
     if (!run->last_words.empty()) text += "its last words:\n" + run->last_words;
   }
   return text + "all of it: " + results.rerun;

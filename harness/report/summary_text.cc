@@ -3,6 +3,7 @@
 #include "harness/io/input_error.h"
 #include "harness/judge/gate.h"
 #include "harness/report/page/answer.h"
+#include "harness/report/page/parts.h"
 
 namespace aisle {
 namespace {
@@ -12,14 +13,14 @@ constexpr std::size_t kBroken = 6, kChanges = 5, kWidth = 160;
 std::string Headline(const Results& results) {
   const auto broken = std::count_if(results.verdicts.begin(), results.verdicts.end(),
                                     [](const Verdict& verdict) { return !verdict.passed; });
-  const auto failed = std::count_if(results.runs.begin(), results.runs.end(),
-                                    [](const RunRecord& run) { return !IsComplete(run.status); });
+  const std::string failed = FailedAndLost(results.runs);
   const std::string limits =
       results.verdicts.empty() ? "nothing was judged"
       : broken == 0            ? fmt::format("all {} limits held", results.verdicts.size())
                     : fmt::format("{} of {} limits broken", broken, results.verdicts.size());
-  return fmt::format("{}: {}, {} of {} runs failed", results.suite, limits, failed,
-                     results.runs.size());
+  return fmt::format(
+      "{}: {}, {}", results.suite, limits,
+      failed.empty() ? fmt::format("0 of {} runs failed", results.runs.size()) : failed);
 }
 
 /// At most so many of the lines, and how many more there are.

@@ -15,13 +15,19 @@ double Sum(const std::vector<StageBar>& bars) {
   return sum_ms;
 }
 
+/// The class of a stage's colour: there are eight, paler from the ninth stage on.
+std::string ColorOf(const char* kind, int color) {
+  constexpr int kColors = 8;
+  return fmt::format("{}{}{}", kind, color % kColors, color >= kColors ? " pale" : "");
+}
+
 /// Bars end to end from 0 on; names stand in those that are likely to hold them.
 void DrawBars(const std::vector<StageBar>& bars, const Axis& x, double top, double height,
               Svg* svg) {
   double at_ms = 0;
   for (const StageBar& bar : bars) {
     const double width = x(at_ms + bar.ms) - x(at_ms);
-    svg->Rect(x(at_ms), top, width, height, fmt::format("bar b{}", bar.color % 8),
+    svg->Rect(x(at_ms), top, width, height, ColorOf("bar b", bar.color),
               fmt::format("{} {:.2f} ms", bar.name, bar.ms));
     const double likely_px = width / kAcross * kLikelyPx;
     if (height > 12 && likely_px > kLetterPx * static_cast<double>(bar.name.size() + 1)) {
@@ -41,7 +47,7 @@ std::string StageLegend(const std::vector<StageRow>& rows) {
   }
   std::vector<std::pair<std::string, std::string>> entries;
   for (const auto& [color, name] : names) {
-    entries.emplace_back(name, fmt::format("swatch w{}", color % 8));
+    entries.emplace_back(name, ColorOf("swatch w", color));
   }
   entries.emplace_back("the rest of the step", "swatch rest");
   return Legend(entries);

@@ -7,6 +7,7 @@
 #include "harness/judge/twins.h"
 #include "harness/report/page/drive_outcome.h"
 #include "harness/report/page/parts.h"
+#include "harness/score/statistics.h"
 
 namespace aisle {
 namespace {
@@ -15,15 +16,17 @@ constexpr std::size_t kMostSentences = 3;  ///< more is a table, which stands be
 
 struct SystemError {
   SystemSpec system;
-  double ate_m = 0;
-  std::optional<double> coverage;  ///< [0, 1]; nothing where the error is of whole drives
+  double ate_m = 0;      ///< of the runs that have one
+  bool is_whole = true;  ///< AreWholeDrives: may be held against another's
+  double coverage = 1;   ///< [0, 1], of these runs
+  std::size_t with_error = 0, runs = 0;
 };
 
 /// The systems of one scene as written, in the order of the suite, with their median errors.
 struct SceneErrors {
   std::string scene;
   std::vector<SystemError> known;
-  std::vector<std::string> lost;  ///< systems of which some run has no error
+  std::vector<std::string> lost;  ///< systems of which no run has an error
   std::string drives = {};        ///< how those that steer ended, in words; empty: nobody steers
   double worst_docking_m = 0;
 };
@@ -54,13 +57,19 @@ std::vector<SceneErrors> CollectErrors(const Results& results) {
       of_scene.worst_docking_m = std::max(of_scene.worst_docking_m, docking_m);
     }
     for (const SystemRuns& system : scene.systems) {
-      if (const auto ate_m = MedianScore(system.runs, "ate_rmse_m")) {
-        of_scene.known.push_back(
-            {system.runs.front()->spec.system, *ate_m,
-             AreWholeDrives(system.runs) ? std::nullopt : MedianScore(system.runs, "coverage")});
-      } else {
+      const std::vector<double> errors_m = ScoresOf(system.runs, "ate_rmse_m");
+      if (errors_m.empty()) {
         of_scene.lost.push_back(system.system);
+        continue;
       }
+      const std::vector<double> coverage = ScoresOf(system.runs, "coverage");
+      const bool whole = AreWholeDrives(system.runs) && errors_m.size() == system.runs.size();
+      of_scene.known.push_back({.system = system.runs.front()->spec.system,
+                                .ate_m = Quantile(errors_m, 0.5),
+                                .is_whole = whole,
+                                .coverage = coverage.empty() ? 1 : Quantile(coverage, 0.5),
+                                .with_error = errors_m.size(),
+                                .runs = system.runs.size()});
     }
   }
   return collected;
@@ -92,10 +101,10 @@ std::string WonBackInWords(const SceneErrors& errors) {
   std::set<std::string> calm;  // systems whom movers cost next to nothing
   for (const SystemError& one : errors.known) {
     const auto [without, told] = MeasureOf(errors, one.system);
-    if (without == nullptr || told == nullptr || told->coverage) continue;
+    if (without == nullptr || told == nullptr || !told->is_whole) continue;
     if (without->ate_m < kLeastRatio * told->ate_m) {
       calm.insert(without->system.name);
-    } else if (&one != told && !one.coverage) {
+    } else if (&one != told && one.is_whole) {
       const double share = (without->ate_m - one.ate_m) / (without->ate_m - told->ate_m);
       parts.push_back(
           share <= 0 ? one.system.name + " wins nothing back"
@@ -109,15 +118,27 @@ std::string WonBackInWords(const SceneErrors& errors) {
   return parts.empty() ? "" : ": " + Listed(parts);
 }
 
+/// " in 8 of 9 runs", " over the 49 % of the frames it has a pose for": of how much an error is
+/// that is not of every run's whole drive.
+std::string ExtentInWords(const SystemError& error) {
+  constexpr double kWhole = 0.9995;  // what is said as 100 %
+  std::string text;
+  if (error.with_error < error.runs) {
+    text += fmt::format(" in {} of {} runs", error.with_error, error.runs);
+  }
+  if (!error.is_whole && error.coverage < kWhole) {
+    text +=
+        fmt::format(" over the {} of the frames it has a pose for", PercentInWords(error.coverage));
+  }
+  return text;
+}
+
 std::string Sentence(const SceneErrors& errors) {
   if (!errors.drives.empty()) return errors.drives;
   std::vector<std::string> parts;
-  for (const auto& [system, ate_m, coverage] : errors.known) {
-    parts.push_back(fmt::format(
-        "{}{} by {}{}", system.name, parts.empty() ? " is off" : "", LengthInWords(ate_m),
-        coverage
-            ? fmt::format(" over the {} of the frames it has a pose for", PercentInWords(*coverage))
-            : ""));
+  for (const SystemError& one : errors.known) {
+    parts.push_back(fmt::format("{}{} by {}{}", one.system.name, parts.empty() ? " is off" : "",
+                                LengthInWords(one.ate_m), ExtentInWords(one)));
   }
   for (const std::string& system : errors.lost) parts.push_back(system + " has no error to tell");
   return fmt::format("On {}, {}{}.", errors.scene, Listed(parts), WonBackInWords(errors));
@@ -138,7 +159,7 @@ std::string ReportTitle(const Results& results) {
 std::string LengthInWords(double metres) {
   if (metres >= 1) return fmt::format("{:.2f} m", metres);
   if (metres >= 0.1) return fmt::format("{:.0f} cm", 100 * metres);
-  if (metres >= 0.001) return fmt::format("{:.1f} cm", 100 * metres);
+  if (metres >= 0.01) return fmt::format("{:.1f} cm", 100 * metres);
   return fmt::format("{:.1f} mm", 1000 * metres);
 }
 

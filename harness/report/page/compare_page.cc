@@ -249,7 +249,10 @@ std::string ComparePage(std::vector<Comparison> comparisons, const ComparedNight
          "<p class=\"soft small\">Medians over seeds. The interval is a bootstrap of the median "
          "difference, by seed where both sides have the same seeds. Worse and better need a "
          "Mann-Whitney test that survives Holm's correction over this whole page, and an effect of "
-         "a tenth of the old median.</p>\n";
+         "a tenth of the old median; of scores near 0 or 1, lengths of closed drives and counts, a "
+         "step of their own. Unstable: the median holds, but so many seeds lie far from it that "
+         "the old scatter does not explain them. Gone: runs that had the score have it no "
+         "more.</p>\n";
 }
 
 }  // namespace aisle

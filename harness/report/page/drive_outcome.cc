@@ -29,7 +29,10 @@ std::string Cell(const DriveOutcome& outcome, bool is_best) {
                                   ? fmt::format("{:.1f} mm", 1000 * outcome.docking_m)
                                   : fmt::format("{:.2f} m", outcome.docking_m);
   const std::string wrongs = WrongsInWords(outcome);
-  return fmt::format("<td class=\"{}\">{}{}", is_best ? "best" : "", docking,
+  // Rows are sorted by the length, whatever unit it is told in.
+  const std::string value =
+      outcome.drove() ? fmt::format(" data-value=\"{:.6g}\"", outcome.docking_m) : "";
+  return fmt::format("<td class=\"{}\"{}>{}{}", is_best ? "best" : "", value, docking,
                      wrongs.empty() ? ""
                                     : (docking.empty() ? "" : "<br>") +
                                           ("<span class=\"fail\">" + wrongs + "</span>"));

@@ -7,15 +7,19 @@
 namespace aisle {
 namespace {
 
-/// "8/9 ok" beside the median of the eight; the status of a run that is alone. Nothing where all
-/// is well.
+/// "7/9 ok" or "7/9 ok, 1 lost" beside the median of those that have an error; the status of a run
+/// that is alone. Nothing where all is well.
 std::string StatusMark(const SystemRuns& system) {
-  std::size_t good = 0;
-  for (const RunRecord* run : system.runs) good += run->status == RunStatus::kOk ? 1 : 0;
+  std::size_t good = 0, lost = 0;
+  for (const RunRecord* run : system.runs) {
+    good += run->status == RunStatus::kOk ? 1 : 0;
+    lost += run->status == RunStatus::kLost ? 1 : 0;
+  }
   if (good == system.runs.size()) return "";
   const std::string mark = system.runs.size() == 1
                                ? Name(system.runs.front()->status)
-                               : fmt::format("{}/{} ok", good, system.runs.size());
+                               : fmt::format("{}/{} ok{}", good, system.runs.size(),
+                                             lost > 0 ? fmt::format(", {} lost", lost) : "");
   return fmt::format(" <span class=\"fail\">{}</span>", mark);
 }
 

@@ -22,6 +22,30 @@ std::string Listed(const std::vector<std::string>& parts) {
   return text;
 }
 
+std::vector<const RunRecord*> CompleteOf(const std::vector<const RunRecord*>& runs) {
+  std::vector<const RunRecord*> complete;
+  std::ranges::copy_if(runs, std::back_inserter(complete),
+                       [](const RunRecord* run) { return IsComplete(run->status); });
+  return complete.empty() ? runs : complete;
+}
+
+std::string FailedAndLost(const std::vector<const RunRecord*>& runs) {
+  const auto failed =
+      std::ranges::count_if(runs, [](const RunRecord* run) { return !IsComplete(run->status); });
+  const auto lost = std::ranges::count_if(
+      runs, [](const RunRecord* run) { return run->status == RunStatus::kLost; });
+  if (failed == 0 && lost == 0) return "";
+  if (failed == 0) return fmt::format("{} of {} runs lost", lost, runs.size());
+  return fmt::format("{} of {} runs failed{}", failed, runs.size(),
+                     lost > 0 ? fmt::format(", {} lost", lost) : "");
+}
+
+std::string FailedAndLost(const std::vector<RunRecord>& runs) {
+  std::vector<const RunRecord*> all;
+  for (const RunRecord& run : runs) all.push_back(&run);
+  return FailedAndLost(all);
+}
+
 std::string SeedOf(const RunSpec& spec) {
   if (spec.repeat == 1) return fmt::format("seed {}", spec.seed);
   return fmt::format("seed {}, drive {} over it", spec.seed, spec.repeat);

@@ -20,6 +20,14 @@ std::string Figure(const std::string& content, const std::string& caption);
 /// "a, b and c".
 std::string Listed(const std::vector<std::string>& parts);
 
+/// The runs that came to their end (IsComplete); all of them where none has.
+std::vector<const RunRecord*> CompleteOf(const std::vector<const RunRecord*>& runs);
+
+/// "2 of 18 runs failed, 1 lost", "1 of 18 runs lost": failed is what did not come to its end
+/// (IsComplete), lost what did with too few poses. Empty where every run is well.
+std::string FailedAndLost(const std::vector<const RunRecord*>& runs);
+std::string FailedAndLost(const std::vector<RunRecord>& runs);
+
 /// "seed 3", "seed 3, drive 2 over it".
 std::string SeedOf(const RunSpec& spec);
 

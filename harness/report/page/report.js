@@ -1,7 +1,7 @@
 'use strict';
 (() => {
   const number = text => {
-    const match = text.trim().match(/^[×+]?\s*(-?\d+(\.\d+)?(e[-+]?\d+)?)/i);
+    const match = text.trim().match(/^[×≈+]?\s*(-?\d+(\.\d+)?(e[-+]?\d+)?)/i);
     return match ? Number(match[1]) : NaN;
   };
 
@@ -18,8 +18,9 @@
     for (const cell of head.cells) cell.removeAttribute('aria-sort');
     button.setAttribute('aria-sort', down ? 'descending' : 'ascending');
     const rows = bodyOf(table, head).map((row, index) => {
-      const text = row.cells[column] ? row.cells[column].textContent.trim() : '';
-      return {row, index, text, value: number(text)};
+      const cell = row.cells[column];
+      const text = cell ? cell.textContent.trim() : '';
+      return {row, index, text, value: number(cell && cell.dataset.value || text)};
     });
     rows.sort((a, b) => {
       const numbers = !isNaN(a.value) && !isNaN(b.value);

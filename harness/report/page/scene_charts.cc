@@ -102,54 +102,72 @@ const std::set<std::string> kNoStages = {"process", "render", "total", "tracking
 /// Stages in threads of their own.
 const std::set<std::string> kBeside = {"mapping", "global", "loop", "loop_closing"};
 
-/// A stage's mean over all frames: it is told over those that had it.
-double PerFrame(const SystemRuns& system, const std::string& score) {
+/// The stages of a run that make up its step or run beside it, by the scores that tell them.
+std::set<std::string> StagesOf(const RunRecord& run) {
+  std::set<std::string> stages;
+  for (const auto& [name, score] : run.scores) {
+    if (!name.starts_with("ms_") || !score.value) continue;
+    const std::string stage = name.substr(3, name.size() - 3 - std::string("_mean").size());
+    if (!kNoStages.contains(stage)) stages.insert(stage);
+  }
+  return stages;
+}
+
+/// A stage's mean over all frames, in the median of the runs: it is told over those frames that had
+/// it, and a run that never came to it spent nothing on it. Runs that tell no stage at all say
+/// nothing.
+double PerFrame(const std::vector<const RunRecord*>& runs, const std::string& stage) {
   std::vector<double> values;
-  for (const RunRecord* run : system.runs) {
-    const auto at = run->scores.find(score);
-    const bool known = at != run->scores.end() && at->second.value && run->frames > 0;
+  for (const RunRecord* run : runs) {
+    if (run->frames == 0 || StagesOf(*run).empty()) continue;
+    const auto at = run->scores.find("ms_" + stage + "_mean");
+    const bool known = at != run->scores.end() && at->second.value;
     values.push_back(known ? *at->second.value * static_cast<double>(at->second.n) /
                                  static_cast<double>(run->frames)
                            : 0);
   }
-  return Quantile(values, 0.5);
+  return values.empty() ? 0 : Quantile(values, 0.5);
 }
 
 std::string Stages(const SceneRuns& scene) {
   std::map<std::string, int> colors;
   std::vector<StageRow> rows;
   for (const SystemRuns& system : scene.systems) {
+    const std::vector<const RunRecord*> runs = CompleteOf(system.runs);
+    const std::vector<double> steps_ms = ScoresOf(runs, "ms_process_mean");
     StageRow row{.system = system.system,
-                 .step_ms = MedianScore(system.runs, "ms_process_mean").value_or(0),
+                 .step_ms = steps_ms.empty() ? 0 : Quantile(steps_ms, 0.5),
                  .inside = {},
                  .beside = {}};
-    for (const auto& [name, score] : system.runs.front()->scores) {
-      if (!name.starts_with("ms_") || !score.value) continue;
-      const std::string stage = name.substr(3, name.size() - 3 - std::string("_mean").size());
-      if (kNoStages.contains(stage)) continue;
+    std::set<std::string> stages;
+    for (const RunRecord* run : runs) stages.merge(StagesOf(*run));
+    for (const std::string& stage : stages) {
       const int color = colors.emplace(stage, static_cast<int>(colors.size())).first->second;
       auto& bars = kBeside.contains(stage) ? row.beside : row.inside;
-      bars.push_back({stage, color, PerFrame(system, name)});
+      bars.push_back({stage, color, PerFrame(runs, stage)});
     }
     if (row.step_ms > 0 || !row.inside.empty()) rows.push_back(row);
   }
   if (rows.empty()) return "";
   return Figure(StageChart(rows),
                 "A step is as long as the harness saw it take, and made of the stages that the "
-                "system tells; means over all frames. The thin bar runs beside the frames, in "
+                "system tells; means over all frames, where a score ms_*_mean is of those that had "
+                "the stage. The thin bar runs beside the frames, in "
                 "threads of its own. Of a foreign system only the wall time is known.");
 }
 
-/// What cannot be drawn, and why.
+/// What cannot be drawn, and why: a whole system, or the first of its runs that lacks.
 std::string Troubles(const SceneRuns& scene, const std::vector<SystemFrames>& frames) {
   std::string text;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    for (const FrameFile& file : frames[i].files) {
-      if (file.trouble.empty()) continue;
-      text += fmt::format("<p>{} is not in the charts: {}</p>\n", Escape(scene.systems[i].system),
-                          Escape(file.trouble));
-      break;
-    }
+    const std::vector<FrameFile>& files = frames[i].files;
+    const auto bad = std::ranges::find_if(files, [](const auto& f) { return !f.trouble.empty(); });
+    if (bad == files.end()) continue;
+    const SystemRuns& system = scene.systems[i];
+    const bool drawn = !files[frames[i].worst].rows.empty();
+    const RunSpec& spec = system.runs[static_cast<std::size_t>(bad - files.begin())]->spec;
+    text += fmt::format("<p>{}{} is not in the charts: {}</p>\n", Escape(system.system),
+                        drawn ? ", " + SeedOf(spec) + "," : "", Escape(bad->trouble));
   }
   return text;
 }

@@ -1,6 +1,7 @@
 #include "harness/report/page/scene_section.h"
 
 #include "harness/io/places.h"
+#include "harness/io/shell_word.h"
 #include "harness/report/markup/html.h"
 #include "harness/report/page/album_section.h"
 #include "harness/report/page/answer.h"
@@ -36,7 +37,7 @@ std::string ErrorsInWords(const SystemRuns& system) {
                             LengthInWords(Quantile(errors_m, 1)), SeedOf(worst->spec));
 }
 
-/// "; 2 of 9 runs failed (seed 4 crashed, seed 7 timeout)", or nothing.
+/// "; 2 of 9 runs failed, 1 lost: seed 4 crashed, seed 5 lost and seed 7 timeout", or nothing.
 std::string FailuresInWords(const SystemRuns& system) {
   constexpr std::size_t kNamed = 3;
   std::vector<std::string> failed;
@@ -45,12 +46,11 @@ std::string FailuresInWords(const SystemRuns& system) {
     failed.push_back(fmt::format("{} {}", SeedOf(run->spec), Name(run->status)));
   }
   if (failed.empty()) return "";
-  const std::size_t count = failed.size();
-  if (count > kNamed) {
+  if (failed.size() > kNamed) {
     failed.resize(kNamed);
     failed.emplace_back("others");
   }
-  return fmt::format("; {} of {} runs failed: {}", count, system.runs.size(), Listed(failed));
+  return fmt::format("; {}: {}", FailedAndLost(system.runs), Listed(failed));
 }
 
 std::string Troubles(const std::vector<SystemRuns>& systems, const std::string& root) {
@@ -73,6 +73,15 @@ std::string Troubles(const std::vector<SystemRuns>& systems, const std::string& 
   return text;
 }
 
+/// A run that says how long the drive is and of what it was made: the first that came to its end.
+const RunRecord& Telling(const SceneRuns& scene) {
+  for (const SystemRuns& system : scene.systems) {
+    const RunRecord* first = CompleteOf(system.runs).front();
+    if (IsComplete(first->status)) return *first;
+  }
+  return *scene.systems.front().runs.front();
+}
+
 /// The folder as a shell would be told it, seen from where the suite was started.
 std::string Again(const SceneRuns& scene, const std::string& root, const std::string& place) {
   std::string text = "<div class=\"wide\"><table>";
@@ -84,7 +93,7 @@ std::string Again(const SceneRuns& scene, const std::string& root, const std::st
         text += fmt::format("<a href=\"{}\">{}</a> ", root + EscapeUrl(path), Escape(name));
       }
       text += fmt::format("<td class=\"left\"><code>{} rerun {} --in {}</code>\n", OwnCommand(),
-                          Escape(RunId(run->spec)), Escape(place));
+                          Escape(ShellWord(RunId(run->spec))), Escape(ShellWord(place)));
     }
   }
   return text + "</table></div>\n";
@@ -106,7 +115,7 @@ std::vector<std::string> SceneInWords(const SceneRuns& scene) {
 
 std::string SceneSection(const SceneRuns& scene, const fs::path& report_dir,
                          const std::string& root) {
-  const RunRecord& first = *scene.systems.front().runs.front();
+  const RunRecord& first = Telling(scene);
   const std::string id = SafeName(scene.scene + "_" + scene.twin);
   std::string text =
       fmt::format("<h2 id=\"{}\">{} <span class=\"soft\">{}</span></h2>\n<ul class=\"answer\">\n",

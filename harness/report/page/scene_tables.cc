@@ -95,9 +95,10 @@ double Mean(const std::vector<double>& values) {
 std::string ScoreCell(const SystemRuns& system, const Column& column) {
   const std::vector<double> values = ScoresOf(system.runs, column.score);
   if (values.empty()) return "<td>-";
-  const auto of_first = system.runs.front()->scores.find(column.score);
-  const bool derived =
-      of_first != system.runs.front()->scores.end() && !of_first->second.basis.empty();
+  const bool derived = std::ranges::any_of(system.runs, [&](const RunRecord* run) {
+    const auto score = run->scores.find(column.score);
+    return score != run->scores.end() && score->second.value && !score->second.basis.empty();
+  });
   const double value = column.is_mean ? Mean(values) : Quantile(values, 0.5);
   std::string cell =
       fmt::format("<td>{}{:.{}f}", derived ? "≈" : "", value * column.factor, column.decimals);

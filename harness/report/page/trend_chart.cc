@@ -53,28 +53,43 @@ std::string TipOf(const TrendPoint& point, const NightSeries& series) {
   return tip;
 }
 
+/// Nights in a row of which a system has a number.
+struct Stretch {
+  Points line, low, high;
+};
+
 void DrawSeries(const NightSeries& series, const std::vector<Night>& nights, const Axis& x,
                 const Axis& y, const NightLink& link, Svg* svg) {
   const double factor = Followed(series.score).factor;
-  Points line, low, high, limit;
+  std::vector<Stretch> stretches(1);
+  Points limit;
   for (std::size_t i = 0; i < nights.size(); ++i) {
     const TrendPoint* point = series.points[i];
     if (point == nullptr) continue;
     const double at = x(nights[i].day);
     if (point->limit) limit.emplace_back(at, y(factor * *point->limit));
-    if (!point->median) continue;
-    line.emplace_back(at, y(factor * *point->median));
-    low.emplace_back(at, y(factor * point->low.value_or(*point->median)));
-    high.emplace_back(at, y(factor * point->high.value_or(*point->median)));
+    if (!point->median) {
+      stretches.emplace_back();
+      continue;
+    }
+    Stretch& now = stretches.back();
+    now.line.emplace_back(at, y(factor * *point->median));
+    now.low.emplace_back(at, y(factor * point->low.value_or(*point->median)));
+    now.high.emplace_back(at, y(factor * point->high.value_or(*point->median)));
   }
-  svg->Band(low, high, fmt::format("band d{}", series.style));
+  for (const Stretch& one : stretches) {
+    svg->Band(one.low, one.high, fmt::format("band d{}", series.style));
+  }
   const bool in_sight = !limit.empty() && limit.back().second >= kTop - 1;
   if (in_sight) svg->Polyline(limit, fmt::format("limit c{}", series.style));
-  svg->Polyline(line, fmt::format("line c{}", series.style), series.system);
+  for (const Stretch& one : stretches) {
+    svg->Polyline(one.line, fmt::format("line c{}", series.style), series.system);
+  }
   for (std::size_t i = 0; i < nights.size(); ++i) {
     const TrendPoint* point = series.points[i];
     if (point == nullptr || (!point->median && point->failed == 0)) continue;
-    const double at = x(nights[i].day), height = y(factor * point->median.value_or(0));
+    const double at = x(nights[i].day);
+    const double height = point->median ? y(factor * *point->median) : y.to_px;
     const std::string page = link(nights[i]);
     if (point->failed > 0) {
       svg->Cross(at, height, TipOf(*point, series), page);
@@ -86,12 +101,16 @@ void DrawSeries(const NightSeries& series, const std::vector<Night>& nights, con
 
 }  // namespace
 
+bool HasTrendChart(const std::vector<const NightSeries*>& systems,
+                   const std::vector<Night>& nights) {
+  return nights.size() >= 2 && Highest(systems) > 0;
+}
+
 std::string TrendChart(const std::vector<const NightSeries*>& systems,
                        const std::vector<Night>& nights, const NightLink& link) {
-  if (systems.empty()) return "";
+  if (!HasTrendChart(systems, nights)) return "";
   const FollowedScore& followed = Followed(systems.front()->score);
   const double highest = followed.factor * Highest(systems);
-  if (highest <= 0 || nights.size() < 2) return "";
   constexpr double kEdge = 15;  // markers of the first and the last night keep off the edges
   const Axis x{nights.front().day, std::max(nights.back().day, nights.front().day + 1e-3), kEdge,
                kAcross - kEdge};

@@ -1,6 +1,8 @@
 #include "harness/report/page/trends.h"
 
+#include "harness/io/hash.h"
 #include "harness/io/places.h"
+#include "harness/io/shell_word.h"
 #include "harness/report/chart/svg.h"
 #include "harness/report/markup/html.h"
 #include "harness/report/page/night_series.h"
@@ -13,12 +15,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Of every scene; the rest of what is followed where it changed.
 constexpr const char* kDrawn[] = {"ate_rmse_m", "ms_process_mean", "coverage"};
 
 std::string DateOf(const Night& night) { return night.started.substr(0, 10); }
 
+/// An id for a text: its own also where names are cut or have letters that an id may not hold.
+std::string IdOf(const std::string& text) {
+  const std::string safe = SafeName(text);
+  return safe == text ? safe : fmt::format("{}_{:08x}", safe, Hash(text) & 0xffffffff);
+}
+
 std::string AnchorOf(const NightSeries& series) {
-  return SafeName(fmt::format("{}_{}_{}", series.scene, series.twin, series.score));
+  return IdOf(fmt::format("{}_{}_{}", series.scene, series.twin, series.score));
+}
+
+/// One score of all systems of a scene and twin: what a chart shows.
+std::vector<const NightSeries*> OneChart(const NightBook& book, const NightSeries& of) {
+  std::vector<const NightSeries*> drawn;
+  for (const NightSeries& series : book.series) {
+    const bool same = series.scene == of.scene && series.twin == of.twin;
+    if (same && series.score == of.score) drawn.push_back(&series);
+  }
+  return drawn;
+}
+
+/// The anchor of the chart that shows it; empty where there is nothing to draw.
+std::string ChartAnchor(const NightBook& book, const NightSeries& series) {
+  return HasTrendChart(OneChart(book, series), book.nights) ? AnchorOf(series) : "";
 }
 
 std::string Value(const NightSeries& series, double value) {
@@ -51,15 +75,6 @@ std::string PageOf(const Night& night, const NightSeries& series, const TrendPla
   if (fs::exists(folder / own, error)) return root + EscapeUrl(own);
   if (fs::exists(folder / "index.html", error)) return root + "index.html#" + EscapeUrl(own);
   return "";
-}
-
-/// One word to a shell, whatever it holds; names come from others.
-std::string ShellWord(const std::string& text) {
-  const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-/+:@";
-  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 /// A limit halfway between what was and what is, as `bisect` takes it.
@@ -106,10 +121,10 @@ std::string ChangeItem(const NightChange& change, const NightBook& book, const T
     const std::string page = PageOf(book.nights[night], series, place);
     return page.empty() ? "" : fmt::format(" · <a href=\"{}\">{}</a>", page, word);
   };
-  const std::string next = NextStep(change, book, place);
-  return fmt::format("<li>{}<span class=\"{}\">{}</span>: <a href=\"#{}\">chart</a>{}{}{}\n",
-                     Chip(series.style), change.worse ? "fail" : "pass",
-                     Escape(ChangeInWords(change, book)), AnchorOf(series),
+  const std::string next = NextStep(change, book, place), anchor = ChartAnchor(book, series);
+  return fmt::format("<li>{}<span class=\"{}\">{}</span>{}{}{}{}\n", Chip(series.style),
+                     change.worse ? "fail" : "pass", Escape(ChangeInWords(change, book)),
+                     anchor.empty() ? "" : fmt::format(": <a href=\"#{}\">chart</a>", anchor),
                      leading(change.night, "that night"),
                      change.night > 0 ? leading(change.night - 1, "the night before") : "",
                      next.empty() ? "" : "<br><span class=\"small\">" + next + "</span>");
@@ -134,26 +149,36 @@ std::string NightsTable(const NightBook& book, const TrendPlace& place) {
   return text + "</table></div></details>\n";
 }
 
+/// What is drawn of one scene and twin: the scores of every scene, and those that changed in it.
+std::vector<std::string> DrawnOf(const NightSeries& lead, const std::vector<NightChange>& changes) {
+  std::vector<std::string> drawn(std::begin(kDrawn), std::end(kDrawn));
+  for (const NightChange& change : changes) {
+    const NightSeries& series = *change.series;
+    const bool here = series.scene == lead.scene && series.twin == lead.twin;
+    const bool known = std::find(drawn.begin(), drawn.end(), series.score) != drawn.end();
+    if (here && !known) drawn.push_back(series.score);
+  }
+  return drawn;
+}
+
 /// The charts of one scene and twin, side by side where there is room.
-std::string ChartsOf(const NightBook& book, std::size_t first, std::size_t end,
-                     const TrendPlace& place) {
-  const NightSeries& lead = book.series[first];
+std::string ChartsOf(const NightBook& book, const NightSeries& lead,
+                     const std::vector<NightChange>& changes, const TrendPlace& place) {
   std::string charts;
-  for (const char* score : kDrawn) {
-    std::vector<const NightSeries*> drawn;
-    for (std::size_t i = first; i < end; ++i) {
-      if (book.series[i].score == score) drawn.push_back(&book.series[i]);
-    }
-    const std::string chart = TrendChart(
-        drawn, book.nights, [&](const Night& night) { return PageOf(night, lead, place); });
+  for (const std::string& score : DrawnOf(lead, changes)) {
+    NightSeries of = lead;
+    of.score = score;
+    const std::string chart = TrendChart(OneChart(book, of), book.nights, [&](const Night& night) {
+      return PageOf(night, lead, place);
+    });
     if (chart.empty()) continue;
-    charts += fmt::format("<figure id=\"{}\">{}</figure>\n", AnchorOf(*drawn.front()), chart);
+    charts += fmt::format("<figure id=\"{}\">{}</figure>\n", AnchorOf(of), chart);
   }
   if (charts.empty()) return "";
   return fmt::format(
       "<h2 id=\"{}\">{} <span class=\"soft\">{}</span></h2>\n<div "
       "class=\"charts\">{}</div>\n",
-      SafeName(lead.scene + "_" + lead.twin), Escape(lead.scene), Escape(lead.twin), charts);
+      IdOf(lead.scene + "_" + lead.twin), Escape(lead.scene), Escape(lead.twin), charts);
 }
 
 std::string ChangeList(const NightBook& book, const std::vector<NightChange>& changes,
@@ -178,21 +203,23 @@ std::string ChangeList(const NightBook& book, const std::vector<NightChange>& ch
 std::string TrendSection(const std::vector<TrendPoint>& points, const TrendPlace& place) {
   const NightBook book = ReadNights(points);
   if (book.nights.size() < 2) return "";
+  const std::vector<NightChange> changes = ChangesOf(book);
   std::string text = fmt::format(
       "<h1>{} nights</h1>\n{}<p class=\"soft small\">From {} to {}. Since: the first night from "
       "which on every night lies beyond what the nights before it let one expect, by a tenth of "
       "their median and four times their median deviation from it. A point leads to its night; "
-      "crosses are nights with runs that failed, dashed lines the limits, bands the middle half of "
+      "crosses are nights with runs that failed, at the top where none came to its end, dashed "
+      "lines the limits, bands the middle half of "
       "the seeds. Every score of every night is in the SQLite file beside the reports.</p>\n",
-      book.nights.size(), ChangeList(book, ChangesOf(book), place),
-      Escape(book.nights.front().started), Escape(book.nights.back().started));
+      book.nights.size(), ChangeList(book, changes, place), Escape(book.nights.front().started),
+      Escape(book.nights.back().started));
   for (std::size_t first = 0; first < book.series.size();) {
     std::size_t end = first;
     while (end < book.series.size() && book.series[end].scene == book.series[first].scene &&
            book.series[end].twin == book.series[first].twin) {
       ++end;
     }
-    text += ChartsOf(book, first, end, place);
+    text += ChartsOf(book, book.series[first], changes, place);
     first = end;
   }
   return text + NightsTable(book, place);
@@ -205,9 +232,10 @@ SinceNotes SinceWhen(const std::vector<TrendPoint>& points) {
   for (const NightChange& change : ChangesOf(book)) {
     const NightSeries& series = *change.series;
     const Night& night = book.nights[change.night];
-    const std::string note =
-        fmt::format("<a class=\"since\" href=\"trends.html#{}\">since {}</a> (commit {})",
-                    AnchorOf(series), Escape(DateOf(night)), Escape(night.commit));
+    const std::string anchor = ChartAnchor(book, series);
+    const std::string note = fmt::format(
+        "<a class=\"since\" href=\"trends.html{}\">since {}</a> (commit {})",
+        anchor.empty() ? "" : "#" + anchor, Escape(DateOf(night)), Escape(night.commit));
     const std::string score = change.failing ? "completes" : series.score;
     notes.try_emplace({series.scene, series.twin, series.system, score}, note);
   }

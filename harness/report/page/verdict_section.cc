@@ -4,6 +4,7 @@
 
 #include "harness/report/markup/html.h"
 #include "harness/report/page/answer.h"
+#include "harness/report/page/parts.h"
 #include "harness/score/significance.h"
 
 namespace aisle {
@@ -39,15 +40,13 @@ std::string VerdictItem(const Verdict& verdict, const std::vector<SceneRuns>& sc
 
 std::string Headline(const Results& results, std::size_t broken, std::size_t flaky) {
   const std::size_t all = results.verdicts.size();
-  const auto failed = std::count_if(results.runs.begin(), results.runs.end(), Failed);
-  const std::string runs =
-      failed == 0 ? "" : fmt::format("{} of {} runs failed", failed, results.runs.size());
+  const std::string runs = FailedAndLost(results.runs);
   if (all == 0) {
     return runs.empty() ? "Nothing was judged: the suite sets no limits"
                         : runs + "; the suite sets no limits";
   }
-  if (broken == 0) return fmt::format("All {} limits held", all);
-  std::string text = fmt::format("{} of {} limits broken", broken, all);
+  std::string text = broken == 0 ? fmt::format("All {} limits held", all)
+                                 : fmt::format("{} of {} limits broken", broken, all);
   if (flaky > 0) text += fmt::format(", {} of them flaky", flaky);
   return runs.empty() ? text : text + "; " + runs;
 }
@@ -67,16 +66,23 @@ std::string List(const std::vector<std::string>& items, const std::string& word)
   return fmt::format("<ul>\n{}</ul>{}\n", text, folded ? "</details>" : "");
 }
 
+/// "; 95 % sure, fewer than 8.3 % do"; nothing where the bound is none.
+std::string BoundInWords(double percent) {
+  if (percent >= 99.5) return "";
+  const std::string figure =
+      percent < 10 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent);
+  return fmt::format(": 95 % sure, fewer than {} % do", figure);
+}
+
 /// How many runs failed, and what so many runs can say of the next ones.
 std::string FailureRate(const std::vector<RunRecord>& runs) {
   const auto failed = static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), Failed));
   constexpr std::size_t kWorthSaying = 20;  // below, the bound is no news
   if (failed == 0 && runs.size() < kWorthSaying) return "";
   return fmt::format(
-      "<p class=\"soft small\">{} of {} runs crashed, hung or answered nonsense: 95 % sure, fewer "
-      "than {:.2g} % do.</p>\n",
+      "<p class=\"soft small\">{} of {} runs crashed, hung or answered nonsense{}.</p>\n",
       failed == 0 ? "None" : std::to_string(failed), runs.size(),
-      100 * FailureRateBound(failed, runs.size()));
+      BoundInWords(100 * FailureRateBound(failed, runs.size())));
 }
 
 /// How far beyond its limit, as a share of it; what has no number is worst.

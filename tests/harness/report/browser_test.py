@@ -111,6 +111,21 @@ class ReportInBrowser(ServedReport):
         self.assertEqual([float(cell) for cell in self.column(table, 2)], rising[::-1])
         self.assertEqual(page.log, [])
 
+    def test_lengths_are_sorted_as_lengths_whatever_their_unit(self):
+        rows = [('≈3', '<td data-value="1.2">1.20 m'), ('20', '<td data-value="0.0042">4.2 mm'),
+                ('100', '<td data-value="0.0008">0.8 mm'), ('-', '<td>never drives')]
+        with open(os.path.join(self.folder, 'sorted.html'), 'w', encoding='utf-8') as file:
+            file.write('<!doctype html><meta charset="utf-8"><script src="report.js" defer>'
+                       '</script><table><tr><th>step<th>end\n' +
+                       '\n'.join(f'<tr><td>{step}{end}' for step, end in rows) + '</table>')
+        page = self.open('sorted.html')
+        page.click('table th:nth-child(2)')
+        self.assertEqual([cell.strip() for cell in self.column('table', 1)],
+                         ['0.8 mm', '4.2 mm', '1.20 m', 'never drives'])
+        page.click('table th:nth-child(1)')
+        self.assertEqual([cell.strip() for cell in self.column('table', 0)],
+                         ['≈3', '20', '100', '-'])
+
     def test_words_in_the_box_leave_the_rows_that_hold_them(self):
         page = self.open('scene_paper.scene1_live.html')
         page.click('details summary')

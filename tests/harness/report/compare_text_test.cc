@@ -13,10 +13,37 @@ TEST(CompareTextTest, EveryWritingNamesTheChange) {
   worse.score = "ate_rmse_m";
   worse.old_median = 0.02;
   worse.new_median = 0.04;
+  worse.old_n = worse.new_n = 9;
   worse.change = Change::kWorse;
   EXPECT_THAT(ToConsole({worse}, {}, false), HasSubstr("1 worse"));
   EXPECT_THAT(ToMarkdown({worse}, {}), HasSubstr("| ate_rmse_m | worse |"));
   EXPECT_THAT(ToJson({worse}, {}), HasSubstr("\"change\": \"worse\""));
+}
+
+TEST(CompareTextTest, AScoreThatIsGoneIsNothingNow) {
+  Comparison gone;
+  gone.score = "ate_rmse_m";
+  gone.old_median = 0.02;
+  gone.new_median = std::nan("");
+  gone.old_n = 9;
+  gone.change = Change::kGone;
+  for (const std::string& text : {ToConsole({gone}, {}, false), ToMarkdown({gone}, {})}) {
+    EXPECT_THAT(text, HasSubstr("nothing"));
+    EXPECT_THAT(text, testing::Not(HasSubstr("nan")));
+  }
+}
+
+TEST(CompareTextTest, NamesStayInTheirCellOfTheMarkdown) {
+  Comparison worse;
+  worse.scene = worse.system = "a|b";
+  worse.score = "ate_rmse_m";
+  worse.why = "seed 1: said <x>|\ny";
+  const std::string text =
+      ToMarkdown({worse}, {{.scene = "a|b", .twin = "live", .system = "m|n", .seeds = {}}});
+  EXPECT_THAT(text, HasSubstr("| a\\|b  a\\|b | ate_rmse_m |"));
+  EXPECT_THAT(text, HasSubstr("said \\<x>\\| y |"));
+  EXPECT_THAT(text, HasSubstr("| a\\|b live m\\|n |"));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);
 }
 
 TEST(CompareTextTest, EveryWritingNamesWhatIsMissing) {

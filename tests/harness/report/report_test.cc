@@ -73,6 +73,90 @@ TEST_F(ReportTest, AChartWithoutItsFramesSaysWhy) {
   EXPECT_THAT(Read("index.html"), HasSubstr("no column stamp_ns: made by another version"));
 }
 
+TEST_F(ReportTest, OfASystemThatIsDrawnTheSeedIsNamedThatIsNot) {
+  const Results results = Make(
+      {MakeRun("paper/scene2", "oracle", 1, 0.02), MakeRun("paper/scene2", "oracle", 2, 0.02)}, {});
+  WriteFileAtomically(folder_ / results.runs[1].artifacts.at("frames"), "frame,state\n7,lost\n");
+  WriteReport(results, folder_);
+  EXPECT_THAT(Read("index.html"), HasSubstr("oracle, seed 2, is not in the charts: "));
+  EXPECT_THAT(Read("index.html"), Not(HasSubstr("oracle is not in the charts: ")));
+}
+
+std::string Between(const std::string& text, const std::string& from, const std::string& to) {
+  const std::size_t begin = text.find(from);
+  EXPECT_NE(begin, std::string::npos) << from;
+  return begin == std::string::npos ? "" : text.substr(begin, text.find(to, begin) - begin);
+}
+
+/// A seed that crashed before its first frame has nothing to say: what the others say stays.
+TEST_F(ReportTest, ACrashOfTheFirstSeedTakesNothingFromTheOthers) {
+  const auto page = [&](bool crashes) {
+    std::vector<RunResult> runs;
+    for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+      runs.push_back(MakeRun("paper/scene2", "oracle", seed, 0.02));
+    }
+    if (crashes) {
+      runs[0].status = RunStatus::kCrashed;
+      runs[0].facts.clear();
+      runs[0].estimates.clear();
+      runs[0].trajectory = {};
+    }
+    Results results = Make(runs, {});
+    for (RunRecord& run : results.runs) {
+      const auto step = run.scores.find("ms_process_mean");
+      if (step != run.scores.end()) step->second.basis = "its wall time";
+    }
+    WriteReport(results, folder_);
+    return Read("index.html");
+  };
+  const std::string good = page(false), crashed = page(true);
+  for (const char* part :
+       {"aria-label=\"time per frame by stage\"", "<p class=\"soft small\">300 f"}) {
+    EXPECT_EQ(Between(crashed, part, "\n<"), Between(good, part, "\n<")) << part;
+  }
+  EXPECT_THAT(Between(good, "aria-label=\"time per frame by stage\"", "</figure>"),
+              HasSubstr("extract 15.00 ms"));
+  EXPECT_EQ(Between(crashed, "aria-label=\"time per frame by stage\"", "</figure>"),
+            Between(good, "aria-label=\"time per frame by stage\"", "</figure>"));
+  EXPECT_THAT(good, HasSubstr("<td>≈35.0"));
+  EXPECT_THAT(crashed, HasSubstr("<td>≈35.0"));
+  EXPECT_THAT(crashed, HasSubstr(" in 8 of 9 runs.</p>"));
+}
+
+/// Failed is what did not come to its end, lost what did with too few poses: in every place alike.
+TEST_F(ReportTest, FailedAndLostAreCountedAlikeEverywhere) {
+  std::vector<RunResult> runs;
+  for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+    runs.push_back(MakeRun("paper/scene2", "oracle", seed, 0.02));
+  }
+  runs[1].status = RunStatus::kLost;
+  const std::string lost = "1 of 9 runs lost", both = "1 of 9 runs failed, 1 lost";
+  for (const std::string& words : {lost, both}) {
+    if (words == both) runs[2].status = RunStatus::kCrashed;
+    const Results results = Make(runs, {});
+    WriteReport(results, folder_);
+    const std::string page = Read("index.html");
+    EXPECT_THAT(Between(page, "<strong>", "</strong>"), HasSubstr(words));
+    EXPECT_THAT(Between(page, "<ul class=\"answer\">", "</ul>"), HasSubstr("; " + words + ": "));
+    EXPECT_THAT(Read("summary.txt"), HasSubstr(", " + words + "\n"));
+    EXPECT_THAT(Between(page, "id=\"errors\"", "</table>"),
+                HasSubstr(words == both ? "7/9 ok, 1 lost" : "8/9 ok, 1 lost"));
+    const auto failed = std::count_if(results.runs.begin(), results.runs.end(),
+                                      [](const auto& r) { return !IsComplete(r.status); });
+    EXPECT_THAT(Read("junit.xml"), HasSubstr(fmt::format("failures=\"{}\"", failed)));
+  }
+}
+
+/// What is to be pasted into a shell is its words, whatever the folder is called.
+TEST_F(ReportTest, CommandsAreQuotedForAShell) {
+  const Results results = Make({MakeRun("s", "orbslam2", 1, 0.6)}, {kBroken});
+  WriteReport(results, folder_ / "my night");
+  EXPECT_THAT(ReadFile(folder_ / "my night/index.html"),
+              HasSubstr(fmt::format("rerun s/live/orbslam2/1 --in &#39;{}/my night&#39;</code>",
+                                    folder_.string())));
+  EXPECT_THAT(ToJunit(results, "out/my night"), HasSubstr("--in 'out/my night'\n"));
+}
+
 TEST_F(ReportTest, ThePageTellsTheVerdictFirst) {
   WriteReport(Make({MakeRun("paper/scene2", "orbslam2", 1, 0.6),
                     MakeRun("paper/scene2", "oracle", 1, 0.02)},
@@ -123,6 +207,20 @@ RunResult Crashed(const std::string& words) {
   run.system_version = words;
   run.trajectory = {};
   return run;
+}
+
+TEST_F(ReportTest, ABoundThatSaysNothingIsNotSaid) {
+  for (const int good : {0, 1, 7}) {
+    std::vector<RunResult> runs(8, Crashed("boom"));
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      runs[i].spec.seed = i + 1;
+      if (static_cast<int>(i) < good) runs[i].status = RunStatus::kOk;
+    }
+    WriteReport(Make(runs, {}), folder_);
+    const std::string said = Between(Read("index.html"), "crashed, hung or answered nonsense", "<");
+    EXPECT_EQ(said.find("e+"), std::string::npos) << said;
+    EXPECT_EQ(said.find("95 % sure") == std::string::npos, good == 0) << said;
+  }
 }
 
 TEST_F(ReportTest, ANightThatCrashedIsRedWithoutAnyLimit) {

@@ -66,6 +66,21 @@ TEST(StageChart, BarsAreAsLongAsTheirTimesEndToEndAndInside) {
   EXPECT_GT(per_ms, 1000 / 64.0 * 0.9) << "the longest fills the chart";
 }
 
+/// Whatever a system calls its stages, no two of sixteen look the same.
+TEST(StageChart, TheNinthStageIsNotTheFirst) {
+  StageRow row{"many", 32, {}, {}};
+  for (int i = 0; i < 16; ++i) row.inside.push_back({fmt::format("s{}", i), i, 2});
+  const SvgReader reader(StageChart({row}));
+  std::set<std::string> bars, swatches;
+  for (const pugi::xml_node& bar : Bars(reader)) bars.insert(bar.attribute("class").value());
+  for (const pugi::xml_node& line : reader.All("line")) {
+    const std::string css = line.attribute("class").value();
+    if (css.starts_with("swatch")) swatches.insert(css);
+  }
+  EXPECT_EQ(bars.size(), 17u) << "sixteen and the rest of the step";
+  EXPECT_EQ(swatches.size(), 17u);
+}
+
 TEST(SpreadChart, DotsStandAtTheirValuesAndTheBoxHoldsTheMiddleHalf) {
   const std::vector<double> values = {0.05, 0.01, 0.03, 0.02, 0.04};
   const SvgReader reader(SpreadChart({{"plain", 1, values}, {"oracle", 2, {0.02}}}, "ATE [m]"));

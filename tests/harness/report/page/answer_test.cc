@@ -55,13 +55,27 @@ TEST(AnswerTest, OnlyARejectionWinsBackAndOnlyFromItsOwnTwin) {
 
 TEST(AnswerTest, WhereMoversCostNothingItSaysSo) {
   EXPECT_THAT(AnswerInWords(Of({RunOf("s", "plain", 0.0054), RunOf("s", "oracle", 0.004)})),
-              ElementsAre("On s, plain is off by 0.5 cm and oracle by 0.4 cm: movers cost "
+              ElementsAre("On s, plain is off by 5.4 mm and oracle by 4.0 mm: movers cost "
                           "plain next to nothing here."));
+}
+
+/// One crash of nine runs leaves the error of the others, which the tables show as well.
+TEST(AnswerTest, ARunWithoutAnErrorTakesNothingFromTheOthers) {
+  std::vector<RunRecord> runs = {RunOf("s", "robust", 0.02)};
+  for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+    runs.push_back(RunOf("s", "plain", 0.1 + 0.02 * static_cast<double>(seed), seed));
+    runs.back().scores["coverage"] = {
+        .value = 1, .unit = "1", .alignment = "", .n = 1, .absent = ""};
+  }
+  runs.back().scores.clear();
+  runs.back().status = RunStatus::kCrashed;
+  EXPECT_THAT(AnswerInWords(Of(runs)),
+              ElementsAre("On s, robust is off by 2.0 cm and plain by 19 cm in 8 of 9 runs."));
 }
 
 TEST(AnswerTest, TakesMediansOverSeedsAndTellsWhoIsLost) {
   EXPECT_THAT(AnswerInWords(Of({RunOf("s", "robust", 0.1, 1), RunOf("s", "robust", 0.2, 2),
-                                RunOf("s", "robust", 0.9, 3), RunOf("s", "mine", 0.1, 1),
+                                RunOf("s", "robust", 0.9, 3), RunOf("s", "mine", {}, 1),
                                 RunOf("s", "mine", {}, 2)})),
               ElementsAre("On s, robust is off by 20 cm and mine has no error to tell."));
 }
@@ -71,9 +85,13 @@ TEST(AnswerTest, AnErrorOfHalfADriveSaysSoAndWinsNothingBack) {
   half.scores["coverage"] = {.value = 0.49, .unit = "1", .alignment = "", .n = 1, .absent = ""};
   RunRecord lost = half;
   lost.status = RunStatus::kLost;
+  RunRecord whole = RunOf("s", "robust", 0.007);
+  whole.scores["coverage"] = {.value = 1, .unit = "1", .alignment = "", .n = 1, .absent = ""};
+  whole.status = RunStatus::kLost;  // asked for more than there can be
+  EXPECT_THAT(AnswerInWords(Of({whole})), ElementsAre("On s, robust is off by 7.0 mm."));
   for (const RunRecord& part : {half, lost}) {
     EXPECT_THAT(AnswerInWords(Of({RunOf("s", "plain", 0.5), part, RunOf("s", "oracle", 0.02)})),
-                ElementsAre("On s, plain is off by 50 cm, robust by 0.7 cm over the 49 % of the "
+                ElementsAre("On s, plain is off by 50 cm, robust by 7.0 mm over the 49 % of the "
                             "frames it has a pose for and oracle by 2.0 cm."));
   }
 }

@@ -69,8 +69,8 @@ TEST(DriveOverview, BoldIsTheLeastOfThoseThatDidNothingWrong) {
   const Results results =
       Of({Crashed(Drive("orbslam2", 0.0001), 0, 1), Drive("plain", 0.0011), Drive("robust", 0.02)});
   const std::string text = DriveOverview(GroupByScene(results), SceneLinks{});
-  EXPECT_THAT(text, HasSubstr("<td class=\"best\">1.1 mm"));
-  EXPECT_THAT(text, HasSubstr("<td class=\"\">20.0 mm"));
+  EXPECT_THAT(text, HasSubstr("<td class=\"best\" data-value=\"0.0011\">1.1 mm"));
+  EXPECT_THAT(text, HasSubstr("<td class=\"\" data-value=\"0.02\">20.0 mm"));
   EXPECT_THAT(text, HasSubstr("0.1 mm<br><span class=\"fail\">misses its goal"));
 }
 
@@ -91,12 +91,12 @@ TEST(DriveOverview, WhoeverDidNotDriveInEverySeedIsNeverTheBest) {
   }
   const Results results = Of(runs);
   const std::string text = DriveOverview(GroupByScene(results), SceneLinks{});
-  EXPECT_THAT(text, HasSubstr("<td class=\"best\">2.0 mm"));
-  EXPECT_THAT(text,
-              HasSubstr("<td class=\"\">1.0 mm<br><span class=\"fail\">never drives in 3 of 9"));
+  EXPECT_THAT(text, HasSubstr("<td class=\"best\" data-value=\"0.002\">2.0 mm"));
+  EXPECT_THAT(text, HasSubstr("<td class=\"\" data-value=\"0.001\">1.0 mm<br><span "
+                              "class=\"fail\">never drives in 3 of 9"));
   EXPECT_THAT(text, HasSubstr("<td class=\"\"><span class=\"fail\">never drives</span>"));
   const std::string sentence = DriveSentence(GroupByScene(results)[0]);
-  EXPECT_THAT(sentence, HasSubstr("robust ends 0.1 cm from its goal (never drives in 3 of 9)"));
+  EXPECT_THAT(sentence, HasSubstr("robust ends 1.0 mm from its goal (never drives in 3 of 9)"));
   EXPECT_THAT(sentence, HasSubstr("orbslam2 never drives"));
 }
 

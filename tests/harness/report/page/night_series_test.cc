@@ -122,6 +122,42 @@ TEST(Followed, UnitsAreWhatTheFactorMakesOfTheScores) {
   EXPECT_EQ(Followed("nobody's score").factor, 1);
 }
 
+/// A night in which every run crashed has no error, least of all 0: a cross above a gap of the
+/// line.
+TEST(TrendChart, ANightWithoutANumberIsAGapAndACrossAtTheTop) {
+  std::vector<TrendPoint> points;
+  for (int day = 1; day <= 7; ++day) {
+    const bool crashed = day == 4;
+    const std::optional<double> ate_m = crashed ? std::nullopt : std::optional(0.02);
+    points.push_back({.started = fmt::format("2026-01-{:02}T02:00:00Z", day),
+                      .commit = "c",
+                      .scene = "s",
+                      .twin = "live",
+                      .system = "robust",
+                      .score = "ate_rmse_m",
+                      .median = ate_m,
+                      .low = ate_m,
+                      .high = ate_m,
+                      .runs = 9,
+                      .failed = crashed ? 9u : 0u});
+  }
+  const NightBook book = ReadNights(points);
+  const SvgReader reader(
+      TrendChart({&book.series[0]}, book.nights, [](const Night&) { return ""; }));
+  const auto lines = reader.Paths("line c");
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(reader.Paths("band d").size(), 2u);
+  EXPECT_LT(lines[0].points.back().first, lines[1].points.front().first - 100);
+  const pugi::xml_node panel = reader.All("rect", "panel").at(0);
+  std::size_t crosses = 0;
+  for (const pugi::xml_node& mark : reader.All("svg", "at")) {
+    if (std::string(mark.child("path").attribute("class").value()) != "cross") continue;
+    ++crosses;
+    EXPECT_NEAR(mark.attribute("y").as_double(), panel.attribute("y").as_double(), 0.1);
+  }
+  EXPECT_EQ(crosses, 1u);
+}
+
 TEST(TrendChart, PlacesNightsByTheirDaysAndKeepsThemInTheChart) {
   for (unsigned seed = 1; seed <= 30; ++seed) {
     const History history = Random(seed);

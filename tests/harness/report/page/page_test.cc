@@ -56,8 +56,8 @@ TEST(Page, AsksForItsResourcesWhereItsRootIsAndForNothingElse) {
 }
 
 /// What is said is the length rounded to the last figure that is said, in a unit in which that
-/// figure is a twentieth of a metre, a half of a millimetre or less; longer is never said as
-/// shorter.
+/// figure is a hundredth of a metre, a tenth of a millimetre below a centimetre; longer is never
+/// said as shorter.
 TEST(LengthInWords, IsTheRoundedLengthAndKeepsItsOrder) {
   const std::map<std::string, double> metres = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}};
   double before = 0;
@@ -71,10 +71,38 @@ TEST(LengthInWords, IsTheRoundedLengthAndKeepsItsOrder) {
     const double figures = point == std::string::npos ? 0 : static_cast<double>(space - point - 1);
     const double last = unit * std::pow(10, -figures);
     EXPECT_LE(std::abs(said - length), 0.501 * last) << words;
-    EXPECT_LE(last, length < 1e-3 ? 1e-4 : length < 0.1 ? 1e-3 : 0.01) << words;
+    EXPECT_LE(last, length < 0.01 ? 1e-4 : length < 0.1 ? 1e-3 : 0.01) << words;
     EXPECT_GE(said, before * (1 - 1e-12)) << words;
     before = said;
   }
+}
+
+TEST(LengthInWords, BelowACentimetreIsInMillimetres) {
+  EXPECT_EQ(LengthInWords(0.0014), "1.4 mm");
+  EXPECT_EQ(LengthInWords(0.0097), "9.7 mm");
+  EXPECT_EQ(LengthInWords(0.0214), "2.1 cm");
+}
+
+TEST(FailedAndLost, CountsWhatDidNotEndAndWhatEndedWithTooFewPoses) {
+  const auto with = [](const std::vector<RunStatus>& statuses) {
+    std::vector<RunRecord> runs;
+    for (const RunStatus status : statuses) runs.emplace_back().status = status;
+    return runs;
+  };
+  using enum RunStatus;
+  EXPECT_EQ(FailedAndLost(with({kOk, kOk})), "");
+  EXPECT_EQ(FailedAndLost(with({kOk, kLost})), "1 of 2 runs lost");
+  EXPECT_EQ(FailedAndLost(with({kOk, kCrashed, kTimeout})), "2 of 3 runs failed");
+  EXPECT_EQ(FailedAndLost(with({kInvalid, kLost, kLost, kOk})), "1 of 4 runs failed, 2 lost");
+}
+
+TEST(CompleteOf, AreThoseThatCameToAnEndAndAllWhereNoneDid) {
+  RunRecord good, lost, crashed;
+  lost.status = RunStatus::kLost;
+  crashed.status = RunStatus::kCrashed;
+  using Runs = std::vector<const RunRecord*>;
+  EXPECT_EQ(CompleteOf({&crashed, &good, &lost}), (Runs{&good, &lost}));
+  EXPECT_EQ(CompleteOf({&crashed}), Runs{&crashed});
 }
 
 TEST(Listed, EveryPartIsThereOnceWithOneAnd) {

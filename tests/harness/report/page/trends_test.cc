@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <regex>
+#include <set>
+
 #include "harness/report/page/night_series.h"
 
 namespace aisle {
@@ -90,6 +94,48 @@ TEST(TrendsTest, NightsThatFailedStayAsMarks) {
   EXPECT_THAT(section, HasSubstr("class=\"cross\""));
   EXPECT_THAT(section, HasSubstr("9 of 9 runs failed"));
   EXPECT_THAT(section, HasSubstr("9 of 9 runs fail since 2026-01-05 (last night"));
+}
+
+std::vector<std::string> AllOf(const std::string& page, const std::string& pattern) {
+  const std::regex wanted(pattern);
+  std::vector<std::string> found;
+  for (std::sregex_iterator at(page.begin(), page.end(), wanted), end; at != end; ++at) {
+    found.push_back((*at)[1]);
+  }
+  return found;
+}
+
+/// Whatever changed, and however long the scenes' names are: no link leads nowhere, no id is there
+/// twice.
+TEST(TrendsTest, EveryLinkHasItsChart) {
+  Month month;
+  for (const char* end : {"1", "2"}) {
+    for (const char* score : {"ate_rmse_m", "coverage", "rpe_1s_trans_rmse_m", "mask_iou"}) {
+      for (int day = 1; day <= 10; ++day) {
+        month.Add(day, "robust", day < 7 ? 0.020 : 0.041);
+        month.points.back().scene = std::string(90, 'n') + end;
+        month.points.back().score = score;
+      }
+    }
+  }
+  for (int day = 1; day <= 10; ++day) {  // never has a number: there is nothing to draw
+    month.Add(day, "mine", std::nullopt, day < 7 ? 0 : 9);
+    month.points.back().scene = "crashes";
+  }
+  std::ranges::stable_sort(month.points, {}, &TrendPoint::started);
+  const std::string section = TrendSection(month.points, {});
+  const std::vector<std::string> ids = AllOf(section, " id=\"([^\"]*)\"");
+  const std::set<std::string> known(ids.begin(), ids.end());
+  EXPECT_EQ(known.size(), ids.size());
+  const std::vector<std::string> links = AllOf(section, " href=\"#([^\"]*)\"");
+  EXPECT_EQ(links.size(), 8u) << "four scores of two scenes";
+  EXPECT_EQ(std::set<std::string>(links.begin(), links.end()).size(), 8u);
+  for (const std::string& link : links) EXPECT_TRUE(known.contains(link)) << link;
+  for (const auto& [what, note] : SinceWhen(month.points)) {
+    for (const std::string& link : AllOf(note, "trends.html#([^\"]*)\"")) {
+      EXPECT_TRUE(known.contains(link)) << link;
+    }
+  }
 }
 
 TEST(TrendsTest, WhatIsAsItWasIsNoNews) {
