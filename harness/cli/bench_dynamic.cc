@@ -8,6 +8,7 @@
 #include "harness/cli/system_choice.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
+#include "harness/io/input_error.h"
 #include "harness/score/front_end.h"
 #include "harness/score/mask_scores.h"
 #include "harness/score/scorecard.h"
@@ -94,7 +95,12 @@ std::vector<BenchView> ViewsOf(const Options& options) {
 
 DynamicOfView Measure(const BenchView& view, const DynamicBenchOptions& bench) {
   ProgressLine line;
-  return MeasureDynamic(view, bench, [&](const std::string& at) { line.Show(at); });
+  DynamicOfView measured =
+      MeasureDynamic(view, bench, [&](const std::string& at) { line.Show(at); });
+  if (measured.frames == 0) {
+    throw InputError(Printable(view.text) + ": no frame lies in this view");
+  }
+  return measured;
 }
 
 void PrintSum(const std::vector<DynamicOfView>& rows) {

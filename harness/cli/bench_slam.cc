@@ -8,6 +8,7 @@
 #include "harness/cli/system_choice.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
+#include "harness/io/input_error.h"
 #include "harness/score/front_end.h"
 
 namespace aisle {
@@ -36,12 +37,36 @@ void PrintLap(const BenchLap& lap) {
 
 std::map<std::string, StageTime> Measure(const Options& options) {
   ProgressLine line;
-  return MeasureStages(
+  std::map<std::string, StageTime> stages = MeasureStages(
       ParseView(options.source), options.bench, [&](const std::string& at) { line.Show(at); },
       [&](const BenchLap& lap) {
         line.Clear();
         if (options.bench.laps > 1) PrintLap(lap);
       });
+  if (stages["frame"].ms.empty()) {
+    throw InputError(Printable(options.source) + ": no frame lies in this view");
+  }
+  return stages;
+}
+
+/// Means over the frames that had the stage, and how many these are.
+nlohmann::json ToJson(std::map<std::string, StageTime> stages, double front_end_ms) {
+  nlohmann::json json = {{"dynamic_ms_p99", stages["dynamic"].quantile_ms(0.99)},
+                         {"front_end_ms", front_end_ms},
+                         {"frame_ms_p99", stages["frame"].quantile_ms(0.99)},
+                         {"frames", stages["frame"].ms.size()}};
+  for (const auto& [key, stage] :
+       {std::pair("extract", "extract"), std::pair("stereo", "stereo"), std::pair("track", "track"),
+        std::pair("map", "mapping"), std::pair("dynamic", "dynamic")}) {
+    json[std::string(key) + "_ms"] = stages[stage].mean_ms();
+    json["frames_with"][key] = stages[stage].ms.size();
+  }
+  const double reference_ms = stages["reference"].mean_ms();
+  if (reference_ms > 0) {  // measured over a single lap alone
+    json["reference_orb_ms"] = reference_ms;
+    json["ratio"] = front_end_ms / reference_ms;
+  }
+  return json;
 }
 
 int BenchSlam(const Options& options) {
@@ -66,18 +91,7 @@ int BenchSlam(const Options& options) {
                fmt::join(LatencyProfile(stages["frame"]), ","));
   }
   if (!options.json.empty()) {
-    const nlohmann::json result = {{"extract_ms", stages["extract"].mean_ms()},
-                                   {"stereo_ms", stages["stereo"].mean_ms()},
-                                   {"track_ms", stages["track"].mean_ms()},
-                                   {"map_ms", stages["mapping"].mean_ms()},
-                                   {"dynamic_ms", stages["dynamic"].mean_ms()},
-                                   {"dynamic_ms_p99", stages["dynamic"].quantile_ms(0.99)},
-                                   {"front_end_ms", front_end_ms},
-                                   {"reference_orb_ms", reference_ms},
-                                   {"ratio", front_end_ms / std::max(reference_ms, 1e-9)},
-                                   {"frame_ms_p99", stages["frame"].quantile_ms(0.99)},
-                                   {"frames", stages["frame"].ms.size()}};
-    WriteFileAtomically(options.json, result.dump(2) + "\n");
+    WriteFileAtomically(options.json, ToJson(stages, front_end_ms).dump(2) + "\n");
   }
   return kAllPassed;
 }
@@ -99,7 +113,9 @@ void AddBenchSlam(CLI::App* bench, Action* action) {
           "drive the frames so often, one after the other, and say what each lap leaves in "
           "memory; for a source that ends where it begins")
       ->check(CLI::Range(1, 100000));
-  slam->add_option("--json", options->json, "write the means there too");
+  slam->add_option(
+      "--json", options->json,
+      "write the means there too: of the frames that had the stage, frames_with counts them");
   slam->add_flag("--latency-profile", options->latency_profile,
                  "print what a frame takes as an option of closed drives, for a suite's system");
   slam->footer(

@@ -201,19 +201,15 @@ void PrintTable(const std::vector<std::string>& files, const std::vector<Traject
   }
 }
 
-int ScoreMasksOnly(const Options& options) {
-  TrajectoryScore score;
-  score.scores = ScoreMaskFolders(options.masks_truth, options.masks, options.outline);
-  if (options.json) {
-    RunRecord record;
-    record.scores = score.scores;
-    fmt::print("{}", Dump({{"objects", Describe(MaskOptions{})},
-                           {"scores", RecordToJson(record)["scores"]}}));
-  } else {
-    fmt::print("objects      {}\n\n", Describe(MaskOptions{}));
-    for (const auto& [name, value] : score.scores) fmt::print("{:28} {}\n", name, ToText(value));
-  }
-  return kAllPassed;
+nlohmann::ordered_json MasksToJson(const Scorecard& scores) {
+  RunRecord record;
+  record.scores = scores;
+  return {{"objects", Describe(MaskOptions{})}, {"scores", RecordToJson(record)["scores"]}};
+}
+
+void PrintMasks(const Scorecard& scores) {
+  fmt::print("objects      {}\n\n", Describe(MaskOptions{}));
+  for (const auto& [name, value] : scores) fmt::print("{:28} {}\n", name, ToText(value));
 }
 
 int ListScores(bool json) {
@@ -242,9 +238,12 @@ CLI::Validator NumberWithin(double low, double high) {
 int ScoreFiles(const Options& options) {
   if (options.list) return ListScores(options.json);
   const bool trajectories = !options.truth.empty() || !options.estimates.empty();
+  std::optional<Scorecard> masks;
   if (!options.masks_truth.empty()) {
-    const int code = ScoreMasksOnly(options);
-    if (!trajectories) return code;
+    masks = ScoreMaskFolders(options.masks_truth, options.masks, options.outline);
+    if (!options.json) PrintMasks(*masks);
+    if (options.json && !trajectories) fmt::print("{}", Dump(MasksToJson(*masks)));
+    if (!trajectories) return kAllPassed;
   }
   if (options.truth.empty() || options.estimates.empty()) {
     throw InputError("give --truth and --estimate, or --masks-truth and --masks");
@@ -262,8 +261,10 @@ int ScoreFiles(const Options& options) {
     list.back()["estimate"] = file;
   }
   if (options.json) {
-    fmt::print("{}",
-               Dump(list.size() == 1 ? list.front() : nlohmann::ordered_json{{"estimates", list}}));
+    nlohmann::ordered_json all =
+        list.size() == 1 ? list.front() : nlohmann::ordered_json{{"estimates", list}};
+    if (masks) all["masks"] = MasksToJson(*masks);
+    fmt::print("{}", Dump(all));
   } else if (scores.size() == 1) {
     PrintText(scores.front(), score_options, truth.size(), poses, options.all);
   } else {

@@ -49,6 +49,10 @@ Scorecard ScoreMaskFolders(const std::string& truth_folder, const std::string& m
       throw InputError(path.string(), 0, "belongs to no image of " + truth_folder);
     }
   }
+  if (masks.size() < truths.size()) {
+    fmt::print(stderr, "aisle: {} of {} true masks have no mask in {}: counted as empty\n",
+               truths.size() - masks.size(), truths.size(), Printable(mask_folder, 4096));
+  }
   RunResult run;
   double sum_f = 0;
   for (const auto& [name, path] : truths) {

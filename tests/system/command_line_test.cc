@@ -97,6 +97,23 @@ TEST_F(CommandLineTest, OutlinesMeetWithinAShareOfTheDiagonal) {
   }
 }
 
+TEST_F(CommandLineTest, TrajectoriesAndMasksTogetherAreOneDocument) {
+  std::string poses;
+  for (int i = 0; i < 20; ++i) poses += fmt::format("{} {} {} 0 0 0 0 1\n", i, 0.1 * i, 0.01 * i);
+  WriteFileAtomically(folder_ / "truth.txt", poses);
+  for (const char* side : {"truth", "masks"}) {
+    WriteImage(folder_ / side / "1.png", Square(10, 40));
+  }
+  const std::string file = (folder_ / "truth.txt").string();
+  const std::vector<std::string> masks = {"--masks-truth", (folder_ / "truth").string(), "--masks",
+                                          (folder_ / "masks").string()};
+  std::vector<std::string> both = {"score", "--truth", file, "--estimate", file};
+  both.insert(both.end(), masks.begin(), masks.end());
+  const nlohmann::json json = Answer(both, 0);
+  EXPECT_TRUE(json.at("scores").contains("ate_rmse_m"));
+  EXPECT_EQ(json.at("masks").at("scores").at("mask_iou").at("value").get<double>(), 1);
+}
+
 TEST_F(CommandLineTest, AYawIsAlignedAwayAndATiltIsNot) {
   std::string truth, yawed, tilted;
   for (int i = 0; i < 20; ++i) {
@@ -159,6 +176,28 @@ TEST_F(CommandLineTest, WhatRenderingCostsIsWrittenForPrograms) {
     EXPECT_GE(cost.at("stage_ms").at(stage).get<double>(), 0) << stage;
   }
   EXPECT_THAT(Run({"bench", "light", "--help"}).text, HasSubstr("--seed"));
+}
+
+/// What was not measured is not told: neither frames beyond the drive nor a ratio to no reference.
+TEST_F(CommandLineTest, BenchesTellOnlyWhatTheyMeasured) {
+  for (const char* bench : {"slam", "dynamic"}) {
+    const Said said = Run({"bench", bench, scene_ + ":900-950"});
+    EXPECT_EQ(said.code, 4) << bench << said.text;
+    EXPECT_THAT(said.text, HasSubstr("no frame lies in this view"));
+  }
+  const std::string json = (folder_ / "slam.json").string();
+  for (const char* laps : {"1", "2"}) {
+    const Said said = Run({"bench", "slam", scene_, "--laps", laps, "--json", json});
+    ASSERT_EQ(said.code, 0) << said.text;
+    const nlohmann::json told = nlohmann::json::parse(ReadFile(json));
+    EXPECT_EQ(told.contains("ratio"), std::string(laps) == "1");
+    EXPECT_EQ(told.contains("reference_orb_ms"), told.contains("ratio"));
+    const auto frames = told.at("frames").get<std::size_t>();
+    EXPECT_EQ(told.at("frames_with").at("extract").get<std::size_t>(), frames);
+    EXPECT_LT(told.at("frames_with").at("map").get<std::size_t>(), frames);
+    EXPECT_EQ(told.at("frames_with").at("dynamic").get<std::size_t>(), 0u)
+        << "plain rejects nothing";
+  }
 }
 
 TEST_F(CommandLineTest, TheShellCompletesCommandsOptionsAndValues) {

@@ -60,7 +60,11 @@ TEST_F(Folders, PixelScoresAreThoseOfACountByHand) {
       }
     }
   }
+  testing::internal::CaptureStderr();
   const Scorecard scores = Score();
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("1 of 12 true masks have no mask"),
+            std::string::npos)
+      << "what is missing is counted, and said";
   EXPECT_NEAR(*scores.at("mask_precision").value, hit / (hit + wrong), 1e-12);
   EXPECT_NEAR(*scores.at("mask_recall").value, hit / (hit + missed), 1e-12);
   EXPECT_NEAR(*scores.at("mask_iou").value, hit / (hit + wrong + missed), 1e-12);
