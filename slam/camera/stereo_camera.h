@@ -25,6 +25,16 @@ std::string Validate(const StereoCamera& camera);
 /// columns together, so u and disparity are (nearly) independent while u_left and u_right are not.
 Eigen::Vector3d Project(const StereoCamera& camera, const Eigen::Vector3d& point);
 
+/// Metres before the rig. A nearer point is not looked for and says nothing of a motion: its
+/// disparity is wider than the images of a usual rig, and a step of a millimetre moves it by
+/// pixels.
+inline constexpr double kNearestVisible_m = 0.05;
+
+/// Metres before the rig. A nearer point is not believed where it has been computed, placed by two
+/// views or carried from one to another: of what is so near a usual rig's two images share a part
+/// alone, so that none has been measured well from there.
+inline constexpr double kNearestTrusted_m = 0.1;
+
 /// The inverse of Project; needs a positive disparity.
 Eigen::Vector3d Backproject(const StereoCamera& camera, const Eigen::Vector3d& uvd);
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <opencv2/features2d.hpp>
 #include <stdexcept>
 
@@ -35,7 +36,7 @@ float OrientationDeg(const cv::Mat1b& level, cv::Point pixel) {
     }
     moment_y += y * sum;
   }
-  const double angle = std::atan2(moment_y, moment_x) * 180.0 / M_PI;
+  const double angle = std::atan2(moment_y, moment_x) * 180.0 / std::numbers::pi;
   return static_cast<float>(angle < 0 ? angle + 360.0 : angle);
 }
 

@@ -22,6 +22,13 @@ struct Measurement {
   bool has_depth() const { return sigma_d > 0; }
 };
 
+/// The 95 % bound of chi-square for what a measurement without or with depth says, two or three
+/// numbers: one that is further off, in squared deviations, is an outlier.
+inline double Chi2Bound(const Measurement& measurement) {
+  constexpr double kPixel = 5.991, kStereo = 7.815;
+  return measurement.has_depth() ? kStereo : kPixel;
+}
+
 /// One instant as the front end leaves it. Immutable once made, and shared: a keyframe keeps it.
 struct Frame {
   std::int64_t id = 0;

@@ -77,14 +77,14 @@ Intersection Intersect(const TwoViews& views, std::size_t i, std::size_t j) {
 
 bool Agrees(const StereoCamera& camera, const Eigen::Vector3d& in_rig,
             const Measurement& measurement) {
-  constexpr double kChi2Pixel = 5.991, kChi2Stereo = 7.815;
-  if (in_rig.z() < 0.1) return false;
+  if (in_rig.z() < kNearestTrusted_m) return false;
   const Eigen::Vector3d error = measurement.uvd - Project(camera, in_rig);
   double chi2 = error.head<2>().squaredNorm() / (measurement.sigma_px * measurement.sigma_px);
-  if (!measurement.has_depth()) return chi2 <= kChi2Pixel;
-  const double error_d = error.z() - measurement.u_in_d * error.x();
-  chi2 += error_d * error_d / (measurement.sigma_d * measurement.sigma_d);
-  return chi2 <= kChi2Stereo;
+  if (measurement.has_depth()) {
+    const double error_d = error.z() - measurement.u_in_d * error.x();
+    chi2 += error_d * error_d / (measurement.sigma_d * measurement.sigma_d);
+  }
+  return chi2 <= Chi2Bound(measurement);
 }
 
 bool SizesFit(const TwoViews& views, std::size_t i, std::size_t j, double distance_here,

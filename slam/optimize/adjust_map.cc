@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/camera/se3.h"
 #include "slam/map/landmarks_of.h"
 #include "slam/optimize/pose_graph.h"
 

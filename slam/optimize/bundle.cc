@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "slam/optimize/refine_pose.h"
 #include "slam/optimize/residuals.h"
 #include "slam/optimize/solve_sparse.h"
 #include "slam/optimize/solve_window.h"
@@ -23,7 +22,7 @@ double Chi2(const BundleProblem& problem, const BundleProblem::Observation& obse
   const Eigen::Vector3d point =
       problem.poses[static_cast<std::size_t>(observation.pose)].T_rig_world *
       problem.points[static_cast<std::size_t>(observation.point)];
-  if (point.z() < kNearestDepth_m) return std::numeric_limits<double>::infinity();
+  if (point.z() < kNearestProjectable_m) return std::numeric_limits<double>::infinity();
   return (observation.sqrt_information * (observation.uvd - Project(problem.camera, point)))
       .squaredNorm();
 }

@@ -1,7 +1,6 @@
 #include "slam/optimize/normal_equations.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "slam/optimize/huber.h"
 #include "slam/optimize/residuals.h"
@@ -18,7 +17,7 @@ Sight SightOf(const BundleProblem& problem, const BundleProblem::Observation& ob
   Sight sight;
   sight.in_rig = problem.poses[static_cast<std::size_t>(observation.pose)].T_rig_world *
                  problem.points[static_cast<std::size_t>(observation.point)];
-  if (sight.in_rig.z() >= kNearestDepth_m) {
+  if (sight.in_rig.z() >= kNearestProjectable_m) {
     sight.error =
         observation.sqrt_information * (observation.uvd - Project(problem.camera, sight.in_rig));
   }
@@ -65,7 +64,7 @@ std::optional<double> CostOf(const BundleProblem& problem, const BundleOrder& or
   for (const std::size_t i : order.observations) {
     const BundleProblem::Observation& observation = problem.observations[i];
     const Sight sight = SightOf(problem, observation);
-    if (!(sight.in_rig.z() >= kNearestDepth_m)) return std::nullopt;
+    if (!(sight.in_rig.z() >= kNearestProjectable_m)) return std::nullopt;
     cost += CostOf(observation, sight.error.squaredNorm(), robust).cost;
   }
   return cost / 2;

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <vector>
 
-#include "slam/camera/se3.h"
 #include "slam/optimize/bundle.h"
 
 namespace aisle::slam {

@@ -10,8 +10,6 @@
 namespace aisle::slam {
 namespace {
 
-constexpr double kNearestDepth = 0.05;  // metres; nearer points are not linearised
-
 /// Error over deviation: rows u, v, and disparity (zero where not measured).
 Eigen::Vector3d Whitened(const Measurement& measurement, const Eigen::Vector3d& predicted) {
   const Eigen::Vector3d error = measurement.uvd - predicted;
@@ -52,7 +50,7 @@ class PoseProblem {
     for (std::size_t i = 0; i < observations_.size(); ++i) {
       const Measurement& measurement = observations_[i].measurement;
       const Eigen::Vector3d point = pose * observations_[i].point;
-      if (!active[i] || point.z() < kNearestDepth) continue;
+      if (!active[i] || point.z() < kNearestVisible_m) continue;
       const Eigen::Vector3d error = Whitened(measurement, Project(camera_, point));
       Eigen::Matrix3d by_point = -ProjectionJacobian(camera_, point);
       by_point.row(2) -= measurement.u_in_d * by_point.row(0);
@@ -115,7 +113,7 @@ Eigen::Isometry3d Minimize(const PoseProblem& problem, Eigen::Isometry3d pose,
 double Chi2(const StereoCamera& camera, const Eigen::Isometry3d& T_rig_world,
             const PointObservation& observation) {
   const Eigen::Vector3d point = T_rig_world * observation.point;
-  if (point.z() < kNearestDepth) return std::numeric_limits<double>::infinity();
+  if (point.z() < kNearestVisible_m) return std::numeric_limits<double>::infinity();
   return Whitened(observation.measurement, Project(camera, point)).squaredNorm();
 }
 

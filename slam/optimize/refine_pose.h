@@ -10,15 +10,6 @@
 
 namespace aisle::slam {
 
-/// 95 % bounds of chi-square with two and three degrees of freedom: a measurement without and with
-/// depth beyond its bound is an outlier.
-inline constexpr double kChi2Pixel = 5.991;
-inline constexpr double kChi2Stereo = 7.815;
-
-inline double Chi2Bound(const Measurement& measurement) {
-  return measurement.has_depth() ? kChi2Stereo : kChi2Pixel;
-}
-
 /// A known point and where it is seen.
 struct PointObservation {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< metres, world

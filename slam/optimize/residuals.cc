@@ -55,7 +55,7 @@ bool ReprojectionResidual::Evaluate(double const* const* parameters, double* res
   const Eigen::Map<const Eigen::Vector3d> point(parameters[1]);
   const Eigen::Matrix3d R = rotation.toRotationMatrix();
   const Eigen::Vector3d in_rig = R * point + translation;
-  if (in_rig.z() < kNearestDepth_m) return false;
+  if (in_rig.z() < kNearestProjectable_m) return false;
   Eigen::Map<Eigen::Vector3d>{residuals} = sqrt_information_ * (uvd_ - Project(camera_, in_rig));
   if (!jacobians) return true;
 

@@ -31,8 +31,9 @@ class PoseManifold final : public ceres::Manifold {
   bool MinusJacobian(const double* x, double* jacobian) const override;
 };
 
-/// Metres before the camera; a nearer point has no projection to speak of.
-inline constexpr double kNearestDepth_m = 1e-3;
+/// Metres before the camera; a nearer point has no projection to speak of. Far below
+/// kNearestVisible_m: an adjustment may bring a point near on its way without ending there.
+inline constexpr double kNearestProjectable_m = 1e-3;
 
 /// Whitened error of a point seen by a pose: sqrt_information (measured - projected) over
 /// (u, v, disparity). Parameters: PoseBlock, point (world).
@@ -42,8 +43,8 @@ class ReprojectionResidual final : public ceres::SizedCostFunction<3, 7, 3> {
                        const Eigen::Matrix3d& sqrt_information)
       : camera_(camera), uvd_(uvd), sqrt_information_(sqrt_information) {}
 
-  /// False for a point nearer than kNearestDepth_m or behind: at the start that ends the solver,
-  /// later it makes Ceres try a shorter step.
+  /// False for a point nearer than kNearestProjectable_m or behind: at the start that ends the
+  /// solver, later it makes Ceres try a shorter step.
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 

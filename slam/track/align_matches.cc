@@ -6,8 +6,6 @@
 namespace aisle::slam {
 namespace {
 
-constexpr double kNearestDepth_m = 0.1;
-
 /// A feature of a frame as something with a size: one of its pixels, in full-image pixels.
 struct Sight {
   const Frame& frame;
@@ -36,7 +34,7 @@ std::optional<Before> FindBefore(const PlainContext& context, const Landmark& la
     if (keyframe.frame->patches.empty()) continue;
     const Sight sight{*keyframe.frame, static_cast<std::size_t>(observation.feature)};
     const Eigen::Vector3d point = keyframe.T_world_rig.inverse(Eigen::Isometry) * landmark.position;
-    if (point.z() < kNearestDepth_m) continue;
+    if (point.z() < kNearestTrusted_m) continue;
     const double ratio = depth * now.pixel_px() / (point.z() * sight.pixel_px());
     if (ratio > most || ratio < 1 / most) continue;
     return Before{sight, T_rig_world * keyframe.T_world_rig, point};
@@ -90,8 +88,8 @@ std::vector<Measurement> AlignMatches(const PlainContext& context,
   for (const Match& match : matches) {
     const Sight now{context.frame, static_cast<std::size_t>(match.feature)};
     const Landmark& landmark = context.map.At(match.landmark);
-    const bool seen =
-        !context.frame.patches.empty() && (T_rig_world * landmark.position).z() >= kNearestDepth_m;
+    const bool seen = !context.frame.patches.empty() &&
+                      (T_rig_world * landmark.position).z() >= kNearestTrusted_m;
     measurements.push_back(seen ? Align(context, landmark, T_rig_world, now) : now.measurement());
   }
   return measurements;

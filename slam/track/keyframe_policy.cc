@@ -1,7 +1,7 @@
 #include "slam/track/keyframe_policy.h"
 
 #include <algorithm>
-#include <cmath>
+#include <numbers>
 
 namespace aisle::slam {
 namespace {
@@ -47,7 +47,8 @@ double MedianDepth(const Frame& frame, const StereoCamera& camera) {
 
 bool HasMoved(const Eigen::Isometry3d& T_reference_rig, double median_depth_m,
               const KeyframeOptions& options) {
-  const double turn_deg = Eigen::AngleAxisd(T_reference_rig.linear()).angle() * 180 / M_PI;
+  const double turn_deg =
+      Eigen::AngleAxisd(T_reference_rig.linear()).angle() * 180 / std::numbers::pi;
   return T_reference_rig.translation().norm() > options.least_motion * median_depth_m ||
          turn_deg > options.least_turn_deg;
 }

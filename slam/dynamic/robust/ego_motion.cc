@@ -57,7 +57,7 @@ std::vector<PlacedMatch> Placed(const std::vector<StereoMatch>& matches,
 std::optional<Vector3d> WeightedError(const StereoCamera& camera, const Isometry3d& T,
                                       const PlacedMatch& match, const Vector3d& inverse_deviation) {
   const Vector3d point = T * match.before;
-  if (point.z() < 0.05) return std::nullopt;
+  if (point.z() < kNearestVisible_m) return std::nullopt;
   return inverse_deviation.cwiseProduct(Project(camera, point) - match.now);
 }
 
@@ -178,7 +178,7 @@ NormalEquations Linearize(const std::vector<PlacedMatch>& matches, const StereoC
   NormalEquations equations;
   for (const PlacedMatch& match : matches) {
     const Vector3d point = T * match.before;
-    if (point.z() < 0.05) continue;
+    if (point.z() < kNearestVisible_m) continue;
     const Vector3d error = inverse_deviation.cwiseProduct(Project(camera, point) - match.now);
     const double chi2 = error.squaredNorm(), fall = gate / (gate + chi2);
     Eigen::Matrix<double, 3, 6> jacobian;
@@ -413,7 +413,7 @@ std::optional<MeasurementNoise> MeasureNoise(const std::vector<StereoMatch>& mat
   std::array<std::vector<WeightedValue>, 3> errors;
   for (const StereoMatch& match : WeighedBySpace(Trusted(matches), camera)) {
     const Vector3d point = T_now_before * Backproject(camera, match.before);
-    if (point.z() < 0.05) continue;
+    if (point.z() < kNearestVisible_m) continue;
     const Vector3d error = (match.now - Project(camera, point)).cwiseAbs();
     for (std::size_t k = 0; k < 3; ++k) {
       errors[k].emplace_back(error[static_cast<int>(k)], match.weight);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "slam/camera/se3.h"
 #include "slam/optimize/residuals.h"
 
 namespace aisle::slam {
