@@ -6,6 +6,7 @@
 
 #include "slam/base/tracking_policy.h"
 #include "slam/common/parallel.h"
+#include "slam/common/seconds.h"
 #include "slam/common/stopwatch.h"
 #include "slam/dynamic/dynamic_detector.h"
 #include "slam/front_end/see_frame.h"
@@ -255,7 +256,7 @@ bool StereoSlam::Impl::IsTimeForANewPart(std::int64_t stamp_ns) const {
   if (options.localise_only || !keeper.vocabulary() || !lost_since_ns) return false;
   if (!policy->BeginsParts()) return false;
   if (!keeper.at_rest()) return false;
-  return static_cast<double>(stamp_ns - *lost_since_ns) * 1e-9 >= options.new_part_after_s;
+  return SecondsBetween(*lost_since_ns, stamp_ns) >= options.new_part_after_s;
 }
 
 std::optional<FramePose> StereoSlam::Impl::StartPart(const std::shared_ptr<const Frame>& frame) {
@@ -275,7 +276,7 @@ bool StereoSlam::Impl::CanCoast(const Frame& frame) const {
   const TrackMemory& memory = track.memory();
   if (memory.measured) return true;
   if (options.base != Base::kPlain || !memory.carried) return false;
-  const double while_s = static_cast<double>(frame.stamp_ns - coasting_since_ns) * 1e-9;
+  const double while_s = SecondsBetween(coasting_since_ns, frame.stamp_ns);
   const bool early =
       state == TrackingState::kTracking || while_s <= options.track.inertia.longest_s;
   if (!IsFound() || !early) return false;
@@ -289,7 +290,7 @@ bool StereoSlam::Impl::CanCoast(const Frame& frame) const {
 bool StereoSlam::Impl::Coast(const std::shared_ptr<const Frame>& frame) {
   if (state != TrackingState::kCoasting) coasting_since_ns = track.memory().stamp_ns;
   state = TrackingState::kCoasting;
-  const double while_s = static_cast<double>(frame->stamp_ns - coasting_since_ns) * 1e-9;
+  const double while_s = SecondsBetween(coasting_since_ns, frame->stamp_ns);
   const bool is_time = !options.localise_only && keeper.at_rest() &&
                        while_s >= options.track.measured.extend_after_s;
   const auto edit = is_time ? policy->Extend(frame, Drive()) : std::nullopt;

@@ -1,14 +1,11 @@
 #include "slam/base/orbslam2_tracking.h"
 
+#include "slam/common/seconds.h"
 #include "slam/map/successor.h"
 #include "slam/track/orbslam2_keyframe.h"
 
 namespace aisle::slam {
 namespace {
-
-double SecondsBetween(std::int64_t from_ns, std::int64_t to_ns) {
-  return static_cast<double>(to_ns - from_ns) * 1e-9;
-}
 
 /// The features of a keyframe that name landmarks.
 std::vector<Match> MatchesOf(const Keyframe& keyframe) {
@@ -40,8 +37,7 @@ std::optional<FramePose> OrbSlam2Tracking::Find(const std::shared_ptr<const Fram
   }
   memory_.frames_since_found = static_cast<int>(drive.frame_number - found_.frame_number);
   memory_.seconds_since_found = SecondsBetween(found_.stamp_ns, frame->stamp_ns);
-  const Eigen::Isometry3d T_world_last = drive.map.PoseOf(last.reference) * last.T_reference_rig;
-  return OrbSlam2Track(context, T_world_last, drive.map.StandIn(last.reference), memory_);
+  return OrbSlam2Track(context, last.PoseIn(drive.map), drive.map.StandIn(last.reference), memory_);
 }
 
 KeyframeVerdict OrbSlam2Tracking::NeedsKeyframe(const Map& map, const Frame& frame,

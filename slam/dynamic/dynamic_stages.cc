@@ -1,5 +1,6 @@
 #include "slam/dynamic/dynamic_stages.h"
 
+#include "slam/common/seconds.h"
 #include "slam/dynamic/robust/dense_frame.h"
 
 namespace aisle::slam {
@@ -11,7 +12,7 @@ RobustTrace TraceOf(const dynamic::RobustState& before, const dynamic::RobustRes
   trace.probability = result.probability;
   if (trace.stages.gaps.empty()) return trace;
   const dynamic::GapTrace& shortest = trace.stages.gaps.front();
-  trace.gap_s = static_cast<double>(result.state.stamp_ns - before.stamp_ns) * 1e-9;
+  trace.gap_s = SecondsBetween(before.stamp_ns, result.state.stamp_ns);
   trace.flow_noise = before.noise.flow.front();
   const cv::Mat2f expected =
       dynamic::WhereStatic(result.state.frames.back().filled,

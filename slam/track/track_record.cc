@@ -1,5 +1,6 @@
 #include "slam/track/track_record.h"
 
+#include "slam/common/seconds.h"
 #include "slam/map/successor.h"
 
 namespace aisle::slam {
@@ -7,11 +8,11 @@ namespace aisle::slam {
 void TrackRecord::Note(const Map& map, const Frame& frame, const FramePose& pose, bool goes_on,
                        const TrackOptions& options) {
   const Eigen::Isometry3d T_world_rig = pose.pose.T_rig_world.inverse();
-  const double seconds = static_cast<double>(frame.stamp_ns - memory_.stamp_ns) * 1e-9;
+  const double seconds = SecondsBetween(memory_.stamp_ns, frame.stamp_ns);
   std::optional<Motion> motion;
   std::optional<Velocity> velocity;
   if (goes_on) {
-    const Eigen::Isometry3d T_world_last = map.PoseOf(memory_.reference) * memory_.T_reference_rig;
+    const Eigen::Isometry3d T_world_last = memory_.PoseIn(map);
     motion = EstimateMotion(T_world_last, T_world_rig, seconds);
     const Eigen::Isometry3d T_now_before = T_world_rig.inverse() * T_world_last;
     const Matrix6d carried = Adjoint(T_now_before);
@@ -42,7 +43,7 @@ void TrackRecord::Note(const Map& map, const Frame& frame, const FramePose& pose
 void TrackRecord::Roll(const std::optional<MeasuredMotion>& motion, std::int64_t stamp_ns,
                        const InertiaOptions& inertia, const std::optional<MeasuredMotion>& seen) {
   memory_.carried.reset();
-  const double seconds = static_cast<double>(stamp_ns - memory_.stamp_ns) * 1e-9;
+  const double seconds = SecondsBetween(memory_.stamp_ns, stamp_ns);
   if (!motion && seconds > 0 && seconds <= inertia.longest_s) {
     const std::optional<MeasuredMotion> step =
         memory_.velocity ? Carry(*memory_.velocity, seconds, inertia) : seen;
@@ -57,9 +58,9 @@ void TrackRecord::Roll(const std::optional<MeasuredMotion>& motion, std::int64_t
 
 void TrackRecord::Coast(const Map& map, std::int64_t stamp_ns, const InertiaOptions& inertia) {
   const MeasuredMotion way = memory_.Way();
-  const Eigen::Isometry3d T_world_last = map.PoseOf(memory_.reference) * memory_.T_reference_rig;
+  const Eigen::Isometry3d T_world_last = memory_.PoseIn(map);
   const Eigen::Isometry3d T_world_rig = Normalized(T_world_last * way.T_now_before.inverse());
-  const double seconds = static_cast<double>(stamp_ns - memory_.stamp_ns) * 1e-9;
+  const double seconds = SecondsBetween(memory_.stamp_ns, stamp_ns);
   memory_.motion = EstimateMotion(T_world_last, T_world_rig, seconds);
   memory_.stamp_ns = stamp_ns;
   memory_.T_reference_rig = map.PoseOf(memory_.reference).inverse() * T_world_rig;

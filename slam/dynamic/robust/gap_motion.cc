@@ -1,6 +1,7 @@
 #include "slam/dynamic/robust/gap_motion.h"
 
 #include "slam/common/parallel.h"
+#include "slam/common/seconds.h"
 #include "slam/dynamic/robust/residual_flow.h"
 
 namespace aisle::slam::dynamic {
@@ -73,7 +74,7 @@ std::optional<MotionPrior> PriorFor(const RobustState& before, std::int64_t stam
                                     const KnownMotion& known, const EgoMotionOptions& options) {
   if (known.measured)
     return MotionPrior{known.measured->T_now_before, known.measured->covariance, true};
-  const double step_s = Seconds(before.stamp_ns, stamp_ns);
+  const double step_s = SecondsBetween(before.stamp_ns, stamp_ns);
   const Matrix6d jolt = OfAJolt(step_s, options);
   if (known.expected)
     return MotionPrior{known.expected->T_now_before, known.expected->covariance, false, jolt};

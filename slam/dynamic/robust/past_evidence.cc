@@ -1,5 +1,6 @@
 #include "slam/dynamic/robust/past_evidence.h"
 
+#include "slam/common/seconds.h"
 #include "slam/dynamic/robust/motion_evidence.h"
 
 namespace aisle::slam::dynamic {
@@ -16,7 +17,7 @@ MotionEvidence CompareOver(const GapFlow& flow, const EgoMotion& motion, const R
                               flow.flow,
                               tolerance,
                               motion.T_now_before.inverse(),
-                              Seconds(then.stamp_ns, view.frame.stamp_ns),
+                              SecondsBetween(then.stamp_ns, view.frame.stamp_ns),
                               before.noise.flow[flow.slot],
                               memory.regions.labels,
                               memory.log_odds,

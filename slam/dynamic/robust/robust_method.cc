@@ -1,6 +1,7 @@
 #include "slam/dynamic/robust/robust_method.h"
 
 #include "slam/common/parallel.h"
+#include "slam/common/seconds.h"
 #include "slam/common/stopwatch.h"
 #include "slam/dynamic/common/in_parallel.h"
 #include "slam/dynamic/robust/gap_motion.h"
@@ -79,7 +80,7 @@ RobustState Remember(const RobustState& before, const Found& found, const Robust
   state.frames = FramesWith(before.frames, found.view.frame, motions);
   if (!motions.empty()) {
     state.motion = motions[0];
-    state.step_s = Seconds(before.stamp_ns, state.stamp_ns);
+    state.step_s = SecondsBetween(before.stamp_ns, state.stamp_ns);
   }
   state.noise = {found.motions.noise, found.past.flow_noise};
   state.memory = {found.log_odds, found.labels.regions};

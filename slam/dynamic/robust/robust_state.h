@@ -57,8 +57,4 @@ inline Eigen::Isometry3d MotionOver(int gap, const RobustState& before,
          FrameAgo(before, gap).T_world_rig;
 }
 
-inline double Seconds(std::int64_t from_ns, std::int64_t to_ns) {
-  return static_cast<double>(to_ns - from_ns) * 1e-9;
-}
-
 }  // namespace aisle::slam::dynamic
