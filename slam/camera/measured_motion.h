@@ -14,9 +14,6 @@ struct MeasuredMotion {
   Matrix6d covariance = Matrix6d::Identity();
 };
 
-/// No motion, known exactly: what to begin with, and no measurement.
-inline MeasuredMotion NoMotion() { return {Eigen::Isometry3d::Identity(), Matrix6d::Zero()}; }
-
 /// First one, then the other, their errors independent.
 MeasuredMotion Compose(const MeasuredMotion& first, const MeasuredMotion& then);
 

@@ -38,8 +38,8 @@ struct Part {
   void (*call)(const void* work, std::ptrdiff_t first, std::ptrdiff_t last);
 };
 
-/// Borrows what is called with the first of a part and its end, or without anything. It must have
-/// been done by the end of this.
+/// Lends `work`, callable as work(first, last) or work(), to other threads; it must have finished
+/// before this is destroyed.
 template <typename Work>
 class Lent {
  public:

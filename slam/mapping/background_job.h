@@ -21,8 +21,9 @@ class BackgroundJob {
   bool pending() const { return future_.valid(); }
   std::int64_t due_frame() const { return due_frame_; }
 
-  /// Starts `work`, in a thread of its own or, if not `threaded`, when the result is taken. Nobody
-  /// waits for work that it takes the place of: that runs on, and has ended when a result is taken.
+  /// Starts `work`, in a thread of its own or, if not `threaded`, when the result is taken. Work
+  /// that it takes the place of is not awaited here: in its thread it runs on, and is joined when a
+  /// result is taken; if not begun yet, it never is.
   void Start(std::int64_t due_frame, bool threaded, std::function<Result()> work) {
     due_frame_ = due_frame;
     if (pending()) abandoned_.push_back(std::move(future_));

@@ -5,10 +5,11 @@
 
 namespace aisle::slam {
 
-void LookForLoops(const Map& map, KeyframeId newest, const Vocabulary* vocabulary,
-                  const PlaceIndex& index, const StereoCamera& camera, int levels,
-                  const LoopOptions& loop, MappingResult& result) {
+void LookForLoops(const Map& map, KeyframeId newest, const MappingTools& tools,
+                  MappingResult& result) {
+  const auto& [vocabulary, index, camera, options, loop] = tools;
   if (!vocabulary) return;
+  const int levels = options.fuse.levels;
   result.words = vocabulary->Describe(map.At(newest).frame->features.descriptors);
   if (const auto own = FindLoop(map, newest, result.words, index, camera, levels, loop)) {
     result.loops = SeenBeside(map, *own, camera, levels, loop);
@@ -16,9 +17,9 @@ void LookForLoops(const Map& map, KeyframeId newest, const Vocabulary* vocabular
   }
 }
 
-MappingResult MapKeyframe(Map map, KeyframeId newest, const Vocabulary* vocabulary,
-                          const PlaceIndex& index, const StereoCamera& camera,
-                          const MappingOptions& options, const LoopOptions& loop) {
+MappingResult MapKeyframe(Map map, KeyframeId newest, const MappingTools& tools) {
+  const StereoCamera& camera = tools.camera;
+  const MappingOptions& options = tools.options;
   MappingResult result;
   {
     const Stopwatch time(result.milliseconds);
@@ -34,17 +35,15 @@ MappingResult MapKeyframe(Map map, KeyframeId newest, const Vocabulary* vocabula
     }
     map.Apply(FuseInto(map, newest, LandmarksOf(map, neighbours), camera, options.fuse));
 
-    const Adjustment adjustment = AdjustLocally(map, newest, camera, options.adjust);
-    map.Apply(adjustment.edit);
+    map.Apply(AdjustLocally(map, newest, camera, options.adjust).edit);
 
     const MapEdit culling = CullKeyframes(map, newest, options.cull);
     map.Apply(culling);
 
-    LookForLoops(map, newest, vocabulary, index, camera, options.fuse.levels, loop, result);
+    LookForLoops(map, newest, tools, result);
     result.map = std::move(map);
     result.keyframe = newest;
     result.culled = culling.removed_keyframes;
-    result.adjustment = adjustment.summary;
   }
   return result;
 }

@@ -3,11 +3,7 @@
 namespace aisle::slam {
 
 MappingPolicy PlainMapping(int mapping_frames) {
-  const MappingStep::Work work = [](Map map, KeyframeId newest, const MappingTools& tools) {
-    return MapKeyframe(std::move(map), newest, tools.vocabulary, tools.index, tools.camera,
-                       tools.options, tools.loop);
-  };
-  return {{mapping_frames, work, work, mapping_frames, nullptr}};
+  return {{mapping_frames, MapKeyframe, MapKeyframe, mapping_frames, nullptr}};
 }
 
 }  // namespace aisle::slam

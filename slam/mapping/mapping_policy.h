@@ -7,15 +7,6 @@
 
 namespace aisle::slam {
 
-/// What working a keyframe in looks at besides the map. Outlives the work.
-struct MappingTools {
-  const Vocabulary* vocabulary = nullptr;
-  const PlaceIndex& index;
-  const StereoCamera& camera;
-  const MappingOptions& options;
-  const LoopOptions& loop;
-};
-
 /// A part of the work on a keyframe whose result the tracker sees by itself.
 struct MappingStep {
   using Work = std::function<MappingResult(Map map, KeyframeId newest, const MappingTools& tools)>;

@@ -37,8 +37,8 @@ Map ExchangeLandmarks(Map map, KeyframeId newest, const MappingTools& tools,
 }
 
 /// Adjusts around the keyframe; landmarks that lose too many observations by it go.
-BundleSummary Adjust(Map& map, KeyframeId newest, const MappingTools& tools,
-                     const OrbSlam2MappingOptions& orbslam2, int final_iterations) {
+void Adjust(Map& map, KeyframeId newest, const MappingTools& tools,
+            const OrbSlam2MappingOptions& orbslam2, int final_iterations) {
   LocalAdjustmentOptions options = tools.options.adjust;
   options.final_iterations = final_iterations;
   const Adjustment adjustment = AdjustLocally(map, newest, tools.camera, options);
@@ -46,7 +46,6 @@ BundleSummary Adjust(Map& map, KeyframeId newest, const MappingTools& tools,
   std::vector<LandmarkId> cut;
   for (const MapEdit::Link& link : adjustment.edit.cuts) cut.push_back(link.landmark);
   map.Apply(OrbSlam2DropUnsupported(map, cut, orbslam2));
-  return adjustment.summary;
 }
 
 /// Drops keyframes that are not needed; landmarks that lose too many observations by it go too.
@@ -70,12 +69,11 @@ MappingResult AdjustAndDrop(Map map, KeyframeId newest, const MappingTools& tool
     const int final_iterations =
         extent == Extent::kWhole ? tools.options.adjust.final_iterations : 0;
     if (map.keyframes().size() >= kLeastKeyframes) {
-      result.adjustment = Adjust(map, newest, tools, orbslam2, final_iterations);
+      Adjust(map, newest, tools, orbslam2, final_iterations);
     }
     result.culled = DropKeyframes(map, newest, tools, orbslam2);
   }
-  LookForLoops(map, newest, tools.vocabulary, tools.index, tools.camera, tools.options.fuse.levels,
-               tools.loop, result);
+  LookForLoops(map, newest, tools, result);
   result.map = std::move(map);
   result.keyframe = newest;
   return result;

@@ -14,12 +14,10 @@ using CensusPlanes = std::array<cv::Mat1b, 3>;
 CensusPlanes CensusTransform(const cv::Mat1b& image);
 
 /// What it costs to say that a left pixel has a disparity: how many bits of the census differ, over
-/// 3x3 pixels, a quarter of it. 0 to kMostCensusCost.
-inline constexpr int kMostCensusCost = 24 * 9 / 4;
-
-/// Costs of the rows from `top` up to, not including, `bottom`: rows * columns * disparities
-/// numbers, disparities (0 to disparities - 1, a multiple of 32) innermost. Beyond the left edge
-/// of the right image its first column is repeated, beyond the edges of a window its border.
+/// 3x3 pixels, a quarter of it: 0 to 54. Costs of the rows from `top` up to, not including,
+/// `bottom`: rows * columns * disparities numbers, disparities (0 to disparities - 1, a multiple of
+/// 32) innermost. Beyond the left edge of the right image its first column is repeated, beyond the
+/// edges of a window its border.
 void CensusCosts(const CensusPlanes& left, const CensusPlanes& right, int top, int bottom,
                  int disparities, std::uint8_t* costs);
 

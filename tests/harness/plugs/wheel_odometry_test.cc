@@ -32,7 +32,7 @@ std::vector<FrameRequest> WindingWay(double metres) {
 }
 
 slam::MeasuredMotion Whole(const std::vector<MotionMeasurement>& steps) {
-  slam::MeasuredMotion whole = slam::NoMotion();
+  slam::MeasuredMotion whole{Eigen::Isometry3d::Identity(), slam::Matrix6d::Zero()};
   for (const MotionMeasurement& step : steps) {
     whole = slam::Compose(whole, {step.T_now_before, step.covariance});
   }

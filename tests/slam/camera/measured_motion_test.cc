@@ -37,7 +37,7 @@ TEST(MeasuredMotion, ComposedCovarianceIsThatOfManyDraws) {
     const Matrix6d root = 1e-3 * (Matrix6d::Identity() + 0.3 * Matrix6d::Random());
     steps.push_back({SomePose(random), root * root.transpose()});
   }
-  MeasuredMotion whole = NoMotion();
+  MeasuredMotion whole{Eigen::Isometry3d::Identity(), Matrix6d::Zero()};
   for (const MeasuredMotion& step : steps) whole = Compose(whole, step);
   constexpr int kDraws = 20000;
   Matrix6d scatter = Matrix6d::Zero();

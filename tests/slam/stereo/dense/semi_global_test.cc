@@ -89,7 +89,7 @@ std::vector<int> PathByDefinition(const std::vector<uint8_t>& costs, int dispari
 }
 
 TEST(CostPaths, AreTheRecursionOfThePaper) {
-  constexpr int kPaths = 3, kPixels = 30;
+  constexpr int kPaths = 3, kPixels = 30, kMostCost = 54;
   StepPrices prices{.small = 7};
   for (std::size_t grey = 0; grey < 256; ++grey) {
     prices.large[grey] = static_cast<uint8_t>(73 - grey / 4);
@@ -101,7 +101,7 @@ TEST(CostPaths, AreTheRecursionOfThePaper) {
     const auto size = static_cast<std::size_t>(disparities);
     for (int pixel = 0; pixel < kPixels; ++pixel) {
       std::vector<uint8_t> cost(kPaths * size), sum(kPaths * size, 100), contrast(kPaths);
-      for (uint8_t& one : cost) one = static_cast<uint8_t>(random() % (kMostCensusCost + 1));
+      for (uint8_t& one : cost) one = static_cast<uint8_t>(random() % (kMostCost + 1));
       for (uint8_t& one : contrast) one = static_cast<uint8_t>(random() % 256);
       const PathPixels pixels{cost.data(), disparities, contrast.data(), sum.data(), disparities};
       pixel % 2 == 0 ? paths.AdvanceAndAdd(pixels) : paths.AdvanceAndSet(pixels);
