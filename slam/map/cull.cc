@@ -1,7 +1,6 @@
 #include "slam/map/cull.h"
 
 #include <algorithm>
-#include <set>
 
 #include "slam/map/landmarks_of.h"
 
@@ -32,18 +31,6 @@ int LevelOf(const Map& map, const Observation& observation) {
       .level;
 }
 
-/// Whether enough other keyframes see the landmark at the same scale or a finer one.
-bool SeenElsewhere(const Map& map, const Landmark& landmark, const Observation& own,
-                   const std::set<KeyframeId>& going, int observers) {
-  const int level = LevelOf(map, own);
-  return std::count_if(landmark.observations.begin(), landmark.observations.end(),
-                       [&](const Observation& observation) {
-                         return observation.keyframe != own.keyframe &&
-                                !going.contains(observation.keyframe) &&
-                                LevelOf(map, observation) <= level + 1;
-                       }) >= observers;
-}
-
 bool IsRedundant(const Map& map, const Keyframe& keyframe, const std::set<KeyframeId>& going,
                  const CullOptions& options) {
   int landmarks = 0, elsewhere = 0;
@@ -58,6 +45,16 @@ bool IsRedundant(const Map& map, const Keyframe& keyframe, const std::set<Keyfra
 }
 
 }  // namespace
+
+bool SeenElsewhere(const Map& map, const Landmark& landmark, const Observation& own,
+                   const std::set<KeyframeId>& going, int observers) {
+  const int level = LevelOf(map, own);
+  const auto others = std::ranges::count_if(landmark.observations, [&](const Observation& other) {
+    return other.keyframe != own.keyframe && !going.contains(other.keyframe) &&
+           LevelOf(map, other) <= level + 1;
+  });
+  return others >= observers;
+}
 
 MapEdit CullLandmarks(const Map& map, KeyframeId newest, const CullOptions& options) {
   MapEdit edit;

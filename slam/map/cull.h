@@ -1,5 +1,7 @@
 #pragma once
 
+#include <set>
+
 #include "slam/common/option_fields.h"
 #include "slam/map/map.h"
 
@@ -16,6 +18,11 @@ struct CullOptions {
 
 /// Names every option with its range, unit and a sentence.
 void Describe(OptionFields& fields, CullOptions& options);
+
+/// Whether at least `observers` other keyframes, those `going` left out, see the landmark at the
+/// scale of its observation `own` or a finer one.
+bool SeenElsewhere(const Map& map, const Landmark& landmark, const Observation& own,
+                   const std::set<KeyframeId>& going, int observers);
 
 /// Removes landmarks that are hardly found again or that no second keyframe has confirmed.
 MapEdit CullLandmarks(const Map& map, KeyframeId newest, const CullOptions& options);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "slam/map/landmarks_of.h"
 #include "slam/map/match_by_projection.h"
 
 namespace aisle::slam {
@@ -19,17 +20,14 @@ MapEdit FuseInto(const Map& map, KeyframeId in, const std::vector<LandmarkId>& c
                  const StereoCamera& camera, const FuseOptions& options) {
   const Keyframe& keyframe = map.At(in);
   const Eigen::Isometry3d T_rig_world = keyframe.T_world_rig.inverse();
-  std::vector<Expected> expected;
-  for (const LandmarkId id : candidates) {
-    const Landmark* landmark = map.Find(id);
-    if (!landmark || SeenBy(*landmark, in)) continue;
-    const auto one = Expect(*landmark, camera, T_rig_world, keyframe.frame->scale, options.levels);
-    if (one) expected.push_back(*one);
-  }
+  std::vector<const Landmark*> unseen = FindAll(map, candidates);
+  std::erase_if(unseen, [&](const Landmark* landmark) { return SeenBy(*landmark, in); });
+  const std::vector<Expected> expected =
+      ExpectAll(unseen, camera, T_rig_world, keyframe.frame->scale, options.levels);
   MapEdit edit;
   // No ratio test: a rival feature here is as likely the same landmark at the next level.
   for (const Match& match : MatchByProjection(
-           *keyframe.frame, expected, {}, {options.radius_px, options.descriptor_distance, 1.0})) {
+           *keyframe.frame, expected, {options.radius_px, options.descriptor_distance, 1.0})) {
     const LandmarkId held = keyframe.landmarks[static_cast<std::size_t>(match.feature)];
     if (!held.valid()) {
       edit.links.push_back({match.landmark, {in, match.feature}});

@@ -16,4 +16,12 @@ std::vector<LandmarkId> LandmarksOf(const Map& map, const std::vector<KeyframeId
   return landmarks;
 }
 
+std::vector<const Landmark*> FindAll(const Map& map, const std::vector<LandmarkId>& landmarks) {
+  std::vector<const Landmark*> found;
+  for (const LandmarkId id : landmarks) {
+    if (const Landmark* landmark = map.Find(id)) found.push_back(landmark);
+  }
+  return found;
+}
+
 }  // namespace aisle::slam

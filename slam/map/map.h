@@ -178,6 +178,10 @@ struct Covisible {
   int shared = 0;
 };
 
+/// Fewer shared landmarks make no neighbours: from so many on ORB-SLAM joins two keyframes in its
+/// covisibility graph (Mur-Artal et al. 2015).
+inline constexpr int kLeastCovisible = 15;
+
 /// Keyframes that share landmarks with `id`, most first, then older first.
 std::vector<Covisible> CovisibleKeyframes(const Map& map, KeyframeId id, int least_shared);
 

@@ -8,8 +8,7 @@ namespace aisle::slam {
 namespace {
 
 /// The best feature for one landmark, feature -1 where there is none good and distinct enough.
-Match BestFeature(const Frame& frame, const Expected& expected, const std::vector<bool>& taken,
-                  const MatchOptions& options) {
+Match BestFeature(const Frame& frame, const Expected& expected, const MatchOptions& options) {
   const double radius = options.radius_px * std::pow(frame.scale, expected.level);
   const cv::Point2f pixel(static_cast<float>(expected.uvd.x()),
                           static_cast<float>(expected.uvd.y()));
@@ -18,7 +17,6 @@ Match BestFeature(const Frame& frame, const Expected& expected, const std::vecto
   for (const int candidate :
        frame.grid.Near(pixel, static_cast<float>(radius), expected.level - 1, expected.level + 1)) {
     const auto i = static_cast<std::size_t>(candidate);
-    if (!taken.empty() && taken[i]) continue;
     const Measurement& measurement = frame.measurements[i];
     if (measurement.has_depth() && std::abs(measurement.uvd.z() - expected.uvd.z()) > radius) {
       continue;
@@ -48,7 +46,7 @@ Match BestFeature(const Frame& frame, const Expected& expected, const std::vecto
 std::optional<Expected> Expect(const Landmark& landmark, const StereoCamera& camera,
                                const Eigen::Isometry3d& T_rig_world, double scale, int levels) {
   const Eigen::Vector3d in_rig = T_rig_world * landmark.position;
-  if (in_rig.z() < 0.05) return std::nullopt;
+  if (in_rig.z() < kNearestVisible_m) return std::nullopt;
   const Eigen::Vector3d uvd = Project(camera, in_rig);
   if (!InImage(camera, uvd.x(), uvd.y())) return std::nullopt;
   const Eigen::Vector3d centre = T_rig_world.inverse(Eigen::Isometry).translation();
@@ -56,11 +54,22 @@ std::optional<Expected> Expect(const Landmark& landmark, const StereoCamera& cam
   return Expected{&landmark, uvd, PredictLevel(landmark, in_rig.norm(), scale, levels)};
 }
 
+std::vector<Expected> ExpectAll(std::span<const Landmark* const> landmarks,
+                                const StereoCamera& camera, const Eigen::Isometry3d& T_rig_world,
+                                double scale, int levels) {
+  std::vector<Expected> expected;
+  for (const Landmark* landmark : landmarks) {
+    const auto one = Expect(*landmark, camera, T_rig_world, scale, levels);
+    if (one) expected.push_back(*one);
+  }
+  return expected;
+}
+
 std::vector<Match> MatchByProjection(const Frame& frame, std::span<const Expected> expected,
-                                     const std::vector<bool>& taken, const MatchOptions& options) {
+                                     const MatchOptions& options) {
   std::vector<Match> by_feature(static_cast<std::size_t>(frame.size()));
   for (const Expected& one : expected) {
-    const Match match = BestFeature(frame, one, taken, options);
+    const Match match = BestFeature(frame, one, options);
     if (match.feature < 0) continue;
     Match& held = by_feature[static_cast<std::size_t>(match.feature)];
     if (held.feature < 0 || match.distance < held.distance) held = match;

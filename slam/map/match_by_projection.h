@@ -21,7 +21,7 @@ struct Expected {
 struct MatchOptions {
   double radius_px = 4;           ///< search radius in pixels of the predicted level
   int descriptor_distance = 100;  ///< bits; no match beyond
-  double ratio = 0.8;             ///< best must be below this x second best (of the same level)
+  double ratio = 0.8;             ///< best at most this x second best (of the same level)
 };
 
 /// Names every option with its range, unit and a sentence.
@@ -38,10 +38,14 @@ struct Match {
 std::optional<Expected> Expect(const Landmark& landmark, const StereoCamera& camera,
                                const Eigen::Isometry3d& T_rig_world, double scale, int levels);
 
+/// Those of the landmarks that it should see, in the same order.
+std::vector<Expected> ExpectAll(std::span<const Landmark* const> landmarks,
+                                const StereoCamera& camera, const Eigen::Isometry3d& T_rig_world,
+                                double scale, int levels);
+
 /// Matches landmarks to features of `frame` near where they are expected. A feature goes to the
-/// landmark nearest in description (the earlier in the list on a tie); `taken` features, by index,
-/// to none. By rising feature.
+/// landmark nearest in description (the earlier in the list on a tie). By rising feature.
 std::vector<Match> MatchByProjection(const Frame& frame, std::span<const Expected> expected,
-                                     const std::vector<bool>& taken, const MatchOptions& options);
+                                     const MatchOptions& options);
 
 }  // namespace aisle::slam

@@ -1,27 +1,10 @@
-#include <algorithm>
 #include <set>
 
+#include "slam/map/cull.h"
 #include "slam/mapping/orbslam2_mapping.h"
 
 namespace aisle::slam {
 namespace {
-
-int LevelOf(const Map& map, const Observation& observation) {
-  return map.At(observation.keyframe)
-      .frame->features.keypoints[static_cast<std::size_t>(observation.feature)]
-      .level;
-}
-
-/// Whether enough other keyframes that stay see the landmark at the same scale or a finer one.
-bool SeenElsewhere(const Map& map, const Landmark& landmark, const Observation& own,
-                   const std::set<KeyframeId>& going, int observers) {
-  const int level = LevelOf(map, own);
-  const auto others = std::ranges::count_if(landmark.observations, [&](const Observation& other) {
-    return other.keyframe != own.keyframe && !going.contains(other.keyframe) &&
-           LevelOf(map, other) <= level + 1;
-  });
-  return others >= observers;
-}
 
 bool IsRedundant(const Map& map, const Keyframe& keyframe, const std::set<KeyframeId>& going,
                  double least_disparity, const OrbSlam2MappingOptions& options) {
@@ -55,9 +38,8 @@ MapEdit OrbSlam2CullLandmarks(const Map& map, KeyframeId newest,
 
 MapEdit OrbSlam2CullKeyframes(const Map& map, KeyframeId newest, const StereoCamera& camera,
                               const OrbSlam2MappingOptions& options) {
-  constexpr int kLeastShared = 15;  // landmarks; fewer make no neighbours
   std::set<KeyframeId> going;
-  for (const Covisible& neighbour : CovisibleKeyframes(map, newest, kLeastShared)) {
+  for (const Covisible& neighbour : CovisibleKeyframes(map, newest, kLeastCovisible)) {
     const Keyframe& keyframe = map.At(neighbour.keyframe);
     if (!keyframe.parent.valid()) continue;  // the world begins with it
     if (IsRedundant(map, keyframe, going, camera.fx / options.close_baselines, options)) {

@@ -1,32 +1,23 @@
 #include "slam/place/find_loop.h"
 
 #include <algorithm>
-#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "slam/map/landmarks_of.h"
 #include "slam/map/match_by_projection.h"
 #include "slam/map/match_keyframe.h"
+#include "slam/optimize/observations_of.h"
 #include "slam/place/adjust_loop.h"
 
 namespace aisle::slam {
 namespace {
 
-std::vector<PointObservation> Observations(const Map& map, const Frame& frame,
-                                           const std::vector<Match>& matches) {
-  std::vector<PointObservation> observations;
-  for (const Match& match : matches) {
-    observations.push_back({map.At(match.landmark).position,
-                            frame.measurements[static_cast<std::size_t>(match.feature)]});
-  }
-  return observations;
-}
-
 /// Landmarks of a keyframe and of those most covisible with it.
 std::vector<LandmarkId> LandmarksAround(const Map& map, KeyframeId id) {
-  constexpr int kNeighbours = 5, kLeastShared = 15;
+  constexpr int kNeighbours = 5;
   std::vector<KeyframeId> keyframes = {id};
-  for (const Covisible& covisible : CovisibleKeyframes(map, id, kLeastShared)) {
+  for (const Covisible& covisible : CovisibleKeyframes(map, id, kLeastCovisible)) {
     if (keyframes.size() <= kNeighbours) keyframes.push_back(covisible.keyframe);
   }
   return LandmarksOf(map, keyframes);
@@ -63,7 +54,7 @@ bool Agree(const Map& map, const LoopEdge& a, const LoopEdge& b, const LoopOptio
   const Eigen::Isometry3d T_b = Correction(map, b) * T_world_rig;
   const double turn = Eigen::AngleAxisd(T_a.linear().transpose() * T_b.linear()).angle();
   return (T_a.translation() - T_b.translation()).norm() <= options.consistency_m &&
-         turn * 180 / M_PI <= options.consistency_deg;
+         turn * 180 / std::numbers::pi <= options.consistency_deg;
 }
 
 }  // namespace
@@ -79,18 +70,16 @@ std::optional<LoopEdge> VerifyLoop(const Map& map, KeyframeId current, KeyframeI
   const Frame& frame = *map.At(current).frame;
   const std::vector<Match> matches = MatchKeyframe(
       map, map.At(matched), frame, options.descriptor_distance, options.descriptor_ratio);
-  const auto first = AlignPoints(camera, Observations(map, frame, matches), options.align);
+  const auto first = AlignPoints(camera, ObservationsOf(map, frame, matches), options.align);
   if (!first) return std::nullopt;
 
-  std::vector<Expected> expected;
-  for (const LandmarkId id : LandmarksAround(map, matched)) {
-    const auto one = Expect(map.At(id), camera, first->T_rig_world, frame.scale, levels);
-    if (one) expected.push_back(*one);
-  }
-  const std::vector<Match> confirmed =
-      MatchByProjection(frame, expected, {}, {options.radius_px, options.descriptor_distance, 0.9});
+  constexpr double kConfirmRatio = 0.9;  // best to second best: it is known by now where to look
+  const std::vector<Expected> expected = ExpectAll(FindAll(map, LandmarksAround(map, matched)),
+                                                   camera, first->T_rig_world, frame.scale, levels);
+  const std::vector<Match> confirmed = MatchByProjection(
+      frame, expected, {options.radius_px, options.descriptor_distance, kConfirmRatio});
   const RefinedPose refined = RefinePose(
-      camera, first->T_rig_world, Observations(map, frame, confirmed), {.trust_start = true});
+      camera, first->T_rig_world, ObservationsOf(map, frame, confirmed), {.trust_start = true});
   if (refined.inliers < options.least_inliers || !refined.well_posed) return std::nullopt;
   const auto adjusted =
       AdjustView(map, frame, confirmed, refined.inlier, refined.T_rig_world, camera);
@@ -105,11 +94,14 @@ std::optional<LoopEdge> FindLoop(const Map& map, KeyframeId current, const WordV
   // Whatever shares landmarks is here already; a loop looks nearly as much like here as they do.
   std::set<KeyframeId> here = {current};
   double least_similarity = 1;
-  constexpr int kNeighbourShared = 30;
+  // A neighbour that shares fewer landmarks may look at something else, and so as little alike as
+  // any other place. How alike it looks is another matter than whether it is asked for the loop,
+  // which LoopOptions::neighbour_shared decides.
+  constexpr int kSimilarityFromShared = 30;
   for (const Covisible& covisible : CovisibleKeyframes(map, current, 1)) {
     here.insert(covisible.keyframe);
     const WordVector* neighbour = index.Find(covisible.keyframe);
-    if (neighbour && covisible.shared >= kNeighbourShared) {
+    if (neighbour && covisible.shared >= kSimilarityFromShared) {
       least_similarity = std::min(least_similarity, Likeness(words, *neighbour));
     }
   }

@@ -28,10 +28,11 @@ LocalMap FindLocalMap(const Map& map, const std::vector<LandmarkId>& landmarks,
   local.reference = local.keyframes.front();
   const auto most = static_cast<std::size_t>(most_keyframes);
   local.keyframes.resize(std::min(local.keyframes.size(), most));
-  constexpr int kLeastShared = 15, kFromEach = 3, kExpanded = 3;
+  constexpr int kFromEach = 3, kExpanded = 3;
   for (std::size_t i = 0; i < std::min<std::size_t>(kExpanded, local.keyframes.size()); ++i) {
     int taken = 0;
-    for (const Covisible& neighbour : CovisibleKeyframes(map, local.keyframes[i], kLeastShared)) {
+    for (const Covisible& neighbour :
+         CovisibleKeyframes(map, local.keyframes[i], kLeastCovisible)) {
       if (local.keyframes.size() >= most || taken == kFromEach) break;
       if (std::count(local.keyframes.begin(), local.keyframes.end(), neighbour.keyframe)) continue;
       local.keyframes.push_back(neighbour.keyframe);

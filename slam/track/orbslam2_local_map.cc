@@ -25,14 +25,13 @@ class Growing {
 };
 
 void Grow(const Map& map, std::vector<KeyframeId>& keyframes, const OrbSlam2Options& options) {
-  constexpr int kLeastShared = 15;  // landmarks; fewer make no neighbours
   std::multimap<KeyframeId, KeyframeId> children;
   for (const auto& [id, keyframe] : map.keyframes()) children.emplace(keyframe->parent, id);
   const std::vector<KeyframeId> observers = keyframes;
   Growing growing(keyframes);
   for (const KeyframeId observer : observers) {
     if (std::ssize(keyframes) > options.local_keyframes) return;
-    std::vector<Covisible> best = CovisibleKeyframes(map, observer, kLeastShared);
+    std::vector<Covisible> best = CovisibleKeyframes(map, observer, kLeastCovisible);
     best.resize(std::min(best.size(), static_cast<std::size_t>(options.neighbours)));
     for (const Covisible& neighbour : best) {
       if (growing.Add(neighbour.keyframe)) break;
@@ -41,6 +40,7 @@ void Grow(const Map& map, std::vector<KeyframeId>& keyframes, const OrbSlam2Opti
     for (auto child = first; child != last; ++child) {
       if (growing.Add(child->second)) break;
     }
+    // No slip of `break`: as published, a new parent ends the search for all observers.
     if (growing.Add(map.At(observer).parent)) return;
   }
 }

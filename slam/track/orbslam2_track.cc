@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "slam/map/landmark_view.h"
+#include "slam/map/landmarks_of.h"
 #include "slam/map/match_keyframe.h"
+#include "slam/optimize/observations_of.h"
 #include "slam/track/orbslam2_local_map.h"
 #include "slam/track/orbslam2_match.h"
 
@@ -24,12 +27,8 @@ struct Supported {
 
 RefinedPose Refine(const OrbSlam2Context& context, const Eigen::Isometry3d& T_rig_world,
                    const std::vector<Match>& matches) {
-  std::vector<PointObservation> observations;
-  for (const Match& match : matches) {
-    observations.push_back(
-        {context.map.At(match.landmark).position, context.frame.measurements[Slot(match.feature)]});
-  }
-  return RefinePose(context.camera, T_rig_world, observations, {.start_anew = true});
+  return RefinePose(context.camera, T_rig_world,
+                    ObservationsOf(context.map, context.frame, matches), {.start_anew = true});
 }
 
 /// Nothing where too few matches agree or they fix no pose.
@@ -51,6 +50,18 @@ std::pair<int, int> LevelsAround(int level, double ahead_m, const OrbSlam2Contex
   if (ahead_m > context.camera.baseline_m) return {level, context.levels - 1};
   if (-ahead_m > context.camera.baseline_m) return {0, level};
   return {level - 1, level + 1};
+}
+
+/// Those of the matches that turned as most did, from the angles that their landmarks had before.
+std::vector<Match> KeepTurnedAlike(const OrbSlam2Context& context,
+                                   const std::vector<Match>& matches,
+                                   const std::map<LandmarkId, float>& angles_deg) {
+  std::vector<float> turns_deg;
+  for (const Match& match : matches) {
+    turns_deg.push_back(angles_deg.at(match.landmark) -
+                        context.frame.features.keypoints[Slot(match.feature)].angle_deg);
+  }
+  return KeepCommonTurns(matches, turns_deg);
 }
 
 std::vector<Match> FollowLastFrame(const OrbSlam2Context& context, const OrbSlam2Memory& memory,
@@ -80,12 +91,7 @@ std::vector<Match> FollowLastFrame(const OrbSlam2Context& context, const OrbSlam
   for (const Match& match : memory.matches) {
     angles_deg[match.landmark] = memory.frame->features.keypoints[Slot(match.feature)].angle_deg;
   }
-  std::vector<float> turns_deg;
-  for (const Match& match : matches) {
-    turns_deg.push_back(angles_deg.at(match.landmark) -
-                        context.frame.features.keypoints[Slot(match.feature)].angle_deg);
-  }
-  return KeepCommonTurns(matches, turns_deg);
+  return KeepTurnedAlike(context, matches, angles_deg);
 }
 
 std::optional<Supported> TrackByMotion(const OrbSlam2Context& context, const OrbSlam2Memory& memory,
@@ -113,12 +119,7 @@ std::vector<Match> MatchLooks(const OrbSlam2Context& context, const Keyframe& ke
   for (std::size_t i = 0; i < keyframe.landmarks.size(); ++i) {
     angles_deg[keyframe.landmarks[i]] = keyframe.frame->features.keypoints[i].angle_deg;
   }
-  std::vector<float> turns_deg;
-  for (const Match& match : matches) {
-    turns_deg.push_back(angles_deg.at(match.landmark) -
-                        context.frame.features.keypoints[Slot(match.feature)].angle_deg);
-  }
-  return KeepCommonTurns(matches, turns_deg);
+  return KeepTurnedAlike(context, matches, angles_deg);
 }
 
 std::optional<Supported> TrackByReference(const OrbSlam2Context& context, KeyframeId reference,
@@ -130,10 +131,10 @@ std::optional<Supported> TrackByReference(const OrbSlam2Context& context, Keyfra
 }
 
 /// Landmarks that should be seen from a pose, and where; those in `known` left out.
-std::vector<Sought> Expected(const OrbSlam2Context& context,
-                             const std::vector<const Landmark*>& landmarks,
-                             const Eigen::Isometry3d& T_rig_world, const std::vector<Match>& known,
-                             double factor) {
+std::vector<Sought> SoughtAround(const OrbSlam2Context& context,
+                                 const std::vector<const Landmark*>& landmarks,
+                                 const Eigen::Isometry3d& T_rig_world,
+                                 const std::vector<Match>& known, double factor) {
   std::vector<LandmarkId> ids;
   for (const Match& match : known) ids.push_back(match.landmark);
   std::ranges::sort(ids);
@@ -177,8 +178,8 @@ std::optional<FramePose> TrackLocalMap(const OrbSlam2Context& context, const Sup
   result.expected = LandmarksOf(first.matches);
   result.local = OrbSlam2LocalMap(context.map, result.expected, options);
   const std::vector<Sought> sought =
-      Expected(context, result.local.landmarks, first.pose.T_rig_world, first.matches,
-               just_found ? options.found_again_factor : 1);
+      SoughtAround(context, result.local.landmarks, first.pose.T_rig_world, first.matches,
+                   just_found ? options.found_again_factor : 1);
   for (const Sought& one : sought) result.expected.push_back(one.landmark->id);
   std::vector<bool> taken = TakenBy(first.matches, context.frame);
   result.matches =
@@ -194,12 +195,8 @@ std::optional<FramePose> TrackLocalMap(const OrbSlam2Context& context, const Sup
 /// More matches of a keyframe's landmarks around a pose that has too few.
 std::optional<Supported> SearchMore(const OrbSlam2Context& context, const Keyframe& keyframe,
                                     const Supported& first, double radius_px, int distance) {
-  std::vector<const Landmark*> landmarks;
-  for (const LandmarkId id : keyframe.landmarks) {
-    if (const Landmark* landmark = context.map.Find(id)) landmarks.push_back(landmark);
-  }
-  std::vector<Sought> sought =
-      Expected(context, landmarks, first.pose.T_rig_world, first.matches, 1);
+  std::vector<Sought> sought = SoughtAround(context, FindAll(context.map, keyframe.landmarks),
+                                            first.pose.T_rig_world, first.matches, 1);
   for (Sought& one : sought) {
     one.radius_px = radius_px * std::pow(context.frame.scale, one.highest);
     ++one.highest;
@@ -215,12 +212,8 @@ std::optional<Supported> RecogniseLost(const OrbSlam2Context& context, const Key
   const OrbSlam2Options& options = context.options;
   const std::vector<Match> matches = MatchLooks(context, keyframe, options.lost_ratio);
   if (std::ssize(matches) < options.least_lost_matches) return std::nullopt;
-  std::vector<PointObservation> observations;
-  for (const Match& match : matches) {
-    observations.push_back(
-        {context.map.At(match.landmark).position, context.frame.measurements[Slot(match.feature)]});
-  }
-  const auto pose = AlignPoints(context.camera, observations, options.align);
+  const auto pose = AlignPoints(context.camera, ObservationsOf(context.map, context.frame, matches),
+                                options.align);
   if (!pose) return std::nullopt;
   auto found = RefineFirst(context, pose->T_rig_world, matches);
   if (found && found->pose.inliers < options.least_found_inliers) {

@@ -1,8 +1,11 @@
 #include "slam/track/track_frame.h"
 
-#include <algorithm>
+#include <numbers>
 
+#include "slam/common/seconds.h"
+#include "slam/map/landmarks_of.h"
 #include "slam/map/match_keyframe.h"
+#include "slam/optimize/observations_of.h"
 #include "slam/track/align_matches.h"
 
 namespace aisle::slam {
@@ -17,20 +20,15 @@ struct FirstPose {
 std::optional<FirstPose> FollowLandmarks(const PlainContext& context,
                                          const std::vector<LandmarkId>& landmarks,
                                          const Eigen::Isometry3d& T_rig_world, double widen) {
-  std::vector<Expected> expected;
-  for (const LandmarkId id : landmarks) {
-    const Landmark* landmark = context.map.Find(id);
-    if (!landmark) continue;
-    const auto one =
-        Expect(*landmark, context.camera, T_rig_world, context.frame.scale, context.levels);
-    if (one) expected.push_back(*one);
-  }
+  const std::vector<Expected> expected =
+      ExpectAll(FindAll(context.map, landmarks), context.camera, T_rig_world, context.frame.scale,
+                context.levels);
   MatchOptions match_options = context.options.motion;
   match_options.radius_px *= widen;
-  const std::vector<Match> matches = MatchByProjection(context.frame, expected, {}, match_options);
+  const std::vector<Match> matches = MatchByProjection(context.frame, expected, match_options);
   if (std::ssize(matches) < context.options.least_motion_matches) return std::nullopt;
-  const RefinedPose pose =
-      RefinePose(context.camera, T_rig_world, Observations(context, matches), {});
+  const RefinedPose pose = RefinePose(context.camera, T_rig_world,
+                                      ObservationsOf(context.map, context.frame, matches), {});
   if (pose.inliers < context.options.least_inliers || !pose.well_posed) return std::nullopt;
   return FirstPose{pose.T_rig_world, Inliers(matches, pose)};
 }
@@ -41,8 +39,8 @@ std::optional<FirstPose> RecogniseKeyframe(const PlainContext& context, Keyframe
   const std::vector<Match> matches =
       MatchKeyframe(context.map, *keyframe, context.frame, context.options.keyframe_distance,
                     context.options.keyframe_ratio);
-  const auto pose =
-      AlignPoints(context.camera, Observations(context, matches), context.options.align);
+  const auto pose = AlignPoints(context.camera, ObservationsOf(context.map, context.frame, matches),
+                                context.options.align);
   if (!pose) return std::nullopt;
   return FirstPose{pose->T_rig_world, Inliers(matches, *pose)};
 }
@@ -60,7 +58,7 @@ void Sharpen(const PlainContext& context, const RefinePoseOptions& refine, Frame
   std::vector<Measurement> measurements =
       AlignMatches(context, found->pose.T_rig_world, found->matches);
   RefinedPose sharp = RefinePose(context.camera, found->pose.T_rig_world,
-                                 Observations(context, found->matches, measurements), refine);
+                                 ObservationsOf(context.map, measurements, found->matches), refine);
   if (!sharp.well_posed || sharp.inliers < kStillAgree * found->pose.inliers) return;
   found->pose = std::move(sharp);
   found->measurements = std::move(measurements);
@@ -80,20 +78,14 @@ std::shared_ptr<const Frame> WithMeasurements(const std::shared_ptr<const Frame>
   return measured;
 }
 
-double SecondsSince(const TrackMemory& memory, const Frame& frame) {
-  return static_cast<double>(frame.stamp_ns - memory.stamp_ns) * 1e-9;
-}
-
 /// Where the steady motion leads after a while without sight: T_rig_world.
 std::optional<Eigen::Isometry3d> DeadReckoned(const PlainContext& context,
                                               const TrackMemory& memory) {
-  const double gap_s = SecondsSince(memory, context.frame);
+  const double gap_s = SecondsBetween(memory.stamp_ns, context.frame.stamp_ns);
   const bool known =
       memory.steady_motion && gap_s > 0 && gap_s <= context.options.dead_reckoning.longest_s;
   if (!known) return std::nullopt;
-  const Eigen::Isometry3d T_world_last =
-      context.map.PoseOf(memory.reference) * memory.T_reference_rig;
-  return PredictPose(T_world_last, memory.steady_motion, gap_s).inverse();
+  return PredictPose(memory.PoseIn(context.map), memory.steady_motion, gap_s).inverse();
 }
 
 /// Whether the rig can have come from where it was predicted to where it was found.
@@ -101,29 +93,16 @@ bool IsNear(const Eigen::Isometry3d& T_predicted_world, const Eigen::Isometry3d&
             double gap_s, const DeadReckoningOptions& reckoning) {
   const Vector6d off = Difference(T_predicted_world, T_found_world);
   return off.head<3>().norm() <= reckoning.drift_m_per_s * gap_s &&
-         off.tail<3>().norm() * 180 / M_PI <= reckoning.drift_deg_per_s * gap_s;
+         off.tail<3>().norm() * 180 / std::numbers::pi <= reckoning.drift_deg_per_s * gap_s;
 }
 
 }  // namespace
 
-std::vector<PointObservation> Observations(const PlainContext& context,
-                                           const std::vector<Match>& matches) {
-  std::vector<PointObservation> observations;
-  for (const Match& match : matches) {
-    observations.push_back({context.map.At(match.landmark).position,
-                            context.frame.measurements[static_cast<std::size_t>(match.feature)]});
-  }
-  return observations;
-}
-
-std::vector<PointObservation> Observations(const PlainContext& context,
-                                           const std::vector<Match>& matches,
-                                           const std::vector<Measurement>& measurements) {
-  std::vector<PointObservation> observations;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    observations.push_back({context.map.At(matches[i].landmark).position, measurements[i]});
-  }
-  return observations;
+std::vector<Expected> ExpectAround(const PlainContext& context, const TrackMemory& memory,
+                                   const Eigen::Isometry3d& T_rig_world) {
+  const auto& [map, frame, camera, levels, options] = context;
+  return ExpectAll(FindLocalMap(map, memory.landmarks, options.local_keyframes).landmarks, camera,
+                   T_rig_world, frame.scale, levels);
 }
 
 std::vector<LandmarkId> Inliers(const std::vector<Match>& matches, const RefinedPose& pose) {
@@ -140,17 +119,12 @@ std::optional<FramePose> RefineInLocalMap(const PlainContext& context,
                                           const RefinePoseOptions& refine) {
   FramePose result;
   result.local = FindLocalMap(context.map, landmarks, context.options.local_keyframes);
-  std::vector<Expected> expected;
-  for (const Landmark* landmark : result.local.landmarks) {
-    const auto one =
-        Expect(*landmark, context.camera, T_rig_world, context.frame.scale, context.levels);
-    if (!one) continue;
-    expected.push_back(*one);
-    result.expected.push_back(landmark->id);
-  }
-  result.matches = MatchByProjection(context.frame, expected, {}, context.options.local_map);
-  result.pose =
-      RefinePose(context.camera, T_rig_world, Observations(context, result.matches), refine);
+  const std::vector<Expected> expected = ExpectAll(
+      result.local.landmarks, context.camera, T_rig_world, context.frame.scale, context.levels);
+  for (const Expected& one : expected) result.expected.push_back(one.landmark->id);
+  result.matches = MatchByProjection(context.frame, expected, context.options.local_map);
+  result.pose = RefinePose(context.camera, T_rig_world,
+                           ObservationsOf(context.map, context.frame, result.matches), refine);
   if (result.pose.inliers < context.options.least_map_inliers || !result.pose.well_posed) {
     return std::nullopt;
   }
@@ -165,8 +139,8 @@ bool IsConvincing(const FramePose& found, const TrackOptions& options) {
 
 std::optional<FramePose> TrackFrame(const PlainContext& context, const TrackMemory& memory) {
   const auto& [map, frame, camera, levels, options] = context;
-  const Eigen::Isometry3d T_world_last = map.PoseOf(memory.reference) * memory.T_reference_rig;
-  const double gap_s = SecondsSince(memory, frame);
+  const Eigen::Isometry3d T_world_last = memory.PoseIn(map);
+  const double gap_s = SecondsBetween(memory.stamp_ns, frame.stamp_ns);
   const bool gap_is_short = gap_s <= options.longest_gap_s;
   const Eigen::Isometry3d T_predicted_world =
       PredictPose(T_world_last, gap_is_short ? memory.motion : std::nullopt, gap_s).inverse();
@@ -192,7 +166,7 @@ std::optional<FramePose> TrackFrame(const PlainContext& context, const TrackMemo
 }
 
 bool CanBeThere(const PlainContext& context, const TrackMemory& memory, const FramePose& found) {
-  const double gap_s = SecondsSince(memory, context.frame);
+  const double gap_s = SecondsBetween(memory.stamp_ns, context.frame.stamp_ns);
   const auto T_predicted_world = DeadReckoned(context, memory);
   return !T_predicted_world ||
          IsNear(*T_predicted_world, found.pose.T_rig_world, gap_s, context.options.dead_reckoning);
@@ -201,16 +175,11 @@ bool CanBeThere(const PlainContext& context, const TrackMemory& memory, const Fr
 std::optional<FramePose> FindAgain(const PlainContext& context, const TrackMemory& memory) {
   const auto& [map, frame, camera, levels, options] = context;
   const DeadReckoningOptions& reckoning = options.dead_reckoning;
-  const double gap_s = SecondsSince(memory, frame);
+  const double gap_s = SecondsBetween(memory.stamp_ns, frame.stamp_ns);
   const auto reckoned = DeadReckoned(context, memory);
   if (!reckoned) return std::nullopt;
   const Eigen::Isometry3d& T_predicted_world = *reckoned;
-  std::vector<Expected> expected;
-  for (const Landmark* landmark :
-       FindLocalMap(map, memory.landmarks, options.local_keyframes).landmarks) {
-    const auto one = Expect(*landmark, camera, T_predicted_world, frame.scale, levels);
-    if (one) expected.push_back(*one);
-  }
+  const std::vector<Expected> expected = ExpectAround(context, memory, T_predicted_world);
 
   TrackOptions relaxed = options;
   relaxed.least_map_inliers = reckoning.least_inliers;
@@ -218,8 +187,8 @@ std::optional<FramePose> FindAgain(const PlainContext& context, const TrackMemor
   for (const double grown_px : {0.0, reckoning.radius_growth_px_per_s * gap_s}) {
     MatchOptions match_options = reckoning.match;
     match_options.radius_px += grown_px;
-    const std::vector<Match> matches = MatchByProjection(frame, expected, {}, match_options);
-    const auto pose = AlignPoints(camera, Observations(relaxed_context, matches), reckoning.align);
+    const std::vector<Match> matches = MatchByProjection(frame, expected, match_options);
+    const auto pose = AlignPoints(camera, ObservationsOf(map, frame, matches), reckoning.align);
     if (!pose) continue;
     auto found = RefineInLocalMap(relaxed_context, pose->T_rig_world, Inliers(matches, *pose), {});
     if (found && IsNear(T_predicted_world, found->pose.T_rig_world, gap_s, reckoning) &&

@@ -23,14 +23,15 @@ struct TrackMemory {
   std::vector<LandmarkId> landmarks;       ///< that took part in the pose
   std::optional<Velocity> velocity;        ///< as the poses tell it
   Matrix6d covariance = Matrix6d::Zero();  ///< of the pose: of a small motion of the rig frame
-  /// How the rig has moved since, as measured; its covariance is that of the pose, too. Nothing
-  /// where the way is not known without a gap.
+  /// The way from this pose to the frame that comes, as measured. Its covariance is of the pose
+  /// there: this one's, carried along, and that of the way itself. Nothing where the way is not
+  /// measured without a gap.
   std::optional<MeasuredMotion> measured;
-  /// The same as its inertia carries it on, or while no velocity is known, as the images have shown
-  /// it; where nothing is measured and one of them tells.
+  /// The same where nothing is measured: as inertia carries the rig on or, while no velocity is
+  /// known, as the images have shown it. Nothing where neither tells.
   std::optional<MeasuredMotion> carried;
 
-  /// How the rig has moved since, by what is known of it; something must be.
+  /// The way by what is known of it; something must be.
   const MeasuredMotion& Way() const { return measured ? *measured : *carried; }
   /// Where the rig was: T_world_rig.
   Eigen::Isometry3d PoseIn(const Map& map) const { return map.PoseOf(reference) * T_reference_rig; }
@@ -60,13 +61,9 @@ std::optional<FramePose> RefineInLocalMap(const PlainContext& context,
                                           const std::vector<LandmarkId>& landmarks,
                                           const RefinePoseOptions& refine);
 
-/// What a pose is refined from: landmarks and where the frame shows them, by its features alone or
-/// as `measurements` has it of each match.
-std::vector<PointObservation> Observations(const PlainContext& context,
-                                           const std::vector<Match>& matches);
-std::vector<PointObservation> Observations(const PlainContext& context,
-                                           const std::vector<Match>& matches,
-                                           const std::vector<Measurement>& measurements);
+/// What should be seen from a pose of the surroundings of the frame that `memory` is of.
+std::vector<Expected> ExpectAround(const PlainContext& context, const TrackMemory& memory,
+                                   const Eigen::Isometry3d& T_rig_world);
 
 /// The landmarks of the matches that a pose keeps.
 std::vector<LandmarkId> Inliers(const std::vector<Match>& matches, const RefinedPose& pose);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/optimize/observations_of.h"
+
 namespace aisle::slam {
 namespace {
 
@@ -14,8 +16,7 @@ struct Reckoned {
 };
 
 Reckoned ReckonedFrom(const Map& map, const TrackMemory& memory, const MeasuredMotion& way) {
-  const Eigen::Isometry3d T_world_last = map.PoseOf(memory.reference) * memory.T_reference_rig;
-  return {way.T_now_before * T_world_last.inverse(), way.covariance};
+  return {way.T_now_before * memory.PoseIn(map).inverse(), way.covariance};
 }
 
 /// Pixels by which a landmark at middle distance may be off by the error of the measured pose.
@@ -27,22 +28,10 @@ double SearchGrowth(const PlainContext& context, const Reckoned& reckoned) {
   return kDeviations * context.camera.fx * (metres / kNear_m + radians);
 }
 
-bool Agrees(const FramePose& found, const Reckoned& reckoned, double most_chi2) {
+bool AgreesWithReckoned(const FramePose& found, const Reckoned& reckoned, double most_chi2) {
   const Vector6d off = Difference(reckoned.T_rig_world, found.pose.T_rig_world);
   const Matrix6d covariance = reckoned.covariance + found.pose.covariance;
   return off.dot(covariance.ldlt().solve(off)) <= most_chi2;
-}
-
-std::vector<Expected> ExpectAround(const PlainContext& context, const TrackMemory& memory,
-                                   const Eigen::Isometry3d& T_rig_world) {
-  const auto& [map, frame, camera, levels, options] = context;
-  std::vector<Expected> expected;
-  for (const Landmark* landmark :
-       FindLocalMap(map, memory.landmarks, options.local_keyframes).landmarks) {
-    const auto one = Expect(*landmark, camera, T_rig_world, frame.scale, levels);
-    if (one) expected.push_back(*one);
-  }
-  return expected;
 }
 
 /// Looks for landmarks around where the rig is measured to be. Those vote that agree with that, and
@@ -59,18 +48,18 @@ std::optional<FramePose> FindAround(const PlainContext& context, const TrackMemo
   const std::vector<Expected> expected = ExpectAround(context, memory, reckoned.T_rig_world);
   MatchOptions match = options.motion;
   match.radius_px += SearchGrowth(context, reckoned);
-  const std::vector<Match> matches = MatchByProjection(frame, expected, {}, match);
+  const std::vector<Match> matches = MatchByProjection(frame, expected, match);
   // First only those vote that agree with the measured pose as it is; it may be off by more than
   // they allow.
   for (const bool trusted : {true, false}) {
     refine.trust_start = trusted;
     const RefinedPose first =
-        RefinePose(camera, reckoned.T_rig_world, Observations(context, matches), refine);
+        RefinePose(camera, reckoned.T_rig_world, ObservationsOf(map, frame, matches), refine);
     if (first.inliers < options.measured.least_inliers) continue;
     refine.trust_start = true;
     auto found =
         RefineInLocalMap(relaxed_context, first.T_rig_world, Inliers(matches, first), refine);
-    if (found && Agrees(*found, reckoned, options.measured.most_chi2)) return found;
+    if (found && AgreesWithReckoned(*found, reckoned, options.measured.most_chi2)) return found;
   }
   return std::nullopt;
 }
@@ -80,7 +69,8 @@ std::optional<FramePose> FindByLooks(const PlainContext& context, const TrackMem
                                      const Reckoned& reckoned, const Places& places,
                                      std::int64_t turn) {
   auto found = Relocalise(context, memory, places, turn);
-  if (found && Agrees(*found, reckoned, context.options.measured.most_chi2)) return found;
+  if (found && AgreesWithReckoned(*found, reckoned, context.options.measured.most_chi2))
+    return found;
   return std::nullopt;
 }
 
@@ -100,7 +90,8 @@ std::optional<FramePose> TrackCarried(const PlainContext& context, const TrackMe
   const bool convincing = found && IsConvincing(*found, context.options);
   if (convincing && memory.velocity) return found;
   const Reckoned reckoned = ReckonedFrom(context.map, memory, *memory.carried);
-  if (found && !Agrees(*found, reckoned, context.options.inertia.most_chi2)) found.reset();
+  if (found && !AgreesWithReckoned(*found, reckoned, context.options.inertia.most_chi2))
+    found.reset();
   if (found && convincing) return found;
   auto around = FindAround(context, memory, reckoned);
   if (around && (!found || around->pose.inliers > found->pose.inliers)) return around;

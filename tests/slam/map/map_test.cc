@@ -269,7 +269,7 @@ TEST(MatchByProjection, GivesAFeatureToTheNearestDescriptionInAnyOrder) {
   const Expected expected[] = {{&far, {21, 50, 10}, 0}, {&near, {19, 51, 10}, 0}};
   const Expected reversed[] = {expected[1], expected[0]};
   for (const auto& list : {expected, reversed}) {
-    const auto matches = MatchByProjection(*frame, std::span(list, 2), {}, {4, 100, 0.9});
+    const auto matches = MatchByProjection(*frame, std::span(list, 2), {4, 100, 0.9});
     ASSERT_EQ(matches.size(), 1u);
     EXPECT_EQ(matches[0].landmark, near.id);
     EXPECT_EQ(matches[0].feature, 2);
