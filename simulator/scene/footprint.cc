@@ -49,6 +49,11 @@ Footprint FootprintOf(const std::string& model) {
   return {-1.5, 1.0, 0.62};  // forklifts
 }
 
+double AheadOfPusher(const std::string& model) {
+  constexpr double kHands_m = 0.53;
+  return model.starts_with("pallet_jack") ? kHands_m + 1.62 : kHands_m;
+}
+
 double Apart(const Footprint& one, const RouteState& one_at, const Footprint& other,
              const RouteState& other_at) {
   return DistanceOfLines(LineOf(one, one_at), LineOf(other, other_at));

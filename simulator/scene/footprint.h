@@ -15,6 +15,21 @@ struct Footprint {
 /// A vehicle's as it is modelled, mirrors and counterweights left out.
 Footprint FootprintOf(const std::string& model);
 
+// What people and the rig take up, as radii around their origin. What runs into something is
+// narrower than what others keep away from.
+/// A person's body, arms at rest: what may not touch shelves, nor anybody else.
+inline constexpr double kPersonHalfWidth_m = 0.22;
+/// With elbows and swinging arms: what a crowd and a vehicle leave to somebody.
+inline constexpr double kPersonReach_m = 0.25;
+/// The rig's vehicle, half its width.
+inline constexpr double kRigHalfWidth_m = 0.3;
+/// Half its length, around its middle: what a crowd leaves to it whichever way it turns.
+inline constexpr double kRigBerth_m = 0.45;
+
+/// How far ahead of the person at its handle the origin of a vehicle is that is pushed: as the
+/// assets have it, to 6 cm, since arms differ in length.
+double AheadOfPusher(const std::string& model);
+
 /// How far two footprints' lines are apart, metres.
 double Apart(const Footprint& one, const RouteState& one_at, const Footprint& other,
              const RouteState& other_at);

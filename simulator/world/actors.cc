@@ -40,22 +40,31 @@ Eigen::Isometry3d ObjectPose(const RouteState& state) {
   return pose;
 }
 
-MoverState SkinState(const Model& model,
-                     const std::function<std::vector<Eigen::Affine3f>(double)>& world_joints,
-                     const std::function<RouteState(double)>& route, double time_s) {
-  std::vector<Eigen::Affine3f> rates = world_joints(time_s + kHalfStep_s);
-  const std::vector<Eigen::Affine3f> before = world_joints(time_s - kHalfStep_s);
+MoverState SkinState(const Model& model, const BodyMotion& motion, double time_s) {
+  std::vector<Eigen::Affine3f> joints = motion.joints(time_s);
+  std::vector<Eigen::Affine3f> rates = motion.joints(time_s + kHalfStep_s);
+  const std::vector<Eigen::Affine3f> before = motion.joints(time_s - kHalfStep_s);
+  const Eigen::Affine3f place(motion.T_world_body(time_s).cast<float>());
+  const Eigen::Matrix4f moves = ((motion.T_world_body(time_s + kHalfStep_s).matrix() -
+                                  motion.T_world_body(time_s - kHalfStep_s).matrix()) /
+                                 (2 * kHalfStep_s))
+                                    .cast<float>();
   for (std::size_t i = 0; i < rates.size(); ++i) {
-    rates[i].matrix() =
+    const Eigen::Matrix4f own =
         (rates[i].matrix() - before[i].matrix()) / static_cast<float>(2 * kHalfStep_s);
+    rates[i].matrix() = moves * joints[i].matrix() + place.matrix() * own;
+    joints[i] = place * joints[i];
   }
-  const RouteState now = route(time_s);
   MoverState state;
-  state.T_world_object = ObjectPose(now);
-  state.velocity_mps = state.T_world_object.linear().col(0) * now.speed_mps;
-  SkinVertices(model, world_joints(time_s), &state.positions, &state.normals);
+  SkinVertices(model, joints, &state.positions, &state.normals);
   BlendVertices(model, rates, &state.velocities);
   return state;
+}
+
+void PlaceObject(const RouteState& now, double leftwards_mps, MoverState* state) {
+  state->T_world_object = ObjectPose(now);
+  const Eigen::Matrix3d& axes = state->T_world_object.linear();
+  state->velocity_mps = axes.col(0) * now.speed_mps + axes.col(1) * leftwards_mps;
 }
 
 }  // namespace aisle::sim

@@ -51,11 +51,21 @@ Actor MakePerson(const PersonSpec& person, AssetLibrary* assets, const Palette& 
 Actor MakeVehicle(const VehicleSpec& vehicle, AssetLibrary* assets, const Palette& palette,
                   Dice dice, Wardrobe* wardrobe, double ahead_m = 0);
 
-/// State of a skinned model from the joint matrices (model frame) and object poses at t - h, t and
-/// t + h: every vertex with its own velocity.
-MoverState SkinState(const Model& model,
-                     const std::function<std::vector<Eigen::Affine3f>(double)>& world_joints,
-                     const std::function<RouteState(double)>& route, double time_s);
+/// How a skinned body moves: its joints (bind position -> body) in a frame that goes along with it,
+/// and where that frame is. Pure.
+struct BodyMotion {
+  std::function<std::vector<Eigen::Affine3f>(double time_s)> joints;
+  std::function<Eigen::Isometry3d(double time_s)> T_world_body;
+};
+
+/// State of a skinned model, every vertex with its own velocity. That is differenced in the body's
+/// frame, where single precision is enough, and the frame's own motion is added: a body moves the
+/// same wherever in the world it is. The object's pose and velocity are left to the caller.
+MoverState SkinState(const Model& model, const BodyMotion& motion, double time_s);
+
+/// Gives a mover its object's pose and velocity: where the route has it, and besides the speed
+/// along the heading, whatever its origin moves to the left.
+void PlaceObject(const RouteState& now, double leftwards_mps, MoverState* state);
 
 /// Pose of an object's frame on the floor: x ahead, z up.
 Eigen::Isometry3d ObjectPose(const RouteState& state);

@@ -11,14 +11,6 @@ namespace {
 
 constexpr double kHalfStep_s = 0.005;  ///< over which the body's speed is differenced
 
-std::vector<Eigen::Affine3f> Placed(const Model& model, const NodeFrames& frames,
-                                    const RouteState& place) {
-  std::vector<Eigen::Affine3f> joints = JointMatrices(model, frames);
-  const Eigen::Affine3f T_world_object(ObjectPose(place).cast<float>());
-  for (Eigen::Affine3f& joint : joints) joint = T_world_object * joint;
-  return joints;
-}
-
 /// A recorded motion, laid down at the person's start.
 class Played {
  public:
@@ -35,21 +27,20 @@ class Played {
     origin_ = {.position = person.route.plan.start, .heading_rad = person.route.plan.heading_rad};
   }
 
-  const Model& model() const { return *model_; }
-
-  std::vector<Eigen::Affine3f> WorldJoints(double time_s) const {
-    return Placed(*model_, FramesAt(time_s), origin_);
-  }
-
-  /// Where the body is: below its pelvis, facing as that does.
-  RouteState RouteAt(double time_s) const {
+  /// The object is below the pelvis, faces as that does, and may move sideways.
+  MoverState At(double time_s) const {
+    MoverState moved = SkinState(*model_,
+                                 {[&](double t) { return JointMatrices(*model_, FramesAt(t)); },
+                                  [&](double) { return ObjectPose(origin_); }},
+                                 time_s);
     RouteState state = PlaceAt(time_s);
-    const Eigen::Vector2d way =
-        PlaceAt(time_s + kHalfStep_s).position - PlaceAt(time_s - kHalfStep_s).position;
-    state.speed_mps =
-        way.dot(Eigen::Vector2d(std::cos(state.heading_rad), std::sin(state.heading_rad))) /
+    const Eigen::Vector2d velocity =
+        (PlaceAt(time_s + kHalfStep_s).position - PlaceAt(time_s - kHalfStep_s).position) /
         (2 * kHalfStep_s);
-    return state;
+    const Eigen::Vector2d ahead(std::cos(state.heading_rad), std::sin(state.heading_rad));
+    state.speed_mps = velocity.dot(ahead);
+    PlaceObject(state, velocity.dot(Eigen::Vector2d(-ahead.y(), ahead.x())), &moved);
+    return moved;
   }
 
  private:
@@ -102,17 +93,23 @@ class Own {
         duration_s_(model_->clips[static_cast<std::size_t>(clip_)].duration_s),
         stride_m_(person.capture.stride_m) {}
 
-  const Model& model() const { return *model_; }
-  RouteState RouteAt(double time_s) const { return route_.At(time_s); }
-
-  std::vector<Eigen::Affine3f> WorldJoints(double time_s) const {
-    const RouteState state = route_.At(time_s);
-    const double time = stride_m_ > 0 ? state.odometer_m / stride_m_ * duration_s_ : time_s;
-    const PoseLayer layer{clip_, time, 1, -1};
-    return Placed(*model_, PoseNodes(*model_, {&layer, 1}), state);
+  MoverState At(double time_s) const {
+    MoverState moved = SkinState(
+        *model_,
+        {[&](double t) { return JointsAt(t); }, [&](double t) { return ObjectPose(route_.At(t)); }},
+        time_s);
+    PlaceObject(route_.At(time_s), 0, &moved);
+    return moved;
   }
 
  private:
+  std::vector<Eigen::Affine3f> JointsAt(double time_s) const {
+    const double time =
+        stride_m_ > 0 ? route_.At(time_s).odometer_m / stride_m_ * duration_s_ : time_s;
+    const PoseLayer layer{clip_, time, 1, -1};
+    return JointMatrices(*model_, PoseNodes(*model_, {&layer, 1}));
+  }
+
   std::shared_ptr<const Model> model_;
   Route route_;
   int clip_;
@@ -121,11 +118,7 @@ class Own {
 
 template <class Body>
 Actor ActorOf(TriangleMesh mesh, std::shared_ptr<const Body> body) {
-  return {std::move(mesh), [body](double time_s) {
-            return SkinState(
-                body->model(), [&](double t) { return body->WorldJoints(t); },
-                [&](double t) { return body->RouteAt(t); }, time_s);
-          }};
+  return {std::move(mesh), [body](double time_s) { return body->At(time_s); }};
 }
 
 }  // namespace

@@ -9,10 +9,9 @@
 namespace aisle::sim {
 namespace {
 
-constexpr double kPersonRadius_m = 0.25;  // shoulders and swinging arms
-constexpr double kSpacing_m = 0.02;       // of the way's points
-constexpr float kFloor_m = 0.03f;         // what lies lower can be driven over
-constexpr float kNear_m = 0.05f;          // parts nearer than this are one thing
+constexpr double kSpacing_m = 0.02;  // of the way's points
+constexpr float kFloor_m = 0.03f;    // what lies lower can be driven over
+constexpr float kNear_m = 0.05f;     // parts nearer than this are one thing
 
 std::vector<WayPoint> PointsOf(const Route::Leg& leg, const RoutePlan& plan,
                                const RouteLimits& limits) {
@@ -204,7 +203,7 @@ Ground::Ground(const Scene& scene, const World& world)
                        .object_class = "person",
                        .back_m = 0,
                        .front_m = 0,
-                       .radius_m = kPersonRadius_m,
+                       .radius_m = kPersonReach_m,
                        .yields = person.yields.yields,
                        .yields_within_m = person.yields.within_m});
     routes_.emplace_back(person.route.plan, person.route.limits);

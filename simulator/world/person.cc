@@ -90,12 +90,10 @@ class Walker {
     return hands * Eigen::Translation3d(carry_centre_m_);
   }
 
-  /// Matrix of each joint of the model as it is shown (with what it holds): bind position -> world.
-  std::vector<Eigen::Affine3f> WorldJoints(const Model& shown, double time_s) const {
-    std::vector<Eigen::Affine3f> joints = JointMatrices(shown, FramesAt(time_s));
-    const Eigen::Affine3f place(ObjectPose(route_.At(time_s)).cast<float>());
-    for (Eigen::Affine3f& joint : joints) joint = place * joint;
-    return joints;
+  /// Matrix of each joint of the model as it is shown (with what it holds): bind position ->
+  /// object.
+  std::vector<Eigen::Affine3f> JointsAt(const Model& shown, double time_s) const {
+    return JointMatrices(shown, FramesAt(time_s));
   }
 
  private:
@@ -292,9 +290,12 @@ Actor MakePerson(const PersonSpec& person, AssetLibrary* assets, const Palette& 
   }
   return {std::move(mesh),
           [walker, model](double time_s) {
-            return SkinState(
-                *model, [&](double t) { return walker->WorldJoints(*model, t); },
-                [&](double t) { return walker->RouteAt(t); }, time_s);
+            MoverState state = SkinState(*model,
+                                         {[&](double t) { return walker->JointsAt(*model, t); },
+                                          [&](double t) { return ObjectPose(walker->RouteAt(t)); }},
+                                         time_s);
+            PlaceObject(walker->RouteAt(time_s), 0, &state);
+            return state;
           },
           [walker](double time_s) { return walker->GripAt(time_s); }};
 }

@@ -87,6 +87,7 @@ class Driver {
     }
   }
 
+  /// The route of its origin, which of one that is pushed turns about the pusher.
   RouteState RouteAt(double time_s) const {
     RouteState state = route_.At(time_s);
     state.position +=
@@ -102,13 +103,18 @@ class Driver {
            Eigen::Isometry3d(frames[static_cast<std::size_t>(node)].matrix().cast<double>());
   }
 
-  std::vector<Eigen::Affine3f> WorldJoints(double time_s) const {
+  MoverState At(double time_s) const {
+    MoverState moved = SkinState(
+        *model_,
+        {[&](double t) {
+           const RouteState state = RouteAt(t);
+           return JointMatrices(*model_, PoseNodes(*model_, RiderAt(state), MovesAt(state, t)));
+         },
+         [&](double t) { return ObjectPose(RouteAt(t)); }},
+        time_s);
     const RouteState state = RouteAt(time_s);
-    std::vector<Eigen::Affine3f> joints =
-        JointMatrices(*model_, PoseNodes(*model_, RiderAt(state), MovesAt(state, time_s)));
-    const Eigen::Affine3f place(ObjectPose(state).cast<float>());
-    for (Eigen::Affine3f& joint : joints) joint = place * joint;
-    return joints;
+    PlaceObject(state, ahead_m_ * state.yaw_rate_rad_s, &moved);
+    return moved;
   }
 
  private:
@@ -182,11 +188,7 @@ Actor MakeVehicle(const VehicleSpec& vehicle, AssetLibrary* assets, const Palett
     AddMesh(&mesh, Eigen::Isometry3f::Identity(), load);
   }
   const auto driver = std::make_shared<const Driver>(vehicle, model, facts, ahead_m);
-  const auto at = [driver, model](double time_s) {
-    return SkinState(
-        *model, [&](double t) { return driver->WorldJoints(t); },
-        [&](double t) { return driver->RouteAt(t); }, time_s);
-  };
+  const auto at = [driver](double time_s) { return driver->At(time_s); };
   Grip grip;
   if (forks >= 0) grip = [driver, forks](double time_s) { return driver->NodeAt(forks, time_s); };
   if (vehicle.route.plan.steps.empty() && vehicle.mast.empty()) {  // parked for good

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "simulator/mesh/import.h"
+#include "simulator/scene/footprint.h"
 #include "simulator/world/build.h"
 
 namespace aisle::sim {
@@ -82,6 +83,21 @@ void ExpectFeetStay(const std::string& model, double speed) {
   const FootWork feet = WatchFeet(Make(PersonWalking(model, speed, 30)), 4, 7);
   EXPECT_LE(feet.slip_m, 0.02) << model << " at " << speed << " m/s";
   EXPECT_LE(feet.sink_m, 0.01) << model << " at " << speed << " m/s";
+}
+
+void ExpectNoJumps(const Actor& actor, double until_s) {
+  MoverState before = actor.at(0);
+  constexpr double kStep_s = 0.01;
+  constexpr float kFastestLimb_mps = 9;
+  for (double t = kStep_s; t < until_s; t += kStep_s) {
+    const MoverState now = actor.at(t);
+    float jump = 0;
+    for (std::size_t i = 0; i < now.positions.size(); i += 17) {
+      jump = std::max(jump, (now.positions[i] - before.positions[i]).norm());
+    }
+    ASSERT_LT(jump, kFastestLimb_mps * kStep_s) << "at " << t;
+    before = now;
+  }
 }
 
 TEST(Person, FeetStayWhereTheyStandAndAboveTheFloorAtEverySpeed) {
@@ -192,18 +208,35 @@ TEST(Person, NeverJumps) {
   person.route.plan.steps[1].wait_s = 0.5;
   person.route.plan.steps[2].turn_to_rad = pi / 2;
   person.route.plan.steps[3].go = {{3, 2}};
-  const Actor actor = Make(person);
-  MoverState before = actor.at(0);
-  constexpr double kStep_s = 0.01;
-  constexpr float kFastestLimb_mps = 9;
-  for (double t = kStep_s; t < 12; t += kStep_s) {
-    const MoverState now = actor.at(t);
-    float jump = 0;
-    for (std::size_t i = 0; i < now.positions.size(); i += 17) {
-      jump = std::max(jump, (now.positions[i] - before.positions[i]).norm());
+  ExpectNoJumps(Make(person), 12);
+}
+
+TEST(Person, NeverJumpsWhereStepsJoin) {
+  for (const char* play : {"look_back", "look_around"}) {
+    PersonSpec person = PersonWalking(PeopleModels()[0], 1.1, 2.4);
+    person.route.plan.steps.resize(3);
+    person.route.plan.steps[1].go = {{6.8, 0}};
+    person.route.plan.steps[1].play = play;
+    person.route.plan.steps[2].go = {{9.4, 0}};
+    ExpectNoJumps(Make(person), 10);
+  }
+}
+
+/// Velocities are no coarser where coordinates are large.
+TEST(Person, MovesTheSameFarFromTheOrigin) {
+  const auto at = [](double x_m, double time_s) {
+    PersonSpec person = PersonWalking(PeopleModels()[0], 1.2, 3);
+    person.route.plan.start.x() = x_m;
+    person.route.plan.steps[0].go[0].x() += x_m;
+    person.route.plan.steps.resize(2);
+    person.route.plan.steps[1].wait_s = 5;
+    return Make(person).at(time_s);
+  };
+  for (const double time_s : {1.7, 7.0}) {  // walks, stands
+    const MoverState near = at(0, time_s), far = at(900, time_s);
+    for (std::size_t i = 0; i < near.velocities.size(); ++i) {
+      ASSERT_LT((near.velocities[i] - far.velocities[i]).norm(), 1e-3f) << i << " at " << time_s;
     }
-    ASSERT_LT(jump, kFastestLimb_mps * kStep_s) << "at " << t;
-    before = now;
   }
 }
 
@@ -223,6 +256,17 @@ TEST(Person, StandsAsTallAsModelledAndLooksAlongItsHeading) {
   EXPECT_NEAR((low.y() + high.y()) / 2, 4, 0.2);
   EXPECT_GT(high.x() - low.x(), high.y() - low.y()) << "the shoulders lie across the heading";
   EXPECT_TRUE(state.T_world_object.linear().col(0).isApprox(Eigen::Vector3d::UnitY(), 1e-9));
+}
+
+TEST(Pushed, AreAsFarAheadAsTheirFootprintIs) {
+  const AssetLibrary assets(kAssets);
+  for (const std::string& name : assets.PeopleNames()) {
+    const double hands_m = assets.Person(name).clips.at("walk_push").handle_ahead_m;
+    for (const char* model : {"pallet_jack", "agv"}) {
+      EXPECT_NEAR(AheadOfPusher(model), hands_m - assets.Vehicle(model).handle_m, 0.06)
+          << name << " and " << model;
+    }
+  }
 }
 
 TEST(Person, AnUnknownModelOrClipIsNamed) {
@@ -269,6 +313,33 @@ struct Turning {
 };
 
 class EveryVehicle : public testing::TestWithParam<Turning> {};
+
+TEST(Pushed, HaveTheVelocityOfTheirOrigin) {
+  VehicleSpec jack;
+  jack.name = "jack";
+  jack.model = "pallet_jack";
+  jack.route.limits.turns_on_the_spot = true;
+  jack.route.plan.steps.resize(2);
+  jack.route.plan.steps[0].turn_to_rad = pi / 2;
+  jack.route.plan.steps[1].go = {{0, 4}, {4, 4}};
+  jack.route.plan.steps[1].corner_radius_m = 1;
+  AssetLibrary assets(kAssets);
+  WorldParts parts;
+  Wardrobe wardrobe(&parts);
+  const Actor actor = MakeVehicle(jack, &assets, {}, Dice(1, {}), &wardrobe, 2.15);
+  constexpr double kHalf_s = 1e-4;
+  double fastest_aside_mps = 0;
+  for (double t = 0.05; t < 14; t += 0.11) {
+    const MoverState now = actor.at(t);
+    const Eigen::Vector3d moved = (actor.at(t + kHalf_s).T_world_object.translation() -
+                                   actor.at(t - kHalf_s).T_world_object.translation()) /
+                                  (2 * kHalf_s);
+    EXPECT_LT((now.velocity_mps - moved).norm(), 2e-3) << t;
+    fastest_aside_mps =
+        std::max(fastest_aside_mps, std::abs(moved.dot(now.T_world_object.linear().col(1))));
+  }
+  EXPECT_GT(fastest_aside_mps, 0.5);
+}
 
 TEST_P(EveryVehicle, TyresTouchTheFloorWithoutSliding) {
   AssetLibrary assets(kAssets);
