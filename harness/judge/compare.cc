@@ -1,6 +1,7 @@
 #include "harness/judge/compare.h"
 
 #include "harness/judge/breaks.h"
+#include "harness/judge/cell.h"
 #include "harness/score/statistics.h"
 
 namespace aisle {
@@ -44,14 +45,11 @@ constexpr double kAlphaOfBreaks = 0.05;
 
 constexpr const char* kWatched[] = {"ms_process_mean", "ms_render_mean", "peak_rss_mib"};
 
-using Cell = std::tuple<std::string, std::string, std::string>;
 using ValuesBySeed = std::map<std::uint64_t, double>;
 
-std::map<Cell, std::vector<const RunRecord*>> Cells(const Results& results) {
-  std::map<Cell, std::vector<const RunRecord*>> cells;
-  for (const RunRecord& run : results.runs) {
-    cells[{run.spec.scene, run.spec.twin, run.spec.system.name}].push_back(&run);
-  }
+std::map<CellOfNight, std::vector<const RunRecord*>> Cells(const Results& results) {
+  std::map<CellOfNight, std::vector<const RunRecord*>> cells;
+  for (const RunRecord& run : results.runs) cells[CellOf(run.spec)].push_back(&run);
   return cells;
 }
 

@@ -2,14 +2,13 @@
 
 #include <limits>
 
+#include "harness/judge/cell.h"
 #include "harness/score/statistics.h"
 
 namespace aisle {
 namespace {
 
-using Cell = std::tuple<std::string, std::string, std::string>;  // scene, twin, system
-
-std::string Name(const Cell& cell) {
+std::string Name(const CellOfNight& cell) {
   const auto& [scene, twin, system] = cell;
   return fmt::format("{} {} {}", scene, twin, system);
 }
@@ -21,12 +20,12 @@ bool Matches(const Limit& limit, const RunSpec& spec) {
 }
 
 /// Runs that differ only by seed, in the order of the suite.
-std::vector<std::pair<Cell, std::vector<const RunRecord*>>> ByCell(
+std::vector<std::pair<CellOfNight, std::vector<const RunRecord*>>> ByCell(
     const std::vector<RunRecord>& runs, const Limit& limit) {
-  std::vector<std::pair<Cell, std::vector<const RunRecord*>>> cells;
+  std::vector<std::pair<CellOfNight, std::vector<const RunRecord*>>> cells;
   for (const RunRecord& run : runs) {
     if (!Matches(limit, run.spec)) continue;
-    const Cell cell{run.spec.scene, run.spec.twin, run.spec.system.name};
+    const CellOfNight cell = CellOf(run.spec);
     auto at = std::find_if(cells.begin(), cells.end(),
                            [&](const auto& entry) { return entry.first == cell; });
     if (at == cells.end()) at = cells.insert(cells.end(), {cell, {}});
@@ -79,7 +78,7 @@ std::string BoundInWords(const Limit& limit) {
 }
 
 /// Every seed by itself: "5 of 9 seeds are at least 1, needed are 9; the worst is 0 of seed 3".
-Verdict JudgeShare(const Limit& limit, const Cell& cell,
+Verdict JudgeShare(const Limit& limit, const CellOfNight& cell,
                    const std::vector<const RunRecord*>& runs) {
   std::map<std::uint64_t, bool> holds;  // by seed; all its repeats must
   const RunRecord *worst = nullptr, *without = nullptr;
@@ -120,7 +119,7 @@ Verdict JudgeShare(const Limit& limit, const Cell& cell,
   return verdict;
 }
 
-Verdict JudgeMedian(const Limit& limit, const Cell& cell,
+Verdict JudgeMedian(const Limit& limit, const CellOfNight& cell,
                     const std::vector<const RunRecord*>& runs) {
   const std::string name = Name(cell) + ": " + limit.score;
   std::vector<double> values;

@@ -16,7 +16,7 @@ std::string Counted(std::size_t count, const char* what) {
 std::map<CellOfNight, std::set<std::uint64_t>> SeedsByCell(const Results& results) {
   std::map<CellOfNight, std::set<std::uint64_t>> seeds;
   for (const RunRecord& run : results.runs) {
-    seeds[{run.spec.scene, run.spec.twin, run.spec.system.name}].insert(run.spec.seed);
+    seeds[CellOf(run.spec)].insert(run.spec.seed);
   }
   return seeds;
 }

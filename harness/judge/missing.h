@@ -4,17 +4,15 @@
 #include <map>
 #include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "harness/contract/run.h"
+#include "harness/judge/cell.h"
 #include "harness/record/results.h"
 
 namespace aisle {
 
-using CellOfNight = std::tuple<std::string, std::string, std::string>;  ///< scene, twin, system
-
-/// The seeds that a night has of each.
+/// The seeds that a night has of each cell.
 std::map<CellOfNight, std::set<std::uint64_t>> SeedsByCell(const Results& results);
 
 /// What one night has of a scene, twin and system, and another has not.
