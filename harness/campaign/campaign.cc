@@ -29,13 +29,16 @@ std::string LastLine(const std::string& log) {
 }
 
 /// The record of a run whose process did not live to write one.
-RunRecord FailedRun(const Job& job, const ProcessResult& result, const ProcessLimits& limits) {
+RunRecord FailedRun(const Job& job, const ProcessResult& result, const RunLimits& asked) {
+  const ProcessLimits limits = ProcessLimitsOf(job, asked);
   RunRecord record;
   record.spec = job.spec;
   record.inputs_hash = job.inputs_hash;
   const bool out_of_bounds =
       result.end == ProcessResult::End::kTimeout || result.end == ProcessResult::End::kMemory;
   record.status = out_of_bounds ? RunStatus::kTimeout : RunStatus::kCrashed;
+  if (result.end == ProcessResult::End::kTimeout) record.limit_s = limits.wall_s;
+  if (result.end == ProcessResult::End::kMemory) record.limit_mib = limits.memory_mib;
   record.status_why = Describe(result, limits);
   if (const std::string line = TellingLine(result.log); !line.empty()) {
     record.status_why += "; last words: " + line;
@@ -62,7 +65,7 @@ bool IsFailure(const std::optional<RunRecord>& record) {
 /// Follows the runs as they come and go.
 class Follower {
  public:
-  Follower(std::size_t total, const ProcessLimits& limits, const CampaignEvents& events)
+  Follower(std::size_t total, const RunLimits& limits, const CampaignEvents& events)
       : total_(total), limits_(limits), events_(events) {}
 
   void Ended(const Job& job, const ProcessResult& result) {
@@ -116,12 +119,9 @@ class Follower {
     if (one.total == 0) return one.stage.empty() ? "starting" : one.stage;
     return fmt::format("{}/{}", one.done, one.total);
   }
-  static std::string Describe(const ProcessResult& result, const ProcessLimits& limits) {
-    return aisle::Describe(result, limits);
-  }
 
   const std::size_t total_;
-  const ProcessLimits limits_;
+  const RunLimits limits_;
   const CampaignEvents& events_;
   std::size_t ended_ = 0;
   int failure_ = 0;
@@ -217,11 +217,11 @@ CampaignOutcome RunCampaign(const std::vector<Job>& jobs, const CampaignOptions&
   return outcome;
 }
 
-std::vector<Job> StillToDo(const std::vector<Job>& jobs, bool resume) {
+std::vector<Job> StillToDo(const std::vector<Job>& jobs, const RunLimits& limits) {
   std::map<std::string, const Job*> finished;  // by inputs
   std::vector<Job> todo, left;
   for (const Job& job : jobs) {
-    if (resume && ReadFinishedRun(job.spec, job.inputs_hash, job.out)) {
+    if (ReadFinishedRun(job.spec, job.inputs_hash, limits, job.out)) {
       finished.try_emplace(job.inputs_hash, &job);
       continue;
     }
@@ -235,6 +235,11 @@ std::vector<Job> StillToDo(const std::vector<Job>& jobs, bool resume) {
     if (!answered) todo.push_back(job);
   }
   return todo;
+}
+
+std::vector<Job> AllToDo(const std::vector<Job>& jobs) {
+  for (const Job& job : jobs) RemoveFolder(job.out / "runs" / RunId(job.spec));
+  return jobs;
 }
 
 }  // namespace aisle

@@ -19,7 +19,7 @@ struct CampaignEvents {
 
 struct CampaignOptions {
   int at_once = 1;  ///< processes
-  ProcessLimits limits;
+  RunLimits limits;
   bool retry = true;  ///< try failed runs once more, to tell flaky from broken
   std::map<std::string, double> seconds = {};      ///< what runs are thought to take, by RunId
   const std::atomic<bool>* interrupted = nullptr;  ///< set from outside: stop soon
@@ -38,8 +38,11 @@ struct CampaignOutcome {
 CampaignOutcome RunCampaign(const std::vector<Job>& jobs, const CampaignOptions& options,
                             const CampaignEvents& events);
 
-/// The jobs that have no result for these very inputs, nor an equal that has; what else lies in
-/// their folders is taken away. Without `resume` all of them.
-std::vector<Job> StillToDo(const std::vector<Job>& jobs, bool resume);
+/// The jobs that have no result for these very inputs within these limits, nor an equal that has;
+/// what else lies in their folders is taken away.
+std::vector<Job> StillToDo(const std::vector<Job>& jobs, const RunLimits& limits);
+
+/// All of them, once what lies in their folders is taken away.
+std::vector<Job> AllToDo(const std::vector<Job>& jobs);
 
 }  // namespace aisle

@@ -28,7 +28,8 @@ EqualRuns GroupEqual(const std::vector<Job>& jobs) {
 }
 
 bool AnswerFrom(const Job& from, const Job& to) {
-  const std::optional<RunRecord> record = ReadFinishedRun(from.spec, from.inputs_hash, from.out);
+  const std::optional<RunRecord> record =
+      ReadFinishedRun(from.spec, from.inputs_hash, {}, from.out);
   if (!record || !IsComplete(record->status)) return false;
   WriteJob(to);
   CopyRunAs(from.spec, to.spec, HallOfSource(to.spec.scene_file, to.spec.seed), to.out);

@@ -51,6 +51,8 @@ RunRecord RecordOf(const Job& job, const RunResult& result, const RunScore& scor
   RunRecord record = MakeRecord(result, score, rate_hz);
   record.inputs_hash = job.inputs_hash;
   record.hall = HallOfSource(job.spec.scene_file, job.spec.seed);
+  // Its own times are among its inputs; how much memory it may take is not.
+  if (record.status == RunStatus::kTimeout) record.limit_mib = job.memory_mib;
   return record;
 }
 

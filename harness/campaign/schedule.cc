@@ -67,6 +67,10 @@ std::vector<Job> LongestFirst(const std::vector<Job>& jobs,
   return ordered;
 }
 
+ProcessLimits ProcessLimitsOf(const Job& job, const RunLimits& limits) {
+  return {.wall_s = WallLimit_s(limits, job.spec.system), .memory_mib = limits.memory_mib};
+}
+
 bool RunJobs(const std::vector<Job>& jobs, const ScheduleOptions& options,
              const ScheduleEvents& events) {
   std::list<const Job*> waiting;
@@ -79,7 +83,8 @@ bool RunJobs(const std::vector<Job>& jobs, const ScheduleOptions& options,
     while (static_cast<int>(running.size()) < std::max(options.jobs, 1)) {
       const auto next = NextToStart(waiting, made, running);
       if (next == waiting.end()) break;
-      running.push_back({*next, std::make_unique<Process>(events.argv(**next), options.limits)});
+      running.push_back({*next, std::make_unique<Process>(
+                                    events.argv(**next), ProcessLimitsOf(**next, options.limits))});
       waiting.erase(next);
     }
     for (auto it = running.begin(); it != running.end();) {

@@ -8,14 +8,18 @@
 
 #include "harness/campaign/job.h"
 #include "harness/campaign/process.h"
+#include "harness/contract/run_limits.h"
 
 namespace aisle {
 
 struct ScheduleOptions {
   int jobs = 1;  ///< processes at once
-  ProcessLimits limits;
+  RunLimits limits;
   const std::atomic<bool>* interrupted = nullptr;  ///< set from outside: stop soon
 };
+
+/// What the job's process is held to.
+ProcessLimits ProcessLimitsOf(const Job& job, const RunLimits& limits);
 
 struct JobProgress {
   const Job* job = nullptr;

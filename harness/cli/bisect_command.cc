@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 struct Options {
   std::string good, bad, suite, scene, twin = "live", system, limit, out = "out/bisect";
   std::vector<std::uint64_t> seed{1};
-  ProcessLimits limits;
+  RunLimits limits;
   bool json = false;
 };
 
@@ -146,25 +146,26 @@ class Trials {
   /// Why it cannot be built; empty where it can.
   std::string Build(const fs::path& folder) const {
     if (system_.external->build.empty()) return "";
+    const ProcessLimits limits{.wall_s = WallLimit_s(options_.limits, {}),
+                               .memory_mib = options_.limits.memory_mib};
     Process process(
         {"/bin/sh", "-c", "cd \"$0\" && " + system_.external->build, source_.folder().string()},
-        options_.limits);
+        limits);
     while (!process.Poll()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
     const ProcessResult& result = process.result();
     WriteFileAtomically(folder / "build.log", result.log);
     if (result.end == ProcessResult::End::kExited && result.code == 0) return "";
     const std::string line = TellingLine(result.log);
-    return Describe(result, options_.limits) + (line.empty() ? "" : "; " + line);
+    return Describe(result, limits) + (line.empty() ? "" : "; " + line);
   }
 
   /// Empty where one of the runs left no result.
   std::vector<RunRecord> Drive(const fs::path& folder) const {
-    const std::vector<Job> jobs = StillToDo(MakeJobs(Plan(suite_), Fingerprints(),
-                                                     {.out = folder,
-                                                      .video = false,
-                                                      .memory_mib = options_.limits.memory_mib,
-                                                      .frames_in_report = "none"}),
-                                            false);
+    const std::vector<Job> jobs = AllToDo(MakeJobs(Plan(suite_), Fingerprints(),
+                                                   {.out = folder,
+                                                    .video = false,
+                                                    .memory_mib = options_.limits.memory_mib,
+                                                    .frames_in_report = "none"}));
     ProgressLine line;
     std::string said;
     const CampaignOutcome outcome =
@@ -252,7 +253,10 @@ void AddBisectCommand(CLI::App* app, Action* action) {
   command->add_option("--system", options->system, "which system; default: the first of that kind");
   command->add_option("--seed", options->seed, "these seeds; default 1")->delimiter(',');
   command->add_option("--out", options->out, "folder for checkout, runs and logs");
-  command->add_option("--timeout", options->limits.wall_s, "seconds for a build, and for a run")
+  command
+      ->add_option(
+          "--timeout", options->limits.wall_s,
+          "seconds for a build, and for a run; default an hour, and for a run as `run` has it")
       ->check(CLI::PositiveNumber);
   command->add_flag("--json", options->json, "for programs");
   command->footer(

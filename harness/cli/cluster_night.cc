@@ -65,7 +65,7 @@ std::string KubernetesOf(const ClusterNight& night, const ClusterChoice& choice,
        .tasks = tasks,
        .at_most = choice.nodes_at_most,
        .cpus = night.settings.threads,
-       .memory_mib = night.settings.memory_mib,
+       .memory_mib = night.settings.limits.memory_mib,
        .out = night.out,
        .working_folder = fs::current_path()});
 }
@@ -87,7 +87,7 @@ void ClearTheWay(const TaskList& list, bool resume, const fs::path& out) {
   RemoveReport(out);
   for (const Task& task : list.tasks) {
     for (const TaskRun& run : task.runs) {
-      if (resume && ReadFinishedRun(run.spec, run.inputs_hash, out)) continue;
+      if (resume && ReadFinishedRun(run.spec, run.inputs_hash, list.settings.limits, out)) continue;
       RemoveFolder(out / "runs" / RunId(run.spec));
     }
   }

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 struct Options {
   std::string id, in, out;
   int threads = 0;
-  ProcessLimits limits;
+  RunLimits limits;
   bool debug_dynamic = false;
   bool json = false;
 };
@@ -100,7 +100,7 @@ int Rerun(const Options& options) {
   const Job job = FindJob(options.id, options.in);
   const std::optional<RunRecord> before = ReadRun(job.spec, options.in);
   const fs::path out = options.out.empty() ? fs::path(options.in) / "rerun" : fs::path(options.out);
-  const std::vector<Job> again = StillToDo({AsOfNow(job.spec, options, out)}, false);
+  const std::vector<Job> again = AllToDo({AsOfNow(job.spec, options, out)});
   ProgressLine line;
   const CampaignOutcome outcome =
       RunCampaign(again, {.at_once = 1, .limits = options.limits, .retry = false},
@@ -127,7 +127,9 @@ void AddRerunCommand(CLI::App* app, Action* action) {
   command->add_option("--out", options->out, "where the new run goes; default DIR/rerun");
   command->add_option("--threads", options->threads, "0: all; never changes a result")
       ->check(CLI::Range(0, 1024));
-  command->add_option("--timeout", options->limits.wall_s, "seconds of wall time")
+  command
+      ->add_option("--timeout", options->limits.wall_s,
+                   "seconds of wall time; default as `run` has it")
       ->check(CLI::PositiveNumber);
   command->add_flag("--debug-dynamic", options->debug_dynamic,
                     "draw how it found what moves, every stage of every frame, into its folder's "

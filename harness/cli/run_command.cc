@@ -36,7 +36,7 @@ struct Options {
   std::string shard = "1/1";
   int jobs = 1;
   int threads = 0;
-  ProcessLimits limits;
+  RunLimits limits;
   bool resume = false;
   bool no_frame_cache = false;
   bool no_video = false;
@@ -178,8 +178,7 @@ int HandOver(const Options& options, const PlanFile& plan, const std::vector<Run
   ClusterNight night{.plan = plan,
                      .runs = {},
                      .settings = {.threads = options.threads > 0 ? options.threads : kUsualThreads,
-                                  .timeout_s = options.limits.wall_s,
-                                  .memory_mib = options.limits.memory_mib,
+                                  .limits = options.limits,
                                   .retry = !options.no_retry,
                                   .frame_cache = !options.no_frame_cache,
                                   .video = !options.no_video,
@@ -244,7 +243,7 @@ int RunSuites(const Options& options) {
                                           .frames_in_report = options.frames_in_report});
   const std::map<std::string, double> seconds = ExpectedSeconds(specs, out, CountSourceFrames);
   RemoveReport(out);
-  const std::vector<Job> todo = StillToDo(jobs, options.resume);
+  const std::vector<Job> todo = options.resume ? StillToDo(jobs, options.limits) : AllToDo(jobs);
   if (specs.size() > todo.size()) {
     fmt::print(stderr, "aisle: {} of {} runs are already there\n", specs.size() - todo.size(),
                specs.size());
@@ -300,13 +299,17 @@ void AddRunCommand(CLI::App* app, Action* action) {
   command->add_option("--jobs", options->jobs, "runs at once")->check(CLI::Range(1, 256));
   command->add_option("--threads", options->threads, "per run; 0: all; never changes a result")
       ->check(CLI::Range(0, 1024));
-  command->add_option("--timeout", options->limits.wall_s, "seconds of wall time per run")
+  command
+      ->add_option(
+          "--timeout", options->limits.wall_s,
+          "seconds of wall time per run; default an hour, and beside it what a command may take by "
+          "its own `timeout_s`")
       ->check(CLI::PositiveNumber);
   command->add_option("--memory", options->limits.memory_mib, "MiB of memory per run")
       ->check(CLI::PositiveNumber);
   command->add_flag("--resume", options->resume,
                     "keep the finished runs of the report folder, where program, scene and system "
-                    "are still the same");
+                    "are still the same and no limit that ended them is larger now");
   command->add_flag("--dry-run", options->dry_run,
                     "check everything, say how many runs and how long, and stop there");
   command->add_flag("--gate", options->gate,

@@ -50,10 +50,10 @@ std::size_t IndexOf(const Options& options, std::size_t tasks) {
 }
 
 std::vector<RunSpec> Missing(const Task& task, const Fingerprints& fingerprints,
-                             const fs::path& out) {
+                             const RunLimits& limits, const fs::path& out) {
   std::vector<RunSpec> missing;
   for (const TaskRun& run : task.runs) {
-    if (ReadFinishedRun(run.spec, run.inputs_hash, out)) continue;
+    if (ReadFinishedRun(run.spec, run.inputs_hash, limits, out)) continue;
     if (fingerprints.Run(run.spec) != run.inputs_hash) {
       throw InputError(fmt::format(
           "{}: this node has another program, scene, system or assets than the night was planned "
@@ -83,21 +83,22 @@ int RunTask(const Options& options) {
   const Scratch scratch(fs::temp_directory_path());
   setenv("AISLE_CACHE", scratch.cache().c_str(), 0);  // a user's own choice stays
   const Fingerprints fingerprints;
-  const std::vector<Job> jobs = MakeJobs(Missing(task, fingerprints, out), fingerprints,
-                                         {.out = scratch.folder(),
-                                          .threads = settings.threads,
-                                          .frame_cache = settings.frame_cache,
-                                          .video = settings.video,
-                                          .debug_dynamic = settings.debug_dynamic,
-                                          .memory_mib = settings.memory_mib,
-                                          .frames_in_report = settings.frames_in_report});
+  const std::vector<Job> jobs =
+      MakeJobs(Missing(task, fingerprints, settings.limits, out), fingerprints,
+               {.out = scratch.folder(),
+                .threads = settings.threads,
+                .frame_cache = settings.frame_cache,
+                .video = settings.video,
+                .debug_dynamic = settings.debug_dynamic,
+                .memory_mib = settings.limits.memory_mib,
+                .frames_in_report = settings.frames_in_report});
   int failure = 0;
   for (Job job : jobs) {  // one by one: what is done is handed in before a limit comes
     job.goes_to = out;
     const CampaignOutcome outcome =
         RunCampaign({job},
                     {.at_once = 1,
-                     .limits = {.wall_s = settings.timeout_s, .memory_mib = settings.memory_mib},
+                     .limits = settings.limits,
                      .retry = settings.retry,
                      .interrupted = &interrupted},
                     {.say = [](const std::string& text) { fmt::print(stderr, "{}\n", text); },

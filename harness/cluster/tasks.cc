@@ -21,8 +21,8 @@ fs::path TasksPath(const fs::path& out) { return out / "cluster" / "tasks.json";
 
 Json ToJson(const TaskSettings& settings) {
   return {{"threads", settings.threads},
-          {"timeout_s", settings.timeout_s},
-          {"memory_mib", settings.memory_mib},
+          {"timeout_s", settings.limits.wall_s},
+          {"memory_mib", settings.limits.memory_mib},
           {"retry", settings.retry},
           {"frame_cache", settings.frame_cache},
           {"video", settings.video},
@@ -38,8 +38,8 @@ Json ToJson(const TaskSettings& settings) {
 TaskSettings SettingsFromJson(const Json& json) {
   TaskSettings settings;
   json.at("threads").get_to(settings.threads);
-  json.at("timeout_s").get_to(settings.timeout_s);
-  json.at("memory_mib").get_to(settings.memory_mib);
+  json.at("timeout_s").get_to(settings.limits.wall_s);
+  json.at("memory_mib").get_to(settings.limits.memory_mib);
   json.at("retry").get_to(settings.retry);
   json.at("frame_cache").get_to(settings.frame_cache);
   json.at("video").get_to(settings.video);
@@ -129,7 +129,7 @@ std::vector<std::size_t> Unfinished(const TaskList& list, const fs::path& out) {
   for (std::size_t i = 0; i < list.tasks.size(); ++i) {
     const std::vector<TaskRun>& runs = list.tasks[i].runs;
     const bool finished = std::all_of(runs.begin(), runs.end(), [&](const TaskRun& run) {
-      return ReadFinishedRun(run.spec, run.inputs_hash, out).has_value();
+      return ReadFinishedRun(run.spec, run.inputs_hash, list.settings.limits, out).has_value();
     });
     if (!finished) unfinished.push_back(i);
   }

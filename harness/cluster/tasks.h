@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "harness/contract/run.h"
+#include "harness/contract/run_limits.h"
 
 namespace aisle {
 
@@ -24,12 +25,11 @@ struct Task {
 
 /// What every task and the merge need to know besides the plan.
 struct TaskSettings {
-  int threads = 2;           ///< of a task
-  double timeout_s = 3600;   ///< wall time of one run
-  double memory_mib = 8192;  ///< of one run
-  bool retry = true;         ///< failed runs once more, to tell flaky from broken
-  bool frame_cache = true;   ///< keep rendered frames on the node
-  bool video = true;         ///< where the node has an ffmpeg
+  int threads = 2;          ///< of a task
+  RunLimits limits;         ///< of one run
+  bool retry = true;        ///< failed runs once more, to tell flaky from broken
+  bool frame_cache = true;  ///< keep rendered frames on the node
+  bool video = true;        ///< where the node has an ffmpeg
   bool debug_dynamic = false;
   std::string frames_in_report = "worst";
   bool remember = true;  ///< the merge files the night among the trends
@@ -62,7 +62,7 @@ TaskList ReadTasks(const std::filesystem::path& out);
 /// Whether the folder was made for a cluster.
 bool HasTasks(const std::filesystem::path& out);
 
-/// The tasks that lack a finished run for their inputs, by index, ascending.
+/// The tasks that lack a finished run for their inputs and limits, by index, ascending.
 std::vector<std::size_t> Unfinished(const TaskList& list, const std::filesystem::path& out);
 
 }  // namespace aisle

@@ -89,10 +89,21 @@ std::optional<RunRecord> ReadRun(const RunSpec& spec, const fs::path& report_dir
   }
 }
 
+namespace {
+
+/// A limit ended it that is larger now.
+bool MayGetFarther(const RunRecord& record, const RunLimits& now) {
+  const bool longer = record.limit_s > 0 && WallLimit_s(now, record.spec.system) > record.limit_s;
+  return longer || (record.limit_mib > 0 && now.memory_mib > record.limit_mib);
+}
+
+}  // namespace
+
 std::optional<RunRecord> ReadFinishedRun(const RunSpec& spec, const std::string& inputs_hash,
-                                         const fs::path& report_dir) {
+                                         const RunLimits& limits, const fs::path& report_dir) {
   std::optional<RunRecord> record = ReadRun(spec, report_dir);
   if (!record || record->inputs_hash != inputs_hash) return std::nullopt;
+  if (MayGetFarther(*record, limits)) return std::nullopt;
   if (record->output_hash.empty()) {  // it never came as far as a trajectory
     // Its process died: by its own fault, or because somebody killed it. A fault shows again.
     return record->status == RunStatus::kCrashed ? std::nullopt : record;

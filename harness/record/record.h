@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "harness/contract/run.h"
+#include "harness/contract/run_limits.h"
 #include "harness/contract/score.h"
 #include "harness/score/scorecard.h"
 
@@ -17,6 +18,8 @@ struct RunRecord {
   std::string hall;  ///< where it ran: "cold_store"; empty: in the scene's own
   RunStatus status = RunStatus::kOk;
   std::string status_why;
+  /// The limits of which one ended it (kTimeout); 0: that one did not, or results of before.
+  double limit_s = 0, limit_mib = 0;
   std::size_t frames = 0;
   double rate_hz = 0;
   double wall_s = 0;
@@ -68,9 +71,10 @@ RunRecord WriteRun(const RunResult& run, const RunScore& score, RunRecord record
 /// A run's result.json, if it is there and whole.
 std::optional<RunRecord> ReadRun(const RunSpec& spec, const std::filesystem::path& report_dir);
 
-/// The same, if it answers for these inputs and its trajectories still are what it left: a run
-/// that need not be made again.
+/// The same, if it answers for these inputs, its trajectories still are what it left, and no limit
+/// that ended it is larger now: a run that need not be made again.
 std::optional<RunRecord> ReadFinishedRun(const RunSpec& spec, const std::string& inputs_hash,
+                                         const RunLimits& limits,
                                          const std::filesystem::path& report_dir);
 
 }  // namespace aisle

@@ -69,6 +69,8 @@ Json RecordToJson(const RunRecord& record) {
   if (!record.hall.empty()) json["hall"] = record.hall;
   json["status"] = Name(record.status);
   json["why"] = record.status_why;
+  if (record.limit_s > 0) json["limit_s"] = record.limit_s;
+  if (record.limit_mib > 0) json["limit_mib"] = record.limit_mib;
   json["frames"] = record.frames;
   json["rate_hz"] = record.rate_hz;
   json["wall_s"] = record.wall_s;
@@ -104,6 +106,8 @@ RunRecord RecordFromJson(const Json& json) {
   record.status = RunStatusFromName(json.at("status").get<std::string>());
   record.hall = json.value("hall", "");
   record.status_why = json.value("why", "");
+  record.limit_s = json.value("limit_s", 0.0);
+  record.limit_mib = json.value("limit_mib", 0.0);
   record.frames = json.at("frames").get<std::size_t>();
   record.rate_hz = json.value("rate_hz", 0.0);
   record.wall_s = json.value("wall_s", 0.0);

@@ -44,6 +44,21 @@ TEST(ScheduleTest, WithoutTimesTheOrderIsThePlans) {
   EXPECT_EQ(Ids(LongestFirst(jobs, {})), Ids(jobs));
 }
 
+TEST(ScheduleTest, ARunMayTakeAsLongAsItsCommandAndOurOwnWorkBesideIt) {
+  Job ours = JobOf("a", "plain"), theirs = ours;
+  theirs.spec.system = {.name = "mine",
+                        .like = "",
+                        .options = {},
+                        .mask_errors = {},
+                        .external = ExternalSystem{.command = "x {output}", .timeout_s = 7200}};
+  EXPECT_EQ(ProcessLimitsOf(ours, {}).wall_s, 3600);
+  EXPECT_GT(ProcessLimitsOf(theirs, {}).wall_s, 7200);
+  EXPECT_EQ(ProcessLimitsOf(theirs, {.wall_s = 60}).wall_s, 60) << "who asks for it has it";
+  theirs.spec.system.external->dataset = kStreamFormat;  // its `timeout_s` is that of one answer
+  EXPECT_EQ(ProcessLimitsOf(theirs, {}).wall_s, 3600);
+  EXPECT_EQ(ProcessLimitsOf(ours, {.memory_mib = 9}).memory_mib, 9);
+}
+
 /// When the last of the jobs ends, each taken by the first worker that is free.
 double EndOf(const std::vector<Job>& jobs, const std::map<std::string, double>& seconds,
              int workers) {

@@ -68,7 +68,7 @@ TEST(TasksTest, TheLongestComesFirst) {
 
 TEST(TasksTest, AListComesBackAsItWasWritten) {
   TaskList list{.settings = {.threads = 5,
-                             .timeout_s = 7.5,
+                             .limits = {.wall_s = 7.5, .memory_mib = 100},
                              .retry = false,
                              .frames_in_report = "none",
                              .allure = "a \"b\"",

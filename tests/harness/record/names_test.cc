@@ -80,6 +80,8 @@ TEST(RunRecordJson, ComesBackWithEveryScoreOrTheReasonForItsAbsence) {
     record.spec = {.scene = "a\"b", .scene_file = "f", .twin = "live", .system = BuiltIn("robust")};
     record.spec.seed = (std::uint64_t{random()} << 32) | random();
     record.status = static_cast<RunStatus>(round % 5);
+    record.limit_s = round % 3;
+    record.limit_mib = round % 2 ? 0.1 : 0;
     record.status_why = round % 2 ? "why <&>\n\xC3\xA4" : "";
     record.frames = random() % 1000;
     record.flaky = round % 3 == 0;
@@ -100,6 +102,8 @@ TEST(RunRecordJson, ComesBackWithEveryScoreOrTheReasonForItsAbsence) {
     EXPECT_EQ(read.spec, record.spec);
     EXPECT_EQ(read.status, record.status);
     EXPECT_EQ(read.status_why, record.status_why);
+    EXPECT_EQ(read.limit_s, record.limit_s);
+    EXPECT_EQ(read.limit_mib, record.limit_mib);
     EXPECT_EQ(read.frames, record.frames);
     EXPECT_EQ(read.flaky, record.flaky);
     EXPECT_EQ(read.notes, record.notes);
@@ -132,11 +136,11 @@ class KeptRun : public testing::Test {
 /// A run is not made again where it answers for the same inputs and all it left is what it left.
 TEST_F(KeptRun, IsTakenOnlyWhileItsInputsAndTracksAreTheSame) {
   const RunRecord record = Write();
-  EXPECT_TRUE(ReadFinishedRun(record.spec, "abc", folder_));
-  EXPECT_FALSE(ReadFinishedRun(record.spec, "abd", folder_)) << "other inputs";
+  EXPECT_TRUE(ReadFinishedRun(record.spec, "abc", {}, folder_));
+  EXPECT_FALSE(ReadFinishedRun(record.spec, "abd", {}, folder_)) << "other inputs";
   RunSpec other = record.spec;
   other.seed = 4;
-  EXPECT_FALSE(ReadFinishedRun(other, "abc", folder_)) << "another run";
+  EXPECT_FALSE(ReadFinishedRun(other, "abc", {}, folder_)) << "another run";
   const fs::path run = folder_ / "runs" / RunId(record.spec);
   for (const char* track : {"live.txt", "final.txt", "truth.txt"}) {
     const std::string whole = ReadFile(run / track);
@@ -144,15 +148,44 @@ TEST_F(KeptRun, IsTakenOnlyWhileItsInputsAndTracksAreTheSame) {
     char& byte = changed[changed.size() / 2];
     byte = byte == '1' ? '2' : '1';
     std::ofstream(run / track) << changed;
-    EXPECT_FALSE(ReadFinishedRun(record.spec, "abc", folder_)) << track << " is other";
+    EXPECT_FALSE(ReadFinishedRun(record.spec, "abc", {}, folder_)) << track << " is other";
     fs::remove(run / track);
-    EXPECT_FALSE(ReadFinishedRun(record.spec, "abc", folder_)) << track << " is gone";
+    EXPECT_FALSE(ReadFinishedRun(record.spec, "abc", {}, folder_)) << track << " is gone";
     std::ofstream(run / track) << whole;
-    EXPECT_TRUE(ReadFinishedRun(record.spec, "abc", folder_));
+    EXPECT_TRUE(ReadFinishedRun(record.spec, "abc", {}, folder_));
   }
   const std::string json = ReadFile(run / "result.json");
   std::ofstream(run / "result.json") << json.substr(0, json.size() / 2);
-  EXPECT_FALSE(ReadFinishedRun(record.spec, "abc", folder_));
+  EXPECT_FALSE(ReadFinishedRun(record.spec, "abc", {}, folder_));
+}
+
+/// What ran out of time or memory would run out again, unless it is given more.
+TEST_F(KeptRun, IsMadeAgainWhereALimitThatEndedItIsLargerNow) {
+  RunRecord record = Write();
+  const auto kept = [&](const RunLimits& limits) {
+    return ReadFinishedRun(record.spec, "abc", limits, folder_).has_value();
+  };
+  const auto write = [&] {
+    std::ofstream(folder_ / "runs" / RunId(record.spec) / "result.json") << ToJson(record);
+  };
+  record.status = RunStatus::kTimeout;
+  write();
+  EXPECT_TRUE(kept({.wall_s = 1e6, .memory_mib = 1e6})) << "of before: nobody knows the limit";
+  for (const std::string& left : {record.output_hash, std::string()}) {
+    record.output_hash = left;  // a command's own, or the whole run's
+    record.limit_s = 60;
+    record.limit_mib = 0;
+    write();
+    EXPECT_TRUE(kept({.wall_s = 60, .memory_mib = 1e6}));
+    EXPECT_TRUE(kept({.wall_s = 30}));
+    EXPECT_FALSE(kept({.wall_s = 61}));
+    EXPECT_FALSE(kept({})) << "an hour";
+    record.limit_s = 0;
+    record.limit_mib = 100;
+    write();
+    EXPECT_TRUE(kept({.wall_s = 1e6, .memory_mib = 100}));
+    EXPECT_FALSE(kept({.memory_mib = 101}));
+  }
 }
 
 /// Every frame's numbers come back from the table, the absent ones absent.
