@@ -100,8 +100,9 @@ class Follower {
     std::string text = fmt::format("{}/{} runs", ended_, total_);
     double share = static_cast<double>(ended_);
     for (const JobProgress& one : running) {
-      text += fmt::format(" | {} {}", RunId(one.job->spec), Describe(one));
-      if (one.total > 0) share += static_cast<double>(one.done) / one.total;
+      text += fmt::format(" | {} {}", RunId(one.job->spec), Describe(one.progress));
+      const auto& [done, total, stage] = one.progress;
+      if (total > 0) share += static_cast<double>(done) / total;
     }
     const double elapsed_s = watch_.ElapsedMs() * 1e-3;
     if (share > 0.02) {
@@ -115,7 +116,7 @@ class Follower {
 
  private:
   /// Before the first frame the light that stands still is solved, minutes in a large scene.
-  static std::string Describe(const JobProgress& one) {
+  static std::string Describe(const Progress& one) {
     if (one.total == 0) return one.stage.empty() ? "starting" : one.stage;
     return fmt::format("{}/{}", one.done, one.total);
   }

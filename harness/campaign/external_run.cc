@@ -22,6 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kBetweenWords = " \t\n;|&<>()'\"";  // of a command
+
 ProcessResult RunToEnd(const std::string& command, const ProcessLimits& limits,
                        const ExternalSystem& system, const ExternalRun& run,
                        const GuestRooms& rooms) {
@@ -43,7 +45,7 @@ ProcessResult RunToEnd(const std::string& command, const ProcessLimits& limits,
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - begun;
     if (!run.progress || since.count() < told_s + 1) continue;
     told_s = since.count();
-    run.progress(told_s, process.progress_done(), process.progress_total());
+    run.progress(told_s, process.progress().done, process.progress().total);
   }
   return process.result();
 }
@@ -192,7 +194,6 @@ std::vector<fs::path> FilesNamedBy(const std::string& command) {
       }
     }
   };
-  constexpr const char* kBetweenWords = " \t\n;|&<>()'\"";
   for (std::size_t at = 0; at < command.size();) {
     const std::size_t begin =
         std::min(command.find_first_not_of(kBetweenWords, at), command.size());
@@ -203,6 +204,20 @@ std::vector<fs::path> FilesNamedBy(const std::string& command) {
     const std::size_t value = word.find_first_of(":=");
     if (value != std::string::npos) take(word.substr(value + 1));
     if (word.find('/') == std::string::npos) take_program(word);
+  }
+  return files;
+}
+
+std::vector<fs::path> FilesInSource(const ExternalSystem& system) {
+  constexpr std::string_view kSource = "{source}";
+  std::vector<fs::path> files;
+  const std::string& command = system.command;
+  for (std::size_t at = 0; (at = command.find(kSource, at)) != std::string::npos;) {
+    at += kSource.size();
+    const std::size_t end = std::min(command.find_first_of(kBetweenWords, at), command.size());
+    std::error_code error;
+    const fs::path file = system.repository + command.substr(at, end - at);
+    if (fs::is_regular_file(file, error)) files.push_back(file);
   }
   return files;
 }

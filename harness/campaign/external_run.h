@@ -40,4 +40,7 @@ std::string FillIn(const std::string& command, const std::map<std::string, std::
 /// also behind "key:", "key=" and "--key=". Only of files.
 std::vector<std::filesystem::path> FilesNamedBy(const std::string& command);
 
+/// The files that a command names below {source}, which it knows by that name alone.
+std::vector<std::filesystem::path> FilesInSource(const ExternalSystem& system);
+
 }  // namespace aisle

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "harness/campaign/progress.h"
 #include "harness/io/file.h"
 #include "harness/io/file_lock.h"
 #include "harness/io/hash.h"
@@ -15,11 +16,6 @@ namespace fs = std::filesystem;
 
 /// Written last, with the checksum of all others: a dataset without it is not whole.
 constexpr const char* kDoneMark = "complete";
-
-void TellProgress(std::size_t done, std::size_t total) {
-  fmt::print("@progress {} {}\n", done, total);
-  std::fflush(stdout);
-}
 
 /// Names of all files below, but for the mark, in order.
 std::set<fs::path> FilesOf(const fs::path& folder) {

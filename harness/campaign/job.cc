@@ -24,21 +24,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kSchema = 1;
 
-/// The files that a command names below {source}, which it knows by that name alone.
-std::vector<fs::path> FilesInSource(const ExternalSystem& system) {
-  constexpr std::string_view kSource = "{source}";
-  std::vector<fs::path> files;
-  const std::string& command = system.command;
-  for (std::size_t at = 0; (at = command.find(kSource, at)) != std::string::npos;) {
-    at += kSource.size();
-    const std::size_t end = std::min(command.find_first_of(" \t\n;|&<>()'\"", at), command.size());
-    std::error_code error;
-    const fs::path file = system.repository + command.substr(at, end - at);
-    if (fs::is_regular_file(file, error)) files.push_back(file);
-  }
-  return files;
-}
-
 /// Programs, scripts and settings that a command names count as well, where they are files.
 std::uint64_t HashSystem(const SystemSpec& system, std::uint64_t seed) {
   seed = Hash(ToJson(system).dump(), seed);

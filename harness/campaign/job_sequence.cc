@@ -1,5 +1,6 @@
 #include "harness/campaign/job_sequence.h"
 
+#include "harness/campaign/progress.h"
 #include "harness/campaign/source.h"
 #include "harness/io/hash.h"
 #include "harness/io/places.h"
@@ -16,13 +17,8 @@ SimulatedSequenceOptions SimulationOf(const Job& job) {
           .seed = job.spec.seed,
           .threads = job.threads,
           .light_progress = [](const LightWork& work) {
-            TellStage(("solving its light: " + Describe(work)).c_str());
+            TellStage("solving its light: " + Describe(work));
           }};
-}
-
-void TellStage(const char* what) {
-  fmt::print("@stage {}\n", what);
-  std::fflush(stdout);
 }
 
 std::unique_ptr<Sequence> OpenSequence(const Job& job, std::uint64_t* content_hash) {

@@ -15,7 +15,4 @@ SimulatedSequenceOptions SimulationOf(const Job& job);
 /// takes long is told on stdout as "@stage". `content_hash` may be null.
 std::unique_ptr<Sequence> OpenSequence(const Job& job, std::uint64_t* content_hash = nullptr);
 
-/// A line "@stage WHAT" on stdout, for who waits.
-void TellStage(const char* what);
-
 }  // namespace aisle

@@ -204,16 +204,7 @@ void Process::ReadOutput() {
 }
 
 void Process::TakeLine(const std::string& line) {
-  int done = 0, total = 0;
-  if (std::sscanf(line.c_str(), "@progress %d %d", &done, &total) == 2) {
-    progress_done_ = done;
-    progress_total_ = total;
-    return;
-  }
-  if (const std::string_view mark = "@stage "; line.starts_with(mark)) {
-    progress_stage_ = line.substr(mark.size());
-    return;
-  }
+  if (TakeProgress(line, &progress_)) return;
   result_.log += line + "\n";
   if (result_.log.size() > 2 * limits_.log_bytes) {
     result_.log.erase(0, result_.log.size() - limits_.log_bytes);

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/campaign/progress.h"
+
 namespace aisle {
 
 struct ProcessLimits {
@@ -65,11 +67,8 @@ class Process {
   /// Looks after the child: reads its output, holds it to its limits. True once it has ended; call
   /// it some ten times a second.
   bool Poll();
-  /// Lines "@progress I N" of its output, latest; 0 of 0 before the first.
-  int progress_done() const { return progress_done_; }
-  int progress_total() const { return progress_total_; }
-  /// The latest line "@stage WHAT" of its output.
-  const std::string& progress_stage() const { return progress_stage_; }
+  /// What its output told last; such lines are not in its log.
+  const Progress& progress() const { return progress_; }
   const ProcessResult& result() const { return result_; }
 
  private:
@@ -85,8 +84,7 @@ class Process {
   bool ended_ = false;
   bool killed_ = false;
   std::string partial_line_;
-  int progress_done_ = 0, progress_total_ = 0;
-  std::string progress_stage_;
+  Progress progress_;
   ProcessResult result_;
 };
 

@@ -1,13 +1,13 @@
 #include "harness/campaign/run_job.h"
 
-#include <opencv2/imgproc.hpp>
-
 #include "harness/campaign/closed_run.h"
 #include "harness/campaign/external_run.h"
 #include "harness/campaign/guest_output.h"
 #include "harness/campaign/job_sequence.h"
 #include "harness/campaign/process.h"
+#include "harness/campaign/progress.h"
 #include "harness/campaign/run_bag.h"
+#include "harness/campaign/run_pictures.h"
 #include "harness/campaign/source.h"
 #include "harness/campaign/stream_system.h"
 #include "harness/campaign/teaching.h"
@@ -24,10 +24,6 @@
 #include "harness/record/drive_json.h"
 #include "harness/record/provenance.h"
 #include "harness/record/record.h"
-#include "harness/report/picture/drive_film.h"
-#include "harness/report/picture/frame_album.h"
-#include "harness/report/picture/stage_sheets.h"
-#include "harness/report/picture/video.h"
 #include "harness/run/drive.h"
 #include "harness/run/playback.h"
 #include "harness/score/drive_scores.h"
@@ -35,13 +31,6 @@
 
 namespace aisle {
 namespace {
-
-constexpr std::size_t kFilmEvery = 2;  ///< frames: half the rate is enough to see what happened
-
-void TellProgress(std::size_t done, std::size_t total) {
-  fmt::print("@progress {} {}\n", done, total);
-  std::fflush(stdout);
-}
 
 std::filesystem::path FolderOf(const Job& job) {
   return std::filesystem::path("runs") / RunId(job.spec);
@@ -65,77 +54,6 @@ std::vector<std::filesystem::path> HiddenFromGuests(const Job& job) {
   return hidden;
 }
 
-/// What people look at in the morning: single frames, a film, the stages of the rejection.
-class Pictures {
- public:
-  Pictures(const Job& job, double rate_hz)
-      : out_(job.out),
-        folder_(FolderOf(job)),
-        rate_hz_(rate_hz),
-        album_(FramesKeptFromName(job.frames_in_report)),
-        stages_({.folder = job.out / folder_,
-                 .rate_hz = rate_hz / kFilmEvery,
-                 .film = job.debug_dynamic && job.video}) {
-    if (job.video && Video::Available()) {
-      film_.emplace(out_ / folder_ / "film.mp4", rate_hz / kFilmEvery);
-    }
-  }
-
-  void See(const DrivenFrame& frame) {
-    const FrameTruth* truth = frame.shown.truth ? &*frame.shown.truth : nullptr;
-    cv::Mat3b picture = album_.See(frame.index, frame.count, frame.shown.images.left, truth,
-                                   frame.estimate, frame.facts);
-    if (film_ && frame.index % kFilmEvery == 0) {
-      if (picture.empty()) {
-        picture = DrawOverlay(frame.shown.images.left, truth, &frame.estimate, "");
-      }
-      cv::resize(picture, picture, {picture.cols / 4 * 2, picture.rows / 4 * 2}, 0, 0,
-                 cv::INTER_AREA);
-      film_->Add(picture);
-      if (steered_) drive_film_.Keep(frame.request.stamp_ns, picture);
-    }
-    stages_.See(frame.index, truth, frame.estimate, frame.facts);
-  }
-
-  /// The vehicle is steered: its drive becomes a film of its own.
-  void ExpectDrive() { steered_ = true; }
-  void FinishDrive(const DriveLog& drive, RunRecord* record) const {
-    // Frames that the busy system never saw are missing: as fast as it went all the same.
-    const DriveTrack& track = drive.track;
-    const double share = track.frames_due > 0 ? static_cast<double>(track.frames_shown) /
-                                                    static_cast<double>(track.frames_due)
-                                              : 1;
-    const double rate_hz = std::max(1.0, share * rate_hz_ / kFilmEvery);
-    if (film_ && drive_film_.Write(drive, out_ / folder_ / "drive.mp4", rate_hz)) {
-      record->artifacts["drive_film"] = (folder_ / "drive.mp4").string();
-    }
-  }
-
-  /// Writes what is left to write and names it all in the record. `live`: the errors that say
-  /// which frames are worth a look.
-  void Finish(const TrajectoryScore& live, RunRecord* record) {
-    auto& artifacts = record->artifacts;
-    if (film_ && film_->Finish()) artifacts["film"] = (folder_ / "film.mp4").string();
-    for (const auto& [name, path] : stages_.Finish()) artifacts[name] = (folder_ / path).string();
-    if (!stages_.trouble().empty()) record->notes.push_back(stages_.trouble());
-    std::map<std::size_t, double> error_m;
-    for (const PoseError& error : live.errors) error_m[error.pair.truth] = error.translation_m;
-    int number = 0;
-    for (const std::string& name : album_.Write(out_ / folder_, error_m)) {
-      artifacts[fmt::format("picture_{:04}", number++)] = (folder_ / name).string();
-    }
-  }
-
- private:
-  const std::filesystem::path out_, folder_;
-  const double rate_hz_;
-  bool steered_ = false;
-  DriveFilm drive_film_;
-  FrameAlbum album_;
-  std::optional<Video> film_;
-  StageSheets stages_;
-};
-
 /// The run as a bag; null where the job asks for none.
 std::unique_ptr<RunBag> BagOf(const Job& job, const StereoCalibration& calibration,
                               bool with_frames) {
@@ -156,22 +74,15 @@ void TellForeignProgress(double seconds, int done, int total, double timeout_s) 
   if (total > 0)
     return TellProgress(static_cast<std::size_t>(done), static_cast<std::size_t>(total));
   TellProgress(0, 0);
-  TellStage(fmt::format("driving, {:.0f} s of at most {:g}", seconds, timeout_s).c_str());
+  TellStage(fmt::format("driving, {:.0f} s of at most {:g}", seconds, timeout_s));
 }
 
 /// Holds a foreign drive against truth, with what it left beside its trajectory, and draws it.
-void Show(const Job& job, const Sequence& sequence, RunResult* result, Pictures* pictures,
-          RunBag* bag) {
+void Show(const Job& job, const Sequence& sequence, RunResult* result,
+          const FrameObserver& observer) {
   TellStage("looking at what it left");
   try {
-    PlayBack(
-        sequence, Leftovers(job.out / FolderOf(job)),
-        [&](const DrivenFrame& frame) {
-          pictures->See(frame);
-          if (bag != nullptr) bag->See(frame);
-          TellProgress(frame.index + 1, frame.count);
-        },
-        result);
+    PlayBack(sequence, Leftovers(job.out / FolderOf(job)), observer, result);
   } catch (const InputError& wrong) {
     result->notes.push_back(fmt::format("not used: {}", wrong.what()));
   }
@@ -202,9 +113,11 @@ void RunForeign(const Job& job) {
   result.spec = job.spec;
   result.scene_hash = content_hash;
   SpreadWallTime(&result);
-  Pictures pictures(job, sequence->rate_hz());
+  RunPictures pictures(job, sequence->rate_hz());
   const std::unique_ptr<RunBag> bag = BagOf(job, sequence->calibration(), false);
-  if (!result.trajectory.live.empty()) Show(job, *sequence, &result, &pictures, bag.get());
+  if (!result.trajectory.live.empty()) {
+    Show(job, *sequence, &result, Observe(&pictures, bag.get()));
+  }
   const RunScore score = ScoreRun(result);
   if (bag) bag->Finish(result, score, nullptr);
   RunRecord record = RecordOf(job, result, score, sequence->rate_hz());
@@ -241,7 +154,7 @@ std::unique_ptr<Estimator> EstimatorOf(const Job& job, const StereoCalibration& 
 }
 
 /// Scores a drive of one of ours and writes it all down.
-void File(const Job& job, double rate_hz, RunResult result, Pictures* pictures, RunBag* bag,
+void File(const Job& job, double rate_hz, RunResult result, RunPictures* pictures, RunBag* bag,
           const DriveLog* drive = nullptr) {
   result.spec = job.spec;
   result.threads = job.threads;
@@ -300,13 +213,9 @@ void RunOurs(const Job& job) {
   } catch (const SystemFault& fault) {
     return FileStillborn(job, sequence->rate_hz(), fault);
   }
-  Pictures pictures(job, sequence->rate_hz());
+  RunPictures pictures(job, sequence->rate_hz());
   const std::unique_ptr<RunBag> bag = BagOf(job, sequence->calibration(), false);
-  RunResult result = Drive(*sequence, *estimator, MasksOf(job), {}, [&](const DrivenFrame& frame) {
-    pictures.See(frame);
-    if (bag) bag->See(frame);
-    TellProgress(frame.index + 1, frame.count);
-  });
+  RunResult result = Drive(*sequence, *estimator, MasksOf(job), {}, Observe(&pictures, bag.get()));
   result.scene_hash = content_hash;
   Introduce(*estimator, &result);
   File(job, sequence->rate_hz(), std::move(result), &pictures, bag.get());
@@ -338,48 +247,59 @@ Teaching TeachFirst(const Job& job, const std::filesystem::path& map_file) {
   return teaching;
 }
 
+/// A file that is gone when it is.
+struct PassingFile {
+  ~PassingFile() {
+    std::error_code error;
+    if (!path.empty()) std::filesystem::remove(path, error);
+  }
+  const std::filesystem::path path;
+};
+
+/// Who steers through a scene, and what it was taught before.
+struct SteeredScene {
+  std::unique_ptr<DriveScene> scene;
+  std::uint64_t content_hash = 0;
+  std::unique_ptr<Estimator> estimator;
+  std::optional<TaughtCourse> taught = {};
+};
+
+/// Teaches the way where it is to be taught, then opens the scene and begins the system. Throws
+/// SystemFault; `steered` has what there was by then.
+void Begin(const Job& job, bool is_taught, SteeredScene* steered) {
+  const PassingFile map{is_taught ? job.out / FolderOf(job) / "taught.map" : ""};
+  std::optional<Teaching> teaching;
+  if (is_taught) teaching = TeachFirst(job, map.path);
+  steered->scene = OpenDrive(job, job.spec.twin, &steered->content_hash);
+  const DriveScene& scene = *steered->scene;
+  steered->estimator = EstimatorOf(job, scene.calibration(), scene.rate_hz(), map.path);
+  if (teaching) steered->taught = TaughtBy(*teaching, scene.course());
+}
+
 /// A scene whose vehicle the system steers: its frames are this run's alone.
 void RunSteering(const Job& job) {
   const Steering steering = SteeringOf(job.spec.system.options);
-  const std::filesystem::path map =
-      steering.taught ? job.out / FolderOf(job) / "taught.map" : std::filesystem::path();
-  std::optional<Teaching> teaching;
-  std::optional<SystemFault> fault;
+  SteeredScene steered;
   try {
-    if (steering.taught) teaching = TeachFirst(job, map);
-  } catch (const SystemFault& taught_nothing) {
-    fault = taught_nothing;
+    Begin(job, steering.taught, &steered);
+  } catch (const SystemFault& fault) {
+    if (!steered.scene) steered.scene = OpenDrive(job, job.spec.twin, nullptr);  // it has the rate
+    return FileStillborn(job, steered.scene->rate_hz(), fault);
   }
-  std::uint64_t content_hash = 0;
-  const std::unique_ptr<DriveScene> scene = OpenDrive(job, job.spec.twin, &content_hash);
-  std::unique_ptr<Estimator> estimator;
-  try {
-    if (!fault) estimator = EstimatorOf(job, scene->calibration(), scene->rate_hz(), map);
-  } catch (const SystemFault& stillborn) {
-    fault = stillborn;
-  }
-  std::error_code error;
-  std::filesystem::remove(map, error);
-  if (fault) return FileStillborn(job, scene->rate_hz(), *fault);
-  Pictures pictures(job, scene->rate_hz());
+  const DriveScene& scene = *steered.scene;
+  RunPictures pictures(job, scene.rate_hz());
   pictures.ExpectDrive();
-  const std::unique_ptr<RunBag> bag = BagOf(job, scene->calibration(), true);
-  const MaskMaker masks = MasksOf(job);
-  const auto observer = [&](const DrivenFrame& frame) {
-    pictures.See(frame);
-    if (bag) bag->See(frame);
-    TellProgress(frame.index + 1, frame.count);
-  };
-  const auto taught = teaching ? std::optional(TaughtBy(*teaching, scene->course())) : std::nullopt;
-  ClosedRun run = RunClosed(*scene, *estimator, masks, steering, job.spec.seed, observer, taught);
-  if (taught) {
+  const std::unique_ptr<RunBag> bag = BagOf(job, scene.calibration(), true);
+  ClosedRun run = RunClosed(scene, *steered.estimator, MasksOf(job), steering, job.spec.seed,
+                            Observe(&pictures, bag.get()), steered.taught);
+  if (steered.taught) {
     run.result.notes.push_back(
         "its way was taught: it was led along it once, without actors, and drove by its map of "
         "that");
   }
-  run.result.scene_hash = content_hash;
-  Introduce(*estimator, &run.result);
-  File(job, scene->rate_hz(), std::move(run.result), &pictures, bag.get(), &run.drive);
+  run.result.scene_hash = steered.content_hash;
+  Introduce(*steered.estimator, &run.result);
+  File(job, scene.rate_hz(), std::move(run.result), &pictures, bag.get(), &run.drive);
 }
 
 }  // namespace

@@ -33,8 +33,7 @@ std::list<const Job*>::iterator NextToStart(std::list<const Job*>& waiting,
 std::vector<JobProgress> ProgressOf(const std::list<Running>& running) {
   std::vector<JobProgress> progress;
   for (const Running& one : running) {
-    progress.push_back({one.job, one.process->progress_done(), one.process->progress_total(),
-                        one.process->progress_stage()});
+    progress.push_back({one.job, one.process->progress()});
   }
   return progress;
 }

@@ -23,8 +23,7 @@ ProcessLimits ProcessLimitsOf(const Job& job, const RunLimits& limits);
 
 struct JobProgress {
   const Job* job = nullptr;
-  int done = 0, total = 0;  ///< frames; 0 of 0 before the first
-  std::string stage;        ///< what it does before the first
+  Progress progress;
 };
 
 struct ScheduleEvents {

@@ -133,8 +133,8 @@ TEST(ProcessTest, TooMuchMemoryIsNoticed) {
 TEST(ProcessTest, ProgressLinesAreReadAndNotLogged) {
   Process process(Shell("echo '@progress 3 10'; echo hello"), {});
   while (!process.Poll()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  EXPECT_EQ(process.progress_done(), 3);
-  EXPECT_EQ(process.progress_total(), 10);
+  EXPECT_EQ(process.progress().done, 3);
+  EXPECT_EQ(process.progress().total, 10);
   EXPECT_EQ(process.result().log, "hello\n");
 }
 

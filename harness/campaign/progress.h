@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace aisle {
+
+// How a run tells who waits for it how far it is: by lines of its own on stdout, "@progress DONE
+// TOTAL" and "@stage WHAT". Commands of others may print the former.
+
+/// What was told last.
+struct Progress {
+  int done = 0, total = 0;  ///< frames; 0 of 0 before the first
+  std::string stage;
+};
+
+/// Takes a line that tells of progress; false where it is none.
+bool TakeProgress(const std::string& line, Progress* progress);
+
+void TellProgress(std::size_t done, std::size_t total);
+void TellStage(const std::string& what);
+
+}  // namespace aisle
