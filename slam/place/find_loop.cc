@@ -1,7 +1,9 @@
 #include "slam/place/find_loop.h"
 
 #include <algorithm>
+#include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "slam/map/landmarks_of.h"
@@ -23,26 +25,31 @@ std::vector<LandmarkId> LandmarksAround(const Map& map, KeyframeId id) {
   return LandmarksOf(map, keyframes);
 }
 
-/// Metres driven between two keyframes.
-double PathLength(const Map& map, KeyframeId from, KeyframeId to) {
+/// Metres driven between two keyframes of one part of the map, over the keyframes of that part: of
+/// others that were made meanwhile it is not known where they lie.
+double PathLength(const Map& map, KeyframeId from, KeyframeId to,
+                  const std::map<KeyframeId, KeyframeId>& part_of) {
   double length_m = 0;
   const auto& keyframes = map.keyframes();
-  for (auto at = keyframes.find(from); at != keyframes.end() && at->first < to;) {
+  std::optional<Eigen::Vector3d> last;
+  for (auto at = keyframes.find(from); at != keyframes.end() && at->first <= to; ++at) {
+    if (part_of.at(at->first) != part_of.at(from)) continue;
     const Eigen::Vector3d here = at->second->T_world_rig.translation();
-    if (++at == keyframes.end()) break;
-    length_m += (at->second->T_world_rig.translation() - here).norm();
+    if (last) length_m += (here - *last).norm();
+    last = here;
   }
   return length_m;
 }
 
 /// What may have drifted only so far; nothing is known of where two parts of a map lie.
 bool IsPlausible(const Map& map, const LoopEdge& loop, const LoopOptions& options) {
-  if (RootOf(map, loop.current) != RootOf(map, loop.matched)) return true;
+  const std::map<KeyframeId, KeyframeId> part_of = Roots(map);
+  if (part_of.at(loop.current) != part_of.at(loop.matched)) return true;
   const Eigen::Isometry3d T_found = map.At(loop.matched).T_world_rig * loop.T_matched_current;
   const double shift_m =
       (T_found.translation() - map.At(loop.current).T_world_rig.translation()).norm();
-  return shift_m <=
-         options.drift_m + options.drift_share * PathLength(map, loop.matched, loop.current);
+  const double path_m = PathLength(map, loop.matched, loop.current, part_of);
+  return shift_m <= options.drift_m + options.drift_share * path_m;
 }
 
 bool Agree(const Map& map, const LoopEdge& a, const LoopEdge& b, const LoopOptions& options) {
