@@ -2,7 +2,8 @@
 
 Usage: arrows.py SOURCE_DIR ARROWS_FILE. The arrows file is written by CMake, a line per room:
 "simulator/truth: simulator/trace,simulator/world". A room may include itself and whatever it
-reaches through its arrows, and its house's nouns (frames.h), which include nothing of ours. Across
+reaches through its arrows, and its house's nouns (frames.h), which include nothing of ours. An
+arrow that none of its files follows does not belong in the list. Across
 houses only the two faces are open, and only to harness/plugs
 (and to the tests, which may include anything of the room they test).
 """
@@ -77,6 +78,17 @@ def offences(files, arrows):
                     yield f"{path}: only {', '.join(sorted(rooms))} may include <{include}>"
 
 
+def unused(files, arrows):
+    """Yields a sentence for each arrow that no file of its room follows itself."""
+    followed = {}
+    for path, text in files.items():
+        rooms = followed.setdefault(room_of(path), set())
+        rooms.update(room_of(include) for include in INCLUDE.findall(text))
+    for room, uses in sorted(arrows.items()):
+        for use in sorted(uses - followed.get(room, set())):
+            yield f"{room}: no file of it includes anything of {use}"
+
+
 def main(source_dir, arrows_file):
     source = pathlib.Path(source_dir)
     arrows = read_arrows(pathlib.Path(arrows_file).read_text())
@@ -85,10 +97,11 @@ def main(source_dir, arrows_file):
         for path in source.glob(f"{house}/**/*"):
             if path.suffix in (".h", ".cc"):
                 files[path.relative_to(source).as_posix()] = path.read_text()
-    found = list(offences(files, arrows)) + [f"{room} is on a cycle" for room in cycles(arrows)]
+    found = list(offences(files, arrows)) + list(unused(files, arrows))
+    found += [f"{room} is on a cycle" for room in cycles(arrows)]
     for offence in found:
         print(offence)
-    print(f"{len(files)} files, {len(arrows)} rooms, {len(found)} forbidden includes")
+    print(f"{len(files)} files, {len(arrows)} rooms, {len(found)} offences")
     return 1 if found or not files else 0
 
 

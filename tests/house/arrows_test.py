@@ -46,6 +46,17 @@ class ArrowsTest(unittest.TestCase):
         self.assertEqual(len(check("simulator/world/a.cc", "#include <embree3/rtcore.h>")), 1)
         self.assertEqual(check("simulator/trace/a.cc", "#include <embree3/rtcore.h>"), [])
 
+    def test_an_arrow_that_no_file_follows_is_found(self):
+        rooms = arrows.read_arrows("slam/track: slam/map,slam/camera\nslam/map: slam/camera\nslam/camera: \n")
+        files = {
+            "slam/track/a.cc": '#include "slam/map/map.h"',
+            "slam/map/map.h": '#include "slam/camera/camera.h"',
+        }
+        found = list(arrows.unused(files, rooms))
+        self.assertEqual(found, ["slam/track: no file of it includes anything of slam/camera"])
+        files["slam/track/b.h"] = '#include "slam/camera/camera.h"'
+        self.assertEqual(list(arrows.unused(files, rooms)), [])
+
     def test_cycles_are_found(self):
         self.assertTrue(arrows.cycles(arrows.read_arrows("a/b: a/c\na/c: a/b\n")))
         self.assertFalse(arrows.cycles(ROOMS))
