@@ -4,6 +4,7 @@ options that there are, every block of YAML is read by the reader.
 Usage: pages_test.py PROGRAM SOURCE_DIR.
 """
 
+import os
 import pathlib
 import re
 import shlex
@@ -103,6 +104,41 @@ class Pages(unittest.TestCase):
                     self.assertEqual(run.returncode, 0, f"{page.relative_to(SOURCE)}:\n{body}\n{run.stderr}")
                 seen += 1
         self.assertGreater(seen, 1)
+
+    def test_no_page_waits_for_a_number(self):
+        for page in PAGES:
+            text = re.sub(r"^```.*?^```$", "", page.read_text(), flags=re.M | re.S)
+            text = re.sub(r"`[^`]*`", "", text)
+            self.assertEqual(re.findall(r"\b[A-Z]{4,}_[A-Z]+\b", text), [], page.relative_to(SOURCE))
+
+    def test_suites_have_as_many_runs_as_the_table_says(self):
+        rows = re.findall(r"^\| `(\w+)((?: --seeds \d+)?)` \| (\d+)\b", (SOURCE / "README.md").read_text(), re.M)
+        self.assertGreater(len(rows), 5)
+        for suite, seeds, runs in rows:
+            file = SOURCE / f"scenes/suites/{suite}.yaml"
+            words = [PROGRAM, "run", file, *seeds.split(), "--dry-run"]
+            said = subprocess.run(words, capture_output=True, text=True).stderr
+            self.assertIn(f"aisle: {runs} runs", said.replace(",", ""), suite)
+
+    def test_the_cron_line_writes_of_every_failure(self):
+        line = re.search(r"^0 2 \* \* \*  (.*)$", (SOURCE / "README.md").read_text(), re.M).group(1)
+        for code, summary in ((0, False), (1, True), (3, False), (4, False)):
+            with tempfile.TemporaryDirectory() as name:
+                folder = pathlib.Path(name)
+                night = 'while [ "$1" != --out ]; do shift; done; mkdir -p "$2"; echo worse >"$2/summary.txt"'
+                for tool, text in (
+                    ("aisle", f"echo says why\n{night if summary else ':'}\nexit {code}"),
+                    ("git", ":"),
+                    ("mail", f'echo "$2" >>{folder}/sent; cat >>{folder}/sent'),
+                ):
+                    (folder / tool).write_text(f"#!/bin/sh\n{text}\n")
+                    (folder / tool).chmod(0o755)
+                command = line.replace("/srv/aisle", name).replace("\\%", "%")  # as cron has it
+                path = {"PATH": f"{name}:{os.environ['PATH']}"}
+                subprocess.run(["/bin/sh", "-c", command], env=os.environ | path, check=False)
+                sent = (folder / "sent").read_text() if (folder / "sent").exists() else ""
+                told = f"aisle: exit {code}\n" + ("worse\n" if summary else "") + "says why\n"
+                self.assertEqual(sent, told if code else "")
 
 
 if __name__ == "__main__":
