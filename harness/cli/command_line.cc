@@ -83,13 +83,11 @@ int RunCommandLine(int argc, const char* const* argv) {
   NameInExamples(&app, OwnCommand());
   try {
     app.parse(argc, argv);
+    return action();
   } catch (const CLI::ParseError& error) {
     const bool is_answer = app.exit(error) == 0;  // --help is no error
     if (!is_answer && argc > 1) Suggest(app, argv[1]);
     return is_answer ? kAllPassed : kBadInput;
-  }
-  try {
-    return action();
   } catch (const InputError& error) {
     fmt::print(stderr, "aisle: {}\n", error.what());
     return kBadInput;

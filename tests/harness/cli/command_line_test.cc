@@ -59,6 +59,16 @@ TEST(CommandLineTest, ACommandThatIsChosenLeavesSomethingToDo) {
 
 TEST(CommandLineTest, ABenchIsACommandOfItsOwn) {
   Action action;
+TEST(CommandLineTest, AssetsThatAreNowhereAreOneErrorWhereverTheyAreAskedFor) {
+  const char* before = std::getenv("AISLE_ASSETS");
+  const std::string kept = before == nullptr ? "" : before;
+  ::setenv("AISLE_ASSETS", "/no/such/folder", 1);
+  std::string said;
+  EXPECT_EQ(Exit({"run", "quickstart"}, &said), kBadInput);  // looked up while arguments are read
+  EXPECT_THAT(said, HasSubstr("set AISLE_ASSETS"));
+  before == nullptr ? ::unsetenv("AISLE_ASSETS") : ::setenv("AISLE_ASSETS", kept.c_str(), 1);
+}
+
   EXPECT_THAT(Chosen("bench dynamic paper/scene2:90-130 --warm-up 3", &action),
               testing::ElementsAre("bench", "dynamic"));
 }
