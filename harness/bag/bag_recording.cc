@@ -120,6 +120,7 @@ StereoRecording ReadBagRecording(const std::filesystem::path& path,
     recording.pairs.push_back({pair.stamp_ns, file + ":" + topics.left, file + ":" + topics.right});
   }
   recording.truth = OwnTruth(*bag, file);
+  recording.notes = bag->notes();
   recording.read_image = ImageReader(bag, std::move(pairs), file);
   return recording;
 }

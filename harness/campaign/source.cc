@@ -93,6 +93,11 @@ std::vector<std::string> CheckSource(const std::string& file) {
   return {};
 }
 
+std::vector<std::string> NotesOfSource(const std::string& file) {
+  if (!IsRecording(file)) return {};
+  return ReadSource(ReadRecordingSource(file)).notes;
+}
+
 bool IsDriveSource(const std::string& file) { return !IsRecording(file) && IsDriveScene(file); }
 
 std::string HallOfSource(const std::string& file, std::uint64_t seed) {

@@ -17,6 +17,9 @@ std::unique_ptr<Sequence> OpenRecordingSource(const std::string& file);
 /// Every mistake in it, one message each.
 std::vector<std::string> CheckSource(const std::string& file);
 
+/// What a reader of a recording should know: that its bag ends too early, say. Throws InputError.
+std::vector<std::string> NotesOfSource(const std::string& file);
+
 /// Whether the system under test steers through it.
 bool IsDriveSource(const std::string& file);
 

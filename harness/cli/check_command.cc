@@ -5,6 +5,7 @@
 
 #include "harness/campaign/inputs.h"
 #include "harness/campaign/source.h"
+#include "harness/cli/bag_notes.h"
 #include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
 #include "harness/io/input_error.h"
@@ -57,6 +58,7 @@ void PrintText(const std::string& file, const std::vector<std::string>& complain
   for (const std::string& complaint : complaints) fmt::print(stderr, "{}\n", complaint);
   if (!complaints.empty()) return;
   fmt::print("{}: good\n", file);
+  if (IsRecording(file)) TellNotes(file, NotesOfSource(file));
   if (IsSuiteFile(file) || IsRecording(file)) return;
   for (const std::string& line : DescribeMeshes(file)) fmt::print("  {}\n", line);
 }

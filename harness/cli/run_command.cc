@@ -8,6 +8,7 @@
 #include "harness/campaign/forecast.h"
 #include "harness/campaign/inputs.h"
 #include "harness/campaign/source.h"
+#include "harness/cli/bag_notes.h"
 #include "harness/cli/by_name.h"
 #include "harness/cli/cluster_night.h"
 #include "harness/cli/command.h"
@@ -211,6 +212,7 @@ int RunSuites(const Options& options) {
                       .gate = options.gate,
                       .trial = IsTrial(options.inputs)};
   CheckScenes(plan.suites);
+  TellNotesOfScenes(plan.suites);
   TellLimitsLeftOut(plan.suites);
   const std::optional<Results> baseline = ReadBaseline(options, plan);
   const Fingerprints fingerprints;

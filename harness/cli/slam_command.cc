@@ -1,4 +1,5 @@
 #include "harness/bag/bag.h"
+#include "harness/cli/bag_notes.h"
 #include "harness/cli/command.h"
 #include "harness/cli/slam_stream.h"
 #include "harness/cli/system_choice.h"
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string dataset, format = "euroc", output, live;
+  std::string dataset, format, output, live;  ///< format empty: a folder's is euroc
   BagRecordingOptions bag;
   std::vector<std::string> calibration;  ///< files of the rig, for a bag without camera_info
   std::string load_map, save_map;        ///< empty: none
@@ -49,6 +50,13 @@ MaskMaker MasksOf(const Options& options, std::size_t* masked) {
   };
 }
 
+/// Asked before a drive that may take an hour, of what is written after it.
+void CheckCanBeWritten(const std::string& file) {
+  if (file.empty()) return;
+  if (fs::is_directory(file)) throw InputError(file, 0, "is a folder: name a file in it");
+  MakeParentFolder(file);
+}
+
 std::unique_ptr<Estimator> MakeEstimator(const SystemSpec& system,
                                          const StereoCalibration& calibration,
                                          const Options& options) {
@@ -70,23 +78,33 @@ std::unique_ptr<Estimator> MakeEstimator(const SystemSpec& system,
 std::unique_ptr<Sequence> Open(const Options& options) {
   const fs::path path = options.dataset;
   if (IsBagFile(path) || fs::exists(path / "metadata.yaml")) {
+    if (!options.format.empty()) {
+      throw InputError(options.dataset, 0, "is a bag: --format is for folders of images");
+    }
     BagRecordingOptions bag = options.bag;
     if (!options.calibration.empty()) bag.cameras = ReadCalibration(options.calibration);
-    return OpenBagRecording(path, bag);
+    StereoRecording recording = ReadBagRecording(path, bag);
+    TellNotes(options.dataset, recording.notes);
+    return MakeRecordedSequence(std::move(recording), options.dataset, path.stem().string());
   }
   if (!options.bag.topics.empty() || options.bag.baseline_m || !options.calibration.empty()) {
     throw InputError(options.dataset, 0,
                      "is no bag: --topic, --baseline and --calibration are for bags");
   }
-  return OpenRecording(path, DatasetFormatFromName(options.format));
+  return OpenRecording(path,
+                       DatasetFormatFromName(options.format.empty() ? "euroc" : options.format));
 }
 
 /// What a stream has no use for: frames come in and poses go out by it alone.
 void RefuseBesideStream(const Options& options) {
-  for (const auto& [name, value] :
-       {std::pair("a DATASET", &options.dataset), std::pair("-o", &options.output),
-        std::pair("--live", &options.live), std::pair("--masks", &options.masks)}) {
-    if (value->empty()) continue;
+  for (const auto& [name, given] :
+       {std::pair("a DATASET", !options.dataset.empty()), std::pair("-o", !options.output.empty()),
+        std::pair("--live", !options.live.empty()), std::pair("--masks", !options.masks.empty()),
+        std::pair("--format", !options.format.empty()),
+        std::pair("--topic", !options.bag.topics.empty()),
+        std::pair("--baseline", options.bag.baseline_m.has_value()),
+        std::pair("--calibration", !options.calibration.empty())}) {
+    if (!given) continue;
     throw InputError(
         fmt::format("slam --stream: {} has no place beside it, frames and poses go over "
                     "stdin and stdout",
@@ -119,6 +137,7 @@ int RunSlam(const Options& options) {
         "slam: expected a DATASET and -o FILE, or --stream; example: ./aisle slam V1_01_easy -o "
         "v101.txt");
   }
+  for (const std::string& file : {options.output, options.live}) CheckCanBeWritten(file);
   const auto sequence = Open(options);
   const auto estimator = MakeEstimator(system, sequence->calibration(), options);
   ProgressLine line;
@@ -199,7 +218,8 @@ void AddSlamCommand(CLI::App* app, Action* action) {
   command->add_option("--save-map", options->save_map, "write the map there at the end");
   command->add_flag("--localise-only", options->localise_only, "leave the loaded map as it is")
       ->needs(load);
-  command->add_option("--threads", options->threads, "0: all; never changes a result");
+  command->add_option("--threads", options->threads, "0: all; never changes a result")
+      ->check(CLI::Range(0, 1024));
   command->add_flag(
       "--free-running", options->free_running,
       "NOT REPEATABLE: mapping takes effect as threads happen to run, no frame waits");

@@ -169,7 +169,8 @@ struct StereoRecording {
     std::filesystem::path left, right;  ///< files, or what messages call the images
   };
   std::vector<Pair> pairs;
-  Trajectory truth;  ///< empty where the dataset has none
+  Trajectory truth;                     ///< empty where the dataset has none
+  std::vector<std::string> notes = {};  ///< what a reader should know: it ends too early, say
   /// An image of pair number `pair`, side 0 left, 1 right; from any thread. Throws InputError.
   std::function<cv::Mat1b(std::size_t pair, int side)> read_image = {};
 };
