@@ -47,8 +47,20 @@ ros::CameraInfo InfoOf(const Bag& bag, const std::string& image_topic, const std
   return *info;
 }
 
+/// Whether a word of the topic's name says so: image_rect, image_rect_color, rectified; not
+/// /direct/image, and not /unrectified/image.
+bool NameSaysRectified(const std::string& topic) {
+  for (std::size_t begin = 0; begin < topic.size();) {
+    const std::size_t end = std::min(topic.find_first_of("/_", begin), topic.size());
+    const std::string word = topic.substr(begin, end - begin);
+    if (word == "rect" || word == "rectified") return true;
+    begin = end + 1;
+  }
+  return false;
+}
+
 bool IsRectified(const ros::CameraInfo& info, const std::string& topic) {
-  if (topic.find("rect") != std::string::npos) return true;
+  if (NameSaysRectified(topic)) return true;
   constexpr std::array<double, 9> kNoTurn = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   return info.r == kNoTurn && std::ranges::all_of(info.d, [](double k) { return k == 0; });
 }

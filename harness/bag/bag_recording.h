@@ -17,10 +17,10 @@ struct BagRecordingOptions {
 
 /// A stereo recording in a bag. Images by type (Image, CompressedImage), left and right by their
 /// names, paired by header stamp within 1 ms. Each eye's camera_info is its topic's sibling: on a
-/// rectified topic (its name says "rect", or no distortion and no turn) `p` alone counts, on a raw
-/// one k, d, r and p say how it is rectified. The baseline is -p[3] / p[0] of the right camera.
-/// Truth is /truth/pose where the bag is one of ours. Throws InputError naming topics, what is
-/// wrong and its cure.
+/// rectified topic (a word of its name is "rect" or "rectified", or no distortion and no turn) `p`
+/// alone counts, on a raw one k, d, r and p say how it is rectified. The baseline is -p[3] / p[0]
+/// of the right camera. Truth is /truth/pose where the bag is one of ours. Throws InputError naming
+/// topics, what is wrong and its cure.
 StereoRecording ReadBagRecording(const std::filesystem::path& file,
                                  const BagRecordingOptions& options);
 

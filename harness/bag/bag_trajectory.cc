@@ -96,8 +96,7 @@ std::string ChooseTopic(const Bag& bag, const BagTopic& asked) {
 std::optional<BagTopic> BagTopicFromText(const std::string& text) {
   const std::size_t colon = text.find(":/");
   BagTopic topic{.file = text.substr(0, colon), .topic = {}, .child = {}};
-  if (!IsBagFile(topic.file) &&
-      !(colon != std::string::npos && std::filesystem::exists(topic.file / "metadata.yaml"))) {
+  if (!IsBagFile(topic.file) && !std::filesystem::exists(topic.file / "metadata.yaml")) {
     return std::nullopt;
   }
   if (colon != std::string::npos) {

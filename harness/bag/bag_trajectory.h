@@ -9,7 +9,8 @@
 
 namespace aisle {
 
-/// A topic of a bag, as a command line names it: FILE.mcap:/odom, FILE.db3:/tf#base_link.
+/// A topic of a bag, as a command line names it: FILE.mcap:/odom, FILE.db3:/tf#base_link;
+/// the folder of a bag stands for its file.
 struct BagTopic {
   std::filesystem::path file;
   std::string topic;  ///< empty: the only one of its kind

@@ -9,6 +9,7 @@
 #include "harness/bag/drive_bag.h"
 #include "harness/bag/frame_messages.h"
 #include "harness/bag/grey_image.h"
+#include "harness/io/file.h"
 #include "harness/io/input_error.h"
 
 namespace aisle {
@@ -138,6 +139,36 @@ TEST_F(RecordingTest, RawTopicsAreRectifiedAsTheyState) {
   ASSERT_TRUE(recording.cameras.stated);
   EXPECT_EQ(recording.cameras.left.distortion.size(), 5u);
   EXPECT_EQ((*recording.cameras.stated)[0].projection(0, 0), kRig.fx);
+}
+
+TEST_F(RecordingTest, LettersOfAnotherWordDoNotSayRectified) {
+  for (const std::string eyes : {"/direct/", "/unrectified/", "/correct/"}) {
+    RobotBag bag;
+    bag.left = eyes + "left/image";
+    bag.right = eyes + "right/image";
+    bag.left_info.d = bag.right_info.d = {-0.3, 0.1, 0, 0, 0};
+    EXPECT_TRUE(Read(bag).cameras.stated) << eyes;
+  }
+  for (const std::string name : {"image_rect", "image_rect_color", "image_rectified"}) {
+    RobotBag bag;
+    bag.left = "/left/" + name;
+    bag.right = "/right/" + name;
+    bag.left_info.d = bag.right_info.d = {-0.3, 0.1, 0, 0, 0};
+    EXPECT_FALSE(Read(bag).cameras.stated) << name;
+  }
+}
+
+TEST_F(RecordingTest, WhatARecorderCouldNotFinishIsNoted) {
+  EXPECT_TRUE(Read({}).notes.empty());
+  RobotBag().Write(folder_ / "whole.mcap");
+  const std::string whole = ReadFile(folder_ / "whole.mcap");
+  StereoRecording cut;
+  for (std::size_t size = whole.size(); size > 0 && cut.notes.empty(); size -= 16) {
+    WriteFileAtomically(folder_ / "cut.mcap", whole.substr(0, size));
+    cut = ReadBagRecording(folder_ / "cut.mcap", {});
+  }
+  ASSERT_EQ(cut.notes.size(), 1u);
+  EXPECT_THAT(cut.notes.front(), HasSubstr("ends in the middle of a record"));
 }
 
 TEST_F(RecordingTest, AMissingBaselineIsNamedWithItsCure) {
