@@ -45,8 +45,10 @@ void AddBenchGrowth(CLI::App* bench, Action* action) {
       ->check(CLI::Range(1, 1000));
   command->add_option("--threads", options->bench.threads, "of all rows but the last (default 2)")
       ->check(CLI::Range(1, 1024));
-  command->add_option("--isa", options->bench.isa,
-                      "instruction set of the tracer; avx2 (default) or native");
+  command
+      ->add_option("--isa", options->bench.isa,
+                   "instruction set of the tracer; avx2 (default) or native")
+      ->check(CLI::IsMember({"avx2", "native"}));
   options->into.AddTo(command);
   command->footer("Example: ./aisle bench growth --frames 4");
   command->callback([=] { *action = [=] { return BenchGrowth(*options); }; });

@@ -115,9 +115,12 @@ void AddBenchRender(CLI::App* bench, Action* action) {
   command->add_option("--seed", options->simulation.seed, "of the scenes; default 1");
   command->add_option("--twin", options->simulation.twin, "of the scenes; default live")
       ->check(CLI::IsMember(TwinNames()));
-  command->add_option("--isa", options->simulation.isa,
-                      "instruction set of the tracer; avx2 (default) or native");
-  command->add_option("--threads", options->simulation.threads, "0: all");
+  command
+      ->add_option("--isa", options->simulation.isa,
+                   "instruction set of the tracer; avx2 (default) or native")
+      ->check(CLI::IsMember({"avx2", "native"}));
+  command->add_option("--threads", options->simulation.threads, "0: all")
+      ->check(CLI::Range(0, 1024));
   command->add_option("--json", options->json, "write the medians there too, an object a scene");
   options->into.AddTo(command);
   command->footer("Example: ./aisle bench render paper/scene2 paper/scene3 --frames 10");

@@ -203,9 +203,12 @@ void AddRenderCommand(CLI::App* app, Action* action) {
   command->add_option("--pair", options->pair,
                       "of the rig's pairs the one to render; default: the one systems are shown");
   command->add_option("--seed", options->simulation.seed, "seed of the layout and the sensor");
-  command->add_option("--isa", options->simulation.isa,
-                      "instruction set of the tracer; avx2 (default) or native");
-  command->add_option("--threads", options->simulation.threads, "0: all; never changes a pixel");
+  command
+      ->add_option("--isa", options->simulation.isa,
+                   "instruction set of the tracer; avx2 (default) or native")
+      ->check(CLI::IsMember({"avx2", "native"}));
+  command->add_option("--threads", options->simulation.threads, "0: all; never changes a pixel")
+      ->check(CLI::Range(0, 1024));
   command->footer(
       "Stopped, the same command goes on where it was; frames A:C after A:B add to the folder; a "
       "bag is "
