@@ -136,31 +136,55 @@ int OnKubernetes(const ClusterNight& night, const ClusterChoice& choice, const T
   return kAllPassed;
 }
 
+/// What the other kind of cluster alone would take.
+void RefuseOfOther(const ClusterChoice& choice) {
+  const auto refuse = [&](const std::string& value, const char* name, const char* kind) {
+    if (value.empty() || choice.on == kind) return;
+    throw InputError(fmt::format("{} is for --on {}: leave it out", name, kind));
+  };
+  refuse(choice.partition, "--partition", "slurm");
+  refuse(choice.time, "--task-time", "slurm");
+  refuse(choice.image, "--image", "k8s");
+  refuse(choice.claim, "--claim", "k8s");
+}
+
 }  // namespace
 
 void AddClusterChoice(CLI::App* command, ClusterChoice* choice) {
+  CLI::Option* on =
+      command
+          ->add_option(
+              "--on", choice->on,
+              "who makes the runs: slurm submits a job array and a merge, k8s writes the Jobs "
+              "as YAML; with --dry-run either prints what it would hand over")
+          ->check(CLI::IsMember({"slurm", "k8s"}));
+  command->add_option("--partition", choice->partition, "with --on slurm: other than the site's")
+      ->needs(on);
   command
-      ->add_option("--on", choice->on,
-                   "who makes the runs: slurm submits a job array and a merge, k8s writes the Jobs "
-                   "as YAML; with --dry-run either prints what it would hand over")
-      ->check(CLI::IsMember({"slurm", "k8s"}));
-  command->add_option("--partition", choice->partition, "with --on slurm: other than the site's");
-  command->add_option("--task-time", choice->time,
-                      "with --on slurm: time limit of a task as sbatch takes it, such as 2:00:00");
-  command->add_option("--image", choice->image, "with --on k8s: container image that holds aisle");
-  command->add_option("--claim", choice->claim,
-                      "with --on k8s: the PersistentVolumeClaim of the report's folder");
+      ->add_option("--task-time", choice->time,
+                   "with --on slurm: time limit of a task as sbatch takes it, such as 2:00:00")
+      ->needs(on);
+  command->add_option("--image", choice->image, "with --on k8s: container image that holds aisle")
+      ->needs(on);
+  command
+      ->add_option("--claim", choice->claim,
+                   "with --on k8s: the PersistentVolumeClaim of the report's folder")
+      ->needs(on);
   command
       ->add_option("--nodes-at-most", choice->nodes_at_most,
                    "with --on: tasks at once, so that no more nodes than that are taken")
-      ->check(CLI::Range(1, 100000));
+      ->check(CLI::Range(1, 100000))
+      ->needs(on);
   command
       ->add_option("--late", choice->late_s,
                    "with --on: seconds that the merge waits for results which the shared file "
                    "system does not show yet")
-      ->check(CLI::Range(0.0, 86400.0));
-  command->add_flag("--wait", choice->wait,
-                    "with --on slurm: follow the jobs, end with the verdict's exit code");
+      ->check(CLI::Range(0.0, 86400.0))
+      ->needs(on);
+  command
+      ->add_flag("--wait", choice->wait,
+                 "with --on slurm: follow the jobs, end with the verdict's exit code")
+      ->needs(on);
 }
 
 bool IsUnderWay(const fs::path& out) {
@@ -176,6 +200,7 @@ bool IsUnderWay(const fs::path& out) {
 }
 
 int RunOnCluster(const ClusterNight& night, const ClusterChoice& choice) {
+  RefuseOfOther(choice);
   const TaskList list{.settings = night.settings,
                       .tasks = CutIntoTasks(night.runs, CostsOf(night.out))};
   const bool slurm = choice.on == "slurm";

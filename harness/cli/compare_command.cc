@@ -48,7 +48,7 @@ void WritePages(const std::vector<Comparison>& comparisons, const std::vector<Mi
   WriteFileAtomically(out / "compare.html",
                       Page(fmt::format("What changed from {} to {}", before.name, after.name), "",
                            ComparePage(comparisons, before, after, out)));
-  fmt::print("report: {}\n", (out / "compare.html").string());
+  fmt::print(stderr, "report: {}\n", (out / "compare.html").string());  // JSON has stdout
 }
 
 int CompareReports(const Options& options) {

@@ -218,7 +218,10 @@ int RunSuites(const Options& options) {
   const Fingerprints fingerprints;
   const std::vector<RunSpec> specs = SpecsOf(plan, shard, fingerprints);
   if (specs.empty()) {
-    fmt::print(stderr, "aisle: part {} holds no run of the suite\n", options.shard);
+    fmt::print(stderr, "aisle: {}\n",
+               shard.count > 1 ? fmt::format("part {} holds no run of the suite", options.shard)
+                               : "no scene, twin, seed and system here go together: see the "
+                                 "suite's twins and what its systems need");
     return kNothingToDo;
   }
   const fs::path out = ReportFolder(options, plan);
@@ -293,12 +296,16 @@ void AddRunCommand(CLI::App* app, Action* action) {
                       "systems` lists them");
   command->add_option("--seeds", inputs->seeds, "how many seeds, from 1 on")
       ->check(CLI::Range(1, 1000));
-  command->add_option("--seed", inputs->seed, "these very seeds")->delimiter(',');
+  command->add_option("--seed", inputs->seed, "these very seeds")
+      ->delimiter(',')
+      ->excludes("--seeds");
   command->add_option("--out", options->out, "folder of the report; default out/SUITE");
   command->add_option("--shard", options->shard,
                       "only part I of N, for N machines; `aisle merge` joins the parts");
   AddClusterChoice(command, &options->cluster);
-  command->add_option("--jobs", options->jobs, "runs at once")->check(CLI::Range(1, 256));
+  command->add_option("--jobs", options->jobs, "runs at once")
+      ->check(CLI::Range(1, 256))
+      ->excludes("--on");
   command->add_option("--threads", options->threads, "per run; 0: all; never changes a result")
       ->check(CLI::Range(0, 1024));
   command
