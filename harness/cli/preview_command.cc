@@ -37,6 +37,8 @@ FrameRequest Choose(const std::vector<FrameRequest>& schedule, const Options& op
 }
 
 int Preview(Options options) {
+  CheckImageName(options.output);
+  if (!options.plan.empty()) CheckImageName(options.plan);
   options.simulation.assets_dir = AssetsDir().string();
   options.simulation.scene_name = SceneName(options.simulation.scene_file);
   options.simulation.any_lens = true;

@@ -75,12 +75,15 @@ CameraCalibration ReadEurocSensor(const fs::path& file) {
   camera.cx = pinhole[2];
   camera.cy = pinhole[3];
   const std::string model = root["distortion_model"] ? root["distortion_model"].Scalar() : "none";
-  if (model != "radial-tangential" && model != "equidistant" && model != "none") {
+  camera.equidistant = model == "equidistant" || model == "fisheye";
+  const bool polynomial =  // as EuRoC, Kalibr and ROS call it
+      model == "radial-tangential" || model == "radtan" || model == "plumb_bob";
+  if (!polynomial && !camera.equidistant && model != "none") {
     throw InputError(file.string(), 0,
                      "distortion model '" + Printable(model) +
-                         "': radial-tangential, equidistant and none are read");
+                         "': radial-tangential (radtan, plumb_bob), equidistant (fisheye) and "
+                         "none are read");
   }
-  camera.equidistant = model == "equidistant";
   if (model != "none") camera.distortion = NumbersAt(root, "distortion_coefficients", 4, file);
   for (int k = 0; k < 12; ++k) {
     camera.T_body_camera.matrix()(k / 4, k % 4) = pose[static_cast<std::size_t>(k)];
@@ -103,7 +106,10 @@ std::map<std::int64_t, fs::path> ReadEurocIndex(const fs::path& camera) {
     if (comma == std::string::npos || error != std::errc() || end != line.data() + comma) {
       throw InputError(file.string(), number, "expected 'stamp in ns,file name'");
     }
-    const std::string name = line.substr(comma + 1);
+    const std::size_t begin = line.find_first_not_of(" \t", comma + 1);
+    const std::string name = begin == std::string::npos
+                                 ? ""
+                                 : line.substr(begin, line.find_last_not_of(" \t") - begin + 1);
     if (name.empty() || name.find('/') != std::string::npos || name.starts_with("..")) {
       throw InputError(file.string(), number, "'" + Printable(name) + "' is no plain file name");
     }
@@ -112,7 +118,15 @@ std::map<std::int64_t, fs::path> ReadEurocIndex(const fs::path& camera) {
   return images;
 }
 
+bool IsLaidOutAsKitti(const fs::path& folder) {
+  return fs::exists(folder / "calib.txt") || fs::is_directory(folder / "sequences");
+}
+
 StereoRecording ReadEuroc(const fs::path& folder) {
+  if (IsLaidOutAsKitti(folder)) {
+    throw InputError(folder.string(), 0,
+                     "is laid out as KITTI's: its format is kitti (--format kitti), not euroc");
+  }
   const fs::path mav = fs::is_directory(folder / "mav0") ? folder / "mav0" : folder;
   StereoRecording recording;
   recording.cameras.left = ReadEurocSensor(mav / "cam0/sensor.yaml");
@@ -135,6 +149,9 @@ struct KittiFolders {
 };
 
 KittiFolders FindKitti(const fs::path& folder) {
+  if (fs::is_directory(folder / "mav0") || fs::is_directory(folder / "cam0")) {
+    throw InputError(folder.string(), 0, "is laid out as EuRoC's: its format is euroc, not kitti");
+  }
   if (fs::exists(folder / "calib.txt")) {
     const fs::path clean = fs::absolute(folder).lexically_normal();
     const fs::path name = clean.has_filename() ? clean.filename() : clean.parent_path().filename();
@@ -163,34 +180,41 @@ std::map<std::string, std::vector<double>> ReadKittiCalibration(const fs::path& 
     if (colon == std::string::npos) continue;
     rows[line.substr(0, colon)] = Numbers(line.substr(colon + 1), file, number);
   }
-  for (const char* name : {"P0", "P1"}) {
-    if (rows[name].size() != 12 || rows[name][0] <= 0) {
-      throw InputError(file.string(), 0,
-                       fmt::format("line '{}:' must hold a 3x4 projection", name));
-    }
-  }
   return rows;
+}
+
+/// A camera of KITTI's row: rectified, and beside the first one, whose poses are known.
+CameraCalibration KittiCamera(const std::map<std::string, std::vector<double>>& rows,
+                              const std::string& name, const fs::path& file) {
+  const auto row = rows.find(name);
+  if (row == rows.end() || row->second.size() != 12 || row->second[0] <= 0) {
+    throw InputError(file.string(), 0, fmt::format("line '{}:' must hold a 3x4 projection", name));
+  }
+  const std::vector<double>& p = row->second;
+  CameraCalibration camera;
+  camera.fx = p[0];
+  camera.fy = p[5];
+  camera.cx = p[2];
+  camera.cy = p[6];
+  camera.T_body_camera.translation().x() = -p[3] / p[0];
+  return camera;
 }
 
 StereoRecording ReadKitti(const fs::path& folder) {
   const KittiFolders at = FindKitti(folder);
   const auto calibration = ReadKittiCalibration(at.sequence / "calib.txt");
+  // The grey pair, or where there is none the colour one.
+  const bool grey = fs::exists(at.sequence / "image_0") || !fs::exists(at.sequence / "image_2");
+  const fs::path left = at.sequence / (grey ? "image_0" : "image_2");
+  const fs::path right = at.sequence / (grey ? "image_1" : "image_3");
   StereoRecording recording;
-  const std::vector<double>& p0 = calibration.at("P0");
-  recording.cameras.left = {.width = 0,
-                            .height = 0,
-                            .fx = p0[0],
-                            .fy = p0[5],
-                            .cx = p0[2],
-                            .cy = p0[6],
-                            .distortion = {}};
-  recording.cameras.right = recording.cameras.left;
-  recording.cameras.right.T_body_camera.translation().x() = -calibration.at("P1")[3] / p0[0];
+  recording.cameras.left = KittiCamera(calibration, grey ? "P0" : "P2", at.sequence / "calib.txt");
+  recording.cameras.right = KittiCamera(calibration, grey ? "P1" : "P3", at.sequence / "calib.txt");
   std::istringstream times(ReadFile(at.sequence / "times.txt"));
   std::string line;
   for (std::size_t number = 1; times >> line; ++number) {
     const std::string name = fmt::format("{:06}.png", number - 1);
-    StereoRecording::Pair pair{0, at.sequence / "image_0" / name, at.sequence / "image_1" / name};
+    StereoRecording::Pair pair{0, left / name, right / name};
     if (!ParseSecondsToNs(line, &pair.stamp_ns)) {
       throw InputError((at.sequence / "times.txt").string(), number,
                        "'" + Printable(line) + "' is not a time in seconds");

@@ -43,6 +43,18 @@ cv::Mat ReadPng(const std::filesystem::path& path) {
   return image;
 }
 
+/// The upper byte of 16-bit pixels, as of those in bags.
+cv::Mat UpperBytes(const cv::Mat& image) {
+  cv::Mat bytes(image.size(), CV_8UC(image.channels()));
+  const int across = image.cols * image.channels();
+  for (int y = 0; y < image.rows; ++y) {
+    const auto* from = image.ptr<std::uint16_t>(y);
+    std::transform(from, from + across, bytes.ptr(y),
+                   [](std::uint16_t value) { return static_cast<unsigned char>(value >> 8); });
+  }
+  return bytes;
+}
+
 /// A portable float map: rows from the bottom, channels as they come. OpenCV encodes it by way of a
 /// temporary file, which a killed program leaves behind.
 std::string EncodePfm(const cv::Mat& image) {
@@ -80,10 +92,21 @@ void WriteImage(const std::filesystem::path& path, const cv::Mat& image) {
   const std::vector<int> options = {cv::IMWRITE_JPEG_QUALITY,    kJpegQuality,
                                     cv::IMWRITE_PNG_COMPRESSION, kPngCompression,
                                     cv::IMWRITE_PNG_STRATEGY,    kPngStrategy};
-  if (!cv::imencode(path.extension().string(), image, bytes, options)) {
-    throw MachineError(path.string() + ": the image cannot be encoded");
+  bool encoded = false;
+  try {
+    encoded = cv::imencode(path.extension().string(), image, bytes, options);
+  } catch (const cv::Exception&) {  // it has no encoder of this name
   }
+  if (!encoded) throw MachineError(path.string() + ": the image cannot be encoded");
   WriteFileAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+void CheckImageName(const std::filesystem::path& path) {
+  const std::string ending = path.extension().string();
+  for (const char* known : {".png", ".jpg", ".jpeg"}) {
+    if (ending == known) return;
+  }
+  throw InputError(path.string(), 0, "pictures are written as .png, .jpg or .jpeg");
 }
 
 void WriteVectorPfm(const std::filesystem::path& path, const cv::Mat3f& vectors) {
@@ -104,9 +127,14 @@ cv::Mat1b ReadMaskPng(const std::filesystem::path& path) {
 }
 
 cv::Mat1b ReadGreyPng(const std::filesystem::path& path) {
-  const cv::Mat image = ReadPng(path);
-  if (image.type() != CV_8UC1) throw InputError(path.string(), 0, "is not 8-bit grey");
-  return image;
+  cv::Mat image = ReadPng(path);
+  if (image.depth() == CV_16U) image = UpperBytes(image);
+  if (image.type() == CV_8UC1) return image;
+  cv::Mat1b grey;
+  if (image.type() == CV_8UC3) cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+  if (image.type() == CV_8UC4) cv::cvtColor(image, grey, cv::COLOR_BGRA2GRAY);
+  if (grey.empty()) throw InputError(path.string(), 0, "is neither grey nor in colour");
+  return grey;
 }
 
 cv::Mat3f ReadLinearImage(const std::filesystem::path& path) {

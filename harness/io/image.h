@@ -13,8 +13,13 @@ void WriteImage(const std::filesystem::path& path, const cv::Mat& image);
 /// colours OpenCV would turn them round). Throws MachineError.
 void WriteVectorPfm(const std::filesystem::path& path, const cv::Mat3f& vectors);
 
-/// An 8-bit grey PNG; the size is read from its header before anything is decoded. Throws
-/// InputError when it is no PNG, is not grey, or is larger than 16384 pixels either way.
+/// Throws InputError for a file that a picture cannot be written to by its ending, which must be
+/// PNG's or JPEG's: asked before the picture is made.
+void CheckImageName(const std::filesystem::path& path);
+
+/// A PNG as 8-bit grey: colours are weighed as the eye does, 16 bits lose their lower byte. The
+/// size is read from its header before anything is decoded. Throws InputError when it is no PNG or
+/// is larger than 16384 pixels either way.
 cv::Mat1b ReadGreyPng(const std::filesystem::path& path);
 
 /// A mask of any PNG: 255 where a pixel is not black, 0 else. Grey (8 or 16 bits), colours, and

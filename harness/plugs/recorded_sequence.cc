@@ -227,6 +227,16 @@ class RecordedSequence : public Sequence {
   std::map<std::int64_t, StampedPose> truth_by_stamp_;
 };
 
+/// Of the common plane: depth comes from the baseline, to the right.
+void CheckRectified(const StereoCalibration& rig, const std::string& source) {
+  if (rig.fx > 0 && rig.fy > 0 && rig.baseline_m > 0 && std::isfinite(rig.baseline_m)) return;
+  throw InputError(
+      source, 0,
+      fmt::format("by its calibration the right camera stands {:g} m to the right of "
+                  "the left one, which must be more than 0{}",
+                  rig.baseline_m, rig.baseline_m < 0 ? ": left and right are swapped" : ""));
+}
+
 }  // namespace
 
 std::unique_ptr<Sequence> MakeRecordedSequence(StereoRecording recording, const std::string& source,
@@ -238,7 +248,17 @@ std::unique_ptr<Sequence> MakeRecordedSequence(StereoRecording recording, const 
   if (cameras.left.equidistant != cameras.right.equidistant) {
     throw InputError(source, 0, "the two cameras differ in their distortion model");
   }
-  return std::make_unique<RecordedSequence>(std::move(recording), name);
+  for (const CameraCalibration* camera : {&cameras.left, &cameras.right}) {
+    if (camera->fx > 0 && camera->fy > 0) continue;
+    throw InputError(
+        source, 0,
+        fmt::format("its calibration has focal lengths {:g} and {:g}: they are pixels, "
+                    "and positive",
+                    camera->fx, camera->fy));
+  }
+  auto sequence = std::make_unique<RecordedSequence>(std::move(recording), name);
+  CheckRectified(sequence->calibration(), source);
+  return sequence;
 }
 
 std::unique_ptr<Sequence> OpenRecording(const std::filesystem::path& folder, DatasetFormat format) {

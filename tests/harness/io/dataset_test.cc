@@ -426,6 +426,52 @@ TEST_F(DatasetTest, MistakesAreNamed) {
   }
 }
 
+TEST_F(DatasetTest, AnotherLayoutIsToldByItsFiles) {
+  const auto complaint = [&](const fs::path& folder, DatasetFormat format) -> std::string {
+    try {
+      ReadRecording(folder, format);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  Export(DatasetFormat::kKitti);
+  for (const fs::path& folder : {folder_, folder_ / "sequences/00"}) {
+    EXPECT_THAT(complaint(folder, DatasetFormat::kEuroc), HasSubstr("--format kitti"));
+  }
+  Export(DatasetFormat::kEuroc);
+  for (const fs::path& folder : {folder_, folder_ / "mav0"}) {
+    EXPECT_THAT(complaint(folder, DatasetFormat::kKitti), HasSubstr("its format is euroc"));
+  }
+}
+
+TEST_F(DatasetTest, KittisColourPairServesWhereTheGreyOneIsNot) {
+  Export(DatasetFormat::kKitti);
+  const fs::path sequence = folder_ / "sequences/00";
+  fs::rename(sequence / "image_0", sequence / "image_2");
+  fs::rename(sequence / "image_1", sequence / "image_3");
+  ExpectCameras(ReadRecording(folder_, DatasetFormat::kKitti));
+}
+
+TEST_F(DatasetTest, OtherNamesOfALensAndBlanksInAListAreRead) {
+  lens_ = {.model = "radial-tangential", .coefficients = {-0.3, 0.1, 0, 0}};
+  Export(DatasetFormat::kEuroc);
+  for (const char* name : {"mav0/cam0/sensor.yaml", "mav0/cam1/sensor.yaml"}) {
+    std::string text = Read(name);
+    const std::string model = "radial-tangential";
+    text.replace(text.find(model), model.size(), "radtan");
+    WriteFileAtomically(folder_ / name, text);
+  }
+  std::string list = Read("mav0/cam0/data.csv");
+  for (std::size_t at = list.find('\n'); (at = list.find(',', at)) != std::string::npos; at += 2) {
+    list.insert(at + 1, " ");
+  }
+  WriteFileAtomically(folder_ / "mav0/cam0/data.csv", list);
+  const StereoRecording recording = ReadRecording(folder_, DatasetFormat::kEuroc);
+  ExpectCameras(recording);
+  EXPECT_EQ(recording.cameras.left.distortion, (std::vector<double>{-0.3, 0.1, 0, 0}));
+}
+
 TEST(ImuTest, AtRestItFeelsGravityUpwards) {
   const auto samples =
       IdealImu([](std::int64_t) { return Eigen::Isometry3d::Identity(); }, 0, 10'000'000, 200);

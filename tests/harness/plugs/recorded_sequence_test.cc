@@ -1,5 +1,6 @@
 #include "harness/plugs/recorded_sequence.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -15,6 +16,7 @@ namespace aisle {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::HasSubstr;
 
 constexpr int kWidth = 320, kHeight = 240;
 constexpr std::int64_t kStart_ns = 1'600'000'000'000'000'000;
@@ -221,6 +223,29 @@ TEST_F(Recording, OfAnImageThatDoesNotFitItsCalibrationIsRefused) {
   mixed[1].model = "equidistant";
   Write(mixed, {{Noise(1), Noise(2)}});
   EXPECT_THROW(OpenRecording(folder_, DatasetFormat::kEuroc), InputError);
+}
+
+TEST_F(Recording, OfACalibrationThatIsNoneIsRefusedByName) {
+  const auto complaint = [&](const std::array<Camera, 2>& cameras) -> std::string {
+    Write(cameras, {{Noise(1), Noise(2)}});
+    try {
+      OpenRecording(folder_, DatasetFormat::kEuroc);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  std::array<Camera, 2> swapped = Parallel();
+  std::swap(swapped[0], swapped[1]);
+  EXPECT_THAT(complaint(swapped),
+              testing::AllOf(HasSubstr(folder_.string()), HasSubstr("left and right are swapped")));
+  std::array<Camera, 2> bent = swapped;  // by way of the rectification
+  bent[0].bend = bent[1].bend = {-0.2, 0.05, 0, 0};
+  EXPECT_THAT(complaint(bent), HasSubstr("left and right are swapped"));
+  EXPECT_THAT(complaint({}), HasSubstr("stands 0 m to the right"));
+  std::array<Camera, 2> blind = Parallel();
+  blind[1].fx = 0;
+  EXPECT_THAT(complaint(blind), HasSubstr("focal lengths 0 and 200"));
 }
 
 }  // namespace
