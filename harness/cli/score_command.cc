@@ -1,11 +1,10 @@
 #include <nlohmann/json.hpp>
 
-#include "harness/bag/bag_trajectory.h"
 #include "harness/cli/command.h"
+#include "harness/cli/score_input.h"
 #include "harness/cli/score_masks.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
-#include "harness/io/trajectory.h"
 #include "harness/record/record_json.h"
 #include "harness/score/coverage.h"
 #include "harness/score/masks.h"
@@ -39,11 +38,14 @@ DeltaUnit UnitFromName(const std::string& name) {
   return name == "seconds" ? DeltaUnit::kSeconds : DeltaUnit::kFrames;
 }
 
-Trajectory Read(const std::string& file, const Options& options) {
-  if (const std::optional<BagTopic> bag = BagTopicFromText(file)) return ReadBagTrajectory(*bag);
-  const TrajectoryFormat format = options.format.empty() ? GuessTrajectoryFormat(file)
-                                                         : TrajectoryFormatFromName(options.format);
-  return ReadTrajectory(file, format, options.times);
+/// What would have no effect here is a mistake about what was asked.
+void RefuseIdle(const Options& options) {
+  if (options.along_estimate && options.unit != "metres") {
+    throw InputError("--along-estimate measures metres: it is for --unit metres");
+  }
+  if (options.align_first > 0 && options.align == "none") {
+    throw InputError("--align-first: nothing is aligned with --align none");
+  }
 }
 
 ScoreOptions ScoreOptionsOf(const Options& options) {
@@ -248,17 +250,20 @@ int ScoreFiles(const Options& options) {
   if (options.truth.empty() || options.estimates.empty()) {
     throw InputError("give --truth and --estimate, or --masks-truth and --masks");
   }
-  const Trajectory truth = Read(options.truth, options);
+  RefuseIdle(options);
   const ScoreOptions score_options = ScoreOptionsOf(options);
+  const auto [truth, estimates] =
+      ReadPoseFiles({.truth = options.truth,
+                     .estimates = options.estimates,
+                     .format = options.format,
+                     .times = options.times,
+                     .by_stamp = score_options.association.rule != AssociationRule::kIndex});
   std::vector<TrajectoryScore> scores;
-  std::size_t poses = 0;
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const std::string& file : options.estimates) {
-    const Trajectory estimate = Read(file, options);
-    poses = estimate.size();
-    scores.push_back(ScorePoses(truth, estimate, score_options, options.rate_hz));
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    scores.push_back(ScorePoses(truth, estimates[i], score_options, options.rate_hz));
     list.push_back(ToJson(scores.back(), score_options));
-    list.back()["estimate"] = file;
+    list.back()["estimate"] = options.estimates[i];
   }
   if (options.json) {
     nlohmann::ordered_json all =
@@ -266,7 +271,7 @@ int ScoreFiles(const Options& options) {
     if (masks) all["masks"] = MasksToJson(*masks);
     fmt::print("{}", Dump(all));
   } else if (scores.size() == 1) {
-    PrintText(scores.front(), score_options, truth.size(), poses, options.all);
+    PrintText(scores.front(), score_options, truth.size(), estimates.front().size(), options.all);
   } else {
     PrintTable(options.estimates, scores, score_options, options.all);
   }
@@ -313,7 +318,7 @@ void AddScoreCommand(CLI::App* app, Action* action) {
                       "estimated trajectory; several are set side by side");
   command->add_option("--format", options->format, "of both files; default: by their content")
       ->check(CLI::IsMember({"tum", "kitti", "euroc"}));
-  command->add_option("--times", options->times, "KITTI times.txt; default 10 poses a second");
+  command->add_option("--times", options->times, "KITTI times.txt; needed beside a file with stamps");
   command->add_option("--align", options->align, "none, origin, posyaw, se3 (default) or sim3")
       ->check(CLI::IsMember({"none", "origin", "posyaw", "se3", "sim3"}));
   command

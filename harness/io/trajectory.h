@@ -8,7 +8,8 @@
 
 namespace aisle {
 
-/// TUM: "timestamp tx ty tz qx qy qz qw", '#' comments.
+/// TUM: "timestamp tx ty tz qx qy qz qw", '#' comments. A stamp of 15 or more digits before its
+/// point is nanoseconds: ORB-SLAM3 writes what it makes of EuRoC so.
 /// KITTI: 12 numbers a line, the first three rows of T_world_rig; no stamps. Some programs put the
 /// frame's number before them.
 /// EuRoC: csv "stamp in ns, p x y z, q w x y z[, v, biases]".
@@ -18,6 +19,10 @@ enum class TrajectoryFormat { kTum, kKitti, kEuroc };
 TrajectoryFormat TrajectoryFormatFromName(const std::string& name);
 /// Judges by the file's first data line. Throws InputError if it is none of the three.
 TrajectoryFormat GuessTrajectoryFormat(const std::filesystem::path& path);
+
+/// The times of a KITTI file where the benchmark's layout has them: ROOT/sequences/NN/times.txt of
+/// ROOT/poses/NN.txt. Empty where there are none.
+std::filesystem::path KittiTimesBeside(const std::filesystem::path& poses);
 
 /// In which order the rows of a file with stamps may stand.
 enum class RowOrder {

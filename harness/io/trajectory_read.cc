@@ -70,8 +70,10 @@ double Number(const Row& row, std::size_t index) {
   const auto [end, error] =
       std::from_chars(field.data() + skip, field.data() + field.size(), value);
   if (error != std::errc() || end != field.data() + field.size()) {
-    row.Fail(
-        fmt::format("field {} is '{}', not a number", index + 1, Printable(std::string(field))));
+    const bool is_word = std::isalpha(static_cast<unsigned char>(field.front())) != 0;
+    row.Fail(fmt::format("field {} is '{}', not a number{}", index + 1,
+                         Printable(std::string(field)),
+                         row.line == 1 && is_word ? ": titles of columns begin with '#'" : ""));
   }
   if (!std::isfinite(value)) {
     row.Fail(fmt::format("field {} is {}: poses must be finite", index + 1, field));
@@ -137,9 +139,24 @@ Eigen::Isometry3d Pose(const Row& row, const Eigen::Vector3d& position, Eigen::Q
   return pose;
 }
 
+/// ORB-SLAM3 writes EuRoC's stamps as the nanoseconds that they are, as a real number
+/// ("1403636579763555584.000000"). So many digits are no seconds of any year.
+bool ParseRealNanoseconds(std::string_view text, std::int64_t* stamp_ns) {
+  constexpr std::size_t kLeastDigits = 15;
+  const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+  if (digits < kLeastDigits) return false;
+  const std::string_view rest = text.substr(digits);
+  const bool is_decimal =
+      rest.empty() ||
+      (rest.front() == '.' && rest.find_first_not_of("0123456789", 1) == std::string_view::npos);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + digits, *stamp_ns);
+  return is_decimal && error == std::errc() && end == text.data() + digits;
+}
+
 std::int64_t SecondsField(const Row& row) {
   std::int64_t stamp_ns = 0;
-  if (!ParseSecondsToNs(row.fields[0], &stamp_ns)) {
+  if (!ParseRealNanoseconds(row.fields[0], &stamp_ns) &&
+      !ParseSecondsToNs(row.fields[0], &stamp_ns)) {
     row.Fail(fmt::format("'{}' is not a time in seconds", Printable(std::string(row.fields[0]))));
   }
   return stamp_ns;
@@ -164,7 +181,9 @@ StampedPose EurocPose(const Row& row) {
   const auto [end, error] = std::from_chars(stamp.data(), stamp.data() + stamp.size(), stamp_ns);
   if (error != std::errc() || end != stamp.data() + stamp.size()) {
     row.Fail(
-        fmt::format("'{}' is not a stamp in whole nanoseconds", Printable(std::string(stamp))));
+        fmt::format("'{}' is not a stamp in whole nanoseconds (what ORB-SLAM3 writes is of format "
+                    "tum)",
+                    Printable(std::string(stamp))));
   }
   const Eigen::Quaterniond q(Number(row, 4), Number(row, 5), Number(row, 6), Number(row, 7));
   return {stamp_ns, Pose(row, Position(row, 1), q)};
@@ -278,6 +297,12 @@ TrajectoryFormat GuessTrajectoryFormat(const fs::path& path) {
   if (count == 8) return TrajectoryFormat::kTum;
   row.Fail(fmt::format("{} fields: neither TUM (8), KITTI (12) nor EuRoC (8 to 17, stamp in ns)",
                        count));
+}
+
+fs::path KittiTimesBeside(const fs::path& poses) {
+  const fs::path root = fs::absolute(poses).lexically_normal().parent_path().parent_path();
+  const fs::path times = root / "sequences" / poses.stem() / "times.txt";
+  return fs::is_regular_file(times) ? times : fs::path();
 }
 
 Trajectory ReadTrajectory(const fs::path& path, TrajectoryFormat format, const fs::path& times,

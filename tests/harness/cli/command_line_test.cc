@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "harness/io/file.h"
+#include "harness/io/trajectory.h"
 #include "harness/record/results.h"
 
 namespace aisle {
@@ -57,8 +59,6 @@ TEST(CommandLineTest, ACommandThatIsChosenLeavesSomethingToDo) {
   }
 }
 
-TEST(CommandLineTest, ABenchIsACommandOfItsOwn) {
-  Action action;
 TEST(CommandLineTest, AssetsThatAreNowhereAreOneErrorWhereverTheyAreAskedFor) {
   const char* before = std::getenv("AISLE_ASSETS");
   const std::string kept = before == nullptr ? "" : before;
@@ -69,6 +69,8 @@ TEST(CommandLineTest, AssetsThatAreNowhereAreOneErrorWhereverTheyAreAskedFor) {
   before == nullptr ? ::unsetenv("AISLE_ASSETS") : ::setenv("AISLE_ASSETS", kept.c_str(), 1);
 }
 
+TEST(CommandLineTest, ABenchIsACommandOfItsOwn) {
+  Action action;
   EXPECT_THAT(Chosen("bench dynamic paper/scene2:90-130 --warm-up 3", &action),
               testing::ElementsAre("bench", "dynamic"));
 }
@@ -121,6 +123,141 @@ TEST(CommandLineTest, NothingToCompareIsSaid) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("aisle_cli_none_{}", ::getpid());
   WriteFileAtomically(folder / "results.json", ToJson(Results{}));
   EXPECT_EQ(Exit({"compare", folder.string(), folder.string()}), kNothingToDo);
+  fs::remove_all(folder);
+}
+
+/// A folder of its own, and what `score` says of files in it.
+class ScoreTest : public testing::Test {
+ protected:
+  ScoreTest() { fs::create_directories(folder_); }
+  ~ScoreTest() override { fs::remove_all(folder_); }
+
+  std::string Write(const std::string& name, const std::string& text) const {
+    WriteFileAtomically(folder_ / name, text);
+    return (folder_ / name).string();
+  }
+  /// A bent drive, seen at 20 Hz.
+  static Trajectory Drive() {
+    Trajectory drive;
+    for (int k = 0; k < 200; ++k) {
+      Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+      pose.translation() << 0.05 * k, std::sin(0.05 * k), 0;
+      drive.push_back({k * 50'000'000LL, pose});
+    }
+    return drive;
+  }
+  static std::string Times() {
+    std::string times;
+    for (const StampedPose& pose : Drive()) times += FormatSeconds(pose.stamp_ns) + "\n";
+    return times;
+  }
+  std::string Kitti(const std::string& name) const {
+    return Write(name, FormatTrajectory(Drive(), TrajectoryFormat::kKitti));
+  }
+  std::string Tum(const std::string& name) const {
+    return Write(name, FormatTrajectory(Drive(), TrajectoryFormat::kTum));
+  }
+  /// The error of equal poses is none.
+  static void ExpectNoError(std::vector<std::string> more) {
+    more.insert(more.begin(), "score");
+    more.emplace_back("--json");
+    std::string said;
+    ASSERT_EQ(Exit(more, &said), kAllPassed) << said;
+    const std::size_t end = said.rfind('}') + 1;  // what is said on stderr comes behind
+    const auto scores = nlohmann::json::parse(said.substr(0, end)).at("scores");
+    EXPECT_LT(scores.at("ate_rmse_m").at("value").get<double>(), 1e-9);
+    EXPECT_EQ(scores.at("coverage").at("value").get<double>(), 1);
+  }
+
+  const fs::path folder_ =
+      fs::temp_directory_path() / fmt::format("aisle_cli_score_{}", ::getpid());
+};
+
+TEST_F(ScoreTest, KittiFilesAreNeverStampedByAGuessBesideStamps) {
+  const std::string truth = Kitti("truth.txt"), estimate = Tum("slam.txt");
+  std::string said;
+  EXPECT_EQ(Exit({"score", "--truth", truth, "--estimate", estimate}, &said), kBadInput);
+  EXPECT_THAT(said, HasSubstr("--times"));
+  EXPECT_EQ(Exit({"score", "--truth", estimate, "--estimate", truth}), kBadInput);
+  ExpectNoError({"--truth", truth, "--estimate", estimate, "--times", Write("t.txt", Times())});
+  ExpectNoError({"--truth", truth, "--estimate", Kitti("other.txt")});  // by their rows
+}
+
+TEST_F(ScoreTest, TimesOfTheBenchmarksLayoutAreFound) {
+  const std::string truth = Kitti("data/poses/07.txt");
+  Write("data/sequences/07/times.txt", Times());
+  ExpectNoError({"--truth", truth, "--estimate", Tum("slam.txt")});
+}
+
+TEST_F(ScoreTest, NanosecondsAsRealNumbersAreStamps) {
+  std::string orb;
+  Trajectory truth = Drive();
+  for (StampedPose& pose : truth) {
+    pose.stamp_ns += 1403636579763555584;
+    const Eigen::Vector3d& p = pose.T_world_rig.translation();
+    orb += fmt::format("{}.000000 {} {} {} 0.0 0.0 0.0 1.0\n", pose.stamp_ns, p.x(), p.y(), p.z());
+  }
+  ExpectNoError({"--truth", Write("gt.csv", FormatTrajectory(truth, TrajectoryFormat::kEuroc)),
+                 "--estimate", Write("orb.txt", orb)});
+}
+
+TEST_F(ScoreTest, WhatWouldHaveNoEffectIsRefused) {
+  const std::string file = Tum("slam.txt");
+  const std::vector<std::string> good = {"score", "--truth", file, "--estimate", file};
+  for (const std::vector<std::string>& idle :
+       {std::vector<std::string>{"--times", Write("t.txt", Times())},
+        {"--along-estimate"},
+        {"--align", "none", "--align-first", "5"}}) {
+    std::vector<std::string> words = good;
+    words.insert(words.end(), idle.begin(), idle.end());
+    EXPECT_EQ(Exit(words), kBadInput) << idle.front();
+  }
+}
+
+TEST(CommandLineTest, AnInstructionSetThatTheTracerHasNoCodeForIsRefused) {
+  EXPECT_EQ(Exit({"render", "paper/scene2", "--out", "/no/where", "--isa", "sse4.2"}), kBadInput);
+  EXPECT_EQ(Exit({"bench", "render", "--isa", "sse4.2"}), kBadInput);
+  EXPECT_EQ(Exit({"bench", "growth", "--isa", "avx"}), kBadInput);
+}
+
+TEST(CommandLineTest, OptionsOfAClusterAreRefusedWhereTheyHaveNoEffect) {
+  const std::vector<std::string> run = {"run", "quickstart", "--dry-run"};
+  const auto refused = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = run;
+    words.insert(words.end(), more.begin(), more.end());
+    return Exit(words) == kBadInput;
+  };
+  EXPECT_TRUE(refused({"--partition", "night"}));
+  EXPECT_TRUE(refused({"--wait"}));
+  EXPECT_TRUE(refused({"--nodes-at-most", "3"}));
+  EXPECT_TRUE(refused({"--on", "k8s", "--partition", "night"}));
+  EXPECT_TRUE(refused({"--on", "k8s", "--task-time", "1:00"}));
+  EXPECT_TRUE(refused({"--on", "slurm", "--image", "aisle:1"}));
+  EXPECT_TRUE(refused({"--on", "slurm", "--claim", "out"}));
+}
+
+TEST(CommandLineTest, WhereAResultGoesIsAskedBeforeTheWorkIsDone) {
+  std::string said;
+  EXPECT_EQ(Exit({"slam", "/no/where", "-o", fs::temp_directory_path().string()}, &said),
+            kBadInput);
+  EXPECT_THAT(said, HasSubstr("is a folder: name a file in it"));
+  EXPECT_EQ(Exit({"slam", "/no/where", "-o", "/dev/null/slam.txt"}, &said), kBadInput);
+  EXPECT_THAT(said, HasSubstr("/dev/null"));
+  EXPECT_EQ(Exit({"preview", "paper/scene2", "-o", "scene2.gif"}, &said), kBadInput);
+  EXPECT_THAT(said, HasSubstr("scene2.gif: pictures are written as"));
+  EXPECT_EQ(Exit({"preview", "paper/scene2", "--plan", "plan.svg"}), kBadInput);
+}
+
+TEST(CommandLineTest, ComparedAsJsonStdoutIsJsonAlone) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("aisle_cli_json_{}", ::getpid());
+  const std::string out = folder.string(), pages = (folder / "pages").string();
+  WriteFileAtomically(folder / "results.json", ToJson(Results{}));
+  const char* words[] = {"aisle",  "compare", out.c_str(),  out.c_str(),
+                         "--json", "--out",   pages.c_str()};
+  testing::internal::CaptureStdout();
+  RunCommandLine(static_cast<int>(std::size(words)), words);
+  EXPECT_TRUE(nlohmann::json::accept(testing::internal::GetCapturedStdout()));
+  EXPECT_TRUE(fs::exists(folder / "pages/compare.html"));
   fs::remove_all(folder);
 }
 

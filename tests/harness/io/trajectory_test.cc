@@ -161,6 +161,25 @@ TEST_F(IoTest, RowsOfAnyOrderAreSortedWhereThatIsAsked) {
   EXPECT_EQ(sorted.back().stamp_ns, 2'000'000'000);
 }
 
+TEST_F(IoTest, NanosecondsAsRealNumbersAreNoSeconds) {
+  const fs::path orb = Write("orb.txt", "1403636579763555584.000000 1 2 3 0 0 0 1\n");
+  ASSERT_EQ(GuessTrajectoryFormat(orb), TrajectoryFormat::kTum);
+  EXPECT_EQ(ReadTrajectory(orb, TrajectoryFormat::kTum).front().stamp_ns, 1403636579763555584);
+  const fs::path late = Write("late.txt", "99999999999999999999.0 1 2 3 0 0 0 1\n");
+  EXPECT_THROW(ReadTrajectory(late, TrajectoryFormat::kTum), InputError);
+}
+
+TEST_F(IoTest, TitlesOfColumnsAreToldFromPoses) {
+  EXPECT_THAT(Complaint("t,x,y,z,qx,qy,qz,qw\n1,0,0,0,0,0,0,1\n", TrajectoryFormat::kTum),
+              HasSubstr("titles of columns begin with '#'"));
+}
+
+TEST_F(IoTest, TheBenchmarksLayoutHasTimesOfItsPoses) {
+  const fs::path times = Write("data/sequences/07/times.txt", "0\n");
+  EXPECT_EQ(KittiTimesBeside(folder_ / "data/poses/07.txt"), times);
+  EXPECT_EQ(KittiTimesBeside(folder_ / "data/poses/08.txt"), fs::path());
+}
+
 TEST_F(IoTest, CarriageReturnsAndByteOrderMarksDoNoHarm) {
   const fs::path path = Write("t.txt", "\xEF\xBB\xBF# a\r\n1 0 0 0 0 0 0 1\r\n");
   EXPECT_EQ(ReadTrajectory(path, TrajectoryFormat::kTum).size(), 1u);
@@ -186,6 +205,25 @@ TEST_F(IoTest, APictureThatIsNoneIsRefused) {
   cv::Mat1b image(4, 6, static_cast<unsigned char>(7));
   WriteImage(folder_ / "c.png", image);
   EXPECT_EQ(cv::norm(ReadGreyPng(folder_ / "c.png"), image), 0);
+}
+
+TEST_F(IoTest, PicturesInColourAndOfSixteenBitsAreReadAsGrey) {
+  const cv::Mat3b red(4, 6, cv::Vec3b(0, 0, 200));
+  WriteImage(folder_ / "red.png", red);
+  EXPECT_EQ(cv::norm(ReadGreyPng(folder_ / "red.png"), cv::Mat1b(4, 6, 60), cv::NORM_INF), 0)
+      << "0.299 of it";
+  const cv::Mat1w deep(4, 6, static_cast<unsigned short>(0x12ff));
+  WriteImage(folder_ / "deep.png", deep);
+  EXPECT_EQ(cv::norm(ReadGreyPng(folder_ / "deep.png"), cv::Mat1b(4, 6, 0x12), cv::NORM_INF), 0);
+}
+
+TEST_F(IoTest, NamesThatNoPictureIsWrittenToAreKnownBefore) {
+  EXPECT_NO_THROW(CheckImageName("a.png"));
+  EXPECT_NO_THROW(CheckImageName("a.jpg"));
+  for (const char* name : {"a.gif", "a.svg", "a"}) {
+    EXPECT_THROW(CheckImageName(name), InputError) << name;
+    EXPECT_THROW(WriteImage(folder_ / name, cv::Mat1b(4, 6, 60)), MachineError) << name;
+  }
 }
 
 SequenceFrame StoredExample() {
