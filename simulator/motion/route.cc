@@ -72,9 +72,12 @@ class Planner {
     const double turn = WrapAngle(heading_rad - now_.heading_rad);
     if (std::abs(turn) < kSameHeading_rad) return;
     if (!limits_.turns_on_the_spot) {
-      throw RouteError(now_.step, fmt::format("it would have to turn by {:.3g} degrees on the "
-                                              "spot, which this vehicle cannot",
-                                              turn * 180 / std::numbers::pi));
+      throw RouteError(
+          now_.step,
+          fmt::format("it would have to turn by {:.3g} degrees on the spot, which this vehicle "
+                      "cannot; let it begin with heading_deg: {:.3g}, or round the corner "
+                      "(corner_radius_m)",
+                      turn * 180 / std::numbers::pi, heading_rad * 180 / std::numbers::pi));
     }
     Route::Leg leg;
     leg.turn_sign = turn < 0 ? -1 : 1;

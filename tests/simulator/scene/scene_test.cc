@@ -213,7 +213,8 @@ TEST(Routes, OfASteeredVehicleAskForNothingItsWheelCannotDo) {
   const std::string spot = "{go: [[4, 0]], speed_mps: 0.8}, {turn_to_deg: 90}";
   EXPECT_THAT(drive(spot, "kind: tricycle"),
               ElementsAre(HasSubstr("rig.steps[1]: it would have to turn by 90 degrees on the "
-                                    "spot, which this vehicle cannot")));
+                                    "spot, which this vehicle cannot; let it begin with "
+                                    "heading_deg: 90, or round the corner")));
   EXPECT_THAT(drive(spot, "kind: differential"), IsEmpty());
   EXPECT_THAT(drive(spot, "kind: tricycle, max_steering_deg: 90"), IsEmpty());
   EXPECT_THAT(drive(corner, "kind: tricycle, wheelbase_m: 1.6, max_steering_deg: 45"),
