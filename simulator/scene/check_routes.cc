@@ -11,29 +11,32 @@
 #include "simulator/scene/footprint.h"
 #include "simulator/scene/hall.h"
 #include "simulator/scene/obstacles.h"
+#include "simulator/scene/rig_path.h"
 #include "simulator/scene/vary.h"
 
 namespace aisle::sim {
 namespace {
 
-// Half widths of the movers, for keeping clear of what stands.
-constexpr double kPersonRadius_m = 0.22;
-constexpr double kVehicleRadius_m = 0.5;
-constexpr double kRigRadius_m = 0.3;
+constexpr double kVehicleHalfWidth_m = 0.5;  // of any, for keeping clear of what stands
 
 /// Somebody under way.
 struct Walker {
   const RouteSpec* route = nullptr;
-  Route way;
+  std::function<RouteState(double time_s)> at;
   Footprint footprint;
   std::string key, name;
-  std::string train;  ///< the vehicle that tows it, or its own name; "": nobody's
+  std::string train;  ///< who tows or pushes it, or its own name
 };
 
 std::string KeyOf(const PersonSpec& person) {
   return person.crowd > 0 ? "crowd" : fmt::format("people[{}]", person.place);
 }
 std::string KeyOf(const VehicleSpec& vehicle) { return fmt::format("vehicles[{}]", vehicle.place); }
+
+const std::string& TrainOf(const VehicleSpec& vehicle) {
+  if (!vehicle.pushed_by.empty()) return vehicle.pushed_by;
+  return vehicle.towed_by.empty() ? vehicle.name : vehicle.towed_by;
+}
 
 /// The line to blame for where a mover is.
 Mark MarkOf(const RouteSpec& route, const RouteState& state) {
@@ -53,14 +56,14 @@ class RouteChecker {
   void Run() {
     RouteSpec rig = scene_.rig.route;
     rig.limits.turns_on_the_spot = TurnsOnTheSpot();
-    CheckRoute(rig, "rig", kRigRadius_m);
+    CheckRoute(rig, "rig", kRigHalfWidth_m);
     if (issues_->empty()) CheckBends();
     for (const PersonSpec& person : scene_.people) {
-      CheckRoute(person.route, KeyOf(person), kPersonRadius_m);
+      CheckRoute(person.route, KeyOf(person), kPersonHalfWidth_m);
     }
     for (const VehicleSpec& vehicle : scene_.vehicles) {
       if (!vehicle.pushed_by.empty()) continue;
-      CheckRoute(vehicle.route, KeyOf(vehicle), kVehicleRadius_m);
+      CheckRoute(vehicle.route, KeyOf(vehicle), kVehicleHalfWidth_m);
     }
     if (issues_->empty()) CheckMeetings();
   }
@@ -149,21 +152,27 @@ class RouteChecker {
 
   /// The rig and the actors never run into one another.
   void CheckMeetings() {
-    const auto walker = [](const RouteSpec& route, const Footprint& footprint,
-                           const std::string& key, const std::string& name,
-                           const std::string& train = "") {
-      return Walker{&route, Route(route.plan, route.limits), footprint, key, name, train};
+    const auto way_of = [](const RouteSpec& spec) {
+      return [route = Route(spec.plan, spec.limits)](double time_s) { return route.At(time_s); };
     };
     std::vector<Walker> walkers = {
-        walker(scene_.rig.route, {0, 0, kRigRadius_m}, "rig", "the rig")};
+        {&scene_.rig.route, RigFloorOf(scene_), {0, 0, kRigHalfWidth_m}, "rig", "the rig", ""}};
     for (const PersonSpec& person : scene_.people) {
-      walkers.push_back(walker(person.route, {0, 0, kPersonRadius_m}, KeyOf(person), person.name));
+      walkers.push_back({&person.route,
+                         way_of(person.route),
+                         {0, 0, kPersonHalfWidth_m},
+                         KeyOf(person),
+                         person.name,
+                         person.name});
     }
     for (const VehicleSpec& vehicle : scene_.vehicles) {
-      if (!vehicle.pushed_by.empty()) continue;  // goes where its pusher goes
-      walkers.push_back(walker(vehicle.route, FootprintOf(vehicle.model), KeyOf(vehicle),
-                               vehicle.name,
-                               vehicle.towed_by.empty() ? vehicle.name : vehicle.towed_by));
+      Footprint footprint = FootprintOf(vehicle.model);
+      if (!vehicle.pushed_by.empty()) {
+        footprint.back_m += AheadOfPusher(vehicle.model);
+        footprint.front_m += AheadOfPusher(vehicle.model);
+      }
+      walkers.push_back({&vehicle.route, way_of(vehicle.route), footprint, KeyOf(vehicle),
+                         vehicle.name, TrainOf(vehicle)});
     }
     for (std::size_t i = 0; i < walkers.size(); ++i) {
       for (std::size_t k = i + 1; k < walkers.size(); ++k) CheckMeeting(walkers[i], walkers[k]);
@@ -171,12 +180,12 @@ class RouteChecker {
   }
 
   void CheckMeeting(const Walker& one, const Walker& other) {
-    if (!one.train.empty() && one.train == other.train) return;  // coupled
+    if (one.train == other.train) return;  // coupled
     constexpr double kStep_s = 0.05;
     const double needed_m = one.footprint.radius_m + other.footprint.radius_m;
     for (double t = 0; t <= scene_.duration_s(); t += kStep_s) {
-      const RouteState state = other.way.At(t);
-      const double apart_m = Apart(one.footprint, one.way.At(t), other.footprint, state);
+      const RouteState state = other.at(t);
+      const double apart_m = Apart(one.footprint, one.at(t), other.footprint, state);
       if (apart_m >= needed_m) continue;
       issues_->Add(MarkOf(*other.route, state), other.key,
                    fmt::format("{}at {:.2f} s it is {:.2f} m from {}, middle to middle, and they "

@@ -9,19 +9,20 @@
 #include "simulator/motion/crowd.h"
 #include "simulator/scene/footprint.h"
 #include "simulator/scene/obstacles.h"
+#include "simulator/scene/rig_path.h"
 
 namespace aisle::sim {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kRigRadius_m = 0.45, kPersonRadius_m = 0.25;
 
-/// Places of one disc of a mover, `ahead_m` of its origin.
-CrowdIntruder DiscOf(const Route& route, double ahead_m, double radius_m, double duration_s) {
+/// Places of one disc of a mover, `ahead_m` of where `at` has it.
+CrowdIntruder DiscOf(const std::function<RouteState(double)>& at, double ahead_m, double radius_m,
+                     double duration_s) {
   CrowdIntruder disc{{}, radius_m};
   const int steps = static_cast<int>(std::ceil(duration_s / kCrowdStep_s)) + 1;
   for (int i = 0; i <= steps; ++i) {
-    const RouteState state = route.At(i * kCrowdStep_s);
+    const RouteState state = at(i * kCrowdStep_s);
     disc.places.emplace_back(
         state.position +
         ahead_m * Eigen::Vector2d(std::cos(state.heading_rad), std::sin(state.heading_rad)));
@@ -32,20 +33,22 @@ CrowdIntruder DiscOf(const Route& route, double ahead_m, double radius_m, double
 std::vector<CrowdIntruder> IntrudersOf(const Scene& scene) {
   const double duration_s = scene.duration_s() + 5;
   std::vector<CrowdIntruder> all;
-  const Route rig(scene.rig.route.plan, scene.rig.route.limits);
-  all.push_back(DiscOf(rig, 0.1, kRigRadius_m, duration_s));
+  const auto way_of = [](const RouteSpec& spec) {
+    return [route = Route(spec.plan, spec.limits)](double time_s) { return route.At(time_s); };
+  };
+  all.push_back(DiscOf(RigFloorOf(scene), 0.1, kRigBerth_m, duration_s));
   for (const PersonSpec& person : scene.people) {
-    const Route route(person.route.plan, person.route.limits);
-    all.push_back(DiscOf(route, 0, kPersonRadius_m, duration_s));
+    all.push_back(DiscOf(way_of(person.route), 0, kPersonReach_m, duration_s));
   }
   for (const VehicleSpec& vehicle : scene.vehicles) {
     const Footprint footprint = FootprintOf(vehicle.model);
-    const Route route(vehicle.route.plan, vehicle.route.limits);
+    const auto way = way_of(vehicle.route);
+    const double origin_m = vehicle.pushed_by.empty() ? 0 : AheadOfPusher(vehicle.model);
     const double length = footprint.front_m - footprint.back_m;
     const int discs = 1 + static_cast<int>(std::ceil(length / footprint.radius_m));
     for (int i = 0; i < discs; ++i) {
-      const double ahead = footprint.back_m + length * i / std::max(1, discs - 1);
-      all.push_back(DiscOf(route, ahead, footprint.radius_m, duration_s));
+      const double ahead = origin_m + footprint.back_m + length * i / std::max(1, discs - 1);
+      all.push_back(DiscOf(way, ahead, footprint.radius_m, duration_s));
     }
   }
   return all;

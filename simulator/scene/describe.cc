@@ -216,8 +216,8 @@ void DescribeRigFiles(Fields& f, RigSpec& rig) {
   DescribeCalibration(f, rig);
   f.Sentence(
       {"trajectory",
-       "a TUM file, or FILE.mcap:/topic of a bag, whose way the rig drives instead of start and "
-       "steps: its poses exactly at its times, from the first on, and smooth between",
+       "a TUM file, or FILE.mcap:/topic of a bag, whose way the rig drives instead of start, "
+       "steps and bumps: its poses exactly at its times, from the first on, and smooth between",
        "drive.txt"},
       &rig.trajectory);
   f.Choice({"trajectory_of",
@@ -237,7 +237,8 @@ void DescribeRig(Fields& f, RigSpec& rig) {
       &rig.pairs, DescribePair);
   f.Name({"pair", "the pair that systems are shown; absent: the rig's own", "rear"}, &rig.pair);
   rig.pair_mark = f.MarkOf("pair");
-  if (!f.Has("trajectory")) DescribeRoute(f, rig.route, "trajectory");
+  if (f.Has("trajectory")) return;  // its poses are all of the motion
+  DescribeRoute(f, rig.route, "trajectory");
   DescribeSteering(f, rig.route.limits);
   f.ListOf({"bumps", "jolts of the vehicle", "[{at_s: 4, height_m: 0.01}]"}, &rig.bumps,
            DescribeBump);

@@ -27,6 +27,11 @@ RouteSpec Varied(RouteSpec route, const VarySpec& vary, Dice dice) {
 
 Scene Coupled(Scene scene) {
   for (VehicleSpec& vehicle : scene.vehicles) {
+    const auto pusher = std::ranges::find(scene.people, vehicle.pushed_by, &PersonSpec::name);
+    if (!vehicle.pushed_by.empty() && pusher != scene.people.end()) {
+      vehicle.route.plan = pusher->route.plan;
+      vehicle.route.limits = pusher->route.limits;
+    }
     const auto tractor = std::ranges::find(scene.vehicles, vehicle.towed_by, &VehicleSpec::name);
     if (vehicle.towed_by.empty() || tractor == scene.vehicles.end()) continue;
     vehicle.route.plan = tractor->route.plan;
@@ -47,13 +52,10 @@ Scene Seeded(Scene scene, std::uint64_t seed) {
   }
   for (VehicleSpec& vehicle : scene.vehicles) {
     vehicle.route = Varied(vehicle.route, vehicle.vary, Dice(seed, {410, vehicle.place}));
-    const auto pusher = std::ranges::find(scene.people, vehicle.pushed_by, &PersonSpec::name);
-    if (vehicle.pushed_by.empty() || pusher == scene.people.end()) continue;
-    vehicle.route.plan = pusher->route.plan;
-    vehicle.route.limits = pusher->route.limits;
   }
-  AddCrowd(seed, &scene);
-  return Coupled(std::move(scene));
+  scene = Coupled(std::move(scene));
+  AddCrowd(seed, &scene);  // last: it goes round all the others
+  return scene;
 }
 
 Scene WithLooks(Scene scene, std::uint64_t seed, const std::vector<std::string>& models) {

@@ -9,6 +9,7 @@
 namespace aisle::sim {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -103,6 +104,49 @@ TEST(Crowd, WalksInANamedAisle) {
   EXPECT_NEAR(area.to.y(), 3 - 0.55, 1e-9);
   EXPECT_NEAR(area.from.x(), 3, 1e-9);
   EXPECT_NEAR(area.to.x(), 3 + 4 * 2.7, 1e-9);
+}
+
+/// Checks that of every usual seed nobody meets anybody.
+std::vector<std::string> CrowdAround(const std::string& others) {
+  try {
+    ParseScene(
+        "about: A crowd.\nframes: 160\nrig: {start: [-8.5, -4.5]}\n"
+        "hall: {from: [-10, -6], to: [12, 6]}\nlights: [{rows: 1, per_row: 2}]\n"
+        "crowd: {people: 6, in: [-4, -3, 10, 3]}\n" +
+            others,
+        "s.yaml");
+  } catch (const SceneError& error) {
+    return error.messages();
+  }
+  return {};
+}
+
+TEST(Crowd, GoesRoundTheTrailersToo) {
+  EXPECT_THAT(
+      CrowdAround("vehicles:\n"
+                  "  - {name: tractor, model: tow_tractor, start: [8, 0], heading_deg: 180,\n"
+                  "     steps: [{go: [[-6, 0]], speed_mps: 1.0}]}\n"
+                  "  - {name: t1, model: tow_trailer, start: [9.78, 0], heading_deg: 180,\n"
+                  "     towed_by: tractor, behind_m: 1.78}\n"
+                  "  - {name: t2, model: tow_trailer, start: [11.3, 0], heading_deg: 180,\n"
+                  "     towed_by: tractor, behind_m: 3.3}\n"),
+      ElementsAre());
+}
+
+const std::string kPushed =
+    "vehicles:\n"
+    "  - {name: jack, model: pallet_jack, start: [6.85, 0], heading_deg: 180, pushed_by: pusher}\n"
+    "people:\n"
+    "  - {name: pusher, start: [9, 0], heading_deg: 180,\n"
+    "     steps: [{go: [[-5, 0]], speed_mps: 1.0, play: walk_push}]}\n";
+
+TEST(Crowd, GoesRoundWhatIsPushed) { EXPECT_THAT(CrowdAround(kPushed), ElementsAre()); }
+
+TEST(Pushed, AreWhereTheyArePushed) {
+  // Within the scene's 8 s the pusher comes to x = 1.8: only the truck before him gets there.
+  const std::string bystander = "  - {name: bystander, start: [0.3, 0.2]}\n";
+  EXPECT_THAT(CrowdAround(kPushed + bystander),
+              ElementsAre(AllOf(HasSubstr("vehicles[0]"), HasSubstr("from bystander"))));
 }
 
 TEST(Crowd, IsToldWhatDoesNotGo) {

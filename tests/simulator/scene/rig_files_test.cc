@@ -7,7 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "simulator/motion/recorded_path.h"
 #include "simulator/scene/load.h"
+#include "simulator/scene/rig_path.h"
+#include "simulator/scene/vary.h"
 
 namespace aisle::sim {
 namespace {
@@ -59,6 +62,76 @@ TEST_F(RigFilesTest, TheTrajectoryIsReadToTheNanosecond) {
   EXPECT_EQ(scene.rig.poses[1].time_ns, 100'000'000);
   EXPECT_EQ(scene.rig.poses[2].T_world_body.translation(), Eigen::Vector3d(2, 1, 0.5));
   EXPECT_EQ(scene.rig.body, TrajectoryBody::kVehicle);
+}
+
+/// A camera that is carried along the hall at eye level, looking ahead.
+std::string CarriedThrough() {
+  std::string poses;
+  for (int i = 0; i < 200; ++i) {
+    poses += fmt::format("{:.2f} {:.3f} 0 1.2 -0.5 0.5 -0.5 0.5\n", 0.05 * i, -4 + 0.06 * i);
+  }
+  return poses;
+}
+
+TEST_F(RigFilesTest, ACrowdGoesRoundTheRecordedRig) {
+  Put("way.txt", CarriedThrough());
+  const std::string file =
+      SceneWith("trajectory: way.txt}\ncrowd: {people: 5, in: [-2, -4, 12, 4]", 160);
+  EXPECT_THAT(CheckScene(file), testing::ElementsAre());
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const Scene scene = Seeded(LoadScene(file), seed);
+    const RecordedPath rig(scene.rig.poses);
+    double nearest_m = 1e9;
+    for (const PersonSpec& person : scene.people) {
+      const Route route(person.route.plan, person.route.limits);
+      for (double t = 0; t < scene.duration_s(); t += 0.05) {
+        const Eigen::Isometry3d at = rig.At(std::llround(1e9 * t));
+        nearest_m = std::min(nearest_m, (at.translation().head<2>() - route.At(t).position).norm());
+      }
+    }
+    EXPECT_GT(nearest_m, 0.5) << "seed " << seed;
+  }
+}
+
+TEST_F(RigFilesTest, WhoStandsInTheWayOfARecordingIsTold) {
+  Put("way.txt", CarriedThrough());
+  const std::string somebody = "people:\n- {name: in_the_way, start: [2, 0.1]";
+  EXPECT_THAT(CheckScene(SceneWith("trajectory: way.txt}\n" + somebody, 160)),
+              testing::ElementsAre(testing::AllOf(HasSubstr("people[0]"), HasSubstr("the rig"))));
+}
+
+TEST(RigFloor, IsTheVehiclesOrBelowTheCamera) {
+  Scene scene;
+  scene.rig.mount = {.height_m = 1, .forward_m = 0.4, .yaw_rad = 0.3};
+  const RouteState at{.position = {3, 2}, .heading_rad = 0.7};
+  scene.rig.route.plan.start = at.position;
+  scene.rig.route.plan.heading_rad = at.heading_rad;
+  const Eigen::Isometry3d camera = RigPathOf(scene)(0);
+  EXPECT_TRUE(RigFloorOf(scene)(0).position.isApprox(at.position));
+
+  Eigen::Isometry3d vehicle = Eigen::Isometry3d::Identity();
+  vehicle.translation() << at.position, 0;
+  vehicle.linear() = Eigen::AngleAxisd(at.heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  scene.rig.poses = {{0, vehicle}};
+  scene.rig.body = TrajectoryBody::kVehicle;
+  EXPECT_TRUE(RigPathOf(scene)(0).isApprox(camera));
+  EXPECT_TRUE(RigFloorOf(scene)(0).position.isApprox(at.position));
+  EXPECT_NEAR(RigFloorOf(scene)(0).heading_rad, at.heading_rad, 1e-12);
+
+  scene.rig.poses = {{0, camera}};
+  scene.rig.body = TrajectoryBody::kCamera;
+  EXPECT_TRUE(RigPathOf(scene)(0).isApprox(camera));
+  EXPECT_TRUE(RigFloorOf(scene)(0).position.isApprox(camera.translation().head<2>().eval()));
+  EXPECT_NEAR(RigFloorOf(scene)(0).heading_rad, at.heading_rad + 0.3, 1e-12);
+}
+
+TEST_F(RigFilesTest, ARecordingHasNeitherBumpsNorSteering) {
+  for (const char* key : {"bumps: [{at_s: 1}]", "jerk_mps3: 2", "curvature_rate_per_m_s: 1",
+                          "lateral_jerk_mps3: 1", "start: [0, 0]"}) {
+    const std::string name = std::string(key).substr(0, std::string(key).find(':'));
+    EXPECT_THAT(WhyNot(fmt::format("trajectory: drive.txt, {}", key)),
+                testing::AllOf(HasSubstr("scene.yaml:4:"), HasSubstr("rig." + name + ":")));
+  }
 }
 
 TEST_F(RigFilesTest, TheirFilesAreTheScenes) {
