@@ -95,10 +95,11 @@ struct FrameTruth {
   cv::Mat1b object_class;  ///< class ids
   cv::Mat1f depth_right;   ///< z in metres along the right camera's axis, inf where nothing was hit
   cv::Mat1w instance_right;
-  cv::Mat1b object_class_right;
-  cv::Mat1b dynamic;                 ///< 255 where the surface moves in the world now
-  cv::Mat1b dynamic_right;           ///< the same for the right camera
-  cv::Mat1b actor;                   ///< 255 on every person and vehicle, moving or not (left)
+  cv::Mat1b dynamic;        ///< 255 where the surface moves in the world now
+  cv::Mat1b dynamic_right;  ///< the same for the right camera
+  /// 255 on every instance that may move at some time, moving or not (left): people, vehicles and
+  /// mechanisms (doors, chains, conveyors, what is pushed and carried), but not their frames.
+  cv::Mat1b actor;
   cv::Mat1b actor_right;             ///< the same for the right camera
   std::vector<ObjectTruth> objects;  ///< by instance id
 };
@@ -117,7 +118,8 @@ struct RenderedFrame {
 struct MotionTruth {
   cv::Mat1f disparity;   ///< left u - right u in the rectified pair, pixels; 0: nothing was hit
   cv::Mat1b occluded;    ///< 255 where the right camera does not see the point
-  cv::Mat2f flow;        ///< to the next frame's left image, pixels; NaN where it is not in front
+  cv::Mat2f flow;        ///< to the next frame's left image, pixels; NaN where it is not in front,
+                         ///< or so far aside that the lens would fold it back into the image
   cv::Mat3f scene_flow;  ///< the surface point's own way until then, metres, world
   /// 255 where the surface rests but something that moves takes more than a twentieth of its direct
   /// light now (left camera).
@@ -128,16 +130,18 @@ struct MotionTruth {
 struct VerifyReport {
   double raster_agreement_left = 0;   ///< share of pixels away from silhouettes where OSMesa agrees
   double raster_agreement_right = 0;  ///< in label and in depth to 1e-3
-  int raster_compared = 0;
+  int raster_compared = 0, raster_pixels = 0;  ///< of both pictures; the latter all there are
   double stereo_median_px = 0;  ///< left warped to right by disparity, error of geometry
   double flow_median_px = 0;    ///< left warped to the next left by flow, as disparity
+  int surface_pixels = 0;  ///< of the left picture: that show anything
   int stereo_compared = 0, flow_compared = 0;
   /// Grey against grey over three frames without noise, see simulator/proof: rms change of things
   /// at rest along their flow, flicker of movers and of moving shadows; grey levels, 0 where too
   /// little of it is seen.
   double static_change_grey = 0, mover_flicker_grey = 0, shadow_flicker_grey = 0;
   std::string picture_failure = {};  ///< of the three, or empty
-  /// The sentence that says what failed its bound (0.999 agreement, 0.05 px), or empty.
+  /// The sentence that says what failed its bound (0.999 agreement on at least a tenth of the
+  /// pixels, 0.05 px on at least a hundredth of those that show anything), or empty.
   std::string failure() const;
 };
 

@@ -34,7 +34,7 @@ struct WorldTime {
 };
 
 FrameTruth Assemble(const Eigen::Isometry3d& T_world_rig, const CameraTruth& left,
-                    const CameraTruth& right, const std::vector<MoverTruth>& movers) {
+                    const CameraTruth& right, std::vector<ObjectTruth> objects) {
   FrameTruth truth;
   truth.T_world_rig = T_world_rig;
   truth.depth = left.depth;
@@ -42,23 +42,11 @@ FrameTruth Assemble(const Eigen::Isometry3d& T_world_rig, const CameraTruth& lef
   truth.object_class = left.object_class;
   truth.depth_right = right.depth;
   truth.instance_right = right.instance;
-  truth.object_class_right = right.object_class;
   truth.dynamic = left.dynamic;
   truth.dynamic_right = right.dynamic;
   truth.actor = left.actor;
   truth.actor_right = right.actor;
-  for (const MoverTruth& mover : movers) {
-    truth.objects.push_back({.instance = mover.instance,
-                             .box_visible = mover.box_visible,
-                             .box_full = mover.box_full,
-                             .T_world_object = mover.T_world_object,
-                             .extent_m = mover.extent_m,
-                             .center_m = mover.center_m,
-                             .velocity_mps = mover.velocity_mps,
-                             .visible_fraction = mover.visible_fraction,
-                             .visible_pixels = mover.visible_pixels,
-                             .dynamic_pixels = mover.dynamic_pixels});
-  }
+  truth.objects = std::move(objects);
   return truth;
 }
 
@@ -263,7 +251,7 @@ struct Pipeline::Impl {
     const MovingNow moving(world, instant.snapshot(), options.moving);
     const CameraTruth left = LabelHits(world, instant, hits[0], moving);
     const CameraTruth right = LabelHits(world, instant, hits[1], moving);
-    const std::vector<MoverTruth> movers = DescribeMovers(instant, views[0], left);
+    std::vector<ObjectTruth> objects = DescribeMovers(instant, views[0], left);
     lap("truth");
     std::vector<cv::Mat1f> radiance = shader->Shade(instant, views, hits, lap);
     lap("combine");
@@ -277,7 +265,7 @@ struct Pipeline::Impl {
                         .exposure_ms = setting.time_ms,
                         .smear_ms = options.shutter.motion_blur ? setting.time_ms : 0,
                         .gain = setting.gain,
-                        .truth = Assemble(T_world_rig, left, right, movers)};
+                        .truth = Assemble(T_world_rig, left, right, std::move(objects))};
     lap("sensor");
     GiveBack(std::move(hits));
     return frame;

@@ -170,7 +170,7 @@ x right, y down, z forward; the right camera stands at (+baseline, 0, 0). World:
 | `instance`, `instance_right` | PNG, 16 bit | the id in `labels.json`; 0: nothing was hit |
 | `class`, `class_right` | PNG, 8 bit | the `class_id` in `labels.json` |
 | `dynamic`, `dynamic_right` | PNG, 8 bit | 255: the surface moves now, that is during the exposure around the stamp |
-| `actor` | PNG, 8 bit | 255: a person or vehicle, moving or not |
+| `actor` | PNG, 8 bit | 255: what may move, moving or not: people, vehicles, doors, conveyors, chains |
 | `boxes` | JSON | the movers: 2-D boxes (x, y, width, height in pixels), 3-D box, pose and velocity in the world (metres, m/s) |
 | `flow` | Middlebury .flo | u, v: displacement to the next frame's left image, pixels; 1e10: unknown |
 | `scene_flow` | PFM, 3 channels | x, y, z: the surface point's own way until the next frame, metres, world axes; 0 where it rests |

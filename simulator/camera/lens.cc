@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace aisle::sim {
@@ -36,6 +37,24 @@ std::array<double, 2> EquidistantRadius(const std::array<double, 4>& k, double a
   const double a2 = angle * angle;
   return {angle * (1 + a2 * (k[0] + a2 * (k[1] + a2 * (k[2] + a2 * k[3])))),
           1 + a2 * (3 * k[0] + a2 * (5 * k[1] + a2 * (7 * k[2] + a2 * 9 * k[3])))};
+}
+
+/// Beyond this radius r (1 + k1 r^2 + k2 r^4) falls: the first zero of 1 + 3 k1 r^2 + 5 k2 r^4.
+double FoldOfRadial(double k1, double k2) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const double half = 1.5 * k1, root2 = half * half - 5 * k2;
+  if (root2 < 0) return kNever;
+  // Of the two zeros 1 / (-half +- root) in r^2 the smaller positive one.
+  const double inverse = -half + std::sqrt(root2);
+  return inverse > 0 ? std::sqrt(1 / inverse) : kNever;
+}
+
+/// The angle beyond which the radius falls, at most the widest that is unbent.
+double FoldOfAngle(const std::array<double, 4>& k) {
+  constexpr double kStep = 1e-3;
+  double angle = 0;
+  while (angle < kWidestAngle && EquidistantRadius(k, angle)[1] > 0) angle += kStep;
+  return std::min(angle, kWidestAngle);
 }
 
 Eigen::Vector2d BendEquidistant(const std::array<double, 4>& k, const Eigen::Vector2d& ray) {
@@ -74,10 +93,27 @@ std::optional<Eigen::Vector2d> UnbendEquidistant(const std::array<double, 4>& k,
 
 }  // namespace
 
-Eigen::Vector2d Distort(const Lens& lens, const Eigen::Vector2d& ray) {
+double WidestRay(const Lens& lens) {
   switch (lens.model) {
     case LensModel::kRadialTangential:
-      return BendRadialTangential(lens.coefficients, ray).image;
+      return FoldOfRadial(lens.coefficients[0], lens.coefficients[1]);
+    case LensModel::kEquidistant:
+      return std::tan(FoldOfAngle(lens.coefficients));
+    case LensModel::kPinhole:
+      break;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+std::optional<Eigen::Vector2d> Distort(const Lens& lens, double widest,
+                                       const Eigen::Vector2d& ray) {
+  if (ray.norm() > widest) return std::nullopt;
+  switch (lens.model) {
+    case LensModel::kRadialTangential: {
+      const Bent bent = BendRadialTangential(lens.coefficients, ray);
+      if (!(bent.jacobian.determinant() > 0)) return std::nullopt;
+      return bent.image;
+    }
     case LensModel::kEquidistant:
       return BendEquidistant(lens.coefficients, ray);
     case LensModel::kPinhole:

@@ -19,8 +19,14 @@ struct Lens {
   std::array<double, 4> coefficients = {0, 0, 0, 0};
 };
 
-/// Where the ray (x, y, 1) meets the bent image.
-Eigen::Vector2d Distort(const Lens& lens, const Eigen::Vector2d& ray);
+/// The tangent of the angle off the axis up to which the lens is one to one along a line from the
+/// middle: beyond, its polynomial comes back. Infinite where it never does; at most 85 degrees'
+/// where the image is by angle.
+double WidestRay(const Lens& lens);
+
+/// Where the ray (x, y, 1) meets the bent image; none where that is folded, which is beyond
+/// `widest` (WidestRay of the lens, which is asked once) or where tangential terms turn it over.
+std::optional<Eigen::Vector2d> Distort(const Lens& lens, double widest, const Eigen::Vector2d& ray);
 
 /// The ray (x, y, 1) that meets the bent image at a place: Newton's method to 1e-12. None where the
 /// lens has no such ray: beyond the fold of the polynomial, or 85 degrees and more off the axis.

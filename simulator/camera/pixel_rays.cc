@@ -7,9 +7,11 @@
 
 namespace aisle::sim {
 
-Eigen::Vector2d Project(const StereoCamera& camera, const Eigen::Vector3d& point_camera) {
-  const Eigen::Vector2d image = Distort(camera.lens, point_camera.hnormalized());
-  return {camera.fx * image.x() + camera.cx, camera.fy * image.y() + camera.cy};
+std::optional<Eigen::Vector2d> Projection::operator()(const Eigen::Vector3d& point_camera) const {
+  const auto image = Distort(camera_.lens, widest_, point_camera.hnormalized());
+  if (!image) return std::nullopt;
+  return Eigen::Vector2d(camera_.fx * image->x() + camera_.cx,
+                         camera_.fy * image->y() + camera_.cy);
 }
 
 PixelRays MakePixelRays(const StereoCamera& camera) {

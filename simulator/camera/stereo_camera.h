@@ -20,7 +20,19 @@ struct StereoCamera {
   Lens lens = {};
 };
 
-/// The pixel where a point of the camera's frame (metres, z > 0) appears, inside the image or not.
-Eigen::Vector2d Project(const StereoCamera& camera, const Eigen::Vector3d& point_camera);
+/// Says where points appear in a camera's image.
+class Projection {
+ public:
+  explicit Projection(const StereoCamera& camera)
+      : camera_(camera), widest_(WidestRay(camera.lens)) {}
+
+  /// The pixel of a point of the camera's frame (metres, z > 0), inside the image or not; none
+  /// where the lens shows no such ray, or would show it where another one is.
+  std::optional<Eigen::Vector2d> operator()(const Eigen::Vector3d& point_camera) const;
+
+ private:
+  StereoCamera camera_;
+  double widest_;
+};
 
 }  // namespace aisle::sim

@@ -21,15 +21,14 @@ struct TracerOptions {
   std::string isa = "avx2";
 };
 
-/// Which geometries a ray may meet: bit 0 the static world, bit 1 + i mover i (movers beyond the
-/// 62nd share the last bit).
-using GeometryMask = std::uint64_t;
+/// Which geometries a ray may meet: bit 0 the static world, bit 1 + i mover i. A bit each: what one
+/// mover hides and what light it takes is asked of it alone.
+using GeometryMask = unsigned __int128;
+static_assert(kMostMovers + 1 <= 8 * sizeof(GeometryMask));
 inline constexpr GeometryMask kEverything = ~GeometryMask{0};
 inline constexpr GeometryMask kStaticOnly = 1;
 inline constexpr GeometryMask kMoversOnly = ~GeometryMask{1};
-constexpr GeometryMask MoverBit(std::size_t mover) {
-  return GeometryMask{1} << (mover < 62 ? mover + 1 : 63);
-}
+constexpr GeometryMask MoverBit(std::size_t mover) { return GeometryMask{1} << (mover + 1); }
 
 /// Whether neighbouring lanes take like paths; a hint for speed only.
 enum class Coherence { kCoherent, kIncoherent };

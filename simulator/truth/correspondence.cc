@@ -18,9 +18,9 @@ Eigen::Vector3d PointAt(const CameraView& view, const HitImage& hits, int x, int
   return view.T_world_camera * Eigen::Vector3d(t * view.rays->x[ray], t * view.rays->y[ray], t);
 }
 
-bool InImage(const StereoCamera& camera, const Eigen::Vector2d& pixel) {
-  return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < camera.width - 0.5 &&
-         pixel.y() < camera.height - 0.5;
+bool InImage(const StereoCamera& camera, const std::optional<Eigen::Vector2d>& pixel) {
+  return pixel && pixel->x() >= -0.5 && pixel->y() >= -0.5 && pixel->x() < camera.width - 0.5 &&
+         pixel->y() < camera.height - 0.5;
 }
 
 /// Where the surface point of a hit is on the mover's mesh as posed in `snapshot`.
@@ -99,6 +99,7 @@ Correspondence FindCorrespondence(const World& world, const Instant& instant,
   const Eigen::Isometry3d T_right_world = T_world_right.inverse();
   const Eigen::Vector3d right_camera = T_world_right.translation();
   const Eigen::Isometry3d T_next_world = T_world_rig_next.inverse();
+  const Projection project(camera);
   ParallelFor(0, hits.height, [&](int y) {
     for (int x0 = 0; x0 < hits.width; x0 += kLanes) {
       std::array<Eigen::Vector3d, kLanes> points;
@@ -110,7 +111,7 @@ Correspondence FindCorrespondence(const World& world, const Instant& instant,
         const Eigen::Vector3d point = PointAt(left, hits, x, y);
         points[static_cast<std::size_t>(k)] = point;
         result.disparity(y, x) = static_cast<float>(camera.fx * camera.baseline_m / hits.t[i]);
-        if (InImage(camera, Project(camera, T_right_world * point))) valid |= 1u << k;
+        if (InImage(camera, project(T_right_world * point))) valid |= 1u << k;
         // The way from now to next is the mesh's; the hit itself stays where the ray found it.
         const Eigen::Vector3d way =
             hits.geometry[i] == 0
@@ -121,9 +122,10 @@ Correspondence FindCorrespondence(const World& world, const Instant& instant,
         result.scene_flow(y, x) = cv::Vec3f(
             static_cast<float>(way.x()), static_cast<float>(way.y()), static_cast<float>(way.z()));
         if (then.z() < kNear) continue;
-        const Eigen::Vector2d lands = Project(camera, then);
+        const std::optional<Eigen::Vector2d> lands = project(then);
+        if (!lands) continue;
         result.flow(y, x) =
-            cv::Vec2f(static_cast<float>(lands.x() - x), static_cast<float>(lands.y() - y));
+            cv::Vec2f(static_cast<float>(lands->x() - x), static_cast<float>(lands->y() - y));
       }
       const unsigned hidden = Hidden(instant, points, right_camera, valid);
       for (int k = 0; k < kLanes && x0 + k < hits.width; ++k) {
@@ -155,15 +157,16 @@ WarpCheck CheckStereo(const StereoCamera& camera, const PixelRays& rays,
                       const cv::Mat1f& depth_left, const cv::Mat1f& depth_right,
                       const Correspondence& correspondence) {
   std::vector<double> errors;
+  const Projection project(camera);
   for (int y = 0; y + 1 < depth_left.rows; ++y) {
     for (int x = 0; x < depth_left.cols; ++x) {
       if (correspondence.occluded(y, x)) continue;
       const double disparity = correspondence.disparity(y, x);
       const double z = depth_left(y, x);
       const Eigen::Vector2d ray = rays.At(x, y).cast<double>();
-      const Eigen::Vector2d lands =
-          Project(camera, {z * ray.x() - camera.baseline_m, z * ray.y(), z});
-      const double inverse = InverseDepthAt(depth_right, lands.x(), lands.y());
+      const auto lands = project({z * ray.x() - camera.baseline_m, z * ray.y(), z});
+      if (!lands) continue;
+      const double inverse = InverseDepthAt(depth_right, lands->x(), lands->y());
       if (inverse <= 0) continue;
       errors.push_back(std::abs(camera.fx * camera.baseline_m * inverse - disparity));
     }

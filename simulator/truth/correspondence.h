@@ -16,7 +16,8 @@ struct Correspondence {
   cv::Mat1b occluded;   ///< 255 where something hides the point from the right camera, or it lies
                         ///< outside the right image, or nothing was hit
   cv::Mat2f flow;       ///< displacement to the next frame's left image, pixels; NaN where the
-                        ///< point is not in front of the camera then, or nothing was hit
+                        ///< point is not in front of the camera then or beyond what its lens
+                        ///< shows, or nothing was hit
   cv::Mat3f scene_flow;  ///< displacement of the surface point itself until then, metres, world
 };
 

@@ -17,6 +17,7 @@ double ImageMotion(const World& world, const Instant& instant, const StereoCamer
   constexpr double kNear = 1e-3;  // m in front of the camera
   const Eigen::Isometry3d T_first_world = T_world_first.inverse();
   const Eigen::Isometry3d T_last_world = T_world_last.inverse();
+  const Projection project(camera);
   std::vector<std::vector<float>> rows(static_cast<std::size_t>((hits.height - 1) / kEvery + 1));
   ParallelFor(std::size_t{0}, rows.size(), [&](std::size_t row) {
     const int y = static_cast<int>(row) * kEvery;
@@ -31,8 +32,8 @@ double ImageMotion(const World& world, const Instant& instant, const StereoCamer
       const Eigen::Vector3d first = T_first_world * Eigen::Vector3d(point - way);
       const Eigen::Vector3d last = T_last_world * Eigen::Vector3d(point + way);
       if (first.z() < kNear || last.z() < kNear) continue;
-      rows[row].push_back(
-          static_cast<float>((Project(camera, last) - Project(camera, first)).norm()));
+      const auto from = project(first), to = project(last);
+      if (from && to) rows[row].push_back(static_cast<float>((*to - *from).norm()));
     }
   });
   std::vector<float> motions;

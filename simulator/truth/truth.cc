@@ -1,6 +1,7 @@
 #include "simulator/truth/truth.h"
 
 #include <map>
+#include <span>
 
 #include "simulator/common/parallel.h"
 
@@ -144,9 +145,9 @@ CameraTruth LabelHits(const World& world, const Instant& instant, const HitImage
   return truth;
 }
 
-std::vector<MoverTruth> DescribeMovers(const Instant& instant, const CameraView& view,
-                                       const CameraTruth& truth) {
-  std::vector<MoverTruth> result;
+std::vector<ObjectTruth> DescribeMovers(const Instant& instant, const CameraView& view,
+                                        const CameraTruth& truth) {
+  std::vector<ObjectTruth> result;
   for (const auto& [instance, group] : GroupByInstance(instant.snapshot())) {
     const cv::Rect window = WindowOf(instant.snapshot(), group, view);
     if (window.empty()) continue;

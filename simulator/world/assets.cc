@@ -1,6 +1,7 @@
 #include "simulator/world/assets.h"
 
 #include <fmt/ranges.h>
+#include <xxhash.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -77,6 +78,12 @@ ImportOptions WithColour(bool colour) {
   return options;
 }
 
+std::uint64_t DigestOfFile(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+  return XXH3_64bits(bytes.data(), bytes.size());
+}
+
 bool IsOwnTree(const std::filesystem::path& folder) {
   const std::filesystem::path own = FindOwnFolder(OwnFile());
   std::error_code error;
@@ -101,6 +108,7 @@ AssetLibrary::AssetLibrary(std::filesystem::path folder, bool colour)
   const std::filesystem::path file = folder_ / "manifest.json";
   std::ifstream stream(file);
   if (!stream) throw std::runtime_error(file.string() + ": there is no such file");
+  digests_["manifest"] = DigestOfFile(file);
   try {
     const Json manifest = Json::parse(stream);
     for (const auto& [name, asset] : manifest.at("assets").items()) {
@@ -167,10 +175,17 @@ std::shared_ptr<const Model> AssetLibrary::Load(const std::string& asset) {
     options.root = folder_;
     options.colour = colour_;
     const std::filesystem::path file = folder_ / (asset + ".glb");
+    digests_[asset] = DigestOfFile(file);
     model = std::make_shared<const Model>(is_own_ ? ImportModel(file, options)
                                                   : ReadModel(file, options));
   }
   return model;
+}
+
+std::uint64_t AssetLibrary::Digest() const {
+  std::string all;
+  for (const auto& [name, digest] : digests_) all += fmt::format("{} {:016x}\n", name, digest);
+  return XXH3_64bits(all.data(), all.size());
 }
 
 std::shared_ptr<const Model> AssetLibrary::LoadStill(const std::string& file) {

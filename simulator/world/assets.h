@@ -74,6 +74,8 @@ class AssetLibrary {
   std::shared_ptr<const Model> LoadStill(const std::string& file);
   /// A skinned model of the user's own, with its animations. Throws ImportError.
   std::shared_ptr<const Model> LoadSkinned(const std::string& file);
+  /// Of the manifest and of the models that were loaded: any other byte of them gives another.
+  std::uint64_t Digest() const;
   /// The model of "people/NAME", "vehicles/NAME", "kit/NAME" or "street/NAME".
   std::shared_ptr<const Model> Load(const std::string& asset);
 
@@ -86,6 +88,7 @@ class AssetLibrary {
   std::map<std::string, std::string> props_;
   std::map<std::string, std::array<float, 4>> rects_;  ///< by texture/name
   std::map<std::string, std::shared_ptr<const Model>> models_;
+  std::map<std::string, std::uint64_t> digests_;  ///< by file as the library names it
 };
 
 }  // namespace aisle::sim

@@ -5,7 +5,7 @@
 
 #include "simulator/common/parallel.h"
 #include "simulator/mesh/import.h"
-#include "simulator/motion/rig_mount.h"
+#include "simulator/scene/rig_path.h"
 #include "simulator/scene/vary.h"
 #include "simulator/world/actors.h"
 #include "simulator/world/captured_person.h"
@@ -92,7 +92,7 @@ void ReadModels(const Scene& scene, AssetLibrary* assets) {
 }
 
 /// How far ahead of the person behind its handle a pushed vehicle's origin is.
-double AheadOfPusher(const Scene& scene, const VehicleSpec& vehicle, const AssetLibrary& assets) {
+double AheadBy(const Scene& scene, const VehicleSpec& vehicle, const AssetLibrary& assets) {
   if (vehicle.pushed_by.empty()) return 0;
   const auto pusher = std::ranges::find(scene.people, vehicle.pushed_by, &PersonSpec::name);
   if (pusher == scene.people.end()) {
@@ -103,6 +103,15 @@ double AheadOfPusher(const Scene& scene, const VehicleSpec& vehicle, const Asset
   const auto push = clips.find("walk_push");
   const double hands = push == clips.end() ? 0 : push->second.handle_ahead_m;
   return hands - assets.Vehicle(vehicle.model).handle_m;
+}
+
+/// Called before one more joins the cast.
+void ExpectRoom(const std::vector<Cast>& cast) {
+  if (cast.size() < kMostMovers) return;
+  throw std::runtime_error(
+      fmt::format("a scene has at most {} movers: people, vehicles and mechanisms (one with panes "
+                  "that others are seen through counts twice)",
+                  kMostMovers));
 }
 
 bool SharesLoad(const Scene& scene, const std::string& person) {
@@ -139,6 +148,7 @@ void AddMechanisms(const Scene& scene, const Palette& palette, std::uint64_t see
       const std::uint16_t instance = site->Add(mechanism.name, ClassOf(mechanism), true);
       const auto holder = std::ranges::find(*cast, HolderOf(mechanism), &Cast::name);
       for (MechanismMesh& one : made) {
+        ExpectRoom(*cast);
         parts->mover_meshes.push_back(std::move(one.mesh));
         const std::size_t clock =
             holder == cast->end() ? cast->size() : static_cast<std::size_t>(holder - cast->begin());
@@ -156,6 +166,7 @@ std::vector<Cast> AddActors(const Scene& scene, const Palette& palette, std::uin
   std::vector<Cast> cast;
   const auto enter = [&](const auto& spec, ObjectClass object_class, const auto& make) {
     try {
+      ExpectRoom(cast);
       Actor actor = make();
       parts->mover_meshes.push_back(std::move(actor.mesh));
       cast.push_back({site->Add(spec.name, object_class, true), std::move(actor.at), cast.size(),
@@ -172,7 +183,7 @@ std::vector<Cast> AddActors(const Scene& scene, const Palette& palette, std::uin
     });
   }
   for (const VehicleSpec& vehicle : scene.vehicles) {
-    const double ahead_m = AheadOfPusher(scene, vehicle, *assets);
+    const double ahead_m = AheadBy(scene, vehicle, *assets);
     enter(vehicle, ClassOfVehicle(vehicle.model), [&] {
       return MakeVehicle(vehicle, assets, palette, Dice(seed, {420, vehicle.place}), wardrobe,
                          ahead_m);
@@ -195,6 +206,38 @@ void Slow(double rate, MoverState* state) {
   if (rate == 1) return;
   state->velocity_mps *= rate;
   for (Eigen::Vector3f& velocity : state->velocities) velocity *= static_cast<float>(rate);
+}
+
+/// An actor at its own time; of a frozen scene nothing moves, not even a breath.
+MoverState StateOf(const Cast& actor, const ActorClock& clock, bool frozen) {
+  const double time_s = static_cast<double>(clock.time_ns) * kNanosecond_s;
+  MoverState state = actor.at(frozen ? 0 : time_s);
+  if (frozen) {
+    state.velocity_mps.setZero();
+    std::ranges::fill(state.velocities, Eigen::Vector3f::Zero());
+  }
+  Slow(clock.rate, &state);
+  state.instance = actor.instance;
+  return state;
+}
+
+Snapshot SnapshotAt(const Scene& scene, const std::vector<Cast>& cast, std::int64_t stamp_ns,
+                    std::span<const ActorClock> clocks) {
+  const double time_s = static_cast<double>(stamp_ns) * kNanosecond_s;
+  Snapshot snapshot;
+  snapshot.stamp_ns = stamp_ns;
+  snapshot.clocks.assign(clocks.begin(), clocks.end());
+  snapshot.light_scale = LightScale(scene, time_s);
+  if (!scene.beams.empty()) {
+    snapshot.beams = BeamsAt(scene, scene.frozen ? 0 : time_s, &snapshot.beam_bounce);
+  }
+  snapshot.movers.resize(cast.size());
+  ParallelFor(std::size_t{0}, cast.size(), [&](std::size_t i) {
+    const std::size_t whose = cast[i].clock;
+    const ActorClock clock = whose < clocks.size() ? clocks[whose] : ActorClock{stamp_ns, 1};
+    snapshot.movers[i] = StateOf(cast[i], clock, scene.frozen);
+  });
+  return snapshot;
 }
 
 }  // namespace
@@ -227,51 +270,11 @@ World BuildWorld(const Scene& written, const std::string& assets_dir, std::uint6
 
   parts.has_beams = !scene.beams.empty();
   parts.at_clocks = [scene, cast](std::int64_t stamp_ns, std::span<const ActorClock> clocks) {
-    Snapshot snapshot;
-    snapshot.stamp_ns = stamp_ns;
-    snapshot.clocks.assign(clocks.begin(), clocks.end());
-    snapshot.light_scale = LightScale(scene, static_cast<double>(stamp_ns) * kNanosecond_s);
-    if (!scene.beams.empty()) {
-      const double time_s = scene.frozen ? 0 : static_cast<double>(stamp_ns) * kNanosecond_s;
-      snapshot.beams = BeamsAt(scene, time_s, &snapshot.beam_bounce);
-    }
-    snapshot.movers.resize(cast.size());
-    ParallelFor(std::size_t{0}, cast.size(), [&](std::size_t i) {
-      const std::size_t whose = cast[i].clock;
-      const ActorClock clock = whose < clocks.size() ? clocks[whose] : ActorClock{stamp_ns, 1};
-      const double time_s = static_cast<double>(clock.time_ns) * kNanosecond_s;
-      MoverState state = cast[i].at(scene.frozen ? 0 : time_s);
-      if (scene.frozen) {  // nothing moves, not even a breath
-        state.velocity_mps.setZero();
-        std::ranges::fill(state.velocities, Eigen::Vector3f::Zero());
-      }
-      Slow(clock.rate, &state);
-      state.instance = cast[i].instance;
-      snapshot.movers[i] = std::move(state);
-    });
-    return snapshot;
+    return SnapshotAt(scene, cast, stamp_ns, clocks);
   };
   parts.at = [at = parts.at_clocks](std::int64_t stamp_ns) { return at(stamp_ns, {}); };
-  if (!scene.rig.poses.empty()) {
-    const auto mounted = [](const RigMount& mount) {
-      return RigPose({.position = Eigen::Vector2d::Zero(), .heading_rad = 0}, mount, {}, 0);
-    };
-    Eigen::Isometry3d T_body_rig = Eigen::Isometry3d::Identity();
-    if (scene.rig.body == TrajectoryBody::kVehicle) {
-      T_body_rig = mounted(scene.rig.mount);
-    } else if (scene.rig.first_mount) {  // the poses are the other pair's
-      T_body_rig = mounted(*scene.rig.first_mount).inverse() * mounted(scene.rig.mount);
-    }
-    parts.rig = [path = RecordedPath(scene.rig.poses), T_body_rig](std::int64_t stamp_ns) {
-      return path.At(stamp_ns) * T_body_rig;
-    };
-    return World(std::move(parts));
-  }
-  const Route route(scene.rig.route.plan, scene.rig.route.limits);
-  parts.rig = [route, rig = scene.rig](std::int64_t stamp_ns) {
-    const double time_s = static_cast<double>(stamp_ns) * kNanosecond_s;
-    return RigPose(route.At(time_s), rig.mount, rig.bumps, time_s);
-  };
+  parts.rig = RigPathOf(scene);
+  parts.files_digest = assets.Digest();
   return World(std::move(parts));
 }
 

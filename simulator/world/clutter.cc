@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 
 #include "simulator/motion/route.h"
 #include "simulator/scene/hall.h"

@@ -1,7 +1,6 @@
 #include "simulator/world/goods.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace aisle::sim {
 namespace {

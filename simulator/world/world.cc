@@ -56,6 +56,10 @@ World::World(WorldParts parts) : parts_(std::move(parts)) {
                       parts_.instances.size()));
     }
   }
+  if (parts_.mover_meshes.size() > kMostMovers) {
+    throw std::invalid_argument(fmt::format("{} movers are more than the {} that rays tell apart",
+                                            parts_.mover_meshes.size(), kMostMovers));
+  }
   for (std::size_t i = 0; i < parts_.mover_meshes.size(); ++i) {
     CheckMesh(parts_.mover_meshes[i], parts_, fmt::format("mover {}", i));
   }

@@ -39,7 +39,7 @@ std::string_view ClassName(ObjectClass object_class);
 struct Instance {
   std::string name;
   ObjectClass object_class = ObjectClass::kNone;
-  bool is_actor = false;  ///< may move at some time: a person, a vehicle
+  bool is_actor = false;  ///< may move at some time: a person, a vehicle, a mechanism
 };
 
 /// A rectangular area light: the points center + a·half_u + b·half_v, a and b in [-1, 1]. It shines
@@ -55,6 +55,9 @@ struct StaticWorld {
   TriangleMesh mesh;                     ///< world frame
   std::vector<std::uint16_t> instances;  ///< per triangle: index into World::instances()
 };
+
+/// As many movers as one ray can choose among.
+inline constexpr std::size_t kMostMovers = 127;
 
 /// One mover at one instant. Vertices follow the topology of World::mover_mesh() of the same index.
 struct MoverState {
@@ -118,13 +121,14 @@ struct WorldParts {
   std::function<Eigen::Isometry3d(std::int64_t stamp_ns)> rig;
   bool has_beams = false;                 ///< snapshots may have beams
   std::vector<BandSurfaces> colour = {};  ///< red, green, blue; none: the world is grey
+  std::uint64_t files_digest = 0;         ///< of the files it was made from, besides the scene's
 };
 
 /// The scene, laid out: immutable once built, shared by any number of threads.
 class World {
  public:
   /// Throws std::invalid_argument naming the first broken rule (index out of range, array lengths
-  /// that differ, NaN positions, no light).
+  /// that differ, NaN positions, no light, more than kMostMovers).
   explicit World(WorldParts parts);
 
   const std::vector<Instance>& instances() const { return parts_.instances; }
@@ -134,7 +138,9 @@ class World {
   const StaticWorld& statics() const { return parts_.statics; }
   const std::vector<TriangleMesh>& mover_meshes() const { return parts_.mover_meshes; }
   bool has_beams() const { return parts_.has_beams; }
+  const std::vector<BandSurfaces>& colour() const { return parts_.colour; }
   bool has_colour() const { return !parts_.colour.empty(); }
+  std::uint64_t files_digest() const { return parts_.files_digest; }
   /// The same world as one band of light sees it, 0 red to 2 blue; it must have colour.
   World InBand(std::size_t band) const;
 

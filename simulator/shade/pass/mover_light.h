@@ -2,7 +2,6 @@
 
 #include <array>
 #include <deque>
-#include <mutex>
 #include <span>
 #include <vector>
 

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+#include <numbers>
 #include <opencv2/calib3d.hpp>
 
 #include "simulator/camera/pixel_rays.h"
@@ -66,9 +68,10 @@ TEST(Lens, ProjectIsOpenCvsProjection) {
     for (const Eigen::Vector3d& point :
          {Eigen::Vector3d(0, 0, 3), Eigen::Vector3d(0.5, -0.3, 1), Eigen::Vector3d(-2.4, 1.3, 4)}) {
       const cv::Point2d expected = ProjectByOpenCv(camera, point);
-      const Eigen::Vector2d pixel = Project(camera, point);
-      EXPECT_NEAR(pixel.x(), expected.x, 1e-9);
-      EXPECT_NEAR(pixel.y(), expected.y, 1e-9);
+      const auto pixel = Projection(camera)(point);
+      ASSERT_TRUE(pixel.has_value());
+      EXPECT_NEAR(pixel->x(), expected.x, 1e-9);
+      EXPECT_NEAR(pixel->y(), expected.y, 1e-9);
     }
   }
 }
@@ -77,7 +80,9 @@ TEST(Lens, UndistortInvertsDistort) {
   for (const StereoCamera& camera : Cameras()) {
     for (double x = -0.8; x < 0.85; x += 0.1) {
       for (double y = -0.6; y < 0.65; y += 0.1) {
-        const auto back = Undistort(camera.lens, Distort(camera.lens, {x, y}));
+        const auto image = Distort(camera.lens, WidestRay(camera.lens), {x, y});
+        ASSERT_TRUE(image.has_value());
+        const auto back = Undistort(camera.lens, *image);
         ASSERT_TRUE(back.has_value());
         EXPECT_LT((*back - Eigen::Vector2d(x, y)).norm(), 1e-10);
       }
@@ -96,6 +101,28 @@ TEST(Lens, BeyondItsFoldItHasNoRay) {
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("no ray for pixel (0, 0)"));
+  }
+}
+
+TEST(Lens, WhatIsBeyondItsFoldDoesNotAppear) {
+  using enum LensModel;
+  // One that folds for good, one that folds and unfolds again, one that never does, two by angle.
+  for (const Lens& lens :
+       {Lens{kRadialTangential, {-0.3, 0, 0, 0}}, Lens{kRadialTangential, {-0.5, 0.06, 0, 0}},
+        Lens{kRadialTangential, {-0.283, 0.074, 0.0002, 0.00002}},
+        Lens{kEquidistant, {-0.4, 0, 0, 0}}, Lens{kEquidistant, {0, 0, 0, 0}}}) {
+    const double widest = WidestRay(lens);
+    double before = 0;
+    bool rises = true;
+    for (double r = 0.01; r < 11; r += 0.01) {
+      const auto image = Distort(lens, std::numeric_limits<double>::infinity(), {r, 0});
+      rises = rises && image && image->x() > before;
+      if (image) before = image->x();
+      const bool within =
+          lens.model == kRadialTangential || r < std::tan(85 * std::numbers::pi / 180);
+      if (std::abs(r - widest) < 0.02) continue;
+      EXPECT_EQ(Distort(lens, widest, {r, 0}).has_value(), rises && within) << r;
+    }
   }
 }
 

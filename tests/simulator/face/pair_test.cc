@@ -217,6 +217,29 @@ TEST_F(Pairs, DepthIsThatOfTheFloorAlongEachRay) {
   }
 }
 
+TEST_F(Pairs, EachHasNoiseOfItsOwn) {
+  std::string text = kScene;
+  text.replace(text.find("sensor: {noise: false}\n"), 23, "");
+  text.replace(text.find("  - name: rear"), std::string::npos,
+               "  - {name: beside, camera_height_m: 0.9, camera_forward_m: 0.4, "
+               "camera_left_m: -0.1, camera_pitch_deg: 4, camera_yaw_deg: -12, "
+               "camera_roll_deg: 7}\n"
+               "hall: {from: [-8, -8], to: [8, 8], height_m: 4}\nlights: [{height_m: 3.8}]\n");
+  Write(text);
+  const auto shown = [&](const std::string& pair) {
+    const Simulator simulator = Open(pair);
+    return simulator.Render(0, 0, simulator.PlannedPose(0));
+  };
+  const RenderedFrame one = shown(""), other = shown("beside");
+  EXPECT_EQ(cv::norm(one.truth.instance, other.truth.instance, cv::NORM_L1), 0);
+  cv::Mat1f difference;
+  cv::subtract(one.left, other.left, difference, cv::noArray(), CV_32F);
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(difference, mean, deviation);
+  EXPECT_NEAR(mean[0], 0, 0.2);
+  EXPECT_GT(deviation[0], 0.5) << "grey levels";
+}
+
 TEST_F(Pairs, TheSceneSaysWhichOneSystemsAreShown) {
   std::string text = kScene;
   text.replace(text.find("  pairs:"), 0, "  pair: rear\n");

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <opencv2/imgcodecs.hpp>
+#include <cstring>
 
 #include "tests/simulator/test_world.h"
 
@@ -188,32 +187,6 @@ TEST(Lens, TruthProvesItselfThroughIt) {
                   {2 * kSecond + kSecond / 20, test::LookAlong({1.55, 0, 1.2}, 0.03)});
   EXPECT_EQ(report.failure(), "");
   EXPECT_GT(report.raster_compared, 200'000);
-}
-
-/// Pictures to look at: AISLE_TEST_PICTURES names a folder. With it come the times of a hall of
-/// 200 000 triangles.
-TEST(Pipeline, PicturesToLookAt) {
-  const char* folder = std::getenv("AISLE_TEST_PICTURES");
-  if (!folder) GTEST_SKIP() << "AISLE_TEST_PICTURES is not set";
-  PipelineOptions options;
-  options.sensor.exposure = 5.0f;
-  const auto start = std::chrono::steady_clock::now();
-  const Pipeline pipeline(World(test::Hall({.boxes = 16000})), {}, options);
-  const std::chrono::duration<double> built = std::chrono::steady_clock::now() - start;
-  const RenderedFrame frame = pipeline.Render(0, 2 * kSecond, kPose);
-  cv::imwrite(std::string(folder) + "/left.png", frame.left);
-  cv::imwrite(std::string(folder) + "/dynamic.png", frame.truth.dynamic);
-  const auto at = [](double s) {
-    return Moment{static_cast<std::int64_t>(s * kSecond),
-                  test::LookAlong({1.0 + 1.2 * s, 0, 1.2}, 0.02)};
-  };
-  std::vector<FrameInDrive> frames;
-  for (int i = 0; i < 12; ++i) frames.push_back({at(0.25 * i), at(0.25 * i + 0.05)});
-  const RenderBench bench = pipeline.Bench(frames);
-  fmt::print("built in {:.1f} s; mean grey {:.1f}\n", built.count(), cv::mean(frame.left)[0]);
-  fmt::print("pair {:.1f} ms, bare {:.1f} ms, ratio {:.2f}\n", bench.pair_ms, bench.bare_primary_ms,
-             bench.ratio);
-  for (const auto& [stage, ms] : bench.stage_ms) fmt::print("  {} {:.2f} ms\n", stage, ms);
 }
 
 }  // namespace

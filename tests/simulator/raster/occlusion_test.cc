@@ -109,7 +109,7 @@ Found Judge(const View& view) {
       if (!std::isfinite(z)) continue;
       const Eigen::Vector2d ray = rays.At(x, y).cast<double>();
       const Eigen::Vector3d in_right(z * ray.x() - camera.baseline_m, z * ray.y(), z);
-      const auto around = DepthsAround(drawn, Project(finer, in_right));
+      const auto around = DepthsAround(drawn, Projection(finer)(in_right).value());
       if (!around) continue;
       if (!hidden(y, x)) {
         ++found.seen;

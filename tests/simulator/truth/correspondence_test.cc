@@ -70,6 +70,44 @@ TEST(Correspondence, WarpsAgreeThroughALens) {
   }
 }
 
+/// A wall so near that most of what the left camera sees of it is far off the right one's axis,
+/// where the polynomial of its lens comes back into the image.
+TEST(Correspondence, WhatTheLensWouldFoldIntoTheImageIsNotSeen) {
+  StereoCamera camera{.fx = 700, .fy = 700, .cx = 375.5, .cy = 239.5, .baseline_m = 1};
+  camera.lens = {LensModel::kRadialTangential, {-0.3, 0, 0, 0}};
+  WorldParts parts = test::Hall({.boxes = 1, .movers = false});
+  test::MeshBuilder wall;
+  wall.Quad({0.95f, 50, -50}, {0, -100, 0}, {0, 0, 100}, 0, 1);
+  parts.statics = {wall.mesh, wall.instances};
+  const World world(std::move(parts));
+  const Tracer tracer(world, {});
+  const Instant instant = tracer.Pose(world.At(0));
+  const PixelRays rays = MakePixelRays(camera);
+  const Eigen::Isometry3d rig = test::LookAlong({0, 0, 0}, 0);
+  const CameraView left(rays, rig);
+  std::vector<HitImage> hits;
+  TraceViews(instant, std::span(&left, 1), {}, &hits);
+  const Correspondence found =
+      FindCorrespondence(world, instant, camera, left, hits[0], instant.snapshot(),
+                         CameraPose(camera, rig, StereoSide::kRight));
+  int seen = 0, folded = 0;
+  for (int y = 200; y < 280; ++y) {
+    for (int x = 0; x < camera.width; ++x) {
+      const double aside = rays.At(x, y).x() - 1 / 0.95;  // tangent, from the right camera
+      const double edge = rays.At(0, y).x();
+      if (std::abs(aside - edge) < 0.01) continue;
+      const bool in_image = aside > edge;
+      EXPECT_EQ(found.occluded(y, x) == 0, in_image) << x << ", " << y;
+      EXPECT_EQ(std::isnan(found.flow(y, x)[0]), std::hypot(aside, rays.At(x, y).y()) > 1.0541)
+          << x << ", " << y;
+      seen += in_image;
+      folded += std::isnan(found.flow(y, x)[0]);
+    }
+  }
+  EXPECT_GT(seen, 1000);
+  EXPECT_GT(folded, 10'000);
+}
+
 TEST(Correspondence, AWrongBaselineWouldBeSeen) {
   Pictures p = Take(2'000'000'000);
   p.found.disparity *= 1.05;

@@ -58,7 +58,7 @@ WorldParts Build(const Stage& stage) {
 
 struct Seen {
   CameraTruth camera;
-  std::vector<MoverTruth> movers;
+  std::vector<ObjectTruth> movers;
 };
 
 Seen Look(WorldParts parts, float threshold) {
@@ -108,7 +108,7 @@ WorldParts BodyWithWavingArm(float angular_speed) {
 TEST(Truth, BoxIsWhereTheCameraModelPutsIt) {
   const Seen seen = Look({});
   ASSERT_EQ(seen.movers.size(), 1u);
-  const MoverTruth& box = seen.movers[0];
+  const ObjectTruth& box = seen.movers[0];
   // Its front face stands at z = 4 m and reaches 0.5 m to each side.
   const StereoCamera c;
   const double half = c.fx * 0.5 / 4;
@@ -163,10 +163,53 @@ TEST(Truth, AWavingArmIsDynamicAndTheBodyThatStandsIsNot) {
   EXPECT_EQ(cv::countNonZero(Look(BodyWithWavingArm(0), 0.05f).camera.dynamic), 0);
 }
 
+/// Pillars that stand still in a row behind the camera, `before` of them, and then two that it
+/// sees, the nearer one before half of the other.
+WorldParts TwoAmongMany(std::size_t before) {
+  WorldParts parts = Build({.speed = 0});
+  parts.mover_meshes.clear();
+  std::vector<Eigen::Vector3f> places(before, Eigen::Vector3f(-20, 0, 0));
+  places.emplace_back(3, 0.5f, 0);
+  places.emplace_back(5, 0, 0);
+  std::vector<MoverState> states;
+  for (const Eigen::Vector3f& place : places) {
+    test::MeshBuilder pillar;
+    pillar.Box({-0.3f, -0.5f, -1}, {0.3f, 0.5f, 1}, 0, 2);
+    MoverState state;
+    state.instance = static_cast<std::uint16_t>(2 + states.size());
+    for (const Eigen::Vector3f& p : pillar.mesh.positions) state.positions.push_back(p + place);
+    state.normals = pillar.mesh.normals;
+    state.velocities.assign(state.positions.size(), Eigen::Vector3f::Zero());
+    states.push_back(std::move(state));
+    parts.instances.resize(2 + states.size(), {"pillar", ObjectClass::kPerson, true});
+    parts.mover_meshes.push_back(std::move(pillar.mesh));
+  }
+  parts.at = [states](std::int64_t stamp_ns) {
+    return Snapshot{.stamp_ns = stamp_ns, .movers = states, .light_scale = {1}};
+  };
+  return parts;
+}
+
+TEST(Truth, OfTwoIsTheSameHoweverManyOthersThereAre) {
+  const Seen alone = Look(TwoAmongMany(0), 0.05f);
+  ASSERT_EQ(alone.movers.size(), 2u);
+  EXPECT_LT(alone.movers[1].visible_fraction, 0.8);
+  for (const std::size_t before : {61u, 62u, 63u, 100u, 125u}) {
+    const Seen seen = Look(TwoAmongMany(before), 0.05f);
+    ASSERT_EQ(seen.movers.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(seen.movers[i].instance, alone.movers[i].instance + before);
+      EXPECT_EQ(seen.movers[i].box_full, alone.movers[i].box_full) << before;
+      EXPECT_EQ(seen.movers[i].visible_fraction, alone.movers[i].visible_fraction) << before;
+    }
+  }
+  EXPECT_THROW(World(TwoAmongMany(126)), std::invalid_argument);
+}
+
 TEST(Truth, HiddenHalfCountsInTheFullBoxOnly) {
   const Seen seen = Look({.screen = true});
   ASSERT_EQ(seen.movers.size(), 2u);
-  const MoverTruth& box = seen.movers[0];
+  const ObjectTruth& box = seen.movers[0];
   EXPECT_NEAR(box.visible_fraction, 0.5, 0.01);
   EXPECT_NEAR(box.box_visible.width, box.box_full.width / 2, 1.5);
   EXPECT_EQ(box.box_visible.br(), box.box_full.br());

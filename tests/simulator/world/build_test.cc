@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "simulator/scene/load.h"
 #include "tests/simulator/world/mesh_items.h"
@@ -30,6 +31,48 @@ Scene SmallScene() {
 bool SameMesh(const TriangleMesh& a, const TriangleMesh& b) {
   return a.positions == b.positions && a.uvs == b.uvs && a.triangles == b.triangles &&
          a.materials == b.materials;
+}
+
+TEST(BuildWorld, MoreMoversThanRaysTellApartAreRefusedWithTheirLine) {
+  std::string scene =
+      "about: A hall.\nrig: {start: [0, 0]}\nhall: {from: [-3, -3], to: [99, 6]}\n"
+      "lights: [{rows: 1, per_row: 2, height_m: 5}]\nvehicles:\n";
+  for (std::size_t i = 0; i <= kMostMovers; ++i) {
+    scene += fmt::format("  - {{name: v{}, model: agv, start: [{}, {}]}}\n", i,
+                         3 + 1.4 * static_cast<double>(i % 64), i / 64 * 3);
+  }
+  try {
+    BuildWorld(ParseScene(scene, "many.yaml"), kAssets, 1);
+    FAIL() << "it was built";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("many.yaml:133"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("at most 127 movers"));
+  }
+}
+
+TEST(BuildWorld, ActorsAreAllThatMayMoveAndNothingElse) {
+  const World world = BuildWorld(
+      ParseScene("about: A hall.\nrig: {start: [0, 0]}\nhall: {from: [-3, -3], to: [14, 6]}\n"
+                 "lights: [{rows: 1, per_row: 2, height_m: 5}]\n"
+                 "racks: [{from: [0, 4], bays: 2}]\npeople: [{name: anna, start: [3, 0]}]\n"
+                 "vehicles: [{name: truck, start: [9, 0]}]\n"
+                 "mechanisms: [{name: gate, at: [6, 1], parts: [{size_m: [0.1, 2, 2], joint: "
+                 "{kind: slider, moves: [{at_s: 3, to_m: 2, over_s: 2}]}}, {name: post, size_m: "
+                 "[0.1, 0.1, 2]}]}]\n",
+                 "door.yaml"),
+      kAssets, 1);
+  std::set<std::string> actors, moved;
+  for (const Instance& one : world.instances()) {
+    if (one.is_actor) actors.insert(one.name);
+  }
+  for (const MoverState& mover : world.At(0).movers) {
+    moved.insert(world.instances()[mover.instance].name);
+  }
+  EXPECT_THAT(actors, testing::ElementsAre("anna", "gate", "truck"));
+  EXPECT_EQ(actors, moved);
+  for (const std::uint16_t instance : world.statics().instances) {
+    ASSERT_FALSE(world.instances()[instance].is_actor) << world.instances()[instance].name;
+  }
 }
 
 TEST(BuildWorld, TheSameSeedGivesTheSameWorldAndAnotherSeedAnother) {
