@@ -1,5 +1,6 @@
 #include "simulator/mesh/gltf_left_out.h"
 
+#include "simulator/mesh/gltf_materials.h"
 #include "simulator/mesh/left_out.h"
 
 namespace aisle::sim {
@@ -11,7 +12,7 @@ constexpr std::array<std::string_view, 2> kSilent = {"KHR_mesh_quantization",
 
 struct Counts {
   std::size_t lights = 0, points = 0, lines = 0, morphs = 0, colours = 0;
-  std::size_t shine = 0, occlusion = 0, glow = 0, formats = 0, transparent = 0;
+  std::size_t shine = 0, occlusion = 0, glow = 0, formats = 0, transparent = 0, bumps = 0;
 };
 
 std::size_t LightsOf(const GltfValue& root) {
@@ -50,6 +51,7 @@ void CountMaterials(const GltfValue& root, Counts* counts) {
     counts->occlusion += material.Has("occlusionTexture") ? 1 : 0;
     counts->glow += material.Has("emissiveTexture") ? 1 : 0;
     counts->formats += IsForeign(root, material, "normalTexture") ? 1 : 0;
+    counts->bumps += LeavesNormalMapOut(material) ? 1 : 0;
     if (!material.Has("pbrMetallicRoughness")) continue;
     const GltfValue surface = material.Get("pbrMetallicRoughness");
     counts->shine += surface.Has("metallicRoughnessTexture") ? 1 : 0;
@@ -74,6 +76,8 @@ std::vector<std::string> LeftOutOfGltf(const GltfDocument& document) {
   out.Add(counts.colours, "set of vertex colours", "sets of vertex colours");
   out.Add(counts.formats, "texture that is neither PNG nor JPEG",
           "textures that are neither PNG nor JPEG");
+  out.Add(counts.bumps, "normal map on other coordinates than its colour",
+          "normal maps on other coordinates than their colours");
   out.Add(counts.shine, "texture of metal and roughness", "textures of metal and roughness");
   out.Add(counts.occlusion, "texture of occlusion", "textures of occlusion");
   out.Add(counts.glow, "texture of emission", "textures of emission");

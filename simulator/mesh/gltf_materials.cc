@@ -26,7 +26,7 @@ class MaterialReader {
       metallic = std::clamp(surface.Number("metallicFactor", 1), 0.0f, 1.0f);
       material.roughness = std::clamp(surface.Number("roughnessFactor", 1), 0.0f, 1.0f);
     }
-    material.normal_texture = Texture(from, "normalTexture", true);
+    if (!LeavesNormalMapOut(from)) material.normal_texture = Texture(from, "normalTexture", true);
     if (material.normal_texture >= 0) {
       material.normal_scale = from.Get("normalTexture").Number("scale", 1);
     }
@@ -72,7 +72,28 @@ class MaterialReader {
   TextureStore textures_;
 };
 
+/// The set that a texture is read at, if there is the texture.
+std::optional<std::size_t> SetOf(const GltfValue& holder, const char* texture) {
+  if (!holder.Has(texture)) return std::nullopt;
+  return holder.Get(texture).Whole("texCoord", 0);
+}
+
+std::optional<std::size_t> SetOfColour(const GltfValue& material) {
+  constexpr const char* kSurface = "pbrMetallicRoughness";
+  if (!material.Has(kSurface)) return std::nullopt;
+  return SetOf(material.Get(kSurface), "baseColorTexture");
+}
+
 }  // namespace
+
+std::size_t CoordinatesOf(const GltfValue& material) {
+  return SetOfColour(material).value_or(SetOf(material, "normalTexture").value_or(0));
+}
+
+bool LeavesNormalMapOut(const GltfValue& material) {
+  const auto normals = SetOf(material, "normalTexture");
+  return normals && *normals != CoordinatesOf(material);
+}
 
 void AddGltfMaterials(const GltfDocument& document, const std::filesystem::path& file,
                       const ImportOptions& options, Model* model) {

@@ -10,4 +10,10 @@ namespace aisle::sim {
 void AddGltfMaterials(const GltfDocument& document, const std::filesystem::path& file,
                       const ImportOptions& options, Model* model);
 
+/// Which set of texture coordinates a material's textures are read at: the base colour's, else the
+/// normal map's. A normal map of another set than the colour's is left out.
+std::size_t CoordinatesOf(const GltfValue& material);
+/// Whether that is so.
+bool LeavesNormalMapOut(const GltfValue& material);
+
 }  // namespace aisle::sim

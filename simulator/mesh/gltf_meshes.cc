@@ -1,6 +1,7 @@
 #include "simulator/mesh/gltf_meshes.h"
 
 #include "simulator/mesh/gltf_accessor.h"
+#include "simulator/mesh/gltf_materials.h"
 #include "simulator/mesh/model_parts.h"
 #include "simulator/mesh/pose.h"
 
@@ -103,15 +104,19 @@ class MeshReader {
         part.normals.emplace_back((*normals)[i][0], (*normals)[i][1], (*normals)[i][2]);
       }
     }
-    if (const auto uvs = Floats(primitive, "TEXCOORD_0", "VEC2", positions.count)) {
+    const std::size_t materials = document_.root().Count("materials");
+    part.material = primitive.IndexBelow("material", materials, "material").value_or(materials);
+    const std::size_t set = part.material < materials
+                                ? CoordinatesOf(document_.root().Item("materials", part.material))
+                                : 0;
+    const std::string coordinates = fmt::format("TEXCOORD_{}", set);
+    if (const auto uvs = Floats(primitive, coordinates, "VEC2", positions.count)) {
       for (std::size_t i = 0; i < uvs->count; ++i) {
         // Turned over twice, as results so far were measured with them: v to within 6e-8.
         part.uvs.emplace_back((*uvs)[i][0], 1 - (1 - (*uvs)[i][1]));
       }
     }
     part.triangles = TrianglesOver(Corners(primitive, positions.count), mode);
-    const std::size_t materials = document_.root().Count("materials");
-    part.material = primitive.IndexBelow("material", materials, "material").value_or(materials);
     if (skin && Attribute(primitive, "JOINTS_0")) {
       ReadSkin(primitive, document_.root().Item("skins", *skin), &part);
     } else {

@@ -2,13 +2,14 @@
 
 #include <assimp/types.h>
 
+#include "simulator/mesh/pose.h"
+
 namespace aisle::sim {
 namespace {
 
 constexpr int kDeepest = 500;
 constexpr std::size_t kMaxNodes = 100'000;
-constexpr float kUnit = 1e-4f;   ///< that a unit quaternion's length may be off by
-constexpr float kShear = 1e-3f;  ///< that a node's matrix may have, as a share of its largest entry
+constexpr float kUnit = 1e-4f;  ///< that a unit quaternion's length may be off by
 
 /// Parent of every node, -1 for roots.
 std::vector<int> ParentsOf(const std::vector<GltfValue>& nodes) {
@@ -78,12 +79,7 @@ NodePose DecomposedPose(const GltfValue& node) {
   const std::vector<float> m = node.Numbers("matrix", 16);
   const NodePose pose = PoseFromMatrix({m[0], m[4], m[8], m[12], m[1], m[5], m[9], m[13],  //
                                         m[2], m[6], m[10], m[14], m[3], m[7], m[11], m[15]});
-  const Eigen::Matrix4f given = Eigen::Map<const Eigen::Matrix4f>(m.data());
-  Eigen::Matrix4f again = Eigen::Matrix4f::Identity();
-  again.topLeftCorner<3, 3>() = pose.rotation.toRotationMatrix() * pose.scale.asDiagonal();
-  again.topRightCorner<3, 1>() = pose.translation;
-  const float largest = given.topLeftCorner<3, 3>().cwiseAbs().maxCoeff();
-  if (!((given - again).cwiseAbs().maxCoeff() <= kShear * largest)) {
+  if (!IsComposedOf(Eigen::Map<const Eigen::Matrix4f>(m.data()), pose)) {
     node.Get("matrix").Fail(
         "it is no translation, rotation and scale, as a node's matrix must be (glTF 2.0, 3.5.3); "
         "apply shear before the export");

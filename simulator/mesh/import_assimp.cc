@@ -13,6 +13,7 @@
 #include "simulator/mesh/bands.h"
 #include "simulator/mesh/confined_files.h"
 #include "simulator/mesh/model_parts.h"
+#include "simulator/mesh/pose.h"
 
 namespace aisle::sim {
 namespace {
@@ -33,6 +34,21 @@ Eigen::Affine3f ToEigen(const aiMatrix4x4& m) {
   matrix.matrix() << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, 0, 0,
       0, 1;
   return matrix;
+}
+
+/// Translation, rotation and scale of a node.
+NodePose PoseOf(const aiNode& node) {
+  aiVector3D scale, position;
+  aiQuaternion rotation;
+  node.mTransformation.Decompose(scale, rotation, position);
+  const NodePose pose{ToEigen(position), ToEigen(rotation).normalized(), ToEigen(scale)};
+  const Eigen::Affine3f given = ToEigen(node.mTransformation);
+  if (!IsComposedOf(given.matrix(), pose)) {
+    throw ImportError(fmt::format(
+        "node '{}' is no translation, rotation and scale; apply shear before the export",
+        node.mName.C_Str()));
+  }
+  return pose;
 }
 
 /// Leaves only the importer of the format the file is in: the others have known holes.
@@ -64,6 +80,7 @@ class SceneReader {
     Require(faces <= options_.max_triangles,
             fmt::format("it has {} faces, the limit is {}", faces, options_.max_triangles));
     AddNodes();
+    rest_ = PoseNodes(*model_, {});
     AddClips();
     for (const auto& [source, node] : sources_) {
       for (unsigned k = 0; k < source->mNumMeshes; ++k) {
@@ -80,15 +97,9 @@ class SceneReader {
       const auto [source, parent] = open.back();
       open.pop_back();
       Require(model_->nodes.size() < kMaxNodes, "it has too many nodes");
-      aiVector3D scale, position;
-      aiQuaternion rotation;
-      source->mTransformation.Decompose(scale, rotation, position);
       const int index = static_cast<int>(model_->nodes.size());
       nodes_of_[source->mName.C_Str()].push_back(index);
-      model_->nodes.push_back(
-          {source->mName.C_Str(),
-           parent,
-           {ToEigen(position), ToEigen(rotation).normalized(), ToEigen(scale)}});
+      model_->nodes.push_back({source->mName.C_Str(), parent, PoseOf(*source)});
       sources_.emplace_back(source, index);
       for (unsigned i = source->mNumChildren; i-- > 0;) {
         open.emplace_back(source->mChildren[i], index);
@@ -171,7 +182,11 @@ class SceneReader {
         part.triangles.push_back({face.mIndices[0], face.mIndices[k - 1], face.mIndices[k]});
       }
     }
-    if (mesh.HasBones()) AddBones(mesh, &part);
+    if (mesh.HasBones()) {
+      AddBones(mesh, &part);
+    } else {
+      part.mirrored = rest_[static_cast<std::size_t>(node)].linear().determinant() < 0;
+    }
     return part;
   }
 
@@ -193,6 +208,7 @@ class SceneReader {
   const aiScene& scene_;
   const ImportOptions& options_;
   Model* model_;
+  NodeFrames rest_;
   std::vector<std::pair<const aiNode*, int>> sources_;  ///< in order, with their model nodes
   std::map<std::string, std::vector<int>> nodes_of_;
 };

@@ -89,17 +89,23 @@ void AddWeights(const MeshPart& part, Model* model) {
   }
 }
 
-/// Area-weighted normals for a part that came without.
+/// Area-weighted normals for the vertices of a part that came without.
 void ComputeNormals(std::size_t first_vertex, std::size_t first_triangle, Model* model) {
+  constexpr float kNone = 1e-6f;  // shorter ones say no direction
+  const std::span normals = std::span(model->bind_normals).subspan(first_vertex);
+  const auto is_none = [](const Eigen::Vector3f& normal) { return !(normal.norm() >= kNone); };
+  if (std::ranges::none_of(normals, is_none)) return;
   const auto& p = model->bind_positions;
+  std::vector<Eigen::Vector3f> sums(normals.size(), Eigen::Vector3f::Zero());
   for (std::size_t i = first_triangle; i < model->mesh.triangles.size(); ++i) {
     const auto& [a, b, c] = model->mesh.triangles[i];
     const Eigen::Vector3f normal = (p[b] - p[a]).cross(p[c] - p[a]);
-    for (const std::uint32_t k : {a, b, c}) model->bind_normals[k] += normal;
+    for (const std::uint32_t k : {a, b, c}) sums[k - first_vertex] += normal;
   }
-  for (std::size_t i = first_vertex; i < model->bind_normals.size(); ++i) {
-    Eigen::Vector3f& normal = model->bind_normals[i];
-    normal = normal.norm() > 0 ? Eigen::Vector3f(normal.normalized()) : Eigen::Vector3f::UnitY();
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    if (!is_none(normals[i])) continue;
+    normals[i] =
+        sums[i].norm() > 0 ? Eigen::Vector3f(sums[i].normalized()) : Eigen::Vector3f::UnitY();
   }
 }
 
@@ -117,7 +123,7 @@ void AddPart(const MeshPart& part, const ImportOptions& options, Model* model) {
   AddVertices(part, model);
   AddTriangles(part, first_vertex, model);
   AddWeights(part, model);
-  if (part.normals.empty()) ComputeNormals(first_vertex, first_triangle, model);
+  ComputeNormals(first_vertex, first_triangle, model);
   if (!part.mirrored) return;
   for (std::size_t i = first_triangle; i < model->mesh.triangles.size(); ++i) {
     std::swap(model->mesh.triangles[i][1], model->mesh.triangles[i][2]);

@@ -10,7 +10,8 @@ namespace aisle::sim {
 /// Triangles of one material that follow one node, or the joints of one skin, as a file has them.
 struct MeshPart {
   std::vector<Eigen::Vector3f> positions;
-  std::vector<Eigen::Vector3f> normals;                 ///< per position, or empty: to be computed
+  /// Per position, or empty; what is missing, zero or not finite is computed from the triangles.
+  std::vector<Eigen::Vector3f> normals;
   std::vector<Eigen::Vector2f> uvs;                     ///< per position, or empty: zeros
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into the positions
   std::size_t material = 0;

@@ -143,6 +143,15 @@ Eigen::Vector3f StretchedNormal(const Eigen::Matrix3f& matrix, const Eigen::Vect
 
 }  // namespace
 
+bool IsComposedOf(const Eigen::Matrix4f& matrix, const NodePose& pose) {
+  constexpr float kShear = 1e-3f;
+  Eigen::Matrix4f again = Eigen::Matrix4f::Identity();
+  again.topLeftCorner<3, 3>() = pose.rotation.toRotationMatrix() * pose.scale.asDiagonal();
+  again.topRightCorner<3, 1>() = pose.translation;
+  const float largest = matrix.topLeftCorner<3, 3>().cwiseAbs().maxCoeff();
+  return (matrix - again).cwiseAbs().maxCoeff() <= kShear * largest;
+}
+
 std::vector<NodePose> BlendLayers(const Model& model, std::span<const PoseLayer> layers) {
   std::vector<NodePose> locals = RestPose(model);
   float total = 0;

@@ -26,6 +26,10 @@ struct NodeMove {
 /// Frame of every node in the model: T_model_node.
 using NodeFrames = std::vector<Eigen::Affine3f>;
 
+/// Whether a matrix is a pose's translation, rotation and scale: to a thousandth of the largest
+/// entry of its linear part. One with shear is that of no pose.
+bool IsComposedOf(const Eigen::Matrix4f& matrix, const NodePose& pose);
+
 /// Local pose of every node with the layers blended.
 std::vector<NodePose> BlendLayers(const Model& model, std::span<const PoseLayer> layers);
 

@@ -150,6 +150,73 @@ TEST(ImportModel, ACorruptOrHugeTextureIsNamed) {
   EXPECT_THAT(ErrorOf(model), testing::HasSubstr("20000x20 pixels, the limit is 8192"));
 }
 
+/// A closed cube of side 1 in one node of a COLLADA file.
+std::string CubeIn(const std::string& matrix) {
+  return R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit meter="1" name="meter"/><up_axis>Z_UP</up_axis></asset>
+<library_geometries><geometry id="g"><mesh>
+ <source id="p"><float_array id="pa" count="24">
+   0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1</float_array>
+  <technique_common><accessor source="#pa" count="8" stride="3"><param name="X" type="float"/>
+   <param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common>
+ </source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+ <triangles count="12"><input semantic="VERTEX" source="#v" offset="0"/><p>
+  0 2 1 0 3 2 4 5 6 4 6 7 0 1 5 0 5 4 1 2 6 1 6 5 2 3 7 2 7 6 3 0 4 3 4 7</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="n" name="n"><matrix>)" +
+         matrix + R"(</matrix><instance_geometry url="#g"/></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+/// Positive where triangles are counter-clockwise from outside.
+float SignedVolume(const TriangleMesh& mesh) {
+  float six_fold = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    six_fold += mesh.positions[a].dot(mesh.positions[b].cross(mesh.positions[c]));
+  }
+  return six_fold / 6;
+}
+
+TEST(ImportModel, AMirroredColladaNodeIsNotInsideOut) {
+  const Scratch scratch;
+  for (const char* matrix : {"1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "-1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1",
+                             "0 -2 0 3 1 0 0 0 0 0 -1 0 0 0 0 1"}) {
+    const TriangleMesh mesh = ImportModel(scratch.Write("cube.dae", CubeIn(matrix))).mesh;
+    EXPECT_GT(SignedVolume(mesh), 0.9f) << matrix;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Eigen::Vector3f outwards =
+          (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]);
+      EXPECT_GT(outwards.dot(mesh.normals[a]), 0) << matrix;
+    }
+  }
+}
+
+TEST(ImportModel, AShearedColladaNodeIsRefused) {
+  const Scratch scratch;
+  const fs::path file = scratch.Write("cube.dae", CubeIn("1 2 0 0 0 1 0 0 0 0 1 0 0 0 0 1"));
+  EXPECT_THAT(ErrorOf(file), testing::HasSubstr("node 'n' is no translation, rotation and scale"));
+}
+
+TEST(ImportModel, NormalsThatSayNoDirectionAreAsNone) {
+  const Scratch scratch;
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.5\n";
+  const fs::path without = scratch.Write("without.obj", corners + "f 1 2 3\nf 1 3 4\n");
+  const fs::path zero =
+      scratch.Write("zero.obj", corners + "vn 0 0 0\nf 1//1 2//1 3//1\nf 1//1 3//1 4//1\n");
+  const Model expected = ImportModel(without), model = ImportModel(zero);
+  ASSERT_EQ(model.mesh.triangles.size(), expected.mesh.triangles.size());
+  for (std::size_t i = 0; i < model.mesh.triangles.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto normal_of = [&](const TriangleMesh& mesh) -> const Eigen::Vector3f& {
+        return mesh.normals[mesh.triangles[i][k]];
+      };
+      EXPECT_EQ(normal_of(model.mesh), normal_of(expected.mesh));
+      EXPECT_NEAR(normal_of(model.mesh).norm(), 1, 1e-6);
+    }
+  }
+}
+
 /// A triangle whose material has a normal map of strength 0.5: positions, texture coordinates and
 /// indices are in the buffer.
 constexpr const char* kBumpyTriangle = R"({
@@ -181,6 +248,37 @@ TEST(ImportModel, ANormalMapComesInColourAndWithItsStrength) {
   const cv::Mat map = model.textures.at(static_cast<std::size_t>(material.normal_texture)).image;
   ASSERT_EQ(map.type(), CV_8UC3);
   EXPECT_EQ(map.at<cv::Vec3b>(1, 1), cv::Vec3b(200, 128, 250)) << "red, green, blue: x, y, z";
+}
+
+TEST(ImportModel, TheColourSaysWhichTextureCoordinatesAreRead) {
+  const Scratch scratch;
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", cv::Mat3b(4, 4, cv::Vec3b(250, 128, 200)), png);
+  scratch.Write("bumps.png", std::string(png.begin(), png.end()));
+  const auto with = [&](const std::string& attributes, const std::string& material) {
+    std::string text = kBumpyTriangle;
+    const auto put = [&](const std::string& old, const std::string& now) {
+      text.replace(text.find(old), old.size(), now);
+    };
+    put(R"("TEXCOORD_0": 1)", attributes);
+    put(R"("normalTexture": {"index": 0, "scale": 0.5})", material);
+    return ImportModel(scratch.Write("sets.gltf", text));
+  };
+  const std::string colour = R"("pbrMetallicRoughness": {"baseColorTexture": {"index": 0)";
+  const Model first = with(R"("TEXCOORD_0": 1)", colour + "}}");
+  ASSERT_FALSE(first.mesh.uvs[1].isZero());
+  // The second set is read where the colour names it, and only there.
+  EXPECT_EQ(with(R"("TEXCOORD_1": 1)", colour + R"(, "texCoord": 1}})").mesh.uvs, first.mesh.uvs);
+  EXPECT_TRUE(with(R"("TEXCOORD_1": 1)", colour + "}}").mesh.uvs[1].isZero());
+  // A normal map has its own only where no colour has others.
+  const std::string bumps = R"("normalTexture": {"index": 0, "texCoord": 1})";
+  const Model alone = with(R"("TEXCOORD_1": 1)", bumps);
+  EXPECT_EQ(alone.mesh.uvs, first.mesh.uvs);
+  EXPECT_GE(alone.materials[0].normal_texture, 0);
+  const Model both = with(R"("TEXCOORD_0": 1)", colour + "}}, " + bumps);
+  EXPECT_EQ(both.materials[0].normal_texture, -1);
+  EXPECT_THAT(both.left_out,
+              testing::ElementsAre("1 normal map on other coordinates than its colour"));
 }
 
 TEST(ImportModel, AnIndexOutOfRangeIsAnError) {
