@@ -133,7 +133,7 @@ struct VerifyReport {
   int raster_compared = 0, raster_pixels = 0;  ///< of both pictures; the latter all there are
   double stereo_median_px = 0;  ///< left warped to right by disparity, error of geometry
   double flow_median_px = 0;    ///< left warped to the next left by flow, as disparity
-  int surface_pixels = 0;  ///< of the left picture: that show anything
+  int surface_pixels = 0;       ///< of the left picture: that show anything
   int stereo_compared = 0, flow_compared = 0;
   /// Grey against grey over three frames without noise, see simulator/proof: rms change of things
   /// at rest along their flow, flicker of movers and of moving shadows; grey levels, 0 where too

@@ -251,9 +251,10 @@ std::string VerifyReport::failure() const {
   constexpr double kAgreement = 0.999, kWarp = 0.05;
   constexpr double kLeastRaster = 0.1, kLeastStereo = 0.01;  // of what could be compared
   if (raster_compared < kLeastRaster * raster_pixels || raster_compared == 0) {
-    return fmt::format("depth and labels could be held against the rasteriser on {} of {} pixels "
-                       "only, which proves nothing",
-                       raster_compared, raster_pixels);
+    return fmt::format(
+        "depth and labels could be held against the rasteriser on {} of {} pixels "
+        "only, which proves nothing",
+        raster_compared, raster_pixels);
   }
   const double agreement = std::min(raster_agreement_left, raster_agreement_right);
   if (agreement < kAgreement) {
@@ -261,8 +262,9 @@ std::string VerifyReport::failure() const {
                        100 * agreement, raster_compared);
   }
   if (stereo_compared < kLeastStereo * surface_pixels) {
-    return fmt::format("left could be warped to right on {} of {} pixels only, which proves nothing",
-                       stereo_compared, surface_pixels);
+    return fmt::format(
+        "left could be warped to right on {} of {} pixels only, which proves nothing",
+        stereo_compared, surface_pixels);
   }
   if (stereo_median_px > kWarp) {
     return fmt::format("left warps to right with a median error of {:.3f} px", stereo_median_px);
