@@ -104,6 +104,10 @@ constexpr std::array kForbidden = {SYS_socket,
                                    SYS_process_vm_readv,
                                    SYS_process_vm_writev,
                                    SYS_kill,
+                                   SYS_tkill,
+                                   SYS_rt_sigqueueinfo,
+                                   SYS_rt_tgsigqueueinfo,
+                                   SYS_pidfd_send_signal,
                                    SYS_pidfd_open,
                                    SYS_pidfd_getfd,
                                    SYS_io_uring_setup,
@@ -137,6 +141,12 @@ void ForbidCalls() {
     program.push_back(Jump(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(call), 0, 1));
     program.push_back(Statement(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM));
   }
+  // To its own threads it may send signals, as abort() does.
+  program.insert(program.end(),
+                 {Jump(BPF_JMP | BPF_JEQ | BPF_K, SYS_tgkill, 0, 3),
+                  Statement(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, args)),
+                  Jump(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(::getpid()), 1, 0),
+                  Statement(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM)});
   program.push_back(Statement(BPF_RET | BPF_K, SECCOMP_RET_ALLOW));
   const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
   const bool known = ::prctl(PR_GET_SECCOMP, 0, 0, 0, 0) >= 0;

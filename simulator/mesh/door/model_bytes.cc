@@ -4,6 +4,8 @@
 
 #include <bit>
 #include <cstring>
+#include <limits>
+#include <new>
 
 #include "simulator/mesh/check_model.h"
 
@@ -35,7 +37,7 @@ class Writer {
   void Put(const void* from, std::size_t size) {
     bytes_.append(static_cast<const char*>(from), size);
   }
-  std::size_t Count(const auto& list, std::size_t /*least_bytes*/) {
+  std::size_t Count(const auto& list, std::size_t /*least_bytes*/, std::size_t /*most*/ = 0) {
     const std::uint64_t count = list.size();
     Put(&count, sizeof(count));
     return list.size();
@@ -44,6 +46,20 @@ class Writer {
 
  private:
   std::string bytes_;
+};
+
+/// How many bytes a Writer would write.
+class Counter {
+ public:
+  void Put(const void* /*from*/, std::size_t size) { size_ += size; }
+  std::size_t Count(const auto& list, std::size_t /*least_bytes*/, std::size_t /*most*/ = 0) {
+    size_ += sizeof(std::uint64_t);
+    return list.size();
+  }
+  std::size_t size() const { return size_; }
+
+ private:
+  std::size_t size_ = 0;
 };
 
 class Reader {
@@ -58,11 +74,14 @@ class Reader {
     std::memcpy(to, bytes_.data(), size);
     bytes_.remove_prefix(size);
   }
-  /// Resizes a list whose elements take at least so many bytes each.
-  std::size_t Count(auto& list, std::size_t least_bytes) {
+  /// Resizes a list whose elements take at least so many bytes each, so that no count makes it
+  /// larger than a few times the bytes that are there.
+  std::size_t Count(auto& list, std::size_t least_bytes,
+                    std::size_t most = std::numeric_limits<std::size_t>::max()) {
     std::uint64_t count = 0;
     Put(&count, sizeof(count));
     if (count > bytes_.size() / least_bytes) throw ImportError("a list is longer than its bytes");
+    if (count > most) throw ImportError(fmt::format("a list is longer than {}", most));
     list.resize(static_cast<std::size_t>(count));
     return list.size();
   }
@@ -72,8 +91,8 @@ class Reader {
   std::string_view bytes_;
 };
 
-// One description of the bytes serves both directions: `file` is a Writer or a Reader, and what is
-// carried is const or not.
+// One description of the bytes serves both directions: `file` is a Writer, a Counter or a Reader,
+// and what is carried is const or not.
 
 template <class T>
 requires Plain<std::remove_const_t<T>>
@@ -92,8 +111,22 @@ void CarryPlain(auto& file, auto& list) {
   if (count > 0) file.Put(list.data(), count * sizeof(Element));
 }
 
-void CarryEach(auto& file, auto& list, std::size_t least_bytes, const auto& carry_one) {
-  file.Count(list, least_bytes);
+/// The bytes of an element whose own texts and lists are empty.
+template <class Element>
+std::size_t LeastBytes(const auto& carry_one) {
+  static const std::size_t bytes = [&] {
+    Counter counter;
+    const Element least{};
+    carry_one(counter, least);
+    return counter.size();
+  }();
+  return bytes;
+}
+
+void CarryEach(auto& file, auto& list, const auto& carry_one,
+               std::size_t most = std::numeric_limits<std::size_t>::max()) {
+  using Element = typename std::remove_cvref_t<decltype(list)>::value_type;
+  file.Count(list, LeastBytes<Element>(carry_one), most);
   for (auto& one : list) carry_one(file, one);
 }
 
@@ -114,15 +147,16 @@ void CarryWhole(auto& file, auto& value) {
   }
 }
 
-constexpr std::size_t kLeast = 4;  ///< bytes of anything that is counted and not plain
+constexpr std::size_t kMostSurfaces = 65535;  ///< a triangle says its material in 16 bits
+constexpr std::size_t kMostBands = 3;
 
 constexpr auto kCurve = [](auto& file, auto& curve) {
-  CarryEach(file, curve.keys, kLeast, [](auto& to, auto& key) {
+  CarryEach(file, curve.keys, [](auto& to, auto& key) {
     Carry(to, key.first);
     CarryVector(to, key.second);
   });
   CarryWhole(file, curve.interpolation);
-  CarryEach(file, curve.slopes, kLeast, [](auto& to, auto& slopes) {
+  CarryEach(file, curve.slopes, [](auto& to, auto& slopes) {
     for (auto& slope : slopes) CarryVector(to, slope);
   });
 };
@@ -137,7 +171,7 @@ constexpr auto kChannel = [](auto& file, auto& channel) {
 constexpr auto kClip = [](auto& file, auto& clip) {
   CarryText(file, clip.name);
   Carry(file, clip.duration_s);
-  CarryEach(file, clip.channels, kLeast, kChannel);
+  CarryEach(file, clip.channels, kChannel);
 };
 
 constexpr auto kNode = [](auto& file, auto& node) {
@@ -174,6 +208,11 @@ void CarryImage(Writer& file, const cv::Mat& image) {
   }
 }
 
+void CarryImage(Counter& file, const cv::Mat& /*image*/) {
+  constexpr std::size_t kPixel = 1;  // that an image has at least
+  file.Put(nullptr, sizeof(std::array<std::uint32_t, 3>) + kPixel);
+}
+
 void CarryImage(Reader& file, cv::Mat& image) {
   constexpr std::uint32_t kMostPixels = 1u << 15;  // a side; the options say how many are taken
   std::array<std::uint32_t, 3> shape{};
@@ -196,8 +235,8 @@ constexpr auto kTexture = [](auto& file, auto& texture) {
 };
 
 constexpr auto kSurfaces = [](auto& file, auto& surfaces) {
-  CarryEach(file, surfaces.materials, kLeast, kMaterial);
-  CarryEach(file, surfaces.textures, kLeast, kTexture);
+  CarryEach(file, surfaces.materials, kMaterial, kMostSurfaces);
+  CarryEach(file, surfaces.textures, kTexture, kMostSurfaces);
 };
 
 constexpr auto kModel = [](auto& file, auto& model) {
@@ -210,13 +249,13 @@ constexpr auto kModel = [](auto& file, auto& model) {
   CarryPlain(file, model.bind_positions);
   CarryPlain(file, model.bind_normals);
   CarryPlain(file, model.weights);
-  CarryEach(file, model.joints, kLeast, kJoint);
-  CarryEach(file, model.nodes, kLeast, kNode);
-  CarryEach(file, model.clips, kLeast, kClip);
-  CarryEach(file, model.materials, kLeast, kMaterial);
-  CarryEach(file, model.textures, kLeast, kTexture);
-  CarryEach(file, model.colour, kLeast, kSurfaces);
-  CarryEach(file, model.left_out, kLeast, [](auto& to, auto& phrase) { CarryText(to, phrase); });
+  CarryEach(file, model.joints, kJoint);
+  CarryEach(file, model.nodes, kNode);
+  CarryEach(file, model.clips, kClip);
+  CarryEach(file, model.materials, kMaterial, kMostSurfaces);
+  CarryEach(file, model.textures, kTexture, kMostSurfaces);
+  CarryEach(file, model.colour, kSurfaces, kMostBands);
+  CarryEach(file, model.left_out, [](auto& to, auto& phrase) { CarryText(to, phrase); });
 };
 
 }  // namespace
@@ -246,7 +285,11 @@ Model DecodeModel(std::string_view bytes, const ImportOptions& options) {
   }
   Reader file(bytes);
   Model model;
-  kModel(file, model);
+  try {
+    kModel(file, model);
+  } catch (const std::bad_alloc&) {
+    throw ImportError("it needs more memory than there is");
+  }
   if (!file.at_end()) throw ImportError("something follows its bytes");
   CheckModel(model, options);
   return model;

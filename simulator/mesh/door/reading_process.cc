@@ -11,7 +11,9 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <optional>
 #include <system_error>
+#include <thread>
 
 namespace aisle::sim {
 namespace {
@@ -104,12 +106,11 @@ bool Take(int from, std::string* to) {
   return count > 0;
 }
 
+using Clock = std::chrono::steady_clock;
+
 /// Reads both pipes until they are closed or a limit is passed; the latter is `reading->end`.
-void TakeAll(Pipe* output, Pipe* errors, const ReadingLimits& limits, std::size_t most_bytes,
+void TakeAll(Pipe* output, Pipe* errors, Clock::time_point end, std::size_t most_bytes,
              Reading* reading) {
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                      std::chrono::duration<double>(limits.time_s));
   while (output->out >= 0 || errors->out >= 0) {
     const auto left =
         std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
@@ -129,6 +130,27 @@ void TakeAll(Pipe* output, Pipe* errors, const ReadingLimits& limits, std::size_
   }
 }
 
+/// How a process ended, once it has; none while it runs.
+std::optional<int> StatusOf(pid_t pid, int options) {
+  int status = 0;
+  pid_t ended = 0;
+  do {
+    ended = ::waitpid(pid, &status, options);
+  } while (ended < 0 && errno == EINTR);
+  return ended == 0 ? std::nullopt : std::optional(status);
+}
+
+/// Waits for one that has closed its pipes and may go on all the same; none if it does until `end`.
+std::optional<int> WaitUntil(pid_t pid, Clock::time_point end) {
+  constexpr auto kFirst = std::chrono::microseconds(100),
+                 kLongest = std::chrono::microseconds(20'000);
+  for (auto pause = kFirst;; pause = std::min(2 * pause, kLongest)) {
+    if (const std::optional<int> status = StatusOf(pid, WNOHANG)) return status;
+    if (Clock::now() >= end) return std::nullopt;
+    std::this_thread::sleep_for(pause);
+  }
+}
+
 }  // namespace
 
 Reading RunReader(const std::filesystem::path& program, const std::vector<std::string>& arguments,
@@ -137,18 +159,26 @@ Reading RunReader(const std::filesystem::path& program, const std::vector<std::s
   const pid_t pid = Start(program, arguments, output, errors);
   Pipe::Close(&output.in);
   Pipe::Close(&errors.in);
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(limits.time_s));
   Reading reading;
   try {
-    TakeAll(&output, &errors, limits, most_bytes, &reading);
+    TakeAll(&output, &errors, end, most_bytes, &reading);
   } catch (...) {  // no memory for what it writes
     ::kill(pid, SIGKILL);
     ::waitpid(pid, nullptr, 0);
     throw;
   }
-  if (reading.end != Reading::End::kExited) ::kill(pid, SIGKILL);
-  int status = 0;
-  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  std::optional<int> ended;
+  if (reading.end == Reading::End::kExited) {
+    ended = WaitUntil(pid, end);
+    if (!ended) reading.end = Reading::End::kTooLong;
   }
+  if (!ended) {
+    ::kill(pid, SIGKILL);
+    ended = StatusOf(pid, 0);
+  }
+  const int status = *ended;
   reading.code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
   if (reading.end == Reading::End::kExited && WIFSIGNALED(status)) {
     reading.end = Reading::End::kSignalled;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -63,6 +64,30 @@ TEST(Confined, StartsNothingAndTalksToNobody) {
   }));
   const pid_t parent = ::getpid();
   EXPECT_FALSE(Can(scratch.path(), [=] { return ::kill(parent, 0) == 0; }));
+}
+
+TEST(Confined, SignalsItselfAlone) {
+  const Scratch scratch;
+  const pid_t parent = ::getpid();
+  siginfo_t info{};
+  info.si_code = SI_QUEUE;
+  EXPECT_FALSE(Can(scratch.path(), [=] { return ::syscall(SYS_tgkill, parent, parent, 0) == 0; }));
+  EXPECT_FALSE(Can(scratch.path(), [=] { return ::syscall(SYS_tkill, parent, 0) == 0; }));
+  EXPECT_FALSE(
+      Can(scratch.path(), [&] { return ::syscall(SYS_rt_sigqueueinfo, parent, 0, &info) == 0; }));
+  EXPECT_FALSE(Can(scratch.path(), [&] {
+    return ::syscall(SYS_rt_tgsigqueueinfo, parent, parent, 0, &info) == 0;
+  }));
+  const int handle = static_cast<int>(::syscall(SYS_pidfd_open, parent, 0));
+  if (handle >= 0) {
+    EXPECT_FALSE(Can(scratch.path(),
+                     [=] { return ::syscall(SYS_pidfd_send_signal, handle, 0, nullptr, 0) == 0; }));
+    ::close(handle);
+  }
+  // As abort() does.
+  EXPECT_TRUE(Can(scratch.path(), [] {
+    return ::syscall(SYS_tgkill, ::getpid(), static_cast<pid_t>(::syscall(SYS_gettid)), 0) == 0;
+  }));
 }
 
 TEST(Confined, SpendsNoMoreThanItsLimits) {

@@ -101,5 +101,18 @@ TEST(ModelBytes, AListMayNotBeLongerThanItsBytes) {
   EXPECT_THAT(ErrorIn(Sealed(bytes)), testing::HasSubstr("longer than its bytes"));
 }
 
+/// A list in memory is larger than its bytes: of 8 MB that claimed to be channels came 400.
+TEST(ModelBytes, AFalseCountTakesNoMemory) {
+  Model model = Asset("kit/drum");
+  model.clips = {{.name = "the clip", .duration_s = 1, .channels = {}}};
+  std::string bytes = EncodeModel(model);
+  const std::size_t count_at =
+      bytes.find("the clip") + std::string("the clip").size() + sizeof(float);
+  bytes += std::string(std::size_t{8} << 20, '\0');
+  const std::uint64_t many = bytes.size() / 40;  // of a channel's 64
+  std::memcpy(bytes.data() + count_at, &many, sizeof(many));
+  EXPECT_THAT(ErrorIn(Sealed(bytes)), testing::HasSubstr("longer than its bytes"));
+}
+
 }  // namespace
 }  // namespace aisle::sim

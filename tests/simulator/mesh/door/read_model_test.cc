@@ -69,6 +69,7 @@ TEST(ReadModel, WhateverHappensToTheReaderIsOneError) {
       {"kill -SEGV $$", "did not survive it (signal 11"},
       {"kill -ABRT $$", "did not survive it (signal 6"},
       {"sleep 60", "is not read after 2 s"},
+      {"exec >&- 2>&-; sleep 60", "is not read after 2 s"},
       {"exec cat /dev/zero", "holds more than 1000000 bytes"},
       {"echo hello", "end too early"},
       {"head -c 100 /dev/urandom", "are not a model's"},
