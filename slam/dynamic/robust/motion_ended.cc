@@ -1,6 +1,7 @@
 #include "slam/dynamic/robust/motion_ended.h"
 
 #include "slam/common/parallel.h"
+#include "slam/dynamic/robust/information.h"
 
 namespace aisle::slam::dynamic {
 
@@ -19,13 +20,11 @@ EndedMotion TakeOffEndedMotion(const LatestStep& step, int steps, const Texture&
     float *left = result.log_odds[y], *off = result.taken[y];
 #pragma GCC ivdep
     for (int x = 0; x < log_odds.cols; ++x) {
-      // S = (G^-1 + s I)^-1 = (G + s det(G) I) / det(I + s G), which G = 0 does not trouble.
-      const float s = noise * variance[x];
-      const float held = s * (xx[x] * yy[x] - xy[x] * xy[x]);
-      const float det = (1 + s * xx[x]) * (1 + s * yy[x]) - s * xy[x] * (s * xy[x]);
+      const Information G{xx[x], xy[x], yy[x]};
+      const auto [added, determinant] = Weaken(G, Determinant(G), noise * variance[x]);
       const float u = way * velocity[2 * x], v = way * velocity[2 * x + 1];
-      const float su = ((xx[x] + held) * u + xy[x] * v) / det,
-                  sv = (xy[x] * u + (yy[x] + held) * v) / det;
+      const float su = ((G.xx + added) * u + G.xy * v) / determinant,
+                  sv = (G.xy * u + (G.yy + added) * v) / determinant;
       const float along = su * residual[2 * x] + sv * residual[2 * x + 1];
       const float against = share * (share * (su * u + sv * v) / 2 - along);
       const float taken = std::min(std::max(against, 0.0F), limit);

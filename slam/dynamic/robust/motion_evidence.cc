@@ -6,6 +6,7 @@
 #include "slam/dynamic/common/median.h"
 #include "slam/dynamic/robust/earlier_disparity.h"
 #include "slam/dynamic/robust/fast_log.h"
+#include "slam/dynamic/robust/information.h"
 #include "slam/dynamic/robust/residual_flow.h"
 #include "slam/dynamic/robust/static_alias.h"
 #include "slam/stereo/dense/semi_global.h"
@@ -15,26 +16,17 @@ namespace {
 
 float Squared(double a) { return static_cast<float>(a * a); }
 
-/// The information on where a pixel's window is, and what its displacement leaves unexplained.
-struct Held {
-  float xx, xy, yy;
-  float rx, ry;
-};
-
-/// See DisplacementLogOdds. Without branches, so that rows of it are vectorised.
-inline float LogOddsOf(const Held& h, float static_variance, float mover_variance) {
-  const float gx = h.xx * h.rx + h.xy * h.ry, gy = h.xy * h.rx + h.yy * h.ry;  // G r
-  // The inverse of G^-1 + v I is (I + v G)^-1 G, which G = 0 does not trouble.
-  const float s = static_variance, m = static_variance + mover_variance;
-  const float det_static = (1 + s * h.xx) * (1 + s * h.yy) - s * h.xy * (s * h.xy);
-  const float det_moving = (1 + m * h.xx) * (1 + m * h.yy) - m * h.xy * (m * h.xy);
-  const float chi2_static = (h.rx * ((1 + s * h.yy) * gx - s * h.xy * gy) +
-                             h.ry * ((1 + s * h.xx) * gy - s * h.xy * gx)) /
-                            det_static;
-  const float chi2_moving = (h.rx * ((1 + m * h.yy) * gx - m * h.xy * gy) +
-                             h.ry * ((1 + m * h.xx) * gy - m * h.xy * gx)) /
-                            det_moving;
-  return (chi2_static - chi2_moving - FastLog(det_moving / det_static)) / 2;
+/// See DisplacementLogOdds; of r = (rx, ry). Without branches, so that rows of it are vectorised.
+inline float LogOddsOf(const Information& G, float rx, float ry, float static_variance,
+                       float mover_variance) {
+  const float det = Determinant(G);
+  const Weakened still = Weaken(G, det, static_variance),
+                 moving = Weaken(G, det, static_variance + mover_variance);
+  const float held = rx * (G.xx * rx + G.xy * ry) + ry * (G.xy * rx + G.yy * ry),  // r' G r
+      squared = rx * rx + ry * ry;
+  const float chi2_static = (held + still.added * squared) / still.determinant;
+  const float chi2_moving = (held + moving.added * squared) / moving.determinant;
+  return (chi2_static - chi2_moving - FastLog(moving.determinant / still.determinant)) / 2;
 }
 
 /// What the earlier frame saw around a place: of the disparities there, the one nearest to those
@@ -123,7 +115,7 @@ struct Evidence {
           of_flow + of_disparity * (pu * pu + pv * pv) + of_way * (du * du + dv * dv);
       const float mover = mover_px_per_disparity * disparity[x];
       const float ru = flow[2 * x] - u, rv = flow[2 * x + 1] - v;
-      log_odds[x] = LogOddsOf({xx[x], xy[x], yy[x], ru, rv}, variance, mover * mover);
+      log_odds[x] = LogOddsOf({xx[x], xy[x], yy[x]}, ru, rv, variance, mover * mover);
       residual[2 * x] = ru;
       residual[2 * x + 1] = rv;
       variances[x] = variance;
@@ -211,7 +203,7 @@ void LimitBlocks(const Evidence& evidence, cv::Mat1f& log_odds) {
 
 float DisplacementLogOdds(const Eigen::Matrix2f& G, const Eigen::Vector2f& r, float static_variance,
                           float mover_variance) {
-  return LogOddsOf({G(0, 0), G(0, 1), G(1, 1), r.x(), r.y()}, static_variance, mover_variance);
+  return LogOddsOf({G(0, 0), G(0, 1), G(1, 1)}, r.x(), r.y(), static_variance, mover_variance);
 }
 
 Surroundings LookAround(const DenseFrame& frame, const SurfaceOptions& surface,

@@ -82,5 +82,17 @@ TEST(TakeOffEndedMotion, WithoutTextureOrMotionNothingChanges) {
   EXPECT_FLOAT_EQ(Judge(Corner(), {0, 0}, {2, 0.5}, -1.5F).ended, 0);
 }
 
+TEST(TakeOffEndedMotion, WhatSaysNothingTakesNothingOff) {
+  // Along an edge the information is singular, and rounding is all that there is of its
+  // determinant; such a variance, squared, makes much of it.
+  for (const Vector2d& edge : {Vector2d(10, 10), {9.49, 4.22}, {15.83, 8.79}, {3, 0}, {61, -22}}) {
+    for (const Vector2d& per_step : {Vector2d(2, 0.5), {-0.3, 4}, {0, 0.01}}) {
+      const Outcome outcome = Judge(edge * edge.transpose(), {0.1, -0.2}, per_step, 2, 1e6, 15);
+      EXPECT_NEAR(outcome.left, 2, 1e-3) << edge.transpose();
+      EXPECT_NEAR(outcome.ended, 0, 1e-3) << edge.transpose();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace aisle::slam::dynamic

@@ -51,6 +51,29 @@ TEST(DisplacementLogOdds, AlongAnEdgeNothingIsKnownAndAcrossItMuch) {
   EXPECT_GT(DisplacementLogOdds(edge, {4, 0}, 0.01F, 1), 10);
 }
 
+TEST(DisplacementLogOdds, OfEdgesIsAsExactOverLongGaps) {
+  // Singular information, and variances of movers that are near or seen again after long.
+  for (int degrees = 0; degrees < 180; degrees += 7) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const Eigen::Vector2d across(std::cos(angle), std::sin(angle));
+    for (const double strength : {100.0, 2000.0, 8000.0}) {
+      for (const double mover : {1.0, 400.0, 15625.0, 60000.0}) {
+        const Eigen::Vector2d r(0.2, -0.1);
+        // Only across the edge anything is known: the ratio of two densities in one dimension.
+        const auto log_normal = [&](double variance) {
+          const double total = 1 / strength + variance, off = r.dot(across);
+          return -0.5 * (off * off / total + std::log(total));
+        };
+        const double expected = log_normal(0.02 + mover) - log_normal(0.02);
+        const Matrix2f G = (strength * across * across.transpose()).cast<float>();
+        EXPECT_NEAR(DisplacementLogOdds(G, r.cast<float>(), 0.02F, static_cast<float>(mover)),
+                    expected, 5e-3 * (1 + std::abs(expected)))
+            << degrees << " degrees, strength " << strength << ", mover " << mover;
+      }
+    }
+  }
+}
+
 /// A lamp's reflection: light that is added to both images of a pair.
 struct Glare {
   cv::Point2d at = {400, 200};     ///< full pixels of the left image
