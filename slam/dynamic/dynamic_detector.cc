@@ -9,6 +9,8 @@
 
 namespace aisle::slam {
 
+using Eigen::Isometry3d;
+
 struct DynamicDetector::Impl {
   StereoCamera camera;
   DynamicOptions options;
@@ -56,7 +58,11 @@ DynamicOutput DynamicDetector::Impl::DetectRobustly(const DynamicInput& input) {
   output.probability = std::move(result.probability);
   if (!result.stages.gaps.empty()) {
     const dynamic::EgoMotion& motion = result.stages.gaps.front().motion;
-    output.rig_motion = MeasuredMotion{motion.T_now_before, motion.covariance};
+    // Of the last frame, which may have shown nothing: the method goes by those that did.
+    const Isometry3d T_before_kept =
+        state.unseen_way ? state.unseen_way->T_now_before : Isometry3d::Identity();
+    output.rig_motion =
+        MeasuredMotion{motion.T_now_before * T_before_kept.inverse(), motion.covariance};
   }
   output.stage_ms = std::move(result.stages.stage_ms);
   state = std::move(result.state);

@@ -16,10 +16,9 @@ using GapMatches = std::vector<std::vector<StereoMatch>>;
 GapMatches MatchOverGaps(const RobustState& before, const View& view,
                          const std::vector<GapFlow>& flows, const LabelMemory& memory,
                          const EgoMotionOptions& options) {
-  const auto points = WellHeld(view.texture, view.frame.disparity, options.cell_px);
   GapMatches matches(flows.size());
   ParallelFor(std::size_t{0}, flows.size(), [&](std::size_t k) {
-    matches[k] = MatchesAlong(points, flows[k].flow, flows[k].expected.place, view.frame,
+    matches[k] = MatchesAlong(view.held, flows[k].flow, flows[k].expected.place, view.frame,
                               FrameAgo(before, flows[k].gap), memory, options.trust_in_region);
   });
   return matches;
@@ -72,12 +71,20 @@ double LearningRate(std::size_t slot, const ToleranceOptions& options) {
 
 std::optional<MotionPrior> PriorFor(const RobustState& before, std::int64_t stamp_ns,
                                     const KnownMotion& known, const EgoMotionOptions& options) {
-  if (known.measured)
-    return MotionPrior{known.measured->T_now_before, known.measured->covariance, true};
+  // The caller knows of the last frame, which may have shown nothing.
+  const auto since_kept = [&](const MeasuredMotion& last) {
+    return before.unseen_way ? Compose(*before.unseen_way, last) : last;
+  };
+  if (known.measured) {
+    const MeasuredMotion measured = since_kept(*known.measured);
+    return MotionPrior{measured.T_now_before, measured.covariance, true};
+  }
   const double step_s = SecondsBetween(before.stamp_ns, stamp_ns);
   const Matrix6d jolt = OfAJolt(step_s, options);
-  if (known.expected)
-    return MotionPrior{known.expected->T_now_before, known.expected->covariance, false, jolt};
+  if (known.expected) {
+    const MeasuredMotion expected = since_kept(*known.expected);
+    return MotionPrior{expected.T_now_before, expected.covariance, false, jolt};
+  }
   if (!before.motion || before.step_s <= 0) return std::nullopt;
   const double steps = step_s / before.step_s;
   const Vector6d motion = Difference(Isometry3d::Identity(), before.motion->T_now_before);

@@ -9,8 +9,9 @@
 
 namespace aisle::slam::dynamic {
 
-/// Where the rig is expected now: as it has been measured; as the caller expects it, who knows the
-/// map; else as it moved before, since no vehicle jerks. Nothing in the first frame.
+/// Where the rig is expected now, since the newest frame kept: as it has been measured; as the
+/// caller expects it, who knows the map; else as it moved before, since no vehicle jerks. Nothing
+/// in the first frame.
 std::optional<MotionPrior> PriorFor(const RobustState& before, std::int64_t stamp_ns,
                                     const KnownMotion& known, const EgoMotionOptions& options);
 

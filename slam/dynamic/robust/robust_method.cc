@@ -76,6 +76,7 @@ struct Found {
 RobustState Remember(const RobustState& before, const Found& found, const RobustOptions& options) {
   const std::vector<EgoMotion>& motions = found.motions.motions;
   RobustState state = before;
+  state.unseen_way.reset();
   state.stamp_ns = found.view.frame.stamp_ns;
   state.frames = FramesWith(before.frames, found.view.frame, motions);
   if (!motions.empty()) {
@@ -87,6 +88,29 @@ RobustState Remember(const RobustState& before, const Found& found, const Robust
   state.long_slot = motions.size() > 1 ? found.flows[motions.size() - 1].slot : 0;
   state.memory.long_log_odds = ToCarry(found.past.longer, options);
   state.memory.long_per_step = found.past.longer.per_step;
+  return state;
+}
+
+/// Whether a view is of no use: a covered lens, an exposure that failed.
+bool ShowsNothing(const View& view) {
+  constexpr std::size_t kLeastHeld = 20;
+  return view.held.size() < kLeastHeld;
+}
+
+/// The state after a frame that showed nothing: what was known stays, and the rig goes on as
+/// expected. Kept among the others it would testify that nothing moves, as nothing does in it, and
+/// that all surfaces are others. After `kLongest_s` nothing is where it was.
+RobustState PassOver(const RobustState& before, const std::optional<MotionPrior>& prior,
+                     std::int64_t stamp_ns, cv::Size half) {
+  constexpr double kLongest_s = 0.5;
+  RobustState state = before;
+  if (prior && SecondsBetween(before.stamp_ns, stamp_ns) <= kLongest_s) {
+    state.unseen_way = MeasuredMotion{prior->T_now_before, prior->covariance};
+    return state;
+  }
+  state = {};
+  state.noise = before.noise;
+  state.memory = ForgottenMemory(half, before.memory.regions.next_id);
   return state;
 }
 
@@ -119,6 +143,15 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
 
   // Stereo: a dense disparity, and what the image has of texture.
   const View view = Timed(ms["disparity"], [&] { return LookAt(images, stamp_ns, options); });
+
+  if (ShowsNothing(view)) {
+    RobustResult nothing{PassOver(before, prior, stamp_ns, view.frame.image.size()), {}, {}, {}};
+    nothing.dynamic.mask = cv::Mat1b::zeros(images.left.size());
+    nothing.probability = cv::Mat1f::zeros(images.left.size());
+    nothing.stages.half_disparity = view.frame.disparity;
+    nothing.stages.stage_ms = std::move(ms);
+    return nothing;
+  }
 
   // Flow to frames before, beyond what the expected motion explains.
   const std::vector<GapFlow> flows =

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "slam/camera/measured_motion.h"
 #include "slam/dynamic/robust/dense_frame.h"
 #include "slam/dynamic/robust/ego_motion.h"
 #include "slam/dynamic/robust/label_memory.h"
@@ -28,11 +29,14 @@ inline double DisparityNoise(const LearnedNoise& noise) { return noise.match[0].
 /// All that the method remembers between frames. A value: copies are cheap, as images are shared
 /// and never written again.
 struct RobustState {
-  std::int64_t stamp_ns = 0;
+  std::int64_t stamp_ns = 0;  ///< of the newest frame kept
   /// The latest ones and keyframes before them, newest last; see WithFrame.
   std::vector<DenseFrame> frames;
   std::optional<EgoMotion> motion;  ///< the latest of the rig
   double step_s = 0;                ///< its duration
+  /// How the rig has gone on since the newest frame kept, as was expected, over frames that showed
+  /// nothing; nothing if there was none.
+  std::optional<MeasuredMotion> unseen_way;
   LearnedNoise noise;
   LabelMemory memory;
   std::size_t long_slot = 0;  ///< of the longer gap compared last; 0: none was

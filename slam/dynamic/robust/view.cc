@@ -1,6 +1,7 @@
 #include "slam/dynamic/robust/view.h"
 
 #include "slam/common/parallel.h"
+#include "slam/dynamic/robust/residual_flow.h"
 
 namespace aisle::slam::dynamic {
 
@@ -19,6 +20,7 @@ View LookAt(const StereoPair& images, std::int64_t stamp_ns, const RobustOptions
         view.texture = MeasureTexture(left, options.surface);
         view.pyramid = MakeFlowPyramid(left, options.flow);
       });
+  view.held = WellHeld(view.texture, view.frame.disparity, options.ego.cell_px);
   return view;
 }
 

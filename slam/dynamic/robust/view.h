@@ -15,6 +15,7 @@ struct View {
   Texture texture;
   FlowPyramid pyramid;
   Surroundings around;
+  std::vector<cv::Point> held;  ///< its points that can be followed, see WellHeld
 };
 View LookAt(const StereoPair& images, std::int64_t stamp_ns, const RobustOptions& options);
 
