@@ -125,6 +125,7 @@ struct StereoSlam::Impl {
   TrackingState state = TrackingState::kInitializing;  // kTracking in any part of the map
   std::optional<std::int64_t> lost_since_ns;  // first frame that shows something but has no pose
   std::int64_t coasting_since_ns = 0;         // of kCoasting: the last frame that was found
+  std::optional<std::int64_t> last_stamp_ns;  // of all frames
   std::int64_t frame_count = 0;
   std::shared_ptr<const Frame> last_sight;  // the last frame that shows something
   TrackRecord track;
@@ -150,6 +151,12 @@ StereoSlam::Impl::Impl(const StereoCamera& camera_in, const SlamOptions& options
 TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalMask& mask,
                                      const std::optional<MeasuredMotion>& motion) {
   CheckImages(images, mask, camera);
+  if (last_stamp_ns && images.stamp_ns <= *last_stamp_ns) {
+    throw std::invalid_argument(
+        fmt::format("frame {}: its stamp is {} ns, after {}: stamps must rise", images.id,
+                    images.stamp_ns, *last_stamp_ns));
+  }
+  last_stamp_ns = images.stamp_ns;
   TrackedFrame result;
   result.id = images.id;
   result.stamp_ns = images.stamp_ns;

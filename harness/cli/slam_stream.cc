@@ -25,6 +25,7 @@ std::size_t Answer(StreamPipe* pipe, const std::string& name, const MakeEstimato
   const StreamHello hello = ReadHello(greeting.payload);
   const std::unique_ptr<Estimator> estimator = make(hello.calibration);
   pipe->Send(StreamType::kHello, FormatName(kStreamVersion, name));
+  std::optional<std::int64_t> last_ns;
   for (std::size_t frames = 0;; ++frames) {
     const StreamMessage message = next();
     if (message.type == StreamType::kEnd) {
@@ -36,6 +37,11 @@ std::size_t Answer(StreamPipe* pipe, const std::string& name, const MakeEstimato
       throw StreamError(Kind::kNonsense, "neither a frame nor the end");
     }
     const StereoFrame frame = ReadFrame(message.payload, hello.calibration);
+    if (last_ns && frame.stamp_ns <= *last_ns) {
+      throw StreamError(Kind::kNonsense,
+                        fmt::format("frame {}: its stamp is not after the one before", frame.id));
+    }
+    last_ns = frame.stamp_ns;
     const FrameEstimate said = estimator->Process(frame, {});
     pipe->Send(said.T_world_rig ? StreamType::kPose : StreamType::kLost,
                FormatAnswer(frame.id, said.T_world_rig));

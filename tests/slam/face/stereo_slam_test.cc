@@ -108,6 +108,16 @@ TEST(StereoSlam, ComesBackAfterFramesThatShowNothing) {
   EXPECT_EQ(slam.Finish().size(), StraightFilm().size());
 }
 
+TEST(StereoSlam, RefusesStampsThatDoNotRiseAndGoesOn) {
+  StereoSlam slam(RoomScene().camera(), {});
+  slam.Track(StraightFilm()[0]);
+  slam.Track(StraightFilm()[2]);
+  EXPECT_THROW(slam.Track(StraightFilm()[2]), std::invalid_argument);
+  EXPECT_THROW(slam.Track(StraightFilm()[1]), std::invalid_argument);
+  EXPECT_EQ(slam.Track(StraightFilm()[3]).state, TrackingState::kTracking);
+  EXPECT_EQ(slam.Finish().size(), 3u);
+}
+
 TEST(StereoSlam, DrivesOnThroughDarknessAndKnowsWhereItIsWhenTheLightReturns) {
   StereoSlam slam(RoomScene().camera(), {});
   for (std::size_t i = 0; i < StraightFilm().size(); ++i) {
