@@ -5,6 +5,14 @@
 #include "simulator/truth/truth.h"
 
 namespace aisle::sim {
+namespace {
+
+/// Pixels that show anything.
+int SurfacesIn(const cv::Mat1f& depth) {
+  return cv::countNonZero(depth < std::numeric_limits<float>::infinity());
+}
+
+}  // namespace
 
 VerifyReport ProveTruth(const Studio& studio, const Moment& now, const Moment& next) {
   const Instant instant = studio.At(now);
@@ -27,7 +35,7 @@ VerifyReport ProveTruth(const Studio& studio, const Moment& now, const Moment& n
     const RasterView drawn =
         studio.rays.straight
             ? Rasterize(studio.world, instant.snapshot(), studio.camera, T_world_camera)
-            : RasterizeThroughLens(studio.world, instant.snapshot(), studio.rays, T_world_camera);
+            : RasterizeThroughLens(studio.world, instant.snapshot(), studio.camera, T_world_camera);
     agreement[side] = Compare(drawn, sides[side].depth, sides[side].instance);
   }
   const Correspondence found =
@@ -41,8 +49,10 @@ VerifyReport ProveTruth(const Studio& studio, const Moment& now, const Moment& n
   return VerifyReport{.raster_agreement_left = agreement[0].share(),
                       .raster_agreement_right = agreement[1].share(),
                       .raster_compared = agreement[0].compared + agreement[1].compared,
+                      .raster_pixels = 2 * studio.camera.width * studio.camera.height,
                       .stereo_median_px = stereo.median_px,
                       .flow_median_px = flow.median_px,
+                      .surface_pixels = SurfacesIn(sides[0].depth),
                       .stereo_compared = stereo.compared,
                       .flow_compared = flow.compared};
 }

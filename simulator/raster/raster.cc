@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <opencv2/calib3d.hpp>
 #include <stdexcept>
 #include <vector>
 
@@ -47,10 +48,26 @@ Soup Collect(const World& world, const Snapshot& snapshot) {
   return soup;
 }
 
+/// Between these, along the optical axis, is what is drawn.
+struct Depths {
+  double near_m, far_m;
+};
+
+/// Up to what stands farthest from a camera.
+Depths DepthsOf(const Soup& soup, const Eigen::Vector3d& camera, const RasterOptions& options) {
+  constexpr double kBeyond = 1.01;  // what stands at the bound itself is not cut by rounding
+  double squared = 0;
+  for (const Eigen::Vector3f& corner : soup.corners) {
+    squared = std::max(squared, (corner.cast<double>() - camera).squaredNorm());
+  }
+  const double near_m = options.near_m;
+  return {near_m, std::max(kBeyond * std::sqrt(squared), 2 * near_m)};
+}
+
 /// OpenGL's clip coordinates from camera coordinates (x right, y down, z forward). A pixel's centre
 /// (u, v) lies at window coordinates (u + 1/2, v + 1/2); row 0 of the buffer is image row 0.
-Eigen::Matrix4d ClipFromCamera(const StereoCamera& camera, const RasterOptions& options) {
-  const double w = camera.width, h = camera.height, n = options.near_m, f = options.far_m;
+Eigen::Matrix4d ClipFromCamera(const StereoCamera& camera, const Depths& depths) {
+  const double w = camera.width, h = camera.height, n = depths.near_m, f = depths.far_m;
   Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
   m(0, 0) = 2 * camera.fx / w;
   m(0, 2) = (2 * camera.cx + 1) / w - 1;
@@ -83,13 +100,13 @@ void Draw(const Soup& soup, const Eigen::Matrix4d& clip_from_world, int width, i
   glFinish();
 }
 
-RasterView ReadBack(const cv::Mat4b& color, const RasterOptions& options) {
+RasterView ReadBack(const cv::Mat4b& color, const Depths& depths) {
   const cv::Size size = color.size();
   cv::Mat1f buffer(size);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, size.width, size.height, GL_DEPTH_COMPONENT, GL_FLOAT, buffer.data);
   RasterView view{cv::Mat1f(size), cv::Mat1w(size)};
-  const double n = options.near_m, f = options.far_m;
+  const double n = depths.near_m, f = depths.far_m;
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
       const cv::Vec4b& c = color(y, x);
@@ -129,16 +146,47 @@ bool IsPlane(const cv::Mat1f& depth, int x, int y) {
   return true;
 }
 
+/// The ray (x, y, 1) of every pixel as OpenCV has it; NaN where its search, which knows nothing of
+/// folds, does not come back to the pixel.
+cv::Mat2d RaysByOpenCv(const StereoCamera& camera) {
+  constexpr double kBack = 1e-3;  // pixels
+  const cv::Matx33d k(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+  const cv::Vec4d bends(camera.lens.coefficients.data());
+  const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 200, 1e-9);
+  std::vector<cv::Point2d> pixels, rays, again;
+  for (int y = 0; y < camera.height; ++y) {
+    for (int x = 0; x < camera.width; ++x) pixels.emplace_back(x, y);
+  }
+  if (camera.lens.model == LensModel::kEquidistant) {
+    cv::fisheye::undistortPoints(pixels, rays, k, bends, cv::noArray(), cv::noArray(), until);
+    cv::fisheye::distortPoints(rays, again, k, bends);
+  } else {
+    cv::undistortPoints(pixels, rays, k, bends, cv::noArray(), cv::noArray(), until);
+    std::vector<cv::Point3d> points;
+    for (const cv::Point2d& ray : rays) points.emplace_back(ray.x, ray.y, 1);
+    cv::projectPoints(points, cv::Vec3d(), cv::Vec3d(), k, bends, again);
+  }
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  cv::Mat2d by_pixel(camera.height, camera.width);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const bool comes_back = cv::norm(again[i] - pixels[i]) < kBack;
+    by_pixel(static_cast<int>(i)) =
+        comes_back ? cv::Vec2d(rays[i].x, rays[i].y) : cv::Vec2d(kNone, kNone);
+  }
+  return by_pixel;
+}
+
 /// A pinhole camera that sees all of the rays, as fine as the lens is at its centre.
-StereoCamera Enclosing(const PixelRays& rays) {
+StereoCamera Enclosing(const StereoCamera& camera, const cv::Mat2d& rays) {
   constexpr int kMargin = 3;  // pixels
   Eigen::AlignedBox2d box;
-  for (int y = 0; y < rays.height; ++y) {
-    for (int x = 0; x < rays.width; ++x) box.extend(rays.At(x, y).cast<double>());
+  for (const cv::Vec2d& ray : rays) {
+    if (!std::isnan(ray[0])) box.extend(Eigen::Vector2d(ray[0], ray[1]));
   }
+  if (box.isEmpty()) throw std::runtime_error("OpenCV knows no ray of this lens");
   StereoCamera wide;
-  wide.fx = 1.0 / rays.step_x;
-  wide.fy = 1.0 / rays.step_y;
+  wide.fx = camera.fx;
+  wide.fy = camera.fy;
   wide.cx = kMargin - wide.fx * box.min().x();
   wide.cy = kMargin - wide.fy * box.min().y();
   wide.width = static_cast<int>(std::ceil(wide.fx * box.sizes().x())) + 2 * kMargin;
@@ -148,17 +196,19 @@ StereoCamera Enclosing(const PixelRays& rays) {
 
 }  // namespace
 
-RasterView RasterizeThroughLens(const World& world, const Snapshot& snapshot, const PixelRays& rays,
-                                const Eigen::Isometry3d& T_world_camera,
+RasterView RasterizeThroughLens(const World& world, const Snapshot& snapshot,
+                                const StereoCamera& camera, const Eigen::Isometry3d& T_world_camera,
                                 const RasterOptions& options) {
-  const StereoCamera wide = Enclosing(rays);
+  const cv::Mat2d rays = RaysByOpenCv(camera);
+  const StereoCamera wide = Enclosing(camera, rays);
   const RasterView drawn = Rasterize(world, snapshot, wide, T_world_camera, options);
-  RasterView view{cv::Mat1f(rays.height, rays.width, std::numeric_limits<float>::quiet_NaN()),
-                  cv::Mat1w(rays.height, rays.width, std::uint16_t{0})};
-  for (int y = 0; y < rays.height; ++y) {
-    for (int x = 0; x < rays.width; ++x) {
-      const Eigen::Vector2d ray = rays.At(x, y).cast<double>();
-      const double u = wide.fx * ray.x() + wide.cx, v = wide.fy * ray.y() + wide.cy;
+  RasterView view{cv::Mat1f(rays.size(), std::numeric_limits<float>::quiet_NaN()),
+                  cv::Mat1w(rays.size(), std::uint16_t{0})};
+  for (int y = 0; y < rays.rows; ++y) {
+    for (int x = 0; x < rays.cols; ++x) {
+      const cv::Vec2d& ray = rays(y, x);
+      if (std::isnan(ray[0])) continue;
+      const double u = wide.fx * ray[0] + wide.cx, v = wide.fy * ray[1] + wide.cy;
       const int x0 = static_cast<int>(u), y0 = static_cast<int>(v);
       const int nearest_x = static_cast<int>(std::lround(u));
       const int nearest_y = static_cast<int>(std::lround(v));
@@ -185,10 +235,12 @@ RasterView Rasterize(const World& world, const Snapshot& snapshot, const StereoC
     throw std::runtime_error("OSMesa does not start (package libosmesa6)");
   }
   OSMesaPixelStore(OSMESA_Y_UP, 1);
+  const Soup soup = Collect(world, snapshot);
+  const Depths depths = DepthsOf(soup, T_world_camera.translation(), options);
   const Eigen::Matrix4d clip_from_world =
-      ClipFromCamera(camera, options) * T_world_camera.inverse().matrix();
-  Draw(Collect(world, snapshot), clip_from_world, camera.width, camera.height);
-  return ReadBack(color, options);
+      ClipFromCamera(camera, depths) * T_world_camera.inverse().matrix();
+  Draw(soup, clip_from_world, camera.width, camera.height);
+  return ReadBack(color, depths);
 }
 
 Agreement Compare(const RasterView& raster, const cv::Mat1f& depth, const cv::Mat1w& instance,
