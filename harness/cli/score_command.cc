@@ -318,7 +318,8 @@ void AddScoreCommand(CLI::App* app, Action* action) {
                       "estimated trajectory; several are set side by side");
   command->add_option("--format", options->format, "of both files; default: by their content")
       ->check(CLI::IsMember({"tum", "kitti", "euroc"}));
-  command->add_option("--times", options->times, "KITTI times.txt; needed beside a file with stamps");
+  command->add_option("--times", options->times,
+                      "KITTI times.txt; needed beside a file with stamps");
   command->add_option("--align", options->align, "none, origin, posyaw, se3 (default) or sim3")
       ->check(CLI::IsMember({"none", "origin", "posyaw", "se3", "sim3"}));
   command

@@ -1,8 +1,17 @@
+#include <stdexcept>
+
 #include "simulator/world/warehouse.h"
 
 namespace aisle::sim {
 
 std::uint16_t Site::Add(const std::string& name, ObjectClass object_class, bool is_actor) {
+  constexpr std::size_t kMost = 65'535;    // labels are pictures of 16 bits
+  if (parts_->instances.size() > kMost) {  // the first is nothing
+    throw std::runtime_error(
+        fmt::format("a scene has at most {} things with labels of their own; '{}' is one more: use "
+                    "fewer goods, racks or props",
+                    kMost, name));
+  }
   parts_->instances.push_back({name, object_class, is_actor});
   return static_cast<std::uint16_t>(parts_->instances.size() - 1);
 }

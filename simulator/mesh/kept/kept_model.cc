@@ -37,19 +37,40 @@ std::string BytesOf(const fs::path& file) {
   return bytes;
 }
 
-/// Whole or not at all.
-void WriteBytes(const fs::path& file, std::string_view bytes) {
-  const fs::path part = file.string() + ".part";
-  std::ofstream stream(part, std::ios::binary);
-  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  stream.close();
-  std::error_code failed;
-  if (stream) fs::rename(part, file, failed);
-  if (!stream || failed) {
-    fs::remove(part, failed);
-    throw ImportError(fmt::format("{}: it cannot be written", file.string()));
+/// A file that is written aside and goes again unless it is put in its place.
+class Aside {
+ public:
+  Aside(const fs::path& file, std::string_view bytes)
+      : file_(file), part_(file.string() + ".part") {
+    std::ofstream stream(part_, std::ios::binary);
+    stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    stream.close();
+    std::error_code unknown;
+    if (stream && !fs::is_directory(file_, unknown)) return;
+    Remove();
+    Fail();
   }
-}
+  ~Aside() { Remove(); }
+  Aside(const Aside&) = delete;
+  Aside& operator=(const Aside&) = delete;
+
+  void Place() {
+    std::error_code failed;
+    fs::rename(part_, file_, failed);
+    if (failed) Fail();
+  }
+
+ private:
+  void Remove() const {
+    std::error_code gone;
+    if (!fs::is_directory(part_, gone)) fs::remove(part_, gone);
+  }
+  [[noreturn]] void Fail() const {
+    throw ImportError(fmt::format("{}: it cannot be written", file_.string()));
+  }
+
+  fs::path file_, part_;
+};
 
 Json JsonOf(const ModelRecord& record) {
   return {{"aisle_mesh_record", kRecordVersion},
@@ -134,8 +155,9 @@ ModelRecord KeepModel(const Model& model, ModelRecord record, const fs::path& fi
   record.left_out = model.left_out;
   const std::string bytes = EncodeModel(model);
   record.hash = HashOf(bytes);
-  WriteBytes(file, bytes);
-  WriteBytes(RecordOf(file), JsonOf(record).dump(2) + "\n");
+  Aside mesh(file, bytes), beside(RecordOf(file), JsonOf(record).dump(2) + "\n");
+  mesh.Place();
+  beside.Place();
   return record;
 }
 

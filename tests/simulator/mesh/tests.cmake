@@ -4,6 +4,7 @@ aisle_tests(simulator/mesh/door)
 target_compile_definitions(simulator_mesh_door_test PRIVATE AISLE_PYTHON="${Python3_EXECUTABLE}")
 add_dependencies(simulator_mesh_door_test aisle_read_model)
 aisle_tests(simulator/mesh/capture USES simulator/mesh)
+aisle_tests(simulator/mesh/kept USES simulator/mesh)
 # A few mutants through the door in every round; the script takes more by hand.
 add_executable(door_mutants ${CMAKE_SOURCE_DIR}/tests/support/door/mutants.cc)
 target_link_libraries(door_mutants PRIVATE simulator_mesh_door aisle_nouns)

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "simulator/world/warehouse.h"
+
 namespace aisle::sim {
 namespace {
 
@@ -35,6 +37,19 @@ TEST(ClassOfLabel, IsTheClassOfThatName) {
   EXPECT_EQ(ClassName(ClassOfLabel(MeshLabel::kFloor)), "floor");
   EXPECT_EQ(ClassName(ClassOfLabel(MeshLabel::kGoods)), "goods");
   EXPECT_EQ(ClassName(ClassOfLabel(MeshLabel::kFurniture)), "furniture");
+}
+
+/// Labels are pictures of 16 bits: one more would bear the name of the first.
+TEST(Site, NoThingTakesTheLabelOfAnother) {
+  WorldParts parts;
+  Site site(&parts);
+  for (int i = 1; i <= 65'535; ++i) ASSERT_EQ(site.Add("box", ObjectClass::kGoods), i);
+  try {
+    site.Add("the last one", ObjectClass::kGoods);
+    FAIL() << "it was added";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("'the last one'"), std::string::npos);
+  }
 }
 
 }  // namespace
