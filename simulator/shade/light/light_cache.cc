@@ -140,7 +140,7 @@ fs::path DefaultLightCache() {
 }
 
 std::uint64_t LightKey(const World& world, const StaticLightOptions& options,
-                       std::span<const float> light_scale) {
+                       std::span<const float> light_scale, bool sky_taken) {
   std::uint64_t key = kVersion;
   const auto add = [&](const void* data, std::size_t bytes) {
     key = XXH3_64bits_withSeed(data, bytes, key);
@@ -165,6 +165,7 @@ std::uint64_t LightKey(const World& world, const StaticLightOptions& options,
                       options.coarse_texel_m, options.volume_spacing_m, options.volume_height_m,
                       options.directions, options.volume_directions, options.bounces,
                       options.max_points, options.max_nodes));
+  if (sky_taken) add(&sky_taken, sizeof(sky_taken));
   return key;
 }
 

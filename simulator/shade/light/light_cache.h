@@ -18,9 +18,11 @@ std::filesystem::path DefaultLightCache();
 
 /// Hash of all that decides a solution, and of nothing else: the static mesh, what its surfaces
 /// reflect and emit, the lamps and their setting, and the options. Movers and their materials do
-/// not enter, nor does the order of materials: the twins of a scene share a solution.
+/// not enter, nor does the order of materials: the twins of a scene share a solution. The sky,
+/// which is all that shines without a lamp, goes with the setting of all lamps at full and with no
+/// other, unless `sky_taken` takes it away from that one too.
 std::uint64_t LightKey(const World& world, const StaticLightOptions& options,
-                       std::span<const float> light_scale);
+                       std::span<const float> light_scale, bool sky_taken = false);
 
 /// Whether there seems to be a kept solution.
 bool HasLight(const std::filesystem::path& folder, std::uint64_t key);

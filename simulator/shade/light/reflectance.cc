@@ -54,6 +54,14 @@ std::vector<float> ReflectanceAt(const World& world, const TexturePool& textures
   return reflectance;
 }
 
+bool HasSky(const World& world) {
+  const std::vector<std::uint16_t>& materials = world.statics().mesh.materials;
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    if (world.materials()[materials[i]].emission > 0 && !LightShown(world, i)) return true;
+  }
+  return false;
+}
+
 std::vector<float> EmittedAt(const World& world, const LightGrid& grid, float sky) {
   std::vector<float> emitted(grid.points.size());
   ParallelFor(std::size_t{0}, emitted.size(), [&](std::size_t i) {

@@ -15,6 +15,9 @@ namespace aisle::sim {
 std::vector<float> ReflectanceAt(const World& world, const TexturePool& textures,
                                  const LightGrid& grid, float texel);
 
+/// Whether anything of the static world shines and is no lamp's.
+bool HasSky(const World& world);
+
 /// What each point of a grid sends out by itself: π · emission of what shines and is no lamp's,
 /// which is the sky, dimmed by `sky`. A lamp's light is traced.
 std::vector<float> EmittedAt(const World& world, const LightGrid& grid, float sky);

@@ -94,11 +94,12 @@ StaticLight::StaticLight(const World& world, const Tracer& tracer, const Texture
       tracer_(&tracer),
       textures_(&textures),
       options_(options),
-      all_on_(world.lights().size(), 1.0f) {
+      all_on_{std::vector<float>(world.lights().size(), 1.0f), true},
+      has_sky_(HasSky(world)) {
   const TriangleMesh& mesh = world.statics().mesh;
   {
-    const bool is_kept = !options_.cache_folder.empty() &&
-                         HasLight(options_.cache_folder, LightKey(world, options_, all_on_));
+    const bool is_kept =
+        !options_.cache_folder.empty() && HasLight(options_.cache_folder, KeyOf(all_on_));
     SolveWatch watch(is_kept ? TellLight() : options_.progress, {{"laying its points", 0}});
     watch.Begin(1);
     fine_ = GridWithin(mesh, options_.texel_m, options_.max_points);
@@ -108,7 +109,11 @@ StaticLight::StaticLight(const World& world, const Tracer& tracer, const Texture
   Solved(all_on_);
 }
 
-LightState StaticLight::Solve(std::span<const float> light_scale, UnfinishedLight* unfinished,
+std::uint64_t StaticLight::KeyOf(const Lit& lit) const {
+  return LightKey(*world_, options_, lit.lamps, !lit.sky && lit.lamps == all_on_.lamps);
+}
+
+LightState StaticLight::Solve(const Lit& lit, UnfinishedLight* unfinished,
                               SolveWatch* watch) const {
   const TriangleMesh& mesh = world_->statics().mesh;
   const Instant statics = tracer_->Pose({});
@@ -116,14 +121,13 @@ LightState StaticLight::Solve(std::span<const float> light_scale, UnfinishedLigh
   const Things things = ThingsOf(mesh);
   const std::vector<SurfacePoint> places = LocatePoints(fine_, mesh, mesh.positions, mesh.normals);
   const std::vector<float> direct =
-      DirectAt(statics, *world_, light_scale, fine_, things, places, unfinished, watch);
+      DirectAt(statics, *world_, lit.lamps, fine_, things, places, unfinished, watch);
   watch->Begin(4);
   LightState state;
   state.direct.resize(fine_.point_of_slot.size());
   FillSlots(fine_, direct, state.direct);
   watch->Add(1);
-  // A solution for some lamps is taken off the whole, which keeps the sky.
-  const float sky = std::ranges::equal(light_scale, all_on_) ? 1.0f : 0.0f;
+  const float sky = lit.sky ? 1.0f : 0.0f;
   Patches patches = MakePatches(
       LooseThings(coarse_, mesh, things), LocatePoints(coarse_, mesh, mesh.positions, mesh.normals),
       {ReflectanceAt(*world_, *textures_, coarse_, options_.coarse_texel_m),
@@ -136,7 +140,7 @@ LightState StaticLight::Solve(std::span<const float> light_scale, UnfinishedLigh
       statics, coarse_, patches, MeanByPatch(fine_, direct, patch_of, patches.places.size()),
       {.directions = options_.directions, .bounces = options_.bounces}, watch);
   AddIndirect(patches, radiosity, &state);
-  PaintLuminaires(*world_, *textures_, fine_, options_.texel_m, light_scale, sky, &state);
+  PaintLuminaires(*world_, *textures_, fine_, options_.texel_m, lit.lamps, sky, &state);
   state.volume = EmptyVolume();
   FillVolume(statics, coarse_, mesh, patches, radiosity, options_.volume_directions, &state.volume,
              watch);
@@ -182,14 +186,14 @@ void StaticLight::AddIndirect(const Patches& patches, const Radiosity& radiosity
   for (std::size_t i = 0; i < state->total.size(); ++i) state->total[i] += state->direct[i];
 }
 
-LightState StaticLight::LoadOrSolve(std::span<const float> light_scale) const {
+LightState StaticLight::LoadOrSolve(const Lit& lit) const {
   if (options_.cache_folder.empty()) {
     SolveWatch watch(options_.progress, Foreseen());
-    LightState state = Solve(light_scale, nullptr, &watch);
+    LightState state = Solve(lit, nullptr, &watch);
     watch.End();
     return state;
   }
-  const std::uint64_t key = LightKey(*world_, options_, light_scale);
+  const std::uint64_t key = KeyOf(lit);
   const auto kept = [&] {
     return LoadLight(options_.cache_folder, key, fine_.point_of_slot.size());
   };
@@ -206,7 +210,7 @@ LightState StaticLight::LoadOrSolve(std::span<const float> light_scale) const {
   SolveWatch watch(tell, Foreseen());
   std::optional<UnfinishedLight> unfinished;
   if (lock) unfinished.emplace(options_.cache_folder, key);
-  LightState state = Solve(light_scale, unfinished ? &*unfinished : nullptr, &watch);
+  LightState state = Solve(lit, unfinished ? &*unfinished : nullptr, &watch);
   watch.Begin(1);
   SaveLight(options_.cache_folder, key, state);
   ShrinkLight(options_.cache_folder, options_.cache_bytes);
@@ -214,11 +218,11 @@ LightState StaticLight::LoadOrSolve(std::span<const float> light_scale) const {
   return state;
 }
 
-std::shared_ptr<const LightState> StaticLight::Solved(const std::vector<float>& scale) const {
-  auto& found = solved_[scale];
+std::shared_ptr<const LightState> StaticLight::Solved(const Lit& lit) const {
+  auto& found = solved_[lit];
   // Isolated: a thread that holds the mutex must not pick up another frame's work while it waits.
   if (!found) {
-    Isolated([&] { found = std::make_shared<LightState>(LoadOrSolve(scale)); });
+    Isolated([&] { found = std::make_shared<LightState>(LoadOrSolve(lit)); });
   }
   return found;
 }
@@ -226,7 +230,7 @@ std::shared_ptr<const LightState> StaticLight::Solved(const std::vector<float>& 
 std::shared_ptr<const LightState> StaticLight::At(std::span<const float> light_scale) const {
   const std::vector<float> scale(light_scale.begin(), light_scale.end());
   const std::lock_guard lock(mutex_);
-  if (scale.empty() || scale == all_on_) return Solved(all_on_);
+  if (scale.empty() || scale == all_on_.lamps) return Solved(all_on_);
   if (const auto found = composed_.find(scale); found != composed_.end()) return found->second;
 
   LightState state = *Solved(all_on_);
@@ -239,7 +243,9 @@ std::shared_ptr<const LightState> StaticLight::At(std::span<const float> light_s
     group[i] = 1;
   }
   for (const auto& [dimmed, group] : groups) {
-    const std::shared_ptr<const LightState> part = Solved(group);
+    // It is taken off the whole, which keeps the sky. Where there is none, all lamps are the whole.
+    const Lit lamps_alone = {group, !has_sky_ && group == all_on_.lamps};
+    const std::shared_ptr<const LightState> part = Solved(lamps_alone);
     const float less = 1 - dimmed;
     const auto subtract = [less](const std::vector<float>& from, std::vector<float>* to) {
       for (std::size_t i = 0; i < to->size(); ++i) {

@@ -55,22 +55,31 @@ class StaticLight {
   std::shared_ptr<const LightState> At(std::span<const float> light_scale) const;
 
  private:
-  LightState Solve(std::span<const float> light_scale, UnfinishedLight* unfinished,
-                   SolveWatch* watch) const;
+  /// What a solution is the light of.
+  struct Lit {
+    std::vector<float> lamps;  ///< scale of each
+    bool sky = false;          ///< whether what shines without a lamp does
+    auto operator<=>(const Lit&) const = default;
+  };
+
+  LightState Solve(const Lit& lit, UnfinishedLight* unfinished, SolveWatch* watch) const;
+  std::uint64_t KeyOf(const Lit& lit) const;
   void AddIndirect(const Patches& patches, const Radiosity& radiosity, LightState* state) const;
   LightVolume EmptyVolume() const;
   std::vector<SolveWatch::Foreseen> Foreseen() const;
-  LightState LoadOrSolve(std::span<const float> light_scale) const;
-  std::shared_ptr<const LightState> Solved(const std::vector<float>& light_scale) const;
+  LightState LoadOrSolve(const Lit& lit) const;
+  std::shared_ptr<const LightState> Solved(const Lit& lit) const;
 
   const World* world_;
   const Tracer* tracer_;
   const TexturePool* textures_;
   StaticLightOptions options_;
   LightGrid fine_, coarse_;
-  std::vector<float> all_on_;
+  Lit all_on_;
+  bool has_sky_ = false;
   mutable std::mutex mutex_;  ///< guards the two caches
-  mutable std::map<std::vector<float>, std::shared_ptr<const LightState>> solved_, composed_;
+  mutable std::map<Lit, std::shared_ptr<const LightState>> solved_;
+  mutable std::map<std::vector<float>, std::shared_ptr<const LightState>> composed_;
 };
 
 }  // namespace aisle::sim

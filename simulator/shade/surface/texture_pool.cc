@@ -1,7 +1,10 @@
 #include "simulator/shade/surface/texture_pool.h"
 
+#include <algorithm>
 #include <bit>
+#include <functional>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
 
 namespace aisle::sim {
 namespace {
@@ -47,9 +50,46 @@ void AppendLevel(const cv::Mat1f& level, std::vector<std::uint8_t>* bytes) {
   }
 }
 
+/// What a texture takes with its pyramid.
+std::size_t PoolBytes(const Texture& texture) {
+  std::size_t bytes = 0;
+  for (int w = PowerOfTwo(texture.image.cols), h = PowerOfTwo(texture.image.rows);;
+       w = std::max(1, w / 2), h = std::max(1, h / 2)) {
+    bytes += static_cast<std::size_t>(w + 1) * static_cast<std::size_t>(h + 1);
+    if (w == 1 && h == 1) break;
+  }
+  return texture.image.channels() == 1 ? bytes : 2 * bytes;
+}
+
+/// Refuses textures that together are too large.
+void CheckBytes(std::span<const Texture> textures, std::size_t most_bytes) {
+  constexpr std::size_t kNamed = 3;
+  constexpr double kMega = 1e6;
+  std::size_t sum = 0;
+  std::vector<std::pair<std::size_t, const Texture*>> sizes;
+  for (const Texture& texture : textures) {
+    if (texture.image.empty()) continue;
+    sizes.emplace_back(PoolBytes(texture), &texture);
+    sum += sizes.back().first;
+  }
+  if (sum <= most_bytes) return;
+  std::ranges::stable_sort(sizes, std::greater(), &std::pair<std::size_t, const Texture*>::first);
+  std::string largest;
+  for (const auto& [bytes, texture] : std::span(sizes).first(std::min(kNamed, sizes.size()))) {
+    largest += fmt::format("{}'{}' ({} x {})", largest.empty() ? "" : ", ", texture->name,
+                           texture->image.cols, texture->image.rows);
+  }
+  throw std::runtime_error(fmt::format(
+      "its {} textures take {:.0f} MB with their smaller levels, the limit is {:.0f} MB; make them "
+      "smaller, the largest first: {}",
+      sizes.size(), static_cast<double>(sum) / kMega, static_cast<double>(most_bytes) / kMega,
+      largest));
+}
+
 }  // namespace
 
-TexturePool::TexturePool(std::span<const Texture> textures) {
+TexturePool::TexturePool(std::span<const Texture> textures, std::size_t most_bytes) {
+  CheckBytes(textures, most_bytes);
   const auto append = [&](const cv::Mat1f& base) {
     sizes_.push_back(std::countr_zero(static_cast<unsigned>(base.cols)) |
                      std::countr_zero(static_cast<unsigned>(base.rows)) << 8);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -25,8 +26,12 @@ inline constexpr std::size_t kMapPoints = 4;
 /// finer in the darks than linear bytes, and decoded by one multiplication.
 class TexturePool {
  public:
-  /// CV_8UC1 are albedo, CV_8UC3 normal maps.
-  explicit TexturePool(std::span<const Texture> textures);
+  /// Texels are found by 32-bit places.
+  static constexpr std::size_t kMostBytes = std::numeric_limits<std::int32_t>::max() - 8;
+
+  /// CV_8UC1 are albedo, CV_8UC3 normal maps. Throws std::runtime_error, naming the largest, when
+  /// together they take more than `most_bytes`.
+  explicit TexturePool(std::span<const Texture> textures, std::size_t most_bytes = kMostBytes);
 
   /// Mean of the texture over the parallelogram spanned by the screen steps (du_dx, dv_dx) and
   /// (du_dy, dv_dy) around (u, v): up to eight trilinear taps along the longer axis of the

@@ -117,6 +117,25 @@ TEST(Shader, TheSkyLightsAndStaysWhenALampGoesOut) {
   EXPECT_GT(brighter, 0.95 * static_cast<double>(lit.total())) << "cartons and floor too";
 }
 
+TEST(Shader, TheSkyStaysWhenAllLampsGoOut) {
+  const auto hall = [](float lamps) {
+    WorldParts parts = test::Hall({.boxes = 60, .movers = false, .lights = 6});
+    parts.materials[1].emission = 2;  // of the walls
+    parts.materials[3].emission *= lamps;
+    for (AreaLight& light : parts.lights) light.radiance *= lamps;
+    return Stage(std::move(parts));
+  };
+  const Stage both = hall(1);
+  const cv::Mat1f alone = hall(0).Picture();
+  const double most = cv::norm(both.Picture(), cv::NORM_INF);
+  for (const float dimmed : {0.0f, 0.5f}) {
+    const cv::Mat1f now = both.Shade({both.At(0)}, std::vector<float>(6, dimmed))[0];
+    cv::Mat1f expected;
+    cv::addWeighted(alone, 1 - dimmed, both.Picture(), dimmed, 0, expected);
+    EXPECT_LT(cv::norm(now, expected, cv::NORM_INF), 1e-3 * most) << dimmed;
+  }
+}
+
 TEST(Shader, MoversTakeLightFromTheWorldAndNeverAdd) {
   ShadeOptions bright = Stage::Options();
   bright.mover_shadows = false;

@@ -1,5 +1,6 @@
 #include "simulator/shade/surface/texture_pool.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace aisle::sim {
@@ -24,6 +25,28 @@ TEST(TexturePool, TexelCentresGiveTheirLinearReflectance) {
     const float value = pool.SampleWide(0, (static_cast<float>(i % 4) + 0.5f) / 4,
                                         (static_cast<float>(i / 4) + 0.5f) / 4, 1e-4f);
     EXPECT_NEAR(value, linear, 0.004f + 0.004f * linear);
+  }
+}
+
+TEST(TexturePool, TexturesThatTogetherAreTooLargeAreRefusedAndTheLargestNamed) {
+  const std::vector<Texture> textures = {{"small", Checks(16, 4)},
+                                         {"large", Checks(256, 4)},
+                                         {"bumps", cv::Mat(64, 64, CV_8UC3, cv::Scalar::all(128))}};
+  // Each level has a row and a column more than its texels.
+  const auto level_sum = [](std::size_t side) {
+    std::size_t sum = 0;
+    for (; side >= 1; side /= 2) sum += (side + 1) * (side + 1);
+    return sum;
+  };
+  const std::size_t bytes = level_sum(16) + level_sum(256) + 2 * level_sum(64);
+  EXPECT_NO_THROW(TexturePool(textures, bytes));
+  try {
+    TexturePool(textures, bytes - 1);
+    FAIL() << "they were taken";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("its 3 textures take 0 MB"));
+    EXPECT_THAT(error.what(),
+                testing::EndsWith("'large' (256 x 256), 'bumps' (64 x 64), 'small' (16 x 16)"));
   }
 }
 
