@@ -1,12 +1,28 @@
 #include "simulator/proof/light_proof.h"
 
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
 
 #include "simulator/shade/reference/light_error.h"
 #include "simulator/shade/reference/reference.h"
 
 namespace aisle::sim {
 namespace {
+
+/// Refuses what the path tracer does not draw: it would judge a picture by one of another scene.
+void ExpectJudgeable(const World& world) {
+  const auto refuse = [](const char* what) {
+    throw std::runtime_error(fmt::format(
+        "the path tracer draws no {}, which this scene has: its light cannot be judged by it",
+        what));
+  };
+  if (world.has_beams()) refuse("beams");
+  for (const TriangleMesh& mover : world.mover_meshes()) {
+    for (const std::uint16_t material : mover.materials) {
+      if (world.materials()[material].transmission > 0) refuse("panes that are seen through");
+    }
+  }
+}
 
 /// The left image's light, in shares of white, `small` being its camera made coarser.
 cv::Mat1f Light(const Studio& studio, const Moment& moment, const StereoCamera& small, int reduce) {
@@ -64,6 +80,7 @@ LightChangeCheck::Part PartOf(const LightChange& change) {
 }  // namespace
 
 LightCheck CheckLight(const Studio& studio, const Moment& moment, int samples, int reduce) {
+  ExpectJudgeable(studio.world);
   const StereoCamera small = Coarser(studio.camera, reduce);
   LightCheck check;
   check.nightly = Light(studio, moment, small, reduce);
