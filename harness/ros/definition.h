@@ -27,7 +27,7 @@ class DefinitionWriter {
     while (!waiting_.empty()) {
       const auto [type, add] = waiting_.front();
       waiting_.erase(waiting_.begin());
-      text_ += std::string(80, '=') + "\nMSG: " + type + '\n';
+      text_.append(80, '=').append("\nMSG: ").append(type).append("\n");
       (this->*add)();
     }
     return text_;

@@ -462,10 +462,9 @@ TEST_F(DatasetTest, OtherNamesOfALensAndBlanksInAListAreRead) {
     text.replace(text.find(model), model.size(), "radtan");
     WriteFileAtomically(folder_ / name, text);
   }
-  std::string list = Read("mav0/cam0/data.csv");
-  for (std::size_t at = list.find('\n'); (at = list.find(',', at)) != std::string::npos; at += 2) {
-    list.insert(at + 1, " ");
-  }
+  std::string list;
+  for (const char c : Read("mav0/cam0/data.csv"))
+    list += c == ',' ? std::string(", ") : std::string(1, c);
   WriteFileAtomically(folder_ / "mav0/cam0/data.csv", list);
   const StereoRecording recording = ReadRecording(folder_, DatasetFormat::kEuroc);
   ExpectCameras(recording);
