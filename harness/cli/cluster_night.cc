@@ -61,7 +61,7 @@ std::string KubernetesOf(const ClusterNight& night, const ClusterChoice& choice,
   return KubernetesJobs(
       {.name = night.plan.name(),
        .image = choice.image.empty() ? "aisle:" + OwnProvenance().version : choice.image,
-       .claim = choice.claim,
+       .claim = choice.claim.empty() ? "aisle" : choice.claim,
        .tasks = tasks,
        .at_most = choice.nodes_at_most,
        .cpus = night.settings.threads,

@@ -146,9 +146,9 @@ bool ParseRealNanoseconds(std::string_view text, std::int64_t* stamp_ns) {
   const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
   if (digits < kLeastDigits) return false;
   const std::string_view rest = text.substr(digits);
-  const bool is_decimal =
-      rest.empty() ||
-      (rest.front() == '.' && rest.find_first_not_of("0123456789", 1) == std::string_view::npos);
+  // EuRoC's own, whole and of another order of columns, are not meant.
+  const bool is_decimal = !rest.empty() && rest.front() == '.' &&
+                          rest.find_first_not_of("0123456789", 1) == std::string_view::npos;
   const auto [end, error] = std::from_chars(text.data(), text.data() + digits, *stamp_ns);
   return is_decimal && error == std::errc() && end == text.data() + digits;
 }

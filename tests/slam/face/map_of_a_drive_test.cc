@@ -109,7 +109,9 @@ TEST_F(MapOfADrive, LocaliseOnlyFindsItsWayAndLeavesTheMapAsItIs) {
   MapTheRoom(20);
   StereoSlam slam(RoomScene().camera(), WithMap(true));
   for (std::size_t i = 23; i-- > 0;) {  // the other way, and from further on
-    const TrackedFrame tracked = slam.Track(RoundFilm()[i]);
+    StereoImages images = RoundFilm()[i];
+    images.stamp_ns = static_cast<std::int64_t>(23 - i) * 50'000'000;
+    const TrackedFrame tracked = slam.Track(images);
     ASSERT_EQ(tracked.state, TrackingState::kTracking) << "frame " << i;
     EXPECT_LT((tracked.T_world_rig->translation() - RoundPath()[i].translation()).norm(), 0.03)
         << "frame " << i;
