@@ -1,5 +1,6 @@
 #include "harness/bench/growth.h"
 #include "harness/cli/command.h"
+#include "harness/cli/isa_option.h"
 #include "harness/cli/page_block.h"
 #include "harness/io/places.h"
 #include "harness/record/provenance.h"
@@ -45,10 +46,7 @@ void AddBenchGrowth(CLI::App* bench, Action* action) {
       ->check(CLI::Range(1, 1000));
   command->add_option("--threads", options->bench.threads, "of all rows but the last (default 2)")
       ->check(CLI::Range(1, 1024));
-  command
-      ->add_option("--isa", options->bench.isa,
-                   "instruction set of the tracer; avx2 (default) or native")
-      ->check(CLI::IsMember({"avx2", "native"}));
+  AddIsaOption(command, &options->bench.isa);
   options->into.AddTo(command);
   command->footer("Example: ./aisle bench growth --frames 4");
   command->callback([=] { *action = [=] { return BenchGrowth(*options); }; });

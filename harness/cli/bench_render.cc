@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/cli/command.h"
+#include "harness/cli/isa_option.h"
 #include "harness/cli/page_block.h"
 #include "harness/io/file.h"
 #include "harness/io/places.h"
@@ -115,10 +116,7 @@ void AddBenchRender(CLI::App* bench, Action* action) {
   command->add_option("--seed", options->simulation.seed, "of the scenes; default 1");
   command->add_option("--twin", options->simulation.twin, "of the scenes; default live")
       ->check(CLI::IsMember(TwinNames()));
-  command
-      ->add_option("--isa", options->simulation.isa,
-                   "instruction set of the tracer; avx2 (default) or native")
-      ->check(CLI::IsMember({"avx2", "native"}));
+  AddIsaOption(command, &options->simulation.isa);
   command->add_option("--threads", options->simulation.threads, "0: all")
       ->check(CLI::Range(0, 1024));
   command->add_option("--json", options->json, "write the medians there too, an object a scene");

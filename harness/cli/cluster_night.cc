@@ -18,6 +18,7 @@
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
+#include "harness/io/shell_word.h"
 #include "harness/record/provenance.h"
 #include "harness/record/record.h"
 
@@ -120,7 +121,7 @@ int OnSlurm(const ClusterNight& night, const ClusterChoice& choice, const TaskLi
   const Submission submission = SubmitToSlurm(missing, id, SlurmOf(night, choice), PathsOf(night));
   fmt::print(stderr, "aisle: tasks {}, merge {}; `{} status {}` tells how they go\n",
              fmt::join(submission.arrays, ", "), submission.merge, OwnCommand(),
-             night.out.string());
+             ShellWord(night.out.string()));
   return choice.wait ? WaitForVerdict(night.out, {.json = night.json}) : kAllPassed;
 }
 
@@ -130,7 +131,7 @@ int OnKubernetes(const ClusterNight& night, const ClusterChoice& choice, const T
   const fs::path file = night.out / "cluster" / "jobs.yaml";
   WriteFileAtomically(file, KubernetesOf(night, choice, list.tasks.size()));
   const std::string name = KubernetesName(night.plan.name());
-  fmt::print("kubectl apply -f {}\n", file.string());
+  fmt::print("kubectl apply -f {}\n", ShellWord(file.string()));
   fmt::print("kubectl wait --for=condition=complete --timeout=-1s job/{}\n", name);
   fmt::print("kubectl patch job {}-merge -p '{{\"spec\":{{\"suspend\":false}}}}'\n", name);
   return kAllPassed;

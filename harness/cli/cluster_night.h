@@ -16,7 +16,8 @@ namespace aisle {
 struct ClusterChoice {
   std::string on;  ///< "slurm", "k8s"; empty: this machine
   std::string partition, time;
-  std::string image, claim;  ///< empty: "aisle" and its version, and "aisle"
+  std::string image;  ///< empty: aisle:VERSION
+  std::string claim;  ///< of a volume; empty: aisle
   int nodes_at_most = 0;
   double late_s = 60;
   bool wait = false;

@@ -2,6 +2,7 @@
 
 #include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
+#include "harness/cli/isa_option.h"
 #include "harness/cli/render_bag.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/dataset.h"
@@ -203,10 +204,7 @@ void AddRenderCommand(CLI::App* app, Action* action) {
   command->add_option("--pair", options->pair,
                       "of the rig's pairs the one to render; default: the one systems are shown");
   command->add_option("--seed", options->simulation.seed, "seed of the layout and the sensor");
-  command
-      ->add_option("--isa", options->simulation.isa,
-                   "instruction set of the tracer; avx2 (default) or native")
-      ->check(CLI::IsMember({"avx2", "native"}));
+  AddIsaOption(command, &options->simulation.isa);
   command->add_option("--threads", options->simulation.threads, "0: all; never changes a pixel")
       ->check(CLI::Range(0, 1024));
   command->footer(

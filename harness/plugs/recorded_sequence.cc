@@ -237,6 +237,16 @@ void CheckRectified(const StereoCalibration& rig, const std::string& source) {
                   rig.baseline_m, rig.baseline_m < 0 ? ": left and right are swapped" : ""));
 }
 
+/// Systems are promised that stamps rise.
+void CheckStamps(const std::vector<StereoRecording::Pair>& pairs, const std::string& source) {
+  for (std::size_t i = 1; i < pairs.size(); ++i) {
+    if (pairs[i].stamp_ns > pairs[i - 1].stamp_ns) continue;
+    throw InputError(source, 0,
+                     fmt::format("pair {} has the stamp {} ns after one of {} ns: stamps must rise",
+                                 i, pairs[i].stamp_ns, pairs[i - 1].stamp_ns));
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<Sequence> MakeRecordedSequence(StereoRecording recording, const std::string& source,
@@ -256,6 +266,7 @@ std::unique_ptr<Sequence> MakeRecordedSequence(StereoRecording recording, const 
                     "and positive",
                     camera->fx, camera->fy));
   }
+  CheckStamps(recording.pairs, source);
   auto sequence = std::make_unique<RecordedSequence>(std::move(recording), name);
   CheckRectified(sequence->calibration(), source);
   return sequence;

@@ -3,9 +3,9 @@
 Usage: arrows.py SOURCE_DIR ARROWS_FILE. The arrows file is written by CMake, a line per room:
 "simulator/truth: simulator/trace,simulator/world". A room may include itself and whatever it
 reaches through its arrows, and its house's nouns (frames.h), which include nothing of ours. An
-arrow that none of its files follows does not belong in the list. Across
-houses only the two faces are open, and only to harness/plugs
-(and to the tests, which may include anything of the room they test).
+arrow that none of its files follows does not belong in the list. Across houses only the two faces
+are open, and only to harness/plugs (and to the tests, which may include anything of the room they
+test).
 """
 
 import pathlib

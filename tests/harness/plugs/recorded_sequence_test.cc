@@ -248,5 +248,14 @@ TEST_F(Recording, OfACalibrationThatIsNoneIsRefusedByName) {
   EXPECT_THAT(complaint(blind), HasSubstr("focal lengths 0 and 200"));
 }
 
+TEST_F(Recording, WhoseStampsDoNotRiseIsRefused) {
+  Write(Parallel(), {{Noise(1), Noise(2)}, {Noise(3), Noise(4)}});
+  StereoRecording recording = ReadRecording(folder_, DatasetFormat::kEuroc);
+  std::swap(recording.pairs[0].stamp_ns, recording.pairs[1].stamp_ns);
+  EXPECT_THROW(MakeRecordedSequence(recording, "a recording", "name"), InputError);
+  recording.pairs[1].stamp_ns = recording.pairs[0].stamp_ns;
+  EXPECT_THROW(MakeRecordedSequence(recording, "a recording", "name"), InputError);
+}
+
 }  // namespace
 }  // namespace aisle
