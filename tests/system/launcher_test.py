@@ -1,0 +1,67 @@
+"""The launcher of a tree, with programs of our own in place of those that it calls.
+
+Usage: launcher_test.py SOURCE_FOLDER
+"""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(sys.argv[1])
+NEEDED = ("bash", "dirname", "readlink", "mkdir", "flock", "grep", "awk", "tail", "head", "env",
+          "id", "tr")
+
+
+class Launcher(unittest.TestCase):
+    def setUp(self):
+        self.root = pathlib.Path(tempfile.mkdtemp(prefix="aisle_launcher_"))
+        self.addCleanup(shutil.rmtree, self.root)
+        for name in ("aisle", "packages.txt"):
+            shutil.copy(SOURCE / name, self.root / name)
+        (self.root / "bin").mkdir()
+        for name in NEEDED:
+            (self.root / "bin" / name).symlink_to(shutil.which(name))
+        self.program("bin/ninja", "echo ninja: no work to do.")
+        self.program("bin/cmake", "exit 1")
+
+    def program(self, path, text):
+        file = self.root / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(f"#!/bin/sh\n{text}\n")
+        file.chmod(0o755)
+
+    def build(self):
+        (self.root / "build/release").mkdir(parents=True)
+        (self.root / "build/release/build.ninja").touch()
+        self.program("build/release/harness/cli/aisle", 'echo "program $*"')
+
+    def run_it(self, *words):
+        environment = {"PATH": str(self.root / "bin"), "AISLE_NO_INSTALL": "1"}
+        done = subprocess.run([self.root / "aisle", *words], capture_output=True, text=True,
+                              env=environment)
+        return done.returncode, done.stdout, done.stderr
+
+    def test_what_is_built_runs_where_there_is_no_dpkg(self):
+        self.build()
+        self.assertEqual(self.run_it("check", "a b"), (0, "program check a b\n", ""))
+
+    def test_a_tree_that_nobody_configured_says_what_to_do(self):
+        code, said, why = self.run_it("check")
+        self.assertEqual((code, said), (3, ""))
+        self.assertIn("packages.txt", why)
+        self.assertIn("cmake --preset release", why)
+
+    def test_packages_that_dpkg_lacks_are_named(self):
+        self.build()
+        self.program("bin/dpkg-query", "exit 1")
+        code, _, why = self.run_it("check")
+        self.assertEqual(code, 3)
+        self.assertIn("apt-get install build-essential ", why)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
