@@ -120,11 +120,17 @@ std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const Cam
   if (!work) work = std::make_unique<Workspace>();
 
   std::vector<std::vector<BehindClear>> behind;  // by view
+  std::vector<Reflections> reflections;
   std::vector<Hits8> beyond;
   for (std::size_t i = 0; i < views.size(); ++i) {
     behind.push_back(TraceBehindClear(instant, views[i], images[i]));
     for (const BehindClear& one : behind.back()) beyond.push_back(one.hits);
+    if (!options_.gloss) continue;
+    reflections.push_back(
+        TraceGloss({instant, views[i], images[i], tables_, work->frame, textures_}));
+    AddMirroredMovers(reflections.back(), &beyond);
   }
+  done("gloss");
   tables_.PrepareFrame(instant, views, images, static_light_.At(instant.snapshot().light_scale),
                        &work->frame, beyond);
   done("light movers");
@@ -142,7 +148,8 @@ std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const Cam
                         &work->raw_kept[i > 0 ? 1 : 0], &work->kept);
     }
     done("mover shadows");
-    const bool glossy = options_.gloss && TraceGloss(shading, &work->reflectance, &work->mirrored);
+    const bool glossy =
+        options_.gloss && ShadeGloss(shading, reflections[i], &work->reflectance, &work->mirrored);
     done("gloss");
     radiance.push_back(
         Combine(image, work->reflectance, work->irradiance, work->kept,

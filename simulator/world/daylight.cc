@@ -38,8 +38,8 @@ void AddRaisedLeaf(TriangleMesh* mesh, const Eigen::Isometry3f& frame, float wid
 
 }  // namespace
 
-void AddOpenDoor(const HallSpec& hall, const DoorSpec& door, const Palette& palette,
-                 TriangleMesh* mesh) {
+void AddOpenDoor(const HallSpec& hall, const DoorSpec& door, const Palette::Day& day,
+                 const Palette& palette, TriangleMesh* mesh) {
   const Opening opening = OpeningOf(hall, door);
   const Wall& wall = opening.wall;
   const float half = opening.width / 2, sill = kYard * opening.height;
@@ -48,16 +48,21 @@ void AddOpenDoor(const HallSpec& hall, const DoorSpec& door, const Palette& pale
             Vector3f(0, 0, low - high), {{0, 0}, {opening.width / 5, (high - low) / 1.5f}},
             material);
   };
-  pane(sill, opening.height, palette.day);
-  pane(0, sill, palette.day_yard);
+  pane(sill, opening.height, day.sky);
+  pane(0, sill, day.yard);
   AddRaisedLeaf(mesh, wall.Frame(opening.middle, 0, 0), opening.width, opening.height, palette);
 }
 
-AreaLight DaylightOf(const HallSpec& hall, const DoorSpec& door) {
+std::array<AreaLight, kLightsOfDoor> DaylightOf(const HallSpec& hall, const DoorSpec& door) {
   const Opening opening = OpeningOf(hall, door);
-  const Eigen::Isometry3f frame = opening.wall.Frame(opening.middle, opening.height / 2, 0.06f);
-  return {frame.translation(), frame.linear().col(1) * opening.width / 2,
-          frame.linear().col(2) * opening.height / 2, static_cast<float>(door.daylight)};
+  const float sill = kYard * opening.height;
+  const auto between = [&](float low, float high, float radiance) -> AreaLight {
+    const Eigen::Isometry3f frame = opening.wall.Frame(opening.middle, (low + high) / 2, 0.06f);
+    return {frame.translation(), frame.linear().col(1) * opening.width / 2,
+            frame.linear().col(2) * (high - low) / 2, radiance};
+  };
+  const auto day = static_cast<float>(door.daylight);
+  return {between(sill, opening.height, day), between(0, sill, kYardShare * day)};
 }
 
 float CloudAt(const HallSpec& hall, double time_s) {

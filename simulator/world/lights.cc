@@ -7,11 +7,11 @@ using Eigen::Vector3f;
 
 /// Housing of a luminaire around its shining underside.
 void AddLuminaire(TriangleMesh* mesh, const Vector3f& middle, const Vector3f& half_u,
-                  const Vector3f& half_v, float roof, const Palette& palette) {
+                  const Vector3f& half_v, float roof, std::uint16_t lamp, const Palette& palette) {
   const Vector3f size(2 * half_u.x() + 0.06f, -2 * half_v.y() + 0.06f, 0.09f);
   BoxPaint housing = BoxPaint::Whole(palette.lamp_housing);
   AddBox(mesh, At(middle.x(), middle.y(), middle.z() + 0.055f), size, housing);
-  AddQuad(mesh, middle - half_u + half_v, 2 * half_u, -2 * half_v, {}, palette.lamp);
+  AddQuad(mesh, middle - half_u + half_v, 2 * half_u, -2 * half_v, {}, lamp);
   for (const float side : {-0.8f, 0.8f}) {
     const Vector3f top = middle + side * half_u;
     AddBar(mesh, top + Vector3f(0, 0, 0.1f), {top.x(), top.y(), roof}, 0.02f, palette.steel);
@@ -35,17 +35,18 @@ void AddLights(const Scene& scene, const Palette& palette, WorldParts* parts, Si
         const Eigen::Vector2f at = low + (high - low).cwiseProduct(share);
         const Vector3f middle(at.x(), at.y(), static_cast<float>(grid.height_m));
         if (scene.hall.walls == WallKind::kSky) {
-          AddQuad(mesh, middle - half_u + half_v, 2 * half_u, -2 * half_v, {}, palette.sky);
+          AddQuad(mesh, middle - half_u + half_v, 2 * half_u, -2 * half_v, {}, palette.lamps[i]);
         } else {
           AddLuminaire(mesh, middle, half_u, half_v, static_cast<float>(scene.hall.height_m),
-                       palette);
+                       palette.lamps[i], palette);
         }
         parts->lights.push_back({middle, half_u, half_v, static_cast<float>(grid.brightness)});
       }
     });
   }
   for (const DoorSpec& door : scene.doors) {
-    if (door.daylight > 0) parts->lights.push_back(DaylightOf(scene.hall, door));
+    if (door.daylight <= 0) continue;
+    for (const AreaLight& light : DaylightOf(scene.hall, door)) parts->lights.push_back(light);
   }
 }
 
@@ -58,7 +59,7 @@ std::vector<float> LightScale(const Scene& scene, double time_s) {
                  dark ? 0.0f : 1.0f);
   }
   for (const DoorSpec& door : scene.doors) {
-    if (door.daylight > 0) scale.push_back(CloudAt(scene.hall, time_s));
+    if (door.daylight > 0) scale.insert(scale.end(), kLightsOfDoor, CloudAt(scene.hall, time_s));
   }
   // Windows shine as the sky behind them does.
   scale.insert(

@@ -165,6 +165,12 @@ void FindPictures(const AssetLibrary& assets, Palette* palette) {
   }
 }
 
+/// Under the open sky `lights` are parts of it: all of it is as bright as the first of them.
+float SkyOf(const Scene& scene) {
+  const bool stated = scene.hall.walls == WallKind::kSky && !scene.lights.empty();
+  return stated ? static_cast<float>(scene.lights.front().brightness) : kOvercast;
+}
+
 }  // namespace
 
 Palette AddPalette(const Scene& scene, std::uint64_t seed, const AssetLibrary& assets,
@@ -205,8 +211,11 @@ Palette AddPalette(const Scene& scene, std::uint64_t seed, const AssetLibrary& a
       mix.Painted("line_paint", LinePaintSheet(Dice(seed, {kLinePaint}), hall.wear));
   palette.hatch = mix.Painted("hatch", HatchSheet(Dice(seed, {kHatch}), hall.wear));
   palette.sign = mix.Shown("signs");
-  palette.lamp = mix.Plain("lamp", 0.8f, 1.0f);
-  palette.sky = mix.Plain("sky", 0.8f, 0.28f);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    palette.lamps.push_back(
+        mix.Plain(fmt::format("lamp_{}", i), 0.8f, static_cast<float>(scene.lights[i].brightness)));
+  }
+  palette.sky = mix.Plain("sky", 0.8f, SkyOf(scene));
   palette.pavement = hall.walls == WallKind::kSky ? mix.Shown("floor_concrete") : palette.plinth;
   palette.lamp_housing = mix.Plain("lamp_housing", 0.6f);
   palette.posts.fill(palette.upright);
@@ -222,11 +231,12 @@ Palette AddPalette(const Scene& scene, std::uint64_t seed, const AssetLibrary& a
     palette.posts[static_cast<std::size_t>(RackPaint::kSteel)] =
         mix.ShownPlainer("steel", {0.08f, 0.4f});
   }
-  const auto brightest = std::ranges::max_element(scene.doors, {}, &DoorSpec::daylight);
-  if (brightest != scene.doors.end() && brightest->daylight > 0) {
-    const auto day = static_cast<float>(brightest->daylight);
-    palette.day = mix.Plain("day", 0.8f, day);
-    palette.day_yard = mix.Plain("day_yard", 0.4f, 0.3f * day);
+  for (std::size_t i = 0; i < scene.doors.size(); ++i) {
+    const auto day = static_cast<float>(scene.doors[i].daylight);
+    palette.days.emplace_back();
+    if (day <= 0) continue;
+    palette.days.back() = {mix.Plain(fmt::format("day_{}", i), 0.8f, day),
+                           mix.Plain(fmt::format("day_yard_{}", i), 0.4f, kYardShare * day)};
   }
   FindPictures(assets, &palette);
   return palette;

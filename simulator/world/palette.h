@@ -16,6 +16,8 @@ inline constexpr std::size_t kFloorSheets = 4;
 inline constexpr std::size_t kCartonSides = 12, kCartonTops = 4, kAisleSigns = 8, kBayLabels = 8;
 inline constexpr float kFloorSheet_m = 5.0f;  ///< side of the floor a sheet shows
 inline constexpr float kWallSheet_m = 4.0f;
+inline constexpr float kOvercast = 0.28f;  ///< radiance of a sky of which the scene says nothing
+inline constexpr float kYardShare = 0.3f;  ///< of the sky's radiance, of a yard in the open
 
 /// Materials of the warehouse kit, as indices into the world's materials, and the places of
 /// pictures in its atlases.
@@ -32,10 +34,15 @@ struct Palette {
   std::uint16_t wrap = 0;    ///< shrink-wrapped goods
   std::uint16_t drum = 0, tote = 0;
   std::uint16_t stripes = 0, line_paint = 0, hatch = 0;
-  std::uint16_t sign = 0;  ///< atlas
-  std::uint16_t lamp = 0, lamp_housing = 0;
+  std::uint16_t sign = 0;            ///< atlas
+  std::vector<std::uint16_t> lamps;  ///< by Scene::lights, each as bright as these
+  std::uint16_t lamp_housing = 0;
   std::uint16_t sky = 0, pavement = 0;
-  std::uint16_t day = 0, day_yard = 0;  ///< what an open door shows
+  /// What an open door shows: the sky, and the yard below it.
+  struct Day {
+    std::uint16_t sky = 0, yard = 0;
+  };
+  std::vector<Day> days;  ///< by Scene::doors; nothing for those that are closed
 
   std::array<UvRect, kCartonSides> carton_sides;
   std::array<UvRect, kCartonTops> carton_tops;

@@ -131,7 +131,7 @@ void AddDoors(const Scene& scene, const Palette& palette, Site* site) {
     const auto& [wall, middle, width, height] = OpeningOf(scene.hall, door);
     site->Add(fmt::format("door_{}", i), ObjectClass::kFurniture, [&](TriangleMesh* mesh) {
       if (door.daylight > 0) {
-        AddOpenDoor(scene.hall, door, palette, mesh);
+        AddOpenDoor(scene.hall, door, palette.days[i], palette, mesh);
       } else {
         const Vector3f leaf(0.06f, width, height);
         AddBox(mesh, wall.Frame(middle, height / 2, 0.07f), leaf, BoxPaint::Whole(palette.door));

@@ -33,10 +33,11 @@ void AddWalls(const Scene& scene, const Palette& palette, std::uint64_t seed, Si
 /// What carries the roof, and its skin.
 void AddRoof(const Scene& scene, const Palette& palette, Site* site);
 /// A door that stands open: the day outside, its leaf run up.
-void AddOpenDoor(const HallSpec& hall, const DoorSpec& door, const Palette& palette,
-                 TriangleMesh* mesh);
-/// The light that falls through an open door.
-AreaLight DaylightOf(const HallSpec& hall, const DoorSpec& door);
+void AddOpenDoor(const HallSpec& hall, const DoorSpec& door, const Palette::Day& day,
+                 const Palette& palette, TriangleMesh* mesh);
+inline constexpr std::size_t kLightsOfDoor = 2;
+/// The light that falls through an open door: the sky's and the yard's, as it shows them.
+std::array<AreaLight, kLightsOfDoor> DaylightOf(const HallSpec& hall, const DoorSpec& door);
 /// What share of the daylight clouds leave at a time.
 float CloudAt(const HallSpec& hall, double time_s);
 void AddDoors(const Scene& scene, const Palette& palette, Site* site);

@@ -1,5 +1,6 @@
 #include "simulator/world/world.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace aisle::sim {
@@ -42,6 +43,10 @@ std::string_view ClassName(ObjectClass object_class) {
       "none",      "floor",  "wall",     "column", "rack",        "goods", "luminaire",
       "furniture", "person", "forklift", "agv",    "pallet_jack", "car",   "cyclist"};
   return kNames.at(static_cast<std::size_t>(object_class));
+}
+
+float FloorOf(const Eigen::AlignedBox3f& statics) {
+  return statics.isEmpty() ? 0 : std::clamp(0.0f, statics.min().z(), statics.max().z());
 }
 
 World::World(WorldParts parts) : parts_(std::move(parts)) {

@@ -50,6 +50,10 @@ struct AreaLight {
   float radiance = 1.0f;                   ///< relative units
 };
 
+/// Height on which things stand, in metres, of a static world in this box: 0, as frames have it,
+/// whatever footings reach below it; the nearest there is to that where all lies above or below.
+float FloorOf(const Eigen::AlignedBox3f& statics);
+
 /// What never moves, in world coordinates.
 struct StaticWorld {
   TriangleMesh mesh;                     ///< world frame

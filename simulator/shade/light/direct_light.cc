@@ -3,6 +3,7 @@
 #include "simulator/common/parallel.h"
 #include "simulator/shade/lanes/ray_packets.h"
 #include "simulator/shade/light/emitter_rays.h"
+#include "simulator/shade/light/form_factor.h"
 
 namespace aisle::sim {
 namespace {
@@ -11,6 +12,8 @@ constexpr float kLift = 2e-3f;        // m, along the normal
 constexpr float kDrawIn = 3e-3f;      // m, towards the triangle's centre
 constexpr float kLightGuard = 0.01f;  // m: shadow rays end so far before the light's own surface
 constexpr int kLeastRays = 2, kMostRays = 32;  // to one light
+constexpr float kFar =
+    4;  // extents off, a light is about as bright as if all of it were its centre
 
 /// Up to eight points in lanes, each with places of its own on the lights from `turn` on.
 Places8 Load(std::span<const SurfacePoint> points, std::uint32_t turn) {
@@ -28,7 +31,8 @@ struct Sample8 {
 
 class Light {
  public:
-  explicit Light(const AreaLight& light) : light_(light) {
+  explicit Light(const AreaLight& light)
+      : light_(light), near_(kFar * (light.half_u.norm() + light.half_v.norm())) {
     const Eigen::Vector3f cross = light.half_u.cross(light.half_v);
     area_ = 4 * cross.norm();
     normal_ = cross.normalized();
@@ -46,11 +50,35 @@ class Light {
     s.weight = Max(here, Wide(0)) * Max(there, Wide(0)) / (squared * squared);
     return s;
   }
-  F8 Unshadowed(const Places8& p) const { return At(p, Wide(0), Wide(0)).weight * power(); }
+  /// What all of it sends were nothing in between. A light that is near, or that the place's
+  /// horizon cuts, is not taken for its centre: a sky's may lie behind a facade that much of it
+  /// shines on.
+  F8 Unshadowed(const Places8& p) const {
+    const Sample8 center = At(p, Wide(0), Wide(0));
+    F8 light = center.weight * power();
+    const I8 exact = (center.distance < near_) | IsCut(p, center);
+    for (int k = 0; Any(exact) && k < kLanes; ++k) {
+      if (!exact[k]) continue;
+      light[k] = UnshadowedIrradiance(light_, {{p.position.x[k], p.position.y[k], p.position.z[k]},
+                                               {p.normal.x[k], p.normal.y[k], p.normal.z[k]}});
+    }
+    return light;
+  }
   float power() const { return area_ * light_.radiance; }
 
  private:
+  /// Whether some of it lies above the horizon and some below.
+  I8 IsCut(const Places8& p, const Sample8& center) const {
+    const auto along = [&](const Eigen::Vector3f& v) {
+      return p.normal.x * v.x() + p.normal.y * v.y() + p.normal.z * v.z();
+    };
+    const F8 u = along(light_.half_u), v = along(light_.half_v);
+    const F8 height = p.normal.x * center.dx + p.normal.y * center.dy + p.normal.z * center.dz;
+    return Abs(height) < Abs(u) + Abs(v);
+  }
+
   const AreaLight& light_;
+  float near_;
   float area_;
   Eigen::Vector3f normal_;
 };

@@ -32,8 +32,8 @@ struct DirectLightOptions {
 };
 
 /// Irradiance that up to eight points would receive straight from the luminaires, were nothing in
-/// between, each taken to be where its centre is. `light_scale` dims each light. One result a
-/// point.
+/// between; those far off are taken to be where their centres are. `light_scale` dims each light.
+/// One result a point.
 std::array<float, kLanes> UnshadowedLight(std::span<const AreaLight> lights,
                                           std::span<const float> light_scale,
                                           std::span<const SurfacePoint> points);

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever the solver or this format changes, so that old files are not read.
-constexpr std::uint64_t kVersion = 13;
+constexpr std::uint64_t kVersion = 14;
 constexpr const char* kUnfinished = ".begun";
 
 struct Header {

@@ -149,6 +149,7 @@ LightState StaticLight::Solve(const Lit& lit, UnfinishedLight* unfinished,
 
 LightVolume StaticLight::EmptyVolume() const {
   Eigen::AlignedBox3f box = tracer_->static_box();
+  box.min().z() = FloorOf(box);
   box.max().z() = std::min(box.max().z(), box.min().z() + options_.volume_height_m);
   float spacing = options_.volume_spacing_m;
   while (LightVolume::ShapeOf(box, spacing).size() > options_.max_nodes) spacing *= 1.1f;

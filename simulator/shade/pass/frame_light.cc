@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "simulator/common/parallel.h"
+#include "simulator/trace/mover_windows.h"
 
 namespace aisle::sim {
 namespace {
@@ -47,6 +48,15 @@ std::vector<std::uint8_t> PointsOf(const LightGrid& grid, const TriangleMesh& me
       if (point < LightGrid::kExtrapolated) wanted[point] = 1;
     }
   }
+  return wanted;
+}
+
+/// A few, spread over a body of which hardly anything shows: 1 by point.
+std::vector<std::uint8_t> SomePoints(const LightGrid& grid) {
+  constexpr std::size_t kPoints = 8;
+  std::vector<std::uint8_t> wanted(grid.points.size());
+  const std::size_t count = std::min(kPoints, wanted.size());
+  for (std::size_t i = 0; i < count; ++i) wanted[i * wanted.size() / count] = 1;
   return wanted;
 }
 
@@ -121,6 +131,10 @@ void SurfaceTables::PrepareFrame(const Instant& instant, std::span<const CameraV
   frame->mover_light.resize(slot_count_);
   const std::size_t movers = instant.snapshot().movers.size();
   if (movers == 0) return;
+  GeometryMask in_view = 0;
+  for (const CameraView& view : views) {
+    in_view |= MoverWindows(instant, view).In(0, 0, view.rays->width, view.rays->height);
+  }
   std::vector<std::uint8_t> all_seen = FindSeen(images, mover_bases_, mover_records_.size());
   for (const Hits8& hits : beyond) {
     for (int k = 0; k < kLanes; ++k) {
@@ -137,15 +151,15 @@ void SurfaceTables::PrepareFrame(const Instant& instant, std::span<const CameraV
     const auto seen = std::span(all_seen).subspan(base, triangles);
     const std::span slots =
         std::span(frame->mover_light).subspan(slot_bases_[i], mover_grids_[i].point_of_slot.size());
-    if (std::ranges::find(seen, 1) == seen.end()) {
-      std::ranges::fill(slots, 0.0f);
-      return;
-    }
     const TriangleMesh& mesh = world_->mover_meshes()[i];
+    const bool shows = std::ranges::find(seen, 1) != seen.end();
+    // Antialiasing rays may meet what no pixel's centre shows; nothing meets what is out of view.
+    if (!shows && !(in_view & MoverBit(i))) return;
     PoseSurfaceTable(mesh, instant.snapshot().movers[i].positions, records);
-    std::vector<float> light =
-        mover_light_->At(instant, i, frame->statics->volume, PointsOf(mover_grids_[i], mesh, seen),
-                         PixelOn(instant.mover_boxes()[i], views));
+    const std::vector<std::uint8_t> wanted =
+        shows ? PointsOf(mover_grids_[i], mesh, seen) : SomePoints(mover_grids_[i]);
+    std::vector<float> light = mover_light_->At(instant, i, frame->statics->volume, wanted,
+                                                PixelOn(instant.mover_boxes()[i], views));
     FillUnlit(&light);
     FillSlots(mover_grids_[i], light, slots);
   });

@@ -37,8 +37,11 @@ class SurfaceTables {
   /// Index in FrameLight::mover_records of a mover's first triangle.
   std::span<const std::int32_t> mover_bases() const { return mover_bases_; }
 
+  /// Of the movers in their bind poses: materials, not places.
+  const std::vector<SurfaceRecord>& mover_records() const { return mover_records_; }
+
   /// Poses the movers' records and lights what the images of the views show of them, and what the
-  /// hits `beyond` do, which are behind clear panes.
+  /// hits `beyond` do, which are behind clear panes or in mirrors.
   void PrepareFrame(const Instant& instant, std::span<const CameraView> views,
                     std::span<const HitImage> images, std::shared_ptr<const LightState> statics,
                     FrameLight* frame, std::span<const Hits8> beyond = {}) const;

@@ -61,9 +61,7 @@ class Pass {
  public:
   explicit Pass(const ShadingView& shading)
       : shading_(shading),
-        lamps_(shading.world().lights(), shading_.instant.snapshot().light_scale),
-        step_{shading_.view.rotation.col(0) * shading_.view.rays->step_x * kFootprint,
-              shading_.view.rotation.col(1) * shading_.view.rays->step_y * kFootprint} {}
+        lamps_(shading.world().lights(), shading_.instant.snapshot().light_scale) {}
 
   Glossy8 Find(int x, int y) const {
     const std::size_t i = shading_.image.Index(x, y);
@@ -84,14 +82,13 @@ class Pass {
     if (Any(is_mover)) {
       const I8 base =
           GatherInt(shading_.tables.mover_bases().data(), is_mover ? found.geometry - 1 : I8{});
-      read(is_mover, found.primitive + base, shading_.frame.mover_records);
+      read(is_mover, found.primitive + base, shading_.tables.mover_records());
     }
     found.lanes = found.f0 > 0;
     return found;
   }
 
-  /// Unfiltered radiance of eight pixels, and the diffuse base's share of their reflectance.
-  void Trace(int x, int y, const Glossy8& glossy, float* reflectance, float* raw) const {
+  Reflection8 Trace(int x, int y, const Glossy8& glossy) const {
     const std::size_t i = shading_.image.Index(x, y);
     const Eigen::Matrix3f& r = shading_.view.rotation;
     const auto pixel = static_cast<std::size_t>(y * shading_.view.rays->width + x);
@@ -113,36 +110,37 @@ class Pass {
                              .roughness = glossy.roughness};
     const LobePattern::Row& row = pattern_.rows[static_cast<std::size_t>(y & 3)];
     const I8 broad = glossy.lanes & (glossy.roughness > kBroad);
+    Reflection8 reflection{.x = x, .y = y, .lanes = glossy.lanes};
     // Without its lamps a broad lobe sees little that is bright: it is asked in every second row of
     // the pattern, and counted twice.
     const I8 asked = glossy.lanes & (y % 2 ? ~broad : WideInt(-1));
-    F8 light = MirroredRay(points, row, broad, asked) * Select(broad, Wide(2), Wide(1));
-    if (Any(broad)) light += lamps_.Mirrored(shading_.instant, points, row.lamp, broad);
-    Store(Select(glossy.lanes, light, Wide(0)), raw + i);
-    const F8 base = 1 - GlossShare(glossy.f0, glossy.roughness, out.z);
-    const F8 old = LoadF(reflectance + i);
-    Store(Select(glossy.lanes, old * base, old), reflectance + i);
+    SendRay(points, row, broad, asked, &reflection);
+    reflection.weight *= Select(broad, Wide(2), Wide(1));
+    if (Any(broad)) {
+      reflection.lamps = lamps_.Mirrored(shading_.instant, points, row.lamp, broad);
+    }
+    reflection.base = 1 - GlossShare(glossy.f0, glossy.roughness, out.z);
+    return reflection;
   }
 
  private:
-  /// What a facet of the lobe mirrors; lamps do not count for broad lobes.
-  F8 MirroredRay(const LobePoints8& points, const LobePattern::Row& row, I8 broad, I8 asked) const {
+  /// To what a facet of the lobe mirrors; lamps do not count for broad lobes.
+  void SendRay(const LobePoints8& points, const LobePattern::Row& row, I8 broad, I8 asked,
+               Reflection8* reflection) const {
+    StoreI(WideInt(-1), reflection->hits.geometry);
     const F8x3 facet = SampleFacet(points.out, points.roughness * points.roughness, row.radius,
                                    row.cos_phi, row.sin_phi);
     const F8 across = Dot(points.out, facet);
     const F8x3 in = {2 * across * facet.x - points.out.x, 2 * across * facet.y - points.out.y,
                      2 * across * facet.z - points.out.z};
     const I8 up = asked & (in.z > 0);
-    if (!Any(up)) return Wide(0);
-    const F8x3 to = points.basis.ToWorld(in);
-    Hits8 hits;
-    shading_.instant.Intersect(MakeRays(points.position, to, Wide(kInfinity), up),
-                               Coherence::kIncoherent, kEverything, &hits);
-    const F8 seen =
-        RadianceOfHits(shading_.tables, shading_.frame, shading_.textures, to, hits, step_);
+    if (!Any(up)) return;
+    reflection->to = points.basis.ToWorld(in);
+    shading_.instant.Intersect(MakeRays(points.position, reflection->to, Wide(kInfinity), up),
+                               Coherence::kIncoherent, kEverything, &reflection->hits);
     const F8 alpha = points.roughness * points.roughness;
     const F8 weight = Fresnel(points.f0, across) * SmithMasking(in.z, alpha);
-    return Select(up & ~(broad & OnLamps(hits)), weight * seen, Wide(0));
+    reflection->weight = Select(up & ~(broad & OnLamps(reflection->hits)), weight, Wide(0));
   }
 
   I8 OnLamps(const Hits8& hits) const {
@@ -175,38 +173,62 @@ class Pass {
 
   const ShadingView& shading_;
   LobeLamps lamps_;
-  RayStep step_;
   LobePattern pattern_;
 };
 
 }  // namespace
 
-bool TraceGloss(const ShadingView& shading, std::vector<float>* reflectance,
-                std::vector<float>* mirrored) {
-  const SurfaceTables& tables = shading.tables;
+Reflections TraceGloss(const ShadingView& shading) {
   const HitImage& image = shading.image;
-  if (!tables.glossy()) return false;
+  if (!shading.tables.glossy()) return {};
   const Pass pass(shading);
   const TileGrid grid{image.width, image.height, kTileWidth, kTileHeight};
-  std::vector<std::uint8_t> glossy(grid.size());
-  std::vector<float> raw(image.t.size());
+  Reflections tiles(grid.size());
   grid.ForEach([&](std::size_t i, const Tile& tile) {
     ForRows(tile, kLanes, [&](int x, int y) {
       const Glossy8 found = pass.Find(x, y);
       if (!Any(found.lanes)) return;
-      glossy[i] = 1;
-      pass.Trace(x, y, found, reflectance->data(), raw.data());
+      if (tiles[i].empty()) tiles[i].reserve(kTileWidth * kTileHeight / kLanes);
+      tiles[i].push_back(pass.Trace(x, y, found));
     });
   });
-  if (std::ranges::find(glossy, 1) == glossy.end()) return false;
+  return tiles;
+}
+
+void AddMirroredMovers(const Reflections& tiles, std::vector<Hits8>* beyond) {
+  for (const std::vector<Reflection8>& tile : tiles) {
+    for (const Reflection8& reflection : tile) {
+      if (Any(LoadI(reflection.hits.geometry) > 0)) beyond->push_back(reflection.hits);
+    }
+  }
+}
+
+bool ShadeGloss(const ShadingView& shading, const Reflections& tiles,
+                std::vector<float>* reflectance, std::vector<float>* mirrored) {
+  const auto is_glossy = [](const std::vector<Reflection8>& tile) { return !tile.empty(); };
+  if (std::ranges::none_of(tiles, is_glossy)) return false;
+  const CameraView& view = shading.view;
+  const RayStep step{view.rotation.col(0) * view.rays->step_x * kFootprint,
+                     view.rotation.col(1) * view.rays->step_y * kFootprint};
+  const HitImage& image = shading.image;
+  std::vector<float> raw(image.t.size());
+  ParallelFor(std::size_t{0}, tiles.size(), [&](std::size_t tile) {
+    for (const Reflection8& reflection : tiles[tile]) {
+      const std::size_t i = image.Index(reflection.x, reflection.y);
+      const F8 seen = RadianceOfHits(shading.tables, shading.frame, shading.textures, reflection.to,
+                                     reflection.hits, step);
+      const F8 light = Select(reflection.weight > 0, reflection.weight * seen, Wide(0));
+      Store(Select(reflection.lanes, light + reflection.lamps, Wide(0)), &raw[i]);
+      const F8 old = LoadF(&(*reflectance)[i]);
+      Store(Select(reflection.lanes, old * reflection.base, old), &(*reflectance)[i]);
+    }
+  });
   mirrored->assign(image.t.size(), 0);
-  const PatternFilter filter(image, tables.statics(), raw);
-  grid.ForEach([&](std::size_t i, const Tile& tile) {
-    if (!glossy[i]) return;
-    ForRows(tile, kLanes, [&](int x, int y) {
-      const I8 lanes = pass.Find(x, y).lanes;
-      if (Any(lanes)) filter.Packet(x, y, lanes, mirrored);
-    });
+  const PatternFilter filter(image, shading.tables.statics(), raw);
+  ParallelFor(std::size_t{0}, tiles.size(), [&](std::size_t tile) {
+    for (const Reflection8& reflection : tiles[tile]) {
+      filter.Packet(reflection.x, reflection.y, reflection.lanes, mirrored);
+    }
   });
   return true;
 }

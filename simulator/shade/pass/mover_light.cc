@@ -11,12 +11,10 @@
 namespace aisle::sim {
 namespace {
 
-float FloorOf(const World& world) {
-  float floor = kInfinity;
-  for (const Eigen::Vector3f& position : world.statics().mesh.positions) {
-    floor = std::min(floor, position.z());
-  }
-  return std::isfinite(floor) ? floor : 0;
+float FloorUnder(const World& world) {
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& position : world.statics().mesh.positions) box.extend(position);
+  return FloorOf(box);
 }
 
 /// One point's irradiance: each emitter's unshadowed light times the share of it that the point
@@ -58,7 +56,7 @@ MoverLight::MoverLight(const World& world, std::span<const LightGrid> grids,
     : world_(world),
       grids_(grids),
       options_(options),
-      emitters_(world.lights(), FloorOf(world)),
+      emitters_(world.lights(), FloorUnder(world)),
       statics_(emitters_, world.statics().mesh, options.statics) {
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const TriangleMesh& mesh = world.mover_meshes()[i];

@@ -176,5 +176,65 @@ TEST_F(GlossyHall, NightlyMirrorsWhatTheReferenceMirrors) {
   EXPECT_LT(with, median_error(Nightly(world, false)));
 }
 
+/// A hall with a mirror at its end, and a camera that sees the truck behind it in that alone.
+class MirrorHall : public testing::Test {
+ protected:
+  static constexpr std::int64_t kStamp = 0;  // the truck ends at x = 17
+
+  MirrorHall() : world_(Mirrored()), tracer_(world_, {}) {
+    camera_.width = camera_.height = 96;
+    camera_.fx = camera_.fy = 300;
+    camera_.cx = camera_.cy = 47.5;
+    rays_ = MakePixelRays(camera_);
+  }
+  static WorldParts Mirrored() {
+    WorldParts parts = test::Hall({.boxes = 60, .lights = 8});
+    parts.materials.push_back(
+        {.name = "mirror", .albedo = 0.05f, .specular_f0 = 0.9f, .roughness = 0.04f});
+    test::MeshBuilder statics;
+    statics.mesh = std::move(parts.statics.mesh);
+    statics.instances = std::move(parts.statics.instances);
+    statics.Quad({29.9f, -3, 0}, {0, 0, 5}, {0, 6, 0}, 5, 2);
+    parts.statics = {std::move(statics.mesh), std::move(statics.instances)};
+    return parts;
+  }
+  static ShadeOptions Options() { return {.statics = {.directions = 128}}; }
+  CameraView View() const { return {rays_, test::LookAlong({18, 0.4, 1.1}, 0)}; }
+  cv::Mat1f Shade(const Shader& shader, std::int64_t stamp_ns) const {
+    const Instant instant = tracer_.Pose(world_.At(stamp_ns));
+    const std::array views = {View()};
+    std::vector<HitImage> hits;
+    TraceViews(instant, views, {}, &hits);
+    for (const std::uint32_t geometry : hits[0].geometry) {
+      EXPECT_TRUE(geometry == 0 || geometry == kNoGeometry) << geometry << " shows by itself";
+    }
+    return shader.Shade(instant, views, hits)[0];
+  }
+
+  World world_;
+  Tracer tracer_;
+  StereoCamera camera_;
+  PixelRays rays_;
+};
+
+TEST_F(MirrorHall, WhatOnlyAMirrorShowsIsLitAsThePathsLightIt) {
+  const Shader shader(world_, tracer_, Options());
+  const cv::Mat1f picture = Shade(shader, kStamp);
+  const TexturePool textures(world_.textures());
+  const cv::Mat1f paths =
+      Reference(world_, textures).Render(tracer_.Pose(world_.At(kStamp)), View(), {.samples = 256});
+  // The truck's front, 25 m off on the mirrored way, 1 × 1.8 m.
+  const cv::Rect front(43, 39, 10, 18);
+  const double ours = cv::mean(picture(front))[0], theirs = cv::mean(paths(front))[0];
+  ASSERT_GT(theirs, 0.01);
+  EXPECT_NEAR(ours / theirs, 1, 0.1);
+}
+
+TEST_F(MirrorHall, APictureDoesNotKnowWhatWasPicturedBefore) {
+  const Shader used(world_, tracer_, Options()), fresh(world_, tracer_, Options());
+  Shade(used, kStamp + 2'000'000'000);
+  EXPECT_EQ(cv::norm(Shade(used, kStamp), Shade(fresh, kStamp), cv::NORM_INF), 0);
+}
+
 }  // namespace
 }  // namespace aisle::sim

@@ -94,6 +94,18 @@ TEST(Shader, ADimmedLampTakesAwayAndNeverAdds) {
   }
 }
 
+/// What lies under the floor is no place from which light is looked at.
+TEST(Shader, ADeepFootingDarkensNobody) {
+  WorldParts deep = Stage::Parts();
+  test::MeshBuilder footing;
+  footing.mesh = std::move(deep.statics.mesh);
+  footing.instances = std::move(deep.statics.instances);
+  footing.Box({12, -1, -9}, {14, 1, -8}, 1, 2);
+  deep.statics = {std::move(footing.mesh), std::move(footing.instances)};
+  EXPECT_EQ(
+      cv::norm(Stage(Stage::Parts()).Picture(), Stage(std::move(deep)).Picture(), cv::NORM_INF), 0);
+}
+
 /// What shines and is no lamp's, as a sky does, lights the hall, and stays when a lamp goes out:
 /// that takes as much away as without a sky.
 TEST(Shader, TheSkyLightsAndStaysWhenALampGoesOut) {

@@ -15,7 +15,8 @@ using test::Box;
 Palette PaletteWithSigns() {
   Palette palette;
   palette.wall_signs.resize(14);
-  palette.lamp = 7;
+  palette.lamps.assign(4, 7);
+  palette.days.resize(4);
   palette.sky = 7;
   return palette;
 }

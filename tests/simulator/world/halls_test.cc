@@ -164,6 +164,67 @@ TEST(Halls, RacksOfNothingAreEmpty) {
   EXPECT_FALSE(test::TrianglesOf(world.instances(), world.statics(), "goods_1").empty());
 }
 
+/// Area of what shows a light: on its plane, within it, on its bright side, as bright as it is.
+float AreaThatShows(const World& world, const AreaLight& light) {
+  const Vector3f normal = light.half_u.cross(light.half_v).normalized();
+  const TriangleMesh& mesh = world.statics().mesh;
+  float area = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (std::abs(world.materials()[mesh.materials[i]].emission - light.radiance) > 1e-6f) continue;
+    const auto& [a, b, c] = mesh.triangles[i];
+    const Vector3f &p = mesh.positions[a], &q = mesh.positions[b], &r = mesh.positions[c];
+    const Vector3f way = (p + q + r) / 3 - light.center, cross = (q - p).cross(r - p) / 2;
+    const auto within = [&](const Vector3f& half) {
+      return std::abs(way.dot(half)) < half.squaredNorm();
+    };
+    if (within(light.half_u) && within(light.half_v) && std::abs(way.dot(normal)) < 0.1f) {
+      area += cross.dot(normal);
+    }
+  }
+  return area;
+}
+
+/// What is seen of lamps, open doors, windows and the sky is what they send.
+TEST(Lights, ShowAsBrightAsTheyAre) {
+  std::vector<std::string> files = FilesIn("halls");
+  for (const char* more : {"street/road", "weakness/wandering_sun", "weakness/dim_light"}) {
+    files.push_back(fmt::format("{}/scenes/{}.yaml", kRoot, more));
+  }
+  for (const std::string& file : files) {
+    const World world = Built(LoadScene(file));
+    for (std::size_t i = 0; i < world.lights().size(); ++i) {
+      const AreaLight& light = world.lights()[i];
+      const float area = 4 * light.half_u.cross(light.half_v).norm();
+      EXPECT_NEAR(AreaThatShows(world, light), area, 0.01f * area) << file << ", light " << i;
+    }
+  }
+}
+
+TEST(Lights, TheWholeSkyIsAsBrightAsItsLights) {
+  Scene scene;
+  scene.hall.walls = WallKind::kSky;
+  scene.lights.resize(1);
+  scene.lights[0].brightness = 0.5;
+  const World world = Built(scene);
+  for (const Material& material : world.materials()) {
+    EXPECT_TRUE(material.emission == 0 || material.emission == 0.5f) << material.name;
+  }
+}
+
+TEST(Daylight, EachOpenDoorIsAsBrightAsItsOwnDay) {
+  Scene scene = LoadScene(kRoot + "/scenes/halls/loading_dock.yaml");
+  ASSERT_GE(scene.doors.size(), 2u);
+  for (std::size_t i = 0; i < scene.doors.size(); ++i) {
+    scene.doors[i].daylight = 1.0 + static_cast<double>(i);
+  }
+  const World world = Built(scene);
+  ASSERT_EQ(world.lights().size(), LightScale(scene, 0).size());
+  for (const AreaLight& light : world.lights()) {
+    const float area = 4 * light.half_u.cross(light.half_v).norm();
+    EXPECT_NEAR(AreaThatShows(world, light), area, 0.01f * area);
+  }
+}
+
 /// Clouds dim the doors and nothing else, smoothly, within what the hall says.
 TEST(Daylight, DimsAsCloudsPass) {
   Scene scene;
@@ -176,8 +237,9 @@ TEST(Daylight, DimsAsCloudsPass) {
   float least = 1, most = 0, before = LightScale(scene, 0)[1];
   for (double t = 0; t < 120; t += 0.05) {
     const std::vector<float> scale = LightScale(scene, t);
-    ASSERT_EQ(scale.size(), 2u);  // a lamp and the open door
+    ASSERT_EQ(scale.size(), 3u);  // a lamp, and the open door's sky and yard
     EXPECT_EQ(scale[0], 1);
+    EXPECT_EQ(scale[2], scale[1]);
     EXPECT_LT(std::abs(scale[1] - before), 0.04f);
     before = scale[1];
     least = std::min(least, before);
