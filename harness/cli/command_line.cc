@@ -1,5 +1,6 @@
 #include "harness/cli/command_line.h"
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <new>
@@ -38,6 +39,23 @@ void NameInExamples(CLI::App* app, const std::string& name) {
   for (CLI::App* command : app->get_subcommands({})) NameInExamples(command, name);
 }
 
+/// What is no number passes every range, since no comparison with it holds. Text that is none at
+/// all is told by the option itself.
+std::string NotFinite(const std::string& text) {
+  double value = 0;
+  if (!CLI::detail::lexical_cast(text, value) || std::isfinite(value)) return "";
+  return fmt::format("'{}' is no finite number", Printable(text));
+}
+
+/// Every option of all commands that takes a number with a point, before its own range is asked.
+void AskForFiniteNumbers(CLI::App* app) {
+  for (CLI::Option* option : app->get_options()) {
+    if (!option->get_type_name().starts_with("FLOAT")) continue;
+    option->transform(CLI::Validator([](std::string& text) { return NotFinite(text); }, ""));
+  }
+  for (CLI::App* command : app->get_subcommands({})) AskForFiniteNumbers(command);
+}
+
 }  // namespace
 
 void AddCommands(CLI::App* app, Action* action) {
@@ -64,6 +82,7 @@ void AddCommands(CLI::App* app, Action* action) {
   AddCheckCommand(app, action);
   AddDoctorCommand(app, action);
   AddCompletionCommand(app, action);
+  AskForFiniteNumbers(app);
 }
 
 int RunCommandLine(int argc, const char* const* argv) {

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
 #include "harness/io/image.h"
@@ -28,9 +30,10 @@ FrameRequest Choose(const std::vector<FrameRequest>& schedule, const Options& op
                                  schedule.size() - 1));
   }
   if (options.time_s < 0) return schedule[schedule.size() / 2];
-  const auto stamp_ns = static_cast<std::int64_t>(options.time_s * 1e9);
-  const auto at = std::find_if(schedule.begin(), schedule.end(),
-                               [&](const FrameRequest& r) { return r.stamp_ns >= stamp_ns; });
+  const double time_ns = std::trunc(options.time_s * 1e9);  // may be later than any stamp
+  const auto at = std::find_if(schedule.begin(), schedule.end(), [&](const FrameRequest& r) {
+    return static_cast<double>(r.stamp_ns) >= time_ns;
+  });
   if (at != schedule.end()) return *at;
   throw InputError(fmt::format("--time {}: the scene ends at {:.2f} s", options.time_s,
                                static_cast<double>(schedule.back().stamp_ns) * 1e-9));

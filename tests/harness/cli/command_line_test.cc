@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "harness/io/file.h"
@@ -82,6 +83,40 @@ TEST(CommandLineTest, WhatIsRefusedLeavesNothingToDo) {
     EXPECT_TRUE(Chosen(words, &action).empty()) << words;
     EXPECT_FALSE(action) << words;
   }
+}
+
+/// Calls `look` for each command below `app`, with the words that choose it.
+void ForEachCommand(
+    const CLI::App& app, const std::vector<std::string>& words,
+    const std::function<void(const std::vector<std::string>&, const CLI::App&)>& look) {
+  for (const CLI::App* command : app.get_subcommands({})) {
+    std::vector<std::string> longer = words;
+    longer.push_back(command->get_name());
+    look(longer, *command);
+    ForEachCommand(*command, longer, look);
+  }
+}
+
+TEST(CommandLineTest, NoOptionTakesWhatIsNoFiniteNumber) {
+  CLI::App app;
+  Action action;
+  AddCommands(&app, &action);
+  std::size_t asked = 0;
+  ForEachCommand(app, {}, [&](const std::vector<std::string>& words, const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options()) {
+      if (!option->get_type_name().starts_with("FLOAT")) continue;
+      for (const std::string text : {"nan", "inf", "-inf", "1e999"}) {
+        std::vector<std::string> all = words;
+        all.push_back(option->get_name() + "=" + text);
+        std::string said;
+        EXPECT_EQ(Exit(all, &said), kBadInput) << testing::PrintToString(all);
+        EXPECT_THAT(said, HasSubstr(option->get_name() + ": '" + text + "' is no finite number"));
+        ++asked;
+      }
+    }
+  });
+  EXPECT_GE(asked, 4u * 8u);  // run, rerun, bisect, preview and score have some
+  EXPECT_EQ(Exit({"preview", "smoke/bits", "--time", "1e300"}), kBadInput);
 }
 
 TEST(CommandLineTest, HelpIsNoErrorAndWrongUsageIs) {
