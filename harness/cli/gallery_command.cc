@@ -10,6 +10,7 @@
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
+#include "harness/io/shell_word.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/record/record_json.h"
 #include "harness/report/picture/overlay.h"
@@ -32,7 +33,7 @@ struct Options {
 struct Sample {
   FrameRequest request;
   double people = 0;  ///< share of the image, 0 to 1
-  double actors = 0;  ///< people and vehicles
+  double actors = 0;  ///< all that may move
   double moving = 0;  ///< what moves now, whoever it belongs to
 };
 
@@ -218,6 +219,8 @@ int Gallery(const Options& options) {
     return kNothingToDo;
   }
   if (options.shares) return PrintShares(files, options);
+  std::vector<std::string> places;
+  for (const std::string& place : options.places) places.push_back(ShellWord(place));
   std::string page = fmt::format(
       "# Every scene\n\n"
       "Made by `{} gallery {} -o {}`. In the pictures, red is what moves now, boxes are "
@@ -226,7 +229,7 @@ int Gallery(const Options& options) {
       "row of blocks is the share of the image that people cover at {} times spread over the "
       "scene, "
       "an eighth of the image a step.\n\n",
-      OwnCommand(), fmt::join(options.places, " "), options.output, options.samples);
+      OwnCommand(), fmt::join(places, " "), ShellWord(options.output), options.samples);
   for (const std::string& file : files) {
     page += Describe(Photograph(file, options));
     fmt::print("{}\n", SceneName(file));

@@ -296,5 +296,13 @@ TEST(CommandLineTest, ComparedAsJsonStdoutIsJsonAlone) {
   fs::remove_all(folder);
 }
 
+TEST(CommandLineTest, AGallerySaysHowItIsMadeAgain) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("aisle_gallery_{}", ::getpid());
+  const fs::path out = folder / "my gallery";
+  EXPECT_EQ(Exit({"gallery", "smoke/bits", "--samples", "1", "-o", out.string()}), kAllPassed);
+  EXPECT_THAT(ReadFile(out / "README.md"), HasSubstr("-o '" + out.string() + "'`"));
+  fs::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace aisle
