@@ -77,20 +77,24 @@ int DoctorBits(const DoctorBitsOptions& options) {
                                                   .threads = options.threads,
                                                   .drive = !options.pictures});
   const Json own = ToJson(bits);
-  fmt::print("{:14} {}\n", "processor", processor);
-  for (const StageBits& stage : bits) fmt::print("{:14} {:016x}\n", stage.stage, stage.hash);
   const std::string commit = OwnProvenance().commit;
+  const Json entry = {{"commit", commit}, {"stages", own}};
+  std::string text = fmt::format("{:14} {}\n", "processor", processor);
+  for (const StageBits& stage : bits) {
+    text += fmt::format("{:14} {:016x}\n", stage.stage, stage.hash);
+  }
   bool differs = false;
   for (const auto& [make, known] : makes.items()) {
     const std::string first = FirstDifference(own, known.at("stages"));
     differs = differs || !first.empty();
-    fmt::print("{} (commit {}): {}\n", make, known.at("commit").get<std::string>(),
-               first.empty() ? "every stage equal" : "the first stage that differs: " + first);
+    text +=
+        fmt::format("{} (commit {}): {}\n", make, known.at("commit").get<std::string>(),
+                    first.empty() ? "every stage equal" : "the first stage that differs: " + first);
   }
-  const Json entry = {{"commit", commit}, {"stages", own}};
-  if (!options.json.empty()) {
-    WriteFileAtomically(options.json, Dump({{"scene", kScene}, {"makes", {{processor, entry}}}}));
-  }
+  const std::string json = Dump({{"scene", kScene}, {"makes", {{processor, entry}}}});
+  const bool json_alone = options.json && options.json_file.empty();
+  fmt::print("{}", json_alone ? json : text);
+  if (!options.json_file.empty()) WriteFileAtomically(options.json_file, json);
   if (options.keep) {
     makes[processor] = entry;
     WriteFileAtomically(list, Dump({{"scene", kScene}, {"makes", makes}}));

@@ -5,7 +5,8 @@
 namespace aisle {
 
 struct DoctorBitsOptions {
-  std::string json;       ///< file for the hashes; empty: none
+  bool json = false;      ///< the hashes for programs, instead of the table
+  std::string json_file;  ///< where they go; empty: stdout
   std::string against;    ///< list of known makes; empty: reports/baselines/bits.json of the tree
   bool pictures = false;  ///< the simulator's stages alone
   bool keep = false;      ///< put this machine's hashes into the list

@@ -12,6 +12,7 @@
 #include "harness/cli/command.h"
 #include "harness/cli/doctor_bits.h"
 #include "harness/cli/terminal.h"
+#include "harness/io/file.h"
 #include "harness/io/places.h"
 #include "harness/record/provenance.h"
 #include "harness/record/record_json.h"
@@ -108,6 +109,9 @@ Finding Tool(const std::string& program, const std::string& use) {
 /// Debian's packages that packages.txt of the source tree names for every command.
 Finding Packages() {
   if (IsInstalled()) return {"packages", Health::kGood, "those that this one depends on", ""};
+  if (!fs::exists("/var/lib/dpkg")) {
+    return {"packages", Health::kGood, "not looked for: this is no Debian system", ""};
+  }
   std::ifstream list(OwnFolder() / "packages.txt");
   if (!list) return {"packages", Health::kLacking, "no packages.txt beside the program", ""};
   std::string line, missing;
@@ -149,23 +153,24 @@ std::vector<Finding> Examine(const std::string& out) {
           Tool("git", "the commit in every report")};
 }
 
-int Doctor(const std::string& out, bool json) {
+int Doctor(const std::string& out, const DoctorBitsOptions& to) {
+  const bool json_alone = to.json && to.json_file.empty();
   const std::vector<Finding> findings = Examine(out);
   bool bad = false;
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Finding& finding : findings) {
     bad = bad || finding.health == Health::kBad;
-    if (json) {
-      list.push_back({{"what", finding.what},
-                      {"health", WordOf(finding.health)},
-                      {"said", finding.said},
-                      {"remedy", finding.remedy}});
-      continue;
-    }
+    list.push_back({{"what", finding.what},
+                    {"health", WordOf(finding.health)},
+                    {"said", finding.said},
+                    {"remedy", finding.remedy}});
+    if (json_alone) continue;
     fmt::print("{:10} {:8} {}\n", finding.what, WordOf(finding.health), finding.said);
     if (!finding.remedy.empty()) fmt::print("{:19} -> {}\n", "", finding.remedy);
   }
-  if (json) fmt::print("{}", Dump({{"version", OwnProvenance().version}, {"findings", list}}));
+  const std::string json = Dump({{"version", OwnProvenance().version}, {"findings", list}});
+  if (json_alone) fmt::print("{}", json);
+  if (!to.json_file.empty()) WriteFileAtomically(to.json_file, json);
   return bad ? kOwnFailure : kAllPassed;
 }
 
@@ -179,14 +184,20 @@ void AddDoctorCommand(CLI::App* app, Action* action) {
   };
   const auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand("doctor", "what this machine has and lacks for the work");
-  command->add_option("--out", options->out, "where reports will go; default out");
+  CLI::Option* out =
+      command->add_option("--out", options->out, "where reports will go; default out");
   const CLI::Option* json =
-      command->add_option("--json", options->of_bits.json, "for programs; with --bits, to a file")
+      command
+          ->add_option("--json", options->of_bits.json_file,
+                       "for programs, on stdout; with a name, into that file beside the table")
           ->expected(0, 1);
-  const auto bits = command->add_flag(
-      "--bits", options->bits,
-      "what each stage of a small drive computes on this processor, as hashes, and the first stage "
-      "in which it parts from the makes of processor in reports/baselines/bits.json");
+  const auto bits =
+      command
+          ->add_flag("--bits", options->bits,
+                     "what each stage of a small drive computes on this processor, as hashes, and "
+                     "the first stage "
+                     "in which it parts from the makes of processor in reports/baselines/bits.json")
+          ->excludes(out);
   command->add_flag("--pictures", options->of_bits.pictures, "the simulator's stages alone")
       ->needs(bits);
   command->add_option("--against", options->of_bits.against, "another list, as --json writes it")
@@ -198,8 +209,8 @@ void AddDoctorCommand(CLI::App* app, Action* action) {
   command->footer("Example: ./aisle doctor --bits");
   command->callback([=] {
     *action = [=] {
-      if (options->bits) return DoctorBits(options->of_bits);
-      return Doctor(options->out, json->count() > 0);
+      options->of_bits.json = json->count() > 0;
+      return options->bits ? DoctorBits(options->of_bits) : Doctor(options->out, options->of_bits);
     };
   });
 }

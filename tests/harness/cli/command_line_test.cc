@@ -296,6 +296,26 @@ TEST(CommandLineTest, ComparedAsJsonStdoutIsJsonAlone) {
   fs::remove_all(folder);
 }
 
+TEST(CommandLineTest, DoctorTellsProgramsOnStdoutOrInAFile) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("aisle_doctor_{}", ::getpid());
+  const std::vector<std::vector<std::string>> kinds{{"doctor"}, {"doctor", "--bits", "--pictures"}};
+  for (const std::vector<std::string>& words : kinds) {
+    std::vector<std::string> to_stdout = words, to_file = words;
+    to_stdout.emplace_back("--json");
+    to_file.insert(to_file.end(), {"--json", folder / "said.json"});
+    std::string said;
+    Exit(to_stdout, &said);
+    const auto alone = nlohmann::json::parse(said);
+    Exit(to_file, &said);
+    const auto in_file = nlohmann::json::parse(ReadFile(folder / "said.json"));
+    for (const auto& [key, value] : alone.items()) EXPECT_TRUE(in_file.contains(key)) << key;
+    EXPECT_EQ(in_file.size(), alone.size());
+    EXPECT_THAT(said, HasSubstr("processor"));
+    EXPECT_FALSE(nlohmann::json::accept(said)) << "the table goes on being printed";
+  }
+  fs::remove_all(folder);
+}
+
 TEST(CommandLineTest, AGallerySaysHowItIsMadeAgain) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("aisle_gallery_{}", ::getpid());
   const fs::path out = folder / "my gallery";
