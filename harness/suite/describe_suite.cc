@@ -5,6 +5,7 @@
 #include "harness/contract/steering.h"
 #include "harness/contract/stream.h"
 #include "harness/io/input_error.h"
+#include "harness/io/nearest_word.h"
 #include "harness/judge/twins.h"
 
 namespace aisle {
@@ -111,7 +112,34 @@ void DescribeExternal(Fields& fields, ExternalSystem& external) {
                });
 }
 
+/// The first word in braces that nothing is filled in for; the shell's own ${word} is none.
+std::string UnknownPlaceholder(const std::string& command, const std::vector<std::string>& known) {
+  for (std::size_t at = 0; (at = command.find('{', at)) != std::string::npos; ++at) {
+    const std::size_t end = command.find_first_not_of("abcdefghijklmnopqrstuvwxyz_", at + 1);
+    const bool is_word = end != std::string::npos && end > at + 1 && command[end] == '}';
+    if (!is_word || (at > 0 && command[at - 1] == '$')) continue;
+    const std::string word = command.substr(at + 1, end - at - 1);
+    if (!IsAmong(word, known)) return word;
+  }
+  return "";
+}
+
+void CheckPlaceholders(Fields& fields, const ExternalSystem& external) {
+  std::vector<std::string> known = {"output", "seed"};
+  if (!IsStream(external)) known.insert(known.begin(), {"dataset", "calibration"});
+  if (!external.repository.empty()) known.emplace_back("source");
+  const std::string word = UnknownPlaceholder(external.command, known);
+  if (word.empty()) return;
+  fields.Fail("command",
+              word == "source"
+                  ? "{source} stands for its repository: say where that is; example: repository: "
+                    "/srv/my_slam"
+                  : fmt::format("nothing is filled in for {{{}}}{}; there are {{{}}}", word,
+                                DidYouMean(word, known), fmt::join(known, "}, {")));
+}
+
 void CheckExternal(Fields& fields, const ExternalSystem& external) {
+  CheckPlaceholders(fields, external);
   if (!fields.Has("contract") && external.command.find("{output}") == std::string::npos) {
     fields.Fail("command",
                 "the command must say where {output} goes; example: command: my_slam {dataset} "

@@ -193,6 +193,16 @@ TEST_F(SuiteTest, ASystemIsOursAVariantToldSpoiltMasksOrACommand) {
   EXPECT_EQ(suite.systems.at(3).external->timeout_s, 5);
 }
 
+TEST_F(SuiteTest, BracesThatAreTheShellsOwnStay) {
+  for (const std::string command :
+       {"slam ${home} {output}", "cp {a,b} {output}", "awk \"{ print }\" {dataset} > {output}",
+        "slam {} {output}", "slam {A} {output}", "slam {dataset} {calibration} {output} {seed}"}) {
+    EXPECT_NO_THROW(Load("suite: a\nscenes: [paper/one]\nsystems:\n  - {name: mine, command: '" +
+                         command + "'}\n"))
+        << command;
+  }
+}
+
 TEST_F(SuiteTest, PartsOfASystemMustFitTogether) {
   const std::pair<const char*, const char*> cases[] = {
       {"{name: oracle, options: {feature.features: 800}}", "'oracle' is one of ours as it is"},
@@ -203,6 +213,11 @@ TEST_F(SuiteTest, PartsOfASystemMustFitTogether) {
       {"{name: x, command: slam}", "the command must say where {output} goes"},
       {"{name: x, command: slam, contract: vslam-lab, dataset: kitti}", "leave both out"},
       {"{name: x, command: 'slam {output}', timeout_s: 0}", "timeout_s"},
+      {"{name: x, command: 'slam {datset} {output}'}", "for {datset} (did you mean dataset?)"},
+      {"{name: x, command: 'slam {frames} {output}'}", "nothing is filled in for {frames}"},
+      {"{name: x, command: 'slam {dataset}', contract: stream}",
+       "for {dataset}; there are {output}"},
+      {"{name: x, command: '{source}/slam {output}'}", "say where that is; example: repository"},
       {"{name: x, like: oracle, options: {feature.featurs: 8}}",
        "4:39: systems[0].options: there is no option 'feature.featurs'"},
       {"{name: x, like: oracle, options: {feature.features: -1}}", "expected 1 to 10000"},
