@@ -3,6 +3,7 @@
 #include <set>
 #include <sstream>
 
+#include "harness/campaign/guest_program.h"
 #include "harness/campaign/inputs.h"
 #include "harness/campaign/source.h"
 #include "harness/cli/bag_notes.h"
@@ -17,6 +18,8 @@
 namespace aisle {
 namespace {
 
+namespace fs = std::filesystem;
+
 std::vector<std::string> Lines(const std::string& text) {
   std::istringstream stream(text);
   std::vector<std::string> lines;
@@ -24,7 +27,36 @@ std::vector<std::string> Lines(const std::string& text) {
   return lines;
 }
 
+/// Where the folder is a recording itself, that and what to do; else empty. Its YAML files are none
+/// of ours.
+std::string WhatRecording(const fs::path& folder) {
+  const auto holds = [&](const char* name) {
+    std::error_code error;
+    return fs::exists(folder / name, error);
+  };
+  const auto sentence = [](const char* what, const char* keys) {
+    return fmt::format(
+        "is {}, no folder of scenes: check a file that says {} (reports/docs/bags.md)", what, keys);
+  };
+  if (holds("metadata.yaml")) return sentence("a bag of ROS 2", "`recording: FOLDER`");
+  if (holds("cam0/sensor.yaml") || holds("mav0/cam0/sensor.yaml")) {
+    return sentence("a dataset as EuRoC's", "`recording: FOLDER`");
+  }
+  if (holds("calib.txt") && holds("image_0")) {
+    return sentence("a dataset as KITTI's", "`recording: FOLDER` and `format: kitti`");
+  }
+  return "";
+}
+
 std::vector<std::string> Complaints(const std::string& file) {
+  const fs::path path(file);
+  const bool of_a_bag = path.filename() == "metadata.yaml";
+  if (of_a_bag || fs::is_directory(path)) {
+    const fs::path folder = of_a_bag ? path.parent_path() : path;
+    if (const std::string what = WhatRecording(folder); !what.empty()) {
+      return {InputError(folder.string(), 0, what).what()};
+    }
+  }
   try {
     if (!IsSuiteFile(file)) return CheckSource(file);
     std::vector<std::string> complaints;
@@ -37,19 +69,27 @@ std::vector<std::string> Complaints(const std::string& file) {
   }
 }
 
-/// Folders stand for the YAML files below them, in the order of their names.
+/// The YAML files below a folder, in the order of their names; recordings there are left out.
+std::vector<std::string> FilesBelow(const std::string& folder) {
+  std::set<std::string> found;
+  for (fs::recursive_directory_iterator at(folder), end; at != end; ++at) {
+    const fs::path& path = at->path();
+    if (at->is_directory() && !WhatRecording(path).empty()) {
+      at.disable_recursion_pending();
+    } else if (path.extension() == ".yaml") {
+      found.insert(path.string());
+    }
+  }
+  return {found.begin(), found.end()};
+}
+
+/// Folders stand for the files below them.
 std::vector<std::string> FilesOf(const std::vector<std::string>& places) {
   std::vector<std::string> files;
   for (const std::string& place : places) {
-    if (!std::filesystem::is_directory(place)) {
-      files.push_back(place);
-      continue;
-    }
-    std::set<std::string> found;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(place)) {
-      if (entry.path().extension() == ".yaml") found.insert(entry.path().string());
-    }
-    files.insert(files.end(), found.begin(), found.end());
+    const bool whole = fs::is_directory(place) && WhatRecording(place).empty();
+    const std::vector<std::string> more = whole ? FilesBelow(place) : std::vector{place};
+    files.insert(files.end(), more.begin(), more.end());
   }
   return files;
 }
@@ -58,8 +98,8 @@ void PrintText(const std::string& file, const std::vector<std::string>& complain
   for (const std::string& complaint : complaints) fmt::print(stderr, "{}\n", complaint);
   if (!complaints.empty()) return;
   fmt::print("{}: good\n", file);
-  if (IsRecording(file)) TellNotes(file, NotesOfSource(file));
-  if (IsSuiteFile(file) || IsRecording(file)) return;
+  if (IsRecording(file)) return TellNotes(file, NotesOfSource(file));
+  if (IsSuiteFile(file)) return TellNotes(file, NotesOfSystems(LoadSuite(file, KnownNames())));
   for (const std::string& line : DescribeMeshes(file)) fmt::print("  {}\n", line);
 }
 

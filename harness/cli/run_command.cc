@@ -6,6 +6,7 @@
 #include "harness/campaign/campaign.h"
 #include "harness/campaign/collect.h"
 #include "harness/campaign/forecast.h"
+#include "harness/campaign/guest_program.h"
 #include "harness/campaign/inputs.h"
 #include "harness/campaign/source.h"
 #include "harness/cli/bag_notes.h"
@@ -213,6 +214,9 @@ int RunSuites(const Options& options) {
                       .trial = IsTrial(options.inputs)};
   CheckScenes(plan.suites);
   TellNotesOfScenes(plan.suites);
+  for (std::size_t i = 0; i < plan.suites.size(); ++i) {
+    TellNotes(options.inputs.files[i], NotesOfSystems(plan.suites[i]));
+  }
   TellLimitsLeftOut(plan.suites);
   const std::optional<Results> baseline = ReadBaseline(options, plan);
   const Fingerprints fingerprints;

@@ -324,5 +324,42 @@ TEST(CommandLineTest, AGallerySaysHowItIsMadeAgain) {
   fs::remove_all(folder);
 }
 
+TEST(CommandLineTest, CheckSaysOfARecordingsFolderWhatItIs) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("aisle_check_{}", ::getpid());
+  WriteFileAtomically(folder / "bag/metadata.yaml", "rosbag2_bagfile_information: {}\n");
+  WriteFileAtomically(folder / "euroc/mav0/cam0/sensor.yaml", "sensor_type: camera\n");
+  WriteFileAtomically(folder / "kitti/calib.txt", "P0: 1\n");
+  fs::create_directories(folder / "kitti/image_0");
+  for (const char* name : {"bag", "bag/metadata.yaml", "euroc", "kitti"}) {
+    std::string said;
+    EXPECT_EQ(Exit({"check", (folder / name).string()}, &said), kBadInput) << name;
+    EXPECT_THAT(said, HasSubstr("no folder of scenes"));
+    EXPECT_THAT(said, HasSubstr("`recording: FOLDER`"));
+    EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
+  }
+  WriteFileAtomically(folder / "good.yaml",
+                      ReadFile(fs::path(AISLE_SOURCE_DIR) / "scenes/smoke/bits.yaml"));
+  std::string said;
+  EXPECT_EQ(Exit({"check", folder.string()}, &said), kAllPassed) << said;
+  EXPECT_EQ(said, (folder / "good.yaml").string() + ": good\n");
+  fs::remove_all(folder);
+}
+
+TEST(CommandLineTest, AProgramThatIsNotHereIsToldBeforeTheNight) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("aisle_guest_{}", ::getpid());
+  const std::string file = (folder / "s.yaml").string();
+  WriteFileAtomically(file,
+                      "suite: s\nscenes: [smoke/bits]\nseeds: 1\nsystems:\n"
+                      "  - {name: mine, command: 'no_such_slam {output}'}\n");
+  const std::vector<std::vector<std::string>> commands{{"check", file}, {"run", file, "--dry-run"}};
+  for (const std::vector<std::string>& words : commands) {
+    std::string said;
+    EXPECT_EQ(Exit(words, &said), kAllPassed) << said;  // another machine may have it
+    EXPECT_THAT(said,
+                HasSubstr("system 'mine': its command begins with no_such_slam, which is no"));
+  }
+  fs::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace aisle
