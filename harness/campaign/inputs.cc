@@ -181,6 +181,18 @@ std::string WhoCannotRead(const Suite& suite) {
   return complaints;
 }
 
+/// A recording is driven once, as it is: the plan passes twins and all seeds but the first over.
+void RefuseWithoutEffect(const InputOptions& options, const std::vector<Suite>& suites) {
+  const char* option = !options.twins.empty() ? "--twins" : options.seeds > 0 ? "--seeds" : nullptr;
+  const bool any_scene = std::ranges::any_of(suites, [](const Suite& suite) {
+    return std::ranges::any_of(suite.scenes, [](const SuiteScene& s) { return !s.recorded; });
+  });
+  if (option == nullptr || any_scene) return;
+  throw InputError(fmt::format(
+      "{} has no effect: a recording is driven once, as it is; it has neither twins nor seeds",
+      option));
+}
+
 }  // namespace
 
 Vocabulary KnownNames() {
@@ -213,6 +225,7 @@ std::vector<Suite> LoadInputs(const InputOptions& options) {
   for (const std::string& file : options.files) {
     suites.push_back(LoadInput(file, options, vocabulary));
   }
+  RefuseWithoutEffect(options, suites);
   SetOptions(options.set, &suites);
   return suites;
 }

@@ -21,7 +21,8 @@ Vocabulary KnownNames();
 
 /// The files as suites; one report answers them all. A bare scene asks the plainest question of the
 /// plainest two systems. Limits on systems and twins that are left out go with them. Throws
-/// InputError.
+/// InputError, also where twins or seeds are asked for and every input is a recording, which has
+/// neither.
 std::vector<Suite> LoadInputs(const InputOptions& options);
 
 /// Every mistake of every scene, before hours of work begin. Throws InputError with all of them.

@@ -114,6 +114,19 @@ TEST_F(InputsTest, SetChangesAnOptionOfOneSystem) {
   EXPECT_EQ(suites[1].systems[0].options.at("feature.features"), "800");
 }
 
+TEST_F(InputsTest, RecordingsHaveNeitherTwinsNorSeeds) {
+  WriteFileAtomically(root_ / "scenes/a/drive.yaml", "recording: aisle3.mcap\n");
+  const std::string drive = (root_ / "scenes/a/drive.yaml").string();
+  const std::string both =
+      Write("both", "suite: both\nscenes: [a/one, a/drive]\nsystems: [robust]\n");
+  EXPECT_EQ(Complaint({.files = {drive}}), "no complaint");
+  EXPECT_THAT(Complaint({.files = {drive}, .twins = {"empty"}}),
+              HasSubstr("--twins has no effect"));
+  EXPECT_THAT(Complaint({.files = {drive}, .seeds = 3}), HasSubstr("--seeds has no effect"));
+  EXPECT_EQ(Complaint({.files = {both}, .twins = {"empty"}, .seeds = 3}), "no complaint");
+  EXPECT_EQ(Complaint({.files = {drive, first_}, .seeds = 3}), "no complaint");
+}
+
 TEST(DescribeInputsTest, AShellReadsTheSameAgain) {
   EXPECT_EQ(Describe({.files = {"my suites/night.yaml", "b.yaml"},
                       .systems = {"robust", "paper"},
