@@ -121,7 +121,7 @@ std::string AlbumSection(const SceneRuns& scene, const fs::path& report_dir,
   }
   if (text.empty()) return "";
   return fmt::format("<div class=\"albums\"><h3 id=\"{}_frames\">The frames</h3>\n{}{}</div>\n",
-                     SafeName(scene.scene + "_" + scene.twin), kKey, text);
+                     SceneId(scene), kKey, text);
 }
 
 }  // namespace aisle

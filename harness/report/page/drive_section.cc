@@ -85,8 +85,8 @@ std::string DriveSection(const SceneRuns& scene, const std::filesystem::path& re
     }
   }
   if (series.empty()) return "";
-  std::string text = fmt::format("<h3 id=\"{}_steered\">Steered by what it says</h3>\n",
-                                 SafeName(scene.scene + "_" + scene.twin));
+  std::string text =
+      fmt::format("<h3 id=\"{}_steered\">Steered by what it says</h3>\n", SceneId(scene));
   text += DriveTable(scene.systems) + "<ul>\n";
   for (const DriveSeries& one : series) text += "<li>" + Escape(HowItEnded(one)) + ".\n";
   text += "</ul>\n";

@@ -1,8 +1,13 @@
 #include "harness/report/page/parts.h"
 
+#include "harness/record/record.h"
 #include "harness/report/markup/html.h"
 
 namespace aisle {
+
+std::string SceneId(const SceneRuns& scene) {
+  return SafeName(scene.scene) + "_" + SafeName(scene.twin);
+}
 
 std::string Chip(int style) { return fmt::format("<span class=\"chip c{}\"></span>", style); }
 

@@ -9,6 +9,10 @@ namespace aisle {
 
 // What several sections of a page are made of.
 
+/// Begins the ids of a scene's headings, on a page that may hold all scenes and twins: as unlike as
+/// the folders of their runs.
+std::string SceneId(const SceneRuns& scene);
+
 /// A system's mark: the colour and shape of its style, as its lines and points have them.
 std::string Chip(int style);
 /// Mark and name, made harmless.

@@ -102,7 +102,7 @@ std::string Again(const SceneRuns& scene, const std::string& root, const std::st
 }  // namespace
 
 std::string ScenePage(const SceneRuns& scene) {
-  return fmt::format("scene_{}_{}.html", SafeName(scene.scene), SafeName(scene.twin));
+  return fmt::format("scene_{}.html", SceneId(scene));
 }
 
 std::vector<std::string> SceneInWords(const SceneRuns& scene) {
@@ -116,7 +116,6 @@ std::vector<std::string> SceneInWords(const SceneRuns& scene) {
 std::string SceneSection(const SceneRuns& scene, const fs::path& report_dir,
                          const std::string& root) {
   const RunRecord& first = Telling(scene);
-  const std::string id = SafeName(scene.scene + "_" + scene.twin);
   std::string text =
       fmt::format("<h2 id=\"{}\">{} <span class=\"soft\">{}</span></h2>\n<ul class=\"answer\">\n",
                   ScenePage(scene), Escape(scene.scene), Escape(scene.twin));
@@ -127,7 +126,7 @@ std::string SceneSection(const SceneRuns& scene, const fs::path& report_dir,
       fmt::format("</ul>\n<p class=\"soft small\">{} frames, {:g} per second; content {}.</p>\n",
                   first.frames, first.rate_hz, Escape(first.content_hash));
   const auto heading = [&](const char* part, const char* title) {
-    return fmt::format("<h3 id=\"{}_{}\">{}</h3>\n", id, part, title);
+    return fmt::format("<h3 id=\"{}_{}\">{}</h3>\n", SceneId(scene), part, title);
   };
   text += Troubles(scene.systems, root) + DriveSection(scene, report_dir, root);
   text += heading("scores", "The scores") + ErrorTable(scene.systems);

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <bit>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
@@ -155,6 +156,24 @@ TEST_F(ReportTest, CommandsAreQuotedForAShell) {
               HasSubstr(fmt::format("rerun s/live/orbslam2/1 --in &#39;{}/my night&#39;</code>",
                                     folder_.string())));
   EXPECT_THAT(ToJunit(results, "out/my night"), HasSubstr("--in 'out/my night'\n"));
+}
+
+/// A link leads to one place only, however long the names are that make its id.
+TEST_F(ReportTest, EveryIdOfThePageIsThereOnce) {
+  std::vector<RunResult> runs;
+  for (const char* twin : {"live", "empty"}) {
+    runs.push_back(MakeRun("a/" + std::string(78, 'x'), "orbslam2", 1, 0.6));
+    runs.back().spec.twin = twin;
+  }
+  WriteReport(Make(runs, {}), folder_);
+  const std::string page = Read("index.html");
+  std::map<std::string, int> times;
+  for (std::size_t at = 0; (at = page.find(" id=\"", at)) != std::string::npos;) {
+    at += std::string(" id=\"").size();
+    ++times[page.substr(at, page.find('"', at) - at)];
+  }
+  EXPECT_GT(times.size(), 8u);
+  for (const auto& [id, count] : times) EXPECT_EQ(count, 1) << id;
 }
 
 TEST_F(ReportTest, ThePageTellsTheVerdictFirst) {
