@@ -29,7 +29,7 @@ struct Options {
   PageBlock into{"shares"};
 };
 
-/// One frame of a scene: how much of the image people and vehicles take.
+/// One frame of a scene: how much of the image is taken by what may move.
 struct Sample {
   FrameRequest request;
   double people = 0;  ///< share of the image, 0 to 1
@@ -224,8 +224,7 @@ int Gallery(const Options& options) {
   std::string page = fmt::format(
       "# Every scene\n\n"
       "Made by `{} gallery {} -o {}`. In the pictures, red is what moves now, boxes are "
-      "people "
-      "and vehicles with their speeds. In the layouts, red is the rig's way, blue the actors'. The "
+      "what may move, with its speed. In the layouts, red is the rig's way, blue the actors'. The "
       "row of blocks is the share of the image that people cover at {} times spread over the "
       "scene, "
       "an eighth of the image a step.\n\n",

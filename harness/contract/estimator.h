@@ -12,7 +12,7 @@ namespace aisle {
 enum class MaskSource {
   kNone,
   kDynamic,  ///< truth's mask of what moves now (`oracle`)
-  kActors,   ///< every person and vehicle, moving or not (`semantic`)
+  kActors,   ///< all that may move, whether it does or not (`semantic`)
 };
 
 /// The socket for a system under test: frames in, poses out. Truth never passes through it.

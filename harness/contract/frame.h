@@ -32,7 +32,7 @@ struct StereoFrame {
   std::optional<MotionMeasurement> motion = {};  ///< where the system is told; not of the first
 };
 
-/// What truth says of one person or vehicle in the left image.
+/// What truth says of one person, vehicle or mechanism in the left image.
 struct ObjectTruth {
   int instance = 0;
   std::string object_class;
@@ -63,7 +63,7 @@ struct FrameTruth {
   /// stamp it is faster than the scene's threshold.
   cv::Mat1b dynamic;
   cv::Mat1b dynamic_right;
-  cv::Mat1b actor;  ///< 255 on every person and vehicle, moving or not
+  cv::Mat1b actor;  ///< 255 on people, vehicles and mechanisms, moving or not
   cv::Mat1b actor_right;
   std::vector<ObjectTruth> objects;
 };

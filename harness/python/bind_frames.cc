@@ -167,13 +167,13 @@ void BindTruth(FrameClass* frame) {
           "The same of the right camera.")
       .def_property_readonly(
           "actors", [](const Frame& frame) { return ToArray(TruthOf(frame).actor); },
-          "uint8 (height, width): 255 on every person and vehicle, moving or not.")
+          "uint8 (height, width): 255 on people, vehicles and mechanisms, moving or not.")
       .def_property_readonly(
           "actors_right", [](const Frame& frame) { return ToArray(TruthOf(frame).actor_right); },
           "The same of the right camera.")
       .def_property_readonly(
           "objects", [](const Frame& frame) { return TruthOf(frame).objects; },
-          "A list of Object: people and vehicles in the left image.")
+          "A list of Object: people, vehicles and mechanisms in the left image.")
       .def_property_readonly("boxes", BoxesOf,
                              "float64 (objects, 4): the box of each object, see Object.box.");
 }

@@ -9,7 +9,7 @@
 namespace aisle {
 
 /// The left image with truth over it: what moves now tinted red, boxes with class and speed around
-/// persons and vehicles; with an estimate also the outline of what was rejected (cyan) and the
+/// what may move; with an estimate also the outline of what was rejected (cyan) and the
 /// keypoints (green used, grey unused, yellow on a mover). The caption stands in a bar below.
 cv::Mat3b DrawOverlay(const cv::Mat1b& left, const FrameTruth* truth, const FrameEstimate* estimate,
                       const std::string& caption);
