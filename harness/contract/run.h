@@ -57,6 +57,7 @@ struct ObjectOutcome {
 struct MaskFacts {
   std::int64_t true_positives = 0, false_positives = 0, false_negatives = 0;  ///< pixels
   int objects_found = 0, objects_invented = 0, objects_missed = 0;            ///< by rectangle
+  int parts_of_movers = 0;       ///< rejected rectangles that are neither found nor invented
   int large_regions = 0;         ///< rejected over much of the image
   int large_regions_astray = 0;  ///< of them, those that cover no mover
   double iou_sum = 0;            ///< of the found objects' rectangles
@@ -76,6 +77,7 @@ struct MaskFacts {
     objects_found += more.objects_found;
     objects_invented += more.objects_invented;
     objects_missed += more.objects_missed;
+    parts_of_movers += more.parts_of_movers;
     large_regions += more.large_regions;
     large_regions_astray += more.large_regions_astray;
     iou_sum += more.iou_sum;
@@ -106,7 +108,7 @@ struct FrameFacts {
   std::int64_t stamp_ns = 0;
   Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();  ///< truth
   double movers_share = 0;                                        ///< dynamic pixels / pixels
-  double actors_share = 0;        ///< person and vehicle pixels / pixels
+  double actors_share = 0;        ///< pixels of what may move / pixels
   int features = 0;               ///< the system's keypoints in the left image
   int features_on_movers = 0;     ///< of them, on dynamic pixels
   int inliers_on_movers = 0;      ///< of those, used in the pose

@@ -80,7 +80,7 @@ Detection PixelDetection(const MaskFacts& sum) {
 
 Detection ObjectDetection(const MaskFacts& sum) {
   const double found = sum.objects_found;
-  const bool rejected = sum.true_positives + sum.false_positives + sum.large_regions > 0;
+  const bool rejected = sum.true_positives + sum.false_positives + sum.parts_of_movers > 0;
   const char* no_region = rejected
                               ? "what was rejected are specks and parts of movers alone, which "
                                 "are neither found nor invented"

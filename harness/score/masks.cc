@@ -199,7 +199,8 @@ MaskFacts MatchBoxes(const std::vector<cv::Rect2d>& truth,
   }
   facts.objects_missed = static_cast<int>(truth.size()) - facts.objects_found;
   for (std::size_t r = 0; r < rejected.size(); ++r) {
-    facts.objects_invented += !rejected_taken[r] && !rejected[r].on_moving();
+    if (rejected_taken[r]) continue;
+    ++(rejected[r].on_moving() ? facts.parts_of_movers : facts.objects_invented);
   }
   if (found != nullptr) *found = std::move(truth_taken);
   return facts;
@@ -238,6 +239,7 @@ MaskFacts CompareMaskBlobs(const cv::Mat1b& truth, const cv::Mat1b& rejected,
   facts.objects_found = objects.objects_found;
   facts.objects_missed = objects.objects_missed;
   facts.objects_invented = objects.objects_invented;
+  facts.parts_of_movers = objects.parts_of_movers;
   facts.iou_sum = objects.iou_sum;
   return facts;
 }

@@ -70,6 +70,7 @@ MaskFacts Facts(Random* random) {
   facts.objects_found = random->Below(9);
   facts.objects_invented = random->Below(9);
   facts.objects_missed = random->Below(9);
+  facts.parts_of_movers = random->Below(5);
   facts.large_regions = random->Below(5);
   facts.large_regions_astray = random->Below(5);
   facts.iou_sum = random->Below(64) / 64.0;
@@ -103,6 +104,7 @@ TEST(MaskFacts, SumsAreThoseOfEveryCount) {
     EXPECT_EQ(twice.objects_found, 2 * a.objects_found);
     EXPECT_EQ(twice.objects_invented, 2 * a.objects_invented);
     EXPECT_EQ(twice.objects_missed, 2 * a.objects_missed);
+    EXPECT_EQ(twice.parts_of_movers, 2 * a.parts_of_movers);
     EXPECT_EQ(twice.large_regions, 2 * a.large_regions);
     EXPECT_EQ(twice.large_regions_astray, 2 * a.large_regions_astray);
     EXPECT_EQ(twice.iou_sum, 2 * a.iou_sum);

@@ -72,6 +72,9 @@ TEST(DetectionTest, RejectedPartsAreNotNothing) {
   EXPECT_FALSE(nothing.value);
   EXPECT_EQ(nothing.absent, "nothing was rejected");
   EXPECT_EQ(parts.absent.find("nothing"), std::string::npos) << parts.absent;
+  const DynamicRegions rectangle{.mask = {}, .regions = {{.box = {20, 20, 40, 30}}}};
+  const Score box = ObjectDetection(CompareMasks(left, truth, rectangle)).precision;
+  EXPECT_EQ(box.absent, parts.absent) << "a rectangle without a mask is a rejection, too";
   EXPECT_NE(Describe(MaskOptions{}).find("less than half"), std::string::npos) << "the rule";
 }
 
