@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "harness/contract/state_name.h"
+#include "harness/io/input_error.h"
 #include "harness/plugs/systems.h"
 #include "harness/python/arrays.h"
 #include "harness/python/module.h"
@@ -22,7 +23,11 @@ class Slam {
         .threads = threads, .load_map = load_map, .localise_only = localise_only};
     const SystemSpec spec = SpecFrom(system, options);
     const py::gil_scoped_release others_may_run;
-    estimator_ = MakeSystem(spec, calibration, setup);
+    try {
+      estimator_ = MakeSystem(spec, calibration, setup);
+    } catch (const std::runtime_error& error) {
+      throw InputError(error.what());  // the files a system starts from are input
+    }
   }
 
   FrameEstimate Track(const ByteArray& left, const ByteArray& right, std::int64_t stamp_ns,
@@ -37,13 +42,9 @@ class Slam {
     const py::gil_scoped_release others_may_run;
     const std::lock_guard one_at_a_time(mutex_);
     if (finished_) throw std::runtime_error("finish() has ended this drive: make another Slam");
-    if (frames_ > 0 && stamp_ns <= last_ns_) {
-      throw std::invalid_argument(
-          fmt::format("stamp_ns is {}, after {}: stamps must rise", stamp_ns, last_ns_));
-    }
-    frame.id = frames_++;
-    last_ns_ = stamp_ns;
+    frame.id = frames_;
     FrameEstimate estimate = estimator_->Process(frame, rejected);
+    ++frames_;  // not of one that was refused
     if (estimate.T_world_rig) live_.poses.push_back({stamp_ns, *estimate.T_world_rig});
     return estimate;
   }
@@ -76,7 +77,7 @@ class Slam {
   std::unique_ptr<Estimator> estimator_;
   std::mutex mutex_;  ///< one frame at a time, whichever thread brings it
   python::Track live_, final_;
-  std::int64_t frames_ = 0, last_ns_ = 0;
+  std::int64_t frames_ = 0;
   bool finished_ = false;
 };
 
@@ -154,7 +155,7 @@ void BindSlam(py::module_& module) {
            py::arg("localise_only") = false,
            "options: {path: value}, see options(system). system: one of systems(). load_map: a map "
            "of an earlier drive\nto go on in; localise_only leaves it as it is. Raises InputError "
-           "for an option that is none.")
+           "for an option that is none, or a map that cannot be read.")
       .def(
           "track", &Slam::Track, py::arg("left"), py::arg("right"), py::arg("stamp_ns"),
           py::arg("mask") = py::none(), py::arg("mask_right") = py::none(),

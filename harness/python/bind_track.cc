@@ -2,6 +2,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "harness/io/file.h"
+#include "harness/io/input_error.h"
 #include "harness/io/trajectory.h"
 #include "harness/python/arrays.h"
 #include "harness/python/track.h"
@@ -51,9 +52,14 @@ py::array PosesOf(const Track& track) {
   return poses;
 }
 
-Track Read(const std::filesystem::path& file, const std::optional<std::string>& format) {
-  return {ReadTrajectory(file,
-                         format ? TrajectoryFormatFromName(*format) : GuessTrajectoryFormat(file))};
+Track Read(const std::filesystem::path& file, const std::optional<std::string>& format,
+           const std::filesystem::path& times) {
+  const TrajectoryFormat is =
+      format ? TrajectoryFormatFromName(*format) : GuessTrajectoryFormat(file);
+  if (!times.empty() && is != TrajectoryFormat::kKitti) {
+    throw InputError("times: this file has stamps of its own; it is for KITTI's");
+  }
+  return {ReadTrajectory(file, is, times)};
 }
 
 void Write(const Track& track, const std::filesystem::path& file, const std::string& format) {
@@ -67,8 +73,11 @@ void BindTrack(py::module_& module) {
       .def(py::init(&TrackFrom), py::arg("stamps_ns"), py::arg("poses"),
            "stamps_ns: int64 (n,). poses: (n, 4, 4), each T_world_rig in metres.")
       .def_static("read", &Read, py::arg("file"), py::arg("format") = py::none(),
+                  py::arg("times") = "",
                   "From a file in TUM's, KITTI's or EuRoC's format; by its content unless `format` "
-                  "says \"tum\", \"kitti\" or\n\"euroc\". Raises InputError with file and line.")
+                  "says \"tum\", \"kitti\" or\n\"euroc\". times: of a file in KITTI's format its "
+                  "sequence's times.txt; without it row k is "
+                  "at k * 0.1 s. Raises\nInputError with file and line.")
       .def("write", &Write, py::arg("file"), py::arg("format") = "tum",
            "To a file; every number of TUM's format reads back to the bit.")
       .def_property_readonly("stamps_ns", StampsOf, "int64 (n,).")

@@ -76,6 +76,49 @@ def test_the_program_says_the_same(program, tmp_path):
     assert float(ours["coverage"]) == 0.75
 
 
+@pytest.mark.parametrize("ours, programs", [
+    ({"align": "sim3", "align_first": 20}, ["--align", "sim3", "--align-first", "20"]),
+    ({"max_difference_s": 0.012}, ["--max-difference", "0.012"]),
+    ({"delta": 2, "unit": "metres", "all_pairs": True}, ["--delta", "2", "--unit", "metres", "--all-pairs"]),
+    ({"unit": "metres", "along_estimate": True}, ["--unit", "metres", "--along-estimate"]),
+])
+def test_every_option_of_the_program_is_one_here(program, tmp_path, ours, programs):
+    stamps, truth, estimate = wobbly()
+    tracks = {"truth": aisle.Trajectory(stamps, truth),
+              "estimate": aisle.Trajectory(stamps + 10_000_000 * (np.arange(200) % 3), estimate)}
+    for name, track in tracks.items():
+        track.write(tmp_path / name)
+    told = json.loads(program("score", "--truth", tmp_path / "truth", "--estimate",
+                              tmp_path / "estimate", "--json", *programs))["scores"]
+    read = [aisle.Trajectory.read(tmp_path / name) for name in ("truth", "estimate")]
+    chosen, usual = aisle.score(*read, **ours), aisle.score(*read)
+    assert {name: score.value for name, score in chosen.items()} == {
+        name: told[name].get("value") for name in chosen}
+    assert any(chosen[name].value != usual[name].value for name in usual), "it has an effect"
+
+
+def test_options_without_effect_are_refused():
+    stamps, truth, _ = wobbly()
+    track = aisle.Trajectory(stamps, truth)
+    for wrong in ({"along_estimate": True}, {"align": "none", "align_first": 3},
+                  {"max_difference_s": float("nan")}, {"max_difference_s": -1}):
+        with pytest.raises(ValueError):
+            aisle.score(track, track, **wrong)
+
+
+def test_kitti_takes_its_times(tmp_path):
+    _, truth, _ = wobbly(5)
+    aisle.Trajectory(np.arange(5), truth).write(tmp_path / "00.txt", "kitti")
+    (tmp_path / "times.txt").write_text("0\n0.05\n0.1\n0.5\n2\n")
+    timed = aisle.Trajectory.read(tmp_path / "00.txt", times=tmp_path / "times.txt")
+    np.testing.assert_array_equal(timed.stamps_ns, [0, 50_000_000, 100_000_000, 500_000_000, 2_000_000_000])
+    rows = aisle.Trajectory.read(tmp_path / "00.txt")
+    np.testing.assert_array_equal(rows.stamps_ns, 100_000_000 * np.arange(5))
+    timed.write(tmp_path / "tum.txt")
+    with pytest.raises(aisle.InputError, match="KITTI"):
+        aisle.Trajectory.read(tmp_path / "tum.txt", times=tmp_path / "times.txt")
+
+
 def test_two_frames_of_reference_are_warned_of():
     stamps, truth, _ = wobbly()
     body = truth.copy()
@@ -107,6 +150,22 @@ def test_masks_are_counted_as_numpy_counts_them():
         both / sum((a | b).sum() for a, b in zip(truth, masks)))
     with pytest.raises(ValueError, match="size"):
         aisle.score_masks(truth[:1], [masks[0][:10]])
+
+
+def test_outlines_meet_within_what_is_said():
+    truth = np.zeros((300, 400), bool)
+    truth[100:200, 100:200] = True
+    said = np.roll(truth, 5, axis=1)  # its left and right outline are five pixels off
+
+    def f(**options):
+        return float(aisle.score_masks([truth], [said], **options)["mask_boundary_f"])
+
+    assert f() == f(boundary_px=3) < f(boundary_px=5) == 1
+    assert f(boundary_share=3 / 500) == f()  # the diagonal is 500 pixels long
+    assert f(boundary_davis=True) < 1  # 0.008 of it are four
+    for wrong in ({"boundary_px": 3, "boundary_davis": True}, {"boundary_px": -1}, {"boundary_share": 2}):
+        with pytest.raises(ValueError):
+            aisle.score_masks([truth], [said], **wrong)
 
 
 def test_mistakes_are_told(tmp_path):

@@ -73,6 +73,24 @@ def test_a_map_is_kept_and_gone_on_in(scene, frames, tmp_path):
     assert any(estimate.pose is not None for estimate in drive(frames[10:16], later))
 
 
+def test_a_map_that_is_none_is_wrong_input(scene, tmp_path):
+    (tmp_path / "bad.map").write_bytes(b"no map at all")
+    for name in ("bad.map", "none.map"):
+        with pytest.raises(aisle.InputError, match=name):
+            aisle.Slam(scene.calibration, load_map=tmp_path / name)
+
+
+def test_a_frame_that_is_refused_changes_nothing(scene, frames):
+    one, other = aisle.Slam(scene.calibration), aisle.Slam(scene.calibration)
+    for frame in frames[:6]:
+        a = one.track(frame.left, frame.right, frame.stamp_ns)
+        with pytest.raises(ValueError, match="rise"):
+            one.track(frame.left, frame.right, frame.stamp_ns)
+        b = other.track(frame.left, frame.right, frame.stamp_ns)
+        np.testing.assert_array_equal(a.pose, b.pose)
+    assert len(one.live) == 6
+
+
 def test_mistakes_are_told(scene, frames):
     frame = frames[0]
     with pytest.raises(aisle.InputError, match="feature.features"):

@@ -112,7 +112,7 @@ class Frame:
 class Trajectory:
     def __init__(self, stamps_ns: ArrayLike, poses: ArrayLike) -> None: ...
     @staticmethod
-    def read(file: _Path, format: str | None = None) -> Trajectory: ...
+    def read(file: _Path, format: str | None = None, times: _Path = "") -> Trajectory: ...
     def write(self, file: _Path, format: str = "tum") -> None: ...
     @property
     def stamps_ns(self) -> NDArray[np.int64]: ...
@@ -177,8 +177,19 @@ def score(
     delta: float = 1.0,
     unit: str = "frames",
     rate_hz: float = 0.0,
+    align_first: int = 0,
+    max_difference_s: float | None = None,
+    all_pairs: bool = False,
+    along_estimate: bool = False,
 ) -> dict[str, Score]: ...
-def score_masks(truth: Sequence[_Mask], masks: Sequence[_Mask]) -> dict[str, Score]: ...
+def score_masks(
+    truth: Sequence[_Mask],
+    masks: Sequence[_Mask],
+    *,
+    boundary_px: float | None = None,
+    boundary_share: float | None = None,
+    boundary_davis: bool = False,
+) -> dict[str, Score]: ...
 def score_names() -> dict[str, tuple[str, str]]: ...
 
 class Estimate:
