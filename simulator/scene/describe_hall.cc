@@ -132,8 +132,9 @@ void DescribeLights(Fields& f, LightsSpec& lights) {
   f.Number({"height_m", "above the floor", "6"}, &lights.height_m, {1.5, 100});
   f.Numbers({"size_m", "of the shining surface, along x and y", "[1.5, 0.3]"}, lights.size_m.data(),
             2, {0.05, 200});
-  f.Number({"brightness", "radiance, 1 is a well-lit warehouse", "1"}, &lights.brightness,
-           {0.001, 100});
+  f.Number({"brightness",
+            "radiance, 1 is a well-lit warehouse; under an open sky the first is the sky's", "1"},
+           &lights.brightness, {0.001, 100});
   f.ListOf({"off", "times without light", "[{from_s: 4, to_s: 6}]"}, &lights.off, DescribeBlackout);
 }
 
