@@ -76,6 +76,15 @@ double ReachOf(const Polygon& polygon) {
   return reach;
 }
 
+double FastestCorner(const Polygon& polygon, double speed_mps, double turn_rate_rad_s) {
+  double fastest = 0;
+  for (const Eigen::Vector2d& corner : polygon) {
+    fastest = std::max(fastest, std::hypot(speed_mps - turn_rate_rad_s * corner.y(),
+                                           turn_rate_rad_s * corner.x()));
+  }
+  return fastest;
+}
+
 Box BoxOf(const Polygon& polygon) {
   Box box{polygon.front(), polygon.front()};
   for (const Eigen::Vector2d& corner : polygon) {

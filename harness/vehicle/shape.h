@@ -32,6 +32,10 @@ double Distance(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen:
 /// The farthest corner from the frame's origin: bounds how far any point moves in a turn.
 double ReachOf(const Polygon& polygon);
 
+/// The speed of the fastest corner of a polygon that moves ahead, along x, and turns about its
+/// frame's origin; of a convex one no point is faster. 0 or more.
+double FastestCorner(const Polygon& polygon, double speed_mps, double turn_rate_rad_s);
+
 /// The smallest rectangle along the axes that holds a polygon.
 struct Box {
   Eigen::Vector2d low, high;

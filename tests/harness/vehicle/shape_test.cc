@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "harness/vehicle/plant.h"
+
 namespace aisle {
 namespace {
 
@@ -42,6 +44,21 @@ TEST(ShapeTest, DistancesDoNotChangeWithTheFrame) {
   const FloorPose pose{{3, -7}, 1.1};
   const Polygon a = {{0.1, -0.3}, {1.2, 0.2}, {0.3, 0.9}}, b = Moved(kSquare, 2, 1.5);
   EXPECT_NEAR(Distance(At(pose, a), At(pose, b)), Distance(a, b), 1e-12);
+}
+
+TEST(ShapeTest, TheFastestCornerMovesAsItsPlacesOverAMomentSay) {
+  const Polygon truck = {{-0.3, -0.4}, {1.6, -0.4}, {1.6, 0.4}, {-0.3, 0.4}};
+  constexpr double kMoment_s = 1e-5;
+  for (const double speed : {-0.7, 0.0, 0.019, 0.021, 1.2}) {
+    for (const double rate : {-1.0, 0.0, 0.3}) {
+      const Polygon later = At(AlongArc({}, speed * kMoment_s, rate * kMoment_s), truck);
+      double fastest = 0;
+      for (std::size_t i = 0; i < truck.size(); ++i) {
+        fastest = std::max(fastest, (later[i] - truck[i]).norm() / kMoment_s);
+      }
+      EXPECT_NEAR(FastestCorner(truck, speed, rate), fastest, 1e-4) << speed << " " << rate;
+    }
+  }
 }
 
 }  // namespace
