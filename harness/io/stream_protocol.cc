@@ -11,6 +11,7 @@
 #include <cstring>
 #include <limits>
 
+#include "harness/contract/rigid.h"
 #include "harness/io/input_error.h"
 
 namespace aisle {
@@ -67,6 +68,11 @@ Eigen::Isometry3d TakePose(Taker* taker, const std::string& whose) {
   constexpr double kUnit = 1e-3;
   for (const double value : v) {
     if (!std::isfinite(value)) Nonsense(whose + " holds a number that is not finite");
+  }
+  if (std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}) > kFarthest_m) {
+    Nonsense(
+        fmt::format("{} is at {:g}, {:g}, {:g}: positions are metres, at most {:g} from the origin",
+                    whose, v[0], v[1], v[2], kFarthest_m));
   }
   if (std::abs(q.norm() - 1) > kUnit) {
     Nonsense(fmt::format("{} has a quaternion of length {:g}, expected 1", whose, q.norm()));

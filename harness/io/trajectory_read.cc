@@ -1,6 +1,7 @@
 #include <charconv>
 #include <string_view>
 
+#include "harness/contract/rigid.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/trajectory.h"
@@ -81,14 +82,12 @@ double Number(const Row& row, std::size_t index) {
   return value;
 }
 
-/// One coordinate of a position. Beyond the bound, twice around the Earth, a double leaves less
-/// than the micrometre that errors are told to, and squares of it drown everything else.
+/// One coordinate of a position.
 double Metres(const Row& row, std::size_t index) {
-  constexpr double kFarthestM = 1e8;
   const double value = Number(row, index);
-  if (std::abs(value) > kFarthestM) {
+  if (std::abs(value) > kFarthest_m) {
     row.Fail(fmt::format("field {} is {}: positions are metres, at most {:g} from the origin",
-                         index + 1, row.fields[index], kFarthestM));
+                         index + 1, row.fields[index], kFarthest_m));
   }
   return value;
 }

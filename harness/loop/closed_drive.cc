@@ -132,7 +132,9 @@ class ClosedDrive::Loop {
  private:
   std::int64_t NextEvent() const {
     const std::int64_t tick = (now_ns_ / kTick_ns + 1) * kTick_ns;
-    return std::min(tick, scene_.Stamp(frame_));
+    const std::int64_t event = std::min(tick, scene_.Stamp(frame_));
+    const std::optional<std::int64_t> due = server_.NextDue();
+    return due && *due > now_ns_ ? std::min(event, *due) : event;
   }
 
   double Speed() const { return plant_.AheadSpeed(course_.plant.kind); }
@@ -215,13 +217,14 @@ class ClosedDrive::Loop {
     const double toward = command_.turn_rate_rad_s < 0 ? -1 : 1;
     const double rate =
         std::max(std::abs(plant_.turn_rate_rad_s), held_ ? scanner.restart_rad_s : 0.0);
-    const double turn =
-        rate * scanner.reaction_s + rate * rate / (2 * course_.plant.turn_acceleration_rad_s2);
+    const double turn = rate * scanner.reaction_s + StoppingTurn(rate, course_.plant);
+    const double way_per_rad = TurningRadius(course_.plant);
     const Polygon field = TurningField(course_.footprint, scanner);
     constexpr double kStep_rad = 0.05;
     const int steps = static_cast<int>(std::ceil(turn / kStep_rad));
     for (int k = 0; k <= steps; ++k) {
-      const FloorPose there = AlongArc(plant_.pose, 0, toward * std::min(k * kStep_rad, turn));
+      const double by = std::min(k * kStep_rad, turn);
+      const FloorPose there = AlongArc(plant_.pose, by * way_per_rad, toward * by);
       if (IsBlocked(course_, there, field, traffic_.capsules())) return true;
     }
     return false;
@@ -239,18 +242,22 @@ class ClosedDrive::Loop {
     last_mode_ = mode_;
   }
 
-  /// Where the true vehicle is on its route: on the leg that the driver drives, or drove last.
+  /// Where the true vehicle is on its route: on the leg that the driver drives, or drove last. What
+  /// it did not reach of a leg that the driver believes to have ended it never drives.
   void FollowTruth() {
     const std::size_t leg = pilot_.driver().leg;
     const bool drives = leg < course_.way.size() && course_.way[leg].kind == WayLeg::Kind::kDrive;
     if (drives && leg != on_leg_) {
-      before_leg_m_ += course_.way[on_leg_].length_m();
+      constexpr double kThere_m = 0.05;  // the last centimetres are what it stopped by
+      const double length = course_.way[on_leg_].length_m();
+      before_leg_m_ += farthest_on_leg_m_ > length - kThere_m ? length : farthest_on_leg_m_;
       on_leg_ = leg;
-      on_leg_m_ = 0;
+      on_leg_m_ = farthest_on_leg_m_ = 0;
     }
     const WayLeg& on = course_.way[on_leg_];
     truth_ = Nearest(on, plant_.pose.position, on_leg_m_);
     on_leg_m_ = std::clamp(truth_.distance_m, 0.0, on.length_m());
+    farthest_on_leg_m_ = std::max(farthest_on_leg_m_, on_leg_m_);
   }
 
   void AddSample() {
@@ -294,7 +301,7 @@ class ClosedDrive::Loop {
     const FloorPose measured = odometer_.Measure(step);
     wheels_.Add(measured);
     pilot_.Rolled(now_ns_, measured);
-    traffic_.Advance(duration_ns, plant_.pose, Speed(), plant_.turn_rate_rad_s);
+    traffic_.Advance(duration_ns, At(plant_.pose, course_.footprint), Speed());
     contacts_.See(Now(), step.way_m, step.turn_rad);
   }
 
@@ -313,7 +320,7 @@ class ClosedDrive::Loop {
   DriveMode mode_ = DriveMode::kWaiting, last_mode_ = DriveMode::kWaiting;
   std::int64_t now_ns_ = 0, frame_ = 0;
   std::size_t on_leg_ = 0;  ///< of the way: the drive that the true vehicle is held against
-  double on_leg_m_ = 0, before_leg_m_ = 0;
+  double on_leg_m_ = 0, farthest_on_leg_m_ = 0, before_leg_m_ = 0;
   OnWay truth_;
   double settled_s_ = 0, stands_s_ = 0, clear_s_ = 0;
   bool held_ = false, over_ = false, failed_ = false;

@@ -37,7 +37,7 @@ std::vector<Answer> Server::Due(std::int64_t now_ns) {
     if (waiting_ && working_.empty()) {
       const Exposure next = *std::move(waiting_);
       waiting_.reset();
-      Begin(next, due.back().due_ns);
+      Begin(next, std::max(due.back().due_ns, next.stamp_ns));
     }
   }
   return due;

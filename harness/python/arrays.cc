@@ -1,5 +1,7 @@
 #include "harness/python/arrays.h"
 
+#include "harness/contract/rigid.h"
+
 namespace aisle::python {
 namespace {
 
@@ -56,16 +58,16 @@ Eigen::Isometry3d PoseFrom(const NumberArray& array, const std::string& name) {
   }
   using RowMajor = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
   const Eigen::Matrix4d matrix = Eigen::Map<const RowMajor>(array.data());
-  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
   constexpr double kTolerance = 1e-3;
-  const bool rigid = matrix.allFinite() && rotation.determinant() > 0 &&
-                     (rotation * rotation.transpose()).isIdentity(kTolerance) &&
-                     matrix.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1), kTolerance);
-  if (!rigid) {
-    throw py::value_error(name + ": not a rigid motion (rotation, translation, last row 0 0 0 1)");
-  }
   Eigen::Isometry3d pose;
   pose.matrix() = matrix;
+  if (!IsRigid(pose, kTolerance) ||
+      !matrix.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1), kTolerance)) {
+    throw py::value_error(
+        fmt::format("{}: not a rigid motion (rotation, translation of at most {:g} m, last row "
+                    "0 0 0 1)",
+                    name, kFarthest_m));
+  }
   return pose;
 }
 

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "harness/contract/rigid.h"
+
 namespace aisle {
 namespace {
 
@@ -25,12 +27,7 @@ class Findings {
   std::vector<std::string> sentences_;
 };
 
-bool IsRigid(const Eigen::Isometry3d& pose) {
-  const Eigen::Matrix3d R = pose.linear();
-  return pose.matrix().allFinite() &&
-         (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-6 &&
-         R.determinant() > 0;
-}
+constexpr double kRigid = 1e-6;
 
 bool IsBinary(const cv::Mat1b& mask) {
   if (mask.empty()) return true;  // its iterators divide by its width
@@ -56,7 +53,7 @@ void HoldEstimate(const FrameEstimate& said, const StereoFrame& frame, Findings*
   const bool tracks = said.state == TrackingState::kTracking;
   findings->Hold(said.T_world_rig.has_value() == tracks, id,
                  "T_world_rig must be present exactly where the state is kTracking");
-  findings->Hold(!said.T_world_rig || IsRigid(*said.T_world_rig), id,
+  findings->Hold(!said.T_world_rig || IsRigid(*said.T_world_rig, kRigid), id,
                  "T_world_rig is no finite rigid motion");
   const cv::Mat1b& mask = said.regions.mask;
   findings->Hold(mask.empty() || mask.size() == frame.left.size(), id,
@@ -111,7 +108,7 @@ void HoldFinal(const Trajectory& final, const std::vector<StereoFrame>& frames,
   for (const StampedPose& pose : final) {
     findings->HoldAtEnd(pose.stamp_ns > last, "stamps must rise");
     findings->HoldAtEnd(stamps.contains(pose.stamp_ns), "a stamp is that of no frame");
-    findings->HoldAtEnd(IsRigid(pose.T_world_rig), "a pose is no finite rigid motion");
+    findings->HoldAtEnd(IsRigid(pose.T_world_rig, kRigid), "a pose is no finite rigid motion");
     last = pose.stamp_ns;
   }
 }

@@ -4,6 +4,7 @@
 
 #include <new>
 
+#include "harness/contract/rigid.h"
 #include "harness/contract/system_fault.h"
 #include "harness/score/difficulty.h"
 #include "harness/score/masks.h"
@@ -11,21 +12,16 @@
 namespace aisle {
 namespace {
 
-bool IsRigid(const Eigen::Isometry3d& pose) {
-  constexpr double kTolerance = 1e-3;
-  if (!pose.matrix().allFinite()) return false;
-  const Eigen::Matrix3d rotation = pose.linear();
-  return (rotation * rotation.transpose()).isApprox(Eigen::Matrix3d::Identity(), kTolerance) &&
-         rotation.determinant() > 0;
-}
+constexpr double kRigid = 1e-3;
 
 /// Everything a system says is checked before it is used.
 std::string Fault(const FrameEstimate& estimate, const StereoFrame& frame) {
   if (estimate.id != frame.id || estimate.stamp_ns != frame.stamp_ns) {
     return fmt::format("frame {}: the answer belongs to frame {}", frame.id, estimate.id);
   }
-  if (estimate.T_world_rig && !IsRigid(*estimate.T_world_rig)) {
-    return fmt::format("frame {}: the pose is no finite rigid motion", frame.id);
+  if (estimate.T_world_rig && !IsRigid(*estimate.T_world_rig, kRigid)) {
+    return fmt::format("frame {}: the pose is no rigid motion within {:g} m", frame.id,
+                       kFarthest_m);
   }
   if (!estimate.regions.mask.empty() && estimate.regions.mask.size() != frame.left.size()) {
     return fmt::format("frame {}: the mask has another size than the image", frame.id);
@@ -84,8 +80,8 @@ Trajectory LiveTrack(const std::vector<FrameEstimate>& estimates) {
 
 std::string FaultOfTrack(const Trajectory& track) {
   for (std::size_t i = 0; i < track.size(); ++i) {
-    if (!IsRigid(track[i].T_world_rig)) {
-      return fmt::format("final track, pose {}: no finite rigid motion", i);
+    if (!IsRigid(track[i].T_world_rig, kRigid)) {
+      return fmt::format("final track, pose {}: no rigid motion within {:g} m", i, kFarthest_m);
     }
     if (i > 0 && track[i].stamp_ns <= track[i - 1].stamp_ns) {
       return fmt::format("final track, pose {}: stamps do not rise", i);

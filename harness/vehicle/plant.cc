@@ -113,6 +113,24 @@ LagStep FollowWithLag(double from, double target, double lag_s, double rate, dou
   return step;
 }
 
+double StoppingTurn(double turn_rate_rad_s, const PlantOptions& options) {
+  const double rate = std::abs(turn_rate_rad_s);
+  // A tricycle turns as its driven wheel rolls, and stops as that does.
+  const double slowing =
+      options.kind == VehicleKind::kTricycle
+          ? options.stop_mps2 * std::sin(options.max_steering_rad) / options.wheelbase_m
+          : options.turn_acceleration_rad_s2;
+  // FollowWithLag to 0, integrated: a ramp, and the lag's fading once that is slower.
+  const double faded = std::min(rate, slowing * options.lag_s);
+  return (rate * rate - faded * faded) / (2 * slowing) + faded * options.lag_s;
+}
+
+double TurningRadius(const PlantOptions& options) {
+  return options.kind == VehicleKind::kTricycle
+             ? options.wheelbase_m / std::tan(options.max_steering_rad)
+             : 0;
+}
+
 FloorPose AlongArc(const FloorPose& pose, double way_m, double turn_rad) {
   const Eigen::Vector2d chord = std::abs(turn_rad) < kStraight_rad
                                     ? Eigen::Vector2d(way_m, way_m * turn_rad / 2)

@@ -67,6 +67,12 @@ struct LagStep {
 };
 LagStep FollowWithLag(double from, double target, double lag_s, double rate, double duration_s);
 
+/// What a protective stop still turns, in radians, of a vehicle that turns on the spot at a rate.
+double StoppingTurn(double turn_rate_rad_s, const PlantOptions& options);
+/// Way of the axle's middle for each radian that it turns as near to on the spot as it can, in
+/// metres, ahead: a steered wheel that cannot stand across pushes the axle on.
+double TurningRadius(const PlantOptions& options);
+
 /// The pose after a way along an arc that turns by an angle.
 FloorPose AlongArc(const FloorPose& pose, double way_m, double turn_rad);
 

@@ -106,6 +106,39 @@ TEST(ClosedDriveTest, WhoIsDoneAsAFrameArrivesTakesThatFrame) {
   }
 }
 
+/// By hand: the answer to 0 is due at 91 ms, 1 came at 50 and has waited; that to 1 at 182, of 2
+/// and 3 the newer has waited; that to 3 at 273, 5 has.
+TEST(ClosedDriveTest, BetweenTwoTicksToo) {
+  DriftingLocaliser localiser;
+  DriveClosed(FakeDriveScene(), &localiser, At(91));
+  ASSERT_GT(localiser.seen.size(), 6u);
+  localiser.seen.resize(6);
+  EXPECT_EQ(localiser.seen, (std::vector<std::int64_t>{0, 1, 3, 5, 7, 9}));
+}
+
+/// Believes twice the way that it goes.
+class StretchingLocaliser : public Localiser {
+ public:
+  std::optional<Eigen::Isometry3d> Locate(const Exposure& exposure) override {
+    Eigen::Isometry3d T = exposure.T_world_rig;
+    T.translation() *= 2;
+    return T;
+  }
+};
+
+TEST(ClosedDriveTest, WhatIsOnlyBelievedToBeDrivenIsNotDriven) {
+  FakeDriveScene scene(7);
+  WayLeg last = FakeDriveScene(1).course().way[1];
+  for (WayPoint& point : last.points) point.position.x() += 7;
+  scene.edit().way.push_back({.kind = WayLeg::Kind::kPause, .duration_s = 0.5});
+  scene.edit().way.push_back(last);
+  StretchingLocaliser localiser;
+  const DriveTrack track = DriveClosed(scene, &localiser, {});
+  const DriveSample& end = track.samples.back();
+  ASSERT_LT(end.truth.position.x(), 4.5);
+  EXPECT_NEAR(end.route_m, end.truth.position.x(), 0.6) << "not 7 m and more";
+}
+
 TEST(ClosedDriveTest, WhoNeverHasAPoseGivesUpAndWasLost) {
   DriftingLocaliser lost;
   lost.lost_to_ns = std::numeric_limits<std::int64_t>::max();
@@ -149,6 +182,25 @@ TEST(ClosedDriveTest, AScannerWatchesTurnsOnTheSpotToo) {
   const DriveTrack blind = DriveTruth(scene, options);
   ASSERT_EQ(blind.contacts.size(), 1u);
   EXPECT_GT(blind.contacts[0].speed_mps, 0.1) << "its nose is under way, if its axle is not";
+  options.steering.scanner = true;
+  const DriveTrack track = DriveTruth(scene, options);
+  EXPECT_TRUE(track.contacts.empty());
+  EXPECT_GE(track.scanner_stops, 1);
+}
+
+/// A long tricycle needs more of a turn to stop than its own limit of turning would say.
+TEST(ClosedDriveTest, AScannerKnowsHowATricycleStopsTurning) {
+  FakeDriveScene scene;
+  scene.edit().plant.kind = VehicleKind::kTricycle;
+  scene.edit().plant.wheelbase_m = 2;
+  scene.edit().plant.max_steering_rad = std::numbers::pi / 2;
+  scene.edit().way = {{.kind = WayLeg::Kind::kPause, .duration_s = 0.5},
+                      {.kind = WayLeg::Kind::kTurn, .duration_s = 4, .turn_to_rad = 2.5},
+                      scene.course().way[1]};
+  scene.Add({"behind", "person"}, {-0.55, 0.75}, {0, 0});
+  LoopOptions options;
+  const DriveTrack blind = DriveTruth(scene, options);
+  ASSERT_EQ(blind.contacts.size(), 1u);
   options.steering.scanner = true;
   const DriveTrack track = DriveTruth(scene, options);
   EXPECT_TRUE(track.contacts.empty());

@@ -54,7 +54,16 @@ class CountingSequence : public Sequence {
 /// Says the truth, unless told to misbehave at one frame.
 class ScriptedEstimator : public Estimator {
  public:
-  enum class Sin { kNone, kThrows, kHasNoMemory, kSaysNan, kSaysShear, kLosesTheRest, kWrongFrame };
+  enum class Sin {
+    kNone,
+    kThrows,
+    kHasNoMemory,
+    kSaysNan,
+    kSaysFar,
+    kSaysShear,
+    kLosesTheRest,
+    kWrongFrame
+  };
   explicit ScriptedEstimator(Sin sin = Sin::kNone) : sin_(sin) {}
 
   FrameEstimate Process(const StereoFrame& frame, const ExternalMask& mask) override {
@@ -85,6 +94,9 @@ class ScriptedEstimator : public Estimator {
         throw std::bad_alloc();
       case Sin::kSaysNan:
         estimate->T_world_rig->translation().x() = std::nan("");
+        break;
+      case Sin::kSaysFar:
+        estimate->T_world_rig->translation().x() = -1e200;
         break;
       case Sin::kSaysShear:
         estimate->T_world_rig->linear()(0, 1) = 0.5;
@@ -137,8 +149,10 @@ TEST(DriveTest, HowFarAheadFramesAreMadeChangesNothing) {
 TEST(DriveTest, MisbehaviourIsTheSystemsOwnVerdict) {
   const std::tuple<Sin, RunStatus, std::string> cases[] = {
       {Sin::kThrows, RunStatus::kCrashed, "frame 10: cannot go on"},
-      {Sin::kSaysNan, RunStatus::kInvalid, "frame 10: the pose is no finite rigid motion"},
-      {Sin::kSaysShear, RunStatus::kInvalid, "frame 10: the pose is no finite rigid motion"},
+      {Sin::kSaysNan, RunStatus::kInvalid, "frame 10: the pose is no rigid motion within 1e+08 m"},
+      {Sin::kSaysFar, RunStatus::kInvalid, "frame 10: the pose is no rigid motion within 1e+08 m"},
+      {Sin::kSaysShear, RunStatus::kInvalid,
+       "frame 10: the pose is no rigid motion within 1e+08 m"},
       {Sin::kWrongFrame, RunStatus::kInvalid, "frame 10: the answer belongs to frame 0"},
       {Sin::kLosesTheRest, RunStatus::kLost, "a pose for 10 of 40 frames only"}};
   for (const auto& [sin, status, why] : cases) {

@@ -53,6 +53,26 @@ TEST(PlantTest, ATricycleBackwardsTurnsAsItIsTold) {
   EXPECT_LT(end.pose.position.x(), -0.8);
 }
 
+/// As far as a vehicle turns that was told to stop in a turn on the spot, step by step.
+TEST(PlantTest, AProtectiveStopTurnsAsFarAsIsForetold) {
+  for (const VehicleKind kind : {VehicleKind::kDifferential, VehicleKind::kTricycle}) {
+    for (const double wheelbase_m : {0.9, 2.0}) {
+      for (const double rate : {0.02, 0.8}) {
+        PlantOptions options;
+        options.kind = kind;
+        options.wheelbase_m = wheelbase_m;
+        const PlantState turning = DriveFor({}, {0, rate}, 6, options);
+        ASSERT_NEAR(turning.turn_rate_rad_s, rate, 0.05 * rate);
+        const PlantState end = DriveFor(turning, {.protective_stop = true}, 4, options);
+        const double turned = WrapAngle(end.pose.heading_rad - turning.pose.heading_rad);
+        EXPECT_NEAR(StoppingTurn(turning.turn_rate_rad_s, options), turned, 1e-3);
+        const Eigen::Vector2d way = end.pose.position - turning.pose.position;
+        EXPECT_NEAR(way.norm(), turned * TurningRadius(options), 0.02 * way.norm() + 1e-4);
+      }
+    }
+  }
+}
+
 TEST(PlantTest, ALagIsTheExponentialAndItsIntegral) {
   const double tau = 0.15, target = 0.7, t = 0.31;
   const LagStep step = FollowWithLag(0.1, target, tau, 1e9, t);

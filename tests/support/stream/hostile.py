@@ -1,6 +1,6 @@
 """A system behind aisle's stream that misbehaves: hostile.py WAY [FRAME].
 
-die, exit, stall, dribble, twice, ahead, text, nan, shear, huge, gigabytes, wrong, type, short,
+die, exit, stall, dribble, twice, ahead, text, nan, far, shear, huge, gigabytes, wrong, type, short,
 mute, version, flood, ok
 """
 
@@ -48,6 +48,8 @@ def misbehave(number):
         send(POSE, struct.pack("<q7d", number, *IDENTITY))
     if WAY == "nan":
         send(POSE, struct.pack("<q7d", number, nan, *IDENTITY[1:]))
+    if WAY == "far":
+        send(POSE, struct.pack("<q7d", number, (-1) ** number * 1e308, *IDENTITY[1:]))
     if WAY == "shear":
         send(POSE, struct.pack("<q7d", number, 0, 0, 0, 3.0, 0, 0, 1.0))
     if WAY == "huge":
