@@ -1,7 +1,6 @@
 #include "slam/optimize/adjust_map.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "slam/camera/se3.h"
 #include "slam/map/landmarks_of.h"
@@ -51,14 +50,6 @@ MapProblem BuildProblem(const Map& map, const std::vector<KeyframeId>& free,
   return problem;
 }
 
-std::vector<bool> WithinBounds(const BundleProblem& problem) {
-  std::vector<bool> within;
-  for (const BundleProblem::Observation& observation : problem.observations) {
-    within.push_back(Chi2(problem, observation) <= observation.chi2_bound);
-  }
-  return within;
-}
-
 MapEdit ToEdit(const MapProblem& problem, const std::vector<bool>& inlier) {
   MapEdit edit;
   for (std::size_t i = 0; i < problem.keyframes.size(); ++i) {
@@ -88,17 +79,6 @@ std::vector<KeyframeId> OutsideObservers(const Map& map, const std::vector<Keyfr
   std::vector<KeyframeId> observers;
   for (const auto& [count, id] : ranked) observers.push_back(id);
   return observers;
-}
-
-/// Observations of points that lie before their camera: a point behind it, as two nearly parallel
-/// rays may place one, has no projection to start from, and the solver would end before its first
-/// step.
-std::vector<bool> WithProjection(const BundleProblem& problem) {
-  std::vector<bool> has;
-  for (const BundleProblem::Observation& observation : problem.observations) {
-    has.push_back(std::isfinite(Chi2(problem, observation)));
-  }
-  return has;
 }
 
 /// A robust pass tells outliers, a plain one (if it has iterations) adjusts without them; then the

@@ -1,6 +1,7 @@
 #include "slam/optimize/bundle.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "slam/optimize/residuals.h"
@@ -25,6 +26,22 @@ double Chi2(const BundleProblem& problem, const BundleProblem::Observation& obse
   if (point.z() < kNearestProjectable_m) return std::numeric_limits<double>::infinity();
   return (observation.sqrt_information * (observation.uvd - Project(problem.camera, point)))
       .squaredNorm();
+}
+
+std::vector<bool> WithProjection(const BundleProblem& problem) {
+  std::vector<bool> has;
+  for (const BundleProblem::Observation& observation : problem.observations) {
+    has.push_back(std::isfinite(Chi2(problem, observation)));
+  }
+  return has;
+}
+
+std::vector<bool> WithinBounds(const BundleProblem& problem) {
+  std::vector<bool> within;
+  for (const BundleProblem::Observation& observation : problem.observations) {
+    within.push_back(Chi2(problem, observation) <= observation.chi2_bound);
+  }
+  return within;
 }
 
 BundleSummary Solve(BundleProblem& problem, const std::vector<bool>& active,

@@ -57,4 +57,12 @@ BundleSummary Solve(BundleProblem& problem, const std::vector<bool>& active,
 /// Squared whitened error of an observation as the problem stands; infinite behind the camera.
 double Chi2(const BundleProblem& problem, const BundleProblem::Observation& observation);
 
+/// Observations (by index) of points that lie before their camera: a point behind it, as two nearly
+/// parallel rays may place one, has no projection to start from, and Solve would end before its
+/// first step.
+std::vector<bool> WithProjection(const BundleProblem& problem);
+
+/// Observations within their bound.
+std::vector<bool> WithinBounds(const BundleProblem& problem);
+
 }  // namespace aisle::slam

@@ -46,17 +46,9 @@ std::optional<AdjustedView> AdjustView(const Map& map, const Frame& frame,
                                        const StereoCamera& camera) {
   constexpr int kIterations = 10;
   BundleProblem problem = BuildProblem(map, frame, matches, inlier, T_rig_world, camera);
-  const auto within = [&] {
-    std::vector<bool> active;
-    for (const BundleProblem::Observation& observation : problem.observations) {
-      active.push_back(Chi2(problem, observation) <= observation.chi2_bound);
-    }
-    return active;
-  };
-  if (problem.points.empty() || !Solve(problem, {}, {kIterations, true}).usable) {
-    return std::nullopt;
-  }
-  if (!Solve(problem, within(), {kIterations, false}).usable) return std::nullopt;
+  if (problem.points.empty()) return std::nullopt;
+  if (!Solve(problem, WithProjection(problem), {kIterations, true}).usable) return std::nullopt;
+  if (!Solve(problem, WithinBounds(problem), {kIterations, false}).usable) return std::nullopt;
   AdjustedView view{problem.poses[kNewPose].T_rig_world, 0};
   for (const BundleProblem::Observation& observation : problem.observations) {
     view.inliers +=
