@@ -70,8 +70,9 @@ class StereoSlam {
                      const std::optional<MeasuredMotion>& motion = {});
 
   /// Writes the map for SlamOptions::map_file of a later drive, which then goes on in it as this
-  /// one would after a loss: to the last bit. Throws std::runtime_error where the file cannot be
-  /// written or there is no map yet.
+  /// one would after a loss: to the last bit, given a vocabulary; without one a lost rig asks the
+  /// map's keyframes by turns, and the later drive begins them anew. Throws std::runtime_error
+  /// where the file cannot be written or there is no map yet.
   ///
   /// This drive goes on as well, but not as it would have done without: background work is waited
   /// for and its results taken before the frames that they were due at, the velocity and the loops

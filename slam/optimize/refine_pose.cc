@@ -37,7 +37,9 @@ class PoseProblem {
     for (std::size_t i = 0; i < observations_.size(); ++i) {
       if (!active[i]) continue;
       const double chi2 = Chi2(camera_, pose, observations_[i]);
-      // A point that has slipped behind the camera costs its bound: no pose gains by hiding it.
+      // A point that has slipped behind the camera costs its bound: no pose gains by hiding an
+      // inlier. An outlier costs more than that in sight; but none draws a pose, as Linearize
+      // leaves hidden points out.
       const double bound = Chi2Bound(observations_[i].measurement);
       cost += std::isinf(chi2) ? bound : robust ? Huber(chi2, bound).cost : chi2;
     }
