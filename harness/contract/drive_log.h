@@ -10,9 +10,9 @@
 
 namespace aisle {
 
-/// A vehicle that is no faster stands: what touches it then is not its doing. Who watches for
-/// contacts splits "touched" from "driven into" by it, and the score leaves out the former by the
-/// same bound.
+/// A vehicle whose fastest corner is no faster stands: what touches it then is not its doing. Who
+/// watches for contacts splits "touched" from "driven into" by it, and the score leaves out the
+/// former by the same bound.
 inline constexpr double kUnderWay_mps = 0.02;
 
 /// What a vehicle under way is doing.
@@ -47,7 +47,7 @@ struct Contact {
   std::int64_t stamp_ns = 0;
   std::string with;          ///< its name in the scene
   std::string object_class;  ///< "rack", "person", …
-  double speed_mps = 0;      ///< of the vehicle; turning on the spot, of its farthest corner
+  double speed_mps = 0;      ///< of the vehicle's fastest corner, 0 or more
   FloorPose vehicle;
   bool is_actor = false;
   bool operator==(const Contact&) const = default;

@@ -26,10 +26,20 @@ FloorPose ContactWatch::VehicleAt(double share) const {
   return AlongArc(before_->vehicle, share * way_m_, share * turn_rad_);
 }
 
-/// The vehicle's own speed; of one that turns on the spot that of its farthest corner.
+/// Of the vehicle's fastest corner.
 double ContactWatch::TouchSpeed(const Encounter& now) const {
-  return std::abs(now.speed_mps) > kUnderWay_mps ? now.speed_mps
-                                                 : std::abs(now.turn_rate_rad_s) * reach_m_;
+  return FastestCorner(course_.footprint, now.speed_mps, now.turn_rate_rad_s);
+}
+
+/// Whether the vehicle's own motion closes the gap to where somebody is now. Held against the
+/// middle of him, as who leans on the vehicle has no gap to it; within it every motion is into him.
+bool ContactWatch::DrivesInto(const Encounter& now, const Polygon& footprint,
+                              const Capsule& there) const {
+  const Capsule middle{there.from, there.to, 0};
+  const double gap = Distance(footprint, middle);
+  if (!before_ || gap <= 0) return true;
+  const double closed = Distance(At(before_->vehicle, course_.footprint), middle) - gap;
+  return closed > kUnderWay_mps * 1e-9 * static_cast<double>(now.stamp_ns - before_->stamp_ns);
 }
 
 /// Whether a distance that changes by at most `moved_m` over the whole step reaches 0 between two
@@ -65,13 +75,13 @@ void ContactWatch::SeeThings(const Encounter& now, const Polygon& footprint, dou
       continue;
     }
     const double distance = Distance(footprint, thing.outline);
-    static_m_ = std::min(static_m_, distance);
     const auto between = [&](double share) {
       return Distance(At(VehicleAt(share), course_.footprint), thing.outline);
     };
     const bool touches = before_
                              ? TouchesBetween(between, 0, 1, thing_distances_[i], distance, moved_m)
                              : distance <= 0;
+    static_m_ = std::min(static_m_, touches ? 0 : distance);
     const std::string key = fmt::format("thing {}", i);
     Touch(touches, key,
           {now.stamp_ns, thing.name, thing.object_class, TouchSpeed(now), now.vehicle, false});
@@ -83,12 +93,11 @@ void ContactWatch::SeeThings(const Encounter& now, const Polygon& footprint, dou
 
 void ContactWatch::SeeActors(const Encounter& now, const Polygon& footprint, double moved_m) {
   actor_m_ = kInfinity;
-  const bool under_way = std::abs(TouchSpeed(now)) > kUnderWay_mps;
+  const bool under_way = TouchSpeed(now) > kUnderWay_mps;
   for (std::size_t i = 0; i < now.actors.size(); ++i) {
     const CourseActor& actor = course_.actors[i];
     const Capsule& there = now.actors[i];
     const double distance = Distance(footprint, there);
-    actor_m_ = std::min(actor_m_, distance);
     const auto between = [&](double share) {
       const Capsule& from = before_->actors[i];
       const Capsule placed{from.from + share * (there.from - from.from),
@@ -102,22 +111,27 @@ void ContactWatch::SeeActors(const Encounter& now, const Polygon& footprint, dou
     }
     const bool touches =
         before_ ? TouchesBetween(between, 0, 1, distances_[i], distance, moved) : distance <= 0;
+    const double gap = touches ? 0 : distance;
+    actor_m_ = std::min(actor_m_, gap);
     // Somebody who touches the vehicle that stands, and is then driven into, is touched twice.
     const std::string key = fmt::format("actor {}", i), driven_into = key + " under way";
-    Touch(touches, under_way ? driven_into : key,
+    const bool drives_into =
+        under_way && (!touching_.contains(key) || DrivesInto(now, footprint, there));
+    Touch(touches, drives_into ? driven_into : key,
           {now.stamp_ns, actor.name, actor.object_class, TouchSpeed(now), now.vehicle, true});
     if (touches) touching_.insert(key);
     if (distance > kLetGo_m) touching_.erase(key), touching_.erase(driven_into);
     if (under_way && before_) {
       double& least = actor.object_class == "person" ? track_->min_clearance_person_m
                                                      : track_->min_clearance_vehicle_m;
-      least = std::min(least, distance);
+      least = std::min(least, gap);
       const double over_s = 1e-9 * static_cast<double>(now.stamp_ns - before_->stamp_ns);
       const double closing = over_s > 0 ? (distances_[i] - distance) / over_s : 0;
       if (closing > kClosing_mps) {
         track_->min_time_to_collision_s =
             std::min(track_->min_time_to_collision_s, distance / closing);
       }
+      if (touches && drives_into) track_->min_time_to_collision_s = 0;
     }
     distances_[i] = distance;
   }

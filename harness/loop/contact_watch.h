@@ -42,6 +42,7 @@ class ContactWatch {
                       double at_to, double moved_m) const;
   FloorPose VehicleAt(double share) const;
   double TouchSpeed(const Encounter& now) const;
+  bool DrivesInto(const Encounter& now, const Polygon& footprint, const Capsule& there) const;
 
   const Course& course_;
   DriveTrack* track_;
