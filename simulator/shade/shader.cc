@@ -92,6 +92,7 @@ struct Shader::Workspace {
   FrameLight frame;
   std::vector<float> reflectance, irradiance, kept, mirrored;
   std::vector<float> beams, glow, through;
+  std::vector<Reflections> reflections;        ///< by view
   std::array<std::vector<float>, 2> raw_kept;  ///< of the first view, and of the one at work
 };
 
@@ -120,15 +121,15 @@ std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const Cam
   if (!work) work = std::make_unique<Workspace>();
 
   std::vector<std::vector<BehindClear>> behind;  // by view
-  std::vector<Reflections> reflections;
   std::vector<Hits8> beyond;
+  work->reflections.resize(std::max(work->reflections.size(), views.size()));
   for (std::size_t i = 0; i < views.size(); ++i) {
     behind.push_back(TraceBehindClear(instant, views[i], images[i]));
     for (const BehindClear& one : behind.back()) beyond.push_back(one.hits);
     if (!options_.gloss) continue;
-    reflections.push_back(
-        TraceGloss({instant, views[i], images[i], tables_, work->frame, textures_}));
-    AddMirroredMovers(reflections.back(), &beyond);
+    TraceGloss({instant, views[i], images[i], tables_, work->frame, textures_},
+               &work->reflections[i]);
+    AddMirroredMovers(work->reflections[i], &beyond);
   }
   done("gloss");
   tables_.PrepareFrame(instant, views, images, static_light_.At(instant.snapshot().light_scale),
@@ -148,8 +149,8 @@ std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const Cam
                         &work->raw_kept[i > 0 ? 1 : 0], &work->kept);
     }
     done("mover shadows");
-    const bool glossy =
-        options_.gloss && ShadeGloss(shading, reflections[i], &work->reflectance, &work->mirrored);
+    const bool glossy = options_.gloss && ShadeGloss(shading, work->reflections[i],
+                                                     &work->reflectance, &work->mirrored);
     done("gloss");
     radiance.push_back(
         Combine(image, work->reflectance, work->irradiance, work->kept,

@@ -178,21 +178,22 @@ class Pass {
 
 }  // namespace
 
-Reflections TraceGloss(const ShadingView& shading) {
+void TraceGloss(const ShadingView& shading, Reflections* reflections) {
   const HitImage& image = shading.image;
-  if (!shading.tables.glossy()) return {};
+  if (!shading.tables.glossy()) return reflections->clear();
   const Pass pass(shading);
   const TileGrid grid{image.width, image.height, kTileWidth, kTileHeight};
-  Reflections tiles(grid.size());
+  reflections->resize(grid.size());
   grid.ForEach([&](std::size_t i, const Tile& tile) {
+    std::vector<Reflection8>& of_tile = (*reflections)[i];
+    of_tile.clear();
     ForRows(tile, kLanes, [&](int x, int y) {
       const Glossy8 found = pass.Find(x, y);
       if (!Any(found.lanes)) return;
-      if (tiles[i].empty()) tiles[i].reserve(kTileWidth * kTileHeight / kLanes);
-      tiles[i].push_back(pass.Trace(x, y, found));
+      if (of_tile.empty()) of_tile.reserve(kTileWidth * kTileHeight / kLanes);
+      of_tile.push_back(pass.Trace(x, y, found));
     });
   });
-  return tiles;
 }
 
 void AddMirroredMovers(const Reflections& tiles, std::vector<Hits8>* beyond) {

@@ -21,8 +21,8 @@ using Reflections = std::vector<std::vector<Reflection8>>;
 
 /// Sends the rays of an image's glossy surfaces, in a 4 × 4 pattern. Broad lobes aim a second ray
 /// at a lamp. None of it asks what light falls on what is met, so that movers which only mirrors
-/// show can be lit first.
-Reflections TraceGloss(const ShadingView& shading);
+/// show can be lit first. The memory of what *reflections held is used again.
+void TraceGloss(const ShadingView& shading, Reflections* reflections);
 
 /// Appends the hits that met a mover.
 void AddMirroredMovers(const Reflections& reflections, std::vector<Hits8>* beyond);
