@@ -1,6 +1,7 @@
 #include "harness/score/drive_scores.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "harness/score/scorecard.h"
 
@@ -8,10 +9,12 @@ namespace aisle {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
+constexpr const char* kNotBegun = "the drive has not begun";
 
 struct Deviation {
   double rms = 0, max = 0;
 };
+/// samples: one or more.
 template <class Value>
 Deviation DeviationOf(const std::vector<DriveSample>& samples, const Value& value) {
   Deviation deviation;
@@ -20,8 +23,7 @@ Deviation DeviationOf(const std::vector<DriveSample>& samples, const Value& valu
     deviation.rms += off * off;
     deviation.max = std::max(deviation.max, off);
   }
-  if (!samples.empty())
-    deviation.rms = std::sqrt(deviation.rms / static_cast<double>(samples.size()));
+  deviation.rms = std::sqrt(deviation.rms / static_cast<double>(samples.size()));
   return deviation;
 }
 
@@ -30,14 +32,21 @@ double CrossTrack(const DriveSample& sample) { return sample.cross_track_m; }
 struct Docking {
   double m = 0, rad = 0;
 };
+/// Of a track with one sample or more.
 Docking DockingOf(const DriveLog& log, const DriveTrack& track) {
-  if (track.samples.empty()) return {log.route_m, 0};
   const FloorPose& end = track.samples.back().truth;
   return {(end.position - log.goal.position).norm(),
           std::abs(WrapAngle(end.heading_rad - log.goal.heading_rad))};
 }
 
-void AddWay(const DriveLog& log, Scorecard* scores) {
+/// Until the drive ended, or by now where it is under way; nothing before it began.
+std::optional<double> TimeOf(const DriveTrack& track) {
+  if (track.time_s > 0) return track.time_s;
+  if (track.samples.empty()) return std::nullopt;
+  return 1e-9 * static_cast<double>(track.samples.back().stamp_ns);
+}
+
+void AddErrors(const DriveLog& log, Scorecard* scores) {
   const std::vector<DriveSample>& samples = log.track.samples;
   const std::size_t n = samples.size();
   const Deviation across = DeviationOf(samples, CrossTrack);
@@ -45,15 +54,6 @@ void AddWay(const DriveLog& log, Scorecard* scores) {
       DeviationOf(samples, [](const DriveSample& s) { return s.heading_error_rad; });
   const Deviation belief = DeviationOf(
       samples, [](const DriveSample& s) { return (s.belief.position - s.truth.position).norm(); });
-  double farthest = 0;
-  for (const DriveSample& sample : samples) farthest = std::max(farthest, sample.route_m);
-  const bool arrived = log.track.end == DriveEnd::kArrived;
-  const double completion = log.route_m > 0 ? std::min(1.0, farthest / log.route_m) : 1;
-  // The last centimetres are the docking's matter.
-  constexpr double kThere_m = 0.05;
-  const bool whole = arrived && farthest > log.route_m - kThere_m;
-  (*scores)["goal_reached"] = Present(ReachedGoal(log, log.track) ? 1 : 0, "1", 1);
-  (*scores)["route_completion"] = Present(whole ? 1 : completion, "1", 1);
   (*scores)["cross_track_rms_m"] = Present(across.rms, "m", n, "none");
   (*scores)["cross_track_max_m"] = Present(across.max, "m", n, "none");
   (*scores)["heading_error_max_deg"] = Present(turn.max / kDegree, "deg", n, "none");
@@ -64,8 +64,40 @@ void AddWay(const DriveLog& log, Scorecard* scores) {
   (*scores)["docking_error_deg"] = Present(docking.rad / kDegree, "deg", 1, "none");
 }
 
+void AddNoErrors(Scorecard* scores) {
+  for (const char* name : {"cross_track_rms_m", "cross_track_max_m", "belief_error_rms_m",
+                           "belief_error_max_m", "docking_error_m"}) {
+    (*scores)[name] = Absent("m", kNotBegun);
+  }
+  for (const char* name : {"heading_error_max_deg", "docking_error_deg"}) {
+    (*scores)[name] = Absent("deg", kNotBegun);
+  }
+}
+
+void AddWay(const DriveLog& log, Scorecard* scores) {
+  double farthest = 0;
+  for (const DriveSample& sample : log.track.samples) {
+    farthest = std::max(farthest, sample.route_m);
+  }
+  const bool arrived = log.track.end == DriveEnd::kArrived;
+  const double completion = log.route_m > 0 ? std::min(1.0, farthest / log.route_m) : 1;
+  // The last centimetres are the docking's matter.
+  constexpr double kThere_m = 0.05;
+  const bool whole = arrived && farthest > log.route_m - kThere_m;
+  (*scores)["goal_reached"] = Present(ReachedGoal(log, log.track) ? 1 : 0, "1", 1);
+  (*scores)["route_completion"] = Present(whole ? 1 : completion, "1", 1);
+  log.track.samples.empty() ? AddNoErrors(scores) : AddErrors(log, scores);
+}
+
 void AddTruthSteered(const DriveLog& log, Scorecard* scores) {
   const std::vector<DriveSample>& samples = log.truth_steered.samples;
+  if (samples.empty()) {
+    for (const char* name : {"cross_track_truth_steered_rms_m", "cross_track_truth_steered_max_m",
+                             "docking_error_truth_steered_m"}) {
+      (*scores)[name] = Absent("m", "no vehicle was steered by truth");
+    }
+    return;
+  }
   const Deviation across = DeviationOf(samples, CrossTrack);
   (*scores)["cross_track_truth_steered_rms_m"] = Present(across.rms, "m", samples.size(), "none");
   (*scores)["cross_track_truth_steered_max_m"] = Present(across.max, "m", samples.size(), "none");
@@ -75,9 +107,11 @@ void AddTruthSteered(const DriveLog& log, Scorecard* scores) {
 
 void AddTimes(const DriveLog& log, Scorecard* scores) {
   const DriveTrack& track = log.track;
-  (*scores)["drive_time_s"] = Present(track.time_s, "s", 1);
-  (*scores)["time_over_planned"] = log.planned_s > 0 ? Present(track.time_s / log.planned_s, "1", 1)
-                                                     : Absent("1", "the way takes no time");
+  const std::optional<double> time_s = TimeOf(track);
+  (*scores)["drive_time_s"] = time_s ? Present(*time_s, "s", 1) : Absent("s", kNotBegun);
+  (*scores)["time_over_planned"] = !time_s             ? Absent("1", kNotBegun)
+                                   : log.planned_s > 0 ? Present(*time_s / log.planned_s, "1", 1)
+                                                       : Absent("1", "the way takes no time");
   (*scores)["stops"] = Present(track.stops, "1", 1);
   (*scores)["scanner_stops"] = Present(track.scanner_stops, "1", 1);
   (*scores)["stopped_s"] = Present(track.stopped_s, "s", 1);
@@ -121,6 +155,7 @@ void AddContacts(const DriveLog& log, Scorecard* scores) {
 }  // namespace
 
 bool ReachedGoal(const DriveLog& log, const DriveTrack& track) {
+  if (track.samples.empty()) return false;
   const Docking docking = DockingOf(log, track);
   return track.end == DriveEnd::kArrived && docking.m <= log.goal_tolerance_m &&
          docking.rad <= log.goal_tolerance_rad;

@@ -113,7 +113,7 @@ void AddDrive(std::vector<ScoreDescription>* names) {
       {"cross_track_truth_steered_rms_m", "m", "cross_track_rms_m of the truth-steered twin"},
       {"cross_track_truth_steered_max_m", "m", "cross_track_max_m of the truth-steered twin"},
       {"docking_error_truth_steered_m", "m", "docking_error_m of the truth-steered twin"},
-      {"drive_time_s", "s", "time until the drive ended"},
+      {"drive_time_s", "s", "time until the drive ended, or until now while it is under way"},
       {"time_over_planned", "1", "that time over the planned one"},
       {"stops", "1", "protective stops, because the system was lost for too long"},
       {"scanner_stops", "1", "stops by the safety scanner, where one is switched on"},

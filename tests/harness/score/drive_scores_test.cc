@@ -78,6 +78,32 @@ TEST(DriveScoresTest, WhoRunsIntoAVehicleThatStandsIsNotItsCollision) {
   EXPECT_EQ(ValueOf(log, "collision_speed_max_mps"), 0.8);
 }
 
+TEST(DriveScoresTest, UnderWayItHasTakenTheTimeUntilNow) {
+  DriveLog log = StraightDrive(0);
+  log.track.time_s = 0;  // as nothing has ended
+  log.track.samples.resize(6);
+  EXPECT_DOUBLE_EQ(ValueOf(log, "drive_time_s"), 5);
+  EXPECT_DOUBLE_EQ(ValueOf(log, "time_over_planned"), 0.5);
+}
+
+TEST(DriveScoresTest, ADriveThatHasNotBegunHasNoErrors) {
+  DriveLog log = StraightDrive(0);
+  log.track = log.truth_steered = {};
+  log.track.end = DriveEnd::kArrived;
+  const Scorecard scores = ScoreDrive(log);
+  EXPECT_EQ(ValueOf(log, "goal_reached"), 0);
+  EXPECT_EQ(ValueOf(log, "route_completion"), 0);
+  for (const auto& [name, score] : scores) {
+    const bool is_of_track = name.find("error") != std::string::npos ||
+                             name.find("cross_track") != std::string::npos ||
+                             name.find("time") != std::string::npos;
+    if (!is_of_track) continue;
+    EXPECT_FALSE(score.value) << name;
+    EXPECT_FALSE(score.absent.empty()) << name;
+  }
+  EXPECT_EQ(ScoreDrive(StraightDrive(0)).size(), scores.size());
+}
+
 TEST(DriveScoresTest, WhatWasNotThereHasNoClearance) {
   const Scorecard scores = ScoreDrive(StraightDrive(0));
   EXPECT_FALSE(scores.at("min_clearance_person_m").value);
