@@ -44,6 +44,7 @@ DriverOptions DriverOf(const sim::DriveSpec& drive, const sim::RouteLimits& limi
   driver.turn_rate_rad_s = std::min(limits.turn_rate_rad_s, drive.turn_rate_rad_s);
   driver.turn_braking_rad_s2 =
       std::min(limits.turn_acceleration_rad_s2, drive.turn_acceleration_rad_s2) / 2;
+  driver.reach_m = ReachOf(drive.footprint);
   driver.lag_s = drive.lag_s;
   return driver;
 }

@@ -81,8 +81,9 @@ DriverStep TurnLeg(const Way& way, const DriverState& state, const DriverInput& 
     return Stands(input) ? NextLeg(state, way) : DriverStep{state, {}};
   }
   constexpr double kSlowest_rad_s = 0.01;
-  const double rate = std::clamp(std::sqrt(2 * options.turn_braking_rad_s2 * std::abs(left)) / 2,
-                                 kSlowest_rad_s, options.turn_rate_rad_s);
+  double rate = std::clamp(std::sqrt(2 * options.turn_braking_rad_s2 * std::abs(left)) / 2,
+                           kSlowest_rad_s, options.turn_rate_rad_s);
+  if (input.degraded) rate = std::min(rate, options.degraded_mps / options.reach_m);
   return {state, {.speed_mps = 0, .turn_rate_rad_s = left < 0 ? -rate : rate}};
 }
 
@@ -97,7 +98,7 @@ std::string DriverOptions::Validate() const {
         std::pair("arrive_m", arrive_m), std::pair("turn_arrive_rad", turn_arrive_rad),
         std::pair("turn_rate_rad_s", turn_rate_rad_s),
         std::pair("turn_braking_rad_s2", turn_braking_rad_s2),
-        std::pair("degraded_mps", degraded_mps)}) {
+        std::pair("degraded_mps", degraded_mps), std::pair("reach_m", reach_m)}) {
     if (!(std::isfinite(value) && value > 0)) {
       return fmt::format("{} is {}, it must be more than 0", name, value);
     }

@@ -25,8 +25,10 @@ struct DriverOptions {
   double turn_arrive_rad = 0.001;  ///< a turn on the spot too
   double turn_rate_rad_s = 0.8;    ///< on the spot
   double turn_braking_rad_s2 = 0.8;
-  double degraded_mps = 0.3;  ///< fastest without a pose
-  double lag_s = 0.1;         ///< of the actuators, looked ahead over
+  /// Fastest without a pose: the axle's middle, or in a turn on the spot what reaches farthest.
+  double degraded_mps = 0.3;
+  double reach_m = 1;  ///< of the vehicle from its axle's middle
+  double lag_s = 0.1;  ///< of the actuators, looked ahead over
 
   std::string Validate() const;  ///< the first broken rule, or an empty string
 };

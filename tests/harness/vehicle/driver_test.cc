@@ -163,6 +163,24 @@ TEST(DriverLegsTest, CreepsWhileItKnowsNoPose) {
   EXPECT_DOUBLE_EQ(step.command.speed_mps, options.degraded_mps);
 }
 
+TEST(DriverLegsTest, CreepsInATurnOnTheSpotToo) {
+  DriverOptions options;
+  const Way way = {{.kind = WayLeg::Kind::kTurn, .turn_to_rad = std::numbers::pi}};
+  for (const double reach_m : {0.5, 1.0, 2.5}) {
+    options.reach_m = reach_m;
+    for (const double heading : {0.0, 2 * std::numbers::pi, std::numbers::pi - 0.004}) {
+      const auto rate = [&](bool degraded) {
+        const DriverInput input{
+            .belief = {{0, 0}, heading}, .turn_rate_rad_s = 0, .degraded = degraded};
+        return DriveAlong(way, {}, input, options).command.turn_rate_rad_s;
+      };
+      EXPECT_LE(std::abs(rate(true)) * reach_m, options.degraded_mps + 1e-12);
+      EXPECT_GT(rate(true) * rate(false), 0) << "the same way round, and it goes on";
+      EXPECT_LE(std::abs(rate(true)), std::abs(rate(false)));
+    }
+  }
+}
+
 TEST(WayTest, TheNearestPointIsSoughtWhereTheVehicleIsNotWhereTheWayComesByAgain) {
   WayLeg twice = Straight(4, 1);  // there, and back beside it
   const double end = twice.length_m();
