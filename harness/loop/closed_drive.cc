@@ -301,7 +301,7 @@ class ClosedDrive::Loop {
     const FloorPose measured = odometer_.Measure(step);
     wheels_.Add(measured);
     pilot_.Rolled(now_ns_, measured);
-    traffic_.Advance(duration_ns, At(plant_.pose, course_.footprint), Speed());
+    traffic_.Advance(duration_ns, plant_.pose, Speed(), plant_.turn_rate_rad_s);
     contacts_.See(Now(), step.way_m, step.turn_rad);
   }
 
