@@ -16,6 +16,10 @@ using PlainContext = TrackingContext<TrackOptions>;
 /// What the next frame builds upon.
 struct TrackMemory {
   std::int64_t stamp_ns = 0;
+  /// When the pose was last found or measured, and where that was, as seen from the rig: the same
+  /// place and time but where nothing but inertia tells of the rig since.
+  std::int64_t known_ns = 0;
+  Eigen::Isometry3d T_rig_known = Eigen::Isometry3d::Identity();
   KeyframeId reference;  ///< the pose is remembered as seen from it
   Eigen::Isometry3d T_reference_rig = Eigen::Isometry3d::Identity();
   std::optional<Motion> motion;

@@ -23,6 +23,8 @@ void TrackRecord::Note(const Map& map, const Frame& frame, const FramePose& pose
   memory_.velocity = velocity;
   memory_.covariance = pose.pose.covariance;
   memory_.stamp_ns = frame.stamp_ns;
+  memory_.known_ns = frame.stamp_ns;
+  memory_.T_rig_known.setIdentity();
   memory_.reference = pose.local.reference;
   memory_.T_reference_rig = map.PoseOf(memory_.reference).inverse() * T_world_rig;
   memory_.steady_motion = motion ? std::optional(Smoothed(memory_.steady_motion, *motion, seconds,
@@ -63,6 +65,11 @@ void TrackRecord::Coast(const Map& map, std::int64_t stamp_ns, const InertiaOpti
   const double seconds = SecondsBetween(memory_.stamp_ns, stamp_ns);
   memory_.motion = EstimateMotion(T_world_last, T_world_rig, seconds);
   memory_.stamp_ns = stamp_ns;
+  if (memory_.measured) {
+    memory_.known_ns = stamp_ns;
+  } else {
+    memory_.T_rig_known = Normalized(way.T_now_before * memory_.T_rig_known);
+  }
   memory_.T_reference_rig = map.PoseOf(memory_.reference).inverse() * T_world_rig;
   memory_.covariance = way.covariance;
   if (memory_.measured) memory_.measured->T_now_before.setIdentity();

@@ -46,6 +46,30 @@ TEST(TrackRecord, ALaterOneIsAsInertiaCarriesIt) {
   EXPECT_NEAR(record.memory().carried->T_now_before.translation().z(), 0, 1e-9);
 }
 
+/// Of a rig that was at the origin one step ago.
+TrackMemory Coasted(const std::optional<MeasuredMotion>& measured,
+                    const std::optional<MeasuredMotion>& seen) {
+  PointWorld world;
+  Map map;
+  TrackMemory memory;
+  BeginAtOrigin(world, &map, &memory);
+  TrackRecord record = FoundAtOrigin(false);
+  record.Roll(measured, kStepNs, {}, seen);
+  record.Coast(map, kStepNs, {});
+  EXPECT_EQ(record.memory().stamp_ns, kStepNs);
+  EXPECT_NEAR(record.memory().PoseIn(map).translation().z(), 0.05, 1e-12);
+  return record.memory();
+}
+
+TEST(TrackRecord, WhereTheRigIsCarriedIsNotKnownWhatIsMeasuredIs) {
+  const TrackMemory carried = Coasted({}, Forward(0.05));
+  EXPECT_EQ(carried.known_ns, 0);
+  EXPECT_NEAR(carried.T_rig_known.translation().z(), -0.05, 1e-12);
+  const TrackMemory measured = Coasted(Forward(0.05), {});
+  EXPECT_EQ(measured.known_ns, kStepNs);
+  EXPECT_EQ(measured.T_rig_known.translation().z(), 0);
+}
+
 TEST(TrackRecord, WhatIsMeasuredNeedsNeither) {
   TrackRecord record = FoundAtOrigin(false);
   record.Roll(Forward(0.04), kStepNs, {}, Forward(0.05));
