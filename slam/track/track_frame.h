@@ -27,6 +27,8 @@ struct TrackMemory {
   std::vector<LandmarkId> landmarks;       ///< that took part in the pose
   std::optional<Velocity> velocity;        ///< as the poses tell it
   Matrix6d covariance = Matrix6d::Zero();  ///< of the pose: of a small motion of the rig frame
+  /// Of the pose with the velocity, where inertia has led on: of both errors.
+  Matrix6d shared = Matrix6d::Zero();
   /// The way from this pose to the frame that comes, as measured. Its covariance is of the pose
   /// there: this one's, carried along, and that of the way itself. Nothing where the way is not
   /// measured without a gap.
