@@ -105,6 +105,7 @@ struct StereoSlam::Impl {
                          const std::optional<MeasuredMotion>& motion, TrackedFrame& result);
   DriveState Drive() const;
   void TakeDueWork(TrackedFrame& result);
+  void CarryOver(const std::optional<Map>& replaced);
   bool TakeAsKeyframe(const std::shared_ptr<const Frame>& frame, FramePose& pose);
   std::optional<FramePose> StartPart(const std::shared_ptr<const Frame>& frame);
   bool CanCoast(const Frame& frame) const;
@@ -240,9 +241,14 @@ DriveState StereoSlam::Impl::Drive() const {
 void StereoSlam::Impl::TakeDueWork(TrackedFrame& result) {
   const MapKeeper::Taken taken = keeper.TakeDueWork(frame_count, result.stage_ms);
   result.loop_closed = taken.loop_closed;
-  if (!taken.replaced || options.base == Base::kPlain) return;
-  track.CarryOver(*taken.replaced, keeper.map());
-  policy->CarryOver(*taken.replaced, keeper.map());
+  CarryOver(taken.replaced);
+}
+
+/// What is remembered of the landmarks of a map in whose place another is now.
+void StereoSlam::Impl::CarryOver(const std::optional<Map>& replaced) {
+  if (!replaced || options.base == Base::kPlain) return;
+  track.CarryOver(*replaced, keeper.map());
+  policy->CarryOver(*replaced, keeper.map());
 }
 
 /// Adds the frame to the map if it is to be a keyframe.
@@ -353,7 +359,7 @@ TrackedFrame StereoSlam::Track(const StereoImages& images, const ExternalMask& m
 void StereoSlam::SaveMap(const std::string& file) {
   MapKeeper& keeper = impl_->keeper;
   TrackRecord& track = impl_->track;
-  keeper.FinishWork();
+  impl_->CarryOver(keeper.FinishWork());
   if (keeper.map().empty()) throw std::runtime_error(file + ": there is no map to save yet");
   keeper.Count(track.TakeCounts());
   track.ForgetMotion();

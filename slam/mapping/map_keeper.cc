@@ -43,17 +43,20 @@ MapKeeper::Taken MapKeeper::TakeDueWork(std::int64_t frame_now,
   return taken;
 }
 
-void MapKeeper::FinishWork() {
+std::optional<Map> MapKeeper::FinishWork() {
+  std::optional<Map> replaced;
   std::map<std::string, double> stage_ms;
   // Mapping may start the closing of a loop, and that the adjustment of the map.
   while (!at_rest()) {
     mapping_.Wait();
     closing_.Wait();
     adjusting_.Wait();
-    TakeDueWork(std::max({mapping_.due_frame(), closing_.due_frame(), adjusting_.due_frame()}),
-                stage_ms);
+    Taken taken = TakeDueWork(
+        std::max({mapping_.due_frame(), closing_.due_frame(), adjusting_.due_frame()}), stage_ms);
+    if (!replaced) replaced = std::move(taken.replaced);
   }
   loops_.clear();
+  return replaced;
 }
 
 void MapKeeper::GoOnAfterMapping(const MappingResult& result, std::int64_t frame_now) {

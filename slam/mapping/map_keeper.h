@@ -54,8 +54,9 @@ class MapKeeper {
   /// `stage_ms`.
   Taken TakeDueWork(std::int64_t frame_now, std::map<std::string, double>& stage_ms);
   /// Waits for everything under way and for what follows from it, due or not. Loops that nothing
-  /// else has confirmed yet are forgotten: a map file does not hold them.
-  void FinishWork();
+  /// else has confirmed yet are forgotten: a map file does not hold them. Gives the map before,
+  /// where another has taken its place, as Taken does.
+  std::optional<Map> FinishWork();
 
   /// Adds a keyframe, given whole by `edit`, and starts to work it in, or lets it wait.
   void WorkIn(const MapEdit& edit, std::int64_t frame_now);

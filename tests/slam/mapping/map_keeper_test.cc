@@ -170,6 +170,19 @@ TEST_P(MapKeeperTest, FinishingLeavesNobodyWaiting) {
   for (int k = 1; k <= 4; ++k) EXPECT_GT(MarkOn(k), 0) << k;
 }
 
+TEST_P(MapKeeperTest, FinishingTellsUnderWhichIdsLandmarksAre) {
+  keeper.WorkIn(NextKeyframe(), 10);
+  keeper.WorkIn(NextKeyframe(), 11);
+  keeper.WorkIn(NextKeyframe(), 12);
+  const LandmarkId own = keeper.map().At(KeyframeId{3}).landmarks.front();
+  const auto replaced = keeper.FinishWork();
+  ASSERT_TRUE(replaced);
+  const LandmarkId now = Successor(*replaced, keeper.map(), own);
+  EXPECT_NE(now, own);  // work of several steps has given that id to another
+  EXPECT_EQ(keeper.map().At(now).position.x(), 103);
+  EXPECT_FALSE(keeper.FinishWork());
+}
+
 INSTANTIATE_TEST_SUITE_P(ThreadedAndNot, MapKeeperTest, testing::Bool());
 
 }  // namespace
