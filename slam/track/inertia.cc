@@ -18,26 +18,18 @@ Velocity Coasted(const Velocity& velocity, double seconds, const InertiaOptions&
   return coasted;
 }
 
-Matrix6d CarryShared(const Matrix6d& before, const Eigen::Isometry3d& T_now_before,
-                     const Velocity& velocity, double seconds, const InertiaOptions& options) {
-  return Adjoint(T_now_before) * before + seconds * Coasted(velocity, seconds, options).covariance;
-}
-
 Velocity Learn(const std::optional<Velocity>& before, const MeasuredMotion& step, double seconds,
-               const InertiaOptions& options, const Matrix6d& shared) {
+               const InertiaOptions& options) {
   const Velocity seen{Difference(Eigen::Isometry3d::Identity(), step.T_now_before) / seconds,
                       step.covariance / (seconds * seconds)};
   if (!before) return seen;
   Velocity velocity = Coasted(*before, seconds, options);
   const Vector6d off = seen.per_second - velocity.per_second;
-  // Where the pose before was too far ahead, so was the velocity, and the step looks shorter by it.
-  const Matrix6d per_second = shared / seconds;
-  const Matrix6d with_off = velocity.covariance + per_second;
-  const auto sum = (with_off + seen.covariance + per_second.transpose()).ldlt();
+  const auto sum = (velocity.covariance + seen.covariance).ldlt();
   if (off.dot(sum.solve(off)) > options.most_chi2) return velocity;
-  const Matrix6d gain = sum.solve(with_off).transpose();
+  const Matrix6d gain = sum.solve(velocity.covariance).transpose();
   velocity.per_second += gain * off;
-  velocity.covariance -= gain * with_off;
+  velocity.covariance -= gain * velocity.covariance;
   velocity.covariance = 0.5 * (velocity.covariance + velocity.covariance.transpose()).eval();
   return velocity;
 }

@@ -31,16 +31,9 @@ MeasuredMotion Carry(const Velocity& velocity, double seconds, const InertiaOpti
 /// The velocity after so many seconds of which nothing is known but that.
 Velocity Coasted(const Velocity& velocity, double seconds, const InertiaOptions& options);
 
-/// Covariance of a pose's error with its velocity's, once inertia has carried the rig for so many
-/// seconds by `T_now_before`: one that goes faster than thought gets further with every frame.
-/// `before`: the same there; zero where the pose was found.
-Matrix6d CarryShared(const Matrix6d& before, const Eigen::Isometry3d& T_now_before,
-                     const Velocity& velocity, double seconds, const InertiaOptions& options);
-
 /// The velocity after a step (Kalman filter, constant velocity). A step that no vehicle can take
-/// teaches nothing. `before`: nothing where the step is the first. `shared`: covariance of the
-/// error of the pose that the step begins at, as it shows where it ends, with the velocity's.
+/// teaches nothing. `before`: nothing where the step is the first.
 Velocity Learn(const std::optional<Velocity>& before, const MeasuredMotion& step, double seconds,
-               const InertiaOptions& options, const Matrix6d& shared = Matrix6d::Zero());
+               const InertiaOptions& options);
 
 }  // namespace aisle::slam

@@ -78,20 +78,14 @@ std::shared_ptr<const Frame> WithMeasurements(const std::shared_ptr<const Frame>
   return measured;
 }
 
-/// For how long nothing has been known of the rig, seconds.
-double UnknownFor(const PlainContext& context, const TrackMemory& memory) {
-  return SecondsBetween(memory.known_ns, context.frame.stamp_ns);
-}
-
 /// Where the steady motion leads after a while without sight: T_rig_world.
 std::optional<Eigen::Isometry3d> DeadReckoned(const PlainContext& context,
                                               const TrackMemory& memory) {
-  const double gap_s = UnknownFor(context, memory);
+  const double gap_s = SecondsBetween(memory.stamp_ns, context.frame.stamp_ns);
   const bool known =
       memory.steady_motion && gap_s > 0 && gap_s <= context.options.dead_reckoning.longest_s;
   if (!known) return std::nullopt;
-  return PredictPose(memory.PoseIn(context.map) * memory.T_rig_known, memory.steady_motion, gap_s)
-      .inverse();
+  return PredictPose(memory.PoseIn(context.map), memory.steady_motion, gap_s).inverse();
 }
 
 /// Whether the rig can have come from where it was predicted to where it was found.
@@ -172,15 +166,16 @@ std::optional<FramePose> TrackFrame(const PlainContext& context, const TrackMemo
 }
 
 bool CanBeThere(const PlainContext& context, const TrackMemory& memory, const FramePose& found) {
+  const double gap_s = SecondsBetween(memory.stamp_ns, context.frame.stamp_ns);
   const auto T_predicted_world = DeadReckoned(context, memory);
-  return !T_predicted_world || IsNear(*T_predicted_world, found.pose.T_rig_world,
-                                      UnknownFor(context, memory), context.options.dead_reckoning);
+  return !T_predicted_world ||
+         IsNear(*T_predicted_world, found.pose.T_rig_world, gap_s, context.options.dead_reckoning);
 }
 
 std::optional<FramePose> FindAgain(const PlainContext& context, const TrackMemory& memory) {
   const auto& [map, frame, camera, levels, options] = context;
   const DeadReckoningOptions& reckoning = options.dead_reckoning;
-  const double gap_s = UnknownFor(context, memory);
+  const double gap_s = SecondsBetween(memory.stamp_ns, frame.stamp_ns);
   const auto reckoned = DeadReckoned(context, memory);
   if (!reckoned) return std::nullopt;
   const Eigen::Isometry3d& T_predicted_world = *reckoned;

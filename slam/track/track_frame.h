@@ -16,10 +16,6 @@ using PlainContext = TrackingContext<TrackOptions>;
 /// What the next frame builds upon.
 struct TrackMemory {
   std::int64_t stamp_ns = 0;
-  /// When the pose was last found or measured, and where that was, as seen from the rig: the same
-  /// place and time but where nothing but inertia tells of the rig since.
-  std::int64_t known_ns = 0;
-  Eigen::Isometry3d T_rig_known = Eigen::Isometry3d::Identity();
   KeyframeId reference;  ///< the pose is remembered as seen from it
   Eigen::Isometry3d T_reference_rig = Eigen::Isometry3d::Identity();
   std::optional<Motion> motion;
@@ -27,8 +23,6 @@ struct TrackMemory {
   std::vector<LandmarkId> landmarks;       ///< that took part in the pose
   std::optional<Velocity> velocity;        ///< as the poses tell it
   Matrix6d covariance = Matrix6d::Zero();  ///< of the pose: of a small motion of the rig frame
-  /// Of the pose with the velocity, where inertia has led on: of both errors.
-  Matrix6d shared = Matrix6d::Zero();
   /// The way from this pose to the frame that comes, as measured. Its covariance is of the pose
   /// there: this one's, carried along, and that of the way itself. Nothing where the way is not
   /// measured without a gap.

@@ -9,38 +9,25 @@ void TrackRecord::Note(const Map& map, const Frame& frame, const FramePose& pose
                        const TrackOptions& options) {
   const Eigen::Isometry3d T_world_rig = pose.pose.T_rig_world.inverse();
   const double seconds = SecondsBetween(memory_.stamp_ns, frame.stamp_ns);
-  const double since_known_s = SecondsBetween(memory_.known_ns, frame.stamp_ns);
   std::optional<Motion> motion;
   std::optional<Velocity> velocity;
   if (goes_on) {
     const Eigen::Isometry3d T_world_last = memory_.PoseIn(map);
+    motion = EstimateMotion(T_world_last, T_world_rig, seconds);
     const Eigen::Isometry3d T_now_before = T_world_rig.inverse() * T_world_last;
     const Matrix6d carried = Adjoint(T_now_before);
     const MeasuredMotion step{
         T_now_before, pose.pose.covariance + carried * memory_.covariance * carried.transpose()};
-    if (seconds > 0) {
-      velocity = Learn(memory_.velocity, step, seconds, options.inertia, carried * memory_.shared);
-    }
-    // From a guess the step is mostly what was wrong with that, no motion; what it says of the
-    // motion all the same, the velocity has learned.
-    if (memory_.known_ns == memory_.stamp_ns) {
-      motion = EstimateMotion(T_world_last, T_world_rig, seconds);
-    } else {
-      motion = memory_.velocity && velocity ? Motion{velocity->per_second} : memory_.motion;
-    }
+    if (motion) velocity = Learn(memory_.velocity, step, seconds, options.inertia);
   }
   memory_.velocity = velocity;
   memory_.covariance = pose.pose.covariance;
-  memory_.shared.setZero();
   memory_.stamp_ns = frame.stamp_ns;
-  memory_.known_ns = frame.stamp_ns;
-  memory_.T_rig_known.setIdentity();
   memory_.reference = pose.local.reference;
   memory_.T_reference_rig = map.PoseOf(memory_.reference).inverse() * T_world_rig;
-  memory_.steady_motion =
-      motion ? std::optional(Smoothed(memory_.steady_motion, *motion, since_known_s,
-                                      options.dead_reckoning.half_life_s))
-             : std::nullopt;
+  memory_.steady_motion = motion ? std::optional(Smoothed(memory_.steady_motion, *motion, seconds,
+                                                          options.dead_reckoning.half_life_s))
+                                 : std::nullopt;
   memory_.motion = motion;
   memory_.measured = MeasuredMotion{Eigen::Isometry3d::Identity(), pose.pose.covariance};
   memory_.landmarks.clear();
@@ -61,10 +48,6 @@ void TrackRecord::Roll(const std::optional<MeasuredMotion>& motion, std::int64_t
     const std::optional<MeasuredMotion> step =
         memory_.velocity ? Carry(*memory_.velocity, seconds, inertia) : seen;
     if (step) memory_.carried = Compose({Eigen::Isometry3d::Identity(), memory_.covariance}, *step);
-    if (step && memory_.velocity) {
-      const Matrix6d shared = seconds * Adjoint(step->T_now_before) * memory_.shared;
-      memory_.carried->covariance += shared + shared.transpose();
-    }
   }
   if (memory_.measured && motion) {
     memory_.measured = Compose(*memory_.measured, *motion);
@@ -80,18 +63,9 @@ void TrackRecord::Coast(const Map& map, std::int64_t stamp_ns, const InertiaOpti
   const double seconds = SecondsBetween(memory_.stamp_ns, stamp_ns);
   memory_.motion = EstimateMotion(T_world_last, T_world_rig, seconds);
   memory_.stamp_ns = stamp_ns;
-  if (memory_.measured) {
-    memory_.known_ns = stamp_ns;
-  } else {
-    memory_.T_rig_known = Normalized(way.T_now_before * memory_.T_rig_known);
-  }
   memory_.T_reference_rig = map.PoseOf(memory_.reference).inverse() * T_world_rig;
   memory_.covariance = way.covariance;
   if (memory_.measured) memory_.measured->T_now_before.setIdentity();
-  if (memory_.velocity && !memory_.measured) {
-    memory_.shared =
-        CarryShared(memory_.shared, way.T_now_before, *memory_.velocity, seconds, inertia);
-  }
   if (memory_.velocity) memory_.velocity = Coasted(*memory_.velocity, seconds, inertia);
   track_.push_back({stamp_ns, memory_.reference, memory_.T_reference_rig});
 }

@@ -89,27 +89,6 @@ TEST_F(TrackFrameTest, IsNotFoundAgainWhereItsMotionCannotHaveLed) {
   EXPECT_FALSE(FindAgain({map, *world.See(At(0, 0), 60'000'000'000), {}, 8, all_around}, memory));
 }
 
-/// Where inertia has led it is a guess, however fresh: what it may be off by grows from the last
-/// sight on.
-TEST_F(TrackFrameTest, IsFoundAgainBesideWhereInertiaHasLedIt) {
-  memory.steady_motion = Motion{};
-  memory.stamp_ns = 3'850'000'000;
-  memory.known_ns = 0;
-  TrackOptions all_around;
-  all_around.dead_reckoning.radius_growth_px_per_s = 200;
-  const Eigen::Isometry3d aside = At(0.9, 1.2, 2);
-  const auto frame = world.See(aside, 3'900'000'000);
-  const PlainContext context{map, *frame, {}, 8, all_around};
-  const auto found = FindAgain(context, memory);
-  ASSERT_TRUE(found);
-  EXPECT_LT(Difference(aside.inverse(), found->pose.T_rig_world).norm(), 1e-4);
-  EXPECT_TRUE(CanBeThere(context, memory, *found));
-
-  memory.known_ns = memory.stamp_ns;  // as though it had been seen there just now
-  EXPECT_FALSE(FindAgain(context, memory));
-  EXPECT_FALSE(CanBeThere(context, memory, *found));
-}
-
 TEST_F(TrackFrameTest, AsksForAKeyframeAfterMotionNotAtRest) {
   const auto at_rest_frame = world.See(At(0, 0.001), 50'000'000);
   const auto at_rest = TrackFrame({map, *at_rest_frame, {}, 8, {}}, memory);
