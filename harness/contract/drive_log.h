@@ -14,6 +14,9 @@ namespace aisle {
 /// watches for contacts splits "touched" from "driven into" by it, and the score leaves out the
 /// former by the same bound.
 inline constexpr double kUnderWay_mps = 0.02;
+/// Who is as near to the end of a leg has driven all of it: the last centimetres are the docking's
+/// matter.
+inline constexpr double kLegEnd_m = 0.05;
 
 /// What a vehicle under way is doing.
 enum class DriveMode {

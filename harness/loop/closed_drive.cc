@@ -248,9 +248,8 @@ class ClosedDrive::Loop {
     const std::size_t leg = pilot_.driver().leg;
     const bool drives = leg < course_.way.size() && course_.way[leg].kind == WayLeg::Kind::kDrive;
     if (drives && leg != on_leg_) {
-      constexpr double kThere_m = 0.05;  // the last centimetres are what it stopped by
       const double length = course_.way[on_leg_].length_m();
-      before_leg_m_ += farthest_on_leg_m_ > length - kThere_m ? length : farthest_on_leg_m_;
+      before_leg_m_ += farthest_on_leg_m_ > length - kLegEnd_m ? length : farthest_on_leg_m_;
       on_leg_ = leg;
       on_leg_m_ = farthest_on_leg_m_ = 0;
     }

@@ -81,9 +81,7 @@ void AddWay(const DriveLog& log, Scorecard* scores) {
   }
   const bool arrived = log.track.end == DriveEnd::kArrived;
   const double completion = log.route_m > 0 ? std::min(1.0, farthest / log.route_m) : 1;
-  // The last centimetres are the docking's matter.
-  constexpr double kThere_m = 0.05;
-  const bool whole = arrived && farthest > log.route_m - kThere_m;
+  const bool whole = arrived && farthest > log.route_m - kLegEnd_m;
   (*scores)["goal_reached"] = Present(ReachedGoal(log, log.track) ? 1 : 0, "1", 1);
   (*scores)["route_completion"] = Present(whole ? 1 : completion, "1", 1);
   log.track.samples.empty() ? AddNoErrors(scores) : AddErrors(log, scores);

@@ -11,8 +11,7 @@
 namespace aisle::sim {
 namespace {
 
-/// Irradiance at the origin from a rectangle x ∈ [a0, a1], y ∈ [b0, b1] at height h that faces
-/// down, by the midpoint rule.
+/// The light's irradiance at a place by the midpoint rule over steps × steps pieces of it.
 double BySumming(const AreaLight& light, const SurfacePoint& place, int steps) {
   const Eigen::Vector3d u = light.half_u.cast<double>(), v = light.half_v.cast<double>();
   const Eigen::Vector3d area = 4 * u.cross(v) / (steps * steps);
