@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "harness/campaign/command_files.h"
 #include "harness/campaign/equal_runs.h"
 #include "harness/campaign/external_run.h"
 #include "harness/common/stopwatch.h"
@@ -218,11 +219,22 @@ CampaignOutcome RunCampaign(const std::vector<Job>& jobs, const CampaignOptions&
   return outcome;
 }
 
+namespace {
+
+/// Whether the job's result is there and nothing says that it would be another now.
+bool IsDone(const Job& job, const RunLimits& limits) {
+  const auto& external = job.spec.system.external;
+  if (external && !UnknownProgram(*external).empty()) return false;
+  return ReadFinishedRun(job.spec, job.inputs_hash, limits, job.out).has_value();
+}
+
+}  // namespace
+
 std::vector<Job> StillToDo(const std::vector<Job>& jobs, const RunLimits& limits) {
   std::map<std::string, const Job*> finished;  // by inputs
   std::vector<Job> todo, left;
   for (const Job& job : jobs) {
-    if (ReadFinishedRun(job.spec, job.inputs_hash, limits, job.out)) {
+    if (IsDone(job, limits)) {
       finished.try_emplace(job.inputs_hash, &job);
       continue;
     }

@@ -38,8 +38,9 @@ struct CampaignOutcome {
 CampaignOutcome RunCampaign(const std::vector<Job>& jobs, const CampaignOptions& options,
                             const CampaignEvents& events);
 
-/// The jobs that have no result for these very inputs within these limits, nor an equal that has;
-/// what else lies in their folders is taken away.
+/// The jobs that have no result for these very inputs within these limits, nor an equal that has,
+/// and those of systems of which nobody can tell whether they still are what they were; what else
+/// lies in their folders is taken away.
 std::vector<Job> StillToDo(const std::vector<Job>& jobs, const RunLimits& limits);
 
 /// All of them, once what lies in their folders is taken away.

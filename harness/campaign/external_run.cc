@@ -1,9 +1,5 @@
 #include "harness/campaign/external_run.h"
 
-#include <unistd.h>
-
-#include <cstdlib>
-#include <sstream>
 #include <thread>
 
 #include "harness/campaign/guest_dataset.h"
@@ -21,8 +17,6 @@ namespace aisle {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kBetweenWords = " \t\n;|&<>()'\"";  // of a command
 
 ProcessResult RunToEnd(const std::string& command, const ProcessLimits& limits,
                        const ExternalSystem& system, const ExternalRun& run,
@@ -173,53 +167,6 @@ std::string FillIn(const std::string& command, const std::map<std::string, std::
     }
   }
   return filled;
-}
-
-std::vector<fs::path> FilesNamedBy(const std::string& command) {
-  std::vector<fs::path> files;
-  const auto take = [&](const fs::path& path) {
-    std::error_code error;
-    const bool is_file = fs::is_regular_file(path, error);
-    if (is_file && std::find(files.begin(), files.end(), path) == files.end()) {
-      files.push_back(path);
-    }
-    return is_file;
-  };
-  const auto take_program = [&](const std::string& name) {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path != nullptr ? path : "");
-    for (std::string folder; std::getline(folders, folder, ':');) {
-      if (::access((fs::path(folder) / name).c_str(), X_OK) == 0 && take(fs::path(folder) / name)) {
-        return;
-      }
-    }
-  };
-  for (std::size_t at = 0; at < command.size();) {
-    const std::size_t begin =
-        std::min(command.find_first_not_of(kBetweenWords, at), command.size());
-    const std::size_t end = std::min(command.find_first_of(kBetweenWords, begin), command.size());
-    const std::string word = command.substr(begin, end - begin);
-    at = end;
-    if (word.empty() || take(word)) continue;
-    const std::size_t value = word.find_first_of(":=");
-    if (value != std::string::npos) take(word.substr(value + 1));
-    if (word.find('/') == std::string::npos) take_program(word);
-  }
-  return files;
-}
-
-std::vector<fs::path> FilesInSource(const ExternalSystem& system) {
-  constexpr std::string_view kSource = "{source}";
-  std::vector<fs::path> files;
-  const std::string& command = system.command;
-  for (std::size_t at = 0; (at = command.find(kSource, at)) != std::string::npos;) {
-    at += kSource.size();
-    const std::size_t end = std::min(command.find_first_of(kBetweenWords, at), command.size());
-    std::error_code error;
-    const fs::path file = system.repository + command.substr(at, end - at);
-    if (fs::is_regular_file(file, error)) files.push_back(file);
-  }
-  return files;
 }
 
 RunResult RunExternal(const ExternalSystem& system, const Sequence& sequence,

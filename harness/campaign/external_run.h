@@ -36,11 +36,4 @@ RunResult RunExternal(const ExternalSystem& system, const Sequence& sequence,
 /// The command with its placeholders filled in, quoted for the shell.
 std::string FillIn(const std::string& command, const std::map<std::string, std::string>& values);
 
-/// What the words of a command name that is there: its program (on PATH too), scripts, settings,
-/// also behind "key:", "key=" and "--key=". Only of files.
-std::vector<std::filesystem::path> FilesNamedBy(const std::string& command);
-
-/// The files that a command names below {source}, which it knows by that name alone.
-std::vector<std::filesystem::path> FilesInSource(const ExternalSystem& system);
-
 }  // namespace aisle

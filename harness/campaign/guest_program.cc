@@ -5,6 +5,7 @@
 #include <chrono>
 #include <thread>
 
+#include "harness/campaign/command_files.h"
 #include "harness/campaign/process.h"
 #include "harness/io/input_error.h"
 
@@ -45,11 +46,19 @@ std::string MissingProgram(const ExternalSystem& system) {
 std::vector<std::string> NotesOfSystems(const Suite& suite) {
   std::vector<std::string> notes;
   for (const SystemSpec& system : suite.systems) {
-    const std::string missing = system.external ? MissingProgram(*system.external) : "";
-    if (missing.empty()) continue;
-    notes.push_back(fmt::format(
-        "system '{}': its command begins with {}, which is no program here: its runs would fail",
-        system.name, Printable(missing, 200)));
+    if (!system.external) continue;
+    const std::string missing = MissingProgram(*system.external);
+    const std::string unknown = UnknownProgram(*system.external);
+    if (!missing.empty()) {
+      notes.push_back(fmt::format(
+          "system '{}': its command begins with {}, which is no program here: its runs would fail",
+          system.name, Printable(missing, 200)));
+    } else if (!unknown.empty()) {
+      notes.push_back(fmt::format(
+          "system '{}': which file {} of its command is cannot be told, so --resume makes its runs "
+          "anew: name what decides it under depends_on",
+          system.name, Printable(unknown, 200)));
+    }
   }
   return notes;
 }

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/campaign/external_run.h"
+#include "harness/campaign/command_files.h"
 #include "harness/campaign/renderer_hash.h"
 #include "harness/campaign/source.h"
 #include "harness/contract/stream.h"
@@ -28,8 +28,7 @@ constexpr int kSchema = 1;
 std::uint64_t HashSystem(const SystemSpec& system, std::uint64_t seed) {
   seed = Hash(ToJson(system).dump(), seed);
   if (!system.external) return seed;
-  for (const fs::path& file : FilesNamedBy(system.external->command)) seed = HashFile(file, seed);
-  for (const fs::path& file : FilesInSource(*system.external)) seed = HashFile(file, seed);
+  for (const fs::path& file : FilesOf(*system.external).files) seed = HashFile(file, seed);
   for (const fs::path path : system.external->depends_on) {
     seed = fs::is_directory(path) ? HashFolder(path, seed) : HashFile(path, seed);
   }

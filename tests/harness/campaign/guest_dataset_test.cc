@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "harness/campaign/external_run.h"
 #include "harness/io/file.h"
 #include "harness/io/hash.h"
 
@@ -107,22 +106,6 @@ TEST_F(GuestDatasetTest, HoldsNoTruth) {
       EXPECT_EQ(path.find("poses"), std::string::npos) << path;
     }
   }
-}
-
-TEST(ExternalRunTest, TheFilesThatACommandNamesAreFound) {
-  const fs::path folder = fs::temp_directory_path() / fmt::format("aisle_named_{}", ::getpid());
-  for (const char* file : {"slam.py", "words.bin", "set.yaml"}) {
-    WriteFileAtomically(folder / file, "x");
-  }
-  const std::string at = folder.string() + "/";
-  const std::vector<fs::path> named =
-      FilesNamedBy("sh '" + at + "slam.py' vocabulary:" + at + "words.bin --settings=" + at +
-                   "set.yaml {output}; sh " + at + "none");
-  const std::vector<fs::path> expected{named.at(0), at + "slam.py", at + "words.bin",
-                                       at + "set.yaml"};
-  EXPECT_EQ(named, expected);
-  EXPECT_EQ(named.front().filename(), "sh");  // found on PATH
-  fs::remove_all(folder);
 }
 
 }  // namespace

@@ -50,8 +50,14 @@ TEST(NotesOfSystemsTest, NameTheSystemAndTheProgram) {
   suite.systems = {BuiltIn("robust"),
                    {.name = "mine", .external = ExternalSystem{.command = "no_such_slam {output}"}},
                    {.name = "copy", .external = ExternalSystem{.command = "cp a {output}"}}};
+  suite.systems.push_back(
+      {.name = "told",
+       .external = ExternalSystem{.command = "$NO_SUCH_SLAM {output}", .depends_on = {"a.out"}}});
+  suite.systems.push_back(
+      {.name = "untold", .external = ExternalSystem{.command = "$NO_SUCH_SLAM {output}"}});
   const std::vector<std::string> notes = NotesOfSystems(suite);
-  ASSERT_EQ(notes.size(), 1u);
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_THAT(notes[1], testing::StartsWith("system 'untold': which file $NO_SUCH_SLAM of "));
   EXPECT_THAT(notes[0], testing::StartsWith("system 'mine': "));
   EXPECT_THAT(notes[0], testing::HasSubstr("no_such_slam"));
 }
