@@ -59,13 +59,17 @@ Job FromJson(const Json& json) {
   job.mcap = json.value("mcap", false);
   job.memory_mib = json.value("memory_mib", job.memory_mib);
   job.frames_in_report = json.value("frames_in_report", "worst");
-  job.goes_to = json.value("goes_to", std::string());
+  for (const auto& folder : json.value("hidden", std::vector<std::string>())) {
+    job.hidden.emplace_back(folder);
+  }
   return job;
 }
 
 }  // namespace
 
 std::string ToJson(const Job& job) {
+  Json hidden = Json::array();
+  for (const fs::path& folder : job.hidden) hidden.push_back(folder.string());
   return Dump({{"schema", kSchema},
                {"scene", job.spec.scene},
                {"scene_file", job.spec.scene_file},
@@ -86,7 +90,7 @@ std::string ToJson(const Job& job) {
                {"mcap", job.mcap},
                {"memory_mib", job.memory_mib},
                {"frames_in_report", job.frames_in_report},
-               {"goes_to", job.goes_to.string()}});
+               {"hidden", std::move(hidden)}});
 }
 
 Job JobFromJson(const std::string& text, const std::string& file) {

@@ -30,9 +30,9 @@ struct Job {
   bool mcap = false;           ///< leave a bag of what the system said; changes no result
   double memory_mib = 8192;    ///< of a foreign system's processes together
   std::string frames_in_report = "worst";  ///< or all, none: whose pictures are kept
-  /// The report that the run is copied into when it is made; empty: `out` is it. Guests see
-  /// neither.
-  std::filesystem::path goes_to = {};
+  /// Folders besides `out` that guests must not see: of a cluster's task the report that the run is
+  /// copied into, and the node's scratch with its first attempt and its neighbours' runs.
+  std::vector<std::filesystem::path> hidden = {};
 };
 
 std::string ToJson(const Job& job);

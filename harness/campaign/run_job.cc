@@ -49,7 +49,7 @@ RunRecord RecordOf(const Job& job, const RunResult& result, const RunScore& scor
 /// nights left.
 std::vector<std::filesystem::path> HiddenFromGuests(const Job& job) {
   std::vector<std::filesystem::path> hidden{job.out, CacheDir(), ShippedBaselines()};
-  if (!job.goes_to.empty()) hidden.push_back(job.goes_to);
+  hidden.insert(hidden.end(), job.hidden.begin(), job.hidden.end());
   for (const std::string& file : FilesOfSource(job.spec.scene_file)) hidden.emplace_back(file);
   return hidden;
 }

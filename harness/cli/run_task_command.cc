@@ -68,7 +68,7 @@ std::vector<RunSpec> Missing(const Task& task, const Fingerprints& fingerprints,
 /// The job as it stands in the report's folder, for `rerun`; then the run, its result last.
 void HandIn(Job job, const fs::path& scratch, const fs::path& out) {
   job.out = out;
-  job.goes_to.clear();
+  job.hidden.clear();
   WriteFileAtomically(JobPath(scratch, job.spec), ToJson(job));
   CopyRun(job.spec, scratch, out);
 }
@@ -94,7 +94,7 @@ int RunTask(const Options& options) {
                 .frames_in_report = settings.frames_in_report});
   int failure = 0;
   for (Job job : jobs) {  // one by one: what is done is handed in before a limit comes
-    job.goes_to = out;
+    job.hidden = {out, scratch.home()};
     const CampaignOutcome outcome =
         RunCampaign({job},
                     {.at_once = 1,

@@ -18,6 +18,8 @@ class Scratch {
   Scratch& operator=(const Scratch&) = delete;
 
   const std::filesystem::path& folder() const { return folder_; }
+  /// Of all this user's tasks on the node.
+  const std::filesystem::path& home() const { return home_; }
   /// Shared by this user's tasks on the node, and kept: light and frames are found by content.
   std::filesystem::path cache() const { return home_ / "cache"; }
 

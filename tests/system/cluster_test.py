@@ -7,6 +7,7 @@ had, those tests are skipped with a message; what needs no queue is tested all t
 Usage: cluster_test.py PROGRAM SOURCE_FOLDER
 """
 
+import fcntl
 import json
 import os
 import pathlib
@@ -31,6 +32,13 @@ scenes: [tiny.yaml]
 systems: [plain, oracle]
 twins: [live, empty]
 seeds: %d
+"""
+# Fails at first; the second time it ends well where none of the truth on its node can be read.
+SPY = """case $1 in */again/*) ;; *) exit 7 ;; esac
+truth=$(find "${1%%/task-*}" -name truth.txt)
+[ -n "$truth" ] || exit 8
+for file in $truth; do cat "$file" >/dev/null 2>&1 && exit 9; done
+for x in 0 1 2 3; do echo "1 0 0 0  0 1 0 0  0 0 1 0.$x"; done >"$1"
 """
 root = pathlib.Path(tempfile.mkdtemp(prefix="aisle_cluster_"))
 unittest.addModuleCleanup(shutil.rmtree, root, ignore_errors=True)
@@ -124,6 +132,31 @@ class WithoutAQueue(unittest.TestCase):
         self.assertEqual(bits(out), bits(self.local))
         self.assertEqual([path.name for path in (root / "scratch").glob("aisle-*/task-*")], [])
         self.assertEqual(aisle("status", out)[0], 2)  # nobody asked for a verdict of a submission
+
+    def test_a_second_attempt_and_a_neighbour_on_the_node_see_no_truth(self):
+        if "nothing holds commands of others back" in aisle("doctor")[1]:
+            self.skipTest("no Landlock here")
+        neighbour = root / f"scratch/aisle-{os.getuid()}/task-neighbour"
+        (neighbour / "runs").mkdir(parents=True)
+        (neighbour / "runs/truth.txt").write_text("of another seed")
+        lock = (neighbour / ".lock").open("w")  # somebody's who is at work
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        self.addCleanup(lock.close)
+        (root / "spy.sh").write_text(SPY)
+        suite = root / "spied.yaml"
+        suite.write_text("suite: spied\nquestion: Does it see truth?\nscenes: [tiny.yaml]\n"
+                         "systems:\n  - plain\n  - {name: spy, command: \"sh spy.sh {output}\", "
+                         "dataset: kitti, trajectory: kitti}\n"
+                         "twins: [live]\nseeds: 1\n")
+        out = root / "spied"
+        code, text = aisle("run", suite, "--out", out, "--no-video", "--on", "k8s", "--late", 0)
+        self.assertEqual(code, 0, text)
+        task = self.task(out, 0)
+        said = task.communicate()[1]
+        self.assertEqual(task.returncode, 0, said)
+        self.assertIn("once more, to tell flaky from broken", said)
+        result = json.loads((out / "runs/tiny/live/spy/1/result.json").read_text())
+        self.assertTrue(result["flaky"], result)
 
     def test_what_is_missing_fails_the_verdict_and_no_more(self):
         out = self.plan("half")

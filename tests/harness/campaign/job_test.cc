@@ -30,6 +30,7 @@ Job Example() {
   job.video = false;
   job.debug_dynamic = true;
   job.memory_mib = 32000;
+  job.hidden = {"/report of all", "/scratch"};
   return job;
 }
 
@@ -44,6 +45,7 @@ TEST(JobTest, ComesBackAsItWasWritten) {
   EXPECT_FALSE(back.video);
   EXPECT_TRUE(back.debug_dynamic);
   EXPECT_EQ(back.memory_mib, 32000);
+  EXPECT_EQ(back.hidden, Example().hidden);
 }
 
 TEST(FingerprintsTest, ATeachingIsSharedHoweverItIsDrivenBy) {
