@@ -5,6 +5,7 @@
 
 #include "harness/io/input_error.h"
 #include "harness/io/system_spec_json.h"
+#include "harness/record/record.h"
 #include "harness/record/record_json.h"
 
 namespace aisle {
@@ -80,6 +81,8 @@ PlanFile FromJson(const Json& json) {
   plan.suite_file = json.value("suite_file", "");
   plan.gate = json.value("gate", false);
   plan.trial = json.value("trial", false);
+  plan.started = json.value("started", "");
+  plan.inputs = json.value("inputs", plan.inputs);
   for (const Json& suite : json.at("suites")) plan.suites.push_back(SuiteFromJson(suite));
   return plan;
 }
@@ -111,8 +114,10 @@ std::string ToJson(const PlanFile& plan) {
   if (!plan.suite_file.empty()) json["suite_file"] = plan.suite_file;
   if (plan.gate) json["gate"] = true;
   if (plan.trial) json["trial"] = true;
+  if (!plan.started.empty()) json["started"] = plan.started;
   json["suites"] = Json::array();
   for (const Suite& suite : plan.suites) json["suites"].push_back(ToJson(suite));
+  if (!plan.inputs.empty()) json["inputs"] = plan.inputs;
   return Dump(json);
 }
 
@@ -122,6 +127,31 @@ PlanFile PlanFromJson(const std::string& text, const std::string& file) {
   } catch (const std::exception& error) {
     throw InputError(file, 0, "is no plan: " + Printable(error.what(), 200));
   }
+}
+
+bool SameQuestion(const PlanFile& a, const PlanFile& b) {
+  const auto question = [](PlanFile plan) {
+    plan.started.clear();
+    plan.inputs.clear();
+    return ToJson(plan);
+  };
+  return question(a) == question(b);
+}
+
+PlanFile Resumed(const PlanFile& plan, const PlanFile& before,
+                 const std::function<std::string(const RunSpec&)>& inputs_of) {
+  std::map<std::string, std::string> kept;
+  for (const RunSpec& spec : Plan(plan.suites)) {
+    const auto at = before.inputs.find(RunId(spec));
+    if (at == before.inputs.end()) continue;
+    if (at->second != inputs_of(spec)) return plan;
+    kept.insert(*at);
+  }
+  if (kept.empty() || before.started.empty()) return plan;
+  PlanFile resumed = plan;
+  resumed.started = before.started;
+  resumed.inputs.merge(kept);
+  return resumed;
 }
 
 Shard ShardFromText(const std::string& text) {

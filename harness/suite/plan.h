@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,10 @@ struct PlanFile {
   std::string suite_file;     ///< the first of the files it names; empty in plans of before
   bool gate = false;          ///< it is held against baseline.json beside it, once it is whole
   bool trial = false;         ///< other systems, options or seeds than the suite's: no night of it
+  std::string started = {};   ///< when its night began, UTC; empty in plans of before
+  /// What its folder is to hold: the inputs' hash of each of its own runs (of a part: no others'),
+  /// by RunId. Whatever else lies there is an earlier night's. Empty in plans of before.
+  std::map<std::string, std::string> inputs = {};
 
   std::string name() const;      ///< of the suites, joined by "+"
   std::string question() const;  ///< of the suites, one after the other; bare scenes ask once
@@ -23,6 +29,16 @@ struct PlanFile {
 std::string ToJson(const PlanFile& plan);
 /// Throws InputError when the text is no plan of a known schema.
 PlanFile PlanFromJson(const std::string& text, const std::string& file);
+
+/// Whether two folders are planned for one question: all but when they began and which runs they
+/// were to make.
+bool SameQuestion(const PlanFile& a, const PlanFile& b);
+
+/// `plan` as that of a night that goes on in the folder of `before`: it began when that one did,
+/// and what that one was to hold is kept. As it is where it begins another night: some run of both
+/// has other inputs now, by `inputs_of`, or there is none of both.
+PlanFile Resumed(const PlanFile& plan, const PlanFile& before,
+                 const std::function<std::string(const RunSpec&)>& inputs_of);
 
 /// One of `count` parts of a plan. Parts are disjoint and together the whole.
 struct Shard {

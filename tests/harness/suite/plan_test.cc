@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/io/input_error.h"
+#include "harness/record/record.h"
 
 namespace aisle {
 namespace {
@@ -41,6 +42,55 @@ TEST(PlanTest, ComesBackAsItWasWritten) {
   EXPECT_EQ(back.suites[0].systems, Example().suites[0].systems);
   EXPECT_EQ(back.name(), "x+second");
   EXPECT_THROW(PlanFromJson("{}", "plan.json"), InputError);
+}
+
+std::string NewInputs(const RunSpec& spec) { return "new inputs of " + RunId(spec); }
+
+/// As a folder holds it that was planned at this hour for a part of the runs.
+PlanFile Planned(const std::string& started, const Shard& part = {}) {
+  PlanFile plan = Example();
+  plan.started = started;
+  for (const RunSpec& spec : TakeShard(Plan(plan.suites), part)) {
+    plan.inputs.emplace(RunId(spec), NewInputs(spec));
+  }
+  return plan;
+}
+
+TEST(PlanTest, PartsAskOneQuestionWhoeverBeganWhenAndWithWhat) {
+  const PlanFile one = Planned("2026-01-31T02:00:00Z", {1, 2});
+  EXPECT_EQ(ToJson(PlanFromJson(ToJson(one), "plan.json")), ToJson(one));
+  EXPECT_TRUE(SameQuestion(one, Planned("2026-01-31T02:00:07Z", {2, 2})));
+  PlanFile other = one;
+  other.gate = true;
+  EXPECT_FALSE(SameQuestion(one, other));
+}
+
+TEST(PlanTest, ANightThatGoesOnBeganWhenItBegan) {
+  const PlanFile before = Planned("yesterday"), now = Planned("today");
+  EXPECT_EQ(ToJson(Resumed(now, before, NewInputs)), ToJson(before));
+  // With more seeds: the new ones beside the old ones.
+  PlanFile fewer = before;
+  fewer.inputs.erase(fewer.inputs.begin());
+  EXPECT_EQ(ToJson(Resumed(now, fewer, NewInputs)), ToJson(before));
+}
+
+TEST(PlanTest, TwoPartsInOneFolderAreBothMeantToBeThere) {
+  const PlanFile first = Planned("yesterday", {1, 2});
+  EXPECT_EQ(ToJson(Resumed(Planned("today", {2, 2}), first, NewInputs)),
+            ToJson(Planned("yesterday")));
+}
+
+TEST(PlanTest, AnotherNightInTheSameFolderKeepsNothingOfTheLast) {
+  const PlanFile now = Planned("today");
+  PlanFile changed = Planned("yesterday");
+  changed.inputs.begin()->second = "old inputs";
+  PlanFile of_before = Planned("");
+  of_before.inputs.clear();
+  PlanFile strange = Planned("yesterday");
+  strange.inputs = {{"another/live/plain/1", "x"}};
+  for (const PlanFile& before : {changed, of_before, strange}) {
+    EXPECT_EQ(ToJson(Resumed(now, before, NewInputs)), ToJson(now));
+  }
 }
 
 /// Plans of before have no share, and are written as they were where a limit has none.

@@ -52,10 +52,13 @@ TEST(PlanRoundTrip, KeepsEverySuite) {
                         .command = AnyText(),
                         .suite_file = AnyText(),
                         .gate = AnyOf(0, 1) == 1,
-                        .trial = AnyOf(0, 1) == 1};
+                        .trial = AnyOf(0, 1) == 1,
+                        .started = AnyText(),
+                        .inputs = AnyMap(3, AnyText)};
     const PlanFile read = PlanFromJson(ToJson(plan), "x");
     RC_ASSERT(read.command == plan.command && read.suite_file == plan.suite_file);
     RC_ASSERT(read.gate == plan.gate && read.trial == plan.trial);
+    RC_ASSERT(read.started == plan.started && read.inputs == plan.inputs);
     RC_ASSERT(std::equal(read.suites.begin(), read.suites.end(), plan.suites.begin(),
                          plan.suites.end(),
                          [](const Suite& x, const Suite& y) { return Equal(x, y); }));
