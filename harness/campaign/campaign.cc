@@ -221,33 +221,46 @@ CampaignOutcome RunCampaign(const std::vector<Job>& jobs, const CampaignOptions&
 
 namespace {
 
-/// Whether the job's result is there and nothing says that it would be another now.
-bool IsDone(const Job& job, const RunLimits& limits) {
+/// The job's result where nothing says that it would be another now.
+std::optional<RunRecord> ResultThatStands(const Job& job, const RunLimits& limits) {
   const auto& external = job.spec.system.external;
-  if (external && !UnknownProgram(*external).empty()) return false;
-  return ReadFinishedRun(job.spec, job.inputs_hash, limits, job.out).has_value();
+  if (external && !UnknownProgram(*external).empty()) return std::nullopt;
+  return ReadFinishedRun(job.spec, job.inputs_hash, limits, job.out);
 }
 
 }  // namespace
 
-std::vector<Job> StillToDo(const std::vector<Job>& jobs, const RunLimits& limits) {
-  std::map<std::string, const Job*> finished;  // by inputs
-  std::vector<Job> todo, left;
+Standing StandingOf(const std::vector<Job>& jobs, const RunLimits& limits) {
+  Standing standing;
+  std::map<std::string, Job> good;  // by inputs
+  std::vector<Job> left;
   for (const Job& job : jobs) {
-    if (IsDone(job, limits)) {
-      finished.try_emplace(job.inputs_hash, &job);
-      continue;
-    }
-    RemoveFolder(job.out / "runs" / RunId(job.spec));
-    left.push_back(job);
+    const std::optional<RunRecord> result = ResultThatStands(job, limits);
+    if (result && IsComplete(result->status)) good.try_emplace(job.inputs_hash, job);
+    (result ? standing.kept : left).push_back(job);
   }
   for (const Job& job : left) {
-    const auto equal = finished.find(job.inputs_hash);
-    const bool answered =
-        equal != finished.end() && AreEqual(*equal->second, job) && AnswerFrom(*equal->second, job);
-    if (!answered) todo.push_back(job);
+    const auto equal = good.find(job.inputs_hash);
+    if (equal != good.end() && AreEqual(equal->second, job)) {
+      standing.answered.emplace_back(job, equal->second);
+    } else {
+      standing.todo.push_back(job);
+    }
   }
-  return todo;
+  return standing;
+}
+
+Standing Resume(const std::vector<Job>& jobs, const RunLimits& limits) {
+  Standing standing = StandingOf(jobs, limits);
+  AllToDo(standing.todo);
+  std::erase_if(standing.answered, [&](const auto& pair) {
+    const auto& [job, equal] = pair;
+    RemoveFolder(job.out / "runs" / RunId(job.spec));
+    const bool filed = AnswerFrom(equal, job);
+    if (!filed) standing.todo.push_back(job);
+    return !filed;
+  });
+  return standing;
 }
 
 std::vector<Job> AllToDo(const std::vector<Job>& jobs) {

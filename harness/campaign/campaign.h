@@ -38,10 +38,23 @@ struct CampaignOutcome {
 CampaignOutcome RunCampaign(const std::vector<Job>& jobs, const CampaignOptions& options,
                             const CampaignEvents& events);
 
-/// The jobs that have no result for these very inputs within these limits, nor an equal that has,
-/// and those of systems of which nobody can tell whether they still are what they were; what else
-/// lies in their folders is taken away.
-std::vector<Job> StillToDo(const std::vector<Job>& jobs, const RunLimits& limits);
+/// How a folder stands before its night goes on.
+struct Standing {
+  std::vector<Job> kept = {};  ///< have a result for these very inputs within these limits
+  /// Have none, but an equal that is kept has: the job, and whose result answers for it.
+  std::vector<std::pair<Job, Job>> answered = {};
+  std::vector<Job> todo = {};
+
+  std::size_t there() const { return kept.size() + answered.size(); }
+};
+
+/// Looks and changes nothing. Systems of which nobody can tell whether they still are what they
+/// were keep no result.
+Standing StandingOf(const std::vector<Job>& jobs, const RunLimits& limits);
+
+/// The same, and files the answers of equals; what else lies in the folders of the jobs to do is
+/// taken away.
+Standing Resume(const std::vector<Job>& jobs, const RunLimits& limits);
 
 /// All of them, once what lies in their folders is taken away.
 std::vector<Job> AllToDo(const std::vector<Job>& jobs);

@@ -8,6 +8,7 @@
 #include "harness/io/system_spec_json.h"
 #include "harness/plugs/steering_options.h"
 #include "harness/record/record.h"
+#include "harness/suite/recording.h"
 
 namespace aisle {
 namespace {
@@ -27,20 +28,28 @@ double FrameCoreS(const SystemSpec& system) {
   return base;
 }
 
-/// The frames of scenes, each counted once.
+/// The frames of scenes and recordings, each counted once.
 class FrameCounts {
  public:
   explicit FrameCounts(const CountFrames& count) : count_(count) {}
-  std::int64_t Of(const RunSpec& spec) {
-    const auto [at, is_new] = frames_.try_emplace(spec.scene_file, 0);
-    if (is_new) at->second = count_(spec.scene_file);
-    return at->second;
-  }
-  std::size_t scenes() const { return frames_.size(); }
+  std::int64_t Of(const RunSpec& spec) { return SourceOf(spec).frames; }
+  /// Whether they are files already.
+  bool AreRecorded(const RunSpec& spec) { return SourceOf(spec).recorded; }
+  std::size_t scenes() const { return sources_.size(); }
 
  private:
+  struct Source {
+    std::int64_t frames = 0;
+    bool recorded = false;
+  };
+  const Source& SourceOf(const RunSpec& spec) {
+    const auto [at, is_new] = sources_.try_emplace(spec.scene_file);
+    if (is_new) at->second = {count_(spec.scene_file), IsRecording(spec.scene_file)};
+    return at->second;
+  }
+
   const CountFrames& count_;
-  std::map<std::string, std::int64_t> frames_;
+  std::map<std::string, Source> sources_;
 };
 
 std::string WithThousands(std::int64_t number) {
@@ -78,7 +87,7 @@ Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFra
     const auto render_once = [&](const std::string& what) {
       if (rendered.insert(what).second) kept_pairs += frames;
     };
-    if (!steered) render_once(key);
+    if (!steered && !counts.AreRecorded(spec)) render_once(key);
     if (IsOnlyItsInputs(spec) && !driven.insert({key, spec.system.name}).second) {
       ++forecast.answered;
       continue;

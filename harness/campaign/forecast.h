@@ -13,7 +13,7 @@ namespace aisle {
 /// What making these runs will take, before hours of work begin.
 struct Forecast {
   std::size_t scenes = 0, twins = 0, systems = 0, seeds = 0, runs = 0;
-  std::int64_t pairs = 0;          ///< stereo pairs to render
+  std::int64_t pairs = 0;          ///< stereo pairs to render; a recording has its own
   std::int64_t system_frames = 0;  ///< frames that systems are driven through
   std::size_t answered = 0;        ///< runs that another's drive answers, for equal inputs
   double wall_s = 0;       ///< on this machine's cores; a guess, right within a factor of two

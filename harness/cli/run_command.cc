@@ -153,15 +153,32 @@ void TellLimitsLeftOut(const std::vector<Suite>& suites) {
              left_out == 1 ? "a limit is" : fmt::format("{} limits are", left_out));
 }
 
-/// The runs that this command is to make: the plan's, or a part of them.
-std::vector<RunSpec> SpecsOf(const PlanFile& plan, const Shard& shard,
-                             const Fingerprints& fingerprints) {
-  const std::vector<RunSpec> specs = TakeShard(Plan(plan.suites), shard);
+/// What is ahead: of a night that goes on, without what is there of it.
+void TellForecast(const std::vector<Job>& jobs, const Options& options,
+                  const Fingerprints& fingerprints) {
+  Standing standing{.todo = jobs};
+  if (options.resume) standing = StandingOf(jobs, options.limits);
+  if (standing.there() > 0) {
+    fmt::print(stderr, "aisle: {} of {} runs are already there\n", standing.there(), jobs.size());
+    if (standing.todo.empty()) return;
+  }
+  std::vector<RunSpec> specs;
+  for (const Job& job : standing.todo) specs.push_back(job.spec);
   const auto frames_key = [&](const RunSpec& spec) { return fingerprints.Frames(spec); };
   fmt::print(stderr, "aisle: {}\n",
              ToText(ForecastOf(specs, static_cast<int>(std::thread::hardware_concurrency()),
                                CountSourceFrames, frames_key, IsDriveSource)));
-  return specs;
+}
+
+JobOptions JobOptionsOf(const Options& options, const fs::path& out) {
+  return {.out = out,
+          .threads = options.threads,
+          .frame_cache = !options.no_frame_cache,
+          .video = !options.no_video,
+          .debug_dynamic = options.debug_dynamic,
+          .mcap = options.mcap,
+          .memory_mib = options.limits.memory_mib,
+          .frames_in_report = options.frames_in_report};
 }
 
 /// What a cluster cannot do for us, said before anything is handed over.
@@ -220,7 +237,7 @@ int RunSuites(const Options& options) {
   TellLimitsLeftOut(plan.suites);
   const std::optional<Results> baseline = ReadBaseline(options, plan);
   const Fingerprints fingerprints;
-  const std::vector<RunSpec> specs = SpecsOf(plan, shard, fingerprints);
+  const std::vector<RunSpec> specs = TakeShard(Plan(plan.suites), shard);
   if (specs.empty()) {
     fmt::print(stderr, "aisle: {}\n",
                shard.count > 1 ? fmt::format("part {} holds no run of the suite", options.shard)
@@ -229,6 +246,8 @@ int RunSuites(const Options& options) {
     return kNothingToDo;
   }
   const fs::path out = ReportFolder(options, plan);
+  const std::vector<Job> jobs = MakeJobs(specs, fingerprints, JobOptionsOf(options, out));
+  TellForecast(jobs, options, fingerprints);
   if (!options.cluster.on.empty()) {
     RefuseOnCluster(options, shard);
     const std::optional<FileLock> ours =
@@ -241,25 +260,13 @@ int RunSuites(const Options& options) {
   const bool whole = shard.count == 1;
   const bool remember = whole && !plan.trial;  // neither a part nor a trial is a night
   if (remember) WarnOfHistory(out);
-  const std::vector<Job> jobs = MakeJobs(specs, fingerprints,
-                                         {.out = out,
-                                          .threads = options.threads,
-                                          .frame_cache = !options.no_frame_cache,
-                                          .video = !options.no_video,
-                                          .debug_dynamic = options.debug_dynamic,
-                                          .mcap = options.mcap,
-                                          .memory_mib = options.limits.memory_mib,
-                                          .frames_in_report = options.frames_in_report});
   const std::map<std::string, double> seconds = ExpectedSeconds(specs, out, CountSourceFrames);
   RemoveReport(out);
-  const std::vector<Job> todo = options.resume ? StillToDo(jobs, options.limits) : AllToDo(jobs);
-  if (specs.size() > todo.size()) {
-    fmt::print(stderr, "aisle: {} of {} runs are already there\n", specs.size() - todo.size(),
-               specs.size());
-  }
+  const Standing standing =
+      options.resume ? Resume(jobs, options.limits) : Standing{.todo = AllToDo(jobs)};
   WriteFileAtomically(out / "plan.json", ToJson(plan));
   if (baseline) WriteNightBaseline(*baseline, out);
-  const CampaignOutcome outcome = RunToEnd(todo, options, seconds);
+  const CampaignOutcome outcome = RunToEnd(standing.todo, options, seconds);
   if (!outcome.finished) {
     fmt::print(stderr, "aisle: interrupted; the same command with --resume goes on from here\n");
     return kInterrupted;

@@ -108,6 +108,26 @@ TEST_F(SuiteRunTest, ResumeTrustsContentsNotNames) {
   EXPECT_NE(ReadFile(run / "final.txt"), whole);
 }
 
+TEST_F(SuiteRunTest, ADryRunOfANightThatGoesOnTellsWhatIsLeftAndTakesNothing) {
+  const std::string suite = Suite("rest", "  - plain\n");
+  const auto ahead = [&](const std::string& seeds) {
+    return Run({"run", suite, "--out", Out("a"), "--seeds", seeds, "--resume", "--dry-run"}).text;
+  };
+  EXPECT_THAT(ahead("1"), HasSubstr("aisle: 1 run: "));
+  ASSERT_EQ(Run({"run", suite, "--out", Out("a")}).code, 0);
+  const std::string result = ReadFile(fs::path(Out("a")) / "runs/short/live/plain/1/result.json");
+  const std::string whole = ahead("1");
+  EXPECT_THAT(whole, HasSubstr("1 of 1 runs are already there"));
+  EXPECT_THAT(whole, testing::Not(HasSubstr("stereo pairs")));
+  const std::string rest = ahead("3");
+  EXPECT_THAT(rest, HasSubstr("1 of 3 runs are already there"));
+  EXPECT_THAT(rest, HasSubstr("2 runs: 1 scene, 1 twin, 1 system, 2 seeds; "));
+  // What it would make anew lies there until it does.
+  WriteFileAtomically(fs::path(Out("a")) / "runs/short/live/plain/1/final.txt", "spoilt");
+  EXPECT_THAT(ahead("1"), HasSubstr("aisle: 1 run: "));
+  EXPECT_EQ(ReadFile(fs::path(Out("a")) / "runs/short/live/plain/1/result.json"), result);
+}
+
 TEST_F(SuiteRunTest, AHistoryThatCannotBeWrittenIsSaidInTheEveningAndCostsNoReport) {
   const std::string suite = Suite("trends", "  - plain\n");
   WriteFileAtomically(folder_ / "history.sqlite", std::string(5000, 'x'));

@@ -86,5 +86,18 @@ TEST(ForecastTest, WhatSystemsSteerThroughIsRenderedForEachAlone) {
   EXPECT_EQ(ForecastOf({specs[0]}, 2, count, ByName, steered).cache_bytes, 0);
 }
 
+TEST(ForecastTest, ARecordingIsDrivenAndNotRendered) {
+  const auto count = [](const std::string&) { return std::int64_t{500}; };
+  const Forecast forecast =
+      ForecastOf({{"bag", "bag.mcap", "live", BuiltIn("plain"), 1}}, 2, count, ByName, Led);
+  EXPECT_EQ(forecast.pairs, 0);
+  EXPECT_EQ(forecast.cache_bytes, 0);
+  EXPECT_EQ(forecast.system_frames, 500);
+  const Forecast scene =
+      ForecastOf({{"s", "s.yaml", "live", BuiltIn("plain"), 1}}, 2, count, ByName, Led);
+  EXPECT_GT(forecast.wall_s, 0);
+  EXPECT_LT(forecast.wall_s, scene.wall_s);
+}
+
 }  // namespace
 }  // namespace aisle
