@@ -174,26 +174,34 @@ bool RunAll(const std::vector<Job>& jobs, const CampaignOptions& options,
   return finished;
 }
 
-/// Those that failed, to be made once more in another folder.
-std::vector<Job> JobsThatFailed(const std::vector<Job>& jobs) {
-  std::vector<Job> again;
+/// Those that failed and were not tried a second time.
+std::vector<Job> TriedOnce(const std::vector<Job>& jobs) {
+  std::vector<Job> once;
   for (const Job& job : jobs) {
-    if (!IsFailure(ReadRun(job.spec, job.out))) continue;
-    again.push_back(job);
-    again.back().out = job.out / "again";
-    RemoveFolder(again.back().out / "runs" / RunId(job.spec));
+    const std::optional<RunRecord> record = ReadRun(job.spec, job.out);
+    if (IsFailure(record) && record->attempts < 2) once.push_back(job);
   }
-  return again;
+  return once;
 }
 
-/// Marks the runs that ended well the second time.
-void MarkFlaky(const std::vector<Job>& jobs) {
+/// The same runs in another folder, in which nothing of them lies.
+std::vector<Job> OnceMore(std::vector<Job> jobs) {
+  for (Job& job : jobs) job.out /= "again";
+  return AllToDo(jobs);
+}
+
+/// Files with the first attempts what became of the second ones: where one did not fail, the run is
+/// flaky. An attempt that left no result was none.
+void FileSecondAttempts(const std::vector<Job>& jobs) {
   for (const Job& job : jobs) {
     const std::optional<RunRecord> second = ReadRun(job.spec, job.out / "again");
     std::optional<RunRecord> first = ReadRun(job.spec, job.out);
-    if (!second || !IsFailure(first) || IsFailure(second)) continue;
-    first->flaky = true;
-    first->status_why += "; a second attempt with the same inputs ended well";
+    if (!second || !first) continue;
+    first->attempts = 2;
+    if (IsComplete(second->status)) {
+      first->flaky = true;
+      first->status_why += "; a second attempt with the same inputs ended " + Name(second->status);
+    }
     WriteFileAtomically(job.out / "runs" / RunId(job.spec) / "result.json", ToJson(*first));
   }
 }
@@ -206,13 +214,15 @@ CampaignOutcome RunCampaign(const std::vector<Job>& jobs, const CampaignOptions&
   CampaignOutcome outcome;
   outcome.finished = RunAll(jobs, options, events, &outcome.failure);
   if (outcome.finished && options.retry) {
-    const std::vector<Job> again = JobsThatFailed(jobs);
-    if (!again.empty()) {
+    std::vector<Job> failed = TriedOnce(jobs);
+    const std::vector<Job> before = TriedOnce(options.kept);
+    failed.insert(failed.end(), before.begin(), before.end());
+    if (!failed.empty()) {
       events.say(
-          fmt::format("aisle: {} failed; once more, to tell flaky from broken", again.size()));
+          fmt::format("aisle: {} failed; once more, to tell flaky from broken", failed.size()));
       int second_failure = 0;  // the first attempt is what counts
-      outcome.finished = RunAll(again, options, events, &second_failure);
-      if (outcome.finished) MarkFlaky(jobs);
+      outcome.finished = RunAll(OnceMore(failed), options, events, &second_failure);
+      FileSecondAttempts(failed);
     }
   }
   outcome.wall_s = watch.ElapsedMs() * 1e-3;

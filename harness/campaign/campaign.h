@@ -21,6 +21,9 @@ struct CampaignOptions {
   int at_once = 1;  ///< processes
   RunLimits limits;
   bool retry = true;  ///< try failed runs once more, to tell flaky from broken
+  /// Runs of the same night that are there already: their failures are tried once more too, where
+  /// that has not been done.
+  std::vector<Job> kept = {};
   std::map<std::string, double> seconds = {};      ///< what runs are thought to take, by RunId
   const std::atomic<bool>* interrupted = nullptr;  ///< set from outside: stop soon
 };
@@ -33,8 +36,8 @@ struct CampaignOutcome {
 
 /// Makes the runs, each in a process of its own that reads its job.json, and files the failures of
 /// those that could not do it themselves. Of runs of equal inputs one is driven, and its answer is
-/// filed for the others. Runs that failed are then made once more, elsewhere: the
-/// same inputs that end well the second time make the run flaky, never good.
+/// filed for the others. Runs that failed are then made once more, elsewhere: the same inputs that
+/// do not fail the second time make the run flaky, never good.
 CampaignOutcome RunCampaign(const std::vector<Job>& jobs, const CampaignOptions& options,
                             const CampaignEvents& events);
 

@@ -126,15 +126,16 @@ void WarnOfHistory(const fs::path& out) {
   fmt::print(stderr, "aisle: warning: the trends will lack this night: {}\n", trouble);
 }
 
-CampaignOutcome RunToEnd(const std::vector<Job>& jobs, const Options& options,
+CampaignOutcome RunToEnd(const Standing& night, const Options& options,
                          const std::map<std::string, double>& seconds) {
   std::signal(SIGINT, OnInterrupt);
   std::signal(SIGTERM, OnInterrupt);
   ProgressLine line;
-  return RunCampaign(jobs,
+  return RunCampaign(night.todo,
                      {.at_once = options.jobs,
                       .limits = options.limits,
                       .retry = !options.no_retry,
+                      .kept = night.kept,
                       .seconds = seconds,
                       .interrupted = &interrupted},
                      {.say =
@@ -266,7 +267,7 @@ int RunSuites(const Options& options) {
       options.resume ? Resume(jobs, options.limits) : Standing{.todo = AllToDo(jobs)};
   WriteFileAtomically(out / "plan.json", ToJson(plan));
   if (baseline) WriteNightBaseline(*baseline, out);
-  const CampaignOutcome outcome = RunToEnd(standing.todo, options, seconds);
+  const CampaignOutcome outcome = RunToEnd(standing, options, seconds);
   if (!outcome.finished) {
     fmt::print(stderr, "aisle: interrupted; the same command with --resume goes on from here\n");
     return kInterrupted;

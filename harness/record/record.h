@@ -32,7 +32,8 @@ struct RunRecord {
   std::string program, commit, cpu;  ///< hash of the program, its tree's commit, the processor
   std::string system_version;        ///< what a foreign system says it is; empty for ours
   std::string last_words;  ///< the last lines a foreign system, or one that failed, printed
-  /// The same inputs, tried again, ended well: what fails is not what they are but when.
+  int attempts = 1;        ///< times the same inputs were tried; the first is what stands here
+  /// The second attempt did not fail: what fails is not what the inputs are but when.
   bool flaky = false;
   Scorecard scores;
   std::vector<std::string> notes;

@@ -81,6 +81,7 @@ Json RecordToJson(const RunRecord& record) {
   if (!record.program.empty()) json["program"] = record.program;
   if (!record.commit.empty()) json["commit"] = record.commit;
   if (!record.cpu.empty()) json["cpu"] = record.cpu;
+  if (record.attempts > 1 || record.flaky) json["attempts"] = record.attempts;
   if (record.flaky) json["flaky"] = true;
   if (!record.system_version.empty()) json["system_version"] = record.system_version;
   if (!record.last_words.empty()) json["last_words"] = record.last_words;
@@ -119,6 +120,7 @@ RunRecord RecordFromJson(const Json& json) {
   record.commit = json.value("commit", "");
   record.cpu = json.value("cpu", "");
   record.flaky = json.value("flaky", false);
+  record.attempts = json.value("attempts", record.flaky ? 2 : 1);  // of before: it told flaky alone
   record.system_version = json.value("system_version", "");
   record.last_words = json.value("last_words", "");
   for (const auto& [name, score] : json.at("scores").items()) {

@@ -142,6 +142,43 @@ TEST_F(ForeignSystemTest, ThatFailsOnceIsFlakyAndNotForgiven) {
   EXPECT_FALSE(results.verdicts[0].passed);
 }
 
+TEST_F(ForeignSystemTest, ThatFailedIsTriedOnceMoreByANightThatGoesOn) {
+  const std::string known = KnownTrajectory();
+  // The dataset's epoch is missing in what `lost` leaves the second time: no stamp is the scene's.
+  std::string systems = "  - {name: broken, command: \"exit 3 # {output}\"}\n";
+  for (const auto& [name, dataset] : {std::pair("ok", "kitti"), std::pair("lost", "euroc")}) {
+    const std::string mark = Out(fmt::format("mark_{}", name));
+    fs::create_directories(mark);
+    systems += fmt::format(
+        "  - {{name: {3}, command: \"test -e {0}/been && cp {1} {{output}} && exit 0; touch "
+        "{0}/been; exit 3\", dataset: {2}, may_write: [{0}]}}\n",
+        mark, known, dataset, name);
+  }
+  // As a night that is stopped before its second attempts leaves it.
+  const std::vector<std::string> run{"run", Suite("stopped", systems), "--out", Out("stopped")};
+  std::vector<std::string> first = run, resume = run;
+  first.emplace_back("--no-retry");
+  resume.emplace_back("--resume");
+  EXPECT_EQ(Run(first).code, 1);
+  for (const RunRecord& record : ResultsOf(Out("stopped")).runs) EXPECT_EQ(record.attempts, 1);
+
+  const Said said = Run(resume);
+  EXPECT_EQ(said.code, 1) << said.text;
+  EXPECT_THAT(said.text, HasSubstr("3 of 3 runs are already there"));
+  EXPECT_THAT(said.text, HasSubstr("3 failed; once more"));
+  const Results results = ResultsOf(Out("stopped"));
+  for (const RunRecord& record : results.runs) {
+    EXPECT_EQ(record.status, RunStatus::kCrashed);
+    EXPECT_EQ(record.attempts, 2);
+    EXPECT_EQ(record.flaky, record.spec.system.name != "broken");
+  }
+  for (const std::string name : {"ok", "lost"}) {
+    EXPECT_THAT(Find(results, name).status_why,
+                testing::EndsWith("a second attempt with the same inputs ended " + name));
+  }
+  EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("once more"))) << "two attempts are enough";
+}
+
 TEST_F(ForeignSystemTest, ThatTellsMoreIsShownWithIt) {
   const std::string systems = fmt::format(
       "  - name: tells\n"
@@ -284,6 +321,33 @@ TEST_F(ForeignSystemTest, IsRunAnewWhenItsScriptHasChanged) {
   EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already there")));
   WriteFileAtomically(model, "other weights");
   EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already there")));
+}
+
+TEST_F(ForeignSystemTest, IsRunAnewWhereNobodyCanTellWhatItIs) {
+  const std::string script = (folder_ / "my slam/run").string(), known = KnownTrajectory();
+  WriteFileAtomically(script, "#!/bin/sh\ncp " + known + " $1\n");
+  fs::permissions(script, fs::perms::owner_all);
+  const auto resume = [&](const std::string& command, const std::string& more = "") {
+    const std::string suite = Suite(
+        "told",
+        fmt::format("  - {{name: mine, command: \"{}\", dataset: kitti{}}}\n", command, more));
+    return Run({"run", suite, "--out", Out("told"), "--resume"}).text;
+  };
+  // By a shell alone.
+  const std::string asked = fmt::format("\\\"$(echo '{}')\\\" {{output}}", script);
+  EXPECT_THAT(resume(asked), HasSubstr("so --resume makes its runs anew"));
+  EXPECT_THAT(resume(asked), testing::Not(HasSubstr("already there")));
+  const std::string depends = fmt::format(", depends_on: ['{}']", script);
+  EXPECT_THAT(resume(asked, depends), testing::Not(HasSubstr("makes its runs anew")));
+  EXPECT_THAT(resume(asked, depends), HasSubstr("1 of 1 runs are already there"));
+  // A path that must be quoted is no riddle.
+  const std::string quoted =
+      fmt::format("cd '{}' && ./run {{output}}", fs::path(script).parent_path().string());
+  EXPECT_THAT(resume(quoted), testing::Not(HasSubstr("makes its runs anew")));
+  EXPECT_THAT(resume(quoted), HasSubstr("1 of 1 runs are already there"));
+  WriteFileAtomically(script, "#!/bin/sh\ncp " + known + " $1 # another way\n");
+  fs::permissions(script, fs::perms::owner_all);
+  EXPECT_THAT(resume(quoted), testing::Not(HasSubstr("already there")));
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ RunRecord AnyRecord() {
   record.cpu = AnyText();
   record.system_version = AnyText();
   record.last_words = AnyText();
+  record.attempts = AnyOf(1, 3);
   record.flaky = AnyFlag();
   record.scores = AnyMap(4, AnyScore);
   record.notes = AnyList(3, AnyText);
@@ -65,7 +66,8 @@ bool Equal(const RunRecord& a, const RunRecord& b) {
          a.inputs_hash == b.inputs_hash && a.output_hash == b.output_hash &&
          a.program == b.program && a.commit == b.commit && a.cpu == b.cpu &&
          a.system_version == b.system_version && a.last_words == b.last_words &&
-         a.flaky == b.flaky && a.notes == b.notes && a.artifacts == b.artifacts &&
+         a.attempts == b.attempts && a.flaky == b.flaky && a.notes == b.notes &&
+         a.artifacts == b.artifacts &&
          std::equal(a.scores.begin(), a.scores.end(), b.scores.begin(), b.scores.end(), same_score);
 }
 
