@@ -57,18 +57,17 @@ SlurmPaths PathsOf(const ClusterNight& night) {
   return {.program = OwnExecutable(), .out = night.out, .working_folder = fs::current_path()};
 }
 
-std::string KubernetesOf(const ClusterNight& night, const ClusterChoice& choice,
-                         std::size_t tasks) {
-  return KubernetesJobs(
-      {.name = night.plan.name(),
-       .image = choice.image.empty() ? "aisle:" + OwnProvenance().version : choice.image,
-       .claim = choice.claim.empty() ? "aisle" : choice.claim,
-       .tasks = tasks,
-       .at_most = choice.nodes_at_most,
-       .cpus = night.settings.threads,
-       .memory_mib = night.settings.limits.memory_mib,
-       .out = night.out,
-       .working_folder = fs::current_path()});
+KubernetesOptions KubernetesOf(const ClusterNight& night, const ClusterChoice& choice,
+                               std::size_t tasks) {
+  return {.name = night.plan.name(),
+          .image = choice.image.empty() ? "aisle:" + OwnProvenance().version : choice.image,
+          .claim = choice.claim.empty() ? "aisle" : choice.claim,
+          .tasks = tasks,
+          .at_most = choice.nodes_at_most,
+          .cpus = night.settings.threads,
+          .memory_mib = night.settings.limits.memory_mib,
+          .out = night.out,
+          .working_folder = fs::current_path()};
 }
 
 /// The scripts that would be submitted.
@@ -129,11 +128,9 @@ int OnKubernetes(const ClusterNight& night, const ClusterChoice& choice, const T
   ClearTheWay(list, night.resume, night.out);
   WriteNight(night, list);
   const fs::path file = night.out / "cluster" / "jobs.yaml";
-  WriteFileAtomically(file, KubernetesOf(night, choice, list.tasks.size()));
-  const std::string name = KubernetesName(night.plan.name());
-  fmt::print("kubectl apply -f {}\n", ShellWord(file.string()));
-  fmt::print("kubectl wait --for=condition=complete --timeout=-1s job/{}\n", name);
-  fmt::print("kubectl patch job {}-merge -p '{{\"spec\":{{\"suspend\":false}}}}'\n", name);
+  const KubernetesOptions options = KubernetesOf(night, choice, list.tasks.size());
+  WriteFileAtomically(file, KubernetesJobs(options));
+  fmt::print("{}", KubernetesRecipe(options, file));
   return kAllPassed;
 }
 
@@ -211,7 +208,7 @@ int RunOnCluster(const ClusterNight& night, const ClusterChoice& choice) {
     if (slurm) {
       ShowSlurm(night.resume ? Unfinished(list, night.out) : all, night, choice);
     } else {
-      fmt::print("{}", KubernetesOf(night, choice, list.tasks.size()));
+      fmt::print("{}", KubernetesJobs(KubernetesOf(night, choice, list.tasks.size())));
     }
     return kAllPassed;
   }

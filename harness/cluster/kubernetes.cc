@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/io/hash.h"
+#include "harness/io/shell_word.h"
 #include "harness/record/record_json.h"
 
 namespace aisle {
@@ -52,10 +54,11 @@ std::string Head(const std::string& name) {
 
 }  // namespace
 
-std::string KubernetesName(const std::string& name) {
+std::string KubernetesName(const std::string& suite, const std::filesystem::path& out) {
   constexpr std::size_t kLongest = 52;
+  const std::string ending = fmt::format("-{:08x}", Hash(out.string()) & 0xffffffff);
   std::string made = "aisle-";
-  for (const char c : name) {
+  for (const char c : suite) {
     const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
     const bool upper = c >= 'A' && c <= 'Z';
     if (plain || upper) {
@@ -64,13 +67,27 @@ std::string KubernetesName(const std::string& name) {
       made += '-';
     }
   }
-  made.resize(std::min(made.size(), kLongest));
+  made.resize(std::min(made.size(), kLongest - ending.size()));
   while (made.back() == '-') made.pop_back();
-  return made;
+  return made + ending;
+}
+
+std::string KubernetesRecipe(const KubernetesOptions& options, const std::filesystem::path& file) {
+  const std::string name = KubernetesName(options.name, options.out);
+  std::string text = fmt::format(
+      "kubectl delete job {0} {0}-merge --ignore-not-found --cascade=foreground\n", name);
+  text += fmt::format("kubectl apply -f {}\n", ShellWord(file.string()));
+  // `wait` knows one condition: it asks for the other one now and then.
+  text +=
+      fmt::format("until kubectl wait --for=condition=complete --timeout=5m job/{0} ||\n", name);
+  text += fmt::format("  kubectl wait --for=condition=failed --timeout=1s job/{0}; ", name);
+  text += "do sleep 5; done\n";
+  return text +
+         fmt::format("kubectl patch job {}-merge -p '{{\"spec\":{{\"suspend\":false}}}}'\n", name);
 }
 
 std::string KubernetesJobs(const KubernetesOptions& options) {
-  const std::string name = KubernetesName(options.name), out = options.out.string();
+  const std::string name = KubernetesName(options.name, options.out), out = options.out.string();
   const std::size_t at_once =
       options.at_most > 0 ? std::min(static_cast<std::size_t>(options.at_most), options.tasks)
                           : options.tasks;

@@ -22,8 +22,14 @@ struct KubernetesOptions {
 /// evicted, or two for one index, do no harm: a task begins with what is there.
 std::string KubernetesJobs(const KubernetesOptions& options);
 
-/// A name as RFC 1123 has it: lower-case letters, digits and hyphens, a letter first, at most 52
-/// characters, so that "-merge" and a pod's own ending still fit in.
-std::string KubernetesName(const std::string& name);
+/// Commands for a shell that drive a night by that file to its end: what the folder's last night
+/// left goes first, since a Job that is there is neither run again nor changed by `apply`; the
+/// merge is released when the tasks have ended, also where their Job failed.
+std::string KubernetesRecipe(const KubernetesOptions& options, const std::filesystem::path& file);
+
+/// The tasks' Job, by suite and report's folder, so that a suite's nights in two folders do not
+/// meet. A name as RFC 1123 has it: lower-case letters, digits and hyphens, a letter first, at most
+/// 52 characters, so that "-merge" and a pod's own ending still fit in.
+std::string KubernetesName(const std::string& suite, const std::filesystem::path& out);
 
 }  // namespace aisle

@@ -40,6 +40,17 @@ truth=$(find "${1%%/task-*}" -name truth.txt)
 for file in $truth; do cat "$file" >/dev/null 2>&1 && exit 9; done
 for x in 0 1 2 3; do echo "1 0 0 0  0 1 0 0  0 0 1 0.$x"; done >"$1"
 """
+# As Kubernetes has it: a Job that is there is not made again, and waiting for what never comes ends
+# with the time alone.
+KUBECTL = """case $1 in
+delete) shift; for job; do rm -f "$STATE/$job"; done ;;
+apply) for job in $(sed -n 's/^  name: "\\(.*\\)"$/\\1/p' "$3"); do
+    [ -e "$STATE/$job" ] || { echo "$ENDS" >"$STATE/$job"; echo made >>"$STATE/log"; }
+  done ;;
+wait) [ "$2" = "--for=condition=$(cat "$STATE/${4#job/}")" ] ;;
+patch) [ -e "$STATE/$3" ] && echo released >>"$STATE/log" ;;
+esac
+"""
 root = pathlib.Path(tempfile.mkdtemp(prefix="aisle_cluster_"))
 unittest.addModuleCleanup(shutil.rmtree, root, ignore_errors=True)
 
@@ -111,10 +122,12 @@ class WithoutAQueue(unittest.TestCase):
                                 env=dict(self.environment, JOB_COMPLETION_INDEX=str(index)),
                                 stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
-    def plan(self, name):
+    def plan(self, name, *more):
         out = root / name
-        code, text = aisle("run", self.suite, "--out", out, "--no-video", "--on", "k8s", "--late", 0)
-        self.assertEqual(code, 0, text)
+        done = subprocess.run([PROGRAM, "run", self.suite, "--out", out, "--no-video", "--on", "k8s",
+                               "--late", "0", *more], cwd=root, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.recipe = done.stdout
         return out
 
     def test_tasks_of_any_order_doubled_and_killed_make_the_same_night(self):
@@ -246,6 +259,20 @@ class WithoutAQueue(unittest.TestCase):
         self.assertEqual(code, 1, text)
         self.assertEqual(aisle("status", out, environment=queue)[0], 1)
 
+    def test_the_recipe_runs_every_night_and_ends_with_a_night_that_fails(self):
+        kubectl = self.commands(kubectl=KUBECTL, sleep="exit 0")
+        state = root / "jobs"
+        state.mkdir()
+        nights = dict(os.environ, PATH=f"{kubectl}:{os.environ['PATH']}", STATE=str(state))
+        for night, ends in enumerate(("complete", "failed", "complete"), 1):
+            self.plan("recipe")
+            done = subprocess.run(["sh", "-ec", self.recipe], env=dict(nights, ENDS=ends), timeout=60,
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, self.recipe + done.stderr)
+            log = (state / "log").read_text().splitlines()
+            self.assertEqual(log.count("made"), 2 * night, self.recipe)
+            self.assertEqual(log.count("released"), night)
+
     def test_a_folder_whose_jobs_wait_is_not_taken(self):
         out = self.plan("waits")
         (out / "cluster/submission.json").write_text('{"id": "a", "arrays": ["1"], "merge": "2"}')
@@ -262,7 +289,7 @@ class WithoutAQueue(unittest.TestCase):
     def commands(self, **scripts):
         """A folder with a batch system's commands that do just this; others answer nothing."""
         folder = pathlib.Path(tempfile.mkdtemp(dir=root))
-        for name in ("sbatch", "squeue", "scontrol"):
+        for name in ("sbatch", "squeue", "scontrol", *scripts):
             (folder / name).write_text(f"#!/bin/sh\n{scripts.get(name, 'exit 0')}\n")
             (folder / name).chmod(0o755)
         return folder
