@@ -83,7 +83,7 @@ void ShowSlurm(const std::vector<std::size_t>& tasks, const ClusterNight& night,
 /// Takes away what another program or another question left: a half night is no answer. What says
 /// that the last one is over goes first: should this one never begin, nothing speaks for it.
 void ClearTheWay(const TaskList& list, bool resume, const fs::path& out) {
-  ForgetSubmission(out);
+  ForgetNight(out);
   RemoveReport(out);
   for (const Task& task : list.tasks) {
     for (const TaskRun& run : task.runs) {

@@ -5,6 +5,7 @@
 #include "harness/campaign/collect.h"
 #include "harness/cli/night_baseline.h"
 #include "harness/cli/publish.h"
+#include "harness/cluster/slurm.h"
 #include "harness/cluster/submission.h"
 #include "harness/cluster/tasks.h"
 #include "harness/common/stopwatch.h"
@@ -42,6 +43,16 @@ void DropForeignResults(const TaskList& list, const fs::path& out) {
   }
 }
 
+/// The submission that a merge by hand answers: the folder's, once its jobs have ended, or none of
+/// a name where aisle submitted nothing. None while jobs may be to come: theirs is the verdict.
+std::optional<std::string> AnsweredByHand(const TaskList& list, const fs::path& out) {
+  const std::optional<Submission> submission = ReadSubmission(out);
+  if (!submission) return "";
+  if (Unfinished(list, out).empty()) return submission->id;
+  const auto queue = QueueOf(*submission);
+  return queue && queue->empty() ? std::optional(submission->id) : std::nullopt;
+}
+
 }  // namespace
 
 int MergeNight(const fs::path& out, const MergeNightOptions& options) {
@@ -58,9 +69,9 @@ int MergeNight(const fs::path& out, const MergeNightOptions& options) {
   const int code = Publish(
       results, out,
       {.json = options.json, .remember = list.settings.remember, .allure = list.settings.allure});
-  if (!options.submission.empty()) {
-    WriteVerdict({.submission = options.submission, .exit_code = code}, out);
-  }
+  const std::optional<std::string> answered =
+      options.submission.empty() ? AnsweredByHand(list, out) : options.submission;
+  if (answered) WriteVerdict({.submission = *answered, .exit_code = code}, out);
   return code;
 }
 

@@ -116,7 +116,7 @@ void LeaveTheCluster(const fs::path& out) {
                      "its jobs are still in the queue: `aisle status DIR` tells how they go; wait "
                      "for them, scancel them, or choose another --out");
   }
-  ForgetSubmission(out);
+  ForgetNight(out);
 }
 
 /// What the morning would find out, said in the evening; no reason not to drive.

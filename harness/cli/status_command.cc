@@ -17,7 +17,7 @@ int Status(const std::string& folder) {
   const std::optional<Submission> submission = ReadSubmission(out);
   fmt::print("{}\n", ClusterProgress(list, out, submission));
   const std::optional<ClusterVerdict> verdict = ReadVerdict(out);
-  if (verdict && submission && verdict->submission == submission->id) {
+  if (verdict && verdict->submission == (submission ? submission->id : "")) {
     fmt::print("verdict: exit code {}, report: {}\n", verdict->exit_code,
                (out / "index.html").string());
     return verdict->exit_code;

@@ -49,8 +49,8 @@ std::optional<ClusterVerdict> ReadVerdict(const fs::path& out) {
   });
 }
 
-void ForgetSubmission(const fs::path& out) {
-  for (const char* file : {"verdict.json", "submission.json"}) {
+void ForgetNight(const fs::path& out) {
+  for (const char* file : {"verdict.json", "submission.json", "tasks.json"}) {
     const fs::path path = out / "cluster" / file;
     std::error_code error;
     fs::remove(path, error);

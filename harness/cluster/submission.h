@@ -18,7 +18,7 @@ struct Submission {
 
 /// What the merge of a submission ended with; cluster/verdict.json.
 struct ClusterVerdict {
-  std::string submission;
+  std::string submission;  ///< empty: of tasks that aisle did not submit itself (Kubernetes)
   int exit_code = 0;
 
   bool operator==(const ClusterVerdict&) const = default;
@@ -31,7 +31,8 @@ std::optional<Submission> ReadSubmission(const std::filesystem::path& out);
 void WriteVerdict(const ClusterVerdict& verdict, const std::filesystem::path& out);
 std::optional<ClusterVerdict> ReadVerdict(const std::filesystem::path& out);
 
-/// Takes both away, the verdict first: a folder that begins another night answers for none.
-void ForgetSubmission(const std::filesystem::path& out);
+/// Takes both away, the verdict first, and the list of the tasks: a folder that begins another
+/// night answers for none, and holds another plan than theirs.
+void ForgetNight(const std::filesystem::path& out);
 
 }  // namespace aisle

@@ -144,7 +144,7 @@ class WithoutAQueue(unittest.TestCase):
         self.assertEqual(code, 0, text)
         self.assertEqual(bits(out), bits(self.local))
         self.assertEqual([path.name for path in (root / "scratch").glob("aisle-*/task-*")], [])
-        self.assertEqual(aisle("status", out)[0], 2)  # nobody asked for a verdict of a submission
+        self.assertEqual(aisle("status", out)[0], 0)
 
     def test_a_second_attempt_and_a_neighbour_on_the_node_see_no_truth(self):
         if "nothing holds commands of others back" in aisle("doctor")[1]:
@@ -180,6 +180,7 @@ class WithoutAQueue(unittest.TestCase):
         self.assertEqual(code, 1, text)
         self.assertIn("no result", (out / "junit.xml").read_text())
         self.assertEqual(len(bits(out)[0]), 2)
+        self.assertEqual(aisle("status", out)[0], 1)
 
     def test_a_node_with_another_scene_does_not_answer(self):
         out = self.plan("other")
@@ -237,6 +238,11 @@ class WithoutAQueue(unittest.TestCase):
         out = self.plan("never")
         code, text = aisle("run", self.suite, "--out", out, "--no-video")
         self.assertEqual(code, 0, text)
+        code, text = aisle("status", out)  # a night of this machine
+        self.assertEqual((code, "holds no night of a cluster" in text), (4, True), text)
+        self.plan("never", "--resume")
+        self.assertEqual(aisle("status", out)[0], 2)
+        self.assertEqual(aisle("merge", out)[0], 0)
         (out / "cluster/submission.json").write_text('{"id": "a", "arrays": ["1"], "merge": "2"}')
         (out / "cluster/verdict.json").write_text('{"submission": "a", "exit_code": 0}')
         queue = dict(os.environ, PATH=f"{self.commands(sbatch='exit 1')}:{os.environ['PATH']}")
@@ -258,6 +264,14 @@ class WithoutAQueue(unittest.TestCase):
                            "--baseline", root / "more.json", "--late", 0, environment=queue)
         self.assertEqual(code, 1, text)
         self.assertEqual(aisle("status", out, environment=queue)[0], 1)
+
+    def test_a_merge_by_hand_is_no_verdict_while_jobs_may_come(self):
+        out = self.plan("by_hand")
+        (out / "cluster/submission.json").write_text('{"id": "a", "arrays": ["1"], "merge": "2"}')
+        for squeue, status in (('echo "1|PENDING"', 2), ("exit 1", 2), ("exit 0", 1)):
+            queue = dict(os.environ, PATH=f"{self.commands(squeue=squeue)}:{os.environ['PATH']}")
+            self.assertEqual(aisle("merge", out, environment=queue)[0], 1)
+            self.assertEqual(aisle("status", out, environment=queue)[0], status, squeue)
 
     def test_the_recipe_runs_every_night_and_ends_with_a_night_that_fails(self):
         kubectl = self.commands(kubectl=KUBECTL, sleep="exit 0")
