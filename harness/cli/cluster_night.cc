@@ -99,7 +99,8 @@ void WriteNight(const ClusterNight& night, const TaskList& list) {
   WriteTasks(list, night.out);
 }
 
-int OnSlurm(const ClusterNight& night, const ClusterChoice& choice, const TaskList& list) {
+int OnSlurm(const ClusterNight& night, const ClusterChoice& choice, const TaskList& list,
+            std::optional<FileLock> ours) {
   if (IsUnderWay(night.out)) {
     if (!night.resume) {
       throw InputError(night.out.string(), 0,
@@ -107,12 +108,13 @@ int OnSlurm(const ClusterNight& night, const ClusterChoice& choice, const TaskLi
                        "scancel them, or follow them with --resume --wait");
     }
     fmt::print(stderr, "aisle: its jobs are still in the queue: nothing is submitted\n");
+    ours.reset();
     return choice.wait ? WaitForVerdict(night.out, {.json = night.json}) : kAllPassed;
   }
   ClearTheWay(list, night.resume, night.out);
   WriteNight(night, list);
   const std::vector<std::size_t> missing = Unfinished(list, night.out);
-  const std::string id = fmt::format("{}-{}", night.settings.started, getpid());
+  const std::string id = fmt::format("{}-{}", NowIso8601(), getpid());
   if (missing.empty()) {  // `status` asks for the verdict of a submission, though it has no job
     WriteSubmission({.id = id, .arrays = {}, .merge = {}}, night.out);
     return MergeNight(night.out, {.json = night.json, .submission = id});
@@ -121,6 +123,7 @@ int OnSlurm(const ClusterNight& night, const ClusterChoice& choice, const TaskLi
   fmt::print(stderr, "aisle: tasks {}, merge {}; `{} status {}` tells how they go\n",
              fmt::join(submission.arrays, ", "), submission.merge, OwnCommand(),
              ShellWord(night.out.string()));
+  ours.reset();
   return choice.wait ? WaitForVerdict(night.out, {.json = night.json}) : kAllPassed;
 }
 
@@ -197,7 +200,8 @@ bool IsUnderWay(const fs::path& out) {
                      ": squeue does not answer, and jobs of this folder may be waiting");
 }
 
-int RunOnCluster(const ClusterNight& night, const ClusterChoice& choice) {
+int RunOnCluster(const ClusterNight& night, const ClusterChoice& choice,
+                 std::optional<FileLock> ours) {
   RefuseOfOther(choice);
   const TaskList list{.settings = night.settings,
                       .tasks = CutIntoTasks(night.runs, CostsOf(night.out))};
@@ -212,7 +216,7 @@ int RunOnCluster(const ClusterNight& night, const ClusterChoice& choice) {
     }
     return kAllPassed;
   }
-  return slurm ? OnSlurm(night, choice, list) : OnKubernetes(night, choice, list);
+  return slurm ? OnSlurm(night, choice, list, std::move(ours)) : OnKubernetes(night, choice, list);
 }
 
 }  // namespace aisle

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "harness/cluster/tasks.h"
+#include "harness/io/file_lock.h"
 #include "harness/record/results.h"
 #include "harness/suite/plan.h"
 
@@ -41,8 +42,10 @@ struct ClusterNight {
 bool IsUnderWay(const std::filesystem::path& out);
 
 /// Writes the plan and hands what is missing to the batch system; `wait` follows it to the verdict.
-/// Returns an exit code: the verdict's where it waited, 0 where the jobs are handed over. Throws
-/// InputError and MachineError.
-int RunOnCluster(const ClusterNight& night, const ClusterChoice& choice);
+/// `ours` holds the folder until the jobs are handed over: their merge takes it. Returns an exit
+/// code: the verdict's where it waited, 0 where the jobs are handed over. Throws InputError and
+/// MachineError.
+int RunOnCluster(const ClusterNight& night, const ClusterChoice& choice,
+                 std::optional<FileLock> ours);
 
 }  // namespace aisle

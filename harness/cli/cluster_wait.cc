@@ -8,6 +8,7 @@
 
 #include "harness/cli/command.h"
 #include "harness/cli/merge_night.h"
+#include "harness/cli/night_folder.h"
 #include "harness/cli/terminal.h"
 #include "harness/cluster/slurm.h"
 #include "harness/common/stopwatch.h"
@@ -79,6 +80,10 @@ int WaitForVerdict(const fs::path& out, const WaitOptions& options) {
     } else if (gone.ElapsedMs() * 1e-3 > list.settings.late_s) {
       line.Clear();
       fmt::print(stderr, "aisle: the jobs are gone and left no verdict: merging here\n");
+      const FileLock ours = WaitForFolder(out);
+      if (const auto made = ReadVerdict(out); made && made->submission == submission->id) {
+        continue;  // by another who waited
+      }
       return MergeNight(out, {.json = options.json, .submission = submission->id});
     }
     std::this_thread::sleep_for(kPoll);

@@ -4,6 +4,7 @@
 
 #include "harness/campaign/collect.h"
 #include "harness/cli/night_baseline.h"
+#include "harness/cli/night_folder.h"
 #include "harness/cli/publish.h"
 #include "harness/cluster/slurm.h"
 #include "harness/cluster/submission.h"
@@ -57,8 +58,7 @@ std::optional<std::string> AnsweredByHand(const TaskList& list, const fs::path& 
 
 int MergeNight(const fs::path& out, const MergeNightOptions& options) {
   const TaskList list = ReadTasks(out);
-  const fs::path plan_path = out / "plan.json";
-  const PlanFile plan = PlanFromJson(ReadFile(plan_path), plan_path.string());
+  const PlanFile plan = ReadPlan(out);
   WaitForLateResults(list, out);
   DropForeignResults(list, out);
   Results results = Collect(plan, Plan(plan.suites), out);

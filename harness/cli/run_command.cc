@@ -14,11 +14,10 @@
 #include "harness/cli/cluster_night.h"
 #include "harness/cli/command.h"
 #include "harness/cli/night_baseline.h"
+#include "harness/cli/night_folder.h"
 #include "harness/cli/publish.h"
 #include "harness/cli/terminal.h"
-#include "harness/cluster/submission.h"
 #include "harness/io/file.h"
-#include "harness/io/file_lock.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/io/shell_word.h"
@@ -95,30 +94,6 @@ std::optional<Results> ReadBaseline(const Options& options, const PlanFile& plan
   return baseline;
 }
 
-/// Two nights in one folder would take each other's results away.
-FileLock TakeFolder(const fs::path& out) {
-  if (fs::exists(out) && !fs::is_directory(out)) {
-    throw InputError(out.string(), 0, "is a file: --out needs a folder");
-  }
-  std::optional<FileLock> lock = FileLock::Try(out / ".lock");
-  if (!lock) {
-    throw InputError(out.string(), 0,
-                     "another `aisle run` is at work there: wait for it, or choose another --out");
-  }
-  return *std::move(lock);
-}
-
-/// A night of this machine in a folder that a cluster filled: `status` must not go on telling of
-/// the cluster's.
-void LeaveTheCluster(const fs::path& out) {
-  if (IsUnderWay(out)) {
-    throw InputError(out.string(), 0,
-                     "its jobs are still in the queue: `aisle status DIR` tells how they go; wait "
-                     "for them, scancel them, or choose another --out");
-  }
-  ForgetNight(out);
-}
-
 /// What the morning would find out, said in the evening; no reason not to drive.
 void WarnOfHistory(const fs::path& out) {
   const std::string trouble = HistoryTrouble(HistoryPath(out));
@@ -193,7 +168,7 @@ void RefuseOnCluster(const Options& options, const Shard& shard) {
 
 int HandOver(const Options& options, const PlanFile& plan, const std::vector<RunSpec>& specs,
              const Fingerprints& fingerprints, const std::optional<Results>& baseline,
-             const fs::path& out) {
+             const fs::path& out, std::optional<FileLock> ours) {
   constexpr int kUsualThreads = 2;
   ClusterNight night{.plan = plan,
                      .runs = {},
@@ -207,7 +182,7 @@ int HandOver(const Options& options, const PlanFile& plan, const std::vector<Run
                                   .remember = !plan.trial,
                                   .allure = options.allure,
                                   .gate = baseline.has_value(),
-                                  .started = NowIso8601(),
+                                  .started = plan.started,
                                   .late_s = options.cluster.late_s},
                      .baseline = baseline,
                      .out = fs::absolute(out).lexically_normal(),
@@ -215,21 +190,30 @@ int HandOver(const Options& options, const PlanFile& plan, const std::vector<Run
                      .dry_run = options.dry_run,
                      .json = options.json};
   for (const RunSpec& spec : specs) night.runs.push_back({spec, fingerprints.Run(spec)});
-  return RunOnCluster(night, options.cluster);
+  return RunOnCluster(night, options.cluster, std::move(ours));
 }
 
 fs::path ReportFolder(const Options& options, const PlanFile& plan) {
   return options.out.empty() ? fs::path("out") / plan.name() : fs::path(options.out);
 }
 
+/// The plan with what its folder is to hold: tonight's, or that of the night which goes on there.
+PlanFile ForFolder(PlanFile plan, const std::vector<RunSpec>& specs,
+                   const Fingerprints& fingerprints, bool resume, const fs::path& out) {
+  const auto inputs_of = [&](const RunSpec& spec) { return fingerprints.Run(spec); };
+  for (const RunSpec& spec : specs) plan.inputs.emplace(RunId(spec), inputs_of(spec));
+  const std::optional<PlanFile> before = resume ? FindPlan(out) : std::nullopt;
+  return before ? Resumed(plan, *before, inputs_of) : plan;
+}
+
 int RunSuites(const Options& options) {
-  const std::string started = NowIso8601();
   const Shard shard = ShardFromText(options.shard);
   const PlanFile plan{.suites = LoadInputs(options.inputs),
                       .command = CommandLine(options),
                       .suite_file = options.inputs.files.front(),
                       .gate = options.gate,
-                      .trial = IsTrial(options.inputs)};
+                      .trial = IsTrial(options.inputs),
+                      .started = NowIso8601()};
   CheckScenes(plan.suites);
   TellNotesOfScenes(plan.suites);
   for (std::size_t i = 0; i < plan.suites.size(); ++i) {
@@ -251,9 +235,9 @@ int RunSuites(const Options& options) {
   TellForecast(jobs, options, fingerprints);
   if (!options.cluster.on.empty()) {
     RefuseOnCluster(options, shard);
-    const std::optional<FileLock> ours =
-        options.dry_run ? std::nullopt : std::optional(TakeFolder(out));
-    return HandOver(options, plan, specs, fingerprints, baseline, out);
+    std::optional<FileLock> ours = options.dry_run ? std::nullopt : std::optional(TakeFolder(out));
+    const PlanFile tonight = ForFolder(plan, specs, fingerprints, options.resume, out);
+    return HandOver(options, tonight, specs, fingerprints, baseline, out, std::move(ours));
   }
   if (options.dry_run) return kAllPassed;
   const FileLock ours = TakeFolder(out);
@@ -265,7 +249,8 @@ int RunSuites(const Options& options) {
   RemoveReport(out);
   const Standing standing =
       options.resume ? Resume(jobs, options.limits) : Standing{.todo = AllToDo(jobs)};
-  WriteFileAtomically(out / "plan.json", ToJson(plan));
+  const PlanFile tonight = ForFolder(plan, specs, fingerprints, options.resume, out);
+  WriteFileAtomically(out / "plan.json", ToJson(tonight));
   if (baseline) WriteNightBaseline(*baseline, out);
   const CampaignOutcome outcome = RunToEnd(standing, options, seconds);
   if (!outcome.finished) {
@@ -276,7 +261,7 @@ int RunSuites(const Options& options) {
     WriteBags(jobs, out, [](const std::string& text) { fmt::print(stderr, "{}\n", text); });
   }
   Results results = Collect(plan, specs, out, {.judge_limits = whole});
-  results.started = started;
+  results.started = tonight.started;
   results.wall_s = outcome.wall_s;
   results.rerun = plan.command + (options.out.empty() ? "" : " --out " + ShellWord(options.out));
   if (baseline && whole) HoldAgainstBaseline(*baseline, &results);

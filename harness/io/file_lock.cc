@@ -49,6 +49,14 @@ std::optional<FileLock> FileLock::Try(const fs::path& file) {
   return lock;
 }
 
+std::optional<FileLock> FileLock::TryToRead(const fs::path& file) {
+  FileLock lock;
+  lock.file_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (lock.file_ < 0 || ::flock(lock.file_, LOCK_SH | LOCK_NB) == 0) return lock;
+  if (errno == EWOULDBLOCK) return std::nullopt;
+  return lock;
+}
+
 FileLock::FileLock(FileLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
 
 FileLock::~FileLock() {

@@ -13,6 +13,10 @@ class FileLock {
   explicit FileLock(const std::filesystem::path& file);
   /// None where somebody else holds it. Throws likewise.
   static std::optional<FileLock> Try(const std::filesystem::path& file);
+  /// Beside others who only read, and who keep Try from it as long; none where somebody holds it.
+  /// Makes nothing: a file that is not there, or that cannot be opened or locked here, nobody is
+  /// known to hold.
+  static std::optional<FileLock> TryToRead(const std::filesystem::path& file);
 
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&&) = delete;

@@ -273,6 +273,18 @@ class WithoutAQueue(unittest.TestCase):
             self.assertEqual(aisle("merge", out, environment=queue)[0], 1)
             self.assertEqual(aisle("status", out, environment=queue)[0], status, squeue)
 
+    def test_the_clusters_own_merge_waits_for_the_folder_where_a_person_is_told(self):
+        out = self.plan("held")
+        with (out / ".lock").open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            code, text = aisle("merge", out)
+            self.assertEqual((code, "at work there" in text), (4, True), text)
+            merge = subprocess.Popen([PROGRAM, "merge", out, "--submission", "a"], cwd=root,
+                                     stdout=subprocess.DEVNULL)
+            time.sleep(2)
+            self.assertIsNone(merge.poll())
+        self.assertEqual(merge.wait(60), 1)  # of a night of which no run is there
+
     def test_the_recipe_runs_every_night_and_ends_with_a_night_that_fails(self):
         kubectl = self.commands(kubectl=KUBECTL, sleep="exit 0")
         state = root / "jobs"

@@ -119,8 +119,19 @@ TEST_F(FileTest, ALockIsHeldByOneAtATime) {
   std::optional<FileLock> first = FileLock::Try(folder_ / "lock");
   ASSERT_TRUE(first);
   EXPECT_FALSE(FileLock::Try(folder_ / "lock"));
+  EXPECT_FALSE(FileLock::TryToRead(folder_ / "lock"));
   first.reset();
   EXPECT_TRUE(FileLock::Try(folder_ / "lock"));
+}
+
+TEST_F(FileTest, ManyReadTogetherAndKeepOutWhoWouldHoldItAlone) {
+  EXPECT_TRUE(FileLock::TryToRead(folder_ / "none"));
+  EXPECT_FALSE(fs::exists(folder_ / "none"));
+  FileLock::Try(folder_ / "lock").reset();
+  const std::optional<FileLock> one = FileLock::TryToRead(folder_ / "lock");
+  EXPECT_TRUE(one);
+  EXPECT_TRUE(FileLock::TryToRead(folder_ / "lock"));
+  EXPECT_FALSE(FileLock::Try(folder_ / "lock"));
 }
 
 }  // namespace
