@@ -14,7 +14,7 @@ namespace aisle {
 namespace {
 
 struct Options {
-  std::string truth, format, times;
+  std::string truth, format, format_truth, format_estimate, times;
   std::vector<std::string> estimates;
   std::string masks_truth, masks;
   OutlineOptions outline;
@@ -66,8 +66,8 @@ ScoreOptions ScoreOptionsOf(const Options& options) {
 
 /// KITTI files have no stamps: a shorter file is held against the common part, and that is said.
 /// What the truth has beyond it counts as lost.
-TrajectoryScore ScorePoses(Trajectory truth, Trajectory estimate, const ScoreOptions& options,
-                           double rate_hz) {
+TrajectoryScore ScorePoses(const Trajectory& truth, Trajectory estimate,
+                           const ScoreOptions& options, double rate_hz) {
   Trajectory scored = truth;
   if (options.association.rule == AssociationRule::kIndex && truth.size() != estimate.size()) {
     const std::size_t common = std::min(truth.size(), estimate.size());
@@ -77,10 +77,7 @@ TrajectoryScore ScorePoses(Trajectory truth, Trajectory estimate, const ScoreOpt
     estimate.resize(common);
   }
   TrajectoryScore score = ScoreTrajectory(scored, estimate, options);
-  const std::int64_t interval_ns =
-      rate_hz > 0 ? std::llround(1e9 / rate_hz) : FrameIntervalNs(truth, estimate);
-  AddCoverage(ErrorsOverFrames(truth, score, interval_ns), Name(options.alignment.method),
-              &score.scores);
+  AddCoverageOfFiles(truth, estimate, options, rate_hz, &score);
   return score;
 }
 
@@ -143,14 +140,16 @@ void PrintScores(const Scorecard& scores, bool all) {
   fmt::print("\n{} more scores with --all\n", left);
 }
 
-void PrintText(const TrajectoryScore& score, const ScoreOptions& options, std::size_t truth,
-               std::size_t estimate, bool all) {
+void PrintText(const TrajectoryScore& score, const ScoreOptions& options, const PosesRead& truth,
+               const PosesRead& estimate, bool all) {
+  fmt::print("read as      {} (truth); {} (estimate)\n", truth.format, estimate.format);
   fmt::print("association  {}: {} pairs of {} true and {} estimated poses\n", score.association,
-             score.pairs.size(), truth, estimate);
+             score.pairs.size(), truth.poses.size(), estimate.poses.size());
   fmt::print("alignment    {}, scale {:.9g}\n", AlignmentInWords(options), score.alignment.scale);
   fmt::print("rpe          {}\n", Describe(options.relative));
-  fmt::print("frames       {}; error_all_* count lost ones as failures\n\n",
-             score.scores.at("coverage").n);
+  const Score& coverage = score.scores.at("coverage");
+  fmt::print("frames       {}, of them {:.0f} lost; error_all_* count these as failures\n\n",
+             coverage.n, static_cast<double>(coverage.n) * (1 - coverage.value.value_or(0)));
   PrintScores(score.scores, all);
   for (const std::string& note : score.notes) fmt::print("\nnote: {}\n", note);
 }
@@ -170,12 +169,16 @@ nlohmann::ordered_json ToJson(const TrajectoryScore& score, const ScoreOptions& 
 
 /// Several estimates side by side, a row per score. Where one has no value, `score` of it alone
 /// says why.
-void PrintTable(const std::vector<std::string>& files, const std::vector<TrajectoryScore>& scores,
-                const ScoreOptions& options, bool all) {
+void PrintTable(const std::vector<std::string>& files, const AllPosesRead& read,
+                const std::vector<TrajectoryScore>& scores, const ScoreOptions& options, bool all) {
   const std::vector<std::string> names = TellingNames(files);
   std::size_t width = 12;
   for (const std::string& name : names)
     width = std::max(width, std::min<std::size_t>(name.size(), 40));
+  std::set<std::string> formats;
+  for (const PosesRead& estimate : read.estimates) formats.insert(estimate.format);
+  fmt::print("read as      {} (truth); {} (estimates)\n", read.truth.format,
+             fmt::join(formats, " or "));
   fmt::print("association  {}\nalignment    {}\nrpe          {}\n\n{:36}",
              scores.front().association, AlignmentInWords(options), Describe(options.relative), "");
   for (const std::string& name : names) {
@@ -252,16 +255,22 @@ int ScoreFiles(const Options& options) {
   }
   RefuseIdle(options);
   const ScoreOptions score_options = ScoreOptionsOf(options);
-  const auto [truth, estimates] =
+  const auto either = [](const std::string& own, const std::string& of_both) {
+    return own.empty() ? of_both : own;
+  };
+  const AllPosesRead read =
       ReadPoseFiles({.truth = options.truth,
                      .estimates = options.estimates,
-                     .format = options.format,
+                     .format_truth = either(options.format_truth, options.format),
+                     .format_estimate = either(options.format_estimate, options.format),
                      .times = options.times,
                      .by_stamp = score_options.association.rule != AssociationRule::kIndex});
   std::vector<TrajectoryScore> scores;
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < estimates.size(); ++i) {
-    scores.push_back(ScorePoses(truth, estimates[i], score_options, options.rate_hz));
+  for (std::size_t i = 0; i < read.estimates.size(); ++i) {
+    const PosesRead& estimate = read.estimates[i];
+    scores.push_back(ScorePoses(read.truth.poses, estimate.poses, score_options, options.rate_hz));
+    if (!estimate.note.empty()) scores.back().notes.push_back(estimate.note);
     list.push_back(ToJson(scores.back(), score_options));
     list.back()["estimate"] = options.estimates[i];
   }
@@ -271,9 +280,9 @@ int ScoreFiles(const Options& options) {
     if (masks) all["masks"] = MasksToJson(*masks);
     fmt::print("{}", Dump(all));
   } else if (scores.size() == 1) {
-    PrintText(scores.front(), score_options, truth.size(), estimates.front().size(), options.all);
+    PrintText(scores.front(), score_options, read.truth, read.estimates.front(), options.all);
   } else {
-    PrintTable(options.estimates, scores, score_options, options.all);
+    PrintTable(options.estimates, read, scores, score_options, options.all);
   }
   const bool any = std::any_of(scores.begin(), scores.end(),
                                [](const TrajectoryScore& score) { return !score.pairs.empty(); });
@@ -317,6 +326,12 @@ void AddScoreCommand(CLI::App* app, Action* action) {
   command->add_option("--estimate", options->estimates,
                       "estimated trajectory; several are set side by side");
   command->add_option("--format", options->format, "of both files; default: by their content")
+      ->check(CLI::IsMember({"tum", "kitti", "euroc"}));
+  command->add_option("--format-truth", options->format_truth, "of the truth; default: --format")
+      ->check(CLI::IsMember({"tum", "kitti", "euroc"}));
+  command
+      ->add_option("--format-estimate", options->format_estimate,
+                   "of the estimates; default: --format")
       ->check(CLI::IsMember({"tum", "kitti", "euroc"}));
   command->add_option("--times", options->times,
                       "KITTI times.txt; needed beside a file with stamps");

@@ -4,36 +4,73 @@
 #include "harness/cli/bag_notes.h"
 #include "harness/io/input_error.h"
 #include "harness/io/trajectory.h"
+#include "harness/score/step_difference.h"
 
 namespace aisle {
 namespace {
 
-/// Of a bag's topic it is none of a file.
-std::optional<TrajectoryFormat> FormatOf(const std::string& file, const std::string& format) {
-  if (BagTopicFromText(file)) return std::nullopt;
-  return format.empty() ? GuessTrajectoryFormat(file) : TrajectoryFormatFromName(format);
+/// A file as named, and what is known of its format.
+struct PoseFile {
+  std::string name;
+  std::optional<BagTopic> topic;           ///< of a bag
+  std::optional<TrajectoryFormat> format;  ///< of a file that is none; absent: it does not tell
+};
+
+PoseFile Recognise(const std::string& name, const std::string& format) {
+  PoseFile file{.name = name, .topic = BagTopicFromText(name), .format = std::nullopt};
+  if (file.topic) return file;
+  file.format = format.empty() ? TellTrajectoryFormat(name) : TrajectoryFormatFromName(format);
+  return file;
 }
 
-Trajectory Read(const std::string& file, const std::string& format, const std::string& times) {
-  if (const std::optional<BagTopic> topic = BagTopicFromText(file)) {
-    const std::unique_ptr<Bag> bag = OpenBag(topic->file);
-    TellNotes(file, bag->notes());
-    return ReadBagTrajectory(*bag, *topic);
+[[noreturn]] void AskForOrder(const PoseFile& file, const char* option, const std::string& why) {
+  throw InputError(
+      file.name, 0,
+      fmt::format("8 columns, the first in nanoseconds: qw may be the first of its four "
+                  "numbers or the last{}; say which, {} euroc (first) or {} tum (last)",
+                  why, option, option));
+}
+
+/// Of a file whose format is known.
+PosesRead Read(const PoseFile& file, const std::string& times) {
+  if (!file.topic) {
+    return {.poses = ReadTrajectory(file.name, *file.format, times),
+            .format = Describe(*file.format),
+            .note = {}};
   }
-  return ReadTrajectory(file, *FormatOf(file, format), times);
+  const std::unique_ptr<Bag> bag = OpenBag(file.topic->file);
+  TellNotes(file.name, bag->notes());
+  return {.poses = ReadBagTrajectory(*bag, *file.topic), .format = "a bag's topic", .note = {}};
+}
+
+/// In the order of columns in which it moves as the truth does.
+PosesRead ReadLikeTruth(const PoseFile& file, const Trajectory& truth) {
+  const auto read_as = [&](TrajectoryFormat format) {
+    return Read({.name = file.name, .topic = std::nullopt, .format = format}, "");
+  };
+  const PosesRead first = read_as(TrajectoryFormat::kEuroc);
+  const PosesRead last = read_as(TrajectoryFormat::kTum);
+  const Reading reading = ReadingLikeTruth(truth, first.poses, last.poses);
+  if (reading == Reading::kEither) {
+    AskForOrder(file, "--format-estimate", ", and moves alike in both");
+  }
+  PosesRead read = reading == Reading::kFirst ? first : last;
+  read.note = fmt::format(
+      "the estimate was read as {}: in this order of columns it moves as the truth does, in the "
+      "other it does not; --format-estimate decides",
+      read.format);
+  return read;
 }
 
 /// What stamps the KITTI files; empty where nothing has to.
-std::string TimesFor(const PoseFiles& files) {
-  std::vector<std::string> all = {files.truth};
-  all.insert(all.end(), files.estimates.begin(), files.estimates.end());
+std::string TimesFor(const PoseFiles& files, const std::vector<PoseFile>& all) {
   std::vector<std::string> kitti;
   std::string stamped;
-  for (const std::string& file : all) {
-    if (FormatOf(file, files.format) == TrajectoryFormat::kKitti) {
-      kitti.push_back(file);
+  for (const PoseFile& file : all) {
+    if (file.format == TrajectoryFormat::kKitti) {
+      kitti.push_back(file.name);
     } else {
-      stamped = file;
+      stamped = file.name;
     }
   }
   if (!files.times.empty() && kitti.empty()) {
@@ -55,11 +92,18 @@ std::string TimesFor(const PoseFiles& files) {
 
 }  // namespace
 
-PosesRead ReadPoseFiles(const PoseFiles& files) {
-  const std::string times = TimesFor(files);
-  PosesRead read{.truth = Read(files.truth, files.format, times), .estimates = {}};
+AllPosesRead ReadPoseFiles(const PoseFiles& files) {
+  std::vector<PoseFile> all = {Recognise(files.truth, files.format_truth)};
+  if (!all.front().topic && !all.front().format) AskForOrder(all.front(), "--format-truth", "");
   for (const std::string& file : files.estimates) {
-    read.estimates.push_back(Read(file, files.format, times));
+    all.push_back(Recognise(file, files.format_estimate));
+  }
+  const std::string times = TimesFor(files, all);
+  AllPosesRead read{.truth = Read(all.front(), times), .estimates = {}};
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    const bool is_told = all[i].topic || all[i].format;
+    read.estimates.push_back(is_told ? Read(all[i], times)
+                                     : ReadLikeTruth(all[i], read.truth.poses));
   }
   return read;
 }

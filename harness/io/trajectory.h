@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,8 +9,8 @@
 
 namespace aisle {
 
-/// TUM: "timestamp tx ty tz qx qy qz qw", '#' comments. A stamp of 15 or more digits before its
-/// point is nanoseconds: ORB-SLAM3 writes what it makes of EuRoC so.
+/// TUM: "timestamp tx ty tz qx qy qz qw", '#' comments. A stamp of 13 or more digits before its
+/// point, or without one, is nanoseconds: ORB-SLAM3 writes what it makes of EuRoC so.
 /// KITTI: 12 numbers a line, the first three rows of T_world_rig; no stamps. Some programs put the
 /// frame's number before them.
 /// EuRoC: csv "stamp in ns, p x y z, q w x y z[, v, biases]".
@@ -17,7 +18,14 @@ enum class TrajectoryFormat { kTum, kKitti, kEuroc };
 
 /// "tum", "kitti", "euroc"; throws InputError naming the choices.
 TrajectoryFormat TrajectoryFormatFromName(const std::string& name);
-/// Judges by the file's first data line. Throws InputError if it is none of the three.
+/// "TUM, qw last": what a reader needs to know of it.
+std::string Describe(TrajectoryFormat format);
+
+/// Judges by the file's first data line and the comment above it. Absent where these do not tell:
+/// 8 columns, the first a whole number of nanoseconds, are EuRoC's, with qw first, or TUM's, with
+/// qw last, unless the comment names them. Throws InputError if it is none of the three.
+std::optional<TrajectoryFormat> TellTrajectoryFormat(const std::filesystem::path& path);
+/// The same; throws InputError with the cure where the file does not tell.
 TrajectoryFormat GuessTrajectoryFormat(const std::filesystem::path& path);
 
 /// The times of a KITTI file where the benchmark's layout has them: ROOT/sequences/NN/times.txt of

@@ -36,10 +36,15 @@ class Table {
       Split(std::string_view(text_).substr(at_, end - at_));
       at_ = end + 1;
       ++row_.line;
-      if (!row_.fields.empty() && row_.fields.front().front() != '#') return &row_;
+      if (row_.fields.empty()) continue;
+      if (row_.fields.front().front() != '#') return &row_;
+      comment_ = row_.fields;
     }
     return nullptr;
   }
+
+  /// The last comment so far, split as a row is.
+  const std::vector<std::string_view>& comment() const { return comment_; }
 
   /// The same where a file without data is a mistake.
   const Row& First() {
@@ -62,6 +67,7 @@ class Table {
   const std::string text_;
   std::size_t at_ = 0;
   Row row_;
+  std::vector<std::string_view> comment_;
 };
 
 double Number(const Row& row, std::size_t index) {
@@ -138,24 +144,25 @@ Eigen::Isometry3d Pose(const Row& row, const Eigen::Vector3d& position, Eigen::Q
   return pose;
 }
 
-/// ORB-SLAM3 writes EuRoC's stamps as the nanoseconds that they are, as a real number
-/// ("1403636579763555584.000000"). So many digits are no seconds of any year.
-bool ParseRealNanoseconds(std::string_view text, std::int64_t* stamp_ns) {
-  constexpr std::size_t kLeastDigits = 15;
+/// So many digits before the point are no seconds of any year.
+constexpr std::size_t kLeastDigitsOfNanoseconds = 13;
+
+/// Nanoseconds in TUM's columns: whole, or as ORB-SLAM3 writes EuRoC's stamps, as a real number
+/// ("1403636579763555584.000000").
+bool ParseNanoseconds(std::string_view text, std::int64_t* stamp_ns) {
   const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
-  if (digits < kLeastDigits) return false;
+  if (digits < kLeastDigitsOfNanoseconds) return false;
   const std::string_view rest = text.substr(digits);
-  // EuRoC's own, whole and of another order of columns, are not meant.
-  const bool is_decimal = !rest.empty() && rest.front() == '.' &&
-                          rest.find_first_not_of("0123456789", 1) == std::string_view::npos;
+  const bool is_decimal =
+      rest.empty() ||
+      (rest.front() == '.' && rest.find_first_not_of("0123456789", 1) == std::string_view::npos);
   const auto [end, error] = std::from_chars(text.data(), text.data() + digits, *stamp_ns);
   return is_decimal && error == std::errc() && end == text.data() + digits;
 }
 
 std::int64_t SecondsField(const Row& row) {
   std::int64_t stamp_ns = 0;
-  if (!ParseRealNanoseconds(row.fields[0], &stamp_ns) &&
-      !ParseSecondsToNs(row.fields[0], &stamp_ns)) {
+  if (!ParseNanoseconds(row.fields[0], &stamp_ns) && !ParseSecondsToNs(row.fields[0], &stamp_ns)) {
     row.Fail(fmt::format("'{}' is not a time in seconds", Printable(std::string(row.fields[0]))));
   }
   return stamp_ns;
@@ -270,7 +277,40 @@ Trajectory ReadStamped(const fs::path& path, StampedPose (*pose)(const Row&), Ro
   return trajectory;
 }
 
+/// The part of a quaternion that a column's title names: 'w' of "qw", "q_RS_w" or "qw[]"; 0: none.
+char QuaternionPart(std::string_view title) {
+  while (!title.empty() && std::isalnum(static_cast<unsigned char>(title.back())) == 0) {
+    title.remove_suffix(1);
+  }
+  if (title.size() < 2 || std::tolower(static_cast<unsigned char>(title.front())) != 'q') return 0;
+  const auto part = static_cast<char>(std::tolower(static_cast<unsigned char>(title.back())));
+  return std::string_view("wxyz").find(part) != std::string_view::npos ? part : '\0';
+}
+
+/// The format whose order of a quaternion's parts the titles have; absent where they name none.
+std::optional<TrajectoryFormat> FormatByTitles(const std::vector<std::string_view>& titles) {
+  std::string parts;
+  for (const std::string_view title : titles) {
+    if (const char part = QuaternionPart(title); part != 0) parts += part;
+  }
+  if (parts == "wxyz") return TrajectoryFormat::kEuroc;
+  if (parts == "xyzw") return TrajectoryFormat::kTum;
+  return std::nullopt;
+}
+
 }  // namespace
+
+std::string Describe(TrajectoryFormat format) {
+  switch (format) {
+    case TrajectoryFormat::kTum:
+      return "TUM, qw last";
+    case TrajectoryFormat::kEuroc:
+      return "EuRoC, qw first";
+    case TrajectoryFormat::kKitti:
+      break;
+  }
+  return "KITTI";
+}
 
 TrajectoryFormat TrajectoryFormatFromName(const std::string& name) {
   if (name == "tum") return TrajectoryFormat::kTum;
@@ -279,7 +319,7 @@ TrajectoryFormat TrajectoryFormatFromName(const std::string& name) {
   throw InputError("trajectory format '" + Printable(name) + "': expected tum, kitti or euroc");
 }
 
-TrajectoryFormat GuessTrajectoryFormat(const fs::path& path) {
+std::optional<TrajectoryFormat> TellTrajectoryFormat(const fs::path& path) {
   Table table(path);
   const Row& row = table.First();
   const std::size_t count = row.fields.size();
@@ -290,12 +330,22 @@ TrajectoryFormat GuessTrajectoryFormat(const fs::path& path) {
   if (count == kKittiNumbers + 1 && whole && row.fields[0].size() <= kDigitsOfFrames) {
     return TrajectoryFormat::kKitti;
   }
-  if (count >= 8 && whole && (count > 8 || row.fields[0].size() > 12)) {
-    return TrajectoryFormat::kEuroc;
+  if (count > 8 && whole) return TrajectoryFormat::kEuroc;
+  if (count == 8 && whole && row.fields[0].size() >= kLeastDigitsOfNanoseconds) {
+    return FormatByTitles(table.comment());
   }
   if (count == 8) return TrajectoryFormat::kTum;
   row.Fail(fmt::format("{} fields: neither TUM (8), KITTI (12) nor EuRoC (8 to 17, stamp in ns)",
                        count));
+}
+
+TrajectoryFormat GuessTrajectoryFormat(const fs::path& path) {
+  if (const auto format = TellTrajectoryFormat(path)) return *format;
+  throw InputError(
+      path.string(), 0,
+      "8 columns, the first in nanoseconds: qw may be the first of its four numbers "
+      "(EuRoC) or the last (TUM); say which by the format, or by a comment above them: "
+      "'# timestamp tx ty tz qx qy qz qw'");
 }
 
 fs::path KittiTimesBeside(const fs::path& poses) {

@@ -68,9 +68,7 @@ Scorecard ScoreTracks(const Track& truth, const Track& estimate, const std::stri
   {
     const py::gil_scoped_release others_may_run;
     score = ScoreTrajectory(truth.poses, estimate.poses, options);
-    const std::int64_t interval_ns =
-        rate_hz > 0 ? std::llround(1e9 / rate_hz) : FrameIntervalNs(truth.poses, estimate.poses);
-    AddCoverage(ErrorsOverFrames(truth.poses, score, interval_ns), align, &score.scores);
+    AddCoverageOfFiles(truth.poses, estimate.poses, options, rate_hz, &score);
   }
   Warn(score.notes);
   return score.scores;

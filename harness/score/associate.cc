@@ -136,10 +136,10 @@ std::int64_t MaxDifferenceNs(const Trajectory& truth, const Trajectory& estimate
     case AssociationRule::kNearest:
       break;
   }
-  const std::int64_t of_truth = MedianIntervalNs(truth), of_estimate = MedianIntervalNs(estimate);
+  const auto [shorter, longer] = std::minmax({MedianIntervalNs(truth), MedianIntervalNs(estimate)});
   // A trajectory of one pose has no interval; the other's then decides.
-  const bool both = of_truth > 0 && of_estimate > 0;
-  return (both ? std::min(of_truth, of_estimate) : std::max(of_truth, of_estimate)) / 2;
+  const std::int64_t half_a_frame = (shorter > 0 ? shorter : longer) / 2;
+  return std::max(half_a_frame, std::min(kEvoBoundNs, longer / 2));
 }
 
 std::vector<PosePair> Associate(const Trajectory& truth, const Trajectory& estimate,

@@ -11,9 +11,10 @@ namespace aisle {
 /// Whose rule says which estimate belongs to which truth. Each changes the numbers: report it.
 enum class AssociationRule {
   /// Ours: smallest |dt| first, each pose used once, |dt| at most half a frame (half the smaller of
-  /// the two median intervals, unless given). Equal |dt|: the earlier truth, then the earlier
-  /// estimate. What would cross a closer pair stays alone: where a stamp of each is missing, the
-  /// poses that are left over do not belong together.
+  /// the two median intervals) or, where one file is so dense that this is less, evo's 0.01 s, as
+  /// far as it is no more than half of the larger interval; unless given. Equal |dt|: the earlier
+  /// truth, then the earlier estimate. What would cross a closer pair stays alone: where a stamp of
+  /// each is missing, the poses that are left over do not belong together.
   kNearest,
   /// evo: each stamp of the shorter trajectory (the estimate's on equal length) takes the nearest
   /// of the other, |dt| <= 0.01 s. Not one-to-one.

@@ -1,1 +1,1 @@
-aisle_tests(harness/cli LINKS harness_record_nights)
+aisle_tests(harness/cli LINKS harness_record_nights rapidcheck)

@@ -169,6 +169,38 @@ TEST_F(IoTest, NanosecondsAsRealNumbersAreNoSeconds) {
   EXPECT_THROW(ReadTrajectory(late, TrajectoryFormat::kTum), InputError);
 }
 
+/// An estimate whose stamps stayed EuRoC's has its columns in TUM's order all the same.
+TEST_F(IoTest, WholeNanosecondsMayStandInTumsColumns) {
+  const fs::path file = Write("ns.txt", "1403636579763555584 1 2 3 0.6 0 0 0.8\n");
+  const StampedPose pose = ReadTrajectory(file, TrajectoryFormat::kTum).front();
+  EXPECT_EQ(pose.stamp_ns, 1403636579763555584);
+  EXPECT_TRUE(Eigen::Quaterniond(pose.T_world_rig.linear())
+                  .isApprox(Eigen::Quaterniond(0.8, 0.6, 0, 0), 1e-12));
+  EXPECT_EQ(ReadTrajectory(file, TrajectoryFormat::kEuroc).front().stamp_ns, pose.stamp_ns);
+}
+
+TEST_F(IoTest, WhereQwStandsIsToldByTheTitlesOrNotAtAll) {
+  const std::string row = "1403636579763555584 1 2 3 0.6 0 0 0.8\n";
+  const auto tell = [&](const std::string& titles) {
+    return TellTrajectoryFormat(Write("t.txt", titles + row));
+  };
+  EXPECT_EQ(tell(""), std::nullopt);
+  EXPECT_EQ(tell("# what 4 runs of quick SLAM said\n"), std::nullopt);
+  EXPECT_EQ(tell("# timestamp tx ty tz qx qy qz qw\n"), TrajectoryFormat::kTum);
+  EXPECT_EQ(tell("#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], "
+                 "q_RS_y [], q_RS_z []\n"),
+            TrajectoryFormat::kEuroc);
+  EXPECT_EQ(TellTrajectoryFormat(Write("s.txt", "1403636579.7 1 2 3 0.6 0 0 0.8\n")),
+            TrajectoryFormat::kTum)
+      << "seconds are TUM's";
+  try {
+    GuessTrajectoryFormat(Write("t.txt", row));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("qw may be the first of its four numbers"));
+  }
+}
+
 TEST_F(IoTest, TitlesOfColumnsAreToldFromPoses) {
   EXPECT_THAT(Complaint("t,x,y,z,qx,qy,qz,qw\n1,0,0,0,0,0,0,1\n", TrajectoryFormat::kTum),
               HasSubstr("titles of columns begin with '#'"));

@@ -115,6 +115,23 @@ TEST(ScoreLaws, AssociationIsOneToOneAndWithinItsBound) {
   }));
 }
 
+TEST(ScoreLaws, ATruthOfAnyDensityGivesThePosesOfACameraEvosBound) {
+  EXPECT_TRUE(rc::check([] {
+    const auto every = [](std::int64_t step_ns) {
+      Trajectory poses;
+      for (int i = 0; i < 50; ++i) poses.push_back({i * step_ns, Eigen::Isometry3d::Identity()});
+      return poses;
+    };
+    const std::int64_t camera_ns = *rc::gen::inRange(20, 200) * 1'000'000LL;
+    const std::int64_t other_ns = *rc::gen::inRange(1, 200) * 1'000'000LL;
+    const Trajectory camera = every(camera_ns), other = every(other_ns);
+    const std::int64_t bound = MaxDifferenceNs(other, camera, {});
+    RC_ASSERT(bound == MaxDifferenceNs(camera, other, {}));
+    RC_ASSERT(bound == std::max<std::int64_t>(10'000'000, std::min(camera_ns, other_ns) / 2));
+    RC_ASSERT(MaxDifferenceNs(other, other, {}) == other_ns / 2);
+  }));
+}
+
 /// Whatever is missing on either side and however wide the bound: no pair crosses another.
 TEST(ScoreLaws, AssociationNeverCrossesWhateverIsMissing) {
   EXPECT_TRUE(rc::check([] {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/io/trajectory.h"
+#include "harness/score/coverage.h"
 #include "harness/score/pose_error.h"
 #include "harness/score/relative_error.h"
 #include "harness/score/segments.h"
@@ -175,6 +176,29 @@ TEST_F(ReferenceTest, TumDeskByTheTumScriptsRule) {
   const Case c = Desk(AssociationRule::kTum);
   EXPECT_EQ(c.pairs.size(), 2223u);
   EXPECT_NEAR(AteRmse(c, AlignmentMethod::kSe3), 0.008144, 5e-7);
+}
+
+/// Whoever asks for nothing gets evo's figures of a dense truth, but for stamps half-way between
+/// two of it, which evo's doubles push to either side.
+TEST_F(ReferenceTest, MotionCaptureIsPairedAsEvoDoes) {
+  const Case desk = Desk(AssociationRule::kNearest);
+  EXPECT_EQ(desk.pairs.size(), 2174u);
+  EXPECT_NEAR(AteRmse(desk, AlignmentMethod::kSe3), 0.008118977562044912, 1e-7);
+  const Case v102 = Load("V102_groundtruth.csv", TrajectoryFormat::kEuroc, "V102.txt",
+                         TrajectoryFormat::kTum, AssociationRule::kNearest);
+  EXPECT_EQ(v102.pairs.size(), 798u);
+  EXPECT_NEAR(AteRmse(v102, AlignmentMethod::kSe3), 0.09172711520685754, 1e-5);
+}
+
+/// Its estimate has no hole above 0.0683 s; the truth has some of up to twelve seconds.
+TEST_F(ReferenceTest, TumDeskIsNeverLost) {
+  const Case c = Desk(AssociationRule::kNearest);
+  TrajectoryScore score = ScoreTrajectory(c.truth, c.estimate, {});
+  AddCoverageOfFiles(c.truth, c.estimate, {}, 0, &score);
+  EXPECT_EQ(*score.scores.at("times_lost").value, 0);
+  EXPECT_TRUE(score.scores.at("error_all_p95_m").value);
+  // It begins 0.493 s after the truth, which are fifteen frames of 32 ms.
+  EXPECT_NEAR(*score.scores.at("coverage").value, 2893.0 / (2893 + 15), 1e-12);
 }
 
 }  // namespace
