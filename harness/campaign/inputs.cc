@@ -33,19 +33,50 @@ void CheckNames(const std::vector<std::string>& names, const std::vector<std::st
   }
 }
 
+/// The suite's system of that name; where its `latencies_ms` drive that system, at all of them.
+std::vector<SystemSpec> OwnSystems(const Suite& suite, const std::string& name) {
+  std::vector<SystemSpec> own;
+  for (const SystemSpec& spec : suite.systems) {
+    if (spec.name == name) return {spec};
+    const auto latency = spec.options.find("drive.latency_ms");
+    if (latency == spec.options.end()) continue;
+    if (spec.name == NameAtLatency(name, latency->second)) own.push_back(spec);
+  }
+  return own;
+}
+
+/// The names that may stand for systems of the suite; of one that is driven at several latencies,
+/// its own as well.
+std::vector<std::string> NamesIn(const Suite& suite) {
+  std::vector<std::string> names = SystemNames(suite);
+  for (const SystemSpec& spec : suite.systems) {
+    const auto latency = spec.options.find("drive.latency_ms");
+    if (latency == spec.options.end()) continue;
+    const std::string ending = NameAtLatency("", latency->second);
+    if (!spec.name.ends_with(ending)) continue;
+    names.push_back(spec.name.substr(0, spec.name.size() - ending.size()));
+  }
+  return names;
+}
+
 /// A suite's own systems may be chosen by name like any of ours.
 std::vector<SystemSpec> ChooseSystems(const Suite& suite, const std::vector<std::string>& names,
                                       const Vocabulary& vocabulary) {
   std::vector<std::string> known = vocabulary.systems;
-  for (const std::string& name : SystemNames(suite)) {
+  for (const std::string& name : NamesIn(suite)) {
     if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
   }
   CheckNames(names, known, "--systems");
   std::vector<SystemSpec> chosen;
   for (const std::string& name : names) {
-    const auto own = std::find_if(suite.systems.begin(), suite.systems.end(),
-                                  [&](const SystemSpec& spec) { return spec.name == name; });
-    chosen.push_back(own == suite.systems.end() ? BuiltIn(name) : *own);
+    const std::vector<SystemSpec> own = OwnSystems(suite, name);
+    chosen.insert(chosen.end(), own.begin(), own.end());
+    if (own.empty()) chosen.push_back(BuiltIn(name));
+  }
+  for (auto spec = chosen.begin(); spec != chosen.end(); ++spec) {
+    if (std::any_of(chosen.begin(), spec, [&](const auto& s) { return s.name == spec->name; })) {
+      throw InputError(fmt::format("--systems: '{}' is given twice; keep one of them", spec->name));
+    }
   }
   return chosen;
 }
@@ -65,6 +96,7 @@ void LeaveOutLimits(Suite* suite) {
 
 Suite LoadInput(const std::string& file, const InputOptions& options,
                 const Vocabulary& vocabulary) {
+  RefuseForeignYaml(file);
   Suite suite = IsSuiteFile(file) ? LoadSuite(file, vocabulary) : SuiteOfScene(file);
   if (!options.systems.empty()) suite.systems = ChooseSystems(suite, options.systems, vocabulary);
   if (!options.twins.empty()) suite.twins = options.twins;
@@ -181,9 +213,36 @@ std::string WhoCannotRead(const Suite& suite) {
   return complaints;
 }
 
+/// Limits and options that speak of steering, where no scene has a vehicle to steer: such a limit
+/// could only fail after the night, and such a system would drive as it does without.
+std::string WhatNeedsADrive(const Suite& suite) {
+  const bool may_steer = std::ranges::any_of(suite.scenes, [](const SuiteScene& scene) {
+    return !CheckSource(scene.file).empty() || IsDriveSource(scene.file);
+  });
+  if (may_steer) return "";
+  std::string complaints;
+  const auto complain = [&](const std::string& what) {
+    complaints += fmt::format(
+        "suite '{}': {} needs a scene with a `drive`, and it has none: reports/closed_loop.md\n",
+        suite.name, what);
+  };
+  for (const Limit& limit : suite.limits) {
+    if (IsDriveScore(limit.score)) complain(fmt::format("a limit on {}", limit.score));
+  }
+  for (const SystemSpec& system : suite.systems) {
+    for (const auto& [path, value] : system.options) {
+      if (path.starts_with("drive.")) complain(fmt::format("{} of '{}'", path, system.name));
+    }
+  }
+  return complaints;
+}
+
 /// A recording is driven once, as it is: the plan passes twins and all seeds but the first over.
 void RefuseWithoutEffect(const InputOptions& options, const std::vector<Suite>& suites) {
-  const char* option = !options.twins.empty() ? "--twins" : options.seeds > 0 ? "--seeds" : nullptr;
+  const char* option = !options.twins.empty()    ? "--twins"
+                       : options.seeds > 0       ? "--seeds"
+                       : options.seed.size() > 1 ? "--seed with more than one"
+                                                 : nullptr;
   const bool any_scene = std::ranges::any_of(suites, [](const Suite& suite) {
     return std::ranges::any_of(suite.scenes, [](const SuiteScene& s) { return !s.recorded; });
   });
@@ -230,6 +289,10 @@ std::vector<Suite> LoadInputs(const InputOptions& options) {
   return suites;
 }
 
+std::string ComplaintsOf(const Suite& suite) {
+  return WhoCannotSteer(suite) + WhoCannotRead(suite) + WhatNeedsADrive(suite);
+}
+
 void CheckScenes(const std::vector<Suite>& suites) {
   std::set<std::string> files;
   std::string complaints;
@@ -239,7 +302,7 @@ void CheckScenes(const std::vector<Suite>& suites) {
       for (const std::string& complaint : CheckSource(scene.file)) complaints += complaint + "\n";
     }
   }
-  for (const Suite& suite : suites) complaints += WhoCannotSteer(suite) + WhoCannotRead(suite);
+  for (const Suite& suite : suites) complaints += ComplaintsOf(suite);
   if (complaints.empty()) return;
   complaints.pop_back();
   throw InputError(complaints);

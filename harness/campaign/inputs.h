@@ -25,6 +25,9 @@ Vocabulary KnownNames();
 /// neither.
 std::vector<Suite> LoadInputs(const InputOptions& options);
 
+/// What of the suite's systems and limits cannot be on its scenes, a line each; empty: nothing.
+std::string ComplaintsOf(const Suite& suite);
+
 /// Every mistake of every scene, before hours of work begin. Throws InputError with all of them.
 void CheckScenes(const std::vector<Suite>& suites);
 

@@ -9,6 +9,7 @@
 #include "harness/cli/bag_notes.h"
 #include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
+#include "harness/common/first_of_many.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/user_model.h"
 #include "harness/record/record_json.h"
@@ -58,27 +59,37 @@ std::vector<std::string> Complaints(const std::string& file) {
     }
   }
   try {
+    RefuseForeignYaml(file);
     if (!IsSuiteFile(file)) return CheckSource(file);
     std::vector<std::string> complaints;
-    for (const SuiteScene& scene : LoadSuite(file, KnownNames()).scenes) {
+    const Suite suite = LoadSuite(file, KnownNames());
+    for (const SuiteScene& scene : suite.scenes) {
       for (const std::string& complaint : CheckSource(scene.file)) complaints.push_back(complaint);
     }
+    for (const std::string& complaint : Lines(ComplaintsOf(suite))) complaints.push_back(complaint);
     return complaints;
   } catch (const InputError& error) {
     return Lines(error.what());
   }
 }
 
-/// The YAML files below a folder, in the order of their names; recordings there are left out.
+/// The YAML files below a folder, in the order of their names; recordings there are left out, and,
+/// told, what is no file of ours.
 std::vector<std::string> FilesBelow(const std::string& folder) {
   std::set<std::string> found;
+  std::set<std::string> foreign;
   for (fs::recursive_directory_iterator at(folder), end; at != end; ++at) {
     const fs::path& path = at->path();
     if (at->is_directory() && !WhatRecording(path).empty()) {
       at.disable_recursion_pending();
     } else if (path.extension() == ".yaml") {
-      found.insert(path.string());
+      (IsForeignYaml(path.string()) ? foreign : found).insert(path.string());
     }
+  }
+  if (!foreign.empty()) {
+    const std::vector<std::string> names(foreign.begin(), foreign.end());
+    TellNotes(folder, {fmt::format("left out what is no scene, suite or recording: {}",
+                                   FirstOfMany(names, ", "))});
   }
   return {found.begin(), found.end()};
 }
@@ -94,12 +105,20 @@ std::vector<std::string> FilesOf(const std::vector<std::string>& places) {
   return files;
 }
 
-void PrintText(const std::string& file, const std::vector<std::string>& complaints) {
+/// What is worth knowing of a file that is good.
+std::vector<std::string> NotesOf(const std::string& file) {
+  if (IsRecording(file)) return NotesOfSource(file);
+  if (IsSuiteFile(file)) return NotesOfSystems(LoadSuite(file, KnownNames()));
+  return {};
+}
+
+void PrintText(const std::string& file, const std::vector<std::string>& complaints,
+               const std::vector<std::string>& notes) {
   for (const std::string& complaint : complaints) fmt::print(stderr, "{}\n", complaint);
   if (!complaints.empty()) return;
   fmt::print("{}: good\n", file);
-  if (IsRecording(file)) return TellNotes(file, NotesOfSource(file));
-  if (IsSuiteFile(file)) return TellNotes(file, NotesOfSystems(LoadSuite(file, KnownNames())));
+  TellNotes(file, notes);
+  if (IsRecording(file) || IsSuiteFile(file)) return;
   for (const std::string& line : DescribeMeshes(file)) fmt::print("  {}\n", line);
 }
 
@@ -113,12 +132,15 @@ int Check(const std::vector<std::string>& places, bool json) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const std::string& file : files) {
     const std::vector<std::string> complaints = Complaints(file);
+    const bool good = complaints.empty();
+    const std::vector<std::string> notes = good ? NotesOf(file) : std::vector<std::string>();
     if (json) {
-      list.push_back({{"file", file}, {"good", complaints.empty()}, {"complaints", complaints}});
+      list.push_back(
+          {{"file", file}, {"good", good}, {"complaints", complaints}, {"notes", notes}});
     } else {
-      PrintText(file, complaints);
+      PrintText(file, complaints, notes);
     }
-    bad += complaints.empty() ? 0 : 1;
+    bad += good ? 0 : 1;
   }
   if (json) fmt::print("{}", Dump({{"files", list}}));
   return bad == 0 ? kAllPassed : kBadInput;

@@ -1,5 +1,7 @@
 #include "harness/score/score_names.h"
 
+#include <algorithm>
+
 namespace aisle {
 namespace {
 
@@ -97,8 +99,8 @@ void AddFrames(std::vector<ScoreDescription>* names) {
   names->insert(names->end(), frames.begin(), frames.end());
 }
 
-void AddDrive(std::vector<ScoreDescription>* names) {
-  const std::vector<ScoreDescription> drive = {
+const std::vector<ScoreDescription>& DriveScoreNames() {
+  static const std::vector<ScoreDescription> drive = {
       {"goal_reached", "1", "1 where the vehicle of a closed drive ended within its goal's bounds"},
       {"route_completion", "1", "share of the planned route that it drove"},
       {"cross_track_rms_m", "m", "root mean square of the true vehicle's distance from its route"},
@@ -124,6 +126,7 @@ void AddDrive(std::vector<ScoreDescription>* names) {
        "contacts of the vehicle under way; with who leant on it as it stood, once it moves at him"},
       {"collisions_static", "1", "of them, with racks, walls, columns, goods and the like"},
       {"collisions_person", "1", "of them, with people"},
+      {"collisions_vehicle", "1", "of them, with other vehicles, trailers and mechanisms"},
       {"collision_speed_max_mps", "m/s", "the fastest of them, by the vehicle's fastest corner"},
       {"min_clearance_static_m", "m", "least distance of the footprint from what stands"},
       {"min_clearance_person_m", "m", "least distance from a person while under way"},
@@ -131,7 +134,7 @@ void AddDrive(std::vector<ScoreDescription>* names) {
       {"time_to_collision_min_s", "s", "least gap over closing speed to a person or vehicle"},
       {"zone_violations", "1", "times the vehicle was too fast in a zone, or in one closed to it"},
   };
-  names->insert(names->end(), drive.begin(), drive.end());
+  return drive;
 }
 
 bool Matches(const std::string& name, const std::string& pattern) {
@@ -149,7 +152,7 @@ const std::vector<ScoreDescription>& ScoreNames() {
     AddTrajectory(&all);
     AddMasks(&all);
     AddFrames(&all);
-    AddDrive(&all);
+    all.insert(all.end(), DriveScoreNames().begin(), DriveScoreNames().end());
     return all;
   }();
   return names;
@@ -160,6 +163,10 @@ bool IsScoreName(const std::string& name) {
   return std::any_of(names.begin(), names.end(), [&](const ScoreDescription& description) {
     return Matches(name, description.name);
   });
+}
+
+bool IsDriveScore(const std::string& name) {
+  return std::ranges::any_of(DriveScoreNames(), [&](const auto& d) { return d.name == name; });
 }
 
 }  // namespace aisle

@@ -18,4 +18,7 @@ const std::vector<ScoreDescription>& ScoreNames();
 /// Whether a run can have a score of that name.
 bool IsScoreName(const std::string& name);
 
+/// Whether only a run can have it whose vehicle the system steers: of a scene with a `drive`.
+bool IsDriveScore(const std::string& name);
+
 }  // namespace aisle

@@ -39,8 +39,9 @@ void SweepLatencies(const std::vector<double>& latencies_ms, std::vector<SystemS
     }
     for (const double ms : latencies_ms) {
       swept.push_back(system);
-      swept.back().name = fmt::format("{}_{:g}ms", system.name, ms);
-      swept.back().options["drive.latency_ms"] = fmt::format("{:g}", ms);
+      const std::string latency = fmt::format("{:g}", ms);
+      swept.back().name = NameAtLatency(system.name, latency);
+      swept.back().options["drive.latency_ms"] = latency;
     }
   }
   *systems = std::move(swept);
@@ -166,7 +167,9 @@ void DescribeLimit(Fields& fields, const Vocabulary& vocabulary, const Suite& su
                                      Printable(limit.scene), fmt::join(scenes, ", ")));
   }
   fields.Name({"twin", "only in this twin", "live"}, &limit.twin, {suite.twins});
-  fields.Name({"system", "only of this system", "oracle"}, &limit.system, {SystemNames(suite)});
+  std::vector<std::string> systems = SystemNames(suite);
+  std::erase(systems, "");  // a system whose name was a mistake: told at its own place
+  fields.Name({"system", "only of this system", "oracle"}, &limit.system, {systems});
   fields.OptionalNumber(
       {"min", "the median over seeds, or a share of them, may not be below", "0.99"}, &limit.min,
       {});

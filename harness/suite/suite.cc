@@ -1,6 +1,8 @@
 #include "harness/suite/suite.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <span>
 #include <sstream>
 
@@ -103,6 +105,15 @@ void AddEachOnce(const std::vector<RunSpec>& more, std::vector<RunSpec>* specs,
   }
 }
 
+/// One of these is in every scene, suite and description of a recording.
+constexpr std::initializer_list<const char*> kKeysOfOurs = {
+    "suite", "scenes", "systems", "recording", "extend", "about", "rig", "hall", "lights"};
+
+bool HasAKeyOf(const YAML::Node& root, std::initializer_list<const char*> keys) {
+  return root.IsMap() &&
+         std::ranges::any_of(keys, [&](const char* key) { return root[key].IsDefined(); });
+}
+
 }  // namespace
 
 Suite LoadSuite(const std::string& file, const Vocabulary& vocabulary) {
@@ -143,8 +154,24 @@ Suite SuiteOfScene(const std::string& scene_file) {
 bool IsSuiteFile(const std::string& file) {
   const std::string ending = fs::path(file).extension().string();
   if (ending == ".mcap" || ending == ".db3") return false;
-  const YAML::Node root = LoadYaml(file);
-  return root.IsMap() && root["suite"];
+  return HasAKeyOf(LoadYaml(file), {"suite", "scenes", "systems"});
+}
+
+bool IsForeignYaml(const std::string& file) {
+  if (fs::path(file).extension() != ".yaml") return false;
+  try {
+    const YAML::Node root = LoadYaml(file);
+    return root.IsMap() && root.size() > 0 && !HasAKeyOf(root, kKeysOfOurs);
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+void RefuseForeignYaml(const std::string& file) {
+  if (!IsForeignYaml(file)) return;
+  throw InputError(file, 1,
+                   fmt::format("is no scene, no suite and no recording: it has none of the keys {}",
+                               fmt::join(kKeysOfOurs, ", ")));
 }
 
 std::string SceneName(const std::string& scene_file) {
@@ -156,6 +183,10 @@ std::string SceneName(const std::string& scene_file) {
     name = folder.filename().string() + "/" + name;
   }
   return path.stem().string();  // not below a scenes folder: the bare name
+}
+
+std::string NameAtLatency(const std::string& system, const std::string& latency_ms) {
+  return fmt::format("{}_{}ms", system, latency_ms);
 }
 
 std::vector<std::string> SystemNames(const Suite& suite) {

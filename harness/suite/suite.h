@@ -60,11 +60,22 @@ Suite SuiteOfScene(const std::string& scene_file);
 /// What suites of bare scenes ask: of more than three, the first two are named.
 std::string QuestionOfScenes(const std::vector<std::string>& scene_names);
 
-/// True where the file's top level has the key `suite`; false for a scene. Throws InputError.
+/// True where the file's top level has a key of suites alone (`suite`, `scenes`, `systems`), so
+/// that a suite that lacks one of them is told as a suite; false for a scene. Throws InputError.
 bool IsSuiteFile(const std::string& file);
+
+/// True for a YAML file with none of the keys that each scene, suite or recording has one of: a
+/// calibration, another tool's settings. Not a file that cannot be read: who opens it says why.
+bool IsForeignYaml(const std::string& file);
+
+/// Throws InputError where the file is foreign: one line in place of one for every key.
+void RefuseForeignYaml(const std::string& file);
 
 /// The name under which reports list a scene file.
 std::string SceneName(const std::string& scene_file);
+
+/// What a suite's `latencies_ms` makes of a system's name: "robust_50ms".
+std::string NameAtLatency(const std::string& system, const std::string& latency_ms);
 
 /// The names of the suite's systems, in its order.
 std::vector<std::string> SystemNames(const Suite& suite);

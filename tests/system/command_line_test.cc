@@ -12,6 +12,7 @@ namespace aisle {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class CommandLineTest : public ProgramTest {
  protected:
@@ -40,6 +41,12 @@ TEST_F(CommandLineTest, ProgramsAreAnsweredInJson) {
   EXPECT_TRUE(checked.at(0).at("good"));
   EXPECT_FALSE(checked.at(1).at("good"));
   EXPECT_THAT(checked.at(1).at("complaints").at(0).get<std::string>(), HasSubstr("bad.yaml:"));
+  const std::string guest = (folder_ / "guest.yaml").string();
+  WriteFileAtomically(guest,
+                      "suite: g\nscenes: " + scene_ +
+                          "\nsystems: [{name: mine, command: './not_built_yet {output}'}]\n");
+  const nlohmann::json warned = Answer({"check", guest}, 0).at("files").at(0);
+  EXPECT_THAT(warned.at("notes").at(0).get<std::string>(), HasSubstr("not_built_yet"));
 
   WriteFileAtomically(folder_ / "t.txt", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 2 0 0 0 0 0 1\n");
   WriteFileAtomically(folder_ / "e.txt", "0 0 0 0 0 0 0 1\n2 2 0 0 0 0 0 1\n");
@@ -54,6 +61,37 @@ TEST_F(CommandLineTest, ProgramsAreAnsweredInJson) {
   EXPECT_TRUE(again.at("compared"));
   EXPECT_TRUE(again.at("differences").empty());
   EXPECT_FALSE(Answer({"compare", Out("a"), Out("a")}, 0).at("comparisons").empty());
+}
+
+TEST_F(CommandLineTest, SteeringIsAskedOfScenesWithADriveAlone) {
+  const std::string suite = (folder_ / "steer.yaml").string();
+  WriteFileAtomically(suite, "suite: steer\nscenes: " + scene_ +
+                                 "\nsystems: plain\nlatencies_ms: [0, 100]\n"
+                                 "limits: [{score: docking_error_m, max: 1}]\n");
+  for (const char* command : {"check", "run"}) {
+    const Said said = Run({command, suite});
+    EXPECT_EQ(said.code, 4);
+    EXPECT_THAT(said.text, HasSubstr("a limit on docking_error_m needs a scene with a `drive`"));
+    EXPECT_THAT(said.text, HasSubstr("drive.latency_ms of 'plain_100ms' needs"));
+  }
+  EXPECT_THAT(Run({"run", scene_, "--set", "plain.drive.taught=true", "--dry-run"}).text,
+              HasSubstr("drive.taught of 'plain' needs"));
+}
+
+TEST_F(CommandLineTest, FilesOfOtherToolsAreToldOnce) {
+  const std::filesystem::path data = folder_ / "data";
+  WriteFileAtomically(data / "tracker.yaml", "klt_win_size: 24\nklt_max_iter: 30\n");
+  WriteFileAtomically(data / "no_name.yaml", "scenes: " + scene_ + "\nsystems: plain\n");
+  const Said folder = Run({"check", data.string()});
+  EXPECT_EQ(folder.code, 4);
+  EXPECT_THAT(folder.text, HasSubstr("left out what is no scene, suite or recording"));
+  EXPECT_THAT(folder.text, HasSubstr("suite: it is missing"));
+  EXPECT_THAT(folder.text, Not(HasSubstr("there is no such key")));
+  for (const char* command : {"check", "run"}) {
+    const Said file = Run({command, (data / "tracker.yaml").string()});
+    EXPECT_EQ(file.code, 4);
+    EXPECT_THAT(file.text, HasSubstr("tracker.yaml:1: is no scene, no suite and no recording"));
+  }
 }
 
 cv::Mat1b Square(int x, int y) {

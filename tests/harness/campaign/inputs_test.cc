@@ -14,6 +14,7 @@ namespace aisle {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 const fs::path kTree = AISLE_SOURCE_DIR;
@@ -107,6 +108,21 @@ TEST_F(InputsTest, ASystemNamedTwiceOrMisspeltIsRefused) {
               HasSubstr("did you mean robust?"));
 }
 
+TEST_F(InputsTest, ASystemOfASweepIsChosenAtAllItsLatencies) {
+  const std::string swept = Write("swept",
+                                  "suite: swept\nscenes: a/one\nlatencies_ms: [0, 50]\nsystems:\n"
+                                  "  - robust\n  - {name: mine, like: plain}\n");
+  const auto chosen = [&](const std::vector<std::string>& systems) {
+    return SystemNames(LoadInputs({.files = {swept}, .systems = systems}).at(0));
+  };
+  EXPECT_THAT(chosen({"robust"}), ElementsAre("robust_0ms", "robust_50ms"));
+  EXPECT_THAT(chosen({"mine", "robust_50ms"}), ElementsAre("mine_0ms", "mine_50ms", "robust_50ms"));
+  EXPECT_THAT(chosen({"oracle"}), ElementsAre("oracle"));
+  EXPECT_THAT(Complaint({.files = {swept}, .systems = {"robust", "robust_50ms"}}),
+              HasSubstr("'robust_50ms' is given twice"));
+  EXPECT_THAT(Complaint({.files = {swept}, .systems = {"mien"}}), HasSubstr("did you mean mine?"));
+}
+
 TEST_F(InputsTest, SetChangesAnOptionOfOneSystem) {
   const std::vector<Suite> suites =
       LoadInputs({.files = {first_, second_}, .set = {"robust.feature.features=800"}});
@@ -123,6 +139,8 @@ TEST_F(InputsTest, RecordingsHaveNeitherTwinsNorSeeds) {
   EXPECT_THAT(Complaint({.files = {drive}, .twins = {"empty"}}),
               HasSubstr("--twins has no effect"));
   EXPECT_THAT(Complaint({.files = {drive}, .seeds = 3}), HasSubstr("--seeds has no effect"));
+  EXPECT_THAT(Complaint({.files = {drive}, .seed = {4, 5}}), HasSubstr("has no effect"));
+  EXPECT_EQ(Complaint({.files = {drive}, .seed = {4}}), "no complaint");
   EXPECT_EQ(Complaint({.files = {both}, .twins = {"empty"}, .seeds = 3}), "no complaint");
   EXPECT_EQ(Complaint({.files = {drive, first_}, .seeds = 3}), "no complaint");
 }

@@ -15,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 /// Two systems with one option, two scores.
 Vocabulary Names() {
@@ -44,8 +45,8 @@ class SuiteTest : public testing::Test {
  protected:
   void SetUp() override {
     root_ = fs::temp_directory_path() / fmt::format("aisle_suite_{}", ::getpid()) / "scenes";
-    WriteFileAtomically(root_ / "paper/one.yaml", "scene: one\n");
-    WriteFileAtomically(root_ / "paper/two.yaml", "scene: two\n");
+    WriteFileAtomically(root_ / "paper/one.yaml", "about: one\n");
+    WriteFileAtomically(root_ / "paper/two.yaml", "about: two\n");
   }
   void TearDown() override { fs::remove_all(root_.parent_path()); }
 
@@ -84,6 +85,35 @@ TEST_F(SuiteTest, DefaultsAreTheLiveTwinAndNineSeeds) {
   EXPECT_EQ(suite.seeds, (std::vector<std::uint64_t>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
   EXPECT_TRUE(IsSuiteFile((root_ / "suites/s.yaml").string()));
   EXPECT_FALSE(IsSuiteFile((root_ / "paper/one.yaml").string()));
+}
+
+TEST_F(SuiteTest, ASuiteWithoutItsNameIsToldAsASuite) {
+  const std::string complaint = Complaint("scenes: paper/one\nsystems: oracle\n");
+  EXPECT_TRUE(IsSuiteFile((root_ / "suites/s.yaml").string()));
+  EXPECT_THAT(complaint, HasSubstr("suite: it is missing"));
+  EXPECT_THAT(complaint, Not(HasSubstr("hall")));
+}
+
+TEST_F(SuiteTest, AMistakenNameIsNoneThatALimitMayName) {
+  const std::string complaint = Complaint(
+      "suite: a\nscenes: paper/one\nsystems: [oracel, orbslam2]\n"
+      "limits: [{score: coverage, system: nobody, min: 1}]\n");
+  EXPECT_THAT(complaint, HasSubstr("limits[0].system: expected one of orbslam2, got 'nobody'"));
+}
+
+TEST_F(SuiteTest, FilesWithoutAnyKeyOfOursAreForeign) {
+  const auto is_foreign = [&](const std::string& text) {
+    const std::string file = (root_ / "x.yaml").string();
+    WriteFileAtomically(file, text);
+    return IsForeignYaml(file);
+  };
+  EXPECT_TRUE(is_foreign("klt_win_size: 24\nklt_max_iter: 30\n"));
+  EXPECT_FALSE(is_foreign("recording: drive\n"));
+  EXPECT_FALSE(is_foreign("extend: one.yaml\n"));
+  EXPECT_FALSE(is_foreign("halll: {}\nabout: A hall.\n")) << "one wrong key beside a right one";
+  EXPECT_FALSE(is_foreign("a: [\n")) << "who opens it says what is wrong";
+  EXPECT_FALSE(is_foreign("")) << "an empty file is told what it lacks";
+  EXPECT_FALSE(IsForeignYaml((root_ / "paper/one.yaml").string()));
 }
 
 TEST_F(SuiteTest, TheOpeningCommentAsksWhereNoKeyDoes) {
