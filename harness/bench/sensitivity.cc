@@ -37,6 +37,7 @@ Stretch ReadStretch(const BenchView& view, const SensitivityOptions& options,
       throw InputError(Printable(view.text) + ": no truth of what moves; expected a scene");
     }
   }
+  RefuseEmptyView(view, stretch.frames.size() - stretch.warm_up);
   return stretch;
 }
 

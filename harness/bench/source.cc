@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "harness/io/dataset.h"
+#include "harness/io/input_error.h"
 #include "harness/plugs/cached_sequence.h"
 #include "harness/plugs/recorded_sequence.h"
 #include "harness/plugs/simulated_sequence.h"
@@ -10,6 +11,10 @@
 namespace aisle {
 
 namespace fs = std::filesystem;
+
+void RefuseEmptyView(const BenchView& view, std::size_t frames) {
+  if (frames == 0) throw InputError(Printable(view.text) + ": no frame lies in this view");
+}
 
 std::unique_ptr<Sequence> OpenSource(const BenchView& view, const BenchSource& source) {
   if (fs::is_directory(view.path)) {

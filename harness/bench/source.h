@@ -29,6 +29,10 @@ struct BenchView {
   int from = 0, to = std::numeric_limits<int>::max();
 };
 
+/// Throws InputError where none of the frames that were read lies in the view: a table of zeros
+/// would look like a result.
+void RefuseEmptyView(const BenchView& view, std::size_t frames);
+
 /// The whole scene or recording, whatever the stretch. Kept frames lie in a folder of their own for
 /// each scene, twin and seed, and are used whichever program made them. Throws InputError.
 std::unique_ptr<Sequence> OpenSource(const BenchView& view, const BenchSource& source);

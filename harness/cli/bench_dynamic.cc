@@ -97,9 +97,7 @@ DynamicOfView Measure(const BenchView& view, const DynamicBenchOptions& bench) {
   ProgressLine line;
   DynamicOfView measured =
       MeasureDynamic(view, bench, [&](const std::string& at) { line.Show(at); });
-  if (measured.frames == 0) {
-    throw InputError(Printable(view.text) + ": no frame lies in this view");
-  }
+  RefuseEmptyView(view, static_cast<std::size_t>(measured.frames));
   return measured;
 }
 

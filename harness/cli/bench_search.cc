@@ -56,15 +56,41 @@ std::vector<Clip> LoadClips(const std::vector<BenchView>& views, const BenchSour
   return clips;
 }
 
+std::string ToJson(const std::vector<Trial>& trials) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const Trial& trial : trials) {
+    const DetectorOutcome& o = trial.outcome;
+    rows.push_back({{"set", trial.index},
+                    {"options", trial.options},
+                    {"given_up", trial.given_up},
+                    {"frames", o.frames},
+                    {"score", trial.score()},
+                    {"object_f1", o.object_f1()},
+                    {"pixel_iou", o.pixel_iou()},
+                    {"static_wrong", o.static_wrong()},
+                    {"large_asked", o.large.asked},
+                    {"large_found", o.large.counted},
+                    {"large_across_asked", o.large_across.asked},
+                    {"large_across_found", o.large_across.counted},
+                    {"ms", o.mean_ms()}});
+  }
+  return rows.dump(1) + "\n";
+}
+
 std::vector<Trial> Train(const Inputs& inputs, const Options& options) {
   const std::vector<Clip> clips = LoadClips(inputs.train, options.source);
   const System& like = FindSystem(options.system.name);
   fmt::print("{}\n", TrialHeading());
   double best = -1;
+  std::vector<Trial> tried;
   return Search(
       inputs.system, clips, options.search,
-      [&](const OptionSet& set) { return CheckOptions(like, set).empty(); },
+      [&](const OptionSet& set) {
+        return CheckOptions(like, With(inputs.system, set).options).empty();
+      },
       [&](const Trial& trial) {
+        tried.push_back(trial);
+        if (!options.json.empty()) WriteFileAtomically(options.json, ToJson(tried));
         const bool better = !trial.given_up && trial.score() > best;
         if (better) best = trial.score();
         fmt::print("{}{}\n", TrialLine(trial), better ? "  *" : "");
@@ -123,27 +149,6 @@ std::vector<JudgedSet> JudgeSets(const std::vector<NamedSet>& sets, const std::v
   return judged;
 }
 
-std::string ToJson(const std::vector<Trial>& trials) {
-  nlohmann::json rows = nlohmann::json::array();
-  for (const Trial& trial : trials) {
-    const DetectorOutcome& o = trial.outcome;
-    rows.push_back({{"set", trial.index},
-                    {"options", trial.options},
-                    {"given_up", trial.given_up},
-                    {"frames", o.frames},
-                    {"score", trial.score()},
-                    {"object_f1", o.object_f1()},
-                    {"pixel_iou", o.pixel_iou()},
-                    {"static_wrong", o.static_wrong()},
-                    {"large_asked", o.large.asked},
-                    {"large_found", o.large.counted},
-                    {"large_across_asked", o.large_across.asked},
-                    {"large_across_found", o.large_across.counted},
-                    {"ms", o.mean_ms()}});
-  }
-  return rows.dump(1) + "\n";
-}
-
 OptionSet OwnValues(const SystemSpec& system, const std::vector<SearchAxis>& axes) {
   OptionSet own;
   for (const SystemOption& option : OptionsOf(FindSystem(system.like))) {
@@ -167,7 +172,6 @@ int BenchSearch(Options options) {
                       .judged = {},
                       .frontier = {},
                       .time_limit = options.time_limit};
-  if (!options.json.empty()) WriteFileAtomically(options.json, ToJson(report.trials));
   std::vector<NamedSet> sets = {{"as it is", {}}};
   sets.insert(sets.end(), inputs.also.begin(), inputs.also.end());
   if (report.trials.size() > 1) {

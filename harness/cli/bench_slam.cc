@@ -37,15 +37,14 @@ void PrintLap(const BenchLap& lap) {
 
 std::map<std::string, StageTime> Measure(const Options& options) {
   ProgressLine line;
+  const BenchView view = ParseView(options.source);
   std::map<std::string, StageTime> stages = MeasureStages(
-      ParseView(options.source), options.bench, [&](const std::string& at) { line.Show(at); },
+      view, options.bench, [&](const std::string& at) { line.Show(at); },
       [&](const BenchLap& lap) {
         line.Clear();
         if (options.bench.laps > 1) PrintLap(lap);
       });
-  if (stages["frame"].ms.empty()) {
-    throw InputError(Printable(options.source) + ": no frame lies in this view");
-  }
+  RefuseEmptyView(view, stages["frame"].ms.size());
   return stages;
 }
 

@@ -1,8 +1,11 @@
 #include "harness/cli/command_line.h"
 
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <new>
 
 #include "harness/cli/cluster_commands.h"
@@ -47,13 +50,27 @@ std::string NotFinite(const std::string& text) {
   return fmt::format("'{}' is no finite number", Printable(text));
 }
 
-/// Every option of all commands that takes a number with a point, before its own range is asked.
-void AskForFiniteNumbers(CLI::App* app) {
+/// Read as C reads them, -1 and what is too large would stand for other numbers.
+std::string NotUnsigned(const std::string& text) {
+  std::uint64_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  if (error == std::errc() && rest == end) return "";
+  return fmt::format("'{}' is no whole number from 0 to {}", Printable(text),
+                     std::numeric_limits<std::uint64_t>::max());
+}
+
+/// Every option of all commands that takes such a number, before its own range is asked.
+void AskForPlainNumbers(CLI::App* app) {
   for (CLI::Option* option : app->get_options()) {
-    if (!option->get_type_name().starts_with("FLOAT")) continue;
-    option->transform(CLI::Validator([](std::string& text) { return NotFinite(text); }, ""));
+    const std::string type = option->get_type_name();
+    const auto ask = [&](std::string (*wrong)(const std::string&)) {
+      option->transform(CLI::Validator([wrong](std::string& text) { return wrong(text); }, ""));
+    };
+    if (type.starts_with("FLOAT")) ask(NotFinite);
+    if (type.starts_with("UINT")) ask(NotUnsigned);
   }
-  for (CLI::App* command : app->get_subcommands({})) AskForFiniteNumbers(command);
+  for (CLI::App* command : app->get_subcommands({})) AskForPlainNumbers(command);
 }
 
 }  // namespace
@@ -82,7 +99,7 @@ void AddCommands(CLI::App* app, Action* action) {
   AddCheckCommand(app, action);
   AddDoctorCommand(app, action);
   AddCompletionCommand(app, action);
-  AskForFiniteNumbers(app);
+  AskForPlainNumbers(app);
 }
 
 int RunCommandLine(int argc, const char* const* argv) {

@@ -50,7 +50,14 @@ FrameRange RangeFromText(const std::string& frames) {
   return range;
 }
 
+/// Who names an end has it: a scene that is shorter is told before anything is rendered.
 std::vector<FrameRequest> Select(const std::vector<FrameRequest>& schedule, FrameRange range) {
+  const bool to_the_end = range.last == std::numeric_limits<std::size_t>::max();
+  if (!to_the_end && range.last > schedule.size() && range.first < schedule.size()) {
+    throw InputError(
+        fmt::format("--frames: the scene ends before frame {}; it has {}: {}:{} or {}:", range.last,
+                    schedule.size(), range.first, schedule.size(), range.first));
+  }
   range.last = std::min(range.last, schedule.size());
   if (range.first >= range.last) {
     throw InputError(fmt::format("--frames: nothing from frame {} on; there are 0 to {}",

@@ -222,7 +222,7 @@ TEST_F(BrokenInputTest, NumbersThatAreNoneOrTooLarge) {
   EXPECT_EQ(Run(far, 30).code, 0);
   const Said file = Run({"run", scene_, "--out", poses}, 30);
   EXPECT_EQ(file.code, 4);
-  EXPECT_THAT(file.text, testing::HasSubstr("t.txt: is a file: --out needs a folder"));
+  EXPECT_THAT(file.text, testing::HasSubstr("t.txt: is a file: a report needs a folder"));
   const Said below = Run({"run", scene_, "--out", poses + "/night"}, 30);
   EXPECT_EQ(below.code, 4);
   EXPECT_THAT(below.text, testing::HasSubstr("t.txt/night: is, or lies below, a file"));
@@ -243,6 +243,10 @@ TEST_F(BrokenInputTest, FramesToRenderAreReadFirst) {
   EXPECT_EQ(beyond.code, 4);
   EXPECT_THAT(beyond.text,
               testing::HasSubstr("--frames: nothing from frame 99 on; there are 0 to 11"));
+  const Said longer =
+      Run({"render", scene_, "--out", (folder_ / "out").string(), "--frames", "5:300"});
+  EXPECT_EQ(longer.code, 4);
+  EXPECT_THAT(longer.text, testing::HasSubstr("the scene ends before frame 300; it has 12: 5:12"));
 }
 
 TEST_F(BrokenInputTest, HostileNamesDoNoHarm) {

@@ -97,26 +97,49 @@ void ForEachCommand(
   }
 }
 
-TEST(CommandLineTest, NoOptionTakesWhatIsNoFiniteNumber) {
+/// Gives each of the texts to every option of that type, of all commands; each is refused by `why`.
+/// Returns how many were asked.
+std::size_t AskEveryOption(const std::string& type, const std::vector<std::string>& texts,
+                           const std::string& why) {
   CLI::App app;
   Action action;
   AddCommands(&app, &action);
   std::size_t asked = 0;
   ForEachCommand(app, {}, [&](const std::vector<std::string>& words, const CLI::App& command) {
     for (const CLI::Option* option : command.get_options()) {
-      if (!option->get_type_name().starts_with("FLOAT")) continue;
-      for (const std::string text : {"nan", "inf", "-inf", "1e999"}) {
+      if (!option->get_type_name().starts_with(type)) continue;
+      for (const std::string& text : texts) {
         std::vector<std::string> all = words;
         all.push_back(option->get_name() + "=" + text);
         std::string said;
         EXPECT_EQ(Exit(all, &said), kBadInput) << testing::PrintToString(all);
-        EXPECT_THAT(said, HasSubstr(option->get_name() + ": '" + text + "' is no finite number"));
+        EXPECT_THAT(said, HasSubstr(option->get_name() + ": '" + text + "' " + why));
         ++asked;
       }
     }
   });
-  EXPECT_GE(asked, 4u * 8u);  // run, rerun, bisect, preview and score have some
+  return asked;
+}
+
+TEST(CommandLineTest, NoSeedIsReadAsAnother) {
+  const std::vector<std::string> texts = {"-1", "18446744073709551616", "1.5", "0x10"};
+  EXPECT_GE(AskEveryOption("UINT", texts, "is no whole number from 0 to 18446744073709551615"),
+            5u * 4u);  // run, render, preview, gallery and bisect have some
+}
+
+TEST(CommandLineTest, NoOptionTakesWhatIsNoFiniteNumber) {
+  EXPECT_GE(AskEveryOption("FLOAT", {"nan", "inf", "-inf", "1e999"}, "is no finite number"),
+            4u * 8u);  // run, rerun, bisect, preview and score have some
   EXPECT_EQ(Exit({"preview", "smoke/bits", "--time", "1e300"}), kBadInput);
+}
+
+TEST(CommandLineTest, AViewWithoutFramesHasNoTable) {
+  std::string said;
+  EXPECT_EQ(Exit({"bench", "sensitivity", "smoke/bits:5000-5001", "--only",
+                  "dynamic.robust.field.memory"},
+                 &said),
+            kBadInput);
+  EXPECT_THAT(said, HasSubstr("smoke/bits:5000-5001: no frame lies in this view"));
 }
 
 TEST(CommandLineTest, HelpIsNoErrorAndWrongUsageIs) {
