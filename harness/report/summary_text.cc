@@ -53,7 +53,7 @@ std::string ToSummaryText(const Results& results, const std::vector<std::string>
   }
   return text + fmt::format("report: {}\nagain:  {}\naisle {} ({}), {}\n",
                             Printable((report_dir / "index.html").string(), kWidth),
-                            Printable(results.rerun, kWidth), results.provenance.version,
+                            Printable(results.rerun, 4096), results.provenance.version,
                             results.provenance.commit, Printable(results.started, 40));
 }
 

@@ -122,17 +122,20 @@ void AddTimes(const DriveLog& log, Scorecard* scores) {
 
 void AddContacts(const DriveLog& log, Scorecard* scores) {
   const DriveTrack& track = log.track;
-  double all = 0, standing = 0, people = 0, fastest = 0;
+  double all = 0, standing = 0, people = 0, vehicles = 0, fastest = 0;
   for (const Contact& contact : track.contacts) {
     if (contact.is_actor && std::abs(contact.speed_mps) <= kUnderWay_mps) continue;
     ++all;
     standing += contact.is_actor ? 0 : 1;
-    people += contact.object_class == "person" ? 1 : 0;
+    const bool is_person = contact.object_class == "person";
+    people += is_person ? 1 : 0;
+    vehicles += contact.is_actor && !is_person ? 1 : 0;
     fastest = std::max(fastest, std::abs(contact.speed_mps));
   }
   (*scores)["collisions"] = Present(all, "1", 1);
   (*scores)["collisions_static"] = Present(standing, "1", 1);
   (*scores)["collisions_person"] = Present(people, "1", 1);
+  (*scores)["collisions_vehicle"] = Present(vehicles, "1", 1);
   (*scores)["collision_speed_max_mps"] =
       all > 0 ? Present(fastest, "m/s", static_cast<std::size_t>(all))
               : Absent("m/s", "nothing was touched");

@@ -29,6 +29,7 @@ struct SceneErrors {
   std::vector<std::string> lost;  ///< systems of which no run has an error
   std::string drives = {};        ///< how those that steer ended, in words; empty: nobody steers
   double worst_docking_m = 0;
+  bool any_touched = false, any_missed = false;  ///< of the drives
 };
 
 /// The first system of the scene of which this is true; null for none.
@@ -39,11 +40,15 @@ const SystemError* Find(const SceneErrors& errors,
   return at == errors.known.end() ? nullptr : &*at;
 }
 
-double Worst(const SceneErrors& errors) {
-  if (!errors.drives.empty()) return errors.worst_docking_m;
-  double worst = errors.lost.empty() ? 0 : 1e9;
-  for (const SystemError& one : errors.known) worst = std::max(worst, one.ate_m);
-  return worst;
+/// How badly a scene went: a contact is worse than a goal that was missed or a drive without a
+/// trajectory, and that is worse than any length.
+std::pair<int, double> Badness(const SceneErrors& errors) {
+  if (!errors.drives.empty()) {
+    return {errors.any_touched ? 2 : errors.any_missed ? 1 : 0, errors.worst_docking_m};
+  }
+  double worst_m = 0;
+  for (const SystemError& one : errors.known) worst_m = std::max(worst_m, one.ate_m);
+  return {errors.lost.empty() ? 0 : 1, worst_m};
 }
 
 std::vector<SceneErrors> CollectErrors(const Results& results) {
@@ -53,8 +58,9 @@ std::vector<SceneErrors> CollectErrors(const Results& results) {
     SceneErrors& of_scene = collected.emplace_back(SceneErrors{scene.scene, {}, {}});
     of_scene.drives = DriveSentence(scene);
     for (const auto& [system, outcome] : OutcomesOf(scene)) {
-      const double docking_m = outcome.drove() ? outcome.docking_m : 1e9;
-      of_scene.worst_docking_m = std::max(of_scene.worst_docking_m, docking_m);
+      of_scene.worst_docking_m = std::max(of_scene.worst_docking_m, outcome.docking_m);
+      of_scene.any_touched |= outcome.hit_things + outcome.hit_people + outcome.hit_others > 0;
+      of_scene.any_missed |= outcome.missed + outcome.undriven > 0;
     }
     for (const SystemRuns& system : scene.systems) {
       const std::vector<double> errors_m = ScoresOf(system.runs, "ate_rmse_m");
@@ -168,15 +174,16 @@ std::vector<std::string> AnswerInWords(const Results& results) {
   std::erase_if(scenes, [](const SceneErrors& errors) {
     return errors.known.empty() && errors.drives.empty();
   });
-  std::stable_sort(scenes.begin(), scenes.end(),
-                   [](const SceneErrors& a, const SceneErrors& b) { return Worst(a) > Worst(b); });
+  std::stable_sort(scenes.begin(), scenes.end(), [](const SceneErrors& a, const SceneErrors& b) {
+    return Badness(a) > Badness(b);
+  });
   std::vector<std::string> sentences;
   for (const SceneErrors& errors : scenes) {
     if (sentences.size() == kMostSentences) break;
     sentences.push_back(Sentence(errors));
   }
   if (scenes.size() > kMostSentences) {
-    sentences.push_back(fmt::format("These are the {} scenes with the largest errors of {}.",
+    sentences.push_back(fmt::format("These are the {} scenes of {} that went worst.",
                                     kMostSentences, scenes.size()));
   }
   return sentences;

@@ -71,11 +71,14 @@ TEST(DriveScoresTest, WhoRunsIntoAVehicleThatStandsIsNotItsCollision) {
   DriveLog log = StraightDrive(0);
   log.track.contacts = {{0, "rack", "rack", 0.4, {}, false},
                         {1, "anna", "person", 0.8, {}, true},
-                        {2, "bert", "person", 0.0, {}, true}};
-  EXPECT_EQ(ValueOf(log, "collisions"), 2);
+                        {2, "bert", "person", 0.0, {}, true},
+                        {3, "truck", "forklift", 1.2, {}, true},
+                        {4, "gate", "mechanism", 1.1, {}, true}};
+  EXPECT_EQ(ValueOf(log, "collisions"), 4);
   EXPECT_EQ(ValueOf(log, "collisions_static"), 1);
   EXPECT_EQ(ValueOf(log, "collisions_person"), 1);
-  EXPECT_EQ(ValueOf(log, "collision_speed_max_mps"), 0.8);
+  EXPECT_EQ(ValueOf(log, "collisions_vehicle"), 2);
+  EXPECT_EQ(ValueOf(log, "collision_speed_max_mps"), 1.2);
 }
 
 TEST(DriveScoresTest, UnderWayItHasTakenTheTimeUntilNow) {

@@ -99,10 +99,10 @@ TEST(AnswerTest, AnErrorOfHalfADriveSaysSoAndWinsNothingBack) {
 TEST(AnswerTest, OfManyScenesTheWorstAreToldAndTheirNumber) {
   const auto sentences = AnswerInWords(Of({RunOf("a", "robust", 0.1), RunOf("b", "robust", 0.4),
                                            RunOf("c", "robust", 0.2), RunOf("d", "robust", 0.3)}));
-  EXPECT_THAT(sentences,
-              ElementsAre("On b, robust is off by 40 cm.", "On d, robust is off by 30 cm.",
-                          "On c, robust is off by 20 cm.",
-                          "These are the 3 scenes with the largest errors of 4."));
+  EXPECT_THAT(
+      sentences,
+      ElementsAre("On b, robust is off by 40 cm.", "On d, robust is off by 30 cm.",
+                  "On c, robust is off by 20 cm.", "These are the 3 scenes of 4 that went worst."));
 }
 
 TEST(AnswerTest, WithoutAnErrorThereIsNothingToSay) {

@@ -45,6 +45,24 @@ TEST(DriveOutcome, TheAnswerIsWhereTheVehiclesEndedNotTheirTrajectorysError) {
                   "and runs into people) and robust ends 0.8 mm from its goal."));
 }
 
+TEST(DriveOutcome, AContactIsToldBeforeAnyDistance) {
+  const auto drive_on = [](const std::string& scene, double docking_m) {
+    RunRecord run = Drive("robust", docking_m);
+    run.spec.scene = scene;
+    return run;
+  };
+  RunRecord touched = drive_on("corner", 0.0002);
+  touched.scores["collisions"].value = 1;
+  RunRecord missed = drive_on("far", 0.03);
+  missed.scores["goal_reached"].value = 0;
+  const auto answer =
+      AnswerInWords(Of({drive_on("dock", 0.009), drive_on("aisle", 0.001), missed, touched}));
+  ASSERT_EQ(answer.size(), 4u);
+  EXPECT_THAT(answer[0], HasSubstr("On corner, robust ends 0.2 mm from its goal (runs into"));
+  EXPECT_THAT(answer[1], HasSubstr("On far, robust ends 3.0 cm from its goal (misses"));
+  EXPECT_THAT(answer[2], HasSubstr("On dock,"));
+}
+
 TEST(DriveOutcome, CountsTheSeedsThatWentWrongAndTakesTheMedian) {
   const Results results = Of({Drive("robust", 0.002, 1), Drive("robust", 0.004, 2),
                               Crashed(Drive("robust", 3.0, 3), 0, 1)});
