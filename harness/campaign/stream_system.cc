@@ -123,8 +123,11 @@ struct StreamEstimator::Impl {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     if (!process->Poll()) return "closed its end of the stream and goes on";
-    const std::string line = TellingLine(process->result().log);
-    return Describe(process->result(), limits) + (line.empty() ? "" : "; last words: " + line);
+    const ProcessResult& result = process->result();
+    const std::string line = TellingLine(result.log);
+    const bool by_itself = result.end == ProcessResult::End::kExited && result.code == 0;
+    return (by_itself ? "ended before it answered: " : "") + Describe(result, limits) +
+           (line.empty() ? "" : "; last words: " + line);
   }
 
   [[noreturn]] void Blame(const StreamError& error) {

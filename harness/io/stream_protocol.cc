@@ -83,6 +83,15 @@ Eigen::Isometry3d TakePose(Taker* taker, const std::string& whose) {
   return pose;
 }
 
+constexpr const char* kEndsWithin = "the stream ends within a message";
+constexpr const char* kStdoutIsTaken = ": stdout belongs to the stream, print to stderr";
+
+/// What a program prints for people, where bytes of a message were due.
+bool IsText(const std::string& bytes) {
+  return std::ranges::all_of(
+      bytes, [](unsigned char c) { return std::isprint(c) != 0 || std::isspace(c) != 0; });
+}
+
 double NowS() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -267,46 +276,51 @@ void StreamPipe::Send(StreamType type, const std::string& payload) {
   }
 }
 
-/// False where the stream ends before the first byte.
-bool StreamPipe::ReadAll(char* data, std::size_t size, double until_s) {
-  for (std::size_t got = 0; got < size;) {
+/// How many bytes there were: fewer than `size` where the stream ends before them.
+std::size_t StreamPipe::ReadAll(char* data, std::size_t size, double until_s) {
+  std::size_t got = 0;
+  while (got < size) {
     const ssize_t count = ::read(read_fd_, data + got, size - got);
     if (count > 0) {
       got += static_cast<std::size_t>(count);
     } else if (count == 0) {
-      if (got == 0) return false;
-      throw StreamError(Kind::kClosed, "the stream ends within a message");
+      break;
     } else if (errno != EAGAIN && errno != EINTR) {
       throw StreamError(Kind::kClosed, "the stream is closed");
     } else {
       Wait(read_fd_, POLLIN, until_s);
     }
   }
-  return true;
+  return got;
 }
 
 std::optional<StreamMessage> StreamPipe::Receive() {
   const double until_s = Deadline();
   std::array<std::uint32_t, 2> head;
-  if (!ReadAll(reinterpret_cast<char*>(head.data()), sizeof head, until_s)) return std::nullopt;
+  std::string text(sizeof head, '\0');
+  text.resize(ReadAll(text.data(), sizeof head, until_s));
+  if (text.empty()) return std::nullopt;
+  if (text.size() < sizeof head) {
+    if (IsText(text)) {
+      Nonsense("it ended after the text '" + Printable(text) + "'" + kStdoutIsTaken);
+    }
+    throw StreamError(Kind::kClosed, kEndsWithin);
+  }
+  std::memcpy(head.data(), text.data(), sizeof head);
   const std::uint32_t last_type = static_cast<std::uint32_t>(StreamType::kTrack);
   if (head[1] < 1 || head[1] > last_type) {
-    const std::string text(reinterpret_cast<const char*>(head.data()), sizeof head);
-    const bool is_text = std::ranges::all_of(
-        text, [](unsigned char c) { return std::isprint(c) != 0 || std::isspace(c) != 0; });
-    Nonsense(fmt::format("a message of type {}, expected 1 to {}{}", head[1], last_type,
-                         is_text ? fmt::format(": it begins with the text '{}': stdout belongs to "
-                                               "the stream, print to stderr",
-                                               Printable(text))
-                                 : ""));
+    Nonsense(fmt::format(
+        "a message of type {}, expected 1 to {}{}", head[1], last_type,
+        IsText(text) ? ": it begins with the text '" + Printable(text) + "'" + kStdoutIsTaken
+                     : ""));
   }
   if (head[0] > kLargestStreamMessage) {
     Nonsense(fmt::format("a message of {} bytes, at most {} are allowed", head[0],
                          kLargestStreamMessage));
   }
   StreamMessage message{static_cast<StreamType>(head[1]), std::string(head[0], '\0')};
-  if (head[0] > 0 && !ReadAll(message.payload.data(), head[0], until_s)) {
-    throw StreamError(Kind::kClosed, "the stream ends within a message");
+  if (ReadAll(message.payload.data(), head[0], until_s) < head[0]) {
+    throw StreamError(Kind::kClosed, kEndsWithin);
   }
   return message;
 }

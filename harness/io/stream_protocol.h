@@ -79,7 +79,7 @@ class StreamPipe {
 
  private:
   bool Wait(int fd, short events, double until_s) const;
-  bool ReadAll(char* data, std::size_t size, double until_s);
+  std::size_t ReadAll(char* data, std::size_t size, double until_s);
   double Deadline() const;
 
   const int read_fd_, write_fd_;

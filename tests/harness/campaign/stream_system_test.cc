@@ -86,27 +86,30 @@ struct Way {
   const char* says;
 };
 class HostileStreamTest : public StreamSystemTest, public testing::WithParamInterface<Way> {};
-INSTANTIATE_TEST_SUITE_P(Ways, HostileStreamTest,
-                         testing::Values(Way{"die", RunStatus::kCrashed, "SIGSEGV"},
-                                         Way{"exit", RunStatus::kCrashed,
-                                             "no more memory for dreams"},
-                                         Way{"stall", RunStatus::kTimeout, "no answer within"},
-                                         Way{"mute", RunStatus::kTimeout, "no answer within"},
-                                         Way{"dribble", RunStatus::kTimeout, "no answer within"},
-                                         Way{"twice", RunStatus::kInvalid, ""},
-                                         Way{"ahead", RunStatus::kInvalid, "before it was asked"},
-                                         Way{"text", RunStatus::kInvalid, "print to stderr"},
-                                         Way{"nan", RunStatus::kInvalid, "not finite"},
-                                         Way{"far", RunStatus::kInvalid, "at most 1e+08"},
-                                         Way{"shear", RunStatus::kInvalid, "quaternion"},
-                                         Way{"huge", RunStatus::kInvalid, "bytes, at most"},
-                                         Way{"gigabytes", RunStatus::kInvalid, "a message of type"},
-                                         Way{"wrong", RunStatus::kInvalid, "answer is to frame 10"},
-                                         Way{"type", RunStatus::kInvalid, "type 77"},
-                                         Way{"short", RunStatus::kInvalid, "ends too early"},
-                                         Way{"version", RunStatus::kInvalid, "version 9"},
-                                         Way{"flood", RunStatus::kOk, ""}),
-                         [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Ways, HostileStreamTest,
+    testing::Values(Way{"die", RunStatus::kCrashed, "SIGSEGV"},
+                    Way{"exit", RunStatus::kCrashed, "no more memory for dreams"},
+                    Way{"leave", RunStatus::kCrashed, "ended before it answered: exit code 0"},
+                    Way{"word", RunStatus::kInvalid,
+                        "it ended after the text 'hi\\x0a': stdout belongs"},
+                    Way{"stall", RunStatus::kTimeout, "no answer within"},
+                    Way{"mute", RunStatus::kTimeout, "no answer within"},
+                    Way{"dribble", RunStatus::kTimeout, "no answer within"},
+                    Way{"twice", RunStatus::kInvalid, ""},
+                    Way{"ahead", RunStatus::kInvalid, "before it was asked"},
+                    Way{"text", RunStatus::kInvalid, "print to stderr"},
+                    Way{"nan", RunStatus::kInvalid, "not finite"},
+                    Way{"far", RunStatus::kInvalid, "at most 1e+08"},
+                    Way{"shear", RunStatus::kInvalid, "quaternion"},
+                    Way{"huge", RunStatus::kInvalid, "bytes, at most"},
+                    Way{"gigabytes", RunStatus::kInvalid, "a message of type"},
+                    Way{"wrong", RunStatus::kInvalid, "answer is to frame 10"},
+                    Way{"type", RunStatus::kInvalid, "type 77"},
+                    Way{"short", RunStatus::kInvalid, "ends too early"},
+                    Way{"version", RunStatus::kInvalid, "version 9"},
+                    Way{"flood", RunStatus::kOk, ""}),
+    [](const auto& info) { return std::string(info.param.name); });
 
 TEST_F(StreamSystemTest, WhatASystemPrintedBeforeItsGreetingFailedIsKept) {
   ExternalSystem system = Client("");

@@ -1,7 +1,7 @@
 """A system behind aisle's stream that misbehaves: hostile.py WAY [FRAME].
 
-die, exit, stall, dribble, twice, ahead, text, nan, far, shear, huge, gigabytes, wrong, type, short,
-mute, version, flood, ok
+die, exit, leave, word, stall, dribble, twice, ahead, text, nan, far, shear, huge, gigabytes, wrong,
+type, short, mute, version, flood, ok
 """
 
 import os
@@ -30,6 +30,11 @@ def misbehave(number):
         os.kill(os.getpid(), 11)
     if WAY == "exit":
         sys.exit("Error: no more memory for dreams")
+    if WAY == "leave":
+        sys.exit(0)
+    if WAY == "word":
+        print("hi", flush=True)
+        sys.exit(0)
     if WAY == "stall":
         time.sleep(3600)
     if WAY == "dribble":
