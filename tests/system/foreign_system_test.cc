@@ -147,10 +147,11 @@ TEST_F(ForeignSystemTest, ThatFailedIsTriedOnceMoreByANightThatGoesOn) {
   // The dataset's epoch is missing in what `lost` leaves the second time: no stamp is the scene's.
   std::string systems = "  - {name: broken, command: \"exit 3 # {output}\"}\n";
   for (const auto& [name, dataset] : {std::pair("ok", "kitti"), std::pair("lost", "euroc")}) {
+    // What it leaves to remember is a folder: a file that its command names would decide it.
     const std::string mark = Out(fmt::format("mark_{}", name));
     fs::create_directories(mark);
     systems += fmt::format(
-        "  - {{name: {3}, command: \"test -e {0}/been && cp {1} {{output}} && exit 0; touch "
+        "  - {{name: {3}, command: \"test -d {0}/been && cp {1} {{output}} && exit 0; mkdir "
         "{0}/been; exit 3\", dataset: {2}, may_write: [{0}]}}\n",
         mark, known, dataset, name);
   }
