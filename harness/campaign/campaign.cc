@@ -229,23 +229,21 @@ CampaignOutcome RunCampaign(const std::vector<Job>& jobs, const CampaignOptions&
   return outcome;
 }
 
-namespace {
-
-/// The job's result where nothing says that it would be another now.
-std::optional<RunRecord> ResultThatStands(const Job& job, const RunLimits& limits) {
-  const auto& external = job.spec.system.external;
+std::optional<RunRecord> ResultThatStands(const RunSpec& spec, const std::string& inputs_hash,
+                                          const RunLimits& limits,
+                                          const std::filesystem::path& out) {
+  const auto& external = spec.system.external;
   if (external && !UnknownProgram(*external).empty()) return std::nullopt;
-  return ReadFinishedRun(job.spec, job.inputs_hash, limits, job.out);
+  return ReadFinishedRun(spec, inputs_hash, limits, out);
 }
-
-}  // namespace
 
 Standing StandingOf(const std::vector<Job>& jobs, const RunLimits& limits) {
   Standing standing;
   std::map<std::string, Job> good;  // by inputs
   std::vector<Job> left;
   for (const Job& job : jobs) {
-    const std::optional<RunRecord> result = ResultThatStands(job, limits);
+    const std::optional<RunRecord> result =
+        ResultThatStands(job.spec, job.inputs_hash, limits, job.out);
     if (result && IsComplete(result->status)) good.try_emplace(job.inputs_hash, job);
     (result ? standing.kept : left).push_back(job);
   }

@@ -51,8 +51,13 @@ struct Standing {
   std::size_t there() const { return kept.size() + answered.size(); }
 };
 
-/// Looks and changes nothing. Systems of which nobody can tell whether they still are what they
-/// were keep no result.
+/// The result of a run where nothing says that it would be another now: its inputs are these, and
+/// somebody can tell what its command runs.
+std::optional<RunRecord> ResultThatStands(const RunSpec& spec, const std::string& inputs_hash,
+                                          const RunLimits& limits,
+                                          const std::filesystem::path& out);
+
+/// Looks and changes nothing.
 Standing StandingOf(const std::vector<Job>& jobs, const RunLimits& limits);
 
 /// The same, and files the answers of equals; what else lies in the folders of the jobs to do is

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "harness/campaign/campaign.h"
 #include "harness/campaign/forecast.h"
 #include "harness/campaign/source.h"
 #include "harness/cli/cluster_wait.h"
@@ -87,7 +88,8 @@ void ClearTheWay(const TaskList& list, bool resume, const fs::path& out) {
   RemoveReport(out);
   for (const Task& task : list.tasks) {
     for (const TaskRun& run : task.runs) {
-      if (resume && ReadFinishedRun(run.spec, run.inputs_hash, list.settings.limits, out)) continue;
+      const RunLimits& limits = list.settings.limits;
+      if (resume && ResultThatStands(run.spec, run.inputs_hash, limits, out)) continue;
       RemoveFolder(out / "runs" / RunId(run.spec));
     }
   }
