@@ -13,7 +13,6 @@
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/record/provenance.h"
-#include "harness/record/record.h"
 
 namespace aisle {
 namespace {

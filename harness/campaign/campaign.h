@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "harness/campaign/schedule.h"
+#include "harness/record/record.h"
 
 namespace aisle {
 

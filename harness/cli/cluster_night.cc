@@ -21,7 +21,6 @@
 #include "harness/io/places.h"
 #include "harness/io/shell_word.h"
 #include "harness/record/provenance.h"
-#include "harness/record/record.h"
 
 namespace aisle {
 namespace {
