@@ -33,14 +33,21 @@ void CheckNames(const std::vector<std::string>& names, const std::vector<std::st
   }
 }
 
+/// The name of the system that a suite's `latencies_ms` made this one of; empty where they did not.
+std::string NameBeforeSweep(const SystemSpec& spec) {
+  const auto latency = spec.options.find("drive.latency_ms");
+  if (latency == spec.options.end()) return "";
+  const std::string ending = NameAtLatency("", latency->second);
+  if (!spec.name.ends_with(ending)) return "";
+  return spec.name.substr(0, spec.name.size() - ending.size());
+}
+
 /// The suite's system of that name; where its `latencies_ms` drive that system, at all of them.
 std::vector<SystemSpec> OwnSystems(const Suite& suite, const std::string& name) {
   std::vector<SystemSpec> own;
   for (const SystemSpec& spec : suite.systems) {
     if (spec.name == name) return {spec};
-    const auto latency = spec.options.find("drive.latency_ms");
-    if (latency == spec.options.end()) continue;
-    if (spec.name == NameAtLatency(name, latency->second)) own.push_back(spec);
+    if (NameBeforeSweep(spec) == name) own.push_back(spec);
   }
   return own;
 }
@@ -49,13 +56,8 @@ std::vector<SystemSpec> OwnSystems(const Suite& suite, const std::string& name) 
 /// its own as well.
 std::vector<std::string> NamesIn(const Suite& suite) {
   std::vector<std::string> names = SystemNames(suite);
-  for (const SystemSpec& spec : suite.systems) {
-    const auto latency = spec.options.find("drive.latency_ms");
-    if (latency == spec.options.end()) continue;
-    const std::string ending = NameAtLatency("", latency->second);
-    if (!spec.name.ends_with(ending)) continue;
-    names.push_back(spec.name.substr(0, spec.name.size() - ending.size()));
-  }
+  for (const SystemSpec& spec : suite.systems) names.push_back(NameBeforeSweep(spec));
+  std::erase(names, "");
   return names;
 }
 
