@@ -232,7 +232,7 @@ std::optional<RunRecord> ResultThatStands(const RunSpec& spec, const std::string
                                           const RunLimits& limits,
                                           const std::filesystem::path& out) {
   const auto& external = spec.system.external;
-  if (external && !UnknownProgram(*external).empty()) return std::nullopt;
+  if (external && MayChangeUnseen(*external)) return std::nullopt;
   return ReadFinishedRun(spec, inputs_hash, limits, out);
 }
 

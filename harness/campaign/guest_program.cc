@@ -48,16 +48,16 @@ std::vector<std::string> NotesOfSystems(const Suite& suite) {
   for (const SystemSpec& system : suite.systems) {
     if (!system.external) continue;
     const std::string missing = MissingProgram(*system.external);
-    const std::string unknown = UnknownProgram(*system.external);
     if (!missing.empty()) {
       notes.push_back(fmt::format(
           "system '{}': its command begins with {}, which is no program here: its runs would fail",
           system.name, Printable(missing, 200)));
-    } else if (!unknown.empty()) {
+    } else if (MayChangeUnseen(*system.external)) {
       notes.push_back(fmt::format(
-          "system '{}': which file {} of its command is cannot be told, so --resume makes its runs "
-          "anew: name what decides it under depends_on",
-          system.name, Printable(unknown, 200)));
+          "system '{}': its command is not one program with its arguments, so which files decide "
+          "what it does cannot be told, and --resume makes its runs anew: name them under "
+          "depends_on",
+          system.name));
     }
   }
   return notes;
