@@ -267,6 +267,7 @@ Vocabulary KnownNames() {
     return fmt::format("there is no score '{}'{}; `aisle score --list` lists them",
                        Printable(score), DidYouMean(score, known));
   };
+  vocabulary.is_share = IsShare;
   vocabulary.check_option = [](const std::string& like, const std::string& path,
                                const std::string& value) -> std::string {
     if (!like.empty()) return CheckOption(path, value);

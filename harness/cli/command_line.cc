@@ -18,17 +18,15 @@ namespace aisle {
 
 namespace {
 
-/// The command that a misspelt one was meant to be.
-void Suggest(const CLI::App& app, const std::string& word) {
-  std::vector<std::string> commands;
+/// What is wrong with the word where a command is expected: nothing where it is one, or an option.
+std::string NoCommand(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> shown;
   for (const CLI::App* command : app.get_subcommands({})) {
-    if (!command->get_group().empty()) commands.push_back(command->get_name());
+    if (command->get_name() == word) return "";
+    if (!command->get_group().empty()) shown.push_back(command->get_name());
   }
-  const bool known = std::find(commands.begin(), commands.end(), word) != commands.end();
-  const std::string near = known || word.starts_with("-") ? "" : NearestWord(word, commands);
-  if (!near.empty()) {
-    fmt::print(stderr, "'{}' is no command; did you mean {}?\n", Printable(word), near);
-  }
+  if (word.starts_with("-")) return "";
+  return fmt::format("'{}' is no command{}", Printable(word), DidYouMean(word, shown));
 }
 
 /// Examples speak of the launcher of a tree; an installed program is called by its name.
@@ -121,9 +119,12 @@ int RunCommandLine(int argc, const char* const* argv) {
     app.parse(argc, argv);
     return action();
   } catch (const CLI::ParseError& error) {
-    const bool is_answer = app.exit(error) == 0;  // --help is no error
-    if (!is_answer && argc > 1) Suggest(app, argv[1]);
-    return is_answer ? kAllPassed : kBadInput;
+    const std::string wrong = argc > 1 ? NoCommand(app, argv[1]) : "";
+    if (!wrong.empty()) {
+      fmt::print(stderr, "{}\nRun with --help for more information.\n", wrong);
+      return kBadInput;
+    }
+    return app.exit(error) == 0 ? kAllPassed : kBadInput;  // --help is no error
   } catch (const InputError& error) {
     fmt::print(stderr, "aisle: {}\n", error.what());
     return kBadInput;

@@ -46,6 +46,9 @@ void RefuseIdle(const Options& options) {
   if (options.align_first > 0 && options.align == "none") {
     throw InputError("--align-first: nothing is aligned with --align none");
   }
+  if (options.rate_hz > 0 && options.rule == "index") {
+    throw InputError("--rate: with --association index every pose of truth is a frame");
+  }
 }
 
 ScoreOptions ScoreOptionsOf(const Options& options) {

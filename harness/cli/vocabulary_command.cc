@@ -68,6 +68,7 @@ void AddVocabularyCommand(CLI::App* app, Action* action) {
   CLI::App* vocabulary =
       app->add_subcommand("vocabulary", "the visual words that places are recognised by");
   vocabulary->require_subcommand(1);
+  vocabulary->footer("Example: ./aisle vocabulary train scenes/paper/*.yaml --out warehouse.voc");
   const auto options = std::make_shared<Options>();
   CLI::App* train = vocabulary->add_subcommand("train", "learns them from scenes or recordings");
   train->add_option("SOURCES", options->sources, "scene files and folders of recordings")

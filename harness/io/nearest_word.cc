@@ -1,23 +1,26 @@
 #include "harness/io/nearest_word.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace aisle {
 namespace {
 
-/// Levenshtein's, one row at a time.
+/// Levenshtein's, two letters in each other's place counting as one mistake (optimal string
+/// alignment): of `a` to i letters and `b` to j letters in cell (i, j).
 std::size_t EditDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({row[j + 1] + 1, row[j] + 1, changed});
+  std::vector<std::vector<std::size_t>> cell(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  std::iota(cell[0].begin(), cell[0].end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    cell[i][0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t changed = cell[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      cell[i][j] = std::min({cell[i - 1][j] + 1, cell[i][j - 1] + 1, changed});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) cell[i][j] = std::min(cell[i][j], cell[i - 2][j - 2] + 1);
     }
   }
-  return row.back();
+  return cell.back().back();
 }
 
 }  // namespace
@@ -28,6 +31,9 @@ std::string NearestWord(const std::string& word, const std::vector<std::string>&
   for (const std::string& candidate : known) {
     const bool alike =
         !word.empty() && (candidate.starts_with(word) || word.starts_with(candidate));
+    const std::size_t apart =
+        std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size());
+    if (!alike && apart >= best) continue;  // a huge word would make a huge table
     const std::size_t distance = alike ? 1 : EditDistance(word, candidate);
     if (distance >= best) continue;
     best = distance;

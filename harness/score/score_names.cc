@@ -35,7 +35,7 @@ void AddTrajectory(std::vector<ScoreDescription>* names) {
     names->push_back({std::string("r_rel") + suffix + "_deg_per_100m", "deg/100m",
                       std::string("rotation error over ") + lengths});
   }
-  names->push_back({"coverage", "1", "share of frames with a pose"});
+  names->push_back({"coverage", "1", "share of frames with a pose", true});
   names->push_back({"times_lost", "1", "how often tracking was lost"});
   names->push_back({"recovery_max_s", "s", "the longest time until it was found again"});
   for (const char* quantile : {"50", "95"}) {
@@ -48,34 +48,38 @@ void AddTrajectory(std::vector<ScoreDescription>* names) {
 
 void AddMasks(std::vector<ScoreDescription>* names) {
   const std::vector<ScoreDescription> masks = {
-      {"mask_precision", "1", "share of the rejected pixels that move"},
-      {"mask_recall", "1", "share of the moving pixels that are rejected"},
-      {"mask_iou", "1", "intersection over union of rejected and moving pixels"},
-      {"mask_boundary_f", "1", "F-measure of the mask's outline (DAVIS)"},
+      {"mask_precision", "1", "share of the rejected pixels that move", true},
+      {"mask_recall", "1", "share of the moving pixels that are rejected", true},
+      {"mask_iou", "1", "intersection over union of rejected and moving pixels", true},
+      {"mask_boundary_f", "1", "F-measure of the mask's outline (DAVIS)", true},
       {"object_precision", "1",
-       "share of the rejected regions that are moving objects, parts of such left out"},
-      {"object_recall", "1", "share of the moving objects that are found by their rectangle"},
-      {"object_iou", "1", "mean IoU of the rectangles of found objects"},
-      {"object_covered", "1", "share of the moving objects most of whose pixels are rejected"},
-      {"object_precision_large", "1", "share of the large regions that cover something moving"},
-      {"object_recall_large", "1", "recall of objects of 1 % of the image at 0.15 m/s or more"},
-      {"object_covered_large", "1", "share of these most of whose pixels are rejected"},
-      {"object_recall_size_*", "1", "recall of objects by their pixels"},
-      {"object_recall_distance_*", "1", "recall of objects by their distance"},
-      {"object_recall_speed_*", "1", "recall of objects by their speed"},
-      {"object_recall_class_*", "1", "recall of objects by their class"},
+       "share of the rejected regions that are moving objects, parts of such left out", true},
+      {"object_recall", "1", "share of the moving objects that are found by their rectangle", true},
+      {"object_iou", "1", "mean IoU of the rectangles of found objects", true},
+      {"object_covered", "1", "share of the moving objects most of whose pixels are rejected",
+       true},
+      {"object_precision_large", "1", "share of the large regions that cover something moving",
+       true},
+      {"object_recall_large", "1", "recall of objects of 1 % of the image at 0.15 m/s or more",
+       true},
+      {"object_covered_large", "1", "share of these most of whose pixels are rejected", true},
+      {"object_recall_size_*", "1", "recall of objects by their pixels", true},
+      {"object_recall_distance_*", "1", "recall of objects by their distance", true},
+      {"object_recall_speed_*", "1", "recall of objects by their speed", true},
+      {"object_recall_class_*", "1", "recall of objects by their class", true},
       {"objects_moving", "1", "moving objects, summed over frames"},
       {"objects_found", "1", "of them, found"},
       {"objects_missed", "1", "of them, missed"},
       {"objects_invented", "1", "rejected regions that are no moving object"},
-      {"static_features_lost", "1", "share of the corners on what stands that are rejected"},
+      {"static_features_lost", "1", "share of the corners on what stands that are rejected", true},
   };
   names->insert(names->end(), masks.begin(), masks.end());
   for (const char* kind : {"large", "slow"}) {
     const std::string mover = std::string("mover_") + kind + "_";
     const std::string movers = std::string(kind) + " movers";
-    names->push_back({mover + "found", "1", "share of the " + movers + " that are ever found"});
-    names->push_back({mover + "found_within_*", "1", "share of them found within that time"});
+    names->push_back(
+        {mover + "found", "1", "share of the " + movers + " that are ever found", true});
+    names->push_back({mover + "found_within_*", "1", "share of them found within that time", true});
     names->push_back({mover + "delay_median_s", "s", "median time until they are found"});
     names->push_back({mover + "delay_max_s", "s", "longest time until one is found"});
     names->push_back({mover + "gap_max_frames", "frames", "longest loss of one once found"});
@@ -86,10 +90,11 @@ void AddMasks(std::vector<ScoreDescription>* names) {
 
 void AddFrames(std::vector<ScoreDescription>* names) {
   const std::vector<ScoreDescription> frames = {
-      {"features_on_movers", "1", "share of the features that sit on moving surfaces"},
+      {"features_on_movers", "1", "share of the features that sit on moving surfaces", true},
       {"inliers_on_movers_per_frame", "1", "of those that took part in the pose, a frame"},
-      {"difficulty_movers_share", "1", "share of the image that moves"},
-      {"difficulty_static_texture_share", "1", "share of it that stands still and shows texture"},
+      {"difficulty_movers_share", "1", "share of the image that moves", true},
+      {"difficulty_static_texture_share", "1", "share of it that stands still and shows texture",
+       true},
       {"difficulty_flow_px", "px", "median motion of static points from frame to frame"},
       {"difficulty_blur_px", "px", "how far the exposure smears them"},
       {"difficulty_parallax_px", "px", "the part of their motion that translation made"},
@@ -101,8 +106,9 @@ void AddFrames(std::vector<ScoreDescription>* names) {
 
 const std::vector<ScoreDescription>& DriveScoreNames() {
   static const std::vector<ScoreDescription> drive = {
-      {"goal_reached", "1", "1 where the vehicle of a closed drive ended within its goal's bounds"},
-      {"route_completion", "1", "share of the planned route that it drove"},
+      {"goal_reached", "1", "1 where the vehicle of a closed drive ended within its goal's bounds",
+       true},
+      {"route_completion", "1", "share of the planned route that it drove", true},
       {"cross_track_rms_m", "m", "root mean square of the true vehicle's distance from its route"},
       {"cross_track_max_m", "m", "largest distance of the true vehicle from its route"},
       {"heading_error_max_deg", "deg", "largest turn of the true vehicle from its route"},
@@ -121,7 +127,7 @@ const std::vector<ScoreDescription>& DriveScoreNames() {
       {"scanner_stops", "1", "stops by the safety scanner, where one is switched on"},
       {"stopped_s", "s", "time held by either"},
       {"lost_s", "s", "time without a pose to steer by"},
-      {"frames_dropped", "1", "share of the camera's frames that the busy system never saw"},
+      {"frames_dropped", "1", "share of the camera's frames that the busy system never saw", true},
       {"collisions", "1",
        "contacts of the vehicle under way; with who leant on it as it stood, once it moves at him"},
       {"collisions_static", "1", "of them, with racks, walls, columns, goods and the like"},
@@ -144,6 +150,13 @@ bool Matches(const std::string& name, const std::string& pattern) {
   return name.size() > head.size() + tail.size() && name.starts_with(head) && name.ends_with(tail);
 }
 
+const ScoreDescription* Describe(const std::string& name) {
+  const auto& names = ScoreNames();
+  const auto found = std::ranges::find_if(
+      names, [&](const ScoreDescription& known) { return Matches(name, known.name); });
+  return found == names.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 const std::vector<ScoreDescription>& ScoreNames() {
@@ -158,11 +171,11 @@ const std::vector<ScoreDescription>& ScoreNames() {
   return names;
 }
 
-bool IsScoreName(const std::string& name) {
-  const auto& names = ScoreNames();
-  return std::any_of(names.begin(), names.end(), [&](const ScoreDescription& description) {
-    return Matches(name, description.name);
-  });
+bool IsScoreName(const std::string& name) { return Describe(name) != nullptr; }
+
+bool IsShare(const std::string& name) {
+  const ScoreDescription* description = Describe(name);
+  return description != nullptr && description->is_share;
 }
 
 bool IsDriveScore(const std::string& name) {

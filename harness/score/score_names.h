@@ -10,6 +10,7 @@ struct ScoreDescription {
   std::string name;  ///< "ate_rmse_m"; a '*' stands for a stage or class that runs bring with them
   std::string unit;  ///< "1" for shares and counts
   std::string help;  ///< one sentence
+  bool is_share = false;  ///< from 0 to 1
 };
 
 /// Every score that a run can have, in the order in which a page explains them.
@@ -17,6 +18,9 @@ const std::vector<ScoreDescription>& ScoreNames();
 
 /// Whether a run can have a score of that name.
 bool IsScoreName(const std::string& name);
+
+/// Whether it is a share, from 0 to 1; false for what is no score.
+bool IsShare(const std::string& name);
 
 /// Whether only a run can have it whose vehicle the system steers: of a scene with a `drive`.
 bool IsDriveScore(const std::string& name);

@@ -170,12 +170,13 @@ void DescribeLimit(Fields& fields, const Vocabulary& vocabulary, const Suite& su
   std::vector<std::string> systems = SystemNames(suite);
   std::erase(systems, "");  // a system whose name was a mistake: told at its own place
   fields.Name({"system", "only of this system", "oracle"}, &limit.system, {systems});
+  const Range bound = vocabulary.is_share(limit.score) ? Range{0, 1} : Range{};
   fields.OptionalNumber(
       {"min", "the median over seeds, or a share of them, may not be below", "0.99"}, &limit.min,
-      {});
+      bound);
   fields.OptionalNumber(
       {"max", "the median over seeds, or a share of them, may not be above", "0.02"}, &limit.max,
-      {});
+      bound);
   fields.OptionalNumber({"share",
                          "the share of the seeds that must hold the bound, each by itself: 1 is "
                          "every seed; absent: their median must",

@@ -39,6 +39,8 @@ struct Vocabulary {
   std::vector<std::string> twins;
   /// What is wrong with the name of a score, or an empty string.
   std::function<std::string(const std::string& score)> check_score;
+  /// Whether a score is a share, from 0 to 1, as bounds of it must be.
+  std::function<bool(const std::string& score)> is_share;
   /// What is wrong with an option of a built-in system and its value, or an empty string.
   std::function<std::string(const std::string& system, const std::string& path,
                             const std::string& value)>

@@ -12,6 +12,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     known.twins = {"live", "empty", "frozen"};
     const auto nothing = [](const auto&...) { return std::string(); };
     known.check_score = nothing;
+    known.is_share = [](const std::string&) { return true; };
     known.check_option = nothing;
     known.check_options = nothing;
     return known;

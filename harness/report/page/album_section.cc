@@ -71,7 +71,7 @@ std::string Stills(const RunRecord& run, const std::vector<FrameRow>& rows,
 
 constexpr const char* kKey =
     "<p class=\"colors small soft\"><span class=\"chip red\"></span>moves now (truth) &nbsp; <span "
-    "class=\"chip blue\"></span>person or vehicle at rest &nbsp; <span class=\"chip cyan\">"
+    "class=\"chip blue\"></span>what could move and rests &nbsp; <span class=\"chip cyan\">"
     "</span>rejected by the system &nbsp; <span class=\"chip green\"></span>feature used "
     "&nbsp; <span class=\"chip grey\"></span>feature not used &nbsp; <span class=\"chip "
     "yellow\"></span>feature on a mover</p>\n";

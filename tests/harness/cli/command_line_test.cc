@@ -51,6 +51,16 @@ std::vector<std::string> Chosen(const std::string& words, Action* action) {
   return names;
 }
 
+TEST(CommandLineTest, AMisspeltCommandIsToldFromAMissingOne) {
+  std::string said;
+  EXPECT_EQ(Exit({"rnu"}, &said), kBadInput);
+  EXPECT_THAT(said, testing::StartsWith("'rnu' is no command (did you mean run?)"));
+  EXPECT_EQ(Exit({}, &said), kBadInput);
+  EXPECT_THAT(said, testing::StartsWith("A subcommand is required"));
+  EXPECT_EQ(Exit({"run", "--no-such-option"}, &said), kBadInput);
+  EXPECT_THAT(said, testing::Not(HasSubstr("is no command")));
+}
+
 TEST(CommandLineTest, ACommandThatIsChosenLeavesSomethingToDo) {
   for (const std::string words :
        {"report out", "compare a b", "check a.yaml", "bench slam", "rerun a/b/c/1 --in out"}) {
@@ -265,7 +275,8 @@ TEST_F(ScoreTest, WhatWouldHaveNoEffectIsRefused) {
   for (const std::vector<std::string>& idle :
        {std::vector<std::string>{"--times", Write("t.txt", Times())},
         {"--along-estimate"},
-        {"--align", "none", "--align-first", "5"}}) {
+        {"--align", "none", "--align-first", "5"},
+        {"--association", "index", "--rate", "20"}}) {
     std::vector<std::string> words = good;
     words.insert(words.end(), idle.begin(), idle.end());
     EXPECT_EQ(Exit(words), kBadInput) << idle.front();

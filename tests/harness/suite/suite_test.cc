@@ -25,6 +25,7 @@ Vocabulary Names() {
   names.check_score = [](const std::string& score) -> std::string {
     return score == "ate_rmse_m" || score == "coverage" ? "" : "there is no score '" + score + "'";
   };
+  names.is_share = [](const std::string& score) { return score == "coverage"; };
   names.check_option = [](const std::string&, const std::string& path,
                           const std::string& value) -> std::string {
     if (path != "feature.features") return "there is no option '" + path + "'";
@@ -165,6 +166,8 @@ TEST_F(SuiteTest, MistakesAreNamedWithPlaceAndRemedy) {
       {good + "limits: [{score: ate_rmse, max: 1}]\n",
        "s.yaml:5:18: limits[0].score: there is no score 'ate_rmse'"},
       {good + "limits: [{score: ate_rmse_m}]\n", "a limit needs 'min', 'max' or both"},
+      {good + "limits: [{score: coverage, min: 99}]\n",
+       "s.yaml:5:33: limits[0].min: expected a number from 0 to 1, got '99'"},
       {good + "limits: [{score: ate_rmse_m, min: 2, max: 1}]\n", "it is above 'max'"},
       {good + "limits: [{score: ate_rmse_m, max: tiny}]\n",
        "s.yaml:5:35: limits[0].max: expected a number, got 'tiny'"},
