@@ -174,18 +174,19 @@ void DescribeBump(Fields& f, Bump& bump) {
 }
 
 /// Keys that name the calibration of a pair, of the rig's or of another one.
-template <class Spec>
-void DescribeCalibration(Fields& f, Spec& pair) {
+void DescribeCalibration(Fields& f, CalibrationSpec& calibration) {
   f.Sentence({"calibration",
               "a real rig's calibration, whose rectified pair is the camera: Kalibr's camchain, "
               "OpenCV's, KITTI's calib.txt, or of the left camera EuRoC's sensor.yaml or ROS's "
               "camera_info; instead of camera.focal_px, center_px and baseline_m",
               "camchain.yaml"},
-             &pair.calibration);
+             &calibration.left);
   f.Sentence({"calibration_right",
               "of the right camera, or OpenCV's extrinsics, where that is a file of its own",
               "right.yaml"},
-             &pair.calibration_right);
+             &calibration.right);
+  calibration.left_mark = f.MarkOf("calibration");
+  calibration.right_mark = f.MarkOf("calibration_right");
 }
 
 /// Where a pair sits on its vehicle.
@@ -207,19 +208,18 @@ void DescribePair(Fields& f, PairSpec& pair) {
   pair.has_camera = f.Has("camera");
   f.Group({"camera", "its cameras; absent: as the scene's", "{focal_px: [300, 300]}"},
           [&](Fields& part) { DescribeCamera(part, pair.camera); });
-  pair.files_mark = f.MarkOf("calibration");
-  DescribeCalibration(f, pair);
+  DescribeCalibration(f, pair.calibration);
 }
 
 void DescribeRigFiles(Fields& f, RigSpec& rig) {
-  rig.files_mark = f.MarkOf(f.Has("trajectory") ? "trajectory" : "calibration");
-  DescribeCalibration(f, rig);
+  DescribeCalibration(f, rig.calibration);
   f.Sentence(
       {"trajectory",
        "a TUM file, or FILE.mcap:/topic of a bag, whose way the rig drives instead of start, "
        "steps and bumps: its poses exactly at its times, from the first on, and smooth between",
        "drive.txt"},
       &rig.trajectory);
+  rig.trajectory_mark = f.MarkOf("trajectory");
   f.Choice({"trajectory_of",
             "whose poses these are: camera (left; x right, y down, z ahead) or vehicle (x ahead, z "
             "up)",

@@ -24,21 +24,16 @@ std::string Resolved(const Scene& scene, Mark mark, const std::string& name) {
 // --- Calibration
 // ---------------------------------------------------------------------------------
 
-/// What a calibration makes of a pair's cameras; `key` and `mark` are for the messages.
-struct CalibrationFiles {
-  Mark mark;
-  std::string key, left, right;
-};
-
-void ReadCalibration(const CalibrationFiles& named, CameraSpec* camera, Scene* scene,
-                     Issues* issues) {
+/// What a calibration makes of a pair's cameras; `key` is for the messages.
+void ReadCalibration(const CalibrationSpec& named, const std::string& key, CameraSpec* camera,
+                     Scene* scene, Issues* issues) {
   if (named.left.empty()) {
     if (named.right.empty()) return;
-    issues->Add(named.mark, named.key + "_right", "calibration, of the left camera, is missing");
+    issues->Add(named.right_mark, key + "_right", "calibration, of the left camera, is missing");
     return;
   }
-  std::vector<std::string> files = {Resolved(*scene, named.mark, named.left)};
-  if (!named.right.empty()) files.push_back(Resolved(*scene, named.mark, named.right));
+  std::vector<std::string> files = {Resolved(*scene, named.left_mark, named.left)};
+  if (!named.right.empty()) files.push_back(Resolved(*scene, named.right_mark, named.right));
   try {
     StereoModel model = ReadStereoModel(files);
     if (model.left.width == 0) {  // OpenCV's and KITTI's files do not say it
@@ -53,7 +48,7 @@ void ReadCalibration(const CalibrationFiles& named, CameraSpec* camera, Scene* s
     camera->distortion = Distortion::kNone;
     scene->files.insert(scene->files.end(), files.begin(), files.end());
   } catch (const std::runtime_error& error) {
-    issues->Add(named.mark, named.key, error.what());
+    issues->Add(named.left_mark, key, error.what());
   }
 }
 
@@ -119,9 +114,9 @@ std::string ReadPoses(const std::string& file, std::vector<TimedPose>* poses) {
 void ReadTrajectory(Scene* scene, Issues* issues) {
   RigSpec& rig = scene->rig;
   const auto [name, topic] = SplitBagTopic(rig.trajectory);
-  const std::string file = Resolved(*scene, rig.files_mark, name);
+  const std::string file = Resolved(*scene, rig.trajectory_mark, name);
   const auto add = [&](const std::string& what) {
-    issues->Add(rig.files_mark, "rig.trajectory", what);
+    issues->Add(rig.trajectory_mark, "rig.trajectory", what);
   };
   const std::string wrong =
       topic.empty() ? ReadPoses(file, &rig.poses) : ReadBagPoses(file + ":" + topic, &rig.poses);
@@ -158,14 +153,12 @@ void ReadTrajectory(Scene* scene, Issues* issues) {
 
 void ReadRigFiles(Scene* scene, Issues* issues) {
   RigSpec& rig = scene->rig;
-  ReadCalibration({rig.files_mark, "rig.calibration", rig.calibration, rig.calibration_right},
-                  &scene->camera, scene, issues);
+  ReadCalibration(rig.calibration, "rig.calibration", &scene->camera, scene, issues);
   for (std::size_t i = 0; i < rig.pairs.size(); ++i) {
     PairSpec& pair = rig.pairs[i];
     if (!pair.has_camera) pair.camera = scene->camera;
-    ReadCalibration({pair.files_mark, fmt::format("rig.pairs[{}].calibration", i), pair.calibration,
-                     pair.calibration_right},
-                    &pair.camera, scene, issues);
+    ReadCalibration(pair.calibration, fmt::format("rig.pairs[{}].calibration", i), &pair.camera,
+                    scene, issues);
   }
   if (!rig.trajectory.empty()) ReadTrajectory(scene, issues);
 }

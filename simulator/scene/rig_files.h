@@ -6,8 +6,8 @@
 namespace aisle::sim {
 
 /// Reads what the scene's rig takes from files of the user: its calibration,
-/// which decides the camera, and its trajectory. Their names are meant from the
-/// folder of the file that gives them, and are added to `scene->files`.
+/// which decides the camera, and its trajectory. Each name is meant from the
+/// folder of the file that gives it, and they are added to `scene->files`.
 /// Mistakes go to `issues`.
 void ReadRigFiles(Scene* scene, Issues* issues);
 

@@ -51,6 +51,13 @@ enum class TrajectoryBody {
   kVehicle,  ///< the point the route moves: x ahead, y to the left, z up
 };
 
+/// A calibration of a stereo pair: one file of the user's, or one a camera, as the scene names
+/// them.
+struct CalibrationSpec {
+  Mark left_mark, right_mark;  ///< of their keys; scenes that extend one another may give one each
+  std::string left, right;     ///< empty: none
+};
+
 /// Another stereo pair of the rig.
 struct PairSpec {
   Mark mark;
@@ -58,8 +65,7 @@ struct PairSpec {
   RigMount mount;
   bool has_camera = false;  ///< else it is as the scene's
   CameraSpec camera;
-  Mark files_mark;
-  std::string calibration, calibration_right;  ///< as of the rig
+  CalibrationSpec calibration;
 };
 
 struct RigSpec {
@@ -71,10 +77,9 @@ struct RigSpec {
   /// Of the pair of `camera`, whose poses a trajectory of the camera holds; where another is shown.
   std::optional<RigMount> first_mount;
   RouteSpec route;
-  Mark files_mark;  ///< of the keys that name files
-  /// Files of the user, as the scene names them; empty: none. One of the rig, or of both cameras.
-  std::string calibration, calibration_right;
-  std::string trajectory;        ///< TUM, or FILE.mcap:/topic; instead of the route
+  CalibrationSpec calibration;   ///< of the pair of `camera`
+  Mark trajectory_mark;          ///< of the key
+  std::string trajectory;        ///< TUM, or FILE.mcap:/topic; instead of the route; empty: none
   std::vector<TimedPose> poses;  ///< what it holds, from 0 s on
   TrajectoryBody body = TrajectoryBody::kCamera;
   std::vector<Bump> bumps;

@@ -142,6 +142,28 @@ TEST_F(RigFilesTest, TheirFilesAreTheScenes) {
   EXPECT_EQ(LoadScene(file).files, files);
 }
 
+/// A scene that extends another gives some of the files, which lie beside it; the rest lies beside
+/// the one that is extended.
+TEST_F(RigFilesTest, EachIsMeantFromTheFolderOfTheFileThatNamesIt) {
+  fs::create_directories(folder_ / "above");
+  fs::create_directories(folder_ / "below");
+  for (const char* name : {"calib.txt", "drive.txt"}) {
+    fs::rename(folder_ / name, folder_ / "below" / name);
+  }
+  SceneWith("calibration: calib.txt");
+  fs::rename(folder_ / "scene.yaml", folder_ / "below/base.yaml");
+  fs::rename(folder_ / "below/drive.txt", folder_ / "above/drive.txt");
+  const std::string above = (folder_ / "above").string(), below = (folder_ / "below").string();
+  const std::string file =
+      Put("above/s.yaml", "extend: ../below/base\nrig: {trajectory: drive.txt}\n");
+  EXPECT_THAT(CheckScene(file), testing::ElementsAre());
+  EXPECT_THAT(SceneFiles(file), testing::ElementsAre(file, below + "/base.yaml",
+                                                     below + "/calib.txt", above + "/drive.txt"));
+  Put("above/s.yaml",
+      "extend: ../below/base\nrig: {trajectory: drive.txt, calibration_right: r.yaml}\n");
+  EXPECT_THAT(CheckScene(file), testing::ElementsAre(HasSubstr(above + "/r.yaml")));
+}
+
 TEST_F(RigFilesTest, MistakesAreNamed) {
   EXPECT_THAT(WhyNot("calibration: none.yaml, start: [0, 0]"), HasSubstr("no such file"));
   EXPECT_THAT(WhyNot("trajectory: none.txt"), HasSubstr("no such file"));
