@@ -2,7 +2,9 @@
 
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "simulator/camera/pixel_rays.h"
 #include "simulator/common/mix.h"
@@ -73,15 +75,18 @@ RigInfo RigOf(const CameraSpec& spec) {
           .distortion = spec.distortion_coefficients};
 }
 
-/// The message about a lens that leaves a pixel without a ray; empty if there is none.
-std::string LensError(const Scene& scene) {
-  try {
-    MakePixelRays(CameraOf(scene.camera));
-    return "";
-  } catch (const std::invalid_argument& error) {
-    return fmt::format("{}: camera.distortion_coefficients: {}",
-                       PlaceText(scene.files, scene.camera.mark), error.what());
+/// The messages about lenses that leave a pixel without a ray.
+std::vector<std::string> LensErrors(const Scene& scene) {
+  std::vector<std::string> errors;
+  for (const DescribedCamera& one : DescribedCameras(scene)) {
+    try {
+      MakePixelRays(CameraOf(one.camera));
+    } catch (const std::invalid_argument& error) {
+      errors.push_back(fmt::format("{}: {}.distortion_coefficients: {}",
+                                   PlaceText(scene.files, one.camera.mark), one.key, error.what()));
+    }
   }
+  return errors;
 }
 
 void SetSensor(const SensorSpec& spec, PipelineOptions* options) {
@@ -154,6 +159,7 @@ Simulator Simulator::Load(const std::string& scene_file, const std::string& asse
                           const SimulatorOptions& options) {
   auto impl = std::make_unique<Impl>();
   impl->scene = TwinOf(LoadScene(scene_file), options.twin);
+  if (auto errors = LensErrors(impl->scene); !errors.empty()) throw SceneError(std::move(errors));
   const std::string pair = options.pair.empty() ? impl->scene.rig.pair : options.pair;
   impl->scene = WithPair(std::move(impl->scene), pair);
   impl->scene.camera.colour = impl->scene.camera.colour && options.colour;
@@ -161,7 +167,6 @@ Simulator Simulator::Load(const std::string& scene_file, const std::string& asse
   if (scene.rig.pair != pair) {
     throw SceneError({fmt::format("{}: the rig has no pair '{}'", scene_file, pair)});
   }
-  if (const std::string error = LensError(scene); !error.empty()) throw std::runtime_error(error);
   if (auto troubles = CheckSeed(scene, options.seed); !troubles.empty()) {
     throw SceneError(std::move(troubles));
   }
@@ -321,7 +326,7 @@ std::vector<std::string> CheckSceneFile(const std::string& scene_file,
   std::vector<std::string> errors = CheckScene(scene_file);
   if (!errors.empty()) return errors;
   const Scene scene = LoadScene(scene_file);
-  if (const std::string error = LensError(scene); !error.empty()) errors.push_back(error);
+  std::ranges::copy(LensErrors(scene), std::back_inserter(errors));
   if (assets_dir.empty()) return errors;
   for (const std::string& error : CheckModels(scene, AssetLibrary(assets_dir))) {
     errors.push_back(error);

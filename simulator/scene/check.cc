@@ -45,7 +45,8 @@ class Checker {
 
   void Run() {
     if (!CheckHall()) return;  // all else is measured against it
-    CheckCamera();
+    for (const DescribedCamera& one : DescribedCameras(scene_)) CheckLens(one);
+    CheckShutter();
     CheckLights();
     CheckStanding();
     CheckNames(scene_.people, "people");
@@ -74,15 +75,18 @@ class Checker {
     return false;
   }
 
-  void CheckCamera() {
-    const CameraSpec& camera = scene_.camera;
+  void CheckLens(const DescribedCamera& one) {
+    const CameraSpec& camera = one.camera;
     const bool bent = std::ranges::any_of(camera.distortion_coefficients,
                                           [](double value) { return value != 0; });
     if (bent && camera.distortion == Distortion::kNone) {
-      issues_->Add(camera.mark, "camera.distortion",
+      issues_->Add(camera.mark, one.key + ".distortion",
                    "there are distortion_coefficients, but nothing says of which model; example: "
                    "distortion: radial-tangential");
     }
+  }
+
+  void CheckShutter() {
     const double frame_ms = 1000 / scene_.rate_hz;
     const double exposure_ms =
         scene_.sensor.auto_exposure ? scene_.sensor.auto_longest_ms : scene_.sensor.exposure_ms;

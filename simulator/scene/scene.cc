@@ -9,6 +9,15 @@ std::string PlaceText(const std::vector<std::string>& files, Mark mark) {
   return fmt::format("{}:{}:{}", file, mark.line, mark.column);
 }
 
+std::vector<DescribedCamera> DescribedCameras(const Scene& scene) {
+  std::vector<DescribedCamera> cameras = {{"camera", scene.camera}};
+  for (std::size_t i = 0; i < scene.rig.pairs.size(); ++i) {
+    const PairSpec& pair = scene.rig.pairs[i];
+    if (pair.has_camera) cameras.push_back({fmt::format("rig.pairs[{}].camera", i), pair.camera});
+  }
+  return cameras;
+}
+
 Scene WithPair(Scene scene, const std::string& name) {
   RigSpec& rig = scene.rig;
   for (const PairSpec& pair : rig.pairs) {

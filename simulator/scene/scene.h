@@ -363,6 +363,14 @@ struct Scene : Premises {
 /// "file:line:column" of a mark in a scene's files.
 std::string PlaceText(const std::vector<std::string>& files, Mark mark);
 
+/// A camera that the scene describes, and the path of its keys.
+struct DescribedCamera {
+  std::string key;
+  CameraSpec camera;
+};
+/// The scene's own and those of the rig's pairs that have one.
+std::vector<DescribedCamera> DescribedCameras(const Scene& scene);
+
 /// The same scene as the rig's pair of that name sees it; of "" as `camera` does.
 Scene WithPair(Scene scene, const std::string& name);
 /// The same scene with nobody in it; mechanisms stand still.

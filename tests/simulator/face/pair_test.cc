@@ -253,5 +253,16 @@ TEST_F(Pairs, TheSceneSaysWhichOneSystemsAreShown) {
   EXPECT_NE(errors.front().find("no pair 'side'"), std::string::npos);
 }
 
+TEST_F(Pairs, NoPixelOfAnyIsWithoutARay) {
+  std::string text = kScene;
+  text.replace(text.find("[-0.21, 0.05"), 12, "[-5, 0");
+  Write(text);
+  const std::vector<std::string> errors = CheckSceneFile(File());
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_NE(errors.front().find("rig.pairs[0].camera.distortion_coefficients: "), std::string::npos)
+      << errors.front();
+  EXPECT_THROW(Open("rear"), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace aisle::sim
