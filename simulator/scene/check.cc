@@ -269,6 +269,11 @@ class Checker {
                                  scene_.racks.size()));
         return;
       }
+      if (crowd.between_racks->front() == crowd.between_racks->back()) {
+        issues_->Add(crowd.mark, "crowd.between_racks",
+                     "an aisle lies between two different rows; example: between_racks: [0, 1]");
+        return;
+      }
     }
     const CrowdArea area = CrowdAreaOf(scene_);
     CheckInside(crowd.mark, "crowd.in", area.from);

@@ -34,9 +34,8 @@ constexpr std::initializer_list<const char*> kDynamics = {"none", "low", "mid", 
 
 void DescribeCamera(Fields& f, CameraSpec& camera) {
   camera.mark = f.mark();
-  double size[2] = {static_cast<double>(camera.size_px[0]), static_cast<double>(camera.size_px[1])};
-  f.Numbers({"size_px", "width and height of the image", "[752, 480]"}, size, 2, {64, 4096});
-  camera.size_px = {static_cast<int>(size[0]), static_cast<int>(size[1])};
+  f.Integers({"size_px", "width and height of the image", "[752, 480]"}, camera.size_px.data(), 2,
+             {64, 4096});
   f.Numbers({"focal_px", "fx and fy", "[435.2, 435.2]"}, camera.focal_px.data(), 2, {20, 10000});
   f.Numbers({"center_px", "cx and cy; the first pixel's centre is 0", "[367.2, 252.2]"},
             camera.center_px.data(), 2, {0, 4096});

@@ -71,15 +71,13 @@ void DescribeCrowd(Fields& f, CrowdSpec& crowd) {
   f.Numbers({"in", "where they walk: x0, y0, x1, y1; absent: the whole hall", "[2, -1.2, 14, 1.2]"},
             in.data(), 4, {-1000, 1000});
   if (f.Has("in")) crowd.in = in;
-  std::array<double, 2> racks = {0, 0};
-  f.Numbers({"between_racks",
-             "instead of `in`: the aisle between two rows, by their places in "
-             "`racks`, from 0",
-             "[0, 1]"},
-            racks.data(), 2, {0, 1000});
-  if (f.Has("between_racks")) {
-    crowd.between_racks = {static_cast<int>(racks[0]), static_cast<int>(racks[1])};
-  }
+  std::array<int, 2> racks = {0, 0};
+  f.Integers({"between_racks",
+              "instead of `in`: the aisle between two rows, by their places in "
+              "`racks`, from 0",
+              "[0, 1]"},
+             racks.data(), 2, {0, 1000});
+  if (f.Has("between_racks")) crowd.between_racks = racks;
   f.Number({"speed_mps", "mean of how fast they like to walk", "1.34"}, &crowd.speed_mps,
            {0.2, 2.2});
   f.Number({"speed_spread_mps", "standard deviation of it", "0.26"}, &crowd.speed_spread_mps,

@@ -42,6 +42,8 @@ class Fields {
   virtual void Sentences(const Key& key, std::vector<std::string>* values) = 0;
   /// A fixed number of numbers, [x, y] for a point.
   virtual void Numbers(const Key& key, double* values, std::size_t count, Range range) = 0;
+  /// A fixed number of whole numbers.
+  virtual void Integers(const Key& key, int* values, std::size_t count, Range range) = 0;
   /// A list of points [x, y], and where each stands.
   virtual void Points(const Key& key, std::vector<Eigen::Vector2d>* values,
                       std::vector<Mark>* marks) = 0;

@@ -170,6 +170,18 @@ void YamlReader::Numbers(const Key& key, double* values, std::size_t count, Rang
   }
 }
 
+void YamlReader::Integers(const Key& key, int* values, std::size_t count, Range range) {
+  const auto node = Find(key);
+  if (!node) return;
+  std::vector<double> read(count);
+  const auto is_whole = [](double number) { return number == std::floor(number); };
+  if (ReadPair(*node, read.data(), count, range) && std::ranges::all_of(read, is_whole)) {
+    std::ranges::transform(read, values, [](double number) { return static_cast<int>(number); });
+  } else {
+    Expected(*node, key, fmt::format("a list of {} whole numbers{}", count, ToText(range)));
+  }
+}
+
 void YamlReader::Points(const Key& key, std::vector<Eigen::Vector2d>* values,
                         std::vector<Mark>* marks) {
   const auto node = Find(key);

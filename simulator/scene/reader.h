@@ -20,6 +20,7 @@ class YamlReader : public Fields {
   void Sentence(const Key& key, std::string* value) override;
   void Sentences(const Key& key, std::vector<std::string>* values) override;
   void Numbers(const Key& key, double* values, std::size_t count, Range range) override;
+  void Integers(const Key& key, int* values, std::size_t count, Range range) override;
   void Points(const Key& key, std::vector<Eigen::Vector2d>* values,
               std::vector<Mark>* marks) override;
   void Group(const Key& key, const Part& part) override;

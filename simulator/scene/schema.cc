@@ -34,10 +34,13 @@ class SchemaWriter : public Fields {
     Add(key, {{"type", "array"}, {"minItems", 1}, {"items", text}});
   }
   void Numbers(const Key& key, double*, std::size_t count, Range range) override {
-    Add(key, Tuple(count, range));
+    Add(key, Tuple("number", count, range));
+  }
+  void Integers(const Key& key, int*, std::size_t count, Range range) override {
+    Add(key, Tuple("integer", count, range));
   }
   void Points(const Key& key, std::vector<Eigen::Vector2d>*, std::vector<Mark>*) override {
-    Add(key, {{"type", "array"}, {"minItems", 1}, {"items", Tuple(2, {-1000, 1000})}});
+    Add(key, {{"type", "array"}, {"minItems", 1}, {"items", Tuple("number", 2, {-1000, 1000})}});
   }
   void Group(const Key& key, const Part& part) override {
     SchemaWriter writer;
@@ -94,9 +97,9 @@ class SchemaWriter : public Fields {
   static Json Numeric(const char* type, Range range) {
     return {{"type", type}, {"minimum", range.low}, {"maximum", range.high}};
   }
-  static Json Tuple(std::size_t count, Range range) {
+  static Json Tuple(const char* type, std::size_t count, Range range) {
     return {{"type", "array"},
-            {"items", Numeric("number", range)},
+            {"items", Numeric(type, range)},
             {"minItems", count},
             {"maxItems", count}};
   }

@@ -154,6 +154,10 @@ TEST(Crowd, IsToldWhatDoesNotGo) {
               ElementsAre(HasSubstr("crowd: with seed 1 there is no room for 60 people")));
   EXPECT_THAT(MessagesOf("crowd: {people: 6, between_racks: [0, 7]}\n"),
               ElementsAre(HasSubstr("there is no racks[7]; there are 2, counted from 0")));
+  EXPECT_THAT(MessagesOf("crowd: {people: 6, between_racks: [1, 1]}\n"),
+              ElementsAre(HasSubstr("an aisle lies between two different rows")));
+  EXPECT_THAT(MessagesOf("crowd: {people: 6, between_racks: [0.9, 0.2]}\n"),
+              ElementsAre(HasSubstr("crowd.between_racks: expected a list of 2 whole numbers")));
   EXPECT_THAT(MessagesOf("crowd: {people: 6, in: [4, -1, 60, 1]}\n"),
               ElementsAre(HasSubstr("[60, 1] is outside the hall")));
   EXPECT_THAT(MessagesOf("crowd: {in: [4, -1, 6, 1]}\n"),

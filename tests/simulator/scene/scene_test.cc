@@ -334,6 +334,12 @@ INSTANTIATE_TEST_SUITE_P(
                 "camera.size_px"},
         Mistake{"frames: 100", "frames: 100\ncamera: {distortion_coefficients: [-0.2, 0, 0, 0]}",
                 "3:9", "nothing says of which model"},
+        Mistake{"frames: 100", "frames: 100\ncamera: {size_px: [320.9, 200]}", "3:19",
+                "camera.size_px: expected a list of 2 whole numbers from 64 to 4096"},
+        Mistake{"start: [0, 0]",
+                "start: [0, 0]\n  pairs:\n  - name: rear\n    camera: {distortion_coefficients: "
+                "[-0.2, 0, 0, 0]}",
+                "7:13", "rig.pairs[0].camera.distortion: there are distortion_coefficients"},
         Mistake{"frames: 100", "frames: 100\nsensor: {readout_ms: 45}", "3:9",
                 "a frame comes every 50 ms"},
         Mistake{"frames: 100", "frames: 100\nsensor: {preset: perfect}", "3:18",
