@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "simulator/scene/check_given.h"
 #include "simulator/scene/hall.h"
 
 namespace aisle::sim {
@@ -46,8 +47,29 @@ class Checker {
     if (part.shape == PartShape::kModel && part.model.empty()) {
       Say(part.mark, key + ".model", "a shape: model names one; example: model: roll_cage");
     }
+    CheckGiven(part.joint_given, KeysOf(part.joint.kind), key_ + key + ".joint", issues_);
     const std::string wrong = JointError(part.joint);
     if (!wrong.empty()) Say(part.mark, key + ".joint", wrong);
+  }
+
+  static KindKeys KeysOf(Joint::Kind kind) {
+    switch (kind) {
+      case Joint::Kind::kFixed:
+        break;
+      case Joint::Kind::kHinge:
+        return {"a hinge", {"moves", "start_deg", "to_deg"}};
+      case Joint::Kind::kSlider:
+        return {"a slider", {"moves", "start_m", "to_m"}};
+      case Joint::Kind::kPendulum:
+        return {"a pendulum", {"swing_deg", "length_m", "decay_s", "at_s"}};
+      case Joint::Kind::kSpin:
+        return {"a spin", {"rate_hz", "from_s", "until_s", "ramp_s"}};
+      case Joint::Kind::kBelt:
+        return {"a belt", {"speed_mps", "length_m", "from_s", "until_s", "ramp_s"}};
+      case Joint::Kind::kChain:
+        return {"a chain", {"swing_m", "length_m", "decay_s", "at_s"}};
+    }
+    return {"a fixed joint", {}};
   }
 
   static std::string JointError(const Joint& joint) {
@@ -57,7 +79,6 @@ class Checker {
     if (moves && joint.moves.empty()) {
       return "a hinge or slider needs moves; example: moves: [{at_s: 3, to_m: 2, over_s: 2}]";
     }
-    if (!moves && !joint.moves.empty()) return "only a hinge or a slider has moves";
     const bool swings = joint.kind == Kind::kPendulum || joint.kind == Kind::kChain;
     if (swings && joint.swing == 0) {
       return joint.kind == Kind::kChain ? "a chain needs swing_m; example: swing_m: 0.4"

@@ -328,6 +328,14 @@ void Fields::OptionalNumber(const Key& key, std::optional<double>* value, Range 
   if (Has(key.name)) *value = number;
 }
 
+std::vector<GivenKey> Fields::Given(std::initializer_list<const char*> keys) const {
+  std::vector<GivenKey> given;
+  for (const char* key : keys) {
+    if (Has(key)) given.push_back({key, MarkOf(key), "", 0});
+  }
+  return given;
+}
+
 void Fields::OptionalPoint(const Key& key, std::optional<Eigen::Vector2d>* value) {
   Eigen::Vector2d point = value->value_or(Eigen::Vector2d::Zero());
   Point(key, &point);

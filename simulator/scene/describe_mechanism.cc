@@ -33,15 +33,26 @@ void DescribeRun(Fields& f, RunTimes& run) {
            {0.01, 60});
 }
 
-void DescribeJoint(Fields& f, Joint& joint) {
+void DescribeJoint(Fields& f, PartSpec& part) {
+  Joint& joint = part.joint;
+  part.joint_given =
+      f.Given({"moves", "start_deg", "start_m", "rate_hz", "speed_mps", "from_s", "until_s",
+               "ramp_s", "length_m", "swing_deg", "swing_m", "decay_s", "at_s"});
   f.Choice({"kind", "how the part moves against what it is on", "hinge"}, &joint.kind,
            {"fixed", "hinge", "slider", "pendulum", "spin", "belt", "chain"});
   Vector(f, {"axis", "turns about it or shifts along it, in the part's own frame", "[0, 0, 1]"},
          &joint.axis, {-1, 1});
   if (joint.axis.norm() > 1e-6) joint.axis.normalize();
-  f.ListOf({"moves", "of a hinge or a slider: from rest to rest, by the least jerk",
-            "[{at_s: 3, to_m: 2.2, over_s: 2}]"},
-           &joint.moves, DescribeMove);
+  f.List(
+      {"moves", "of a hinge or a slider: from rest to rest, by the least jerk",
+       "[{at_s: 3, to_m: 2.2, over_s: 2}]"},
+      [&](std::size_t count) { joint.moves.resize(count); },
+      [&](Fields& move, std::size_t i) {
+        DescribeMove(move, joint.moves[i]);
+        for (GivenKey& key : move.Given({"to_deg", "to_m"})) {
+          part.joint_given.push_back({key.name, key.mark, "moves", i});
+        }
+      });
   double start_deg = joint.start / kDegree;
   f.Number({"start_deg", "of a hinge: its angle before", "0"}, &start_deg, {-36000, 36000});
   if (f.Has("start_deg")) joint.start = start_deg * kDegree;
@@ -109,7 +120,7 @@ void DescribePart(Fields& f, PartSpec& part) {
   f.Number({"delay_s", "by which each copy moves later than the one before", "0.1"}, &part.delay_s,
            {0, 60});
   f.Group({"joint", "how it moves; absent: not at all", "{kind: spin, rate_hz: 1}"},
-          [&](Fields& joint) { DescribeJoint(joint, part.joint); });
+          [&](Fields& joint) { DescribeJoint(joint, part); });
 }
 
 void DescribeTaken(Fields& f, TakenSpec& taken) {

@@ -65,6 +65,8 @@ class Fields {
   /// An angle: degrees in the file, radians in the struct.
   void Degrees(const Key& key, double* radians, Range range = {-360, 360});
   void OptionalNumber(const Key& key, std::optional<double>* value, Range range);
+  /// Those of the keys that are there.
+  std::vector<GivenKey> Given(std::initializer_list<const char*> keys) const;
   void OptionalPoint(const Key& key, std::optional<Eigen::Vector2d>* value);
 
   template <class Enum>

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "simulator/motion/joint.h"
+#include "simulator/scene/given_key.h"
 #include "simulator/scene/kinds.h"
 #include "simulator/scene/mark.h"
 
@@ -57,6 +58,7 @@ struct PartSpec {
   Eigen::Vector3d step_m = Eigen::Vector3d::Zero();         ///< from copy to copy
   double delay_s = 0;                                       ///< by which each copy is later
   Joint joint;
+  std::vector<GivenKey> joint_given;  ///< of its keys that not every kind has
 };
 
 /// A vehicle's forks have it between two times; then it stays where it was put.

@@ -56,6 +56,30 @@ TEST(Mechanisms, AreToldWhatTheirJointsLack) {
               ElementsAre(HasSubstr("turns: there is no such key")));
 }
 
+TEST(Mechanisms, HaveTheKeysOfTheirOwnJointAlone) {
+  EXPECT_THAT(MessagesOf(Gate("kind: hinge, moves: [{at_s: 1, to_m: 1.57}]")),
+              ElementsAre(AllOf(HasSubstr("s.yaml:9:106: "),
+                                HasSubstr("mechanisms[0].parts[0].joint.moves[0].to_m: a hinge has "
+                                          "no to_m, but moves, start_deg, to_deg"))));
+  EXPECT_THAT(MessagesOf(Gate("kind: slider, start_deg: 3, moves: [{at_s: 1}, {at_s: 3, to_deg: "
+                              "45}]")),
+              ElementsAre(HasSubstr("joint.start_deg: a slider has no start_deg"),
+                          HasSubstr("joint.moves[1].to_deg: a slider has no to_deg")));
+  EXPECT_THAT(MessagesOf(Gate("kind: spin, speed_mps: 0.4")),
+              ElementsAre(HasSubstr("joint.speed_mps: a spin has no speed_mps, but rate_hz")));
+  EXPECT_THAT(MessagesOf(Gate("kind: belt, rate_hz: 0.4")),
+              ElementsAre(HasSubstr("joint.rate_hz: a belt has no rate_hz, but speed_mps")));
+  EXPECT_THAT(MessagesOf(Gate("kind: pendulum, swing_m: 0.4")),
+              ElementsAre(HasSubstr("joint.swing_m: a pendulum has no swing_m, but swing_deg")));
+  EXPECT_THAT(MessagesOf(Gate("kind: chain, axis: [1, 0, 0], swing_deg: 9")),
+              ElementsAre(HasSubstr("joint.swing_deg: a chain has no swing_deg, but swing_m")));
+  EXPECT_THAT(MessagesOf(Gate("kind: spin, rate_hz: 1, moves: [{at_s: 1, to_deg: 90}]")),
+              ElementsAre(HasSubstr("joint.moves: a spin has no moves, but rate_hz")));
+  EXPECT_THAT(
+      MessagesOf(Gate("rate_hz: 1")),
+      ElementsAre(HasSubstr("joint.rate_hz: a fixed joint has no rate_hz; give its `kind`")));
+}
+
 TEST(Mechanisms, AreToldWhoIsNotThere) {
   const auto with = [](const std::string& keys) {
     return "mechanisms: [{name: cart, " + keys + ", parts: [{size_m: [1, 1, 1]}]}]\n";
