@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "simulator/motion/joint.h"
+#include "simulator/scene/given_key.h"
 #include "simulator/scene/kinds.h"
 #include "simulator/scene/mark.h"
 
@@ -42,6 +43,7 @@ struct BeamSpec {
   int columns = 3, rows = 2;          ///< window: panes
   double bar_m = 0.06;                ///< window: bars between them
   std::vector<SunMove> moves;
+  std::vector<GivenKey> given;  ///< of the keys that are of one kind
 };
 
 }  // namespace aisle::sim

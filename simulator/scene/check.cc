@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "simulator/scene/check_beams.h"
 #include "simulator/scene/check_mechanisms.h"
 #include "simulator/scene/check_routes.h"
 #include "simulator/scene/crowd.h"
@@ -54,7 +55,7 @@ class Checker {
     CheckNames(scene_.mechanisms, "mechanisms");
     CheckHandles();
     CheckMechanisms(scene_, issues_);
-    CheckBeams();
+    CheckBeams(scene_, issues_);
     CheckCrowd();
     CheckHitches();
     CheckDrive();
@@ -225,33 +226,6 @@ class Checker {
       } else if (pusher->level > vehicle.level) {
         issues_->Add(vehicle.mark, key, "its level must be that of its pusher or above");
       }
-    }
-  }
-
-  void CheckBeams() {
-    const HallSpec& hall = scene_.hall;
-    for (std::size_t i = 0; i < scene_.beams.size(); ++i) {
-      const BeamSpec& beam = scene_.beams[i];
-      const std::string key = fmt::format("beams[{}]", i);
-      CheckInside(beam.mark, key + ".at_m", beam.at.head<2>());
-      if (beam.at.z() < 0 || beam.at.z() > hall.height_m) {
-        issues_->Add(beam.mark, key + ".at_m",
-                     fmt::format("{:g} m is below the floor or above the roof at {:g} m",
-                                 beam.at.z(), hall.height_m));
-      }
-      if (beam.kind == BeamKind::kSpot && !beam.moves.empty()) {
-        issues_->Add(beam.mark, key + ".moves", "only the sun has moves; a spot turns by rate_hz");
-      }
-      if (beam.kind == BeamKind::kSun && beam.rate_rad_s != 0) {
-        issues_->Add(beam.mark, key + ".rate_hz", "only a spot turns; the sun goes by moves");
-      }
-      if (beam.kind == BeamKind::kSun && hall.walls == WallKind::kSky) {
-        issues_->Add(beam.mark, key, "under a sky there are no windows");
-      }
-      std::vector<JointMove> times;
-      for (const SunMove& move : beam.moves) times.push_back({move.at_s, 0, move.over_s});
-      const std::string wrong = MovesError(times);
-      if (!wrong.empty()) issues_->Add(beam.mark, key + ".moves", wrong);
     }
   }
 

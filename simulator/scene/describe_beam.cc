@@ -33,6 +33,8 @@ void DescribeWindow(Fields& f, BeamSpec& beam) {
 
 void DescribeBeam(Fields& f, BeamSpec& beam) {
   beam.mark = f.mark();
+  beam.given = f.Given({"width_deg", "rate_hz", "from_s", "until_s", "size_m", "facing_deg",
+                        "in_roof", "columns", "rows", "bar_m", "moves"});
   f.Name({"name", "unique among beams", "beacon", true}, &beam.name);
   f.Choice({"kind", "spot: a lamp that turns; sun: sunlight through a window", "spot"}, &beam.kind,
            {"spot", "sun"});
@@ -47,8 +49,9 @@ void DescribeBeam(Fields& f, BeamSpec& beam) {
            &beam.brightness, {0.001, 10000});
   f.Degrees({"azimuth_deg", "spot: where it shines at time 0; sun: where it stands", "90"},
             &beam.azimuth_rad);
-  f.Degrees({"elevation_deg", "spot: how far up it shines; sun: how high it stands", "-5"},
-            &beam.elevation_rad, {-90, 90});
+  f.Degrees(
+      {"elevation_deg", "spot: how far up it shines; sun: how high it stands, 1 at least", "-5"},
+      &beam.elevation_rad, {-90, 90});
   f.Degrees({"width_deg", "spot: across its cone", "30"}, &beam.width_rad, {1, 170});
   double turns = beam.rate_rad_s / (2 * std::numbers::pi);
   f.Number({"rate_hz", "spot: turns a second", "1.2"}, &turns, {-20, 20});

@@ -104,8 +104,37 @@ TEST(Mechanisms, AreToldWhoIsNotThere) {
 TEST(Beams, AreToldWhatDoesNotGo) {
   EXPECT_THAT(MessagesOf("beams: [{name: b, at_m: [6, 1, 9]}]\n"),
               ElementsAre(HasSubstr("beams[0].at_m: 9 m is below the floor or above the roof")));
-  EXPECT_THAT(MessagesOf("beams: [{name: b, kind: sun, at_m: [6, 1, 5], rate_hz: 1}]\n"),
-              ElementsAre(HasSubstr("only a spot turns")));
+  const auto beam = [](const std::string& keys) {
+    return MessagesOf("beams: [{name: b, at_m: [6, 1, 5], " + keys + "}]\n");
+  };
+  const std::string sun = "kind: sun, elevation_deg: 1, ";
+  EXPECT_THAT(beam(sun + "size_m: [1, 1]"), ElementsAre());
+  EXPECT_THAT(beam(sun + "rate_hz: 1"),
+              ElementsAre(HasSubstr("beams[0].rate_hz: a sun has no rate_hz, but size_m")));
+  EXPECT_THAT(beam(sun + "from_s: 3, width_deg: 20"),
+              ElementsAre(HasSubstr("beams[0].from_s: a sun has no from_s"),
+                          HasSubstr("beams[0].width_deg: a sun has no width_deg")));
+  EXPECT_THAT(beam("moves: [{at_s: 3, azimuth_deg: 1, elevation_deg: 9}], in_roof: true"),
+              ElementsAre(HasSubstr("beams[0].moves: a spot has no moves, but width_deg"),
+                          HasSubstr("beams[0].in_roof: a spot has no in_roof")));
+}
+
+TEST(Beams, StopAfterTheyTurnAndStandAboveTheHorizon) {
+  const auto beam = [](const std::string& keys) {
+    return MessagesOf("beams: [{name: b, at_m: [6, 1, 5], " + keys + "}]\n");
+  };
+  EXPECT_THAT(beam("rate_hz: 0.5, from_s: 5, until_s: 2"),
+              ElementsAre(HasSubstr("beams[0].until_s: must be at least 0.5 s later than")));
+  EXPECT_THAT(beam("rate_hz: 0.5, from_s: 5, until_s: 5.5"), ElementsAre());
+  EXPECT_THAT(beam("rate_hz: 0.5, until_s: 2, elevation_deg: -40"), ElementsAre());
+  EXPECT_THAT(beam("kind: sun, elevation_deg: -40"),
+              ElementsAre(HasSubstr("beams[0].elevation_deg: the sun stands at -40")));
+  EXPECT_THAT(beam("kind: sun"), ElementsAre(HasSubstr("beams[0].elevation_deg: the sun stands")));
+}
+
+TEST(Beams, HaveNamesOfTheirOwn) {
+  EXPECT_THAT(MessagesOf("beams: [{name: b, at_m: [6, 1, 5]}, {name: b, at_m: [7, 1, 5]}]\n"),
+              ElementsAre(HasSubstr("beams[1].name: 'b' is taken by another beam")));
 }
 
 TEST(Crowd, IsThreeLinesAndAsBusyAsTheScene) {
