@@ -54,7 +54,10 @@ void DescribeExposure(Fields& f, SensorSpec& sensor) {
   f.Number({"gain_db", "analogue gain; brightens light and noise", "3"}, &sensor.gain_db, {0, 48});
   f.Flag({"auto_exposure", "let the camera choose exposure and gain, frame by frame", "true"},
          &sensor.auto_exposure);
-  f.Number({"auto_target_grey", "mean grey that automatic exposure aims at", "110"},
+  f.Number({"auto_target_grey",
+            "mean grey that automatic exposure aims at, of the light alone: `black_level`, lifted "
+            "in the shadows where the tone is companded, comes on top",
+            "110"},
            &sensor.auto_target_grey, {10, 240});
   f.Number({"auto_meter_from", "share of the picture's height above which, the sky, is not metered",
             "0.5"},

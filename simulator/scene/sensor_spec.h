@@ -29,7 +29,7 @@ struct SensorSpec {
   double exposure_ms = 8;
   double gain_db = 3;
   bool auto_exposure = false;     ///< chooses time and gain itself
-  double auto_target_grey = 110;  ///< mean grey it aims at
+  double auto_target_grey = 110;  ///< mean grey it aims at, of the light without the black
   double auto_meter_from = 0;     ///< share of the height above which the picture is not metered
   double auto_longest_ms = 12;    ///< exposure time beyond which it takes gain instead
   double auto_step_ev = 0;        ///< stops between the settings it has; 0: has any
