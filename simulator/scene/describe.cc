@@ -349,8 +349,10 @@ void Describe(Fields& f, Scene& scene) {
   // A hall's file says where it is looked at from instead of who drives there.
   const bool drives = f.Has("rig") || !f.Has(kViewsKey);
   f.Sentence({kExtendKey,
-              "scene file whose keys hold where this one has none; maps key by key, lists whole",
-              "../paper/scene2.yaml"},
+              "scene file whose keys hold where this one has none, by its path from this file's "
+              "folder or by its name among the scenes that come with the program; maps key by key, "
+              "lists whole",
+              "paper/scene2"},
              &scene.extends);
   f.Sentence({"about", "one sentence on what the scene tests", "\"A person crosses.\"", true},
              &scene.about);

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "simulator/common/own_files.h"
 #include "simulator/scene/hall_files.h"
 #include "simulator/scene/yaml_guard.h"
 
@@ -18,20 +19,20 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMaxFileBytes = 1 << 20;
-constexpr const char* kExample = "; example: extend: ../paper/scene2.yaml";
+constexpr const char* kExample = "; example: extend: paper/scene2";
 
 /// The file that the entry of a scene names, or nothing with the reason in `issues`.
 std::optional<fs::path> BaseOf(const YamlEntry& entry, Issues* issues) {
   const YamlValue& value = entry.value;
   if (!value.is_text() || value.text.empty()) {
     issues->Add(value.mark, kExtendKey,
-                std::string("expected a scene file, as a path from this file's folder") + kExample);
+                std::string("expected a scene file, as a path from this file's folder or by "
+                            "its name among the scenes that come with the program") +
+                    kExample);
     return std::nullopt;
   }
   const std::vector<std::string>& files = issues->files();
-  fs::path base = fs::path(files.back()).parent_path() / value.text;
-  if (base.extension() != ".yaml") base += ".yaml";
-  base = base.lexically_normal();
+  const fs::path base = NamedSceneFile(files.back(), value.text);
   const auto same = [&](const std::string& file) {
     return fs::weakly_canonical(file) == fs::weakly_canonical(base);
   };
@@ -75,6 +76,16 @@ YamlValue Merged(const std::vector<YamlValue>& layers) {
 }
 
 }  // namespace
+
+fs::path NamedSceneFile(const std::string& by, fs::path name) {
+  if (name.extension() != ".yaml") name += ".yaml";
+  const fs::path beside = (fs::path(by).parent_path() / name).lexically_normal();
+  std::error_code failed;
+  if (fs::exists(beside, failed)) return beside;
+  const fs::path own = FindOwnFolder(OwnFile());
+  const fs::path known = (own / "scenes" / name).lexically_normal();
+  return !own.empty() && fs::exists(known, failed) ? known : beside;
+}
 
 std::optional<std::string> ReadSceneText(const fs::path& file, std::string* problem) {
   std::error_code failed;

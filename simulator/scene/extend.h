@@ -9,7 +9,7 @@
 
 namespace aisle::sim {
 
-/// The key by which a scene names the one it extends: a path from its own folder.
+/// The key by which a scene names the one it extends.
 inline constexpr const char* kExtendKey = "extend";
 
 /// Keys by which a scene takes its hall from a file: hall.use, or vary.hall; and those of where a
@@ -24,6 +24,10 @@ struct SceneTrees {
   YamlValue top;                 ///< with the hall of seed 1
   std::vector<YamlValue> dealt;  ///< the same with each hall of vary.hall; empty: none varies
 };
+
+/// The file that one file of a scene names: from its own folder or, where nothing is there, among
+/// the scenes that come with the program. ".yaml" may be left out. Where there is none, the former.
+std::filesystem::path NamedSceneFile(const std::string& by, std::filesystem::path name);
 
 /// The text of a scene file; where there is none, nothing and why in `problem`. Throws
 /// std::system_error where the machine fails the file: too many are open, a broken disk.

@@ -7,7 +7,6 @@
 #include <array>
 #include <filesystem>
 
-#include "simulator/common/own_files.h"
 #include "simulator/scene/extend.h"
 
 namespace aisle::sim {
@@ -28,19 +27,6 @@ const YamlValue* Inner(const YamlValue& tree, const char* key, const char* inner
 }
 
 std::string PathOf(const NamedHall& hall) { return hall.key == kUseKey ? "hall.use" : "vary.hall"; }
-
-/// Where the file is, or where it would be beside the one that names it.
-fs::path FileOf(const NamedHall& hall, const Issues& issues) {
-  fs::path name = hall.name;
-  if (name.extension() != ".yaml") name += ".yaml";
-  const std::string& from = issues.files().at(static_cast<std::size_t>(hall.mark.file));
-  const fs::path beside = (fs::path(from).parent_path() / name).lexically_normal();
-  std::error_code failed;
-  if (fs::exists(beside, failed)) return beside;
-  const fs::path own = FindOwnFolder(OwnFile());
-  const fs::path known = (own / "scenes" / name).lexically_normal();
-  return !own.empty() && fs::exists(known, failed) ? known : beside;
-}
 
 /// A hall's file may not take its hall from another one.
 void RefuseAllElse(const YamlValue& tree, Issues* issues) {
@@ -107,7 +93,8 @@ std::vector<NamedHall> HallsOf(const YamlValue& tree, Issues* issues) {
 }
 
 std::optional<YamlValue> ReadHall(const NamedHall& hall, Issues* issues) {
-  const fs::path file = FileOf(hall, *issues);
+  const std::string& by = issues->files().at(static_cast<std::size_t>(hall.mark.file));
+  const fs::path file = NamedSceneFile(by, hall.name);
   std::string problem;
   const auto text = ReadSceneText(file, &problem);
   if (!text) {

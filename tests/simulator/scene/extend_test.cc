@@ -78,6 +78,21 @@ TEST_F(ExtendTest, ReachesOverSeveralFilesAndTheNearestDecides) {
   EXPECT_EQ(scene.about, "A person crosses.");
 }
 
+TEST_F(ExtendTest, FindsTheProgramsScenesByNameAndWhatLiesBesideBeforeThem) {
+  const std::string own = (fs::path(AISLE_SOURCE_DIR) / "scenes/paper/scene2.yaml").string();
+  for (const char* name : {"paper/scene2", "paper/scene2.yaml"}) {
+    const Scene scene =
+        LoadScene(Write("s.yaml", std::string("extend: ") + name + "\nabout: Ours.\n"));
+    EXPECT_THAT(scene.files, testing::Contains(own)) << name;
+    EXPECT_EQ(scene.about, "Ours.");
+    EXPECT_EQ(scene.frames, LoadScene(own).frames);
+  }
+  fs::create_directories(folder_ / "paper");
+  Write("paper/scene2.yaml", kBase);
+  EXPECT_THAT(LoadScene(PathOf("s.yaml")).files,
+              ElementsAre(PathOf("s.yaml"), PathOf("paper/scene2.yaml")));
+}
+
 TEST_F(ExtendTest, MistakesAreReportedWhereTheyStand) {
   Write("bad.yaml", std::string(kBase) + "framess: 3\n");
   EXPECT_THAT(CheckScene(Write("s.yaml", "extend: bad\nframes: many\n")),
