@@ -169,7 +169,13 @@ class Checker {
       const PropSpec& prop = scene_.props[i];
       CheckInside(prop.mark, fmt::format("props[{}].at", i), prop.at);
       if (prop.to) CheckInside(prop.mark, fmt::format("props[{}].to", i), *prop.to);
+      if (prop.above_m >= scene_.hall.height_m) {
+        issues_->Add(
+            prop.mark, fmt::format("props[{}].above_m", i),
+            fmt::format("{:g} m is above the roof at {:g} m", prop.above_m, scene_.hall.height_m));
+      }
     }
+    for (std::size_t i = 0; i < scene_.doors.size(); ++i) CheckDoor(i);
     for (std::size_t i = 0; i < scene_.mezzanines.size(); ++i) CheckMezzanine(i);
     for (std::size_t i = 0; i < scene_.fixtures.size(); ++i) {
       CheckInside(scene_.fixtures[i].mark, fmt::format("fixtures[{}].at", i),
@@ -182,6 +188,26 @@ class Checker {
       if (view.height_m >= scene_.hall.height_m) {
         issues_->Add(view.mark, key + ".height_m", "the camera is above the roof");
       }
+    }
+  }
+
+  /// The opening is in its wall.
+  void CheckDoor(std::size_t index) {
+    const DoorSpec& door = scene_.doors[index];
+    const HallSpec& hall = scene_.hall;
+    const int along = door.wall == WallSide::kNorth || door.wall == WallSide::kSouth ? 0 : 1;
+    const double from = door.at_m - door.width_m / 2, to = door.at_m + door.width_m / 2;
+    constexpr double kRounding_m = 1e-9;
+    if (from < hall.from[along] - kRounding_m || to > hall.to[along] + kRounding_m) {
+      issues_->Add(door.mark, fmt::format("doors[{}].at_m", index),
+                   fmt::format("its opening goes from {0} {1:g} to {2:g} m, its wall from {3:g} to "
+                               "{4:g}",
+                               along == 0 ? 'x' : 'y', from, to, hall.from[along], hall.to[along]));
+    }
+    if (door.height_m > hall.height_m) {
+      issues_->Add(door.mark, fmt::format("doors[{}].height_m", index),
+                   fmt::format("its opening of {:g} m goes through the roof at {:g} m",
+                               door.height_m, hall.height_m));
     }
   }
 
