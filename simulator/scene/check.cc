@@ -247,6 +247,11 @@ class Checker {
       if (pusher == scene_.people.end()) {
         issues_->Add(vehicle.mark, key,
                      fmt::format("there is nobody '{}' among the people", vehicle.pushed_by));
+      } else if (!pusher->capture.bvh.name.empty()) {
+        issues_->Add(vehicle.mark, key,
+                     fmt::format("'{}' goes where the motion of `bvh` goes, which pushes nothing; "
+                                 "name somebody with `steps`",
+                                 vehicle.pushed_by));
       } else if (!vehicle.route.plan.steps.empty()) {
         issues_->Add(vehicle.mark, key, "it goes where its pusher goes; leave out `steps`");
       } else if (pusher->level > vehicle.level) {

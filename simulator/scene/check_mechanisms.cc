@@ -98,11 +98,16 @@ class Checker {
     return MovesError(joint.moves);
   }
 
-  /// A person who is there when it is.
+  /// A person who is there when it is, and has hands that are known.
   void CheckPerson(const std::string& name, const char* key) {
     const auto found = std::ranges::find(scene_.people, name, &PersonSpec::name);
     if (found == scene_.people.end()) {
       Say(one_.mark, key, fmt::format("there is nobody '{}' among the people", name));
+    } else if (!found->capture.bvh.name.empty() || !found->capture.mesh.name.empty()) {
+      Say(one_.mark, key,
+          fmt::format("'{}' has a motion or body of your own (`bvh`, `mesh`), which holds nothing; "
+                      "name somebody with a `model` and `steps`",
+                      name));
     } else if (found->level > one_.level) {
       Say(one_.mark, key, "its level must be that of who brings it or above");
     }

@@ -44,21 +44,18 @@ std::vector<CrowdIntruder> IntrudersOf(const Scene& scene) {
     const Footprint footprint = FootprintOf(vehicle.model);
     const auto way = way_of(vehicle.route);
     const double origin_m = vehicle.pushed_by.empty() ? 0 : AheadOfPusher(vehicle.model);
-    const double length = footprint.front_m - footprint.back_m;
-    const int discs = 1 + static_cast<int>(std::ceil(length / footprint.radius_m));
-    for (int i = 0; i < discs; ++i) {
-      const double ahead = origin_m + footprint.back_m + length * i / std::max(1, discs - 1);
-      all.push_back(DiscOf(way, ahead, footprint.radius_m, duration_s));
+    for (const double ahead_m : DiscsAlong(footprint, origin_m)) {
+      all.push_back(DiscOf(way, ahead_m, footprint.radius_m, duration_s));
     }
   }
   return all;
 }
 
-int PeopleAt(const CrowdSpec& crowd, Dynamics level) {
-  return (crowd.people * static_cast<int>(level) + 2) / 3;
-}
-
 }  // namespace
+
+int CrowdPeople(const Scene& scene) {
+  return (scene.crowd.people * static_cast<int>(scene.dynamics) + 2) / 3;
+}
 
 CrowdArea CrowdAreaOf(const Scene& scene) {
   const CrowdSpec& crowd = scene.crowd;
@@ -87,7 +84,7 @@ CrowdArea CrowdAreaOf(const Scene& scene) {
 }
 
 void AddCrowd(std::uint64_t seed, Scene* scene) {
-  const int people = PeopleAt(scene->crowd, scene->dynamics);
+  const int people = CrowdPeople(*scene);
   if (people == 0) return;
   CrowdPlan plan;
   plan.people = people;

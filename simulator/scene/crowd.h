@@ -18,6 +18,9 @@ class CrowdError : public std::runtime_error {
 /// of who does not give way. Throws CrowdError.
 void AddCrowd(std::uint64_t seed, Scene* scene);
 
+/// How many AddCrowd adds.
+int CrowdPeople(const Scene& scene);
+
 /// The part of the floor where they walk: its corners with the smallest and the largest x and y.
 struct CrowdArea {
   Eigen::Vector2d from, to;

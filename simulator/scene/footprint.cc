@@ -54,6 +54,16 @@ double AheadOfPusher(const std::string& model) {
   return model.starts_with("pallet_jack") ? kHands_m + 1.62 : kHands_m;
 }
 
+std::vector<double> DiscsAlong(const Footprint& footprint, double origin_m) {
+  const double length = footprint.front_m - footprint.back_m;
+  const int discs = 1 + static_cast<int>(std::ceil(length / footprint.radius_m));
+  std::vector<double> ahead_m;
+  for (int i = 0; i < discs; ++i) {
+    ahead_m.push_back(origin_m + footprint.back_m + length * i / std::max(1, discs - 1));
+  }
+  return ahead_m;
+}
+
 double Apart(const Footprint& one, const RouteState& one_at, const Footprint& other,
              const RouteState& other_at) {
   return DistanceOfLines(LineOf(one, one_at), LineOf(other, other_at));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "simulator/motion/route.h"
 
@@ -29,6 +30,10 @@ inline constexpr double kRigBerth_m = 0.45;
 /// How far ahead of the person at its handle the origin of a vehicle is that is pushed: as the
 /// assets have it, to 6 cm, since arms differ in length.
 double AheadOfPusher(const std::string& model);
+
+/// Middles of discs of the footprint's radius that cover it, ahead of a point that is `origin_m`
+/// behind the mover's origin.
+std::vector<double> DiscsAlong(const Footprint& footprint, double origin_m);
 
 /// How far two footprints' lines are apart, metres.
 double Apart(const Footprint& one, const RouteState& one_at, const Footprint& other,

@@ -100,9 +100,15 @@ Scene ParseScene(const std::string& text, const std::string& file) {
   return SceneOrThrow(Parse(text, file));
 }
 
-std::vector<std::string> CheckSeed(const Scene& scene, std::uint64_t seed) {
+std::vector<std::string> CheckSeed(const Scene& scene, std::uint64_t seed, const FloorWays& ways) {
   Issues issues(scene.files);
-  CheckRoutesOfSeed(scene, seed, &issues);
+  CheckRoutesOfSeed(scene, seed, &issues, ways);
+  return issues.Messages();
+}
+
+std::vector<std::string> CheckWays(const Scene& scene, const FloorWays& ways) {
+  Issues issues(scene.files);
+  CheckRoutes(scene, &issues, ways);
   return issues.Messages();
 }
 

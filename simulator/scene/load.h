@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/scene/floor_way.h"
 #include "simulator/scene/scene.h"
 
 namespace aisle::sim {
@@ -38,8 +39,14 @@ std::vector<std::string> SceneFiles(const std::filesystem::path& file);
 std::vector<std::string> CheckScene(const std::filesystem::path& file);
 
 /// What goes wrong in a good scene when its actors move as this seed has them. The usual seeds are
-/// part of CheckScene already.
-std::vector<std::string> CheckSeed(const Scene& scene, std::uint64_t seed);
+/// part of CheckScene already. Of who moves as recorded only the start is looked at, unless `ways`
+/// says where they go.
+std::vector<std::string> CheckSeed(const Scene& scene, std::uint64_t seed,
+                                   const FloorWays& ways = {});
+
+/// What goes wrong in a good scene, as written or with one of the usual seeds, where people go as
+/// they were recorded.
+std::vector<std::string> CheckWays(const Scene& scene, const FloorWays& ways);
 
 /// The JSON Schema (draft 7) of scene files, made from the same description the reader uses.
 std::string SceneSchema();

@@ -40,6 +40,11 @@ void FindOfPerson(PersonSpec* person, Scene* scene, Issues* issues) {
         capture.bvh.mark, key,
         "a closed drive must know where people walk; give them `steps` instead of a motion");
   }
+  if (!capture.bvh.name.empty() && scene->crowd.people > 0) {
+    issues->Add(capture.bvh.mark, key,
+                "a crowd must know where people walk to keep clear of them; give them `steps` "
+                "instead of a motion");
+  }
   if (capture.mesh.name.empty() && (!capture.clip.empty() || capture.stride_m > 0)) {
     issues->Add(person->mark, key, "`clip` and `stride_m` are of a `mesh`; name one");
   }

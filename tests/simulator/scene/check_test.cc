@@ -2,12 +2,18 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <fstream>
+
+#include "simulator/scene/footprint.h"
 #include "simulator/scene/load.h"
 
 namespace aisle::sim {
 namespace {
 
+namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -57,6 +63,131 @@ TEST(Props, StandBelowTheRoof) {
   EXPECT_THAT(MessagesOf("props: [{model: drum, at: [3, 1], above_m: 3}]\n"), IsEmpty());
   EXPECT_THAT(MessagesOf("props: [{model: drum, at: [3, 1], above_m: 20}]\n"),
               ElementsAre(HasSubstr("props[0].above_m: 20 m is above the roof at 3.5 m")));
+}
+
+/// A pallet truck before somebody who goes to that x.
+std::string PushedTo(double x, double y) {
+  return fmt::format(
+      "people:\n"
+      "  - {{name: anna, start: [0, {1}], steps: [{{go: [[{0}, {1}]], play: walk_push}}]}}\n"
+      "vehicles:\n"
+      "  - {{name: jack, model: pallet_jack, start: [0, {1}], pushed_by: anna}}\n",
+      x, y);
+}
+
+/// How far ahead of who pushes it it reaches.
+double Reach() {
+  const Footprint jack = FootprintOf("pallet_jack");
+  return AheadOfPusher("pallet_jack") + jack.front_m + jack.radius_m;
+}
+
+TEST(Pushed, StopBeforeTheWall) {
+  EXPECT_THAT(MessagesOf(PushedTo(6 - Reach() - 0.01, 2)), IsEmpty());
+  EXPECT_THAT(MessagesOf(PushedTo(6 - Reach() + 0.01, 2)),
+              ElementsAre(AllOf(HasSubstr("s.yaml:9:5: vehicles[0].pushed_by: at [5.7"),
+                                HasSubstr("it runs into a wall or leaves the hall"),
+                                HasSubstr("in steps[0] of anna, who is behind it"))));
+}
+
+TEST(Pushed, StopBeforeRacksAndDoNotBeginInThem) {
+  const std::string rack = "racks: [{from: [3, 2], bays: 1, bay_m: 1.1, depth_m: 1.1}]\n";
+  EXPECT_THAT(MessagesOf(rack + PushedTo(3 - Reach() - 0.01, 2)), IsEmpty());
+  EXPECT_THAT(MessagesOf(rack + PushedTo(3 - Reach() + 0.06, 2)),
+              ElementsAre(HasSubstr("it runs through racks[0] (it needs 0.25 m around it)")));
+  EXPECT_THAT(MessagesOf("stacks: [{at: [2, 2]}]\n" + PushedTo(0.1, 2)),
+              ElementsAre(AllOf(HasSubstr("it runs through stacks[0]"),
+                                HasSubstr("at the start of anna"))));
+}
+
+TEST(Towed, AreToldOfWhatTheirTractorsStepsDo) {
+  const auto train = [](const std::string& steps) {
+    return "vehicles:\n"
+           "  - {name: tractor, model: tow_tractor, start: [0, 2], steps: [" +
+           steps +
+           "]}\n"
+           "  - {name: cart, model: tow_trailer, start: [-1.78, 2], towed_by: tractor, behind_m: "
+           "1.78}\n";
+  };
+  EXPECT_THAT(MessagesOf(train("{go: [[4, 2]]}")), IsEmpty());
+  EXPECT_THAT(MessagesOf(train("{go: [[4, 2]], wait_s: 2}")),
+              ElementsAre(HasSubstr("vehicles[0].steps[0]: a step is one of")));
+  EXPECT_THAT(MessagesOf("stacks: [{at: [3, 2]}]\n" + train("{go: [[4, 2]]}")),
+              ElementsAre(HasSubstr("vehicles[0].steps[0]: at"), HasSubstr("vehicles[1]: at")));
+}
+
+/// Scenes beside a recorded motion, whose text nobody reads here.
+class Recorded : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / fmt::format("aisle_recorded_{}", ::getpid());
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "walk.bvh") << "HIERARCHY\n";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string File() const { return (folder_ / "s.yaml").string(); }
+  std::vector<std::string> Messages(const std::string& rest) const {
+    return MessagesOf("people:\n  - {name: rita, start: [1.5, 0], bvh: walk.bvh}\n" + rest, File());
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Recorded, PushAndCarryNothing) {
+  EXPECT_THAT(Messages(""), IsEmpty());
+  EXPECT_THAT(
+      Messages("vehicles: [{name: jack, model: pallet_jack, start: [1.5, 0], pushed_by: rita}]\n"),
+      ElementsAre(HasSubstr("vehicles[0].pushed_by: 'rita' goes where the motion of `bvh` goes")));
+  const auto holding = [](const std::string& keys) {
+    return "  - {name: anna, start: [1.5, 2]}\nmechanisms: [{name: cart, " + keys +
+           ", parts: [{size_m: [1, 1, 1]}]}]\n";
+  };
+  EXPECT_THAT(Messages(holding("pushed_by: anna")), IsEmpty());
+  EXPECT_THAT(Messages(holding("pushed_by: rita")),
+              ElementsAre(HasSubstr("mechanisms[0].pushed_by: 'rita' has a motion or body of your "
+                                    "own (`bvh`, `mesh`), which holds nothing")));
+  EXPECT_THAT(Messages(holding("front_by: rita, rear_by: anna")),
+              ElementsAre(HasSubstr("mechanisms[0].front_by: 'rita'")));
+}
+
+TEST_F(Recorded, AreInNoCrowd) {
+  EXPECT_THAT(Messages("crowd: {people: 3, in: [2, 1, 5, 3]}\n"),
+              ElementsAre(HasSubstr("people[0]: a crowd must know where people walk")));
+}
+
+TEST_F(Recorded, AreWhereTheirMotionHasThem) {
+  const auto going = [&](const Eigen::Vector2d& velocity_mps, const std::string& rest = "",
+                         const std::string& keys = "") {
+    const Scene scene = ParseScene(
+        kRoom + "people:\n  - {name: rita, start: [1.5, 0], bvh: walk.bvh" + keys + "}\n" + rest,
+        File());
+    FloorWay way;
+    for (int i = 0; i <= 20; ++i) {
+      way.places.emplace_back(scene.people[0].route.plan.start + i * way.step_s * velocity_mps);
+    }
+    return CheckWays(scene, {{"rita", way}});
+  };
+  EXPECT_THAT(going({0, 1}), IsEmpty());
+  // The rig and a person need 0.52 m.
+  EXPECT_THAT(going({-0.97, 0}), IsEmpty());
+  EXPECT_THAT(going({-1.1, 0}), ElementsAre(AllOf(HasSubstr("s.yaml:7:5: people[0]: at 0.9"),
+                                                  HasSubstr("from the rig"))));
+  EXPECT_THAT(going({-1.1, 0}, "", ", start_s: 60"), IsEmpty()) << "after the scene's end";
+  EXPECT_THAT(going({0, 3}, "stacks: [{at: [1.5, 2.5]}]\n"),
+              ElementsAre(AllOf(HasSubstr("people[0].bvh: at [1.50, "),
+                                HasSubstr("it runs through stacks[0]"))));
+  EXPECT_THAT(going({6, 0}), ElementsAre(HasSubstr("it runs into a wall or leaves the hall")));
+}
+
+TEST(FloorWay, StandsBeforeAndAfterAndGoesStraightInBetween) {
+  const FloorWay way{0.5, {{0, 0}, {1, 0}, {1, 2}}};
+  EXPECT_EQ(way.duration_s(), 1);
+  EXPECT_EQ(way.At(-3), Eigen::Vector2d(0, 0));
+  EXPECT_EQ(way.At(0.25), Eigen::Vector2d(0.5, 0));
+  EXPECT_EQ(way.At(0.75), Eigen::Vector2d(1, 1));
+  EXPECT_EQ(way.At(1), Eigen::Vector2d(1, 2));
+  EXPECT_EQ(way.At(9), Eigen::Vector2d(1, 2));
+  EXPECT_EQ((FloorWay{0.5, {{3, 4}}}).At(2), Eigen::Vector2d(3, 4));
 }
 
 }  // namespace
