@@ -9,6 +9,7 @@
 #include "harness/campaign/sandbox.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/odometry_files.h"
 #include "harness/io/shell_word.h"
 #include "harness/io/vslam_lab.h"
 #include "harness/run/external_result.h"
@@ -176,6 +177,9 @@ RunResult RunExternal(const ExternalSystem& system, const Sequence& sequence,
   const GuestRooms rooms(run.folder / kGuestFolder);
   LayOutDataset(sequence, {.kept = run.dataset, .options = options, .open_path = run.open_path},
                 rooms.dataset);
+  if (run.odometry) {
+    WriteOdometry(rooms.dataset, JoinMotions(sequence.Schedule(), *run.odometry), options);
+  }
   if (system.vslam_lab != VslamLabStyle::kNone) LinkVslamLabImages(rooms.dataset);
   const Trajectory truth = Truth(sequence.Schedule());
   const std::string command = CommandLine(system, run, rooms, options.format);

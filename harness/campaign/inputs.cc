@@ -13,6 +13,7 @@
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/steering_options.h"
 #include "harness/plugs/systems.h"
+#include "harness/plugs/wheel_odometry.h"
 #include "harness/score/score_names.h"
 
 namespace aisle {
@@ -271,6 +272,7 @@ Vocabulary KnownNames() {
   vocabulary.check_option = [](const std::string& like, const std::string& path,
                                const std::string& value) -> std::string {
     if (!like.empty()) return CheckOption(path, value);
+    if (path == kOdometryOption) return CheckOdometry(value);
     return IsSteeringOption(path) ? CheckSteeringOfOthers(path, value) : std::string();
   };
   vocabulary.check_options = [](const std::string& like,

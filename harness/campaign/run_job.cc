@@ -88,6 +88,13 @@ void Show(const Job& job, const Sequence& sequence, RunResult* result,
   }
 }
 
+/// Nothing where the system does not ask for it.
+std::optional<std::vector<MotionMeasurement>> OdometryFor(const Job& job,
+                                                          const Sequence& sequence) {
+  if (!WantsOdometry(job.spec.system)) return std::nullopt;
+  return MeasureByWheels(sequence, job.spec.seed);
+}
+
 void RunForeign(const Job& job) {
   const ExternalSystem& system = *job.spec.system.external;
   std::uint64_t content_hash = 0;
@@ -108,6 +115,7 @@ void RunForeign(const Job& job) {
                                   .hidden = HiddenFromGuests(job),
                                   .seed = job.spec.seed,
                                   .memory_mib = job.memory_mib,
+                                  .odometry = OdometryFor(job, *sequence),
                                   .open_path = open_path,
                                   .progress = progress});
   result.spec = job.spec;

@@ -175,6 +175,7 @@ StreamEstimator::~StreamEstimator() = default;
 
 FrameEstimate StreamEstimator::Process(const StereoFrame& frame, const ExternalMask&) {
   try {
+    if (frame.motion) impl_->Ask(StreamType::kMotion, FormatMotion(frame.id, *frame.motion));
     impl_->Ask(StreamType::kFrame, FormatFrame(frame));
     const auto pose = ReadAnswer(impl_->Answer(), frame.id);
     FrameEstimate estimate;

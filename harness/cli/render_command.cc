@@ -8,8 +8,10 @@
 #include "harness/io/dataset.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/odometry_files.h"
 #include "harness/io/places.h"
 #include "harness/plugs/simulated_sequence.h"
+#include "harness/plugs/wheel_odometry.h"
 #include "harness/run/frames_ahead.h"
 #include "harness/suite/suite.h"
 
@@ -20,7 +22,7 @@ struct Options {
   SimulatedSequenceOptions simulation;
   std::string out, format = "euroc", frames, pair;
   std::vector<std::string> truth;
-  bool verify = false;
+  bool verify = false, odometry = false;
 };
 
 std::size_t FrameNumber(const std::string& text, const std::string& whole) {
@@ -133,11 +135,21 @@ int Verify(const SimulationForExport& simulation, const std::vector<FrameRequest
   return failures == 0 ? kAllPassed : kVerdictFailed;
 }
 
+/// Of the frames of the dataset; where these begin later, the wheels have slipped before.
+void AddOdometry(const Sequence& sequence, const std::vector<FrameRequest>& frames,
+                 std::uint64_t seed, const ExportOptions& options,
+                 const std::filesystem::path& out) {
+  const std::vector<MotionMeasurement> all = MeasureByWheels(sequence, seed);
+  const auto first = all.begin() + frames.front().id;
+  const auto count = static_cast<std::ptrdiff_t>(frames.size()) - 1;
+  WriteOdometry(out, JoinMotions(frames, {first, first + count}), options);
+}
+
 int RenderAsBag(const Options& options) {
-  if (!options.truth.empty() || options.verify) {
+  if (!options.truth.empty() || options.verify || options.odometry) {
     throw InputError(
-        "--format ros2: a bag holds poses, depth, what moves and boxes as they are: leave --truth "
-        "and --verify out");
+        "--format ros2: a bag holds poses, depth, what moves and boxes as they are: leave --truth, "
+        "--odometry and --verify out");
   }
   const FrameRange range = RangeFromText(options.frames);
   const SimulationForExport simulation = OpenForExport(options.simulation, options.pair);
@@ -181,6 +193,8 @@ int Render(Options options) {
   }
   line.Clear();
   writer.Finish(simulation.path);
+  if (options.odometry)
+    AddOdometry(sequence, wanted, options.simulation.seed, export_options, options.out);
   fmt::print("{}: {} frames, {} of them made now\n", options.out, wanted.size(), missing.size());
   return options.verify ? Verify(simulation, wanted, writer, options.out) : kAllPassed;
 }
@@ -204,6 +218,8 @@ void AddRenderCommand(CLI::App* app, Action* action) {
       ->add_option("--truth", options->truth,
                    "depth,labels,dynamic,boxes,flow,stereo,shadows or all")
       ->delimiter(',');
+  command->add_flag("--odometry", options->odometry,
+                    "what the vehicle's wheels make of the way goes along, drawn by --seed");
   command->add_flag("--verify", options->verify,
                     "prove every frame: truth against a rasteriser and by warping, light in time");
   command->add_option("--twin", options->simulation.twin,

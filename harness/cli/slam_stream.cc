@@ -27,7 +27,13 @@ std::size_t Answer(StreamPipe* pipe, const std::string& name, const MakeEstimato
   pipe->Send(StreamType::kHello, FormatName(kStreamVersion, name));
   std::optional<std::int64_t> last_ns;
   for (std::size_t frames = 0;; ++frames) {
-    const StreamMessage message = next();
+    StreamMessage message = next();
+    std::int64_t moved_to = 0;  // the frame that the wheels' message is about
+    std::optional<MotionMeasurement> motion;
+    if (message.type == StreamType::kMotion) {
+      motion = ReadMotion(message.payload, &moved_to);
+      message = next();
+    }
     if (message.type == StreamType::kEnd) {
       pipe->Send(StreamType::kTrack, FormatTrack(estimator->Finish()));
       finish(estimator.get());
@@ -36,7 +42,12 @@ std::size_t Answer(StreamPipe* pipe, const std::string& name, const MakeEstimato
     if (message.type != StreamType::kFrame) {
       throw StreamError(Kind::kNonsense, "neither a frame nor the end");
     }
-    const StereoFrame frame = ReadFrame(message.payload, hello.calibration);
+    StereoFrame frame = ReadFrame(message.payload, hello.calibration);
+    if (motion && moved_to != frame.id) {
+      throw StreamError(Kind::kNonsense,
+                        fmt::format("a motion to frame {} before frame {}", moved_to, frame.id));
+    }
+    frame.motion = motion;
     if (last_ns && frame.stamp_ns <= *last_ns) {
       throw StreamError(Kind::kNonsense,
                         fmt::format("frame {}: its stamp is not after the one before", frame.id));

@@ -33,6 +33,10 @@ struct SystemSpec {
   bool operator==(const SystemSpec&) const = default;
 };
 
+/// The option of a system that is handed what the vehicle's wheels measure, beside its images:
+/// "true" or "false". Others may have it as well: over the stream, or in a file of the dataset.
+inline constexpr const char* kOdometryOption = "odometry";
+
 /// A built-in system as it is.
 inline SystemSpec BuiltIn(const std::string& name) { return {.name = name, .like = name}; }
 

@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
@@ -181,6 +182,35 @@ StereoFrame ReadFrame(const std::string& payload, const StereoCalibration& calib
   return frame;
 }
 
+std::string FormatMotion(std::int64_t id, const MotionMeasurement& motion) {
+  std::string bytes;
+  Put(&bytes, id);
+  PutPose(&bytes, motion.T_now_before);
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 6; ++column) Put(&bytes, motion.covariance(row, column));
+  }
+  return bytes;
+}
+
+MotionMeasurement ReadMotion(const std::string& payload, std::int64_t* id) {
+  Taker taker(payload, "motion");
+  *id = taker.Take<std::int64_t>();
+  MotionMeasurement motion;
+  motion.T_now_before = TakePose(&taker, "its motion");
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 6; ++column) {
+      motion.covariance(row, column) = taker.Take<double>();
+    }
+  }
+  taker.Done();
+  if (!motion.covariance.allFinite() ||
+      !motion.covariance.isApprox(motion.covariance.transpose()) ||
+      motion.covariance.llt().info() != Eigen::Success) {
+    Nonsense("the covariance of its motion is none");
+  }
+  return motion;
+}
+
 std::string FormatAnswer(std::int64_t id, const std::optional<Eigen::Isometry3d>& pose) {
   std::string bytes;
   Put(&bytes, id);
@@ -307,7 +337,7 @@ std::optional<StreamMessage> StreamPipe::Receive() {
     throw StreamError(Kind::kClosed, kEndsWithin);
   }
   std::memcpy(head.data(), text.data(), sizeof head);
-  const std::uint32_t last_type = static_cast<std::uint32_t>(StreamType::kTrack);
+  const std::uint32_t last_type = static_cast<std::uint32_t>(StreamType::kMotion);
   if (head[1] < 1 || head[1] > last_type) {
     Nonsense(fmt::format(
         "a message of type {}, expected 1 to {}{}", head[1], last_type,

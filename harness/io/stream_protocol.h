@@ -17,6 +17,7 @@ namespace aisle {
 ///
 ///   harness                     system
 ///   kHello calibration, rate -> kHello version, name
+///   kMotion id, motion                                             where it asked for wheels
 ///   kFrame id, stamp, images -> kPose id, pose  or  kLost id       for every frame
 ///   kEnd                     -> kTrack stamped poses               and the system ends
 inline constexpr std::uint32_t kStreamVersion = 1;
@@ -29,6 +30,7 @@ enum class StreamType : std::uint32_t {
   kLost = 4,
   kEnd = 5,
   kTrack = 6,
+  kMotion = 7,
 };
 struct StreamMessage {
   StreamType type = StreamType::kEnd;
@@ -56,6 +58,9 @@ std::string FormatName(std::uint32_t version, const std::string& name);
 std::string ReadName(const std::string& payload);
 std::string FormatFrame(const StereoFrame& frame);
 StereoFrame ReadFrame(const std::string& payload, const StereoCalibration& calibration);
+/// What wheels say of the rig's way to frame `id`, which comes next.
+std::string FormatMotion(std::int64_t id, const MotionMeasurement& motion);
+MotionMeasurement ReadMotion(const std::string& payload, std::int64_t* id);
 /// Of kPose where there is one, of kLost else.
 std::string FormatAnswer(std::int64_t id, const std::optional<Eigen::Isometry3d>& pose);
 /// The pose in an answer to frame `id`.

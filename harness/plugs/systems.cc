@@ -17,11 +17,6 @@ std::map<std::string, std::string> OptionsOfSlam(std::map<std::string, std::stri
   return WithoutSteering(options);
 }
 
-std::string CheckOdometry(const std::string& value) {
-  if (value == "true" || value == "false") return {};
-  return fmt::format("option {} = {}: expected true or false", kOdometryOption, Printable(value));
-}
-
 }  // namespace
 
 const std::vector<System>& Systems() {

@@ -52,9 +52,8 @@ MotionMeasurement MotionOfRig(const FloorPose& moved, double way_m, double turn_
 /// Hands the frames of another sequence on, with what the wheels measured.
 class SequenceWithOdometry : public Sequence {
  public:
-  SequenceWithOdometry(std::unique_ptr<Sequence> sequence, std::uint64_t seed)
-      : sequence_(std::move(sequence)),
-        measured_(MeasureByWheels(sequence_->Schedule(), {}, seed)) {}
+  SequenceWithOdometry(std::unique_ptr<Sequence> sequence, std::vector<MotionMeasurement> measured)
+      : sequence_(std::move(sequence)), measured_(std::move(measured)) {}
 
   std::string name() const override { return sequence_->name(); }
   StereoCalibration calibration() const override { return sequence_->calibration(); }
@@ -120,6 +119,11 @@ SystemOption DescribeOdometry() {
           {}};
 }
 
+std::string CheckOdometry(const std::string& value) {
+  if (value == "true" || value == "false") return {};
+  return fmt::format("option {} = {}: expected true or false", kOdometryOption, Printable(value));
+}
+
 std::vector<MotionMeasurement> MeasureByWheels(const std::vector<FrameRequest>& schedule,
                                                const OdometryOptions& options, std::uint64_t seed) {
   std::vector<MotionMeasurement> measured;
@@ -148,17 +152,22 @@ std::vector<MotionMeasurement> MeasureByWheels(const std::vector<FrameRequest>& 
   return measured;
 }
 
-std::unique_ptr<Sequence> WithOdometry(std::unique_ptr<Sequence> sequence, std::uint64_t seed) {
-  const std::vector<FrameRequest> schedule = sequence->Schedule();
+std::vector<MotionMeasurement> MeasureByWheels(const Sequence& sequence, std::uint64_t seed) {
+  const std::vector<FrameRequest> schedule = sequence.Schedule();
   const bool stands = std::ranges::all_of(schedule, [](const FrameRequest& frame) {
     return frame.T_world_rig.matrix() == Eigen::Matrix4d::Identity();
   });
   if (stands && !schedule.empty()) {
-    throw InputError(sequence->name() +
+    throw InputError(sequence.name() +
                      ": a system is to be handed odometry, but nobody knows the way here: take a "
                      "scene, or a recording with truth");
   }
-  return std::make_unique<SequenceWithOdometry>(std::move(sequence), seed);
+  return MeasureByWheels(schedule, {}, seed);
+}
+
+std::unique_ptr<Sequence> WithOdometry(std::unique_ptr<Sequence> sequence, std::uint64_t seed) {
+  std::vector<MotionMeasurement> measured = MeasureByWheels(*sequence, seed);
+  return std::make_unique<SequenceWithOdometry>(std::move(sequence), std::move(measured));
 }
 
 std::unique_ptr<DriveScene> WithOdometry(std::unique_ptr<DriveScene> scene) {

@@ -11,11 +11,12 @@
 
 namespace aisle {
 
-/// The option of a system that is handed what the wheels measure, beside its images.
-inline constexpr const char* kOdometryOption = "odometry";
 SystemOption DescribeOdometry();
 /// Whether a system is to be handed it.
 bool WantsOdometry(const SystemSpec& system);
+
+/// What is wrong with the value of kOdometryOption, or an empty string.
+std::string CheckOdometry(const std::string& value);
 
 /// What the wheels of a rig's vehicle make of its planned way, for every frame but the first: the
 /// motion of the rig since the frame before. The rig is mounted as the first frame shows it, on a
@@ -24,6 +25,9 @@ bool WantsOdometry(const SystemSpec& system);
 /// counts those of its calibration as if they were drawn anew every 5 m.
 std::vector<MotionMeasurement> MeasureByWheels(const std::vector<FrameRequest>& schedule,
                                                const OdometryOptions& options, std::uint64_t seed);
+
+/// The same of a sequence; throws InputError for one whose way is not known.
+std::vector<MotionMeasurement> MeasureByWheels(const Sequence& sequence, std::uint64_t seed);
 
 /// The same frames with what the wheels measured. Throws InputError for a sequence whose way is not
 /// known.

@@ -241,8 +241,10 @@ void Describe(Fields& fields, const Vocabulary& vocabulary, SystemSpec* spec) {
                                    "{{feature.features: 800}}}}",
                                    spec->name));
   }
-  // How it steers any system can be told that answers frame by frame, whoever made it.
+  // How it steers any system can be told that answers frame by frame, whoever made it; what wheels
+  // measure any.
   SystemSpec others = *spec;
+  if (spec->external) others.options.erase(kOdometryOption);
   if (spec->external && IsStream(*spec->external)) {
     std::erase_if(others.options,
                   [](const auto& option) { return option.first.starts_with("drive."); });

@@ -9,7 +9,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const StereoCalibration rig{
       .width = 8, .height = 4, .fx = 9, .fy = 9, .cx = 4, .cy = 2, .baseline_m = 0.1};
   try {
-    switch (data[0] % 6) {
+    std::int64_t id = 0;
+    switch (data[0] % 7) {
       case 0:
         ReadHello(payload);
         break;
@@ -25,8 +26,11 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       case 4:
         ReadAnswer({StreamType::kLost, payload}, 0);
         break;
-      default:
+      case 5:
         ReadTrack(payload);
+        break;
+      default:
+        ReadMotion(payload, &id);
     }
     ++fuzz::taken;
   } catch (const StreamError&) {

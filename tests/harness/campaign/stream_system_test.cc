@@ -31,8 +31,18 @@ class StreamSystemTest : public testing::Test {
     return system;
   }
 
+  /// What wheels say from frame to frame: an arc.
+  static MotionMeasurement Motion() {
+    MotionMeasurement motion;
+    motion.T_now_before.linear() =
+        Eigen::AngleAxisd(0.04, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    motion.T_now_before.translation() << 0.01, 0, -0.07;
+    motion.covariance *= 1e-4;
+    return motion;
+  }
+
   /// Shows ten frames to a system, as a drive does.
-  RunResult Show(const ExternalSystem& system, double answer_s = 20) {
+  RunResult Show(const ExternalSystem& system, double answer_s = 20, bool with_wheels = false) {
     try {
       StreamEstimator estimator(system, kRig,
                                 {.folder = folder_, .hidden = {}, .answer_s = answer_s});
@@ -44,6 +54,7 @@ class StreamSystemTest : public testing::Test {
         SequenceFrame frame;
         frame.images = {id, id * 50'000'000, cv::Mat1b(200, 320, std::uint8_t{7}),
                         cv::Mat1b(200, 320, std::uint8_t{9})};
+        if (with_wheels && id > 0) frame.images.motion = Motion();
         showing.Show({id, frame.images.stamp_ns}, frame, 0, static_cast<std::size_t>(id), 10);
       }
       return showing.Finish(10, 0.5);
@@ -78,6 +89,17 @@ TEST_F(StreamSystemTest, TheClientInCppDoesToo) {
   const RunResult run = Show(system);
   EXPECT_EQ(run.status, RunStatus::kOk) << run.status_why;
   EXPECT_EQ(run.trajectory.final.size(), 10u);
+}
+
+TEST_F(StreamSystemTest, WhoAsksForWheelsIsToldTheirMotionBeforeEachFrame) {
+  const RunResult run = Show(Client("wheels.py"), 20, true);
+  EXPECT_EQ(run.status, RunStatus::kOk) << run.status_why;
+  ASSERT_EQ(run.trajectory.final.size(), 10u);
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  for (const StampedPose& answered : run.trajectory.final) {
+    EXPECT_TRUE(answered.T_world_rig.isApprox(pose, 1e-9)) << answered.stamp_ns;
+    pose = pose * Motion().T_now_before.inverse();
+  }
 }
 
 struct Way {
@@ -137,6 +159,16 @@ TEST(StreamProtocolTest, WhatIsWrittenIsReadBack) {
   EXPECT_EQ(read.id, 5);
   EXPECT_EQ(cv::norm(read.left, frame.left, cv::NORM_INF), 0);
   EXPECT_EQ(cv::norm(read.right, frame.right, cv::NORM_INF), 0);
+  MotionMeasurement motion;
+  motion.T_now_before.translation() << 0.1, 0.2, 0.3;
+  motion.covariance(1, 2) = motion.covariance(2, 1) = 0.25;
+  std::int64_t moved_to = 0;
+  const MotionMeasurement told = ReadMotion(FormatMotion(7, motion), &moved_to);
+  EXPECT_EQ(moved_to, 7);
+  EXPECT_TRUE(told.T_now_before.isApprox(motion.T_now_before, 1e-12));
+  EXPECT_EQ(told.covariance, motion.covariance);
+  motion.covariance(0, 0) = -1;
+  EXPECT_THROW(ReadMotion(FormatMotion(7, motion), &moved_to), StreamError);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   pose.translation() << 1, -2, 3;

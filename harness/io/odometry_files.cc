@@ -1,0 +1,60 @@
+#include "harness/io/odometry_files.h"
+
+#include <stdexcept>
+
+#include "harness/io/file.h"
+
+namespace aisle {
+namespace {
+
+constexpr const char* kEurocSensor =
+    "%YAML 1.0\n---\nsensor_type: odometry\n"
+    "comment: what the vehicle's wheels make of its way, as poses of the body from the first image "
+    "on; it drifts\n"
+    "T_BS:\n  cols: 4\n  rows: 4\n"
+    "  data: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n";
+
+std::string EurocRows(const Trajectory& track) {
+  std::string text = "#timestamp [ns],p_x [m],p_y [m],p_z [m],q_w [],q_x [],q_y [],q_z []\n";
+  for (const StampedPose& pose : track) {
+    const Eigen::Vector3d& p = pose.T_world_rig.translation();
+    const Eigen::Quaterniond q(pose.T_world_rig.linear());
+    text += fmt::format("{},{},{},{},{},{},{},{}\n", pose.stamp_ns, p.x(), p.y(), p.z(), q.w(),
+                        q.x(), q.y(), q.z());
+  }
+  return text;
+}
+
+}  // namespace
+
+Trajectory JoinMotions(const std::vector<FrameRequest>& frames,
+                       const std::vector<MotionMeasurement>& motions) {
+  if (motions.size() + 1 != frames.size()) {
+    throw std::invalid_argument("JoinMotions: a motion for each frame but the first");
+  }
+  Trajectory track = {{frames.front().stamp_ns, Eigen::Isometry3d::Identity()}};
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    track.push_back(
+        {frames[i + 1].stamp_ns, track.back().T_world_rig * motions[i].T_now_before.inverse()});
+  }
+  return track;
+}
+
+void WriteOdometry(const std::filesystem::path& folder, const Trajectory& track,
+                   const ExportOptions& options) {
+  Trajectory stamped = track;
+  for (StampedPose& pose : stamped) pose.stamp_ns += options.epoch_ns;
+  switch (options.format) {
+    case DatasetFormat::kEuroc:
+      WriteFileAtomically(folder / "mav0/odom0/sensor.yaml", kEurocSensor);
+      return WriteFileAtomically(folder / "mav0/odom0/data.csv", EurocRows(stamped));
+    case DatasetFormat::kKitti:
+      return WriteFileAtomically(folder / "sequences/00/odometry.txt",
+                                 FormatTrajectory(track, TrajectoryFormat::kKitti));
+    case DatasetFormat::kTum:
+      return WriteFileAtomically(folder / "odometry.txt",
+                                 FormatTrajectory(stamped, TrajectoryFormat::kTum));
+  }
+}
+
+}  // namespace aisle
