@@ -25,8 +25,10 @@ Match BestFeature(const Frame& frame, const Expected& expected, const MatchOptio
         HammingDistance(expected.landmark->descriptor, frame.features.descriptors[i]);
     const int level = frame.features.keypoints[i].level;
     if (distance < best.distance) {
-      second = best.feature >= 0 ? best.distance : second;
-      second_level = best_level;
+      if (best.feature >= 0) {
+        second = best.distance;
+        second_level = best_level;
+      }
       best.feature = candidate;
       best.distance = distance;
       best_level = level;
