@@ -59,7 +59,9 @@ void Sharpen(const PlainContext& context, const RefinePoseOptions& refine, Frame
       AlignMatches(context, found->pose.T_rig_world, found->matches);
   RefinedPose sharp = RefinePose(context.camera, found->pose.T_rig_world,
                                  ObservationsOf(context.map, measurements, found->matches), refine);
-  if (!sharp.well_posed || sharp.inliers < kStillAgree * found->pose.inliers) return;
+  const double enough = std::max(kStillAgree * found->pose.inliers,
+                                 static_cast<double>(context.options.least_map_inliers));
+  if (!sharp.well_posed || sharp.inliers < enough) return;
   found->pose = std::move(sharp);
   found->measurements = std::move(measurements);
 }

@@ -23,6 +23,7 @@ struct TrackMemory {
   std::vector<LandmarkId> landmarks;       ///< that took part in the pose
   std::optional<Velocity> velocity;        ///< as the poses tell it
   Matrix6d covariance = Matrix6d::Zero();  ///< of the pose: of a small motion of the rig frame
+  bool coasted = false;  ///< the pose is where measurement or inertia led, and nobody has seen it
   /// The way from this pose to the frame that comes, as measured. Its covariance is of the pose
   /// there: this one's, carried along, and that of the way itself. Nothing where the way is not
   /// measured without a gap.

@@ -1,6 +1,7 @@
 #include "slam/track/track_measured.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -28,10 +29,25 @@ double SearchGrowth(const PlainContext& context, const Reckoned& reckoned) {
   return kDeviations * context.camera.fx * (metres / kNear_m + radians);
 }
 
+/// Of a pose that the images alone have told: both err independently.
 bool AgreesWithReckoned(const FramePose& found, const Reckoned& reckoned, double most_chi2) {
   const Vector6d off = Difference(reckoned.T_rig_world, found.pose.T_rig_world);
   const Matrix6d covariance = reckoned.covariance + found.pose.covariance;
   return off.dot(covariance.ldlt().solve(off)) <= most_chi2;
+}
+
+/// Of a pose in which the reckoned one has counted itself. They differ by what the images have
+/// moved it, whose covariance is the prior's less the posterior's (of a Kalman filter's update):
+/// seen by the prior's own deviations, 1 less each eigenvalue of the posterior's.
+bool AgreesWithPrior(const FramePose& found, const Reckoned& reckoned, double most_chi2) {
+  constexpr double kLeast = 1e-6;  // of a direction in which the images told nothing
+  const Vector6d off = Difference(reckoned.T_rig_world, found.pose.T_rig_world);
+  const Eigen::LLT<Matrix6d> prior(reckoned.covariance);
+  const Matrix6d half = prior.matrixL().solve(found.pose.covariance);
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> posterior(prior.matrixL().solve(half.transpose()));
+  const Vector6d moved = posterior.eigenvectors().transpose() * prior.matrixL().solve(off);
+  const Vector6d told = (1 - posterior.eigenvalues().array()).max(kLeast);
+  return (moved.array().square() / told.array()).sum() <= most_chi2;
 }
 
 /// Looks for landmarks around where the rig is measured to be. Those vote that agree with that, and
@@ -59,18 +75,22 @@ std::optional<FramePose> FindAround(const PlainContext& context, const TrackMemo
     refine.trust_start = true;
     auto found =
         RefineInLocalMap(relaxed_context, first.T_rig_world, Inliers(matches, first), refine);
-    if (found && AgreesWithReckoned(*found, reckoned, options.measured.most_chi2)) return found;
+    if (found && AgreesWithPrior(*found, reckoned, options.measured.most_chi2)) return found;
   }
   return std::nullopt;
 }
 
-/// By their looks keyframes may tell of anywhere; only what agrees is believed.
+/// By their looks keyframes may tell of anywhere; only what agrees is believed. How the rig went
+/// when it was last seen says nothing beside that: since then it may have stopped.
 std::optional<FramePose> FindByLooks(const PlainContext& context, const TrackMemory& memory,
                                      const Reckoned& reckoned, const Places& places,
                                      std::int64_t turn) {
-  auto found = Relocalise(context, memory, places, turn);
-  if (found && AgreesWithReckoned(*found, reckoned, context.options.measured.most_chi2))
-    return found;
+  for (const KeyframeId id :
+       KeyframesToAsk(context.map, context.frame, memory.reference, places, turn)) {
+    auto found = LocateByKeyframe(context, id);
+    if (found && AgreesWithReckoned(*found, reckoned, context.options.measured.most_chi2))
+      return found;
+  }
   return std::nullopt;
 }
 

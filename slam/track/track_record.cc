@@ -4,6 +4,21 @@
 #include "slam/map/successor.h"
 
 namespace aisle::slam {
+namespace {
+
+/// How the rig moves that is found after coasting. The step from where it was guessed to be is
+/// mostly what was wrong with the guess: it moves as was measured, else as the velocity has learned
+/// from that step.
+std::optional<Motion> MotionAfterCoasting(const TrackMemory& before, const Velocity& learned,
+                                          double seconds) {
+  if (before.measured) {
+    return EstimateMotion(Eigen::Isometry3d::Identity(), before.measured->T_now_before.inverse(),
+                          seconds);
+  }
+  return before.velocity ? Motion{learned.per_second} : before.motion;
+}
+
+}  // namespace
 
 void TrackRecord::Note(const Map& map, const Frame& frame, const FramePose& pose, bool goes_on,
                        const TrackOptions& options) {
@@ -13,15 +28,17 @@ void TrackRecord::Note(const Map& map, const Frame& frame, const FramePose& pose
   std::optional<Velocity> velocity;
   if (goes_on) {
     const Eigen::Isometry3d T_world_last = memory_.PoseIn(map);
-    motion = EstimateMotion(T_world_last, T_world_rig, seconds);
     const Eigen::Isometry3d T_now_before = T_world_rig.inverse() * T_world_last;
     const Matrix6d carried = Adjoint(T_now_before);
     const MeasuredMotion step{
         T_now_before, pose.pose.covariance + carried * memory_.covariance * carried.transpose()};
+    motion = EstimateMotion(T_world_last, T_world_rig, seconds);
     if (motion) velocity = Learn(memory_.velocity, step, seconds, options.inertia);
+    if (motion && memory_.coasted) motion = MotionAfterCoasting(memory_, *velocity, seconds);
   }
   memory_.velocity = velocity;
   memory_.covariance = pose.pose.covariance;
+  memory_.coasted = false;
   memory_.stamp_ns = frame.stamp_ns;
   memory_.reference = pose.local.reference;
   memory_.T_reference_rig = map.PoseOf(memory_.reference).inverse() * T_world_rig;
@@ -65,6 +82,7 @@ void TrackRecord::Coast(const Map& map, std::int64_t stamp_ns, const InertiaOpti
   memory_.stamp_ns = stamp_ns;
   memory_.T_reference_rig = map.PoseOf(memory_.reference).inverse() * T_world_rig;
   memory_.covariance = way.covariance;
+  memory_.coasted = true;
   if (memory_.measured) memory_.measured->T_now_before.setIdentity();
   if (memory_.velocity) memory_.velocity = Coasted(*memory_.velocity, seconds, inertia);
   track_.push_back({stamp_ns, memory_.reference, memory_.T_reference_rig});

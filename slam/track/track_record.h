@@ -42,8 +42,10 @@ class TrackRecord {
   void GoOnFrom(KeyframeId reference) { memory_.reference = reference; }
   /// A map file does not hold how the rig moved: who saves one goes on without knowing, as well.
   void ForgetMotion() {
+    memory_.motion.reset();
     memory_.steady_motion.reset();
     memory_.velocity.reset();
+    memory_.measured.reset();
     memory_.carried.reset();
   }
 

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+
+#include "slam/optimize/observations_of.h"
 #include "slam/place/place_index.h"
 #include "tests/slam/track/point_world.h"
 
@@ -151,6 +154,62 @@ TEST_F(TrackMeasuredTest, ADriveThatBeginsBehindACrowdDoesNotGoAlongWithIt) {
   const auto found = TrackCarried(context, memory, {nullptr, index}, 0);
   ASSERT_TRUE(found);
   EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), 0.015);
+}
+
+/// A pose in which the measured one has counted itself differs from that by less than what the
+/// images tell alone does; believed are both in the same measure. Here they see but who goes ahead.
+TEST_F(TrackMeasuredTest, WhoFillsTheViewIsBelievedAsFarAsTheImagesAloneWouldBe) {
+  constexpr double kSigma_m = 0.03, kStep_m = 0.02;
+  const double most_chi2 = TrackOptions().measured.most_chi2;
+  memory.measured = Measured(At(0, 0), kSigma_m, 1e-3);
+  world.Move(0, 560, {0, 500, 0});
+  double last_believed_m = 0;
+  for (double ahead_m = 0; ahead_m < 0.6;
+       ahead_m += kStep_m, world.Move(560, 600, {0, 0, kStep_m})) {
+    const auto frame = world.See(At(0, 0), kStep_ns);
+    const PlainContext context{map, *frame, {}, 8, {}};
+    const auto found = TrackMeasured(context, memory, {nullptr, index}, 0);
+    if (!found) continue;
+    last_believed_m = ahead_m;
+    std::vector<Match> kept;
+    for (std::size_t i = 0; i < found->matches.size(); ++i) {
+      if (found->pose.inlier[i]) kept.push_back(found->matches[i]);
+    }
+    const RefinedPose alone =
+        RefinePose({}, found->pose.T_rig_world, ObservationsOf(map, *frame, kept), {});
+    ASSERT_TRUE(alone.well_posed);
+    const Vector6d off = Difference(memory.measured->T_now_before, alone.T_rig_world);
+    const Matrix6d covariance = memory.measured->covariance + alone.covariance;
+    EXPECT_LT(off.dot(covariance.ldlt().solve(off)), 1.2 * most_chi2) << ahead_m;
+  }
+  EXPECT_GT(last_believed_m, kSigma_m);
+  EXPECT_LT(last_believed_m, 0.5) << "nothing was put to the question";
+}
+
+/// It stopped in the dark, a long way from where it was seen last, and is before another keyframe.
+TEST_F(TrackMeasuredTest, HowItWentBeforeTheDarkSaysNothingOfWhereItIs) {
+  const Eigen::Isometry3d there = At(30, 0, 180);
+  Keyframe keyframe;
+  keyframe.id = map.NextKeyframeId();
+  keyframe.parent = memory.reference;
+  keyframe.T_world_rig = there;
+  PointWorld hall = world;
+  hall.Move(0, 600, there);
+  keyframe.frame = hall.See(there, 0);
+  keyframe.landmarks.resize(static_cast<std::size_t>(keyframe.frame->size()));
+  MapEdit edit;
+  edit.new_landmarks = CreateLandmarks(keyframe, {}, {});
+  edit.new_keyframes = {keyframe};
+  map.Apply(edit);
+
+  memory.stamp_ns = 60'000'000'000;
+  memory.T_reference_rig = At(30, 0.1, 180);
+  memory.steady_motion = EstimateMotion(At(0, 0), At(0, 0.05), 0.05);
+  memory.measured = Measured(At(0, 0), 0.1, 0.02);
+  const auto frame = hall.See(there, memory.stamp_ns + kStep_ns);
+  const auto found = TrackMeasured({map, *frame, {}, 8, {}}, memory, {nullptr, index}, 0);
+  ASSERT_TRUE(found);
+  EXPECT_LT(Difference(there.inverse(), found->pose.T_rig_world).norm(), 1e-3);
 }
 
 /// The rig was last seen at the origin, going ahead by a metre a second; racks look alike.

@@ -54,5 +54,60 @@ TEST(TrackRecord, WhatIsMeasuredNeedsNeither) {
   EXPECT_NEAR(record.memory().measured->T_now_before.translation().z(), -0.04, 1e-12);
 }
 
+/// Seen driving ahead by a metre a second for a second, then not for another, in which it went less
+/// far than inertia thought.
+class FoundAfterCoasting : public testing::Test {
+ protected:
+  void SetUp() override {
+    TrackMemory memory;
+    BeginAtOrigin(world, &map, &memory);
+    for (int k = 0; k < 20; ++k) Find(0.05 * k, k);
+  }
+  void Find(double ahead_m, int frame) {
+    FramePose pose = PoseOfKeyframe(map, map.keyframes().begin()->first);
+    pose.pose.T_rig_world = At(0, ahead_m).inverse();
+    pose.pose.covariance = 1e-6 * Matrix6d::Identity();
+    record.Note(map, *world.See(At(0, ahead_m), frame * kStepNs), pose, frame > 0, {});
+  }
+  void Coast(const std::optional<MeasuredMotion>& measured) {
+    for (int k = 20; k < 39; ++k) {
+      record.Roll(measured, k * kStepNs, {});
+      record.Coast(map, k * kStepNs, {});
+    }
+    record.Roll(measured, 39 * kStepNs, {});
+  }
+  static double Ahead(const std::optional<Motion>& motion) { return -motion->per_second.z(); }
+
+  PointWorld world;
+  Map map;
+  TrackRecord record;
+};
+
+TEST_F(FoundAfterCoasting, TheErrorOfInertiaIsNoMotion) {
+  Coast({});
+  Find(0.05 * 39 - 0.25, 39);  // at 0.74 m/s
+  ASSERT_TRUE(record.memory().motion);
+  EXPECT_GT(Ahead(record.memory().motion), 0.4);
+  EXPECT_LT(Ahead(record.memory().motion), 1);
+  EXPECT_GT(Ahead(record.memory().steady_motion), 0.7);
+  Find(0.05 * 39 - 0.25 + 0.037, 40);  // from here on steps are seen again
+  EXPECT_NEAR(Ahead(record.memory().motion), 0.74, 1e-6);
+}
+
+TEST_F(FoundAfterCoasting, WhatIsMeasuredIs) {
+  Coast(Forward(0.04));
+  Find(0.05 * 19 + 20 * 0.04 + 0.1, 39);
+  EXPECT_NEAR(Ahead(record.memory().motion), 0.8, 1e-9);
+}
+
+TEST(TrackRecord, AForgottenMotionIsForgottenByAll) {
+  TrackRecord record = FoundAtOrigin(true);
+  record.ForgetMotion();
+  EXPECT_FALSE(record.memory().motion);
+  record.Roll(Forward(0.05), 2 * kStepNs, {});
+  EXPECT_FALSE(record.memory().measured);
+  EXPECT_FALSE(record.memory().carried);
+}
+
 }  // namespace
 }  // namespace aisle::slam
