@@ -24,9 +24,6 @@ constexpr int kMeterFactor = 8;
 /// Rows around a band of a rolling shutter, so that filters at its border see their neighbours.
 constexpr int kBandMargin = 8;
 
-/// Where the rig is so many seconds after the stamp, or before it.
-using RigAround = std::function<Eigen::Isometry3d(double offset_s)>;
-
 /// The scene's time and the actors' own.
 struct WorldTime {
   std::int64_t stamp_ns = 0;
@@ -170,8 +167,9 @@ struct Pipeline::Impl {
     const ShutterOptions& shutter = options.shutter;
     if (!shutter.IsOpenFor(setting.time_ms)) return at_stamp;
     const double open_s = OpenTime(shutter, setting.time_ms);
-    const double motion_px = ImageMotion(world, instant, camera, left, hits, rig_at(-open_s / 2),
-                                         rig_at(open_s / 2), open_s);
+    const double motion_px =
+        std::max(ImageMotion(world, instant, camera, left, hits, rig_at, open_s),
+                 LightMotion(world, instant.snapshot(), camera, open_s));
     const ShutterPlan plan = PlanShutter(shutter, setting.time_ms, camera.height, motion_px);
     const int instants = static_cast<int>(plan.offsets_s.size());
     if (instants == 1) return at_stamp;

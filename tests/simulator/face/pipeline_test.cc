@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <numbers>
 
 #include "tests/simulator/test_world.h"
 
@@ -91,6 +92,17 @@ WorldParts FastHall() {
   return parts;
 }
 
+/// A rig that nods by two degrees fifty times a second: after 20 ms it is where it was.
+WorldParts NoddingHall() {
+  WorldParts parts = test::Hall({.boxes = 200});
+  parts.rig = [](std::int64_t stamp_ns) -> Eigen::Isometry3d {
+    const double nod = std::numbers::pi / 90 *
+                       std::sin(100 * std::numbers::pi * 1e-9 * static_cast<double>(stamp_ns));
+    return kPose * Eigen::AngleAxisd(nod, Eigen::Vector3d::UnitX());
+  };
+  return parts;
+}
+
 PipelineOptions NoiselessOptions() {
   PipelineOptions options = QuickOptions();
   options.sensor.noise = options.sensor.fixed_pattern = false;
@@ -140,11 +152,12 @@ TEST(Shutter, OpenItChangesNoTruth) {
   EXPECT_TRUE(SameBytes(a.truth.dynamic, b.truth.dynamic));
 }
 
-TEST(Shutter, ARollingShuttersRowsAreThePicturesOfTheirTimes) {
+/// Each row is nearer to the picture of its own time than to that of the stamp.
+void ExpectRowsOfTheirTimes(const WorldParts& hall) {
   PipelineOptions options = NoiselessOptions();
-  const Pipeline still(World(FastHall()), {}, options);
+  const Pipeline still(World(hall), {}, options);
   options.shutter.readout_ms = 20;
-  const Pipeline rolling(World(FastHall()), {}, options);
+  const Pipeline rolling(World(hall), {}, options);
   const Eigen::Isometry3d pose = rolling.world().PlannedRigPose(2 * kSecond);
   const cv::Mat1b picture = rolling.Render(0, 2 * kSecond, pose).left;
   for (const int row : {20, 130, 240, 350, 460}) {
@@ -157,6 +170,34 @@ TEST(Shutter, ARollingShuttersRowsAreThePicturesOfTheirTimes) {
     }
     EXPECT_LT(own, 2) << row;
   }
+}
+
+TEST(Shutter, ARollingShuttersRowsAreThePicturesOfTheirTimes) {
+  ExpectRowsOfTheirTimes(FastHall());
+}
+
+TEST(Shutter, AlsoWhereTheRigIsBackBeforeTheLastRowCloses) {
+  ExpectRowsOfTheirTimes(NoddingHall());
+}
+
+TEST(Shutter, AnExposureGathersLightUntilItIsSwitchedOff) {
+  WorldParts parts = test::Hall({.boxes = 200, .movers = false});
+  parts.at = [at = parts.at, lights = parts.lights.size()](std::int64_t stamp_ns) {
+    Snapshot snapshot = at ? at(stamp_ns) : Snapshot{};
+    snapshot.stamp_ns = stamp_ns;
+    snapshot.light_scale.assign(lights, stamp_ns < 2 * kSecond ? 1.0F : 0.0F);
+    return snapshot;
+  };
+  PipelineOptions options = NoiselessOptions();
+  options.shutter.motion_blur = true;
+  const Pipeline hall(World(parts), {}, options);
+  const auto grey = [&](std::int64_t stamp_ns) {
+    return cv::mean(hall.Render(0, stamp_ns, kPose).left)[0];
+  };
+  const double lit = grey(kSecond), half = grey(2 * kSecond), dark = grey(3 * kSecond);
+  EXPECT_LT(dark, 0.2 * lit);
+  EXPECT_GT(half, dark + 0.3 * (lit - dark));
+  EXPECT_LT(half, lit - 0.1 * (lit - dark));
 }
 
 TEST(Shutter, AtRestItCostsAndChangesNothing) {
