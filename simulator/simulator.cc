@@ -211,8 +211,8 @@ Eigen::Isometry3d Simulator::PlannedPose(std::int64_t stamp_ns) const {
   return impl_->pipeline->world().PlannedRigPose(stamp_ns);
 }
 
-cv::Mat3b Simulator::Plan(double px_per_m) const {
-  return DrawPlan(impl_->pipeline->world(), Stamp(frame_count()), px_per_m);
+cv::Mat3b Simulator::Plan(int width_px) const {
+  return DrawPlan(impl_->pipeline->world(), Stamp(frame_count()), width_px).picture;
 }
 
 RenderedFrame Simulator::Render(int frame_index, std::int64_t stamp_ns,

@@ -72,7 +72,7 @@ class Simulator {
   Eigen::Isometry3d PlannedPose(std::int64_t stamp_ns) const;
 
   /// The layout from above with the ways of rig and actors, x to the right, y up; BGR.
-  cv::Mat3b Plan(double px_per_m) const;
+  cv::Mat3b Plan(int width_px) const;
   /// Its first sentence: what the scene tests.
   const std::string& about() const;
 

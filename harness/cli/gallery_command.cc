@@ -24,7 +24,7 @@ struct Options {
   std::string output = "reports/gallery";
   int samples = 16;
   std::uint64_t seed = 1;
-  double plan_px = 560;
+  int plan_px = 560;
   bool shares = false, json = false;
   PageBlock into{"shares"};
 };

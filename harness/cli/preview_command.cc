@@ -56,7 +56,7 @@ int Preview(Options options) {
                            : cv::Mat(DrawOverlay(frame.images.left, truth, nullptr, caption)));
   fmt::print("{}\n", options.output);
   if (!options.plan.empty()) {
-    constexpr double kPlanWidth_px = 900;
+    constexpr int kPlanWidth_px = 900;
     WriteImage(options.plan, DrawScenePlan(options.simulation, kPlanWidth_px).picture);
     fmt::print("{}\n", options.plan);
   }

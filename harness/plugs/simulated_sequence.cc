@@ -200,10 +200,9 @@ std::function<cv::Mat1f(const FrameRequest&)> OpenDepth(const SimulatedSequenceO
   };
 }
 
-ScenePlan DrawScenePlan(const SimulatedSequenceOptions& options, double width_px) {
+ScenePlan DrawScenePlan(const SimulatedSequenceOptions& options, int width_px) {
   const sim::Simulator simulator = OpenSimulator(options);
-  const int probe_px = simulator.Plan(1).cols;  // about the hall's length in metres
-  return {simulator.Plan(width_px / probe_px), simulator.about()};
+  return {simulator.Plan(width_px), simulator.about()};
 }
 
 std::vector<std::string> CheckScene(const std::string& scene_file) {

@@ -80,7 +80,7 @@ struct ScenePlan {
   cv::Mat3b picture;
   std::string about;
 };
-ScenePlan DrawScenePlan(const SimulatedSequenceOptions& options, double width_px);
+ScenePlan DrawScenePlan(const SimulatedSequenceOptions& options, int width_px);
 
 /// Every mistake in a scene file, models that are not there among them, one message each.
 std::vector<std::string> CheckScene(const std::string& scene_file);

@@ -1,6 +1,9 @@
 #include "simulator/world/plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
@@ -10,9 +13,22 @@ namespace {
 constexpr float kCut_m = 2.4f;  ///< what begins higher is not drawn: roofs, lamps, tree tops
 constexpr int kShift = 4;       ///< sub-pixel bits of OpenCV's drawing
 constexpr std::int64_t kStep_ns = 100'000'000;
-constexpr int kMargin_px = 12;
+/// Around the hall; left of it and below it stand the axes' numbers.
+constexpr int kMargin_px = 12, kLeft_px = 40, kBottom_px = 24;
+constexpr int kTick_px = 4, kLeastBetweenTicks_px = 55;
+constexpr double kFontScale = 0.36;
 
 const cv::Scalar kRigWay(40, 40, 210), kActorWay(190, 110, 30), kInk(40, 40, 40);
+
+/// Metres from one tick to the next: 1, 2 or 5 times a power of ten.
+double TickStep(double px_per_m) {
+  const double least_m = kLeastBetweenTicks_px / px_per_m;
+  const double decade = std::pow(10, std::floor(std::log10(least_m)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * decade >= least_m) return factor * decade;
+  }
+  return 10 * decade;
+}
 
 cv::Scalar ColourOf(ObjectClass object_class) {
   switch (object_class) {
@@ -41,18 +57,19 @@ cv::Scalar ColourOf(ObjectClass object_class) {
 
 class Plan {
  public:
-  Plan(const Eigen::AlignedBox2f& area, double px_per_m)
-      : low_(area.min().cast<double>()), scale_(px_per_m) {
-    const Eigen::Vector2d size = area.sizes().cast<double>() * px_per_m;
-    picture_ = cv::Mat3b(static_cast<int>(size.y()) + 2 * kMargin_px,
-                         static_cast<int>(size.x()) + 2 * kMargin_px, cv::Vec3b(255, 255, 255));
+  Plan(const Eigen::AlignedBox2f& area, int width_px)
+      : low_(area.min().cast<double>()), high_(area.max().cast<double>()) {
+    const Eigen::Vector2d size = high_ - low_;
+    scale_ = std::max(1, width_px - kLeft_px - kMargin_px) / size.x();
+    picture_ = cv::Mat3b(static_cast<int>(size.y() * scale_) + kMargin_px + kBottom_px,
+                         std::max(width_px, kLeft_px + kMargin_px + 1), cv::Vec3b(255, 255, 255));
   }
 
   cv::Point At(const Eigen::Vector2d& point) const {
     const Eigen::Vector2d px = (point - low_) * scale_;
     constexpr int kUnit = 1 << kShift;
-    return {static_cast<int>((px.x() + kMargin_px) * kUnit),
-            static_cast<int>((picture_.rows - kMargin_px - px.y()) * kUnit)};
+    return {static_cast<int>((px.x() + kLeft_px) * kUnit),
+            static_cast<int>((picture_.rows - kBottom_px - px.y()) * kUnit)};
   }
 
   /// Triangles from low to high, those over the cut left out.
@@ -87,16 +104,48 @@ class Plan {
   }
 
   void Name(const Eigen::Vector2d& point, const std::string& name) {
-    const cv::Point at = At(point);
-    const cv::Point corner((at.x >> kShift) + 6, (at.y >> kShift) - 4);
-    cv::putText(picture_, name, corner, cv::FONT_HERSHEY_SIMPLEX, 0.36, kInk, 1, cv::LINE_AA);
+    const cv::Point corner = Pixel(point) + cv::Point(6, -4);
+    Write(name, corner);
   }
 
-  cv::Mat3b Take() { return std::move(picture_); }
+  /// Ticks along x below and along y on the left, in metres of the world.
+  void Axes() {
+    const double step_m = TickStep(scale_);
+    for (double x = std::ceil(low_.x() / step_m) * step_m; x <= high_.x(); x += step_m) {
+      const cv::Point at = Pixel({x, low_.y()});
+      cv::line(picture_, at, at + cv::Point(0, kTick_px), kInk);
+      const std::string number = Number(x) + (x + step_m > high_.x() ? " m" : "");
+      Write(number, at + cv::Point(-WidthOf(number) / 2, kTick_px + 12));
+    }
+    for (double y = std::ceil(low_.y() / step_m) * step_m; y <= high_.y(); y += step_m) {
+      const cv::Point at = Pixel({low_.x(), y});
+      cv::line(picture_, at, at - cv::Point(kTick_px, 0), kInk);
+      const std::string number = Number(y);
+      Write(number, at + cv::Point(-kTick_px - 3 - WidthOf(number), 4));
+    }
+  }
+
+  PlanPicture Take() {
+    const cv::Point2d origin(At({0, 0}));
+    return {std::move(picture_), origin / static_cast<double>(1 << kShift), scale_};
+  }
 
  private:
-  Eigen::Vector2d low_;
-  double scale_;
+  cv::Point Pixel(const Eigen::Vector2d& point) const {
+    const cv::Point fine = At(point);
+    return {fine.x >> kShift, fine.y >> kShift};
+  }
+  static std::string Number(double metres) { return fmt::format("{:g}", metres + 0.0); }
+  static int WidthOf(const std::string& text) {
+    return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kFontScale, 1, nullptr).width;
+  }
+  void Write(const std::string& text, cv::Point corner) {
+    corner.x = std::clamp(corner.x, 0, std::max(0, picture_.cols - WidthOf(text)));
+    cv::putText(picture_, text, corner, cv::FONT_HERSHEY_SIMPLEX, kFontScale, kInk, 1, cv::LINE_AA);
+  }
+
+  Eigen::Vector2d low_, high_;
+  double scale_ = 1;
   cv::Mat3b picture_;
 };
 
@@ -106,11 +155,11 @@ bool Far(const std::vector<Eigen::Vector2d>& way) {
 
 }  // namespace
 
-cv::Mat3b DrawPlan(const World& world, std::int64_t end_ns, double px_per_m) {
+PlanPicture DrawPlan(const World& world, std::int64_t end_ns, int width_px) {
   const StaticWorld& statics = world.statics();
   Eigen::AlignedBox2f area;
   for (const Eigen::Vector3f& position : statics.mesh.positions) area.extend(position.head<2>());
-  Plan plan(area, px_per_m);
+  Plan plan(area, width_px);
   plan.Draw(statics.mesh, statics.mesh.positions,
             [&](std::size_t i) { return world.instances()[statics.instances[i]].object_class; });
   const Snapshot first = world.At(0);
@@ -134,6 +183,7 @@ cv::Mat3b DrawPlan(const World& world, std::int64_t end_ns, double px_per_m) {
     }
   }
   plan.Way(rig, kRigWay, 3);
+  plan.Axes();
   return plan.Take();
 }
 

@@ -21,7 +21,7 @@ Scene DriveScene() {
       "rig: {start: [0, 0], steps: [{go: [[4, 0], [4, 3]], speed_mps: 0.8}, {wait_s: 1},\n"
       "  {turn_to_deg: 180}, {go: [[2, 3]], speed_mps: 0.5}]}\n"
       "drive: {height_m: 1.0}\n"
-      "hall: {from: [-3, -6], to: [12, 7]}\nlights: [{height_m: 5}]\n"
+      "hall: {from: [-3, -6], to: [13, 7]}\nlights: [{height_m: 5}]\n"
       "stacks: [{at: [8, -3], heading_deg: 30}]\ncolumns: [{at: [7, 1]}]\n"
       "markings: [{from: [0, -1], to: [4, -1]}]\n"
       "mezzanines: [{from: [-2, -5.5], to: [5, -2], height_m: 2.8}]\n"
@@ -188,15 +188,12 @@ TEST(GroundActors, TrailersKeepTheirTractorsClock) {
 
 /// Every place of the plan shows what is there: x to the right, y up.
 TEST(DrawPlan, ShowsThingsWhereTheyStandAndTheWayOfTheRig) {
-  const double px_per_m = 20;
-  const cv::Mat3b plan = DrawPlan(TheBuilt().world, 2'000'000'000, px_per_m);
-  const auto& mesh = TheBuilt().world.statics().mesh;
-  Eigen::AlignedBox2f area;
-  for (const Eigen::Vector3f& p : mesh.positions) area.extend(p.head<2>());
+  constexpr int kWidth_px = 600;
+  const PlanPicture plan = DrawPlan(TheBuilt().world, 2'000'000'000, kWidth_px);
+  EXPECT_EQ(plan.picture.cols, kWidth_px);
   const auto at = [&](double x, double y) {
-    const int margin = (plan.cols - static_cast<int>(px_per_m * area.sizes().x())) / 2;
-    return plan(plan.rows - margin - cvRound(px_per_m * (y - area.min().y())),
-                margin + cvRound(px_per_m * (x - area.min().x())));
+    return plan.picture(cvRound(plan.origin_px.y - plan.px_per_m * y),
+                        cvRound(plan.origin_px.x + plan.px_per_m * x));
   };
   const auto rig_at = [&](std::int64_t stamp_ns) {
     const Eigen::Vector3d rig = TheBuilt().world.PlannedRigPose(stamp_ns).translation();
