@@ -51,6 +51,9 @@ Actor MakePerson(const PersonSpec& person, AssetLibrary* assets, const Palette& 
 Actor MakeVehicle(const VehicleSpec& vehicle, AssetLibrary* assets, const Palette& palette,
                   Dice dice, Wardrobe* wardrobe, double ahead_m = 0);
 
+/// How far a vehicle's forks are up where its mast has not lifted them, of what its model lifts.
+double ForksAtRest_m(const VehicleSpec& vehicle);
+
 /// How a skinned body moves: its joints (bind position -> body) in a frame that goes along with it,
 /// and where that frame is. Pure.
 struct BodyMotion {

@@ -44,6 +44,7 @@ VehicleFacts ReadVehicle(const Json& asset) {
   facts.wheel_radius_m = asset.at("wheel_radius_m").get<std::map<std::string, double>>();
   facts.steer_nodes = asset.value("steer_nodes", std::vector<std::string>{});
   if (asset.contains("lift")) {
+    facts.lift_travel_m = asset["lift"].at("travel_m");
     for (const auto& [name, share] : asset["lift"].items()) {
       if (!name.ends_with("_m") && !name.ends_with("_mps")) facts.lift_shares[name] = share;
     }
@@ -91,14 +92,19 @@ bool IsOwnTree(const std::filesystem::path& folder) {
 }
 
 template <class Facts>
+std::vector<std::string> NamesOf(const std::map<std::string, Facts>& known) {
+  std::vector<std::string> names;
+  for (const auto& [name, unused] : known) names.push_back(name);
+  return names;
+}
+
+template <class Facts>
 const Facts& Find(const std::map<std::string, Facts>& known, const std::string& name,
                   const std::string& kind) {
   const auto found = known.find(name);
   if (found != known.end()) return found->second;
-  std::vector<std::string> names;
-  for (const auto& [one, unused] : known) names.push_back(one);
   throw std::runtime_error(fmt::format("there is no model '{}' in assets/{}; there are: {}", name,
-                                       kind, fmt::join(names, ", ")));
+                                       kind, fmt::join(NamesOf(known), ", ")));
 }
 
 }  // namespace
@@ -128,11 +134,9 @@ const PersonFacts& AssetLibrary::Person(const std::string& name) const {
   return Find(people_, name, "people");
 }
 
-std::vector<std::string> AssetLibrary::PeopleNames() const {
-  std::vector<std::string> names;
-  for (const auto& [name, facts] : people_) names.push_back(name);
-  return names;
-}
+std::vector<std::string> AssetLibrary::PeopleNames() const { return NamesOf(people_); }
+
+std::vector<std::string> AssetLibrary::VehicleNames() const { return NamesOf(vehicles_); }
 
 const VehicleFacts& AssetLibrary::Vehicle(const std::string& name) const {
   return Find(vehicles_, name, "vehicles");

@@ -42,6 +42,7 @@ struct VehicleFacts {
   std::map<std::string, double> wheel_radius_m;  ///< by node
   std::vector<std::string> steer_nodes;
   std::map<std::string, double> lift_shares;  ///< node -> share of the lift it slides by
+  double lift_travel_m = 0;                   ///< how far it lifts; 0: it does not
   double fork_top_m = 0.085, fork_heel_x_m = 0.56;
   std::string fork_node;
   double handle_m = 0;  ///< x of the bar it is pushed by
@@ -62,6 +63,8 @@ class AssetLibrary {
   const VehicleFacts& Vehicle(const std::string& name) const;
   /// The names that Person knows, sorted.
   std::vector<std::string> PeopleNames() const;
+  /// The names that Vehicle knows, sorted.
+  std::vector<std::string> VehicleNames() const;
   /// Folder and name of a piece of assets/kit or assets/street, as Load takes it. Throws likewise.
   const std::string& Prop(const std::string& name) const;
   /// The picture assets/textures/NAME.png in grey. Throws ImportError.

@@ -8,8 +8,10 @@
 
 namespace aisle::sim {
 
-/// A message for each model that the scene names and the library does not have, with the place of
-/// the key that names it and the names there are. Opens no model.
+/// A message for each model that the scene names and the library does not have, for what is asked
+/// of one that it cannot do by the library's manifest (a clip, a load, a lift, a fork that takes),
+/// and where there are more movers than a world holds: each with the place of the key. Opens no
+/// model.
 std::vector<std::string> CheckModels(const Scene& scene, const AssetLibrary& assets);
 
 }  // namespace aisle::sim

@@ -1,9 +1,15 @@
 #pragma once
 
+#include <array>
+#include <string_view>
+
 #include "simulator/mesh/pose.h"
 #include "simulator/motion/route.h"
 
 namespace aisle::sim {
+
+/// What a step of a person may play though its model has no clip of that name.
+inline constexpr std::array<std::string_view, 2> kManners = {"kneel", "look_back"};
 
 /// What a person does beside the clips that are played: each changes the skeleton in the object's
 /// frame (x ahead, y to the left, z up), by the names of its nodes. A model without them is left as

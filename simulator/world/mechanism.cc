@@ -99,24 +99,31 @@ struct Body {
   std::vector<Carried> carried;
 };
 
+/// The index of the part that one is on; -1: the mechanism itself.
+int Below(const std::vector<PartSpec>& parts, const PartSpec& part) {
+  const auto below = std::ranges::find_if(
+      parts, [&](const PartSpec& one) { return !part.on.empty() && one.name == part.on; });
+  return below == parts.end() ? -1 : static_cast<int>(below - parts.begin());
+}
+
+/// Whether a part has a joint or is on one that has, in a mechanism that stands.
+bool HasJoint(const std::vector<PartSpec>& parts, const PartSpec& part) {
+  if (part.joint.kind != Joint::Kind::kFixed) return true;
+  const int below = Below(parts, part);
+  return below >= 0 && HasJoint(parts, parts[static_cast<std::size_t>(below)]);
+}
+
 /// The parts and what they are on.
 class Linkage {
  public:
   Linkage(std::vector<PartSpec> parts, Root root)
       : parts_(std::move(parts)), root_(std::move(root)) {
-    for (const PartSpec& part : parts_) {
-      const auto below = std::ranges::find_if(
-          parts_, [&](const PartSpec& one) { return !part.on.empty() && one.name == part.on; });
-      on_.push_back(below == parts_.end() ? -1 : static_cast<int>(below - parts_.begin()));
-    }
+    for (const PartSpec& part : parts_) on_.push_back(Below(parts_, part));
   }
 
   const std::vector<PartSpec>& parts() const { return parts_; }
 
-  bool Moves(std::size_t part) const {
-    if (root_.moves() || parts_[part].joint.kind != Joint::Kind::kFixed) return true;
-    return on_[part] >= 0 && Moves(static_cast<std::size_t>(on_[part]));
-  }
+  bool Moves(std::size_t part) const { return root_.moves() || HasJoint(parts_, parts_[part]); }
 
   /// Where each copy of each part is: copies ride on those of the same number.
   std::vector<std::vector<Placement>> At(double time_s) const {
@@ -187,9 +194,8 @@ MoverState StateAt(const Linkage& linkage, const Body& body, std::size_t leader,
 bool IsClear(const PartSpec& part) { return part.paint == PartPaint::kGlass; }
 
 /// Clear panes and lenses are seen as movers are, even where they never move.
-bool IsBuilt(const Linkage& linkage, std::size_t part) {
-  const PartPaint paint = linkage.parts()[part].paint;
-  return !linkage.Moves(part) && paint != PartPaint::kGlass && paint != PartPaint::kGlow;
+bool IsBuilt(const PartSpec& part, bool moves) {
+  return !moves && part.paint != PartPaint::kGlass && part.paint != PartPaint::kGlow;
 }
 
 }  // namespace
@@ -199,6 +205,16 @@ ObjectClass ClassOf(const MechanismSpec& mechanism) {
   return given == MechanismClass::kGoods  ? ObjectClass::kGoods
          : given == MechanismClass::kWall ? ObjectClass::kWall
                                           : ObjectClass::kFurniture;
+}
+
+std::size_t CountMovers(const MechanismSpec& mechanism) {
+  const bool is_held = mechanism.IsBrought() || !mechanism.taken.empty();
+  std::size_t solid = 0, clear = 0;
+  for (const PartSpec& part : mechanism.parts) {
+    if (IsBuilt(part, is_held || HasJoint(mechanism.parts, part))) continue;
+    (IsClear(part) ? clear : solid) = 1;
+  }
+  return solid + clear;
 }
 
 std::vector<MechanismMesh> MakeMechanism(const MechanismSpec& mechanism, const FindGrip& find,
@@ -214,7 +230,7 @@ std::vector<MechanismMesh> MakeMechanism(const MechanismSpec& mechanism, const F
       const auto at = static_cast<std::uint64_t>(copy);
       const TriangleMesh piece =
           DrawPart(part, copy, assets, wardrobe, paints, Dice(seed, {440, mechanism.place, i, at}));
-      if (IsBuilt(*linkage, i)) {
+      if (IsBuilt(part, linkage->Moves(i))) {
         AddMesh(&frame, Eigen::Isometry3d(at_start[i][at].pose).cast<float>(), piece);
         continue;
       }

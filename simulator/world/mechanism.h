@@ -35,6 +35,9 @@ struct MechanismMesh {
 
 ObjectClass ClassOf(const MechanismSpec& mechanism);
 
+/// How many meshes MakeMechanism makes.
+std::size_t CountMovers(const MechanismSpec& mechanism);
+
 /// What of a mechanism moves: up to two meshes, what is seen through being its own. Parts that
 /// never move go to the site as NAME_frame. Velocities are the joints' own derivatives; those of
 /// the people and forks that hold it are differenced over a millisecond.

@@ -23,8 +23,6 @@ constexpr std::array<std::string_view, 4> kWalks = {"walk_creep", "walk_slow", "
 /// Walking with a box; standing with it is its twin.
 constexpr const char* kCarry = "walk_carry";
 
-/// What the simulator poses itself, where a model has no clip of that name.
-constexpr std::array<std::string_view, 2> kManners = {"kneel", "look_back"};
 constexpr double kKneeling_s = 1.4, kLookingBack_s = 0.6;
 
 /// A clip by its facts; one that walks has a stride, negative backwards.

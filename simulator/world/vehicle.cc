@@ -66,7 +66,7 @@ class Driver {
         steers_(std::isfinite(vehicle.route.limits.curvature_rate_per_m_s)),
         ahead_m_(ahead_m),
         mast_(vehicle.mast, kMastSpeed_mps, kMastAcceleration_mps2),
-        fork_rest_m_(vehicle.load == GoodsKind::kNothing ? kEmptyAt_m : kCarriedAt_m) {
+        fork_rest_m_(ForksAtRest_m(vehicle)) {
     const NodeFrames rest = PoseNodes(*model_, {});
     const auto wheel_at = [&](int node, double radius) {
       const Eigen::Vector3f at = rest[static_cast<std::size_t>(node)].translation();
@@ -175,6 +175,10 @@ TriangleMesh LoadOnForks(const VehicleSpec& vehicle, const VehicleFacts& facts,
 }
 
 }  // namespace
+
+double ForksAtRest_m(const VehicleSpec& vehicle) {
+  return vehicle.load == GoodsKind::kNothing ? kEmptyAt_m : kCarriedAt_m;
+}
 
 Actor MakeVehicle(const VehicleSpec& vehicle, AssetLibrary* assets, const Palette& palette,
                   Dice dice, Wardrobe* wardrobe, double ahead_m) {
