@@ -19,6 +19,7 @@
 #include "simulator/world/build.h"
 #include "simulator/world/check_models.h"
 #include "simulator/world/plan.h"
+#include "simulator/world/recorded_ways.h"
 
 namespace aisle::sim {
 namespace {
@@ -139,6 +140,14 @@ std::vector<InstanceInfo> DescribeInstances(const World& world) {
   return instances;
 }
 
+/// Nobody's models are opened where nobody moves as recorded.
+FloorWays WaysOf(const Scene& scene, const std::string& assets_dir) {
+  const auto is_recorded = [](const PersonSpec& one) { return !one.capture.bvh.name.empty(); };
+  if (!std::ranges::any_of(scene.people, is_recorded)) return {};
+  AssetLibrary assets(assets_dir);
+  return RecordedWays(scene, &assets);
+}
+
 }  // namespace
 
 struct Simulator::Impl {
@@ -167,7 +176,8 @@ Simulator Simulator::Load(const std::string& scene_file, const std::string& asse
   if (scene.rig.pair != pair) {
     throw SceneError({fmt::format("{}: the rig has no pair '{}'", scene_file, pair)});
   }
-  if (auto troubles = CheckSeed(scene, options.seed); !troubles.empty()) {
+  const FloorWays ways = WaysOf(scene, assets_dir);
+  if (auto troubles = CheckSeed(scene, options.seed, ways); !troubles.empty()) {
     throw SceneError(std::move(troubles));
   }
   impl->rig = RigOf(scene.camera);
@@ -328,10 +338,9 @@ std::vector<std::string> CheckSceneFile(const std::string& scene_file,
   const Scene scene = LoadScene(scene_file);
   std::ranges::copy(LensErrors(scene), std::back_inserter(errors));
   if (assets_dir.empty()) return errors;
-  for (const std::string& error : CheckModels(scene, AssetLibrary(assets_dir))) {
-    errors.push_back(error);
-  }
-  return errors;
+  AssetLibrary assets(assets_dir);
+  for (const std::string& error : CheckModels(scene, assets)) errors.push_back(error);
+  return errors.empty() ? CheckCaptured(scene, &assets) : errors;
 }
 
 int CountSceneFrames(const std::string& scene_file) { return LoadScene(scene_file).frames; }

@@ -43,6 +43,15 @@ class Played {
     return moved;
   }
 
+  FloorWay Way() const {
+    FloorWay way;
+    const double steps = std::ceil(duration_s_ / way.step_s);
+    for (int i = 0; i <= static_cast<int>(steps); ++i) {
+      way.places.push_back(PlaceAt(start_s_ + i * way.step_s).position);
+    }
+    return way;
+  }
+
  private:
   NodeFrames FramesAt(double time_s) const {
     constexpr double kBeforeItsEnd = 1 - 1e-6;  // at its end a clip would begin anew
@@ -116,6 +125,17 @@ class Own {
   double duration_s_, stride_m_;
 };
 
+std::shared_ptr<const Model> BodyOf(const PersonSpec& person, AssetLibrary* assets) {
+  const CaptureSpec& capture = person.capture;
+  return capture.mesh.name.empty() ? assets->Load("people/" + person.model)
+                                   : assets->LoadSkinned(capture.mesh.file);
+}
+
+std::shared_ptr<const Played> PlayedBy(const PersonSpec& person, const Model& body) {
+  return std::make_shared<const Played>(person, body,
+                                        Retarget(ReadBvh(person.capture.bvh.file), body).clip);
+}
+
 template <class Body>
 Actor ActorOf(TriangleMesh mesh, std::shared_ptr<const Body> body) {
   return {std::move(mesh), [body](double time_s) { return body->At(time_s); }};
@@ -128,17 +148,20 @@ bool IsCaptured(const PersonSpec& person) {
 }
 
 Actor MakeCapturedPerson(const PersonSpec& person, AssetLibrary* assets, Wardrobe* wardrobe) {
-  const CaptureSpec& capture = person.capture;
-  const std::shared_ptr<const Model> model = capture.mesh.name.empty()
-                                                 ? assets->Load("people/" + person.model)
-                                                 : assets->LoadSkinned(capture.mesh.file);
+  const std::shared_ptr<const Model> model = BodyOf(person, assets);
   TriangleMesh mesh = wardrobe->Wear(model);
-  if (capture.bvh.name.empty()) {
+  if (person.capture.bvh.name.empty()) {
     return ActorOf<Own>(std::move(mesh), std::make_shared<const Own>(person, model));
   }
-  const Retargeted motion = Retarget(ReadBvh(capture.bvh.file), *model);
-  return ActorOf<Played>(std::move(mesh),
-                         std::make_shared<const Played>(person, *model, motion.clip));
+  return ActorOf<Played>(std::move(mesh), PlayedBy(person, *model));
+}
+
+FloorWay RecordedWay(const PersonSpec& person, AssetLibrary* assets) {
+  return PlayedBy(person, *BodyOf(person, assets))->Way();
+}
+
+void CheckClip(const PersonSpec& person, AssetLibrary* assets) {
+  ClipOf(*BodyOf(person, assets), person.capture.clip);
 }
 
 }  // namespace aisle::sim

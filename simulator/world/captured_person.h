@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simulator/scene/floor_way.h"
 #include "simulator/world/actors.h"
 
 namespace aisle::sim {
@@ -12,5 +13,11 @@ bool IsCaptured(const PersonSpec& person);
 /// Throws std::runtime_error: a file that cannot be read, a body without such a skeleton, a clip
 /// that does not exist.
 Actor MakeCapturedPerson(const PersonSpec& person, AssetLibrary* assets, Wardrobe* wardrobe);
+
+/// Where such a person goes who moves as a BVH file has it. Throws likewise.
+FloorWay RecordedWay(const PersonSpec& person, AssetLibrary* assets);
+
+/// Throws std::runtime_error where a model of the user's own cannot be read or has no such clip.
+void CheckClip(const PersonSpec& person, AssetLibrary* assets);
 
 }  // namespace aisle::sim
