@@ -17,6 +17,17 @@ install(DIRECTORY ${CMAKE_SOURCE_DIR}/assets ${CMAKE_SOURCE_DIR}/scenes
   PATTERN author EXCLUDE PATTERN contact EXCLUDE)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/reports/baselines
   DESTINATION ${CMAKE_INSTALL_DATADIR}/aisle COMPONENT data)
+# The pages, linked as in the tree, and what a system of one's own begins with.
+set(AISLE_DOC_DIR ${CMAKE_INSTALL_DATADIR}/doc/aisle)
+install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md
+  DESTINATION ${AISLE_DOC_DIR} COMPONENT data)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/reports DESTINATION ${AISLE_DOC_DIR} COMPONENT data
+  FILES_MATCHING PATTERN "*.md" PATTERN baselines EXCLUDE PATTERN gallery EXCLUDE
+  PATTERN pictures EXCLUDE PATTERN "*.head.md" EXCLUDE)
+install(FILES ${CMAKE_SOURCE_DIR}/tests/support/stream/client.py
+  ${CMAKE_SOURCE_DIR}/tests/support/stream/client.cpp
+  ${CMAKE_SOURCE_DIR}/tests/support/stream/wheels.py
+  DESTINATION ${AISLE_DOC_DIR}/examples/stream COMPONENT data)
 # An installed program has no tree to ask which commit it is of.
 install(CODE "execute_process(
   COMMAND git -C \"${CMAKE_SOURCE_DIR}\" describe --always --dirty=+ --exclude *

@@ -68,6 +68,16 @@ class Installed(unittest.TestCase):
         code, text = self.aisle("run", "suites/smoke", "--gate", "--dry-run")
         self.assertEqual(code, 0, text)
 
+    def test_pages_and_clients_of_the_stream_are_there(self):
+        pages = self.prefix / "share/doc/aisle"
+        for link in ("README.md", "reports/docs/README.md", "reports/docs/stream.md"):
+            self.assertTrue((pages / link).is_file(), link)
+        folders = [path.name for path in (pages / "reports").iterdir() if path.is_dir()]
+        self.assertEqual(folders, ["docs"])
+        client = pages / "examples/stream/client.py"
+        _, text = run(sys.executable, client, stdin=subprocess.DEVNULL)
+        self.assertIn("the harness went away", text)
+
     def test_it_calls_itself_by_its_name_and_knows_its_commit(self):
         _, text = self.aisle("run", "--help")
         self.assertIn("Example: aisle run", text)
