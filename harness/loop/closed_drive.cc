@@ -190,9 +190,14 @@ class ClosedDrive::Loop {
     LookForTheEnd(tick_s);
   }
 
+  /// Who is held and stands without a pose asks for nothing: whether its field is clear is judged
+  /// by what it asked for last. While its route lets it stand there is nothing to judge.
   void HoldByScanner(double tick_s) {
+    if (mode_ == DriveMode::kWaiting || mode_ == DriveMode::kArrived) return;
     const bool wants = std::abs(command_.speed_mps) > 0 || std::abs(command_.turn_rate_rad_s) > 0;
-    const bool blocked = wants && (command_.speed_mps == 0 ? IsTurnBlocked() : IsWayBlocked());
+    if (wants) asked_ = command_;
+    const bool blocked =
+        (wants || held_) && (asked_.speed_mps == 0 ? IsTurnBlocked() : IsWayBlocked());
     clear_s_ = blocked ? 0 : clear_s_ + tick_s;
     if (blocked && !held_) ++track_.scanner_stops;
     if (blocked) held_ = true;
@@ -204,7 +209,7 @@ class ClosedDrive::Loop {
 
   bool IsWayBlocked() const {
     const ScannerOptions& scanner = options_.scanner;
-    const double toward = command_.speed_mps < 0 ? -1 : 1;
+    const double toward = asked_.speed_mps < 0 ? -1 : 1;
     const double speed = std::max(std::abs(Speed()), held_ ? scanner.restart_mps : 0.0);
     const Polygon field =
         ProtectiveField(course_.footprint, toward * speed, course_.plant.stop_mps2, scanner);
@@ -214,7 +219,7 @@ class ClosedDrive::Loop {
   /// On the spot, as far as it turns before it can stand.
   bool IsTurnBlocked() const {
     const ScannerOptions& scanner = options_.scanner;
-    const double toward = command_.turn_rate_rad_s < 0 ? -1 : 1;
+    const double toward = asked_.turn_rate_rad_s < 0 ? -1 : 1;
     const double rate =
         std::max(std::abs(plant_.turn_rate_rad_s), held_ ? scanner.restart_rad_s : 0.0);
     const double turn = rate * scanner.reaction_s + StoppingTurn(rate, course_.plant);
@@ -234,7 +239,9 @@ class ClosedDrive::Loop {
     // The first frame is taken as the drive begins.
     const bool never_told =
         !pilot_.steers_by_ns() && Seconds(now_ns_) > LongestLatency_s(options_.steering);
-    const bool lost = mode_ == DriveMode::kDegraded || mode_ == DriveMode::kStopped || never_told;
+    // Also while the scanner holds it.
+    const DriveMode driver = pilot_.mode();
+    const bool lost = driver == DriveMode::kDegraded || driver == DriveMode::kStopped || never_told;
     const bool stopped = mode_ == DriveMode::kStopped || mode_ == DriveMode::kScanner;
     if (lost) track_.lost_s += tick_s;
     if (stopped) track_.stopped_s += tick_s;
@@ -315,7 +322,7 @@ class ClosedDrive::Loop {
   Traffic traffic_;
   ContactWatch contacts_;
   PlantState plant_;
-  DriveCommand command_;
+  DriveCommand command_, asked_;  ///< asked_: the last that was to move it
   DriveMode mode_ = DriveMode::kWaiting, last_mode_ = DriveMode::kWaiting;
   std::int64_t now_ns_ = 0, frame_ = 0;
   std::size_t on_leg_ = 0;  ///< of the way: the drive that the true vehicle is held against

@@ -281,6 +281,26 @@ TEST(ClosedDriveTest, AScannerPreventsWhatWouldHaveHappened) {
   EXPECT_EQ(track.end, DriveEnd::kArrived);
 }
 
+/// Somebody who stands in the field for good is no other stop because the system is lost meanwhile;
+/// and the system was lost.
+TEST(ClosedDriveTest, AScannerHoldsWhoIsLostBeforeAPerson) {
+  FakeDriveScene scene(8, 0.8);
+  scene.Add({"stands", "person"}, {2.2, 0}, {0, 0});
+  LoopOptions options;
+  options.steering.scanner = true;
+  options.no_progress_after_s = 8;
+  DriftingLocaliser always, blinks;
+  blinks.lost_from_ns = 6'000'000'000;
+  blinks.lost_to_ns = 9'000'000'000;
+  const DriveTrack held = DriveClosed(scene, &always, options);
+  const DriveTrack track = DriveClosed(scene, &blinks, options);
+  EXPECT_GE(held.scanner_stops, 1);
+  EXPECT_EQ(track.scanner_stops, held.scanner_stops);
+  EXPECT_EQ(track.min_clearance_person_m, held.min_clearance_person_m);
+  EXPECT_GT(track.lost_s, 2.5);
+  EXPECT_LT(track.lost_s, 3.5);
+}
+
 TEST(ClosedDriveTest, ZonesAreHeldByTheTrueVehicle) {
   FakeDriveScene scene;
   scene.edit().zones = {{"slow", {2, -1}, {3, 1}, 0.3}, {"far", {2, 3}, {3, 4}, 0}};
