@@ -10,14 +10,18 @@ std::vector<std::string> DifferentBits(const RunRecord& a, const RunRecord& b) {
   compare("status", Name(a.status), Name(b.status));
   compare("content hash", a.content_hash, b.content_hash);
   compare("trajectories", a.output_hash, b.output_hash);
-  for (const auto& [name, score] : a.scores) {
+  std::map<std::string, std::array<const Score*, 2>> scores;
+  for (const auto& [name, score] : a.scores) scores[name][0] = &score;
+  for (const auto& [name, score] : b.scores) scores[name][1] = &score;
+  for (const auto& [name, both] : scores) {
     if (name.starts_with("ms_") || name == "peak_rss_mib") continue;
-    const auto other = b.scores.find(name);
-    if (other == b.scores.end()) {
+    if (both[0] == nullptr || both[1] == nullptr) {
       // Penalties are ratios to a twin's run: a run on its own has none.
-      if (name != "dynamic_penalty") lines.push_back(name + ": missing in one");
-    } else if (score.value != other->second.value) {
-      lines.push_back(fmt::format("{}: {} and {}", name, ToText(score), ToText(other->second)));
+      if (name == "dynamic_penalty") continue;
+      lines.push_back(
+          fmt::format("{}: missing in the {}", name, both[0] == nullptr ? "first" : "second"));
+    } else if (both[0]->value != both[1]->value) {
+      lines.push_back(fmt::format("{}: {} and {}", name, ToText(*both[0]), ToText(*both[1])));
     }
   }
   return lines;

@@ -8,7 +8,8 @@
 namespace aisle {
 
 /// Scores of two runs that differ and should not: all but times and memory, which belong to the
-/// machine. One line each; empty for equal bits.
+/// machine. A score that one of them lacks differs. One line each; empty for equal bits; the same
+/// scores whichever run is named first.
 std::vector<std::string> DifferentBits(const RunRecord& a, const RunRecord& b);
 
 }  // namespace aisle

@@ -31,13 +31,23 @@ TEST(BitsTest, OtherTrajectoriesAndScoresThatAreGoneAreNamed) {
   other.output_hash = "4567";
   other.scores.erase("ate_rmse_m");
   EXPECT_THAT(DifferentBits(Scored(0.1, 20), other),
-              ElementsAre("trajectories: 0123 and 4567", "ate_rmse_m: missing in one"));
+              ElementsAre("trajectories: 0123 and 4567", "ate_rmse_m: missing in the second"));
+}
+
+TEST(BitsTest, WhatOneLacksIsToldWhicheverIsNamedFirst) {
+  const RunRecord fewer = Scored(0.1, 20);
+  RunRecord more = fewer;
+  more.scores["coverage"].value = 1;
+  more.scores["ms_render_mean"].value = 3;
+  EXPECT_THAT(DifferentBits(more, fewer), ElementsAre("coverage: missing in the second"));
+  EXPECT_THAT(DifferentBits(fewer, more), ElementsAre("coverage: missing in the first"));
 }
 
 TEST(BitsTest, ARunOnItsOwnHasNoPenaltyToCompare) {
   RunRecord beside_twin = Scored(0.1, 20);
   beside_twin.scores["dynamic_penalty"].value = 5;
   EXPECT_THAT(DifferentBits(beside_twin, Scored(0.1, 20)), IsEmpty());
+  EXPECT_THAT(DifferentBits(Scored(0.1, 20), beside_twin), IsEmpty());
 }
 
 }  // namespace
