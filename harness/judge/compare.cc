@@ -2,6 +2,7 @@
 
 #include "harness/judge/breaks.h"
 #include "harness/judge/cell.h"
+#include "harness/judge/seed_values.h"
 #include "harness/score/statistics.h"
 
 namespace aisle {
@@ -45,32 +46,10 @@ constexpr double kAlphaOfBreaks = 0.05;
 
 constexpr const char* kWatched[] = {"ms_process_mean", "ms_render_mean", "peak_rss_mib"};
 
-using ValuesBySeed = std::map<std::uint64_t, double>;
-
 std::map<CellOfNight, std::vector<const RunRecord*>> Cells(const Results& results) {
   std::map<CellOfNight, std::vector<const RunRecord*>> cells;
   for (const RunRecord& run : results.runs) cells[CellOf(run.spec)].push_back(&run);
   return cells;
-}
-
-ValuesBySeed Values(const std::vector<const RunRecord*>& runs, const std::string& score,
-                    std::string* unit) {
-  std::map<std::uint64_t, std::vector<double>> repeats;  // by seed
-  for (const RunRecord* run : runs) {
-    const auto at = run->scores.find(score);
-    if (at == run->scores.end() || !at->second.value) continue;
-    repeats[run->spec.seed].push_back(*at->second.value);
-    *unit = at->second.unit;
-  }
-  ValuesBySeed values;
-  for (const auto& [seed, of_seed] : repeats) values[seed] = Quantile(of_seed, 0.5);
-  return values;
-}
-
-std::vector<double> Plain(const ValuesBySeed& values) {
-  std::vector<double> plain;
-  for (const auto& [seed, value] : values) plain.push_back(value);
-  return plain;
 }
 
 bool SameSeeds(const ValuesBySeed& a, const ValuesBySeed& b) {
@@ -176,8 +155,8 @@ std::optional<Comparison> CompareScore(const std::vector<const RunRecord*>& befo
                                        const std::string& score) {
   Comparison comparison;
   comparison.score = score;
-  ValuesBySeed old_values = Values(before, score, &comparison.unit);
-  ValuesBySeed new_values = Values(after, score, &comparison.unit);
+  ValuesBySeed old_values = ValuesOf(before, score, &comparison.unit);
+  ValuesBySeed new_values = ValuesOf(after, score, &comparison.unit);
   if (old_values.empty()) return std::nullopt;
   const Judged* judged = FindJudged(score);
   if (judged != nullptr) comparison.gone = FirstGone(old_values, new_values, after, score);

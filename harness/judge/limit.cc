@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "harness/judge/cell.h"
+#include "harness/judge/seed_values.h"
 #include "harness/score/statistics.h"
 
 namespace aisle {
@@ -34,23 +35,6 @@ std::vector<std::pair<CellOfNight, std::vector<const RunRecord*>>> ByCell(
   return cells;
 }
 
-Verdict Bound(const std::string& name, const Limit& limit, double value, std::size_t seeds,
-              const std::string& unit) {
-  Verdict verdict{
-      .name = name, .passed = true, .flaky = false, .value = value, .limit = {}, .why = ""};
-  const std::string what = seeds > 1 ? fmt::format("median of {} seeds", seeds) : "value";
-  const std::string shown_unit = unit == "1" ? "" : " " + unit;
-  const auto hold = [&](double bound, bool holds, const char* relation) {
-    verdict.limit = bound;
-    verdict.passed = verdict.passed && holds;
-    verdict.why += fmt::format("{}{} {:.6g}{} is {}{} {:.6g}", verdict.why.empty() ? "" : "; ",
-                               what, value, shown_unit, holds ? "" : "not ", relation, bound);
-  };
-  if (limit.max) hold(*limit.max, value <= *limit.max, "at most");
-  if (limit.min) hold(*limit.min, value >= *limit.min, "at least");
-  return verdict;
-}
-
 /// Why a run has no value of a score.
 std::string WhyAbsent(const RunRecord& run, const std::string& score) {
   const auto at = run.scores.find(score);
@@ -69,6 +53,37 @@ double Excess(const Limit& limit, double value) {
   if (limit.max) excess = std::max(excess, value - *limit.max);
   if (limit.min) excess = std::max(excess, *limit.min - value);
   return excess;
+}
+
+/// The bound that a value breaks; where it breaks none, the nearer one.
+std::optional<double> NearestBound(const Limit& limit, double value) {
+  if (!limit.max || !limit.min) return limit.max ? limit.max : limit.min;
+  return value - *limit.max >= *limit.min - value ? limit.max : limit.min;
+}
+
+/// "median of 9 seeds"; "median of 5 repeats" where one seed was driven several times.
+std::string WhatIsHeld(std::size_t seeds, std::size_t runs) {
+  if (seeds > 1) return fmt::format("median of {} seeds", seeds);
+  return runs > 1 ? fmt::format("median of {} repeats", runs) : "value";
+}
+
+Verdict Bound(const std::string& name, const Limit& limit, double value, const std::string& what,
+              const std::string& unit) {
+  Verdict verdict{.name = name,
+                  .passed = true,
+                  .flaky = false,
+                  .value = value,
+                  .limit = NearestBound(limit, value),
+                  .why = ""};
+  const std::string shown_unit = unit == "1" ? "" : " " + unit;
+  const auto hold = [&](double bound, bool holds, const char* relation) {
+    verdict.passed = verdict.passed && holds;
+    verdict.why += fmt::format("{}{} {:.6g}{} is {}{} {:.6g}", verdict.why.empty() ? "" : "; ",
+                               what, value, shown_unit, holds ? "" : "not ", relation, bound);
+  };
+  if (limit.max) hold(*limit.max, value <= *limit.max, "at most");
+  if (limit.min) hold(*limit.min, value >= *limit.min, "at least");
+  return verdict;
 }
 
 std::string BoundInWords(const Limit& limit) {
@@ -109,6 +124,7 @@ Verdict JudgeShare(const Limit& limit, const CellOfNight& cell,
   if (worst != nullptr) {
     const Score& score = worst->scores.at(limit.score);
     verdict.value = score.value;
+    verdict.limit = NearestBound(limit, *score.value);
     verdict.why += fmt::format("; the worst is {:.6g}{} of seed {}", *score.value,
                                score.unit == "1" ? "" : " " + score.unit, worst->spec.seed);
   }
@@ -122,14 +138,8 @@ Verdict JudgeShare(const Limit& limit, const CellOfNight& cell,
 Verdict JudgeMedian(const Limit& limit, const CellOfNight& cell,
                     const std::vector<const RunRecord*>& runs) {
   const std::string name = Name(cell) + ": " + limit.score;
-  std::vector<double> values;
-  std::string unit;
   for (const RunRecord* run : runs) {
-    if (const std::optional<double> value = ValueOf(*run, limit.score)) {
-      values.push_back(*value);
-      unit = run->scores.at(limit.score).unit;
-      continue;
-    }
+    if (ValueOf(*run, limit.score)) continue;
     return {.name = name,
             .passed = false,
             .flaky = false,
@@ -138,7 +148,10 @@ Verdict JudgeMedian(const Limit& limit, const CellOfNight& cell,
             .why = fmt::format("seed {} has no value: {}", run->spec.seed,
                                WhyAbsent(*run, limit.score))};
   }
-  return Bound(name, limit, Quantile(values, 0.5), values.size(), unit);
+  std::string unit;
+  const std::vector<double> of_seeds = Plain(ValuesOf(runs, limit.score, &unit));
+  return Bound(name, limit, Quantile(of_seeds, 0.5), WhatIsHeld(of_seeds.size(), runs.size()),
+               unit);
 }
 
 std::string Filters(const Limit& limit) {

@@ -22,8 +22,10 @@ std::vector<Verdict> JudgeRuns(const std::vector<RunRecord>& runs);
 
 /// One verdict per limit and per scene, twin and system it speaks of: the median over seeds held
 /// against the bound, where a score that is absent in any run fails; or, with a share, each seed,
-/// where one whose score is absent in any of its runs does not hold. A median passes what befalls
-/// fewer than half: right for errors, wrong for goals and contacts. A limit that matches no run
+/// where one whose score is absent in any of its runs does not hold. A seed that ran several times
+/// counts once in the median, by that of its repeats. The verdict's limit is the bound that its
+/// value breaks, where it holds both the nearer one. A median passes what befalls fewer than half:
+/// right for errors, wrong for goals and contacts. A limit that matches no run
 /// fails too: it would otherwise pass for ever.
 std::vector<Verdict> JudgeLimits(const std::vector<RunRecord>& runs,
                                  const std::vector<Limit>& limits);

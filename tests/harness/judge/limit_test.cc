@@ -1,5 +1,6 @@
 #include "harness/judge/limit.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace aisle {
@@ -108,6 +109,51 @@ TEST(LimitTest, ASharesSeedsHoldInAllTheirRepeats) {
   *runs.back().scores["collisions_static"].value = 1;
   EXPECT_EQ(Held(runs, {.score = "collisions_static", .max = 0, .share = 1}).why,
             "8 of 9 seeds are at most 0, needed are 9; the worst is 1 of seed 3");
+}
+
+/// A robust drive with this docking error, the `repeat`th of its seed.
+RunRecord Docked(std::uint64_t seed, int repeat, double error_m) {
+  RunRecord run;
+  run.spec = {.scene = "s",
+              .scene_file = "",
+              .twin = "live",
+              .system = BuiltIn("robust"),
+              .seed = seed,
+              .repeat = repeat};
+  run.scores["docking_error_m"] = {error_m, "m", "", 1, ""};
+  return run;
+}
+
+TEST(LimitTest, TheBoundThatIsBrokenIsTheVerdictsLimit) {
+  Limit within{.score = "docking_error_m", .min = 0.01, .max = 0.1};
+  for (const std::optional<double> share : {std::optional<double>(), std::optional<double>(1)}) {
+    within.share = share;
+    const Verdict above = Held({Docked(1, 1, 0.5)}, within),
+                  below = Held({Docked(1, 1, 0.001)}, within);
+    EXPECT_FALSE(above.passed);
+    EXPECT_EQ(above.limit, within.max);
+    EXPECT_FALSE(below.passed);
+    EXPECT_EQ(below.limit, within.min);
+  }
+}
+
+TEST(LimitTest, OfTwoBoundsThatHoldTheNearerIsTheVerdictsLimit) {
+  const Limit within{.score = "docking_error_m", .min = 0.01, .max = 0.1};
+  EXPECT_EQ(Held({Docked(1, 1, 0.02)}, within).limit, within.min);
+  EXPECT_EQ(Held({Docked(1, 1, 0.09)}, within).limit, within.max);
+}
+
+TEST(LimitTest, ASeedCountsOnceHoweverOftenItIsDriven) {
+  const Limit docks{.score = "docking_error_m", .max = 0.1};
+  std::vector<RunRecord> runs;
+  for (int repeat = 1; repeat <= 5; ++repeat) runs.push_back(Docked(1, repeat, 0.5));
+  EXPECT_THAT(Held(runs, docks).why, testing::StartsWith("median of 5 repeats 0.5 m"));
+  runs.push_back(Docked(2, 1, 0.02));
+  runs.push_back(Docked(3, 1, 0.04));
+  const Verdict verdict = Held(runs, docks);
+  EXPECT_EQ(verdict.why, "median of 3 seeds 0.04 m is at most 0.1");
+  EXPECT_TRUE(verdict.passed);
+  EXPECT_THAT(Held({Docked(1, 1, 0.02)}, docks).why, testing::StartsWith("value 0.02 m"));
 }
 
 TEST(LimitTest, ALimitThatMatchesNothingFails) {
