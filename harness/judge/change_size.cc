@@ -27,6 +27,13 @@ int Rank(const Comparison& c) {
   return IsAlarm(c.change) ? 0 : c.change == Change::kBetter ? 1 : 2;
 }
 
+/// Which way to look for the seed that made the change. Where some seeds broke, the medians hardly
+/// moved, and perhaps the other way.
+double DirectionOf(const Comparison& c) {
+  if (c.change == Change::kUnstable) return MoreIsBetter(c.score) ? -1 : 1;
+  return c.new_median < c.old_median ? -1 : 1;
+}
+
 }  // namespace
 
 double SizeOf(const Comparison& comparison) {
@@ -47,7 +54,7 @@ void LargestFirst(std::vector<Comparison>* comparisons) {
 
 std::optional<SeedChange> FarthestSeed(const Results& before, const Results& after,
                                        const Comparison& comparison) {
-  const double direction = comparison.new_median < comparison.old_median ? -1 : 1;
+  const double direction = DirectionOf(comparison);
   std::optional<SeedChange> farthest;
   double reach = 0;
   for (const RunRecord& old_run : before.runs) {

@@ -22,8 +22,9 @@ struct SeedChange {
   std::optional<double> new_value = {};  ///< empty: it is gone
 };
 
-/// The seed whose score moved farthest in the direction of the medians; one whose value is gone,
-/// first. Nothing where no seed ran on both sides. The pointers lead into the results.
+/// The seed whose score moved farthest in the direction of the medians, where some seeds got far
+/// worse (kUnstable) to the worse; one whose value is gone, first. Nothing where no seed ran on
+/// both sides. The pointers lead into the results.
 std::optional<SeedChange> FarthestSeed(const Results& before, const Results& after,
                                        const Comparison& comparison);
 

@@ -308,6 +308,11 @@ std::string Name(Change change) {
   return "cannot tell";
 }
 
+bool MoreIsBetter(const std::string& score) {
+  const Judged* judged = FindJudged(score);
+  return judged != nullptr && judged->more_is_better;
+}
+
 bool IsAlarm(Change change) {
   return change == Change::kWorse || change == Change::kUnstable || change == Change::kGone;
 }

@@ -35,6 +35,9 @@ std::string Name(Change change);
 /// What fails a night: worse, unstable and gone.
 bool IsAlarm(Change change);
 
+/// Of the scores that are judged; of all others false.
+bool MoreIsBetter(const std::string& score);
+
 /// One score of one cell, before and after.
 struct Comparison {
   std::string scene, twin, system, score, unit;

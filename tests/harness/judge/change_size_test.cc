@@ -47,5 +47,40 @@ TEST(ChangeSizeTest, TheSeedThatMovedFarthestIsNamed) {
   EXPECT_FALSE(FarthestSeed(before, after, c).has_value());
 }
 
+/// Nine seeds, all of one value but for the last.
+Results Night(const std::string& score, double value, double of_last) {
+  Results night;
+  for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+    RunRecord& run = night.runs.emplace_back();
+    run.spec = {.scene = "s", .scene_file = "", .system = BuiltIn("plain"), .seed = seed};
+    run.scores[score] = {seed == 9 ? of_last : value, "1", "", 1, ""};
+  }
+  return night;
+}
+
+/// The medians do not move where one seed breaks: they say neither which way nor whom.
+TEST(ChangeSizeTest, OfAnUnstableScoreTheSeedThatBrokeIsNamed) {
+  for (const auto& [score, good, bad] :
+       {std::tuple("goal_reached", 1.0, 0.0), std::tuple("collisions", 0.0, 1.0)}) {
+    const Results before = Night(score, good, good), after = Night(score, good, bad);
+    const std::vector<Comparison> all = Compare(before, after);
+    ASSERT_EQ(all.size(), 1u);
+    ASSERT_EQ(all[0].change, Change::kUnstable) << score;
+    const auto seed = FarthestSeed(before, after, all[0]);
+    ASSERT_TRUE(seed) << score;
+    EXPECT_EQ(seed->after->spec.seed, 9u) << score;
+    EXPECT_EQ(seed->new_value, bad) << score;
+  }
+}
+
+/// Nor does a median that got better while one seed broke.
+TEST(ChangeSizeTest, OfAnUnstableScoreTheMediansSayNothing) {
+  Results before = Night("ate_rmse_m", 0.1, 0.1), after = Night("ate_rmse_m", 0.0999, 5);
+  Comparison c = Of(Change::kUnstable, 0.1, 0.0999);
+  std::tie(c.scene, c.twin, c.system, c.score) =
+      std::tuple("s", before.runs[0].spec.twin, "plain", "ate_rmse_m");
+  EXPECT_EQ(FarthestSeed(before, after, c)->after->spec.seed, 9u);
+}
+
 }  // namespace
 }  // namespace aisle
