@@ -11,15 +11,51 @@ namespace {
 
 constexpr std::size_t kMostMessage = std::size_t{1} << 30;
 
+/// What its recorder left beside a bag, of these bytes; 0 where there is nothing.
+std::uintmax_t BytesBeside(const std::filesystem::path& file, const char* ending) {
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(file.string() + ending, error);
+  return error ? 0 : bytes;
+}
+
+/// How a bag is opened so that all that was recorded is there and nothing is written beside it.
+struct Opening {
+  const char* parameters;  ///< of SQLite's URI
+  const char* first = "";  ///< said before anything is read
+  bool has_log = false;    ///< the newest messages are in FILE-wal
+};
+
+Opening OpeningOf(const std::filesystem::path& file) {
+  if (BytesBeside(file, "-wal") > 0) {
+    // FILE-shm is the log's index and its locks: where there is one, a recorder may be at work, and
+    // is heeded. Where there is none SQLite would make one; without locks it has it in memory.
+    if (BytesBeside(file, "-shm") > 0) return {"mode=ro&readonly_shm=1", "", true};
+    return {"mode=ro&vfs=unix-none", "PRAGMA locking_mode = EXCLUSIVE", true};
+  }
+  if (BytesBeside(file, "-journal") > 0) return {"mode=ro"};
+  return {"immutable=1"};  // no log, no lock
+}
+
 /// The path as SQLite's URIs want it.
-std::string UriOf(const std::filesystem::path& file) {
+std::string UriOf(const std::filesystem::path& file, const char* parameters) {
   std::string uri = "file:";
   for (const char c : std::filesystem::absolute(file).string()) {
     const bool plain =
         std::isalnum(static_cast<unsigned char>(c)) || c == '/' || c == '.' || c == '-' || c == '_';
     uri += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
   }
-  return uri + "?immutable=1";  // no journal, no lock: nothing is written beside it
+  return fmt::format("{}?{}", uri, parameters);
+}
+
+/// SQLite's sentence; where it takes a change back that was cut off, the cure.
+std::string WhyUnreadable(sqlite3* database, const std::string& sentence, const std::string& file) {
+  if (sqlite3_extended_errcode(database) != SQLITE_READONLY_ROLLBACK) {
+    return fmt::format("is no bag of ROS 2, or a damaged one: {}", sentence);
+  }
+  return fmt::format(
+      "was cut off in the middle of a change that {}-journal takes back: let "
+      "`sqlite3 '{}' 'PRAGMA quick_check'` do so first",
+      std::filesystem::path(file).filename().string(), file);
 }
 
 class Statement {
@@ -60,17 +96,27 @@ class Statement {
 class Db3File : public Bag {
  public:
   explicit Db3File(const std::filesystem::path& path) : path_(path.string()) {
+    const Opening opening = OpeningOf(path);
     sqlite3* database = nullptr;
-    const int code = sqlite3_open_v2(UriOf(path).c_str(), &database,
+    const int code = sqlite3_open_v2(UriOf(path, opening.parameters).c_str(), &database,
                                      SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
     database_.reset(database);
     if (code != SQLITE_OK) throw InputError(path_, 0, "cannot be read as an SQLite file");
+    // Else the last one to close would write the log into the file, and take it away.
+    sqlite3_db_config(database, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
     try {
+      Run(opening.first);
+      Run("BEGIN");  // what is read is one state of the file, to the end
       ReadTopics();
       ReadEntries();
     } catch (const CompressionError& error) {
-      throw InputError(path_, 0,
-                       fmt::format("is no bag of ROS 2, or a damaged one: {}", error.what()));
+      throw InputError(path_, 0, WhyUnreadable(database, error.what(), path_));
+    }
+    if (opening.has_log) {
+      notes_.push_back(
+          fmt::format("was not closed by its recorder: its last messages are read from "
+                      "{}-wal beside it",
+                      path.filename().string()));
     }
   }
 
@@ -94,6 +140,12 @@ class Db3File : public Bag {
   /// Bags of compression mode `message` hold a zstd frame each; CDR never opens like one.
   static std::string Unpacked(std::string bytes) {
     return IsZstd(bytes) ? DecompressZstdFrame(bytes, kMostMessage) : bytes;
+  }
+
+  void Run(const char* text) {
+    if (sqlite3_exec(database_.get(), text, nullptr, nullptr, nullptr) != SQLITE_OK) {
+      throw CompressionError(sqlite3_errmsg(database_.get()));
+    }
   }
 
   void ReadTopics() {

@@ -134,37 +134,131 @@ TEST_F(McapTest, Lz4FramesAreRead) {
   EXPECT_THROW(Decompress("x", "lzma", 1), CompressionError);
 }
 
-TEST_F(McapTest, ASqliteBagIsRead) {
-  const fs::path file = folder_ / "old bag?.db3";
-  sqlite3* database = nullptr;
-  ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
-  sqlite3_exec(database,
-               "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, "
-               "serialization_format TEXT, offered_qos_profiles TEXT);"
-               "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, "
-               "data BLOB);"
-               "INSERT INTO topics VALUES(7, '/a', 'geometry_msgs/msg/PoseStamped', 'cdr', '');"
-               "INSERT INTO topics VALUES(8, '/b', 'std_msgs/msg/String', 'cdr', '')",
-               nullptr, nullptr, nullptr);
-  sqlite3_stmt* insert = nullptr;
-  sqlite3_prepare_v2(database, "INSERT INTO messages(topic_id, timestamp, data) VALUES(7, ?, ?)",
-                     -1, &insert, nullptr);
-  for (int k = 9; k >= 0; --k) {  // not in the order of time
-    std::string bytes = ros::Serialize(PoseAt(k));
-    if (k % 2 == 0) bytes = CompressZstd(bytes, 1);  // as compression mode `message` does
-    sqlite3_reset(insert);
+/// Writes poses as rosbag2 does into SQLite.
+class SqliteRecorder {
+ public:
+  SqliteRecorder(const fs::path& file, const std::string& pragmas) {
+    EXPECT_EQ(sqlite3_open(file.c_str(), &database_), SQLITE_OK);
+    Run(pragmas);
+    Run("CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, "
+        "serialization_format TEXT, offered_qos_profiles TEXT);"
+        "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, "
+        "data BLOB);"
+        "INSERT INTO topics VALUES(7, '/a', 'geometry_msgs/msg/PoseStamped', 'cdr', '');"
+        "INSERT INTO topics VALUES(8, '/b', 'std_msgs/msg/String', 'cdr', '')");
+  }
+  ~SqliteRecorder() { sqlite3_close(database_); }
+  SqliteRecorder(const SqliteRecorder&) = delete;
+  SqliteRecorder& operator=(const SqliteRecorder&) = delete;
+
+  void Run(const std::string& text) {
+    sqlite3_exec(database_, text.c_str(), nullptr, nullptr, nullptr);
+  }
+  void Add(int k, const std::string& bytes) {
+    sqlite3_stmt* insert = nullptr;
+    sqlite3_prepare_v2(database_, "INSERT INTO messages(topic_id, timestamp, data) VALUES(7, ?, ?)",
+                       -1, &insert, nullptr);
     sqlite3_bind_int64(insert, 1, kStart + k);
     sqlite3_bind_blob(insert, 2, bytes.data(), static_cast<int>(bytes.size()), SQLITE_TRANSIENT);
-    ASSERT_EQ(sqlite3_step(insert), SQLITE_DONE);
+    EXPECT_EQ(sqlite3_step(insert), SQLITE_DONE);
+    sqlite3_finalize(insert);
   }
-  sqlite3_finalize(insert);
-  sqlite3_close(database);
-  const std::string before = ReadFile(file);
-  ExpectWhole(*OpenBag(file), 10);
-  EXPECT_EQ(ReadFile(file), before);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "nothing beside it";
+  void AddPoses(int from, int to) {
+    for (int k = from; k < to; ++k) Add(k, ros::Serialize(PoseAt(k)));
+  }
+
+ private:
+  sqlite3* database_ = nullptr;
+};
+
+/// Every file of a folder, with its bytes.
+std::map<fs::path, std::string> FilesIn(const fs::path& folder) {
+  std::map<fs::path, std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder)) files[entry] = ReadFile(entry.path());
+  return files;
+}
+
+/// The files of a bag as they stand, in a folder of their own: what a killed recorder leaves.
+fs::path Left(const fs::path& file, const fs::path& folder,
+              const std::vector<std::string>& endings) {
+  fs::create_directories(folder);
+  for (const std::string& ending : endings) {
+    fs::copy_file(file.string() + ending, folder / (file.filename().string() + ending));
+  }
+  return folder / file.filename();
+}
+
+TEST_F(McapTest, ASqliteBagIsRead) {
+  const fs::path file = folder_ / "old bag?.db3";
+  {
+    SqliteRecorder recorder(file, "");
+    for (int k = 9; k >= 0; --k) {  // not in the order of time
+      const std::string bytes = ros::Serialize(PoseAt(k));
+      // As compression mode `message` does.
+      recorder.Add(k, k % 2 == 0 ? CompressZstd(bytes, 1) : bytes);
+    }
+  }
+  const auto before = FilesIn(folder_);
+  const auto bag = OpenBag(file);
+  ExpectWhole(*bag, 10);
+  EXPECT_TRUE(bag->notes().empty());
+  EXPECT_EQ(FilesIn(folder_), before);
   std::ofstream(folder_ / "no.db3") << "no bag";
   EXPECT_THAT(WhyNot(folder_ / "no.db3"), HasSubstr("no bag of ROS 2"));
+}
+
+/// rosbag2 writes through a log where it shall be robust: what is in the log alone is in the bag.
+TEST_F(McapTest, TheLogOfAKilledRecorderIsRead) {
+  for (const char* checkpoint : {"0", "10"}) {  // all in the log, and some
+    const fs::path file = folder_ / fmt::format("every {}.db3", checkpoint);
+    SqliteRecorder recorder(file, fmt::format("PRAGMA journal_mode = WAL; PRAGMA synchronous = "
+                                              "NORMAL; PRAGMA wal_autocheckpoint = {}",
+                                              checkpoint));
+    recorder.AddPoses(0, 200);
+    for (const bool with_index : {true, false}) {
+      const fs::path folder = folder_ / fmt::format("killed {} {}", checkpoint, with_index);
+      const fs::path left = Left(file, folder,
+                                 with_index ? std::vector<std::string>{"", "-wal", "-shm"}
+                                            : std::vector<std::string>{"", "-wal"});
+      const auto before = FilesIn(folder);
+      fs::permissions(folder, fs::perms::owner_write, fs::perm_options::remove);
+      {
+        const auto bag = OpenBag(left), again = OpenBag(left);
+        ExpectWhole(*bag);
+        ExpectWhole(*again);
+        ASSERT_EQ(bag->notes().size(), 1u);
+        EXPECT_THAT(bag->notes()[0], HasSubstr("-wal"));
+      }
+      fs::permissions(folder, fs::perms::owner_write, fs::perm_options::add);
+      EXPECT_EQ(FilesIn(folder), before) << "nothing is written, nothing taken away";
+    }
+  }
+}
+
+TEST_F(McapTest, ABagThatIsStillRecordedIsReadAsItWas) {
+  const fs::path file = folder_ / "live.db3";
+  SqliteRecorder recorder(file, "PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 10");
+  recorder.AddPoses(0, 200);
+  const auto bag = OpenBag(file);
+  recorder.Run("DELETE FROM messages");
+  recorder.AddPoses(200, 400);
+  ExpectWhole(*bag);
+}
+
+TEST_F(McapTest, AChangeThatWasCutOffIsNamedWithItsCure) {
+  const fs::path file = folder_ / "changed.db3";
+  SqliteRecorder recorder(file, "PRAGMA cache_size = 1");
+  recorder.AddPoses(0, 200);
+  recorder.Run("BEGIN; UPDATE messages SET data = zeroblob(3000)");
+  const fs::path left = Left(file, folder_ / "cut", {"", "-journal"});
+  const auto before = FilesIn(left.parent_path());
+  EXPECT_THAT(WhyNot(left), HasSubstr("PRAGMA quick_check"));
+  EXPECT_EQ(FilesIn(left.parent_path()), before);
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(left.c_str(), &database), SQLITE_OK);
+  sqlite3_exec(database, "PRAGMA quick_check", nullptr, nullptr, nullptr);
+  sqlite3_close(database);
+  ExpectWhole(*OpenBag(left));
 }
 
 }  // namespace
