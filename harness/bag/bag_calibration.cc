@@ -26,6 +26,17 @@ std::optional<T> FirstMessage(const Bag& bag, const std::string& topic, const st
   return std::nullopt;
 }
 
+/// Whether images are less than the whole picture. RegionOfInterest says the whole by zeros, or by
+/// the camera's own size.
+bool IsCutOut(const ros::CameraInfo& info) {
+  const auto is_whole = [](std::uint32_t length, std::uint32_t of_camera) {
+    return length == 0 || length == of_camera;
+  };
+  const ros::RegionOfInterest& roi = info.roi;
+  return roi.x_offset > 0 || roi.y_offset > 0 || !is_whole(roi.width, info.width) ||
+         !is_whole(roi.height, info.height);
+}
+
 ros::CameraInfo InfoOf(const Bag& bag, const std::string& image_topic, const std::string& file) {
   const std::string topic = CameraInfoTopicOf(image_topic);
   const auto info = FirstMessage<ros::CameraInfo>(bag, topic, file);
@@ -39,7 +50,7 @@ ros::CameraInfo InfoOf(const Bag& bag, const std::string& image_topic, const std
         fmt::format("{} says that the camera is not calibrated (p begins with {:g}): {}", topic,
                     info->p[0], kCalibrationCure));
   }
-  if (info->binning_x > 1 || info->binning_y > 1 || info->roi.width > 0 || info->roi.height > 0) {
+  if (info->binning_x > 1 || info->binning_y > 1 || IsCutOut(*info)) {
     throw InputError(
         file, 0,
         fmt::format("{} says that images are binned or cut out: {}", topic, kCalibrationCure));

@@ -7,34 +7,41 @@
 namespace aisle {
 namespace {
 
-using Poses = std::map<std::int64_t, Eigen::Isometry3d>;
+struct Poses {
+  std::map<std::int64_t, Eigen::Isometry3d> by_stamp;
+  std::size_t taken = 0;  ///< those of equal stamps too
+
+  void Add(const ros::Time& stamp, const Eigen::Isometry3d& pose) {
+    by_stamp[ros::NanosecondsOf(stamp)] = pose;
+    ++taken;
+  }
+};
 /// Adds what a message says.
 using Taker = void (*)(const std::string& bytes, const std::string& child, Poses* poses);
 
 template <class T>
 void TakePose(const std::string& bytes, const std::string& /*child*/, Poses* poses) {
   const T message = ros::Deserialize<T>(bytes);
-  const std::int64_t stamp_ns = ros::NanosecondsOf(message.header.stamp);
   if constexpr (requires { message.transform; }) {
-    (*poses)[stamp_ns] = ros::IsometryOf(message.transform);
+    poses->Add(message.header.stamp, ros::IsometryOf(message.transform));
   } else if constexpr (requires { message.pose.pose; }) {
-    (*poses)[stamp_ns] = ros::IsometryOf(message.pose.pose);
+    poses->Add(message.header.stamp, ros::IsometryOf(message.pose.pose));
   } else {
-    (*poses)[stamp_ns] = ros::IsometryOf(message.pose);
+    poses->Add(message.header.stamp, ros::IsometryOf(message.pose));
   }
 }
 
 void TakePath(const std::string& bytes, const std::string& /*child*/, Poses* poses) {
-  poses->clear();
+  *poses = {};
   for (const ros::PoseStamped& pose : ros::Deserialize<ros::Path>(bytes).poses) {
-    (*poses)[ros::NanosecondsOf(pose.header.stamp)] = ros::IsometryOf(pose.pose);
+    poses->Add(pose.header.stamp, ros::IsometryOf(pose.pose));
   }
 }
 
 void TakeTransforms(const std::string& bytes, const std::string& child, Poses* poses) {
   for (const ros::TransformStamped& one : ros::Deserialize<ros::TFMessage>(bytes).transforms) {
     if (one.child_frame_id != child) continue;
-    (*poses)[ros::NanosecondsOf(one.header.stamp)] = ros::IsometryOf(one.transform);
+    poses->Add(one.header.stamp, ros::IsometryOf(one.transform));
   }
 }
 
@@ -128,14 +135,21 @@ Trajectory ReadBagTrajectory(const Bag& bag, const BagTopic& asked) {
                        fmt::format("a message of {} {}", topic, error.what()));
     }
   }
-  if (poses.empty()) {
+  if (poses.by_stamp.empty()) {
     throw InputError(asked.file.string(), 0,
                      asked.child.empty()
                          ? fmt::format("{} has no message", topic)
                          : fmt::format("{} has no transform of '{}'", topic, asked.child));
   }
+  if (poses.taken > 1 && poses.by_stamp.size() == 1 && poses.by_stamp.contains(0)) {
+    throw InputError(
+        asked.file.string(), 0,
+        fmt::format("the {} poses of {} have no stamps in their headers: nobody knows when they "
+                    "were",
+                    poses.taken, topic));
+  }
   Trajectory trajectory;
-  for (const auto& [stamp_ns, pose] : poses) trajectory.push_back({stamp_ns, pose});
+  for (const auto& [stamp_ns, pose] : poses.by_stamp) trajectory.push_back({stamp_ns, pose});
   return trajectory;
 }
 

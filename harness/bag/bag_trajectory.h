@@ -22,7 +22,7 @@ std::optional<BagTopic> BagTopicFromText(const std::string& text);
 /// The poses of a topic of PoseStamped, PoseWithCovarianceStamped, Odometry, TransformStamped,
 /// TFMessage (of one child) or Path (its last message), by header stamp; of equal stamps the later
 /// recorded stays. The body is whoever the publisher meant. Throws InputError: no such topic,
-/// several and none named, a message that is damaged.
+/// several and none named, a message that is damaged, poses without stamps.
 Trajectory ReadBagTrajectory(const Bag& bag, const BagTopic& topic);
 Trajectory ReadBagTrajectory(const BagTopic& topic);
 

@@ -209,6 +209,26 @@ TEST_F(RecordingTest, WhatElseIsMissingIsNamed) {
   EXPECT_THAT(WhyNot(uncalibrated), HasSubstr("not calibrated"));
 }
 
+/// RegionOfInterest.msg: the whole picture is said by zeros, or by its own size.
+TEST_F(RecordingTest, OnlyAPartOfThePictureIsCutOut) {
+  const auto with = [](const ros::RegionOfInterest& roi) {
+    RobotBag bag;
+    bag.left_info.roi = bag.right_info.roi = roi;
+    return bag;
+  };
+  const auto width = static_cast<std::uint32_t>(kRig.width),
+             height = static_cast<std::uint32_t>(kRig.height);
+  EXPECT_EQ(Read(with({.height = height, .width = width})).pairs.size(), 6u);
+  EXPECT_EQ(Read(with({.height = height, .width = width})).cameras.left.cx, kRig.cx);
+  for (const ros::RegionOfInterest& part :
+       {ros::RegionOfInterest{.height = height, .width = width - 1},
+        ros::RegionOfInterest{.height = height - 1, .width = width},
+        ros::RegionOfInterest{.x_offset = 1, .height = height, .width = width},
+        ros::RegionOfInterest{.y_offset = 1, .height = height, .width = width}}) {
+    EXPECT_THAT(WhyNot(with(part)), HasSubstr("cut out"));
+  }
+}
+
 TEST(GreyImage, EncodingsMeanWhatRosSays) {
   // One colour everywhere: every mosaic of it must come out as that colour's grey.
   const cv::Vec3b bgr(40, 90, 200);
@@ -308,6 +328,45 @@ TEST_F(RecordingTest, TrajectoriesOfEveryTypeComeOut) {
   EXPECT_THROW(ReadBagTrajectory(*BagTopicFromText(file.string() + ":/tf")), InputError);
   EXPECT_THROW(ReadBagTrajectory(*BagTopicFromText(file.string() + ":/tf#rig")), InputError);
   EXPECT_THROW(ReadBagTrajectory(*BagTopicFromText(file.string() + ":/odo")), InputError);
+}
+
+/// Five poses, as every type that holds some has them.
+void WritePoses(const fs::path& file, std::int64_t first_ns, std::int64_t step_ns) {
+  McapWriter writer(file);
+  ros::Path path;
+  for (int k = 0; k < 5; ++k) {
+    ros::PoseStamped pose;
+    pose.header.stamp = ros::TimeOf(first_ns + k * step_ns);
+    writer.Write(writer.AddChannel<ros::PoseStamped>("/pose"), kStart + k, pose);
+    path.poses.push_back(pose);
+    ros::TFMessage tf;
+    tf.transforms.resize(1);
+    tf.transforms[0].header = pose.header;
+    tf.transforms[0].child_frame_id = "base_link";
+    writer.Write(writer.AddChannel<ros::TFMessage>("/tf"), kStart + k, tf);
+  }
+  writer.Write(writer.AddChannel<ros::Path>("/path"), kStart, path);
+  writer.Write(writer.AddChannel<ros::Path>("/path"), kStart + 1, path);  // the last one counts
+  writer.Finish();
+}
+
+TEST_F(RecordingTest, PosesWithoutStampsAreNoTrajectory) {
+  const fs::path file = folder_ / "poses.mcap";
+  for (const char* topic : {"/pose", "/path", "/tf#base_link"}) {
+    const auto asked = BagTopicFromText(file.string() + ":" + topic);
+    WritePoses(file, 0, 0);
+    try {
+      ReadBagTrajectory(*asked);
+      ADD_FAILURE() << topic;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("the 5 poses of"));
+      EXPECT_THAT(error.what(), HasSubstr("no stamps"));
+    }
+    WritePoses(file, 0, 1);
+    EXPECT_EQ(ReadBagTrajectory(*asked).size(), 5u) << topic << ": who begins at 0 has stamps";
+    WritePoses(file, kStart, 0);
+    EXPECT_EQ(ReadBagTrajectory(*asked).size(), 1u) << topic << ": the later recorded stays";
+  }
 }
 
 TEST_F(RecordingTest, ADriveBagIsARecording) {
