@@ -4,6 +4,7 @@
 
 #include "harness/bag/frame_messages.h"
 #include "harness/contract/state_name.h"
+#include "harness/io/input_error.h"
 #include "harness/io/truth_files.h"
 
 namespace aisle {
@@ -43,6 +44,22 @@ std::string RosName(const std::string& name) {
   }
   const bool good = !plain.empty() && std::isalpha(static_cast<unsigned char>(plain.front()));
   return good ? plain : "s_" + plain;
+}
+
+void RequireOwnTopics(const std::vector<std::string>& systems) {
+  std::map<std::string, std::string> owners;  // by what topics are named with
+  for (const char* ours : {"left", "right", "truth"}) owners[ours] = "";
+  for (const std::string& system : systems) {
+    const auto [owner, is_new] = owners.try_emplace(RosName(system), system);
+    if (is_new || owner->second == system) continue;
+    throw InputError(
+        owner->second.empty()
+            ? fmt::format("a bag keeps what the scene is at /{}: call the system '{}' otherwise",
+                          owner->first, system)
+            : fmt::format("the systems '{}' and '{}' would share the topics /{}/… of a bag: "
+                          "rename one",
+                          owner->second, system, owner->first));
+  }
 }
 
 Eigen::Isometry3d DriveBagOptions::CameraAhead() {

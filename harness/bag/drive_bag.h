@@ -18,6 +18,10 @@ inline constexpr const char* kLeftFrame = "camera_left_optical_frame";
 /// A name as ROS takes one in topics and frames: letters, digits and '_', a letter first.
 std::string RosName(const std::string& name);
 
+/// Each system of a bag has topics that are its alone. Throws InputError that names a system whose
+/// RosName is another's (a-b, a_b) or the bag's own: left, right, truth.
+void RequireOwnTopics(const std::vector<std::string>& systems);
+
 /// Added to the stamps of a scene, which begin at 0: tf takes 0 for "the latest", Rerun early
 /// stamps for durations.
 inline constexpr std::int64_t kBagEpochNs = 1'600'000'000'000'000'000;
@@ -47,7 +51,8 @@ struct DriveBagOptions {
 ///   /SYSTEM/worst_1, _2, …  mono8, stills of the frames in which it was farthest off
 ///   /tf, /tf_static
 ///
-/// Truth is written where a frame knows it. Not thread-safe.
+/// Truth is written where a frame knows it. Systems are named as RequireOwnTopics allows. Not
+/// thread-safe.
 class DriveBag {
  public:
   /// Throws as McapWriter does.

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/bag/drive_bag.h"
 #include "harness/campaign/command_files.h"
 #include "harness/campaign/renderer_hash.h"
 #include "harness/campaign/source.h"
@@ -33,6 +34,12 @@ std::uint64_t HashSystem(const SystemSpec& system, std::uint64_t seed) {
     seed = fs::is_directory(path) ? HashFolder(path, seed) : HashFile(path, seed);
   }
   return seed;
+}
+
+std::vector<std::string> SystemNamesOf(const std::vector<RunSpec>& specs) {
+  std::vector<std::string> names;
+  for (const RunSpec& spec : specs) names.push_back(spec.system.name);
+  return names;
 }
 
 Job FromJson(const Json& json) {
@@ -131,6 +138,7 @@ std::string Fingerprints::Teaching(const RunSpec& spec) const {
 
 std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Fingerprints& fingerprints,
                           const JobOptions& options) {
+  if (options.mcap) RequireOwnTopics(SystemNamesOf(specs));
   std::vector<Job> jobs;
   for (const RunSpec& spec : specs) {
     Job job{.spec = spec,

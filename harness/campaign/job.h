@@ -77,7 +77,8 @@ struct JobOptions {
   std::string frames_in_report = "worst";
 };
 
-/// The jobs that make the runs.
+/// The jobs that make the runs. Throws InputError where they shall leave bags in which systems
+/// would share topics (RequireOwnTopics).
 std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Fingerprints& fingerprints,
                           const JobOptions& options);
 

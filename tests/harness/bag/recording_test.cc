@@ -369,6 +369,24 @@ TEST_F(RecordingTest, PosesWithoutStampsAreNoTrajectory) {
   }
 }
 
+TEST(RequireOwnTopicsTest, SystemsShareNoTopicsWithEachOtherNorWithTruth) {
+  const auto why_not = [](const std::vector<std::string>& systems) -> std::string {
+    try {
+      RequireOwnTopics(systems);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(why_not({"plain", "robust", "plain", "my-slam", "my-slam-2"}), "") << "seeds repeat";
+  EXPECT_THAT(why_not({"a-b", "robust", "a_b"}),
+              testing::AllOf(HasSubstr("'a-b'"), HasSubstr("'a_b'"), HasSubstr("/a_b/")));
+  EXPECT_THAT(why_not({"2.0", "s_2-0"}), HasSubstr("share"));
+  for (const char* ours : {"truth", "left", "right"}) {
+    EXPECT_THAT(why_not({"plain", ours}), HasSubstr(fmt::format("'{}'", ours)));
+  }
+}
+
 TEST_F(RecordingTest, ADriveBagIsARecording) {
   const fs::path file = folder_ / "own.mcap";
   {

@@ -48,6 +48,21 @@ TEST(JobTest, ComesBackAsItWasWritten) {
   EXPECT_EQ(back.hidden, Example().hidden);
 }
 
+/// Topics hold neither '-' nor '.': systems that are two to a report are one to a bag.
+TEST(JobTest, SystemsThatWouldShareABagsTopicsLeaveNone) {
+  RunSpec one{.scene = "smoke/short",
+              .scene_file = AISLE_SOURCE_DIR "/scenes/smoke/short.yaml",
+              .twin = "live",
+              .system = {.name = "a-b", .like = "plain"},
+              .seed = 1};
+  RunSpec other = one;
+  other.system.name = "a_b";
+  const Fingerprints fingerprints;
+  EXPECT_EQ(MakeJobs({one, other}, fingerprints, {.out = "out"}).size(), 2u);
+  EXPECT_EQ(MakeJobs({one}, fingerprints, {.out = "out", .mcap = true}).size(), 1u);
+  EXPECT_THROW(MakeJobs({one, other}, fingerprints, {.out = "out", .mcap = true}), InputError);
+}
+
 TEST(FingerprintsTest, ATeachingIsSharedHoweverItIsDrivenBy) {
   const Fingerprints fingerprints;
   RunSpec spec{.scene = "drive/aisle_dock",
