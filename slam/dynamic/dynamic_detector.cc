@@ -8,8 +8,22 @@
 #include "slam/dynamic/robust/robust_method.h"
 
 namespace aisle::slam {
+namespace {
 
 using Eigen::Isometry3d;
+
+/// The motion since the last frame, of the one since the last frame that showed something new, by
+/// which the method goes; `unseen` lies between the two, was only expected, and its error is that
+/// of the difference too.
+MeasuredMotion SinceLastFrame(const MeasuredMotion& since_kept,
+                              const std::optional<MeasuredMotion>& unseen) {
+  if (!unseen) return since_kept;
+  const Isometry3d T_now_last = since_kept.T_now_before * unseen->T_now_before.inverse();
+  const Matrix6d carry = Adjoint(T_now_last);
+  return {T_now_last, since_kept.covariance + carry * unseen->covariance * carry.transpose()};
+}
+
+}  // namespace
 
 struct DynamicDetector::Impl {
   StereoCamera camera;
@@ -58,11 +72,7 @@ DynamicOutput DynamicDetector::Impl::DetectRobustly(const DynamicInput& input) {
   output.probability = std::move(result.probability);
   if (!result.stages.gaps.empty()) {
     const dynamic::EgoMotion& motion = result.stages.gaps.front().motion;
-    // Of the last frame, which may have shown nothing: the method goes by those that did.
-    const Isometry3d T_before_kept =
-        state.unseen_way ? state.unseen_way->T_now_before : Isometry3d::Identity();
-    output.rig_motion =
-        MeasuredMotion{motion.T_now_before * T_before_kept.inverse(), motion.covariance};
+    output.rig_motion = SinceLastFrame({motion.T_now_before, motion.covariance}, state.unseen_way);
   }
   output.stage_ms = std::move(result.stages.stage_ms);
   state = std::move(result.state);

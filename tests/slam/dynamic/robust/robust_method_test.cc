@@ -262,6 +262,35 @@ TEST(DynamicDetector, BothMethodsMaskBothCameras) {
   }
 }
 
+DynamicDetector RobustDetector() {
+  DynamicOptions options;
+  options.method = DynamicMethod::kRobust;
+  return {StereoCamera{}, options};
+}
+
+/// The caller's guesses are off by what he says of them: so far the motion over the frames that
+/// nobody saw may be off.
+TEST(DynamicDetector, TheMotionAfterBlackFramesErrsAsItsCovarianceSays) {
+  DynamicDetector detector = RobustDetector();
+  constexpr double kWay = 0.025, kDeviation = 0.008;
+  for (int k = 0; k < 8; ++k) {
+    const bool black = k == 5 || k == 6;
+    const Isometry3d T_world_rig(Eigen::Translation3d(0, 0, kWay * k));
+    const auto view = test::Render(black ? std::vector<test::Panel>() : test::StaticHall(), {},
+                                   T_world_rig, k * kStep, 2);
+    MeasuredMotion expected;
+    expected.T_now_before.translation().z() = black ? kDeviation - kWay : -kWay;
+    expected.covariance = kDeviation * kDeviation * Matrix6d::Identity();
+    const DynamicOutput output =
+        detector.Detect({k * 50'000'000LL, view.left, view.right, expected});
+    ASSERT_EQ(output.rig_motion.has_value(), k > 0 && !black) << k;
+    if (!output.rig_motion) continue;
+    const Isometry3d truth(Eigen::Translation3d(0, 0, -kWay));
+    const Vector6d error = Difference(truth, output.rig_motion->T_now_before);
+    EXPECT_LT(error.dot(output.rig_motion->covariance.inverse() * error), 22.5) << k;  // 99.9 %
+  }
+}
+
 TEST(DynamicDetector, WithoutAMethodNothingIsMasked) {
   DynamicDetector detector(StereoCamera{}, {});
   const cv::Mat1b image(480, 752, 90);
