@@ -31,8 +31,9 @@ struct DynamicOutput {
   DynamicRegions regions;  ///< of the left image; an empty mask rejects nothing
   cv::Mat1b mask_right;    ///< the same surfaces in the right image; empty like the left one
   cv::Mat1f probability;   ///< of moving, per left pixel; empty where the method knows none
-  /// How the rig has moved since the last frame, by what nobody has seen move; nothing where the
-  /// method does not ask or has not found it.
+  /// How the rig has moved since the last frame, by what nobody has seen move; as it was expected
+  /// to where the images show too little or nothing that a vehicle can do. Nothing where the method
+  /// does not ask or has not found it, or where the frame shows nothing new.
   std::optional<MeasuredMotion> rig_motion = {};
   std::map<std::string, double> stage_ms;  ///< wall time by stage; reported, never decided upon
   std::shared_ptr<const DynamicStages> stages;  ///< null unless DynamicOptions::keep_stages

@@ -258,6 +258,7 @@ EgoMotion AsExpected(const MaybeExpected& expected) {
   EgoMotion motion;
   if (!expected) return motion;
   motion.found = true;
+  motion.only_expected = true;
   motion.T_now_before = expected->T_now_before;
   motion.covariance = expected->information.inverse();
   return motion;

@@ -39,6 +39,7 @@ struct KnownMotion {
 struct EgoMotion {
   bool found = false;
   bool standing = false;  ///< standing still explains the points as well: the motion is identity
+  bool only_expected = false;  ///< the images show too little or nothing possible: it is the prior
   Eigen::Isometry3d T_now_before = Eigen::Isometry3d::Identity();
   Matrix6d covariance = Matrix6d::Zero();  ///< of a small motion of the current frame, see Retract
   double support = 0;                      ///< summed weight of the matches within the gate

@@ -77,6 +77,7 @@ RobustState Remember(const RobustState& before, const Found& found, const Robust
   const std::vector<EgoMotion>& motions = found.motions.motions;
   RobustState state = before;
   state.unseen_way.reset();
+  state.stuck_at.reset();
   state.stamp_ns = found.view.frame.stamp_ns;
   state.frames = FramesWith(before.frames, found.view.frame, motions);
   if (!motions.empty()) {
@@ -97,9 +98,28 @@ bool ShowsNothing(const View& view) {
   return view.held.size() < kLeastHeld;
 }
 
-/// The state after a frame that showed nothing: what was known stays, and the rig goes on as
-/// expected. Kept among the others it would testify that nothing moves, as nothing does in it, and
-/// that all surfaces are others. After `kLongest_s` nothing is where it was.
+/// Whether a frame is the newest one kept once more, bit for bit as far as the method looks.
+bool Repeats(const DenseFrame& now, const DenseFrame& last) {
+  const auto same = [](const cv::Mat1b& a, const cv::Mat1b& b) {
+    return cv::norm(a, b, cv::NORM_INF) == 0;
+  };
+  return same(now.image, last.image) && same(now.right_low, last.right_low) &&
+         same(now.right_high, last.right_high);
+}
+
+/// Whether the camera delivers an old picture while the rig goes on. Equal pictures alone do not
+/// say so: without noise a rig that stands has them. What tells is that no vehicle could have
+/// stopped so; of a picture known to be old, further copies are as old, whatever the rig could
+/// have done by then.
+bool IsStuck(const RobustState& before, const DenseFrame& now,
+             const std::vector<EgoMotion>& motions) {
+  if (before.stuck_at) return Repeats(now, *before.stuck_at);
+  return !motions.empty() && motions[0].only_expected && Repeats(now, before.frames.back());
+}
+
+/// The state after a frame that showed nothing, or an old picture: what was known stays, and the
+/// rig goes on as expected. Kept among the others it would testify that nothing moves, as nothing
+/// does in it, and that all surfaces are others. After `kLongest_s` nothing is where it was.
 RobustState PassOver(const RobustState& before, const std::optional<MotionPrior>& prior,
                      std::int64_t stamp_ns, cv::Size half) {
   constexpr double kLongest_s = 0.5;
@@ -112,6 +132,27 @@ RobustState PassOver(const RobustState& before, const std::optional<MotionPrior>
   state.noise = before.noise;
   state.memory = ForgottenMemory(half, before.memory.regions.next_id);
   return state;
+}
+
+/// What a frame says that shows nothing.
+RobustResult WithoutContent(RobustState state, const View& view, cv::Size image,
+                            std::map<std::string, double> stage_ms) {
+  RobustResult nothing{std::move(state), {}, {}, {}};
+  nothing.dynamic.mask = cv::Mat1b::zeros(image);
+  nothing.probability = cv::Mat1f::zeros(image);
+  nothing.stages.half_disparity = view.frame.disparity;
+  nothing.stages.stage_ms = std::move(stage_ms);
+  return nothing;
+}
+
+/// What a frame says that is an old picture: as much as is known of its pixels already.
+RobustResult OnceMore(RobustState state, const View& view, const PixelLabels& labels,
+                      std::map<std::string, double> stage_ms) {
+  state.stuck_at = view.frame;
+  RobustResult same{std::move(state), labels.dynamic, labels.probability, {}};
+  same.stages.half_disparity = view.frame.disparity;
+  same.stages.stage_ms = std::move(stage_ms);
+  return same;
 }
 
 /// The same for people to look at.
@@ -144,13 +185,11 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
   // Stereo: a dense disparity, and what the image has of texture.
   const View view = Timed(ms["disparity"], [&] { return LookAt(images, stamp_ns, options); });
 
+  const auto passed_over = [&] {
+    return PassOver(before, prior, stamp_ns, view.frame.image.size());
+  };
   if (ShowsNothing(view)) {
-    RobustResult nothing{PassOver(before, prior, stamp_ns, view.frame.image.size()), {}, {}, {}};
-    nothing.dynamic.mask = cv::Mat1b::zeros(images.left.size());
-    nothing.probability = cv::Mat1f::zeros(images.left.size());
-    nothing.stages.half_disparity = view.frame.disparity;
-    nothing.stages.stage_ms = std::move(ms);
-    return nothing;
+    return WithoutContent(passed_over(), view, images.left.size(), std::move(ms));
   }
 
   // Flow to frames before, beyond what the expected motion explains.
@@ -169,6 +208,16 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
         [&] { return LayOut(view.frame, camera, tolerance, options); });
   });
   const auto& [memory, motions] = rig;
+  const auto label = [&](const cv::Mat1f& log_odds, const PixelRegions& previous) {
+    return Timed(ms["label"], [&] {
+      return LabelPixels(log_odds, view.frame, layout, previous, tolerance, images.left.size(),
+                         options);
+    });
+  };
+  if (IsStuck(before, view.frame, motions.motions)) {
+    const PixelLabels same = label(before.memory.log_odds, before.memory.regions);
+    return OnceMore(passed_over(), view, same, std::move(ms));
+  }
 
   // For and against motion: what that leaves unexplained, of this frame and of those before.
   const auto [past, log_odds] = Timed(ms["evidence"], [&] {
@@ -179,10 +228,7 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
   });
 
   // Neighbours on one surface agree; what moves together is one region.
-  const PixelLabels labels = Timed(ms["label"], [&] {
-    return LabelPixels(log_odds, view.frame, layout, memory.regions, tolerance, images.left.size(),
-                       options);
-  });
+  const PixelLabels labels = label(log_odds, memory.regions);
 
   const Found found{view, flows, motions, layout, past, log_odds, labels};
   return {Remember(before, found, options), labels.dynamic, labels.probability,

@@ -35,8 +35,10 @@ struct RobustState {
   std::optional<EgoMotion> motion;  ///< the latest of the rig
   double step_s = 0;                ///< its duration
   /// How the rig has gone on since the newest frame kept, as was expected, over frames that showed
-  /// nothing; nothing if there was none.
+  /// nothing, or nothing new; nothing if there was none.
   std::optional<MeasuredMotion> unseen_way;
+  /// The picture that the camera has been seen to repeat, up to now; nothing else.
+  std::optional<DenseFrame> stuck_at;
   LearnedNoise noise;
   LabelMemory memory;
   std::size_t long_slot = 0;  ///< of the longer gap compared last; 0: none was

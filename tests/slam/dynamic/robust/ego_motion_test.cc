@@ -55,6 +55,7 @@ TEST(EstimateEgoMotion, FindsTheMotionAmongMovers) {
   const EgoMotion found = EstimateEgoMotion(matches, kCamera, std::nullopt, kNoise, {});
   ASSERT_TRUE(found.found);
   EXPECT_FALSE(found.standing);
+  EXPECT_FALSE(found.only_expected);
   EXPECT_LT((found.T_now_before.translation() - truth.translation()).norm(), 0.003);
   EXPECT_LT(Difference(truth, found.T_now_before).tail<3>().norm(), 0.001);
 }
@@ -132,6 +133,7 @@ TEST(EstimateEgoMotion, GoesOnAsExpectedWhereNothingSeenIsPossible) {
   const MotionPrior prior{Motion({0, 0, -0.045}, 0), 1e-6 * Matrix6d::Identity()};
   const EgoMotion found = EstimateEgoMotion(matches, kCamera, prior, kNoise, {});
   ASSERT_TRUE(found.found);
+  EXPECT_TRUE(found.only_expected);
   EXPECT_EQ(found.T_now_before.matrix(), prior.T_now_before.matrix());
   EXPECT_TRUE(found.covariance.isApprox(prior.covariance));
 }

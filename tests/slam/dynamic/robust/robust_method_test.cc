@@ -262,10 +262,59 @@ TEST(DynamicDetector, BothMethodsMaskBothCameras) {
   }
 }
 
+/// Of a mask: the share of the image that it takes of what stands, and of a mover that it covers.
+double StaticMasked(const cv::Mat1b& mask, const cv::Mat1b& moving) {
+  return static_cast<double>(cv::countNonZero(mask & ~moving)) / static_cast<double>(mask.total());
+}
+double Covered(const cv::Mat1b& mask, const cv::Mat1b& moving) {
+  return static_cast<double>(cv::countNonZero(mask & moving)) / cv::countNonZero(moving);
+}
+
 DynamicDetector RobustDetector() {
   DynamicOptions options;
   options.method = DynamicMethod::kRobust;
   return {StereoCamera{}, options};
+}
+
+/// The rig drives on at 1 m/s while its camera repeats a picture: for a while no vehicle could have
+/// stopped so, then one could have; longer than a past is kept.
+TEST(DynamicDetector, WhatStandsIsNotMaskedByACameraThatRepeatsItsPicture) {
+  auto panels = test::StaticHall();
+  panels.push_back(test::Walker({-0.6, 0.1, 3.8}, {0.8, 0, 0.3}));
+  for (const int copies : {1, 3, 12}) {
+    DynamicDetector detector = RobustDetector();
+    test::SyntheticView view;
+    std::set<int> ids;
+    for (int k = 0; k < 13 + copies; ++k) {
+      const bool copy = k >= 9 && k < 9 + copies;
+      const Isometry3d T_world_rig(Eigen::Translation3d(0, 0, kStep * k));
+      if (!copy) view = test::Render(panels, {}, T_world_rig, k * kStep, 2);
+      const DynamicOutput output =
+          detector.Detect({k * 50'000'000LL, view.left.clone(), view.right.clone()});
+      if (k < 8) continue;
+      EXPECT_LT(StaticMasked(output.regions.mask, view.moving), 0.01) << k << " of " << copies;
+      EXPECT_FALSE(copy && output.rig_motion) << k << " of " << copies;
+      if (k >= 9 + 10) continue;  // nothing is where it was
+      EXPECT_GT(Covered(output.regions.mask, view.moving), 0.9) << k << " of " << copies;
+      for (const DynamicRegion& region : output.regions.regions) ids.insert(region.id);
+      if (copy) continue;
+      ASSERT_TRUE(output.rig_motion);
+      const Vector3d way = output.rig_motion->T_now_before.translation();
+      EXPECT_LT((way - Vector3d(0, 0, -kStep)).norm(), 0.003) << k << " of " << copies;
+    }
+    EXPECT_EQ(ids.size(), 1);
+  }
+}
+
+TEST(RobustMethod, PicturesWithoutNoiseOfARigThatStandsAreAsGoodAsOthers) {
+  const auto view = test::Render(test::StaticHall(), {}, Isometry3d::Identity(), 0, 0);
+  RobustState state;
+  for (int k = 0; k < 7; ++k) {
+    RobustResult result = StepRobust(state, {view.left, view.right}, k * 50'000'000LL, {}, {}, {});
+    state = std::move(result.state);
+    EXPECT_EQ(state.frames.back().number, k);
+    EXPECT_EQ(result.stages.gaps.empty(), k == 0);
+  }
 }
 
 /// The caller's guesses are off by what he says of them: so far the motion over the frames that
