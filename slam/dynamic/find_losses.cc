@@ -12,16 +12,35 @@ using dynamic::TestedPoint;
 using dynamic::Track;
 
 constexpr double kFits = 0.5;  // overlap from which on a rectangle is that of the mover
-/// A rig that moved by less between two frames stood: its epipolar lines mean nothing.
+/// A rig that went less far between two frames stood, or turned on the spot: its epipolar lines
+/// mean nothing.
 constexpr double kStandsBelow_m = 1e-4;
 
-/// The epipolar lines of the true motion.
-FundamentalEstimate TrueLines(const StereoCamera& camera, const Eigen::Isometry3d& T_now_before) {
+Eigen::Matrix3d InverseIntrinsics(const StereoCamera& camera) {
   Eigen::Matrix3d K_inverse = Eigen::Matrix3d::Identity();
   K_inverse(0, 0) = 1 / camera.fx;
   K_inverse(1, 1) = 1 / camera.fy;
   K_inverse(0, 2) = -camera.cx / camera.fx;
   K_inverse(1, 2) = -camera.cy / camera.fy;
+  return K_inverse;
+}
+
+/// Tracks as a rig would have that had not turned: each begins where the rotation takes what stood
+/// there, however far (the homography of infinity, Hartley and Zisserman 2004, 13.4).
+std::vector<Track> WithoutRotation(std::vector<Track> tracks, const StereoCamera& camera,
+                                   const Eigen::Matrix3d& R_now_before) {
+  const Eigen::Matrix3d K_inverse = InverseIntrinsics(camera);
+  const Eigen::Matrix3d H = K_inverse.inverse() * R_now_before * K_inverse;
+  for (Track& track : tracks) {
+    const Eigen::Vector3d to = H * Eigen::Vector3d(track.previous.x, track.previous.y, 1);
+    track.previous = {static_cast<float>(to.x() / to.z()), static_cast<float>(to.y() / to.z())};
+  }
+  return tracks;
+}
+
+/// The epipolar lines of the true motion.
+FundamentalEstimate TrueLines(const StereoCamera& camera, const Eigen::Isometry3d& T_now_before) {
+  const Eigen::Matrix3d K_inverse = InverseIntrinsics(camera);
   const Eigen::Vector3d t = T_now_before.translation();
   Eigen::Matrix3d t_cross;
   t_cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
@@ -77,20 +96,22 @@ std::string LostByOutline(const DynamicStages& stages, const std::vector<bool>& 
   return best.area() < mover.box.area() ? "outline too small" : "outline too large";
 }
 
-std::string LossOf(const DynamicStages& stages, const FundamentalEstimate& true_lines,
-                   const MoverTruth& mover) {
+std::string LossOf(const DynamicStages& stages, const StereoCamera& camera, const MoverTruth& mover,
+                   const Eigen::Isometry3d& T_now_before) {
   const dynamic::PaperStages& paper = stages.paper->stages;
   const dynamic::PaperOptions& options = stages.paper->options;
   const int least = options.group.min_points;
   const std::vector<Track> on = TracksOn(paper.tracks, mover.pixels);
   if (static_cast<int>(on.size()) < least) return "few points";
-  const auto test = [&](const FundamentalEstimate& lines) {
-    return dynamic::TestAgainstEpipolarLines(on, lines, paper.disparity, options.epipolar);
+  const auto test = [&](const std::vector<Track>& tracks, const FundamentalEstimate& lines) {
+    return dynamic::TestAgainstEpipolarLines(tracks, lines, paper.disparity, options.epipolar);
   };
-  const std::vector<TestedPoint> tested = test(paper.fundamental);
+  const std::vector<TestedPoint> tested = test(on, paper.fundamental);
   if (static_cast<int>(tested.size()) < least) return "no disparity";
   if (!paper.fundamental.found || CountDynamic(tested) < least) {
-    return CountDynamic(test(true_lines)) < least ? "along its line" : "wrong lines";
+    const FundamentalEstimate lines = TrueLines(camera, T_now_before);
+    const auto tracks = lines.standing ? WithoutRotation(on, camera, T_now_before.linear()) : on;
+    return CountDynamic(test(tracks, lines)) < least ? "along its line" : "wrong lines";
   }
   std::vector<bool> is_its_group;
   for (const PointGroup& group : paper.groups) is_its_group.push_back(Touches(group, mover.pixels));
@@ -104,9 +125,10 @@ std::vector<std::string> FindLosses(const DynamicStages& stages, const StereoCam
                                     const std::vector<MoverTruth>& movers,
                                     const Eigen::Isometry3d& T_now_before) {
   if (!stages.paper) return {};
-  const FundamentalEstimate true_lines = TrueLines(camera, T_now_before);
   std::vector<std::string> losses;
-  for (const MoverTruth& mover : movers) losses.push_back(LossOf(stages, true_lines, mover));
+  for (const MoverTruth& mover : movers) {
+    losses.push_back(LossOf(stages, camera, mover, T_now_before));
+  }
   return losses;
 }
 

@@ -29,9 +29,10 @@ struct MoverTruth {
 ///   "in parts"         rectangles that fit it together and none alone
 ///   "outline too small", "outline too large"   rectangles that do not fit it even together
 ///
-/// `T_now_before` is the true motion of the rig since the frame before. Rectangles fit from an
-/// overlap (intersection over union) of one half on. Empty where the stages are of a method that
-/// cannot tell, or where it had no past.
+/// `T_now_before` is the true motion of the rig since the frame before; of one that stood or turned
+/// on the spot, which has no epipolar lines, a point's line is the place where the rotation alone
+/// puts it. Rectangles fit from an overlap (intersection over union) of one half on. Empty where
+/// the stages are of a method that cannot tell, or where it had no past.
 std::vector<std::string> FindLosses(const DynamicStages& stages, const StereoCamera& camera,
                                     const std::vector<MoverTruth>& movers,
                                     const Eigen::Isometry3d& T_now_before);

@@ -17,11 +17,12 @@ using testing::IsEmpty;
 /// A walker who crosses before a rig that drives on, and what the paper's method made of it.
 class FindLossesTest : public testing::Test {
  protected:
-  FindLossesTest() {
+  FindLossesTest() { Play(1.2, Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.03))); }
+
+  /// The walker's speed across, and where the rig is a frame later.
+  void Play(double speed_mps, const Eigen::Isometry3d& T_world_now) {
     std::vector<test::Panel> panels = test::StaticHall();
-    panels.push_back(test::Walker({0.2, 0.1, 3.5}, {1.2, 0, 0}));
-    Eigen::Isometry3d T_world_now = Eigen::Isometry3d::Identity();
-    T_world_now.translation().z() = 0.03;
+    panels.push_back(test::Walker({0.2, 0.1, 3.5}, {speed_mps, 0, 0}));
     const auto before = test::Render(panels, camera_, Eigen::Isometry3d::Identity(), 0);
     const auto now = test::Render(panels, camera_, T_world_now, 0.05);
     T_now_before_ = T_world_now.inverse();
@@ -31,7 +32,9 @@ class FindLossesTest : public testing::Test {
         dynamic::DetectDynamicRegions({before.left, before.right}, {now.left, now.right}, {});
     stages_.regions = result.dynamic;
     stages_.paper->stages = std::move(result.stages);
-    mover_ = {now.moving, cv::boundingRect(now.moving)};
+    cv::Mat1b his;
+    cv::compare(now.panel, static_cast<double>(panels.size()), his, cv::CMP_EQ);
+    mover_ = {his, cv::boundingRect(his)};
   }
 
   std::string Loss() const {
@@ -106,6 +109,18 @@ TEST_F(FindLossesTest, ARigThatStoodIsAskedForPointsAndNotForLines) {
   T_now_before_.setIdentity();
   stages_.paper->stages.fundamental.F.setZero();
   EXPECT_EQ(Loss(), "wrong lines") << "the walker left his place by more than the threshold";
+}
+
+/// All of the image goes by, and the more the farther it is from its middle: a turn is no motion of
+/// what stands.
+TEST_F(FindLossesTest, ARigThatTurnsOnTheSpotHasNotStood) {
+  const Eigen::Isometry3d turned(Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitY()));
+  for (const double speed_mps : {0.0, 1.2}) {
+    Play(speed_mps, turned);
+    stages_.paper->stages.fundamental.standing = false;
+    stages_.paper->stages.fundamental.F.setZero();
+    EXPECT_EQ(Loss(), speed_mps == 0 ? "along its line" : "wrong lines");
+  }
 }
 
 TEST_F(FindLossesTest, EveryMoverHasItsAnswerAndOtherMethodsHaveNone) {
