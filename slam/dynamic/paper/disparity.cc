@@ -41,6 +41,8 @@ cv::Mat1b Halved(const cv::Mat1b& image) {
   return halved;
 }
 
+/// The matcher rounds up how far it searches: Doubled drops what is too far. An island of n pixels
+/// is one of 4 n in the whole image.
 DisparityOptions Halved(DisparityOptions options) {
   options.max_disparity_px = (options.max_disparity_px / 2 + 15) / 16 * 16;
   options.speckle_px /= 4;
@@ -48,14 +50,16 @@ DisparityOptions Halved(DisparityOptions options) {
   return options;
 }
 
-/// Every pixel takes the disparity of the half-size one it was part of.
-cv::Mat1f Doubled(const cv::Mat1f& half, cv::Size size) {
+/// Every pixel takes the disparity of the half-size one it was part of, but for those that were not
+/// to be searched.
+cv::Mat1f Doubled(const cv::Mat1f& half, cv::Size size, int max_disparity_px) {
+  const auto limit = static_cast<float>(max_disparity_px);
   cv::Mat1f doubled(size);
   for (int y = 0; y < size.height; ++y) {
     const float* from = half[std::min(y / 2, half.rows - 1)];
     for (int x = 0; x < size.width; ++x) {
       const float d = from[std::min(x / 2, half.cols - 1)];
-      const bool known = d >= 0.0F && 2 * d <= static_cast<float>(x);
+      const bool known = d >= 0.0F && 2 * d < limit && 2 * d <= static_cast<float>(x);
       doubled(y, x) = known ? 2 * d : kNoDisparity;
     }
   }
@@ -68,7 +72,8 @@ cv::Mat1f ComputeDisparity(const cv::Mat1b& left, const cv::Mat1b& right,
                            const DisparityOptions& options) {
   CV_Assert(left.size() == right.size() && !left.empty());
   if (!options.half_size || left.cols < 2 || left.rows < 2) return Match(left, right, options);
-  return Doubled(Match(Halved(left), Halved(right), Halved(options)), left.size());
+  return Doubled(Match(Halved(left), Halved(right), Halved(options)), left.size(),
+                 options.max_disparity_px);
 }
 
 float DisparityNear(const cv::Mat1f& disparity, const cv::Point2f& point, int radius) {

@@ -19,7 +19,9 @@ struct DisparityOptions {
   int speckle_px = 100;        ///< smaller islands of disparity are dropped
   int left_right_px = 2;       ///< allowed disagreement of left-to-right and right-to-left
   /// Match images of half the size: an eighth of the work. All of the above stay in pixels of the
-  /// whole image but block_px, which covers twice as much of the scene then.
+  /// whole image but block_px, which covers twice as much of the scene then. The matcher compares
+  /// left to right in whole pixels of its images: left_right_px then is 0 or even, 1 is taken as 2,
+  /// other odd values as one less.
   bool half_size = true;
 };
 

@@ -8,11 +8,16 @@
 namespace aisle::slam::dynamic {
 namespace {
 
-TEST(Disparity, AgreesWithTheTruthOfATexturedHall) {
+test::Agreement OfTheHall(const DisparityOptions& options) {
   const auto view =
       test::Render(test::StaticHall(), StereoCamera{}, Eigen::Isometry3d::Identity(), 0);
-  const test::Agreement agreement =
-      test::Compare(ComputeDisparity(view.left, view.right, {}), view.disparity);
+  const cv::Mat1f disparity = ComputeDisparity(view.left, view.right, options);
+  EXPECT_EQ(disparity.size(), view.left.size());
+  return test::Compare(disparity, view.disparity);
+}
+
+TEST(Disparity, AgreesWithTheTruthOfATexturedHall) {
+  const test::Agreement agreement = OfTheHall({.half_size = false});
   EXPECT_GT(agreement.known, 0.85);
   // The floor is slanted and blurred: it is where SGBM rounds most.
   EXPECT_GT(agreement.close, 0.8);
@@ -21,22 +26,44 @@ TEST(Disparity, AgreesWithTheTruthOfATexturedHall) {
 TEST(Disparity, NeverPointsBeyondTheRightImage) {
   const auto view =
       test::Render(test::StaticHall(), StereoCamera{}, Eigen::Isometry3d::Identity(), 0);
-  const cv::Mat1f disparity = ComputeDisparity(view.left, view.right, {});
-  for (int y = 0; y < disparity.rows; ++y) {
-    for (int x = 0; x < disparity.cols; ++x) ASSERT_LE(disparity(y, x), static_cast<float>(x));
+  for (const bool half : {false, true}) {
+    const cv::Mat1f disparity = ComputeDisparity(view.left, view.right, {.half_size = half});
+    for (int y = 0; y < disparity.rows; ++y) {
+      for (int x = 0; x < disparity.cols; ++x) ASSERT_LE(disparity(y, x), static_cast<float>(x));
+    }
   }
 }
 
-TEST(Disparity, OfHalfTheSizeAgreesAlmostAsOften) {
-  const auto view =
-      test::Render(test::StaticHall(), StereoCamera{}, Eigen::Isometry3d::Identity(), 0);
-  DisparityOptions half;
-  half.half_size = true;
-  const cv::Mat1f disparity = ComputeDisparity(view.left, view.right, half);
-  ASSERT_EQ(disparity.size(), view.left.size());
-  const test::Agreement agreement = test::Compare(disparity, view.disparity);
-  EXPECT_GT(agreement.known, 0.85);
-  EXPECT_GT(agreement.close, 0.75);
+/// Two pictures of one wall, the right one shifted.
+int FoundOfAWall(int shift, const DisparityOptions& options) {
+  cv::Mat1b wall(120, 400);
+  for (int y = 0; y < wall.rows; ++y) {
+    for (int x = 0; x < wall.cols; ++x) {
+      wall(y, x) =
+          cv::saturate_cast<unsigned char>(128 + 100 * test::ValueNoise(x / 5., y / 5., 1));
+    }
+  }
+  const int width = wall.cols - shift;
+  const cv::Mat1f disparity = ComputeDisparity(wall.colRange(0, width).clone(),
+                                               wall.colRange(shift, wall.cols).clone(), options);
+  return cv::countNonZero(cv::abs(disparity - shift) < 2);
+}
+
+TEST(Disparity, IsSearchedAsFarAsItIsToBeAndNoFarther) {
+  for (const bool half : {false, true}) {
+    for (const int most : {16, 48, 96}) {
+      const DisparityOptions options{.max_disparity_px = most, .half_size = half};
+      EXPECT_GT(FoundOfAWall(most - 4, options), 20'000) << most << (half ? " at half size" : "");
+      EXPECT_EQ(FoundOfAWall(most + 8, options), 0) << most << (half ? " at half size" : "");
+    }
+  }
+}
+
+TEST(Disparity, OfHalfTheSizeAgreesAboutAsOften) {
+  const test::Agreement whole = OfTheHall({.half_size = false}), half = OfTheHall({});
+  EXPECT_GT(half.known, whole.known - 0.05);
+  EXPECT_GT(half.close, whole.close - 0.05);
+  EXPECT_NE(half.close, whole.close) << "one of them is not of its size";
 }
 
 TEST(Disparity, OfHalfTheSizeKeepsOddImagesWhole) {
@@ -57,12 +84,14 @@ TEST(Disparity, IsTheSameForAnyNumberOfThreads) {
   const auto view =
       test::Render(test::StaticHall(), StereoCamera{}, Eigen::Isometry3d::Identity(), 0);
   const int threads = cv::getNumThreads();
-  cv::setNumThreads(1);
-  const cv::Mat1f one = ComputeDisparity(view.left, view.right, {});
-  cv::setNumThreads(4);
-  const cv::Mat1f four = ComputeDisparity(view.left, view.right, {});
-  cv::setNumThreads(threads);
-  EXPECT_EQ(cv::norm(one, four, cv::NORM_INF), 0);
+  for (const bool half : {false, true}) {
+    cv::setNumThreads(1);
+    const cv::Mat1f one = ComputeDisparity(view.left, view.right, {.half_size = half});
+    cv::setNumThreads(4);
+    const cv::Mat1f four = ComputeDisparity(view.left, view.right, {.half_size = half});
+    cv::setNumThreads(threads);
+    EXPECT_EQ(cv::norm(one, four, cv::NORM_INF), 0);
+  }
 }
 
 TEST(DisparityNear, IsTheMedianOfWhatIsKnown) {
