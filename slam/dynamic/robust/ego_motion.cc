@@ -67,7 +67,7 @@ double Chi2(const StereoCamera& camera, const Isometry3d& T, const PlacedMatch& 
   return error ? error->squaredNorm() : std::numeric_limits<double>::infinity();
 }
 
-/// Horn's closed form on three points; nothing if they are close to a line or change their shape.
+/// Horn's closed form on three points; nothing if they are close to a line.
 std::optional<Isometry3d> AlignTriangles(const std::array<Vector3d, 3>& from,
                                          const std::array<Vector3d, 3>& to) {
   const Vector3d from_mean = (from[0] + from[1] + from[2]) / 3,
