@@ -109,12 +109,14 @@ bool Repeats(const DenseFrame& now, const DenseFrame& last) {
 
 /// Whether the camera delivers an old picture while the rig goes on. Equal pictures alone do not
 /// say so: without noise a rig that stands has them. What tells is that no vehicle could have
-/// stopped so; of a picture known to be old, further copies are as old, whatever the rig could
-/// have done by then.
+/// stopped so, or that its motion is measured and is none of standing; of a picture known to be
+/// old, further copies are as old, whatever the rig could have done by then.
 bool IsStuck(const RobustState& before, const DenseFrame& now,
-             const std::vector<EgoMotion>& motions) {
+             const std::vector<EgoMotion>& motions, bool is_measured) {
   if (before.stuck_at) return Repeats(now, *before.stuck_at);
-  return !motions.empty() && motions[0].only_expected && Repeats(now, before.frames.back());
+  if (motions.empty()) return false;
+  const bool has_moved = motions[0].only_expected || (is_measured && !motions[0].standing);
+  return has_moved && Repeats(now, before.frames.back());
 }
 
 /// The state after a frame that showed nothing, or an old picture: what was known stays, and the
@@ -214,7 +216,7 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
                          options);
     });
   };
-  if (IsStuck(before, view.frame, motions.motions)) {
+  if (IsStuck(before, view.frame, motions.motions, prior && prior->measured)) {
     const PixelLabels same = label(before.memory.log_odds, before.memory.regions);
     return OnceMore(passed_over(), view, same, std::move(ms));
   }
