@@ -44,7 +44,7 @@ std::string MissingProgram(const ExternalSystem& system) {
 }
 
 std::vector<std::string> NotesOfSystems(const Suite& suite) {
-  std::vector<std::string> notes;
+  std::vector<std::string> notes, unseen;
   for (const SystemSpec& system : suite.systems) {
     if (!system.external) continue;
     const std::string missing = MissingProgram(*system.external);
@@ -53,12 +53,14 @@ std::vector<std::string> NotesOfSystems(const Suite& suite) {
           "system '{}': its command begins with {}, which is no program here: its runs would fail",
           system.name, Printable(missing, 200)));
     } else if (MayChangeUnseen(*system.external)) {
-      notes.push_back(fmt::format(
-          "system '{}': its command is not one program with its arguments, so which files decide "
-          "what it does cannot be told, and --resume makes its runs anew: name them under "
-          "depends_on",
-          system.name));
+      unseen.push_back(system.name);
     }
+  }
+  if (!unseen.empty()) {
+    notes.push_back(fmt::format(
+        "--resume makes the runs of {} anew: a command of more than one program with its arguments "
+        "does not tell which files decide what it does; depends_on names them",
+        fmt::join(unseen, ", ")));
   }
   return notes;
 }

@@ -145,14 +145,15 @@ TEST_F(ForeignSystemTest, ThatFailsOnceIsFlakyAndNotForgiven) {
 TEST_F(ForeignSystemTest, ThatFailedIsTriedOnceMoreByANightThatGoesOn) {
   const std::string known = KnownTrajectory();
   // The dataset's epoch is missing in what `lost` leaves the second time: no stamp is the scene's.
-  std::string systems = "  - {name: broken, command: \"exit 3 # {output}\"}\n";
+  std::string systems = fmt::format(
+      "  - {{name: broken, command: \"exit 3 # {{output}}\", depends_on: [{}]}}\n", known);
   for (const auto& [name, dataset] : {std::pair("ok", "kitti"), std::pair("lost", "euroc")}) {
     // What it leaves to remember is a folder: a file that its command names would decide it.
     const std::string mark = Out(fmt::format("mark_{}", name));
     fs::create_directories(mark);
     systems += fmt::format(
         "  - {{name: {3}, command: \"test -d {0}/been && cp {1} {{output}} && exit 0; mkdir "
-        "{0}/been; exit 3\", dataset: {2}, may_write: [{0}]}}\n",
+        "{0}/been; exit 3\", dataset: {2}, may_write: [{0}], depends_on: [{1}]}}\n",
         mark, known, dataset, name);
   }
   // As a night that is stopped before its second attempts leaves it.
@@ -336,14 +337,14 @@ TEST_F(ForeignSystemTest, IsRunAnewWhereNobodyCanTellWhatItIs) {
   };
   // By a shell alone.
   const std::string asked = fmt::format("\\\"$(echo '{}')\\\" {{output}}", script);
-  EXPECT_THAT(resume(asked), HasSubstr("--resume makes its runs anew"));
+  EXPECT_THAT(resume(asked), HasSubstr("--resume makes the runs of mine anew"));
   EXPECT_THAT(resume(asked), testing::Not(HasSubstr("already there")));
   const std::string depends = fmt::format(", depends_on: ['{}']", script);
-  EXPECT_THAT(resume(asked, depends), testing::Not(HasSubstr("makes its runs anew")));
+  EXPECT_THAT(resume(asked, depends), testing::Not(HasSubstr("--resume makes the runs")));
   EXPECT_THAT(resume(asked, depends), HasSubstr("1 of 1 runs are already there"));
   // A path that must be quoted is no riddle.
   const std::string quoted = fmt::format("'{}' {{output}}", script);
-  EXPECT_THAT(resume(quoted), testing::Not(HasSubstr("makes its runs anew")));
+  EXPECT_THAT(resume(quoted), testing::Not(HasSubstr("--resume makes the runs")));
   EXPECT_THAT(resume(quoted), HasSubstr("1 of 1 runs are already there"));
   WriteFileAtomically(script, "#!/bin/sh\ncp " + known + " $1 # another way\n");
   fs::permissions(script, fs::perms::owner_all);

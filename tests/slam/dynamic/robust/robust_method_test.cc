@@ -294,7 +294,10 @@ TEST(DynamicDetector, WhatStandsIsNotMaskedByACameraThatRepeatsItsPicture) {
       const Isometry3d T_world_rig(Eigen::Translation3d(0, 0, kStep * k));
       if (!copy) view = test::Render(panels, {}, T_world_rig, k * kStep, 2);
       const DynamicOutput output =
-          detector.Detect({k * 50'000'000LL, view.left.clone(), view.right.clone(), {},
+          detector.Detect({k * 50'000'000LL,
+                           view.left.clone(),
+                           view.right.clone(),
+                           {},
                            measured && k > 0 ? std::optional(wheels) : std::nullopt});
       if (k < 8) continue;
       EXPECT_LT(StaticMasked(output.regions.mask, view.moving), 0.01) << k << " of " << copies;
