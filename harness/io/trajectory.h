@@ -9,8 +9,9 @@
 
 namespace aisle {
 
-/// TUM: "timestamp tx ty tz qx qy qz qw", '#' comments. A stamp of 13 or more digits before its
-/// point, or without one, is nanoseconds: ORB-SLAM3 writes what it makes of EuRoC so.
+/// TUM: "timestamp tx ty tz qx qy qz qw", '#' comments. Stamps are seconds, or nanoseconds where
+/// one of the first hundred rows has 13 or more digits before its point, or where they are whole
+/// and step by a million or more: ORB-SLAM3 writes what it makes of EuRoC so.
 /// KITTI: 12 numbers a line, the first three rows of T_world_rig; no stamps. Some programs put the
 /// frame's number before them.
 /// EuRoC: csv "stamp in ns, p x y z, q w x y z[, v, biases]".
@@ -21,9 +22,10 @@ TrajectoryFormat TrajectoryFormatFromName(const std::string& name);
 /// "TUM, qw last": what a reader needs to know of it.
 std::string Describe(TrajectoryFormat format);
 
-/// Judges by the file's first data line and the comment above it. Absent where these do not tell:
-/// 8 columns, the first a whole number of nanoseconds, are EuRoC's, with qw first, or TUM's, with
-/// qw last, unless the comment names them. Throws InputError if it is none of the three.
+/// Judges by the titles of the columns in a comment above them, the number of columns and the
+/// stamps. Absent where these do not tell: 8 columns without titles, the first whole numbers of
+/// nanoseconds, are EuRoC's, with qw first, or TUM's, with qw last. Throws InputError if it is none
+/// of the three, seconds under titles with qw first too.
 std::optional<TrajectoryFormat> TellTrajectoryFormat(const std::filesystem::path& path);
 /// The same; throws InputError with the cure where the file does not tell.
 TrajectoryFormat GuessTrajectoryFormat(const std::filesystem::path& path);

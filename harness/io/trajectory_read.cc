@@ -1,4 +1,5 @@
 #include <charconv>
+#include <functional>
 #include <string_view>
 
 #include "harness/contract/rigid.h"
@@ -22,11 +23,36 @@ struct Row {
   }
 };
 
+/// The part of a quaternion that a column's title names: 'w' of "qw", "q_RS_w" or "qw[]"; 0: none.
+char QuaternionPart(std::string_view title) {
+  while (!title.empty() && std::isalnum(static_cast<unsigned char>(title.back())) == 0) {
+    title.remove_suffix(1);
+  }
+  if (title.size() < 2 || std::tolower(static_cast<unsigned char>(title.front())) != 'q') return 0;
+  const auto part = static_cast<char>(std::tolower(static_cast<unsigned char>(title.back())));
+  return std::string_view("wxyz").find(part) != std::string_view::npos ? part : '\0';
+}
+
+/// The format whose order of a quaternion's parts the titles have; absent where they name none.
+std::optional<TrajectoryFormat> FormatByTitles(const std::vector<std::string_view>& titles) {
+  std::string parts;
+  for (const std::string_view title : titles) {
+    if (const char part = QuaternionPart(title); part != 0) parts += part;
+  }
+  if (parts == "wxyz") return TrajectoryFormat::kEuroc;
+  if (parts == "xyzw") return TrajectoryFormat::kTum;
+  return std::nullopt;
+}
+
 /// The data lines of a file, one after the other.
 class Table {
  public:
-  explicit Table(const fs::path& path) : text_(ReadFile(path)), row_{path, 0, {}} {
-    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+  explicit Table(const fs::path& path) : text_(ReadFile(path)), row_{path, 0, {}} { Restart(); }
+
+  /// Before the first line again.
+  void Restart() {
+    at_ = text_.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+    row_.line = 0;
   }
 
   /// The next line that is neither empty nor a comment, valid until the next call; null at the end.
@@ -38,13 +64,13 @@ class Table {
       ++row_.line;
       if (row_.fields.empty()) continue;
       if (row_.fields.front().front() != '#') return &row_;
-      comment_ = row_.fields;
+      if (const auto told = FormatByTitles(row_.fields)) titles_ = told;
     }
     return nullptr;
   }
 
-  /// The last comment so far, split as a row is.
-  const std::vector<std::string_view>& comment() const { return comment_; }
+  /// By the last comment so far that names the parts of a quaternion; absent without one.
+  std::optional<TrajectoryFormat> titles() const { return titles_; }
 
   /// The same where a file without data is a mistake.
   const Row& First() {
@@ -67,7 +93,7 @@ class Table {
   const std::string text_;
   std::size_t at_ = 0;
   Row row_;
-  std::vector<std::string_view> comment_;
+  std::optional<TrajectoryFormat> titles_;
 };
 
 double Number(const Row& row, std::size_t index) {
@@ -147,34 +173,73 @@ Eigen::Isometry3d Pose(const Row& row, const Eigen::Vector3d& position, Eigen::Q
 /// So many digits before the point are no seconds of any year.
 constexpr std::size_t kLeastDigitsOfNanoseconds = 13;
 
+bool IsWhole(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// The digits before a number's point where nothing else is before it, else none.
+std::string_view DigitsBeforePoint(std::string_view text) {
+  const std::string_view digits = text.substr(0, text.find('.'));
+  return IsWhole(digits) ? digits : std::string_view();
+}
+
 /// Nanoseconds in TUM's columns: whole, or as ORB-SLAM3 writes EuRoC's stamps, as a real number
 /// ("1403636579763555584.000000").
 bool ParseNanoseconds(std::string_view text, std::int64_t* stamp_ns) {
-  const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
-  if (digits < kLeastDigitsOfNanoseconds) return false;
-  const std::string_view rest = text.substr(digits);
-  const bool is_decimal =
-      rest.empty() ||
-      (rest.front() == '.' && rest.find_first_not_of("0123456789", 1) == std::string_view::npos);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + digits, *stamp_ns);
-  return is_decimal && error == std::errc() && end == text.data() + digits;
+  const std::string_view digits = DigitsBeforePoint(text);
+  const std::string_view rest = text.substr(digits.size());
+  const bool is_decimal = rest.empty() || rest.find_first_not_of("0123456789", 1) == rest.npos;
+  const auto [end, error] =
+      std::from_chars(digits.data(), digits.data() + digits.size(), *stamp_ns);
+  return is_decimal && error == std::errc();
 }
 
-std::int64_t SecondsField(const Row& row) {
+enum class StampUnit { kSeconds, kNanoseconds };
+
+/// The unit of a table's stamps, by its first rows: nanoseconds have the digits of a date, or whole
+/// numbers from a clock that began at 0 and steps that no frames in seconds have.
+StampUnit UnitOfStamps(Table* table) {
+  constexpr int kRowsThatTell = 100;
+  constexpr std::int64_t kLeastStep = 1'000'000;  // 1 ms, or eleven days and a half
+  constexpr std::size_t kDecimalsOfSeconds = 9;   // no program writes so many of nanoseconds
+  std::optional<std::int64_t> before, least_step;
+  table->Restart();
+  for (int i = 0; i < kRowsThatTell; ++i) {
+    const Row* row = table->Next();
+    if (row == nullptr) break;
+    const std::string_view stamp = row->fields[0], digits = DigitsBeforePoint(stamp);
+    if (digits.size() >= kLeastDigitsOfNanoseconds) return StampUnit::kNanoseconds;
+    const std::string_view rest = stamp.substr(digits.size());
+    const bool of_seconds =
+        rest.size() > kDecimalsOfSeconds || rest.find_first_not_of(".0") != rest.npos;
+    std::int64_t now = 0;
+    if (of_seconds || !ParseNanoseconds(stamp, &now)) return StampUnit::kSeconds;
+    const std::int64_t step = std::abs(now - before.value_or(now));
+    if (step > 0) least_step = std::min(step, least_step.value_or(step));
+    before = now;
+  }
+  return least_step >= kLeastStep ? StampUnit::kNanoseconds : StampUnit::kSeconds;
+}
+
+std::int64_t StampField(const Row& row, StampUnit unit) {
   std::int64_t stamp_ns = 0;
-  if (!ParseNanoseconds(row.fields[0], &stamp_ns) && !ParseSecondsToNs(row.fields[0], &stamp_ns)) {
-    row.Fail(fmt::format("'{}' is not a time in seconds", Printable(std::string(row.fields[0]))));
+  const std::string_view field = row.fields[0];
+  const bool good = unit == StampUnit::kNanoseconds ? ParseNanoseconds(field, &stamp_ns)
+                                                    : ParseSecondsToNs(field, &stamp_ns);
+  if (!good) {
+    row.Fail(fmt::format("'{}' is not a time in {}", Printable(std::string(field)),
+                         unit == StampUnit::kNanoseconds ? "nanoseconds" : "seconds"));
   }
   return stamp_ns;
 }
 
-StampedPose TumPose(const Row& row) {
+StampedPose TumPose(const Row& row, StampUnit unit) {
   if (row.fields.size() != 8) {
     row.Fail(fmt::format("{} fields; a TUM line has 8: timestamp tx ty tz qx qy qz qw",
                          row.fields.size()));
   }
   const Eigen::Quaterniond q(Number(row, 7), Number(row, 4), Number(row, 5), Number(row, 6));
-  return {SecondsField(row), Pose(row, Position(row, 1), q)};
+  return {StampField(row, unit), Pose(row, Position(row, 1), q)};
 }
 
 StampedPose EurocPose(const Row& row) {
@@ -236,8 +301,10 @@ std::size_t KittiFrame(const Row& row, std::size_t rows_above) {
 std::vector<std::int64_t> KittiTimes(const fs::path& times) {
   std::vector<std::int64_t> stamps;
   Table table(times);
+  const StampUnit unit = UnitOfStamps(&table);
+  table.Restart();
   for (const Row* row = table.Next(); row != nullptr; row = table.Next()) {
-    stamps.push_back(SecondsField(*row));
+    stamps.push_back(StampField(*row, unit));
   }
   return stamps;
 }
@@ -262,11 +329,12 @@ Trajectory ReadKitti(const fs::path& path, const fs::path& times) {
   return trajectory;
 }
 
-Trajectory ReadStamped(const fs::path& path, StampedPose (*pose)(const Row&), RowOrder order) {
-  Table table(path);
+Trajectory ReadStamped(Table* table, const std::function<StampedPose(const Row&)>& pose,
+                       RowOrder order) {
   Trajectory trajectory;
   StampOrder stamps(order);
-  for (const Row* row = &table.First(); row != nullptr; row = table.Next()) {
+  table->Restart();
+  for (const Row* row = &table->First(); row != nullptr; row = table->Next()) {
     trajectory.push_back(pose(*row));
     stamps.Check(*row, trajectory.back().stamp_ns,
                  "stamp " + Printable(std::string(row->fields.front())));
@@ -275,27 +343,6 @@ Trajectory ReadStamped(const fs::path& path, StampedPose (*pose)(const Row&), Ro
       trajectory.begin(), trajectory.end(),
       [](const StampedPose& a, const StampedPose& b) { return a.stamp_ns < b.stamp_ns; });
   return trajectory;
-}
-
-/// The part of a quaternion that a column's title names: 'w' of "qw", "q_RS_w" or "qw[]"; 0: none.
-char QuaternionPart(std::string_view title) {
-  while (!title.empty() && std::isalnum(static_cast<unsigned char>(title.back())) == 0) {
-    title.remove_suffix(1);
-  }
-  if (title.size() < 2 || std::tolower(static_cast<unsigned char>(title.front())) != 'q') return 0;
-  const auto part = static_cast<char>(std::tolower(static_cast<unsigned char>(title.back())));
-  return std::string_view("wxyz").find(part) != std::string_view::npos ? part : '\0';
-}
-
-/// The format whose order of a quaternion's parts the titles have; absent where they name none.
-std::optional<TrajectoryFormat> FormatByTitles(const std::vector<std::string_view>& titles) {
-  std::string parts;
-  for (const std::string_view title : titles) {
-    if (const char part = QuaternionPart(title); part != 0) parts += part;
-  }
-  if (parts == "wxyz") return TrajectoryFormat::kEuroc;
-  if (parts == "xyzw") return TrajectoryFormat::kTum;
-  return std::nullopt;
 }
 
 }  // namespace
@@ -324,17 +371,23 @@ std::optional<TrajectoryFormat> TellTrajectoryFormat(const fs::path& path) {
   const Row& row = table.First();
   const std::size_t count = row.fields.size();
   if (count == kKittiNumbers) return TrajectoryFormat::kKitti;
-  // A EuRoC stamp is whole nanoseconds; TUM seconds of a plausible year are 10 digits at most.
-  const bool whole = row.fields[0].find_first_not_of("0123456789") == std::string::npos;
+  const bool whole = IsWhole(row.fields[0]);
   constexpr std::size_t kDigitsOfFrames = 9;  // fewer than any stamp in nanoseconds
   if (count == kKittiNumbers + 1 && whole && row.fields[0].size() <= kDigitsOfFrames) {
     return TrajectoryFormat::kKitti;
   }
-  if (count > 8 && whole) return TrajectoryFormat::kEuroc;
-  if (count == 8 && whole && row.fields[0].size() >= kLeastDigitsOfNanoseconds) {
-    return FormatByTitles(table.comment());
+  const std::optional<TrajectoryFormat> titles = table.titles();
+  if (count > 8 && whole) return titles.value_or(TrajectoryFormat::kEuroc);
+  if (count == 8) {
+    const bool in_ns = UnitOfStamps(&table) == StampUnit::kNanoseconds && whole;
+    if (titles == TrajectoryFormat::kEuroc && !in_ns) {
+      throw InputError(path.string(), 0,
+                       "its titles say qw first, as EuRoC's have it, but its first column is no "
+                       "time in whole nanoseconds: write it so, or as TUM's have it, seconds and "
+                       "'tx ty tz qx qy qz qw'");
+    }
+    return titles || in_ns ? titles : TrajectoryFormat::kTum;
   }
-  if (count == 8) return TrajectoryFormat::kTum;
   row.Fail(fmt::format("{} fields: neither TUM (8), KITTI (12) nor EuRoC (8 to 17, stamp in ns)",
                        count));
 }
@@ -356,15 +409,12 @@ fs::path KittiTimesBeside(const fs::path& poses) {
 
 Trajectory ReadTrajectory(const fs::path& path, TrajectoryFormat format, const fs::path& times,
                           RowOrder order) {
-  switch (format) {
-    case TrajectoryFormat::kTum:
-      return ReadStamped(path, TumPose, order);
-    case TrajectoryFormat::kEuroc:
-      return ReadStamped(path, EurocPose, order);
-    case TrajectoryFormat::kKitti:
-      break;
-  }
-  return ReadKitti(path, times);
+  if (format == TrajectoryFormat::kKitti) return ReadKitti(path, times);
+  Table table(path);
+  if (format == TrajectoryFormat::kEuroc) return ReadStamped(&table, EurocPose, order);
+  const StampUnit unit = UnitOfStamps(&table);
+  return ReadStamped(
+      &table, [unit](const Row& row) { return TumPose(row, unit); }, order);
 }
 
 }  // namespace aisle

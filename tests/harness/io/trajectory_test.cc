@@ -201,6 +201,56 @@ TEST_F(IoTest, WhereQwStandsIsToldByTheTitlesOrNotAtAll) {
   }
 }
 
+/// A turn of a quarter about z, once with qw first and once with qw last.
+constexpr const char *kQwFirst = " 1 2 3 0.8 0 0 0.6\n", *kQwLast = " 1 2 3 0 0 0.6 0.8\n";
+
+TEST_F(IoTest, TitlesDecideWhateverTheStampsAre) {
+  const std::string first = "# timestamp tx ty tz qw qx qy qz\n";
+  const std::string last = "# timestamp tx ty tz qx qy qz qw\n# of night 3, in metres\n";
+  const auto rows = [](const std::string& a, const std::string& b, const char* pose) {
+    return a + pose + b + pose;
+  };
+  const auto read = [](const fs::path& file) {
+    return ReadTrajectory(file, GuessTrajectoryFormat(file));
+  };
+  const Eigen::Quaterniond turned(0.8, 0, 0, 0.6);
+  // Each with its stamps from a clock that began at 0, and with those of a date.
+  for (const auto& [a, b] :
+       {std::pair("0", "50000000"), std::pair("1403636579763555584", "1403636579813555584")}) {
+    for (const std::string& text : {first + rows(a, b, kQwFirst), last + rows(a, b, kQwLast)}) {
+      const Trajectory poses = read(Write("t.txt", text));
+      EXPECT_TRUE(Eigen::Quaterniond(poses[1].T_world_rig.linear()).isApprox(turned, 1e-12))
+          << text;
+      EXPECT_EQ(poses[1].stamp_ns - poses[0].stamp_ns, 50'000'000) << text;
+    }
+  }
+  // Seconds with qw first are of no format.
+  for (const auto& [a, b] : {std::pair("0.5", "0.55"), std::pair("1", "2")}) {
+    try {
+      GuessTrajectoryFormat(Write("t.txt", first + rows(a, b, kQwFirst)));
+      ADD_FAILURE() << a;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("its titles say qw first"));
+    }
+  }
+}
+
+TEST_F(IoTest, WholeStepsOfElevenDaysAreNanoseconds) {
+  const auto tell = [&](const std::string& a, const std::string& b) {
+    return TellTrajectoryFormat(Write("t.txt", a + kQwFirst + b + kQwFirst));
+  };
+  EXPECT_EQ(tell("0", "50000000"), std::nullopt) << "a clock that began at 0";
+  EXPECT_EQ(tell("0", "1403636579763555584"), std::nullopt);
+  EXPECT_EQ(tell("1600000000", "1600000001"), TrajectoryFormat::kTum);
+  EXPECT_EQ(tell("0", "0"), TrajectoryFormat::kTum);
+  const fs::path orb = Write("orb.txt", "0.000000 1 2 3 0 0 0 1\n50000000.000000 1 2 3 0 0 0 1\n");
+  EXPECT_EQ(ReadTrajectory(orb, TrajectoryFormat::kTum)[1].stamp_ns, 50'000'000);
+  const Trajectory long_apart = {{0, Eigen::Isometry3d::Identity()},
+                                 {2'000'000'000'000'000, Eigen::Isometry3d::Identity()}};
+  const fs::path ours = Write("t.txt", FormatTrajectory(long_apart, TrajectoryFormat::kTum));
+  EXPECT_EQ(ReadTrajectory(ours, TrajectoryFormat::kTum)[1].stamp_ns, long_apart[1].stamp_ns);
+}
+
 TEST_F(IoTest, TitlesOfColumnsAreToldFromPoses) {
   EXPECT_THAT(Complaint("t,x,y,z,qx,qy,qz,qw\n1,0,0,0,0,0,0,1\n", TrajectoryFormat::kTum),
               HasSubstr("titles of columns begin with '#'"));
