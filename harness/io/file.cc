@@ -57,6 +57,23 @@ fs::path AsideOf(const fs::path& path) {
   return path.parent_path() / name;
 }
 
+/// What bytes go into and cannot be kept in: a device, a pipe, a socket.
+bool IsStream(fs::file_type type) {
+  return type == fs::file_type::character || type == fs::file_type::block ||
+         type == fs::file_type::fifo || type == fs::file_type::socket;
+}
+
+/// The file that a link leads to, there or not, whose place is then taken by a new one: the link
+/// stays. A circle ends where the kernel would give up.
+fs::path AtEndOfLinks(fs::path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
+    path = path.parent_path() / fs::read_symlink(path, error);
+  }
+  return path;
+}
+
 /// Why a file that was asked for cannot be read: whoever named it, or the machine.
 [[noreturn]] void FailToRead(const fs::path& path) {
   const int error = errno;
@@ -122,16 +139,24 @@ void MakeParentFolder(const fs::path& path) {
   }
 }
 
-FileAside::FileAside(const fs::path& path) : path_(path), aside_(AsideOf(path)) {
+FileAside::FileAside(const fs::path& path) {
   MakeParentFolder(path);
-  fd_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  std::error_code none;
+  if (IsStream(fs::status(path, none).type())) {
+    path_ = aside_ = path;
+    fd_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  } else {
+    path_ = AtEndOfLinks(path);
+    aside_ = AsideOf(path_);
+    fd_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  }
   if (fd_ < 0) Fail("open", aside_);
 }
 
 FileAside::~FileAside() {
   if (fd_ < 0) return;
   ::close(fd_);
-  ::unlink(aside_.c_str());
+  if (aside_ != path_) ::unlink(aside_.c_str());
 }
 
 void FileAside::Append(std::string_view bytes) {
@@ -140,6 +165,11 @@ void FileAside::Append(std::string_view bytes) {
 }
 
 void FileAside::Commit(Durability durability) {
+  if (aside_ == path_) {
+    ::close(fd_);
+    fd_ = -1;
+    return;
+  }
   const bool flush = durability == Durability::kSurvivesPowerLoss;
   if (flush && ::fsync(fd_) != 0) Fail("flush", aside_);
   if (::rename(aside_.c_str(), path_.c_str()) != 0) Fail("rename to", path_);

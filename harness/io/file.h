@@ -19,13 +19,15 @@ enum class Durability {
 void MakeParentFolder(const std::filesystem::path& path);
 
 /// Writes aside, flushes to the disk, then renames: under the final name stands either the old file
-/// or the whole new one, whenever the power goes. Makes missing folders. Throws MachineError, and
-/// InputError where the path cannot be one of a file: below a file, or too long.
+/// or the whole new one, whenever the power goes. Of a link, the file it leads to. A device or a
+/// pipe is written to as it stands. Makes missing folders. Throws MachineError, and InputError
+/// where the path cannot be one of a file: below a file, or too long.
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes,
                          Durability durability = Durability::kSurvivesPowerLoss);
 
 /// A file that grows aside and gets its name when it is whole: for what is too large to be held at
-/// once. Without Commit nothing is left of it. Not thread-safe.
+/// once. Without Commit nothing is left of it, but for what has gone into a device or a pipe. Not
+/// thread-safe.
 class FileAside {
  public:
   /// Makes missing folders. Throws as WriteFileAtomically does.
@@ -41,7 +43,7 @@ class FileAside {
   void Commit(Durability durability = Durability::kSurvivesPowerLoss);
 
  private:
-  std::filesystem::path path_, aside_;
+  std::filesystem::path path_, aside_;  ///< the same: written to as it stands
   int fd_ = -1;
   std::uint64_t size_ = 0;
 };

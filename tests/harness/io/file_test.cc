@@ -1,6 +1,7 @@
 // Files that others left: whatever stands there, reading it ends, and ends small.
 #include "harness/io/file.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -63,6 +64,37 @@ TEST_F(FileTest, ALeftFileThatIsNoneIsRefusedAtOnce) {
   EXPECT_THAT(Left("circle"), HasSubstr("is a link that leads out of its folder"));
   EXPECT_THAT(Left("sparse"), HasSubstr("is larger than the allowed 1000 bytes"));
   EXPECT_THAT(Left("none"), HasSubstr("no such file"));
+}
+
+TEST_F(FileTest, WhatIsNoFileIsWrittenToAsItStands) {
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  WriteFileAtomically(pipe, "text");
+  std::string read(100, ' ');
+  read.resize(static_cast<std::size_t>(std::max<ssize_t>(::read(reader, read.data(), 100), 0)));
+  ::close(reader);
+  EXPECT_EQ(read, "text");
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  // A link, so that the device of the machine that tests this stays what it is.
+  fs::create_symlink("/dev/null", folder_ / "null");
+  WriteFileAtomically(folder_ / "null", "text");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "null"));
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST_F(FileTest, ALinkLeadsToTheFileThatIsWritten) {
+  fs::create_symlink("left/real", folder_ / "near");
+  fs::create_symlink(folder_ / "near", folder_ / "far");
+  for (const char* text : {"not there yet", "there"}) {
+    WriteFileAtomically(folder_ / "far", text);
+    EXPECT_EQ(ReadFile(folder_ / "left/real"), text);
+    EXPECT_TRUE(fs::is_symlink(folder_ / "near") && fs::is_symlink(folder_ / "far"));
+  }
+  { FileAside dropped(folder_ / "far"); }
+  EXPECT_EQ(ReadFile(folder_ / "left/real"), "there");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "left"), {}), 1) << "nothing aside";
 }
 
 TEST_F(FileTest, WhatHasNoEndIsReadToTheLimitAlone) {
