@@ -1,7 +1,9 @@
 #include "slam/mapping/loop_closing.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <set>
 
 #include "slam/camera/se3.h"
 #include "slam/common/stopwatch.h"
@@ -10,11 +12,65 @@
 namespace aisle::slam {
 namespace {
 
-/// The landmarks of a keyframe and its neighbours.
-std::vector<LandmarkId> LandmarksAround(const Map& map, KeyframeId id, const FuseOptions& options) {
-  std::vector<KeyframeId> keyframes = FuseNeighbours(map, id, options);
-  keyframes.push_back(id);
-  return LandmarksOf(map, keyframes);
+/// The two visits of a place, around the ends of loops: the keyframes that see it now, and those
+/// that saw it then. Who stands beside both is of the older one: it does not move.
+struct Visits {
+  std::vector<KeyframeId> now, then;
+};
+
+/// Keyframes and their neighbours in the covisibility graph.
+std::set<KeyframeId> WithNeighbours(const Map& map, const std::set<KeyframeId>& keyframes) {
+  std::set<KeyframeId> all = keyframes;
+  for (const KeyframeId id : keyframes) {
+    for (const Covisible& covisible : CovisibleKeyframes(map, id, kLeastCovisible)) {
+      all.insert(covisible.keyframe);
+    }
+  }
+  return all;
+}
+
+Visits VisitsOf(const Map& map, const std::vector<LoopEdge>& loops) {
+  std::set<KeyframeId> current, matched;
+  for (const LoopEdge& loop : loops) {
+    current.insert(loop.current);
+    matched.insert(loop.matched);
+  }
+  const std::set<KeyframeId> now = WithNeighbours(map, current);
+  const std::set<KeyframeId> then = WithNeighbours(map, matched);
+  Visits visits;
+  std::ranges::set_difference(now, then, std::back_inserter(visits.now));
+  visits.then.assign(then.begin(), then.end());
+  return visits;
+}
+
+/// What joins the two visits in a map in which they stand as the loop says: the landmarks that both
+/// saw become one. Edits by their order.
+std::vector<MapEdit> JoinVisits(Map map, const Visits& visits, const StereoCamera& camera,
+                                const FuseOptions& fuse) {
+  std::vector<MapEdit> edits;
+  for (const KeyframeId view : visits.now) {
+    // Asked anew for every view: the one before may have put other landmarks in their place.
+    edits.push_back(FuseInto(map, view, LandmarksOf(map, visits.then), camera, fuse));
+    map.Apply(edits.back());
+  }
+  return edits;
+}
+
+/// Every pair of keyframes that has come to share landmarks, as it stands: one of this visit, and
+/// one of which it knew nothing `before`.
+std::vector<LoopEdge> NewPairs(const Map& before, const Map& joined, const Visits& visits) {
+  std::vector<LoopEdge> pairs;
+  for (const KeyframeId now : visits.now) {
+    const std::set<KeyframeId> known = WithNeighbours(before, {now});
+    for (const Covisible& other : CovisibleKeyframes(joined, now, kLeastCovisible)) {
+      if (known.contains(other.keyframe) || std::ranges::binary_search(visits.now, other.keyframe))
+        continue;
+      pairs.push_back({now, other.keyframe,
+                       joined.At(other.keyframe).T_world_rig.inverse() * joined.At(now).T_world_rig,
+                       other.shared});
+    }
+  }
+  return pairs;
 }
 
 }  // namespace
@@ -25,16 +81,15 @@ Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& c
       std::max_element(loops.begin(), loops.end(),
                        [](const LoopEdge& a, const LoopEdge& b) { return a.inliers < b.inliers; });
   map.Apply(JoinParts(map, *best));
-  map.Apply(SpreadLoops(map, loops, spread));
-  for (const LoopEdge& loop : loops) {
-    if (!map.Find(loop.current) || !map.Find(loop.matched)) continue;
-    const std::vector<LandmarkId> old_place = LandmarksAround(map, loop.matched, fuse);
-    std::vector<KeyframeId> new_views = FuseNeighbours(map, loop.current, fuse);
-    new_views.push_back(loop.current);
-    for (const KeyframeId view : new_views) {
-      map.Apply(FuseInto(map, view, old_place, camera, fuse));
-    }
-  }
+  const Visits visits = VisitsOf(map, loops);
+  Map moved = map;
+  moved.Apply(MoveRigidly(map, visits.now, Correction(map, *best)));
+  const std::vector<MapEdit> joining = JoinVisits(moved, visits, camera, fuse);
+  for (const MapEdit& edit : joining) moved.Apply(edit);
+  std::vector<LoopEdge> edges = loops;
+  std::ranges::copy(NewPairs(map, moved, visits), std::back_inserter(edges));
+  map.Apply(SpreadLoops(map, edges, spread));
+  for (const MapEdit& edit : joining) map.Apply(edit);
   return map;
 }
 

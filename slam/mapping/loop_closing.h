@@ -7,10 +7,13 @@
 
 namespace aisle::slam {
 
-/// Closes a loop: joins the two parts of the map that it connects if it does, spreads its error
-/// over the map and joins the landmarks that both visits saw. Quick, so that tracking soon stands
-/// in one map again; exactness comes from AdjustGlobally after. Takes the map by value and returns
-/// the next one: it can run beside readers. At least one loop.
+/// Closes a loop (Mur-Artal et al. 2015, III-E): joins the two parts of the map that it connects if
+/// it does; finds the landmarks that both visits saw with the new one where the loop says it is;
+/// and spreads the error over the map, held by every pair of keyframes that come to share
+/// landmarks by that: a few loops alone would not outweigh all the neighbours along the drift of a
+/// dense map. Quick, so that tracking soon stands in one map again; exactness comes from
+/// AdjustGlobally after. Takes the map by value and returns the next one: it can run beside
+/// readers. At least one loop.
 Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& camera,
               const LoopSpreadOptions& spread, const FuseOptions& fuse);
 

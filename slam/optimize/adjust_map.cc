@@ -139,13 +139,29 @@ Adjustment AdjustGlobally(const Map& map, const StereoCamera& camera,
                      options.final_iterations, true);
 }
 
+Eigen::Isometry3d Correction(const Map& map, const LoopEdge& loop) {
+  return map.At(loop.matched).T_world_rig * loop.T_matched_current *
+         map.At(loop.current).T_world_rig.inverse();
+}
+
+MapEdit MoveRigidly(const Map& map, const std::vector<KeyframeId>& keyframes,
+                    const Eigen::Isometry3d& T_new_old) {
+  MapEdit edit;
+  for (const KeyframeId id : keyframes) {
+    edit.poses.push_back({id, Normalized(T_new_old * map.At(id).T_world_rig)});
+  }
+  for (const LandmarkId id : LandmarksOf(map, keyframes)) {
+    edit.positions.push_back({id, T_new_old * map.At(id).position});
+  }
+  return edit;
+}
+
 MapEdit JoinParts(const Map& map, const LoopEdge& loop) {
   const std::map<KeyframeId, KeyframeId> roots = Roots(map);
   const KeyframeId current = roots.at(loop.current), matched = roots.at(loop.matched);
   MapEdit edit;
   if (current == matched) return edit;
-  const Eigen::Isometry3d T_new_old = map.At(loop.matched).T_world_rig * loop.T_matched_current *
-                                      map.At(loop.current).T_world_rig.inverse();
+  const Eigen::Isometry3d T_new_old = Correction(map, loop);
   const auto& [stays, moves] = std::minmax(current, matched);
   const Eigen::Isometry3d T_world_part = moves == current ? T_new_old : T_new_old.inverse();
   std::vector<KeyframeId> moving;
@@ -154,12 +170,7 @@ MapEdit JoinParts(const Map& map, const LoopEdge& loop) {
     if (root == moves) moving.push_back(id);
     if (root == stays && id < moves) parent = id;
   }
-  for (const KeyframeId id : moving) {
-    edit.poses.push_back({id, Normalized(T_world_part * map.At(id).T_world_rig)});
-  }
-  for (const LandmarkId id : LandmarksOf(map, moving)) {
-    edit.positions.push_back({id, T_world_part * map.At(id).position});
-  }
+  edit = MoveRigidly(map, moving, T_world_part);
   edit.parents.push_back({moves, parent});
   return edit;
 }

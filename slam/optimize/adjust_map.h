@@ -49,6 +49,13 @@ struct LoopEdge {
   int inliers = 0;
 };
 
+/// Where the loop says the current keyframe ought to be, seen from where it is: T_new_old.
+Eigen::Isometry3d Correction(const Map& map, const LoopEdge& loop);
+
+/// Moves keyframes and every landmark that they see by T_new_old, a motion of the world.
+MapEdit MoveRigidly(const Map& map, const std::vector<KeyframeId>& keyframes,
+                    const Eigen::Isometry3d& T_new_old);
+
 /// Makes one of the two parts of the map that a loop connects: the younger one moves as a whole to
 /// where the loop says it is. Nothing where both ends are of one part.
 MapEdit JoinParts(const Map& map, const LoopEdge& loop);

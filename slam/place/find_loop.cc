@@ -66,11 +66,6 @@ bool Agree(const Map& map, const LoopEdge& a, const LoopEdge& b, const LoopOptio
 
 }  // namespace
 
-Eigen::Isometry3d Correction(const Map& map, const LoopEdge& loop) {
-  return map.At(loop.matched).T_world_rig * loop.T_matched_current *
-         map.At(loop.current).T_world_rig.inverse();
-}
-
 std::optional<LoopEdge> VerifyLoop(const Map& map, KeyframeId current, KeyframeId matched,
                                    const StereoCamera& camera, int levels,
                                    const LoopOptions& options) {

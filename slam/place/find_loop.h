@@ -54,9 +54,6 @@ std::optional<LoopEdge> FindLoop(const Map& map, KeyframeId current, const WordV
 std::vector<LoopEdge> SeenBeside(const Map& map, const LoopEdge& loop, const StereoCamera& camera,
                                  int levels, const LoopOptions& options);
 
-/// Where the loop says the current keyframe ought to be, seen from where it is: T_new_old.
-Eigen::Isometry3d Correction(const Map& map, const LoopEdge& loop);
-
 /// The loops that agree with the newest one (pairwise consistency), itself included, or none where
 /// they, or the landmarks they confirm, are too few or ask for more than odometry can have drifted.
 std::vector<LoopEdge> AgreeingLoops(const Map& map, const std::vector<LoopEdge>& loops,

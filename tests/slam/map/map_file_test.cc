@@ -34,7 +34,7 @@ std::string ErrorOf(const fs::path& file) {
 
 /// A ring with a past: keyframes and landmarks have gone, and slots are vacant.
 SavedMap UsedMap() {
-  const RingWorld ring(1.01, 0.003);
+  const RingWorld ring({.drift = 1.01, .turn_rad = 0.003});
   SavedMap saved{ring.camera(), {42}, ring.map()};
   MapEdit edit;
   edit.removed_keyframes = {{5}, {6}, {17}};

@@ -45,7 +45,7 @@ MapEdit AnyEdit(const Map& map) {
 TEST(MapRoundTrip, KeepsEveryBitOfAMapThatWasEditedAtWill) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("aisle_maps_{}", ::getpid());
   fs::create_directories(folder);
-  const RingWorld ring(1.01, 0.003);
+  const RingWorld ring({.drift = 1.01, .turn_rad = 0.003});
   const auto once = [&] {
     SavedMap saved{ring.camera(), {AnyOf(0, 1)}, ring.map()};
     for (int edits = AnyOf(0, 4); edits > 0; --edits) saved.map.Apply(AnyEdit(saved.map));

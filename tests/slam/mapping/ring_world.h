@@ -11,20 +11,30 @@
 
 namespace aisle::slam {
 
+/// What a RingWorld is like.
+struct RingOptions {
+  double drift = 1;      ///< factor on every step
+  double turn_rad = 0;   ///< added to every turn
+  int round = 40;        ///< keyframes of a round ...
+  int again = 4;         ///< ... and beyond it
+  int points = 4000;     ///< on both walls
+  double noise_px = 0;   ///< deviation of the columns and rows that features measure
+  unsigned seed = 3;     ///< of that
+  int dark_before = -1;  ///< keyframe that goes on from the one before by wheels alone ...
+  int through_dark = 0;  ///< ... but for so many landmarks that it sees again
+};
+
 /// A drive once round a ring-shaped aisle and a little further, as odometry that drifts would map
 /// it: what is seen again after a whole round is mapped a second time, where drift has put it.
 /// Every feature is known by its point, so that nothing here depends on images.
 class RingWorld {
  public:
-  static constexpr int kRound = 40, kAgain = 4;  // keyframes of a round, and beyond it
-
-  /// `drift` is a factor on every step and `turn_rad` is added to every turn.
-  RingWorld(double drift, double turn_rad) {
+  explicit RingWorld(const RingOptions& options) : options_(options), random_(options.seed) {
     PlacePoints();
-    for (int k = 0; k < kRound + kAgain; ++k) truth_.push_back(TruePose(k));
+    for (int k = 0; k < options.round + options.again; ++k) truth_.push_back(TruePose(k));
     Eigen::Isometry3d T_world_rig = truth_[0];
-    for (int k = 0; k < kRound + kAgain; ++k) {
-      if (k > 0) T_world_rig = T_world_rig * Drifted(k, drift, turn_rad);
+    for (int k = 0; k < options.round + options.again; ++k) {
+      if (k > 0) T_world_rig = T_world_rig * Drifted(k);
       AddKeyframe(k, T_world_rig);
     }
   }
@@ -36,9 +46,9 @@ class RingWorld {
   /// The second visits of the first places, as place recognition would measure them.
   std::vector<LoopEdge> Loops() const {
     std::vector<LoopEdge> loops;
-    for (int k = 0; k < kAgain; ++k) {
-      loops.push_back(
-          {{kRound + k}, {k}, truth_[Slot(k)].inverse() * truth_[Slot(kRound + k)], 100});
+    for (int k = 0; k < options_.again; ++k) {
+      const int now = options_.round + k;
+      loops.push_back({{now}, {k}, truth_[Slot(k)].inverse() * truth_[Slot(now)], 100});
     }
     return loops;
   }
@@ -59,18 +69,18 @@ class RingWorld {
   static std::size_t Slot(int k) { return static_cast<std::size_t>(k); }
 
   /// On the ring, looking along it. World axes are a camera's: x right, y down, z ahead.
-  static Eigen::Isometry3d TruePose(int k) {
-    const double angle = 2 * M_PI * k / kRound;
+  Eigen::Isometry3d TruePose(int k) const {
+    const double angle = 2 * M_PI * k / options_.round;
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     pose.linear() = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()).matrix();
     pose.translation() = kRadiusM * Eigen::Vector3d(1 - std::cos(angle), 0, std::sin(angle));
     return pose;
   }
 
-  Eigen::Isometry3d Drifted(int k, double drift, double turn_rad) const {
+  Eigen::Isometry3d Drifted(int k) const {
     Eigen::Isometry3d step = truth_[Slot(k - 1)].inverse() * truth_[Slot(k)];
-    step.translation() *= drift;
-    return step * Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY());
+    step.translation() *= options_.drift;
+    return step * Eigen::AngleAxisd(options_.turn_rad, Eigen::Vector3d::UnitY());
   }
 
   /// Both walls of the aisle.
@@ -79,7 +89,7 @@ class RingWorld {
     const auto uniform = [&](double low, double high) {
       return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
     };
-    for (int i = 0; i < 4000; ++i) {
+    for (int i = 0; i < options_.points; ++i) {
       const double angle = uniform(0, 2 * M_PI);
       const double radius = kRadiusM + (i % 2 == 0 ? -2.0 : 2.0) + uniform(-0.3, 0.3);
       points_.emplace_back(kRadiusM - radius * std::cos(angle), uniform(-1.5, 1.5),
@@ -108,7 +118,8 @@ class RingWorld {
           {cv::Point2f(static_cast<float>(uvd.x()), static_cast<float>(uvd.y())),
            LevelAt(point.norm()), 0, 50});
       frame->features.descriptors.push_back(descriptors_[Slot(i)]);
-      frame->measurements.push_back({uvd, 1, 0.5});
+      const Eigen::Vector3d noise(normal_(random_), normal_(random_), 0.5 * normal_(random_));
+      frame->measurements.push_back({uvd + options_.noise_px * noise, 1, 0.5});
     }
     frame->id = k;
     frame->grid = FeatureGrid(frame->features.keypoints, {camera_.width, camera_.height});
@@ -123,7 +134,8 @@ class RingWorld {
     landmark_of_.resize(points_.size());
     for (std::size_t f = 0; f < seen.size(); ++f) {
       const auto i = Slot(seen[f]);
-      const bool followed = last_seen_[i] == k - 1;
+      const bool followed =
+          last_seen_[i] == k - 1 && (k != options_.dark_before || again_++ < options_.through_dark);
       last_seen_[i] = k;
       keyframe.landmarks.push_back(followed ? landmark_of_[i] : LandmarkId{});
       if (followed) continue;
@@ -139,6 +151,10 @@ class RingWorld {
     for (std::size_t f = 0; f < seen.size(); ++f) landmark_of_[Slot(seen[f])] = added.landmarks[f];
   }
 
+  RingOptions options_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+  int again_ = 0;  // landmarks that are seen through the dark
   StereoCamera camera_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<Descriptor> descriptors_;
