@@ -54,7 +54,9 @@ void CountMaterials(const GltfValue& root, Counts* counts) {
     counts->bumps += LeavesNormalMapOut(material) ? 1 : 0;
     if (!material.Has("pbrMetallicRoughness")) continue;
     const GltfValue surface = material.Get("pbrMetallicRoughness");
-    counts->shine += surface.Has("metallicRoughnessTexture") ? 1 : 0;
+    const bool foreign = IsForeign(root, surface, "metallicRoughnessTexture");
+    counts->shine += surface.Has("metallicRoughnessTexture") && !foreign ? 1 : 0;
+    counts->formats += foreign ? 1 : 0;
     counts->formats += IsForeign(root, surface, "baseColorTexture") ? 1 : 0;
   }
 }
@@ -78,7 +80,8 @@ std::vector<std::string> LeftOutOfGltf(const GltfDocument& document) {
           "textures that are neither PNG nor JPEG");
   out.Add(counts.bumps, "normal map on other coordinates than its colour",
           "normal maps on other coordinates than their colours");
-  out.Add(counts.shine, "texture of metal and roughness", "textures of metal and roughness");
+  out.Add(counts.shine, "texture of metal and roughness but for its mean",
+          "textures of metal and roughness but for their means");
   out.Add(counts.occlusion, "texture of occlusion", "textures of occlusion");
   out.Add(counts.glow, "texture of emission", "textures of emission");
   out.Add(counts.transparent, "material's transparency", "materials' transparency");

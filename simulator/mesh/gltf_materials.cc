@@ -1,36 +1,70 @@
 #include "simulator/mesh/gltf_materials.h"
 
+#include <map>
+
 #include "simulator/mesh/texture_store.h"
 
 namespace aisle::sim {
 namespace {
 
 constexpr float kDielectricF0 = 0.04f;
+/// From this share of metal on, the colour's texture counts in the one reflectance that the lobe of
+/// a whole material has, by its mean.
+constexpr float kMostlyMetal = 0.5f;
+
+/// Mean reflectance of an sRGB image.
+float MeanReflectance(const cv::Mat& grey) {
+  std::array<double, 256> counts{};
+  for (int y = 0; y < grey.rows; ++y) {
+    for (int x = 0; x < grey.cols; ++x) ++counts[grey.at<std::uint8_t>(y, x)];
+  }
+  double sum = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    sum += counts[i] * double{LinearOf(static_cast<std::uint8_t>(i))};
+  }
+  return static_cast<float>(sum / static_cast<double>(std::max<std::size_t>(1, grey.total())));
+}
+
+/// How much of a surface is metal, and how rough it is.
+struct Metal {
+  float metallic = 1, roughness = 1;
+};
 
 class MaterialReader {
  public:
   MaterialReader(const GltfDocument& document, const std::filesystem::path& file,
                  const ImportOptions& options, Model* model)
-      : document_(document), file_(file), options_(options), textures_(options, model) {}
+      : document_(document),
+        file_(file),
+        options_(options),
+        model_(model),
+        textures_(options, model) {}
 
   Material Read(const GltfValue& from) {
     Material material;
     material.name = from.Text("name", "");
     material.emission = std::max(Grey(from, "emissiveFactor", 3, 0), 0.0f);
-    float metallic = 1;
     material.albedo = 1;
+    Metal metal;
     if (from.Has("pbrMetallicRoughness")) {
       const GltfValue surface = from.Get("pbrMetallicRoughness");
       material.albedo = std::max(Grey(surface, "baseColorFactor", 4, 1), 0.0f);
       material.albedo_texture = Texture(surface, "baseColorTexture", false);
-      metallic = std::clamp(surface.Number("metallicFactor", 1), 0.0f, 1.0f);
-      material.roughness = std::clamp(surface.Number("roughnessFactor", 1), 0.0f, 1.0f);
+      metal = MetalOf(surface);
     }
+    material.roughness = metal.roughness;
     if (!LeavesNormalMapOut(from)) material.normal_texture = Texture(from, "normalTexture", true);
     if (material.normal_texture >= 0) {
       material.normal_scale = from.Get("normalTexture").Number("scale", 1);
     }
-    material.specular_f0 = kDielectricF0 * (1 - metallic) + material.albedo * metallic;
+    // A metal shines by its lobe alone. Where that is too broad to be one, all of it is diffuse.
+    const float metallic = metal.roughness < kDullRoughness ? metal.metallic : 0.0f;
+    float mirrored = material.albedo;
+    if (metallic > kMostlyMetal && material.albedo_texture >= 0) {
+      const auto texture = static_cast<std::size_t>(material.albedo_texture);
+      mirrored *= MeanReflectance(model_->textures[texture].image);
+    }
+    material.specular_f0 = kDielectricF0 * (1 - metallic) + mirrored * metallic;
     material.albedo = std::min(material.albedo * (1 - metallic), 1.0f);
     return material;
   }
@@ -43,19 +77,49 @@ class MaterialReader {
                        : GreyOf(Eigen::Vector3f(rgb[0], rgb[1], rgb[2]), options_.band);
   }
 
-  /// Index of the model's texture; -1 without one, or when its image is in no core format.
-  int Texture(const GltfValue& holder, const char* key, bool is_normal_map) {
-    if (!holder.Has(key)) return -1;
+  /// The factors, times the mean of their map: its blue is metal, its green roughness.
+  Metal MetalOf(const GltfValue& surface) {
+    Metal metal{std::clamp(surface.Number("metallicFactor", 1), 0.0f, 1.0f),
+                std::clamp(surface.Number("roughnessFactor", 1), 0.0f, 1.0f)};
+    const auto image = ImageOf(surface, "metallicRoughnessTexture");
+    if (!image) return metal;
+    const auto [known, is_new] = metal_means_.try_emplace(*image);
+    if (is_new) {
+      const GltfValue of_map = document_.root().Item("images", *image);
+      const cv::Mat map = DecodeImage(ImageBytes(of_map), "texture " + NameOf(of_map, *image),
+                                      options_.max_texture_px);
+      const cv::Scalar mean = cv::mean(map) / 255;
+      // OpenCV has blue first; a grey image has one for all.
+      known->second = {static_cast<float>(mean[0]),
+                       static_cast<float>(map.channels() == 1 ? mean[0] : mean[1])};
+    }
+    metal.metallic *= known->second.metallic;
+    metal.roughness *= known->second.roughness;
+    return metal;
+  }
+
+  /// The image of a texture; none without one, or when it is in no core format.
+  std::optional<std::size_t> ImageOf(const GltfValue& holder, const char* key) const {
+    if (!holder.Has(key)) return std::nullopt;
     const GltfValue root = document_.root();
     const std::size_t textures = root.Count("textures"), images = root.Count("images");
     const std::size_t texture = holder.Get(key).Get("index").IndexBelow(textures, "texture");
-    const auto source = root.Item("textures", texture).IndexBelow("source", images, "image");
-    if (!source) return -1;
-    const GltfValue image = root.Item("images", *source);
+    return root.Item("textures", texture).IndexBelow("source", images, "image");
+  }
+
+  /// What tells an image from the others: its file, or its place.
+  static std::string NameOf(const GltfValue& image, std::size_t index) {
     const std::string name = image.Text("uri", "");
     const bool is_file = !name.empty() && !name.starts_with("data:");
-    const std::string id = is_file ? name : fmt::format("images[{}]", *source);
-    return textures_.Add(id, is_normal_map, [&] { return ImageBytes(image); });
+    return is_file ? name : fmt::format("images[{}]", index);
+  }
+
+  /// Index of the model's texture; -1 without one, or when its image is in no core format.
+  int Texture(const GltfValue& holder, const char* key, bool is_normal_map) {
+    const auto index = ImageOf(holder, key);
+    if (!index) return -1;
+    const GltfValue image = document_.root().Item("images", *index);
+    return textures_.Add(NameOf(image, *index), is_normal_map, [&] { return ImageBytes(image); });
   }
 
   Bytes ImageBytes(const GltfValue& image) const {
@@ -69,7 +133,9 @@ class MaterialReader {
   const GltfDocument& document_;
   const std::filesystem::path& file_;
   const ImportOptions& options_;
+  Model* model_;
   TextureStore textures_;
+  std::map<std::size_t, Metal> metal_means_;  ///< by image
 };
 
 /// The set that a texture is read at, if there is the texture.

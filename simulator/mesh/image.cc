@@ -72,6 +72,8 @@ ImageSize JpegSize(const std::vector<std::uint8_t>& bytes) {
 
 }  // namespace
 
+float LinearOf(std::uint8_t srgb) { return Tables().to_linear[srgb]; }
+
 float GreyOf(const Eigen::Vector3f& linear_rgb, Band band) {
   switch (band) {
     case Band::kRed:

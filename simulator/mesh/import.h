@@ -61,6 +61,9 @@ cv::Mat1b GreyOf(const cv::Mat& image, Band band);
 /// The same of one linear colour.
 float GreyOf(const Eigen::Vector3f& linear_rgb, Band band);
 
+/// The linear light of an 8-bit sRGB value, as a share of full.
+float LinearOf(std::uint8_t srgb);
+
 /// Decodes a PNG or JPEG file from memory after checking the size its header states. Throws
 /// ImportError.
 cv::Mat DecodeImage(const std::vector<std::uint8_t>& bytes, const std::string& name,

@@ -7,6 +7,9 @@
 
 namespace aisle::sim {
 
+/// Rougher lobes are so broad that they are counted as diffuse.
+inline constexpr float kDullRoughness = 0.4f;
+
 /// Surface of a triangle. The camera is monochrome, so every quantity is one band: the photopic
 /// luminance of the authored colour (Rec. 709 weights on linear RGB), unless the importer is asked
 /// for another band (the colour references of the tests render three).

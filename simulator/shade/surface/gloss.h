@@ -20,9 +20,6 @@ struct Finish {
   float f0 = 0, roughness = 1;
 };
 
-/// Rougher lobes are so broad that they are counted as diffuse.
-inline constexpr float kDullRoughness = 0.4f;
-
 inline Finish FinishOf(const Material& material) {
   if (material.emission > 0 || material.roughness >= kDullRoughness) return {};
   // Below, the lobe is narrower than a pixel.

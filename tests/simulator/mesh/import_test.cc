@@ -281,6 +281,67 @@ TEST(ImportModel, TheColourSaysWhichTextureCoordinatesAreRead) {
               testing::ElementsAre("1 normal map on other coordinates than its colour"));
 }
 
+/// The first material of the bumpy triangle with this one in its place; its image is half one
+/// colour, half another (blue, green, red).
+Material MaterialOf(const std::string& json, const cv::Vec3b& left = {},
+                    const cv::Vec3b& right = {}) {
+  const Scratch scratch;
+  cv::Mat3b picture(4, 4, left);
+  picture.colRange(2, 4) = right;
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", picture, png);
+  scratch.Write("bumps.png", std::string(png.begin(), png.end()));
+  std::string text = kBumpyTriangle;
+  const std::string old = R"({"normalTexture": {"index": 0, "scale": 0.5}})";
+  text.replace(text.find(old), old.size(), json);
+  return ImportModel(scratch.Write("metal.gltf", text)).materials.at(0);
+}
+
+/// What comes back of light from straight ahead, if a lobe is only where it is narrow enough.
+float ReflectedBy(const Material& material) {
+  return material.albedo + (material.roughness < kDullRoughness ? material.specular_f0 : 0);
+}
+
+TEST(ImportModel, AMetalReflectsItsColourHoweverRough) {
+  const auto with = [](const std::string& factors) {
+    return MaterialOf(R"({"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.8, 0.8, 1])" +
+                      factors + "}}");
+  };
+  EXPECT_NEAR(ReflectedBy(MaterialOf("{}")), 1, 1e-6) << "a white metal is what glTF takes it for";
+  EXPECT_NEAR(ReflectedBy(with("")), 0.8, 1e-6);
+  for (const char* roughness : {"0.1", "0.39", "0.4", "0.7", "1"}) {
+    const std::string rough = std::string(R"(, "roughnessFactor": )") + roughness;
+    EXPECT_NEAR(ReflectedBy(with(rough)), 0.8, 1e-6) << roughness;
+    EXPECT_GE(ReflectedBy(with(rough + R"(, "metallicFactor": 0.5)")), 0.4) << roughness;
+  }
+  EXPECT_EQ(with(R"(, "roughnessFactor": 0.2)").albedo, 0) << "all of it is the lobe's";
+}
+
+TEST(ImportModel, AMapOfMetalAndRoughnessCountsByItsMean) {
+  const std::string map = R"("metallicRoughnessTexture": {"index": 0})";
+  // Half metal, half not: blue. A fifth and three fifths of roughness: green.
+  const cv::Vec3b metal(255, 51, 255), paint(0, 153, 255);
+  const Material dull = MaterialOf(R"({"pbrMetallicRoughness": {)" + map + "}}", metal, paint);
+  EXPECT_NEAR(dull.roughness, 0.4, 1e-3);
+  EXPECT_NEAR(ReflectedBy(dull), 1, 0.05);
+  const Material keen = MaterialOf(
+      R"({"pbrMetallicRoughness": {"roughnessFactor": 0.5, )" + map + "}}", metal, paint);
+  EXPECT_NEAR(keen.roughness, 0.2, 1e-3);
+  EXPECT_NEAR(keen.albedo, 0.5, 1e-3);
+  EXPECT_NEAR(keen.specular_f0, 0.5 + 0.5 * 0.04, 1e-3);
+  EXPECT_NEAR(
+      MaterialOf(R"({"pbrMetallicRoughness": {"metallicFactor": 0, )" + map + "}}", metal, paint)
+          .albedo,
+      1, 1e-6);
+}
+
+TEST(ImportModel, APolishedMetalIsAsBrightAsItsTextureIsOnAverage) {
+  const Material metal = MaterialOf(
+      R"({"pbrMetallicRoughness": {"roughnessFactor": 0.1, "baseColorTexture": {"index": 0}}})",
+      {255, 255, 255}, {0, 0, 0});
+  EXPECT_NEAR(metal.specular_f0, 0.5, 1e-6);
+}
+
 TEST(ImportModel, AnIndexOutOfRangeIsAnError) {
   const Scratch scratch;
   EXPECT_NE(ErrorOf(scratch.Write("i.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n")), "");
