@@ -81,7 +81,9 @@ double FluxOf(const BeamSpec& spec, const Beam& beam) {
     return 2 * std::numbers::pi * (1 - (beam.cos_inner + beam.cos_outer) / 2) * beam.power;
   }
   const double facing = std::max(0.0, -PaneOf(spec).normal.dot(beam.toward.cast<double>()));
-  return facing * beam.power * spec.size_m.x() * spec.size_m.y();
+  const auto open = [](float bar) { return std::max(0.0, 1 - double{bar}); };
+  return facing * beam.power * spec.size_m.x() * spec.size_m.y() * open(beam.bar_u) *
+         open(beam.bar_v);
 }
 
 /// Floor, roof and walls.

@@ -176,5 +176,21 @@ TEST(Beams, RestBelowTheirLevel) {
   EXPECT_EQ(calm.At(0).beams[0].toward, calm.At(Nano(0.3)).beams[0].toward);
 }
 
+TEST(Beams, WhatAWindowSpreadsIsWhatItsBarsLeaveOpen) {
+  const auto bounce = [](const char* bar_m) {
+    return Build(fmt::format("beams: [{{name: sun, kind: sun, at_m: [4, 0, 5.9], in_roof: true, "
+                             "size_m: [2.4, 1.6], columns: 3, rows: 2, bar_m: {}, brightness: 3, "
+                             "elevation_deg: 80}}]\n",
+                             bar_m))
+        .At(0)
+        .beam_bounce;
+  };
+  const float whole = bounce("0");
+  EXPECT_GT(whole, 0);
+  // Panes of 0.8 x 0.8 m.
+  EXPECT_NEAR(bounce("0.2") / whole, 0.75 * 0.75, 1e-5);
+  EXPECT_EQ(bounce("0.8"), 0) << "shut";
+}
+
 }  // namespace
 }  // namespace aisle::sim
