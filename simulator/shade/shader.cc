@@ -67,15 +67,27 @@ cv::Mat1f Combine(const HitImage& image, std::span<const float> reflectance,
   return radiance;
 }
 
-/// What moving lights add to a picture, and what is seen through clear panes: most worlds have
-/// neither.
+/// What moving lights add to a picture, what movers shine by themselves, and what is seen through
+/// clear panes: most worlds have none.
 void AddBeams(std::span<const float> reflectance, std::span<const float> beams,
-              std::span<const float> glow, const HitImage& image, cv::Mat1f* radiance) {
+              const HitImage& image, cv::Mat1f* radiance) {
   ParallelFor(0, image.height, [&](int y) {
     const std::size_t row = image.Index(0, y);
     float* to = (*radiance)[y];
     for (std::size_t x = 0; x < static_cast<std::size_t>(image.width); ++x) {
-      to[x] += reflectance[row + x] * beams[row + x] * kInvPi + glow[row + x];
+      to[x] += reflectance[row + x] * beams[row + x] * kInvPi;
+    }
+  });
+}
+
+void AddGlow(const SurfaceTables& tables, const HitImage& image, cv::Mat1f* radiance) {
+  ParallelFor(0, image.height, [&](int y) {
+    for (int x = 0; x < image.width; x += kLanes) {
+      const std::size_t i = image.Index(x, y);
+      const I8 geometry = LoadI(&image.geometry[i]);
+      if (!Any(geometry > 0)) continue;
+      const F8 glow = GlowOfHits(tables, geometry, LoadI(&image.primitive[i]));
+      for (int k = 0; k < std::min(kLanes, image.width - x); ++k) (*radiance)(y, x + k) += glow[k];
     }
   });
 }
@@ -91,7 +103,7 @@ void AddThrough(std::span<const float> through, const HitImage& image, cv::Mat1f
 struct Shader::Workspace {
   FrameLight frame;
   std::vector<float> reflectance, irradiance, kept, mirrored;
-  std::vector<float> beams, glow, through;
+  std::vector<float> beams, through;
   std::vector<Reflections> reflections;        ///< by view
   std::array<std::vector<float>, 2> raw_kept;  ///< of the first view, and of the one at work
 };
@@ -157,10 +169,11 @@ std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const Cam
                 glossy ? std::span<const float>(work->mirrored) : std::span<const float>()));
     const bool has_beams = tables_.world().has_beams();
     if (has_beams) {
-      TraceBeams(shading, &work->beams, &work->glow);
-      AddBeams(work->reflectance, work->beams, work->glow, image, &radiance.back());
+      TraceBeams(shading, &work->beams);
+      AddBeams(work->reflectance, work->beams, image, &radiance.back());
       done("beams");
     }
+    if (tables_.movers_glow()) AddGlow(tables_, image, &radiance.back());
     if (!behind[i].empty()) {
       ShadeBehindClear(shading, behind[i], has_beams, &work->through);
       AddThrough(work->through, image, &radiance.back());

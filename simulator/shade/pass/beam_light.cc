@@ -25,23 +25,19 @@ F8 SmoothStep(F8 x) {
   return t * t * (3 - 2 * t);
 }
 
-/// Share of the sun that one of `panes` bays lets through at `along` in [-1, 1] of their row, where
-/// edges are blurred over `soft` (bays).
+/// Share of the sun that a row of `panes` bays lets through at `along`, where the window is
+/// [-1, 1]: how much of what lies within `soft` (bays) of there is open.
 F8 ThroughBays(F8 along, int panes, float bar, F8 soft) {
   const F8 bays = static_cast<float>(panes) * (along + 1) * 0.5f;
-  const I8 within = (along > -1) & (along < 1);
-  const F8 at = bays - Floor(bays);
-  const F8 opens = Clamp01((at - bar / 2) / (2 * soft) + 0.5f);
-  const F8 closes = Clamp01((1 - bar / 2 - at) / (2 * soft) + 0.5f);
-  return Select(within, opens * closes, Wide(0));
-}
-
-/// Emission of each triangle's material where a mover's lens is hit.
-float GlowAt(const World& world, const HitImage& image, std::size_t pixel) {
-  const std::uint32_t geometry = image.geometry[pixel];
-  if (geometry == 0 || geometry == kNoGeometry) return 0;
-  const TriangleMesh& mesh = world.mover_meshes()[geometry - 1];
-  return world.materials()[mesh.materials[image.primitive[pixel]]].emission;
+  const F8 bay = Floor(bays), at = bays - bay;
+  const float open = std::max(0.0f, 1 - bar);
+  // Bays that are open between this one's beginning and `to`; small numbers keep their digits.
+  const auto open_until = [&](F8 to) {
+    const F8 within = Min(Max(to, -bay), static_cast<float>(panes) - bay);
+    const F8 whole = Floor(within);
+    return whole * open + Min(Max(within - whole - bar / 2, Wide(0)), Wide(open));
+  };
+  return (open_until(at + soft) - open_until(at - soft)) / (2 * soft);
 }
 
 }  // namespace
@@ -103,11 +99,9 @@ F8 BeamLight::At(const F8x3& position, const F8x3& normal, I8 valid) const {
   return Select(valid, sum, Wide(0));
 }
 
-void TraceBeams(const ShadingView& shading, std::vector<float>* irradiance,
-                std::vector<float>* glow) {
+void TraceBeams(const ShadingView& shading, std::vector<float>* irradiance) {
   const HitImage& image = shading.image;
   irradiance->assign(image.t.size(), 0);
-  glow->assign(image.t.size(), 0);
   const BeamLight beams(shading.instant);
   const PixelRays& rays = *shading.view.rays;
   ParallelFor(0, image.height, [&](int y) {
@@ -120,7 +114,6 @@ void TraceBeams(const ShadingView& shading, std::vector<float>* irradiance,
         if (image.geometry[i] == kNoGeometry) continue;
         // A luminaire outshines by far what it reflects.
         if (image.geometry[i] == 0 && shading.tables.statics()[image.primitive[i]].f0 < 0) continue;
-        (*glow)[i] = GlowAt(shading.world(), image, i);
         const MeshPlace place = shading.tables.PlaceOf(shading.instant, image, i);
         const Eigen::Vector3f ray = shading.view.rotation * rays.At(x + k, y).homogeneous();
         Eigen::Vector3f n = SmoothNormal(place);

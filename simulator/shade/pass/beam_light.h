@@ -24,10 +24,8 @@ class BeamLight {
   GeometryMask blockers_;
 };
 
-/// Irradiance of the beams at every pixel of a view, rows as in HitImage; and what lenses of movers
-/// shine by themselves, radiance.
-void TraceBeams(const ShadingView& shading, std::vector<float>* irradiance,
-                std::vector<float>* glow);
+/// Irradiance of the beams at every pixel of a view, rows as in HitImage.
+void TraceBeams(const ShadingView& shading, std::vector<float>* irradiance);
 
 /// The same where eight rays hit, by the triangles' own normals.
 F8 BeamsAtHits(const ShadingView& shading, const BeamLight& beams, const Rays8& rays,

@@ -64,7 +64,9 @@ void ShadeBehindClear(const ShadingView& shading, std::span<const BehindClear> b
                    step);
     F8 irradiance = seen.irradiance;
     if (has_beams) irradiance += BeamsAtHits(shading, beams, one.rays, one.hits);
-    const F8 radiance = seen.reflectance * irradiance * std::numbers::inv_pi_v<float>;
+    const F8 radiance =
+        seen.reflectance * irradiance * std::numbers::inv_pi_v<float> +
+        GlowOfHits(shading.tables, LoadI(one.hits.geometry), LoadI(one.hits.primitive));
     for (int p = 0; p < one.count; ++p) {
       float sum = 0;
       for (int k = p * kSamples; k < (p + 1) * kSamples; ++k) sum += radiance[k];

@@ -175,7 +175,8 @@ class Sampler {
                                           directions.y, directions.z, I8{}},
                                          step_);
     const F8 beams = BeamsAtHits(shading_, BeamLight(shading_.instant), rays, hits);
-    return seen.reflectance * (seen.irradiance + beams) * std::numbers::inv_pi_v<float>;
+    return seen.reflectance * (seen.irradiance + beams) * std::numbers::inv_pi_v<float> +
+           GlowOfHits(shading_.tables, LoadI(hits.geometry), LoadI(hits.primitive));
   }
 
   const ShadingView& shading_;

@@ -105,6 +105,12 @@ SurfaceTables::SurfaceTables(const World& world, const LightGrid& static_grid, f
   has_normal_maps_ = std::ranges::any_of(world.materials(), is_mapped);
   statics_have_normal_maps_ = std::ranges::any_of(
       mesh.materials, [&](const auto material) { return is_mapped(world.materials()[material]); });
+  const auto glows = [&](const TriangleMesh& mover) {
+    return std::ranges::any_of(mover.materials, [&](const auto material) {
+      return world.materials()[material].emission > 0;
+    });
+  };
+  movers_glow_ = std::ranges::any_of(world.mover_meshes(), glows);
   mover_light_ = std::make_unique<MoverLight>(world, mover_grids_, MoverLightOptions{});
   glossy_ =
       std::ranges::any_of(statics_, is_glossy) || std::ranges::any_of(mover_records_, is_glossy);
@@ -193,13 +199,28 @@ SurfaceLanes LookUpHits(const SurfaceTables& tables, const FrameLight& frame,
   return result;
 }
 
+F8 GlowOfHits(const SurfaceTables& tables, I8 geometry, I8 primitive) {
+  F8 glow = Wide(0);
+  if (!tables.movers_glow()) return glow;
+  for (int k = 0; k < kLanes; ++k) {
+    if (geometry[k] <= 0) continue;  // the static world, or nothing
+    const TriangleMesh& mesh =
+        tables.world().mover_meshes()[static_cast<std::size_t>(geometry[k]) - 1];
+    glow[k] =
+        tables.world().materials()[mesh.materials[static_cast<std::size_t>(primitive[k])]].emission;
+  }
+  return glow;
+}
+
 F8 RadianceOfHits(const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures,
                   const F8x3& directions, const Hits8& hits, const RayStep& step) {
+  const I8 geometry = LoadI(hits.geometry), primitive = LoadI(hits.primitive);
   const SurfaceLanes seen = LookUpHits(
-      tables, frame, textures, LoadI(hits.geometry), LoadI(hits.primitive),
+      tables, frame, textures, geometry, primitive,
       {LoadF(hits.t), LoadF(hits.u), LoadF(hits.v), directions.x, directions.y, directions.z, I8{}},
       step);
-  return seen.reflectance * seen.irradiance * std::numbers::inv_pi_v<float>;
+  return seen.reflectance * seen.irradiance * std::numbers::inv_pi_v<float> +
+         GlowOfHits(tables, geometry, primitive);
 }
 
 }  // namespace aisle::sim

@@ -30,6 +30,8 @@ class SurfaceTables {
   /// Whether anything in the world has a glossy lobe.
   bool glossy() const { return glossy_; }
   bool has_normal_maps() const { return has_normal_maps_; }
+  /// Whether anything of a mover shines by itself.
+  bool movers_glow() const { return movers_glow_; }
   /// Whether any surface of the static world has one.
   bool statics_have_normal_maps() const { return statics_have_normal_maps_; }
   /// Where a pixel that hit something lies on its mesh.
@@ -49,7 +51,8 @@ class SurfaceTables {
  private:
   const World* world_;
   std::vector<SurfaceRecord> statics_;
-  bool glossy_ = false, has_normal_maps_ = false, statics_have_normal_maps_ = false;
+  bool glossy_ = false, movers_glow_ = false;
+  bool has_normal_maps_ = false, statics_have_normal_maps_ = false;
   std::vector<SurfaceRecord> mover_records_;
   std::vector<std::int32_t> mover_bases_;
   std::vector<std::size_t> slot_bases_;
@@ -64,7 +67,11 @@ SurfaceLanes LookUpHits(const SurfaceTables& tables, const FrameLight& frame,
                         const TexturePool& textures, I8 geometry, I8 primitive, HitLanes hits,
                         const RayStep& step);
 
-/// Radiance of what eight rays met, looked up likewise.
+/// What movers shine by themselves where eight rays met them, radiance; lamps of the static world
+/// have theirs in what LookUpHits finds.
+F8 GlowOfHits(const SurfaceTables& tables, I8 geometry, I8 primitive);
+
+/// Radiance of what eight rays met, looked up likewise, with what it shines by itself.
 F8 RadianceOfHits(const SurfaceTables& tables, const FrameLight& frame, const TexturePool& textures,
                   const F8x3& directions, const Hits8& hits, const RayStep& step);
 

@@ -11,6 +11,8 @@ namespace aisle::sim {
 namespace {
 
 constexpr float kAlbedo = 0.5f;
+constexpr float kGlow = 3;
+constexpr std::uint16_t kPane = 1, kLens = 2, kMirror = 3;  // materials
 
 /// A floor, a lamp that is off, and what each test adds; seen straight from above.
 struct Floor {
@@ -19,7 +21,9 @@ struct Floor {
                        {"floor", ObjectClass::kFloor, false},
                        {"pane", ObjectClass::kFurniture, true}};
     parts.materials = {{.name = "floor", .albedo = kAlbedo},
-                       {.name = "pane", .albedo = 0, .transmission = 0.8f}};
+                       {.name = "pane", .albedo = 0, .transmission = 0.8f},
+                       {.name = "lens", .albedo = 0, .emission = kGlow},
+                       {.name = "mirror", .albedo = 0, .specular_f0 = 0.9f, .roughness = 0.05f}};
     parts.lights.push_back({{0, 0, 9}, {1, 0, 0}, {0, -1, 0}, 1});
     floor.Quad({-10, -10, 0}, {20, 0, 0}, {0, 20, 0}, 0, 1);
     parts.has_beams = true;
@@ -37,9 +41,11 @@ struct Floor {
     const World world(std::move(made));
     const Tracer tracer(world, {});
     ShadeOptions options{.statics = {.texel_m = 1, .coarse_texel_m = 4, .volume_spacing_m = 4}};
-    options.gloss = options.antialias = false;
+    options.gloss = gloss;
+    options.antialias = false;
     const Shader shader(world, tracer, options);
-    const StereoCamera camera{.width = 8, .height = 8, .fx = 800, .fy = 800, .cx = 3.5, .cy = 3.5};
+    const StereoCamera camera{
+        .width = 8, .height = 8, .fx = focal_px, .fy = focal_px, .cx = 3.5, .cy = 3.5};
     const PixelRays rays = MakePixelRays(camera);
     Eigen::Isometry3d down = Eigen::Isometry3d::Identity();
     down.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
@@ -51,21 +57,23 @@ struct Floor {
     return static_cast<float>(cv::mean(shader.Shade(instant, view, hits)[0])[0]);
   }
 
-  /// A clear sheet over the floor.
-  void AddPane() {
-    test::MeshBuilder pane;
-    pane.Quad({-2, -2, 1}, {4, 0, 0}, {0, 4, 0}, 1, 2);
-    parts.mover_meshes = {pane.mesh};
+  /// A sheet over the floor that moves; one that is clear casts no shadow.
+  void AddSheet(float height_m, std::uint16_t material) {
+    test::MeshBuilder sheet;
+    sheet.Quad({-2, -2, height_m}, {4, 0, 0}, {0, 4, 0}, material, 2);
+    parts.mover_meshes.push_back(sheet.mesh);
     MoverState state;
     state.instance = 2;
-    state.positions = pane.mesh.positions;
-    state.normals = pane.mesh.normals;
+    state.positions = sheet.mesh.positions;
+    state.normals = sheet.mesh.normals;
     state.velocities.assign(state.positions.size(), Eigen::Vector3f::Zero());
-    state.casts_shadow = false;
-    movers = {state};
+    state.casts_shadow = material != kPane;
+    movers.push_back(state);
   }
 
   WorldParts parts;
+  bool gloss = false;
+  double focal_px = 800;
   test::MeshBuilder floor;
   std::vector<Beam> beams;
   std::vector<MoverState> movers;
@@ -125,8 +133,63 @@ TEST(BeamLight, TheSunsPatchIsTheWindowsShadow) {
 TEST(ClearPass, APaneLetsItsShareThroughAndThrowsNoShadow) {
   Floor open, covered;
   open.beams = covered.beams = {Spot()};
-  covered.AddPane();
+  covered.AddSheet(1, kPane);
   EXPECT_NEAR(covered.At(0.5, 0), 0.8f * open.At(0.5, 0), 1e-3 * open.At(0.5, 0));
+}
+
+/// By itself, whether or not anything in the scene is a beam.
+TEST(Glow, AMoversLensIsAsBrightAsItShines) {
+  for (const bool has_beams : {false, true}) {
+    Floor floor;
+    floor.parts.has_beams = has_beams;
+    floor.AddSheet(0.5f, kLens);
+    EXPECT_NEAR(floor.At(0, 0), kGlow, 1e-4);
+    EXPECT_EQ(floor.At(5, 0), 0) << "beside it";
+    floor.AddSheet(1, kPane);
+    EXPECT_NEAR(floor.At(0, 0), 0.8 * kGlow, 1e-3) << "through a clear pane";
+  }
+}
+
+TEST(Glow, AMirrorShowsIt) {
+  for (const bool has_beams : {false, true}) {
+    Floor floor;
+    floor.parts.has_beams = has_beams;
+    floor.gloss = true;
+    floor.floor.Quad({-1, -1, 0.1f}, {2, 0, 0}, {0, 2, 0}, kMirror, 1);
+    floor.AddSheet(6, kLens);  // above the camera
+    EXPECT_NEAR(floor.At(0, 0), 0.9 * kGlow, 0.03 * kGlow);
+  }
+}
+
+/// The sun is as broad at a bay's border as at the window's, and where no bar is it shows whole.
+TEST(BeamLight, ABorderIsBlurredByTheBreadthOfTheSun) {
+  Floor floor;
+  Beam sun;
+  sun.kind = Beam::Kind::kSun;
+  sun.origin = {0, 0, 3};
+  sun.toward = {0, 0, 1};
+  sun.power = 1;
+  sun.half_u = {1.2f, 0, 0}, sun.half_v = {0, 5, 0};
+  sun.columns = 3;
+  floor.focal_px = 40000;            // looks at less than a millimetre
+  const float soft = 3 * 0.004654f;  // m, half the sun's breadth on the floor
+  const float whole = kAlbedo * std::numbers::inv_pi_v<float>;
+  for (const float bar_m : {0.0f, 0.06f}) {
+    sun.bar_u = bar_m / 0.8f;
+    floor.beams = {sun};
+    // Share of [x - soft, x + soft] that is open.
+    const auto seen = [&](float x) {
+      float open = 0;
+      for (int bay = 0; bay < 3; ++bay) {
+        const float low = -1.2f + 0.8f * static_cast<float>(bay) + bar_m / 2;
+        open += std::max(0.0f, std::min(low + 0.8f - bar_m, x + soft) - std::max(low, x - soft));
+      }
+      return open / (2 * soft);
+    };
+    for (const float x : {0.0f, 0.37f, 0.4f, 0.43f, 1.16f, 1.18f, 1.19f, 1.2f, 1.21f, 1.23f}) {
+      EXPECT_NEAR(floor.At(x, 0) / whole, seen(x), 0.02) << x << ", bar " << bar_m;
+    }
+  }
 }
 
 }  // namespace
