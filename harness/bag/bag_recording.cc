@@ -4,12 +4,11 @@
 #include "harness/bag/bag_trajectory.h"
 #include "harness/bag/grey_image.h"
 #include "harness/io/input_error.h"
+#include "harness/io/stereo_pairs.h"
 #include "harness/ros/cdr.h"
 
 namespace aisle {
 namespace {
-
-constexpr std::int64_t kTogetherNs = 1'000'000;  ///< images of one instant, at most
 
 using Images = std::map<std::int64_t, BagEntry>;  ///< by header stamp; the later recorded stays
 
@@ -27,46 +26,12 @@ Images ImagesOf(const Bag& bag, const std::string& topic) {
   return images;
 }
 
-/// The image nearest to a stamp.
-Images::const_iterator Nearest(const Images& images, std::int64_t stamp_ns) {
-  auto after = images.lower_bound(stamp_ns);
-  if (after == images.begin()) return after;
-  const auto before = std::prev(after);
-  if (after == images.end() || stamp_ns - before->first <= after->first - stamp_ns) return before;
-  return after;
-}
-
-/// Each with the one that is nearest to it and to which it is nearest.
-std::vector<EntryPair> Pair(const Images& left, const Images& right) {
+std::vector<EntryPair> Pair(const Images& left, const Images& right, const std::string& file) {
   std::vector<EntryPair> pairs;
-  for (const auto& [stamp_ns, entry] : left) {
-    const auto partner = Nearest(right, stamp_ns);
-    if (std::abs(partner->first - stamp_ns) > kTogetherNs) continue;
-    if (Nearest(left, partner->first)->first != stamp_ns) continue;
-    pairs.push_back({stamp_ns, entry, partner->second});
+  for (const StampPair& pair : PairStamps({StampsOf(left), StampsOf(right)}, file)) {
+    pairs.push_back({pair.left_ns, left.at(pair.left_ns), right.at(pair.right_ns)});
   }
   return pairs;
-}
-
-/// Half of the images alone is no accident.
-void CheckPairs(const Images& left, const Images& right, const std::vector<EntryPair>& pairs,
-                const std::string& file) {
-  if (2 * pairs.size() >= std::min(left.size(), right.size()) && !pairs.empty()) return;
-  if (left.size() == 1 && left.begin()->first == 0) {
-    throw InputError(file, 0, "its images have no stamps in their headers: they cannot be paired");
-  }
-  std::vector<std::int64_t> off_ns;
-  for (const auto& [stamp_ns, entry] : left) {
-    off_ns.push_back(std::abs(Nearest(right, stamp_ns)->first - stamp_ns));
-  }
-  std::ranges::nth_element(off_ns, off_ns.begin() + std::ssize(off_ns) / 2);
-  throw InputError(
-      file, 0,
-      fmt::format("only {} of {} left images have a right one within 1 ms by their header stamps "
-                  "(median distance {:.3f} ms): the cameras are not triggered together, or one is "
-                  "stamped late; correct the stamps of the drive's recording",
-                  pairs.size(), left.size(),
-                  static_cast<double>(off_ns[off_ns.size() / 2]) * 1e-6));
 }
 
 /// Serves the images of a bag; shared by the copies of a recording.
@@ -114,13 +79,15 @@ StereoRecording ReadBagRecording(const std::filesystem::path& path,
   recording.cameras =
       options.cameras ? *options.cameras : CamerasOfBag(*bag, topics, options.baseline_m, file);
   const Images left = ImagesOf(*bag, topics.left), right = ImagesOf(*bag, topics.right);
-  std::vector<EntryPair> pairs = Pair(left, right);
-  CheckPairs(left, right, pairs, file);
+  std::vector<EntryPair> pairs = Pair(left, right, file);
   for (const EntryPair& pair : pairs) {
     recording.pairs.push_back({pair.stamp_ns, file + ":" + topics.left, file + ":" + topics.right});
   }
   recording.truth = OwnTruth(*bag, file);
   recording.notes = bag->notes();
+  for (const std::string& note : NotesOnPairs(pairs.size(), left.size())) {
+    recording.notes.push_back(note);
+  }
   recording.read_image = ImageReader(bag, std::move(pairs), file);
   return recording;
 }

@@ -91,8 +91,11 @@ std::unique_ptr<Sequence> Open(const Options& options) {
     throw InputError(options.dataset, 0,
                      "is no bag: --topic, --baseline and --calibration are for bags");
   }
-  return OpenRecording(path,
-                       DatasetFormatFromName(options.format.empty() ? "euroc" : options.format));
+  const auto format = DatasetFormatFromName(options.format.empty() ? "euroc" : options.format);
+  StereoRecording recording = ReadRecording(path, format);
+  TellNotes(options.dataset, recording.notes);
+  const fs::path folder = (fs::absolute(path) / "").lexically_normal().parent_path();
+  return MakeRecordedSequence(std::move(recording), options.dataset, folder.filename().string());
 }
 
 /// What a stream has no use for: frames come in and poses go out by it alone.

@@ -131,7 +131,7 @@ class DatasetWriter {
   const ExportOptions options_;
 };
 
-/// Where a system finds the true trajectory and the calibration of an exported dataset.
+/// Where a system finds the calibration of an exported dataset.
 std::filesystem::path CalibrationPath(const std::filesystem::path& folder, DatasetFormat format);
 
 // --- Reading
@@ -142,7 +142,7 @@ struct CameraCalibration {
   int width = 0, height = 0;
   double fx = 0, fy = 0, cx = 0, cy = 0;
   std::vector<double>
-      distortion;  ///< k1 k2 p1 p2, or an equidistant lens's k1 k2 k3 k4; empty: none
+      distortion;  ///< k1 k2 p1 p2 [k3], or an equidistant lens's k1 k2 k3 k4; empty: none
   bool equidistant = false;
   Eigen::Isometry3d T_body_camera = Eigen::Isometry3d::Identity();
 };
@@ -176,8 +176,9 @@ struct StereoRecording {
 };
 
 /// EuRoC (the folder that holds mav0, or mav0 itself) or KITTI odometry (a sequence's folder, or
-/// the one that holds sequences/NN with a single sequence). Pairs images by stamp, not by position.
-/// Throws InputError with file, line and what is missing.
+/// the one that holds sequences/NN with a single sequence). EuRoC's images are paired by stamp, 1
+/// ms apart at most, KITTI's by their number; `notes` say how many find no other. Throws InputError
+/// with file, line and what is missing: an image that is listed, or half of the pairs.
 StereoRecording ReadRecording(const std::filesystem::path& folder, DatasetFormat format);
 
 }  // namespace aisle

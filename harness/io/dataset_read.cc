@@ -3,10 +3,12 @@
 #include <charconv>
 #include <sstream>
 
+#include "harness/contract/rigid.h"
 #include "harness/io/dataset.h"
 #include "harness/io/file.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
+#include "harness/io/stereo_pairs.h"
 
 namespace aisle {
 namespace {
@@ -48,6 +50,22 @@ std::vector<double> NumbersAt(const YAML::Node& node, const std::string& key, st
   return numbers;
 }
 
+/// T_BS: the sensor's pose in the body.
+Eigen::Isometry3d BodyOfSensor(const YAML::Node& node, const fs::path& file) {
+  const std::vector<double> numbers = NumbersAt(node, "data", 16, file);
+  const Eigen::Matrix4d matrix =
+      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
+  constexpr double kTolerance = 0.01;  // files with three decimals are still rotations
+  const Eigen::Isometry3d pose(matrix);
+  const Eigen::RowVector4d off = matrix.row(3) - Eigen::RowVector4d(0, 0, 0, 1);
+  if (!IsRigid(pose, kTolerance) || off.cwiseAbs().maxCoeff() > kTolerance) {
+    throw InputError(file.string(), static_cast<std::size_t>(node.Mark().line + 1),
+                     "T_BS is no pose: four rows, each a row of a rotation and a coordinate in "
+                     "metres, the last 0 0 0 1");
+  }
+  return pose;
+}
+
 CameraCalibration ReadEurocSensor(const fs::path& file) {
   YAML::Node root;
   std::string text = ReadFile(file, 1 << 20);
@@ -67,7 +85,6 @@ CameraCalibration ReadEurocSensor(const fs::path& file) {
                      fmt::format("resolution {:g} x {:g} is none of a camera", size[0], size[1]));
   }
   const std::vector<double> pinhole = NumbersAt(root, "intrinsics", 4, file);
-  const std::vector<double> pose = NumbersAt(root["T_BS"], "data", 16, file);
   camera.width = static_cast<int>(size[0]);
   camera.height = static_cast<int>(size[1]);
   camera.fx = pinhole[0];
@@ -84,11 +101,26 @@ CameraCalibration ReadEurocSensor(const fs::path& file) {
                          "': radial-tangential (radtan, plumb_bob), equidistant (fisheye) and "
                          "none are read");
   }
-  if (model != "none") camera.distortion = NumbersAt(root, "distortion_coefficients", 4, file);
-  for (int k = 0; k < 12; ++k) {
-    camera.T_body_camera.matrix()(k / 4, k % 4) = pose[static_cast<std::size_t>(k)];
+  if (model != "none") {
+    const YAML::Node list = root["distortion_coefficients"];
+    const bool has_k3 = polynomial && list && list.IsSequence() && list.size() == 5;  // as ROS's
+    camera.distortion = NumbersAt(root, "distortion_coefficients", has_k3 ? 5 : 4, file);
   }
+  camera.T_body_camera = BodyOfSensor(root["T_BS"], file);
   return camera;
+}
+
+/// Asked before the drive, which would end where the first one is missing.
+void CheckAreThere(const std::map<std::int64_t, fs::path>& images, const fs::path& index) {
+  std::vector<std::string> missing;
+  for (const auto& [stamp_ns, image] : images) {
+    if (!fs::exists(image)) missing.push_back(image.filename().string());
+  }
+  if (missing.empty()) return;
+  throw InputError(index.string(), 0,
+                   fmt::format("{} of the {} images that it lists are not in its folder data, {} "
+                               "the first: bring them, or take their rows out",
+                               missing.size(), images.size(), Printable(missing.front())));
 }
 
 std::map<std::int64_t, fs::path> ReadEurocIndex(const fs::path& camera) {
@@ -115,6 +147,7 @@ std::map<std::int64_t, fs::path> ReadEurocIndex(const fs::path& camera) {
     }
     images[stamp_ns] = camera / "data" / name;
   }
+  CheckAreThere(images, file);
   return images;
 }
 
@@ -131,11 +164,11 @@ StereoRecording ReadEuroc(const fs::path& folder) {
   StereoRecording recording;
   recording.cameras.left = ReadEurocSensor(mav / "cam0/sensor.yaml");
   recording.cameras.right = ReadEurocSensor(mav / "cam1/sensor.yaml");
-  const auto right = ReadEurocIndex(mav / "cam1");
-  for (const auto& [stamp_ns, image] : ReadEurocIndex(mav / "cam0")) {
-    const auto partner = right.find(stamp_ns);
-    if (partner != right.end()) recording.pairs.push_back({stamp_ns, image, partner->second});
+  const auto left = ReadEurocIndex(mav / "cam0"), right = ReadEurocIndex(mav / "cam1");
+  for (const StampPair& pair : PairStamps({StampsOf(left), StampsOf(right)}, mav.string())) {
+    recording.pairs.push_back({pair.left_ns, left.at(pair.left_ns), right.at(pair.right_ns)});
   }
+  recording.notes = NotesOnPairs(recording.pairs.size(), left.size());
   const fs::path truth = mav / "state_groundtruth_estimate0/data.csv";
   if (fs::exists(truth)) recording.truth = ReadTrajectory(truth, TrajectoryFormat::kEuroc);
   return recording;
@@ -200,6 +233,42 @@ CameraCalibration KittiCamera(const std::map<std::string, std::vector<double>>& 
   return camera;
 }
 
+struct KittiPairs {
+  std::vector<StereoRecording::Pair> pairs;
+  std::vector<std::string> notes;
+};
+
+/// The frames of which both folders have the image.
+KittiPairs FindKittiPairs(const fs::path& times, const fs::path& left, const fs::path& right) {
+  std::istringstream stream(ReadFile(times));
+  KittiPairs found;
+  std::size_t rows = 0, left_images = 0;
+  for (std::string text; stream >> text; ++rows) {
+    const std::string name = fmt::format("{:06}.png", rows);
+    StereoRecording::Pair pair{0, left / name, right / name};
+    if (!ParseSecondsToNs(text, &pair.stamp_ns)) {
+      throw InputError(times.string(), rows + 1,
+                       "'" + Printable(text) + "' is not a time in seconds");
+    }
+    if (!fs::exists(pair.left)) continue;
+    ++left_images;
+    if (fs::exists(pair.right)) found.pairs.push_back(pair);
+  }
+  if (2 * left_images < rows) {
+    throw InputError(left.string(), 0,
+                     fmt::format("holds {} images of the {} that {} has times for: bring the "
+                                 "missing ones, or cut the times and the poses",
+                                 left_images, rows, times.string()));
+  }
+  CheckEnoughPairs(found.pairs.size(), left_images, right.string());
+  found.notes = NotesOnPairs(found.pairs.size(), left_images);
+  if (left_images < rows) {
+    found.notes.push_back(
+        fmt::format("{} of {} frames have a time but no left image", rows - left_images, rows));
+  }
+  return found;
+}
+
 StereoRecording ReadKitti(const fs::path& folder) {
   const KittiFolders at = FindKitti(folder);
   const auto calibration = ReadKittiCalibration(at.sequence / "calib.txt");
@@ -210,17 +279,9 @@ StereoRecording ReadKitti(const fs::path& folder) {
   StereoRecording recording;
   recording.cameras.left = KittiCamera(calibration, grey ? "P0" : "P2", at.sequence / "calib.txt");
   recording.cameras.right = KittiCamera(calibration, grey ? "P1" : "P3", at.sequence / "calib.txt");
-  std::istringstream times(ReadFile(at.sequence / "times.txt"));
-  std::string line;
-  for (std::size_t number = 1; times >> line; ++number) {
-    const std::string name = fmt::format("{:06}.png", number - 1);
-    StereoRecording::Pair pair{0, left / name, right / name};
-    if (!ParseSecondsToNs(line, &pair.stamp_ns)) {
-      throw InputError((at.sequence / "times.txt").string(), number,
-                       "'" + Printable(line) + "' is not a time in seconds");
-    }
-    if (fs::exists(pair.left) && fs::exists(pair.right)) recording.pairs.push_back(pair);
-  }
+  const KittiPairs found = FindKittiPairs(at.sequence / "times.txt", left, right);
+  recording.pairs = found.pairs;
+  recording.notes = found.notes;
   if (fs::exists(at.poses)) {
     recording.truth = ReadTrajectory(at.poses, TrajectoryFormat::kKitti, at.sequence / "times.txt");
   }

@@ -42,6 +42,7 @@ struct RobotBag {
   bool infos = true;
   std::int64_t right_late_ns = 0;
   int frames = 6;
+  int right_frames = 6;  ///< the right camera's end here
 
   void Write(const fs::path& file) const {
     McapWriter writer(file);
@@ -58,7 +59,9 @@ struct RobotBag {
       ros::Header late = header;
       late.frame_id = "right_optical";
       late.stamp = ros::TimeOf(stamp_ns + right_late_ns);
-      writer.Write(r, stamp_ns + 7'000'000, ImageMessage(late, Picture(2 * k + 1)));
+      if (k < right_frames) {
+        writer.Write(r, stamp_ns + 7'000'000, ImageMessage(late, Picture(2 * k + 1)));
+      }
       writer.Write(l, stamp_ns + 9'000'000, ImageMessage(header, Picture(2 * k)));
       if (!infos) continue;
       const auto info = [&](const std::string& image, ros::CameraInfo message,
@@ -187,6 +190,17 @@ TEST_F(RecordingTest, AWrongSignAndSwappedEyesAreNamed) {
   RobotBag swapped;
   std::swap(swapped.left_info, swapped.right_info);
   EXPECT_THAT(WhyNot(swapped), HasSubstr("--topic /front/right/image_rect --topic /front/left"));
+}
+
+TEST_F(RecordingTest, LeftImagesWithoutARightOneAreTold) {
+  EXPECT_THAT(Read({}).notes, testing::IsEmpty());
+  RobotBag bag;
+  bag.right_frames = 4;
+  const StereoRecording recording = Read(bag);
+  EXPECT_EQ(recording.pairs.size(), 4u);
+  EXPECT_THAT(recording.notes, testing::ElementsAre(HasSubstr("2 of 6 left images have no right")));
+  bag.right_frames = 2;
+  EXPECT_THAT(WhyNot(bag), HasSubstr("only 2 of 6 left images have a right one"));
 }
 
 TEST_F(RecordingTest, WhatElseIsMissingIsNamed) {

@@ -118,6 +118,14 @@ class DatasetTest : public testing::Test {
     }
   }
   std::string Read(const std::string& name) const { return ReadFile(folder_ / name); }
+  static std::string Complaint(const fs::path& folder, DatasetFormat format) {
+    try {
+      ReadRecording(folder, format);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
 
   fs::path folder_;
   std::int64_t epoch_ns_ = 0;
@@ -426,22 +434,120 @@ TEST_F(DatasetTest, MistakesAreNamed) {
   }
 }
 
-TEST_F(DatasetTest, AnotherLayoutIsToldByItsFiles) {
-  const auto complaint = [&](const fs::path& folder, DatasetFormat format) -> std::string {
-    try {
-      ReadRecording(folder, format);
-    } catch (const InputError& error) {
-      return error.what();
+TEST_F(DatasetTest, EurocsImagesOfOneInstantAreAMillisecondApartAtMost) {
+  Export(DatasetFormat::kEuroc);
+  const std::string index = "mav0/cam1/data.csv";
+  const auto late = [&](const std::string& rest_ns) {
+    std::string text = Read(index);
+    for (std::size_t at = 0; (at = text.find("000000,", at)) != std::string::npos; ++at) {
+      text.replace(at, 6, rest_ns);
     }
-    return "";
+    return text;
   };
+  const std::string nearly = late("999999");
+  WriteFileAtomically(folder_ / index, nearly);
+  ExpectCameras(ReadRecording(folder_, DatasetFormat::kEuroc));
+  // A right image of another instant is no partner, and is told.
+  std::string odd = nearly;
+  odd.replace(odd.find("1600000000000999999,"), 20, "1600000000020000000,");
+  WriteFileAtomically(folder_ / index, odd);
+  const StereoRecording recording = ReadRecording(folder_, DatasetFormat::kEuroc);
+  EXPECT_EQ(recording.pairs.size(), 4u);
+  EXPECT_EQ(recording.pairs.front().stamp_ns, 1'600'000'000'050'000'000);
+  EXPECT_THAT(recording.notes, testing::ElementsAre(HasSubstr("1 of 5 left images have no right")));
+}
+
+TEST_F(DatasetTest, AnImageThatIsListedIsThere) {
+  Export(DatasetFormat::kEuroc);
+  for (const char* image :
+       {"mav0/cam1/data/1600000000100000000.png", "mav0/cam0/data/1600000000150000000.png"}) {
+    fs::remove(folder_ / image);
+    EXPECT_THAT(Complaint(folder_, DatasetFormat::kEuroc),
+                HasSubstr("data.csv: 1 of the 5 images that it lists are not in its folder"));
+    Export(DatasetFormat::kEuroc);
+  }
+}
+
+/// Whatever the format: a few are told, most are refused.
+TEST_F(DatasetTest, ADriveWithoutHalfOfItsRightImagesIsNone) {
+  Export(DatasetFormat::kKitti);
+  for (const char* first : {"000001.png", "000003.png"}) {
+    fs::remove(folder_ / "sequences/00/image_1" / first);
+  }
+  StereoRecording recording = ReadRecording(folder_, DatasetFormat::kKitti);
+  EXPECT_EQ(recording.pairs.size(), 3u);
+  EXPECT_EQ(recording.pairs.back().stamp_ns, 200'000'000);
+  EXPECT_THAT(recording.notes, testing::ElementsAre(HasSubstr("2 of 5 left images have no right")));
+  fs::remove(folder_ / "sequences/00/image_0/000001.png");
+  recording = ReadRecording(folder_, DatasetFormat::kKitti);
+  EXPECT_THAT(recording.notes, testing::ElementsAre(HasSubstr("1 of 4 left images have no right"),
+                                                    HasSubstr("1 of 5 frames have a time but no")));
+  for (const char* more : {"000000.png", "000002.png"}) {
+    fs::remove(folder_ / "sequences/00/image_1" / more);
+  }
+  EXPECT_THAT(Complaint(folder_, DatasetFormat::kKitti),
+              HasSubstr("only 1 of 4 left images have a right one"));
+  Export(DatasetFormat::kEuroc);
+  EXPECT_THAT(ReadRecording(folder_, DatasetFormat::kEuroc).notes, testing::IsEmpty());
+  WriteFileAtomically(folder_ / "mav0/cam1/data.csv",
+                      "1600000000050000000,1600000000050000000.png\n");
+  EXPECT_THAT(Complaint(folder_, DatasetFormat::kEuroc),
+              HasSubstr("only 1 of 5 left images have a right one"));
+}
+
+TEST_F(DatasetTest, APoseOfACameraIsARigidOne) {
+  const std::string good =
+      "1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, "
+      "0.0, 1.0";
+  const std::string file = "mav0/cam0/sensor.yaml";
+  Export(DatasetFormat::kEuroc);
+  const std::string text = Read(file);
+  const std::size_t begin = text.find('[', text.find("T_BS")), end = text.find(']', begin);
+  const auto with = [&](const std::string& numbers) {
+    WriteFileAtomically(folder_ / file, text.substr(0, begin) + "[" + numbers + text.substr(end));
+    return Complaint(folder_, DatasetFormat::kEuroc);
+  };
+  EXPECT_EQ(with(good), "");
+  for (const char* bad : {"0,0,0,0, 0,0,0,0, 0,0,0,0, 0,0,0,1",       // never filled in
+                          "2,0,0,0, 0,2,0,0, 0,0,2,0, 0,0,0,1",       // scaled
+                          "1,0,0,0, 0,1,0,0, 0,0,-1,0, 0,0,0,1",      // a mirror
+                          "1,0,0,0, 0,1,0,0, 0,0,1,0, 0.1,0,0,1"}) {  // column by column
+    EXPECT_THAT(with(bad), HasSubstr("T_BS is no pose")) << bad;
+  }
+}
+
+TEST_F(DatasetTest, RosLensesHaveAFifthCoefficient) {
+  lens_ = {.model = "radial-tangential", .coefficients = {-0.3, 0.1, 0, 0}};
+  Export(DatasetFormat::kEuroc);
+  const auto restate = [&](const std::string& model, const std::string& coefficients) {
+    for (const char* name : {"mav0/cam0/sensor.yaml", "mav0/cam1/sensor.yaml"}) {
+      std::string text;
+      std::istringstream lines(Read(name));
+      for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("distortion_model")) line = "distortion_model: " + model;
+        if (line.starts_with("distortion_coefficients")) {
+          line = "distortion_coefficients: " + coefficients;
+        }
+        text += line + "\n";
+      }
+      WriteFileAtomically(folder_ / name, text);
+    }
+  };
+  restate("plumb_bob", "[-0.3, 0.1, 0.01, 0.02, 0.03]");
+  EXPECT_EQ(ReadRecording(folder_, DatasetFormat::kEuroc).cameras.right.distortion,
+            (std::vector<double>{-0.3, 0.1, 0.01, 0.02, 0.03}));
+  restate("equidistant", "[-0.3, 0.1, 0.01, 0.02, 0.03]");
+  EXPECT_THAT(Complaint(folder_, DatasetFormat::kEuroc), HasSubstr("must hold 4 numbers"));
+}
+
+TEST_F(DatasetTest, AnotherLayoutIsToldByItsFiles) {
   Export(DatasetFormat::kKitti);
   for (const fs::path& folder : {folder_, folder_ / "sequences/00"}) {
-    EXPECT_THAT(complaint(folder, DatasetFormat::kEuroc), HasSubstr("--format kitti"));
+    EXPECT_THAT(Complaint(folder, DatasetFormat::kEuroc), HasSubstr("--format kitti"));
   }
   Export(DatasetFormat::kEuroc);
   for (const fs::path& folder : {folder_, folder_ / "mav0"}) {
-    EXPECT_THAT(complaint(folder, DatasetFormat::kKitti), HasSubstr("its format is euroc"));
+    EXPECT_THAT(Complaint(folder, DatasetFormat::kKitti), HasSubstr("its format is euroc"));
   }
 }
 
