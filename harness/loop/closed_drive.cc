@@ -351,6 +351,10 @@ std::string Validate(const Steering& steering) {
     return fmt::format("latency_ms is {:g}, expected 0 to {:g}", steering.latency_ms,
                        kLongestLatency_ms);
   }
+  if (steering.latency_ms > 0 && !steering.latency_profile_ms.empty()) {
+    return "latency_ms and latency_profile_ms are both given: a frame takes the one or one of the "
+           "other's; leave one out";
+  }
   for (const double ms : steering.latency_profile_ms) {
     if (!is_latency(ms)) {
       return fmt::format("a latency of the profile is {:g} ms, expected 0 to {:g}", ms,

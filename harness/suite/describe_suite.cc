@@ -1,5 +1,7 @@
 #include "harness/suite/describe_suite.h"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "harness/contract/steering.h"
@@ -28,8 +30,28 @@ void DescribeMaskErrors(Fields& fields, MaskErrors& errors) {
                  &errors.latency_frames, {0, 100});
 }
 
+/// The options that say how long a system takes for a frame.
+constexpr std::array kLatencyOptions = {"drive.latency_ms", "drive.latency_profile_ms"};
+
+/// What is wrong with both, or an empty string: a profile leaves the other no effect.
+std::string TwoLatencies(const SystemSpec& system) {
+  const auto given = [&](const char* path) { return system.options.contains(path); };
+  if (!std::ranges::all_of(kLatencyOptions, given)) return "";
+  return fmt::format("it has {}: leave one out", fmt::join(kLatencyOptions, " and "));
+}
+
+/// A sweep would take the place of a latency, and have no effect beside a profile.
+void CheckSweep(Fields& fields, const SystemSpec& system) {
+  for (const char* path : kLatencyOptions) {
+    if (!system.options.contains(path)) continue;
+    fields.Fail("latencies_ms", fmt::format("'{}' has {} of its own: leave one of the two out",
+                                            Printable(system.name), path));
+  }
+}
+
 /// Each system that can steer once at each latency, in the place where it stood: "robust_50ms".
-void SweepLatencies(const std::vector<double>& latencies_ms, std::vector<SystemSpec>* systems) {
+void SweepLatencies(Fields& fields, const std::vector<double>& latencies_ms,
+                    std::vector<SystemSpec>* systems) {
   if (latencies_ms.empty()) return;
   std::vector<SystemSpec> swept;
   for (const SystemSpec& system : *systems) {
@@ -37,6 +59,7 @@ void SweepLatencies(const std::vector<double>& latencies_ms, std::vector<SystemS
       swept.push_back(system);  // it cannot steer
       continue;
     }
+    CheckSweep(fields, system);
     for (const double ms : latencies_ms) {
       swept.push_back(system);
       const std::string latency = fmt::format("{:g}", ms);
@@ -241,6 +264,9 @@ void Describe(Fields& fields, const Vocabulary& vocabulary, SystemSpec* spec) {
                                    "{{feature.features: 800}}}}",
                                    spec->name));
   }
+  if (const std::string wrong = TwoLatencies(*spec); !wrong.empty()) {
+    return fields.Fail("options", wrong);
+  }
   // How it steers any system can be told that answers frame by frame, whoever made it; what wheels
   // measure any.
   SystemSpec others = *spec;
@@ -284,7 +310,7 @@ void Describe(Fields& fields, const Vocabulary& vocabulary, const Fields::Check&
                   "scenes with a `drive`",
                   "[0, 50, 100, 200]"},
                  &latencies_ms, {0, kLongestLatency_ms});
-  SweepLatencies(latencies_ms, &suite.systems);
+  SweepLatencies(fields, latencies_ms, &suite.systems);
   fields.Names({"twins",
                 "versions of each scene: live as written, empty without actors, frozen where they "
                 "stand, none, low, mid or high with those of at most that level",

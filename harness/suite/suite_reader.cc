@@ -218,6 +218,10 @@ void YamlReader::Numbers(const Key& key, std::vector<double>* values, Range rang
     if (!number || !(*number >= range.low && *number <= range.high)) {
       return Expected(item, key, "a list of numbers" + ToText(range));
     }
+    if (std::find(read.begin(), read.end(), *number) != read.end()) {
+      return issues_->Add(PlaceOf(item), PathOf(key.name),
+                          fmt::format("{:g} is given twice; keep one of them", *number));
+    }
     read.push_back(*number);
   }
   *values = std::move(read);

@@ -431,6 +431,9 @@ TEST(SteeringTest, ItsValuesAreChecked) {
   EXPECT_NE(Validate(Steering{.latency_ms = -1}), "");
   EXPECT_EQ(Validate(Steering{.latency_profile_ms = {1, 10'001}}),
             "a latency of the profile is 10001 ms, expected 0 to 10000");
+  EXPECT_EQ(Validate(Steering{.latency_profile_ms = {1, 2}}), "");
+  EXPECT_NE(Validate(Steering{.latency_ms = 50, .latency_profile_ms = {1, 2}}), "")
+      << "the profile alone would have an effect";
   EXPECT_EQ(Validate(Steering{.taught = true}), "");
   EXPECT_NE(Validate(Steering{.steered_by_truth = true, .taught = true}), "");
 }

@@ -28,6 +28,7 @@ Vocabulary Names() {
   names.is_share = [](const std::string& score) { return score == "coverage"; };
   names.check_option = [](const std::string&, const std::string& path,
                           const std::string& value) -> std::string {
+    if (path.starts_with("drive.")) return "";
     if (path != "feature.features") return "there is no option '" + path + "'";
     return value == "-1" ? "feature.features: expected 1 to 10000" : "";
   };
@@ -259,6 +260,26 @@ TEST_F(SuiteTest, PartsOfASystemMustFitTogether) {
   for (const auto& [system, expected] : cases) {
     EXPECT_THAT(ComplaintOfSystem(system), HasSubstr(expected)) << system;
   }
+}
+
+TEST_F(SuiteTest, ALatencyThatWouldHaveNoEffectIsRefused) {
+  const std::string head = "suite: a\nscenes: [paper/one]\nsystems:\n";
+  const std::string swept = "latencies_ms: [0, 50]\n";
+  const std::pair<std::string, const char*> cases[] = {
+      {"  - {name: x, like: oracle, options: {drive.latency_profile_ms: \"5,9\"}}\n" + swept,
+       "s.yaml:5:15: latencies_ms: 'x' has drive.latency_profile_ms of its own"},
+      {"  - {name: x, command: slam, contract: stream, options: {drive.latency_ms: 9}}\n" + swept,
+       "s.yaml:5:15: latencies_ms: 'x' has drive.latency_ms of its own"},
+      {"  - {name: x, like: oracle, options: {drive.latency_ms: 0, "
+       "drive.latency_profile_ms: \"5,9\"}}\n",
+       "s.yaml:4:38: systems[0].options: it has drive.latency_ms and drive.latency_profile_ms"},
+      {"  - oracle\nlatencies_ms: [50, 50.0]\n", "s.yaml:5:20: latencies_ms: 50 is given twice"},
+  };
+  for (const auto& [text, expected] : cases) {
+    EXPECT_THAT(Complaint(head + text), HasSubstr(expected)) << text;
+  }
+  const Suite good = Load(head + "  - oracle\n" + swept);
+  EXPECT_EQ(good.systems.size(), 2u);
 }
 
 TEST_F(SuiteTest, SeveralSuitesKeepTheirOwnSystemsAndShareEqualCells) {
