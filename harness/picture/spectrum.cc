@@ -2,12 +2,23 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 namespace aisle {
 namespace {
 
 constexpr int kTile = 256;
+
+/// Tiles that overlap by half have all pixels under windows that sum to 1. OpenCV's own window of
+/// that name is the root of the product of two.
+cv::Mat1f HannWindow() {
+  cv::Mat1f row(1, kTile);
+  for (int x = 0; x < kTile; ++x) {
+    row(x) = static_cast<float>(0.5 - 0.5 * std::cos(2 * std::numbers::pi * x / kTile));
+  }
+  return cv::Mat1f(row.t() * row);
+}
 
 /// Adds a tile's power to its rings and counts what was added.
 void AddTile(const cv::Mat1f& tile, std::vector<double>* power, std::vector<double>* count) {
@@ -29,8 +40,7 @@ void AddTile(const cv::Mat1f& tile, std::vector<double>* power, std::vector<doub
 
 std::vector<double> PowerSpectrum(const cv::Mat1b& image) {
   if (image.rows < kTile || image.cols < kTile) return {};
-  cv::Mat1f window;
-  cv::createHanningWindow(window, {kTile, kTile}, CV_32F);
+  const cv::Mat1f window = HannWindow();
   std::vector<double> power(kTile / 2 + 1), count(kTile / 2 + 1);
   for (int y = 0; y + kTile <= image.rows; y += kTile / 2) {
     for (int x = 0; x + kTile <= image.cols; x += kTile / 2) {

@@ -130,6 +130,20 @@ TEST(SpectrumSlope, OfAPowerLawIsItsExponent) {
   }
 }
 
+/// Under a Hann window a wave that fits the tile is in its own frequency and the two beside it; the
+/// rest is what rounding to grey levels leaves.
+TEST(PowerSpectrum, OfAWaveStaysInItsRing) {
+  constexpr int kWaves = 40;
+  cv::Mat1b image(256, 256);
+  for (int x = 0; x < image.cols; ++x) {
+    image.col(x).setTo(std::round(128 + 100 * std::cos(2 * std::numbers::pi * kWaves * x / 256)));
+  }
+  const std::vector<double> spectrum = PowerSpectrum(image);
+  for (std::size_t ring = kWaves + 3; ring < spectrum.size(); ++ring) {
+    EXPECT_LT(spectrum[ring], 1e-5 * spectrum[kWaves]) << ring;
+  }
+}
+
 TEST(SpectrumSlope, OfASmallPictureIsNone) {
   EXPECT_TRUE(std::isnan(SpectrumSlope(PowerSpectrum(cv::Mat1b(255, 300, 'a')), 0.02, 0.2)));
 }
