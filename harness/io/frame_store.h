@@ -19,8 +19,8 @@ struct SequenceHeader {
 };
 
 /// Frames of one sequence on disk, one checksummed file each, shared by any number of processes: a
-/// file is whole or absent. Depth, the right camera's labels and the poses of 3-D boxes are not
-/// kept: no score needs them.
+/// file is whole or absent. Depth but for its grid, and the right camera's depth and labels, are
+/// not kept: no score needs them.
 class FrameStore {
  public:
   /// `folder` is made on the first write.

@@ -10,7 +10,8 @@ namespace aisle {
 /// is left out.
 nlohmann::ordered_json ToJson(const SystemSpec& spec);
 
-/// The inverse; what is left out keeps its default. Throws nlohmann::json::exception.
+/// The inverse; what ToJson leaves out keeps its default. Throws nlohmann::json::exception, and
+/// std::invalid_argument for a contract that is none.
 SystemSpec SystemSpecFromJson(const nlohmann::ordered_json& json);
 
 }  // namespace aisle

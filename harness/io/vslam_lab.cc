@@ -6,18 +6,13 @@
 #include "harness/io/file.h"
 #include "harness/io/imu.h"
 #include "harness/io/input_error.h"
+#include "harness/io/shell_word.h"
 #include "harness/io/trajectory.h"
 
 namespace aisle {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string Quoted(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 std::string Camera(const StereoCalibration& c, double rate_hz, int side) {
   return fmt::format(
@@ -106,8 +101,8 @@ std::string VslamLabArguments(const VslamLabRun& run, VslamLabStyle style) {
         {python ? "exp_it" : "exp_id", "00000"},
         {"mode", "stereo"}}) {
     if (!line.empty()) line += ' ';
-    line += python ? fmt::format("--{} {}", key, Quoted(value))
-                   : Quoted(fmt::format("{}:{}", key, value));
+    line += python ? fmt::format("--{} {}", key, ShellWord(value))
+                   : ShellWord(fmt::format("{}:{}", key, value));
   }
   return line;
 }

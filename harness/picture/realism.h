@@ -19,7 +19,8 @@ struct PictureStatistic {
 std::span<const PictureStatistic> PictureStatistics();
 
 /// The values of one picture; the last, temporal noise, of it and the next, NaN where `next` is
-/// empty, of another size, or seen from another place.
+/// empty or of another size, or where TemporalNoise has none: the camera moved, or too few pixels
+/// are plain. The slopes of a picture smaller than a tile (PowerSpectrum) are NaN too.
 std::vector<double> DescribePicture(const cv::Mat1b& image, const cv::Mat1b& next);
 
 /// The median of each statistic over the pictures for which it is a number; NaN where none is.

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "harness/contract/drive_names.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/record/record_json.h"
@@ -13,8 +14,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kSchema = 1;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::array kEnds = {"arrived", "contact", "no progress", "timeout", "failed"};
-constexpr std::array kModes = {"driving", "waiting", "degraded", "stopped", "scanner", "arrived"};
 
 template <class Enum, std::size_t N>
 Enum FromName(const std::array<const char*, N>& names, const std::string& name) {
@@ -74,7 +73,7 @@ DriveSample SampleFromJson(const Json& row) {
   s.estimate_age_s = number(12);
   s.clearance_static_m = OrInfinite(row.at(13));
   s.clearance_actor_m = OrInfinite(row.at(14));
-  s.mode = FromName<DriveMode>(kModes, row.at(15).get<std::string>());
+  s.mode = FromName<DriveMode>(kDriveModeNames, row.at(15).get<std::string>());
   return s;
 }
 
@@ -146,7 +145,7 @@ Json ToJson(const DriveTrack& track) {
 
 DriveTrack TrackFromJson(const Json& json) {
   DriveTrack track;
-  track.end = FromName<DriveEnd>(kEnds, json.at("end").get<std::string>());
+  track.end = FromName<DriveEnd>(kDriveEndNames, json.at("end").get<std::string>());
   track.time_s = json.at("time_s").get<double>();
   track.min_clearance_static_m = OrInfinite(json.at("min_clearance_static_m"));
   track.min_clearance_person_m = OrInfinite(json.at("min_clearance_person_m"));
@@ -196,9 +195,6 @@ DriveLog FromJson(const Json& json) {
 }
 
 }  // namespace
-
-std::string Name(DriveEnd end) { return kEnds.at(static_cast<std::size_t>(end)); }
-std::string Name(DriveMode mode) { return kModes.at(static_cast<std::size_t>(mode)); }
 
 std::string ToJson(const DriveLog& log) {
   Json json = {{"schema", kSchema},

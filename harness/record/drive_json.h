@@ -23,9 +23,4 @@ void WriteDrive(const DriveLog& log, const std::filesystem::path& report_dir, Ru
 /// The drive of a run, where it was a closed one and its file is whole.
 std::optional<DriveLog> ReadDrive(const RunRecord& run, const std::filesystem::path& report_dir);
 
-/// "arrived", "contact", "no progress", "timeout", "failed".
-std::string Name(DriveEnd end);
-/// "driving", "waiting", "degraded", "stopped", "scanner", "arrived".
-std::string Name(DriveMode mode);
-
 }  // namespace aisle

@@ -7,6 +7,7 @@
 
 #include "harness/io/hash.h"
 #include "harness/io/places.h"
+#include "harness/io/shell_word.h"
 #include "harness/record/record.h"
 
 namespace aisle {
@@ -37,8 +38,8 @@ std::string InstalledCommit() {
 /// Short commit of the source tree, with "+" where files were changed since.
 std::string SourceCommit() {
   if (IsInstalled()) return InstalledCommit();
-  const std::string command =
-      "git -C '" + OwnFolder().string() + "' describe --always --dirty=+ --exclude '*' 2>/dev/null";
+  const std::string command = "git -C " + ShellWord(OwnFolder().string()) +
+                              " describe --always --dirty=+ --exclude '*' 2>/dev/null";
   FILE* pipe = ::popen(command.c_str(), "r");
   if (pipe == nullptr) return "unknown";
   char buffer[64] = "";

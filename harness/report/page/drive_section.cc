@@ -2,6 +2,7 @@
 
 #include <list>
 
+#include "harness/contract/drive_names.h"
 #include "harness/record/drive_json.h"
 #include "harness/report/chart/drive_chart.h"
 #include "harness/report/markup/html.h"

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "harness/contract/drive_names.h"
 #include "harness/io/input_error.h"
 #include "tests/support/arbitrary.h"
 
