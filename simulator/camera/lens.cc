@@ -77,16 +77,20 @@ std::optional<Eigen::Vector2d> UnbendRadialTangential(const std::array<double, 4
   return std::nullopt;
 }
 
-std::optional<Eigen::Vector2d> UnbendEquidistant(const std::array<double, 4>& k,
+/// Up to the fold the radius rises, so that the angle is kept between what is too small and what is
+/// too large: near the fold Newton's steps go far beyond it.
+std::optional<Eigen::Vector2d> UnbendEquidistant(const std::array<double, 4>& k, double fold,
                                                  const Eigen::Vector2d& image) {
   const double radius = image.norm();
   if (radius < 1e-12) return image;
-  double angle = std::min(radius, kWidestAngle);
+  if (radius > EquidistantRadius(k, fold)[0]) return std::nullopt;
+  double low = 0, high = fold, angle = std::min(radius, fold);
   for (int step = 0; step < kMaxSteps; ++step) {
     const auto [at, slope] = EquidistantRadius(k, angle);
-    if (!(slope > 0) || angle < 0 || angle > kWidestAngle) return std::nullopt;
     if (std::abs(radius - at) < kConverged) return image * (std::tan(angle) / radius);
-    angle += (radius - at) / slope;
+    (at < radius ? low : high) = angle;
+    const double next = angle + (radius - at) / slope;
+    angle = next > low && next < high ? next : (low + high) / 2;
   }
   return std::nullopt;
 }
@@ -122,12 +126,13 @@ std::optional<Eigen::Vector2d> Distort(const Lens& lens, double widest,
   return ray;
 }
 
-std::optional<Eigen::Vector2d> Undistort(const Lens& lens, const Eigen::Vector2d& image) {
+std::optional<Eigen::Vector2d> Undistort(const Lens& lens, double widest,
+                                         const Eigen::Vector2d& image) {
   switch (lens.model) {
     case LensModel::kRadialTangential:
       return UnbendRadialTangential(lens.coefficients, image);
     case LensModel::kEquidistant:
-      return UnbendEquidistant(lens.coefficients, image);
+      return UnbendEquidistant(lens.coefficients, std::atan(widest), image);
     case LensModel::kPinhole:
       break;
   }

@@ -30,6 +30,8 @@ std::optional<Eigen::Vector2d> Distort(const Lens& lens, double widest, const Ei
 
 /// The ray (x, y, 1) that meets the bent image at a place: Newton's method to 1e-12. None where the
 /// lens has no such ray: beyond the fold of the polynomial, or 85 degrees and more off the axis.
-std::optional<Eigen::Vector2d> Undistort(const Lens& lens, const Eigen::Vector2d& image);
+/// `widest`: WidestRay of the lens, which is asked once.
+std::optional<Eigen::Vector2d> Undistort(const Lens& lens, double widest,
+                                         const Eigen::Vector2d& image);
 
 }  // namespace aisle::sim

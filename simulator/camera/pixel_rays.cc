@@ -25,10 +25,11 @@ PixelRays MakePixelRays(const StereoCamera& camera) {
       static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
   rays.x.reserve(count + PixelRays::kPadding);
   rays.y.reserve(count + PixelRays::kPadding);
+  const double widest = WidestRay(camera.lens);
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {
-      const std::optional<Eigen::Vector2d> ray =
-          Undistort(camera.lens, {(u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy});
+      const std::optional<Eigen::Vector2d> ray = Undistort(
+          camera.lens, widest, {(u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy});
       if (!ray) {
         throw std::invalid_argument(fmt::format(
             "the lens has no ray for pixel ({}, {}): its distortion folds the image before that; "

@@ -82,7 +82,7 @@ TEST(Lens, UndistortInvertsDistort) {
       for (double y = -0.6; y < 0.65; y += 0.1) {
         const auto image = Distort(camera.lens, WidestRay(camera.lens), {x, y});
         ASSERT_TRUE(image.has_value());
-        const auto back = Undistort(camera.lens, *image);
+        const auto back = Undistort(camera.lens, WidestRay(camera.lens), *image);
         ASSERT_TRUE(back.has_value());
         EXPECT_LT((*back - Eigen::Vector2d(x, y)).norm(), 1e-10);
       }
@@ -93,14 +93,32 @@ TEST(Lens, UndistortInvertsDistort) {
 TEST(Lens, BeyondItsFoldItHasNoRay) {
   // x(1 - 0.5 x²) is largest, 0.544, at x = 0.816.
   const Lens lens{LensModel::kRadialTangential, {-0.5, 0, 0, 0}};
-  EXPECT_TRUE(Undistort(lens, {0.53, 0}).has_value());
-  EXPECT_FALSE(Undistort(lens, {0.56, 0}).has_value());
-  EXPECT_FALSE(Undistort({LensModel::kEquidistant, {}}, {1.55, 0}).has_value());
+  EXPECT_TRUE(Undistort(lens, WidestRay(lens), {0.53, 0}).has_value());
+  EXPECT_FALSE(Undistort(lens, WidestRay(lens), {0.56, 0}).has_value());
+  const Lens fisheye{LensModel::kEquidistant, {}};
+  EXPECT_FALSE(Undistort(fisheye, WidestRay(fisheye), {1.55, 0}).has_value());
   try {
     MakePixelRays(WithLens(LensModel::kRadialTangential, {-0.5, 0, 0, 0}));
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("no ray for pixel (0, 0)"));
+  }
+}
+
+TEST(Lens, AFisheyeHasEveryRayUpToItsFold) {
+  for (const Lens& lens : {Lens{LensModel::kEquidistant, {0.0979, 0.0091, -0.0124, -0.0096}},
+                           Lens{LensModel::kEquidistant, {0.05, -0.04, -0.02, 0}},
+                           Lens{LensModel::kEquidistant, {-0.1, 0, 0, 0}},
+                           Lens{LensModel::kEquidistant, {0, 0, 0, 0}}}) {
+    const double widest = WidestRay(lens), fold = std::atan(widest);
+    for (double angle = 0.01; angle < fold - 2e-3; angle += 0.01) {
+      const double ray = std::tan(angle);
+      const auto image = Distort(lens, widest, {ray, 0});
+      ASSERT_TRUE(image.has_value()) << angle;
+      const auto back = Undistort(lens, widest, *image);
+      ASSERT_TRUE(back.has_value()) << angle << " of " << fold;
+      EXPECT_NEAR(std::atan(back->x()), angle, 1e-7);
+    }
   }
 }
 
