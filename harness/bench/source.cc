@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "harness/io/dataset.h"
+#include "harness/io/hash.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/cached_sequence.h"
 #include "harness/plugs/recorded_sequence.h"
@@ -16,11 +17,15 @@ void RefuseEmptyView(const BenchView& view, std::size_t frames) {
   if (frames == 0) throw InputError(Printable(view.text) + ": no frame lies in this view");
 }
 
+std::uint64_t SeedOf(const BenchView& view, const BenchSource& source) {
+  return view.seed.value_or(source.seed);
+}
+
 std::unique_ptr<Sequence> OpenSource(const BenchView& view, const BenchSource& source) {
   if (fs::is_directory(view.path)) {
     return OpenRecording(view.path, DatasetFormatFromName(source.format));
   }
-  const std::uint64_t seed = view.seed.value_or(source.seed);
+  const std::uint64_t seed = SeedOf(view, source);
   const SimulatedSequenceOptions simulation{.scene_file = view.path,
                                             .scene_name = view.scene,
                                             .assets_dir = view.assets_dir,
@@ -28,8 +33,10 @@ std::unique_ptr<Sequence> OpenSource(const BenchView& view, const BenchSource& s
                                             .seed = seed,
                                             .threads = source.threads};
   if (source.frames_dir.empty()) return OpenSimulation(simulation);
-  const fs::path kept =
-      fs::path(source.frames_dir) / fmt::format("{}_{}_{}", view.scene, source.twin, seed);
+  // Another scene of that name, or this one edited, has frames of its own.
+  const std::uint64_t essence = Hash(EssenceOfScene(view.path, source.twin));
+  const fs::path kept = fs::path(source.frames_dir) /
+                        fmt::format("{}_{}_{}_{:016x}", view.scene, source.twin, seed, essence);
   return OpenCached(FrameStore(kept), view.scene,
                     [simulation](std::uint64_t* hash) { return OpenSimulation(simulation, hash); });
 }
