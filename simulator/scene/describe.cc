@@ -95,9 +95,9 @@ void DescribePixels(Fields& f, SensorSpec& sensor) {
 void DescribeLens(Fields& f, SensorSpec& sensor) {
   f.Number({"vignetting", "share of light lost in the corners", "0.25"}, &sensor.vignetting,
            {0, 0.9});
-  f.Number({"blur_px", "standard deviation of the lens blur in the middle", "0.45"},
+  f.Number({"blur_px", "standard deviation of the lens blur in the middle", "0.38"},
            &sensor.blur_px, {0, 5});
-  f.Number({"field_blur_px", "blur that the farthest corner adds, in quadrature", "0.45"},
+  f.Number({"field_blur_px", "blur that the farthest corner adds, in quadrature", "0.505"},
            &sensor.field_blur_px, {0, 5});
   f.Number({"glare", "share of the light that veils the whole picture", "0.04"}, &sensor.glare,
            {0, 0.5});

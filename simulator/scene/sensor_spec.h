@@ -42,12 +42,12 @@ struct SensorSpec {
   double dsnu_e = 10;                    ///< rms of the pixels' dark signal
   double black_level = 2.5;              ///< grey levels before the tone curve
   ToneSpec tone = ToneSpec::kCompanded;
-  double vignetting = 0.25;     ///< share of light lost in the corners
-  double blur_px = 0.45;        ///< standard deviation of the lens blur in the middle
-  double field_blur_px = 0.45;  ///< what the farthest corner adds in quadrature
-  double glare = 0.04;          ///< share of the light that veils the picture
-  bool motion_blur = false;     ///< things move while the shutter is open
-  double readout_ms = 0;        ///< of a rolling shutter, first row to last
+  double vignetting = 0.25;      ///< share of light lost in the corners
+  double blur_px = 0.38;         ///< standard deviation of the lens blur in the middle
+  double field_blur_px = 0.505;  ///< what the farthest corner adds in quadrature
+  double glare = 0.04;           ///< share of the light that veils the picture
+  bool motion_blur = false;      ///< things move while the shutter is open
+  double readout_ms = 0;         ///< of a rolling shutter, first row to last
 };
 
 /// The values that a preset stands for; keys of the file override them.
@@ -62,7 +62,7 @@ inline SensorSpec MakeSensor(SensorPreset preset) {
     sensor.full_well_e = 10000;
     sensor.black_level = 2;
     sensor.tone = ToneSpec::kLinear;
-    sensor.blur_px = 0.45;
+    sensor.blur_px = 0.38;
     sensor.field_blur_px = 0;
     sensor.glare = 0;
   }

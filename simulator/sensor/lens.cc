@@ -16,12 +16,36 @@ constexpr float kLocalGlare = 0.5f;
 /// Pixels of the coarse picture on which the veil is made; far finer than it needs.
 constexpr int kGlareFactor = 16;
 
+/// Variance of the normal kernel that is read at the whole pixels up to `reach`.
+double VarianceAtPixels(double sigma, int reach) {
+  double sum = 1, second = 0;
+  for (int i = 1; i <= reach; ++i) {
+    const double weight = 2 * std::exp(-0.5 * i * i / (sigma * sigma));
+    sum += weight;
+    second += weight * i * i;
+  }
+  return second / sum;
+}
+
+/// The deviation of the normal kernel that has the wanted one once it is read at whole pixels:
+/// these hold less of a narrow kernel than there is between them.
+double KernelFor(double sigma_px, int reach) {
+  constexpr int kSteps = 60;
+  double low = 0.01, high = 2 * sigma_px + 1;
+  for (int i = 0; i < kSteps; ++i) {
+    const double middle = (low + high) / 2;
+    (VarianceAtPixels(middle, reach) < sigma_px * sigma_px ? low : high) = middle;
+  }
+  return high;
+}
+
 cv::Mat1f Blurred(const cv::Mat1f& radiance, float sigma_px) {
   if (sigma_px <= 0) return radiance;
   cv::Mat1f spread;
   // Four deviations hold all of a normal kernel but 6e-5; sharp lenses need no more than 5 × 5.
-  const int size = std::max(5, 2 * static_cast<int>(std::ceil(4 * sigma_px)) + 1);
-  cv::GaussianBlur(radiance, spread, cv::Size(size, size), sigma_px, sigma_px,
+  const int reach = std::max(2, static_cast<int>(std::ceil(4 * sigma_px)));
+  const double sigma = KernelFor(double{sigma_px}, reach);
+  cv::GaussianBlur(radiance, spread, cv::Size(2 * reach + 1, 2 * reach + 1), sigma, sigma,
                    cv::BORDER_REPLICATE);
   return spread;
 }

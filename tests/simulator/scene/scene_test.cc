@@ -376,7 +376,7 @@ TEST(Sensor, IdealIsSharpAndLinear) {
   EXPECT_EQ(sensor.tone, ToneSpec::kLinear);
   EXPECT_EQ(sensor.glare, 0);
   EXPECT_EQ(sensor.field_blur_px, 0);
-  EXPECT_EQ(sensor.blur_px, 0.45);
+  EXPECT_EQ(sensor.blur_px, 0.38);
   EXPECT_EQ(sensor.gain_db, 0);
   // What the white share a millisecond was before there were presets; its bits must not change.
   EXPECT_EQ(sensor.sensitivity_e_per_ms / sensor.full_well_e, 32.0);

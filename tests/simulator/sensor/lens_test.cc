@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <complex>
 #include <numbers>
 
@@ -48,19 +49,40 @@ TEST(SpreadByLens, AWidePointHasItsDeviation) {
   EXPECT_NEAR(std::sqrt(VarianceOf(spread)), 2.5, 0.02);
 }
 
-TEST(SpreadByLens, AnEdgeShowsTheStatedMtf) {
-  const LensOptions lens{.blur_px = 0.7f};
+TEST(SpreadByLens, APointHasTheStatedDeviation) {
+  for (const float blur_px : {0.1f, 0.25f, 0.38f, 0.45f, 0.6f, 0.7f, 0.9f, 1.2f, 3.0f}) {
+    const cv::Mat1f spread = SpreadByLens(Point({61, 61}, {30, 30}), {.blur_px = blur_px});
+    EXPECT_NEAR(std::sqrt(VarianceOf(spread)), blur_px, 2e-3 * double{blur_px});
+    EXPECT_GE(*std::ranges::min_element(spread), 0) << blur_px;
+  }
+}
+
+/// What an edge through the lens keeps of waves of so many cycles a pixel.
+double TransferAt(float blur_px, double frequency) {
   cv::Mat1f edge(41, 101, 0.0f);
   edge.colRange(50, 101) = 1;
-  const cv::Mat1f seen = SpreadByLens(edge, lens);
-  for (const double frequency : {0.05, 0.1, 0.2, 0.25}) {
-    std::complex<double> transfer = 0;
-    for (int x = 1; x < seen.cols; ++x) {
-      transfer += double{seen(20, x) - seen(20, x - 1)} *
-                  std::exp(std::complex<double>(0, -2 * kPi * frequency * x));
+  const cv::Mat1f seen = SpreadByLens(edge, {.blur_px = blur_px});
+  std::complex<double> transfer = 0;
+  for (int x = 1; x < seen.cols; ++x) {
+    transfer += double{seen(20, x) - seen(20, x - 1)} *
+                std::exp(std::complex<double>(0, -2 * kPi * frequency * x));
+  }
+  return std::abs(transfer);
+}
+
+TEST(SpreadByLens, AnEdgeShowsTheStatedMtf) {
+  for (const float blur_px : {0.7f, 0.9f, 1.5f}) {
+    for (const double frequency : {0.05, 0.1, 0.2, 0.25}) {
+      const double expected = std::exp(-2 * std::pow(kPi * double{blur_px} * frequency, 2));
+      EXPECT_NEAR(TransferAt(blur_px, frequency), expected, 0.01) << blur_px << ' ' << frequency;
     }
-    const double expected = std::exp(-2 * std::pow(kPi * double{lens.blur_px} * frequency, 2));
-    EXPECT_NEAR(std::abs(transfer), expected, 0.01) << frequency;
+  }
+  for (const float blur_px : {0.2f, 0.38f, 0.45f}) {
+    for (const double frequency : {0.05, 0.1, 0.25, 0.4, 0.5}) {
+      const double expected =
+          1 - std::pow(double{blur_px}, 2) * (1 - std::cos(2 * kPi * frequency));
+      EXPECT_NEAR(TransferAt(blur_px, frequency), expected, 0.01) << blur_px << ' ' << frequency;
+    }
   }
 }
 
