@@ -187,6 +187,26 @@ void Map::Remove(KeyframeId id) {
   }
   part_count_ -= !heir.valid();
   keyframes_.erase(id);
+  HandDownLoops(id, heir);
+}
+
+void Map::HandDownLoops(KeyframeId from, KeyframeId heir) {
+  std::vector<ClosedLoop> theirs;
+  for (const ClosedLoop& loop : closed_loops_) {
+    if (loop.current == from || loop.matched == from) theirs.push_back(loop);
+  }
+  for (ClosedLoop loop : theirs) {
+    closed_loops_.erase(loop);
+    if (loop.current == from) loop.current = heir;
+    if (loop.matched == from) loop.matched = heir;
+    Close(loop);
+  }
+}
+
+void Map::Close(const ClosedLoop& loop) {
+  if (loop.current != loop.matched && Find(loop.current) && Find(loop.matched)) {
+    closed_loops_.insert(loop);
+  }
 }
 
 void Map::Retire(const RetiredKeyframe& one) {
@@ -227,6 +247,7 @@ void Map::Apply(const MapEdit& edit) {
   for (const auto& [id, predicted, found] : edit.counts) {
     if (Landmark* landmark = Change(id)) landmark->predicted += predicted, landmark->found += found;
   }
+  for (const ClosedLoop& loop : edit.closed_loops) Close(loop);
   for (const LandmarkId id : edit.removed_landmarks) Remove(id);
   for (const KeyframeId id : edit.removed_keyframes) {
     if (const Keyframe* keyframe = Find(id)) {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,13 @@ struct Landmark {
   int reference_level = 0;                           ///< ... and the pyramid level it has there
 };
 
+/// A loop that was closed: two keyframes that saw one place on two visits. How they stand to each
+/// other their poses tell.
+struct ClosedLoop {
+  KeyframeId current, matched;
+  auto operator<=>(const ClosedLoop&) const = default;
+};
+
 /// What to change in a map; the only way to change one. Parts are carried out in the order they
 /// stand here.
 struct MapEdit {
@@ -74,12 +82,13 @@ struct MapEdit {
   std::vector<Pose> poses;
   std::vector<Parent> parents;  ///< older than their children; ignored where either is gone
   std::vector<Position> positions;
-  std::vector<Link> links;    ///< ignored where feature or keyframe is already taken
-  std::vector<Merge> merges;  ///< observations move to `kept` where they find room
-  std::vector<Link> cuts;     ///< observations that end
-  std::vector<Count> counts;  ///< added to predicted and found
+  std::vector<Link> links;               ///< ignored where feature or keyframe is already taken
+  std::vector<Merge> merges;             ///< observations move to `kept` where they find room
+  std::vector<Link> cuts;                ///< observations that end
+  std::vector<Count> counts;             ///< added to predicted and found
+  std::vector<ClosedLoop> closed_loops;  ///< ignored where either keyframe is gone
   std::vector<LandmarkId> removed_landmarks;
-  std::vector<KeyframeId> removed_keyframes;  ///< children go to their parent
+  std::vector<KeyframeId> removed_keyframes;  ///< children and closed loops go to their parent
 };
 
 /// A keyframe that is gone: the older keyframe to ask instead, and how the two stood.
@@ -95,6 +104,7 @@ struct MapContents {
   std::vector<std::int32_t> generations;  ///< of each slot's next tenant
   std::vector<std::int32_t> vacant;       ///< slots, the one to be given next last
   std::vector<RetiredKeyframe> retired;   ///< by rising id
+  std::vector<ClosedLoop> closed_loops;   ///< rising
   std::int64_t next_keyframe = 0;
 };
 
@@ -102,7 +112,8 @@ struct MapContents {
 /// a background worker's copy costs a table of pointers.
 ///
 /// Invariants, whatever edit is applied: keyframe k's feature f names landmark l exactly where l's
-/// observations name (k, f); every landmark has an observation; parents exist and are older.
+/// observations name (k, f); every landmark has an observation; parents exist and are older; closed
+/// loops are between two keyframes that exist.
 class Map {
  public:
   Map() = default;
@@ -118,6 +129,8 @@ class Map {
   /// Keyframes that are gone, by rising id. They grow with driving, not with the place: copies of a
   /// map have them in common until one of them loses a keyframe.
   const std::map<KeyframeId, RetiredKeyframe>& retired() const;
+  /// They hold together what may share too few landmarks to do so itself.
+  const std::set<ClosedLoop>& closed_loops() const { return closed_loops_; }
   bool empty() const { return keyframes_.empty(); }
   int landmark_count() const { return landmark_count_; }
   /// Keyframes without a parent: the parts of the map, see RootOf.
@@ -158,12 +171,15 @@ class Map {
   void Remove(KeyframeId id);
   void Retire(const RetiredKeyframe& one);
   void SetParent(Keyframe& keyframe, KeyframeId parent);
+  void Close(const ClosedLoop& loop);
+  void HandDownLoops(KeyframeId from, KeyframeId heir);
 
   std::map<KeyframeId, std::shared_ptr<const Keyframe>> keyframes_;
   std::vector<std::shared_ptr<const Landmark>> landmarks_;  // by slot; null where vacant
   std::vector<std::int32_t> generations_;                   // of each slot's next tenant
   std::vector<std::int32_t> vacant_;
   std::shared_ptr<const std::map<KeyframeId, RetiredKeyframe>> retired_;  // null where none
+  std::set<ClosedLoop> closed_loops_;
   int landmark_count_ = 0;
   int part_count_ = 0;
   std::int64_t next_keyframe_ = 0;

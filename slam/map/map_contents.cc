@@ -82,6 +82,7 @@ MapContents Map::Contents() const {
   contents.generations = generations_;
   contents.vacant = vacant_;
   for (const auto& [id, gone] : retired()) contents.retired.push_back(gone);
+  contents.closed_loops.assign(closed_loops_.begin(), closed_loops_.end());
   contents.next_keyframe = next_keyframe_;
   return contents;
 }
@@ -100,6 +101,11 @@ Map::Map(const MapContents& contents) {
   generations_ = contents.generations;
   vacant_ = contents.vacant;
   for (const RetiredKeyframe& one : contents.retired) Retire(one);
+  for (const ClosedLoop& loop : contents.closed_loops) {
+    Demand(loop.current != loop.matched && Find(loop.current) && Find(loop.matched) &&
+               closed_loops_.insert(loop).second,
+           "a closed loop is not between two keyframes, or twice there");
+  }
   landmark_count_ = static_cast<int>(contents.landmarks.size());
   next_keyframe_ = contents.next_keyframe;
   CheckObservations(*this);

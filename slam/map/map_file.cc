@@ -16,7 +16,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "map files are little-endian");
 
 constexpr char kMagic[8] = {'a', 'i', 's', 'l', 'e', 'm', 'a', 'p'};
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kWithoutLoops = 3;  // the same, but for closed loops: read as having none
 
 struct Header {
   char magic[8];
@@ -185,6 +186,11 @@ constexpr auto kContents = [](auto& file, auto& contents) {
   file.Value(contents.next_keyframe);
 };
 
+constexpr auto kClosedLoop = [](auto& file, auto& loop) {
+  kKeyframeId(file, loop.current);
+  kKeyframeId(file, loop.matched);
+};
+
 void Demand(bool holds, const char* rule) {
   if (!holds) throw std::invalid_argument(rule);
 }
@@ -248,7 +254,7 @@ void RebuildFrame(Keyframe& keyframe, const StereoCamera& camera) {
   keyframe.frame = frame;
 }
 
-SavedMap Decode(Reader file) {
+SavedMap Decode(Reader file, std::uint32_t version) {
   SavedMap saved;
   MapContents contents;
   kCamera(file, saved.camera);
@@ -260,6 +266,7 @@ SavedMap Decode(Reader file) {
          "its camera has too many pixels");
   kKeyframeId(file, saved.reference);
   kContents(file, contents);
+  if (version != kWithoutLoops) CarryAll(file, contents.closed_loops, kClosedLoop);
   if (!file.at_end()) throw std::invalid_argument("something follows its end");
   CheckNumbers(contents, saved.camera);
   for (Keyframe& keyframe : contents.keyframes) RebuildFrame(keyframe, saved.camera);
@@ -276,6 +283,7 @@ void SaveMap(const SavedMap& saved, const std::filesystem::path& file) {
   kKeyframeId(body, saved.reference);
   const MapContents contents = saved.map.Contents();
   kContents(body, contents);
+  CarryAll(body, contents.closed_loops, kClosedLoop);
   Header header{{}, kVersion, 0, body.bytes().size(), Checksum(body.bytes())};
   std::memcpy(header.magic, kMagic, sizeof(kMagic));
   WriteAside(file, {{reinterpret_cast<const char*>(&header), sizeof(header)}, body.bytes()});
@@ -294,7 +302,7 @@ SavedMap LoadMap(const std::filesystem::path& file) {
   if (!in || std::memcmp(header.magic, kMagic, sizeof(kMagic)) != 0) {
     throw fail("is no map; save one with `aisle slam --save-map`");
   }
-  if (header.version != kVersion) {
+  if (header.version != kVersion && header.version != kWithoutLoops) {
     throw fail(fmt::format("is of version {}, this program reads version {}; map the place anew",
                            header.version, kVersion));
   }
@@ -304,7 +312,7 @@ SavedMap LoadMap(const std::filesystem::path& file) {
   if (!in) throw fail("cannot be read");
   if (Checksum(bytes) != header.checksum) throw fail("is damaged: checksum");
   try {
-    return Decode(Reader(std::move(bytes)));
+    return Decode(Reader(std::move(bytes)), header.version);
   } catch (const std::invalid_argument& broken) {
     throw fail(fmt::format("is damaged: {}", broken.what()));
   }

@@ -90,6 +90,9 @@ Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& c
   std::ranges::copy(NewPairs(map, moved, visits), std::back_inserter(edges));
   map.Apply(SpreadLoops(map, edges, spread));
   for (const MapEdit& edit : joining) map.Apply(edit);
+  MapEdit closed;
+  for (const LoopEdge& loop : loops) closed.closed_loops.push_back({loop.current, loop.matched});
+  map.Apply(closed);
   return map;
 }
 

@@ -197,6 +197,7 @@ MapEdit SpreadLoops(const Map& map, const std::vector<LoopEdge>& loops,
       if (covisible.keyframe < id && covisible.keyframe != parent) connect(covisible.keyframe, id);
     }
   }
+  for (const ClosedLoop& loop : map.closed_loops()) connect(loop.matched, loop.current);
   for (const LoopEdge& loop : loops) {
     if (!map.Find(loop.matched) || !map.Find(loop.current)) continue;
     graph.edges.push_back({index.at(loop.matched), index.at(loop.current), loop.T_matched_current,

@@ -73,7 +73,8 @@ struct LoopSpreadOptions {
 void Describe(OptionFields& fields, LoopSpreadOptions& options);
 
 /// Spreads the error of loops over the essential graph (Mur-Artal et al. 2015, III-E): spanning
-/// tree, strong covisibility, and the loops. Landmarks move with the first keyframe that saw them.
+/// tree, strong covisibility, loops that were closed before, and these. Landmarks move with the
+/// first keyframe that saw them.
 MapEdit SpreadLoops(const Map& map, const std::vector<LoopEdge>& loops,
                     const LoopSpreadOptions& options);
 

@@ -43,6 +43,7 @@ SavedMap UsedMap() {
     edit.removed_landmarks.push_back(landmarks[i]->id);
   }
   edit.counts = {{landmarks[1]->id, 7, 3}};
+  edit.closed_loops = {{{41}, {1}}, {{42}, {5}}};
   saved.map.Apply(edit);
   return saved;
 }
@@ -75,6 +76,7 @@ TEST_F(MapFile, GivesBackTheMapToTheLastBit) {
     EXPECT_EQ(other.observations, landmark->observations);
     EXPECT_EQ(other.predicted, landmark->predicted);
   }
+  EXPECT_EQ(loaded.map.closed_loops(), saved.map.closed_loops());
   EXPECT_EQ(loaded.map.PoseOf({6}).matrix(), saved.map.PoseOf({6}).matrix());
   // And all the rest: what is saved of it again is the same file.
   SaveMap(loaded, folder / "again.map");
@@ -196,7 +198,15 @@ TEST_F(MapFile, WhatIsNoMapIsCalledThat) {
   std::string bytes = BytesOf(file);
   bytes[8] = 9;
   Write(file, bytes);
-  EXPECT_THAT(ErrorOf(file), testing::HasSubstr("is of version 9, this program reads version 3"));
+  EXPECT_THAT(ErrorOf(file), testing::HasSubstr("is of version 9, this program reads version 4"));
+}
+
+TEST_F(MapFile, AMapOfBeforeClosedLoopsWereKeptHasNone) {
+  const fs::path old = fs::path(AISLE_SOURCE_DIR) / "tests/fuzz/corpus/map_file/two_keyframes.map";
+  ASSERT_EQ(BytesOf(old)[8], 3);
+  const SavedMap loaded = LoadMap(old);
+  EXPECT_EQ(loaded.map.keyframes().size(), 2u);
+  EXPECT_TRUE(loaded.map.closed_loops().empty());
 }
 
 TEST_F(MapFile, AFileThatCannotBeWrittenSaysSo) {
@@ -228,6 +238,9 @@ TEST(MapContents, ListsThatContradictEachOtherMakeNoMap) {
     c.keyframes.back().id.value = std::int64_t{1} << 50;
     c.next_keyframe = (std::int64_t{1} << 50) + 1;
   });
+  expect_refused("loop to nowhere", [](auto& c) { c.closed_loops[0].matched = {5}; });
+  expect_refused("loop to itself", [](auto& c) { c.closed_loops[0].matched = {41}; });
+  expect_refused("loop twice", [](auto& c) { c.closed_loops[1] = c.closed_loops[0]; });
   expect_refused("retired in the future",
                  [](auto& c) { c.retired.back().id.value = c.next_keyframe; });
 }

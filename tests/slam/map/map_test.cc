@@ -276,5 +276,27 @@ TEST(MatchByProjection, GivesAFeatureToTheNearestDescriptionInAnyOrder) {
   }
 }
 
+TEST(Map, ClosedLoopsGoToTheParentOfWhoGoes) {
+  Map map;
+  KeyframeId last;
+  for (int i = 0; i < 6; ++i) last = AddKeyframe(map, 1, last);
+  MapEdit edit;
+  edit.closed_loops = {{{5}, {1}}, {{4}, {2}}, {{5}, {9}}, {{3}, {3}}};
+  map.Apply(edit);
+  const std::set<ClosedLoop> between_present = {{{4}, {2}}, {{5}, {1}}};
+  EXPECT_EQ(map.closed_loops(), between_present);
+  const auto remove = [&](std::int64_t id) {
+    MapEdit gone;
+    gone.removed_keyframes = {{id}};
+    map.Apply(gone);
+  };
+  remove(5);
+  const std::set<ClosedLoop> handed_down = {{{4}, {1}}, {{4}, {2}}};
+  EXPECT_EQ(map.closed_loops(), handed_down);
+  remove(2), remove(4), remove(3);  // from the end down to where the loop began
+  EXPECT_TRUE(map.closed_loops().empty());
+  ExpectWhole(map);
+}
+
 }  // namespace
 }  // namespace aisle::slam

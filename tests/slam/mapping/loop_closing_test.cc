@@ -86,6 +86,19 @@ TEST(LoopClosing, ALoopClosesHoweverManyNeighboursHoldOntoTheDrift) {
   }
 }
 
+TEST(LoopClosing, ALoopClosedBeforeStaysClosed) {
+  // So few features that no two keyframes share a hundred landmarks.
+  const RingWorld ring({.drift = 1.003, .turn_rad = 0.001, .again = 24, .points = 1200});
+  const std::vector<LoopEdge> all = ring.Loops();
+  const std::vector<LoopEdge> first(all.begin(), all.begin() + 3), second(all.end() - 3, all.end());
+  const Map once = CloseLoop(ring.map(), first, ring.camera(), {}, {});
+  EXPECT_EQ(once.closed_loops().size(), first.size());
+  ASSERT_GT(GapM(once, second.back()), 0.1);
+  const Map twice = CloseLoop(once, second, ring.camera(), {}, {});
+  for (const LoopEdge& loop : first) EXPECT_LT(GapM(twice, loop), 0.005) << loop.current.value;
+  for (const LoopEdge& loop : second) EXPECT_LT(GapM(twice, loop), 0.005) << loop.current.value;
+}
+
 TEST(LoopClosing, GivesTheSameBitsAgain) {
   const Map a = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {}, {});
   const Map b = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {}, {});
