@@ -34,6 +34,7 @@ MapKeeper::Taken MapKeeper::TakeDueWork(std::int64_t frame_now,
     if (auto correction = adjusting_.TakeIfDue(frame_now, wait_ms, anytime)) {
       stage_ms["global"] = correction->milliseconds;
       map_.Apply(CarryOver(map_, *correction));
+      HearLoopsOfMeanwhile(frame_now);
     }
   }
   if (auto closed = closing_.TakeIfDue(frame_now, wait_ms, anytime)) {
@@ -84,21 +85,36 @@ void MapKeeper::FinishMapping(const MappingResult& result, std::int64_t frame_no
   if (!vocabulary_) return;
   index_.Add(result.keyframe, result.words);
   for (const KeyframeId gone : result.culled) index_.Remove(gone);
-  std::erase_if(loops_, [&](const LoopEdge& loop) {
-    return loop.current.value + options_.loop.pending_keyframes < result.keyframe.value;
-  });
-  if (result.loops.empty() || adjusting_.pending()) return;
+  // Nothing is closed while the map is adjusted: what is seen meanwhile waits until it is.
+  if (!adjusting_.pending()) {
+    std::erase_if(loops_, [&](const LoopEdge& loop) {
+      return loop.current.value + options_.loop.pending_keyframes < result.keyframe.value;
+    });
+  }
   for (const LoopEdge& loop : result.loops) {  // a keyframe has one say
     const auto has_spoken = [&](const LoopEdge& before) { return before.current == loop.current; };
     if (std::ranges::none_of(loops_, has_spoken)) loops_.push_back(loop);
   }
+  if (result.loops.empty() || adjusting_.pending()) return;
   const std::vector<LoopEdge> agreeing = AgreeingLoops(map_, loops_, options_.loop);
-  if (agreeing.empty()) return;
-  loops_.clear();
-  StartClosing(agreeing, frame_now);
+  if (!agreeing.empty()) StartClosing(agreeing, frame_now);
 }
 
+/// Each loop is asked as if it were the newest, the newest first.
+void MapKeeper::HearLoopsOfMeanwhile(std::int64_t frame_now) {
+  std::erase_if(loops_, [&](const LoopEdge& loop) { return IsOnePlace(map_, loop); });
+  for (std::vector<LoopEdge> seen = loops_; !seen.empty(); seen.pop_back()) {
+    const std::vector<LoopEdge> agreeing = AgreeingLoops(map_, seen, options_.loop);
+    if (!agreeing.empty()) return StartClosing(agreeing, frame_now);
+  }
+}
+
+/// These loops have been heard; others may be of another place, and wait for their turn.
 void MapKeeper::StartClosing(const std::vector<LoopEdge>& agreeing, std::int64_t frame_now) {
+  std::erase_if(loops_, [&](const LoopEdge& loop) {
+    return std::ranges::any_of(
+        agreeing, [&](const LoopEdge& heard) { return heard.current == loop.current; });
+  });
   const ScheduleOptions& schedule = options_.schedule;
   const std::int64_t due_frame = frame_now + schedule.loop_frames +
                                  std::ssize(map_.keyframes()) / schedule.keyframes_per_loop_frame;

@@ -75,6 +75,7 @@ class MapKeeper {
   void StartStep(std::size_t step, std::int64_t from_frame);
   void Start(Map map, std::int64_t due_frame, const MappingStep::Work& work);
   void GoOn(const Map& before, std::int64_t frame_now);
+  void HearLoopsOfMeanwhile(std::int64_t frame_now);
   void StartAdjusting(std::int64_t frame_now);
   void StartClosing(const std::vector<LoopEdge>& agreeing, std::int64_t frame_now);
   void Index(KeyframeId id);
@@ -85,7 +86,7 @@ class MapKeeper {
   const std::optional<Vocabulary> vocabulary_;
   Map map_;
   PlaceIndex index_;
-  std::vector<LoopEdge> loops_;  // seen of late, waiting for others to agree
+  std::vector<LoopEdge> loops_;  // seen of late, waiting for others to agree, or for adjusting_
   std::size_t step_ = 0;         // of the policy, under way or last taken
   bool given_up_ = false;        // what is left of it is under way
   KeyframeId worked_in_;         // its keyframe

@@ -137,6 +137,17 @@ std::vector<LoopEdge> SeenBeside(const Map& map, const LoopEdge& loop, const Ste
   return seen;
 }
 
+bool IsOnePlace(const Map& map, const LoopEdge& loop) {
+  if (!map.Find(loop.current) || !map.Find(loop.matched)) return false;
+  std::set<KeyframeId> around = {loop.matched};
+  for (const Covisible& covisible : CovisibleKeyframes(map, loop.matched, kLeastCovisible)) {
+    around.insert(covisible.keyframe);
+  }
+  return std::ranges::any_of(
+      CovisibleKeyframes(map, loop.current, kLeastCovisible),
+      [&](const Covisible& beside) { return around.contains(beside.keyframe); });
+}
+
 std::vector<LoopEdge> AgreeingLoops(const Map& map, const std::vector<LoopEdge>& loops,
                                     const LoopOptions& options) {
   std::vector<LoopEdge> agreeing;

@@ -54,6 +54,10 @@ std::optional<LoopEdge> FindLoop(const Map& map, KeyframeId current, const WordV
 std::vector<LoopEdge> SeenBeside(const Map& map, const LoopEdge& loop, const StereoCamera& camera,
                                  int levels, const LoopOptions& options);
 
+/// Whether the two ends of a loop stand in one place already: they see the same, or each the same
+/// as a third does. Then it has nothing to close.
+bool IsOnePlace(const Map& map, const LoopEdge& loop);
+
 /// The loops that agree with the newest one (pairwise consistency), itself included, or none where
 /// they, or the landmarks they confirm, are too few or ask for more than odometry can have drifted.
 std::vector<LoopEdge> AgreeingLoops(const Map& map, const std::vector<LoopEdge>& loops,

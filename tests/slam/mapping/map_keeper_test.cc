@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "slam/map/successor.h"
+#include "tests/slam/mapping/ring_world.h"
 
 namespace aisle::slam {
 namespace {
@@ -184,6 +185,89 @@ TEST_P(MapKeeperTest, FinishingTellsUnderWhichIdsLandmarksAre) {
 }
 
 INSTANTIATE_TEST_SUITE_P(ThreadedAndNot, MapKeeperTest, testing::Bool());
+
+/// A round and a half of a ring, each keyframe of which shows the loops that it is told to.
+class LoopsOfAKeeper : public testing::Test {
+ protected:
+  LoopsOfAKeeper()
+      : keeper(ring.camera(), Options(), {{2, Show(), Show(), 2, nullptr}},
+               Vocabulary::Train({ring.map().At(KeyframeId{0}).frame->features.descriptors}, {})) {
+    keeper.Adopt(ring.map());
+  }
+
+  static MapKeeperOptions Options() {
+    MapKeeperOptions options;
+    options.schedule.background = false;
+    options.loop.drift_m = 10;  // the ring's is no odometry's
+    return options;
+  }
+
+  MappingStep::Work Show() {
+    return [this](Map map, KeyframeId newest, const MappingTools& tools) {
+      MappingResult result;
+      result.words = tools.vocabulary->Describe(map.At(newest).frame->features.descriptors);
+      result.map = std::move(map);
+      result.keyframe = newest;
+      result.loops = shown;
+      return result;
+    };
+  }
+
+  /// A keyframe comes that shows loops `first` to `last` of the second round; what follows is
+  /// taken until frame `until`.
+  void Drive(int first, int last, std::int64_t until) {
+    const std::vector<LoopEdge> all = ring.Loops();
+    shown.assign(all.begin() + first, all.begin() + last + 1);
+    Keyframe keyframe = keeper.map().At(KeyframeId{63});
+    keyframe.id = keeper.map().NextKeyframeId();
+    keyframe.parent = {63};
+    keyframe.landmarks.assign(keyframe.landmarks.size(), {});
+    MapEdit edit;
+    edit.new_keyframes = {keyframe};
+    keeper.WorkIn(edit, frame);
+    while (++frame <= until) closed += keeper.TakeDueWork(frame, stage_ms).loop_closed;
+  }
+
+  /// What loop `index` of the second round still lacks to be closed.
+  double GapM(std::size_t index) const {
+    const LoopEdge loop = ring.Loops()[index];
+    const Eigen::Isometry3d& T_world_rig = keeper.map().At(loop.current).T_world_rig;
+    return ((Correction(keeper.map(), loop) * T_world_rig).translation() -
+            T_world_rig.translation())
+        .norm();
+  }
+
+  const RingWorld ring{{.drift = 1.003, .turn_rad = 0.001, .again = 24}};
+  std::vector<LoopEdge> shown;
+  MapKeeper keeper;
+  std::map<std::string, double> stage_ms;
+  std::int64_t frame = 0;
+  int closed = 0;
+};
+
+TEST_F(LoopsOfAKeeper, OneThatShowsWhileTheMapIsAdjustedIsClosedOnceItIs) {
+  Drive(0, 2, 10);
+  ASSERT_EQ(closed, 1);
+  ASSERT_FALSE(keeper.at_rest());
+  ASSERT_GT(GapM(22), 0.05);
+  // Another place, and then so many keyframes that anywhere else it would be forgotten.
+  Drive(20, 23, 13);
+  for (int i = 0; i <= Options().loop.pending_keyframes; ++i) Drive(0, -1, frame + 2);
+  ASSERT_EQ(closed, 1);
+  ASSERT_FALSE(keeper.at_rest());
+  keeper.FinishWork();
+  EXPECT_LT(GapM(22), 0.01);
+}
+
+TEST_F(LoopsOfAKeeper, APlaceIsNotClosedOverAndOver) {
+  Drive(0, 2, 10);
+  ASSERT_EQ(closed, 1);
+  Drive(0, 3, 13);  // it still shows while the map is adjusted
+  ASSERT_FALSE(keeper.at_rest());
+  while (++frame < 300) closed += keeper.TakeDueWork(frame, stage_ms).loop_closed;
+  EXPECT_EQ(closed, 1);
+  EXPECT_TRUE(keeper.at_rest());
+}
 
 }  // namespace
 }  // namespace aisle::slam
