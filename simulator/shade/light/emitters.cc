@@ -1,8 +1,9 @@
 #include "simulator/shade/light/emitters.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+
+#include "simulator/shade/light/form_factor.h"
 
 namespace aisle::sim {
 namespace {
@@ -11,6 +12,7 @@ constexpr float kLongestSide = 0.75f;  // of the height above the floor
 constexpr float kFlatSide = 0.15f;     // of that height: below, one quadrature point is enough
 constexpr float kGauss = 0.57735027f;  // abscissa of the two-point rule
 constexpr float kLeastHeight = 0.5f;   // m
+constexpr float kNear = 1.25f;         // longer sides: nearer, quadrature is too coarse
 constexpr int kMostPieces = 16;        // along a side
 
 int Pieces(float half_side, float height) {
@@ -65,6 +67,7 @@ Emitters::Emitters(std::span<const AreaLight> lights, float floor_z) {
     ny_[i] = e.normal.y();
     nz_[i] = e.normal.z();
     light_[i] = static_cast<std::int32_t>(e.light);
+    near_.push_back(kNear * 2 * std::max(e.half_u.norm(), e.half_v.norm()));
     const float height = std::max(e.center.z() - floor_z, kLeastHeight);
     const Abscissae us = PointsAlong(e.half_u.norm(), height);
     const Abscissae vs = PointsAlong(e.half_v.norm(), height);
@@ -84,8 +87,16 @@ Emitters::Emitters(std::span<const AreaLight> lights, float floor_z) {
   columns_.resize(used);
 }
 
+std::vector<std::uint32_t> Emitters::NearTo(const Eigen::AlignedBox3f& box) const {
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t i = 0; i < emitters_.size(); ++i) {
+    if (box.exteriorDistance(emitters_[i].center) < near_[i]) near.push_back(i);
+  }
+  return near;
+}
+
 F8 Emitters::Unshadowed(const SurfacePoint& place, std::span<const float> light_scale,
-                        std::size_t first) const {
+                        std::size_t first, std::span<const std::uint32_t> near) const {
   const Eigen::Vector3f &p = place.position, &n = place.normal;
   const F8 nx = LoadF(&nx_[first]), ny = LoadF(&ny_[first]), nz = LoadF(&nz_[first]);
   F8 sum = Wide(0);
@@ -97,7 +108,16 @@ F8 Emitters::Unshadowed(const SurfacePoint& place, std::span<const float> light_
     const F8 there = Max(-(nx * dx + ny * dy + nz * dz), Wide(0));
     sum += LoadF(&column.power[first]) * here * there / (squared * squared);
   }
-  return sum * Gather(light_scale.data(), LoadI(&light_[first]));
+  F8 light = sum * Gather(light_scale.data(), LoadI(&light_[first]));
+  for (const std::uint32_t i : near) {
+    if (i < first || i >= first + kLanes) continue;
+    const Emitter& e = emitters_[i];
+    if ((e.center - p).norm() >= near_[i]) continue;
+    const float radiance = e.power / (4 * e.half_u.cross(e.half_v).norm());
+    light[i - first] = UnshadowedIrradiance({e.center, e.half_u, e.half_v, radiance}, place) *
+                       light_scale[e.light];
+  }
+  return light;
 }
 
 std::vector<float> Emitters::Shares(const Eigen::Vector3f& point,

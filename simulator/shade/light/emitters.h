@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <span>
 #include <vector>
 
@@ -30,11 +30,15 @@ class Emitters {
   std::size_t stride() const { return stride_; }
   const Emitter& operator[](std::size_t i) const { return emitters_[i]; }
 
+  /// The emitters from which a place in the box may be less than 1.25 of their longer sides away,
+  /// in order.
+  std::vector<std::uint32_t> NearTo(const Eigen::AlignedBox3f& box) const;
   /// Irradiance that eight emitters, `first` and those behind it, send to a place if nothing stands
-  /// between (0 beyond size()): Gauss-Legendre quadrature of up to 2 × 2 points over each. `first`
-  /// is a multiple of eight.
-  F8 Unshadowed(const SurfacePoint& place, std::span<const float> light_scale,
-                std::size_t first) const;
+  /// between (0 beyond size()): Gauss-Legendre quadrature of up to 2 × 2 points over each, whose
+  /// error is some 3 % at 1.25 sides and grows beyond measure nearer. So near, those that `near`
+  /// lists (NearTo of a box around the place) are exact. `first` is a multiple of eight.
+  F8 Unshadowed(const SurfacePoint& place, std::span<const float> light_scale, std::size_t first,
+                std::span<const std::uint32_t> near = {}) const;
   /// The share of each emitter in the light that reaches a free point from all sides.
   std::vector<float> Shares(const Eigen::Vector3f& point, std::span<const float> light_scale) const;
 
@@ -48,6 +52,7 @@ class Emitters {
   std::size_t stride_ = 0;
   std::vector<Column> columns_;
   std::vector<float> nx_, ny_, nz_;
+  std::vector<float> near_;          ///< by emitter, m: how far from its centre it is near
   std::vector<std::int32_t> light_;  ///< by emitter
 };
 

@@ -20,11 +20,12 @@ float FloorUnder(const World& world) {
 /// One point's irradiance: each emitter's unshadowed light times the share of it that the point
 /// sees, which the nodes around know.
 float DirectAt(const SurfacePoint& place, const Emitters& emitters,
-               std::span<const float> light_scale, const EmitterVisibility& visible,
-               const MoverNodes::Stencil& stencil, std::span<const std::uint32_t> row_of_node) {
+               std::span<const std::uint32_t> near, std::span<const float> light_scale,
+               const EmitterVisibility& visible, const MoverNodes::Stencil& stencil,
+               std::span<const std::uint32_t> row_of_node) {
   F8 sum = Wide(0);
   for (std::size_t i = 0; i < emitters.stride(); i += kLanes) {
-    const F8 unshadowed = emitters.Unshadowed(place, light_scale, i);
+    const F8 unshadowed = emitters.Unshadowed(place, light_scale, i, near);
     if (!Any(unshadowed > 0)) continue;
     F8 seen = Wide(0), weights = Wide(0);
     for (std::size_t k = 0; k < MoverNodes::kNeighbours; ++k) {
@@ -128,6 +129,7 @@ std::vector<float> MoverLight::At(const Instant& instant, std::size_t mover,
     used.push_back(node);
   }
   const NodeLight light = LightNodes(instant, mover, volume, nodes, used);
+  const std::vector<std::uint32_t> near = emitters_.NearTo(instant.mover_boxes()[mover]);
   std::vector<float> result(wanted.size(), -1);
   ParallelFor(std::size_t{0}, points.size(), [&](std::size_t i) {
     const std::uint32_t point = points[i];
@@ -135,7 +137,7 @@ std::vector<float> MoverLight::At(const Instant& instant, std::size_t mover,
         LocatePoint(grids_[mover], point, mesh, state.positions, state.normals);
     const MoverNodes::Stencil& stencil = nodes.stencils[point];
     result[point] =
-        DirectAt(place, emitters_, instant.snapshot().light_scale, light.visible, stencil,
+        DirectAt(place, emitters_, near, instant.snapshot().light_scale, light.visible, stencil,
                  row_of_node) +
         volume.Irradiance(place.position, place.normal) * KeptAt(light.kept, stencil, row_of_node);
   });

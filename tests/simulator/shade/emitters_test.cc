@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "simulator/shade/light/form_factor.h"
+
 namespace aisle::sim {
 namespace {
 
@@ -45,6 +47,28 @@ TEST(Emitters, ASkyIsCutAndSendsWhatItsFormFactorSays) {
   EXPECT_NEAR(Total(emitters, floor, dim), 0.25 * expected, 0.02 * expected);
   EXPECT_EQ(Total(emitters, {{0, 0, 0}, {0, 0, -1}}, on), 0);   // it faces away
   EXPECT_EQ(Total(emitters, {{0, 0, 50}, {0, 0, -1}}, on), 0);  // behind the sky
+}
+
+TEST(Emitters, SendWhatTheirFormFactorSaysFromAsNearAsCanBe) {
+  const AreaLight lamp{{0, 0, 4.6f}, {0, 0.15f, 0}, {0.75f, 0, 0}, 1};
+  const Emitters emitters(std::array{lamp}, 0);
+  const std::vector<float> scale = {0.5f};
+  const float facing = UnshadowedIrradiance(lamp, {{0, 0, 3}, {0, 0, 1}});
+  for (const float z : {2.0f, 2.6f, 2.9f, 3.5f, 4.0f, 4.3f, 4.55f}) {
+    for (const Eigen::Vector3f& normal :
+         {Eigen::Vector3f(0, -1, 0), Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(0, 0, 1)}) {
+      for (float x = -1; x <= 1; x += 0.1f) {
+        const SurfacePoint place{{x, 0.2f, z}, normal};
+        const Eigen::AlignedBox3f box(place.position, place.position);
+        const std::vector<std::uint32_t> near = emitters.NearTo(box);
+        const float exact = 0.5f * UnshadowedIrradiance(lamp, place);
+        EXPECT_NEAR(Sum(emitters.Unshadowed(place, scale, 0, near)), exact,
+                    0.03f * std::max(exact, 0.5f * facing))
+            << place.position.transpose() << ", facing " << normal.transpose();
+      }
+    }
+  }
+  EXPECT_TRUE(emitters.NearTo({Eigen::Vector3f(-5, -5, 0), Eigen::Vector3f(5, 5, 2)}).empty());
 }
 
 TEST(Emitters, SharesSumToOneAndFollowTheLampsThatAreOn) {

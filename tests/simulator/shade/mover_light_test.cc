@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "simulator/shade/light/direct_light.h"
+#include "simulator/shade/light/form_factor.h"
 #include "simulator/shade/pass/mover_light.h"
 #include "simulator/shade/shader.h"
 #include "tests/simulator/test_world.h"
@@ -112,6 +113,41 @@ TEST(LightOnMovers, HardlyChangesOnOneWhoHardlyMoves) {
   const auto count = static_cast<double>(wanted.size());
   // Shadow rays dealt anew for each picture change it by 5 % and more.
   EXPECT_LT(std::sqrt(squares / count), 0.01 * light / count);
+}
+
+/// A crate that a fork has lifted to just below a lamp.
+TEST(LightOnMovers, IsExactCloseUnderALampToo) {
+  WorldParts parts = test::Hall({.boxes = 0, .movers = false, .lights = 0});
+  parts.lights = {{{15, 0, 4.6f}, {0.75f, 0, 0}, {0, -0.15f, 0}, 1}};
+  test::MeshBuilder crate;
+  crate.Box({14.6f, 0.2f, 3.4f}, {15.4f, 0.8f, 4.2f}, 4, 5);
+  parts.mover_meshes = {crate.mesh};
+  parts.at = [mesh = crate.mesh](std::int64_t stamp_ns) {
+    MoverState state;
+    state.instance = 5;
+    state.positions = mesh.positions;
+    state.normals = mesh.normals;
+    state.velocities.assign(mesh.positions.size(), Eigen::Vector3f::Zero());
+    return Snapshot{.stamp_ns = stamp_ns, .movers = {state}, .light_scale = {1}};
+  };
+  const World world(std::move(parts));
+  const Tracer tracer(world, {});
+  const std::vector<LightGrid> grids = {MakeLightGrid(world.mover_meshes()[0], 0.08f)};
+  const MoverLight light(world, grids, {});
+  const Snapshot snapshot = world.At(0);
+  const std::vector<float> lit =
+      light.At(tracer.Pose(snapshot), 0, LightVolume(),
+               std::vector<std::uint8_t>(grids[0].points.size(), 1), 0.004f);
+  const std::vector<SurfacePoint> places = LocatePoints(
+      grids[0], world.mover_meshes()[0], snapshot.movers[0].positions, snapshot.movers[0].normals);
+  int met = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const float exact = UnshadowedIrradiance(world.lights()[0], places[i]);
+    if (exact < 0.01f) continue;  // turned away, but for rounding
+    ++met;
+    EXPECT_NEAR(lit[i], exact, 0.03f * exact) << places[i].position.transpose();
+  }
+  EXPECT_GT(met, 50);
 }
 
 TEST(LightOnMovers, IsWhatManyShadowRaysFind) {
