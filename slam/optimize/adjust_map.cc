@@ -81,6 +81,16 @@ std::vector<KeyframeId> OutsideObservers(const Map& map, const std::vector<Keyfr
   return observers;
 }
 
+/// How many of the landmarks any of the keyframes sees.
+int CountSeenByAny(const Map& map, const std::vector<LandmarkId>& landmarks,
+                   const std::vector<KeyframeId>& keyframes) {
+  return static_cast<int>(std::ranges::count_if(landmarks, [&](const LandmarkId id) {
+    return std::ranges::any_of(map.At(id).observations, [&](const Observation& observation) {
+      return std::ranges::find(keyframes, observation.keyframe) != keyframes.end();
+    });
+  }));
+}
+
 /// A robust pass tells outliers, a plain one (if it has iterations) adjusts without them; then the
 /// others are tested again, with a second chance all.
 Adjustment AdjustTwice(MapProblem problem, int robust_iterations, int final_iterations,
@@ -115,8 +125,9 @@ Adjustment AdjustLocally(const Map& map, KeyframeId around, const StereoCamera& 
     if (!std::count(fixed.begin(), fixed.end(), id)) fixed.push_back(id);
   }
   if (free.empty()) return {{}, {0, 0, 0, true, "nothing is free"}};
-  // Without anything to hold it the oldest free keyframe does: the problem has six free degrees.
-  if (fixed.empty()) {
+  // Where too little is seen from outside the oldest free keyframe holds it too: the problem has
+  // six free degrees, and one to three landmarks turn them about as their noise will.
+  if (CountSeenByAny(map, landmarks, fixed) < kLeastCovisible) {
     const auto oldest = std::min_element(free.begin(), free.end());
     fixed.push_back(*oldest);
     free.erase(oldest);

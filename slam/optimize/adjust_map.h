@@ -25,8 +25,9 @@ struct Adjustment {
   BundleSummary summary;
 };
 
-/// Adjusts the surroundings of a keyframe; keyframes further out hold them in place. Outliers are
-/// told apart after a robust pass, tested again after the final one, and cut.
+/// Adjusts the surroundings of a keyframe; keyframes further out hold them in place, and where
+/// those see fewer than kLeastCovisible of the landmarks the oldest of the surroundings does as
+/// well. Outliers are told apart after a robust pass, tested again after the final one, and cut.
 Adjustment AdjustLocally(const Map& map, KeyframeId around, const StereoCamera& camera,
                          const LocalAdjustmentOptions& options);
 

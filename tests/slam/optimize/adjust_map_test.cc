@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "tests/slam/mapping/ring_world.h"
+
 namespace aisle::slam {
 namespace {
 
@@ -80,6 +82,27 @@ TEST_F(ThreeKeyframes, APointBehindTheCameraSpoilsNothing) {
   edit.positions = {{astray, {0.5, 0.2, -4}}};
   map.Apply(edit);
   EXPECT_LT(ErrorAfterAdjusting(), 1e-3);
+}
+
+/// How far a keyframe of `after` stands from where it does in `before`.
+double MovedM(const Map& before, const Map& after, KeyframeId id) {
+  return (before.At(id).T_world_rig.translation() - after.At(id).T_world_rig.translation()).norm();
+}
+
+TEST(AdjustLocally, AFewLandmarksFromOutsideDoNotTurnTheSurroundingsAbout) {
+  for (const int through_dark : {0, 1, 2, 3, 10}) {
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      // Two keyframes that know so many landmarks of those before them.
+      const RingWorld ring({.again = -23,
+                            .noise_px = 0.7,
+                            .seed = seed,
+                            .dark_before = 15,
+                            .through_dark = through_dark});
+      Map adjusted = ring.map();
+      adjusted.Apply(AdjustLocally(adjusted, {16}, ring.camera(), {}).edit);
+      EXPECT_LT(MovedM(ring.map(), adjusted, {15}), 0.01) << through_dark << " seed " << seed;
+    }
+  }
 }
 
 }  // namespace
