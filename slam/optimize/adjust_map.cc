@@ -1,6 +1,9 @@
 #include "slam/optimize/adjust_map.h"
 
 #include <algorithm>
+#include <functional>
+#include <map>
+#include <set>
 
 #include "slam/camera/se3.h"
 #include "slam/map/landmarks_of.h"
@@ -19,10 +22,14 @@ struct MapProblem {
 
 bool IsRoot(const Map& map, KeyframeId id) { return !map.At(id).parent.valid(); }
 
+/// Whether an observation of a landmark counts.
+using Counts = std::function<bool(const Landmark& landmark, const Observation& observation)>;
+
 /// The builder: landmarks as seen by the given keyframes, `free` ones and `fixed` ones.
-MapProblem BuildProblem(const Map& map, const std::vector<KeyframeId>& free,
-                        const std::vector<KeyframeId>& fixed,
-                        const std::vector<LandmarkId>& landmarks, const StereoCamera& camera) {
+MapProblem BuildProblem(
+    const Map& map, const std::vector<KeyframeId>& free, const std::vector<KeyframeId>& fixed,
+    const std::vector<LandmarkId>& landmarks, const StereoCamera& camera,
+    const Counts& counts = [](const Landmark&, const Observation&) { return true; }) {
   MapProblem problem;
   problem.bundle.camera = camera;
   std::map<KeyframeId, int> pose_of;
@@ -40,7 +47,7 @@ MapProblem BuildProblem(const Map& map, const std::vector<KeyframeId>& free,
     problem.bundle.points.push_back(landmark.position);
     for (const Observation& observation : landmark.observations) {
       const auto pose = pose_of.find(observation.keyframe);
-      if (pose == pose_of.end()) continue;
+      if (pose == pose_of.end() || !counts(landmark, observation)) continue;
       const Frame& frame = *map.At(observation.keyframe).frame;
       problem.bundle.observations.push_back(MakeObservation(
           pose->second, point, frame.measurements[static_cast<std::size_t>(observation.feature)]));
@@ -79,6 +86,67 @@ std::vector<KeyframeId> OutsideObservers(const Map& map, const std::vector<Keyfr
   std::vector<KeyframeId> observers;
   for (const auto& [count, id] : ranked) observers.push_back(id);
   return observers;
+}
+
+/// Of every keyframe the oldest one that landmarks hold it together with: from there on each shares
+/// kLeastCovisible of them at least with those before it. Such a component of the map adjusts by
+/// itself; where it stands to others few landmarks, or none, can tell.
+std::map<KeyframeId, KeyframeId> OldestHeldTogether(const Map& map) {
+  std::map<KeyframeId, KeyframeId> oldest_of;
+  for (const auto& [oldest, keyframe] : map.keyframes()) {
+    if (!oldest_of.emplace(oldest, oldest).second) continue;
+    std::vector<int> shared(static_cast<std::size_t>(map.NextKeyframeId().value), 0);
+    std::set<LandmarkId> known;
+    std::vector<KeyframeId> reached = {oldest};
+    while (!reached.empty()) {
+      const KeyframeId id = reached.back();
+      reached.pop_back();
+      for (const LandmarkId landmark : map.At(id).landmarks) {
+        if (!landmark.valid() || !known.insert(landmark).second) continue;
+        for (const Observation& observation : map.At(landmark).observations) {
+          if (++shared[static_cast<std::size_t>(observation.keyframe.value)] == kLeastCovisible &&
+              oldest_of.emplace(observation.keyframe, oldest).second) {
+            reached.push_back(observation.keyframe);
+          }
+        }
+      }
+    }
+  }
+  return oldest_of;
+}
+
+/// An adjustment of components by themselves, each of which goes on from where its oldest keyframe
+/// stood: it now goes as a whole where the keyframe has gone that the oldest was tracked from.
+void CarryComponents(const Map& map, const std::map<KeyframeId, KeyframeId>& oldest_of,
+                     MapEdit& edit) {
+  std::map<KeyframeId, Eigen::Isometry3d> T_adjusted;  // by keyframe
+  for (const MapEdit::Pose& pose : edit.poses) T_adjusted[pose.keyframe] = pose.T_world_rig;
+  std::map<KeyframeId, Eigen::Isometry3d> T_new_old;  // by oldest keyframe, but for the roots
+  const auto carrying = [&](KeyframeId id) {
+    const auto carried = T_new_old.find(oldest_of.at(id));
+    return carried == T_new_old.end() ? nullptr : &carried->second;
+  };
+  for (const auto& [id, oldest] : oldest_of) {
+    const KeyframeId parent = map.At(id).parent;
+    if (id != oldest || !parent.valid()) continue;
+    // The parent is older than all of the component, so that where its own has gone is known.
+    const Eigen::Isometry3d& T_parent = map.At(parent).T_world_rig;
+    const auto adjusted = T_adjusted.find(parent);
+    Eigen::Isometry3d T = adjusted == T_adjusted.end() ? Eigen::Isometry3d::Identity()
+                                                       : adjusted->second * T_parent.inverse();
+    if (const auto* carried = carrying(parent)) T = *carried * T;
+    T_new_old[oldest] = T;
+    edit.poses.push_back({oldest, map.At(oldest).T_world_rig});
+  }
+  for (MapEdit::Pose& pose : edit.poses) {
+    if (const auto* carried = carrying(pose.keyframe)) {
+      pose.T_world_rig = Normalized(*carried * pose.T_world_rig);
+    }
+  }
+  for (MapEdit::Position& position : edit.positions) {
+    const KeyframeId first = map.At(position.landmark).observations.front().keyframe;
+    if (const auto* carried = carrying(first)) position.position = *carried * position.position;
+  }
 }
 
 /// How many of the landmarks any of the keyframes sees.
@@ -139,15 +207,22 @@ Adjustment AdjustLocally(const Map& map, KeyframeId around, const StereoCamera& 
 
 Adjustment AdjustGlobally(const Map& map, const StereoCamera& camera,
                           const GlobalAdjustmentOptions& options) {
+  const std::map<KeyframeId, KeyframeId> oldest_of = OldestHeldTogether(map);
   std::vector<KeyframeId> free, fixed;
-  for (const auto& [id, keyframe] : map.keyframes()) {
-    (IsRoot(map, id) ? fixed : free).push_back(id);
+  for (const auto& [id, oldest] : oldest_of) {
+    (IsRoot(map, id) || id == oldest ? fixed : free).push_back(id);
   }
   if (free.empty()) return {{}, {0, 0, 0, true, "nothing is free"}};
   std::vector<LandmarkId> landmarks;
   for (const Landmark* landmark : map.Landmarks()) landmarks.push_back(landmark->id);
-  return AdjustTwice(BuildProblem(map, free, fixed, landmarks, camera), options.robust_iterations,
-                     options.final_iterations, true);
+  const Counts within = [&](const Landmark& landmark, const Observation& observation) {
+    return oldest_of.at(observation.keyframe) ==
+           oldest_of.at(landmark.observations.front().keyframe);
+  };
+  Adjustment adjustment = AdjustTwice(BuildProblem(map, free, fixed, landmarks, camera, within),
+                                      options.robust_iterations, options.final_iterations, true);
+  if (adjustment.summary.usable) CarryComponents(map, oldest_of, adjustment.edit);
+  return adjustment;
 }
 
 Eigen::Isometry3d Correction(const Map& map, const LoopEdge& loop) {

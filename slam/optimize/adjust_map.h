@@ -39,7 +39,9 @@ struct GlobalAdjustmentOptions {
 /// Names every option with its range, unit and a sentence.
 void Describe(OptionFields& fields, GlobalAdjustmentOptions& options);
 
-/// Adjusts every keyframe but the roots of the map's parts, and every landmark.
+/// Adjusts every keyframe but the roots of the map's parts, and every landmark. What shares fewer
+/// than kLeastCovisible landmarks with the rest of its part (keyframes made by wheels alone lie in
+/// between) keeps its place to the keyframe that its oldest one was tracked from.
 Adjustment AdjustGlobally(const Map& map, const StereoCamera& camera,
                           const GlobalAdjustmentOptions& options);
 

@@ -105,5 +105,35 @@ TEST(AdjustLocally, AFewLandmarksFromOutsideDoNotTurnTheSurroundingsAbout) {
   }
 }
 
+TEST(AdjustGlobally, WhatSharesNoLandmarksKeepsItsPlaceToTheKeyframeItWasTrackedFrom) {
+  for (const int through_dark : {0, 3}) {
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+      const RingWorld ring({.again = -10,
+                            .points = 1500,
+                            .noise_px = 0.7,
+                            .seed = seed,
+                            .dark_before = 15,
+                            .through_dark = through_dark});
+      Map map = ring.map();
+      // The keyframes of both sides are off by what the measurements tell ...
+      MapEdit off;
+      for (const int k : {13, 14, 20}) {
+        off.poses.push_back({{k}, map.At(KeyframeId{k}).T_world_rig});
+        off.poses.back().T_world_rig.translation().x() += 0.05;
+      }
+      map.Apply(off);
+      Map adjusted = map;
+      adjusted.Apply(AdjustGlobally(map, ring.camera(), {}).edit);
+      EXPECT_GT(MovedM(map, adjusted, {14}), 0.03);
+      EXPECT_GT(MovedM(map, adjusted, {20}), 0.03);
+      // ... and of what lies between nothing tells.
+      const auto step = [](const Map& of) {
+        return of.At(KeyframeId{14}).T_world_rig.inverse() * of.At(KeyframeId{15}).T_world_rig;
+      };
+      EXPECT_TRUE(step(adjusted).isApprox(step(map), 1e-9)) << through_dark << " seed " << seed;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace aisle::slam
