@@ -10,7 +10,7 @@ namespace {
 /// so it is the disparity's.
 double DepthRatio(const Measurement& measurement) {
   const bool has_depth = measurement.has_depth() && measurement.uvd.z() > 0;
-  return has_depth ? measurement.sigma_d / measurement.uvd.z()
+  return has_depth ? DisparitySigma(measurement) / measurement.uvd.z()
                    : std::numeric_limits<double>::infinity();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,11 @@ struct Measurement {
 
   bool has_depth() const { return sigma_d > 0; }
 };
+
+/// Deviation of a measured disparity by itself, whatever the pixel is.
+inline double DisparitySigma(const Measurement& measurement) {
+  return std::hypot(measurement.sigma_d, measurement.u_in_d * measurement.sigma_px);
+}
 
 /// The 95 % bound of chi-square for what a measurement without or with depth says, two or three
 /// numbers: one that is further off, in squared deviations, is an outlier.

@@ -51,7 +51,7 @@ std::optional<RefinedPose> AlignPoints(const StereoCamera& camera,
   }
   // Near points make better hypotheses: keep those whose depth is known to a twentieth, if they do.
   const auto is_vague = [](const PointObservation* observation) {
-    return observation->measurement.sigma_d > 0.05 * observation->measurement.uvd.z();
+    return DisparitySigma(observation->measurement) > 0.05 * observation->measurement.uvd.z();
   };
   const auto vague = std::stable_partition(deep.begin(), deep.end(), std::not_fn(is_vague));
   if (vague - deep.begin() >= options.least_inliers) deep.erase(vague, deep.end());

@@ -82,5 +82,41 @@ TEST(CreateLandmarks, NoPointIsTakenBeforeABetterOne) {
   }
 }
 
+TEST(CreateLandmarks, ADepthIsAsGoodAsItsDisparityHoweverThatWasMeasured) {
+  // The same disparity, as such and as the difference of two columns each of which deviates less.
+  const auto keyframe_with = [](double sigma_px, double sigma_d, double u_in_d) {
+    Keyframe keyframe = KeyframeWith({0.1});
+    auto frame = std::make_shared<Frame>(*keyframe.frame);
+    frame->measurements[0].sigma_px = sigma_px;
+    frame->measurements[0].sigma_d = sigma_d;
+    frame->measurements[0].u_in_d = u_in_d;
+    keyframe.frame = frame;
+    return keyframe;
+  };
+  for (const double sigma : {0.3, 0.45, 0.48, 0.52, 0.7}) {  // around a tenth of 5 pixels
+    const double column = sigma / std::sqrt(2);
+    const Keyframe as_such = keyframe_with(column, sigma, 0);
+    const Keyframe of_columns = keyframe_with(column, column, 1);
+    EXPECT_EQ(CreateLandmarks(of_columns, {}, {.least = 0}).size(),
+              CreateLandmarks(as_such, {}, {.least = 0}).size())
+        << sigma;
+  }
+}
+
+/// The deviation's definition: of a left column less a right one.
+TEST(Measurement, DisparitySigmaIsTheDeviationOfTheDisparity) {
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal;
+  const Measurement measurement{{300, 200, 5}, 0.7, 0.4, 1};
+  double sum = 0;
+  constexpr int kDraws = 20000;
+  for (int i = 0; i < kDraws; ++i) {
+    const double u = measurement.sigma_px * normal(random);
+    const double d = measurement.sigma_d * normal(random) + measurement.u_in_d * u;
+    sum += d * d;
+  }
+  EXPECT_NEAR(std::sqrt(sum / kDraws) / DisparitySigma(measurement), 1, 0.03);
+}
+
 }  // namespace
 }  // namespace aisle::slam
