@@ -4,6 +4,7 @@
 
 #include "slam/map/landmarks_of.h"
 #include "slam/map/match_by_projection.h"
+#include "slam/map/two_views.h"
 
 namespace aisle::slam {
 namespace {
@@ -17,7 +18,7 @@ bool SeenBy(const Landmark& landmark, KeyframeId keyframe) {
 }  // namespace
 
 MapEdit FuseInto(const Map& map, KeyframeId in, const std::vector<LandmarkId>& candidates,
-                 const StereoCamera& camera, const FuseOptions& options) {
+                 const StereoCamera& camera, const FuseOptions& options, FuseBound bound) {
   const Keyframe& keyframe = map.At(in);
   const Eigen::Isometry3d T_rig_world = keyframe.T_world_rig.inverse();
   std::vector<const Landmark*> unseen = FindAll(map, candidates);
@@ -28,7 +29,12 @@ MapEdit FuseInto(const Map& map, KeyframeId in, const std::vector<LandmarkId>& c
   // No ratio test: a rival feature here is as likely the same landmark at the next level.
   for (const Match& match : MatchByProjection(
            *keyframe.frame, expected, {options.radius_px, options.descriptor_distance, 1.0})) {
-    const LandmarkId held = keyframe.landmarks[static_cast<std::size_t>(match.feature)];
+    const auto feature = static_cast<std::size_t>(match.feature);
+    if (bound == FuseBound::kChi2 && !Agrees(camera, T_rig_world * map.At(match.landmark).position,
+                                             keyframe.frame->measurements[feature])) {
+      continue;
+    }
+    const LandmarkId held = keyframe.landmarks[feature];
     if (!held.valid()) {
       edit.links.push_back({match.landmark, {in, match.feature}});
       continue;

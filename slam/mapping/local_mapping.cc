@@ -31,9 +31,11 @@ MappingResult MapKeyframe(Map map, KeyframeId newest, const MappingTools& tools)
         TriangulateLandmarks(map, newest, neighbours, camera, options.triangulate);
     map.Apply(triangulated);
     for (const KeyframeId neighbour : neighbours) {
-      map.Apply(FuseInto(map, neighbour, LandmarksOf(map, {newest}), camera, options.fuse));
+      map.Apply(FuseInto(map, neighbour, LandmarksOf(map, {newest}), camera, options.fuse,
+                         FuseBound::kChi2));
     }
-    map.Apply(FuseInto(map, newest, LandmarksOf(map, neighbours), camera, options.fuse));
+    map.Apply(FuseInto(map, newest, LandmarksOf(map, neighbours), camera, options.fuse,
+                       FuseBound::kChi2));
 
     map.Apply(AdjustLocally(map, newest, camera, options.adjust).edit);
 

@@ -50,7 +50,8 @@ std::vector<MapEdit> JoinVisits(Map map, const Visits& visits, const StereoCamer
   std::vector<MapEdit> edits;
   for (const KeyframeId view : visits.now) {
     // Asked anew for every view: the one before may have put other landmarks in their place.
-    edits.push_back(FuseInto(map, view, LandmarksOf(map, visits.then), camera, fuse));
+    edits.push_back(
+        FuseInto(map, view, LandmarksOf(map, visits.then), camera, fuse, FuseBound::kRadius));
     map.Apply(edits.back());
   }
   return edits;

@@ -30,9 +30,11 @@ Map ExchangeLandmarks(Map map, KeyframeId newest, const MappingTools& tools,
   const FuseOptions& fuse = tools.options.fuse;
   const std::vector<KeyframeId> neighbours = OrbSlam2FuseNeighbours(map, newest, fuse, orbslam2);
   for (const KeyframeId neighbour : neighbours) {
-    map.Apply(FuseInto(map, neighbour, LandmarksOf(map, {newest}), tools.camera, fuse));
+    map.Apply(
+        FuseInto(map, neighbour, LandmarksOf(map, {newest}), tools.camera, fuse, FuseBound::kChi2));
   }
-  map.Apply(FuseInto(map, newest, LandmarksOf(map, neighbours), tools.camera, fuse));
+  map.Apply(
+      FuseInto(map, newest, LandmarksOf(map, neighbours), tools.camera, fuse, FuseBound::kChi2));
   return map;
 }
 
