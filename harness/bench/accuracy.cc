@@ -1,5 +1,6 @@
 #include "harness/bench/accuracy.h"
 
+#include "harness/bench/shown.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/systems.h"
 #include "harness/run/drive.h"
@@ -7,26 +8,6 @@
 
 namespace aisle {
 namespace {
-
-/// Some frames of another sequence.
-class Stretch : public Sequence {
- public:
-  Stretch(const Sequence& whole, int from, int to) : whole_(whole), from_(from), to_(to) {}
-
-  std::string name() const override { return whole_.name(); }
-  StereoCalibration calibration() const override { return whole_.calibration(); }
-  double rate_hz() const override { return whole_.rate_hz(); }
-  std::vector<FrameRequest> Schedule() const override {
-    const std::vector<FrameRequest> all = whole_.Schedule();
-    const auto clamp = [&](int i) { return std::min<std::ptrdiff_t>(i, std::ssize(all)); };
-    return {all.begin() + clamp(from_), all.begin() + clamp(to_)};
-  }
-  SequenceFrame At(const FrameRequest& request) const override { return whole_.At(request); }
-
- private:
-  const Sequence& whole_;
-  int from_, to_;
-};
 
 void Add(const RunResult& run, AccuracyOfView* view) {
   const Scorecard scores = ScoreRun(run).scores;
@@ -54,12 +35,11 @@ void CheckStarts(const BenchView& view, std::int64_t end, const AccuracyBenchOpt
 
 AccuracyOfView MeasureAccuracy(const BenchView& view, const AccuracyBenchOptions& options,
                                const BenchProgress& progress) {
-  const auto whole = OpenSource(view, options.source);
+  const auto whole = OpenSourceFor(options.system, view, options.source);
   CheckStarts(view, std::ssize(whole->Schedule()), options);
-  const MaskSource mask_source = FindSystem(options.system.like).mask_source;
   AccuracyOfView outcome;
   for (int start = 0; start < options.starts; ++start) {
-    const Stretch stretch(*whole, view.from + start * options.step, view.to);
+    const Excerpt stretch(*whole, view.from + start * options.step, view.to);
     const auto estimator =
         MakeSystem(options.system, whole->calibration(), {.threads = options.source.threads});
     const auto observe = [&](const DrivenFrame& frame) {
@@ -67,7 +47,8 @@ AccuracyOfView MeasureAccuracy(const BenchView& view, const AccuracyBenchOptions
       progress(fmt::format("{}: start {} of {}, frame {} of {}", view.text, start + 1,
                            options.starts, frame.index + 1, frame.count));
     };
-    Add(Drive(stretch, *estimator, MasksFromTruth(mask_source), {}, observe), &outcome);
+    const MaskMaker masks = MasksFor(options.system, view, options.source);
+    Add(Drive(stretch, *estimator, masks, {}, observe), &outcome);
   }
   return outcome;
 }

@@ -1,5 +1,6 @@
 #include "harness/bench/dynamic.h"
 
+#include "harness/bench/shown.h"
 #include "harness/io/image.h"
 #include "harness/plugs/systems.h"
 #include "harness/report/picture/overlay.h"
@@ -76,22 +77,20 @@ double DynamicOfView::static_wrong() const {
 
 DynamicOfView MeasureDynamic(const BenchView& view, const DynamicBenchOptions& options,
                              const BenchProgress& progress) {
-  const auto sequence = OpenSource(view, options.source);
+  const auto sequence = OpenSourceFor(options.system, view, options.source);
   const auto estimator =
       MakeSystem(options.system, sequence->calibration(),
                  {.threads = options.source.threads, .draw_stages = options.draw_stages});
   DynamicMeter meter(sequence->name(), view.text);
-  int index = 0;
-  for (const FrameRequest& request : sequence->Schedule()) {
-    const int now = index++;
-    if (now < view.from - options.warm_up) continue;
-    if (now >= view.to) break;
-    if (progress) progress(fmt::format("{}: frame {}", sequence->name(), now));
-    const SequenceFrame shown = sequence->At(request);
-    const FrameEstimate estimate = estimator->Process(shown.images, {});
-    if (now < view.from) continue;
+  const MaskMaker masks = MasksFor(options.system, view, options.source);
+  const Excerpt stretch(*sequence, std::max(view.from - options.warm_up, 0), view.to);
+  for (const FrameRequest& request : stretch.Schedule()) {
+    if (progress) progress(fmt::format("{}: frame {}", sequence->name(), request.id));
+    const SequenceFrame shown = stretch.At(request);
+    const FrameEstimate estimate = Show(shown, masks, estimator.get());
+    if (request.id < view.from) continue;
     meter.Add(shown, estimate);
-    if (!options.out.empty() && now % options.every == 0) {
+    if (!options.out.empty() && request.id % options.every == 0) {
       Picture(shown, estimate, sequence->name(), options);
     }
   }

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "harness/bench/shown.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/systems.h"
 #include "harness/score/mask_scores.h"
@@ -15,7 +16,8 @@ namespace {
 
 /// The frames of a view, read once for all variants.
 struct Stretch {
-  std::string name, view;
+  BenchView view;
+  std::string name;
   StereoCalibration calibration;
   std::vector<SequenceFrame> frames;
   std::size_t warm_up = 0;  ///< the first of these that do not count
@@ -23,15 +25,13 @@ struct Stretch {
 
 Stretch ReadStretch(const BenchView& view, const SensitivityOptions& options,
                     const BenchProgress& progress) {
-  const auto sequence = OpenSource(view, options.source);
-  Stretch stretch{sequence->name(), view.text, sequence->calibration(), {}, 0};
-  int now = -1;
-  for (const FrameRequest& request : sequence->Schedule()) {
-    if (++now < view.from - options.warm_up) continue;
-    if (now >= view.to) break;
-    if (progress) progress(fmt::format("{}: reading frame {}", view.text, now));
-    stretch.warm_up += now < view.from ? 1 : 0;
-    stretch.frames.push_back(sequence->At(request));
+  const auto sequence = OpenSourceFor(options.system, view, options.source);
+  Stretch stretch{view, sequence->name(), sequence->calibration(), {}, 0};
+  const Excerpt shown(*sequence, std::max(view.from - options.warm_up, 0), view.to);
+  for (const FrameRequest& request : shown.Schedule()) {
+    if (progress) progress(fmt::format("{}: reading frame {}", view.text, request.id));
+    stretch.warm_up += request.id < view.from ? 1 : 0;
+    stretch.frames.push_back(shown.At(request));
     const auto& truth = stretch.frames.back().truth;
     if (!truth || truth->dynamic.empty()) {
       throw InputError(Printable(view.text) + ": no truth of what moves; expected a scene");
@@ -41,13 +41,15 @@ Stretch ReadStretch(const BenchView& view, const SensitivityOptions& options,
   return stretch;
 }
 
-RejectionFigures Drive(const std::vector<Stretch>& stretches, const SystemSpec& system) {
+RejectionFigures Drive(const std::vector<Stretch>& stretches, const SystemSpec& system,
+                       const BenchSource& source) {
   DynamicOfView sum;
   for (const Stretch& stretch : stretches) {
     const auto estimator = MakeSystem(system, stretch.calibration, {.threads = 1});
-    DynamicMeter meter(stretch.name, stretch.view);
+    const MaskMaker masks = MasksFor(system, stretch.view, source);
+    DynamicMeter meter(stretch.name, stretch.view.text);
     for (std::size_t i = 0; i < stretch.frames.size(); ++i) {
-      const FrameEstimate estimate = estimator->Process(stretch.frames[i].images, {});
+      const FrameEstimate estimate = Show(stretch.frames[i], masks, estimator.get());
       if (i >= stretch.warm_up) meter.Add(stretch.frames[i], estimate);
     }
     sum += meter.View();
@@ -72,8 +74,8 @@ struct Task {
 };
 
 /// Each task once, in any order, several side by side. The first failure ends all.
-void DriveAll(const std::vector<Stretch>& stretches, const std::vector<Task>& tasks, int jobs,
-              const BenchProgress& progress) {
+void DriveAll(const std::vector<Stretch>& stretches, const std::vector<Task>& tasks,
+              const SensitivityOptions& options, const BenchProgress& progress) {
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;  // guards `failure`, and progress
   std::exception_ptr failure;
@@ -84,7 +86,7 @@ void DriveAll(const std::vector<Stretch>& stretches, const std::vector<Task>& ta
           const std::lock_guard lock(mutex);
           progress(fmt::format("drive {} of {}", i + 1, tasks.size()));
         }
-        *tasks[i].figures = Drive(stretches, tasks[i].system);
+        *tasks[i].figures = Drive(stretches, tasks[i].system, options.source);
       } catch (...) {
         const std::lock_guard lock(mutex);
         if (!failure) failure = std::current_exception();
@@ -92,8 +94,9 @@ void DriveAll(const std::vector<Stretch>& stretches, const std::vector<Task>& ta
       }
     }
   };
+  const int all = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   std::vector<std::jthread> workers;
-  for (int k = 1; k < jobs; ++k) workers.emplace_back(work);
+  for (int k = 1; k < (options.jobs > 0 ? options.jobs : all); ++k) workers.emplace_back(work);
   work();
   workers.clear();  // joined
   if (failure) std::rethrow_exception(failure);
@@ -153,6 +156,7 @@ Sensitivity MeasureSensitivity(const std::vector<BenchView>& views,
   Sensitivity result;
   System system = FindSystem(options.system.like);
   for (const auto& [path, value] : options.system.options) system.options[path] = value;
+  system.options.erase(kOdometryOption);  // it is none of the SLAM's own
   for (SystemOption& option : OptionsOf(system)) {
     if (!option.path.starts_with(options.prefix)) continue;
     result.options.push_back({std::move(option), {}, {}, 0});
@@ -173,8 +177,7 @@ Sensitivity MeasureSensitivity(const std::vector<BenchView>& views,
   }
   std::vector<Stretch> stretches;
   for (const BenchView& view : views) stretches.push_back(ReadStretch(view, options, progress));
-  const int threads = static_cast<int>(std::thread::hardware_concurrency());
-  DriveAll(stretches, tasks, options.jobs > 0 ? options.jobs : std::max(threads, 1), progress);
+  DriveAll(stretches, tasks, options, progress);
   for (OptionSensitivity& one : result.options) {
     for (const auto* variant : {&one.halved, &one.doubled}) {
       if (*variant) one.effect = std::max(one.effect, Distance((*variant)->figures, result.base));

@@ -6,7 +6,9 @@
 #include <numeric>
 #include <opencv2/features2d.hpp>
 
+#include "harness/bench/shown.h"
 #include "harness/common/stopwatch.h"
+#include "harness/io/input_error.h"
 #include "harness/plugs/systems.h"
 #include "harness/score/statistics.h"
 
@@ -36,13 +38,16 @@ double ReferenceMs(const StereoFrame& frame) {
   });
 }
 
-/// The frames of the view, the first `most` of them.
-std::vector<FrameRequest> FirstOf(const BenchView& view, const std::vector<FrameRequest>& all,
-                                  std::size_t most) {
-  const auto from = std::min(static_cast<std::size_t>(view.from), all.size());
-  const auto to = std::min({static_cast<std::size_t>(view.to), all.size(), from + most});
-  return {all.begin() + static_cast<std::ptrdiff_t>(from),
-          all.begin() + static_cast<std::ptrdiff_t>(to)};
+/// From the first frame of a lap to the first of the next. Throws InputError where a lap has none
+/// that goes on.
+std::int64_t LapNs(const BenchView& view, const std::vector<FrameRequest>& schedule, double rate_hz,
+                   int laps) {
+  if (laps == 1 || schedule.empty()) return 0;
+  if (schedule.size() == 1) {
+    throw InputError(Printable(view.text) + ": laps of one frame; expected two at least");
+  }
+  return schedule.back().stamp_ns - schedule.front().stamp_ns +
+         static_cast<std::int64_t>(1e9 / rate_hz);
 }
 
 }  // namespace
@@ -66,29 +71,31 @@ std::map<std::string, StageTime> MeasureStages(const BenchView& view,
                                                const StageBenchOptions& options,
                                                const BenchProgress& progress,
                                                const std::function<void(const BenchLap&)>& lapped) {
-  const auto sequence = OpenSource(view, options.source);
+  const auto sequence = OpenSourceFor(options.system, view, options.source);
+  const int end =
+      static_cast<int>(std::min<std::int64_t>(view.to, std::int64_t{view.from} + options.frames));
+  const Excerpt stretch(*sequence, view.from, end);
+  const std::vector<FrameRequest> schedule = stretch.Schedule();
+  const std::int64_t lap_ns = LapNs(view, schedule, sequence->rate_hz(), options.laps);
+  const MaskMaker masks = MasksFor(options.system, view, options.source);
   std::map<std::string, StageTime> stages;
   std::unique_ptr<Estimator> estimator;
   stages["set_up"].ms.push_back(MillisecondsOf([&] {  // what it loads: the visual words
     estimator =
         MakeSystem(options.system, sequence->calibration(), {.threads = options.source.threads});
   }));
-  const std::vector<FrameRequest> schedule =
-      FirstOf(view, sequence->Schedule(), static_cast<std::size_t>(options.frames));
-  const std::int64_t lap_ns = schedule.empty()
-                                  ? 0
-                                  : schedule.back().stamp_ns - schedule.front().stamp_ns +
-                                        static_cast<std::int64_t>(1e9 / sequence->rate_hz());
   for (int lap = 0; lap < options.laps; ++lap) {
     FrameEstimate estimate;
     int lost = 0;
     for (const FrameRequest& request : schedule) {
-      StereoFrame images = sequence->At(request).images;
+      const SequenceFrame shown = stretch.At(request);
+      const ExternalMask mask = masks(shown);
+      StereoFrame images = shown.images;
       images.id += lap * std::ssize(schedule);
       images.stamp_ns += lap * lap_ns;
       if (options.laps == 1) stages["reference"].ms.push_back(ReferenceMs(images));
       stages["frame"].ms.push_back(
-          MillisecondsOf([&] { estimate = estimator->Process(images, {}); }));
+          MillisecondsOf([&] { estimate = estimator->Process(images, mask); }));
       for (const auto& [stage, ms] : estimate.stage_ms) stages[stage].ms.push_back(ms);
       lost += estimate.state == TrackingState::kTracking ? 0 : 1;
       if (progress) progress(fmt::format("frame {}", stages["frame"].ms.size()));

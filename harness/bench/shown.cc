@@ -1,0 +1,65 @@
+#include "harness/bench/shown.h"
+
+#include <algorithm>
+
+#include "harness/io/input_error.h"
+#include "harness/plugs/systems.h"
+#include "harness/plugs/wheel_odometry.h"
+
+namespace aisle {
+namespace {
+
+bool Tells(const std::optional<FrameTruth>& truth, MaskSource asked) {
+  if (asked == MaskSource::kNone) return true;
+  return truth && !(asked == MaskSource::kDynamic ? truth->dynamic : truth->actor).empty();
+}
+
+MaskMaker MakerOf(const SystemSpec& system, MaskSource source, std::uint64_t seed) {
+  return system.mask_errors == MaskErrors{} ? MasksFromTruth(source)
+                                            : MasksWithErrors(source, system.mask_errors, seed);
+}
+
+}  // namespace
+
+std::unique_ptr<Sequence> OpenSourceFor(const SystemSpec& system, const BenchView& view,
+                                        const BenchSource& source) {
+  std::unique_ptr<Sequence> sequence = OpenSource(view, source);
+  if (!WantsOdometry(system)) return sequence;
+  return WithOdometry(std::move(sequence), SeedOf(view, source));
+}
+
+MaskMaker MasksFor(const SystemSpec& system, const BenchView& view, const BenchSource& source) {
+  const MaskSource asked = FindSystem(system.like).mask_source;
+  return [asked, make = MakerOf(system, asked, SeedOf(view, source)), view = view.text,
+          name = system.name](const SequenceFrame& frame) {
+    if (Tells(frame.truth, asked)) return make(frame);
+    throw InputError(
+        fmt::format("{}: system '{}' is told what moves, and nobody knows it here: take a scene",
+                    Printable(view), Printable(name)));
+  };
+}
+
+FrameEstimate Show(const SequenceFrame& frame, const MaskMaker& masks, Estimator* estimator) {
+  const ExternalMask mask = masks(frame);
+  FrameEstimate estimate = estimator->Process(frame.images, mask);
+  if (estimate.regions.mask.empty() && estimate.regions.regions.empty()) {
+    estimate.regions.mask = mask.left;
+  }
+  return estimate;
+}
+
+std::vector<FrameRequest> Excerpt::Schedule() const {
+  const std::vector<FrameRequest> all = whole_.Schedule();
+  const auto at = [&](int i) {
+    return all.begin() + std::clamp<std::ptrdiff_t>(i, 0, std::ssize(all));
+  };
+  return {at(std::min(from_, to_)), at(to_)};
+}
+
+SequenceFrame Excerpt::At(const FrameRequest& request) const {
+  SequenceFrame frame = whole_.At(request);
+  if (request.id <= from_) frame.images.motion.reset();
+  return frame;
+}
+
+}  // namespace aisle
