@@ -9,10 +9,16 @@
 namespace aisle {
 namespace {
 
-void Picture(const SequenceFrame& shown, const FrameEstimate& estimate, const std::string& view,
-             const DynamicBenchOptions& options) {
-  std::string name = view;
+/// "paper_scene2@4": seeds of a scene have pictures of their own.
+std::string PictureName(const Sequence& sequence, const BenchView& view,
+                        const BenchSource& source) {
+  std::string name = sequence.name();
   std::ranges::replace(name, '/', '_');
+  return view.scene.empty() ? name : fmt::format("{}@{}", name, SeedOf(view, source));
+}
+
+void Picture(const SequenceFrame& shown, const FrameEstimate& estimate, const std::string& view,
+             const std::string& name, const DynamicBenchOptions& options) {
   if (estimate.draw_stages) {
     const cv::Mat3b sheet = TileStages(estimate.draw_stages(shown.truth ? &*shown.truth : nullptr));
     const std::string file = fmt::format("{}_{:05}_stages.jpg", name, shown.images.id);
@@ -81,6 +87,7 @@ DynamicOfView MeasureDynamic(const BenchView& view, const DynamicBenchOptions& o
   const auto estimator =
       MakeSystem(options.system, sequence->calibration(),
                  {.threads = options.source.threads, .draw_stages = options.draw_stages});
+  const std::string picture = PictureName(*sequence, view, options.source);
   DynamicMeter meter(sequence->name(), view.text);
   const MaskMaker masks = MasksFor(options.system, view, options.source);
   const Excerpt stretch(*sequence, std::max(view.from - options.warm_up, 0), view.to);
@@ -91,7 +98,7 @@ DynamicOfView MeasureDynamic(const BenchView& view, const DynamicBenchOptions& o
     if (request.id < view.from) continue;
     meter.Add(shown, estimate);
     if (!options.out.empty() && request.id % options.every == 0) {
-      Picture(shown, estimate, sequence->name(), options);
+      Picture(shown, estimate, sequence->name(), picture, options);
     }
   }
   return meter.View();

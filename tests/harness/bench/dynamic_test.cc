@@ -1,6 +1,9 @@
 #include "harness/bench/dynamic.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
 
 namespace aisle {
 namespace {
@@ -43,6 +46,26 @@ TEST(DynamicOfViewTest, NothingSeenIsNoDivisionByZero) {
   EXPECT_EQ(DynamicOfView().rejected_share(), 0);
   EXPECT_EQ(DynamicOfView().static_wrong(), 0);
   EXPECT_TRUE(DynamicOfView().mean_ms().empty());
+}
+
+TEST(DynamicPicturesTest, EachSeedHasItsOwn) {
+  const std::filesystem::path out =
+      std::filesystem::temp_directory_path() / fmt::format("aisle_pictures_{}", ::getpid());
+  BenchView view{.text = "smoke/bits",
+                 .path = AISLE_SOURCE_DIR "/scenes/smoke/bits.yaml",
+                 .scene = "smoke/bits",
+                 .assets_dir = AISLE_SOURCE_DIR "/assets",
+                 .to = 1};
+  DynamicBenchOptions options;
+  options.system = BuiltIn("plain");
+  options.out = out;
+  for (const std::uint64_t seed : {1, 2}) {
+    view.seed = seed;
+    MeasureDynamic(view, options);
+  }
+  EXPECT_TRUE(std::filesystem::exists(out / "smoke_bits@1_00000.jpg"));
+  EXPECT_TRUE(std::filesystem::exists(out / "smoke_bits@2_00000.jpg"));
+  std::filesystem::remove_all(out);
 }
 
 }  // namespace
