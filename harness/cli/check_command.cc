@@ -1,6 +1,5 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <sstream>
 
 #include "harness/campaign/guest_program.h"
@@ -9,7 +8,7 @@
 #include "harness/cli/bag_notes.h"
 #include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
-#include "harness/common/first_of_many.h"
+#include "harness/cli/files_below.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/user_model.h"
 #include "harness/record/record_json.h"
@@ -26,27 +25,6 @@ std::vector<std::string> Lines(const std::string& text) {
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
-}
-
-/// Where the folder is a recording itself, that and what to do; else empty. Its YAML files are none
-/// of ours.
-std::string WhatRecording(const fs::path& folder) {
-  const auto holds = [&](const char* name) {
-    std::error_code error;
-    return fs::exists(folder / name, error);
-  };
-  const auto sentence = [](const char* what, const char* keys) {
-    return fmt::format(
-        "is {}, no folder of scenes: check a file that says {} (reports/docs/bags.md)", what, keys);
-  };
-  if (holds("metadata.yaml")) return sentence("a bag of ROS 2", "`recording: FOLDER`");
-  if (holds("cam0/sensor.yaml") || holds("mav0/cam0/sensor.yaml")) {
-    return sentence("a dataset as EuRoC's", "`recording: FOLDER`");
-  }
-  if (holds("calib.txt") && holds("image_0")) {
-    return sentence("a dataset as KITTI's", "`recording: FOLDER` and `format: kitti`");
-  }
-  return "";
 }
 
 std::vector<std::string> Complaints(const std::string& file) {
@@ -71,27 +49,6 @@ std::vector<std::string> Complaints(const std::string& file) {
   } catch (const InputError& error) {
     return Lines(error.what());
   }
-}
-
-/// The YAML files below a folder, in the order of their names; recordings there are left out, and,
-/// told, what is no file of ours.
-std::vector<std::string> FilesBelow(const std::string& folder) {
-  std::set<std::string> found;
-  std::set<std::string> foreign;
-  for (fs::recursive_directory_iterator at(folder), end; at != end; ++at) {
-    const fs::path& path = at->path();
-    if (at->is_directory() && !WhatRecording(path).empty()) {
-      at.disable_recursion_pending();
-    } else if (path.extension() == ".yaml") {
-      (IsForeignYaml(path.string()) ? foreign : found).insert(path.string());
-    }
-  }
-  if (!foreign.empty()) {
-    const std::vector<std::string> names(foreign.begin(), foreign.end());
-    TellNotes(folder, {fmt::format("left out what is no scene, suite or recording: {}",
-                                   FirstOfMany(names, ", "))});
-  }
-  return {found.begin(), found.end()};
 }
 
 /// Folders stand for the files below them.

@@ -5,6 +5,7 @@
 
 #include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
+#include "harness/cli/files_below.h"
 #include "harness/cli/page_block.h"
 #include "harness/io/file.h"
 #include "harness/io/image.h"
@@ -14,6 +15,7 @@
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/record/record_json.h"
 #include "harness/report/picture/overlay.h"
+#include "harness/suite/recording.h"
 #include "harness/suite/suite.h"
 
 namespace aisle {
@@ -44,6 +46,7 @@ struct Entry {
   std::size_t frames = 0;
 };
 
+/// Folders stand for the scenes below them.
 std::vector<std::string> ScenesOf(const std::vector<std::string>& places) {
   std::set<std::string> found;
   for (const std::string& place : places) {
@@ -51,9 +54,8 @@ std::vector<std::string> ScenesOf(const std::vector<std::string>& places) {
       found.insert(place);
       continue;
     }
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(place)) {
-      const std::string file = entry.path().string();
-      if (entry.path().extension() == ".yaml" && !IsSuiteFile(file)) found.insert(file);
+    for (const std::string& file : FilesBelow(place)) {
+      if (!IsSuiteFile(file) && !IsRecording(file)) found.insert(file);
     }
   }
   return {found.begin(), found.end()};
@@ -96,7 +98,8 @@ SimulatedSequenceOptions SimulationOf(const std::string& file, const Options& op
   return {.scene_file = file,
           .scene_name = SceneName(file),
           .assets_dir = AssetsDir().string(),
-          .seed = options.seed};
+          .seed = options.seed,
+          .any_lens = true};
 }
 
 /// Frames spread over the scene.
@@ -178,6 +181,28 @@ std::string Describe(const Entry& entry) {
       100 * Mean(entry.samples, &Sample::people), 100 * most->people, Seconds(*most));
 }
 
+/// How the page begins that lists the scenes.
+constexpr const char* kPageHead = "# Every scene\n\nMade by `";
+
+std::filesystem::path PageOf(const Options& options) {
+  return std::filesystem::path(options.output) / "README.md";
+}
+
+/// Throws InputError where the page would take the place of one that somebody else wrote.
+void CheckPage(const std::filesystem::path& page) {
+  if (!std::filesystem::exists(page) || ReadFile(page).starts_with(kPageHead)) return;
+  throw InputError(page.string(), 0, "is no page of a gallery: choose another folder (-o)");
+}
+
+/// What was asked for beside the defaults and decides the pictures.
+std::string Departures(const Options& options) {
+  const Options usual;
+  std::string departures;
+  if (options.samples != usual.samples) departures += fmt::format(" --samples {}", options.samples);
+  if (options.seed != usual.seed) departures += fmt::format(" --seed {}", options.seed);
+  return departures;
+}
+
 /// How much of the image moves now, over the time of each scene: no picture is written.
 int PrintShares(const std::vector<std::string>& files, const Options& options) {
   options.into.Check();
@@ -219,22 +244,23 @@ int Gallery(const Options& options) {
     return kNothingToDo;
   }
   if (options.shares) return PrintShares(files, options);
+  CheckPage(PageOf(options));
   std::vector<std::string> places;
   for (const std::string& place : options.places) places.push_back(ShellWord(place));
   std::string page = fmt::format(
-      "# Every scene\n\n"
-      "Made by `{} gallery {} -o {}`. In the pictures, red is what moves now, boxes are "
+      "{}{} gallery {}{} -o {}`. In the pictures, red is what moves now, boxes are "
       "what may move, with its speed. In the layouts, red is the rig's way, blue the actors'. The "
       "row of blocks is the share of the image that people cover at {} times spread over the "
       "scene, "
       "an eighth of the image a step.\n\n",
-      OwnCommand(), fmt::join(places, " "), ShellWord(options.output), options.samples);
+      kPageHead, OwnCommand(), fmt::join(places, " "), Departures(options),
+      ShellWord(options.output), options.samples);
   for (const std::string& file : files) {
     page += Describe(Photograph(file, options));
     fmt::print("{}\n", SceneName(file));
     std::fflush(stdout);
   }
-  WriteFileAtomically(std::filesystem::path(options.output) / "README.md", page);
+  WriteFileAtomically(PageOf(options), page);
   return kAllPassed;
 }
 

@@ -12,26 +12,13 @@
 #include "harness/io/file.h"
 #include "harness/io/trajectory.h"
 #include "harness/record/results.h"
+#include "tests/harness/cli/exit.h"
 
 namespace aisle {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-/// The exit code of `aisle WORDS...`; what it says goes to `said`.
-int Exit(std::vector<std::string> words, std::string* said = nullptr) {
-  words.insert(words.begin(), "aisle");
-  std::vector<const char*> argv;
-  for (const std::string& word : words) argv.push_back(word.c_str());
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  const int code = RunCommandLine(static_cast<int>(argv.size()), argv.data());
-  const std::string text =
-      testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr();
-  if (said != nullptr) *said = text;
-  return code;
-}
 
 /// The commands that `words` choose, outermost first; empty where they are refused.
 std::vector<std::string> Chosen(const std::string& words, Action* action) {
@@ -354,7 +341,7 @@ TEST(CommandLineTest, AGallerySaysHowItIsMadeAgain) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("aisle_gallery_{}", ::getpid());
   const fs::path out = folder / "my gallery";
   EXPECT_EQ(Exit({"gallery", "smoke/bits", "--samples", "1", "-o", out.string()}), kAllPassed);
-  EXPECT_THAT(ReadFile(out / "README.md"), HasSubstr("-o '" + out.string() + "'`"));
+  EXPECT_THAT(ReadFile(out / "README.md"), HasSubstr(" --samples 1 -o '" + out.string() + "'`"));
   fs::remove_all(folder);
 }
 
