@@ -11,6 +11,18 @@ TEST(RepeatableCommand, SpeaksOfTheLauncherAndLeavesPlacesOut) {
             "./aisle bench dynamic paper/scene2:9-13@4 --warm-up 20");
 }
 
+TEST(RepeatableCommand, KeepsWhatStandsBehindAFlag) {
+  EXPECT_EQ(RepeatableCommand({"aisle", "gallery", "--shares", "--json", "scenes/paper_narrow",
+                               "--into", "page.md#shares"}),
+            "./aisle gallery --shares scenes/paper_narrow");
+}
+
+TEST(RepeatableCommand, SaysOnHowManyThreadsTimesWereMeasured) {
+  EXPECT_EQ(RepeatableCommand({"aisle", "bench", "render", "--threads", "2", "--into", "page.md",
+                               "paper/scene2"}),
+            "./aisle bench render --threads 2 paper/scene2");
+}
+
 TEST(RepeatableCommand, QuotesWhatAShellWouldTakeApart) {
   EXPECT_EQ(RepeatableCommand({"aisle", "check", "my scene's.yaml", ""}),
             "./aisle check 'my scene'\\''s.yaml' ''");
