@@ -98,8 +98,9 @@ std::vector<Trial> Train(const Inputs& inputs, const Options& options) {
       });
 }
 
-/// The best by score whose time keeps the limit; the system as it is where none does.
-OptionSet BestInTime(std::vector<Trial> trials, const Inputs& inputs, const Options& options) {
+/// The best by score whose time keeps the limit; nothing where none does.
+std::optional<OptionSet> BestInTime(std::vector<Trial> trials, const Inputs& inputs,
+                                    const Options& options) {
   std::erase_if(trials, [](const Trial& trial) { return trial.given_up; });
   std::stable_sort(trials.begin(), trials.end(),
                    [](const Trial& a, const Trial& b) { return a.score() > b.score(); });
@@ -108,16 +109,12 @@ OptionSet BestInTime(std::vector<Trial> trials, const Inputs& inputs, const Opti
   for (const Trial& trial : trials) sets.push_back(trial.options);
   const std::vector<double> ratios =
       TimeRatios(inputs.system, sets, inputs.time_view, options.source);
-  OptionSet chosen;
-  bool found = false;
+  const std::optional<std::size_t> taken = FirstInTime(ratios, options.time_limit);
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    const bool in_time = ratios[i] <= options.time_limit;
     fmt::print("set {}: {:.2f} times the tracking{}\n", trials[i].index, ratios[i],
-               in_time && !found ? ": taken" : "");
-    if (in_time && !found) chosen = sets[i];
-    found |= in_time;
+               taken == i ? ": taken" : "");
   }
-  return chosen;
+  return taken ? std::optional(sets[*taken]) : std::nullopt;
 }
 
 /// Evenly over the frontier, its ends among them.
@@ -175,7 +172,9 @@ int BenchSearch(Options options) {
   std::vector<NamedSet> sets = {{"as it is", {}}};
   sets.insert(sets.end(), inputs.also.begin(), inputs.also.end());
   if (report.trials.size() > 1) {
-    sets.push_back({"found", BestInTime(report.trials, inputs, options)});
+    const std::optional<OptionSet> found = BestInTime(report.trials, inputs, options);
+    if (found) sets.push_back({"found", *found});
+    report.found = found.has_value();
   }
   const std::vector<Clip> clips = LoadClips(inputs.judge, options.source);
   report.judged = JudgeSets(sets, clips, inputs, options);

@@ -126,14 +126,24 @@ std::string Training(const SearchReport& report) {
   if (report.trials.size() < 2) return {};
   int given_up = 0;
   for (const Trial& trial : report.trials) given_up += trial.given_up;
+  const std::string limit = fmt::format("at most {:g} times the tracking", report.time_limit);
+  const std::string outcome =
+      report.found
+          ? fmt::format("Found: the best whose detector takes {}.", limit)
+          : fmt::format("None was found: of none of the best the detector takes {}.", limit);
   return fmt::format(
       "{} sets of options of `{}` tried on the training stretches, {} of them given up half way. "
-      "Score of a set: mean of objects' F1 and of pixel IoU. Found: the best whose detector takes "
-      "at most {:g} times the tracking.\n\n",
-      report.trials.size(), report.system, given_up, report.time_limit);
+      "Score of a set: mean of objects' F1 and of pixel IoU. {}\n\n",
+      report.trials.size(), report.system, given_up, outcome);
 }
 
 }  // namespace
+
+std::optional<std::size_t> FirstInTime(const std::vector<double>& ratios, double limit) {
+  const auto first = std::ranges::find_if(ratios, [&](double ratio) { return ratio <= limit; });
+  if (first == ratios.end()) return std::nullopt;
+  return static_cast<std::size_t>(first - ratios.begin());
+}
 
 std::string TrialHeading() {
   return fmt::format("{:>5}{:>8}{:>8}{:>8}{:>9}{:>9}{:>9}{:>9}", "set", "score", "F1", "px IoU",

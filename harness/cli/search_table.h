@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,11 @@ struct SearchReport {
   std::vector<JudgedSet> judged;  ///< the named ones and the found one, in their order
   std::vector<JudgedSet> frontier;
   double time_limit = 0;
+  bool found = false;  ///< whether one of the best kept it
 };
+
+/// The first whose time, in times of tracking, keeps the limit; nothing where none does.
+std::optional<std::size_t> FirstInTime(const std::vector<double>& ratios, double limit);
 
 /// One line of a trial, for a terminal; the heading for an empty one.
 std::string TrialHeading();
