@@ -4,7 +4,9 @@
 #include <stdexcept>
 
 #include "simulator/mesh/still.h"
+#include "simulator/scene/rig_path.h"
 #include "simulator/world/labels.h"
+#include "simulator/world/shell.h"
 
 namespace aisle::sim {
 namespace {
@@ -36,7 +38,8 @@ void AddTriangles(const TriangleMesh& from, const std::vector<std::size_t>& tria
 
 void AddOwnHall(const Scene& scene, AssetLibrary* assets, Wardrobe* wardrobe, Site* site) {
   const std::shared_ptr<const Model> hall = assets->LoadStill(scene.hall.mesh.file);
-  const TriangleMesh mesh = wardrobe->Wear(hall);
+  TriangleMesh mesh = wardrobe->Wear(hall);
+  TurnShellInside(RigPathOf(scene)(0).translation().cast<float>(), &mesh);
   std::map<int, std::vector<std::size_t>> of_node;
   const std::vector<int> nodes = NodesOfTriangles(*hall);
   for (std::size_t i = 0; i < nodes.size(); ++i) of_node[nodes[i]].push_back(i);
