@@ -25,20 +25,6 @@ bool EndedWell(const ProcessResult& result) {
   return result.end == ProcessResult::End::kExited && result.code == 0;
 }
 
-/// A name that git could take for an option is none of a commit.
-std::string FullCommit(const fs::path& repository, const std::string& name) {
-  const bool plain = !name.empty() && name.front() != '-';
-  const ProcessResult found =
-      plain ? Git(repository, {"rev-parse", "--verify", "--quiet", name + "^{commit}"})
-            : ProcessResult{.code = 1, .log = {}};
-  if (!EndedWell(found)) {
-    throw InputError(
-        repository.string(), 0,
-        fmt::format("has no commit '{}'; expected a hash, a tag or a branch", Printable(name)));
-  }
-  return found.log.substr(0, found.log.find('\n'));
-}
-
 /// The untried commit nearest to the middle of what is still open; `end` where there is none.
 std::size_t NextToTry(std::size_t first, std::size_t end, const std::vector<bool>& tried) {
   std::size_t next = end;
@@ -92,6 +78,20 @@ void SourceTree::CheckOut(const std::string& commit) const {
     throw MachineError(fmt::format("{}: {} cannot be checked out: {}", repository_.string(), commit,
                                    TellingLine(done.log)));
   }
+}
+
+std::string FullCommit(const fs::path& repository, const std::string& name) {
+  // What git could take for an option is no name of a commit.
+  const bool plain = !name.empty() && name.front() != '-';
+  const ProcessResult found =
+      plain ? Git(repository, {"rev-parse", "--verify", "--quiet", name + "^{commit}"})
+            : ProcessResult{.code = 1, .log = {}};
+  if (!EndedWell(found)) {
+    throw InputError(
+        repository.string(), 0,
+        fmt::format("has no commit '{}'; expected a hash, a tag or a branch", Printable(name)));
+  }
+  return found.log.substr(0, found.log.find('\n'));
 }
 
 std::vector<std::string> CommitsBetween(const fs::path& repository, const std::string& good,

@@ -44,6 +44,9 @@ class SourceTree {
   std::filesystem::path repository_, folder_;
 };
 
+/// The commit of a tag, a branch or a shorter name, in full. Throws InputError where it is none.
+std::string FullCommit(const std::filesystem::path& repository, const std::string& name);
+
 /// The commits after `good` up to and with `bad`, along the first parents, oldest first, in full.
 /// Throws InputError where one is none, or `good` does not lie before `bad`.
 std::vector<std::string> CommitsBetween(const std::filesystem::path& repository,

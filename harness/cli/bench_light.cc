@@ -1,6 +1,7 @@
 #include "harness/bench/light.h"
 #include "harness/cli/bench_foreign.h"
 #include "harness/cli/command.h"
+#include "harness/cli/early_checks.h"
 #include "harness/cli/page_block.h"
 #include "harness/io/file.h"
 #include "harness/io/image.h"
@@ -31,16 +32,40 @@ const std::vector<std::string> kViews = {
     "weakness/fill_60:100",
 };
 
-/// "scene:frame", or a scene alone: its middle frame, -1.
-std::pair<std::string, int> SceneAndFrame(const std::string& view) {
+struct LightView {
+  std::string file;
+  int frame = -1;  ///< -1: the middle one
+};
+
+/// "scene:frame", or a scene alone.
+LightView ParseLightView(const std::string& view) {
   const std::size_t colon = view.rfind(':');
-  if (colon == std::string::npos) return {view, -1};
+  if (colon == std::string::npos) return {SceneFile(view)};
   const std::string digits = view.substr(colon + 1);
   if (digits.empty() || digits.size() > 6 ||
       digits.find_first_not_of("0123456789") != std::string::npos) {
     throw InputError(Printable(view) + ": expected SCENE:FRAME, for example paper/scene2:170");
   }
-  return {view.substr(0, colon), std::stoi(digits)};
+  return {SceneFile(view.substr(0, colon)), std::stoi(digits)};
+}
+
+/// All of them, before the first is traced. Throws InputError.
+std::vector<LightView> ViewsOf(const LightOptions& options) {
+  const std::vector<std::string>& texts = options.views.empty() ? kViews : options.views;
+  std::vector<LightView> views;
+  std::vector<std::string> files;
+  for (const std::string& text : texts) {
+    views.push_back(ParseLightView(text));
+    files.push_back(views.back().file);
+  }
+  CheckSceneFiles(files);
+  for (const LightView& view : views) {
+    const std::int64_t frames = CountSceneFrames(view.file);
+    if (view.frame < frames) continue;
+    throw InputError(view.file, 0,
+                     fmt::format("has frames 0 to {}, not {}", frames - 1, view.frame));
+  }
+  return views;
 }
 
 std::string ChangeHeading() {
@@ -62,17 +87,17 @@ int BenchLight(LightOptions options) {
   const std::filesystem::path out = options.out;
   std::filesystem::create_directories(out);
   options.into.Check();
+  const std::vector<LightView> views = ViewsOf(options);
   std::string table =
       "| view | frame | median relative error | SSIM | mean, nightly / reference "
       "| two half references: median | SSIM |\n"
       "|---|---|---|---|---|---|---|\n";
   std::string changes;
   bool good = true;
-  for (const std::string& view : options.views.empty() ? kViews : options.views) {
-    auto [scene, frame] = SceneAndFrame(view);
-    options.simulation.scene_file = SceneFile(scene);
+  for (const LightView& view : views) {
+    options.simulation.scene_file = view.file;
     options.simulation.scene_name = SceneName(options.simulation.scene_file);
-    options.comparison.frame = frame;
+    options.comparison.frame = view.frame;
     const LightComparison light = CompareLight(options.simulation, options.comparison);
     const std::string line = fmt::format(
         "| {} | {} | {:.2f} % | {:.4f} | {:.3f} | {:.2f} % | {:.4f} |\n",
@@ -110,21 +135,27 @@ void AddBenchLight(CLI::App* bench, Action* action) {
   command->add_option("VIEWS", options->views,
                       "SCENE or SCENE:FRAME (default: seven views with movers)");
   command->add_option("--out", options->out, "folder of the table and pictures (bench_light)");
-  options->into.AddTo(command);
+  CLI::Option* into = options->into.AddTo(command);
   command->add_option("--samples", options->comparison.samples, "paths a pixel (default 256)")
       ->check(CLI::Range(1, 65536));
-  command
-      ->add_option("--reduce", options->comparison.reduce,
-                   "compare at 1/N of the camera's size (2)")
-      ->check(CLI::Range(1, 16));
-  command->add_flag("--next", options->comparison.next,
-                    "compare the change to the next frame too, in shares of white");
-  command->add_option("--seed", options->simulation.seed, "of the scenes; default 1");
+  CLI::Option* reduce = command
+                            ->add_option("--reduce", options->comparison.reduce,
+                                         "compare at 1/N of the camera's size (2)")
+                            ->check(CLI::Range(1, 16));
+  CLI::Option* next =
+      command->add_flag("--next", options->comparison.next,
+                        "compare the change to the next frame too, in shares of white");
+  CLI::Option* seed =
+      command->add_option("--seed", options->simulation.seed, "of the scenes; default 1");
   command->add_option("--threads", options->simulation.threads, "0: all");
   CLI::Option* foreign = command
                              ->add_option("--foreign", options->foreign.scene,
                                           "path-trace this JSON scene of another renderer instead")
-                             ->excludes("VIEWS");
+                             ->excludes("VIEWS")
+                             ->excludes(into)
+                             ->excludes(reduce)
+                             ->excludes(next)
+                             ->excludes(seed);
   command
       ->add_option("--reference", options->foreign.reference, "compare it with this .exr or .pfm")
       ->needs(foreign);

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/cli/command.h"
+#include "harness/cli/early_checks.h"
 #include "harness/cli/isa_option.h"
 #include "harness/cli/page_block.h"
 #include "harness/io/file.h"
@@ -88,6 +89,8 @@ int BenchRender(const RenderOptions& options) {
   simulation.assets_dir = AssetsDir().string();
   std::vector<std::string> files;
   for (const std::string& scene : options.scenes) files.push_back(SceneFile(scene));
+  CheckSceneFiles(files);
+  CheckCanBeWritten(options.json);
   std::vector<SceneCost> costs;
   for (const std::string& file : files) {
     simulation.scene_file = file;

@@ -1,4 +1,5 @@
 // Which commit of somebody's own SLAM broke a limit: a scene driven over its history.
+#include <cmath>
 #include <filesystem>
 #include <thread>
 
@@ -40,7 +41,7 @@ Question QuestionFromText(const std::string& text) {
   Question question{.score = text.substr(0, at)};
   const bool relation = at != std::string::npos && text.compare(at + 1, 1, "=") == 0;
   if (!relation || !CLI::detail::lexical_cast(text.substr(at + 2), question.bound) ||
-      !IsScoreName(question.score)) {
+      !std::isfinite(question.bound) || !IsScoreName(question.score)) {
     throw InputError(
         fmt::format("--limit: '{}' is no limit: expected 'completes', or SCORE<=VALUE "
                     "or SCORE>=VALUE with a score of `aisle score --list`, for "
@@ -107,9 +108,9 @@ std::string Name(CommitState state) {
 /// Builds and drives one commit after the other.
 class Trials {
  public:
-  Trials(const Options& options, Suite suite, SystemSpec system)
+  Trials(const Options& options, Question question, Suite suite, SystemSpec system)
       : options_(options),
-        question_(QuestionFromText(options.limit)),
+        question_(std::move(question)),
         suite_(std::move(suite)),
         system_(std::move(system)),
         source_(system_.external->repository, fs::path(options.out) / "source") {
@@ -217,14 +218,15 @@ int Say(const Options& options, const fs::path& repository, const BisectOutcome&
 }
 
 int RunBisect(const Options& options) {
+  const Question question = QuestionFromText(options.limit);
   const std::vector<Suite> suites = LoadInputs({.files = {options.suite}});
   const SystemSpec system = SystemToBuild(suites.front(), options);
   const fs::path repository = system.external->repository;
   const std::vector<std::string> commits = CommitsBetween(repository, options.good, options.bad);
   CheckScenes(suites);
-  Trials trials(options, suites.front(), system);
+  Trials trials(options, question, suites.front(), system);
   const auto attempt = [&](const std::string& commit) { return trials.Attempt(commit); };
-  const CommitTrial good = attempt(options.good);
+  const CommitTrial good = attempt(FullCommit(repository, options.good));
   CheckEnd(good, CommitState::kGood, options.good);
   const CommitTrial bad = attempt(commits.back());
   CheckEnd(bad, CommitState::kBad, options.bad);

@@ -1,5 +1,7 @@
 #include "harness/cli/system_choice.h"
 
+#include "harness/io/input_error.h"
+#include "harness/plugs/steering_options.h"
 #include "harness/plugs/systems.h"
 
 namespace aisle {
@@ -13,6 +15,13 @@ void AddSystemChoice(CLI::App* command, SystemChoice* choice) {
 SystemSpec SpecOf(const SystemChoice& choice) {
   SystemSpec spec = BuiltIn(choice.name);
   spec.options = OptionsFromText(choice.set, FindSystem(choice.name));
+  for (const auto& [path, value] : spec.options) {
+    if (!IsSteeringOption(path)) continue;
+    throw InputError(
+        fmt::format("--set {}: nobody steers here; `aisle run` drives scenes with a `drive`: "
+                    "reports/closed_loop.md",
+                    path));
+  }
   return spec;
 }
 

@@ -17,7 +17,8 @@ struct SystemChoice {
 /// --system and --set, with `choice` as the default.
 void AddSystemChoice(CLI::App* command, SystemChoice* choice);
 
-/// Throws InputError for a system or an option that is not known.
+/// Throws InputError for a system or an option that is not known, and for one that says how to
+/// steer: commands with this choice let the system look on.
 SystemSpec SpecOf(const SystemChoice& choice);
 
 }  // namespace aisle

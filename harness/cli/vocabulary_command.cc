@@ -1,4 +1,6 @@
+#include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
+#include "harness/cli/early_checks.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/dataset.h"
 #include "harness/io/input_error.h"
@@ -42,7 +44,22 @@ std::vector<FrameRequest> Sparse(const std::vector<FrameRequest>& schedule, std:
   return chosen;
 }
 
+/// All of them, before the first is rendered. Throws InputError.
+void CheckSources(const Options& options) {
+  std::vector<std::string> scenes;
+  for (const std::string& source : options.sources) {
+    if (fs::is_directory(source)) {
+      OpenRecording(source, DatasetFormatFromName(options.format));
+    } else {
+      scenes.push_back(source);
+    }
+  }
+  CheckSceneFiles(scenes);
+}
+
 int Train(const Options& options) {
+  CheckCanBeWritten(options.out);
+  CheckSources(options);
   std::vector<cv::Mat1b> images;
   ProgressLine line;
   for (std::size_t i = 0; i < options.sources.size(); ++i) {
@@ -71,14 +88,16 @@ void AddVocabularyCommand(CLI::App* app, Action* action) {
   vocabulary->footer("Example: ./aisle vocabulary train scenes/paper/*.yaml --out warehouse.voc");
   const auto options = std::make_shared<Options>();
   CLI::App* train = vocabulary->add_subcommand("train", "learns them from scenes or recordings");
-  train->add_option("SOURCES", options->sources, "scene files and folders of recordings")
-      ->required();
+  train->add_option("SOURCES", options->sources, "scenes and folders of recordings")
+      ->required()
+      ->transform(ByName());
   train->add_option("--out", options->out, "the vocabulary file")->required();
   train->add_option("--frames", options->frames, "per source, evenly spread; default 16")
       ->check(CLI::Range(1, 10000));
   train->add_option("--format", options->format, "of folders: euroc (default) or kitti")
       ->check(CLI::IsMember({"euroc", "kitti"}));
-  train->add_option("--twin", options->twin, "of scenes: empty (default), live or frozen");
+  train->add_option("--twin", options->twin, "of scenes; default empty")
+      ->check(CLI::IsMember(TwinNames()));
   train->add_option("--seed", options->seed, "of the first scene; each next one takes one more");
   train->add_option("--threads", options->threads, "0: all; never changes a bit of the file");
   train->footer(

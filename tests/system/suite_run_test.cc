@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
 
@@ -324,6 +325,36 @@ TEST_F(SuiteRunTest, BisectCallsNoCommitGoodThatItCouldNotDrive) {
   EXPECT_EQ(said.code, 3) << said.text;
   EXPECT_THAT(said.text, HasSubstr("the runs could not be made"));
   EXPECT_THAT(said.text, testing::Not(HasSubstr("good")));
+}
+
+/// A system that stands still, for its first commit; the second one says nothing.
+TEST_F(SuiteRunTest, BisectNamesEveryCommitInFull) {
+  const fs::path repository = folder_ / "mine";
+  const auto commit = [&](const std::string& tag, const std::string& script) {
+    WriteFileAtomically(repository / "slam", script);
+    const std::string line = fmt::format(
+        "cd '{}' && git init -q && git add slam && git -c user.name=a -c user.email=a@b commit -qm "
+        "{} && git tag {}",
+        repository.string(), tag, tag);
+    ASSERT_EQ(std::system(line.c_str()), 0);
+  };
+  commit("v1",
+         "awk -F, '!/#/ { printf \"%.9f 0 0 0 0 0 0 1\\n\", $1 / 1e9 }' "
+         "\"$1/mav0/cam0/data.csv\" > \"$2\"\n");
+  commit("v2", "exit 1\n");
+  const std::string suite = Suite(
+      "mine", fmt::format("  - {{name: mine, command: 'sh {{source}}/slam {{dataset}} {{output}}', "
+                          "repository: {}, build: 'true'}}\n",
+                          repository.string()));
+  const Said said = Run({"bisect", "v1", "v2", suite, "--scene", "short", "--limit", "completes",
+                         "--out", Out("bisect"), "--json"});
+  ASSERT_EQ(said.code, 0) << said.text;
+  const std::size_t begin = said.text.find('{'), end = said.text.rfind('}') + 1;
+  const auto trials = nlohmann::json::parse(said.text.substr(begin, end - begin)).at("trials");
+  EXPECT_EQ(trials.size(), 2u);
+  for (const nlohmann::json& trial : trials) {
+    EXPECT_THAT(trial.at("commit").get<std::string>(), testing::MatchesRegex("[0-9a-f]{40}"));
+  }
 }
 
 TEST_F(SuiteRunTest, ANightThatDoesNotEndLeavesNoReportOfTheLast) {
