@@ -40,22 +40,49 @@ std::optional<std::uint64_t> TakeSeed(std::string* text) {
   return seed;
 }
 
+bool IsThere(const std::string& source) {
+  std::error_code error;
+  return !source.empty() && std::filesystem::exists(SceneFile(source), error);
+}
+
+/// Takes "FROM-TO" from behind the last colon into the view; false where none stands there.
+bool TakeStretch(std::string* text, BenchView* view) {
+  const std::size_t colon = text->rfind(':');
+  if (colon == std::string::npos) return false;
+  int from = 0, to = 0;
+  char rest = 0;
+  if (std::sscanf(text->c_str() + colon + 1, "%d-%d%c", &from, &to, &rest) != 2 || from < 0 ||
+      to <= from) {
+    return false;
+  }
+  text->resize(colon);
+  view->from = from;
+  view->to = to;
+  return true;
+}
+
+/// What is there may have a colon or an @ in its name: it is taken whole, or up to its stretch.
+bool TakeByWholeName(std::string* text, BenchView* view) {
+  if (IsThere(*text)) return true;
+  std::string source = *text;
+  BenchView stretch = *view;
+  if (!TakeStretch(&source, &stretch) || !IsThere(source)) return false;
+  *text = source;
+  *view = stretch;
+  return true;
+}
+
 }  // namespace
 
 BenchView ParseView(const std::string& text) {
   BenchView view{.text = text, .path = {}};
   std::string source = text;
-  // An existing folder may have any name.
-  if (!std::filesystem::is_directory(source)) view.seed = TakeSeed(&source);
-  const std::size_t colon = source.rfind(':');
-  if (colon != std::string::npos) {
-    char rest = 0;
-    if (std::sscanf(source.c_str() + colon + 1, "%d-%d%c", &view.from, &view.to, &rest) != 2 ||
-        view.from < 0 || view.to <= view.from) {
+  if (!TakeByWholeName(&source, &view)) {
+    view.seed = TakeSeed(&source);
+    if (source.find(':') != std::string::npos && !TakeStretch(&source, &view)) {
       throw InputError(Printable(text) +
                        ": expected SOURCE:FROM-TO, for example paper/scene2:90-130");
     }
-    source.resize(colon);
   }
   view.path = SceneFile(source);
   if (!std::filesystem::exists(view.path)) {

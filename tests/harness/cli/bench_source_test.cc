@@ -34,6 +34,25 @@ TEST(ParseViewTest, AFolderIsARecording) {
   EXPECT_EQ(view.to, 5);
 }
 
+TEST(ParseViewTest, ARecordingMayHaveAnyName) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(testing::TempDir()) / "names";
+  for (const char* name : {"aisle@lab", "12:30", "12:30-31", "run@3:1-2"}) {
+    const std::string path = (folder / name).string();
+    fs::create_directories(path);
+    const BenchView whole = ParseView(path), part = ParseView(path + ":3-5");
+    EXPECT_EQ(whole.path, path);
+    EXPECT_EQ(whole.from, 0);
+    EXPECT_EQ(part.path, path);
+    EXPECT_EQ(part.from, 3);
+    EXPECT_EQ(part.to, 5);
+    EXPECT_FALSE(part.seed);
+    EXPECT_THROW(ParseView(path + ":5-3"), InputError);
+    EXPECT_THROW(ParseView(path + "@2"), InputError);
+  }
+  fs::remove_all(folder);
+}
+
 TEST(ParseViewTest, WhatIsNoStretchIsRefused) {
   for (const char* text :
        {"paper/scene2:", "paper/scene2:5", "paper/scene2:9-3", "paper/scene2:-1-3",
