@@ -2,7 +2,7 @@
 
 #include "harness/judge/breaks.h"
 #include "harness/judge/cell.h"
-#include "harness/judge/seed_values.h"
+#include "harness/record/seed_values.h"
 #include "harness/score/statistics.h"
 
 namespace aisle {

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "harness/judge/cell.h"
-#include "harness/judge/seed_values.h"
+#include "harness/record/seed_values.h"
 #include "harness/score/statistics.h"
 
 namespace aisle {

@@ -1,6 +1,7 @@
 #include "harness/record/group.h"
 
 #include "harness/io/hash.h"
+#include "harness/record/seed_values.h"
 #include "harness/score/statistics.h"
 
 namespace aisle {
@@ -12,6 +13,11 @@ T& FindOrAdd(std::vector<T>& list, const Same& same, const T& fresh) {
   if (at != list.end()) return *at;
   list.push_back(fresh);
   return list.back();
+}
+
+std::optional<double> ValueOf(const RunRecord& run, const std::string& score) {
+  const auto at = run.scores.find(score);
+  return at == run.scores.end() ? std::nullopt : at->second.value;
 }
 
 }  // namespace
@@ -71,19 +77,18 @@ std::vector<std::pair<std::string, int>> SystemsInOrder(const std::vector<SceneR
 }
 
 std::vector<double> ScoresOf(const std::vector<const RunRecord*>& runs, const std::string& score) {
-  std::vector<double> values;
-  for (const RunRecord* run : runs) {
-    const auto at = run->scores.find(score);
-    if (at != run->scores.end() && at->second.value) values.push_back(*at->second.value);
-  }
-  return values;
+  return MediansBySeed(runs, [&](const RunRecord& run) { return ValueOf(run, score); });
+}
+
+bool AllHave(const std::vector<const RunRecord*>& runs, const std::string& score) {
+  return std::ranges::all_of(
+      runs, [&](const RunRecord* run) { return ValueOf(*run, score).has_value(); });
 }
 
 std::optional<double> MedianScore(const std::vector<const RunRecord*>& runs,
                                   const std::string& score) {
-  const std::vector<double> values = ScoresOf(runs, score);
-  if (values.empty() || values.size() < runs.size()) return std::nullopt;
-  return Quantile(values, 0.5);
+  if (runs.empty() || !AllHave(runs, score)) return std::nullopt;
+  return Quantile(ScoresOf(runs, score), 0.5);
 }
 
 bool AreWholeDrives(const std::vector<const RunRecord*>& runs) {

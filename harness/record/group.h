@@ -9,7 +9,7 @@
 
 namespace aisle {
 
-/// All runs of one system on one version of one scene: they differ by seed.
+/// All runs of one system on one version of one scene: they differ by seed and repeat.
 struct SystemRuns {
   std::string system;
   int color = 0;  ///< style of its lines (StylesOf): the same in every report
@@ -34,7 +34,9 @@ std::vector<std::pair<std::string, int>> SystemsInOrder(const std::vector<SceneR
 /// In the order of the runs. The pointers lead into `results`.
 std::vector<SceneRuns> GroupByScene(const Results& results);
 
-/// Median over the runs that have the score; absent if one of them has not.
+bool AllHave(const std::vector<const RunRecord*>& runs, const std::string& score);
+
+/// Median over the seeds (ScoresOf); absent if one of the runs has no such score.
 std::optional<double> MedianScore(const std::vector<const RunRecord*>& runs,
                                   const std::string& score);
 
@@ -43,7 +45,7 @@ std::optional<double> MedianScore(const std::vector<const RunRecord*>& runs,
 /// the hard part missing has a small error. Runs that do not tell their coverage count as whole.
 bool AreWholeDrives(const std::vector<const RunRecord*>& runs);
 
-/// The score's values of the runs that have one, in their order.
+/// The score of each seed that has one, of a seed that ran several times the median of its repeats.
 std::vector<double> ScoresOf(const std::vector<const RunRecord*>& runs, const std::string& score);
 
 /// The run that went worst: one that failed first, else the one of the largest error

@@ -8,6 +8,7 @@
 
 #include "harness/io/input_error.h"
 #include "harness/record/group.h"
+#include "harness/record/seed_values.h"
 #include "harness/score/statistics.h"
 
 namespace aisle {
@@ -133,7 +134,7 @@ TrendPoint PointOf(const Results& results, const SceneRuns& scene, const SystemR
                    .system = system.system,
                    .score = score,
                    .median = {},
-                   .runs = system.runs.size(),
+                   .seeds = CountSeeds(system.runs),
                    .limit = LimitOf(results, scene, system, score),
                    .version = system.runs.front()->system_version};
   const std::vector<double> values = ScoresOf(system.runs, score);
@@ -142,9 +143,10 @@ TrendPoint PointOf(const Results& results, const SceneRuns& scene, const SystemR
     point.median = Quantile(values, 0.5);
     point.high = Quantile(values, 0.75);
   }
-  for (const RunRecord* run : system.runs) {
-    point.failed += IsComplete(run->status) ? 0 : 1;
-  }
+  std::vector<const RunRecord*> failed;
+  std::ranges::copy_if(system.runs, std::back_inserter(failed),
+                       [](const RunRecord* run) { return !IsComplete(run->status); });
+  point.failed = CountSeeds(failed);
   return point;
 }
 
@@ -203,7 +205,7 @@ void AppendToHistory(const fs::path& path, const Results& results, const fs::pat
         for (const auto& value : {point.median, point.low, point.high, point.limit}) {
           insert.Bind(++at, value);
         }
-        insert.Bind(++at, point.runs);
+        insert.Bind(++at, point.seeds);
         insert.Bind(++at, point.failed);
         insert.Step();
       }
@@ -235,7 +237,7 @@ std::vector<TrendPoint> ReadHistory(const fs::path& path, const std::string& sui
                       .median = select.Number(8),
                       .low = select.Number(9),
                       .high = select.Number(10),
-                      .runs = count(12),
+                      .seeds = count(12),
                       .failed = count(13),
                       .limit = select.Number(11),
                       .version = select.Text(6),

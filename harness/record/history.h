@@ -15,8 +15,8 @@ struct TrendPoint {
   std::string scene, twin, system, score;
   std::optional<double> median;
   std::optional<double> low = {}, high = {};  ///< quartiles
-  std::size_t runs = 0;                       ///< seeds
-  std::size_t failed = 0;            ///< of them, those that crashed, hung or left nonsense
+  std::size_t seeds = 0;                      ///< each counts once, however often it ran
+  std::size_t failed = 0;  ///< of them, those a run of which crashed, hung or left nonsense
   std::optional<double> limit = {};  ///< what the night was held against
   std::string version = {};          ///< of a foreign system, as it said
   std::string folder = {};  ///< of the night's report, from the file's folder on; empty: not known

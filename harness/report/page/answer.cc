@@ -5,6 +5,7 @@
 
 #include "harness/common/first_of_many.h"
 #include "harness/judge/twins.h"
+#include "harness/record/seed_values.h"
 #include "harness/report/page/drive_outcome.h"
 #include "harness/report/page/parts.h"
 #include "harness/score/statistics.h"
@@ -16,10 +17,10 @@ constexpr std::size_t kMostSentences = 3;  ///< more is a table, which stands be
 
 struct SystemError {
   SystemSpec system;
-  double ate_m = 0;      ///< of the runs that have one
+  double ate_m = 0;      ///< of the seeds that have one
   bool is_whole = true;  ///< AreWholeDrives: may be held against another's
-  double coverage = 1;   ///< [0, 1], of these runs
-  std::size_t with_error = 0, runs = 0;
+  double coverage = 1;   ///< [0, 1], of these seeds
+  std::size_t with_error = 0, seeds = 0;
 };
 
 /// The systems of one scene as written, in the order of the suite, with their median errors.
@@ -69,13 +70,13 @@ std::vector<SceneErrors> CollectErrors(const Results& results) {
         continue;
       }
       const std::vector<double> coverage = ScoresOf(system.runs, "coverage");
-      const bool whole = AreWholeDrives(system.runs) && errors_m.size() == system.runs.size();
+      const bool whole = AreWholeDrives(system.runs) && AllHave(system.runs, "ate_rmse_m");
       of_scene.known.push_back({.system = system.runs.front()->spec.system,
                                 .ate_m = Quantile(errors_m, 0.5),
                                 .is_whole = whole,
                                 .coverage = coverage.empty() ? 1 : Quantile(coverage, 0.5),
                                 .with_error = errors_m.size(),
-                                .runs = system.runs.size()});
+                                .seeds = CountSeeds(system.runs)});
     }
   }
   return collected;
@@ -124,13 +125,13 @@ std::string WonBackInWords(const SceneErrors& errors) {
   return parts.empty() ? "" : ": " + Listed(parts);
 }
 
-/// " in 8 of 9 runs", " over the 49 % of the frames it has a pose for": of how much an error is
+/// " in 8 of 9 seeds", " over the 49 % of the frames it has a pose for": of how much an error is
 /// that is not of every run's whole drive.
 std::string ExtentInWords(const SystemError& error) {
   constexpr double kWhole = 0.9995;  // what is said as 100 %
   std::string text;
-  if (error.with_error < error.runs) {
-    text += fmt::format(" in {} of {} runs", error.with_error, error.runs);
+  if (error.with_error < error.seeds) {
+    text += fmt::format(" in {} of {} seeds", error.with_error, error.seeds);
   }
   if (!error.is_whole && error.coverage < kWhole) {
     text +=

@@ -45,14 +45,12 @@ bool CanSteer(const SystemRuns& system) {
 
 DriveOutcome OutcomeOf(const std::vector<const RunRecord*>& runs) {
   DriveOutcome outcome{.runs = runs.size()};
-  std::vector<double> docking;
   for (const RunRecord* run : runs) {
     const auto end = run->scores.find("docking_error_m");
     if (end == run->scores.end() || !end->second.value) {
       ++outcome.undriven;
       continue;
     }
-    docking.push_back(*end->second.value);
     const double things = ValueOf(*run, "collisions_static"),
                  people = ValueOf(*run, "collisions_person");
     outcome.missed += ValueOf(*run, "goal_reached") < 1 ? 1 : 0;
@@ -60,6 +58,7 @@ DriveOutcome OutcomeOf(const std::vector<const RunRecord*>& runs) {
     outcome.hit_people += people > 0 ? 1 : 0;
     outcome.hit_others += ValueOf(*run, "collisions") > things + people ? 1 : 0;
   }
+  const std::vector<double> docking = ScoresOf(runs, "docking_error_m");
   if (!docking.empty()) outcome.docking_m = Quantile(docking, 0.5);
   return outcome;
 }

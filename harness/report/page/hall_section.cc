@@ -46,7 +46,8 @@ std::string HallSection(const std::vector<SceneRuns>& scenes) {
   }
   return text +
          "</table></div>\n<p class=\"soft small\">Median RMSE over the final track in "
-         "centimetres, of that many runs that came to an end. Halls meet different scenes: compare "
+         "centimetres, of that many drives that came to an end, a seed of a scene each. Halls meet "
+         "different scenes: compare "
          "within a row.</p>\n";
 }
 

@@ -11,7 +11,7 @@ namespace aisle {
 struct Night {
   std::string started, commit;
   std::string folder;      ///< of its report, from the history's folder on; empty: not known
-  std::size_t failed = 0;  ///< runs
+  std::size_t failed = 0;  ///< seeds, of all systems and scenes
   double day = 0;          ///< days since the first night; its number where dates are none
 };
 
@@ -34,7 +34,7 @@ NightBook ReadNights(const std::vector<TrendPoint>& points);
 struct NightChange {
   const NightSeries* series = nullptr;
   std::size_t night = 0;  ///< the first of the new kind
-  bool failing = false;   ///< runs fail since then; else the median moved
+  bool failing = false;   ///< seeds fail since then; else the median moved
   double before = 0, after = 0;
   bool worse = true;
 };

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "harness/record/frames_csv.h"
+#include "harness/record/seed_values.h"
 #include "harness/report/chart/charts.h"
 #include "harness/report/chart/time_chart.h"
 #include "harness/report/markup/html.h"
@@ -113,19 +114,17 @@ std::set<std::string> StagesOf(const RunRecord& run) {
   return stages;
 }
 
-/// A stage's mean over all frames, in the median of the runs: it is told over those frames that had
-/// it, and a run that never came to it spent nothing on it. Runs that tell no stage at all say
+/// A stage's mean over all frames, in the median of the seeds: it is told over those frames that
+/// had it, and a run that never came to it spent nothing on it. Runs that tell no stage at all say
 /// nothing.
 double PerFrame(const std::vector<const RunRecord*>& runs, const std::string& stage) {
-  std::vector<double> values;
-  for (const RunRecord* run : runs) {
-    if (run->frames == 0 || StagesOf(*run).empty()) continue;
-    const auto at = run->scores.find("ms_" + stage + "_mean");
-    const bool known = at != run->scores.end() && at->second.value;
-    values.push_back(known ? *at->second.value * static_cast<double>(at->second.n) /
-                                 static_cast<double>(run->frames)
-                           : 0);
-  }
+  const auto per_frame = [&](const RunRecord& run) -> std::optional<double> {
+    if (run.frames == 0 || StagesOf(run).empty()) return std::nullopt;
+    const auto at = run.scores.find("ms_" + stage + "_mean");
+    if (at == run.scores.end() || !at->second.value) return 0;
+    return *at->second.value * static_cast<double>(at->second.n) / static_cast<double>(run.frames);
+  };
+  const std::vector<double> values = MediansBySeed(runs, per_frame);
   return values.empty() ? 0 : Quantile(values, 0.5);
 }
 

@@ -2,6 +2,7 @@
 
 #include "harness/io/places.h"
 #include "harness/io/shell_word.h"
+#include "harness/record/seed_values.h"
 #include "harness/report/markup/html.h"
 #include "harness/report/page/album_section.h"
 #include "harness/report/page/answer.h"
@@ -18,23 +19,18 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string ErrorsInWords(const SystemRuns& system) {
-  const std::vector<double> errors_m = ScoresOf(system.runs, "ate_rmse_m");
+  std::string unit;
+  const ValuesBySeed by_seed = ValuesOf(system.runs, "ate_rmse_m", &unit);
+  const std::vector<double> errors_m = Plain(by_seed);
   if (errors_m.empty()) return system.system + " has no error to tell";
   std::string text =
       fmt::format("{} is off by {}", system.system, LengthInWords(Quantile(errors_m, 0.5)));
   if (errors_m.size() < 2) return text;
-  std::vector<const RunRecord*> known;
-  for (const RunRecord* run : system.runs) {
-    const auto ate = run->scores.find("ate_rmse_m");
-    if (ate != run->scores.end() && ate->second.value) known.push_back(run);
-  }
-  const auto larger = [](const RunRecord* a, const RunRecord* b) {
-    return *a->scores.at("ate_rmse_m").value < *b->scores.at("ate_rmse_m").value;
-  };
-  const RunRecord* worst = *std::max_element(known.begin(), known.end(), larger);
-  return text + fmt::format(" in the median of {} runs, from {} to {} (worst: {})", errors_m.size(),
-                            LengthInWords(Quantile(errors_m, 0)),
-                            LengthInWords(Quantile(errors_m, 1)), SeedOf(worst->spec));
+  const auto worst = std::ranges::max_element(
+      by_seed, [](const auto& a, const auto& b) { return a.second < b.second; });
+  return text + fmt::format(" in the median of {} seeds, from {} to {} (worst: seed {})",
+                            errors_m.size(), LengthInWords(Quantile(errors_m, 0)),
+                            LengthInWords(worst->second), worst->first);
 }
 
 /// "; 2 of 9 runs failed, 1 lost: seed 4 crashed, seed 5 lost and seed 7 timeout", or nothing.

@@ -4,6 +4,7 @@
 #include <set>
 #include <span>
 
+#include "harness/record/seed_values.h"
 #include "harness/report/markup/html.h"
 #include "harness/report/page/parts.h"
 #include "harness/score/statistics.h"
@@ -90,7 +91,7 @@ double Mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// The median, or mean, of the runs that have the score; how many these are where some have not,
+/// The median, or mean, of the seeds that have the score; how many these are where some have not,
 /// and whether it was computed from something else than its name says.
 std::string ScoreCell(const SystemRuns& system, const Column& column) {
   const std::vector<double> values = ScoresOf(system.runs, column.score);
@@ -102,8 +103,8 @@ std::string ScoreCell(const SystemRuns& system, const Column& column) {
   const double value = column.is_mean ? Mean(values) : Quantile(values, 0.5);
   std::string cell =
       fmt::format("<td>{}{:.{}f}", derived ? "≈" : "", value * column.factor, column.decimals);
-  if (values.size() < system.runs.size()) {
-    cell += fmt::format(" <span class=\"fail\">{}/{}</span>", values.size(), system.runs.size());
+  if (const std::size_t seeds = CountSeeds(system.runs); values.size() < seeds) {
+    cell += fmt::format(" <span class=\"fail\">{}/{}</span>", values.size(), seeds);
   }
   return cell;
 }

@@ -45,11 +45,11 @@ std::string TipOf(const TrendPoint& point, const NightSeries& series) {
   if (point.median) {
     tip += fmt::format(": {:.4g} {}", followed.factor * *point.median, followed.unit);
   }
-  if (point.low && point.high && point.runs > 1) {
+  if (point.low && point.high && point.seeds > 1) {
     tip += fmt::format(" ({:.4g} to {:.4g})", followed.factor * *point.low,
                        followed.factor * *point.high);
   }
-  if (point.failed > 0) tip += fmt::format("\n{} of {} runs failed", point.failed, point.runs);
+  if (point.failed > 0) tip += fmt::format("\n{} of {} seeds failed", point.failed, point.seeds);
   return tip;
 }
 

@@ -55,7 +55,7 @@ std::string ChangeInWords(const NightChange& change, const NightBook& book) {
   const Night& night = book.nights[change.night];
   const std::string what =
       change.failing
-          ? fmt::format("{:.0f} of {} runs fail", change.after, series.points.back()->runs)
+          ? fmt::format("{:.0f} of {} seeds fail", change.after, series.points.back()->seeds)
           : fmt::format("{} from {} to {}", Followed(series.score).title,
                         Value(series, change.before), Value(series, change.after));
   const std::size_t count = book.nights.size() - change.night;
@@ -133,7 +133,7 @@ std::string ChangeItem(const NightChange& change, const NightBook& book, const T
 std::string NightsTable(const NightBook& book, const TrendPlace& place) {
   std::string text =
       "<h2 id=\"nights\">The nights</h2>\n<details><summary>all of them</summary><div "
-      "class=\"wide\"><table><tr><th>started<th class=\"left\">commit<th>runs that failed\n";
+      "class=\"wide\"><table><tr><th>started<th class=\"left\">commit<th>seeds that failed\n";
   for (const Night& night : book.nights) {
     std::error_code error;
     const bool there =
@@ -208,7 +208,7 @@ std::string TrendSection(const std::vector<TrendPoint>& points, const TrendPlace
       "<h1>{} nights</h1>\n{}<p class=\"soft small\">From {} to {}. Since: the first night from "
       "which on every night lies beyond what the nights before it let one expect, by a tenth of "
       "their median and four times their median deviation from it. A point leads to its night; "
-      "crosses are nights with runs that failed, at the top where none came to its end, dashed "
+      "crosses are nights with seeds that failed, at the top where none came to its end, dashed "
       "lines the limits, bands the middle half of "
       "the seeds. Every score of every night is in the SQLite file beside the reports.</p>\n",
       book.nights.size(), ChangeList(book, changes, place), Escape(book.nights.front().started),

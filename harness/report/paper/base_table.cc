@@ -1,5 +1,6 @@
 #include "harness/report/paper/base_table.h"
 
+#include "harness/record/seed_values.h"
 #include "harness/report/paper/spread.h"
 #include "harness/score/statistics.h"
 
@@ -30,10 +31,7 @@ Cells CellsOf(const SceneRuns& scene) {
 
 std::vector<double> Errors(const std::vector<const RunRecord*>& runs) {
   constexpr const char* kScore = "ate_rmse_m";
-  std::vector<double> errors;
-  if (!MedianScore(runs, kScore)) return errors;
-  for (const RunRecord* run : runs) errors.push_back(*run->scores.at(kScore).value);
-  return errors;
+  return AllHave(runs, kScore) ? ScoresOf(runs, kScore) : std::vector<double>{};
 }
 
 std::string ErrorText(double error_m) { return fmt::format("{:.4f}", error_m); }
@@ -104,7 +102,7 @@ std::optional<NumberTable> BaseTable(const std::vector<SceneRuns>& scenes) {
     if (scene.twin != "live") continue;
     const Cells cells = CellsOf(scene);
     std::size_t seeds = 0;
-    for (const auto& [cell, runs] : cells) seeds = std::max(seeds, runs.size());
+    for (const auto& [cell, runs] : cells) seeds = std::max(seeds, CountSeeds(runs));
     table.rows.push_back(RowOf(scene.scene, head, cells, MedianText));
     if (seeds < 2) continue;
     table.rows.push_back(

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "harness/record/seed_values.h"
 #include "harness/report/paper/base_table.h"
 #include "harness/report/paper/printed.h"
 #include "harness/report/paper/spread.h"
@@ -124,16 +125,15 @@ bool HasNumber(const NumberTable::Row& row) {
 std::string SpreadCell(const SceneRuns& scene, const std::string& system, const Column& column) {
   for (const SystemRuns& runs : scene.systems) {
     if (runs.system != system || !MedianScore(runs.runs, column.score)) continue;
-    std::vector<double> values;
-    for (const RunRecord* run : runs.runs) values.push_back(*run->scores.at(column.score).value);
-    return SpreadText(values, [&](double value) { return Text(value, column); });
+    return SpreadText(ScoresOf(runs.runs, column.score),
+                      [&](double value) { return Text(value, column); });
   }
   return "-";
 }
 
 std::size_t SeedsOf(const SceneRuns& scene) {
   std::size_t most = 0;
-  for (const SystemRuns& runs : scene.systems) most = std::max(most, runs.runs.size());
+  for (const SystemRuns& runs : scene.systems) most = std::max(most, CountSeeds(runs.runs));
   return most;
 }
 

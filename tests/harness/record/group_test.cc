@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/record/seed_values.h"
+
 namespace aisle {
 namespace {
 
@@ -42,6 +44,23 @@ TEST(GroupTest, TheWorstRunIsTheOneThatFailedElseTheLargestError) {
   EXPECT_EQ(WorstRun({&small, &large, &none}), &large);
   EXPECT_EQ(WorstRun({&small, &crashed, &large}), &crashed);
   EXPECT_EQ(WorstRun({}), nullptr);
+}
+
+TEST(GroupTest, ASeedCountsOnceHoweverOftenItRan) {
+  std::vector<RunRecord> all;
+  for (const double ate_m : {0.1, 0.1, 0.1, 0.4}) all.push_back(RunOf(1, ate_m));
+  all.push_back(RunOf(2, 0.5));
+  all.push_back(RunOf(3, 0.6));
+  for (std::size_t i = 0; i < 4; ++i) all[i].spec.repeat = static_cast<int>(i) + 1;
+  std::vector<const RunRecord*> runs;
+  for (const RunRecord& run : all) runs.push_back(&run);
+  EXPECT_THAT(ScoresOf(runs, "ate_rmse_m"), testing::ElementsAre(0.1, 0.5, 0.6));
+  EXPECT_EQ(MedianScore(runs, "ate_rmse_m"), 0.5);
+  EXPECT_EQ(CountSeeds(runs), 3u);
+  all.back().spec.scene = "t";  // another scene's seed 3 is another drive, and so would its 1 be
+  all.back().spec.seed = 1;
+  EXPECT_THAT(ScoresOf(runs, "ate_rmse_m"), testing::ElementsAre(0.1, 0.5, 0.6));
+  EXPECT_EQ(CountSeeds(runs), 3u);
 }
 
 TEST(GroupTest, AMedianNeedsAllRunsAndTheListThoseThatHaveOne) {

@@ -75,12 +75,41 @@ TEST_F(HistoryTest, ANightTellsItsSpreadItsLimitItsFailuresAndWhereItLies) {
     EXPECT_EQ(point.median, 0.02);  // of those that came to an end
     EXPECT_EQ(point.low, 0.02);
     EXPECT_EQ(point.limit, 0.05);
-    EXPECT_EQ(point.runs, 2u);
+    EXPECT_EQ(point.seeds, 2u);
     EXPECT_EQ(point.failed, 1u);
     EXPECT_EQ(point.version, "v1.4");
     EXPECT_EQ(point.folder, "out/night one");
   }
   EXPECT_TRUE(found);
+}
+
+/// As the gate counts them: a seed that ran four times is one seed, its value the median of them.
+TEST_F(HistoryTest, RepeatsOfASeedAreNoSeeds) {
+  Results night = Night("2026-01-01T02:00:00Z", 0.02);
+  const auto add = [&](std::uint64_t seed, int repeat, double ate_m, RunStatus status) {
+    RunRecord run = night.runs.front();
+    run.spec.seed = seed;
+    run.spec.repeat = repeat;
+    run.status = status;
+    run.scores.at("ate_rmse_m").value = ate_m;
+    night.runs.push_back(run);
+  };
+  const RunRecord first = night.runs.front();
+  for (int repeat = 2; repeat <= 4; ++repeat) {
+    add(first.spec.seed, repeat, 0.02, repeat < 4 ? RunStatus::kCrashed : RunStatus::kOk);
+  }
+  add(first.spec.seed + 1, 1, 0.1, RunStatus::kOk);
+  add(first.spec.seed + 2, 1, 0.3, RunStatus::kOk);
+  AppendToHistory(file_, night);
+  std::size_t found = 0;
+  for (const TrendPoint& point : ReadHistory(file_, "nightly")) {
+    if (point.system != first.spec.system.name || point.score != "ate_rmse_m") continue;
+    ++found;
+    EXPECT_EQ(point.median, 0.1);
+    EXPECT_EQ(point.seeds, 3u);
+    EXPECT_EQ(point.failed, 1u);
+  }
+  EXPECT_EQ(found, 1u);
 }
 
 TEST_F(HistoryTest, AFileOfAnEarlierVersionIsBroughtUpToDate) {
@@ -99,7 +128,7 @@ TEST_F(HistoryTest, AFileOfAnEarlierVersionIsBroughtUpToDate) {
   const std::vector<TrendPoint> points = ReadHistory(file_, "nightly");
   ASSERT_FALSE(points.empty());
   EXPECT_EQ(points.front().median, 0.5);
-  EXPECT_EQ(points.front().runs, 9u);
+  EXPECT_EQ(points.front().seeds, 9u);
   EXPECT_EQ(points.front().failed, 0u);
   EXPECT_FALSE(points.front().low.has_value());
 }

@@ -55,7 +55,7 @@ class BadMonth(ServedReport):
         changes = self.text('.changes')
         self.assertIn('paper/scene2 live robust: ATE RMSE from', changes)
         self.assertIn('since 2026-01-12 (19 nights', changes)
-        self.assertIn('paper/scene3 live mine: 3 of 3 runs fail since 2026-01-20 (11 nights', changes)
+        self.assertIn('paper/scene3 live mine: 3 of 3 seeds fail since 2026-01-20 (11 nights', changes)
         self.assertIn('robust: step from 35 ms to 61 ms since 2026-01-25 (6 nights', changes)
         self.assertIn('./aisle bisect v1.4 v1.5', changes)  # whose versions are known
         self.assertEqual(page.log, [])
@@ -72,7 +72,7 @@ class BadMonth(ServedReport):
         page = self.open()
         page.follow(self.link('paper/scene2 live robust: ate_rmse_m', '.verdict'))
         answer = self.text('ul.answer')
-        self.assertRegex(answer, r'robust is off by [\d.]+ cm in the median of 3 runs, from [\d.]+ cm '
+        self.assertRegex(answer, r'robust is off by [\d.]+ cm in the median of 3 seeds, from [\d.]+ cm '
                                  r'to [\d.]+ cm \(worst: seed 3\)')
         self.assertIn('worst: seed 3', self.text('.charts'))
         self.assertIn('rerun paper.scene2/live/robust/3', self.text())

@@ -121,7 +121,7 @@ TEST_F(ReportTest, ACrashOfTheFirstSeedTakesNothingFromTheOthers) {
             Between(good, "aria-label=\"time per frame by stage\"", "</figure>"));
   EXPECT_THAT(good, HasSubstr("<td>≈35.0"));
   EXPECT_THAT(crashed, HasSubstr("<td>≈35.0"));
-  EXPECT_THAT(crashed, HasSubstr(" in 8 of 9 runs.</p>"));
+  EXPECT_THAT(crashed, HasSubstr(" in 8 of 9 seeds.</p>"));
 }
 
 /// Failed is what did not come to its end, lost what did with too few poses: in every place alike.

@@ -70,7 +70,7 @@ TEST(AnswerTest, ARunWithoutAnErrorTakesNothingFromTheOthers) {
   runs.back().scores.clear();
   runs.back().status = RunStatus::kCrashed;
   EXPECT_THAT(AnswerInWords(Of(runs)),
-              ElementsAre("On s, robust is off by 2.0 cm and plain by 19 cm in 8 of 9 runs."));
+              ElementsAre("On s, robust is off by 2.0 cm and plain by 19 cm in 8 of 9 seeds."));
 }
 
 TEST(AnswerTest, TakesMediansOverSeedsAndTellsWhoIsLost) {

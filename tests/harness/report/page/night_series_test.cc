@@ -36,7 +36,7 @@ History Random(unsigned seed) {
         point.twin = "live";
         point.system = system;
         point.score = score;
-        point.runs = 9;
+        point.seeds = 9;
         point.failed = random() % 5 == 0 ? 1 + random() % 3 : 0;
         if (random() % 8 != 0) point.median = 0.01 + unit(random) * (night > 6 ? 0.2 : 0.01);
         history.points.push_back(point);
@@ -138,7 +138,7 @@ TEST(TrendChart, ANightWithoutANumberIsAGapAndACrossAtTheTop) {
                       .median = ate_m,
                       .low = ate_m,
                       .high = ate_m,
-                      .runs = 9,
+                      .seeds = 9,
                       .failed = crashed ? 9u : 0u});
   }
   const NightBook book = ReadNights(points);

@@ -32,7 +32,7 @@ struct Month {
                       .median = ate_m,
                       .low = ate_m,
                       .high = ate_m,
-                      .runs = 9,
+                      .seeds = 9,
                       .failed = failed,
                       .limit = 0.03,
                       .version = version});
@@ -92,8 +92,8 @@ TEST(TrendsTest, NightsThatFailedStayAsMarks) {
   }
   const std::string section = TrendSection(month.points, {});
   EXPECT_THAT(section, HasSubstr("class=\"cross\""));
-  EXPECT_THAT(section, HasSubstr("9 of 9 runs failed"));
-  EXPECT_THAT(section, HasSubstr("9 of 9 runs fail since 2026-01-05 (last night"));
+  EXPECT_THAT(section, HasSubstr("9 of 9 seeds failed"));
+  EXPECT_THAT(section, HasSubstr("9 of 9 seeds fail since 2026-01-05 (last night"));
 }
 
 std::vector<std::string> AllOf(const std::string& page, const std::string& pattern) {
