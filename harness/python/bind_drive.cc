@@ -1,6 +1,10 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <mutex>
+
+#include "harness/contract/drive_names.h"
+#include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/loop/closed_drive.h"
 #include "harness/plugs/simulated_drive.h"
@@ -17,40 +21,6 @@
 namespace aisle::python {
 namespace {
 
-const char* NameOf(DriveMode mode) {
-  switch (mode) {
-    case DriveMode::kDriving:
-      return "driving";
-    case DriveMode::kWaiting:
-      return "waiting";
-    case DriveMode::kDegraded:
-      return "degraded";
-    case DriveMode::kStopped:
-      return "stopped";
-    case DriveMode::kScanner:
-      return "scanner";
-    case DriveMode::kArrived:
-      break;
-  }
-  return "arrived";
-}
-
-const char* NameOf(DriveEnd end) {
-  switch (end) {
-    case DriveEnd::kArrived:
-      return "arrived";
-    case DriveEnd::kContact:
-      return "contact";
-    case DriveEnd::kNoProgress:
-      return "no progress";
-    case DriveEnd::kTimeout:
-      return "timeout";
-    case DriveEnd::kFailed:
-      break;
-  }
-  return "failed";
-}
-
 /// A vehicle under way, steered by one of our systems or by who calls Step.
 class Drive {
  public:
@@ -59,6 +29,10 @@ class Drive {
       : seed_(seed), threads_(threads) {
     // Without a system only the steering can have options; any system checks those.
     const SystemSpec spec = SpecFrom(system.value_or("plain"), options);
+    if (const auto others = WithoutSteering(spec.options); !system && !others.empty()) {
+      throw InputError(others.begin()->first +
+                       ": without a system the steering alone has options (drive.*)");
+    }
     steering_ = SteeringOf(spec.options);
     if (steering_.taught)
       throw py::value_error("drive.taught: a suite teaches, this drive does not");
@@ -78,6 +52,7 @@ class Drive {
 
   FramePtr Reset() {
     const py::gil_scoped_release others_may_run;
+    const std::lock_guard one_at_a_time(mutex_);
     if (spec_) estimator_ = MakeSystem(*spec_, scene_->calibration(), {.threads = threads_});
     drive_.emplace(*scene_, LoopOptions{.steering = steering_, .seed = seed_});
     estimate_.reset();
@@ -85,11 +60,12 @@ class Drive {
   }
 
   FramePtr Step(const std::optional<NumberArray>& pose) {
-    if (!frame_) throw std::runtime_error("no drive is under way: call reset() first");
     if (spec_ && pose) throw py::value_error("pose: this drive is steered by " + spec_->name);
     std::optional<Eigen::Isometry3d> said;
     if (pose) said = PoseFrom(*pose, "pose");
     const py::gil_scoped_release others_may_run;
+    const std::lock_guard one_at_a_time(mutex_);
+    if (!frame_) throw std::runtime_error("no drive is under way: call reset() first");
     if (spec_) {
       estimate_ = estimator_->Process(frame_->shown.images, masks_(frame_->shown));
       said = estimate_->T_world_rig;
@@ -101,6 +77,7 @@ class Drive {
   /// With the twin that is told the truth, as the scores want it.
   Scorecard Scores() const {
     const py::gil_scoped_release others_may_run;
+    const std::lock_guard one_at_a_time(mutex_);
     DriveLog log = LogOf(scene_->course(), steering_);
     log.track = UnderWay().track();
     TruthLocaliser truth;
@@ -108,18 +85,33 @@ class Drive {
     return ScoreDrive(log);
   }
 
+  DriveSample Now() const {
+    const py::gil_scoped_release others_may_run;
+    const std::lock_guard one_at_a_time(mutex_);
+    return UnderWay().Now();
+  }
+  std::vector<DriveSample> Samples() const {
+    const py::gil_scoped_release others_may_run;
+    const std::lock_guard one_at_a_time(mutex_);
+    return UnderWay().track().samples;
+  }
+  std::optional<std::string> End() const {
+    const py::gil_scoped_release others_may_run;
+    const std::lock_guard one_at_a_time(mutex_);
+    return drive_ && !frame_ ? std::optional<std::string>(Name(drive_->track().end)) : std::nullopt;
+  }
+  const DriveScene& scene() const { return *scene_; }
+  std::optional<FrameEstimate> Estimate() const {
+    const py::gil_scoped_release others_may_run;
+    const std::lock_guard one_at_a_time(mutex_);
+    return estimate_;
+  }
+
+ private:
   const ClosedDrive& UnderWay() const {
     if (!drive_) throw std::runtime_error("no drive is under way: call reset() first");
     return *drive_;
   }
-  std::optional<std::string> End() const {
-    return drive_ && !frame_ ? std::optional<std::string>(NameOf(drive_->track().end))
-                             : std::nullopt;
-  }
-  const DriveScene& scene() const { return *scene_; }
-  const std::optional<FrameEstimate>& estimate() const { return estimate_; }
-
- private:
   FramePtr TakeNext() {
     frame_ = nullptr;
     const Exposure* exposure = drive_->Next();
@@ -134,6 +126,7 @@ class Drive {
   std::uint64_t seed_;
   int threads_;
   Steering steering_;
+  mutable std::mutex mutex_;        ///< one call at a time, whichever thread makes it
   std::optional<SystemSpec> spec_;  ///< none: who calls Step steers
   MaskMaker masks_;
   std::unique_ptr<DriveScene> scene_;
@@ -171,12 +164,12 @@ void BindVehicle(py::module_& module) {
       .def_readonly("clearance_actor_m", &DriveSample::clearance_actor_m,
                     "To the nearest person or vehicle; inf: far.")
       .def_property_readonly(
-          "mode", [](const DriveSample& vehicle) { return NameOf(vehicle.mode); },
+          "mode", [](const DriveSample& vehicle) { return Name(vehicle.mode); },
           "\"driving\", \"waiting\", \"degraded\", \"stopped\", \"scanner\" or \"arrived\".")
       .def("__repr__", [](const DriveSample& vehicle) {
         return fmt::format("<aisle.Vehicle at {:.2f} s, {:.2f} m along its route, {}>",
                            1e-9 * static_cast<double>(vehicle.stamp_ns), vehicle.route_m,
-                           NameOf(vehicle.mode));
+                           Name(vehicle.mode));
       });
 }
 
@@ -193,7 +186,9 @@ void BindDrive(py::module_& module) {
            py::arg("scene"), py::arg("system") = "robust", py::arg("seed") = 1,
            py::arg("options") = py::dict(), py::kw_only(), py::arg("threads") = 0,
            "system: one of systems(); None: your own, which tells each pose to step(). options: "
-           "those of the system and of\nthe steering, for example {\"drive.latency_ms\": 100}.")
+           "those of the system and of\nthe steering, for example {\"drive.latency_ms\": 100}; "
+           "without a "
+           "system the steering's alone.")
       .def("reset", &Drive::Reset,
            "Puts the vehicle to its start, with a new system. Returns the first Frame.")
       .def("step", &Drive::Step, py::arg("pose") = py::none(),
@@ -203,12 +198,9 @@ void BindDrive(py::module_& module) {
            "T_world_rig of the last frame in a world of your own\n(the same throughout), or None "
            "for "
            "lost.")
-      .def_property_readonly(
-          "vehicle", [](const Drive& drive) { return drive.UnderWay().Now(); }, "Vehicle now.")
-      .def_property_readonly(
-          "samples", [](const Drive& drive) { return drive.UnderWay().track().samples; },
-          "A list of Vehicle so far, 20 a second.")
-      .def_property_readonly("estimate", &Drive::estimate,
+      .def_property_readonly("vehicle", &Drive::Now, "Vehicle now.")
+      .def_property_readonly("samples", &Drive::Samples, "A list of Vehicle so far, 20 a second.")
+      .def_property_readonly("estimate", &Drive::Estimate,
                              "Estimate of the frame before, of a system of aisle's; else None.")
       .def_property_readonly("end", &Drive::End,
                              "\"arrived\", \"contact\", \"no progress\" or \"timeout\"; None while "

@@ -5,7 +5,9 @@
 
 #include "harness/contract/state_name.h"
 #include "harness/io/input_error.h"
+#include "harness/plugs/steering_options.h"
 #include "harness/plugs/systems.h"
+#include "harness/plugs/wheel_odometry.h"
 #include "harness/python/arrays.h"
 #include "harness/python/module.h"
 #include "harness/python/systems.h"
@@ -13,6 +15,15 @@
 
 namespace aisle::python {
 namespace {
+
+/// What a drive or a recording would heed: here it would do nothing, without a word.
+void RefuseWithoutEffect(const SystemSpec& spec) {
+  for (const auto& [path, value] : spec.options) {
+    if (!IsSteeringOption(path)) continue;
+    throw InputError(path + ": a Slam steers nothing; aisle.Drive takes it");
+  }
+  if (WantsOdometry(spec)) throw InputError("odometry: track() is told of no wheels");
+}
 
 class Slam {
  public:
@@ -22,6 +33,7 @@ class Slam {
     const SystemSetup setup{
         .threads = threads, .load_map = load_map, .localise_only = localise_only};
     const SystemSpec spec = SpecFrom(system, options);
+    RefuseWithoutEffect(spec);
     const py::gil_scoped_release others_may_run;
     try {
       estimator_ = MakeSystem(spec, calibration, setup);
@@ -63,7 +75,11 @@ class Slam {
     estimator_->SaveMap(file);
   }
 
-  const python::Track& live() const { return live_; }
+  python::Track Live() const {
+    const py::gil_scoped_release others_may_run;
+    const std::lock_guard one_at_a_time(mutex_);
+    return live_;
+  }
 
  private:
   void CheckSize(const cv::Mat1b& image, const char* name) const {
@@ -75,7 +91,7 @@ class Slam {
 
   StereoCalibration calibration_;
   std::unique_ptr<Estimator> estimator_;
-  std::mutex mutex_;  ///< one frame at a time, whichever thread brings it
+  mutable std::mutex mutex_;  ///< one frame at a time, whichever thread brings it
   python::Track live_, final_;
   std::int64_t frames_ = 0;
   bool finished_ = false;
@@ -148,14 +164,16 @@ void BindSlam(py::module_& module) {
   py::class_<Slam>(module, "Slam",
                    "A stereo SLAM, one for each drive. The same frames give the same poses to the "
                    "bit.")
-      .def(py::init<const StereoCalibration&, const py::dict&, const std::string&, int,
-                    const std::filesystem::path&, bool>(),
-           py::arg("calibration"), py::arg("options") = py::dict(), py::kw_only(),
-           py::arg("system") = "robust", py::arg("threads") = 0, py::arg("load_map") = "",
-           py::arg("localise_only") = false,
-           "options: {path: value}, see options(system). system: one of systems(). load_map: a map "
-           "of an earlier drive\nto go on in; localise_only leaves it as it is. Raises InputError "
-           "for an option that is none, or a map that cannot be read.")
+      .def(
+          py::init<const StereoCalibration&, const py::dict&, const std::string&, int,
+                   const std::filesystem::path&, bool>(),
+          py::arg("calibration"), py::arg("options") = py::dict(), py::kw_only(),
+          py::arg("system") = "robust", py::arg("threads") = 0, py::arg("load_map") = "",
+          py::arg("localise_only") = false,
+          "options: {path: value}, see options(system), but for drive.* and odometry. system: one "
+          "of systems().\nload_map: a map of an earlier drive to go on in; localise_only leaves it "
+          "as it is. Raises InputError for an option\nthat is none or would have no effect, or a "
+          "map that cannot be read.")
       .def(
           "track", &Slam::Track, py::arg("left"), py::arg("right"), py::arg("stamp_ns"),
           py::arg("mask") = py::none(), py::arg("mask_right") = py::none(),
@@ -166,8 +184,8 @@ void BindSlam(py::module_& module) {
       .def(
           "finish", &Slam::Finish,
           "Ends the drive, waits for background work: the final Trajectory after all optimisation.")
-      .def_property_readonly("live", &Slam::live,
-                             "Trajectory so far, each pose as known at its frame.")
+      .def_property_readonly("live", &Slam::Live,
+                             "Trajectory so far, each pose as known at its frame; a copy.")
       .def("save_map", &Slam::SaveMap, py::arg("file"), "Writes the map for a later load_map.");
   module.def("systems", SystemsByName, "{name: description} of the systems that come with aisle.");
   module.def("options", OptionsByPath, py::arg("system") = "robust",

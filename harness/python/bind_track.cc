@@ -12,7 +12,19 @@ namespace {
 
 using StampArray = py::array_t<std::int64_t, py::array::c_style>;
 
-Track TrackFrom(const StampArray& stamps_ns, const NumberArray& poses) {
+/// Whole numbers of any type that int64 holds. NumPy would cut a list of floats to whole ones,
+/// without a word.
+StampArray StampsFrom(const py::object& stamps_ns) {
+  const py::array given = py::array::ensure(stamps_ns);
+  if (given && given.size() == 0) return StampArray(0);  // whose numbers have no type to tell
+  if (const StampArray whole = StampArray::ensure(given)) return whole;
+  throw py::type_error(
+      "stamps_ns: nanoseconds are whole numbers (int64); of seconds make them by "
+      "np.round(1e9 * seconds).astype(np.int64)");
+}
+
+Track TrackFrom(const py::object& stamps, const NumberArray& poses) {
+  const StampArray stamps_ns = StampsFrom(stamps);
   const bool fits = stamps_ns.ndim() == 1 && poses.ndim() == 3 &&
                     poses.shape(0) == stamps_ns.shape(0) && poses.shape(1) == 4 &&
                     poses.shape(2) == 4;
@@ -90,7 +102,7 @@ void BindTrack(py::module_& module) {
       .def(py::pickle(
           [](const Track& track) { return py::make_tuple(StampsOf(track), PosesOf(track)); },
           [](const py::tuple& parts) {
-            return TrackFrom(parts[0].cast<StampArray>(), parts[1].cast<NumberArray>());
+            return TrackFrom(parts[0], parts[1].cast<NumberArray>());
           }));
 }
 

@@ -75,7 +75,33 @@ def test_reset_begins_anew(drive_file):
     assert drive.end is None and drive.vehicle.stamp_ns == 0
 
 
+def test_others_may_look_while_it_drives(drive_file):
+    import threading
+
+    drive = aisle.Drive(drive_file, system=None)
+    frame = drive.reset()
+    over, counts = threading.Event(), []
+
+    def look():
+        while not over.is_set():
+            samples, vehicle = drive.samples, drive.vehicle
+            counts.append(len(samples))
+            assert drive.end is None and drive.estimate is None
+            assert not samples or vehicle.stamp_ns >= samples[-1].stamp_ns
+
+    looking = threading.Thread(target=look)
+    looking.start()
+    for _ in range(20):
+        frame = drive.step(frame.pose)
+    over.set()
+    looking.join()
+    assert counts == sorted(counts)
+
+
 def test_mistakes_are_told(drive_file):
+    for options in ({"feature.features": 800}, {"odometry": True}):
+        with pytest.raises(aisle.InputError, match=next(iter(options))):
+            aisle.Drive(drive_file, system=None, options=options)
     with pytest.raises(aisle.InputError, match="drive"):
         aisle.Drive("smoke/short")
     drive = aisle.Drive(drive_file, system=None)

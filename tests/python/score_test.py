@@ -174,6 +174,12 @@ def test_mistakes_are_told(tmp_path):
         aisle.Trajectory([10, 0], truth[:2])
     with pytest.raises(ValueError, match="rigid"):
         aisle.Trajectory([0], 2 * truth[:1])
+    # Seconds, as a list or an array, and what int64 does not hold: none is cut to whole nanoseconds.
+    for wrong in ([0.1, 0.6], np.array([0.0, 1.0]), [0, 2**63], ["0", "1"]):
+        with pytest.raises(TypeError, match="whole"):
+            aisle.Trajectory(wrong, truth[:2])
+    assert len(aisle.Trajectory(np.array([0, 5], np.int32), truth[:2])) == 2
+    assert len(aisle.Trajectory([], truth[:0])) == 0
     track = aisle.Trajectory(stamps, truth)
     with pytest.raises(ValueError, match="sim3"):
         aisle.score(track, track, align="best")

@@ -91,13 +91,25 @@ def test_a_frame_that_is_refused_changes_nothing(scene, frames):
     assert len(one.live) == 6
 
 
+def test_what_is_live_is_a_copy(scene, frames):
+    slam = aisle.Slam(scene.calibration)
+    drive(frames[:5], slam)
+    live = slam.live
+    before = len(live)
+    drive(frames[5:7], slam)
+    assert len(live) == before and len(slam.live) == before + 2
+
+
 def test_mistakes_are_told(scene, frames):
     frame = frames[0]
     with pytest.raises(aisle.InputError, match="feature.features"):
         aisle.Slam(scene.calibration, {"feature.feature": 800})
     with pytest.raises(aisle.InputError, match="robust"):
         aisle.Slam(scene.calibration, system="robusst")
-    slam = aisle.Slam(scene.calibration, {"feature.features": 800, "drive.scanner": False})
+    for path, value in {"drive.scanner": False, "odometry": True}.items():
+        with pytest.raises(aisle.InputError, match=path):
+            aisle.Slam(scene.calibration, {path: value})
+    slam = aisle.Slam(scene.calibration, {"feature.features": 800})
     with pytest.raises(ValueError, match="calibration"):
         slam.track(frame.left[:100], frame.right[:100], 0)
     with pytest.raises(TypeError):
