@@ -192,6 +192,14 @@ class Exported(unittest.TestCase):
                     moved = start.T @ (row[1:4] - estimate[0, 1:4])
                     np.testing.assert_allclose(moved, (home @ pose)[:3, 3], atol=0.03)
 
+    def test_a_right_image_that_is_missing_is_told(self):
+        out, track = self.export("kitti", "3:9"), self.root / "told_track.txt"
+        (out / "sequences/00/image_1/000002.png").unlink()
+        code, said = run("slam", out, "--format", "kitti", "-o", track)
+        self.assertEqual(code, 0, said)
+        self.assertIn("1 of 6 left images have no right one", said)
+        self.assertIn("5 frames", said)
+
     def test_stopped_it_goes_on_and_grows_at_its_end_alone(self):
         for format in ("euroc", "kitti", "tum"):
             out = self.export(format, "1:3")
