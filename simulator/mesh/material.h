@@ -18,7 +18,7 @@ struct Material {
   float albedo = 0.5f;       ///< diffuse reflectance in [0, 1], linear; multiplies the texture
   int albedo_texture = -1;   ///< index into the owner's textures, -1: none
   int normal_texture = -1;   ///< tangent-space normal map, -1: none
-  float normal_scale = 1;    ///< stretches what the map says of x and y
+  float normal_scale = 1;    ///< stretches the map's x and y beside its z
   float specular_f0 = 0.0f;  ///< reflectance at normal incidence, 0: purely diffuse
   float roughness = 1.0f;    ///< perceptual; GGX alpha is its square
   float emission = 0.0f;     ///< emitted radiance, relative units; > 0 marks a luminaire

@@ -84,7 +84,7 @@ class MappedPixels {
  private:
   void Bend(const MappedPixel& pixel, const Eigen::Vector2f& bend) const {
     const Eigen::Vector3f& smooth = pixel.axes.smooth;
-    const Eigen::Vector3f mapped = BentNormal(pixel.axes, pixel.scale * bend);
+    const Eigen::Vector3f mapped = BentNormal(pixel.axes, bend, pixel.scale);
     const OpenLight open = lamps_.On(pixel.position, smooth, mapped);
     float& light = irradiance_[pixel.index];
     light = pixel.direct * Ratio(open.mapped, open.smooth) +

@@ -33,16 +33,17 @@ std::optional<MapAxes> AxesOfMap(const MeshPlace& place, const Material& materia
       normal, tangent, up * across, {material.normal_texture, uv.x(), uv.y(), width_m / length}};
 }
 
-Eigen::Vector3f BentNormal(const MapAxes& axes, const Eigen::Vector2f& bend) {
+Eigen::Vector3f BentNormal(const MapAxes& axes, const Eigen::Vector2f& bend, float scale) {
   const float rest = std::sqrt(std::max(0.0f, 1 - bend.squaredNorm()));
-  return (bend.x() * axes.right + bend.y() * axes.upward + rest * axes.smooth).normalized();
+  const Eigen::Vector2f scaled = scale * bend;
+  return (scaled.x() * axes.right + scaled.y() * axes.upward + rest * axes.smooth).normalized();
 }
 
 Eigen::Vector3f MappedNormal(const MeshPlace& place, const Material& material,
                              const TexturePool& textures, float width_m) {
   const std::optional<MapAxes> axes = AxesOfMap(place, material, width_m);
   if (!axes) return SmoothNormal(place);
-  return BentNormal(*axes, material.normal_scale * textures.SampleNormal(axes->point));
+  return BentNormal(*axes, textures.SampleNormal(axes->point), material.normal_scale);
 }
 
 }  // namespace aisle::sim

@@ -33,8 +33,9 @@ struct MapAxes {
 /// footprint.
 std::optional<MapAxes> AxesOfMap(const MeshPlace& place, const Material& material, float width_m);
 
-/// The normal that a map's x and y make there.
-Eigen::Vector3f BentNormal(const MapAxes& axes, const Eigen::Vector2f& bend);
+/// The normal that a map's x and y make there: its z follows from these, and then, as in glTF 2.0,
+/// x and y are scaled and all is made a unit.
+Eigen::Vector3f BentNormal(const MapAxes& axes, const Eigen::Vector2f& bend, float scale);
 
 /// The smooth normal, bent by the material's normal map if it has one, averaged over a footprint
 /// `width_m` wide. As in glTF 2.0 the map's x points along growing u, its y against growing v (up

@@ -41,10 +41,11 @@ int PowerOfTwo(int size) {
 }
 
 /// Appends one level; every row and the image itself end with their first texel resp. row.
-void AppendLevel(const cv::Mat1f& level, std::vector<std::uint8_t>* bytes) {
+void AppendLevel(const cv::Mat1f& level, bool is_normal_map, std::vector<std::uint8_t>* bytes) {
   for (int y = 0; y <= level.rows; ++y) {
     for (int x = 0; x <= level.cols; ++x) {
-      const float value = std::sqrt(std::max(0.0f, level(y % level.rows, x % level.cols)));
+      const float share = std::max(0.0f, level(y % level.rows, x % level.cols));
+      const float value = is_normal_map ? share : std::sqrt(share);
       bytes->push_back(static_cast<std::uint8_t>(std::lround(std::min(value, 1.0f) * 255.0f)));
     }
   }
@@ -90,13 +91,13 @@ void CheckBytes(std::span<const Texture> textures, std::size_t most_bytes) {
 
 TexturePool::TexturePool(std::span<const Texture> textures, std::size_t most_bytes) {
   CheckBytes(textures, most_bytes);
-  const auto append = [&](const cv::Mat1f& base) {
+  const auto append = [&](const cv::Mat1f& base, bool is_normal_map) {
     sizes_.push_back(std::countr_zero(static_cast<unsigned>(base.cols)) |
                      std::countr_zero(static_cast<unsigned>(base.rows)) << 8);
     cv::Mat1f level = base;
     for (int i = 0; i < kLevels; ++i) {
       offsets_.push_back(static_cast<std::int32_t>(bytes_.size()));
-      AppendLevel(level, &bytes_);
+      AppendLevel(level, is_normal_map, &bytes_);
       const cv::Size half(std::max(1, level.cols / 2), std::max(1, level.rows / 2));
       if (half == level.size()) {  // 1 × 1: all further levels are this one
         for (int j = i + 1; j < kLevels; ++j) offsets_.push_back(offsets_.back());
@@ -107,30 +108,31 @@ TexturePool::TexturePool(std::span<const Texture> textures, std::size_t most_byt
       level = smaller;
     }
   };
-  append(cv::Mat1f(1, 1, 1.0f));  // what "no texture" samples
-  const auto append_resized = [&](cv::Mat1f linear) {
+  append(cv::Mat1f(1, 1, 1.0f), false);  // what "no texture" samples
+  const auto append_resized = [&](cv::Mat1f linear, bool is_normal_map) {
     const cv::Size size(PowerOfTwo(linear.cols), PowerOfTwo(linear.rows));
     if (size != linear.size()) cv::resize(linear, linear, size, 0, 0, cv::INTER_LINEAR);
-    append(linear);
+    append(linear, is_normal_map);
   };
   // Of a normal map the x stands where a texture would, the y behind all textures.
   std::vector<cv::Mat1f> seconds;
   for (const Texture& texture : textures) {
     second_.push_back(-1);
     if (texture.image.empty()) {
-      append(cv::Mat1f(1, 1, 1.0f));
+      append(cv::Mat1f(1, 1, 1.0f), false);
     } else if (texture.image.type() == CV_8UC1) {
-      append_resized(LinearImage(texture.image));
+      append_resized(LinearImage(texture.image), false);
     } else {
       second_.back() = static_cast<int>(textures.size() + seconds.size());
-      append_resized(ChannelOf(texture.image, 0));
+      append_resized(ChannelOf(texture.image, 0), true);
       seconds.push_back(ChannelOf(texture.image, 1));
     }
   }
-  for (const cv::Mat1f& second : seconds) append_resized(second);
+  for (const cv::Mat1f& second : seconds) append_resized(second, true);
   bytes_.resize(bytes_.size() + 8);  // the gathers read four bytes
 }
 
+template <bool kNormals>
 F8 TexturePool::Bilinear(I8 texture, I8 size, I8 level, F8 u, F8 v) const {
   const I8 zero = I8{};
   const I8 log_w = MaxInt((size & 255) - level, zero), log_h = MaxInt((size >> 8) - level, zero);
@@ -144,14 +146,20 @@ F8 TexturePool::Bilinear(I8 texture, I8 size, I8 level, F8 u, F8 v) const {
   const I8 top = GatherBytes(bytes_.data(), at), bottom = GatherBytes(bytes_.data(), at + pitch);
   const auto decode = [](I8 byte) {
     const F8 value = ToFloat(byte & 255);
-    return value * value;
+    return kNormals ? value : value * value;
   };
+  constexpr float kWhole = kNormals ? 255.0f : 255.0f * 255.0f;
   const F8 a = decode(top), b = decode(top >> 8), c = decode(bottom), d = decode(bottom >> 8);
   const F8 upper = a + (b - a) * fx, lower = c + (d - c) * fx;
-  return (upper + (lower - upper) * fy) * (1.0f / (255.0f * 255.0f));
+  return (upper + (lower - upper) * fy) * (1.0f / kWhole);
 }
 
-F8 TexturePool::Sample(I8 index, F8 u, F8 v, F8 du_dx, F8 dv_dx, F8 du_dy, F8 dv_dy) const {
+F8 TexturePool::Sample(I8 texture, F8 u, F8 v, F8 du_dx, F8 dv_dx, F8 du_dy, F8 dv_dy) const {
+  return SampleBytes<false>(texture, u, v, du_dx, dv_dx, du_dy, dv_dy);
+}
+
+template <bool kNormals>
+F8 TexturePool::SampleBytes(I8 index, F8 u, F8 v, F8 du_dx, F8 dv_dx, F8 du_dy, F8 dv_dy) const {
   const I8 texture = index + 1;
   if (!Any(texture > 0)) return Wide(1);
   // Texel indices must fit in 32 bits whatever a mesh says.
@@ -181,8 +189,8 @@ F8 TexturePool::Sample(I8 index, F8 u, F8 v, F8 du_dx, F8 dv_dx, F8 du_dy, F8 dv
   for (float i = 0; Any(taps > i); i += 1) {
     const F8 along = (i + 0.5f) / taps - 0.5f;
     const F8 tap_u = u + step_u * along, tap_v = v + step_v * along;
-    F8 value = Bilinear(texture, size, level, tap_u, tap_v);
-    if (blend) value += (Bilinear(texture, size, next, tap_u, tap_v) - value) * between;
+    F8 value = Bilinear<kNormals>(texture, size, level, tap_u, tap_v);
+    if (blend) value += (Bilinear<kNormals>(texture, size, next, tap_u, tap_v) - value) * between;
     sum += Select(taps > i, value, Wide(0));
   }
   return sum / taps;
@@ -209,7 +217,7 @@ std::array<Eigen::Vector2f, kMapPoints> TexturePool::SampleNormals(
     }
   }
   const F8 zero = Wide(0);
-  const F8 share = Sample(texture, u, v, width, zero, zero, width);
+  const F8 share = SampleBytes<true>(texture, u, v, width, zero, zero, width);
   std::array<Eigen::Vector2f, kMapPoints> bends;
   for (std::size_t k = 0; k < kMapPoints; ++k) {
     const bool read = texture[2 * k] >= 0;

@@ -23,7 +23,8 @@ inline constexpr std::size_t kMapPoints = 4;
 /// All albedo textures with their mip pyramids in one block of bytes, so that eight lanes can read
 /// eight textures at once. Sides are powers of two (others are resampled), every row ends with a
 /// copy of its first texel, and a byte b stands for the linear reflectance (b / 255)²: two-fold
-/// finer in the darks than linear bytes, and decoded by one multiplication.
+/// finer in the darks than linear bytes, and decoded by one multiplication. Of normal maps, whose
+/// middle counts, it stands for the share b / 255 itself.
 class TexturePool {
  public:
   /// Texels are found by 32-bit places.
@@ -49,7 +50,10 @@ class TexturePool {
   std::array<Eigen::Vector2f, kMapPoints> SampleNormals(std::span<const MapPoint> points) const;
 
  private:
+  template <bool kNormals>
   F8 Bilinear(I8 texture, I8 size, I8 level, F8 u, F8 v) const;
+  template <bool kNormals>
+  F8 SampleBytes(I8 texture, F8 u, F8 v, F8 du_dx, F8 dv_dx, F8 du_dy, F8 dv_dy) const;
 
   static constexpr int kLevels = 14;  ///< up to 8192 texels a side
   std::vector<std::uint8_t> bytes_;

@@ -67,6 +67,42 @@ float TiltGain(const View& view, int x, int y, const Eigen::Vector3f& normal) {
   return to_lamp.dot(normal) / to_lamp.z();
 }
 
+/// The normal that a map of one colour makes at a scale, z along the surface's own.
+Eigen::Vector3f NormalOf(const cv::Vec3b& rgb, float scale) {
+  const std::vector<Texture> textures = {{"map", cv::Mat3b(4, 4, rgb)}};
+  const Eigen::Vector2f bend = TexturePool(textures).SampleNormal({0, 0.3f, 0.4f, 0.1f});
+  return BentNormal(
+      {Eigen::Vector3f::UnitZ(), Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitY(), {}}, bend,
+      scale);
+}
+
+/// glTF 2.0: normalize((sample * 2 - 1) * (scale, scale, 1)).
+TEST(BentNormal, IsTheNormalOfGltf) {
+  for (const cv::Vec3b& rgb :
+       {cv::Vec3b(128, 128, 255), cv::Vec3b(127, 127, 255), cv::Vec3b(204, 128, 230),
+        cv::Vec3b(230, 128, 204), cv::Vec3b(60, 170, 227)}) {
+    for (const float scale : {0.5f, 1.0f, 2.0f}) {
+      const Eigen::Vector3f sample =
+          Eigen::Vector3f(rgb[0], rgb[1], rgb[2]) / 127.5f - Eigen::Vector3f::Ones();
+      const Eigen::Vector3f expected =
+          sample.cwiseProduct(Eigen::Vector3f(scale, scale, 1)).normalized();
+      const float cosine = NormalOf(rgb, scale).dot(expected);
+      // The z of these is rounded to half a byte.
+      EXPECT_LT(std::acos(std::min(1.0f, cosine)), 6e-3f) << rgb << ' ' << scale;
+    }
+  }
+}
+
+TEST(BentNormal, AFlatMapIsFlatToHalfAByte) {
+  const float half = 1 / 255.0f;
+  for (const int flat : {127, 128}) {
+    const Eigen::Vector3f normal = NormalOf(
+        cv::Vec3b(static_cast<std::uint8_t>(flat), static_cast<std::uint8_t>(flat), 255), 1);
+    EXPECT_NEAR(std::abs(normal.x()), half, 1e-5);
+    EXPECT_NEAR(std::abs(normal.y()), half, 1e-5);
+  }
+}
+
 class NormalMap : public testing::TestWithParam<Eigen::Vector3f> {};
 
 TEST_P(NormalMap, AFlatFloorShadesAsTheTiltedPlaneThatTheMapSays) {
