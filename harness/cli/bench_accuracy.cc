@@ -3,6 +3,7 @@
 #include "harness/bench/accuracy.h"
 #include "harness/cli/bench_source.h"
 #include "harness/cli/command.h"
+#include "harness/cli/early_checks.h"
 #include "harness/cli/system_choice.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
@@ -27,6 +28,7 @@ std::string Cell(const std::vector<double>& values, double unit) {
 
 int BenchAccuracy(const Options& options) {
   const AccuracyBenchOptions& bench = options.bench;
+  CheckCanBeWritten(options.json);
   std::vector<BenchView> views;
   for (const std::string& text : options.views) {  // all, before the first drives
     views.push_back(ParseView(text));

@@ -4,6 +4,7 @@
 #include "harness/cli/bench_source.h"
 #include "harness/cli/command.h"
 #include "harness/cli/dynamic_table.h"
+#include "harness/cli/early_checks.h"
 #include "harness/cli/page_block.h"
 #include "harness/cli/system_choice.h"
 #include "harness/cli/terminal.h"
@@ -122,6 +123,7 @@ int BenchDynamic(const Options& options) {
   const DynamicBenchOptions& bench = options.bench;
   const std::vector<BenchView> views = ViewsOf(options);
   options.into.Check();
+  CheckCanBeWritten(options.json);
   fmt::print("{}, after {} frames of warming up\n{}\n", bench.system.name, bench.warm_up,
              DynamicHeading());
   nlohmann::json json = nlohmann::json::array();

@@ -3,6 +3,7 @@
 
 #include "harness/bench/realism.h"
 #include "harness/cli/command.h"
+#include "harness/cli/early_checks.h"
 #include "harness/cli/page_block.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
@@ -68,6 +69,7 @@ nlohmann::json ToJson(const std::vector<PictureSet>& sets, bool real) {
 
 int BenchRealism(const Options& options) {
   options.into.Check();
+  CheckCanBeWritten(options.json);
   ProgressLine line;
   const auto show = [&](const std::string& at) { line.Show(at); };
   std::vector<PictureSet> given;

@@ -3,6 +3,7 @@
 #include "harness/bench/sensitivity.h"
 #include "harness/cli/bench_source.h"
 #include "harness/cli/command.h"
+#include "harness/cli/early_checks.h"
 #include "harness/cli/page_block.h"
 #include "harness/cli/system_choice.h"
 #include "harness/cli/terminal.h"
@@ -58,6 +59,7 @@ int BenchSensitivity(const Options& options) {
   for (const std::string& text : options.views) views.push_back(ParseView(text));
   if (views.empty()) throw InputError("no view: expected SCENE:FROM-TO, or --views FILE");
   options.into.Check();
+  CheckCanBeWritten(options.json);
   ProgressLine line;
   const Sensitivity sensitivity =
       MeasureSensitivity(views, options.bench, [&](const std::string& at) { line.Show(at); });

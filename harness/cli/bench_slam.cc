@@ -5,6 +5,7 @@
 #include "harness/bench/stages.h"
 #include "harness/cli/bench_source.h"
 #include "harness/cli/command.h"
+#include "harness/cli/early_checks.h"
 #include "harness/cli/system_choice.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
@@ -69,6 +70,7 @@ nlohmann::json ToJson(std::map<std::string, StageTime> stages, double front_end_
 }
 
 int BenchSlam(const Options& options) {
+  CheckCanBeWritten(options.json);
   std::map<std::string, StageTime> stages = Measure(options);
   std::map<std::string, double> mean_ms;
   for (const auto& [stage, time] : stages) mean_ms[stage] = time.mean_ms();

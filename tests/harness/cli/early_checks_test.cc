@@ -75,8 +75,12 @@ TEST_F(EarlyChecksTest, ScenesThatComeLaterAreLookedAtFirst) {
 TEST_F(EarlyChecksTest, WhereAResultGoesIsAskedFirst) {
   ExpectRefused({"vocabulary", "train", "smoke/bits", "--out", folder_.string()},
                 "is a folder: name a file in it");
-  ExpectRefused({"bench", "render", "smoke/bits", "--json", folder_.string()},
-                "is a folder: name a file in it");
+  for (const char* bench : {"accuracy", "dynamic", "render", "sensitivity", "slam"}) {
+    std::string said;
+    EXPECT_EQ(Exit({"bench", bench, "smoke/bits", "--json", folder_.string()}, &said), kBadInput);
+    EXPECT_THAT(said, HasSubstr("is a folder: name a file in it")) << bench;
+    EXPECT_THAT(said, Not(HasSubstr("smoke/bits"))) << bench << " has measured nothing";
+  }
 }
 
 TEST_F(EarlyChecksTest, AVocabularyIsTrainedFromScenesByName) {
