@@ -39,9 +39,9 @@ void AddTriangles(const TriangleMesh& from, const std::vector<std::size_t>& tria
 void AddOwnHall(const Scene& scene, AssetLibrary* assets, Wardrobe* wardrobe, Site* site) {
   const std::shared_ptr<const Model> hall = assets->LoadStill(scene.hall.mesh.file);
   TriangleMesh mesh = wardrobe->Wear(hall);
-  TurnShellInside(RigPathOf(scene)(0).translation().cast<float>(), &mesh);
   std::map<int, std::vector<std::size_t>> of_node;
   const std::vector<int> nodes = NodesOfTriangles(*hall);
+  TurnShellInside(RigPathOf(scene)(0).translation().cast<float>(), nodes, &mesh);
   for (std::size_t i = 0; i < nodes.size(); ++i) of_node[nodes[i]].push_back(i);
   if (of_node.size() > kMostNodes) {
     throw std::runtime_error(

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <span>
 
 namespace aisle::sim {
 namespace {
@@ -48,14 +47,18 @@ class Sets {
   std::vector<std::uint32_t> above_;
 };
 
-/// Vertices by parts: joined by a triangle, or at one place.
-Sets PartsOf(const TriangleMesh& mesh) {
+/// Vertices by parts: joined by a triangle, or at one place of one node.
+Sets PartsOf(std::span<const int> nodes, const TriangleMesh& mesh) {
   Sets parts(mesh.positions.size());
+  std::vector<int> of_vertex(mesh.positions.size(), -1);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (const std::uint32_t corner : mesh.triangles[i]) of_vertex[corner] = nodes[i];
+  }
   std::vector<std::uint32_t> by_place(mesh.positions.size());
   std::iota(by_place.begin(), by_place.end(), 0u);
   const auto place = [&](std::uint32_t i) {
     const Eigen::Vector3f& p = mesh.positions[i];
-    return std::array{p.x(), p.y(), p.z()};
+    return std::tuple(of_vertex[i], p.x(), p.y(), p.z());
   };
   std::ranges::sort(by_place, {}, place);
   for (std::size_t i = 1; i < by_place.size(); ++i) {
@@ -70,10 +73,11 @@ Sets PartsOf(const TriangleMesh& mesh) {
 
 }  // namespace
 
-void TurnShellInside(const Eigen::Vector3f& inside, TriangleMesh* mesh) {
+void TurnShellInside(const Eigen::Vector3f& inside, std::span<const int> nodes,
+                     TriangleMesh* mesh) {
   const std::vector<double> shares = SharesSeen(inside.cast<double>(), *mesh);
   if (std::accumulate(shares.begin(), shares.end(), 0.0) <= kEncloses) return;
-  Sets parts = PartsOf(*mesh);
+  Sets parts = PartsOf(nodes, *mesh);
   std::vector<double> of_part(mesh->positions.size());
   for (std::size_t i = 0; i < shares.size(); ++i) {
     of_part[parts.Of(mesh->triangles[i][0])] += shares[i];

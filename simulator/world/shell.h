@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "simulator/mesh/triangle_mesh.h"
 
 namespace aisle::sim {
@@ -8,8 +10,8 @@ namespace aisle::sim {
 /// side that they are wound to face, and many a modeller's building is a shell wound to be seen
 /// from outside: where the mesh as a whole is one (its winding number there, Jacobson et al. 2013,
 /// is above a half), those of its parts that turn their backs to the place are turned round. A part
-/// is what hangs together by its corners; closed things beside the place, racks and walls with a
-/// thickness, stay as they are.
-void TurnShellInside(const Eigen::Vector3f& inside, TriangleMesh* mesh);
+/// is what hangs together by its corners and is of one node (`nodes`, by triangle; no two share a
+/// vertex); closed things beside the place, racks and walls with a thickness, stay as they are.
+void TurnShellInside(const Eigen::Vector3f& inside, std::span<const int> nodes, TriangleMesh* mesh);
 
 }  // namespace aisle::sim

@@ -120,13 +120,14 @@ class UserModels(unittest.TestCase):
             self.assertIn("a.obj", said)
             self.assertFalse((self.folder / "a.aislemesh").exists())
 
-    def hall(self):
-        """12 x 8 x 4 m about a way along x, with a wall at x = 10 and goods before it."""
+    def hall(self, turned=inside_out):
+        """12 x 8 x 4 m about a way along x, with a wall at x = 10 and goods before it; its shell is
+        to be seen from within, or as `turned` has it."""
         glb = Glb()
         root = glb.node("Hall")
         glb.node("Bodenplatte", root, mesh=glb.mesh(
             ([(-2, -4, 0), (10, -4, 0), (10, 4, 0), (-2, 4, 0)], [(0, 1, 2), (0, 2, 3)])))
-        shell, triangles = inside_out(box((-2, -4, 0), (10, 4, 4)))
+        shell, triangles = turned(box((-2, -4, 0), (10, 4, 4)))
         glb.node("Shell walls", root, mesh=glb.mesh((shell, triangles)))
         racks = glb.node("Racks", root)
         glb.node("R1", racks, mesh=glb.mesh(box((2, 2, 0), (6, 3, 2))))
@@ -171,6 +172,18 @@ props: [{{mesh: cupboard.aislemesh, label: column, at: [8, 0]}}]
             self.assertEqual(classes["Hall/Racks/R1"], "rack")
             self.assertEqual(classes["Hall/Kran"], "goods")
             self.assertEqual(classes["cupboard_0_0"], "column")
+
+    def test_a_hall_that_is_a_shell_seen_from_outside_is_lit_within(self):
+        self.take_in(self.write("cupboard.obj", obj(box(*CUPBOARD))), "--unit", "m", "--up", "z")
+        pictures = []
+        for turned in (inside_out, lambda shape: shape):
+            self.hall(turned)
+            out = self.folder / f"shell_{len(pictures)}"
+            aisle("render", self.scene("hall.glb"), "--out", out, "--frames", "0:1")
+            pictures.append(dataset_reader.read_grey_png(next((out / "mav0/cam0").rglob("*.png"))))
+        within, outside = (picture.astype(float) for picture in pictures)
+        self.assertGreater(within.mean(), 40)
+        self.assertLess(abs(within - outside).mean(), 1)
 
     def test_a_mesh_and_its_record_belong_together(self):
         self.hall()

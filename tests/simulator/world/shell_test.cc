@@ -16,6 +16,11 @@ test::MeshBuilder Outwards() {
   return hall;
 }
 
+/// All of one node.
+void Turn(const Eigen::Vector3f& inside, TriangleMesh* mesh) {
+  TurnShellInside(inside, std::vector<int>(mesh->triangles.size(), 1), mesh);
+}
+
 /// How many of the triangles from `first` on face the place, by winding and by normals.
 int Facing(const TriangleMesh& mesh, std::size_t first = 0) {
   int facing = 0;
@@ -32,10 +37,10 @@ int Facing(const TriangleMesh& mesh, std::size_t first = 0) {
 TEST(TurnShellInside, AShellIsSeenFromWithin) {
   TriangleMesh hall = Outwards().mesh;
   ASSERT_EQ(Facing(hall), 0);
-  TurnShellInside(kInside, &hall);
+  Turn(kInside, &hall);
   EXPECT_EQ(Facing(hall), 12);
   const TriangleMesh turned = hall;
-  TurnShellInside(kInside, &hall);
+  Turn(kInside, &hall);
   EXPECT_EQ(hall.triangles, turned.triangles) << "once is enough";
 }
 
@@ -43,7 +48,7 @@ TEST(TurnShellInside, AShellNeedsNoFloor) {
   TriangleMesh hall = Outwards().mesh;
   hall.triangles.erase(hall.triangles.begin(), hall.triangles.begin() + 2);
   hall.materials.resize(hall.triangles.size());
-  TurnShellInside(kInside, &hall);
+  Turn(kInside, &hall);
   EXPECT_EQ(Facing(hall), 10);
 }
 
@@ -52,24 +57,35 @@ TEST(TurnShellInside, WhatStandsInItStaysAsItIs) {
   const std::size_t shell = hall.mesh.triangles.size();
   hall.Box({3, -3, 0.1f}, {4, 3, 3}, 0, 1);
   const std::vector<std::array<std::uint32_t, 3>> before = hall.mesh.triangles;
-  TurnShellInside(kInside, &hall.mesh);
+  Turn(kInside, &hall.mesh);
   EXPECT_TRUE(std::equal(before.begin() + static_cast<std::ptrdiff_t>(shell), before.end(),
                          hall.mesh.triangles.begin() + static_cast<std::ptrdiff_t>(shell)));
   EXPECT_NE(hall.mesh.triangles, before);
 }
 
+TEST(TurnShellInside, AFloorThatFacesThePlaceGoesOnDoingSo) {
+  // A slab of its own on the shell's floor, corner on corner.
+  test::MeshBuilder hall = Outwards();
+  const std::size_t shell = hall.mesh.triangles.size();
+  hall.Quad({-4, -4, 0}, {10, 0, 0}, {0, 8, 0}, 0, 1);
+  std::vector<int> nodes(hall.mesh.triangles.size(), 1);
+  std::fill(nodes.begin() + static_cast<std::ptrdiff_t>(shell), nodes.end(), 2);
+  TurnShellInside(kInside, nodes, &hall.mesh);
+  EXPECT_EQ(Facing(hall.mesh), 14);
+}
+
 TEST(TurnShellInside, WallsWithAThicknessAndSolidsBesideStayAsTheyAre) {
   // The inner side of a wall of 0.2 m, and its outer side.
   TriangleMesh thick = Outwards().mesh;
-  TurnShellInside(kInside, &thick);
+  Turn(kInside, &thick);
   test::MeshBuilder outer;
   outer.mesh = thick;
   outer.Box({-4.2f, -4.2f, -0.2f}, {6.2f, 4.2f, 5.2f}, 0, 1);
   TriangleMesh hall = outer.mesh;
-  TurnShellInside(kInside, &hall);
+  Turn(kInside, &hall);
   EXPECT_EQ(hall.triangles, outer.mesh.triangles);
   TriangleMesh beside = Outwards().mesh;
-  TurnShellInside({20, 0, 1}, &beside);
+  Turn({20, 0, 1}, &beside);
   EXPECT_EQ(beside.triangles, Outwards().mesh.triangles);
 }
 
