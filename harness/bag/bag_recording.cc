@@ -2,6 +2,7 @@
 
 #include "harness/bag/bag_calibration.h"
 #include "harness/bag/bag_trajectory.h"
+#include "harness/bag/bag_wheels.h"
 #include "harness/bag/grey_image.h"
 #include "harness/io/input_error.h"
 #include "harness/io/stereo_pairs.h"
@@ -84,6 +85,11 @@ StereoRecording ReadBagRecording(const std::filesystem::path& path,
     recording.pairs.push_back({pair.stamp_ns, file + ":" + topics.left, file + ":" + topics.right});
   }
   recording.truth = OwnTruth(*bag, file);
+  if (!options.odometry.empty()) {
+    recording.read_wheels = [=, topic = options.odometry, left_topic = topics.left] {
+      return ReadBagWheels(*bag, topic, left_topic, file);
+    };
+  }
   recording.notes = bag->notes();
   for (const std::string& note : NotesOnPairs(pairs.size(), left.size())) {
     recording.notes.push_back(note);

@@ -11,6 +11,7 @@ struct BagRecordingOptions {
   /// Left and right image, as the bag calls them; empty: found by their types and names.
   std::vector<std::string> topics = {};
   std::optional<double> baseline_m = {};  ///< instead of what camera_info says
+  std::string odometry = {};              ///< topic of what the wheels measured; empty: none
   /// Instead of camera_info, for bags without: both cameras as a calibration file states them.
   std::optional<StereoCameras> cameras = {};
 };

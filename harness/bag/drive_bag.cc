@@ -62,13 +62,6 @@ void RequireOwnTopics(const std::vector<std::string>& systems) {
   }
 }
 
-Eigen::Isometry3d DriveBagOptions::CameraAhead() {
-  Eigen::Isometry3d T_base_rig = Eigen::Isometry3d::Identity();
-  // Columns: where the camera's right, down and ahead point.
-  T_base_rig.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  return T_base_rig;
-}
-
 DriveBag::DriveBag(const std::filesystem::path& file, const StereoCalibration& calibration,
                    const DriveBagOptions& options)
     : calibration_(calibration), options_(options), writer_(file, options.mcap) {}
@@ -86,33 +79,47 @@ void DriveBag::Write(const std::string& topic, std::int64_t stamp_ns, const T& m
   writer_.Write(writer_.AddChannel<T>(topic, kind), stamp_ns + options_.epoch_ns, message);
 }
 
-void DriveBag::WriteRigFrames(std::int64_t stamp_ns) {
+void DriveBag::WriteRigFrames(std::int64_t stamp_ns, bool odom_drifts) {
   if (!first_ns_) first_ns_ = stamp_ns;
   if (has_rig_) return;
   has_rig_ = true;
   Eigen::Isometry3d T_left_right = Eigen::Isometry3d::Identity();
   T_left_right.translation().x() = calibration_.baseline_m;
   ros::TFMessage rig;
-  rig.transforms = {Child(HeaderOf(stamp_ns, kMapFrame), kOdomFrame, Eigen::Isometry3d::Identity()),
-                    Child(HeaderOf(stamp_ns, kBaseFrame), kLeftFrame, options_.T_base_rig),
+  rig.transforms = {Child(HeaderOf(stamp_ns, kBaseFrame), kLeftFrame, options_.T_base_rig),
                     Child(HeaderOf(stamp_ns, kLeftFrame), kRightFrame, T_left_right)};
+  if (!odom_drifts) {
+    rig.transforms.push_back(
+        Child(HeaderOf(stamp_ns, kMapFrame), kOdomFrame, Eigen::Isometry3d::Identity()));
+  }
   Write("/tf_static", stamp_ns, rig, TopicKind::kLatched);
 }
 
-void DriveBag::AddFrame(const SequenceFrame& frame, const std::array<cv::Mat3b, 2>* colour) {
-  const std::int64_t stamp_ns = frame.images.stamp_ns;
-  WriteRigFrames(stamp_ns);
-  const ros::Header left = HeaderOf(stamp_ns, kLeftFrame), right = HeaderOf(stamp_ns, kRightFrame);
-  if (frame.truth) {
-    const FrameTruth& truth = *frame.truth;
-    const ros::Header map = HeaderOf(stamp_ns, kMapFrame);
-    ros::TFMessage tf;
-    tf.transforms = {Child(HeaderOf(stamp_ns, kOdomFrame), kBaseFrame,
-                           truth.T_world_rig * options_.T_base_rig.inverse())};
-    Write("/tf", stamp_ns, tf);
-    truth_.poses.push_back(Stamped(map, truth.T_world_rig));
-    Write("/truth/pose", stamp_ns, truth_.poses.back());
+void DriveBag::WriteTruePose(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
+                             const OdometryReading* wheels) {
+  const ros::Header map = HeaderOf(stamp_ns, kMapFrame), odom = HeaderOf(stamp_ns, kOdomFrame);
+  const Eigen::Isometry3d T_map_base = T_world_rig * options_.T_base_rig.inverse();
+  ros::TFMessage tf;
+  if (wheels == nullptr) {
+    tf.transforms = {Child(odom, kBaseFrame, T_map_base)};
+  } else {
+    tf.transforms = {Child(map, kOdomFrame, T_map_base * wheels->T_odom_base.inverse()),
+                     Child(odom, kBaseFrame, wheels->T_odom_base)};
   }
+  Write("/tf", stamp_ns, tf);
+  truth_.poses.push_back(Stamped(map, T_world_rig));
+  Write("/truth/pose", stamp_ns, truth_.poses.back());
+}
+
+void DriveBag::AddFrame(const SequenceFrame& frame, const std::array<cv::Mat3b, 2>* colour,
+                        const OdometryReading* wheels) {
+  const std::int64_t stamp_ns = frame.images.stamp_ns;
+  WriteRigFrames(stamp_ns, wheels != nullptr);
+  const ros::Header left = HeaderOf(stamp_ns, kLeftFrame), right = HeaderOf(stamp_ns, kRightFrame);
+  if (wheels != nullptr) {
+    Write("/odom", stamp_ns, OdometryMessage(HeaderOf(stamp_ns, kOdomFrame), kBaseFrame, *wheels));
+  }
+  if (frame.truth) WriteTruePose(stamp_ns, frame.truth->T_world_rig, wheels);
   Write("/left/camera_info", stamp_ns, CameraInfoMessage(left, calibration_, 0));
   Write("/right/camera_info", stamp_ns, CameraInfoMessage(right, calibration_, 1));
   Write("/left/image_rect", stamp_ns, ImageMessage(left, frame.images.left));

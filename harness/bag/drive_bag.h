@@ -5,13 +5,15 @@
 #include "harness/bag/mcap_writer.h"
 #include "harness/contract/estimate.h"
 #include "harness/contract/sequence.h"
+#include "harness/contract/wheel_track.h"
 #include "harness/ros/geometry.h"
 
 namespace aisle {
 
 /// Frames of reference of a bag. map is truth's world. Each body has one parent: truth's is
-/// base_link (map -> odom -> base_link -> the cameras), each system's is SYSTEM/base_link below
-/// SYSTEM/map, its own world, which is laid onto map by its first pose.
+/// base_link (map -> odom -> base_link -> the cameras; odom stands on map, and with odometry is
+/// where the wheels' drift has carried it, as REP 105 has it), each system's is SYSTEM/base_link
+/// below SYSTEM/map, its own world, which is laid onto map by its first pose.
 inline constexpr const char* kMapFrame = "map";
 inline constexpr const char* kLeftFrame = "camera_left_optical_frame";
 
@@ -32,9 +34,6 @@ struct DriveBagOptions {
   /// base_link is at the camera.
   Eigen::Isometry3d T_base_rig = CameraAhead();
   McapOptions mcap = {};
-
-  /// A camera at the origin that looks along x.
-  static Eigen::Isometry3d CameraAhead();
 };
 
 /// Writes a drive as one bag for `ros2 bag play`, Foxglove, Rerun and evo. Log time and header
@@ -44,6 +43,7 @@ struct DriveBagOptions {
 ///   /left/image_rect_color, /right/…                 rgb8, where the frames have colour
 ///   /left/depth      16UC1 millimetres, 0 unknown    /left/moving    mono8, 255: it moves now
 ///   /left/boxes      visualization_msgs/ImageMarker  /truth/boxes    MarkerArray, in map
+///   /odom            nav_msgs/Odometry: what wheels measured, where frames have it
 ///   /truth/pose      PoseStamped of the left camera  /truth/path     Path
 ///   /SYSTEM/pose     PoseStamped of the left camera in SYSTEM/map, live; /SYSTEM/path, and
 ///   /SYSTEM/final_path, what it says in the end      /SYSTEM/state   std_msgs/String
@@ -59,8 +59,10 @@ class DriveBag {
   DriveBag(const std::filesystem::path& file, const StereoCalibration& calibration,
            const DriveBagOptions& options);
 
-  /// The pair, its camera_info and its truth; left and right in colour (B, G, R), if there are any.
-  void AddFrame(const SequenceFrame& frame, const std::array<cv::Mat3b, 2>* colour = nullptr);
+  /// The pair, its camera_info and its truth; left and right in colour (B, G, R), and what wheels
+  /// say, if there are any: of all frames, or of none.
+  void AddFrame(const SequenceFrame& frame, const std::array<cv::Mat3b, 2>* colour = nullptr,
+                const OdometryReading* wheels = nullptr);
   /// What a system said of a frame, with its events: found and lost, keyframe, loop. `truth` lays
   /// its world onto map; null where nobody knows it.
   void AddEstimate(const std::string& system, const FrameEstimate& estimate,
@@ -93,7 +95,9 @@ class DriveBag {
     bool placed = false;  ///< its world is laid onto map
   };
   ros::Header HeaderOf(std::int64_t stamp_ns, const std::string& frame) const;
-  void WriteRigFrames(std::int64_t stamp_ns);
+  void WriteRigFrames(std::int64_t stamp_ns, bool odom_drifts);
+  void WriteTruePose(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
+                     const OdometryReading* wheels);
   template <class T>
   void Write(const std::string& topic, std::int64_t stamp_ns, const T& message,
              TopicKind kind = TopicKind::kStream);

@@ -92,6 +92,26 @@ ros::CameraInfo CameraInfoMessage(const ros::Header& header, const StereoCalibra
   return info;
 }
 
+ros::Odometry OdometryMessage(const ros::Header& header, const std::string& base,
+                              const OdometryReading& reading) {
+  const auto rows = [](const Eigen::Matrix<double, 6, 6>& matrix) {
+    std::array<double, 36> numbers;
+    Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(numbers.data()) = matrix;
+    return numbers;
+  };
+  const auto vector = [&](int first) {
+    return ros::Vector3{
+        .x = reading.twist[first], .y = reading.twist[first + 1], .z = reading.twist[first + 2]};
+  };
+  ros::Odometry message;
+  message.header = header;
+  message.child_frame_id = base;
+  message.pose = {.pose = ros::PoseOf(reading.T_odom_base), .covariance = rows(reading.covariance)};
+  message.twist = {.twist = {.linear = vector(0), .angular = vector(3)},
+                   .covariance = rows(reading.twist_covariance)};
+  return message;
+}
+
 ros::MarkerArray BoxMarkers(const ros::Header& header, const std::vector<ObjectTruth>& objects) {
   ros::MarkerArray array;
   array.markers.emplace_back();

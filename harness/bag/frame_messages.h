@@ -1,6 +1,7 @@
 #pragma once
 
 #include "harness/contract/frame.h"
+#include "harness/contract/wheel_track.h"
 #include "harness/ros/drawing.h"
 
 namespace aisle {
@@ -15,6 +16,10 @@ ros::Image ColourMessage(const ros::Header& header, const cv::Mat3b& picture);
 /// Of a rectified pair: side 0 is left. -p[3] / p[0] gives the baseline back to the bit.
 ros::CameraInfo CameraInfoMessage(const ros::Header& header, const StereoCalibration& calibration,
                                   int side);
+
+/// What an odometer says of the body `base`, in the header's frame.
+ros::Odometry OdometryMessage(const ros::Header& header, const std::string& base,
+                              const OdometryReading& reading);
 
 /// The objects' boxes in space, red where they move; those of frames before are deleted. Objects
 /// whose box is not known are left out.

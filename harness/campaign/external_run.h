@@ -18,7 +18,7 @@ struct ExternalRun {
   std::uint64_t seed = 1;
   double memory_mib = 8192;  ///< of the system's processes together
   /// What wheels measured from frame to frame, where the system is to be handed it.
-  std::optional<std::vector<MotionMeasurement>> odometry = {};
+  std::optional<WheelMotions> odometry = {};
   std::function<PathOfRig()> open_path;  ///< called only when the dataset must be made
   /// Called now and then while the system works: seconds since it began, and the frames done and
   /// there are, 0 of 0 where it prints no "@progress DONE TOTAL".

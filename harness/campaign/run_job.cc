@@ -89,8 +89,7 @@ void Show(const Job& job, const Sequence& sequence, RunResult* result,
 }
 
 /// Nothing where the system does not ask for it.
-std::optional<std::vector<MotionMeasurement>> OdometryFor(const Job& job,
-                                                          const Sequence& sequence) {
+std::optional<WheelMotions> OdometryFor(const Job& job, const Sequence& sequence) {
   if (!WantsOdometry(job.spec.system)) return std::nullopt;
   return MeasureByWheels(sequence, job.spec.seed);
 }

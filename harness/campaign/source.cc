@@ -25,9 +25,15 @@ Trajectory ReadTruth(const std::string& text) {
 
 StereoRecording ReadSource(const RecordingSource& source) {
   const bool is_bag = IsBagFile(source.path) || fs::exists(fs::path(source.path) / "metadata.yaml");
+  if (!is_bag && (!source.topics.empty() || source.baseline_m || !source.odometry.empty())) {
+    throw InputError(
+        source.file, 0,
+        "topics, baseline_m and odometry are for bags, and " + source.path + " is none");
+  }
   StereoRecording recording =
-      is_bag ? ReadBagRecording(source.path,
-                                {.topics = source.topics, .baseline_m = source.baseline_m})
+      is_bag ? ReadBagRecording(source.path, {.topics = source.topics,
+                                              .baseline_m = source.baseline_m,
+                                              .odometry = source.odometry})
              : ReadRecording(source.path, DatasetFormatFromName(source.format));
   if (!source.truth.empty()) {
     recording.truth = ReadTruth(source.truth);
@@ -128,6 +134,8 @@ std::uint64_t HashSource(const std::string& file, const std::string& twin, std::
       seed = HashOutside(KittiPosesOf(one), HashFolderOutside(one, seed));
     } else {
       seed = HashOutside(one, seed);
+      // What a recorder has not yet folded into its .db3.
+      if (const fs::path log = one + "-wal"; fs::exists(log)) seed = HashOutside(log, seed);
     }
   }
   return seed;

@@ -5,13 +5,14 @@
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/plugs/wheel_motion.h"
 #include "harness/run/frames_ahead.h"
 
 namespace aisle {
 
 void RenderBag(const SimulationForExport& simulation, const std::vector<FrameRequest>& frames,
                const std::string& scene_file, const std::map<std::string, std::string>& provenance,
-               const std::filesystem::path& folder) {
+               bool with_odometry, const std::filesystem::path& folder) {
   if (simulation.lens.model != "none") {
     throw InputError(scene_file, 0,
                      fmt::format("the scene's lens is {}, and the bag holds rectified images: "
@@ -23,11 +24,18 @@ void RenderBag(const SimulationForExport& simulation, const std::vector<FrameReq
   DriveBag bag(file, sequence.calibration(), {.T_base_rig = simulation.T_base_rig});
   FramesAhead ahead(sequence, frames, 3);
   ProgressLine line;
+  OdometryReading wheels;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const SequenceFrame frame = ahead.Next().frame;
+    if (i > 0 && frame.images.motion) {
+      const double seconds =
+          static_cast<double>(frames[i].stamp_ns - frames[i - 1].stamp_ns) * 1e-9;
+      wheels =
+          Reckon(wheels, OfRig(*frame.images.motion, simulation.T_base_rig.inverse()), seconds);
+    }
     std::optional<std::array<cv::Mat3b, 2>> colour;
     if (simulation.colour) colour = simulation.colour(frames[i]);
-    bag.AddFrame(frame, colour ? &*colour : nullptr);
+    bag.AddFrame(frame, colour ? &*colour : nullptr, with_odometry ? &wheels : nullptr);
     line.Show(fmt::format("frame {} of {}", i + 1, frames.size()));
   }
   line.Clear();

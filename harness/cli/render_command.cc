@@ -139,22 +139,26 @@ int Verify(const SimulationForExport& simulation, const std::vector<FrameRequest
 void AddOdometry(const Sequence& sequence, const std::vector<FrameRequest>& frames,
                  std::uint64_t seed, const ExportOptions& options,
                  const std::filesystem::path& out) {
-  const std::vector<MotionMeasurement> all = MeasureByWheels(sequence, seed);
+  const WheelMotions all = MeasureByWheels(sequence, seed);
   const auto first = all.begin() + frames.front().id;
   const auto count = static_cast<std::ptrdiff_t>(frames.size()) - 1;
   WriteOdometry(out, JoinMotions(frames, {first, first + count}), options);
 }
 
 int RenderAsBag(const Options& options) {
-  if (!options.truth.empty() || options.verify || options.odometry) {
+  if (!options.truth.empty() || options.verify) {
     throw InputError(
-        "--format ros2: a bag holds poses, depth, what moves and boxes as they are: leave --truth, "
-        "--odometry and --verify out");
+        "--format ros2: a bag holds poses, depth, what moves and boxes as they are: leave --truth "
+        "and --verify out");
   }
   const FrameRange range = RangeFromText(options.frames);
-  const SimulationForExport simulation = OpenForExport(options.simulation, options.pair);
+  SimulationForExport simulation = OpenForExport(options.simulation, options.pair);
+  if (options.odometry) {
+    simulation.sequence = WithOdometry(std::move(simulation.sequence), options.simulation.seed);
+  }
   RenderBag(simulation, Select(simulation.sequence->Schedule(), range),
-            options.simulation.scene_file, ProvenanceOf(options, simulation), options.out);
+            options.simulation.scene_file, ProvenanceOf(options, simulation), options.odometry,
+            options.out);
   return kAllPassed;
 }
 

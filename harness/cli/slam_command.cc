@@ -10,6 +10,7 @@
 #include "harness/plugs/calibration.h"
 #include "harness/plugs/recorded_sequence.h"
 #include "harness/plugs/systems.h"
+#include "harness/plugs/wheel_odometry.h"
 #include "harness/run/drive.h"
 #include "harness/score/scorecard.h"
 
@@ -87,9 +88,10 @@ std::unique_ptr<Sequence> Open(const Options& options) {
     TellNotes(options.dataset, recording.notes);
     return MakeRecordedSequence(std::move(recording), options.dataset, path.stem().string());
   }
-  if (!options.bag.topics.empty() || options.bag.baseline_m || !options.calibration.empty()) {
+  if (!options.bag.topics.empty() || options.bag.baseline_m || !options.calibration.empty() ||
+      !options.bag.odometry.empty()) {
     throw InputError(options.dataset, 0,
-                     "is no bag: --topic, --baseline and --calibration are for bags");
+                     "is no bag: --topic, --baseline, --odometry and --calibration are for bags");
   }
   const auto format = DatasetFormatFromName(options.format.empty() ? "euroc" : options.format);
   StereoRecording recording = ReadRecording(path, format);
@@ -106,6 +108,7 @@ void RefuseBesideStream(const Options& options) {
         std::pair("--format", !options.format.empty()),
         std::pair("--topic", !options.bag.topics.empty()),
         std::pair("--baseline", options.bag.baseline_m.has_value()),
+        std::pair("--odometry", !options.bag.odometry.empty()),
         std::pair("--calibration", !options.calibration.empty())}) {
     if (!given) continue;
     throw InputError(
@@ -128,8 +131,15 @@ int RunStream(const SystemSpec& system, const Options& options) {
   return kAllPassed;
 }
 
+/// Whoever names the topic of the wheels wants the system to be handed them.
+SystemSpec SystemOf(const Options& options) {
+  SystemChoice choice = options.system;
+  if (!options.bag.odometry.empty()) choice.set.push_back(fmt::format("{}=true", kOdometryOption));
+  return SpecOf(choice);
+}
+
 int RunSlam(const Options& options) {
-  const SystemSpec system = SpecOf(options.system);
+  const SystemSpec system = SystemOf(options);
   if (FindSystem(system.like).mask_source != MaskSource::kNone) {
     throw InputError("system '" + system.name +
                      "' needs truth about what moves: a recording has none");
@@ -141,7 +151,8 @@ int RunSlam(const Options& options) {
         "v101.txt");
   }
   for (const std::string& file : {options.output, options.live}) CheckCanBeWritten(file);
-  const auto sequence = Open(options);
+  auto sequence = Open(options);
+  if (WantsOdometry(system)) sequence = WithOdometry(std::move(sequence), 1);
   const auto estimator = MakeEstimator(system, sequence->calibration(), options);
   ProgressLine line;
   std::size_t masked = 0;
@@ -199,6 +210,10 @@ void AddSlamCommand(CLI::App* app, Action* action) {
       ->add_option("--baseline", options->bag.baseline_m,
                    "metres between the eyes, of a bag whose camera_info lacks it")
       ->check(CLI::PositiveNumber);
+  command->add_option(
+      "--odometry", options->bag.odometry,
+      "of a bag: the topic of what its wheels measured (/odom), which the system is "
+      "handed");
   command
       ->add_option("--calibration", options->calibration,
                    "of a bag without camera_info: Kalibr's camchain, OpenCV's files, or EuRoC's or "

@@ -18,12 +18,18 @@ struct FrameRequest {
   /// Metres; world right-handed with z up, rig = left rectified camera (x right, y down, z
   /// forward).
   Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();
+  /// Whether anybody knows it: where a recording has no truth it is identity, and means nothing.
+  bool pose_known = true;
 };
 
 struct SequenceFrame {
   StereoFrame images;
   std::optional<FrameTruth> truth;  ///< absent where nobody knows it, in parts where some is known
 };
+
+/// What wheels measured: of every frame but the first, the rig's motion since the frame before, or
+/// nothing where they were silent.
+using WheelMotions = std::vector<std::optional<MotionMeasurement>>;
 
 /// The socket for a source of stereo frames: a simulation, a recording. At is pure and may be
 /// called from several threads at once, in any order: the same request gives the same pixels. It
@@ -36,12 +42,14 @@ class Sequence {
   /// Of the rectified pair; does not change.
   virtual StereoCalibration calibration() const = 0;
   virtual double rate_hz() const = 0;  ///< frames a second as planned, more than 0
-  /// The frames as planned: ids count from 0, stamps rise. A recording's poses are its truth, or
-  /// identity where it has none.
+  /// The frames as planned: ids count from 0, stamps rise. A recording's poses are its truth.
   virtual std::vector<FrameRequest> Schedule() const = 0;
   /// One frame; the images belong to the caller. A recording ignores the pose and refuses stamps it
   /// does not have.
   virtual SequenceFrame At(const FrameRequest& request) const = 0;
+  /// What the wheels of a recorded vehicle measured; nothing at all where nobody recorded them.
+  /// Frames of At come without. Throws std::runtime_error where they make no sense.
+  virtual std::optional<WheelMotions> ReadWheels() const { return std::nullopt; }
 };
 
 }  // namespace aisle

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "harness/contract/sequence.h"
+#include "harness/contract/wheel_track.h"
 #include "harness/io/trajectory.h"
 
 namespace aisle {
@@ -173,6 +174,8 @@ struct StereoRecording {
   std::vector<std::string> notes = {};  ///< what a reader should know: it ends too early, say
   /// An image of pair number `pair`, side 0 left, 1 right; from any thread. Throws InputError.
   std::function<cv::Mat1b(std::size_t pair, int side)> read_image = {};
+  /// Its vehicle's wheels, of recordings that have them. Throws InputError.
+  std::function<WheelTrack()> read_wheels = {};
 };
 
 /// EuRoC (the folder that holds mav0, or mav0 itself) or KITTI odometry (a sequence's folder, or

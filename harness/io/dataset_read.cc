@@ -8,6 +8,7 @@
 #include "harness/io/file.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
+#include "harness/io/odometry_files.h"
 #include "harness/io/stereo_pairs.h"
 
 namespace aisle {
@@ -171,6 +172,7 @@ StereoRecording ReadEuroc(const fs::path& folder) {
   recording.notes = NotesOnPairs(recording.pairs.size(), left.size());
   const fs::path truth = mav / "state_groundtruth_estimate0/data.csv";
   if (fs::exists(truth)) recording.truth = ReadTrajectory(truth, TrajectoryFormat::kEuroc);
+  recording.read_wheels = WheelsOfEuroc(mav, recording.cameras.left.T_body_camera);
   return recording;
 }
 
@@ -284,7 +286,10 @@ StereoRecording ReadKitti(const fs::path& folder) {
   recording.notes = found.notes;
   if (fs::exists(at.poses)) {
     recording.truth = ReadTrajectory(at.poses, TrajectoryFormat::kKitti, at.sequence / "times.txt");
+    // The benchmark's world is its first camera, y down; everybody else's has z up.
+    for (StampedPose& pose : recording.truth) pose.T_world_rig = CameraAhead() * pose.T_world_rig;
   }
+  recording.read_wheels = WheelsOfKitti(at.sequence);
   return recording;
 }
 

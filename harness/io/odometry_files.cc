@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "harness/io/file.h"
+#include "harness/io/input_error.h"
 
 namespace aisle {
 namespace {
@@ -25,17 +26,30 @@ std::string EurocRows(const Trajectory& track) {
   return text;
 }
 
+/// Of poses of a body in which the left camera stands at T_body_left.
+WheelTrack OfBaseAtCamera(const Trajectory& poses, const Eigen::Isometry3d& T_body_left) {
+  const Eigen::Isometry3d T_body_base = T_body_left * CameraAhead().inverse();
+  WheelTrack track{.poses = poses, .T_base_left = CameraAhead()};
+  for (StampedPose& pose : track.poses) pose.T_world_rig = pose.T_world_rig * T_body_base;
+  return track;
+}
+
 }  // namespace
 
-Trajectory JoinMotions(const std::vector<FrameRequest>& frames,
-                       const std::vector<MotionMeasurement>& motions) {
+Trajectory JoinMotions(const std::vector<FrameRequest>& frames, const WheelMotions& motions) {
   if (motions.size() + 1 != frames.size()) {
     throw std::invalid_argument("JoinMotions: a motion for each frame but the first");
   }
   Trajectory track = {{frames.front().stamp_ns, Eigen::Isometry3d::Identity()}};
   for (std::size_t i = 0; i < motions.size(); ++i) {
+    if (!motions[i]) {
+      throw InputError(
+          fmt::format("the wheels say nothing of the way from frame {} to {}: a file "
+                      "of odometry has no gaps, a system behind a stream takes them",
+                      i, i + 1));
+    }
     track.push_back(
-        {frames[i + 1].stamp_ns, track.back().T_world_rig * motions[i].T_now_before.inverse()});
+        {frames[i + 1].stamp_ns, track.back().T_world_rig * motions[i]->T_now_before.inverse()});
   }
   return track;
 }
@@ -55,6 +69,23 @@ void WriteOdometry(const std::filesystem::path& folder, const Trajectory& track,
       return WriteFileAtomically(folder / "odometry.txt",
                                  FormatTrajectory(stamped, TrajectoryFormat::kTum));
   }
+}
+
+std::function<WheelTrack()> WheelsOfEuroc(const std::filesystem::path& mav,
+                                          const Eigen::Isometry3d& T_body_left) {
+  const std::filesystem::path rows = mav / "odom0/data.csv";
+  if (!std::filesystem::exists(rows)) return {};
+  return
+      [=] { return OfBaseAtCamera(ReadTrajectory(rows, TrajectoryFormat::kEuroc), T_body_left); };
+}
+
+std::function<WheelTrack()> WheelsOfKitti(const std::filesystem::path& sequence) {
+  const std::filesystem::path rows = sequence / "odometry.txt";
+  if (!std::filesystem::exists(rows)) return {};
+  return [=] {
+    return OfBaseAtCamera(ReadTrajectory(rows, TrajectoryFormat::kKitti, sequence / "times.txt"),
+                          Eigen::Isometry3d::Identity());
+  };
 }
 
 }  // namespace aisle

@@ -6,6 +6,7 @@
 
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
+#include "harness/plugs/wheel_motion.h"
 
 namespace aisle {
 namespace {
@@ -75,7 +76,8 @@ Rectifier MapsOf(const CameraCalibration& camera, const cv::Matx33d& turn,
   return maps;
 }
 
-/// As the recording itself says.
+/// As the recording itself says, both onto the left one's pinhole: where the stated principal
+/// points differ (as without OpenCV's CALIB_ZERO_DISPARITY), disparities would be off by that.
 Rectification RectifyAsStated(const StereoCameras& cameras) {
   const auto& [left, right] = *cameras.stated;
   Rectification result;
@@ -86,11 +88,11 @@ Rectification RectifyAsStated(const StereoCameras& cameras) {
                         .cx = left.projection(0, 2),
                         .cy = left.projection(1, 2),
                         .baseline_m = -right.projection(0, 3) / right.projection(0, 0)};
-  const auto maps = [](const CameraCalibration& camera, const StatedRectification& stated) {
+  cv::Matx34d projection;
+  cv::eigen2cv(left.projection, projection);
+  const auto maps = [&](const CameraCalibration& camera, const StatedRectification& stated) {
     cv::Matx33d turn;
-    cv::Matx34d projection;
     cv::eigen2cv(stated.R_rectified_camera, turn);
-    cv::eigen2cv(stated.projection, projection);
     return MapsOf(camera, turn, projection);
   };
   result.left = maps(cameras.left, left);
@@ -169,8 +171,8 @@ class RecordedSequence : public Sequence {
     for (std::size_t i = 0; i < recording_.pairs.size(); ++i) {
       const std::int64_t stamp_ns = recording_.pairs[i].stamp_ns;
       const auto pose = TruthAt(stamp_ns);
-      schedule.push_back(
-          {static_cast<std::int64_t>(i), stamp_ns, pose.value_or(Eigen::Isometry3d::Identity())});
+      schedule.push_back({static_cast<std::int64_t>(i), stamp_ns,
+                          pose.value_or(Eigen::Isometry3d::Identity()), pose.has_value()});
     }
     return schedule;
   }
@@ -188,6 +190,21 @@ class RecordedSequence : public Sequence {
       frame.truth->T_world_rig = *pose;
     }
     return frame;
+  }
+
+  std::optional<WheelMotions> ReadWheels() const override {
+    if (!recording_.read_wheels) return std::nullopt;
+    std::vector<std::int64_t> stamps_ns;
+    for (const StereoRecording::Pair& pair : recording_.pairs) stamps_ns.push_back(pair.stamp_ns);
+    Eigen::Isometry3d T_left_rig = Eigen::Isometry3d::Identity();
+    T_left_rig.linear() = rectification_.R_left_rectified;
+    WheelMotions motions = MotionsBetween(recording_.read_wheels(), stamps_ns, T_left_rig);
+    if (std::ranges::any_of(motions, [](const auto& motion) { return motion.has_value(); })) {
+      return motions;
+    }
+    throw InputError(name_ +
+                     ": its wheels say nothing of the time of its images: their stamps are "
+                     "of another clock, or their messages more than 0.25 s apart");
   }
 
  private:

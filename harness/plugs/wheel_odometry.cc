@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "harness/io/input_error.h"
-#include "slam/stereo_slam.h"
+#include "harness/plugs/wheel_motion.h"
 
 namespace aisle {
 namespace {
@@ -16,43 +15,18 @@ FloorPose BodyBeneath(const Eigen::Isometry3d& T_world_rig) {
   return {T_world_rig.translation().head<2>(), std::atan2(ahead.y(), ahead.x())};
 }
 
-/// Deviations of one step, in the body's frame: translation, then rotation.
-slam::Matrix6d BodyCovariance(double way_m, double turn_rad, const OdometryOptions& options,
-                              const PlantOptions& plant) {
-  // Of what wheels do not see: the body heaves, nods and slips aside on an uneven floor.
-  constexpr double kUneven_m = 0.002, kUneven_rad = 0.002, kAside_m = 0.0005;
-  constexpr double kFresh_m = 5, kFresh_rad = 3;  // a calibration's error as if drawn anew
-  const double count_m = 2 * std::numbers::pi * options.wheel_radius_m / options.counts_per_rev;
-  const double way = std::abs(way_m), turn = std::abs(turn_rad);
-  const auto squared = [](double x) { return x * x; };
-  const double of_wheel = options.noise_m * way + squared(count_m) / 6;
-  const double ahead = squared(options.radius_error) * kFresh_m * way + of_wheel;
-  const double heading = squared(options.track_error) * kFresh_rad * turn +
-                         squared(options.inequality / plant.track_m) * kFresh_m * way +
-                         2 * of_wheel / squared(plant.track_m);
-  slam::Vector6d variances;
-  variances << ahead, squared(kAside_m), squared(kUneven_m), squared(kUneven_rad),
-      squared(kUneven_rad), heading;
-  return variances.asDiagonal();
-}
-
-/// A motion of the body as one of the rig. `way_m` and `turn_rad` are all that the body rolled and
-/// turned in it.
-MotionMeasurement MotionOfRig(const FloorPose& moved, double way_m, double turn_rad,
-                              const Eigen::Isometry3d& T_body_rig, const OdometryOptions& options,
-                              const PlantOptions& plant) {
-  MotionMeasurement motion;
-  motion.T_now_before = T_body_rig.inverse() * InSpace(moved).inverse() * T_body_rig;
-  const slam::Matrix6d to_rig = slam::Adjoint(T_body_rig.inverse());
-  motion.covariance = to_rig * BodyCovariance(way_m, turn_rad, options, plant) * to_rig.transpose();
-  motion.covariance = (motion.covariance + motion.covariance.transpose()).eval() / 2;
-  return motion;
+/// What wheels measured of a body that rolled `way_m` and turned `turn_rad` in all.
+MotionMeasurement Rolled(const FloorPose& moved, double way_m, double turn_rad,
+                         const Eigen::Isometry3d& T_body_rig, const OdometryOptions& options,
+                         const PlantOptions& plant) {
+  return OfRig({InSpace(moved).inverse(), RollingCovariance(way_m, turn_rad, options, plant)},
+               T_body_rig);
 }
 
 /// Hands the frames of another sequence on, with what the wheels measured.
 class SequenceWithOdometry : public Sequence {
  public:
-  SequenceWithOdometry(std::unique_ptr<Sequence> sequence, std::vector<MotionMeasurement> measured)
+  SequenceWithOdometry(std::unique_ptr<Sequence> sequence, WheelMotions measured)
       : sequence_(std::move(sequence)), measured_(std::move(measured)) {}
 
   std::string name() const override { return sequence_->name(); }
@@ -68,7 +42,7 @@ class SequenceWithOdometry : public Sequence {
 
  private:
   std::unique_ptr<Sequence> sequence_;
-  std::vector<MotionMeasurement> measured_;
+  WheelMotions measured_;
 };
 
 /// Hands the pictures of another drive on, with what the wheels measured.
@@ -91,9 +65,9 @@ class DriveWithOdometry : public DriveScene {
     if (!exposure.wheels_before) return frame;
     const Reckoning &before = *exposure.wheels_before, &now = exposure.wheels;
     const Course& course = scene_->course();
-    frame.images.motion = MotionOfRig(before.pose.inverse() * now.pose, now.way_m - before.way_m,
-                                      now.turn_rad - before.turn_rad, course.T_vehicle_rig,
-                                      course.odometry, course.plant);
+    frame.images.motion =
+        Rolled(before.pose.inverse() * now.pose, now.way_m - before.way_m,
+               now.turn_rad - before.turn_rad, course.T_vehicle_rig, course.odometry, course.plant);
     return frame;
   }
 
@@ -124,16 +98,23 @@ std::string CheckOdometry(const std::string& value) {
   return fmt::format("option {} = {}: expected true or false", kOdometryOption, Printable(value));
 }
 
-std::vector<MotionMeasurement> MeasureByWheels(const std::vector<FrameRequest>& schedule,
-                                               const OdometryOptions& options, std::uint64_t seed) {
-  std::vector<MotionMeasurement> measured;
-  if (schedule.empty()) return measured;
+WheelMotions MeasureByWheels(const std::vector<FrameRequest>& schedule,
+                             const OdometryOptions& options, std::uint64_t seed) {
+  WheelMotions measured;
+  const auto first = std::ranges::find_if(schedule, &FrameRequest::pose_known);
+  if (first == schedule.end()) return WheelMotions(schedule.empty() ? 0 : schedule.size() - 1);
   const PlantOptions plant;
   Odometer odometer(options, plant, seed);
   const Eigen::Isometry3d T_body_rig =
-      InSpace(BodyBeneath(schedule.front().T_world_rig)).inverse() * schedule.front().T_world_rig;
+      InSpace(BodyBeneath(first->T_world_rig)).inverse() * first->T_world_rig;
   double speed_mps = 0;
+  bool knows_speed = false;  // not at first: the drive begins in motion
   for (std::size_t i = 1; i < schedule.size(); ++i) {
+    if (!schedule[i - 1].pose_known || !schedule[i].pose_known) {
+      measured.push_back(std::nullopt);
+      knows_speed = false;
+      continue;
+    }
     const FloorPose moved =
         BodyBeneath(schedule[i - 1].T_world_rig).inverse() * BodyBeneath(schedule[i].T_world_rig);
     const double seconds =
@@ -141,32 +122,40 @@ std::vector<MotionMeasurement> MeasureByWheels(const std::vector<FrameRequest>& 
     PlantStep step;
     step.way_m = moved.position.x();
     step.turn_rad = WrapAngle(moved.heading_rad);
-    step.state.acceleration_mps2 = (step.way_m / seconds - speed_mps) / seconds;
-    speed_mps = step.way_m / seconds;
-    if (i == 1) step.state.acceleration_mps2 = 0;  // the drive begins in motion
+    const double now_mps = step.way_m / seconds;
+    step.state.acceleration_mps2 = knows_speed ? (now_mps - speed_mps) / seconds : 0;
+    speed_mps = now_mps;
+    knows_speed = true;
     // The rig stands off the axle: what the wheels err is what their arc errs.
     const FloorPose arc = AlongArc({}, step.way_m, step.turn_rad);
     const FloorPose said = moved * arc.inverse() * odometer.Measure(step);
-    measured.push_back(MotionOfRig(said, step.way_m, step.turn_rad, T_body_rig, options, plant));
+    measured.push_back(Rolled(said, step.way_m, step.turn_rad, T_body_rig, options, plant));
   }
   return measured;
 }
 
-std::vector<MotionMeasurement> MeasureByWheels(const Sequence& sequence, std::uint64_t seed) {
+WheelMotions MeasureByWheels(const Sequence& sequence, std::uint64_t seed) {
+  if (std::optional<WheelMotions> recorded = sequence.ReadWheels()) return *std::move(recorded);
   const std::vector<FrameRequest> schedule = sequence.Schedule();
-  const bool stands = std::ranges::all_of(schedule, [](const FrameRequest& frame) {
-    return frame.T_world_rig.matrix() == Eigen::Matrix4d::Identity();
-  });
-  if (stands && !schedule.empty()) {
+  const auto first = std::ranges::find_if(schedule, &FrameRequest::pose_known);
+  if (first == schedule.end()) {
     throw InputError(sequence.name() +
                      ": a system is to be handed odometry, but nobody knows the way here: take a "
-                     "scene, or a recording with truth");
+                     "scene, a recording with truth, or one whose wheels were recorded (of a bag, "
+                     "name their topic: slam --odometry /odom, or the key odometry of the file "
+                     "that describes the recording)");
+  }
+  constexpr double kUpright = 0.5;  // of a camera tilted by 60 degrees
+  if (-first->T_world_rig.linear()(2, 1) < kUpright) {
+    throw InputError(sequence.name() +
+                     ": a system is to be handed odometry, which rolls on a floor, but the z axis "
+                     "of the truth does not point up: turn its poses into a world whose z does");
   }
   return MeasureByWheels(schedule, {}, seed);
 }
 
 std::unique_ptr<Sequence> WithOdometry(std::unique_ptr<Sequence> sequence, std::uint64_t seed) {
-  std::vector<MotionMeasurement> measured = MeasureByWheels(*sequence, seed);
+  WheelMotions measured = MeasureByWheels(*sequence, seed);
   return std::make_unique<SequenceWithOdometry>(std::move(sequence), std::move(measured));
 }
 

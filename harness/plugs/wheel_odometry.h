@@ -22,15 +22,17 @@ std::string CheckOdometry(const std::string& value);
 /// motion of the rig since the frame before. The rig is mounted as the first frame shows it, on a
 /// vehicle that turns about some point beneath it; what the vehicle does besides rolling (jolts) is
 /// not measured, but allowed for. Errors as of an Odometer of a differential drive; the covariance
-/// counts those of its calibration as if they were drawn anew every 5 m.
-std::vector<MotionMeasurement> MeasureByWheels(const std::vector<FrameRequest>& schedule,
-                                               const OdometryOptions& options, std::uint64_t seed);
+/// counts those of its calibration as if they were drawn anew every 5 m. Nothing is measured to or
+/// from a frame whose pose nobody knows.
+WheelMotions MeasureByWheels(const std::vector<FrameRequest>& schedule,
+                             const OdometryOptions& options, std::uint64_t seed);
 
-/// The same of a sequence; throws InputError for one whose way is not known.
-std::vector<MotionMeasurement> MeasureByWheels(const Sequence& sequence, std::uint64_t seed);
+/// Of a sequence: what was recorded of its wheels, else the same. Throws InputError for one whose
+/// way nobody knows, or whose truth has its z anywhere but up.
+WheelMotions MeasureByWheels(const Sequence& sequence, std::uint64_t seed);
 
-/// The same frames with what the wheels measured. Throws InputError for a sequence whose way is not
-/// known.
+/// The same frames with what the wheels measured. Throws InputError for a sequence whose way nobody
+/// knows.
 std::unique_ptr<Sequence> WithOdometry(std::unique_ptr<Sequence> sequence, std::uint64_t seed);
 
 /// The same drive, whose pictures come with what the vehicle's own wheels have measured since the

@@ -7,11 +7,12 @@ namespace aisle {
 namespace {
 
 /// Who ended before its time has no pose for the frames that it was never shown: they are truth to
-/// be covered all the same. Only where all that was shown had its truth, so that the rest has one.
+/// be covered all the same, where it is known and was of all that was shown.
 void AddNeverShown(const std::vector<FrameRequest>& schedule, RunResult* result) {
   const std::size_t shown = result->facts.size();
   if (shown == 0 || result->truth.size() != shown) return;
   for (std::size_t i = shown; i < schedule.size(); ++i) {
+    if (!schedule[i].pose_known) continue;
     result->truth.push_back({schedule[i].stamp_ns, schedule[i].T_world_rig});
   }
 }

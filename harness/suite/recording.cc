@@ -35,6 +35,8 @@ void Describe(Fields& fields, RecordingSource* source) {
                &source->topics, any);
   fields.Number({"baseline_m", "metres between the eyes, where camera_info lacks it", "0.12"},
                 &baseline_m, {1e-4, 100});
+  fields.Text({"odometry", "of a bag: the topic of what its wheels measured", "/odom"},
+              &source->odometry);
   fields.Text({"truth", "where the left camera was: a trajectory file, or a topic of a bag",
                "aisle3.mcap:/odom"},
               &source->truth);

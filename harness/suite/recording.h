@@ -14,6 +14,7 @@ struct RecordingSource {
   std::string format;  ///< of a folder: euroc or kitti
   std::vector<std::string> topics = {};   ///< of a bag: left and right image; empty: found
   std::optional<double> baseline_m = {};  ///< of a bag whose camera_info lacks it
+  std::string odometry = {};              ///< of a bag: topic of its wheels; empty: none
   std::string truth = {};  ///< a trajectory file, or BAG:/topic; empty: what the recording has
 };
 

@@ -166,20 +166,150 @@ class ASuite(Bag):
             self.assertAlmostEqual(mine, of_run["scores"]["ate_rmse_m"]["value"], delta=1e-9)
 
 
-class OthersReadIt(Bag):
+class Wheels(Bag):
+    """What wheels measured, as a bag and as folders hold it, is what the SLAM is handed."""
+
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
+        if hasattr(Bag, "wheels"):
+            return
+        Bag.wheels = Bag.root / "wheels"
+        for format in ("ros2", "euroc", "kitti"):
+            code, said = run("render", Bag.root / "short.yaml", "--out", Bag.wheels / format,
+                             "--format", format, "--odometry")
+            assert code == 0, said
+
+    def track(self, name, *arguments):
+        out = self.root / f"wheels_{name}.txt"
+        code, said = run("slam", *arguments, "--system", "robust", "-o", out)
+        self.assertEqual(code, 0, said)
+        rows = [line.split() for line in out.read_text().splitlines() if not line.startswith("#")]
+        return np.array(rows, float)[:, 1:]
+
+    def test_the_slam_is_handed_them_from_bag_and_folders(self):
+        bag = self.wheels / "ros2/drive.mcap"
+        alone = self.track("none", bag)
+        told = self.track("bag", bag, "--odometry", "/odom")
+        euroc = self.track("euroc", self.wheels / "euroc", "--set", "odometry=true")
+        kitti = self.track("kitti", self.wheels / "kitti", "--format", "kitti", "--set", "odometry=true")
+        self.assertEqual(len(told), FRAMES)
+        self.assertGreater(np.abs(told - alone).max(), 0)
+        # A folder does not say how sure its wheels are: its tracks are a little different ones.
+        for track in (euroc, kitti):
+            np.testing.assert_allclose(track[:, :3], told[:, :3], atol=5e-3)
+
+    def test_a_suite_hands_them_on(self):
+        (self.wheels / "recorded.yaml").write_text("recording: ros2/drive.mcap\nodometry: /odom\n")
+        (self.wheels / "suite.yaml").write_text(
+            "suite: wheels\nscenes: [recorded.yaml, ../short.yaml]\n"
+            "systems: [{name: told, like: robust, options: {odometry: true}}]\n"
+            "twins: [live]\nseeds: [1]\n")
+        code, said = run("run", self.wheels / "suite.yaml", "--out", self.wheels / "out", "--no-video")
+        self.assertIn(code, (0, 1), said)
+        tracks = []
+        for scene in ("recorded", "short"):
+            text = (self.wheels / f"out/runs/{scene}/live/told/1/live.txt").read_text()
+            tracks.append(np.array([line.split()[1:] for line in text.splitlines()
+                                    if not line.startswith("#")], float))
+        np.testing.assert_allclose(tracks[0], tracks[1], atol=1e-6)
+
+    def test_a_topic_that_is_not_there_is_named(self):
+        code, said = run("slam", self.wheels / "ros2/drive.mcap", "--odometry", "/odm", "-o",
+                         self.root / "never.txt")
+        self.assertEqual(code, 4)
+        self.assertIn("did you mean /odom?", said)
+        code, said = run("slam", self.file, "--odometry", "/odom", "-o", self.root / "never.txt")
+        self.assertEqual(code, 4)
+        self.assertIn("topics of it: none", said)
+
+
+class ReadByOthers:
+    """A bag as the readers of others take it apart, in `bag`."""
+
+    @classmethod
+    def read(cls, file):
         folder, why = readers()
         if folder is None:
             raise unittest.SkipTest(why)
-        done = subprocess.run(["node", folder / "read_bag.mjs", cls.file], capture_output=True,
+        done = subprocess.run(["node", folder / "read_bag.mjs", file], capture_output=True,
                               text=True, cwd=folder)
         assert done.returncode == 0, done.stderr
         cls.bag = json.loads(done.stdout)
 
     def values(self, topic):
         return [message["value"] for message in self.bag["topics"][topic]["messages"]]
+
+    def way_up_from(self, frame):
+        """The frames from one to the root; each has one parent."""
+        parents = {}
+        for message in self.values("/tf_static") + self.values("/tf"):
+            for transform in message:
+                parents.setdefault(transform["child"], set()).add(transform["parent"])
+        self.assertTrue(all(len(of) == 1 for of in parents.values()), parents)
+        way = [frame]
+        while way[-1] in parents:
+            way.append(next(iter(parents[way[-1]])))
+        return way
+
+
+def matrix(position, orientation):
+    x, y, z, w = (orientation[key] for key in "xyzw")
+    pose = np.eye(4)
+    pose[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                    [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                    [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+    pose[:3, 3] = [position[key] for key in "xyz"]
+    return pose
+
+
+class OthersReadTheWheels(ReadByOthers, Wheels):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.read(cls.wheels / "ros2/drive.mcap")
+
+    def test_map_to_base_is_truth_and_odom_to_base_the_wheels(self):
+        self.assertEqual(self.way_up_from("camera_left_optical_frame"),
+                         ["camera_left_optical_frame", "base_link", "odom", "map"])
+        said = self.values("/odom")
+        self.assertEqual(len(said), FRAMES)
+        fixed = {one["child"]: one for message in self.values("/tf_static") for one in message}
+        mounted = fixed["camera_left_optical_frame"]["transform"]
+        T_base_left = matrix(mounted["translation"], mounted["rotation"])
+        for reading, transforms, truth in zip(said, self.values("/tf"), self.values("/truth/pose")):
+            T = {one["child"]: matrix(one["transform"]["translation"], one["transform"]["rotation"])
+                 for one in transforms}
+            wheels = matrix(reading["pose"]["position"], reading["pose"]["orientation"])
+            np.testing.assert_allclose(T["base_link"], wheels, atol=1e-12)
+            np.testing.assert_allclose(T["odom"] @ T["base_link"] @ T_base_left,
+                                       matrix(truth["pose"]["position"], truth["pose"]["orientation"]),
+                                       atol=1e-9)
+            self.assertEqual((reading["frame"], reading["child"]), ("odom", "base_link"))
+
+    def test_twist_and_covariance_are_those_of_the_way(self):
+        said = self.values("/odom")
+        before = None
+        for reading in said:
+            pose = matrix(reading["pose"]["position"], reading["pose"]["orientation"])
+            if before is not None:
+                seconds = (int(reading["stamp"]) - before[1]) * 1e-9
+                moved = np.linalg.inv(before[0]) @ pose
+                linear = [reading["twist"]["linear"][axis] for axis in "xyz"]
+                np.testing.assert_allclose(linear, moved[:3, 3] / seconds, atol=1e-6)
+                spread = np.array(reading["twist_covariance"]).reshape(6, 6)
+                self.assertGreater(np.linalg.eigvalsh(spread).min(), 0)
+            before = pose, int(reading["stamp"])
+        growth = [np.array(reading["covariance"]).reshape(6, 6)[5, 5] for reading in said]
+        self.assertEqual(growth[0], 0)
+        self.assertTrue(np.all(np.diff(growth) > 0), growth)
+
+
+class OthersReadIt(ReadByOthers, Bag):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.read(cls.file)
 
     def test_it_is_a_bag_of_ros2(self):
         self.assertEqual(self.bag["profile"], "ros2")
@@ -237,18 +367,9 @@ class OthersReadIt(Bag):
         self.assertEqual(left["d"], [0, 0, 0, 0, 0])
 
     def test_every_frame_has_one_parent_and_they_join(self):
-        parents = {}
-        for message in self.values("/tf_static") + self.values("/tf"):
-            for transform in message:
-                parents.setdefault(transform["child"], set()).add(transform["parent"])
-        self.assertTrue(all(len(of) == 1 for of in parents.values()), parents)
-        frame = "camera_right_optical_frame"
-        way = [frame]
-        while frame in parents:
-            frame = next(iter(parents[frame]))
-            way.append(frame)
-        self.assertEqual(way, ["camera_right_optical_frame", "camera_left_optical_frame", "base_link",
-                               "odom", "map"])
+        self.assertEqual(self.way_up_from("camera_right_optical_frame"),
+                         ["camera_right_optical_frame", "camera_left_optical_frame", "base_link",
+                          "odom", "map"])
 
     def test_objects_are_drawn(self):
         boxes = [m for markers in self.values("/truth/boxes") for m in markers if m["type"] == 1]

@@ -171,7 +171,7 @@ TEST_F(DatasetTest, KittiReadsBack) {
   const StereoRecording recording = ReadRecording(folder_, DatasetFormat::kKitti);
   ExpectCameras(recording);
   ASSERT_EQ(recording.truth.size(), frames_.size());
-  EXPECT_TRUE(recording.truth[0].T_world_rig.isApprox(Eigen::Isometry3d::Identity(), 1e-12));
+  EXPECT_TRUE(recording.truth[0].T_world_rig.isApprox(CameraAhead(), 1e-12)) << "z up";
   EXPECT_EQ(recording.truth[2].stamp_ns, 100'000'000);
   EXPECT_THAT(Read("sequences/00/calib.txt"),
               HasSubstr("P1: 30.5 0 15.25 -3.8125 0 30.5 11.75 0 0 0 1 0\n"));
@@ -197,6 +197,7 @@ TEST_F(DatasetTest, APartIsADatasetOfItsOwnInEveryFormat) {
       for (int k = 0; k < 16; ++k) {
         T_world_poses.matrix()(k / 4, k % 4) = about.at("T_world_poses").at(k).get<double>();
       }
+      if (format == DatasetFormat::kKitti) T_world_poses = T_world_poses * CameraAhead().inverse();
       for (std::size_t i = 0; i < frames_.size(); ++i) {
         const std::int64_t stamp_ns = recording.pairs[i].stamp_ns;
         EXPECT_EQ(stamp_ns, recording.truth[i].stamp_ns);
@@ -320,8 +321,10 @@ TEST_F(DatasetTest, PosesReadBackToANanometre) {
   for (const DatasetFormat format : {DatasetFormat::kEuroc, DatasetFormat::kKitti}) {
     Export(format);
     const StereoRecording recording = ReadRecording(folder_, format);
-    const Eigen::Isometry3d origin =
-        format == DatasetFormat::kKitti ? requests_[0].T_world_rig : Eigen::Isometry3d::Identity();
+    // KITTI's poses are of the first camera, and are read into a world whose z is up.
+    const Eigen::Isometry3d origin = format == DatasetFormat::kKitti
+                                         ? requests_[0].T_world_rig * CameraAhead().inverse()
+                                         : Eigen::Isometry3d::Identity();
     for (std::size_t i = 0; i < requests_.size(); ++i) {
       const Eigen::Isometry3d off =
           (origin * recording.truth[i].T_world_rig).inverse() * requests_[i].T_world_rig;

@@ -30,10 +30,11 @@ std::vector<FrameRequest> Frames() {
   return frames;
 }
 
-std::vector<MotionMeasurement> TrueMotions(const std::vector<FrameRequest>& frames) {
-  std::vector<MotionMeasurement> motions;
+WheelMotions TrueMotions(const std::vector<FrameRequest>& frames) {
+  WheelMotions motions;
   for (std::size_t i = 1; i < frames.size(); ++i) {
-    motions.push_back({frames[i].T_world_rig.inverse() * frames[i - 1].T_world_rig});
+    motions.push_back(
+        MotionMeasurement{frames[i].T_world_rig.inverse() * frames[i - 1].T_world_rig});
   }
   return motions;
 }

@@ -11,6 +11,7 @@
 
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
+#include "harness/plugs/wheel_odometry.h"
 
 namespace aisle {
 namespace {
@@ -255,6 +256,121 @@ TEST_F(Recording, WhoseStampsDoNotRiseIsRefused) {
   EXPECT_THROW(MakeRecordedSequence(recording, "a recording", "name"), InputError);
   recording.pairs[1].stamp_ns = recording.pairs[0].stamp_ns;
   EXPECT_THROW(MakeRecordedSequence(recording, "a recording", "name"), InputError);
+}
+
+/// OpenCV leaves the eyes' principal points apart unless it is told CALIB_ZERO_DISPARITY: what the
+/// rectified pictures say of depth may not depend on it.
+TEST(StatedRectificationTest, DepthIsRightWhereThePrincipalPointsDiffer) {
+  const cv::Matx33d camera(200, 0, 160, 0, 200, 120, 0, 0, 1);
+  const Eigen::Matrix3d R_right_left =
+      Eigen::AngleAxisd(0.06, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  const Eigen::Vector3d t_right_left(-0.12, 0, 0), point_m(0.3, -0.2, 4);
+  cv::Matx33d rotation;
+  cv::Vec3d shift;
+  cv::eigen2cv(R_right_left, rotation);
+  cv::eigen2cv(t_right_left, shift);
+  std::array<Camera, 2> eyes;
+  eyes[1].T_body_camera.linear() = R_right_left.transpose();
+  eyes[1].T_body_camera.translation() = -(R_right_left.transpose() * t_right_left);
+  std::array<cv::Mat1b, 2> pair;
+  for (std::size_t side = 0; side < 2; ++side) {
+    pair[side] = cv::Mat1b::zeros(kHeight, kWidth);
+    Dot(eyes[side], point_m, &pair[side]);
+  }
+  for (const int flags : {0, static_cast<int>(cv::CALIB_ZERO_DISPARITY)}) {
+    cv::Matx33d turn[2];
+    cv::Matx34d projection[2];
+    cv::Matx44d to_depth;
+    const cv::Mat straight = cv::Mat::zeros(1, 4, CV_64F);
+    cv::stereoRectify(camera, straight, camera, straight, {kWidth, kHeight}, rotation, shift,
+                      turn[0], turn[1], projection[0], projection[1], to_depth, flags, 1);
+    StereoRecording recording;
+    std::array<StatedRectification, 2> stated;
+    for (int side = 0; side < 2; ++side) {
+      auto& one = side == 0 ? recording.cameras.left : recording.cameras.right;
+      one.width = kWidth;
+      one.height = kHeight;
+      one.fx = one.fy = 200;
+      one.cx = 160;
+      one.cy = 120;
+      cv::cv2eigen(cv::Mat(turn[side]), stated[static_cast<std::size_t>(side)].R_rectified_camera);
+      cv::cv2eigen(cv::Mat(projection[side]), stated[static_cast<std::size_t>(side)].projection);
+    }
+    EXPECT_EQ(projection[0](0, 2) == projection[1](0, 2), flags != 0) << "the case in question";
+    recording.cameras.stated = stated;
+    recording.pairs.push_back({kStart_ns, "left", "right"});
+    recording.read_image = [&](std::size_t, int side) { return pair[side == 0 ? 0 : 1]; };
+    const auto sequence = MakeRecordedSequence(recording, "spot", "spot");
+    const StereoFrame frame = sequence->At(sequence->Schedule().front()).images;
+    const StereoCalibration rig = sequence->calibration();
+    const double disparity = CentreOf(frame.left).x - CentreOf(frame.right).x;
+    const Eigen::Vector3d rectified = stated[0].R_rectified_camera * point_m;
+    EXPECT_NEAR(rig.fx * rig.baseline_m / disparity, rectified.z(), 0.05) << flags;
+  }
+}
+
+/// Wheels that were recorded beside the images come before those that truth would imply.
+TEST_F(Recording, BringsItsOwnWheels) {
+  const std::vector<std::array<cv::Mat1b, 2>> pairs(3, {Noise(1), Noise(2)});
+  Write(Parallel(), pairs);
+  EXPECT_FALSE(OpenRecording(folder_, DatasetFormat::kEuroc)->ReadWheels());
+  fs::create_directories(folder_ / "mav0/odom0");
+  const auto wheels = [&](std::int64_t late_ns) {
+    std::ofstream rows(folder_ / "mav0/odom0/data.csv");
+    for (int i = 0; i < 3; ++i) {  // of the left camera, z ahead
+      rows << kStart_ns + late_ns + 50'000'000LL * i << ",0,0," << 0.04 * i << ",1,0,0,0\n";
+    }
+  };
+  wheels(0);
+  const auto motions = OpenRecording(folder_, DatasetFormat::kEuroc)->ReadWheels();
+  ASSERT_TRUE(motions && motions->size() == 2);
+  for (const auto& motion : *motions) {
+    ASSERT_TRUE(motion);
+    EXPECT_LT((motion->T_now_before.translation() - Eigen::Vector3d(0, 0, -0.04)).norm(), 1e-9);
+    // Surest of what the wheels measure: the way ahead, and less so of what they cannot see.
+    EXPECT_LT(motion->covariance(2, 2), motion->covariance(1, 1));
+  }
+  wheels(3600'000'000'000);
+  EXPECT_THROW(OpenRecording(folder_, DatasetFormat::kEuroc)->ReadWheels(), InputError);
+}
+
+/// The same drive laid out both ways: its wheels say the same of it.
+TEST_F(Recording, OfKittiRollsOnTheSameFloorAsOfEuroc) {
+  std::vector<Eigen::Isometry3d> truth;
+  for (int i = 0; i < 5; ++i) {
+    Eigen::Isometry3d body = Eigen::Isometry3d::Identity();
+    body.rotate(Eigen::AngleAxisd(0.03 * i, Eigen::Vector3d::UnitZ()));
+    body.translation() << 0.06 * i, 0.002 * i * i, 0;
+    truth.push_back(body * CameraAhead());
+  }
+  Write(Parallel(), {truth.size(), {Noise(1), Noise(2)}}, truth);
+  const fs::path sequence = folder_ / "kitti/sequences/00";
+  std::ofstream calibration, times, poses;
+  for (const char* camera : {"image_0", "image_1"}) fs::create_directories(sequence / camera);
+  fs::create_directories(folder_ / "kitti/poses");
+  calibration.open(sequence / "calib.txt");
+  for (int c = 0; c < 4; ++c) {
+    calibration << fmt::format("P{}: 200 0 160 {} 0 200 120 0 0 0 1 0\n", c, -22 * (c % 2));
+  }
+  times.open(sequence / "times.txt");
+  poses.open(folder_ / "kitti/poses/00.txt");
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    times << fmt::format("{:.3f}\n", 0.05 * static_cast<double>(i));
+    const Eigen::Matrix4d T_first_now = (truth[0].inverse() * truth[i]).matrix();
+    for (int k = 0; k < 12; ++k) poses << fmt::format("{} ", T_first_now(k / 4, k % 4));
+    poses << "\n";
+    for (const char* camera : {"image_0", "image_1"}) {
+      WriteImage(sequence / camera / fmt::format("{:06}.png", i), Noise(1));
+    }
+  }
+  for (std::ofstream* file : {&calibration, &times, &poses}) file->close();
+  const auto euroc = MeasureByWheels(*OpenRecording(folder_, DatasetFormat::kEuroc), 3);
+  const auto kitti = MeasureByWheels(*OpenRecording(folder_ / "kitti", DatasetFormat::kKitti), 3);
+  ASSERT_EQ(euroc.size(), kitti.size());
+  for (std::size_t i = 0; i < euroc.size(); ++i) {
+    ASSERT_TRUE(euroc[i] && kitti[i]);
+    EXPECT_TRUE(euroc[i]->T_now_before.isApprox(kitti[i]->T_now_before, 1e-6)) << i;
+  }
 }
 
 }  // namespace

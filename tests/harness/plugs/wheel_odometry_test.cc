@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "harness/contract/floor.h"
+#include "harness/io/input_error.h"
 #include "harness/loop/closed_drive.h"
 #include "slam/stereo_slam.h"
 #include "tests/harness/loop/fake_drive_scene.h"
@@ -31,10 +32,10 @@ std::vector<FrameRequest> WindingWay(double metres) {
   return way;
 }
 
-slam::MeasuredMotion Whole(const std::vector<MotionMeasurement>& steps) {
+slam::MeasuredMotion Whole(const WheelMotions& steps) {
   slam::MeasuredMotion whole{Eigen::Isometry3d::Identity(), slam::Matrix6d::Zero()};
-  for (const MotionMeasurement& step : steps) {
-    whole = slam::Compose(whole, {step.T_now_before, step.covariance});
+  for (const std::optional<MotionMeasurement>& step : steps) {
+    whole = slam::Compose(whole, {step->T_now_before, step->covariance});
   }
   return whole;
 }
@@ -56,7 +57,7 @@ TEST(MeasureByWheels, PerfectWheelsMeasureTheWayItself) {
   ASSERT_EQ(steps.size(), way.size() - 1);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Eigen::Isometry3d truth = way[i + 1].T_world_rig.inverse() * way[i].T_world_rig;
-    EXPECT_LT(slam::Difference(truth, steps[i].T_now_before).norm(), 1e-7) << i;
+    EXPECT_LT(slam::Difference(truth, steps[i]->T_now_before).norm(), 1e-7) << i;
   }
 }
 
@@ -64,8 +65,8 @@ TEST(MeasureByWheels, SameSeedSameBitsAnotherSeedOthers) {
   const auto way = WindingWay(2);
   const auto a = MeasureByWheels(way, {}, 7), b = MeasureByWheels(way, {}, 7),
              c = MeasureByWheels(way, {}, 8);
-  EXPECT_EQ(a.back().T_now_before.matrix(), b.back().T_now_before.matrix());
-  EXPECT_NE(a.back().T_now_before.matrix(), c.back().T_now_before.matrix());
+  EXPECT_EQ(a.back()->T_now_before.matrix(), b.back()->T_now_before.matrix());
+  EXPECT_NE(a.back()->T_now_before.matrix(), c.back()->T_now_before.matrix());
 }
 
 /// Over some metres the errors of calibration dominate and the covariance still bounds them: of
@@ -92,10 +93,52 @@ TEST(MeasureByWheels, CovariancesAreSymmetricAndDefinite) {
   auto way = WindingWay(1);
   way.push_back(way.back());  // it stops
   way.back().stamp_ns += 50'000'000;
-  for (const MotionMeasurement& step : MeasureByWheels(way, {}, 3)) {
-    EXPECT_EQ(step.covariance, step.covariance.transpose());
-    EXPECT_EQ((Eigen::LLT<slam::Matrix6d>(step.covariance).info()), Eigen::Success);
+  for (const std::optional<MotionMeasurement>& step : MeasureByWheels(way, {}, 3)) {
+    EXPECT_EQ(step->covariance, step->covariance.transpose());
+    EXPECT_EQ((Eigen::LLT<slam::Matrix6d>(step->covariance).info()), Eigen::Success);
   }
+}
+
+/// A recording's truth often begins after its images, and has gaps.
+TEST(MeasureByWheels, NothingIsMeasuredWhereNobodyKnowsTheWay) {
+  auto way = WindingWay(2);
+  const auto lacks = [](std::size_t i) { return i < 3 || (i >= 10 && i < 12); };
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    if (lacks(i)) way[i] = {way[i].id, way[i].stamp_ns, Eigen::Isometry3d::Identity(), false};
+  }
+  const WheelMotions steps = MeasureByWheels(way, Perfect(), 1);
+  ASSERT_EQ(steps.size(), way.size() - 1);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    ASSERT_EQ(steps[i].has_value(), !lacks(i) && !lacks(i + 1)) << i;
+    if (!steps[i]) continue;
+    const Eigen::Isometry3d truth = way[i + 1].T_world_rig.inverse() * way[i].T_world_rig;
+    EXPECT_LT(slam::Difference(truth, steps[i]->T_now_before).norm(), 1e-7) << i;
+  }
+}
+
+/// Frames whose poses are known, and nothing else.
+class Planned : public Sequence {
+ public:
+  explicit Planned(std::vector<FrameRequest> schedule) : schedule_(std::move(schedule)) {}
+  std::string name() const override { return "planned"; }
+  StereoCalibration calibration() const override { return {}; }
+  double rate_hz() const override { return 20; }
+  std::vector<FrameRequest> Schedule() const override { return schedule_; }
+  SequenceFrame At(const FrameRequest&) const override { return {}; }
+
+ private:
+  std::vector<FrameRequest> schedule_;
+};
+
+TEST(MeasureByWheels, AWorldOnItsSideAndAWayThatNobodyKnowsAreRefused) {
+  auto way = WindingWay(1);
+  EXPECT_NO_THROW(MeasureByWheels(Planned(way), 1));
+  for (FrameRequest& frame : way) {  // y down, as a camera has it
+    frame.T_world_rig = way.front().T_world_rig.inverse() * frame.T_world_rig;
+  }
+  EXPECT_THROW(MeasureByWheels(Planned(way), 1), InputError);
+  for (FrameRequest& frame : way) frame.pose_known = false;
+  EXPECT_THROW(MeasureByWheels(Planned(way), 1), InputError);
 }
 
 /// Looks at what every picture is handed, and tells the truth.

@@ -36,6 +36,11 @@ function summary(type, message) {
     return { stamp, frame, model: message.distortion_model, d: [...message.d], k: [...message.k],
              r: [...message.r], p: [...message.p], width: message.width, height: message.height };
   }
+  if (type.endsWith("/Odometry")) {
+    return { stamp, frame, child: message.child_frame_id, pose: message.pose.pose,
+             covariance: [...message.pose.covariance], twist: message.twist.twist,
+             twist_covariance: [...message.twist.covariance] };
+  }
   if (type.endsWith("/PoseStamped")) return { stamp, frame, pose: message.pose };
   if (type.endsWith("/Path")) {
     return { frame, stamps: message.poses.map((p) => nanoseconds(p.header.stamp).toString()) };
