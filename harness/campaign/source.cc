@@ -92,7 +92,9 @@ std::unique_ptr<Sequence> OpenRecordingSource(const std::string& file) {
 std::vector<std::string> CheckSource(const std::string& file) {
   try {
     if (!IsRecording(file)) return CheckScene(file);
-    OpenRecordingSource(file);
+    const std::unique_ptr<Sequence> sequence = OpenRecordingSource(file);
+    // Else a night would find out, in the middle.
+    if (!ReadRecordingSource(file).odometry.empty()) sequence->ReadWheels();
   } catch (const InputError& error) {
     return {error.what()};
   }

@@ -10,8 +10,8 @@
 
 namespace aisle {
 
-/// Which frame is wanted: at a time and from a rig pose. The run asks for the planned pose today;
-/// a vehicle steered by the estimate would ask for another.
+/// Which frame is wanted: at a time and from a rig pose, the planned one or, of a vehicle that
+/// steers by the estimate, the one that it has reached.
 struct FrameRequest {
   std::int64_t id = 0;        ///< number of the frame, from 0 on
   std::int64_t stamp_ns = 0;  ///< nanoseconds; the middle of the exposure
