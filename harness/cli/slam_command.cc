@@ -91,7 +91,8 @@ std::unique_ptr<Sequence> Open(const Options& options) {
   if (!options.bag.topics.empty() || options.bag.baseline_m || !options.calibration.empty() ||
       !options.bag.odometry.empty()) {
     throw InputError(options.dataset, 0,
-                     "is no bag: --topic, --baseline, --odometry and --calibration are for bags");
+                     "is no bag: --topic, --baseline, --odometry and --calibration are for bags (a "
+                     "folder's wheels: --set odometry=true)");
   }
   const auto format = DatasetFormatFromName(options.format.empty() ? "euroc" : options.format);
   StereoRecording recording = ReadRecording(path, format);
