@@ -14,11 +14,6 @@ bool Tells(const std::optional<FrameTruth>& truth, MaskSource asked) {
   return truth && !(asked == MaskSource::kDynamic ? truth->dynamic : truth->actor).empty();
 }
 
-MaskMaker MakerOf(const SystemSpec& system, MaskSource source, std::uint64_t seed) {
-  return system.mask_errors == MaskErrors{} ? MasksFromTruth(source)
-                                            : MasksWithErrors(source, system.mask_errors, seed);
-}
-
 }  // namespace
 
 std::unique_ptr<Sequence> OpenSourceFor(const SystemSpec& system, const BenchView& view,
@@ -30,8 +25,8 @@ std::unique_ptr<Sequence> OpenSourceFor(const SystemSpec& system, const BenchVie
 
 MaskMaker MasksFor(const SystemSpec& system, const BenchView& view, const BenchSource& source) {
   const MaskSource asked = FindSystem(system.like).mask_source;
-  return [asked, make = MakerOf(system, asked, SeedOf(view, source)), view = view.text,
-          name = system.name](const SequenceFrame& frame) {
+  return [asked, make = MasksWithErrors(asked, system.mask_errors, SeedOf(view, source)),
+          view = view.text, name = system.name](const SequenceFrame& frame) {
     if (Tells(frame.truth, asked)) return make(frame);
     throw InputError(
         fmt::format("{}: system '{}' is told what moves, and nobody knows it here: take a scene",
@@ -42,9 +37,7 @@ MaskMaker MasksFor(const SystemSpec& system, const BenchView& view, const BenchS
 FrameEstimate Show(const SequenceFrame& frame, const MaskMaker& masks, Estimator* estimator) {
   const ExternalMask mask = masks(frame);
   FrameEstimate estimate = estimator->Process(frame.images, mask);
-  if (estimate.regions.mask.empty() && estimate.regions.regions.empty()) {
-    estimate.regions.mask = mask.left;
-  }
+  AdoptMask(mask, &estimate);
   return estimate;
 }
 

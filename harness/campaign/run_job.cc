@@ -139,10 +139,7 @@ void RunForeign(const Job& job) {
 MaskMaker MasksOf(const Job& job) {
   const SystemSpec& spec = job.spec.system;
   if (spec.external) return MasksFromTruth(MaskSource::kNone);
-  const MaskSource source = FindSystem(spec.like).mask_source;
-  return spec.mask_errors == MaskErrors{}
-             ? MasksFromTruth(source)
-             : MasksWithErrors(source, spec.mask_errors, job.spec.seed);
+  return MasksWithErrors(FindSystem(spec.like).mask_source, spec.mask_errors, job.spec.seed);
 }
 
 /// One of ours, or a foreign one behind a stream, which answers frame by frame as ours do.

@@ -1,6 +1,7 @@
 #include "harness/bag/bag.h"
 #include "harness/cli/bag_notes.h"
 #include "harness/cli/command.h"
+#include "harness/cli/early_checks.h"
 #include "harness/cli/slam_stream.h"
 #include "harness/cli/system_choice.h"
 #include "harness/cli/terminal.h"
@@ -49,13 +50,6 @@ MaskMaker MasksOf(const Options& options, std::size_t* masked) {
     *masked += mask.left.empty() && mask.confidence.empty() ? 0 : 1;
     return mask;
   };
-}
-
-/// Asked before a drive that may take an hour, of what is written after it.
-void CheckCanBeWritten(const std::string& file) {
-  if (file.empty()) return;
-  if (fs::is_directory(file)) throw InputError(file, 0, "is a folder: name a file in it");
-  MakeParentFolder(file);
 }
 
 std::unique_ptr<Estimator> MakeEstimator(const SystemSpec& system,

@@ -138,6 +138,7 @@ MaskMaker MasksFromTruth(MaskSource source) {
 }
 
 MaskMaker MasksWithErrors(MaskSource source, const MaskErrors& errors, std::uint64_t seed) {
+  if (errors == MaskErrors{}) return MasksFromTruth(source);
   // The queue is the latency: what comes out is as old as the network is slow.
   const auto late = std::make_shared<std::deque<ExternalMask>>();
   return [=](const SequenceFrame& frame) {
@@ -147,6 +148,12 @@ MaskMaker MasksWithErrors(MaskSource source, const MaskErrors& errors, std::uint
     late->pop_front();
     return ready;
   };
+}
+
+void AdoptMask(const ExternalMask& mask, FrameEstimate* estimate) {
+  if (estimate->regions.mask.empty() && estimate->regions.regions.empty()) {
+    estimate->regions.mask = mask.left;
+  }
 }
 
 }  // namespace aisle

@@ -17,6 +17,10 @@ MaskMaker MasksFromTruth(MaskSource source);
 
 /// Truth's masks as an imperfect network would give them. Errors are drawn from (seed, frame,
 /// object) alone: the same run gives the same masks. A missed object is missed in both cameras.
+/// Without any error they are truth's own.
 MaskMaker MasksWithErrors(MaskSource source, const MaskErrors& errors, std::uint64_t seed);
+
+/// A mask handed over is the system's mask, unless it says otherwise.
+void AdoptMask(const ExternalMask& mask, FrameEstimate* estimate);
 
 }  // namespace aisle

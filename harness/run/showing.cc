@@ -63,13 +63,6 @@ FrameFacts FactsOf(const SequenceFrame& shown, const FrameEstimate& estimate) {
   return facts;
 }
 
-/// A mask handed over is the system's mask, unless it says otherwise.
-void AdoptMask(const ExternalMask& mask, FrameEstimate* estimate) {
-  if (estimate->regions.mask.empty() && estimate->regions.regions.empty()) {
-    estimate->regions.mask = mask.left;
-  }
-}
-
 Trajectory LiveTrack(const std::vector<FrameEstimate>& estimates) {
   Trajectory live;
   for (const FrameEstimate& estimate : estimates) {
