@@ -15,10 +15,11 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr const char* kStatic = "/tf_static";
 
-template <class T>
-T Message(const Bag& bag, const BagEntry& entry, const std::string& file) {
+/// Hands a message on; what is wrong with it names its topic.
+template <class T, class Take>
+void TakeMessage(const Bag& bag, const BagEntry& entry, const std::string& file, const Take& take) {
   try {
-    return ros::Deserialize<T>(bag.Read(entry));
+    take(ros::Deserialize<T>(bag.Read(entry)));
   } catch (const ros::CdrError& error) {
     throw InputError(
         file, 0,
@@ -38,7 +39,12 @@ class StaticFrames {
     for (const BagEntry& entry : bag.entries()) {
       const BagChannel& channel = bag.channels()[entry.channel];
       if (channel.topic != kStatic || channel.type != "tf2_msgs/msg/TFMessage") continue;
-      for (const auto& one : Message<ros::TFMessage>(bag, entry, file).transforms) Add(one);
+      TakeMessage<ros::TFMessage>(bag, entry, file, [&](const ros::TFMessage& message) {
+        for (const ros::TransformStamped& one : message.transforms) {
+          parents_[FrameName(one.child_frame_id)] = {FrameName(one.header.frame_id),
+                                                     ros::IsometryOf(one.transform)};
+        }
+      });
     }
   }
 
@@ -62,15 +68,6 @@ class StaticFrames {
     std::string frame;
     Eigen::Isometry3d T_parent_child;
   };
-
-  void Add(const ros::TransformStamped& one) {
-    try {
-      parents_[FrameName(one.child_frame_id)] = {FrameName(one.header.frame_id),
-                                                 ros::IsometryOf(one.transform)};
-    } catch (const ros::CdrError& error) {
-      throw InputError(file_, 0, fmt::format("a message of {} {}", kStatic, error.what()));
-    }
-  }
 
   Eigen::Isometry3d InRoot(const std::string& frame, std::string* root) const {
     Eigen::Isometry3d T_root_frame = Eigen::Isometry3d::Identity();
@@ -105,9 +102,14 @@ std::string FrameOfImages(const Bag& bag, const std::string& topic, const std::s
   for (const BagEntry& entry : bag.entries()) {
     const BagChannel& channel = bag.channels()[entry.channel];
     if (channel.topic != topic) continue;
-    return channel.type == "sensor_msgs/msg/Image"
-               ? Message<ros::Image>(bag, entry, file).header.frame_id
-               : Message<ros::CompressedImage>(bag, entry, file).header.frame_id;
+    std::string frame;
+    const auto take = [&](const auto& image) { frame = image.header.frame_id; };
+    if (channel.type == "sensor_msgs/msg/Image") {
+      TakeMessage<ros::Image>(bag, entry, file, take);
+    } else {
+      TakeMessage<ros::CompressedImage>(bag, entry, file, take);
+    }
+    return frame;
   }
   return {};
 }
@@ -125,23 +127,20 @@ std::map<std::int64_t, Reading> Readings(const Bag& bag, const std::string& topi
   for (const BagEntry& entry : bag.entries()) {
     const BagChannel& channel = bag.channels()[entry.channel];
     if (channel.topic != topic || channel.type != "nav_msgs/msg/Odometry") continue;
-    const auto message = Message<ros::Odometry>(bag, entry, file);
-    Eigen::Isometry3d pose;
-    try {
-      pose = ros::IsometryOf(message.pose.pose);
-    } catch (const ros::CdrError& error) {
-      throw InputError(file, 0, fmt::format("a message of {} {}", topic, error.what()));
-    }
-    if (taken++ > 0 && message.child_frame_id != *base) {
-      throw InputError(file, 0,
-                       fmt::format("{} tells of two bodies, '{}' and '{}'", topic, Printable(*base),
-                                   Printable(message.child_frame_id)));
-    }
-    *base = message.child_frame_id;
-    using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
-    readings[ros::NanosecondsOf(message.header.stamp)] = {
-        pose, Eigen::Map<const RowMajor>(message.twist.covariance.data())};
+    TakeMessage<ros::Odometry>(bag, entry, file, [&](const ros::Odometry& message) {
+      if (taken++ > 0 && message.child_frame_id != *base) {
+        throw InputError(file, 0,
+                         fmt::format("{} tells of two bodies, '{}' and '{}'", topic,
+                                     Printable(*base), Printable(message.child_frame_id)));
+      }
+      *base = message.child_frame_id;
+      using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+      readings[ros::NanosecondsOf(message.header.stamp)] = {
+          ros::IsometryOf(message.pose.pose),
+          Eigen::Map<const RowMajor>(message.twist.covariance.data())};
+    });
   }
+  if (readings.empty()) throw InputError(file, 0, topic + " has no message");
   if (taken > 1 && readings.size() == 1) {
     throw InputError(file, 0,
                      fmt::format("the {} messages of {} have one stamp in their headers: nobody "
@@ -156,8 +155,7 @@ bool IsCovariance(const Matrix6d& matrix) {
          matrix.llt().info() == Eigen::Success;
 }
 
-}  // namespace
-
+/// In order.
 std::vector<std::string> OdometryTopics(const Bag& bag) {
   std::set<std::string> topics;
   for (const BagChannel& channel : bag.channels()) {
@@ -167,6 +165,8 @@ std::vector<std::string> OdometryTopics(const Bag& bag) {
   }
   return {topics.begin(), topics.end()};
 }
+
+}  // namespace
 
 WheelTrack ReadBagWheels(const Bag& bag, const std::string& topic, const std::string& left_topic,
                          const std::string& file) {

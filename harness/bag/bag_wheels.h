@@ -7,9 +7,6 @@
 
 namespace aisle {
 
-/// The topics on which a bag has nav_msgs/Odometry, in order.
-std::vector<std::string> OdometryTopics(const Bag& bag);
-
 /// What the wheels of a recorded vehicle measured: a topic of nav_msgs/Odometry, by header stamp.
 /// The left camera stands where /tf_static has it: from the messages' child_frame_id to the frame
 /// of the images on `left_topic`. A motion's covariance is that of the twists between, times the

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 #include <set>
 
 #include "slam/camera/se3.h"
 #include "slam/common/stopwatch.h"
 #include "slam/map/landmarks_of.h"
+#include "slam/map/with_neighbours.h"
 
 namespace aisle::slam {
 namespace {
@@ -17,17 +17,6 @@ namespace {
 struct Visits {
   std::vector<KeyframeId> now, then;
 };
-
-/// Keyframes and their neighbours in the covisibility graph.
-std::set<KeyframeId> WithNeighbours(const Map& map, const std::set<KeyframeId>& keyframes) {
-  std::set<KeyframeId> all = keyframes;
-  for (const KeyframeId id : keyframes) {
-    for (const Covisible& covisible : CovisibleKeyframes(map, id, kLeastCovisible)) {
-      all.insert(covisible.keyframe);
-    }
-  }
-  return all;
-}
 
 Visits VisitsOf(const Map& map, const std::vector<LoopEdge>& loops) {
   std::set<KeyframeId> current, matched;

@@ -9,6 +9,7 @@
 #include "slam/map/landmarks_of.h"
 #include "slam/map/match_by_projection.h"
 #include "slam/map/match_keyframe.h"
+#include "slam/map/with_neighbours.h"
 #include "slam/optimize/observations_of.h"
 #include "slam/place/adjust_loop.h"
 
@@ -139,10 +140,7 @@ std::vector<LoopEdge> SeenBeside(const Map& map, const LoopEdge& loop, const Ste
 
 bool IsOnePlace(const Map& map, const LoopEdge& loop) {
   if (!map.Find(loop.current) || !map.Find(loop.matched)) return false;
-  std::set<KeyframeId> around = {loop.matched};
-  for (const Covisible& covisible : CovisibleKeyframes(map, loop.matched, kLeastCovisible)) {
-    around.insert(covisible.keyframe);
-  }
+  const std::set<KeyframeId> around = WithNeighbours(map, {loop.matched});
   return std::ranges::any_of(
       CovisibleKeyframes(map, loop.current, kLeastCovisible),
       [&](const Covisible& beside) { return around.contains(beside.keyframe); });
