@@ -7,6 +7,7 @@
 
 #include "simulator/calibration/stereo_model.h"
 #include "simulator/scene/bag_poses.h"
+#include "simulator/scene/check_poses.h"
 
 namespace aisle::sim {
 namespace {
@@ -145,6 +146,9 @@ void ReadTrajectory(Scene* scene, Issues* issues) {
                     "outside the hall: its "
                     "coordinates are the scene's, metres, z up",
                     file, at.x(), at.y(), at.z(), static_cast<double>(pose.time_ns) * 1e-9));
+  }
+  if (const std::string error = PosesError(*scene); !error.empty()) {
+    return add(fmt::format("{}: {}", file, error));
   }
   rig.route.plan.start = rig.poses.front().T_world_body.translation().head<2>();
 }

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <utility>
 
 #include "simulator/motion/recorded_path.h"
 #include "simulator/scene/load.h"
@@ -135,7 +138,8 @@ TEST_F(RigFilesTest, ARecordingHasNeitherBumpsNorSteering) {
 }
 
 TEST_F(RigFilesTest, TheirFilesAreTheScenes) {
-  const std::string file = SceneWith("calibration: calib.txt, trajectory: drive.txt");
+  const std::string file =
+      SceneWith("calibration: calib.txt, trajectory: drive.txt, trajectory_of: vehicle");
   const std::vector<std::string> files = SceneFiles(file);
   EXPECT_THAT(files, testing::ElementsAre(file, (folder_ / "calib.txt").string(),
                                           (folder_ / "drive.txt").string()));
@@ -155,13 +159,95 @@ TEST_F(RigFilesTest, EachIsMeantFromTheFolderOfTheFileThatNamesIt) {
   fs::rename(folder_ / "below/drive.txt", folder_ / "above/drive.txt");
   const std::string above = (folder_ / "above").string(), below = (folder_ / "below").string();
   const std::string file =
-      Put("above/s.yaml", "extend: ../below/base\nrig: {trajectory: drive.txt}\n");
+      Put("above/s.yaml",
+          "extend: ../below/base\nrig: {trajectory: drive.txt, trajectory_of: vehicle}\n");
   EXPECT_THAT(CheckScene(file), testing::ElementsAre());
   EXPECT_THAT(SceneFiles(file), testing::ElementsAre(file, below + "/base.yaml",
                                                      below + "/calib.txt", above + "/drive.txt"));
   Put("above/s.yaml",
-      "extend: ../below/base\nrig: {trajectory: drive.txt, calibration_right: r.yaml}\n");
+      "extend: ../below/base\nrig: {trajectory: drive.txt, trajectory_of: vehicle, "
+      "calibration_right: r.yaml}\n");
   EXPECT_THAT(CheckScene(file), testing::ElementsAre(HasSubstr(above + "/r.yaml")));
+}
+
+/// A drive of ten poses along x: each the quaternion "qx qy qz qw" of its index, `z_m` up.
+std::string Poses(const std::function<std::string(int)>& turn, double z_m) {
+  std::string poses;
+  for (int i = 0; i < 10; ++i) {
+    poses += fmt::format("{:.1f} {:.1f} 0 {} {}\n", 0.2 * i, 0.1 * i, z_m, turn(i));
+  }
+  return poses;
+}
+
+/// Level and ahead, turned to the left by `yaw_deg`, its numbers in the order "qx qy qz qw".
+std::array<double, 4> Turned(double yaw_deg, bool is_camera) {
+  const Eigen::Quaterniond level =
+      is_camera ? Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5) : Eigen::Quaterniond::Identity();
+  const Eigen::Quaterniond q(Eigen::AngleAxisd(yaw_deg * M_PI / 180, Eigen::Vector3d::UnitZ()) *
+                             level);
+  return {q.x(), q.y(), q.z(), q.w()};
+}
+
+TEST_F(RigFilesTest, WhoseAxesAndWhichOrderTheTurnsHaveIsSeenByHowTheRigStands) {
+  const auto in_order = [](const std::array<double, 4>& q) {
+    return fmt::format("{} {} {} {}", q[0], q[1], q[2], q[3]);
+  };
+  const auto qw_first = [](const std::array<double, 4>& q) {
+    return fmt::format("{} {} {} {}", q[3], q[0], q[1], q[2]);
+  };
+  for (const bool is_camera : {false, true}) {
+    const std::string own = is_camera ? "camera" : "vehicle",
+                      other = is_camera ? "vehicle" : "camera";
+    const double z_m = is_camera ? 1.2 : 0;
+    const auto rig = [](const std::string& of) {
+      return "trajectory: way.txt, trajectory_of: " + of;
+    };
+    const auto turn = [&](int i) { return Turned(40 + 2 * i, is_camera); };
+    Put("way.txt", Poses([&](int i) { return in_order(turn(i)); }, z_m));
+    EXPECT_EQ(WhyNot(rig(own)), "") << own;
+    EXPECT_THAT(WhyNot(rig(other)), HasSubstr("trajectory_of: " + own));
+    Put("way.txt", Poses([&](int i) { return qw_first(turn(is_camera ? i + 15 : i)); }, z_m));
+    EXPECT_THAT(WhyNot(rig(own)), testing::AllOf(HasSubstr("way.txt"), HasSubstr("qw last")))
+        << own;
+  }
+}
+
+TEST_F(RigFilesTest, ACameraMayLookDownOrHangUpsideDownByItsMounting) {
+  Put("way.txt", Poses([](int) { return "0 0 0 1"; }, 0));
+  EXPECT_EQ(WhyNot("trajectory: way.txt, trajectory_of: vehicle, camera_pitch_deg: 60"), "");
+  // The camera's own way on such a vehicle: pitched, and turned about its axis.
+  for (const auto& [angles_deg, mounting] :
+       {std::pair(std::array{60.0, 0.0}, "camera_pitch_deg: 60"),
+        std::pair(std::array{30.0, 180.0}, "camera_pitch_deg: 30, camera_roll_deg: 180"),
+        std::pair(std::array{0.0, 90.0}, "camera_roll_deg: 90")}) {
+    const Eigen::Quaterniond q(
+        Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5) *
+        Eigen::AngleAxisd(-angles_deg[0] * M_PI / 180, Eigen::Vector3d::UnitX()) *
+        Eigen::AngleAxisd(angles_deg[1] * M_PI / 180, Eigen::Vector3d::UnitZ()));
+    Put("way.txt",
+        Poses([&](int) { return fmt::format("{} {} {} {}", q.x(), q.y(), q.z(), q.w()); }, 1));
+    EXPECT_EQ(WhyNot(fmt::format("trajectory: way.txt, {}", mounting)), "") << mounting;
+    const bool is_usual = angles_deg[1] == 0;  // a camera that looks down by 60 degrees
+    EXPECT_EQ(WhyNot("trajectory: way.txt") == "", is_usual) << mounting;
+  }
+}
+
+TEST_F(RigFilesTest, ARigMayFallForAWhile) {
+  const auto falling = [](int from) {
+    return Poses([from](int i) { return i < from ? "0 0 0 1" : "1 0 0 0"; }, 0);
+  };
+  const std::string rig = "trajectory: way.txt, trajectory_of: vehicle";
+  Put("way.txt", falling(6));
+  EXPECT_EQ(WhyNot(rig, 37), "");
+  Put("way.txt", falling(3));
+  EXPECT_THAT(WhyNot(rig, 37), HasSubstr("in 7 of 10 poses"));
+  EXPECT_EQ(WhyNot(rig, 17), "") << "what comes after the scene's end is not driven";
+}
+
+TEST_F(RigFilesTest, ACameraBelowTheFloorIsTold) {
+  Put("way.txt", Poses([](int) { return "-0.5 0.5 -0.5 0.5"; }, 0));
+  EXPECT_THAT(WhyNot("trajectory: way.txt"),
+              HasSubstr("in 5 of 5 poses the camera is on or below the floor"));
 }
 
 TEST_F(RigFilesTest, MistakesAreNamed) {
