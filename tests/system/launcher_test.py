@@ -13,7 +13,7 @@ import unittest
 
 SOURCE = pathlib.Path(sys.argv[1])
 NEEDED = ("bash", "dirname", "readlink", "mkdir", "flock", "grep", "awk", "tail", "head", "env",
-          "id", "tr")
+          "id", "tr", "cat")
 
 
 class Launcher(unittest.TestCase):
@@ -61,6 +61,22 @@ class Launcher(unittest.TestCase):
         code, _, why = self.run_it("check")
         self.assertEqual(code, 3)
         self.assertIn("apt-get install build-essential ", why)
+
+    def test_its_own_commands_are_explained_where_nothing_is_there(self):
+        for command in ("test", "package", "fuzz", "python"):
+            for word in ("--help", "-h"):
+                code, said, why = self.run_it(command, word)
+                self.assertEqual((code, why), (0, ""), command)
+                self.assertIn(f"Usage: ./aisle {command} ", said)
+                self.assertIn(f"Example: ./aisle {command}", said)
+
+    def test_they_are_listed_beneath_those_of_the_program(self):
+        self.build()
+        code, said, _ = self.run_it("--help")
+        self.assertEqual(code, 0)
+        self.assertTrue(said.startswith("program --help\n"), said)
+        for command in ("test", "package", "fuzz", "python"):
+            self.assertIn(f"\n  {command} ", said)
 
 
 if __name__ == "__main__":
