@@ -46,12 +46,10 @@ void SetLens(const CalibrationFile& file, const std::string& model, std::vector<
   camera->distortion = std::move(numbers);
 }
 
-StereoModel::Stated StatedBy(const std::vector<double>& turn,
+StereoModel::Stated StatedBy(const Eigen::Matrix3d& R_rectified_camera,
                              const std::vector<double>& projection) {
   StereoModel::Stated stated;
-  for (int i = 0; i < 9; ++i) {
-    stated.R_rectified_camera(i / 3, i % 3) = turn[static_cast<std::size_t>(i)];
-  }
+  stated.R_rectified_camera = R_rectified_camera;
   for (int i = 0; i < 12; ++i) {
     stated.projection(i / 4, i % 4) = projection[static_cast<std::size_t>(i)];
   }
@@ -141,8 +139,9 @@ StereoModel ReadCameraInfo(const Files& files) {
   std::array<StereoModel::Stated, 2> stated;
   for (std::size_t side = 0; side < 2; ++side) {
     const CalibrationFile& file = files[side];
+    const char* turn = "rectification_matrix";
     stated[side] =
-        StatedBy(NumbersOf(file, file.root["rectification_matrix"], "rectification_matrix", 9),
+        StatedBy(RotationOf(file, NumbersOf(file, file.root[turn], turn, 9), turn),
                  NumbersOf(file, file.root["projection_matrix"], "projection_matrix", 12));
   }
   model.stated = stated;
@@ -164,21 +163,24 @@ std::vector<double> OpenCvNumbers(const Files& files, const std::string& key, st
   return NumbersOf(*file, file->root[key], key, count);
 }
 
+Eigen::Matrix3d OpenCvRotation(const Files& files, const std::string& key) {
+  const std::vector<double> numbers = OpenCvNumbers(files, key, 9);
+  return RotationOf(*WithKey(files, key), numbers, key);
+}
+
 StereoModel ReadOpenCv(const Files& files) {
   StereoModel model;
   SetMatrix(OpenCvNumbers(files, "M1", 9), &model.left);
   SetMatrix(OpenCvNumbers(files, "M2", 9), &model.right);
   SetLens(files[0], "plumb_bob", OpenCvNumbers(files, "D1", 0), "D1", &model.left);
   SetLens(files[0], "plumb_bob", OpenCvNumbers(files, "D2", 0), "D2", &model.right);
-  const auto turn = OpenCvNumbers(files, "R", 9), shift = OpenCvNumbers(files, "T", 3);
-  for (int i = 0; i < 9; ++i) {
-    model.T_right_left.linear()(i / 3, i % 3) = turn[static_cast<std::size_t>(i)];
-  }
+  const auto shift = OpenCvNumbers(files, "T", 3);
+  model.T_right_left.linear() = OpenCvRotation(files, "R");
   model.T_right_left.translation() << shift[0], shift[1], shift[2];
   constexpr const char* kRectification[] = {"R1", "R2", "P1", "P2"};
   if (std::ranges::all_of(kRectification, [&](const char* key) { return WithKey(files, key); })) {
-    model.stated = {StatedBy(OpenCvNumbers(files, "R1", 9), OpenCvNumbers(files, "P1", 12)),
-                    StatedBy(OpenCvNumbers(files, "R2", 9), OpenCvNumbers(files, "P2", 12))};
+    model.stated = {StatedBy(OpenCvRotation(files, "R1"), OpenCvNumbers(files, "P1", 12)),
+                    StatedBy(OpenCvRotation(files, "R2"), OpenCvNumbers(files, "P2", 12))};
   }
   if (const CalibrationFile* file = WithKey(files, "image_width")) {  // newer samples write it
     for (CameraModel* camera : {&model.left, &model.right}) {
@@ -206,7 +208,7 @@ std::vector<double> KittiRow(const std::string& file, const std::string& name) {
 }
 
 StereoModel ReadKitti(const std::string& file) {
-  const std::vector<double> none = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const Eigen::Matrix3d none = Eigen::Matrix3d::Identity();
   const auto left = KittiRow(file, "P0"), right = KittiRow(file, "P1");
   StereoModel model;
   SetPinhole({left[0], left[5], left[2], left[6]}, &model.left);

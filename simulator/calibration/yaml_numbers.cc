@@ -56,15 +56,33 @@ std::vector<double> NumbersOf(const CalibrationFile& file, const YAML::Node& nod
   return numbers;
 }
 
+Eigen::Matrix3d RotationOf(const CalibrationFile& file, const std::vector<double>& numbers,
+                           const std::string& key) {
+  Eigen::Matrix3d rotation;
+  for (int i = 0; i < 9; ++i) rotation(i / 3, i % 3) = numbers[static_cast<std::size_t>(i)];
+  constexpr double kTolerance = 1e-3;  // files print a few digits
+  if (!(rotation * rotation.transpose()).isIdentity(kTolerance)) {
+    file.Fail(key, "is no rotation: its columns are not of unit length and square to each other");
+  }
+  if (rotation.determinant() < 0) {
+    file.Fail(key, "is no rotation: it mirrors, which no camera does; is a sign wrong?");
+  }
+  return rotation;
+}
+
 Eigen::Isometry3d MotionOf(const CalibrationFile& file, const YAML::Node& node,
                            const std::string& key) {
   const std::vector<double> numbers = NumbersOf(file, node, key, 16);
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  for (int i = 0; i < 12; ++i) motion.matrix()(i / 4, i % 4) = numbers[static_cast<std::size_t>(i)];
-  constexpr double kTolerance = 1e-3;  // files print a few digits
-  if (!(motion.linear() * motion.linear().transpose()).isIdentity(kTolerance)) {
-    file.Fail(key, "is no rigid motion: its first three columns are no rotation");
+  const auto row = [&](std::size_t i) {
+    return numbers.begin() + static_cast<std::ptrdiff_t>(4 * i);
+  };
+  std::vector<double> turn;
+  for (std::size_t i = 0; i < 3; ++i) {
+    turn.insert(turn.end(), row(i), row(i) + 3);
+    motion.translation()(static_cast<int>(i)) = row(i)[3];
   }
+  motion.linear() = RotationOf(file, turn, key);
   return motion;
 }
 

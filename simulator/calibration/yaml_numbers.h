@@ -26,6 +26,10 @@ CalibrationFile OpenCalibration(const std::string& file);
 std::vector<double> NumbersOf(const CalibrationFile& file, const YAML::Node& node,
                               const std::string& key, std::size_t count);
 
+/// A rotation out of nine numbers, row major. Throws where it is none, or mirrors.
+Eigen::Matrix3d RotationOf(const CalibrationFile& file, const std::vector<double>& numbers,
+                           const std::string& key);
+
 /// A rigid motion out of 16 numbers, row major. Throws where its turn is none.
 Eigen::Isometry3d MotionOf(const CalibrationFile& file, const YAML::Node& node,
                            const std::string& key);

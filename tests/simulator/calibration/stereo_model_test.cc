@@ -16,6 +16,7 @@ namespace aisle::sim {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::HasSubstr;
 
 /// A rig as built, written down in every dialect by this file alone.
@@ -269,6 +270,33 @@ TEST_F(StereoModelTest, MillimetresAreNamed) {
   const std::size_t at = text.find("  T_cn_cnm1");
   text = text.substr(0, at) + "  T_cn_cnm1: " + List(millimetres.T_right_left, true) + "\n";
   EXPECT_THAT(WhyNot({Put("mm.yaml", text)}), HasSubstr("millimetres"));
+}
+
+/// A sign too many in a row keeps the columns square to each other; no camera sees a mirrored
+/// world.
+TEST_F(StereoModelTest, TurnsThatMirrorAreNamed) {
+  const Rig good = rig_;
+  rig_.T_right_left.linear().row(1) *= -1;
+  EXPECT_THAT(WhyNot(Kalibr()), AllOf(HasSubstr("cam1.T_cn_cnm1"), HasSubstr("mirrors")));
+  EXPECT_THAT(WhyNot(OpenCv()), AllOf(HasSubstr(": R: "), HasSubstr("mirrors")));
+  rig_ = good;
+  rig_.T_body_left.linear().row(1) *= -1;
+  EXPECT_THAT(WhyNot(Euroc()), AllOf(HasSubstr("T_BS"), HasSubstr("mirrors")));
+  rig_ = good;
+  for (int column = 0; column < 3; ++column) rig_.r2(1, column) *= -1;
+  EXPECT_THAT(WhyNot(CameraInfo()), AllOf(HasSubstr("rectification_matrix"), HasSubstr("mirrors")));
+  EXPECT_THAT(WhyNot(OpenCv()), AllOf(HasSubstr("R2"), HasSubstr("mirrors")));
+}
+
+/// Both eyes of what is rendered have one pinhole, as recordings of such a rig are rectified.
+TEST_F(StereoModelTest, WhereTheEyesPinholesDifferItIsTheLeftOnes) {
+  const double baseline_m = -rig_.p2(0, 3) / rig_.p2(0, 0);
+  rig_.p2(0, 2) -= 20;
+  for (const auto& files : {CameraInfo(), OpenCv(), Kitti()}) {
+    const RectifiedPair pair = Rectified(ReadStereoModel(files));
+    EXPECT_EQ(pair.cx, rig_.p1(0, 2)) << files[0];
+    EXPECT_NEAR(pair.baseline_m, baseline_m, 1e-9) << files[0];
+  }
 }
 
 TEST_F(StereoModelTest, WhatIsNoneIsNamedWithWhatIsRead) {
