@@ -1,5 +1,6 @@
 #include "simulator/motion/recorded_path.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace aisle::sim {
@@ -48,12 +49,17 @@ double Seconds(std::int64_t from_ns, std::int64_t to_ns) {
 
 RecordedPath::RecordedPath(std::vector<TimedPose> poses) : poses_(std::move(poses)) {
   if (poses_.empty()) throw std::invalid_argument("a path needs a pose");
+  const auto does_not_rise = [](const TimedPose& a, const TimedPose& b) {
+    return a.time_ns >= b.time_ns;
+  };
+  if (std::ranges::adjacent_find(poses_, does_not_rise) != poses_.end()) {
+    throw std::invalid_argument("times do not rise");
+  }
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     // One-sided at the ends.
     const TimedPose& before = poses_[i == 0 ? 0 : i - 1];
     const TimedPose& after = poses_[std::min(i + 1, poses_.size() - 1)];
     const double span_s = Seconds(before.time_ns, after.time_ns);
-    if (poses_.size() > 1 && !(span_s > 0)) throw std::invalid_argument("times do not rise");
     const double share = span_s > 0 ? 1 / span_s : 0;
     velocity_mps_.emplace_back(
         (after.T_world_body.translation() - before.T_world_body.translation()) * share);

@@ -89,7 +89,12 @@ TEST(RecordedPath, VelocityAndTurnRateDoNotJump) {
 }
 
 TEST(RecordedPath, RefusesTimesThatFall) {
-  EXPECT_THROW(RecordedPath({{5, Screw(0)}, {5, Screw(1)}}), std::invalid_argument);
+  for (const std::vector<std::int64_t>& times : std::vector<std::vector<std::int64_t>>{
+           {5, 5}, {5, 4}, {0, 1, 1, 2}, {0, 2, 1, 3}, {0, 1, 2, 2}, {0, 0, 1, 2}}) {
+    std::vector<TimedPose> poses;
+    for (const std::int64_t time_ns : times) poses.push_back({time_ns, Screw(0)});
+    EXPECT_THROW(RecordedPath{poses}, std::invalid_argument) << testing::PrintToString(times);
+  }
   EXPECT_THROW(RecordedPath(std::vector<TimedPose>{}), std::invalid_argument);
 }
 
