@@ -4,8 +4,8 @@ set(CPACK_PACKAGE_CONTACT "the aisle developers <aisle@localhost>")
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # tests are not packed
 # Debian's packages of the libraries that ours hand on.
 set(AISLE_DEV_PACKAGES libassimp-dev libceres-dev libcli11-dev libeigen3-dev libembree-dev libfmt-dev
-  libopencv-dev libosmesa6-dev libpugixml-dev libsqlite3-dev libtbb-dev libxxhash-dev libyaml-cpp-dev
-  nlohmann-json3-dev pkg-config)
+  liblz4-dev libopencv-dev libosmesa6-dev libpugixml-dev libsqlite3-dev libtbb-dev libxxhash-dev
+  libyaml-cpp-dev libzstd-dev nlohmann-json3-dev pkg-config)
 set(AISLE_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/aisle)
 
 # --- The program and what comes with it ------------------------------------------------------------

@@ -7,6 +7,7 @@ itself by its name; a project elsewhere finds the libraries, links them and driv
 
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -86,21 +87,43 @@ class Installed(unittest.TestCase):
         commit = (self.prefix / "share/aisle/commit").read_text().strip()
         self.assertTrue(text.rstrip().endswith(f"({commit or 'unknown'})"), text)
 
-    def test_another_project_finds_links_and_drives(self):
-        folder = pathlib.Path(self.holder.name) / "consumer"
+    def build(self, project):
+        folder = pathlib.Path(self.holder.name) / project
         code, text = run(
-            "cmake", "-S", PACKAGE_TEST / "consumer", "-B", folder, "-G", "Ninja",
+            "cmake", "-S", PACKAGE_TEST / project, "-B", folder, "-G", "Ninja",
             f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DCMAKE_BUILD_TYPE=Release",
         )  # fmt: skip
         self.assertEqual(code, 0, text)
         code, text = run("cmake", "--build", folder)
         self.assertEqual(code, 0, text)
+        return folder
+
+    def test_another_project_finds_links_and_drives(self):
+        folder = self.build("consumer")
         share = self.prefix / "share/aisle"
         code, text = run(
             folder / "drive", share / "scenes/smoke/bits.yaml", share / "assets",
             env=self.environment | {"AISLE_READ_MODEL": str(self.prefix / "libexec/aisle/aisle-read-model")},
         )  # fmt: skip
         self.assertEqual((code, text), (0, "4 of 4 tracked\n"))
+
+    def test_another_project_links_every_room_of_the_harness(self):
+        assets = {"AISLE_ASSETS": str(self.prefix / "share/aisle/assets")}
+        code, text = run(self.build("harness_consumer") / "rooms", env=self.environment | assets)
+        self.assertEqual((code, text), (0, "packs, makes\n"))
+
+    def test_the_package_of_the_libraries_needs_what_they_are_built_from(self):
+        of_tests = {"libgmock-dev", "libgtest-dev", "librapidcheck-dev", "libvalijson-dev"}
+        needed = {
+            line
+            for line in (SOURCE / "packages.txt").read_text().splitlines()
+            if line.startswith("lib") and line.endswith("-dev")
+        }
+        said = re.search(
+            r"set\(AISLE_DEV_PACKAGES([^)]*)\)",
+            (SOURCE / "harness/package/install.cmake").read_text(),
+        )
+        self.assertEqual(needed - of_tests - set(said[1].split()), set())
 
     def test_an_old_processor_is_told_so(self):
         if run("which", "qemu-x86_64")[0]:
