@@ -83,7 +83,7 @@ cv::Mat1f VignettingMap(int width, int height, const std::vector<float>& ray_x,
       const auto i = static_cast<std::size_t>(y * width + x);
       const float squared = ray_x[i] * ray_x[i] + ray_y[i] * ray_y[i];
       const float sine_squared = squared / (1 + squared);
-      map(y, x) = sine_squared * sine_squared;
+      map(y, x) = sine_squared * (2 - sine_squared);  // 1 - cos⁴
     }
   }
   double farthest = 0;

@@ -39,9 +39,8 @@ struct NoiseKey {
   std::uint32_t camera = 0;
 };
 
-/// Fall-off of the lens, a factor a pixel, from each pixel's ray (x, y, 1): it loses light with the
-/// fourth power of the sine of the field angle, like cos⁴ to second order, `vignetting` in the
-/// farthest corner.
+/// Fall-off of the lens, a factor a pixel, from each pixel's ray (x, y, 1): the natural law's cos⁴
+/// of the field angle, its loss scaled so that the farthest corner loses the share `vignetting`.
 cv::Mat1f VignettingMap(int width, int height, const std::vector<float>& ray_x,
                         const std::vector<float>& ray_y, float vignetting);
 

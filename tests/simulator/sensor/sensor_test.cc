@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 namespace aisle::sim {
 namespace {
@@ -23,6 +25,23 @@ TEST(Expose, WithoutNoiseGreyIsLinearInRadiance) {
   for (const float radiance : {0.0f, 0.25f, 1.0f, 1.9f, 5.0f}) {
     const cv::Mat1b grey = Expose(cv::Mat1f(480, 752, radiance), kPlain, options, {});
     EXPECT_NEAR(grey(100, 100), std::min(255.0, 255 * 0.5 * radiance), 0.51);
+  }
+}
+
+TEST(VignettingMap, IsTheNaturalLawScaledToItsCorner) {
+  // Pixels at field angles from 0 to 50 degrees, out along a diagonal.
+  constexpr int kWide = 51;
+  std::vector<float> x(kWide), y(kWide);
+  const auto angle = [](int pixel) { return pixel * CV_PI / 180; };
+  for (int i = 0; i < kWide; ++i)
+    x[i] = y[i] = static_cast<float>(std::tan(angle(i)) / std::sqrt(2));
+  const double natural = std::pow(std::cos(angle(kWide - 1)), 4);
+  const cv::Mat1f as_nature = VignettingMap(kWide, 1, x, y, static_cast<float>(1 - natural));
+  const cv::Mat1f quarter = VignettingMap(kWide, 1, x, y, 0.25f);
+  for (int i = 0; i < kWide; ++i) {
+    const double kept = std::pow(std::cos(angle(i)), 4);
+    EXPECT_NEAR(as_nature(0, i), kept, 1e-6) << i;
+    EXPECT_NEAR(quarter(0, i), 1 - 0.25 * (1 - kept) / (1 - natural), 1e-6) << i;
   }
 }
 
