@@ -12,6 +12,10 @@ namespace {
 
 using Eigen::Isometry3d;
 
+/// The image itself; a copy of it where it is part of a larger one, as OpenCV's filters see what
+/// lies around.
+cv::Mat1b Apart(const cv::Mat1b& image) { return image.isSubmatrix() ? image.clone() : image; }
+
 /// The motion since the last frame, of the one since the last frame that showed something new, by
 /// which the method goes; `unseen` lies between the two, was only expected, and its error is that
 /// of the difference too.
@@ -87,11 +91,13 @@ DynamicDetector& DynamicDetector::operator=(DynamicDetector&&) noexcept = defaul
 DynamicDetector::~DynamicDetector() = default;
 
 DynamicOutput DynamicDetector::Detect(const DynamicInput& input) {
+  const DynamicInput apart{input.stamp_ns, Apart(input.left), Apart(input.right), input.expected,
+                           input.measured};
   switch (impl_->options.method) {
     case DynamicMethod::kPaper:
-      return impl_->DetectByPaper(input);
+      return impl_->DetectByPaper(apart);
     case DynamicMethod::kRobust:
-      return impl_->DetectRobustly(input);
+      return impl_->DetectRobustly(apart);
     case DynamicMethod::kNone:
       break;
   }

@@ -10,8 +10,8 @@ namespace aisle::slam {
 /// An image at falling resolutions. Pixel x of level l shows what full-image pixel
 /// ToFull(x, l) shows: centres map to centres, so no half-pixel is lost between levels.
 struct Pyramid {
-  std::vector<cv::Mat1b> levels;   ///< levels[0] is the image itself
-  std::vector<double> scales;      ///< full-image pixels per pixel of the level, nominal: scale^l
+  std::vector<cv::Mat1b> levels;  ///< levels[0] is the image itself, a copy if part of a larger one
+  std::vector<double> scales;     ///< full-image pixels per pixel of the level, nominal: scale^l
   std::vector<cv::Point2d> steps;  ///< the same as rounded sizes have it, along x and y
 
   int size() const { return static_cast<int>(levels.size()); }

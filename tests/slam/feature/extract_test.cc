@@ -49,6 +49,24 @@ TEST(ExtractFeatures, TakesImagesWithoutAnyFeature) {
   }
 }
 
+/// Cameras often deliver both images in one, side by side.
+TEST(ExtractFeatures, OfPartOfAnImageAreThoseOfThatPartAlone) {
+  FeatureOptions options;
+  options.features = 8000;  // so many that some lie at the edge
+  const cv::Mat1b pair = TexturedImage();
+  const cv::Mat1b left = pair(cv::Rect(0, 0, 376, 480)), inner = pair(cv::Rect(100, 60, 500, 360));
+  for (const cv::Mat1b& part : {left, inner}) {
+    const Features within = ExtractFeatures(part, {}, options).features;
+    const Features alone = ExtractFeatures(part.clone(), {}, options).features;
+    ASSERT_EQ(within.size(), alone.size());
+    for (std::size_t i = 0; i < alone.keypoints.size(); ++i) {
+      EXPECT_EQ(within.keypoints[i].pixel, alone.keypoints[i].pixel);
+      EXPECT_EQ(within.keypoints[i].angle_deg, alone.keypoints[i].angle_deg);
+      EXPECT_EQ(within.descriptors[i], alone.descriptors[i]) << alone.keypoints[i].pixel;
+    }
+  }
+}
+
 TEST(ExtractFeatures, TakesSmallAndNarrowImages) {
   const cv::Mat1b image = TexturedImage();
   for (const cv::Size size : {cv::Size(64, 64), cv::Size(64, 480), cv::Size(752, 40)}) {
