@@ -9,12 +9,14 @@ std::string Validate(const StereoCamera& camera) {
     return fmt::format("camera is {}x{} pixels; at least 64x64 are needed", camera.width,
                        camera.height);
   }
-  if (!(camera.fx > 0) || !(camera.fy > 0)) {
-    return fmt::format("fx = {}, fy = {} pixels; both must be positive", camera.fx, camera.fy);
+  const auto is_length = [](double value) { return std::isfinite(value) && value > 0; };
+  if (!is_length(camera.fx) || !is_length(camera.fy)) {
+    return fmt::format("fx = {}, fy = {} pixels; both must be positive and finite", camera.fx,
+                       camera.fy);
   }
-  if (!(camera.baseline_m > 0)) {
+  if (!is_length(camera.baseline_m)) {
     return fmt::format(
-        "baseline_m = {}; it must be positive (is the right camera given as the left?)",
+        "baseline_m = {}; it must be positive and finite (is the right camera given as the left?)",
         camera.baseline_m);
   }
   if (!std::isfinite(camera.cx) || !std::isfinite(camera.cy)) {

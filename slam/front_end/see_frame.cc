@@ -44,6 +44,11 @@ void CheckImages(const StereoImages& images, const ExternalMask& mask, const Ste
   check(mask.left, "the left mask", true);
   check(mask.right, "the right mask", true);
   check(mask.confidence, "the confidence", true);
+  cv::Point at;
+  if (mask.confidence.empty() || cv::checkRange(mask.confidence, true, &at)) return;
+  throw std::invalid_argument(
+      fmt::format("frame {}: the confidence at pixel ({}, {}) is {}; it must be 0 to 1", images.id,
+                  at.x, at.y, mask.confidence(at)));
 }
 
 void CheckMotion(const MeasuredMotion& motion) {

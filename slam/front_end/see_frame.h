@@ -12,7 +12,8 @@
 
 namespace aisle::slam {
 
-/// Throws std::invalid_argument that names the image where one is not of the camera's size.
+/// Throws std::invalid_argument that names the image where one is not of the camera's size, or the
+/// pixel whose confidence is not finite.
 void CheckImages(const StereoImages& images, const ExternalMask& mask, const StereoCamera& camera);
 
 /// Throws std::invalid_argument where a measured motion is none: not finite, or its covariance not

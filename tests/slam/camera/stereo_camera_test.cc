@@ -1,7 +1,10 @@
 #include "slam/camera/stereo_camera.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <opencv2/calib3d.hpp>
 
 namespace aisle::slam {
@@ -53,6 +56,24 @@ TEST(StereoCamera, NamesTheFirstBrokenRule) {
   StereoCamera camera;
   camera.baseline_m = 0;
   EXPECT_NE(Validate(camera).find("baseline_m = 0"), std::string::npos);
+}
+
+TEST(StereoCamera, EveryLengthMustBeAFiniteNumber) {
+  const std::pair<double StereoCamera::*, const char*> lengths[] = {
+      {&StereoCamera::fx, "fx = "},
+      {&StereoCamera::fy, "fy = "},
+      {&StereoCamera::cx, "cx = "},
+      {&StereoCamera::cy, "cy = "},
+      {&StereoCamera::baseline_m, "baseline_m = "}};
+  for (const auto& [length, name] : lengths) {
+    for (const double wrong : {std::numeric_limits<double>::infinity(),
+                               -std::numeric_limits<double>::infinity(), std::nan("")}) {
+      StereoCamera camera;
+      camera.*length = wrong;
+      EXPECT_NE(Validate(camera).find(fmt::format("{}{}", name, wrong)), std::string::npos)
+          << name << wrong;
+    }
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <random>
 
@@ -86,6 +87,24 @@ TEST(CheckImages, NamesTheImageThatHasNotTheCamerasSize) {
   EXPECT_NE(complaint(good, {.left = {}, .right = {}, .confidence = cv::Mat1f(3, 3, 1.0f)})
                 .find("the confidence"),
             std::string::npos);
+}
+
+TEST(CheckImages, NamesThePixelWhoseConfidenceIsNoNumber) {
+  for (const float wrong :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    ExternalMask mask;
+    mask.confidence = cv::Mat1f(kCamera.height, kCamera.width, 1.0F);
+    EXPECT_NO_THROW(CheckImages(Plane(), mask, kCamera));
+    mask.confidence(7, 250) = wrong;
+    try {
+      CheckImages(Plane(), mask, kCamera);
+      FAIL() << wrong << " is taken";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find("the confidence at pixel (250, 7) is"),
+                std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 TEST(SeeFrame, MeasuresTheDisparityThatIsThere) {
