@@ -6,12 +6,14 @@ namespace aisle::slam {
 namespace {
 
 std::vector<Vector6d> AwkwardMotions() {
-  std::vector<Vector6d> motions(6, Vector6d::Zero());
+  std::vector<Vector6d> motions(8, Vector6d::Zero());
   motions[1] << 1, -2, 3, 0.1, 0.2, -0.3;
   motions[2] << 0, 0, 0, 1e-9, 0, -1e-9;
   motions[3] << 5, 0, 0, 3.1, 0, 0;
   motions[4] << 0.01, 0.02, 0.03, 0, 1e-5, 0;
   motions[5] << -7, 8, 9, -1.2, 1.4, 0.7;
+  motions[6] << 0, 0, 0, -3e-11, 2e-11, 0;
+  motions[7] << 1e-12, 0, 0, 0, 0, 1e-200;
   return motions;
 }
 
@@ -23,7 +25,33 @@ Eigen::Isometry3d SomePose() {
 
 TEST(Se3, LogarithmUndoesExponential) {
   for (const Vector6d& motion : AwkwardMotions()) {
-    EXPECT_LT((LogRotation(ExpRotation(motion.tail<3>())) - motion.tail<3>()).norm(), 1e-12);
+    const Eigen::Vector3d turn = motion.tail<3>();
+    EXPECT_LE((LogRotation(ExpRotation(turn)) - turn).norm(), 1e-12 * turn.norm())
+        << turn.transpose();
+  }
+}
+
+/// Half a turn has two logarithms, one either way round its axis; either will do.
+TEST(Se3, HalfATurnIsPiAboutItsAxis) {
+  const std::vector<Eigen::Vector3d> axes = {
+      Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ(),
+      Eigen::Vector3d(1, 2, -2) / 3, -Eigen::Vector3d::UnitX()};
+  for (const Eigen::Vector3d& axis : axes) {
+    Eigen::Quaterniond half;
+    half.w() = 0;
+    half.vec() = axis;
+    const Eigen::Quaterniond as_matrix(
+        Eigen::Matrix3d(2 * axis * axis.transpose() - Eigen::Matrix3d::Identity()));
+    for (const Eigen::Quaterniond& turn : {half, as_matrix, ExpRotation(M_PI * axis)}) {
+      const Eigen::Vector3d vector = LogRotation(turn);
+      EXPECT_NEAR(vector.norm(), M_PI, 1e-12) << axis.transpose();
+      EXPECT_NEAR(std::abs(vector.dot(axis)), M_PI, 1e-12) << axis.transpose();
+      EXPECT_NEAR(std::abs(ExpRotation(vector).dot(half)), 1, 1e-12) << axis.transpose();
+    }
+    Vector6d motion;
+    motion << 1, -2, 3, M_PI * axis;
+    const Eigen::Isometry3d turned = Retract(SomePose(), motion);
+    EXPECT_TRUE(Retract(SomePose(), Difference(SomePose(), turned)).isApprox(turned, 1e-12));
   }
 }
 
