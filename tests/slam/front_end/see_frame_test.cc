@@ -112,15 +112,18 @@ TEST(SeeFrame, MeasuresTheDisparityThatIsThere) {
   EXPECT_EQ(frame->id, 3);
   EXPECT_EQ(frame->stamp_ns, 150'000'000);
   ASSERT_EQ(frame->measurements.size(), frame->features.keypoints.size());
+  const SlamOptions options;
   int with_depth = 0, near = 0;
   for (std::size_t i = 0; i < frame->measurements.size(); ++i) {
     const Measurement& m = frame->measurements[i];
     EXPECT_EQ(m.uvd.x(), frame->features.keypoints[i].pixel.x);
     EXPECT_EQ(m.uvd.y(), frame->features.keypoints[i].pixel.y);
-    EXPECT_GT(m.sigma_px, 0);
+    const double scale = std::pow(options.feature.scale, frame->features.keypoints[i].level);
+    EXPECT_NEAR(m.sigma_px, scale * options.keypoint_noise_px, 1e-9);
     if (!m.has_depth()) continue;
     ++with_depth;
-    near += std::abs(m.uvd.z() - kShift) < 4 * m.sigma_d + 0.25;
+    EXPECT_GE(m.sigma_d, scale * options.stereo.disparity_noise_px);
+    near += std::abs(m.uvd.z() - kShift) < 0.1 * scale;
   }
   EXPECT_GT(with_depth, 100);
   EXPECT_GT(near, 0.97 * with_depth);

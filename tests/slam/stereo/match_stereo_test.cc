@@ -72,6 +72,47 @@ TEST(MatchStereo, MatchesNothingBetweenDifferentWorlds) {
             60);
 }
 
+/// One feature in either image of a wall, each at a level, the right one `rows_off` below the left
+/// one's row, with one descriptor: whether they match.
+class OnePair : public testing::Test {
+ protected:
+  bool Matches(int left_level, int right_level, double rows_off = 0) const {
+    const cv::Point2f pixel(400, 240);
+    const cv::Point2f there(pixel.x - kShift, pixel.y + static_cast<float>(rows_off));
+    ImageFeatures one = left, other = right;
+    one.features = {{{pixel, left_level, 0, 50}}, {Descriptor{1, 2, 3, 4}}};
+    other.features = {{{there, right_level, 0, 50}}, {Descriptor{1, 2, 3, 4}}};
+    const std::vector<Disparity> found = MatchStereo(one, other, {}, {});
+    EXPECT_EQ(found.size(), 1u);
+    return found.front().known();
+  }
+
+  static constexpr float kShift = 20;
+  const Texture texture{3};
+  const ImageFeatures left = See([&](double u, double v) { return texture(u, v); }, 1);
+  const ImageFeatures right = See([&](double u, double v) { return texture(u + kShift, v); }, 2);
+};
+
+TEST_F(OnePair, MatchesWhereTheirLevelsAreAtMostOneApart) {
+  for (int left_level = 0; left_level < 8; ++left_level) {
+    for (int right_level = 0; right_level < 8; ++right_level) {
+      EXPECT_EQ(Matches(left_level, right_level), std::abs(left_level - right_level) <= 1)
+          << left_level << " and " << right_level;
+    }
+  }
+}
+
+TEST_F(OnePair, MatchesWithinABandOfRowsThatGrowsWithTheLevel) {
+  const double band = StereoOptions().row_band_px;
+  for (int level = 0; level < 8; ++level) {
+    const double reach = band * std::pow(1.2, level);
+    for (const double side : {-1.0, 1.0}) {
+      EXPECT_TRUE(Matches(level, level, side * (reach - 0.5))) << level;
+      EXPECT_FALSE(Matches(level, level, side * (reach + 2.5))) << level;
+    }
+  }
+}
+
 TEST(MatchStereo, TakesImagesThatSeeNothing) {
   const Texture texture(3);
   const ImageFeatures some = See([&](double u, double v) { return texture(u, v); }, 1);
