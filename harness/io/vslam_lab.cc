@@ -1,5 +1,6 @@
 #include "harness/io/vslam_lab.h"
 
+#include <algorithm>
 #include <charconv>
 #include <sstream>
 
@@ -44,14 +45,29 @@ std::vector<std::string> Fields(std::string line) {
   return number ? fields : std::vector<std::string>{};
 }
 
+/// A stamp in nanoseconds: whole, with a point, or with an exponent as NumPy writes by default.
+/// None where it is too small to be that.
+std::optional<std::int64_t> Nanoseconds(const std::string& stamp) {
+  constexpr std::int64_t kLeast = 100'000'000'000;  // in seconds, the year 5138
+  const std::size_t e = std::min(stamp.find_first_of("eE"), stamp.size());
+  int exponent = 0;
+  if (e < stamp.size()) {
+    const std::size_t digits = e + (stamp.substr(e + 1, 1) == "+" ? 2 : 1);
+    const char *from = stamp.data() + digits, *to = stamp.data() + stamp.size();
+    const auto [end, error] = std::from_chars(from, to, exponent);
+    if (error != std::errc() || end != to || std::clamp(exponent, -99, 99) != exponent) {
+      return std::nullopt;
+    }
+  }
+  std::int64_t stamp_ns = 0;  // digit by digit: a double would round them
+  const std::string seconds = fmt::format("{}e{}", stamp.substr(0, e), exponent - 9);
+  if (!ParseSecondsToNs(seconds, &stamp_ns) || stamp_ns < kLeast) return std::nullopt;
+  return stamp_ns;
+}
+
 /// As TUM has it: seconds first.
 std::string TumLine(std::vector<std::string> fields) {
-  constexpr std::size_t kDigitsOfSeconds = 11;  // more before the point: nanoseconds
-  const std::string& stamp = fields[0];
-  std::int64_t stamp_ns = 0;
-  const auto [end, error] = std::from_chars(stamp.data(), stamp.data() + stamp.size(), stamp_ns);
-  const bool whole = error == std::errc() && end == stamp.data() + stamp.size();
-  if (whole && stamp.size() > kDigitsOfSeconds) fields[0] = FormatSeconds(stamp_ns);
+  if (const auto stamp_ns = Nanoseconds(fields[0])) fields[0] = FormatSeconds(*stamp_ns);
   return fmt::format("{}\n", fmt::join(fields, " "));
 }
 

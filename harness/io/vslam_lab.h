@@ -34,9 +34,9 @@ std::string VslamLabArguments(const VslamLabRun& run, VslamLabStyle style);
 inline constexpr const char* kVslamLabTrajectory = "00000_KeyFrameTrajectory.csv";
 
 /// Rows of stamp, tx, ty, tz, qx, qy, qz, qw, with commas or blanks, after any header. Stamps are
-/// nanoseconds, or seconds where they are too small to be that; rows are sorted by them, as
-/// VSLAM-LAB does before it scores. Leaves the same as a .tum file beside it, line by line. Throws
-/// InputError.
+/// nanoseconds ("1600000005900000000", "1.6000000059e+18"), or seconds where they are too small to
+/// be that; rows are sorted by them, as VSLAM-LAB does before it scores. Leaves the same as a .tum
+/// file beside it, line by line. Throws InputError.
 Trajectory ReadVslamLabTrajectory(const std::filesystem::path& file);
 
 }  // namespace aisle
