@@ -4,6 +4,7 @@
 
 #include "harness/contract/system_fault.h"
 #include "harness/io/file.h"
+#include "harness/io/shell_word.h"
 #include "harness/io/stream_protocol.h"
 #include "harness/run/showing.h"
 
@@ -79,16 +80,35 @@ TEST_F(StreamSystemTest, AGoodClientAnswersEveryFrame) {
   EXPECT_EQ(version_, "stands still");
 }
 
-TEST_F(StreamSystemTest, TheClientInCppDoesToo) {
-  const std::string program = (folder_ / "client").string();
-  const std::string build = fmt::format(
-      "g++ -std=c++17 -O1 {}/tests/support/stream/client.cpp -o {}", AISLE_SOURCE_DIR, program);
-  ASSERT_EQ(std::system(build.c_str()), 0);
-  ExternalSystem system = Client("");
+/// The client in C++ where `prints` stands where somebody's SLAM goes.
+ExternalSystem BuiltClient(const fs::path& folder, const std::string& prints) {
+  std::string source = ReadFile(fs::path(AISLE_SOURCE_DIR) / "tests/support/stream/client.cpp");
+  const std::size_t slam = source.find("    const double pose");
+  source.insert(slam, prints + "\n");
+  WriteFileAtomically(folder / "client.cpp", source);
+  const std::string program = (folder / "client").string();
+  const std::string build = fmt::format("g++ -std=c++17 -O1 {0}.cpp -o {0}", ShellWord(program));
+  EXPECT_EQ(std::system(build.c_str()), 0);
+  ExternalSystem system;
+  system.dataset = system.trajectory = "stream";
   system.command = "exec " + program;
-  const RunResult run = Show(system);
+  return system;
+}
+
+TEST_F(StreamSystemTest, TheClientInCppDoesTooThoughItsSlamPrints) {
+  const RunResult run = Show(BuiltClient(folder_, "std::printf(\"tracked\\n\");"));
   EXPECT_EQ(run.status, RunStatus::kOk) << run.status_why;
   EXPECT_EQ(run.trajectory.final.size(), 10u);
+  EXPECT_NE(ReadFile(folder_ / "system.log").find("tracked"), std::string::npos);
+}
+
+/// A motion is not answered, and who begins with one of the clients may ask for it.
+TEST_F(StreamSystemTest, ClientsThatDoNotKnowWheelsPassThemOver) {
+  for (const ExternalSystem& client : {Client("client.py"), BuiltClient(folder_, "")}) {
+    const RunResult run = Show(client, 20, true);
+    EXPECT_EQ(run.status, RunStatus::kOk) << client.command << ": " << run.status_why;
+    EXPECT_EQ(run.trajectory.final.size(), 10u);
+  }
 }
 
 TEST_F(StreamSystemTest, WhoAsksForWheelsIsToldTheirMotionBeforeEachFrame) {
@@ -110,27 +130,26 @@ struct Way {
 class HostileStreamTest : public StreamSystemTest, public testing::WithParamInterface<Way> {};
 INSTANTIATE_TEST_SUITE_P(
     Ways, HostileStreamTest,
-    testing::Values(Way{"die", RunStatus::kCrashed, "SIGSEGV"},
-                    Way{"exit", RunStatus::kCrashed, "no more memory for dreams"},
-                    Way{"leave", RunStatus::kCrashed, "ended before it answered: exit code 0"},
-                    Way{"word", RunStatus::kInvalid,
-                        "it ended after the text 'hi\\x0a': stdout belongs"},
-                    Way{"stall", RunStatus::kTimeout, "no answer within"},
-                    Way{"mute", RunStatus::kTimeout, "no answer within"},
-                    Way{"dribble", RunStatus::kTimeout, "no answer within"},
-                    Way{"twice", RunStatus::kInvalid, ""},
-                    Way{"ahead", RunStatus::kInvalid, "before it was asked"},
-                    Way{"text", RunStatus::kInvalid, "print to stderr"},
-                    Way{"nan", RunStatus::kInvalid, "not finite"},
-                    Way{"far", RunStatus::kInvalid, "at most 1e+08"},
-                    Way{"shear", RunStatus::kInvalid, "quaternion"},
-                    Way{"huge", RunStatus::kInvalid, "bytes, at most"},
-                    Way{"gigabytes", RunStatus::kInvalid, "a message of type"},
-                    Way{"wrong", RunStatus::kInvalid, "answer is to frame 10"},
-                    Way{"type", RunStatus::kInvalid, "type 77"},
-                    Way{"short", RunStatus::kInvalid, "ends too early"},
-                    Way{"version", RunStatus::kInvalid, "version 9"},
-                    Way{"flood", RunStatus::kOk, ""}),
+    testing::Values(
+        Way{"die", RunStatus::kCrashed, "SIGSEGV"},
+        Way{"exit", RunStatus::kCrashed, "no more memory for dreams"},
+        Way{"leave", RunStatus::kCrashed, "ended before it answered: exit code 0"},
+        Way{"word", RunStatus::kInvalid, "it ended after the text 'hi\\x0a': stdout belongs"},
+        Way{"stall", RunStatus::kTimeout, "no answer within"},
+        Way{"mute", RunStatus::kTimeout, "no answer within"},
+        Way{"dribble", RunStatus::kTimeout, "no answer within"},
+        Way{"twice", RunStatus::kInvalid, ""},
+        Way{"ahead", RunStatus::kInvalid, "before it was asked"},
+        Way{"text", RunStatus::kInvalid, "print to stderr"},
+        Way{"nan", RunStatus::kInvalid, "not finite"},
+        Way{"far", RunStatus::kInvalid, "at most 1e+08"},
+        Way{"shear", RunStatus::kInvalid, "quaternion"},
+        Way{"huge", RunStatus::kInvalid, "bytes, at most"},
+        Way{"gigabytes", RunStatus::kInvalid, "a message of type"},
+        Way{"wrong", RunStatus::kInvalid, "answer is to frame 10"},
+        Way{"type", RunStatus::kInvalid, "type 77"},
+        Way{"short", RunStatus::kInvalid, "ends too early"},
+        Way{"version", RunStatus::kInvalid, "version 9"}, Way{"flood", RunStatus::kOk, ""}),
     [](const auto& info) { return std::string(info.param.name); });
 
 TEST_F(StreamSystemTest, WhatASystemPrintedBeforeItsGreetingFailedIsKept) {

@@ -43,6 +43,8 @@ def main():
         kind, payload = receive()
         if kind == END:
             return send(TRACK, track)
+        if kind != FRAME:  # the wheels' motion to it, say, which is not answered
+            continue
         number, stamp_ns = struct.unpack("<qq", payload[:16])
         size = width * height
         pose = locate(payload[16 : 16 + size], payload[16 + size :], width, height)
