@@ -7,6 +7,7 @@
 #include <set>
 
 #include "simulator/scene/check_beams.h"
+#include "simulator/scene/check_loads.h"
 #include "simulator/scene/check_mechanisms.h"
 #include "simulator/scene/check_routes.h"
 #include "simulator/scene/crowd.h"
@@ -55,6 +56,7 @@ class Checker {
     CheckNames(scene_.mechanisms, "mechanisms");
     CheckHandles();
     CheckMechanisms(scene_, issues_);
+    CheckLoads(scene_, issues_);
     CheckBeams(scene_, issues_);
     CheckCrowd();
     CheckHitches();
