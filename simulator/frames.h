@@ -119,8 +119,9 @@ struct MotionTruth {
   cv::Mat1f disparity;   ///< left u - right u in the rectified pair, pixels; 0: nothing was hit
   cv::Mat1b occluded;    ///< 255 where the right camera does not see the point
   cv::Mat2f flow;        ///< to the next frame's left image, pixels; NaN where it is not in front,
-                         ///< or so far aside that the lens would fold it back into the image
-  cv::Mat3f scene_flow;  ///< the surface point's own way until then, metres, world
+                         ///< or so far aside that the lens would fold it back into the image, or
+                         ///< the point is gone: on a belt, which begins anew at its other end
+  cv::Mat3f scene_flow;  ///< the surface point's own way until then, metres, world; NaN: it is gone
   /// 255 where the surface rests but something that moves takes more than a twentieth of its direct
   /// light now (left camera).
   cv::Mat1b moving_shadow;

@@ -173,7 +173,7 @@ x right, y down, z forward; the right camera stands at (+baseline, 0, 0). World:
 | `actor` | PNG, 8 bit | 255: what may move, moving or not: people, vehicles, doors, conveyors, chains |
 | `boxes` | JSON | the movers: 2-D boxes (x, y, width, height in pixels), 3-D box, pose and velocity in the world (metres, m/s) |
 | `flow` | Middlebury .flo | u, v: displacement to the next frame's left image, pixels; 1e10: unknown |
-| `scene_flow` | PFM, 3 channels | x, y, z: the surface point's own way until the next frame, metres, world axes; 0 where it rests |
+| `scene_flow` | PFM, 3 channels | x, y, z: the surface point's own way until the next frame, metres, world axes; 0 where it rests, NaN where it is gone (a belt's box that begins anew) |
 | `disparity` | PFM, 1 channel | left u - right u = fx * baseline / z, pixels; 0: nothing was hit |
 | `occluded` | PNG, 8 bit | 255: the right camera does not see the point |
 | `moving_shadow` | PNG, 8 bit | 255: the surface rests, and something that moves takes light from it |

@@ -77,6 +77,11 @@ Placement LinkAt(const Joint& joint, int copy, int copies, double time_s) {
          Turned(about, {angle, rate});
 }
 
+double BeltRounds(const Joint& joint, int copy, int copies, double time_s) {
+  return Ran(joint.run, joint.speed, time_s).value / joint.length_m +
+         static_cast<double>(copy) / copies;
+}
+
 }  // namespace
 
 Timed Moved(std::span<const JointMove> moves, double start, double time_s) {
@@ -162,15 +167,19 @@ Placement JointAt(const Joint& joint, int copy, int copies, double time_s) {
     case Joint::Kind::kSpin:
       return Turned(joint.axis, Ran(joint.run, joint.speed, time_s));
     case Joint::Kind::kBelt: {
-      const Timed way = Ran(joint.run, joint.speed, time_s);
-      const double rounds = way.value / joint.length_m + static_cast<double>(copy) / copies;
+      const double rounds = BeltRounds(joint, copy, copies, time_s);
       const double along = joint.length_m * (rounds - std::floor(rounds));
-      return Shifted(along * joint.axis, way.rate * joint.axis);
+      return Shifted(along * joint.axis, Ran(joint.run, joint.speed, time_s).rate * joint.axis);
     }
     case Joint::Kind::kChain:
       return LinkAt(joint, copy, copies, time_s);
   }
   return {};
+}
+
+int RoundsOf(const Joint& joint, int copy, int copies, double time_s) {
+  if (joint.kind != Joint::Kind::kBelt) return 0;
+  return static_cast<int>(std::floor(BeltRounds(joint, copy, copies, time_s)));
 }
 
 }  // namespace aisle::sim

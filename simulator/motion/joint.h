@@ -85,4 +85,7 @@ ChainShape ChainAt(const Joint& joint, double above_m, double time_s);
 /// box of a belt it is; others move alike.
 Placement JointAt(const Joint& joint, int copy, int copies, double time_s);
 
+/// How often that copy has come round: once over, it is another box. 0 for all but belts.
+int RoundsOf(const Joint& joint, int copy, int copies, double time_s);
+
 }  // namespace aisle::sim

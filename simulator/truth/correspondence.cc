@@ -34,6 +34,18 @@ Eigen::Vector3d FollowOnMover(const World& world, const HitImage& hits, std::siz
          v * positions[c].cast<double>();
 }
 
+/// Whether the surface point of a hit has come round since, and so is gone.
+bool HasComeRound(const World& world, const HitImage& hits, std::size_t i, const Snapshot& now,
+                  const Snapshot& next) {
+  if (hits.geometry[i] == 0) return false;
+  const std::size_t mover = hits.geometry[i] - 1;
+  const std::vector<int>& rounds = now.movers[mover].rounds;
+  if (rounds.empty()) return false;
+  // A triangle belongs to one box.
+  const std::uint32_t vertex = world.mover_meshes()[mover].triangles[hits.primitive[i]][0];
+  return rounds[vertex] != next.movers[mover].rounds[vertex];
+}
+
 /// Bits of the pixels of a packet row that something hides from a point.
 unsigned Hidden(const Instant& instant, const std::array<Eigen::Vector3d, kLanes>& points,
                 const Eigen::Vector3d& camera, unsigned valid) {
@@ -112,6 +124,10 @@ Correspondence FindCorrespondence(const World& world, const Instant& instant,
         points[static_cast<std::size_t>(k)] = point;
         result.disparity(y, x) = static_cast<float>(camera.fx * camera.baseline_m / hits.t[i]);
         if (InImage(camera, project(T_right_world * point))) valid |= 1u << k;
+        if (HasComeRound(world, hits, i, instant.snapshot(), next)) {
+          result.scene_flow(y, x) = cv::Vec3f(kNan, kNan, kNan);
+          continue;
+        }
         // The way from now to next is the mesh's; the hit itself stays where the ray found it.
         const Eigen::Vector3d way =
             hits.geometry[i] == 0

@@ -17,8 +17,9 @@ struct Correspondence {
                         ///< outside the right image, or nothing was hit
   cv::Mat2f flow;       ///< displacement to the next frame's left image, pixels; NaN where the
                         ///< point is not in front of the camera then or beyond what its lens
-                        ///< shows, or nothing was hit
-  cv::Mat3f scene_flow;  ///< displacement of the surface point itself until then, metres, world
+                        ///< shows, has come round (MoverState::rounds), or nothing was hit
+  cv::Mat3f scene_flow;  ///< displacement of the surface point itself until then, metres, world;
+                         ///< NaN where it has come round
 };
 
 /// Exact correspondences of the hits in the left image. The surface point of a mover is followed by

@@ -125,6 +125,21 @@ class Linkage {
 
   bool Moves(std::size_t part) const { return root_.moves() || HasJoint(parts_, parts_[part]); }
 
+  /// Whether a part comes round, or what it is on does.
+  bool ComesRound(std::size_t part) const {
+    return parts_[part].joint.kind == Joint::Kind::kBelt ||
+           (on_[part] >= 0 && ComesRound(static_cast<std::size_t>(on_[part])));
+  }
+
+  /// How often a copy of a part has come round, all that it is on included.
+  int Rounds(std::size_t part, int copy, double time_s) const {
+    const PartSpec& own = parts_[part];
+    const int rounds = RoundsOf(own.joint, copy, own.count, time_s - copy * own.delay_s);
+    if (on_[part] < 0) return rounds;
+    const auto below = static_cast<std::size_t>(on_[part]);
+    return rounds + Rounds(below, std::min(copy, parts_[below].count - 1), time_s);
+  }
+
   /// Where each copy of each part is: copies ride on those of the same number.
   std::vector<std::vector<Placement>> At(double time_s) const {
     const Placement root = root_.At(time_s);
@@ -176,7 +191,15 @@ MoverState StateAt(const Linkage& linkage, const Body& body, std::size_t leader,
   state.positions.resize(body.mesh.positions.size());
   state.normals.resize(state.positions.size());
   state.velocities.resize(state.positions.size());
+  const bool comes_round = std::ranges::any_of(
+      body.carried, [&](const Carried& carried) { return linkage.ComesRound(carried.part); });
+  if (comes_round) state.rounds.resize(state.positions.size());
   for (const Carried& carried : body.carried) {
+    if (comes_round) {
+      std::fill(state.rounds.begin() + static_cast<std::ptrdiff_t>(carried.first),
+                state.rounds.begin() + static_cast<std::ptrdiff_t>(carried.end),
+                linkage.Rounds(carried.part, carried.copy, time_s));
+    }
     const Placement& at = placed[carried.part][static_cast<std::size_t>(carried.copy)];
     for (std::size_t i = carried.first; i < carried.end; ++i) {
       const Eigen::Vector4d p = body.mesh.positions[i].cast<double>().homogeneous();

@@ -72,6 +72,9 @@ struct MoverState {
   Eigen::Isometry3d T_world_object =
       Eigen::Isometry3d::Identity();                       ///< z up, x ahead, on the floor
   Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();  ///< of the object's origin
+  /// Per vertex: how often it has come round, as the boxes of a belt do; where two counts differ,
+  /// it is not the same thing any more. Empty: it never does.
+  std::vector<int> rounds = {};
   bool casts_shadow = true;  ///< false: all of it is seen through, and so it is lit through
 };
 

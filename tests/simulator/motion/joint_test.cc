@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include <cmath>
 #include <numbers>
 
@@ -133,6 +135,27 @@ TEST(Joint, ABeltKeepsItsCopiesApart) {
     EXPECT_GE(places[0], 0);
     EXPECT_LT(places[3], 1.7);
   }
+}
+
+/// Unrolled by its rounds, a box goes on as the belt does, forwards and backwards.
+TEST(Joint, ABoxHasComeRoundAsOftenAsItsPlaceFellBack) {
+  Joint joint = Make(Kind::kBelt);
+  joint.axis = Eigen::Vector3d::UnitX();
+  joint.run = {};
+  for (const double speed : {0.6, -0.6}) {
+    joint.speed = speed;
+    std::set<int> seen;
+    for (const double t : {-3.1, 0.0, 1.234, 2.8333333, 7.7}) {
+      for (int copy = 0; copy < 4; ++copy) {
+        const int rounds = RoundsOf(joint, copy, 4, t);
+        EXPECT_NEAR(JointAt(joint, copy, 4, t).pose(0, 3) + 1.7 * rounds,
+                    speed * t + 1.7 * copy / 4, 1e-9);
+        seen.insert(rounds);
+      }
+    }
+    EXPECT_GT(seen.size(), 2u);
+  }
+  EXPECT_EQ(RoundsOf(Make(Kind::kSpin), 0, 1, 100), 0);
 }
 
 TEST(Joint, MovesThatOverlapAreNamed) {

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "simulator/scene/load.h"
 #include "simulator/truth/truth.h"
+#include "simulator/world/build.h"
 #include "tests/simulator/test_world.h"
+#include "tests/simulator/world/mechanism_scene.h"
 
 namespace aisle::sim {
 namespace {
@@ -128,6 +131,55 @@ TEST(Correspondence, SceneFlowIsTheMoversWayAndNothingElse) {
     }
   }
   EXPECT_GT(movers, 2000);
+}
+
+/// A belt in the open, one box of which begins anew at its other end while another one goes on.
+TEST(Correspondence, WhatComesRoundIsGone) {
+  const World world = BuildWorld(ParseScene(kHall + R"(mechanisms:
+  - name: belt
+    at: [4, -1]
+    heading_deg: 90
+    parts:
+      - {size_m: [0.4, 0.4, 0.4], at_m: [0, 0, 1], count: 2, joint: {kind: belt, axis: [1, 0, 0], speed_mps: 0.4, length_m: 2}}
+)",
+                                            "s.yaml"),
+                                 std::string(AISLE_SOURCE_DIR) + "/assets", 1);
+  const Tracer tracer(world, {});
+  const StereoCamera camera;
+  const PixelRays rays = MakePixelRays(camera);
+  const Eigen::Isometry3d rig = test::LookAlong({0, 0, 1}, 0);
+  const CameraView left(rays, rig);
+  constexpr std::int64_t kRound = 5'000'000'000;
+  for (const bool comes_round : {false, true}) {
+    const std::int64_t stamp_ns = comes_round ? kRound - kFrame / 2 : kRound / 4;
+    const Instant now = tracer.Pose(world.At(stamp_ns));
+    std::vector<HitImage> hits;
+    TraceViews(now, std::span(&left, 1), {}, &hits);
+    const Correspondence found =
+        FindCorrespondence(world, now, camera, left, hits[0], world.At(stamp_ns + kFrame), rig);
+    int gone = 0, goes_on = 0;
+    for (int y = 0; y < camera.height; ++y) {
+      for (int x = 0; x < camera.width; ++x) {
+        const std::size_t i = hits[0].Index(x, y);
+        if (hits[0].geometry[i] == 0 || hits[0].geometry[i] == kNoGeometry) continue;
+        const cv::Vec3f& way = found.scene_flow(y, x);
+        ASSERT_EQ(std::isnan(way[0]), std::isnan(found.flow(y, x)[0]));
+        if (std::isnan(way[0])) {
+          ++gone;
+        } else {
+          ASSERT_NEAR(cv::norm(way), 0.4 * 0.05, 1e-5);
+          ++goes_on;
+        }
+        EXPECT_GT(found.disparity(y, x), 0);
+      }
+    }
+    EXPECT_GT(goes_on, 1000);
+    if (comes_round) {
+      EXPECT_GT(gone, 1000);
+    } else {
+      EXPECT_EQ(gone, 0);
+    }
+  }
 }
 
 TEST(Correspondence, OcclusionIsBesideNearThings) {
