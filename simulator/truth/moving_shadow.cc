@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "simulator/common/parallel.h"
@@ -11,6 +12,11 @@ namespace {
 
 constexpr float kLift = 2e-3f;    // m off the surface, so that a ray does not meet it
 constexpr float kReach = 0.998f;  // of the way to the lamp, so that it does not meet the lamp
+// Beams, as they are shaded (simulator/shade/pass).
+constexpr float kHousing = 0.2f;         // m around a spot, where its own housing is
+constexpr float kBeforeWindow = 0.12f;   // m, where bars and lintel are
+constexpr float kSunRadius = 0.004654f;  // tangent of half the sun's breadth, 0.533 degrees
+constexpr float kSoftest = 1e-4f;        // share of half a window
 constexpr std::array<std::array<float, 2>, 4> kSamples = {
     {{-0.5f, -0.5f}, {0.5f, -0.5f}, {-0.5f, 0.5f}, {0.5f, 0.5f}}};
 
@@ -59,6 +65,23 @@ Places FindPlaces(const World& world, const Instant& instant, const CameraView& 
   return places;
 }
 
+/// Ways from the places towards a light, and what comes along each.
+struct Ways {
+  std::array<Eigen::Vector3f, kLanes> way;
+  std::array<float, kLanes> reach{};  ///< share of it on which something can stand
+  std::array<float, kLanes> light{};  ///< irradiance where nothing does
+  unsigned lit = 0;                   ///< lanes that have any
+
+  void Set(int lane, const Eigen::Vector3f& to, float share, float irradiance) {
+    if (!(irradiance > 0)) return;
+    const auto k = static_cast<std::size_t>(lane);
+    way[k] = to;
+    reach[k] = std::max(0.0f, share);
+    light[k] = irradiance;
+    lit |= 1u << lane;
+  }
+};
+
 /// Whether something in the ball can stand between the places and the lamp.
 bool CanBlock(const Sphere& mover, const Sphere& from, const Sphere& lamp) {
   const Eigen::Vector3f way = lamp.center - from.center;
@@ -68,21 +91,64 @@ bool CanBlock(const Sphere& mover, const Sphere& from, const Sphere& lamp) {
   return (mover.center - from.center - share * way).squaredNorm() < reach * reach;
 }
 
-/// Rays from the lanes in `wanted` to a point of a lamp.
-Rays8 RaysTo(const Eigen::Vector3f& target, const Places& places, unsigned wanted) {
+/// Rays along the ways of the lanes in `wanted`.
+Rays8 RaysAlong(const Ways& ways, const Places& places, unsigned wanted) {
   Rays8 rays;
   for (int k = 0; k < kLanes; ++k) {
-    rays.valid[k] = wanted >> k & 1 ? -1 : 0;
-    const Eigen::Vector3f from =
-        rays.valid[k] ? places.position[static_cast<std::size_t>(k)] : target;
-    const Eigen::Vector3f to =
-        rays.valid[k] ? Eigen::Vector3f(target - from) : Eigen::Vector3f(Eigen::Vector3f::UnitZ());
+    const auto lane = static_cast<std::size_t>(k);
+    const bool valid = wanted >> k & 1;
+    const Eigen::Vector3f from = valid ? places.position[lane] : Eigen::Vector3f::Zero();
+    const Eigen::Vector3f to = valid ? ways.way[lane] : Eigen::Vector3f::UnitZ();
+    rays.valid[k] = valid ? -1 : 0;
     rays.ox[k] = from.x(), rays.oy[k] = from.y(), rays.oz[k] = from.z();
     rays.dx[k] = to.x(), rays.dy[k] = to.y(), rays.dz[k] = to.z();
     rays.t_near[k] = 0;
-    rays.t_far[k] = kReach;
+    rays.t_far[k] = ways.reach[lane];
   }
   return rays;
+}
+
+/// Share of a row of panes that is open within `soft` of `along`, where the row is [-1, 1].
+float OpenShare(double along, double soft, int panes, double bar) {
+  const double per_pane = 2.0 / panes, open = std::max(0.0, 1 - bar);
+  const auto open_until = [&](double to) {
+    const double bays = std::clamp((to + 1) / per_pane, 0.0, 1.0 * panes);
+    const double whole = std::floor(bays);
+    return whole * open + std::clamp(bays - whole - bar / 2, 0.0, open);
+  };
+  return static_cast<float>((open_until(along + soft) - open_until(along - soft)) * per_pane /
+                            (2 * soft));
+}
+
+void SetSpot(const Beam& beam, const Places& places, int lane, Ways* ways) {
+  const auto k = static_cast<std::size_t>(lane);
+  const Eigen::Vector3f to = beam.origin - places.position[k];
+  const float distance = std::max(to.norm(), kHousing);
+  const float along = -to.dot(beam.toward) / distance;
+  const float t = std::clamp(
+      (along - beam.cos_outer) / std::max(beam.cos_inner - beam.cos_outer, 1e-5f), 0.0f, 1.0f);
+  const float edge = t * t * (3 - 2 * t);
+  ways->Set(lane, to, 1 - kHousing / distance,
+            beam.power * edge * to.dot(places.normal[k]) / (distance * distance * distance));
+}
+
+void SetSun(const Beam& beam, const Places& places, int lane, Ways* ways) {
+  const auto k = static_cast<std::size_t>(lane);
+  const Eigen::Vector3f plane = beam.half_u.cross(beam.half_v).normalized();
+  const float across = plane.dot(beam.toward);
+  if (std::abs(across) < 1e-4f) return;
+  const Eigen::Vector3f to = beam.origin - places.position[k];
+  const float distance = to.dot(plane) / across;
+  if (!(distance > 0)) return;
+  const Eigen::Vector3f meets = distance * beam.toward - to;  // from the window's middle
+  const auto open = [&](const Eigen::Vector3f& half, int panes, float bar) {
+    const float length = half.norm();
+    const float soft = std::max(distance * kSunRadius / length, kSoftest);
+    return OpenShare(meets.dot(half) / (length * length), soft, panes, bar);
+  };
+  ways->Set(lane, distance * beam.toward, 1 - kBeforeWindow / distance,
+            beam.power * open(beam.half_u, beam.columns, beam.bar_u) *
+                open(beam.half_v, beam.rows, beam.bar_v) * beam.toward.dot(places.normal[k]));
 }
 
 class ShadowFinder {
@@ -93,26 +159,37 @@ class ShadowFinder {
     for (std::size_t m = 0; m < instant.mover_boxes().size(); ++m) {
       const Eigen::AlignedBox3f& box = instant.mover_boxes()[m];
       balls_.push_back({box.center(), box.diagonal().norm() / 2});
-      casts_.push_back(instant.snapshot().movers[m].casts_shadow && moving.Any(m));
-      anything_moves_ |= casts_.back();
+      if (!instant.snapshot().movers[m].casts_shadow) continue;
+      (moving.Any(m) ? stirring_ : resting_) |= MoverBit(m);
     }
   }
 
-  bool AnythingMoves() const { return anything_moves_; }
+  bool AnythingMoves() const { return stirring_ != 0; }
 
   /// Bits of the places that lie in a moving shadow.
   unsigned Find(const Places& places) const {
     std::array<float, kLanes> lost{};
-    for (std::size_t i = 0; i < world_.lights().size(); ++i) {
-      const GeometryMask movers = BlockersOf(i, places);
-      if (movers) AddLost(i, places, movers, &lost);
-    }
+    ForEachLight(places, [&](const Sphere& lamp, const auto& each_way) {
+      const GeometryMask stirring = Between(places, lamp, stirring_);
+      if (!stirring) return;
+      each_way(places.valid, [&](const Ways& ways) {
+        const Met met = Meet(ways, places, stirring, ways.lit);
+        Add(ways, PastWhatRests(ways, places, lamp, met.moving & ~met.resting), &lost);
+      });
+    });
     unsigned touched = 0;
     for (int k = 0; k < kLanes; ++k) {
       if (lost[static_cast<std::size_t>(k)] > 0) touched |= 1u << k;
     }
     if (!touched) return 0;
-    const std::array<float, kLanes> all = LightThroughTheStaticWorld(places, touched);
+    std::array<float, kLanes> all{};  // through all that rests
+    ForEachLight(places, [&](const Sphere& lamp, const auto& each_way) {
+      each_way(touched, [&](const Ways& ways) {
+        const unsigned open = PastWhatRests(ways, places, lamp, ways.lit);
+        const GeometryMask stirring = open ? Between(places, lamp, stirring_) : 0;
+        Add(ways, stirring ? open & ~Meet(ways, places, stirring, open).resting : open, &all);
+      });
+    });
     unsigned shadowed = 0;
     for (int k = 0; k < kLanes; ++k) {
       const auto lane = static_cast<std::size_t>(k);
@@ -122,92 +199,104 @@ class ShadowFinder {
   }
 
  private:
-  float ScaleOf(std::size_t light) const { return instant_.snapshot().light_scale[light]; }
+  static void Add(const Ways& ways, unsigned lanes, std::array<float, kLanes>* sum) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      if (lanes >> k & 1) (*sum)[k] += ways.light[k];
+    }
+  }
 
-  GeometryMask BlockersOf(std::size_t light, const Places& places) const {
-    if (ScaleOf(light) <= 0) return 0;
-    const AreaLight& lamp = world_.lights()[light];
-    const Sphere ball{lamp.center, (lamp.half_u + lamp.half_v).norm()};
+  /// Those of the movers that may stand between the places and a lamp.
+  GeometryMask Between(const Places& places, const Sphere& lamp, GeometryMask movers) const {
     GeometryMask mask = 0;
     for (std::size_t i = 0; i < balls_.size(); ++i) {
-      if (casts_[i] && CanBlock(balls_[i], places.bound, ball)) mask |= MoverBit(i);
+      if ((movers & MoverBit(i)) && CanBlock(balls_[i], places.bound, lamp)) mask |= MoverBit(i);
     }
     return mask;
   }
 
-  /// Irradiance from a sample of a lamp that nothing blocks, up to a common factor.
-  float Unblocked(std::size_t light, const Eigen::Vector3f& target, const Places& places,
-                  int lane) const {
+  /// Calls use(ball around the light, each_way) for each light that shines; each_way(lanes, use)
+  /// calls use(ways) for each of its points.
+  template <typename Use>
+  void ForEachLight(const Places& places, const Use& use) const {
+    for (std::size_t i = 0; i < world_.lights().size(); ++i) {
+      if (instant_.snapshot().light_scale[i] <= 0) continue;
+      const AreaLight& lamp = world_.lights()[i];
+      use(Sphere{lamp.center, (lamp.half_u + lamp.half_v).norm()},
+          [&](unsigned lanes, const auto& use_ways) {
+            for (const auto& [a, b] : kSamples) {
+              const Eigen::Vector3f target = lamp.center + a * lamp.half_u + b * lamp.half_v;
+              UseLit(lanes, use_ways,
+                     [&](int lane, Ways* ways) { SetLamp(i, target, places, lane, ways); });
+            }
+          });
+    }
+    for (const Beam& beam : instant_.snapshot().beams) {
+      const bool is_spot = beam.kind == Beam::Kind::kSpot;
+      use(Sphere{beam.origin, is_spot ? 0.0f : (beam.half_u + beam.half_v).norm()},
+          [&](unsigned lanes, const auto& use_ways) {
+            UseLit(lanes, use_ways, [&](int lane, Ways* ways) {
+              is_spot ? SetSpot(beam, places, lane, ways) : SetSun(beam, places, lane, ways);
+            });
+          });
+    }
+  }
+
+  template <typename Use, typename SetWay>
+  static void UseLit(unsigned lanes, const Use& use, const SetWay& set) {
+    Ways ways;
+    for (int k = 0; k < kLanes; ++k) {
+      if (lanes >> k & 1) set(k, &ways);
+    }
+    if (ways.lit) use(ways);
+  }
+
+  /// Of a luminaire's quarter around `target`.
+  void SetLamp(std::size_t light, const Eigen::Vector3f& target, const Places& places, int lane,
+               Ways* ways) const {
     const AreaLight& lamp = world_.lights()[light];
     const auto k = static_cast<std::size_t>(lane);
     const Eigen::Vector3f way = target - places.position[k];
     const float square = way.squaredNorm();
-    const Eigen::Vector3f area = lamp.half_u.cross(lamp.half_v);
-    return ScaleOf(light) * lamp.radiance * std::max(0.0f, places.normal[k].dot(way)) *
-           std::max(0.0f, -area.dot(way)) / (square * square);
+    const Eigen::Vector3f quarter = lamp.half_u.cross(lamp.half_v);
+    ways->Set(lane, way, kReach,
+              instant_.snapshot().light_scale[light] * lamp.radiance *
+                  std::max(0.0f, places.normal[k].dot(way)) * std::max(0.0f, -quarter.dot(way)) /
+                  (square * square));
   }
 
-  template <typename Use>
-  void ForEachSample(std::size_t light, const Places& places, unsigned wanted, Use use) const {
-    const AreaLight& lamp = world_.lights()[light];
-    for (const auto& [a, b] : kSamples) {
-      const Eigen::Vector3f target = lamp.center + a * lamp.half_u + b * lamp.half_v;
-      std::array<float, kLanes> light_of{};
-      unsigned lit = 0;
+  /// Lanes of `wanted` whose ways neither the static world nor a mover at rest blocks.
+  unsigned PastWhatRests(const Ways& ways, const Places& places, const Sphere& lamp,
+                         unsigned wanted) const {
+    if (!wanted) return 0;
+    return wanted & ~instant_.Occluded(RaysAlong(ways, places, wanted), Coherence::kCoherent,
+                                       kStaticOnly | Between(places, lamp, resting_));
+  }
+
+  /// What of movers that stir lanes meet on their ways: surfaces that move now, or one that rests,
+  /// beyond which nobody looks.
+  struct Met {
+    unsigned moving = 0, resting = 0;
+  };
+  Met Meet(const Ways& ways, const Places& places, GeometryMask movers, unsigned wanted) const {
+    Met met;
+    Rays8 rays = RaysAlong(ways, places, wanted);
+    while (wanted) {
+      Hits8 hits;
+      instant_.Intersect(rays, Coherence::kCoherent, movers, &hits);
       for (int k = 0; k < kLanes; ++k) {
         if (!(wanted >> k & 1)) continue;
-        light_of[static_cast<std::size_t>(k)] = Unblocked(light, target, places, k);
-        if (light_of[static_cast<std::size_t>(k)] > 0) lit |= 1u << k;
-      }
-      if (lit) use(target, lit, light_of);
-    }
-  }
-
-  void AddLost(std::size_t light, const Places& places, GeometryMask movers,
-               std::array<float, kLanes>* lost) const {
-    ForEachSample(light, places, places.valid,
-                  [&](const Eigen::Vector3f& target, unsigned lit, const auto& light_of) {
-                    unsigned blocked = MovingBlockers(target, places, movers, lit);
-                    if (!blocked) return;
-                    blocked &= ~instant_.Occluded(RaysTo(target, places, blocked),
-                                                  Coherence::kCoherent, kStaticOnly);
-                    for (std::size_t k = 0; k < kLanes; ++k) {
-                      if (blocked >> k & 1) (*lost)[k] += light_of[k];
-                    }
-                  });
-  }
-
-  /// Lanes whose way to the target meets a surface of these movers that moves now.
-  unsigned MovingBlockers(const Eigen::Vector3f& target, const Places& places, GeometryMask movers,
-                          unsigned lit) const {
-    Hits8 hits;
-    instant_.Intersect(RaysTo(target, places, lit), Coherence::kCoherent, movers, &hits);
-    unsigned moving = 0;
-    for (int k = 0; k < kLanes; ++k) {
-      if (!(lit >> k & 1) || hits.geometry[k] == kNoGeometry) continue;
-      if (moving_(hits.geometry[k] - 1, hits.primitive[k], hits.u[k], hits.v[k])) {
-        moving |= 1u << k;
+        bool goes_on = false;
+        if (hits.geometry[k] != kNoGeometry) {
+          goes_on = moving_(hits.geometry[k] - 1, hits.primitive[k], hits.u[k], hits.v[k]);
+          (goes_on ? met.moving : met.resting) |= 1u << k;
+          rays.t_near[k] = hits.t[k] + kLift / ways.way[static_cast<std::size_t>(k)].norm();
+        }
+        if (goes_on && rays.t_near[k] < rays.t_far[k]) continue;
+        rays.valid[k] = 0;
+        wanted &= ~(1u << k);
       }
     }
-    return moving;
-  }
-
-  std::array<float, kLanes> LightThroughTheStaticWorld(const Places& places,
-                                                       unsigned wanted) const {
-    std::array<float, kLanes> sum{};
-    for (std::size_t i = 0; i < world_.lights().size(); ++i) {
-      if (ScaleOf(i) <= 0) continue;
-      ForEachSample(i, places, wanted,
-                    [&](const Eigen::Vector3f& target, unsigned lit, const auto& light_of) {
-                      const unsigned open =
-                          lit & ~instant_.Occluded(RaysTo(target, places, lit),
-                                                   Coherence::kCoherent, kStaticOnly);
-                      for (std::size_t k = 0; k < kLanes; ++k) {
-                        if (open >> k & 1) sum[k] += light_of[k];
-                      }
-                    });
-    }
-    return sum;
+    return met;
   }
 
   const World& world_;
@@ -215,8 +304,8 @@ class ShadowFinder {
   const MovingNow& moving_;
   const MovingShadowOptions options_;
   std::vector<Sphere> balls_;  ///< around each mover
-  std::vector<bool> casts_;    ///< whether it moves and keeps light away
-  bool anything_moves_ = false;
+  /// Movers that keep light away: of which something moves now, and of which nothing does.
+  GeometryMask stirring_ = 0, resting_ = 0;
 };
 
 }  // namespace

@@ -10,14 +10,16 @@ namespace aisle::sim {
 
 struct MovingShadowOptions {
   /// A pixel is in a moving shadow where moving surfaces keep away more than this share of the
-  /// light that luminaires would send it straight through the static world.
+  /// light that luminaires, spots and the sun would send it straight through all that rests.
   float share = 0.05f;
 };
 
 /// 255 where the pixel's surface itself rests, but something that moves now stands between it and a
-/// luminaire: brightness there changes though nothing seen does. Each luminaire is sampled at four
-/// points of its area; direct light only, by the cosines and the distance, whatever the material.
-/// Needs no shading and changes with no shading option.
+/// luminaire or moving light: brightness there changes though nothing seen does. What rests keeps
+/// its light away whether it may move or not: behind a parked truck nobody casts a shadow. Each
+/// luminaire is sampled at four points of its area, beams have their cones and windows; direct
+/// light only, by the cosines and the distance, whatever the material. A beam that turns is no
+/// shadow. Needs no shading and changes with no shading option.
 cv::Mat1b FindMovingShadows(const World& world, const Instant& instant, const CameraView& view,
                             const HitImage& hits, const MovingNow& moving,
                             const MovingShadowOptions& options = {});
