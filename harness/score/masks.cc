@@ -265,10 +265,10 @@ MaskFacts CompareMasks(const cv::Mat1b& left, const FrameTruth& truth,
 
 std::string Describe(const MaskOptions& options) {
   return fmt::format(
-      "rectangles of connected blobs of {} px or more (gaps up to {} px closed), one to one, "
-      "largest overlap first, found from IoU {:g} on; without a partner invented where less than "
-      "half of what was rejected in them moves, else a part of a mover and not counted; object_iou "
-      "is the mean over those found",
+      "rectangles of connected blobs of {} px or more (gaps narrower than {} px closed), one to "
+      "one, largest overlap first, found from IoU {:g} on; without a partner invented where less "
+      "than half of what was rejected in them moves, else a part of a mover and not counted; "
+      "object_iou is the mean over those found",
       options.min_region_pixels, options.close_gap_px, options.match_iou);
 }
 

@@ -21,8 +21,8 @@ struct MaskOptions {
   double large_share = 0.01;
   double large_speed_mps = 0.15;  ///< a large mover is at least so fast
   double slow_speed_mps = 0.05;   ///< a slow one of that share at least so, and slower than a large
-  /// Gaps of a mask up to this wide, in pixels, do not part a blob: a strap or a rail in front of a
-  /// person does not make two of them.
+  /// Gaps of a mask narrower than this, in pixels, do not part a blob: a strap or a rail in front
+  /// of a person does not make two of them.
   int close_gap_px = 15;
   int corner_threshold = 20;  ///< FAST's, grey levels: what counts as a static corner
 };
