@@ -74,6 +74,24 @@ Alignment AlignPositionAndYaw(const Trajectory& truth, const Trajectory& estimat
   return result;
 }
 
+Alignment AlignBy(AlignmentMethod method, const Trajectory& truth, const Trajectory& estimate,
+                  std::span<const PosePair> pairs) {
+  switch (method) {
+    case AlignmentMethod::kNone:
+      return {};
+    case AlignmentMethod::kOrigin:
+      return {.T_truth_estimate = truth[pairs.front().truth].T_world_rig *
+                                  estimate[pairs.front().estimate].T_world_rig.inverse()};
+    case AlignmentMethod::kPosYaw:
+      return AlignPositionAndYaw(truth, estimate, pairs);
+    case AlignmentMethod::kSe3:
+      return AlignPositions(truth, estimate, pairs, false);
+    case AlignmentMethod::kSim3:
+      break;
+  }
+  return AlignPositions(truth, estimate, pairs, true);
+}
+
 }  // namespace
 
 std::string Name(AlignmentMethod method) {
@@ -102,25 +120,30 @@ AlignmentMethod AlignmentFromName(const std::string& name) {
                               "': expected none, origin, posyaw, se3 or sim3");
 }
 
+std::size_t FewestPairs(AlignmentMethod method) {
+  switch (method) {
+    case AlignmentMethod::kNone:
+      return 1;
+    case AlignmentMethod::kOrigin:
+    case AlignmentMethod::kPosYaw:
+      return 2;
+    case AlignmentMethod::kSe3:
+    case AlignmentMethod::kSim3:
+      break;
+  }
+  return 3;
+}
+
 Alignment Align(const Trajectory& truth, const Trajectory& estimate,
                 const std::vector<PosePair>& pairs, const AlignmentOptions& options) {
   if (pairs.empty()) throw std::invalid_argument("no pose of the estimate belongs to the truth");
   std::span<const PosePair> used(pairs);
   if (options.first_n > 0) used = used.first(std::min(options.first_n, used.size()));
-  switch (options.method) {
-    case AlignmentMethod::kNone:
-      return {};
-    case AlignmentMethod::kOrigin:
-      return {.T_truth_estimate = truth[used.front().truth].T_world_rig *
-                                  estimate[used.front().estimate].T_world_rig.inverse()};
-    case AlignmentMethod::kPosYaw:
-      return AlignPositionAndYaw(truth, estimate, used);
-    case AlignmentMethod::kSe3:
-      return AlignPositions(truth, estimate, used, false);
-    case AlignmentMethod::kSim3:
-      break;
-  }
-  return AlignPositions(truth, estimate, used, true);
+  Alignment result = AlignBy(options.method, truth, estimate, used);
+  // The first pose alone decides the origin; the others' errors are left.
+  const bool by_first = options.method == AlignmentMethod::kOrigin;
+  result.leaves_errors = (by_first ? pairs.size() : used.size()) >= FewestPairs(options.method);
+  return result;
 }
 
 Eigen::Isometry3d Apply(const Alignment& alignment, const Eigen::Isometry3d& T_world_rig) {

@@ -20,6 +20,10 @@ enum class AlignmentMethod {
 std::string Name(AlignmentMethod method);
 AlignmentMethod AlignmentFromName(const std::string& name);
 
+/// Of how many pairs an alignment leaves an error: with fewer it makes each 0 whatever the estimate
+/// holds.
+std::size_t FewestPairs(AlignmentMethod method);
+
 struct AlignmentOptions {
   AlignmentMethod method = AlignmentMethod::kSe3;
   std::size_t first_n = 0;  ///< use the first n pairs only; 0: all
@@ -32,6 +36,8 @@ struct Alignment {
   /// False where positions leave the rotation free (all on one line, or fewer than three): the
   /// positional error is still least, rotations must not be read.
   bool rotation_determined = true;
+  /// False below FewestPairs: no error says anything.
+  bool leaves_errors = true;
 };
 
 /// Umeyama, "Least-squares estimation of transformation parameters between two point patterns",

@@ -12,12 +12,19 @@ constexpr double kNotJudged = std::numeric_limits<double>::quiet_NaN();
 bool HasPose(double error) { return error != kLost; }
 
 Score QuantileScore(const std::vector<double>& errors, double q, const std::string& alignment) {
-  if (errors.empty()) return Absent("m", "no frames");
+  if (errors.empty()) return Absent("m", "no frame could be judged");
   const double value = Quantile(errors, q);
   if (!std::isfinite(value)) {
     return Absent("m", fmt::format("lost in more than {:g} % of the frames", 100 * (1 - q)));
   }
   return Present(value, "m", errors.size(), alignment);
+}
+
+/// Whether the estimate's stamps tell of frames: not where next to none is the truth's.
+bool StampsTell(const Trajectory& truth, const Trajectory& estimate, const TrajectoryScore& score) {
+  if (score.pairs.empty() || score.stamp_factor) return false;
+  const bool few = score.pairs.size() * 2 < std::min(truth.size(), estimate.size());
+  return score.alignment.leaves_errors || !few;
 }
 
 /// What happened between the first pose and the last frame.
@@ -218,6 +225,7 @@ FrameErrors ErrorsOverFrames(const Trajectory& truth, const TrajectoryScore& sco
   FrameErrors frames;
   for (const StampedPose& pose : truth) frames.stamps_ns.push_back(pose.stamp_ns);
   frames.error_m.resize(truth.size(), kLost);
+  for (const PosePair& pair : score.pairs) frames.error_m[pair.truth] = kNotJudged;
   for (const PoseError& error : score.errors) {
     frames.error_m[error.pair.truth] = error.translation_m;
   }
@@ -227,9 +235,8 @@ FrameErrors ErrorsOverFrames(const Trajectory& truth, const TrajectoryScore& sco
 FrameErrors ErrorsOverFiles(const Trajectory& truth, const Trajectory& estimate,
                             const TrajectoryScore& score, const AssociationOptions& association,
                             std::int64_t interval_ns) {
-  if (score.pairs.empty() || association.rule == AssociationRule::kIndex) {
-    return ErrorsOverFrames(truth, score);
-  }
+  const bool by_index = association.rule == AssociationRule::kIndex;
+  if (by_index || !StampsTell(truth, estimate, score)) return ErrorsOverFrames(truth, score);
   if (interval_ns > 0) {
     return OverPosesOfEstimate(truth, estimate, score,
                                {.interval_ns = interval_ns, .fewest_lost = 1});
@@ -267,6 +274,7 @@ void AddCoverageOfFiles(const Trajectory& truth, const Trajectory& estimate,
   if (not_judged > 0 && !IsDenser(estimate, truth)) {
     score->notes.push_back(NoteOnPoses(truth, estimate, options.association, not_judged));
   }
+  if (!StampsTell(truth, estimate, *score)) return;
   const std::string ends = NoteOnEnds(truth, estimate, frames.error_m);
   if (!ends.empty()) score->notes.push_back(ends);
 }

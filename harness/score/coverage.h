@@ -15,7 +15,8 @@ struct FrameErrors {
 };
 
 /// Of a run: every true pose is a frame, one without a pose of the track is lost. Which poses
-/// belong together comes from `score`.
+/// belong together comes from `score`; where its alignment leaves no errors, those that have a pose
+/// are not judged.
 FrameErrors ErrorsOverFrames(const Trajectory& truth, const TrajectoryScore& score);
 
 /// Of two files, neither of which lists the camera's frames. The frames are the rows of the slower
@@ -27,8 +28,9 @@ FrameErrors ErrorsOverFrames(const Trajectory& truth, const TrajectoryScore& sco
 ///   three or more. Fewer may be pictures that the camera dropped.
 /// - A camera's interval is given (not 0): as the second, with that interval and from one frame on.
 ///
-/// A frame that has a pose and no truth near is not judged. Where nothing could be paired, or pairs
-/// are by index, it is as in ErrorsOverFrames.
+/// A frame that has a pose and no truth near is not judged. Where pairs are by index, and where
+/// less than half of the shorter file could be paired and the alignment leaves no errors or stamps
+/// seem of another unit, it is as in ErrorsOverFrames: such stamps tell of no frames.
 FrameErrors ErrorsOverFiles(const Trajectory& truth, const Trajectory& estimate,
                             const TrajectoryScore& score, const AssociationOptions& association,
                             std::int64_t interval_ns = 0);

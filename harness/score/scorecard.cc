@@ -1,6 +1,8 @@
 #include "harness/score/scorecard.h"
 
+#include "harness/score/conventions.h"
 #include "harness/score/segments.h"
+#include "harness/score/stamp_unit.h"
 
 namespace aisle {
 namespace {
@@ -15,6 +17,24 @@ void AddStatistics(const std::string& prefix, const std::string& unit,
   for (const auto& [name, value] : named) {
     (*scores)[prefix + "_" + name + "_" + unit] = Present(value, unit, s.n, alignment);
   }
+}
+
+void AddAbsolute(const TrajectoryScore& track, const AlignmentOptions& options, Scorecard* scores) {
+  const std::string alignment = Name(options.method);
+  if (!track.alignment.leaves_errors) {
+    const std::string why = fmt::format(
+        "alignment by {} leaves an error of {} pairs or more; here it had {}", alignment,
+        FewestPairs(options.method),
+        options.first_n > 0 ? std::min(options.first_n, track.pairs.size()) : track.pairs.size());
+    (*scores)["ate_rmse_m"] = Absent("m", why);
+    (*scores)["ate_rot_rmse_deg"] = Absent("deg", why);
+    return;
+  }
+  AddStatistics("ate", "m", Translations(track.errors), alignment, scores);
+  (*scores)["ate_rot_rmse_deg"] =
+      track.alignment.rotation_determined
+          ? Present(Summarize(Rotations(track.errors)).rmse, "deg", track.errors.size(), alignment)
+          : Absent("deg", "the path is a straight line: alignment leaves a turn about it free");
 }
 
 void AddSegments(const std::string& suffix, const TrajectoryScore& track, const Trajectory& truth,
@@ -54,26 +74,26 @@ TrajectoryScore ScoreTrajectory(const Trajectory& truth, const Trajectory& estim
   const std::int64_t bound_ns = MaxDifferenceNs(truth, estimate, options.association);
   result.association = Describe(options.association.rule, bound_ns);
   result.pairs = Associate(truth, estimate, options.association);
+  if (options.association.rule != AssociationRule::kIndex) {
+    result.stamp_factor = StampFactor(truth, estimate, result.pairs);
+  }
+  if (result.stamp_factor) result.notes.push_back(NoteOnStamps(*result.stamp_factor));
   if (result.pairs.empty()) {
     const std::string why =
         estimate.empty()
-            ? "the estimate holds no poses"
+            ? "no frame has a pose"
             : "no stamp of the estimate is near one of the truth (" + result.association + ")";
-    result.notes.push_back(why);
+    result.notes.insert(result.notes.begin(), why);
     for (const char* name : {"ate_rmse_m", "rpe_trans_rmse_m"}) {
       result.scores[name] = Absent("m", why);
     }
     return result;
   }
-  const std::string alignment = Name(options.alignment.method);
   result.alignment = Align(truth, estimate, result.pairs, options.alignment);
-  result.errors = AbsoluteErrors(truth, estimate, result.pairs, result.alignment);
-  AddStatistics("ate", "m", Translations(result.errors), alignment, &result.scores);
-  result.scores["ate_rot_rmse_deg"] =
-      result.alignment.rotation_determined
-          ? Present(Summarize(Rotations(result.errors)).rmse, "deg", result.errors.size(),
-                    alignment)
-          : Absent("deg", "the path is a straight line: alignment leaves a turn about it free");
+  if (result.alignment.leaves_errors) {
+    result.errors = AbsoluteErrors(truth, estimate, result.pairs, result.alignment);
+  }
+  AddAbsolute(result, options.alignment, &result.scores);
   AddRelative(result, truth, estimate, "rpe", options.relative, &result.scores);
   AddRelative(result, truth, estimate, "rpe_1m",
               {.delta = 1, .unit = DeltaUnit::kMetres, .all_pairs = true}, &result.scores);
@@ -81,6 +101,9 @@ TrajectoryScore ScoreTrajectory(const Trajectory& truth, const Trajectory& estim
               {.delta = 1, .unit = DeltaUnit::kSeconds, .all_pairs = true}, &result.scores);
   AddSegments("", result, truth, estimate, SegmentOptions{}, &result.scores);
   AddSegments("_short", result, truth, estimate, ShortSegments(), &result.scores);
+  const auto conventions =
+      NotesOnConventions(truth, estimate, result.pairs, options.alignment.method);
+  result.notes.insert(result.notes.end(), conventions.begin(), conventions.end());
   const std::string mismatch = FrameMismatch(truth, estimate, result.errors, result.alignment);
   if (!mismatch.empty()) result.notes.push_back(mismatch);
   return result;

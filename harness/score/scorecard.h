@@ -20,9 +20,11 @@ struct TrajectoryScore {
   Scorecard scores;
   std::vector<PosePair> pairs;
   Alignment alignment;
-  std::vector<PoseError> errors;   ///< one per pair
+  std::vector<PoseError> errors;   ///< one per pair; none where alignment leaves none
   std::vector<std::string> notes;  ///< what a reader must know: a mismatch of conventions, …
-  std::string association;         ///< the rule in words
+  /// Brings the estimate's stamps to the truth's where they seem of another unit.
+  std::optional<double> stamp_factor = {};
+  std::string association;  ///< the rule in words
 };
 
 /// ATE (aligned as asked), RPE, KITTI segments long and short. Scores that cannot be had say why.
