@@ -57,7 +57,47 @@ Verdict OfScore(const Comparison& c) {
       .system = c.system};
 }
 
+/// "seeds 2, 3", or what stands for many.
+std::string SeedsInWords(const std::vector<std::uint64_t>& seeds) {
+  constexpr std::size_t kNamed = 8;
+  const auto named = std::span(seeds).first(std::min(kNamed, seeds.size()));
+  return fmt::format("seed{} {}{}", seeds.size() == 1 ? "" : "s", fmt::join(named, ", "),
+                     named.size() < seeds.size() ? ", …" : "");
+}
+
+/// The option that drives every seed of the results.
+std::string SeedsOption(const Results& results) {
+  std::set<std::uint64_t> seeds;
+  for (const auto& [cell, of_cell] : SeedsByCell(results)) {
+    seeds.insert(of_cell.begin(), of_cell.end());
+  }
+  const bool from_one = *seeds.begin() == 1 && *seeds.rbegin() == seeds.size();
+  return from_one ? fmt::format("--seeds {}", seeds.size())
+                  : fmt::format("--seed {}", fmt::join(seeds, ","));
+}
+
 }  // namespace
+
+std::string BoundToFail(const Results& baseline, const std::vector<RunSpec>& night) {
+  constexpr std::size_t kNamed = 4;
+  Results planned;
+  for (const RunSpec& spec : night) planned.runs.emplace_back().spec = spec;
+  const std::vector<MissingRuns> missing = MissingRunsOf(baseline, planned);
+  if (missing.empty()) return {};
+  std::vector<std::string> names;
+  for (const MissingRuns& one : missing) {
+    if (names.size() == kNamed) break;
+    names.push_back(fmt::format("{} {} {}{}", one.scene, one.twin, one.system,
+                                one.is_whole ? "" : ", " + SeedsInWords(one.seeds)));
+  }
+  const bool seeds_alone = std::ranges::none_of(missing, &MissingRuns::is_whole);
+  return fmt::format(
+      "of the baseline {} tonight, so the gate could only fail: {}{}. {}, or make another baseline "
+      "of such a night with `aisle baseline DIR`",
+      InWords(missing), fmt::join(names, "; "), names.size() < missing.size() ? "; …" : "",
+      seeds_alone ? "Drive them with " + SeedsOption(baseline)
+                  : "Leave out what takes scenes, twins, systems or seeds from the suite");
+}
 
 std::vector<Verdict> GateVerdicts(const Results& baseline, const Results& night,
                                   const CompareOptions& options) {

@@ -16,6 +16,10 @@ inline constexpr const char* kWithoutBaseline = "gate: cells without a baseline"
 std::vector<Verdict> GateVerdicts(const Results& baseline, const Results& night,
                                   const CompareOptions& options = {});
 
+/// Why a night of these runs can only fail at the gate, and what would help: empty where it has
+/// every cell and seed of the baseline.
+std::string BoundToFail(const Results& baseline, const std::vector<RunSpec>& night);
+
 /// What a gate against this baseline cannot see for want of seeds, in a sentence; empty where every
 /// cell has enough.
 std::string BlindFor(const Results& baseline);

@@ -3,10 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/judge/gate.h"
+
 namespace aisle {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 Results Night(const std::vector<std::string>& scenes, std::uint64_t seeds) {
@@ -39,10 +43,33 @@ TEST(MissingRunsTest, AreWholeCellsAndSeedsOfOthers) {
   EXPECT_EQ(InWords({}), "");
 }
 
+std::vector<RunSpec> SpecsOf(const Results& night) {
+  std::vector<RunSpec> specs;
+  for (const RunRecord& run : night.runs) specs.push_back(run.spec);
+  return specs;
+}
+
+/// What fails in the morning whatever the runs do is said in the evening, and nothing else is.
+TEST(BoundToFailTest, IsANightThatLacksWhatItsBaselineHas) {
+  const Results baseline = Night({"a", "b"}, 9);
+  for (const std::uint64_t seeds : {9, 12}) {
+    EXPECT_EQ(BoundToFail(baseline, SpecsOf(Night({"a", "b", "c"}, seeds))), "");
+  }
+  EXPECT_THAT(BoundToFail(baseline, SpecsOf(Night({"a", "b"}, 7))),
+              AllOf(HasSubstr("4 seeds of 2 cells are missing tonight"),
+                    HasSubstr("a live plain, seeds 8, 9; b live plain, seeds 8, 9."),
+                    HasSubstr("Drive them with --seeds 9, or make another baseline")));
+  EXPECT_THAT(BoundToFail(baseline, SpecsOf(Night({"a"}, 9))),
+              AllOf(HasSubstr("1 cell is missing tonight"), HasSubstr(": b live plain."),
+                    HasSubstr("Leave out what takes scenes")));
+  Results odd = Night({"a"}, 3);
+  odd.runs.erase(odd.runs.begin());
+  EXPECT_THAT(BoundToFail(odd, SpecsOf(Night({"a"}, 1))), HasSubstr("with --seed 2,3, or"));
+}
+
 TEST(UnfinishedRunsTest, AreThoseThatFailedThatWerePlannedAndThatAVerdictNames) {
   Results night = Night({"a"}, 3);
-  std::vector<RunSpec> planned;
-  for (const RunRecord& run : Night({"a"}, 4).runs) planned.push_back(run.spec);
+  const std::vector<RunSpec> planned = SpecsOf(Night({"a"}, 4));
   EXPECT_THAT(UnfinishedRuns(night, {}), IsEmpty());
   EXPECT_THAT(UnfinishedRuns(night, planned), ElementsAre("a/live/plain/4"));
   night.runs[1].status = RunStatus::kCrashed;
