@@ -189,7 +189,11 @@ void DescribeLimit(Fields& fields, const Vocabulary& vocabulary, const Suite& su
     fields.Fail("scene", fmt::format("'{}' is not among this suite's scenes: {}",
                                      Printable(limit.scene), fmt::join(scenes, ", ")));
   }
-  fields.Name({"twin", "only in this twin", "live"}, &limit.twin, {suite.twins});
+  fields.Name({"twin", "only in this twin of the suite", "live"}, &limit.twin, {vocabulary.twins});
+  if (!limit.twin.empty() && !IsAmong(limit.twin, suite.twins)) {
+    fields.Fail("twin", fmt::format("'{}' is not among this suite's twins: {}", limit.twin,
+                                    fmt::join(suite.twins, ", ")));
+  }
   std::vector<std::string> systems = SystemNames(suite);
   std::erase(systems, "");  // a system whose name was a mistake: told at its own place
   fields.Name({"system", "only of this system", "oracle"}, &limit.system, {systems});

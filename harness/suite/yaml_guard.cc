@@ -57,6 +57,22 @@ class Guard : public YAML::EventHandler {
   int depth_ = 0;
 };
 
+/// Where a line begins with a tab, which YAML takes for no indentation; absent where none does.
+std::optional<YAML::Mark> IndentingTab(const std::string& text) {
+  YAML::Mark mark;
+  for (std::size_t begin = 0; begin < text.size(); ++mark.line) {
+    const std::size_t first = text.find_first_not_of(' ', begin);
+    if (first != std::string::npos && text[first] == '\t') {
+      mark.column = static_cast<int>(first - begin);
+      return mark;
+    }
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string::npos) break;
+    begin = end + 1;
+  }
+  return std::nullopt;
+}
+
 void RefuseDuplicateKeys(const YAML::Node& node, const std::string& file) {
   std::map<std::string, YAML::Mark> seen;
   for (const auto& entry : node) {
@@ -93,6 +109,11 @@ YAML::Node ParseYaml(const std::string& text, const std::string& file) {
     RefuseDuplicateKeys(node, file);
     return node;
   } catch (const YAML::ParserException& error) {
+    if (const auto tab = IndentingTab(text)) {
+      FailAt(file, *tab,
+             "is no YAML: lines are indented by a tab, which YAML does not allow; write "
+             "blanks");
+    }
     FailAt(file, error.mark, "is no YAML: " + error.msg);
   }
 }
