@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <new>
 
 #include "harness/contract/rigid.h"
@@ -71,7 +72,16 @@ Trajectory LiveTrack(const std::vector<FrameEstimate>& estimates) {
   return live;
 }
 
-std::string FaultOfTrack(const Trajectory& track) {
+/// Poses of a track that are of no frame that was shown: a clock of another unit or beginning, say.
+/// Scores would pass over them and speak of the rest alone.
+std::size_t CountForeign(const Trajectory& track, const std::vector<FrameEstimate>& shown) {
+  return static_cast<std::size_t>(std::ranges::count_if(track, [&](const StampedPose& pose) {
+    return !std::ranges::binary_search(shown, pose.stamp_ns, {}, &FrameEstimate::stamp_ns);
+  }));
+}
+
+/// `shown`: what it said of every frame, stamps rising.
+std::string FaultOfTrack(const Trajectory& track, const std::vector<FrameEstimate>& shown) {
   for (std::size_t i = 0; i < track.size(); ++i) {
     if (!IsRigid(track[i].T_world_rig, kRigid)) {
       return fmt::format("final track, pose {}: no rigid motion within {:g} m", i, kFarthest_m);
@@ -79,6 +89,12 @@ std::string FaultOfTrack(const Trajectory& track) {
     if (i > 0 && track[i].stamp_ns <= track[i - 1].stamp_ns) {
       return fmt::format("final track, pose {}: stamps do not rise", i);
     }
+  }
+  if (const std::size_t foreign = CountForeign(track, shown); foreign > 0) {
+    return fmt::format(
+        "final track: {} of {} poses have the stamp of no frame that it was shown: expected the "
+        "frames' own, in nanoseconds",
+        foreign, track.size());
   }
   return {};
 }
@@ -175,8 +191,9 @@ RunResult Showing::Finish(std::size_t frames, double min_coverage) {
   result_.trajectory.live = LiveTrack(result_.estimates);
   if (!offended()) {
     try {
-      result_.trajectory.final = estimator_.Finish();
-      Offend(RunStatus::kInvalid, FaultOfTrack(result_.trajectory.final));
+      Trajectory track = estimator_.Finish();
+      Offend(RunStatus::kInvalid, FaultOfTrack(track, result_.estimates));
+      if (!offended()) result_.trajectory.final = std::move(track);
     } catch (const SystemFault& fault) {
       Offend(fault.status, fmt::format("at the end: {}", fault.what()));
     } catch (const std::bad_alloc&) {

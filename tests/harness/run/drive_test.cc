@@ -62,7 +62,10 @@ class ScriptedEstimator : public Estimator {
     kSaysFar,
     kSaysShear,
     kLosesTheRest,
-    kWrongFrame
+    kWrongFrame,
+    kEndsInMicroseconds,
+    kEndsInTheFuture,
+    kEndsSparse
   };
   explicit ScriptedEstimator(Sin sin = Sin::kNone) : sin_(sin) {}
 
@@ -80,13 +83,25 @@ class ScriptedEstimator : public Estimator {
     if (estimate.T_world_rig) track_.push_back({frame.stamp_ns, *estimate.T_world_rig});
     return estimate;
   }
-  Trajectory Finish() override { return track_; }
+  Trajectory Finish() override {
+    Trajectory track;
+    for (StampedPose pose : track_) {
+      if (sin_ == Sin::kEndsInMicroseconds) pose.stamp_ns /= 1000;
+      const bool is_key = pose.stamp_ns % (7 * kStepNs) == 0;
+      if (is_key || sin_ != Sin::kEndsSparse) track.push_back(pose);
+    }
+    if (sin_ == Sin::kEndsInTheFuture) track.push_back({kFrames * kStepNs, PoseAt(kFrames)});
+    return track;
+  }
   int masked_pixels = 0;
 
  private:
   void Sin10(FrameEstimate* estimate) const {
     switch (sin_) {
       case Sin::kNone:
+      case Sin::kEndsInMicroseconds:
+      case Sin::kEndsInTheFuture:
+      case Sin::kEndsSparse:
         break;
       case Sin::kThrows:
         throw std::runtime_error("cannot go on");
@@ -163,6 +178,23 @@ TEST(DriveTest, MisbehaviourIsTheSystemsOwnVerdict) {
     EXPECT_EQ(run.truth.size(), 40u) << "frames that it was never shown are not covered";
     EXPECT_DOUBLE_EQ(*ScoreRun(run).scores.at("coverage").value, 0.25);
   }
+}
+
+/// Scores compare what has the same stamp: a track of which one pose is a frame's would look exact.
+TEST(DriveTest, AFinalTrackHasTheStampsOfFrames) {
+  const std::pair<Sin, std::string> cases[] = {{Sin::kEndsInMicroseconds, "39 of 40 poses"},
+                                               {Sin::kEndsInTheFuture, "1 of 41 poses"}};
+  for (const auto& [sin, why] : cases) {
+    const RunResult run = DriveWith(sin);
+    EXPECT_EQ(run.status, RunStatus::kInvalid);
+    EXPECT_NE(run.status_why.find(why), std::string::npos) << run.status_why;
+    EXPECT_TRUE(run.trajectory.final.empty());
+    EXPECT_FALSE(ScoreRun(run).scores.contains("ate_rmse_m") &&
+                 ScoreRun(run).scores.at("ate_rmse_m").value);
+  }
+  const RunResult sparse = DriveWith(Sin::kEndsSparse);
+  EXPECT_EQ(sparse.status, RunStatus::kOk) << sparse.status_why;
+  EXPECT_EQ(sparse.trajectory.final.size(), 6u);
 }
 
 TEST(DriveTest, MemoryThatIsNotThereIsNotTheSystemsFault) {
