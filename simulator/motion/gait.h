@@ -12,7 +12,9 @@ struct GaitStyle {
   double duration_s = 1.1;
   double longest_stride_m = 1.4;  ///< faster than it carries, only the cadence rises
   double rest_phase = 0;          ///< of standing: every walk begins and ends half cycles from it
-  double limp = 0;  ///< share by which the first half of each cycle from there is shorter, below 1
+  double limp = 0;  ///< share by which the first half of each cycle from there is shorter than the
+                    ///< second: the stance of the right leg, from where it takes the weight over to
+                    ///< where it gives it back; below 1
   double natural_speed_mps() const { return stride_m / duration_s; }
 };
 
@@ -23,9 +25,11 @@ struct GaitState {
 };
 
 /// Couples a walk cycle to the ground: stride shrinks with the square root of speed below the
-/// clip's natural speed, so cadence does too (walking people divide speed about evenly between the
-/// two: Grieve & Gear, Ergonomics 9, 1966), and vanishes at rest. The phase is the exact integral
-/// of speed over stride; steps of a walk are shortened a little so that it ends with a whole step.
+/// clip's natural speed (down to a creep), so cadence does too (walking people divide speed about
+/// evenly between the two: Grieve & Gear, Ergonomics 9, 1966), and vanishes at rest. The phase is
+/// the exact integral of speed over stride; steps of a walk are shortened a little so that it ends
+/// with a whole step. On the spot nobody steps faster than feet can: they stay while the body turns
+/// a little.
 class Gait {
  public:
   Gait() = default;
@@ -33,10 +37,14 @@ class Gait {
   Gait(Route route, const GaitStyle& style);
 
   GaitState At(double time_s) const;
+  /// Phase in the middle of the half that a limp shortens.
+  double SparedPhase() const { return style_.rest_phase + 0.25; }
 
  private:
   double Amplitude(double speed_mps) const;
-  double Limped(double cycles) const;
+  double SparedHalf() const;
+  double Limped(double even) const;
+  double Even(double cycles) const;
   double CyclesWithin(const Route::Leg& leg, double elapsed_s) const;
   double CyclesWhile(double from_mps, double acceleration_mps2, double duration_s) const;
 
@@ -44,8 +52,9 @@ class Gait {
   GaitStyle style_;
   /// How a leg of the route is stepped.
   struct Steps {
-    double cycles_before = 0;
-    double density = 1;  ///< cycles over those of the free stride, so that whole steps fit
+    double even_before = 0;  ///< cycles as they would be counted without a limp
+    double density = 0;      ///< of those, over those of the free stride, so that whole steps fit
+    double shortening = 0;   ///< a step's length over that of the free stride
   };
   std::vector<Steps> steps_;  ///< per leg
 };

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "simulator/motion/crowd_forces.h"
-#include "simulator/motion/gait.h"
 
 namespace aisle::sim {
 namespace {
@@ -142,26 +141,6 @@ TEST(CrowdForces, PushDownTheirPotentials) {
     const Eigen::Vector2d force = PersonForce(body, other);
     EXPECT_TRUE((force - down).norm() < 1e-6 || (force - 0.5 * down).norm() < 1e-6);
   }
-}
-
-TEST(Gait, ALimpShortensOneHalfOfEachCycleAndKeepsTheCount) {
-  RoutePlan plan;
-  plan.steps.resize(1);
-  plan.steps[0].go = {{20, 0}};
-  plan.steps[0].speed_mps = 1;
-  const Route route(plan, {.acceleration_mps2 = 0.9});
-  const GaitStyle even{1.4, 1.1, 1.8, 0.25, 0}, lame{1.4, 1.1, 1.8, 0.25, 0.4};
-  const Gait steady(route, even), limping(route, lame);
-  EXPECT_NEAR(steady.At(100).cycles, limping.At(100).cycles, 1e-9) << "whole steps in all";
-  double fastest = 0, slowest = 9;
-  for (double t = 5; t < 8; t += 0.01) {
-    const double rate = (limping.At(t + 0.01).cycles - limping.At(t).cycles) /
-                        (steady.At(t + 0.01).cycles - steady.At(t).cycles);
-    fastest = std::max(fastest, rate);
-    slowest = std::min(slowest, rate);
-  }
-  EXPECT_NEAR(fastest, 1.4, 0.01);
-  EXPECT_NEAR(slowest, 0.6, 0.01);
 }
 
 }  // namespace
