@@ -14,18 +14,18 @@ using Eigen::Vector3f;
 constexpr double kGravity_mps2 = 9.80665;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kGazeAhead_s = 0.7, kMostGaze_rad = 40 * kDegree;
-constexpr double kSmooth_s = 0.4;  // bodies answer to a speed's change within this time
-constexpr int kTaps = 9;
+constexpr int kGazes = 9;
+constexpr double kSmooth_s = 0.3;  // bodies answer to a change of velocity so early and so late
 constexpr double kLookHead_rad = 75 * kDegree, kLookTrunk_rad = 30 * kDegree;
 constexpr double kLurch_rad = 9 * kDegree;
 constexpr float kReach = 0.9985f;
+
+}  // namespace
 
 double SmoothStep(double t) {
   t = std::clamp(t, 0.0, 1.0);
   return t * t * t * (t * (6 * t - 15) + 10);
 }
-
-}  // namespace
 
 double Held(double elapsed_s, double duration_s, double rise_s) {
   return SmoothStep(elapsed_s / rise_s) * SmoothStep((duration_s - elapsed_s) / rise_s);
@@ -57,20 +57,23 @@ void Manners::TurnAbout(int node, const Vector3f& axis, double angle, NodeFrames
 }
 
 void Manners::Balance(const Route& route, double time_s, NodeFrames* frames) const {
-  double pitch = 0, roll = 0;
-  for (int i = 0; i < kTaps; ++i) {
-    const RouteState state = route.At(time_s + kSmooth_s * ((i + 0.5) / kTaps - 0.5));
-    pitch += std::atan(state.acceleration_mps2 / kGravity_mps2) / kTaps;
-    roll += std::atan(state.speed_mps * state.yaw_rate_rad_s / kGravity_mps2) / kTaps;
-  }
+  const RouteState now = route.At(time_s);
+  // The second difference of the way is the mean of the acceleration under a triangle, exactly: it
+  // has no steps where a route changes its acceleration at once, as a crowd's do.
+  const Eigen::Vector2d mean = (route.At(time_s + kSmooth_s).position - 2 * now.position +
+                                route.At(time_s - kSmooth_s).position) /
+                               (kSmooth_s * kSmooth_s);
+  const Eigen::Vector2d felt = Eigen::Rotation2Dd(-now.heading_rad) * mean;
+  const double pitch = std::atan(felt.x() / kGravity_mps2);
+  const double roll = std::atan(felt.y() / kGravity_mps2);
   const double half = 0.5;  // of it in the legs' and half in the trunk's bend
   TurnAbout(pelvis_, Vector3f::UnitX(), -half * roll, frames);
   TurnAbout(spine_, Vector3f::UnitY(), pitch, frames);
   TurnAbout(spine_, Vector3f::UnitX(), -half * roll, frames);
   double gaze = 0;
-  for (int i = 0; i < kTaps; ++i) {
-    const double ahead = kGazeAhead_s * (i + 0.5) / kTaps * 2;
-    gaze += (route.At(time_s + ahead).heading_rad - route.At(time_s).heading_rad) / kTaps;
+  for (int i = 0; i < kGazes; ++i) {
+    const double ahead = kGazeAhead_s * (i + 0.5) / kGazes * 2;
+    gaze += (route.At(time_s + ahead).heading_rad - now.heading_rad) / kGazes;
   }
   gaze = std::clamp(gaze, -kMostGaze_rad, kMostGaze_rad);
   TurnAbout(chest_, Vector3f::UnitZ(), 0.25 * gaze, frames);

@@ -18,9 +18,10 @@ class Manners {
  public:
   explicit Manners(const Model& model);
 
-  /// Leans as it speeds up (by the angle of the apparent gravity, as bodies balance), into turns
-  /// likewise, and turns the head to where the way goes within the next 0.7 s, at most 40 degrees:
-  /// gaze leads the body's turn (Grasso, Prevost, Ivanenko and Berthoz, Neurosci. Lett. 253, 1998).
+  /// Leans as it speeds up and into turns, by the angle of the apparent gravity, as bodies balance,
+  /// whatever speed does within the 0.3 s before and after; and turns the head to where the way
+  /// goes within the next 0.7 s, at most 40 degrees: gaze leads the body's turn (Grasso, Prevost,
+  /// Ivanenko and Berthoz, Neurosci. Lett. 253, 1998).
   void Balance(const Route& route, double time_s, NodeFrames* frames) const;
 
   /// Looks over the right shoulder: `amount` from 0 to 1 is 75 degrees of the head and 30 of the
@@ -43,6 +44,9 @@ class Manners {
   int thigh_right_, shin_right_, foot_right_, toes_right_;
   int thigh_left_, shin_left_, foot_left_;
 };
+
+/// From 0 to 1, clamped outside, smooth to the second derivative.
+double SmoothStep(double t);
 
 /// From 0 to 1 and back within a step: rises over `rise_s` from its start, falls as long before its
 /// end, both smooth to the second derivative.

@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 
@@ -14,8 +15,9 @@
 namespace aisle::sim {
 namespace {
 
-/// Clips fade into one another over this time.
-constexpr double kFade_s = 0.5;
+/// Clips fade into one another over this time, arms starting and stopping as they do when they
+/// reach for something (least jerk: Flash and Hogan, J. Neurosci. 5, 1985).
+constexpr double kFade_s = 0.75;
 
 /// Plain walking from slow to fast; others (with a load, backwards) are asked for by name.
 constexpr std::array<std::string_view, 4> kWalks = {"walk_creep", "walk_slow", "walk", "walk_fast"};
@@ -31,6 +33,35 @@ struct PlayedClip {
   double stride_m = 0;
   double duration_s = 1;
 };
+
+/// What a step of the route plays, and when.
+struct Playing {
+  int step = 0;
+  std::string play;  ///< empty: plain walking and standing
+  double from_s = 0, until_s = 0;
+};
+
+/// The steps of a route with their times, one after the other.
+std::vector<Playing> PlayingsOf(const Route& route, const std::vector<RouteStep>& steps) {
+  std::vector<Playing> playings;
+  const auto begin = [&](int step, double from_s) {
+    if (step < 0 || (!playings.empty() && playings.back().step == step)) return;
+    if (!playings.empty()) playings.back().until_s = from_s;
+    const std::string& play = steps[static_cast<std::size_t>(step)].play;
+    playings.push_back({step, play, from_s, route.duration_s()});
+  };
+  for (const Route::Leg& leg : route.legs()) {
+    begin(leg.start.step, leg.step_start_s);
+    for (const auto& segment : leg.segment_steps) begin(segment.step, segment.start_s);
+  }
+  return playings;
+}
+
+/// How much of a time span lies around now, in fading's measure; those of neighbours sum to 1.
+float ShareAround(double time_s, double from_s, double until_s) {
+  const auto passed = [&](double at_s) { return SmoothStep((at_s - time_s) / kFade_s + 0.5); };
+  return static_cast<float>(passed(until_s) - passed(from_s));
+}
 
 /// Who the person is and how it moves: everything a pose at a time needs.
 class Walker {
@@ -60,17 +91,13 @@ class Walker {
     style.limp = person.limp;
     stride_m_ = style.stride_m;
     for (const RouteStep& step : person.route.plan.steps) {
-      const bool is_manner =
-          std::ranges::count(kManners, step.play) > 0 && !clips_.contains(step.play);
-      has_manners_ = has_manners_ || is_manner;
-      poses_.push_back(is_manner ? step.play : "");
-      plays_.push_back(is_manner ? "" : step.play);
-      if (is_manner) continue;
       carries_ = carries_ || step.play == kCarry;
-      if (!step.play.empty() && !clips_.contains(step.play)) RequireClip(step.play);
+      if (!step.play.empty() && !IsPosed(step.play)) RequireClip(step.play);
+    }
+    for (const Playing& playing : PlayingsOf(route_, person.route.plan.steps)) {
+      if (!playing.play.empty()) (IsPosed(playing.play) ? posed_ : played_).push_back(playing);
     }
     FindHands(facts);
-    if (has_manners_) MeasureSteps();
     footing_ = std::make_unique<Footing>(model_, route_, walks_, stand_, style);
   }
 
@@ -105,37 +132,29 @@ class Walker {
     NodeFrames frames = PoseNodes(*model_, layers);
     if (natural_) manners_.Balance(route_, time_s, &frames);
     footing_->Apply(time_s, walking, &frames);
-    if (has_manners_) AddManner(time_s, &frames);
+    AddManners(time_s, &frames);
     if (limp_ > 0) {
       const GaitState gait = footing_->gait().At(time_s);
-      manners_.Lurch(gait.cycles, std::min(1.0, gait.amplitude) * limp_ / 0.4, &frames);
+      manners_.Lurch(gait.cycles - footing_->gait().SparedPhase(),
+                     std::min(1.0, gait.amplitude) * limp_ / 0.4, &frames);
     }
     return frames;
   }
 
-  /// What this step of the route has the simulator pose.
-  void AddManner(double time_s, NodeFrames* frames) const {
-    const RouteState state = route_.At(time_s);
-    if (state.finished || state.step < 0) return;
-    const std::string& pose = poses_[static_cast<std::size_t>(state.step)];
-    if (pose.empty()) return;
-    const double duration_s = step_durations_s_[static_cast<std::size_t>(state.step)];
-    if (pose == "kneel")
-      manners_.Kneel(Held(state.step_elapsed_s, duration_s, kKneeling_s), frames);
-    if (pose == "look_back") {
-      manners_.LookBack(Held(state.step_elapsed_s, duration_s, kLookingBack_s), frames);
-    }
+  /// Whether the simulator itself poses what is to be played, for want of such a clip.
+  bool IsPosed(const std::string& play) const {
+    return std::ranges::count(kManners, play) > 0 && !clips_.contains(play);
   }
 
-  /// How long each step takes.
-  void MeasureSteps() {
-    step_durations_s_.assign(plays_.size(), 0);
-    constexpr double kTick_s = 0.02;
-    for (double t = 0; t < route_.duration_s(); t += kTick_s) {
-      const RouteState state = route_.At(t);
-      if (state.step < 0) continue;
-      double& longest = step_durations_s_[static_cast<std::size_t>(state.step)];
-      longest = std::max(longest, state.step_elapsed_s);
+  /// What the route's steps have the simulator pose.
+  void AddManners(double time_s, NodeFrames* frames) const {
+    for (const auto& [step, pose, from_s, until_s] : posed_) {
+      const double elapsed_s = time_s - from_s, duration_s = until_s - from_s;
+      if (elapsed_s <= 0 || elapsed_s >= duration_s) continue;
+      if (pose == "kneel") manners_.Kneel(Held(elapsed_s, duration_s, kKneeling_s), frames);
+      if (pose == "look_back") {
+        manners_.LookBack(Held(elapsed_s, duration_s, kLookingBack_s), frames);
+      }
     }
   }
 
@@ -189,32 +208,23 @@ class Walker {
     return {clip.clip, time, weight, -1};
   }
 
-  /// What is played besides plain walking and standing; who carries a box never lets go of it.
-  std::string PlayAt(const RouteState& state) const {
-    if (carries_) return kCarry;
-    return state.finished || state.step < 0 ? "" : plays_[static_cast<std::size_t>(state.step)];
-  }
-
-  /// Adds what the route's step plays, with as much weight as it takes of the time around now.
+  /// Adds what the route's steps play, with as much weight as each takes of the time around now;
+  /// who carries a box never lets go of it.
   void AddPlayed(double time_s, std::vector<PoseLayer>* layers) const {
-    constexpr int kTaps = 20;
-    std::map<std::pair<std::string, long>, int> taps;  // by clip and start in microseconds
-    int played = 0;
-    for (int i = 0; i < kTaps; ++i) {
-      const double at = time_s + kFade_s * ((i + 0.5) / kTaps - 0.5);
-      const RouteState state = route_.At(at);
-      const std::string play = PlayAt(state);
-      if (play.empty()) continue;
-      const long start = std::lround((at - state.step_elapsed_s) * 1e6);
-      ++taps[{play, start}];
-      ++played;
+    if (carries_) {
+      layers->clear();
+      return AddClip(kCarry, time_s, time_s, 1, layers);
     }
-    for (PoseLayer& layer : *layers) layer.weight *= 1 - static_cast<float>(played) / kTaps;
-    for (const auto& [key, count] : taps) {
-      const auto& [play, start] = key;
-      AddClip(play, time_s, time_s - static_cast<double>(start) * 1e-6,
-              static_cast<float>(count) / kTaps, layers);
+    const std::size_t walking = layers->size();
+    float plain = 1;
+    for (const auto& [step, clip, from_s, until_s] : played_) {
+      const float share = ShareAround(time_s, from_s, until_s);
+      if (share <= 0) continue;
+      AddClip(clip, time_s, time_s - from_s, share, layers);
+      plain -= share;
     }
+    for (PoseLayer& layer : std::span(*layers).first(walking))
+      layer.weight *= std::max(0.0f, plain);
   }
 
   /// A walk that has a standing twin (walk_carry, stand_carry) turns into it as the steps shrink.
@@ -235,11 +245,9 @@ class Walker {
   std::vector<WalkClip> walks_;  ///< by stride
   std::map<std::string, PlayedClip> clips_;
   std::unique_ptr<const Footing> footing_;
-  std::vector<std::string> plays_;  ///< per step of the route
+  std::vector<Playing> played_;  ///< clips
+  std::vector<Playing> posed_;   ///< what the simulator poses itself
   Manners manners_;
-  std::vector<std::string> poses_;  ///< per step: what the simulator poses itself
-  std::vector<double> step_durations_s_;
-  bool has_manners_ = false;
   double limp_ = 0;
   bool natural_ = false;
   bool carries_ = false;
