@@ -1,4 +1,5 @@
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "harness/bench/dynamic.h"
 #include "harness/cli/bench_source.h"
@@ -102,16 +103,30 @@ DynamicOfView Measure(const BenchView& view, const DynamicBenchOptions& bench) {
   return measured;
 }
 
-void PrintSum(const std::vector<DynamicOfView>& rows) {
+constexpr const char* kAllOf = "all of ";
+
+/// What the rows of the table will be called, sums of a scene's stretches included.
+std::vector<std::string> NamesOf(const std::vector<BenchView>& views) {
+  std::vector<std::string> names;
+  std::set<std::string> seen;
+  for (const BenchView& view : views) {
+    names.push_back(view.text);
+    if (!view.scene.empty() && !seen.insert(view.scene).second)
+      names.push_back(kAllOf + view.scene);
+  }
+  return names;
+}
+
+void PrintSum(const std::vector<DynamicOfView>& rows, TextTable* table) {
   DynamicOfView sum;
   for (const DynamicOfView& row : rows) sum += row;
   const std::vector<DynamicOfView> scenes = ByScene(rows);
   if (scenes.size() < rows.size()) {
     for (const DynamicOfView& scene : scenes) {
-      fmt::print("{}\n", DynamicLine("all of " + Abridged(scene.name, 20), scene));
+      fmt::print("{}", table->Row(kAllOf + scene.name, DynamicCells(scene)));
     }
   }
-  fmt::print("{}\n", DynamicLine("all", sum));
+  fmt::print("{}", table->Row("all", DynamicCells(sum)));
   for (const auto& [stage, ms] : sum.mean_ms()) fmt::print("  {:26}{:9.2f} ms\n", stage, ms);
   if (const auto front_end = FrontEndOf(sum.mean_ms())) {
     fmt::print("front end: {:.2f} ms a frame, of which tracking {:.2f} ms\n", front_end->total(),
@@ -124,17 +139,18 @@ int BenchDynamic(const Options& options) {
   const std::vector<BenchView> views = ViewsOf(options);
   options.into.Check();
   CheckCanBeWritten(options.json);
-  fmt::print("{}, after {} frames of warming up\n{}\n", bench.system.name, bench.warm_up,
-             DynamicHeading());
+  TextTable table = DynamicLines(NamesOf(views), LookOfStdout().width);
+  fmt::print("{}, after {} frames of warming up\n{}", bench.system.name, bench.warm_up,
+             table.Heading());
   nlohmann::json json = nlohmann::json::array();
   std::vector<DynamicOfView> rows;
   for (const BenchView& view : views) {
     rows.push_back(Measure(view, bench));
-    fmt::print("{}\n", DynamicLine(Abridged(view.text, 27), rows.back()));
+    fmt::print("{}", table.Row(view.text, DynamicCells(rows.back())));
     std::fflush(stdout);
     json.push_back(ToJson(rows.back()));
   }
-  PrintSum(rows);
+  PrintSum(rows, &table);
   if (!options.json.empty()) WriteFileAtomically(options.json, json.dump(2) + "\n");
   options.into.Write(DynamicTable(ByScene(rows)));
   return kAllPassed;

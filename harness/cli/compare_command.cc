@@ -58,7 +58,7 @@ int CompareReports(const Options& options) {
   LargestFirst(&comparisons);
   const std::vector<MissingRuns> missing = MissingRunsOf(before, after);
   fmt::print("{}", options.json ? ToJson(comparisons, missing)
-                                : ToConsole(comparisons, missing, StdoutHasColor()));
+                                : ToConsole(comparisons, missing, LookOfStdout()));
   if (!options.out.empty()) {
     WritePages(comparisons, missing, NightOf(options.before, before), NightOf(options.after, after),
                options.out);

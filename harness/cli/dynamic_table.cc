@@ -27,6 +27,8 @@ std::string Cell(const Score& score) {
   return score.value ? fmt::format("{:.3f}", *score.value) : "-";
 }
 
+std::string Percent(double share) { return fmt::format("{:.2f}", 100 * share); }
+
 /// What a row holds of a view with truth, as words; the names are the heading's.
 std::vector<std::string> Cells(const DynamicOfView& row) {
   const Detection objects = ObjectDetection(row.masks), large = LargeDetection(row.masks),
@@ -41,11 +43,12 @@ std::vector<std::string> Cells(const DynamicOfView& row) {
           Cell(objects.iou),
           Cell(pixels.iou),
           Cell(pixels.recall),
-          fmt::format("{:.2f} %", 100 * row.static_wrong())};
+          Percent(row.static_wrong()) + " %"};
 }
 
 const std::vector<std::string> kColumns = {"prec.", "recall",  "large P", "large R", "after s",
                                            "gap",   "box IoU", "px IoU",  "px rec.", "static"};
+constexpr std::size_t kGap = 5, kStatic = 9;  // of these
 
 std::string Name(const DynamicOfView& row) {
   return row.stretches == 1 ? row.view : fmt::format("{}, {} stretches", row.name, row.stretches);
@@ -59,23 +62,32 @@ std::string TableRow(const std::string& name, const DynamicOfView& row) {
 
 }  // namespace
 
-std::string DynamicHeading() {
-  std::string line = fmt::format("{:28}{:>7}", "view", "frames");
-  for (const std::string& column : kColumns) line += fmt::format("{:>9}", column);
-  return line + fmt::format("{:>9}{:>8}", "all", "ms");
+TextTable DynamicLines(const std::vector<std::string>& names, std::size_t width) {
+  // Widths of what such figures usually are: rows are shown as they are measured.
+  std::vector<TextTable::Column> columns = {{.title = "frames", .width = 5}};
+  for (const std::string& title : kColumns) columns.push_back({.title = title, .width = 5});
+  columns[1 + kGap].width = 3;
+  columns[1 + kStatic].title = "static %";
+  columns.push_back({.title = "all %", .width = 5});
+  columns.push_back({.title = "ms", .width = 5});
+  TextTable::Column name{.title = "view"};
+  for (const std::string& one : names) name.width = std::max(name.width, ShownWidth(one));
+  return {name, columns, width};
 }
 
-std::string DynamicLine(const std::string& name, const DynamicOfView& row) {
-  std::string line = fmt::format("{:28}{:7}", name, row.frames);
+std::vector<std::string> DynamicCells(const DynamicOfView& row) {
+  std::vector<std::string> cells = {fmt::format("{}", row.frames)};
+  std::vector<std::string> figures(kColumns.size(), "-");
   if (row.has_truth) {
-    for (const std::string& cell : Cells(row)) line += fmt::format("{:>9}", cell);
-  } else {
-    line += fmt::format("{:>{}}", "-", 9 * kColumns.size());
+    figures = Cells(row);
+    figures[kStatic] = Percent(row.static_wrong());
   }
-  line += fmt::format("{:7.2f} %", 100 * row.rejected_share());
+  cells.insert(cells.end(), figures.begin(), figures.end());
+  cells.push_back(Percent(row.rejected_share()));
   const auto dynamic = row.stage_ms.find("dynamic");
-  if (dynamic != row.stage_ms.end()) line += fmt::format("{:8.1f}", dynamic->second / row.frames);
-  return line;
+  cells.push_back(
+      dynamic == row.stage_ms.end() ? "" : fmt::format("{:.1f}", dynamic->second / row.frames));
+  return cells;
 }
 
 std::vector<DynamicOfView> ByScene(const std::vector<DynamicOfView>& stretches) {

@@ -4,12 +4,14 @@
 #include <vector>
 
 #include "harness/bench/dynamic.h"
+#include "harness/common/text_layout.h"
 
 namespace aisle {
 
-/// Names and figures of one row: objects by rectangle, large ones over time, pixels, time.
-std::string DynamicHeading();
-std::string DynamicLine(const std::string& name, const DynamicOfView& row);
+/// For the terminal: objects by rectangle, large ones over time, pixels, time. `names` are what
+/// rows will be called, and DynamicCells their figures.
+TextTable DynamicLines(const std::vector<std::string>& names, std::size_t width);
+std::vector<std::string> DynamicCells(const DynamicOfView& row);
 
 /// Sums over the stretches of each scene, in the order in which the scenes come; stretches as they
 /// are where no scene has two.

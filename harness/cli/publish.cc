@@ -66,7 +66,7 @@ int Publish(const Results& results, const std::filesystem::path& out,
   if (options.json) {
     fmt::print("{}", ToJson(results));
   } else {
-    fmt::print("{}", ToConsole(results, StdoutHasColor()));
+    fmt::print("{}", ToConsole(results, LookOfStdout()));
     fmt::print("report: {}\nagain:  {}\n", (out / "index.html").string(), results.rerun);
   }
   if (options.failure != 0) return options.failure;

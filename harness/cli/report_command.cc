@@ -42,7 +42,7 @@ int Rebuild(const Options& options) {
   if (options.json) {
     fmt::print("{}", ToJson(results));
   } else {
-    fmt::print("{}report: {}/index.html\n", ToConsole(results, StdoutHasColor()), folder);
+    fmt::print("{}report: {}/index.html\n", ToConsole(results, LookOfStdout()), folder);
   }
   return AllPassed(results) ? kAllPassed : kVerdictFailed;
 }

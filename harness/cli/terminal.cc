@@ -12,6 +12,27 @@ bool StdoutHasColor() {
   return ::isatty(STDOUT_FILENO) != 0 && (no_color == nullptr || *no_color == '\0');
 }
 
+namespace {
+
+std::size_t ColumnsOf(int stream) {
+  if (const char* said = std::getenv("COLUMNS"); said != nullptr) {
+    constexpr int kFewest = 20;  // of a real terminal
+    if (const int columns = std::atoi(said); columns >= kFewest)
+      return static_cast<std::size_t>(columns);
+  }
+  winsize size{};
+  ::ioctl(stream, TIOCGWINSZ, &size);
+  constexpr std::size_t kUsual = 80;
+  return size.ws_col > 1 ? size.ws_col : kUsual;
+}
+
+}  // namespace
+
+TextLook LookOfStdout() {
+  return {.color = StdoutHasColor(),
+          .width = ::isatty(STDOUT_FILENO) != 0 ? ColumnsOf(STDOUT_FILENO) : 0};
+}
+
 ProgressLine::ProgressLine() : terminal_(::isatty(STDERR_FILENO) != 0) {}
 
 void ProgressLine::Show(const std::string& text, Clock::time_point now) {
@@ -23,10 +44,7 @@ void ProgressLine::Show(const std::string& text, Clock::time_point now) {
     said_ = now;
     return;
   }
-  winsize size{};
-  ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size);
-  const std::size_t width = size.ws_col > 1 ? size.ws_col - 1U : 79U;
-  fmt::print(stderr, "\r\x1b[K{}", text.substr(0, width));
+  fmt::print(stderr, "\r\x1b[K{}", FirstColumns(text, ColumnsOf(STDERR_FILENO) - 1));
   std::fflush(stderr);
   shown_ = true;
 }

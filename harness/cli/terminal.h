@@ -4,10 +4,16 @@
 #include <optional>
 #include <string>
 
+#include "harness/common/text_layout.h"
+
 namespace aisle {
 
 /// stdout is a terminal and NO_COLOR is not set.
 bool StdoutHasColor();
+
+/// Colours as above. Columns as COLUMNS says or else the terminal; none where stdout is no
+/// terminal.
+TextLook LookOfStdout();
 
 /// One line of progress that rewrites itself on a terminal. Elsewhere, as in a log, it is said as a
 /// line of its own once a minute.

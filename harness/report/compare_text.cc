@@ -30,10 +30,25 @@ std::string Lacking(const MissingRuns& one) {
 
 bool IsChange(const Comparison& c) { return IsAlarm(c.change) || c.change == Change::kBetter; }
 
-std::string Painted(const Comparison& c, bool color) {
-  const std::string text = fmt::format("{:11}", Name(c.change));
-  if (!color || !IsChange(c)) return text;
-  return fmt::format("\x1b[{}m{}\x1b[0m", IsAlarm(c.change) ? "31;1" : "32", text);
+std::string Painted(const std::string& text, const char* code, bool color) {
+  return color ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : text;
+}
+
+struct ConsoleRow {
+  std::string name;
+  std::vector<std::string> cells;
+  std::string remark;
+};
+
+ConsoleRow RowOf(const Comparison& c, bool color) {
+  const std::string change =
+      Painted(Name(c.change), IsAlarm(c.change) ? "31;1" : "32", color && IsChange(c));
+  return {
+      Cell(c), {c.score, change, fmt::format("{:.4g}", c.old_median), After(c), Percent(c)}, c.why};
+}
+
+ConsoleRow RowOf(const MissingRuns& one, bool color) {
+  return {Cell(one), {"", Painted("missing", "31;1", color), "", "", ""}, Lacking(one)};
 }
 
 std::size_t Count(const std::vector<Comparison>& comparisons, Change change) {
@@ -57,22 +72,28 @@ std::string Summary(const std::vector<Comparison>& comparisons) {
 }  // namespace
 
 std::string ToConsole(const std::vector<Comparison>& comparisons,
-                      const std::vector<MissingRuns>& missing, bool color) {
-  std::size_t width = 10;
-  for (const Comparison& c : comparisons) width = std::max(width, Cell(c).size());
-  for (const MissingRuns& one : missing) width = std::max(width, Cell(one).size());
-  std::string text = fmt::format("{:{}}  {:20} {:11} {:>11} {:>11} {:>9}\n", "scene twin system",
-                                 width, "score", "change", "before", "after", "");
-  for (const Comparison& c : comparisons) {
-    text += fmt::format("{:{}}  {:20} {} {:>11.4g} {:>11} {:>9}  {}\n", Cell(c), width, c.score,
-                        Painted(c, color), c.old_median, After(c), Percent(c), c.why);
+                      const std::vector<MissingRuns>& missing, const TextLook& look) {
+  std::vector<ConsoleRow> rows;
+  for (const Comparison& c : comparisons) rows.push_back(RowOf(c, look.color));
+  for (const MissingRuns& one : missing) rows.push_back(RowOf(one, look.color));
+  TextTable::Column name{.title = "scene twin system"};
+  std::vector<TextTable::Column> columns = {{.title = "score", .is_left = true},
+                                            {.title = "change", .is_left = true},
+                                            {.title = "before"},
+                                            {.title = "after"},
+                                            {.title = ""}};
+  for (const ConsoleRow& row : rows) {
+    name.width = std::max(name.width, row.name.size());
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      columns[i].width = std::max(columns[i].width, ShownWidth(row.cells[i]));
+    }
   }
-  for (const MissingRuns& one : missing) {
-    const std::string word = fmt::format("{:11}", "missing");
-    text += fmt::format("{:{}}  {:20} {} {}\n", Cell(one), width, "",
-                        color ? fmt::format("\x1b[31;1m{}\x1b[0m", word) : word, Lacking(one));
-  }
-  return text + Summary(comparisons) + (missing.empty() ? "" : "; " + InWords(missing)) + "\n";
+  TextTable table(name, columns, look.width);
+  std::string text = table.Heading();
+  for (const ConsoleRow& row : rows) text += table.Row(row.name, row.cells, row.remark);
+  const std::string summary =
+      Summary(comparisons) + (missing.empty() ? "" : "; " + InWords(missing));
+  return text + Wrapped(summary, look.width) + "\n";
 }
 
 std::string ToMarkdown(const std::vector<Comparison>& comparisons,

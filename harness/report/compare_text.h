@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/common/text_layout.h"
 #include "harness/judge/compare.h"
 #include "harness/judge/missing.h"
 
@@ -10,7 +11,7 @@ namespace aisle {
 
 /// What changed, and what the old side has and the new one lacks.
 std::string ToConsole(const std::vector<Comparison>& comparisons,
-                      const std::vector<MissingRuns>& missing, bool color);
+                      const std::vector<MissingRuns>& missing, const TextLook& look);
 std::string ToMarkdown(const std::vector<Comparison>& comparisons,
                        const std::vector<MissingRuns>& missing);
 std::string ToJson(const std::vector<Comparison>& comparisons,

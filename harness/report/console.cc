@@ -33,42 +33,63 @@ std::string Painted(const std::string& text, const char* code, bool color) {
   return color ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : text;
 }
 
-}  // namespace
+std::vector<std::string> Cells(const RunRecord& run, bool color) {
+  std::vector<std::string> cells = {
+      Painted(Name(run.status), run.status == RunStatus::kOk ? "32" : "31", color)};
+  for (const Column& column : kColumns) cells.push_back(Cell(run, column));
+  return cells;
+}
 
-std::string ToConsole(const Results& results, bool color) {
-  std::size_t width = 20;
-  for (const RunRecord& run : results.runs) width = std::max(width, RunId(run.spec).size());
-  std::string text = fmt::format("\n{:{}}  {:8}", "run", width, "status");
-  for (const Column& column : kColumns) text += fmt::format(" {:>11}", column.title);
-  text += "\n";
-  for (const RunRecord& run : results.runs) {
-    const std::string status = fmt::format("{:8}", Name(run.status));
-    text += fmt::format("{:{}}  {}", RunId(run.spec), width,
-                        Painted(status, run.status == RunStatus::kOk ? "32" : "31", color));
-    for (const Column& column : kColumns) text += fmt::format(" {:>11}", Cell(run, column));
-    text += run.status_why.empty() ? "\n" : "  " + Printable(run.status_why, 120) + "\n";
+std::string RunTable(const std::vector<RunRecord>& runs, const TextLook& look) {
+  TextTable::Column name{.title = "run", .width = 0};
+  std::vector<TextTable::Column> columns = {{.title = "status", .width = 0, .is_left = true}};
+  for (const Column& column : kColumns) columns.push_back({.title = column.title});
+  for (const RunRecord& run : runs) {
+    name.width = std::max(name.width, RunId(run.spec).size());
+    const std::vector<std::string> cells = Cells(run, look.color);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      columns[i].width = std::max(columns[i].width, ShownWidth(cells[i]));
+    }
   }
-  text += "\n";
-  for (const std::string& sentence : AnswerInWords(results)) text += sentence + "\n";
-  std::size_t failed = 0;
-  for (const Verdict& verdict : results.verdicts) {
-    failed += verdict.passed ? 0 : 1;
-    if (verdict.name == kWithoutBaseline) continue;  // said last, where it is not overlooked
-    text +=
-        fmt::format("{}  {}: {}\n",
-                    verdict.passed ? Painted("pass", "32", color) : Painted("FAIL", "31;1", color),
-                    verdict.name, verdict.why);
-  }
-  if (results.verdicts.empty()) {
-    text += "no limits in this suite: nothing was judged\n";
-  } else {
-    text += fmt::format("{} of {} verdicts passed\n", results.verdicts.size() - failed,
-                        results.verdicts.size());
-  }
-  for (const Verdict& verdict : results.verdicts) {
-    if (verdict.name == kWithoutBaseline) text += verdict.why + "\n";
+  TextTable table(name, columns, look.width);
+  std::string text = table.Heading();
+  for (const RunRecord& run : runs) {
+    text += table.Row(RunId(run.spec), Cells(run, look.color), Printable(run.status_why, 120));
   }
   return text;
+}
+
+/// What was said last stands nearest to the prompt, and is not overlooked.
+std::string VerdictLines(const std::vector<Verdict>& verdicts, const TextLook& look) {
+  if (verdicts.empty()) return "no limits in this suite: nothing was judged\n";
+  std::string failures, without_baseline;
+  std::size_t failed = 0;
+  for (const Verdict& verdict : verdicts) {
+    if (verdict.name == kWithoutBaseline)
+      without_baseline = Wrapped(verdict.why, look.width) + "\n";
+    if (verdict.passed) continue;
+    ++failed;
+    constexpr std::size_t kAfterWord = 6;
+    failures += Wrapped(fmt::format("{}  {}: {}", Painted("FAIL", "31;1", look.color), verdict.name,
+                                    verdict.why),
+                        look.width, kAfterWord) +
+                "\n";
+  }
+  const std::string count =
+      fmt::format("{} of {} verdicts passed", verdicts.size() - failed, verdicts.size());
+  if (failed == 0) return Painted(count, "32", look.color) + "\n" + without_baseline;
+  return fmt::format("{}{}{}, {}\n", without_baseline, failures, count,
+                     Painted(fmt::format("{} failed", failed), "31;1", look.color));
+}
+
+}  // namespace
+
+std::string ToConsole(const Results& results, const TextLook& look) {
+  std::string text = fmt::format("\n{}\n", RunTable(results.runs, look));
+  for (const std::string& sentence : AnswerInWords(results)) {
+    text += Wrapped(sentence, look.width) + "\n";
+  }
+  return text + VerdictLines(results.verdicts, look);
 }
 
 }  // namespace aisle

@@ -155,7 +155,20 @@ TEST(DynamicTable, HasARowForEachAndTheirSumAllOfOneWidth) {
       EXPECT_EQ(std::ranges::count(line, '|'), std::ranges::count(table[0], '|')) << line;
       EXPECT_TRUE(line.starts_with('|') && line.ends_with('|')) << line;
     }
-    EXPECT_EQ(DynamicLine("x", rows[0]).size(), DynamicHeading().size());
+    std::vector<std::string> names;
+    for (const DynamicOfView& row : rows) names.push_back(row.view);
+    for (const std::size_t width : {0u, 80u, 140u}) {
+      TextTable terminal = DynamicLines(names, width);
+      std::istringstream shown(terminal.Heading() + terminal.Row(names[0], DynamicCells(rows[0])));
+      std::size_t last = 0;
+      for (std::string line; std::getline(shown, line); last = line.size()) {
+        EXPECT_TRUE(width == 0 || line.size() <= width) << line;
+      }
+      std::istringstream heading(terminal.Heading());
+      for (std::string line; std::getline(heading, line);) {
+        EXPECT_TRUE(!line.ends_with("ms") || line.size() == last) << line;
+      }
+    }
   }
 }
 

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 namespace aisle {
 namespace {
 
@@ -15,7 +17,7 @@ TEST(CompareTextTest, EveryWritingNamesTheChange) {
   worse.new_median = 0.04;
   worse.old_n = worse.new_n = 9;
   worse.change = Change::kWorse;
-  EXPECT_THAT(ToConsole({worse}, {}, false), HasSubstr("1 worse"));
+  EXPECT_THAT(ToConsole({worse}, {}, {}), HasSubstr("1 worse"));
   EXPECT_THAT(ToMarkdown({worse}, {}), HasSubstr("| ate_rmse_m | worse |"));
   EXPECT_THAT(ToJson({worse}, {}), HasSubstr("\"change\": \"worse\""));
 }
@@ -27,10 +29,29 @@ TEST(CompareTextTest, AScoreThatIsGoneIsNothingNow) {
   gone.new_median = std::nan("");
   gone.old_n = 9;
   gone.change = Change::kGone;
-  for (const std::string& text : {ToConsole({gone}, {}, false), ToMarkdown({gone}, {})}) {
+  for (const std::string& text : {ToConsole({gone}, {}, {}), ToMarkdown({gone}, {})}) {
     EXPECT_THAT(text, HasSubstr("nothing"));
     EXPECT_THAT(text, testing::Not(HasSubstr("nan")));
   }
+}
+
+TEST(CompareTextTest, ATerminalIsFilledAndALogHasALineForEach) {
+  Comparison worse;
+  worse.scene = "weakness/optical_axis";
+  worse.twin = "live";
+  worse.system = "paper_plain";
+  worse.score = "rpe_1s_trans_rmse_m";
+  worse.old_median = 0.02;
+  worse.new_median = 0.04;
+  worse.old_n = worse.new_n = 9;
+  worse.change = Change::kWorse;
+  worse.why = "differences of 9 pairs from 0.0123 to 0.0456, p 0.0001 of all that is compared";
+  for (const std::size_t width : {80u, 100u, 140u}) {
+    std::istringstream lines(ToConsole({worse}, {}, {.color = false, .width = width}));
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), width) << line;
+  }
+  const std::string log = ToConsole({worse}, {}, {});
+  EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 3) << log;
 }
 
 TEST(CompareTextTest, NamesStayInTheirCellOfTheMarkdown) {
@@ -50,7 +71,7 @@ TEST(CompareTextTest, EveryWritingNamesWhatIsMissing) {
   const std::vector<MissingRuns> missing = {
       {.scene = "a", .twin = "live", .system = "mine", .seeds = {1, 2}, .is_whole = true},
       {.scene = "b", .twin = "live", .system = "mine", .seeds = {3}}};
-  const std::string console = ToConsole({}, missing, false);
+  const std::string console = ToConsole({}, missing, {});
   EXPECT_THAT(console, HasSubstr("the old side has it, the new one has not"));
   EXPECT_THAT(console, HasSubstr("the old side has seeds 3, the new one has not"));
   EXPECT_THAT(console, HasSubstr("0 cannot tell; 1 cell and 1 seed of 1 other are missing\n"));

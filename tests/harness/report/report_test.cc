@@ -384,8 +384,38 @@ TEST_F(ReportTest, CellsWithoutABaselineAreSaidInTheMorning) {
   without.name = kWithoutBaseline;
   without.passed = true;
   without.why = "3 cells have no baseline";
-  EXPECT_TRUE(ToConsole(results, false).ends_with("verdicts passed\n3 cells have no baseline\n"));
+  EXPECT_TRUE(ToConsole(results, {}).ends_with("verdicts passed\n3 cells have no baseline\n"));
   EXPECT_THAT(ToSummaryText(results, {}, folder_), HasSubstr("  3 cells have no baseline\n"));
+}
+
+TEST_F(ReportTest, WhatFailedStandsNearestToThePrompt) {
+  std::vector<RunResult> runs;
+  for (int i = 0; i < 20; ++i) runs.push_back(MakeRun(fmt::format("s{}", i), "oracle", 1, 0.01));
+  runs.push_back(MakeRun("weakness/optical_axis", "oracle", 1, 0.6));
+  const Results results = Make(runs, {kBroken, kTight});
+  const auto failed = std::count_if(results.verdicts.begin(), results.verdicts.end(),
+                                    [](const Verdict& verdict) { return !verdict.passed; });
+  ASSERT_GE(failed, 1);
+  for (const std::size_t width : {0u, 80u, 140u}) {
+    const std::string text = ToConsole(results, {.color = false, .width = width});
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    if (width > 0) {
+      for (const std::string& line : lines) EXPECT_LE(ShownWidth(line), width) << line;
+    }
+    EXPECT_THAT(lines.back(), HasSubstr(fmt::format("{} failed", failed)));
+    EXPECT_THAT(text, Not(HasSubstr("\npass")));
+    const std::size_t first = text.find("\nFAIL  ");
+    ASSERT_NE(first, std::string::npos) << text;
+    EXPECT_GT(first, text.rfind("/oracle/1")) << "what failed is below the runs";
+    const auto lines_of_failures = std::count_if(
+        lines.begin(), lines.end(), [](const auto& line) { return line.starts_with("FAIL  "); });
+    EXPECT_EQ(lines_of_failures, failed);
+    const auto below =
+        std::count(text.begin() + static_cast<std::ptrdiff_t>(first) + 1, text.end(), '\n');
+    EXPECT_TRUE(width > 0 || below == failed + 1) << "in a log each is a line";
+  }
 }
 
 TEST_F(ReportTest, JunitCarriesTheNumbers) {
