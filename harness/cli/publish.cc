@@ -1,10 +1,12 @@
 #include "harness/cli/publish.h"
 
 #include "harness/cli/command.h"
+#include "harness/cli/night_folder.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/judge/limit.h"
+#include "harness/plugs/systems.h"
 #include "harness/record/history.h"
 #include "harness/report/allure.h"
 #include "harness/report/console.h"
@@ -42,8 +44,18 @@ void RemoveReport(const std::filesystem::path& out) {
   }
 }
 
+ReportOptions AboutNight(const std::filesystem::path& out) {
+  ReportOptions options;
+  for (const System& system : Systems()) options.systems[system.name] = system.description;
+  if (const std::optional<PlanFile> plan = FindPlan(out)) {
+    for (const Suite& suite : plan->suites) options.limits += suite.limits.size();
+  }
+  return options;
+}
+
 ReportOptions WithHistory(const Results& results, const std::filesystem::path& out) {
-  ReportOptions options{.history = {}, .history_file = HistoryPath(out)};
+  ReportOptions options = AboutNight(out);
+  options.history_file = HistoryPath(out);
   try {
     options.history = ReadHistory(options.history_file, results.suite);
   } catch (const MachineError&) {
@@ -61,7 +73,7 @@ int Publish(const Results& results, const std::filesystem::path& out,
             const PublishOptions& options) {
   const bool remembered = !options.remember || TryToRemember(results, out);
   WriteReport(results, out,
-              remembered && options.remember ? WithHistory(results, out) : ReportOptions{});
+              remembered && options.remember ? WithHistory(results, out) : AboutNight(out));
   if (!options.allure.empty()) WriteAllure(results, out, options.allure);
   if (options.json) {
     fmt::print("{}", ToJson(results));

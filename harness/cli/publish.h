@@ -10,7 +10,11 @@ namespace aisle {
 /// The file beside the nights of a suite that remembers their medians.
 std::filesystem::path HistoryPath(const std::filesystem::path& out);
 
-/// What a report says of the nights up to this one; nothing where this one was not filed.
+/// What a report says besides the night's results: what systems are, and how many limits its
+/// folder's plan sets.
+ReportOptions AboutNight(const std::filesystem::path& out);
+
+/// The same with the nights up to this one; without them where this one was not filed.
 ReportOptions WithHistory(const Results& results, const std::filesystem::path& out);
 
 /// Takes away what a report says of its runs, so that nobody takes the last night's word for the

@@ -13,6 +13,7 @@
 #include "harness/report/page/trends.h"
 #include "harness/report/page/verdict_section.h"
 #include "harness/report/paper/paper_page.h"
+#include "harness/report/paper/printed.h"
 #include "harness/report/paper/tables.h"
 #include "harness/report/summary_csv.h"
 #include "harness/report/summary_text.h"
@@ -25,6 +26,11 @@ namespace fs = std::filesystem;
 // Up to here everything stands on one page: a reader of a small suite need not click.
 constexpr std::size_t kScenesOnOnePage = 2;
 constexpr const char* kUp = "<p><a href=\"index.html\">back to the verdict</a></p>\n";
+
+/// Which paper the captions of the tables speak of.
+std::string ThePaper() {
+  return fmt::format("\"The paper\" of these tables is {}.\n\n", kThePaper);
+}
 
 /// The tables of the paper belong to its own experiment; elsewhere they are files alone.
 std::string PaperLink(const std::vector<SceneRuns>& scenes, const fs::path& report_dir) {
@@ -70,7 +76,8 @@ void WriteReport(const Results& results, const fs::path& report_dir, const Repor
   const bool own_pages = scenes.size() > kScenesOnOnePage;
   const SceneLinks links = own_pages ? SceneLinks::kPages : SceneLinks::kAnchors;
   const bool trends = WriteTrends(results, report_dir, options);
-  std::string body = VerdictSection(results, scenes, links, SinceWhen(options.history));
+  std::string body =
+      VerdictSection(results, scenes, links, SinceWhen(options.history), options.limits);
   if (trends) body += "<p><a href=\"trends.html\">How the nights went</a></p>\n";
   if (const std::string drives = DriveOverview(scenes, links); !drives.empty()) {
     body += "<section>" + drives + "</section>\n";
@@ -79,15 +86,16 @@ void WriteReport(const Results& results, const fs::path& report_dir, const Repor
           "</section>\n<section>" + CostSection(scenes) + "</section></div>\n";
   body += HallSection(scenes) + PaperLink(scenes, report_dir) +
           WriteScenes(scenes, report_dir, own_pages);
-  body += SystemsSection(scenes) + ProvenanceFooter(results);
+  body += SystemsSection(scenes, options.systems) + ProvenanceFooter(results);
   const std::vector<NumberTable> tables = PaperTables(scenes);
   WriteResources(report_dir);
-  WriteFileAtomically(report_dir / "tables.md", ToMarkdown(tables));
-  WriteFileAtomically(report_dir / "tables.tex", ToLatex(tables));
+  WriteFileAtomically(report_dir / "tables.md", ThePaper() + ToMarkdown(tables));
+  WriteFileAtomically(report_dir / "tables.tex", "% " + ThePaper() + ToLatex(tables));
   WriteFileAtomically(report_dir / "index.html", Page(ReportTitle(results), "", body));
   WriteFileAtomically(report_dir / "summary.csv", ToSummaryCsv(results));
-  WriteFileAtomically(report_dir / "summary.txt",
-                      ToSummaryText(results, ChangesInWords(options.history), report_dir));
+  WriteFileAtomically(
+      report_dir / "summary.txt",
+      ToSummaryText(results, ChangesInWords(options.history), report_dir, options.limits));
   WriteFileAtomically(report_dir / "junit.xml", ToJunit(results, report_dir));
   WriteFileAtomically(report_dir / "results.json", ToJson(results));
 }

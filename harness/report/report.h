@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "harness/record/history.h"
@@ -9,8 +11,10 @@
 namespace aisle {
 
 struct ReportOptions {
-  std::vector<TrendPoint> history = {};     ///< all nights of the suite, this one the last
-  std::filesystem::path history_file = {};  ///< whose folder holds the nights' reports
+  std::vector<TrendPoint> history = {};             ///< all nights of the suite, this one the last
+  std::filesystem::path history_file = {};          ///< whose folder holds the nights' reports
+  std::map<std::string, std::string> systems = {};  ///< a sentence of each built-in one, by name
+  std::size_t limits = 0;                           ///< that the suites set; 0: not known
 };
 
 /// Writes the pages and the machine-readable files of an evening below `report_dir`: index.html, a

@@ -4,22 +4,18 @@
 #include "harness/judge/gate.h"
 #include "harness/report/page/answer.h"
 #include "harness/report/page/parts.h"
+#include "harness/report/page/verdict_words.h"
 
 namespace aisle {
 namespace {
 
 constexpr std::size_t kBroken = 6, kChanges = 5, kWidth = 160;
 
-std::string Headline(const Results& results) {
-  const auto broken = std::count_if(results.verdicts.begin(), results.verdicts.end(),
-                                    [](const Verdict& verdict) { return !verdict.passed; });
+std::string Headline(const Results& results, std::size_t limits) {
+  const std::string verdicts = VerdictsInWords(results.verdicts, limits);
   const std::string failed = FailedAndLost(results.runs);
-  const std::string limits =
-      results.verdicts.empty() ? "nothing was judged"
-      : broken == 0            ? fmt::format("all {} limits held", results.verdicts.size())
-                    : fmt::format("{} of {} limits broken", broken, results.verdicts.size());
   return fmt::format(
-      "{}: {}, {}", results.suite, limits,
+      "{}: {}, {}", results.suite, verdicts.empty() ? "nothing was judged" : verdicts,
       failed.empty() ? fmt::format("0 of {} runs failed", results.runs.size()) : failed);
 }
 
@@ -34,12 +30,12 @@ void Append(const std::vector<std::string>& lines, std::size_t most, std::string
 }  // namespace
 
 std::string ToSummaryText(const Results& results, const std::vector<std::string>& changes,
-                          const std::filesystem::path& report_dir) {
+                          const std::filesystem::path& report_dir, std::size_t limits) {
   std::vector<std::string> broken;
   for (const Verdict& verdict : results.verdicts) {
     if (!verdict.passed) broken.push_back(verdict.name + ": " + verdict.why);
   }
-  std::string text = Printable(Headline(results), kWidth) + "\n";
+  std::string text = Printable(Headline(results, limits), kWidth) + "\n";
   Append(broken, kBroken, &text);
   for (const Verdict& verdict : results.verdicts) {
     if (verdict.name == kWithoutBaseline) text += "  " + Printable(verdict.why, kWidth) + "\n";

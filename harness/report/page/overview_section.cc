@@ -55,9 +55,15 @@ std::string SceneRow(const SceneRuns& scene,
 }
 
 /// What it is, in its own terms.
-std::string Description(const SystemSpec& system) {
+std::string Description(const SystemSpec& system,
+                        const std::map<std::string, std::string>& sentences) {
   if (system.external) return "<code>" + Escape(system.external->command) + "</code>";
-  std::string text = system.like == system.name ? "ours" : "like " + Escape(system.like);
+  const auto sentence = sentences.find(system.like);
+  std::string text = sentence == sentences.end() ? "" : Escape(sentence->second);
+  if (system.like != system.name || text.empty()) {
+    const std::string like = system.like == system.name ? "ours" : "like " + Escape(system.like);
+    text = text.empty() ? like : fmt::format("{} ({})", like, text);
+  }
   for (const auto& [path, value] : system.options) {
     text += fmt::format(", {} {}", Escape(path), Escape(value));
   }
@@ -81,7 +87,8 @@ std::string OverviewSection(const std::vector<SceneRuns>& scenes, SceneLinks lin
          "whose every run came to its end with a pose for 99 % of the frames.</p>\n";
 }
 
-std::string SystemsSection(const std::vector<SceneRuns>& scenes) {
+std::string SystemsSection(const std::vector<SceneRuns>& scenes,
+                           const std::map<std::string, std::string>& sentences) {
   std::string rows;
   for (const auto& [name, style] : SystemsInOrder(scenes)) {
     for (const SceneRuns& scene : scenes) {
@@ -90,7 +97,7 @@ std::string SystemsSection(const std::vector<SceneRuns>& scenes) {
       if (system == scene.systems.end()) continue;
       const RunRecord& run = *system->runs.front();
       rows += fmt::format("<tr><td>{}<td class=\"left\">{}<td class=\"wrap\">{}\n", NameOf(*system),
-                          Escape(run.system_version), Description(run.spec.system));
+                          Escape(run.system_version), Description(run.spec.system, sentences));
       break;
     }
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "harness/record/group.h"
@@ -7,8 +8,11 @@
 
 namespace aisle {
 
-/// The absolute error of every system on every scene, and what the systems are.
+/// The absolute error of every system on every scene.
 std::string OverviewSection(const std::vector<SceneRuns>& scenes, SceneLinks links);
-std::string SystemsSection(const std::vector<SceneRuns>& scenes);
+/// What the systems are: ours by their sentence and the options of a variant, others by their
+/// command. `sentences` say what the built-in systems are, by name.
+std::string SystemsSection(const std::vector<SceneRuns>& scenes,
+                           const std::map<std::string, std::string>& sentences);
 
 }  // namespace aisle

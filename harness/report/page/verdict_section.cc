@@ -5,20 +5,13 @@
 #include "harness/report/markup/html.h"
 #include "harness/report/page/answer.h"
 #include "harness/report/page/parts.h"
+#include "harness/report/page/verdict_words.h"
 #include "harness/score/significance.h"
 
 namespace aisle {
 namespace {
 
 bool Failed(const RunRecord& run) { return !IsComplete(run.status); }
-
-/// The score a verdict is about: what stands behind its last colon, up to a space.
-std::string ScoreOf(const Verdict& verdict) {
-  const std::size_t colon = verdict.name.rfind(": ");
-  if (colon == std::string::npos) return "";
-  const std::string rest = verdict.name.substr(colon + 2);
-  return rest.substr(0, rest.find(' '));
-}
 
 /// The name leads to the page of the scene it is about, where there is one.
 std::string VerdictItem(const Verdict& verdict, const std::vector<SceneRuns>& scenes,
@@ -38,15 +31,13 @@ std::string VerdictItem(const Verdict& verdict, const std::vector<SceneRuns>& sc
                      verdict.passed || note == since.end() ? "" : "; " + note->second);
 }
 
-std::string Headline(const Results& results, std::size_t broken, std::size_t flaky) {
-  const std::size_t all = results.verdicts.size();
+std::string Headline(const Results& results, std::size_t limits, std::size_t flaky) {
   const std::string runs = FailedAndLost(results.runs);
-  if (all == 0) {
+  if (results.verdicts.empty()) {
     return runs.empty() ? "Nothing was judged: the suite sets no limits"
                         : runs + "; the suite sets no limits";
   }
-  std::string text = broken == 0 ? fmt::format("All {} limits held", all)
-                                 : fmt::format("{} of {} limits broken", broken, all);
+  std::string text = VerdictsInWords(results.verdicts, limits);
   if (flaky > 0) text += fmt::format(", {} of them flaky", flaky);
   return runs.empty() ? text : text + "; " + runs;
 }
@@ -95,7 +86,7 @@ double Excess(const Verdict& verdict) {
 }  // namespace
 
 std::string VerdictSection(const Results& results, const std::vector<SceneRuns>& scenes,
-                           SceneLinks links, const SinceNotes& since) {
+                           SceneLinks links, const SinceNotes& since, std::size_t limits) {
   std::vector<Verdict> worst_first = results.verdicts;
   std::stable_sort(worst_first.begin(), worst_first.end(),
                    [](const Verdict& a, const Verdict& b) { return Excess(a) > Excess(b); });
@@ -129,7 +120,7 @@ std::string VerdictSection(const Results& results, const std::vector<SceneRuns>&
       "<h1>{}</h1>\n<p class=\"soft\">{}</p>\n{}<div class=\"verdict {}\"><strong>{}</strong>{}"
       "</div>\n{}",
       Escape(ReportTitle(results)), Escape(results.question), answer, css,
-      Headline(results, failed.size(), flaky), lists, FailureRate(results.runs));
+      Headline(results, limits, flaky), lists, FailureRate(results.runs));
 }
 
 }  // namespace aisle

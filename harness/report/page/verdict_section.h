@@ -15,8 +15,9 @@ using SinceNotes =
     std::map<std::tuple<std::string, std::string, std::string, std::string>, std::string>;
 
 /// The answer in words and the verdict; what is broken, the worst first, leads to its scene and
-/// says since when. A night whose runs failed is no good night, limits or not.
+/// says since when; `limits` as VerdictsInWords has it. A night whose runs failed is no good night,
+/// limits or not.
 std::string VerdictSection(const Results& results, const std::vector<SceneRuns>& scenes,
-                           SceneLinks links, const SinceNotes& since);
+                           SceneLinks links, const SinceNotes& since, std::size_t limits);
 
 }  // namespace aisle

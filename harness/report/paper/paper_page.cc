@@ -4,6 +4,7 @@
 #include "harness/report/chart/charts.h"
 #include "harness/report/chart/time_chart.h"
 #include "harness/report/markup/html.h"
+#include "harness/report/paper/printed.h"
 #include "harness/report/paper/tables.h"
 
 namespace aisle {
@@ -104,7 +105,9 @@ std::string PaperPage(const std::vector<SceneRuns>& scenes, const fs::path& repo
   const std::string figures =
       (first == nullptr ? "" : SceneOne(*first, report_dir)) + Tracks(scenes, report_dir);
   return "<h2>The paper's experiment beside ours</h2>\n<p class=\"small soft\">In italics what "
-         "the paper printed, of its own hall, people and cameras (DynaSLAM under semantic). Its "
+         "the paper, " +
+         Escape(kThePaper) +
+         ", printed, of its own hall, people and cameras (DynaSLAM under semantic). Its "
          "systems stand for ours of the table's head: the order of the systems can be compared, "
          "not the size of the numbers. Why they differ: reports/paper.md.</p>\n" +
          ToHtml(PaperTables(scenes)) + figures;

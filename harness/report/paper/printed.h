@@ -6,6 +6,10 @@
 
 namespace aisle {
 
+/// The paper whose experiment the scenes `paper/*` follow, for whoever reads of "the paper".
+inline constexpr const char* kThePaper =
+    "\"Robust Stereo Visual SLAM for Dynamic Environments With Moving Object\"";
+
 /// A row of the paper that this project follows, as printed: what one system got on one sequence.
 struct PrintedRow {
   const char* row;     ///< our scene of that number; the paper's own name where we have none
@@ -15,8 +19,8 @@ struct PrintedRow {
 
 inline constexpr int kFigure11 = 11;  ///< asks for the numbers the text gives for Fig. 11
 
-/// Rows of the paper's table 1 to 6, in its order; empty for other numbers. Source: "Robust Stereo
-/// Visual SLAM for Dynamic Environments With Moving Object", tables 1 to 6, section IV-B.
+/// Rows of the paper's table 1 to 6, in its order; empty for other numbers. Source: tables 1
+/// to 6 and section IV-B of kThePaper.
 const std::vector<PrintedRow>& PrintedTable(int number);
 
 }  // namespace aisle

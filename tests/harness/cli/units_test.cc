@@ -11,6 +11,7 @@
 #include "harness/cli/system_choice.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
+#include "harness/plugs/systems.h"
 #include "tests/harness/record/night.h"
 
 namespace aisle {
@@ -201,6 +202,7 @@ TEST(WithHistory, APageKnowsOfItsOwnNightAndThoseBeforeAlone) {
     for (const TrendPoint& point : options.history) known.insert(point.started);
     EXPECT_EQ(known.size(), i + 1);
     EXPECT_EQ(*known.rbegin(), nights[i].started);
+    EXPECT_EQ(options.systems.at("plain"), FindSystem("plain").description);
   }
   Results unfiled = nights[2];
   unfiled.started = "2026-01-02T12:00:00Z";

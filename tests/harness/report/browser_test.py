@@ -6,6 +6,7 @@ usage: browser_test.py WRITE_NIGHT
 """
 import functools
 import http.server
+import math
 import os
 import shutil
 import subprocess
@@ -23,6 +24,7 @@ CHROMIUM = shutil.which('chromium')
 # What is left of linear red, green and blue (Machado, Oliveira and Fernandes, 2009).
 DEUTERANOPIA = ((0.367322, 0.860646, -0.227968), (0.280085, 0.672501, 0.047413),
                 (-0.011820, 0.042940, 0.968881))
+ALL_COLOURS = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
 PROTANOPIA = ((0.152286, 1.052583, -0.204868), (0.114503, 0.786281, 0.099216),
               (-0.003882, -0.048116, 1.051998))
 
@@ -43,8 +45,33 @@ def lab(linear):
 
 
 def distance(one, other):
-    """CIE76."""
-    return sum((a - b) ** 2 for a, b in zip(one, other)) ** 0.5
+    """CIEDE2000 (Sharma, Wu and Dalal, 2005): CIE76 calls two dark blues far apart."""
+    (l1, a1, b1), (l2, a2, b2) = one, other
+    mean = (math.hypot(a1, b1) + math.hypot(a2, b2)) / 2
+    stretch = 1.5 - 0.5 * math.sqrt(mean ** 7 / (mean ** 7 + 25 ** 7))
+    a1, a2 = a1 * stretch, a2 * stretch
+    c1, c2 = math.hypot(a1, b1), math.hypot(a2, b2)
+    h1, h2 = (math.degrees(math.atan2(b, a)) % 360 for a, b in ((a1, b1), (a2, b2)))
+    turn = (h2 - h1 + 180) % 360 - 180
+    hue = 2 * math.sqrt(c1 * c2) * math.sin(math.radians(turn) / 2)
+    light, chroma, middle = (l1 + l2) / 2, (c1 + c2) / 2, (h1 + turn / 2) % 360
+
+    def wave(times, shift):
+        return math.cos(math.radians(times * middle - shift))
+
+    weight = (1 - 0.17 * wave(1, 30) + 0.24 * wave(2, 0) + 0.32 * wave(3, -6) - 0.2 * wave(4, 63))
+    s_l = 1 + 0.015 * (light - 50) ** 2 / math.sqrt(20 + (light - 50) ** 2)
+    s_c, s_h = 1 + 0.045 * chroma, 1 + 0.015 * chroma * weight
+    blue = math.radians(60 * math.exp(-((middle - 275) / 25) ** 2))
+    both = -2 * math.sqrt(chroma ** 7 / (chroma ** 7 + 25 ** 7)) * math.sin(blue)
+    d_l, d_c, d_h = (l2 - l1) / s_l, (c2 - c1) / s_c, hue / s_h
+    return math.sqrt(d_l ** 2 + d_c ** 2 + d_h ** 2 + both * d_c * d_h)
+
+
+def contrast(one, other):
+    """Of WCAG, from linear red, green and blue."""
+    low, high = sorted(0.2126 * r + 0.7152 * g + 0.0722 * b for r, g, b in (one, other))
+    return (high + 0.05) / (low + 0.05)
 
 
 class Server(http.server.SimpleHTTPRequestHandler):
@@ -216,18 +243,30 @@ class ReportInBrowser(ServedReport):
                                         '.getBoundingClientRect().width'), 0.8 * width - 240)
         self.assertEqual(len(set(heights)), 1)  # as high on a phone: not a smaller picture of it
 
-    def test_systems_are_apart_for_the_colour_blind(self):
+    def test_the_distance_of_colours_is_that_of_its_authors(self):
+        for one, other, apart in (((50, 2.6772, -79.7751), (50, 0, -82.7485), 2.0425),
+                                  ((50, 2.5, 0), (73, 25, -18), 27.1492),
+                                  ((22.7233, 20.0904, -46.6940), (23.0331, 14.9730, -42.5619), 2.0373),
+                                  ((90.8027, -2.0831, 1.4410), (91.1528, -1.6435, 0.0447), 1.4441)):
+            self.assertAlmostEqual(distance(one, other), apart, delta=1e-4)
+
+    def test_systems_are_apart_for_the_colour_blind_and_all_others(self):
         for dark in (False, True):
             page = self.open('index.html', dark=dark)
             names = [f'--c{style}' for style in range(12)]
             colors = [page.ask(f"getComputedStyle(document.documentElement)"
                                f".getPropertyValue('{name}').trim()") for name in names]
-            for matrix in (DEUTERANOPIA, PROTANOPIA):
+            for matrix in (ALL_COLOURS, DEUTERANOPIA, PROTANOPIA):
                 seen = [lab(simulated(color, matrix)) for color in colors]
                 for i, one in enumerate(seen):
                     for other in range(i):
-                        self.assertGreater(distance(one, seen[other]), 30 if i < 6 else 20,
+                        self.assertGreater(distance(one, seen[other]), 21 if i < 6 else 10.5,
                                            (dark, names[i], names[other]))
+            card = page.ask("getComputedStyle(document.documentElement).getPropertyValue('--card')"
+                            ".trim()")
+            for name, color in zip(names, colors):
+                self.assertGreaterEqual(contrast(simulated(color, ALL_COLOURS),
+                                                 simulated(card, ALL_COLOURS)), 2.99, name)
             page.ask('document.body.innerHTML = \'<svg class="chart">\' + [...Array(12).keys()].map('
                      'i => `<line class="line c${i}"/>`).join("") + "</svg>"')
             dashes = page.ask("[...document.querySelectorAll('line')].map("
@@ -253,7 +292,7 @@ class ReportInBrowser(ServedReport):
         self.assertTrue(all(targets))
 
     def whole_without_scripts(self, page):
-        self.assertIn('limits broken', page.ask("document.querySelector('.verdict').textContent"))
+        self.assertIn('verdicts failed', page.ask("document.querySelector('.verdict').textContent"))
         self.assertEqual(page.ask("document.querySelectorAll('.sortable, .viewer').length"), 0)
         # The style sheet is in force, and charts have their size and colours.
         self.assertNotEqual(page.ask("getComputedStyle(document.body).paddingLeft"), '8px')

@@ -37,7 +37,7 @@ class BadMonth(ServedReport):
     def test_what_got_worse_stands_on_the_first_page(self):
         self.open()
         verdict = self.text('.verdict')
-        self.assertIn('limits broken', verdict)
+        self.assertIn('verdicts failed', verdict)
         self.assertIn('3 of 36 runs failed', verdict)
         self.assertIn('paper/scene2 live robust: ate_rmse_m', verdict)
         self.assertIn('paper.scene3/live/mine/1: completes', verdict)

@@ -182,12 +182,30 @@ TEST_F(ReportTest, ThePageTellsTheVerdictFirst) {
                    {kTight, kBroken}),
               folder_);
   const std::string page = Read("index.html");
-  EXPECT_THAT(page, HasSubstr("1 of 2 limits broken"));
+  EXPECT_THAT(page, HasSubstr("1 of 2 verdicts failed (limits on 1 score, in 2 cells)"));
   EXPECT_THAT(page, HasSubstr("href=\"paper.html\""));
-  EXPECT_LT(page.find("limits broken"), page.find("paper.html"));
+  EXPECT_LT(page.find("verdicts failed"), page.find("paper.html"));
   EXPECT_THAT(Read("paper.html"), HasSubstr("Absolute trajectory error"));
   EXPECT_THAT(page, HasSubstr(">paper/scene2 live orbslam2: ate_rmse_m</a>: value 0.0"));
   EXPECT_THAT(page, HasSubstr("<code>./aisle rerun paper.scene2/live/orbslam2/1 --in "));
+}
+
+TEST_F(ReportTest, WhoReadsTheTablesElsewhereLearnsWhichPaperTheySpeakOf) {
+  WriteReport(Make({MakeRun("paper/scene2", "oracle", 1, 0.02)}, {}), folder_);
+  for (const char* file : {"tables.md", "tables.tex", "paper.html"}) {
+    EXPECT_THAT(Read(file), HasSubstr("Robust Stereo Visual SLAM for Dynamic Environments"))
+        << file;
+  }
+}
+
+TEST_F(ReportTest, WhatTheSystemsAreIsSaidOnThePage) {
+  RunResult variant = MakeRun("s", "quick", 1, 0.02);
+  variant.spec.system.like = "robust";
+  variant.spec.system.options = {{"feature.features", "800"}};
+  const Results results = Make({MakeRun("s", "plain", 1, 0.02), variant}, {});
+  WriteReport(results, folder_, {.systems = {{"plain", "nothing rejected"}, {"robust", "a & b"}}});
+  EXPECT_THAT(Read("index.html"), HasSubstr("<td class=\"wrap\">nothing rejected\n"));
+  EXPECT_THAT(Read("index.html"), HasSubstr("like robust (a &amp; b), feature.features 800"));
 }
 
 /// Somebody walks by for three seconds, of whom the system loses sight for four frames in ten.
@@ -291,7 +309,9 @@ TEST_F(ReportTest, TheSummaryFitsIntoAMail) {
   WriteReport(Make(runs, {kBroken}), folder_);
   const std::string summary = Read("summary.txt");
   EXPECT_LE(std::count(summary.begin(), summary.end(), '\n'), 20);
-  EXPECT_THAT(summary, testing::StartsWith("quickstart: 30 of 30 limits broken, 0 of 30 runs"));
+  EXPECT_THAT(summary,
+              testing::StartsWith("quickstart: 30 of 30 verdicts failed (limits on 1 score, in 30 "
+                                  "cells), 0 of 30 runs"));
   EXPECT_THAT(summary, HasSubstr("and 24 more"));
   EXPECT_THAT(summary, HasSubstr("again:  ./aisle run"));
 }
