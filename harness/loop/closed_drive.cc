@@ -212,7 +212,7 @@ class ClosedDrive::Loop {
     const double toward = asked_.speed_mps < 0 ? -1 : 1;
     const double speed = std::max(std::abs(Speed()), held_ ? scanner.restart_mps : 0.0);
     const Polygon field =
-        ProtectiveField(course_.footprint, toward * speed, course_.plant.stop_mps2, scanner);
+        ProtectiveField(course_.footprint, toward * speed, course_.plant, scanner);
     return IsBlocked(course_, plant_.pose, field, traffic_.capsules());
   }
 
@@ -285,7 +285,9 @@ class ClosedDrive::Loop {
     const bool pauses = mode_ == DriveMode::kWaiting && pilot_.steers_by_ns() &&
                         driver.leg < course_.way.size() &&
                         course_.way[driver.leg].kind == WayLeg::Kind::kPause;
-    const bool goes_on = pauses || std::abs(Speed()) > 0.01 ||
+    const bool steers = std::abs(plant_.steering_rad - steered_rad_) > 0.01 * tick_s;
+    steered_rad_ = plant_.steering_rad;
+    const bool goes_on = pauses || steers || std::abs(Speed()) > 0.01 ||
                          std::abs(plant_.turn_rate_rad_s) > 0.01 || pilot_.arrived();
     stands_s_ = goes_on ? 0 : stands_s_ + tick_s;
     if (stands_s_ >= options_.no_progress_after_s) End(DriveEnd::kNoProgress);
@@ -329,6 +331,7 @@ class ClosedDrive::Loop {
   double on_leg_m_ = 0, farthest_on_leg_m_ = 0, before_leg_m_ = 0;
   OnWay truth_;
   double settled_s_ = 0, stands_s_ = 0, clear_s_ = 0;
+  double steered_rad_ = 0;  ///< a tick ago
   bool held_ = false, over_ = false, failed_ = false;
 };
 

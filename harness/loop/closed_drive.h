@@ -22,7 +22,7 @@ struct LoopOptions {
   ScannerOptions scanner = {};
   /// What the vehicle drives by instead of the course's own way; scores stay with that one.
   std::optional<TaughtCourse> taught = {};
-  double no_progress_after_s = 30;  ///< of standing, pauses aside: the end
+  double no_progress_after_s = 30;  ///< of standing, pauses and steering aside: the end
   /// The end after so many times the planned time, and so much more.
   double timeout_over_planned = 3, timeout_extra_s = 60;
 };

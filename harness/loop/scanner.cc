@@ -12,11 +12,11 @@ Polygon Rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
 
 }  // namespace
 
-Polygon ProtectiveField(const Polygon& footprint, double speed_mps, double stop_mps2,
+Polygon ProtectiveField(const Polygon& footprint, double speed_mps, const PlantOptions& plant,
                         const ScannerOptions& options) {
   const auto [low, high] = BoxOf(footprint);
-  const double v = std::abs(speed_mps);
-  const double length = v * options.reaction_s + v * v / (2 * stop_mps2) + options.margin_m;
+  const double length =
+      std::abs(speed_mps) * options.reaction_s + StoppingWay(speed_mps, plant) + options.margin_m;
   const double from = speed_mps < 0 ? low.x() - length : high.x();
   const double to = speed_mps < 0 ? low.x() : high.x() + length;
   const double right = low.y() - options.side_m, left = high.y() + options.side_m;

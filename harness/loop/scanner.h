@@ -17,9 +17,10 @@ struct ScannerOptions {
   double clear_s = 1;          ///< for so long
 };
 
-/// The field in the vehicle's frame for a speed, backwards negative: length reaction v + v^2 / 2a +
-/// margin, as wide as the footprint and both sides.
-Polygon ProtectiveField(const Polygon& footprint, double speed_mps, double stop_mps2,
+/// The field in the vehicle's frame for a speed, backwards negative: as long as reaction v, the
+/// stopping way (v^2 / 2a and what the brakes' lag adds) and margin, as wide as the footprint and
+/// both sides.
+Polygon ProtectiveField(const Polygon& footprint, double speed_mps, const PlantOptions& plant,
                         const ScannerOptions& options);
 
 /// The field of a vehicle that turns on the spot, at one of its headings: its footprint, wider by

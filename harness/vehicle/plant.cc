@@ -8,6 +8,8 @@ namespace aisle {
 namespace {
 
 constexpr double kStraight_rad = 1e-9;
+constexpr double kStands_mps = 0.01;
+constexpr double kSetOff_rad = 5 * std::numbers::pi / 180;
 
 /// Braking and speeding up have limits of their own.
 double RateTowards(double from, double target, const PlantOptions& options, bool protective) {
@@ -35,6 +37,12 @@ PlantStep MoveDifferential(const PlantState& from, const DriveCommand& command, 
   return step;
 }
 
+/// FollowWithLag to 0, integrated: a ramp, and the lag's fading once that is slower.
+double UntilRest(double from, double rate, double lag_s) {
+  const double faded = std::min(from, rate * lag_s);
+  return (from * from - faded * faded) / (2 * rate) + faded * lag_s;
+}
+
 /// The steering angle that a command asks for; one that asks for nothing leaves it alone.
 double SteeringFor(const DriveCommand& command, double now_rad, const PlantOptions& options) {
   const double across = options.wheelbase_m * command.turn_rate_rad_s;
@@ -52,8 +60,12 @@ PlantStep MoveTricycle(const PlantState& from, const DriveCommand& command, doub
   const double sign = command.speed_mps < 0 ? -1 : 1;
   double wheel =
       sign * std::hypot(command.speed_mps, options.wheelbase_m * command.turn_rate_rad_s);
-  // While the wheel is still turning into its direction it must not push the vehicle elsewhere.
-  wheel *= std::max(0.0, std::cos(angle - from.steering_rad));
+  // While the wheel is still turning into its direction it must not push the vehicle elsewhere: who
+  // rolls pushes the less for it, who stands or turns on the spot waits.
+  const bool waits = command.speed_mps == 0 || std::abs(from.speed_mps) < kStands_mps;
+  wheel *= waits && std::abs(angle - steer.end) > kSetOff_rad
+               ? 0
+               : std::max(0.0, std::cos(angle - from.steering_rad));
   if (command.protective_stop) wheel = 0;
   wheel = std::clamp(wheel, -options.max_speed_mps, options.max_speed_mps);
   const LagStep drive = FollowWithLag(
@@ -113,16 +125,17 @@ LagStep FollowWithLag(double from, double target, double lag_s, double rate, dou
   return step;
 }
 
+double StoppingWay(double speed_mps, const PlantOptions& options) {
+  return UntilRest(std::abs(speed_mps), options.stop_mps2, options.lag_s);
+}
+
 double StoppingTurn(double turn_rate_rad_s, const PlantOptions& options) {
-  const double rate = std::abs(turn_rate_rad_s);
   // A tricycle turns as its driven wheel rolls, and stops as that does.
   const double slowing =
       options.kind == VehicleKind::kTricycle
           ? options.stop_mps2 * std::sin(options.max_steering_rad) / options.wheelbase_m
           : options.turn_acceleration_rad_s2;
-  // FollowWithLag to 0, integrated: a ramp, and the lag's fading once that is slower.
-  const double faded = std::min(rate, slowing * options.lag_s);
-  return (rate * rate - faded * faded) / (2 * slowing) + faded * options.lag_s;
+  return UntilRest(std::abs(turn_rate_rad_s), slowing, options.lag_s);
 }
 
 double TurningRadius(const PlantOptions& options) {

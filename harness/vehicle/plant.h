@@ -67,6 +67,8 @@ struct LagStep {
 };
 LagStep FollowWithLag(double from, double target, double lag_s, double rate, double duration_s);
 
+/// The way on which a protective stop ends, in metres, 0 or more, of a vehicle that goes straight.
+double StoppingWay(double speed_mps, const PlantOptions& options);
 /// What a protective stop still turns, in radians, of a vehicle that turns on the spot at a rate.
 double StoppingTurn(double turn_rate_rad_s, const PlantOptions& options);
 /// Way of the axle's middle for each radian that it turns as near to on the spot as it can, in
@@ -78,7 +80,9 @@ FloorPose AlongArc(const FloorPose& pose, double way_m, double turn_rad);
 
 /// Moves the vehicle for a time under one command. Speeds and steering follow their set values in
 /// closed form; the pose goes along the arc of their integrals, which is exact while the curvature
-/// is constant and of second order in the step else. duration_s > 0, some milliseconds.
+/// is constant and of second order in the step else. A tricycle that stands sets off, and one that
+/// is to turn on the spot pushes, once its wheel is within 5 degrees of its direction. duration_s >
+/// 0, some milliseconds.
 PlantStep Move(const PlantState& from, const DriveCommand& command, double duration_s,
                const PlantOptions& options);
 

@@ -200,11 +200,45 @@ TEST(ClosedDriveTest, AScannerKnowsHowATricycleStopsTurning) {
   scene.Add({"behind", "person"}, {-0.55, 0.75}, {0, 0});
   LoopOptions options;
   const DriveTrack blind = DriveTruth(scene, options);
-  ASSERT_EQ(blind.contacts.size(), 1u);
+  ASSERT_FALSE(blind.contacts.empty());
   options.steering.scanner = true;
   const DriveTrack track = DriveTruth(scene, options);
   EXPECT_TRUE(track.contacts.empty());
   EXPECT_GE(track.scanner_stops, 1);
+}
+
+/// It stops with the margin to spare, however late its brakes take hold.
+TEST(ClosedDriveTest, AScannerKnowsHowLateTheBrakesTakeHold) {
+  for (const double lag_s : {0.0, 0.1, 0.3, 1.0, 2.0}) {
+    FakeDriveScene scene(12, 1.5);
+    scene.edit().plant.lag_s = scene.edit().driver.lag_s = lag_s;
+    scene.edit().things.push_back(
+        {"pallet", "goods", {{9, -0.5}, {10, -0.5}, {10, 0.5}, {9, 0.5}}});
+    LoopOptions options;
+    options.steering.scanner = true;
+    options.no_progress_after_s = 5;
+    const DriveTrack track = DriveTruth(scene, options);
+    EXPECT_EQ(track.end, DriveEnd::kNoProgress) << lag_s;
+    EXPECT_GT(track.min_clearance_static_m, options.scanner.margin_m) << lag_s;
+  }
+}
+
+/// Its wheel needs longer to stand across than anybody may stand.
+TEST(ClosedDriveTest, ATricycleThatSteersSlowlyIsNotGivenUp) {
+  FakeDriveScene scene;
+  scene.edit().plant.kind = VehicleKind::kTricycle;
+  scene.edit().plant.max_steering_rad = std::numbers::pi / 2;
+  scene.edit().plant.steering_rate_rad_s = 0.1;
+  scene.edit().way = {{.kind = WayLeg::Kind::kPause, .duration_s = 0.5},
+                      scene.course().way[1],
+                      {.kind = WayLeg::Kind::kTurn, .duration_s = 4, .turn_to_rad = 2.5}};
+  LoopOptions options;
+  options.no_progress_after_s = 8;
+  const DriveTrack track = DriveTruth(scene, options);
+  EXPECT_EQ(track.end, DriveEnd::kArrived);
+  const FloorPose& end = track.samples.back().truth;
+  EXPECT_LT((end.position - Eigen::Vector2d(8, 0)).norm(), 0.01) << "it turned on the spot";
+  EXPECT_NEAR(end.heading_rad, 2.5, 0.01);
 }
 
 TEST(ClosedDriveTest, LostForLongItStopsAndGoesOnWhenFoundAgain) {

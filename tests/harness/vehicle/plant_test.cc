@@ -73,6 +73,37 @@ TEST(PlantTest, AProtectiveStopTurnsAsFarAsIsForetold) {
   }
 }
 
+/// The whole of a turn, from a wheel that looks ahead on: what it pushes the vehicle while it turns
+/// across is no part of a turn on the spot.
+TEST(PlantTest, ATricycleThatTurnsOnTheSpotStaysThere) {
+  for (const double steering_deg_s : {20.0, 60.0}) {
+    for (const double lag_s : {0.0, 0.1}) {
+      for (const double rate : {-0.8, 0.3}) {
+        PlantOptions options;
+        options.kind = VehicleKind::kTricycle;
+        options.max_steering_rad = std::numbers::pi / 2;
+        options.steering_rate_rad_s = steering_deg_s * std::numbers::pi / 180;
+        options.lag_s = lag_s;
+        const PlantState end = DriveFor({}, {0, rate}, 9, options);
+        EXPECT_GT(end.pose.heading_rad / rate, 3) << "it turned";
+        EXPECT_LT(end.pose.position.norm(), 0.005) << steering_deg_s << ' ' << lag_s;
+      }
+    }
+  }
+}
+
+/// And who drives on from there goes where it looks.
+TEST(PlantTest, ATricycleSetsOffOnceItsWheelLooksWhereItIsToGo) {
+  PlantOptions options;
+  options.kind = VehicleKind::kTricycle;
+  options.max_steering_rad = std::numbers::pi / 2;
+  PlantState across;
+  across.steering_rad = options.max_steering_rad;
+  const PlantState end = DriveFor(across, {0.8, 0}, 5, options);
+  EXPECT_GT(end.pose.position.x(), 1);
+  EXPECT_LT(std::abs(end.pose.heading_rad), 0.01);
+}
+
 TEST(PlantTest, ALagIsTheExponentialAndItsIntegral) {
   const double tau = 0.15, target = 0.7, t = 0.31;
   const LagStep step = FollowWithLag(0.1, target, tau, 1e9, t);
@@ -111,6 +142,19 @@ TEST(PlantTest, AProtectiveStopTakesTheWayThatItsDecelerationSays) {
   const PlantState end = DriveFor(state, {.protective_stop = true}, 3, options);
   EXPECT_NEAR(end.speed_mps, 0, 1e-12);
   EXPECT_NEAR(end.pose.position.x(), 1.2 * 1.2 / (2 * options.stop_mps2), 1e-9);
+}
+
+TEST(PlantTest, AProtectiveStopGoesAsFarAsIsForetold) {
+  for (const double lag_s : {0.0, 0.1, 0.5, 2.0}) {
+    for (const double speed : {-1.2, 0.05, 1.5}) {
+      PlantOptions options;
+      options.lag_s = lag_s;
+      PlantState state;
+      state.speed_mps = speed;
+      const PlantState end = DriveFor(state, {.protective_stop = true}, 30, options);
+      EXPECT_NEAR(StoppingWay(speed, options), std::abs(end.pose.position.x()), 1e-4) << lag_s;
+    }
+  }
 }
 
 TEST(PlantTest, SpeedTurnRateAndSteeringKeepTheirBounds) {
