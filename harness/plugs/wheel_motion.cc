@@ -75,24 +75,60 @@ class RecordedWheels {
   const WheelTrack& track_;
 };
 
+constexpr double kFresh_m = 5, kFresh_rad = 3;  // a calibration's error as if drawn anew
+
+double Squared(double x) { return x * x; }
+
+/// Variances of what wheels make of a motion.
+struct Rolled {
+  double ahead_m2 = 0, heading_rad2 = 0;
+};
+
+/// Of counting in whole steps, at both ends.
+double CountingVariance(const OdometryOptions& options) {
+  return Squared(2 * std::numbers::pi * options.wheel_radius_m / options.counts_per_rev) / 6;
+}
+
+Rolled RolledByDifferential(double way_m, double turn_rad, const OdometryOptions& options,
+                            const PlantOptions& plant) {
+  const double of_wheel = options.noise_m * way_m + CountingVariance(options);
+  return {Squared(options.radius_error) * kFresh_m * way_m + of_wheel,
+          Squared(options.track_error) * kFresh_rad * turn_rad +
+              Squared(options.inequality / plant.track_m) * kFresh_m * way_m +
+              2 * of_wheel / Squared(plant.track_m)};
+}
+
+/// Of one driven wheel, which rolls w and is steered by delta: ahead w cos(delta), turned
+/// w sin(delta) / wheelbase. An error of the steering's zero turns the way into heading, and where
+/// it turns, into way.
+Rolled RolledByTricycle(double way_m, double turn_rad, const OdometryOptions& options,
+                        const PlantOptions& plant) {
+  const double across_m = plant.wheelbase_m * turn_rad, wheel_m = std::hypot(way_m, across_m);
+  const double ahead = wheel_m > 0 ? way_m / wheel_m : 1;     // cos(delta)
+  const double aside = wheel_m > 0 ? across_m / wheel_m : 0;  // sin(delta)
+  const double of_noise = options.noise_m * wheel_m, of_counts = CountingVariance(options);
+  return {
+      Squared(options.radius_error) * kFresh_m * way_m +
+          Squared(options.steering_error_rad * plant.wheelbase_m) * kFresh_rad * turn_rad +
+          of_noise * Squared(ahead) + of_counts,
+      Squared(options.steering_error_rad / plant.wheelbase_m) * kFresh_m * way_m +
+          (Squared(options.radius_error) + Squared(options.track_error)) * kFresh_rad * turn_rad +
+          (of_noise * Squared(aside) + of_counts) / Squared(plant.wheelbase_m)};
+}
+
 }  // namespace
 
 slam::Matrix6d RollingCovariance(double way_m, double turn_rad, const OdometryOptions& options,
                                  const PlantOptions& plant) {
   // Of what wheels do not see: the body heaves, nods and slips aside on an uneven floor.
   constexpr double kUneven_m = 0.002, kUneven_rad = 0.002, kAside_m = 0.0005;
-  constexpr double kFresh_m = 5, kFresh_rad = 3;  // a calibration's error as if drawn anew
-  const double count_m = 2 * std::numbers::pi * options.wheel_radius_m / options.counts_per_rev;
   const double way = std::abs(way_m), turn = std::abs(turn_rad);
-  const auto squared = [](double x) { return x * x; };
-  const double of_wheel = options.noise_m * way + squared(count_m) / 6;
-  const double ahead = squared(options.radius_error) * kFresh_m * way + of_wheel;
-  const double heading = squared(options.track_error) * kFresh_rad * turn +
-                         squared(options.inequality / plant.track_m) * kFresh_m * way +
-                         2 * of_wheel / squared(plant.track_m);
+  const Rolled rolled = plant.kind == VehicleKind::kTricycle
+                            ? RolledByTricycle(way, turn, options, plant)
+                            : RolledByDifferential(way, turn, options, plant);
   slam::Vector6d variances;
-  variances << ahead, squared(kAside_m), squared(kUneven_m), squared(kUneven_rad),
-      squared(kUneven_rad), heading;
+  variances << rolled.ahead_m2, Squared(kAside_m), Squared(kUneven_m), Squared(kUneven_rad),
+      Squared(kUneven_rad), rolled.heading_rad2;
   return variances.asDiagonal();
 }
 

@@ -12,7 +12,8 @@ namespace aisle {
 /// How far a vehicle's wheels and floor leave its motion open, who rolled `way_m` and turned
 /// `turn_rad`: of a small motion of the body (x ahead, y left, z up), translation, then rotation.
 /// What wheels do not see (it heaves, nods, slips aside) counts once, calibration's errors as if
-/// they were drawn anew every 5 m.
+/// they were drawn anew every 5 m and 3 rad. As the vehicle's kind has it: the difference of two
+/// wheels' ways, or the way and the steering angle of one.
 slam::Matrix6d RollingCovariance(double way_m, double turn_rad, const OdometryOptions& options,
                                  const PlantOptions& plant);
 

@@ -116,6 +116,61 @@ TEST(MotionsBetweenTest, WheelsThatDoNotSayHowSureTheyAreRoll) {
   EXPECT_LT((motions[0]->covariance - rolled).cwiseAbs().maxCoeff(), 1e-3 * rolled.maxCoeff());
 }
 
+/// By how much headings of many drives scatter more, squared, than is said of each: of vehicles
+/// that roll 5 m and turn so far on the way, as far as a calibration's error is said to be the
+/// same.
+double HeadingScatter(const PlantOptions& plant, const OdometryOptions& options, double turn_rad) {
+  constexpr int kDrives = 400, kSteps = 500, kStepsAMotion = 5;
+  constexpr double kWay_m = 5;
+  PlantStep step;
+  step.way_m = kWay_m / kSteps;
+  step.turn_rad = turn_rad / kSteps;
+  step.steering_rad = std::atan2(plant.wheelbase_m * turn_rad, kWay_m);
+  step.wheel_way_m = step.way_m / std::cos(step.steering_rad);
+  double said = 0, scatter = 0;
+  for (int k = 0; k < kSteps / kStepsAMotion; ++k) {
+    said += RollingCovariance(kStepsAMotion * step.way_m, kStepsAMotion * step.turn_rad, options,
+                              plant)(5, 5);
+  }
+  for (int drive = 1; drive <= kDrives; ++drive) {
+    Odometer odometer(options, plant, static_cast<std::uint64_t>(drive));
+    double heading = 0;
+    for (int k = 0; k < kSteps; ++k) heading += odometer.Measure(step).heading_rad;
+    scatter += (heading - turn_rad) * (heading - turn_rad) / kDrives;
+  }
+  return scatter / said;
+}
+
+TEST(RollingCovarianceTest, ATricyclesHeadingScattersAsItsSteeringErrs) {
+  PlantOptions plant{.kind = VehicleKind::kTricycle, .wheelbase_m = 1.4};
+  for (const double steering_error_rad : {0.003, 0.0175, 0.035}) {
+    for (const double noise_m : {1e-7, 1e-5}) {
+      for (const double turn_rad : {0.0, 3.0}) {
+        OdometryOptions options;
+        options.steering_error_rad = steering_error_rad;
+        options.noise_m = noise_m;
+        options.track_error = 0.02;
+        const double scatter = HeadingScatter(plant, options, turn_rad);
+        EXPECT_GT(scatter, 0.75) << steering_error_rad << ' ' << noise_m << ' ' << turn_rad;
+        EXPECT_LT(scatter, 1.35) << steering_error_rad << ' ' << noise_m << ' ' << turn_rad;
+      }
+    }
+  }
+}
+
+/// Who stands, and whose wheel errs by nothing, is still no surer than its counts are fine.
+TEST(RollingCovarianceTest, NobodyIsSureBeyondCounting) {
+  OdometryOptions exact{.radius_error = 0, .inequality = 0, .track_error = 0};
+  exact.steering_error_rad = exact.noise_m = 0;
+  for (const VehicleKind kind : {VehicleKind::kDifferential, VehicleKind::kTricycle}) {
+    for (const double turn_rad : {0.0, 0.3}) {
+      const slam::Vector6d said =
+          RollingCovariance(0, turn_rad, exact, {.kind = kind}).diagonal().cwiseSqrt();
+      EXPECT_GT(said.minCoeff(), 1e-5);
+    }
+  }
+}
+
 MotionMeasurement Step(int k) {
   MotionMeasurement step;
   step.T_now_before = (BodyAt(0.05 * k).inverse() * BodyAt(0.05 * (k + 1))).inverse();
