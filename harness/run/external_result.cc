@@ -1,11 +1,40 @@
 #include "harness/run/external_result.h"
 
-#include "harness/score/associate.h"
+#include <algorithm>
+
+#include "harness/score/stamp_unit.h"
 
 namespace aisle {
+namespace {
+
+Trajectory Later(Trajectory trajectory, std::int64_t by_ns) {
+  for (StampedPose& pose : trajectory) pose.stamp_ns += by_ns;
+  return trajectory;
+}
+
+std::string Span(const Trajectory& trajectory) {
+  const auto seconds = [](const StampedPose& pose) {
+    return static_cast<double>(pose.stamp_ns) * 1e-9;
+  };
+  return fmt::format("{:.3f} to {:.3f} s", seconds(trajectory.front()), seconds(trajectory.back()));
+}
+
+/// What is wrong with a trajectory of which few poses found a frame, or an empty string; there are
+/// more poses than frames where a system answers faster than the camera. Stamps are the system's.
+std::string ForeignStamps(const Trajectory& truth, const Trajectory& estimate,
+                          const std::vector<PosePair>& pairs) {
+  if (estimate.empty() || 2 * pairs.size() >= std::min(estimate.size(), truth.size())) return {};
+  const auto factor = StampFactor(truth, estimate, pairs);
+  return fmt::format(
+      "{} of {} poses have a frame's stamp: they are from {}, the dataset's frames from {}{}",
+      pairs.size(), estimate.size(), Span(estimate), Span(truth),
+      factor ? "; " + NoteOnStamps(*factor) : "");
+}
+
+}  // namespace
 
 RunResult ResultFromTrajectory(const Trajectory& truth, const Trajectory& estimate,
-                               double min_coverage) {
+                               double min_coverage, std::int64_t epoch_ns) {
   RunResult result;
   result.truth = truth;
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -21,20 +50,25 @@ RunResult ResultFromTrajectory(const Trajectory& truth, const Trajectory& estima
   }
   // The truth's frames decide what half a frame is: key-frame trajectories are sparse.
   const std::int64_t half_frame_ns = MedianIntervalNs(truth) / 2;
-  for (const PosePair& pair :
-       Associate(truth, estimate,
-                 {.rule = AssociationRule::kNearest, .max_difference_ns = half_frame_ns})) {
+  const std::vector<PosePair> pairs = Associate(
+      truth, estimate, {.rule = AssociationRule::kNearest, .max_difference_ns = half_frame_ns});
+  for (const PosePair& pair : pairs) {
     FrameEstimate& frame = result.estimates[pair.truth];
     frame.state = TrackingState::kTracking;
     frame.T_world_rig = estimate[pair.estimate].T_world_rig;
     result.trajectory.live.push_back({frame.stamp_ns, *frame.T_world_rig});
   }
   result.trajectory.final = result.trajectory.live;
-  const auto found = static_cast<double>(result.trajectory.live.size());
-  if (found < min_coverage * static_cast<double>(truth.size())) {
+  const std::string foreign =
+      ForeignStamps(Later(truth, epoch_ns), Later(estimate, epoch_ns), pairs);
+  if (static_cast<double>(pairs.size()) < min_coverage * static_cast<double>(truth.size())) {
     result.status = RunStatus::kLost;
-    result.status_why =
-        fmt::format("a pose for {} of {} frames only", result.trajectory.live.size(), truth.size());
+    result.status_why = fmt::format("a pose for {} of {} frames only{}{}", pairs.size(),
+                                    truth.size(), foreign.empty() ? "" : "; ", foreign);
+  } else if (!foreign.empty()) {  // scores would speak of the few that happen to be near a frame
+    result = ResultFromTrajectory(truth, {}, 0);
+    result.status = RunStatus::kInvalid;
+    result.status_why = foreign;
   }
   return result;
 }
