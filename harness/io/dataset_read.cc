@@ -156,12 +156,33 @@ bool IsLaidOutAsKitti(const fs::path& folder) {
   return fs::exists(folder / "calib.txt") || fs::is_directory(folder / "sequences");
 }
 
+/// Of a folder of which not even a camera is there.
+void RefuseNoDataset(const fs::path& folder, const fs::path& mav) {
+  if (fs::exists(mav / "cam0")) return;
+  constexpr std::size_t kMostNamed = 8;
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    names.insert(Printable(entry.path().filename().string()));
+  }
+  const std::size_t count = names.size();
+  const std::vector<std::string> named(names.begin(),
+                                       std::next(names.begin(), std::min(kMostNamed, count)));
+  throw InputError(
+      folder.string(), 0,
+      fmt::format("is no dataset: EuRoC's holds cam0 and cam1 (sensor.yaml, data.csv, data), here "
+                  "or in mav0, KITTI's calib.txt, times.txt, image_0 and image_1, ROS 2's bag "
+                  "metadata.yaml; this folder holds {}{}",
+                  count == 0 ? "nothing" : fmt::format("{}", fmt::join(named, ", ")),
+                  named.size() < count ? ", …" : ""));
+}
+
 StereoRecording ReadEuroc(const fs::path& folder) {
   if (IsLaidOutAsKitti(folder)) {
     throw InputError(folder.string(), 0,
                      "is laid out as KITTI's: its format is kitti (--format kitti), not euroc");
   }
   const fs::path mav = fs::is_directory(folder / "mav0") ? folder / "mav0" : folder;
+  RefuseNoDataset(folder, mav);
   StereoRecording recording;
   recording.cameras.left = ReadEurocSensor(mav / "cam0/sensor.yaml");
   recording.cameras.right = ReadEurocSensor(mav / "cam1/sensor.yaml");

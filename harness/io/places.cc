@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <set>
 
 #include "harness/io/input_error.h"
 
@@ -76,6 +77,18 @@ std::string SceneFile(const std::string& file_or_name) {
     if (fs::exists(file, error)) return file.lexically_normal().string();
   }
   return file_or_name;
+}
+
+std::vector<std::string> NamesOfScenes() {
+  const fs::path scenes = ScenesDir();
+  std::set<std::string> names;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(scenes, error), end; at != end; at.increment(error)) {
+    if (at->path().extension() != ".yaml") continue;
+    const fs::path name = at->path().lexically_relative(scenes).replace_extension();
+    names.insert(*name.begin() == "suites" ? name.filename().string() : name.string());
+  }
+  return {names.begin(), names.end()};
 }
 
 fs::path CacheDir() {

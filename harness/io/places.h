@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace aisle {
 
@@ -37,6 +38,9 @@ std::filesystem::path ScenesDir();
 /// with the program: "paper/scene2", "quickstart" (of suites/), "scenes/suites/smoke.yaml". What is
 /// none of these is handed back as it is.
 std::string SceneFile(const std::string& file_or_name);
+
+/// The names that SceneFile knows: scenes as "paper/scene2", suites as "quickstart", in order.
+std::vector<std::string> NamesOfScenes();
 
 /// Rendered frames shared between runs: $AISLE_CACHE; .cache/ of the source tree; of an installed
 /// program aisle/ of $XDG_CACHE_HOME or ~/.cache.
