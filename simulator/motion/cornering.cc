@@ -15,11 +15,18 @@ double CornerSpeed(const DriveCorner& corner, const RouteLimits& limits) {
                    limits.turn_rate_rad_s * corner.radius_m});
 }
 
-/// At constant speed v the curvature changes by v, the lateral acceleration by v^3 times the
-/// sharpness a second.
+/// At constant speed v the curvature changes by v, the turn rate by v^2, the lateral acceleration
+/// by v^3 times the sharpness a second.
 double SharpnessAt(double speed, const RouteLimits& limits) {
-  return std::min(limits.curvature_rate_per_m_s / speed,
-                  limits.lateral_jerk_mps3 / (speed * speed * speed));
+  return std::min({limits.curvature_rate_per_m_s / speed,
+                   limits.lateral_jerk_mps3 / (speed * speed * speed),
+                   limits.steered_curvature_rate_per_m_s / speed,
+                   limits.driven_turn_acceleration_rad_s2 / (speed * speed)});
+}
+
+double FollowedSpeed(double sharpness_per_m2, const RouteLimits& limits) {
+  return std::min(limits.steered_curvature_rate_per_m_s / sharpness_per_m2,
+                  std::sqrt(limits.driven_turn_acceleration_rad_s2 / sharpness_per_m2));
 }
 
 /// Which corners are at an end of a side that is too short for them.
@@ -48,9 +55,8 @@ Cornering TakeCorners(const std::vector<DriveCorner>& corners, const RouteLimits
     taken.waypoints.push_back({corner.position, corner.radius_m, SharpnessAt(speed, limits)});
   }
   const Sides sides = SidesOf(points);
-  if (!std::isfinite(limits.curvature_rate_per_m_s) && !std::isfinite(limits.lateral_jerk_mps3)) {
-    return taken;  // arcs at any speed
-  }
+  taken.followed_mps.assign(corners.size(), std::numeric_limits<double>::infinity());
+  if (!std::isfinite(SharpnessAt(1, limits))) return taken;  // arcs at any speed
   for (int slowdown = 0; slowdown < kMostSlowdowns; ++slowdown) {
     const std::vector<bool> crowded = Crowded(taken.waypoints, sides);
     if (std::ranges::count(crowded, true) == 0) break;
@@ -59,6 +65,12 @@ Cornering TakeCorners(const std::vector<DriveCorner>& corners, const RouteLimits
       taken.speeds_mps[i] *= kSlower;
       taken.waypoints[i].sharpness_per_m2 = SharpnessAt(taken.speeds_mps[i], limits);
     }
+  }
+  constexpr double kRounding = 1e-9;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double followed = FollowedSpeed(taken.waypoints[i].sharpness_per_m2, limits);
+    const double by_radius = CornerSpeed(corners[i], limits);
+    if (followed <= by_radius * (1 + kRounding)) taken.followed_mps[i] = followed;
   }
   return taken;
 }

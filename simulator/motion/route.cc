@@ -150,7 +150,8 @@ class Planner {
       const std::size_t end = static_cast<std::size_t>(segment.side) + 1;
       const double speed = segment.IsLine() ? drive[end].cruise_mps : taken.speeds_mps[end];
       limits.push_back({segment.length_m, speed});
-      leg.segment_steps.push_back({corners[end].step, 0});
+      leg.segment_steps.push_back({.step = corners[end].step});
+      if (!segment.IsLine()) leg.segment_steps.back().followed_mps = taken.followed_mps[end];
     }
     leg.profile =
         SpeedProfile::FromRestToRest(limits, limits_.acceleration_mps2, limits_.jerk_mps3);

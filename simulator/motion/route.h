@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -94,6 +95,8 @@ class Route {
     struct SegmentStep {
       int step = -1;
       double start_s = 0;
+      /// Fastest that actuators follow its bend, as Cornering has it.
+      double followed_mps = std::numeric_limits<double>::infinity();
     };
     std::vector<SegmentStep> segment_steps;
   };

@@ -16,6 +16,10 @@ struct RouteLimits {
   double curvature_rate_per_m_s = std::numeric_limits<double>::infinity();
   /// Change of the lateral acceleration as a corner begins and ends.
   double lateral_jerk_mps3 = std::numeric_limits<double>::infinity();
+  /// What the actuators follow where a corner begins and ends: the change of the curvature a second
+  /// by a wheel that is steered, of the turn rate by two that are driven.
+  double steered_curvature_rate_per_m_s = std::numeric_limits<double>::infinity();
+  double driven_turn_acceleration_rad_s2 = std::numeric_limits<double>::infinity();
   /// Change of the acceleration along the path. On the spot the turn's acceleration builds up in
   /// the same time. Infinite: both change at once.
   double jerk_mps3 = std::numeric_limits<double>::infinity();

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <optional>
 
 #include "simulator/scene/crowd.h"
@@ -78,9 +77,7 @@ class RouteChecker {
         obstacles_(ObstaclesOf(scene_)) {}
 
   void Run() {
-    RouteSpec rig = scene_.rig.route;
-    rig.limits.turns_on_the_spot = TurnsOnTheSpot();
-    CheckRoute(rig, "rig", kRigHalfWidth_m);
+    CheckRoute(scene_.rig.route, "rig", kRigHalfWidth_m);
     if (issues_->empty()) CheckBends();
     for (const PersonSpec& person : scene_.people) {
       CheckRoute(person.route, KeyOf(person), kPersonHalfWidth_m);
@@ -131,18 +128,10 @@ class RouteChecker {
     }
   }
 
-  /// Whether the vehicle of a closed drive can do what the planner may ask of the rig.
-  bool TurnsOnTheSpot() const {
-    constexpr double kAcross_rad = 89.9 * std::numbers::pi / 180;
-    const DriveSpec& drive = scene_.drive;
-    return !drive.there || drive.kind != DriveKind::kTricycle ||
-           drive.max_steering_rad >= kAcross_rad;
-  }
-
   /// No bend of the rig's route is tighter than a steered wheel can follow.
   void CheckBends() {
-    if (TurnsOnTheSpot()) return;
     const RouteSpec& route = scene_.rig.route;
+    if (!scene_.drive.there || route.limits.turns_on_the_spot) return;
     const double tightest = std::tan(scene_.drive.max_steering_rad) / scene_.drive.wheelbase_m;
     constexpr double kStep_s = 0.05, kRounding = 1e-6;
     const Route way(route.plan, route.limits);

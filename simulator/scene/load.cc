@@ -9,6 +9,7 @@
 #include "simulator/scene/mesh_files.h"
 #include "simulator/scene/reader.h"
 #include "simulator/scene/rig_files.h"
+#include "simulator/scene/within_reach.h"
 
 namespace aisle::sim {
 namespace {
@@ -55,6 +56,7 @@ Scene ReadScene(const std::string& text, const std::string& file, Issues* issues
       DescribePremises(hall, scene.dealt.emplace_back());
     }
     if (trees->top.Find("rig") == nullptr) StandAtViews(&scene);
+    if (scene.drive.there) scene.rig.route = WithinReach(scene.rig.route, scene.drive);
   }
   scene.files = issues->files();
   if (issues->empty()) ReadRigFiles(&scene, issues);

@@ -26,13 +26,14 @@ std::vector<WayPoint> PointsOf(const Route::Leg& leg, const RoutePlan& plan,
     while (segment + 1 < segments.size() && segments[segment + 1].start_m <= at) ++segment;
     const auto step = static_cast<std::size_t>(leg.segment_steps[segment].step);
     const double bend = std::max(std::abs(point.curvature_per_m), 1e-9);
-    points.push_back({.distance_m = at,
-                      .position = point.position,
-                      .heading_rad = point.heading_rad,
-                      .curvature_per_m = point.curvature_per_m,
-                      .speed_mps = std::min({plan.steps[step].speed_mps,
-                                             std::sqrt(limits.lateral_acceleration_mps2 / bend),
-                                             limits.turn_rate_rad_s / bend})});
+    points.push_back(
+        {.distance_m = at,
+         .position = point.position,
+         .heading_rad = point.heading_rad,
+         .curvature_per_m = point.curvature_per_m,
+         .speed_mps = std::min(
+             {plan.steps[step].speed_mps, std::sqrt(limits.lateral_acceleration_mps2 / bend),
+              limits.turn_rate_rad_s / bend, leg.segment_steps[segment].followed_mps})});
   }
   return points;
 }

@@ -149,6 +149,32 @@ TEST(GroundWay, GoesOnFromPointToPointAsItsHeadingSaysAndNoFasterThanAsked) {
   EXPECT_THAT(kinds, testing::ElementsAre(Kind::kDrive, Kind::kPause, Kind::kTurn, Kind::kDrive));
 }
 
+/// Nor faster than the wheel can be steered, also where two corners leave it little room.
+TEST(GroundWay, IsNoFasterThanItsWheelFollows) {
+  for (const double steering_deg_s : {12.0, 60.0}) {
+    const Scene scene = ParseScene(
+        fmt::format("about: Bends.\n"
+                    "rig: {{start: [0, 0], steps: [{{go: [[6, 0], [6, 5], [3.8, 5], [3.8, 9]],\n"
+                    "  speed_mps: 0.9, corner_radius_m: 0.5}}]}}\n"
+                    "drive: {{kind: tricycle, steering_rate_deg_s: {}}}\n"
+                    "hall: {{from: [-3, -6], to: [13, 12]}}\nlights: [{{height_m: 5}}]\n",
+                    steering_deg_s),
+        "bends.yaml");
+    const Ground ground(scene, BuildWorld(scene, kAssets, 1));
+    const DriveSpec& drive = scene.drive;
+    for (const WayLeg& leg : ground.way()) {
+      for (std::size_t i = 1; i < leg.points.size(); ++i) {
+        const WayPoint &a = leg.points[i - 1], &b = leg.points[i];
+        const double steered = std::atan(drive.wheelbase_m * b.curvature_per_m) -
+                               std::atan(drive.wheelbase_m * a.curvature_per_m);
+        const double rate =
+            std::abs(steered) / (b.distance_m - a.distance_m) * std::min(a.speed_mps, b.speed_mps);
+        EXPECT_LE(rate, drive.steering_rate_rad_s * (1 + 1e-6)) << b.distance_m;
+      }
+    }
+  }
+}
+
 TEST(GroundActors, AreWhereTheWorldShowsThemAtEveryTime) {
   const auto& [scene, world, ground] = TheBuilt();
   ASSERT_EQ(ground.actors().size(), 3u);
