@@ -10,6 +10,7 @@
 #include "simulator/scene/check_loads.h"
 #include "simulator/scene/check_mechanisms.h"
 #include "simulator/scene/check_routes.h"
+#include "simulator/scene/check_zones.h"
 #include "simulator/scene/crowd.h"
 #include "simulator/scene/hall.h"
 
@@ -62,6 +63,7 @@ class Checker {
     CheckHitches();
     CheckDrive();
     CheckRoutes(scene_, issues_);
+    if (issues_->empty()) CheckZones(scene_, issues_);
     for (std::size_t i = 0; i < scene_.vehicles.size(); ++i) CheckMast(scene_.vehicles[i], i);
     if (scene_.rig.mount.height_m >= scene_.hall.height_m) {
       issues_->Add(scene_.rig.mark, "rig.camera_height_m", "the camera is above the roof");
