@@ -168,38 +168,68 @@ class ShadowFinder {
 
   /// Bits of the places that lie in a moving shadow.
   unsigned Find(const Places& places) const {
-    std::array<float, kLanes> lost{};
-    ForEachLight(places, [&](const Sphere& lamp, const auto& each_way) {
-      const GeometryMask stirring = Between(places, lamp, stirring_);
-      if (!stirring) return;
-      each_way(places.valid, [&](const Ways& ways) {
-        const Met met = Meet(ways, places, stirring, ways.lit);
-        Add(ways, PastWhatRests(ways, places, lamp, met.moving & ~met.resting), &lost);
-      });
-    });
+    const PerLane lost = Lost(places);
     unsigned touched = 0;
     for (int k = 0; k < kLanes; ++k) {
       if (lost[static_cast<std::size_t>(k)] > 0) touched |= 1u << k;
     }
     if (!touched) return 0;
-    std::array<float, kLanes> all{};  // through all that rests
-    ForEachLight(places, [&](const Sphere& lamp, const auto& each_way) {
-      each_way(touched, [&](const Ways& ways) {
-        const unsigned open = PastWhatRests(ways, places, lamp, ways.lit);
-        const GeometryMask stirring = open ? Between(places, lamp, stirring_) : 0;
-        Add(ways, stirring ? open & ~Meet(ways, places, stirring, open).resting : open, &all);
-      });
-    });
-    unsigned shadowed = 0;
-    for (int k = 0; k < kLanes; ++k) {
-      const auto lane = static_cast<std::size_t>(k);
-      if (touched >> k & 1 && lost[lane] > options_.share * all[lane]) shadowed |= 1u << k;
-    }
-    return shadowed;
+    const auto lose_much = [&](const PerLane& light, unsigned lanes) {
+      unsigned lose = 0;
+      for (int k = 0; k < kLanes; ++k) {
+        const auto lane = static_cast<std::size_t>(k);
+        if (lanes >> k & 1 && lost[lane] > options_.share * light[lane]) lose |= 1u << k;
+      }
+      return lose;
+    };
+    // Who loses much even of what would come if nothing stood anywhere is spared the rays.
+    const unsigned sure = lose_much(LightOfAll(places, touched), touched);
+    const unsigned doubtful = touched & ~sure;
+    return doubtful ? sure | lose_much(LightPastWhatRests(places, lost, doubtful), doubtful) : sure;
   }
 
  private:
-  static void Add(const Ways& ways, unsigned lanes, std::array<float, kLanes>* sum) {
+  using PerLane = std::array<float, kLanes>;
+
+  /// Light that what moves keeps away, and nothing that rests would.
+  PerLane Lost(const Places& places) const {
+    PerLane lost{};
+    ForEachLight(places, [&](const Sphere& lamp, const auto& each_way) {
+      const GeometryMask stirring = Between(places, lamp, stirring_);
+      if (!stirring) return;
+      const GeometryMask rests = kStaticOnly | Between(places, lamp, resting_);
+      each_way(places.valid, [&](const Ways& ways) {
+        unsigned lanes = Blocked(ways, places, stirring, ways.lit);
+        lanes &= ~Blocked(ways, places, rests, lanes);
+        const Met met = Meet(ways, places, stirring, lanes);
+        Add(ways, met.moving & ~met.resting, &lost);
+      });
+    });
+    return lost;
+  }
+
+  /// Light where there is nothing else.
+  PerLane LightOfAll(const Places& places, unsigned wanted) const {
+    PerLane sum{};
+    ForEachLight(places, [&](const Sphere&, const auto& each_way) {
+      each_way(wanted, [&](const Ways& ways) { Add(ways, ways.lit, &sum); });
+    });
+    return sum;
+  }
+
+  /// Light where there is nothing that moves: what arrives as it is, and what is lost.
+  PerLane LightPastWhatRests(const Places& places, const PerLane& lost, unsigned wanted) const {
+    PerLane sum = lost;
+    ForEachLight(places, [&](const Sphere& lamp, const auto& each_way) {
+      const GeometryMask any = kStaticOnly | Between(places, lamp, resting_ | stirring_);
+      each_way(wanted, [&](const Ways& ways) {
+        Add(ways, ways.lit & ~Blocked(ways, places, any, ways.lit), &sum);
+      });
+    });
+    return sum;
+  }
+
+  static void Add(const Ways& ways, unsigned lanes, PerLane* sum) {
     for (std::size_t k = 0; k < kLanes; ++k) {
       if (lanes >> k & 1) (*sum)[k] += ways.light[k];
     }
@@ -264,12 +294,12 @@ class ShadowFinder {
                   (square * square));
   }
 
-  /// Lanes of `wanted` whose ways neither the static world nor a mover at rest blocks.
-  unsigned PastWhatRests(const Ways& ways, const Places& places, const Sphere& lamp,
-                         unsigned wanted) const {
-    if (!wanted) return 0;
-    return wanted & ~instant_.Occluded(RaysAlong(ways, places, wanted), Coherence::kCoherent,
-                                       kStaticOnly | Between(places, lamp, resting_));
+  /// Lanes of `wanted` whose ways something of these blocks.
+  unsigned Blocked(const Ways& ways, const Places& places, GeometryMask geometries,
+                   unsigned wanted) const {
+    if (!wanted || !geometries) return 0;
+    return wanted &
+           instant_.Occluded(RaysAlong(ways, places, wanted), Coherence::kCoherent, geometries);
   }
 
   /// What of movers that stir lanes meet on their ways: surfaces that move now, or one that rests,
