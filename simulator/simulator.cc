@@ -264,7 +264,7 @@ Eigen::Isometry3d Simulator::Mount() const {
 
 std::string VerifyReport::failure() const {
   constexpr double kAgreement = 0.999, kWarp = 0.05;
-  constexpr double kLeastRaster = 0.1, kLeastStereo = 0.01;  // of what could be compared
+  constexpr double kLeastRaster = 0.1, kLeastWarped = 0.01;  // of what could be compared
   if (raster_compared < kLeastRaster * raster_pixels || raster_compared == 0) {
     return fmt::format(
         "depth and labels could be held against the rasteriser on {} of {} pixels "
@@ -276,13 +276,18 @@ std::string VerifyReport::failure() const {
     return fmt::format("depth and labels agree with the rasteriser on {:.3f} % of {} pixels only",
                        100 * agreement, raster_compared);
   }
-  if (stereo_compared < kLeastStereo * surface_pixels) {
+  if (stereo_compared < kLeastWarped * surface_pixels) {
     return fmt::format(
         "left could be warped to right on {} of {} pixels only, which proves nothing",
         stereo_compared, surface_pixels);
   }
   if (stereo_median_px > kWarp) {
     return fmt::format("left warps to right with a median error of {:.3f} px", stereo_median_px);
+  }
+  if (flow_compared < kLeastWarped * surface_pixels) {
+    return fmt::format(
+        "flow could be held against the next frame on {} of {} pixels only, which proves nothing",
+        flow_compared, surface_pixels);
   }
   if (flow_median_px > kWarp) {
     return fmt::format("flow misses the next frame by a median of {:.3f} px", flow_median_px);

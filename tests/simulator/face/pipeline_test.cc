@@ -1,5 +1,6 @@
 #include "simulator/pipeline.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -80,6 +81,18 @@ TEST(Pipeline, TruthProvesItselfByRasteriserAndWarps) {
   EXPECT_GT(report.raster_compared, 300'000);
   EXPECT_GT(report.stereo_compared, 200'000);
   EXPECT_GT(report.flow_compared, 200'000);
+}
+
+/// As where the rig turns away from all that it sees between two frames.
+TEST(Pipeline, FlowThatMeetsNothingProvesNothing) {
+  const Pipeline hall = SmallHall(QuickOptions());
+  const Moment now{2 * kSecond, kPose};
+  const VerifyReport stands = hall.Verify(now, {2 * kSecond + kSecond / 20, kPose});
+  EXPECT_EQ(stands.failure(), "");
+  EXPECT_GT(stands.flow_compared, 200'000);
+  const VerifyReport turned = hall.Verify(now, {3 * kSecond, test::LookAlong({1.5, 0, 1.2}, 3)});
+  EXPECT_EQ(turned.flow_compared, 0);
+  EXPECT_THAT(turned.failure(), testing::HasSubstr("flow could be held against the next frame on"));
 }
 
 /// The small hall with a rig that drives at 4 m/s and a camera with 20 ms of exposure.
