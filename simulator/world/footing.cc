@@ -9,6 +9,16 @@ namespace {
 /// Legs are never quite stretched: a straight knee would jitter.
 constexpr float kReach = 0.9985f;
 
+/// Before that they stretch ever more slowly, from so much less than their reach on: the nearer to
+/// straight, the further a knee goes for each bit of the leg's length.
+constexpr float kYield_m = 0.008f;
+
+/// How far a leg is stretched that is asked to be so long.
+float Stretched(float length_m, float reach_m) {
+  const float beyond = (length_m - reach_m) / kYield_m + 1;
+  return beyond <= 0 ? length_m : reach_m - kYield_m * std::exp(-beyond);
+}
+
 /// Most a foot is lifted beyond what the mixed clips say.
 constexpr float kExtraLift_m = 0.03f;
 
@@ -135,7 +145,8 @@ void Footing::LowerToReach(const std::vector<Eigen::Affine3f>& ankles, NodeFrame
     const Eigen::Vector3f hip = at(limb.upper), knee = at(limb.lower), ankle = at(limb.end);
     const float reach = kReach * ((knee - hip).norm() + (ankle - knee).norm());
     const Eigen::Vector3f way = hip - ankles[i].translation();
-    const float highest = std::sqrt(std::max(0.0f, reach * reach - way.head<2>().squaredNorm()));
+    const float length = Stretched(way.norm(), reach);
+    const float highest = std::sqrt(std::max(0.0f, length * length - way.head<2>().squaredNorm()));
     drop = std::max(drop, way.z() - highest);
   }
   for (Eigen::Affine3f& frame : *frames) frame.translation().z() -= drop;

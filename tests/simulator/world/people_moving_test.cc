@@ -124,6 +124,15 @@ TEST(Person, VelocitiesAreDerivativesWhereTheAccelerationJumpsToo) {
   ExpectVelocitiesAreDerivatives(Make(Jolted()), 0.35, 2.6, 0.05);
 }
 
+/// A knee does not dart off where a leg ceases to be straight.
+TEST(Person, VelocitiesAreDerivativesWhereALegIsStretchedToo) {
+  PersonSpec person = Somebody("worker_bea");
+  person.route.limits.acceleration_mps2 = 2;
+  person.route.plan.steps = {Going({1.2, 0}), TurningTo(86), Going({1.2, 1})};
+  const Actor actor = Make(person);
+  for (double t = 0.02; t < 2.6; t += 0.009) EXPECT_LT(WidestError_mps(actor, t, 0.004), 0.8) << t;
+}
+
 /// Feet do not hop where the body turns by a degree: they stay flat and where they are.
 TEST(Person, FeetStayOnTheFloorInASmallTurn) {
   for (const double turn_deg : {0.05, 1.0, 9.0}) {
