@@ -350,7 +350,9 @@ std::vector<std::string> CheckSceneFile(const std::string& scene_file,
 
 int CountSceneFrames(const std::string& scene_file) { return LoadScene(scene_file).frames; }
 
-bool IsDriveScene(const std::string& scene_file) { return LoadScene(scene_file).drive.there; }
+bool IsDriveScene(const std::string& scene_file) { return DriveOfScene(scene_file).there; }
+
+DriveSpec DriveOfScene(const std::string& scene_file) { return LoadScene(scene_file).drive; }
 
 std::vector<std::string> FilesOfScene(const std::string& scene_file) {
   return SceneFiles(scene_file);

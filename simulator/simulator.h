@@ -163,6 +163,9 @@ int CountSceneFrames(const std::string& scene_file);
 /// Whether the scene has a `drive`. Throws likewise.
 bool IsDriveScene(const std::string& scene_file);
 
+/// The scene's `drive`, or that of a scene which says nothing of it. Throws likewise.
+DriveSpec DriveOfScene(const std::string& scene_file);
+
 /// A scene's file and those it extends, nearest first: the scene is what they hold. Of a file with
 /// mistakes, as far as they can be followed.
 std::vector<std::string> FilesOfScene(const std::string& scene_file);

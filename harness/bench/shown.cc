@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "harness/io/input_error.h"
+#include "harness/plugs/simulated_drive.h"
 #include "harness/plugs/systems.h"
 #include "harness/plugs/wheel_odometry.h"
 
@@ -20,7 +21,8 @@ std::unique_ptr<Sequence> OpenSourceFor(const SystemSpec& system, const BenchVie
                                         const BenchSource& source) {
   std::unique_ptr<Sequence> sequence = OpenSource(view, source);
   if (!WantsOdometry(system)) return sequence;
-  return WithOdometry(std::move(sequence), SeedOf(view, source));
+  const Wheels wheels = view.scene.empty() ? Wheels{} : WheelsOfScene(view.path);
+  return WithOdometry(std::move(sequence), SeedOf(view, source), wheels);
 }
 
 MaskMaker MasksFor(const SystemSpec& system, const BenchView& view, const BenchSource& source) {

@@ -10,6 +10,7 @@
 #include "harness/io/input_error.h"
 #include "harness/io/odometry_files.h"
 #include "harness/io/places.h"
+#include "harness/plugs/simulated_drive.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/plugs/wheel_odometry.h"
 #include "harness/run/frames_ahead.h"
@@ -137,9 +138,10 @@ int Verify(const SimulationForExport& simulation, const std::vector<FrameRequest
 
 /// Of the frames of the dataset; where these begin later, the wheels have slipped before.
 void AddOdometry(const Sequence& sequence, const std::vector<FrameRequest>& frames,
-                 std::uint64_t seed, const ExportOptions& options,
+                 const SimulatedSequenceOptions& simulation, const ExportOptions& options,
                  const std::filesystem::path& out) {
-  const WheelMotions all = MeasureByWheels(sequence, seed);
+  const WheelMotions all =
+      MeasureByWheels(sequence, simulation.seed, WheelsOfScene(simulation.scene_file));
   const auto first = all.begin() + frames.front().id;
   const auto count = static_cast<std::ptrdiff_t>(frames.size()) - 1;
   WriteOdometry(out, JoinMotions(frames, {first, first + count}), options);
@@ -154,7 +156,8 @@ int RenderAsBag(const Options& options) {
   const FrameRange range = RangeFromText(options.frames);
   SimulationForExport simulation = OpenForExport(options.simulation, options.pair);
   if (options.odometry) {
-    simulation.sequence = WithOdometry(std::move(simulation.sequence), options.simulation.seed);
+    simulation.sequence = WithOdometry(std::move(simulation.sequence), options.simulation.seed,
+                                       WheelsOfScene(options.simulation.scene_file));
   }
   RenderBag(simulation, Select(simulation.sequence->Schedule(), range),
             options.simulation.scene_file, ProvenanceOf(options, simulation), options.odometry,
@@ -197,8 +200,9 @@ int Render(Options options) {
   }
   line.Clear();
   writer.Finish(simulation.path);
-  if (options.odometry)
-    AddOdometry(sequence, wanted, options.simulation.seed, export_options, options.out);
+  if (options.odometry) {
+    AddOdometry(sequence, wanted, options.simulation, export_options, options.out);
+  }
   fmt::print("{}: {} frames, {} of them made now\n", options.out, wanted.size(), missing.size());
   return options.verify ? Verify(simulation, wanted, writer, options.out) : kAllPassed;
 }

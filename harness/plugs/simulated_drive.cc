@@ -141,6 +141,11 @@ bool IsDriveScene(const std::string& scene_file) {
   return AskSimulator([&] { return sim::IsDriveScene(scene_file); });
 }
 
+Wheels WheelsOfScene(const std::string& scene_file) {
+  const sim::DriveSpec drive = AskSimulator([&] { return sim::DriveOfScene(scene_file); });
+  return drive.there ? Wheels{OdometryOf(drive.odometry), PlantOf(drive)} : Wheels{};
+}
+
 std::unique_ptr<DriveScene> OpenSimulatedDrive(const SimulatedSequenceOptions& options,
                                                std::uint64_t* content_hash) {
   sim::Simulator simulator = OpenSimulator(options);

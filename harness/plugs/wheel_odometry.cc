@@ -23,6 +23,19 @@ MotionMeasurement Rolled(const FloorPose& moved, double way_m, double turn_rad,
                T_body_rig);
 }
 
+/// A step of a vehicle whose axle goes along an arc, as its wheels go it.
+PlantStep StepAlong(double way_m, double turn_rad, const PlantOptions& plant) {
+  PlantStep step;
+  step.way_m = way_m;
+  step.turn_rad = turn_rad;
+  // The wheel ahead of the axle goes across by what the turn carries it, and steers accordingly.
+  const double across_m = turn_rad * plant.wheelbase_m;
+  const double ahead = way_m < 0 ? -1 : 1;
+  step.wheel_way_m = ahead * std::hypot(way_m, across_m);
+  step.steering_rad = std::atan2(ahead * across_m, ahead * way_m);
+  return step;
+}
+
 /// Hands the frames of another sequence on, with what the wheels measured.
 class SequenceWithOdometry : public Sequence {
  public:
@@ -98,13 +111,12 @@ std::string CheckOdometry(const std::string& value) {
   return fmt::format("option {} = {}: expected true or false", kOdometryOption, Printable(value));
 }
 
-WheelMotions MeasureByWheels(const std::vector<FrameRequest>& schedule,
-                             const OdometryOptions& options, std::uint64_t seed) {
+WheelMotions MeasureByWheels(const std::vector<FrameRequest>& schedule, const Wheels& wheels,
+                             std::uint64_t seed) {
   WheelMotions measured;
   const auto first = std::ranges::find_if(schedule, &FrameRequest::pose_known);
   if (first == schedule.end()) return WheelMotions(schedule.empty() ? 0 : schedule.size() - 1);
-  const PlantOptions plant;
-  Odometer odometer(options, plant, seed);
+  Odometer odometer(wheels.odometry, wheels.plant, seed);
   const Eigen::Isometry3d T_body_rig =
       InSpace(BodyBeneath(first->T_world_rig)).inverse() * first->T_world_rig;
   double speed_mps = 0;
@@ -119,9 +131,7 @@ WheelMotions MeasureByWheels(const std::vector<FrameRequest>& schedule,
         BodyBeneath(schedule[i - 1].T_world_rig).inverse() * BodyBeneath(schedule[i].T_world_rig);
     const double seconds =
         static_cast<double>(schedule[i].stamp_ns - schedule[i - 1].stamp_ns) * 1e-9;
-    PlantStep step;
-    step.way_m = moved.position.x();
-    step.turn_rad = WrapAngle(moved.heading_rad);
+    PlantStep step = StepAlong(moved.position.x(), WrapAngle(moved.heading_rad), wheels.plant);
     const double now_mps = step.way_m / seconds;
     step.state.acceleration_mps2 = knows_speed ? (now_mps - speed_mps) / seconds : 0;
     speed_mps = now_mps;
@@ -129,12 +139,13 @@ WheelMotions MeasureByWheels(const std::vector<FrameRequest>& schedule,
     // The rig stands off the axle: what the wheels err is what their arc errs.
     const FloorPose arc = AlongArc({}, step.way_m, step.turn_rad);
     const FloorPose said = moved * arc.inverse() * odometer.Measure(step);
-    measured.push_back(Rolled(said, step.way_m, step.turn_rad, T_body_rig, options, plant));
+    measured.push_back(
+        Rolled(said, step.way_m, step.turn_rad, T_body_rig, wheels.odometry, wheels.plant));
   }
   return measured;
 }
 
-WheelMotions MeasureByWheels(const Sequence& sequence, std::uint64_t seed) {
+WheelMotions MeasureByWheels(const Sequence& sequence, std::uint64_t seed, const Wheels& wheels) {
   if (std::optional<WheelMotions> recorded = sequence.ReadWheels()) return *std::move(recorded);
   const std::vector<FrameRequest> schedule = sequence.Schedule();
   const auto first = std::ranges::find_if(schedule, &FrameRequest::pose_known);
@@ -151,11 +162,12 @@ WheelMotions MeasureByWheels(const Sequence& sequence, std::uint64_t seed) {
                      ": a system is to be handed odometry, which rolls on a floor, but the z axis "
                      "of the truth does not point up: turn its poses into a world whose z does");
   }
-  return MeasureByWheels(schedule, {}, seed);
+  return MeasureByWheels(schedule, wheels, seed);
 }
 
-std::unique_ptr<Sequence> WithOdometry(std::unique_ptr<Sequence> sequence, std::uint64_t seed) {
-  WheelMotions measured = MeasureByWheels(*sequence, seed);
+std::unique_ptr<Sequence> WithOdometry(std::unique_ptr<Sequence> sequence, std::uint64_t seed,
+                                       const Wheels& wheels) {
+  WheelMotions measured = MeasureByWheels(*sequence, seed, wheels);
   return std::make_unique<SequenceWithOdometry>(std::move(sequence), std::move(measured));
 }
 

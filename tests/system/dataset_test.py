@@ -223,5 +223,41 @@ class Exported(unittest.TestCase):
                    "--truth", "all")
 
 
+class WheelsOfAVehicle(unittest.TestCase):
+    """Where a scene says how its vehicle's wheels err, so do those that are written beside it."""
+
+    NOTHING_ELSE = ("inequality: 0, track_error: 0, steering_error_deg: 0, noise_m: 0, "
+                    "slip_per_mps2: 0, counts_per_rev: 10000000")
+
+    def written(self, seed):
+        root = pathlib.Path(tempfile.mkdtemp(prefix="aisle_wheels_"))
+        self.addCleanup(shutil.rmtree, root)
+        scene = root / "straight.yaml"
+        scene.write_text(
+            "about: A vehicle rolls straight ahead.\nframes: 8\nrate_hz: 4\ncamera: {size_px: [96, 64], focal_px: [60, 60]}\n"
+            "rig: {camera_height_m: 0.85, start: [0, 0], steps: [{go: [[6, 0]], speed_mps: 1.2}]}\n"
+            "drive: {kind: tricycle, odometry: {radius_error: 0.2, " + self.NOTHING_ELSE + "}}\n"
+            "hall: {from: [-6, -6], to: [12, 6], height_m: 6}\n"
+            "lights: [{rows: 1, per_row: 2, height_m: 5.4, size_m: [1.5, 0.3]}]\n")
+        code, said = run("render", scene, "--out", root / "out", "--format", "tum", "--odometry",
+                         "--seed", seed)
+        self.assertEqual(code, 0, said)
+        return [np.loadtxt(root / "out" / name) for name in ("odometry.txt", "groundtruth.txt")]
+
+    def test_err_as_its_scene_says(self):
+        shares = []
+        for seed in (1, 2, 3):
+            wheels, truth = self.written(seed)
+            ways = [np.linalg.norm(track[1:, 1:4] - track[0, 1:4], axis=1)
+                    for track in (wheels, truth)]
+            share = ways[0] / ways[1]
+            self.assertAlmostEqual(share[3], share[-1], delta=0.005)  # the same all the way
+            # Both wheels' radius is off by one share: nothing turns it.
+            np.testing.assert_allclose(wheels[:, 4:], wheels[:1, 4:].repeat(len(wheels), 0),
+                                       atol=2e-4)
+            shares.append(share[-1] - 1)
+        self.assertGreater(np.abs(shares).max(), 0.03, shares)  # ten times what others have
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

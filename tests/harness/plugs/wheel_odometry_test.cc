@@ -1,35 +1,50 @@
 #include "harness/plugs/wheel_odometry.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <filesystem>
+#include <functional>
+#include <numbers>
 
 #include "harness/contract/floor.h"
+#include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/loop/closed_drive.h"
+#include "harness/plugs/simulated_drive.h"
 #include "slam/stereo_slam.h"
 #include "tests/harness/loop/fake_drive_scene.h"
 
 namespace aisle {
 namespace {
 
-/// A camera 0.8 m above and 0.3 m ahead of the axle, looking down a little, that drives a winding
-/// way of `metres` at 20 frames a second.
-std::vector<FrameRequest> WindingWay(double metres) {
+/// T_body_rig of a camera 0.8 m above and 0.3 m ahead of the axle, looking down a little.
+Eigen::Isometry3d Mount() {
   Eigen::Isometry3d T_body_rig = Eigen::Isometry3d::Identity();
   T_body_rig.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   T_body_rig.linear() =
       T_body_rig.linear() * Eigen::AngleAxisd(-0.1, Eigen::Vector3d::UnitX()).toRotationMatrix();
   T_body_rig.translation() << 0.3, 0, 0.8;
+  return T_body_rig;
+}
+
+constexpr double kStep_m = 0.045;
+
+/// It drives a way of `metres` at 20 frames a second and turns by `turn(k)` after frame k.
+std::vector<FrameRequest> WayOf(double metres, const std::function<double(int)>& turn) {
   std::vector<FrameRequest> way;
   FloorPose body{{1, 2}, 0.4};
-  constexpr double kStep_m = 0.045;
   for (int k = 0; k * kStep_m < metres; ++k) {
-    way.push_back({k, k * 50'000'000LL, InSpace(body) * T_body_rig});
-    body = AlongArc(body, kStep_m, 0.02 * std::sin(0.05 * k));
+    way.push_back({k, k * 50'000'000LL, InSpace(body) * Mount()});
+    body = AlongArc(body, kStep_m, turn(k));
   }
   return way;
+}
+
+std::vector<FrameRequest> WindingWay(double metres) {
+  return WayOf(metres, [](int k) { return 0.02 * std::sin(0.05 * k); });
 }
 
 slam::MeasuredMotion Whole(const WheelMotions& steps) {
@@ -53,7 +68,7 @@ OdometryOptions Perfect() {
 
 TEST(MeasureByWheels, PerfectWheelsMeasureTheWayItself) {
   const auto way = WindingWay(20);
-  const auto steps = MeasureByWheels(way, Perfect(), 1);
+  const auto steps = MeasureByWheels(way, {.odometry = Perfect()}, 1);
   ASSERT_EQ(steps.size(), way.size() - 1);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Eigen::Isometry3d truth = way[i + 1].T_world_rig.inverse() * way[i].T_world_rig;
@@ -67,6 +82,53 @@ TEST(MeasureByWheels, SameSeedSameBitsAnotherSeedOthers) {
              c = MeasureByWheels(way, {}, 8);
   EXPECT_EQ(a.back()->T_now_before.matrix(), b.back()->T_now_before.matrix());
   EXPECT_NE(a.back()->T_now_before.matrix(), c.back()->T_now_before.matrix());
+}
+
+/// A tricycle's wheel goes across as well as ahead, and its odometer reads a steering angle: what
+/// it makes of any way, turns on the spot and reversing among it, is that way.
+TEST(MeasureByWheels, PerfectWheelsOfATricycleMeasureTheWayItself) {
+  Wheels wheels{.odometry = Perfect(), .plant = {.kind = VehicleKind::kTricycle}};
+  wheels.plant.wheelbase_m = 1.4;
+  std::vector<FrameRequest> way = WindingWay(3);
+  FloorPose body;
+  for (FrameRequest& frame : way) {
+    frame.T_world_rig = InSpace(body) * Mount();
+    const bool on_the_spot = frame.id % 20 < 5, back = frame.id % 20 > 15;
+    body = AlongArc(body, on_the_spot ? 0 : back ? -0.03 : 0.04, on_the_spot ? -0.1 : 0.02);
+  }
+  const auto steps = MeasureByWheels(way, wheels, 1);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Eigen::Isometry3d truth = way[i + 1].T_world_rig.inverse() * way[i].T_world_rig;
+    EXPECT_LT(slam::Difference(truth, steps[i]->T_now_before).norm(), 1e-7) << i;
+  }
+}
+
+/// Straight ahead, wheels that are larger than they are taken for by a share measure less by it,
+/// and a tricycle whose steering's zero is off measures a turn of way * sin(error) / wheelbase.
+TEST(MeasureByWheels, WheelsErrAsTheirVehicleSaysTheyDo) {
+  const auto way = WayOf(4, [](int) { return 0.0; });
+  const double way_m = kStep_m * static_cast<double>(way.size() - 1);
+  Wheels large{.odometry = Perfect(), .plant = {.kind = VehicleKind::kTricycle}};
+  large.odometry.radius_error = 0.2;
+  Wheels askew{.odometry = Perfect(), .plant = {.kind = VehicleKind::kTricycle}};
+  askew.odometry.steering_error_rad = 0.02;
+  askew.plant.wheelbase_m = 1.4;
+  double squares = 0;
+  constexpr int kSeeds = 200;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const Eigen::Isometry3d said = Whole(MeasureByWheels(way, large, seed)).T_now_before;
+    EXPECT_LT(Eigen::AngleAxisd(said.linear()).angle(), 1e-7) << "nothing may turn it";
+    const double off = said.translation().norm() / way_m - 1;
+    squares += off * off / kSeeds;
+
+    const Eigen::Isometry3d turned = Whole(MeasureByWheels(way, askew, seed)).T_now_before;
+    Odometer odometer(askew.odometry, askew.plant, seed);
+    PlantStep whole_way;
+    whole_way.way_m = whole_way.wheel_way_m = way_m;
+    EXPECT_NEAR(Eigen::AngleAxisd(turned.linear()).angle(),
+                std::abs(odometer.Measure(whole_way).heading_rad), 1e-6);
+  }
+  EXPECT_NEAR(std::sqrt(squares), 0.2, 0.03);  // of the rms over 200 seeds, three deviations
 }
 
 /// Over some metres the errors of calibration dominate and the covariance still bounds them: of
@@ -106,7 +168,7 @@ TEST(MeasureByWheels, NothingIsMeasuredWhereNobodyKnowsTheWay) {
   for (std::size_t i = 0; i < way.size(); ++i) {
     if (lacks(i)) way[i] = {way[i].id, way[i].stamp_ns, Eigen::Isometry3d::Identity(), false};
   }
-  const WheelMotions steps = MeasureByWheels(way, Perfect(), 1);
+  const WheelMotions steps = MeasureByWheels(way, {.odometry = Perfect()}, 1);
   ASSERT_EQ(steps.size(), way.size() - 1);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     ASSERT_EQ(steps[i].has_value(), !lacks(i) && !lacks(i + 1)) << i;
@@ -139,6 +201,26 @@ TEST(MeasureByWheels, AWorldOnItsSideAndAWayThatNobodyKnowsAreRefused) {
   EXPECT_THROW(MeasureByWheels(Planned(way), 1), InputError);
   for (FrameRequest& frame : way) frame.pose_known = false;
   EXPECT_THROW(MeasureByWheels(Planned(way), 1), InputError);
+}
+
+/// Who has no vehicle has wheels all the same; who has one, its own.
+TEST(WheelsOfScene, AreThoseOfItsDrive) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / fmt::format("aisle_wheels_{}", ::getpid());
+  const std::string smoke = AISLE_SOURCE_DIR "/scenes/smoke/short.yaml";
+  WriteFileAtomically(folder / "driven.yaml",
+                      "extend: " + smoke +
+                          "\ndrive: {kind: tricycle, wheelbase_m: 1.4, odometry: {radius_error: "
+                          "0.2, steering_error_deg: 1}}\n");
+  const Wheels driven = WheelsOfScene(folder / "driven.yaml"), none = WheelsOfScene(smoke);
+  EXPECT_EQ(driven.plant.kind, VehicleKind::kTricycle);
+  EXPECT_EQ(driven.plant.wheelbase_m, 1.4);
+  EXPECT_EQ(driven.odometry.radius_error, 0.2);
+  EXPECT_NEAR(driven.odometry.steering_error_rad, std::numbers::pi / 180, 1e-12);
+  EXPECT_EQ(driven.odometry.track_error, OdometryOptions{}.track_error);
+  EXPECT_EQ(none.plant.kind, VehicleKind::kDifferential);
+  EXPECT_EQ(none.odometry.radius_error, OdometryOptions{}.radius_error);
+  std::filesystem::remove_all(folder);
 }
 
 /// Looks at what every picture is handed, and tells the truth.
