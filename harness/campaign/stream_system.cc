@@ -14,6 +14,7 @@
 #include "harness/campaign/guest_rooms.h"
 #include "harness/campaign/process.h"
 #include "harness/campaign/sandbox.h"
+#include "harness/common/stopwatch.h"
 #include "harness/contract/system_fault.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
@@ -93,8 +94,8 @@ struct StreamEstimator::Impl {
         Talk{in.read.get(), out.write.get()});
     to_system = std::move(in.write);
     from_system = std::move(out.read);
-    pipe.emplace(from_system.get(), to_system.get(), std::min(run.answer_s, system.timeout_s),
-                 [this] { process->Poll(); });
+    answer_s = std::min(run.answer_s, system.timeout_s);
+    pipe.emplace(from_system.get(), to_system.get(), answer_s, [this] { process->Poll(); });
   }
 
   ~Impl() {
@@ -123,11 +124,39 @@ struct StreamEstimator::Impl {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     if (!process->Poll()) return "closed its end of the stream and goes on";
+    return (EndedWell() ? "ended before it answered: " : "") + EndOfProcess();
+  }
+
+  bool EndedWell() const {
+    const ProcessResult& result = process->result();
+    return result.end == ProcessResult::End::kExited && result.code == 0;
+  }
+
+  std::string EndOfProcess() const {
     const ProcessResult& result = process->result();
     const std::string line = TellingLine(result.log);
-    const bool by_itself = result.end == ProcessResult::End::kExited && result.code == 0;
-    return (by_itself ? "ended before it answered: " : "") + Describe(result, limits) +
-           (line.empty() ? "" : "; last words: " + line);
+    return Describe(result, limits) + (line.empty() ? "" : "; last words: " + line);
+  }
+
+  RunStatus StatusOfEnd() const {
+    const bool for_memory = process->result().end == ProcessResult::End::kMemory;
+    return for_memory ? RunStatus::kTimeout : RunStatus::kCrashed;
+  }
+
+  /// Waits for its end after its last answer: how a program ends says as much of it as that it
+  /// answered. A sanitizer, say, tells what it found by the exit code.
+  void AwaitEnd() {
+    constexpr double kGrace_ms = 3000;  // a closed stdin may disturb one that is about to end
+    const Stopwatch waited;
+    while (!process->Poll()) {
+      if (waited.ElapsedMs() > kGrace_ms) to_system.Close();  // one that reads on sees the end
+      if (waited.ElapsedMs() > 1e3 * answer_s) {
+        throw SystemFault(RunStatus::kTimeout,
+                          fmt::format("no end within {:g} s of its final track", answer_s));
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    if (!EndedWell()) throw SystemFault(StatusOfEnd(), EndOfProcess());
   }
 
   [[noreturn]] void Blame(const StreamError& error) {
@@ -135,8 +164,7 @@ struct StreamEstimator::Impl {
       throw SystemFault(StatusOf(error.kind), error.what());
     }
     const std::string words = EndInWords();
-    const bool for_memory = process->result().end == ProcessResult::End::kMemory;
-    throw SystemFault(for_memory ? RunStatus::kTimeout : RunStatus::kCrashed, words);
+    throw SystemFault(StatusOfEnd(), words);
   }
 
   StreamMessage Answer() {
@@ -149,6 +177,7 @@ struct StreamEstimator::Impl {
   GuestRooms rooms;
   std::optional<Sandbox> sandbox;
   std::string command, version;
+  double answer_s = 0;  ///< longest time for one answer, and for the end after the last
   ProcessLimits limits;
   Descriptor to_system, from_system;
   std::optional<StreamPipe> pipe;
@@ -196,7 +225,9 @@ Trajectory StreamEstimator::Finish() {
     if (answer.type != StreamType::kTrack) {
       throw StreamError(StreamError::Kind::kNonsense, "its answer to the end is no track");
     }
-    return ReadTrack(answer.payload);
+    Trajectory track = ReadTrack(answer.payload);
+    impl_->AwaitEnd();
+    return track;
   } catch (const StreamError& error) {
     impl_->Blame(error);
   }

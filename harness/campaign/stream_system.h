@@ -16,14 +16,16 @@ struct StreamRun {
   std::uint64_t seed = 1;
   double rate_hz = 20;       ///< of the camera
   double memory_mib = 8192;  ///< of its processes together
-  /// Longest time for one answer; the system's own `timeout_s` where that is shorter.
+  /// Longest time for one answer, and for the end after the last; the system's own `timeout_s`
+  /// where that is shorter.
   double answer_s = 60;
 };
 
 /// A foreign system behind the Estimator socket: a command that is shown frames on its stdin and
 /// answers on its stdout (harness/io/stream_protocol.h), confined as those that read datasets are.
-/// Whatever it does ends as a SystemFault of its own: kCrashed where it died, kTimeout where it
-/// hung, kInvalid where it said what cannot be.
+/// Whatever it does ends as a SystemFault of its own: kCrashed where it died or ended in an error,
+/// after its final track as before it, kTimeout where it hung, kInvalid where it said what cannot
+/// be.
 class StreamEstimator : public Estimator {
  public:
   /// Starts the command and greets it. Throws SystemFault.

@@ -149,6 +149,9 @@ INSTANTIATE_TEST_SUITE_P(
         Way{"wrong", RunStatus::kInvalid, "answer is to frame 10"},
         Way{"type", RunStatus::kInvalid, "type 77"},
         Way{"short", RunStatus::kInvalid, "ends too early"},
+        Way{"abort", RunStatus::kCrashed, "at the end: signal 6, SIGABRT"},
+        Way{"code", RunStatus::kCrashed, "exit code 1; last words: ERROR: LeakSan"},
+        Way{"linger", RunStatus::kTimeout, "no end within 2 s"}, Way{"wait", RunStatus::kOk, ""},
         Way{"version", RunStatus::kInvalid, "version 9"}, Way{"flood", RunStatus::kOk, ""}),
     [](const auto& info) { return std::string(info.param.name); });
 

@@ -1,7 +1,7 @@
 """A system behind aisle's stream that misbehaves: hostile.py WAY [FRAME].
 
 die, exit, leave, word, stall, dribble, twice, ahead, text, nan, far, shear, huge, gigabytes, wrong,
-type, short, mute, version, flood, ok
+type, short, mute, version, flood, ok; after its final track: abort, code, linger, wait
 """
 
 import os
@@ -82,6 +82,14 @@ while True:
     kind, payload = receive()
     if kind == END:
         send(TRACK, b"")
+        if WAY == "abort":
+            os.abort()
+        if WAY == "code":
+            sys.exit("ERROR: LeakSanitizer: detected memory leaks")
+        if WAY == "linger":
+            time.sleep(3600)
+        if WAY == "wait":
+            sys.stdin.buffer.read()
         break
     number = struct.unpack("<q", payload[:8])[0]
     if number == AT:
