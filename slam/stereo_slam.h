@@ -59,9 +59,9 @@ class StereoSlam {
   ~StereoSlam();
 
   /// Throws std::invalid_argument for images of another size than the camera's, for a confidence
-  /// that is no number, for a stamp that is not after the one before, and for a motion that is none;
-  /// nothing is changed then. Hard frames (black, featureless) are not errors: they come back as
-  /// kLost or kInitializing.
+  /// that is no number, for a stamp that is not after the one before, and for a motion that is
+  /// none; nothing is changed then. Hard frames (black, featureless) are not errors: they come back
+  /// as kLost or kInitializing.
   ///
   /// `motion`, where something else than the images tells it: how the rig has moved since the frame
   /// before. Base::kPlain then believes no pose that contradicts it, and where movers or darkness
