@@ -110,6 +110,11 @@ void StampByFrame(const Trajectory& truth, const fs::path& file, Trajectory* est
   }
 }
 
+/// By how much the stamps of the dataset are later than ours.
+std::int64_t EpochOf(const ExportOptions& options) {
+  return options.format == DatasetFormat::kEuroc ? options.epoch_ns : 0;
+}
+
 /// Reads what the system left, once it lies among our own files.
 Trajectory ReadEstimate(const ExternalSystem& system, const fs::path& file,
                         const ExportOptions& options, const Trajectory& truth) {
@@ -118,8 +123,8 @@ Trajectory ReadEstimate(const ExternalSystem& system, const fs::path& file,
                                                                  : ReadTrajectory(file, format);
   if (format == TrajectoryFormat::kKitti) {
     StampByFrame(truth, file, &estimate);
-  } else if (options.format == DatasetFormat::kEuroc) {
-    for (StampedPose& pose : estimate) pose.stamp_ns -= options.epoch_ns;
+  } else {
+    for (StampedPose& pose : estimate) pose.stamp_ns -= EpochOf(options);
   }
   return estimate;
 }
@@ -146,7 +151,7 @@ RunResult Judge(const ExternalSystem& system, const ExternalRun& run, const Gues
     WriteFileAtomically(run.folder / name, ReadLeftFile(rooms.output, name, kLargestTrajectory));
     const double min_coverage = lab ? 0 : kMinCoverage;
     return ResultFromTrajectory(truth, ReadEstimate(system, run.folder / name, options, truth),
-                                min_coverage);
+                                min_coverage, EpochOf(options));
   } catch (const InputError& wrong) {
     return Failure(truth, RunStatus::kInvalid, wrong.what());
   }
