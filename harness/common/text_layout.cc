@@ -121,7 +121,7 @@ std::string TextTable::Line(const std::string& name, const std::vector<std::stri
     if (i > 0 || !stacked_) line.append(gap_, ' ');
     line += Padded(cells[i], columns_[i]);
   }
-  return WithoutTrailingSpaces(line);
+  return line;
 }
 
 std::string TextTable::Heading() const {
@@ -138,7 +138,7 @@ std::string TextTable::Heading() const {
       const std::size_t above = rows - title.size();  // they stand on the rows
       cells.push_back(row < above ? "" : title[row - above]);
     }
-    text += Line(row + 1 == rows ? name_.title : "", cells) + "\n";
+    text += WithoutTrailingSpaces(Line(row + 1 == rows ? name_.title : "", cells)) + "\n";
   }
   return text;
 }
@@ -148,12 +148,12 @@ std::string TextTable::Row(const std::string& name, const std::vector<std::strin
   std::string text = stacked_ && name != above_ ? name + "\n" : "";
   above_ = name;
   const std::string line = Line(name, cells);
-  text += line;
-  if (remark.empty()) return text + "\n";
-  if (width_ == 0 || ShownWidth(line) + 2 + ShownWidth(remark) <= width_) {
-    return text + "  " + remark + "\n";
-  }
-  return text + "\n" + Wrapped(std::string(kRemark, ' ') + remark, width_, kRemark) + "\n";
+  const bool beside = width_ == 0 || ShownWidth(line) + 2 + ShownWidth(remark) <= width_;
+  if (beside && !remark.empty()) return text + line + "  " + remark + "\n";
+  text += WithoutTrailingSpaces(line) + "\n";
+  return remark.empty()
+             ? text
+             : text + Wrapped(std::string(kRemark, ' ') + remark, width_, kRemark) + "\n";
 }
 
 }  // namespace aisle

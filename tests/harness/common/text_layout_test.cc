@@ -93,6 +93,15 @@ TEST(TextLayout, NumbersStandBelowTheirTitle) {
   }
 }
 
+TEST(TextLayout, RemarksBeginInOneColumn) {
+  for (const std::size_t width : {0u, 200u}) {
+    TextTable table = Table(width);
+    const std::string one = table.Row("a", {"ok", "1", "2"}, "why"),
+                      empty = table.Row("b", {"lost", "", ""}, "why");
+    EXPECT_EQ(one.find("why"), empty.find("why")) << one << empty;
+  }
+}
+
 TEST(TextLayout, ANameAboveItsCellsIsSaidOnce) {
   TextTable table = Table(40);
   const std::string text = table.Row("one", {"ok", "1", "2"}) + table.Row("one", {"ok", "3", "4"}) +
