@@ -164,7 +164,8 @@ void AddBenchLight(CLI::App* bench, Action* action) {
       ->needs(foreign);
   command->footer(
       "Exit code 1 where a view misses 5 % median relative error or 0.95 SSIM, or a foreign scene "
-      "its bounds.");
+      "its bounds.\n"
+      "Example: ./aisle bench light paper/scene2:90 --samples 64 --reduce 4 --out out/light");
   command->callback([=] {
     *action = [=] {
       if (options->foreign.scene.empty()) return BenchLight(*options);

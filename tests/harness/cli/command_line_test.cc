@@ -48,6 +48,19 @@ TEST(CommandLineTest, AMisspeltCommandIsToldFromAMissingOne) {
   EXPECT_THAT(said, testing::Not(HasSubstr("is no command")));
 }
 
+TEST(CommandLineTest, AMisspeltOptionIsToldWithTheOneThatIsNear) {
+  std::string said;
+  EXPECT_EQ(Exit({"run", "smoke", "--sytems", "robust"}, &said), kBadInput);
+  EXPECT_THAT(said,
+              testing::StartsWith("'--sytems' is no option of run (did you mean --systems?)"));
+  EXPECT_EQ(Exit({"bench", "slam", "--tiwn=live"}, &said), kBadInput);
+  EXPECT_THAT(said,
+              testing::StartsWith("'--tiwn' is no option of bench slam (did you mean --twin?)"));
+  EXPECT_EQ(Exit({"check", "a.yaml", "--", "--more"}, &said), kBadInput);
+  EXPECT_EQ(Exit({"run", "smoke", "--qqqqqqqqqqqq"}, &said), kBadInput);
+  EXPECT_THAT(said, testing::StartsWith("'--qqqqqqqqqqqq' is no option of run\n"));
+}
+
 TEST(CommandLineTest, ACommandThatIsChosenLeavesSomethingToDo) {
   for (const std::string words :
        {"report out", "compare a b", "check a.yaml", "bench slam", "rerun a/b/c/1 --in out"}) {
@@ -55,6 +68,28 @@ TEST(CommandLineTest, ACommandThatIsChosenLeavesSomethingToDo) {
     EXPECT_EQ(Chosen(words, &action).front(), words.substr(0, words.find(' ')));
     EXPECT_TRUE(action) << words;
   }
+}
+
+/// "bench light: " of a command that a user is shown, and has no example; of those below it too.
+std::string WithoutExample(const CLI::App& command, const std::string& above) {
+  std::string names;
+  for (const CLI::App* below : command.get_subcommands({})) {
+    if (below->get_group().empty()) continue;  // not for people
+    const std::string name = above + below->get_name();
+    if (below->get_footer().find("Example: ") == std::string::npos &&
+        below->get_subcommands({}).empty()) {
+      names += name + ": ";
+    }
+    names += WithoutExample(*below, name + " ");
+  }
+  return names;
+}
+
+TEST(CommandLineTest, EveryCommandHasAnExampleOfItself) {
+  Action action;
+  CLI::App app;
+  AddCommands(&app, &action);
+  EXPECT_EQ(WithoutExample(app, ""), "");
 }
 
 TEST(CommandLineTest, AssetsThatAreNowhereAreOneErrorWhereverTheyAreAskedFor) {
@@ -136,7 +171,8 @@ TEST(CommandLineTest, AViewWithoutFramesHasNoTable) {
                   "dynamic.robust.field.memory"},
                  &said),
             kBadInput);
-  EXPECT_THAT(said, HasSubstr("smoke/bits:5000-5001: no frame lies in this view"));
+  EXPECT_THAT(said,
+              HasSubstr("smoke/bits:5000-5001: it ends before frame 5001; its frames are 0 to 7"));
 }
 
 TEST(CommandLineTest, HelpIsNoErrorAndWrongUsageIs) {
