@@ -6,6 +6,7 @@
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
+#include "harness/plugs/simulated_sequence.h"
 #include "harness/suite/suite.h"
 
 namespace aisle {
@@ -15,8 +16,8 @@ void AddSourceOptions(CLI::App* command, BenchSource* source) {
       ->add_option("--format", source->format,
                    fmt::format("of a folder: euroc or kitti; default {}", source->format))
       ->check(CLI::IsMember({"euroc", "kitti"}));
-  command->add_option("--twin", source->twin,
-                      fmt::format("of a scene: live, empty or frozen; default {}", source->twin));
+  command->add_option("--twin", source->twin, fmt::format("of a scene; default {}", source->twin))
+      ->check(CLI::IsMember(TwinNames()));
   command->add_option("--seed", source->seed, "of a scene; default 1");
   command->add_option(
       "--frames-dir", source->frames_dir,
