@@ -57,15 +57,35 @@ Json ReadMakes(const std::string& file, bool may_lack) {
   }
 }
 
+BitsOfMake FromJson(const Json& entry) {
+  BitsOfMake make{.commit = entry.at("commit").get<std::string>(), .stages = {}};
+  for (const auto& [stage, hash] : entry.at("stages").items()) {
+    make.stages.emplace_back(stage, hash.get<std::string>());
+  }
+  return make;
+}
+
 /// The first stage that both have and that differs; empty where none does.
-std::string FirstDifference(const Json& own, const Json& other) {
-  for (const auto& [stage, hash] : own.items()) {
-    if (other.contains(stage) && other[stage] != hash) return stage;
+std::string FirstDifference(const BitsOfMake& own, const BitsOfMake& other) {
+  const std::map<std::string, std::string> hashes(other.stages.begin(), other.stages.end());
+  for (const auto& [stage, hash] : own.stages) {
+    const auto at = hashes.find(stage);
+    if (at != hashes.end() && at->second != hash) return stage;
   }
   return "";
 }
 
 }  // namespace
+
+BitsVerdict HoldAgainst(const BitsOfMake& own, const BitsOfMake& known) {
+  const std::string first = FirstDifference(own, known);
+  if (first.empty()) return {.said = "every stage equal"};
+  if (own.commit == known.commit) {
+    return {.said = "the first stage that differs: " + first, .differs = true};
+  }
+  return {.said = "another program's, not comparable from the stage " + first +
+                  " on: `doctor --bits --keep` of this commit there makes it so"};
+}
 
 int DoctorBits(const DoctorBitsOptions& options) {
   const std::string processor = ProcessorName();
@@ -85,11 +105,10 @@ int DoctorBits(const DoctorBitsOptions& options) {
   }
   bool differs = false;
   for (const auto& [make, known] : makes.items()) {
-    const std::string first = FirstDifference(own, known.at("stages"));
-    differs = differs || !first.empty();
-    text +=
-        fmt::format("{} (commit {}): {}\n", make, known.at("commit").get<std::string>(),
-                    first.empty() ? "every stage equal" : "the first stage that differs: " + first);
+    const BitsOfMake there = FromJson(known);
+    const BitsVerdict verdict = HoldAgainst(FromJson(entry), there);
+    differs = differs || verdict.differs;
+    text += fmt::format("{} (commit {}): {}\n", make, there.commit, verdict.said);
   }
   const std::string json = Dump({{"scene", kScene}, {"makes", {{processor, entry}}}});
   const bool json_alone = options.json && options.json_file.empty();
