@@ -1,5 +1,6 @@
 #include "harness/cli/command_line.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 #include <new>
+#include <span>
 
 #include "harness/cli/cluster_commands.h"
 #include "harness/io/input_error.h"
@@ -27,6 +29,31 @@ std::string NoCommand(const CLI::App& app, const std::string& word) {
   }
   if (word.starts_with("-")) return "";
   return fmt::format("'{}' is no command{}", Printable(word), DidYouMean(word, shown));
+}
+
+/// What is wrong with the first word that is meant for an option and is none of the command that
+/// the line chose; nothing where there is no such word.
+std::string NoOption(const CLI::App& app, std::span<const char* const> words) {
+  const CLI::App* chosen = &app;
+  std::string names;
+  while (!chosen->get_subcommands().empty()) {
+    chosen = chosen->get_subcommands().front();
+    names += (names.empty() ? "" : " ") + chosen->get_name();
+  }
+  std::vector<std::string> known;
+  for (const CLI::Option* option : chosen->get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back(name);
+  }
+  for (const std::string word : words) {
+    if (word == "--") break;  // what follows is for no option
+    if (!word.starts_with("--")) continue;
+    const std::string name = word.substr(2, word.find('=') - 2);
+    if (name.empty() || std::ranges::find(known, name) != known.end()) continue;
+    const std::string near = NearestWord(name, known);
+    return fmt::format("'--{}' is no option of {}{}", Printable(name), names,
+                       near.empty() ? "" : " (did you mean --" + near + "?)");
+  }
+  return "";
 }
 
 /// Examples speak of the launcher of a tree; an installed program is called by its name.
@@ -119,7 +146,10 @@ int RunCommandLine(int argc, const char* const* argv) {
     app.parse(argc, argv);
     return action();
   } catch (const CLI::ParseError& error) {
-    const std::string wrong = argc > 1 ? NoCommand(app, argv[1]) : "";
+    std::string wrong = argc > 1 ? NoCommand(app, argv[1]) : "";
+    if (wrong.empty() && dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+      wrong = NoOption(app, {argv + 1, argv + argc});
+    }
     if (!wrong.empty()) {
       fmt::print(stderr, "{}\nRun with --help for more information.\n", wrong);
       return kBadInput;
