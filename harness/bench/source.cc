@@ -21,7 +21,9 @@ std::uint64_t SeedOf(const BenchView& view, const BenchSource& source) {
   return view.seed.value_or(source.seed);
 }
 
-std::unique_ptr<Sequence> OpenSource(const BenchView& view, const BenchSource& source) {
+namespace {
+
+std::unique_ptr<Sequence> OpenWhole(const BenchView& view, const BenchSource& source) {
   if (fs::is_directory(view.path)) {
     return OpenRecording(view.path, DatasetFormatFromName(source.format));
   }
@@ -39,6 +41,25 @@ std::unique_ptr<Sequence> OpenSource(const BenchView& view, const BenchSource& s
                         fmt::format("{}_{}_{}_{:016x}", view.scene, source.twin, seed, essence);
   return OpenCached(FrameStore(kept), view.scene,
                     [simulation](std::uint64_t* hash) { return OpenSimulation(simulation, hash); });
+}
+
+/// A table over fewer frames than its label says would look like one over all of them.
+void RefuseBeyondEnd(const BenchView& view, std::size_t frames) {
+  const bool whole = view.to == std::numeric_limits<int>::max();
+  if (whole || static_cast<std::size_t>(view.to) <= frames) return;
+  throw InputError(
+      fmt::format("{}: it ends before frame {}; its frames are 0 to {}, all of them 0-{}",
+                  Printable(view.text), view.to, frames - 1, frames));
+}
+
+}  // namespace
+
+std::unique_ptr<Sequence> OpenSource(const BenchView& view, const BenchSource& source) {
+  std::unique_ptr<Sequence> sequence = OpenWhole(view, source);
+  const std::size_t frames = sequence->Schedule().size();
+  RefuseEmptyView(view, frames);
+  RefuseBeyondEnd(view, frames);
+  return sequence;
 }
 
 }  // namespace aisle

@@ -36,9 +36,9 @@ void RefuseEmptyView(const BenchView& view, std::size_t frames);
 /// The seed of a view's scene: its own, or the source's.
 std::uint64_t SeedOf(const BenchView& view, const BenchSource& source);
 
-/// The whole scene or recording, whatever the stretch. Kept frames lie in a folder of their own for
-/// each scene as it is written, twin and seed, and are used whichever program made them. Throws
-/// InputError.
+/// The whole scene or recording, in which the stretch must lie. Kept frames lie in a folder of
+/// their own for each scene as it is written, twin and seed, and are used whichever program made
+/// them. Throws InputError.
 std::unique_ptr<Sequence> OpenSource(const BenchView& view, const BenchSource& source);
 
 /// Told what a bench is at, a few words, as often as it gets on; may be empty.

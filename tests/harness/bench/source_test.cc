@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "harness/io/file.h"
+#include "harness/io/input_error.h"
 
 namespace aisle {
 namespace {
@@ -17,7 +18,8 @@ class KeptFramesTest : public testing::Test {
  protected:
   ~KeptFramesTest() override { fs::remove_all(folder_); }
 
-  std::size_t FramesOf(const std::string& place, int frames) const {
+  std::size_t FramesOf(const std::string& place, int frames, int from = 0,
+                       int to = std::numeric_limits<int>::max()) const {
     const fs::path file = folder_ / place / "bits.yaml";
     std::string text = ReadFile(AISLE_SOURCE_DIR "/scenes/smoke/bits.yaml");
     text.replace(text.find("frames: 8"), 9, fmt::format("frames: {}", frames));
@@ -25,7 +27,9 @@ class KeptFramesTest : public testing::Test {
     const BenchView view{.text = "bits",
                          .path = file.string(),
                          .scene = "bits",
-                         .assets_dir = AISLE_SOURCE_DIR "/assets"};
+                         .assets_dir = AISLE_SOURCE_DIR "/assets",
+                         .from = from,
+                         .to = to};
     return OpenSource(view, {.frames_dir = (folder_ / "frames").string()})->Schedule().size();
   }
 
@@ -42,6 +46,20 @@ TEST_F(KeptFramesTest, AreThoseOfTheSceneAsItIsWrittenNow) {
   EXPECT_EQ(kept(), 3);
   EXPECT_EQ(FramesOf("c", 3), 3u);  // the first again, written elsewhere
   EXPECT_EQ(kept(), 3);
+}
+
+TEST_F(KeptFramesTest, AStretchBeyondTheEndIsRefused) {
+  EXPECT_EQ(FramesOf("a", 3, 1, 3), 3u);
+  for (const auto& [from, to] : {std::pair(1, 4), std::pair(7, 9)}) {
+    try {
+      FramesOf("a", 3, from, to);
+      ADD_FAILURE() << from << "-" << to;
+    } catch (const InputError& refused) {
+      EXPECT_EQ(
+          std::string(refused.what()),
+          fmt::format("bits: it ends before frame {}; its frames are 0 to 2, all of them 0-3", to));
+    }
+  }
 }
 
 }  // namespace
