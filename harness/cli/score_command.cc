@@ -287,9 +287,9 @@ int ScoreFiles(const Options& options) {
   } else {
     PrintTable(options.estimates, read, scores, score_options, options.all);
   }
-  const bool any = std::any_of(scores.begin(), scores.end(),
-                               [](const TrajectoryScore& score) { return !score.pairs.empty(); });
-  return any ? kAllPassed : kNothingToDo;
+  const bool all = std::all_of(scores.begin(), scores.end(),
+                               [](const TrajectoryScore& score) { return !score.errors.empty(); });
+  return all ? kAllPassed : kNothingToDo;
 }
 
 void AddMaskOptions(CLI::App* command, Options* options) {

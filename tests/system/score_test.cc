@@ -80,5 +80,31 @@ TEST_F(ScoreTest, WhatTruthDoesNotShowIsNotLostAndToldInWords) {
   EXPECT_THAT(json.at("notes").dump(), HasSubstr("no truth of their own within 10 ms"));
 }
 
+/// Whoever asks for a figure and gets none sees so by the exit code, alone or among others.
+TEST_F(ScoreTest, AnEstimateThatIsOfOtherTimesHasNoScore) {
+  const std::string truth = Write("truth.txt", Lap(50, 20, InSeconds));
+  const std::string good = Write("good.txt", Lap(50, 20, InSeconds));
+  const std::string lap = Lap(50, 20, [](std::int64_t stamp_ns, double x, double y, double half) {
+    return InSeconds((stamp_ns - kEpoch_ns) * 1000, x, y, half);  // from 0, in milliseconds
+  });
+  const std::string strange = Write("strange.txt", lap);
+  for (const std::vector<std::string>& estimates :
+       {std::vector{strange}, std::vector{good, strange}}) {
+    std::vector<std::string> arguments = {"score", "--truth", truth, "--estimate"};
+    arguments.insert(arguments.end(), estimates.begin(), estimates.end());
+    const Said said = Run(arguments);
+    EXPECT_EQ(said.code, 5) << said.text;
+    EXPECT_THAT(said.text, HasSubstr("no stamp of the estimate is near one of the truth"));
+  }
+  const std::string from_0 =
+      Write("from_0.txt", Lap(50, 20, [](std::int64_t stamp_ns, double x, double y, double half) {
+              return InSeconds(stamp_ns - kEpoch_ns, x, y, half);
+            }));
+  const Said said = Run({"score", "--truth", from_0, "--estimate", strange, "--all"});
+  EXPECT_EQ(said.code, 5) << said.text;
+  EXPECT_THAT(said.text, HasSubstr("alignment by se3 leaves an error of 3 pairs or more"));
+  EXPECT_THAT(said.text, HasSubstr("is one of the files in milliseconds?"));
+}
+
 }  // namespace
 }  // namespace aisle
