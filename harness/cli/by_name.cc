@@ -1,5 +1,7 @@
 #include "harness/cli/by_name.h"
 
+#include "harness/io/input_error.h"
+#include "harness/io/nearest_word.h"
 #include "harness/io/places.h"
 
 namespace aisle {
@@ -22,6 +24,19 @@ CLI::Validator SuiteByName() {
             return std::string();
           },
           ""};
+}
+
+void CheckAreThere(const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    std::error_code error;  // names that no file can have among them
+    if (file.empty() || std::filesystem::exists(file, error) || error) continue;
+    const std::filesystem::path path = file;
+    if (path.is_absolute()) throw InputError(file, 0, "no such file");
+    throw InputError(
+        file, 0,
+        "no such file, and no scene or suite here has that name" +
+            DidYouMean(std::filesystem::path(path).replace_extension().string(), NamesOfScenes()));
+  }
 }
 
 }  // namespace aisle

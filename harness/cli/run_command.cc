@@ -94,6 +94,11 @@ std::optional<Results> ReadBaseline(const Options& options, const PlanFile& plan
   return baseline;
 }
 
+void RefuseBoundToFail(const Results& baseline, const std::vector<RunSpec>& night) {
+  const std::string why = BoundToFail(baseline, night);
+  if (!why.empty()) throw InputError("--gate: " + why);
+}
+
 /// What the morning would find out, said in the evening; no reason not to drive.
 void WarnOfHistory(const fs::path& out) {
   const std::string trouble = HistoryTrouble(HistoryPath(out));
@@ -208,6 +213,7 @@ PlanFile ForFolder(PlanFile plan, const std::vector<RunSpec>& specs,
 
 int RunSuites(const Options& options) {
   const Shard shard = ShardFromText(options.shard);
+  CheckAreThere(options.inputs.files);
   const PlanFile plan{.suites = LoadInputs(options.inputs),
                       .command = CommandLine(options),
                       .suite_file = options.inputs.files.front(),
@@ -222,7 +228,9 @@ int RunSuites(const Options& options) {
   TellLimitsLeftOut(plan.suites);
   const std::optional<Results> baseline = ReadBaseline(options, plan);
   const Fingerprints fingerprints;
-  const std::vector<RunSpec> specs = TakeShard(Plan(plan.suites), shard);
+  const std::vector<RunSpec> night = Plan(plan.suites);
+  if (baseline) RefuseBoundToFail(*baseline, night);
+  const std::vector<RunSpec> specs = TakeShard(night, shard);
   if (specs.empty()) {
     fmt::print(stderr, "aisle: {}\n",
                shard.count > 1 ? fmt::format("part {} holds no run of the suite", options.shard)

@@ -63,6 +63,9 @@ TEST_F(BrokenInputTest, SuitesAndScenes) {
   const std::string example = "example: command: my_slam {dataset} {output}";
   Expect({
       {{"run", "{d}/none.yaml"}, {}, "aisle: {d}/none.yaml: no such file"},
+      {{"run", "smok"},
+       {},
+       "aisle: smok: no such file, and no scene or suite here has that name (did you mean smoke?)"},
       {{"run", "{d}"}, {}, "aisle: {d}: is a folder, not a file"},
       {run,
        {{"s.yaml", ""}},
@@ -191,7 +194,11 @@ TEST_F(BrokenInputTest, TrajectoriesMasksAndRecordings) {
       {{"score", "--masks-truth", "{d}/none", "--masks", "{d}/none"},
        {},
        "aisle: {d}/none: holds no PNG images"},
-      {{"slam", "{d}", "-o", "{d}/o.txt"}, {}, "aisle: {d}/cam0/sensor.yaml: no such file"},
+      {{"slam", "{d}", "-o", "{d}/o.txt"},
+       {},
+       "aisle: {d}: is no dataset: EuRoC's holds cam0 and cam1 (sensor.yaml, data.csv, data), here "
+       "or in mav0, KITTI's calib.txt, times.txt, image_0 and image_1, ROS 2's bag metadata.yaml; "
+       "this folder holds short.yaml"},
       {{"slam", "{d}", "-o", "{d}/o.txt", "--system", "oracle"},
        {},
        "aisle: system 'oracle' needs truth about what moves: a recording has none"},

@@ -152,6 +152,20 @@ TEST_F(SuiteRunTest, ABaselineThatIsNoneIsSaidBeforeTheNight) {
   }
 }
 
+TEST_F(SuiteRunTest, ANightThatCanOnlyFailAtTheGateDoesNotBegin) {
+  const std::string two = Suite("gate", "  - plain\n", "seeds: 2\n");
+  ASSERT_EQ(Run({"run", two, "--out", Out("good")}).code, 0);
+  const std::string baseline = Out("good") + "/results.json";
+  for (const char* more : {"--dry-run", "--no-video"}) {
+    const Said said = Run({"run", Suite("gate", "  - plain\n"), "--out", Out("a"), "--gate",
+                           "--baseline", baseline, more});
+    EXPECT_EQ(said.code, 4) << said.text;
+    EXPECT_THAT(said.text, HasSubstr("--gate: of the baseline 1 seed of 1 cell is missing"));
+    EXPECT_THAT(said.text, HasSubstr("Drive them with --seeds 2"));
+    EXPECT_FALSE(fs::exists(Out("a")));
+  }
+}
+
 TEST_F(SuiteRunTest, ScoresThatAMaskTakesAwayFailTheGate) {
   // Who misses everything has no precision any more: the score is gone, which is no pass.
   const auto network = [](const char* share) {
