@@ -32,10 +32,14 @@ void CheckAreThere(const std::vector<std::string>& files) {
     if (file.empty() || std::filesystem::exists(file, error) || error) continue;
     const std::filesystem::path path = file;
     if (path.is_absolute()) throw InputError(file, 0, "no such file");
+    const std::string name = std::filesystem::path(path).replace_extension().string();
+    std::vector<std::string> known = NamesOfScenes();
+    if (name.find('/') != std::string::npos) {  // a scene's: no suite is nearer for its beginning
+      std::erase_if(known, [](const std::string& one) { return one.find('/') == one.npos; });
+    }
     throw InputError(
         file, 0,
-        "no such file, and no scene or suite here has that name" +
-            DidYouMean(std::filesystem::path(path).replace_extension().string(), NamesOfScenes()));
+        "no such file, and no scene or suite here has that name" + DidYouMean(name, known));
   }
 }
 
