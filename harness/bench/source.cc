@@ -43,8 +43,10 @@ std::unique_ptr<Sequence> OpenWhole(const BenchView& view, const BenchSource& so
                     [simulation](std::uint64_t* hash) { return OpenSimulation(simulation, hash); });
 }
 
-/// A table over fewer frames than its label says would look like one over all of them.
-void RefuseBeyondEnd(const BenchView& view, std::size_t frames) {
+}  // namespace
+
+void RefuseOutside(const BenchView& view, std::size_t frames) {
+  RefuseEmptyView(view, frames);
   const bool whole = view.to == std::numeric_limits<int>::max();
   if (whole || static_cast<std::size_t>(view.to) <= frames) return;
   throw InputError(
@@ -52,13 +54,9 @@ void RefuseBeyondEnd(const BenchView& view, std::size_t frames) {
                   Printable(view.text), view.to, frames - 1, frames));
 }
 
-}  // namespace
-
 std::unique_ptr<Sequence> OpenSource(const BenchView& view, const BenchSource& source) {
   std::unique_ptr<Sequence> sequence = OpenWhole(view, source);
-  const std::size_t frames = sequence->Schedule().size();
-  RefuseEmptyView(view, frames);
-  RefuseBeyondEnd(view, frames);
+  RefuseOutside(view, sequence->Schedule().size());
   return sequence;
 }
 

@@ -33,6 +33,10 @@ struct BenchView {
 /// would look like a result.
 void RefuseEmptyView(const BenchView& view, std::size_t frames);
 
+/// Throws InputError where a source of so many frames has none or ends before the stretch does: a
+/// table over fewer frames than its label says would look like one over all of them.
+void RefuseOutside(const BenchView& view, std::size_t frames);
+
 /// The seed of a view's scene: its own, or the source's.
 std::uint64_t SeedOf(const BenchView& view, const BenchSource& source);
 

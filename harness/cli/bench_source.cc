@@ -97,6 +97,7 @@ BenchView ParseView(const std::string& text) {
   }
   view.scene = SceneName(view.path);
   view.assets_dir = AssetsDir().string();
+  RefuseOutside(view, static_cast<std::size_t>(CountSceneFrames(view.path)));
   return view;
 }
 

@@ -91,6 +91,21 @@ TEST(ReadViewsTest, ReadsOneALineAndNamesTheLineThatIsWrong) {
   EXPECT_THROW(ReadViews(file), InputError);
 }
 
+/// The last view of many is told before the first is measured.
+TEST(ReadViewsTest, AStretchBeyondItsSceneIsToldWithItsLine) {
+  const std::string file = testing::TempDir() + "beyond.txt";
+  std::ofstream(file) << "paper/scene2:1-3\nsmoke/short:10-99\n";
+  try {
+    ReadViews(file);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("beyond.txt:2: smoke/short:10-99: it ends before"),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_NO_THROW(ParseView("smoke/short:10-40"));
+}
+
 TEST(ReadViewsTest, EveryStretchOfTheTreeIsOne) {
   for (const auto& entry :
        std::filesystem::directory_iterator(AISLE_SOURCE_DIR "/scenes/stretches")) {
