@@ -59,6 +59,10 @@ std::string WithoutTrailingSpaces(std::string text) {
 
 }  // namespace
 
+std::string Painted(const std::string& text, const char* code, bool color) {
+  return color ? "\x1b[" + std::string(code) + "m" + text + "\x1b[0m" : text;
+}
+
 std::size_t ShownWidth(std::string_view text) {
   std::size_t width = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -106,6 +110,13 @@ TextTable::TextTable(Column name, std::vector<Column> columns, std::size_t width
     stacked_ = stacked;
     gap_ = static_cast<std::size_t>(gap);
     if (NeededWidth() <= width_) return;
+  }
+}
+
+void TextTable::Hold(const std::vector<std::string>& cells, std::vector<Column>* columns) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    Column& column = (*columns)[i];
+    column.width = std::max(column.width, ShownWidth(cells[i]));
   }
 }
 

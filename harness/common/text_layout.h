@@ -13,6 +13,9 @@ struct TextLook {
       0;  ///< columns of the terminal; 0: none, as in a log, where a record is a line
 };
 
+/// The text in a colour by its ANSI code, "32", where colours are wanted.
+std::string Painted(const std::string& text, const char* code, bool color);
+
 /// Columns that a text takes on a terminal: its characters, without the codes of colours.
 std::size_t ShownWidth(std::string_view text);
 
@@ -34,6 +37,8 @@ class TextTable {
     bool is_left = false;   ///< words; numbers stand at the right
   };
   TextTable(Column name, std::vector<Column> columns, std::size_t width);
+  /// Widens columns so that they hold these cells, one for each.
+  static void Hold(const std::vector<std::string>& cells, std::vector<Column>* columns);
 
   std::string Heading() const;
   /// `remark` goes to the end of the line, or below it. A name that stood above the row before is

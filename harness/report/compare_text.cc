@@ -30,10 +30,6 @@ std::string Lacking(const MissingRuns& one) {
 
 bool IsChange(const Comparison& c) { return IsAlarm(c.change) || c.change == Change::kBetter; }
 
-std::string Painted(const std::string& text, const char* code, bool color) {
-  return color ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : text;
-}
-
 struct ConsoleRow {
   std::string name;
   std::vector<std::string> cells;
@@ -84,9 +80,7 @@ std::string ToConsole(const std::vector<Comparison>& comparisons,
                                             {.title = ""}};
   for (const ConsoleRow& row : rows) {
     name.width = std::max(name.width, row.name.size());
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      columns[i].width = std::max(columns[i].width, ShownWidth(row.cells[i]));
-    }
+    TextTable::Hold(row.cells, &columns);
   }
   TextTable table(name, columns, look.width);
   std::string text = table.Heading();

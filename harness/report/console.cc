@@ -29,10 +29,6 @@ std::string Cell(const RunRecord& run, const Column& column) {
                      percent ? " %" : "");
 }
 
-std::string Painted(const std::string& text, const char* code, bool color) {
-  return color ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : text;
-}
-
 std::vector<std::string> Cells(const RunRecord& run, bool color) {
   std::vector<std::string> cells = {
       Painted(Name(run.status), run.status == RunStatus::kOk ? "32" : "31", color)};
@@ -46,10 +42,7 @@ std::string RunTable(const std::vector<RunRecord>& runs, const TextLook& look) {
   for (const Column& column : kColumns) columns.push_back({.title = column.title});
   for (const RunRecord& run : runs) {
     name.width = std::max(name.width, RunId(run.spec).size());
-    const std::vector<std::string> cells = Cells(run, look.color);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      columns[i].width = std::max(columns[i].width, ShownWidth(cells[i]));
-    }
+    TextTable::Hold(Cells(run, look.color), &columns);
   }
   TextTable table(name, columns, look.width);
   std::string text = table.Heading();

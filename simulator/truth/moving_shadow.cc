@@ -10,13 +10,9 @@
 namespace aisle::sim {
 namespace {
 
-constexpr float kLift = 2e-3f;    // m off the surface, so that a ray does not meet it
-constexpr float kReach = 0.998f;  // of the way to the lamp, so that it does not meet the lamp
-// Beams, as they are shaded (simulator/shade/pass).
-constexpr float kHousing = 0.2f;         // m around a spot, where its own housing is
-constexpr float kBeforeWindow = 0.12f;   // m, where bars and lintel are
-constexpr float kSunRadius = 0.004654f;  // tangent of half the sun's breadth, 0.533 degrees
-constexpr float kSoftest = 1e-4f;        // share of half a window
+constexpr float kLift = 2e-3f;     // m off the surface, so that a ray does not meet it
+constexpr float kReach = 0.998f;   // of the way to the lamp, so that it does not meet the lamp
+constexpr float kSoftest = 1e-4f;  // share of half a window
 constexpr std::array<std::array<float, 2>, 4> kSamples = {
     {{-0.5f, -0.5f}, {0.5f, -0.5f}, {-0.5f, 0.5f}, {0.5f, 0.5f}}};
 
@@ -123,12 +119,12 @@ float OpenShare(double along, double soft, int panes, double bar) {
 void SetSpot(const Beam& beam, const Places& places, int lane, Ways* ways) {
   const auto k = static_cast<std::size_t>(lane);
   const Eigen::Vector3f to = beam.origin - places.position[k];
-  const float distance = std::max(to.norm(), kHousing);
+  const float distance = std::max(to.norm(), Beam::kHousing_m);
   const float along = -to.dot(beam.toward) / distance;
   const float t = std::clamp(
       (along - beam.cos_outer) / std::max(beam.cos_inner - beam.cos_outer, 1e-5f), 0.0f, 1.0f);
   const float edge = t * t * (3 - 2 * t);
-  ways->Set(lane, to, 1 - kHousing / distance,
+  ways->Set(lane, to, 1 - Beam::kHousing_m / distance,
             beam.power * edge * to.dot(places.normal[k]) / (distance * distance * distance));
 }
 
@@ -143,10 +139,10 @@ void SetSun(const Beam& beam, const Places& places, int lane, Ways* ways) {
   const Eigen::Vector3f meets = distance * beam.toward - to;  // from the window's middle
   const auto open = [&](const Eigen::Vector3f& half, int panes, float bar) {
     const float length = half.norm();
-    const float soft = std::max(distance * kSunRadius / length, kSoftest);
+    const float soft = std::max(distance * Beam::kSunRadius / length, kSoftest);
     return OpenShare(meets.dot(half) / (length * length), soft, panes, bar);
   };
-  ways->Set(lane, distance * beam.toward, 1 - kBeforeWindow / distance,
+  ways->Set(lane, distance * beam.toward, 1 - Beam::kBeforeWindow_m / distance,
             beam.power * open(beam.half_u, beam.columns, beam.bar_u) *
                 open(beam.half_v, beam.rows, beam.bar_v) * beam.toward.dot(places.normal[k]));
 }

@@ -81,6 +81,10 @@ struct MoverState {
 /// A moving light at one instant. It lights straight from where it is, without size: its shadows
 /// are sharp but for the sun's own breadth.
 struct Beam {
+  static constexpr float kHousing_m = 0.2f;        ///< around a spot: its own casts no shadow
+  static constexpr float kBeforeWindow_m = 0.12f;  ///< where bars and lintel are
+  static constexpr float kSunRadius = 0.004654f;   ///< tangent of half the sun's 0.533 degrees
+
   enum class Kind { kSpot, kSun } kind = Kind::kSpot;
   Eigen::Vector3f origin = Eigen::Vector3f::Zero();   ///< spot; middle of a window; metres, world
   Eigen::Vector3f toward = Eigen::Vector3f::UnitX();  ///< spot: unit, where it shines; sun: unit,

@@ -3,6 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "slam/common/parallel.h"
+#include "slam/common/standalone.h"
 #include "slam/dynamic/dynamic_stages.h"
 #include "slam/dynamic/paper/paper_method.h"
 #include "slam/dynamic/robust/robust_method.h"
@@ -11,10 +12,6 @@ namespace aisle::slam {
 namespace {
 
 using Eigen::Isometry3d;
-
-/// The image itself; a copy of it where it is part of a larger one, as OpenCV's filters see what
-/// lies around.
-cv::Mat1b Apart(const cv::Mat1b& image) { return image.isSubmatrix() ? image.clone() : image; }
 
 /// The motion since the last frame, of the one since the last frame that showed something new, by
 /// which the method goes; `unseen` lies between the two, was only expected, and its error is that
@@ -91,13 +88,14 @@ DynamicDetector& DynamicDetector::operator=(DynamicDetector&&) noexcept = defaul
 DynamicDetector::~DynamicDetector() = default;
 
 DynamicOutput DynamicDetector::Detect(const DynamicInput& input) {
-  const DynamicInput apart{input.stamp_ns, Apart(input.left), Apart(input.right), input.expected,
-                           input.measured};
+  DynamicInput standalone = input;
+  standalone.left = Standalone(input.left);
+  standalone.right = Standalone(input.right);
   switch (impl_->options.method) {
     case DynamicMethod::kPaper:
-      return impl_->DetectByPaper(apart);
+      return impl_->DetectByPaper(standalone);
     case DynamicMethod::kRobust:
-      return impl_->DetectRobustly(apart);
+      return impl_->DetectRobustly(standalone);
     case DynamicMethod::kNone:
       break;
   }

@@ -10,10 +10,7 @@
 namespace aisle::sim {
 namespace {
 
-constexpr float kLift = 2e-3f;           // m off the surface, so that a ray does not meet it
-constexpr float kHousing = 0.2f;         // m around a spot, where its own housing is
-constexpr float kBeforeWindow = 0.12f;   // m, where bars and lintel are
-constexpr float kSunRadius = 0.004654f;  // tangent of half the sun's breadth, 0.533 degrees
+constexpr float kLift = 2e-3f;  // m off the surface, so that a ray does not meet it
 constexpr float kSoftest = 1e-4f;
 
 F8x3 Wide3(const Eigen::Vector3f& v) { return {Wide(v.x()), Wide(v.y()), Wide(v.z())}; }
@@ -54,12 +51,13 @@ F8 BeamLight::Unshadowed(const Beam& beam, const F8x3& position, const F8x3& nor
   const F8x3 to = Minus(Wide3(beam.origin), position);
   const F8x3 toward = Wide3(beam.toward);
   if (beam.kind == Beam::Kind::kSpot) {
-    const F8 squared = Max(Dot(to, to), Wide(kHousing * kHousing)), distance = Sqrt(squared);
+    const F8 squared = Max(Dot(to, to), Wide(Beam::kHousing_m * Beam::kHousing_m)),
+             distance = Sqrt(squared);
     const F8 along = -Dot(to, toward) / distance;
     const F8 edge =
         SmoothStep((along - beam.cos_outer) / std::max(beam.cos_inner - beam.cos_outer, 1e-5f));
     *way = to;
-    *share = Max(1 - kHousing / distance, Wide(0));
+    *share = Max(1 - Beam::kHousing_m / distance, Wide(0));
     return beam.power * edge * Max(Dot(to, normal), Wide(0)) / (squared * distance);
   }
   const Eigen::Vector3f plane = beam.half_u.cross(beam.half_v).normalized();
@@ -68,14 +66,14 @@ F8 BeamLight::Unshadowed(const Beam& beam, const F8x3& position, const F8x3& nor
   const F8 distance = Dot(to, Wide3(plane)) / across;
   const F8x3 meets = {distance * toward.x - to.x, distance * toward.y - to.y,
                       distance * toward.z - to.z};  // from the window's middle
-  const F8 soft = distance * kSunRadius;
+  const F8 soft = distance * Beam::kSunRadius;
   const auto through = [&](const Eigen::Vector3f& half, int panes, float bar) {
     const float length = half.norm();
     const F8 blur = Max(soft * (static_cast<float>(panes) / (2 * length)), Wide(kSoftest));
     return ThroughBays(Dot(meets, Wide3(half / (length * length))), panes, bar, blur);
   };
   *way = {distance * toward.x, distance * toward.y, distance * toward.z};
-  *share = Max(1 - kBeforeWindow / Max(distance, Wide(kBeforeWindow)), Wide(0));
+  *share = Max(1 - Beam::kBeforeWindow_m / Max(distance, Wide(Beam::kBeforeWindow_m)), Wide(0));
   const F8 open =
       through(beam.half_u, beam.columns, beam.bar_u) * through(beam.half_v, beam.rows, beam.bar_v);
   const F8 light = beam.power * open * Max(Dot(toward, normal), Wide(0));

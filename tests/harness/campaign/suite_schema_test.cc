@@ -10,27 +10,12 @@
 #include <valijson/validator.hpp>
 
 #include "harness/campaign/inputs.h"
+#include "tests/support/yaml_json.h"
 
 namespace aisle {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// YAML as JSON; scalars that read as JSON values are those.
-nlohmann::json ToJson(const YAML::Node& node) {
-  nlohmann::json json;
-  if (node.IsMap()) {
-    json = nlohmann::json::object();
-    for (const auto& entry : node) json[entry.first.Scalar()] = ToJson(entry.second);
-  } else if (node.IsSequence()) {
-    json = nlohmann::json::array();
-    for (const auto& item : node) json.push_back(ToJson(item));
-  } else if (node.IsScalar()) {
-    json = nlohmann::json::parse(node.Scalar(), nullptr, false);
-    if (json.is_discarded()) json = node.Scalar();
-  }
-  return json;
-}
 
 class SuiteSchemaByOthersTest : public testing::Test {
  protected:
@@ -39,7 +24,7 @@ class SuiteSchemaByOthersTest : public testing::Test {
     valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(json), schema_);
   }
   bool Accepts(const YAML::Node& node) const {
-    const nlohmann::json document = ToJson(node);
+    const nlohmann::json document = test::ToJson(node);
     return valijson::Validator().validate(
         schema_, valijson::adapters::NlohmannJsonAdapter(document), nullptr);
   }

@@ -15,6 +15,7 @@
 #include <valijson/validator.hpp>
 
 #include "simulator/scene/load.h"
+#include "tests/support/yaml_json.h"
 
 namespace aisle::sim {
 namespace {
@@ -112,29 +113,13 @@ TEST(SceneSchema, TheShippedFileIsTheReadersOwn) {
   EXPECT_EQ(shipped, SceneSchema()) << "run this test with AISLE_WRITE_SCHEMA=1 to rewrite it";
 }
 
-/// YAML as JSON; scalars that read as JSON values are those.
-nlohmann::json ToJson(const YAML::Node& node) {
-  nlohmann::json json;
-  if (node.IsMap()) {
-    json = nlohmann::json::object();
-    for (const auto& entry : node) json[entry.first.Scalar()] = ToJson(entry.second);
-  } else if (node.IsSequence()) {
-    json = nlohmann::json::array();
-    for (const auto& item : node) json.push_back(ToJson(item));
-  } else if (node.IsScalar()) {
-    json = nlohmann::json::parse(node.Scalar(), nullptr, false);
-    if (json.is_discarded()) json = node.Scalar();
-  }
-  return json;
-}
-
 TEST(SceneSchema, AnIndependentValidatorAcceptsEverySceneAndRefusesAMisspeltOne) {
   const nlohmann::json json = nlohmann::json::parse(SceneSchema());
   valijson::Schema schema;
   valijson::adapters::NlohmannJsonAdapter adapter(json);
   valijson::SchemaParser().populateSchema(adapter, schema);
   const auto accepts = [&](const YAML::Node& node) {
-    const nlohmann::json document = ToJson(node);
+    const nlohmann::json document = test::ToJson(node);
     return valijson::Validator().validate(schema, valijson::adapters::NlohmannJsonAdapter(document),
                                           nullptr);
   };

@@ -10,14 +10,6 @@
 namespace aisle::slam {
 namespace {
 
-constexpr StereoCamera kCamera{.width = 376,
-                               .height = 240,
-                               .fx = 217.6,
-                               .fy = 217.6,
-                               .cx = 187.5,
-                               .cy = 119.5,
-                               .baseline_m = 0.12};
-
 bool Same(const cv::Mat& a, const cv::Mat& b) {
   if (a.size() != b.size() || a.type() != b.type()) return false;
   return a.empty() || cv::norm(a, b, cv::NORM_INF) == 0;
@@ -31,7 +23,7 @@ std::vector<test::SyntheticView> Crossing() {
   for (int k = 0; k < 6; ++k) {
     Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();
     T_world_rig.translation().z() = 0.05 * k;
-    film.push_back(test::Render(panels, kCamera, T_world_rig, 0.05 * k, 1.0));
+    film.push_back(test::Render(panels, test::kHalfCamera, T_world_rig, 0.05 * k, 1.0));
   }
   return film;
 }
@@ -51,7 +43,7 @@ DynamicDetector DetectorWith(DynamicMethod method) {
   options.method = method;
   options.keep_stages = true;
   options.paper.disparity.half_size = false;
-  return {kCamera, options};
+  return {test::kHalfCamera, options};
 }
 
 /// What either method measures of the images, before it decides upon it.

@@ -14,6 +14,15 @@
 
 namespace aisle::slam::test {
 
+/// The simulator's default camera at half its size.
+constexpr StereoCamera kHalfCamera{.width = 376,
+                                   .height = 240,
+                                   .fx = 217.6,
+                                   .fy = 217.6,
+                                   .cx = 187.5,
+                                   .cy = 119.5,
+                                   .baseline_m = 0.12};
+
 /// A textured rectangle: points centre + s * right + t * down with |s| <= half_width and
 /// |t| <= half_height, at time 0.
 struct Panel {

@@ -7,14 +7,6 @@
 namespace aisle::slam {
 namespace {
 
-constexpr StereoCamera kCamera{.width = 376,
-                               .height = 240,
-                               .fx = 217.6,
-                               .fy = 217.6,
-                               .cx = 187.5,
-                               .cy = 119.5,
-                               .baseline_m = 0.12};
-
 /// A rig drives on while somebody crosses the aisle before it, and how it moved from frame to frame
 /// is measured: what the detector expects is then not the system's to say.
 struct Drive {
@@ -31,7 +23,7 @@ Drive DriveTowardsAWalker() {
   for (int k = 0; k < 8; ++k) {
     Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();
     T_world_rig.translation().z() = 0.05 * k;
-    const auto view = test::Render(panels, kCamera, T_world_rig, 0.05 * k, 1.0);
+    const auto view = test::Render(panels, test::kHalfCamera, T_world_rig, 0.05 * k, 1.0);
     drive.frames.push_back({k, k * 50'000'000, view.left, view.right});
   }
   return drive;
@@ -43,8 +35,9 @@ TEST(StereoSlam, RejectsWhatItsDetectorRejectsInBothCameras) {
   for (const DynamicMethod method : {DynamicMethod::kPaper, DynamicMethod::kRobust}) {
     SlamOptions options, none;
     options.dynamic.method = method;
-    StereoSlam slam(kCamera, options), told(kCamera, none), told_of_one(kCamera, none);
-    DynamicDetector detector(kCamera, options.dynamic);
+    StereoSlam slam(test::kHalfCamera, options), told(test::kHalfCamera, none),
+        told_of_one(test::kHalfCamera, none);
+    DynamicDetector detector(test::kHalfCamera, options.dynamic);
     int differs = 0;
     for (const StereoImages& images : drive.frames) {
       const std::optional<MeasuredMotion> motion =
