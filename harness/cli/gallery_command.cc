@@ -238,6 +238,7 @@ int PrintShares(const std::vector<std::string>& files, const Options& options) {
 }
 
 int Gallery(const Options& options) {
+  CheckAreThere(options.places);
   const std::vector<std::string> files = ScenesOf(options.places);
   if (files.empty()) {
     fmt::print(stderr, "no scene file: name scenes or folders of them\n");

@@ -36,10 +36,18 @@ std::vector<Part> ReadParts(const std::vector<std::string>& folders) {
   std::vector<Part> parts;
   for (const std::string& folder : folders) {
     parts.push_back({folder, ReadPlan(folder)});
-    if (SameQuestion(parts.front().plan, parts.back().plan)) continue;
-    throw InputError(folder + "/plan.json", 0,
-                     "is another plan than " + folders.front() +
-                         "/plan.json: only parts of one suite and one command line can be merged");
+    if (!SameQuestion(parts.front().plan, parts.back().plan)) {
+      throw InputError(folder + "/plan.json", 0,
+                       "is another plan than " + folders.front() +
+                           "/plan.json: only parts of one suite and one command line can be "
+                           "merged");
+    }
+    if (const auto scene = ChangedScene(parts.front().plan, parts.back().plan)) {
+      throw InputError(folder + "/plan.json", 0,
+                       fmt::format("was planned with another {} than {}/plan.json: the scene's "
+                                   "file was changed between the parts; run both with the same",
+                                   Printable(*scene, 200), folders.front()));
+    }
   }
   return parts;
 }

@@ -40,6 +40,7 @@ FrameRequest Choose(const std::vector<FrameRequest>& schedule, const Options& op
 }
 
 int Preview(Options options) {
+  CheckAreThere({options.simulation.scene_file});
   CheckImageName(options.output);
   if (!options.plan.empty()) CheckImageName(options.plan);
   options.simulation.assets_dir = AssetsDir().string();

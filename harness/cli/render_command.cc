@@ -166,6 +166,7 @@ int RenderAsBag(const Options& options) {
 }
 
 int Render(Options options) {
+  CheckAreThere({options.simulation.scene_file});
   options.simulation.assets_dir = AssetsDir().string();
   options.simulation.scene_name = SceneName(options.simulation.scene_file);
   if (options.format == "ros2") return RenderAsBag(options);

@@ -202,11 +202,23 @@ fs::path ReportFolder(const Options& options, const PlanFile& plan) {
   return options.out.empty() ? fs::path("out") / plan.name() : fs::path(options.out);
 }
 
+std::map<std::string, std::string> HashesOfScenes(const std::vector<Suite>& suites) {
+  std::map<std::string, std::string> hashes;
+  for (const Suite& suite : suites) {
+    for (const SuiteScene& scene : suite.scenes) {
+      if (scene.recorded || hashes.contains(scene.name)) continue;
+      hashes.emplace(scene.name, fmt::format("{:016x}", HashSource(scene.file, "live", 0)));
+    }
+  }
+  return hashes;
+}
+
 /// The plan with what its folder is to hold: tonight's, or that of the night which goes on there.
 PlanFile ForFolder(PlanFile plan, const std::vector<RunSpec>& specs,
                    const Fingerprints& fingerprints, bool resume, const fs::path& out) {
   const auto inputs_of = [&](const RunSpec& spec) { return fingerprints.Run(spec); };
   for (const RunSpec& spec : specs) plan.inputs.emplace(RunId(spec), inputs_of(spec));
+  plan.scenes = HashesOfScenes(plan.suites);
   const std::optional<PlanFile> before = resume ? FindPlan(out) : std::nullopt;
   return before ? Resumed(plan, *before, inputs_of) : plan;
 }

@@ -46,6 +46,7 @@ std::vector<FrameRequest> Sparse(const std::vector<FrameRequest>& schedule, std:
 
 /// All of them, before the first is rendered. Throws InputError.
 void CheckSources(const Options& options) {
+  CheckAreThere(options.sources);
   std::vector<std::string> scenes;
   for (const std::string& source : options.sources) {
     if (fs::is_directory(source)) {

@@ -83,6 +83,7 @@ PlanFile FromJson(const Json& json) {
   plan.trial = json.value("trial", false);
   plan.started = json.value("started", "");
   plan.inputs = json.value("inputs", plan.inputs);
+  plan.scenes = json.value("scenes", plan.scenes);
   for (const Json& suite : json.at("suites")) plan.suites.push_back(SuiteFromJson(suite));
   return plan;
 }
@@ -118,6 +119,7 @@ std::string ToJson(const PlanFile& plan) {
   json["suites"] = Json::array();
   for (const Suite& suite : plan.suites) json["suites"].push_back(ToJson(suite));
   if (!plan.inputs.empty()) json["inputs"] = plan.inputs;
+  if (!plan.scenes.empty()) json["scenes"] = plan.scenes;
   return Dump(json);
 }
 
@@ -133,9 +135,18 @@ bool SameQuestion(const PlanFile& a, const PlanFile& b) {
   const auto question = [](PlanFile plan) {
     plan.started.clear();
     plan.inputs.clear();
+    plan.scenes.clear();
     return ToJson(plan);
   };
   return question(a) == question(b);
+}
+
+std::optional<std::string> ChangedScene(const PlanFile& a, const PlanFile& b) {
+  for (const auto& [scene, hash] : a.scenes) {
+    const auto at = b.scenes.find(scene);
+    if (at != b.scenes.end() && at->second != hash) return scene;
+  }
+  return std::nullopt;
 }
 
 PlanFile Resumed(const PlanFile& plan, const PlanFile& before,

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct PlanFile {
   /// What its folder is to hold: the inputs' hash of each of its own runs (of a part: no others'),
   /// by RunId. Whatever else lies there is an earlier night's. Empty in plans of before.
   std::map<std::string, std::string> inputs = {};
+  /// Of what the scenes of the whole night held when it was planned, by their names: a hash of
+  /// each. Not of recordings, whose files have other times on every host. Empty in plans of before.
+  std::map<std::string, std::string> scenes = {};
 
   std::string name() const;      ///< of the suites, joined by "+"
   std::string question() const;  ///< of the suites, one after the other; bare scenes ask once
@@ -30,9 +34,12 @@ std::string ToJson(const PlanFile& plan);
 /// Throws InputError when the text is no plan of a known schema.
 PlanFile PlanFromJson(const std::string& text, const std::string& file);
 
-/// Whether two folders are planned for one question: all but when they began and which runs they
-/// were to make.
+/// Whether two folders are planned for one question: all but when they began, which runs they were
+/// to make and what the scenes held.
 bool SameQuestion(const PlanFile& a, const PlanFile& b);
+
+/// The first scene that held something else when the one was planned than when the other was.
+std::optional<std::string> ChangedScene(const PlanFile& a, const PlanFile& b);
 
 /// `plan` as that of a night that goes on in the folder of `before`: it began when that one did,
 /// and what that one was to hold is kept. As it is where it begins another night: some run of both

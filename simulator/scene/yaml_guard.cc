@@ -4,6 +4,7 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -87,6 +88,19 @@ class Guard : public YAML::EventHandler {
   bool too_deep_ = false;
 };
 
+/// Where a line begins with a tab, which YAML takes for no indentation; absent where none does.
+std::optional<Mark> IndentingTab(const std::string& text, int file) {
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const std::size_t first = line.find_first_not_of(' ');
+    if (first != std::string::npos && line[first] == '\t') {
+      return Mark{number, static_cast<int>(first) + 1, file};
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void GuardYaml(const std::string& text, int file, Issues* issues) {
@@ -97,6 +111,12 @@ void GuardYaml(const std::string& text, int file, Issues* issues) {
     while (parser.HandleNextDocument(guard) && !guard.went_too_far()) {
     }
   } catch (const YAML::Exception& error) {
+    if (const std::optional<Mark> tab = IndentingTab(text, file)) {
+      issues->Add(*tab, "",
+                  "this is not YAML: the line is indented by a tab, which YAML does not allow; "
+                  "write blanks");
+      return;
+    }
     issues->Add({error.mark.line + 1, error.mark.column + 1, file}, "",
                 "this is not YAML: " + error.msg);
   }

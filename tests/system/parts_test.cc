@@ -61,6 +61,25 @@ TEST_F(PartsTest, WhatAnEarlierNightLeftIsNoRunOfTonights) {
   EXPECT_EQ(ResultsOf(Out("a")).runs.size(), 1u);
 }
 
+TEST_F(PartsTest, ASceneEditedBetweenThePartsIsNoSceneOfOneNight) {
+  const fs::path scene = folder_ / "scenes" / "short.yaml";
+  WriteFileAtomically(scene, ReadFile(scene_));
+  scene_ = scene.string();
+  const std::string suite = Suite("edited", "  - plain\n", "seeds: 2\n");
+  ASSERT_EQ(Run({"run", suite, "--out", Out("a"), "--shard", "1/2"}).code, 0);
+  WriteFileAtomically(scene, ReadFile(scene) + "# a remark changes nothing that is seen\n");
+  ASSERT_EQ(Run({"run", suite, "--out", Out("b"), "--shard", "2/2"}).code, 0);
+  EXPECT_EQ(Run({"merge", Out("whole"), Out("a"), Out("b")}).code, 0);
+  std::string changed = ReadFile(scene);
+  const std::string exposure = "exposure_ms: 6";
+  changed.replace(changed.find(exposure), exposure.size(), "exposure_ms: 9");
+  WriteFileAtomically(scene, changed);
+  ASSERT_EQ(Run({"run", suite, "--out", Out("b"), "--shard", "2/2"}).code, 0);
+  const Said said = Run({"merge", Out("whole"), Out("a"), Out("b")});
+  EXPECT_EQ(said.code, 4) << said.text;
+  EXPECT_THAT(said.text, HasSubstr("was planned with another short than " + Out("a")));
+}
+
 TEST_F(PartsTest, BothPartsOneAfterTheOtherInOneFolderAreTheWhole) {
   const std::string suite = Suite("both", "  - plain\n", "seeds: 2\n");
   ASSERT_EQ(Run({"run", suite, "--out", Out("a"), "--shard", "1/2"}).code, 0);

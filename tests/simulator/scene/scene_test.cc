@@ -298,6 +298,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"frames: 100", "frames: 10.5", "2:9", "from 1 to 100000, got '10.5'"},
         Mistake{"frames: 100", "frames: 100\nframes: 200", "3:1", "given twice"},
         Mistake{"frames: 100", "frames: &n 100", "2:9", "anchors"},
+        Mistake{"frames: 100", "frames: 100\n \ttwin: live", "3:2", "indented by a tab"},
         Mistake{"frames: 100", "frames: *n", "2:9", ""},
         Mistake{"about: A person crosses.\n", "", "1:1", "about: it is missing"},
         Mistake{"start: [0, 0]", "start: [0]", "4:10", "expected a list of 2 numbers"},
