@@ -15,6 +15,7 @@ import unittest
 
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
 PAGES = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "reports").glob("**/*.md"))]
+NIGHTLY = SOURCE / "reports/docs/nightly.md"
 HELP = {}
 
 
@@ -57,6 +58,17 @@ def command_lines(text):
 def anchors(text):
     titles = re.findall(r"^#+ (.*)$", text, re.M)
     return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+def rooms_of_the_map(text):
+    """Folders that the map of rooms names: a house at the margin, its rooms indented by two, theirs by four."""
+    path, rooms = [], set()
+    for line in text.splitlines():
+        found = re.match(r"( {0,4})([a-z_]+)/?  +\S", line)
+        if found and len(found[1]) % 2 == 0:
+            path = [*path[: len(found[1]) // 2], found[2]]
+            rooms.add("/".join(path))
+    return rooms
 
 
 class Pages(unittest.TestCase):
@@ -112,7 +124,7 @@ class Pages(unittest.TestCase):
             self.assertEqual(re.findall(r"\b[A-Z]{4,}_[A-Z]+\b", text), [], page.relative_to(SOURCE))
 
     def test_suites_have_as_many_runs_as_the_table_says(self):
-        rows = re.findall(r"^\| `(\w+)((?: --seeds \d+)?)` \| (\d+)\b", (SOURCE / "README.md").read_text(), re.M)
+        rows = re.findall(r"^\| `(\w+)((?: --seeds \d+)?)` \| (\d+)\b", NIGHTLY.read_text(), re.M)
         self.assertGreater(len(rows), 5)
         for suite, seeds, runs in rows:
             file = SOURCE / f"scenes/suites/{suite}.yaml"
@@ -120,8 +132,20 @@ class Pages(unittest.TestCase):
             said = subprocess.run(words, capture_output=True, text=True).stderr
             self.assertIn(f"aisle: {runs} runs", said.replace(",", ""), suite)
 
+    def test_every_room_is_on_the_map(self):
+        page = (SOURCE / "reports/docs/architecture.md").read_text()
+        mapped = rooms_of_the_map(page.split("## Map of rooms")[1].split("```")[1])
+        self.assertTrue({"slam", "slam/dynamic/robust"} <= mapped)
+        for house in ("simulator", "slam", "harness"):
+            lines = (SOURCE / house / "CMakeLists.txt").read_text()
+            rooms = set(re.findall(rf"^aisle_room\(({house}[\w/]*)", lines, re.M))
+            self.assertGreater(len(rooms), 10, house)
+            self.assertEqual(rooms - mapped, set(), house)
+            folders = {room for room in mapped if room.startswith(house + "/")}
+            self.assertEqual({room for room in folders if not (SOURCE / room).is_dir()}, set(), house)
+
     def test_the_cron_line_writes_of_every_failure(self):
-        line = re.search(r"^0 2 \* \* \*  (.*)$", (SOURCE / "README.md").read_text(), re.M).group(1)
+        line = re.search(r"^0 2 \* \* \*  (.*)$", NIGHTLY.read_text(), re.M).group(1)
         for code, summary in ((0, False), (1, True), (3, False), (4, False)):
             with tempfile.TemporaryDirectory() as name:
                 folder = pathlib.Path(name)
