@@ -132,6 +132,14 @@ class Pages(unittest.TestCase):
             said = subprocess.run(words, capture_output=True, text=True).stderr
             self.assertIn(f"aisle: {runs} runs", said.replace(",", ""), suite)
 
+    def test_prose_is_wrapped(self):
+        others = {"commands.md", "options.md", "scene.md", "suite.md", "scores.md", "scores.head.md", "fuzz.md"}
+        for page in [page for page in PAGES if page.name not in others and "gallery" not in page.parts]:
+            text = re.sub(r"^```.*?^```$|^<!-- begin.*?^<!-- end", "", page.read_text(), flags=re.M | re.S)
+            prose = [line for line in text.splitlines() if not re.match(r"[|!#]|    ", line)]
+            long = [line for line in prose if len(line) > 120 and " " in line[:120].strip()]
+            self.assertEqual(long, [], page.relative_to(SOURCE))
+
     def test_every_room_is_on_the_map(self):
         page = (SOURCE / "reports/docs/architecture.md").read_text()
         mapped = rooms_of_the_map(page.split("## Map of rooms")[1].split("```")[1])
