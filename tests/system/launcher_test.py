@@ -18,8 +18,10 @@ NEEDED = ("bash", "dirname", "readlink", "mkdir", "flock", "grep", "awk", "tail"
 
 class Launcher(unittest.TestCase):
     def setUp(self):
-        self.root = pathlib.Path(tempfile.mkdtemp(prefix="aisle_launcher_"))
-        self.addCleanup(shutil.rmtree, self.root)
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="aisle_launcher_"))
+        self.addCleanup(shutil.rmtree, folder)
+        self.root = folder / "tree"
+        self.root.mkdir()
         for name in ("aisle", "packages.txt"):
             shutil.copy(SOURCE / name, self.root / name)
         (self.root / "bin").mkdir()
@@ -27,12 +29,25 @@ class Launcher(unittest.TestCase):
             (self.root / "bin" / name).symlink_to(shutil.which(name))
         self.program("bin/ninja", "echo ninja: no work to do.")
         self.program("bin/cmake", "exit 1")
+        self.machine("x86_64", "fpu sse2 avx avx2 bmi2")
 
     def program(self, path, text):
         file = self.root / path
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(f"#!/bin/sh\n{text}\n")
         file.chmod(0o755)
+
+    def machine(self, name, flags):
+        """What uname and the kernel's file on processors say."""
+        self.program("bin/uname", f"echo {name}")
+        (self.root / "cpuinfo").write_text(f"flags\t\t: {flags}\n")
+        (self.root / "bin/grep").unlink()
+        self.program("bin/grep", f"""for word; do
+  shift
+  [ "$word" = /proc/cpuinfo ] && word={self.root}/cpuinfo
+  set -- "$@" "$word"
+done
+exec {shutil.which("grep")} "$@\"""")
 
     def build(self):
         (self.root / "build/release").mkdir(parents=True)
@@ -61,6 +76,26 @@ class Launcher(unittest.TestCase):
         code, _, why = self.run_it("check")
         self.assertEqual(code, 3)
         self.assertIn("apt-get install build-essential ", why)
+
+    def test_another_processor_is_named_before_anything_is_installed(self):
+        self.build()
+        for name, flags, named in (("aarch64", "fp asimd", "aarch64"),
+                                   ("x86_64", "fpu sse2 avx not_avx2", "lacks AVX2")):
+            self.machine(name, flags)
+            for command in ("check", "test", "python", "package", "fuzz"):
+                code, said, why = self.run_it(command)
+                self.assertEqual((code, said), (3, ""), command)
+                self.assertIn("x86-64 processor with AVX2 is needed", why)
+                self.assertIn(named, why)
+                self.assertEqual(why.count("\n"), 1, why)
+
+    def test_cmake_refuses_another_processor(self):
+        done = subprocess.run(
+            ["cmake", "-S", SOURCE, "-B", self.root / "cross", "-DCMAKE_SYSTEM_NAME=Linux",
+             "-DCMAKE_SYSTEM_PROCESSOR=aarch64"], capture_output=True, text=True)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("needs an x86-64 processor with AVX2", " ".join(done.stderr.split()))
+        self.assertIn("not aarch64", " ".join(done.stderr.split()))
 
     def test_its_own_commands_are_explained_where_nothing_is_there(self):
         for command in ("test", "package", "fuzz", "python"):
