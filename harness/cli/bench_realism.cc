@@ -8,7 +8,6 @@
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
-#include "harness/io/places.h"
 #include "harness/picture/realism.h"
 
 namespace aisle {
@@ -80,16 +79,14 @@ int BenchRealism(const Options& options) {
     given.push_back(
         MeasurePictures(Printable(path.filename().string()), folder, options.pictures, show));
   }
-  const fs::path data =
-      options.data.empty() ? OwnFolder() / "../shared/data" : fs::path(options.data);
-  const std::vector<PictureSet> real =
-      MeasureRealPictures(data.lexically_normal().string(), options.pictures, show);
+  std::vector<PictureSet> real;
+  if (!options.data.empty()) real = MeasureRealPictures(options.data, options.pictures, show);
   line.Clear();
   if (real.empty()) {
     fmt::print(
-        "no real pictures at {}: --data FOLDER with euroc-v101-still, euroc-loop-pairs or "
+        "no real pictures{}: --data FOLDER with euroc-v101-still, euroc-loop-pairs or "
         "kitti/sequences/06\n",
-        Printable(data.lexically_normal().string()));
+        options.data.empty() ? "" : " at " + Printable(options.data));
   }
   fmt::print("{}", Table(real, given));
   options.into.Write(Table(real, given));
@@ -119,8 +116,10 @@ void AddBenchRealism(CLI::App* bench, Action* action) {
       ->add_option("DIRS", options->folders,
                    "folders of grey PNG pictures, or datasets in EuRoC's, KITTI's or TUM's layout")
       ->required();
-  command->add_option("--data", options->data,
-                      "folder of the real sets (default: ../shared/data beside the source tree)");
+  command
+      ->add_option("--data", options->data,
+                   "folder of the real sets; without it the pictures stand alone")
+      ->envname("AISLE_TEST_DATA");
   command->add_option("--pictures", options->pictures, "of a folder, at most, evenly (default 24)")
       ->check(CLI::Range(1, 100000));
   command->add_option("--json", options->json, "write every value there too");

@@ -21,8 +21,8 @@ class Launcher(unittest.TestCase):
         folder = pathlib.Path(tempfile.mkdtemp(prefix="aisle_launcher_"))
         self.addCleanup(shutil.rmtree, folder)
         self.root = folder / "tree"
-        self.root.mkdir()
-        for name in ("aisle", "packages.txt"):
+        (self.root / ".ci").mkdir(parents=True)
+        for name in ("aisle", "packages.txt", ".ci/test_data"):
             shutil.copy(SOURCE / name, self.root / name)
         (self.root / "bin").mkdir()
         for name in NEEDED:
@@ -54,8 +54,8 @@ exec {shutil.which("grep")} "$@\"""")
         (self.root / "build/release/build.ninja").touch()
         self.program("build/release/harness/cli/aisle", 'echo "program $*"')
 
-    def run_it(self, *words):
-        environment = {"PATH": str(self.root / "bin"), "AISLE_NO_INSTALL": "1"}
+    def run_it(self, *words, **more):
+        environment = {"PATH": str(self.root / "bin"), "AISLE_NO_INSTALL": "1"} | more
         done = subprocess.run([self.root / "aisle", *words], capture_output=True, text=True,
                               env=environment)
         return done.returncode, done.stdout, done.stderr
@@ -96,6 +96,16 @@ exec {shutil.which("grep")} "$@\"""")
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("needs an x86-64 processor with AVX2", " ".join(done.stderr.split()))
         self.assertIn("not aarch64", " ".join(done.stderr.split()))
+
+    def test_data_beside_the_tree_serves_the_tests(self):
+        self.build()
+        self.program("bin/ctest", 'echo "$AISLE_TEST_DATA"')
+        self.program("bin/nproc", "echo 1")
+        self.assertEqual(self.run_it("test")[1], "\n")
+        data = self.root.parent / "shared/data"
+        data.mkdir(parents=True)
+        self.assertEqual(self.run_it("test")[1], f"{data}\n")
+        self.assertEqual(self.run_it("test", AISLE_TEST_DATA="mine")[1], "mine\n")
 
     def test_its_own_commands_are_explained_where_nothing_is_there(self):
         for command in ("test", "package", "fuzz", "python"):

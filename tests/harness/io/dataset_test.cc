@@ -16,6 +16,7 @@
 #include "harness/io/file.h"
 #include "harness/io/imu.h"
 #include "harness/io/input_error.h"
+#include "tests/support/test_data.h"
 
 namespace aisle {
 namespace {
@@ -614,7 +615,7 @@ TEST(ImuTest, WhatLiesBetweenSamplesIsNotLost) {
 }
 
 TEST(RealRecordingTest, EurocAndKittiAreRead) {
-  const fs::path data = AISLE_TEST_DATA;
+  const fs::path data = TestData("");
   if (!fs::exists(data / "kitti")) GTEST_SKIP() << "no recordings in " << data;
   const StereoRecording euroc = ReadRecording(data / "euroc-v101-still", DatasetFormat::kEuroc);
   EXPECT_EQ(euroc.pairs.size(), 40u);

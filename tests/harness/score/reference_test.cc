@@ -7,6 +7,7 @@
 #include "harness/score/pose_error.h"
 #include "harness/score/relative_error.h"
 #include "harness/score/segments.h"
+#include "tests/support/test_data.h"
 
 namespace aisle {
 namespace {
@@ -20,7 +21,7 @@ struct Case {
   std::vector<PosePair> pairs;
 };
 
-std::filesystem::path Folder() { return std::filesystem::path(AISLE_TEST_DATA) / "trajectories"; }
+std::filesystem::path Folder() { return TestData("trajectories"); }
 
 Case Load(const std::string& truth, TrajectoryFormat truth_format, const std::string& estimate,
           TrajectoryFormat estimate_format, AssociationRule rule) {
@@ -73,7 +74,7 @@ class ReferenceTest : public testing::Test {
  protected:
   void SetUp() override {
     if (!std::filesystem::exists(Folder())) {
-      GTEST_SKIP() << "no real trajectories in " << Folder() << " (set AISLE_TEST_DATA)";
+      GTEST_SKIP() << "no real trajectories in " << Folder();
     }
   }
 };

@@ -8,13 +8,14 @@
 
 #include "simulator/mesh/pose.h"
 #include "tests/simulator/mesh/scratch.h"
+#include "tests/support/test_data.h"
 
 namespace aisle::sim {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kModels = fs::path(AISLE_TEST_DATA) / "models";
+const fs::path kModels = TestData("models");
 
 #define SKIP_WITHOUT_MODELS() \
   if (!fs::exists(kModels)) GTEST_SKIP() << "no real models at " << kModels

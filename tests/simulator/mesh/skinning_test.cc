@@ -7,6 +7,7 @@
 
 #include "simulator/mesh/pose.h"
 #include "tests/simulator/mesh/scratch.h"
+#include "tests/support/test_data.h"
 
 namespace aisle::sim {
 namespace {
@@ -115,7 +116,7 @@ TEST(AgainstAnIndependentSkinning, OurPeopleAndVehicles) {
 }
 
 TEST(AgainstAnIndependentSkinning, RealModels) {
-  const fs::path models = fs::path(AISLE_TEST_DATA) / "models";
+  const fs::path models = TestData("models");
   if (!fs::exists(models)) GTEST_SKIP() << "no real models at " << models;
   const Scratch scratch;
   const std::vector<fs::path> files = ModelsBelow(models);

@@ -10,6 +10,7 @@
 #include "simulator/foreign/foreign_scene.h"
 #include "simulator/shade/shader.h"
 #include "tests/simulator/test_world.h"
+#include "tests/support/test_data.h"
 
 namespace aisle::sim {
 namespace {
@@ -128,7 +129,7 @@ TEST(ProductionLight, WhatAGlossyFloorMirrorsReachesTheWalls) {
 }
 
 TEST(Reference, CornellBoxIsThatOfAnotherRendererBlockByBlock) {
-  const std::filesystem::path folder = std::filesystem::path(AISLE_TEST_DATA) / "cornell";
+  const std::filesystem::path folder = TestData("cornell");
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
   setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);
   const cv::Mat exr = cv::imread((folder / "ref-cbox-d6-4096.exr").string(),

@@ -6,19 +6,20 @@
 
 #include "slam/dynamic/paper/paper_method.h"
 #include "slam/dynamic/robust/robust_method.h"
+#include "tests/support/test_data.h"
 
 namespace aisle::slam::dynamic {
 namespace {
 
 StereoPair KittiPair(int k) {
-  const std::string folder = AISLE_TEST_DATA "/kitti/sequences/06/";
+  const std::string folder = TestData("kitti/sequences/06/");
   const std::string name = fmt::format("{:06d}.png", k);
   return {cv::imread(folder + "image_0/" + name, cv::IMREAD_GRAYSCALE),
           cv::imread(folder + "image_1/" + name, cv::IMREAD_GRAYSCALE)};
 }
 
 StereoPair EurocPair(int k) {
-  const std::string folder = AISLE_TEST_DATA "/euroc-loop-pairs/";
+  const std::string folder = TestData("euroc-loop-pairs/");
   return {cv::imread(fmt::format("{}left_img_{}.png", folder, k), cv::IMREAD_GRAYSCALE),
           cv::imread(fmt::format("{}right_img_{}.png", folder, k), cv::IMREAD_GRAYSCALE)};
 }
@@ -29,7 +30,7 @@ double MaskedShare(const StereoPair& previous, const StereoPair& current) {
 }
 
 TEST(PaperOnRealImages, Kitti06IsLeftAlmostUntouched) {
-  if (KittiPair(0).left.empty()) GTEST_SKIP() << "no KITTI 06 under " AISLE_TEST_DATA;
+  if (KittiPair(0).left.empty()) GTEST_SKIP() << "no KITTI 06 at " << TestData("kitti");
   double sum = 0;
   int pairs = 0;
   for (int k = 5; k < 51; k += 5, ++pairs) sum += MaskedShare(KittiPair(k - 1), KittiPair(k));
@@ -38,7 +39,7 @@ TEST(PaperOnRealImages, Kitti06IsLeftAlmostUntouched) {
 }
 
 TEST(PaperOnRealImages, RevisitsFarApartDoNotCrash) {
-  if (EurocPair(0).left.empty()) GTEST_SKIP() << "no EuRoC pairs under " AISLE_TEST_DATA;
+  if (EurocPair(0).left.empty()) GTEST_SKIP() << "no pairs at " << TestData("euroc-loop-pairs");
   for (int k = 0; k < 4; ++k) {
     for (int l = 0; l < 4; ++l) {
       const double share = MaskedShare(EurocPair(k), EurocPair(l));
@@ -51,7 +52,7 @@ TEST(PaperOnRealImages, RevisitsFarApartDoNotCrash) {
 StereoCamera KittiCamera() { return {1226, 370, 707.0912, 707.0912, 601.8873, 183.1104, 0.5372}; }
 
 TEST(RobustOnRealImages, Kitti06IsLeftAloneAndItsMotionFound) {
-  if (KittiPair(0).left.empty()) GTEST_SKIP() << "no KITTI 06 under " AISLE_TEST_DATA;
+  if (KittiPair(0).left.empty()) GTEST_SKIP() << "no KITTI 06 at " << TestData("kitti");
   RobustState state;
   double sum = 0, travelled_m = 0;
   const int frames = 30;
@@ -71,7 +72,7 @@ TEST(RobustOnRealImages, Kitti06IsLeftAloneAndItsMotionFound) {
 }
 
 TEST(RobustOnRealImages, RevisitsFarApartDoNotCrash) {
-  if (EurocPair(0).left.empty()) GTEST_SKIP() << "no EuRoC pairs under " AISLE_TEST_DATA;
+  if (EurocPair(0).left.empty()) GTEST_SKIP() << "no pairs at " << TestData("euroc-loop-pairs");
   RobustState state;
   for (int k = 0; k < 8; ++k) {
     RobustResult result = StepRobust(state, EurocPair(k % 4), k * 50'000'000LL, {}, {}, {});

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "slam/stereo_slam.h"
+#include "tests/support/test_data.h"
 
 namespace aisle::slam {
 
@@ -21,11 +22,11 @@ struct RealSequence {
 };
 
 inline bool HasRealData(const std::string& folder) {
-  return std::filesystem::exists(std::filesystem::path(AISLE_TEST_DATA) / folder);
+  return std::filesystem::exists(TestData(folder));
 }
 
 inline RealSequence LoadKitti06() {
-  const std::filesystem::path root = std::filesystem::path(AISLE_TEST_DATA) / "kitti";
+  const std::filesystem::path root = TestData("kitti");
   RealSequence sequence;
   std::ifstream calib(root / "sequences/06/calib.txt");
   std::string name;
@@ -135,8 +136,7 @@ class EurocRectifier {
 };
 
 inline RealSequence LoadEurocStill() {
-  const std::filesystem::path root =
-      std::filesystem::path(AISLE_TEST_DATA) / "euroc-v101-still/mav0";
+  const std::filesystem::path root = TestData("euroc-v101-still/mav0");
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(root / "cam0/data")) {
     files.push_back(entry.path().filename());

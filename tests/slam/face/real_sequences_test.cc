@@ -23,7 +23,7 @@ Driven Drive(const RealSequence& sequence, const SlamOptions& options = {}) {
 }
 
 TEST(RealSequences, DrivesTheFirstSixtyMetresOfKitti06) {
-  if (!HasRealData("kitti")) GTEST_SKIP() << "no KITTI data at " << AISLE_TEST_DATA;
+  if (!HasRealData("kitti")) GTEST_SKIP() << "no KITTI data at " << TestData("kitti");
   const RealSequence sequence = LoadKitti06();
   const Driven driven = Drive(sequence);
   for (const TrackedFrame& frame : driven.live) {
@@ -56,7 +56,7 @@ TEST(RealSequences, DrivesTheFirstSixtyMetresOfKitti06) {
 
 TEST(RealSequences, StartsAtFullSpeedWithoutAWrongStep) {
   // 1.2 m a frame from the first one on, past trees and a fence that look alike all along.
-  if (!HasRealData("kitti")) GTEST_SKIP() << "no KITTI data at " << AISLE_TEST_DATA;
+  if (!HasRealData("kitti")) GTEST_SKIP() << "no KITTI data at " << TestData("kitti");
   RealSequence sequence = LoadKitti06();
   sequence.frames.resize(12);
   const Driven driven = Drive(sequence);
@@ -70,7 +70,8 @@ TEST(RealSequences, StartsAtFullSpeedWithoutAWrongStep) {
 }
 
 TEST(RealSequences, StandsStillWhereEurocStandsStill) {
-  if (!HasRealData("euroc-v101-still")) GTEST_SKIP() << "no EuRoC data at " << AISLE_TEST_DATA;
+  if (!HasRealData("euroc-v101-still"))
+    GTEST_SKIP() << "no EuRoC data at " << TestData("euroc-v101-still");
   const Driven driven = Drive(LoadEurocStill());
   double worst_m = 0;
   for (const TrackedFrame& frame : driven.live) {

@@ -8,6 +8,7 @@
 
 #include "slam/camera/se3.h"
 #include "slam/optimize/residuals.h"
+#include "tests/support/test_data.h"
 
 namespace aisle::slam {
 namespace {
@@ -139,7 +140,7 @@ TEST(SolveBundle, WithNothingToDoDoesNothing) {
 /// A problem from KITTI images whose optimum was found independently: unit weights over
 /// (u_left, u_right, v), first pose fixed, points from their first observation.
 TEST(SolveBundle, ReachesTheKnownOptimumOfTheKittiProblem) {
-  const std::filesystem::path folder = std::filesystem::path(AISLE_TEST_DATA) / "stereo-ba";
+  const std::filesystem::path folder = TestData("stereo-ba");
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no data at " << folder;
   BundleProblem problem;
   double skew = 0;

@@ -15,8 +15,9 @@ namespace {
 class LoopPairs : public testing::Test {
  protected:
   void SetUp() override {
-    if (!HasRealData("euroc-loop-pairs")) GTEST_SKIP() << "no data at " << AISLE_TEST_DATA;
-    const std::filesystem::path root = std::filesystem::path(AISLE_TEST_DATA) / "euroc-loop-pairs";
+    if (!HasRealData("euroc-loop-pairs"))
+      GTEST_SKIP() << "no data at " << TestData("euroc-loop-pairs");
+    const std::filesystem::path root = TestData("euroc-loop-pairs");
     const EurocRectifier rectifier(ReadEurocCamera(root / "sensorLeft.yaml"),
                                    ReadEurocCamera(root / "sensorRight.yaml"), {752, 480});
     camera = rectifier.camera();
