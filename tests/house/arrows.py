@@ -3,7 +3,8 @@
 Usage: arrows.py SOURCE_DIR ARROWS_FILE. The arrows file is written by CMake, a line per room:
 "simulator/truth: simulator/trace,simulator/world". A room may include itself and whatever it
 reaches through its arrows, and its house's nouns (frames.h), which include nothing of ours. An
-arrow that none of its files follows does not belong in the list. Across houses only the two faces
+arrow that none of its files follows does not belong in the list. Every room has its line in the map
+of rooms, a room within a room its name in the line of the one around it. Across houses only the two faces
 are open, and only to harness/plugs (and to the tests, which may include anything of the room they
 test).
 """
@@ -12,6 +13,7 @@ import pathlib
 import re
 import sys
 
+MAPS = ("README.md", "reports/docs/architecture.md")  # where the map of rooms may stand
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 HOUSES = ("simulator", "slam", "harness")
 NOUNS = {f"{house}/frames.h" for house in HOUSES}  # any room of the house may include them
@@ -89,6 +91,31 @@ def unused(files, arrows):
             yield f"{room}: no file of it includes anything of {use}"
 
 
+def map_entries(page):
+    """{room: what stands in its entry} of the block that lists the rooms, empty where there is none."""
+    block = re.search(r"^```\w*\n(simulator/ .*?)^```$", page, re.M | re.S)
+    entries, house, rooms = {}, "", []
+    for line in block.group(1).splitlines() if block else ():
+        if top := re.match(r"(\w+)/ ", line):
+            house, rooms = top.group(1), []
+        elif entry := re.match(r"  (\S+(?: \S+)*)(?:  .*)?$", line):
+            rooms = [f"{house}/{name}" for name in entry.group(1).split()]
+        for room in rooms:
+            entries[room] = entries.get(room, "") + line + "\n"
+    return entries
+
+
+def unmapped(entries, arrows):
+    """Yields a sentence for each room without a line in the map."""
+    for room in sorted(arrows):
+        house, *names = room.split("/")
+        if not names or room in entries:
+            continue  # the face of a house is the house's own line
+        around = entries.get(f"{house}/{names[0]}", "")
+        if len(names) == 1 or not re.search(rf"\b{names[-1]}\b", around):
+            yield f"{room}: not in the map of rooms ({' or '.join(MAPS)})"
+
+
 def main(source_dir, arrows_file):
     source = pathlib.Path(source_dir)
     arrows = read_arrows(pathlib.Path(arrows_file).read_text())
@@ -98,6 +125,9 @@ def main(source_dir, arrows_file):
             if path.suffix in (".h", ".cc"):
                 files[path.relative_to(source).as_posix()] = path.read_text()
     found = list(offences(files, arrows)) + list(unused(files, arrows))
+    pages = [source / page for page in MAPS if (source / page).exists()]
+    maps = [entries for page in pages if (entries := map_entries(page.read_text()))]
+    found += list(unmapped(maps[0] if maps else {}, arrows))
     found += [f"{room} is on a cycle" for room in cycles(arrows)]
     for offence in found:
         print(offence)

@@ -57,6 +57,21 @@ class ArrowsTest(unittest.TestCase):
         files["slam/track/b.h"] = '#include "slam/camera/camera.h"'
         self.assertEqual(list(arrows.unused(files, rooms)), [])
 
+    def test_a_room_that_the_map_lacks_is_found(self):
+        page = (
+            "# Rooms\n```\nsimulator/     pictures\n  world scene\n  trace          rays: lanes of\n"
+            "                 eight, and deep ones\nharness/       the roof\n  cli            main()\n```\n"
+        )
+        entries = arrows.map_entries(page)
+        self.assertEqual(
+            set(entries), {"simulator/world", "simulator/scene", "simulator/trace", "harness/cli"}
+        )
+        there = {"simulator": set(), "simulator/scene": set(), "simulator/trace/deep": set()}
+        self.assertEqual(list(arrows.unmapped(entries, there)), [])
+        for lacking in ("simulator/mesh", "harness/scene", "simulator/trace/roof"):
+            self.assertEqual(len(list(arrows.unmapped(entries, {lacking: set()}))), 1, lacking)
+        self.assertEqual(arrows.map_entries("# A page without"), {})
+
     def test_cycles_are_found(self):
         self.assertTrue(arrows.cycles(arrows.read_arrows("a/b: a/c\na/c: a/b\n")))
         self.assertFalse(arrows.cycles(ROOMS))
