@@ -3,7 +3,8 @@
 Usage: reference.py PROGRAM SOURCE_DIR [--write]. scene.md comes from scenes/scene.schema.json,
 commands.md from --help of every command, options.md from `aisle systems NAME --json`, scores.md from
 `aisle scores --json`, by way of reports/docs/scores.head.md, which explains them. Without --write it
-says which page is behind (exit 1).
+says which page is behind (exit 1). `cmake --build build/release --target reference` writes these
+pages, suite.md and the two schemas.
 """
 
 import json
@@ -150,7 +151,7 @@ def main(program, source_dir, *options):
         else:
             behind.append(name)
     if behind:
-        print(f"behind: {', '.join(behind)}; mend with: tests/docs/reference.py PROGRAM . --write")
+        print(f"behind: {', '.join(behind)}; mend with: cmake --build build/release --target reference")
     return 1 if behind else 0
 
 

@@ -22,7 +22,8 @@ const fs::path kTree = AISLE_SOURCE_DIR;
 /// The text that a committed file should have; written there where AISLE_WRITE_SCHEMA is set.
 void ExpectCommitted(const fs::path& file, const std::string& text) {
   if (std::getenv("AISLE_WRITE_SCHEMA") != nullptr) WriteFileAtomically(file, text);
-  EXPECT_EQ(ReadFile(file), text) << file << " is behind: set AISLE_WRITE_SCHEMA=1 and run again";
+  EXPECT_EQ(ReadFile(file), text) << file
+                                  << " is behind: cmake --build build/release --target reference";
 }
 
 TEST(SuiteSchemaTest, TheCommittedSchemaIsTheReadersOwn) {

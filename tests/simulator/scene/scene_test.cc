@@ -110,7 +110,7 @@ TEST(SceneSchema, TheShippedFileIsTheReadersOwn) {
   if (std::getenv("AISLE_WRITE_SCHEMA") != nullptr) std::ofstream(kSchema) << SceneSchema();
   std::ifstream stream(kSchema);
   const std::string shipped((std::istreambuf_iterator<char>(stream)), {});
-  EXPECT_EQ(shipped, SceneSchema()) << "run this test with AISLE_WRITE_SCHEMA=1 to rewrite it";
+  EXPECT_EQ(shipped, SceneSchema()) << "behind: cmake --build build/release --target reference";
 }
 
 TEST(SceneSchema, AnIndependentValidatorAcceptsEverySceneAndRefusesAMisspeltOne) {
