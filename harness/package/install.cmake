@@ -1,6 +1,10 @@
 # What `cmake --install` puts where, for find_package(aisle) and for Debian packages (cpack).
 include(CMakePackageConfigHelpers)
+# Whoever packs, as Debian's own tools have it; they want an address.
 set(CPACK_PACKAGE_CONTACT "the aisle developers <aisle@localhost>")
+if(NOT "$ENV{DEBEMAIL}" STREQUAL "")
+  set(CPACK_PACKAGE_CONTACT "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+endif()
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # tests are not packed
 # Debian's packages of the libraries that ours hand on.
 set(AISLE_DEV_PACKAGES libassimp-dev libceres-dev libcli11-dev libeigen3-dev libembree-dev libfmt-dev
