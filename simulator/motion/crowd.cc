@@ -109,8 +109,8 @@ class Crowd {
   }
 
   Vector2d SomePlace() {
-    const Vector2d share(random_.Unit(), random_.Unit());
-    return plan_.from + (plan_.to - plan_.from).cwiseProduct(share);
+    const double y = random_.Unit(), x = random_.Unit();
+    return plan_.from + (plan_.to - plan_.from).cwiseProduct(Vector2d(x, y));
   }
 
   bool Place() {

@@ -16,8 +16,8 @@ RouteSpec Varied(RouteSpec route, const VarySpec& vary, Dice dice) {
     plan.steps[i].speed_mps *= faster;
     for (std::size_t k = 0; k < plan.steps[i].go.size(); ++k) {
       const bool is_end = i + 1 == plan.steps.size() && k + 1 == plan.steps[i].go.size();
-      const Eigen::Vector2d shift(vary.path_m * dice.Signed(), vary.path_m * dice.Signed());
-      if (!is_end) plan.steps[i].go[k] += shift;
+      const double y = vary.path_m * dice.Signed(), x = vary.path_m * dice.Signed();
+      if (!is_end) plan.steps[i].go[k] += Eigen::Vector2d(x, y);
     }
   }
   return route;

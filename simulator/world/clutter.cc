@@ -31,8 +31,9 @@ void AddWet(const Maker& make, std::uint16_t material, float radius, Dice* dice)
     Eigen::Isometry3f at = make.pose();
     at.translate(Vector3f(away * std::cos(angle), away * std::sin(angle),
                           kFlat_m + 0.0002f * static_cast<float>(i)));
-    AddSpot(make.mesh(), at, Vector2f(size, size * Between(dice, 0.45, 0.9)), 0.16f, dice->Fork(),
-            material);
+    const Dice rim = dice->Fork();
+    const float slim = Between(dice, 0.45, 0.9);
+    AddSpot(make.mesh(), at, Vector2f(size, size * slim), 0.16f, rim, material);
   }
 }
 
@@ -115,15 +116,15 @@ void AddBand(const Maker& make, Dice* dice) {
 void AddScrap(const Maker& make, Dice* dice) {
   const int pieces = 1 + dice->Pick(4);
   for (int i = 0; i < pieces; ++i) {
-    const Vector3f at(Between(dice, -0.35, 0.35), Between(dice, -0.35, 0.35), 0.006f);
+    const float y = Between(dice, -0.35, 0.35), x = Between(dice, -0.35, 0.35);
     const bool wood = dice->Chance(0.4);
-    Eigen::Isometry3f pose = make.At(at);
+    Eigen::Isometry3f pose = make.At({x, y, 0.006f});
     pose.rotate(Eigen::AngleAxisf(Between(dice, 0, 6.28), kZ));
     pose.rotate(Eigen::AngleAxisf(Between(dice, -0.03, 0.03), kX));
-    const Vector3f size =
-        wood ? Vector3f(Between(dice, 0.06, 0.22), Between(dice, 0.015, 0.04), 0.01f)
-             : Vector3f(Between(dice, 0.1, 0.3), Between(dice, 0.08, 0.24), 0.005f);
-    AddRounded(make.mesh(), pose, size, 0.002f, wood ? make.p.wood : make.f.card, 0.4f);
+    const float wide = wood ? Between(dice, 0.015, 0.04) : Between(dice, 0.08, 0.24);
+    const float length = wood ? Between(dice, 0.06, 0.22) : Between(dice, 0.1, 0.3);
+    AddRounded(make.mesh(), pose, {length, wide, wood ? 0.01f : 0.005f}, 0.002f,
+               wood ? make.p.wood : make.f.card, 0.4f);
   }
 }
 
@@ -324,7 +325,8 @@ void AddClutter(const Scene& scene, const Kit& kit, std::uint64_t seed, Site* si
   const int flats = static_cast<int>(hall.clutter * kFlatPer_m2 * size.prod());
   for (int i = 0; i < flats; ++i) {
     Dice own = dice.Fork();
-    const Vector2d at = hall.from + size.cwiseProduct(Vector2d(own.Unit(), own.Unit()));
+    const double y = own.Unit(), x = own.Unit();
+    const Vector2d at = hall.from + size.cwiseProduct(Vector2d(x, y));
     const double heading = own.Between(0, 6.28);
     if (ways.Taken(at, 0.35)) continue;
     put(at, heading, ObjectClass::kFloor, "litter", i,

@@ -59,11 +59,12 @@ void AddHandTool(const Maker& make, const Vector3f& at, float length, int kind) 
 void AddOddments(const Maker& make, float length, float z, Dice* dice) {
   const int count = 5 + dice->Pick(5);
   for (int i = 0; i < count; ++i) {
-    const Vector3f at(Between(dice, -0.28, 0.2), Between(dice, -0.46, 0.46) * length, z);
+    const float y = Between(dice, -0.46, 0.46) * length, x = Between(dice, -0.28, 0.2);
+    const Vector3f at(x, y, z);
     const double kind = dice->Unit();
     if (kind < 0.3) {
-      const Vector3f box(Between(dice, 0.08, 0.2), Between(dice, 0.1, 0.28),
-                         Between(dice, 0.05, 0.16));
+      const float tall = Between(dice, 0.05, 0.16), wide = Between(dice, 0.1, 0.28);
+      const Vector3f box(Between(dice, 0.08, 0.2), wide, tall);
       make.Block(at + Vector3f(0, 0, box.z() / 2), box,
                  dice->Chance(0.5) ? make.f.card : make.p.tote, 0.006f, 0.3f);
     } else if (kind < 0.5) {
@@ -131,7 +132,8 @@ void AddBench(const Maker& make, const Vector3f& size, Dice dice) {
   AddVice(make, {size.x() / 2 - 0.12f, left ? -half + 0.3f : half - 0.3f, top});
   AddOddments(make, size.y() - 0.5f, top, &dice);
   for (int i = 0; i < 3; ++i) {  // below, on the shelf
-    const Vector3f box(0.3f, Between(&dice, 0.25, 0.4), Between(&dice, 0.15, 0.3));
+    const float tall = Between(&dice, 0.15, 0.3);
+    const Vector3f box(0.3f, Between(&dice, 0.25, 0.4), tall);
     make.Block({-0.1f, (left ? -1.0f : 1.0f) * (0.05f + 0.38f * static_cast<float>(i) - 0.1f),
                 0.215f + box.z() / 2},
                box, make.p.tote, 0.01f, 0.6f);
@@ -152,8 +154,8 @@ void AddToolWall(const Maker& make, const Vector3f& size, Dice dice) {
   }
   for (y = half - 0.15f; y > -half + 0.1f; y -= Between(&dice, 0.09, 0.2)) {
     if (dice.Chance(0.12)) continue;
-    AddHandTool(make, {face, y, size.z() - 0.52f}, Between(&dice, 0.22, 0.34),
-                dice.Chance(0.35) ? 1 : 2);
+    const int kind = dice.Chance(0.35) ? 1 : 2;
+    AddHandTool(make, {face, y, size.z() - 0.52f}, Between(&dice, 0.22, 0.34), kind);
   }
   make.Block({0.1f, 0, low + 0.1f}, {0.15f, size.y() - 0.2f, 0.012f}, make.p.steel, 0.004f);
   for (y = half - 0.25f; y > -half + 0.2f; y -= 0.19f) {  // bins below

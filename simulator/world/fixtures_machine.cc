@@ -30,8 +30,8 @@ void AddHandwheel(const Maker& make, const Vector3f& hub, const Vector3f& axis, 
 /// A tray of chips: a sheet-metal pan with curls in it.
 void AddChips(const Maker& make, const Vector3f& low, const Vector3f& high, Dice* dice) {
   for (int i = 0; i < 34; ++i) {
-    const Vector3f at(static_cast<float>(dice->Between(low.x(), high.x())),
-                      static_cast<float>(dice->Between(low.y(), high.y())), low.z());
+    const auto y = static_cast<float>(dice->Between(low.y(), high.y()));
+    const Vector3f at(static_cast<float>(dice->Between(low.x(), high.x())), y, low.z());
     std::vector<Vector3f> curl;
     const auto start = static_cast<float>(dice->Between(0, 6.28));
     const auto lean = static_cast<float>(dice->Between(0.004, 0.016));

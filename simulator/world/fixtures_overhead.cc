@@ -60,8 +60,9 @@ void AddCableTray(const Maker& make, const Vector3f& size, float roof, Dice dice
     const auto lane = static_cast<float>(dice.Between(-0.85, 0.85)) * half;
     const auto thick = static_cast<float>(dice.Between(0.006, 0.016));
     for (float y = -size.y() / 2; y <= size.y() / 2 + 0.01f; y += size.y() / 12) {
+      const float up = z + 0.022f + thick + 0.006f * static_cast<float>(dice.Unit());
       way.emplace_back(std::clamp(lane + 0.02f * static_cast<float>(dice.Signed()), -half, half), y,
-                       z + 0.022f + thick + 0.006f * static_cast<float>(dice.Unit()));
+                       up);
     }
     make.Pipe(Smooth(way, 3), thick, dice.Chance(0.7) ? make.f.dark : make.f.white, 7);
   }

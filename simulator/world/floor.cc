@@ -17,8 +17,8 @@ void AddSlab(TriangleMesh* mesh, const Vector2f& low, const Vector2f& high, std:
   const Vector2f size = (high - low) / kFloorSheet_m;
   const bool swap = dice.Chance(0.5);
   UvRect uv;
-  uv.size =
-      Vector2f(dice.Chance(0.5) ? size.x() : -size.x(), dice.Chance(0.5) ? size.y() : -size.y());
+  const bool mirror_y = !dice.Chance(0.5), mirror_x = !dice.Chance(0.5);
+  uv.size = {mirror_x ? -size.x() : size.x(), mirror_y ? -size.y() : size.y()};
   uv.origin = {uv.size.x() < 0 ? 1.0f : 0.0f, uv.size.y() < 0 ? 1.0f : 0.0f};
   const Vector3f corner(low.x(), high.y(), 0);
   const Vector3f right(high.x() - low.x(), 0, 0), down(0, low.y() - high.y(), 0);

@@ -61,10 +61,10 @@ void AddCartons(TriangleMesh* mesh, const Palette& palette, const Eigen::Isometr
       const float y = (static_cast<float>(i % ny) - static_cast<float>(ny - 1) / 2) * size.y();
       const float turn = static_cast<float>(sloppy * 0.02 * dice.Signed());
       const float slip = static_cast<float>(sloppy * 0.012);
+      const float slip_y = slip * static_cast<float>(dice.Signed());
+      const float slip_x = slip * static_cast<float>(dice.Signed());
       AddCarton(mesh, palette,
-                pose * At(x + slip * static_cast<float>(dice.Signed()),
-                          y + slip * static_cast<float>(dice.Signed()),
-                          static_cast<float>(layer) * size.z(), turn),
+                pose * At(x + slip_x, y + slip_y, static_cast<float>(layer) * size.z(), turn),
                 size * 0.985f, kind, &dice);
     }
   }
@@ -79,13 +79,13 @@ void AddLooseCartons(TriangleMesh* mesh, const Palette& palette, const Eigen::Is
     if (y + width > footprint.y() / 2) break;
     float z = 0;
     while (true) {
-      const Vector3f size(Between(&dice, 0.3, 0.9) * footprint.x(),
-                          width * Between(&dice, 0.8, 0.97), Between(&dice, 0.15, 0.5));
+      const float tall = Between(&dice, 0.15, 0.5), wide = width * Between(&dice, 0.8, 0.97);
+      const Vector3f size(Between(&dice, 0.3, 0.9) * footprint.x(), wide, tall);
       if (z + size.z() > height) break;
-      AddCarton(mesh, palette,
-                pose * At((footprint.x() - size.x()) / 2 * Between(&dice, -1, 1), y + width / 2, z,
-                          static_cast<float>(0.06 * dice.Signed())),
-                size, PickOf(kCartonSides, &dice), &dice);
+      const std::size_t kind = PickOf(kCartonSides, &dice);
+      const float turn = static_cast<float>(0.06 * dice.Signed());
+      const float x = (footprint.x() - size.x()) / 2 * Between(&dice, -1, 1);
+      AddCarton(mesh, palette, pose * At(x, y + width / 2, z, turn), size, kind, &dice);
       z += size.z();
       if (dice.Chance(0.45)) break;
     }

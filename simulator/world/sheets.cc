@@ -38,7 +38,8 @@ void TyreMarks(Canvas* sheet, Dice dice, double wear) {
 void RubOff(Canvas* sheet, Dice* dice, double wear) {
   sheet->Fractal(dice->Fork(), 8, 5, 0.05f);
   for (int i = 0; i < static_cast<int>(wear * 60); ++i) {
-    Stain(sheet, dice->Fork(), static_cast<float>(dice->Between(0.004, 0.03)), 0.5f, 0.3f);
+    const auto radius = static_cast<float>(dice->Between(0.004, 0.03));
+    Stain(sheet, dice->Fork(), radius, 0.5f, 0.3f);
   }
   sheet->Grain(dice->Fork(), 0.02f);
 }
@@ -72,9 +73,10 @@ cv::Mat1b WornFloor(const cv::Mat1b& clean, Dice dice, double wear) {
   }
   for (int i = 0; i < static_cast<int>(wear * 4); ++i) TyreMarks(&sheet, dice.Fork(), wear);
   for (int i = 0; i < static_cast<int>(wear * 200); ++i) {  // chips and grit
-    sheet.Disc(static_cast<float>(dice.Unit()), static_cast<float>(dice.Unit()),
-               static_cast<float>(dice.Between(0.0008, 0.003)),
-               static_cast<float>(dice.Chance(0.6) ? 0.2 : 0.8), 0.7f);
+    const float grey = dice.Chance(0.6) ? 0.2f : 0.8f;
+    const auto radius = static_cast<float>(dice.Between(0.0008, 0.003));
+    const auto y = static_cast<float>(dice.Unit()), x = static_cast<float>(dice.Unit());
+    sheet.Disc(x, y, radius, grey, 0.7f);
   }
   sheet.Fill(0, 0, 0.0022f, 1, 0.16f, 0.85f);  // saw-cut joints
   sheet.Fill(0, 0, 1, 0.0022f, 0.16f, 0.85f);
