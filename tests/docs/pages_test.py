@@ -60,17 +60,6 @@ def anchors(text):
     return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
 
 
-def rooms_of_the_map(text):
-    """Folders that the map of rooms names: a house at the margin, its rooms indented by two, theirs by four."""
-    path, rooms = [], set()
-    for line in text.splitlines():
-        found = re.match(r"( {0,4})([a-z_]+)/?  +\S", line)
-        if found and len(found[1]) % 2 == 0:
-            path = [*path[: len(found[1]) // 2], found[2]]
-            rooms.add("/".join(path))
-    return rooms
-
-
 class Pages(unittest.TestCase):
     def test_every_link_leads_somewhere(self):
         for page in PAGES:
@@ -139,18 +128,6 @@ class Pages(unittest.TestCase):
             prose = [line for line in text.splitlines() if not re.match(r"[|!#]|    ", line)]
             long = [line for line in prose if len(line) > 120 and " " in line[:120].strip()]
             self.assertEqual(long, [], page.relative_to(SOURCE))
-
-    def test_every_room_is_on_the_map(self):
-        page = (SOURCE / "reports/docs/architecture.md").read_text()
-        mapped = rooms_of_the_map(page.split("## Map of rooms")[1].split("```")[1])
-        self.assertTrue({"slam", "slam/dynamic/robust"} <= mapped)
-        for house in ("simulator", "slam", "harness"):
-            lines = (SOURCE / house / "CMakeLists.txt").read_text()
-            rooms = set(re.findall(rf"^aisle_room\(({house}[\w/]*)", lines, re.M))
-            self.assertGreater(len(rooms), 10, house)
-            self.assertEqual(rooms - mapped, set(), house)
-            folders = {room for room in mapped if room.startswith(house + "/")}
-            self.assertEqual({room for room in folders if not (SOURCE / room).is_dir()}, set(), house)
 
     def test_the_cron_line_writes_of_every_failure(self):
         line = re.search(r"^0 2 \* \* \*  (.*)$", NIGHTLY.read_text(), re.M).group(1)
