@@ -29,6 +29,20 @@ TEST(PixelRays, PointOnARayProjectsToItsPixelInOpenCv) {
   }
 }
 
+TEST(PixelRays, AStepLeadsToTheNextPixelThroughAnyLens) {
+  for (const Lens& lens : {Lens{}, Lens{LensModel::kRadialTangential, {-0.28, 0.074, 2e-4, 2e-5}},
+                           Lens{LensModel::kEquidistant, {-0.01, 0.02, -0.01, 0.002}}}) {
+    const PixelRays rays = MakePixelRays({.lens = lens});
+    for (const int v : {0, 100, 300, 478}) {
+      for (const int u : {0, 150, 400, 750}) {
+        const PixelRays::Step step = rays.StepAt(u, v);
+        EXPECT_LT((rays.At(u + 1, v) - rays.At(u, v) - step.right).norm(), 1e-6f) << u << ", " << v;
+        EXPECT_LT((rays.At(u, v + 1) - rays.At(u, v) - step.down).norm(), 1e-6f) << u << ", " << v;
+      }
+    }
+  }
+}
+
 TEST(CameraPose, RightCameraStandsOneBaselineAlongTheRigsX) {
   StereoCamera camera;
   camera.baseline_m = 0.25;

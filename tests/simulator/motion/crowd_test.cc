@@ -124,7 +124,8 @@ TEST(Crowd, SaysWhenThereIsNoRoom) {
   }
 }
 
-/// The forces are minus the gradients of their potentials (equations 3 and 4).
+/// The forces are minus the gradients of their potentials (equations 3 and 4), whole where the
+/// other is within 100 degrees of ahead, and half where not.
 TEST(CrowdForces, PushDownTheirPotentials) {
   const BodyNow other{{0.2, -0.1}, 0.7, 1.2};
   const auto potential = [&](const Eigen::Vector2d& at) {
@@ -134,13 +135,32 @@ TEST(CrowdForces, PushDownTheirPotentials) {
   };
   const double h = 1e-6;
   for (const Eigen::Vector2d& at : {Eigen::Vector2d(1.5, 0.1), {0.3, 1.2}, {2.2, 1.6}}) {
-    const BodyNow body{at, std::atan2(other.position.y() - at.y(), other.position.x() - at.x()), 1};
     const Eigen::Vector2d down(
         -(potential({at.x() + h, at.y()}) - potential({at.x() - h, at.y()})) / (2 * h),
         -(potential({at.x(), at.y() + h}) - potential({at.x(), at.y() - h})) / (2 * h));
-    const Eigen::Vector2d force = PersonForce(body, other);
-    EXPECT_TRUE((force - down).norm() < 1e-6 || (force - 0.5 * down).norm() < 1e-6);
+    const double comes_from_rad = std::atan2(-down.y(), -down.x());
+    for (const double aside_deg : {0.0, 95.0, -95.0, 105.0, -105.0, 180.0}) {
+      const BodyNow body{at, comes_from_rad + aside_deg * std::numbers::pi / 180, 1};
+      const double share = std::abs(aside_deg) < 100 ? 1 : 0.5;
+      EXPECT_LT((PersonForce(body, other) - share * down).norm(), 1e-6) << aside_deg;
+    }
   }
+}
+
+/// Somebody who stands steps aside of a truck's way while it is still 3.6 m off, and does not mind
+/// one that has passed.
+TEST(CrowdForces, KeepClearOfWhereAnIntruderIsGoingToBe) {
+  const BodyNow body{{0, 0}, 0, 0};
+  const auto truck = [](double speed_mps) {
+    CrowdIntruder intruder;
+    for (int k = 0; k < 60; ++k) {
+      intruder.places.emplace_back(-3.6 + speed_mps * k * kCrowdStep_s, -0.4);
+    }
+    return intruder;
+  };
+  const Eigen::Vector2d comes = IntruderForce(body, truck(2), 0);
+  EXPECT_GT(comes.y(), 0.5) << "off its way, which passes on the right";
+  EXPECT_LT(IntruderForce(body, truck(-2), 0).norm(), 0.01);
 }
 
 }  // namespace

@@ -88,6 +88,33 @@ TEST(RecordedPath, VelocityAndTurnRateDoNotJump) {
   }
 }
 
+/// A body that tumbles: its turn rate changes from pose to pose in size and axis.
+TEST(RecordedPath, TheTurnRateOfATumblingBodyDoesNotJump) {
+  const auto tumbling = [](double t) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() = (Eigen::AngleAxisd(3 * std::sin(1.7 * t), Eigen::Vector3d::UnitX()) *
+                     Eigen::AngleAxisd(2.2 * t, Eigen::Vector3d::UnitY()) *
+                     Eigen::AngleAxisd(2 * std::cos(2.9 * t), Eigen::Vector3d::UnitZ()))
+                        .toRotationMatrix();
+    return pose;
+  };
+  std::vector<TimedPose> knots;
+  for (int i = 0; i < 40; ++i) knots.push_back({i * kStepNs, tumbling(i * 0.05)});
+  const RecordedPath path(knots);
+  constexpr std::int64_t kNear = 10'000;  // ns
+  const auto rate = [&](std::int64_t from, std::int64_t to) {
+    const Eigen::AngleAxisd turn(path.At(from).linear().transpose() * path.At(to).linear());
+    return Eigen::Vector3d(turn.angle() * turn.axis() / (kNear * 1e-9));
+  };
+  double fastest_rad_s = 0;
+  for (int i = 1; i < 39; ++i) {
+    const std::int64_t at = i * kStepNs;
+    EXPECT_LT((rate(at, at + kNear) - rate(at - kNear, at)).norm(), 0.02) << i;
+    fastest_rad_s = std::max(fastest_rad_s, rate(at, at + kNear).norm());
+  }
+  EXPECT_GT(fastest_rad_s, 5);
+}
+
 TEST(RecordedPath, RefusesTimesThatFall) {
   for (const std::vector<std::int64_t>& times : std::vector<std::vector<std::int64_t>>{
            {5, 5}, {5, 4}, {0, 1, 1, 2}, {0, 2, 1, 3}, {0, 1, 2, 2}, {0, 0, 1, 2}}) {
