@@ -30,6 +30,7 @@ struct Rig {
   cv::Matx33d r1, r2;
   cv::Matx34d p1, p2;
   cv::Size size{752, 480};
+  bool equidistant = false;
 
   Rig() {
     T_right_left.linear() = (Eigen::AngleAxisd(0.007, Eigen::Vector3d::UnitX()) *
@@ -47,10 +48,25 @@ struct Rig {
     cv::eigen2cv(Eigen::Matrix3d(T_right_left.linear()), rotation);
     cv::eigen2cv(Eigen::Vector3d(T_right_left.translation()), shift);
     cv::Matx44d q;
-    cv::stereoRectify(k1, d1, k2, d2, size, rotation, shift, r1, r2, p1, p2, q,
-                      cv::CALIB_ZERO_DISPARITY, 0);
+    if (equidistant) {
+      cv::fisheye::stereoRectify(k1, d1, k2, d2, size, rotation, shift, r1, r2, p1, p2, q,
+                                 cv::CALIB_ZERO_DISPARITY, size);
+    } else {
+      cv::stereoRectify(k1, d1, k2, d2, size, rotation, shift, r1, r2, p1, p2, q,
+                        cv::CALIB_ZERO_DISPARITY, 0);
+    }
   }
 };
+
+/// Through fisheyes, whose third and fourth coefficients would be a radtan lens's tilt.
+Rig Fisheyes() {
+  Rig rig;
+  rig.equidistant = true;
+  rig.d1 = {-0.0134, 0.0207, -0.0127, 0.0025};
+  rig.d2 = {-0.0145, 0.0221, -0.0139, 0.0027};
+  rig.Rectify();
+  return rig;
+}
 
 template <class Numbers>
 std::string List(const Numbers& numbers) {
@@ -83,27 +99,39 @@ class StereoModelTest : public testing::Test {
     return (folder_ / name).string();
   }
 
+  std::string KalibrCamera(const char* name, const cv::Matx33d& k,
+                           const std::vector<double>& d) const {
+    return fmt::format(
+        "{}:\n  camera_model: pinhole\n  intrinsics: {}\n  distortion_model: {}\n"
+        "  distortion_coeffs: {}\n  resolution: [752, 480]\n  rostopic: /{}/image_raw\n",
+        name, List(std::vector{k(0, 0), k(1, 1), k(0, 2), k(1, 2)}),
+        rig_.equidistant ? "equidistant" : "radtan", List(d), name);
+  }
   std::vector<std::string> Kalibr() const {
-    const auto camera = [&](const char* name, const cv::Matx33d& k, const std::vector<double>& d) {
-      return fmt::format(
-          "{}:\n  camera_model: pinhole\n  intrinsics: {}\n  distortion_model: radtan\n"
-          "  distortion_coeffs: {}\n  resolution: [752, 480]\n  rostopic: /{}/image_raw\n",
-          name, List(std::vector{k(0, 0), k(1, 1), k(0, 2), k(1, 2)}), List(d), name);
-    };
-    return {Put("camchain.yaml", camera("cam0", rig_.k1, rig_.d1) +
-                                     camera("cam1", rig_.k2, rig_.d2) +
+    return {Put("camchain.yaml", KalibrCamera("cam0", rig_.k1, rig_.d1) +
+                                     KalibrCamera("cam1", rig_.k2, rig_.d2) +
                                      "  T_cn_cnm1: " + List(rig_.T_right_left, true) + "\n")};
+  }
+  /// Each camera's place by the IMU's, which here is the body.
+  std::vector<std::string> KalibrWithImu() const {
+    const Eigen::Isometry3d T_left_imu = rig_.T_body_left.inverse();
+    const Eigen::Isometry3d T_right_imu = rig_.T_right_left * T_left_imu;
+    return {Put("camchain-imucam.yaml", KalibrCamera("cam0", rig_.k1, rig_.d1) +
+                                            "  T_cam_imu: " + List(T_left_imu, true) + "\n" +
+                                            KalibrCamera("cam1", rig_.k2, rig_.d2) +
+                                            "  T_cam_imu: " + List(T_right_imu, true) + "\n")};
   }
   std::vector<std::string> Euroc() const {
     const auto sensor = [&](const char* name, const cv::Matx33d& k, const std::vector<double>& d,
                             const Eigen::Isometry3d& T_body_camera) {
-      return Put(name, fmt::format("%YAML:1.0\n---\nsensor_type: camera\nT_BS:\n  cols: 4\n"
-                                   "  rows: 4\n  data: {}\nresolution: [752, 480]\n"
-                                   "camera_model: pinhole\nintrinsics: {}\n"
-                                   "distortion_model: radial-tangential\n"
-                                   "distortion_coefficients: {}\n",
-                                   List(T_body_camera, false),
-                                   List(std::vector{k(0, 0), k(1, 1), k(0, 2), k(1, 2)}), List(d)));
+      return Put(name,
+                 fmt::format("%YAML:1.0\n---\nsensor_type: camera\nT_BS:\n  cols: 4\n"
+                             "  rows: 4\n  data: {}\nresolution: [752, 480]\n"
+                             "camera_model: pinhole\nintrinsics: {}\n"
+                             "distortion_model: {}\ndistortion_coefficients: {}\n",
+                             List(T_body_camera, false),
+                             List(std::vector{k(0, 0), k(1, 1), k(0, 2), k(1, 2)}),
+                             rig_.equidistant ? "equidistant" : "radial-tangential", List(d)));
     };
     return {sensor("cam0.yaml", rig_.k1, rig_.d1, rig_.T_body_left),
             sensor("cam1.yaml", rig_.k2, rig_.d2, rig_.T_body_left * rig_.T_right_left.inverse())};
@@ -111,14 +139,15 @@ class StereoModelTest : public testing::Test {
   std::vector<std::string> CameraInfo() const {
     const auto info = [&](const char* name, const cv::Matx33d& k, std::vector<double> d,
                           const cv::Matx33d& r, const cv::Matx34d& p) {
-      d.push_back(0);
-      return Put(name,
-                 fmt::format("image_width: 752\nimage_height: 480\ncamera_name: {}\n"
-                             "camera_matrix:\n  rows: 3\n  cols: 3\n  data: {}\n"
-                             "distortion_model: plumb_bob\ndistortion_coefficients:\n  rows: 1\n"
-                             "  cols: 5\n  data: {}\nrectification_matrix:\n  rows: 3\n  cols: 3\n"
-                             "  data: {}\nprojection_matrix:\n  rows: 3\n  cols: 4\n  data: {}\n",
-                             name, List(k), List(d), List(r), List(p)));
+      if (!rig_.equidistant) d.push_back(0);
+      return Put(
+          name, fmt::format("image_width: 752\nimage_height: 480\ncamera_name: {}\n"
+                            "camera_matrix:\n  rows: 3\n  cols: 3\n  data: {}\n"
+                            "distortion_model: {}\ndistortion_coefficients:\n  rows: 1\n"
+                            "  cols: {}\n  data: {}\nrectification_matrix:\n  rows: 3\n  cols: 3\n"
+                            "  data: {}\nprojection_matrix:\n  rows: 3\n  cols: 4\n  data: {}\n",
+                            name, List(k), rig_.equidistant ? "equidistant" : "plumb_bob", d.size(),
+                            List(d), List(r), List(p)));
     };
     return {info("left.yaml", rig_.k1, rig_.d1, rig_.r1, rig_.p1),
             info("right.yaml", rig_.k2, rig_.d2, rig_.r2, rig_.p2)};
@@ -202,6 +231,28 @@ TEST_F(StereoModelTest, CamerasAsBuiltAreReadAsWritten) {
                 1e-9);
     }
   }
+}
+
+/// The same by cv::fisheye, whose model is Kalibr's equidistant one.
+TEST_F(StereoModelTest, FisheyesAreReadAndRectifiedAsTheyAreWritten) {
+  rig_ = Fisheyes();
+  for (const auto& files : {Kalibr(), KalibrWithImu(), Euroc(), CameraInfo()}) {
+    const StereoModel model = ReadStereoModel(files);
+    EXPECT_TRUE(model.left.equidistant && model.right.equidistant) << files[0];
+    EXPECT_EQ(model.left.distortion, rig_.d1) << files[0];
+    EXPECT_EQ(model.right.distortion, rig_.d2) << files[0];
+    const RectifiedPair pair = Rectified(model);
+    EXPECT_NEAR(pair.fx, rig_.p1(0, 0), 1e-9) << files[0];
+    EXPECT_NEAR(pair.fy, rig_.p1(1, 1), 1e-9) << files[0];
+    EXPECT_NEAR(pair.cx, rig_.p1(0, 2), 1e-9) << files[0];
+    EXPECT_NEAR(pair.cy, rig_.p1(1, 2), 1e-9) << files[0];
+    EXPECT_NEAR(pair.baseline_m, rig_.T_right_left.translation().norm(), 1e-9) << files[0];
+  }
+}
+
+TEST_F(StereoModelTest, TwoCamerasPlacesByTheImuAreTheirPlacesToEachOther) {
+  const StereoModel model = ReadStereoModel(KalibrWithImu());
+  EXPECT_TRUE(model.T_right_left.isApprox(rig_.T_right_left, 1e-9));
 }
 
 /// Any two cameras of about one kind, side by side, turned a little against each other.
