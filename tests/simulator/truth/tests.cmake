@@ -1,0 +1,1 @@
+aisle_tests(simulator/truth USES simulator/shade/pass)
