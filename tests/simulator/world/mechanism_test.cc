@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "simulator/scene/load.h"
 #include "simulator/world/build.h"
@@ -148,48 +147,6 @@ TEST(Mechanism, TwoPeopleCarryItBetweenThem) {
   ExpectVelocitiesOfPositions(world, "crate", {1.9, 3.3, 5.2}, 0.05f);
   const Scene calm = WithDynamics(ParseScene(kHall + kCarried, "s.yaml"), Dynamics::kNone);
   EXPECT_TRUE(BuildWorld(calm, kAssets, 1).mover_meshes().empty()) << "it stays away with them";
-}
-
-/// A light that turns is no thing that moves.
-TEST(Beams, MoveThoughNothingElseDoes) {
-  const World world = Build(R"(beams:
-  - {name: sweep, at_m: [6, 0, 2], rate_hz: 1, brightness: 4}
-  - {name: sun, kind: sun, at_m: [6, 0, 5.9], in_roof: true, elevation_deg: 60, moves: [{at_s: 0, over_s: 5, azimuth_deg: 30, elevation_deg: 50, share: 0.5}]}
-)");
-  ASSERT_TRUE(world.has_beams());
-  const Snapshot first = world.At(0), later = world.At(Nano(0.3));
-  ASSERT_EQ(first.beams.size(), 2u);
-  EXPECT_TRUE(first.movers.empty()) << "nothing is there that could move";
-  // A turn a second: 108 degrees.
-  EXPECT_NEAR(first.beams[0].toward.dot(later.beams[0].toward), std::cos(0.6 * std::numbers::pi),
-              1e-5);
-  EXPECT_NE(first.beams[1].toward, later.beams[1].toward);
-  EXPECT_NEAR(world.At(Nano(9)).beams[1].power, 0.5 * first.beams[1].power, 1e-6);
-  EXPECT_EQ(first.light_scale.size(), world.lights().size());
-}
-
-TEST(Beams, RestBelowTheirLevel) {
-  const std::string text =
-      "beams: [{name: sweep, at_m: [6, 0, 2], rate_hz: 1, brightness: 4, level: mid}]\n";
-  const World calm =
-      BuildWorld(WithDynamics(ParseScene(kHall + text, "s.yaml"), Dynamics::kLow), kAssets, 1);
-  EXPECT_EQ(calm.At(0).beams[0].toward, calm.At(Nano(0.3)).beams[0].toward);
-}
-
-TEST(Beams, WhatAWindowSpreadsIsWhatItsBarsLeaveOpen) {
-  const auto bounce = [](const char* bar_m) {
-    return Build(fmt::format("beams: [{{name: sun, kind: sun, at_m: [4, 0, 5.9], in_roof: true, "
-                             "size_m: [2.4, 1.6], columns: 3, rows: 2, bar_m: {}, brightness: 3, "
-                             "elevation_deg: 80}}]\n",
-                             bar_m))
-        .At(0)
-        .beam_bounce;
-  };
-  const float whole = bounce("0");
-  EXPECT_GT(whole, 0);
-  // Panes of 0.8 x 0.8 m.
-  EXPECT_NEAR(bounce("0.2") / whole, 0.75 * 0.75, 1e-5);
-  EXPECT_EQ(bounce("0.8"), 0) << "shut";
 }
 
 }  // namespace
