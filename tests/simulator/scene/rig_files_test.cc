@@ -128,6 +128,31 @@ TEST(RigFloor, IsTheVehiclesOrBelowTheCamera) {
   EXPECT_NEAR(RigFloorOf(scene)(0).heading_rad, at.heading_rad + 0.3, 1e-12);
 }
 
+/// A recording is of the first pair; another one stands to it as their mounts say.
+TEST(RigPath, OfASecondPairOnARecordingIsWhereTheRouteWouldHaveIt) {
+  const RigMount first{.height_m = 0.9, .forward_m = 0.4, .pitch_rad = 0.1, .yaw_rad = 0.2};
+  const RigMount second{.height_m = 1.3,
+                        .forward_m = -0.5,
+                        .pitch_rad = -0.2,
+                        .left_m = 0.3,
+                        .yaw_rad = 2.8,
+                        .roll_rad = 0.1};
+  Scene scene;
+  scene.rig.route.plan.steps.emplace_back().go = {{4, 0}, {4, 5}};
+  scene.rig.mount = first;
+  const auto recorded = RigPathOf(scene);
+  scene.rig.mount = second;
+  const auto expected = RigPathOf(scene);
+  for (std::int64_t i = 0; i < 100; ++i) {
+    scene.rig.poses.push_back({i * 50'000'000, recorded(i * 50'000'000)});
+  }
+  scene.rig.first_mount = first;
+  const auto path = RigPathOf(scene);
+  for (const TimedPose& pose : scene.rig.poses) {
+    EXPECT_TRUE(path(pose.time_ns).isApprox(expected(pose.time_ns), 1e-9)) << pose.time_ns;
+  }
+}
+
 TEST_F(RigFilesTest, ARecordingHasNeitherBumpsNorSteering) {
   for (const char* key : {"bumps: [{at_s: 1}]", "jerk_mps3: 2", "curvature_rate_per_m_s: 1",
                           "lateral_jerk_mps3: 1", "start: [0, 0]"}) {

@@ -42,6 +42,8 @@ TEST(Seeded, ChangesTimingSpeedAndPathWithinTheirBounds) {
     }
   }
   EXPECT_EQ(starts.size(), 150u) << "everybody's own, with every seed";
+  EXPECT_LT(*starts.begin(), 1.6) << "some are early";
+  EXPECT_GT(*starts.rbegin(), 2.4) << "and some late";
 }
 
 TEST(Seeded, SomebodyDoesTheSameWhoeverElseIsThere) {

@@ -164,6 +164,23 @@ TEST(MakeResponse, ThePatternStaysWhileTheNoiseChanges) {
   EXPECT_NEAR(deviation[0] * deviation[0], temporal + pattern, 0.03 * (temporal + pattern));
 }
 
+/// Electrons of the dark are added to those of the light, pixel by pixel.
+TEST(MakeResponse, ThePatternOfTheDarkIsItsElectrons) {
+  const SensorOptions options{
+      .exposure = 1, .gain = 2, .black_level = 20, .prnu = 0, .dsnu_e = 150, .noise = false};
+  const PixelResponse response = MakeResponse(cv::Mat1f(480, 752, 1.0f), options, 1, 0);
+  const double e_per_grey = options.full_well_e / options.gain / 255;
+  for (const float radiance : {0.0f, 0.3f}) {
+    const cv::Mat1b grey = Expose(cv::Mat1f(480, 752, radiance), response, options, {});
+    for (int y = 0; y < grey.rows; y += 7) {
+      for (int x = 0; x < grey.cols; x += 5) {
+        const double level = 255 * radiance + 20 + response.dark_e(y, x) / e_per_grey;
+        ASSERT_NEAR(grey(y, x), std::max(level, 0.0), 0.51) << x << ", " << y;
+      }
+    }
+  }
+}
+
 TEST(MakeResponse, SwitchedOffItIsTheLens) {
   const cv::Mat1f fall_off(480, 752, 0.8f);
   const PixelResponse response = MakeResponse(fall_off, {.fixed_pattern = false}, 7, 0);
