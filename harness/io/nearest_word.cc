@@ -23,20 +23,26 @@ std::size_t EditDistance(const std::string& a, const std::string& b) {
   return cell.back().back();
 }
 
+/// Edits from a misspelt word to a known one, those that begin alike being one apart; `limit` where
+/// they are no fewer. A huge word is not compared: it would make a huge table.
+std::size_t EditsBelow(std::size_t limit, const std::string& word, const std::string& known) {
+  if (word == known) return 0;
+  const bool begins_alike =
+      !word.empty() && !known.empty() && (known.starts_with(word) || word.starts_with(known));
+  if (begins_alike) return std::min<std::size_t>(limit, 1);
+  const auto [shorter, longer] = std::minmax({word.size(), known.size()});
+  return longer - shorter >= limit ? limit : std::min(limit, EditDistance(word, known));
+}
+
 }  // namespace
 
 std::string NearestWord(const std::string& word, const std::vector<std::string>& known) {
   std::string nearest;
-  std::size_t best = word.size() / 2 + 1;  // further apart it is another word
+  std::size_t best = (word.size() + 1) / 3 + 1;  // further apart it is another word
   for (const std::string& candidate : known) {
-    const bool alike =
-        !word.empty() && (candidate.starts_with(word) || word.starts_with(candidate));
-    const std::size_t apart =
-        std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size());
-    if (!alike && apart >= best) continue;  // a huge word would make a huge table
-    const std::size_t distance = alike ? 1 : EditDistance(word, candidate);
-    if (distance >= best) continue;
-    best = distance;
+    const std::size_t edits = EditsBelow(best, word, candidate);
+    if (edits >= best) continue;
+    best = edits;
     nearest = candidate;
   }
   return nearest;

@@ -6,6 +6,34 @@
 namespace aisle::slam {
 namespace {
 
+/// Levenshtein's, two letters in each other's place counting as one mistake (optimal string
+/// alignment): of `a` to i letters and `b` to j letters in cell (i, j).
+std::size_t EditDistance(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> cell(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  std::iota(cell[0].begin(), cell[0].end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    cell[i][0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t changed = cell[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      cell[i][j] = std::min({cell[i - 1][j] + 1, cell[i][j - 1] + 1, changed});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) cell[i][j] = std::min(cell[i][j], cell[i - 2][j - 2] + 1);
+    }
+  }
+  return cell.back().back();
+}
+
+/// Edits from a misspelt word to a known one, those that begin alike being one apart; `limit` where
+/// they are no fewer. A huge word is not compared: it would make a huge table.
+std::size_t EditsBelow(std::size_t limit, const std::string& word, const std::string& known) {
+  if (word == known) return 0;
+  const bool begins_alike =
+      !word.empty() && !known.empty() && (known.starts_with(word) || word.starts_with(known));
+  if (begins_alike) return std::min<std::size_t>(limit, 1);
+  const auto [shorter, longer] = std::minmax({word.size(), known.size()});
+  return longer - shorter >= limit ? limit : std::min(limit, EditDistance(word, known));
+}
+
 /// The last parts of `name`, as many as `like` has.
 std::string LastParts(const std::string& name, const std::string& like) {
   auto begin = name.size();
@@ -18,32 +46,22 @@ std::string LastParts(const std::string& name, const std::string& like) {
 
 }  // namespace
 
-int EditDistance(const std::string& a, const std::string& b) {
-  std::vector<int> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    int diagonal = row[0];
-    row[0] = static_cast<int>(i) + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const int replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
+std::string NearestName(const std::string& name, const std::vector<std::string>& names) {
+  std::string nearest;
+  std::size_t best = (name.size() + 1) / 3 + 1;  // further apart it is another name
+  for (const std::string& other : names) {
+    const std::size_t edits =
+        std::min(EditsBelow(best, name, other), EditsBelow(best, name, LastParts(other, name)));
+    if (edits >= best) continue;
+    best = edits;
+    nearest = other;
   }
-  return row.back();
+  return nearest;
 }
 
 std::string DidYouMean(const std::string& name, const std::vector<std::string>& names) {
-  int least = static_cast<int>(name.size() + 2) / 3;
-  const std::string* nearest = nullptr;
-  for (const std::string& other : names) {
-    const int distance =
-        std::min(EditDistance(name, other), EditDistance(name, LastParts(other, name)));
-    if (distance > least || (nearest && distance == least)) continue;
-    least = distance;
-    nearest = &other;
-  }
-  return nearest ? "; did you mean " + *nearest + "?" : "";
+  const std::string nearest = NearestName(name, names);
+  return nearest.empty() ? "" : "; did you mean " + nearest + "?";
 }
 
 }  // namespace aisle::slam
