@@ -36,6 +36,7 @@ Line LineOf(const Footprint& footprint, const RouteState& state) {
 }  // namespace
 
 Footprint FootprintOf(const std::string& model) {
+  if (model.starts_with("car_van")) return {-0.05, 3.15, 0.85};
   if (model.starts_with("car")) return {-0.1, 2.8, 0.85};
   if (model.starts_with("cyclist")) return {0, 1.05, 0.3};
   if (model.starts_with("agv")) return {-0.25, 0.3, 0.38};
