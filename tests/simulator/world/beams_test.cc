@@ -18,10 +18,6 @@ Scene SceneOf(const std::string& beams) {
   return ParseScene(kHall + "beams:\n  - " + beams + "\n", "s.yaml");
 }
 
-World Build(const std::string& text) {
-  return BuildWorld(ParseScene(kHall + text, "s.yaml"), kAssets, 1);
-}
-
 std::int64_t Nano(double time_s) { return std::llround(1e9 * time_s); }
 
 Eigen::Vector3d Direction(double azimuth_deg, double elevation_deg) {
@@ -31,10 +27,12 @@ Eigen::Vector3d Direction(double azimuth_deg, double elevation_deg) {
 
 /// A light that turns is no thing that moves.
 TEST(Beams, MoveThoughNothingElseDoes) {
-  const World world = Build(R"(beams:
+  const Scene scene = ParseScene(kHall + R"(beams:
   - {name: sweep, at_m: [6, 0, 2], rate_hz: 1, brightness: 4}
   - {name: sun, kind: sun, at_m: [6, 0, 5.9], in_roof: true, elevation_deg: 60, moves: [{at_s: 0, over_s: 5, azimuth_deg: 30, elevation_deg: 50, share: 0.5}]}
-)");
+)",
+                                 "s.yaml");
+  const World world = BuildWorld(scene, kAssets, 1);
   ASSERT_TRUE(world.has_beams());
   const Snapshot first = world.At(0), later = world.At(Nano(0.3));
   ASSERT_EQ(first.beams.size(), 2u);
@@ -48,27 +46,28 @@ TEST(Beams, MoveThoughNothingElseDoes) {
 }
 
 TEST(Beams, RestBelowTheirLevel) {
-  const std::string text =
-      "beams: [{name: sweep, at_m: [6, 0, 2], rate_hz: 1, brightness: 4, level: mid}]\n";
-  const World calm =
-      BuildWorld(WithDynamics(ParseScene(kHall + text, "s.yaml"), Dynamics::kLow), kAssets, 1);
-  EXPECT_EQ(calm.At(0).beams[0].toward, calm.At(Nano(0.3)).beams[0].toward);
+  const Scene calm =
+      WithDynamics(SceneOf("{name: sweep, at_m: [6, 0, 2], rate_hz: 1, brightness: 4, level: mid}"),
+                   Dynamics::kLow);
+  float bounce = 0;
+  EXPECT_EQ(BeamsAt(calm, 0, &bounce)[0].toward, BeamsAt(calm, 0.3, &bounce)[0].toward);
 }
 
 TEST(Beams, WhatAWindowSpreadsIsWhatItsBarsLeaveOpen) {
-  const auto bounce = [](const char* bar_m) {
-    return Build(fmt::format("beams: [{{name: sun, kind: sun, at_m: [4, 0, 5.9], in_roof: true, "
-                             "size_m: [2.4, 1.6], columns: 3, rows: 2, bar_m: {}, brightness: 3, "
-                             "elevation_deg: 80}}]\n",
-                             bar_m))
-        .At(0)
-        .beam_bounce;
+  const auto spread = [](const char* bar_m) {
+    float bounce = 0;
+    BeamsAt(SceneOf(fmt::format("{{name: sun, kind: sun, at_m: [4, 0, 5.9], in_roof: true, "
+                                "size_m: [2.4, 1.6], columns: 3, rows: 2, bar_m: {}, "
+                                "brightness: 3, elevation_deg: 80}}",
+                                bar_m)),
+            0, &bounce);
+    return bounce;
   };
-  const float whole = bounce("0");
+  const float whole = spread("0");
   EXPECT_GT(whole, 0);
   // Panes of 0.8 x 0.8 m.
-  EXPECT_NEAR(bounce("0.2") / whole, 0.75 * 0.75, 1e-5);
-  EXPECT_EQ(bounce("0.8"), 0) << "shut";
+  EXPECT_NEAR(spread("0.2") / whole, 0.75 * 0.75, 1e-5);
+  EXPECT_EQ(spread("0.8"), 0) << "shut";
 }
 
 /// From above it turns as azimuths count: from x towards y.

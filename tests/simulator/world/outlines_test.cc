@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <map>
+#include <numbers>
+
 #include "simulator/mesh/import.h"
 #include "simulator/scene/footprint.h"
 #include "simulator/scene/load.h"
@@ -71,6 +74,27 @@ fixtures: [{kind: lathe, at: [1, -4], heading_deg: 35}]
     EXPECT_LT((box.max() - obstacle.half).cwiseAbs().maxCoeff(), slack_m) << obstacle.name;
     EXPECT_LT((box.min() + obstacle.half).cwiseAbs().maxCoeff(), slack_m) << obstacle.name;
   }
+}
+
+/// A prop is its model, turned by its heading about its place.
+TEST(Outlines, PropsAreTurnedByTheirHeading) {
+  const Scene scene =
+      ParseScene(kHall + "props: [{model: guard_rail, at: [5, 1], heading_deg: 35}]\n", "s.yaml");
+  const World world = BuildWorld(scene, kAssets, 1);
+  const StaticWorld& statics = world.statics();
+  Eigen::AlignedBox2f drawn, model;
+  for (std::size_t i = 0; i < statics.instances.size(); ++i) {
+    if (!world.instances()[statics.instances[i]].name.starts_with("guard_rail")) continue;
+    for (const std::uint32_t vertex : statics.mesh.triangles[i]) {
+      const Eigen::Vector2f off = statics.mesh.positions[vertex].head<2>() - Eigen::Vector2f(5, 1);
+      drawn.extend(Eigen::Rotation2Df(-35 * std::numbers::pi_v<float> / 180) * off);
+    }
+  }
+  for (const Eigen::Vector3f& point : ImportModel(kAssets + "/kit/guard_rail.glb").mesh.positions) {
+    model.extend(point.head<2>());
+  }
+  EXPECT_GT(model.sizes().maxCoeff(), 3 * model.sizes().minCoeff()) << "it is long";
+  EXPECT_TRUE(drawn.isApprox(model, 1e-4f));
 }
 
 }  // namespace
