@@ -100,6 +100,15 @@ TEST(BeamLight, ASpotLightsBySquareAndCosine) {
   EXPECT_EQ(floor.At(3, 0), 0) << "beyond its cone";
 }
 
+TEST(BeamLight, AFloorIsLitWhereItIsSeenWhicheverWayItIsWound) {
+  Floor floor, turned_over;
+  turned_over.floor = {};
+  turned_over.floor.Quad({-10, -10, 0}, {0, 20, 0}, {20, 0, 0}, 0, 1);
+  floor.beams = turned_over.beams = {Spot()};
+  EXPECT_GT(floor.At(0.5, 0), 0);
+  EXPECT_NEAR(turned_over.At(0.5, 0), floor.At(0.5, 0), 1e-6);
+}
+
 TEST(BeamLight, WhatStandsBetweenKeepsItAway) {
   Floor floor;
   floor.beams = {Spot()};
