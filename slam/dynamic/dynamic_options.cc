@@ -4,7 +4,7 @@ namespace aisle::slam {
 
 void Describe(OptionFields& fields, DynamicOptions& options) {
   fields.Choice("method", &options.method, {"none", "paper", "robust"},
-                "How moving objects are found; each method has options of its own.");
+                "Method that finds moving objects; each method has its own options.");
   fields.Group("paper", &options.paper);
   fields.Group("robust", &options.robust);
 }

@@ -12,14 +12,14 @@ void Describe(OptionFields& fields, FeatureOptions& options) {
   fields.Integer("fast_threshold", &options.fast_threshold, {1, 254}, "grey levels",
                  "Contrast that FAST asks of a corner at first.");
   fields.Integer("fast_threshold_low", &options.fast_threshold_low, {1, 254}, "grey levels",
-                 "Contrast asked for in cells where the first finds nothing.");
+                 "Contrast asked of a corner in cells where the first finds nothing.");
   fields.Integer("cell_px", &options.cell_px, {8, 4096}, "px",
-                 "Side of those cells, in pixels of the level.");
+                 "Side of the cells in which corners are searched, in pixels of the level.");
   fields.Integer("border_px", &options.border_px, {16, 1024}, "px",
-                 "No corner lies nearer to the image's edge, in pixels of the level; orientation "
-                 "reaches 16.");
+                 "Least distance of a corner from the image's edge, in pixels of the level; "
+                 "orientation reaches 16.");
   fields.Number("mask_margin_px", &options.mask_margin_px, {0, 100}, "px",
-                "No corner lies nearer to a masked pixel, in pixels of the level.");
+                "Least distance of a corner from a masked pixel, in pixels of the level.");
   fields.RequireNotAbove("fast_threshold_low", options.fast_threshold_low, "fast_threshold",
                          options.fast_threshold);
 }

@@ -99,7 +99,7 @@ SlamOptions OptionsOf(Base base) {
 
 void Describe(OptionFields& fields, SlamOptions& options) {
   fields.Choice("base", &options.base, {"plain", "orbslam2"},
-                "Whose decisions track and keep the map: ours, or the published ORB-SLAM2's; "
+                "Rules by which tracking and mapping decide: ours, or the published ORB-SLAM2's; "
                 "setting it sets all other options to that one's.");
   fields.Group("dynamic", &options.dynamic);
   fields.Group("feature", &options.feature);

@@ -6,46 +6,47 @@ void Describe(OptionFields& fields, DeadReckoningOptions& options) {
   fields.Number("longest_s", &options.longest_s, {0, 60}, "s",
                 "Longest time without a pose after which motion still predicts one.");
   fields.Number("half_life_s", &options.half_life_s, {1e-3, 1000}, "s",
-                "Half-life over which the motion before is averaged.");
+                "Half-life over which the previous motion is averaged.");
   fields.Group("match", &options.match);
-  fields.Number(
-      "radius_growth_px_per_s", &options.radius_growth_px_per_s, {0, 1000}, "px/s",
-      "Growth of the search radius with that time, where the plain one finds too little.");
+  fields.Number("radius_growth_px_per_s", &options.radius_growth_px_per_s, {0, 1000}, "px/s",
+                "Growth of the search radius with the time without a pose, where the plain radius "
+                "finds too little.");
   fields.Group("align", &options.align);
   fields.Integer("least_inliers", &options.least_inliers, {3, 10000}, "",
-                 "A final estimate with fewer inliers is none.");
+                 "Least number of inliers of a final estimate.");
   fields.Number("least_share", &options.least_share, {0, 1}, "",
                 "Least share of inliers among the landmarks that should be seen.");
   fields.Number("drift_m_per_s", &options.drift_m_per_s, {0, 1000}, "m/s",
-                "A pose further from the predicted one than this times the time is a mistake.");
-  fields.Number(
-      "drift_deg_per_s", &options.drift_deg_per_s, {0, 1000}, "deg/s",
-      "A pose turned further from the predicted one than this times the time is a mistake.");
+                "Largest distance of a pose from the predicted one, per second.");
+  fields.Number("drift_deg_per_s", &options.drift_deg_per_s, {0, 1000}, "deg/s",
+                "Largest rotation of a pose from the predicted one, per second.");
 }
 
 void Describe(OptionFields& fields, MeasuredMotionOptions& options) {
   fields.Integer("least_inliers", &options.least_inliers, {3, 10000}, "",
-                 "With fewer inliers the frame is where the measured motion says.");
+                 "With fewer inliers the frame is placed where the measured motion leads.");
   fields.Number("most_chi2", &options.most_chi2, {1, 1e6}, "",
-                "A pose that differs by more from the measured one, over the covariance of the "
-                "difference, is that of something that moves.");
-  fields.Number("extend_after_s", &options.extend_after_s, {0, 1000}, "s",
-                "After so long without the map a frame continues it where it is measured to be.");
+                "Largest difference between a pose and the measured one, over the covariance of "
+                "the difference; beyond it, the pose is that of something that moves.");
+  fields.Number(
+      "extend_after_s", &options.extend_after_s, {0, 1000}, "s",
+      "Time without the map after which a frame continues it where the measured motion leads.");
 }
 
 void Describe(OptionFields& fields, TrackOptions& options) {
   fields.Group("motion", &options.motion);
   fields.Number("wide_factor", &options.wide_factor, {1, 100}, "",
-                "Factor of that search radius in the second attempt, from where the rig was last.");
+                "Factor of the search radius in the second attempt, from where the rig was last.");
   fields.Group("local_map", &options.local_map);
   fields.Group("patch", &options.patch);
   fields.Integer("keyframe_distance", &options.keyframe_distance, {0, 256}, "bits",
-                 "Descriptor distance of matches to a keyframe without any prediction.");
+                 "Largest descriptor distance of matches to a keyframe without any prediction.");
   fields.Number("keyframe_ratio", &options.keyframe_ratio, {0, 1}, "",
-                "Distance of those matches as a share of the second best's.");
+                "Largest distance of matches to a keyframe without any prediction, as a share of "
+                "the second best's.");
   fields.Group("align", &options.align);
   fields.Integer("least_motion_matches", &options.least_motion_matches, {0, 10000}, "",
-                 "With fewer matches the prediction from motion has failed.");
+                 "With fewer matches the prediction by motion has failed.");
   fields.Integer("least_inliers", &options.least_inliers, {3, 10000}, "",
                  "With fewer inliers a first estimate has failed.");
   fields.Integer("least_map_inliers", &options.least_map_inliers, {3, 10000}, "",
@@ -68,16 +69,16 @@ void Describe(OptionFields& fields, KeyframeOptions& options) {
                 "A frame becomes a keyframe when it tracks less than this share of the reference "
                 "keyframe's landmarks.");
   fields.Number("first_tracked_share", &options.first_tracked_share, {0, 1}, "",
-                "The same while the map has only one keyframe.");
+                "The same share while the map has only one keyframe.");
   fields.Integer("least_inliers", &options.least_inliers, {3, 10000}, "",
-                 "A frame with fewer inliers is no keyframe.");
+                 "Least number of inliers of a keyframe.");
   fields.Number("close_baselines", &options.close_baselines, {0.1, 10000}, "baselines",
                 "Depth up to which a stereo point counts as close.");
   fields.Integer("few_close", &options.few_close, {0, 100000}, "",
                  "A frame becomes a keyframe when it tracks fewer close points than this and has "
-                 "many_new_close others.");
+                 "many_new_close other ones.");
   fields.Integer("many_new_close", &options.many_new_close, {0, 100000}, "",
-                 "Close points that are not in the map, of which more make a keyframe.");
+                 "Number of close points not in the map above which a frame becomes a keyframe.");
   fields.Number(
       "least_motion", &options.least_motion, {0, 10}, "",
       "Translation since the reference keyframe, over the median depth, below which there "

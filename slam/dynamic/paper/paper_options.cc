@@ -11,7 +11,7 @@ void Describe(OptionFields& fields, DisparityOptions& options) {
   fields.Integer("speckle_px", &options.speckle_px, {0, 10000}, "pixels",
                  "Smaller islands of disparity are dropped.");
   fields.Integer("left_right_px", &options.left_right_px, {-1, 16}, "px",
-                 "Disagreement allowed between left-to-right and right-to-left; -1: any.");
+                 "Largest disagreement between left-to-right and right-to-left; -1: any.");
   fields.Flag("half_size", &options.half_size,
               "Match images of half the size; the block then covers twice as much.");
   fields.Require(options.max_disparity_px % 16 == 0, "max_disparity_px", options.max_disparity_px,
@@ -25,9 +25,9 @@ void Describe(OptionFields& fields, SpreadOptions& options) {
   fields.Integer("fast_threshold", &options.fast_threshold, {1, 254}, "grey levels",
                  "Contrast that FAST asks of a corner at first.");
   fields.Integer("fast_threshold_low", &options.fast_threshold_low, {1, 254}, "grey levels",
-                 "Contrast asked for in regions where the first finds nothing.");
+                 "Contrast asked of a corner in regions where the first finds nothing.");
   fields.Integer("border_px", &options.border_px, {4, 256}, "px",
-                 "No point lies nearer to the image's edge.");
+                 "Least distance of a point from the image's edge.");
   fields.RequireNotAbove("fast_threshold_low", options.fast_threshold_low, "fast_threshold",
                          options.fast_threshold);
 }
@@ -40,7 +40,7 @@ void Describe(OptionFields& fields, FlowOptions& options) {
   fields.Integer("iterations", &options.iterations, {1, 100}, "", "Most iterations per level.");
   fields.Number(
       "forward_backward_px", &options.forward_backward_px, {0, 100}, "px",
-      "Largest distance of a point from itself tracked there and back; 0: no such check.");
+      "Largest distance of a point from itself when tracked there and back; 0: no such check.");
 }
 
 void Describe(OptionFields& fields, FundamentalOptions& options) {
@@ -52,7 +52,7 @@ void Describe(OptionFields& fields, FundamentalOptions& options) {
                 "RANSAC ends once a clean sample has been drawn with this probability.");
   fields.Seed("seed", &options.seed, "Seed of the samples drawn.");
   fields.Number("standing_flow_px", &options.standing_flow_px, {0, 100}, "px",
-                "Median flow up to which the camera is taken to stand still; 0: never.");
+                "Median flow up to which the camera counts as standing still; 0: never.");
 }
 
 void Describe(OptionFields& fields, EpipolarOptions& options) {
@@ -69,9 +69,11 @@ void Describe(OptionFields& fields, GroupOptions& options) {
                 "Distance up to which moving points are one group: part per pixel of disparity.");
   fields.Number("disparity_px", &options.disparity_px, {0, 1000}, "px",
                 "Difference of disparity up to which moving points are one group.");
-  fields.Integer("min_points", &options.min_points, {1, 100000}, "", "Least points of a group.");
-  fields.Number("roi_margin", &options.roi_margin, {0, 100}, "",
-                "Growth of a group's box into its region of interest, in that distance.");
+  fields.Integer("min_points", &options.min_points, {1, 100000}, "",
+                 "Least number of points of a group.");
+  fields.Number(
+      "roi_margin", &options.roi_margin, {0, 100}, "",
+      "Growth of a group's box into its region of interest, in the distance of a group's points.");
 }
 
 void Describe(OptionFields& fields, SuperpixelOptions& options) {

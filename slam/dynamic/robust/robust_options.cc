@@ -11,9 +11,10 @@ void Describe(OptionFields& fields, SurfaceOptions& options) {
   fields.Number("grey_noise", &options.grey_noise, {0.1, 100}, "grey levels",
                 "Deviation of one pixel in the dark.");
   fields.Number("brightness_noise", &options.brightness_noise, {0, 1}, "",
-                "Deviation that grows with brightness, as a share of it.");
-  fields.Number("shading_noise", &options.shading_noise, {0, 10}, "",
-                "Deviation of the mean of 5x5 pixels by glare and shadow, as a share of it.");
+                "Deviation of a pixel that grows with brightness, as a share of the brightness.");
+  fields.Number(
+      "shading_noise", &options.shading_noise, {0, 10}, "",
+      "Deviation of the mean of 5x5 pixels by glare and shadow, as a share of the brightness.");
   fields.Integer("window_px", &options.window_px, {3, 31}, "half-size px",
                  "Side of the window in which texture is gathered; odd.");
   fields.Require(options.window_px % 2 == 1, "window_px", options.window_px, kMustBeOdd);
@@ -31,17 +32,18 @@ void Describe(OptionFields& fields, ToleranceOptions& options) {
 
 void Describe(OptionFields& fields, EgoMotionOptions& options) {
   fields.Integer("cell_px", &options.cell_px, {2, 1000}, "half-size px",
-                 "Side of the squares that each give one point, that of the best texture.");
+                 "Side of the squares that each give one point, that with the best texture.");
   fields.Number("acceleration_mps2", &options.acceleration_mps2, {1e-3, 1e3}, "m/s^2",
                 "Deviation of the vehicle's acceleration.");
   fields.Number("angular_acceleration_radps2", &options.angular_acceleration_radps2, {1e-3, 1e3},
                 "rad/s^2", "Deviation of the vehicle's angular acceleration.");
   fields.Number("jolt_mps2", &options.jolt_mps2, {0, 1e4}, "m/s^2",
-                "Deviation of the vertical acceleration where wheels go over something; 0: never.");
+                "Deviation of the vertical acceleration where wheels cross something; 0: never.");
   fields.Number("jolt_radps2", &options.jolt_radps2, {0, 1e4}, "rad/s^2",
-                "Deviation of the angular acceleration of pitch and roll there; 0: never.");
+                "Deviation of the angular acceleration of pitch and roll where wheels cross "
+                "something; 0: never.");
   fields.Number("trust_in_region", &options.trust_in_region, {0, 1}, "",
-                "Most trust in a point of a region that moves.");
+                "Largest trust in a point of a region that moves.");
   fields.Seed("seed", &options.seed, "Seed of the samples drawn.");
 }
 
@@ -49,24 +51,25 @@ void Describe(OptionFields& fields, FieldOptions& options) {
   constexpr OptionRange kBias{-10, 0};
   fields.Number("memory", &options.memory, {0, 1}, "",
                 "Share of the log-odds of moving that survives from frame to frame.");
-  fields.Number("longer", &options.longer, {0, 1}, "",
-                "The same share of what the longer gaps say that have not their turn.");
+  fields.Number(
+      "longer", &options.longer, {0, 1}, "",
+      "Share of the longer gaps' evidence that survives in frames without a new comparison.");
   fields.Number("limit", &options.limit, {1, 100}, "log-odds",
                 "Bound of the log-odds, either way.");
-  fields.Number("bias", &options.bias, kBias, "log-odds", "Leaning of every pixel to static.");
+  fields.Number("bias", &options.bias, kBias, "log-odds", "Prior of every pixel towards static.");
   fields.Number("unlikely_bias", &options.unlikely_bias, kBias, "log-odds",
-                "Further leaning where the disparity is unknown, and on the floor.");
+                "Further prior towards static where the disparity is unknown, and on the floor.");
   fields.Number("coupling", &options.coupling, {0, 100}, "log-odds",
                 "Strength by which neighbours on one surface agree.");
   fields.Number("contrast", &options.contrast, {0.1, 1e3}, "grey levels",
-                "Step of grey between neighbours that halves it.");
+                "Step of grey between neighbours that halves their agreement.");
   fields.Number(
       "moving", &options.moving, {0, 100}, "log-odds",
-      "Log-odds from which on something moves: a gap's, a pixel's, the mean of a region.");
+      "Log-odds above which something moves: for a gap, a pixel and the mean of a region.");
   fields.Number("grow_to", &options.grow_to, {-100, 0}, "log-odds",
-                "Evidence of pixels down to which they grow.");
+                "Log-odds of pixels down to which moving ones grow.");
   fields.Number("grow_link", &options.grow_link, {0, 1}, "",
-                "Share of the coupling that links must have for growth.");
+                "Share of the coupling that links need for growth.");
   fields.Number("grow_m", &options.grow_m, {0, 10}, "m", "Reach of that growth.");
   fields.RequireNotAbove("moving", options.moving, "limit", options.limit);
   fields.Require(options.grow_to >= -options.limit, "grow_to", options.grow_to,
@@ -77,16 +80,15 @@ void Describe(OptionFields& fields, RegionOptions& options) {
   constexpr OptionRange kPixels{0, 1e6};
   fields.Number("link", &options.link, {0, 1}, "",
                 "Weaker links, as a share of the coupling, part regions.");
-  fields.Number(
-      "core_log_odds", &options.core_log_odds, {0, 100}, "log-odds",
-      "Log-odds from which on a pixel is sure to move, and no static look-alike is searched.");
+  fields.Number("core_log_odds", &options.core_log_odds, {0, 100}, "log-odds",
+                "Log-odds above which a pixel surely moves, and no static look-alike is searched.");
   fields.Integer("birth_core_px", &options.birth_core_px, kPixels, "pixels",
-                 "Sure pixels that a new region needs.");
+                 "Number of sure pixels that a new region needs.");
   fields.Integer("keep_core_px", &options.keep_core_px, kPixels, "pixels",
-                 "Sure pixels that a known region needs.");
+                 "Number of sure pixels that a known region needs.");
   fields.Number("overlap", &options.overlap, {0, 1}, "",
-                "Share of a region in common with its predecessor, or of its box with the region "
-                "that it is a part of.");
+                "Overlap of a region with its predecessor, or of its box with the region that it "
+                "is a part of, as a share.");
   fields.RequireNotAbove("keep_core_px", options.keep_core_px, "birth_core_px",
                          options.birth_core_px);
 }
