@@ -3,6 +3,7 @@
 #include "harness/bench/accuracy.h"
 #include "harness/cli/bench_source.h"
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/early_checks.h"
 #include "harness/cli/system_choice.h"
 #include "harness/cli/terminal.h"
@@ -34,7 +35,7 @@ int BenchAccuracy(const Options& options) {
     views.push_back(ParseView(text));
     CheckStarts(views.back(), views.back().to, bench);
   }
-  fmt::print("{}, {} starts, {} frames apart: median (least to most)\n", bench.system.name,
+  fmt::print("{}, {} starts, {} frames apart: median (minimum to maximum)\n", bench.system.name,
              bench.starts, bench.step);
   fmt::print("{:28}{:>7}{:>24}{:>24}{:>24}\n", "view", "frames", "live ATE cm", "final ATE cm",
              "frames lost");
@@ -62,21 +63,21 @@ int BenchAccuracy(const Options& options) {
 
 void AddBenchAccuracy(CLI::App* bench, Action* action) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = bench->add_subcommand(
-      "accuracy",
-      "trajectory error on the same pictures from several first frames: what of a difference "
-      "between two versions is luck");
+  CLI::App* command = bench->add_subcommand("accuracy",
+                                            "Measure the trajectory error on the same pictures "
+                                            "from several first frames, to see how much "
+                                            "of a difference between two versions is luck");
   command
       ->add_option("VIEWS", options->views,
-                   "scene or folder of a recording, :FROM-TO for some frames")
+                   "Scenes or recordings' folders; :FROM-TO selects frames")
       ->required();
   AddSourceOptions(command, &options->bench.source);
   AddSystemChoice(command, &options->system);
-  command->add_option("--starts", options->bench.starts, "drives per view; default 9")
+  command->add_option("--starts", options->bench.starts, "Drives per view; default: 9")
       ->check(CLI::Range(1, 1000));
-  command->add_option("--step", options->bench.step, "frames from one start to the next; default 1")
+  command->add_option("--step", options->bench.step, "Frames between two starts; default: 1")
       ->check(CLI::Range(1, 1000));
-  command->add_option("--json", options->json, "write every value there too");
+  AddJsonFile(command, &options->json, "every value");
   command->footer(
       "Example: ./aisle bench accuracy paper/scene2 weakness/plain_coat --frames-dir frames");
   command->callback([=] {

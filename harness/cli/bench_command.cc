@@ -3,7 +3,8 @@
 namespace aisle {
 
 void AddBenchCommand(CLI::App* app, Action* action) {
-  CLI::App* bench = app->add_subcommand("bench", "what things cost on this machine");
+  CLI::App* bench =
+      app->add_subcommand("bench", "Measure times, accuracy and quality on this machine");
   bench->require_subcommand(1);
   bench->footer("Example: ./aisle bench render --frames 20");
   AddBenchRender(bench, action);

@@ -4,6 +4,7 @@
 #include "harness/bench/dynamic.h"
 #include "harness/cli/bench_source.h"
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/dynamic_table.h"
 #include "harness/cli/early_checks.h"
 #include "harness/cli/page_block.h"
@@ -129,8 +130,8 @@ void PrintSum(const std::vector<DynamicOfView>& rows, TextTable* table) {
   fmt::print("{}", table->Row("all", DynamicCells(sum)));
   for (const auto& [stage, ms] : sum.mean_ms()) fmt::print("  {:26}{:9.2f} ms\n", stage, ms);
   if (const auto front_end = FrontEndOf(sum.mean_ms())) {
-    fmt::print("front end: {:.2f} ms a frame, of which tracking {:.2f} ms\n", front_end->total(),
-               front_end->tracking);
+    fmt::print("front end: {:.2f} ms per frame, of which tracking takes {:.2f} ms\n",
+               front_end->total(), front_end->tracking);
   }
 }
 
@@ -140,7 +141,7 @@ int BenchDynamic(const Options& options) {
   options.into.Check();
   CheckCanBeWritten(options.json);
   TextTable table = DynamicLines(NamesOf(views), LookOfStdout().width);
-  fmt::print("{}, after {} frames of warming up\n{}", bench.system.name, bench.warm_up,
+  fmt::print("{}, after a warm-up of {} frames\n{}", bench.system.name, bench.warm_up,
              table.Heading());
   nlohmann::json json = nlohmann::json::array();
   std::vector<DynamicOfView> rows;
@@ -161,34 +162,39 @@ int BenchDynamic(const Options& options) {
 void AddBenchDynamic(CLI::App* bench, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = bench->add_subcommand(
-      "dynamic",
-      "what a system rejects beside what moves: objects (large R: recall of those of 1 % of the "
-      "image at 0.15 m/s or more; large P: share of the regions of 1 % or more of which a tenth or "
-      "more moves), large movers over time, pixels, milliseconds");
+      "dynamic", "Compare what a system rejects with what really moves, and time its detector");
   command->add_option("VIEWS", options->views,
-                      "scene or folder of a recording, :FROM-TO for some frames, @SEED for a seed "
-                      "of its own (default: ten stretches of the scenes)");
+                      "Scenes or recordings' folders; :FROM-TO selects frames, @SEED sets the "
+                      "scene's seed; default: ten stretches of the scenes");
   command->add_option("--views", options->views_file,
-                      "a file of views, one a line; scenes/stretches has some");
+                      "File with one view per line; scenes/stretches has some");
   AddSystemChoice(command, &options->system);
   AddSourceOptions(command, &options->bench.source);
   command
       ->add_option("--warm-up", options->bench.warm_up,
-                   "frames before FROM, not counted; default 20")
+                   "Frames to drive before FROM without counting them; default: 20")
       ->check(CLI::Range(0, 100000));
-  command->add_option("--out", options->bench.out, "folder for pictures: truth red, rejected cyan");
+  command->option_defaults()->group("Output");
+  command->add_option("--out", options->bench.out,
+                      "Folder for pictures with the truth in red and rejected pixels in cyan");
   command
       ->add_flag("--debug-dynamic", options->bench.draw_stages,
-                 "with --out: draw every stage of these frames too")
+                 "Also draw every stage of the detector into the folder of --out")
       ->needs("--out");
-  command->add_option("--every", options->bench.every, "a picture every so many frames; default 10")
+  command
+      ->add_option("--every", options->bench.every, "Draw one picture every N frames; default: 10")
       ->check(CLI::Range(1, 100000));
-  command->add_option("--json", options->json, "write counts and means there too");
+  AddJsonFile(command, &options->json, "counts and means");
   options->into.AddTo(command);
   command->footer(
-      "Over time, of large movers: after s, the longest that one which stays for 1 s or longer was "
-      "not found (> where one never was); gap, the most frames in a row in which one once found "
-      "was lost. What moves already when a stretch begins counts from its first scored frame on.\n"
+      "Objects: large R is the recall of objects of 1 % of the image or more that move at 0.15 m/s "
+      "or\nmore; large P is the share of rejected regions of 1 % or more of which at least a tenth "
+      "moves.\n"
+      "Large movers over time: 'after s' is the longest time until one that stays for 1 s or "
+      "longer "
+      "was\nfound (> if one never was); 'gap' is the most frames in a row in which one was lost "
+      "after it had\nbeen found. For what already moves when a stretch begins, time starts at its "
+      "first scored frame.\n"
       "Example: ./aisle bench dynamic paper/scene2:90-130 --system paper --out masks");
   command->callback([=] {
     *action = [=] {

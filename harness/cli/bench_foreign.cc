@@ -39,14 +39,14 @@ int BenchForeign(const ForeignOptions& options) {
   WriteImage(file, picture);
   const cv::Scalar mean = cv::mean(picture);
   fmt::print(
-      "{} x {} pixels, {} paths a pixel, up to {} surfaces: mean RGB {:.6f}, {:.6f}, {:.6f}\n",
+      "{} x {} pixels, {} paths per pixel, up to {} surfaces: mean RGB {:.6f}, {:.6f}, {:.6f}\n",
       picture.cols, picture.rows, options.samples, options.depth, mean[2], mean[1], mean[0]);
   fmt::print("{}\n", file.string());
   if (reference.empty()) return kAllPassed;
   if (reference.size() != picture.size()) {
-    throw InputError(fmt::format("{}: is {} x {} pixels, the scene's picture {} x {}",
-                                 options.reference, reference.cols, reference.rows, picture.cols,
-                                 picture.rows));
+    throw InputError(
+        fmt::format("{}: the image has {} x {} pixels, but the scene's picture has {} x {}",
+                    options.reference, reference.cols, reference.rows, picture.cols, picture.rows));
   }
   return Compare(picture, reference) ? kAllPassed : kVerdictFailed;
 }

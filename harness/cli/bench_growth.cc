@@ -1,6 +1,6 @@
 #include "harness/bench/growth.h"
 #include "harness/cli/command.h"
-#include "harness/cli/isa_option.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/page_block.h"
 #include "harness/io/places.h"
 #include "harness/record/provenance.h"
@@ -27,7 +27,7 @@ int BenchGrowth(const Options& options) {
     std::fflush(stdout);
   });
   const std::string scaling = ScalingTable(rows);
-  if (!scaling.empty()) fmt::print("\nIn times as fast as one thread:\n{}", scaling);
+  if (!scaling.empty()) fmt::print("\nSpeed-up over one thread:\n{}", scaling);
   options.into.Write(fmt::format("{}{}{}\nIsa {}, {}, medians of {} frames, one after the other.\n",
                                  GrowthTable(rows), scaling.empty() ? "" : "\n", scaling, bench.isa,
                                  OwnProvenance().cpu, bench.frames));
@@ -39,14 +39,15 @@ int BenchGrowth(const Options& options) {
 void AddBenchGrowth(CLI::App* bench, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = bench->add_subcommand(
-      "growth", "what a stereo pair costs as actors, triangles, pixels and threads grow in number");
-  command
-      ->add_option("--frames", options->bench.frames,
-                   "frames a row, one after the other (default 8)")
+      "growth",
+      "Measure how the cost of a stereo pair grows with actors, triangles, pixels and threads");
+  command->add_option("--frames", options->bench.frames, "Frames to render per row; default: 8")
       ->check(CLI::Range(1, 1000));
-  command->add_option("--threads", options->bench.threads, "of all rows but the last (default 2)")
+  command
+      ->add_option("--threads", options->bench.threads,
+                   "Number of threads for all rows but the last; default: 2")
       ->check(CLI::Range(1, 1024));
-  AddIsaOption(command, &options->bench.isa);
+  AddIsa(command, &options->bench.isa);
   options->into.AddTo(command);
   command->footer("Example: ./aisle bench growth --frames 4");
   command->callback([=] { *action = [=] { return BenchGrowth(*options); }; });

@@ -1,6 +1,7 @@
 #include "harness/bench/light.h"
 #include "harness/cli/bench_foreign.h"
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/early_checks.h"
 #include "harness/cli/page_block.h"
 #include "harness/io/file.h"
@@ -131,40 +132,45 @@ int BenchLight(LightOptions options) {
 void AddBenchLight(CLI::App* bench, Action* action) {
   const auto options = std::make_shared<LightOptions>();
   CLI::App* command = bench->add_subcommand(
-      "light", "the nightly light beside path tracing: table and pictures; minutes a view");
+      "light",
+      "Compare the renderer's light with path tracing: a table and pictures, minutes per view");
   command->add_option("VIEWS", options->views,
-                      "SCENE or SCENE:FRAME (default: seven views with movers)");
-  command->add_option("--out", options->out, "folder of the table and pictures (bench_light)");
+                      "SCENE or SCENE:FRAME; default: seven views with moving objects");
+  command->add_option("--out", options->out,
+                      "Folder for the table and the pictures; default: bench_light");
   CLI::Option* into = options->into.AddTo(command);
-  command->add_option("--samples", options->comparison.samples, "paths a pixel (default 256)")
+  command->add_option("--samples", options->comparison.samples, "Paths per pixel; default: 256")
       ->check(CLI::Range(1, 65536));
   CLI::Option* reduce = command
                             ->add_option("--reduce", options->comparison.reduce,
-                                         "compare at 1/N of the camera's size (2)")
+                                         "Compare at 1/N of the camera's resolution; default: 2")
                             ->check(CLI::Range(1, 16));
   CLI::Option* next =
       command->add_flag("--next", options->comparison.next,
-                        "compare the change to the next frame too, in shares of white");
-  CLI::Option* seed =
-      command->add_option("--seed", options->simulation.seed, "of the scenes; default 1");
-  command->add_option("--threads", options->simulation.threads, "0: all");
+                        "Also compare the change from each frame to the next, in shares of white");
+  CLI::Option* seed = AddSeed(command, &options->simulation.seed);
+  AddThreads(command, &options->simulation.threads, "never changes a pixel");
+  command->option_defaults()->group("Scenes of another renderer");
   CLI::Option* foreign = command
                              ->add_option("--foreign", options->foreign.scene,
-                                          "path-trace this JSON scene of another renderer instead")
+                                          "Path-trace this JSON scene of another renderer instead")
                              ->excludes("VIEWS")
                              ->excludes(into)
                              ->excludes(reduce)
                              ->excludes(next)
                              ->excludes(seed);
   command
-      ->add_option("--reference", options->foreign.reference, "compare it with this .exr or .pfm")
+      ->add_option("--reference", options->foreign.reference,
+                   "Image that renderer made of it, .exr or .pfm, to compare with")
       ->needs(foreign);
-  command->add_option("--depth", options->foreign.depth, "surfaces its paths may touch (8)")
+  command
+      ->add_option("--depth", options->foreign.depth,
+                   "Most surfaces that a path touches; default: 8")
       ->check(CLI::Range(1, 1000))
       ->needs(foreign);
   command->footer(
-      "Exit code 1 where a view misses 5 % median relative error or 0.95 SSIM, or a foreign scene "
-      "its bounds.\n"
+      "Exit code 1 if a view misses 5 % median relative error or an SSIM of 0.95, or a scene of "
+      "another\nrenderer its bounds.\n"
       "Example: ./aisle bench light paper/scene2:90 --samples 64 --reduce 4 --out out/light");
   command->callback([=] {
     *action = [=] {

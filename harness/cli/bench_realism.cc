@@ -3,6 +3,7 @@
 
 #include "harness/bench/realism.h"
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/early_checks.h"
 #include "harness/cli/page_block.h"
 #include "harness/cli/terminal.h"
@@ -84,9 +85,9 @@ int BenchRealism(const Options& options) {
   line.Clear();
   if (real.empty()) {
     fmt::print(
-        "no real pictures{}: --data FOLDER with euroc-v101-still, euroc-loop-pairs or "
-        "kitti/sequences/06\n",
-        options.data.empty() ? "" : " at " + Printable(options.data));
+        "no real pictures{}: name a folder that has euroc-v101-still, euroc-loop-pairs or "
+        "kitti/sequences/06 with --data\n",
+        options.data.empty() ? "" : " in " + Printable(options.data));
   }
   fmt::print("{}", Table(real, given));
   options.into.Write(Table(real, given));
@@ -110,19 +111,22 @@ std::string Definitions() {
 
 void AddBenchRealism(CLI::App* bench, Action* action) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = bench->add_subcommand(
-      "realism", "contrast, corners, spectrum, tones and noise of pictures beside real cameras'");
+  CLI::App* command = bench->add_subcommand("realism",
+                                            "Compare contrast, corners, spectrum, tones and noise "
+                                            "of pictures with those of real cameras");
   command
       ->add_option("DIRS", options->folders,
-                   "folders of grey PNG pictures, or datasets in EuRoC's, KITTI's or TUM's layout")
+                   "Folders of grey PNG pictures, or datasets in EuRoC's, KITTI's or TUM's layout")
       ->required();
   command
       ->add_option("--data", options->data,
-                   "folder of the real sets; without it the pictures stand alone")
+                   "Folder of the real pictures; without it, nothing is compared")
       ->envname("AISLE_TEST_DATA");
-  command->add_option("--pictures", options->pictures, "of a folder, at most, evenly (default 24)")
+  command
+      ->add_option("--pictures", options->pictures,
+                   "Most pictures to take of a folder, evenly spread; default: 24")
       ->check(CLI::Range(1, 100000));
-  command->add_option("--json", options->json, "write every value there too");
+  AddJsonFile(command, &options->json, "every value");
   options->into.AddTo(command);
   command->footer(Definitions());
   command->callback([=] { *action = [=] { return BenchRealism(*options); }; });

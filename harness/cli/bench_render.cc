@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/early_checks.h"
-#include "harness/cli/isa_option.h"
 #include "harness/cli/page_block.h"
 #include "harness/io/file.h"
 #include "harness/io/places.h"
@@ -51,9 +51,9 @@ std::string Table(const std::vector<SceneCost>& costs, const RenderOptions& opti
     }
     rows += "\n";
   }
-  return fmt::format("{}\n{}\n{}\nSeed {}, isa {}, {}, medians of {} frames a scene.\n", head, rule,
-                     rows, options.simulation.seed, options.simulation.isa, OwnProvenance().cpu,
-                     options.frames);
+  return fmt::format("{}\n{}\n{}\nSeed {}, isa {}, {}, medians over {} frames per scene.\n", head,
+                     rule, rows, options.simulation.seed, options.simulation.isa,
+                     OwnProvenance().cpu, options.frames);
 }
 
 nlohmann::ordered_json ToJson(const SceneCost& one, const RenderOptions& options) {
@@ -111,18 +111,18 @@ int BenchRender(const RenderOptions& options) {
 void AddBenchRender(CLI::App* bench, Action* action) {
   const auto options = std::make_shared<RenderOptions>();
   options->scenes = {"paper/scene3"};
-  CLI::App* command =
-      bench->add_subcommand("render", "milliseconds a stereo pair, beside its bare primary rays");
-  command->add_option("SCENES", options->scenes, "scene files (default: paper/scene3)");
-  command->add_option("--frames", options->frames, "frames spread over each scene (default 20)")
+  CLI::App* command = bench->add_subcommand(
+      "render", "Time the rendering of stereo pairs, beside that of their primary rays alone");
+  command->add_option("SCENES", options->scenes, "Scene files or names; default: paper/scene3");
+  command
+      ->add_option("--frames", options->frames,
+                   "Frames to render per scene, evenly spread; default: 20")
       ->check(CLI::Range(2, 10000));
-  command->add_option("--seed", options->simulation.seed, "of the scenes; default 1");
-  command->add_option("--twin", options->simulation.twin, "of the scenes; default live")
-      ->check(CLI::IsMember(TwinNames()));
-  AddIsaOption(command, &options->simulation.isa);
-  command->add_option("--threads", options->simulation.threads, "0: all")
-      ->check(CLI::Range(0, 1024));
-  command->add_option("--json", options->json, "write the medians there too, an object a scene");
+  AddSeed(command, &options->simulation.seed);
+  AddTwin(command, &options->simulation.twin);
+  AddIsa(command, &options->simulation.isa);
+  AddThreads(command, &options->simulation.threads, "never changes a pixel");
+  AddJsonFile(command, &options->json, "the medians, one object per scene,");
   options->into.AddTo(command);
   command->footer("Example: ./aisle bench render paper/scene2 paper/scene3 --frames 10");
   command->callback([=] { *action = [=] { return BenchRender(*options); }; });

@@ -3,6 +3,7 @@
 #include "harness/bench/search.h"
 #include "harness/cli/bench_source.h"
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/page_block.h"
 #include "harness/cli/search_axes.h"
 #include "harness/cli/search_table.h"
@@ -195,37 +196,42 @@ void AddBenchSearch(CLI::App* bench, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = bench->add_subcommand(
       "search",
-      "look for the constants of a system's detector: sets of options tried on training stretches, "
-      "the best and the frontier judged on others");
-  command->add_option("AXES", options->axes, "file of options, a line each: PATH LOW HIGH [ratio]")
+      "Search for the constants of a system's detector: try sets of options on training stretches, "
+      "then judge the best and the frontier on others");
+  command->add_option("AXES", options->axes, "File with one option per line: PATH LOW HIGH [ratio]")
       ->required();
-  command->add_option("--train", options->train, "file of views to choose by")->required();
-  command->add_option("--judge", options->judge, "file of other views to judge by")->required();
+  command->add_option("--train", options->train, "File of views to choose by")->required();
+  command->add_option("--judge", options->judge, "File of other views to judge by")->required();
   AddSystemChoice(command, &options->system);
+  command->option_defaults()->group("Search");
   command->add_option("--also", options->also,
-                      "NAME:PATH=VALUE,…: a set that is judged besides; may be given again");
+                      "Another set to judge, NAME:PATH=VALUE,…; may be given several times");
   command
-      ->add_option("--trials", options->search.trials,
-                   "sets to try; default 200, the first is the system as it is; 1: judge alone")
+      ->add_option(
+          "--trials", options->search.trials,
+          "Number of sets to try, the first of which is the system as it is; 1: only judge; "
+          "default: 200")
       ->check(CLI::Range(1, 1000000));
   command
       ->add_option("--explore", options->search.explore,
-                   "of them from the whole space; default 70, the others around the best")
+                   "Number of those sets to draw from the whole space, the others from around the "
+                   "best; default: 70")
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--seed", options->search.seed, "of the search; default 1");
+  command->add_option("--seed", options->search.seed, "Seed of the search; default: 1");
   command
       ->add_option("--time-limit", options->time_limit,
-                   "most time of the detector, in times of tracking; default 1.67, the paper's")
+                   "Most time that the detector may take, as a multiple of tracking's; default: "
+                   "1.67, the paper's")
       ->check(CLI::Range(0.0, 1000.0));
   command->add_option("--time-view", options->time_view,
-                      "stretch on which times are measured; default " + options->time_view);
-  command->add_option("--frames-dir", options->source.frames_dir,
-                      "keep rendered frames there and use what is there");
-  command->add_option("--threads", options->source.threads, "of tracking; 0: all");
-  command->add_option("--json", options->json, "write every set that was tried there");
+                      "Stretch on which times are measured; default: " + options->time_view);
+  command->option_defaults()->group("Options");
+  AddFramesDir(command, &options->source.frames_dir);
+  AddThreads(command, &options->source.threads, "", "Number of threads for tracking");
+  AddJsonFile(command, &options->json, "every set that was tried");
   options->into.AddTo(command);
   command->footer(
-      "The same seed tries the same sets: times steer nothing but which of the best is taken.\n"
+      "The same seed tries the same sets: times only decide which of the best is taken.\n"
       "Example: ./aisle bench search scenes/searches/paper_axes.txt --train "
       "scenes/stretches/paper_train.txt --judge scenes/stretches/paper_judge.txt --json "
       "trials.json");

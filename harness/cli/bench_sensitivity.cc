@@ -3,6 +3,7 @@
 #include "harness/bench/sensitivity.h"
 #include "harness/cli/bench_source.h"
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/early_checks.h"
 #include "harness/cli/page_block.h"
 #include "harness/cli/system_choice.h"
@@ -57,7 +58,7 @@ int BenchSensitivity(const Options& options) {
   std::vector<BenchView> views;  // all of them, before the first is read
   if (!options.views_file.empty()) views = ReadViews(options.views_file);
   for (const std::string& text : options.views) views.push_back(ParseView(text));
-  if (views.empty()) throw InputError("no view: expected SCENE:FROM-TO, or --views FILE");
+  if (views.empty()) throw InputError("no views: expected SCENE:FROM-TO, or --views FILE");
   options.into.Check();
   CheckCanBeWritten(options.json);
   ProgressLine line;
@@ -78,30 +79,32 @@ int BenchSensitivity(const Options& options) {
 void AddBenchSensitivity(CLI::App* bench, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = bench->add_subcommand("sensitivity",
-                                            "every option of a system halved and doubled, one at a "
-                                            "time: what that changes of the objects "
-                                            "found, the pixels rejected and the static ones lost");
+                                            "Halve and double every option of a system, one at a "
+                                            "time, and show how the objects found, the "
+                                            "pixels rejected and the static pixels lost change");
   command->add_option(
       "VIEWS", options->views,
-      "scenes, :FROM-TO for some frames, @SEED for a seed of its own; each is driven "
-      "twice an option");
+      "Scenes; :FROM-TO selects frames, @SEED sets the scene's seed; each is driven "
+      "twice per option");
   command->add_option("--views", options->views_file,
-                      "a file of views, one a line; scenes/stretches has some");
+                      "File with one view per line; scenes/stretches has some");
   AddSystemChoice(command, &options->system);
-  command->add_option("--only", options->bench.prefix, "options whose path begins so; default all");
+  command->add_option("--only", options->bench.prefix,
+                      "Only vary options whose path begins with this; default: all");
   AddSourceOptions(command, &options->bench.source);
   command
       ->add_option("--warm-up", options->bench.warm_up,
-                   "frames before FROM, not counted; default 20")
+                   "Frames to drive before FROM without counting them; default: 20")
       ->check(CLI::Range(0, 100000));
   command
       ->add_option("--jobs", options->bench.jobs,
-                   "drives side by side, each on one thread; 0: all threads; changes no figure")
+                   "Drives to run at once, each on one thread; 0: as many as there are threads; "
+                   "never changes a figure")
       ->check(CLI::Range(0, 1024));
   options->into.AddTo(command);
-  command->add_option("--json", options->json, "write every figure there too");
+  AddJsonFile(command, &options->json, "every figure");
   command->footer(
-      "A value stays within its option's range.\n"
+      "Every value stays within its option's range.\n"
       "Example: ./aisle bench sensitivity paper/scene2:60-80@2 paper/scene5:420-440@5 --only "
       "dynamic.robust.field --frames-dir frames");
   command->callback([=] {

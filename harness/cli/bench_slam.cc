@@ -5,6 +5,7 @@
 #include "harness/bench/stages.h"
 #include "harness/cli/bench_source.h"
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/early_checks.h"
 #include "harness/cli/system_choice.h"
 #include "harness/cli/terminal.h"
@@ -82,7 +83,7 @@ int BenchSlam(const Options& options) {
     fmt::print("{:18} {:9.2f} {:9.2f} {:9.2f} {:7}\n", stage, time.mean_ms(),
                time.quantile_ms(0.99), time.quantile_ms(1), time.ms.size());
   }
-  fmt::print("front end: {:.2f} ms a frame", front_end_ms);
+  fmt::print("front end: {:.2f} ms per frame", front_end_ms);
   if (reference_ms > 0) {
     fmt::print(", {:.2f} times OpenCV's ORB on both cameras", front_end_ms / reference_ms);
   }
@@ -101,24 +102,23 @@ int BenchSlam(const Options& options) {
 
 void AddBenchSlam(CLI::App* bench, Action* action) {
   const auto options = std::make_shared<Options>();
-  CLI::App* slam = bench->add_subcommand("slam", "milliseconds a frame by stage of the SLAM");
-  slam->add_option(
-      "SOURCE", options->source,
-      "scene or folder of a recording, :FROM-TO for some frames; default paper/scene1");
+  CLI::App* slam =
+      bench->add_subcommand("slam", "Time the SLAM's stages, in milliseconds per frame");
+  slam->add_option("SOURCE", options->source,
+                   "Scene or a recording's folder; :FROM-TO selects frames; default: paper/scene1");
   AddSourceOptions(slam, &options->bench.source);
   AddSystemChoice(slam, &options->system);
-  slam->add_option("--frames", options->bench.frames, "at most; default 100")
+  slam->add_option("--frames", options->bench.frames, "Most frames to drive; default: 100")
       ->check(CLI::Range(1, 100000));
-  slam->add_option(
-          "--laps", options->bench.laps,
-          "drive the frames so often, one after the other, and say what each lap leaves in "
-          "memory; for a source that ends where it begins")
+  slam->add_option("--laps", options->bench.laps,
+                   "Drive the frames N times, one lap after the other, and print what each lap "
+                   "leaves in memory; for a source that ends where it begins")
       ->check(CLI::Range(1, 100000));
-  slam->add_option(
-      "--json", options->json,
-      "write the means there too: of the frames that had the stage, frames_with counts them");
-  slam->add_flag("--latency-profile", options->latency_profile,
-                 "print what a frame takes as an option of closed drives, for a suite's system");
+  AddJsonFile(slam, &options->json,
+              "the means, over the frames that had the stage, which frames_with counts,");
+  slam->add_flag(
+      "--latency-profile", options->latency_profile,
+      "Print the time per frame as an option of closed-loop drives, for a suite's system");
   slam->footer(
       "Example: ./aisle bench slam --json slam.json\n"
       "         ./aisle bench slam drive/aisle_dock --system robust --latency-profile\n"

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <sstream>
 
+#include "harness/cli/common_options.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
@@ -12,17 +13,11 @@
 namespace aisle {
 
 void AddSourceOptions(CLI::App* command, BenchSource* source) {
-  command
-      ->add_option("--format", source->format,
-                   fmt::format("of a folder: euroc or kitti; default {}", source->format))
-      ->check(CLI::IsMember({"euroc", "kitti"}));
-  command->add_option("--twin", source->twin, fmt::format("of a scene; default {}", source->twin))
-      ->check(CLI::IsMember(TwinNames()));
-  command->add_option("--seed", source->seed, "of a scene; default 1");
-  command->add_option(
-      "--frames-dir", source->frames_dir,
-      "keep rendered frames there and use what is there, whichever program made it");
-  command->add_option("--threads", source->threads, "0: all");
+  AddFolderFormat(command, &source->format);
+  AddTwin(command, &source->twin);
+  AddSeed(command, &source->seed);
+  AddFramesDir(command, &source->frames_dir);
+  AddThreads(command, &source->threads, "changes times, never results");
 }
 
 namespace {
@@ -35,7 +30,7 @@ std::optional<std::uint64_t> TakeSeed(std::string* text) {
   std::uint64_t seed = 0;
   const auto [end, error] = std::from_chars(digits, text->data() + text->size(), seed);
   if (error != std::errc() || end != text->data() + text->size()) {
-    throw InputError(Printable(*text) + ": expected a seed behind @, for example paper/scene2@3");
+    throw InputError(Printable(*text) + ": expected a seed after @, for example paper/scene2@3");
   }
   text->resize(at);
   return seed;
@@ -88,12 +83,12 @@ BenchView ParseView(const std::string& text) {
   view.path = SceneFile(source);
   if (!std::filesystem::exists(view.path)) {
     throw InputError(Printable(source) +
-                     ": neither a scene (a file, or a name like paper/scene2) nor the folder of a "
-                     "recording");
+                     ": not found: expected a scene (a file, or a name like paper/scene2) or a "
+                     "recording's folder");
   }
   if (std::filesystem::is_directory(view.path)) {
     if (!view.seed) return view;
-    throw InputError(Printable(text) + ": a recording has no seed; leave @ and what follows out");
+    throw InputError(Printable(text) + ": a recording has no seed; remove @ and what follows it");
   }
   view.scene = SceneName(view.path);
   view.assets_dir = AssetsDir().string();
@@ -114,7 +109,8 @@ std::vector<BenchView> ReadViews(const std::string& file) {
       throw InputError(fmt::format("{}:{}: {}", Printable(file), number, error.what()));
     }
   }
-  if (views.empty()) throw InputError(Printable(file) + ": no view in it; expected one a line");
+  if (views.empty())
+    throw InputError(Printable(file) + ": no views in this file; expected one per line");
   return views;
 }
 

@@ -7,6 +7,7 @@
 #include "harness/campaign/campaign.h"
 #include "harness/campaign/inputs.h"
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
@@ -43,9 +44,8 @@ Question QuestionFromText(const std::string& text) {
   if (!relation || !CLI::detail::lexical_cast(text.substr(at + 2), question.bound) ||
       !std::isfinite(question.bound) || !IsScoreName(question.score)) {
     throw InputError(
-        fmt::format("--limit: '{}' is no limit: expected 'completes', or SCORE<=VALUE "
-                    "or SCORE>=VALUE with a score of `aisle score --list`, for "
-                    "example 'ate_rmse_m<=0.03'",
+        fmt::format("--limit: expected 'completes', SCORE<=VALUE or SCORE>=VALUE with a score of "
+                    "`aisle score --list`, for example 'ate_rmse_m<=0.03', got '{}'",
                     Printable(text)));
   }
   question.at_most = text[at] == '<';
@@ -75,7 +75,7 @@ CommitTrial Judge(const std::string& commit, const std::vector<RunRecord>& runs,
   }
   const std::optional<double> median = MedianScore(all, question.score);
   if (!median) {
-    trial.why = "no value of " + question.score;
+    trial.why = "no value for " + question.score;
     return trial;
   }
   const bool good = question.at_most ? *median <= question.bound : *median >= question.bound;
@@ -122,7 +122,7 @@ class Trials {
                   [&](const SuiteScene& scene) { return scene.name != options.scene; });
     if (suite_.scenes.empty()) {
       throw InputError(options.suite, 0,
-                       "has no scene " + Printable(options.scene) + ": see its 'scenes'");
+                       "no scene named " + Printable(options.scene) + " in its 'scenes'");
     }
   }
 
@@ -194,8 +194,8 @@ class Trials {
 /// The two ends must be what they are said to be: between two good commits there is no bad one.
 void CheckEnd(const CommitTrial& trial, CommitState expected, const std::string& name) {
   if (trial.state == expected) return;
-  throw InputError(
-      fmt::format("{} is not {} by this limit: {}", Printable(name), Name(expected), trial.why));
+  throw InputError(fmt::format("{} is not {} according to this limit: {}", Printable(name),
+                               Name(expected), trial.why));
 }
 
 int Say(const Options& options, const fs::path& repository, const BisectOutcome& outcome) {
@@ -239,28 +239,33 @@ int RunBisect(const Options& options) {
 
 void AddBisectCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand(
-      "bisect", "find the commit of your own SLAM from which on a limit is broken");
-  command->add_option("GOOD", options->good, "a commit that keeps the limit")->required();
-  command->add_option("BAD", options->bad, "a later one that breaks it")->required();
+  CLI::App* command =
+      app->add_subcommand("bisect", "Find the commit of your own SLAM that first breaks a limit");
+  command->add_option("GOOD", options->good, "Commit that keeps the limit")->required();
+  command->add_option("BAD", options->bad, "Later commit that breaks it")->required();
   command
-      ->add_option("SUITE", options->suite, "suite file whose system says 'repository' and 'build'")
+      ->add_option("SUITE", options->suite,
+                   "Suite file with a system that has 'repository' and 'build'")
       ->required();
-  command->add_option("--scene", options->scene, "a scene of the suite")->required();
-  command
-      ->add_option("--limit", options->limit,
-                   "'completes', or a bound on a score: 'ate_rmse_m<=0.03'; the median over seeds")
-      ->required();
-  command->add_option("--twin", options->twin, "version of the scene; default live");
-  command->add_option("--system", options->system, "which system; default: the first of that kind");
-  command->add_option("--seed", options->seed, "these seeds; default 1")->delimiter(',');
-  command->add_option("--out", options->out, "folder for checkout, runs and logs");
+  command->add_option("--scene", options->scene, "Scene of the suite to drive")->required();
   command
       ->add_option(
-          "--timeout", options->limits.wall_s,
-          "seconds for a build, and for a run; default an hour, and for a run as `run` has it")
+          "--limit", options->limit,
+          "Limit on the median over seeds: 'completes', or a bound on a score, for example "
+          "'ate_rmse_m<=0.03'")
+      ->required();
+  AddTwin(command, &options->twin);
+  command->add_option("--system", options->system,
+                      "System to build; default: the first with 'repository' and 'build'");
+  command->add_option("--seed", options->seed, "Seeds to drive, separated by commas; default: 1")
+      ->delimiter(',');
+  command->add_option("--out", options->out, "Folder for the checkout, the runs and the logs");
+  command
+      ->add_option("--timeout", options->limits.wall_s,
+                   "Most seconds for a build and for a run; default: an hour for a build, as `run` "
+                   "for a run")
       ->check(CLI::PositiveNumber);
-  command->add_flag("--json", options->json, "for programs");
+  AddJson(command, &options->json);
   command->footer(
       "Example: ./aisle bisect v1.3 v1.4 mine.yaml --scene paper/scene2 --limit "
       "'ate_rmse_m<=0.03'");

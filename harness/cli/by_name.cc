@@ -37,9 +37,7 @@ void CheckAreThere(const std::vector<std::string>& files) {
     if (name.find('/') != std::string::npos) {  // a scene's: no suite is nearer for its beginning
       std::erase_if(known, [](const std::string& one) { return one.find('/') == one.npos; });
     }
-    throw InputError(
-        file, 0,
-        "no such file, and no scene or suite here has that name" + DidYouMean(name, known));
+    throw InputError(file, 0, "no such file, scene or suite" + DidYouMean(name, known));
   }
 }
 

@@ -8,6 +8,7 @@
 #include "harness/cli/bag_notes.h"
 #include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/files_below.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/user_model.h"
@@ -82,7 +83,7 @@ void PrintText(const std::string& file, const std::vector<std::string>& complain
 int Check(const std::vector<std::string>& places, bool json) {
   const std::vector<std::string> files = FilesOf(places);
   if (files.empty()) {
-    fmt::print(stderr, "no .yaml file to check: name scene or suite files, or folders of them\n");
+    fmt::print(stderr, "no .yaml files to check: name scene or suite files, or folders of them\n");
     return kNothingToDo;
   }
   std::size_t bad = 0;
@@ -108,11 +109,11 @@ int Check(const std::vector<std::string>& places, bool json) {
 void AddCheckCommand(CLI::App* app, Action* action) {
   const auto files = std::make_shared<std::vector<std::string>>();
   const auto json = std::make_shared<bool>(false);
-  CLI::App* command = app->add_subcommand("check", "validate scene and suite files");
-  command->add_option("FILE", *files, "scene or suite files, or folders of them")
+  CLI::App* command = app->add_subcommand("check", "Validate scene and suite files");
+  command->add_option("FILE", *files, "Scene or suite files, or folders of them")
       ->required()
       ->transform(ByName());
-  command->add_flag("--json", *json, "for programs");
+  AddJson(command, json.get());
   command->footer("Example: ./aisle check scenes");
   command->callback([=] { *action = [=] { return Check(*files, *json); }; });
 }

@@ -105,10 +105,10 @@ int OnSlurm(const ClusterNight& night, const ClusterChoice& choice, const TaskLi
   if (IsUnderWay(night.out)) {
     if (!night.resume) {
       throw InputError(night.out.string(), 0,
-                       "its jobs are still in the queue: `aisle status DIR` tells how they go; "
-                       "scancel them, or follow them with --resume --wait");
+                       "its jobs are still in the queue: `aisle status DIR` shows their progress; "
+                       "scancel them, or wait for them with --resume --wait");
     }
-    fmt::print(stderr, "aisle: its jobs are still in the queue: nothing is submitted\n");
+    fmt::print(stderr, "aisle: its jobs are still in the queue: nothing new was submitted\n");
     ours.reset();
     return choice.wait ? WaitForVerdict(night.out, {.json = night.json}) : kAllPassed;
   }
@@ -121,7 +121,8 @@ int OnSlurm(const ClusterNight& night, const ClusterChoice& choice, const TaskLi
     return MergeNight(night.out, {.json = night.json, .submission = id});
   }
   const Submission submission = SubmitToSlurm(missing, id, SlurmOf(night, choice), PathsOf(night));
-  fmt::print(stderr, "aisle: tasks {}, merge {}; `{} status {}` tells how they go\n",
+  fmt::print(stderr,
+             "aisle: submitted tasks {} and merge {}; `{} status {}` shows their progress\n",
              fmt::join(submission.arrays, ", "), submission.merge, OwnCommand(),
              ShellWord(night.out.string()));
   ours.reset();
@@ -142,7 +143,7 @@ int OnKubernetes(const ClusterNight& night, const ClusterChoice& choice, const T
 void RefuseOfOther(const ClusterChoice& choice) {
   const auto refuse = [&](const std::string& value, const char* name, const char* kind) {
     if (value.empty() || choice.on == kind) return;
-    throw InputError(fmt::format("{} is for --on {}: leave it out", name, kind));
+    throw InputError(fmt::format("{} requires --on {}", name, kind));
   };
   refuse(choice.partition, "--partition", "slurm");
   refuse(choice.time, "--task-time", "slurm");
@@ -153,39 +154,42 @@ void RefuseOfOther(const ClusterChoice& choice) {
 }  // namespace
 
 void AddClusterChoice(CLI::App* command, ClusterChoice* choice) {
+  command->option_defaults()->group("Cluster");
   CLI::Option* on =
       command
           ->add_option(
               "--on", choice->on,
-              "who makes the runs: slurm submits a job array and a merge, k8s writes the Jobs "
-              "as YAML; with --dry-run either prints what it would hand over")
+              "Run on a cluster: slurm submits a job array and a merge, k8s writes the Jobs "
+              "as YAML; with --dry-run, only print what would be submitted")
           ->check(CLI::IsMember({"slurm", "k8s"}));
-  command->add_option("--partition", choice->partition, "with --on slurm: other than the site's")
+  command
+      ->add_option("--partition", choice->partition,
+                   "Slurm partition of the tasks; default: that of the site")
       ->needs(on);
   command
       ->add_option("--task-time", choice->time,
-                   "with --on slurm: time limit of a task as sbatch takes it, such as 2:00:00")
+                   "Slurm time limit of a task, as sbatch takes it, for example 2:00:00")
       ->needs(on);
-  command->add_option("--image", choice->image, "with --on k8s: container image that holds aisle")
+  command->add_option("--image", choice->image, "Container image with aisle for Kubernetes' Jobs")
       ->needs(on);
   command
       ->add_option("--claim", choice->claim,
-                   "with --on k8s: the PersistentVolumeClaim of the report's folder")
+                   "PersistentVolumeClaim of the report folder for Kubernetes' Jobs")
       ->needs(on);
   command
       ->add_option("--nodes-at-most", choice->nodes_at_most,
-                   "with --on: tasks at once, so that no more nodes than that are taken")
+                   "Most tasks at once, and so most nodes in use")
       ->check(CLI::Range(1, 100000))
       ->needs(on);
   command
       ->add_option("--late", choice->late_s,
-                   "with --on: seconds that the merge waits for results which the shared file "
-                   "system does not show yet")
+                   "Seconds that the merge waits for results which the shared file system does not "
+                   "show yet")
       ->check(CLI::Range(0.0, 86400.0))
       ->needs(on);
   command
       ->add_flag("--wait", choice->wait,
-                 "with --on slurm: follow the jobs, end with the verdict's exit code")
+                 "Wait for the Slurm jobs and exit with the verdict's exit code")
       ->needs(on);
 }
 
@@ -198,7 +202,7 @@ bool IsUnderWay(const fs::path& out) {
   const std::optional<ClusterVerdict> verdict = ReadVerdict(out);
   if (verdict && verdict->submission == submission->id) return false;
   throw MachineError(out.string() +
-                     ": squeue does not answer, and jobs of this folder may be waiting");
+                     ": squeue does not respond, and jobs of this folder may still be waiting");
 }
 
 int RunOnCluster(const ClusterNight& night, const ClusterChoice& choice,

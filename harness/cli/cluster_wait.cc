@@ -27,12 +27,12 @@ std::atomic<bool> interrupted = false;
 void OnInterrupt(int) { interrupted = true; }
 
 std::string QueueText(const std::optional<std::map<std::string, int>>& queue) {
-  if (!queue) return "the queue does not answer";
+  if (!queue) return "squeue does not respond";
   std::string text;
   for (const auto& [state, count] : *queue) {
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, state);
   }
-  return text.empty() ? "no job in the queue" : text;
+  return text.empty() ? "no jobs in the queue" : text;
 }
 
 /// Runs with a result under its name; whether it answers for tonight's inputs is the merge's
@@ -61,7 +61,7 @@ std::string ClusterProgress(const TaskList& list, const fs::path& out,
 int WaitForVerdict(const fs::path& out, const WaitOptions& options) {
   const TaskList list = ReadTasks(out);
   const std::optional<Submission> submission = ReadSubmission(out);
-  if (!submission) throw InputError(out.string(), 0, "nothing of it was submitted");
+  if (!submission) throw InputError(out.string(), 0, "nothing was submitted from this folder");
   std::signal(SIGINT, OnInterrupt);
   std::signal(SIGTERM, OnInterrupt);
   ProgressLine line;
@@ -79,7 +79,7 @@ int WaitForVerdict(const fs::path& out, const WaitOptions& options) {
       gone = Stopwatch();
     } else if (gone.ElapsedMs() * 1e-3 > list.settings.late_s) {
       line.Clear();
-      fmt::print(stderr, "aisle: the jobs are gone and left no verdict: merging here\n");
+      fmt::print(stderr, "aisle: the jobs ended without a verdict: merging here\n");
       const FileLock ours = WaitForFolder(out);
       if (const auto made = ReadVerdict(out); made && made->submission == submission->id) {
         continue;  // by another who waited
@@ -89,7 +89,9 @@ int WaitForVerdict(const fs::path& out, const WaitOptions& options) {
     std::this_thread::sleep_for(kPoll);
   }
   line.Clear();
-  fmt::print(stderr, "aisle: the jobs go on without us; --resume --wait follows them again\n");
+  fmt::print(
+      stderr,
+      "aisle: stopped waiting; the jobs continue, and --resume --wait waits for them again\n");
   return kInterrupted;
 }
 

@@ -28,7 +28,7 @@ std::string NoCommand(const CLI::App& app, const std::string& word) {
     if (!command->get_group().empty()) shown.push_back(command->get_name());
   }
   if (word.starts_with("-")) return "";
-  return fmt::format("'{}' is no command{}", Printable(word), DidYouMean(word, shown));
+  return fmt::format("unknown command '{}'{}", Printable(word), DidYouMean(word, shown));
 }
 
 /// What is wrong with the first word that is meant for an option and is none of the command that
@@ -50,7 +50,7 @@ std::string NoOption(const CLI::App& app, std::span<const char* const> words) {
     const std::string name = word.substr(2, word.find('=') - 2);
     if (name.empty() || std::ranges::find(known, name) != known.end()) continue;
     const std::string near = NearestWord(name, known);
-    return fmt::format("'--{}' is no option of {}{}", Printable(name), names,
+    return fmt::format("unknown option '--{}' for '{}'{}", Printable(name), names,
                        near.empty() ? "" : " (did you mean --" + near + "?)");
   }
   return "";
@@ -72,7 +72,7 @@ void NameInExamples(CLI::App* app, const std::string& name) {
 std::string NotFinite(const std::string& text) {
   double value = 0;
   if (!CLI::detail::lexical_cast(text, value) || std::isfinite(value)) return "";
-  return fmt::format("'{}' is no finite number", Printable(text));
+  return fmt::format("expected a finite number, got '{}'", Printable(text));
 }
 
 /// Read as C reads them, -1 and what is too large would stand for other numbers.
@@ -81,8 +81,8 @@ std::string NotUnsigned(const std::string& text) {
   const char* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, value);
   if (error == std::errc() && rest == end) return "";
-  return fmt::format("'{}' is no whole number from 0 to {}", Printable(text),
-                     std::numeric_limits<std::uint64_t>::max());
+  return fmt::format("expected an integer in [0, {}], got '{}'",
+                     std::numeric_limits<std::uint64_t>::max(), Printable(text));
 }
 
 /// Every option of all commands that takes such a number, before its own range is asked.
@@ -136,9 +136,9 @@ int RunCommandLine(int argc, const char* const* argv) {
   });
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 all passed, 1 a verdict failed, 2 interrupted (resumable), 3 own or "
-      "machine failure,\n            4 wrong usage or input, 5 nothing selected.\n"
-      "Example: ./aisle run scenes/suites/quickstart.yaml");
+      "Exit codes: 0 all passed, 1 a verdict failed, 2 interrupted (can be resumed), 3 internal "
+      "error or\n            machine failure, 4 wrong usage or input, 5 nothing "
+      "selected.\nExample: ./aisle run scenes/suites/quickstart.yaml");
   Action action;
   AddCommands(&app, &action);
   NameInExamples(&app, OwnCommand());
@@ -166,7 +166,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     fmt::print(stderr, "aisle: {}: {}\n", Printable(error.path1().string(), 80), code.message());
     return impossible ? kBadInput : kOwnFailure;  // a name that no file can have was given to us
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "aisle: the machine has no memory left for this\n");
+    fmt::print(stderr, "aisle: out of memory\n");
     return kOwnFailure;
   } catch (const std::exception& error) {
     fmt::print(stderr, "aisle: {}\n", error.what());

@@ -1,4 +1,5 @@
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/terminal.h"
 #include "harness/common/first_of_many.h"
 #include "harness/io/file.h"
@@ -65,8 +66,8 @@ int CompareReports(const Options& options) {
   }
   if (comparisons.empty()) {
     const std::string why = WhyNothingShared(before, after);
-    fmt::print(stderr, "aisle: nothing can be compared: {}\n",
-               why.empty() ? "no score of the one is in the other" : why);
+    fmt::print(stderr, "aisle: nothing to compare: {}\n",
+               why.empty() ? "the reports have no scores in common" : why);
     return kNothingToDo;
   }
   const bool worse = std::any_of(comparisons.begin(), comparisons.end(),
@@ -83,12 +84,11 @@ void RefuseUnfinished(const Results& results, const std::filesystem::path& folde
   }
   const std::vector<std::string> unfinished = UnfinishedRuns(results, planned);
   if (unfinished.empty()) return;
-  throw InputError(
-      folder.string(), 0,
-      fmt::format("{} of its runs failed or {} missing, and a gate would never ask for "
-                  "them: {}; run it again with --resume, or say --anyway",
-                  unfinished.size(), unfinished.size() == 1 ? "is" : "are",
-                  FirstOfMany(unfinished, ", ")));
+  throw InputError(folder.string(), 0,
+                   fmt::format("{} of its runs failed or {} missing, and a gate would not check "
+                               "them: {}; run it again with --resume, or pass --anyway",
+                               unfinished.size(), unfinished.size() == 1 ? "is" : "are",
+                               FirstOfMany(unfinished, ", ")));
 }
 
 int SetBaseline(const std::string& folder, const std::string& to, bool anyway, bool json) {
@@ -115,21 +115,25 @@ void AddCompareCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand(
       "compare",
-      "what changed between two reports: better, worse, same, cannot tell, unstable, gone");
-  command->add_option("OLD", options->before, "report folder or results.json")->required();
-  command->add_option("NEW", options->after, "report folder or results.json")->required();
-  command->add_option("--alpha", options->compare.alpha, "chance of any false alarm; default 0.01")
+      "Compare two reports, score by score: better, worse, same, cannot tell, unstable or gone");
+  command->add_option("OLD", options->before, "Report folder or results.json of before")
+      ->required();
+  command->add_option("NEW", options->after, "Report folder or results.json of after")->required();
+  command
+      ->add_option("--alpha", options->compare.alpha,
+                   "Chance of any false alarm in the whole comparison; default: 0.01")
       ->check(CLI::Range(0.0, 1.0));
   command
       ->add_option("--minimum-effect", options->compare.minimum_effect,
-                   "share of the old median below which nothing is called a change; default 0.1")
+                   "Smallest difference that counts as a change, as a share of the old median; "
+                   "default: 0.1")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--out", options->out, "folder for compare.html, .md and .json");
-  command->add_flag("--json", options->json, "for programs");
+  command->add_option("--out", options->out,
+                      "Folder for compare.html, compare.md and compare.json");
+  AddJson(command, &options->json);
   command->footer(
-      "Exit code 1 where a score is worse, unstable or gone, or cells or seeds of OLD are missing "
-      "in "
-      "NEW;\n5 where the two share nothing.\n"
+      "Exit code 1 if a score is worse, unstable or gone, or cells or seeds of OLD are missing in "
+      "NEW;\n5 if the two have nothing in common.\n"
       "Example: ./aisle compare out/yesterday out/tonight --out out/compared");
   command->callback([=] { *action = [=] { return CompareReports(*options); }; });
 }
@@ -139,14 +143,14 @@ void AddBaselineCommand(CLI::App* app, Action* action) {
   const auto to = std::make_shared<std::string>();
   const auto anyway = std::make_shared<bool>(false), json = std::make_shared<bool>(false);
   CLI::App* command = app->add_subcommand(
-      "baseline", "make a report the baseline that `run --gate` holds its suite against");
-  command->add_option("DIR", *folder, "folder with results.json")->required();
+      "baseline", "Make a report the baseline that `run --gate` compares its suite with");
+  command->add_option("DIR", *folder, "Report folder, with results.json")->required();
   command->add_option(
       "--to", *to,
-      "file to write, for `run --baseline`; default reports/baselines/SUITE.json of "
+      "File to write, for `run --baseline`; default: reports/baselines/SUITE.json of "
       "the source tree this program was built from");
-  command->add_flag("--anyway", *anyway, "even where runs failed or are missing");
-  command->add_flag("--json", *json, "for programs");
+  command->add_flag("--anyway", *anyway, "Write the baseline even if runs failed or are missing");
+  AddJson(command, json.get());
   command->footer("Example: ./aisle baseline out/quickstart --to my_quickstart.json");
   command->callback([=] { *action = [=] { return SetBaseline(*folder, *to, *anyway, *json); }; });
 }

@@ -101,9 +101,11 @@ std::string BashScript(const CLI::App& app) {
 }  // namespace
 
 void AddCompletionCommand(CLI::App* app, Action* action) {
-  CLI::App* command = app->add_subcommand("completion", "completion of this program for bash");
+  CLI::App* command =
+      app->add_subcommand("completion", "Print the script that completes commands in bash");
   const auto shell = std::make_shared<std::string>("bash");
-  command->add_option("SHELL", *shell, "bash")->check(CLI::IsMember({"bash"}));
+  command->add_option("SHELL", *shell, "Shell to complete in; default: bash")
+      ->check(CLI::IsMember({"bash"}));
   command->footer("Example: eval \"$(./aisle completion bash)\"");
   command->callback([app, action, shell] {  // `shell` is where the parser puts the word
     *action = [app] {

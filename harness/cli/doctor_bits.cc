@@ -53,7 +53,7 @@ Json ReadMakes(const std::string& file, bool may_lack) {
   try {
     return Json::parse(ReadFile(file)).at("makes");
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(file + ": no list of hashes by make of processor: " + error.what());
+    throw InputError(file + ": not a list of hashes by processor: " + error.what());
   }
 }
 
@@ -79,12 +79,12 @@ std::string FirstDifference(const BitsOfMake& own, const BitsOfMake& other) {
 
 BitsVerdict HoldAgainst(const BitsOfMake& own, const BitsOfMake& known) {
   const std::string first = FirstDifference(own, known);
-  if (first.empty()) return {.said = "every stage equal"};
+  if (first.empty()) return {.said = "all stages equal"};
   if (own.commit == known.commit) {
-    return {.said = "the first stage that differs: " + first, .differs = true};
+    return {.said = "first stage that differs: " + first, .differs = true};
   }
-  return {.said = "another program's, not comparable from the stage " + first +
-                  " on: `doctor --bits --keep` of this commit there makes it so"};
+  return {.said = "made by another version of the program, not comparable from stage " + first +
+                  " on: run `doctor --bits --keep` of this commit on that processor"};
 }
 
 int DoctorBits(const DoctorBitsOptions& options) {

@@ -10,6 +10,7 @@
 
 #include "harness/campaign/sandbox.h"
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/doctor_bits.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
@@ -50,7 +51,7 @@ Finding Processor() {
   return {"processor", good ? Health::kGood : Health::kBad,
           fmt::format("{}; {} threads; {}", OwnProvenance().cpu,
                       std::thread::hardware_concurrency(), isa),
-          good ? "" : "this program is built for AVX2 and FMA: it will not run here"};
+          good ? "" : "this program needs AVX2 and FMA: it will not run here"};
 }
 
 Finding Memory() {
@@ -71,7 +72,7 @@ Finding Disk(const std::string& what, const fs::path& wanted) {
   const fs::path path = NearestExisting(wanted);
   struct statvfs disk {};
   if (::statvfs(path.c_str(), &disk) != 0 || ::access(path.c_str(), W_OK) != 0) {
-    return {what, Health::kBad, wanted.string() + ": cannot be written", "choose another folder"};
+    return {what, Health::kBad, wanted.string() + ": not writable", "choose another folder"};
   }
   const double gib =
       static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize) / (1 << 30);
@@ -79,7 +80,7 @@ Finding Disk(const std::string& what, const fs::path& wanted) {
   return {what, enough ? Health::kGood : Health::kLacking,
           fmt::format("{}: {:.0f} GiB free", wanted.string(), gib),
           enough ? ""
-                 : fmt::format("the frames of a night may need {:.0f} GiB: set AISLE_CACHE",
+                 : fmt::format("frames may need {:.0f} GiB: set AISLE_CACHE to a larger disk",
                                kFewestDiskGib)};
 }
 
@@ -108,12 +109,12 @@ Finding Tool(const std::string& program, const std::string& use) {
 
 /// Debian's packages that packages.txt of the source tree names for every command.
 Finding Packages() {
-  if (IsInstalled()) return {"packages", Health::kGood, "those that this one depends on", ""};
+  if (IsInstalled()) return {"packages", Health::kGood, "installed as dependencies", ""};
   if (!fs::exists("/var/lib/dpkg")) {
-    return {"packages", Health::kGood, "not looked for: this is no Debian system", ""};
+    return {"packages", Health::kGood, "not checked: not a Debian system", ""};
   }
   std::ifstream list(OwnFolder() / "packages.txt");
-  if (!list) return {"packages", Health::kLacking, "no packages.txt beside the program", ""};
+  if (!list) return {"packages", Health::kLacking, "packages.txt not found beside the program", ""};
   std::string line, missing;
   int count = 0;
   while (std::getline(list, line)) {
@@ -134,10 +135,9 @@ Finding Packages() {
 Finding Confinement() {
   const bool whole = SandboxLevel() >= 6;
   return {"confine", whole ? Health::kGood : Health::kLacking, DescribeSandbox(),
-          whole
-              ? ""
-              : "systems of others are trusted with more than they should be: Linux 6.12 or newer "
-                "with lsm=landlock,… holds them back"};
+          whole ? ""
+                : "external systems are not fully confined: that needs Linux 6.12 or newer with "
+                  "lsm=landlock,…"};
 }
 
 std::vector<Finding> Examine(const std::string& out) {
@@ -148,9 +148,9 @@ std::vector<Finding> Examine(const std::string& out) {
           Assets(),
           Packages(),
           Confinement(),
-          Tool("ffmpeg", "a short video of every run"),
-          Tool("chromium", "the tests look at the report with it"),
-          Tool("git", "the commit in every report")};
+          Tool("ffmpeg", "makes a short video of every run"),
+          Tool("chromium", "opens the report in tests"),
+          Tool("git", "finds the commit for every report")};
 }
 
 int Doctor(const std::string& out, const DoctorBitsOptions& to) {
@@ -183,29 +183,34 @@ void AddDoctorCommand(CLI::App* app, Action* action) {
     DoctorBitsOptions of_bits;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand("doctor", "what this machine has and lacks for the work");
+  CLI::App* command =
+      app->add_subcommand("doctor", "Show what this machine has and what it lacks for the work");
   CLI::Option* out =
-      command->add_option("--out", options->out, "where reports will go; default out");
+      command->add_option("--out", options->out, "Folder that reports will go to; default: out");
   const CLI::Option* json =
       command
-          ->add_option("--json", options->of_bits.json_file,
-                       "for programs, on stdout; with a name, into that file beside the table")
+          ->add_option(
+              "--json,--json-file", options->of_bits.json_file,
+              "Print JSON instead of the table or, with a file name, write it to that file "
+              "beside the table")
           ->expected(0, 1);
+  command->option_defaults()->group("Bits");
   const auto bits =
       command
-          ->add_flag("--bits", options->bits,
-                     "what each stage of a small drive computes on this processor, as hashes, and "
-                     "the first stage "
-                     "in which it parts from the makes of processor in reports/baselines/bits.json")
+          ->add_flag(
+              "--bits", options->bits,
+              "Hash what each stage of a small drive computes on this processor, and name the "
+              "first stage that differs from the processors in reports/baselines/bits.json")
           ->excludes(out);
-  command->add_flag("--pictures", options->of_bits.pictures, "the simulator's stages alone")
+  command->add_flag("--pictures", options->of_bits.pictures, "Hash the simulator's stages only")
       ->needs(bits);
-  command->add_option("--against", options->of_bits.against, "another list, as --json writes it")
+  command
+      ->add_option("--against", options->of_bits.against,
+                   "List of hashes to compare with, as --json writes it")
       ->needs(bits);
-  command->add_flag("--keep", options->of_bits.keep, "put this processor's hashes into the list")
+  command->add_flag("--keep", options->of_bits.keep, "Add this processor's hashes to the list")
       ->needs(bits);
-  command->add_option("--threads", options->of_bits.threads, "0: all; never changes a bit")
-      ->needs(bits);
+  AddThreads(command, &options->of_bits.threads, "never changes a bit")->needs(bits);
   command->footer("Example: ./aisle doctor --bits");
   command->callback([=] {
     *action = [=] {

@@ -24,7 +24,7 @@ void CheckSceneFiles(const std::vector<std::string>& files) {
 void CheckCanBeWritten(const std::string& file) {
   if (file.empty()) return;
   if (std::filesystem::is_directory(file)) {
-    throw InputError(file, 0, "is a folder: name a file in it");
+    throw InputError(file, 0, "is a folder; expected a file");
   }
   MakeParentFolder(file);
 }

@@ -17,14 +17,16 @@ std::string WhatRecording(const fs::path& folder) {
   };
   const auto sentence = [](const char* what, const char* keys) {
     return fmt::format(
-        "is {}, no folder of scenes: check a file that says {} (reports/docs/bags.md)", what, keys);
+        "is {}, not a folder of scenes: check a scene or suite file that has {} instead "
+        "(reports/docs/bags.md)",
+        what, keys);
   };
-  if (holds("metadata.yaml")) return sentence("a bag of ROS 2", "`recording: FOLDER`");
+  if (holds("metadata.yaml")) return sentence("a ROS 2 bag", "`recording: FOLDER`");
   if (holds("cam0/sensor.yaml") || holds("mav0/cam0/sensor.yaml")) {
-    return sentence("a dataset as EuRoC's", "`recording: FOLDER`");
+    return sentence("a dataset in EuRoC's layout", "`recording: FOLDER`");
   }
   if (holds("calib.txt") && holds("image_0")) {
-    return sentence("a dataset as KITTI's", "`recording: FOLDER` and `format: kitti`");
+    return sentence("a dataset in KITTI's layout", "`recording: FOLDER` and `format: kitti`");
   }
   return "";
 }
@@ -42,7 +44,7 @@ std::vector<std::string> FilesBelow(const std::string& folder) {
   }
   if (!foreign.empty()) {
     const std::vector<std::string> names(foreign.begin(), foreign.end());
-    TellNotes(folder, {fmt::format("left out what is no scene, suite or recording: {}",
+    TellNotes(folder, {fmt::format("skipped files that are neither scene, suite nor recording: {}",
                                    FirstOfMany(names, ", "))});
   }
   return {found.begin(), found.end()};

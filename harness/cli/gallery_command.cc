@@ -5,6 +5,7 @@
 
 #include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/files_below.h"
 #include "harness/cli/page_block.h"
 #include "harness/io/file.h"
@@ -191,7 +192,7 @@ std::filesystem::path PageOf(const Options& options) {
 /// Throws InputError where the page would take the place of one that somebody else wrote.
 void CheckPage(const std::filesystem::path& page) {
   if (!std::filesystem::exists(page) || ReadFile(page).starts_with(kPageHead)) return;
-  throw InputError(page.string(), 0, "is no page of a gallery: choose another folder (-o)");
+  throw InputError(page.string(), 0, "not a gallery page; choose another folder (-o)");
 }
 
 /// What was asked for beside the defaults and decides the pictures.
@@ -241,7 +242,7 @@ int Gallery(const Options& options) {
   CheckAreThere(options.places);
   const std::vector<std::string> files = ScenesOf(options.places);
   if (files.empty()) {
-    fmt::print(stderr, "no scene file: name scenes or folders of them\n");
+    fmt::print(stderr, "no scene files: name scenes or folders of them\n");
     return kNothingToDo;
   }
   if (options.shares) return PrintShares(files, options);
@@ -269,18 +270,19 @@ int Gallery(const Options& options) {
 
 void AddGalleryCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app->add_subcommand("gallery", "pictures, layouts and people's image share of many scenes");
-  command->add_option("SCENE", options->places, "scene files or folders of them")
+  CLI::App* command = app->add_subcommand(
+      "gallery", "Draw pictures, layouts and people's share of the image for many scenes");
+  command->add_option("SCENE", options->places, "Scene files, or folders of them")
       ->required()
       ->transform(ByName());
-  command->add_option("-o,--out", options->output, "folder; default reports/gallery");
-  command->add_option("--samples", options->samples, "frames looked at in each scene; default 16")
+  AddOutput(command, &options->output, "Folder of the gallery; default: reports/gallery");
+  command->add_option("--samples", options->samples, "Frames to look at in each scene; default: 16")
       ->check(CLI::Range(1, 10000));
-  command->add_option("--seed", options->seed, "seed of the layout and the sensor");
-  CLI::Option* shares = command->add_flag(
-      "--shares", options->shares, "print how much of the image moves over time; no picture");
-  command->add_flag("--json", options->json, "the shares for programs")->needs(shares);
+  AddSeed(command, &options->seed);
+  CLI::Option* shares =
+      command->add_flag("--shares", options->shares,
+                        "Print how much of the image moves over time, and draw no pictures");
+  AddJson(command, &options->json, "Print the shares as JSON")->needs(shares);
   options->into.AddTo(command)->needs(shares);
   command->footer(
       "Example: ./aisle gallery scenes -o reports/gallery\n"

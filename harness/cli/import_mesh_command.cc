@@ -1,6 +1,7 @@
 #include <filesystem>
 
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/user_model.h"
@@ -42,15 +43,17 @@ void PrintList(const char* what, const std::vector<std::string>& items) {
 /// A size that few things have is rather a unit that was not meant.
 void WarnOfSize(double largest_m) {
   if (largest_m >= 0.02 && largest_m <= 500) return;
-  fmt::print("it is {:.3g} m large; if that is not so, give its unit: --unit m, cm, mm, in or ft\n",
-             largest_m);
+  fmt::print(
+      "the mesh is {:.3g} m large; if that is wrong, set its unit: --unit m, cm, mm, in or ft\n",
+      largest_m);
 }
 
 int ImportMesh(Options options) {
   UserModelRequest& request = options.request;
   request.output = OutputFor(options);
   if (fs::path(request.output).extension() != kExtension) {
-    throw InputError(fmt::format("--output {}: it must end with {}", request.output, kExtension));
+    throw InputError(
+        fmt::format("--output {}: expected a name that ends with {}", request.output, kExtension));
   }
   if (!options.unit.empty()) request.unit_m = Units().at(options.unit);
   if (!options.up.empty()) request.up = options.up.front();
@@ -67,7 +70,7 @@ int ImportMesh(Options options) {
   WarnOfSize(*std::ranges::max_element(size));
   PrintList("nodes", model.nodes);
   PrintList("animations", model.clips);
-  PrintList("left out", model.left_out);
+  PrintList("skipped", model.left_out);
   const std::string picture = fs::path(request.output).replace_extension(".png").string();
   WriteImage(picture, model.picture);
   fmt::print("{}: on a floor with a line every {:g} m\n", picture, model.grid_m);
@@ -78,24 +81,31 @@ int ImportMesh(Options options) {
 
 void AddImportMeshCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app->add_subcommand("import-mesh", "take in a mesh of one's own, for scenes to name");
-  command->add_option("FILE", options->request.file, ".glb, .gltf, .obj or .dae")->required();
+  CLI::App* command = app->add_subcommand("import-mesh", "Import your own mesh for use in scenes");
+  command->add_option("FILE", options->request.file, "Mesh file: .glb, .gltf, .obj or .dae")
+      ->required();
   command
       ->add_option("--licence", options->request.licence,
-                   "under which you have it, e.g. CC-BY-4.0 or own; recorded beside it")
+                   "Licence under which you have the mesh, recorded beside it, for example "
+                   "CC-BY-4.0 or own")
       ->required()
       ->check([](const std::string& text) {
-        return text.empty() || text.size() > 200 ? "say the licence in 1 to 200 characters" : "";
+        return text.empty() || text.size() > 200 ? "expected 1 to 200 characters" : "";
       });
-  command->add_option("--unit", options->unit, "of its numbers; needed where the file says none")
+  command
+      ->add_option("--unit", options->unit,
+                   "Unit of the file's lengths; needed if the file does not state it")
       ->check(CLI::IsMember({"m", "cm", "mm", "in", "ft"}));
-  command->add_option("--up", options->up, "its axis that is up; needed where the file says none")
+  command
+      ->add_option("--up", options->up,
+                   "Axis of the file that points up; needed if the file does not state it")
       ->check(CLI::IsMember({"x", "y", "z"}));
   command->add_flag("--skinned", options->request.skinned,
-                    "keep skeleton and animations, for a person; otherwise it stands as at rest");
-  command->add_option("-o,--output", options->request.output,
-                      "default: FILE's name with .aislemesh, here; record and picture beside it");
+                    "Keep skeleton and animations, for a person; default: freeze it in its rest "
+                    "pose");
+  AddOutput(command, &options->request.output,
+            "File to write, with a record and a picture beside it; default: FILE's name with "
+            ".aislemesh, in this folder");
   command->footer("Example: ./aisle import-mesh shelf.obj --unit mm --up z --licence own");
   command->callback([=] { *action = [=] { return ImportMesh(*options); }; });
 }

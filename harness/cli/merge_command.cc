@@ -1,6 +1,7 @@
 // Parts of a suite that ran on several machines, made one report again.
 #include "harness/campaign/collect.h"
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/merge_night.h"
 #include "harness/cli/night_baseline.h"
 #include "harness/cli/night_folder.h"
@@ -38,14 +39,14 @@ std::vector<Part> ReadParts(const std::vector<std::string>& folders) {
     parts.push_back({folder, ReadPlan(folder)});
     if (!SameQuestion(parts.front().plan, parts.back().plan)) {
       throw InputError(folder + "/plan.json", 0,
-                       "is another plan than " + folders.front() +
+                       "differs from " + folders.front() +
                            "/plan.json: only parts of one suite and one command line can be "
                            "merged");
     }
     if (const auto scene = ChangedScene(parts.front().plan, parts.back().plan)) {
       throw InputError(folder + "/plan.json", 0,
-                       fmt::format("was planned with another {} than {}/plan.json: the scene's "
-                                   "file was changed between the parts; run both with the same",
+                       fmt::format("was planned with another {} than {}/plan.json: the scene file "
+                                   "changed between the parts; run both with the same one",
                                    Printable(*scene, 200), folders.front()));
     }
   }
@@ -59,7 +60,7 @@ std::optional<Results> CommonBaseline(const std::vector<Part>& parts) {
   for (const Part& part : parts) {
     if (ToJson(ReadNightBaseline(part.folder)) == ToJson(baseline)) continue;
     throw InputError(part.folder + "/baseline.json", 0,
-                     "is another baseline than " + parts.front().folder +
+                     "differs from " + parts.front().folder +
                          "/baseline.json: run both parts against the same one");
   }
   return baseline;
@@ -90,7 +91,7 @@ bool WasToMake(const PlanFile& plan, const RunRecord& record) {
 void CheckOneNight(const Found& first, const Found* same, const Found& run) {
   if (same != nullptr && same->record.inputs_hash != run.record.inputs_hash) {
     throw InputError(PathOf(run), 0,
-                     "was made by another program, scene or system than the same run of another "
+                     "was made by another program, scene or system than the same run in another "
                      "part: run both parts with the same commit");
   }
   if (SameProgram(first.record, run.record)) return;
@@ -128,10 +129,10 @@ FoundRuns FindRuns(const std::vector<RunSpec>& specs, const std::vector<Part>& p
 void TellLeftovers(const std::vector<Found>& leftovers) {
   constexpr std::size_t kMost = 5;
   for (std::size_t i = 0; i < std::min(kMost, leftovers.size()); ++i) {
-    fmt::print(stderr, "aisle: {}: is an earlier night's, and left out\n", PathOf(leftovers[i]));
+    fmt::print(stderr, "aisle: {}: left over from an earlier run, skipped\n", PathOf(leftovers[i]));
   }
   if (leftovers.size() > kMost) {
-    fmt::print(stderr, "aisle: so are {} more\n", leftovers.size() - kMost);
+    fmt::print(stderr, "aisle: and {} more\n", leftovers.size() - kMost);
   }
 }
 
@@ -187,7 +188,7 @@ int MergeOwn(const Options& options) {
   const fs::path out = fs::absolute(options.out).lexically_normal();
   if (!HasTasks(out)) {
     throw InputError(options.out, 0,
-                     "holds no night of a cluster: name the folders of the parts after it");
+                     "has no run of a cluster: name the folders of the parts after it");
   }
   // Who submitted it holds the folder for a moment after its jobs are there.
   const FileLock ours = options.submission.empty() ? TakeFolder(out) : WaitForFolder(out);
@@ -222,13 +223,12 @@ void AddMergeCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand(
       "merge",
-      "join the parts of `run --shard`, or what a cluster's tasks left, into one "
-      "report and judge it");
-  command->add_option("OUT", options->out, "folder of the whole report")->required();
-  command->add_option("PART", options->parts,
-                      "folders of the parts; none for a night that a cluster drove");
-  command->add_option("--submission", options->submission, "whose verdict it is")->group("");
-  command->add_flag("--json", options->json, "results.json on stdout instead of the table");
+      "Join the parts of `run --shard`, or the results of a cluster's tasks, into one report and "
+      "judge it");
+  command->add_option("OUT", options->out, "Folder of the whole report")->required();
+  command->add_option("PART", options->parts, "Folders of the parts; none for a run on a cluster");
+  command->add_option("--submission", options->submission, "Submission to judge")->group("");
+  AddJson(command, &options->json, "Print results.json instead of the table");
   command->footer(
       "Example: ./aisle run scenes/suites/paper.yaml --shard 1/2 --out out/a   # one machine\n"
       "         ./aisle run scenes/suites/paper.yaml --shard 2/2 --out out/b   # another\n"

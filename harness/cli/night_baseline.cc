@@ -20,7 +20,7 @@ void WriteNightBaseline(const Results& baseline, const fs::path& out) {
 Results ReadNightBaseline(const fs::path& out) {
   if (!fs::exists(PathOf(out))) {
     throw InputError(PathOf(out).string(), 0,
-                     "is gone: its night was run with --gate, which is judged by it");
+                     "missing: the report was run with --gate and needs it");
   }
   return ResultsFromJson(ReadFile(PathOf(out)), PathOf(out).string());
 }

@@ -16,13 +16,13 @@ constexpr const char* kLock = ".lock";
 
 FileLock TakeFolder(const fs::path& out) {
   if (fs::exists(out) && !fs::is_directory(out)) {
-    throw InputError(out.string(), 0, "is a file: a report needs a folder");
+    throw InputError(out.string(), 0, "is a file; expected a folder for the report");
   }
   std::optional<FileLock> lock = FileLock::Try(out / kLock);
   if (!lock) {
-    throw InputError(out.string(), 0,
-                     "another `aisle run` is at work there, or a `merge`: wait for it, or choose "
-                     "another folder");
+    throw InputError(
+        out.string(), 0,
+        "in use by another `aisle run` or `merge`: wait for it, or choose another folder");
   }
   return *std::move(lock);
 }
@@ -32,7 +32,7 @@ FileLock WaitForFolder(const fs::path& out) { return FileLock(out / kLock); }
 FileLock ReadFromFolder(const fs::path& part) {
   std::optional<FileLock> lock = FileLock::TryToRead(part / kLock);
   if (!lock) {
-    throw InputError(part.string(), 0, "an `aisle run` is still at work there: wait for it");
+    throw InputError(part.string(), 0, "in use by an `aisle run`: wait for it");
   }
   return *std::move(lock);
 }
@@ -40,8 +40,8 @@ FileLock ReadFromFolder(const fs::path& part) {
 void LeaveTheCluster(const fs::path& out) {
   if (IsUnderWay(out)) {
     throw InputError(out.string(), 0,
-                     "its jobs are still in the queue: `aisle status DIR` tells how they go; wait "
-                     "for them, scancel them, or choose another --out");
+                     "its jobs are still in the queue: `aisle status DIR` shows their progress; "
+                     "wait for them, scancel them, or choose another --out");
   }
   ForgetNight(out);
 }

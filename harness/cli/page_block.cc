@@ -9,9 +9,8 @@ namespace aisle {
 CLI::Option* PageBlock::AddTo(CLI::App* command) {
   return command->add_option(
       "--into", into_,
-      "PAGE or PAGE#BLOCK: rewrite that block of a Markdown page with the table; the block of a "
-      "page alone is " +
-          usual_);
+      "Write the table into a block of a Markdown page: PAGE#BLOCK, or PAGE for its block '" +
+          usual_ + "'");
 }
 
 void PageBlock::Check() const {

@@ -2,6 +2,7 @@
 
 #include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
@@ -26,7 +27,7 @@ FrameRequest Choose(const std::vector<FrameRequest>& schedule, const Options& op
   if (options.frame >= 0) {
     const auto index = static_cast<std::size_t>(options.frame);
     if (index < schedule.size()) return schedule[index];
-    throw InputError(fmt::format("--frame {}: the scene has frames 0 to {}", options.frame,
+    throw InputError(fmt::format("--frame: expected a frame in [0, {1}], got {0}", options.frame,
                                  schedule.size() - 1));
   }
   if (options.time_s < 0) return schedule[schedule.size() / 2];
@@ -68,21 +69,21 @@ int Preview(Options options) {
 
 void AddPreviewCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand("preview", "one picture with its truth drawn over it");
-  command->add_option("SCENE", options->simulation.scene_file, "scene file, or its name")
+  CLI::App* command =
+      app->add_subcommand("preview", "Render one picture with its truth drawn over it");
+  command->add_option("SCENE", options->simulation.scene_file, "Scene file or name")
       ->required()
       ->transform(ByName());
-  auto* time = command->add_option("--time", options->time_s, "seconds from the start")
+  auto* time = command->add_option("--time", options->time_s, "Time of the picture in seconds")
                    ->check(CLI::NonNegativeNumber);
-  command->add_option("--frame", options->frame, "frame number; default: the middle one")
+  command->add_option("--frame", options->frame, "Number of the frame; default: the middle one")
       ->check(CLI::NonNegativeNumber)
       ->excludes(time);
-  command->add_option("--twin", options->simulation.twin,
-                      "live, empty, frozen, or a level: none, low, mid, high");
-  command->add_option("--seed", options->simulation.seed, "seed of the layout and the sensor");
-  command->add_flag("--plain", options->plain, "the picture alone, without truth");
-  command->add_option("--plan", options->plan, "also writes the layout from above to this file");
-  command->add_option("-o,--output", options->output, "PNG or JPEG; default preview.png");
+  AddTwin(command, &options->simulation.twin);
+  AddSeed(command, &options->simulation.seed);
+  command->add_flag("--plain", options->plain, "Draw the picture alone, without truth");
+  command->add_option("--plan", options->plan, "Also write the layout from above to this file");
+  AddOutput(command, &options->output, "File to write, PNG or JPEG; default: preview.png");
   command->footer("Example: ./aisle preview scenes/paper/scene2.yaml --time 6 -o scene2.png");
   command->callback([=] { *action = [=] { return Preview(*options); }; });
 }

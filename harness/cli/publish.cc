@@ -22,7 +22,7 @@ bool TryToRemember(const Results& results, const std::filesystem::path& out) {
     AppendToHistory(HistoryPath(out), results, out);
     return true;
   } catch (const MachineError& trouble) {
-    fmt::print(stderr, "aisle: the trends are without this night: {}\n", trouble.what());
+    fmt::print(stderr, "aisle: the trends will not include this run: {}\n", trouble.what());
     return false;
   }
 }

@@ -15,8 +15,8 @@ void RenderBag(const SimulationForExport& simulation, const std::vector<FrameReq
                bool with_odometry, const std::filesystem::path& folder) {
   if (simulation.lens.model != "none") {
     throw InputError(scene_file, 0,
-                     fmt::format("the scene's lens is {}, and the bag holds rectified images: "
-                                 "export it as euroc, or set camera.distortion to none",
+                     fmt::format("the scene's lens is {}, but a bag holds rectified images: use "
+                                 "--format euroc, or set camera.distortion to none",
                                  simulation.lens.model));
   }
   const Sequence& sequence = *simulation.sequence;

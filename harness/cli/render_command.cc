@@ -2,7 +2,7 @@
 
 #include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
-#include "harness/cli/isa_option.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/render_bag.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/dataset.h"
@@ -57,13 +57,13 @@ FrameRange RangeFromText(const std::string& frames) {
 std::vector<FrameRequest> Select(const std::vector<FrameRequest>& schedule, FrameRange range) {
   const bool to_the_end = range.last == std::numeric_limits<std::size_t>::max();
   if (!to_the_end && range.last > schedule.size() && range.first < schedule.size()) {
-    throw InputError(
-        fmt::format("--frames: the scene ends before frame {}; it has {}: {}:{} or {}:", range.last,
-                    schedule.size(), range.first, schedule.size(), range.first));
+    throw InputError(fmt::format(
+        "--frames: the scene ends before frame {}; it has {} frames: use {}:{} or {}:", range.last,
+        schedule.size(), range.first, schedule.size(), range.first));
   }
   range.last = std::min(range.last, schedule.size());
   if (range.first >= range.last) {
-    throw InputError(fmt::format("--frames: nothing from frame {} on; there are 0 to {}",
+    throw InputError(fmt::format("--frames: no frames from {} on; the scene has 0 to {}",
                                  range.first, schedule.size() - 1));
   }
   return {schedule.begin() + static_cast<std::ptrdiff_t>(range.first),
@@ -120,16 +120,15 @@ int Verify(const SimulationForExport& simulation, const std::vector<FrameRequest
       fmt::print(stderr, "frame {}: {}\n", frame.id, proof.failure);
       ++failures;
     }
-    line.Show(fmt::format("proved frame {}", frame.id));
+    line.Show(fmt::format("checked frame {}", frame.id));
   }
   line.Clear();
   WriteFileAtomically(out / "truth/proofs.csv", table);
   fmt::print(
-      "proofs of {} frames: {} failed; at worst the rasteriser agrees on {:.3f} % of the pixels, "
-      "left warps to right within {:.4f} px and to the next frame within {:.4f} px (medians); "
-      "along "
-      "the flow things at rest change by {:.2f}, movers flicker by {:.2f} and moving shadows by "
-      "{:.2f} grey levels\n",
+      "checked {} frames: {} failed; worst values: the rasteriser agrees on {:.3f} % of the "
+      "pixels, left warps to right within {:.4f} px and to the next frame within {:.4f} px "
+      "(medians); along the flow, static surfaces change by {:.2f}, moving ones flicker by {:.2f} "
+      "and moving shadows by {:.2f} grey levels\n",
       frames.size(), failures, 100 * worst.raster_agreement, worst.stereo_median_px,
       worst.flow_median_px, worst.static_change_grey, worst.mover_flicker_grey,
       worst.shadow_flicker_grey);
@@ -150,8 +149,8 @@ void AddOdometry(const Sequence& sequence, const std::vector<FrameRequest>& fram
 int RenderAsBag(const Options& options) {
   if (!options.truth.empty() || options.verify) {
     throw InputError(
-        "--format ros2: a bag holds poses, depth, what moves and boxes as they are: leave --truth "
-        "and --verify out");
+        "--format ros2: a bag always holds poses, depth, dynamic masks and boxes; --truth and "
+        "--verify are not supported");
   }
   const FrameRange range = RangeFromText(options.frames);
   SimulationForExport simulation = OpenForExport(options.simulation, options.pair);
@@ -204,7 +203,8 @@ int Render(Options options) {
   if (options.odometry) {
     AddOdometry(sequence, wanted, options.simulation, export_options, options.out);
   }
-  fmt::print("{}: {} frames, {} of them made now\n", options.out, wanted.size(), missing.size());
+  fmt::print("{}: {} frames, {} of them rendered now\n", options.out, wanted.size(),
+             missing.size());
   return options.verify ? Verify(simulation, wanted, writer, options.out) : kAllPassed;
 }
 
@@ -212,37 +212,41 @@ int Render(Options options) {
 
 void AddRenderCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand("render", "a dataset on disk, with its truth beside it");
-  command->add_option("SCENE", options->simulation.scene_file, "scene file, or its name")
+  CLI::App* command =
+      app->add_subcommand("render", "Write a scene as a dataset, with its truth beside it");
+  command->add_option("SCENE", options->simulation.scene_file, "Scene file or name")
       ->required()
       ->transform(ByName());
-  command->add_option("--out", options->out, "folder of the dataset")->required();
+  AddTwin(command, &options->simulation.twin);
+  AddSeed(command, &options->simulation.seed);
+  command->add_option("--frames", options->frames,
+                      "Only render frames A:B, of which B is the first left out");
+  command->add_option(
+      "--pair", options->pair,
+      "Pair of the rig's cameras to render; default: the one that systems are shown");
+  command->option_defaults()->group("Dataset");
+  AddOutput(command, &options->out, "Folder of the dataset")->required();
   command
       ->add_option("--format", options->format,
-                   "euroc (default), kitti, tum, or ros2: a bag, drive.mcap")
+                   "Layout of the dataset; ros2 is a bag, drive.mcap; default: euroc")
       ->check(CLI::IsMember({"euroc", "kitti", "tum", "ros2"}));
-  command->add_option("--frames", options->frames,
-                      "A:B, B not included: the dataset has these frames alone");
   command
       ->add_option("--truth", options->truth,
-                   "depth,labels,dynamic,boxes,flow,stereo,shadows or all")
+                   "Truth to write, separated by commas: depth, labels, dynamic, boxes, flow, "
+                   "stereo, shadows or all")
       ->delimiter(',');
   command->add_flag("--odometry", options->odometry,
-                    "what the vehicle's wheels make of the way goes along, drawn by --seed");
+                    "Also write what the vehicle's wheels measure, with errors drawn by --seed");
   command->add_flag("--verify", options->verify,
-                    "prove every frame: truth against a rasteriser and by warping, light in time");
-  command->add_option("--twin", options->simulation.twin,
-                      "live, empty, frozen, or a level: none, low, mid, high");
-  command->add_option("--pair", options->pair,
-                      "of the rig's pairs the one to render; default: the one systems are shown");
-  command->add_option("--seed", options->simulation.seed, "seed of the layout and the sensor");
-  AddIsaOption(command, &options->simulation.isa);
-  command->add_option("--threads", options->simulation.threads, "0: all; never changes a pixel")
-      ->check(CLI::Range(0, 1024));
+                    "Check every frame: the truth against a rasteriser and by warping, the light "
+                    "over time");
+  command->option_defaults()->group("Machine");
+  AddIsa(command, &options->simulation.isa);
+  AddThreads(command, &options->simulation.threads, "never changes a pixel");
   command->footer(
-      "Stopped, the same command goes on where it was; frames A:C after A:B add to the folder; a "
-      "bag is "
-      "written anew.\n"
+      "If it was stopped, the same command continues where it was; frames A:C after A:B add to "
+      "the\n"
+      "folder; a bag is always written from the start.\n"
       "Example: ./aisle render scenes/paper/scene2.yaml --out scene2 --truth depth,dynamic");
   command->callback([=] { *action = [=] { return Render(*options); }; });
 }

@@ -1,4 +1,5 @@
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/publish.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
@@ -51,27 +52,28 @@ int Rebuild(const Options& options) {
 
 void AddReportCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand("report", "rebuild the pages of a finished run");
-  command->add_option("DIR", options->folder, "folder with results.json")->required();
-  CLI::Option* json =
-      command->add_flag("--json", options->json, "results.json on stdout instead of the table");
+  CLI::App* command = app->add_subcommand("report", "Rebuild the pages of a finished run");
+  command->add_option("DIR", options->folder, "Report folder, with results.json")->required();
+  CLI::Option* json = AddJson(command, &options->json, "Print results.json instead of the table");
   command
       ->add_option("--into", options->into,
-                   "PAGE or PAGE#BLOCK: rewrite that block of a Markdown page with the paper's "
-                   "tables, and nothing else; the block of a page alone is tables")
+                   "Only write the paper's tables, into a block of a Markdown page: PAGE#BLOCK, or "
+                   "PAGE for its block 'tables'")
       ->excludes(json);
   CLI::Option* scores =
       command
-          ->add_option("--scores", options->scores,
-                       "with --into: these scores of every scene and system instead, A,B,C")
+          ->add_option(
+              "--scores", options->scores,
+              "With --into: write these scores of every scene and system instead, separated "
+              "by commas")
           ->delimiter(',')
           ->needs("--into");
   command
       ->add_option("--titled", options->titled,
-                   "with --into: those of the tables alone whose title holds this")
+                   "With --into: only write the tables with this text in their title")
       ->needs("--into")
       ->excludes(scores);
-  command->add_option("--allure", options->allure, "also write Allure results into this folder");
+  command->add_option("--allure", options->allure, "Also write Allure results to this folder");
   command->footer(
       "Example: ./aisle report out/quickstart\n"
       "         ./aisle report out/paper --into reports/paper.md\n"

@@ -4,6 +4,7 @@
 
 #include "harness/campaign/campaign.h"
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
@@ -37,8 +38,7 @@ Job FindJob(const std::string& id, const std::string& folder) {
     if (RunId(spec) == id) return ReadJob(JobPath(folder, spec));
     if (known.size() < 400) known += "\n  " + RunId(spec);
   }
-  throw InputError(
-      fmt::format("{}: holds no run '{}'; it holds{}", folder, Printable(id, 200), known));
+  throw InputError(fmt::format("{}: no run '{}'; it has{}", folder, Printable(id, 200), known));
 }
 
 /// The processor that made a run; of results of before that of their report, empty where its
@@ -69,18 +69,20 @@ int Say(const Options& options, const fs::path& out, const std::optional<RunReco
                            {"same_processor", same_processor},
                            {"differences", differences}}));
   } else if (!both) {
-    fmt::print("run: {}\nthere is no earlier result to compare with\n", run);
+    fmt::print("run: {}\nno earlier result to compare with\n", run);
   } else if (differences.empty()) {
-    fmt::print("run: {}\nthe same to the last bit: trajectories and {} scores\n", run,
+    fmt::print("run: {}\nidentical to the last bit: trajectories and {} scores\n", run,
                after->scores.size());
   } else {
     fmt::print("run: {}\n{}\n", run,
-               same_inputs ? "the same inputs, other results:"
-                           : "program, scene or system changed since; other results:");
+               same_inputs ? "same inputs, different results:"
+                           : "program, scene or system changed since then; different results:");
     for (const std::string& line : differences) fmt::print("  {}\n", line);
     if (!same_processor) {
-      fmt::print("  made on {}, run again on {}: equal bits are promised on one make alone\n",
-                 processor, own);
+      fmt::print(
+          "  made on {}, repeated on {}: equal bits are only promised on the same processor "
+          "model\n",
+          processor, own);
     }
   }
   return differences.empty() || !same_processor ? kAllPassed : kVerdictFailed;
@@ -119,22 +121,21 @@ int Rerun(const Options& options) {
 
 void AddRerunCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand(
-      "rerun", "repeat one run of a report and compare it with itself, bit by bit");
-  command->add_option("RUN-ID", options->id, "as the report names it: SCENE/TWIN/SYSTEM/SEED")
+  CLI::App* command =
+      app->add_subcommand("rerun", "Repeat one run of a report and compare the results bit by bit");
+  command->add_option("RUN-ID", options->id, "Run as the report names it: SCENE/TWIN/SYSTEM/SEED")
       ->required();
-  command->add_option("--in", options->in, "folder of the report")->required();
-  command->add_option("--out", options->out, "where the new run goes; default DIR/rerun");
-  command->add_option("--threads", options->threads, "0: all; never changes a result")
-      ->check(CLI::Range(0, 1024));
+  command->add_option("--in", options->in, "Report folder that has the run")->required();
+  command->add_option("--out", options->out, "Folder of the new run; default: DIR/rerun");
+  AddThreads(command, &options->threads, "never changes a result");
   command
       ->add_option("--timeout", options->limits.wall_s,
-                   "seconds of wall time; default as `run` has it")
+                   "Most seconds of wall time; default: as for `run`")
       ->check(CLI::PositiveNumber);
   command->add_flag("--debug-dynamic", options->debug_dynamic,
-                    "draw how it found what moves, every stage of every frame, into its folder's "
-                    "stages; changes no result");
-  command->add_flag("--json", options->json, "for programs");
+                    "Draw every stage of the detector of moving objects, for every frame, into the "
+                    "run's folder stages; never changes a result");
+  AddJson(command, &options->json);
   command->footer("Example: ./aisle rerun paper.scene2/live/oracle/1 --in out/quickstart");
   command->callback([=] { *action = [=] { return Rerun(*options); }; });
 }

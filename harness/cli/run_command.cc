@@ -13,6 +13,7 @@
 #include "harness/cli/by_name.h"
 #include "harness/cli/cluster_night.h"
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/night_baseline.h"
 #include "harness/cli/night_folder.h"
 #include "harness/cli/publish.h"
@@ -76,7 +77,7 @@ std::optional<Results> ReadBaseline(const Options& options, const PlanFile& plan
   if (!options.gate) return std::nullopt;
   if (!options.inputs.set.empty()) {
     throw InputError(
-        "--gate holds a suite against its baseline as it is committed: leave --set out");
+        "--gate compares the committed suite with its baseline; --set is not supported");
   }
   const fs::path path =
       options.baseline.empty() ? BaselinePath(plan.name()) : fs::path(options.baseline);
@@ -86,7 +87,7 @@ std::optional<Results> ReadBaseline(const Options& options, const PlanFile& plan
   }
   Results baseline = ResultsFromJson(ReadFile(path), path.string());
   if (baseline.runs.empty()) {
-    throw InputError(path.string(), 0, "holds no runs; make it anew with `aisle baseline DIR`");
+    throw InputError(path.string(), 0, "has no runs; make a new one with `aisle baseline DIR`");
   }
   if (const std::string blind = BlindFor(baseline); !blind.empty()) {
     fmt::print(stderr, "aisle: warning: {}\n", blind);
@@ -103,7 +104,7 @@ void RefuseBoundToFail(const Results& baseline, const std::vector<RunSpec>& nigh
 void WarnOfHistory(const fs::path& out) {
   const std::string trouble = HistoryTrouble(HistoryPath(out));
   if (trouble.empty()) return;
-  fmt::print(stderr, "aisle: warning: the trends will lack this night: {}\n", trouble);
+  fmt::print(stderr, "aisle: warning: the trends will not include this run: {}\n", trouble);
 }
 
 CampaignOutcome RunToEnd(const Standing& night, const Options& options,
@@ -130,7 +131,7 @@ void TellLimitsLeftOut(const std::vector<Suite>& suites) {
   std::size_t left_out = 0;
   for (const Suite& suite : suites) left_out += suite.limits_left_out;
   if (left_out == 0) return;
-  fmt::print(stderr, "aisle: {} on systems or twins left out here: not judged\n",
+  fmt::print(stderr, "aisle: {} not judged, for systems or twins that were not selected\n",
              left_out == 1 ? "a limit is" : fmt::format("{} limits are", left_out));
 }
 
@@ -140,7 +141,7 @@ void TellForecast(const std::vector<Job>& jobs, const Options& options,
   Standing standing{.todo = jobs};
   if (options.resume) standing = StandingOf(jobs, options.limits);
   if (standing.there() > 0) {
-    fmt::print(stderr, "aisle: {} of {} runs are already there\n", standing.there(), jobs.size());
+    fmt::print(stderr, "aisle: {} of {} runs are already done\n", standing.there(), jobs.size());
     if (standing.todo.empty()) return;
   }
   std::vector<RunSpec> specs;
@@ -164,10 +165,11 @@ JobOptions JobOptionsOf(const Options& options, const fs::path& out) {
 
 /// What a cluster cannot do for us, said before anything is handed over.
 void RefuseOnCluster(const Options& options, const Shard& shard) {
-  if (shard.count > 1) throw InputError("--on cuts the night into tasks itself: leave --shard out");
-  if (options.mcap) throw InputError("--on leaves no bags: leave --mcap out");
+  if (shard.count > 1)
+    throw InputError("--on splits the run into tasks itself; --shard is not supported");
+  if (options.mcap) throw InputError("--on does not support --mcap");
   if (options.cluster.wait && options.cluster.on != "slurm") {
-    throw InputError("--wait follows jobs of slurm; kubectl wait follows those of k8s");
+    throw InputError("--wait requires --on slurm; use kubectl wait for k8s");
   }
 }
 
@@ -245,8 +247,8 @@ int RunSuites(const Options& options) {
   const std::vector<RunSpec> specs = TakeShard(night, shard);
   if (specs.empty()) {
     fmt::print(stderr, "aisle: {}\n",
-               shard.count > 1 ? fmt::format("part {} holds no run of the suite", options.shard)
-                               : "no scene, twin, seed and system here go together: see the "
+               shard.count > 1 ? fmt::format("part {} has no runs of the suite", options.shard)
+                               : "no combination of scene, twin, seed and system can run: see the "
                                  "suite's twins and what its systems need");
     return kNothingToDo;
   }
@@ -274,7 +276,7 @@ int RunSuites(const Options& options) {
   if (baseline) WriteNightBaseline(*baseline, out);
   const CampaignOutcome outcome = RunToEnd(standing, options, seconds);
   if (!outcome.finished) {
-    fmt::print(stderr, "aisle: interrupted; the same command with --resume goes on from here\n");
+    fmt::print(stderr, "aisle: interrupted; the same command with --resume continues from here\n");
     return kInterrupted;
   }
   if (options.mcap) {
@@ -292,79 +294,106 @@ int RunSuites(const Options& options) {
                   .failure = outcome.failure});
 }
 
+void AddSelection(CLI::App* command, Options* options) {
+  InputOptions* inputs = &options->inputs;
+  command
+      ->add_option("SUITE_OR_SCENE", inputs->files,
+                   "Suite or scene files, or names of those that come with aisle")
+      ->required()
+      ->transform(SuiteByName());
+  command->option_defaults()->group("Selection");
+  command
+      ->add_option("--systems", inputs->systems,
+                   "Systems to run, separated by commas; default: those of the suite")
+      ->delimiter(',');
+  AddTwins(command, &inputs->twins);
+  command
+      ->add_option("--seeds", inputs->seeds,
+                   "Number of seeds to run, from 1 on; default: those of the suite")
+      ->check(CLI::Range(1, 1000));
+  command
+      ->add_option("--seed", inputs->seed,
+                   "Seeds to run, separated by commas; default: those of the suite")
+      ->delimiter(',')
+      ->excludes("--seeds");
+  command->add_option("--set", inputs->set,
+                      "Set an option of a system for a trial: SYSTEM.PATH=VALUE; `aisle systems` "
+                      "lists the options");
+  command->add_option("--shard", options->shard,
+                      "Only run part I/N, for N machines; `aisle merge` joins the parts");
+  command->add_flag("--resume", options->resume,
+                    "Keep the finished runs of the report folder, unless their program, scene or "
+                    "system has changed or a limit that ended them was raised");
+  command->add_flag("--dry-run", options->dry_run,
+                    "Check everything, print the number of runs and the time they will take, and "
+                    "stop");
+}
+
+void AddOutputs(CLI::App* command, Options* options) {
+  command->option_defaults()->group("Output");
+  command->add_option("--out", options->out, "Report folder; default: out/SUITE");
+  AddJson(command, &options->json, "Print results.json instead of the table");
+  command->add_option("--allure", options->allure,
+                      "Also write Allure results to this folder, for the CI's history of verdicts");
+  command
+      ->add_option("--frames-in-report", options->frames_in_report,
+                   "Pictures that each run keeps: worst (two dozen, about 1 MB), all (every second "
+                   "frame) or none; default: worst")
+      ->check(CLI::IsMember({"worst", "all", "none"}));
+  command->add_flag("--no-video", options->no_video, "Make no videos of the runs");
+  command->add_flag("--debug-dynamic", options->debug_dynamic,
+                    "Draw how `paper` and `robust` find moving objects: every stage of every frame "
+                    "as a sheet (runs/ID/stages, about 0.7 MB each) and a video; never changes a "
+                    "result. Runs that --resume keeps are not drawn");
+  command->add_flag(
+      "--mcap", options->mcap,
+      "Write a ROS 2 bag of each scene, twin and seed with its frames, its truth and "
+      "every system's output (bags/, about 0.7 MB per frame); never changes a result. "
+      "Runs that --resume keeps are left out");
+}
+
+void AddJudging(CLI::App* command, Options* options) {
+  command->option_defaults()->group("Judging");
+  command->add_flag("--gate", options->gate,
+                    "Also compare with the baseline; for parts, `aisle merge` does so");
+  command
+      ->add_option("--baseline", options->baseline,
+                   "Baseline file for --gate; default: reports/baselines/SUITE.json")
+      ->needs("--gate");
+  command->add_flag("--no-retry", options->no_retry,
+                    "Do not repeat failed runs to tell flaky from broken ones");
+}
+
+void AddLimits(CLI::App* command, Options* options) {
+  command->option_defaults()->group("Limits");
+  command->add_option("--jobs", options->jobs, "Number of runs at once; default: 1")
+      ->check(CLI::Range(1, 256))
+      ->excludes("--on");
+  AddThreads(command, &options->threads, "never changes a result", "Number of threads per run");
+  command
+      ->add_option("--timeout", options->limits.wall_s,
+                   "Most seconds of wall time per run; default: an hour plus the time that the "
+                   "system's own `timeout_s` grants its commands")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--memory", options->limits.memory_mib,
+                   "Most MiB of memory per run; default: 8192")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--no-frame-cache", options->no_frame_cache,
+                    "Render every run's frames anew instead of sharing them");
+}
+
 }  // namespace
 
 void AddRunCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command =
-      app->add_subcommand("run", "render, drive the systems, score, judge and report");
-  InputOptions* inputs = &options->inputs;
-  command
-      ->add_option("SUITE_OR_SCENE", inputs->files, "suite or scene files, or names of those here")
-      ->required()
-      ->transform(SuiteByName());
-  command->add_option("--systems", inputs->systems, "instead of the suite's")->delimiter(',');
-  command
-      ->add_option("--twins", inputs->twins,
-                   "live, empty, frozen, none, low, mid, high; instead of the suite's")
-      ->delimiter(',');
-  command->add_option("--set", inputs->set,
-                      "SYSTEM.PATH=VALUE: an option of one of the systems, for a trial; `aisle "
-                      "systems` lists them");
-  command->add_option("--seeds", inputs->seeds, "how many seeds, from 1 on")
-      ->check(CLI::Range(1, 1000));
-  command->add_option("--seed", inputs->seed, "these very seeds")
-      ->delimiter(',')
-      ->excludes("--seeds");
-  command->add_option("--out", options->out, "folder of the report; default out/SUITE");
-  command->add_option("--shard", options->shard,
-                      "only part I of N, for N machines; `aisle merge` joins the parts");
+      app->add_subcommand("run", "Render, drive the systems, score, judge and report");
+  AddSelection(command, options.get());
+  AddOutputs(command, options.get());
+  AddJudging(command, options.get());
   AddClusterChoice(command, &options->cluster);
-  command->add_option("--jobs", options->jobs, "runs at once")
-      ->check(CLI::Range(1, 256))
-      ->excludes("--on");
-  command->add_option("--threads", options->threads, "per run; 0: all; never changes a result")
-      ->check(CLI::Range(0, 1024));
-  command
-      ->add_option(
-          "--timeout", options->limits.wall_s,
-          "seconds of wall time per run; default an hour, and beside it what a command may take by "
-          "its own `timeout_s`")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--memory", options->limits.memory_mib, "MiB of memory per run")
-      ->check(CLI::PositiveNumber);
-  command->add_flag("--resume", options->resume,
-                    "keep the finished runs of the report folder, where program, scene and system "
-                    "are still the same and no limit that ended them is larger now");
-  command->add_flag("--dry-run", options->dry_run,
-                    "check everything, say how many runs and how long, and stop there");
-  command->add_flag("--gate", options->gate,
-                    "judge against the baseline too; of parts `aisle merge` does it");
-  command
-      ->add_option("--baseline", options->baseline,
-                   "with --gate: this file instead of reports/baselines/SUITE.json")
-      ->needs("--gate");
-  command->add_option("--allure", options->allure,
-                      "also write Allure results into this folder: the CI's history of every "
-                      "verdict");
-  command->add_flag("--no-frame-cache", options->no_frame_cache, "render anew for every run");
-  command->add_flag("--no-video", options->no_video, "no film of the runs, ffmpeg or not");
-  command->add_flag("--debug-dynamic", options->debug_dynamic,
-                    "draw how `paper` and `robust` found what moves: every stage of every frame as "
-                    "a sheet (runs/ID/stages, about 0.7 MB each) and a film; changes no result. "
-                    "With --resume, finished runs are not drawn");
-  command->add_flag("--mcap", options->mcap,
-                    "a bag of ROS 2 of each scene, twin and seed, with its frames, its truth and "
-                    "what every system said (bags/, about 0.7 MB a frame); changes no result. With "
-                    "--resume, finished runs leave none");
-  command
-      ->add_option("--frames-in-report", options->frames_in_report,
-                   "pictures that each run keeps: worst (two dozen, about 1 MB; the default), all "
-                   "(every second frame) or none")
-      ->check(CLI::IsMember({"worst", "all", "none"}));
-  command->add_flag("--no-retry", options->no_retry,
-                    "do not try failed runs once more to tell flaky from broken");
-  command->add_flag("--json", options->json, "results.json on stdout instead of the table");
+  AddLimits(command, options.get());
   command->footer(
       "Example: ./aisle run scenes/suites/quickstart.yaml --seeds 3 --out out/tonight\n"
       "         ./aisle run scenes/paper/scene2.yaml --systems paper,robust --debug-dynamic\n"

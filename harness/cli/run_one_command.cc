@@ -6,9 +6,9 @@ namespace aisle {
 
 void AddRunOneCommand(CLI::App* app, Action* action) {
   const auto file = std::make_shared<std::string>();
-  CLI::App* command = app->add_subcommand("run-one", "one run of a suite, in this process");
+  CLI::App* command = app->add_subcommand("run-one", "Run one run of a suite in this process");
   command->group("");  // `run` calls it; people need not
-  command->add_option("JOB", *file, "job.json of the run's folder")->required();
+  command->add_option("JOB", *file, "Job file of the run, job.json")->required();
   command->callback([=] {
     *action = [=] {
       RunJob(ReadJob(*file));

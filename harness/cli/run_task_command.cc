@@ -42,8 +42,8 @@ std::size_t IndexOf(const Options& options, std::size_t tasks) {
   if (text.empty() || end.ec != std::errc() || end.ptr != text.data() + text.size() ||
       index >= tasks) {
     throw InputError(
-        fmt::format("task '{}' + {}: expected a number that ends below {}, by --index, "
-                    "SLURM_ARRAY_TASK_ID or JOB_COMPLETION_INDEX",
+        fmt::format("task '{}' + {}: expected a number below {} from --index, SLURM_ARRAY_TASK_ID "
+                    "or JOB_COMPLETION_INDEX",
                     Printable(text), options.offset, tasks));
   }
   return index;
@@ -55,10 +55,10 @@ std::vector<RunSpec> Missing(const Task& task, const Fingerprints& fingerprints,
   for (const TaskRun& run : task.runs) {
     if (ReadFinishedRun(run.spec, run.inputs_hash, limits, out)) continue;
     if (fingerprints.Run(run.spec) != run.inputs_hash) {
-      throw InputError(fmt::format(
-          "{}: this node has another program, scene, system or assets than the night was planned "
-          "with: make the same files visible here, or submit again",
-          RunId(run.spec)));
+      throw InputError(
+          fmt::format("{}: this node has another program, scene, system or assets than those that "
+                      "were submitted: make the same files visible here, or submit again",
+                      RunId(run.spec)));
     }
     missing.push_back(run.spec);
   }
@@ -114,12 +114,12 @@ int RunTask(const Options& options) {
 
 void AddRunTaskCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand("run-task", "one task of a night on a cluster");
+  CLI::App* command = app->add_subcommand("run-task", "Run one task of a run on a cluster");
   command->group("");  // batch systems call it; people need not
-  command->add_option("DIR", options->out, "folder of the report, shared by all nodes")->required();
+  command->add_option("DIR", options->out, "Report folder, shared by all nodes")->required();
   command->add_option("--index", options->index,
-                      "of the task; default SLURM_ARRAY_TASK_ID or JOB_COMPLETION_INDEX");
-  command->add_option("--offset", options->offset, "added to the index");
+                      "Index of the task; default: SLURM_ARRAY_TASK_ID or JOB_COMPLETION_INDEX");
+  command->add_option("--offset", options->offset, "Number to add to the index");
   command->callback([=] { *action = [=] { return RunTask(*options); }; });
 }
 

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/score_input.h"
 #include "harness/cli/score_masks.h"
 #include "harness/io/file.h"
@@ -41,13 +42,14 @@ DeltaUnit UnitFromName(const std::string& name) {
 /// What would have no effect here is a mistake about what was asked.
 void RefuseIdle(const Options& options) {
   if (options.along_estimate && options.unit != "metres") {
-    throw InputError("--along-estimate measures metres: it is for --unit metres");
+    throw InputError("--along-estimate requires --unit metres");
   }
   if (options.align_first > 0 && options.align == "none") {
-    throw InputError("--align-first: nothing is aligned with --align none");
+    throw InputError("--align-first has no effect with --align none");
   }
   if (options.rate_hz > 0 && options.rule == "index") {
-    throw InputError("--rate: with --association index every pose of truth is a frame");
+    throw InputError(
+        "--rate has no effect with --association index, which takes every true pose as a frame");
   }
 }
 
@@ -74,7 +76,7 @@ TrajectoryScore ScorePoses(const Trajectory& truth, Trajectory estimate,
   Trajectory scored = truth;
   if (options.association.rule == AssociationRule::kIndex && truth.size() != estimate.size()) {
     const std::size_t common = std::min(truth.size(), estimate.size());
-    fmt::print(stderr, "aisle: {} poses of truth, {} of the estimate: scoring the first {}\n",
+    fmt::print(stderr, "aisle: {} true and {} estimated poses: scoring the first {}\n",
                truth.size(), estimate.size(), common);
     scored.resize(common);
     estimate.resize(common);
@@ -96,12 +98,13 @@ struct Asked {
   const char* rule;
 };
 constexpr Asked kAsked[] = {
-    {"ate_rmse_m", "root mean square distance of the poses from truth, aligned as above"},
+    {"ate_rmse_m",
+     "root mean square distance between estimated and true positions, aligned as above"},
     {"ate_max_m", "the largest of these distances"},
     {"rpe_trans_rmse_m", "root mean square error of the motion over the step above"},
-    {"rpe_rot_rmse_deg", "the same of the rotation"},
-    {"t_rel_percent", "KITTI's drift over 100 to 800 m, share of the way"},
-    {"coverage", "share of the frames that have a pose: read it before any error"}};
+    {"rpe_rot_rmse_deg", "the same for the rotation"},
+    {"t_rel_percent", "KITTI's drift over 100 to 800 m, as a share of the distance"},
+    {"coverage", "share of the frames that have a pose; read it before any error"}};
 
 bool IsAsked(const std::string& name, bool all) {
   return all || std::any_of(std::begin(kAsked), std::end(kAsked),
@@ -151,7 +154,7 @@ void PrintText(const TrajectoryScore& score, const ScoreOptions& options, const 
   fmt::print("alignment    {}, scale {:.9g}\n", AlignmentInWords(options), score.alignment.scale);
   fmt::print("rpe          {}\n", Describe(options.relative));
   const Score& coverage = score.scores.at("coverage");
-  fmt::print("frames       {}, of them {:.0f} lost; error_all_* count these as failures\n\n",
+  fmt::print("frames       {}, of which {:.0f} lost; error_all_* count these as failures\n\n",
              coverage.n, static_cast<double>(coverage.n) * (1 - coverage.value.value_or(0)));
   PrintScores(score.scores, all);
   for (const std::string& note : score.notes) fmt::print("\nnote: {}\n", note);
@@ -236,9 +239,9 @@ CLI::Validator NumberWithin(double low, double high) {
       [=](const std::string& text) -> std::string {
         double value = 0;
         const bool good = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
-        return good
-                   ? ""
-                   : fmt::format("'{}' is no number from {:g} to {:g}", Printable(text), low, high);
+        return good ? ""
+                    : fmt::format("expected a number in [{1:g}, {2:g}], got '{0}'", Printable(text),
+                                  low, high);
       },
       "NUMBER");
 }
@@ -254,7 +257,7 @@ int ScoreFiles(const Options& options) {
     if (!trajectories) return kAllPassed;
   }
   if (options.truth.empty() || options.estimates.empty()) {
-    throw InputError("give --truth and --estimate, or --masks-truth and --masks");
+    throw InputError("expected --truth and --estimate, or --masks-truth and --masks");
   }
   RefuseIdle(options);
   const ScoreOptions score_options = ScoreOptionsOf(options);
@@ -293,28 +296,86 @@ int ScoreFiles(const Options& options) {
 }
 
 void AddMaskOptions(CLI::App* command, Options* options) {
+  command->option_defaults()->group("Masks");
   auto* masks_truth = command->add_option("--masks-truth", options->masks_truth,
-                                          "folder of true masks: PNGs, black = static");
-  command->add_option("--masks", options->masks, "folder of masks to score, the same file names")
+                                          "Folder of true masks: PNGs in which black is static");
+  command
+      ->add_option("--masks", options->masks,
+                   "Folder of masks to score, with the same file names as the true ones")
       ->needs(masks_truth);
   masks_truth->needs(command->get_option("--masks"));
   auto* px = command
                  ->add_option("--boundary-px", options->outline.px,
-                              "outlines meet within so many pixels (mask_boundary_f); default 3")
+                              "Most pixels between two outlines that match (mask_boundary_f); "
+                              "default: 3")
                  ->check(NumberWithin(0, 1e4))
                  ->needs(masks_truth);
   auto* share = command
                     ->add_option("--boundary-share", options->outline.share,
-                                 "within so much of the image's diagonal")
+                                 "Most distance between two outlines that match, as a share of the "
+                                 "image's diagonal")
                     ->check(NumberWithin(0, 1))
                     ->needs(masks_truth)
                     ->excludes(px);
   command
       ->add_flag("--boundary-davis", options->outline.davis,
-                 "as DAVIS's own program: its outline, 0.008 of the diagonal, mean over frames")
+                 "Match outlines as DAVIS's own program does: within 0.008 of the diagonal, mean "
+                 "over frames")
       ->needs(masks_truth)
       ->excludes(px)
       ->excludes(share);
+}
+
+void AddInputOptions(CLI::App* command, Options* options) {
+  command->option_defaults()->group("Trajectories");
+  command->add_option(
+      "--truth", options->truth,
+      "True trajectory: a file, or a bag's topic (drive.mcap:/odom, drive.db3:/tf#base_link)");
+  command->add_option("--estimate", options->estimates,
+                      "Estimated trajectory; several are shown side by side");
+  const auto add_format = [&](const char* name, std::string* format, const char* what) {
+    command->add_option(name, *format, what)->check(CLI::IsMember({"tum", "kitti", "euroc"}));
+  };
+  add_format("--format", &options->format,
+             "Format of all trajectories; default: recognised by their content");
+  add_format("--format-truth", &options->format_truth,
+             "Format of the true trajectory; default: that of --format");
+  add_format("--format-estimate", &options->format_estimate,
+             "Format of the estimates; default: that of --format");
+  command->add_option("--times", options->times,
+                      "KITTI's times.txt; needed if only one of the trajectories has timestamps");
+  command
+      ->add_option("--rate", options->rate_hz,
+                   "Camera frames per second, for coverage; default: that of the slower trajectory")
+      ->check(NumberWithin(1e-6, 1e9));
+}
+
+void AddMatchingOptions(CLI::App* command, Options* options) {
+  command->option_defaults()->group("Association and alignment");
+  command
+      ->add_option("--association", options->rule,
+                   "Rule that pairs estimated with true poses; default: nearest")
+      ->check(CLI::IsMember({"nearest", "evo", "tum", "index"}));
+  command
+      ->add_option("--max-difference", options->max_difference_s,
+                   "Most seconds between two paired timestamps; default: that of the rule")
+      ->check(NumberWithin(0, 1e6));
+  command->add_option("--align", options->align, "Alignment of the estimate; default: se3")
+      ->check(CLI::IsMember({"none", "origin", "posyaw", "se3", "sim3"}));
+  command
+      ->add_option("--align-first", options->align_first,
+                   "Align on the first N pairs only; default: on all")
+      ->check(CLI::PositiveNumber);
+  command->option_defaults()->group("Relative error");
+  command->add_option("--delta", options->delta, "Step of the relative error; default: 1")
+      ->check(NumberWithin(1e-9, 1e9));
+  command->add_option("--unit", options->unit, "Unit of --delta; default: frames")
+      ->check(CLI::IsMember({"frames", "metres", "seconds"}));
+  command->add_flag(
+      "--all-pairs", options->all_pairs,
+      "Take a relative error from every pose, not only from the end of the last step");
+  command->add_flag("--along-estimate", options->along_estimate,
+                    "Measure metres along the estimate, as evo does");
 }
 
 }  // namespace
@@ -322,49 +383,14 @@ void AddMaskOptions(CLI::App* command, Options* options) {
 void AddScoreCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command =
-      app->add_subcommand("score", "every metric for anyone's trajectories and masks");
-  command->add_option(
-      "--truth", options->truth,
-      "true trajectory; also a topic of a bag: drive.mcap:/odom, drive.db3:/tf#base_link");
-  command->add_option("--estimate", options->estimates,
-                      "estimated trajectory; several are set side by side");
-  command->add_option("--format", options->format, "of both files; default: by their content")
-      ->check(CLI::IsMember({"tum", "kitti", "euroc"}));
-  command->add_option("--format-truth", options->format_truth, "of the truth; default: --format")
-      ->check(CLI::IsMember({"tum", "kitti", "euroc"}));
-  command
-      ->add_option("--format-estimate", options->format_estimate,
-                   "of the estimates; default: --format")
-      ->check(CLI::IsMember({"tum", "kitti", "euroc"}));
-  command->add_option("--times", options->times,
-                      "KITTI times.txt; needed beside a file with stamps");
-  command->add_option("--align", options->align, "none, origin, posyaw, se3 (default) or sim3")
-      ->check(CLI::IsMember({"none", "origin", "posyaw", "se3", "sim3"}));
-  command
-      ->add_option("--align-first", options->align_first,
-                   "align on the first so many pairs only; default: all")
-      ->check(CLI::PositiveNumber);
-  command
-      ->add_option("--rate", options->rate_hz,
-                   "camera frames a second, for coverage; default: the slower of both files")
-      ->check(NumberWithin(1e-6, 1e9));
-  command->add_option("--association", options->rule, "nearest (default), evo, tum or index")
-      ->check(CLI::IsMember({"nearest", "evo", "tum", "index"}));
-  command
-      ->add_option("--max-difference", options->max_difference_s,
-                   "seconds between stamps that belong together; default: the rule's own")
-      ->check(NumberWithin(0, 1e6));
-  command->add_option("--delta", options->delta, "of the relative error; default 1")
-      ->check(NumberWithin(1e-9, 1e9));
-  command->add_option("--unit", options->unit, "of delta: frames (default), metres or seconds")
-      ->check(CLI::IsMember({"frames", "metres", "seconds"}));
-  command->add_flag("--all-pairs", options->all_pairs, "a relative error from every pose on");
-  command->add_flag("--along-estimate", options->along_estimate,
-                    "measure metres along the estimate, as evo does");
+      app->add_subcommand("score", "Score any trajectories and masks with every metric");
+  AddInputOptions(command, options.get());
+  AddMatchingOptions(command, options.get());
   AddMaskOptions(command, options.get());
-  command->add_flag("--all", options->all, "every score, not the six that matter most");
-  command->add_flag("--list", options->list, "every score there is, with unit and meaning");
-  command->add_flag("--json", options->json, "for programs");
+  command->option_defaults()->group("Output");
+  command->add_flag("--all", options->all, "Show every score, not only the six main ones");
+  command->add_flag("--list", options->list, "List every score with its unit and meaning");
+  AddJson(command, &options->json);
   command->footer("Example: ./aisle score --truth gt.txt --estimate slam.txt --align se3");
   command->callback([=] {
     *action = [=] {

@@ -26,8 +26,8 @@ PoseFile Recognise(const std::string& name, const std::string& format) {
 [[noreturn]] void AskForOrder(const PoseFile& file, const char* option, const std::string& why) {
   throw InputError(
       file.name, 0,
-      fmt::format("8 columns, the first in nanoseconds: qw may be the first of its four "
-                  "numbers or the last{}; say which, {} euroc (first) or {} tum (last)",
+      fmt::format("8 columns, the first in nanoseconds: qw may be the first or the last number of "
+                  "the quaternion{}; choose with {} euroc (first) or {} tum (last)",
                   why, option, option));
 }
 
@@ -52,12 +52,12 @@ PosesRead ReadLikeTruth(const PoseFile& file, const Trajectory& truth) {
   const PosesRead last = read_as(TrajectoryFormat::kTum);
   const Reading reading = ReadingLikeTruth(truth, first.poses, last.poses);
   if (reading == Reading::kEither) {
-    AskForOrder(file, "--format-estimate", ", and moves alike in both");
+    AskForOrder(file, "--format-estimate", ", and both fit the truth");
   }
   PosesRead read = reading == Reading::kFirst ? first : last;
   read.note = fmt::format(
-      "the estimate was read as {}: in this order of columns it moves as the truth does, in the "
-      "other it does not; --format-estimate decides",
+      "the estimate was read as {}, the order of columns in which its motion fits the truth; "
+      "--format-estimate overrides this",
       read.format);
   return read;
 }
@@ -74,19 +74,19 @@ std::string TimesFor(const PoseFiles& files, const std::vector<PoseFile>& all) {
     }
   }
   if (!files.times.empty() && kitti.empty()) {
-    throw InputError("--times: these files have stamps of their own; it is for KITTI's");
+    throw InputError("--times is for KITTI's files; these have their own timestamps");
   }
   const bool needed = !kitti.empty() && files.by_stamp && !stamped.empty();
   if (!files.times.empty() || !needed) return files.times;
   for (const std::string& file : kitti) {
     const std::filesystem::path beside = KittiTimesBeside(file);
     if (beside.empty()) continue;
-    fmt::print(stderr, "aisle: {} is stamped by {}\n", file, beside.string());
+    fmt::print(stderr, "aisle: timestamps of {} are taken from {}\n", file, beside.string());
     return beside.string();
   }
   throw InputError(kitti.front(), 0,
-                   fmt::format("KITTI's files have no stamps, and {} has: give the time of every "
-                               "frame with --times (its sequence's times.txt)",
+                   fmt::format("KITTI's files have no timestamps, but {} has: pass the sequence's "
+                               "times.txt with --times",
                                stamped));
 }
 

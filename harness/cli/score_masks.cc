@@ -16,7 +16,7 @@ std::map<std::string, fs::path> Images(const std::string& folder) {
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     if (entry.path().extension() == ".png") images[entry.path().filename().string()] = entry.path();
   }
-  if (images.empty()) throw InputError(folder, 0, "holds no PNG images");
+  if (images.empty()) throw InputError(folder, 0, "no PNG images in this folder");
   return images;
 }
 
@@ -27,11 +27,11 @@ Scorecard ScoreMaskFolders(const std::string& truth_folder, const std::string& m
   const auto truths = Images(truth_folder), masks = Images(mask_folder);
   for (const auto& [name, path] : masks) {
     if (truths.count(name) == 0) {
-      throw InputError(path.string(), 0, "belongs to no image of " + truth_folder);
+      throw InputError(path.string(), 0, "has no counterpart in " + truth_folder);
     }
   }
   if (masks.size() < truths.size()) {
-    fmt::print(stderr, "aisle: {} of {} true masks have no mask in {}: counted as empty\n",
+    fmt::print(stderr, "aisle: {} of {} true masks have no counterpart in {}: counted as empty\n",
                truths.size() - masks.size(), truths.size(), Printable(mask_folder, 4096));
   }
   const std::vector<std::pair<std::string, fs::path>> frames(truths.begin(), truths.end());
@@ -42,7 +42,7 @@ Scorecard ScoreMaskFolders(const std::string& truth_folder, const std::string& m
     if (found == masks.end()) return {truth, cv::Mat1b(truth.size(), 0)};
     const cv::Mat1b mask = ReadMaskPng(found->second);
     if (mask.size() != truth.size()) {
-      throw InputError(found->second.string(), 0, "has another size than its true mask");
+      throw InputError(found->second.string(), 0, "its size differs from that of its true mask");
     }
     return {truth, mask};
   };

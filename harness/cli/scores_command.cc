@@ -1,5 +1,6 @@
 // What a run can be judged by, with units: the names that limits and reports take.
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/record/record_json.h"
 #include "harness/score/score_names.h"
 
@@ -21,7 +22,7 @@ int PrintScores(const Options& options) {
   }
   if (options.json) fmt::print("{}", Dump({{"scores", list}}));
   if (!list.empty()) return kAllPassed;
-  fmt::print(stderr, "aisle: no score holds '{}' in its name\n", options.filter);
+  fmt::print(stderr, "aisle: no score has '{}' in its name\n", options.filter);
   return kNothingToDo;
 }
 
@@ -29,11 +30,12 @@ int PrintScores(const Options& options) {
 
 void AddScoresCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand("scores", "every score of a run, with its unit");
-  command->add_option("FILTER", options->filter, "only those with this in their name");
-  command->add_flag("--json", options->json, "for programs");
+  CLI::App* command =
+      app->add_subcommand("scores", "List every score of a run with its unit and meaning");
+  command->add_option("FILTER", options->filter, "Only list scores with this text in their name");
+  AddJson(command, &options->json);
   command->footer(
-      "A * stands for a stage, a class or a time that runs bring with them.\n"
+      "A * stands for a stage, a class or a time that differs from run to run.\n"
       "Example: ./aisle scores object_");
   command->callback([=] { *action = [=] { return PrintScores(*options); }; });
 }

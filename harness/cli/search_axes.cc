@@ -14,7 +14,7 @@ const SystemOption& OptionOf(const std::vector<SystemOption>& options, const std
   for (const SystemOption& option : options) {
     if (option.path == path) return option;
   }
-  throw InputError(fmt::format("'{}' is no option of {}; `aisle systems {}` lists them",
+  throw InputError(fmt::format("unknown option '{}' of {}; `aisle systems {}` lists its options",
                                Printable(path), system, system));
 }
 
@@ -29,10 +29,10 @@ SearchAxis ParseAxis(const std::string& line, const std::vector<SystemOption>& o
   words >> ratio >> rest;
   axis.even_ratios = ratio == "ratio";
   if ((!ratio.empty() && !axis.even_ratios) || !rest.empty()) {
-    throw InputError("expected nothing behind HIGH, or the word ratio");
+    throw InputError("expected nothing or the word ratio after HIGH");
   }
-  if (axis.low >= axis.high) throw InputError("LOW must lie below HIGH");
-  if (axis.even_ratios && axis.low <= 0) throw InputError("with ratio, LOW must be above 0");
+  if (axis.low >= axis.high) throw InputError("LOW must be less than HIGH");
+  if (axis.even_ratios && axis.low <= 0) throw InputError("with ratio, LOW must be greater than 0");
   const SystemOption& option = OptionOf(options, axis.path, system);
   axis.integer = option.kind == SystemOption::Kind::kInteger;
   if (!axis.integer && option.kind != SystemOption::Kind::kNumber) {
@@ -40,8 +40,8 @@ SearchAxis ParseAxis(const std::string& line, const std::vector<SystemOption>& o
   }
   for (const double end : {axis.low, axis.high}) {
     if (end >= option.low && end <= option.high) continue;
-    throw InputError(fmt::format("{} must lie between {:g} and {:g}, not {:g}", axis.path,
-                                 option.low, option.high, end));
+    throw InputError(fmt::format("expected {} in [{:g}, {:g}], got {:g}", axis.path, option.low,
+                                 option.high, end));
   }
   return axis;
 }
@@ -58,13 +58,14 @@ std::vector<SearchAxis> ReadAxes(const std::string& file, const std::string& sys
     try {
       axes.push_back(ParseAxis(line, options, system));
       for (std::size_t i = 0; i + 1 < axes.size(); ++i) {
-        if (axes[i].path == axes.back().path) throw InputError(axes[i].path + " is there twice");
+        if (axes[i].path == axes.back().path) throw InputError(axes[i].path + " is given twice");
       }
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}:{}: {}", Printable(file), number, error.what()));
     }
   }
-  if (axes.empty()) throw InputError(Printable(file) + ": no option in it; expected one a line");
+  if (axes.empty())
+    throw InputError(Printable(file) + ": no options in this file; expected one per line");
   return axes;
 }
 

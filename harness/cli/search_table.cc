@@ -130,10 +130,11 @@ std::string Training(const SearchReport& report) {
   const std::string outcome =
       report.found
           ? fmt::format("Found: the best whose detector takes {}.", limit)
-          : fmt::format("None was found: of none of the best the detector takes {}.", limit);
+          : fmt::format("None was found: none of the best sets has a detector that takes {}.",
+                        limit);
   return fmt::format(
-      "{} sets of options of `{}` tried on the training stretches, {} of them given up half way. "
-      "Score of a set: mean of objects' F1 and of pixel IoU. {}\n\n",
+      "{} sets of options of `{}` were tried on the training stretches, {} of them abandoned half "
+      "way. A set's score is the mean of the objects' F1 and the pixel IoU. {}\n\n",
       report.trials.size(), report.system, given_up, outcome);
 }
 
@@ -155,7 +156,7 @@ std::string TrialLine(const Trial& trial) {
   return fmt::format("{:>5}{:>8.3f}{:>8.3f}{:>8.3f}{:>9}{:>9}{:>7.2f} %{:>9.1f}{}", trial.index,
                      trial.score(), o.object_f1(), o.pixel_iou(), Share(o.large),
                      Share(o.large_across), 100 * o.static_wrong(), o.mean_ms(),
-                     trial.given_up ? "  given up" : "");
+                     trial.given_up ? "  abandoned" : "");
 }
 
 std::string ToMarkdown(const SearchReport& report) {
@@ -166,7 +167,8 @@ std::string ToMarkdown(const SearchReport& report) {
       Losses(report.judged));
   if (!report.frontier.empty()) {
     text += fmt::format(
-        "\nSets on the training's frontier of large recall, static loss and time, judged:\n\n{}",
+        "\nSets on the training stretches' frontier of large recall, static loss and time, as "
+        "judged:\n\n{}",
         Judged(report.frontier));
   }
   return text;

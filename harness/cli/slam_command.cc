@@ -1,6 +1,7 @@
 #include "harness/bag/bag.h"
 #include "harness/cli/bag_notes.h"
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/early_checks.h"
 #include "harness/cli/slam_stream.h"
 #include "harness/cli/system_choice.h"
@@ -57,7 +58,7 @@ std::unique_ptr<Estimator> MakeEstimator(const SystemSpec& system,
                                          const Options& options) {
   if (!options.save_map.empty() &&
       !fs::is_directory(fs::absolute(options.save_map).parent_path())) {
-    throw InputError(options.save_map, 0, "its folder does not exist: make it first");
+    throw InputError(options.save_map, 0, "its folder does not exist");
   }
   try {
     return MakeSystem(system, calibration,
@@ -74,7 +75,7 @@ std::unique_ptr<Sequence> Open(const Options& options) {
   const fs::path path = options.dataset;
   if (IsBagFile(path) || fs::exists(path / "metadata.yaml")) {
     if (!options.format.empty()) {
-      throw InputError(options.dataset, 0, "is a bag: --format is for folders of images");
+      throw InputError(options.dataset, 0, "is a bag; --format is for folders of images");
     }
     BagRecordingOptions bag = options.bag;
     if (!options.calibration.empty()) bag.cameras = ReadCalibration(options.calibration);
@@ -85,8 +86,8 @@ std::unique_ptr<Sequence> Open(const Options& options) {
   if (!options.bag.topics.empty() || options.bag.baseline_m || !options.calibration.empty() ||
       !options.bag.odometry.empty()) {
     throw InputError(options.dataset, 0,
-                     "is no bag: --topic, --baseline, --odometry and --calibration are for bags (a "
-                     "folder's wheels: --set odometry=true)");
+                     "not a bag; --topic, --baseline, --odometry and --calibration are for bags "
+                     "(for a folder's wheel odometry, use --set odometry=true)");
   }
   const auto format = DatasetFormatFromName(options.format.empty() ? "euroc" : options.format);
   StereoRecording recording = ReadRecording(path, format);
@@ -106,10 +107,8 @@ void RefuseBesideStream(const Options& options) {
         std::pair("--odometry", !options.bag.odometry.empty()),
         std::pair("--calibration", !options.calibration.empty())}) {
     if (!given) continue;
-    throw InputError(
-        fmt::format("slam --stream: {} has no place beside it, frames and poses go over "
-                    "stdin and stdout",
-                    name));
+    throw InputError(fmt::format(
+        "slam --stream: {} is not supported, as frames and poses go over stdin and stdout", name));
   }
 }
 
@@ -137,7 +136,7 @@ int RunSlam(const Options& options) {
   const SystemSpec system = SystemOf(options);
   if (FindSystem(system.like).mask_source != MaskSource::kNone) {
     throw InputError("system '" + system.name +
-                     "' needs truth about what moves: a recording has none");
+                     "' needs the truth about moving objects, which a recording does not have");
   }
   if (options.stream) return RunStream(system, options);
   if (options.dataset.empty() || options.output.empty()) {
@@ -157,7 +156,7 @@ int RunSlam(const Options& options) {
       });
   line.Clear();
   if (options.free_running) {
-    fmt::print(stderr, "aisle: free running: another run of this command gives another result\n");
+    fmt::print(stderr, "aisle: free running: results differ from run to run\n");
   }
   WriteFileAtomically(options.output,
                       FormatTrajectory(run.trajectory.final, TrajectoryFormat::kTum));
@@ -177,8 +176,8 @@ int RunSlam(const Options& options) {
     fmt::print("{} of {} frames have a mask in {}\n", masked, run.facts.size(), options.masks);
     if (masked == 0) {
       throw InputError(options.masks, 0,
-                       "holds no mask of any frame: name them by the stamp in nanoseconds or the "
-                       "number in six digits, for example 000042.png");
+                       "no mask matches a frame: name masks by timestamp in nanoseconds or by "
+                       "six-digit frame number, for example 000042.png");
     }
   }
   if (!run.truth.empty()) PrintScores(run);
@@ -187,55 +186,67 @@ int RunSlam(const Options& options) {
   return kVerdictFailed;
 }
 
+void AddRecordingOptions(CLI::App* command, Options* options) {
+  command->add_option("DATASET", options->dataset,
+                      "Folder of the recording, or a ROS 2 bag (.mcap, .db3)");
+  command->option_defaults()->group("Recording");
+  AddFolderFormat(command, &options->format);
+  command
+      ->add_option("--topic", options->bag.topics,
+                   "Topic of a bag's left camera if it has several pairs, and of the right one if "
+                   "its name does not follow from it")
+      ->delimiter(',');
+  command
+      ->add_option("--baseline", options->bag.baseline_m,
+                   "Metres between the cameras, for a bag whose camera_info lacks it")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--odometry", options->bag.odometry,
+                      "Topic of a bag's wheel odometry, to give to the system, for example /odom");
+  command
+      ->add_option(
+          "--calibration", options->calibration,
+          "Calibration of a bag without camera_info: Kalibr's camchain, OpenCV's files, or "
+          "the left and the right camera's file in EuRoC's or ROS's format")
+      ->delimiter(',')
+      ->expected(1, 2);
+  command->add_option("--masks", options->masks,
+                      "Folder of masks to reject by: grey PNGs named by timestamp or frame number, "
+                      "in which anything but 0 is rejected; the right camera's in right/; in "
+                      "confidence/, 255 is full trust and 0 hardly any");
+  command->add_flag("--stream", options->stream,
+                    "Read frames from stdin instead of a DATASET and answer on stdout "
+                    "(reports/docs/stream.md)");
+}
+
+void AddMapOptions(CLI::App* command, Options* options) {
+  command->option_defaults()->group("Map");
+  CLI::Option* load = command
+                          ->add_option("--load-map", options->load_map,
+                                       "Continue in the map of an earlier drive with this rig")
+                          ->check(CLI::ExistingFile);
+  command->add_option("--save-map", options->save_map, "Write the map to this file at the end");
+  command
+      ->add_flag("--localise-only", options->localise_only,
+                 "Localise in the loaded map without changing it")
+      ->needs(load);
+}
+
 }  // namespace
 
 void AddSlamCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app->add_subcommand("slam", "a system on recorded stereo images");
-  command->add_option("DATASET", options->dataset,
-                      "folder of the recording, or a bag of ROS 2 (.mcap, .db3)");
-  command->add_option("--format", options->format, "of a folder: euroc (default) or kitti")
-      ->check(CLI::IsMember({"euroc", "kitti"}));
-  command
-      ->add_option("--topic", options->bag.topics,
-                   "of a bag with several pairs: the left image, and the right one where its name "
-                   "does not tell it")
-      ->delimiter(',');
-  command
-      ->add_option("--baseline", options->bag.baseline_m,
-                   "metres between the eyes, of a bag whose camera_info lacks it")
-      ->check(CLI::PositiveNumber);
-  command->add_option(
-      "--odometry", options->bag.odometry,
-      "of a bag: the topic of what its wheels measured (/odom), which the system is "
-      "handed");
-  command
-      ->add_option("--calibration", options->calibration,
-                   "of a bag without camera_info: Kalibr's camchain, OpenCV's files, or EuRoC's or "
-                   "ROS's of the left and the right camera")
-      ->delimiter(',')
-      ->expected(1, 2);
+  CLI::App* command = app->add_subcommand("slam", "Run a system on recorded stereo images");
+  AddRecordingOptions(command, options.get());
+  command->option_defaults()->group("System");
   AddSystemChoice(command, &options->system);
-  command->add_option("-o,--output", options->output, "final trajectory, TUM format");
-  command->add_flag("--stream", options->stream,
-                    "no DATASET: answer the frames that come over stdin, on stdout "
-                    "(reports/docs/stream.md)");
-  command->add_option("--live", options->live, "the live trajectory too");
-  command->add_option("--masks", options->masks,
-                      "folder of masks to reject by: grey PNGs named by stamp or number, not 0 = "
-                      "reject; right camera in right/; confidence/: 255 = trust, 0 = hardly");
-  CLI::Option* load = command
-                          ->add_option("--load-map", options->load_map,
-                                       "go on in the map of an earlier drive with this rig")
-                          ->check(CLI::ExistingFile);
-  command->add_option("--save-map", options->save_map, "write the map there at the end");
-  command->add_flag("--localise-only", options->localise_only, "leave the loaded map as it is")
-      ->needs(load);
-  command->add_option("--threads", options->threads, "0: all; never changes a result")
-      ->check(CLI::Range(0, 1024));
-  command->add_flag(
-      "--free-running", options->free_running,
-      "NOT REPEATABLE: mapping takes effect as threads happen to run, no frame waits");
+  AddThreads(command, &options->threads, "never changes a result");
+  command->add_flag("--free-running", options->free_running,
+                    "Let frames not wait for mapping, which takes effect as threads happen to run: "
+                    "NOT REPEATABLE");
+  AddMapOptions(command, options.get());
+  command->option_defaults()->group("Output");
+  AddOutput(command, &options->output, "File for the final trajectory, in TUM format");
+  command->add_option("--live", options->live, "File for the live trajectory, in TUM format");
   command->footer(
       "Example: ./aisle slam V1_01_easy --format euroc -o v101.txt --save-map v1.map\n"
       "         ./aisle slam drive.mcap --topic /front/left/image_rect -o drive.txt\n"

@@ -15,12 +15,12 @@ std::size_t Answer(StreamPipe* pipe, const std::string& name, const MakeEstimato
                    const FinishEstimator& finish) {
   const auto next = [&] {
     std::optional<StreamMessage> message = pipe->Receive();
-    if (!message) throw StreamError(Kind::kClosed, "the stream ended before its end was said");
+    if (!message) throw StreamError(Kind::kClosed, "the stream ended without an end message");
     return *std::move(message);
   };
   const StreamMessage greeting = next();
   if (greeting.type != StreamType::kHello) {
-    throw StreamError(Kind::kNonsense, "the first message is no hello");
+    throw StreamError(Kind::kNonsense, "expected a hello message first");
   }
   const StreamHello hello = ReadHello(greeting.payload);
   const std::unique_ptr<Estimator> estimator = make(hello.calibration);
@@ -40,17 +40,18 @@ std::size_t Answer(StreamPipe* pipe, const std::string& name, const MakeEstimato
       return frames;
     }
     if (message.type != StreamType::kFrame) {
-      throw StreamError(Kind::kNonsense, "neither a frame nor the end");
+      throw StreamError(Kind::kNonsense, "expected a frame or the end");
     }
     StereoFrame frame = ReadFrame(message.payload, hello.calibration);
     if (motion && moved_to != frame.id) {
-      throw StreamError(Kind::kNonsense,
-                        fmt::format("a motion to frame {} before frame {}", moved_to, frame.id));
+      throw StreamError(Kind::kNonsense, fmt::format("motion to frame {} arrived before frame {}",
+                                                     moved_to, frame.id));
     }
     frame.motion = motion;
     if (last_ns && frame.stamp_ns <= *last_ns) {
-      throw StreamError(Kind::kNonsense,
-                        fmt::format("frame {}: its stamp is not after the one before", frame.id));
+      throw StreamError(
+          Kind::kNonsense,
+          fmt::format("frame {}: its timestamp is not later than the previous one", frame.id));
     }
     last_ns = frame.stamp_ns;
     const FrameEstimate said = estimator->Process(frame, {});
@@ -72,8 +73,8 @@ std::size_t AnswerStream(const std::string& name, const MakeEstimatorFor& make,
     return frames;
   } catch (const StreamError& error) {
     ::close(talk);
-    throw InputError(fmt::format("stdin: {}; --stream is for a harness, see reports/docs/stream.md",
-                                 error.what()));
+    throw InputError(fmt::format(
+        "stdin: {}; --stream expects a harness, see reports/docs/stream.md", error.what()));
   }
 }
 

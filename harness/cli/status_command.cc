@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 int Status(const std::string& folder) {
   const fs::path out = fs::absolute(folder).lexically_normal();
   if (!HasTasks(out)) {
-    throw InputError(folder, 0, "holds no night of a cluster: `aisle run --on` makes one");
+    throw InputError(folder, 0, "has no run of a cluster; `aisle run --on` makes one");
   }
   const TaskList list = ReadTasks(out);
   const std::optional<Submission> submission = ReadSubmission(out);
@@ -31,8 +31,8 @@ int Status(const std::string& folder) {
 
 void AddStatusCommand(CLI::App* app, Action* action) {
   const auto folder = std::make_shared<std::string>();
-  CLI::App* command = app->add_subcommand("status", "how a night on a cluster goes");
-  command->add_option("DIR", *folder, "folder of the report")->required();
+  CLI::App* command = app->add_subcommand("status", "Show the progress of a run on a cluster");
+  command->add_option("DIR", *folder, "Report folder")->required();
   command->footer(
       "Exit code: the verdict's once there is one, 2 before.\n"
       "Example: ./aisle status out/paper");

@@ -7,9 +7,10 @@
 namespace aisle {
 
 void AddSystemChoice(CLI::App* command, SystemChoice* choice) {
-  command->add_option("--system", choice->name, "default " + choice->name);
-  command->add_option("--set", choice->set,
-                      "PATH=VALUE: an option of the system; `aisle systems` lists them");
+  command->add_option("--system", choice->name, "System to run; default: " + choice->name);
+  command->add_option(
+      "--set", choice->set,
+      "Set an option of the system: PATH=VALUE; `aisle systems NAME` lists the options");
 }
 
 SystemSpec SpecOf(const SystemChoice& choice) {
@@ -18,8 +19,8 @@ SystemSpec SpecOf(const SystemChoice& choice) {
   for (const auto& [path, value] : spec.options) {
     if (!IsSteeringOption(path)) continue;
     throw InputError(
-        fmt::format("--set {}: nobody steers here; `aisle run` drives scenes with a `drive`: "
-                    "reports/closed_loop.md",
+        fmt::format("--set {}: this command does not steer; `aisle run` does, in scenes with a "
+                    "`drive` (reports/closed_loop.md)",
                     path));
   }
   return spec;

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/plugs/systems.h"
 #include "harness/record/record_json.h"
 
@@ -79,10 +80,9 @@ int PrintSystems(bool json) {
     fmt::print("{}", Dump({{"systems", list}}));
   } else {
     fmt::print(
-        "\n`aisle systems NAME [FILTER]` lists its options. In a suite file:\n"
-        "  systems: [robust, {{name: robust_800, like: robust, options: "
-        "{{feature.features: 800}}}}]\n"
-        "For a trial: `aisle run … --set robust.feature.features=800`.\n");
+        "\n`aisle systems NAME [FILTER]` lists the options of a system. To set one in a suite "
+        "file:\n  systems: [robust, {{name: robust_800, like: robust, options: {{feature.features: "
+        "800}}}}]\nFor a trial: `aisle run … --set robust.feature.features=800`.\n");
   }
   return kAllPassed;
 }
@@ -103,7 +103,7 @@ int PrintOptions(const Options& options) {
     }
   }
   if (!chosen.empty()) return kAllPassed;
-  fmt::print(stderr, "aisle: no option of {} holds '{}' in its path\n", options.system,
+  fmt::print(stderr, "aisle: no option of {} has '{}' in its path\n", options.system,
              options.filter);
   return kNothingToDo;
 }
@@ -112,11 +112,11 @@ int PrintOptions(const Options& options) {
 
 void AddSystemsCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app->add_subcommand("systems", "what can be put under test, and every option of it");
-  command->add_option("NAME", options->system, "list the options of this one");
-  command->add_option("FILTER", options->filter, "only those with this in their path");
-  command->add_flag("--json", options->json, "for programs");
+  CLI::App* command = app->add_subcommand(
+      "systems", "List the systems that can be tested, or the options of one of them");
+  command->add_option("NAME", options->system, "System whose options to list");
+  command->add_option("FILTER", options->filter, "Only list options with this text in their path");
+  AddJson(command, &options->json);
   command->footer("Example: ./aisle systems robust field");
   command->callback([=] {
     *action = [=] {

@@ -11,7 +11,8 @@
 namespace aisle {
 namespace {
 
-constexpr std::array kPlaces = {"--into", "--json", "--out", "--frames-dir"};
+constexpr std::array kPlaces = {"--into", "--json",   "--json-file", "--out",
+                                "-o",     "--output", "--frames-dir"};
 
 std::string Quoted(const std::string& word) {
   const bool plain = word.find_first_not_of(

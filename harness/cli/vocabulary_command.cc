@@ -1,5 +1,6 @@
 #include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
+#include "harness/cli/common_options.h"
 #include "harness/cli/early_checks.h"
 #include "harness/cli/terminal.h"
 #include "harness/io/dataset.h"
@@ -73,7 +74,7 @@ int Train(const Options& options) {
     }
   }
   line.Clear();
-  if (images.empty()) throw InputError("vocabulary train: the sources have no frames");
+  if (images.empty()) throw InputError("vocabulary train: no frames in the sources");
   const int words = TrainPlaceVocabulary(images, options.out);
   fmt::print("{}: {} words from {} images, {} bytes\n", options.out, words, images.size(),
              fs::file_size(options.out));
@@ -83,27 +84,26 @@ int Train(const Options& options) {
 }  // namespace
 
 void AddVocabularyCommand(CLI::App* app, Action* action) {
-  CLI::App* vocabulary =
-      app->add_subcommand("vocabulary", "the visual words that places are recognised by");
+  CLI::App* vocabulary = app->add_subcommand(
+      "vocabulary", "Make the vocabulary of visual words by which places are recognised");
   vocabulary->require_subcommand(1);
   vocabulary->footer("Example: ./aisle vocabulary train scenes/paper/*.yaml --out warehouse.voc");
   const auto options = std::make_shared<Options>();
-  CLI::App* train = vocabulary->add_subcommand("train", "learns them from scenes or recordings");
-  train->add_option("SOURCES", options->sources, "scenes and folders of recordings")
+  CLI::App* train =
+      vocabulary->add_subcommand("train", "Train a vocabulary on scenes or recordings");
+  train->add_option("SOURCES", options->sources, "Scenes and folders of recordings")
       ->required()
       ->transform(ByName());
-  train->add_option("--out", options->out, "the vocabulary file")->required();
-  train->add_option("--frames", options->frames, "per source, evenly spread; default 16")
+  AddOutput(train, &options->out, "File to write the vocabulary to")->required();
+  train
+      ->add_option("--frames", options->frames,
+                   "Frames to take of each source, evenly spread; default: 16")
       ->check(CLI::Range(1, 10000));
-  train->add_option("--format", options->format, "of folders: euroc (default) or kitti")
-      ->check(CLI::IsMember({"euroc", "kitti"}));
-  train->add_option("--twin", options->twin, "of scenes; default empty")
-      ->check(CLI::IsMember(TwinNames()));
-  train->add_option("--seed", options->seed, "of the first scene; each next one takes one more");
-  train->add_option("--threads", options->threads, "0: all; never changes a bit of the file");
-  train->footer(
-      "The same sources in the same order give the same file.\n"
-      "Example: ./aisle vocabulary train scenes/paper/*.yaml --out assets/places/warehouse.voc");
+  AddFolderFormat(train, &options->format);
+  AddTwin(train, &options->twin);
+  train->add_option("--seed", options->seed,
+                    "Seed of the first scene, one more for each scene after it; default: 1");
+  AddThreads(train, &options->threads, "never changes a bit of the file");
   train->callback([=] { *action = [=] { return Train(*options); }; });
 }
 

@@ -23,7 +23,8 @@ std::vector<double> Numbers(const std::string& text, const fs::path& file, std::
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
-      throw InputError(file.string(), line, fmt::format("'{}' is no number", Printable(word)));
+      throw InputError(file.string(), line,
+                       fmt::format("expected a number, got '{}'", Printable(word)));
     }
     numbers.push_back(value);
   }
@@ -38,14 +39,13 @@ std::vector<double> NumbersAt(const YAML::Node& node, const std::string& key, st
                               const fs::path& file) {
   const YAML::Node list = node.IsMap() ? node[key] : YAML::Node();
   if (!list.IsDefined() || !list.IsSequence() || list.size() != count) {
-    throw InputError(file.string(), 0, fmt::format("key '{}' must hold {} numbers", key, count));
+    throw InputError(file.string(), 0, fmt::format("key '{}' must have {} numbers", key, count));
   }
   std::vector<double> numbers;
   for (const YAML::Node& entry : list) {
     const std::vector<double> one =
         Numbers(entry.Scalar(), file, static_cast<std::size_t>(entry.Mark().line + 1));
-    if (one.size() != 1)
-      throw InputError(file.string(), 0, "key '" + key + "' holds an empty entry");
+    if (one.size() != 1) throw InputError(file.string(), 0, "key '" + key + "' has an empty entry");
     numbers.push_back(one[0]);
   }
   return numbers;
@@ -61,8 +61,8 @@ Eigen::Isometry3d BodyOfSensor(const YAML::Node& node, const fs::path& file) {
   const Eigen::RowVector4d off = matrix.row(3) - Eigen::RowVector4d(0, 0, 0, 1);
   if (!IsRigid(pose, kTolerance) || off.cwiseAbs().maxCoeff() > kTolerance) {
     throw InputError(file.string(), static_cast<std::size_t>(node.Mark().line + 1),
-                     "T_BS is no pose: four rows, each a row of a rotation and a coordinate in "
-                     "metres, the last 0 0 0 1");
+                     "T_BS is not a pose: expected four rows, each a row of a rotation and a "
+                     "coordinate in metres, the last 0 0 0 1");
   }
   return pose;
 }
@@ -75,7 +75,7 @@ CameraCalibration ReadEurocSensor(const fs::path& file) {
     root = YAML::Load(text);
   } catch (const YAML::Exception& error) {
     throw InputError(file.string(), static_cast<std::size_t>(error.mark.line + 1),
-                     "is no YAML: " + error.msg);
+                     "not YAML: " + error.msg);
   }
   if (!root.IsMap() || !root["T_BS"]) throw InputError(file.string(), 0, "key 'T_BS' is missing");
   CameraCalibration camera;
@@ -83,7 +83,7 @@ CameraCalibration ReadEurocSensor(const fs::path& file) {
   constexpr double kLargestSide = 16384;
   if (!std::ranges::all_of(size, [](double side) { return side >= 1 && side <= kLargestSide; })) {
     throw InputError(file.string(), 0,
-                     fmt::format("resolution {:g} x {:g} is none of a camera", size[0], size[1]));
+                     fmt::format("invalid camera resolution {:g} x {:g}", size[0], size[1]));
   }
   const std::vector<double> pinhole = NumbersAt(root, "intrinsics", 4, file);
   camera.width = static_cast<int>(size[0]);
@@ -97,10 +97,10 @@ CameraCalibration ReadEurocSensor(const fs::path& file) {
   const bool polynomial =  // as EuRoC, Kalibr and ROS call it
       model == "radial-tangential" || model == "radtan" || model == "plumb_bob";
   if (!polynomial && !camera.equidistant && model != "none") {
-    throw InputError(file.string(), 0,
-                     "distortion model '" + Printable(model) +
-                         "': radial-tangential (radtan, plumb_bob), equidistant (fisheye) and "
-                         "none are read");
+    throw InputError(
+        file.string(), 0,
+        "distortion model '" + Printable(model) +
+            "': expected radial-tangential (radtan, plumb_bob), equidistant (fisheye) or none");
   }
   if (model != "none") {
     const YAML::Node list = root["distortion_coefficients"];
@@ -119,8 +119,8 @@ void CheckAreThere(const std::map<std::int64_t, fs::path>& images, const fs::pat
   }
   if (missing.empty()) return;
   throw InputError(index.string(), 0,
-                   fmt::format("{} of the {} images that it lists are not in its folder data, {} "
-                               "the first: bring them, or take their rows out",
+                   fmt::format("{} of the {} images that it lists are missing from its folder "
+                               "data, {} first: add them, or remove their rows",
                                missing.size(), images.size(), Printable(missing.front())));
 }
 
@@ -137,14 +137,14 @@ std::map<std::int64_t, fs::path> ReadEurocIndex(const fs::path& camera) {
     const auto [end, error] =
         std::from_chars(line.data(), line.data() + std::min(comma, line.size()), stamp_ns);
     if (comma == std::string::npos || error != std::errc() || end != line.data() + comma) {
-      throw InputError(file.string(), number, "expected 'stamp in ns,file name'");
+      throw InputError(file.string(), number, "expected 'timestamp in ns,file name'");
     }
     const std::size_t begin = line.find_first_not_of(" \t", comma + 1);
     const std::string name = begin == std::string::npos
                                  ? ""
                                  : line.substr(begin, line.find_last_not_of(" \t") - begin + 1);
     if (name.empty() || name.find('/') != std::string::npos || name.starts_with("..")) {
-      throw InputError(file.string(), number, "'" + Printable(name) + "' is no plain file name");
+      throw InputError(file.string(), number, "'" + Printable(name) + "' is not a plain file name");
     }
     images[stamp_ns] = camera / "data" / name;
   }
@@ -167,19 +167,18 @@ void RefuseNoDataset(const fs::path& folder, const fs::path& mav) {
   const std::size_t count = names.size();
   const std::vector<std::string> named(names.begin(),
                                        std::next(names.begin(), std::min(kMostNamed, count)));
-  throw InputError(
-      folder.string(), 0,
-      fmt::format("is no dataset: EuRoC's holds cam0 and cam1 (sensor.yaml, data.csv, data), here "
-                  "or in mav0, KITTI's calib.txt, times.txt, image_0 and image_1, ROS 2's bag "
-                  "metadata.yaml; this folder holds {}{}",
-                  count == 0 ? "nothing" : fmt::format("{}", fmt::join(named, ", ")),
-                  named.size() < count ? ", …" : ""));
+  throw InputError(folder.string(), 0,
+                   fmt::format("not a dataset: EuRoC's has cam0 and cam1 (sensor.yaml, data.csv, "
+                               "data), here or in mav0, KITTI's has calib.txt, times.txt, image_0 "
+                               "and image_1, a ROS 2 bag has metadata.yaml; this folder has {}{}",
+                               count == 0 ? "nothing" : fmt::format("{}", fmt::join(named, ", ")),
+                               named.size() < count ? ", …" : ""));
 }
 
 StereoRecording ReadEuroc(const fs::path& folder) {
   if (IsLaidOutAsKitti(folder)) {
     throw InputError(folder.string(), 0,
-                     "is laid out as KITTI's: its format is kitti (--format kitti), not euroc");
+                     "is in KITTI's layout: use format kitti (--format kitti), not euroc");
   }
   const fs::path mav = fs::is_directory(folder / "mav0") ? folder / "mav0" : folder;
   RefuseNoDataset(folder, mav);
@@ -206,7 +205,7 @@ struct KittiFolders {
 
 KittiFolders FindKitti(const fs::path& folder) {
   if (fs::is_directory(folder / "mav0") || fs::is_directory(folder / "cam0")) {
-    throw InputError(folder.string(), 0, "is laid out as EuRoC's: its format is euroc, not kitti");
+    throw InputError(folder.string(), 0, "is in EuRoC's layout: use format euroc, not kitti");
   }
   if (fs::exists(folder / "calib.txt")) {
     const fs::path clean = fs::absolute(folder).lexically_normal();
@@ -220,7 +219,7 @@ KittiFolders FindKitti(const fs::path& folder) {
   }
   if (sequences.size() != 1) {
     throw InputError(folder.string(), 0,
-                     fmt::format("holds {} sequences: name one, such as {}/sequences/00",
+                     fmt::format("has {} sequences: name one of them, for example {}/sequences/00",
                                  sequences.size(), folder.string()));
   }
   const fs::path only = *sequences.begin();
@@ -244,7 +243,7 @@ CameraCalibration KittiCamera(const std::map<std::string, std::vector<double>>& 
                               const std::string& name, const fs::path& file) {
   const auto row = rows.find(name);
   if (row == rows.end() || row->second.size() != 12 || row->second[0] <= 0) {
-    throw InputError(file.string(), 0, fmt::format("line '{}:' must hold a 3x4 projection", name));
+    throw InputError(file.string(), 0, fmt::format("line '{}:' must have a 3x4 projection", name));
   }
   const std::vector<double>& p = row->second;
   CameraCalibration camera;
@@ -279,8 +278,8 @@ KittiPairs FindKittiPairs(const fs::path& times, const fs::path& left, const fs:
   }
   if (2 * left_images < rows) {
     throw InputError(left.string(), 0,
-                     fmt::format("holds {} images of the {} that {} has times for: bring the "
-                                 "missing ones, or cut the times and the poses",
+                     fmt::format("has {} images of the {} that {} has times for: add the missing "
+                                 "ones, or cut the times and the poses",
                                  left_images, rows, times.string()));
   }
   CheckEnoughPairs(found.pairs.size(), left_images, right.string());
@@ -319,11 +318,12 @@ StereoRecording ReadKitti(const fs::path& folder) {
 StereoRecording ReadRecording(const fs::path& folder, DatasetFormat format) {
   if (!fs::is_directory(folder)) throw InputError(folder.string(), 0, "no such folder");
   if (format == DatasetFormat::kTum) {
-    throw InputError("a TUM folder is monocular or RGB-D: stereo recordings are euroc or kitti");
+    throw InputError("a TUM folder is monocular or RGB-D; stereo recordings are euroc or kitti");
   }
   StereoRecording recording =
       format == DatasetFormat::kEuroc ? ReadEuroc(folder) : ReadKitti(folder);
-  if (recording.pairs.empty()) throw InputError(folder.string(), 0, "holds no stereo pairs");
+  if (recording.pairs.empty())
+    throw InputError(folder.string(), 0, "no stereo pairs in this folder");
   recording.read_image = [pairs = recording.pairs](std::size_t pair, int side) {
     return ReadGreyPng(side == 0 ? pairs.at(pair).left : pairs.at(pair).right);
   };

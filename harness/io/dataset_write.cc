@@ -182,16 +182,16 @@ void CheckContinues(const fs::path& file, const nlohmann::ordered_json& mine) {
   const std::string remedy = "choose another --out, or delete the folder";
   if (first >= 0 && count > 0 && (first != my_first || count > my_count)) {
     throw InputError(file.string(), 0,
-                     fmt::format("the folder was begun with frames {}:{} and may only grow at its "
-                                 "end, {}:{} were asked for: {}",
+                     fmt::format("the folder was started with frames {}:{} and can only grow at "
+                                 "its end, but {}:{} were requested: {}",
                                  first, first + count, my_first, my_first + my_count, remedy));
   }
   asked["frames"] = count;
   if (theirs != asked) {
-    throw InputError(file.string(), 0,
-                     "the folder was begun with another scene, seed, twin, instruction set or "
-                     "format: " +
-                         remedy);
+    throw InputError(
+        file.string(), 0,
+        "the folder was started with another scene, seed, twin, instruction set or format: " +
+            remedy);
   }
 }
 
@@ -233,12 +233,12 @@ DatasetWriter::DatasetWriter(fs::path folder, const StereoCalibration& calibrati
       rate_hz_(rate_hz),
       frames_(std::move(frames)),
       options_(options) {
-  if (frames_.empty()) throw std::invalid_argument("a dataset needs a frame at least");
+  if (frames_.empty()) throw std::invalid_argument("a dataset needs at least one frame");
   if (options_.format != DatasetFormat::kEuroc && options_.lens.model != "none") {
-    throw InputError(fmt::format(
-        "the scene's lens is {}, and {} holds rectified images only: export it as euroc, or set "
-        "camera.distortion to none",
-        options_.lens.model, kNames[static_cast<std::size_t>(options_.format)]));
+    throw InputError(
+        fmt::format("the scene's lens is {}, but {} holds rectified images: use --format euroc, or "
+                    "set camera.distortion to none",
+                    options_.lens.model, kNames[static_cast<std::size_t>(options_.format)]));
   }
 }
 
@@ -266,7 +266,7 @@ void DatasetWriter::Begin() const {
 std::int64_t DatasetWriter::NumberOf(std::int64_t id) const {
   const auto frame = std::ranges::lower_bound(frames_, id, {}, &FrameRequest::id);
   if (frame == frames_.end() || frame->id != id) {
-    throw std::invalid_argument(fmt::format("frame {} is none of the dataset's", id));
+    throw std::invalid_argument(fmt::format("frame {} does not belong to the dataset", id));
   }
   return frame - frames_.begin();
 }
@@ -330,7 +330,7 @@ void DatasetWriter::Add(const SequenceFrame& frame, const FrameMotion* motion,
   const bool wants_depth = options_.truth.depth || options_.format == DatasetFormat::kTum;
   if (!frame.truth || (wants_depth && frame.truth->depth.empty()) ||
       (options_.truth.NeedsMotion() && !motion)) {
-    throw std::invalid_argument("the frame comes without the truth that was asked for");
+    throw std::invalid_argument("the frame lacks the truth that was requested");
   }
   const FrameRequest request{frame.images.id, frame.images.stamp_ns, frame.truth->T_world_rig};
   const FrameForExport of{frame, motion, NumberOf(request.id), request.stamp_ns + StampOffset()};
@@ -342,7 +342,7 @@ void DatasetWriter::Add(const SequenceFrame& frame, const FrameMotion* motion,
   if (paths.size() > 2) WriteImage(paths[2], DepthInSteps(frame.truth->depth, kTumDepthSteps));
   const std::vector<fs::path> colours = ColourPaths(name);
   for (std::size_t side = 0; side < colours.size(); ++side) {
-    if (colour == nullptr) throw std::invalid_argument("the frame comes without colour");
+    if (colour == nullptr) throw std::invalid_argument("the frame lacks colour");
     WriteImage(colours[side], (*colour)[side]);
   }
   WriteImage(paths[1], frame.images.right);

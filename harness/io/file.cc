@@ -80,7 +80,7 @@ fs::path AtEndOfLinks(fs::path path) {
   for (const int machine : {EMFILE, ENFILE, ENOMEM, EIO, ENOSPC}) {
     if (error == machine) Fail("read", path);
   }
-  throw InputError(path.string(), 0, fmt::format("cannot be read: {}", std::strerror(error)));
+  throw InputError(path.string(), 0, fmt::format("cannot read: {}", std::strerror(error)));
 }
 
 /// What can be read from where the descriptor stands.
@@ -89,8 +89,7 @@ std::string ReadAll(const Descriptor& file, const fs::path& path, std::size_t ma
   const bool sized = ::fstat(file.get(), &status) == 0 && S_ISREG(status.st_mode);
   const auto claimed = sized ? static_cast<std::size_t>(status.st_size) : 0;
   const auto too_large = [&] {
-    return InputError(path.string(), 0,
-                      fmt::format("is larger than the allowed {} bytes", max_bytes));
+    return InputError(path.string(), 0, fmt::format("larger than the allowed {} bytes", max_bytes));
   };
   if (claimed > max_bytes) throw too_large();
   constexpr std::size_t kLeastRoom = 65536;
@@ -130,11 +129,11 @@ void MakeParentFolder(const fs::path& path) {
       error == std::errc::filename_too_long) {
     throw InputError(path.parent_path().string(), 0,
                      error == std::errc::filename_too_long
-                         ? "is too long a name for a folder"
-                         : "is, or lies below, a file: a folder is needed");
+                         ? "name too long for a folder"
+                         : "is a file or lies below one; expected a folder");
   }
   if (error) {
-    throw MachineError(fmt::format("{}: cannot make the folder: {}", path.parent_path().string(),
+    throw MachineError(fmt::format("{}: cannot create the folder: {}", path.parent_path().string(),
                                    error.message()));
   }
 }
@@ -205,10 +204,11 @@ int OpenToRead(const fs::path& path) {
   std::error_code error;
   const bool there = fs::exists(path, error);
   if (error == std::errc::filename_too_long) {
-    throw InputError(Printable(path.string(), 80), 0, "is too long a name for a file");
+    throw InputError(Printable(path.string(), 80), 0, "name too long for a file");
   }
   if (!there) throw InputError(path.string(), 0, "no such file");
-  if (fs::is_directory(path, error)) throw InputError(path.string(), 0, "is a folder, not a file");
+  if (fs::is_directory(path, error))
+    throw InputError(path.string(), 0, "is a folder; expected a file");
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) FailToRead(path);
   return file;
@@ -240,13 +240,13 @@ std::string ReadLeftFile(const fs::path& folder, const std::string& name, std::s
     throw InputError(path.string(), 0,
                      errno == ENOENT ? "no such file"
                      : errno == EXDEV || errno == ELOOP
-                         ? "is a link that leads out of its folder"
-                         : fmt::format("cannot be read: {}", std::strerror(errno)));
+                         ? "is a link out of its folder"
+                         : fmt::format("cannot read: {}", std::strerror(errno)));
   }
   const Descriptor opened(file);
   struct stat status {};
   if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
-    throw InputError(path.string(), 0, "is no regular file");
+    throw InputError(path.string(), 0, "not a regular file");
   }
   return ReadAll(opened, path, max_bytes);
 }

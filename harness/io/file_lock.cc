@@ -20,8 +20,7 @@ int Open(const fs::path& file) {
   MakeParentFolder(file);
   const int opened = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (opened < 0) {
-    throw MachineError(
-        fmt::format("{}: cannot be opened: {}", file.string(), std::strerror(errno)));
+    throw MachineError(fmt::format("{}: cannot open: {}", file.string(), std::strerror(errno)));
   }
   return opened;
 }
@@ -31,8 +30,7 @@ bool Take(int file, int how, const fs::path& path) {
   while (::flock(file, how) != 0) {
     if (errno == EWOULDBLOCK) return false;
     if (errno != EINTR) {
-      throw MachineError(
-          fmt::format("{}: cannot be locked: {}", path.string(), std::strerror(errno)));
+      throw MachineError(fmt::format("{}: cannot lock: {}", path.string(), std::strerror(errno)));
     }
   }
   return true;

@@ -23,12 +23,13 @@ std::uint32_t BigEndian(const std::string& bytes, std::size_t at) {
 
 void CheckPngHeader(const std::string& bytes, const std::string& file) {
   if (bytes.size() < kHeaderBytes || bytes.compare(0, 8, "\x89PNG\r\n\x1a\n") != 0) {
-    throw InputError(file, 0, "is no PNG image");
+    throw InputError(file, 0, "not a PNG image");
   }
   const std::uint32_t width = BigEndian(bytes, 16), height = BigEndian(bytes, 20);
   if (width == 0 || height == 0 || width > kMaxSide || height > kMaxSide) {
-    throw InputError(
-        file, 0, fmt::format("is {}x{} pixels; at most {} either way", width, height, kMaxSide));
+    throw InputError(file, 0,
+                     fmt::format("has {}x{} pixels; at most {} in each direction are allowed",
+                                 width, height, kMaxSide));
   }
 }
 
@@ -39,7 +40,7 @@ cv::Mat ReadPng(const std::filesystem::path& path) {
   const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U,
                         const_cast<char*>(bytes.data()));  // imdecode only reads
   const cv::Mat image = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
-  if (image.empty()) throw InputError(path.string(), 0, "is a broken PNG image");
+  if (image.empty()) throw InputError(path.string(), 0, "damaged PNG image");
   return image;
 }
 
@@ -97,7 +98,7 @@ void WriteImage(const std::filesystem::path& path, const cv::Mat& image) {
     encoded = cv::imencode(path.extension().string(), image, bytes, options);
   } catch (const cv::Exception&) {  // it has no encoder of this name
   }
-  if (!encoded) throw MachineError(path.string() + ": the image cannot be encoded");
+  if (!encoded) throw MachineError(path.string() + ": cannot encode the image");
   WriteFileAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
@@ -106,7 +107,7 @@ void CheckImageName(const std::filesystem::path& path) {
   for (const char* known : {".png", ".jpg", ".jpeg"}) {
     if (ending == known) return;
   }
-  throw InputError(path.string(), 0, "pictures are written as .png, .jpg or .jpeg");
+  throw InputError(path.string(), 0, "expected a file name that ends with .png, .jpg or .jpeg");
 }
 
 void WriteVectorPfm(const std::filesystem::path& path, const cv::Mat3f& vectors) {
@@ -133,7 +134,7 @@ cv::Mat1b ReadGreyPng(const std::filesystem::path& path) {
   cv::Mat1b grey;
   if (image.type() == CV_8UC3) cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
   if (image.type() == CV_8UC4) cv::cvtColor(image, grey, cv::COLOR_BGRA2GRAY);
-  if (grey.empty()) throw InputError(path.string(), 0, "is neither grey nor in colour");
+  if (grey.empty()) throw InputError(path.string(), 0, "neither grey nor colour");
   return grey;
 }
 
@@ -142,7 +143,7 @@ cv::Mat3f ReadLinearImage(const std::filesystem::path& path) {
   ReadFile(path);  // says what keeps it from being read; OpenCV does not
   const std::string ending = path.extension().string();
   if (ending != ".exr" && ending != ".pfm") {
-    throw InputError(path.string(), 0, "is read as .pfm or .exr only");
+    throw InputError(path.string(), 0, "expected a .pfm or .exr file");
   }
   // From the file: of bytes it makes a file of its own, which it leaves behind if they are broken.
   cv::Mat image;
@@ -150,8 +151,9 @@ cv::Mat3f ReadLinearImage(const std::filesystem::path& path) {
     image = cv::imread(path.string(), cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH);
   } catch (const cv::Exception&) {  // told like any other that cannot be decoded
   }
-  if (image.empty()) throw InputError(path.string(), 0, "cannot be decoded");
-  if (image.type() != CV_32FC3) throw InputError(path.string(), 0, "has no three float channels");
+  if (image.empty()) throw InputError(path.string(), 0, "cannot decode it");
+  if (image.type() != CV_32FC3)
+    throw InputError(path.string(), 0, "does not have three float channels");
   return image;
 }
 

@@ -18,8 +18,8 @@ cv::Mat1b Read(const fs::path& folder, const StereoFrame& frame,
     const cv::Mat1b image = read(path);
     if (image.size() == frame.left.size()) return image;
     throw InputError(path.string(), 0,
-                     fmt::format("is {}x{}, the rectified images are {}x{}", image.cols, image.rows,
-                                 frame.left.cols, frame.left.rows));
+                     fmt::format("has {}x{} pixels, but the rectified images have {}x{}",
+                                 image.cols, image.rows, frame.left.cols, frame.left.rows));
   }
   return {};
 }
@@ -43,7 +43,7 @@ MaskFolder::MaskFolder(const fs::path& folder)
       right_(folder / "right"),
       confidence_(folder / "confidence") {
   if (!HoldsPng(left_) && !HoldsPng(confidence_))
-    throw InputError(left_.string(), 0, "holds no PNG images");
+    throw InputError(left_.string(), 0, "no PNG images in this folder");
 }
 
 ExternalMask MaskFolder::Find(const StereoFrame& frame) const {

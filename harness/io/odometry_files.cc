@@ -44,8 +44,8 @@ Trajectory JoinMotions(const std::vector<FrameRequest>& frames, const WheelMotio
   for (std::size_t i = 0; i < motions.size(); ++i) {
     if (!motions[i]) {
       throw InputError(
-          fmt::format("the wheels say nothing of the way from frame {} to {}: a file "
-                      "of odometry has no gaps, a system behind a stream takes them",
+          fmt::format("the wheel odometry has a gap from frame {} to {}: a file of odometry has no "
+                      "gaps, but a system with --stream accepts them",
                       i, i + 1));
     }
     track.push_back(

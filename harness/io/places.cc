@@ -47,8 +47,8 @@ OwnPlace FindOwnPlace(const fs::path& executable) {
 fs::path OwnFolder() {
   if (!Here().folder.empty()) return Here().folder;
   throw InputError(OwnFile().string() +
-                   ": neither share/aisle nor a source tree is around it; set AISLE_ASSETS to the "
-                   "folder of assets, with scenes beside it");
+                   ": found neither share/aisle nor a source tree around it; set AISLE_ASSETS to "
+                   "the folder of assets, with scenes beside it");
 }
 
 bool IsInstalled() { return Here().installed; }
@@ -60,7 +60,7 @@ fs::path AssetsDir() {
   const bool elsewhere = given != nullptr && *given != '\0';
   const fs::path dir = elsewhere ? fs::path(given) : OwnFolder() / "assets";
   if (!fs::is_directory(dir)) {
-    throw InputError(dir.string() + ": no such folder of assets; set AISLE_ASSETS to where it is");
+    throw InputError(dir.string() + ": no such folder of assets; set AISLE_ASSETS to its path");
   }
   return dir;
 }

@@ -23,7 +23,7 @@ std::int64_t Nearest(const std::vector<std::int64_t>& stamps_ns, std::int64_t st
                               const std::string& source) {
   if (stamps.left_ns.size() == 1 && stamps.left_ns.front() == 0) {
     throw InputError(source, 0,
-                     "its images have no stamps in their headers: they cannot be paired");
+                     "its images have no timestamps in their headers and cannot be paired");
   }
   std::vector<std::int64_t> off_ns;
   for (const std::int64_t stamp_ns : stamps.left_ns) {
@@ -32,9 +32,9 @@ std::int64_t Nearest(const std::vector<std::int64_t>& stamps_ns, std::int64_t st
   std::ranges::nth_element(off_ns, off_ns.begin() + std::ssize(off_ns) / 2);
   throw InputError(
       source, 0,
-      fmt::format("only {} of {} left images have a right one within 1 ms by their stamps (median "
-                  "distance {:.3f} ms): the cameras are not triggered together, or one is stamped "
-                  "late; correct the stamps of the drive's recording",
+      fmt::format("only {} of {} left images have a right one within 1 ms of their timestamp "
+                  "(median distance {:.3f} ms): the cameras are not triggered together, or one is "
+                  "stamped late; correct the recording's timestamps",
                   pairs, stamps.left_ns.size(),
                   static_cast<double>(off_ns[off_ns.size() / 2]) * 1e-6));
 }
@@ -44,7 +44,7 @@ std::int64_t Nearest(const std::vector<std::int64_t>& stamps_ns, std::int64_t st
 std::vector<StampPair> PairStamps(const StereoStamps& stamps, const std::string& source) {
   const auto& [left_ns, right_ns] = stamps;
   if (left_ns.empty() || right_ns.empty()) {
-    throw InputError(source, 0, "holds no stereo pairs: a camera has no images");
+    throw InputError(source, 0, "no stereo pairs: one camera has no images");
   }
   std::vector<StampPair> pairs;
   for (const std::int64_t stamp_ns : left_ns) {
@@ -61,17 +61,16 @@ std::vector<StampPair> PairStamps(const StereoStamps& stamps, const std::string&
 
 void CheckEnoughPairs(std::size_t pairs, std::size_t left_images, const std::string& source) {
   if (2 * pairs + 1 >= left_images) return;
-  throw InputError(
-      source, 0,
-      fmt::format("only {} of {} left images have a right one: bring the missing ones, "
-                  "or leave out the left ones without",
-                  pairs, left_images));
+  throw InputError(source, 0,
+                   fmt::format("only {} of {} left images have a right one: add the missing ones, "
+                               "or remove the left ones without",
+                               pairs, left_images));
 }
 
 std::vector<std::string> NotesOnPairs(std::size_t pairs, std::size_t left_images) {
   if (pairs == left_images) return {};
-  return {fmt::format("{} of {} left images have no right one and are left out",
-                      left_images - pairs, left_images)};
+  return {fmt::format("skipped {} of {} left images, which have no right one", left_images - pairs,
+                      left_images)};
 }
 
 }  // namespace aisle

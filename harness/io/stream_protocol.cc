@@ -206,7 +206,7 @@ MotionMeasurement ReadMotion(const std::string& payload, std::int64_t* id) {
   if (!motion.covariance.allFinite() ||
       !motion.covariance.isApprox(motion.covariance.transpose()) ||
       motion.covariance.llt().info() != Eigen::Success) {
-    Nonsense("the covariance of its motion is none");
+    Nonsense("the covariance of its motion is invalid");
   }
   return motion;
 }
@@ -220,12 +220,13 @@ std::string FormatAnswer(std::int64_t id, const std::optional<Eigen::Isometry3d>
 
 std::optional<Eigen::Isometry3d> ReadAnswer(const StreamMessage& message, std::int64_t id) {
   if (message.type != StreamType::kPose && message.type != StreamType::kLost) {
-    Nonsense(fmt::format("a message of type {} where an answer was due",
+    Nonsense(fmt::format("expected an answer, got a message of type {}",
                          static_cast<std::uint32_t>(message.type)));
   }
   Taker taker(message.payload, "answer");
   const auto of = taker.Take<std::int64_t>();
-  if (of != id) Nonsense(fmt::format("the answer is to frame {}, due was one to frame {}", of, id));
+  if (of != id)
+    Nonsense(fmt::format("expected the answer to frame {1}, got that to frame {0}", of, id));
   std::optional<Eigen::Isometry3d> pose;
   if (message.type == StreamType::kPose) pose = TakePose(&taker, "its pose");
   taker.Done();
@@ -345,7 +346,7 @@ std::optional<StreamMessage> StreamPipe::Receive() {
                      : ""));
   }
   if (head[0] > kLargestStreamMessage) {
-    Nonsense(fmt::format("a message of {} bytes, at most {} are allowed", head[0],
+    Nonsense(fmt::format("a message of {} bytes; at most {} are allowed", head[0],
                          kLargestStreamMessage));
   }
   StreamMessage message{static_cast<StreamType>(head[1]), std::string(head[0], '\0')};

@@ -27,7 +27,7 @@ VslamLabStyle StyleFromName(const std::string& name) {
   for (int k = 0; k < 3; ++k) {
     if (name == kStyles[k]) return static_cast<VslamLabStyle>(k);
   }
-  throw std::invalid_argument("contract '" + name + "' is not known");
+  throw std::invalid_argument("unknown contract '" + name + "'");
 }
 
 Json ToJson(const ExternalSystem& external) {

@@ -75,7 +75,7 @@ class Table {
   /// The same where a file without data is a mistake.
   const Row& First() {
     const Row* row = Next();
-    if (row == nullptr) throw InputError(row_.file.string(), 0, "holds no poses");
+    if (row == nullptr) throw InputError(row_.file.string(), 0, "no poses in this file");
     return *row;
   }
 
@@ -106,7 +106,7 @@ double Number(const Row& row, std::size_t index) {
     const bool is_word = std::isalpha(static_cast<unsigned char>(field.front())) != 0;
     row.Fail(fmt::format("field {} is '{}', not a number{}", index + 1,
                          Printable(std::string(field)),
-                         row.line == 1 && is_word ? ": titles of columns begin with '#'" : ""));
+                         row.line == 1 && is_word ? ": column titles must begin with '#'" : ""));
   }
   if (!std::isfinite(value)) {
     row.Fail(fmt::format("field {} is {}: poses must be finite", index + 1, field));
@@ -118,8 +118,9 @@ double Number(const Row& row, std::size_t index) {
 double Metres(const Row& row, std::size_t index) {
   const double value = Number(row, index);
   if (std::abs(value) > kFarthest_m) {
-    row.Fail(fmt::format("field {} is {}: positions are metres, at most {:g} from the origin",
-                         index + 1, row.fields[index], kFarthest_m));
+    row.Fail(
+        fmt::format("field {} is {}: positions must be in metres and within {:g} of the origin",
+                    index + 1, row.fields[index], kFarthest_m));
   }
   return value;
 }
@@ -138,12 +139,13 @@ class StampOrder {
     constexpr std::size_t kMostEqual = 1000;
     equal_ = rows_ > 0 && stamp_ns == before_ns_ ? equal_ + 1 : 1;
     if (equal_ > kMostEqual) {
-      row.Fail(fmt::format("{} is that of the {} rows before too: is the first column the time?",
-                           what, kMostEqual));
+      row.Fail(
+          fmt::format("{} is the same as in the previous {} rows: is the first column the time?",
+                      what, kMostEqual));
     }
     if (order_ == RowOrder::kRising && rows_ > 0 && stamp_ns < before_ns_) {
-      row.Fail(
-          fmt::format("{} is earlier than the line before ({}): sort the file", what, before_));
+      row.Fail(fmt::format("{} is earlier than on the previous line ({}): sort the file", what,
+                           before_));
     }
     ++rows_;
     before_ns_ = stamp_ns;
@@ -244,17 +246,17 @@ StampedPose TumPose(const Row& row, StampUnit unit) {
 
 StampedPose EurocPose(const Row& row) {
   if (row.fields.size() < 8) {
-    row.Fail(fmt::format("{} fields; a EuRoC line has at least 8: stamp [ns], p x y z, q w x y z",
-                         row.fields.size()));
+    row.Fail(
+        fmt::format("{} fields; a EuRoC line has at least 8: timestamp [ns], p x y z, q w x y z",
+                    row.fields.size()));
   }
   const std::string_view stamp = row.fields[0];
   std::int64_t stamp_ns = 0;
   const auto [end, error] = std::from_chars(stamp.data(), stamp.data() + stamp.size(), stamp_ns);
   if (error != std::errc() || end != stamp.data() + stamp.size()) {
-    row.Fail(
-        fmt::format("'{}' is not a stamp in whole nanoseconds (what ORB-SLAM3 writes is of format "
-                    "tum)",
-                    Printable(std::string(stamp))));
+    row.Fail(fmt::format(
+        "expected a timestamp in integer nanoseconds, got '{}' (ORB-SLAM3's output has format tum)",
+        Printable(std::string(stamp))));
   }
   const Eigen::Quaterniond q(Number(row, 4), Number(row, 5), Number(row, 6), Number(row, 7));
   return {stamp_ns, Pose(row, Position(row, 1), q)};
@@ -279,7 +281,7 @@ Eigen::Isometry3d KittiPose(const Row& row) {
                          .maxCoeff();
   constexpr double kOrthonormalTolerance = 0.01;
   if (off > kOrthonormalTolerance || pose.linear().determinant() < 0) {
-    row.Fail(fmt::format("the left 3x3 block is no rotation (R·Rᵀ is off by {:.2g})", off));
+    row.Fail(fmt::format("the left 3x3 block is not a rotation (R·Rᵀ is off by {:.2g})", off));
   }
   return pose;
 }
@@ -291,7 +293,7 @@ std::size_t KittiFrame(const Row& row, std::size_t rows_above) {
   std::uint32_t frame = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), frame);
   if (error != std::errc() || end != field.data() + field.size()) {
-    row.Fail(fmt::format("'{}' before the 12 numbers of the pose is no frame's number",
+    row.Fail(fmt::format("'{}' before the 12 numbers of the pose is not a frame number",
                          Printable(std::string(field))));
   }
   return frame;
@@ -319,7 +321,7 @@ Trajectory ReadKitti(const fs::path& path, const fs::path& times) {
     const std::size_t frame = KittiFrame(*row, trajectory.size());
     if (!times.empty() && frame >= stamps.size()) {
       row->Fail(
-          fmt::format("frame {} has no time: {} holds {}", frame, times.string(), stamps.size()));
+          fmt::format("frame {} has no time: {} has {}", frame, times.string(), stamps.size()));
     }
     const std::int64_t stamp_ns =
         times.empty() ? static_cast<std::int64_t>(frame) * kKittiStepNs : stamps[frame];
@@ -381,24 +383,23 @@ std::optional<TrajectoryFormat> TellTrajectoryFormat(const fs::path& path) {
   if (count == 8) {
     const bool in_ns = UnitOfStamps(&table) == StampUnit::kNanoseconds && whole;
     if (titles == TrajectoryFormat::kEuroc && !in_ns) {
-      throw InputError(path.string(), 0,
-                       "its titles say qw first, as EuRoC's have it, but its first column is no "
-                       "time in whole nanoseconds: write it so, or as TUM's have it, seconds and "
-                       "'tx ty tz qx qy qz qw'");
+      throw InputError(
+          path.string(), 0,
+          "its titles put qw first, as EuRoC's do, but its first column is not a time in integer "
+          "nanoseconds: use EuRoC's times, or TUM's columns, seconds and 'tx ty tz qx qy qz qw'");
     }
     return titles || in_ns ? titles : TrajectoryFormat::kTum;
   }
-  row.Fail(fmt::format("{} fields: neither TUM (8), KITTI (12) nor EuRoC (8 to 17, stamp in ns)",
-                       count));
+  row.Fail(fmt::format(
+      "{} fields: neither TUM (8), KITTI (12) nor EuRoC (8 to 17, timestamp in ns)", count));
 }
 
 TrajectoryFormat GuessTrajectoryFormat(const fs::path& path) {
   if (const auto format = TellTrajectoryFormat(path)) return *format;
-  throw InputError(
-      path.string(), 0,
-      "8 columns, the first in nanoseconds: qw may be the first of its four numbers "
-      "(EuRoC) or the last (TUM); say which by the format, or by a comment above them: "
-      "'# timestamp tx ty tz qx qy qz qw'");
+  throw InputError(path.string(), 0,
+                   "8 columns, the first in nanoseconds: qw may be the first number of the "
+                   "quaternion (EuRoC) or the last (TUM); choose by the format, or by a comment "
+                   "above them: '# timestamp tx ty tz qx qy qz qw'");
 }
 
 fs::path KittiTimesBeside(const fs::path& poses) {

@@ -101,7 +101,7 @@ void LinkVslamLabImages(const fs::path& dataset) {
     std::error_code error;
     fs::create_directory_symlink(fmt::format("mav0/cam{}/data", side),
                                  dataset / fmt::format("rgb_{}", side), error);
-    if (error) throw MachineError(dataset.string() + ": cannot be linked: " + error.message());
+    if (error) throw MachineError(dataset.string() + ": cannot link: " + error.message());
   }
 }
 

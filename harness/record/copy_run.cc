@@ -33,7 +33,7 @@ void CopyRunAs(const RunSpec& from, const RunSpec& to, const std::string& hall,
   RunRecord record = RecordFromJson(ReadFile(result), result.string());
   record.spec = to;
   record.hall = hall;
-  record.notes.push_back("the same inputs as " + RunId(from) + ": driven once for both");
+  record.notes.push_back("the inputs equal those of " + RunId(from) + ": run once for both");
   for (auto& [name, path] : record.artifacts) {
     path = (target / fs::path(path).lexically_relative(source)).string();
   }

@@ -224,7 +224,7 @@ DriveLog DriveLogFromJson(const std::string& text, const std::string& file) {
   try {
     return FromJson(Json::parse(text));
   } catch (const std::exception& error) {
-    throw InputError(file, 0, "is no drive: " + Printable(error.what(), 200));
+    throw InputError(file, 0, "not a drive file: " + Printable(error.what(), 200));
   }
 }
 

@@ -53,14 +53,15 @@ class Cells {
     Split(line, room);
     if (cells_.size() != columns.size()) {
       throw InputError(file, number,
-                       fmt::format("{} columns, not {}", cells_.size(), columns.size()));
+                       fmt::format("expected {1} columns, got {0}", cells_.size(), columns.size()));
     }
   }
 
   std::string_view Text(std::string_view name) const {
     const auto column = columns_.find(name);
     if (column == columns_.end()) {
-      throw InputError(file_, 1, fmt::format("no column {}: made by another version", name));
+      throw InputError(file_, 1,
+                       fmt::format("no column {}: made by another version of aisle", name));
     }
     return cells_[column->second];
   }
@@ -89,7 +90,7 @@ class Cells {
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (error != std::errc() || end != cell.data() + cell.size()) {
       throw InputError(file_, number_,
-                       fmt::format("{} is '{}', not {}", name, Printable(std::string(cell)),
+                       fmt::format("{} is '{}', expected {}", name, Printable(std::string(cell)),
                                    std::is_same_v<T, int> ? "a count" : "a number"));
     }
     return value;

@@ -157,9 +157,9 @@ std::string HistoryTrouble(const fs::path& path) {
   fs::path folder = fs::absolute(path).parent_path();
   if (!fs::exists(path, error)) {
     while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
-    if (!fs::is_directory(folder, error)) return folder.string() + ": is no folder";
+    if (!fs::is_directory(folder, error)) return folder.string() + ": not a folder";
     if (::access(folder.c_str(), W_OK) == 0) return "";
-    return fmt::format("{}: cannot be written: {}", folder.string(), std::strerror(errno));
+    return fmt::format("{}: not writable: {}", folder.string(), std::strerror(errno));
   }
   try {
     Database database(path);
@@ -170,10 +170,9 @@ std::string HistoryTrouble(const fs::path& path) {
       database.Run("ROLLBACK");
       return "";
     }
-    return path.string() + ": is damaged (" + check.Text(0) + "): move it away, a new one is begun";
+    return path.string() + ": damaged (" + check.Text(0) + "): move it away to start a new one";
   } catch (const MachineError& trouble) {
-    return fmt::format("{}; where it is damaged, move it away and a new one is begun",
-                       trouble.what());
+    return fmt::format("{}; if it is damaged, move it away to start a new one", trouble.what());
   }
 }
 

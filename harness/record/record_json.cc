@@ -143,7 +143,7 @@ RunRecord RecordFromJson(const std::string& text, const std::string& file) {
   try {
     return RecordFromJson(Json::parse(text));
   } catch (const std::exception& error) {
-    throw InputError(file, 0, fmt::format("is no run record: {}", Printable(error.what(), 200)));
+    throw InputError(file, 0, fmt::format("not a run record: {}", Printable(error.what(), 200)));
   }
 }
 

@@ -98,7 +98,7 @@ Results ResultsFromJson(const std::string& text, const std::string& file) {
   try {
     return FromJson(Json::parse(text));
   } catch (const std::exception& error) {
-    throw InputError(file, 0, "is no results file: " + Printable(error.what(), 200));
+    throw InputError(file, 0, "not a results file: " + Printable(error.what(), 200));
   }
 }
 

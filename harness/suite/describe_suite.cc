@@ -20,13 +20,17 @@ bool IsAmong(const std::string& word, const std::vector<std::string>& words) {
 }
 
 void DescribeMaskErrors(Fields& fields, MaskErrors& errors) {
-  fields.Number({"boundary_px", "standard deviation of the outline's shift, pixels", "3"},
-                &errors.boundary_px, {0, 100});
-  fields.Integer({"miss_below_px", "objects that show fewer pixels are never found", "600"},
-                 &errors.miss_below_px, {0, 1e9});
-  fields.Number({"miss_share", "share of the others that is missed, each for a while", "0.05"},
-                &errors.miss_share, {0, 1});
-  fields.Integer({"latency_frames", "the mask is that of so many frames ago", "2"},
+  fields.Number(
+      {"boundary_px", "standard deviation by which the outline is shifted, in pixels", "3"},
+      &errors.boundary_px, {0, 100});
+  fields.Integer(
+      {"miss_below_px",
+       "smallest visible size of an object, in pixels; smaller ones are never found", "600"},
+      &errors.miss_below_px, {0, 1e9});
+  fields.Number(
+      {"miss_share", "share of the other objects that is missed, each for a while", "0.05"},
+      &errors.miss_share, {0, 1});
+  fields.Integer({"latency_frames", "number of frames by which the mask is late", "2"},
                  &errors.latency_frames, {0, 100});
 }
 
@@ -37,14 +41,14 @@ constexpr std::array kLatencyOptions = {"drive.latency_ms", "drive.latency_profi
 std::string TwoLatencies(const SystemSpec& system) {
   const auto given = [&](const char* path) { return system.options.contains(path); };
   if (!std::ranges::all_of(kLatencyOptions, given)) return "";
-  return fmt::format("it has {}: leave one out", fmt::join(kLatencyOptions, " and "));
+  return fmt::format("it has both {}; keep one of the two", fmt::join(kLatencyOptions, " and "));
 }
 
 /// A sweep would take the place of a latency, and have no effect beside a profile.
 void CheckSweep(Fields& fields, const SystemSpec& system) {
   for (const char* path : kLatencyOptions) {
     if (!system.options.contains(path)) continue;
-    fields.Fail("latencies_ms", fmt::format("'{}' has {} of its own: leave one of the two out",
+    fields.Fail("latencies_ms", fmt::format("'{}' has its own {}; keep one of the two",
                                             Printable(system.name), path));
   }
 }
@@ -71,7 +75,7 @@ void SweepLatencies(Fields& fields, const std::vector<double>& latencies_ms,
 }
 
 std::string CheckAbsolute(const std::string& folder) {
-  return folder.starts_with('/') ? "" : "expected a folder from the root on";
+  return folder.starts_with('/') ? "" : "expected an absolute path";
 }
 
 std::string CheckVariable(const std::string& name) {
@@ -83,56 +87,56 @@ std::string CheckVariable(const std::string& name) {
 
 void DescribeExternal(Fields& fields, ExternalSystem& external) {
   fields.Text({"command",
-               "the command of a foreign system; {dataset}, {calibration}, {output}, {seed} and "
+               "command of an external system; {dataset}, {calibration}, {output}, {seed} and "
                "{source} are filled in",
                "my_slam {dataset} {calibration} {output}"},
               &external.command);
   std::string contract;
   fields.Name({"contract",
-               "vslam-lab: the system was wrapped for VSLAM-LAB, unchanged; vslam-lab-python: and "
-               "takes its arguments as --key value; stream: it is shown frames on its stdin and "
-               "answers each on its stdout, so that it can steer",
+               "how the command is called; vslam-lab: as a system wrapped for VSLAM-LAB, "
+               "unchanged; vslam-lab-python: the same, with arguments as --key value; stream: it "
+               "receives frames on its stdin and answers each on its stdout, so that it can steer",
                "vslam-lab"},
               &contract, {{"vslam-lab", "vslam-lab-python", "stream"}});
   if (contract == "stream") external.dataset = external.trajectory = kStreamFormat;
   if (contract == "vslam-lab") external.vslam_lab = VslamLabStyle::kWords;
   if (contract == "vslam-lab-python") external.vslam_lab = VslamLabStyle::kPython;
-  fields.Name({"dataset", "layout of the dataset that is exported for it", "euroc"},
+  fields.Name({"dataset", "layout of the dataset that is exported for the command", "euroc"},
               &external.dataset, {{"euroc", "kitti"}});
-  fields.Name({"trajectory", "format of what it writes to {output}", "tum"}, &external.trajectory,
-              {{"tum", "kitti", "euroc"}});
-  fields.Number({"timeout_s", "seconds until the command is ended", "600"}, &external.timeout_s,
-                {1e-3, 1e9});
-  fields.Text({"version", "a command whose first line of output names the version that ran",
+  fields.Name({"trajectory", "format of the trajectory that the command writes to {output}", "tum"},
+              &external.trajectory, {{"tum", "kitti", "euroc"}});
+  fields.Number({"timeout_s", "seconds after which the command is stopped", "600"},
+                &external.timeout_s, {1e-3, 1e9});
+  fields.Text({"version", "command whose first line of output names the version that ran",
                "my_slam --version"},
               &external.version);
-  fields.Text({"repository",
-               "git repository of its sources, for `aisle bisect`; {source} of the command stands "
-               "for it",
-               "/srv/my_slam"},
-              &external.repository);
-  fields.Text({"build", "what builds a checkout of the repository, run in it",
+  fields.Text(
+      {"repository",
+       "git repository of its sources, for `aisle bisect`; the command's {source} stands for it",
+       "/srv/my_slam"},
+      &external.repository);
+  fields.Text({"build", "command that builds a checkout of the repository, run inside it",
                "cmake -B build && cmake --build build"},
               &external.build);
   fields.Integer({"repeats",
-                  "times each input is driven, for a system that scatters on one and the same; "
-                  "shown apart from the spread over seeds",
+                  "number of times each input is run, for a system whose results vary on the same "
+                  "input; shown separately from the spread over seeds",
                   "5"},
                  &external.repeats, {1, 100});
   fields.Texts(
-      {"may_write", "folders where it may write, beside its own of the run", "[/srv/models/cache]"},
+      {"may_write", "folders that it may write to, besides the run's own", "[/srv/models/cache]"},
       &external.may_write, CheckAbsolute);
   fields.Texts({"environment",
-                "variables that it sees, beside PATH, HOME, the locale and those of Python, CUDA, "
-                "OpenMP and ROS",
+                "variables that it may see, besides PATH, HOME, the locale and those of Python, "
+                "CUDA, OpenMP and ROS",
                 "[MY_LICENCE]"},
                &external.environment, CheckVariable);
   fields.Texts({"depends_on",
-                "files and folders that decide what it does, beside those that the command names: "
-                "--resume looks at them",
+                "files and folders that determine what it does, besides those that the command "
+                "names; --resume checks them",
                 "[models/net.pt]"},
                &external.depends_on, [](const std::string& path) -> std::string {
-                 return std::filesystem::exists(path) ? "" : "there is no such file or folder";
+                 return std::filesystem::exists(path) ? "" : "no such file or folder";
                });
 }
 
@@ -154,24 +158,22 @@ void CheckPlaceholders(Fields& fields, const ExternalSystem& external) {
   if (!external.repository.empty()) known.emplace_back("source");
   const std::string word = UnknownPlaceholder(external.command, known);
   if (word.empty()) return;
-  fields.Fail("command",
-              word == "source"
-                  ? "{source} stands for its repository: say where that is; example: repository: "
-                    "/srv/my_slam"
-                  : fmt::format("nothing is filled in for {{{}}}{}; there are {{{}}}", word,
-                                DidYouMean(word, known), fmt::join(known, "}, {")));
+  fields.Fail("command", word == "source"
+                             ? "{source} stands for its repository, which is not given; example: "
+                               "repository: /srv/my_slam"
+                             : fmt::format("unknown placeholder {{{}}}{}; known: {{{}}}", word,
+                                           DidYouMean(word, known), fmt::join(known, "}, {")));
 }
 
 void CheckExternal(Fields& fields, const ExternalSystem& external) {
   CheckPlaceholders(fields, external);
   if (!fields.Has("contract") && external.command.find("{output}") == std::string::npos) {
     fields.Fail("command",
-                "the command must say where {output} goes; example: command: my_slam {dataset} "
-                "{output}");
+                "the command must contain {output}; example: command: my_slam {dataset} {output}");
   }
   const bool fixed = external.vslam_lab != VslamLabStyle::kNone || IsStream(external);
   if (fixed && (fields.Has("dataset") || fields.Has("trajectory"))) {
-    fields.Fail("contract", "it fixes dataset and trajectory: leave both out");
+    fields.Fail("contract", "it determines dataset and trajectory; remove both");
   }
 }
 
@@ -184,42 +186,43 @@ void DescribeLimit(Fields& fields, const Vocabulary& vocabulary, const Suite& su
   }
   std::vector<std::string> scenes;
   for (const SuiteScene& scene : suite.scenes) scenes.push_back(scene.name);
-  fields.Text({"scene", "only on this scene of the suite", "paper/scene2"}, &limit.scene);
+  fields.Text({"scene", "only for this scene of the suite", "paper/scene2"}, &limit.scene);
   if (!limit.scene.empty() && !scenes.empty() && !IsAmong(limit.scene, scenes)) {
     fields.Fail("scene", fmt::format("'{}' is not among this suite's scenes: {}",
                                      Printable(limit.scene), fmt::join(scenes, ", ")));
   }
-  fields.Name({"twin", "only in this twin of the suite", "live"}, &limit.twin, {vocabulary.twins});
+  fields.Name({"twin", "only for this twin of the suite", "live"}, &limit.twin, {vocabulary.twins});
   if (!limit.twin.empty() && !IsAmong(limit.twin, suite.twins)) {
     fields.Fail("twin", fmt::format("'{}' is not among this suite's twins: {}", limit.twin,
                                     fmt::join(suite.twins, ", ")));
   }
   std::vector<std::string> systems = SystemNames(suite);
   std::erase(systems, "");  // a system whose name was a mistake: told at its own place
-  fields.Name({"system", "only of this system", "oracle"}, &limit.system, {systems});
+  fields.Name({"system", "only for this system", "oracle"}, &limit.system, {systems});
   const Range bound = vocabulary.is_share(limit.score) ? Range{0, 1} : Range{};
   fields.OptionalNumber(
-      {"min", "the median over seeds, or a share of them, may not be below", "0.99"}, &limit.min,
-      bound);
+      {"min", "lowest value that the median over seeds, or a share of the seeds, may have", "0.99"},
+      &limit.min, bound);
   fields.OptionalNumber(
-      {"max", "the median over seeds, or a share of them, may not be above", "0.02"}, &limit.max,
-      bound);
+      {"max", "highest value that the median over seeds, or a share of the seeds, may have",
+       "0.02"},
+      &limit.max, bound);
   fields.OptionalNumber({"share",
-                         "the share of the seeds that must hold the bound, each by itself: 1 is "
-                         "every seed; absent: their median must",
+                         "share of the seeds that must keep the bound individually, where 1 is "
+                         "every seed; absent: the median must",
                          "1"},
                         &limit.share, {0, 1});
   if (limit.share && *limit.share <= 0) {
-    fields.Fail("share", "it must be above 0: no seed would have to hold the bound");
+    fields.Fail("share", "must be greater than 0, or no seed would have to keep the bound");
   }
   const std::string needed = TwinNeededBy(limit.score);
   if (!needed.empty() && !IsAmong(needed, suite.twins)) {
-    fields.Fail("score",
-                fmt::format("{} needs the twin '{}' among the suite's twins", limit.score, needed));
+    fields.Fail("score", fmt::format("{} requires the twin '{}' among the suite's twins",
+                                     limit.score, needed));
   }
   if (!limit.min && !limit.max) fields.Fail("score", "a limit needs 'min', 'max' or both");
   if (limit.min && limit.max && *limit.min > *limit.max) {
-    fields.Fail("min", "it is above 'max': no run could pass");
+    fields.Fail("min", "it is greater than 'max': no run could pass");
   }
 }
 
@@ -227,7 +230,7 @@ void DescribeLimit(Fields& fields, const Vocabulary& vocabulary, const Suite& su
 void CheckNames(Fields& fields, const std::vector<SystemSpec>& systems, std::size_t i) {
   for (std::size_t j = 0; j < i; ++j) {
     if (systems[j].name.empty() || systems[j].name != systems[i].name) continue;
-    return fields.Fail("name", fmt::format("'{}' is already taken: choose another name",
+    return fields.Fail("name", fmt::format("'{}' is already taken; choose another name",
                                            Printable(systems[i].name)));
   }
 }
@@ -237,21 +240,23 @@ void CheckNames(Fields& fields, const std::vector<SystemSpec>& systems, std::siz
 void Describe(Fields& fields, const Vocabulary& vocabulary, SystemSpec* spec) {
   const Words ours{vocabulary.systems};
   fields.Name(
-      {"name", "what reports call it; a bare word is one of ours as it is", "robust_fast", true},
+      {"name", "name in reports; a bare word is a built-in system as it is", "robust_fast", true},
       &spec->name, fields.IsPlain() ? ours : Words{});
   const bool is_ours = IsAmong(spec->name, vocabulary.systems);
   if (fields.IsPlain()) {
     if (is_ours) spec->like = spec->name;
     return;
   }
-  fields.Name({"like", "the system of ours that it varies", "robust"}, &spec->like, ours);
-  fields.Values({"options", "options that differ from its own, by path; `aisle systems` lists them",
-                 "{feature.features: 800}"},
-                &spec->options, [&](const std::string& path, const std::string& value) {
-                  return vocabulary.check_option(spec->like, path, value);
-                });
+  fields.Name({"like", "built-in system that it is a variant of", "robust"}, &spec->like, ours);
+  fields.Values(
+      {"options",
+       "options that differ from the built-in system's, by path; `aisle systems` lists them",
+       "{feature.features: 800}"},
+      &spec->options, [&](const std::string& path, const std::string& value) {
+        return vocabulary.check_option(spec->like, path, value);
+      });
   fields.Group(
-      {"mask_errors", "how the masks are spoilt that one like oracle or semantic is handed",
+      {"mask_errors", "errors to add to the masks that a system like oracle or semantic receives",
        "{boundary_px: 3, miss_share: 0.05}"},
       [&](Fields& part) { DescribeMaskErrors(part, spec->mask_errors); });
   ExternalSystem external;
@@ -262,11 +267,10 @@ void Describe(Fields& fields, const Vocabulary& vocabulary, SystemSpec* spec) {
   }
   if (spec->name.empty()) return;
   if (is_ours) {
-    return fields.Fail("name",
-                       fmt::format("'{0}' is one of ours as it is: give the variant another "
-                                   "name; example: {{name: {0}_2, like: {0}, options: "
-                                   "{{feature.features: 800}}}}",
-                                   spec->name));
+    return fields.Fail(
+        "name", fmt::format("'{0}' is a built-in system; give the variant another name; example: "
+                            "{{name: {0}_2, like: {0}, options: {{feature.features: 800}}}}",
+                            spec->name));
   }
   if (const std::string wrong = TwoLatencies(*spec); !wrong.empty()) {
     return fields.Fail("options", wrong);
@@ -289,18 +293,19 @@ void Describe(Fields& fields, const Vocabulary& vocabulary, const Fields::Check&
               Suite* into) {
   Suite& suite = *into;
   std::vector<std::string> scenes;
-  fields.Name({"suite", "its name: of the report's folder and the baseline", "quickstart", true},
-              &suite.name);
-  fields.Text({"question", "what it asks; the file's opening comment where absent",
+  fields.Name(
+      {"suite", "name of the suite, of its report folder and of its baseline", "quickstart", true},
+      &suite.name);
+  fields.Text({"question", "question that the suite answers; absent: the file's opening comment",
                "\"Does a person who fills the image spoil the pose?\""},
               &suite.question);
   fields.Texts({"scenes",
-                "scene files, from here or from the scenes folder; bags, and files that describe a "
-                "recording",
+                "scene files, from this folder or from the scenes folder; bags, and files that "
+                "describe a recording",
                 "[paper/scene2]", true},
                &scenes, add_scene);
   fields.List(
-      {"systems", "what is under test: names of ours, variants of them, commands",
+      {"systems", "systems under test: built-in ones, variants of them, commands",
        "[robust, {name: mine, command: my_slam {dataset} {output}}]", true},
       [&](std::size_t count) { suite.systems.resize(count); },
       [&](Fields& part, std::size_t i) {
@@ -310,23 +315,24 @@ void Describe(Fields& fields, const Vocabulary& vocabulary, const Fields::Check&
       "name");
   std::vector<double> latencies_ms;
   fields.Numbers({"latencies_ms",
-                  "each system that can steer once at each of these latencies, as robust_50ms; for "
-                  "scenes with a `drive`",
+                  "latencies at which each system that can steer is also run, named as in "
+                  "robust_50ms; for scenes with a `drive`",
                   "[0, 50, 100, 200]"},
                  &latencies_ms, {0, kLongestLatency_ms});
   SweepLatencies(fields, latencies_ms, &suite.systems);
   fields.Names({"twins",
-                "versions of each scene: live as written, empty without actors, frozen where they "
-                "stand, none, low, mid or high with those of at most that level",
+                "twins of each scene: live as written, empty without actors, frozen with them "
+                "standing still, none, low, mid or high with those of at most that level",
                 "[live, empty]"},
                &suite.twins, {vocabulary.twins});
   fields.CountOrList({"seeds",
-                      "how many, from 1 on, or a list; each changes who walks, when, how fast and "
-                      "along which way",
+                      "number of seeds, from 1 on, or a list; each seed changes who walks, when, "
+                      "how fast and along which path",
                       "3"},
                      &suite.seeds, kMostSeeds);
   fields.List(
-      {"limits", "bounds that fail the night", "[{score: ate_rmse_m, system: oracle, max: 0.02}]"},
+      {"limits", "bounds whose violation fails the run",
+       "[{score: ate_rmse_m, system: oracle, max: 0.02}]"},
       [&](std::size_t count) { suite.limits.resize(count); },
       [&](Fields& part, std::size_t i) {
         DescribeLimit(part, vocabulary, suite, suite.limits[i]);

@@ -127,7 +127,7 @@ PlanFile PlanFromJson(const std::string& text, const std::string& file) {
   try {
     return FromJson(Json::parse(text));
   } catch (const std::exception& error) {
-    throw InputError(file, 0, "is no plan: " + Printable(error.what(), 200));
+    throw InputError(file, 0, "not a plan: " + Printable(error.what(), 200));
   }
 }
 
@@ -173,10 +173,8 @@ Shard ShardFromText(const std::string& text) {
   const auto count = slash ? std::from_chars(index.ptr + 1, end, shard.count) : index;
   if (!slash || count.ec != std::errc() || count.ptr != end || shard.index < 1 ||
       shard.index > shard.count) {
-    throw InputError(
-        fmt::format("--shard: '{}' is no part: expected I/N with 1 <= I <= N, for "
-                    "example 2/3",
-                    Printable(text)));
+    throw InputError(fmt::format(
+        "--shard: expected I/N with 1 <= I <= N, for example 2/3, got '{}'", Printable(text)));
   }
   return shard;
 }

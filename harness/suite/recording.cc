@@ -24,20 +24,20 @@ std::string From(const fs::path& folder, const std::string& path) {
 void Describe(Fields& fields, RecordingSource* source) {
   double baseline_m = 0;
   const Fields::Check any = [](const std::string&) { return std::string(); };
-  fields.Text({"about", "what the drive tests", "\"Aisle 3 with the night shift.\""},
+  fields.Text({"about", "question that the drive tests", "\"Aisle 3 with the night shift.\""},
               &source->file);
   fields.Text({"recording", "the bag, or the dataset's folder", "aisle3.mcap", true},
               &source->path);
-  fields.Name({"format", "of a folder: euroc or kitti", "kitti"}, &source->format,
+  fields.Name({"format", "layout of a folder: euroc or kitti", "kitti"}, &source->format,
               {{"euroc", "kitti"}});
-  fields.Texts({"topics", "of a bag with several pairs: the left and the right image",
+  fields.Texts({"topics", "topics of the left and the right image, for a bag with several pairs",
                 "[/left/image_rect, /right/image_rect]"},
                &source->topics, any);
-  fields.Number({"baseline_m", "metres between the eyes, where camera_info lacks it", "0.12"},
-                &baseline_m, {1e-4, 100});
-  fields.Text({"odometry", "of a bag: the topic of what its wheels measured", "/odom"},
-              &source->odometry);
-  fields.Text({"truth", "where the left camera was: a trajectory file, or a topic of a bag",
+  fields.Number(
+      {"baseline_m", "distance between the cameras, for a bag whose camera_info lacks it", "0.12"},
+      &baseline_m, {1e-4, 100});
+  fields.Text({"odometry", "topic of the wheel odometry, for a bag", "/odom"}, &source->odometry);
+  fields.Text({"truth", "true poses of the left camera: a trajectory file, or a topic of a bag",
                "aisle3.mcap:/odom"},
               &source->truth);
   if (baseline_m > 0) source->baseline_m = baseline_m;

@@ -50,7 +50,7 @@ std::optional<std::string> FindScene(const fs::path& folder, const std::string& 
 std::string AddScene(const fs::path& folder, const std::string& text, Suite* suite) {
   const std::optional<std::string> file = FindScene(folder, text);
   if (!file) {
-    return fmt::format("there is no such scene in {}, {} or {}",
+    return fmt::format("no such scene in {}, {} or {}",
                        folder.empty() ? "this folder" : folder.string(),
                        (folder / "..").lexically_normal().string(), ScenesDir().string());
   }
@@ -58,12 +58,12 @@ std::string AddScene(const fs::path& folder, const std::string& text, Suite* sui
   for (const SuiteScene& other : suite->scenes) {
     if (other.name == scene.name) {
       return fmt::format(
-          "{} and {} would both be called '{}': rename one, or put them below folders of a folder "
-          "called scenes",
+          "{} and {} would both be named '{}'; rename one, or put them below folders of a folder "
+          "named scenes",
           other.file, scene.file, scene.name);
     }
     if (SafeName(other.name) == SafeName(scene.name)) {
-      return fmt::format("{} and {} would share the run folder '{}': rename one", other.file,
+      return fmt::format("{} and {} would share the run folder '{}'; rename one", other.file,
                          scene.file, SafeName(scene.name));
     }
   }
@@ -77,10 +77,10 @@ void RequireSame(const std::vector<Value>& ones, const std::vector<Value>& other
   for (const Value& one : ones) {
     for (const Value& other : others) {
       if (one.name != other.name || same_file(one, other)) continue;
-      throw InputError(fmt::format(
-          "two suites mean different things by the {} '{}': their figures would be mixed up; "
-          "rename one or run them one after the other",
-          what, one.name));
+      throw InputError(
+          fmt::format("two suites define different {} '{}', whose results would be mixed up; "
+                      "rename one, or run them one after the other",
+                      what, one.name));
     }
   }
 }
@@ -97,11 +97,11 @@ void AddEachOnce(const std::vector<RunSpec>& more, std::vector<RunSpec>* specs,
     }
     const RunSpec& other = (*specs)[at->second];
     if (other == spec) continue;
-    throw InputError(fmt::format(
-        "'{}' ({}, system {}) and '{}' ({}, system {}) would share the run folder '{}': rename "
-        "one, or run them one after the other",
-        other.scene, other.scene_file, other.system.name, spec.scene, spec.scene_file,
-        spec.system.name, at->first));
+    throw InputError(
+        fmt::format("'{}' ({}, system {}) and '{}' ({}, system {}) would share the run folder "
+                    "'{}'; rename one, or run them one after the other",
+                    other.scene, other.scene_file, other.system.name, spec.scene, spec.scene_file,
+                    spec.system.name, at->first));
   }
 }
 
@@ -169,9 +169,10 @@ bool IsForeignYaml(const std::string& file) {
 
 void RefuseForeignYaml(const std::string& file) {
   if (!IsForeignYaml(file)) return;
-  throw InputError(file, 1,
-                   fmt::format("is no scene, no suite and no recording: it has none of the keys {}",
-                               fmt::join(kKeysOfOurs, ", ")));
+  throw InputError(
+      file, 1,
+      fmt::format("neither a scene, a suite nor a recording: it has none of the keys {}",
+                  fmt::join(kKeysOfOurs, ", ")));
 }
 
 std::string SceneName(const std::string& scene_file) {

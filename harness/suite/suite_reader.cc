@@ -57,7 +57,7 @@ bool IsName(const std::string& text) {
 std::string NameMistake(const std::string& text, const Words& words) {
   const auto& known = words.known;
   if (known.empty()) {
-    return IsName(text) ? "" : "a name of letters, digits, '_', '.' and '-', 1 to 80 of them";
+    return IsName(text) ? "" : "a name of 1 to 80 letters, digits, '_', '.' and '-'";
   }
   if (std::find(known.begin(), known.end(), text) != known.end()) return "";
   return fmt::format("one of {}{}", fmt::join(known, ", "), DidYouMean(text, known));
@@ -148,14 +148,14 @@ void YamlReader::Integer(const Key& key, int* value, Range range) {
   if (number && *number >= range.low && *number <= range.high) {
     *value = *number;
   } else {
-    Expected(*node, key, "a whole number" + ToText(range));
+    Expected(*node, key, "an integer" + ToText(range));
   }
 }
 
 std::vector<YAML::Node> YamlReader::Items(const YAML::Node& node, const Key& key) {
   if (node.IsScalar()) return {node};  // a list of one may drop its brackets
   if (node.IsSequence() && node.size() > 0) return {node.begin(), node.end()};
-  Expected(node, key, "a list with an entry at least");
+  Expected(node, key, "a list with at least one entry");
   return {};
 }
 
@@ -176,7 +176,7 @@ void YamlReader::Texts(const Key& key, std::vector<std::string>* values, const C
       Expected(item, key, "a text");
     } else if (std::find(values->begin(), values->end(), text) != values->end()) {
       issues_->Add(PlaceOf(item), PathOf(key.name),
-                   fmt::format("'{}' is given twice; keep one of them", Printable(text)));
+                   fmt::format("duplicate '{}'; keep one of them", Printable(text)));
     } else if (const std::string mistake = check(text); !mistake.empty()) {
       issues_->Add(PlaceOf(item), PathOf(key.name),
                    fmt::format("'{}': {}", Printable(text), mistake));
@@ -189,7 +189,8 @@ void YamlReader::Texts(const Key& key, std::vector<std::string>* values, const C
 void YamlReader::CountOrList(const Key& key, std::vector<std::uint64_t>* values, int most) {
   const auto node = Find(key);
   if (!node) return;
-  const std::string expected = fmt::format("how many (1 to {}), or a list of whole numbers", most);
+  const std::string expected =
+      fmt::format("a number of seeds (1 to {}), or a list of integers", most);
   std::vector<std::uint64_t> read;
   if (node->IsScalar()) {
     const auto count = PlainNumber<int>(*node);
@@ -201,7 +202,7 @@ void YamlReader::CountOrList(const Key& key, std::vector<std::uint64_t>* values,
       if (!number) return Expected(item, key, expected);
       if (std::find(read.begin(), read.end(), *number) != read.end()) {
         return issues_->Add(PlaceOf(item), PathOf(key.name),
-                            fmt::format("{} is given twice; keep one of them", *number));
+                            fmt::format("duplicate {}; keep one of them", *number));
       }
       read.push_back(*number);
     }
@@ -220,7 +221,7 @@ void YamlReader::Numbers(const Key& key, std::vector<double>* values, Range rang
     }
     if (std::find(read.begin(), read.end(), *number) != read.end()) {
       return issues_->Add(PlaceOf(item), PathOf(key.name),
-                          fmt::format("{:g} is given twice; keep one of them", *number));
+                          fmt::format("duplicate {:g}; keep one of them", *number));
     }
     read.push_back(*number);
   }
@@ -284,15 +285,13 @@ void YamlReader::ReportKeys() {
     const std::string near = NearestWord(name, known_);
     misspelt.insert(near);
     issues_->Add(PlaceOf(entry.first), PathOf(Printable(name)),
-                 near.empty()
-                     ? fmt::format("there is no such key; known here: {}", fmt::join(known_, ", "))
-                     : fmt::format("there is no such key; did you mean {}?", near));
+                 near.empty() ? fmt::format("unknown key; known keys: {}", fmt::join(known_, ", "))
+                              : fmt::format("unknown key; did you mean {}?", near));
   }
   for (const Key& key : missing_) {
     if (misspelt.contains(key.name)) continue;
-    issues_->Add(
-        PlaceOf(map_), PathOf(key.name),
-        fmt::format("it is missing ({}); example: {}: {}", key.help, key.name, key.example));
+    issues_->Add(PlaceOf(map_), PathOf(key.name),
+                 fmt::format("missing key ({}); example: {}: {}", key.help, key.name, key.example));
   }
 }
 

@@ -20,7 +20,7 @@ class ReferenceWriter : public Fields {
     Row(key, "a number" + ToText(range), "");
   }
   void Integer(const Key& key, int* value, Range range) override {
-    Row(key, "a whole number" + ToText(range), fmt::format("{}", *value));
+    Row(key, "an integer" + ToText(range), fmt::format("{}", *value));
   }
   void Names(const Key& key, std::vector<std::string>* values, const Words& words) override {
     Row(key, "a list of " + OneOf(words), fmt::format("{}", fmt::join(*values, ", ")));
@@ -83,7 +83,7 @@ std::string SuiteReference(const Vocabulary& vocabulary) {
   ReferenceWriter writer;
   Suite suite;
   Describe(writer, vocabulary, {}, &suite);
-  return "| key | meaning | what may stand there | default | example |\n|---|---|---|---|---|\n" +
+  return "| key | meaning | allowed values | default | example |\n|---|---|---|---|---|\n" +
          writer.text();
 }
 

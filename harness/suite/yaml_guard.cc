@@ -19,12 +19,12 @@ class Guard : public YAML::EventHandler {
   explicit Guard(const std::string& file) : file_(file) {}
 
   void OnDocumentStart(const YAML::Mark& mark) override {
-    if (++documents_ == 2) FailAt(file_, mark, "expected one YAML document, got more");
+    if (++documents_ == 2) FailAt(file_, mark, "expected one YAML document, got several");
   }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { Check(mark, anchor); }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
-    FailAt(file_, mark, "aliases (*name) are not allowed: write the value out");
+    FailAt(file_, mark, "aliases (*name) are not allowed; write the value out");
   }
   void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
                 const std::string&) override {
@@ -43,7 +43,7 @@ class Guard : public YAML::EventHandler {
 
  private:
   void Check(const YAML::Mark& mark, YAML::anchor_t anchor) const {
-    if (anchor != 0) FailAt(file_, mark, "anchors (&name) are not allowed: write the value out");
+    if (anchor != 0) FailAt(file_, mark, "anchors (&name) are not allowed; write the value out");
   }
   void Enter(const YAML::Mark& mark, YAML::anchor_t anchor) {
     Check(mark, anchor);
@@ -84,7 +84,7 @@ void RefuseDuplicateKeys(const YAML::Node& node, const std::string& file) {
     const auto [at, is_new] = seen.emplace(entry.first.Scalar(), entry.first.Mark());
     if (!is_new) {
       FailAt(file, entry.first.Mark(),
-             fmt::format("key '{}' appears twice (first in line {}): remove one",
+             fmt::format("duplicate key '{}' (first in line {}); keep one of them",
                          Printable(entry.first.Scalar()), at->second.line + 1));
     }
     RefuseDuplicateKeys(entry.second, file);
@@ -111,17 +111,16 @@ YAML::Node ParseYaml(const std::string& text, const std::string& file) {
   } catch (const YAML::ParserException& error) {
     if (const auto tab = IndentingTab(text)) {
       FailAt(file, *tab,
-             "is no YAML: lines are indented by a tab, which YAML does not allow; write "
-             "blanks");
+             "not YAML: lines are indented by a tab, which YAML does not allow; use spaces");
     }
-    FailAt(file, error.mark, "is no YAML: " + error.msg);
+    FailAt(file, error.mark, "not YAML: " + error.msg);
   }
 }
 
 YAML::Node LoadYaml(const std::string& file) {
   const std::string text = ReadFile(file);
   if (text.size() > kMaxBytes) {
-    throw InputError(file, 0, fmt::format("is larger than {} bytes", kMaxBytes));
+    throw InputError(file, 0, fmt::format("larger than {} bytes", kMaxBytes));
   }
   return ParseYaml(text, file);
 }

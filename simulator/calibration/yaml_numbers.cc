@@ -41,7 +41,7 @@ CalibrationFile OpenCalibration(const std::string& file) {
     return {file, YAML::Load(text)};
   } catch (const YAML::Exception& wrong) {
     throw std::runtime_error(
-        fmt::format("{}:{}: is no YAML: {}", file, wrong.mark.line + 1, wrong.msg));
+        fmt::format("{}:{}: not YAML: {}", file, wrong.mark.line + 1, wrong.msg));
   }
 }
 

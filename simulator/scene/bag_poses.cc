@@ -37,7 +37,7 @@ std::string ReadBagPoses(const std::string& file_and_topic, std::vector<TimedPos
     const std::lock_guard lock(reader_mutex);
     reader = TheReader();
   }
-  if (!reader) return file_and_topic + ": bags are read by the program aisle alone";
+  if (!reader) return file_and_topic + ": bags are only read by the program aisle";
   try {
     *poses = reader(file_and_topic);
   } catch (const std::runtime_error& error) {
@@ -48,10 +48,10 @@ std::string ReadBagPoses(const std::string& file_and_topic, std::vector<TimedPos
       return file_and_topic + ": a pose is not finite";
     }
     if (i > 0 && (*poses)[i].time_ns <= (*poses)[i - 1].time_ns) {
-      return file_and_topic + ": its stamps do not rise";
+      return file_and_topic + ": timestamps do not increase";
     }
   }
-  return poses->empty() ? file_and_topic + ": holds no pose" : "";
+  return poses->empty() ? file_and_topic + ": no poses" : "";
 }
 
 }  // namespace aisle::sim

@@ -74,9 +74,9 @@ class Checker {
  private:
   bool CheckHall() {
     if (((scene_.hall.to - scene_.hall.from).array() >= 2).all()) return true;
-    issues_->Add(scene_.hall.mark, "hall",
-                 "`to` must lie at least 2 m beyond `from` in x and y; example: from: [-5, -8], "
-                 "to: [20, 8]");
+    issues_->Add(
+        scene_.hall.mark, "hall",
+        "`to` must be at least 2 m beyond `from` in x and y; example: from: [-5, -8], to: [20, 8]");
     return false;
   }
 
@@ -86,8 +86,8 @@ class Checker {
                                           [](double value) { return value != 0; });
     if (bent && camera.distortion == Distortion::kNone) {
       issues_->Add(camera.mark, one.key + ".distortion",
-                   "there are distortion_coefficients, but nothing says of which model; example: "
-                   "distortion: radial-tangential");
+                   "distortion_coefficients without a distortion model; example: distortion: "
+                   "radial-tangential");
     }
   }
 
@@ -96,11 +96,10 @@ class Checker {
     const double exposure_ms =
         scene_.sensor.auto_exposure ? scene_.sensor.auto_longest_ms : scene_.sensor.exposure_ms;
     if (exposure_ms + scene_.sensor.readout_ms > frame_ms) {
-      issues_->Add(
-          scene_.sensor.mark, "sensor",
-          fmt::format("the shutter is open for {:g} ms of exposure and {:g} ms of readout, "
-                      "but a frame comes every {:g} ms",
-                      exposure_ms, scene_.sensor.readout_ms, frame_ms));
+      issues_->Add(scene_.sensor.mark, "sensor",
+                   fmt::format("the shutter is open for {:g} ms of exposure and {:g} ms of "
+                               "readout, but frames are {:g} ms apart",
+                               exposure_ms, scene_.sensor.readout_ms, frame_ms));
     }
   }
 
@@ -111,7 +110,8 @@ class Checker {
       const PairSpec& pair = rig.pairs[i];
       const std::string key = fmt::format("rig.pairs[{}]", i);
       if (!pair.name.empty() && !names.insert(pair.name).second) {
-        issues_->Add(pair.mark, key + ".name", fmt::format("'{}' is taken", pair.name));
+        issues_->Add(pair.mark, key + ".name",
+                     fmt::format("another pair is already named '{}'", pair.name));
       }
       if (pair.mount.height_m >= scene_.hall.height_m) {
         issues_->Add(pair.mark, key + ".camera_height_m", "the camera is above the roof");
@@ -119,7 +119,7 @@ class Checker {
     }
     if (rig.pair.empty() || names.contains(rig.pair)) return;
     issues_->Add(rig.pair_mark, "rig.pair",
-                 fmt::format("there is no pair '{}' among rig.pairs", rig.pair));
+                 fmt::format("no pair named '{}' among rig.pairs", rig.pair));
   }
 
   void CheckLights() {
@@ -136,7 +136,8 @@ class Checker {
       }
       for (const auto& corner : {lights.from, lights.to}) {
         if (corner && !InHall(scene_.hall, *corner, 0)) {
-          issues_->Add(lights.mark, key, "the lit rectangle leaves " + HallText(scene_.hall));
+          issues_->Add(lights.mark, key,
+                       "the lit rectangle extends beyond " + HallText(scene_.hall));
         }
       }
       for (const Blackout& off : lights.off) {
@@ -203,14 +204,15 @@ class Checker {
     const double from = door.at_m - door.width_m / 2, to = door.at_m + door.width_m / 2;
     constexpr double kRounding_m = 1e-9;
     if (from < hall.from[along] - kRounding_m || to > hall.to[along] + kRounding_m) {
-      issues_->Add(door.mark, fmt::format("doors[{}].at_m", index),
-                   fmt::format("its opening goes from {0} {1:g} to {2:g} m, its wall from {3:g} to "
-                               "{4:g}",
-                               along == 0 ? 'x' : 'y', from, to, hall.from[along], hall.to[along]));
+      issues_->Add(
+          door.mark, fmt::format("doors[{}].at_m", index),
+          fmt::format(
+              "its opening goes from {0} {1:g} to {2:g} m, but its wall goes from {3:g} to {4:g}",
+              along == 0 ? 'x' : 'y', from, to, hall.from[along], hall.to[along]));
     }
     if (door.height_m > hall.height_m) {
       issues_->Add(door.mark, fmt::format("doors[{}].height_m", index),
-                   fmt::format("its opening of {:g} m goes through the roof at {:g} m",
+                   fmt::format("its opening of {:g} m extends above the roof at {:g} m",
                                door.height_m, hall.height_m));
     }
   }
@@ -221,9 +223,9 @@ class Checker {
     CheckInside(mezzanine.mark, key + ".from", mezzanine.from);
     CheckInside(mezzanine.mark, key + ".to", mezzanine.to);
     if (((mezzanine.to - mezzanine.from).array() < 2).any()) {
-      issues_->Add(mezzanine.mark, key,
-                   "`to` must lie at least 2 m beyond `from` in x and y; example: from: [2, 3], "
-                   "to: [9, 6]");
+      issues_->Add(
+          mezzanine.mark, key,
+          "`to` must be at least 2 m beyond `from` in x and y; example: from: [2, 3], to: [9, 6]");
     }
     if (mezzanine.height_m + 1.1 >= scene_.hall.height_m) {
       issues_->Add(mezzanine.mark, key + ".height_m", "its railing is above the roof");
@@ -235,8 +237,9 @@ class Checker {
     for (std::size_t i = 0; i < actors.size(); ++i) {
       const Actor& actor = actors[i];
       if (!actor.name.empty() && !names_.insert(actor.name).second) {
-        issues_->Add(actor.mark, fmt::format("{}[{}].name", list, i),
-                     fmt::format("'{}' is taken by another actor; names are unique", actor.name));
+        issues_->Add(
+            actor.mark, fmt::format("{}[{}].name", list, i),
+            fmt::format("another actor is already named '{}'; names must be unique", actor.name));
       }
     }
   }
@@ -249,17 +252,17 @@ class Checker {
       const std::string key = fmt::format("vehicles[{}].pushed_by", i);
       const auto pusher = std::ranges::find(scene_.people, vehicle.pushed_by, &PersonSpec::name);
       if (pusher == scene_.people.end()) {
-        issues_->Add(vehicle.mark, key,
-                     fmt::format("there is nobody '{}' among the people", vehicle.pushed_by));
+        issues_->Add(vehicle.mark, key, fmt::format("no person named '{}'", vehicle.pushed_by));
       } else if (!pusher->capture.bvh.name.empty()) {
         issues_->Add(vehicle.mark, key,
-                     fmt::format("'{}' goes where the motion of `bvh` goes, which pushes nothing; "
-                                 "name somebody with `steps`",
+                     fmt::format("'{}' moves with the motion of `bvh`, which cannot push anything; "
+                                 "name a person with `steps`",
                                  vehicle.pushed_by));
       } else if (!vehicle.route.plan.steps.empty()) {
-        issues_->Add(vehicle.mark, key, "it goes where its pusher goes; leave out `steps`");
+        issues_->Add(vehicle.mark, key, "it moves with the person who pushes it; remove `steps`");
       } else if (pusher->level > vehicle.level) {
-        issues_->Add(vehicle.mark, key, "its level must be that of its pusher or above");
+        issues_->Add(vehicle.mark, key,
+                     "its level must be that of the person who pushes it, or higher");
       }
     }
   }
@@ -268,13 +271,13 @@ class Checker {
     const CrowdSpec& crowd = scene_.crowd;
     if (crowd.people == 0) return;
     if (crowd.in && crowd.between_racks) {
-      issues_->Add(crowd.mark, "crowd", "`in` and `between_racks` both say where: give one");
+      issues_->Add(crowd.mark, "crowd", "`in` and `between_racks` both give the area; keep one");
     }
     if (crowd.between_racks) {
       for (const int rack : *crowd.between_racks) {
         if (rack < static_cast<int>(scene_.racks.size())) continue;
         issues_->Add(crowd.mark, "crowd.between_racks",
-                     fmt::format("there is no racks[{}]; there are {}, counted from 0", rack,
+                     fmt::format("racks[{}] does not exist; there are {}, counted from 0", rack,
                                  scene_.racks.size()));
         return;
       }
@@ -297,26 +300,26 @@ class Checker {
       if (vehicle.towed_by.empty()) {
         if (vehicle.behind_m != 0) {
           issues_->Add(vehicle.mark, fmt::format("vehicles[{}].behind_m", i),
-                       "only a vehicle that is towed is behind one; name it by `towed_by`");
+                       "`behind_m` requires `towed_by`");
         }
         continue;
       }
       const auto tractor = std::ranges::find(scene_.vehicles, vehicle.towed_by, &VehicleSpec::name);
       if (tractor == scene_.vehicles.end()) {
-        issues_->Add(vehicle.mark, key,
-                     fmt::format("there is no '{}' among the vehicles", vehicle.towed_by));
+        issues_->Add(vehicle.mark, key, fmt::format("no vehicle named '{}'", vehicle.towed_by));
       } else if (!tractor->towed_by.empty() || !tractor->pushed_by.empty()) {
         issues_->Add(vehicle.mark, key,
-                     "it must drive itself: every trailer of a train names the tractor, and by "
-                     "`behind_m` how far behind that it is");
+                     "it must drive itself: every trailer of a train names the tractor, and "
+                     "`behind_m` gives its distance behind it");
       } else if (!vehicle.route.plan.steps.empty() || !vehicle.pushed_by.empty()) {
         issues_->Add(vehicle.mark, key,
-                     "it goes where its tractor goes; leave out `steps` and `pushed_by`");
+                     "it moves with its tractor; remove `steps` and `pushed_by`");
       } else if (vehicle.behind_m <= 0) {
         issues_->Add(vehicle.mark, key,
-                     "needs `behind_m`, above 0; the first trailer of tow_tractor: 1.78");
+                     "`towed_by` requires `behind_m` greater than 0; for the first trailer of "
+                     "tow_tractor: 1.78");
       } else if (tractor->level > vehicle.level) {
-        issues_->Add(vehicle.mark, key, "its level must be that of its tractor or above");
+        issues_->Add(vehicle.mark, key, "its level must be that of its tractor, or higher");
       }
     }
   }
@@ -337,7 +340,7 @@ class Checker {
                                             [](const RouteStep& step) { return !step.go.empty(); });
     if (!drives) {
       issues_->Add(drive.mark, "drive",
-                   "the rig's route goes nowhere: a closed drive needs a `go` among rig.steps");
+                   "the rig's route does not move: a closed drive needs a `go` among rig.steps");
     }
   }
 

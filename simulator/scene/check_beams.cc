@@ -48,9 +48,9 @@ class Checker {
     CheckGiven(one_.given, {"a spot", {"width_deg", "rate_hz", "from_s", "until_s"}}, key_,
                issues_);
     if (one_.run.to_s < one_.run.from_s + one_.run.ramp_s) {
-      Say(".until_s", fmt::format("must be at least {:g} s later than `from_s`: so long it "
-                                  "speeds up",
-                                  one_.run.ramp_s));
+      Say(".until_s",
+          fmt::format("must be at least {:g} s after `from_s`, the time it takes to speed up",
+                      one_.run.ramp_s));
     }
   }
 
@@ -61,11 +61,11 @@ class Checker {
     constexpr double kDegree = std::numbers::pi / 180;
     if (one_.elevation_rad < (kLowestSun_deg - 1e-9) * kDegree) {
       Say(".elevation_deg",
-          fmt::format("the sun stands at {:g}, must be at {:g} at least; example: "
-                      "elevation_deg: 35",
-                      one_.elevation_rad / kDegree, kLowestSun_deg));
+          fmt::format(
+              "the sun must be {1:g} degrees high or higher, got {0:g}; example: elevation_deg: 35",
+              one_.elevation_rad / kDegree, kLowestSun_deg));
     }
-    if (hall_.walls == WallKind::kSky) Say("", "under a sky there are no windows");
+    if (hall_.walls == WallKind::kSky) Say("", "a scene under a sky has no windows");
     std::vector<JointMove> times;
     for (const SunMove& move : one_.moves) times.push_back({move.at_s, 0, move.over_s});
     const std::string wrong = MovesError(times);
@@ -87,8 +87,9 @@ void CheckBeams(const Scene& scene, Issues* issues) {
     const std::string key = fmt::format("beams[{}]", i);
     Checker(scene, beam, key, issues).Run();
     if (!beam.name.empty() && !names.insert(beam.name).second) {
-      issues->Add(beam.mark, key + ".name",
-                  fmt::format("'{}' is taken by another beam; names are unique", beam.name));
+      issues->Add(
+          beam.mark, key + ".name",
+          fmt::format("another beam is already named '{}'; names must be unique", beam.name));
     }
   }
 }

@@ -56,8 +56,8 @@ void CheckLoads(const Scene& scene, Issues* issues) {
         holders, [&](const std::string& a, const std::string& b) { return clocks.MayPart(a, b); });
     if (parts == holders.end()) continue;
     issues->Add(load.mark, fmt::format("mechanisms[{}]", i),
-                fmt::format("'{}' and '{}' hold it, and where one yields to the vehicle the other "
-                            "goes on, away from what they share; leave out the `yields` of both",
+                fmt::format("'{}' and '{}' carry it, and where one yields to the vehicle the other "
+                            "would walk on; remove the `yields` of both",
                             *parts, *(parts + 1)));
   }
 }

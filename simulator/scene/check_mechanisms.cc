@@ -38,14 +38,14 @@ class Checker {
     const std::string key = fmt::format(".parts[{}]", index);
     if (!part.on.empty() && !names->contains(part.on)) {
       Say(part.mark, key + ".on",
-          fmt::format("no part before it is named '{}'; a part stands after what it is on",
+          fmt::format("no earlier part is named '{}'; a part comes after the one it is on",
                       part.on));
     }
     if (!part.name.empty() && !names->insert(part.name).second) {
-      Say(part.mark, key + ".name", fmt::format("'{}' is taken by another part", part.name));
+      Say(part.mark, key + ".name", fmt::format("another part is already named '{}'", part.name));
     }
     if (part.shape == PartShape::kModel && part.model.empty()) {
-      Say(part.mark, key + ".model", "a shape: model names one; example: model: roll_cage");
+      Say(part.mark, key + ".model", "the model of a shape; example: model: roll_cage");
     }
     CheckGiven(part.joint_given, KeysOf(part.joint.kind), key_ + key + ".joint", issues_);
     const std::string wrong = JointError(part.joint);
@@ -74,7 +74,7 @@ class Checker {
 
   static std::string JointError(const Joint& joint) {
     using Kind = Joint::Kind;
-    if (std::abs(joint.axis.norm() - 1) > 1e-6) return "its axis is [0, 0, 0]";
+    if (std::abs(joint.axis.norm() - 1) > 1e-6) return "its axis must not be [0, 0, 0]";
     const bool moves = joint.kind == Kind::kHinge || joint.kind == Kind::kSlider;
     if (moves && joint.moves.empty()) {
       return "a hinge or slider needs moves; example: moves: [{at_s: 3, to_m: 2, over_s: 2}]";
@@ -93,7 +93,7 @@ class Checker {
       return "`until_s` must be at least `ramp_s` later than `from_s`";
     }
     if (joint.kind == Kind::kChain && std::abs(joint.axis.z()) > 1e-6) {
-      return "a chain swings level: the third number of its axis is 0";
+      return "a chain swings horizontally: the third number of its axis must be 0";
     }
     return MovesError(joint.moves);
   }
@@ -102,14 +102,14 @@ class Checker {
   void CheckPerson(const std::string& name, const char* key) {
     const auto found = std::ranges::find(scene_.people, name, &PersonSpec::name);
     if (found == scene_.people.end()) {
-      Say(one_.mark, key, fmt::format("there is nobody '{}' among the people", name));
+      Say(one_.mark, key, fmt::format("no person named '{}'", name));
     } else if (!found->capture.bvh.name.empty() || !found->capture.mesh.name.empty()) {
       Say(one_.mark, key,
-          fmt::format("'{}' has a motion or body of your own (`bvh`, `mesh`), which holds nothing; "
-                      "name somebody with a `model` and `steps`",
+          fmt::format("'{}' has its own motion or body (`bvh`, `mesh`), which cannot hold "
+                      "anything; name a person with a `model` and `steps`",
                       name));
     } else if (found->level > one_.level) {
-      Say(one_.mark, key, "its level must be that of who brings it or above");
+      Say(one_.mark, key, "its level must be that of the person who brings it, or higher");
     }
   }
 
@@ -118,7 +118,7 @@ class Checker {
       Say(one_.mark, "", "`front_by` and `rear_by` go together: two people carry it");
     }
     const int ways = !one_.pushed_by.empty() + !one_.front_by.empty() + !one_.taken.empty();
-    if (ways > 1) Say(one_.mark, "", "it is pushed, carried or taken: one of them");
+    if (ways > 1) Say(one_.mark, "", "it can only be one of pushed, carried or taken");
     for (const auto& [name, key] :
          {std::pair(one_.pushed_by, ".pushed_by"), std::pair(one_.front_by, ".front_by"),
           std::pair(one_.rear_by, ".rear_by")}) {
@@ -131,15 +131,16 @@ class Checker {
     const std::string key = fmt::format(".taken[{}]", index);
     const auto found = std::ranges::find(scene_.vehicles, taken.by, &VehicleSpec::name);
     if (found == scene_.vehicles.end()) {
-      Say(taken.mark, key + ".by", fmt::format("there is no '{}' among the vehicles", taken.by));
+      Say(taken.mark, key + ".by", fmt::format("no vehicle named '{}'", taken.by));
     } else if (found->level > one_.level) {
-      Say(taken.mark, key + ".by", "its level must be that of the vehicle that takes it or above");
+      Say(taken.mark, key + ".by",
+          "its level must be that of the vehicle that takes it, or higher");
     }
     if (taken.until_s <= taken.at_s) {
       Say(taken.mark, key, "`until_s` must be later than `at_s`");
     }
     if (index > 0 && taken.at_s < one_.taken[index - 1].until_s) {
-      Say(taken.mark, key + ".at_s", "the one before still has it");
+      Say(taken.mark, key + ".at_s", "the previous vehicle still has it");
     }
   }
 

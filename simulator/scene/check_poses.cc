@@ -16,20 +16,19 @@ Eigen::Matrix3d VehicleOnBody(const RigSpec& rig) {
   return RigPose(at_origin, rig.first_mount.value_or(rig.mount), {}, 0).linear().transpose();
 }
 
-constexpr const char* kOrder =
-    "a TUM line is 'seconds tx ty tz qx qy qz qw', qw last and not first";
+constexpr const char* kOrder = "a TUM line is 'seconds tx ty tz qx qy qz qw', with qw last";
 
 std::string LeaningInWords(TrajectoryBody body) {
   if (body == TrajectoryBody::kVehicle) {
     return fmt::format(
-        "the vehicle lies on its side or its head: {}; poses of a camera (x right, y down, z "
-        "ahead) want trajectory_of: camera",
+        "the vehicle lies on its side or upside down: {}; for poses of a camera (x right, y down, "
+        "z ahead), set trajectory_of: camera",
         kOrder);
   }
   return fmt::format(
-      "the camera looks straight up or down, or lies on its side or its head: poses of a vehicle "
-      "(x ahead, z up) want trajectory_of: vehicle; {}; if it is mounted so, camera_pitch_deg and "
-      "camera_roll_deg say it",
+      "the camera looks straight up or down, or lies on its side or upside down: for poses of a "
+      "vehicle (x ahead, z up), set trajectory_of: vehicle; {}; if it is mounted so, set "
+      "camera_pitch_deg and camera_roll_deg",
       kOrder);
 }
 
@@ -56,8 +55,8 @@ std::string PosesError(const Scene& scene) {
       count([&](const TimedPose& pose) { return (pose.T_world_body * camera).z() <= 0; });
   if (2 * below <= all) return "";
   return fmt::format(
-      "in {} of {} poses the camera is on or below the floor: coordinates are the scene's, with z "
-      "up from the floor; poses of a vehicle want trajectory_of: vehicle",
+      "in {} of {} poses the camera is on or below the floor: coordinates must be the scene's, "
+      "with z up from the floor; for poses of a vehicle, set trajectory_of: vehicle",
       below, all);
 }
 

@@ -111,9 +111,9 @@ class RouteChecker {
           (step.go.empty() ? 0 : 1) + step.wait_s.has_value() + step.turn_to_rad.has_value();
       if (kinds != 1) {
         if (!HasStep(route, static_cast<int>(i))) return;  // said where it is written
-        issues_->Add(route.marks[i].step, fmt::format("{}.steps[{}]", key, i),
-                     "a step is one of go, wait_s and turn_to_deg; example: {go: [[5, 0]], "
-                     "speed_mps: 0.9}");
+        issues_->Add(
+            route.marks[i].step, fmt::format("{}.steps[{}]", key, i),
+            "expected one of go, wait_s and turn_to_deg; example: {go: [[5, 0]], speed_mps: 0.9}");
         sound = false;
       }
     }
@@ -140,9 +140,8 @@ class RouteChecker {
       if (std::abs(state.curvature_per_m) <= tightest + kRounding) continue;
       issues_->Add(
           MarkOf(route, state), fmt::format("rig.steps[{}]", state.step),
-          fmt::format("{}it bends with a radius of {:.2g} m, this vehicle turns with {:.2g} "
-                      "m at the tightest (drive.max_steering_deg, drive.wheelbase_m); a "
-                      "larger corner_radius_m helps",
+          fmt::format("{}it bends with a radius of {:.2g} m, but this vehicle's smallest is {:.2g} "
+                      "m (drive.max_steering_deg, drive.wheelbase_m); use a larger corner_radius_m",
                       seeded_, 1 / std::abs(state.curvature_per_m), 1 / tightest));
       return;
     }
@@ -189,7 +188,7 @@ class RouteChecker {
                                    ? fmt::format("in steps[{}]", hit->state.step)
                                    : "at the start";
       issues_->Add(vehicle.mark, KeyOf(vehicle) + ".pushed_by",
-                   fmt::format("{}{} it {}, {} of {}, who is behind it", seeded_, hit->Place(),
+                   fmt::format("{}{} it {}, {} of {}, which is behind it", seeded_, hit->Place(),
                                hit->what, when, vehicle.pushed_by));
     }
   }
@@ -262,7 +261,7 @@ class RouteChecker {
       const double apart_m = Apart(one.footprint, one.at(t), other.footprint, state);
       if (apart_m >= needed_m) continue;
       issues_->Add(MarkOf(*other.route, state), other.key,
-                   fmt::format("{}at {:.2f} s it is {:.2f} m from {}, middle to middle, and they "
+                   fmt::format("{}at {:.2f} s it is {:.2f} m from {}, middle to middle, but they "
                                "need {:g} m: let one of them wait or go round",
                                seeded_, t, apart_m, one.name, needed_m));
       return;

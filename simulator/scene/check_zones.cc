@@ -108,13 +108,13 @@ void CheckZones(const Scene& scene, Issues* issues) {
         fmt::format("from {} to {} on its way its outline is in drive.zones[{}] ({})",
                     Text(visit->enters.position), Text(visit->leaves.position), i, zone.name);
     const std::string what =
-        zone.speed_mps == 0
-            ? "which is not for vehicles (speed_mps: 0): lead it round, or give the zone a speed"
-            : fmt::format(
-                  "where {0:g} m/s is the fastest, and goes {1:.3g} m/s at {2}: let steps "
-                  "end at both places and have speed_mps: {0:g} between them",
-                  zone.speed_mps, std::abs(visit->fastest.speed_mps),
-                  Text(visit->fastest.position));
+        zone.speed_mps == 0 ? "which is closed to vehicles (speed_mps: 0): route it round the "
+                              "zone, or give the zone a speed"
+                            : fmt::format(
+                                  "where {0:g} m/s is the limit, but it goes {1:.3g} m/s at {2}: "
+                                  "end a step at both places and set speed_mps: {0:g} between them",
+                                  zone.speed_mps, std::abs(visit->fastest.speed_mps),
+                                  Text(visit->fastest.position));
     issues->Add(in_step ? route.marks[static_cast<std::size_t>(step)].step : route.mark,
                 in_step ? fmt::format("rig.steps[{}]", step) : "rig.start", where + ", " + what);
   }

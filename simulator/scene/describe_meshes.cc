@@ -8,9 +8,9 @@ constexpr std::initializer_list<const char*> kLabels = {"floor", "wall",      "c
 
 void DescribeRule(Fields& f, LabelRule& rule) {
   f.Sentence(
-      {"nodes", "names of nodes; * stands for anything, ? for one character", "\"Regal*\"", true},
+      {"nodes", "pattern of node names; * matches anything, ? one character", "\"Regal*\"", true},
       &rule.nodes);
-  f.Choice({"label", "what they are", "rack"}, &rule.label, kLabels);
+  f.Choice({"label", "label of these nodes", "rack"}, &rule.label, kLabels);
 }
 
 }  // namespace
@@ -22,11 +22,11 @@ void DescribeMesh(Fields& f, const char* help, MeshSpec& mesh) {
 
 void DescribeHallMesh(Fields& f, HallSpec& hall) {
   DescribeMesh(f,
-               "one's own building instead of floor, walls and roof: .aislemesh, as aisle "
+               "your own building instead of floor, walls and roof: .aislemesh, as aisle "
                "import-mesh makes it, or .glb; its origin is the scene's",
                hall.mesh);
   f.ListOf({"labels",
-            "what the mesh's nodes are, by their names; before the table that knows floor, wall, "
+            "labels of the mesh's nodes by name, tried before the built-in table of floor, wall, "
             "rack and the like",
             "[{nodes: \"Regal*\", label: rack}]"},
            &hall.labels, DescribeRule);
@@ -35,22 +35,23 @@ void DescribeHallMesh(Fields& f, HallSpec& hall) {
 void DescribePersonFiles(Fields& f, PersonSpec& person) {
   CaptureSpec& capture = person.capture;
   f.Sentence({"bvh",
-              "a recorded motion, a BVH file, played once from start_s on: its first frame stands "
-              "at `start` and looks along heading_deg; instead of steps",
+              "recorded motion, a BVH file, played once from start_s on; its first frame stands at "
+              "`start` and faces heading_deg; instead of steps",
               "walk.bvh"},
              &capture.bvh.name);
   capture.bvh.mark = f.MarkOf("bvh");
-  DescribeMesh(f, "a skinned model of one's own instead of `model`: .glb, or import-mesh --skinned",
+  DescribeMesh(f, "your own skinned model instead of `model`: .glb, or import-mesh --skinned",
                capture.mesh);
-  f.Sentence({"clip", "of that model's animations the one it plays; absent: the only one", "Walk"},
+  f.Sentence({"clip", "animation of the mesh to play; absent: the only one", "Walk"},
              &capture.clip);
-  f.Number({"stride_m", "way that one turn of that clip walks; 0: it plays by the clock", "1.4"},
-           &capture.stride_m, {0, 20});
+  f.Number(
+      {"stride_m", "distance that one cycle of the clip walks; 0: it plays by the clock", "1.4"},
+      &capture.stride_m, {0, 20});
 }
 
 void DescribePropMesh(Fields& f, PropSpec& prop) {
-  DescribeMesh(f, "a mesh of one's own instead of `model`: .aislemesh or .glb", prop.mesh);
-  f.Choice({"label", "what such a mesh is", "furniture"}, &prop.label, kLabels);
+  DescribeMesh(f, "your own mesh instead of `model`: .aislemesh or .glb", prop.mesh);
+  f.Choice({"label", "label of the mesh", "furniture"}, &prop.label, kLabels);
 }
 
 }  // namespace aisle::sim

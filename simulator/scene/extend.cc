@@ -26,8 +26,8 @@ std::optional<fs::path> BaseOf(const YamlEntry& entry, Issues* issues) {
   const YamlValue& value = entry.value;
   if (!value.is_text() || value.text.empty()) {
     issues->Add(value.mark, kExtendKey,
-                std::string("expected a scene file, as a path from this file's folder or by "
-                            "its name among the scenes that come with the program") +
+                std::string("expected a scene file, as a path from this file's folder or by its "
+                            "name among the scenes that come with the program") +
                     kExample);
     return std::nullopt;
   }
@@ -38,8 +38,8 @@ std::optional<fs::path> BaseOf(const YamlEntry& entry, Issues* issues) {
   };
   if (std::ranges::any_of(files, same)) {
     issues->Add(value.mark, kExtendKey,
-                fmt::format("the scenes extend each other in a circle: {}, {}",
-                            fmt::join(files, ", "), base.string()));
+                fmt::format("scenes extend each other in a cycle: {}, {}", fmt::join(files, ", "),
+                            base.string()));
     return std::nullopt;
   }
   return base;
@@ -90,12 +90,11 @@ fs::path NamedSceneFile(const std::string& by, fs::path name) {
 std::optional<std::string> ReadSceneText(const fs::path& file, std::string* problem) {
   std::error_code failed;
   if (!fs::is_regular_file(file, failed)) {
-    *problem = fmt::format("{}: there is no such file", file.string());
+    *problem = fmt::format("{}: no such file", file.string());
     return std::nullopt;
   }
   if (fs::file_size(file, failed) > kMaxFileBytes) {
-    *problem =
-        fmt::format("{}: the file is larger than 1 MiB, too large for a scene", file.string());
+    *problem = fmt::format("{}: larger than 1 MiB, too large for a scene", file.string());
     return std::nullopt;
   }
   errno = 0;
@@ -105,9 +104,9 @@ std::optional<std::string> ReadSceneText(const fs::path& file, std::string* prob
   if (stream) return text.str();
   for (const int of_the_machine : {EMFILE, ENFILE, ENOMEM, EIO}) {
     if (errno != of_the_machine) continue;
-    throw std::system_error(errno, std::generic_category(), file.string() + ": cannot be read");
+    throw std::system_error(errno, std::generic_category(), file.string() + ": not readable");
   }
-  *problem = fmt::format("{}: it cannot be read", file.string());
+  *problem = fmt::format("{}: not readable", file.string());
   return std::nullopt;
 }
 

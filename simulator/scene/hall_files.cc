@@ -31,12 +31,13 @@ std::string PathOf(const NamedHall& hall) { return hall.key == kUseKey ? "hall.u
 /// A hall's file may not take its hall from another one.
 void RefuseAllElse(const YamlValue& tree, Issues* issues) {
   if (const YamlValue* use = Inner(tree, kHallKey, kUseKey)) {
-    issues->Add(use->mark, "hall.use", "a hall's file says itself what is there; leave it out");
+    issues->Add(use->mark, "hall.use",
+                "not allowed in a hall's file, which describes the hall itself");
   }
   for (const YamlEntry& entry : tree.entries) {
     if (entry.key == "about" || IsHallKey(entry.key)) continue;
     issues->Add(entry.mark, entry.key.substr(0, 80),
-                fmt::format("it is no part of a hall, whose file may hold: about, {}",
+                fmt::format("not allowed in a hall's file, which may have: about, {}",
                             fmt::join(kHallKeys, ", ")));
   }
 }
@@ -71,13 +72,15 @@ std::vector<NamedHall> HallsOf(const YamlValue& tree, Issues* issues) {
   const YamlValue* use = Inner(tree, kHallKey, kUseKey);
   const YamlValue* varied = Inner(tree, kVaryKey, kHallKey);
   if (use && varied) {
-    issues->Add(varied->mark, "vary.hall", "hall.use says already which it is; keep one of them");
+    issues->Add(varied->mark, "vary.hall",
+                "the hall is already chosen by hall.use; keep one of the two");
     return {};
   }
   const auto is_name = [](const YamlValue& item) { return item.is_text() && !item.text.empty(); };
   if (use) {
     if (is_name(*use)) return {{use->text, kUseKey, use->mark}};
-    issues->Add(use->mark, "hall.use", std::string("expected a hall's file") + kExample);
+    issues->Add(use->mark, "hall.use",
+                std::string("expected the path of a hall's file") + kExample);
     return {};
   }
   std::vector<NamedHall> halls;
@@ -86,7 +89,7 @@ std::vector<NamedHall> HallsOf(const YamlValue& tree, Issues* issues) {
   }
   if (halls.empty() || halls.size() != varied->items.size()) {
     issues->Add(varied->mark, "vary.hall",
-                "expected a list of halls' files; example: vary: {hall: [halls/new.yaml, "
+                "expected a list of paths of halls' files; example: vary: {hall: [halls/new.yaml, "
                 "halls/cold_store.yaml]}");
   }
   return halls;

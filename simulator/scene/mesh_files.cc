@@ -21,7 +21,7 @@ void Find(MeshSpec* named, const std::string& key, const Scene& scene, Files* fi
   named->file = (fs::path(from).parent_path() / named->name).lexically_normal().string();
   std::error_code failed;
   if (!fs::is_regular_file(named->file, failed)) {
-    issues->Add(named->mark, key, fmt::format("there is no such file: {}", named->file));
+    issues->Add(named->mark, key, fmt::format("no such file: {}", named->file));
     return;
   }
   if (std::ranges::find(*files, named->file) == files->end()) files->push_back(named->file);
@@ -33,20 +33,19 @@ void FindOfPerson(PersonSpec* person, Scene* scene, Issues* issues) {
   Find(&capture.bvh, key + ".bvh", *scene, &scene->motion_files, issues);
   Find(&capture.mesh, key + ".mesh", *scene, &scene->mesh_files, issues);
   if (!capture.bvh.name.empty() && !person->route.plan.steps.empty()) {
-    issues->Add(capture.bvh.mark, key, "it goes where its motion goes; leave out `steps`");
+    issues->Add(capture.bvh.mark, key, "it moves with its motion; remove `steps`");
   }
   if (!capture.bvh.name.empty() && scene->drive.there) {
-    issues->Add(
-        capture.bvh.mark, key,
-        "a closed drive must know where people walk; give them `steps` instead of a motion");
+    issues->Add(capture.bvh.mark, key,
+                "a closed drive must know where people walk; use `steps` instead of a motion");
   }
   if (!capture.bvh.name.empty() && scene->crowd.people > 0) {
     issues->Add(capture.bvh.mark, key,
-                "a crowd must know where people walk to keep clear of them; give them `steps` "
-                "instead of a motion");
+                "a crowd must know where people walk to keep clear of them; use `steps` instead of "
+                "a motion");
   }
   if (capture.mesh.name.empty() && (!capture.clip.empty() || capture.stride_m > 0)) {
-    issues->Add(person->mark, key, "`clip` and `stride_m` are of a `mesh`; name one");
+    issues->Add(person->mark, key, "`clip` and `stride_m` require a `mesh`");
   }
 }
 
@@ -58,7 +57,7 @@ void FindMeshFiles(Scene* scene, Issues* issues) {
     PropSpec& prop = scene->props[i];
     const std::string key = fmt::format("props[{}]", i);
     if (!prop.mesh.name.empty() && !prop.model.empty()) {
-      issues->Add(prop.mesh.mark, key, "it has a `model` and a `mesh`; give one of them");
+      issues->Add(prop.mesh.mark, key, "it has both a `model` and a `mesh`; keep one of them");
     }
     Find(&prop.mesh, key + ".mesh", *scene, &scene->mesh_files, issues);
   }

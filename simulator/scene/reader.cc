@@ -96,7 +96,7 @@ void YamlReader::Integer(const Key& key, int* value, Range range) {
   if (number && Within(*number, range) && *number == std::floor(*number)) {
     *value = static_cast<int>(*number);
   } else {
-    Expected(*node, key, "a whole number" + ToText(range));
+    Expected(*node, key, "an integer" + ToText(range));
   }
 }
 
@@ -178,7 +178,7 @@ void YamlReader::Integers(const Key& key, int* values, std::size_t count, Range 
   if (ReadPair(*node, read.data(), count, range) && std::ranges::all_of(read, is_whole)) {
     std::ranges::transform(read, values, [](double number) { return static_cast<int>(number); });
   } else {
-    Expected(*node, key, fmt::format("a list of {} whole numbers{}", count, ToText(range)));
+    Expected(*node, key, fmt::format("a list of {} integers{}", count, ToText(range)));
   }
 }
 
@@ -259,15 +259,13 @@ void YamlReader::ReportKeys() {
     const std::string near = NearestWord(name, known_);
     misspelt.insert(near);
     issues_->Add(place, PathOf(name.substr(0, 80)),
-                 near.empty()
-                     ? fmt::format("there is no such key; known here: {}", fmt::join(known_, ", "))
-                     : fmt::format("there is no such key; did you mean {}?", near));
+                 near.empty() ? fmt::format("unknown key; known keys: {}", fmt::join(known_, ", "))
+                              : fmt::format("unknown key; did you mean {}?", near));
   }
   for (const Key& key : missing_) {
     if (misspelt.contains(key.name)) continue;
-    issues_->Add(
-        mark(), PathOf(key.name),
-        fmt::format("it is missing ({}); example: {}: {}", key.help, key.name, key.example));
+    issues_->Add(mark(), PathOf(key.name),
+                 fmt::format("missing key ({}); example: {}: {}", key.help, key.name, key.example));
   }
 }
 

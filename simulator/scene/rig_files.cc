@@ -30,7 +30,7 @@ void ReadCalibration(const CalibrationSpec& named, const std::string& key, Camer
                      Scene* scene, Issues* issues) {
   if (named.left.empty()) {
     if (named.right.empty()) return;
-    issues->Add(named.right_mark, key + "_right", "calibration, of the left camera, is missing");
+    issues->Add(named.right_mark, key + "_right", "the left camera's calibration is missing");
     return;
   }
   std::vector<std::string> files = {Resolved(*scene, named.left_mark, named.left)};
@@ -88,10 +88,10 @@ std::string TakePose(const std::string& line, std::vector<TimedPose>* poses) {
   const Eigen::Vector3d place(n[0], n[1], n[2]);
   constexpr double kTolerance = 0.05;
   if (!place.allFinite() || !(std::abs(turn.norm() - 1) < kTolerance)) {
-    return "the quaternion is no turn, or a number is not finite";
+    return "the quaternion is not a rotation, or a number is not finite";
   }
-  if (!poses->empty() && poses->back().time_ns >= *time_ns) return "times must rise";
-  if (poses->size() >= kMostPoses) return "more poses than are read";
+  if (!poses->empty() && poses->back().time_ns >= *time_ns) return "times must increase";
+  if (poses->size() >= kMostPoses) return "too many poses";
   TimedPose pose{*time_ns, Eigen::Isometry3d::Identity()};
   pose.T_world_body.linear() = turn.normalized().toRotationMatrix();
   pose.T_world_body.translation() = place;
@@ -101,7 +101,7 @@ std::string TakePose(const std::string& line, std::vector<TimedPose>* poses) {
 
 std::string ReadPoses(const std::string& file, std::vector<TimedPose>* poses) {
   std::ifstream stream(file);
-  if (!stream) return file + ": cannot be read: no such file";
+  if (!stream) return file + ": no such file";
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
     const std::size_t first = line.find_first_not_of(" \t\r");
@@ -109,7 +109,7 @@ std::string ReadPoses(const std::string& file, std::vector<TimedPose>* poses) {
     const std::string wrong = TakePose(line, poses);
     if (!wrong.empty()) return fmt::format("{}:{}: {}", file, number, wrong);
   }
-  return poses->empty() ? file + ": holds no pose" : "";
+  return poses->empty() ? file + ": no poses" : "";
 }
 
 void ReadTrajectory(Scene* scene, Issues* issues) {
@@ -129,11 +129,10 @@ void ReadTrajectory(Scene* scene, Issues* issues) {
   const double needs_s = (scene->frames - 1) / scene->rate_hz;
   constexpr double kTolerance_s = 1e-6;
   if (needs_s > lasts_s + kTolerance_s) {
-    add(
-        fmt::format("{} lasts {:.3f} s, and {} frames at {:g} Hz need {:.3f} "
-                    "s: at most {} frames",
-                    file, lasts_s, scene->frames, scene->rate_hz, needs_s,
-                    static_cast<int>(lasts_s * scene->rate_hz + kTolerance_s) + 1));
+    add(fmt::format(
+        "{} lasts {:.3f} s, but {} frames at {:g} Hz take {:.3f} s: use at most {} frames", file,
+        lasts_s, scene->frames, scene->rate_hz, needs_s,
+        static_cast<int>(lasts_s * scene->rate_hz + kTolerance_s) + 1));
   }
   const HallSpec& hall = scene->hall;
   for (const TimedPose& pose : rig.poses) {
@@ -142,9 +141,8 @@ void ReadTrajectory(Scene* scene, Issues* issues) {
                         at.y() < hall.to.y() && at.z() > -0.5 && at.z() < hall.height_m;
     if (inside) continue;
     return add(
-        fmt::format("{} is at ({:.2f}, {:.2f}, {:.2f}) after {:.3f} s, "
-                    "outside the hall: its "
-                    "coordinates are the scene's, metres, z up",
+        fmt::format("{} is at ({:.2f}, {:.2f}, {:.2f}) after {:.3f} s, outside the hall: its "
+                    "coordinates must be the scene's, in metres with z up",
                     file, at.x(), at.y(), at.z(), static_cast<double>(pose.time_ns) * 1e-9));
   }
   if (const std::string error = PosesError(*scene); !error.empty()) {

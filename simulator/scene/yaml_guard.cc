@@ -21,19 +21,20 @@ class Guard : public YAML::EventHandler {
   bool went_too_far() const { return nodes_ > kMaxNodes || too_deep_; }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
-    if (++documents_ == 2) issues_->Add(ToMark(mark), "", "expected one YAML document, got more");
+    if (++documents_ == 2)
+      issues_->Add(ToMark(mark), "", "expected one YAML document, got several");
   }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { Node(mark, anchor); }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
-    issues_->Add(ToMark(mark), "", "aliases (*name) are not accepted; write the value out");
+    issues_->Add(ToMark(mark), "", "aliases (*name) are not allowed; write the value out");
     Node(mark, 0);
   }
   void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
                 const std::string& value) override {
     if (!open_.empty() && open_.back().is_map && open_.back().expects_key &&
         !open_.back().keys.insert(value).second) {
-      issues_->Add(ToMark(mark), value, "the key is given twice; keep one of them");
+      issues_->Add(ToMark(mark), value, "duplicate key; keep one of them");
     }
     Node(mark, anchor);
   }
@@ -62,7 +63,7 @@ class Guard : public YAML::EventHandler {
 
   void Node(const YAML::Mark& mark, YAML::anchor_t anchor) {
     if (anchor != 0) {
-      issues_->Add(ToMark(mark), "", "anchors (&name) are not accepted; write the value out");
+      issues_->Add(ToMark(mark), "", "anchors (&name) are not allowed; write the value out");
     }
     if (++nodes_ == kMaxNodes + 1) {
       issues_->Add(ToMark(mark), "", fmt::format("the file has more than {} values", kMaxNodes));
@@ -113,12 +114,10 @@ void GuardYaml(const std::string& text, int file, Issues* issues) {
   } catch (const YAML::Exception& error) {
     if (const std::optional<Mark> tab = IndentingTab(text, file)) {
       issues->Add(*tab, "",
-                  "this is not YAML: the line is indented by a tab, which YAML does not allow; "
-                  "write blanks");
+                  "not YAML: the line is indented by a tab, which YAML does not allow; use spaces");
       return;
     }
-    issues->Add({error.mark.line + 1, error.mark.column + 1, file}, "",
-                "this is not YAML: " + error.msg);
+    issues->Add({error.mark.line + 1, error.mark.column + 1, file}, "", "not YAML: " + error.msg);
   }
 }
 

@@ -46,7 +46,7 @@ def allowed(node):
         if node.get("maxItems") == node.get("minItems") and node.get("minItems"):
             return f"{node['minItems']} of: {allowed(items)}"
         return "a list of maps" if items.get("type") == "object" else f"a list of: {allowed(items)}"
-    names = {"object": "a map", "string": "a text", "integer": "a whole number", "number": "a number"}
+    names = {"object": "a map", "string": "a text", "integer": "an integer", "number": "a number"}
     return names.get(kind, "true or false" if kind == "boolean" else "") + bounds
 
 
@@ -69,7 +69,7 @@ def scene_page(source):
         "metres, angles in degrees counter-clockwise from x, times in seconds from the first frame. `aisle\n"
         "check FILE` names every mistake with its place; an editor that reads the schema line at a scene's\n"
         "top completes and checks while one types.\n\n"
-        + table(["key", "meaning", "what may stand there", "default", "example"], rows)
+        + table(["key", "meaning", "allowed values", "default", "example"], rows)
     )
 
 
@@ -119,7 +119,7 @@ def options_page(program):
             for o in options
         ]
         text += f"\n## {system['name']}\n\n{system['description']}.\n\n".replace("..", ".")
-        text += table(["option", "default", "what may stand there", "meaning"], rows)
+        text += table(["option", "default", "allowed values", "meaning"], rows)
     return text
 
 

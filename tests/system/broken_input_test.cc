@@ -63,56 +63,46 @@ TEST_F(BrokenInputTest, SuitesAndScenes) {
   const std::string example = "example: command: my_slam {dataset} {output}";
   Expect({
       {{"run", "{d}/none.yaml"}, {}, "aisle: {d}/none.yaml: no such file"},
-      {{"run", "smok"},
-       {},
-       "aisle: smok: no such file, and no scene or suite here has that name (did you mean smoke?)"},
+      {{"run", "smok"}, {}, "aisle: smok: no such file, scene or suite (did you mean smoke?)"},
       {{"render", "paper/scen2", "--out", "{d}/out"},
        {},
-       "aisle: paper/scen2: no such file, and no scene or suite here has that name (did you mean "
+       "aisle: paper/scen2: no such file, scene or suite (did you mean "
        "paper/scene2?)"},
-      {{"preview", "smok"},
-       {},
-       "aisle: smok: no such file, and no scene or suite here has that name (did you mean smoke?)"},
-      {{"gallery", "smok"},
-       {},
-       "aisle: smok: no such file, and no scene or suite here has that name (did you mean smoke?)"},
+      {{"preview", "smok"}, {}, "aisle: smok: no such file, scene or suite (did you mean smoke?)"},
+      {{"gallery", "smok"}, {}, "aisle: smok: no such file, scene or suite (did you mean smoke?)"},
       {{"vocabulary", "train", "smok", "--out", "{d}/out"},
        {},
-       "aisle: smok: no such file, and no scene or suite here has that name (did you mean smoke?)"},
-      {{"run", "{d}"}, {}, "aisle: {d}: is a folder, not a file"},
+       "aisle: smok: no such file, scene or suite (did you mean smoke?)"},
+      {{"run", "{d}"}, {}, "aisle: {d}: is a folder; expected a file"},
       {run,
        {{"s.yaml", ""}},
        "aisle: {d}/s.yaml:1:1: expected a map of scene keys; example: about: \"A person "
        "crosses.\""},
       {run,
        {{"s.yaml", kGood + "seeds: [1, two]\n"}},
-       "aisle: {d}/s.yaml:5:12: seeds: expected how many (1 to 1000), or a list of whole numbers, "
-       "got "
-       "'two' (how many, from 1 on, or a list; each changes who walks, when, how fast and along "
-       "which way); example: seeds: 3"},
+       "aisle: {d}/s.yaml:5:12: seeds: expected a number of seeds (1 to 1000), or a list of "
+       "integers, got 'two' (number of seeds, from 1 on, or a list; each seed changes who walks, "
+       "when, how fast and along which path); example: seeds: 3"},
       {run, WithSystem("{name: mine}"),
        "aisle: {d}/s.yaml:4:18: systems[0].name: it needs a 'command', or 'like' with one of our "
        "systems"},
       {run, WithSystem("{name: mine, command: slam}"),
-       "aisle: {d}/s.yaml:4:33: systems[0].command: the command must say where {output} goes; " +
-           example},
+       "aisle: {d}/s.yaml:4:33: systems[0].command: the command must contain {output}; " + example},
       {run, WithSystem("{name: oracle, command: \"x {output}\"}"),
-       "aisle: {d}/s.yaml:4:18: systems[0].name: 'oracle' is one of ours as it is: give the "
-       "variant "
+       "aisle: {d}/s.yaml:4:18: systems[0].name: 'oracle' is a built-in system; give the variant "
        "another name; example: {name: oracle_2, like: oracle, options: {feature.features: 800}}"},
       {run, WithSystem("{name: m, command: \"x {output}\", dataset: bag}"),
        "aisle: {d}/s.yaml:4:53: systems[0].dataset: expected one of euroc, kitti, got 'bag' "
-       "(layout "
-       "of the dataset that is exported for it); example: dataset: euroc"},
+       "(layout of the dataset that is exported for the command); example: dataset: euroc"},
       {run, WithSystem("{name: m, command: \"x {output}\", timeout_s: 0}"),
        "aisle: {d}/s.yaml:4:55: systems[0].timeout_s: expected a number of 0.001 or more, got '0' "
-       "(seconds until the command is ended); example: timeout_s: 600"},
+       "(seconds after which the command is stopped); example: timeout_s: 600"},
       {run, WithSystem("{name: m, contract: ros, command: x}"),
        "aisle: {d}/s.yaml:4:31: systems[0].contract: expected one of vslam-lab, vslam-lab-python, "
-       "stream, got 'ros' "
-       "(vslam-lab: the system was wrapped for VSLAM-LAB, unchanged; vslam-lab-python: and takes "
-       "its arguments as --key value; stream: it is shown frames on its stdin and answers each on "
-       "its stdout, so that it can steer); example: contract: vslam-lab"},
+       "stream, got 'ros' (how the command is called; vslam-lab: as a system wrapped for "
+       "VSLAM-LAB, unchanged; vslam-lab-python: the same, with arguments as --key value; stream: "
+       "it receives frames on its stdin and answers each on its stdout, so that it can steer); "
+       "example: contract: vslam-lab"},
       {run, WithSystem("{name: n, like: paper, mask_errors: {boundary_px: 1}}"),
        "aisle: {d}/s.yaml:4:18: systems[0].name: 'mask_errors' are for a system like oracle or "
        "semantic, which are told their masks"},
@@ -121,13 +111,12 @@ TEST_F(BrokenInputTest, SuitesAndScenes) {
        "orbslam2; only base plain looks at it"},
       {run, WithSystem("{name: n, like: oracle, mask_errors: {miss_share: 2}}"),
        "aisle: {d}/s.yaml:4:61: systems[0].mask_errors.miss_share: expected a number from 0 to 1, "
-       "got "
-       "'2' (share of the others that is missed, each for a while); example: miss_share: 0.05"},
+       "got '2' (share of the other objects that is missed, each for a while); example: "
+       "miss_share: 0.05"},
       {run,
        {{"s.yaml", kGood + "limits: [{score: ate_rmse_m, system: paper, max: 1}]\n"}},
-       "aisle: {d}/s.yaml:5:38: limits[0].system: expected one of oracle, got 'paper' (only of "
-       "this "
-       "system); example: system: oracle"},
+       "aisle: {d}/s.yaml:5:38: limits[0].system: expected one of oracle, got 'paper' (only for "
+       "this system); example: system: oracle"},
       {{"run", "{d}/s.yaml", "--systems", "best"},
        {{"s.yaml", kGood}},
        "aisle: --systems: 'best' is not known: expected one of orbslam2, plain, semantic, paper, "
@@ -138,24 +127,24 @@ TEST_F(BrokenInputTest, SuitesAndScenes) {
        "none, low, mid, high"},
       {{"run", "{d}/s.yaml", "--shard", "3/2"},
        {{"s.yaml", kGood}},
-       "aisle: --shard: '3/2' is no part: expected I/N with 1 <= I <= N, for example 2/3"},
+       "aisle: --shard: expected I/N with 1 <= I <= N, for example 2/3, got '3/2'"},
       {{"check", "{d}/s.yaml"},
        {{"s.yaml", "suite: &a [*a]\n"}},
-       "{d}/s.yaml:1:8: anchors (&name) are not allowed: write the value out"},
+       "{d}/s.yaml:1:8: anchors (&name) are not allowed; write the value out"},
       {{"preview", "{d}/none.yaml", "-o", "{d}/x.png"}, {}, "aisle: {d}/none.yaml: no such file"},
       {{"bench", "light", "--foreign", "{d}/box.json"},
        {{"box.json", "{\"camera\": {\"type\": \"fisheye\"}, \"film\": {}}"}},
        "aisle: {d}/box.json: camera.type: 'fisheye' is not read, only 'perspective'"},
       {{"bench", "light", "--foreign", "{d}/box.json", "--reference", "{d}/box.png"},
        {{"box.json", "{}"}, {"box.png", ""}},
-       "aisle: {d}/box.png: is read as .pfm or .exr only"},
+       "aisle: {d}/box.png: expected a .pfm or .exr file"},
       {{"bench", "dynamic", "paper/scene2:9-3"},
        {},
        "aisle: paper/scene2:9-3: expected SOURCE:FROM-TO, for example paper/scene2:90-130"},
       {{"bench", "accuracy", "paper/scene2", "paper/scene22"},
        {},
-       "aisle: paper/scene22: neither a scene (a file, or a name like paper/scene2) nor the folder "
-       "of a recording"},
+       "aisle: paper/scene22: not found: expected a scene (a file, or a name like paper/scene2) or "
+       "a recording's folder"},
       {{"bench", "accuracy", "paper/scene2:90-95", "--starts", "9"},
        {},
        "aisle: paper/scene2:90-95: its last start would be frame 98, and it ends before frame 95: "
@@ -168,10 +157,10 @@ TEST_F(BrokenInputTest, ReportsPartsAndRuns) {
       {{"report", "{d}"}, {}, "aisle: {d}/results.json: no such file"},
       {{"report", "{d}"},
        {{"results.json", "{\"schema\": 99}"}},
-       "aisle: {d}/results.json: is no results file: schema is not 1"},
+       "aisle: {d}/results.json: not a results file: schema is not 1"},
       {{"merge", "{d}/o", "{d}"},
        {{"plan.json", "[]"}},
-       "aisle: {d}/plan.json: is no plan: [json.exception.type_error.304] cannot use at() with "
+       "aisle: {d}/plan.json: not a plan: [json.exception.type_error.304] cannot use at() with "
        "array"},
       {{"rerun", "a/b/c/1", "--in", "{d}/gone"}, {}, "aisle: {d}/gone/plan.json: no such file"},
       {{"compare", "{d}/a.json", "{d}/b.json"},
@@ -185,15 +174,15 @@ TEST_F(BrokenInputTest, TrajectoriesMasksAndRecordings) {
   Expect({
       {{"score", "--truth", "{d}/t.txt"},
        {{"t.txt", kPoses}},
-       "aisle: give --truth and --estimate, or --masks-truth and --masks"},
+       "aisle: expected --truth and --estimate, or --masks-truth and --masks"},
       {score, {{"t.txt", kPoses}}, "aisle: {d}/e.txt: no such file"},
-      {score, WithEstimate(""), "aisle: {d}/e.txt: holds no poses"},
+      {score, WithEstimate(""), "aisle: {d}/e.txt: no poses in this file"},
       {score, WithEstimate("0 0 0 0 0 0 0 1\n1 nan 0 0 0 0 0 1\n"),
        "aisle: {d}/e.txt:2: field 2 is nan: poses must be finite"},
       {score, WithEstimate("0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 0\n"),
        "aisle: {d}/e.txt:2: the quaternion has norm 0, not 1: check the order of the columns"},
       {score, WithEstimate("1 0 0 0 0 0 0 1\n0 1 0 0 0 0 0 1\n"),
-       "aisle: {d}/e.txt:2: stamp 0 is earlier than the line before (1): sort the file"},
+       "aisle: {d}/e.txt:2: stamp 0 is earlier than on the previous line (1): sort the file"},
       {{"score", "--truth", "{d}/t.txt", "--estimate", "{d}/e.txt", "--format", "tum"},
        WithEstimate("0 0 0 0\n"),
        "aisle: {d}/e.txt:1: 4 fields; a TUM line has 8: timestamp tx ty tz qx qy qz qw"},
@@ -201,18 +190,20 @@ TEST_F(BrokenInputTest, TrajectoriesMasksAndRecordings) {
        WithEstimate(kPoses),
        "aisle: delta = 1.5: frames are whole"},
       {score, WithEstimate("0 1e300 0 0 0 0 0 1\n"),
-       "aisle: {d}/e.txt:1: field 2 is 1e300: positions are metres, at most 1e+08 from the origin"},
+       "aisle: {d}/e.txt:1: field 2 is 1e300: positions must be in metres and within 1e+08 of the "
+       "origin"},
       {{"score", "--masks-truth", "{d}/none", "--masks", "{d}/none"},
        {},
-       "aisle: {d}/none: holds no PNG images"},
+       "aisle: {d}/none: no PNG images in this folder"},
       {{"slam", "{d}", "-o", "{d}/o.txt"},
        {},
-       "aisle: {d}: is no dataset: EuRoC's holds cam0 and cam1 (sensor.yaml, data.csv, data), here "
-       "or in mav0, KITTI's calib.txt, times.txt, image_0 and image_1, ROS 2's bag metadata.yaml; "
-       "this folder holds short.yaml"},
+       "aisle: {d}: not a dataset: EuRoC's has cam0 and cam1 (sensor.yaml, data.csv, data), here "
+       "or in mav0, KITTI's has calib.txt, times.txt, image_0 and image_1, a ROS 2 bag has "
+       "metadata.yaml; this folder has short.yaml"},
       {{"slam", "{d}", "-o", "{d}/o.txt", "--system", "oracle"},
        {},
-       "aisle: system 'oracle' needs truth about what moves: a recording has none"},
+       "aisle: system 'oracle' needs the truth about moving objects, which a recording does not "
+       "have"},
       {{"slam", "{d}", "-o", "{d}/o.txt", "--system", "best"},
        {},
        "aisle: system 'best' is not known: expected one of orbslam2, plain, semantic, paper, "
@@ -240,10 +231,10 @@ TEST_F(BrokenInputTest, NumbersThatAreNoneOrTooLarge) {
   EXPECT_EQ(Run(far, 30).code, 0);
   const Said file = Run({"run", scene_, "--out", poses}, 30);
   EXPECT_EQ(file.code, 4);
-  EXPECT_THAT(file.text, testing::HasSubstr("t.txt: is a file: a report needs a folder"));
+  EXPECT_THAT(file.text, testing::HasSubstr("t.txt: is a file; expected a folder for the report"));
   const Said below = Run({"run", scene_, "--out", poses + "/night"}, 30);
   EXPECT_EQ(below.code, 4);
-  EXPECT_THAT(below.text, testing::HasSubstr("t.txt/night: is, or lies below, a file"));
+  EXPECT_THAT(below.text, testing::HasSubstr("t.txt/night: is a file or lies below one"));
 }
 
 /// Before the scene is looked at, whose light takes half a minute: it is broken, too.
@@ -260,11 +251,12 @@ TEST_F(BrokenInputTest, FramesToRenderAreReadFirst) {
       Run({"render", scene_, "--out", (folder_ / "out").string(), "--frames", "99:"});
   EXPECT_EQ(beyond.code, 4);
   EXPECT_THAT(beyond.text,
-              testing::HasSubstr("--frames: nothing from frame 99 on; there are 0 to 11"));
+              testing::HasSubstr("--frames: no frames from 99 on; the scene has 0 to 11"));
   const Said longer =
       Run({"render", scene_, "--out", (folder_ / "out").string(), "--frames", "5:300"});
   EXPECT_EQ(longer.code, 4);
-  EXPECT_THAT(longer.text, testing::HasSubstr("the scene ends before frame 300; it has 12: 5:12"));
+  EXPECT_THAT(longer.text,
+              testing::HasSubstr("the scene ends before frame 300; it has 12 frames: use 5:12"));
 }
 
 TEST_F(BrokenInputTest, HostileNamesDoNoHarm) {

@@ -197,7 +197,7 @@ class Exported(unittest.TestCase):
         (out / "sequences/00/image_1/000002.png").unlink()
         code, said = run("slam", out, "--format", "kitti", "-o", track)
         self.assertEqual(code, 0, said)
-        self.assertIn("1 of 6 left images have no right one", said)
+        self.assertIn("skipped 1 of 6 left images", said)
         self.assertIn("5 frames", said)
 
     def test_stopped_it_goes_on_and_grows_at_its_end_alone(self):
@@ -207,15 +207,15 @@ class Exported(unittest.TestCase):
             data = Dataset(out)
             data.left[1].unlink()
             code, said = self.again(format, out, "1:3")
-            self.assertIn("2 frames, 1 of them made now", said)
+            self.assertIn("2 frames, 1 of them rendered now", said)
             after = {path: path.read_bytes() for path in out.rglob("*") if path.is_file()}
             self.assertEqual(before, after)
             for other in ("0:3", "2:4", "1:2"):
                 code, said = self.again(format, out, other)
                 self.assertEqual(code, 4, said)
-                self.assertIn("the folder was begun with frames 1:3", said)
+                self.assertIn("the folder was started with frames 1:3", said)
             code, said = self.again(format, out, "1:5")
-            self.assertIn("4 frames, 2 of them made now", said)
+            self.assertIn("4 frames, 2 of them rendered now", said)
             self.assert_is_part_of_the_whole(self.read(out), 1, 5)
 
     def again(self, format, out, frames):

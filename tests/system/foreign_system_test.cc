@@ -166,7 +166,7 @@ TEST_F(ForeignSystemTest, ThatFailedIsTriedOnceMoreByANightThatGoesOn) {
 
   const Said said = Run(resume);
   EXPECT_EQ(said.code, 1) << said.text;
-  EXPECT_THAT(said.text, HasSubstr("3 of 3 runs are already there"));
+  EXPECT_THAT(said.text, HasSubstr("3 of 3 runs are already done"));
   EXPECT_THAT(said.text, HasSubstr("3 failed; once more"));
   const Results results = ResultsOf(Out("stopped"));
   for (const RunRecord& record : results.runs) {
@@ -292,11 +292,11 @@ TEST_F(ForeignSystemTest, LeavesWhatNobodyShouldOpen) {
   EXPECT_EQ(said.code, 1) << said.text;
   const Results results = ResultsOf(Out("left"));
   const std::pair<const char*, const char*> expected[] = {
-      {"pipe", "is no regular file"},
-      {"device", "is a link that leads out of its folder"},
+      {"pipe", "not a regular file"},
+      {"device", "is a link out of its folder"},
       {"sparse", ""},  // stopped while it was made
-      {"large", "is larger than the allowed"},
-      {"folder", "is no regular file"},
+      {"large", "larger than the allowed"},
+      {"folder", "not a regular file"},
       {"still", "is the first column the time?"},
       {"shell", "signal 11, SIGSEGV"}};
   for (const auto& [system, why] : expected) {
@@ -318,11 +318,11 @@ TEST_F(ForeignSystemTest, IsRunAnewWhenItsScriptHasChanged) {
                              script, model));
   const std::vector<std::string> resume{"run", suite, "--out", Out("resumed"), "--resume"};
   ASSERT_EQ(Run(resume).code, 0);
-  EXPECT_THAT(Run(resume).text, HasSubstr("1 of 1 runs are already there"));
+  EXPECT_THAT(Run(resume).text, HasSubstr("1 of 1 runs are already done"));
   WriteFileAtomically(script, "cp " + known + " $1 # another way\n");
-  EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already there")));
+  EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already done")));
   WriteFileAtomically(model, "other weights");
-  EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already there")));
+  EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already done")));
 }
 
 TEST_F(ForeignSystemTest, IsRunAnewWhereNobodyCanTellWhatItIs) {
@@ -338,17 +338,17 @@ TEST_F(ForeignSystemTest, IsRunAnewWhereNobodyCanTellWhatItIs) {
   // By a shell alone.
   const std::string asked = fmt::format("\\\"$(echo '{}')\\\" {{output}}", script);
   EXPECT_THAT(resume(asked), HasSubstr("--resume makes the runs of mine anew"));
-  EXPECT_THAT(resume(asked), testing::Not(HasSubstr("already there")));
+  EXPECT_THAT(resume(asked), testing::Not(HasSubstr("already done")));
   const std::string depends = fmt::format(", depends_on: ['{}']", script);
   EXPECT_THAT(resume(asked, depends), testing::Not(HasSubstr("--resume makes the runs")));
-  EXPECT_THAT(resume(asked, depends), HasSubstr("1 of 1 runs are already there"));
+  EXPECT_THAT(resume(asked, depends), HasSubstr("1 of 1 runs are already done"));
   // A path that must be quoted is no riddle.
   const std::string quoted = fmt::format("'{}' {{output}}", script);
   EXPECT_THAT(resume(quoted), testing::Not(HasSubstr("--resume makes the runs")));
-  EXPECT_THAT(resume(quoted), HasSubstr("1 of 1 runs are already there"));
+  EXPECT_THAT(resume(quoted), HasSubstr("1 of 1 runs are already done"));
   WriteFileAtomically(script, "#!/bin/sh\ncp " + known + " $1 # another way\n");
   fs::permissions(script, fs::perms::owner_all);
-  EXPECT_THAT(resume(quoted), testing::Not(HasSubstr("already there")));
+  EXPECT_THAT(resume(quoted), testing::Not(HasSubstr("already done")));
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ TEST_F(PartsTest, WhatAnEarlierNightLeftIsNoRunOfTonights) {
   const Said half = Run({"merge", Out("whole"), Out("a"), Out("b")});
   EXPECT_EQ(half.code, 1) << half.text;
   EXPECT_THAT(half.text, HasSubstr("short/live/plain/2: completes: no result"));
-  EXPECT_THAT(half.text, HasSubstr(RunFolder("a", 2) + ": is an earlier night's"));
+  EXPECT_THAT(half.text, HasSubstr(RunFolder("a", 2) + ": left over from an earlier run"));
   EXPECT_FALSE(fs::exists(RunFolder("whole", 2)));
 
   fs::rename(Out("made"), Out("b") + "/runs");
@@ -55,7 +55,7 @@ TEST_F(PartsTest, WhatAnEarlierNightLeftIsNoRunOfTonights) {
   WriteFileAtomically(result, text);
   const Said stale = Run({"merge", Out("whole"), Out("a"), Out("b")});
   EXPECT_EQ(stale.code, 1) << stale.text;
-  EXPECT_THAT(stale.text, HasSubstr(RunFolder("b", 2) + ": is an earlier night's"));
+  EXPECT_THAT(stale.text, HasSubstr(RunFolder("b", 2) + ": left over from an earlier run"));
   // Joined in a part's own folder, that part's leftovers answer no more than elsewhere.
   EXPECT_EQ(Run({"merge", Out("a"), Out("a"), Out("b")}).code, 1);
   EXPECT_EQ(ResultsOf(Out("a")).runs.size(), 1u);
@@ -100,7 +100,7 @@ TEST_F(PartsTest, AMergeLeavesAFolderAloneInWhichSomebodyIsAtWork) {
     const Said said = Run({"merge", Out("whole"), Out("a")});
     EXPECT_EQ(said.code, 4) << said.text;
     EXPECT_THAT(said.text, HasSubstr(Out(busy)));
-    EXPECT_THAT(said.text, HasSubstr("at work there"));
+    EXPECT_THAT(said.text, HasSubstr("in use by"));
     EXPECT_EQ(ReadFile(Out("whole") + "/results.json"), before);
   }
   EXPECT_EQ(Run({"merge", Out("whole"), Out("a")}).code, 0);
@@ -111,7 +111,7 @@ TEST_F(PartsTest, ANightStandsOnceAmongTheTrendsHoweverOftenItIsToldOf) {
   const std::string suite = Suite("once", "  - {name: mine, like: plain}\n", "seeds: 2\n");
   const std::vector<std::string> resume{"run", suite, "--out", Out("a"), "--resume"};
   ASSERT_EQ(Run(resume).code, 0);
-  EXPECT_THAT(Run(resume).text, HasSubstr("2 of 2 runs are already there"));
+  EXPECT_THAT(Run(resume).text, HasSubstr("2 of 2 runs are already done"));
   const std::set<std::string> first = Nights("once");
   EXPECT_EQ(first.size(), 1u);
   EXPECT_TRUE(first.contains(ResultsOf(Out("a")).started));
@@ -120,7 +120,7 @@ TEST_F(PartsTest, ANightStandsOnceAmongTheTrendsHoweverOftenItIsToldOf) {
   EXPECT_EQ(Nights("once"), first);
   // The same command on another system is a night of its own.
   Suite("once", "  - {name: mine, like: oracle}\n", "seeds: 2\n");
-  EXPECT_THAT(Run(resume).text, Not(HasSubstr("already there")));
+  EXPECT_THAT(Run(resume).text, Not(HasSubstr("already done")));
   EXPECT_EQ(Nights("once").size(), 2u);
 }
 

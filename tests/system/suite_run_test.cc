@@ -86,16 +86,16 @@ TEST_F(SuiteRunTest, ResumeTrustsContentsNotNames) {
   const std::string suite = Suite("trust", "  - plain\n");
   const std::vector<std::string> resume{"run", suite, "--out", Out("a"), "--resume"};
   ASSERT_EQ(Run({"run", suite, "--out", Out("a")}).code, 0);
-  EXPECT_THAT(Run(resume).text, HasSubstr("1 of 1 runs are already there"));
+  EXPECT_THAT(Run(resume).text, HasSubstr("1 of 1 runs are already done"));
 
   const fs::path run = fs::path(Out("a")) / "runs/short/live/plain/1";
   const std::string whole = ReadFile(run / "final.txt");
   WriteFileAtomically(run / "final.txt", whole.substr(0, whole.size() / 2));
-  EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already there")));
+  EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already done")));
   EXPECT_EQ(ReadFile(run / "final.txt"), whole);
 
   WriteFileAtomically(run / "result.json", "{\"scene\": 3");
-  EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already there")));
+  EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already done")));
 
   // The same name, another scene.
   const std::string other = (folder_ / "elsewhere/scenes/short.yaml").string();
@@ -105,7 +105,7 @@ TEST_F(SuiteRunTest, ResumeTrustsContentsNotNames) {
   std::string moved = ReadFile(suite);
   moved.replace(moved.find(scene_), scene_.size(), other);
   WriteFileAtomically(suite, moved);
-  EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already there")));
+  EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("already done")));
   EXPECT_NE(ReadFile(run / "final.txt"), whole);
 }
 
@@ -118,10 +118,10 @@ TEST_F(SuiteRunTest, ADryRunOfANightThatGoesOnTellsWhatIsLeftAndTakesNothing) {
   ASSERT_EQ(Run({"run", suite, "--out", Out("a")}).code, 0);
   const std::string result = ReadFile(fs::path(Out("a")) / "runs/short/live/plain/1/result.json");
   const std::string whole = ahead("1");
-  EXPECT_THAT(whole, HasSubstr("1 of 1 runs are already there"));
+  EXPECT_THAT(whole, HasSubstr("1 of 1 runs are already done"));
   EXPECT_THAT(whole, testing::Not(HasSubstr("stereo pairs")));
   const std::string rest = ahead("3");
-  EXPECT_THAT(rest, HasSubstr("1 of 3 runs are already there"));
+  EXPECT_THAT(rest, HasSubstr("1 of 3 runs are already done"));
   EXPECT_THAT(rest, HasSubstr("2 runs: 1 scene, 1 twin, 1 system, 2 seeds; "));
   // What it would make anew lies there until it does.
   WriteFileAtomically(fs::path(Out("a")) / "runs/short/live/plain/1/final.txt", "spoilt");
@@ -134,9 +134,9 @@ TEST_F(SuiteRunTest, AHistoryThatCannotBeWrittenIsSaidInTheEveningAndCostsNoRepo
   WriteFileAtomically(folder_ / "history.sqlite", std::string(5000, 'x'));
   const Said said = Run({"run", suite, "--out", Out("a")});
   EXPECT_EQ(said.code, 3) << said.text;
-  const std::size_t warned = said.text.find("warning: the trends will lack this night");
+  const std::size_t warned = said.text.find("warning: the trends will not include this run");
   EXPECT_LT(warned, said.text.find("[1/1]")) << said.text;
-  EXPECT_THAT(said.text, HasSubstr("the trends are without this night"));
+  EXPECT_THAT(said.text, HasSubstr("the trends will not include this run"));
   EXPECT_TRUE(fs::exists(fs::path(Out("a")) / "index.html"));
   EXPECT_EQ(ResultsOf(Out("a")).runs.size(), 1u);
 }
@@ -147,7 +147,7 @@ TEST_F(SuiteRunTest, ABaselineThatIsNoneIsSaidBeforeTheNight) {
     WriteFileAtomically(baseline, text);
     const Said said = Run({"run", suite, "--out", Out("a"), "--gate", "--baseline", baseline});
     EXPECT_EQ(said.code, 4) << said.text;
-    EXPECT_THAT(said.text, HasSubstr("baseline.json: is no results file"));
+    EXPECT_THAT(said.text, HasSubstr("baseline.json: not a results file"));
     EXPECT_FALSE(fs::exists(Out("a")));
   }
 }
@@ -193,7 +193,7 @@ TEST_F(SuiteRunTest, TwoScenesThatWouldShareTheirNameAreRefused) {
                       "systems: [plain]\nseeds: 1\n");
   const Said said = Run({"run", (folder_ / "s.yaml").string(), "--out", Out("a")});
   EXPECT_EQ(said.code, 4) << said.text;
-  EXPECT_THAT(said.text, HasSubstr("y/mini.yaml would both be called 'mini'"));
+  EXPECT_THAT(said.text, HasSubstr("y/mini.yaml would both be named 'mini'"));
   EXPECT_FALSE(fs::exists(Out("a")));
 }
 
@@ -203,7 +203,7 @@ TEST_F(SuiteRunTest, TwoNightsDoNotShareAFolder) {
   ASSERT_TRUE(other);
   const Said said = Run({"run", suite, "--out", Out("a")});
   EXPECT_EQ(said.code, 4) << said.text;
-  EXPECT_THAT(said.text, HasSubstr("another `aisle run` is at work there"));
+  EXPECT_THAT(said.text, HasSubstr("in use by another `aisle run`"));
 }
 
 TEST_F(SuiteRunTest, ThreeNightsAtOnceShareACache) {
@@ -422,7 +422,7 @@ TEST_F(SuiteRunTest, OneDriveAnswersForEqualRuns) {
   // What was lost of it is not driven again either.
   fs::remove_all(fs::path(Out("both")) / "runs/other/empty/plain/1");
   const Said resumed = Run({"run", suite, "--no-retry", "--out", Out("both"), "--resume"});
-  EXPECT_THAT(resumed.text, HasSubstr("12 of 12 runs are already there"));
+  EXPECT_THAT(resumed.text, HasSubstr("12 of 12 runs are already done"));
   EXPECT_EQ(Bits(Out("both")), bits);
 }
 
@@ -431,10 +431,10 @@ TEST_F(SuiteRunTest, OneRunIsRepeatedToTheLastBit) {
   ASSERT_EQ(Run({"run", suite, "--out", Out("a"), "--threads", "2"}).code, 0);
   const Said said = Run({"rerun", "short/live/robust/1", "--in", Out("a"), "--threads", "1"});
   EXPECT_EQ(said.code, 0) << said.text;
-  EXPECT_THAT(said.text, HasSubstr("the same to the last bit"));
+  EXPECT_THAT(said.text, HasSubstr("identical to the last bit"));
   const Said unknown = Run({"rerun", "short/live/best/1", "--in", Out("a")});
   EXPECT_EQ(unknown.code, 4);
-  EXPECT_THAT(unknown.text, HasSubstr("holds no run 'short/live/best/1'; it holds\n"));
+  EXPECT_THAT(unknown.text, HasSubstr("no run 'short/live/best/1'; it has\n"));
 }
 
 }  // namespace

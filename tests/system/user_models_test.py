@@ -201,7 +201,7 @@ props: [{{mesh: cupboard.aislemesh, label: column, at: [8, 0]}}]
         (self.folder / "cupboard.aislemesh.json").unlink()
         self.assertIn("licence", aisle("check", scene, code=4))
         kept.unlink()
-        self.assertIn("there is no such file", aisle("check", scene, code=4))
+        self.assertIn("no such file", aisle("check", scene, code=4))
 
     def test_formats_that_may_be_silent_are_imported_first(self):
         self.write("cupboard.obj", obj(box(*CUPBOARD)))

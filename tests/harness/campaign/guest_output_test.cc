@@ -56,7 +56,7 @@ TEST_F(GuestOutputTest, WhatLeadsElsewhereIsNotFollowed) {
   WriteFileAtomically(folder_ / "secret.png", "no image");
   const std::vector<std::string> troubles = Take();
   ASSERT_THAT(troubles, SizeIs(1));  // /etc holds no mask of these names
-  EXPECT_THAT(troubles[0], HasSubstr("leads out of its folder"));
+  EXPECT_THAT(troubles[0], HasSubstr("link out of its folder"));
   EXPECT_FALSE(fs::exists(to_ / "features.csv"));
 }
 

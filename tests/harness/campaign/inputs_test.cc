@@ -99,7 +99,7 @@ TEST_F(InputsTest, TwoScenesOfOneNameAreRefused) {
   WriteFileAtomically(elsewhere / "y/hall.yaml", "about: y\n");
   EXPECT_THAT(Complaint({.files = {(elsewhere / "x/hall.yaml").string(),
                                    (elsewhere / "y/hall.yaml").string()}}),
-              HasSubstr("two suites mean different things by the scene 'hall'"));
+              HasSubstr("two suites define different scene 'hall'"));
 }
 
 TEST_F(InputsTest, ASystemNamedTwiceOrMisspeltIsRefused) {

@@ -74,11 +74,11 @@ TEST_F(EarlyChecksTest, ScenesThatComeLaterAreLookedAtFirst) {
 
 TEST_F(EarlyChecksTest, WhereAResultGoesIsAskedFirst) {
   ExpectRefused({"vocabulary", "train", "smoke/bits", "--out", folder_.string()},
-                "is a folder: name a file in it");
+                "is a folder; expected a file");
   for (const char* bench : {"accuracy", "dynamic", "render", "sensitivity", "slam"}) {
     std::string said;
     EXPECT_EQ(Exit({"bench", bench, "smoke/bits", "--json", folder_.string()}, &said), kBadInput);
-    EXPECT_THAT(said, HasSubstr("is a folder: name a file in it")) << bench;
+    EXPECT_THAT(said, HasSubstr("is a folder; expected a file")) << bench;
     EXPECT_THAT(said, Not(HasSubstr("smoke/bits"))) << bench << " has measured nothing";
   }
 }
@@ -112,7 +112,7 @@ TEST_F(EarlyChecksTest, HowToSteerIsNotAskedOfWhoLooksOn) {
       {"bench", "slam", "smoke/bits"}};
   for (std::vector<std::string> words : commands) {
     words.insert(words.end(), {"--set", "drive.latency_ms=50"});
-    ExpectRefused(words, "drive.latency_ms: nobody steers here");
+    ExpectRefused(words, "drive.latency_ms: this command does not steer");
   }
 }
 
@@ -120,7 +120,7 @@ TEST_F(EarlyChecksTest, ALimitWithoutANumberIsNone) {
   for (const char* limit : {"ate_rmse_m<=nan", "ate_rmse_m<=inf", "ate_rmse_m<=", "ate_rmse_m"}) {
     ExpectRefused({"bisect", "a", "b", (folder_ / "suite.yaml").string(), "--scene", "short",
                    "--limit", limit},
-                  fmt::format("--limit: '{}' is no limit", limit));
+                  fmt::format("'ate_rmse_m<=0.03', got '{}'", limit));
   }
 }
 

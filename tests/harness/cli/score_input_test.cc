@@ -106,7 +106,7 @@ TEST_F(ScoreInputTest, NoEstimateIsReadWithItsRotationTurnedRound) {
       RC_ASSERT(LargestTurnDeg(read.poses, estimate) < 1e-6);
       RC_ASSERT(!read.note.empty());
     } catch (const InputError& error) {
-      RC_ASSERT(std::string(error.what()).find("moves alike in both") != std::string::npos);
+      RC_ASSERT(std::string(error.what()).find("both fit the truth") != std::string::npos);
     }
   }));
 }

@@ -63,7 +63,7 @@ TEST_F(Folders, PixelScoresAreThoseOfACountByHand) {
   }
   testing::internal::CaptureStderr();
   const Scorecard scores = Score();
-  EXPECT_NE(testing::internal::GetCapturedStderr().find("1 of 12 true masks have no mask"),
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("1 of 12 true masks have no counterpart"),
             std::string::npos)
       << "what is missing is counted, and said";
   EXPECT_NEAR(*scores.at("mask_precision").value, hit / (hit + wrong), 1e-12);
@@ -92,7 +92,7 @@ TEST_F(Folders, WhatCannotBePairedIsRefused) {
   Write("truth", 0, Blobs(&random));
   EXPECT_THROW(Score(), InputError) << "no masks at all";
   Write("mine", 0, cv::Mat1b(30, 40, std::uint8_t{0}));
-  EXPECT_THROW(Score(), InputError) << "another size";
+  EXPECT_THROW(Score(), InputError) << "its size differs";
   Write("mine", 0, cv::Mat1b(60, 80, std::uint8_t{0}));
   EXPECT_NO_THROW(Score());
   Write("mine", 1, cv::Mat1b(60, 80, std::uint8_t{0}));

@@ -236,7 +236,7 @@ TEST_F(DatasetTest, AFolderMayGrowAtItsEndAndNowhereElse) {
         begin(first, last);
         FAIL() << first << ":" << last;
       } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("aisle.json: the folder was begun with frames 1:4"));
+        EXPECT_THAT(error.what(), HasSubstr("aisle.json: the folder was started with frames 1:4"));
       }
     }
     begin(1, 5);
@@ -434,7 +434,7 @@ TEST_F(DatasetTest, MistakesAreNamed) {
     ReadRecording(folder_, DatasetFormat::kEuroc);
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("data.csv:2: '../../etc/passwd' is no plain file name"));
+    EXPECT_THAT(error.what(), HasSubstr("data.csv:2: '../../etc/passwd' is not a plain file name"));
   }
 }
 
@@ -458,7 +458,8 @@ TEST_F(DatasetTest, EurocsImagesOfOneInstantAreAMillisecondApartAtMost) {
   const StereoRecording recording = ReadRecording(folder_, DatasetFormat::kEuroc);
   EXPECT_EQ(recording.pairs.size(), 4u);
   EXPECT_EQ(recording.pairs.front().stamp_ns, 1'600'000'000'050'000'000);
-  EXPECT_THAT(recording.notes, testing::ElementsAre(HasSubstr("1 of 5 left images have no right")));
+  EXPECT_THAT(recording.notes,
+              testing::ElementsAre(HasSubstr("skipped 1 of 5 left images, which have no right")));
 }
 
 TEST_F(DatasetTest, AnImageThatIsListedIsThere) {
@@ -467,7 +468,7 @@ TEST_F(DatasetTest, AnImageThatIsListedIsThere) {
        {"mav0/cam1/data/1600000000100000000.png", "mav0/cam0/data/1600000000150000000.png"}) {
     fs::remove(folder_ / image);
     EXPECT_THAT(Complaint(folder_, DatasetFormat::kEuroc),
-                HasSubstr("data.csv: 1 of the 5 images that it lists are not in its folder"));
+                HasSubstr("data.csv: 1 of the 5 images that it lists are missing from its folder"));
     Export(DatasetFormat::kEuroc);
   }
 }
@@ -481,11 +482,13 @@ TEST_F(DatasetTest, ADriveWithoutHalfOfItsRightImagesIsNone) {
   StereoRecording recording = ReadRecording(folder_, DatasetFormat::kKitti);
   EXPECT_EQ(recording.pairs.size(), 3u);
   EXPECT_EQ(recording.pairs.back().stamp_ns, 200'000'000);
-  EXPECT_THAT(recording.notes, testing::ElementsAre(HasSubstr("2 of 5 left images have no right")));
+  EXPECT_THAT(recording.notes,
+              testing::ElementsAre(HasSubstr("skipped 2 of 5 left images, which have no right")));
   fs::remove(folder_ / "sequences/00/image_0/000001.png");
   recording = ReadRecording(folder_, DatasetFormat::kKitti);
-  EXPECT_THAT(recording.notes, testing::ElementsAre(HasSubstr("1 of 4 left images have no right"),
-                                                    HasSubstr("1 of 5 frames have a time but no")));
+  EXPECT_THAT(recording.notes,
+              testing::ElementsAre(HasSubstr("skipped 1 of 4 left images, which have no right"),
+                                   HasSubstr("1 of 5 frames have a time but no")));
   for (const char* more : {"000000.png", "000002.png"}) {
     fs::remove(folder_ / "sequences/00/image_1" / more);
   }
@@ -516,7 +519,7 @@ TEST_F(DatasetTest, APoseOfACameraIsARigidOne) {
                           "2,0,0,0, 0,2,0,0, 0,0,2,0, 0,0,0,1",       // scaled
                           "1,0,0,0, 0,1,0,0, 0,0,-1,0, 0,0,0,1",      // a mirror
                           "1,0,0,0, 0,1,0,0, 0,0,1,0, 0.1,0,0,1"}) {  // column by column
-    EXPECT_THAT(with(bad), HasSubstr("T_BS is no pose")) << bad;
+    EXPECT_THAT(with(bad), HasSubstr("T_BS is not a pose")) << bad;
   }
 }
 
@@ -541,7 +544,7 @@ TEST_F(DatasetTest, RosLensesHaveAFifthCoefficient) {
   EXPECT_EQ(ReadRecording(folder_, DatasetFormat::kEuroc).cameras.right.distortion,
             (std::vector<double>{-0.3, 0.1, 0.01, 0.02, 0.03}));
   restate("equidistant", "[-0.3, 0.1, 0.01, 0.02, 0.03]");
-  EXPECT_THAT(Complaint(folder_, DatasetFormat::kEuroc), HasSubstr("must hold 4 numbers"));
+  EXPECT_THAT(Complaint(folder_, DatasetFormat::kEuroc), HasSubstr("must have 4 numbers"));
 }
 
 TEST_F(DatasetTest, AnotherLayoutIsToldByItsFiles) {
@@ -551,7 +554,7 @@ TEST_F(DatasetTest, AnotherLayoutIsToldByItsFiles) {
   }
   Export(DatasetFormat::kEuroc);
   for (const fs::path& folder : {folder_, folder_ / "mav0"}) {
-    EXPECT_THAT(Complaint(folder, DatasetFormat::kKitti), HasSubstr("its format is euroc"));
+    EXPECT_THAT(Complaint(folder, DatasetFormat::kKitti), HasSubstr("use format euroc"));
   }
 }
 

@@ -112,13 +112,13 @@ TEST_F(IoTest, BadLinesAreNamedWithTheirPlace) {
   EXPECT_THAT(Complaint("1 0 0 x 0 0 0 1\n", tum), HasSubstr("field 4 is 'x', not a number"));
   EXPECT_THAT(Complaint("1 0 0 0 0 0 0 0\n", tum), HasSubstr("quaternion has norm 0"));
   EXPECT_THAT(Complaint("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n", tum),
-              HasSubstr("t.txt:2: stamp 1 is earlier than the line before (2)"));
+              HasSubstr("t.txt:2: stamp 1 is earlier than on the previous line (2)"));
   EXPECT_THAT(Complaint("soon 0 0 0 0 0 0 1\n", tum), HasSubstr("'soon' is not a time"));
-  EXPECT_THAT(Complaint("# only comments\n", tum), HasSubstr("holds no poses"));
+  EXPECT_THAT(Complaint("# only comments\n", tum), HasSubstr("no poses in this file"));
   EXPECT_THAT(Complaint("1.5,0,0,0,1,0,0,0\n", TrajectoryFormat::kEuroc),
-              HasSubstr("not a stamp in whole nanoseconds"));
+              HasSubstr("expected a timestamp in integer nanoseconds"));
   EXPECT_THAT(Complaint("2 0 0 0 0 2 0 0 0 0 2 0\n", TrajectoryFormat::kKitti),
-              HasSubstr("is no rotation"));
+              HasSubstr("is not a rotation"));
   EXPECT_THROW(ReadTrajectory(folder_ / "absent.txt", tum), InputError);
   EXPECT_THROW(ReadTrajectory(folder_, tum), InputError);
 }
@@ -132,7 +132,7 @@ TEST_F(IoTest, KittiRowsMayBeginWithTheNumberOfTheirFrame) {
   EXPECT_EQ(read[1].stamp_ns, 7 * kKittiStepNs);
   EXPECT_EQ(read[1].T_world_rig.translation(), Eigen::Vector3d(2, 0, 0));
   EXPECT_THAT(Complaint("x 1 0 0 1 0 1 0 0 0 0 1 0\n", TrajectoryFormat::kKitti),
-              HasSubstr("t.txt:1: 'x' before the 12 numbers of the pose is no frame's number"));
+              HasSubstr("t.txt:1: 'x' before the 12 numbers of the pose is not a frame number"));
   EXPECT_THROW(ReadTrajectory(file, TrajectoryFormat::kKitti, times), InputError);
   // As many columns with a stamp before them are EuRoC's.
   EXPECT_EQ(GuessTrajectoryFormat(Write("e.txt", "1403636580838555648 0 0 0 1 0 0 0 0 0 0 0 0\n")),
@@ -141,16 +141,16 @@ TEST_F(IoTest, KittiRowsMayBeginWithTheNumberOfTheirFrame) {
 
 TEST_F(IoTest, PositionsBeyondTheEarthAreNoMetres) {
   EXPECT_THAT(Complaint("0 0 1e300 0 0 0 0 1\n", TrajectoryFormat::kTum),
-              HasSubstr("t.txt:1: field 3 is 1e300: positions are metres"));
+              HasSubstr("t.txt:1: field 3 is 1e300: positions must be in metres"));
   EXPECT_THAT(Complaint("1 0 0 1e9 0 1 0 0 0 0 1 0\n", TrajectoryFormat::kKitti),
-              HasSubstr("t.txt:1: field 4 is 1e9: positions are metres"));
+              HasSubstr("t.txt:1: field 4 is 1e9: positions must be in metres"));
 }
 
 TEST_F(IoTest, ATimeThatStandsStillIsNone) {
   std::string rows;
   for (int i = 0; i < 30'000; ++i) rows += "5 0 0 0 0 0 0 1\n";
   EXPECT_THAT(Complaint(rows, TrajectoryFormat::kTum),
-              HasSubstr("t.txt:1001: stamp 5 is that of the 1000 rows before too"));
+              HasSubstr("t.txt:1001: stamp 5 is the same as in the previous 1000 rows"));
 }
 
 TEST_F(IoTest, RowsOfAnyOrderAreSortedWhereThatIsAsked) {
@@ -197,7 +197,7 @@ TEST_F(IoTest, WhereQwStandsIsToldByTheTitlesOrNotAtAll) {
     GuessTrajectoryFormat(Write("t.txt", row));
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("qw may be the first of its four numbers"));
+    EXPECT_THAT(error.what(), HasSubstr("qw may be the first number of the quaternion"));
   }
 }
 
@@ -230,7 +230,7 @@ TEST_F(IoTest, TitlesDecideWhateverTheStampsAre) {
       GuessTrajectoryFormat(Write("t.txt", first + rows(a, b, kQwFirst)));
       ADD_FAILURE() << a;
     } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("its titles say qw first"));
+      EXPECT_THAT(error.what(), HasSubstr("its titles put qw first"));
     }
   }
 }
@@ -253,7 +253,7 @@ TEST_F(IoTest, WholeStepsOfElevenDaysAreNanoseconds) {
 
 TEST_F(IoTest, TitlesOfColumnsAreToldFromPoses) {
   EXPECT_THAT(Complaint("t,x,y,z,qx,qy,qz,qw\n1,0,0,0,0,0,0,1\n", TrajectoryFormat::kTum),
-              HasSubstr("titles of columns begin with '#'"));
+              HasSubstr("column titles must begin with '#'"));
 }
 
 TEST_F(IoTest, TheBenchmarksLayoutHasTimesOfItsPoses) {

@@ -144,7 +144,7 @@ TEST_F(HistoryTest, WhatKeepsANightFromItIsKnownBefore) {
   }
   EXPECT_NE(HistoryTrouble(file_).find("not a database"), std::string::npos)
       << HistoryTrouble(file_);
-  EXPECT_EQ(HistoryTrouble(file_ / "a/history.sqlite"), file_.string() + ": is no folder");
+  EXPECT_EQ(HistoryTrouble(file_ / "a/history.sqlite"), file_.string() + ": not a folder");
 }
 
 TEST_F(HistoryTest, NamesAreValuesAndNeverStatements) {

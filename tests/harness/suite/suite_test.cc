@@ -92,7 +92,7 @@ TEST_F(SuiteTest, DefaultsAreTheLiveTwinAndNineSeeds) {
 TEST_F(SuiteTest, ASuiteWithoutItsNameIsToldAsASuite) {
   const std::string complaint = Complaint("scenes: paper/one\nsystems: oracle\n");
   EXPECT_TRUE(IsSuiteFile((root_ / "suites/s.yaml").string()));
-  EXPECT_THAT(complaint, HasSubstr("suite: it is missing"));
+  EXPECT_THAT(complaint, HasSubstr("suite: missing key"));
   EXPECT_THAT(complaint, Not(HasSubstr("hall")));
 }
 
@@ -143,61 +143,62 @@ TEST_F(SuiteTest, EveryCellIsPlannedAndFramesAreSharedByNeighbours) {
 TEST_F(SuiteTest, MistakesAreNamedWithPlaceAndRemedy) {
   const std::string good = kGood;
   const std::pair<std::string, std::string> cases[] = {
-      {"suite: a\nquestion: b\nscenes: [paper/one]\n", "s.yaml:1:1: systems: it is missing"},
-      {good + "colour: red\n", "s.yaml:5:1: colour: there is no such key; known here: suite"},
-      {good + "seds: 3\n", "s.yaml:5:1: seds: there is no such key; did you mean seeds?"},
+      {"suite: a\nquestion: b\nscenes: [paper/one]\n", "s.yaml:1:1: systems: missing key"},
+      {good + "colour: red\n", "s.yaml:5:1: colour: unknown key; known keys: suite"},
+      {good + "seds: 3\n", "s.yaml:5:1: seds: unknown key; did you mean seeds?"},
       {good + "suite: again\n",
-       "s.yaml:5:1: key 'suite' appears twice (first in line 1): remove one"},
-      {good + "---\nlimits: [{nonsense: 1}]\n", "s.yaml:5:1: expected one YAML document, got more"},
+       "s.yaml:5:1: duplicate key 'suite' (first in line 1); keep one of them"},
+      {good + "---\nlimits: [{nonsense: 1}]\n",
+       "s.yaml:5:1: expected one YAML document, got several"},
       {"suite: a\nscenes: [paper/one]\nsystems: [orbslam]\n",
        "s.yaml:3:11: systems[0].name: expected one of orbslam2, oracle (did you mean orbslam2?), "
        "got 'orbslam'"},
       {good + "twins: [dead]\n", "s.yaml:5:9: twins: 'dead': expected one of live, empty"},
-      {good + "twins: [live, live]\n", "s.yaml:5:15: twins: 'live' is given twice"},
+      {good + "twins: [live, live]\n", "s.yaml:5:15: twins: duplicate 'live'"},
       {good + "seeds: many\n",
-       "s.yaml:5:8: seeds: expected how many (1 to 1000), or a list of whole numbers, got 'many'"},
-      {good + "seeds: 0\n", "s.yaml:5:8: seeds: expected how many (1 to 1000)"},
-      {good + "seeds: -1\n", "s.yaml:5:8: seeds: expected how many (1 to 1000)"},
-      {good + "seeds: [1, 2, 1]\n", "s.yaml:5:15: seeds: 1 is given twice"},
+       "s.yaml:5:8: seeds: expected a number of seeds (1 to 1000), or a list of integers, got "
+       "'many'"},
+      {good + "seeds: 0\n", "s.yaml:5:8: seeds: expected a number of seeds (1 to 1000)"},
+      {good + "seeds: -1\n", "s.yaml:5:8: seeds: expected a number of seeds (1 to 1000)"},
+      {good + "seeds: [1, 2, 1]\n", "s.yaml:5:15: seeds: duplicate 1"},
       {"suite: ../x\nscenes: [paper/one]\nsystems: [oracle]\n",
-       "s.yaml:1:8: suite: expected a name of letters, digits, '_', '.' and '-', 1 to 80 of them, "
+       "s.yaml:1:8: suite: expected a name of 1 to 80 letters, digits, '_', '.' and '-', "
        "got '../x'"},
-      {good + "limits: [{system: oracle, max: 1}]\n",
-       "s.yaml:5:10: limits[0].score: it is missing"},
+      {good + "limits: [{system: oracle, max: 1}]\n", "s.yaml:5:10: limits[0].score: missing key"},
       {good + "limits: [{score: ate_rmse, max: 1}]\n",
        "s.yaml:5:18: limits[0].score: there is no score 'ate_rmse'"},
       {good + "limits: [{score: ate_rmse_m}]\n", "a limit needs 'min', 'max' or both"},
       {good + "limits: [{score: coverage, min: 99}]\n",
        "s.yaml:5:33: limits[0].min: expected a number from 0 to 1, got '99'"},
-      {good + "limits: [{score: ate_rmse_m, min: 2, max: 1}]\n", "it is above 'max'"},
+      {good + "limits: [{score: ate_rmse_m, min: 2, max: 1}]\n", "it is greater than 'max'"},
       {good + "limits: [{score: ate_rmse_m, max: tiny}]\n",
        "s.yaml:5:35: limits[0].max: expected a number, got 'tiny'"},
       {good + "limits: [{score: ate_rmse_m, max: 1, share: 1.5}]\n",
        "s.yaml:5:45: limits[0].share: expected a number from 0 to 1, got '1.5'"},
       {good + "limits: [{score: ate_rmse_m, max: 1, share: 0}]\n",
-       "s.yaml:5:45: limits[0].share: it must be above 0"},
+       "s.yaml:5:45: limits[0].share: must be greater than 0"},
       {good + "limits: [{score: dynamic_penalty, max: 1}]\n",
-       "s.yaml:5:18: limits[0].score: dynamic_penalty needs the twin 'empty'"},
+       "s.yaml:5:18: limits[0].score: dynamic_penalty requires the twin 'empty'"},
       {good + "limits: [{score: ate_rmse_m, twin: dead, max: 1}]\n",
        "s.yaml:5:36: limits[0].twin: expected one of live, empty"},
       {good + "limits: [{score: ate_rmse_m, twin: empty, max: 1}]\n",
        "s.yaml:5:36: limits[0].twin: 'empty' is not among this suite's twins: live"},
       {"suite: &a x\nquestion: *a\n",
-       "s.yaml:1:8: anchors (&name) are not allowed: write the value out"},
+       "s.yaml:1:8: anchors (&name) are not allowed; write the value out"},
       {"just a text\n", "s.yaml:1:1: expected 'key: value' lines"},
-      {"suite: a\nseeds:\n\t- 3\n", "s.yaml:3:1: is no YAML: lines are indented by a tab"},
-      {"suite: [a\n", "s.yaml:2:1: is no YAML: end of sequence flow not found"},
+      {"suite: a\nseeds:\n\t- 3\n", "s.yaml:3:1: not YAML: lines are indented by a tab"},
+      {"suite: [a\n", "s.yaml:2:1: not YAML: end of sequence flow not found"},
       {std::string(40, '[') + std::string(40, ']'), "s.yaml:1:33: nested deeper than 32 levels"},
       {"suite: a\nquestion: [b]\nscenes: [paper/one]\nsystems: [oracle]\n",
        "s.yaml:2:11: question: expected a text, got a list of 1"},
       {"suite: a\nscenes: []\nsystems: [oracle]\n",
-       "s.yaml:2:9: scenes: expected a list with an entry at least"},
+       "s.yaml:2:9: scenes: expected a list with at least one entry"},
       {"suite: a\nscenes: [paper/none]\nsystems: [oracle]\n",
-       "s.yaml:2:10: scenes: 'paper/none': there is no such scene in"},
+       "s.yaml:2:10: scenes: 'paper/none': no such scene in"},
       {"suite: a\nscenes: [paper/one, ../paper/one.yaml]\nsystems: [oracle]\n",
-       "would both be called 'paper/one'"},
+       "would both be named 'paper/one'"},
       {"suite: a\nscenes: [paper/dock_1, \"paper/dock 1\"]\nsystems: [oracle]\n",
-       "paper/dock 1.yaml would share the run folder 'paper.dock_1': rename one"},
+       "paper/dock 1.yaml would share the run folder 'paper.dock_1'; rename one"},
   };
   for (const char* file : {"paper/dock_1.yaml", "paper/dock 1.yaml"}) {
     WriteFileAtomically(root_ / file, "scene: dock\n");
@@ -242,19 +243,20 @@ TEST_F(SuiteTest, BracesThatAreTheShellsOwnStay) {
 
 TEST_F(SuiteTest, PartsOfASystemMustFitTogether) {
   const std::pair<const char*, const char*> cases[] = {
-      {"{name: oracle, options: {feature.features: 800}}", "'oracle' is one of ours as it is"},
+      {"{name: oracle, options: {feature.features: 800}}", "'oracle' is a built-in system"},
       {"{name: x}", "it needs a 'command', or 'like' with one of our systems"},
       {"{name: x, like: oracle, command: 'slam {output}'}", "not both"},
       {"{name: x, like: orbslam2, mask_errors: {boundary_px: 3}}", "told their masks"},
       {"{name: x, like: oracle, mask_errors: {boundary_px: 300}}", "from 0 to 100"},
-      {"{name: x, command: slam}", "the command must say where {output} goes"},
-      {"{name: x, command: slam, contract: vslam-lab, dataset: kitti}", "leave both out"},
+      {"{name: x, command: slam}", "the command must contain {output}"},
+      {"{name: x, command: slam, contract: vslam-lab, dataset: kitti}", "remove both"},
       {"{name: x, command: 'slam {output}', timeout_s: 0}", "timeout_s"},
-      {"{name: x, command: 'slam {datset} {output}'}", "for {datset} (did you mean dataset?)"},
-      {"{name: x, command: 'slam {frames} {output}'}", "nothing is filled in for {frames}"},
+      {"{name: x, command: 'slam {datset} {output}'}",
+       "placeholder {datset} (did you mean dataset?)"},
+      {"{name: x, command: 'slam {frames} {output}'}", "unknown placeholder {frames}"},
       {"{name: x, command: 'slam {dataset}', contract: stream}",
-       "for {dataset}; there are {output}"},
-      {"{name: x, command: '{source}/slam {output}'}", "say where that is; example: repository"},
+       "placeholder {dataset}; known: {output}"},
+      {"{name: x, command: '{source}/slam {output}'}", "which is not given; example: repository"},
       {"{name: x, like: oracle, options: {feature.featurs: 8}}",
        "4:39: systems[0].options: there is no option 'feature.featurs'"},
       {"{name: x, like: oracle, options: {feature.features: -1}}", "expected 1 to 10000"},
@@ -270,13 +272,14 @@ TEST_F(SuiteTest, ALatencyThatWouldHaveNoEffectIsRefused) {
   const std::string swept = "latencies_ms: [0, 50]\n";
   const std::pair<std::string, const char*> cases[] = {
       {"  - {name: x, like: oracle, options: {drive.latency_profile_ms: \"5,9\"}}\n" + swept,
-       "s.yaml:5:15: latencies_ms: 'x' has drive.latency_profile_ms of its own"},
+       "s.yaml:5:15: latencies_ms: 'x' has its own drive.latency_profile_ms"},
       {"  - {name: x, command: slam, contract: stream, options: {drive.latency_ms: 9}}\n" + swept,
-       "s.yaml:5:15: latencies_ms: 'x' has drive.latency_ms of its own"},
+       "s.yaml:5:15: latencies_ms: 'x' has its own drive.latency_ms"},
       {"  - {name: x, like: oracle, options: {drive.latency_ms: 0, "
        "drive.latency_profile_ms: \"5,9\"}}\n",
-       "s.yaml:4:38: systems[0].options: it has drive.latency_ms and drive.latency_profile_ms"},
-      {"  - oracle\nlatencies_ms: [50, 50.0]\n", "s.yaml:5:20: latencies_ms: 50 is given twice"},
+       "s.yaml:4:38: systems[0].options: it has both drive.latency_ms and "
+       "drive.latency_profile_ms"},
+      {"  - oracle\nlatencies_ms: [50, 50.0]\n", "s.yaml:5:20: latencies_ms: duplicate 50"},
   };
   for (const auto& [text, expected] : cases) {
     EXPECT_THAT(Complaint(head + text), HasSubstr(expected)) << text;

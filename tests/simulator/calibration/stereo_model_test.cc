@@ -353,7 +353,7 @@ TEST_F(StereoModelTest, WhereTheEyesPinholesDifferItIsTheLeftOnes) {
 TEST_F(StereoModelTest, WhatIsNoneIsNamedWithWhatIsRead) {
   EXPECT_THAT(WhyNot({Put("other.yaml", "a: 1\n")}), HasSubstr("camchain"));
   EXPECT_THAT(WhyNot({(folder_ / "none.yaml").string()}), HasSubstr("no such file"));
-  EXPECT_THAT(WhyNot({Put("bad.yaml", "a: [1\n")}), HasSubstr("is no YAML"));
+  EXPECT_THAT(WhyNot({Put("bad.yaml", "a: [1\n")}), HasSubstr("not YAML"));
   EXPECT_THAT(WhyNot({Put("omni.yaml", "cam0: {camera_model: omni}\ncam1: {}\n")}),
               HasSubstr("pinhole is read"));
   EXPECT_THAT(WhyNot({Put("short.yaml", "cam0: {camera_model: pinhole, intrinsics: [1, 2]}\n")}),

@@ -42,12 +42,12 @@ TEST(Doors, OpenWithinTheirWall) {
   for (const std::string wall : {"east", "west"}) {
     EXPECT_THAT(MessagesOfDoor("width_m: 2, wall: " + wall + ", at_m: 3.2"),
                 ElementsAre(HasSubstr("s.yaml:6:9: doors[0].at_m: its opening goes from y 2.2 to "
-                                      "4.2 m, its wall from -2 to 4")));
+                                      "4.2 m, but its wall goes from -2 to 4")));
   }
   for (const std::string wall : {"north", "south"}) {
     EXPECT_THAT(MessagesOfDoor("width_m: 2, wall: " + wall + ", at_m: 3.2"), IsEmpty());
     EXPECT_THAT(MessagesOfDoor("width_m: 2, wall: " + wall + ", at_m: -3.2"),
-                ElementsAre(HasSubstr("from x -4.2 to -2.2 m, its wall from -4 to 6")));
+                ElementsAre(HasSubstr("from x -4.2 to -2.2 m, but its wall goes from -4 to 6")));
   }
   EXPECT_THAT(MessagesOfDoor("at_m: 500"), ElementsAre(HasSubstr("doors[0].at_m")));
 }
@@ -55,8 +55,8 @@ TEST(Doors, OpenWithinTheirWall) {
 TEST(Doors, AreNoHigherThanTheHall) {
   EXPECT_THAT(MessagesOfDoor("height_m: 3.5"), IsEmpty());
   EXPECT_THAT(MessagesOfDoor("height_m: 3.6"),
-              ElementsAre(HasSubstr("doors[0].height_m: its opening of 3.6 m goes through the roof "
-                                    "at 3.5 m")));
+              ElementsAre(HasSubstr(
+                  "doors[0].height_m: its opening of 3.6 m extends above the roof at 3.5 m")));
 }
 
 TEST(Props, StandBelowTheRoof) {
@@ -86,7 +86,7 @@ TEST(Pushed, StopBeforeTheWall) {
   EXPECT_THAT(MessagesOf(PushedTo(6 - Reach() + 0.01, 2)),
               ElementsAre(AllOf(HasSubstr("s.yaml:9:5: vehicles[0].pushed_by: at [5.7"),
                                 HasSubstr("it runs into a wall or leaves the hall"),
-                                HasSubstr("in steps[0] of anna, who is behind it"))));
+                                HasSubstr("in steps[0] of anna, which is behind it"))));
 }
 
 TEST(Pushed, StopBeforeRacksAndDoNotBeginInThem) {
@@ -110,7 +110,7 @@ TEST(Towed, AreToldOfWhatTheirTractorsStepsDo) {
   };
   EXPECT_THAT(MessagesOf(train("{go: [[4, 2]]}")), IsEmpty());
   EXPECT_THAT(MessagesOf(train("{go: [[4, 2]], wait_s: 2}")),
-              ElementsAre(HasSubstr("vehicles[0].steps[0]: a step is one of")));
+              ElementsAre(HasSubstr("vehicles[0].steps[0]: expected one of go")));
   EXPECT_THAT(MessagesOf("stacks: [{at: [3, 2]}]\n" + train("{go: [[4, 2]]}")),
               ElementsAre(HasSubstr("vehicles[0].steps[0]: at"), HasSubstr("vehicles[1]: at")));
 }
@@ -137,15 +137,15 @@ TEST_F(Recorded, PushAndCarryNothing) {
   EXPECT_THAT(Messages(""), IsEmpty());
   EXPECT_THAT(
       Messages("vehicles: [{name: jack, model: pallet_jack, start: [1.5, 0], pushed_by: rita}]\n"),
-      ElementsAre(HasSubstr("vehicles[0].pushed_by: 'rita' goes where the motion of `bvh` goes")));
+      ElementsAre(HasSubstr("vehicles[0].pushed_by: 'rita' moves with the motion of `bvh`")));
   const auto holding = [](const std::string& keys) {
     return "  - {name: anna, start: [1.5, 2]}\nmechanisms: [{name: cart, " + keys +
            ", parts: [{size_m: [1, 1, 1]}]}]\n";
   };
   EXPECT_THAT(Messages(holding("pushed_by: anna")), IsEmpty());
   EXPECT_THAT(Messages(holding("pushed_by: rita")),
-              ElementsAre(HasSubstr("mechanisms[0].pushed_by: 'rita' has a motion or body of your "
-                                    "own (`bvh`, `mesh`), which holds nothing")));
+              ElementsAre(HasSubstr("mechanisms[0].pushed_by: 'rita' has its own motion or body "
+                                    "(`bvh`, `mesh`), which cannot hold anything")));
   EXPECT_THAT(Messages(holding("front_by: rita, rear_by: anna")),
               ElementsAre(HasSubstr("mechanisms[0].front_by: 'rita'")));
 }

@@ -28,11 +28,12 @@ std::vector<std::string> MessagesOf(const std::string& steps, const std::string&
 
 TEST(CheckZones, AStepThatIsFasterThanItsZoneIsNamedAndWhere) {
   const std::string slow = "from: [3, -1], to: [5, 1], speed_mps: 0.3";
-  EXPECT_THAT(MessagesOf("{go: [[8, 0]], speed_mps: 0.8}", slow),
-              ElementsAre(testing::AllOf(HasSubstr("s.yaml:2:"), HasSubstr("rig.steps[0]"),
-                                         HasSubstr("from [2."), HasSubstr(" to [5.3"),
-                                         HasSubstr("drive.zones[0] (gate), where 0.3 m/s is the "
-                                                   "fastest, and goes 0.8 m/s"))));
+  EXPECT_THAT(
+      MessagesOf("{go: [[8, 0]], speed_mps: 0.8}", slow),
+      ElementsAre(testing::AllOf(
+          HasSubstr("s.yaml:2:"), HasSubstr("rig.steps[0]"), HasSubstr("from [2."),
+          HasSubstr(" to [5.3"),
+          HasSubstr("drive.zones[0] (gate), where 0.3 m/s is the limit, but it goes 0.8 m/s"))));
   EXPECT_THAT(MessagesOf("{go: [[8, 0]], speed_mps: 0.3}", slow), IsEmpty());
   const std::string as_advised =
       "{go: [[2.29, 0]], speed_mps: 0.8}, {go: [[5.31, 0]], speed_mps: 0.3}, "
@@ -47,14 +48,14 @@ TEST(CheckZones, AStepThatIsFasterThanItsZoneIsNamedAndWhere) {
 TEST(CheckZones, AZoneThatIsNotForVehiclesIsLeftAlone) {
   const std::string go = "{go: [[6, 0]], speed_mps: 0.8}";
   EXPECT_THAT(MessagesOf(go, "from: [3, 0.25], to: [5, 1]"),
-              ElementsAre(HasSubstr("which is not for vehicles")));
+              ElementsAre(HasSubstr("which is closed to vehicles")));
   EXPECT_THAT(MessagesOf(go, "from: [5, 1], to: [3, 0.35]"), IsEmpty()) << "beside its way";
   EXPECT_THAT(MessagesOf(go, "from: [6.8, -1], to: [7, 1]"), IsEmpty()) << "beyond its nose";
   EXPECT_THAT(MessagesOf(go + ", {turn_to_deg: 90}", "from: [5.5, 0.65], to: [6.5, 1]"),
               ElementsAre(HasSubstr("rig.steps[1]")))
       << "its nose as it turns";
   EXPECT_THAT(MessagesOf(go, "from: [3.1, -0.05], to: [3.12, -0.03]"),
-              ElementsAre(HasSubstr("which is not for vehicles")))
+              ElementsAre(HasSubstr("which is closed to vehicles")))
       << "smaller than the vehicle";
 }
 

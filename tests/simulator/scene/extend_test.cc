@@ -96,8 +96,8 @@ TEST_F(ExtendTest, FindsTheProgramsScenesByNameAndWhatLiesBesideBeforeThem) {
 TEST_F(ExtendTest, MistakesAreReportedWhereTheyStand) {
   Write("bad.yaml", std::string(kBase) + "framess: 3\n");
   EXPECT_THAT(CheckScene(Write("s.yaml", "extend: bad\nframes: many\n")),
-              ElementsAre(StartsWith(PathOf("s.yaml") + ":2:9: frames: expected a whole number"),
-                          StartsWith(PathOf("bad.yaml") + ":18:1: framess: there is no such key")));
+              ElementsAre(StartsWith(PathOf("s.yaml") + ":2:9: frames: expected an integer"),
+                          StartsWith(PathOf("bad.yaml") + ":18:1: framess: unknown key")));
   // The walk is the base's, the hall that it leaves is this file's.
   const auto left = CheckScene(Write("t.yaml", "extend: base\nhall: {to: [20, 1]}\n"));
   ASSERT_FALSE(left.empty());
@@ -120,17 +120,17 @@ TEST_F(ExtendTest, BrokenYamlOfTheBaseIsNamedThere) {
 TEST_F(ExtendTest, CirclesAreRefused) {
   Write("b.yaml", "about: b\nextend: a\n");
   EXPECT_THAT(CheckScene(Write("a.yaml", "extend: b\n")),
-              ElementsAre(PathOf("b.yaml") + ":2:9: extend: the scenes extend each other in a " +
-                          "circle: " + PathOf("a.yaml") + ", " + PathOf("b.yaml") + ", " +
+              ElementsAre(PathOf("b.yaml") + ":2:9: extend: scenes extend each other in a " +
+                          "cycle: " + PathOf("a.yaml") + ", " + PathOf("b.yaml") + ", " +
                           PathOf("a.yaml")));
   EXPECT_THAT(CheckScene(Write("self.yaml", "extend: narrow/../self\n")),
-              ElementsAre(HasSubstr("in a circle")));
+              ElementsAre(HasSubstr("in a cycle")));
 }
 
 TEST_F(ExtendTest, AFileThatIsNotThereIsSaidAtTheKey) {
   EXPECT_THAT(CheckScene(Write("s.yaml", "about: x\nextend: nothing\n")),
               ElementsAre(StartsWith(PathOf("s.yaml") + ":2:9: extend: " + PathOf("nothing.yaml") +
-                                     ": there is no such file; example: extend: ")));
+                                     ": no such file; example: extend: ")));
   for (const char* text : {"extend:\n", "extend: [a]\n", "extend: ''\n"}) {
     EXPECT_THAT(CheckScene(Write("s.yaml", text)),
                 ElementsAre(HasSubstr("extend: expected a scene file")))
@@ -141,8 +141,7 @@ TEST_F(ExtendTest, AFileThatIsNotThereIsSaidAtTheKey) {
 TEST_F(ExtendTest, WhatIsMissingInAllOfThemIsMissing) {
   Write("part.yaml", "frames: 9\n");
   const auto messages = CheckScene(Write("s.yaml", "extend: part\nabout: x\n"));
-  EXPECT_THAT(messages,
-              testing::Contains(StartsWith(PathOf("s.yaml") + ":1:1: rig: it is missing")));
+  EXPECT_THAT(messages, testing::Contains(StartsWith(PathOf("s.yaml") + ":1:1: rig: missing key")));
 }
 
 TEST(YamlTree, KnowsTextsFromNumbersByTheirQuotes) {

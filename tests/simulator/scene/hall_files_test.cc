@@ -96,23 +96,24 @@ TEST_F(HallFilesTest, TakeThePlaceOfAllThatAnExtendedSceneSaysOfItsOwn) {
 TEST_F(HallFilesTest, MistakesAreReportedWhereTheyStand) {
   EXPECT_THAT(CheckScene(Drive("hall: {use: halls/none}\n")),
               ElementsAre(StartsWith(PathOf("s.yaml") + ":3:13: hall.use: " +
-                                     PathOf("halls/none.yaml") + ": there is no such file")));
+                                     PathOf("halls/none.yaml") + ": no such file")));
   EXPECT_THAT(CheckScene(Drive("hall: {use: [a]}\n")),
-              ElementsAre(HasSubstr(":3:13: hall.use: expected a hall's file")));
+              ElementsAre(HasSubstr(":3:13: hall.use: expected the path of a hall's file")));
   Write("halls/bad.yaml", std::string(kNarrow) + "people: []\nracksx: []\n");
   EXPECT_THAT(CheckScene(Drive("hall: {use: halls/bad}\n")),
-              ElementsAre(StartsWith(PathOf("halls/bad.yaml") + ":8:1: people: it is no part of"),
-                          StartsWith(PathOf("halls/bad.yaml") + ":9:1: racksx: it is no part of")));
+              ElementsAre(StartsWith(PathOf("halls/bad.yaml") + ":8:1: people: not allowed in"),
+                          StartsWith(PathOf("halls/bad.yaml") + ":9:1: racksx: not allowed in")));
   Write("halls/bad.yaml", "hall: {use: wide}\n");
-  EXPECT_THAT(CheckScene(Drive("hall: {use: halls/bad}\n")),
-              ElementsAre(HasSubstr("halls/bad.yaml:1:13: hall.use: a hall's file says itself")));
+  EXPECT_THAT(
+      CheckScene(Drive("hall: {use: halls/bad}\n")),
+      ElementsAre(HasSubstr("halls/bad.yaml:1:13: hall.use: not allowed in a hall's file")));
   Write("halls/bad.yaml", "hall: {height_m: low}\nlights: [{rows: 1}]\n");
   EXPECT_THAT(CheckScene(Drive("hall: {use: halls/bad}\n")),
               ElementsAre(StartsWith(PathOf("halls/bad.yaml") + ":1:18: hall.height_m: expected")));
   EXPECT_THAT(CheckScene(Drive("hall: {use: halls/wide}\nvary: {hall: [halls/wide]}\n")),
-              ElementsAre(HasSubstr(":4:14: vary.hall: hall.use says already")));
+              ElementsAre(HasSubstr(":4:14: vary.hall: the hall is already chosen")));
   EXPECT_THAT(CheckScene(Drive("vary: {hall: []}\n")),
-              ElementsAre(HasSubstr("vary.hall: expected a list of halls' files")));
+              ElementsAre(HasSubstr("vary.hall: expected a list of paths of halls' files")));
 }
 
 TEST_F(HallFilesTest, SeedsDealThemInTurn) {
@@ -149,8 +150,7 @@ TEST_F(HallFilesTest, AreScenesByThemselvesWhereTheyHaveViews) {
   // Ahead is the camera's z.
   EXPECT_TRUE(pose.linear().col(2).isApprox(
       Eigen::Vector3d(-std::cos(std::atan(1.0) / 9), 0, -std::sin(std::atan(1.0) / 9))));
-  EXPECT_THAT(CheckScene(PathOf("halls/narrow.yaml")),
-              ElementsAre(HasSubstr("rig: it is missing")));
+  EXPECT_THAT(CheckScene(PathOf("halls/narrow.yaml")), ElementsAre(HasSubstr("rig: missing key")));
 }
 
 TEST_F(HallFilesTest, CountByWhatTheyHoldNotByTheirNames) {

@@ -203,7 +203,7 @@ TEST(Routes, OfASteeredVehicleAskForNothingItsWheelCannotDo) {
   EXPECT_THAT(drive(spot, "kind: differential"), IsEmpty());
   EXPECT_THAT(drive(spot, "kind: tricycle, max_steering_deg: 90"), IsEmpty());
   EXPECT_THAT(drive(corner, "kind: tricycle, wheelbase_m: 1.6, max_steering_deg: 45"),
-              ElementsAre(HasSubstr("this vehicle turns with 1.6 m at the tightest")));
+              ElementsAre(HasSubstr("this vehicle's smallest is 1.6 m")));
   EXPECT_THAT(drive(corner, "kind: tricycle"), IsEmpty());
 }
 
@@ -292,21 +292,22 @@ INSTANTIATE_TEST_SUITE_P(
     Scene, OneMistake,
     testing::Values(
         Mistake{"frames: 100", "frame: 100", "2:1", "did you mean frames?"},
-        Mistake{"frames: 100", "frames: 0100", "2:9", "expected a whole number"},
-        Mistake{"frames: 100", "frames: 1_00", "2:9", "expected a whole number"},
-        Mistake{"frames: 100", "frames: \"100\"", "2:9", "expected a whole number"},
+        Mistake{"frames: 100", "frames: 0100", "2:9", "expected an integer"},
+        Mistake{"frames: 100", "frames: 1_00", "2:9", "expected an integer"},
+        Mistake{"frames: 100", "frames: \"100\"", "2:9", "expected an integer"},
         Mistake{"frames: 100", "frames: 10.5", "2:9", "from 1 to 100000, got '10.5'"},
-        Mistake{"frames: 100", "frames: 100\nframes: 200", "3:1", "given twice"},
+        Mistake{"frames: 100", "frames: 100\nframes: 200", "3:1", "duplicate key"},
         Mistake{"frames: 100", "frames: &n 100", "2:9", "anchors"},
         Mistake{"frames: 100", "frames: 100\n \ttwin: live", "3:2", "indented by a tab"},
         Mistake{"frames: 100", "frames: *n", "2:9", ""},
-        Mistake{"about: A person crosses.\n", "", "1:1", "about: it is missing"},
+        Mistake{"about: A person crosses.\n", "", "1:1", "about: missing key"},
         Mistake{"start: [0, 0]", "start: [0]", "4:10", "expected a list of 2 numbers"},
         Mistake{"speed_mps: 0.9", "speed_mps: -1", "6:33", "rig.steps[0].speed_mps: expected"},
         Mistake{"go: [[8, 0]]", "go: [[8, 0, 1]]", "6:13", "a point [x, y]"},
         Mistake{"[[8, 0]], speed_mps: 0.9", "[[80, 0]]", "6:7", "runs into a wall or leaves"},
         Mistake{"[[8, 0]], speed_mps: 0.9", "[[8, 3]]", "6:7", "runs through racks[0]"},
-        Mistake{"[[8, 0]], speed_mps: 0.9", "[[8, 0]], wait_s: 1", "6:7", "a step is one of"},
+        Mistake{"[[8, 0]], speed_mps: 0.9", "[[8, 0]], wait_s: 1", "6:7",
+                "expected one of go, wait_s"},
         Mistake{"[[8, 0]], speed_mps: 0.9", "[[8, 0], [8, 1]], corner_radius_m: 5", "6:7",
                 "a corner radius of 5 m does not fit"},
         Mistake{"[[8, 0]], speed_mps: 0.9", "[[8, 0], [8, 1.5], [4, 1.5]], corner_radius_m: 0.9",
@@ -314,29 +315,29 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"start: [0, 0]", "start: [0, 0]\n  jerk_mps3: 0", "5:14", "rig.jerk_mps3"},
         Mistake{"height_m: 6", "height_m: 4", "9:5", "above the roof"},
         Mistake{"height_m: 6", "height_m: -6", "7:47", "hall.height_m: expected a number from 2.2"},
-        Mistake{"bays: 4", "bays: -4", "11:26", "racks[0].bays: expected a whole number from 1"},
+        Mistake{"bays: 4", "bays: -4", "11:26", "racks[0].bays: expected an integer from 1"},
         Mistake{"bays: 4", "bays: 4, depth_m: -1", "11:38", "racks[0].depth_m: expected a number"},
         Mistake{"frames: 100", "frames: 100\ncamera: {size_px: [-752, 480]}", "3:19",
                 "camera.size_px"},
         Mistake{"frames: 100", "frames: 100\ncamera: {distortion_coefficients: [-0.2, 0, 0, 0]}",
-                "3:9", "nothing says of which model"},
+                "3:9", "without a distortion model"},
         Mistake{"frames: 100", "frames: 100\ncamera: {size_px: [320.9, 200]}", "3:19",
-                "camera.size_px: expected a list of 2 whole numbers from 64 to 4096"},
+                "camera.size_px: expected a list of 2 integers from 64 to 4096"},
         Mistake{"start: [0, 0]",
                 "start: [0, 0]\n  pairs:\n  - name: rear\n    camera: {distortion_coefficients: "
                 "[-0.2, 0, 0, 0]}",
-                "7:13", "rig.pairs[0].camera.distortion: there are distortion_coefficients"},
+                "7:13", "rig.pairs[0].camera.distortion: distortion_coefficients without"},
         Mistake{"frames: 100", "frames: 100\nsensor: {readout_ms: 45}", "3:9",
-                "a frame comes every 50 ms"},
+                "frames are 50 ms apart"},
         Mistake{"frames: 100", "frames: 100\nsensor: {preset: perfect}", "3:18",
                 "expected one of mt9v034, ideal"},
-        Mistake{"to: [20, 8]", "to: [-20, 8]", "7:7", "must lie at least 2 m beyond"},
+        Mistake{"to: [20, 8]", "to: [-20, 8]", "7:7", "must be at least 2 m beyond"},
         Mistake{"  - {rows: 2, per_row: 4, height_m: 5}", "  []", "9:3", "expected at least one"},
         Mistake{"lights:", "light:", "8:1", "did you mean lights?"},
         Mistake{"bays: 4", "bays: 40", "11:5", "is outside the hall"},
         Mistake{"bays: 4", "goods: apples", "11:27", "expected one of mixed, cartons"},
         Mistake{"name: walker", "name: ../etc", "13:11", "a name of letters"},
-        Mistake{"name: walker", "level: low", "13:5", "people[0].name: it is missing"},
+        Mistake{"name: walker", "level: low", "13:5", "people[0].name: missing key"},
         Mistake{"start: [5, 1.5]", "start: [5, 2.5]", "13:5", "people[0].start"},
         Mistake{"wait_s: 1", "wait_s: 1, play: \"a b\"", "18:27", "a name of letters"},
         Mistake{"go: [[5, -1.5]]", "go: [[3, 0]]", "17:9", "m from the rig, middle to middle"},
@@ -344,7 +345,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "  - {name: bystander, start: [5.3, 1.5]}\n", "16:5", "0.30 m from walker"},
         Mistake{"    heading_deg: -90", "    vary: {path_m: 2}\n    heading_deg: -90", "18:9",
                 "people[0]: with seed 8 "},
-        Mistake{"people:", "persons:", "12:1", "there is no such key"}));
+        Mistake{"people:", "persons:", "12:1", "unknown key"}));
 
 SensorSpec SensorOf(const std::string& sensor) {
   return ParseScene(With("frames: 100", "frames: 100\n" + sensor), "s.yaml").sensor;
@@ -382,7 +383,7 @@ TEST(Sensor, AKeyOverridesThePresetWhereverItStands) {
 TEST(Mistakes, AreAllReportedInOneGo) {
   std::string text = With("frames: 100", "frames: many");
   text += "rate_hz: 0\nsensor: {noise: maybe}\n";
-  EXPECT_THAT(MessagesOf(text), ElementsAre(HasSubstr("2:9: frames: expected a whole number"),
+  EXPECT_THAT(MessagesOf(text), ElementsAre(HasSubstr("2:9: frames: expected an integer"),
                                             HasSubstr("19:10: rate_hz: expected a number"),
                                             HasSubstr("20:17: sensor.noise: expected true")));
 }
@@ -395,7 +396,7 @@ TEST(Mistakes, HostileFilesAreRefusedQuickly) {
   std::string many = "about: [";
   for (int i = 0; i < 200'000; ++i) many += "1,";
   EXPECT_THAT(MessagesOf(many + "]"), ElementsAre(HasSubstr("more than 100000 values")));
-  EXPECT_THAT(CheckScene("nowhere.yaml"), ElementsAre(HasSubstr("there is no such file")));
+  EXPECT_THAT(CheckScene("nowhere.yaml"), ElementsAre(HasSubstr("no such file")));
 }
 
 }  // namespace
