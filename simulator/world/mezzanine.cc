@@ -1,3 +1,4 @@
+#include "simulator/scene/mezzanine.h"
 #include "simulator/world/goods.h"
 #include "simulator/world/warehouse.h"
 
@@ -7,18 +8,17 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr float kDeck_m = 0.06f, kBeam_m = 0.22f, kColumn_m = 0.16f;
-constexpr float kBay_m = 3.2f;   ///< at most so far from column to column
+constexpr float kDeck_m = 0.06f, kBeam_m = 0.22f;
 constexpr float kRail_m = 1.1f;  ///< above the deck
+// A pallet of 1.2 m by 0.8 m that is turned by up to 0.1 rad needs 1.28 m by 0.92 m.
+constexpr float kPalletPitchX_m = 1.35f, kPalletPitchY_m = 1.0f;
 
-/// Points from one end to the other, evenly, at most `pitch` apart.
-std::vector<float> Divide(float from, float to, float pitch) {
-  const int parts = std::max(1, static_cast<int>(std::ceil((to - from) / pitch)));
-  std::vector<float> points;
-  for (int i = 0; i <= parts; ++i) {
-    points.push_back(from + (to - from) * static_cast<float>(i) / static_cast<float>(parts));
-  }
-  return points;
+/// Places of pallets from one end to the other, evenly: about `pitch` apart, never nearer than
+/// `least`; where that leaves no room for two, one in the middle.
+std::vector<float> Places(float from, float to, float pitch, float least) {
+  if (to - from < least) return {(from + to) / 2};
+  const int most = static_cast<int>(std::floor((to - from) / least));
+  return Evenly(from, to, std::min(most, static_cast<int>(std::ceil((to - from) / pitch))));
 }
 
 void AddFrame(TriangleMesh* mesh, const std::vector<float>& xs, const std::vector<float>& ys,
@@ -27,7 +27,7 @@ void AddFrame(TriangleMesh* mesh, const std::vector<float>& xs, const std::vecto
   for (const float x : xs) {
     AddBar(mesh, {x, ys.front(), middle}, {x, ys.back(), middle}, kBeam_m, palette.upright);
     for (const float y : ys) {
-      AddBar(mesh, {x, y, 0}, {x, y, top}, kColumn_m, palette.upright);
+      AddBar(mesh, {x, y, 0}, {x, y, top}, MezzanineFeet::kColumn_m, palette.upright);
       const Vector3f foot(0.32f, 0.32f, 0.03f);
       AddBox(mesh, At(x, y, 0.015f), foot, BoxPaint::Whole(palette.steel));
     }
@@ -50,18 +50,18 @@ void AddRailing(TriangleMesh* mesh, const Vector2f& from, const Vector2f& to, fl
 }
 
 /// A stair along y, down from the middle of the front edge.
-void AddStair(TriangleMesh* mesh, const Vector2f& top, float deck, const Palette& palette) {
-  constexpr float kWidth_m = 0.9f, kTread_m = 0.26f, kRise_m = 0.19f;
-  const int steps = static_cast<int>(std::floor(deck / kRise_m));
-  const float rise = deck / static_cast<float>(steps);
-  for (int i = 1; i < steps; ++i) {
+void AddStair(TriangleMesh* mesh, const MezzanineFeet& feet, float deck, const Palette& palette) {
+  constexpr float kTread_m = MezzanineFeet::kTread_m;
+  const Vector2f top = feet.stair_top;
+  const float rise = deck / static_cast<float>(feet.stair_steps);
+  for (int i = 1; i < feet.stair_steps; ++i) {
     const float k = static_cast<float>(i);
-    const Vector3f tread(kWidth_m, kTread_m, 0.04f);
+    const Vector3f tread(2 * MezzanineFeet::kStairHalfWidth_m, kTread_m, 0.04f);
     AddBox(mesh, At(top.x(), top.y() - k * kTread_m, deck - k * rise), tread,
            BoxPaint::Tiled(palette.steel, tread, 1));
   }
-  const float run = static_cast<float>(steps) * kTread_m;
-  for (const float side : {-kWidth_m / 2, kWidth_m / 2}) {
+  const float run = feet.stair_run_m();
+  for (const float side : {-MezzanineFeet::kStairHalfWidth_m, MezzanineFeet::kStairHalfWidth_m}) {
     const float x = top.x() + side;
     AddBar(mesh, {x, top.y(), deck - 0.06f}, {x, top.y() - run, 0.02f}, 0.07f, palette.upright);
     AddBar(mesh, {x, top.y(), deck + 0.95f}, {x, top.y() - run, 0.98f}, 0.045f, palette.stripes);
@@ -77,20 +77,19 @@ void AddMezzanines(const Scene& scene, const Palette& palette, std::uint64_t see
     const Vector2f low = spec.from.cast<float>(), high = spec.to.cast<float>();
     const auto deck = static_cast<float>(spec.height_m);
     site->Add(fmt::format("mezzanine_{}", i), ObjectClass::kFurniture, [&](TriangleMesh* mesh) {
-      const std::vector<float> xs = Divide(low.x() + 0.1f, high.x() - 0.1f, kBay_m);
-      const std::vector<float> ys = Divide(low.y() + 0.1f, high.y() - 0.1f, kBay_m);
+      const MezzanineFeet feet = FeetOf(spec);
       const Vector3f slab(high.x() - low.x(), high.y() - low.y(), kDeck_m);
       AddBox(mesh, At((low.x() + high.x()) / 2, (low.y() + high.y()) / 2, deck - kDeck_m / 2), slab,
              BoxPaint::Tiled(palette.steel, slab, 1.2f));
-      AddFrame(mesh, xs, ys, deck, palette);
+      AddFrame(mesh, feet.xs, feet.ys, deck, palette);
       const Vector2f corners[] = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
       for (int k = 0; k < 4; ++k) AddRailing(mesh, corners[k], corners[(k + 1) % 4], deck, palette);
-      AddStair(mesh, {high.x() - 1.0f, low.y()}, deck, palette);
+      AddStair(mesh, feet, deck, palette);
     });
     site->Add(fmt::format("mezzanine_{}_goods", i), ObjectClass::kGoods, [&](TriangleMesh* mesh) {
       std::uint64_t place = 0;
-      for (const float x : Divide(low.x() + 1, high.x() - 1, 1.7f)) {
-        for (const float y : Divide(low.y() + 1, high.y() - 1, 1.6f)) {
+      for (const float x : Places(low.x() + 1, high.x() - 1, 1.7f, kPalletPitchX_m)) {
+        for (const float y : Places(low.y() + 1, high.y() - 1, 1.6f, kPalletPitchY_m)) {
           Dice dice(seed, {330, i, place++});
           if (!dice.Chance(0.6)) continue;
           const auto turn = static_cast<float>(0.1 * dice.Signed());

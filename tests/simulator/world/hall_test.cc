@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "simulator/world/goods.h"
 #include "simulator/world/warehouse.h"
 #include "tests/simulator/world/mesh_items.h"
 
@@ -260,6 +261,64 @@ TEST(Mezzanine, CarriesItsGoodsOnItsDeckBehindItsRailing) {
     EXPECT_GT(goods.min().y(), 0);
     EXPECT_LT(goods.max().x(), 9);
     EXPECT_LT(goods.max().y(), 6);
+  }
+}
+
+/// How deep two triangles of the floor's plane lie in one another, by the separating axis; below 0
+/// they do not meet.
+float Depth(const std::array<Vector2f, 3>& one, const std::array<Vector2f, 3>& other) {
+  float depth = std::numeric_limits<float>::infinity();
+  for (const auto* triangle : {&one, &other}) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector2f side = (*triangle)[(k + 1) % 3] - (*triangle)[k];
+      const Vector2f across = Vector2f(-side.y(), side.x()).normalized();
+      const auto reach = [&](const std::array<Vector2f, 3>& points) {
+        const auto [low, high] =
+            std::minmax({across.dot(points[0]), across.dot(points[1]), across.dot(points[2])});
+        return std::pair(low, high);
+      };
+      const auto [a, b] = reach(one);
+      const auto [c, d] = reach(other);
+      depth = std::min(depth, std::min(b, d) - std::max(a, c));
+    }
+  }
+  return depth;
+}
+
+/// Of the upper faces of the pallets' boards, none lies in another.
+TEST(Mezzanine, NoTwoPalletsStandInOneAnother) {
+  for (float width = 2; width <= 12; width += 0.5f) {
+    for (const float deep : {2.0f, 2.4f, 3.1f, 4.6f, 6.0f}) {
+      Scene scene = Hall();
+      scene.mezzanines.resize(1);
+      scene.mezzanines[0].to = {width, deep};
+      std::size_t boards = 0;
+      for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        WorldParts parts;
+        Site site(&parts);
+        AddMezzanines(scene, PaletteWithSigns(), seed, &site);
+        const TriangleMesh& mesh = parts.statics.mesh;
+        std::vector<std::array<Vector2f, 3>> faces;
+        for (const std::size_t i :
+             test::TrianglesOf(parts.instances, parts.statics, "mezzanine_0_goods")) {
+          std::array<Vector2f, 3> face;
+          bool above = true;
+          for (std::size_t k = 0; k < 3; ++k) {
+            const Vector3f& corner = mesh.positions[mesh.triangles[i][k]];
+            face[k] = corner.head<2>();
+            above = above && std::abs(corner.z() - 2.8f - kPalletHeight_m) < 1e-3f;
+          }
+          if (above && test::AreaOf(mesh, {i}) > 0.05) faces.push_back(face);
+        }
+        boards += faces.size() / 2;
+        int within = 0;
+        for (std::size_t a = 0; a < faces.size(); ++a) {
+          for (std::size_t b = 0; b < a; ++b) within += Depth(faces[a], faces[b]) > 0.002f;
+        }
+        EXPECT_EQ(within, 0) << width << " x " << deep << ", seed " << seed;
+      }
+      EXPECT_GT(boards, 0u) << width << " x " << deep;
+    }
   }
 }
 
