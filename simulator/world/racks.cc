@@ -69,11 +69,14 @@ class RackBuilder {
     }
   }
 
-  /// Plates with the row's name at both ends.
+  /// Plates with the row's name at both ends, below the frame's top; too low a rack has none.
   void AddEndSigns(std::size_t row) {
-    const Vector3f size(0.02f, 0.7f, 0.7f);
+    constexpr float kSide_m = 0.7f, kBelowTop_m = 0.05f;
+    const Vector3f size(0.02f, kSide_m, kSide_m);
+    const float middle = std::min(2.2f, height() - kBelowTop_m - kSide_m / 2);
+    if (middle < kSide_m) return;
     for (const float x : {-kPost_m, bay_ * static_cast<float>(rack_.bays) + kPost_m}) {
-      AddBox(mesh_, pose_ * At(x, 0, 2.2f), size,
+      AddBox(mesh_, pose_ * At(x, 0, middle), size,
              BoxPaint::Whole(palette_.sign, palette_.aisle_signs[row % kAisleSigns]));
     }
   }

@@ -195,5 +195,22 @@ TEST(Racks, BaysAreEvenAndPostsStandBetweenThem) {
   EXPECT_EQ(posts, (std::set<int>{0, 240, 480, 720, 960, 1200}));
 }
 
+TEST(Racks, EndSignsHangBelowTheTopOrNotAtAll) {
+  for (const double level_m : {0.3, 0.6, 0.9, 1.6}) {
+    for (int levels = 0; levels <= 3; ++levels) {
+      const Built built = Build(Rack(2.7, 1.1, level_m, GoodsKind::kNothing, 2, levels), 1);
+      const float top = static_cast<float>(level_m * levels + 0.6);
+      int signs = 0;
+      for (const Box& item : built.Items("rack_0")) {
+        if (item.sizes().x() > 0.03f || item.sizes().z() < 0.69f) continue;
+        ++signs;
+        EXPECT_LT(item.max().z(), top) << level_m << " x " << levels;
+        EXPECT_GT(item.min().z(), 0.3f) << level_m << " x " << levels;
+      }
+      EXPECT_EQ(signs, top > 1.15f ? 2 : 0) << level_m << " x " << levels;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace aisle::sim
