@@ -9,7 +9,8 @@ namespace aisle::sim {
 
 /// What a mover covers of the floor: all within radius_m of a line along its heading.
 struct Footprint {
-  double back_m = 0, front_m = 0;  ///< ends of the line, ahead of the mover's origin
+  double back_m = 0,
+         front_m = 0;  ///< ends of the line, ahead of the mover's origin
   double radius_m = 0;
 };
 
@@ -18,6 +19,8 @@ Footprint FootprintOf(const std::string& model);
 
 // What people and the rig take up, as radii around their origin. What runs into something is
 // narrower than what others keep away from.
+/// Nobody is taller: what hangs higher is in nobody's way.
+inline constexpr double kHead_m = 1.8;
 /// A person's body, arms at rest: what may not touch shelves, nor anybody else.
 inline constexpr double kPersonHalfWidth_m = 0.22;
 /// With elbows and swinging arms: what a crowd and a vehicle leave to somebody.

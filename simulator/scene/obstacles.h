@@ -21,7 +21,9 @@ struct Obstacle {
   }
 };
 
-/// What stands in a scene's hall, actors and props left out.
+/// What stands in a scene's hall, as its routes, crowds and clutter must go round it: racks,
+/// stacks, columns, fixtures that block, a mezzanine's columns and stair, models of the kit. Not
+/// what moves, nor meshes of the user's own.
 std::vector<Obstacle> ObstaclesOf(const Scene& scene);
 
 }  // namespace aisle::sim

@@ -4,6 +4,7 @@
 #include "simulator/scene/hall.h"
 #include "simulator/scene/obstacles.h"
 #include "simulator/world/fittings.h"
+#include "simulator/world/wall_frame.h"
 
 namespace aisle::sim {
 namespace {
@@ -260,13 +261,24 @@ void AddOnFloor(const Maker& make, Dice* dice) {
   }
 }
 
-void AddStanding(const Maker& make, Dice dice) {
-  const double kind = dice.Unit();
-  if (kind < 0.2) return AddCoil(make, &dice);
-  if (kind < 0.36) return AddHose(make, &dice);
-  if (kind < 0.52) return AddBucket(make, &dice);
-  if (kind < 0.72) return AddLeaning(make, &dice);
-  AddOnFloor(make, &dice);
+/// A kind of thing that stands or lies at the foot of a wall.
+struct Standing {
+  double share;    ///< of all
+  double reach_m;  ///< along the wall, to both sides of its middle
+  void (*add)(const Maker& make, Dice* dice);
+};
+constexpr std::array kStandings = {Standing{0.2, 0.32, AddCoil}, Standing{0.16, 1.25, AddHose},
+                                   Standing{0.16, 0.32, AddBucket}, Standing{0.2, 0.32, AddLeaning},
+                                   Standing{0.28, 0.32, AddOnFloor}};
+constexpr double kStandingOut_m = 0.29;  ///< each reaches so far out, to both sides of its middle
+
+const Standing& PickStanding(Dice* dice) {
+  double left = dice->Unit();
+  for (const Standing& standing : kStandings) {
+    if (left < standing.share) return standing;
+    left -= standing.share;
+  }
+  return kStandings.back();
 }
 
 /// Where things may be put. Actors do not count: who is taken out of a scene leaves no trace.
@@ -289,6 +301,8 @@ class Ways {
              return obstacle.DistanceTo(point) < margin;
            });
   }
+  /// From now on something is there, too.
+  void Put(const Obstacle& thing) { obstacles_.push_back(thing); }
   bool OnWay(const Vector2d& point) const {
     return std::ranges::any_of(points_,
                                [&](const Vector2d& at) { return (at - point).norm() < kWay_m; });
@@ -301,10 +315,51 @@ class Ways {
 };
 
 /// A door is no wall to lean things against.
-bool AtDoor(const Scene& scene, WallSide side, double along) {
+bool AtDoor(const Scene& scene, WallSide side, const Vector2d& point) {
+  const bool along_x = side == WallSide::kNorth || side == WallSide::kSouth;
+  const double along = along_x ? point.x() : point.y();
   return std::ranges::any_of(scene.doors, [&](const DoorSpec& door) {
     return door.wall == side && std::abs(door.at_m - along) < door.width_m / 2 + 1.2;
   });
+}
+
+/// A place at the foot of a wall.
+struct WallPlace {
+  WallSide side;
+  Vector2d at;
+  Vector2d along;      ///< unit, along the wall
+  double heading_rad;  ///< into the hall
+};
+
+/// Anywhere along the walls, each metre as likely as any other.
+WallPlace SomeWallPlace(const HallSpec& hall, Dice* dice) {
+  const std::array<Wall, 4> walls = WallsOf(hall);
+  const double out = dice->Between(0.3, 0.36);
+  double right = dice->Between(0, 2 * (hall.to - hall.from).sum());
+  std::size_t side = 0;
+  for (; side + 1 < walls.size() && right >= walls[side].length; ++side) {
+    right -= walls[side].length;
+  }
+  const Wall& wall = walls[side];
+  const Vector3f at = wall.At(static_cast<float>(right), 0, static_cast<float>(out));
+  return {static_cast<WallSide>(side), at.head<2>().cast<double>(),
+          wall.along.head<2>().cast<double>(), std::atan2(wall.inward.y(), wall.inward.x())};
+}
+
+/// Whether nothing is in the way of a thing that reaches so far along the wall.
+bool IsFree(const Scene& scene, const Ways& ways, const WallPlace& place, double reach_m) {
+  constexpr double kStep_m = 0.25;
+  const double end = std::max(0.0, reach_m - kStandingOut_m);
+  const int steps = static_cast<int>(std::ceil(2 * end / kStep_m));
+  for (int i = 0; i <= steps; ++i) {
+    const double along = -end + 2 * end * i / std::max(1, steps);
+    const Vector2d point = place.at + along * place.along;
+    if (AtDoor(scene, place.side, point) || ways.Taken(point, kStandingOut_m) ||
+        ways.OnWay(point)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -312,7 +367,7 @@ bool AtDoor(const Scene& scene, WallSide side, double along) {
 void AddClutter(const Scene& scene, const Kit& kit, std::uint64_t seed, Site* site) {
   const HallSpec& hall = scene.hall;
   if (hall.clutter <= 0) return;
-  const Ways ways(scene);
+  Ways ways(scene);
   const Vector2d size = hall.to - hall.from;
   Dice dice(seed, {350});
   const auto put = [&](const Vector2d& at, double heading, ObjectClass kind, const char* name,
@@ -335,20 +390,12 @@ void AddClutter(const Scene& scene, const Kit& kit, std::uint64_t seed, Site* si
   const int stands = static_cast<int>(hall.clutter * kStandsPer_m * 2 * size.sum());
   for (int i = 0; i < stands; ++i) {
     Dice own = dice.Fork();
-    const auto side = static_cast<WallSide>(own.Pick(4));
-    const bool along_x = side == WallSide::kNorth || side == WallSide::kSouth;
-    const double share = own.Between(0.02, 0.98), out = own.Between(0.3, 0.36);
-    const double along =
-        along_x ? hall.from.x() + share * size.x() : hall.from.y() + share * size.y();
-    const double across = side == WallSide::kNorth   ? hall.to.y() - out
-                          : side == WallSide::kSouth ? hall.from.y() + out
-                          : side == WallSide::kEast  ? hall.to.x() - out
-                                                     : hall.from.x() + out;
-    const Vector2d at = along_x ? Vector2d(along, across) : Vector2d(across, along);
-    constexpr std::array kInward = {-1.5708, 1.5708, 3.1416, 0.0};
-    if (AtDoor(scene, side, along) || ways.Taken(at, 0.29) || ways.OnWay(at)) continue;
-    put(at, kInward[static_cast<std::size_t>(side)], ObjectClass::kFurniture, "left_standing", i,
-        [&](const Maker& make) { AddStanding(make, own.Fork()); });
+    const Standing& standing = PickStanding(&own);
+    const WallPlace place = SomeWallPlace(hall, &own);
+    if (!IsFree(scene, ways, place, standing.reach_m)) continue;
+    ways.Put({"", place.at, {kStandingOut_m, standing.reach_m}, place.heading_rad});
+    put(place.at, place.heading_rad, ObjectClass::kFurniture, "left_standing", i,
+        [&](const Maker& make) { standing.add(make, &own); });
   }
 }
 

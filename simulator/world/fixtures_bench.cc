@@ -1,11 +1,15 @@
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "simulator/world/fittings.h"
 
 namespace aisle::sim {
 namespace {
 
+using Eigen::Vector2f;
 using Eigen::Vector3f;
+using Rectangle = Eigen::AlignedBox2f;
 
 const Vector3f kX = Vector3f::UnitX(), kY = Vector3f::UnitY(), kZ = Vector3f::UnitZ();
 
@@ -55,48 +59,94 @@ void AddHandTool(const Maker& make, const Vector3f& at, float length, int kind) 
   }
 }
 
-/// What lies on a worktop: boxes, a tin, rags, parts.
-void AddOddments(const Maker& make, float length, float z, Dice* dice) {
+/// A thing that may lie about: how far it reaches from its middle, and how it is drawn there.
+struct Oddment {
+  Vector2f reach;
+  std::function<void(const Vector3f& at)> draw;
+};
+
+Oddment SomeBox(const Maker& make, Dice* dice) {
+  const float tall = Between(dice, 0.05, 0.16), wide = Between(dice, 0.1, 0.28);
+  const Vector3f box(Between(dice, 0.08, 0.2), wide, tall);
+  const std::uint16_t material = dice->Chance(0.5) ? make.f.card : make.p.tote;
+  return {box.head<2>() / 2, [=, &make](const Vector3f& at) {
+            make.Block(at + Vector3f(0, 0, box.z() / 2), box, material, 0.006f, 0.3f);
+          }};
+}
+
+Oddment SomeTin(const Maker& make, Dice* dice) {
+  constexpr float kRim_m = 0.043f;
+  const float tall = Between(dice, 0.09, 0.2);
+  const std::uint16_t material = dice->Chance(0.5) ? make.f.dark : make.f.white;
+  return {{kRim_m, kRim_m}, [=, &make](const Vector3f& at) {
+            make.Turn(at, kZ,
+                      {{0, 0},
+                       {0.04f, 0},
+                       {kRim_m, 0.006f},
+                       {0.041f, 0.012f},
+                       {0.041f, tall - 0.01f},
+                       {kRim_m, tall},
+                       {0.034f, tall},
+                       {0.03f, tall - 0.012f},
+                       {0, tall - 0.012f}},
+                      material, 18);
+          }};
+}
+
+Oddment SomeBar(const Maker& make, Dice* dice) {
+  constexpr float kRadius_m = 0.011f;
+  const float length = Between(dice, 0.14, 0.3), turn = Between(dice, 0, 3.1);
+  const Vector3f half = length / 2 * Vector3f(std::cos(turn), std::sin(turn), 0);
+  return {half.head<2>().cwiseAbs() + Vector2f::Constant(kRadius_m),
+          [=, &make](const Vector3f& at) {
+            const Vector3f middle = at + Vector3f(0, 0, 0.012f);
+            make.Pipe({middle - half, middle + half}, kRadius_m, make.f.chrome, 10);
+          }};
+}
+
+/// A sheet crumpled by waves.
+Oddment SomeRag(const Maker& make, Dice* dice) {
+  const float phase = Between(dice, 0, 6);
+  const std::uint16_t material = dice->Chance(0.5) ? make.f.white : make.f.dust;
+  return {{0.15f, 0.15f}, [=, &make](const Vector3f& at) {
+            std::vector<Vector3f> points;
+            for (int k = 0; k < 49; ++k) {
+              const float u = static_cast<float>(k % 7) / 6 - 0.5f,
+                          v = static_cast<float>(k / 7) / 6 - 0.5f;
+              const float up = 0.016f + 0.013f * std::sin(9 * u + phase) * std::cos(8 * v - phase) +
+                               0.02f * std::max(0.0f, 0.5f - std::hypot(u, v));
+              points.push_back(make.pose() * (at + Vector3f(0.26f * u + 0.04f * v, 0.3f * v, up)));
+            }
+            AddSheet(make.mesh(), points, 7, material);
+          }};
+}
+
+Oddment SomeOddment(const Maker& make, Dice* dice) {
+  const double kind = dice->Unit();
+  if (kind < 0.3) return SomeBox(make, dice);
+  if (kind < 0.5) return SomeTin(make, dice);
+  return kind < 0.75 ? SomeBar(make, dice) : SomeRag(make, dice);
+}
+
+/// What lies on a worktop at height `z`: boxes, tins, rags, parts, each within it and beside the
+/// others and what is `taken`; what finds no place is left out.
+void AddOddments(const Maker& make, const Rectangle& top, float z, std::vector<Rectangle> taken,
+                 Dice* dice) {
+  constexpr int kTries = 12;
   const int count = 5 + dice->Pick(5);
   for (int i = 0; i < count; ++i) {
-    const float y = Between(dice, -0.46, 0.46) * length, x = Between(dice, -0.28, 0.2);
-    const Vector3f at(x, y, z);
-    const double kind = dice->Unit();
-    if (kind < 0.3) {
-      const float tall = Between(dice, 0.05, 0.16), wide = Between(dice, 0.1, 0.28);
-      const Vector3f box(Between(dice, 0.08, 0.2), wide, tall);
-      make.Block(at + Vector3f(0, 0, box.z() / 2), box,
-                 dice->Chance(0.5) ? make.f.card : make.p.tote, 0.006f, 0.3f);
-    } else if (kind < 0.5) {
-      const float tall = Between(dice, 0.09, 0.2);
-      make.Turn(at, kZ,
-                {{0, 0},
-                 {0.04f, 0},
-                 {0.043f, 0.006f},
-                 {0.041f, 0.012f},
-                 {0.041f, tall - 0.01f},
-                 {0.043f, tall},
-                 {0.034f, tall},
-                 {0.03f, tall - 0.012f},
-                 {0, tall - 0.012f}},
-                dice->Chance(0.5) ? make.f.dark : make.f.white, 18);
-    } else if (kind < 0.75) {
-      const float length_m = Between(dice, 0.14, 0.3), turn = Between(dice, 0, 3.1);
-      const Vector3f along(std::cos(turn), std::sin(turn), 0);
-      make.Pipe({at + Vector3f(0, 0, 0.012f) - along * length_m / 2,
-                 at + Vector3f(0, 0, 0.012f) + along * length_m / 2},
-                0.011f, make.f.chrome, 10);
-    } else {  // a rag: a sheet crumpled by waves
-      std::vector<Vector3f> points;
-      const float phase = Between(dice, 0, 6);
-      for (int k = 0; k < 49; ++k) {
-        const float u = static_cast<float>(k % 7) / 6 - 0.5f,
-                    v = static_cast<float>(k / 7) / 6 - 0.5f;
-        const float up = 0.016f + 0.013f * std::sin(9 * u + phase) * std::cos(8 * v - phase) +
-                         0.02f * std::max(0.0f, 0.5f - std::hypot(u, v));
-        points.push_back(make.pose() * (at + Vector3f(0.26f * u + 0.04f * v, 0.3f * v, up)));
+    const Oddment thing = SomeOddment(make, dice);
+    const Vector2f low = top.min() + thing.reach, high = top.max() - thing.reach;
+    if ((high - low).minCoeff() < 0) continue;
+    for (int k = 0; k < kTries; ++k) {
+      const float y = Between(dice, low.y(), high.y()), x = Between(dice, low.x(), high.x());
+      const Rectangle place(Vector2f(x, y) - thing.reach, Vector2f(x, y) + thing.reach);
+      if (std::ranges::any_of(taken, [&](const Rectangle& r) { return r.intersects(place); })) {
+        continue;
       }
-      AddSheet(make.mesh(), points, 7, dice->Chance(0.5) ? make.f.white : make.f.dust);
+      taken.push_back(place);
+      thing.draw({x, y, z});
+      break;
     }
   }
 }
@@ -127,16 +177,22 @@ void AddBench(const Maker& make, const Vector3f& size, Dice dice) {
   }
   make.Block({-0.05f, 0, 0.2f}, {size.x() - 0.2f, size.y() - 0.24f, 0.03f}, make.p.steel, 0.006f);
   const bool left = dice.Chance(0.5);
+  const float side = left ? 1 : -1;  // where the drawers are, the vice at the other end
   AddDrawers(make, {-0.3f, left ? half - 0.62f : -half + 0.12f, 0.24f}, {0.6f, 0.5f, top - 0.3f},
              4);
-  AddVice(make, {size.x() / 2 - 0.12f, left ? -half + 0.3f : half - 0.3f, top});
-  AddOddments(make, size.y() - 0.5f, top, &dice);
-  for (int i = 0; i < 3; ++i) {  // below, on the shelf
+  const Vector3f vice(size.x() / 2 - 0.12f, -side * (half - 0.3f), top);
+  AddVice(make, vice);
+  const Rectangle of_vice(vice.head<2>() - Vector2f(0.17f, 0.09f),
+                          vice.head<2>() + Vector2f(0.21f, 0.09f));
+  const Vector2f within = size.head<2>() / 2 - Vector2f(0.02f, 0.02f);
+  AddOddments(make, {-within, within}, top, {of_vice}, &dice);
+  // Below, on what the drawers leave of the shelf.
+  constexpr float kToteHalf_m = 0.2f, kTotePitch_m = 0.38f;
+  float y = std::min(0.05f, half - 0.64f - kToteHalf_m);
+  for (int i = 0; i < 3 && y - kToteHalf_m > -half + 0.08f; ++i, y -= kTotePitch_m) {
     const float tall = Between(&dice, 0.15, 0.3);
-    const Vector3f box(0.3f, Between(&dice, 0.25, 0.4), tall);
-    make.Block({-0.1f, (left ? -1.0f : 1.0f) * (0.05f + 0.38f * static_cast<float>(i) - 0.1f),
-                0.215f + box.z() / 2},
-               box, make.p.tote, 0.01f, 0.6f);
+    const Vector3f box(0.3f, Between(&dice, 0.25, 2 * kToteHalf_m), tall);
+    make.Block({-0.1f, side * y, 0.215f + tall / 2}, box, make.p.tote, 0.01f, 0.6f);
   }
 }
 
@@ -182,7 +238,8 @@ void AddToolCart(const Maker& make, const Vector3f& size, Dice dice) {
              {0.15f, half + 0.07f, size.z() - 0.1f},
              {0.15f, half, size.z() - 0.12f}},
             0.014f, make.f.chrome);
-  AddOddments(make, size.y() - 0.2f, size.z() - 0.005f, &dice);
+  const Vector2f within = size.head<2>() / 2 - Vector2f(0.02f, 0.02f);
+  AddOddments(make, {-within, within}, size.z() - 0.005f, {}, &dice);
 }
 
 void AddLocker(const Maker& make, const Vector3f& size, Dice dice) {

@@ -1,5 +1,6 @@
 #include "simulator/world/props.h"
 
+#include "simulator/scene/prop.h"
 #include "simulator/world/labels.h"
 #include "simulator/world/shapes.h"
 
@@ -29,18 +30,6 @@ Piece PieceOf(const PropSpec& prop, AssetLibrary* assets) {
   return {assets->Load(asset), prop.model, ClassOfProp(asset)};
 }
 
-/// Where the pieces of a row stand; one place without a row.
-std::vector<Eigen::Vector2d> PlacesOf(const PropSpec& prop) {
-  if (!prop.to) return {prop.at};
-  const Eigen::Vector2d way = *prop.to - prop.at;
-  const int steps = static_cast<int>(std::floor(way.norm() / prop.every_m + 1e-6));
-  std::vector<Eigen::Vector2d> places;
-  for (int i = 0; i <= steps; ++i) {
-    places.push_back(prop.at + i * prop.every_m * way.normalized());
-  }
-  return places;
-}
-
 }  // namespace
 
 void AddProps(const Scene& scene, std::uint64_t seed, AssetLibrary* assets, Wardrobe* wardrobe,
@@ -53,7 +42,7 @@ void AddProps(const Scene& scene, std::uint64_t seed, AssetLibrary* assets, Ward
     for (std::size_t k = 0; k < places.size(); ++k) {
       // In a row each is turned a little otherwise, as things are.
       Dice dice(seed, {320, i, k});
-      const double turn = prop.heading_rad + (prop.to ? 0.04 * dice.Signed() : 0);
+      const double turn = prop.heading_rad + (prop.to ? kPropTurn_rad * dice.Signed() : 0);
       const Eigen::Vector3f at(places[k].cast<float>().x(), places[k].cast<float>().y(),
                                static_cast<float>(prop.above_m));
       site->Add(fmt::format("{}_{}_{}", what.name, i, k), what.object_class,

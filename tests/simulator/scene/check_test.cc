@@ -65,6 +65,40 @@ TEST(Props, StandBelowTheRoof) {
               ElementsAre(HasSubstr("props[0].above_m: 20 m is above the roof at 3.5 m")));
 }
 
+/// Of somebody who walks along y = 2 past what stands there.
+std::vector<std::string> MessagesPast(const std::string& things) {
+  return MessagesOf(things + "people: [{name: anna, start: [0, 2], steps: [{go: [[4, 2]]}]}]\n");
+}
+
+TEST(Ways, LeadRoundModelsOfTheKit) {
+  EXPECT_THAT(MessagesPast("props: [{model: drum, at: [2, 2.6]}]\n"), IsEmpty());
+  EXPECT_THAT(MessagesPast("props: [{model: drum, at: [2, 2.4]}]\n"),
+              ElementsAre(HasSubstr("it runs through props[0] (it needs 0.22 m around it)")));
+  EXPECT_THAT(MessagesPast("props: [{model: drum, at: [2, 2], above_m: 2.5}]\n"), IsEmpty());
+  EXPECT_THAT(MessagesPast("props: [{model: tree_round, at: [2, 2.4]}]\n"), IsEmpty())
+      << "beneath its crown";
+  EXPECT_THAT(MessagesPast("props: [{model: cone, at: [2, 3.5], to: [2, 1], every_m: 0.5}]\n"),
+              ElementsAre(HasSubstr("it runs through props[0]")));
+}
+
+TEST(Ways, LeadRoundAMezzaninesColumnsAndStairAndUnderIt) {
+  const auto from = [](double y) {
+    return fmt::format("mezzanines: [{{from: [1, {:g}], to: [5, 4], height_m: 2}}]\n", y);
+  };
+  EXPECT_THAT(MessagesPast(from(2)), ElementsAre(HasSubstr("through a column of mezzanines[0]")));
+  EXPECT_THAT(MessagesPast(from(0.8)), IsEmpty());
+  EXPECT_THAT(
+      MessagesOf(from(2) + "people: [{name: anna, start: [2, 1], steps: [{go: [[5, 1]]}]}]\n"),
+      ElementsAre(HasSubstr("through the stair of mezzanines[0]")));
+}
+
+TEST(Ways, LeadRoundWhatStandsOutOfAMachine) {
+  EXPECT_THAT(MessagesPast("fixtures: [{kind: mill, at: [2, -0.1]}]\n"), IsEmpty());
+  EXPECT_THAT(MessagesPast("fixtures: [{kind: mill, at: [2, 0.1]}]\n"),
+              ElementsAre(HasSubstr("it runs through fixtures[0]")))
+      << "its bin";
+}
+
 /// A pallet truck before somebody who goes to that x.
 std::string PushedTo(double x, double y) {
   return fmt::format(

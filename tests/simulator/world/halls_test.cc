@@ -86,8 +86,7 @@ bool Meets(const std::vector<Eigen::AlignedBox2f>& boxes, const Vector2d& at, do
   });
 }
 
-/// `aisle check` looks at footprints of racks, stacks, columns and machines; this at all that is
-/// built, props and what lies about among it.
+/// `aisle check` looks at footprints; this at all that is built, what lies about among it.
 TEST(Halls, WaysOfTheScenesInThemStayFree) {
   int in_halls = 0;
   for (const std::string& file : FilesIn("weakness")) {
