@@ -75,14 +75,10 @@ void DescribeMarking(Fields& f, MarkingSpec& marking) {
 
 void DescribeProp(Fields& f, PropSpec& prop) {
   prop.mark = f.mark();
-<<<<<<< HEAD
-  f.Name({"model", "file in assets/kit or assets/street, without .glb", "drum", true, "mesh"},
-=======
   f.Name({"model",
-          "file in assets/kit or assets/street without .glb; routes, crowds and clutter keep clear "
-          "of it",
+          "file in assets/kit or assets/street, without .glb; routes, crowds and clutter keep "
+          "clear of it",
           "drum", true, "mesh"},
->>>>>>> 9c994248 (Keep ways, crowds and clutter clear of all that stands)
          &prop.model);
   prop.model_mark = f.MarkOf("model");
   DescribePropMesh(f, prop);

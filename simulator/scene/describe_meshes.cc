@@ -50,16 +50,11 @@ void DescribePersonFiles(Fields& f, PersonSpec& person) {
 }
 
 void DescribePropMesh(Fields& f, PropSpec& prop) {
-<<<<<<< HEAD
-  DescribeMesh(f, "your own mesh instead of `model`: .aislemesh or .glb", prop.mesh);
-  f.Choice({"label", "label of the mesh", "furniture"}, &prop.label, kLabels);
-=======
   DescribeMesh(f,
-               "a mesh of one's own instead of `model`: .aislemesh or .glb; whether routes keep "
-               "clear of it is not checked",
+               "your own mesh instead of `model`: .aislemesh or .glb; whether routes keep clear of "
+               "it is not checked",
                prop.mesh);
-  f.Choice({"label", "what such a mesh is", "furniture"}, &prop.label, kLabels);
->>>>>>> 9c994248 (Keep ways, crowds and clutter clear of all that stands)
+  f.Choice({"label", "label of the mesh", "furniture"}, &prop.label, kLabels);
 }
 
 }  // namespace aisle::sim
