@@ -12,13 +12,12 @@
 #include "slam/camera/measured_motion.h"
 #include "slam/camera/stereo_camera.h"
 #include "slam/dynamic/common/dynamic_regions.h"
-#include "slam/dynamic/dynamic_detector.h"
-#include "slam/dynamic/find_losses.h"
 #include "slam/frames.h"
 #include "slam/options/slam_options.h"
-#include "slam/picture/draw_stages.h"
 
 namespace aisle::slam {
+
+struct DynamicStages;  // slam/moving_objects.h
 
 /// What is known of a frame at that frame, causally.
 struct TrackedFrame {
@@ -39,7 +38,7 @@ struct TrackedFrame {
   int map_keyframes = 0;   ///< size of the map after this frame: it grows with the place ...
   int map_landmarks = 0;   ///< ... that has been explored, not with time
   DynamicRegions dynamic;  ///< what the system itself rejected as moving; empty without a method
-  /// For DrawStages; null unless SlamOptions::dynamic.keep_stages.
+  /// For DrawStages (slam/moving_objects.h); null unless SlamOptions::dynamic.keep_stages.
   std::shared_ptr<const DynamicStages> dynamic_stages;
   bool loop_closed = false;  ///< from this frame on the map is as a closed loop has corrected it
   std::vector<cv::Point2f> keypoints;      ///< left image, for scoring where features were spent

@@ -5,6 +5,7 @@
 #include "harness/plugs/slam_values.h"
 #include "harness/plugs/systems.h"
 #include "harness/score/masks.h"
+#include "slam/moving_objects.h"
 
 namespace aisle {
 namespace {

@@ -3,6 +3,7 @@
 #include "harness/io/input_error.h"
 #include "harness/plugs/slam_values.h"
 #include "harness/score/masks.h"
+#include "slam/moving_objects.h"
 
 namespace aisle {
 namespace {

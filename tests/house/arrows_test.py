@@ -32,6 +32,10 @@ class ArrowsTest(unittest.TestCase):
         self.assertEqual(len(check("harness/plugs/a.cc", f'#include "{inside}"')), 1)
         self.assertEqual(len(check("harness/score/a.cc", f'#include "{face}"')), 1)
 
+    def test_the_slam_has_a_second_face(self):
+        self.assertEqual(check("harness/plugs/a.cc", '#include "slam/moving_objects.h"'), [])
+        self.assertEqual(len(check("harness/cli/a.cc", '#include "slam/moving_objects.h"')), 1)
+
     def test_the_roof_keeps_to_its_list_too(self):
         self.assertEqual(check("harness/cli/a.cc", '#include "harness/contract/run.h"'), [])
         self.assertEqual(len(check("harness/cli/a.cc", '#include "harness/plugs/systems.h"')), 1)
