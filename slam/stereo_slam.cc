@@ -113,6 +113,7 @@ struct StereoSlam::Impl {
   void NoteOutcome(const std::shared_ptr<const Frame>& frame, const std::optional<FramePose>& pose,
                    bool is_keyframe);
   bool IsTimeForANewPart(std::int64_t stamp_ns) const;
+  void BeginWorldAnew();
   /// Whether it is known where the rig was at the last frame.
   bool IsFound() const {
     return state == TrackingState::kTracking || state == TrackingState::kCoasting;
@@ -128,6 +129,7 @@ struct StereoSlam::Impl {
   std::int64_t coasting_since_ns = 0;         // of kCoasting: the last frame that was found
   std::optional<std::int64_t> last_stamp_ns;  // of all frames
   std::int64_t frame_count = 0;
+  int map_id = 0;                           // see TrackedFrame
   std::shared_ptr<const Frame> last_sight;  // the last frame that shows something
   TrackRecord track;
   MapKeeper keeper;
@@ -187,6 +189,7 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
 
   const bool apart = (pose || coasting) && !IsInFirstPart(map, track.memory().reference);
   result.state = apart ? TrackingState::kApart : state;
+  result.map_id = map_id;
   result.map_keyframes = static_cast<int>(map.keyframes().size());
   result.map_landmarks = map.landmark_count();
   NoteObservations(*frame, result);
@@ -272,13 +275,17 @@ bool StereoSlam::Impl::IsTimeForANewPart(std::int64_t stamp_ns) const {
   return SecondsBetween(*lost_since_ns, stamp_ns) >= options.new_part_after_s;
 }
 
+/// Gives up the map, and what has been tracked in it.
+void StereoSlam::Impl::BeginWorldAnew() {
+  if (!keeper.map().empty()) ++map_id;
+  keeper.Adopt({});
+  track.ForgetTrack();
+}
+
 std::optional<FramePose> StereoSlam::Impl::StartPart(const std::shared_ptr<const Frame>& frame) {
   const auto part = policy->Begin(frame, Drive());
   if (!part) return std::nullopt;
-  if (part->anew) {
-    keeper.Adopt({});
-    track.ForgetTrack();
-  }
+  if (part->anew) BeginWorldAnew();
   keeper.AddRoot(part->edit);
   return PoseOfKeyframe(keeper.map(), part->edit.new_keyframes.front().id);
 }
@@ -336,8 +343,7 @@ void StereoSlam::Impl::NoteOutcome(const std::shared_ptr<const Frame>& frame,
   }
   if (options.map_file.empty() && policy->GivesUp(keeper.map())) {
     keeper.FinishWork();
-    keeper.Adopt({});
-    track.ForgetTrack();
+    BeginWorldAnew();
   }
   if (!lost_since_ns && frame->size() >= options.least_first_points)
     lost_since_ns = frame->stamp_ns;

@@ -21,17 +21,22 @@ struct DynamicStages;  // slam/moving_objects.h
 
 /// What is known of a frame at that frame, causally.
 struct TrackedFrame {
-  std::int64_t id = 0;
+  std::int64_t id = 0;  ///< as in StereoImages, as is the stamp
   std::int64_t stamp_ns = 0;
   TrackingState state = TrackingState::kInitializing;
-  /// Absent unless kTracking or kCoasting. World: first rig pose, or that of map_file. A drive that
-  /// has been lost while its map was still small gives that up (never one of map_file), and the
-  /// world begins anew: the next first pose is the identity again for Base::kOrbSlam2, for
-  /// Base::kPlain where the motion before the loss has led. What was told before is then of another
-  /// world, and not in Finish's trajectory.
+  /// Maps rig coordinates to world coordinates, metres: the rig is the left rectified camera, x
+  /// right, y down, z forward. The world is the rig at the first pose, or that of map_file; it
+  /// stays where it is for as long as map_id stays the same. Present exactly in kTracking and
+  /// kCoasting.
   std::optional<Eigen::Isometry3d> T_world_rig;
+  /// Which world T_world_rig is of: 0 at first, one more each time that the system gives up a map
+  /// which was still small when it was lost (never that of map_file) and begins another. Poses of
+  /// different ids are of different worlds; Finish knows those of the last one alone. Where the new
+  /// world lies in the former is not known: Base::kOrbSlam2 begins it at the identity,
+  /// Base::kPlain where it guesses the rig to be by its motion before the loss.
+  int map_id = 0;
   int features = 0;        ///< keypoints in the left image after rejection
-  int stereo_points = 0;   ///< of them, with depth
+  int stereo_points = 0;   ///< of them, those with depth
   int matched_points = 0;  ///< matched to the map
   int inliers = 0;         ///< kept by pose refinement
   bool is_keyframe = false;
@@ -41,31 +46,37 @@ struct TrackedFrame {
   /// For DrawStages (slam/moving_objects.h); null unless SlamOptions::dynamic.keep_stages.
   std::shared_ptr<const DynamicStages> dynamic_stages;
   bool loop_closed = false;  ///< from this frame on the map is as a closed loop has corrected it
-  std::vector<cv::Point2f> keypoints;      ///< left image, for scoring where features were spent
+  /// Pixels of the left image (the centre of pixel (0, 0) is x = 0, y = 0), for scoring where
+  /// features were spent.
+  std::vector<cv::Point2f> keypoints;
   std::vector<bool> keypoint_is_inlier;    ///< per keypoint: took part in the pose
-  std::map<std::string, double> stage_ms;  ///< wall time by stage; reported, never decided upon
+  std::map<std::string, double> stage_ms;  ///< wall time by stage, ms; nothing depends on it
 };
 
-/// The face of the SLAM system. One instance per sequence; any number of instances per process.
-/// Same images, same options: the same bits out, for any number of threads.
+/// The face of the SLAM system. One instance per sequence; any number of instances per process,
+/// each used from one thread at a time. Same images, same options: the same bits out, for any
+/// number of threads.
 class StereoSlam {
  public:
-  /// Throws std::invalid_argument for options that break a rule, std::runtime_error for a file that
-  /// cannot be used.
+  /// Throws std::invalid_argument for a camera or options that break a rule, with the rule;
+  /// std::runtime_error for a map or vocabulary file that cannot be read, or a map that was made
+  /// with another camera or another feature.scale.
   StereoSlam(const StereoCamera& camera, const SlamOptions& options);
   StereoSlam(StereoSlam&&) noexcept;
   StereoSlam& operator=(StereoSlam&&) noexcept;
   ~StereoSlam();
 
-  /// Throws std::invalid_argument for images of another size than the camera's, for a confidence
-  /// that is no number, for a stamp that is not after the one before, and for a motion that is
-  /// none; nothing is changed then. Hard frames (black, featureless) are not errors: they come back
-  /// as kLost or kInitializing.
+  /// Finds the rig in the map, and the map grows.
   ///
-  /// `motion`, where something else than the images tells it: how the rig has moved since the frame
-  /// before. Base::kPlain then believes no pose that contradicts it, and where movers or darkness
-  /// leave too little of the map it goes by it (kCoasting) until the map is seen again. A frame
-  /// without one ends that. Base::kOrbSlam2, like the published system, does without.
+  /// Throws std::invalid_argument for images or masks of another size than the camera's, a
+  /// confidence or a motion that is not finite, a covariance that is not symmetric and positive
+  /// definite, and a stamp that is not after the one before; nothing is changed then. Hard frames
+  /// (black, featureless) are not errors: they come back as kLost or kInitializing.
+  ///
+  /// `motion`, where something other than the images measures it: how the rig has moved since the
+  /// frame before. Base::kPlain then believes no pose that contradicts it, and where movers or
+  /// darkness leave too little of the map it goes by it (kCoasting) until the map is seen again. A
+  /// frame without one ends that. Base::kOrbSlam2, like the published system, does without.
   TrackedFrame Track(const StereoImages& images, const ExternalMask& mask = {},
                      const std::optional<MeasuredMotion>& motion = {});
 
@@ -81,8 +92,9 @@ class StereoSlam {
   void SaveMap(const std::string& file);
 
   /// Ends the run: waits for background work and returns the final trajectory, every tracked frame
-  /// re-anchored to its reference keyframe as the finished map has it. Where parts of the map have
-  /// never been joined, it is that of the largest one.
+  /// re-anchored to its reference keyframe as the finished map has it: stamps rise, and frames
+  /// that were never placed are missing. It is of the last world (TrackedFrame::map_id) and, where
+  /// parts of the map have never been joined, of the largest one.
   std::vector<StampedPose> Finish();
 
  private:
@@ -92,7 +104,8 @@ class StereoSlam {
 
 /// Trains the visual words that loop closing and relocalisation recognise places by, from images of
 /// places like those that will be seen, and writes them to `file` (SlamOptions::vocabulary_file).
-/// The same images in the same order give the same file. Returns the number of words.
+/// The same images (8-bit grey, any sizes) in the same order give the same file. Returns the number
+/// of words. Throws std::runtime_error where the file cannot be written.
 int TrainVocabulary(const std::vector<cv::Mat1b>& images, const FeatureOptions& options,
                     const std::string& file);
 

@@ -3,6 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "harness/bag/frame_messages.h"
+#include "harness/contract/map_id.h"
 #include "harness/contract/state_name.h"
 #include "harness/io/input_error.h"
 #include "harness/io/truth_files.h"
@@ -165,12 +166,28 @@ void DriveBag::WriteEvents(const std::string& system, const FrameEstimate& estim
   }
 }
 
+/// Poses of one frame of reference must be of one world: each has a frame of its own.
+void DriveBag::EnterWorld(const std::string& system, const FrameEstimate& estimate, Track* track) {
+  if (!track->world.empty()) {
+    AddEvent(system, estimate.stamp_ns, ros::kError,
+             fmt::format("map given up, another begun, frame {}", estimate.id));
+  }
+  track->map_id = MapIdOf(estimate);
+  track->world = RosName(system) + "/map";
+  if (track->map_id != 0) track->world += fmt::format("_{}", track->map_id);
+  track->placed = false;
+  track->live.poses.clear();
+}
+
 void DriveBag::AddEstimate(const std::string& system, const FrameEstimate& estimate,
                            const FrameTruth* truth) {
   const std::int64_t stamp_ns = estimate.stamp_ns;
   if (!first_ns_) first_ns_ = stamp_ns;
-  const std::string name = RosName(system), topic = fmt::format("/{}", name), world = name + "/map";
+  const std::string name = RosName(system), topic = fmt::format("/{}", name);
   Track& track = tracks_[system];
+  if (track.world.empty() || track.map_id != MapIdOf(estimate))
+    EnterWorld(system, estimate, &track);
+  const std::string& world = track.world;
   ros::String state;
   state.data = StateName(estimate.state);
   Write(topic + "/state", stamp_ns, state);
@@ -201,7 +218,7 @@ void DriveBag::AddEstimate(const std::string& system, const FrameEstimate& estim
 
 void DriveBag::AddFinalTrack(const std::string& system, const Trajectory& trajectory) {
   if (trajectory.empty() || !first_ns_) return;
-  const std::string world = RosName(system) + "/map";
+  const std::string& world = tracks_[system].world;
   ros::Path path;
   path.header = HeaderOf(*first_ns_, world);
   for (const StampedPose& pose : trajectory) {
@@ -241,7 +258,7 @@ const McapWriter& DriveBag::Finish() {
   }
   for (auto& [system, track] : tracks_) {
     if (track.live.poses.empty()) continue;
-    track.live.header = HeaderOf(*first_ns_, RosName(system) + "/map");
+    track.live.header = HeaderOf(*first_ns_, track.world);
     Write(fmt::format("/{}/path", RosName(system)), *first_ns_, track.live, TopicKind::kLatched);
   }
   writer_.Finish();

@@ -93,6 +93,8 @@ class DriveBag {
     ros::Path live;
     TrackingState state = TrackingState::kInitializing;
     bool placed = false;  ///< its world is laid onto map
+    int map_id = 0;       ///< of that world
+    std::string world;    ///< its frame
   };
   ros::Header HeaderOf(std::int64_t stamp_ns, const std::string& frame) const;
   void WriteRigFrames(std::int64_t stamp_ns, bool odom_drifts);
@@ -101,6 +103,7 @@ class DriveBag {
   template <class T>
   void Write(const std::string& topic, std::int64_t stamp_ns, const T& message,
              TopicKind kind = TopicKind::kStream);
+  void EnterWorld(const std::string& system, const FrameEstimate& estimate, Track* track);
   void WriteEvents(const std::string& system, const FrameEstimate& estimate, TrackingState before);
 
   const StereoCalibration calibration_;

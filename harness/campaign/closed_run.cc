@@ -1,6 +1,7 @@
 #include "harness/campaign/closed_run.h"
 
 #include "harness/common/stopwatch.h"
+#include "harness/contract/map_id.h"
 #include "harness/run/showing.h"
 
 namespace aisle {
@@ -24,8 +25,11 @@ class SystemLocaliser : public Localiser {
         showing_->Show(request, frame, made_ms, shown_, std::max(expected_, shown_ + 1));
     ++shown_;
     busy_ms_ += watch.ElapsedMs();
-    return said == nullptr ? std::nullopt : said->T_world_rig;
+    if (said == nullptr) return std::nullopt;
+    map_id_ = MapIdOf(*said);
+    return said->T_world_rig;
   }
+  int map_id() const override { return map_id_; }
   bool failed() const override { return showing_->offended(); }
 
   std::size_t shown() const { return shown_; }
@@ -35,6 +39,7 @@ class SystemLocaliser : public Localiser {
   const DriveScene& scene_;
   Showing* showing_;
   std::size_t expected_ = 0, shown_ = 0;
+  int map_id_ = 0;
   double busy_ms_ = 0;
 };
 

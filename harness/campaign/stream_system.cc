@@ -15,6 +15,7 @@
 #include "harness/campaign/process.h"
 #include "harness/campaign/sandbox.h"
 #include "harness/common/stopwatch.h"
+#include "harness/contract/map_id.h"
 #include "harness/contract/system_fault.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
@@ -206,12 +207,13 @@ FrameEstimate StreamEstimator::Process(const StereoFrame& frame, const ExternalM
   try {
     if (frame.motion) impl_->Ask(StreamType::kMotion, FormatMotion(frame.id, *frame.motion));
     impl_->Ask(StreamType::kFrame, FormatFrame(frame));
-    const auto pose = ReadAnswer(impl_->Answer(), frame.id);
+    const StreamAnswer answer = ReadAnswer(impl_->Answer(), frame.id);
     FrameEstimate estimate;
     estimate.id = frame.id;
     estimate.stamp_ns = frame.stamp_ns;
-    estimate.state = pose ? TrackingState::kTracking : TrackingState::kLost;
-    estimate.T_world_rig = pose;
+    estimate.state = answer.pose ? TrackingState::kTracking : TrackingState::kLost;
+    estimate.T_world_rig = answer.pose;
+    if (answer.map_id != 0) estimate.counts[kMapId] = answer.map_id;
     return estimate;
   } catch (const StreamError& error) {
     impl_->Blame(error);

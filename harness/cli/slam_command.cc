@@ -155,6 +155,7 @@ int RunSlam(const Options& options) {
         line.Show(fmt::format("frame {} of {}", frame.index + 1, frame.count));
       });
   line.Clear();
+  TellNotes(options.dataset, run.notes);
   if (options.free_running) {
     fmt::print(stderr, "aisle: free running: results differ from run to run\n");
   }

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include "harness/contract/map_id.h"
 #include "harness/io/input_error.h"
 #include "harness/io/stream_protocol.h"
 
@@ -56,7 +57,7 @@ std::size_t Answer(StreamPipe* pipe, const std::string& name, const MakeEstimato
     last_ns = frame.stamp_ns;
     const FrameEstimate said = estimator->Process(frame, {});
     pipe->Send(said.T_world_rig ? StreamType::kPose : StreamType::kLost,
-               FormatAnswer(frame.id, said.T_world_rig));
+               FormatAnswer(frame.id, said.T_world_rig, MapIdOf(said)));
   }
 }
 

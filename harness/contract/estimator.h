@@ -20,7 +20,7 @@ enum class MaskSource {
 /// Frames of reference. `T_world_rig` maps rig coordinates to world coordinates, in metres; rig is
 /// the left rectified camera (x right, y down, z forward). The world is the estimator's own: its
 /// origin and heading are free (usually the first rig pose), its scale is not, and it does not move
-/// during a run. Scores align it with truth by one rigid motion.
+/// while MapIdOf (map_id.h) stays the same. Scores align it with truth by one rigid motion.
 ///
 /// Order of calls. One instance serves one drive: Process for every frame, stamps rising, then
 /// Finish once, then perhaps SaveMap. All from one thread, though not always the same one. Other

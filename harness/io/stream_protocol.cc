@@ -211,14 +211,16 @@ MotionMeasurement ReadMotion(const std::string& payload, std::int64_t* id) {
   return motion;
 }
 
-std::string FormatAnswer(std::int64_t id, const std::optional<Eigen::Isometry3d>& pose) {
+std::string FormatAnswer(std::int64_t id, const std::optional<Eigen::Isometry3d>& pose,
+                         int map_id) {
   std::string bytes;
   Put(&bytes, id);
   if (pose) PutPose(&bytes, *pose);
+  if (map_id != 0) Put(&bytes, static_cast<std::int32_t>(map_id));
   return bytes;
 }
 
-std::optional<Eigen::Isometry3d> ReadAnswer(const StreamMessage& message, std::int64_t id) {
+StreamAnswer ReadAnswer(const StreamMessage& message, std::int64_t id) {
   if (message.type != StreamType::kPose && message.type != StreamType::kLost) {
     Nonsense(fmt::format("expected an answer, got a message of type {}",
                          static_cast<std::uint32_t>(message.type)));
@@ -227,10 +229,11 @@ std::optional<Eigen::Isometry3d> ReadAnswer(const StreamMessage& message, std::i
   const auto of = taker.Take<std::int64_t>();
   if (of != id)
     Nonsense(fmt::format("expected the answer to frame {1}, got that to frame {0}", of, id));
-  std::optional<Eigen::Isometry3d> pose;
-  if (message.type == StreamType::kPose) pose = TakePose(&taker, "its pose");
+  StreamAnswer answer;
+  if (message.type == StreamType::kPose) answer.pose = TakePose(&taker, "its pose");
+  if (taker.left() > 0) answer.map_id = taker.Take<std::int32_t>();
   taker.Done();
-  return pose;
+  return answer;
 }
 
 std::string FormatTrack(const Trajectory& track) {

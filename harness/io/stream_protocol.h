@@ -62,9 +62,16 @@ StereoFrame ReadFrame(const std::string& payload, const StereoCalibration& calib
 std::string FormatMotion(std::int64_t id, const MotionMeasurement& motion);
 MotionMeasurement ReadMotion(const std::string& payload, std::int64_t* id);
 /// Of kPose where there is one, of kLost else.
-std::string FormatAnswer(std::int64_t id, const std::optional<Eigen::Isometry3d>& pose);
-/// The pose in an answer to frame `id`.
-std::optional<Eigen::Isometry3d> ReadAnswer(const StreamMessage& message, std::int64_t id);
+/// `map_id` (MapIdOf) is written unless it is 0.
+std::string FormatAnswer(std::int64_t id, const std::optional<Eigen::Isometry3d>& pose,
+                         int map_id = 0);
+/// What an answer says.
+struct StreamAnswer {
+  std::optional<Eigen::Isometry3d> pose;
+  int map_id = 0;
+};
+/// The answer to frame `id`.
+StreamAnswer ReadAnswer(const StreamMessage& message, std::int64_t id);
 std::string FormatTrack(const Trajectory& track);
 Trajectory ReadTrack(const std::string& payload);
 

@@ -100,10 +100,10 @@ class ClosedDrive::Loop {
     return nullptr;
   }
 
-  void Tell(const std::optional<Eigen::Isometry3d>& T_slam_rig) {
+  void Tell(const std::optional<Eigen::Isometry3d>& T_slam_rig, int map_id) {
     const Exposure* asked = server_.asked();
     if (asked == nullptr) throw std::logic_error("no frame waits for an answer");
-    if (!options_.steering.steered_by_truth) return server_.Tell(T_slam_rig);
+    if (!options_.steering.steered_by_truth) return server_.Tell(T_slam_rig, map_id);
     server_.Tell(Eigen::Isometry3d(asked->T_world_rig));  // shown, and told the truth instead
   }
 
@@ -145,7 +145,7 @@ class ClosedDrive::Loop {
 
   void Listen() {
     for (const Answer& answer : server_.Due(now_ns_)) {
-      pilot_.Told(answer.frame_ns, now_ns_, answer.T_slam_rig);
+      pilot_.Told(answer.frame_ns, now_ns_, answer.T_slam_rig, answer.map_id);
     }
     track_.frames_shown = server_.shown();  // one that waited may have been begun
   }
@@ -341,8 +341,8 @@ ClosedDrive::ClosedDrive(ClosedDrive&&) noexcept = default;
 ClosedDrive::~ClosedDrive() = default;
 
 const Exposure* ClosedDrive::Next() { return loop_->Next(); }
-void ClosedDrive::Tell(const std::optional<Eigen::Isometry3d>& T_slam_rig) {
-  loop_->Tell(T_slam_rig);
+void ClosedDrive::Tell(const std::optional<Eigen::Isometry3d>& T_slam_rig, int map_id) {
+  loop_->Tell(T_slam_rig, map_id);
 }
 void ClosedDrive::Fail() { loop_->Fail(); }
 DriveSample ClosedDrive::Now() const { return loop_->Sample(); }
@@ -373,7 +373,8 @@ std::string Validate(const Steering& steering) {
 DriveTrack DriveClosed(const DriveScene& scene, Localiser* localiser, const LoopOptions& options) {
   ClosedDrive drive(scene, options);
   while (const Exposure* frame = drive.Next()) {
-    drive.Tell(localiser->Locate(*frame));
+    const std::optional<Eigen::Isometry3d> T_slam_rig = localiser->Locate(*frame);
+    drive.Tell(T_slam_rig, localiser->map_id());
     if (localiser->failed()) drive.Fail();
   }
   return drive.track();

@@ -49,8 +49,9 @@ class ClosedDrive {
   /// Drives on to the next frame that the system looks at; null when the drive is over. The same
   /// one again until something is told of it.
   const Exposure* Next();
-  /// What the system says of that frame: T_slam_rig in a world of its own, or nothing: lost.
-  void Tell(const std::optional<Eigen::Isometry3d>& T_slam_rig);
+  /// What the system says of that frame: T_slam_rig in a world of its own, or nothing: lost. The
+  /// vehicle joins each world of another `map_id` to the site anew, by where its wheels put it.
+  void Tell(const std::optional<Eigen::Isometry3d>& T_slam_rig, int map_id = 0);
   /// It crashed or spoke nonsense: the drive ends at this instant.
   void Fail();
   /// The vehicle now.

@@ -13,6 +13,8 @@ class Localiser {
   /// T_world_rig in a world of its own, or nothing: lost. Called once for each frame it takes, in
   /// their order.
   virtual std::optional<Eigen::Isometry3d> Locate(const Exposure& exposure) = 0;
+  /// Which world of its own the pose told last is of: another number, another world.
+  virtual int map_id() const { return 0; }
   /// It crashed or spoke nonsense: the drive ends.
   virtual bool failed() const { return false; }
 };

@@ -16,8 +16,9 @@ void Server::Begin(const Exposure& exposure, std::int64_t at_ns) {
   wheels_before_ = exposure.wheels;
 }
 
-void Server::Tell(const std::optional<Eigen::Isometry3d>& T_slam_rig) {
+void Server::Tell(const std::optional<Eigen::Isometry3d>& T_slam_rig, int map_id) {
   working_.back().T_slam_rig = T_slam_rig;
+  working_.back().map_id = map_id;
   asked_.reset();
 }
 

@@ -14,6 +14,7 @@ struct Answer {
   std::int64_t frame_ns = 0;
   std::int64_t due_ns = 0;
   std::optional<Eigen::Isometry3d> T_slam_rig;
+  int map_id = 0;  ///< which world of the SLAM's that is of
 };
 
 /// Latency as a model: one system that takes a while for each frame. Time is the scene's, never the
@@ -28,8 +29,8 @@ class Server {
   /// The frame that the system has begun and has not said anything of yet; null: none. Until it is
   /// told, nothing else goes on.
   const Exposure* asked() const { return asked_ ? &*asked_ : nullptr; }
-  /// What the system says of that frame: T_slam_rig, or nothing.
-  void Tell(const std::optional<Eigen::Isometry3d>& T_slam_rig);
+  /// What the system says of that frame: T_slam_rig, or nothing; and of which world of its own.
+  void Tell(const std::optional<Eigen::Isometry3d>& T_slam_rig, int map_id = 0);
   /// The answers that are due by now, in order, as far as they are told. A frame that waited is
   /// begun when the one before it is done.
   std::vector<Answer> Due(std::int64_t now_ns);

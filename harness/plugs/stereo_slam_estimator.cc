@@ -1,5 +1,6 @@
 #include "harness/plugs/stereo_slam_estimator.h"
 
+#include "harness/contract/map_id.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/slam_values.h"
 #include "harness/score/masks.h"
@@ -58,7 +59,8 @@ FrameEstimate Convert(const slam::TrackedFrame& frame) {
                      {"map_keyframes", frame.map_keyframes},
                      {"map_landmarks", frame.map_landmarks},
                      {"loop_closed", frame.loop_closed ? 1 : 0},
-                     {"coasting", frame.state == slam::TrackingState::kCoasting ? 1 : 0}};
+                     {"coasting", frame.state == slam::TrackingState::kCoasting ? 1 : 0},
+                     {kMapId, frame.map_id}};
   estimate.stage_ms = frame.stage_ms;
   estimate.keypoints = frame.keypoints;
   estimate.keypoint_is_inlier = frame.keypoint_is_inlier;

@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "harness/contract/drive_names.h"
+#include "harness/contract/map_id.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/loop/closed_drive.h"
@@ -62,6 +63,7 @@ class Drive {
   FramePtr Step(const std::optional<NumberArray>& pose) {
     if (spec_ && pose) throw py::value_error("pose: this drive is steered by " + spec_->name);
     std::optional<Eigen::Isometry3d> said;
+    int map_id = 0;
     if (pose) said = PoseFrom(*pose, "pose");
     const py::gil_scoped_release others_may_run;
     const std::lock_guard one_at_a_time(mutex_);
@@ -69,8 +71,9 @@ class Drive {
     if (spec_) {
       estimate_ = estimator_->Process(frame_->shown.images, masks_(frame_->shown));
       said = estimate_->T_world_rig;
+      map_id = MapIdOf(*estimate_);
     }
-    drive_->Tell(said);
+    drive_->Tell(said, map_id);
     return TakeNext();
   }
 

@@ -3,6 +3,7 @@
 
 #include <mutex>
 
+#include "harness/contract/map_id.h"
 #include "harness/contract/state_name.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/steering_options.h"
@@ -57,6 +58,8 @@ class Slam {
     frame.id = frames_;
     FrameEstimate estimate = estimator_->Process(frame, rejected);
     ++frames_;  // not of one that was refused
+    if (MapIdOf(estimate) != map_id_) live_.poses.clear();
+    map_id_ = MapIdOf(estimate);
     if (estimate.T_world_rig) live_.poses.push_back({stamp_ns, *estimate.T_world_rig});
     return estimate;
   }
@@ -93,6 +96,7 @@ class Slam {
   std::unique_ptr<Estimator> estimator_;
   mutable std::mutex mutex_;  ///< one frame at a time, whichever thread brings it
   python::Track live_, final_;
+  int map_id_ = 0;  ///< of live_
   std::int64_t frames_ = 0;
   bool finished_ = false;
 };
@@ -128,6 +132,10 @@ void BindEstimate(py::module_& module) {
             return ToArray(*estimate.T_world_rig);
           },
           "float64 (4, 4): T_world_rig in a world of the SLAM's own, metres; None while lost.")
+      .def_property_readonly(
+          "map_id", &MapIdOf,
+          "Which world pose is of: rises where the SLAM gives up its map and begins "
+          "another; poses of different ids\ncannot be compared.")
       .def_property_readonly(
           "mask", [](const FrameEstimate& estimate) { return ToArray(estimate.regions.mask); },
           "uint8 (height, width): 255 where it rejected what moves; None if it makes no masks.")
@@ -184,8 +192,10 @@ void BindSlam(py::module_& module) {
       .def(
           "finish", &Slam::Finish,
           "Ends the drive, waits for background work: the final Trajectory after all optimisation.")
-      .def_property_readonly("live", &Slam::Live,
-                             "Trajectory so far, each pose as known at its frame; a copy.")
+      .def_property_readonly(
+          "live", &Slam::Live,
+          "Trajectory so far, each pose as known at its frame, those of the last map_id; a "
+          "copy.")
       .def("save_map", &Slam::SaveMap, py::arg("file"), "Writes the map for a later load_map.");
   module.def("systems", SystemsByName, "{name: description} of the systems that come with aisle.");
   module.def("options", OptionsByPath, py::arg("system") = "robust",

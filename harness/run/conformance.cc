@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "harness/contract/map_id.h"
 #include "harness/contract/rigid.h"
 
 namespace aisle {
@@ -117,12 +118,15 @@ void HoldFinal(const Trajectory& final, const std::vector<StereoFrame>& frames,
 Said DriveAndHold(const Make& make, const std::vector<StereoFrame>& frames, Findings* findings) {
   const std::unique_ptr<Estimator> estimator = make();
   Said said;
+  int map_id = std::numeric_limits<int>::min();
   for (const StereoFrame& original : frames) {
     const StereoFrame frame = Clone(original);
     const FrameEstimate estimate = estimator->Process(frame, {});
     findings->Hold(SamePixels(frame.left, original.left) && SamePixels(frame.right, original.right),
                    frame.id, "it writes to the caller's images");
     HoldEstimate(estimate, frame, findings);
+    findings->Hold(MapIdOf(estimate) >= map_id, frame.id, "map_id falls");
+    map_id = MapIdOf(estimate);
     said.live.push_back(estimate.T_world_rig);
   }
   said.final = estimator->Finish();

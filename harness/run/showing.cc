@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <new>
 
+#include "harness/contract/map_id.h"
 #include "harness/contract/rigid.h"
 #include "harness/contract/system_fault.h"
 #include "harness/score/difficulty.h"
@@ -64,12 +65,29 @@ FrameFacts FactsOf(const SequenceFrame& shown, const FrameEstimate& estimate) {
   return facts;
 }
 
+/// The poses of the last world that the system has begun, as known at their frames.
 Trajectory LiveTrack(const std::vector<FrameEstimate>& estimates) {
   Trajectory live;
+  const int last = estimates.empty() ? 0 : MapIdOf(estimates.back());
   for (const FrameEstimate& estimate : estimates) {
-    if (estimate.T_world_rig) live.push_back({estimate.stamp_ns, *estimate.T_world_rig});
+    if (MapIdOf(estimate) != last || !estimate.T_world_rig) continue;
+    live.push_back({estimate.stamp_ns, *estimate.T_world_rig});
   }
   return live;
+}
+
+/// Where poses were handed out in worlds that were given up later, a sentence about it.
+std::optional<std::string> NoteOfFormerWorlds(const std::vector<FrameEstimate>& estimates) {
+  if (estimates.empty() || MapIdOf(estimates.back()) == MapIdOf(estimates.front())) return {};
+  const int last = MapIdOf(estimates.back());
+  const auto begun = std::ranges::find(estimates, last, MapIdOf);
+  const auto lost = std::count_if(estimates.begin(), begun, [](const FrameEstimate& estimate) {
+    return estimate.T_world_rig.has_value();
+  });
+  return fmt::format(
+      "it gave up its map and began another, last at frame {}: the {} live poses before that are "
+      "of another world and count as missing",
+      begun->id, lost);
 }
 
 /// Poses of a track that are of no frame that was shown: a clock of another unit or beginning, say.
@@ -165,6 +183,12 @@ const FrameEstimate* Showing::Show(const FrameRequest& request, const SequenceFr
   }
   const double process_ms = step.ElapsedMs();
   Offend(RunStatus::kInvalid, Fault(estimate, shown.images));
+  const int map_id = MapIdOf(estimate),
+            map_id_before = result_.estimates.empty() ? map_id : MapIdOf(result_.estimates.back());
+  if (map_id < map_id_before) {
+    Offend(RunStatus::kInvalid, fmt::format("frame {}: its map_id falls from {} to {}",
+                                            shown.images.id, map_id_before, map_id));
+  }
   if (offended()) return nullptr;
 
   AdoptMask(mask, &estimate);
@@ -189,6 +213,7 @@ const FrameEstimate* Showing::Show(const FrameRequest& request, const SequenceFr
 RunResult Showing::Finish(std::size_t frames, double min_coverage) {
   if (!ever_rejected_) DropMaskFacts(&result_.facts);
   result_.trajectory.live = LiveTrack(result_.estimates);
+  if (auto note = NoteOfFormerWorlds(result_.estimates)) result_.notes.push_back(*std::move(note));
   if (!offended()) {
     try {
       Trajectory track = estimator_.Finish();

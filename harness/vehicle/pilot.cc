@@ -38,14 +38,15 @@ void Pilot::Rolled(std::int64_t now_ns, const FloorPose& motion) {
 }
 
 void Pilot::Told(std::int64_t frame_ns, std::int64_t now_ns,
-                 const std::optional<Eigen::Isometry3d>& T_slam_rig) {
+                 const std::optional<Eigen::Isometry3d>& T_slam_rig, int map_id) {
   if (!T_slam_rig) {
     watch_ = AfterAnswer(watch_, false, 0, now_ns, options_.watch);
     return;
   }
   const FloorPose since = RollingAt(frame_ns).pose.inverse() * rolled_.back().pose;
   const FloorPose wheels_then = belief_ * since.inverse();
-  if (!T_site_slam_) {
+  if (!T_site_slam_ || map_id != map_id_) {
+    map_id_ = map_id;
     T_site_slam_ = InSpace(wheels_then) * options_.T_vehicle_rig * T_slam_rig->inverse();
   }
   FloorPose told = FromAbove(*T_site_slam_ * *T_slam_rig * options_.T_vehicle_rig.inverse());

@@ -3,6 +3,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 
+#include "harness/contract/map_id.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 
@@ -50,14 +51,15 @@ cv::Mat3b FrameAlbum::See(std::size_t index, std::size_t count, const cv::Mat1b&
                           const FrameTruth* truth, const FrameEstimate& estimate,
                           const FrameFacts& facts) {
   double step_error_m = 0;
-  if (estimate.T_world_rig && previous_ && truth != nullptr) {
-    const Eigen::Isometry3d true_step = previous_->first.inverse() * truth->T_world_rig;
-    const Eigen::Isometry3d our_step = previous_->second.inverse() * *estimate.T_world_rig;
+  if (estimate.T_world_rig && previous_ && truth != nullptr &&
+      previous_->map_id == MapIdOf(estimate)) {
+    const Eigen::Isometry3d true_step = previous_->T_truth_rig.inverse() * truth->T_world_rig;
+    const Eigen::Isometry3d our_step = previous_->T_world_rig.inverse() * *estimate.T_world_rig;
     step_error_m = (true_step.inverse() * our_step).translation().norm();
   }
   previous_.reset();
   if (estimate.T_world_rig && truth != nullptr) {
-    previous_ = {truth->T_world_rig, *estimate.T_world_rig};
+    previous_ = {truth->T_world_rig, *estimate.T_world_rig, MapIdOf(estimate)};
   }
   const std::size_t every = std::max(kEvery, (count + kMostHeld - 1) / kMostHeld);
   if (kept_ == FramesKept::kNone || index % every != 0) return {};

@@ -49,8 +49,12 @@ class FrameAlbum {
   std::map<std::string, std::size_t> Leaders(const std::map<std::size_t, double>& error_m) const;
 
   FramesKept kept_;
-  std::map<std::size_t, Picture> pictures_;                                  ///< by frame
-  std::optional<std::pair<Eigen::Isometry3d, Eigen::Isometry3d>> previous_;  ///< true, estimated
+  std::map<std::size_t, Picture> pictures_;  ///< by frame
+  struct Posed {
+    Eigen::Isometry3d T_truth_rig, T_world_rig;
+    int map_id = 0;
+  };
+  std::optional<Posed> previous_;  ///< the frame before, where truth and system have its pose
 };
 
 }  // namespace aisle

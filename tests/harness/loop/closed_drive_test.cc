@@ -41,6 +41,32 @@ TEST(ClosedDriveTest, TheSystemsOwnWorldIsJoinedToTheSite) {
   EXPECT_NEAR(track.samples.back().truth.position.x(), 8, 4e-3);
 }
 
+/// Gives its map up at a time and begins another, where it then is.
+class ForgettingLocaliser : public DriftingLocaliser {
+ public:
+  explicit ForgettingLocaliser(bool says_so) : says_so_(says_so) {}
+  std::optional<Eigen::Isometry3d> Locate(const Exposure& exposure) override {
+    if (exposure.stamp_ns < 3'000'000'000) return DriftingLocaliser::Locate(exposure);
+    if (!T_begun_) T_begun_ = exposure.T_world_rig;
+    return T_begun_->inverse() * exposure.T_world_rig;
+  }
+  int map_id() const override { return says_so_ && T_begun_ ? 1 : 0; }
+
+ private:
+  const bool says_so_;
+  std::optional<Eigen::Isometry3d> T_begun_;
+};
+
+TEST(ClosedDriveTest, AWorldThatIsBegunAnewIsJoinedToTheSiteByTheWheels) {
+  ForgettingLocaliser says_so(true), keeps_silent(false);
+  const FakeDriveScene scene;
+  const DriveTrack track = DriveClosed(scene, &says_so, {});
+  EXPECT_EQ(track.end, DriveEnd::kArrived);
+  EXPECT_NEAR(track.samples.back().truth.position.x(), 8, 0.1) << "as exact as wheels are";
+  EXPECT_EQ(track.lost_s, 0);
+  EXPECT_NE(DriveClosed(scene, &keeps_silent, {}).end, DriveEnd::kArrived);
+}
+
 TEST(ClosedDriveTest, WhoBelievesADriftDrivesIt) {
   DriftingLocaliser drifting(0.02);
   const DriveTrack track = DriveClosed(FakeDriveScene(), &drifting, {});

@@ -37,7 +37,7 @@ struct Faults {
   bool wrong_stamp = false, pose_without_tracking = false, scaled = false, writes = false;
   bool keeps_images = false, remembers_others = false, throws_on_black = false;
   bool wrong_mask_size = false, grey_mask = false, falling_stamps = false,
-       keypoints_outside = false;
+       keypoints_outside = false, map_id_falls = false;
 };
 
 class MeanWalker : public Estimator {
@@ -60,6 +60,7 @@ class MeanWalker : public Estimator {
     estimate.T_world_rig = pose_;
     if (faults_.wrong_mask_size) estimate.regions.mask = cv::Mat1b::zeros(3, 3);
     if (faults_.grey_mask) estimate.regions.mask = cv::Mat1b(frame.left.size(), std::uint8_t{7});
+    if (faults_.map_id_falls) estimate.counts["map_id"] = -static_cast<int>(frame.id);
     if (faults_.keypoints_outside) estimate.keypoints = {{40, 2}};
     track_.push_back({frame.stamp_ns, pose_});
     return estimate;
@@ -103,6 +104,7 @@ TEST(ConformanceTest, EveryFaultIsFoundAndNamed) {
   EXPECT_THAT(Check({.grey_mask = true}), ElementsAre(HasSubstr("0 and 255")));
   EXPECT_THAT(Check({.falling_stamps = true}), ElementsAre(HasSubstr("stamps must rise")));
   EXPECT_THAT(Check({.keypoints_outside = true}), ElementsAre(HasSubstr("outside")));
+  EXPECT_THAT(Check({.map_id_falls = true}), ElementsAre(HasSubstr("frame 1: map_id falls")));
 }
 
 }  // namespace

@@ -65,7 +65,9 @@ class ScriptedEstimator : public Estimator {
     kWrongFrame,
     kEndsInMicroseconds,
     kEndsInTheFuture,
-    kEndsSparse
+    kEndsSparse,
+    kBeginsAnew,
+    kGoesBackToAnOldMap
   };
   explicit ScriptedEstimator(Sin sin = Sin::kNone) : sin_(sin) {}
 
@@ -102,6 +104,13 @@ class ScriptedEstimator : public Estimator {
       case Sin::kEndsInMicroseconds:
       case Sin::kEndsInTheFuture:
       case Sin::kEndsSparse:
+        break;
+      case Sin::kBeginsAnew:
+        estimate->T_world_rig = PoseAt(9).inverse() * *estimate->T_world_rig;
+        estimate->counts["map_id"] = 1;
+        break;
+      case Sin::kGoesBackToAnOldMap:
+        estimate->counts["map_id"] = -1;
         break;
       case Sin::kThrows:
         throw std::runtime_error("cannot go on");
@@ -168,6 +177,7 @@ TEST(DriveTest, MisbehaviourIsTheSystemsOwnVerdict) {
       {Sin::kSaysFar, RunStatus::kInvalid, "frame 10: the pose is no rigid motion within 1e+08 m"},
       {Sin::kSaysShear, RunStatus::kInvalid,
        "frame 10: the pose is no rigid motion within 1e+08 m"},
+      {Sin::kGoesBackToAnOldMap, RunStatus::kInvalid, "frame 10: its map_id falls from 0 to -1"},
       {Sin::kWrongFrame, RunStatus::kInvalid, "frame 10: the answer belongs to frame 0"},
       {Sin::kLosesTheRest, RunStatus::kLost, "a pose for 10 of 40 frames only"}};
   for (const auto& [sin, status, why] : cases) {
@@ -195,6 +205,20 @@ TEST(DriveTest, AFinalTrackHasTheStampsOfFrames) {
   const RunResult sparse = DriveWith(Sin::kEndsSparse);
   EXPECT_EQ(sparse.status, RunStatus::kOk) << sparse.status_why;
   EXPECT_EQ(sparse.trajectory.final.size(), 6u);
+}
+
+/// One rigid motion lays a track onto truth: poses of two worlds are no track.
+TEST(DriveTest, TheLiveTrackIsOfTheLastWorld) {
+  const RunResult run = DriveWith(Sin::kBeginsAnew);
+  EXPECT_EQ(run.status, RunStatus::kOk) << run.status_why;
+  ASSERT_EQ(run.trajectory.live.size(), 30u);
+  EXPECT_EQ(run.trajectory.live.front().stamp_ns, 10 * kStepNs);
+  ASSERT_EQ(run.notes.size(), 1u);
+  EXPECT_NE(run.notes[0].find("frame 10: the 10 live poses"), std::string::npos) << run.notes[0];
+  const Scorecard scores = ScoreRun(run).scores;
+  EXPECT_NEAR(*scores.at("ate_live_rmse_m").value, 0, 1e-9);
+  EXPECT_DOUBLE_EQ(*scores.at("coverage").value, 0.75);
+  EXPECT_TRUE(DriveWith(Sin::kNone).notes.empty());
 }
 
 TEST(DriveTest, MemoryThatIsNotThereIsNotTheSystemsFault) {

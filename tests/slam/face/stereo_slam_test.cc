@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
 #include <thread>
 
 #include "tests/slam/face/room_scene.h"
@@ -41,6 +42,12 @@ std::vector<TrackedFrame> TrackAll(StereoSlam& slam, const std::vector<StereoIma
   std::vector<TrackedFrame> tracked;
   for (const StereoImages& images : film) tracked.push_back(slam.Track(images));
   return tracked;
+}
+
+StereoImages Black(StereoImages images) {
+  images.left = cv::Mat1b::zeros(images.left.size());
+  images.right = images.left.clone();
+  return images;
 }
 
 void ExpectFollows(const std::vector<TrackedFrame>& tracked,
@@ -310,14 +317,52 @@ TEST(OrbSlam2Base, GivesTheSameBitsForAnyThreadsAndForInlineMapping) {
 TEST(OrbSlam2Base, BeginsAnewWhereASmallMapIsLost) {
   StereoSlam slam(RoomScene().camera(), OrbSlam2With(2, true, 1));
   slam.Track(StraightFilm()[0]);
-  slam.Track(StraightFilm()[1]);
-  StereoImages black = StraightFilm()[2];
-  black.left = black.right = cv::Mat1b::zeros(black.left.size());
-  EXPECT_EQ(slam.Track(black).state, TrackingState::kInitializing);
+  EXPECT_EQ(slam.Track(StraightFilm()[1]).map_id, 0);
+  EXPECT_EQ(slam.Track(Black(StraightFilm()[2])).state, TrackingState::kInitializing);
   const TrackedFrame next = slam.Track(StraightFilm()[3]);
   ASSERT_TRUE(next.T_world_rig);
   EXPECT_EQ(next.T_world_rig->matrix(), Eigen::Matrix4d::Identity());
+  EXPECT_EQ(next.map_id, 1);
   EXPECT_EQ(slam.Finish().size(), 1u);
+}
+
+TEST(OrbSlam2Base, AMapIsGivenUpOnceHoweverLongTheDarkness) {
+  StereoSlam slam(RoomScene().camera(), OrbSlam2With(2, true, 1));
+  EXPECT_EQ(slam.Track(Black(StraightFilm()[0])).map_id, 0) << "there was none to give up";
+  EXPECT_EQ(slam.Track(StraightFilm()[1]).map_id, 0);
+  for (std::size_t i = 2; i < 6; ++i) EXPECT_EQ(slam.Track(Black(StraightFilm()[i])).map_id, 1);
+  EXPECT_EQ(slam.Track(StraightFilm()[6]).map_id, 1);
+}
+
+/// The rig is carried to the back wall in the dark, before it has mapped anything to speak of.
+TEST(StereoSlam, MapIdRisesWhereTheWorldBeginsAnew) {
+  const std::string words = (std::filesystem::path(testing::TempDir()) / "map_id.voc").string();
+  TrainVocabulary({StraightFilm()[0].left}, {}, words);
+  SlamOptions options;
+  options.vocabulary_file = words;
+  options.new_part_after_s = 0.2;
+  options.track.inertia.longest_s = 0;
+  StereoSlam slam(RoomScene().camera(), options);
+  std::filesystem::remove(words);
+  std::vector<Eigen::Isometry3d> away;
+  for (int i = 0; i < 20; ++i) away.push_back(PoseAt(0, 0, 0.6, 180 + 0.5 * i));
+  std::int64_t id = 0;
+  const auto track = [&](StereoImages images) {
+    images.id = id;
+    images.stamp_ns = id++ * kFrameNs;
+    return slam.Track(images);
+  };
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(track(StraightFilm()[0]).map_id, 0);
+  std::vector<TrackedFrame> later;
+  for (const StereoImages& images : Film(away)) later.push_back(track(images));
+  EXPECT_EQ(later.front().map_id, 0) << "lost, but not given up yet";
+  EXPECT_EQ(later.back().map_id, 1);
+  ASSERT_TRUE(later.back().T_world_rig);
+  // Finish speaks of the same world.
+  const std::vector<StampedPose> final_track = slam.Finish();
+  const auto begun = std::ranges::find(later, 1, &TrackedFrame::map_id);
+  ASSERT_FALSE(final_track.empty());
+  EXPECT_EQ(final_track.front().stamp_ns, begun->stamp_ns);
 }
 
 TEST(StereoSlam, RefusesImagesOfAnotherSize) {
