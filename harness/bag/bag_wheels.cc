@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "harness/common/seconds.h"
 #include "harness/io/input_error.h"
 #include "harness/io/nearest_word.h"
 #include "harness/ros/sensor.h"
@@ -188,9 +189,8 @@ WheelTrack ReadBagWheels(const Bag& bag, const std::string& topic, const std::st
     return IsCovariance(at.second.twist_covariance);
   });
   for (const auto& [stamp_ns, reading] : readings) {
-    const double seconds = track.poses.empty()
-                               ? 0
-                               : static_cast<double>(stamp_ns - track.poses.back().stamp_ns) * 1e-9;
+    const double seconds =
+        track.poses.empty() ? 0 : ToSeconds(stamp_ns - track.poses.back().stamp_ns);
     track.poses.push_back({stamp_ns, reading.T_odom_base});
     if (all_say) track.covariances.push_back(reading.twist_covariance * seconds * seconds);
   }

@@ -9,6 +9,7 @@
 #include "harness/bag/compression.h"
 #include "harness/bag/mcap_records.h"
 #include "harness/io/crc32.h"
+#include "harness/io/descriptor.h"
 #include "harness/io/input_error.h"
 
 namespace aisle {
@@ -39,17 +40,13 @@ Head HeadOf(std::string_view bytes) {
 class RandomAccessFile {
  public:
   explicit RandomAccessFile(const std::filesystem::path& path) : path_(path) {
-    fd_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    file_ = Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     struct stat status {};
-    if (fd_ < 0 || ::fstat(fd_, &status) != 0 || !S_ISREG(status.st_mode)) {
-      if (fd_ >= 0) ::close(fd_);
+    if (::fstat(file_.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
       throw InputError(path.string(), 0, "cannot be read: no such file");
     }
     size_ = static_cast<std::uint64_t>(status.st_size);
   }
-  ~RandomAccessFile() { ::close(fd_); }
-  RandomAccessFile(const RandomAccessFile&) = delete;
-  RandomAccessFile& operator=(const RandomAccessFile&) = delete;
 
   std::uint64_t size() const { return size_; }
 
@@ -58,8 +55,8 @@ class RandomAccessFile {
     std::string bytes(offset <= size_ ? std::min(count, size_ - offset) : 0, '\0');
     std::size_t done = 0;
     while (done < bytes.size()) {
-      const ssize_t got =
-          ::pread(fd_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
+      const ssize_t got = ::pread(file_.get(), bytes.data() + done, bytes.size() - done,
+                                  static_cast<off_t>(offset + done));
       if (got < 0 && errno == EINTR) continue;
       if (got <= 0) break;
       done += static_cast<std::size_t>(got);
@@ -70,7 +67,7 @@ class RandomAccessFile {
 
  private:
   std::filesystem::path path_;
-  int fd_ = -1;
+  Descriptor file_;
   std::uint64_t size_ = 0;
 };
 

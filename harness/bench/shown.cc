@@ -44,7 +44,7 @@ FrameEstimate Show(const SequenceFrame& frame, const MaskMaker& masks, Estimator
 }
 
 std::vector<FrameRequest> Excerpt::Schedule() const {
-  const std::vector<FrameRequest> all = whole_.Schedule();
+  const std::vector<FrameRequest> all = ForwardingSequence::Schedule();
   const auto at = [&](int i) {
     return all.begin() + std::clamp<std::ptrdiff_t>(i, 0, std::ssize(all));
   };
@@ -52,7 +52,7 @@ std::vector<FrameRequest> Excerpt::Schedule() const {
 }
 
 SequenceFrame Excerpt::At(const FrameRequest& request) const {
-  SequenceFrame frame = whole_.At(request);
+  SequenceFrame frame = ForwardingSequence::At(request);
   if (request.id <= from_) frame.images.motion.reset();
   return frame;
 }

@@ -4,6 +4,7 @@
 
 #include "harness/bench/source.h"
 #include "harness/contract/estimator.h"
+#include "harness/contract/forwarding_sequence.h"
 #include "harness/contract/system_spec.h"
 #include "harness/run/mask_makers.h"
 
@@ -26,18 +27,15 @@ FrameEstimate Show(const SequenceFrame& frame, const MaskMaker& masks, Estimator
 
 /// Some frames of another sequence, which must outlive it: from one on, `to` not included. Nobody
 /// measured a motion before the first.
-class Excerpt : public Sequence {
+class Excerpt : public ForwardingSequence {
  public:
-  Excerpt(const Sequence& whole, int from, int to) : whole_(whole), from_(from), to_(to) {}
+  Excerpt(const Sequence& whole, int from, int to)
+      : ForwardingSequence(whole), from_(from), to_(to) {}
 
-  std::string name() const override { return whole_.name(); }
-  StereoCalibration calibration() const override { return whole_.calibration(); }
-  double rate_hz() const override { return whole_.rate_hz(); }
   std::vector<FrameRequest> Schedule() const override;
   SequenceFrame At(const FrameRequest& request) const override;
 
  private:
-  const Sequence& whole_;
   int from_, to_;
 };
 

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "harness/campaign/equal_runs.h"
+#include "harness/common/counted.h"
 #include "harness/io/duration.h"
 #include "harness/io/system_spec_json.h"
 #include "harness/plugs/steering_options.h"
@@ -59,10 +60,6 @@ std::string WithThousands(std::int64_t number) {
     text += digits[i];
   }
   return text;
-}
-
-std::string Counted(std::size_t count, const char* noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
 }  // namespace

@@ -17,31 +17,13 @@
 #include "harness/common/stopwatch.h"
 #include "harness/contract/map_id.h"
 #include "harness/contract/system_fault.h"
+#include "harness/io/descriptor.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/stream_protocol.h"
 
 namespace aisle {
 namespace {
-
-/// A descriptor that is closed with it.
-class Descriptor {
- public:
-  explicit Descriptor(int fd = -1) : fd_(fd) {}
-  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(fd_, other.fd_);
-    return *this;
-  }
-  ~Descriptor() { Close(); }
-  void Close() {
-    if (fd_ >= 0) ::close(std::exchange(fd_, -1));
-  }
-  int get() const { return fd_; }
-
- private:
-  int fd_;
-};
 
 struct PipeEnds {
   Descriptor read, write;

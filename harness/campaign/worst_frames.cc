@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/common/seconds.h"
+
 namespace aisle {
 
 std::vector<WorstFrame> FindWorstFrames(const std::vector<FrameRow>& rows, std::size_t count,
@@ -17,7 +19,7 @@ std::vector<WorstFrame> FindWorstFrames(const std::vector<FrameRow>& rows, std::
   std::vector<const FrameRow*> chosen;
   for (const FrameRow* row : order) {
     const bool is_near = std::ranges::any_of(chosen, [&](const FrameRow* other) {
-      return std::abs(1e-9 * static_cast<double>(row->stamp_ns - other->stamp_ns)) < apart_s;
+      return std::abs(ToSeconds(row->stamp_ns - other->stamp_ns)) < apart_s;
     });
     if (chosen.size() < count && !is_near) chosen.push_back(row);
   }

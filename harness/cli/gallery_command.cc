@@ -8,6 +8,7 @@
 #include "harness/cli/common_options.h"
 #include "harness/cli/files_below.h"
 #include "harness/cli/page_block.h"
+#include "harness/common/seconds.h"
 #include "harness/io/file.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
@@ -93,7 +94,7 @@ double Mean(const std::vector<Sample>& samples, double Sample::*share) {
   return mean;
 }
 
-double Seconds(const Sample& sample) { return static_cast<double>(sample.request.stamp_ns) * 1e-9; }
+double Seconds(const Sample& sample) { return ToSeconds(sample.request.stamp_ns); }
 
 SimulatedSequenceOptions SimulationOf(const std::string& file, const Options& options) {
   return {.scene_file = file,

@@ -3,6 +3,7 @@
 #include "harness/cli/by_name.h"
 #include "harness/cli/command.h"
 #include "harness/cli/common_options.h"
+#include "harness/common/seconds.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
@@ -37,7 +38,7 @@ FrameRequest Choose(const std::vector<FrameRequest>& schedule, const Options& op
   });
   if (at != schedule.end()) return *at;
   throw InputError(fmt::format("--time {}: the scene ends at {:.2f} s", options.time_s,
-                               static_cast<double>(schedule.back().stamp_ns) * 1e-9));
+                               ToSeconds(schedule.back().stamp_ns)));
 }
 
 int Preview(Options options) {
@@ -52,7 +53,7 @@ int Preview(Options options) {
   const SequenceFrame frame = sequence->At(request);
   const FrameTruth* truth = frame.truth && !options.plain ? &*frame.truth : nullptr;
   const std::string caption = fmt::format("{}  frame {}  {:.2f} s", sequence->name(), request.id,
-                                          static_cast<double>(request.stamp_ns) * 1e-9);
+                                          ToSeconds(request.stamp_ns));
   WriteImage(options.output,
              options.plain ? cv::Mat(frame.images.left)
                            : cv::Mat(DrawOverlay(frame.images.left, truth, nullptr, caption)));

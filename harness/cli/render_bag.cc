@@ -3,6 +3,7 @@
 #include "harness/bag/beside_bag.h"
 #include "harness/bag/drive_bag.h"
 #include "harness/cli/terminal.h"
+#include "harness/common/seconds.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/wheel_motion.h"
@@ -28,8 +29,7 @@ void RenderBag(const SimulationForExport& simulation, const std::vector<FrameReq
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const SequenceFrame frame = ahead.Next().frame;
     if (i > 0 && frame.images.motion) {
-      const double seconds =
-          static_cast<double>(frames[i].stamp_ns - frames[i - 1].stamp_ns) * 1e-9;
+      const double seconds = ToSeconds(frames[i].stamp_ns - frames[i - 1].stamp_ns);
       wheels =
           Reckon(wheels, OfRig(*frame.images.motion, simulation.T_base_rig.inverse()), seconds);
     }

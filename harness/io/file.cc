@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "harness/io/descriptor.h"
 #include "harness/io/input_error.h"
 
 namespace aisle {
@@ -23,22 +24,11 @@ constexpr std::string_view kAside = ".tmp-";  ///< in the name of a file that is
   throw MachineError(fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(errno)));
 }
 
-/// An open file that cannot be forgotten.
-class Descriptor {
- public:
-  Descriptor(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {
-    if (fd_ < 0) Fail("open", path);
-  }
-  /// Of one that is open already.
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() { ::close(fd_); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return fd_; }
-
- private:
-  int fd_;
-};
+Descriptor OpenFolder(const fs::path& path) {
+  Descriptor folder(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (folder.get() < 0) Fail("open", path);
+  return folder;
+}
 
 void WriteAll(int file, std::string_view bytes, const fs::path& path) {
   while (!bytes.empty()) {
@@ -175,8 +165,7 @@ void FileAside::Commit(Durability durability) {
   ::close(fd_);
   fd_ = -1;
   if (!flush) return;
-  const Descriptor folder(path_.has_parent_path() ? path_.parent_path() : fs::path("."),
-                          O_RDONLY | O_DIRECTORY);
+  const Descriptor folder = OpenFolder(path_.has_parent_path() ? path_.parent_path() : ".");
   ::fsync(folder.get());  // some file systems cannot flush a folder; the file itself is safe
 }
 
@@ -234,7 +223,7 @@ void ReadInPieces(const fs::path& path, const std::function<void(std::string_vie
 
 std::string ReadLeftFile(const fs::path& folder, const std::string& name, std::size_t max_bytes) {
   const fs::path path = folder / name;
-  const Descriptor within(folder, O_RDONLY | O_DIRECTORY);
+  const Descriptor within = OpenFolder(folder);
   const int file = OpenBeneath(within.get(), name);
   if (file < 0) {
     throw InputError(path.string(), 0,

@@ -1,5 +1,7 @@
 #include "harness/io/imu.h"
 
+#include "harness/common/seconds.h"
+
 namespace aisle {
 namespace {
 
@@ -31,7 +33,7 @@ Eigen::Vector3d Acceleration(const PoseAt& path, std::int64_t stamp_ns, std::int
   const auto at = [&](int steps) -> Eigen::Vector3d {
     return path(stamp_ns + steps * step_ns).translation();
   };
-  const double step_s = 1e-9 * static_cast<double>(step_ns);
+  const double step_s = ToSeconds(step_ns);
   return (10 * (at(1) + at(-1)) - 18 * at(0) - at(2) - at(-2)) / (6 * step_s * step_s);
 }
 

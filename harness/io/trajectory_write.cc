@@ -1,3 +1,4 @@
+#include "harness/common/seconds.h"
 #include "harness/io/trajectory.h"
 
 namespace aisle {
@@ -25,7 +26,7 @@ std::string KittiLine(const StampedPose& pose) {
 Eigen::Vector3d VelocityMps(const Trajectory& trajectory, std::size_t i) {
   const StampedPose& before = trajectory[i == 0 ? 0 : i - 1];
   const StampedPose& after = trajectory[std::min(i + 1, trajectory.size() - 1)];
-  const double seconds = static_cast<double>(after.stamp_ns - before.stamp_ns) * 1e-9;
+  const double seconds = ToSeconds(after.stamp_ns - before.stamp_ns);
   if (seconds <= 0) return Eigen::Vector3d::Zero();
   return (after.T_world_rig.translation() - before.T_world_rig.translation()) / seconds;
 }

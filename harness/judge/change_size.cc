@@ -3,16 +3,13 @@
 #include <limits>
 #include <set>
 
+#include "harness/record/seed_values.h"
+
 namespace aisle {
 namespace {
 
 bool IsOf(const RunRecord& run, const Comparison& c) {
   return run.spec.scene == c.scene && run.spec.twin == c.twin && run.spec.system.name == c.system;
-}
-
-std::optional<double> ValueOf(const RunRecord& run, const std::string& score) {
-  const auto at = run.scores.find(score);
-  return at == run.scores.end() ? std::nullopt : at->second.value;
 }
 
 using NameOfRun = std::string (*)(const RunRecord&);
@@ -35,6 +32,11 @@ double DirectionOf(const Comparison& c) {
 }
 
 }  // namespace
+
+std::string PercentOfChange(const Comparison& c) {
+  if (c.old_median == 0 || c.new_n == 0) return "";
+  return fmt::format("{:+.1f} %", 100 * (c.new_median - c.old_median) / std::abs(c.old_median));
+}
 
 double SizeOf(const Comparison& comparison) {
   constexpr double kTiny = 1e-9;

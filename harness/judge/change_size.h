@@ -11,6 +11,9 @@ namespace aisle {
 /// is gone is farther than anything.
 double SizeOf(const Comparison& comparison);
 
+/// By how much of itself the median moved, "+3.1 %"; empty where it was 0 or is gone.
+std::string PercentOfChange(const Comparison& comparison);
+
 /// Alarms first, then what got better, then all else; each by its size, the largest first.
 void LargestFirst(std::vector<Comparison>* comparisons);
 

@@ -42,11 +42,6 @@ std::string WhyAbsent(const RunRecord& run, const std::string& score) {
   return run.status_why.empty() ? "the run has no such score" : run.status_why;
 }
 
-std::optional<double> ValueOf(const RunRecord& run, const std::string& score) {
-  const auto at = run.scores.find(score);
-  return at == run.scores.end() ? std::nullopt : at->second.value;
-}
-
 /// How far a value lies beyond the nearer bound; not above zero where it holds both.
 double Excess(const Limit& limit, double value) {
   double excess = -std::numeric_limits<double>::infinity();

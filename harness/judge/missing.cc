@@ -2,17 +2,10 @@
 
 #include <algorithm>
 
+#include "harness/common/counted.h"
 #include "harness/record/record.h"
 
 namespace aisle {
-namespace {
-
-std::string Counted(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-}  // namespace
-
 std::map<CellOfNight, std::set<std::uint64_t>> SeedsByCell(const Results& results) {
   std::map<CellOfNight, std::set<std::uint64_t>> seeds;
   for (const RunRecord& run : results.runs) {

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "harness/common/mix.h"
+#include "harness/common/seconds.h"
 #include "harness/loop/contact_watch.h"
 #include "harness/loop/server.h"
 #include "harness/loop/traffic.h"
@@ -16,8 +17,6 @@ constexpr std::int64_t kTick_ns = 10'000'000;  // of control
 constexpr std::int64_t kSampleEvery_ns = 50'000'000;
 static_assert(kSampleEvery_ns % kTick_ns == 0, "samples are taken in ticks");
 constexpr double kSettle_s = 0.3;  // standing at the goal before the drive is over
-
-double Seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
 std::int64_t Milliseconds(double ms) { return std::llround(1e6 * ms); }
 
@@ -120,7 +119,7 @@ class ClosedDrive::Loop {
     sample.heading_error_rad =
         on_way ? WrapAngle(plant_.pose.heading_rad + back - truth_.heading_rad) : 0;
     sample.route_m = before_leg_m_ + on_leg_m_;
-    if (const auto by = pilot_.steers_by_ns()) sample.estimate_age_s = Seconds(now_ns_ - *by);
+    if (const auto by = pilot_.steers_by_ns()) sample.estimate_age_s = ToSeconds(now_ns_ - *by);
     sample.clearance_static_m = contacts_.clearance_static_m();
     sample.clearance_actor_m = contacts_.clearance_actor_m();
     sample.mode = mode_;
@@ -166,12 +165,12 @@ class ClosedDrive::Loop {
     // The camera's own motion, jolts included, from where it is a little before and after.
     constexpr std::int64_t kHalf_ns = 2'000'000;
     const auto rig_at = [&](std::int64_t offset_ns) {
-      const double s = Seconds(offset_ns);
+      const double s = ToSeconds(offset_ns);
       return scene_.RigAt(AlongArc(plant_.pose, Speed() * s, plant_.turn_rate_rad_s * s),
                           now_ns_ + offset_ns);
     };
     const Eigen::Isometry3d before = rig_at(-kHalf_ns), after = rig_at(kHalf_ns);
-    const double over_s = Seconds(2 * kHalf_ns);
+    const double over_s = ToSeconds(2 * kHalf_ns);
     const Eigen::Matrix3d back = exposure.T_world_rig.linear().transpose();
     exposure.velocity_mps = back * (after.translation() - before.translation()) / over_s;
     const Eigen::AngleAxisd turn(Eigen::Matrix3d(before.linear().transpose() * after.linear()));
@@ -180,7 +179,7 @@ class ClosedDrive::Loop {
   }
 
   void Tick() {
-    const double tick_s = Seconds(kTick_ns);
+    const double tick_s = ToSeconds(kTick_ns);
     command_ = pilot_.Decide(now_ns_, tick_s);
     mode_ = pilot_.mode();
     if (options_.steering.scanner) HoldByScanner(tick_s);
@@ -238,7 +237,7 @@ class ClosedDrive::Loop {
   void CountTime(double tick_s) {
     // The first frame is taken as the drive begins.
     const bool never_told =
-        !pilot_.steers_by_ns() && Seconds(now_ns_) > LongestLatency_s(options_.steering);
+        !pilot_.steers_by_ns() && ToSeconds(now_ns_) > LongestLatency_s(options_.steering);
     // Also while the scanner holds it.
     const DriveMode driver = pilot_.mode();
     const bool lost = driver == DriveMode::kDegraded || driver == DriveMode::kStopped || never_told;
@@ -296,14 +295,14 @@ class ClosedDrive::Loop {
   void End(DriveEnd end) {
     over_ = true;
     track_.end = end;
-    track_.time_s = Seconds(now_ns_);
+    track_.time_s = ToSeconds(now_ns_);
     if (track_.samples.empty() || track_.samples.back().stamp_ns != now_ns_) {
       AddSample();
     }
   }
 
   void Advance(std::int64_t duration_ns) {
-    const PlantStep step = Move(plant_, command_, Seconds(duration_ns), course_.plant);
+    const PlantStep step = Move(plant_, command_, ToSeconds(duration_ns), course_.plant);
     plant_ = step.state;
     now_ns_ += duration_ns;
     const FloorPose measured = odometer_.Measure(step);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "harness/common/seconds.h"
+
 namespace aisle {
 namespace {
 
@@ -125,7 +127,7 @@ void ContactWatch::SeeActors(const Encounter& now, const Polygon& footprint, dou
       double& least = actor.object_class == "person" ? track_->min_clearance_person_m
                                                      : track_->min_clearance_vehicle_m;
       least = std::min(least, gap);
-      const double over_s = 1e-9 * static_cast<double>(now.stamp_ns - before_->stamp_ns);
+      const double over_s = ToSeconds(now.stamp_ns - before_->stamp_ns);
       const double closing = over_s > 0 ? (distances_[i] - distance) / over_s : 0;
       if (closing > kClosing_mps) {
         track_->min_time_to_collision_s =

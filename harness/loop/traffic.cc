@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/common/seconds.h"
 #include "harness/contract/drive_log.h"
 
 namespace aisle {
@@ -28,7 +29,7 @@ bool Traffic::Waits(std::size_t actor, const Polygon& vehicle) const {
 
 void Traffic::Advance(std::int64_t duration_ns, const FloorPose& vehicle, double speed_mps,
                       double turn_rate_rad_s) {
-  const double duration_s = 1e-9 * static_cast<double>(duration_ns);
+  const double duration_s = ToSeconds(duration_ns);
   const Polygon& footprint = scene_.course().footprint;
   const double fastest_mps = FastestCorner(footprint, speed_mps, turn_rate_rad_s);
   stood_s_ = fastest_mps <= kUnderWay_mps ? stood_s_ + duration_s : 0;

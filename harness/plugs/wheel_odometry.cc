@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/common/seconds.h"
+#include "harness/contract/forwarding_sequence.h"
 #include "harness/io/input_error.h"
+#include "harness/loop/forwarding_drive_scene.h"
 #include "harness/plugs/wheel_motion.h"
 
 namespace aisle {
@@ -37,17 +40,15 @@ PlantStep StepAlong(double way_m, double turn_rad, const PlantOptions& plant) {
 }
 
 /// Hands the frames of another sequence on, with what the wheels measured.
-class SequenceWithOdometry : public Sequence {
+class SequenceWithOdometry : public ForwardingSequence {
  public:
   SequenceWithOdometry(std::unique_ptr<Sequence> sequence, WheelMotions measured)
-      : sequence_(std::move(sequence)), measured_(std::move(measured)) {}
+      : ForwardingSequence(*sequence),
+        sequence_(std::move(sequence)),
+        measured_(std::move(measured)) {}
 
-  std::string name() const override { return sequence_->name(); }
-  StereoCalibration calibration() const override { return sequence_->calibration(); }
-  double rate_hz() const override { return sequence_->rate_hz(); }
-  std::vector<FrameRequest> Schedule() const override { return sequence_->Schedule(); }
   SequenceFrame At(const FrameRequest& request) const override {
-    SequenceFrame frame = sequence_->At(request);
+    SequenceFrame frame = ForwardingSequence::At(request);
     const auto step = static_cast<std::size_t>(request.id - 1);
     if (request.id > 0 && step < measured_.size()) frame.images.motion = measured_[step];
     return frame;
@@ -59,33 +60,20 @@ class SequenceWithOdometry : public Sequence {
 };
 
 /// Hands the pictures of another drive on, with what the wheels measured.
-class DriveWithOdometry : public DriveScene {
+class DriveWithOdometry : public ForwardingDriveScene {
  public:
-  explicit DriveWithOdometry(std::unique_ptr<DriveScene> scene) : scene_(std::move(scene)) {}
+  using ForwardingDriveScene::ForwardingDriveScene;
 
-  const Course& course() const override { return scene_->course(); }
-  StereoCalibration calibration() const override { return scene_->calibration(); }
-  double rate_hz() const override { return scene_->rate_hz(); }
-  std::int64_t Stamp(std::int64_t frame) const override { return scene_->Stamp(frame); }
-  Capsule ActorAt(std::size_t actor, std::int64_t time_ns) const override {
-    return scene_->ActorAt(actor, time_ns);
-  }
-  Eigen::Isometry3d RigAt(const FloorPose& vehicle, std::int64_t stamp_ns) const override {
-    return scene_->RigAt(vehicle, stamp_ns);
-  }
   SequenceFrame Take(const Exposure& exposure) const override {
-    SequenceFrame frame = scene_->Take(exposure);
+    SequenceFrame frame = ForwardingDriveScene::Take(exposure);
     if (!exposure.wheels_before) return frame;
     const Reckoning &before = *exposure.wheels_before, &now = exposure.wheels;
-    const Course& course = scene_->course();
+    const Course& course = this->course();
     frame.images.motion =
         Rolled(before.pose.inverse() * now.pose, now.way_m - before.way_m,
                now.turn_rad - before.turn_rad, course.T_vehicle_rig, course.odometry, course.plant);
     return frame;
   }
-
- private:
-  std::unique_ptr<DriveScene> scene_;
 };
 
 }  // namespace
@@ -129,8 +117,7 @@ WheelMotions MeasureByWheels(const std::vector<FrameRequest>& schedule, const Wh
     }
     const FloorPose moved =
         BodyBeneath(schedule[i - 1].T_world_rig).inverse() * BodyBeneath(schedule[i].T_world_rig);
-    const double seconds =
-        static_cast<double>(schedule[i].stamp_ns - schedule[i - 1].stamp_ns) * 1e-9;
+    const double seconds = ToSeconds(schedule[i].stamp_ns - schedule[i - 1].stamp_ns);
     PlantStep step = StepAlong(moved.position.x(), WrapAngle(moved.heading_rad), wheels.plant);
     const double now_mps = step.way_m / seconds;
     step.state.acceleration_mps2 = knows_speed ? (now_mps - speed_mps) / seconds : 0;

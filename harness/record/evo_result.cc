@@ -1,5 +1,6 @@
 #include "harness/record/evo_result.h"
 
+#include "harness/common/seconds.h"
 #include "harness/io/trajectory.h"
 #include "harness/io/zip.h"
 #include "harness/record/record_json.h"
@@ -15,7 +16,7 @@ std::string EvoResultZip(const RunResult& run, const TrajectoryScore& final) {
   for (const PoseError& error : final.errors) {
     const StampedPose& pose = estimate[error.pair.estimate];
     aligned.push_back({pose.stamp_ns, Apply(final.alignment, pose.T_world_rig)});
-    stamps_s.push_back(static_cast<double>(pose.stamp_ns) * 1e-9);
+    stamps_s.push_back(ToSeconds(pose.stamp_ns));
     since_start_s.push_back(stamps_s.back() - stamps_s.front());
   }
   const std::vector<double> errors = Translations(final.errors);

@@ -15,11 +15,6 @@ T& FindOrAdd(std::vector<T>& list, const Same& same, const T& fresh) {
   return list.back();
 }
 
-std::optional<double> ValueOf(const RunRecord& run, const std::string& score) {
-  const auto at = run.scores.find(score);
-  return at == run.scores.end() ? std::nullopt : at->second.value;
-}
-
 }  // namespace
 
 std::vector<SceneRuns> GroupByScene(const Results& results) {

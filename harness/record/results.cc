@@ -2,6 +2,7 @@
 
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/json_numbers.h"
 #include "harness/record/record_json.h"
 
 namespace aisle {
@@ -10,14 +11,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kSchema = 1;
-
-Json OrNull(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
-}
-
-std::optional<double> NumberOrNull(const Json& json) {
-  return json.is_null() ? std::nullopt : std::optional(json.get<double>());
-}
 
 Json VerdictToJson(const Verdict& verdict) {
   return {{"name", verdict.name},           {"passed", verdict.passed},

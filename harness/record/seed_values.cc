@@ -29,6 +29,11 @@ std::map<SeedOfScene, double> Medians(
 
 }  // namespace
 
+std::optional<double> ValueOf(const RunRecord& run, const std::string& score) {
+  const auto at = run.scores.find(score);
+  return at == run.scores.end() ? std::nullopt : at->second.value;
+}
+
 ValuesBySeed ValuesOf(const std::vector<const RunRecord*>& runs, const std::string& score,
                       std::string* unit) {
   const auto value_of = [&](const RunRecord& run) -> std::optional<double> {

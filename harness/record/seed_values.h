@@ -11,6 +11,9 @@
 
 namespace aisle {
 
+/// A score of a run; empty where the run has none, or none with a value.
+std::optional<double> ValueOf(const RunRecord& run, const std::string& score);
+
 /// A score by seed: of a seed that ran several times, the median of its repeats. These show how a
 /// system scatters by itself, and are no seeds of their own.
 using ValuesBySeed = std::map<std::uint64_t, double>;

@@ -1,15 +1,11 @@
 #include "harness/report/compare_text.h"
 
+#include "harness/judge/change_size.h"
 #include "harness/record/record_json.h"
 #include "harness/report/block/markdown_text.h"
 
 namespace aisle {
 namespace {
-
-std::string Percent(const Comparison& c) {
-  if (c.old_median == 0 || c.new_n == 0) return "";
-  return fmt::format("{:+.1f} %", 100 * (c.new_median - c.old_median) / std::abs(c.old_median));
-}
 
 /// What it is now; a score that is gone is nothing.
 std::string After(const Comparison& c) {
@@ -39,8 +35,9 @@ struct ConsoleRow {
 ConsoleRow RowOf(const Comparison& c, bool color) {
   const std::string change =
       Painted(Name(c.change), IsAlarm(c.change) ? "31;1" : "32", color && IsChange(c));
-  return {
-      Cell(c), {c.score, change, fmt::format("{:.4g}", c.old_median), After(c), Percent(c)}, c.why};
+  return {Cell(c),
+          {c.score, change, fmt::format("{:.4g}", c.old_median), After(c), PercentOfChange(c)},
+          c.why};
 }
 
 ConsoleRow RowOf(const MissingRuns& one, bool color) {
@@ -97,8 +94,8 @@ std::string ToMarkdown(const std::vector<Comparison>& comparisons,
       "|\n|---|---|---|--:|--:|--:|---|\n";
   for (const Comparison& c : comparisons) {
     text += fmt::format("| {} | {} | {} | {:.4g} | {} | {} | {} |\n", MarkdownText(Cell(c)),
-                        MarkdownText(c.score), Name(c.change), c.old_median, After(c), Percent(c),
-                        MarkdownText(c.why));
+                        MarkdownText(c.score), Name(c.change), c.old_median, After(c),
+                        PercentOfChange(c), MarkdownText(c.why));
   }
   for (const MissingRuns& one : missing) {
     text += fmt::format("| {} | | missing | | | | {} |\n", MarkdownText(Cell(one)), Lacking(one));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/common/seconds.h"
 #include "harness/score/stamp_unit.h"
 
 namespace aisle {
@@ -13,9 +14,7 @@ Trajectory Later(Trajectory trajectory, std::int64_t by_ns) {
 }
 
 std::string Span(const Trajectory& trajectory) {
-  const auto seconds = [](const StampedPose& pose) {
-    return static_cast<double>(pose.stamp_ns) * 1e-9;
-  };
+  const auto seconds = [](const StampedPose& pose) { return ToSeconds(pose.stamp_ns); };
   return fmt::format("{:.3f} to {:.3f} s", seconds(trajectory.front()), seconds(trajectory.back()));
 }
 

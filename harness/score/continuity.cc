@@ -1,5 +1,6 @@
 #include "harness/score/continuity.h"
 
+#include "harness/common/seconds.h"
 #include "harness/score/scorecard.h"
 #include "harness/score/statistics.h"
 
@@ -43,7 +44,7 @@ std::vector<bool> TurningFrames(std::span<const FrameFacts> frames, double turni
     const Eigen::Matrix3d turn =
         frames[i - 1].T_world_rig.linear().transpose() * frames[i].T_world_rig.linear();
     const double angle_deg = Eigen::AngleAxisd(turn).angle() * 180 / M_PI;
-    const double time_s = static_cast<double>(frames[i].stamp_ns - frames[i - 1].stamp_ns) * 1e-9;
+    const double time_s = ToSeconds(frames[i].stamp_ns - frames[i - 1].stamp_ns);
     turning[i] = time_s > 0 && angle_deg >= turning_dps * time_s;
   }
   return turning;
@@ -64,7 +65,7 @@ MoverSpell SpellOf(const Observations& observations, std::span<const FrameFacts>
     const bool covered = IsCovered(*object);
     if (!spell.delay_s) {
       if (!covered) continue;
-      spell.delay_s = static_cast<double>(frames[frame].stamp_ns - spell.first_ns) * 1e-9;
+      spell.delay_s = ToSeconds(frames[frame].stamp_ns - spell.first_ns);
     }
     const int turns = turning[frame] ? 1 : 0;
     spell.turning_frames += turns;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/common/seconds.h"
 #include "harness/contract/run.h"
 #include "harness/score/masks.h"
 
@@ -37,7 +38,7 @@ struct MoverSpell {
   int turning_frames = 0;      ///< since it was first covered, in which the rig turned
   int gap_turning_frames = 0;  ///< the most of these that fell into one gap
 
-  double length_s() const { return static_cast<double>(last_ns - first_ns) * 1e-9; }
+  double length_s() const { return ToSeconds(last_ns - first_ns); }
 };
 
 /// All spells in the given frames (in time) of the objects that `asked_for` holds for, by instance

@@ -3,6 +3,8 @@
 #include <limits>
 #include <set>
 
+#include "harness/common/seconds.h"
+
 namespace aisle {
 namespace {
 
@@ -40,7 +42,7 @@ Losses LossesOf(const FrameErrors& frames) {
   std::int64_t since_ns = 0;
   for (std::size_t i = 0; i < frames.error_m.size(); ++i) {
     if (HasPose(frames.error_m[i])) {
-      const double gap_s = static_cast<double>(frames.stamps_ns[i] - since_ns) * 1e-9;
+      const double gap_s = ToSeconds(frames.stamps_ns[i] - since_ns);
       if (losses.at_end) losses.longest_s = std::max(losses.longest_s, gap_s);
       losses.at_end = false;
       tracked = true;
@@ -201,7 +203,7 @@ std::string NoteOnEnds(const Trajectory& truth, const Trajectory& estimate,
   const auto before = std::find_if(error_m.begin(), error_m.end(), HasPose) - error_m.begin();
   const auto after = std::find_if(error_m.rbegin(), error_m.rend(), HasPose) - error_m.rbegin();
   const auto seconds = [](std::int64_t from_ns, std::int64_t to_ns) {
-    return fmt::format("{:.3g} s", static_cast<double>(to_ns - from_ns) * 1e-9);
+    return fmt::format("{:.3g} s", ToSeconds(to_ns - from_ns));
   };
   std::vector<std::string> ends;
   if (before > 0) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "harness/common/seconds.h"
 #include "harness/score/scorecard.h"
 
 namespace aisle {
@@ -43,7 +44,7 @@ Docking DockingOf(const DriveLog& log, const DriveTrack& track) {
 std::optional<double> TimeOf(const DriveTrack& track) {
   if (track.time_s > 0) return track.time_s;
   if (track.samples.empty()) return std::nullopt;
-  return 1e-9 * static_cast<double>(track.samples.back().stamp_ns);
+  return ToSeconds(track.samples.back().stamp_ns);
 }
 
 void AddErrors(const DriveLog& log, Scorecard* scores) {

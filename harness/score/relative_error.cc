@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "harness/common/seconds.h"
+
 namespace aisle {
 namespace {
 
@@ -66,7 +68,7 @@ std::vector<double> SecondsOf(const Trajectory& poses) {
   seconds.reserve(poses.size());
   // From the first stamp on: seconds since 1970 in a double would lose the nanoseconds.
   for (const StampedPose& pose : poses) {
-    seconds.push_back(static_cast<double>(pose.stamp_ns - poses.front().stamp_ns) * 1e-9);
+    seconds.push_back(ToSeconds(pose.stamp_ns - poses.front().stamp_ns));
   }
   return seconds;
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/io/input_error.h"
+#include "harness/io/json_numbers.h"
 #include "harness/io/system_spec_json.h"
 #include "harness/record/record.h"
 #include "harness/record/record_json.h"
@@ -14,12 +15,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kSchema = 2;
-
-Json OrNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
-std::optional<double> NumberOrNull(const Json& json) {
-  return json.is_null() ? std::nullopt : std::optional(json.get<double>());
-}
 
 Json ToJson(const Limit& limit) {
   Json json = {{"score", limit.score},   {"scene", limit.scene},     {"twin", limit.twin},

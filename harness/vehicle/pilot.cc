@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "harness/common/seconds.h"
+
 namespace aisle {
 namespace {
 
@@ -62,7 +64,7 @@ void Pilot::Told(std::int64_t frame_ns, std::int64_t now_ns,
 DriverInput Pilot::Input(std::int64_t now_ns, double duration_s) const {
   const Rolling& before = RollingAt(now_ns - kSpeedOver_ns);
   const Rolling& last = rolled_.back();
-  const double over_s = 1e-9 * static_cast<double>(last.stamp_ns - before.stamp_ns);
+  const double over_s = ToSeconds(last.stamp_ns - before.stamp_ns);
   DriverInput input{.belief = belief_, .duration_s = duration_s};
   input.degraded = watch_.trust == Trust::kCreep;
   if (over_s > 0) {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "harness/common/seconds.h"
+
 namespace aisle {
 
 std::string WatchOptions::Validate() const {
@@ -38,7 +40,7 @@ WatchState AfterAnswer(WatchState state, bool has_pose, double jump_m, std::int6
 
 WatchState AfterTime(WatchState state, std::int64_t now_ns, const WatchOptions& options) {
   if (state.trust == Trust::kFirst) return state;
-  const double since_s = 1e-9 * static_cast<double>(now_ns - state.last_pose_ns);
+  const double since_s = ToSeconds(now_ns - state.last_pose_ns);
   if (state.trust == Trust::kGood && since_s > options.late_s + options.latency_s) {
     state.trust = Trust::kCreep;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/common/seconds.h"
 #include "harness/report/chart/svg.h"
 
 namespace aisle {
@@ -11,7 +12,7 @@ namespace {
 constexpr double kWidth = 860, kLeft = 84, kRight = 846;
 using Points = std::vector<std::pair<double, double>>;
 
-double Seconds(const DriveSample& sample) { return 1e-9 * static_cast<double>(sample.stamp_ns); }
+double Seconds(const DriveSample& sample) { return ToSeconds(sample.stamp_ns); }
 
 /// World to map: the longer side across the page.
 class FloorMap {
@@ -83,9 +84,8 @@ Points Way(const FloorMap& map, const DriveTrack& track, const PoseOf& pose_of) 
 }
 
 std::string InWords(const Contact& contact) {
-  return fmt::format("{:.1f} s: touches {} at {:.2f} m/s",
-                     1e-9 * static_cast<double>(contact.stamp_ns), contact.with,
-                     std::abs(contact.speed_mps));
+  return fmt::format("{:.1f} s: touches {} at {:.2f} m/s", ToSeconds(contact.stamp_ns),
+                     contact.with, std::abs(contact.speed_mps));
 }
 
 void DrawDrive(const FloorMap& map, const DriveSeries& one, Svg* svg) {
@@ -164,7 +164,7 @@ std::string DriveErrorChart(const std::vector<DriveSeries>& series) {
     svg.Polyline(line, css, one.name);
     legend.emplace_back(one.name, css);
     for (const Contact& contact : one.log->track.contacts) {
-      const double at_s = 1e-9 * static_cast<double>(contact.stamp_ns);
+      const double at_s = ToSeconds(contact.stamp_ns);
       svg.Cross(x(at_s), y(0), one.name + ", " + InWords(contact));
     }
   }

@@ -1,5 +1,6 @@
 #include "harness/report/chart/time_chart.h"
 
+#include "harness/common/seconds.h"
 #include "harness/report/chart/svg.h"
 #include "harness/score/statistics.h"
 
@@ -16,7 +17,7 @@ struct Clock {
   std::function<double(const FrameRow& first, const FrameRow& now)> at;
 };
 const Clock kSeconds{"time [s]", [](const FrameRow& first, const FrameRow& now) {
-                       return static_cast<double>(now.stamp_ns - first.stamp_ns) * 1e-9;
+                       return ToSeconds(now.stamp_ns - first.stamp_ns);
                      }};
 const Clock kFrames{"frame", [](const FrameRow& first, const FrameRow& now) {
                       return static_cast<double>(now.id - first.id);

@@ -2,6 +2,7 @@
 
 #include <charconv>
 
+#include "harness/common/seconds.h"
 #include "harness/record/frames_csv.h"
 #include "harness/report/markup/html.h"
 #include "harness/report/page/parts.h"
@@ -37,7 +38,7 @@ Instant InstantOf(const FramePicture& picture, const std::vector<FrameRow>& rows
     return instant;
   }
   const FrameRow& row = rows[picture.frame];
-  const double time_s = static_cast<double>(row.stamp_ns - rows.front().stamp_ns) * 1e-9;
+  const double time_s = ToSeconds(row.stamp_ns - rows.front().stamp_ns);
   instant.words += fmt::format(", {:.2f} s", time_s);
   instant.data += fmt::format(" data-s=\"{:.3f}\" data-at=\"{:.2f} {:.2f} {:.2f}\"", time_s,
                               row.truth_m.x(), row.truth_m.y(), row.truth_m.z());

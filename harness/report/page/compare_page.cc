@@ -24,11 +24,6 @@ std::string Value(const Comparison& c, double value) {
   return fmt::format("{:.4g}{}", value, c.unit == "1" ? "" : " " + c.unit);
 }
 
-std::string Percent(const Comparison& c) {
-  if (c.old_median == 0 || c.new_n == 0) return "";
-  return fmt::format("{:+.1f} %", 100 * (c.new_median - c.old_median) / std::abs(c.old_median));
-}
-
 /// From the page's folder to a file of a night's report.
 std::string LinkInto(const ComparedNight& night, const fs::path& out, const std::string& file) {
   const fs::path folder = fs::absolute(night.folder).lexically_normal() / "";
@@ -144,7 +139,7 @@ std::string Row(const Comparison& c, const ComparedNight& before, const Compared
       "<td>{}<td>{}<td>{}<td>{}<td class=\"left\">{}<td class=\"wrap\">{}\n",
       SceneLink(c, after, out, c.scene + " " + c.twin), Escape(c.system), Escape(c.score), css,
       Name(c.change), c.old_median, is_left ? fmt::format("{:.4g}", c.new_median) : "nothing",
-      Percent(c),
+      PercentOfChange(c),
       is_left ? fmt::format("{:.2g} … {:.2g}", c.difference.low, c.difference.high) : "",
       std::min(c.old_n, c.new_n), SeedCell(seed, c, after, out), Escape(c.why));
 }

@@ -2,6 +2,7 @@
 
 #include <list>
 
+#include "harness/common/seconds.h"
 #include "harness/contract/drive_names.h"
 #include "harness/record/drive_json.h"
 #include "harness/report/chart/drive_chart.h"
@@ -39,7 +40,7 @@ std::string ContactRows(const std::string& name, const DriveLog& log) {
   std::string text;
   for (const Contact& contact : log.track.contacts) {
     text += fmt::format("<tr><td>{}<td>{:.2f}<td class=\"left\">{} ({})<td>{:.2f}\n", Escape(name),
-                        1e-9 * static_cast<double>(contact.stamp_ns), Escape(contact.with),
+                        ToSeconds(contact.stamp_ns), Escape(contact.with),
                         Escape(contact.object_class), std::abs(contact.speed_mps));
   }
   return text;

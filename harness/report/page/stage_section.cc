@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "harness/common/seconds.h"
 #include "harness/record/frames_csv.h"
 #include "harness/report/markup/html.h"
 
@@ -29,8 +30,7 @@ std::string Caption(std::size_t frame, const std::vector<FrameRow>& rows) {
   if (frame >= rows.size()) return text + ".";
   const FrameRow& row = rows[frame];
   text += fmt::format(", {:.2f} s: movers fill {:.1f} % of the image",
-                      static_cast<double>(row.stamp_ns - rows.front().stamp_ns) * 1e-9,
-                      100 * row.movers_share);
+                      ToSeconds(row.stamp_ns - rows.front().stamp_ns), 100 * row.movers_share);
   if (row.mask_iou) text += fmt::format(", pixel IoU {:.2f}", *row.mask_iou);
   return text + ".";
 }

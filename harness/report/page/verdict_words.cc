@@ -3,6 +3,8 @@
 #include <set>
 #include <tuple>
 
+#include "harness/common/counted.h"
+
 namespace aisle {
 namespace {
 
@@ -10,10 +12,6 @@ namespace {
 bool IsOfRun(const Verdict& verdict) { return verdict.name.ends_with(": completes"); }
 bool IsOfBaseline(const Verdict& verdict) {
   return verdict.name.ends_with(" against the baseline") || verdict.name.ends_with(": baseline");
-}
-
-std::string Counted(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
 /// "2 limits and the baseline, in 3 cells"; empty where runs alone were judged.

@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "harness/common/seconds.h"
 #include "harness/report/picture/video.h"
 
 namespace aisle {
@@ -130,8 +131,8 @@ cv::Mat3b DriveView::At(std::size_t index) const {
   sheet.Edge(Placed(log_, now.belief), kBelieved, true);
   sheet.Edge(true_way, kTrue, false, 2);
   sheet.Edge(believed_way, kBelieved, false);
-  sheet.Text(fmt::format("{:.1f} s  {:.2f} m/s  {}", 1e-9 * static_cast<double>(now.stamp_ns),
-                         now.speed_mps, InWords(now.mode)),
+  sheet.Text(fmt::format("{:.1f} s  {:.2f} m/s  {}", ToSeconds(now.stamp_ns), now.speed_mps,
+                         InWords(now.mode)),
              0);
   sheet.Text(fmt::format("off its route {:+.1f} cm", 100 * now.cross_track_m), 1);
   sheet.Text(fmt::format("believes to be {:.1f} cm away",

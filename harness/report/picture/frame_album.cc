@@ -3,6 +3,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 
+#include "harness/common/seconds.h"
 #include "harness/contract/map_id.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
@@ -21,8 +22,8 @@ std::string Caption(std::size_t index, const FrameEstimate& estimate, double mov
   const std::string features =
       estimate.keypoints.empty() ? "" : fmt::format("   {} features", estimate.keypoints.size());
   return fmt::format(
-      "frame {}  {:.2f} s   movers {:.1f} %{}{}{}", index,
-      static_cast<double>(estimate.stamp_ns) * 1e-9, 100 * movers_share, features,
+      "frame {}  {:.2f} s   movers {:.1f} %{}{}{}", index, ToSeconds(estimate.stamp_ns),
+      100 * movers_share, features,
       inliers == estimate.counts.end() ? "" : fmt::format(", {} used", inliers->second),
       estimate.T_world_rig ? "" : "   NO POSE");
 }
