@@ -154,8 +154,7 @@ std::optional<std::string> ScaledValue(const SystemOption& option, double factor
 Sensitivity MeasureSensitivity(const std::vector<BenchView>& views,
                                const SensitivityOptions& options, const BenchProgress& progress) {
   Sensitivity result;
-  System system = FindSystem(options.system.like);
-  for (const auto& [path, value] : options.system.options) system.options[path] = value;
+  System system = Varied(FindSystem(options.system.like), options.system.options);
   system.options.erase(kOdometryOption);  // it is none of the SLAM's own
   for (SystemOption& option : OptionsOf(system)) {
     if (!option.path.starts_with(options.prefix)) continue;

@@ -10,6 +10,7 @@
 #include "harness/plugs/steering_options.h"
 #include "harness/record/record.h"
 #include "harness/suite/recording.h"
+#include "harness/systems/traits.h"
 
 namespace aisle {
 namespace {
@@ -23,9 +24,10 @@ constexpr double kRobustFrameCoreS = 0.040, kPaperFrameCoreS = 0.070;
 constexpr double kFrameBytes = 0.7e6;  ///< of a kept frame of 752x480
 
 double FrameCoreS(const SystemSpec& system) {
-  const double base = BaseOf(system) == "orbslam2" ? kOrbSlam2FrameCoreS : kPlainFrameCoreS;
-  if (system.like == "robust") return base + kRobustFrameCoreS;
-  if (system.like == "paper") return base + kPaperFrameCoreS;
+  const SystemTraits traits = TraitsOf(system);
+  const double base = traits.base == "orbslam2" ? kOrbSlam2FrameCoreS : kPlainFrameCoreS;
+  if (traits.method == "robust") return base + kRobustFrameCoreS;
+  if (traits.method == "paper") return base + kPaperFrameCoreS;
   return base;
 }
 

@@ -28,6 +28,7 @@
 #include "harness/run/playback.h"
 #include "harness/score/drive_scores.h"
 #include "harness/suite/recording.h"
+#include "harness/systems/traits.h"
 
 namespace aisle {
 namespace {
@@ -138,8 +139,7 @@ void RunForeign(const Job& job) {
 
 MaskMaker MasksOf(const Job& job) {
   const SystemSpec& spec = job.spec.system;
-  if (spec.external) return MasksFromTruth(MaskSource::kNone);
-  return MasksWithErrors(FindSystem(spec.like).mask_source, spec.mask_errors, job.spec.seed);
+  return MasksWithErrors(TraitsOf(spec).masks, spec.mask_errors, job.spec.seed);
 }
 
 /// One of ours, or a foreign one behind a stream, which answers frame by frame as ours do.

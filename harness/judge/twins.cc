@@ -1,5 +1,7 @@
 #include "harness/judge/twins.h"
 
+#include "harness/systems/traits.h"
+
 namespace aisle {
 namespace {
 
@@ -29,7 +31,7 @@ std::optional<double> Minus(const std::optional<double>& a, const std::optional<
 /// What is left of a system's options when those that say how it rejects, and on which base, are
 /// taken away.
 std::map<std::string, std::string> OptionsBesideRejection(const SystemSpec& system) {
-  std::map<std::string, std::string> options = system.options;
+  std::map<std::string, std::string> options = OptionsOver(system);
   std::erase_if(options, [](const auto& option) {
     return option.first == "base" || option.first.starts_with("dynamic.");
   });
@@ -71,14 +73,10 @@ std::string TwinNeededBy(const std::string& score) {
   return score == "dynamic_penalty" ? "empty" : "";
 }
 
-bool Rejects(const SystemSpec& system) {
-  return !system.external && system.like != "plain" && system.like != "orbslam2";
-}
-
 bool IsWithoutRejection(const SystemSpec& other, const SystemSpec& system) {
-  if (!Rejects(system) || Rejects(other) || other.external) return false;
-  return BaseOf(other) == BaseOf(system) &&
-         OptionsBesideRejection(other) == OptionsBesideRejection(system);
+  const SystemTraits with = TraitsOf(system), without = TraitsOf(other);
+  return with.Rejects() && without.IsKnown() && !without.Rejects() && with.base == without.base &&
+         OptionsBesideRejection(system) == OptionsBesideRejection(other);
 }
 
 std::vector<CostSplit> SplitCosts(const std::vector<SceneRuns>& scenes) {

@@ -14,12 +14,9 @@ void AddDynamicPenalty(std::vector<RunRecord>* runs);
 /// The twin that a score cannot be told without; empty for one that each run has by itself.
 std::string TwinNeededBy(const std::string& score);
 
-/// Whether it rejects what moves. Of ours that is known; what a foreign system does is its own
-/// matter, and nothing of its error is put down to a rejection.
-bool Rejects(const SystemSpec& system);
-
 /// Whether `other` is `system` without its rejection: it rejects nothing and stands on the same
-/// base, with the same options but those of the rejection.
+/// base, with the same options but those of the rejection. False where the traits
+/// of either are not known.
 bool IsWithoutRejection(const SystemSpec& other, const SystemSpec& system);
 
 /// Where one system's error on one scene comes from, told by its own drives alone: the same scene

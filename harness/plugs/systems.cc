@@ -1,12 +1,12 @@
 #include "harness/plugs/systems.h"
 
 #include "harness/io/input_error.h"
-#include "harness/io/nearest_word.h"
 #include "harness/loop/closed_drive.h"
 #include "harness/plugs/place_vocabulary.h"
 #include "harness/plugs/steering_options.h"
 #include "harness/plugs/stereo_slam_estimator.h"
 #include "harness/plugs/wheel_odometry.h"
+#include "harness/systems/traits.h"
 
 namespace aisle {
 namespace {
@@ -19,46 +19,10 @@ std::map<std::string, std::string> OptionsOfSlam(std::map<std::string, std::stri
 
 }  // namespace
 
-const std::vector<System>& Systems() {
-  static const std::vector<System> systems = {
-      {"orbslam2",
-       "the published ORB-SLAM2's tracking, keyframes and mapping, nothing rejected",
-       MaskSource::kNone,
-       {{"base", "orbslam2"}}},
-      {"plain", "our stereo SLAM, nothing rejected", MaskSource::kNone},
-      {"semantic",
-       "orbslam2 without features on any person or vehicle, moving or not: the DynaSLAM row",
-       MaskSource::kActors,
-       {{"base", "orbslam2"}}},
-      {"paper",
-       "orbslam2 with the paper's rejection of dynamic regions, as written",
-       MaskSource::kNone,
-       {{"base", "orbslam2"}, {"dynamic.method", "paper"}}},
-      {"robust",
-       "our SLAM with our best rejection of dynamic regions",
-       MaskSource::kNone,
-       {{"dynamic.method", "robust"}}},
-      {"oracle", "our SLAM without features on what truth says moves now: the best rejection",
-       MaskSource::kDynamic},
-  };
-  return systems;
-}
-
-const System& FindSystem(const std::string& name) {
-  std::vector<std::string> known;
-  for (const System& system : Systems()) {
-    if (system.name == name) return system;
-    known.push_back(system.name);
-  }
-  throw InputError(fmt::format("system '{}' is not known: expected one of {}{}", Printable(name),
-                               fmt::join(known, ", "), DidYouMean(name, known)));
-}
-
 std::vector<SystemOption> OptionsOf(const System& system) {
   std::vector<SystemOption> options = DescribeSlamOptions(system.options);
   for (SystemOption& option : DescribeSteering({})) options.push_back(std::move(option));
-  if (BaseOf({.name = system.name, .like = system.name}) == "plain")
-    options.push_back(DescribeOdometry());
+  if (TraitsOf(system).base == "plain") options.push_back(DescribeOdometry());
   return options;
 }
 
@@ -69,15 +33,13 @@ std::string CheckOption(const std::string& path, const std::string& value) {
 }
 
 std::string CheckOptions(const System& like, const std::map<std::string, std::string>& options) {
-  std::map<std::string, std::string> all = OptionsOfSlam(options);
-  all.insert(like.options.begin(), like.options.end());  // what is there already stays
-  if (const auto base = all.find("base");
-      options.contains(kOdometryOption) && base != all.end() && base->second == "orbslam2") {
+  const System variant = Varied(like, options);
+  if (options.contains(kOdometryOption) && TraitsOf(variant).base == "orbslam2") {
     return fmt::format("option {}: the published ORB-SLAM2 has nothing but its images: {}",
                        kOdometryOption, "take a system like plain or robust, or set base to plain");
   }
   if (const std::string wrong = Validate(SteeringOf(options)); !wrong.empty()) return wrong;
-  return CheckSlamOptions(all);
+  return CheckSlamOptions(OptionsOfSlam(variant.options));
 }
 
 std::pair<std::string, std::string> OptionFromText(const std::string& assignment) {
@@ -109,10 +71,7 @@ std::map<std::string, std::string> OptionsOfSpec(const SystemSpec& spec) {
     throw InputError("system '" + spec.name +
                      "' is a command: it does not run inside this program");
   }
-  const System& like = FindSystem(spec.like);
-  std::map<std::string, std::string> options = OptionsOfSlam(spec.options);
-  options.insert(like.options.begin(), like.options.end());
-  return options;
+  return OptionsOfSlam(Varied(FindSystem(spec.like), spec.options).options);
 }
 
 std::unique_ptr<Estimator> MakeSystem(const SystemSpec& spec, const StereoCalibration& calibration,

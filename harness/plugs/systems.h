@@ -10,22 +10,9 @@
 #include "harness/contract/estimator.h"
 #include "harness/contract/system_option.h"
 #include "harness/contract/system_spec.h"
+#include "harness/systems/built_in.h"
 
 namespace aisle {
-
-/// A system under test that runs inside this program: our SLAM with these options.
-struct System {
-  std::string name;         ///< as suites and reports call it
-  std::string description;  ///< one sentence
-  MaskSource mask_source = MaskSource::kNone;
-  std::map<std::string, std::string> options = {};  ///< where it departs from the SLAM's defaults
-};
-
-/// Every system, in the order in which reports list them.
-const std::vector<System>& Systems();
-
-/// Throws InputError naming the known systems.
-const System& FindSystem(const std::string& name);
 
 /// Every option of a built-in system that has an effect there, with its value.
 std::vector<SystemOption> OptionsOf(const System& system);

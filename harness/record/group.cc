@@ -3,6 +3,7 @@
 #include "harness/io/hash.h"
 #include "harness/record/seed_values.h"
 #include "harness/score/statistics.h"
+#include "harness/systems/built_in.h"
 
 namespace aisle {
 namespace {
@@ -36,15 +37,13 @@ std::vector<SceneRuns> GroupByScene(const Results& results) {
 }
 
 std::map<std::string, int> StylesOf(const std::set<std::string>& systems) {
-  static const std::vector<std::string> kOurs{"orbslam2", "plain",  "semantic",
-                                              "paper",    "robust", "oracle"};
   constexpr int kOthers = kStyles / 2;
   std::map<std::string, int> styles;
   std::set<int> taken;
   for (const std::string& name : systems) {
-    const auto ours = std::find(kOurs.begin(), kOurs.end(), name);
-    if (ours != kOurs.end()) {
-      styles[name] = static_cast<int>(ours - kOurs.begin());
+    const auto ours = std::ranges::find(Systems(), name, &System::name);
+    if (ours != Systems().end()) {
+      styles[name] = static_cast<int>(ours - Systems().begin());
       continue;
     }
     const int wanted = static_cast<int>(Hash(name, 0) % kOthers);

@@ -9,6 +9,7 @@
 #include "harness/io/input_error.h"
 #include "harness/io/nearest_word.h"
 #include "harness/judge/twins.h"
+#include "harness/systems/traits.h"
 
 namespace aisle {
 namespace {
@@ -283,7 +284,7 @@ void Describe(Fields& fields, const Vocabulary& vocabulary, SystemSpec* spec) {
     std::erase_if(others.options,
                   [](const auto& option) { return option.first.starts_with("drive."); });
   }
-  std::string wrong = Validate(others);
+  std::string wrong = CheckSpec(others);
   if (wrong.empty() && !spec->like.empty())
     wrong = vocabulary.check_options(spec->like, spec->options);
   if (!wrong.empty()) fields.Fail("name", wrong);

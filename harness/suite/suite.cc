@@ -15,6 +15,7 @@
 #include "harness/suite/recording.h"
 #include "harness/suite/suite_reader.h"
 #include "harness/suite/yaml_guard.h"
+#include "harness/systems/traits.h"
 
 namespace aisle {
 namespace {
@@ -207,7 +208,7 @@ std::vector<RunSpec> Plan(const Suite& suite) {
     for (const std::string& twin : twins) {
       for (const std::uint64_t seed : seeds) {
         for (const SystemSpec& system : suite.systems) {
-          if (scene.recorded && IsToldMasks(system)) continue;
+          if (scene.recorded && TraitsOf(system).ReceivesMasks()) continue;
           const int repeats = system.external ? system.external->repeats : 1;
           for (int repeat = 1; repeat <= repeats; ++repeat) {
             specs.push_back({scene.name, scene.file, twin, system, seed, repeat});

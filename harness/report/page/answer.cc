@@ -9,6 +9,7 @@
 #include "harness/report/page/drive_outcome.h"
 #include "harness/report/page/parts.h"
 #include "harness/score/statistics.h"
+#include "harness/systems/traits.h"
 
 namespace aisle {
 namespace {
@@ -98,7 +99,9 @@ struct WonBack {
 WonBack MeasureOf(const SceneErrors& errors, const SystemSpec& system) {
   return {Find(errors, [&](const auto& other) { return IsWithoutRejection(other, system); }),
           Find(errors, [&](const auto& other) {
-            return other.like == "oracle" && BaseOf(other) == BaseOf(system);
+            const SystemTraits traits = TraitsOf(other);
+            return traits.masks == MaskSource::kDynamic && traits.method == "none" &&
+                   traits.base == TraitsOf(system).base;
           })};
 }
 

@@ -3,16 +3,22 @@
 #include "harness/record/seed_values.h"
 #include "harness/report/paper/spread.h"
 #include "harness/score/statistics.h"
+#include "harness/systems/traits.h"
 
 namespace aisle {
 namespace {
 
 /// What a system rejects, as the table calls it; empty for one that has no place there.
 std::string RejectionOf(const SystemSpec& spec) {
-  const bool only_base =
-      spec.options.empty() || (spec.options.size() == 1 && spec.options.contains("base"));
-  if (spec.external || !only_base || spec.mask_errors != MaskErrors{}) return "";
-  return spec.like == "orbslam2" || spec.like == "plain" ? "nothing" : spec.like;
+  std::map<std::string, std::string> others = OptionsOver(spec);
+  others.erase("base");
+  others.erase("dynamic.method");
+  const SystemTraits traits = TraitsOf(spec);
+  if (!traits.IsKnown() || !others.empty() || spec.mask_errors != MaskErrors{}) return "";
+  if (!traits.Rejects()) return "nothing";
+  if (!traits.ReceivesMasks()) return traits.method;
+  if (traits.method != "none") return "";  // by both
+  return traits.masks == MaskSource::kDynamic ? "oracle" : "semantic";
 }
 
 /// Runs of one scene by rejection and base.
@@ -24,7 +30,7 @@ Cells CellsOf(const SceneRuns& scene) {
     const SystemSpec& spec = system.runs.front()->spec.system;
     // Of two systems that are the same the first stands for both.
     const std::string rejection = RejectionOf(spec);
-    if (!rejection.empty()) cells.try_emplace({rejection, BaseOf(spec)}, system.runs);
+    if (!rejection.empty()) cells.try_emplace({rejection, TraitsOf(spec).base}, system.runs);
   }
   return cells;
 }
@@ -57,7 +63,7 @@ Head HeadOf(const std::vector<SceneRuns>& scenes) {
       const SystemSpec& spec = system.runs.front()->spec.system;
       if (RejectionOf(spec).empty()) continue;
       add(RejectionOf(spec), &head.rejections);
-      add(BaseOf(spec), &head.bases);
+      add(TraitsOf(spec).base, &head.bases);
     }
     const Cells cells = CellsOf(scene);
     for (const std::string& rejection : head.rejections) {
@@ -114,8 +120,9 @@ std::optional<NumberTable> BaseTable(const std::vector<SceneRuns>& scenes) {
 }
 
 bool IsOnAnotherBase(const SystemSpec& spec) {
+  const SystemSpec like = BuiltIn(spec.like);
   return spec.name != spec.like && !RejectionOf(spec).empty() &&
-         BaseOf(spec) != BaseOf(BuiltIn(spec.like));
+         RejectionOf(spec) == RejectionOf(like) && TraitsOf(spec).base != TraitsOf(like).base;
 }
 
 }  // namespace aisle

@@ -37,9 +37,11 @@ TEST(ForecastTest, FramesAreRenderedOnceForAllSystems) {
 }
 
 TEST(ForecastTest, AFrameTakesLongerOnThePublishedBaseAndWhereMoversAreFound) {
-  const auto wall_s = [](const std::string& system) {
+  const auto wall_s = [](const std::string& like,
+                         const std::map<std::string, std::string>& options = {}) {
+    const SystemSpec system{.name = "mine", .like = like, .options = options};
     return ForecastOf(
-               {{"s", "s.yaml", "live", BuiltIn(system), 1}}, 2,
+               {{"s", "s.yaml", "live", system, 1}}, 2,
                [](const std::string&) { return std::int64_t{500}; }, ByName, Led)
         .wall_s;
   };
@@ -47,6 +49,9 @@ TEST(ForecastTest, AFrameTakesLongerOnThePublishedBaseAndWhereMoversAreFound) {
   EXPECT_GT(wall_s("robust"), wall_s("plain") + 5);
   EXPECT_GT(wall_s("paper"), wall_s("orbslam2") + 5);
   EXPECT_EQ(wall_s("oracle"), wall_s("plain"));
+  EXPECT_EQ(wall_s("plain", {{"dynamic.method", "robust"}}), wall_s("robust"));
+  EXPECT_EQ(wall_s("robust", {{"dynamic.method", "none"}}), wall_s("plain"));
+  EXPECT_EQ(wall_s("semantic", {{"base", "plain"}}), wall_s("plain"));
 }
 
 TEST(ForecastTest, EqualRunsAreDrivenOnce) {

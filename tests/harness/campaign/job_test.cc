@@ -136,15 +136,5 @@ TEST(JobTest, WhatIsNoJobIsSaidSo) {
   }
 }
 
-TEST(SystemSpecTest, OnlyPartsThatFitTogetherAreGood) {
-  EXPECT_EQ(Validate(BuiltIn("robust")), "");
-  EXPECT_NE(Validate(SystemSpec{}), "");
-  SystemSpec masks = BuiltIn("robust");
-  masks.mask_errors.boundary_px = 1;
-  EXPECT_NE(Validate(masks), "");
-  masks.like = "semantic";
-  EXPECT_EQ(Validate(masks), "");
-}
-
 }  // namespace
 }  // namespace aisle

@@ -119,28 +119,6 @@ TEST(MaskFacts, SumsAreThoseOfEveryCount) {
   }
 }
 
-TEST(SystemSpec, IsOneOfOursAVariantOrACommandAndNothingBetween) {
-  EXPECT_EQ(Validate(BuiltIn("robust")), "");
-  EXPECT_NE(Validate(SystemSpec{}), "") << "a name";
-  SystemSpec nothing{.name = "mine"};
-  EXPECT_NE(Validate(nothing), "");
-  SystemSpec command = nothing;
-  command.external.emplace();
-  EXPECT_EQ(Validate(command), "");
-  EXPECT_EQ(BaseOf(command), "");
-  SystemSpec both = command;
-  both.like = "robust";
-  EXPECT_NE(Validate(both), "");
-  SystemSpec options = command;
-  options.options["feature.features"] = "800";
-  EXPECT_NE(Validate(options), "");
-  SystemSpec told{.name = "network", .like = "semantic"};
-  told.mask_errors.boundary_px = 3;
-  EXPECT_EQ(Validate(told), "");
-  told.like = "robust";
-  EXPECT_NE(Validate(told), "") << "who finds its own masks cannot be told bad ones";
-}
-
 TEST(MaskErrors, HoldTheirBoundsAndNothingBeyond) {
   EXPECT_EQ(MaskErrors{}.Validate(), "");
   for (const double bad : {-0.1, 100.1, std::nan("")}) {

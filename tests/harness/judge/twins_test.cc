@@ -66,5 +66,19 @@ TEST(TwinsTest, TheTwinWithoutRejectionStandsOnTheSameBase) {
   EXPECT_TRUE(IsWithoutRejection(BuiltIn("plain"), few));
 }
 
+TEST(TwinsTest, WhatAVariantsOptionsTurnOnOrOffIsItsRejection) {
+  const SystemSpec on{.name = "on", .like = "plain", .options = {{"dynamic.method", "robust"}}};
+  const SystemSpec off{.name = "off", .like = "robust", .options = {{"dynamic.method", "none"}}};
+  EXPECT_TRUE(IsWithoutRejection(off, BuiltIn("robust")));
+  EXPECT_TRUE(IsWithoutRejection(BuiltIn("plain"), on));
+  EXPECT_TRUE(IsWithoutRejection(off, on));
+  EXPECT_FALSE(IsWithoutRejection(on, BuiltIn("robust")));
+  EXPECT_FALSE(IsWithoutRejection(BuiltIn("plain"), off));
+  SystemSpec foreign{.name = "mine"};
+  foreign.external.emplace();
+  EXPECT_FALSE(IsWithoutRejection(foreign, BuiltIn("robust")));
+  EXPECT_FALSE(IsWithoutRejection(BuiltIn("plain"), foreign));
+}
+
 }  // namespace
 }  // namespace aisle

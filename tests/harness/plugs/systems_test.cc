@@ -7,6 +7,7 @@
 #include "harness/io/places.h"
 #include "harness/plugs/simulated_sequence.h"
 #include "harness/run/conformance.h"
+#include "harness/systems/traits.h"
 
 namespace aisle {
 namespace {
@@ -47,14 +48,27 @@ TEST(SystemsTest, ThePublishedSystemsStandOnThePublishedBaseAndOursOnOurs) {
   for (const char* name : {"plain", "robust", "oracle"}) {
     EXPECT_EQ(ValueOf(FindSystem(name), "base"), "plain") << name;
   }
-  // A report, which knows no system but by its spec, says the same.
-  for (const System& system : Systems()) {
-    EXPECT_EQ(BaseOf(BuiltIn(system.name)), ValueOf(system, "base")) << system.name;
+}
+
+/// Each system as it is and with every value of the options that its traits hang on.
+TEST(SystemsTest, ReportsKnowAVariantAsTheSlamReadsIt) {
+  std::vector<std::map<std::string, std::string>> variants = {{}};
+  for (const char* base : {"plain", "orbslam2"}) {
+    variants.push_back({{"base", base}});
+    for (const char* method : {"none", "paper", "robust"}) {
+      variants.push_back({{"dynamic.method", method}});
+      variants.push_back({{"base", base}, {"dynamic.method", method}});
+    }
   }
-  SystemSpec variant{.name = "mine", .like = "paper", .options = {{"base", "plain"}}};
-  EXPECT_EQ(BaseOf(variant), "plain");
-  variant.external.emplace();
-  EXPECT_EQ(BaseOf(variant), "");
+  for (const System& system : Systems()) {
+    for (const auto& options : variants) {
+      const SystemSpec spec{.name = "mine", .like = system.name, .options = options};
+      ASSERT_EQ(CheckOptions(system, options), "") << system.name;
+      const System read{.name = "mine", .description = "", .options = OptionsOfSpec(spec)};
+      EXPECT_EQ(TraitsOf(spec).base, ValueOf(read, "base")) << system.name;
+      EXPECT_EQ(TraitsOf(spec).method, ValueOf(read, "dynamic.method")) << system.name;
+    }
+  }
 }
 
 TEST(SystemsTest, AnOptionWithoutEffectIsNeitherListedNorTaken) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/record/seed_values.h"
+#include "harness/systems/built_in.h"
 
 namespace aisle {
 namespace {
@@ -25,6 +26,13 @@ TEST(StylesTest, ASystemLooksTheSameInWhateverCompany) {
   std::set<int> styles;
   for (const auto& [name, style] : all) styles.insert(style);
   EXPECT_EQ(styles.size(), all.size());
+}
+
+TEST(StylesTest, EveryBuiltInSystemHasAStyleOfItsOwn) {
+  std::set<int> styles;
+  for (const System& system : Systems()) styles.insert(StylesOf({system.name}).begin()->second);
+  EXPECT_EQ(styles.size(), Systems().size());
+  EXPECT_LT(*styles.rbegin(), kStyles / 2) << "the other half is for variants and foreign systems";
 }
 
 TEST(StylesTest, SixOthersAreApartFromEachOtherAndFromOurs) {

@@ -53,6 +53,15 @@ TEST(AnswerTest, OnlyARejectionWinsBackAndOnlyFromItsOwnTwin) {
       ElementsAre("On s, orbslam2 is off by 50 cm, robust by 6.0 cm and oracle by 5.0 cm."));
 }
 
+TEST(AnswerTest, ARejectionThatAnOptionTurnsOnWinsBackToo) {
+  RunRecord on = RunOf("s", "plain", 0.06);
+  on.spec.system.name = "on";
+  on.spec.system.options["dynamic.method"] = "robust";
+  EXPECT_THAT(AnswerInWords(Of({RunOf("s", "plain", 0.5), on, RunOf("s", "oracle", 0.05)})),
+              ElementsAre("On s, plain is off by 50 cm, on by 6.0 cm and oracle by 5.0 cm: on wins "
+                          "back 98 % of what movers cost plain."));
+}
+
 TEST(AnswerTest, WhereMoversCostNothingItSaysSo) {
   EXPECT_THAT(AnswerInWords(Of({RunOf("s", "plain", 0.0054), RunOf("s", "oracle", 0.004)})),
               ElementsAre("On s, plain is off by 5.4 mm and oracle by 4.0 mm: movers cost "

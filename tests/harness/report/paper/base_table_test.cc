@@ -69,6 +69,20 @@ TEST(BaseTable, LeavesOutWhatDiffersByMoreThanItsBase) {
   EXPECT_TRUE(IsOnAnotherBase(OnBase("oracle", "orbslam2")));
 }
 
+TEST(BaseTable, ARejectionSetByAnOptionIsThatRejection) {
+  const SystemSpec off{.name = "off", .like = "robust", .options = {{"dynamic.method", "none"}}};
+  const SystemSpec on{.name = "on", .like = "orbslam2", .options = {{"dynamic.method", "robust"}}};
+  Results results;
+  results.runs = {RunOf(BuiltIn("orbslam2"), 1), RunOf(off, 0.1), RunOf(on, 0.2),
+                  RunOf(BuiltIn("robust"), 0.003)};
+  const auto table = BaseTable(GroupByScene(results));
+  ASSERT_TRUE(table);
+  EXPECT_THAT(table->groups, ElementsAre("nothing", "robust"));
+  EXPECT_THAT(table->rows[0].cells, ElementsAre("1.0000", "0.1000", "0.2000", "0.0030"));
+  EXPECT_FALSE(IsOnAnotherBase(off));
+  EXPECT_FALSE(IsOnAnotherBase(on));
+}
+
 TEST(BaseTable, HasNoNumberWhereASeedHasNone) {
   Results results;
   results.runs = {RunOf(BuiltIn("orbslam2"), 1), RunOf(BuiltIn("plain"), 0.1),
