@@ -49,10 +49,22 @@ DriverOptions DriverOf(const sim::DriveSpec& drive, const sim::RouteLimits& limi
   return driver;
 }
 
+WayLeg::Kind KindOf(sim::WayLeg::Kind kind) {
+  switch (kind) {
+    case sim::WayLeg::Kind::kDrive:
+      return WayLeg::Kind::kDrive;
+    case sim::WayLeg::Kind::kTurn:
+      return WayLeg::Kind::kTurn;
+    case sim::WayLeg::Kind::kPause:
+      return WayLeg::Kind::kPause;
+  }
+  return WayLeg::Kind::kPause;
+}
+
 Way WayOf(const std::vector<sim::WayLeg>& planned) {
   Way way;
   for (const sim::WayLeg& leg : planned) {
-    WayLeg next{.kind = static_cast<WayLeg::Kind>(static_cast<int>(leg.kind)),
+    WayLeg next{.kind = KindOf(leg.kind),
                 .duration_s = leg.duration_s,
                 .points = {},
                 .reverse = leg.reverse,

@@ -23,6 +23,23 @@ TrackingState Convert(slam::TrackingState state) {
   return TrackingState::kLost;
 }
 
+SystemOption::Kind Convert(slam::OptionDescription::Kind kind) {
+  using Kind = slam::OptionDescription::Kind;
+  switch (kind) {
+    case Kind::kNumber:
+      return SystemOption::Kind::kNumber;
+    case Kind::kInteger:
+      return SystemOption::Kind::kInteger;
+    case Kind::kFlag:
+      return SystemOption::Kind::kFlag;
+    case Kind::kChoice:
+      return SystemOption::Kind::kChoice;
+    case Kind::kText:
+      return SystemOption::Kind::kText;
+  }
+  return SystemOption::Kind::kText;
+}
+
 slam::StageTruth Convert(const FrameTruth& truth) {
   slam::StageTruth converted{.moving = truth.dynamic};
   for (const MovingObject& object : MovingObjects(truth, {})) {
@@ -108,8 +125,8 @@ std::vector<SystemOption> DescribeSlamOptions(const std::map<std::string, std::s
   const slam::SlamOptions options = SlamOptionsFrom(values);
   for (const slam::OptionDescription& option : slam::DescribeOptions(options)) {
     if (!slam::WhyWithoutEffect(option.path, options).empty()) continue;
-    described.push_back({option.path, static_cast<SystemOption::Kind>(option.kind), option.value,
-                         option.unit, option.help, option.low, option.high, option.choices});
+    described.push_back({option.path, Convert(option.kind), option.value, option.unit, option.help,
+                         option.low, option.high, option.choices});
   }
   return described;
 }
