@@ -4,18 +4,36 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
-/// The simulator's nouns, which its rooms hand to the face: what a frame is, what truth says of it,
-/// and what its proofs say of both.
+/// The simulator's nouns, which its rooms hand to the face: what a frame is and what truth says of
+/// it.
+///
+/// Conventions of all that follows. T_a_b maps coordinates of frame b to frame a. Lengths are
+/// metres, times whole nanoseconds from the start of the scene, angles radians. World:
+/// right-handed, z up, the floor at z = 0. Camera: x right, y down, z forward along the optical
+/// axis; the rig's frame is that of its left camera, and the right camera stands at (+baseline_m,
+/// 0, 0) in it, turned as the left one is. Images are of the rig's size, a pixel's centre has whole
+/// coordinates (u, v) = (column, row), and depth is z, not the length of the ray.
 namespace aisle::sim {
 
-/// Parallel stereo rig; see simulator/camera for the conventions.
+/// Which version of a scene to play.
+enum class Twin {
+  kLive,    ///< as written
+  kEmpty,   ///< actors removed
+  kFrozen,  ///< actors stand where they stand at time 0
+  // As written, but for the level of dynamics: only actors of at most that level.
+  kNone,
+  kLow,
+  kMid,
+  kHigh,
+};
+
+/// Two equal, parallel cameras.
 struct RigInfo {
-  int width = 0, height = 0;
+  int width = 0, height = 0;              ///< pixels
   double fx = 0, fy = 0, cx = 0, cy = 0;  ///< pixels; the centre of pixel (0,0) is u = v = 0
   double baseline_m = 0;
   /// "none" (the pair is rectified), "radial-tangential" (k1 k2 p1 p2, as in OpenCV) or
@@ -50,7 +68,8 @@ struct Shot {
   /// The rig's velocity (m/s) and turn rate (rad/s) around the stamp, in its own axes.
   Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
   Eigen::Vector3d turn_rate_rad_s = Eigen::Vector3d::Zero();
-  std::vector<ActorClock> clocks = {};  ///< per actor, in order; empty: they keep the scene's time
+  /// One per actor, in the order of Ground::actors(); empty: they keep the scene's time.
+  std::vector<ActorClock> clocks = {};
 
   /// Where the rig is a little before or after the stamp: along the chord of its arc, which is
   /// good to a thousandth of the way while it turns by less than 10 degrees.
@@ -71,10 +90,11 @@ struct ObjectTruth {
   std::uint16_t instance = 0;
   cv::Rect2d box_visible;  ///< pixels; encloses the pixels that show it (empty if none)
   cv::Rect2d box_full;     ///< pixels; as if nothing stood in front, cut at the image border
+  /// The object's frame: x ahead, z up, the origin on the floor.
   Eigen::Isometry3d T_world_object = Eigen::Isometry3d::Identity();
   Eigen::Vector3d extent_m = Eigen::Vector3d::Zero();  ///< full sizes of the 3-D box along its axes
   Eigen::Vector3d center_m = Eigen::Vector3d::Zero();  ///< of the 3-D box, world
-  Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();  ///< of the object's origin, world
   double visible_fraction = 0;  ///< visible pixels / pixels it would have unoccluded, in [0, 1]
   int visible_pixels = 0;
   int dynamic_pixels = 0;  ///< of them, on a surface that moves now
@@ -125,72 +145,6 @@ struct MotionTruth {
   /// 255 where the surface rests but something that moves takes more than a twentieth of its direct
   /// light now (left camera).
   cv::Mat1b moving_shadow;
-};
-
-/// What the proofs say of one frame; see simulator/raster and simulator/truth.
-struct VerifyReport {
-  double raster_agreement_left = 0;   ///< share of pixels away from silhouettes where OSMesa agrees
-  double raster_agreement_right = 0;  ///< in label and in depth to 1e-3
-  int raster_compared = 0, raster_pixels = 0;  ///< of both pictures; the latter all there are
-  double stereo_median_px = 0;  ///< left warped to right by disparity, error of geometry
-  double flow_median_px = 0;    ///< left warped to the next left by flow, as disparity
-  int surface_pixels = 0;       ///< of the left picture: that show anything
-  int stereo_compared = 0, flow_compared = 0;
-  /// Grey against grey over three frames without noise, see simulator/proof: rms change of things
-  /// at rest along their flow, flicker of movers and of moving shadows; grey levels, 0 where too
-  /// little of it is seen.
-  double static_change_grey = 0, mover_flicker_grey = 0, shadow_flicker_grey = 0;
-  std::string picture_failure = {};  ///< of the three, or empty
-  /// The sentence that says what failed its bound (0.999 agreement on at least a tenth of the
-  /// pixels, 0.05 px on at least a hundredth of those that show anything), or empty.
-  std::string failure() const;
-};
-
-/// The stages of a frame, in the order in which they feed each other.
-inline constexpr std::array kStages = {"triangles", "points", "static light", "radiance",
-                                       "pictures"};
-
-/// A hash of what each of kStages made of a frame for both cameras: which triangle a pixel sees;
-/// where on it (t, u, v); the light on the static world; the radiance before the sensor; the
-/// pictures. For finding where two machines part.
-using StageHashes = std::array<std::uint64_t, kStages.size()>;
-
-/// How long rendering a frame of a drive takes, beside the bare cost of its primary rays in the
-/// same process.
-struct RenderBench {
-  double pair_ms = 0;        ///< a stereo pair with all truth, median
-  double after_jump_ms = 0;  ///< one that comes after a jump to another place of the drive, median
-  double bare_primary_ms = 0;  ///< primary ray packets of the same two images alone, median
-  double ratio = 0;            ///< pair_ms / bare_primary_ms
-  int frames = 0;
-  std::int64_t triangles = 0, moving_triangles = 0;  ///< of the world; the movers' among them
-  std::map<std::string, double> stage_ms;            ///< medians by stage
-};
-
-/// The nightly light of one left image beside the path tracer's, before the sensor: linear, in
-/// shares of the sensor's white.
-struct LightCheck {
-  cv::Mat1f nightly, reference;
-  double median_relative_error = 0;  ///< over pixels
-  double ssim = 0;                   ///< structural similarity, what is over white cut to white
-  double mean_ratio = 0;             ///< nightly over reference
-  /// The same of two references of half as many paths each, against each other: what of the error
-  /// is the paths' own noise.
-  double noise_median_relative = 0, noise_ssim = 0;
-  std::array<cv::Mat1f, 2> halves;  ///< these two; the reference is their mean
-};
-
-/// How the light of one left image changes to the next frame's, beside how the path tracer's does.
-struct LightChangeCheck {
-  struct Part {
-    int pixels = 0;
-    double rms_nightly = 0, rms_reference = 0;  ///< of the changes, in shares of white
-    double rms_between = 0;                     ///< of one change less the other
-    double rms_noise = 0;                       ///< what of it is the paths' own noise
-    double correlation = 0;                     ///< of the two changes
-  };
-  LightCheck now;
-  Part everywhere, on_movers;  ///< the latter in either frame, and the pixel around them
 };
 
 }  // namespace aisle::sim

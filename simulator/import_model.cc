@@ -7,7 +7,6 @@
 #include "simulator/mesh/kept/kept_model.h"
 #include "simulator/mesh/still.h"
 #include "simulator/pipeline.h"
-#include "simulator/scene/load.h"
 #include "simulator/world/actors.h"
 #include "simulator/world/shapes.h"
 
@@ -143,19 +142,6 @@ ImportedModel ImportUserModel(const ModelImport& request) {
   imported.grid_m = GridOf(std::max(0.5 * box.diagonal().norm(), 1e-4));
   imported.picture = Photograph(model, box, imported.grid_m);
   return imported;
-}
-
-std::vector<std::string> DescribeSceneMeshes(const std::string& scene_file) {
-  std::vector<std::string> lines;
-  for (const std::string& file : LoadScene(scene_file).mesh_files) {
-    if (std::filesystem::path(file).extension() != kKeptExtension) {
-      lines.push_back(fmt::format("{}: used as it is, its licence is recorded nowhere", file));
-      continue;
-    }
-    const ModelRecord record = ReadModelRecord(file);
-    lines.push_back(fmt::format("{}: licence {}, from {}", file, record.licence, record.source));
-  }
-  return lines;
 }
 
 }  // namespace aisle::sim

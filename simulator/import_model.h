@@ -32,8 +32,4 @@ struct ImportedModel {
 /// with its record, and photographs it. Throws std::runtime_error: one sentence, with the file.
 ImportedModel ImportUserModel(const ModelImport& request);
 
-/// Of each mesh of a user's own that a scene names: "FILE: licence X, from Y"; of one that is used
-/// as it is: that nothing is recorded. Throws as Simulator::Load does.
-std::vector<std::string> DescribeSceneMeshes(const std::string& scene_file);
-
 }  // namespace aisle::sim

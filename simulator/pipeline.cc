@@ -6,10 +6,6 @@
 #include "simulator/camera/pixel_rays.h"
 #include "simulator/common/lap_watch.h"
 #include "simulator/common/parallel.h"
-#include "simulator/proof/light_proof.h"
-#include "simulator/proof/render_bench.h"
-#include "simulator/proof/stage_hashes.h"
-#include "simulator/proof/truth_proof.h"
 #include "simulator/trace/hit_image.h"
 #include "simulator/truth/correspondence.h"
 #include "simulator/truth/image_motion.h"
@@ -202,7 +198,7 @@ struct Pipeline::Impl {
   }
 
   RenderedFrame Render(int frame_index, std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
-                       std::map<std::string, double>* stages) const {
+                       StageTimes* stages) const {
     return Take(frame_index, {stamp_ns, {}}, T_world_rig, AsPlanned(stamp_ns, T_world_rig), stages);
   }
 
@@ -235,7 +231,7 @@ struct Pipeline::Impl {
   }
 
   RenderedFrame Take(int frame_index, const WorldTime& time, const Eigen::Isometry3d& T_world_rig,
-                     const RigAround& rig_at, std::map<std::string, double>* stages) const {
+                     const RigAround& rig_at, StageTimes* stages) const {
     LapWatch watch;
     const auto lap = [&](const char* stage) {
       if (stages) (*stages)[stage] += watch.Lap();
@@ -269,8 +265,8 @@ struct Pipeline::Impl {
     return frame;
   }
 
-  /// What proofs photograph; `setting` is the exposure of their pictures.
-  Studio MakeStudio(const ExposureSetting& setting = {}) const {
+  /// `setting` is the exposure of its sensor.
+  Studio MakeStudio(const ExposureSetting& setting) const {
     return {
         .world = world,
         .tracer = *tracer,
@@ -324,6 +320,12 @@ RenderedFrame Pipeline::Render(int frame_index, std::int64_t stamp_ns,
                                const Eigen::Isometry3d& T_world_rig) const {
   return impl_->arena.Execute(
       [&] { return impl_->Render(frame_index, stamp_ns, T_world_rig, nullptr); });
+}
+
+RenderedFrame Pipeline::RenderTimed(int frame_index, const Moment& moment,
+                                    StageTimes* stages) const {
+  return impl_->arena.Execute(
+      [&] { return impl_->Render(frame_index, moment.stamp_ns, moment.T_world_rig, stages); });
 }
 
 RenderedFrame Pipeline::Render(int frame_index, std::int64_t stamp_ns, const Shot& shot) const {
@@ -381,44 +383,13 @@ MotionTruth Pipeline::RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry3
   });
 }
 
-VerifyReport Pipeline::Verify(const Moment& now, const Moment& next) const {
-  return impl_->arena.Execute([&] { return ProveTruth(impl_->MakeStudio(), now, next); });
-}
-
-StageHashes Pipeline::HashStages(int frame_index, const Moment& moment) const {
+Studio Pipeline::StudioAt(const Moment& moment) const {
   return impl_->arena.Execute([&] {
-    return aisle::sim::HashStages(
-        impl_->MakeStudio(), moment,
-        impl_->Render(frame_index, moment.stamp_ns, moment.T_world_rig, nullptr));
+    const Instant instant = impl_->tracer->Pose(impl_->world.At(moment.stamp_ns));
+    return impl_->MakeStudio(impl_->ExposureFor(instant, moment.T_world_rig));
   });
 }
 
-PictureChanges Pipeline::CompareInTime(const std::array<Moment, 3>& moments) const {
-  return impl_->arena.Execute([&] {
-    const ExposureSetting setting = impl_->ExposureFor(
-        impl_->tracer->Pose(impl_->world.At(moments[0].stamp_ns)), moments[0].T_world_rig);
-    return aisle::sim::CompareInTime(impl_->MakeStudio(setting), moments);
-  });
-}
-
-LightCheck Pipeline::CheckLight(const Moment& moment, int samples, int reduce) const {
-  return impl_->arena.Execute(
-      [&] { return aisle::sim::CheckLight(impl_->MakeStudio(), moment, samples, reduce); });
-}
-
-LightChangeCheck Pipeline::CheckLightChange(const std::array<Moment, 2>& moments, int samples,
-                                            int reduce) const {
-  return impl_->arena.Execute(
-      [&] { return aisle::sim::CheckLightChange(impl_->MakeStudio(), moments, samples, reduce); });
-}
-
-RenderBench Pipeline::Bench(std::span<const FrameInDrive> frames) const {
-  return impl_->arena.Execute([&] {
-    return BenchRender(impl_->MakeStudio(), frames,
-                       [&](int index, const Moment& moment, std::map<std::string, double>* stages) {
-                         impl_->Render(index, moment.stamp_ns, moment.T_world_rig, stages);
-                       });
-  });
-}
+void Pipeline::Execute(const std::function<void()>& work) const { impl_->arena.Execute(work); }
 
 }  // namespace aisle::sim

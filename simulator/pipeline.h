@@ -1,16 +1,19 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 
 #include "simulator/camera/stereo_camera.h"
 #include "simulator/frames.h"
-#include "simulator/proof/picture_in_time.h"
 #include "simulator/sensor/auto_exposure.h"
 #include "simulator/sensor/sensor.h"
 #include "simulator/sensor/shutter.h"
 #include "simulator/shade/shader.h"
+#include "simulator/studio.h"
 #include "simulator/truth/moving_now.h"
 #include "simulator/world/world.h"
 
@@ -29,9 +32,12 @@ struct PipelineOptions {
   AutoExposureOptions auto_exposure;
 };
 
+/// Wall time by stage of a frame, milliseconds.
+using StageTimes = std::map<std::string, double>;
+
 /// A world and a stereo camera, ready to take pictures: At(t) -> trace -> { truth; shade ->
 /// sensor }. What Simulator is made of, for those who make their world by other means than a scene
-/// file.
+/// file. Arguments are as Simulator has them.
 class Pipeline {
  public:
   /// Solves the static light: seconds for a hall. Throws std::invalid_argument naming the option
@@ -46,6 +52,8 @@ class Pipeline {
   /// The same where rig and actors follow no plan: neither does what blurs while the shutter is
   /// open.
   RenderedFrame Render(int frame_index, std::int64_t stamp_ns, const Shot& shot) const;
+  /// The first, which adds the time that each stage took to `stages`.
+  RenderedFrame RenderTimed(int frame_index, const Moment& moment, StageTimes* stages) const;
   /// The pair in colour (B, G, R), as a camera of three sensors behind the same lens takes it:
   /// exposure and gain are those of the grey picture, each band has noise of its own. The world
   /// must have colour; throws std::logic_error. Costs three shadings.
@@ -60,15 +68,11 @@ class Pipeline {
   MotionTruth RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
                            std::int64_t next_stamp_ns,
                            const Eigen::Isometry3d& T_world_rig_next) const;
-  VerifyReport Verify(const Moment& now, const Moment& next) const;
-  /// Left pictures of three moments without noise, compared along the flow; automatic exposure is
-  /// that of the first.
-  PictureChanges CompareInTime(const std::array<Moment, 3>& moments) const;
-  RenderBench Bench(std::span<const FrameInDrive> frames) const;
-  StageHashes HashStages(int frame_index, const Moment& moment) const;
-  LightCheck CheckLight(const Moment& moment, int samples, int reduce) const;
-  LightChangeCheck CheckLightChange(const std::array<Moment, 2>& moments, int samples,
-                                    int reduce) const;
+  /// The parts, for whoever judges pictures by them (simulator/proof). Its sensor has the exposure
+  /// that is chosen at a moment. Valid while the pipeline lives.
+  Studio StudioAt(const Moment& moment) const;
+  /// Runs work on the pipeline's threads; it may render.
+  void Execute(const std::function<void()>& work) const;
 
  private:
   struct Impl;

@@ -4,20 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
-#include "simulator/camera/pixel_rays.h"
 #include "simulator/common/mix.h"
 #include "simulator/content_hash.h"
-#include "simulator/motion/rig_mount.h"
 #include "simulator/pipeline.h"
 #include "simulator/scene/essence.h"
-#include "simulator/scene/hall_files.h"
 #include "simulator/scene/load.h"
 #include "simulator/scene/vary.h"
+#include "simulator/scene_camera.h"
 #include "simulator/shade/light/light_cache.h"
+#include "simulator/site.h"
 #include "simulator/world/build.h"
-#include "simulator/world/check_models.h"
 #include "simulator/world/plan.h"
 #include "simulator/world/recorded_ways.h"
 
@@ -33,61 +30,6 @@ Scene TwinOf(const Scene& written, Twin twin) {
   if (twin == Twin::kEmpty) return WithoutActors(std::move(scene));
   if (twin == Twin::kFrozen) return Frozen(std::move(scene));
   return scene;
-}
-
-/// A lens as the camera room knows it, and as RigInfo names it.
-struct NamedLens {
-  LensModel model = LensModel::kPinhole;
-  const char* name = "none";
-};
-
-NamedLens LensOf(Distortion distortion) {
-  switch (distortion) {
-    case Distortion::kRadialTangential:
-      return {LensModel::kRadialTangential, "radial-tangential"};
-    case Distortion::kEquidistant:
-      return {LensModel::kEquidistant, "equidistant"};
-    case Distortion::kNone:
-      break;
-  }
-  return {};
-}
-
-StereoCamera CameraOf(const CameraSpec& spec) {
-  return {.width = spec.size_px[0],
-          .height = spec.size_px[1],
-          .fx = spec.focal_px.x(),
-          .fy = spec.focal_px.y(),
-          .cx = spec.center_px.x(),
-          .cy = spec.center_px.y(),
-          .baseline_m = spec.baseline_m,
-          .lens = {LensOf(spec.distortion).model, spec.distortion_coefficients}};
-}
-
-RigInfo RigOf(const CameraSpec& spec) {
-  return {.width = spec.size_px[0],
-          .height = spec.size_px[1],
-          .fx = spec.focal_px.x(),
-          .fy = spec.focal_px.y(),
-          .cx = spec.center_px.x(),
-          .cy = spec.center_px.y(),
-          .baseline_m = spec.baseline_m,
-          .distortion_model = LensOf(spec.distortion).name,
-          .distortion = spec.distortion_coefficients};
-}
-
-/// The messages about lenses that leave a pixel without a ray.
-std::vector<std::string> LensErrors(const Scene& scene) {
-  std::vector<std::string> errors;
-  for (const DescribedCamera& one : DescribedCameras(scene)) {
-    try {
-      MakePixelRays(CameraOf(one.camera));
-    } catch (const std::invalid_argument& error) {
-      errors.push_back(fmt::format("{}: {}.distortion_coefficients: {}",
-                                   PlaceText(scene.files, one.camera.mark), one.key, error.what()));
-    }
-  }
-  return errors;
 }
 
 void SetSensor(const SensorSpec& spec, PipelineOptions* options) {
@@ -123,12 +65,6 @@ std::uint64_t SensorSeed(std::uint64_t seed, const std::string& pair) {
   return pair.empty() ? seed : Mix(seed ^ XXH3_64bits(pair.data(), pair.size()));
 }
 
-/// When and from where a frame is taken on the scene's route.
-Moment PlannedMoment(const Simulator& simulator, int frame_index) {
-  const std::int64_t stamp_ns = simulator.Stamp(frame_index);
-  return {stamp_ns, simulator.PlannedPose(stamp_ns)};
-}
-
 std::vector<InstanceInfo> DescribeInstances(const World& world) {
   std::vector<InstanceInfo> instances;
   for (const Instance& instance : world.instances()) {
@@ -155,7 +91,7 @@ struct Simulator::Impl {
   RigInfo rig;
   std::vector<InstanceInfo> instances;
   std::uint64_t hash = 0;
-  std::optional<Ground> ground;
+  std::optional<Site> site;
   std::unique_ptr<Pipeline> pipeline;
 };
 
@@ -167,7 +103,7 @@ Simulator::~Simulator() = default;
 Simulator Simulator::Load(const std::string& scene_file, const std::string& assets_dir,
                           const SimulatorOptions& options) {
   auto impl = std::make_unique<Impl>();
-  impl->scene = TwinOf(LoadScene(scene_file), options.twin);
+  impl->scene = TwinOf(LoadScene(scene_file, options.bags), options.twin);
   if (auto errors = LensErrors(impl->scene); !errors.empty()) throw SceneError(std::move(errors));
   const std::string pair = options.pair.empty() ? impl->scene.rig.pair : options.pair;
   impl->scene = WithPair(std::move(impl->scene), pair);
@@ -183,8 +119,8 @@ Simulator Simulator::Load(const std::string& scene_file, const std::string& asse
   impl->rig = RigOf(scene.camera);
   World world = BuildWorld(scene, assets_dir, options.seed);
   impl->instances = DescribeInstances(world);
-  impl->ground.emplace(Seeded(scene, options.seed), world);
-  impl->hash = ContentHash(EssenceOfScene(scene_file, options.twin), world,
+  impl->site.emplace(Seeded(scene, options.seed), world);
+  impl->hash = ContentHash(EssenceOf(scene_file, options.twin != Twin::kEmpty, options.bags), world,
                            static_cast<std::int64_t>(1e9 * scene.duration_s()), options);
   PipelineOptions pipeline;
   pipeline.seed = SensorSeed(options.seed, pair);
@@ -212,6 +148,8 @@ double Simulator::dynamic_threshold_mps() const { return impl_->scene.dynamic_th
 const std::vector<InstanceInfo>& Simulator::instances() const { return impl_->instances; }
 const std::string& Simulator::about() const { return impl_->scene.about; }
 std::uint64_t Simulator::content_hash() const { return impl_->hash; }
+const Site& Simulator::site() const { return *impl_->site; }
+const Pipeline& Simulator::pipeline() const { return *impl_->pipeline; }
 
 std::int64_t Simulator::Stamp(int frame_index) const {
   return std::llround(1e9 * frame_index / impl_->scene.rate_hz);
@@ -222,6 +160,10 @@ Eigen::Isometry3d Simulator::PlannedPose(std::int64_t stamp_ns) const {
 }
 
 cv::Mat3b Simulator::Plan(int width_px) const {
+  if (width_px <= 0) {
+    throw std::invalid_argument(
+        fmt::format("a plan {} pixels wide: expected more than 0", width_px));
+  }
   return DrawPlan(impl_->pipeline->world(), Stamp(frame_count()), width_px).picture;
 }
 
@@ -247,123 +189,10 @@ cv::Mat1f Simulator::RenderDepth(std::int64_t stamp_ns,
   return impl_->pipeline->RenderDepth(stamp_ns, T_world_rig);
 }
 
-const DriveSpec& Simulator::drive() const { return impl_->scene.drive; }
-const Ground& Simulator::ground() const { return *impl_->ground; }
-const RouteLimits& Simulator::limits() const { return impl_->scene.rig.route.limits; }
-
-Eigen::Isometry3d Simulator::RigPoseAt(const GroundPose& vehicle, std::int64_t stamp_ns) const {
-  const RigSpec& rig = impl_->scene.rig;
-  return RigPose({.position = vehicle.position, .heading_rad = vehicle.heading_rad}, rig.mount,
-                 rig.bumps, 1e-9 * static_cast<double>(stamp_ns));
-}
-
-Eigen::Isometry3d Simulator::Mount() const {
-  return RigPose({.position = Eigen::Vector2d::Zero(), .heading_rad = 0}, impl_->scene.rig.mount,
-                 {}, 0);
-}
-
-std::string VerifyReport::failure() const {
-  constexpr double kAgreement = 0.999, kWarp = 0.05;
-  constexpr double kLeastRaster = 0.1, kLeastWarped = 0.01;  // of what could be compared
-  if (raster_compared < kLeastRaster * raster_pixels || raster_compared == 0) {
-    return fmt::format(
-        "depth and labels could be held against the rasteriser on {} of {} pixels "
-        "only, which proves nothing",
-        raster_compared, raster_pixels);
-  }
-  const double agreement = std::min(raster_agreement_left, raster_agreement_right);
-  if (agreement < kAgreement) {
-    return fmt::format("depth and labels agree with the rasteriser on {:.3f} % of {} pixels only",
-                       100 * agreement, raster_compared);
-  }
-  if (stereo_compared < kLeastWarped * surface_pixels) {
-    return fmt::format(
-        "left could be warped to right on {} of {} pixels only, which proves nothing",
-        stereo_compared, surface_pixels);
-  }
-  if (stereo_median_px > kWarp) {
-    return fmt::format("left warps to right with a median error of {:.3f} px", stereo_median_px);
-  }
-  if (flow_compared < kLeastWarped * surface_pixels) {
-    return fmt::format(
-        "flow could be held against the next frame on {} of {} pixels only, which proves nothing",
-        flow_compared, surface_pixels);
-  }
-  if (flow_median_px > kWarp) {
-    return fmt::format("flow misses the next frame by a median of {:.3f} px", flow_median_px);
-  }
-  return picture_failure;
-}
-
 MotionTruth Simulator::RenderMotion(std::int64_t stamp_ns, const Eigen::Isometry3d& T_world_rig,
                                     std::int64_t next_stamp_ns,
                                     const Eigen::Isometry3d& T_world_rig_next) const {
   return impl_->pipeline->RenderMotion(stamp_ns, T_world_rig, next_stamp_ns, T_world_rig_next);
-}
-
-VerifyReport Simulator::Verify(int frame_index) const {
-  const std::array moments = {PlannedMoment(*this, frame_index),
-                              PlannedMoment(*this, frame_index + 1),
-                              PlannedMoment(*this, frame_index + 2)};
-  VerifyReport report = impl_->pipeline->Verify(moments[0], moments[1]);
-  const PictureChanges changes = impl_->pipeline->CompareInTime(moments);
-  report.static_change_grey = changes.statics.rms;
-  report.mover_flicker_grey = changes.movers.flicker;
-  report.shadow_flicker_grey = changes.shadows.flicker;
-  report.picture_failure = FailureOf(changes);
-  return report;
-}
-
-RenderBench Simulator::Bench(int frames) const {
-  std::vector<FrameInDrive> spread;
-  for (int i = 0; i < frames; ++i) {
-    const int frame = static_cast<int>(std::int64_t{frame_count() - 1} * i / frames);
-    spread.push_back({PlannedMoment(*this, std::max(0, frame - 1)), PlannedMoment(*this, frame)});
-  }
-  return impl_->pipeline->Bench(spread);
-}
-
-StageHashes Simulator::HashStages(int frame_index) const {
-  return impl_->pipeline->HashStages(frame_index, PlannedMoment(*this, frame_index));
-}
-
-LightCheck Simulator::CheckLight(int frame_index, int samples, int reduce) const {
-  return impl_->pipeline->CheckLight(PlannedMoment(*this, frame_index), samples, reduce);
-}
-
-LightChangeCheck Simulator::CheckLightChange(int frame_index, int samples, int reduce) const {
-  return impl_->pipeline->CheckLightChange(
-      {PlannedMoment(*this, frame_index), PlannedMoment(*this, frame_index + 1)}, samples, reduce);
-}
-
-std::vector<std::string> CheckSceneFile(const std::string& scene_file,
-                                        const std::string& assets_dir) {
-  std::vector<std::string> errors = CheckScene(scene_file);
-  if (!errors.empty()) return errors;
-  const Scene scene = LoadScene(scene_file);
-  std::ranges::copy(LensErrors(scene), std::back_inserter(errors));
-  if (assets_dir.empty()) return errors;
-  AssetLibrary assets(assets_dir);
-  for (const std::string& error : CheckModels(scene, assets)) errors.push_back(error);
-  return errors.empty() ? CheckCaptured(scene, &assets) : errors;
-}
-
-int CountSceneFrames(const std::string& scene_file) { return LoadScene(scene_file).frames; }
-
-bool IsDriveScene(const std::string& scene_file) { return DriveOfScene(scene_file).there; }
-
-DriveSpec DriveOfScene(const std::string& scene_file) { return LoadScene(scene_file).drive; }
-
-std::vector<std::string> FilesOfScene(const std::string& scene_file) {
-  return SceneFiles(scene_file);
-}
-
-std::string HallOfScene(const std::string& scene_file, std::uint64_t seed) {
-  return HallName(Seeded(LoadScene(scene_file), seed).hall.use);
-}
-
-std::string EssenceOfScene(const std::string& scene_file, Twin twin) {
-  return EssenceOf(scene_file, twin != Twin::kEmpty);
 }
 
 }  // namespace aisle::sim

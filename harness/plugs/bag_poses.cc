@@ -2,12 +2,10 @@
 
 #include "harness/bag/bag_trajectory.h"
 #include "harness/io/input_error.h"
-#include "simulator/simulator.h"
 
 namespace aisle {
-namespace {
 
-std::vector<sim::TimedPose> PosesOf(const std::string& file_and_topic) {
+std::vector<sim::TimedPose> ReadPosesOfBag(const std::string& file_and_topic) {
   const std::optional<BagTopic> topic = BagTopicFromText(file_and_topic);
   if (!topic) throw InputError(file_and_topic + ": expected FILE.mcap:/topic");
   std::vector<sim::TimedPose> poses;
@@ -16,9 +14,5 @@ std::vector<sim::TimedPose> PosesOf(const std::string& file_and_topic) {
   }
   return poses;
 }
-
-}  // namespace
-
-void ReadBagsForScenes() { sim::ReadBagsWith(PosesOf); }
 
 }  // namespace aisle

@@ -1,7 +1,7 @@
 #include "harness/plugs/calibration.h"
 
 #include "harness/io/input_error.h"
-#include "simulator/simulator.h"
+#include "simulator/calibration/stereo_model.h"
 
 namespace aisle {
 namespace {

@@ -2,18 +2,19 @@
 
 #include "harness/io/input_error.h"
 #include "harness/plugs/open_simulator.h"
+#include "simulator/proof/proofs.h"
 
 namespace aisle {
 namespace {
 
 LightComparison::Change ChangeOf(const sim::LightChangeCheck::Part& part) {
-  return {part.pixels,      part.rms_nightly, part.rms_reference,
-          part.rms_between, part.rms_noise,   part.correlation};
+  return {part.pixels,      part.rms_rendered, part.rms_reference,
+          part.rms_between, part.rms_noise,    part.correlation};
 }
 
 LightComparison ComparisonOf(int frame, sim::LightCheck check) {
   return {.frame = frame,
-          .nightly = std::move(check.nightly),
+          .nightly = std::move(check.rendered),
           .reference = std::move(check.reference),
           .median_relative_error = check.median_relative_error,
           .ssim = check.ssim,
@@ -36,9 +37,10 @@ LightComparison CompareLight(const SimulatedSequenceOptions& scene,
   }
   const int frame = options.frame >= 0 ? options.frame : simulator.frame_count() / 2;
   if (!options.next) {
-    return ComparisonOf(frame, simulator.CheckLight(frame, options.samples, options.reduce));
+    return ComparisonOf(frame, sim::CheckLight(simulator, frame, options.samples, options.reduce));
   }
-  sim::LightChangeCheck check = simulator.CheckLightChange(frame, options.samples, options.reduce);
+  sim::LightChangeCheck check =
+      sim::CheckLightChange(simulator, frame, options.samples, options.reduce);
   LightComparison comparison = ComparisonOf(frame, std::move(check.now));
   comparison.everywhere = ChangeOf(check.everywhere);
   comparison.on_movers = ChangeOf(check.on_movers);

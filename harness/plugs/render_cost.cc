@@ -1,11 +1,12 @@
 #include "harness/plugs/render_cost.h"
 
 #include "harness/plugs/open_simulator.h"
+#include "simulator/proof/proofs.h"
 
 namespace aisle {
 
 RenderCost MeasureRender(const SimulatedSequenceOptions& options, int frames) {
-  const sim::RenderBench bench = OpenSimulator(options).Bench(frames);
+  const sim::RenderBench bench = sim::BenchRender(OpenSimulator(options), frames);
   RenderCost cost{.pair_ms = bench.pair_ms,
                   .after_jump_ms = bench.after_jump_ms,
                   .bare_primary_ms = bench.bare_primary_ms,

@@ -2,8 +2,11 @@
 
 #include "harness/io/input_error.h"
 #include "harness/plugs/ask_simulator.h"
+#include "harness/plugs/bag_poses.h"
 #include "harness/plugs/open_simulator.h"
 #include "harness/plugs/simulated_frame.h"
+#include "simulator/scene_file.h"
+#include "simulator/site.h"
 
 namespace aisle {
 namespace {
@@ -78,9 +81,9 @@ Way WayOf(const std::vector<sim::WayLeg>& planned) {
   return way;
 }
 
-Course CourseOf(const sim::Simulator& simulator) {
-  const sim::DriveSpec& drive = simulator.drive();
-  const sim::Ground& ground = simulator.ground();
+Course CourseOf(const sim::Site& site) {
+  const sim::DriveSpec& drive = site.drive();
+  const sim::Ground& ground = site.ground();
   Course course;
   course.start = {ground.start().position, ground.start().heading_rad};
   course.way = WayOf(ground.way());
@@ -88,8 +91,8 @@ Course CourseOf(const sim::Simulator& simulator) {
   course.footprint = drive.footprint;
   course.plant = PlantOf(drive);
   course.odometry = OdometryOf(drive.odometry);
-  course.driver = DriverOf(drive, simulator.limits());
-  course.T_vehicle_rig = simulator.Mount();
+  course.driver = DriverOf(drive, site.limits());
+  course.T_vehicle_rig = site.Mount();
   course.goal_tolerance_m = drive.goal_tolerance_m;
   course.goal_tolerance_rad = drive.goal_tolerance_rad;
   for (const sim::GroundThing& thing : ground.things()) {
@@ -109,7 +112,7 @@ Course CourseOf(const sim::Simulator& simulator) {
 class SimulatedDrive : public DriveScene {
  public:
   explicit SimulatedDrive(sim::Simulator simulator)
-      : simulator_(std::move(simulator)), course_(CourseOf(simulator_)) {}
+      : simulator_(std::move(simulator)), course_(CourseOf(simulator_.site())) {}
 
   const Course& course() const override { return course_; }
   StereoCalibration calibration() const override { return CalibrationOf(simulator_.rig()); }
@@ -119,15 +122,15 @@ class SimulatedDrive : public DriveScene {
   }
 
   Capsule ActorAt(std::size_t index, std::int64_t time_ns) const override {
-    const sim::GroundActor& actor = simulator_.ground().actors()[index];
-    const sim::GroundPose at = simulator_.ground().ActorAt(index, time_ns);
+    const sim::GroundActor& actor = simulator_.site().ground().actors()[index];
+    const sim::GroundPose at = simulator_.site().ground().ActorAt(index, time_ns);
     const Eigen::Vector2d ahead = FloorPose{at.position, at.heading_rad}.ahead();
     return {at.position + actor.back_m * ahead, at.position + actor.front_m * ahead,
             actor.radius_m};
   }
 
   Eigen::Isometry3d RigAt(const FloorPose& vehicle, std::int64_t stamp_ns) const override {
-    return simulator_.RigPoseAt({vehicle.position, vehicle.heading_rad}, stamp_ns);
+    return simulator_.site().RigPoseAt({vehicle.position, vehicle.heading_rad}, stamp_ns);
   }
 
   SequenceFrame Take(const Exposure& exposure) const override {
@@ -147,14 +150,16 @@ class SimulatedDrive : public DriveScene {
   Course course_;
 };
 
-}  // namespace
-
-bool IsDriveScene(const std::string& scene_file) {
-  return AskSimulator([&] { return sim::IsDriveScene(scene_file); });
+sim::DriveSpec DriveOfScene(const std::string& scene_file) {
+  return AskSimulator([&] { return sim::ReadSceneInfo(scene_file, 1, ReadPosesOfBag).drive; });
 }
 
+}  // namespace
+
+bool IsDriveScene(const std::string& scene_file) { return DriveOfScene(scene_file).there; }
+
 Wheels WheelsOfScene(const std::string& scene_file) {
-  const sim::DriveSpec drive = AskSimulator([&] { return sim::DriveOfScene(scene_file); });
+  const sim::DriveSpec drive = DriveOfScene(scene_file);
   return drive.there ? Wheels{OdometryOf(drive.odometry), PlantOf(drive)} : Wheels{};
 }
 
@@ -162,7 +167,7 @@ std::unique_ptr<DriveScene> OpenSimulatedDrive(const SimulatedSequenceOptions& o
                                                std::uint64_t* content_hash) {
   sim::Simulator simulator = OpenSimulator(options);
   RefuseLens(simulator, options);
-  if (!simulator.drive().there) {
+  if (!simulator.site().drive().there) {
     throw InputError(options.scene_file, 0,
                      "has no `drive`: nothing says which vehicle is steered; example: drive: {}");
   }

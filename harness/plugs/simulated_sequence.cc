@@ -11,15 +11,12 @@
 #include "harness/plugs/bag_poses.h"
 #include "harness/plugs/open_simulator.h"
 #include "harness/plugs/simulated_frame.h"
+#include "simulator/proof/proofs.h"
+#include "simulator/scene_file.h"
+#include "simulator/site.h"
 
 namespace aisle {
 namespace {
-
-/// Before anybody reads a scene: its rig may drive the way in a bag.
-[[maybe_unused]] const bool kBagsAreRead = [] {
-  ReadBagsForScenes();
-  return true;
-}();
 
 struct NamedTwin {
   std::string_view name;
@@ -76,7 +73,7 @@ class SimulatedSequence : public Sequence {
   }
 
   FrameProof Prove(const FrameRequest& request) const {
-    const sim::VerifyReport report = simulator_.Verify(static_cast<int>(request.id));
+    const sim::VerifyReport report = sim::Verify(simulator_, static_cast<int>(request.id));
     return {
         .raster_agreement = std::min(report.raster_agreement_left, report.raster_agreement_right),
         .stereo_median_px = report.stereo_median_px,
@@ -134,7 +131,8 @@ sim::Simulator Open(const SimulatedSequenceOptions& options, const Shown& shown)
                                  .threads = options.threads,
                                  .isa = options.isa,
                                  .light_spacing = options.light_spacing,
-                                 .light_progress = TellerOf(options)});
+                                 .light_progress = TellerOf(options),
+                                 .bags = ReadPosesOfBag});
   });
 }
 
@@ -175,7 +173,7 @@ SimulationForExport OpenForExport(const SimulatedSequenceOptions& options,
     result.labels.push_back(
         {instance.name, instance.object_class, instance.class_id, instance.is_actor});
   }
-  result.T_base_rig = at->simulator().Mount();
+  result.T_base_rig = at->simulator().site().Mount();
   if (at->simulator().has_colour()) {
     result.colour = [at](const FrameRequest& frame) {
       return at->simulator().RenderColour(static_cast<int>(frame.id), frame.stamp_ns,
@@ -206,24 +204,24 @@ ScenePlan DrawScenePlan(const SimulatedSequenceOptions& options, int width_px) {
 }
 
 std::vector<std::string> CheckScene(const std::string& scene_file) {
-  return sim::CheckSceneFile(scene_file, AssetsDir().string());
+  return sim::CheckSceneFile(scene_file, AssetsDir().string(), ReadPosesOfBag);
 }
 
 std::vector<std::string> FilesOfScene(const std::string& scene_file) {
-  return sim::FilesOfScene(scene_file);
+  return sim::FilesOfScene(scene_file, ReadPosesOfBag);
 }
 
 std::string EssenceOfScene(const std::string& scene_file, const std::string& twin) {
   const sim::Twin which = TwinFromName(twin);
-  return AskSimulator([&] { return sim::EssenceOfScene(scene_file, which); });
+  return AskSimulator([&] { return sim::EssenceOfScene(scene_file, which, ReadPosesOfBag); });
 }
 
 std::string HallOfScene(const std::string& scene_file, std::uint64_t seed) {
-  return AskSimulator([&] { return sim::HallOfScene(scene_file, seed); });
+  return AskSimulator([&] { return sim::ReadSceneInfo(scene_file, seed, ReadPosesOfBag).hall; });
 }
 
 std::int64_t CountSceneFrames(const std::string& scene_file) {
-  return AskSimulator([&] { return sim::CountSceneFrames(scene_file); });
+  return AskSimulator([&] { return sim::ReadSceneInfo(scene_file, 1, ReadPosesOfBag).frames; });
 }
 
 }  // namespace aisle

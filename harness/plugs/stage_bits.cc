@@ -2,8 +2,9 @@
 
 #include "harness/io/hash.h"
 #include "harness/io/input_error.h"
+#include "harness/plugs/bag_poses.h"
 #include "harness/plugs/systems.h"
-#include "simulator/simulator.h"
+#include "simulator/proof/proofs.h"
 
 namespace aisle {
 namespace {
@@ -24,9 +25,11 @@ std::uint64_t HashOf(const Trajectory& track) {
 
 sim::Simulator Load(const StageBitsOptions& options) {
   try {
-    return sim::Simulator::Load(
-        options.scene_file, options.assets_dir,
-        {.threads = options.threads, .light_spacing = options.light_spacing, .keep_light = false});
+    return sim::Simulator::Load(options.scene_file, options.assets_dir,
+                                {.threads = options.threads,
+                                 .light_spacing = options.light_spacing,
+                                 .keep_light = false,
+                                 .bags = ReadPosesOfBag});
   } catch (const std::runtime_error& error) {
     throw InputError(error.what());
   }
@@ -58,7 +61,7 @@ std::vector<StageBits> HashStages(const StageBitsOptions& options) {
        ++k) {
     const std::int64_t stamp_ns = simulator.Stamp(k);
     if (k < options.hashed_frames) {
-      const sim::StageHashes hashes = simulator.HashStages(k);
+      const sim::StageHashes hashes = sim::HashStages(simulator, k);
       for (std::size_t i = 0; i < bits.size(); ++i) {
         bits[i].hash = HashOf(std::vector{hashes[i]}, bits[i].hash);
       }

@@ -1,7 +1,9 @@
 #include "harness/plugs/user_model.h"
 
 #include "harness/io/input_error.h"
-#include "simulator/simulator.h"
+#include "harness/plugs/bag_poses.h"
+#include "simulator/import_model.h"
+#include "simulator/scene_file.h"
 
 namespace aisle {
 
@@ -32,7 +34,7 @@ UserModel TakeInUserModel(const UserModelRequest& request) {
 
 std::vector<std::string> DescribeMeshes(const std::string& scene_file) {
   try {
-    return sim::DescribeSceneMeshes(scene_file);
+    return sim::DescribeSceneMeshes(scene_file, ReadPosesOfBag);
   } catch (const std::runtime_error& error) {
     throw InputError(error.what());
   }

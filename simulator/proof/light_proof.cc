@@ -83,13 +83,13 @@ LightCheck CheckLight(const Studio& studio, const Moment& moment, int samples, i
   ExpectJudgeable(studio.world);
   const StereoCamera small = Coarser(studio.camera, reduce);
   LightCheck check;
-  check.nightly = Light(studio, moment, small, reduce);
+  check.rendered = Light(studio, moment, small, reduce);
   check.halves = References(studio, moment, small, (samples + 1) / 2);
   check.reference = (check.halves[0] + check.halves[1]) / 2;
   const LightError noise = CompareLight(check.halves[0], check.halves[1]);
   check.noise_median_relative = noise.median_relative;
   check.noise_ssim = noise.ssim;
-  const LightError error = CompareLight(check.nightly, check.reference);
+  const LightError error = CompareLight(check.rendered, check.reference);
   check.median_relative_error = error.median_relative;
   check.ssim = error.ssim;
   check.mean_ratio = error.mean_ratio;
@@ -103,7 +103,7 @@ LightChangeCheck CheckLightChange(const Studio& studio, const std::array<Moment,
   check.now = CheckLight(studio, moments[0], samples, reduce);
   const LightCheck then = CheckLight(studio, moments[1], samples, reduce);
   cv::Mat1f ours;
-  cv::subtract(then.nightly, check.now.nightly, ours);
+  cv::subtract(then.rendered, check.now.rendered, ours);
   std::array<cv::Mat1f, 2> halves;
   for (std::size_t i = 0; i < 2; ++i) {
     cv::subtract(then.halves[i], check.now.halves[i], halves[i]);

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "simulator/frames.h"
-#include "simulator/proof/studio.h"
+#include "simulator/proof/proofs.h"
+#include "simulator/studio.h"
 
 namespace aisle::sim {
 

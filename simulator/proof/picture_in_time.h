@@ -1,7 +1,7 @@
 #pragma once
 
 #include "simulator/proof/picture_change.h"
-#include "simulator/proof/studio.h"
+#include "simulator/studio.h"
 
 namespace aisle::sim {
 

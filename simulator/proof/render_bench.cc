@@ -23,7 +23,7 @@ RenderBench BenchRender(const Studio& studio, std::span<const FrameInDrive> fram
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const auto& [before, now] = frames[i];
     LapWatch watch;
-    std::map<std::string, double> jump_stages, frame_stages;
+    StageTimes jump_stages, frame_stages;
     render(static_cast<int>(i), before, &jump_stages);
     // The first touches buffers for the first time.
     if (const double jump_ms = watch.Lap(); i > 0) after_jump.push_back(jump_ms);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "simulator/frames.h"
-#include "simulator/proof/studio.h"
+#include "simulator/proof/proofs.h"
+#include "simulator/studio.h"
 
 namespace aisle::sim {
 

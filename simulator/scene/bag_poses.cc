@@ -1,26 +1,8 @@
 #include "simulator/scene/bag_poses.h"
 
-#include <fmt/format.h>
-
-#include <mutex>
+#include <stdexcept>
 
 namespace aisle::sim {
-namespace {
-
-std::mutex reader_mutex;  ///< guards TheReader()
-
-BagPoseReader& TheReader() {
-  static BagPoseReader reader;
-  return reader;
-}
-
-}  // namespace
-
-void ReadBagsWith(BagPoseReader reader) {
-  const std::lock_guard lock(reader_mutex);
-  TheReader() = std::move(reader);
-}
-
 std::pair<std::string, std::string> SplitBagTopic(const std::string& text) {
   for (const char* bag : {".mcap:", ".db3:"}) {
     const std::size_t at = text.find(bag);
@@ -31,13 +13,13 @@ std::pair<std::string, std::string> SplitBagTopic(const std::string& text) {
   return {text, ""};
 }
 
-std::string ReadBagPoses(const std::string& file_and_topic, std::vector<TimedPose>* poses) {
-  BagPoseReader reader;
-  {
-    const std::lock_guard lock(reader_mutex);
-    reader = TheReader();
+std::string ReadBagPoses(const BagPoseReader& reader, const std::string& file_and_topic,
+                         std::vector<TimedPose>* poses) {
+  if (!reader) {
+    return file_and_topic +
+           ": this program cannot read bags (it gives the simulator no BagPoseReader);"
+           " expected the poses as a TUM file";
   }
-  if (!reader) return file_and_topic + ": bags are only read by the program aisle";
   try {
     *poses = reader(file_and_topic);
   } catch (const std::runtime_error& error) {

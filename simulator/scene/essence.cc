@@ -66,8 +66,8 @@ std::string TextOf(const std::vector<TimedPose>& poses) {
 
 /// What the files hold that a scene names, whose names say nothing.
 void AppendNamedFiles(const std::filesystem::path& scene_file, std::size_t scene_files,
-                      std::string* text) {
-  const Scene scene = ReadSceneLoosely(scene_file);
+                      const BagPoseReader& bags, std::string* text) {
+  const Scene scene = ReadSceneLoosely(scene_file, bags);
   for (std::size_t i = scene_files; i < scene.files.size(); ++i) {
     const std::string& file = scene.files[i];
     const bool is_mesh = std::ranges::find(scene.mesh_files, file) != scene.mesh_files.end();
@@ -99,7 +99,8 @@ YamlValue Seen(YamlValue tree, bool with_actors) {
 
 }  // namespace
 
-std::string EssenceOf(const std::filesystem::path& file, bool with_actors) {
+std::string EssenceOf(const std::filesystem::path& file, bool with_actors,
+                      const BagPoseReader& bags) {
   std::string problem;
   const auto text = ReadSceneText(file, &problem);
   if (!text) throw SceneError({problem});
@@ -109,7 +110,7 @@ std::string EssenceOf(const std::filesystem::path& file, bool with_actors) {
   std::string essence;
   Append(Seen(std::move(trees->top), with_actors), &essence);
   for (YamlValue& tree : trees->dealt) Append(Seen(std::move(tree), with_actors), &essence);
-  AppendNamedFiles(file, issues.files().size(), &essence);
+  AppendNamedFiles(file, issues.files().size(), bags, &essence);
   return essence;
 }
 

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "simulator/scene/bag_poses.h"
+
 namespace aisle::sim {
 
 /// What a scene's pixels and truth are decided by, as text in a form of its own: the file laid over
@@ -10,7 +12,9 @@ namespace aisle::sim {
 /// comments, without `about` and the name of the extended file, and without `people`, `vehicles`
 /// and `crowd` where they are not to be seen; then the bytes of the files that its rig brings.
 /// Scenes of equal essence give equal frames for the same twin, seed and assets. Throws SceneError
-/// where the file cannot be read as YAML; other mistakes are not looked for.
-std::string EssenceOf(const std::filesystem::path& file, bool with_actors);
+/// where the file cannot be read as YAML; other mistakes are not looked for. `bags` as LoadScene
+/// has it.
+std::string EssenceOf(const std::filesystem::path& file, bool with_actors,
+                      const BagPoseReader& bags = {});
 
 }  // namespace aisle::sim

@@ -43,7 +43,8 @@ void StandAtViews(Scene* scene) {
 }
 
 /// What the text and the files it names say, as far as it is no mistake.
-Scene ReadScene(const std::string& text, const std::string& file, Issues* issues) {
+Scene ReadScene(const std::string& text, const std::string& file, const BagPoseReader& bags,
+                Issues* issues) {
   Scene scene;
   scene.file = file;
   if (const auto trees = ReadExtended(text, issues)) {
@@ -59,15 +60,15 @@ Scene ReadScene(const std::string& text, const std::string& file, Issues* issues
     if (scene.drive.there) scene.rig.route = WithinReach(scene.rig.route, scene.drive);
   }
   scene.files = issues->files();
-  if (issues->empty()) ReadRigFiles(&scene, issues);
+  if (issues->empty()) ReadRigFiles(&scene, bags, issues);
   if (issues->empty()) FindMeshFiles(&scene, issues);
   return scene;
 }
 
 /// The stages of reading; each needs the one before to have found nothing.
-Parsed Parse(const std::string& text, const std::string& file) {
+Parsed Parse(const std::string& text, const std::string& file, const BagPoseReader& bags) {
   Issues issues(file);
-  Scene scene = ReadScene(text, file, &issues);
+  Scene scene = ReadScene(text, file, bags, &issues);
   if (issues.empty()) CheckScene(scene, &issues);
   for (const Premises& premises : scene.dealt) {  // any of them may be there
     Scene dealt = scene;
@@ -78,11 +79,11 @@ Parsed Parse(const std::string& text, const std::string& file) {
   return {std::move(scene), issues.Messages()};
 }
 
-Parsed ParseFile(const std::filesystem::path& file) {
+Parsed ParseFile(const std::filesystem::path& file, const BagPoseReader& bags) {
   std::string problem;
   const auto text = ReadSceneText(file, &problem);
   if (!text) return {{}, {problem}};
-  return Parse(*text, file.string());
+  return Parse(*text, file.string(), bags);
 }
 
 Scene SceneOrThrow(Parsed parsed) {
@@ -96,10 +97,12 @@ SceneError::SceneError(std::vector<std::string> messages)
     : std::runtime_error(fmt::format("{}", fmt::join(messages, "\n"))),
       messages_(std::move(messages)) {}
 
-Scene LoadScene(const std::filesystem::path& file) { return SceneOrThrow(ParseFile(file)); }
+Scene LoadScene(const std::filesystem::path& file, const BagPoseReader& bags) {
+  return SceneOrThrow(ParseFile(file, bags));
+}
 
-Scene ParseScene(const std::string& text, const std::string& file) {
-  return SceneOrThrow(Parse(text, file));
+Scene ParseScene(const std::string& text, const std::string& file, const BagPoseReader& bags) {
+  return SceneOrThrow(Parse(text, file, bags));
 }
 
 std::vector<std::string> CheckSeed(const Scene& scene, std::uint64_t seed, const FloorWays& ways) {
@@ -114,15 +117,15 @@ std::vector<std::string> CheckWays(const Scene& scene, const FloorWays& ways) {
   return issues.Messages();
 }
 
-std::vector<std::string> CheckScene(const std::filesystem::path& file) {
-  return ParseFile(file).messages;
+std::vector<std::string> CheckScene(const std::filesystem::path& file, const BagPoseReader& bags) {
+  return ParseFile(file, bags).messages;
 }
 
-Scene ReadSceneLoosely(const std::filesystem::path& file) {
+Scene ReadSceneLoosely(const std::filesystem::path& file, const BagPoseReader& bags) {
   Issues issues(file.string());
   std::string problem;
   if (const auto text = ReadSceneText(file, &problem)) {
-    return ReadScene(*text, file.string(), &issues);
+    return ReadScene(*text, file.string(), bags, &issues);
   }
   Scene scene;
   scene.file = file.string();
@@ -130,8 +133,8 @@ Scene ReadSceneLoosely(const std::filesystem::path& file) {
   return scene;
 }
 
-std::vector<std::string> SceneFiles(const std::filesystem::path& file) {
-  return ReadSceneLoosely(file).files;
+std::vector<std::string> SceneFiles(const std::filesystem::path& file, const BagPoseReader& bags) {
+  return ReadSceneLoosely(file, bags).files;
 }
 
 }  // namespace aisle::sim

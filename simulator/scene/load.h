@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/scene/bag_poses.h"
 #include "simulator/scene/floor_way.h"
 #include "simulator/scene/scene.h"
 
@@ -21,22 +22,26 @@ class SceneError : public std::runtime_error {
   std::vector<std::string> messages_;
 };
 
+// `bags` reads the way of a rig that follows poses in a bag. Without it such a scene has a mistake.
+
 /// Reads and checks a scene file, laid over the one it extends if it does; actors of every level
 /// are in it. Throws SceneError with every mistake that was found.
-Scene LoadScene(const std::filesystem::path& file);
+Scene LoadScene(const std::filesystem::path& file, const BagPoseReader& bags = {});
 /// The same from text; `file` is for the messages.
-Scene ParseScene(const std::string& text, const std::string& file);
+Scene ParseScene(const std::string& text, const std::string& file, const BagPoseReader& bags = {});
 
 /// What the file says as far as it can be read, held to nothing.
-Scene ReadSceneLoosely(const std::filesystem::path& file);
+Scene ReadSceneLoosely(const std::filesystem::path& file, const BagPoseReader& bags = {});
 
 /// The file and those it extends, nearest first, then those it names: what decides the scene. Of a
 /// file with mistakes, as far as they can be followed.
-std::vector<std::string> SceneFiles(const std::filesystem::path& file);
+std::vector<std::string> SceneFiles(const std::filesystem::path& file,
+                                    const BagPoseReader& bags = {});
 
 /// Every mistake in the file and those it extends; empty: it is good. Never throws for what the
 /// file holds.
-std::vector<std::string> CheckScene(const std::filesystem::path& file);
+std::vector<std::string> CheckScene(const std::filesystem::path& file,
+                                    const BagPoseReader& bags = {});
 
 /// What goes wrong in a good scene when its actors move as this seed has them. The usual seeds are
 /// part of CheckScene already. Of who moves as recorded only the start is looked at, unless `ways`

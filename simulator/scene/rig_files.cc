@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "simulator/calibration/stereo_model.h"
-#include "simulator/scene/bag_poses.h"
 #include "simulator/scene/check_poses.h"
 
 namespace aisle::sim {
@@ -112,15 +111,15 @@ std::string ReadPoses(const std::string& file, std::vector<TimedPose>* poses) {
   return poses->empty() ? file + ": no poses" : "";
 }
 
-void ReadTrajectory(Scene* scene, Issues* issues) {
+void ReadTrajectory(Scene* scene, const BagPoseReader& bags, Issues* issues) {
   RigSpec& rig = scene->rig;
   const auto [name, topic] = SplitBagTopic(rig.trajectory);
   const std::string file = Resolved(*scene, rig.trajectory_mark, name);
   const auto add = [&](const std::string& what) {
     issues->Add(rig.trajectory_mark, "rig.trajectory", what);
   };
-  const std::string wrong =
-      topic.empty() ? ReadPoses(file, &rig.poses) : ReadBagPoses(file + ":" + topic, &rig.poses);
+  const std::string wrong = topic.empty() ? ReadPoses(file, &rig.poses)
+                                          : ReadBagPoses(bags, file + ":" + topic, &rig.poses);
   if (!wrong.empty()) return add(wrong);
   scene->files.push_back(file);
   const std::int64_t first_ns = rig.poses.front().time_ns;
@@ -153,7 +152,7 @@ void ReadTrajectory(Scene* scene, Issues* issues) {
 
 }  // namespace
 
-void ReadRigFiles(Scene* scene, Issues* issues) {
+void ReadRigFiles(Scene* scene, const BagPoseReader& bags, Issues* issues) {
   RigSpec& rig = scene->rig;
   ReadCalibration(rig.calibration, "rig.calibration", &scene->camera, scene, issues);
   for (std::size_t i = 0; i < rig.pairs.size(); ++i) {
@@ -162,7 +161,7 @@ void ReadRigFiles(Scene* scene, Issues* issues) {
     ReadCalibration(pair.calibration, fmt::format("rig.pairs[{}].calibration", i), &pair.camera,
                     scene, issues);
   }
-  if (!rig.trajectory.empty()) ReadTrajectory(scene, issues);
+  if (!rig.trajectory.empty()) ReadTrajectory(scene, bags, issues);
 }
 
 }  // namespace aisle::sim

@@ -6,7 +6,7 @@ reaches through its arrows, and its house's nouns (frames.h), which include noth
 arrow that none of its files follows does not belong in the list. Every room has its line in the map
 of rooms, a room within a room its name in the line of the one around it. Across houses only the faces
 are open, and only to harness/plugs (and to the tests, which may include anything of the room they
-test).
+test). What renders reaches nothing of what judges it.
 """
 
 import pathlib
@@ -17,10 +17,18 @@ MAPS = ("README.md", "reports/docs/architecture.md")  # where the map of rooms m
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 HOUSES = ("simulator", "slam", "harness")
 NOUNS = {f"{house}/frames.h" for house in HOUSES}  # any room of the house may include them
-FACES = {
-    "simulator": {"simulator/simulator.h"},
-    "slam": {"slam/stereo_slam.h", "slam/moving_objects.h"},
+FACES = {  # what a foundation shows to harness/plugs, and to other people's programs
+    "simulator/simulator.h",
+    "simulator/scene_file.h",
+    "simulator/site.h",
+    "simulator/import_model.h",
+    "simulator/calibration/stereo_model.h",
+    "simulator/proof/proofs.h",
+    "slam/stereo_slam.h",
+    "slam/moving_objects.h",
 }
+RENDERER = "simulator"
+JUDGES = {"simulator/proof", "simulator/raster", "simulator/shade/reference", "simulator/foreign"}
 ROOMS_THAT_SEE = {  # foreign headers that one room alone may see
     "embree3/": {"simulator/trace"},
     "assimp/": {"simulator/mesh"},
@@ -53,6 +61,12 @@ def cycles(arrows):
     return [room for room in arrows for use in arrows[room] if room in reach(arrows, use)]
 
 
+def judged_by_itself(arrows):
+    """Yields a sentence for each judge that the renderer reaches."""
+    for judge in sorted(reach(arrows, RENDERER) & JUDGES):
+        yield f"{RENDERER}: what renders must not reach {judge}, which judges it"
+
+
 def room_of(path):
     """The room of a file such as simulator/trace/rays.h or simulator/simulator.h."""
     return str(pathlib.PurePosixPath(path).parent)
@@ -69,7 +83,7 @@ def offences(files, arrows):
             if target_house not in HOUSES:
                 yield f'{path}: "{include}" is not a path from the root of the tree'
             elif target_house != house:
-                if room != "harness/plugs" or include not in FACES.get(target_house, ()):
+                if room != "harness/plugs" or include not in FACES:
                     yield f"{path}: {room} must not know {include}"
             elif path in NOUNS:
                 yield f"{path}: nouns stand by themselves, without {include}"
@@ -132,6 +146,7 @@ def main(source_dir, arrows_file):
     maps = [entries for page in pages if (entries := map_entries(page.read_text()))]
     found += list(unmapped(maps[0] if maps else {}, arrows))
     found += [f"{room} is on a cycle" for room in cycles(arrows)]
+    found += list(judged_by_itself(arrows))
     for offence in found:
         print(offence)
     print(f"{len(files)} files, {len(arrows)} rooms, {len(found)} offences")

@@ -40,6 +40,16 @@ class ArrowsTest(unittest.TestCase):
         self.assertEqual(check("harness/cli/a.cc", '#include "harness/contract/run.h"'), [])
         self.assertEqual(len(check("harness/cli/a.cc", '#include "harness/plugs/systems.h"')), 1)
 
+    def test_a_face_may_be_several_headers(self):
+        self.assertEqual(check("harness/plugs/a.cc", '#include "simulator/proof/proofs.h"'), [])
+        self.assertEqual(len(check("harness/plugs/a.cc", '#include "simulator/proof/light.h"')), 1)
+
+    def test_what_renders_does_not_reach_what_judges_it(self):
+        text = "simulator/raster: \nsimulator/trace: {}\nsimulator: simulator/trace\nsimulator/proof: simulator\n"
+        good, bad = (arrows.read_arrows(text.format(uses)) for uses in ("", "simulator/raster"))
+        self.assertEqual(list(arrows.judged_by_itself(good)), [])
+        self.assertEqual(len(list(arrows.judged_by_itself(bad))), 1)
+
     def test_nouns_are_everybodys_in_their_house_and_stand_alone(self):
         nouns = "simulator/frames.h"
         self.assertEqual(check("simulator/scene/a.cc", f'#include "{nouns}"'), [])

@@ -6,6 +6,7 @@
 #include <opencv2/video/tracking.hpp>
 #include <sstream>
 
+#include "simulator/proof/proofs.h"
 #include "simulator/simulator.h"
 
 namespace aisle::sim {
@@ -24,7 +25,7 @@ TEST_P(InTime, GreyFollowsTheFlow) {
   const auto& [scene, frame] = GetParam();
   const Simulator simulator =
       Simulator::Load(kRoot + "/scenes/" + scene + ".yaml", kRoot + "/assets", {});
-  const VerifyReport report = simulator.Verify(frame);
+  const VerifyReport report = Verify(simulator, frame);
   EXPECT_EQ(report.failure(), "");
   RecordProperty("static_change_grey", std::to_string(report.static_change_grey));
   RecordProperty("mover_flicker_grey", std::to_string(report.mover_flicker_grey));

@@ -9,6 +9,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "simulator/scene_file.h"
 #include "simulator/simulator.h"
 
 namespace aisle::sim {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "simulator/proof/truth_proof.h"
 #include "tests/simulator/test_world.h"
 
 namespace aisle::sim {
@@ -72,11 +73,14 @@ TEST(Pipeline, ShadingAndSensorOptionsNeverChangeTruth) {
   EXPECT_TRUE(SameBytes(reference.truth.dynamic, other.truth.dynamic));
 }
 
+VerifyReport Prove(const Pipeline& pipeline, const Moment& now, const Moment& next) {
+  return ProveTruth(pipeline.StudioAt(now), now, next);
+}
+
 TEST(Pipeline, TruthProvesItselfByRasteriserAndWarps) {
   const VerifyReport report =
-      SmallHall(QuickOptions())
-          .Verify({2 * kSecond, kPose},
-                  {2 * kSecond + kSecond / 20, test::LookAlong({1.55, 0, 1.2}, 0.03)});
+      Prove(SmallHall(QuickOptions()), {2 * kSecond, kPose},
+            {2 * kSecond + kSecond / 20, test::LookAlong({1.55, 0, 1.2}, 0.03)});
   EXPECT_EQ(report.failure(), "");
   EXPECT_GT(report.raster_compared, 300'000);
   EXPECT_GT(report.stereo_compared, 200'000);
@@ -87,10 +91,10 @@ TEST(Pipeline, TruthProvesItselfByRasteriserAndWarps) {
 TEST(Pipeline, FlowThatMeetsNothingProvesNothing) {
   const Pipeline hall = SmallHall(QuickOptions());
   const Moment now{2 * kSecond, kPose};
-  const VerifyReport stands = hall.Verify(now, {2 * kSecond + kSecond / 20, kPose});
+  const VerifyReport stands = Prove(hall, now, {2 * kSecond + kSecond / 20, kPose});
   EXPECT_EQ(stands.failure(), "");
   EXPECT_GT(stands.flow_compared, 200'000);
-  const VerifyReport turned = hall.Verify(now, {3 * kSecond, test::LookAlong({1.5, 0, 1.2}, 3)});
+  const VerifyReport turned = Prove(hall, now, {3 * kSecond, test::LookAlong({1.5, 0, 1.2}, 3)});
   EXPECT_EQ(turned.flow_compared, 0);
   EXPECT_THAT(turned.failure(), testing::HasSubstr("flow could be held against the next frame on"));
 }
@@ -235,10 +239,9 @@ TEST(AutoExposure, TheFramesMeanIsTheTargetWhateverTheLight) {
 TEST(Lens, TruthProvesItselfThroughIt) {
   StereoCamera camera;
   camera.lens = {LensModel::kRadialTangential, {-0.28, 0.074, 0.0002, 0.00002}};
-  const VerifyReport report =
-      Pipeline(World(test::Hall({.boxes = 200})), camera, QuickOptions())
-          .Verify({2 * kSecond, kPose},
-                  {2 * kSecond + kSecond / 20, test::LookAlong({1.55, 0, 1.2}, 0.03)});
+  const VerifyReport report = Prove(
+      Pipeline(World(test::Hall({.boxes = 200})), camera, QuickOptions()), {2 * kSecond, kPose},
+      {2 * kSecond + kSecond / 20, test::LookAlong({1.55, 0, 1.2}, 0.03)});
   EXPECT_EQ(report.failure(), "");
   EXPECT_GT(report.raster_compared, 200'000);
 }

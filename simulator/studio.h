@@ -19,12 +19,8 @@ struct Moment {
   Eigen::Isometry3d T_world_rig = Eigen::Isometry3d::Identity();
 };
 
-/// A frame of a drive and the one before it.
-struct FrameInDrive {
-  Moment before, now;
-};
-
-/// A world that can be photographed. All must outlive it.
+/// The parts that take pictures, for those who judge these part by part: what Pipeline is made of,
+/// or a test. All must outlive it.
 struct Studio {
   const World& world;
   const Tracer& tracer;
@@ -33,7 +29,7 @@ struct Studio {
   const PixelRays& rays;  ///< of `camera`
   MovingOptions moving;
   float exposure = 1;  ///< from radiance to shares of the sensor's white
-  /// The sensor without noise.
+  /// The left camera's sensor without noise, at one exposure.
   std::function<cv::Mat1b(const cv::Mat1f& radiance)> expose = {};
 
   Instant At(const Moment& moment) const { return tracer.Pose(world.At(moment.stamp_ns)); }

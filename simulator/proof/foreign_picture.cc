@@ -1,7 +1,7 @@
 #include "simulator/common/parallel.h"
 #include "simulator/foreign/foreign_scene.h"
+#include "simulator/proof/proofs.h"
 #include "simulator/shade/reference/reference.h"
-#include "simulator/simulator.h"
 
 namespace aisle::sim {
 
