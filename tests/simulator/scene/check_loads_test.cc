@@ -47,7 +47,7 @@ TEST(Loads, OfTwoPeopleOfWhomOneMayWaitAreNamed) {
   for (const std::string& text :
        {Carried(yields, ""), Carried("", yields), Carried(yields, yields)}) {
     EXPECT_THAT(MessagesOf(text + kDrive),
-                ElementsAre(HasSubstr("mechanisms[0]: 'bea' and 'anton' hold it")));
+                ElementsAre(HasSubstr("mechanisms[0]: 'bea' and 'anton' carry it")));
     EXPECT_THAT(MessagesOf(text), IsEmpty()) << "nobody yields to a rig on its route";
   }
   EXPECT_THAT(MessagesOf(Carried("", "") + kDrive), IsEmpty());
@@ -72,7 +72,7 @@ TEST(Loads, ThatTwoTrucksTakeOfWhichOneMayWaitAreNamed) {
   const std::string yields = ", yields: true";
   for (const std::string& text : {Taken(yields, "", "other"), Taken("", yields, "other")}) {
     EXPECT_THAT(MessagesOf(text + kDrive),
-                ElementsAre(HasSubstr("mechanisms[0]: 'one' and 'other' hold it")));
+                ElementsAre(HasSubstr("mechanisms[0]: 'one' and 'other' carry it")));
   }
   EXPECT_THAT(MessagesOf(Taken("", "", "other") + kDrive), IsEmpty());
   EXPECT_THAT(MessagesOf(Taken(yields, "", "one") + kDrive), IsEmpty())
