@@ -102,7 +102,7 @@ class UserModels(unittest.TestCase):
             {"sampler": 0, "target": {"node": node, "path": "translation"}}]}]
         path = self.write("a.glb", glb.bytes())
         said = self.take_in(path)
-        left_out = re.search(r"left out: (.*)", said).group(1)
+        left_out = re.search(r"skipped: (.*)", said).group(1)
         for phrase in ("1 camera", "2 lights", "1 material's transparency", "1 animation",
                        "1 material's emission", "the extension KHR_materials_clearcoat"):
             self.assertIn(phrase, left_out)

@@ -68,7 +68,8 @@ TEST_F(RecordTest, ACountOfAFrameThatIsNoneIsSaidWithItsLine) {
     FrameRowsFromCsv(text, "x");
     ADD_FAILURE() << "read";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("x:2: corners_rejected is '99123456789', not a"));
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("x:2: corners_rejected is '99123456789', expected a count"));
   }
 }
 

@@ -251,7 +251,7 @@ TEST_F(Pairs, TheSceneSaysWhichOneSystemsAreShown) {
   Write(text);
   const std::vector<std::string> errors = CheckSceneFile(File());
   ASSERT_EQ(errors.size(), 1u);
-  EXPECT_NE(errors.front().find("no pair 'side'"), std::string::npos);
+  EXPECT_NE(errors.front().find("no pair named 'side'"), std::string::npos);
 }
 
 TEST_F(Pairs, NoPixelOfAnyIsWithoutARay) {
