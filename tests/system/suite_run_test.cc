@@ -313,7 +313,7 @@ TEST_F(SuiteRunTest, TheGateIsHeldAgainstTheWholeNotItsParts) {
   fs::remove(fs::path(Out("2")) / "baseline.json");
   const Said without = Run({"merge", Out("merged"), Out("1"), Out("2")});
   EXPECT_EQ(without.code, 4) << without.text;
-  EXPECT_THAT(without.text, HasSubstr("baseline.json: is gone"));
+  EXPECT_THAT(without.text, HasSubstr("baseline.json: missing: the report was run with --gate"));
 }
 
 TEST_F(SuiteRunTest, BisectCallsNoCommitGoodThatItCouldNotDrive) {
