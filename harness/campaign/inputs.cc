@@ -226,7 +226,7 @@ std::string WhatNeedsADrive(const Suite& suite) {
   std::string complaints;
   const auto complain = [&](const std::string& what) {
     complaints += fmt::format(
-        "suite '{}': {} needs a scene with a `drive`, and it has none: reports/closed_loop.md\n",
+        "suite '{}': {} needs a scene with a `drive`, and it has none: reports/docs/steering.md\n",
         suite.name, what);
   };
   for (const Limit& limit : suite.limits) {

@@ -20,7 +20,7 @@ SystemSpec SpecOf(const SystemChoice& choice) {
     if (!IsSteeringOption(path)) continue;
     throw InputError(
         fmt::format("--set {}: this command does not steer; `aisle run` does, in scenes with a "
-                    "`drive` (reports/closed_loop.md)",
+                    "`drive` (reports/docs/steering.md)",
                     path));
   }
   return spec;
