@@ -12,6 +12,7 @@
 #include "slam/front_end/see_frame.h"
 #include "slam/map/map_file.h"
 #include "slam/mapping/map_keeper.h"
+#include "slam/mapping/orbslam2_mapping.h"
 #include "slam/track/continuity.h"
 #include "slam/track/predict_motion.h"
 #include "slam/track/track_record.h"
@@ -19,13 +20,11 @@
 namespace aisle::slam {
 namespace {
 
-/// The options with what one stage's say to another's. Throws where they or the camera break a
-/// rule.
-SlamOptions Completed(const StereoCamera& camera, SlamOptions options) {
+/// The options. Throws where they or the camera break a rule.
+SlamOptions Checked(const StereoCamera& camera, const SlamOptions& options) {
   for (const std::string& error : {Validate(camera), Validate(options)}) {
     if (!error.empty()) throw std::invalid_argument("StereoSlam: " + error);
   }
-  options.mapping.fuse.levels = options.feature.levels;
   return options;
 }
 
@@ -138,10 +137,15 @@ struct StereoSlam::Impl {
 
 StereoSlam::Impl::Impl(const StereoCamera& camera_in, const SlamOptions& options_in)
     : camera(camera_in),
-      options(Completed(camera_in, options_in)),
+      options(Checked(camera_in, options_in)),
       detector(camera, options.dynamic),
       arena(options.threads),
-      keeper(camera, {options.mapping, options.loop, options.global, options.schedule},
+      keeper(camera,
+             {.levels = options.feature.levels,
+              .mapping = options.mapping,
+              .loop = options.loop,
+              .global = options.global,
+              .schedule = options.schedule},
              MappingOf(options), LoadWords(options)),
       policy(MakeTrackingPolicy(camera, options)) {
   if (options.map_file.empty()) return;

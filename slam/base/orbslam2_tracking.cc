@@ -1,6 +1,7 @@
 #include "slam/base/orbslam2_tracking.h"
 
 #include "slam/common/seconds.h"
+#include "slam/map/match_by_projection.h"
 #include "slam/map/successor.h"
 #include "slam/track/orbslam2_keyframe.h"
 

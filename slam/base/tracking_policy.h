@@ -40,8 +40,10 @@ class TrackingPolicy {
   /// Where the frame stands in the map; nothing if lost.
   virtual std::optional<FramePose> Find(const std::shared_ptr<const Frame>& frame,
                                         const DriveState& drive) = 0;
+  /// Whether a frame that was found at `pose` is to join the map.
   virtual KeyframeVerdict NeedsKeyframe(const Map& map, const Frame& frame, const FramePose& pose,
                                         const MapperState& mapper) const = 0;
+  /// The keyframe that it becomes, with the landmarks that it has found and those that it brings.
   virtual MapEdit MakeKeyframe(const Map& map, const std::shared_ptr<const Frame>& frame,
                                const FramePose& pose) const = 0;
   /// The keyframe that a frame which has become keyframe `id` is remembered by.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "slam/camera/measured_motion.h"
+#include "slam/camera/stereo_camera.h"
 #include "slam/feature/extract.h"
 #include "slam/frames.h"
 #include "slam/map/frame.h"

@@ -18,13 +18,14 @@ bool SeenBy(const Landmark& landmark, KeyframeId keyframe) {
 }  // namespace
 
 MapEdit FuseInto(const Map& map, KeyframeId in, const std::vector<LandmarkId>& candidates,
-                 const StereoCamera& camera, const FuseOptions& options, FuseBound bound) {
+                 const StereoCamera& camera, int levels, const FuseOptions& options,
+                 FuseBound bound) {
   const Keyframe& keyframe = map.At(in);
   const Eigen::Isometry3d T_rig_world = keyframe.T_world_rig.inverse();
   std::vector<const Landmark*> unseen = FindAll(map, candidates);
   std::erase_if(unseen, [&](const Landmark* landmark) { return SeenBy(*landmark, in); });
   const std::vector<Expected> expected =
-      ExpectAll(unseen, camera, T_rig_world, keyframe.frame->scale, options.levels);
+      ExpectAll(unseen, camera, T_rig_world, keyframe.frame->scale, levels);
   MapEdit edit;
   // No ratio test: a rival feature here is as likely the same landmark at the next level.
   for (const Match& match : MatchByProjection(

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "slam/common/checksum.h"
 #include "slam/common/write_aside.h"
 
 namespace aisle::slam {
@@ -24,23 +25,6 @@ struct Header {
   std::uint32_t version, unused;
   std::uint64_t size, checksum;  // of the bytes that follow
 };
-
-/// FNV-1a over words of eight bytes, then over the rest: tells a damaged file from a whole one.
-std::uint64_t Checksum(const std::string& bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  const auto add = [&hash](std::uint64_t word) {
-    hash = (hash ^ word) * 0x100000001b3ULL;
-    hash ^= hash >> 29;  // else the top byte of a word would reach no other bit
-  };
-  std::size_t i = 0;
-  for (; i + 8 <= bytes.size(); i += 8) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + i, 8);
-    add(word);
-  }
-  for (; i < bytes.size(); ++i) add(static_cast<unsigned char>(bytes[i]));
-  return hash;
-}
 
 class Writer {
  public:
@@ -284,7 +268,7 @@ void SaveMap(const SavedMap& saved, const std::filesystem::path& file) {
   const MapContents contents = saved.map.Contents();
   kContents(body, contents);
   CarryAll(body, contents.closed_loops, kClosedLoop);
-  Header header{{}, kVersion, 0, body.bytes().size(), Checksum(body.bytes())};
+  Header header{{}, kVersion, 0, body.bytes().size(), ChecksumOfWords(body.bytes())};
   std::memcpy(header.magic, kMagic, sizeof(kMagic));
   WriteAside(file, {{reinterpret_cast<const char*>(&header), sizeof(header)}, body.bytes()});
 }
@@ -310,7 +294,7 @@ SavedMap LoadMap(const std::filesystem::path& file) {
   std::string bytes(static_cast<std::size_t>(header.size), '\0');
   in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!in) throw fail("cannot be read");
-  if (Checksum(bytes) != header.checksum) throw fail("is damaged: checksum");
+  if (ChecksumOfWords(bytes) != header.checksum) throw fail("is damaged: checksum");
   try {
     return Decode(Reader(std::move(bytes)), header.version);
   } catch (const std::invalid_argument& broken) {

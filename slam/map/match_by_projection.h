@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "slam/camera/stereo_camera.h"
-#include "slam/common/option_fields.h"
 #include "slam/map/map.h"
+#include "slam/map/map_options.h"
 
 namespace aisle::slam {
 
@@ -16,16 +16,6 @@ struct Expected {
   Eigen::Vector3d uvd = Eigen::Vector3d::Zero();  ///< predicted pixel and disparity
   int level = 0;                                  ///< predicted pyramid level
 };
-
-/// How landmarks meet features.
-struct MatchOptions {
-  double radius_px = 4;           ///< search radius in pixels of the predicted level
-  int descriptor_distance = 100;  ///< bits; no match beyond
-  double ratio = 0.8;             ///< best at most this x second best (of the same level)
-};
-
-/// Names every option with its range, unit and a sentence.
-void Describe(OptionFields& fields, MatchOptions& options);
 
 struct Match {
   LandmarkId landmark;

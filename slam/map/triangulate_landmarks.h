@@ -5,22 +5,11 @@
 #include <vector>
 
 #include "slam/camera/stereo_camera.h"
-#include "slam/common/option_fields.h"
 #include "slam/map/map.h"
+#include "slam/map/map_options.h"
 #include "slam/map/two_views.h"
 
 namespace aisle::slam {
-
-/// How features without depth of their own find each other in two keyframes.
-struct TriangulateOptions {
-  int neighbours = 5;              ///< keyframes compared with, most covisible first; 0: none
-  int descriptor_distance = 50;    ///< bits; no match beyond
-  double descriptor_ratio = 0.8;   ///< best to second best on the epipolar line
-  double worst_depth_ratio = 0.1;  ///< deviation over depth; what two views place worse is left out
-};
-
-/// Names every option with its range, unit and a sentence.
-void Describe(OptionFields& fields, TriangulateOptions& options);
 
 /// Where feature `i` of keyframe here and `j` of keyframe there put the point that both show
 /// (metres, rig here); nothing where they cannot.

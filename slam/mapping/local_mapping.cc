@@ -1,15 +1,19 @@
 #include "slam/mapping/local_mapping.h"
 
 #include "slam/common/stopwatch.h"
+#include "slam/map/cull.h"
+#include "slam/map/fuse.h"
 #include "slam/map/landmarks_of.h"
+#include "slam/map/triangulate_landmarks.h"
+#include "slam/optimize/adjust_map.h"
+#include "slam/place/find_loop.h"
 
 namespace aisle::slam {
 
 void LookForLoops(const Map& map, KeyframeId newest, const MappingTools& tools,
                   MappingResult& result) {
-  const auto& [vocabulary, index, camera, options, loop] = tools;
+  const auto& [vocabulary, index, camera, levels, options, loop] = tools;
   if (!vocabulary) return;
-  const int levels = options.fuse.levels;
   result.words = vocabulary->Describe(map.At(newest).frame->features.descriptors);
   if (const auto own = FindLoop(map, newest, result.words, index, camera, levels, loop)) {
     result.loops = SeenBeside(map, *own, camera, levels, loop);
@@ -31,11 +35,11 @@ MappingResult MapKeyframe(Map map, KeyframeId newest, const MappingTools& tools)
         TriangulateLandmarks(map, newest, neighbours, camera, options.triangulate);
     map.Apply(triangulated);
     for (const KeyframeId neighbour : neighbours) {
-      map.Apply(FuseInto(map, neighbour, LandmarksOf(map, {newest}), camera, options.fuse,
-                         FuseBound::kChi2));
+      map.Apply(FuseInto(map, neighbour, LandmarksOf(map, {newest}), camera, tools.levels,
+                         options.fuse, FuseBound::kChi2));
     }
-    map.Apply(FuseInto(map, newest, LandmarksOf(map, neighbours), camera, options.fuse,
-                       FuseBound::kChi2));
+    map.Apply(FuseInto(map, newest, LandmarksOf(map, neighbours), camera, tools.levels,
+                       options.fuse, FuseBound::kChi2));
 
     map.Apply(AdjustLocally(map, newest, camera, options.adjust).edit);
 

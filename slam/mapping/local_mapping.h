@@ -3,6 +3,8 @@
 #include "slam/camera/stereo_camera.h"
 #include "slam/map/map.h"
 #include "slam/mapping/mapping_options.h"
+#include "slam/optimize/adjust_map.h"
+#include "slam/place/place_index.h"
 
 namespace aisle::slam {
 
@@ -11,6 +13,7 @@ struct MappingTools {
   const Vocabulary* vocabulary = nullptr;
   const PlaceIndex& index;
   const StereoCamera& camera;
+  int levels;  ///< of the pyramids
   const MappingOptions& options;
   const LoopOptions& loop;
 };

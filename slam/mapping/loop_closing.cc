@@ -6,6 +6,7 @@
 
 #include "slam/camera/se3.h"
 #include "slam/common/stopwatch.h"
+#include "slam/map/fuse.h"
 #include "slam/map/landmarks_of.h"
 #include "slam/map/with_neighbours.h"
 
@@ -35,12 +36,12 @@ Visits VisitsOf(const Map& map, const std::vector<LoopEdge>& loops) {
 /// What joins the two visits in a map in which they stand as the loop says: the landmarks that both
 /// saw become one. Edits by their order.
 std::vector<MapEdit> JoinVisits(Map map, const Visits& visits, const StereoCamera& camera,
-                                const FuseOptions& fuse) {
+                                int levels, const FuseOptions& fuse) {
   std::vector<MapEdit> edits;
   for (const KeyframeId view : visits.now) {
     // Asked anew for every view: the one before may have put other landmarks in their place.
-    edits.push_back(
-        FuseInto(map, view, LandmarksOf(map, visits.then), camera, fuse, FuseBound::kRadius));
+    edits.push_back(FuseInto(map, view, LandmarksOf(map, visits.then), camera, levels, fuse,
+                             FuseBound::kRadius));
     map.Apply(edits.back());
   }
   return edits;
@@ -65,7 +66,7 @@ std::vector<LoopEdge> NewPairs(const Map& before, const Map& joined, const Visit
 
 }  // namespace
 
-Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& camera,
+Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& camera, int levels,
               const LoopSpreadOptions& spread, const FuseOptions& fuse) {
   const auto best =
       std::max_element(loops.begin(), loops.end(),
@@ -74,7 +75,7 @@ Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& c
   const Visits visits = VisitsOf(map, loops);
   Map moved = map;
   moved.Apply(MoveRigidly(map, visits.now, Correction(map, *best)));
-  const std::vector<MapEdit> joining = JoinVisits(moved, visits, camera, fuse);
+  const std::vector<MapEdit> joining = JoinVisits(moved, visits, camera, levels, fuse);
   for (const MapEdit& edit : joining) moved.Apply(edit);
   std::vector<LoopEdge> edges = loops;
   std::ranges::copy(NewPairs(map, moved, visits), std::back_inserter(edges));

@@ -12,9 +12,9 @@ namespace aisle::slam {
 /// and spreads the error over the map, held by every pair of keyframes that come to share
 /// landmarks by that: a few loops alone would not outweigh all the neighbours along the drift of a
 /// dense map. Quick, so that tracking soon stands in one map again; exactness comes from
-/// AdjustGlobally after. Takes the map by value and returns the next one: it can run beside
-/// readers. At least one loop.
-Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& camera,
+/// AdjustGlobally after. `levels` are those of the pyramids. Takes the map by value and returns the
+/// next one: it can run beside readers. At least one loop.
+Map CloseLoop(Map map, const std::vector<LoopEdge>& loops, const StereoCamera& camera, int levels,
               const LoopSpreadOptions& spread, const FuseOptions& fuse);
 
 /// A global adjustment and the map it was made of, which has grown on since.

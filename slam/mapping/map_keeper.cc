@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "slam/map/successor.h"
+#include "slam/place/find_loop.h"
 
 namespace aisle::slam {
 
@@ -119,7 +120,7 @@ void MapKeeper::StartClosing(const std::vector<LoopEdge>& agreeing, std::int64_t
   const std::int64_t due_frame = frame_now + schedule.loop_frames +
                                  std::ssize(map_.keyframes()) / schedule.keyframes_per_loop_frame;
   closing_.Start(due_frame, schedule.background, [map = map_, agreeing, this]() mutable {
-    return CloseLoop(std::move(map), agreeing, camera_, options_.loop.spread,
+    return CloseLoop(std::move(map), agreeing, camera_, options_.levels, options_.loop.spread,
                      options_.mapping.fuse);
   });
 }
@@ -164,7 +165,8 @@ void MapKeeper::Start(Map map, std::int64_t due_frame, const MappingStep::Work& 
   mapping_.Start(due_frame, options_.schedule.background,
                  [map = std::move(map), work, id = worked_in_, this]() mutable {
                    return work(std::move(map), id,
-                               {vocabulary(), index_, camera_, options_.mapping, options_.loop});
+                               {vocabulary(), index_, camera_, options_.levels, options_.mapping,
+                                options_.loop});
                  });
 }
 

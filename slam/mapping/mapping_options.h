@@ -1,12 +1,10 @@
 #pragma once
 
 #include "slam/common/option_fields.h"
-#include "slam/map/create_landmarks.h"
-#include "slam/map/cull.h"
-#include "slam/map/fuse.h"
-#include "slam/map/triangulate_landmarks.h"
-#include "slam/optimize/adjust_map.h"
-#include "slam/place/find_loop.h"
+#include "slam/feature/feature_options.h"
+#include "slam/map/map_options.h"
+#include "slam/optimize/optimize_options.h"
+#include "slam/place/place_options.h"
 
 namespace aisle::slam {
 
@@ -40,6 +38,7 @@ struct ScheduleOptions {
 
 /// Options of all work on the map.
 struct MapKeeperOptions {
+  int levels = FeatureOptions().levels;  ///< of the pyramids, as features are found
   MappingOptions mapping;
   LoopOptions loop;
   GlobalAdjustmentOptions global;

@@ -5,7 +5,10 @@
 #include <set>
 
 #include "slam/common/stopwatch.h"
+#include "slam/map/fuse.h"
 #include "slam/map/landmarks_of.h"
+#include "slam/map/triangulate_landmarks.h"
+#include "slam/map/two_views.h"
 
 namespace aisle::slam {
 namespace {
@@ -30,11 +33,11 @@ Map ExchangeLandmarks(Map map, KeyframeId newest, const MappingTools& tools,
   const FuseOptions& fuse = tools.options.fuse;
   const std::vector<KeyframeId> neighbours = OrbSlam2FuseNeighbours(map, newest, fuse, orbslam2);
   for (const KeyframeId neighbour : neighbours) {
-    map.Apply(
-        FuseInto(map, neighbour, LandmarksOf(map, {newest}), tools.camera, fuse, FuseBound::kChi2));
+    map.Apply(FuseInto(map, neighbour, LandmarksOf(map, {newest}), tools.camera, tools.levels, fuse,
+                       FuseBound::kChi2));
   }
-  map.Apply(
-      FuseInto(map, newest, LandmarksOf(map, neighbours), tools.camera, fuse, FuseBound::kChi2));
+  map.Apply(FuseInto(map, newest, LandmarksOf(map, neighbours), tools.camera, tools.levels, fuse,
+                     FuseBound::kChi2));
   return map;
 }
 

@@ -1,23 +1,11 @@
 #pragma once
 
 #include "slam/camera/stereo_camera.h"
-#include "slam/common/option_fields.h"
 #include "slam/map/map.h"
 #include "slam/optimize/bundle.h"
+#include "slam/optimize/optimize_options.h"
 
 namespace aisle::slam {
-
-struct LocalAdjustmentOptions {
-  int free_keyframes = 12;    ///< the keyframe and its most covisible ones
-  int fixed_keyframes = 20;   ///< others that see the same landmarks, most shared first
-  int least_shared = 15;      ///< landmarks; fewer make no neighbours
-  int robust_iterations = 4;  ///< first pass
-  int final_iterations = 6;   ///< second pass, without outliers; 0: there is none
-  bool second_chance = true;  ///< an outlier of the first pass may pass the last test
-};
-
-/// Names every option with its range, unit and a sentence.
-void Describe(OptionFields& fields, LocalAdjustmentOptions& options);
 
 /// What an adjustment asks of the map.
 struct Adjustment {
@@ -30,14 +18,6 @@ struct Adjustment {
 /// well. Outliers are told apart after a robust pass, tested again after the final one, and cut.
 Adjustment AdjustLocally(const Map& map, KeyframeId around, const StereoCamera& camera,
                          const LocalAdjustmentOptions& options);
-
-struct GlobalAdjustmentOptions {
-  int robust_iterations = 8;  ///< first pass
-  int final_iterations = 8;   ///< second pass, without outliers
-};
-
-/// Names every option with its range, unit and a sentence.
-void Describe(OptionFields& fields, GlobalAdjustmentOptions& options);
 
 /// Adjusts every keyframe but the roots of the map's parts, and every landmark. What shares fewer
 /// than kLeastCovisible landmarks with the rest of its part (keyframes made by wheels alone lie in
@@ -62,18 +42,6 @@ MapEdit MoveRigidly(const Map& map, const std::vector<KeyframeId>& keyframes,
 /// Makes one of the two parts of the map that a loop connects: the younger one moves as a whole to
 /// where the loop says it is. Nothing where both ends are of one part.
 MapEdit JoinParts(const Map& map, const LoopEdge& loop);
-
-/// How the error of loops is shared out. What one keyframe tells of another's pose deviates by so
-/// much, neighbours and loops alike: a loop counts for no more than the drift that it corrects.
-struct LoopSpreadOptions {
-  double sigma_m = 0.02;     ///< translation
-  double sigma_rad = 0.005;  ///< rotation
-  int strong_shared = 100;   ///< landmarks from which on two keyframes are held together directly
-  int iterations = 30;
-};
-
-/// Names every option with its range, unit and a sentence.
-void Describe(OptionFields& fields, LoopSpreadOptions& options);
 
 /// Spreads the error of loops over the essential graph (Mur-Artal et al. 2015, III-E): spanning
 /// tree, strong covisibility, loops that were closed before, and these. Landmarks move with the

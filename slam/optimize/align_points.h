@@ -2,21 +2,10 @@
 
 #include <optional>
 
-#include "slam/common/option_fields.h"
+#include "slam/optimize/optimize_options.h"
 #include "slam/optimize/refine_pose.h"
 
 namespace aisle::slam {
-
-struct AlignPointsOptions {
-  int hypotheses = 300;  ///< at most; fewer once a good one is as likely as `confidence`
-  double confidence = 0.999;
-  double chi2_slack = 4;   ///< a hypothesis' inliers may exceed their chi-square bound by this
-  int least_inliers = 15;  ///< after refinement; fewer: no pose
-  std::uint64_t seed = 1;  ///< of the samples drawn
-};
-
-/// Names every option with its range, unit and a sentence.
-void Describe(OptionFields& fields, AlignPointsOptions& options);
 
 /// The pose from point correspondences of which many may be wrong, without a first guess, by RANSAC
 /// (Fischler and Bolles 1981): three stereo points and their landmarks make a hypothesis (Horn

@@ -6,7 +6,7 @@
 #include "slam/dynamic/dynamic_options.h"
 #include "slam/feature/feature_options.h"
 #include "slam/mapping/mapping_options.h"
-#include "slam/mapping/orbslam2_mapping.h"
+#include "slam/mapping/orbslam2_mapping_options.h"
 #include "slam/stereo/stereo_options.h"
 #include "slam/track/orbslam2_options.h"
 #include "slam/track/track_options.h"

@@ -3,8 +3,8 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
-#include "slam/dynamic/common/median.h"
 #include "slam/dynamic/paper/disparity.h"
+#include "slam/dynamic/paper/flow_tracks.h"
 #include "slam/dynamic/paper/mark_regions.h"
 
 namespace aisle::slam::picture {
@@ -19,14 +19,6 @@ constexpr double kDim = 0.45;  // of what lies outside the regions of interest
 const Colour kLost(120, 120, 120), kOutlier(40, 160, 255), kBorder(255, 120, 40);
 
 cv::Point At(const cv::Point2f& p) { return {cvRound(p.x), cvRound(p.y)}; }
-
-double MedianFlow(const std::vector<dynamic::Track>& tracks) {
-  std::vector<double> lengths;
-  for (const dynamic::Track& track : tracks) {
-    lengths.push_back(cv::norm(track.current - track.previous));
-  }
-  return dynamic::Median(std::move(lengths));
-}
 
 StagePicture DrawPoints(const cv::Mat1b& left, const PaperStages& s) {
   cv::Mat3b picture = OnGrey(left);
@@ -44,10 +36,11 @@ StagePicture DrawPoints(const cv::Mat1b& left, const PaperStages& s) {
     cv::line(picture, At(s.tracks[k].previous), At(s.tracks[k].current), colour, 1, cv::LINE_AA);
     cv::circle(picture, At(s.tracks[k].current), 2, colour, cv::FILLED, cv::LINE_AA);
   }
-  return {"points", Framed(picture, "1  FAST corners spread by a quadtree, tracked by Lucas-Kanade",
-                           {{kStatic, "supports F"}, {kOutlier, "does not"}, {kLost, "lost"}},
-                           fmt::format("{} points, {} tracked, median flow {:.2f} px",
-                                       s.features.size(), s.tracks.size(), MedianFlow(s.tracks)))};
+  return {"points",
+          Framed(picture, "1  FAST corners spread by a quadtree, tracked by Lucas-Kanade",
+                 {{kStatic, "supports F"}, {kOutlier, "does not"}, {kLost, "lost"}},
+                 fmt::format("{} points, {} tracked, median flow {:.2f} px", s.features.size(),
+                             s.tracks.size(), dynamic::MedianFlow(s.tracks)))};
 }
 
 double MostOf(const cv::Mat1f& disparity) {

@@ -2,7 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "slam/dynamic/common/median.h"
+#include "slam/common/median.h"
 #include "slam/picture/canvas.h"
 
 namespace aisle::slam::picture {
@@ -88,7 +88,7 @@ std::vector<LegendEntry> WheelLegend(double most) {
 double MedianLength(const cv::Mat2f& vectors) {
   std::vector<float> lengths;
   for (const cv::Vec2f& v : vectors) lengths.push_back(std::hypot(v[0], v[1]));
-  return dynamic::Median(std::move(lengths));
+  return Median(std::move(lengths));
 }
 
 StagePicture DrawFlow(const cv::Mat1b& left, const RobustTrace& trace) {

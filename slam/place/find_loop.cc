@@ -10,6 +10,7 @@
 #include "slam/map/match_by_projection.h"
 #include "slam/map/match_keyframe.h"
 #include "slam/map/with_neighbours.h"
+#include "slam/optimize/align_points.h"
 #include "slam/optimize/observations_of.h"
 #include "slam/place/adjust_loop.h"
 

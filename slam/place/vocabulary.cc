@@ -10,6 +10,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "slam/common/checksum.h"
 #include "slam/common/mix.h"
 #include "slam/common/write_aside.h"
 
@@ -24,15 +25,6 @@ struct Header {
   std::uint32_t version, nodes;
   std::uint64_t checksum;
 };
-
-/// FNV-1a: tells a damaged file from a whole one.
-std::uint64_t Checksum(const char* bytes, std::size_t count) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (std::size_t i = 0; i < count; ++i) {
-    hash = (hash ^ static_cast<unsigned char>(bytes[i])) * 0x100000001b3ULL;
-  }
-  return hash;
-}
 
 using Members = std::vector<const Descriptor*>;
 
@@ -187,7 +179,8 @@ WordVector Vocabulary::Describe(const std::vector<Descriptor>& descriptors) cons
 void Vocabulary::Save(const std::filesystem::path& file) const {
   const char* bytes = reinterpret_cast<const char*>(nodes_.data());
   const std::size_t size = nodes_.size() * sizeof(Node);
-  Header header{{}, kVersion, static_cast<std::uint32_t>(nodes_.size()), Checksum(bytes, size)};
+  Header header{
+      {}, kVersion, static_cast<std::uint32_t>(nodes_.size()), ChecksumOfBytes({bytes, size})};
   std::memcpy(header.magic, kMagic, sizeof(kMagic));
   WriteAside(file, {{reinterpret_cast<const char*>(&header), sizeof(header)}, {bytes, size}});
 }
@@ -211,7 +204,8 @@ Vocabulary Vocabulary::Load(const std::filesystem::path& file) {
   const std::size_t size = vocabulary.nodes_.size() * sizeof(Node);
   in.read(reinterpret_cast<char*>(vocabulary.nodes_.data()), static_cast<std::streamsize>(size));
   if (!in) throw fail("ends too early");
-  if (Checksum(reinterpret_cast<const char*>(vocabulary.nodes_.data()), size) != header.checksum) {
+  const std::string_view bytes(reinterpret_cast<const char*>(vocabulary.nodes_.data()), size);
+  if (ChecksumOfBytes(bytes) != header.checksum) {
     throw fail("is damaged: checksum");
   }
   for (std::size_t i = 0; i < vocabulary.nodes_.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/common/median.h"
 #include "slam/stereo/parabola_alignment.h"
 #include "slam/stereo/patch_alignment.h"
 
@@ -67,9 +68,7 @@ void DropMismatched(std::vector<Candidate>& candidates, double worst_to_median) 
     if (candidate.disparity.known()) mismatches.push_back(candidate.mismatch);
   }
   if (mismatches.empty()) return;
-  const auto middle = mismatches.begin() + std::ssize(mismatches) / 2;
-  std::nth_element(mismatches.begin(), middle, mismatches.end());
-  const double worst = worst_to_median * *middle;
+  const double worst = worst_to_median * Median(std::move(mismatches));
   for (Candidate& candidate : candidates) {
     if (candidate.mismatch > worst) candidate.disparity = {};
   }

@@ -1,5 +1,8 @@
 #include "slam/track/align_matches.h"
 
+#include "slam/map/align_patch.h"
+#include "slam/map/match_by_projection.h"
+
 #include <Eigen/LU>
 #include <cmath>
 

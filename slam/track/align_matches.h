@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "slam/map/match_by_projection.h"
 #include "slam/track/track_frame.h"
 
 namespace aisle::slam {

@@ -34,17 +34,4 @@ Velocity Learn(const std::optional<Velocity>& before, const MeasuredMotion& step
   return velocity;
 }
 
-void Describe(OptionFields& fields, InertiaOptions& options) {
-  fields.Number("acceleration_mps2", &options.acceleration_mps2, {0.01, 1000}, "m/s^2",
-                "Deviation of the acceleration, from frame to frame.");
-  fields.Number("angular_acceleration_radps2", &options.angular_acceleration_radps2, {0.01, 1000},
-                "rad/s^2", "Deviation of the angular acceleration, from frame to frame.");
-  fields.Number("most_chi2", &options.most_chi2, {1, 1e6}, "",
-                "Largest difference between a pose and where inertia leads, over the covariance of "
-                "the difference.");
-  fields.Number(
-      "longest_s", &options.longest_s, {0, 1000}, "s",
-      "Time for which a rig that sees too little continues as it moved; then it is lost.");
-}
-
 }  // namespace aisle::slam

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "slam/common/median.h"
+
 namespace aisle::slam {
 namespace {
 
@@ -40,9 +42,7 @@ double MedianDepth(const Frame& frame, const StereoCamera& camera) {
     if (measurement.has_depth()) disparities.push_back(measurement.uvd.z());
   }
   if (disparities.empty()) return 0;
-  const auto middle = disparities.begin() + std::ssize(disparities) / 2;
-  std::nth_element(disparities.begin(), middle, disparities.end());
-  return DepthOf(camera, std::max(*middle, 0.1));
+  return DepthOf(camera, std::max(Median(std::move(disparities)), 0.1));
 }
 
 bool HasMoved(const Eigen::Isometry3d& T_reference_rig, double median_depth_m,

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "slam/common/option_fields.h"
-#include "slam/optimize/align_points.h"
+#include "slam/optimize/optimize_options.h"
 
 namespace aisle::slam {
 

@@ -8,6 +8,7 @@
 #include "slam/map/landmark_view.h"
 #include "slam/map/landmarks_of.h"
 #include "slam/map/match_keyframe.h"
+#include "slam/optimize/align_points.h"
 #include "slam/optimize/observations_of.h"
 #include "slam/track/orbslam2_local_map.h"
 #include "slam/track/orbslam2_match.h"

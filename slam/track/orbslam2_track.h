@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "slam/map/match_by_projection.h"
 #include "slam/track/orbslam2_options.h"
 #include "slam/track/track_frame.h"
 

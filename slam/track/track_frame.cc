@@ -5,6 +5,7 @@
 #include "slam/common/seconds.h"
 #include "slam/map/landmarks_of.h"
 #include "slam/map/match_keyframe.h"
+#include "slam/optimize/align_points.h"
 #include "slam/optimize/observations_of.h"
 #include "slam/track/align_matches.h"
 

@@ -4,6 +4,9 @@
 
 #include "slam/camera/measured_motion.h"
 #include "slam/map/map.h"
+#include "slam/map/match_by_projection.h"
+#include "slam/optimize/refine_pose.h"
+#include "slam/track/inertia.h"
 #include "slam/track/local_map.h"
 #include "slam/track/motion_model.h"
 #include "slam/track/track_options.h"
@@ -22,7 +25,7 @@ struct TrackMemory {
   std::optional<Motion> steady_motion;     ///< averaged over a while, see Smoothed
   std::vector<LandmarkId> landmarks;       ///< that took part in the pose
   std::optional<Velocity> velocity;        ///< as the poses tell it
-  Matrix6d covariance = Matrix6d::Zero();  ///< of the pose: of a small motion of the rig frame
+  Matrix6d covariance = Matrix6d::Zero();  ///< of a small motion of the rig frame, see Retract
   bool coasted = false;  ///< the pose is where measurement or inertia led, and nobody has seen it
   /// The way from this pose to the frame that comes, as measured. Its covariance is of the pose
   /// there: this one's, carried along, and that of the way itself. Nothing where the way is not

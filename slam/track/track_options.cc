@@ -22,6 +22,19 @@ void Describe(OptionFields& fields, DeadReckoningOptions& options) {
                 "Largest rotation of a pose from the predicted one, per second.");
 }
 
+void Describe(OptionFields& fields, InertiaOptions& options) {
+  fields.Number("acceleration_mps2", &options.acceleration_mps2, {0.01, 1000}, "m/s^2",
+                "Deviation of the acceleration, from frame to frame.");
+  fields.Number("angular_acceleration_radps2", &options.angular_acceleration_radps2, {0.01, 1000},
+                "rad/s^2", "Deviation of the angular acceleration, from frame to frame.");
+  fields.Number("most_chi2", &options.most_chi2, {1, 1e6}, "",
+                "Largest difference between a pose and where inertia leads, over the covariance of "
+                "the difference.");
+  fields.Number(
+      "longest_s", &options.longest_s, {0, 1000}, "s",
+      "Time for which a rig that sees too little continues as it moved; then it is lost.");
+}
+
 void Describe(OptionFields& fields, MeasuredMotionOptions& options) {
   fields.Integer("least_inliers", &options.least_inliers, {3, 10000}, "",
                  "With fewer inliers the frame is placed where the measured motion leads.");

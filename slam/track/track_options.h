@@ -1,10 +1,8 @@
 #pragma once
 
 #include "slam/common/option_fields.h"
-#include "slam/map/align_patch.h"
-#include "slam/map/match_by_projection.h"
-#include "slam/optimize/align_points.h"
-#include "slam/track/inertia.h"
+#include "slam/map/map_options.h"
+#include "slam/optimize/optimize_options.h"
 
 namespace aisle::slam {
 
@@ -19,6 +17,17 @@ struct DeadReckoningOptions {
   double least_share = 0.1;    ///< they are of the landmarks that should be seen
   double drift_m_per_s = 0.4;  ///< a pose further from the prediction is a mistake
   double drift_deg_per_s = 4;  ///< so is one turned further from it
+};
+
+/// What a vehicle's mass says of its motion: it goes on as it went.
+struct InertiaOptions {
+  /// Deviation of the acceleration, that of a frame independent of the last one's.
+  double acceleration_mps2 = 1.5;
+  double angular_acceleration_radps2 = 3;
+  /// Of the difference between a pose found and the one expected, over its covariance; 99.99 % with
+  /// six degrees of freedom. Beyond it the vehicle cannot have got there.
+  double most_chi2 = 27.86;
+  double longest_s = 1;  ///< for which a pose is believed that nothing but inertia tells of
 };
 
 /// How a frame is looked for whose way from the last one is measured, by wheels say.
@@ -69,6 +78,7 @@ struct KeyframeOptions {
 
 /// Names every option with its range, unit and a sentence.
 void Describe(OptionFields& fields, DeadReckoningOptions& options);
+void Describe(OptionFields& fields, InertiaOptions& options);
 void Describe(OptionFields& fields, MeasuredMotionOptions& options);
 void Describe(OptionFields& fields, TrackOptions& options);
 void Describe(OptionFields& fields, KeyframeOptions& options);

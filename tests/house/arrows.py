@@ -6,7 +6,8 @@ reaches through its arrows, and its house's nouns (frames.h), which include noth
 arrow that none of its files follows does not belong in the list. Every room has its line in the map
 of rooms, a room within a room its name in the line of the one around it. Across houses only the faces
 are open, and only to harness/plugs (and to the tests, which may include anything of the room they
-test). What renders reaches nothing of what judges it.
+test). What renders reaches nothing of what judges it. The SLAM's main face
+pulls in options and values alone, so that its insides can change.
 """
 
 import pathlib
@@ -29,6 +30,12 @@ FACES = {  # what a foundation shows to harness/plugs, and to other people's pro
 }
 RENDERER = "simulator"
 JUDGES = {"simulator/proof", "simulator/raster", "simulator/shade/reference", "simulator/foreign"}
+LEAN_FACES = {  # what they may pull in, at whatever depth
+    "slam/stereo_slam.h": re.compile(
+        r"slam/(frames|[a-z0-9_/]+_options|camera/[a-z0-9_]+|common/option_fields"
+        r"|dynamic/common/dynamic_regions)\.h"
+    ),
+}
 ROOMS_THAT_SEE = {  # foreign headers that one room alone may see
     "embree3/": {"simulator/trace"},
     "assimp/": {"simulator/mesh"},
@@ -133,6 +140,26 @@ def unmapped(entries, arrows):
             yield f"{room}: not in the map of rooms ({' or '.join(MAPS)})"
 
 
+def pulled_in(files, face):
+    """What a header includes at whatever depth, itself left out: {path: the file that includes it}."""
+    by, queue = {}, [face]
+    while queue:
+        here = queue.pop()
+        for include in INCLUDE.findall(files.get(here, "")):
+            if include != face and include not in by:
+                by[include] = here
+                queue.append(include)
+    return by
+
+
+def heavy(files):
+    """Yields a sentence for each header that a lean face should not pull in."""
+    for face, may in LEAN_FACES.items():
+        for include, by in sorted(pulled_in(files, face).items()):
+            if not may.fullmatch(include):
+                yield f"{face}: pulls in {include}, through {by}"
+
+
 def main(source_dir, arrows_file):
     source = pathlib.Path(source_dir)
     arrows = read_arrows(pathlib.Path(arrows_file).read_text())
@@ -145,6 +172,7 @@ def main(source_dir, arrows_file):
     pages = [source / page for page in MAPS if (source / page).exists()]
     maps = [entries for page in pages if (entries := map_entries(page.read_text()))]
     found += list(unmapped(maps[0] if maps else {}, arrows))
+    found += list(heavy(files))
     found += [f"{room} is on a cycle" for room in cycles(arrows)]
     found += list(judged_by_itself(arrows))
     for offence in found:

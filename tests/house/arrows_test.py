@@ -36,6 +36,22 @@ class ArrowsTest(unittest.TestCase):
         self.assertEqual(check("harness/plugs/a.cc", '#include "slam/moving_objects.h"'), [])
         self.assertEqual(len(check("harness/cli/a.cc", '#include "slam/moving_objects.h"')), 1)
 
+    def test_the_face_pulls_in_options_and_values_alone(self):
+        files = {
+            "slam/stereo_slam.h": '#include "slam/frames.h"\n#include "slam/map/map_options.h"',
+            "slam/map/map_options.h": '#include "slam/common/option_fields.h"',
+        }
+        self.assertEqual(list(arrows.heavy(files)), [])
+        files["slam/map/map_options.h"] += '\n#include "slam/map/cull.h"'
+        files["slam/map/cull.h"] = '#include "slam/map/map.h"'
+        self.assertEqual(
+            list(arrows.heavy(files)),
+            [
+                "slam/stereo_slam.h: pulls in slam/map/cull.h, through slam/map/map_options.h",
+                "slam/stereo_slam.h: pulls in slam/map/map.h, through slam/map/cull.h",
+            ],
+        )
+
     def test_the_roof_keeps_to_its_list_too(self):
         self.assertEqual(check("harness/cli/a.cc", '#include "harness/contract/run.h"'), [])
         self.assertEqual(len(check("harness/cli/a.cc", '#include "harness/plugs/systems.h"')), 1)

@@ -3,6 +3,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "slam/common/median.h"
+
 namespace aisle::slam::dynamic {
 namespace {
 
@@ -88,9 +90,7 @@ float DisparityNear(const cv::Mat1f& disparity, const cv::Point2f& point, int ra
     }
   }
   if (known.empty()) return kNoDisparity;
-  const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
-  std::nth_element(known.begin(), middle, known.end());
-  return *middle;
+  return Median(std::move(known));
 }
 
 }  // namespace aisle::slam::dynamic

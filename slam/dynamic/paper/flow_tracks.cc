@@ -2,6 +2,8 @@
 
 #include <opencv2/video.hpp>
 
+#include "slam/common/median.h"
+
 namespace aisle::slam::dynamic {
 namespace {
 
@@ -62,6 +64,12 @@ std::vector<Track> TrackPoints(const cv::Mat1b& previous, const cv::Mat1b& curre
     if (followed[i]) tracks.push_back({points[i], *followed[i]});
   }
   return tracks;
+}
+
+double MedianFlow(const std::vector<Track>& tracks) {
+  std::vector<double> lengths;
+  for (const Track& track : tracks) lengths.push_back(cv::norm(track.current - track.previous));
+  return Median(std::move(lengths));
 }
 
 }  // namespace aisle::slam::dynamic

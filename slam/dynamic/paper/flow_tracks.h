@@ -24,4 +24,7 @@ std::vector<std::optional<cv::Point2f>> FollowPoints(const cv::Mat1b& previous,
 std::vector<Track> TrackPoints(const cv::Mat1b& previous, const cv::Mat1b& current,
                                const std::vector<cv::Point2f>& points, const FlowOptions& options);
 
+/// The median of how far they have gone, pixels; 0 of none.
+double MedianFlow(const std::vector<Track>& tracks);
+
 }  // namespace aisle::slam::dynamic

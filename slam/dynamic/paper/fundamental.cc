@@ -65,14 +65,6 @@ std::vector<Track> Kept(const std::vector<Track>& tracks, const std::vector<bool
   return kept;
 }
 
-double MedianFlow(const std::vector<Track>& tracks) {
-  std::vector<double> lengths;
-  for (const Track& track : tracks) lengths.push_back(cv::norm(track.current - track.previous));
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
-}
-
 int IterationsNeeded(double inlier_share, const FundamentalOptions& options) {
   const double clean = std::pow(inlier_share, kSample);
   if (clean >= 1.0 - 1e-12) return 1;

@@ -13,28 +13,30 @@ const MeasurementNoise kLeastNoise(0.1, 0.1, 0.2), kMostNoise(1.0, 1.0, 2.0);  /
 
 using GapMatches = std::vector<std::vector<StereoMatch>>;
 
-GapMatches MatchOverGaps(const RobustState& before, const View& view,
-                         const std::vector<GapFlow>& flows, const LabelMemory& memory,
-                         const EgoMotionOptions& options) {
+GapMatches MatchOverGaps(const Step& step, const std::vector<GapFlow>& flows,
+                         const LabelMemory& memory) {
   GapMatches matches(flows.size());
   ParallelFor(std::size_t{0}, flows.size(), [&](std::size_t k) {
-    matches[k] = MatchesAlong(view.held, flows[k].flow, flows[k].expected.place, view.frame,
-                              FrameAgo(before, flows[k].gap), memory, options.trust_in_region);
+    matches[k] =
+        MatchesAlong(step.view.held, flows[k].flow, flows[k].expected.place, step.view.frame,
+                     FrameAgo(step.before, flows[k].gap), memory, step.options.ego.trust_in_region);
   });
   return matches;
 }
 
-std::vector<EgoMotion> MotionsOf(const GapMatches& matches, const RobustState& before,
+std::vector<EgoMotion> MotionsOf(const Step& step, const GapMatches& matches,
                                  const std::vector<GapFlow>& flows,
-                                 const std::optional<MotionPrior>& prior,
-                                 const StereoCamera& camera, const EgoMotionOptions& options) {
+                                 const std::optional<MotionPrior>& prior) {
+  const RobustState& before = step.before;
   std::vector<EgoMotion> motions(flows.size());
   if (flows.empty()) return motions;
-  motions[0] = EstimateEgoMotion(matches[0], camera, prior, before.noise.match[0], options);
+  motions[0] =
+      EstimateEgoMotion(matches[0], step.camera, prior, before.noise.match[0], step.options.ego);
   ParallelFor(std::size_t{1}, flows.size(), [&](std::size_t k) {
     const Isometry3d expected = MotionOver(flows[k].gap, before, motions[0].T_now_before);
     // The frames between have left little to find.
-    motions[k] = RefineEgoMotion(matches[k], camera, expected, before.noise.match[flows[k].slot]);
+    motions[k] =
+        RefineEgoMotion(matches[k], step.camera, expected, before.noise.match[flows[k].slot]);
   });
   const auto lost = std::find_if(motions.begin(), motions.end(),
                                  [](const EgoMotion& motion) { return !motion.found; });
@@ -96,17 +98,14 @@ std::optional<MotionPrior> PriorFor(const RobustState& before, std::int64_t stam
                      steps * steps * before.motion->covariance + jerk, false, jolt};
 }
 
-GapMotions FindGapMotions(const RobustState& before, const View& view,
-                          const std::vector<GapFlow>& flows, const LabelMemory& memory,
-                          const std::optional<MotionPrior>& prior, const StereoCamera& camera,
-                          const RobustOptions& options) {
-  const GapMatches matches = MatchOverGaps(before, view, flows, memory, options.ego);
-  GapMotions found{MotionsOf(matches, before, flows, prior, camera, options.ego),
-                   before.noise.match};
+GapMotions FindGapMotions(const Step& step, const std::vector<GapFlow>& flows,
+                          const LabelMemory& memory, const std::optional<MotionPrior>& prior) {
+  const GapMatches matches = MatchOverGaps(step, flows, memory);
+  GapMotions found{MotionsOf(step, matches, flows, prior), step.before.noise.match};
   ParallelFor(std::size_t{0}, found.motions.size(), [&](std::size_t k) {
     const std::size_t slot = flows[k].slot;
-    found.noise[slot] = Learned(before.noise.match[slot], matches[k], found.motions[k], camera,
-                                LearningRate(slot, options.tolerance));
+    found.noise[slot] = Learned(step.before.noise.match[slot], matches[k], found.motions[k],
+                                step.camera, LearningRate(slot, step.options.tolerance));
   });
   return found;
 }

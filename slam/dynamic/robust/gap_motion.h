@@ -6,6 +6,7 @@
 
 #include "slam/dynamic/robust/ego_motion.h"
 #include "slam/dynamic/robust/gap_flow.h"
+#include "slam/dynamic/robust/step.h"
 
 namespace aisle::slam::dynamic {
 
@@ -23,10 +24,8 @@ struct GapMotions {
 
 /// Finds the rig's motion over every gap; the longer ones start from what the frames between have
 /// said. `memory` has been carried to the current frame.
-GapMotions FindGapMotions(const RobustState& before, const View& view,
-                          const std::vector<GapFlow>& flows, const LabelMemory& memory,
-                          const std::optional<MotionPrior>& prior, const StereoCamera& camera,
-                          const RobustOptions& options);
+GapMotions FindGapMotions(const Step& step, const std::vector<GapFlow>& flows,
+                          const LabelMemory& memory, const std::optional<MotionPrior>& prior);
 
 /// By which share a value measured over a gap moves the running one, so that all gaps learn at one
 /// pace: each of the longer gaps is measured in its turn.

@@ -82,10 +82,17 @@ cv::Point PixelAt(const cv::Vec2f& place, cv::Size size) {
 
 constexpr int kNowhere = -1;
 
+/// What leads pixels back to the frame before, see CarryMemory.
+struct WayBack {
+  const cv::Mat2f& flow;
+  const cv::Mat1f& if_static;
+  const DenseFrame &now, &before;
+  const DisparityTolerance& tolerance;
+};
+
 /// Where the pixels of a row were in the frame before: numbers of pixels in raster order.
-void FindSources(const cv::Mat2f& flow, const cv::Mat1f& if_static, int y, const DenseFrame& now,
-                 const DenseFrame& before, const DisparityTolerance& tolerance,
-                 std::vector<int>& sources) {
+void FindSources(const WayBack& way, int y, std::vector<int>& sources) {
+  const auto& [flow, if_static, now, before, tolerance] = way;
   const float *disparity = now.disparity[y], *filled = now.filled[y], *then = if_static[y];
   const cv::Vec2f* places = flow[y];
   const int unseen = ColumnsUnseen(disparity, flow.cols);
@@ -129,7 +136,7 @@ LabelMemory CarryMemory(const LabelMemory& previous, const cv::Mat2f& flow,
   }
   ParallelFor(0, flow.rows, [&](int y) {
     std::vector<int> sources(static_cast<std::size_t>(flow.cols));
-    FindSources(flow, if_static, y, now, before, tolerance, sources);
+    FindSources({flow, if_static, now, before, tolerance}, y, sources);
     Take(previous.log_odds, sources, carried.log_odds[y]);
     Take(previous.regions.labels, sources, carried.regions.labels[y]);
     if (!compared_long) return;

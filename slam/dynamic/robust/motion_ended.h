@@ -18,12 +18,18 @@ struct EndedMotion {
   cv::Mat1f log_odds, taken;
 };
 
-/// Takes off the log-odds of moving that a gap found what another comparison says against it: who
-/// walked a second ago may stand now. `per_step` is the residual of that gap, shared out among its
-/// steps, of which the other comparison spans `steps`. Against "moves still, at no less than
-/// least_speed_share of that" stands "is static"; where the ratio of the two densities of the other
-/// residual is for static, it is taken off, down to zero. Log-odds count up to
-/// EvidenceOptions::most. What moves too slowly for the other to tell keeps all.
+/// Takes off the log-odds of moving L that a gap found, what another comparison says against it:
+/// whoever walked a second ago may stand now. With r the residual of that other comparison, which
+/// spans `steps` steps, m = `steps` * `per_step` what the gap's own residual makes expected of it
+/// (both half-size pixels), s = EvidenceOptions::least_speed_share, and S the information of the
+/// texture under a mover's noise, the log-likelihood ratio for "is static" over "still moves, by
+/// s m" is
+///
+///   l = log N(r; 0, 1/S) - log N(r; s m, 1/S) = s (s m'S m / 2 - m'S r).
+///
+/// Where L > 0, `taken` is l between 0 and EvidenceOptions::most, and max(0, min(L, most) - taken)
+/// is left; elsewhere L stays. What moves too slowly for the other comparison to tell has l near 0
+/// and keeps all.
 EndedMotion TakeOffEndedMotion(const LatestStep& step, int steps, const Texture& texture,
                                const cv::Mat2f& per_step, const cv::Mat1f& log_odds,
                                const EvidenceOptions& options);

@@ -2,8 +2,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "slam/common/median.h"
 #include "slam/common/parallel.h"
-#include "slam/dynamic/common/median.h"
 #include "slam/dynamic/robust/earlier_disparity.h"
 #include "slam/dynamic/robust/fast_log.h"
 #include "slam/dynamic/robust/information.h"

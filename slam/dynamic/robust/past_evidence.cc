@@ -8,21 +8,21 @@ namespace {
 
 constexpr double kLeastFlowNoise = 0.05, kMostFlowNoise = 0.5;  // half-size pixels
 
-MotionEvidence CompareOver(const GapFlow& flow, const EgoMotion& motion, const RobustState& before,
-                           const View& view, const LabelMemory& memory, const StereoCamera& half,
-                           const DisparityTolerance& tolerance, const RobustOptions& options) {
+MotionEvidence CompareOver(const Step& step, const GapFlow& flow, const EgoMotion& motion,
+                           const LabelMemory& memory) {
+  const auto& [before, view, image, camera, half, tolerance, options] = step;
   const DenseFrame& then = FrameAgo(before, flow.gap);
-  const Comparison comparison{view.frame,
-                              then,
-                              flow.flow,
-                              tolerance,
-                              motion.T_now_before.inverse(),
-                              SecondsBetween(then.stamp_ns, view.frame.stamp_ns),
-                              before.noise.flow[flow.slot],
-                              memory.regions.labels,
-                              memory.log_odds,
-                              options.region.core_log_odds,
-                              options.disparity.max_disparity_px};
+  const Comparison comparison{.now = view.frame,
+                              .then = then,
+                              .flow = flow.flow,
+                              .tolerance = tolerance,
+                              .T_then_now = motion.T_now_before.inverse(),
+                              .seconds = SecondsBetween(then.stamp_ns, view.frame.stamp_ns),
+                              .flow_noise = before.noise.flow[flow.slot],
+                              .regions = memory.regions.labels,
+                              .memory = memory.log_odds,
+                              .sure = options.region.core_log_odds,
+                              .disparities = options.disparity.max_disparity_px};
   return CompareMotion(comparison, view.texture, view.around, half, options.evidence);
 }
 
@@ -52,19 +52,22 @@ GapEvidence Together(const GapEvidence& carried, const GapEvidence& own) {
 
 }  // namespace
 
-PastEvidence WeighPast(const RobustState& before, const View& view,
-                       const std::vector<GapFlow>& flows, const std::vector<EgoMotion>& motions,
-                       const LabelMemory& memory, const StereoCamera& half,
-                       const DisparityTolerance& tolerance, const RobustOptions& options) {
-  PastEvidence past{{}, {}, cv::Mat1f(view.frame.image.size(), 0.0F), {}, before.noise.flow};
+PastEvidence WeighPast(const Step& step, const std::vector<GapFlow>& flows,
+                       const std::vector<EgoMotion>& motions, const LabelMemory& memory) {
+  const RobustState& before = step.before;
+  const View& view = step.view;
+  const RobustOptions& options = step.options;
+  PastEvidence past{.gaps = {},
+                    .log_odds = cv::Mat1f(view.frame.image.size(), 0.0F),
+                    .ended = {},
+                    .flow_noise = before.noise.flow};
   past.ended = past.log_odds.clone();
   if (motions.empty()) return past;
 
   std::vector<LatestStep> steps;
   for (std::size_t k = 0; k < motions.size(); ++k) {
     const std::size_t slot = flows[k].slot;
-    MotionEvidence found =
-        CompareOver(flows[k], motions[k], before, view, memory, half, tolerance, options);
+    MotionEvidence found = CompareOver(step, flows[k], motions[k], memory);
     cv::Mat2f per_step;
     per_step = found.step.residual / flows[k].gap;
     past.gaps.push_back({found.log_odds, per_step});
@@ -73,8 +76,8 @@ PastEvidence WeighPast(const RobustState& before, const View& view,
         Learned(before.noise.flow[slot], found.flow_noise, LearningRate(slot, options.tolerance));
   }
 
-  const auto take_off = [&](const LatestStep& step, int count, GapEvidence& said) {
-    const EndedMotion less = TakeOffEndedMotion(step, count, view.texture, said.per_step,
+  const auto take_off = [&](const LatestStep& latest, int count, GapEvidence& said) {
+    const EndedMotion less = TakeOffEndedMotion(latest, count, view.texture, said.per_step,
                                                 said.log_odds, options.evidence);
     said.log_odds = less.log_odds;
     past.ended = cv::max(past.ended, less.taken);

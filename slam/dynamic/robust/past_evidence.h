@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slam/dynamic/robust/gap_motion.h"
+#include "slam/dynamic/robust/step.h"
 
 namespace aisle::slam::dynamic {
 
@@ -23,12 +24,12 @@ struct PastEvidence {
   std::array<double, kSlots> flow_noise;  ///< with what the comparisons have taught
 };
 
-/// Compares the view with the frames that the motions lead back to; the longer gaps that have not
-/// their turn are heard as `memory` has kept them, less what the comparisons refute. `memory` has
-/// been carried to the current frame.
-PastEvidence WeighPast(const RobustState& before, const View& view,
-                       const std::vector<GapFlow>& flows, const std::vector<EgoMotion>& motions,
-                       const LabelMemory& memory, const StereoCamera& half,
-                       const DisparityTolerance& tolerance, const RobustOptions& options);
+/// Compares the view with the frames that the motions lead back to (CompareMotion), each over its
+/// own gap. The longer gaps take turns: those of other turns count as `memory` has kept them, less
+/// what the comparisons refute (TakeOffEndedMotion). What the gaps say is put together by
+/// CombineGaps. `motions` are those of the first flows; `memory` has been carried to the current
+/// frame.
+PastEvidence WeighPast(const Step& step, const std::vector<GapFlow>& flows,
+                       const std::vector<EgoMotion>& motions, const LabelMemory& memory);
 
 }  // namespace aisle::slam::dynamic

@@ -75,10 +75,11 @@ DynamicRegions ToFullSize(const PixelRegions& regions, const cv::Mat1f& disparit
 
 }  // namespace
 
-PixelLabels LabelPixels(const cv::Mat1f& log_odds, const DenseFrame& frame, const Layout& layout,
-                        const PixelRegions& previous, const DisparityTolerance& tolerance,
-                        cv::Size image, const RobustOptions& options) {
-  const cv::Mat1f leaning = Leaning(log_odds, frame.disparity, layout.floor_mask, options.field);
+PixelLabels LabelPixels(const Step& step, const Layout& layout, const cv::Mat1f& log_odds,
+                        const PixelRegions& previous) {
+  const cv::Mat1f& disparity = step.view.frame.disparity;
+  const RobustOptions& options = step.options;
+  const cv::Mat1f leaning = Leaning(log_odds, disparity, layout.floor_mask, options.field);
   const cv::Mat1f field = SolveField(leaning, layout.links);
   auto [regions, probability] = InParallel(
       [&] {
@@ -86,8 +87,9 @@ PixelLabels LabelPixels(const cv::Mat1f& log_odds, const DenseFrame& frame, cons
                                             layout.farthest, options.field);
         return FindRegions(moving, log_odds, layout.links, previous, options.field, options.region);
       },
-      [&] { return PixelProbability(field, image); });
-  DynamicRegions dynamic = ToFullSize(regions, frame.disparity, tolerance, image, options.region);
+      [&] { return PixelProbability(field, step.image); });
+  DynamicRegions dynamic =
+      ToFullSize(regions, disparity, step.tolerance, step.image, options.region);
   return {field, std::move(regions), std::move(dynamic), std::move(probability)};
 }
 

@@ -4,7 +4,7 @@
 
 #include "slam/dynamic/common/dynamic_regions.h"
 #include "slam/dynamic/robust/moving_regions.h"
-#include "slam/dynamic/robust/view.h"
+#include "slam/dynamic/robust/step.h"
 
 namespace aisle::slam::dynamic {
 
@@ -16,10 +16,11 @@ struct PixelLabels {
   cv::Mat1f probability;   ///< of moving, per pixel of the left image
 };
 
-/// Labels pixels by their log-odds of moving, known so far, and by how they hang together.
-/// `previous` are the regions of the frame before, carried to this one; `image` is the full size.
-PixelLabels LabelPixels(const cv::Mat1f& log_odds, const DenseFrame& frame, const Layout& layout,
-                        const PixelRegions& previous, const DisparityTolerance& tolerance,
-                        cv::Size image, const RobustOptions& options);
+/// Labels pixels by their log-odds of moving, known so far, and by how they hang together: a Markov
+/// random field over `layout.links` (SolveField), grown into what says nothing (GrowMoving), and
+/// parted into regions (FindRegions). `previous` are the regions of the frame before, carried to
+/// this one.
+PixelLabels LabelPixels(const Step& step, const Layout& layout, const cv::Mat1f& log_odds,
+                        const PixelRegions& previous);
 
 }  // namespace aisle::slam::dynamic

@@ -6,7 +6,7 @@
 #include "slam/dynamic/common/in_parallel.h"
 #include "slam/dynamic/robust/gap_motion.h"
 #include "slam/dynamic/robust/pixel_labels.h"
-#include "slam/dynamic/robust/view.h"
+#include "slam/dynamic/robust/step.h"
 
 namespace aisle::slam::dynamic {
 namespace {
@@ -14,13 +14,13 @@ namespace {
 using Eigen::Isometry3d;
 
 /// What was known of the pixels, where they are now; all is forgotten without a way back.
-LabelMemory CarryTo(const View& view, const std::vector<GapFlow>& flows, const RobustState& before,
-                    const DisparityTolerance& tolerance) {
+LabelMemory Carried(const Step& step, const std::vector<GapFlow>& flows) {
+  const RobustState& before = step.before;
   if (flows.empty()) {
-    return ForgottenMemory(view.frame.image.size(), before.memory.regions.next_id);
+    return ForgottenMemory(step.view.frame.image.size(), before.memory.regions.next_id);
   }
-  return CarryMemory(before.memory, flows[0].flow, flows[0].expected.disparity, view.frame,
-                     before.frames.back(), tolerance);
+  return CarryMemory(before.memory, flows[0].flow, flows[0].expected.disparity, step.view.frame,
+                     before.frames.back(), step.tolerance);
 }
 
 /// What is known of the pixels after this frame: what was known, less what has ended, fades, and
@@ -194,6 +194,14 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
     return WithoutContent(passed_over(), view, images.left.size(), std::move(ms));
   }
 
+  const Step step{.before = before,
+                  .view = view,
+                  .image = images.left.size(),
+                  .camera = camera,
+                  .half = half,
+                  .tolerance = tolerance,
+                  .options = options};
+
   // Flow to frames before, beyond what the expected motion explains.
   const std::vector<GapFlow> flows =
       Timed(ms["flow"], [&] { return FollowGaps(before, view, T_now_before, half, options.flow); });
@@ -203,18 +211,15 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
   const auto [rig, layout] = Timed(ms["ego_motion"], [&] {
     return InParallel(
         [&] {
-          LabelMemory memory = CarryTo(view, flows, before, tolerance);
-          GapMotions motions = FindGapMotions(before, view, flows, memory, prior, camera, options);
+          LabelMemory memory = Carried(step, flows);
+          GapMotions motions = FindGapMotions(step, flows, memory, prior);
           return std::pair(std::move(memory), std::move(motions));
         },
         [&] { return LayOut(view.frame, camera, tolerance, options); });
   });
   const auto& [memory, motions] = rig;
   const auto label = [&](const cv::Mat1f& log_odds, const PixelRegions& previous) {
-    return Timed(ms["label"], [&] {
-      return LabelPixels(log_odds, view.frame, layout, previous, tolerance, images.left.size(),
-                         options);
-    });
+    return Timed(ms["label"], [&] { return LabelPixels(step, layout, log_odds, previous); });
   };
   if (IsStuck(before, view.frame, motions.motions, prior && prior->measured)) {
     const PixelLabels same = label(before.memory.log_odds, before.memory.regions);
@@ -223,8 +228,7 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
 
   // For and against motion: what that leaves unexplained, of this frame and of those before.
   const auto [past, log_odds] = Timed(ms["evidence"], [&] {
-    PastEvidence said =
-        WeighPast(before, view, flows, motions.motions, memory, half, tolerance, options);
+    PastEvidence said = WeighPast(step, flows, motions.motions, memory);
     cv::Mat1f known = Accumulate(memory.log_odds, said, options.field);
     return std::pair(std::move(said), std::move(known));
   });

@@ -144,9 +144,8 @@ TEST(SetOption, SaysWhatIsWrong) {
 
 TEST(SetOption, KnowsNothingOfWhatTheDriverOwns) {
   SlamOptions options;
-  for (const char* path :
-       {"vocabulary_file", "map_file", "localise_only", "threads", "dynamic.keep_stages",
-        "schedule.free_running", "schedule.background", "mapping.fuse.levels"}) {
+  for (const char* path : {"vocabulary_file", "map_file", "localise_only", "threads",
+                           "dynamic.keep_stages", "schedule.free_running", "schedule.background"}) {
     EXPECT_THAT(SetOption(path, "1", &options), HasSubstr("there is no option")) << path;
   }
 }
@@ -251,11 +250,10 @@ TEST(DescribeOptions, LeavesOutNoField) {
       bytes.Add(*std::get<bool*>(field.value));
     }
   }
-  // What the driver owns, and what is set from other options.
+  // What the driver owns.
   bytes.Add(options.dynamic.keep_stages);
   bytes.Add(options.schedule.free_running);
   bytes.Add(options.schedule.background);
-  bytes.Add(options.mapping.fuse.levels);
   // A field more makes this line a compile error: name it, and describe it or say why not.
   const auto& [base, threads, dynamic, feature, stereo, track, keyframe, orbslam2, orbslam2_mapping,
                mapping, loop, global, schedule, map_file, localise_only, new_part_after_s,

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "slam/map/map.h"
 #include "slam/stereo_slam.h"
 #include "tests/support/test_data.h"
 

@@ -39,7 +39,7 @@ class TwoKeyframes {
   /// Whether the second keyframe sees the landmark after fusing.
   bool Fused(FuseBound bound) const {
     const std::vector<LandmarkId> landmarks = LandmarksOf(map_, {{0}});
-    return FuseInto(map_, {1}, landmarks, camera_, {}, bound).links.size() == 1;
+    return FuseInto(map_, {1}, landmarks, camera_, 8, {}, bound).links.size() == 1;
   }
 
  private:

@@ -61,7 +61,7 @@ TEST(LoopClosing, WithoutLoopsNothingIsSpread) {
 }
 
 TEST(LoopClosing, AClosedLoopIsOnePlaceAndAsExactAsItsMeasurements) {
-  Map closed = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {}, {});
+  Map closed = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), 8, {}, {});
   closed.Apply(CarryOver(closed, CorrectGlobally(closed, Ring().camera(), {})));
   EXPECT_LT(Ring().WorstErrorM(closed), 0.02);
   // What was mapped twice is one: every second visit shares its landmarks with the first.
@@ -79,7 +79,7 @@ TEST(LoopClosing, ALoopClosesHoweverManyNeighboursHoldOntoTheDrift) {
   std::vector<LoopEdge> loops = ring.Loops();
   loops.erase(loops.begin(), loops.end() - 3);  // as many as it takes to agree
   ASSERT_GT(GapM(ring.map(), loops.back()), 0.5);
-  const Map closed = CloseLoop(ring.map(), loops, ring.camera(), {}, {});
+  const Map closed = CloseLoop(ring.map(), loops, ring.camera(), 8, {}, {});
   for (const LoopEdge& loop : ring.Loops()) {
     EXPECT_LT(GapM(closed, loop), 0.01) << loop.current.value;
     EXPECT_GT(SharedBy(closed, loop.current, loop.matched), 100) << loop.current.value;
@@ -95,7 +95,7 @@ TEST(LoopClosing, WhereTheVisitsMeetIsSaidByTheLoopOfMostInliers) {
     unequal[worst].inliers = 5;
     unequal[worst].T_matched_current.translation().y() += 0.5;
     unequal[(worst + 2) % loops.size()].inliers = 100;
-    const Map closed = CloseLoop(Ring().map(), unequal, Ring().camera(), {}, {});
+    const Map closed = CloseLoop(Ring().map(), unequal, Ring().camera(), 8, {}, {});
     for (const LoopEdge& loop : Ring().Loops()) {
       EXPECT_GE(SharedBy(closed, loop.current, loop.matched), 30) << loop.current.value;
     }
@@ -107,24 +107,24 @@ TEST(LoopClosing, ALoopClosedBeforeStaysClosed) {
   const RingWorld ring({.drift = 1.003, .turn_rad = 0.001, .again = 24, .points = 1200});
   const std::vector<LoopEdge> all = ring.Loops();
   const std::vector<LoopEdge> first(all.begin(), all.begin() + 3), second(all.end() - 3, all.end());
-  const Map once = CloseLoop(ring.map(), first, ring.camera(), {}, {});
+  const Map once = CloseLoop(ring.map(), first, ring.camera(), 8, {}, {});
   EXPECT_EQ(once.closed_loops().size(), first.size());
   ASSERT_GT(GapM(once, second.back()), 0.1);
-  const Map twice = CloseLoop(once, second, ring.camera(), {}, {});
+  const Map twice = CloseLoop(once, second, ring.camera(), 8, {}, {});
   for (const LoopEdge& loop : first) EXPECT_LT(GapM(twice, loop), 0.005) << loop.current.value;
   for (const LoopEdge& loop : second) EXPECT_LT(GapM(twice, loop), 0.005) << loop.current.value;
 }
 
 TEST(LoopClosing, GivesTheSameBitsAgain) {
-  const Map a = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {}, {});
-  const Map b = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {}, {});
+  const Map a = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), 8, {}, {});
+  const Map b = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), 8, {}, {});
   for (const auto& [id, keyframe] : a.keyframes()) {
     EXPECT_EQ(keyframe->T_world_rig.matrix(), b.At(id).T_world_rig.matrix()) << id.value;
   }
 }
 
 TEST(LoopClosing, WhatIsMappedDuringTheGlobalAdjustmentMovesAlong) {
-  const Map closed = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), {}, {});
+  const Map closed = CloseLoop(Ring().map(), Ring().Loops(), Ring().camera(), 8, {}, {});
   const GlobalCorrection correction = CorrectGlobally(closed, Ring().camera(), {});
   // Meanwhile a keyframe joins and sees a landmark of its own.
   Map grown = closed;

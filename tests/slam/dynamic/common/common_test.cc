@@ -5,7 +5,6 @@
 
 #include "slam/dynamic/common/counter_random.h"
 #include "slam/dynamic/common/in_parallel.h"
-#include "slam/dynamic/common/median.h"
 
 namespace aisle::slam::dynamic {
 namespace {
@@ -39,13 +38,6 @@ TEST(CounterRandom, DistinctIndicesAreDistinctAndAllOfThemWhereThereAreNoMore) {
     const std::array<int, 5> drawn = CounterRandom(9, stream).Distinct<5>(5);
     EXPECT_EQ(std::set<int>(drawn.begin(), drawn.end()), (std::set{0, 1, 2, 3, 4}));
   }
-}
-
-TEST(Median, IsTheMiddleValueInWhateverOrder) {
-  EXPECT_EQ(Median<int>({5, 1, 9}), 5);
-  EXPECT_EQ(Median<int>({9, 1, 7, 5}), 7);  // the upper of the two
-  EXPECT_EQ(Median<int>({4}), 4);
-  EXPECT_EQ(Median<int>({}), 0);
 }
 
 TEST(InParallel, GivesBothValues) {

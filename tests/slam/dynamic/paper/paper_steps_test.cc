@@ -1,7 +1,7 @@
 // The steps of the paper's method on rendered frames, each against what the rendering knows.
 #include <gtest/gtest.h>
 
-#include "slam/dynamic/common/median.h"
+#include "slam/common/median.h"
 #include "slam/dynamic/paper/boundary_labels.h"
 #include "slam/dynamic/paper/disparity.h"
 #include "slam/dynamic/paper/dynamic_points.h"

@@ -1,4 +1,4 @@
-#include "slam/mapping/orbslam2_mapping.h"
+#include "slam/mapping/orbslam2_mapping_options.h"
 
 namespace aisle::slam {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace aisle::slam::dynamic {
+namespace aisle::slam {
 
 /// The middle value, of an even number the upper of the two in the middle; 0 of none.
 template <class Number>
@@ -14,4 +14,4 @@ Number Median(std::vector<Number> values) {
   return *middle;
 }
 
-}  // namespace aisle::slam::dynamic
+}  // namespace aisle::slam

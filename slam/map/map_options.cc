@@ -1,9 +1,6 @@
+#include "slam/map/map_options.h"
+
 #include "slam/map/align_patch.h"
-#include "slam/map/create_landmarks.h"
-#include "slam/map/cull.h"
-#include "slam/map/fuse.h"
-#include "slam/map/match_by_projection.h"
-#include "slam/map/triangulate_landmarks.h"
 
 namespace aisle::slam {
 

@@ -1,4 +1,4 @@
-#include "slam/place/find_loop.h"
+#include "slam/place/place_options.h"
 
 namespace aisle::slam {
 

@@ -1,5 +1,4 @@
-#include "slam/optimize/adjust_map.h"
-#include "slam/optimize/align_points.h"
+#include "slam/optimize/optimize_options.h"
 
 namespace aisle::slam {
 namespace {
