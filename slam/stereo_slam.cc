@@ -44,8 +44,8 @@ SavedMap LoadMapFor(const StereoCamera& camera, const SlamOptions& options) {
   SavedMap saved = LoadMap(options.map_file);
   if (saved.camera != camera) {
     throw std::runtime_error(options.map_file +
-                             ": was made with another camera; the map of a rig serves that rig, as "
-                             "it was calibrated then");
+                             ": was made with another camera; a map can only be used with the rig "
+                             "that made it, calibrated as it was then");
   }
   for (const auto& [id, keyframe] : saved.map.keyframes()) {
     if (keyframe->frame->scale != options.feature.scale) {
@@ -160,8 +160,8 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
   CheckImages(images, mask, camera);
   if (last_stamp_ns && images.stamp_ns <= *last_stamp_ns) {
     throw std::invalid_argument(
-        fmt::format("frame {}: its stamp is {} ns, after {}: stamps must rise", images.id,
-                    images.stamp_ns, *last_stamp_ns));
+        fmt::format("frame {}: its timestamp is {} ns, after {}: timestamps must increase",
+                    images.id, images.stamp_ns, *last_stamp_ns));
   }
   last_stamp_ns = images.stamp_ns;
   TrackedFrame result;

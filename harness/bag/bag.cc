@@ -29,18 +29,19 @@ std::unique_ptr<Bag> OpenBag(const fs::path& path) {
     const std::vector<fs::path> files = BagsIn(path);
     if (files.size() == 1) return OpenBag(files.front());
     throw InputError(path.string(), 0,
-                     files.empty() ? "holds no .mcap and no .db3 file"
+                     files.empty() ? "no .mcap or .db3 file in this folder"
                                    : fmt::format("is a bag split into {} files: join them with "
                                                  "`ros2 bag convert`, or name one of them",
                                                  files.size()));
   }
   if (!fs::exists(path)) throw InputError(path.string(), 0, "no such file");
   if (path.extension() == ".zstd") {
-    throw InputError(path.string(), 0, "is compressed as a whole: unpack it with `zstd -d` first");
+    throw InputError(path.string(), 0,
+                     "is compressed as a whole: decompress it with `zstd -d` first");
   }
   if (path.extension() == ".bag") {
     throw InputError(path.string(), 0,
-                     "is a bag of ROS 1: convert it, for example with `rosbags-convert`");
+                     "is a ROS 1 bag: convert it, for example with `rosbags-convert`");
   }
   return path.extension() == ".db3" ? OpenDb3(path) : OpenMcap(path);
 }

@@ -8,7 +8,7 @@ namespace aisle {
 namespace {
 
 const char* const kCalibrationCure =
-    "give the rig's own file with --calibration (Kalibr, camera_info, OpenCV or EuRoC)";
+    "pass the rig's own file with --calibration (Kalibr, camera_info, OpenCV or EuRoC)";
 
 /// The first message of a topic, if there is one.
 template <class T>
@@ -47,13 +47,13 @@ ros::CameraInfo InfoOf(const Bag& bag, const std::string& image_topic, const std
   if (!(info->p[0] > 0) || !(info->p[5] > 0)) {
     throw InputError(
         file, 0,
-        fmt::format("{} says that the camera is not calibrated (p begins with {:g}): {}", topic,
+        fmt::format("{} states that the camera is not calibrated (p begins with {:g}): {}", topic,
                     info->p[0], kCalibrationCure));
   }
   if (info->binning_x > 1 || info->binning_y > 1 || IsCutOut(*info)) {
     throw InputError(
         file, 0,
-        fmt::format("{} says that images are binned or cut out: {}", topic, kCalibrationCure));
+        fmt::format("{} states that images are binned or cropped: {}", topic, kCalibrationCure));
   }
   return *info;
 }
@@ -110,23 +110,23 @@ std::string BaselineFault(const Bag& bag, const ros::CameraInfo& left, const ros
                           const StereoTopics& topics, double baseline_m) {
   std::string fault =
       baseline_m == 0
-          ? fmt::format("{} states no baseline: p[3] is 0, and should be -fx times the baseline",
+          ? fmt::format("{} states no baseline: p[3] is 0, but should be -fx times the baseline",
                         CameraInfoTopicOf(topics.right))
           : fmt::format(
-                "{} states a baseline of {:g} m: p[3] is -fx times the baseline, and is "
+                "{} states a baseline of {:g} m: p[3] should be -fx times the baseline, but is "
                 "positive",
                 CameraInfoTopicOf(topics.right), baseline_m);
   if (left.p[3] < 0 && right.p[3] == 0) {
-    return fault + fmt::format(
-                       "; it stands in the other one: left and right are swapped: say "
-                       "--topic {} --topic {}",
-                       topics.right, topics.left);
+    return fault +
+           fmt::format(
+               "; the other one has it: left and right are swapped, use --topic {} --topic {}",
+               topics.right, topics.left);
   }
   if (const auto T_left_right = RightInLeft(bag, left.header.frame_id, right.header.frame_id)) {
-    fault += fmt::format("; its /tf_static puts the right camera {:g} m to the right",
+    fault += fmt::format("; its /tf_static places the right camera {:g} m to the right",
                          T_left_right->translation().x());
   }
-  return fault + fmt::format(": say --baseline METRES, or {}", kCalibrationCure);
+  return fault + fmt::format(": use --baseline METRES, or {}", kCalibrationCure);
 }
 
 CameraCalibration PinholeOf(const ros::CameraInfo& info, const std::array<double, 4>& pinhole) {
@@ -156,8 +156,8 @@ CameraCalibration Raw(const ros::CameraInfo& info, const std::string& topic,
                      info.distortion_model == "rational_polynomial";
   if (!known || !fits || !(camera.fx > 0) || !(camera.fy > 0)) {
     throw InputError(file, 0,
-                     fmt::format("{}: distortion '{}' with {} coefficients: plumb_bob (5), "
-                                 "rational_polynomial (8) and equidistant (4) are read",
+                     fmt::format("{}: unsupported distortion '{}' with {} coefficients; supported: "
+                                 "plumb_bob (5), rational_polynomial (8) and equidistant (4)",
                                  CameraInfoTopicOf(topic), Printable(info.distortion_model), n));
   }
   camera.distortion = info.d;

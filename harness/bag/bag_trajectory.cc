@@ -78,12 +78,13 @@ std::string ChooseTopic(const Bag& bag, const BagTopic& asked) {
   const std::set<std::string> topics = TopicsWithPoses(bag);
   if (asked.topic.empty()) {
     if (topics.size() == 1) return *topics.begin();
-    throw InputError(asked.file.string(), 0,
-                     topics.empty() ? "holds no topic with poses"
-                                    : fmt::format("holds several topics with poses: name one of {} "
-                                                  "behind a colon, such as {}:{}",
-                                                  fmt::join(topics, ", "), asked.file.string(),
-                                                  *topics.begin()));
+    throw InputError(
+        asked.file.string(), 0,
+        topics.empty()
+            ? "no topic with poses"
+            : fmt::format(
+                  "several topics with poses: name one of {} after a colon, for example {}:{}",
+                  fmt::join(topics, ", "), asked.file.string(), *topics.begin()));
   }
   const auto is_asked = [&](const BagChannel& channel) {
     return channel.topic == asked.topic && KindOf(channel) != nullptr;
@@ -91,7 +92,7 @@ std::string ChooseTopic(const Bag& bag, const BagTopic& asked) {
   if (std::ranges::none_of(bag.channels(), is_asked)) {
     throw InputError(
         asked.file.string(), 0,
-        fmt::format("holds no poses on {}{}; those with poses: {}", Printable(asked.topic),
+        fmt::format("no poses on {}{}; topics with poses: {}", Printable(asked.topic),
                     DidYouMean(asked.topic, {topics.begin(), topics.end()}),
                     topics.empty() ? "none" : fmt::format("{}", fmt::join(topics, ", "))));
   }
@@ -124,8 +125,8 @@ Trajectory ReadBagTrajectory(const Bag& bag, const BagTopic& asked) {
     if (kind == nullptr) continue;
     if (kind->take == TakeTransforms && asked.child.empty()) {
       throw InputError(asked.file.string(), 0,
-                       fmt::format("{} holds transforms of many bodies: name the child frame, such "
-                                   "as {}:{}#base_link",
+                       fmt::format("{} has transforms of several bodies: name the child frame, for "
+                                   "example {}:{}#base_link",
                                    topic, asked.file.string(), topic));
     }
     try {
@@ -138,15 +139,15 @@ Trajectory ReadBagTrajectory(const Bag& bag, const BagTopic& asked) {
   if (poses.by_stamp.empty()) {
     throw InputError(asked.file.string(), 0,
                      asked.child.empty()
-                         ? fmt::format("{} has no message", topic)
-                         : fmt::format("{} has no transform of '{}'", topic, asked.child));
+                         ? fmt::format("{} has no messages", topic)
+                         : fmt::format("{} has no transforms of '{}'", topic, asked.child));
   }
   if (poses.taken > 1 && poses.by_stamp.size() == 1 && poses.by_stamp.contains(0)) {
     throw InputError(
         asked.file.string(), 0,
-        fmt::format("the {} poses of {} have no stamps in their headers: nobody knows when they "
-                    "were",
-                    poses.taken, topic));
+        fmt::format(
+            "the {} poses of {} have no timestamps in their headers, so their times are unknown",
+            poses.taken, topic));
   }
   Trajectory trajectory;
   for (const auto& [stamp_ns, pose] : poses.by_stamp) trajectory.push_back({stamp_ns, pose});

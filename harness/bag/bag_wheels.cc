@@ -57,10 +57,10 @@ class StaticFrames {
     throw InputError(
         file_, 0,
         fmt::format(
-            "no transform of {} leads from the wheels' '{}' to the left image's '{}'{}: "
-            "record {} along, with the camera's mounting",
+            "no transform of {} leads from the wheels' frame '{}' to the left image's "
+            "'{}'{}: record {} as well, with the camera's mounting",
             kStatic, Printable(a), Printable(b),
-            parents_.empty() ? ", there is none at all" : fmt::format("; it joins {}", Names()),
+            parents_.empty() ? ", as the bag has none" : fmt::format("; it connects {}", Names()),
             kStatic));
   }
 
@@ -81,8 +81,7 @@ class StaticFrames {
       *root = parent->second.frame;
     }
     throw InputError(
-        file_, 0,
-        fmt::format("the frames of {} go round in a circle at '{}'", kStatic, Printable(frame)));
+        file_, 0, fmt::format("the frames of {} form a cycle at '{}'", kStatic, Printable(frame)));
   }
 
   std::string Names() const {
@@ -131,7 +130,7 @@ std::map<std::int64_t, Reading> Readings(const Bag& bag, const std::string& topi
     TakeMessage<ros::Odometry>(bag, entry, file, [&](const ros::Odometry& message) {
       if (taken++ > 0 && message.child_frame_id != *base) {
         throw InputError(file, 0,
-                         fmt::format("{} tells of two bodies, '{}' and '{}'", topic,
+                         fmt::format("{} is about two bodies, '{}' and '{}'", topic,
                                      Printable(*base), Printable(message.child_frame_id)));
       }
       *base = message.child_frame_id;
@@ -141,11 +140,11 @@ std::map<std::int64_t, Reading> Readings(const Bag& bag, const std::string& topi
           Eigen::Map<const RowMajor>(message.twist.covariance.data())};
     });
   }
-  if (readings.empty()) throw InputError(file, 0, topic + " has no message");
+  if (readings.empty()) throw InputError(file, 0, topic + " has no messages");
   if (taken > 1 && readings.size() == 1) {
     throw InputError(file, 0,
-                     fmt::format("the {} messages of {} have one stamp in their headers: nobody "
-                                 "knows when they were",
+                     fmt::format("the {} messages of {} all have the same timestamp in their "
+                                 "headers, so their times are unknown",
                                  taken, topic));
   }
   return readings;
@@ -175,7 +174,7 @@ WheelTrack ReadBagWheels(const Bag& bag, const std::string& topic, const std::st
   if (std::ranges::find(topics, topic) == topics.end()) {
     throw InputError(
         file, 0,
-        fmt::format("holds no nav_msgs/Odometry on {}{}; topics of it: {}", Printable(topic),
+        fmt::format("no nav_msgs/Odometry on {}{}; topics of that type: {}", Printable(topic),
                     DidYouMean(topic, topics),
                     topics.empty() ? "none" : fmt::format("{}", fmt::join(topics, ", "))));
   }

@@ -20,13 +20,14 @@ void DecompressLz4(std::string_view bytes, std::string* to) {
     done += room;
     bytes.remove_prefix(taken);
   }
-  if (hint != 0 || done != to->size()) throw CompressionError("comes out in another length");
+  if (hint != 0 || done != to->size())
+    throw CompressionError("decompresses to another length than stated");
 }
 
 void DecompressZstd(std::string_view bytes, std::string* to) {
   const std::size_t size = ZSTD_decompress(to->data(), to->size(), bytes.data(), bytes.size());
   if (ZSTD_isError(size)) throw CompressionError(ZSTD_getErrorName(size));
-  if (size != to->size()) throw CompressionError("comes out in another length");
+  if (size != to->size()) throw CompressionError("decompresses to another length than stated");
 }
 
 }  // namespace
@@ -45,16 +46,16 @@ bool IsZstd(std::string_view bytes) { return bytes.starts_with("\x28\xB5\x2F\xFD
 std::string Decompress(std::string_view bytes, std::string_view method, std::size_t size) {
   std::string out;
   if (method.empty()) {
-    if (bytes.size() != size) throw CompressionError("is of another length than it says");
+    if (bytes.size() != size) throw CompressionError("has another length than stated");
     return std::string(bytes);
   }
   if (method != "zstd" && method != "lz4") {
-    throw CompressionError(fmt::format("'{}' is a compression that is not read: zstd and lz4 are",
-                                       method.substr(0, 20)));
+    throw CompressionError(
+        fmt::format("unsupported compression '{}'; supported: zstd and lz4", method.substr(0, 20)));
   }
   // Neither shrinks further than this: a larger claim is a lie, and memory is not spent on it.
   constexpr std::size_t kMostShrunk = 40000;
-  if (size / kMostShrunk > bytes.size()) throw CompressionError("claims an impossible length");
+  if (size / kMostShrunk > bytes.size()) throw CompressionError("states an impossible length");
   out.resize(size);
   method == "lz4" ? DecompressLz4(bytes, &out) : DecompressZstd(bytes, &out);
   return out;
@@ -63,7 +64,7 @@ std::string Decompress(std::string_view bytes, std::string_view method, std::siz
 std::string DecompressZstdFrame(std::string_view bytes, std::size_t most) {
   const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
   if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size > most) {
-    throw CompressionError("does not state its length, or one beyond what is read");
+    throw CompressionError("states no length, or one that is too large");
   }
   return Decompress(bytes, "zstd", size);
 }

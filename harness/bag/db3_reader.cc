@@ -50,11 +50,11 @@ std::string UriOf(const std::filesystem::path& file, const char* parameters) {
 /// SQLite's sentence; where it takes a change back that was cut off, the cure.
 std::string WhyUnreadable(sqlite3* database, const std::string& sentence, const std::string& file) {
   if (sqlite3_extended_errcode(database) != SQLITE_READONLY_ROLLBACK) {
-    return fmt::format("is no bag of ROS 2, or a damaged one: {}", sentence);
+    return fmt::format("not a ROS 2 bag, or a damaged one: {}", sentence);
   }
   return fmt::format(
-      "was cut off in the middle of a change that {}-journal takes back: let "
-      "`sqlite3 '{}' 'PRAGMA quick_check'` do so first",
+      "was cut off in the middle of a change that {}-journal reverts: run `sqlite3 '{}' 'PRAGMA "
+      "quick_check'` first",
       std::filesystem::path(file).filename().string(), file);
 }
 
@@ -101,7 +101,7 @@ class Db3File : public Bag {
     const int code = sqlite3_open_v2(UriOf(path, opening.parameters).c_str(), &database,
                                      SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
     database_.reset(database);
-    if (code != SQLITE_OK) throw InputError(path_, 0, "cannot be read as an SQLite file");
+    if (code != SQLITE_OK) throw InputError(path_, 0, "not readable as an SQLite file");
     // Else the last one to close would write the log into the file, and take it away.
     sqlite3_db_config(database, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
     try {
@@ -113,10 +113,9 @@ class Db3File : public Bag {
       throw InputError(path_, 0, WhyUnreadable(database, error.what(), path_));
     }
     if (opening.has_log) {
-      notes_.push_back(
-          fmt::format("was not closed by its recorder: its last messages are read from "
-                      "{}-wal beside it",
-                      path.filename().string()));
+      notes_.push_back(fmt::format(
+          "was not closed by its recorder: its last messages are read from {}-wal beside it",
+          path.filename().string()));
     }
   }
 
@@ -125,10 +124,10 @@ class Db3File : public Bag {
     try {
       Statement get(database_.get(), "SELECT data FROM messages WHERE id = ?");
       get.Bind(static_cast<std::int64_t>(entry.place));
-      if (!get.Step()) throw InputError(path_, 0, "has lost a message while it was read");
+      if (!get.Step()) throw InputError(path_, 0, "lost a message while it was read");
       return Unpacked(get.Bytes(0));
     } catch (const CompressionError& error) {
-      throw InputError(path_, 0, fmt::format("holds a damaged message: {}", error.what()));
+      throw InputError(path_, 0, fmt::format("has a damaged message: {}", error.what()));
     }
   }
 

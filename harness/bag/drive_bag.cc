@@ -55,7 +55,8 @@ void RequireOwnTopics(const std::vector<std::string>& systems) {
     if (is_new || owner->second == system) continue;
     throw InputError(
         owner->second.empty()
-            ? fmt::format("a bag keeps what the scene is at /{}: call the system '{}' otherwise",
+            ? fmt::format("a bag keeps the scene's topics at /{}: choose another name than '{}' "
+                          "for the system",
                           owner->first, system)
             : fmt::format("the systems '{}' and '{}' would share the topics /{}/… of a bag: "
                           "rename one",

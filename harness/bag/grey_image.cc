@@ -42,7 +42,8 @@ const Encoding& EncodingOf(const std::string& name) {
   if (found != std::end(kEncodings)) return *found;
   std::string known;
   for (const Encoding& one : kEncodings) known += std::string(known.empty() ? "" : ", ") + one.name;
-  throw ros::CdrError(fmt::format("has encoding '{}': {} are read", name.substr(0, 40), known));
+  throw ros::CdrError(
+      fmt::format("unsupported encoding '{}'; supported: {}", name.substr(0, 40), known));
 }
 
 cv::Mat1b ToGrey(const cv::Mat& image, const Encoding& encoding) {
@@ -73,8 +74,8 @@ cv::Mat1b GreyImage(const ros::Image& message) {
       message.height == 0 ? 0 : message.step * (message.height - std::size_t{1}) + row;
   if (message.width == 0 || message.height == 0 || message.width > kMostSide ||
       message.height > kMostSide || message.step < row || message.data.size() < needed) {
-    throw ros::CdrError(fmt::format("says {}x{} {} in rows of {} bytes, and has {}", message.width,
-                                    message.height, message.encoding, message.step,
+    throw ros::CdrError(fmt::format("states {}x{} {} in rows of {} bytes, but has {}",
+                                    message.width, message.height, message.encoding, message.step,
                                     message.data.size()));
   }
   const auto size = cv::Size(static_cast<int>(message.width), static_cast<int>(message.height));
@@ -96,7 +97,7 @@ cv::Mat1b GreyImage(const ros::CompressedImage& message) {
   } catch (const cv::Exception&) {  // told like any other that cannot be decoded
   }
   if (image.empty()) {
-    throw ros::CdrError(fmt::format("cannot be decoded ('{}'): PNG and JPEG are read",
+    throw ros::CdrError(fmt::format("cannot decode it ('{}'): PNG and JPEG are supported",
                                     message.format.substr(0, 40)));
   }
   const std::string packed = PackedEncoding(message.format);
@@ -106,7 +107,7 @@ cv::Mat1b GreyImage(const ros::CompressedImage& message) {
   if (image.type() == CV_16UC1) return ToGrey(image, EncodingOf("mono16"));
   if (image.type() == CV_8UC3) return ToGrey(image, EncodingOf("bgr8"));  // as imdecode has it
   if (image.type() == CV_8UC4) return ToGrey(image, EncodingOf("bgra8"));
-  throw ros::CdrError("holds pixels of a kind that is not read");
+  throw ros::CdrError("unsupported kind of pixels");
 }
 
 }  // namespace aisle

@@ -43,7 +43,7 @@ class RandomAccessFile {
     file_ = Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     struct stat status {};
     if (::fstat(file_.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
-      throw InputError(path.string(), 0, "cannot be read: no such file");
+      throw InputError(path.string(), 0, "not readable: no such file");
     }
     size_ = static_cast<std::uint64_t>(status.st_size);
   }
@@ -61,7 +61,7 @@ class RandomAccessFile {
       if (got <= 0) break;
       done += static_cast<std::size_t>(got);
     }
-    if (done != count) throw InputError(path_.string(), 0, "cannot be read to its end");
+    if (done != count) throw InputError(path_.string(), 0, "not readable to its end");
     return bytes;
   }
 
@@ -75,12 +75,12 @@ class McapFile : public Bag {
  public:
   explicit McapFile(const std::filesystem::path& path) : path_(path.string()), file_(path) {
     if (file_.size() < mcap::kMagic.size() || file_.Read(0, mcap::kMagic.size()) != mcap::kMagic) {
-      throw InputError(path_, 0, "is no MCAP file");
+      throw InputError(path_, 0, "not an MCAP file");
     }
     try {
       Scan();
     } catch (const std::out_of_range&) {
-      throw InputError(path_, 0, "is damaged: a record is shorter than its own lengths say");
+      throw InputError(path_, 0, "damaged: a record is shorter than its own lengths state");
     }
     Name();
   }
@@ -116,8 +116,8 @@ class McapFile : public Bag {
     }
     if (!ended) {
       notes_.emplace_back(
-          "it ends in the middle of a record, as where a recorder was killed: what "
-          "came before is read");
+          "it ends in the middle of a record, as if the recorder was killed: everything before "
+          "that is read");
     }
   }
 
@@ -139,8 +139,8 @@ class McapFile : public Bag {
     if (op == Op::kHeader) {
       const std::string profile(fields.Text());
       if (profile != "ros2" && !profile.empty()) {
-        throw InputError(path_, 0,
-                         fmt::format("is of profile '{}': ros2 is read", Printable(profile)));
+        throw InputError(
+            path_, 0, fmt::format("unsupported profile '{}'; expected ros2", Printable(profile)));
       }
     } else if (op == Op::kSchema) {
       const auto id = fields.Get<std::uint16_t>();
@@ -252,12 +252,12 @@ class McapFile : public Bag {
       records = std::make_shared<const std::string>(
           Decompress(file_.Read(chunk.offset, chunk.size), chunk.method, chunk.raw_size));
     } catch (const CompressionError& error) {
-      throw InputError(path_, 0, fmt::format("is damaged: chunk {} {}", number, error.what()));
+      throw InputError(path_, 0, fmt::format("damaged: chunk {} {}", number, error.what()));
     }
     if (chunk.crc != 0 && Crc32(*records) != chunk.crc) {
       throw InputError(path_, 0,
-                       fmt::format("is damaged: chunk {} has another checksum than written; copy "
-                                   "the file anew, or `mcap recover` it",
+                       fmt::format("damaged: the checksum of chunk {} does not match; copy the "
+                                   "file again, or `mcap recover` it",
                                    number));
     }
     constexpr std::size_t kMostKept = 4;

@@ -58,14 +58,14 @@ StereoTopics FindStereoTopics(const Bag& bag, const std::vector<std::string>& as
   std::vector<std::string> names;
   for (const auto& [topic, type] : topics) names.push_back(topic);
   const std::string known =
-      names.empty() ? "it holds no images" : fmt::format("its images: {}", fmt::join(names, ", "));
+      names.empty() ? "it has no images" : fmt::format("its images: {}", fmt::join(names, ", "));
   for (const std::string& topic : asked) {
     if (topics.contains(topic)) continue;
-    throw InputError(file, 0,
-                     fmt::format("holds no images on {}{}; {}", Printable(topic),
-                                 DidYouMean(topic, names), known));
+    throw InputError(
+        file, 0,
+        fmt::format("no images on {}{}; {}", Printable(topic), DidYouMean(topic, names), known));
   }
-  if (asked.size() > 2) throw InputError("--topic: a pair is two of them at most");
+  if (asked.size() > 2) throw InputError("--topic: expected at most two topics");
   if (asked.size() == 2) return {asked[0], asked[1]};
   std::vector<StereoTopics> pairs = PairsIn(topics);
   if (!asked.empty()) {
@@ -75,7 +75,7 @@ StereoTopics FindStereoTopics(const Bag& bag, const std::vector<std::string>& as
   if (pairs.empty()) {
     throw InputError(file, 0,
                      fmt::format("no two image topics are named like a left and a right one; {}: "
-                                 "say --topic LEFT --topic RIGHT",
+                                 "use --topic LEFT --topic RIGHT",
                                  known));
   }
   std::string choice;
@@ -83,7 +83,7 @@ StereoTopics FindStereoTopics(const Bag& bag, const std::vector<std::string>& as
     choice += fmt::format("\n  --topic {} --topic {}", pair.left, pair.right);
   }
   throw InputError(file, 0,
-                   fmt::format("holds {} stereo pairs; choose one:{}", pairs.size(), choice));
+                   fmt::format("has {} stereo pairs; choose one:{}", pairs.size(), choice));
 }
 
 std::string CameraInfoTopicOf(const std::string& image_topic) {

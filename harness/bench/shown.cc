@@ -30,9 +30,9 @@ MaskMaker MasksFor(const SystemSpec& system, const BenchView& view, const BenchS
   return [asked, make = MasksWithErrors(asked, system.mask_errors, SeedOf(view, source)),
           view = view.text, name = system.name](const SequenceFrame& frame) {
     if (Tells(frame.truth, asked)) return make(frame);
-    throw InputError(
-        fmt::format("{}: system '{}' is told what moves, and nobody knows it here: take a scene",
-                    Printable(view), Printable(name)));
+    throw InputError(fmt::format(
+        "{}: system '{}' needs to be told what moves, which is unknown here: use a scene",
+        Printable(view), Printable(name)));
   };
 }
 

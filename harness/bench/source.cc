@@ -14,7 +14,7 @@ namespace aisle {
 namespace fs = std::filesystem;
 
 void RefuseEmptyView(const BenchView& view, std::size_t frames) {
-  if (frames == 0) throw InputError(Printable(view.text) + ": no frame lies in this view");
+  if (frames == 0) throw InputError(Printable(view.text) + ": no frames in this view");
 }
 
 std::uint64_t SeedOf(const BenchView& view, const BenchSource& source) {

@@ -126,7 +126,7 @@ void WriteBags(const std::vector<Job>& jobs, const fs::path& out,
   for (const Job& job : jobs) {
     if (IsDriveSource(job.spec.scene_file) || job.spec.repeat > 1) continue;
     if (!fs::exists(job.out / "runs" / RunId(job.spec) / RunBagName(false))) {
-      say(fmt::format("{}: left no bag", RunId(job.spec)));
+      say(fmt::format("{}: no bag", RunId(job.spec)));
       continue;
     }
     const fs::path folder = out / "bags" / SafeName(job.spec.scene) / SafeName(job.spec.twin) /

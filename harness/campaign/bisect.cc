@@ -57,7 +57,7 @@ BisectOutcome Bisect(const std::vector<std::string>& commits,
 SourceTree::SourceTree(fs::path repository, fs::path folder)
     : repository_(std::move(repository)), folder_(fs::absolute(std::move(folder))) {
   if (!EndedWell(Git(repository_, {"rev-parse", "--git-dir"}))) {
-    throw InputError(repository_.string(), 0, "is no git repository");
+    throw InputError(repository_.string(), 0, "not a git repository");
   }
   Git(repository_, {"worktree", "remove", "--force", folder_.string()});  // of one that was killed
   Git(repository_, {"worktree", "prune"});
@@ -66,7 +66,7 @@ SourceTree::SourceTree(fs::path repository, fs::path folder)
       Git(repository_, {"worktree", "add", "--detach", folder_.string(), "HEAD"});
   if (!EndedWell(made)) {
     throw MachineError(
-        fmt::format("{}: cannot be checked out: {}", repository_.string(), TellingLine(made.log)));
+        fmt::format("{}: cannot check it out: {}", repository_.string(), TellingLine(made.log)));
   }
 }
 
@@ -75,7 +75,7 @@ SourceTree::~SourceTree() { Git(repository_, {"worktree", "remove", "--force", f
 void SourceTree::CheckOut(const std::string& commit) const {
   const ProcessResult done = Git(folder_, {"checkout", "--quiet", "--force", "--detach", commit});
   if (!EndedWell(done)) {
-    throw MachineError(fmt::format("{}: {} cannot be checked out: {}", repository_.string(), commit,
+    throw MachineError(fmt::format("{}: cannot check out {}: {}", repository_.string(), commit,
                                    TellingLine(done.log)));
   }
 }
@@ -97,7 +97,7 @@ std::string FullCommit(const fs::path& repository, const std::string& name) {
 std::vector<std::string> CommitsBetween(const fs::path& repository, const std::string& good,
                                         const std::string& bad) {
   if (!EndedWell(Git(repository, {"rev-parse", "--git-dir"}))) {
-    throw InputError(repository.string(), 0, "is no git repository");
+    throw InputError(repository.string(), 0, "not a git repository");
   }
   const std::string from = FullCommit(repository, good), to = FullCommit(repository, bad);
   const ProcessResult list =
@@ -110,7 +110,7 @@ std::vector<std::string> CommitsBetween(const fs::path& repository, const std::s
   const bool before = EndedWell(Git(repository, {"merge-base", "--is-ancestor", from, to}));
   if (commits.empty() || !before) {
     throw InputError(repository.string(), 0,
-                     fmt::format("{} does not lie before {}: give the good commit first",
+                     fmt::format("{} is not an ancestor of {}: give the good commit first",
                                  Printable(good), Printable(bad)));
   }
   return commits;

@@ -218,7 +218,7 @@ CampaignOutcome RunCampaign(const std::vector<Job>& jobs, const CampaignOptions&
     failed.insert(failed.end(), before.begin(), before.end());
     if (!failed.empty()) {
       events.say(
-          fmt::format("aisle: {} failed; once more, to tell flaky from broken", failed.size()));
+          fmt::format("aisle: {} failed; running again to tell flaky from broken", failed.size()));
       int second_failure = 0;  // the first attempt is what counts
       outcome.finished = RunAll(OnceMore(failed), options, events, &second_failure);
       FileSecondAttempts(failed);

@@ -54,7 +54,7 @@ std::string VersionOf(const ExternalSystem& system, const ExternalRun& run, cons
   const ProcessLimits limits{.wall_s = 30};
   const ProcessResult said = RunToEnd(system.version, limits, system, quiet, rooms);
   const bool good = said.end == ProcessResult::End::kExited && said.code == 0;
-  if (!good) notes->push_back("its version is not known: " + Describe(said, limits));
+  if (!good) notes->push_back("its version is unknown: " + Describe(said, limits));
   return good ? Printable(said.log.substr(0, said.log.find('\n')), 120) : "";
 }
 
@@ -100,10 +100,11 @@ std::string CommandLine(const ExternalSystem& system, const ExternalRun& run,
 void StampByFrame(const Trajectory& truth, const fs::path& file, Trajectory* estimate) {
   const auto last = static_cast<std::size_t>(estimate->back().stamp_ns / kKittiStepNs);
   if (last >= truth.size() || (estimate->size() != truth.size() && last + 1 == estimate->size())) {
-    throw InputError(file.string(), 0,
-                     fmt::format("{} poses for {} frames: KITTI's format has no stamps to tell "
-                                 "which are missing",
-                                 estimate->size(), truth.size()));
+    throw InputError(
+        file.string(), 0,
+        fmt::format(
+            "{} poses for {} frames: KITTI's format has no timestamps to show which are missing",
+            estimate->size(), truth.size()));
   }
   for (StampedPose& pose : *estimate) {
     pose.stamp_ns = truth[static_cast<std::size_t>(pose.stamp_ns / kKittiStepNs)].stamp_ns;

@@ -88,7 +88,7 @@ void LayOutDataset(const Sequence& sequence, const GuestDataset& dataset, const 
     Export(sequence, dataset);
   }
   throw MachineError(dataset.kept.string() +
-                     ": changes while it is copied: who else writes to the cache?");
+                     ": changed while it was copied: does another program write to the cache?");
 }
 
 }  // namespace aisle

@@ -50,17 +50,17 @@ std::vector<std::string> NotesOfSystems(const Suite& suite) {
     const std::string missing = MissingProgram(*system.external);
     if (!missing.empty()) {
       notes.push_back(fmt::format(
-          "system '{}': its command begins with {}, which is no program here: its runs would fail",
+          "system '{}': its command begins with {}, which was not found: its runs would fail",
           system.name, Printable(missing, 200)));
     } else if (MayChangeUnseen(*system.external)) {
       unseen.push_back(system.name);
     }
   }
   if (!unseen.empty()) {
-    notes.push_back(fmt::format(
-        "--resume makes the runs of {} anew: a command of more than one program with its arguments "
-        "does not tell which files decide what it does; depends_on names them",
-        fmt::join(unseen, ", ")));
+    notes.push_back(
+        fmt::format("--resume repeats the runs of {}: its command line does not show which files "
+                    "determine what it does; name them with depends_on",
+                    fmt::join(unseen, ", ")));
   }
   return notes;
 }

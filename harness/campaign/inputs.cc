@@ -24,12 +24,12 @@ void CheckNames(const std::vector<std::string>& names, const std::vector<std::st
   std::set<std::string> seen;
   for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw InputError(fmt::format("{}: '{}' is not known: expected one of {}{}", option,
+      throw InputError(fmt::format("{}: unknown name '{}': expected one of {}{}", option,
                                    Printable(name), fmt::join(known, ", "),
                                    DidYouMean(name, known)));
     }
     if (!seen.insert(name).second) {
-      throw InputError(fmt::format("{}: '{}' is given twice; keep one of them", option, name));
+      throw InputError(fmt::format("{}: duplicate '{}'; keep one of them", option, name));
     }
   }
 }
@@ -78,7 +78,7 @@ std::vector<SystemSpec> ChooseSystems(const Suite& suite, const std::vector<std:
   }
   for (auto spec = chosen.begin(); spec != chosen.end(); ++spec) {
     if (std::any_of(chosen.begin(), spec, [&](const auto& s) { return s.name == spec->name; })) {
-      throw InputError(fmt::format("--systems: '{}' is given twice; keep one of them", spec->name));
+      throw InputError(fmt::format("--systems: duplicate '{}'; keep one of them", spec->name));
     }
   }
   return chosen;
@@ -129,8 +129,8 @@ std::pair<SystemSpec*, std::string> SystemOf(const std::string& text,
 /// One option of a system behind a stream: how it steers.
 std::string CheckSteeringOfOthers(const std::string& path, const std::string& value) {
   if (path == "drive.taught" && value == "true") {
-    return "option drive.taught: a system of your own keeps no map that is known here: one of "
-           "ours can be taught";
+    return "option drive.taught: only built-in systems can be taught, as an external one's map is "
+           "unknown here";
   }
   return CheckOption(path, value);
 }
@@ -165,8 +165,7 @@ void SetOptions(const std::vector<std::string>& assignments, std::vector<Suite>*
       // How it steers is ours to say, as in suites; the rest is in its command's words.
       if (spec->external && !(IsStream(*spec->external) && IsSteeringOption(assignment))) {
         throw InputError(
-            fmt::format("--set {}: '{}' is a command: it takes its own options in its "
-                        "words",
+            fmt::format("--set {}: '{}' is a command; pass its options in its command line",
                         Printable(text), spec->name));
       }
       any = true;
@@ -191,8 +190,8 @@ std::string WhoCannotSteer(const Suite& suite) {
     for (const SystemSpec& system : suite.systems) {
       if (!system.external || IsStream(*system.external)) continue;
       complaints += fmt::format(
-          "{}: system '{}' reads a dataset and cannot steer: its frames depend on what it says; "
-          "leave it out here, or give it `contract: stream`\n",
+          "{}: system '{}' reads a dataset and cannot steer, as its frames depend on its "
+          "estimates; remove it here, or give it `contract: stream`\n",
           scene.file, system.name);
     }
   }
@@ -207,9 +206,8 @@ std::string WhoCannotRead(const Suite& suite) {
     for (const SystemSpec& system : suite.systems) {
       if (!system.external || IsStream(*system.external)) continue;
       complaints += fmt::format(
-          "{}: system '{}' reads a dataset, which is not written of a recording: give it "
-          "`contract: "
-          "stream`, or run it on the recording itself and `aisle score` what it says\n",
+          "{}: system '{}' reads a dataset, which is not written for a recording: give it "
+          "`contract: stream`, or run it on the recording itself and use `aisle score`\n",
           scene.file, system.name);
     }
   }
@@ -265,7 +263,7 @@ Vocabulary KnownNames() {
     if (IsScoreName(score)) return {};
     std::vector<std::string> known;
     for (const ScoreDescription& description : ScoreNames()) known.push_back(description.name);
-    return fmt::format("there is no score '{}'{}; `aisle score --list` lists them",
+    return fmt::format("unknown score '{}'{}; `aisle score --list` lists all scores",
                        Printable(score), DidYouMean(score, known));
   };
   vocabulary.is_share = IsShare;

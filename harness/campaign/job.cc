@@ -104,7 +104,7 @@ Job JobFromJson(const std::string& text, const std::string& file) {
   try {
     return FromJson(Json::parse(text));
   } catch (const std::exception& error) {
-    throw InputError(file, 0, "is no job: " + Printable(error.what(), 200));
+    throw InputError(file, 0, "not a job file: " + Printable(error.what(), 200));
   }
 }
 

@@ -105,9 +105,9 @@ std::string TellingLine(const std::string& log) {
 std::string Describe(const ProcessResult& result, const ProcessLimits& limits) {
   switch (result.end) {
     case ProcessResult::End::kTimeout:
-      return fmt::format("no end after {:g} s: killed", limits.wall_s);
+      return fmt::format("killed after {:g} s without an end", limits.wall_s);
     case ProcessResult::End::kMemory:
-      return fmt::format("more than {:g} MiB of memory: killed", limits.memory_mib);
+      return fmt::format("killed for using more than {:g} MiB of memory", limits.memory_mib);
     case ProcessResult::End::kSignalled:
       return SignalName(result.code);
     case ProcessResult::End::kExited:
@@ -116,7 +116,8 @@ std::string Describe(const ProcessResult& result, const ProcessLimits& limits) {
   constexpr int kShellSays = 128;  // and adds the number of the signal that ended its command
   const int signal = result.code - kShellSays;
   if (signal > 0 && signal < SIGRTMIN && ::sigabbrev_np(signal) != nullptr) {
-    return fmt::format("exit code {}: {}, as a shell tells it", result.code, SignalName(signal));
+    return fmt::format("exit code {}: {}, as reported by the shell", result.code,
+                       SignalName(signal));
   }
   return fmt::format("exit code {}", result.code);
 }
@@ -129,7 +130,7 @@ Process::Process(const std::vector<std::string>& argv, const ProcessLimits& limi
       confinement ? Pointers(confinement->environment) : std::vector<char*>{};
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) {
-    throw MachineError(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
+    throw MachineError(fmt::format("cannot create a pipe: {}", std::strerror(errno)));
   }
   started_s_ = NowS();
   const pid_t parent = ::getpid();

@@ -245,7 +245,7 @@ Teaching TeachFirst(const Job& job, const std::filesystem::path& map_file) {
   }
   const std::unique_ptr<DriveScene> scene = OpenDrive(job, "empty", nullptr, job.led_frames);
   const auto estimator = EstimatorOf(job, scene->calibration(), scene->rate_hz());
-  TellStage("being led along its way");
+  TellStage("being led along its path");
   Teaching teaching = Teach(*scene, *estimator, MasksOf(job), job.spec.seed, map_file);
   if (!job.teaching.empty()) KeepTeaching(teaching, map_file, job.teaching);
   return teaching;
@@ -298,8 +298,8 @@ void RunSteering(const Job& job) {
                             Observe(&pictures, bag.get()), steered.taught);
   if (steered.taught) {
     run.result.notes.push_back(
-        "its way was taught: it was led along it once, without actors, and drove by its map of "
-        "that");
+        "the system was taught the path: it was led along it once, without actors, and drove with "
+        "the map of that");
   }
   run.result.scene_hash = steered.content_hash;
   Introduce(*steered.estimator, &run.result);

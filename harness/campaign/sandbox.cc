@@ -129,13 +129,13 @@ int SandboxLevel() {
 }
 
 std::string DescribeSandbox(int level) {
-  if (level == 0) return "the kernel has no Landlock: nothing holds commands of others back";
+  if (level == 0) return "the kernel has no Landlock: external commands are not confined";
   std::vector<const char*> open;
   if (level < 3) open.push_back("cutting files short");
   if (level < 6) open.push_back("sending signals to other processes of the user");
   return fmt::format(
-      "Landlock {}: they read neither truth nor other runs' results, and write into their own "
-      "folders only{}{}",
+      "Landlock {}: external commands can read neither truth nor other runs' results, and can only "
+      "write to their own folders{}{}",
       level, open.empty() ? "" : "; this kernel cannot keep them from ",
       fmt::join(open, " nor from "));
 }

@@ -28,7 +28,7 @@ StereoRecording ReadSource(const RecordingSource& source) {
   if (!is_bag && (!source.topics.empty() || source.baseline_m || !source.odometry.empty())) {
     throw InputError(
         source.file, 0,
-        "topics, baseline_m and odometry are for bags, and " + source.path + " is none");
+        "topics, baseline_m and odometry are for bags, but " + source.path + " is not a bag");
   }
   StereoRecording recording =
       is_bag ? ReadBagRecording(source.path, {.topics = source.topics,
@@ -64,13 +64,12 @@ std::uint64_t HashFolderOutside(const fs::path& folder, std::uint64_t seed) {
     std::error_code none;  // a link that leads nowhere is no folder
     if (!at->is_directory(none)) files.insert(at->path());
     if (files.size() > kMostFiles) {
-      throw InputError(folder.string(), 0,
-                       fmt::format("holds more than {} files: name the folder of the recording "
-                                   "alone",
-                                   kMostFiles));
+      throw InputError(
+          folder.string(), 0,
+          fmt::format("has more than {} files: name the recording's own folder", kMostFiles));
     }
   }
-  if (error) throw InputError(folder.string(), 0, "cannot be read: " + error.message());
+  if (error) throw InputError(folder.string(), 0, "not readable: " + error.message());
   for (const fs::path& file : files) seed = HashOutside(file, seed);
   return seed;
 }

@@ -31,7 +31,7 @@ struct PipeEnds {
 PipeEnds MakePipe() {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) {
-    throw MachineError(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
+    throw MachineError(fmt::format("cannot create a pipe: {}", std::strerror(errno)));
   }
   constexpr int kRoomBytes = 1 << 20;  // a frame fits
   ::fcntl(ends[1], F_SETPIPE_SZ, kRoomBytes);
@@ -96,7 +96,7 @@ struct StreamEstimator::Impl {
   /// Asks; whoever has spoken before is out of turn, also if its answer would have fitted.
   void Ask(StreamType type, const std::string& payload) {
     if (pipe->HasUnread()) {
-      throw StreamError(StreamError::Kind::kNonsense, "it spoke before it was asked");
+      throw StreamError(StreamError::Kind::kNonsense, "it sent data before the first frame");
     }
     pipe->Send(type, payload);
   }
@@ -106,7 +106,7 @@ struct StreamEstimator::Impl {
     for (int round = 0; round < 50 && !process->Poll(); ++round) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-    if (!process->Poll()) return "closed its end of the stream and goes on";
+    if (!process->Poll()) return "closed its end of the stream but continues to run";
     return (EndedWell() ? "ended before it answered: " : "") + EndOfProcess();
   }
 
@@ -135,7 +135,7 @@ struct StreamEstimator::Impl {
       if (waited.ElapsedMs() > kGrace_ms) to_system.Close();  // one that reads on sees the end
       if (waited.ElapsedMs() > 1e3 * answer_s) {
         throw SystemFault(RunStatus::kTimeout,
-                          fmt::format("no end within {:g} s of its final track", answer_s));
+                          fmt::format("did not exit within {:g} s of its final track", answer_s));
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
@@ -175,7 +175,7 @@ StreamEstimator::StreamEstimator(const ExternalSystem& system, const StereoCalib
                       FormatHello({.calibration = calibration, .rate_hz = run.rate_hz}));
     const StreamMessage answer = impl_->Answer();
     if (answer.type != StreamType::kHello) {
-      throw StreamError(StreamError::Kind::kNonsense, "its first message is no hello");
+      throw StreamError(StreamError::Kind::kNonsense, "its first message is not a hello");
     }
     impl_->version = ReadName(answer.payload);
   } catch (const StreamError& error) {
@@ -207,7 +207,7 @@ Trajectory StreamEstimator::Finish() {
     impl_->Ask(StreamType::kEnd, "");
     const StreamMessage answer = impl_->Answer();
     if (answer.type != StreamType::kTrack) {
-      throw StreamError(StreamError::Kind::kNonsense, "its answer to the end is no track");
+      throw StreamError(StreamError::Kind::kNonsense, "its answer to the end is not a track");
     }
     Trajectory track = ReadTrack(answer.payload);
     impl_->AwaitEnd();

@@ -60,10 +60,11 @@ Teaching Teach(const DriveScene& scene, Estimator& estimator, const MaskMaker& m
   const std::size_t shown = looking.T_site_rig().size();
   if (track.end != DriveEnd::kArrived ||
       static_cast<double>(said.size()) < kLeastShare * static_cast<double>(shown) || said.empty()) {
-    throw SystemFault(RunStatus::kLost,
-                      fmt::format("its way could not be taught: led along it the system had a pose "
-                                  "for {} of {} frames",
-                                  said.size(), shown));
+    throw SystemFault(
+        RunStatus::kLost,
+        fmt::format(
+            "the path could not be taught: the system had a pose for only {} of {} frames along it",
+            said.size(), shown));
   }
   // Where the teaching began the map is the site's.
   const auto T_site_rig = [&](const StampedPose& pose) {

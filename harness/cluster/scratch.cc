@@ -28,7 +28,7 @@ Scratch::Scratch(const fs::path& base) : home_(base / fmt::format("aisle-{}", ge
   Sweep(home_);
   std::string made = (home_ / "task-XXXXXX").string();
   if (mkdtemp(made.data()) == nullptr) {
-    throw MachineError(home_.string() + ": no folder for a task can be made there");
+    throw MachineError(home_.string() + ": cannot create a folder for a task there");
   }
   folder_ = made;
   held_.emplace(folder_ / kLock);

@@ -18,9 +18,10 @@ namespace fs = std::filesystem;
 /// refused rather than guessed at.
 std::string Quoted(const std::string& value) {
   if (value.find_first_of("\"\\\n\r") != std::string::npos) {
-    throw InputError(fmt::format(
-        "'{}': a batch script holds no path or name with quotes, backslashes or line breaks",
-        Printable(value, 200)));
+    throw InputError(
+        fmt::format("'{}': a batch script cannot contain paths or names with quotes, backslashes "
+                    "or line breaks",
+                    Printable(value, 200)));
   }
   return '"' + value + '"';
 }
@@ -53,7 +54,7 @@ Answer Ask(const std::vector<std::string>& argv) {
   for (const std::string& word : argv) line += ShellWord(word) + " ";
   line += "2>&1 </dev/null";
   FILE* pipe = popen(line.c_str(), "r");
-  if (pipe == nullptr) throw MachineError(argv.front() + ": cannot be started");
+  if (pipe == nullptr) throw MachineError(argv.front() + ": cannot start it");
   Answer answer;
   std::array<char, 4096> part{};
   while (const std::size_t n = fread(part.data(), 1, part.size(), pipe)) {

@@ -108,7 +108,7 @@ TaskList TasksFromJson(const std::string& text, const std::string& file,
   try {
     return FromJson(Json::parse(text), specs);
   } catch (const std::exception& error) {
-    throw InputError(file, 0, "is no task list: " + Printable(error.what(), 200));
+    throw InputError(file, 0, "not a task list: " + Printable(error.what(), 200));
   }
 }
 

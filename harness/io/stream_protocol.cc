@@ -68,7 +68,7 @@ Eigen::Isometry3d TakePose(Taker* taker, const std::string& whose) {
   const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
   constexpr double kUnit = 1e-3;
   for (const double value : v) {
-    if (!std::isfinite(value)) Nonsense(whose + " holds a number that is not finite");
+    if (!std::isfinite(value)) Nonsense(whose + " has a number that is not finite");
   }
   if (std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}) > kFarthest_m) {
     Nonsense(

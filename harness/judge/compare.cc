@@ -197,7 +197,7 @@ void Decide(const Judged& judged, const CompareOptions& options, Comparison* com
     c.why = fmt::format("within {:.2g} of the old median", effect);
   } else if (std::min(c.old_n, c.new_n) < kFewestSeeds) {
     c.change = Change::kCannotTell;
-    c.why = fmt::format("{} and {} seeds: fewer than {} a side show nothing", c.old_n, c.new_n,
+    c.why = fmt::format("{} and {} seeds: fewer than {} per side show nothing", c.old_n, c.new_n,
                         kFewestSeeds);
   } else if (c.p >= options.alpha || std::abs(change) <= effect) {
     c.change = Change::kCannotTell;
@@ -207,7 +207,7 @@ void Decide(const Judged& judged, const CompareOptions& options, Comparison* com
     c.why = fmt::format("p = {:.2g} after Holm", c.p);
   }
   if (c.left_out > 0) {
-    c.why += fmt::format("; {} seed{} of one side alone left out", c.left_out,
+    c.why += fmt::format("; ignored {} seed{} that only one side has", c.left_out,
                          c.left_out == 1 ? "" : "s");
   }
   const bool undecided = c.change == Change::kSame || c.change == Change::kCannotTell;
@@ -253,7 +253,7 @@ void CorrectAndDecide(const CompareOptions& options, std::vector<Comparison>* co
     const Judged* judged = FindJudged(c.score);
     if (judged == nullptr) {
       c.change = Change::kWatched;
-      c.why = "belongs to the machine, is not judged";
+      c.why = "depends on the machine and is not judged";
       continue;
     }
     if (IsTested(c)) {
@@ -277,7 +277,7 @@ void NoteOtherProcessor(const Results& before, const Results& after,
                         std::vector<Comparison>* comparisons) {
   for (Comparison& c : *comparisons) {
     if (!IsTested(c)) continue;
-    c.why += fmt::format("; {} was {}: other bits alone say nothing", after.provenance.cpu,
+    c.why += fmt::format("; {} was {}: different bits alone mean nothing", after.provenance.cpu,
                          before.provenance.cpu);
   }
 }

@@ -11,9 +11,10 @@ Verdict OfMissing(const MissingRuns& missing) {
           .flaky = false,
           .value = {},
           .limit = {},
-          .why = missing.is_whole ? "the baseline has this, tonight has not"
-                                  : fmt::format("the baseline has seeds {}, tonight has not",
-                                                fmt::join(missing.seeds, ", ")),
+          .why = missing.is_whole
+                     ? "the baseline has this, but the new run does not"
+                     : fmt::format("the baseline has seeds {}, which the new run does not have",
+                                   fmt::join(missing.seeds, ", ")),
           .scene = missing.scene,
           .twin = missing.twin,
           .system = missing.system};
@@ -95,7 +96,7 @@ std::string BoundToFail(const Results& baseline, const std::vector<RunSpec>& nig
       "of the baseline {} tonight, so the gate could only fail: {}{}. {}, or make another baseline "
       "of such a night with `aisle baseline DIR`",
       InWords(missing), fmt::join(names, "; "), names.size() < missing.size() ? "; …" : "",
-      seeds_alone ? "Drive them with " + SeedsOption(baseline)
+      seeds_alone ? "Run them with " + SeedsOption(baseline)
                   : "Leave out what takes scenes, twins, systems or seeds from the suite");
 }
 
@@ -118,8 +119,8 @@ std::string BlindFor(const Results& baseline) {
   const auto count = std::count_if(cells.begin(), cells.end(), few);
   if (count == 0) return {};
   return fmt::format(
-      "{} of {} cells of the baseline have fewer than {} seeds: there a change of a median can "
-      "never be told from chance",
+      "{} of {} cells of the baseline have fewer than {} seeds, too few to tell a change of a "
+      "median from chance",
       count, cells.size(), kFewestSeeds);
 }
 

@@ -364,7 +364,7 @@ std::string Validate(const Steering& steering) {
     }
   }
   if (steering.taught && steering.steered_by_truth) {
-    return "taught and steered_by_truth are both true: who steers by truth needs no teaching";
+    return "taught and steered_by_truth are both true: set one of them to false";
   }
   return "";
 }

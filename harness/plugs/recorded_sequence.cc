@@ -203,8 +203,8 @@ class RecordedSequence : public Sequence {
       return motions;
     }
     throw InputError(name_ +
-                     ": its wheels say nothing of the time of its images: their stamps are "
-                     "of another clock, or their messages more than 0.25 s apart");
+                     ": the wheel odometry does not cover the images: its timestamps are of "
+                     "another clock, or more than 0.25 s apart");
   }
 
  private:
@@ -214,8 +214,8 @@ class RecordedSequence : public Sequence {
     if (image.cols == c.width && image.rows == c.height) return image;
     const StereoRecording::Pair& pair = recording_.pairs[index];
     throw InputError((side == 0 ? pair.left : pair.right).string(), 0,
-                     fmt::format("is {}x{}, the calibration says {}x{}", image.cols, image.rows,
-                                 c.width, c.height));
+                     fmt::format("has {}x{} pixels, but the calibration is for {}x{}", image.cols,
+                                 image.rows, c.width, c.height));
   }
 
   /// Truth names the body; the rig is the rectified left camera.
@@ -249,8 +249,8 @@ void CheckRectified(const StereoCalibration& rig, const std::string& source) {
   if (rig.fx > 0 && rig.fy > 0 && rig.baseline_m > 0 && std::isfinite(rig.baseline_m)) return;
   throw InputError(
       source, 0,
-      fmt::format("by its calibration the right camera stands {:g} m to the right of "
-                  "the left one, which must be more than 0{}",
+      fmt::format("according to its calibration the right camera is {:g} m to the right of the "
+                  "left one, which must be greater than 0{}",
                   rig.baseline_m, rig.baseline_m < 0 ? ": left and right are swapped" : ""));
 }
 
@@ -258,9 +258,10 @@ void CheckRectified(const StereoCalibration& rig, const std::string& source) {
 void CheckStamps(const std::vector<StereoRecording::Pair>& pairs, const std::string& source) {
   for (std::size_t i = 1; i < pairs.size(); ++i) {
     if (pairs[i].stamp_ns > pairs[i - 1].stamp_ns) continue;
-    throw InputError(source, 0,
-                     fmt::format("pair {} has the stamp {} ns after one of {} ns: stamps must rise",
-                                 i, pairs[i].stamp_ns, pairs[i - 1].stamp_ns));
+    throw InputError(
+        source, 0,
+        fmt::format("pair {} has the timestamp {} ns after one of {} ns: timestamps must increase",
+                    i, pairs[i].stamp_ns, pairs[i - 1].stamp_ns));
   }
 }
 
@@ -279,9 +280,9 @@ std::unique_ptr<Sequence> MakeRecordedSequence(StereoRecording recording, const 
     if (camera->fx > 0 && camera->fy > 0) continue;
     throw InputError(
         source, 0,
-        fmt::format("its calibration has focal lengths {:g} and {:g}: they are pixels, "
-                    "and positive",
-                    camera->fx, camera->fy));
+        fmt::format(
+            "its calibration has focal lengths {:g} and {:g}: they must be positive, in pixels",
+            camera->fx, camera->fy));
   }
   CheckStamps(recording.pairs, source);
   auto sequence = std::make_unique<RecordedSequence>(std::move(recording), name);

@@ -169,7 +169,7 @@ std::unique_ptr<DriveScene> OpenSimulatedDrive(const SimulatedSequenceOptions& o
   RefuseLens(simulator, options);
   if (!simulator.site().drive().there) {
     throw InputError(options.scene_file, 0,
-                     "has no `drive`: nothing says which vehicle is steered; example: drive: {}");
+                     "has no `drive` to say which vehicle is steered; example: drive: {}");
   }
   if (content_hash != nullptr) *content_hash = simulator.content_hash();
   return std::make_unique<SimulatedDrive>(std::move(simulator));

@@ -145,7 +145,7 @@ void RefuseLens(const sim::Simulator& simulator, const SimulatedSequenceOptions&
   if (lens != "none" && !options.any_lens) {
     throw InputError(options.scene_file, 0,
                      "camera.distortion is " + lens +
-                         ", but a run takes rectified pairs: `aisle render` it as euroc and run "
+                         ", but a run needs rectified pairs: `aisle render` it as euroc and run "
                          "`aisle slam` on that, which rectifies, or set it to none");
   }
 }

@@ -101,7 +101,7 @@ std::vector<SystemOption> DescribeSteering(const Steering& steering) {
            Kind::kNumber,
            fmt::format("{}", steering.latency_ms),
            "ms",
-           "that the system takes for a frame; one that waited for its turn is older by that",
+           "Delay from a frame to the system's answer; a frame that waited is that much older.",
            0,
            kLongestLatency_ms,
            {}},
@@ -109,7 +109,7 @@ std::vector<SystemOption> DescribeSteering(const Steering& steering) {
            Kind::kText,
            Joined(steering.latency_profile_ms),
            "ms",
-           "instead: measured times, comma between them, one of which is drawn for each frame",
+           "Measured delays instead, separated by commas, one of which is drawn for each frame.",
            0,
            0,
            {}},
@@ -117,8 +117,8 @@ std::vector<SystemOption> DescribeSteering(const Steering& steering) {
            Kind::kChoice,
            WordOf(steering.queue, kQueueRuleWords),
            "",
-           "frames that arrive while the system works: the newest waits, they are dropped, or it "
-           "takes them all",
+           "How frames that arrive while the system works are treated: the newest waits, they are "
+           "dropped, or all are taken.",
            0,
            0,
            {kQueueRuleWords.begin(), kQueueRuleWords.end()}},
@@ -126,7 +126,7 @@ std::vector<SystemOption> DescribeSteering(const Steering& steering) {
            Kind::kFlag,
            flag(steering.scanner),
            "",
-           "a safety scanner stops the vehicle before whatever stands in its way",
+           "A safety scanner stops the vehicle before obstacles.",
            0,
            0,
            {}},
@@ -134,7 +134,7 @@ std::vector<SystemOption> DescribeSteering(const Steering& steering) {
            Kind::kFlag,
            flag(steering.steered_by_truth),
            "",
-           "the system is shown the drive but does not steer it",
+           "The system is shown the drive but does not steer it.",
            0,
            0,
            {}},
@@ -142,14 +142,14 @@ std::vector<SystemOption> DescribeSteering(const Steering& steering) {
            Kind::kFlag,
            flag(steering.taught),
            "",
-           "the vehicle is led along its way first, without actors, and then drives by the map of "
-           "that",
+           "The vehicle is led along its path first, without actors, and then drives with the map "
+           "of that.",
            0,
            0,
            {}},
           {"drive.driver", Kind::kChoice,
            steering.driver ? WordOf(*steering.driver, kSteeringLawWords) : kAsTheScene, "",
-           "the law that follows the way, or the scene's own", 0, 0, drivers}};
+           "Control law that follows the path, or the scene's own.", 0, 0, drivers}};
 }
 
 std::string CheckSteeringOption(const std::string& path, const std::string& value) {
@@ -163,12 +163,12 @@ std::string CheckSteeringOption(const std::string& path, const std::string& valu
         option.kind == Kind::kChoice ? fmt::format("one of {}", fmt::join(option.choices, ", "))
         : option.kind == Kind::kFlag ? "true or false"
         : option.kind == Kind::kText
-            ? fmt::format("numbers from 0 to {:g} with commas, such as 62,65,120",
+            ? fmt::format("numbers in [0, {:g}] separated by commas, such as 62,65,120",
                           kLongestLatency_ms)
-            : fmt::format("a number from 0 to {:g}", kLongestLatency_ms);
+            : fmt::format("a number in [0, {:g}]", kLongestLatency_ms);
     return fmt::format("option '{}' cannot be '{}': expected {}", path, Printable(value), expected);
   }
-  return fmt::format("there is no option '{}'{}", Printable(path), DidYouMean(path, known));
+  return fmt::format("unknown option '{}'{}", Printable(path), DidYouMean(path, known));
 }
 
 Steering SteeringOf(const OptionTexts& options) {

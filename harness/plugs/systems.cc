@@ -35,8 +35,8 @@ std::string CheckOption(const std::string& path, const std::string& value) {
 std::string CheckOptions(const System& like, const std::map<std::string, std::string>& options) {
   const System variant = Varied(like, options);
   if (options.contains(kOdometryOption) && TraitsOf(variant).base == "orbslam2") {
-    return fmt::format("option {}: the published ORB-SLAM2 has nothing but its images: {}",
-                       kOdometryOption, "take a system like plain or robust, or set base to plain");
+    return fmt::format("option {}: the published ORB-SLAM2 only uses images: {}", kOdometryOption,
+                       "choose a system like plain or robust, or set base to plain");
   }
   if (const std::string wrong = Validate(SteeringOf(options)); !wrong.empty()) return wrong;
   return CheckSlamOptions(OptionsOfSlam(variant.options));

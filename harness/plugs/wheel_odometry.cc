@@ -88,7 +88,7 @@ SystemOption DescribeOdometry() {
           SystemOption::Kind::kFlag,
           "false",
           "",
-          "The system is handed what the vehicle's wheels measure from frame to frame.",
+          "The system receives what the vehicle's wheels measure from frame to frame.",
           0,
           0,
           {}};
@@ -137,17 +137,17 @@ WheelMotions MeasureByWheels(const Sequence& sequence, std::uint64_t seed, const
   const std::vector<FrameRequest> schedule = sequence.Schedule();
   const auto first = std::ranges::find_if(schedule, &FrameRequest::pose_known);
   if (first == schedule.end()) {
-    throw InputError(sequence.name() +
-                     ": a system is to be handed odometry, but nobody knows the way here: take a "
-                     "scene, a recording with truth, or one whose wheels were recorded (of a bag, "
-                     "name their topic: slam --odometry /odom, or the key odometry of the file "
-                     "that describes the recording)");
+    throw InputError(
+        sequence.name() +
+        ": a system asks for odometry, but the source has none: use a scene, a recording with "
+        "truth, or one with recorded wheel odometry (for a bag, name its topic: slam --odometry "
+        "/odom, or the key odometry of the file that describes the recording)");
   }
   constexpr double kUpright = 0.5;  // of a camera tilted by 60 degrees
   if (-first->T_world_rig.linear()(2, 1) < kUpright) {
     throw InputError(sequence.name() +
-                     ": a system is to be handed odometry, which rolls on a floor, but the z axis "
-                     "of the truth does not point up: turn its poses into a world whose z does");
+                     ": a system asks for odometry, which needs a floor, but the z axis of the "
+                     "truth does not point up: rotate its poses into a world whose z axis does");
   }
   return MeasureByWheels(schedule, wheels, seed);
 }

@@ -14,7 +14,7 @@ py::dtype TypeOf(const cv::Mat& image) {
     case CV_32F:
       return py::dtype::of<float>();
     default:
-      throw std::logic_error("no image of ours has this type");
+      throw std::logic_error("unsupported image type");
   }
 }
 

@@ -122,7 +122,7 @@ py::dict NamesOfScores() {
 void BindScores(py::module_& module) {
   py::class_<Score>(module, "Score",
                     "A number that travels with its meaning; float(score) is the number.")
-      .def_readonly("value", &Score::value, "None where there is none: see `absent`.")
+      .def_readonly("value", &Score::value, "None where it is undefined: see `absent`.")
       .def_readonly("unit", &Score::unit, "\"m\", \"deg\", \"1\", \"ms\", \"%\", ...")
       .def_readonly("alignment", &Score::alignment, "\"se3\", ...; empty where it has no meaning.")
       .def_readonly("n", &Score::n, "Samples behind the value.")

@@ -188,7 +188,7 @@ void BindSlam(py::module_& module) {
           "left, right: uint8 (height, width), rectified grey. stamp_ns: rising nanoseconds. mask: "
           "uint8 or bool, not 0 = do not use,\nof the left and of the right image. Returns "
           "Estimate; a hard "
-          "frame is no error but \"lost\". Other Python threads\nrun meanwhile.")
+          "frame is not an error but \"lost\". Other Python threads\nrun meanwhile.")
       .def(
           "finish", &Slam::Finish,
           "Ends the drive, waits for background work: the final Trajectory after all optimisation.")

@@ -20,7 +20,7 @@ Enum FromName(const std::array<const char*, N>& names, const std::string& name) 
   for (std::size_t k = 0; k < N; ++k) {
     if (name == names[k]) return static_cast<Enum>(k);
   }
-  throw std::invalid_argument("'" + name + "' is not known");
+  throw std::invalid_argument("unknown name '" + name + "'");
 }
 
 /// Infinite is null: nothing was there.

@@ -40,7 +40,7 @@ void CdrReader::Get(std::string* text) {
     text->clear();
     return;
   }
-  if (raw.back() != '\0') throw CdrError("holds a text without its end");
+  if (raw.back() != '\0') throw CdrError("has a string without its terminator");
   *text = raw.substr(0, length - 1);
 }
 

@@ -17,7 +17,7 @@ Eigen::Isometry3d Isometry(const Eigen::Vector3d& place, const Quaternion& turn)
   const Eigen::Quaterniond q(turn.w, turn.x, turn.y, turn.z);
   if (!place.allFinite() || !(std::abs(q.norm() - 1) <= kTolerance)) {
     throw CdrError(
-        "holds a pose that is none: a number is not finite, or its quaternion is no turn");
+        "has an invalid pose: a number is not finite, or its quaternion is not a rotation");
   }
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = q.normalized().toRotationMatrix();

@@ -55,10 +55,10 @@ void HoldEstimate(const FrameEstimate& said, const StereoFrame& frame, Findings*
   findings->Hold(said.T_world_rig.has_value() == tracks, id,
                  "T_world_rig must be present exactly where the state is kTracking");
   findings->Hold(!said.T_world_rig || IsRigid(*said.T_world_rig, kRigid), id,
-                 "T_world_rig is no finite rigid motion");
+                 "T_world_rig is not a finite rigid motion");
   const cv::Mat1b& mask = said.regions.mask;
   findings->Hold(mask.empty() || mask.size() == frame.left.size(), id,
-                 "the mask has another size than the image");
+                 "the mask and the image differ in size");
   findings->Hold(IsBinary(mask), id, "the mask holds values other than 0 and 255");
   findings->Hold(IsInside(said.keypoints, frame.left), id, "keypoints lie outside the left image");
   findings->Hold(
@@ -107,9 +107,9 @@ void HoldFinal(const Trajectory& final, const std::vector<StereoFrame>& frames,
   for (const StereoFrame& frame : frames) stamps.insert(frame.stamp_ns);
   std::int64_t last = std::numeric_limits<std::int64_t>::min();
   for (const StampedPose& pose : final) {
-    findings->HoldAtEnd(pose.stamp_ns > last, "stamps must rise");
-    findings->HoldAtEnd(stamps.contains(pose.stamp_ns), "a stamp is that of no frame");
-    findings->HoldAtEnd(IsRigid(pose.T_world_rig, kRigid), "a pose is no finite rigid motion");
+    findings->HoldAtEnd(pose.stamp_ns > last, "timestamps must increase");
+    findings->HoldAtEnd(stamps.contains(pose.stamp_ns), "a timestamp does not belong to any frame");
+    findings->HoldAtEnd(IsRigid(pose.T_world_rig, kRigid), "a pose is not a finite rigid motion");
     last = pose.stamp_ns;
   }
 }
@@ -172,7 +172,7 @@ void HoldHardFrames(const Make& make, const std::vector<StereoFrame>& frames, Fi
     } catch (const std::exception& error) {
       return findings->Hold(
           false, frame.id,
-          fmt::format("a black or wholly masked frame is no error, yet: {}", error.what()));
+          fmt::format("a black or wholly masked frame must not be an error: {}", error.what()));
     }
   }
   HoldFinal(estimator->Finish(), frames, findings);
@@ -188,10 +188,10 @@ std::vector<std::string> CheckEstimator(const Make& make, const Sequence& sequen
   HoldHardFrames(make, frames, &findings);
   if (options.repeatable) {
     const auto [one, other] = DriveSideBySide(make, frames);
-    findings.HoldAtEnd(SameBits(one, other), "two instances side by side differ");
+    findings.HoldAtEnd(SameBits(one, other), "two instances side by side give different results");
     findings.HoldAtEnd(SameBits(said, one),
-                       "another drive over the same frames, whose images were painted over after "
-                       "each Process, differs");
+                       "a second drive over the same frames, whose images were overwritten after "
+                       "each Process, gives different results");
   }
   return findings.Take();
 }

@@ -25,7 +25,8 @@ std::string ForeignStamps(const Trajectory& truth, const Trajectory& estimate,
   if (estimate.empty() || 2 * pairs.size() >= std::min(estimate.size(), truth.size())) return {};
   const auto factor = StampFactor(truth, estimate, pairs);
   return fmt::format(
-      "{} of {} poses have a frame's stamp: they are from {}, the dataset's frames from {}{}",
+      "{} of {} poses have a frame's timestamp: they range from {}, but the dataset's frames from "
+      "{}{}",
       pairs.size(), estimate.size(), Span(estimate), Span(truth),
       factor ? "; " + NoteOnStamps(*factor) : "");
 }
@@ -62,7 +63,7 @@ RunResult ResultFromTrajectory(const Trajectory& truth, const Trajectory& estima
       ForeignStamps(Later(truth, epoch_ns), Later(estimate, epoch_ns), pairs);
   if (static_cast<double>(pairs.size()) < min_coverage * static_cast<double>(truth.size())) {
     result.status = RunStatus::kLost;
-    result.status_why = fmt::format("a pose for {} of {} frames only{}{}", pairs.size(),
+    result.status_why = fmt::format("poses for only {} of {} frames{}{}", pairs.size(),
                                     truth.size(), foreign.empty() ? "" : "; ", foreign);
   } else if (!foreign.empty()) {  // scores would speak of the few that happen to be near a frame
     result = ResultFromTrajectory(truth, {}, 0);

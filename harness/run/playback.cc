@@ -33,7 +33,7 @@ void PlayBack(const Sequence& sequence, const Remarks& remarks, const FrameObser
   RunResult seen =
       Drive(sequence, ghost, MasksFromTruth(MaskSource::kNone), {.min_coverage = 0}, observer);
   if (seen.facts.size() != result->facts.size()) {
-    result->notes.push_back("what it left beside its trajectory is not used: " + seen.status_why);
+    result->notes.push_back("ignored what it left beside its trajectory: " + seen.status_why);
     return;
   }
   for (std::size_t i = 0; i < seen.facts.size(); ++i) {

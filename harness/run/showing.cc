@@ -22,11 +22,11 @@ std::string Fault(const FrameEstimate& estimate, const StereoFrame& frame) {
     return fmt::format("frame {}: the answer belongs to frame {}", frame.id, estimate.id);
   }
   if (estimate.T_world_rig && !IsRigid(*estimate.T_world_rig, kRigid)) {
-    return fmt::format("frame {}: the pose is no rigid motion within {:g} m", frame.id,
+    return fmt::format("frame {}: the pose is not a rigid motion within {:g} m", frame.id,
                        kFarthest_m);
   }
   if (!estimate.regions.mask.empty() && estimate.regions.mask.size() != frame.left.size()) {
-    return fmt::format("frame {}: the mask has another size than the image", frame.id);
+    return fmt::format("frame {}: the mask and the image differ in size", frame.id);
   }
   return {};
 }
@@ -102,15 +102,15 @@ std::size_t CountForeign(const Trajectory& track, const std::vector<FrameEstimat
 std::string FaultOfTrack(const Trajectory& track, const std::vector<FrameEstimate>& shown) {
   for (std::size_t i = 0; i < track.size(); ++i) {
     if (!IsRigid(track[i].T_world_rig, kRigid)) {
-      return fmt::format("final track, pose {}: no rigid motion within {:g} m", i, kFarthest_m);
+      return fmt::format("final track, pose {}: not a rigid motion within {:g} m", i, kFarthest_m);
     }
     if (i > 0 && track[i].stamp_ns <= track[i - 1].stamp_ns) {
-      return fmt::format("final track, pose {}: stamps do not rise", i);
+      return fmt::format("final track, pose {}: timestamps do not increase", i);
     }
   }
   if (const std::size_t foreign = CountForeign(track, shown); foreign > 0) {
     return fmt::format(
-        "final track: {} of {} poses have the stamp of no frame that it was shown: expected the "
+        "final track: {} of {} poses have a timestamp that belongs to no frame: expected the "
         "frames' own, in nanoseconds",
         foreign, track.size());
   }
@@ -145,7 +145,7 @@ void DropImages(FrameEstimate* estimate) {
 std::string TooFewPoses(const RunResult& result, std::size_t frames, double min_coverage) {
   const auto tracked = static_cast<double>(result.trajectory.live.size());
   if (tracked >= min_coverage * static_cast<double>(frames)) return {};
-  return fmt::format("a pose for {} of {} frames only", result.trajectory.live.size(), frames);
+  return fmt::format("poses for only {} of {} frames", result.trajectory.live.size(), frames);
 }
 
 }  // namespace

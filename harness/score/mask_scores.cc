@@ -81,10 +81,9 @@ Detection PixelDetection(const MaskFacts& sum) {
 Detection ObjectDetection(const MaskFacts& sum) {
   const double found = sum.objects_found;
   const bool rejected = sum.true_positives + sum.false_positives + sum.parts_of_movers > 0;
-  const char* no_region = rejected
-                              ? "what was rejected are specks and parts of movers alone, which "
-                                "are neither found nor invented"
-                              : "nothing was rejected";
+  const char* no_region = rejected ? "only specks and parts of moving objects were rejected, which "
+                                     "count neither as found nor as invented"
+                                   : "nothing was rejected";
   return {.precision = RatioScore(found, found + sum.objects_invented, no_region),
           .recall = RatioScore(found, found + sum.objects_missed, "nothing moved"),
           .iou = RatioScore(sum.iou_sum, found, "no object was found")};

@@ -129,15 +129,16 @@ const std::vector<ScoreDescription>& DriveScoreNames() {
       {"lost_s", "s", "time without a pose to steer by"},
       {"frames_dropped", "1", "share of the camera's frames that the busy system never saw", true},
       {"collisions", "1",
-       "contacts of the vehicle under way; with who leant on it as it stood, once it moves at him"},
+       "contacts of the moving vehicle; with a person who touched it at rest, from when it moves "
+       "towards him"},
       {"collisions_static", "1", "of them, with racks, walls, columns, goods and the like"},
       {"collisions_person", "1", "of them, with people"},
       {"collisions_vehicle", "1", "of them, with other vehicles, trailers and mechanisms"},
       {"collision_speed_max_mps", "m/s", "the fastest of them, by the vehicle's fastest corner"},
-      {"min_clearance_static_m", "m", "least distance of the footprint from what stands"},
-      {"min_clearance_person_m", "m", "least distance from a person while under way"},
-      {"min_clearance_vehicle_m", "m", "least distance from another vehicle while under way"},
-      {"time_to_collision_min_s", "s", "least gap over closing speed to a person or vehicle"},
+      {"min_clearance_static_m", "m", "smallest distance of the footprint from static objects"},
+      {"min_clearance_person_m", "m", "smallest distance from a person while moving"},
+      {"min_clearance_vehicle_m", "m", "smallest distance from another vehicle while moving"},
+      {"time_to_collision_min_s", "s", "smallest gap over closing speed to a person or vehicle"},
       {"zone_violations", "1", "times the vehicle was too fast in a zone, or in one closed to it"},
   };
   return drive;

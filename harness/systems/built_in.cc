@@ -36,7 +36,7 @@ const System& FindSystem(const std::string& name) {
     if (system.name == name) return system;
     known.push_back(system.name);
   }
-  throw InputError(fmt::format("system '{}' is not known: expected one of {}{}", Printable(name),
+  throw InputError(fmt::format("unknown system '{}': expected one of {}{}", Printable(name),
                                fmt::join(known, ", "), DidYouMean(name, known)));
 }
 

@@ -38,13 +38,13 @@ std::map<std::string, std::string> OptionsOver(const SystemSpec& spec) {
 std::string CheckSpec(const SystemSpec& spec) {
   if (spec.name.empty()) return "a system needs a name";
   if (spec.external && !spec.like.empty()) {
-    return "it is either 'like' one of ours or a 'command', not both";
+    return "give either 'like' with a built-in system or 'command', not both";
   }
   if (!spec.external && spec.like.empty()) {
-    return "it needs a 'command', or 'like' with one of our systems";
+    return "it needs 'command', or 'like' with a built-in system";
   }
   if (spec.external && !spec.options.empty()) {
-    return "'options' are those of our systems: a command takes its own in its words";
+    return "'options' are for built-in systems; write those of a command into the command";
   }
   if (spec.mask_errors != MaskErrors{} && !TraitsOf(spec).ReceivesMasks()) {
     return "'mask_errors' are for a system like oracle or semantic, which are told their masks";

@@ -36,13 +36,14 @@ void SetLens(const CalibrationFile& file, const std::string& model, std::vector<
                           model == "plumb_bob" || model == "rational_polynomial";
   camera->equidistant = model == "equidistant" || model == "fisheye";
   if (!polynomial && !camera->equidistant && model != "none" && !model.empty()) {
-    file.Fail(key, fmt::format("'{}': radtan (plumb_bob, radial-tangential), rational_polynomial, "
-                               "equidistant and none are read",
-                               model));
+    file.Fail(key, fmt::format(
+                       "unsupported model '{}'; supported: radtan (plumb_bob, radial-tangential), "
+                       "rational_polynomial, equidistant and none",
+                       model));
   }
   const std::size_t n = numbers.size();
   const bool fits = camera->equidistant ? n == 4 : n == 0 || n == 4 || n == 5 || n == 8;
-  if (!fits) file.Fail(key, fmt::format("{} coefficients are none of a {} lens", n, model));
+  if (!fits) file.Fail(key, fmt::format("{} coefficients do not fit a {} lens", n, model));
   camera->distortion = std::move(numbers);
 }
 

@@ -62,10 +62,10 @@ Eigen::Matrix3d RotationOf(const CalibrationFile& file, const std::vector<double
   for (int i = 0; i < 9; ++i) rotation(i / 3, i % 3) = numbers[static_cast<std::size_t>(i)];
   constexpr double kTolerance = 1e-3;  // files print a few digits
   if (!(rotation * rotation.transpose()).isIdentity(kTolerance)) {
-    file.Fail(key, "is no rotation: its columns are not of unit length and square to each other");
+    file.Fail(key, "not a rotation: its columns are not of unit length and orthogonal");
   }
   if (rotation.determinant() < 0) {
-    file.Fail(key, "is no rotation: it mirrors, which no camera does; is a sign wrong?");
+    file.Fail(key, "not a rotation: it mirrors; is a sign wrong?");
   }
   return rotation;
 }

@@ -137,7 +137,7 @@ class Reader {
     if (root_.Count("entities") > kMaxEntities) root_.Get("entities").Fail("they are too many");
     for (const GltfValue& entity : root_.Items("entities")) ReadEntity(entity);
     for (const GltfValue& light : root_.Items("lights")) ReadLight(light);
-    if (root_.Count("lights") == 0) throw ImportError("lights: there is none");
+    if (root_.Count("lights") == 0) throw ImportError("lights: none given");
     Scale();
     for (WorldParts& band : scene_.bands) band.statics = statics_;
     return std::move(scene_);
@@ -165,7 +165,7 @@ class Reader {
     const Eigen::Affine3f given = Transform(camera);
     const Eigen::Matrix3f turn = given.linear();
     if (!(turn * turn.transpose()).isIdentity(1e-4f) || turn.determinant() < 0) {
-      camera.Get("transform").Fail("it is no rotation");
+      camera.Get("transform").Fail("not a rotation");
     }
     // Theirs has x to the left and y up, ours x to the right and y down.
     scene_.T_world_camera.linear() =
@@ -267,7 +267,7 @@ ForeignScene LoadForeignScene(const fs::path& file) {
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
     return Reader(document, folder).Read();
   } catch (const json::exception& error) {
-    throw ForeignSceneError(fmt::format("{}: is no JSON: {}", file.string(), error.what()));
+    throw ForeignSceneError(fmt::format("{}: not JSON: {}", file.string(), error.what()));
   } catch (const ImportError& error) {
     throw ForeignSceneError(fmt::format("{}: {}", file.string(), error.what()));
   }

@@ -183,8 +183,8 @@ void CheckReach(const Model& model, const ImportOptions& options) {
     Require(position.allFinite(), "a node's transformation is not finite");
     if (position.cwiseAbs().maxCoeff() <= options.max_reach_m) continue;
     throw ImportError(
-        fmt::format("a vertex lies at ({:.4g}, {:.4g}, {:.4g}) m; more than {} m from its origin "
-                    "no model is taken: check its unit (metres) and the scales of its nodes",
+        fmt::format("a vertex at ({:.4g}, {:.4g}, {:.4g}) m is more than {} m from the model's "
+                    "origin: check its unit (metres) and the scales of its nodes",
                     position.x(), position.y(), position.z(), options.max_reach_m));
   }
 }

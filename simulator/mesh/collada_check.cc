@@ -95,7 +95,7 @@ class ColladaChecker {
         number = 0;  // too small to matter
       } else if (failed != std::errc() || stop != word.data() + word.size() ||
                  !std::isfinite(static_cast<double>(number))) {
-        Fail(element, fmt::format("holds '{}', which is no finite number of its kind", word));
+        Fail(element, fmt::format("has '{}' where a finite number of its kind is expected", word));
       }
       numbers.push_back(number);
       at = words.find_first_not_of(kBlanks, end);
@@ -110,7 +110,7 @@ class ColladaChecker {
     std::uint32_t number = 0;
     const auto [stop, failed] = std::from_chars(word.data(), word.data() + word.size(), number);
     if (failed != std::errc() || stop != word.data() + word.size()) {
-      Fail(element, fmt::format("has {}=\"{}\", which is no whole number", attribute, word));
+      Fail(element, fmt::format("has {}=\"{}\", which is not an integer", attribute, word));
     }
     return number;
   }

@@ -66,7 +66,7 @@ void ReadCurve(const GltfDocument& document, const GltfValue& sampler, std::size
     const auto value = [&](std::size_t place) { return ValueFrom(output[place], Value()); };
     Value key = value(cubic ? 3 * i + 1 : i);
     if constexpr (kTurns) {
-      if (!(key.norm() > 0)) sampler.Fail(fmt::format("key {} is no rotation: it is 0", i));
+      if (!(key.norm() > 0)) sampler.Fail(fmt::format("key {} is not a rotation: it is 0", i));
       if (!cubic) key.normalize();
     }
     curve->keys.emplace_back(times[i], key);

@@ -81,8 +81,8 @@ NodePose DecomposedPose(const GltfValue& node) {
                                         m[2], m[6], m[10], m[14], m[3], m[7], m[11], m[15]});
   if (!IsComposedOf(Eigen::Map<const Eigen::Matrix4f>(m.data()), pose)) {
     node.Get("matrix").Fail(
-        "it is no translation, rotation and scale, as a node's matrix must be (glTF 2.0, 3.5.3); "
-        "apply shear before the export");
+        "its matrix is not made of translation, rotation and scale, as a node's must be (glTF 2.0, "
+        "3.5.3); apply shear before the export");
   }
   return pose;
 }

@@ -45,7 +45,7 @@ NodePose PoseOf(const aiNode& node) {
   const Eigen::Affine3f given = ToEigen(node.mTransformation);
   if (!IsComposedOf(given.matrix(), pose)) {
     throw ImportError(fmt::format(
-        "node '{}' is no translation, rotation and scale; apply shear before the export",
+        "node '{}' is not made of translation, rotation and scale; apply shear before the export",
         node.mName.C_Str()));
   }
   return pose;

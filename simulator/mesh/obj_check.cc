@@ -77,7 +77,8 @@ void CheckNumbers(const std::vector<std::string_view>& words, std::size_t line, 
     Fail(line, fmt::format("{} has {} numbers; it takes {} to {}", words[0], count, least, most));
   }
   for (std::size_t i = 1; i < words.size(); ++i) {
-    if (!NumberIn(words[i])) Fail(line, fmt::format("'{}' is no finite number", words[i]));
+    if (!NumberIn(words[i]))
+      Fail(line, fmt::format("expected a finite number, got '{}'", words[i]));
   }
 }
 
@@ -97,7 +98,8 @@ void CheckCorner(std::string_view corner, std::size_t line, const Counts& so_far
     const auto [end, failed] = std::from_chars(word.data(), word.data() + word.size(), index);
     const bool left_out = word.empty() && kind == 1 && slash < corner.size();
     if (!left_out && (failed != std::errc() || end != word.data() + word.size())) {
-      Fail(line, fmt::format("'{}' is no corner of a face, such as 1, 1/2, 1//3 or 1/2/3", whole));
+      Fail(line,
+           fmt::format("'{}' is not a corner of a face, such as 1, 1/2, 1//3 or 1/2/3", whole));
     }
     if (!left_out && (index == 0 || index > in_all[kind] || index < -so_far[kind])) {
       Fail(line, fmt::format("{} {} does not exist; there are {}", kCounted[kind], index,
@@ -154,9 +156,10 @@ void CheckObj(std::string_view text) {
     } else if (words[0] == "f" || words[0] == "fo" || words[0] == "l" || words[0] == "p") {
       CheckElement(words, line, so_far, in_all);
     } else if (!IsOneOf(words[0], kOtherStatements)) {
-      Fail(line, fmt::format("'{}' is no statement of a polygon mesh; save curves and surfaces as "
-                             "polygons",
-                             words[0]));
+      Fail(line,
+           fmt::format(
+               "'{}' is not a statement of a polygon mesh; save curves and surfaces as polygons",
+               words[0]));
     }
     return true;
   });

@@ -97,7 +97,7 @@ double AheadBy(const Scene& scene, const VehicleSpec& vehicle, const AssetLibrar
   const auto pusher = std::ranges::find(scene.people, vehicle.pushed_by, &PersonSpec::name);
   if (pusher == scene.people.end()) {
     Refuse(scene, vehicle.mark, vehicle.name,
-           fmt::format("there is nobody '{}' to push it", vehicle.pushed_by));
+           fmt::format("no person named '{}' to push it", vehicle.pushed_by));
   }
   const auto& clips = assets.Person(pusher->model).clips;
   const auto push = clips.find("walk_push");
@@ -137,7 +137,7 @@ void AddMechanisms(const Scene& scene, const Palette& palette, std::uint64_t see
     const auto find = [&](const std::string& name) {
       const auto holder = std::ranges::find(*cast, name, &Cast::name);
       if (holder == cast->end() || !holder->grip) {
-        throw std::runtime_error(fmt::format("'{}' is nobody who could hold it", name));
+        throw std::runtime_error(fmt::format("'{}' cannot hold it", name));
       }
       return holder->grip;
     };

@@ -34,7 +34,7 @@ std::string SetNumber(const std::string& text, const OptionField& field, Number*
                        std::is_integral_v<Number> ? "whole " : "", Text(field));
   }
   if (!IsWithin(static_cast<double>(read), field.range)) {
-    return fmt::format("{} is {}; it must lie in {}", field.path, text, Text(field));
+    return fmt::format("{} is {}; it must be in {}", field.path, text, Text(field));
   }
   *value = static_cast<Number>(read);
   return {};
@@ -78,8 +78,9 @@ std::string Broken(const OptionField& field) {
           [&](const auto* value) { return IsWithin(static_cast<double>(*value), field.range); }},
       field.value);
   if (within) return {};
-  if (std::holds_alternative<OptionChoice>(field.value)) return field.path + " is no known choice";
-  return fmt::format("{} is {}; it must lie in {}", field.path, TextOf(field), Text(field));
+  if (std::holds_alternative<OptionChoice>(field.value))
+    return field.path + " is not among its choices";
+  return fmt::format("{} is {}; it must be in {}", field.path, TextOf(field), Text(field));
 }
 
 }  // namespace

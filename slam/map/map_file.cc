@@ -280,25 +280,26 @@ SavedMap LoadMap(const std::filesystem::path& file) {
   std::error_code error;
   const std::uintmax_t whole = std::filesystem::file_size(file, error);
   std::ifstream in(file, std::ios::binary);
-  if (error || !in) throw fail("cannot be opened");
+  if (error || !in) throw fail("cannot open it");
   Header header{};
   in.read(reinterpret_cast<char*>(&header), sizeof(header));
   if (!in || std::memcmp(header.magic, kMagic, sizeof(kMagic)) != 0) {
-    throw fail("is no map; save one with `aisle slam --save-map`");
+    throw fail("not a map; save one with `aisle slam --save-map`");
   }
   if (header.version != kVersion && header.version != kWithoutLoops) {
-    throw fail(fmt::format("is of version {}, this program reads version {}; map the place anew",
+    throw fail(fmt::format("has version {}, but this program reads version {}; map the place again",
                            header.version, kVersion));
   }
-  if (header.size != whole - sizeof(header)) throw fail("is damaged: it is not as long as it says");
+  if (header.size != whole - sizeof(header))
+    throw fail("damaged: its length differs from the one it states");
   std::string bytes(static_cast<std::size_t>(header.size), '\0');
   in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!in) throw fail("cannot be read");
-  if (ChecksumOfWords(bytes) != header.checksum) throw fail("is damaged: checksum");
+  if (!in) throw fail("not readable");
+  if (ChecksumOfWords(bytes) != header.checksum) throw fail("damaged: checksum");
   try {
     return Decode(Reader(std::move(bytes)), header.version);
   } catch (const std::invalid_argument& broken) {
-    throw fail(fmt::format("is damaged: {}", broken.what()));
+    throw fail(fmt::format("damaged: {}", broken.what()));
   }
 }
 

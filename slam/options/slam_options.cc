@@ -32,7 +32,7 @@ std::string UnknownPath(const std::string& path, const OptionFields& fields) {
     }
     paths.push_back(field.path);
   }
-  return fmt::format("there is no option {}{}", path, DidYouMean(path, paths));
+  return fmt::format("unknown option {}{}", path, DidYouMean(path, paths));
 }
 
 /// Sets every option to what `base` has published; what the driver owns is no option and stays.
@@ -169,7 +169,7 @@ std::string WhyWithoutEffect(const std::string& path, const SlamOptions& options
     heeded_by = one.base;
   }
   if (!heeded_by || *heeded_by == options.base) return {};
-  return fmt::format("{} has no effect with base {}; only base {} looks at it", path,
+  return fmt::format("{} has no effect with base {}; only base {} uses it", path,
                      NameOf(options.base), NameOf(*heeded_by));
 }
 

@@ -190,15 +190,15 @@ Vocabulary Vocabulary::Load(const std::filesystem::path& file) {
     return std::runtime_error(fmt::format("{}: {}", file.string(), what));
   };
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw fail("cannot be opened");
+  if (!in) throw fail("cannot open it");
   Header header{};
   in.read(reinterpret_cast<char*>(&header), sizeof(header));
   if (!in || std::memcmp(header.magic, kMagic, sizeof(kMagic)) != 0) {
-    throw fail("is no vocabulary; train one with `aisle vocabulary train`");
+    throw fail("not a vocabulary; train one with `aisle vocabulary train`");
   }
-  if (header.version != kVersion) throw fail("is of another version; train it again");
+  if (header.version != kVersion) throw fail("has another version; train it again");
   constexpr std::uint32_t kMostNodes = 1u << 22;
-  if (header.nodes == 0 || header.nodes > kMostNodes) throw fail("is damaged: number of nodes");
+  if (header.nodes == 0 || header.nodes > kMostNodes) throw fail("damaged: number of nodes");
   Vocabulary vocabulary;
   vocabulary.nodes_.resize(header.nodes);
   const std::size_t size = vocabulary.nodes_.size() * sizeof(Node);
@@ -206,7 +206,7 @@ Vocabulary Vocabulary::Load(const std::filesystem::path& file) {
   if (!in) throw fail("ends too early");
   const std::string_view bytes(reinterpret_cast<const char*>(vocabulary.nodes_.data()), size);
   if (ChecksumOfBytes(bytes) != header.checksum) {
-    throw fail("is damaged: checksum");
+    throw fail("damaged: checksum");
   }
   for (std::size_t i = 0; i < vocabulary.nodes_.size(); ++i) {
     const Node& node = vocabulary.nodes_[i];
@@ -214,7 +214,7 @@ Vocabulary Vocabulary::Load(const std::filesystem::path& file) {
     const bool leaf = node.children == 0 && node.word >= 0;
     const bool inner = node.children > 0 && node.first_child > static_cast<std::int64_t>(i) &&
                        end <= std::ssize(vocabulary.nodes_);
-    if (!leaf && !inner) throw fail("is damaged: not a tree");
+    if (!leaf && !inner) throw fail("damaged: not a tree");
     vocabulary.words_ += leaf;
   }
   return vocabulary;

@@ -1,8 +1,7 @@
 """The wording of what users read: no sentence of the kinds that a native engineer would not write.
 
-Usage: wording.py SOURCE_DIR. Looks at the string literals of all rooms but those in BEHIND, whole as the
-compiler joins them, and prints each that has such a phrase with file, line and what to write instead (exit 1).
-Comments are not looked at.
+Usage: wording.py SOURCE_DIR. Looks at all string literals, whole as the compiler joins them, and prints each that
+has such a phrase with file, line and what to write instead (exit 1). Comments are not looked at.
 """
 
 import pathlib
@@ -10,12 +9,6 @@ import re
 import sys
 
 HOUSES = ("harness", "simulator", "slam")
-# Rooms whose strings still have such phrases: none may join them.
-BEHIND = {
-    "harness/bag", "harness/campaign", "harness/cluster", "harness/plugs", "harness/python", "harness/ros",
-    "harness/run", "simulator/calibration", "simulator/foreign", "simulator/mesh", "simulator/world",
-    "slam/common", "slam/map", "slam/place",
-}
 PHRASES = {
     r"(?<!there )\bis no [A-Za-z]": "'not a X' or 'unknown X'",
     r"\bof others\b": "'external' or 'other'",
@@ -51,8 +44,7 @@ def main(folder):
     wrong = 0
     for house in HOUSES:
         for file in sorted((folder / house).rglob("*")):
-            room = "/".join(file.relative_to(folder).parts[:2])
-            if file.suffix not in (".cc", ".h") or room in BEHIND:
+            if file.suffix not in (".cc", ".h"):
                 continue
             for line, text, remedy in complaints(file.read_text()):
                 print(f'{file.relative_to(folder)}:{line}: "{text}": write {remedy}')

@@ -225,7 +225,7 @@ class Wheels(Bag):
         self.assertIn("did you mean /odom?", said)
         code, said = run("slam", self.file, "--odometry", "/odom", "-o", self.root / "never.txt")
         self.assertEqual(code, 4)
-        self.assertIn("topics of it: none", said)
+        self.assertIn("topics of that type: none", said)
 
 
 class ReadByOthers:

@@ -108,7 +108,7 @@ TEST_F(BrokenInputTest, SuitesAndScenes) {
        "semantic, which are told their masks"},
       {run, WithSystem("{name: n, like: paper, options: {keyframe.least_inliers: 20}}"),
        "aisle: {d}/s.yaml:4:18: systems[0].name: keyframe.least_inliers has no effect with base "
-       "orbslam2; only base plain looks at it"},
+       "orbslam2; only base plain uses it"},
       {run, WithSystem("{name: n, like: oracle, mask_errors: {miss_share: 2}}"),
        "aisle: {d}/s.yaml:4:61: systems[0].mask_errors.miss_share: expected a number from 0 to 1, "
        "got '2' (share of the other objects that is missed, each for a while); example: "
@@ -119,11 +119,11 @@ TEST_F(BrokenInputTest, SuitesAndScenes) {
        "this system); example: system: oracle"},
       {{"run", "{d}/s.yaml", "--systems", "best"},
        {{"s.yaml", kGood}},
-       "aisle: --systems: 'best' is not known: expected one of orbslam2, plain, semantic, paper, "
+       "aisle: --systems: unknown name 'best': expected one of orbslam2, plain, semantic, paper, "
        "robust, oracle"},
       {{"run", "{d}/s.yaml", "--twins", "undead"},
        {{"s.yaml", kGood}},
-       "aisle: --twins: 'undead' is not known: expected one of live, empty, frozen, "
+       "aisle: --twins: unknown name 'undead': expected one of live, empty, frozen, "
        "none, low, mid, high"},
       {{"run", "{d}/s.yaml", "--shard", "3/2"},
        {{"s.yaml", kGood}},
@@ -206,7 +206,7 @@ TEST_F(BrokenInputTest, TrajectoriesMasksAndRecordings) {
        "have"},
       {{"slam", "{d}", "-o", "{d}/o.txt", "--system", "best"},
        {},
-       "aisle: system 'best' is not known: expected one of orbslam2, plain, semantic, paper, "
+       "aisle: unknown system 'best': expected one of orbslam2, plain, semantic, paper, "
        "robust, oracle"},
   });
 }

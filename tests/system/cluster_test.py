@@ -147,7 +147,7 @@ class WithoutAQueue(unittest.TestCase):
         self.assertEqual(aisle("status", out)[0], 0)
 
     def test_a_second_attempt_and_a_neighbour_on_the_node_see_no_truth(self):
-        if "nothing holds commands of others back" in aisle("doctor")[1]:
+        if "external commands are not confined" in aisle("doctor")[1]:
             self.skipTest("no Landlock here")
         neighbour = root / f"scratch/aisle-{os.getuid()}/task-neighbour"
         (neighbour / "runs").mkdir(parents=True)
@@ -167,7 +167,7 @@ class WithoutAQueue(unittest.TestCase):
         task = self.task(out, 0)
         said = task.communicate()[1]
         self.assertEqual(task.returncode, 0, said)
-        self.assertIn("once more, to tell flaky from broken", said)
+        self.assertIn("running again to tell flaky from broken", said)
         result = json.loads((out / "runs/tiny/live/spy/1/result.json").read_text())
         self.assertTrue(result["flaky"], result)
 

@@ -54,7 +54,7 @@ TEST_F(ForeignSystemTest, WhateverItDoesEndsAsItsOwnVerdict) {
   const std::tuple<const char*, RunStatus, const char*> expected[] = {
       {"crashes", RunStatus::kCrashed, "signal 11"},
       {"leaves", RunStatus::kCrashed, "exit code 7"},
-      {"hangs", RunStatus::kTimeout, "no end after 1 s: killed"},
+      {"hangs", RunStatus::kTimeout, "killed after 1 s without an end"},
       {"floods", RunStatus::kInvalid, "left no trajectory"},
       {"nan", RunStatus::kInvalid, "output.txt:1: "},
       {"unordered", RunStatus::kInvalid, "output.txt:2: "},
@@ -167,7 +167,7 @@ TEST_F(ForeignSystemTest, ThatFailedIsTriedOnceMoreByANightThatGoesOn) {
   const Said said = Run(resume);
   EXPECT_EQ(said.code, 1) << said.text;
   EXPECT_THAT(said.text, HasSubstr("3 of 3 runs are already done"));
-  EXPECT_THAT(said.text, HasSubstr("3 failed; once more"));
+  EXPECT_THAT(said.text, HasSubstr("3 failed; running again"));
   const Results results = ResultsOf(Out("stopped"));
   for (const RunRecord& record : results.runs) {
     EXPECT_EQ(record.status, RunStatus::kCrashed);
@@ -178,7 +178,8 @@ TEST_F(ForeignSystemTest, ThatFailedIsTriedOnceMoreByANightThatGoesOn) {
     EXPECT_THAT(Find(results, name).status_why,
                 testing::EndsWith("a second attempt with the same inputs ended " + name));
   }
-  EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("once more"))) << "two attempts are enough";
+  EXPECT_THAT(Run(resume).text, testing::Not(HasSubstr("running again")))
+      << "two attempts are enough";
 }
 
 TEST_F(ForeignSystemTest, ThatTellsMoreIsShownWithIt) {
@@ -337,14 +338,14 @@ TEST_F(ForeignSystemTest, IsRunAnewWhereNobodyCanTellWhatItIs) {
   };
   // By a shell alone.
   const std::string asked = fmt::format("\\\"$(echo '{}')\\\" {{output}}", script);
-  EXPECT_THAT(resume(asked), HasSubstr("--resume makes the runs of mine anew"));
+  EXPECT_THAT(resume(asked), HasSubstr("--resume repeats the runs of mine"));
   EXPECT_THAT(resume(asked), testing::Not(HasSubstr("already done")));
   const std::string depends = fmt::format(", depends_on: ['{}']", script);
-  EXPECT_THAT(resume(asked, depends), testing::Not(HasSubstr("--resume makes the runs")));
+  EXPECT_THAT(resume(asked, depends), testing::Not(HasSubstr("--resume repeats the runs")));
   EXPECT_THAT(resume(asked, depends), HasSubstr("1 of 1 runs are already done"));
   // A path that must be quoted is no riddle.
   const std::string quoted = fmt::format("'{}' {{output}}", script);
-  EXPECT_THAT(resume(quoted), testing::Not(HasSubstr("--resume makes the runs")));
+  EXPECT_THAT(resume(quoted), testing::Not(HasSubstr("--resume repeats the runs")));
   EXPECT_THAT(resume(quoted), HasSubstr("1 of 1 runs are already done"));
   WriteFileAtomically(script, "#!/bin/sh\ncp " + known + " $1 # another way\n");
   fs::permissions(script, fs::perms::owner_all);

@@ -161,7 +161,7 @@ TEST_F(SuiteRunTest, ANightThatCanOnlyFailAtTheGateDoesNotBegin) {
                            "--baseline", baseline, more});
     EXPECT_EQ(said.code, 4) << said.text;
     EXPECT_THAT(said.text, HasSubstr("--gate: of the baseline 1 seed of 1 cell is missing"));
-    EXPECT_THAT(said.text, HasSubstr("Drive them with --seeds 2"));
+    EXPECT_THAT(said.text, HasSubstr("Run them with --seeds 2"));
     EXPECT_FALSE(fs::exists(Out("a")));
   }
 }

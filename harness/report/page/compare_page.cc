@@ -172,7 +172,7 @@ std::string Answer(const std::vector<Comparison>& comparisons, const ComparedNig
   std::string text =
       fmt::format("Of {} scores {} got worse and {} better.", comparisons.size(), worse, better);
   const std::string missing = InWords(MissingRunsOf(*before.results, *after.results));
-  if (!missing.empty()) text += fmt::format(" Of what was there, {}.", missing);
+  if (!missing.empty()) text += fmt::format(" Compared with before, {}.", missing);
   const Comparison& first = comparisons.front();
   if (!IsChange(first)) return text;
   return text + fmt::format(" The largest change: {} of {} on {} {}, from {} to {}.", first.score,

@@ -17,11 +17,12 @@ std::string CostSection(const std::vector<SceneRuns>& scenes) {
   if (splits.empty()) return "";
   std::string text =
       "<h2 id=\"causes\">Where the error comes from</h2>\n<p class=\"soft small\">ATE RMSE in "
-      "centimetres, each system held against its own drives. Alone: the same scene with nobody in "
-      "it. Occlusion: what they cost who stand in the way (frozen less alone). Motion: what it "
-      "costs that they move rather than stand still (live less frozen). Rejection: what it changes "
-      "that this system rejects what moves, where the same system without is among the runs (less "
-      "than nothing is won). Penalty: live over alone.</p>\n<div class=\"wide\"><table><tr>"
+      "centimetres, each system compared with its own drives. Alone: the same scene with nobody in "
+      "it. Occlusion: the cost of people and vehicles in the view (frozen minus alone). Motion: "
+      "the "
+      "cost of their moving (live minus frozen). Rejection: the effect of rejecting what moves, "
+      "where the same system without rejection was run too (negative: an improvement). Penalty: "
+      "live over alone.</p>\n<div class=\"wide\"><table><tr>"
       "<th>scene<th class=\"left\">system<th>live<th>alone<th>occlusion<th>motion<th>rejection"
       "<th>penalty\n";
   for (const CostSplit& split : splits) {

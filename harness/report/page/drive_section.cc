@@ -88,17 +88,17 @@ std::string DriveSection(const SceneRuns& scene, const std::filesystem::path& re
   }
   if (series.empty()) return "";
   std::string text =
-      fmt::format("<h3 id=\"{}_steered\">Steered by what it says</h3>\n", SceneId(scene));
+      fmt::format("<h3 id=\"{}_steered\">Steered by its estimate</h3>\n", SceneId(scene));
   text += DriveTable(scene.systems) + "<ul>\n";
   for (const DriveSeries& one : series) text += "<li>" + Escape(HowItEnded(one)) + ".\n";
   text += "</ul>\n";
   text += Figure(DrivePlanChart(series),
-                 "From above: the planned route dashed, the true ways, thinner the ways they "
-                 "believed in; footprints where each was farthest off, where it touched something "
-                 "and where it ended. Of each system its worst seed.");
+                 "From above: planned route (dashed), true paths, and estimated paths (thin); "
+                 "footprints where each vehicle was farthest from its route, touched something "
+                 "and stopped. The worst seed of each system.");
   text += Figure(DriveErrorChart(series),
-                 "The true vehicle beside its route; shaded where it was held or had no pose to "
-                 "steer by, crosses where it touched something.");
+                 "Distance of the true vehicle from its route; shaded: held, or without a pose; "
+                 "crosses: contacts.");
   if (!films.empty()) {
     text += "<p>Films, from above beside the camera's picture:" + films + ".</p>\n";
   }

@@ -82,9 +82,9 @@ std::string OverviewSection(const std::vector<SceneRuns>& scenes, SceneLinks lin
   for (const SceneRuns& scene : scenes) text += SceneRow(scene, systems, links);
   return text +
          "</table></div>\n<p class=\"soft small\">RMSE over the final track in centimetres, "
-         "positions aligned rigidly (SE(3)), never scaled; median over the seeds that came to an "
-         "end; coverage where it is not complete. Bold is the least of each row among the systems "
-         "whose every run came to its end with a pose for 99 % of the frames.</p>\n";
+         "positions aligned rigidly (SE(3)), never scaled; median over the finished seeds; "
+         "coverage where it is incomplete. Bold: the smallest of each row among the systems all of "
+         "whose runs finished with a pose for 99 % of the frames.</p>\n";
 }
 
 std::string SystemsSection(const std::vector<SceneRuns>& scenes,

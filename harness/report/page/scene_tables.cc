@@ -188,13 +188,14 @@ std::string MaskTables(const std::vector<SystemRuns>& systems) {
   if (const auto masked = WithScores(systems, "mask_iou"); !masked.empty()) {
     text +=
         "<h3>What was rejected</h3>\n" + ScoreTable(masked, kMaskColumns) +
-        "<p class=\"soft small\">Objects by rectangle, found where the overlap (IoU) is 0.5 or "
-        "more, invented where less than half of what was rejected moves. Large movers: recall of "
-        "those of 1 % of the image or more at 0.15 m/s or more; precision: the share of "
-        "regions of that size of which a tenth or more moves; covered: at least half of their "
-        "moving pixels rejected, whatever the rectangles (people who touch make one). Pixels "
-        "over all frames together; static features lost: share of image corners "
-        "on unmoving surfaces under the mask.</p>\n";
+        "<p class=\"soft small\">Objects are compared by rectangle: found where the overlap (IoU) "
+        "is "
+        "0.5 or more, false where less than half of what was rejected moves. Large movers: recall "
+        "of those of at least 1 % of the image and 0.15 m/s; precision: the share of regions of "
+        "that size of which at least a tenth moves; covered: at least half of their moving pixels "
+        "rejected, whatever the rectangles (people who touch make one). Pixels are counted over "
+        "all frames together; static features lost: share of the image corners on static surfaces "
+        "that the mask covers.</p>\n";
   }
   if (const auto followed = WithScores(systems, "mover_"); !followed.empty()) {
     text +=

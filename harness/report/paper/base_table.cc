@@ -98,9 +98,9 @@ std::optional<NumberTable> BaseTable(const std::vector<SceneRuns>& scenes) {
   if (!head.compares) return std::nullopt;
   NumberTable table{.title = "Absolute trajectory error by rejection and base [m]",
                     .caption =
-                        "Above, what is rejected; beneath it, whose decisions track and "
-                        "keep the map: the published ORB-SLAM2's or our own (plain). RMSE "
-                        "of the final track, rigid alignment (SE(3)); median over seeds.",
+                        "Upper head: what is rejected; lower head: whose tracking and mapping "
+                        "runs, the published ORB-SLAM2's or our own (plain). RMSE of the "
+                        "final track, rigid alignment (SE(3)); median over seeds.",
                     .groups = head.rejections,
                     .columns = head.bases,
                     .rows = {}};

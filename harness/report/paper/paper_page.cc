@@ -107,9 +107,9 @@ std::string PaperPage(const std::vector<SceneRuns>& scenes, const fs::path& repo
   return "<h2>The paper's experiment beside ours</h2>\n<p class=\"small soft\">In italics what "
          "the paper, " +
          Escape(kThePaper) +
-         ", printed, of its own hall, people and cameras (DynaSLAM under semantic). Its "
-         "systems stand for ours of the table's head: the order of the systems can be compared, "
-         "not the size of the numbers. Why they differ: reports/paper.md.</p>\n" +
+         ", as printed, from its own hall, people and cameras (DynaSLAM under semantic). Only "
+         "the order of the systems can be compared, not the size of the numbers; why they differ: "
+         "reports/paper.md.</p>\n" +
          ToHtml(PaperTables(scenes)) + figures;
 }
 

@@ -61,7 +61,7 @@ class Body {
 Matrix3d AxesOf(const Body& body, const Vector3d& up) {
   Vector3d left = body.AcrossHips() - body.AcrossHips().dot(up) * up;
   if (left.norm() < 1e-6 * body.AcrossHips().norm() || left.norm() == 0) {
-    throw ImportError("its hips lie one above the other: which way it faces is not known");
+    throw ImportError("its hips are one above the other, so the direction it faces is unknown");
   }
   left.normalize();
   Matrix3d axes;

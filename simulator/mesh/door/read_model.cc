@@ -54,7 +54,7 @@ Number NumberIn(const char* text) {
   const char* end = text + std::strlen(text);
   if (const auto [at, failed] = std::from_chars(text, end, number);
       failed != std::errc() || at != end) {
-    throw std::runtime_error(fmt::format("'{}' is no number that is expected here", text));
+    throw std::runtime_error(fmt::format("'{}' is not a number that is expected here", text));
   }
   return number;
 }

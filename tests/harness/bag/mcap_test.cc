@@ -118,7 +118,7 @@ TEST_F(McapTest, DamageIsSeen) {
   std::string bytes = ReadFile(Write({.chunk_bytes = 1 << 20, .zstd_level = 0}));
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   EXPECT_THAT(WhyNot(Put(bytes)), HasSubstr("checksum"));
-  EXPECT_THAT(WhyNot(Put("no bag")), HasSubstr("is no MCAP file"));
+  EXPECT_THAT(WhyNot(Put("no bag")), HasSubstr("not an MCAP file"));
   EXPECT_THAT(WhyNot(folder_ / "none.mcap"), HasSubstr("no such file"));
 }
 
@@ -204,7 +204,7 @@ TEST_F(McapTest, ASqliteBagIsRead) {
   EXPECT_TRUE(bag->notes().empty());
   EXPECT_EQ(FilesIn(folder_), before);
   std::ofstream(folder_ / "no.db3") << "no bag";
-  EXPECT_THAT(WhyNot(folder_ / "no.db3"), HasSubstr("no bag of ROS 2"));
+  EXPECT_THAT(WhyNot(folder_ / "no.db3"), HasSubstr("not a ROS 2 bag"));
 }
 
 /// rosbag2 writes through a log where it shall be robust: what is in the log alone is in the bag.

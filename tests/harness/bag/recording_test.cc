@@ -239,7 +239,7 @@ TEST_F(RecordingTest, OnlyAPartOfThePictureIsCutOut) {
         ros::RegionOfInterest{.height = height - 1, .width = width},
         ros::RegionOfInterest{.x_offset = 1, .height = height, .width = width},
         ros::RegionOfInterest{.y_offset = 1, .height = height, .width = width}}) {
-    EXPECT_THAT(WhyNot(with(part)), HasSubstr("cut out"));
+    EXPECT_THAT(WhyNot(with(part)), HasSubstr("cropped"));
   }
 }
 
@@ -374,7 +374,7 @@ TEST_F(RecordingTest, PosesWithoutStampsAreNoTrajectory) {
       ADD_FAILURE() << topic;
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), HasSubstr("the 5 poses of"));
-      EXPECT_THAT(error.what(), HasSubstr("no stamps"));
+      EXPECT_THAT(error.what(), HasSubstr("no timestamps"));
     }
     WritePoses(file, 0, 1);
     EXPECT_EQ(ReadBagTrajectory(*asked).size(), 5u) << topic << ": who begins at 0 has stamps";

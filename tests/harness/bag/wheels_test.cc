@@ -125,21 +125,22 @@ TEST_F(BagWheelsTest, CovarianceOfAMotionIsTheTwistsTimesItsTime) {
 }
 
 TEST_F(BagWheelsTest, MistakesAreNamed) {
-  EXPECT_THAT(WhyNot({}, "/odm"), HasSubstr("holds no nav_msgs/Odometry on /odm (did you mean "
-                                            "/odom?); topics of it: /odom"));
+  EXPECT_THAT(
+      WhyNot({}, "/odm"),
+      HasSubstr("no nav_msgs/Odometry on /odm (did you mean /odom?); topics of that type: /odom"));
   RobotBag robot;
   robot.links.clear();
-  EXPECT_THAT(WhyNot(robot), HasSubstr("there is none at all: record /tf_static along"));
+  EXPECT_THAT(WhyNot(robot), HasSubstr("as the bag has none: record /tf_static as well"));
   robot = {};
   robot.image_frame = "camera";
-  EXPECT_THAT(WhyNot(robot), HasSubstr("leads from the wheels' 'base_link' to the left image's "
-                                       "'camera'; it joins base_footprint, base_link, laser"));
+  EXPECT_THAT(WhyNot(robot), HasSubstr("from the wheels' frame 'base_link' to the left image's "
+                                       "'camera'; it connects base_footprint, base_link, laser"));
   robot = {};
   robot.links[0] = {"left_optical", "base_link"};
-  EXPECT_THAT(WhyNot(robot), HasSubstr("go round in a circle"));
+  EXPECT_THAT(WhyNot(robot), HasSubstr("form a cycle"));
   robot = {};
   robot.second_body = true;
-  EXPECT_THAT(WhyNot(robot), HasSubstr("tells of two bodies, 'base_link' and 'trailer'"));
+  EXPECT_THAT(WhyNot(robot), HasSubstr("is about two bodies, 'base_link' and 'trailer'"));
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ TEST(NotesOfSystemsTest, NameTheSystemAndTheProgram) {
       {.name = "untold", .external = ExternalSystem{.command = "$NO_SUCH_SLAM {output}"}});
   const std::vector<std::string> notes = NotesOfSystems(suite);
   ASSERT_EQ(notes.size(), 2u);
-  EXPECT_THAT(notes[1], testing::StartsWith("--resume makes the runs of untold anew: "));
+  EXPECT_THAT(notes[1], testing::StartsWith("--resume repeats the runs of untold: "));
   EXPECT_THAT(notes[0], testing::StartsWith("system 'mine': "));
   EXPECT_THAT(notes[0], testing::HasSubstr("no_such_slam"));
 }

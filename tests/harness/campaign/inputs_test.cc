@@ -104,7 +104,7 @@ TEST_F(InputsTest, TwoScenesOfOneNameAreRefused) {
 
 TEST_F(InputsTest, ASystemNamedTwiceOrMisspeltIsRefused) {
   EXPECT_THAT(Complaint({.files = {first_}, .systems = {"robust", "robust"}}),
-              HasSubstr("'robust' is given twice"));
+              HasSubstr("duplicate 'robust'"));
   EXPECT_THAT(Complaint({.files = {first_}, .systems = {"robsut"}}),
               HasSubstr("did you mean robust?"));
 }
@@ -120,7 +120,7 @@ TEST_F(InputsTest, ASystemOfASweepIsChosenAtAllItsLatencies) {
   EXPECT_THAT(chosen({"mine", "robust_50ms"}), ElementsAre("mine_0ms", "mine_50ms", "robust_50ms"));
   EXPECT_THAT(chosen({"oracle"}), ElementsAre("oracle"));
   EXPECT_THAT(Complaint({.files = {swept}, .systems = {"robust", "robust_50ms"}}),
-              HasSubstr("'robust_50ms' is given twice"));
+              HasSubstr("duplicate 'robust_50ms'"));
   EXPECT_THAT(Complaint({.files = {swept}, .systems = {"mien"}}), HasSubstr("did you mean mine?"));
 }
 
@@ -170,9 +170,10 @@ TEST_F(InputsTest, SetTellsASystemOfOthersHowToSteerAndNothingElse) {
       LoadInputs({.files = {mine}, .set = {"mine.drive.latency_ms=100"}});
   EXPECT_EQ(suites[0].systems[0].options.at("drive.latency_ms"), "100");
   EXPECT_THAT(Complaint({.files = {mine}, .set = {"mine.drive.latency_ms=-1"}}), HasSubstr("-1"));
-  EXPECT_THAT(Complaint({.files = {mine}, .set = {"mine.features=9"}}), HasSubstr("in its words"));
+  EXPECT_THAT(Complaint({.files = {mine}, .set = {"mine.features=9"}}),
+              HasSubstr("in its command line"));
   EXPECT_THAT(Complaint({.files = {mine}, .set = {"files.drive.latency_ms=9"}}),
-              HasSubstr("in its words"));
+              HasSubstr("in its command line"));
 }
 
 TEST_F(InputsTest, SetSaysWhatIsWrong) {
@@ -195,14 +196,15 @@ TEST_F(InputsTest, WhoKeepsNoMapThatIsKnownHereCannotBeTaught) {
                           ("stream, command: slam, options: {" + options + "}}\n"));
   };
   EXPECT_EQ(LoadInputs({.files = {with("drive.latency_ms: 20")}}).size(), 1u);
-  EXPECT_THAT(Complaint({.files = {with("drive.taught: true")}}), HasSubstr("keeps no map"));
+  EXPECT_THAT(Complaint({.files = {with("drive.taught: true")}}),
+              HasSubstr("only built-in systems can be taught"));
   EXPECT_THAT(
       Complaint({.files = {with("drive.scanner: true")}, .set = {"mine.drive.taught=true"}}),
-      HasSubstr("keeps no map"));
+      HasSubstr("only built-in systems can be taught"));
   EXPECT_THAT(
       Complaint({.files = {second_},
                  .set = {"robust.drive.taught=true", "robust.drive.steered_by_truth=true"}}),
-      HasSubstr("needs no teaching"));
+      HasSubstr("set one of them to false"));
 }
 
 TEST_F(InputsTest, AVariantOfASuiteMayBeChosenByName) {
@@ -220,7 +222,7 @@ TEST_F(InputsTest, ALimitOnAScoreThatDoesNotExistIsAMistakeOfTheFile) {
   EXPECT_THAT(Complaint({.files = {Write("l",
                                          "suite: l\nscenes: [a/one]\nsystems: [oracle]\n"
                                          "limits: [{score: ate_rms_m, max: 1}]\n")}}),
-              HasSubstr("there is no score 'ate_rms_m' (did you mean ate_rmse_m?)"));
+              HasSubstr("unknown score 'ate_rms_m' (did you mean ate_rmse_m?)"));
 }
 
 TEST_F(InputsTest, LimitsGoWithWhatTheUserLeavesOut) {

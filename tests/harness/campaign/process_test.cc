@@ -41,7 +41,7 @@ TEST(ProcessTest, ACrashIsASignal) {
 TEST(ProcessTest, ASignalToldByAShellIsNamed) {
   const ProcessResult result = RunToEnd("sh -c 'kill -SEGV $$'; exit $?");
   EXPECT_EQ(Describe(result, {}),
-            "exit code 139: signal 11, SIGSEGV (Segmentation fault), as a shell tells it");
+            "exit code 139: signal 11, SIGSEGV (Segmentation fault), as reported by the shell");
   EXPECT_EQ(Describe(RunToEnd("exit 255"), {}), "exit code 255");
 }
 
@@ -82,7 +82,7 @@ TEST(ProcessTest, AHangIsEndedWithAllItsChildren) {
   const ProcessLimits limits{.wall_s = 2};
   const ProcessResult result = RunToEnd("sleep 100 & echo $! > " + file + "; wait", limits);
   EXPECT_EQ(result.end, End::kTimeout);
-  EXPECT_EQ(Describe(result, limits), "no end after 2 s: killed");
+  EXPECT_EQ(Describe(result, limits), "killed after 2 s without an end");
   EXPECT_TRUE(IsGone(file));
 }
 

@@ -120,11 +120,11 @@ TEST(DescribeSandboxTest, WhatAKernelCannotPreventIsOneSentence) {
   const std::string kills = "sending signals to other processes of the user";
   EXPECT_THAT(DescribeSandbox(6), Not(HasSubstr("cannot")));
   for (const int level : {3, 4, 5}) {
-    EXPECT_THAT(DescribeSandbox(level), EndsWith("only" + cannot + kills));
+    EXPECT_THAT(DescribeSandbox(level), EndsWith("their own folders" + cannot + kills));
   }
   for (const int level : {1, 2}) {
     EXPECT_THAT(DescribeSandbox(level),
-                EndsWith("only" + cannot + "cutting files short nor from " + kills));
+                EndsWith("their own folders" + cannot + "cutting files short nor from " + kills));
   }
 }
 

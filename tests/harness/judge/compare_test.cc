@@ -114,7 +114,7 @@ TEST(CompareTest, ASeedThatOneSideLacksIsLeftOutOfBoth) {
     EXPECT_TRUE(same.bit_equal && same.paired);
     EXPECT_EQ(same.old_n, 8u);
     EXPECT_EQ(same.left_out, 1u);
-    EXPECT_THAT(same.why, testing::HasSubstr("1 seed of one side alone left out"));
+    EXPECT_THAT(same.why, testing::HasSubstr("ignored 1 seed that only one side has"));
   }
   *fewer.runs.at(3).scores["ate_rmse_m"].value *= 20;
   EXPECT_EQ(ChangeOf(Compare(before, fewer), "ate_rmse_m"), Change::kUnstable);
@@ -247,7 +247,7 @@ TEST(GateTest, SeedsThatDidNotRunFail) {
   fewer.runs.erase(fewer.runs.begin() + 2, fewer.runs.begin() + 4);
   const Verdict verdict = On(GateVerdicts(baseline, fewer), ": baseline");
   EXPECT_FALSE(verdict.passed) << verdict.name;
-  EXPECT_EQ(verdict.why, "the baseline has seeds 3, 4, tonight has not");
+  EXPECT_EQ(verdict.why, "the baseline has seeds 3, 4, which the new run does not have");
 }
 
 TEST(GateTest, CellsThatTheBaselineLacksAreCountedAndFailNothing) {

@@ -58,7 +58,7 @@ TEST(BoundToFailTest, IsANightThatLacksWhatItsBaselineHas) {
   EXPECT_THAT(BoundToFail(baseline, SpecsOf(Night({"a", "b"}, 7))),
               AllOf(HasSubstr("4 seeds of 2 cells are missing tonight"),
                     HasSubstr("a live plain, seeds 8, 9; b live plain, seeds 8, 9."),
-                    HasSubstr("Drive them with --seeds 9, or make another baseline")));
+                    HasSubstr("Run them with --seeds 9, or make another baseline")));
   EXPECT_THAT(BoundToFail(baseline, SpecsOf(Night({"a"}, 9))),
               AllOf(HasSubstr("1 cell is missing tonight"), HasSubstr(": b live plain."),
                     HasSubstr("Leave out what takes scenes")));

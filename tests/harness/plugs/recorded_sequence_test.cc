@@ -216,8 +216,9 @@ TEST_F(Recording, OfAnImageThatDoesNotFitItsCalibrationIsRefused) {
     sequence->At(schedule[1]);
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("is 100x100, the calibration says 320x240"),
-              std::string::npos)
+    EXPECT_NE(
+        std::string(error.what()).find("has 100x100 pixels, but the calibration is for 320x240"),
+        std::string::npos)
         << error.what();
   }
   std::array<Camera, 2> mixed = Parallel();
@@ -243,7 +244,7 @@ TEST_F(Recording, OfACalibrationThatIsNoneIsRefusedByName) {
   std::array<Camera, 2> bent = swapped;  // by way of the rectification
   bent[0].bend = bent[1].bend = {-0.2, 0.05, 0, 0};
   EXPECT_THAT(complaint(bent), HasSubstr("left and right are swapped"));
-  EXPECT_THAT(complaint({}), HasSubstr("stands 0 m to the right"));
+  EXPECT_THAT(complaint({}), HasSubstr("is 0 m to the right"));
   std::array<Camera, 2> blind = Parallel();
   blind[1].fx = 0;
   EXPECT_THAT(complaint(blind), HasSubstr("focal lengths 0 and 200"));

@@ -75,11 +75,11 @@ TEST(SystemsTest, AnOptionWithoutEffectIsNeitherListedNorTaken) {
   EXPECT_EQ(ValueOf(FindSystem("orbslam2"), "track.local_keyframes"), "no such option");
   EXPECT_EQ(ValueOf(FindSystem("plain"), "orbslam2.map_ratio"), "no such option");
   EXPECT_EQ(CheckOptions(FindSystem("paper"), {{"track.local_keyframes", "9"}}),
-            "track.local_keyframes has no effect with base orbslam2; only base plain looks at it");
+            "track.local_keyframes has no effect with base orbslam2; only base plain uses it");
   EXPECT_EQ(CheckOptions(FindSystem("paper"), {{"track.local_keyframes", "9"}, {"base", "plain"}}),
             "");
   EXPECT_THAT(CheckOptions(FindSystem("robust"), {{"orbslam2.map_ratio", "0.9"}}),
-              HasSubstr("only base orbslam2 looks at it"));
+              HasSubstr("only base orbslam2 uses it"));
 }
 
 TEST(SystemsTest, OptionsComeFromAssignmentsAndSayWhatIsWrong) {

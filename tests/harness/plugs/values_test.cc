@@ -50,7 +50,7 @@ TEST(SteeringOptions, SpeakOfChoicesInTheWordsOfFiles) {
   EXPECT_EQ(SteeringOf({{"drive.driver", "pure_pursuit"}}).driver, SteeringLaw::kPurePursuit);
   EXPECT_EQ(SteeringOf({{"drive.driver", "scene"}}).driver, std::nullopt);
   EXPECT_EQ(CheckSteeringOption("drive.latency_ms", "x"),
-            "option 'drive.latency_ms' cannot be 'x': expected a number from 0 to 10000");
+            "option 'drive.latency_ms' cannot be 'x': expected a number in [0, 10000]");
 }
 
 TEST(SteeringOptions, RefuseWhatTheyCannotBeAndSayWhatTheyCan) {

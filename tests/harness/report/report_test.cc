@@ -203,8 +203,8 @@ TEST_F(ReportTest, WhatTheSystemsAreIsSaidOnThePage) {
   variant.spec.system.like = "robust";
   variant.spec.system.options = {{"feature.features", "800"}};
   const Results results = Make({MakeRun("s", "plain", 1, 0.02), variant}, {});
-  WriteReport(results, folder_, {.systems = {{"plain", "nothing rejected"}, {"robust", "a & b"}}});
-  EXPECT_THAT(Read("index.html"), HasSubstr("<td class=\"wrap\">nothing rejected\n"));
+  WriteReport(results, folder_, {.systems = {{"plain", "without rejection"}, {"robust", "a & b"}}});
+  EXPECT_THAT(Read("index.html"), HasSubstr("<td class=\"wrap\">without rejection\n"));
   EXPECT_THAT(Read("index.html"), HasSubstr("like robust (a &amp; b), feature.features 800"));
 }
 

@@ -44,7 +44,7 @@ RunResult DriveOf(const std::string& system, std::size_t scene, int night, std::
   run.trajectory = {};
   for (FrameEstimate& estimate : run.estimates) estimate.T_world_rig.reset();
   run.status = RunStatus::kCrashed;
-  run.status_why = "exit code 134: signal 6, SIGABRT (Aborted), as a shell tells it";
+  run.status_why = "exit code 134: signal 6, SIGABRT (Aborted), as reported by the shell";
   run.last_words =
       "map.cc:42: Assertion `points > 0' failed.\n<script>alert(1)</script>\nAborted\n";
   return run;

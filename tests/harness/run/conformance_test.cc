@@ -96,13 +96,13 @@ TEST(ConformanceTest, EveryFaultIsFoundAndNamed) {
   EXPECT_THAT(Check({.scaled = true}),
               ElementsAre(HasSubstr("frame 0: T_world_rig"), HasSubstr("Finish: a pose")));
   EXPECT_THAT(Check({.writes = true}), ElementsAre(HasSubstr("writes to the caller's images")));
-  EXPECT_THAT(Check({.keeps_images = true}), ElementsAre(HasSubstr("painted over")));
+  EXPECT_THAT(Check({.keeps_images = true}), ElementsAre(HasSubstr("overwritten")));
   EXPECT_THAT(Check({.remembers_others = true}),
-              ElementsAre(HasSubstr("side by side"), HasSubstr("another drive")));
+              ElementsAre(HasSubstr("side by side"), HasSubstr("a second drive")));
   EXPECT_THAT(Check({.throws_on_black = true}), ElementsAre(HasSubstr("no features")));
-  EXPECT_THAT(Check({.wrong_mask_size = true}), ElementsAre(HasSubstr("another size")));
+  EXPECT_THAT(Check({.wrong_mask_size = true}), ElementsAre(HasSubstr("differ in size")));
   EXPECT_THAT(Check({.grey_mask = true}), ElementsAre(HasSubstr("0 and 255")));
-  EXPECT_THAT(Check({.falling_stamps = true}), ElementsAre(HasSubstr("stamps must rise")));
+  EXPECT_THAT(Check({.falling_stamps = true}), ElementsAre(HasSubstr("timestamps must increase")));
   EXPECT_THAT(Check({.keypoints_outside = true}), ElementsAre(HasSubstr("outside")));
   EXPECT_THAT(Check({.map_id_falls = true}), ElementsAre(HasSubstr("frame 1: map_id falls")));
 }

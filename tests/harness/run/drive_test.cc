@@ -173,13 +173,15 @@ TEST(DriveTest, HowFarAheadFramesAreMadeChangesNothing) {
 TEST(DriveTest, MisbehaviourIsTheSystemsOwnVerdict) {
   const std::tuple<Sin, RunStatus, std::string> cases[] = {
       {Sin::kThrows, RunStatus::kCrashed, "frame 10: cannot go on"},
-      {Sin::kSaysNan, RunStatus::kInvalid, "frame 10: the pose is no rigid motion within 1e+08 m"},
-      {Sin::kSaysFar, RunStatus::kInvalid, "frame 10: the pose is no rigid motion within 1e+08 m"},
+      {Sin::kSaysNan, RunStatus::kInvalid,
+       "frame 10: the pose is not a rigid motion within 1e+08 m"},
+      {Sin::kSaysFar, RunStatus::kInvalid,
+       "frame 10: the pose is not a rigid motion within 1e+08 m"},
       {Sin::kSaysShear, RunStatus::kInvalid,
-       "frame 10: the pose is no rigid motion within 1e+08 m"},
+       "frame 10: the pose is not a rigid motion within 1e+08 m"},
       {Sin::kGoesBackToAnOldMap, RunStatus::kInvalid, "frame 10: its map_id falls from 0 to -1"},
       {Sin::kWrongFrame, RunStatus::kInvalid, "frame 10: the answer belongs to frame 0"},
-      {Sin::kLosesTheRest, RunStatus::kLost, "a pose for 10 of 40 frames only"}};
+      {Sin::kLosesTheRest, RunStatus::kLost, "poses for only 10 of 40 frames"}};
   for (const auto& [sin, status, why] : cases) {
     const RunResult run = DriveWith(sin);
     EXPECT_EQ(run.status, status);

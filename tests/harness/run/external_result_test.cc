@@ -28,9 +28,10 @@ RunResult Of(const Trajectory& estimate, double min_coverage = kMinCoverage) {
 TEST(ExternalResultTest, StampsOfAnotherClockAreToldAsTheSystemSawThem) {
   const RunResult run = Of(Poses(-kEpoch_ns, kStep_ns, 40));
   EXPECT_EQ(run.status, RunStatus::kLost);
-  EXPECT_EQ(run.status_why,
-            "a pose for 0 of 40 frames only; 0 of 40 poses have a frame's stamp: they are from "
-            "0.000 to 1.950 s, the dataset's frames from 1600000000.000 to 1600000001.950 s");
+  EXPECT_EQ(
+      run.status_why,
+      "poses for only 0 of 40 frames; 0 of 40 poses have a frame's timestamp: they range "
+      "from 0.000 to 1.950 s, but the dataset's frames from 1600000000.000 to 1600000001.950 s");
 }
 
 TEST(ExternalResultTest, StampsInAnotherUnitAreToldSo) {
@@ -46,13 +47,13 @@ TEST(ExternalResultTest, WhereNoCoverageIsAskedForeignStampsAreInvalid) {
   EXPECT_EQ(Of(Poses(0, kStep_ns / 10, 400), 0).status, RunStatus::kOk) << "at an IMU's rate";
   const RunResult wrong = Of(Poses(0, kStep_ns / 1000, 40), 0);
   EXPECT_EQ(wrong.status, RunStatus::kInvalid);
-  EXPECT_THAT(wrong.status_why, HasSubstr("1 of 40 poses have a frame's stamp"));
+  EXPECT_THAT(wrong.status_why, HasSubstr("1 of 40 poses have a frame's timestamp"));
   EXPECT_TRUE(wrong.trajectory.final.empty());
 }
 
 TEST(ExternalResultTest, ASystemThatIsOnlyLostIsToldOfNoStamps) {
-  EXPECT_EQ(Of(Poses(0, kStep_ns, 4)).status_why, "a pose for 4 of 40 frames only");
-  EXPECT_EQ(Of({}).status_why, "a pose for 0 of 40 frames only");
+  EXPECT_EQ(Of(Poses(0, kStep_ns, 4)).status_why, "poses for only 4 of 40 frames");
+  EXPECT_EQ(Of({}).status_why, "poses for only 0 of 40 frames");
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ TEST(PlaybackTest, WhatDoesNotFitIsANoteAndTheDriveStands) {
       },
       {}, &result);
   ASSERT_EQ(result.notes.size(), 1u);
-  EXPECT_THAT(result.notes[0], testing::HasSubstr("the mask has another size than the image"));
+  EXPECT_THAT(result.notes[0], testing::HasSubstr("the mask and the image differ in size"));
   EXPECT_EQ(result.facts.size(), static_cast<std::size_t>(kFrames));
   EXPECT_EQ(result.status, RunStatus::kOk);
 }

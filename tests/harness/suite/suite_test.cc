@@ -244,7 +244,7 @@ TEST_F(SuiteTest, BracesThatAreTheShellsOwnStay) {
 TEST_F(SuiteTest, PartsOfASystemMustFitTogether) {
   const std::pair<const char*, const char*> cases[] = {
       {"{name: oracle, options: {feature.features: 800}}", "'oracle' is a built-in system"},
-      {"{name: x}", "it needs a 'command', or 'like' with one of our systems"},
+      {"{name: x}", "it needs 'command', or 'like' with a built-in system"},
       {"{name: x, like: oracle, command: 'slam {output}'}", "not both"},
       {"{name: x, like: orbslam2, mask_errors: {boundary_px: 3}}", "told their masks"},
       {"{name: x, like: oracle, mask_errors: {boundary_px: 300}}", "from 0 to 100"},

@@ -108,7 +108,7 @@ TEST_F(ForeignSceneTest, MistakesAreNamedWithFileAndKey) {
   EXPECT_THAT(Complaint("\"lamp\", \"type\": \"obj\", \"filename\": \"square.obj\"",
                         "\"lamp\", \"type\": \"obj\", \"filename\": \"triangle.obj\""),
               HasSubstr("lights[0].entity: its shape is not one parallelogram"));
-  EXPECT_THAT(Complaint("\"camera\"", "camera"), HasSubstr("is no JSON"));
+  EXPECT_THAT(Complaint("\"camera\"", "camera"), HasSubstr("not JSON"));
   EXPECT_THAT(Complaint("\"camera\"", "camera"), StartsWith((folder_ / "scene.json").string()));
   EXPECT_THROW(LoadForeignScene(folder_ / "none.json"), ForeignSceneError);
 }

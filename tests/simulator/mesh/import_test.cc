@@ -196,7 +196,8 @@ TEST(ImportModel, AMirroredColladaNodeIsNotInsideOut) {
 TEST(ImportModel, AShearedColladaNodeIsRefused) {
   const Scratch scratch;
   const fs::path file = scratch.Write("cube.dae", CubeIn("1 2 0 0 0 1 0 0 0 0 1 0 0 0 0 1"));
-  EXPECT_THAT(ErrorOf(file), testing::HasSubstr("node 'n' is no translation, rotation and scale"));
+  EXPECT_THAT(ErrorOf(file),
+              testing::HasSubstr("node 'n' is not made of translation, rotation and scale"));
 }
 
 TEST(ImportModel, NormalsThatSayNoDirectionAreAsNone) {

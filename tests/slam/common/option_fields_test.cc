@@ -84,16 +84,15 @@ TEST(OptionFields, RefuseWhatIsNoValueAndStayAsTheyAre) {
   EXPECT_EQ(Set("wheels", "many", &cart),
             "wheels is \"many\"; it must be a whole number in [1, 8]");
   EXPECT_EQ(Set("wheels", "4.5", &cart), "wheels is \"4.5\"; it must be a whole number in [1, 8]");
-  EXPECT_EQ(Set("wheels", "9", &cart), "wheels is 9; it must lie in [1, 8]");
-  EXPECT_EQ(Set("wheels", "4294967300", &cart), "wheels is 4294967300; it must lie in [1, 8]");
-  EXPECT_EQ(Set("seed", "-1", &cart), "seed is -1; it must lie in [0, 4294967295]");
+  EXPECT_EQ(Set("wheels", "9", &cart), "wheels is 9; it must be in [1, 8]");
+  EXPECT_EQ(Set("wheels", "4294967300", &cart), "wheels is 4294967300; it must be in [1, 8]");
+  EXPECT_EQ(Set("seed", "-1", &cart), "seed is -1; it must be in [0, 4294967295]");
   EXPECT_EQ(Set("wheel.radius_m", "0.1m", &cart),
             "wheel.radius_m is \"0.1m\"; it must be a number in [0.1, 2] m");
   EXPECT_EQ(Set("wheel.radius_m", "", &cart),
             "wheel.radius_m is \"\"; it must be a number in [0.1, 2] m");
-  EXPECT_EQ(Set("wheel.radius_m", "nan", &cart),
-            "wheel.radius_m is nan; it must lie in [0.1, 2] m");
-  EXPECT_EQ(Set("wheel.offset.0", "inf", &cart), "wheel.offset.0 is inf; it must lie in [-5, 5] m");
+  EXPECT_EQ(Set("wheel.radius_m", "nan", &cart), "wheel.radius_m is nan; it must be in [0.1, 2] m");
+  EXPECT_EQ(Set("wheel.offset.0", "inf", &cart), "wheel.offset.0 is inf; it must be in [-5, 5] m");
   EXPECT_EQ(Set("braked", "maybe", &cart), "braked is \"maybe\"; it must be true or false");
   EXPECT_EQ(Set("colour", "gren", &cart),
             "colour is \"gren\"; it must be one of red, green; did you mean green?");
@@ -115,11 +114,11 @@ TEST(Validate, NamesTheFirstValueOutOfRangeThenTheFirstBrokenRule) {
   cart.wheels = 5;
   EXPECT_EQ(Validate(cart), "wheels is 5; it must be even");
   cart.wheel.radius_m = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(Validate(cart), "wheel.radius_m is nan; it must lie in [0.1, 2] m");
+  EXPECT_EQ(Validate(cart), "wheel.radius_m is nan; it must be in [0.1, 2] m");
   cart.colour = static_cast<Colour>(7);
-  EXPECT_EQ(Validate(cart), "colour is no known choice");
+  EXPECT_EQ(Validate(cart), "colour is not among its choices");
   cart.wheels = 0;
-  EXPECT_EQ(Validate(cart), "wheels is 0; it must lie in [1, 8]");
+  EXPECT_EQ(Validate(cart), "wheels is 0; it must be in [1, 8]");
 }
 
 TEST(Validate, NamesBothSidesOfARule) {

@@ -126,15 +126,15 @@ TEST(SetOption, OfTheBaseStartsFromItsOptions) {
 TEST(SetOption, SaysWhatIsWrong) {
   SlamOptions options;
   EXPECT_EQ(SetOption("dynamic.robust.feild.memory", "0.8", &options),
-            "there is no option dynamic.robust.feild.memory; did you mean "
+            "unknown option dynamic.robust.feild.memory; did you mean "
             "dynamic.robust.field.memory?");
   EXPECT_EQ(SetOption("field.memory", "0.8", &options),
-            "there is no option field.memory; did you mean dynamic.robust.field.memory?");
+            "unknown option field.memory; did you mean dynamic.robust.field.memory?");
   EXPECT_EQ(SetOption("feature", "800", &options),
             "feature is a group of options, such as feature.features");
-  EXPECT_EQ(SetOption("zebra crossing", "1", &options), "there is no option zebra crossing");
+  EXPECT_EQ(SetOption("zebra crossing", "1", &options), "unknown option zebra crossing");
   EXPECT_EQ(SetOption("feature.features", "0", &options),
-            "feature.features is 0; it must lie in [1, 20000]");
+            "feature.features is 0; it must be in [1, 20000]");
   EXPECT_EQ(SetOption("feature.features", "8e2", &options),
             "feature.features is \"8e2\"; it must be a whole number in [1, 20000]");
   EXPECT_EQ(SetOption("dynamic.method", "robst", &options),
@@ -146,7 +146,7 @@ TEST(SetOption, KnowsNothingOfWhatTheDriverOwns) {
   SlamOptions options;
   for (const char* path : {"vocabulary_file", "map_file", "localise_only", "threads",
                            "dynamic.keep_stages", "schedule.free_running", "schedule.background"}) {
-    EXPECT_THAT(SetOption(path, "1", &options), HasSubstr("there is no option")) << path;
+    EXPECT_THAT(SetOption(path, "1", &options), HasSubstr("unknown option")) << path;
   }
 }
 
@@ -154,9 +154,9 @@ TEST(WhyWithoutEffect, NamesTheBaseThatLooksAtTheOption) {
   const SlamOptions plain = OptionsOf(Base::kPlain), orbslam2 = OptionsOf(Base::kOrbSlam2);
   EXPECT_EQ(WhyWithoutEffect("track.local_keyframes", plain), "");
   EXPECT_EQ(WhyWithoutEffect("track.local_keyframes", orbslam2),
-            "track.local_keyframes has no effect with base orbslam2; only base plain looks at it");
+            "track.local_keyframes has no effect with base orbslam2; only base plain uses it");
   EXPECT_EQ(WhyWithoutEffect("orbslam2.map_ratio", plain),
-            "orbslam2.map_ratio has no effect with base plain; only base orbslam2 looks at it");
+            "orbslam2.map_ratio has no effect with base plain; only base orbslam2 uses it");
   EXPECT_EQ(WhyWithoutEffect("orbslam2.map_ratio", orbslam2), "");
   // The rejection of movers, which both bases have, predicts the motion across a gap.
   EXPECT_EQ(WhyWithoutEffect("track.longest_gap_s", orbslam2), "");
@@ -183,7 +183,7 @@ TEST(Validate, CoversEveryPartWithItsPath) {
     return Validate(options);
   };
   EXPECT_EQ(broken([](auto& o) { o.track.dead_reckoning.match.radius_px = -1; }),
-            "track.dead_reckoning.match.radius_px is -1; it must lie in [0, 500] px");
+            "track.dead_reckoning.match.radius_px is -1; it must be in [0, 500] px");
   EXPECT_THAT(broken([](auto& o) { o.keyframe.close_baselines = 0; }),
               HasSubstr("keyframe.close_baselines is 0"));
   EXPECT_THAT(broken([](auto& o) { o.mapping.adjust.free_keyframes = 0; }),

@@ -124,7 +124,7 @@ TEST_F(ComparePageTest, WhatVanishedIsCountedAndListed) {
                 [](const RunRecord& run) { return run.spec.scene == "a2" || run.spec.seed > 5; });
   const std::string page = Page(before, after);
   EXPECT_THAT(page, HasSubstr("verdict failed"));
-  EXPECT_THAT(page, HasSubstr("Of what was there, 1 cell and 4 seeds of 1 other are missing."));
+  EXPECT_THAT(page, HasSubstr("Compared with before, 1 cell and 4 seeds of 1 other are missing."));
   EXPECT_THAT(page, HasSubstr("all of it"));
   EXPECT_THAT(page, HasSubstr("seeds 6, 7, 8, 9"));
   EXPECT_THAT(Page(after, before), Not(HasSubstr("missing"))) << "what is new is not missing";
