@@ -5,11 +5,12 @@
 
 #include "harness/bench/source.h"
 #include "harness/contract/system_spec.h"
+#include "harness/contract/twin.h"
 
 namespace aisle {
 
 struct AccuracyBenchOptions {
-  BenchSource source{.twin = "empty"};
+  BenchSource source{.twin = twin::kEmpty};
   SystemSpec system = BuiltIn("plain");
   int starts = 9;  ///< drives per view
   int step = 1;    ///< frames from one start to the next

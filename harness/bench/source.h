@@ -7,16 +7,17 @@
 #include <string>
 
 #include "harness/contract/sequence.h"
+#include "harness/contract/twin.h"
 
 namespace aisle {
 
 /// Where a bench takes its frames from.
 struct BenchSource {
-  std::string format = "euroc";  ///< of a recording
-  std::string twin = "live";     ///< of a scene
-  std::uint64_t seed = 1;        ///< of a scene
-  std::string frames_dir = {};   ///< keeps what a scene renders; empty: nothing is kept
-  int threads = 0;               ///< 0: all
+  std::string format = "euroc";    ///< of a recording
+  std::string twin = twin::kLive;  ///< of a scene
+  std::uint64_t seed = 1;          ///< of a scene
+  std::string frames_dir = {};     ///< keeps what a scene renders; empty: nothing is kept
+  int threads = 0;                 ///< 0: all
 };
 
 /// A stretch of a scene or of a recording's folder: frames from `from` on, `to` not included.

@@ -8,11 +8,12 @@
 #include "harness/bench/source.h"
 #include "harness/contract/estimate.h"
 #include "harness/contract/system_spec.h"
+#include "harness/contract/twin.h"
 
 namespace aisle {
 
 struct StageBenchOptions {
-  BenchSource source{.twin = "empty"};
+  BenchSource source{.twin = twin::kEmpty};
   SystemSpec system = BuiltIn("plain");
   int frames = 100;  ///< of the view's first, at most
   int laps = 1;      ///< drives over the same frames, one after the other

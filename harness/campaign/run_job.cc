@@ -13,6 +13,7 @@
 #include "harness/campaign/teaching.h"
 #include "harness/contract/stream.h"
 #include "harness/contract/system_fault.h"
+#include "harness/contract/twin.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/plugs/cached_drive.h"
@@ -243,7 +244,7 @@ Teaching TeachFirst(const Job& job, const std::filesystem::path& map_file) {
   if (!job.teaching.empty()) {
     if (auto kept = ReadTeaching(job.teaching, map_file)) return *std::move(kept);
   }
-  const std::unique_ptr<DriveScene> scene = OpenDrive(job, "empty", nullptr, job.led_frames);
+  const std::unique_ptr<DriveScene> scene = OpenDrive(job, twin::kEmpty, nullptr, job.led_frames);
   const auto estimator = EstimatorOf(job, scene->calibration(), scene->rate_hz());
   TellStage("being led along its path");
   Teaching teaching = Teach(*scene, *estimator, MasksOf(job), job.spec.seed, map_file);

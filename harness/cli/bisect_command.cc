@@ -9,6 +9,7 @@
 #include "harness/cli/command.h"
 #include "harness/cli/common_options.h"
 #include "harness/cli/terminal.h"
+#include "harness/contract/twin.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/record/group.h"
@@ -23,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string good, bad, suite, scene, twin = "live", system, limit, out = "out/bisect";
+  std::string good, bad, suite, scene, twin = twin::kLive, system, limit, out = "out/bisect";
   std::vector<std::uint64_t> seed{1};
   RunLimits limits;
   bool json = false;

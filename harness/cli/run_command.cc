@@ -18,6 +18,7 @@
 #include "harness/cli/night_folder.h"
 #include "harness/cli/publish.h"
 #include "harness/cli/terminal.h"
+#include "harness/contract/twin.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
@@ -209,7 +210,7 @@ std::map<std::string, std::string> HashesOfScenes(const std::vector<Suite>& suit
   for (const Suite& suite : suites) {
     for (const SuiteScene& scene : suite.scenes) {
       if (scene.recorded || hashes.contains(scene.name)) continue;
-      hashes.emplace(scene.name, fmt::format("{:016x}", HashSource(scene.file, "live", 0)));
+      hashes.emplace(scene.name, fmt::format("{:016x}", HashSource(scene.file, twin::kLive, 0)));
     }
   }
   return hashes;

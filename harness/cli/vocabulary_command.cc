@@ -3,6 +3,7 @@
 #include "harness/cli/common_options.h"
 #include "harness/cli/early_checks.h"
 #include "harness/cli/terminal.h"
+#include "harness/contract/twin.h"
 #include "harness/io/dataset.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::vector<std::string> sources;
-  std::string out, format = "euroc", twin = "empty";
+  std::string out, format = "euroc", twin = twin::kEmpty;
   int frames = 16, threads = 0;
   std::uint64_t seed = 1;
 };

@@ -9,6 +9,7 @@
 #include "harness/contract/frame.h"
 #include "harness/contract/score.h"
 #include "harness/contract/system_spec.h"
+#include "harness/contract/twin.h"
 
 namespace aisle {
 
@@ -16,7 +17,7 @@ namespace aisle {
 struct RunSpec {
   std::string scene;       ///< name, e.g. "paper/scene2"
   std::string scene_file;  ///< path
-  std::string twin = "live";
+  std::string twin = twin::kLive;
   SystemSpec system;
   std::uint64_t seed = 1;
   /// Which drive over this very input, from 1 on: of systems that scatter on one (`repeats`).

@@ -1,5 +1,6 @@
 #include "harness/judge/twins.h"
 
+#include "harness/contract/twin.h"
 #include "harness/systems/traits.h"
 
 namespace aisle {
@@ -45,14 +46,14 @@ void AddDynamicPenalty(std::vector<RunRecord>* runs) {
   std::map<Key, Score> empty;
   for (const RunRecord& run : *runs) {
     const auto score = run.scores.find(kError);
-    if (run.spec.twin == "empty" && score != run.scores.end()) {
+    if (run.spec.twin == twin::kEmpty && score != run.scores.end()) {
       empty[{run.spec.scene, run.spec.system.name, run.spec.seed, run.spec.repeat}] = score->second;
     }
   }
   for (RunRecord& run : *runs) {
     const auto twin =
         empty.find({run.spec.scene, run.spec.system.name, run.spec.seed, run.spec.repeat});
-    const bool moves = run.spec.twin != "empty" && run.spec.twin != "frozen";
+    const bool moves = run.spec.twin != twin::kEmpty && run.spec.twin != twin::kFrozen;
     if (!moves || twin == empty.end()) continue;
     const auto live = run.scores.find(kError);
     const bool both = live != run.scores.end() && live->second.value && twin->second.value &&
@@ -70,7 +71,7 @@ void AddDynamicPenalty(std::vector<RunRecord>* runs) {
 }
 
 std::string TwinNeededBy(const std::string& score) {
-  return score == "dynamic_penalty" ? "empty" : "";
+  return score == "dynamic_penalty" ? twin::kEmpty : "";
 }
 
 bool IsWithoutRejection(const SystemSpec& other, const SystemSpec& system) {
@@ -82,18 +83,18 @@ bool IsWithoutRejection(const SystemSpec& other, const SystemSpec& system) {
 std::vector<CostSplit> SplitCosts(const std::vector<SceneRuns>& scenes) {
   std::vector<CostSplit> splits;
   for (const SceneRuns& scene : scenes) {
-    if (scene.twin != "live") continue;
+    if (scene.twin != twin::kLive) continue;
     for (const SystemRuns& system : scene.systems) {
       CostSplit split{.scene = scene.scene,
                       .system = system.system,
                       .color = system.color,
                       .live_m = Error(&system),
-                      .empty_m = Error(Find(scenes, scene.scene, "empty", system.system)),
+                      .empty_m = Error(Find(scenes, scene.scene, twin::kEmpty, system.system)),
                       .occlusion_m = {},
                       .motion_m = {},
                       .rejection_m = {},
                       .penalty = {}};
-      const auto frozen = Error(Find(scenes, scene.scene, "frozen", system.system));
+      const auto frozen = Error(Find(scenes, scene.scene, twin::kFrozen, system.system));
       split.occlusion_m = Minus(frozen, split.empty_m);
       split.motion_m = Minus(split.live_m, frozen);
       for (const SystemRuns& other : scene.systems) {

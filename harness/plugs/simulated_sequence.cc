@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "harness/contract/twin.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/plugs/ask_simulator.h"
@@ -22,11 +23,13 @@ struct NamedTwin {
   std::string_view name;
   sim::Twin twin;
 };
-constexpr std::array kTwins = {
-    NamedTwin{"live", sim::Twin::kLive},     NamedTwin{"empty", sim::Twin::kEmpty},
-    NamedTwin{"frozen", sim::Twin::kFrozen}, NamedTwin{"none", sim::Twin::kNone},
-    NamedTwin{"low", sim::Twin::kLow},       NamedTwin{"mid", sim::Twin::kMid},
-    NamedTwin{"high", sim::Twin::kHigh}};
+constexpr std::array kTwins = {NamedTwin{twin::kLive, sim::Twin::kLive},
+                               NamedTwin{twin::kEmpty, sim::Twin::kEmpty},
+                               NamedTwin{twin::kFrozen, sim::Twin::kFrozen},
+                               NamedTwin{"none", sim::Twin::kNone},
+                               NamedTwin{"low", sim::Twin::kLow},
+                               NamedTwin{"mid", sim::Twin::kMid},
+                               NamedTwin{"high", sim::Twin::kHigh}};
 
 sim::Twin TwinFromName(const std::string& name) {
   const auto twin = std::ranges::find(kTwins, name, &NamedTwin::name);

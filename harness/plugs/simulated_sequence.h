@@ -6,6 +6,7 @@
 #include <string>
 
 #include "harness/contract/sequence.h"
+#include "harness/contract/twin.h"
 #include "harness/io/dataset.h"
 #include "harness/plugs/light_teller.h"
 
@@ -15,7 +16,7 @@ struct SimulatedSequenceOptions {
   std::string scene_file;
   std::string scene_name;  ///< for reports, e.g. "paper/scene2"
   std::string assets_dir;
-  std::string twin = "live";  ///< one of TwinNames()
+  std::string twin = twin::kLive;  ///< one of TwinNames()
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0: as many as the machine has; never changes a pixel
   std::string isa = "avx2";

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <sstream>
 
+#include "harness/contract/twin.h"
 #include "harness/io/input_error.h"
 #include "harness/io/nearest_word.h"
 
@@ -189,7 +190,7 @@ OptionTexts WithoutSteering(const OptionTexts& options) {
 }
 
 RunSpec AsLed(RunSpec spec) {
-  spec.twin = "empty";
+  spec.twin = twin::kEmpty;
   spec.system.name.clear();
   spec.system.options = WithoutSteering(spec.system.options);
   return spec;

@@ -3,6 +3,7 @@
 
 #include <thread>
 
+#include "harness/contract/twin.h"
 #include "harness/io/places.h"
 #include "harness/python/arrays.h"
 #include "harness/python/frame.h"
@@ -114,7 +115,8 @@ void BindSimulator(py::module_& module) {
       "any number of threads.")
       .def(
           py::init<const std::filesystem::path&, std::uint64_t, std::string, int>(),
-          py::arg("scene"), py::arg("seed") = 1, py::arg("twin") = "live", py::arg("threads") = 0,
+          py::arg("scene"), py::arg("seed") = 1, py::arg("twin") = twin::kLive,
+          py::arg("threads") = 0,
           "scene: a file, or the name of one that comes with aisle (\"paper/scene2\"). twin: live, "
           "empty (no actors),\nfrozen (they stand), or none, low, mid, high (level of dynamics). "
           "threads: 0 takes all; never changes a pixel.\nThe first time a scene is opened its "

@@ -6,6 +6,7 @@
 
 #include "harness/contract/steering.h"
 #include "harness/contract/stream.h"
+#include "harness/contract/twin.h"
 #include "harness/io/input_error.h"
 #include "harness/io/nearest_word.h"
 #include "harness/judge/twins.h"
@@ -192,7 +193,8 @@ void DescribeLimit(Fields& fields, const Vocabulary& vocabulary, const Suite& su
     fields.Fail("scene", fmt::format("'{}' is not among this suite's scenes: {}",
                                      Printable(limit.scene), fmt::join(scenes, ", ")));
   }
-  fields.Name({"twin", "only for this twin of the suite", "live"}, &limit.twin, {vocabulary.twins});
+  fields.Name({"twin", "only for this twin of the suite", twin::kLive}, &limit.twin,
+              {vocabulary.twins});
   if (!limit.twin.empty() && !IsAmong(limit.twin, suite.twins)) {
     fields.Fail("twin", fmt::format("'{}' is not among this suite's twins: {}", limit.twin,
                                     fmt::join(suite.twins, ", ")));

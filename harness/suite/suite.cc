@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "harness/common/first_of_many.h"
+#include "harness/contract/twin.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
@@ -201,7 +202,7 @@ std::vector<RunSpec> Plan(const Suite& suite) {
   std::vector<RunSpec> specs;
   for (const SuiteScene& scene : suite.scenes) {
     const std::vector<std::string> twins =
-        scene.recorded ? std::vector<std::string>{"live"} : suite.twins;
+        scene.recorded ? std::vector<std::string>{twin::kLive} : suite.twins;
     const std::size_t most_seeds = scene.recorded ? 1 : suite.seeds.size();
     const std::span<const std::uint64_t> seeds(suite.seeds.data(),
                                                std::min(suite.seeds.size(), most_seeds));

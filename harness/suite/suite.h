@@ -7,6 +7,7 @@
 
 #include "harness/contract/run.h"
 #include "harness/contract/system_spec.h"
+#include "harness/contract/twin.h"
 #include "harness/judge/limit.h"
 
 namespace aisle {
@@ -25,7 +26,7 @@ struct Suite {
   std::string question;
   std::vector<SuiteScene> scenes;   ///< names are unique, as folders too (SafeName)
   std::vector<SystemSpec> systems;  ///< names are unique
-  std::vector<std::string> twins = {"live"};
+  std::vector<std::string> twins = {twin::kLive};
   /// Nine show a shift of two standard deviations in 97 nights of 100; three never can.
   std::vector<std::uint64_t> seeds = {1, 2, 3, 4, 5, 6, 7, 8, 9};
   std::vector<Limit> limits;

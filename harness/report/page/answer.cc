@@ -4,6 +4,7 @@
 #include <set>
 
 #include "harness/common/first_of_many.h"
+#include "harness/contract/twin.h"
 #include "harness/judge/twins.h"
 #include "harness/record/seed_values.h"
 #include "harness/report/page/drive_outcome.h"
@@ -56,7 +57,7 @@ std::pair<int, double> Badness(const SceneErrors& errors) {
 std::vector<SceneErrors> CollectErrors(const Results& results) {
   std::vector<SceneErrors> collected;
   for (const SceneRuns& scene : GroupByScene(results)) {
-    if (scene.twin != "live") continue;
+    if (scene.twin != twin::kLive) continue;
     SceneErrors& of_scene = collected.emplace_back(SceneErrors{scene.scene, {}, {}});
     of_scene.drives = DriveSentence(scene);
     for (const auto& [system, outcome] : OutcomesOf(scene)) {

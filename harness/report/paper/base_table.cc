@@ -1,5 +1,6 @@
 #include "harness/report/paper/base_table.h"
 
+#include "harness/contract/twin.h"
 #include "harness/record/seed_values.h"
 #include "harness/report/paper/spread.h"
 #include "harness/score/statistics.h"
@@ -58,7 +59,7 @@ Head HeadOf(const std::vector<SceneRuns>& scenes) {
     if (std::find(names->begin(), names->end(), name) == names->end()) names->push_back(name);
   };
   for (const SceneRuns& scene : scenes) {
-    if (scene.twin != "live") continue;
+    if (scene.twin != twin::kLive) continue;
     for (const SystemRuns& system : scene.systems) {
       const SystemSpec& spec = system.runs.front()->spec.system;
       if (RejectionOf(spec).empty()) continue;
@@ -105,7 +106,7 @@ std::optional<NumberTable> BaseTable(const std::vector<SceneRuns>& scenes) {
                     .columns = head.bases,
                     .rows = {}};
   for (const SceneRuns& scene : scenes) {
-    if (scene.twin != "live") continue;
+    if (scene.twin != twin::kLive) continue;
     const Cells cells = CellsOf(scene);
     std::size_t seeds = 0;
     for (const auto& [cell, runs] : cells) seeds = std::max(seeds, CountSeeds(runs));

@@ -1,5 +1,6 @@
 #include "harness/report/paper/paper_page.h"
 
+#include "harness/contract/twin.h"
 #include "harness/record/frames_csv.h"
 #include "harness/report/chart/charts.h"
 #include "harness/report/chart/time_chart.h"
@@ -16,7 +17,7 @@ constexpr std::size_t kTrackStep = 2;  ///< frames: a rig that drives leaves a l
 
 const SceneRuns* LiveRunsOf(const std::vector<SceneRuns>& scenes, const std::string& name) {
   for (const SceneRuns& scene : scenes) {
-    if (scene.scene == name && scene.twin == "live") return &scene;
+    if (scene.scene == name && scene.twin == twin::kLive) return &scene;
   }
   return nullptr;
 }
@@ -98,7 +99,7 @@ std::string Tracks(const std::vector<SceneRuns>& scenes, const fs::path& report_
 
 std::string PaperPage(const std::vector<SceneRuns>& scenes, const fs::path& report_dir) {
   const bool any = std::any_of(scenes.begin(), scenes.end(), [](const SceneRuns& scene) {
-    return scene.twin == "live" && scene.scene.starts_with("paper/scene");
+    return scene.twin == twin::kLive && scene.scene.starts_with("paper/scene");
   });
   if (!any) return "";
   const SceneRuns* first = LiveRunsOf(scenes, "paper/scene1");

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "harness/contract/twin.h"
 #include "harness/record/seed_values.h"
 #include "harness/report/paper/base_table.h"
 #include "harness/report/paper/printed.h"
@@ -242,7 +243,7 @@ std::vector<NumberTable> PaperTables(const std::vector<SceneRuns>& scenes) {
                       .rows = {}};
     for (const Column& column : kind.columns) table.columns.emplace_back(column.title);
     for (const SceneRuns& scene : scenes) {
-      if (scene.twin != "live" || !BelongsInto(kind, scene.scene)) continue;
+      if (scene.twin != twin::kLive || !BelongsInto(kind, scene.scene)) continue;
       const NumberTable::Row row = RowOf(
           scene.scene, table.groups, kind.columns,
           [&](const auto& system, const Column& column) { return Cell(scene, system, column); });
