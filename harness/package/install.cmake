@@ -58,9 +58,30 @@ foreach(house slam simulator harness)
   install(TARGETS ${rooms} EXPORT aisle_${house} COMPONENT dev
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/aisle)
   install(EXPORT aisle_${house} NAMESPACE aisle:: DESTINATION ${AISLE_CMAKE_DIR} COMPONENT dev)
-  install(DIRECTORY ${CMAKE_SOURCE_DIR}/${house} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/aisle
-    COMPONENT dev FILES_MATCHING PATTERN "*.h" PATTERN package EXCLUDE)
 endforeach()
+# Of the foundations only the public headers and what these include: the rest stays free to change.
+function(aisle_install_with_includes)
+  set(queue ${ARGN})
+  while(queue)
+    list(POP_FRONT queue header)
+    if(header IN_LIST seen)
+      continue()
+    endif()
+    list(APPEND seen ${header})
+    cmake_path(GET header PARENT_PATH folder)
+    install(FILES ${CMAKE_SOURCE_DIR}/${header} COMPONENT dev
+      DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/aisle/${folder})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${header})
+    file(STRINGS ${CMAKE_SOURCE_DIR}/${header} includes REGEX "^#include \"")
+    list(TRANSFORM includes REPLACE "^#include \"([^\"]*)\".*" "\\1")
+    list(APPEND queue ${includes})
+  endwhile()
+endfunction()
+aisle_install_with_includes(slam/stereo_slam.h slam/moving_objects.h simulator/simulator.h
+  simulator/scene_file.h simulator/site.h simulator/import_model.h
+  simulator/calibration/stereo_model.h simulator/proof/proofs.h)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/harness DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/aisle
+  COMPONENT dev FILES_MATCHING PATTERN "*.h" PATTERN package EXCLUDE)
 install(EXPORT aisleNouns NAMESPACE aisle:: DESTINATION ${AISLE_CMAKE_DIR} COMPONENT dev)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/aisleConfig.cmake.in
   ${CMAKE_BINARY_DIR}/aisleConfig.cmake INSTALL_DESTINATION ${AISLE_CMAKE_DIR})

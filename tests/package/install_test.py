@@ -13,6 +13,9 @@ import sys
 import tempfile
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "house"))
+import arrows
+
 BUILD, SOURCE = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 PACKAGE_TEST = pathlib.Path(__file__).resolve().parent
 
@@ -51,6 +54,16 @@ class Installed(unittest.TestCase):
             if path.is_file() and str(SOURCE).encode() in path.read_bytes()
         ]
         self.assertEqual(named, [])
+
+    def test_of_the_foundations_only_public_headers_and_what_they_include_are_installed(self):
+        headers = {path.relative_to(SOURCE).as_posix(): path.read_text()
+                   for house in ("slam", "simulator") for path in SOURCE.glob(f"{house}/**/*.h")}
+        expected = arrows.FACES.union(*(arrows.pulled_in(headers, face) for face in arrows.FACES))
+        root = self.prefix / "include/aisle"
+        found = {path.relative_to(root).as_posix()
+                 for house in ("slam", "simulator") for path in root.glob(f"{house}/**/*")
+                 if path.is_file()}
+        self.assertEqual(found, expected)
 
     def test_scenes_are_found_by_name_and_drawn(self):
         for name in ("smoke/short", "quickstart", "scenes/suites/smoke.yaml"):
