@@ -11,6 +11,8 @@
 #include <span>
 
 #include "harness/cli/cluster_commands.h"
+#include "harness/cli/help_format.h"
+#include "harness/cli/terminal.h"
 #include "harness/io/input_error.h"
 #include "harness/io/nearest_word.h"
 #include "harness/io/places.h"
@@ -130,6 +132,7 @@ void AddCommands(CLI::App* app, Action* action) {
 int RunCommandLine(int argc, const char* const* argv) {
   CLI::App app{"aisle: simulation-in-the-loop tests for stereo visual SLAM in dynamic scenes"};
   app.name("aisle");
+  app.formatter(std::make_shared<HelpFormat>(LookOfStdout().width));  // handed down to commands
   app.set_version_flag("--version", [] {
     const Provenance own = OwnProvenance();
     return fmt::format("aisle {} ({})", own.version, own.commit);
