@@ -84,8 +84,8 @@ TEST_F(BrokenInputTest, SuitesAndScenes) {
        "integers, got 'two' (number of seeds, from 1 on, or a list; each seed changes who walks, "
        "when, how fast and along which path); example: seeds: 3"},
       {run, WithSystem("{name: mine}"),
-       "aisle: {d}/s.yaml:4:18: systems[0].name: it needs a 'command', or 'like' with one of our "
-       "systems"},
+       "aisle: {d}/s.yaml:4:18: systems[0].name: it needs 'command', or 'like' with a built-in "
+       "system"},
       {run, WithSystem("{name: mine, command: slam}"),
        "aisle: {d}/s.yaml:4:33: systems[0].command: the command must contain {output}; " + example},
       {run, WithSystem("{name: oracle, command: \"x {output}\"}"),
