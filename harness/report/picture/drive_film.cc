@@ -135,7 +135,7 @@ cv::Mat3b DriveView::At(std::size_t index) const {
                          InWords(now.mode)),
              0);
   sheet.Text(fmt::format("off its route {:+.1f} cm", 100 * now.cross_track_m), 1);
-  sheet.Text(fmt::format("believes to be {:.1f} cm away",
+  sheet.Text(fmt::format("estimate {:.1f} cm off",
                          100 * (now.belief.position - now.truth.position).norm()),
              2);
   if (touched != nullptr) sheet.Text("touches " + touched->with, 3);
