@@ -7,9 +7,9 @@
 namespace aisle {
 
 std::string HelpFormat::InColumn(const std::string& description) const {
+  if (width_ == 0) return description;
   constexpr std::size_t kLeast = 30;  // columns: narrower text is no easier to read
   const std::size_t taken = get_column_width();
-  if (width_ == 0) return description;
   return Wrapped(description, width_ > taken + kLeast ? width_ - taken : kLeast);
 }
 
