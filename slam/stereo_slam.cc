@@ -15,6 +15,7 @@
 #include "slam/mapping/orbslam2_mapping.h"
 #include "slam/track/continuity.h"
 #include "slam/track/predict_motion.h"
+#include "slam/track/prior_map.h"
 #include "slam/track/track_record.h"
 
 namespace aisle::slam {
@@ -100,6 +101,9 @@ struct StereoSlam::Impl {
                      const std::optional<MeasuredMotion>& motion);
   Sight See(const StereoImages& images, const ExternalMask& mask,
             const std::optional<MeasuredMotion>& motion, TrackedFrame& result);
+  bool AsksPriorMap() const;
+  std::optional<MeasuredMotion> AskPriorMap(const StereoImages& images, ImageCorners corners,
+                                            const ExternalMask& mask, TrackedFrame& result);
   Rejection RejectMovers(const StereoImages& images, const ExternalMask& mask,
                          const std::optional<MeasuredMotion>& motion, TrackedFrame& result);
   DriveState Drive() const;
@@ -131,6 +135,8 @@ struct StereoSlam::Impl {
   int map_id = 0;                           // see TrackedFrame
   std::shared_ptr<const Frame> last_sight;  // the last frame that shows something
   TrackRecord track;
+  KeyframeId first_of_drive{0};                // those before it are of the map from a file
+  std::optional<PoseInPriorMap> in_prior_map;  // of the last frame
   MapKeeper keeper;
   std::unique_ptr<TrackingPolicy> policy;
 };
@@ -151,6 +157,7 @@ StereoSlam::Impl::Impl(const StereoCamera& camera_in, const SlamOptions& options
   if (options.map_file.empty()) return;
   const SavedMap saved = LoadMapFor(camera, options);
   keeper.Adopt(saved.map);
+  first_of_drive = saved.map.NextKeyframeId();
   track.GoOnFrom(saved.reference);
   state = TrackingState::kLost;
 }
@@ -204,18 +211,47 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
 }
 
 /// What the frame shows outside movers. Corners depend on the images alone and are found while the
-/// detector leaves threads idle: its time includes what of them it waited for.
+/// detector leaves threads idle: its time includes what of them it waited for. Where a prior map is
+/// asked first, it is with them.
 Sight StereoSlam::Impl::See(const StereoImages& images, const ExternalMask& mask,
                             const std::optional<MeasuredMotion>& motion, TrackedFrame& result) {
   StereoCorners corners;
   Beside finding([&] { corners = FindStereoCorners(images, options.feature); });
-  const Rejection rejected = RejectMovers(images, mask, motion, result);
+  std::optional<MeasuredMotion> known = motion;
+  if (!motion && AsksPriorMap()) {
+    finding.Wait();
+    known = AskPriorMap(images, corners.left, mask, result);
+  } else {
+    in_prior_map.reset();
+  }
+  const Rejection rejected = RejectMovers(images, mask, known, result);
   {
     Stopwatch time(result.stage_ms["extract"]);
     finding.Wait();
   }
   return {SeeFrame(images, std::move(corners), rejected.mask, camera, options, result.stage_ms),
           rejected.rig_motion};
+}
+
+/// Whether a map from before the drive may tell the search for movers how the rig moves.
+bool StereoSlam::Impl::AsksPriorMap() const {
+  return !options.map_file.empty() && options.base == Base::kPlain &&
+         options.dynamic.method == DynamicMethod::kRobust && IsFound();
+}
+
+/// How the rig has moved since the last frame as that map tells it.
+std::optional<MeasuredMotion> StereoSlam::Impl::AskPriorMap(const StereoImages& images,
+                                                            ImageCorners corners,
+                                                            const ExternalMask& mask,
+                                                            TrackedFrame& result) {
+  Stopwatch time(result.stage_ms["prior_map"]);
+  const Frame frame = SeeLeft(images, std::move(corners), mask, options);
+  const Map& map = keeper.map();
+  const auto now = FindInPriorMap({map, frame, camera, options.feature.levels, options.track},
+                                  track.memory(), first_of_drive);
+  const auto before = std::exchange(in_prior_map, now);
+  if (!before || !now) return std::nullopt;
+  return MotionInPriorMap(map, *before, *now);
 }
 
 /// The caller's mask and what the detector finds moving, together; the latter is noted in `result`.
@@ -241,7 +277,8 @@ DriveState StereoSlam::Impl::Drive() const {
           track.memory(),
           {keeper.vocabulary(), keeper.index()},
           frame_count,
-          state == TrackingState::kLost};
+          state == TrackingState::kLost,
+          in_prior_map};
 }
 
 /// What background work has made of the map by this frame.

@@ -11,6 +11,9 @@ std::optional<FramePose> PlainTracking::Find(const std::shared_ptr<const Frame>&
   const PlainContext context{drive.map, *frame, camera_, options_.feature.levels, options_.track};
   if (drive.memory.measured)
     return TrackMeasured(context, drive.memory, drive.places, drive.frame_number);
+  if (drive.in_prior_map) {
+    if (auto found = TrackInPriorMap(context, drive.memory, *drive.in_prior_map)) return found;
+  }
   if (!drive.lost) return TrackCarried(context, drive.memory, drive.places, drive.frame_number);
   return Relocalise(context, drive.memory, drive.places, drive.frame_number);
 }

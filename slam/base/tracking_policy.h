@@ -5,6 +5,7 @@
 
 #include "slam/mapping/map_part.h"
 #include "slam/options/slam_options.h"
+#include "slam/track/prior_map.h"
 #include "slam/track/relocalise.h"
 
 namespace aisle::slam {
@@ -16,6 +17,7 @@ struct DriveState {
   Places places;
   std::int64_t frame_number = 0;  ///< since the drive began
   bool lost = false;
+  std::optional<PoseInPriorMap> in_prior_map = {};  ///< where the frame that has come was found
 };
 
 /// How busy the mapper is.

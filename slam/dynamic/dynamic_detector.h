@@ -21,7 +21,7 @@ struct DynamicInput {
   cv::Mat1b left, right;  ///< 8-bit grey; not written to, neither now nor later by the caller
   /// Where the caller expects the rig to have moved since the last frame, and how sure that is.
   std::optional<MeasuredMotion> expected = {};
-  /// How it has been measured to move, by other means than its images.
+  /// How it has been measured to move, by other means than what these images show against the last.
   std::optional<MeasuredMotion> measured = {};
 };
 

@@ -29,6 +29,28 @@ Measurement Measure(const Keypoint& keypoint, const Disparity& disparity, double
   return measurement;
 }
 
+/// The left camera's features, and what they measure with the disparities found of them.
+Frame FrameOf(const StereoImages& images, ImageFeatures left,
+              const std::vector<Disparity>& disparities, const cv::Mat1f& confidence,
+              const SlamOptions& options) {
+  Frame frame;
+  frame.id = images.id;
+  frame.stamp_ns = images.stamp_ns;
+  frame.scale = options.feature.scale;
+  for (std::size_t i = 0; i < disparities.size(); ++i) {
+    const Keypoint& keypoint = left.features.keypoints[i];
+    const double scale = left.pyramid.scales[static_cast<std::size_t>(keypoint.level)];
+    frame.measurements.push_back(Measure(keypoint, disparities[i],
+                                         scale * options.keypoint_noise_px, options.equal_columns,
+                                         confidence));
+  }
+  const bool aligns = options.base == Base::kPlain && options.track.patch.radius_px > 0;
+  if (aligns) frame.patches = CutPatches(left);
+  frame.grid = FeatureGrid(left.features.keypoints, images.left.size());
+  frame.features = std::move(left.features);
+  return frame;
+}
+
 }  // namespace
 
 void CheckImages(const StereoImages& images, const ExternalMask& mask, const StereoCamera& camera) {
@@ -80,6 +102,13 @@ StereoCorners FindStereoCorners(const StereoImages& images, const FeatureOptions
   return corners;
 }
 
+Frame SeeLeft(const StereoImages& images, ImageCorners corners, const ExternalMask& mask,
+              const SlamOptions& options) {
+  ImageFeatures left = ChooseFeatures(std::move(corners), mask.left, options.feature);
+  const std::vector<Disparity> unknown(left.features.keypoints.size());
+  return FrameOf(images, std::move(left), unknown, mask.confidence, options);
+}
+
 std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, StereoCorners corners,
                                       const ExternalMask& mask, const StereoCamera& camera,
                                       const SlamOptions& options,
@@ -93,22 +122,8 @@ std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, StereoCorners 
   }
   Stopwatch time(stage_ms["stereo"]);
   const std::vector<Disparity> disparities = MatchStereo(left, right, camera, options.stereo);
-  auto frame = std::make_shared<Frame>();
-  frame->id = images.id;
-  frame->stamp_ns = images.stamp_ns;
-  frame->scale = options.feature.scale;
-  for (std::size_t i = 0; i < disparities.size(); ++i) {
-    const Keypoint& keypoint = left.features.keypoints[i];
-    const double scale = left.pyramid.scales[static_cast<std::size_t>(keypoint.level)];
-    frame->measurements.push_back(Measure(keypoint, disparities[i],
-                                          scale * options.keypoint_noise_px, options.equal_columns,
-                                          mask.confidence));
-  }
-  const bool aligns = options.base == Base::kPlain && options.track.patch.radius_px > 0;
-  if (aligns) frame->patches = CutPatches(left);
-  frame->grid = FeatureGrid(left.features.keypoints, images.left.size());
-  frame->features = std::move(left.features);
-  return frame;
+  return std::make_shared<const Frame>(
+      FrameOf(images, std::move(left), disparities, mask.confidence, options));
 }
 
 }  // namespace aisle::slam

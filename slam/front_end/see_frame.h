@@ -30,6 +30,10 @@ struct StereoCorners {
 };
 StereoCorners FindStereoCorners(const StereoImages& images, const FeatureOptions& options);
 
+/// What the left camera alone sees outside the mask: no depths. Enough to find landmarks by.
+Frame SeeLeft(const StereoImages& images, ImageCorners corners, const ExternalMask& mask,
+              const SlamOptions& options);
+
 /// The front end: features of both cameras outside the mask, and what they measure. The deviations
 /// grow as the confidence in the pixel falls: information times confidence. Runs both cameras in
 /// parallel; times go to `stage_ms`.

@@ -50,23 +50,6 @@ std::optional<FramePose> RefineAround(const PlainContext& context, const FirstPo
   return RefineInLocalMap(context, first.T_rig_world, first.landmarks, {});
 }
 
-/// Refines a pose that corners have found by where exactly their patches are. Seen from far off
-/// where it was made, the map itself is less exact than those: where they reject too many of the
-/// landmarks that the pose stands on, it stays as it is.
-void Sharpen(const PlainContext& context, const RefinePoseOptions& refine, FramePose* found) {
-  constexpr double kStillAgree = 0.7;
-  if (context.frame.patches.empty()) return;
-  std::vector<Measurement> measurements =
-      AlignMatches(context, found->pose.T_rig_world, found->matches);
-  RefinedPose sharp = RefinePose(context.camera, found->pose.T_rig_world,
-                                 ObservationsOf(context.map, measurements, found->matches), refine);
-  const double enough = std::max(kStillAgree * found->pose.inliers,
-                                 static_cast<double>(context.options.least_map_inliers));
-  if (!sharp.well_posed || sharp.inliers < enough) return;
-  found->pose = std::move(sharp);
-  found->measurements = std::move(measurements);
-}
-
 /// The frame with what the landmarks that the pose keeps have been found to measure. Other features
 /// may become landmarks of their own, where they are themselves.
 std::shared_ptr<const Frame> WithMeasurements(const std::shared_ptr<const Frame>& frame,
@@ -133,6 +116,20 @@ std::optional<FramePose> RefineInLocalMap(const PlainContext& context,
   }
   Sharpen(context, refine, &result);
   return result;
+}
+
+void Sharpen(const PlainContext& context, const RefinePoseOptions& refine, FramePose* found) {
+  constexpr double kStillAgree = 0.7;
+  if (context.frame.patches.empty()) return;
+  std::vector<Measurement> measurements =
+      AlignMatches(context, found->pose.T_rig_world, found->matches);
+  RefinedPose sharp = RefinePose(context.camera, found->pose.T_rig_world,
+                                 ObservationsOf(context.map, measurements, found->matches), refine);
+  const double enough = std::max(kStillAgree * found->pose.inliers,
+                                 static_cast<double>(context.options.least_map_inliers));
+  if (!sharp.well_posed || sharp.inliers < enough) return;
+  found->pose = std::move(sharp);
+  found->measurements = std::move(measurements);
 }
 
 bool IsConvincing(const FramePose& found, const TrackOptions& options) {

@@ -65,6 +65,11 @@ std::optional<FramePose> RefineInLocalMap(const PlainContext& context,
                                           const std::vector<LandmarkId>& landmarks,
                                           const RefinePoseOptions& refine);
 
+/// Refines a pose that corners have found by where exactly their patches are. Seen from far off
+/// where it was made, the map itself is less exact than those: where they reject too many of the
+/// landmarks that the pose stands on, it stays as it is.
+void Sharpen(const PlainContext& context, const RefinePoseOptions& refine, FramePose* found);
+
 /// What should be seen from a pose of the surroundings of the frame that `memory` is of.
 std::vector<Expected> ExpectAround(const PlainContext& context, const TrackMemory& memory,
                                    const Eigen::Isometry3d& T_rig_world);

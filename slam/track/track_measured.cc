@@ -103,6 +103,11 @@ std::optional<FramePose> TrackMeasured(const PlainContext& context, const TrackM
   return FindByLooks(context, memory, reckoned, places, turn);
 }
 
+std::optional<FramePose> TrackInPriorMap(const PlainContext& context, const TrackMemory& memory,
+                                         const PoseInPriorMap& told) {
+  return FindAround(context, memory, {PoseOf(told, context.map).inverse(), told.covariance});
+}
+
 std::optional<FramePose> TrackCarried(const PlainContext& context, const TrackMemory& memory,
                                       const Places& places, std::int64_t turn) {
   auto found = TrackFrame(context, memory);

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "slam/track/prior_map.h"
 #include "slam/track/relocalise.h"
 #include "slam/track/track_frame.h"
 
@@ -14,6 +15,11 @@ namespace aisle::slam {
 /// TrackMemory::measured must be there. Nothing where the images do not tell.
 std::optional<FramePose> TrackMeasured(const PlainContext& context, const TrackMemory& memory,
                                        const Places& places, std::int64_t turn);
+
+/// The same where landmarks of a prior map have told where the frame stands. Nothing where the
+/// others do not agree with that.
+std::optional<FramePose> TrackInPriorMap(const PlainContext& context, const TrackMemory& memory,
+                                         const PoseInPriorMap& told);
 
 /// Finds the frame in the map as TrackFrame does. A pose that explains too little of what should be
 /// seen must be where the rig's inertia can have carried it, and contends with what is found by

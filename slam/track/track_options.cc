@@ -68,6 +68,9 @@ void Describe(OptionFields& fields, TrackOptions& options) {
       "convincing_share", &options.convincing_share, {0, 1}, "",
       "A pose that explains less of the landmarks that should be seen is doubted, and the "
       "other ways to find one are tried.");
+  fields.Number("prior_map_share", &options.prior_map_share, {0, 1}, "",
+                "Where a smaller share of the prior map's landmarks that are found again agrees on "
+                "a pose, they do not tell the search for movers how the rig has moved.");
   fields.Integer("local_keyframes", &options.local_keyframes, {1, 1000}, "keyframes",
                  "Keyframes of the local map, whose landmarks are looked for.");
   fields.Number("longest_gap_s", &options.longest_gap_s, {0, 60}, "s",

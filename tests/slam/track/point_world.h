@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <random>
 #include <vector>
@@ -41,6 +42,12 @@ class PointWorld {
     }
     frame->grid = FeatureGrid(frame->features.keypoints, {camera.width, camera.height});
     return frame;
+  }
+
+  /// The number of the point that looks like this.
+  std::size_t IndexOf(const Descriptor& descriptor) const {
+    return static_cast<std::size_t>(
+        std::find(descriptors_.begin(), descriptors_.end(), descriptor) - descriptors_.begin());
   }
 
   /// From here on, points `from` to `to` (not included) have gone to elsewhere, by so much.
