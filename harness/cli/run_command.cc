@@ -26,6 +26,7 @@
 #include "harness/judge/gate.h"
 #include "harness/record/history.h"
 #include "harness/record/provenance.h"
+#include "harness/report/picture/video.h"
 #include "harness/report/report.h"
 
 namespace aisle {
@@ -136,6 +137,12 @@ void TellLimitsLeftOut(const std::vector<Suite>& suites) {
              left_out == 1 ? "a limit is" : fmt::format("{} limits are", left_out));
 }
 
+void TellVideosMissing(const Options& options) {
+  const bool made_here = !options.no_video && options.cluster.on.empty();
+  if (!made_here || Video::Available()) return;
+  fmt::print(stderr, "aisle: no videos of the runs: ffmpeg is not installed\n");
+}
+
 /// What is ahead: of a night that goes on, without what is there of it.
 void TellForecast(const std::vector<Job>& jobs, const Options& options,
                   const Fingerprints& fingerprints) {
@@ -241,6 +248,7 @@ int RunSuites(const Options& options) {
     TellNotes(options.inputs.files[i], NotesOfSystems(plan.suites[i]));
   }
   TellLimitsLeftOut(plan.suites);
+  TellVideosMissing(options);
   const std::optional<Results> baseline = ReadBaseline(options, plan);
   const Fingerprints fingerprints;
   const std::vector<RunSpec> night = Plan(plan.suites);

@@ -16,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr const char* kTwo = "  - plain\n  - oracle\n";
 
@@ -53,6 +54,18 @@ TEST_F(SuiteRunTest, DrawingTheStagesChangesNoBitAndShowsThemInTheReport) {
   }
   EXPECT_FALSE(fs::exists(fs::path(Out("plain")) / "runs" /
                           RunId(ResultsOf(Out("plain")).runs.front().spec) / "stages"));
+}
+
+TEST_F(SuiteRunTest, SaysSoWhereVideosCannotBeMade) {
+  const std::string suite = Suite("silent", "  - plain\n");
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", folder_.c_str(), 1);
+  const Said said = Run({"run", suite, "--out", Out("silent")});
+  const Said unasked = Run({"run", suite, "--out", Out("unasked"), "--no-video"});
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(said.code, 0) << said.text;
+  EXPECT_THAT(said.text, HasSubstr("no videos of the runs: ffmpeg is not installed"));
+  EXPECT_THAT(unasked.text, Not(HasSubstr("ffmpeg")));
 }
 
 TEST_F(SuiteRunTest, KilledAtAnyMomentAndResumedGivesTheSameBits) {
