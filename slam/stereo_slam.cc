@@ -251,7 +251,9 @@ std::optional<MeasuredMotion> StereoSlam::Impl::AskPriorMap(const StereoImages& 
                                   track.memory(), first_of_drive);
   const auto before = std::exchange(in_prior_map, now);
   if (!before || !now) return std::nullopt;
-  return MotionInPriorMap(map, *before, *now);
+  return MotionInPriorMap(map, *before, *now,
+                          PredictMotion(track.memory(), images.stamp_ns, options.track),
+                          options.track.inertia);
 }
 
 /// The caller's mask and what the detector finds moving, together; the latter is noted in `result`.

@@ -1,6 +1,14 @@
 #include "slam/camera/measured_motion.h"
 
+#include <Eigen/Cholesky>
+
 namespace aisle::slam {
+
+double Chi2Between(const MeasuredMotion& one, const MeasuredMotion& other) {
+  const Vector6d off = Difference(one.T_now_before, other.T_now_before);
+  const Matrix6d covariance = one.covariance + other.covariance;
+  return off.dot(covariance.ldlt().solve(off));
+}
 
 Matrix6d Adjoint(const Eigen::Isometry3d& T) {
   const Eigen::Matrix3d R = T.linear();

@@ -17,6 +17,10 @@ struct MeasuredMotion {
 /// First one, then the other, their errors independent.
 MeasuredMotion Compose(const MeasuredMotion& first, const MeasuredMotion& then);
 
+/// How far apart two measurements of one motion are: squared difference over its covariance, as
+/// their errors are independent. Of chi-square with six degrees of freedom where both are right.
+double Chi2Between(const MeasuredMotion& one, const MeasuredMotion& other);
+
 /// How a small motion of the rig's frame before shows in its frame afterwards: Retract(A, d)
 /// carried by T is Retract(T A, Adjoint(T) d), to first order.
 Matrix6d Adjoint(const Eigen::Isometry3d& T);

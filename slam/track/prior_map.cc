@@ -41,11 +41,16 @@ Eigen::Isometry3d PoseOf(const PoseInPriorMap& found, const Map& map) {
   return map.PoseOf(found.reference) * found.T_reference_rig;
 }
 
-MeasuredMotion MotionInPriorMap(const Map& map, const PoseInPriorMap& before,
-                                const PoseInPriorMap& now) {
+std::optional<MeasuredMotion> MotionInPriorMap(const Map& map, const PoseInPriorMap& before,
+                                               const PoseInPriorMap& now,
+                                               const std::optional<MeasuredMotion>& expected,
+                                               const InertiaOptions& options) {
   const Eigen::Isometry3d T_now_before = PoseOf(now, map).inverse() * PoseOf(before, map);
   const Matrix6d carry = Adjoint(T_now_before);
-  return {T_now_before, now.covariance + carry * before.covariance * carry.transpose()};
+  const MeasuredMotion motion{T_now_before,
+                              now.covariance + carry * before.covariance * carry.transpose()};
+  if (expected && Chi2Between(motion, *expected) > options.most_chi2) return std::nullopt;
+  return motion;
 }
 
 }  // namespace aisle::slam

@@ -25,9 +25,13 @@ std::optional<PoseInPriorMap> FindInPriorMap(const PlainContext& context, const 
 /// T_world_rig, as the map is now.
 Eigen::Isometry3d PoseOf(const PoseInPriorMap& found, const Map& map);
 
-/// How the rig has moved between two frames that were found so. Landmarks that both see from much
-/// the same place are off alike, so the motion is better known than the covariance says.
-MeasuredMotion MotionInPriorMap(const Map& map, const PoseInPriorMap& before,
-                                const PoseInPriorMap& now);
+/// How the rig has moved between two frames that were found so; nothing where that is further from
+/// what is `expected`, if anything is, than InertiaOptions::most_chi2: a camera that repeats a
+/// picture shows the rig where it was. Landmarks that both see from much the same place are off
+/// alike, so the motion is better known than the covariance says.
+std::optional<MeasuredMotion> MotionInPriorMap(const Map& map, const PoseInPriorMap& before,
+                                               const PoseInPriorMap& now,
+                                               const std::optional<MeasuredMotion>& expected,
+                                               const InertiaOptions& options);
 
 }  // namespace aisle::slam

@@ -31,9 +31,8 @@ double SearchGrowth(const PlainContext& context, const Reckoned& reckoned) {
 
 /// Of a pose that the images alone have told: both err independently.
 bool AgreesWithReckoned(const FramePose& found, const Reckoned& reckoned, double most_chi2) {
-  const Vector6d off = Difference(reckoned.T_rig_world, found.pose.T_rig_world);
-  const Matrix6d covariance = reckoned.covariance + found.pose.covariance;
-  return off.dot(covariance.ldlt().solve(off)) <= most_chi2;
+  return Chi2Between({reckoned.T_rig_world, reckoned.covariance},
+                     {found.pose.T_rig_world, found.pose.covariance}) <= most_chi2;
 }
 
 /// Of a pose in which the reckoned one has counted itself. They differ by what the images have

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <array>
 #include <random>
 
 namespace aisle::slam {
@@ -51,6 +52,23 @@ TEST(MeasuredMotion, ComposedCovarianceIsThatOfManyDraws) {
     scatter += off * off.transpose() / kDraws;
   }
   EXPECT_LT((scatter - whole.covariance).norm(), 0.05 * whole.covariance.norm());
+}
+
+/// As many degrees of freedom as a motion has, in the mean.
+TEST(MeasuredMotion, TwoMeasurementsOfOneMotionDifferByChiSquare) {
+  std::mt19937_64 random(3);
+  const Eigen::Isometry3d truth = SomePose(random);
+  constexpr int kDraws = 20000;
+  double sum = 0;
+  for (int n = 0; n < kDraws; ++n) {
+    std::array<MeasuredMotion, 2> measured;
+    for (MeasuredMotion& one : measured) {
+      const Matrix6d root = 1e-3 * (Matrix6d::Identity() + 0.3 * Matrix6d::Random());
+      one = {Retract(truth, root * Drawn(random)), root * root.transpose()};
+    }
+    sum += Chi2Between(measured[0], measured[1]);
+  }
+  EXPECT_NEAR(sum / kDraws, 6, 0.15);
 }
 
 }  // namespace

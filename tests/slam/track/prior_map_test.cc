@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "slam/track/inertia.h"
 #include "slam/track/track_measured.h"
 #include "tests/slam/track/point_world.h"
 
@@ -97,15 +98,31 @@ TEST_F(PriorMapTest, MotionBetweenTwoFramesKeepsToTheKeyframeTheyHangOn) {
   const auto before = FindByLeftCamera(At(0, 0));
   const auto now = FindByLeftCamera(At(0.01, 0.05, 0.5));
   ASSERT_TRUE(before && now);
-  const MeasuredMotion motion = MotionInPriorMap(map, *before, *now);
-  EXPECT_LT(Difference(At(0.01, 0.05, 0.5).inverse(), motion.T_now_before).norm(), 1e-3);
-  for (int i = 0; i < 6; ++i) EXPECT_GT(motion.covariance(i, i), now->covariance(i, i));
+  const auto motion = MotionInPriorMap(map, *before, *now, {}, {});
+  ASSERT_TRUE(motion);
+  EXPECT_LT(Difference(At(0.01, 0.05, 0.5).inverse(), motion->T_now_before).norm(), 1e-3);
+  for (int i = 0; i < 6; ++i) EXPECT_GT(motion->covariance(i, i), now->covariance(i, i));
 
   MapEdit edit;
   edit.poses = {{memory.reference, At(0.5, 0, 3)}};
   map.Apply(edit);
-  const MeasuredMotion after = MotionInPriorMap(map, *before, *now);
-  EXPECT_LT(Difference(motion.T_now_before, after.T_now_before).norm(), 1e-9);
+  const auto after = MotionInPriorMap(map, *before, *now, {}, {});
+  EXPECT_LT(Difference(motion->T_now_before, after->T_now_before).norm(), 1e-9);
+}
+
+/// The rig goes at a metre a second and the camera delivers the last picture once more.
+TEST_F(PriorMapTest, ARepeatedPictureDoesNotStopTheRig) {
+  Begin(0);
+  const auto before = FindByLeftCamera(At(0, 0));
+  const auto next = FindByLeftCamera(At(0, 0.05));
+  ASSERT_TRUE(before && next);
+  Velocity velocity;
+  velocity.per_second = Difference(Eigen::Isometry3d::Identity(), At(0, 1).inverse());
+  const InertiaOptions inertia;
+  const MeasuredMotion expected = Carry(velocity, 1e-9 * kStep_ns, inertia);
+  EXPECT_TRUE(MotionInPriorMap(map, *before, *next, expected, inertia));
+  EXPECT_FALSE(MotionInPriorMap(map, *before, *before, expected, inertia));
+  EXPECT_TRUE(MotionInPriorMap(map, *before, *before, {}, inertia));
 }
 
 }  // namespace
