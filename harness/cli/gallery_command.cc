@@ -36,8 +36,7 @@ struct Options {
 /// One frame of a scene: how much of the image is taken by what may move.
 struct Sample {
   FrameRequest request;
-  double people = 0;  ///< share of the image, 0 to 1
-  double actors = 0;  ///< all that may move
+  double actors = 0;  ///< what may move; share of the image, 0 to 1
   double moving = 0;  ///< what moves now, whoever it belongs to
 };
 
@@ -66,11 +65,7 @@ std::vector<std::string> ScenesOf(const std::vector<std::string>& places) {
 Sample Measure(const FrameRequest& request, const FrameTruth& truth) {
   Sample sample{.request = request};
   const double pixels = static_cast<double>(truth.instance.total());
-  for (const ObjectTruth& object : truth.objects) {
-    const double share = object.visible_pixels / pixels;
-    sample.actors += share;
-    if (object.object_class == "person") sample.people += share;
-  }
+  for (const ObjectTruth& object : truth.objects) sample.actors += object.visible_pixels / pixels;
   sample.moving = cv::countNonZero(truth.dynamic) / pixels;
   return sample;
 }
@@ -134,23 +129,22 @@ cv::Mat3b Sheet(const Sequence& sequence, const std::string& name) {
   return sheet;
 }
 
-/// Photographs the scene through its time; keeps the picture in which actors show most, short of
-/// hiding everything else.
+/// Photographs the scene through its time; keeps the picture of which actors have most nearly half.
 Entry Photograph(const std::string& file, const Options& options) {
   const SimulatedSequenceOptions simulation = SimulationOf(file, options);
   Entry entry{simulation.scene_name, DrawScenePlan(simulation, options.plan_px), {}, 0};
   const std::unique_ptr<Sequence> sequence = OpenSimulation(simulation);
   entry.frames = sequence->Schedule().size();
-  constexpr double kCrowded = 0.5;
-  double best = -1;
+  constexpr double kBestShare = 0.5;
+  double off_best = 1;
   cv::Mat3b picture;
   const int samples = entry.frames <= kViews ? 0 : options.samples;
   for (const FrameRequest& moment : Moments(*sequence, samples)) {
     const SequenceFrame frame = sequence->At(moment);
     entry.samples.push_back(Measure(moment, *frame.truth));
-    const double share = entry.samples.back().actors;
-    if (share > kCrowded || share <= best) continue;
-    best = share;
+    const double off = std::abs(entry.samples.back().actors - kBestShare);
+    if (off >= off_best) continue;
+    off_best = off;
     const std::string caption =
         fmt::format("{}  frame {}  {:.1f} s", entry.name, moment.id, Seconds(entry.samples.back()));
     picture = DrawOverlay(frame.images.left, &*frame.truth, nullptr, caption);
@@ -158,9 +152,6 @@ Entry Photograph(const std::string& file, const Options& options) {
   const std::filesystem::path base = std::filesystem::path(options.output) / entry.name;
   if (sequence->Schedule().size() <= kViews) {
     picture = Sheet(*sequence, entry.name);
-  } else if (picture.empty()) {  // crowded from first to last
-    const SequenceFrame frame = sequence->At(sequence->Schedule().front());
-    picture = DrawOverlay(frame.images.left, &*frame.truth, nullptr, entry.name);
   }
   WriteImage(base.string() + ".jpg", picture);
   WriteImage(base.string() + "_plan.png", entry.plan.picture);
@@ -173,14 +164,14 @@ std::string Describe(const Entry& entry) {
         "## {0}\n\n{1}\n\n![{0} from its views]({0}.jpg)\n![{0} from above]({0}_plan.png)\n\n",
         entry.name, entry.plan.about);
   }
-  const auto most = std::ranges::max_element(entry.samples, {}, &Sample::people);
+  const auto most = std::ranges::max_element(entry.samples, {}, &Sample::actors);
   return fmt::format(
       "## {0}\n\n{1}\n\n"
-      "People's share of the image over time `{2}`: {3:.1f} % on average, {4:.1f} % at most, at "
+      "Actors' share of the image over time `{2}`: {3:.1f} % on average, {4:.1f} % at most, at "
       "{5:.1f} s.\n\n"
       "![{0} with its truth drawn over it]({0}.jpg)\n![{0} from above]({0}_plan.png)\n\n",
-      entry.name, entry.plan.about, Bars(entry.samples, &Sample::people),
-      100 * Mean(entry.samples, &Sample::people), 100 * most->people, Seconds(*most));
+      entry.name, entry.plan.about, Bars(entry.samples, &Sample::actors),
+      100 * Mean(entry.samples, &Sample::actors), 100 * most->actors, Seconds(*most));
 }
 
 /// How the page begins that lists the scenes.
@@ -253,9 +244,8 @@ int Gallery(const Options& options) {
   std::string page = fmt::format(
       "{}{} gallery {}{} -o {}`. In the pictures, red is what moves now, boxes are "
       "what may move, with its speed. In the layouts, red is the rig's way, blue the actors'. The "
-      "row of blocks is the share of the image that people cover at {} times spread over the "
-      "scene, "
-      "an eighth of the image a step.\n\n",
+      "row of blocks is the share of the image that actors cover at {} times spread over the "
+      "scene, an eighth of the image a step.\n\n",
       kPageHead, OwnCommand(), fmt::join(places, " "), Departures(options),
       ShellWord(options.output), options.samples);
   for (const std::string& file : files) {
@@ -272,7 +262,7 @@ int Gallery(const Options& options) {
 void AddGalleryCommand(CLI::App* app, Action* action) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app->add_subcommand(
-      "gallery", "Draw pictures, layouts and people's share of the image for many scenes");
+      "gallery", "Draw pictures, layouts and actors' share of the image for many scenes");
   command->add_option("SCENE", options->places, "Scene files, or folders of them")
       ->required()
       ->transform(ByName());
