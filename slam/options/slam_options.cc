@@ -63,6 +63,18 @@ constexpr HeededBy kHeeded[] = {
     {"orbslam2_mapping.", Base::kOrbSlam2},
 };
 
+/// Options that are of use to one way of finding movers.
+struct HeededByMethod {
+  const char* prefix;
+  DynamicMethod method;
+  const char* name;
+};
+constexpr HeededByMethod kHeededByMethod[] = {
+    {"dynamic.paper.", DynamicMethod::kPaper, "paper"},
+    {"dynamic.robust.", DynamicMethod::kRobust, "robust"},
+    {"track.prior_map_share", DynamicMethod::kRobust, "robust"},
+};
+
 std::string NameOf(Base base) { return base == Base::kPlain ? "plain" : "orbslam2"; }
 
 constexpr int kAll = 1'000'000;  // keyframes: no map has more
@@ -154,11 +166,9 @@ std::string SetOption(const std::string& path, const std::string& text, SlamOpti
 }
 
 std::string WhyWithoutEffect(const std::string& path, const SlamOptions& options) {
-  if (path.starts_with("dynamic.paper.") && options.dynamic.method != DynamicMethod::kPaper) {
-    return fmt::format("{} has no effect: dynamic.method is not paper", path);
-  }
-  if (path.starts_with("dynamic.robust.") && options.dynamic.method != DynamicMethod::kRobust) {
-    return fmt::format("{} has no effect: dynamic.method is not robust", path);
+  for (const HeededByMethod& one : kHeededByMethod) {
+    if (path.starts_with(one.prefix) && options.dynamic.method != one.method)
+      return fmt::format("{} has no effect: dynamic.method is not {}", path, one.name);
   }
   std::optional<Base> heeded_by;
   std::size_t longest = 0;

@@ -46,9 +46,8 @@ std::optional<MeasuredMotion> MotionInPriorMap(const Map& map, const PoseInPrior
                                                const std::optional<MeasuredMotion>& expected,
                                                const InertiaOptions& options) {
   const Eigen::Isometry3d T_now_before = PoseOf(now, map).inverse() * PoseOf(before, map);
-  const Matrix6d carry = Adjoint(T_now_before);
-  const MeasuredMotion motion{T_now_before,
-                              now.covariance + carry * before.covariance * carry.transpose()};
+  const MeasuredMotion motion =
+      Compose({Eigen::Isometry3d::Identity(), before.covariance}, {T_now_before, now.covariance});
   if (expected && Chi2Between(motion, *expected) > options.most_chi2) return std::nullopt;
   return motion;
 }

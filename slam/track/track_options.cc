@@ -69,8 +69,8 @@ void Describe(OptionFields& fields, TrackOptions& options) {
       "A pose that explains less of the landmarks that should be seen is doubted, and the "
       "other ways to find one are tried.");
   fields.Number("prior_map_share", &options.prior_map_share, {0, 1}, "",
-                "Where a smaller share of the prior map's landmarks that are found again agrees on "
-                "a pose, they do not tell the search for movers how the rig has moved.");
+                "A pose on which a smaller share agrees of the landmarks of a loaded map that are "
+                "found again is not used; it helps against movers that fill the view.");
   fields.Integer("local_keyframes", &options.local_keyframes, {1, 1000}, "keyframes",
                  "Keyframes of the local map, whose landmarks are looked for.");
   fields.Number("longest_gap_s", &options.longest_gap_s, {0, 60}, "s",

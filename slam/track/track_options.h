@@ -57,8 +57,8 @@ struct TrackOptions {
   /// Of the landmarks that should be seen: a pose that explains fewer is doubted, and the other
   /// ways to find one are tried.
   double convincing_share = 0.25;
-  /// Of the landmarks of a prior map that are found again: where fewer agree on a pose, they do not
-  /// tell by themselves how the rig has moved.
+  /// Of the landmarks of a prior map that are found again: a pose on which fewer agree is not used,
+  /// see FindInPriorMap.
   double prior_map_share = 1.0 / 3;
   int local_keyframes = 20;    ///< whose landmarks are looked for
   double longest_gap_s = 1.0;  ///< motion is not predicted across longer gaps

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "slam/stereo_slam.h"
 #include "tests/slam/dynamic/synthetic_stereo.h"
 
@@ -81,6 +83,7 @@ TEST(StereoSlam, APriorMapTellsTheWorldFromWhoGoesAlong) {
   EXPECT_EQ(ErrorOf(options, panels), error_m);
   options.localise_only = true;
   EXPECT_LT(ErrorOf(options, panels), 0.02);
+  std::filesystem::remove(map_file);
 }
 
 }  // namespace

@@ -172,6 +172,8 @@ TEST(WhyWithoutEffect, NamesTheMethodThatLooksAtTheOption) {
   options.dynamic.method = DynamicMethod::kNone;
   EXPECT_EQ(WhyWithoutEffect("dynamic.robust.field.memory", options),
             "dynamic.robust.field.memory has no effect: dynamic.method is not robust");
+  EXPECT_EQ(WhyWithoutEffect("track.prior_map_share", options),
+            "track.prior_map_share has no effect: dynamic.method is not robust");
 }
 
 TEST(Validate, CoversEveryPartWithItsPath) {
