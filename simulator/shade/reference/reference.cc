@@ -20,11 +20,34 @@ constexpr float kRouletteBelow = 0.2f;  // throughput under which a path may end
 constexpr float kLightGuard = 1e-3f;    // share of the way that a shadow ray leaves out at its end
 
 struct Vertex {
-  Eigen::Vector3f position, geometric, shading;  ///< normals on the side the path came from
+  Eigen::Vector3f position;         ///< just above the triangle
+  Eigen::Vector3f on_smooth;        ///< above it on the smooth surface
+  Eigen::Vector3f geometric;        ///< the triangle's normal; like the others on the path's side
+  Eigen::Vector3f smooth, shading;  ///< without and with the normal map
   float albedo = 0, emission = 0;
   Finish finish;
   std::int32_t light = -1;  ///< whose surface this is
 };
+
+/// Where the smooth surface that a triangle's normals describe passes over a point of it: the
+/// point's projections on the corners' tangent planes, averaged, and never below the triangle
+/// (Hanika 2021, "Hacking the Shadow Terminator").
+Eigen::Vector3f OnSmoothSurface(const std::array<Eigen::Vector3f, 3>& corners,
+                                const std::array<Eigen::Vector3f, 3>& normals,
+                                const std::array<float, 3>& weights) {
+  Eigen::Vector3f point = Eigen::Vector3f::Zero(), lift = Eigen::Vector3f::Zero();
+  for (std::size_t i = 0; i < 3; ++i) point += weights[i] * corners[i];
+  for (std::size_t i = 0; i < 3; ++i) {
+    lift -= weights[i] * std::min(0.0f, (point - corners[i]).dot(normals[i])) * normals[i];
+  }
+  return point + lift;
+}
+
+/// Where a ray that leaves a vertex starts. What the triangle hides behind its own plane, but the
+/// smooth surface does not, is seen from the latter: no facets where light grazes.
+const Eigen::Vector3f& StartOf(const Vertex& vertex, const Eigen::Vector3f& direction) {
+  return direction.dot(vertex.geometric) > 0 ? vertex.position : vertex.on_smooth;
+}
 
 /// How a vertex scatters towards the camera's side: a diffuse base and a glossy lobe.
 class Scattering {
@@ -167,7 +190,7 @@ class PathPacket {
     if (hits.geometry[k] == kNoGeometry) return;
     const Eigen::Vector3f origin(rays_.ox[k], rays_.oy[k], rays_.oz[k]);
     const Eigen::Vector3f direction(rays_.dx[k], rays_.dy[k], rays_.dz[k]);
-    const Vertex vertex = VertexAt(origin, direction, hits, k);
+    const Vertex vertex = VertexAt(direction, hits, k);
     radiance_[k] += throughput_[k] * vertex.emission * EmissionWeight(k, origin, vertex);
     if (touched == options_.depth || (vertex.albedo <= 0 && vertex.finish.f0 <= 0)) return;
 
@@ -179,7 +202,7 @@ class PathPacket {
 
     const Eigen::Vector3f next = scattering.Sample(&random_[k]);
     const LobeValue value = scattering.Evaluate(next);
-    if (next.dot(vertex.geometric) <= 0 || value.density <= 0) return;
+    if (next.dot(vertex.smooth) <= 0 || value.density <= 0) return;
     throughput_[k] *= value.reflected / value.density;
     // Russian roulette: what survives stands for what does not.
     const float survival = std::min(1.0f, throughput_[k] / kRouletteBelow);
@@ -190,7 +213,7 @@ class PathPacket {
     scatter_pdf_[k] = value.density;
     light_samples_[k] = static_cast<float>(aims.size());
     last_[k] = vertex;
-    SetRay(vertex.position, next, kInfinity, lane, &rays_);
+    SetRay(StartOf(vertex, next), next, kInfinity, lane, &rays_);
   }
 
   /// How much the light a path runs into counts beside the light that was aimed at.
@@ -213,23 +236,23 @@ class PathPacket {
     const AreaLight& rectangle = scene_.world_.lights()[index];
     const ReferenceLight& light = scene_.lights_[index];
     const float a = 2 * random_[k].Next() - 1, b = 2 * random_[k].Next() - 1;
-    const Eigen::Vector3f to =
-        light.center + a * rectangle.half_u + b * rectangle.half_v - vertex.position;
+    const Eigen::Vector3f lamp = light.center + a * rectangle.half_u + b * rectangle.half_v;
+    const Eigen::Vector3f& start = StartOf(vertex, lamp - vertex.position);
+    const Eigen::Vector3f to = lamp - start;
     const float squared = to.squaredNorm(), distance = std::sqrt(squared);
     const float here = to.dot(vertex.shading) / distance;
     const float there = -to.dot(light.normal) / distance;
-    if (here <= 0 || there <= 0 || to.dot(vertex.geometric) <= 0) return;
+    if (here <= 0 || there <= 0 || to.dot(vertex.smooth) <= 0) return;
     const auto count = static_cast<float>(samples);
     const float pdf = count * choice.Probability(index) * squared / (there * light.area);
     const LobeValue value = scattering.Evaluate(to / distance);
     const float weight = pdf / (pdf + value.density);
     const float radiance = rectangle.radiance * instant_.snapshot().light_scale[index];
     aim->light[k] = throughput_[k] * value.reflected * radiance / pdf * weight;
-    SetRay(vertex.position, to, 1 - kLightGuard, lane, &aim->shadow);
+    SetRay(start, to, 1 - kLightGuard, lane, &aim->shadow);
   }
 
-  Vertex VertexAt(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
-                  const Hits8& hits, std::size_t k) const {
+  Vertex VertexAt(const Eigen::Vector3f& direction, const Hits8& hits, std::size_t k) const {
     const World& world = scene_.world_;
     const bool is_static = hits.geometry[k] == 0;
     const TriangleMesh& mesh =
@@ -243,20 +266,26 @@ class PathPacket {
     const float u = hits.u[k], v = hits.v[k], w = 1 - u - v;
     const Material& material = world.materials()[mesh.materials[triangle]];
 
+    const Eigen::Vector3f geometric =
+        (positions[ib] - positions[ia]).cross(positions[ic] - positions[ia]).normalized();
+    const bool front = geometric.dot(direction) < 0;
+    const float side = front ? 1 : -1;
+    const MeshPlace place{mesh, positions, normals, triangle, u, v};
+    const auto towards_path = [&](const Eigen::Vector3f& normal) -> Eigen::Vector3f {
+      return normal.dot(geometric) < 0 ? -side * normal : side * normal;
+    };
     Vertex vertex;
-    vertex.geometric = (positions[ib] - positions[ia]).cross(positions[ic] - positions[ia]);
-    vertex.geometric.normalize();
-    const bool front = vertex.geometric.dot(direction) < 0;
-    vertex.shading = MappedNormal({mesh, positions, normals, triangle, u, v}, material,
-                                  scene_.textures_, kPoint_m);
-    if (vertex.shading.dot(vertex.geometric) < 0) vertex.shading = -vertex.shading;
-    if (!front) {
-      vertex.geometric = -vertex.geometric;
-      vertex.shading = -vertex.shading;
-    }
-    vertex.position = origin + hits.t[k] * direction;
+    vertex.smooth = towards_path(SmoothNormal(place));
+    vertex.shading = towards_path(MappedNormal(place, material, scene_.textures_, kPoint_m));
+    vertex.geometric = side * geometric;
+    vertex.position = w * positions[ia] + u * positions[ib] + v * positions[ic];
+    vertex.on_smooth =
+        OnSmoothSurface({positions[ia], positions[ib], positions[ic]},
+                        {side * normals[ia], side * normals[ib], side * normals[ic]}, {w, u, v});
     const float size = std::max(1.0f, vertex.position.cwiseAbs().maxCoeff());
-    vertex.position += kLift * size * vertex.geometric;
+    const Eigen::Vector3f lift = kLift * size * vertex.geometric;
+    vertex.position += lift;
+    vertex.on_smooth += lift;
     const Eigen::Vector2f uv = w * mesh.uvs[ia] + u * mesh.uvs[ib] + v * mesh.uvs[ic];
     vertex.albedo = material.albedo;
     vertex.finish = FinishOf(material);

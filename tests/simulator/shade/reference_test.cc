@@ -73,6 +73,51 @@ TEST(Reference, FurnaceOfBrightWallsConvergesToItsClosedForm) {
   EXPECT_NEAR(cv::mean(image)[0], 0.2 / (1 - 0.8), 1e-3);
 }
 
+TEST(Reference, ABallOfFewFacetsIsShadedAsABall) {
+  // A small lamp far to the side, so that the border of its light falls within facets, not along
+  // their edges. On the true ball the irradiance goes with the cosine to it; the part of a facet
+  // whose own plane faces away while its normals do not would be black.
+  constexpr float kRadius = 0.5f, kDistance = 50, kHalf = 0.5f, kRadiance = 10'000, kAlbedo = 0.5f;
+  const Eigen::Vector3f center(2, 0, 0), across(std::cos(0.2f), std::sin(0.2f), 0);
+  const Eigen::Vector3f to_lamp = Eigen::Vector3f::UnitZ().cross(across);
+  WorldParts parts;
+  parts.instances.push_back({"ball", ObjectClass::kGoods, false});
+  parts.materials.push_back({.name = "ball", .albedo = kAlbedo});
+  test::MeshBuilder ball;
+  ball.Sphere(center, Eigen::Vector3f::Constant(kRadius), 8, 0, 1);
+  parts.statics = {ball.mesh, ball.instances};
+  parts.lights.push_back(
+      {center + kDistance * to_lamp, kHalf * across, kHalf * Eigen::Vector3f::UnitZ(), kRadiance});
+  const StereoCamera camera = SmallCamera(96, 160);
+  const cv::Mat1f image = Trace(World(std::move(parts)), test::LookAlong({0, 0, 0}, 0), camera,
+                                {.samples = 64, .depth = 2});
+
+  const float frontal =
+      kAlbedo * kRadiance * 4 * kHalf * kHalf / std::numbers::pi_v<float> / (kDistance * kDistance);
+  int grazed = 0, black = 0, lit_behind = 0;
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const Eigen::Vector3f ray =
+          Eigen::Vector3f(1, -static_cast<float>((x - camera.cx) / camera.fx),
+                          -static_cast<float>((y - camera.cy) / camera.fy))
+              .normalized();
+      const float along = ray.dot(center);
+      const float inside = 0.9f * kRadius * kRadius - center.squaredNorm() + along * along;
+      if (inside < 0) continue;  // off the ball, or at its outline
+      const float t = along - std::sqrt(inside + 0.1f * kRadius * kRadius);
+      const float cosine = (t * ray - center).dot(to_lamp) / kRadius;
+      if (cosine > 0.04f && cosine < 0.15f) {
+        ++grazed;
+        black += image(y, x) < 0.2f * frontal * cosine;
+      }
+      lit_behind += cosine < -0.1f && image(y, x) > 0;
+    }
+  }
+  ASSERT_GT(grazed, 200);
+  EXPECT_LE(black, 0.02 * grazed);
+  EXPECT_EQ(lit_behind, 0);
+}
+
 /// The mean of a view by the production light.
 double MeanOfProduction(const World& world, const Eigen::Isometry3d& pose,
                         const StereoCamera& camera, const ShadeOptions& options) {
