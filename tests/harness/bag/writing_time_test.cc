@@ -1,5 +1,6 @@
-// A bag costs no more than a fifth above what EuRoC's folder of the same frames does: processor
-// time of both writers in one process, frame by frame in turn, so that both meet the same machine.
+// A measurement, by hand: a bag costs no more than a fifth above what EuRoC's folder of the same
+// frames does. Processor time of both writers in one process, frame by frame in turn, so that both
+// meet the same machine.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -61,9 +62,9 @@ class WritingTime : public testing::TestWithParam<bool> {};
 
 TEST_P(WritingTime, OfABagIsThatOfAFolderAndAFifth) {
   const bool with_truth = GetParam();
-  // 360 by hand: AISLE_WRITTEN_FRAMES=360.
   const char* given = std::getenv("AISLE_WRITTEN_FRAMES");
-  const int frames = given == nullptr ? 40 : std::atoi(given);
+  if (given == nullptr) GTEST_SKIP() << "a measurement: set AISLE_WRITTEN_FRAMES=360 to take it";
+  const int frames = std::atoi(given);
   const fs::path folder = fs::path(testing::TempDir()) / fmt::format("writing-time-{}", getpid());
   fs::create_directories(folder / "bag");
   StereoCalibration calibration;
