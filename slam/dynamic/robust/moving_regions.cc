@@ -8,7 +8,8 @@ namespace {
 struct Component {
   cv::Point low{std::numeric_limits<int>::max(), std::numeric_limits<int>::max()}, high{-1, -1};
   int pixels = 0, core = 0;
-  double sum = 0;
+  int speaking = 0;          // pixels that say something, whatever
+  double sum = 0;            // of log-odds
   std::vector<int> overlap;  // pixels, by the previous region's index
 };
 
@@ -66,7 +67,8 @@ int LabelComponents(const cv::Mat1b& moving, const Links& links, float least_lin
 }
 
 std::vector<Component> Describe(const cv::Mat1i& labels, int count, const cv::Mat1f& log_odds,
-                                const PixelRegions& previous, const RegionOptions& options) {
+                                const PixelRegions& previous, const FieldOptions& field,
+                                const RegionOptions& options) {
   Component none;
   none.overlap.resize(previous.regions.size(), 0);
   std::vector<Component> components(static_cast<std::size_t>(count) + 1, none);
@@ -78,6 +80,7 @@ std::vector<Component> Describe(const cv::Mat1i& labels, int count, const cv::Ma
       component.high = {std::max(component.high.x, x), std::max(component.high.y, y)};
       ++component.pixels;
       component.sum += log_odds(y, x);
+      component.speaking += std::abs(log_odds(y, x)) >= static_cast<float>(field.moving) ? 1 : 0;
       component.core += log_odds(y, x) > static_cast<float>(options.core_log_odds) ? 1 : 0;
       const int before = previous.labels.empty() ? 0 : previous.labels(y, x);
       if (before > 0) ++component.overlap[static_cast<std::size_t>(before - 1)];
@@ -103,9 +106,12 @@ int Predecessor(const Component& component, const PixelRegions& previous,
   return most >= options.overlap * smaller ? best : -1;
 }
 
+/// The plain cloth of someone who fills the view says nothing, and does not refute his seams once
+/// they have been seen to move; around what has not been seen before it does.
 bool IsMoving(const Component& component, bool known, double least_mean,
               const RegionOptions& options) {
-  return component.sum >= least_mean * component.pixels &&
+  const int voting = known ? component.speaking : component.pixels;
+  return component.sum >= least_mean * voting &&
          component.core >= (known ? options.keep_core_px : options.birth_core_px);
 }
 
@@ -126,7 +132,7 @@ PixelRegions FindRegions(const cv::Mat1b& moving, const cv::Mat1f& log_odds, con
   PixelRegions found{.labels = {}, .regions = {}, .next_id = previous.next_id};
   const int count = LabelComponents(
       moving, links, static_cast<float>(options.link * field.coupling), found.labels);
-  const auto components = Describe(found.labels, count, log_odds, previous, options);
+  const auto components = Describe(found.labels, count, log_odds, previous, field, options);
   std::vector<int> label_of(components.size(), 0);
   std::set<int> taken;
   for (const std::size_t c : LargestFirst(components)) {

@@ -25,8 +25,8 @@ struct PixelRegions {
 /// Moving pixels that hang together by links that are not too weak, so that two people who meet
 /// stay two, and that speak for motion in the mean. A region is born where enough of its pixels are
 /// sure (by `log_odds`); it lives on, under its id, with fewer while it covers a good part of its
-/// predecessor. Each id goes to the largest of its heirs. `previous` has been carried to the
-/// current frame already.
+/// predecessor, and then the mean is of those that say something. Each id goes to the largest of
+/// its heirs. `previous` has been carried to the current frame already.
 PixelRegions FindRegions(const cv::Mat1b& moving, const cv::Mat1f& log_odds, const Links& links,
                          const PixelRegions& previous, const FieldOptions& field,
                          const RegionOptions& options);

@@ -167,6 +167,22 @@ TEST(FindRegions, ARegionIsBornOfSurePixelsAndLivesOnWithFewer) {
   EXPECT_TRUE(Plate().With(area, 1).Find(born).regions.empty());
 }
 
+TEST(FindRegions, WhatSaysNothingDoesNotOutvoteTheSeamOfOneThatIsKnown) {
+  const cv::Rect coat(10, 5, 100, 80), seam(58, 5, 4, 80);
+  Plate plain;
+  plain.With(coat, 0).With(seam, 6);  // 0.24 in the mean of all its pixels
+  EXPECT_TRUE(plain.Find({}).regions.empty());
+  const PixelRegions known = Plate().With(coat, 5).Find({});
+  const PixelRegions kept = plain.Find(known);
+  ASSERT_EQ(kept.regions.size(), 1U);
+  EXPECT_EQ(kept.regions[0].id, known.regions[0].id);
+  EXPECT_EQ(kept.regions[0].box, coat);
+  // Against it speaks what says that it stands.
+  Plate standing;
+  standing.With(coat, -1).With(seam, 6);
+  EXPECT_TRUE(standing.Find(known).regions.empty());
+}
+
 TEST(FindRegions, IdsFollowTheirRegionsAndAreNotReused) {
   const PixelRegions first = Plate().With({20, 10, 20, 40}, 5).Find({});
   const PixelRegions second =
