@@ -8,7 +8,7 @@ namespace {
 struct Component {
   cv::Point low{std::numeric_limits<int>::max(), std::numeric_limits<int>::max()}, high{-1, -1};
   int pixels = 0, core = 0;
-  int speaking = 0;          // pixels that say something, whatever
+  int speaking = 0;          // pixels that say something, for motion or against
   double sum = 0;            // of log-odds
   std::vector<int> overlap;  // pixels, by the previous region's index
 };

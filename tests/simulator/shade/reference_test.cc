@@ -94,7 +94,7 @@ TEST(Reference, ABallOfFewFacetsIsShadedAsABall) {
 
   const float frontal =
       kAlbedo * kRadiance * 4 * kHalf * kHalf / std::numbers::pi_v<float> / (kDistance * kDistance);
-  int grazed = 0, black = 0, lit_behind = 0;
+  int grazed = 0, black = 0, off = 0, lit_behind = 0;
   for (int y = 0; y < image.rows; ++y) {
     for (int x = 0; x < image.cols; ++x) {
       const Eigen::Vector3f ray =
@@ -109,12 +109,14 @@ TEST(Reference, ABallOfFewFacetsIsShadedAsABall) {
       if (cosine > 0.04f && cosine < 0.15f) {
         ++grazed;
         black += image(y, x) < 0.2f * frontal * cosine;
+        off += std::abs(image(y, x) - frontal * cosine) > 0.03f * frontal;
       }
       lit_behind += cosine < -0.1f && image(y, x) > 0;
     }
   }
   ASSERT_GT(grazed, 200);
   EXPECT_LE(black, 0.02 * grazed);
+  EXPECT_LE(off, 0.02 * grazed);
   EXPECT_EQ(lit_behind, 0);
 }
 
