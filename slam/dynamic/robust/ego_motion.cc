@@ -19,6 +19,8 @@ constexpr int kLeastForNoise = 20;
 /// 99 % of chi-square: with three degrees of freedom the bound of an inlier, with six how much
 /// worse standing still may fit.
 constexpr double kInlierChi2 = 11.34, kStandingChi2 = 16.8;
+/// What one cubic metre of space may say of that: it takes three to refute it.
+constexpr double kMostOfACube = kStandingChi2 / 3;
 /// Samples carry the noise of three points: their support is judged with a wider gate.
 constexpr double kSampleGate = 4 * kInlierChi2;
 /// 99.99 % with six degrees of freedom: beyond it a motion contradicts its prior.
@@ -168,7 +170,6 @@ std::vector<Isometry3d> AsJolts(std::vector<Isometry3d> motions, const MotionPri
 struct NormalEquations {
   Matrix6d hessian = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
-  double cost = 0;     // robust, of half squared errors
   double support = 0;  // weight within the gate
 };
 
@@ -187,7 +188,6 @@ NormalEquations Linearize(const std::vector<PlacedMatch>& matches, const StereoC
     const double weight = match.weight * fall * fall;
     equations.hessian.noalias() += weight * jacobian.transpose() * jacobian;
     equations.gradient.noalias() += weight * jacobian.transpose() * error;
-    equations.cost += match.weight * chi2 * fall;
     equations.support += chi2 < gate ? match.weight : 0;
   }
   return equations;
@@ -202,27 +202,51 @@ std::vector<PlacedMatch> Followers(const std::vector<PlacedMatch>& matches,
   return followers;
 }
 
+/// A cubic metre of space. The camera's axis runs through the middle of those ahead: whoever fills
+/// the view is around it, and would be in four at their corner.
+using Cube = std::array<int, 3>;
+Cube CubeAround(const Vector3d& point_m) {
+  const Vector3d at = (point_m + Vector3d(0.5, 0.5, 0)).cwiseMax(-1000).cwiseMin(1000);
+  return {static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())),
+          static_cast<int>(std::floor(at.z()))};
+}
+
 /// The same matches, no cubic metre of the world with more weight than one: what fills space counts
 /// for more than what fills the image, as a person close by does.
 std::vector<StereoMatch> WeighedBySpace(std::vector<StereoMatch> matches,
                                         const StereoCamera& camera) {
-  using Cube = std::array<int, 3>;
   std::map<Cube, double> weight_in;
   std::vector<Cube> cubes;
   for (const StereoMatch& match : matches) {
-    const Vector3d point = Backproject(camera, match.before);
-    Cube cube{};
-    for (int k = 0; k < 3; ++k) {
-      cube[static_cast<std::size_t>(k)] =
-          static_cast<int>(std::floor(std::clamp(point[k], -1000.0, 1000.0)));
-    }
-    cubes.push_back(cube);
-    weight_in[cube] += match.weight;
+    cubes.push_back(CubeAround(Backproject(camera, match.before)));
+    weight_in[cubes.back()] += match.weight;
   }
   for (std::size_t i = 0; i < matches.size(); ++i) {
     matches[i].weight /= std::max(weight_in[cubes[i]], 1.0);
   }
   return matches;
+}
+
+/// By how much the matches that follow a motion fit it better than none, in chi-square. The others
+/// have no say: movers would vote for whatever leaves them alone. Nor has any cubic metre more than
+/// its share: somebody who sways close ahead is seen to move by far more than the noise, in
+/// hundreds of matches.
+double AgainstStanding(const std::vector<PlacedMatch>& matches, const StereoCamera& camera,
+                       const Isometry3d& T_now_before, const Vector3d& inverse_deviation) {
+  const auto robust = [](double chi2) {  // as Linearize weighs
+    return std::isfinite(chi2) ? chi2 * kInlierChi2 / (kInlierChi2 + chi2) : kInlierChi2;
+  };
+  std::map<Cube, double> said;
+  for (const PlacedMatch& match : matches) {
+    const double moving = Chi2(camera, T_now_before, match, inverse_deviation);
+    if (!(moving < kInlierChi2)) continue;
+    const double still = Chi2(camera, Isometry3d::Identity(), match, inverse_deviation);
+    said[CubeAround(match.before)] += match.weight * (robust(still) - robust(moving));
+  }
+  const auto bounded = [](double sum, const auto& cube) {
+    return sum + std::clamp(cube.second, -kMostOfACube, kMostOfACube);
+  };
+  return std::accumulate(said.begin(), said.end(), 0.0, bounded);
 }
 
 std::vector<StereoMatch> Trusted(const std::vector<StereoMatch>& matches) {
@@ -258,15 +282,16 @@ EgoMotion AsExpected(const MaybeExpected& expected) {
   EgoMotion motion;
   if (!expected) return motion;
   motion.found = true;
-  motion.only_expected = true;
   motion.T_now_before = expected->T_now_before;
   motion.covariance = expected->information.inverse();
   return motion;
 }
 
-EgoMotion Refine(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
-                 const Isometry3d& T_now_before, const MeasurementNoise& noise, int rounds,
-                 const MaybeExpected& expected) {
+/// The motion that fits `matches` best, sought from one that is close. Whether it is none is asked
+/// of `witnesses`, each with the weight that its own measurement has.
+EgoMotion Refine(const std::vector<StereoMatch>& matches, const std::vector<StereoMatch>& witnesses,
+                 const StereoCamera& camera, const Isometry3d& T_now_before,
+                 const MeasurementNoise& noise, int rounds, const MaybeExpected& expected) {
   const Vector3d inverse_deviation = InverseDeviation(noise);
   EgoMotion motion;
   motion.T_now_before = T_now_before;
@@ -288,18 +313,12 @@ EgoMotion Refine(const std::vector<StereoMatch>& matches, const StereoCamera& ca
   }
   equations = Linearize(placed, camera, motion.T_now_before, inverse_deviation, kInlierChi2);
   AddExpected(expected, motion.T_now_before, equations);
-  // Only the points that follow the motion found, and what was expected, may say that it was none:
-  // movers would vote for whatever leaves them alone.
-  const auto followers =
-      Followers(placed, camera, motion.T_now_before, inverse_deviation, kInlierChi2);
-  const NormalEquations still =
-      Linearize(followers, camera, Isometry3d::Identity(), inverse_deviation, kInlierChi2);
-  const NormalEquations moving =
-      Linearize(followers, camera, motion.T_now_before, inverse_deviation, kInlierChi2);
-  const double against =
-      expected ? expected->Chi2Of(Isometry3d::Identity()) - expected->Chi2Of(motion.T_now_before)
-               : 0;
-  motion.standing = still.cost - moving.cost + against < kStandingChi2;
+  double against =
+      AgainstStanding(Placed(witnesses, camera), camera, motion.T_now_before, inverse_deviation);
+  if (expected) {
+    against += expected->Chi2Of(Isometry3d::Identity()) - expected->Chi2Of(motion.T_now_before);
+  }
+  motion.standing = against < kStandingChi2;
   if (motion.standing) motion.T_now_before = Isometry3d::Identity();
   motion.covariance = equations.hessian.ldlt().solve(Matrix6d::Identity());
   motion.support = equations.support;
@@ -319,8 +338,8 @@ EgoMotion RefineMeasured(const std::vector<StereoMatch>& matches, const StereoCa
     const double chi2 = Chi2(camera, measured.T_now_before, placed[i], inverse_deviation);
     if (chi2 < kInlierChi2) agreeing.push_back(matches[i]);
   }
-  return Refine(WeighedBySpace(agreeing, camera), camera, measured.T_now_before, noise, 1,
-                measured);
+  const auto spread = WeighedBySpace(agreeing, camera);
+  return Refine(spread, spread, camera, measured.T_now_before, noise, 1, measured);
 }
 
 /// Whether most of the trust lies in matches that follow a motion.
@@ -364,13 +383,14 @@ EgoMotion MostTrusted(const std::vector<Isometry3d>& motions,
   const bool of_most = IsOfMost(spread, camera, best.front().T_now_before, noise);
   best.resize(of_most ? 1 : std::min(best.size(), kContenders));
   ParallelFor(std::size_t{0}, best.size(), [&](std::size_t k) {
-    // Who is near and large must not pull while the gate is wide; where somebody has, the motion
-    // stays as it was.
-    const EgoMotion close = Refine(spread, camera, best[k].T_now_before, noise, kRounds, expected);
+    const EgoMotion close =
+        Refine(spread, spread, camera, best[k].T_now_before, noise, kRounds, expected);
     best[k] = std::max(best[k], judged(close.T_now_before), LessTrusted);
   });
   const Candidate& most = *std::max_element(best.begin(), best.end(), LessTrusted);
-  const EgoMotion found = Refine(matches, camera, most.T_now_before, noise, 1, expected);
+  // Who is near and large must not pull: what is far tells how the rig has turned, and leaves it to
+  // him how it has moved sideways.
+  const EgoMotion found = Refine(spread, matches, camera, most.T_now_before, noise, 1, expected);
   const bool possible = !expected || expected->Chi2Of(found.T_now_before) < kImpossibleChi2;
   return possible ? found : AsExpected(expected);
 }
@@ -383,9 +403,13 @@ double MatchChi2(const StereoCamera& camera, const Isometry3d& T, const StereoMa
   return Chi2(camera, T, placed, InverseDeviation(noise));
 }
 
+bool IsPossible(const Isometry3d& T_now_before, const MotionPrior& prior) {
+  return Expected(prior)->Chi2Of(T_now_before) < kImpossibleChi2;
+}
+
 EgoMotion RefineEgoMotion(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
                           const Isometry3d& T_now_before, const MeasurementNoise& noise) {
-  return Refine(matches, camera, T_now_before, noise, 1, std::nullopt);
+  return Refine(matches, matches, camera, T_now_before, noise, 1, std::nullopt);
 }
 
 EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const StereoCamera& camera,

@@ -30,6 +30,9 @@ struct MotionPrior {
   Matrix6d jolt = Matrix6d::Zero();
 };
 
+/// Whether the rig can have moved so, as far as a prior tells (99.99 % of chi-square).
+bool IsPossible(const Eigen::Isometry3d& T_now_before, const MotionPrior& prior);
+
 /// What is known beforehand of the rig's motion since the last frame.
 struct KnownMotion {
   std::optional<MeasuredMotion> expected = {};  ///< as its inertia carries it on
@@ -39,7 +42,6 @@ struct KnownMotion {
 struct EgoMotion {
   bool found = false;
   bool standing = false;  ///< standing still explains the points as well: the motion is identity
-  bool only_expected = false;  ///< the images show too little or nothing possible: it is the prior
   Eigen::Isometry3d T_now_before = Eigen::Isometry3d::Identity();
   Matrix6d covariance = Matrix6d::Zero();  ///< of a small motion of the current frame, see Retract
   double support = 0;                      ///< summed weight of the matches within the gate

@@ -112,10 +112,11 @@ bool Repeats(const DenseFrame& now, const DenseFrame& last) {
 /// stopped so, or that its motion is measured and is none of standing; of a picture known to be
 /// old, further copies are as old, whatever the rig could have done by then.
 bool IsStuck(const RobustState& before, const DenseFrame& now,
-             const std::vector<EgoMotion>& motions, bool is_measured) {
+             const std::vector<EgoMotion>& motions, const std::optional<MotionPrior>& prior) {
   if (before.stuck_at) return Repeats(now, *before.stuck_at);
-  if (motions.empty()) return false;
-  const bool has_moved = motions[0].only_expected || (is_measured && !motions[0].standing);
+  if (motions.empty() || !prior) return false;
+  const bool has_moved =
+      !IsPossible(Isometry3d::Identity(), *prior) || (prior->measured && !motions[0].standing);
   return has_moved && Repeats(now, before.frames.back());
 }
 
@@ -221,7 +222,7 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
   const auto label = [&](const cv::Mat1f& log_odds, const PixelRegions& previous) {
     return Timed(ms["label"], [&] { return LabelPixels(step, layout, log_odds, previous); });
   };
-  if (IsStuck(before, view.frame, motions.motions, prior && prior->measured)) {
+  if (IsStuck(before, view.frame, motions.motions, prior)) {
     const PixelLabels same = label(before.memory.log_odds, before.memory.regions);
     return OnceMore(passed_over(), view, same, std::move(ms));
   }
