@@ -35,19 +35,28 @@ std::string InstalledCommit() {
   return std::getline(stream, commit) && !commit.empty() ? commit : "unknown";
 }
 
-/// Short commit of the source tree, with "+" where files were changed since.
+/// What a shell command prints, without line ends.
+std::string PrintedBy(const std::string& command) {
+  FILE* pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) return {};
+  std::string printed;
+  char buffer[64] = "";
+  while (std::fgets(buffer, sizeof buffer, pipe) != nullptr) printed += buffer;
+  ::pclose(pipe);
+  std::erase(printed, '\n');
+  return printed;
+}
+
+/// Short commit of the source tree, with "+" where files were changed since. Pages into which
+/// measurements are written do not count: the second table of one command is by the same program.
 std::string SourceCommit() {
   if (IsInstalled()) return InstalledCommit();
-  const std::string command = "git -C " + ShellWord(OwnFolder().string()) +
-                              " describe --always --dirty=+ --exclude '*' 2>/dev/null";
-  FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return "unknown";
-  char buffer[64] = "";
-  const bool read = std::fgets(buffer, sizeof buffer, pipe) != nullptr;
-  ::pclose(pipe);
-  std::string commit = read ? buffer : "unknown";
-  if (!commit.empty() && commit.back() == '\n') commit.pop_back();
-  return commit;
+  const std::string git = "git -C " + ShellWord(OwnFolder().string());
+  const std::string commit = PrintedBy(fmt::format(
+      "{0} describe --always --exclude '*' 2>/dev/null && {{ {0} diff --quiet HEAD -- :/ "
+      "':(exclude,top,glob)reports/**/*.md' 2>/dev/null || echo +; }}",
+      git));
+  return commit.empty() ? "unknown" : commit;
 }
 
 }  // namespace
