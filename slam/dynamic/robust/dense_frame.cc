@@ -5,6 +5,7 @@
 #include "slam/common/parallel.h"
 #include "slam/dynamic/common/stereo_pair.h"
 #include "slam/dynamic/robust/pixel_noise.h"
+#include "slam/dynamic/robust/unseen_columns.h"
 #include "slam/dynamic/robust/window_sums.h"
 #include "slam/stereo/dense/semi_global.h"
 
@@ -30,10 +31,9 @@ cv::Mat1f Match(const cv::Mat1b& left, const cv::Mat1b& right, const SemiGlobalO
 
 /// Takes over into a row what the coarse one has beyond its reach. Returns how many columns from
 /// the left the right camera does not see, as such a thing goes on beyond its image's edge there; 0
-/// where none does. What looks like a match among them is one where both sizes have it.
+/// where none does.
 int AddNearer(const float* coarse, int columns, float reach, float* row) {
   constexpr int kRun = 6;
-  constexpr float kSame = 2;
   int run = 0, unseen = 0;
   for (int x = 0; x < columns; ++x) {
     const float found = 2 * coarse[x / 2];
@@ -43,10 +43,15 @@ int AddNearer(const float* coarse, int columns, float reach, float* row) {
     const bool at_edge = static_cast<float>(start) - found <= 4 * kMatchReach;
     if (run == kRun && unseen == 0 && at_edge) unseen = start;
   }
+  return unseen;
+}
+
+/// What looks like a match among unseen columns is one where both sizes have it.
+void ForgetChanceMatches(const float* coarse, int unseen, float* row) {
+  constexpr float kSame = 2;
   for (int x = 0; x < unseen; ++x) {
     if (std::abs(row[x] - 2 * coarse[x / 2]) > kSame) row[x] = kNoDisparity;
   }
-  return unseen;
 }
 
 /// What is nearer than the search reaches has no disparity, or a wrong one: images of half that
@@ -54,9 +59,15 @@ int AddNearer(const float* coarse, int columns, float reach, float* row) {
 void LookNearer(const cv::Mat1b& right, const SemiGlobalOptions& options, DenseFrame& frame) {
   const cv::Mat1f coarse = Match(HalfImage(frame.image), HalfImage(right), options);
   const auto reach = static_cast<float>(options.max_disparity_px - kMatchReach);
-  for (int y = 0; y < 2 * coarse.rows; ++y) {
+  const int rows = 2 * coarse.rows;
+  for (int y = 0; y < rows; ++y) {
     frame.unseen[static_cast<std::size_t>(y)] =
         AddNearer(coarse[y / 2], 2 * coarse.cols, reach, frame.disparity[y]);
+  }
+  frame.unseen = AsMostAround(frame.unseen);
+  for (int y = 0; y < rows; ++y) {
+    ForgetChanceMatches(coarse[y / 2], frame.unseen[static_cast<std::size_t>(y)],
+                        frame.disparity[y]);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "slam/dynamic/robust/label_field.h"
 
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "slam/common/parallel.h"
 
@@ -105,8 +106,6 @@ class Sweeper {
   cv::Mat1f right_, down_, belief_;
 };
 
-constexpr int kMostRings = 60;
-
 }  // namespace
 
 Links LinkPixels(const cv::Mat1f& filled, const cv::Mat1b& image, const cv::Mat1b& floor,
@@ -122,22 +121,6 @@ Links LinkPixels(const cv::Mat1f& filled, const cv::Mat1b& image, const cv::Mat1
     if (y + 1 < image.rows) tie.Row(to(y + 1, 0), image.cols, links.down[y]);
   });
   return links;
-}
-
-void LinkUnseen(const cv::Mat1f& disparity, const std::vector<int>& unseen,
-                const FieldOptions& options, Links* links) {
-  const auto coupling = static_cast<float>(options.coupling);
-  const auto is_unseen = [&](int y, int x) {
-    return x < unseen[static_cast<std::size_t>(y)] && disparity(y, x) < 0;
-  };
-  for (int y = 0; y < disparity.rows; ++y) {
-    const int columns = unseen[static_cast<std::size_t>(y)];
-    for (int x = 0; x < columns; ++x) {
-      if (!is_unseen(y, x)) continue;
-      if (x + 1 == columns || is_unseen(y, x + 1)) links->right(y, x) = coupling;
-      if (y + 1 < disparity.rows && is_unseen(y + 1, x)) links->down(y, x) = coupling;
-    }
-  }
 }
 
 cv::Mat1f SolveField(const cv::Mat1f& evidence, const Links& links) {
@@ -168,7 +151,7 @@ cv::Mat1b GrowMoving(const cv::Mat1f& field, const cv::Mat1f& evidence, const Li
     moving(y, x) = 255;
     next.emplace_back(x, y);
   };
-  for (int ring = 0; ring < kMostRings && !front.empty(); ++ring) {
+  for (int ring = 0; !front.empty(); ++ring) {
     next.clear();
     for (const cv::Point& p : front) {
       if (static_cast<float>(ring) >= farthest(p)) continue;

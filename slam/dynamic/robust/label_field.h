@@ -1,7 +1,6 @@
 #pragma once
 
 #include <opencv2/core.hpp>
-#include <vector>
 
 #include "slam/dynamic/robust/disparity_tolerance.h"
 
@@ -17,11 +16,6 @@ struct Links {
 /// floor and what stands on it.
 Links LinkPixels(const cv::Mat1f& filled, const cv::Mat1b& image, const cv::Mat1b& floor,
                  const DisparityTolerance& tolerance, const FieldOptions& options);
-
-/// Ties together what a row's `unseen` columns show of something close by, and to it, whatever is
-/// printed on it: nothing can be told of them alone.
-void LinkUnseen(const cv::Mat1f& disparity, const std::vector<int>& unseen,
-                const FieldOptions& options, Links* links);
 
 /// Sweeps over the image, there and back twice: what more of them change is not seen in any mask.
 inline constexpr int kSweeps = 4;

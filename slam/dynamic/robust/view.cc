@@ -2,6 +2,7 @@
 
 #include "slam/common/parallel.h"
 #include "slam/dynamic/robust/residual_flow.h"
+#include "slam/dynamic/robust/unseen_columns.h"
 
 namespace aisle::slam::dynamic {
 

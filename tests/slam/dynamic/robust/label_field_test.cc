@@ -35,24 +35,6 @@ TEST(LinkPixels, SurfacesHoldTogetherAndStepsEdgesAndTheFloorPart) {
   EXPECT_EQ(links.down(69, 5), 0);  // from the wall to the floor
 }
 
-TEST(LinkUnseen, TiesWhatOneCameraSeesOfSomethingCloseBy) {
-  Square square;
-  square.disparity.setTo(40.0F);
-  square.disparity.colRange(0, 30).setTo(-1.0F);
-  square.disparity(cv::Rect(0, 0, 4, 80)).setTo(2.0F);  // seen past it
-  square.image.colRange(20, 80).setTo(200);             // something printed on it
-  Links links = square.links();
-  std::vector<int> unseen(80, 30);
-  unseen[50] = 0;
-  LinkUnseen(square.disparity, unseen, {}, &links);
-  const auto full = static_cast<float>(FieldOptions{}.coupling);
-  EXPECT_EQ(links.right(10, 19), full);
-  EXPECT_EQ(links.right(10, 29), full);  // to what both see
-  EXPECT_EQ(links.down(10, 19), full);
-  EXPECT_LT(links.right(10, 3), 0.01F * full);
-  EXPECT_LT(links.right(50, 19), 0.2F * full);  // a row without
-}
-
 TEST(SolveField, WithoutLinksIsTheEvidence) {
   cv::Mat1f evidence(80, 80, -0.5F);
   evidence(4, 4) = 3;
@@ -133,6 +115,20 @@ TEST(GrowMoving, ReachesNoFartherThanAllowed) {
   const cv::Mat1b moving =
       GrowMoving(evidence, evidence, square.links(), square.floor, cv::Mat1f(80, 80, 3.0F), {});
   EXPECT_EQ(cv::countNonZero(moving.row(40)), 7);
+}
+
+TEST(GrowMoving, ReachesAsFarAsAllowedAcrossTheWholeImage) {
+  const cv::Size size(376, 8);
+  const cv::Mat1b image(size, 100), floor(size, static_cast<unsigned char>(0));
+  const Links links = LinkPixels(cv::Mat1f(size, 150.0F), image, floor, test::kUsualTolerance, {});
+  cv::Mat1f evidence(size, -0.2F);
+  evidence.col(0).setTo(4.0F);
+  const auto grown = [&](float farthest) {
+    return cv::countNonZero(
+        GrowMoving(evidence, evidence, links, floor, cv::Mat1f(size, farthest), {}).row(4));
+  };
+  EXPECT_EQ(grown(200), 201);
+  EXPECT_EQ(grown(1000), 376);
 }
 
 /// One step of FindRegions on a plain plate of 120x90 pixels.
