@@ -70,6 +70,7 @@ class Follower {
 
   void Ended(const Job& job, const ProcessResult& result) {
     ++ended_;
+    time_left_.Ended(job);
     ShrinkCaches();
     const std::string id = RunId(job.spec);
     const bool exited = result.end == ProcessResult::End::kExited;
@@ -89,6 +90,12 @@ class Follower {
                             record ? Name(record->status) : "no result", Duration(result.wall_s)));
   }
 
+  /// These come next, in this order.
+  void Begin(const std::vector<Job>& jobs, const ExpectedTimes& expected) {
+    time_left_ = TimeLeft(jobs, expected);
+    watch_ = {};
+  }
+
   /// `job` was given the answer of its equal.
   void Answered(const Job& job, const Job& equal) {
     ++ended_;
@@ -98,16 +105,11 @@ class Follower {
 
   void Tick(const std::vector<JobProgress>& running) {
     std::string text = fmt::format("{}/{} runs", ended_, total_);
-    double share = static_cast<double>(ended_);
     for (const JobProgress& one : running) {
       text += fmt::format(" | {} {}", RunId(one.job->spec), Describe(one.progress));
-      const auto& [done, total, stage] = one.progress;
-      if (total > 0) share += static_cast<double>(done) / total;
     }
-    const double elapsed_s = watch_.ElapsedMs() * 1e-3;
-    if (share > 0.02) {
-      const double left_s = elapsed_s * (static_cast<double>(total_) - share) / share;
-      text += " | " + Duration(left_s) + " left";
+    if (const auto left_s = time_left_.Seconds(watch_.ElapsedMs() * 1e-3, running)) {
+      text += " | " + Duration(*left_s) + " left";
     }
     events_.show(text);
   }
@@ -126,6 +128,7 @@ class Follower {
   const CampaignEvents& events_;
   std::size_t ended_ = 0;
   int failure_ = 0;
+  TimeLeft time_left_{{}, {}};
   Stopwatch watch_;
 };
 
@@ -133,6 +136,7 @@ class Follower {
 bool DriveAll(const std::vector<Job>& jobs, const CampaignOptions& options, Follower* follower,
               const std::function<void(const Job&)>& ended) {
   for (const Job& job : jobs) WriteJob(job);
+  follower->Begin(jobs, options.expected);
   const auto argv = [](const Job& job) -> std::vector<std::string> {
     return {OwnExecutable().string(), "run-one", JobPath(job.out, job.spec).string()};
   };
@@ -167,7 +171,7 @@ bool RunAll(const std::vector<Job>& jobs, const CampaignOptions& options,
     }
   };
   const bool finished =
-      DriveAll(LongestFirst(runs.driven, options.seconds), options, &follower, answer) &&
+      DriveAll(LongestFirst(runs.driven, options.expected), options, &follower, answer) &&
       DriveAll(unanswered, options, &follower, [](const Job&) {});
   *failure = std::max(*failure, follower.failure());
   return finished;

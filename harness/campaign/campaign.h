@@ -26,7 +26,7 @@ struct CampaignOptions {
   /// Runs of the same night that are there already: their failures are tried once more too, where
   /// that has not been done.
   std::vector<Job> kept = {};
-  std::map<std::string, double> seconds = {};      ///< what runs are thought to take, by RunId
+  ExpectedTimes expected = {};                     ///< what runs are thought to take
   const std::atomic<bool>* interrupted = nullptr;  ///< set from outside: stop soon
 };
 

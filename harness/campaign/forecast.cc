@@ -113,19 +113,22 @@ Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFra
   return forecast;
 }
 
-std::map<std::string, double> ExpectedSeconds(const std::vector<RunSpec>& specs,
-                                              const std::filesystem::path& out,
-                                              const CountFrames& count_frames) {
+ExpectedTimes ExpectTimes(const std::vector<RunSpec>& specs, const std::filesystem::path& out,
+                          const CountFrames& count_frames, const IsSteered& is_steered) {
   FrameCounts counts(count_frames);
-  std::map<std::string, double> seconds;
+  ExpectedTimes times;
   for (const RunSpec& spec : specs) {
+    ExpectedTime& time = times[RunId(spec)];
     if (const std::optional<RunRecord> last = ReadRun(spec, out)) {
-      seconds[RunId(spec)] = last->wall_s;
+      time.drive_s = last->wall_s;
       continue;
     }
-    seconds[RunId(spec)] = static_cast<double>(counts.Of(spec)) * FrameCoreS(spec.system);
+    const auto frames = static_cast<double>(counts.Of(spec));
+    time.drive_s = frames * FrameCoreS(spec.system);
+    if (counts.AreRecorded(spec)) continue;
+    (is_steered(spec.scene_file) ? time.drive_s : time.render_s) += frames * kPairCoreS;
   }
-  return seconds;
+  return times;
 }
 
 std::string ToText(const Forecast& f) {

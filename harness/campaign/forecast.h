@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/campaign/time_left.h"
 #include "harness/contract/run.h"
 
 namespace aisle {
@@ -34,11 +35,10 @@ using IsSteered = std::function<bool(const std::string& scene_file)>;
 Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFrames& count_frames,
                     const FramesKey& frames_key, const IsSteered& is_steered);
 
-/// Seconds each run is thought to take, its frames there already, by RunId: what it took in the
-/// report's folder the last time, else by its frames and its system.
-std::map<std::string, double> ExpectedSeconds(const std::vector<RunSpec>& specs,
-                                              const std::filesystem::path& out,
-                                              const CountFrames& count_frames);
+/// What each run is thought to take, by RunId: what it took in the report's folder the last time,
+/// else by its frames and its system.
+ExpectedTimes ExpectTimes(const std::vector<RunSpec>& specs, const std::filesystem::path& out,
+                          const CountFrames& count_frames, const IsSteered& is_steered);
 
 /// "5 scenes x 2 twins x 5 systems x 9 seeds = 450 runs; 54,000 pairs to render, …".
 std::string ToText(const Forecast& forecast);

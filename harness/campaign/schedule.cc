@@ -40,9 +40,9 @@ std::vector<JobProgress> ProgressOf(const std::list<Running>& running) {
 
 }  // namespace
 
-std::vector<Job> LongestFirst(const std::vector<Job>& jobs,
-                              const std::map<std::string, double>& seconds) {
+std::vector<Job> LongestFirst(const std::vector<Job>& jobs, const ExpectedTimes& expected) {
   struct Group {
+    double drive_s = 0, render_s = 0;
     double seconds = 0;
     std::vector<std::pair<double, const Job*>> jobs;
   };
@@ -52,10 +52,12 @@ std::vector<Job> LongestFirst(const std::vector<Job>& jobs,
     const auto [at, is_new] = index.try_emplace(job.frames_key, groups.size());
     if (is_new) groups.emplace_back();
     Group& group = groups[at->second];
-    const auto known = seconds.find(RunId(job.spec));
-    const double job_s = known == seconds.end() ? 0 : known->second;
-    group.seconds += job_s;
-    group.jobs.emplace_back(job_s, &job);
+    const auto known = expected.find(RunId(job.spec));
+    const ExpectedTime time = known == expected.end() ? ExpectedTime{} : known->second;
+    group.drive_s += time.drive_s;
+    group.render_s = std::max(group.render_s, time.render_s);
+    group.seconds = group.drive_s + group.render_s;
+    group.jobs.emplace_back(time.drive_s, &job);
   }
   std::ranges::stable_sort(groups, std::greater(), &Group::seconds);
   std::vector<Job> ordered;

@@ -8,6 +8,7 @@
 
 #include "harness/campaign/job.h"
 #include "harness/campaign/process.h"
+#include "harness/campaign/time_left.h"
 #include "harness/contract/run_limits.h"
 
 namespace aisle {
@@ -21,11 +22,6 @@ struct ScheduleOptions {
 /// What the job's process is held to.
 ProcessLimits ProcessLimitsOf(const Job& job, const RunLimits& limits);
 
-struct JobProgress {
-  const Job* job = nullptr;
-  Progress progress;
-};
-
 struct ScheduleEvents {
   /// The command line of a job's process.
   std::function<std::vector<std::string>(const Job&)> argv;
@@ -36,9 +32,8 @@ struct ScheduleEvents {
 
 /// The order in which few workers are done soon: jobs of the same frames stay together, since kept
 /// frames are bounded; the group that takes longest comes first, and in it the longest job. Equals,
-/// and those without a time, keep their order. `seconds`: by RunId.
-std::vector<Job> LongestFirst(const std::vector<Job>& jobs,
-                              const std::map<std::string, double>& seconds);
+/// and those without a time, keep their order.
+std::vector<Job> LongestFirst(const std::vector<Job>& jobs, const ExpectedTimes& expected);
 
 /// Runs every job, in order where there is room. True if all ended; false if interrupted (running
 /// children are killed: they leave nothing half-written under a final name).

@@ -110,7 +110,7 @@ void WarnOfHistory(const fs::path& out) {
 }
 
 CampaignOutcome RunToEnd(const Standing& night, const Options& options,
-                         const std::map<std::string, double>& seconds) {
+                         const ExpectedTimes& expected) {
   std::signal(SIGINT, OnInterrupt);
   std::signal(SIGTERM, OnInterrupt);
   ProgressLine line;
@@ -119,7 +119,7 @@ CampaignOutcome RunToEnd(const Standing& night, const Options& options,
                       .limits = options.limits,
                       .retry = !options.no_retry,
                       .kept = night.kept,
-                      .seconds = seconds,
+                      .expected = expected,
                       .interrupted = &interrupted},
                      {.say =
                           [&](const std::string& text) {
@@ -276,14 +276,14 @@ int RunSuites(const Options& options) {
   const bool whole = shard.count == 1;
   const bool remember = whole && !plan.trial;  // neither a part nor a trial is a night
   if (remember) WarnOfHistory(out);
-  const std::map<std::string, double> seconds = ExpectedSeconds(specs, out, CountSourceFrames);
+  const ExpectedTimes expected = ExpectTimes(specs, out, CountSourceFrames, IsDriveSource);
   RemoveReport(out);
   const Standing standing =
       options.resume ? Resume(jobs, options.limits) : Standing{.todo = AllToDo(jobs)};
   const PlanFile tonight = ForFolder(plan, specs, fingerprints, options.resume, out);
   WriteFileAtomically(out / "plan.json", ToJson(tonight));
   if (baseline) WriteNightBaseline(*baseline, out);
-  const CampaignOutcome outcome = RunToEnd(standing, options, seconds);
+  const CampaignOutcome outcome = RunToEnd(standing, options, expected);
   if (!outcome.finished) {
     fmt::print(stderr, "aisle: interrupted; the same command with --resume continues from here\n");
     return kInterrupted;

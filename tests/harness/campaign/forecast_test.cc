@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/record/record.h"
+
 namespace aisle {
 namespace {
 
@@ -102,6 +104,24 @@ TEST(ForecastTest, ARecordingIsDrivenAndNotRendered) {
       ForecastOf({{"s", "s.yaml", "live", BuiltIn("plain"), 1}}, 2, count, ByName, Led);
   EXPECT_GT(forecast.wall_s, 0);
   EXPECT_LT(forecast.wall_s, scene.wall_s);
+}
+
+TEST(ExpectTimes, RenderingIsApartWhereItIsSharedAndPartOfADriveThatSteers) {
+  const std::string nowhere = ::testing::TempDir() + "no_such_night";
+  const auto count = [](const std::string&) { return std::int64_t{500}; };
+  const RunSpec plain{"s", "s.yaml", "live", BuiltIn("plain"), 1};
+  const RunSpec robust{"s", "s.yaml", "live", BuiltIn("robust"), 1};
+  const RunSpec bag{"bag", "bag.mcap", "live", BuiltIn("plain"), 1};
+  const ExpectedTimes shared = ExpectTimes({plain, robust, bag}, nowhere, count, Led);
+  EXPECT_GT(shared.at(RunId(plain)).render_s, 0);
+  EXPECT_EQ(shared.at(RunId(plain)).render_s, shared.at(RunId(robust)).render_s);
+  EXPECT_GT(shared.at(RunId(robust)).drive_s, shared.at(RunId(plain)).drive_s);
+  EXPECT_EQ(shared.at(RunId(bag)).render_s, 0);
+  const auto steered = [](const std::string&) { return true; };
+  const ExpectedTime own = ExpectTimes({plain}, nowhere, count, steered).at(RunId(plain));
+  EXPECT_EQ(own.render_s, 0);
+  EXPECT_NEAR(own.drive_s, shared.at(RunId(plain)).drive_s + shared.at(RunId(plain)).render_s,
+              1e-9);
 }
 
 }  // namespace

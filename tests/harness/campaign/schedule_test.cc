@@ -30,11 +30,11 @@ TEST(ScheduleTest, TheLongestComesFirstAndFramesStayTogether) {
   const std::vector<Job> jobs{JobOf("short", "plain"), JobOf("long", "plain"),
                               JobOf("short", "robust"), JobOf("long", "robust"),
                               JobOf("long", "oracle")};
-  EXPECT_THAT(Ids(LongestFirst(jobs, {{"short/live/plain/1", 5},
-                                      {"short/live/robust/1", 6},
-                                      {"long/live/plain/1", 4},
-                                      {"long/live/robust/1", 4},
-                                      {"long/live/oracle/1", 7}})),
+  EXPECT_THAT(Ids(LongestFirst(jobs, {{"short/live/plain/1", {5, 1}},
+                                      {"short/live/robust/1", {6, 1}},
+                                      {"long/live/plain/1", {2, 4}},
+                                      {"long/live/robust/1", {2, 4}},
+                                      {"long/live/oracle/1", {5, 4}}})),
               testing::ElementsAre("long/live/oracle/1", "long/live/plain/1", "long/live/robust/1",
                                    "short/live/robust/1", "short/live/plain/1"));
 }
@@ -60,13 +60,12 @@ TEST(ScheduleTest, ARunMayTakeAsLongAsItsCommandAndOurOwnWorkBesideIt) {
 }
 
 /// When the last of the jobs ends, each taken by the first worker that is free.
-double EndOf(const std::vector<Job>& jobs, const std::map<std::string, double>& seconds,
-             int workers) {
+double EndOf(const std::vector<Job>& jobs, const ExpectedTimes& expected, int workers) {
   std::priority_queue<double, std::vector<double>, std::greater<>> free_at;
   for (int i = 0; i < workers; ++i) free_at.push(0);
   double end = 0;
   for (const Job& job : jobs) {
-    const double done = free_at.top() + seconds.at(RunId(job.spec));
+    const double done = free_at.top() + expected.at(RunId(job.spec)).drive_s;
     free_at.pop();
     free_at.push(done);
     end = std::max(end, done);
@@ -80,20 +79,20 @@ TEST(ScheduleTest, ANightEndsCloseToItsBound) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> jitter(0.8, 1.2);
   std::vector<Job> jobs;
-  std::map<std::string, double> seconds;
+  ExpectedTimes expected;
   double all_s = 0;
   for (int scene = 1; scene <= 10; ++scene) {
     for (const char* system : {"a", "b", "c", "d", "e", "slow"}) {
       jobs.push_back(JobOf(std::to_string(scene), system));
       const double job_s = scene * (system == std::string("slow") ? 4 : 1) * jitter(random);
-      all_s += seconds[RunId(jobs.back().spec)] = job_s;
+      all_s += expected[RunId(jobs.back().spec)].drive_s = job_s;
     }
   }
   for (const int workers : {2, 4, 8}) {
     const double bound_s = all_s / workers;
-    EXPECT_LT(EndOf(LongestFirst(jobs, seconds), seconds, workers), 1.05 * bound_s) << workers;
+    EXPECT_LT(EndOf(LongestFirst(jobs, expected), expected, workers), 1.05 * bound_s) << workers;
   }
-  EXPECT_GT(EndOf(jobs, seconds, 8), 1.3 * all_s / 8);  // as planned
+  EXPECT_GT(EndOf(jobs, expected, 8), 1.3 * all_s / 8);  // as planned
 }
 
 /// The script of a job that a test has named by it.
