@@ -1,12 +1,11 @@
 #include "harness/cluster/slurm.h"
 
-#include <array>
 #include <charconv>
-#include <cstdio>
 #include <sstream>
 
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/shell_output.h"
 #include "harness/io/shell_word.h"
 
 namespace aisle {
@@ -44,30 +43,17 @@ std::string Head(const std::string& name, const SlurmOptions& options, const Slu
   return text + "#SBATCH --requeue\n#SBATCH --open-mode=append\n";
 }
 
-struct Answer {
-  int status = 0;
-  std::string text;  ///< stdout and stderr
-};
-
-Answer Ask(const std::vector<std::string>& argv) {
+/// What a command of Slurm's says, to stdout or stderr.
+ShellOutput Ask(const std::vector<std::string>& argv) {
   std::string line;
   for (const std::string& word : argv) line += ShellWord(word) + " ";
-  line += "2>&1 </dev/null";
-  FILE* pipe = popen(line.c_str(), "r");
-  if (pipe == nullptr) throw MachineError(argv.front() + ": cannot start it");
-  Answer answer;
-  std::array<char, 4096> part{};
-  while (const std::size_t n = fread(part.data(), 1, part.size(), pipe)) {
-    answer.text.append(part.data(), n);
-  }
-  answer.status = pclose(pipe);
-  return answer;
+  return RunInShell(line + "2>&1 </dev/null");
 }
 
 /// A site's MaxArraySize; Slurm's own default where it does not say.
 std::size_t LargestArray() {
   constexpr std::size_t kDefault = 1001;
-  const Answer answer = Ask({"scontrol", "show", "config"});
+  const ShellOutput answer = Ask({"scontrol", "show", "config"});
   const std::size_t key = answer.text.find("MaxArraySize");
   const std::size_t digits = answer.text.find_first_of("0123456789", key);
   if (answer.status != 0 || key == std::string::npos || digits == std::string::npos)
@@ -84,8 +70,9 @@ std::string Submit(const fs::path& script, const std::string& text,
   std::vector<std::string> argv{"sbatch", "--parsable"};
   argv.insert(argv.end(), more.begin(), more.end());
   argv.push_back(script.string());
-  const Answer answer = Ask(argv);
+  const ShellOutput answer = Ask(argv);
   const std::string number = answer.text.substr(0, answer.text.find_first_not_of("0123456789"));
+  if (answer.status == -1) throw MachineError("sbatch: cannot start a process");
   if (answer.status != 0 || number.empty()) {
     throw MachineError(fmt::format("sbatch {}: {}", script.string(), Printable(answer.text, 400)));
   }
@@ -133,7 +120,7 @@ Submission SubmitToSlurm(const std::vector<std::size_t>& tasks, const std::strin
 }
 
 std::optional<std::map<std::string, int>> QueueOf(const Submission& submission) {
-  const Answer answer = Ask({"squeue", "--noheader", "--array", "--me", "--format=%F|%T"});
+  const ShellOutput answer = Ask({"squeue", "--noheader", "--array", "--me", "--format=%F|%T"});
   if (answer.status != 0) return std::nullopt;
   return CountStates(answer.text, submission);
 }

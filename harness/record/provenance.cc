@@ -7,6 +7,7 @@
 
 #include "harness/io/hash.h"
 #include "harness/io/places.h"
+#include "harness/io/shell_output.h"
 #include "harness/io/shell_word.h"
 #include "harness/record/record.h"
 
@@ -37,12 +38,7 @@ std::string InstalledCommit() {
 
 /// What a shell command prints, without line ends.
 std::string PrintedBy(const std::string& command) {
-  FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return {};
-  std::string printed;
-  char buffer[64] = "";
-  while (std::fgets(buffer, sizeof buffer, pipe) != nullptr) printed += buffer;
-  ::pclose(pipe);
+  std::string printed = RunInShell(command).text;
   std::erase(printed, '\n');
   return printed;
 }

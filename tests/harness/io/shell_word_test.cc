@@ -2,19 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
+#include "harness/io/shell_output.h"
 
 namespace aisle {
 namespace {
 
 /// What a program that the shell starts is given as its first argument.
-std::string Given(const std::string& word) {
-  FILE* pipe = ::popen(("printf %s " + word).c_str(), "r");
-  std::string given;
-  for (int c = 0; (c = std::fgetc(pipe)) != EOF;) given += static_cast<char>(c);
-  ::pclose(pipe);
-  return given;
-}
+std::string Given(const std::string& word) { return RunInShell("printf %s " + word).text; }
 
 TEST(ShellWordTest, TheShellHandsOnTheVeryText) {
   for (const char* text :
@@ -28,6 +22,13 @@ TEST(ShellWordTest, PlainWordsStayAsPeopleTypeThem) {
   for (const char* text : {"out/tonight", "paper,robust", "robust.feature.features=800"}) {
     EXPECT_EQ(ShellWord(text), text);
   }
+}
+
+TEST(RunInShell, TakesAllThatIsPrintedAndHowItEnded) {
+  const ShellOutput long_one = RunInShell("head -c 10000 /dev/zero | tr '\\0' x; exit 3");
+  EXPECT_EQ(long_one.text, std::string(10000, 'x'));
+  EXPECT_EQ(WEXITSTATUS(long_one.status), 3);
+  EXPECT_EQ(RunInShell("echo aside >&2; true 2>&1").status, 0);
 }
 
 }  // namespace
