@@ -29,21 +29,12 @@ cv::Mat1f Match(const cv::Mat1b& left, const cv::Mat1b& right, const SemiGlobalO
   return disparity;
 }
 
-/// Takes over into a row what the coarse one has beyond its reach. Returns how many columns from
-/// the left the right camera does not see, as such a thing goes on beyond its image's edge there; 0
-/// where none does.
-int AddNearer(const float* coarse, int columns, float reach, float* row) {
-  constexpr int kRun = 6;
-  int run = 0, unseen = 0;
+/// Takes over into a row what the coarse one has beyond its reach.
+void AddNearer(const float* coarse, int columns, float reach, float* row) {
   for (int x = 0; x < columns; ++x) {
     const float found = 2 * coarse[x / 2];
-    run = found > reach ? run + 1 : 0;
     if (found > reach) row[x] = found;
-    const int start = x + 1 - kRun;
-    const bool at_edge = static_cast<float>(start) - found <= 4 * kMatchReach;
-    if (run == kRun && unseen == 0 && at_edge) unseen = start;
   }
-  return unseen;
 }
 
 /// What looks like a match among unseen columns is one where both sizes have it.
@@ -59,15 +50,11 @@ void ForgetChanceMatches(const float* coarse, int unseen, float* row) {
 void LookNearer(const cv::Mat1b& right, const SemiGlobalOptions& options, DenseFrame& frame) {
   const cv::Mat1f coarse = Match(HalfImage(frame.image), HalfImage(right), options);
   const auto reach = static_cast<float>(options.max_disparity_px - kMatchReach);
-  const int rows = 2 * coarse.rows;
-  for (int y = 0; y < rows; ++y) {
-    frame.unseen[static_cast<std::size_t>(y)] =
-        AddNearer(coarse[y / 2], 2 * coarse.cols, reach, frame.disparity[y]);
-  }
-  frame.unseen = AsMostAround(frame.unseen);
-  for (int y = 0; y < rows; ++y) {
-    ForgetChanceMatches(coarse[y / 2], frame.unseen[static_cast<std::size_t>(y)],
-                        frame.disparity[y]);
+  frame.unseen = UnseenColumns(coarse, frame.image.rows);
+  for (int y = 0; y < 2 * coarse.rows; ++y) {
+    const float* found = coarse[y / 2];
+    AddNearer(found, 2 * coarse.cols, reach, frame.disparity[y]);
+    ForgetChanceMatches(found, frame.unseen[static_cast<std::size_t>(y)], frame.disparity[y]);
   }
 }
 
@@ -220,7 +207,6 @@ DenseFrame MakeDenseFrame(const cv::Mat1b& left, const cv::Mat1b& right,
   DenseFrame frame;
   frame.image = left;
   frame.disparity = Match(left, right, disparity);
-  frame.unseen.resize(static_cast<std::size_t>(frame.image.rows));
   LookNearer(right, disparity, frame);
   SpanHalfPixels(right, frame.right_low, frame.right_high);
   frame.filled = FillRows(frame.disparity, frame.unseen);

@@ -16,8 +16,8 @@ struct DenseFrame {
   cv::Mat1b right_low, right_high;
   cv::Mat1f disparity;  ///< half-size pixels, kNoDisparity where unknown
   cv::Mat1f filled;     ///< the same without gaps: the farther side of each gap of a row
-  /// Of each row, the columns from the left on that the right camera cannot see of something close
-  /// by, which goes on there; 0 in most.
+  /// Of each row, the columns from the left on that the right camera does not see, see
+  /// UnseenColumns.
   std::vector<int> unseen;
   std::int64_t stamp_ns = 0;
   int number = 0;  ///< counts frames since the way back was lost
@@ -52,8 +52,7 @@ cv::Mat1f DifferenceVariance(const cv::Mat1b& image, const SurfaceOptions& optio
 Texture MeasureTexture(const cv::Mat1b& image, const SurfaceOptions& options);
 
 /// Each gap of a row gets the lower of the values on its two sides: what the matcher could not see
-/// lies behind, but for something close by that goes on into its row's `unseen` columns. 0 where a
-/// row holds nothing.
+/// lies behind, but for what goes on into its row's `unseen` columns. 0 where a row holds nothing.
 cv::Mat1f FillRows(const cv::Mat1f& disparity, const std::vector<int>& unseen = {});
 
 /// Where the pixels of a frame were in an earlier one, and their disparity there, were they static.

@@ -110,6 +110,7 @@ struct Expectation {
     const Vector6d deviation = Difference(T_now_before, T);
     return deviation.dot(information * deviation);
   }
+  bool Allows(const Isometry3d& T) const { return Chi2Of(T) < kImpossibleChi2; }
 };
 using MaybeExpected = std::optional<Expectation>;
 
@@ -127,8 +128,8 @@ MaybeExpected ExpectedInAJolt(const std::optional<MotionPrior>& prior) {
 /// Between 0 and 1: how well the vehicle could have done this motion.
 double Plausibility(const Isometry3d& T, const MaybeExpected& expected) {
   if (!expected) return 1;
-  const double chi2 = expected->Chi2Of(T);
-  return chi2 < kImpossibleChi2 ? 1 / (1 + chi2 / 9) : 0;  // three deviations halve it
+  if (!expected->Allows(T)) return 0;
+  return 1 / (1 + expected->Chi2Of(T) / 9);  // three deviations halve it
 }
 
 /// A match drawn with a probability in proportion to its weight.
@@ -391,7 +392,7 @@ EgoMotion MostTrusted(const std::vector<Isometry3d>& motions,
   // Who is near and large must not pull: what is far tells how the rig has turned, and leaves it to
   // him how it has moved sideways.
   const EgoMotion found = Refine(spread, matches, camera, most.T_now_before, noise, 1, expected);
-  const bool possible = !expected || expected->Chi2Of(found.T_now_before) < kImpossibleChi2;
+  const bool possible = !expected || expected->Allows(found.T_now_before);
   return possible ? found : AsExpected(expected);
 }
 
@@ -404,7 +405,7 @@ double MatchChi2(const StereoCamera& camera, const Isometry3d& T, const StereoMa
 }
 
 bool IsPossible(const Isometry3d& T_now_before, const MotionPrior& prior) {
-  return Expected(prior)->Chi2Of(T_now_before) < kImpossibleChi2;
+  return Expected(prior)->Allows(T_now_before);
 }
 
 EgoMotion RefineEgoMotion(const std::vector<StereoMatch>& matches, const StereoCamera& camera,

@@ -62,18 +62,6 @@ cv::Point SameSurface(const cv::Mat1f& disparity, const cv::Vec2f& place, const 
   return best;
 }
 
-/// How many pixels of a row, from the left on, lie beyond the right image: up to the first run of
-/// known disparities, single ones being chance matches. 0 in a row that knows of none.
-int ColumnsUnseen(const float* disparity, int columns) {
-  constexpr int kRun = 6;
-  int known = 0;
-  for (int x = 0; x < columns; ++x) {
-    known = disparity[x] > 0 ? known + 1 : 0;
-    if (known == kRun) return x + 1 - kRun;
-  }
-  return 0;
-}
-
 /// The pixel at a place; outside the image (-1, -1).
 cv::Point PixelAt(const cv::Vec2f& place, cv::Size size) {
   const cv::Point pixel(cvRound(place[0]), cvRound(place[1]));
@@ -95,7 +83,7 @@ void FindSources(const WayBack& way, int y, std::vector<int>& sources) {
   const auto& [flow, if_static, now, before, tolerance] = way;
   const float *disparity = now.disparity[y], *filled = now.filled[y], *then = if_static[y];
   const cv::Vec2f* places = flow[y];
-  const int unseen = ColumnsUnseen(disparity, flow.cols);
+  const int unseen = now.unseen[static_cast<std::size_t>(y)];
   for (int x = 0; x < flow.cols; ++x) {
     // Who leaves to the left is known no less where the right camera loses him first.
     const bool flow_alone = x < unseen && disparity[x] <= 0;

@@ -9,7 +9,7 @@
 #include "slam/dynamic/robust/information.h"
 #include "slam/dynamic/robust/residual_flow.h"
 #include "slam/dynamic/robust/static_alias.h"
-#include "slam/stereo/dense/semi_global.h"
+#include "slam/dynamic/robust/unseen_columns.h"
 
 namespace aisle::slam::dynamic {
 namespace {
@@ -67,7 +67,7 @@ struct Evidence {
 
   /// Whether nothing was known at an earlier place as its surface lay beyond the right image then.
   bool WasBlind(const cv::Vec2f& place, float d, float seen) const {
-    return seen <= 0 && place[0] - d < static_cast<float>(kMatchReach);
+    return seen <= 0 && place[0] - d < static_cast<float>(kEdgeReach);
   }
 
   /// Of a static pixel's flow: what its disparity and the way it has gone add to the flow's own.

@@ -17,7 +17,7 @@ int MedianAround(const std::vector<int>& of_rows, int y) {
   return Median(std::move(around));
 }
 
-/// Of each row, the first column that shows something close by which goes on in the unseen ones.
+/// Of each row, the first column that shows the thing which is cut.
 std::vector<int> FindOutline(const cv::Mat1f& right_links, const std::vector<int>& unseen,
                              float least_link) {
   constexpr int kNone = -1;
@@ -35,7 +35,29 @@ std::vector<int> FindOutline(const cv::Mat1f& right_links, const std::vector<int
   return outline;
 }
 
+/// Where the last run of disparities begins that the right image shows at its left edge, as close
+/// as the matcher gets and as much again. Single ones are chance matches.
+int CutByTheEdge(const float* disparity, int columns) {
+  constexpr int kRun = 3, kClose = 2 * kMatchReach;
+  int run = 0, cut = 0;
+  for (int x = 0; x < columns; ++x) {
+    run = disparity[x] > 0 ? run + 1 : 0;
+    const int start = x + 1 - kRun;
+    const bool at_edge = static_cast<float>(start) - disparity[x] <= kClose;
+    if (run == kRun && at_edge) cut = start;
+  }
+  return cut;
+}
+
 }  // namespace
+
+std::vector<int> UnseenColumns(const cv::Mat1f& coarse, int rows) {
+  std::vector<int> unseen(static_cast<std::size_t>(rows), 0);
+  for (int y = 0; y < 2 * coarse.rows; ++y) {
+    unseen[static_cast<std::size_t>(y)] = 2 * CutByTheEdge(coarse[y / 2], coarse.cols);
+  }
+  return AsMostAround(unseen);
+}
 
 std::vector<int> AsMostAround(const std::vector<int>& unseen) {
   std::vector<int> most = unseen;

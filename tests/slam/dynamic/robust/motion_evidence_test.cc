@@ -394,6 +394,7 @@ TEST(EarlierDisparity, IsNeverLessThanNothing) {
 
 TEST(CarryMemory, TakesAMoversMemoryAlongAndLeavesNoTrail) {
   DenseFrame before, now;
+  now.unseen.resize(60);
   before.disparity = before.filled = cv::Mat1f(60, 80, 3.0F);
   before.disparity(cv::Rect(20, 10, 10, 30)).setTo(12.0F);
   now.disparity = cv::Mat1f(60, 80, 3.0F);
@@ -418,6 +419,7 @@ TEST(CarryMemory, TakesAMoversMemoryAlongAndLeavesNoTrail) {
 
 TEST(CarryMemory, KnowsASurfaceThatTheRigHasComeNearer) {
   DenseFrame before, now;
+  now.unseen.resize(60);
   now.disparity = now.filled = cv::Mat1f(60, 80, 12.0F);
   const cv::Mat1f if_static(60, 80, 10.0F);
   before.disparity = cv::Mat1f(60, 80);
@@ -439,6 +441,8 @@ TEST(CarryMemory, KnowsASurfaceThatTheRigHasComeNearer) {
 
 TEST(CarryMemory, FollowsTheFlowAloneBeyondTheRightImageAndNowhereElse) {
   DenseFrame before, now;
+  now.unseen.assign(60, 20);
+  now.unseen[50] = 0;  // a row that knows of none
   before.disparity = before.filled = cv::Mat1f(60, 80, 3.0F);
   now.disparity = cv::Mat1f(60, 80, 3.0F);
   now.disparity.colRange(0, 20).setTo(kNoDisparity);   // beyond the right image

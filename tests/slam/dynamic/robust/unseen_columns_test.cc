@@ -85,6 +85,41 @@ TEST(LinkUnseen, LeavesAMatchAndRowsThatSeeAllAsTheyWere) {
   EXPECT_EQ(links.right(50, 39), before.right(50, 39));
 }
 
+/// Disparities of 60x40 pixels: a wall at 4, of which the right image shows what is right of column
+/// 8, and from row 20 on a person at 25 between some columns.
+cv::Mat1f WallAndPerson(const cv::Range& person) {
+  cv::Mat1f disparity(40, 60, 4.0F);
+  disparity.colRange(0, 8).setTo(kNoDisparity);
+  disparity.rowRange(20, 40).colRange(0, person.start).setTo(kNoDisparity);
+  disparity.rowRange(20, 40).colRange(person).setTo(25);
+  return disparity;
+}
+
+TEST(UnseenColumns, AreThoseOfTheNearestThingThatIsCut) {
+  const std::vector<int> unseen = UnseenColumns(WallAndPerson({30, 45}), 80);
+  ASSERT_EQ(unseen.size(), 80U);
+  EXPECT_EQ(unseen[10], 16);
+  EXPECT_EQ(unseen[70], 60);
+  // Nothing is cut of who stands farther from the edge, and what hides behind is not the edge's.
+  EXPECT_EQ(UnseenColumns(WallAndPerson({40, 50}), 80)[70], 0);
+  cv::Mat1f both = WallAndPerson({40, 50});
+  both(cv::Rect(8, 20, 15, 20)).setTo(4);
+  EXPECT_EQ(UnseenColumns(both, 80)[70], 16);
+}
+
+TEST(UnseenColumns, AChanceMatchIsNoEdge) {
+  cv::Mat1f disparity = WallAndPerson({30, 45});
+  disparity.rowRange(20, 40).colRange(10, 12).setTo(3);
+  EXPECT_EQ(UnseenColumns(disparity, 80)[70], 60);
+  EXPECT_EQ(UnseenColumns(cv::Mat1f(40, 60, kNoDisparity), 80), std::vector<int>(80, 0));
+}
+
+TEST(UnseenColumns, OddRowsHaveThemToo) {
+  const std::vector<int> unseen = UnseenColumns(WallAndPerson({30, 45}), 81);
+  ASSERT_EQ(unseen.size(), 81U);
+  EXPECT_EQ(unseen[80], 60);
+}
+
 TEST(AsMostAround, FillsAFewRowsAndNoMore) {
   std::vector<int> unseen(60, 0);
   std::fill(unseen.begin() + 20, unseen.begin() + 50, 40);
