@@ -2,6 +2,7 @@
 
 #include "slam/common/parallel.h"
 #include "slam/dynamic/robust/earlier_disparity.h"
+#include "slam/dynamic/robust/monocular.h"
 
 namespace aisle::slam::dynamic {
 namespace {
@@ -83,10 +84,10 @@ void FindSources(const WayBack& way, int y, std::vector<int>& sources) {
   const auto& [flow, if_static, now, before, tolerance] = way;
   const float *disparity = now.disparity[y], *filled = now.filled[y], *then = if_static[y];
   const cv::Vec2f* places = flow[y];
-  const int unseen = now.unseen[static_cast<std::size_t>(y)];
+  const int monocular = MonocularColumns(disparity, flow.cols);
   for (int x = 0; x < flow.cols; ++x) {
     // Who leaves to the left is known no less where the right camera loses him first.
-    const bool flow_alone = x < unseen && disparity[x] <= 0;
+    const bool flow_alone = x < monocular && disparity[x] <= 0;
     const Surface surface(filled[x], then[x], tolerance);
     const cv::Point from = flow_alone ? PixelAt(places[x], flow.size())
                                       : SameSurface(before.disparity, places[x], surface);

@@ -7,6 +7,7 @@
 #include "slam/dynamic/robust/earlier_disparity.h"
 #include "slam/dynamic/robust/fast_log.h"
 #include "slam/dynamic/robust/information.h"
+#include "slam/dynamic/robust/monocular.h"
 #include "slam/dynamic/robust/residual_flow.h"
 #include "slam/dynamic/robust/static_alias.h"
 #include "slam/dynamic/robust/unseen_columns.h"
@@ -53,6 +54,7 @@ struct Evidence {
   const EvidenceOptions& options;
   const Surroundings& around;
   StaticField expected;
+  cv::Mat1f disparity;  // see ExplainMonocular
   cv::Mat1f difference_static, difference_moved;
 
   float most;                    // log-odds that matter
@@ -64,6 +66,9 @@ struct Evidence {
   bool IsBesideNearer(int y, int x, float d) const {
     return frames.tolerance.IsNearer(d, around.nearest(y, x));
   }
+
+  /// Whether its disparity is not measured but the one that explains it best.
+  bool IsMonocular(int y, int x) const { return frames.now.disparity(y, x) <= 0; }
 
   /// Whether nothing was known at an earlier place as its surface lay beyond the right image then.
   bool WasBlind(const cv::Vec2f& place, float d, float seen) const {
@@ -100,7 +105,7 @@ struct Evidence {
   /// What the flow of each pixel of a row says, whether anything is known of it or not.
   void FlowLogOddsOfRow(int y, float* log_odds, LatestStep& step) const {
     const float *place = expected.place.ptr<float>(y), *per = expected.per_disparity.ptr<float>(y),
-                *flow = frames.flow.ptr<float>(y), *disparity = frames.now.disparity[y];
+                *flow = frames.flow.ptr<float>(y), *now = disparity[y];
     const float *xx = texture.xx[y], *xy = texture.xy[y], *yy = texture.yy[y];
     float *residual = step.residual.ptr<float>(y), *variances = step.variance[y];
     const float of_flow = Squared(frames.flow_noise),
@@ -113,7 +118,7 @@ struct Evidence {
       const float pu = per[2 * x], pv = per[2 * x + 1];
       const float variance =
           of_flow + of_disparity * (pu * pu + pv * pv) + of_way * (du * du + dv * dv);
-      const float mover = mover_px_per_disparity * disparity[x];
+      const float mover = mover_px_per_disparity * now[x];
       const float ru = flow[2 * x] - u, rv = flow[2 * x + 1] - v;
       log_odds[x] = LogOddsOf({xx[x], xy[x], yy[x]}, ru, rv, variance, mover * mover);
       residual[2 * x] = ru;
@@ -122,9 +127,16 @@ struct Evidence {
     }
   }
 
+  /// What of log-odds the earlier image confirms: it must agree better where the flow leads.
+  float Confirmed(int y, int x, float log_odds) const {
+    const float moved = difference_moved(y, x);
+    const float gain = (difference_static(y, x) - moved) * GainPerDifference(moved, options);
+    return std::clamp(gain, 0.0F, log_odds);
+  }
+
   /// What a pixel says whose flow says `log_odds`.
   float At(int y, int x, float log_odds) const {
-    const float d = frames.now.disparity(y, x), expected_d = expected.disparity(y, x);
+    const float d = disparity(y, x), expected_d = expected.disparity(y, x);
     if (d <= 0 || expected_d <= 0) return 0;
     const cv::Point to(cvRound(expected.place(y, x)[0]), cvRound(expected.place(y, x)[1]));
     const cv::Rect inside(1, 1, frames.now.image.cols - 2, frames.now.image.rows - 2);
@@ -133,6 +145,7 @@ struct Evidence {
     const float change = disparity_change * d * d;
     const bool hidden = frames.tolerance.IsNearer(expected_d, frames.then.disparity(to));
     if (log_odds <= 0) return hidden ? 0 : log_odds;
+    if (IsMonocular(y, x)) return hidden ? 0 : Confirmed(y, x, log_odds);
     if (IsBesideNearer(y, x, d)) return 0;
 
     const EarlierDisparity sensible(d, expected_d);
@@ -145,8 +158,7 @@ struct Evidence {
                    moved >= static_cast<float>(options.hidden_difference))) {
       return 0;
     }
-    const float gain = (difference_static(y, x) - moved) * GainPerDifference(moved, options);
-    return std::clamp(gain, 0.0F, log_odds);
+    return Confirmed(y, x, log_odds);
   }
 };
 
@@ -190,7 +202,8 @@ void LimitBlocks(const Evidence& evidence, cv::Mat1f& log_odds) {
           at = {x, y};
         }
       }
-      if (clearest <= 0 || evidence.WasSure(at.y, at.x)) continue;
+      if (clearest <= 0 || evidence.WasSure(at.y, at.x) || evidence.IsMonocular(at.y, at.x))
+        continue;
       const float limit = evidence.Unexplained(at.y, at.x, clearest);
       for (int y = block * kSide; y < bottom; ++y) {
         for (int x = left; x < right; ++x) log_odds(y, x) = std::min(log_odds(y, x), limit);
@@ -227,10 +240,14 @@ MotionEvidence CompareMotion(const Comparison& comparison, const Texture& textur
                     WhereStatic(now.filled, comparison.T_then_now, half),
                     {},
                     {},
+                    {},
                     static_cast<float>(options.most),
                     static_cast<float>(way_m / half.baseline_m),
                     static_cast<float>(way_m / focal_baseline),
                     static_cast<float>(comparison.T_then_now.translation().z() / focal_baseline)};
+  evidence.disparity = comparison.monocular
+                           ? ExplainMonocular(now, comparison.flow, texture, &evidence.expected)
+                           : now.disparity;
   ParallelInvoke(
       [&] {
         const cv::Mat1b still = SampleAt(then.image, evidence.expected.place);

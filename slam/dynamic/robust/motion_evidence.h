@@ -33,6 +33,9 @@ struct Comparison {
   cv::Mat1f memory = {};   ///< log-odds of what earlier frames said of them; may be empty
   double sure = 3;         ///< of those, from which on nothing static is searched that looks alike
   int disparities = 96;    ///< that the matcher searched, and something static may have
+  /// Whether to ask of what only the left camera sees, too: over a long gap much of it was hidden
+  /// by what nobody knows the distance of.
+  bool monocular = false;
 };
 
 /// What is asked of the current frame whatever it is compared with.
@@ -50,11 +53,11 @@ struct MotionEvidence {
   std::optional<double> flow_noise;  ///< what this comparison measured, where it could
 };
 
-/// What this comparison says of each pixel. Nothing is known without disparity, of what is seen
-/// from outside the earlier image, was hidden then by something else, or lies beside something
-/// nearer whose flow has spilled over. Motion needs more than a flow: the earlier image must agree
-/// better where the flow leads than where the static world would have it, and must show a surface
-/// of like distance there.
+/// What this comparison says of each pixel. Nothing is known without disparity (but see
+/// ExplainMonocular), of what is seen from outside the earlier image, was hidden then by something
+/// else, or lies beside something nearer whose flow has spilled over. Motion needs more than a
+/// flow: the earlier image must agree better where the flow leads than where the static world would
+/// have it, and must show a surface of like distance there, if any distance is known.
 MotionEvidence CompareMotion(const Comparison& comparison, const Texture& texture,
                              const Surroundings& around, const StereoCamera& half,
                              const EvidenceOptions& options);

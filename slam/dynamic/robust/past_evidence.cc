@@ -22,7 +22,8 @@ MotionEvidence CompareOver(const Step& step, const GapFlow& flow, const EgoMotio
                               .regions = memory.regions.labels,
                               .memory = memory.log_odds,
                               .sure = options.region.core_log_odds,
-                              .disparities = options.disparity.max_disparity_px};
+                              .disparities = options.disparity.max_disparity_px,
+                              .monocular = flow.slot == 0};
   return CompareMotion(comparison, view.texture, view.around, half, options.evidence);
 }
 

@@ -128,9 +128,11 @@ struct Pair {
     expected = WhereStatic(now.filled, T_world_now, half).place;
     flow = FollowBack(now.image, MakeFlowPyramid(now.image, options.flow), then.image, expected,
                       options.flow);
+    Comparison comparison{now, then, flow, kUsualTolerance, T_world_now, seconds};
+    comparison.monocular = true;
     log_odds =
-        CompareMotion({now, then, flow, kUsualTolerance, T_world_now, seconds}, texture,
-                      LookAround(now, options.surface, options.evidence), half, options.evidence)
+        CompareMotion(comparison, texture, LookAround(now, options.surface, options.evidence), half,
+                      options.evidence)
             .log_odds;
     moving = cv::Mat1b(now.image.size());
     for (int y = 0; y < moving.rows; ++y) {
@@ -201,6 +203,25 @@ TEST(CompareMotion, FindsWhomTheRightImageDidNotSeeYetAMomentAgo) {
   EXPECT_GT(unknown_before, 200);
   EXPECT_GT(found, unknown_before / 2);
   EXPECT_LT(pair.ShareAbove(1, false), 0.02);
+}
+
+TEST(CompareMotion, FindsWhomOnlyTheLeftCameraSeesWhileTheRigStands) {
+  const auto found = [](const Vector3d& way) {
+    test::Panel walker = test::Walker({-0.81, 0.1, 0.7}, {0.3, 0, 0});
+    walker.grain_m = 0.01;  // he is near
+    const Pair pair({walker}, way, 0.05);
+    EXPECT_LT(pair.ShareAbove(1, false), 0.02);
+    int pixels = 0, above = 0;
+    for (int k = 0; k < static_cast<int>(pair.moving.total()); ++k) {
+      if (pair.moving(k) == 0 || pair.now.disparity(k) > 0) continue;
+      ++pixels;
+      above += pair.log_odds(k) > 1 ? 1 : 0;
+    }
+    EXPECT_GT(pixels, 1000);
+    return static_cast<double>(above) / pixels;
+  };
+  EXPECT_GT(found({0, 0, 0}), 0.4);
+  EXPECT_EQ(found({0, 0, 0.03}), 0);  // he might stand and be near
 }
 
 TEST(CompareMotion, FindsAWalkerAlongTheAxisOverALongGap) {
@@ -394,7 +415,6 @@ TEST(EarlierDisparity, IsNeverLessThanNothing) {
 
 TEST(CarryMemory, TakesAMoversMemoryAlongAndLeavesNoTrail) {
   DenseFrame before, now;
-  now.unseen.resize(60);
   before.disparity = before.filled = cv::Mat1f(60, 80, 3.0F);
   before.disparity(cv::Rect(20, 10, 10, 30)).setTo(12.0F);
   now.disparity = cv::Mat1f(60, 80, 3.0F);
@@ -419,7 +439,6 @@ TEST(CarryMemory, TakesAMoversMemoryAlongAndLeavesNoTrail) {
 
 TEST(CarryMemory, KnowsASurfaceThatTheRigHasComeNearer) {
   DenseFrame before, now;
-  now.unseen.resize(60);
   now.disparity = now.filled = cv::Mat1f(60, 80, 12.0F);
   const cv::Mat1f if_static(60, 80, 10.0F);
   before.disparity = cv::Mat1f(60, 80);
@@ -441,8 +460,6 @@ TEST(CarryMemory, KnowsASurfaceThatTheRigHasComeNearer) {
 
 TEST(CarryMemory, FollowsTheFlowAloneBeyondTheRightImageAndNowhereElse) {
   DenseFrame before, now;
-  now.unseen.assign(60, 20);
-  now.unseen[50] = 0;  // a row that knows of none
   before.disparity = before.filled = cv::Mat1f(60, 80, 3.0F);
   now.disparity = cv::Mat1f(60, 80, 3.0F);
   now.disparity.colRange(0, 20).setTo(kNoDisparity);   // beyond the right image
