@@ -43,7 +43,6 @@ std::vector<JobProgress> ProgressOf(const std::list<Running>& running) {
 std::vector<Job> LongestFirst(const std::vector<Job>& jobs, const ExpectedTimes& expected) {
   struct Group {
     double drive_s = 0, render_s = 0;
-    double seconds = 0;
     std::vector<std::pair<double, const Job*>> jobs;
   };
   std::vector<Group> groups;
@@ -56,10 +55,10 @@ std::vector<Job> LongestFirst(const std::vector<Job>& jobs, const ExpectedTimes&
     const ExpectedTime time = known == expected.end() ? ExpectedTime{} : known->second;
     group.drive_s += time.drive_s;
     group.render_s = std::max(group.render_s, time.render_s);
-    group.seconds = group.drive_s + group.render_s;
     group.jobs.emplace_back(time.drive_s, &job);
   }
-  std::ranges::stable_sort(groups, std::greater(), &Group::seconds);
+  std::ranges::stable_sort(groups, std::greater(),
+                           [](const Group& group) { return group.drive_s + group.render_s; });
   std::vector<Job> ordered;
   for (Group& group : groups) {
     std::ranges::stable_sort(group.jobs, std::greater(), &std::pair<double, const Job*>::first);

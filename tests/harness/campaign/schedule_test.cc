@@ -9,16 +9,12 @@
 #include <random>
 
 #include "harness/record/record.h"
+#include "tests/harness/campaign/job_of.h"
 
 namespace aisle {
 namespace {
 
-Job JobOf(const std::string& scene, const std::string& system) {
-  Job job;
-  job.spec = {scene, scene + ".yaml", "live", BuiltIn(system), 1};
-  job.frames_key = scene;
-  return job;
-}
+using test::JobOf;
 
 std::vector<std::string> Ids(const std::vector<Job>& jobs) {
   std::vector<std::string> ids;

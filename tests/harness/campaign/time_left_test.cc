@@ -3,16 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "harness/record/record.h"
+#include "tests/harness/campaign/job_of.h"
 
 namespace aisle {
 namespace {
 
-Job JobOf(const std::string& scene, const std::string& system) {
-  Job job;
-  job.spec = {scene, scene + ".yaml", "live", BuiltIn(system), 1};
-  job.frames_key = scene;
-  return job;
-}
+using test::JobOf;
 
 std::vector<JobProgress> At(const Job& job, int done, int total) {
   return {{&job, {done, total, ""}}};
