@@ -34,7 +34,7 @@ double FrameCoreS(const SystemSpec& system) {
 /// The frames of scenes and recordings, each counted once.
 class FrameCounts {
  public:
-  explicit FrameCounts(const CountFrames& count) : count_(count) {}
+  explicit FrameCounts(const FramesOfRuns& ahead) : count_(ahead.count) {}
   std::int64_t Of(const RunSpec& spec) { return SourceOf(spec).frames; }
   /// Whether they are files already.
   bool AreRecorded(const RunSpec& spec) { return SourceOf(spec).recorded; }
@@ -51,7 +51,7 @@ class FrameCounts {
     return at->second;
   }
 
-  const CountFrames& count_;
+  const std::function<std::int64_t(const std::string&)>& count_;
   std::map<std::string, Source> sources_;
 };
 
@@ -66,25 +66,26 @@ std::string WithThousands(std::int64_t number) {
 
 }  // namespace
 
-Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFrames& count_frames,
-                    const FramesKey& frames_key, const IsSteered& is_steered) {
-  FrameCounts counts(count_frames);
+Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const FramesOfRuns& ahead) {
+  FrameCounts counts(ahead);
   std::set<std::string> twins, systems;
   std::set<std::uint64_t> seeds;
   std::set<std::string> rendered;
   std::set<std::pair<std::string, std::string>> driven, taught;  // frames, system
   Forecast forecast{.runs = specs.size()};
-  std::int64_t kept_pairs = 0;
+  std::int64_t shared_pairs = 0, kept_pairs = 0;
   double drive_core_s = 0;
   for (const RunSpec& spec : specs) {
     const std::int64_t frames = counts.Of(spec);
     twins.insert(spec.twin);
     systems.insert(spec.system.name);
     seeds.insert(spec.seed);
-    const std::string key = frames_key(spec);
-    const bool steered = is_steered(spec.scene_file);
+    const std::string key = ahead.key(spec);
+    const bool steered = ahead.steered(spec.scene_file);
     const auto render_once = [&](const std::string& what) {
-      if (rendered.insert(what).second) kept_pairs += frames;
+      if (!rendered.insert(what).second) return;
+      shared_pairs += frames;
+      kept_pairs += std::min(ahead.kept(what), frames);
     };
     if (!steered && !counts.AreRecorded(spec)) render_once(key);
     if (IsOnlyItsInputs(spec) && !driven.insert({key, spec.system.name}).second) {
@@ -95,27 +96,33 @@ Forecast ForecastOf(const std::vector<RunSpec>& specs, int cores, const CountFra
     if (steered) forecast.pairs += frames;
     if (steered && SteeringOf(spec.system.options).taught) {
       const RunSpec led = AsLed(spec);
-      const std::string led_key = frames_key(led) + "-led";
+      const std::string led_key = ahead.key(led) + "-led";
       render_once(led_key);
       if (taught.insert({led_key, ToJson(led.system).dump()}).second) shown += frames;
     }
     forecast.system_frames += shown;
     drive_core_s += static_cast<double>(shown) * FrameCoreS(spec.system);
   }
-  forecast.pairs += kept_pairs;
+  forecast.pairs += shared_pairs - kept_pairs;
   forecast.scenes = counts.scenes();
   forecast.twins = twins.size();
   forecast.systems = systems.size();
   forecast.seeds = seeds.size();
   const double render_core_s = static_cast<double>(forecast.pairs) * kPairCoreS;
   forecast.wall_s = (render_core_s + drive_core_s) / std::max(cores, 1);
-  forecast.cache_bytes = static_cast<double>(kept_pairs) * kFrameBytes;
+  forecast.cache_bytes = static_cast<double>(shared_pairs) * kFrameBytes;
   return forecast;
 }
 
 ExpectedTimes ExpectTimes(const std::vector<RunSpec>& specs, const std::filesystem::path& out,
-                          const CountFrames& count_frames, const IsSteered& is_steered) {
-  FrameCounts counts(count_frames);
+                          const FramesOfRuns& ahead) {
+  FrameCounts counts(ahead);
+  std::map<std::string, std::int64_t> kept;  // by key: a folder is read once for all systems
+  const auto kept_of = [&](const std::string& key) {
+    const auto [at, is_new] = kept.try_emplace(key);
+    if (is_new) at->second = ahead.kept(key);
+    return at->second;
+  };
   ExpectedTimes times;
   for (const RunSpec& spec : specs) {
     ExpectedTime& time = times[RunId(spec)];
@@ -123,10 +130,15 @@ ExpectedTimes ExpectTimes(const std::vector<RunSpec>& specs, const std::filesyst
       time.drive_s = last->wall_s;
       continue;
     }
-    const auto frames = static_cast<double>(counts.Of(spec));
-    time.drive_s = frames * FrameCoreS(spec.system);
+    const std::int64_t frames = counts.Of(spec);
+    time.drive_s = static_cast<double>(frames) * FrameCoreS(spec.system);
     if (counts.AreRecorded(spec)) continue;
-    (is_steered(spec.scene_file) ? time.drive_s : time.render_s) += frames * kPairCoreS;
+    if (ahead.steered(spec.scene_file)) {
+      time.drive_s += static_cast<double>(frames) * kPairCoreS;
+    } else {
+      const std::int64_t missing = std::max(frames - kept_of(ahead.key(spec)), std::int64_t{0});
+      time.render_s = static_cast<double>(missing) * kPairCoreS;
+    }
   }
   return times;
 }

@@ -136,6 +136,8 @@ std::string Fingerprints::Teaching(const RunSpec& spec) const {
   return fmt::format("{:016x}", Hash(Frames(led), HashSystem(led.system, program_)));
 }
 
+std::filesystem::path FramesFolder(const std::string& key) { return CacheDir() / "frames" / key; }
+
 std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Fingerprints& fingerprints,
                           const JobOptions& options) {
   if (options.mcap) RequireOwnTopics(SystemNamesOf(specs));
@@ -156,9 +158,9 @@ std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Fingerprints&
     job.frames_in_report = options.frames_in_report;
     // A recording is read where it is: its frames are files already.
     if (options.frame_cache && !IsRecording(spec.scene_file)) {
-      job.frames = CacheDir() / "frames" / job.frames_key;
+      job.frames = FramesFolder(job.frames_key);
       if (SteeringOf(spec.system.options).taught) {
-        job.led_frames = CacheDir() / "frames" / (fingerprints.Frames(AsLed(spec)) + "-led");
+        job.led_frames = FramesFolder(fingerprints.Frames(AsLed(spec)) + "-led");
         job.teaching = CacheDir() / "taught" / fingerprints.Teaching(spec);
       }
     }

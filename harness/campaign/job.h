@@ -66,6 +66,9 @@ class Fingerprints {
   mutable std::map<std::pair<std::string, std::string>, std::uint64_t> sources_;
 };
 
+/// Where frames are kept, by their key.
+std::filesystem::path FramesFolder(const std::string& key);
+
 struct JobOptions {
   std::filesystem::path out;
   int threads = 0;

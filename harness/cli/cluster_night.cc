@@ -40,8 +40,11 @@ TaskCost CostsOf(const fs::path& out) {
     }
     if (!std::isnan(last_s)) return last_s;
     // A task has the frames of one scene, twin and seed.
-    const auto frames_key = [](const RunSpec&) { return std::string(); };
-    return ForecastOf(specs, 1, CountSourceFrames, frames_key, IsDriveSource).wall_s;
+    const FramesOfRuns ahead{.count = CountSourceFrames,
+                             .key = [](const RunSpec&) { return std::string(); },
+                             .kept = [](const std::string&) { return std::int64_t{0}; },
+                             .steered = IsDriveSource};
+    return ForecastOf(specs, 1, ahead).wall_s;
   };
 }
 

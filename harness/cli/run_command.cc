@@ -20,6 +20,7 @@
 #include "harness/cli/terminal.h"
 #include "harness/contract/twin.h"
 #include "harness/io/file.h"
+#include "harness/io/frame_store.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/io/shell_word.h"
@@ -143,6 +144,16 @@ void TellVideosMissing(const Options& options) {
   fmt::print(stderr, "aisle: no videos of the runs: ffmpeg is not installed\n");
 }
 
+FramesOfRuns FramesOf(const Options& options, const Fingerprints& fingerprints) {
+  return {.count = CountSourceFrames,
+          .key = [&](const RunSpec& spec) { return fingerprints.Frames(spec); },
+          .kept =
+              [&](const std::string& key) {
+                return options.no_frame_cache ? 0 : FrameStore(FramesFolder(key)).Count();
+              },
+          .steered = IsDriveSource};
+}
+
 /// What is ahead: of a night that goes on, without what is there of it.
 void TellForecast(const std::vector<Job>& jobs, const Options& options,
                   const Fingerprints& fingerprints) {
@@ -154,10 +165,9 @@ void TellForecast(const std::vector<Job>& jobs, const Options& options,
   }
   std::vector<RunSpec> specs;
   for (const Job& job : standing.todo) specs.push_back(job.spec);
-  const auto frames_key = [&](const RunSpec& spec) { return fingerprints.Frames(spec); };
   fmt::print(stderr, "aisle: {}\n",
              ToText(ForecastOf(specs, static_cast<int>(std::thread::hardware_concurrency()),
-                               CountSourceFrames, frames_key, IsDriveSource)));
+                               FramesOf(options, fingerprints))));
 }
 
 JobOptions JobOptionsOf(const Options& options, const fs::path& out) {
@@ -276,7 +286,7 @@ int RunSuites(const Options& options) {
   const bool whole = shard.count == 1;
   const bool remember = whole && !plan.trial;  // neither a part nor a trial is a night
   if (remember) WarnOfHistory(out);
-  const ExpectedTimes expected = ExpectTimes(specs, out, CountSourceFrames, IsDriveSource);
+  const ExpectedTimes expected = ExpectTimes(specs, out, FramesOf(options, fingerprints));
   RemoveReport(out);
   const Standing standing =
       options.resume ? Resume(jobs, options.limits) : Standing{.todo = AllToDo(jobs)};

@@ -11,6 +11,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint32_t kMagic = 0x4D465341;  // "ASFM"
 constexpr std::uint32_t kVersion = 4;
+constexpr const char* kFrameEnding = ".frame";
 
 // --- Envelope: magic, version, checksum, payload -------------------------------------------------
 
@@ -146,7 +147,16 @@ std::vector<StoredSequence> StoredSequences(const fs::path& root) {
 }  // namespace
 
 fs::path FrameStore::FramePath(std::int64_t frame_id) const {
-  return folder_ / fmt::format("{:06}.frame", frame_id);
+  return folder_ / fmt::format("{:06}{}", frame_id, kFrameEnding);
+}
+
+std::int64_t FrameStore::Count() const {
+  std::int64_t count = 0;
+  std::error_code error;  // nothing is there yet
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, error)) {
+    count += entry.path().extension() == kFrameEnding ? 1 : 0;
+  }
+  return count;
 }
 
 std::optional<SequenceHeader> FrameStore::ReadHeader() const {

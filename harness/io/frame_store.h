@@ -30,6 +30,8 @@ class FrameStore {
   std::optional<SequenceHeader> ReadHeader() const;
   void WriteHeader(const SequenceHeader& header) const;
   std::optional<SequenceFrame> Read(std::int64_t frame_id) const;
+  /// How many frames are there, whole or damaged.
+  std::int64_t Count() const;
   void Write(const SequenceFrame& frame) const;
 
  private:

@@ -115,7 +115,8 @@ void AddWindow(TriangleMesh* mesh, const BeamSpec& beam, const Palette& palette,
 
 }  // namespace
 
-void AddWindows(const Scene& scene, const Palette& palette, WorldParts* parts, Site* site) {
+void AddWindows(const Scene& scene, const Palette& palette, WorldParts* parts,
+                WorldBuilder* builder) {
   for (const BeamSpec& beam : scene.beams) {
     if (beam.kind != BeamKind::kSun) continue;
     // A pane lights as a dim lamp does, so that the light that is solved once has it too.
@@ -124,8 +125,8 @@ void AddWindows(const Scene& scene, const Palette& palette, WorldParts* parts, S
     const bool inward = u.cross(v).dot(pane.normal.cast<float>()) > 0;
     parts->lights.push_back({(beam.at + 0.021 * pane.normal).cast<float>(),
                              inward ? u : Vector3f(-u), v, parts->materials[palette.sky].emission});
-    site->Add("window_" + beam.name, ObjectClass::kFurniture,
-              [&](TriangleMesh* mesh) { AddWindow(mesh, beam, palette, palette.sky); });
+    builder->Add("window_" + beam.name, ObjectClass::kFurniture,
+                 [&](TriangleMesh* mesh) { AddWindow(mesh, beam, palette, palette.sky); });
   }
 }
 

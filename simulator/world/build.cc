@@ -130,8 +130,8 @@ const std::string& HolderOf(const MechanismSpec& mechanism) {
 
 /// Mechanisms come after the actors who hold them, and keep these' clocks.
 void AddMechanisms(const Scene& scene, const Palette& palette, std::uint64_t seed,
-                   AssetLibrary* assets, Wardrobe* wardrobe, WorldParts* parts, Site* site,
-                   std::vector<Cast>* cast) {
+                   AssetLibrary* assets, Wardrobe* wardrobe, WorldParts* parts,
+                   WorldBuilder* builder, std::vector<Cast>* cast) {
   PartPaints paints(palette, parts);
   for (const MechanismSpec& mechanism : scene.mechanisms) {
     const auto find = [&](const std::string& name) {
@@ -143,9 +143,9 @@ void AddMechanisms(const Scene& scene, const Palette& palette, std::uint64_t see
     };
     try {
       std::vector<MechanismMesh> made =
-          MakeMechanism(mechanism, find, assets, wardrobe, &paints, seed, site);
+          MakeMechanism(mechanism, find, assets, wardrobe, &paints, seed, builder);
       if (made.empty()) continue;
-      const std::uint16_t instance = site->Add(mechanism.name, ClassOf(mechanism), true);
+      const std::uint16_t instance = builder->Add(mechanism.name, ClassOf(mechanism), true);
       const auto holder = std::ranges::find(*cast, HolderOf(mechanism), &Cast::name);
       for (MechanismMesh& one : made) {
         ExpectRoom(*cast);
@@ -162,14 +162,14 @@ void AddMechanisms(const Scene& scene, const Palette& palette, std::uint64_t see
 
 std::vector<Cast> AddActors(const Scene& scene, const Palette& palette, std::uint64_t seed,
                             AssetLibrary* assets, Wardrobe* wardrobe, WorldParts* parts,
-                            Site* site) {
+                            WorldBuilder* builder) {
   std::vector<Cast> cast;
   const auto enter = [&](const auto& spec, ObjectClass object_class, const auto& make) {
     try {
       ExpectRoom(cast);
       Actor actor = make();
       parts->mover_meshes.push_back(std::move(actor.mesh));
-      cast.push_back({site->Add(spec.name, object_class, true), std::move(actor.at), cast.size(),
+      cast.push_back({builder->Add(spec.name, object_class, true), std::move(actor.at), cast.size(),
                       spec.name, std::move(actor.grip)});
     } catch (const std::exception& error) {
       Refuse(scene, spec.mark, spec.name, error.what());
@@ -194,11 +194,11 @@ std::vector<Cast> AddActors(const Scene& scene, const Palette& palette, std::uin
 
 /// What a hall has besides goods, with materials of its own.
 void AddWork(const Scene& scene, const Palette& palette, std::uint64_t seed,
-             const AssetLibrary& assets, WorldParts* parts, Site* site) {
+             const AssetLibrary& assets, WorldParts* parts, WorldBuilder* builder) {
   if (scene.fixtures.empty() && scene.hall.clutter <= 0) return;
   const Fittings fittings = AddFittings(assets, parts);
-  AddFixtures(scene, {palette, fittings}, seed, site);
-  AddClutter(scene, {palette, fittings}, seed, site);
+  AddFixtures(scene, {palette, fittings}, seed, builder);
+  AddClutter(scene, {palette, fittings}, seed, builder);
 }
 
 /// Velocities of an actor that goes through its script at another rate.
@@ -244,28 +244,28 @@ Snapshot SnapshotAt(const Scene& scene, const std::vector<Cast>& cast, std::int6
 
 World BuildWorld(const Scene& written, const std::string& assets_dir, std::uint64_t seed) {
   WorldParts parts;
-  Site site(&parts);
+  WorldBuilder builder(&parts);
   AssetLibrary assets(assets_dir, written.camera.colour);
   const Scene scene = WithLooks(Seeded(written, seed), seed, assets.PeopleNames());
   ReadModels(scene, &assets);
   const Palette palette = AddPalette(scene, seed, assets, &parts);
   Wardrobe wardrobe(&parts);
   const bool is_own = !scene.hall.mesh.name.empty();
-  if (is_own) AddOwnHall(scene, &assets, &wardrobe, &site);
-  if (!is_own) AddFloor(scene, palette, seed, &site);
-  AddMarkings(scene, palette, &site);
-  if (!is_own) AddWalls(scene, palette, seed, &site);
-  AddDoors(scene, palette, &site);
-  AddColumns(scene, palette, &site);
-  AddRacks(scene, palette, seed, &site);
-  AddStacks(scene, palette, seed, &site);
-  AddMezzanines(scene, palette, seed, &site);
-  AddLights(scene, palette, &parts, &site);
-  AddWork(scene, palette, seed, assets, &parts, &site);
-  AddWindows(scene, palette, &parts, &site);
-  AddProps(scene, seed, &assets, &wardrobe, &site);
-  std::vector<Cast> cast = AddActors(scene, palette, seed, &assets, &wardrobe, &parts, &site);
-  AddMechanisms(scene, palette, seed, &assets, &wardrobe, &parts, &site, &cast);
+  if (is_own) AddOwnHall(scene, &assets, &wardrobe, &builder);
+  if (!is_own) AddFloor(scene, palette, seed, &builder);
+  AddMarkings(scene, palette, &builder);
+  if (!is_own) AddWalls(scene, palette, seed, &builder);
+  AddDoors(scene, palette, &builder);
+  AddColumns(scene, palette, &builder);
+  AddRacks(scene, palette, seed, &builder);
+  AddStacks(scene, palette, seed, &builder);
+  AddMezzanines(scene, palette, seed, &builder);
+  AddLights(scene, palette, &parts, &builder);
+  AddWork(scene, palette, seed, assets, &parts, &builder);
+  AddWindows(scene, palette, &parts, &builder);
+  AddProps(scene, seed, &assets, &wardrobe, &builder);
+  std::vector<Cast> cast = AddActors(scene, palette, seed, &assets, &wardrobe, &parts, &builder);
+  AddMechanisms(scene, palette, seed, &assets, &wardrobe, &parts, &builder, &cast);
   if (scene.camera.colour) parts.colour = ColourOf(parts, wardrobe.worn(), assets);
 
   parts.has_beams = !scene.beams.empty();

@@ -364,7 +364,7 @@ bool IsFree(const Scene& scene, const Ways& ways, const WallPlace& place, double
 
 }  // namespace
 
-void AddClutter(const Scene& scene, const Kit& kit, std::uint64_t seed, Site* site) {
+void AddClutter(const Scene& scene, const Kit& kit, std::uint64_t seed, WorldBuilder* builder) {
   const HallSpec& hall = scene.hall;
   if (hall.clutter <= 0) return;
   Ways ways(scene);
@@ -374,8 +374,8 @@ void AddClutter(const Scene& scene, const Kit& kit, std::uint64_t seed, Site* si
                        int i, const auto& draw) {
     const Vector2f point = at.cast<float>();
     const Eigen::Isometry3f pose = At(point.x(), point.y(), 0, static_cast<float>(heading));
-    site->Add(fmt::format("{}_{}", name, i), kind,
-              [&](TriangleMesh* mesh) { draw(Maker(kit, pose, mesh)); });
+    builder->Add(fmt::format("{}_{}", name, i), kind,
+                 [&](TriangleMesh* mesh) { draw(Maker(kit, pose, mesh)); });
   };
   const int flats = static_cast<int>(hall.clutter * kFlatPer_m2 * size.prod());
   for (int i = 0; i < flats; ++i) {

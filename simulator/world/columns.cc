@@ -45,14 +45,14 @@ void AddRoundColumn(TriangleMesh* mesh, const Eigen::Vector2f& at, float half, f
 
 }  // namespace
 
-void AddColumns(const Scene& scene, const Palette& palette, Site* site) {
+void AddColumns(const Scene& scene, const Palette& palette, WorldBuilder* builder) {
   for (std::size_t i = 0; i < scene.columns.size(); ++i) {
     const ColumnSpec& column = scene.columns[i];
     const float half = static_cast<float>(column.size_m) / 2;
     const Eigen::Vector2f at = column.at.cast<float>();
     const float height = static_cast<float>(scene.hall.height_m);
     const float striped = column.striped ? 1.4f : 0;
-    site->Add(fmt::format("column_{}", i), ObjectClass::kColumn, [&](TriangleMesh* mesh) {
+    builder->Add(fmt::format("column_{}", i), ObjectClass::kColumn, [&](TriangleMesh* mesh) {
       if (column.kind == ColumnKind::kSteel) {
         return AddSteelColumn(mesh, at, half, height, column, palette);
       }

@@ -109,7 +109,7 @@ void Draw(FixtureKind kind, const Maker& make, const Eigen::Vector3f& size, floa
 
 }  // namespace
 
-void AddFixtures(const Scene& scene, const Kit& kit, std::uint64_t seed, Site* site) {
+void AddFixtures(const Scene& scene, const Kit& kit, std::uint64_t seed, WorldBuilder* builder) {
   for (std::size_t i = 0; i < scene.fixtures.size(); ++i) {
     const FixtureSpec& fixture = scene.fixtures[i];
     const Eigen::Vector2f at = fixture.at.cast<float>();
@@ -117,7 +117,7 @@ void AddFixtures(const Scene& scene, const Kit& kit, std::uint64_t seed, Site* s
     const ObjectClass kind = fixture.kind == FixtureKind::kPanelWall  ? ObjectClass::kWall
                              : fixture.kind == FixtureKind::kLeveller ? ObjectClass::kFloor
                                                                       : ObjectClass::kFurniture;
-    site->Add(fmt::format("{}_{}", NameOf(fixture.kind), i), kind, [&](TriangleMesh* mesh) {
+    builder->Add(fmt::format("{}_{}", NameOf(fixture.kind), i), kind, [&](TriangleMesh* mesh) {
       Draw(fixture.kind, Maker(kit, pose, mesh), SizeOf(fixture).cast<float>(),
            static_cast<float>(scene.hall.height_m), Dice(seed, {340, i}));
     });

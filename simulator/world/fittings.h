@@ -112,9 +112,9 @@ void AddCrane(const Maker& make, const Eigen::Vector3f& size, float roof, Dice d
 void AddLeveller(const Maker& make, const Eigen::Vector3f& size, Dice dice);
 void AddGuideRail(const Maker& make, const Eigen::Vector3f& size, Dice dice);
 
-void AddFixtures(const Scene& scene, const Kit& kit, std::uint64_t seed, Site* site);
+void AddFixtures(const Scene& scene, const Kit& kit, std::uint64_t seed, WorldBuilder* builder);
 
 /// What lies about beside the ways: density `hall.clutter`, places and kinds from the seed.
-void AddClutter(const Scene& scene, const Kit& kit, std::uint64_t seed, Site* site);
+void AddClutter(const Scene& scene, const Kit& kit, std::uint64_t seed, WorldBuilder* builder);
 
 }  // namespace aisle::sim

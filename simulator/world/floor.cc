@@ -70,9 +70,10 @@ void AddPavement(TriangleMesh* mesh, const Vector2f& low, const Vector2f& high,
 
 }  // namespace
 
-void AddFloor(const Scene& scene, const Palette& palette, std::uint64_t seed, Site* site) {
+void AddFloor(const Scene& scene, const Palette& palette, std::uint64_t seed,
+              WorldBuilder* builder) {
   const Vector2f low = scene.hall.from.cast<float>(), high = scene.hall.to.cast<float>();
-  site->Add("floor", ObjectClass::kFloor, [&](TriangleMesh* mesh) {
+  builder->Add("floor", ObjectClass::kFloor, [&](TriangleMesh* mesh) {
     std::uint64_t row = 0;
     for (float y = low.y(); y < high.y(); y += kFloorSheet_m, ++row) {
       std::uint64_t column = 0;
@@ -87,9 +88,9 @@ void AddFloor(const Scene& scene, const Palette& palette, std::uint64_t seed, Si
   });
 }
 
-void AddMarkings(const Scene& scene, const Palette& palette, Site* site) {
+void AddMarkings(const Scene& scene, const Palette& palette, WorldBuilder* builder) {
   if (scene.markings.empty()) return;
-  site->Add("markings", ObjectClass::kFloor, [&](TriangleMesh* mesh) {
+  builder->Add("markings", ObjectClass::kFloor, [&](TriangleMesh* mesh) {
     for (const MarkingSpec& marking : scene.markings) {
       const Vector2f from = marking.from.cast<float>(), to = marking.to.cast<float>();
       const Vector2f low = from.cwiseMin(to), high = from.cwiseMax(to);

@@ -20,14 +20,15 @@ void AddLuminaire(TriangleMesh* mesh, const Vector3f& middle, const Vector3f& ha
 
 }  // namespace
 
-void AddLights(const Scene& scene, const Palette& palette, WorldParts* parts, Site* site) {
+void AddLights(const Scene& scene, const Palette& palette, WorldParts* parts,
+               WorldBuilder* builder) {
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const LightsSpec& grid = scene.lights[i];
     const Eigen::Vector2f low = grid.from.value_or(scene.hall.from).cast<float>();
     const Eigen::Vector2f high = grid.to.value_or(scene.hall.to).cast<float>();
     const Vector3f half_u(static_cast<float>(grid.size_m.x()) / 2, 0, 0);
     const Vector3f half_v(0, -static_cast<float>(grid.size_m.y()) / 2, 0);  // u × v looks down
-    site->Add(fmt::format("lights_{}", i), ObjectClass::kLuminaire, [&](TriangleMesh* mesh) {
+    builder->Add(fmt::format("lights_{}", i), ObjectClass::kLuminaire, [&](TriangleMesh* mesh) {
       for (int k = 0; k < grid.rows * grid.per_row; ++k) {
         const Eigen::Vector2f share(
             (static_cast<float>(k % grid.per_row) + 0.5f) / static_cast<float>(grid.per_row),

@@ -242,7 +242,8 @@ std::size_t CountMovers(const MechanismSpec& mechanism) {
 
 std::vector<MechanismMesh> MakeMechanism(const MechanismSpec& mechanism, const FindGrip& find,
                                          AssetLibrary* assets, Wardrobe* wardrobe,
-                                         PartPaints* paints, std::uint64_t seed, Site* site) {
+                                         PartPaints* paints, std::uint64_t seed,
+                                         WorldBuilder* builder) {
   const auto linkage = std::make_shared<const Linkage>(mechanism.parts, Root(mechanism, find));
   const auto at_start = linkage->At(0);
   std::array<Body, 2> bodies;  // solid, clear
@@ -264,8 +265,8 @@ std::vector<MechanismMesh> MakeMechanism(const MechanismSpec& mechanism, const F
     }
   }
   if (!frame.triangles.empty()) {
-    site->Add(mechanism.name + "_frame", ClassOf(mechanism),
-              [&](TriangleMesh* mesh) { AddMesh(mesh, Eigen::Isometry3f::Identity(), frame); });
+    builder->Add(mechanism.name + "_frame", ClassOf(mechanism),
+                 [&](TriangleMesh* mesh) { AddMesh(mesh, Eigen::Isometry3f::Identity(), frame); });
   }
   std::vector<MechanismMesh> made;
   for (Body& body : bodies) {

@@ -39,10 +39,11 @@ ObjectClass ClassOf(const MechanismSpec& mechanism);
 std::size_t CountMovers(const MechanismSpec& mechanism);
 
 /// What of a mechanism moves: up to two meshes, what is seen through being its own. Parts that
-/// never move go to the site as NAME_frame. Velocities are the joints' own derivatives; those of
+/// never move go to the builder as NAME_frame. Velocities are the joints' own derivatives; those of
 /// the people and forks that hold it are differenced over a millisecond.
 std::vector<MechanismMesh> MakeMechanism(const MechanismSpec& mechanism, const FindGrip& find,
                                          AssetLibrary* assets, Wardrobe* wardrobe,
-                                         PartPaints* paints, std::uint64_t seed, Site* site);
+                                         PartPaints* paints, std::uint64_t seed,
+                                         WorldBuilder* builder);
 
 }  // namespace aisle::sim

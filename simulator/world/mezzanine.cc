@@ -71,12 +71,13 @@ void AddStair(TriangleMesh* mesh, const MezzanineFeet& feet, float deck, const P
 
 }  // namespace
 
-void AddMezzanines(const Scene& scene, const Palette& palette, std::uint64_t seed, Site* site) {
+void AddMezzanines(const Scene& scene, const Palette& palette, std::uint64_t seed,
+                   WorldBuilder* builder) {
   for (std::size_t i = 0; i < scene.mezzanines.size(); ++i) {
     const MezzanineSpec& spec = scene.mezzanines[i];
     const Vector2f low = spec.from.cast<float>(), high = spec.to.cast<float>();
     const auto deck = static_cast<float>(spec.height_m);
-    site->Add(fmt::format("mezzanine_{}", i), ObjectClass::kFurniture, [&](TriangleMesh* mesh) {
+    builder->Add(fmt::format("mezzanine_{}", i), ObjectClass::kFurniture, [&](TriangleMesh* mesh) {
       const MezzanineFeet feet = FeetOf(spec);
       const Vector3f slab(high.x() - low.x(), high.y() - low.y(), kDeck_m);
       AddBox(mesh, At((low.x() + high.x()) / 2, (low.y() + high.y()) / 2, deck - kDeck_m / 2), slab,
@@ -86,18 +87,19 @@ void AddMezzanines(const Scene& scene, const Palette& palette, std::uint64_t see
       for (int k = 0; k < 4; ++k) AddRailing(mesh, corners[k], corners[(k + 1) % 4], deck, palette);
       AddStair(mesh, feet, deck, palette);
     });
-    site->Add(fmt::format("mezzanine_{}_goods", i), ObjectClass::kGoods, [&](TriangleMesh* mesh) {
-      std::uint64_t place = 0;
-      for (const float x : Places(low.x() + 1, high.x() - 1, 1.7f, kPalletPitchX_m)) {
-        for (const float y : Places(low.y() + 1, high.y() - 1, 1.6f, kPalletPitchY_m)) {
-          Dice dice(seed, {330, i, place++});
-          if (!dice.Chance(0.6)) continue;
-          const auto turn = static_cast<float>(0.1 * dice.Signed());
-          const auto tall = static_cast<float>(dice.Between(0.5, 1.3));
-          AddLoadedPallet(mesh, palette, At(x, y, deck, turn), tall, GoodsKind::kMixed, dice);
-        }
-      }
-    });
+    builder->Add(
+        fmt::format("mezzanine_{}_goods", i), ObjectClass::kGoods, [&](TriangleMesh* mesh) {
+          std::uint64_t place = 0;
+          for (const float x : Places(low.x() + 1, high.x() - 1, 1.7f, kPalletPitchX_m)) {
+            for (const float y : Places(low.y() + 1, high.y() - 1, 1.6f, kPalletPitchY_m)) {
+              Dice dice(seed, {330, i, place++});
+              if (!dice.Chance(0.6)) continue;
+              const auto turn = static_cast<float>(0.1 * dice.Signed());
+              const auto tall = static_cast<float>(dice.Between(0.5, 1.3));
+              AddLoadedPallet(mesh, palette, At(x, y, deck, turn), tall, GoodsKind::kMixed, dice);
+            }
+          }
+        });
   }
 }
 

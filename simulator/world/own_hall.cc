@@ -36,7 +36,8 @@ void AddTriangles(const TriangleMesh& from, const std::vector<std::size_t>& tria
 
 }  // namespace
 
-void AddOwnHall(const Scene& scene, AssetLibrary* assets, Wardrobe* wardrobe, Site* site) {
+void AddOwnHall(const Scene& scene, AssetLibrary* assets, Wardrobe* wardrobe,
+                WorldBuilder* builder) {
   const std::shared_ptr<const Model> hall = assets->LoadStill(scene.hall.mesh.file);
   TriangleMesh mesh = wardrobe->Wear(hall);
   std::map<int, std::vector<std::size_t>> of_node;
@@ -50,9 +51,9 @@ void AddOwnHall(const Scene& scene, AssetLibrary* assets, Wardrobe* wardrobe, Si
   }
   for (const auto& [node, triangles] : of_node) {
     const std::string& name = hall->nodes[static_cast<std::size_t>(node)].name;
-    site->Add(name.empty() ? fmt::format("hall_{}", node) : name,
-              ClassOfLabel(LabelOfNode(name, scene.hall.labels)),
-              [&](TriangleMesh* to) { AddTriangles(mesh, triangles, to); });
+    builder->Add(name.empty() ? fmt::format("hall_{}", node) : name,
+                 ClassOfLabel(LabelOfNode(name, scene.hall.labels)),
+                 [&](TriangleMesh* to) { AddTriangles(mesh, triangles, to); });
   }
 }
 

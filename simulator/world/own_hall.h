@@ -9,6 +9,7 @@ namespace aisle::sim {
 /// that shows something, labelled by its name (simulator/world/labels.h). A shell around the rig's
 /// first place faces it (simulator/world/shell.h). Throws
 /// std::runtime_error when it has more of them than can be told apart.
-void AddOwnHall(const Scene& scene, AssetLibrary* assets, Wardrobe* wardrobe, Site* site);
+void AddOwnHall(const Scene& scene, AssetLibrary* assets, Wardrobe* wardrobe,
+                WorldBuilder* builder);
 
 }  // namespace aisle::sim

@@ -33,7 +33,7 @@ Piece PieceOf(const PropSpec& prop, AssetLibrary* assets) {
 }  // namespace
 
 void AddProps(const Scene& scene, std::uint64_t seed, AssetLibrary* assets, Wardrobe* wardrobe,
-              Site* site) {
+              WorldBuilder* builder) {
   for (std::size_t i = 0; i < scene.props.size(); ++i) {
     const PropSpec& prop = scene.props[i];
     const Piece what = PieceOf(prop, assets);
@@ -45,10 +45,10 @@ void AddProps(const Scene& scene, std::uint64_t seed, AssetLibrary* assets, Ward
       const double turn = prop.heading_rad + (prop.to ? kPropTurn_rad * dice.Signed() : 0);
       const Eigen::Vector3f at(places[k].cast<float>().x(), places[k].cast<float>().y(),
                                static_cast<float>(prop.above_m));
-      site->Add(fmt::format("{}_{}_{}", what.name, i, k), what.object_class,
-                [&](TriangleMesh* mesh) {
-                  AddMesh(mesh, At(at.x(), at.y(), at.z(), static_cast<float>(turn)), piece);
-                });
+      builder->Add(fmt::format("{}_{}_{}", what.name, i, k), what.object_class,
+                   [&](TriangleMesh* mesh) {
+                     AddMesh(mesh, At(at.x(), at.y(), at.z(), static_cast<float>(turn)), piece);
+                   });
     }
   }
 }

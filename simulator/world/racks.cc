@@ -147,24 +147,26 @@ class RackBuilder {
 
 }  // namespace
 
-void AddRacks(const Scene& scene, const Palette& palette, std::uint64_t seed, Site* site) {
+void AddRacks(const Scene& scene, const Palette& palette, std::uint64_t seed,
+              WorldBuilder* builder) {
   for (std::size_t i = 0; i < scene.racks.size(); ++i) {
     const RackSpec& rack = scene.racks[i];
-    site->Add(fmt::format("rack_{}", i), ObjectClass::kRack, [&](TriangleMesh* mesh) {
+    builder->Add(fmt::format("rack_{}", i), ObjectClass::kRack, [&](TriangleMesh* mesh) {
       RackBuilder builder(rack, palette, mesh);
       builder.AddFrames();
       builder.AddBeams();
       builder.AddEndSigns(i);
     });
-    site->Add(fmt::format("goods_{}", i), ObjectClass::kGoods,
-              [&](TriangleMesh* mesh) { RackBuilder(rack, palette, mesh).AddStored(seed, i); });
+    builder->Add(fmt::format("goods_{}", i), ObjectClass::kGoods,
+                 [&](TriangleMesh* mesh) { RackBuilder(rack, palette, mesh).AddStored(seed, i); });
   }
 }
 
-void AddStacks(const Scene& scene, const Palette& palette, std::uint64_t seed, Site* site) {
+void AddStacks(const Scene& scene, const Palette& palette, std::uint64_t seed,
+               WorldBuilder* builder) {
   for (std::size_t i = 0; i < scene.stacks.size(); ++i) {
     const StackSpec& stack = scene.stacks[i];
-    site->Add(fmt::format("stack_{}", i), ObjectClass::kGoods, [&](TriangleMesh* mesh) {
+    builder->Add(fmt::format("stack_{}", i), ObjectClass::kGoods, [&](TriangleMesh* mesh) {
       AddLoadedPallet(mesh, palette,
                       At(static_cast<float>(stack.at.x()), static_cast<float>(stack.at.y()), 0,
                          static_cast<float>(stack.heading_rad)),

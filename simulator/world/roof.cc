@@ -104,12 +104,12 @@ void AddRibs(TriangleMesh* mesh, const Box& box, const Palette& palette) {
 
 }  // namespace
 
-void AddRoof(const Scene& scene, const Palette& palette, Site* site) {
+void AddRoof(const Scene& scene, const Palette& palette, WorldBuilder* builder) {
   const HallSpec& hall = scene.hall;
   if (hall.walls == WallKind::kSky) return;
   const Box box = {hall.from.cast<float>(), (hall.to - hall.from).cast<float>(),
                    static_cast<float>(hall.height_m)};
-  site->Add("roof", ObjectClass::kWall, [&](TriangleMesh* mesh) {
+  builder->Add("roof", ObjectClass::kWall, [&](TriangleMesh* mesh) {
     AddSkin(mesh, box, 4, palette.roof);
     switch (hall.roof) {
       case RoofKind::kTrusses:

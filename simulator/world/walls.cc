@@ -69,9 +69,9 @@ void AddWallFittings(TriangleMesh* mesh, const Wall& wall, float height, const P
 }
 
 /// An overcast sky all around and above.
-void AddSky(const HallSpec& hall, const Palette& palette, Site* site) {
+void AddSky(const HallSpec& hall, const Palette& palette, WorldBuilder* builder) {
   const float height = static_cast<float>(hall.height_m);
-  site->Add("sky", ObjectClass::kNone, [&](TriangleMesh* mesh) {
+  builder->Add("sky", ObjectClass::kNone, [&](TriangleMesh* mesh) {
     for (const Wall& wall : WallsOf(hall)) {
       AddQuad(mesh, wall.At(0, height, 0), wall.length * wall.along, {0, 0, -height}, {},
               palette.sky);
@@ -101,35 +101,36 @@ Opening OpeningOf(const HallSpec& hall, const DoorSpec& door) {
           static_cast<float>(door.width_m), static_cast<float>(door.height_m)};
 }
 
-void AddWalls(const Scene& scene, const Palette& palette, std::uint64_t seed, Site* site) {
+void AddWalls(const Scene& scene, const Palette& palette, std::uint64_t seed,
+              WorldBuilder* builder) {
   const HallSpec& hall = scene.hall;
-  if (hall.walls == WallKind::kSky) return AddSky(hall, palette, site);
+  if (hall.walls == WallKind::kSky) return AddSky(hall, palette, builder);
   const float height = static_cast<float>(hall.height_m);
   const std::array<Wall, 4> walls = WallsOf(hall);
   const std::array<std::vector<Vector2f>, 4> openings = OpeningsOf(scene);
   constexpr std::array<const char*, 4> kNames = {"wall_north", "wall_south", "wall_east",
                                                  "wall_west"};
   for (std::size_t i = 0; i < walls.size(); ++i) {
-    site->Add(kNames[i], ObjectClass::kWall,
-              [&](TriangleMesh* mesh) { AddWallFace(mesh, walls[i], height, palette); });
+    builder->Add(kNames[i], ObjectClass::kWall,
+                 [&](TriangleMesh* mesh) { AddWallFace(mesh, walls[i], height, palette); });
     // Plain means nothing to hold on to; panels that keep the cold in are not drilled.
     if (hall.walls == WallKind::kPlain || hall.walls == WallKind::kInsulated ||
         hall.walls == WallKind::kCassettes) {
       continue;
     }
-    site->Add(std::string(kNames[i]) + "_fittings", ObjectClass::kFurniture,
-              [&](TriangleMesh* mesh) {
-                AddWallFittings(mesh, walls[i], height, palette, openings[i], Dice(seed, {210, i}));
-              });
+    builder->Add(
+        std::string(kNames[i]) + "_fittings", ObjectClass::kFurniture, [&](TriangleMesh* mesh) {
+          AddWallFittings(mesh, walls[i], height, palette, openings[i], Dice(seed, {210, i}));
+        });
   }
-  AddRoof(scene, palette, site);
+  AddRoof(scene, palette, builder);
 }
 
-void AddDoors(const Scene& scene, const Palette& palette, Site* site) {
+void AddDoors(const Scene& scene, const Palette& palette, WorldBuilder* builder) {
   for (std::size_t i = 0; i < scene.doors.size(); ++i) {
     const DoorSpec& door = scene.doors[i];
     const auto& [wall, middle, width, height] = OpeningOf(scene.hall, door);
-    site->Add(fmt::format("door_{}", i), ObjectClass::kFurniture, [&](TriangleMesh* mesh) {
+    builder->Add(fmt::format("door_{}", i), ObjectClass::kFurniture, [&](TriangleMesh* mesh) {
       if (door.daylight > 0) {
         AddOpenDoor(scene.hall, door, palette.days[i], palette, mesh);
       } else {

@@ -146,6 +146,7 @@ class CachedSequenceTest : public testing::Test {
 };
 
 TEST_F(CachedSequenceTest, FramesAreThoseOfTheOriginalWhicheverWayTheyCame) {
+  EXPECT_EQ(FrameStore(folder_).Count(), 0);
   for (int drive = 0; drive < 3; ++drive) {
     std::uint64_t hash = 0;
     const auto sequence = Open(&hash);
@@ -163,6 +164,7 @@ TEST_F(CachedSequenceTest, FramesAreThoseOfTheOriginalWhicheverWayTheyCame) {
     }
     EXPECT_EQ(asked_.opened, 1) << "what is there needs no original";
     EXPECT_EQ(asked_.made, 6) << "each frame is made once";
+    EXPECT_EQ(FrameStore(folder_).Count(), 6);
   }
 }
 

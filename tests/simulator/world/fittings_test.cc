@@ -18,9 +18,9 @@ WorldParts Drawn(const Scene& scene, std::uint64_t seed) {
   const Palette palette;
   const Fittings fittings;
   WorldParts parts;
-  Site site(&parts);
-  AddFixtures(scene, {palette, fittings}, seed, &site);
-  AddClutter(scene, {palette, fittings}, seed, &site);
+  WorldBuilder builder(&parts);
+  AddFixtures(scene, {palette, fittings}, seed, &builder);
+  AddClutter(scene, {palette, fittings}, seed, &builder);
   return parts;
 }
 

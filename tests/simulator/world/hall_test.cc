@@ -45,15 +45,15 @@ struct Built {
 
 Built Build(const Scene& scene, std::uint64_t seed = 1) {
   Built built;
-  Site site(&built.parts);
+  WorldBuilder builder(&built.parts);
   const Palette palette = PaletteWithSigns();
-  AddFloor(scene, palette, seed, &site);
-  AddMarkings(scene, palette, &site);
-  AddWalls(scene, palette, seed, &site);
-  AddDoors(scene, palette, &site);
-  AddColumns(scene, palette, &site);
-  AddMezzanines(scene, palette, seed, &site);
-  AddLights(scene, palette, &built.parts, &site);
+  AddFloor(scene, palette, seed, &builder);
+  AddMarkings(scene, palette, &builder);
+  AddWalls(scene, palette, seed, &builder);
+  AddDoors(scene, palette, &builder);
+  AddColumns(scene, palette, &builder);
+  AddMezzanines(scene, palette, seed, &builder);
+  AddLights(scene, palette, &built.parts, &builder);
   return built;
 }
 
@@ -295,8 +295,8 @@ TEST(Mezzanine, NoTwoPalletsStandInOneAnother) {
       std::size_t boards = 0;
       for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         WorldParts parts;
-        Site site(&parts);
-        AddMezzanines(scene, PaletteWithSigns(), seed, &site);
+        WorldBuilder builder(&parts);
+        AddMezzanines(scene, PaletteWithSigns(), seed, &builder);
         const TriangleMesh& mesh = parts.statics.mesh;
         std::vector<std::array<Vector2f, 3>> faces;
         for (const std::size_t i :

@@ -40,12 +40,12 @@ TEST(ClassOfLabel, IsTheClassOfThatName) {
 }
 
 /// Labels are pictures of 16 bits: one more would bear the name of the first.
-TEST(Site, NoThingTakesTheLabelOfAnother) {
+TEST(WorldBuilder, NoThingTakesTheLabelOfAnother) {
   WorldParts parts;
-  Site site(&parts);
-  for (int i = 1; i <= 65'535; ++i) ASSERT_EQ(site.Add("box", ObjectClass::kGoods), i);
+  WorldBuilder builder(&parts);
+  for (int i = 1; i <= 65'535; ++i) ASSERT_EQ(builder.Add("box", ObjectClass::kGoods), i);
   try {
-    site.Add("the last one", ObjectClass::kGoods);
+    builder.Add("the last one", ObjectClass::kGoods);
     FAIL() << "it was added";
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("'the last one'"), std::string::npos);

@@ -90,8 +90,8 @@ TEST(Obstacles, HoldWhatFixturesAreBelowHeadHeight) {
   const Fittings fittings;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     WorldParts parts;
-    Site site(&parts);
-    AddFixtures(scene, {palette, fittings}, seed, &site);
+    WorldBuilder builder(&parts);
+    AddFixtures(scene, {palette, fittings}, seed, &builder);
     for (std::size_t i = 0; i < obstacles.size(); ++i) {
       const std::string name = fmt::format("{}_{}", kKinds[i / 3].name, i);
       ExpectHolds(obstacles[i], TouchedBy(parts, name), fmt::format("{}, seed {}", name, seed));
@@ -123,10 +123,10 @@ TEST(Obstacles, HoldWhatPropsAreBelowHeadHeight) {
   const std::vector<Obstacle> obstacles = ObstaclesOf(scene);
   ASSERT_EQ(obstacles.size(), scene.props.size()) << "a model has no footprint";
   WorldParts parts;
-  Site site(&parts);
+  WorldBuilder builder(&parts);
   AssetLibrary assets(kAssets);
   Wardrobe wardrobe(&parts);
-  AddProps(scene, 1, &assets, &wardrobe, &site);
+  AddProps(scene, 1, &assets, &wardrobe, &builder);
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     const std::string& model = scene.props[i].model;
     ExpectHolds(obstacles[i], TouchedBy(parts, fmt::format("{}_{}_0", model, i)), model, kRound_m);
@@ -161,8 +161,8 @@ TEST(Obstacles, AreAMezzaninesColumnsAndStair) {
   scene.mezzanines[1].to = {22, 1.5};
   scene.mezzanines[1].height_m = 4;
   WorldParts parts;
-  Site site(&parts);
-  AddMezzanines(scene, {}, 1, &site);
+  WorldBuilder builder(&parts);
+  AddMezzanines(scene, {}, 1, &builder);
   const std::vector<Obstacle> obstacles = ObstaclesOf(scene);
   EXPECT_EQ(obstacles.size(), (4u * 3 + 1) + (2u * 3 + 1));
   std::vector<int> hit(obstacles.size());

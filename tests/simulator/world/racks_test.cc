@@ -28,8 +28,8 @@ Built Build(const RackSpec& rack, std::uint64_t seed) {
   Scene scene;
   scene.racks = {rack};
   Built built;
-  Site site(&built.parts);
-  AddRacks(scene, {}, seed, &site);
+  WorldBuilder builder(&built.parts);
+  AddRacks(scene, {}, seed, &builder);
   built.pose = At(static_cast<float>(rack.from.x()), static_cast<float>(rack.from.y()), 0,
                   static_cast<float>(rack.heading_rad));
   return built;

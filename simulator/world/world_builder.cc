@@ -1,10 +1,10 @@
-#include <stdexcept>
+#include "simulator/world/world_builder.h"
 
-#include "simulator/world/warehouse.h"
+#include <stdexcept>
 
 namespace aisle::sim {
 
-std::uint16_t Site::Add(const std::string& name, ObjectClass object_class, bool is_actor) {
+std::uint16_t WorldBuilder::Add(const std::string& name, ObjectClass object_class, bool is_actor) {
   constexpr std::size_t kMost = 65'535;    // labels are pictures of 16 bits
   if (parts_->instances.size() > kMost) {  // the first is nothing
     throw std::runtime_error(
@@ -16,7 +16,7 @@ std::uint16_t Site::Add(const std::string& name, ObjectClass object_class, bool 
   return static_cast<std::uint16_t>(parts_->instances.size() - 1);
 }
 
-void Site::Draw(std::uint16_t instance, const std::function<void(TriangleMesh*)>& draw) {
+void WorldBuilder::Draw(std::uint16_t instance, const std::function<void(TriangleMesh*)>& draw) {
   draw(&parts_->statics.mesh);
   parts_->statics.instances.resize(parts_->statics.mesh.triangles.size(), instance);
 }
