@@ -13,7 +13,7 @@
 namespace aisle {
 
 struct DynamicBenchOptions {
-  BenchSource source{.format = "kitti"};
+  BenchSource source;
   SystemSpec system = BuiltIn("robust");
   int warm_up = 20;           ///< frames before the view's first that are shown but not counted
   std::filesystem::path out;  ///< folder for pictures; empty: none

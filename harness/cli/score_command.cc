@@ -331,8 +331,10 @@ void AddInputOptions(CLI::App* command, Options* options) {
   command->add_option(
       "--truth", options->truth,
       "True trajectory: a file, or a bag's topic (drive.mcap:/odom, drive.db3:/tf#base_link)");
-  command->add_option("--estimate", options->estimates,
-                      "Estimated trajectory; several are shown side by side");
+  command->add_option(
+      "--estimate", options->estimates,
+      "Estimated trajectory: a file, or a bag's topic as for --truth; several are shown side by "
+      "side");
   const auto add_format = [&](const char* name, std::string* format, const char* what) {
     command->add_option(name, *format, what)->check(CLI::IsMember({"tum", "kitti", "euroc"}));
   };

@@ -11,14 +11,15 @@ void AddStatistics(const std::string& prefix, const std::string& what,
   for (const auto& [statistic, word] :
        {std::pair("rmse", "root mean square"), std::pair("mean", "mean"),
         std::pair("median", "median"), std::pair("std", "standard deviation"),
-        std::pair("min", "least"), std::pair("max", "largest")}) {
+        std::pair("min", "smallest"), std::pair("max", "largest")}) {
     names->push_back({prefix + "_" + statistic + "_m", "m", std::string(word) + " of " + what});
   }
 }
 
 void AddTrajectory(std::vector<ScoreDescription>* names) {
   AddStatistics("ate", "the final track's distance from truth, aligned by SE(3)", names);
-  names->push_back({"ate_rot_rmse_deg", "deg", "root mean square of its turn from truth"});
+  names->push_back({"ate_rot_rmse_deg", "deg",
+                    "root mean square of the final track's rotation error, aligned alike"});
   names->push_back({"ate_live_rmse_m", "m", "ATE of the poses as known at each frame"});
   for (const auto& [prefix, span] :
        {std::pair("rpe", "from frame to frame"), std::pair("rpe_1m", "over one metre of path"),
@@ -37,7 +38,7 @@ void AddTrajectory(std::vector<ScoreDescription>* names) {
   }
   names->push_back({"coverage", "1", "share of frames with a pose", true});
   names->push_back({"times_lost", "1", "how often tracking was lost"});
-  names->push_back({"recovery_max_s", "s", "the longest time until it was found again"});
+  names->push_back({"recovery_max_s", "s", "longest time from losing the track to the next pose"});
   for (const char* quantile : {"50", "95"}) {
     names->push_back({std::string("error_all_p") + quantile + "_m", "m",
                       std::string("quantile ") + quantile +
@@ -62,16 +63,18 @@ void AddMasks(std::vector<ScoreDescription>* names) {
        true},
       {"object_recall_large", "1", "recall of objects of 1 % of the image at 0.15 m/s or more",
        true},
-      {"object_covered_large", "1", "share of these most of whose pixels are rejected", true},
+      {"object_covered_large", "1",
+       "object_covered of objects of 1 % of the image at 0.15 m/s or more", true},
       {"object_recall_size_*", "1", "recall of objects by their pixels", true},
       {"object_recall_distance_*", "1", "recall of objects by their distance", true},
       {"object_recall_speed_*", "1", "recall of objects by their speed", true},
       {"object_recall_class_*", "1", "recall of objects by their class", true},
       {"objects_moving", "1", "moving objects, summed over frames"},
-      {"objects_found", "1", "of them, found"},
-      {"objects_missed", "1", "of them, missed"},
-      {"objects_invented", "1", "rejected regions that are no moving object"},
-      {"static_features_lost", "1", "share of the corners on what stands that are rejected", true},
+      {"objects_found", "1", "moving objects found by their rectangle, summed over frames"},
+      {"objects_missed", "1", "moving objects not found by their rectangle, summed over frames"},
+      {"objects_invented", "1", "rejected regions without a moving object, summed over frames"},
+      {"static_features_lost", "1", "share of the corners on static surfaces that are rejected",
+       true},
   };
   names->insert(names->end(), masks.begin(), masks.end());
   for (const char* kind : {"large", "slow"}) {
@@ -91,13 +94,15 @@ void AddMasks(std::vector<ScoreDescription>* names) {
 void AddFrames(std::vector<ScoreDescription>* names) {
   const std::vector<ScoreDescription> frames = {
       {"features_on_movers", "1", "share of the features that sit on moving surfaces", true},
-      {"inliers_on_movers_per_frame", "1", "of those that took part in the pose, a frame"},
+      {"inliers_on_movers_per_frame", "1",
+       "features on moving surfaces that the pose was computed from, per frame"},
       {"difficulty_movers_share", "1", "share of the image that moves", true},
       {"difficulty_static_texture_share", "1", "share of it that stands still and shows texture",
        true},
       {"difficulty_flow_px", "px", "median motion of static points from frame to frame"},
-      {"difficulty_blur_px", "px", "how far the exposure smears them"},
-      {"difficulty_parallax_px", "px", "the part of their motion that translation made"},
+      {"difficulty_blur_px", "px", "motion of static points during the exposure"},
+      {"difficulty_parallax_px", "px",
+       "part of the static points' motion that is due to translation"},
       {"ms_*_mean", "ms", "mean wall time of that stage over the frames that had it"},
       {"peak_rss_mib", "MiB", "peak of resident memory"},
   };
@@ -125,16 +130,17 @@ const std::vector<ScoreDescription>& DriveScoreNames() {
       {"time_over_planned", "1", "that time over the planned one"},
       {"stops", "1", "protective stops, because the system was lost for too long"},
       {"scanner_stops", "1", "stops by the safety scanner, where one is switched on"},
-      {"stopped_s", "s", "time held by either"},
+      {"stopped_s", "s", "time held by protective or scanner stops"},
       {"lost_s", "s", "time without a pose to steer by"},
       {"frames_dropped", "1", "share of the camera's frames that the busy system never saw", true},
       {"collisions", "1",
        "contacts of the moving vehicle; with a person who touched it at rest, from when it moves "
        "towards him"},
-      {"collisions_static", "1", "of them, with racks, walls, columns, goods and the like"},
-      {"collisions_person", "1", "of them, with people"},
-      {"collisions_vehicle", "1", "of them, with other vehicles, trailers and mechanisms"},
-      {"collision_speed_max_mps", "m/s", "the fastest of them, by the vehicle's fastest corner"},
+      {"collisions_static", "1", "collisions with racks, walls, columns, goods and the like"},
+      {"collisions_person", "1", "collisions with people"},
+      {"collisions_vehicle", "1", "collisions with other vehicles, trailers and mechanisms"},
+      {"collision_speed_max_mps", "m/s",
+       "speed of the vehicle's fastest corner in its fastest collision"},
       {"min_clearance_static_m", "m", "smallest distance of the footprint from static objects"},
       {"min_clearance_person_m", "m", "smallest distance from a person while moving"},
       {"min_clearance_vehicle_m", "m", "smallest distance from another vehicle while moving"},
