@@ -29,9 +29,9 @@ SKIPPED = 77
 OTHERS = "\n## "  # where other programs' parts of the page begin
 PAGE_HEAD = """# What fuzzing the readers found
 
-Written by `./aisle fuzz --page reports/fuzz.md`; libFuzzer of clang with ASan and UBSan. A target
-hands any bytes at all to one reader (`tests/fuzz`); a finding is whatever leaves it but the errors
-its header names.
+**{inputs:,} inputs to {targets} readers of bytes: {findings}.** A target hands any bytes at all to one reader
+(`tests/fuzz`); a finding is whatever leaves it but the errors that its header names. libFuzzer of clang with ASan and
+UBSan; written by `./aisle fuzz --page reports/fuzz.md`.
 
 """
 
@@ -116,13 +116,14 @@ def rows_of(page):
 def page(rows):
     cells = [line.split("|") for line in rows.values()]
     clang = output("clang++", "--version").splitlines()[0]
-    lines = [PAGE_HEAD + f"{clang}, {os.cpu_count()} cores.\n",
+    findings = sum(cell[6].strip() != "0" for cell in cells)
+    head = PAGE_HEAD.format(inputs=sum(int(cell[3]) for cell in cells), targets=len(rows),
+                            findings=f"{findings} findings" if findings else "no finding")
+    lines = [head + f"{clang}, {os.cpu_count()} cores.\n",
              "| target | s | inputs | edges reached | inputs kept | found | commit, day |",
              "|---|---|---|---|---|---|---|"]
     lines += [rows[target] for target in sorted(rows)]
-    lines.append(f"\n{sum(int(cell[3]) for cell in cells)} inputs in all, "
-                 f"{sum(cell[6].strip() != '0' for cell in cells)} findings.\n")
-    return "\n".join(lines)
+    return "\n".join(lines) + "\n"
 
 
 def write_aside(file, text):

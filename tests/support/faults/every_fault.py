@@ -163,7 +163,7 @@ def drive(workers, points, journal, minutes, commit):
 
 
 def table(calls, known):
-    rows = ["| night | call | points | tried | coped (0) | its run died (1) | said so (3) | wrong |",
+    rows = ["| night | call | points | tried | completed (0) | run failed (1) | error reported (3) | wrong |",
             "|---|---|---:|---:|---:|---:|---:|---:|"]
     total = [0] * 6
     for (night, kind), count in sorted(calls.items(), reverse=True):
