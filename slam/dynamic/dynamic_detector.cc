@@ -51,7 +51,7 @@ DynamicOutput DynamicDetector::Impl::DetectByPaper(const DynamicInput& input) {
   DynamicStages stages{.left = input.left};
   if (!previous.left.empty()) {
     dynamic::PaperResult result = dynamic::DetectDynamicRegions(previous, current, options.paper);
-    output.mask_right = ShiftMaskToRight(result.dynamic.mask, result.stages.disparity);
+    output.mask_right = ShiftMaskToRight(result.dynamic.mask, result.disparity);
     output.regions = std::move(result.dynamic);
     output.stage_ms = result.stages.stage_ms;
     stages.paper = PaperTrace{options.paper, std::move(result.stages)};
@@ -68,12 +68,12 @@ DynamicOutput DynamicDetector::Impl::DetectRobustly(const DynamicInput& input) {
   DynamicStages stages{.left = input.left};
   if (options.keep_stages) stages.robust = TraceOf(state, result, camera);
   DynamicOutput output;
-  output.mask_right = ShiftMaskToRight(result.dynamic.mask, result.stages.half_disparity);
+  output.mask_right = ShiftMaskToRight(result.dynamic.mask, result.half_disparity);
   output.regions = std::move(result.dynamic);
   output.probability = std::move(result.probability);
-  if (!result.stages.gaps.empty()) {
-    const dynamic::EgoMotion& motion = result.stages.gaps.front().motion;
-    output.rig_motion = SinceLastFrame({motion.T_now_before, motion.covariance}, state.unseen_way);
+  if (const auto& motion = result.motion) {
+    output.rig_motion =
+        SinceLastFrame({motion->T_now_before, motion->covariance}, state.unseen_way);
   }
   output.stage_ms = std::move(result.stages.stage_ms);
   state = std::move(result.state);
@@ -103,7 +103,8 @@ DynamicOutput DynamicDetector::Detect(const DynamicInput& input) {
 }
 
 cv::Mat1b ShiftMaskToRight(const cv::Mat1b& mask, const cv::Mat1f& disparity) {
-  const int factor = std::max(1, mask.cols / std::max(1, disparity.cols));
+  CV_Assert(!disparity.empty());
+  const int factor = std::max(1, mask.cols / disparity.cols);
   cv::Mat1b right(mask.size(), static_cast<unsigned char>(0));
   ParallelFor(0, mask.rows, [&](int y) {
     const unsigned char* moves = mask[y];

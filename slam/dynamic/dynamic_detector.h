@@ -18,7 +18,7 @@ namespace aisle::slam {
 /// A rectified stereo pair and when it was taken.
 struct DynamicInput {
   std::int64_t stamp_ns = 0;
-  cv::Mat1b left, right;  ///< 8-bit grey; not written to, neither now nor later by the caller
+  cv::Mat1b left, right;  ///< 8-bit grey; not written to, and free again once Detect returns
   /// Where the caller expects the rig to have moved since the last frame, and how sure that is.
   std::optional<MeasuredMotion> expected = {};
   /// How it has been measured to move, by other means than what these images show against the last.
@@ -39,9 +39,10 @@ struct DynamicOutput {
   std::shared_ptr<const DynamicStages> stages;  ///< null unless DynamicOptions::keep_stages
 };
 
-/// Either method behind one face. Frames of one sequence, in order; the first frame, having no
-/// past, shows nothing that moves. Same images, same options: the same bits, for any number of
-/// threads.
+/// Either method behind one face. Frames of one sequence, in order: stamps rise, and both images
+/// have the camera's size (asserted where the method depends on it). The first frame, having no
+/// past, shows nothing that moves; nor does the first after a long pause. Same images, same
+/// options: the same bits, for any number of threads.
 class DynamicDetector {
  public:
   DynamicDetector(const StereoCamera& camera, const DynamicOptions& options);
@@ -58,7 +59,8 @@ class DynamicDetector {
 
 /// Where the right camera sees what a mask rejects in the left: every masked pixel shifted by its
 /// disparity (pixels; negative = unknown), small gaps between shifted pixels closed. `disparity`
-/// may be smaller than the mask by a whole factor, its values then being in its own pixels.
+/// may be smaller than the mask by a whole factor, its values then being in its own pixels; it is
+/// not empty.
 cv::Mat1b ShiftMaskToRight(const cv::Mat1b& mask, const cv::Mat1f& disparity);
 
 }  // namespace aisle::slam

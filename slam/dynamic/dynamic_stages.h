@@ -28,8 +28,9 @@ struct RobustTrace {
 };
 
 /// What every stage of the detector found in one frame, kept on request alone, for pictures and
-/// tests: nothing that is decided depends on it. Exactly one of the traces is there, none where
-/// the method has no past yet.
+/// tests: nothing that is decided depends on it. Of the traces there is that of the method in use;
+/// none of the paper's method in the first frame, while that of the robust one, without a past, has
+/// no gaps and no residual.
 struct DynamicStages {
   cv::Mat1b left;  ///< the image itself
   DynamicRegions regions = {};
@@ -37,8 +38,7 @@ struct DynamicStages {
   std::optional<RobustTrace> robust = {};
 };
 
-/// What the step from `before` left to be seen. `result.dynamic` and `result.state` must still be
-/// whole.
+/// What the step from `before` left to be seen; of a result that nothing has been moved out of yet.
 RobustTrace TraceOf(const dynamic::RobustState& before, const dynamic::RobustResult& result,
                     const StereoCamera& camera);
 

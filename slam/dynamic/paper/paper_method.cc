@@ -84,6 +84,7 @@ PaperResult DetectDynamicRegions(const StereoPair& previous, const StereoPair& c
   result.dynamic =
       Timed(mark_ms, [&] { return MarkAll(s.groups, s.rois, current.left.size(), options.mark); });
 
+  result.disparity = s.disparity;
   s.stage_ms = {{"disparity", disparity_ms},
                 {"features", features_ms},
                 {"flow", flow_ms},

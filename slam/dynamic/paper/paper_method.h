@@ -38,6 +38,7 @@ struct PaperStages {
 
 struct PaperResult {
   DynamicRegions dynamic;
+  cv::Mat1f disparity;  ///< of the current left image, kNoDisparity where unknown
   PaperStages stages;
 };
 

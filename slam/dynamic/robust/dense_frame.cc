@@ -41,7 +41,8 @@ void AddNearer(const float* coarse, int columns, float reach, float* row) {
 void ForgetChanceMatches(const float* coarse, int unseen, float* row) {
   constexpr float kSame = 2;
   for (int x = 0; x < unseen; ++x) {
-    if (std::abs(row[x] - 2 * coarse[x / 2]) > kSame) row[x] = kNoDisparity;
+    const float other = coarse[x / 2];
+    if (other < 0 || std::abs(row[x] - 2 * other) > kSame) row[x] = kNoDisparity;
   }
 }
 

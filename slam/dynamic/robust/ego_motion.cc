@@ -361,11 +361,11 @@ struct Candidate {
 
 bool LessTrusted(const Candidate& a, const Candidate& b) { return a.trust < b.trust; }
 
-/// Of the motions the one with most trust behind it, refined; what is expected where none of
-/// them is possible. `spread` are the matches weighed by space. Where none has most of the trust,
-/// the best are refined before they are compared (locally optimised RANSAC: Chum, Matas and Kittler
-/// 2003): standing still is exact for whoever goes along with the rig, a sample of the world has
-/// the noise of its three points.
+/// Of the motions, if there are any, the one with most trust behind it, refined; what is expected
+/// where none of them is possible. `spread` are the matches weighed by space. Where none has most
+/// of the trust, the best are refined before they are compared (locally optimised RANSAC: Chum,
+/// Matas and Kittler 2003): standing still is exact for whoever goes along with the rig, a sample
+/// of the world has the noise of its three points.
 EgoMotion MostTrusted(const std::vector<Isometry3d>& motions,
                       const std::vector<StereoMatch>& spread,
                       const std::vector<StereoMatch>& matches, const StereoCamera& camera,
@@ -380,7 +380,7 @@ EgoMotion MostTrusted(const std::vector<Isometry3d>& motions,
   ParallelFor(std::size_t{0}, best.size(), [&](std::size_t k) { best[k] = judged(motions[k]); });
   std::stable_sort(best.begin(), best.end(),
                    [](const Candidate& a, const Candidate& b) { return LessTrusted(b, a); });
-  if (best.front().trust <= 0) return AsExpected(expected);
+  if (best.empty() || best.front().trust <= 0) return AsExpected(expected);
   const bool of_most = IsOfMost(spread, camera, best.front().T_now_before, noise);
   best.resize(of_most ? 1 : std::min(best.size(), kContenders));
   ParallelFor(std::size_t{0}, best.size(), [&](std::size_t k) {

@@ -55,8 +55,8 @@ double MatchChi2(const StereoCamera& camera, const Eigen::Isometry3d& T_now_befo
 /// standing still and three-point samples; of those that a vehicle can do after what it did
 /// before, the one with most trust behind it wins, so a crowd that moves as one does not become the
 /// world (RANSAC, Fischler and Bolles 1981). Refined by robust least squares (Geman and McClure
-/// 1985). Where less than half of the trust is behind that and a jolt explains more than half, it
-/// was a jolt; the prior itself where nothing is possible.
+/// 1985). Where no more than half of the trust is behind that and a jolt explains more than half,
+/// it was a jolt; the prior itself where nothing is possible.
 EgoMotion EstimateEgoMotion(const std::vector<StereoMatch>& matches, const StereoCamera& camera,
                             const std::optional<MotionPrior>& prior, const MeasurementNoise& noise,
                             const EgoMotionOptions& options);
@@ -66,7 +66,7 @@ EgoMotion RefineEgoMotion(const std::vector<StereoMatch>& matches, const StereoC
                           const Eigen::Isometry3d& T_now_before, const MeasurementNoise& noise);
 
 /// Noise of u, v and disparity of one measurement, from the errors that a motion leaves to matches
-/// trusted to be static by more than half: of their body, tails of bad ones included as far as a
+/// trusted to be static by half or more: of their body, tails of bad ones included as far as a
 /// quarter of them allows. Nothing with fewer than 20.
 std::optional<MeasurementNoise> MeasureNoise(const std::vector<StereoMatch>& matches,
                                              const StereoCamera& camera,

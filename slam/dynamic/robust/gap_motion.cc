@@ -1,5 +1,7 @@
 #include "slam/dynamic/robust/gap_motion.h"
 
+#include <algorithm>
+
 #include "slam/common/parallel.h"
 #include "slam/common/seconds.h"
 #include "slam/dynamic/robust/residual_flow.h"
@@ -45,20 +47,24 @@ std::vector<EgoMotion> MotionsOf(const Step& step, const GapMatches& matches,
 }
 
 /// The running noise of one gap after what its matches say of it.
-MeasurementNoise Learned(const MeasurementNoise& known, const std::vector<StereoMatch>& matches,
-                         const EgoMotion& motion, const StereoCamera& camera, double rate) {
+MeasurementNoise MatchNoiseAfter(const MeasurementNoise& known,
+                                 const std::vector<StereoMatch>& matches, const EgoMotion& motion,
+                                 const StereoCamera& camera, double rate) {
   const auto measured = MeasureNoise(matches, camera, motion.T_now_before);
   if (!measured) return known;
   const MeasurementNoise bounded = measured->cwiseMax(kLeastNoise).cwiseMin(kMostNoise);
-  return known + rate * (bounded - known);
+  return RunningMean(known, bounded, rate);
 }
 
 /// What wheels that go over something add to the rig's motion within a frame: heave, pitch and roll
 /// of an upright camera. Where it goes and how it turns on the ground stays as it was, which is
-/// what tells a jolt from somebody who fills the view.
+/// what tells a jolt from somebody who fills the view. However long the step is, the rig is lifted
+/// no higher than what it goes over.
 Matrix6d OfAJolt(double step_s, const EgoMotionOptions& options) {
-  const double heave = options.jolt_mps2 * step_s * step_s,
-               tilt = options.jolt_radps2 * step_s * step_s;
+  constexpr double kMostHeave_m = 0.1;   // no sill is higher, nor what a wheel climbs
+  constexpr double kMostTilt_rad = 0.2;  // one axle on that, the other half a metre behind
+  const double heave = std::min(options.jolt_mps2 * step_s * step_s, kMostHeave_m),
+               tilt = std::min(options.jolt_radps2 * step_s * step_s, kMostTilt_rad);
   Vector6d deviation;
   deviation << 0, heave, 0, tilt, 0, tilt;
   return deviation.cwiseAbs2().asDiagonal();
@@ -104,8 +110,8 @@ GapMotions FindGapMotions(const Step& step, const std::vector<GapFlow>& flows,
   GapMotions found{MotionsOf(step, matches, flows, prior), step.before.noise.match};
   ParallelFor(std::size_t{0}, found.motions.size(), [&](std::size_t k) {
     const std::size_t slot = flows[k].slot;
-    found.noise[slot] = Learned(step.before.noise.match[slot], matches[k], found.motions[k],
-                                step.camera, LearningRate(slot, step.options.tolerance));
+    found.noise[slot] = MatchNoiseAfter(step.before.noise.match[slot], matches[k], found.motions[k],
+                                        step.camera, LearningRate(slot, step.options.tolerance));
   });
   return found;
 }

@@ -31,4 +31,10 @@ GapMotions FindGapMotions(const Step& step, const std::vector<GapFlow>& flows,
 /// pace: each of the longer gaps is measured in its turn.
 double LearningRate(std::size_t slot, const ToleranceOptions& options);
 
+/// A running value once another one has been measured, which counts for the share `rate`.
+template <typename Value>
+Value RunningMean(const Value& known, const Value& measured, double rate) {
+  return known + rate * (measured - known);
+}
+
 }  // namespace aisle::slam::dynamic

@@ -1,5 +1,7 @@
 #include "slam/dynamic/robust/label_memory.h"
 
+#include <limits>
+
 #include "slam/common/parallel.h"
 #include "slam/dynamic/robust/earlier_disparity.h"
 #include "slam/dynamic/robust/monocular.h"
@@ -16,9 +18,11 @@ struct Surface {
   Surface(float now, float if_static, const DisparityTolerance& rule)
       : disparity(now, if_static), tolerance(2 * rule.At(now)), per_step(rule.noise()) {}
 
-  /// How far a pixel of another disparity, so many steps away, is from being that.
+  /// How far a pixel of another disparity, so many steps away, is from being that; endlessly where
+  /// its disparity is unknown (negative).
   float Difference(float other, int steps) const {
-    return disparity.DistanceTo(other) + per_step * static_cast<float>(steps);
+    const float off = disparity.DistanceTo(other) + per_step * static_cast<float>(steps);
+    return other < 0 ? std::numeric_limits<float>::infinity() : off;
   }
 };
 

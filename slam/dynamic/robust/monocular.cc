@@ -47,7 +47,9 @@ cv::Mat1f ExplainMonocular(const DenseFrame& now, const cv::Mat2f& flow, const T
       const float closest = std::clamp(assumed + way, kFarthest, kNearest);
       place += (closest - assumed) * line;
       line = {0, 0};
-      expected->disparity(y, x) = closest;
+      // That of the earlier frame: to first order a turn scales all disparities of a ray alike.
+      expected->disparity(y, x) =
+          assumed > 0 ? expected->disparity(y, x) * (closest / assumed) : closest;
       of_row[x] = closest;
     }
   });

@@ -75,15 +75,6 @@ struct Evidence {
     return seen <= 0 && place[0] - d < static_cast<float>(kEdgeReach);
   }
 
-  /// Of a static pixel's flow: what its disparity and the way it has gone add to the flow's own.
-  float OtherVariance(int y, int x) const {
-    const cv::Vec2f way =
-        expected.place(y, x) - cv::Vec2f(static_cast<float>(x), static_cast<float>(y));
-    const cv::Vec2f& along = expected.per_disparity(y, x);
-    return Squared(frames.tolerance.noise()) * along.dot(along) +
-           Squared(options.noise_per_displacement) * way.dot(way);
-  }
-
   /// Whether earlier frames have said enough; they, too, were asked for other explanations.
   bool WasSure(int y, int x) const {
     return !frames.memory.empty() && frames.memory(y, x) > static_cast<float>(frames.sure);
@@ -164,9 +155,12 @@ struct Evidence {
 
 /// The deviation of the flow of pixels that are well held and that disparity tells little apart, of
 /// those where it fits and that belong to nothing known to move; nothing where there are few.
-std::optional<double> MeasureFlowNoise(const Evidence& evidence) {
+/// `step`: what the comparison has left unexplained.
+std::optional<double> MeasureFlowNoise(const Evidence& evidence, const LatestStep& step) {
   constexpr int kEvery = 3, kLeastSamples = 200;
-  constexpr float kLeastTexture = 60, kMostOther = 0.0064F, kMedianOfTwo = 1.3863F;
+  constexpr float kLeastTexture = 60, kMedianOfTwo = 1.3863F;
+  constexpr float kMostOther = 0.0064F;  // of disparity and way, beside the flow's own variance
+  const float most_variance = Squared(evidence.frames.flow_noise) + kMostOther;
   std::vector<float> squares;
   const cv::Mat1f& disparity = evidence.frames.now.disparity;
   for (int y = 1; y < disparity.rows; y += kEvery) {
@@ -175,10 +169,10 @@ std::optional<double> MeasureFlowNoise(const Evidence& evidence) {
       const float xx = evidence.texture.xx(y, x), yy = evidence.texture.yy(y, x),
                   xy = evidence.texture.xy(y, x);
       if (xx * yy - xy * xy < kLeastTexture * (xx + yy)) continue;
-      if (evidence.OtherVariance(y, x) > kMostOther) continue;
+      if (step.variance(y, x) > most_variance) continue;
       if (evidence.difference_moved(y, x) > evidence.difference_static(y, x)) continue;
       if (!evidence.frames.regions.empty() && evidence.frames.regions(y, x) > 0) continue;
-      const cv::Vec2f r = evidence.frames.flow(y, x) - evidence.expected.place(y, x);
+      const cv::Vec2f& r = step.residual(y, x);
       squares.push_back(r.dot(r));
     }
   }
@@ -258,13 +252,13 @@ MotionEvidence CompareMotion(const Comparison& comparison, const Texture& textur
         evidence.difference_moved = SquaredDifference(now.image, moved, around.noise);
       });
   const cv::Size size = now.image.size();
-  MotionEvidence found{
-      cv::Mat1f(size), {cv::Mat2f(size), cv::Mat1f(size)}, MeasureFlowNoise(evidence)};
+  MotionEvidence found{cv::Mat1f(size), {cv::Mat2f(size), cv::Mat1f(size)}, {}};
   ParallelFor(0, now.image.rows, [&](int y) {
     float* log_odds = found.log_odds[y];
     evidence.FlowLogOddsOfRow(y, log_odds, found.step);
     for (int x = 0; x < now.image.cols; ++x) log_odds[x] = evidence.At(y, x, log_odds[x]);
   });
+  found.flow_noise = MeasureFlowNoise(evidence, found.step);
   LimitBlocks(evidence, found.log_odds);
   return found;
 }

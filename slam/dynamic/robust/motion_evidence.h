@@ -25,14 +25,13 @@ struct Comparison {
   const DenseFrame& then;
   const cv::Mat2f& flow;  ///< from FollowBack
   DisparityTolerance tolerance;
-  Eigen::Isometry3d T_then_now = Eigen::Isometry3d::Identity();
-  double seconds = 0.05;  ///< between the two
-  double flow_noise =
-      0.12;                ///< half-size pixels, deviation of the flow where the texture is strong
+  Eigen::Isometry3d T_then_now;
+  double seconds;     ///< between the two
+  double flow_noise;  ///< half-size pixels, deviation of the flow where the texture is strong
+  int disparities;    ///< that the matcher searched, and something static may have
+  double sure;        ///< log-odds of `memory`: from there on nothing alike and static is searched
   cv::Mat1i regions = {};  ///< of the current pixels: > 0 where something known to move has come
   cv::Mat1f memory = {};   ///< log-odds of what earlier frames said of them; may be empty
-  double sure = 3;         ///< of those, from which on nothing static is searched that looks alike
-  int disparities = 96;    ///< that the matcher searched, and something static may have
   /// Whether to ask of what only the left camera sees, too: over a long gap much of it was hidden
   /// by what nobody knows the distance of.
   bool monocular = false;

@@ -1,5 +1,6 @@
 #include "slam/dynamic/robust/past_evidence.h"
 
+#include "slam/common/parallel.h"
 #include "slam/common/seconds.h"
 #include "slam/dynamic/robust/motion_evidence.h"
 
@@ -19,17 +20,18 @@ MotionEvidence CompareOver(const Step& step, const GapFlow& flow, const EgoMotio
                               .T_then_now = motion.T_now_before.inverse(),
                               .seconds = SecondsBetween(then.stamp_ns, view.frame.stamp_ns),
                               .flow_noise = before.noise.flow[flow.slot],
+                              .disparities = options.disparity.max_disparity_px,
+                              .sure = options.region.core_log_odds,
                               .regions = memory.regions.labels,
                               .memory = memory.log_odds,
-                              .sure = options.region.core_log_odds,
-                              .disparities = options.disparity.max_disparity_px,
                               .monocular = flow.slot == 0};
   return CompareMotion(comparison, view.texture, view.around, half, options.evidence);
 }
 
-double Learned(double known, const std::optional<double>& measured, double rate) {
+/// The running noise of one gap's flow after what a comparison over it says.
+double FlowNoiseAfter(double known, const std::optional<double>& measured, double rate) {
   if (!measured) return known;
-  return known + rate * (std::clamp(*measured, kLeastFlowNoise, kMostFlowNoise) - known);
+  return RunningMean(known, std::clamp(*measured, kLeastFlowNoise, kMostFlowNoise), rate);
 }
 
 /// The same step where it says something, and nothing elsewhere.
@@ -65,16 +67,16 @@ PastEvidence WeighPast(const Step& step, const std::vector<GapFlow>& flows,
   past.ended = past.log_odds.clone();
   if (motions.empty()) return past;
 
-  std::vector<LatestStep> steps;
+  std::vector<MotionEvidence> found(motions.size());
+  ParallelFor(std::size_t{0}, motions.size(),
+              [&](std::size_t k) { found[k] = CompareOver(step, flows[k], motions[k], memory); });
   for (std::size_t k = 0; k < motions.size(); ++k) {
     const std::size_t slot = flows[k].slot;
-    MotionEvidence found = CompareOver(step, flows[k], motions[k], memory);
     cv::Mat2f per_step;
-    per_step = found.step.residual / flows[k].gap;
-    past.gaps.push_back({found.log_odds, per_step});
-    steps.push_back(std::move(found.step));
-    past.flow_noise[slot] =
-        Learned(before.noise.flow[slot], found.flow_noise, LearningRate(slot, options.tolerance));
+    per_step = found[k].step.residual / flows[k].gap;
+    past.gaps.push_back({found[k].log_odds, per_step});
+    past.flow_noise[slot] = FlowNoiseAfter(before.noise.flow[slot], found[k].flow_noise,
+                                           LearningRate(slot, options.tolerance));
   }
 
   const auto take_off = [&](const LatestStep& latest, int count, GapEvidence& said) {
@@ -84,13 +86,13 @@ PastEvidence WeighPast(const Step& step, const std::vector<GapFlow>& flows,
     past.ended = cv::max(past.ended, less.taken);
   };
   past.longer = {memory.long_log_odds, memory.long_per_step};
-  if (!past.longer.log_odds.empty()) take_off(steps[0], flows[0].gap, past.longer);
+  if (!past.longer.log_odds.empty()) take_off(found[0].step, flows[0].gap, past.longer);
   if (motions.size() > 1) {
     GapEvidence& own = past.gaps[1];
-    take_off(steps[0], flows[0].gap, own);
+    take_off(found[0].step, flows[0].gap, own);
     // What swings may be where it was over a longer way, and has moved nevertheless.
     if (!past.longer.log_odds.empty() && flows[1].slot < before.long_slot) {
-      take_off(WhereKnown(steps[1], own.log_odds), flows[1].gap, past.longer);
+      take_off(WhereKnown(found[1].step, own.log_odds), flows[1].gap, past.longer);
     }
     past.longer = Together(past.longer, own);
   }

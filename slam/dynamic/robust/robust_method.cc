@@ -1,5 +1,8 @@
 #include "slam/dynamic/robust/robust_method.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "slam/common/parallel.h"
 #include "slam/common/seconds.h"
 #include "slam/common/stopwatch.h"
@@ -27,17 +30,16 @@ LabelMemory Carried(const Step& step, const std::vector<GapFlow>& flows) {
 /// what the past says now comes to it.
 cv::Mat1f Accumulate(const cv::Mat1f& known, const PastEvidence& past,
                      const FieldOptions& options) {
-  cv::Mat1f still(known.size());
+  const auto memory = static_cast<float>(options.memory), limit = static_cast<float>(options.limit);
+  cv::Mat1f log_odds(known.size());
   ParallelFor(0, known.rows, [&](int y) {
-    const float *was = known[y], *off = past.ended[y];
-    float* left = still[y];
+    const float *was = known[y], *off = past.ended[y], *says = past.log_odds[y];
+    float* sum = log_odds[y];
     for (int x = 0; x < known.cols; ++x) {
-      left[x] = was[x] > 0 ? std::max(was[x] - off[x], 0.0F) : was[x];
+      const float still = was[x] > 0 ? std::max(was[x] - off[x], 0.0F) : was[x];
+      sum[x] = std::clamp(std::fma(memory, still, says[x]), -limit, limit);
     }
   });
-  cv::Mat1f log_odds;
-  log_odds = options.memory * still + past.log_odds;
-  log_odds = cv::min(cv::max(log_odds, -options.limit), options.limit);
   return log_odds;
 }
 
@@ -120,46 +122,82 @@ bool IsStuck(const RobustState& before, const DenseFrame& now,
   return has_moved && Repeats(now, before.frames.back());
 }
 
-/// The state after a frame that showed nothing, or an old picture: what was known stays, and the
-/// rig goes on as expected. Kept among the others it would testify that nothing moves, as nothing
-/// does in it, and that all surfaces are others. After `kLongest_s` nothing is where it was.
-RobustState PassOver(const RobustState& before, const std::optional<MotionPrior>& prior,
-                     std::int64_t stamp_ns, cv::Size half) {
-  constexpr double kLongest_s = 0.5;
-  RobustState state = before;
-  if (prior && SecondsBetween(before.stamp_ns, stamp_ns) <= kLongest_s) {
-    state.unseen_way = MeasuredMotion{prior->T_now_before, prior->covariance};
-    return state;
-  }
-  state = {};
+/// The usual time from one frame to the next, seconds; nothing of a single frame.
+std::optional<double> UsualStep(const std::vector<DenseFrame>& frames) {
+  if (frames.size() < 2) return std::nullopt;
+  const DenseFrame &first = frames.front(), &last = frames.back();
+  return SecondsBetween(first.stamp_ns, last.stamp_ns) / (last.number - first.number);
+}
+
+/// Whether it is too long since the newest frame kept for its past to tell of the present: who
+/// moved is elsewhere, and how the rig has gone on is a guess that grows with the square of time,
+/// under which anything would be possible. If the whole way is known, as wheels measure it, what
+/// stands is still known to stand, and the frame is as good as the oldest that are compared.
+bool IsOver(const RobustState& before, std::int64_t stamp_ns, bool way_is_known) {
+  constexpr double kLongest_s = 0.5;       // in which who walks goes half a metre
+  constexpr double kLongestKnown_s = 3;    // kLongestGap, at 20 frames a second
+  constexpr double kFewSteps = 3;          // a slow camera has lost two frames by then
+  constexpr double kLongestFirst_s = 1.5;  // nobody knows yet how slow it is: at 1 Hz, and late
+  const std::optional<double> step_s = UsualStep(before.frames);
+  const double longest_s = std::max(way_is_known ? kLongestKnown_s : kLongest_s,
+                                    step_s ? kFewSteps * *step_s : kLongestFirst_s);
+  return SecondsBetween(before.stamp_ns, stamp_ns) > longest_s;
+}
+
+/// A state without a past. What was learned of the camera stays, and what it has been stuck at; no
+/// region is given an id that another one had.
+RobustState Anew(const RobustState& before, cv::Size half) {
+  RobustState state;
+  state.stuck_at = before.stuck_at;
   state.noise = before.noise;
   state.memory = ForgottenMemory(half, before.memory.regions.next_id);
   return state;
 }
 
+/// The state after a frame that showed nothing, or an old picture: what was known stays, and the
+/// rig goes on as expected, until that IsOver. Kept among the others it would testify that nothing
+/// moves, as nothing does in it, and that all surfaces are others.
+RobustState PassOver(const RobustState& before, const std::optional<MotionPrior>& prior,
+                     std::int64_t stamp_ns, cv::Size half) {
+  if (!prior || IsOver(before, stamp_ns, false)) return Anew(before, half);
+  RobustState state = before;
+  state.unseen_way = MeasuredMotion{prior->T_now_before, prior->covariance};
+  return state;
+}
+
+/// The stages of a frame that is not compared.
+RobustStages StagesOf(const View& view, std::map<std::string, double> stage_ms) {
+  RobustStages stages;
+  stages.half_disparity = view.frame.disparity;
+  stages.stage_ms = std::move(stage_ms);
+  return stages;
+}
+
 /// What a frame says that shows nothing.
 RobustResult WithoutContent(RobustState state, const View& view, cv::Size image,
                             std::map<std::string, double> stage_ms) {
-  RobustResult nothing{std::move(state), {}, {}, {}};
-  nothing.dynamic.mask = cv::Mat1b::zeros(image);
-  nothing.probability = cv::Mat1f::zeros(image);
-  nothing.stages.half_disparity = view.frame.disparity;
-  nothing.stages.stage_ms = std::move(stage_ms);
-  return nothing;
+  return {.state = std::move(state),
+          .dynamic = {cv::Mat1b(cv::Mat1b::zeros(image)), {}},
+          .probability = cv::Mat1f(image, 0.0F),
+          .motion = std::nullopt,
+          .half_disparity = view.frame.disparity,
+          .stages = StagesOf(view, std::move(stage_ms))};
 }
 
 /// What a frame says that is an old picture: as much as is known of its pixels already.
 RobustResult OnceMore(RobustState state, const View& view, const PixelLabels& labels,
                       std::map<std::string, double> stage_ms) {
   state.stuck_at = view.frame;
-  RobustResult same{std::move(state), labels.dynamic, labels.probability, {}};
-  same.stages.half_disparity = view.frame.disparity;
-  same.stages.stage_ms = std::move(stage_ms);
-  return same;
+  return {.state = std::move(state),
+          .dynamic = labels.dynamic,
+          .probability = labels.probability,
+          .motion = std::nullopt,
+          .half_disparity = view.frame.disparity,
+          .stages = StagesOf(view, std::move(stage_ms))};
 }
 
-/// The same for people to look at.
-RobustStages TraceOf(const Found& found, std::map<std::string, double> stage_ms) {
+/// What a step has found, for people to look at.
+RobustStages StagesOf(const Found& found, std::map<std::string, double> stage_ms) {
   RobustStages stages{.half_disparity = found.view.frame.disparity,
                       .gaps = {},
                       .floor = found.layout.floor,
@@ -179,7 +217,15 @@ RobustStages TraceOf(const Found& found, std::map<std::string, double> stage_ms)
 RobustResult StepRobust(const RobustState& before, const StereoPair& images, std::int64_t stamp_ns,
                         const KnownMotion& known, const StereoCamera& camera,
                         const RobustOptions& options) {
+  CV_Assert(images.left.size() == cv::Size(camera.width, camera.height));
+  CV_Assert(images.right.size() == images.left.size());
+  CV_Assert(before.frames.empty() || stamp_ns > before.stamp_ns);
   const StereoCamera half = HalfCamera(camera);
+  const bool way_is_known = known.measured && !before.unseen_way;
+  if (!before.frames.empty() && IsOver(before, stamp_ns, way_is_known)) {
+    return StepRobust(Anew(before, {half.width, half.height}), images, stamp_ns, known, camera,
+                      options);
+  }
   const DisparityTolerance tolerance(options.tolerance, DisparityNoise(before.noise));
   const auto prior = PriorFor(before, stamp_ns, known, options.ego);
   const Isometry3d T_now_before = prior ? prior->T_now_before : Isometry3d::Identity();
@@ -238,8 +284,12 @@ RobustResult StepRobust(const RobustState& before, const StereoPair& images, std
   const PixelLabels labels = label(log_odds, memory.regions);
 
   const Found found{view, flows, motions, layout, past, log_odds, labels};
-  return {Remember(before, found, options), labels.dynamic, labels.probability,
-          TraceOf(found, std::move(ms))};
+  return {.state = Remember(before, found, options),
+          .dynamic = labels.dynamic,
+          .probability = labels.probability,
+          .motion = motions.motions.empty() ? std::nullopt : std::optional(motions.motions[0]),
+          .half_disparity = view.frame.disparity,
+          .stages = StagesOf(found, std::move(ms))};
 }
 
 }  // namespace aisle::slam::dynamic

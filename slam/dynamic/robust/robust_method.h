@@ -41,12 +41,19 @@ struct RobustResult {
   RobustState state;  ///< for the next step
   DynamicRegions dynamic;
   cv::Mat1f probability;  ///< of moving, per pixel of the left image
+  /// Of the rig since the newest frame kept in the state before; nothing if it was not found, or
+  /// the frame shows nothing new.
+  std::optional<EgoMotion> motion;
+  cv::Mat1f half_disparity;  ///< of the left image, half-size pixels; kNoDisparity where unknown
   RobustStages stages;
 };
 
 /// One frame of the robust method: moving regions of the left image from what the previous frames
-/// left in `before`, which is not changed. Stamps must rise. `known` is where the caller
-/// expects the rig to have moved since the last frame, if it knows (T_now_before).
+/// left in `before`, which is not changed. Both images have the camera's size, and stamps rise:
+/// `stamp_ns` is later than the newest frame kept (asserted). `known` is how the rig has moved
+/// since the last frame, kept or not, as the caller expects or has measured it, if he knows. A past
+/// that a pause has made too old, of frames that showed nothing or of none at all, is forgotten:
+/// nothing is found then, as in the first frame.
 RobustResult StepRobust(const RobustState& before, const StereoPair& images, std::int64_t stamp_ns,
                         const KnownMotion& known, const StereoCamera& camera,
                         const RobustOptions& options);

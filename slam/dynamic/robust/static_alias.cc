@@ -2,11 +2,12 @@
 
 #include <array>
 
+#include "slam/stereo/dense/semi_global_options.h"
+
 namespace aisle::slam::dynamic {
 namespace {
 
 constexpr int kReach = 3, kWindow = 2 * kReach + 1;
-constexpr int kMostDisparities = 128;
 constexpr float kUnknown = 1e6F;  // larger than any squared difference
 
 /// Squared differences between the window around a pixel and those of the right image at each
@@ -121,6 +122,7 @@ float GainPerDifference(float difference, const EvidenceOptions& options) {
 float LimitByAlias(const AliasViews& views, const SeenMotion& seen, float log_odds,
                    const EvidenceOptions& options) {
   constexpr float kLeastWay = 0.1F;  // pixels that tell one place from another: twice flow's noise
+  CV_Assert(views.disparities <= kMostDisparities);
   const cv::Mat1b& now = views.now.image;
   const float reach =
       static_cast<float>(views.disparities) * std::sqrt(seen.per_disparity.dot(seen.per_disparity));

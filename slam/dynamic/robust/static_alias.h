@@ -13,7 +13,7 @@ struct AliasViews {
   const cv::Mat1b& then;      ///< the earlier image
   const cv::Mat1f& variance;  ///< of the difference of two grey values, per pixel of the frame
   DisparityTolerance tolerance;
-  int disparities = 96;  ///< asked for, up to 128
+  int disparities;  ///< asked for, up to kMostDisparities
   /// How much farther a static point was, in units of its depth now, for each pixel of disparity:
   /// the rig's way along the axis since the earlier frame, over focal length times baseline.
   float depth_per_disparity = 0;

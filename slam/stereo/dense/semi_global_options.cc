@@ -4,8 +4,8 @@ namespace aisle::slam {
 
 void Describe(OptionFields& fields, SemiGlobalOptions& options) {
   constexpr OptionRange kPrice{0, 73};  // with the dearest cost it is half a byte
-  fields.Integer("max_disparity_px", &options.max_disparity_px, {32, 128}, "half-size px",
-                 "Disparities searched; a multiple of 32.");
+  fields.Integer("max_disparity_px", &options.max_disparity_px, {32, kMostDisparities},
+                 "half-size px", "Disparities searched; a multiple of 32.");
   fields.Integer("p1", &options.p1, kPrice, "census bits",
                  "Price of a change of disparity by one (P1).");
   fields.Integer("p2", &options.p2, kPrice, "census bits",
@@ -16,11 +16,11 @@ void Describe(OptionFields& fields, SemiGlobalOptions& options) {
                  "Least that P2 falls to by contrast.");
   fields.Integer("uniqueness_percent", &options.uniqueness_percent, {0, 90}, "%",
                  "Margin by which the best cost must win.");
-  fields.Integer("left_right_px", &options.left_right_px, {0, 128}, "half-size px",
+  fields.Integer("left_right_px", &options.left_right_px, {0, kMostDisparities}, "half-size px",
                  "Disagreement allowed between left-to-right and right-to-left.");
   fields.Integer("speckle_px", &options.speckle_px, {0, 10000}, "pixels",
                  "Smaller islands of disparity are dropped.");
-  fields.Integer("speckle_step_px", &options.speckle_step_px, {0, 128}, "half-size px",
+  fields.Integer("speckle_step_px", &options.speckle_step_px, {0, kMostDisparities}, "half-size px",
                  "Change of disparity from pixel to pixel that parts islands.");
   fields.Require(options.max_disparity_px % 32 == 0, "max_disparity_px", options.max_disparity_px,
                  "be a multiple of 32");

@@ -4,10 +4,14 @@
 
 namespace aisle::slam {
 
+/// As many disparities are searched at most: what works on all of them has room for so many.
+inline constexpr int kMostDisparities = 128;
+
 /// Semi-global matching. Costs and prices are of one path: how many of a pixel's 54 census bits (a
 /// quarter of nine times 24) may differ before another disparity is cheaper.
 struct SemiGlobalOptions {
-  /// Multiple of 32. Of images of half size 96 are 192 full pixels, 0.27 m with the default rig.
+  /// Multiple of 32, up to kMostDisparities. Of images of half size 96 are 192 full pixels, 0.27 m
+  /// with the default rig.
   int max_disparity_px = 96;
   int p1 = 10;  ///< P1: price of a change of disparity by one
   /// P2: price of any other change, halved where the grey value changes by `p2_contrast` and never

@@ -94,6 +94,7 @@ TEST(ShiftMaskToRight, PutsAMaskWhereTheRightCameraSeesTheSame) {
   EXPECT_TRUE(Same(ShiftMaskToRight(mask, cv::Mat1f(30, 50, 6.0F)), shifted)) << "of half the size";
   EXPECT_EQ(cv::countNonZero(ShiftMaskToRight(mask, cv::Mat1f(60, 100, -1.0F))), 0) << "unknown";
   EXPECT_EQ(cv::countNonZero(ShiftMaskToRight(mask, cv::Mat1f(60, 100, 90.0F))), 0) << "outside";
+  EXPECT_THROW(ShiftMaskToRight(mask, {}), cv::Exception);
 }
 
 }  // namespace

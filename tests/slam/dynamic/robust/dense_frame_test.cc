@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "slam/stereo/dense/disparity_image.h"
+#include "slam/stereo/dense/semi_global.h"
 
 namespace aisle::slam::dynamic {
 namespace {
@@ -65,6 +66,17 @@ TEST(MakeDenseFrame, SeesWhatIsNearerThanTheSearchReaches) {
   EXPECT_NEAR(frame.unseen[40], 10, 6);
   EXPECT_NEAR(frame.filled(140, 60), 130, 1);
   EXPECT_NEAR(frame.filled(40, 60), 6, 0.5);
+}
+
+/// What the right camera shows at its left edge looks like what the left one does, as if it were
+/// infinitely far; images of half the size cannot tell so close to the edge.
+TEST(MakeDenseFrame, AChanceMatchOfNoDisparityAtAllIsNoneToo) {
+  const auto [left, right] = PairWithSomethingNear({160, 400});
+  const cv::Rect edge(0, 160, 24, 240);
+  left(edge).copyTo(right(edge));
+  const DenseFrame frame = MakeDenseFrame(HalfImage(left), HalfImage(right), {});
+  ASSERT_GT(frame.unseen[140], 20);
+  for (int x = 0; x < 2 * kMatchReach; ++x) EXPECT_LT(frame.disparity(140, x), 0) << x;
 }
 
 TEST(FillRows, TakesTheFartherSideOfAGapButGoesOnWhereOneCameraSees) {

@@ -213,6 +213,27 @@ TEST(EstimateEgoMotion, AJoltOfAllThatIsSeenIsTheRigs) {
   EXPECT_LT(Difference(truth, found.T_now_before).tail<3>().norm(), 0.001);
 }
 
+TEST(EstimateEgoMotion, WithoutAnyTrustTheRigGoesOnAsExpected) {
+  auto matches = MakeMatches(300, 0, Motion({0, 0.01, -0.05}, 0), {0, 0, 0});
+  for (StereoMatch& match : matches) match.weight = 0;
+  for (const bool jolts : {false, true}) {
+    const EgoMotion found = EstimateEgoMotion(matches, kCamera, GoesAhead(jolts), kNoise, {});
+    EXPECT_TRUE(found.found);
+    EXPECT_TRUE(found.T_now_before.isApprox(GoesAhead(jolts).T_now_before, 0));
+    EXPECT_TRUE(found.covariance.isApprox(GoesAhead(jolts).covariance));
+  }
+  EXPECT_FALSE(EstimateEgoMotion(matches, kCamera, std::nullopt, kNoise, {}).found);
+}
+
+/// No three of them make a triangle, so that there is no sample of a motion.
+TEST(EstimateEgoMotion, WhatIsAllInOnePlaceAndGoesOffIsNoJolt) {
+  const Vector3d before(0.3, 0.2, 3), now = before + Vector3d(0.5, 0, 0);
+  const std::vector<StereoMatch> matches(50, {Project(kCamera, before), Project(kCamera, now)});
+  const EgoMotion found = EstimateEgoMotion(matches, kCamera, GoesAhead(true), kNoise, {});
+  EXPECT_TRUE(found.found);
+  EXPECT_TRUE(found.T_now_before.isApprox(GoesAhead(true).T_now_before, 0));
+}
+
 TEST(EstimateEgoMotion, WhoWalksBeforeMostOfTheViewIsNoJolt) {
   const Isometry3d truth = Motion({0, 0, -0.05}, 0);
   const auto matches = MakeMatches(300, 240, truth, {0.07, 0, 0.02});

@@ -11,17 +11,19 @@ const StereoCamera kHalf = HalfCamera({});
 const cv::Size kSize(kHalf.width, kHalf.height);
 
 /// A wall at 10 pixels of disparity whose left 60 columns only the left camera sees, with texture
-/// everywhere, and a rig that has come `way` from where the earlier frame was.
+/// everywhere, and a rig that has come `way` from where the earlier frame was and has turned about
+/// its camera.
 struct Entrance {
   DenseFrame now;
   Texture texture{cv::Mat1f(kSize, 50.0F), cv::Mat1f(kSize, 0.0F), cv::Mat1f(kSize, 50.0F)};
   Eigen::Isometry3d T_then_now = Eigen::Isometry3d::Identity();
 
-  explicit Entrance(const Eigen::Vector3d& way) {
+  explicit Entrance(const Eigen::Vector3d& way, double yaw_rad = 0) {
     now.disparity = cv::Mat1f(kSize, 10.0F);
     now.disparity.colRange(0, 60).setTo(kNoDisparity);
     now.filled = cv::Mat1f(kSize, 10.0F);
     T_then_now.translation() = way;
+    T_then_now.rotate(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitY()));
   }
 
   /// What remains of the flow of a pixel that something static at `disparity` has, moved by `off`.
@@ -59,12 +61,36 @@ TEST(ExplainMonocular, AStandingRigSeesAllMotion) {
   EXPECT_NEAR(cv::norm(left - off), 0, 1e-4);
 }
 
+TEST(ExplainMonocular, ARigThatTurnsAboutItsCameraSeesAllMotionAsWell) {
+  const Entrance turned({0, 0, 0}, 0.02);
+  const cv::Vec2f off(1.5F, -0.5F);
+  for (const float disparity : {2.0F, 10.0F, 40.0F}) {
+    EXPECT_LT(cv::norm(turned.Unexplained({30, 200}, disparity, {0, 0})), 0.02) << disparity;
+    EXPECT_LT(cv::norm(turned.Unexplained({30, 200}, disparity, off) - off), 0.02) << disparity;
+  }
+}
+
+/// Of somebody close by, whom the camera has come a millimetre towards.
+TEST(ExplainMonocular, TheDisparityThatIsExpectedIsThatOfTheEarlierFrame) {
+  const Entrance entrance({0, 0, 0.001}, 0.02);
+  const cv::Point at(30, 200);
+  const StaticField near = WhereStatic(cv::Mat1f(kSize, 40.0F), entrance.T_then_now, kHalf);
+  StaticField expected = WhereStatic(entrance.now.filled, entrance.T_then_now, kHalf);
+  const cv::Mat1f disparity =
+      ExplainMonocular(entrance.now, near.place, entrance.texture, &expected);
+  EXPECT_NEAR(disparity(at), 40, 0.5);
+  EXPECT_GT(std::abs(near.disparity(at) - 40), 0.3) << "the turn makes a difference";
+  EXPECT_NEAR(expected.disparity(at) / disparity(at), near.disparity(at) / 40, 0.003);
+}
+
 TEST(ExplainMonocular, SaysNothingWhereWhoMovesMayBeNear) {
-  const Entrance ahead({0, 0, 0.03});
-  StaticField expected = WhereStatic(ahead.now.filled, ahead.T_then_now, kHalf);
-  const cv::Mat2f flow = expected.place.clone();
-  const cv::Mat1f disparity = ExplainMonocular(ahead.now, flow, ahead.texture, &expected);
-  EXPECT_EQ(cv::norm(disparity, ahead.now.disparity, cv::NORM_INF), 0);
+  for (const Entrance& moved :
+       {Entrance({0, 0, 0.03}), Entrance({0.006, 0, 0}), Entrance({0.006, 0, 0}, 0.02)}) {
+    StaticField expected = WhereStatic(moved.now.filled, moved.T_then_now, kHalf);
+    const cv::Mat2f flow = expected.place.clone();
+    const cv::Mat1f disparity = ExplainMonocular(moved.now, flow, moved.texture, &expected);
+    EXPECT_EQ(cv::norm(disparity, moved.now.disparity, cv::NORM_INF), 0);
+  }
 }
 
 TEST(ExplainMonocular, LeavesWhatHasADisparity) {

@@ -99,6 +99,21 @@ void AddGlare(const Glare& glare, cv::Point2d at, test::SyntheticView& view) {
   AddGlare(glare, at - cv::Point2d(view.disparity(cv::Point(at)), 0), view.right);
 }
 
+/// With the usual noise, after a matcher with its usual options.
+Comparison Compared(const DenseFrame& now, const DenseFrame& then, const cv::Mat2f& flow,
+                    const Isometry3d& T_then_now, double seconds) {
+  const RobustOptions options;
+  return {.now = now,
+          .then = then,
+          .flow = flow,
+          .tolerance = kUsualTolerance,
+          .T_then_now = T_then_now,
+          .seconds = seconds,
+          .flow_noise = 0.12,
+          .disparities = options.disparity.max_disparity_px,
+          .sure = options.region.core_log_odds};
+}
+
 /// Two frames of the hall, what the second makes of the first, and what moves.
 struct Pair {
   DenseFrame then, now;
@@ -128,7 +143,7 @@ struct Pair {
     expected = WhereStatic(now.filled, T_world_now, half).place;
     flow = FollowBack(now.image, MakeFlowPyramid(now.image, options.flow), then.image, expected,
                       options.flow);
-    Comparison comparison{now, then, flow, kUsualTolerance, T_world_now, seconds};
+    Comparison comparison = Compared(now, then, flow, T_world_now, seconds);
     comparison.monocular = true;
     log_odds =
         CompareMotion(comparison, texture, LookAround(now, options.surface, options.evidence), half,
@@ -262,10 +277,9 @@ double MeanLogOddsOfWall(int period, int flow_px, int stereo_px) {
   Isometry3d T_then_now = Isometry3d::Identity();
   T_then_now.translation().x() = half.baseline_m / 2;  // half a pixel for each of disparity
   const RobustOptions options;
-  const MotionEvidence found =
-      CompareMotion({now, then, flow, kUsualTolerance, T_then_now, 0.25},
-                    MeasureTexture(now.image, options.surface),
-                    LookAround(now, options.surface, options.evidence), half, options.evidence);
+  const MotionEvidence found = CompareMotion(
+      Compared(now, then, flow, T_then_now, 0.25), MeasureTexture(now.image, options.surface),
+      LookAround(now, options.surface, options.evidence), half, options.evidence);
   return cv::mean(found.log_odds(cv::Rect(40, 10, 80, 40)))[0];
 }
 
@@ -456,6 +470,27 @@ TEST(CarryMemory, KnowsASurfaceThatTheRigHasComeNearer) {
   const cv::Mat1f carried =
       CarryMemory(memory, flow, if_static, now, before, kUsualTolerance).log_odds;
   for (int x = 0; x < 80; ++x) EXPECT_EQ(carried(20, x) > 0, x <= 60) << "column " << x;
+}
+
+/// The rig has come so far that anything up to what it was, or nothing at all, makes sense.
+TEST(CarryMemory, AnUnknownDisparityIsNotTakenForASmallOne) {
+  DenseFrame before, now;
+  now.disparity = now.filled = cv::Mat1f(60, 80, 10.0F);
+  const cv::Mat1f if_static(60, 80, 5.0F);
+  before.disparity = cv::Mat1f(60, 80, 0.5F);
+  before.disparity.colRange(40, 80).setTo(kNoDisparity);
+  before.filled = before.disparity;
+  LabelMemory memory = ForgottenMemory({80, 60}, 0);
+  memory.log_odds.setTo(5.0F);
+  cv::Mat2f flow(60, 80);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 80; ++x) flow(y, x) = {static_cast<float>(x), static_cast<float>(y)};
+  }
+  const cv::Mat1f carried =
+      CarryMemory(memory, flow, if_static, now, before, kUsualTolerance).log_odds;
+  for (const int y : {0, 20}) {  // at the image's border, and within
+    for (int x = 0; x < 80; ++x) EXPECT_EQ(carried(y, x) > 0, x <= 40) << "column " << x;
+  }
 }
 
 TEST(CarryMemory, FollowsTheFlowAloneBeyondTheRightImageAndNowhereElse) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "slam/common/parallel.h"
 #include "slam/dynamic/dynamic_detector.h"
 #include "tests/slam/dynamic/synthetic_stereo.h"
 
@@ -14,6 +15,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr double kStep = 0.05;  // seconds between frames
+constexpr std::int64_t kStepNs = 50'000'000;
 
 struct Story {
   std::vector<test::Panel> movers = {};
@@ -153,19 +155,6 @@ TEST(RobustMethod, MasksASlowWalkerOnceTheLongGapSeesHim) {
   EXPECT_GT(totals.Recall(), 0.4);
 }
 
-RobustResult LastOfFive(int threads) {
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads));
-  auto panels = test::StaticHall();
-  panels.push_back(test::Walker({-0.4, 0.1, 3.0}, {1.2, 0, 0}));
-  RobustResult result;
-  for (int k = 0; k < 5; ++k) {
-    const auto view = test::Render(panels, {}, Isometry3d::Identity(), k * kStep);
-    result = StepRobust(result.state, {view.left, view.right}, k * 50'000'000LL, {}, {}, {});
-  }
-  return result;
-}
-
 TEST(RobustMethod, TakesTheLongerGapsInTurn) {
   RobustState state;
   std::vector<std::vector<int>> gaps;
@@ -195,10 +184,155 @@ TEST(RobustMethod, ABlackFrameBetweenSaysNothing) {
   EXPECT_EQ(with.ids, without.ids);
 }
 
+/// OpenCV's own threads, as many as they were when this ends.
+class OpenCvThreads {
+ public:
+  explicit OpenCvThreads(int threads) : before_(cv::getNumThreads()) { cv::setNumThreads(threads); }
+  OpenCvThreads(const OpenCvThreads&) = delete;
+  OpenCvThreads& operator=(const OpenCvThreads&) = delete;
+  ~OpenCvThreads() { cv::setNumThreads(before_); }
+
+ private:
+  int before_;
+};
+
+/// Every frame of a film, on so many threads.
+std::vector<RobustResult> StepThrough(const std::vector<test::SyntheticView>& film, int threads) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  const OpenCvThreads of_opencv(threads);
+  return Arena(threads).Execute([&] {
+    std::vector<RobustResult> results;
+    RobustState state;
+    for (const test::SyntheticView& view : film) {
+      const auto stamp_ns = static_cast<std::int64_t>(results.size()) * 50'000'000;
+      results.push_back(
+          StepRobust(state, {view.left, view.right}, stamp_ns, {}, test::kHalfCamera, {}));
+      state = results.back().state;
+    }
+    return results;
+  });
+}
+
+/// So long a drive that all gaps have had their turn.
 TEST(RobustMethod, OneThreadAndManyGiveTheSameBits) {
-  const RobustResult one = LastOfFive(1), many = LastOfFive(4);
-  EXPECT_EQ(cv::norm(one.dynamic.mask, many.dynamic.mask, cv::NORM_INF), 0);
-  EXPECT_EQ(cv::norm(one.probability, many.probability, cv::NORM_INF), 0);
+  auto panels = test::StaticHall();
+  panels.push_back(test::Walker({-0.9, 0.1, 3.0}, {1.2, 0, 0}));
+  std::vector<test::SyntheticView> film;
+  for (int k = 0; k < 24; ++k) {
+    const Isometry3d T_world_rig(Eigen::Translation3d(0, 0, 0.015 * k));
+    film.push_back(test::Render(panels, test::kHalfCamera, T_world_rig, k * kStep));
+  }
+  const std::vector<RobustResult> one = StepThrough(film, 1), many = StepThrough(film, 4);
+  std::set<std::size_t> slots;
+  std::size_t regions = 0;
+  for (std::size_t k = 0; k < film.size(); ++k) {
+    SCOPED_TRACE(k);
+    const auto same = [&](const auto& image_of) {
+      const cv::Mat a = image_of(one[k]), b = image_of(many[k]);
+      return a.size() == b.size() && (a.empty() || cv::norm(a, b, cv::NORM_INF) == 0);
+    };
+    EXPECT_TRUE(same([](const RobustResult& r) { return r.dynamic.mask; }));
+    EXPECT_TRUE(same([](const RobustResult& r) { return r.probability; }));
+    EXPECT_TRUE(same([](const RobustResult& r) { return r.half_disparity; }));
+    EXPECT_TRUE(same([](const RobustResult& r) { return r.state.memory.log_odds; }));
+    EXPECT_TRUE(same([](const RobustResult& r) { return r.state.memory.long_log_odds; }));
+    EXPECT_TRUE(same([](const RobustResult& r) { return r.state.memory.long_per_step; }));
+    EXPECT_TRUE(same([](const RobustResult& r) { return r.state.memory.regions.labels; }));
+    EXPECT_EQ(one[k].state.noise.flow, many[k].state.noise.flow);
+    ASSERT_EQ(one[k].motion.has_value(), many[k].motion.has_value());
+    EXPECT_EQ(one[k].motion.has_value(), k > 0);
+    if (one[k].motion) {
+      EXPECT_EQ(one[k].motion->T_now_before.matrix(), many[k].motion->T_now_before.matrix());
+      EXPECT_EQ(one[k].motion->covariance, many[k].motion->covariance);
+    }
+    ASSERT_EQ(one[k].dynamic.regions.size(), many[k].dynamic.regions.size());
+    for (std::size_t i = 0; i < one[k].dynamic.regions.size(); ++i, ++regions) {
+      const DynamicRegion &a = one[k].dynamic.regions[i], &b = many[k].dynamic.regions[i];
+      EXPECT_EQ(a.id, b.id);
+      EXPECT_EQ(a.box, b.box);
+      EXPECT_EQ(a.evidence, b.evidence);
+    }
+    for (const GapTrace& gap : one[k].stages.gaps) slots.insert(gap.way.slot);
+  }
+  EXPECT_EQ(slots.size(), kSlots) << "a gap took no part";
+  EXPECT_GT(regions, 10U);
+}
+
+/// A walker before a rig that drives at 0.3 m/s; the pictures go on after the pause as before it.
+RobustResult StepAt(const RobustState& before, int k, std::int64_t stamp_ns,
+                    const KnownMotion& known = {}) {
+  auto panels = test::StaticHall();
+  panels.push_back(test::Walker({-0.9, 0.1, 3.0}, {1.2, 0, 0}));
+  const Isometry3d T_world_rig(Eigen::Translation3d(0, 0, 0.015 * k));
+  const auto view = test::Render(panels, test::kHalfCamera, T_world_rig, k * kStep);
+  return StepRobust(before, {view.left, view.right}, stamp_ns, known, test::kHalfCamera, {});
+}
+
+RobustResult LastOfEight() {
+  RobustResult result;
+  for (int k = 0; k < 8; ++k) result = StepAt(result.state, k, k * kStepNs);
+  return result;
+}
+
+MeasuredMotion Ahead(double metres) {
+  return {Isometry3d(Eigen::Translation3d(0, 0, -metres)), 1e-6 * Matrix6d::Identity()};
+}
+
+TEST(RobustMethod, AfterALongPauseItBeginsAnew) {
+  const RobustResult before = LastOfEight();
+  ASSERT_GT(cv::countNonZero(before.dynamic.mask), 500);
+  ASSERT_TRUE(before.motion);
+  // Whatever is expected, and even where the way is known: he has gone elsewhere meanwhile.
+  for (const KnownMotion& known :
+       {KnownMotion{}, KnownMotion{Ahead(0.015), {}}, KnownMotion{{}, Ahead(0.015)}}) {
+    const RobustResult after = StepAt(before.state, 8, 8 * kStepNs + 10'000'000'000, known);
+    EXPECT_FALSE(after.motion);
+    EXPECT_TRUE(after.stages.gaps.empty());
+    EXPECT_EQ(cv::countNonZero(after.dynamic.mask), 0);
+    EXPECT_TRUE(after.dynamic.regions.empty());
+    EXPECT_EQ(after.state.frames.size(), 1U);
+    EXPECT_EQ(after.state.noise.flow, before.state.noise.flow);
+    EXPECT_EQ(after.state.noise.match, before.state.noise.match);
+    EXPECT_EQ(after.state.memory.regions.next_id, before.state.memory.regions.next_id);
+    const RobustResult next = StepAt(after.state, 9, 9 * kStepNs + 10'000'000'000);
+    ASSERT_TRUE(next.motion);
+    EXPECT_NEAR(next.motion->T_now_before.translation().z(), -0.015, 0.01);
+  }
+}
+
+TEST(RobustMethod, OverAShortPauseOrAKnownWayItGoesOn) {
+  const RobustState before = LastOfEight().state;
+  EXPECT_TRUE(StepAt(before, 8, 7 * kStepNs + 450'000'000).motion);
+  EXPECT_FALSE(StepAt(before, 8, 7 * kStepNs + 1'500'000'000).motion);
+  EXPECT_TRUE(StepAt(before, 8, 7 * kStepNs + 1'500'000'000, {{}, Ahead(0.015)}).motion);
+}
+
+TEST(RobustMethod, ASlowCameraHasAPast) {
+  for (const std::int64_t step_ns : {500'000'000LL, 1'000'000'000LL}) {
+    RobustState state;
+    for (int k = 0; k < 5; ++k) {
+      RobustResult result = StepAt(state, k, k * step_ns);
+      ASSERT_EQ(result.motion.has_value(), k > 0) << k << " steps of " << step_ns << " ns";
+      state = std::move(result.state);
+    }
+    // One that is lost between makes no difference to it.
+    EXPECT_TRUE(StepAt(state, 6, 6 * step_ns).motion) << step_ns << " ns";
+  }
+}
+
+TEST(RobustMethod, RefusesWhatItIsNotMadeFor) {
+  const cv::Mat1b image(test::kHalfCamera.height, test::kHalfCamera.width, 90);
+  const cv::Mat1b other(480, 752, 90);
+  const auto step = [](const RobustState& before, const StereoPair& images, std::int64_t stamp_ns) {
+    return StepRobust(before, images, stamp_ns, {}, test::kHalfCamera, {});
+  };
+  EXPECT_THROW(step({}, {other, other}, 0), cv::Exception);
+  EXPECT_THROW(step({}, {image, other}, 0), cv::Exception);
+  EXPECT_NO_THROW(step({}, {image, image}, 0));
+  const RobustState before = StepAt({}, 0, kStepNs).state;
+  EXPECT_THROW(step(before, {image, image}, kStepNs), cv::Exception);
+  EXPECT_NO_THROW(step(before, {image, image}, kStepNs + 1));
 }
 
 TEST(RobustMethod, SurvivesImagesWithoutContentAndGoesOn) {
@@ -345,6 +479,26 @@ TEST(DynamicDetector, TheMotionAfterBlackFramesErrsAsItsCovarianceSays) {
     const Isometry3d truth(Eigen::Translation3d(0, 0, -kWay));
     const Vector6d error = Difference(truth, output.rig_motion->T_now_before);
     EXPECT_LT(error.dot(output.rig_motion->covariance.inverse() * error), 22.5) << k;  // 99.9 %
+  }
+}
+
+/// The camera delivers nothing for ten seconds, then a good picture.
+TEST(DynamicDetector, AfterALongPauseNothingIsSaid) {
+  auto panels = test::StaticHall();
+  panels.push_back(test::Walker({-0.9, 0.1, 3.0}, {1.2, 0, 0}));
+  DynamicOptions options;
+  options.method = DynamicMethod::kRobust;
+  DynamicDetector detector(test::kHalfCamera, options);
+  for (int k = 0; k < 9; ++k) {
+    const Isometry3d T_world_rig(Eigen::Translation3d(0, 0, kStep * k));
+    const auto view = test::Render(panels, test::kHalfCamera, T_world_rig, k * kStep);
+    const bool paused = k == 8;
+    const DynamicOutput output =
+        detector.Detect({k * kStepNs + (paused ? 10'000'000'000 : 0), view.left, view.right});
+    EXPECT_EQ(output.rig_motion.has_value(), k > 0 && !paused) << k;
+    const int masked = cv::countNonZero(output.regions.mask);
+    EXPECT_TRUE(k != 7 || masked > 500) << masked;
+    EXPECT_TRUE(!paused || masked == 0) << masked;
   }
 }
 

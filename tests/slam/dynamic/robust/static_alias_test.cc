@@ -12,6 +12,11 @@ namespace {
 constexpr float kFound = 2.5F;
 constexpr int kOwn = 12;  // the disparity that the matcher gives, half-size pixels
 
+/// Compared by what a matcher with its usual options has searched.
+AliasViews Views(const DenseFrame& now, const cv::Mat1b& then, const cv::Mat1f& variance) {
+  return {now, then, variance, test::kUsualTolerance, SemiGlobalOptions().max_disparity_px};
+}
+
 /// A wall whose columns repeat after `period`, at `disparity` in the right image, and where the
 /// rig's way has taken it `way` columns to the right in the earlier one.
 struct Wall {
@@ -42,7 +47,7 @@ struct Wall {
     const auto x = static_cast<float>(at.x), y = static_cast<float>(at.y);
     const SeenMotion seen{
         at, kOwn, {x + flow, y}, {x + kOwn * per_disparity, y}, kOwn, {per_disparity, 0}};
-    return LimitByAlias({now, then, variance, test::kUsualTolerance}, seen, kFound, {});
+    return LimitByAlias(Views(now, then, variance), seen, kFound, {});
   }
 };
 
@@ -86,7 +91,7 @@ TEST(LimitByAlias, ABeamAlongTheRowsMayBeAtAnyDisparityThatFitsAsWell) {
   for (int y = 0; y < then.rows; ++y) now.image.row(std::max(y - way, 0)).copyTo(then.row(y));
   const cv::Mat1f variance(now.image.size(), 8.0F);
   const SeenMotion seen{at, kOwn, {80, 20.0F + way}, {80, 20 + 0.5F * kOwn}, kOwn, {0, 0.5F}};
-  EXPECT_EQ(LimitByAlias({now, then, variance, test::kUsualTolerance}, seen, kFound, {}), 0);
+  EXPECT_EQ(LimitByAlias(Views(now, then, variance), seen, kFound, {}), 0);
 }
 
 TEST(LimitByAlias, BeforeAStandingRigNoDisparityExplainsAnything) {
