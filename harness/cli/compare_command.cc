@@ -68,7 +68,8 @@ int CompareReports(const Options& options) {
     const std::string why = WhyNothingShared(before, after);
     fmt::print(stderr, "aisle: nothing to compare: {}\n",
                why.empty() ? "the reports have no scores in common" : why);
-    return kNothingToDo;
+    // Of nights that share a cell, one without scores hides nothing of what else has vanished.
+    return why.empty() && !missing.empty() ? kVerdictFailed : kNothingToDo;
   }
   const bool worse = std::any_of(comparisons.begin(), comparisons.end(),
                                  [](const Comparison& c) { return IsAlarm(c.change); });

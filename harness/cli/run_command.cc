@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <chrono>
 #include <csignal>
+#include <ctime>
 #include <filesystem>
 #include <thread>
 
@@ -68,10 +71,40 @@ std::string CommandLine(const Options& options) {
   return line;
 }
 
+/// Whether every value of the one is in the other.
+template <class T>
+bool HasAll(const std::vector<T>& all, const std::vector<T>& some) {
+  return std::ranges::all_of(some, [&](const T& one) { return std::ranges::count(all, one) > 0; });
+}
+
+template <class T>
+bool SameSet(const std::vector<T>& a, const std::vector<T>& b) {
+  return HasAll(a, b) && HasAll(b, a);
+}
+
 /// Other systems, options or seeds than the suite's make medians of another kind: among the trends
-/// they would stand as a night's.
-bool IsTrial(const InputOptions& inputs) {
-  return !inputs.set.empty() || !inputs.systems.empty() || !inputs.seed.empty();
+/// they would stand as a night's. So would twins that were left out, as nights without some of
+/// their cells; more twins than the suite's only add cells of their own. What says the same as the
+/// suite in other words is a night of it.
+bool IsTrial(const InputOptions& inputs, const std::vector<Suite>& suites) {
+  const std::vector<Suite> as_written = LoadInputs({.files = inputs.files});
+  return !std::ranges::equal(suites, as_written, [](const Suite& tonight, const Suite& written) {
+    return SameSet(tonight.seeds, written.seeds) && SameSet(tonight.systems, written.systems) &&
+           HasAll(tonight.twins, written.twins);
+  });
+}
+
+/// When a night begins, UTC, to the millisecond: two of one second are two among the trends.
+std::string NightStart() {
+  using std::chrono::floor, std::chrono::milliseconds, std::chrono::seconds;
+  const auto now = floor<milliseconds>(std::chrono::system_clock::now());
+  const auto whole = floor<seconds>(now);
+  const std::time_t time = whole.time_since_epoch().count();
+  std::tm utc{};
+  ::gmtime_r(&time, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S", &utc);
+  return fmt::format("{}.{:03}Z", text, (now - whole).count());
 }
 
 /// A baseline speaks of the suite as it is committed, and must be there, whole, before the night
@@ -101,6 +134,11 @@ std::optional<Results> ReadBaseline(const Options& options, const PlanFile& plan
 void RefuseBoundToFail(const Results& baseline, const std::vector<RunSpec>& night) {
   const std::string why = BoundToFail(baseline, night);
   if (!why.empty()) throw InputError("--gate: " + why);
+}
+
+void TellReplaced(const Results& results, const fs::path& out) {
+  const std::string replaced = NightReplaced(HistoryPath(out), results, out);
+  if (!replaced.empty()) fmt::print(stderr, "aisle: warning: {}\n", replaced);
 }
 
 /// What the morning would find out, said in the evening; no reason not to drive.
@@ -246,12 +284,13 @@ PlanFile ForFolder(PlanFile plan, const std::vector<RunSpec>& specs,
 int RunSuites(const Options& options) {
   const Shard shard = ShardFromText(options.shard);
   CheckAreThere(options.inputs.files);
-  const PlanFile plan{.suites = LoadInputs(options.inputs),
+  const std::vector<Suite> suites = LoadInputs(options.inputs);
+  const PlanFile plan{.suites = suites,
                       .command = CommandLine(options),
                       .suite_file = options.inputs.files.front(),
                       .gate = options.gate,
-                      .trial = IsTrial(options.inputs),
-                      .started = NowIso8601()};
+                      .trial = IsTrial(options.inputs, suites),
+                      .started = NightStart()};
   CheckScenes(plan.suites);
   TellNotesOfScenes(plan.suites);
   for (std::size_t i = 0; i < plan.suites.size(); ++i) {
@@ -306,6 +345,7 @@ int RunSuites(const Options& options) {
   results.wall_s = outcome.wall_s;
   results.rerun = plan.command + (options.out.empty() ? "" : " --out " + ShellWord(options.out));
   if (baseline && whole) HoldAgainstBaseline(*baseline, &results);
+  if (remember) TellReplaced(results, out);
   return Publish(results, out,
                  {.json = options.json,
                   .remember = remember,

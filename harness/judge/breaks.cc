@@ -59,9 +59,11 @@ double ChanceBeyond(std::size_t least, std::size_t draws, std::size_t seen, doub
 }  // namespace
 
 double BreakP(std::span<const double> before, std::span<const double> broken,
-              std::size_t new_seeds) {
+              std::span<const double> unbroken) {
   if (before.size() < 2 || broken.empty()) return 1;
-  const Normal old = FitTo(before);
+  const std::size_t new_seeds = broken.size() + unbroken.size();
+  Normal old = FitTo(before);
+  if (unbroken.size() > 1) old.spread = std::max(old.spread, FitTo(unbroken).spread);
   std::vector<double> worst_first(broken.begin(), broken.end());
   std::sort(worst_first.begin(), worst_first.end(), std::greater<>());
   const std::size_t half = std::max<std::size_t>(1, new_seeds / 2);

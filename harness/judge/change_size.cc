@@ -20,8 +20,10 @@ std::set<std::string> NamesOf(const Results& results, NameOfRun name) {
   return names;
 }
 
+/// Alarms, then what got better, of each first what is of systems; then all else.
 int Rank(const Comparison& c) {
-  return IsAlarm(c.change) ? 0 : c.change == Change::kBetter ? 1 : 2;
+  const int of_change = IsAlarm(c.change) ? 0 : c.change == Change::kBetter ? 2 : 4;
+  return of_change < 4 && c.cells == 0 ? of_change + 1 : of_change;
 }
 
 /// Which way to look for the seed that made the change. Where some seeds broke, the medians hardly
@@ -34,6 +36,7 @@ double DirectionOf(const Comparison& c) {
 }  // namespace
 
 std::string PercentOfChange(const Comparison& c) {
+  if (c.cells > 0) return c.factor ? fmt::format("{:+.1f} %", 100 * (*c.factor - 1)) : "";
   if (c.old_median == 0 || c.new_n == 0) return "";
   return fmt::format("{:+.1f} %", 100 * (c.new_median - c.old_median) / std::abs(c.old_median));
 }
@@ -43,6 +46,7 @@ double SizeOf(const Comparison& comparison) {
   if (!comparison.gone.empty() || comparison.new_n == 0) {
     return std::numeric_limits<double>::infinity();
   }
+  if (comparison.factor) return std::abs(std::log(std::max(*comparison.factor, kTiny)));
   return std::abs(std::log(std::max(std::abs(comparison.new_median), kTiny) /
                            std::max(std::abs(comparison.old_median), kTiny)));
 }

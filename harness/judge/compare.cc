@@ -2,52 +2,19 @@
 
 #include "harness/judge/breaks.h"
 #include "harness/judge/cell.h"
+#include "harness/judge/judged.h"
+#include "harness/judge/paired.h"
+#include "harness/judge/pooled.h"
 #include "harness/record/seed_values.h"
 #include "harness/score/statistics.h"
 
 namespace aisle {
 namespace {
 
-/// Which way a score is good, and whether it may raise an alarm.
-struct Judged {
-  const char* score;
-  bool more_is_better;
-  double smallest_effect =
-      0;  ///< in the score's unit, where a share of the old median is too coarse
-};
-/// Each one more costs all of them power: with nine seeds a side no p is below 4.1e-5, so that an
-/// alpha of 0.01 has room for 231 comparisons that are not equal to the last bit.
-constexpr Judged kJudged[] = {{"coverage", true, 0.01},
-                              {"ate_rmse_m", false},
-                              {"ate_live_rmse_m", false},
-                              {"error_all_p95_m", false},
-                              {"rpe_1s_trans_rmse_m", false},
-                              {"rpe_1s_rot_rmse_deg", false},
-                              {"features_on_movers", false},
-                              {"object_precision", true},
-                              {"object_recall", true},
-                              {"mask_iou", true},
-                              {"static_features_lost", false},
-                              {"mover_large_found_within_1s", true},
-                              {"mover_large_gap_max_frames", false, 1},
-                              // Of closed drives, which alone have them; whole numbers and lengths
-                              // that are near zero when all is well.
-                              {"goal_reached", true, 0.01},
-                              {"collisions", false, 0.05},
-                              {"cross_track_max_m", false, 0.002},
-                              {"docking_error_m", false, 0.001},
-                              {"docking_error_deg", false, 0.02},
-                              {"min_clearance_static_m", true, 0.01},
-                              {"min_clearance_person_m", true, 0.02},
-                              {"lost_s", false, 0.05}};
-/// The share of alpha that seeds that break may use up: medians, whose p has a floor, need the
-/// rest.
-constexpr double kAlphaOfBreaks = 0.05;
-
 constexpr const char* kWatched[] = {"ms_process_mean", "ms_render_mean", "peak_rss_mib"};
 
-std::map<CellOfNight, std::vector<const RunRecord*>> Cells(const Results& results) {
-  std::map<CellOfNight, std::vector<const RunRecord*>> cells;
+RunsByCell Cells(const Results& results) {
+  RunsByCell cells;
   for (const RunRecord& run : results.runs) cells[CellOf(run.spec)].push_back(&run);
   return cells;
 }
@@ -78,75 +45,88 @@ std::size_t KeepShared(ValuesBySeed* before, ValuesBySeed* after) {
 /// New minus old: by seed where the seeds are the same, every new against the old median else.
 std::vector<double> Differences(const ValuesBySeed& before, const ValuesBySeed& after,
                                 bool paired) {
+  if (paired) return PairedDifferences(before, after);
   const double old_median = Quantile(Plain(before), 0.5);
   std::vector<double> differences;
-  for (const auto& [seed, value] : after) {
-    differences.push_back(value - (paired ? before.at(seed) : old_median));
-  }
+  for (const auto& [seed, value] : after) differences.push_back(value - old_median);
   return differences;
 }
 
-const Judged* FindJudged(const std::string& score) {
-  for (const Judged& judged : kJudged) {
-    if (score == judged.score) return &judged;
-  }
-  return nullptr;
+/// The one nearer to zero; zero where they lie on either side of it.
+double LesserOf(double one, double other) {
+  if (one * other <= 0) return 0;
+  return std::abs(one) < std::abs(other) ? one : other;
 }
 
-/// "seed 3: nothing was rejected": the first that had a value, ran again and has none.
-std::string FirstGone(const ValuesBySeed& before, const ValuesBySeed& now,
+/// How a seed fared: its runs, as many as its system's `repeats` where some are not there.
+struct RunsOfSeed {
+  std::size_t runs = 0, with_value = 0;
+  const RunRecord* without = nullptr;  ///< the first that has no value
+};
+
+std::map<std::uint64_t, RunsOfSeed> CountBySeed(const std::vector<const RunRecord*>& runs,
+                                                const std::string& score) {
+  std::map<std::uint64_t, RunsOfSeed> counts;
+  for (const RunRecord* run : runs) {
+    RunsOfSeed& of_seed = counts[run->spec.seed];
+    ++of_seed.runs;
+    if (ValueOf(*run, score)) {
+      ++of_seed.with_value;
+    } else if (of_seed.without == nullptr) {
+      of_seed.without = run;
+    }
+  }
+  for (const RunRecord* run : runs) {
+    const auto& external = run->spec.system.external;
+    RunsOfSeed& of_seed = counts[run->spec.seed];
+    of_seed.runs =
+        std::max(of_seed.runs, static_cast<std::size_t>(external ? external->repeats : 1));
+  }
+  return counts;
+}
+
+/// Why a run has no value of a score; null stands for one that is not there.
+std::string WhyWithout(const RunRecord* run, const std::string& score) {
+  if (run == nullptr) return "a repeat is missing";
+  const auto at = run->scores.find(score);
+  if (at != run->scores.end() && !at->second.absent.empty()) return at->second.absent;
+  return run->status_why.empty() ? "the run has no such score" : run->status_why;
+}
+
+/// "seed 3: nothing was rejected": the first that ran again and has a value in fewer of its runs,
+/// or in none. Its value is a median over repeats, which sees nothing of one that was lost. Fewer
+/// repeats by intention are not fewer of them.
+std::string FirstGone(const std::vector<const RunRecord*>& before,
                       const std::vector<const RunRecord*>& after, const std::string& score) {
-  for (const RunRecord* run : after) {
-    const std::uint64_t seed = run->spec.seed;
-    if (!before.contains(seed) || now.contains(seed)) continue;
-    const auto at = run->scores.find(score);
-    const bool said = at != run->scores.end() && !at->second.absent.empty();
-    const std::string why = said                       ? at->second.absent
-                            : !run->status_why.empty() ? run->status_why
-                                                       : "the run has no such score";
-    return fmt::format("seed {}: {}", seed, why);
+  const auto then = CountBySeed(before, score), now = CountBySeed(after, score);
+  for (const auto& [seed, old_runs] : then) {
+    const auto at = now.find(seed);
+    if (at == now.end()) continue;  // told as a whole (MissingRunsOf)
+    const RunsOfSeed& runs = at->second;
+    if (runs.with_value * old_runs.runs >= old_runs.with_value * runs.runs) continue;
+    const std::string repeats =
+        runs.runs > 1 ? fmt::format("{} of {} repeats have a value, before {} of {}; ",
+                                    runs.with_value, runs.runs, old_runs.with_value, old_runs.runs)
+                      : "";
+    return fmt::format("seed {}: {}{}", seed, repeats, WhyWithout(runs.without, score));
   }
   return "";
 }
 
-/// By how much a value must change at least to be far from another, in the score's unit.
-double FarStep(const Judged& judged, const std::string& unit) {
-  constexpr double kFarShare = 0.2;
-  if (judged.smallest_effect > 0) return 10 * judged.smallest_effect;
-  return unit == "1" ? kFarShare : 0;
-}
-
-bool IsFarWorse(const Judged& judged, double step, double before, double after) {
-  constexpr double kFarTimes = 3;
-  if (judged.more_is_better) return before - after > step;
-  return after > kFarTimes * before && after - before > step;
-}
-
-/// How bad a value is, on a scale on which scatter is a factor: errors and what a share lacks grow
-/// as their logarithms, but for differences that are nobody's trouble; clearances shrink likewise.
-double Badness(const Judged& judged, const std::string& unit, double value) {
-  constexpr double kTiny = 1e-12;
-  const double least = std::max(kTiny, FarStep(judged, unit) / 10);
-  if (!judged.more_is_better) return std::log(std::max(value, 0.0) + least);
-  if (unit == "1") return std::log(std::max(1 - value, 0.0) + least);
-  return -std::log(std::max(value, 0.0) + least);
-}
-
 /// Looks at each seed beside its own past: medians do not see what befalls fewer than half of them.
-void LookForBreaks(const Judged& judged, const ValuesBySeed& before, const ValuesBySeed& after,
+void LookForBreaks(const JudgedScore& judged, const ValuesBySeed& before, const ValuesBySeed& after,
                    Comparison* comparison) {
-  const double step = FarStep(judged, comparison->unit);
-  std::vector<double> old_badness, broken;
+  std::vector<double> old_badness, broken, unbroken;
   for (const auto& [seed, value] : before) {
     old_badness.push_back(Badness(judged, comparison->unit, value));
   }
   for (const auto& [seed, value] : after) {
-    if (!IsFarWorse(judged, step, before.at(seed), value)) continue;
-    broken.push_back(Badness(judged, comparison->unit, value));
+    const bool is_broken = IsFarWorse(judged, comparison->unit, before.at(seed), value);
+    (is_broken ? broken : unbroken).push_back(Badness(judged, comparison->unit, value));
   }
   comparison->broken = broken.size();
   if (before.size() >= kFewestSeeds) {
-    comparison->break_p = BreakP(old_badness, broken, after.size());
+    comparison->break_p = BreakP(old_badness, broken, unbroken);
   }
 }
 
@@ -158,8 +138,8 @@ std::optional<Comparison> CompareScore(const std::vector<const RunRecord*>& befo
   ValuesBySeed old_values = ValuesOf(before, score, &comparison.unit);
   ValuesBySeed new_values = ValuesOf(after, score, &comparison.unit);
   if (old_values.empty()) return std::nullopt;
-  const Judged* judged = FindJudged(score);
-  if (judged != nullptr) comparison.gone = FirstGone(old_values, new_values, after, score);
+  const JudgedScore* judged = FindJudged(score);
+  if (judged != nullptr) comparison.gone = FirstGone(before, after, score);
   if (comparison.gone.empty()) comparison.left_out = KeepShared(&old_values, &new_values);
   comparison.old_n = old_values.size();
   comparison.new_n = new_values.size();
@@ -174,24 +154,30 @@ std::optional<Comparison> CompareScore(const std::vector<const RunRecord*>& befo
   }
   comparison.bit_equal = old_values == new_values;
   comparison.new_median = Quantile(Plain(new_values), 0.5);
-  comparison.difference = BootstrapMedian(Differences(old_values, new_values, comparison.paired));
+  const std::vector<double> differences = Differences(old_values, new_values, comparison.paired);
+  comparison.difference = BootstrapMedian(differences);
+  comparison.moved = comparison.new_median - comparison.old_median;
   comparison.p = MannWhitneyP(Plain(old_values), Plain(new_values));
+  if (judged != nullptr && comparison.paired) {
+    comparison.moved = LesserOf(comparison.moved, Quantile(differences, 0.5));
+    comparison.p = StrongerP(
+        comparison.p, StudentP(Worsenings(*judged, comparison.unit, old_values, new_values)));
+  }
   return comparison;
 }
 
-void Decide(const Judged& judged, const CompareOptions& options, Comparison* comparison) {
+void Decide(const JudgedScore& judged, const CompareOptions& options, Comparison* comparison) {
   Comparison& c = *comparison;
-  const double change = c.new_median - c.old_median;
-  const double effect = judged.smallest_effect > 0
-                            ? judged.smallest_effect
-                            : options.minimum_effect * std::abs(c.old_median);
+  const double effect = SmallestEffect(judged, options.minimum_effect, c.old_median);
   if (!c.gone.empty()) {
     c.change = Change::kGone;
-    c.why = fmt::format("{} seeds had a value, {} have one; {}", c.old_n, c.new_n, c.gone);
+    c.why = c.old_n == c.new_n
+                ? c.gone
+                : fmt::format("{} seeds had a value, {} have one; {}", c.old_n, c.new_n, c.gone);
   } else if (c.bit_equal) {
     c.change = Change::kSame;
     c.why = "equal to the last digit";
-  } else if (std::abs(change) <= effect && std::abs(c.difference.low) <= effect &&
+  } else if (std::abs(c.moved) <= effect && std::abs(c.difference.low) <= effect &&
              std::abs(c.difference.high) <= effect) {
     c.change = Change::kSame;
     c.why = fmt::format("within {:.2g} of the old median", effect);
@@ -199,11 +185,12 @@ void Decide(const Judged& judged, const CompareOptions& options, Comparison* com
     c.change = Change::kCannotTell;
     c.why = fmt::format("{} and {} seeds: fewer than {} per side show nothing", c.old_n, c.new_n,
                         kFewestSeeds);
-  } else if (c.p >= options.alpha || std::abs(change) <= effect) {
+  } else if (c.p >= options.alpha || std::abs(c.moved) <= effect) {
     c.change = Change::kCannotTell;
-    c.why = fmt::format("p = {:.2g} after Holm", c.p);
+    c.why = fmt::format("p = {:.2g} after Holm{}", c.p,
+                        c.p < options.alpha ? ", by less than the minimum effect" : "");
   } else {
-    c.change = (change > 0) == judged.more_is_better ? Change::kBetter : Change::kWorse;
+    c.change = (c.moved > 0) == judged.more_is_better ? Change::kBetter : Change::kWorse;
     c.why = fmt::format("p = {:.2g} after Holm", c.p);
   }
   if (c.left_out > 0) {
@@ -221,7 +208,7 @@ void Decide(const Judged& judged, const CompareOptions& options, Comparison* com
 
 std::vector<std::string> ScoresToCompare() {
   std::vector<std::string> scores;
-  for (const Judged& judged : kJudged) scores.emplace_back(judged.score);
+  for (const JudgedScore& judged : JudgedScores()) scores.emplace_back(judged.score);
   for (const char* watched : kWatched) scores.emplace_back(watched);
   return scores;
 }
@@ -250,22 +237,22 @@ void CorrectAndDecide(const CompareOptions& options, std::vector<Comparison>* co
   const std::vector<double> breaks_adjusted = HolmAdjusted(break_p_values);
   std::size_t next = 0;
   for (Comparison& c : *comparisons) {
-    const Judged* judged = FindJudged(c.score);
+    const JudgedScore* judged = FindJudged(c.score);
     if (judged == nullptr) {
       c.change = Change::kWatched;
       c.why = "depends on the machine and is not judged";
       continue;
     }
     if (IsTested(c)) {
-      c.p = std::min(1.0, adjusted[next] / (1 - kAlphaOfBreaks));
+      c.p = std::min(1.0, adjusted[next] / kAlphaOfCells);
       c.break_p = std::min(1.0, breaks_adjusted[next] / kAlphaOfBreaks);
       ++next;
     }
     Decide(*judged, options, &c);
-    const double least =
-        std::min(1.0, LeastP(c.old_n, c.new_n) * static_cast<double>(p_values.size()) /
-                          (1 - kAlphaOfBreaks));
-    if (c.change == Change::kCannotTell && least >= options.alpha) {
+    if (c.change != Change::kCannotTell || c.paired) continue;  // of pairs no p is the least
+    const double least = std::min(
+        1.0, LeastP(c.old_n, c.new_n) * static_cast<double>(p_values.size()) / kAlphaOfCells);
+    if (least >= options.alpha) {
       c.why += fmt::format("; {} comparisons with {} and {} seeds cannot go below p = {:.2g}",
                            p_values.size(), c.old_n, c.new_n, least);
     }
@@ -309,7 +296,7 @@ std::string Name(Change change) {
 }
 
 bool MoreIsBetter(const std::string& score) {
-  const Judged* judged = FindJudged(score);
+  const JudgedScore* judged = FindJudged(score);
   return judged != nullptr && judged->more_is_better;
 }
 
@@ -317,9 +304,15 @@ bool IsAlarm(Change change) {
   return change == Change::kWorse || change == Change::kUnstable || change == Change::kGone;
 }
 
+std::string NameOfCell(const Comparison& comparison) {
+  const Comparison& c = comparison;
+  if (c.cells > 0) return "all cells of " + c.system;
+  return fmt::format("{} {} {}", c.scene, c.twin, c.system);
+}
+
 std::vector<Comparison> Compare(const Results& before, const Results& after,
                                 const CompareOptions& options) {
-  const auto old_cells = Cells(before), new_cells = Cells(after);
+  const RunsByCell old_cells = Cells(before), new_cells = Cells(after);
   std::vector<Comparison> comparisons;
   for (const auto& [cell, new_runs] : new_cells) {
     const auto old_runs = old_cells.find(cell);
@@ -332,6 +325,9 @@ std::vector<Comparison> Compare(const Results& before, const Results& after,
     }
   }
   CorrectAndDecide(options, &comparisons);
+  std::vector<Comparison> pooled = ComparePooled(old_cells, new_cells, options);
+  comparisons.insert(comparisons.begin(), std::make_move_iterator(pooled.begin()),
+                     std::make_move_iterator(pooled.end()));
   if (!SameProcessor(before, after)) NoteOtherProcessor(before, after, &comparisons);
   return comparisons;
 }

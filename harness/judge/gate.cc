@@ -42,20 +42,30 @@ std::optional<Verdict> WithoutBaseline(const Results& baseline, const Results& n
                          fmt::join(names, ", "), cells > kNamed ? ", …" : "")};
 }
 
+/// Of a system over all its cells; it is about no scene alone.
+Verdict OfSystem(const Comparison& c) {
+  return {.name = fmt::format("{}: {} against the baseline", NameOfCell(c), c.score),
+          .passed = !IsAlarm(c.change),
+          .flaky = false,
+          .value = {},
+          .limit = {},
+          .why = fmt::format("{}: {}", Name(c.change), c.why),
+          .system = c.system};
+}
+
 Verdict OfScore(const Comparison& c) {
   const std::string unit = c.unit == "1" ? "" : " " + c.unit;
   const std::string now = c.new_n > 0 ? fmt::format("{:.4g}", c.new_median) : "nothing";
-  return {
-      .name = fmt::format("{} {} {}: {} against the baseline", c.scene, c.twin, c.system, c.score),
-      .passed = !IsAlarm(c.change),
-      .flaky = false,
-      .value = c.new_n > 0 ? std::optional(c.new_median) : std::nullopt,
-      .limit = c.old_median,
-      .why =
-          fmt::format("{}: {} was {:.4g}{} ({})", Name(c.change), now, c.old_median, unit, c.why),
-      .scene = c.scene,
-      .twin = c.twin,
-      .system = c.system};
+  return {.name = fmt::format("{}: {} against the baseline", NameOfCell(c), c.score),
+          .passed = !IsAlarm(c.change),
+          .flaky = false,
+          .value = c.new_n > 0 ? std::optional(c.new_median) : std::nullopt,
+          .limit = c.old_median,
+          .why = fmt::format("{}: {} was {:.4g}{} ({})", Name(c.change), now, c.old_median, unit,
+                             c.why),
+          .scene = c.scene,
+          .twin = c.twin,
+          .system = c.system};
 }
 
 /// "seeds 2, 3", or what stands for many.
@@ -108,7 +118,8 @@ std::vector<Verdict> GateVerdicts(const Results& baseline, const Results& night,
   }
   if (const auto added = WithoutBaseline(baseline, night)) verdicts.push_back(*added);
   for (const Comparison& c : Compare(baseline, night, options)) {
-    if (c.change != Change::kWatched) verdicts.push_back(OfScore(c));
+    if (c.change == Change::kWatched) continue;
+    verdicts.push_back(c.cells > 0 ? OfSystem(c) : OfScore(c));
   }
   return verdicts;
 }

@@ -23,7 +23,7 @@ struct MissingRuns {
 };
 
 /// What `before` has and `after` lacks: scores that are not there get no worse. A run that failed
-/// is there; that its scores are not is told of each.
+/// is there; that its scores are not is told of each (Change::kGone), as of a repeat that is not.
 std::vector<MissingRuns> MissingRunsOf(const Results& before, const Results& after);
 
 /// "2 cells and 4 seeds of 1 other are missing"; empty where nothing is.

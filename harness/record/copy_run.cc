@@ -8,12 +8,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Whole under its name, whatever its size: bags are larger than what is read at once.
+void CopyFile(const fs::path& from, const fs::path& to) {
+  FileAside copy(to);
+  ReadInPieces(from, [&](std::string_view piece) { copy.Append(piece); });
+  copy.Commit();
+}
+
 /// All files of a run but its result and those in `without`.
 void CopyFiles(const fs::path& from, const fs::path& to, const std::set<fs::path>& without = {}) {
   for (const auto& entry : fs::recursive_directory_iterator(from)) {
     const fs::path file = entry.path().lexically_relative(from);
     if (!entry.is_regular_file() || file == "result.json" || without.contains(file)) continue;
-    WriteFileAtomically(to / file, ReadFile(entry.path()));
+    CopyFile(entry.path(), to / file);
   }
 }
 

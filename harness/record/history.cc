@@ -150,6 +150,15 @@ TrendPoint PointOf(const Results& results, const SceneRuns& scene, const SystemR
   return point;
 }
 
+/// How the file names a night's folder: from its own on.
+std::string FolderFrom(const fs::path& database, const fs::path& report) {
+  if (report.empty()) return "";
+  fs::path folder = fs::absolute(report).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();  // "night/" is the folder "night"
+  return folder.lexically_relative(fs::absolute(database).lexically_normal().parent_path())
+      .string();
+}
+
 }  // namespace
 
 std::string HistoryTrouble(const fs::path& path) {
@@ -184,12 +193,7 @@ void AppendToHistory(const fs::path& path, const Results& results, const fs::pat
       "INSERT OR REPLACE INTO medians (suite, started, commit_id, scene, twin, system, "
       "score, version, folder, median, low, high, limit_value, seeds, failed) "
       "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  const std::string folder =
-      report.empty() ? ""
-                     : fs::absolute(report)
-                           .lexically_normal()
-                           .lexically_relative(fs::absolute(path).lexically_normal().parent_path())
-                           .string();
+  const std::string folder = FolderFrom(path, report);
   for (const SceneRuns& scene : GroupByScene(results)) {
     for (const SystemRuns& system : scene.systems) {
       for (const char* score : kFollowed) {
@@ -212,6 +216,25 @@ void AppendToHistory(const fs::path& path, const Results& results, const fs::pat
   }
   insert.Reset();
   database.Run("COMMIT");
+}
+
+std::string NightReplaced(const fs::path& path, const Results& results, const fs::path& report) {
+  if (!fs::exists(path)) return "";
+  try {
+    const Database database(path);
+    Statement select(database,
+                     "SELECT folder FROM medians WHERE suite = ? AND started = ? AND "
+                     "folder NOT IN ('', ?) LIMIT 1");  // where it is not known, it may be this one
+    int at = 0;
+    for (const std::string& text : {results.suite, results.started, FolderFrom(path, report)}) {
+      select.Bind(++at, text);
+    }
+    if (!select.Step()) return "";
+    return fmt::format("this run replaces {} in the trends: both are of {} and started at {}",
+                       select.Text(0), results.suite, results.started);
+  } catch (const MachineError&) {
+    return "";  // who files nights there says what is wrong with it
+  }
 }
 
 std::vector<TrendPoint> ReadHistory(const fs::path& path, const std::string& suite) {

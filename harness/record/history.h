@@ -32,6 +32,12 @@ std::string HistoryTrouble(const std::filesystem::path& database);
 void AppendToHistory(const std::filesystem::path& database, const Results& results,
                      const std::filesystem::path& report = {});
 
+/// Whose place these results of the folder `report` would take there, in a sentence: that of
+/// another folder under the same suite and start, be it the same night, moved or merged anew, or
+/// one that began in the same instant. Empty: nobody's, or it cannot be read.
+std::string NightReplaced(const std::filesystem::path& database, const Results& results,
+                          const std::filesystem::path& report);
+
 /// All nights of a suite in the order of time; empty where there is no file.
 std::vector<TrendPoint> ReadHistory(const std::filesystem::path& database,
                                     const std::string& suite);

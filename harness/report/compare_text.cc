@@ -9,13 +9,17 @@ namespace {
 
 /// What it is now; a score that is gone is nothing.
 std::string After(const Comparison& c) {
+  if (c.cells > 0) return "";
   return c.new_n > 0 ? fmt::format("{:.4g}", c.new_median) : "nothing";
 }
 
-/// "SCENE TWIN SYSTEM" of whatever is about one of them.
-template <class OfCell>
-std::string Cell(const OfCell& of) {
-  return fmt::format("{} {} {}", of.scene, of.twin, of.system);
+/// What it was; several cells have no one value.
+std::string Before(const Comparison& c) {
+  return c.cells > 0 ? "" : fmt::format("{:.4g}", c.old_median);
+}
+
+std::string NameOfCell(const MissingRuns& one) {
+  return fmt::format("{} {} {}", one.scene, one.twin, one.system);
 }
 
 std::string Lacking(const MissingRuns& one) {
@@ -35,13 +39,11 @@ struct ConsoleRow {
 ConsoleRow RowOf(const Comparison& c, bool color) {
   const std::string change =
       Painted(Name(c.change), IsAlarm(c.change) ? "31;1" : "32", color && IsChange(c));
-  return {Cell(c),
-          {c.score, change, fmt::format("{:.4g}", c.old_median), After(c), PercentOfChange(c)},
-          c.why};
+  return {NameOfCell(c), {c.score, change, Before(c), After(c), PercentOfChange(c)}, c.why};
 }
 
 ConsoleRow RowOf(const MissingRuns& one, bool color) {
-  return {Cell(one), {"", Painted("missing", "31;1", color), "", "", ""}, Lacking(one)};
+  return {NameOfCell(one), {"", Painted("missing", "31;1", color), "", "", ""}, Lacking(one)};
 }
 
 std::size_t Count(const std::vector<Comparison>& comparisons, Change change) {
@@ -93,12 +95,13 @@ std::string ToMarkdown(const std::vector<Comparison>& comparisons,
       "| scene, twin, system | score | change | before | after | | why "
       "|\n|---|---|---|--:|--:|--:|---|\n";
   for (const Comparison& c : comparisons) {
-    text += fmt::format("| {} | {} | {} | {:.4g} | {} | {} | {} |\n", MarkdownText(Cell(c)),
-                        MarkdownText(c.score), Name(c.change), c.old_median, After(c),
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", MarkdownText(NameOfCell(c)),
+                        MarkdownText(c.score), Name(c.change), Before(c), After(c),
                         PercentOfChange(c), MarkdownText(c.why));
   }
   for (const MissingRuns& one : missing) {
-    text += fmt::format("| {} | | missing | | | | {} |\n", MarkdownText(Cell(one)), Lacking(one));
+    text +=
+        fmt::format("| {} | | missing | | | | {} |\n", MarkdownText(NameOfCell(one)), Lacking(one));
   }
   return text;
 }
@@ -122,6 +125,8 @@ std::string ToJson(const std::vector<Comparison>& comparisons,
                     {"seeds_after", c.new_n},
                     {"p_holm", c.p},
                     {"why", c.why}});
+    if (c.cells > 0) list.back()["cells"] = c.cells;
+    if (c.factor) list.back()["factor"] = *c.factor;
   }
   nlohmann::ordered_json lacking = nlohmann::ordered_json::array();
   for (const MissingRuns& one : missing) {

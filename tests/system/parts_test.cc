@@ -124,6 +124,30 @@ TEST_F(PartsTest, ANightStandsOnceAmongTheTrendsHoweverOftenItIsToldOf) {
   EXPECT_EQ(Nights("once").size(), 2u);
 }
 
+/// The suite said in other words is a night of it; a part of its seeds, other systems or fewer
+/// twins are not.
+TEST_F(PartsTest, OnlyTheSuiteAsWrittenStandsAmongTheTrends) {
+  const std::string suite =
+      Suite("written", "  - plain\n  - oracle\n", "seeds: 2\ntwins: [live, empty]\n");
+  const std::vector<std::string> trials[] = {
+      {"--seeds", "1"},       {"--seeds", "3"},    {"--seed", "2"},
+      {"--systems", "plain"}, {"--twins", "live"}, {"--set", "plain.feature.features=700"}};
+  const auto run = [&](const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> line{"run", suite, "--no-video", "--out", Out(out)};
+    line.insert(line.end(), more.begin(), more.end());
+    const Said said = Run(line);
+    EXPECT_EQ(said.code, 0) << said.text;
+  };
+  for (const std::vector<std::string>& trial : trials) {
+    run("trial", trial);
+    EXPECT_TRUE(Nights("written").empty()) << trial[0] << trial[1];
+  }
+  run("a", {});
+  run("b", {"--seed", "2,1", "--systems", "oracle,plain"});
+  run("c", {"--seeds", "2", "--twins", "empty,live,frozen"});
+  EXPECT_EQ(Nights("written").size(), 3u);
+}
+
 TEST_F(PartsTest, AMergedNightBeganWithTheFirstOfItsParts) {
   const std::string suite = Suite("joined", "  - plain\n", "seeds: 2\n");
   std::set<std::string> began;

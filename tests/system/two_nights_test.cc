@@ -53,6 +53,24 @@ TEST_F(TwoNightsTest, ACellOrSeedsThatVanishedFailAComparison) {
   EXPECT_THAT(Run({"compare", all, without, "--json"}).text, HasSubstr("\"missing\": ["));
 }
 
+/// A crash before leaves no score to compare; that the rest has vanished is told all the same.
+TEST_F(TwoNightsTest, WhatVanishedFailsAComparisonThatHasNoScores) {
+  const std::string old_night = Night("old", {"plain", "robust"}, 3);
+  const std::string new_night = Night("new", {"robust"}, 3);
+  Results crashed = ResultsOf(old_night);
+  for (RunRecord& run : crashed.runs) {
+    if (run.spec.system.name != "robust") continue;
+    run.status = RunStatus::kCrashed;
+    run.scores.clear();
+  }
+  WriteFileAtomically(fs::path(old_night) / "results.json", ToJson(crashed));
+  const Said said = Run({"compare", old_night, new_night, "--out", Out("compared")});
+  EXPECT_EQ(said.code, 1) << said.text;
+  EXPECT_THAT(said.text, HasSubstr("1 cell is missing"));
+  EXPECT_THAT(ReadFile(fs::path(Out("compared")) / "compare.html"), HasSubstr("all of it"));
+  EXPECT_EQ(Run({"compare", new_night, Night("other", {"plain"}, 3)}).code, 5) << "nothing shared";
+}
+
 TEST_F(TwoNightsTest, ANightWithHolesIsNoBaselineUnlessAsked) {
   const std::string whole = Night("whole", {"plain"}, 3);
   const std::string holes = Night("holes", {"plain"}, 3, RunStatus::kCrashed);

@@ -129,9 +129,20 @@ std::string SeedCell(const std::optional<SeedChange>& seed, const Comparison& c,
   return SceneLink(c, after, out, text);
 }
 
+/// Of a system over several cells, which have no one value nor page.
+std::string RowOfSystem(const Comparison& c, const char* css) {
+  return fmt::format(
+      "<tr><td>all {} cells<td class=\"left\">{}<td class=\"left\">{}<td class=\"left "
+      "{}\">{}<td><td>"
+      "<td>{}<td><td>{}<td><td class=\"wrap\">{}\n",
+      c.cells, Escape(c.system), Escape(c.score), css, Name(c.change), PercentOfChange(c), c.new_n,
+      Escape(c.why));
+}
+
 std::string Row(const Comparison& c, const ComparedNight& before, const ComparedNight& after,
                 const fs::path& out) {
   const char* css = IsAlarm(c.change) ? "fail" : c.change == Change::kBetter ? "pass" : "";
+  if (c.cells > 0) return RowOfSystem(c, css);
   const auto seed = FarthestSeed(*before.results, *after.results, c);
   const bool is_left = c.new_n > 0;  // something to hold against what was
   return fmt::format(
@@ -175,6 +186,10 @@ std::string Answer(const std::vector<Comparison>& comparisons, const ComparedNig
   if (!missing.empty()) text += fmt::format(" Compared with before, {}.", missing);
   const Comparison& first = comparisons.front();
   if (!IsChange(first)) return text;
+  if (first.cells > 0) {
+    return text +
+           fmt::format(" The largest change: {} of {}, {}.", first.score, first.system, first.why);
+  }
   return text + fmt::format(" The largest change: {} of {} on {} {}, from {} to {}.", first.score,
                             first.system, first.scene, first.twin, Value(first, first.old_median),
                             first.new_n > 0 ? Value(first, first.new_median) : "nothing");
@@ -223,12 +238,16 @@ std::string ComparePage(std::vector<Comparison> comparisons, const ComparedNight
   const bool worse =
       !missing.empty() || std::any_of(comparisons.begin(), comparisons.end(),
                                       [](const Comparison& c) { return IsAlarm(c.change); });
-  const char* css = comparisons.empty() ? "" : worse ? "failed" : "passed";
+  // Nights that share no cell are not judged: none of the one is missed in the other.
+  const bool judged =
+      !comparisons.empty() ||
+      (!missing.empty() && WhyNothingShared(*before.results, *after.results).empty());
+  const char* css = !judged ? "" : worse ? "failed" : "passed";
   std::string text =
       fmt::format("<h1>What changed</h1>\n<div class=\"verdict {}\"><strong>{}</strong></div>\n",
                   css, Escape(Answer(comparisons, before, after)));
   text += SidesTable(before, after, out);
-  if (!comparisons.empty()) text += MissingTable(missing);
+  if (judged) text += MissingTable(missing);
   if (const std::string changes = Table(comparisons, true, before, after, out); !changes.empty()) {
     text += "<h2 id=\"changes\">The changes, the largest first</h2>\n" + changes;
   }
@@ -242,10 +261,14 @@ std::string ComparePage(std::vector<Comparison> comparisons, const ComparedNight
   }
   return text +
          "<p class=\"soft small\">Medians over seeds. The interval is a bootstrap of the median "
-         "difference, by seed where both sides have the same seeds. Worse and better need a "
-         "Mann-Whitney test that survives Holm's correction over this whole page, and an effect of "
-         "a tenth of the old median; of scores near 0 or 1, lengths of closed drives and counts, a "
-         "step of their own. Unstable: the median holds, but so many seeds lie far from it that "
+         "difference, by seed where both sides have the same seeds. Worse and better need an "
+         "effect of a "
+         "tenth of the old median (of scores near 0 or 1, lengths of closed drives and counts, a "
+         "step of their own) and a test that survives Holm's correction over this whole page. In a "
+         "cell that is the stronger of Mann-Whitney's and, by seed, Student's of log ratios; over "
+         "all cells of a system, the stronger of a sign test and Wilcoxon's signed-rank test of "
+         "its seeds, and more than half of the cells with the effect. Unstable: the median holds, "
+         "but so many seeds lie far from it that "
          "the old scatter does not explain them. Gone: runs that had the score have it no "
          "more.</p>\n";
 }

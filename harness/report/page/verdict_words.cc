@@ -21,7 +21,8 @@ std::string WhatWasHeld(const std::vector<Verdict>& verdicts, std::size_t limits
   bool baseline = false;
   for (const Verdict& verdict : verdicts) {
     if (IsOfRun(verdict) || verdict.system.empty()) continue;
-    cells.emplace(verdict.scene, verdict.twin, verdict.system);
+    // One over all cells of a system names no scene.
+    if (!verdict.scene.empty()) cells.emplace(verdict.scene, verdict.twin, verdict.system);
     if (IsOfBaseline(verdict)) {
       baseline = true;
     } else {

@@ -13,7 +13,7 @@ TEST(BreakPTest, OneSeedOfOneIsStudentsT) {
   // Mean 0, spread 1, nine values: the next is beyond t * sqrt(10 / 9) with the t of 8 degrees.
   const std::vector<double> before = {-1, -1, -1, -1, 0, 1, 1, 1, 1};
   const auto at = [&](double t) {
-    return BreakP(before, std::vector<double>{t * std::sqrt(10.0 / 9)}, 1);
+    return BreakP(before, std::vector<double>{t * std::sqrt(10.0 / 9)}, {});
   };
   EXPECT_NEAR(at(1.860), 0.05, 1e-4);
   EXPECT_NEAR(at(2.896), 0.01, 1e-5);
@@ -21,16 +21,26 @@ TEST(BreakPTest, OneSeedOfOneIsStudentsT) {
 }
 
 TEST(BreakPTest, NothingBrokenOrNothingKnownSaysNothing) {
-  EXPECT_EQ(BreakP(std::vector<double>{0, 1, 2}, {}, 3), 1);
-  EXPECT_EQ(BreakP(std::vector<double>{0}, std::vector<double>{9}, 1), 1);
+  EXPECT_EQ(BreakP(std::vector<double>{0, 1, 2}, {}, std::vector<double>{0, 1, 2}), 1);
+  EXPECT_EQ(BreakP(std::vector<double>{0}, std::vector<double>{9}, {}), 1);
 }
 
 TEST(BreakPTest, MoreOfThemAndFartherIsLessLikely) {
   const std::vector<double> before = {-1, -1, -1, -1, 0, 1, 1, 1, 1};
-  const double one = BreakP(before, std::vector<double>{4}, 9);
-  EXPECT_LT(BreakP(before, std::vector<double>{4, 4}, 9), one);
-  EXPECT_LT(BreakP(before, std::vector<double>{8}, 9), one);
-  EXPECT_LT(BreakP(before, std::vector<double>{8}, 9), 0.01);
+  const auto p_of = [&](const std::vector<double>& broken) {
+    return BreakP(before, broken, std::vector<double>(9 - broken.size()));
+  };
+  EXPECT_LT(p_of({4, 4}), p_of({4}));
+  EXPECT_LT(p_of({8}), p_of({4}));
+  EXPECT_LT(p_of({8}), 0.01);
+}
+
+/// A night on which every seed scatters more than before has changed, but no few of them broke.
+TEST(BreakPTest, ScatterThatTheOthersShowTonightIsNoBreak) {
+  const std::vector<double> before = {-0.1, -0.1, -0.1, -0.1, 0, 0.1, 0.1, 0.1, 0.1};
+  const std::vector<double> calm(8, 0.0), wild = {-1, -1, -1, -1, 1, 1, 1, 1};
+  EXPECT_LT(BreakP(before, std::vector<double>{2}, calm), 1e-4);
+  EXPECT_GT(BreakP(before, std::vector<double>{2}, wild), 0.1);
 }
 
 /// Drawn alike, values are called broken no oftener than p says, whatever their number.
@@ -44,7 +54,7 @@ TEST(BreakPTest, IsSmallNoOftenerThanItSays) {
     std::vector<double> before, after;
     for (std::size_t i = 0; i < kSeeds; ++i) before.push_back(draw(random));
     for (std::size_t i = 0; i < kSeeds; ++i) after.push_back(draw(random));
-    const double p = BreakP(before, after, kSeeds);
+    const double p = BreakP(before, after, {});
     below_tenth += p < 0.1;
     below_hundredth += p < 0.01;
   }

@@ -24,6 +24,18 @@ TEST(ChangeSizeTest, AlarmsComeFirstAndEachBySize) {
   EXPECT_DOUBLE_EQ(SizeOf(Of(Change::kWorse, 1, 2)), SizeOf(Of(Change::kBetter, 2, 1)));
 }
 
+TEST(ChangeSizeTest, ASystemOverAllItsCellsStandsBeforeItsCells) {
+  Comparison over_all = Of(Change::kWorse, 1, 1.1);
+  over_all.cells = 5;
+  over_all.factor = 1.3;
+  EXPECT_EQ(PercentOfChange(over_all), "+30.0 %");
+  EXPECT_DOUBLE_EQ(SizeOf(over_all), std::log(1.3));
+  std::vector<Comparison> list{Of(Change::kSame, 1, 9), Of(Change::kWorse, 1, 4), over_all};
+  LargestFirst(&list);
+  EXPECT_EQ(list[0].cells, 5u);
+  EXPECT_EQ(list[1].new_median, 4);
+}
+
 TEST(ChangeSizeTest, TheSeedThatMovedFarthestIsNamed) {
   Results before, after;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {

@@ -233,6 +233,58 @@ TEST(GateTest, AScoreThatVanishedFailsAndSaysWhy) {
   EXPECT_TRUE(On(GateVerdicts(deleted, deleted), "ate_rmse_m").passed);
 }
 
+/// Nights of nine seeds whose runs were each repeated so often; in `lost` of the repeats of seed 4
+/// tracking was reset.
+Results Repeated(int repeats, int lost) {
+  Results night;
+  for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+    for (int repeat = 1; repeat <= repeats; ++repeat) {
+      RunRecord run = MakeRecordOf("mine", seed, 0.02 + 0.001 * static_cast<double>(seed));
+      run.spec.system = {.name = "mine", .external = ExternalSystem{}};
+      run.spec.system.external->repeats = repeats;
+      run.spec.repeat = repeat;
+      if (seed == 4 && repeat <= lost) {
+        run.scores["ate_rmse_m"].value.reset();
+        run.scores["ate_rmse_m"].absent = "tracking was reset";
+      }
+      night.runs.push_back(std::move(run));
+    }
+  }
+  return night;
+}
+
+/// The median of the others says nothing of a repeat that has no value any more.
+TEST(GateTest, AScoreThatVanishedFromOneRepeatIsGone) {
+  const Verdict lost = On(GateVerdicts(Repeated(5, 0), Repeated(5, 1)), "ate_rmse_m");
+  EXPECT_FALSE(lost.passed) << lost.name;
+  EXPECT_THAT(lost.why, testing::HasSubstr("seed 4: 4 of 5 repeats have a value, before 5 of 5; "
+                                           "tracking was reset"));
+  for (const auto& [before, now] : {std::pair(1, 1), std::pair(2, 1), std::pair(5, 5)}) {
+    const Verdict same = On(GateVerdicts(Repeated(5, before), Repeated(5, now)), "ate_rmse_m");
+    EXPECT_TRUE(same.passed) << before << now << same.name << same.why;
+  }
+  EXPECT_FALSE(On(GateVerdicts(Repeated(5, 1), Repeated(5, 2)), "ate_rmse_m").passed);
+}
+
+TEST(GateTest, FewerRepeatsByIntentionAreNotGoneAndMissingOrCrashedOnesAre) {
+  const Results five = Repeated(5, 0);
+  EXPECT_TRUE(On(GateVerdicts(five, Repeated(3, 0)), "ate_rmse_m").passed);
+  EXPECT_TRUE(On(GateVerdicts(Repeated(3, 0), five), "ate_rmse_m").passed);
+  EXPECT_FALSE(On(GateVerdicts(five, Repeated(3, 1)), "ate_rmse_m").passed);
+  Results missing = five, crashed = five;
+  missing.runs.pop_back();
+  crashed.runs.back().scores.clear();
+  crashed.runs.back().status = RunStatus::kCrashed;
+  crashed.runs.back().status_why = "signal 11";
+  const Verdict on_missing = On(GateVerdicts(five, missing), "ate_rmse_m");
+  EXPECT_FALSE(on_missing.passed);
+  EXPECT_THAT(on_missing.why, testing::HasSubstr("seed 9: 4 of 5 repeats have a value, before 5 of "
+                                                 "5; a repeat is missing"));
+  const Verdict on_crashed = On(GateVerdicts(five, crashed), "ate_rmse_m");
+  EXPECT_FALSE(on_crashed.passed);
+  EXPECT_THAT(on_crashed.why, testing::HasSubstr("signal 11"));
+}
+
 TEST(GateTest, SaysWhereSeedsAreTooFewToSeeAnything) {
   Results few = Night(0.02, 1);
   EXPECT_EQ(BlindFor(few), "");

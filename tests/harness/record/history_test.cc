@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <set>
 
 #include "tests/harness/record/two_systems.h"
 
@@ -110,6 +111,22 @@ TEST_F(HistoryTest, RepeatsOfASeedAreNoSeeds) {
     EXPECT_EQ(point.failed, 1u);
   }
   EXPECT_EQ(found, 1u);
+}
+
+TEST_F(HistoryTest, ANightOfTheSameStartFromAnotherFolderIsToldBeforeItIsReplaced) {
+  const fs::path out = file_.parent_path() / "out";
+  const Results night = Night("2026-01-02T02:00:00Z", 0.02);
+  EXPECT_EQ(NightReplaced(file_, night, out / "a"), "") << "no file yet";
+  AppendToHistory(file_, night, out / "a");
+  EXPECT_EQ(NightReplaced(file_, night, out / "a"), "") << "the same evening filed twice";
+  EXPECT_EQ(NightReplaced(file_, night, out / "a/"), "");
+  EXPECT_THAT(NightReplaced(file_, night, out / "b"), testing::HasSubstr("replaces out/a in"));
+  const Results moment_later = Night("2026-01-02T02:00:00.250Z", 0.03);
+  EXPECT_EQ(NightReplaced(file_, moment_later, out / "b"), "");
+  AppendToHistory(file_, moment_later, out / "b");
+  std::set<std::string> folders;
+  for (const TrendPoint& point : ReadHistory(file_, "nightly")) folders.insert(point.folder);
+  EXPECT_THAT(folders, testing::ElementsAre("out/a", "out/b"));
 }
 
 TEST_F(HistoryTest, AFileOfAnEarlierVersionIsBroughtUpToDate) {

@@ -35,6 +35,24 @@ TEST(CompareTextTest, AScoreThatIsGoneIsNothingNow) {
   }
 }
 
+TEST(CompareTextTest, ASystemOverAllItsCellsHasAFactorAndNoValues) {
+  Comparison worse;
+  worse.system = "plain";
+  worse.score = "ate_rmse_m";
+  worse.cells = 5;
+  worse.old_n = worse.new_n = 45;
+  worse.old_median = worse.new_median = 0.25;
+  worse.factor = 1.3;
+  worse.change = Change::kWorse;
+  worse.why = "by 30 %";
+  EXPECT_THAT(ToConsole({worse}, {}, {}), HasSubstr("all cells of plain"));
+  EXPECT_THAT(ToConsole({worse}, {}, {}), testing::Not(HasSubstr("0.25")));
+  EXPECT_THAT(ToMarkdown({worse}, {}),
+              HasSubstr("| all cells of plain | ate_rmse_m | worse |  |  | +30.0 % | by 30 % |"));
+  EXPECT_THAT(ToJson({worse}, {}), HasSubstr("\"cells\": 5"));
+  EXPECT_THAT(ToJson({worse}, {}), HasSubstr("\"factor\": 1.3"));
+}
+
 TEST(CompareTextTest, ATerminalIsFilledAndALogHasALineForEach) {
   Comparison worse;
   worse.scene = "weakness/optical_axis";

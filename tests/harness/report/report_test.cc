@@ -408,6 +408,31 @@ TEST_F(ReportTest, CellsWithoutABaselineAreSaidInTheMorning) {
   EXPECT_THAT(ToSummaryText(results, {}, folder_), HasSubstr("  3 cells have no baseline\n"));
 }
 
+/// What got worse over all cells of a system is read wherever verdicts are.
+TEST_F(ReportTest, ASystemThatGotWorseEverywhereIsSaidInEveryWriting) {
+  Results before, after;
+  for (int scene = 0; scene < 20; ++scene) {
+    RunRecord& run = before.runs.emplace_back();
+    run.spec = {.scene = fmt::format("s{}", scene), .scene_file = "", .system = BuiltIn("oracle")};
+    run.scores["ate_rmse_m"] = {
+        .value = 0.01, .unit = "m", .alignment = "se3", .n = 1, .absent = ""};
+    after.runs.push_back(run);
+    *after.runs.back().scores["ate_rmse_m"].value = 0.015;
+  }
+  Results results = Make({MakeRun("s0", "oracle", 1, 0.01)}, {});
+  results.verdicts = GateVerdicts(before, after);
+  const std::string name = "all cells of oracle";
+  const std::string why = "worse: by 50 % (median of 20 cells); 20 of 20 seeds got worse";
+  WriteReport(results, folder_);
+  for (const std::string& text : {ToConsole(results, {}), ToSummaryText(results, {}, folder_),
+                                  Read("index.html"), Read("results.json"), Read("junit.xml")}) {
+    EXPECT_THAT(text, HasSubstr(name));
+    EXPECT_THAT(text, HasSubstr(why));
+  }
+  EXPECT_THAT(Read("junit.xml"), HasSubstr("failures=\"1\""));
+  EXPECT_FALSE(AllPassed(results));
+}
+
 TEST_F(ReportTest, WhatFailedStandsNearestToThePrompt) {
   std::vector<RunResult> runs;
   for (int i = 0; i < 20; ++i) runs.push_back(MakeRun(fmt::format("s{}", i), "oracle", 1, 0.01));

@@ -130,6 +130,30 @@ TEST_F(ComparePageTest, WhatVanishedIsCountedAndListed) {
   EXPECT_THAT(Page(after, before), Not(HasSubstr("missing"))) << "what is new is not missing";
 }
 
+TEST_F(ComparePageTest, ASystemThatGotWorseEverywhereIsSaidFirst) {
+  const Results before = Night("old", 2);
+  Results after = before;
+  for (RunRecord& run : after.runs) *run.scores["ate_rmse_m"].value *= 1.5;
+  const std::string page = Page(before, after);
+  EXPECT_THAT(page, HasSubstr("The largest change: ate_rmse_m of robust, by 50 % (median of 2 "
+                              "cells); 18 of 18 seeds got worse"));
+  EXPECT_THAT(page, HasSubstr("<td>all 2 cells<td"));
+  EXPECT_THAT(page, HasSubstr("<td>+50.0 %<td>"));
+}
+
+/// What is left has no scores, and hides nothing of what is not left.
+TEST_F(ComparePageTest, WhatVanishedIsListedWhereNoScoreCanBeCompared) {
+  Results before = Night("old", 1);
+  Results after = before;
+  for (RunRecord& run : before.runs) {
+    if (run.spec.scene == "a") run.scores.clear();
+  }
+  std::erase_if(after.runs, [](const RunRecord& run) { return run.spec.scene == "a2"; });
+  const std::string page = Page(before, after);
+  EXPECT_THAT(page, HasSubstr("verdict failed"));
+  EXPECT_THAT(page, HasSubstr("Missing since before"));
+}
+
 TEST_F(ComparePageTest, HostileNamesAreText) {
   const std::string hostile = "\"><script>alert(1)</script>";
   const Results before = Night("old", 1, hostile), after = Night("new", 3, hostile);

@@ -52,6 +52,12 @@ TEST(VerdictsInWords, ABaselineAndFailedRunsAreNoLimits) {
                                     .twin = "live",
                                     .system = "plain"}};
   EXPECT_EQ(VerdictsInWords(verdicts, 0), "1 of 2 verdicts failed (the baseline, in 1 cell)");
+  verdicts.push_back({.name = "all cells of oracle: ate_rmse_m against the baseline",
+                      .passed = true,
+                      .why = "",
+                      .system = "oracle"});
+  EXPECT_EQ(VerdictsInWords(verdicts, 0), "1 of 3 verdicts failed (the baseline, in 1 cell)");
+  verdicts.pop_back();
   verdicts.erase(verdicts.begin());
   EXPECT_EQ(VerdictsInWords(verdicts, 0), "1 of 1 verdicts failed");
 }
