@@ -1,5 +1,6 @@
 #include "simulator/pipeline.h"
 
+#include <algorithm>
 #include <mutex>
 #include <opencv2/imgproc.hpp>
 
@@ -25,6 +26,15 @@ struct WorldTime {
   std::int64_t stamp_ns = 0;
   std::span<const ActorClock> clocks;
 };
+
+/// FrameTruth::depth of a camera's hits.
+cv::Mat1f DepthOf(const HitImage& hits) {
+  cv::Mat1f depth(hits.height, hits.width);
+  for (int y = 0; y < hits.height; ++y) {
+    std::copy_n(&hits.t[hits.Index(0, y)], hits.width, depth[y]);
+  }
+  return depth;
+}
 
 FrameTruth Assemble(const Eigen::Isometry3d& T_world_rig, const CameraTruth& left,
                     const CameraTruth& right, std::vector<ObjectTruth> objects) {
@@ -253,9 +263,13 @@ struct Pipeline::Impl {
     lap("meter");
     radiance = WhileOpen(instant, views[0], hits[0], setting, rig_at, *shader, std::move(radiance));
     lap("shutter");
+    std::array<cv::Mat1b, 2> pictures;
+    ParallelFor(0u, 2u, [&](std::uint32_t side) {
+      pictures[side] = Photograph(radiance[side], setting, frame_index, side);
+    });
     RenderedFrame frame{.stamp_ns = instant.snapshot().stamp_ns,
-                        .left = Photograph(radiance[0], setting, frame_index, 0),
-                        .right = Photograph(radiance[1], setting, frame_index, 1),
+                        .left = pictures[0],
+                        .right = pictures[1],
                         .exposure_ms = setting.time_ms,
                         .smear_ms = options.shutter.motion_blur ? setting.time_ms : 0,
                         .gain = setting.gain,
@@ -274,7 +288,7 @@ struct Pipeline::Impl {
         .camera = camera,
         .rays = rays,
         .moving = options.moving,
-        .exposure = options.sensor.exposure,
+        .exposure = SensorFor(setting).exposure,
         .expose = [this, setting](const cv::Mat1f& light) { return WithoutNoise(light, setting); }};
   }
 
@@ -348,8 +362,7 @@ cv::Mat1f Pipeline::RenderDepth(std::int64_t stamp_ns, const Eigen::Isometry3d& 
     const std::array<CameraView, 2> views = impl_->Views(T_world_rig);
     std::vector<HitImage> hits;
     TraceViews(instant, std::span(views).first(1), {}, &hits);
-    const MovingNow moving(impl_->world, instant.snapshot(), impl_->options.moving);
-    return LabelHits(impl_->world, instant, hits[0], moving).depth;
+    return DepthOf(hits[0]);
   });
 }
 

@@ -147,6 +147,12 @@ Bytes UriBytes(const GltfValue& value, const fs::path& file, const ImportOptions
     if (comma == std::string::npos) value.Fail("its data URI is not base64");
     return DecodeBase64(value, std::string_view(uri).substr(comma + 8));
   }
+  if (options.one_file) {
+    value.Fail(
+        fmt::format("it names a separate file, {}; save the model as one .glb, or make one file of "
+                    "it: aisle import-mesh {}",
+                    PathOf(uri), file.filename().string()));
+  }
   const fs::path path = file.parent_path() / PathOf(uri);
   std::error_code failed;
   if (!fs::is_regular_file(path, failed)) {

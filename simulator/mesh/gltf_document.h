@@ -31,7 +31,7 @@ GltfDocument ParseGltf(const Bytes& file_bytes, const std::filesystem::path& fil
 std::span<const std::uint8_t> ViewBytes(const GltfDocument& document, std::size_t index);
 
 /// The bytes that a "uri" stands for: a data URI's own, or those of a file inside the options'
-/// root. `value` holds the uri and is named in errors.
+/// root, unless these want one file alone. `value` holds the uri and is named in errors.
 Bytes UriBytes(const GltfValue& value, const std::filesystem::path& file,
                const ImportOptions& options);
 

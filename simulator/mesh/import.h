@@ -40,6 +40,9 @@ struct ImportOptions {
   UpAxis up = UpAxis::kAsStated;
   /// A file whose unit or upward axis nobody states is refused rather than taken as metres, y up.
   bool must_state = false;
+  /// A glTF model that names other files is refused: all of it is in the one whose bytes stand for
+  /// it, as in the key of what is kept from run to run.
+  bool one_file = false;
   /// Files the model refers to must lie inside this folder. Empty: the model's own.
   std::filesystem::path root;
   std::size_t max_triangles = 5'000'000;

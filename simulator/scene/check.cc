@@ -297,13 +297,7 @@ class Checker {
     for (std::size_t i = 0; i < scene_.vehicles.size(); ++i) {
       const VehicleSpec& vehicle = scene_.vehicles[i];
       const std::string key = fmt::format("vehicles[{}].towed_by", i);
-      if (vehicle.towed_by.empty()) {
-        if (vehicle.behind_m != 0) {
-          issues_->Add(vehicle.mark, fmt::format("vehicles[{}].behind_m", i),
-                       "`behind_m` requires `towed_by`");
-        }
-        continue;
-      }
+      if (vehicle.towed_by.empty()) continue;
       const auto tractor = std::ranges::find(scene_.vehicles, vehicle.towed_by, &VehicleSpec::name);
       if (tractor == scene_.vehicles.end()) {
         issues_->Add(vehicle.mark, key, fmt::format("no vehicle named '{}'", vehicle.towed_by));

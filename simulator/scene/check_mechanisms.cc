@@ -47,9 +47,26 @@ class Checker {
     if (part.shape == PartShape::kModel && part.model.empty()) {
       Say(part.mark, key + ".model", "the model of a shape; example: model: roll_cage");
     }
+    CheckGiven(part.shape_given, KeysOf(part.shape), key_ + key, issues_);
     CheckGiven(part.joint_given, KeysOf(part.joint.kind), key_ + key + ".joint", issues_);
     const std::string wrong = JointError(part.joint);
     if (!wrong.empty()) Say(part.mark, key + ".joint", wrong);
+  }
+
+  static KindKeys KeysOf(PartShape shape) {
+    switch (shape) {
+      case PartShape::kBox:
+        break;
+      case PartShape::kCylinder:
+        return {"a cylinder", {"size_m"}};
+      case PartShape::kLink:
+        return {"a link", {"size_m"}};
+      case PartShape::kModel:
+        return {"a model", {"model"}};
+      case PartShape::kPallet:
+        return {"a pallet", {"goods", "goods_m"}};
+    }
+    return {"a box", {"size_m"}};
   }
 
   static KindKeys KeysOf(Joint::Kind kind) {

@@ -70,6 +70,8 @@ void DescribeExposure(Fields& f, SensorSpec& sensor) {
            &sensor.auto_longest_ms, {0.2, 200});
   f.Number({"auto_step_ev", "step of the automatic exposure in stops; 0: continuous", "0.5"},
            &sensor.auto_step_ev, {0, 4});
+  f.OnlyWith("auto_exposure",
+             {"auto_target_grey", "auto_meter_from", "auto_longest_ms", "auto_step_ev"});
   f.Flag({"motion_blur", "integrate the light over the exposure time", "true"},
          &sensor.motion_blur);
   f.Number({"readout_ms", "rolling shutter: time from the first row to the last; 0: global shutter",
@@ -327,6 +329,7 @@ void DescribeVehicle(Fields& f, VehicleSpec& vehicle) {
             "with `towed_by`: distance between that vehicle's origin and its own, along the path",
             "1.78"},
            &vehicle.behind_m, {0, 100});
+  f.OnlyWith("towed_by", {"behind_m"});
   f.Choice({"load", "goods on its forks", "cartons"}, &vehicle.load, kGoodsNames);
   f.Group({"vary", "variation between seeds", "{time_s: 0.5, speed: 0.1}"},
           [&](Fields& vary) { DescribeVary(vary, vehicle.vary); });

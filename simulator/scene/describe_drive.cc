@@ -6,7 +6,7 @@ namespace {
 void DescribeZone(Fields& f, ZoneSpec& zone) {
   zone.mark = f.mark();
   f.Name({"name", "name of the zone in reports", "crossing", true}, &zone.name);
-  f.Point({"from", "corner", "one corner of the zone", true}, &zone.from);
+  f.Point({"from", "one corner of the zone", "[2, -1]", true}, &zone.from);
   f.Point({"to", "opposite corner of the zone", "[4, 1]", true}, &zone.to);
   f.Number({"speed_mps", "highest speed within the zone; 0: closed to the vehicle", "0.3"},
            &zone.speed_mps, {0, 20});

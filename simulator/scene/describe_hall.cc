@@ -86,6 +86,7 @@ void DescribeProp(Fields& f, PropSpec& prop) {
   f.OptionalPoint({"to", "end of a row of pieces that begins at `at`", "[30, 1]"}, &prop.to);
   f.Number({"every_m", "distance from one piece to the next in the row", "10"}, &prop.every_m,
            {0.2, 200});
+  f.OnlyWith("to", {"every_m"});
   f.Degrees({"heading_deg", "direction of its front", "90"}, &prop.heading_rad);
   f.Number({"above_m", "height of its foot above the floor", "0"}, &prop.above_m, {0, 20});
 }

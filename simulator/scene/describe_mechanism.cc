@@ -84,6 +84,7 @@ void DescribeJoint(Fields& f, PartSpec& part) {
 }
 
 void DescribeLooks(Fields& f, PartSpec& part) {
+  part.shape_given = f.Given({"model", "goods", "goods_m", "size_m"});
   f.Choice({"shape", "shape of the part", "box"}, &part.shape,
            {"box", "cylinder", "link", "model", "pallet"});
   f.Choice({"paint", "surface of the part; film is a mirror, glass is transparent, glow shines",
@@ -157,6 +158,7 @@ void DescribeMechanism(Fields& f, MechanismSpec& mechanism) {
   f.Name({"pushed_by", "person who pushes it; instead of `at`", "fitter"}, &mechanism.pushed_by);
   f.Number({"reach_m", "pushed: distance from that person's hands to its origin", "0.4"},
            &mechanism.reach_m, {-5, 5});
+  f.OnlyWith("pushed_by", {"reach_m"});
   f.Name({"front_by", "person who plays walk_carry and holds its +x end", "anton"},
          &mechanism.front_by);
   f.Name({"rear_by", "person who holds its other end", "bea"}, &mechanism.rear_by);

@@ -47,6 +47,7 @@ void DescribePersonFiles(Fields& f, PersonSpec& person) {
   f.Number(
       {"stride_m", "distance that one cycle of the clip walks; 0: it plays by the clock", "1.4"},
       &capture.stride_m, {0, 20});
+  f.OnlyWith("mesh", {"clip", "stride_m"});
 }
 
 void DescribePropMesh(Fields& f, PropSpec& prop) {

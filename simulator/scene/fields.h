@@ -58,6 +58,9 @@ class Fields {
   virtual Mark MarkOf(const char* key) const = 0;
   /// Whether the key is there.
   virtual bool Has(const char* key) const = 0;
+  /// Says that these keys mean nothing where `other` is absent: a file with such a one is mistaken.
+  /// The schema does not know, as a file may have the other from the one it extends.
+  virtual void OnlyWith(const char* /*other*/, std::initializer_list<const char*> /*keys*/) {}
 
   void Point(const Key& key, Eigen::Vector2d* value, Range range = {-1000, 1000}) {
     Numbers(key, value->data(), 2, range);

@@ -58,7 +58,8 @@ struct PartSpec {
   Eigen::Vector3d step_m = Eigen::Vector3d::Zero();         ///< from copy to copy
   double delay_s = 0;                                       ///< by which each copy is later
   Joint joint;
-  std::vector<GivenKey> joint_given;  ///< of its keys that not every kind has
+  /// Keys that stand in the file, of those that not every kind of joint or shape has.
+  std::vector<GivenKey> joint_given, shape_given;
 };
 
 /// A vehicle's forks have it between two times; then it stays where it was put.

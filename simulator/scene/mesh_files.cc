@@ -44,9 +44,6 @@ void FindOfPerson(PersonSpec* person, Scene* scene, Issues* issues) {
                 "a crowd must know where people walk to keep clear of them; use `steps` instead of "
                 "a motion");
   }
-  if (capture.mesh.name.empty() && (!capture.clip.empty() || capture.stride_m > 0)) {
-    issues->Add(person->mark, key, "`clip` and `stride_m` require a `mesh`");
-  }
 }
 
 }  // namespace

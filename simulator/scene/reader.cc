@@ -61,6 +61,11 @@ Mark YamlReader::MarkOf(const char* key) const {
 
 bool YamlReader::Has(const char* key) const { return map_.Find(key) != nullptr; }
 
+void YamlReader::OnlyWith(const char* other, std::initializer_list<const char*> keys) {
+  if (Has(other)) return;
+  for (const GivenKey& key : Given(keys)) alone_.emplace_back(key, other);
+}
+
 std::string YamlReader::PathOf(const std::string& key) const {
   return path_.empty() ? key : path_ + "." + key;
 }
@@ -261,6 +266,11 @@ void YamlReader::ReportKeys() {
     issues_->Add(place, PathOf(name.substr(0, 80)),
                  near.empty() ? fmt::format("unknown key; known keys: {}", fmt::join(known_, ", "))
                               : fmt::format("unknown key; did you mean {}?", near));
+  }
+  for (const auto& [key, other] : alone_) {
+    if (misspelt.contains(other)) continue;
+    issues_->Add(key.mark, PathOf(key.name),
+                 fmt::format("it has no effect without `{}`; add that, or remove this", other));
   }
   for (const Key& key : missing_) {
     if (misspelt.contains(key.name)) continue;

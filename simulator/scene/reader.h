@@ -29,7 +29,9 @@ class YamlReader : public Fields {
   Mark mark() const override;
   Mark MarkOf(const char* key) const override;
   bool Has(const char* key) const override;
-  /// Reports keys that are missing or unknown; a misspelt one is reported once.
+  void OnlyWith(const char* other, std::initializer_list<const char*> keys) override;
+  /// Reports keys that are missing, unknown or without the one they need; a misspelt one is
+  /// reported once.
   void ReportKeys();
 
  protected:
@@ -46,7 +48,8 @@ class YamlReader : public Fields {
   std::string path_;
   Issues* issues_;
   std::vector<std::string> known_;
-  std::vector<Key> missing_;  ///< required keys that are not there
+  std::vector<Key> missing_;                             ///< required keys that are not there
+  std::vector<std::pair<GivenKey, std::string>> alone_;  ///< keys without the one they need
 };
 
 }  // namespace aisle::sim

@@ -355,7 +355,7 @@ struct Scene : Premises {
   std::vector<MechanismSpec> mechanisms;
   std::vector<BeamSpec> beams;
   CrowdSpec crowd;
-  bool frozen = false;  ///< actors stay where they are at time 0
+  bool frozen = false;  ///< actors and beams stay as they are at time 0; lamps and clouds go on
 
   double duration_s() const { return frames / rate_hz; }
 };

@@ -102,8 +102,8 @@ void AddThrough(std::span<const float> through, const HitImage& image, cv::Mat1f
 
 struct Shader::Workspace {
   FrameLight frame;
-  std::vector<float> reflectance, irradiance, kept, mirrored;
-  std::vector<float> beams, through;
+  std::vector<float> reflectance, irradiance, kept;
+  std::vector<float> raw_mirrored, mirrored, beams, through;
   std::vector<Reflections> reflections;        ///< by view
   std::array<std::vector<float>, 2> raw_kept;  ///< of the first view, and of the one at work
 };
@@ -154,28 +154,29 @@ std::vector<cv::Mat1f> Shader::Shade(const Instant& instant, std::span<const Cam
     LookUpImage(shading, &work->reflectance, &work->irradiance);
     BendLight(shading, &work->irradiance);
     done("look up");
-    work->kept.assign(image.t.size(), 1);
     if (options_.mover_shadows) {
       const SeenShadows first{views[0], images[0], work->raw_kept[0]};
       TraceMoverShadows(shading, work->irradiance, i > 0 ? &first : nullptr,
                         &work->raw_kept[i > 0 ? 1 : 0], &work->kept);
+    } else {
+      work->kept.assign(image.t.size(), 1);
     }
     done("mover shadows");
-    const bool glossy = options_.gloss && ShadeGloss(shading, work->reflections[i],
-                                                     &work->reflectance, &work->mirrored);
+    const bool glossy =
+        options_.gloss && ShadeGloss(shading, work->reflections[i], &work->reflectance,
+                                     &work->raw_mirrored, &work->mirrored);
     done("gloss");
     radiance.push_back(
         Combine(image, work->reflectance, work->irradiance, work->kept,
                 glossy ? std::span<const float>(work->mirrored) : std::span<const float>()));
-    const bool has_beams = tables_.world().has_beams();
-    if (has_beams) {
+    if (tables_.world().has_beams()) {
       TraceBeams(shading, &work->beams);
       AddBeams(work->reflectance, work->beams, image, &radiance.back());
       done("beams");
     }
     if (tables_.movers_glow()) AddGlow(tables_, image, &radiance.back());
     if (!behind[i].empty()) {
-      ShadeBehindClear(shading, behind[i], has_beams, &work->through);
+      ShadeBehindClear(shading, behind[i], options_.mover_shadows, &work->through);
       AddThrough(work->through, image, &radiance.back());
       done("behind clear panes");
     }

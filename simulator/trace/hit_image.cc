@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "simulator/common/parallel.h"
-#include "simulator/trace/mover_windows.h"
 #include "simulator/trace/tile_grid.h"
 
 namespace aisle::sim {
@@ -49,8 +48,8 @@ void Store(const Hits8& hits, int x, int y, HitImage* image) {
 }
 
 /// Neighbours that may meet the same movers are asked together.
-void TraceTile(const Instant& instant, const CameraView& view, const MoverWindows& movers,
-               const Tile& tile, std::size_t most, HitImage* image) {
+void TraceTile(const Instant& instant, const CameraView& view, const Tile& tile, std::size_t most,
+               HitImage* image) {
   std::array<Rays8, Instant::kMostPackets> rays;
   std::array<Hits8, Instant::kMostPackets> hits;
   for (int y = tile.y0; y < tile.y1; y += kPacketHeight) {
@@ -64,7 +63,7 @@ void TraceTile(const Instant& instant, const CameraView& view, const MoverWindow
       count = 0;
     };
     for (int x = tile.x0; x < tile.x1; x += kPacketWidth) {
-      const GeometryMask may = movers.In(x, y, x + kPacketWidth, y + kPacketHeight);
+      const GeometryMask may = image->movers.In(x, y, x + kPacketWidth, y + kPacketHeight);
       if (count == most || (count > 0 && may != asked)) trace();
       asked = may;
       rays[count++] = PixelPacket(view, x, y);
@@ -132,14 +131,13 @@ void TraceViews(const Instant& instant, std::span<const CameraView> views, const
   images->resize(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
     (*images)[i].Resize(views[i].rays->width, views[i].rays->height);
+    (*images)[i].movers = MoverWindows(instant, views[i]);
   }
-  std::vector<MoverWindows> movers;
-  for (const CameraView& view : views) movers.emplace_back(instant, view);
   const std::vector<TileOfView> tiles = MakeTiles(views, order.shuffle);
   ParallelFor(std::size_t{0}, tiles.size(), [&](std::size_t i) {
     const auto& [view, tile] = tiles[i];
-    TraceTile(instant, views[view], movers[view], tile,
-              order.single_packets ? 1 : Instant::kMostPackets, &(*images)[view]);
+    TraceTile(instant, views[view], tile, order.single_packets ? 1 : Instant::kMostPackets,
+              &(*images)[view]);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "simulator/camera/pixel_rays.h"
+#include "simulator/trace/mover_windows.h"
 #include "simulator/trace/tracer.h"
 
 namespace aisle::sim {
@@ -18,6 +19,7 @@ struct HitImage {
   std::vector<float> t;
   std::vector<std::uint32_t> geometry, primitive;
   std::vector<float> u, v;
+  MoverWindows movers;  ///< what further rays of the same view may meet
 
   void Resize(int new_width, int new_height);
   std::size_t Index(int x, int y) const {

@@ -47,6 +47,18 @@ Corners8::Corners8(const std::array<const Corners*, kLanes>& by_lane) {
   _mm256_store_ps(rim, row(9));
 }
 
+Corners8::Corners8(const Corners& first, const Corners& last) {
+  const auto fill = [](float in_first_four, float in_last_four, float* row) {
+    _mm256_store_ps(row, _mm256_set_m128(_mm_set1_ps(in_last_four), _mm_set1_ps(in_first_four)));
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    fill(first.a[axis], last.a[axis], a[axis]);
+    fill(first.b[axis], last.b[axis], b[axis]);
+    fill(first.c[axis], last.c[axis], c[axis]);
+  }
+  fill(first.rim, last.rim, rim);
+}
+
 Meetings8 Meet(const Rays8& rays, const Corners8& triangles) {
   Meetings8 meetings;
   for (int k = 0; k < kLanes; ++k) {

@@ -22,6 +22,7 @@ struct alignas(32) Corners8 {
 
   explicit Corners8(const Corners& in_all_lanes);
   explicit Corners8(const std::array<const Corners*, kLanes>& by_lane);
+  Corners8(const Corners& in_first_four, const Corners& in_last_four);
 };
 
 /// Where eight rays meet the planes of eight triangles: at t of the ray and at barycentrics (u, v)

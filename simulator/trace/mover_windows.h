@@ -2,14 +2,18 @@
 
 #include <vector>
 
-#include "simulator/trace/hit_image.h"
+#include "simulator/camera/pixel_rays.h"
+#include "simulator/trace/tracer.h"
 
 namespace aisle::sim {
 
+struct CameraView;
+
 /// Where in an image each mover may show: the pixels around its box. Rays elsewhere need not ask
-/// for it.
+/// for it. Without any, nothing moves.
 class MoverWindows {
  public:
+  MoverWindows() = default;
   MoverWindows(const Instant& instant, const CameraView& view);
 
   /// The static world, and the movers that rays through the pixels [x0, x1) × [y0, y1) may meet:

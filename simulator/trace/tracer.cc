@@ -11,6 +11,7 @@
 #include <system_error>
 #include <tuple>
 
+#include "simulator/common/parallel.h"
 #include "simulator/trace/meet.h"
 #include "simulator/trace/overlaps.h"
 
@@ -213,16 +214,21 @@ Instant Tracer::Pose(Snapshot snapshot) const {
       movers->scenes.push_back(BuildScene(impl_->device.get(), mesh, true));
     }
   }
-  for (std::size_t i = 0; i < snapshot.movers.size(); ++i) {
-    Refit(movers->scenes[i].get(), snapshot.movers[i].positions);
-  }
-  return Instant(*this, std::move(snapshot), std::move(movers));
+  std::vector<Eigen::AlignedBox3f> boxes(snapshot.movers.size());
+  ParallelFor(std::size_t{0}, boxes.size(), [&](std::size_t i) {
+    const std::vector<Eigen::Vector3f>& positions = snapshot.movers[i].positions;
+    Refit(movers->scenes[i].get(), positions);
+    boxes[i] = BoxOf(positions);
+  });
+  return Instant(*this, std::move(snapshot), std::move(boxes), std::move(movers));
 }
 
-Instant::Instant(const Tracer& tracer, Snapshot snapshot, std::unique_ptr<MoverScenes> movers)
-    : tracer_(&tracer), snapshot_(std::move(snapshot)), movers_(std::move(movers)) {
-  for (const MoverState& mover : snapshot_.movers) boxes_.push_back(BoxOf(mover.positions));
-}
+Instant::Instant(const Tracer& tracer, Snapshot snapshot, std::vector<Eigen::AlignedBox3f> boxes,
+                 std::unique_ptr<MoverScenes> movers)
+    : tracer_(&tracer),
+      snapshot_(std::move(snapshot)),
+      boxes_(std::move(boxes)),
+      movers_(std::move(movers)) {}
 
 Instant::Instant(Instant&&) noexcept = default;
 
@@ -367,17 +373,20 @@ void Instant::Intersect(std::span<const Rays8> rays, Coherence coherence, Geomet
   }
 }
 
-Meetings8 Instant::MeetStatic(const Rays8& rays,
-                              const std::array<std::uint32_t, kLanes>& triangles) const {
-  std::array<const Corners*, kLanes> by_lane;
-  for (std::size_t k = 0; k < kLanes; ++k) by_lane[k] = &tracer_->impl_->corners[triangles[k]];
-  Corners8 corners(by_lane);
+Meetings8 Instant::MeetStatic(const Rays8& rays, std::uint32_t of_first_four,
+                              std::uint32_t of_last_four) const {
+  const std::vector<Corners>& statics = tracer_->impl_->corners;
+  Corners8 corners(statics[of_first_four], statics[of_last_four]);
   FillRow(0, corners.rim);
   return Meet(rays, corners);
 }
 
 void Instant::Occluded(std::span<const Rays8> rays, Coherence coherence, GeometryMask geometries,
                        std::span<unsigned> blocked) const {
+  if (rays.size() == 1) {
+    blocked[0] = Occluded(rays[0], coherence, geometries);
+    return;
+  }
   alignas(32) RTCRay8 packets[kMostPackets];
   for (std::size_t i = 0; i < rays.size(); ++i) {
     Load(rays[i], &packets[i]);

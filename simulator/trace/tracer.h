@@ -56,9 +56,10 @@ class Instant {
   void Intersect(std::span<const Rays8> rays, Coherence coherence, GeometryMask geometries,
                  std::span<Hits8> hits) const;
   static constexpr std::size_t kMostPackets = 8;
-  /// Where the rays meet the static world's triangles, one by lane, whatever may stand before them;
-  /// `on_rim` is -1 where they pass them by.
-  Meetings8 MeetStatic(const Rays8& rays, const std::array<std::uint32_t, kLanes>& triangles) const;
+  /// Where the first four rays meet one of the static world's triangles and the last four another,
+  /// whatever may stand before them; `on_rim` is -1 where they pass them by.
+  Meetings8 MeetStatic(const Rays8& rays, std::uint32_t of_first_four,
+                       std::uint32_t of_last_four) const;
   /// Bit i is set where valid lane i meets anything at all.
   unsigned Occluded(const Rays8& rays, Coherence coherence, GeometryMask geometries) const;
   /// The same for up to kMostPackets packets side by side, which is faster; `blocked` has one a
@@ -69,7 +70,8 @@ class Instant {
  private:
   friend class Tracer;
   struct MoverScenes;
-  Instant(const Tracer& tracer, Snapshot snapshot, std::unique_ptr<MoverScenes> movers);
+  Instant(const Tracer& tracer, Snapshot snapshot, std::vector<Eigen::AlignedBox3f> boxes,
+          std::unique_ptr<MoverScenes> movers);
 
   /// Calls ask(scene, geometry) for every scene that the rays may meet.
   template <typename Ask>

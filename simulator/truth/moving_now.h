@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "simulator/world/world.h"
@@ -39,8 +40,9 @@ class MovingNow {
 
   const World& world_;
   const float threshold_mps_;
-  std::vector<Snapshot> around_;           ///< the window's instants but for the stamp
-  std::vector<const Snapshot*> instants_;  ///< all of them
+  std::vector<MoverVelocities> around_;  ///< at the window's instants but for the stamp
+  /// Per mover: its vertices' velocities at all of them.
+  std::vector<std::vector<std::span<const Eigen::Vector3f>>> instants_;
   std::vector<bool> any_;
 };
 

@@ -1,6 +1,7 @@
 #include "simulator/truth/truth.h"
 
 #include <map>
+#include <optional>
 #include <span>
 
 #include "simulator/common/parallel.h"
@@ -10,18 +11,24 @@ namespace {
 
 /// The parts of one instance (a vehicle may be several meshes).
 struct Group {
+  std::uint16_t instance = 0;
   std::vector<std::size_t> movers;
   GeometryMask mask = 0;
 };
 
-std::map<std::uint16_t, Group> GroupByInstance(const Snapshot& snapshot) {
+std::vector<Group> GroupByInstance(const Snapshot& snapshot) {
   std::map<std::uint16_t, Group> groups;
   for (std::size_t i = 0; i < snapshot.movers.size(); ++i) {
     Group& group = groups[snapshot.movers[i].instance];
     group.movers.push_back(i);
     group.mask |= MoverBit(i);
   }
-  return groups;
+  std::vector<Group> in_order;
+  for (auto& [instance, group] : groups) {
+    group.instance = instance;
+    in_order.push_back(std::move(group));
+  }
+  return in_order;
 }
 
 /// The pixels whose centres its silhouette can cover, by projecting its triangles' corners; parts
@@ -75,7 +82,7 @@ struct Silhouette {
 };
 
 Silhouette ScanRows(const Instant& instant, const CameraView& view, const CameraTruth& truth,
-                    const cv::Rect& window, std::uint16_t instance, GeometryMask mask, int y) {
+                    const cv::Rect& window, const Group& group, int y) {
   Silhouette found;
   // Packets are 4 × 2 pixels.
   for (int x = window.x; x < window.x + window.width; x += 4) {
@@ -83,13 +90,13 @@ Silhouette ScanRows(const Instant& instant, const CameraView& view, const Camera
     for (int k = 0; k < kLanes; ++k) {
       const int px = x + k % 4, py = y + k / 4;
       if (!rays.valid[k]) continue;
-      if (truth.instance(py, px) != instance) continue;
+      if (truth.instance(py, px) != group.instance) continue;
       rays.valid[k] = 0;
       found.visible.Add(px, py);
       found.full.Add(px, py);
       found.dynamic += truth.dynamic(py, px) != 0;
     }
-    const unsigned hidden = instant.Occluded(rays, Coherence::kCoherent, mask);
+    const unsigned hidden = instant.Occluded(rays, Coherence::kCoherent, group.mask);
     for (int k = 0; k < kLanes; ++k) {
       if (hidden >> k & 1) found.full.Add(x + k % 4, y + k / 4);
     }
@@ -98,12 +105,12 @@ Silhouette ScanRows(const Instant& instant, const CameraView& view, const Camera
 }
 
 Silhouette FindSilhouette(const Instant& instant, const CameraView& view, const CameraTruth& truth,
-                          const cv::Rect& window, std::uint16_t instance, GeometryMask mask) {
+                          const cv::Rect& window, const Group& group) {
   const int bands = (window.height + 1) / 2;
   std::vector<Silhouette> rows(static_cast<std::size_t>(bands));
   ParallelFor(0, bands, [&](int band) {
     rows[static_cast<std::size_t>(band)] =
-        ScanRows(instant, view, truth, window, instance, mask, window.y + 2 * band);
+        ScanRows(instant, view, truth, window, group, window.y + 2 * band);
   });
   Silhouette all;
   for (const Silhouette& row : rows) {
@@ -112,6 +119,41 @@ Silhouette FindSilhouette(const Instant& instant, const CameraView& view, const 
     all.dynamic += row.dynamic;
   }
   return all;
+}
+
+/// The box around all parts, along the axes of the object's frame.
+Eigen::AlignedBox3d BoxIn(const Eigen::Isometry3d& T_world_object, const Snapshot& snapshot,
+                          const Group& group) {
+  const Eigen::Isometry3d T_object_world = T_world_object.inverse();
+  Eigen::AlignedBox3d box;
+  for (const std::size_t i : group.movers) {
+    for (const Eigen::Vector3f& position : snapshot.movers[i].positions) {
+      box.extend(T_object_world * position.cast<double>());
+    }
+  }
+  return box;
+}
+
+/// None where it has no pixel in the image and would have none if it stood alone.
+std::optional<ObjectTruth> Describe(const Instant& instant, const CameraView& view,
+                                    const CameraTruth& truth, const Group& group) {
+  const cv::Rect window = WindowOf(instant.snapshot(), group, view);
+  if (window.empty()) return std::nullopt;
+  const Silhouette silhouette = FindSilhouette(instant, view, truth, window, group);
+  if (silhouette.full.count == 0) return std::nullopt;
+  const MoverState& first = instant.snapshot().movers[group.movers.front()];
+  const Eigen::AlignedBox3d box = BoxIn(first.T_world_object, instant.snapshot(), group);
+  return ObjectTruth{.instance = group.instance,
+                     .box_visible = silhouette.visible.box(),
+                     .box_full = silhouette.full.box(),
+                     .T_world_object = first.T_world_object,
+                     .extent_m = box.sizes(),
+                     .center_m = first.T_world_object * box.center(),
+                     .velocity_mps = first.velocity_mps,
+                     .visible_fraction = static_cast<double>(silhouette.visible.count) /
+                                         static_cast<double>(silhouette.full.count),
+                     .visible_pixels = silhouette.visible.count,
+                     .dynamic_pixels = silhouette.dynamic};
 }
 
 }  // namespace
@@ -147,33 +189,13 @@ CameraTruth LabelHits(const World& world, const Instant& instant, const HitImage
 
 std::vector<ObjectTruth> DescribeMovers(const Instant& instant, const CameraView& view,
                                         const CameraTruth& truth) {
+  const std::vector<Group> groups = GroupByInstance(instant.snapshot());
+  std::vector<std::optional<ObjectTruth>> described(groups.size());
+  ParallelFor(std::size_t{0}, groups.size(),
+              [&](std::size_t i) { described[i] = Describe(instant, view, truth, groups[i]); });
   std::vector<ObjectTruth> result;
-  for (const auto& [instance, group] : GroupByInstance(instant.snapshot())) {
-    const cv::Rect window = WindowOf(instant.snapshot(), group, view);
-    if (window.empty()) continue;
-    const Silhouette silhouette =
-        FindSilhouette(instant, view, truth, window, instance, group.mask);
-    if (silhouette.full.count == 0) continue;
-
-    const MoverState& first = instant.snapshot().movers[group.movers.front()];
-    const Eigen::Isometry3d T_object_world = first.T_world_object.inverse();
-    Eigen::AlignedBox3d box;
-    for (const std::size_t i : group.movers) {
-      for (const Eigen::Vector3f& position : instant.snapshot().movers[i].positions) {
-        box.extend(T_object_world * position.cast<double>());
-      }
-    }
-    result.push_back({.instance = instance,
-                      .box_visible = silhouette.visible.box(),
-                      .box_full = silhouette.full.box(),
-                      .T_world_object = first.T_world_object,
-                      .extent_m = box.sizes(),
-                      .center_m = first.T_world_object * box.center(),
-                      .velocity_mps = first.velocity_mps,
-                      .visible_fraction = static_cast<double>(silhouette.visible.count) /
-                                          static_cast<double>(silhouette.full.count),
-                      .visible_pixels = silhouette.visible.count,
-                      .dynamic_pixels = silhouette.dynamic});
+  for (const std::optional<ObjectTruth>& object : described) {
+    if (object) result.push_back(*object);
   }
   return result;
 }

@@ -40,7 +40,8 @@ Eigen::Isometry3d ObjectPose(const RouteState& state) {
   return pose;
 }
 
-MoverState SkinState(const Model& model, const BodyMotion& motion, double time_s) {
+MoverState SkinState(const Model& model, const BodyMotion& motion, double time_s,
+                     MoverParts parts) {
   std::vector<Eigen::Affine3f> joints = motion.joints(time_s);
   std::vector<Eigen::Affine3f> rates = motion.joints(time_s + kHalfStep_s);
   const std::vector<Eigen::Affine3f> before = motion.joints(time_s - kHalfStep_s);
@@ -56,8 +57,8 @@ MoverState SkinState(const Model& model, const BodyMotion& motion, double time_s
     joints[i] = place * joints[i];
   }
   MoverState state;
-  SkinVertices(model, joints, &state.positions, &state.normals);
   BlendVertices(model, rates, &state.velocities);
+  if (parts == MoverParts::kAll) SkinVertices(model, joints, &state.positions, &state.normals);
   return state;
 }
 

@@ -12,12 +12,22 @@ namespace aisle::sim {
 /// Where an actor holds things, world: the hands of a person, the forks of a truck. Pure.
 using Grip = std::function<Eigen::Isometry3d(double time_s)>;
 
-/// An actor as the world needs it: its topology and where everything of it is at a time. `at` is
-/// pure and leaves the instance index to the caller.
+/// What is asked of a mover's state.
+enum class MoverParts {
+  kAll,
+  kVelocities,  ///< its vertices', to the same bits; the rest is left as it is cheapest
+};
+
+/// Where everything of a mover is at a time. Pure; it leaves the instance index to the caller.
+using MoverMotion = std::function<MoverState(double time_s, MoverParts parts)>;
+
+/// An actor as the world needs it: its topology and how it moves.
 struct Actor {
   TriangleMesh mesh;  ///< materials are the world's
-  std::function<MoverState(double time_s)> at;
+  MoverMotion motion;
   Grip grip = {};  ///< none: it cannot hold anything
+
+  MoverState At(double time_s) const { return motion(time_s, MoverParts::kAll); }
 };
 
 /// Adds the materials and textures of models to a world, each model once.
@@ -64,7 +74,7 @@ struct BodyMotion {
 /// State of a skinned model, every vertex with its own velocity. That is differenced in the body's
 /// frame, where single precision is enough, and the frame's own motion is added: a body moves the
 /// same wherever in the world it is. The object's pose and velocity are left to the caller.
-MoverState SkinState(const Model& model, const BodyMotion& motion, double time_s);
+MoverState SkinState(const Model& model, const BodyMotion& motion, double time_s, MoverParts parts);
 
 /// Gives a mover its object's pose and velocity: where the route has it, and besides the speed
 /// along the heading, whatever its origin moves to the left.

@@ -178,6 +178,7 @@ std::shared_ptr<const Model> AssetLibrary::Load(const std::string& asset) {
     ImportOptions options;
     options.root = folder_;
     options.colour = colour_;
+    options.one_file = true;  // the digest is of its bytes
     const std::filesystem::path file = folder_ / (asset + ".glb");
     digests_[asset] = DigestOfFile(file);
     model = std::make_shared<const Model>(is_own_ ? ImportModel(file, options)

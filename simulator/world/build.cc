@@ -33,7 +33,7 @@ ObjectClass ClassOfVehicle(const std::string& model) {
 /// An actor with its label.
 struct Cast {
   std::uint16_t instance = 0;
-  std::function<MoverState(double)> at;
+  MoverMotion motion;
   std::size_t clock = 0;  ///< index of the actor whose clock it keeps
   std::string name = {};
   Grip grip = {};
@@ -152,7 +152,7 @@ void AddMechanisms(const Scene& scene, const Palette& palette, std::uint64_t see
         parts->mover_meshes.push_back(std::move(one.mesh));
         const std::size_t clock =
             holder == cast->end() ? cast->size() : static_cast<std::size_t>(holder - cast->begin());
-        cast->push_back({instance, std::move(one.at), clock, mechanism.name, {}});
+        cast->push_back({instance, std::move(one.motion), clock, mechanism.name, {}});
       }
     } catch (const std::exception& error) {
       Refuse(scene, mechanism.mark, mechanism.name, error.what());
@@ -169,8 +169,8 @@ std::vector<Cast> AddActors(const Scene& scene, const Palette& palette, std::uin
       ExpectRoom(cast);
       Actor actor = make();
       parts->mover_meshes.push_back(std::move(actor.mesh));
-      cast.push_back({builder->Add(spec.name, object_class, true), std::move(actor.at), cast.size(),
-                      spec.name, std::move(actor.grip)});
+      cast.push_back({builder->Add(spec.name, object_class, true), std::move(actor.motion),
+                      cast.size(), spec.name, std::move(actor.grip)});
     } catch (const std::exception& error) {
       Refuse(scene, spec.mark, spec.name, error.what());
     }
@@ -209,9 +209,9 @@ void Slow(double rate, MoverState* state) {
 }
 
 /// An actor at its own time; of a frozen scene nothing moves, not even a breath.
-MoverState StateOf(const Cast& actor, const ActorClock& clock, bool frozen) {
+MoverState StateOf(const Cast& actor, const ActorClock& clock, bool frozen, MoverParts parts) {
   const double time_s = static_cast<double>(clock.time_ns) * kNanosecond_s;
-  MoverState state = actor.at(frozen ? 0 : time_s);
+  MoverState state = actor.motion(frozen ? 0 : time_s, parts);
   if (frozen) {
     state.velocity_mps.setZero();
     std::ranges::fill(state.velocities, Eigen::Vector3f::Zero());
@@ -221,21 +221,24 @@ MoverState StateOf(const Cast& actor, const ActorClock& clock, bool frozen) {
   return state;
 }
 
+ActorClock ClockOf(const Cast& actor, std::int64_t stamp_ns, std::span<const ActorClock> clocks) {
+  return actor.clock < clocks.size() ? clocks[actor.clock] : ActorClock{stamp_ns, 1};
+}
+
 Snapshot SnapshotAt(const Scene& scene, const std::vector<Cast>& cast, std::int64_t stamp_ns,
                     std::span<const ActorClock> clocks) {
   const double time_s = static_cast<double>(stamp_ns) * kNanosecond_s;
   Snapshot snapshot;
   snapshot.stamp_ns = stamp_ns;
   snapshot.clocks.assign(clocks.begin(), clocks.end());
-  snapshot.light_scale = LightScale(scene, time_s);
+  snapshot.light_scale = LightScale(scene, time_s);  // the hall's own, which no twin stops
   if (!scene.beams.empty()) {
     snapshot.beams = BeamsAt(scene, scene.frozen ? 0 : time_s, &snapshot.beam_bounce);
   }
   snapshot.movers.resize(cast.size());
   ParallelFor(std::size_t{0}, cast.size(), [&](std::size_t i) {
-    const std::size_t whose = cast[i].clock;
-    const ActorClock clock = whose < clocks.size() ? clocks[whose] : ActorClock{stamp_ns, 1};
-    snapshot.movers[i] = StateOf(cast[i], clock, scene.frozen);
+    snapshot.movers[i] =
+        StateOf(cast[i], ClockOf(cast[i], stamp_ns, clocks), scene.frozen, MoverParts::kAll);
   });
   return snapshot;
 }
@@ -269,10 +272,17 @@ World BuildWorld(const Scene& written, const std::string& assets_dir, std::uint6
   if (scene.camera.colour) parts.colour = ColourOf(parts, wardrobe.worn(), assets);
 
   parts.has_beams = !scene.beams.empty();
-  parts.at_clocks = [scene, cast](std::int64_t stamp_ns, std::span<const ActorClock> clocks) {
-    return SnapshotAt(scene, cast, stamp_ns, clocks);
+  const auto shared = std::make_shared<const std::vector<Cast>>(std::move(cast));
+  parts.at_clocks = [scene, shared](std::int64_t stamp_ns, std::span<const ActorClock> clocks) {
+    return SnapshotAt(scene, *shared, stamp_ns, clocks);
   };
   parts.at = [at = parts.at_clocks](std::int64_t stamp_ns) { return at(stamp_ns, {}); };
+  parts.velocities = [frozen = scene.frozen, shared](std::size_t mover, std::int64_t stamp_ns,
+                                                     std::span<const ActorClock> clocks) {
+    const Cast& actor = (*shared)[mover];
+    const ActorClock clock = ClockOf(actor, stamp_ns, clocks);
+    return StateOf(actor, clock, frozen, MoverParts::kVelocities).velocities;
+  };
   parts.rig = RigPathOf(scene);
   parts.files_digest = assets.Digest();
   return World(std::move(parts));

@@ -28,11 +28,11 @@ class Played {
   }
 
   /// The object is below the pelvis, faces as that does, and may move sideways.
-  MoverState At(double time_s) const {
+  MoverState At(double time_s, MoverParts parts) const {
     MoverState moved = SkinState(*model_,
                                  {[&](double t) { return JointMatrices(*model_, FramesAt(t)); },
                                   [&](double) { return ObjectPose(origin_); }},
-                                 time_s);
+                                 time_s, parts);
     RouteState state = PlaceAt(time_s);
     const Eigen::Vector2d velocity =
         (PlaceAt(time_s + kHalfStep_s).position - PlaceAt(time_s - kHalfStep_s).position) /
@@ -102,11 +102,11 @@ class Own {
         duration_s_(model_->clips[static_cast<std::size_t>(clip_)].duration_s),
         stride_m_(person.capture.stride_m) {}
 
-  MoverState At(double time_s) const {
+  MoverState At(double time_s, MoverParts parts) const {
     MoverState moved = SkinState(
         *model_,
         {[&](double t) { return JointsAt(t); }, [&](double t) { return ObjectPose(route_.At(t)); }},
-        time_s);
+        time_s, parts);
     PlaceObject(route_.At(time_s), 0, &moved);
     return moved;
   }
@@ -138,7 +138,8 @@ std::shared_ptr<const Played> PlayedBy(const PersonSpec& person, const Model& bo
 
 template <class Body>
 Actor ActorOf(TriangleMesh mesh, std::shared_ptr<const Body> body) {
-  return {std::move(mesh), [body](double time_s) { return body->At(time_s); }};
+  return {std::move(mesh),
+          [body](double time_s, MoverParts parts) { return body->At(time_s, parts); }};
 }
 
 }  // namespace

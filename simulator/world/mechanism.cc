@@ -113,6 +113,16 @@ bool HasJoint(const std::vector<PartSpec>& parts, const PartSpec& part) {
   return below >= 0 && HasJoint(parts, parts[static_cast<std::size_t>(below)]);
 }
 
+/// Where a mechanism is at one instant: as a whole, and each copy of each part.
+struct PlacedLinkage {
+  Placement root;
+  std::vector<std::vector<Placement>> parts;
+
+  const Placement& Of(const Carried& carried) const {
+    return parts[carried.part][static_cast<std::size_t>(carried.copy)];
+  }
+};
+
 /// The parts and what they are on.
 class Linkage {
  public:
@@ -140,22 +150,21 @@ class Linkage {
     return rounds + Rounds(below, std::min(copy, parts_[below].count - 1), time_s);
   }
 
-  /// Where each copy of each part is: copies ride on those of the same number.
-  std::vector<std::vector<Placement>> At(double time_s) const {
-    const Placement root = root_.At(time_s);
-    std::vector<std::vector<Placement>> all;
+  /// Copies of a part ride on those of the same number.
+  PlacedLinkage At(double time_s) const {
+    PlacedLinkage all{root_.At(time_s), {}};
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       const PartSpec& part = parts_[i];
-      std::vector<Placement>& placed = all.emplace_back();
+      std::vector<Placement>& placed = all.parts.emplace_back();
       for (int copy = 0; copy < part.count; ++copy) {
         const double time = time_s - copy * part.delay_s;
         const Placement own =
             Resting(Seat(part, copy)) * JointAt(part.joint, copy, part.count, time);
         if (on_[i] < 0) {
-          placed.push_back(root * own);
+          placed.push_back(all.root * own);
           continue;
         }
-        const auto& below = all[static_cast<std::size_t>(on_[i])];
+        const auto& below = all.parts[static_cast<std::size_t>(on_[i])];
         placed.push_back(below[std::min(static_cast<std::size_t>(copy), below.size() - 1)] * own);
       }
     }
@@ -177,7 +186,7 @@ class Linkage {
   Root root_;
 };
 
-/// The object's own frame: that of the first part that moves.
+/// The first part that moves.
 std::size_t Leader(const Linkage& linkage) {
   for (std::size_t i = 0; i < linkage.parts().size(); ++i) {
     if (linkage.Moves(i)) return i;
@@ -185,32 +194,67 @@ std::size_t Leader(const Linkage& linkage) {
   return 0;
 }
 
-MoverState StateAt(const Linkage& linkage, const Body& body, std::size_t leader, double time_s) {
-  const auto placed = linkage.At(time_s);
-  MoverState state;
-  state.positions.resize(body.mesh.positions.size());
-  state.normals.resize(state.positions.size());
-  state.velocities.resize(state.positions.size());
-  const bool comes_round = std::ranges::any_of(
-      body.carried, [&](const Carried& carried) { return linkage.ComesRound(carried.part); });
-  if (comes_round) state.rounds.resize(state.positions.size());
+/// The object's frame: upright, turned as the mechanism is as a whole, at the joint of the leader.
+/// How that part turns or lies is its own matter: a box around a conveyor does not spin with its
+/// first roller.
+Eigen::Isometry3d ObjectFrame(const Placement& root, const Placement& leader) {
+  const Eigen::Vector2d ahead = root.pose.topLeftCorner<2, 1>();
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  frame.linear() = Eigen::AngleAxisd(std::atan2(ahead.y(), ahead.x()), Eigen::Vector3d::UnitZ())
+                       .toRotationMatrix();
+  frame.translation() = leader.pose.topRightCorner<3, 1>();
+  return frame;
+}
+
+void MoveVertices(const PlacedLinkage& placed, const Body& body, MoverState* state) {
+  state->velocities.resize(body.mesh.positions.size());
   for (const Carried& carried : body.carried) {
-    if (comes_round) {
-      std::fill(state.rounds.begin() + static_cast<std::ptrdiff_t>(carried.first),
-                state.rounds.begin() + static_cast<std::ptrdiff_t>(carried.end),
-                linkage.Rounds(carried.part, carried.copy, time_s));
-    }
-    const Placement& at = placed[carried.part][static_cast<std::size_t>(carried.copy)];
+    const Placement& at = placed.Of(carried);
     for (std::size_t i = carried.first; i < carried.end; ++i) {
       const Eigen::Vector4d p = body.mesh.positions[i].cast<double>().homogeneous();
-      state.positions[i] = (at.pose * p).head<3>().cast<float>();
-      state.velocities[i] = (at.rate * p).head<3>().cast<float>();
-      state.normals[i] =
+      state->velocities[i] = (at.rate * p).head<3>().cast<float>();
+    }
+  }
+}
+
+void PlaceVertices(const PlacedLinkage& placed, const Body& body, MoverState* state) {
+  state->positions.resize(body.mesh.positions.size());
+  state->normals.resize(state->positions.size());
+  for (const Carried& carried : body.carried) {
+    const Placement& at = placed.Of(carried);
+    for (std::size_t i = carried.first; i < carried.end; ++i) {
+      const Eigen::Vector4d p = body.mesh.positions[i].cast<double>().homogeneous();
+      state->positions[i] = (at.pose * p).head<3>().cast<float>();
+      state->normals[i] =
           (at.pose.topLeftCorner<3, 3>() * body.mesh.normals[i].cast<double>()).cast<float>();
     }
   }
-  state.T_world_object = Eigen::Isometry3d(placed[leader][0].pose);
-  state.velocity_mps = placed[leader][0].rate.topRightCorner<3, 1>();
+}
+
+/// Of a body of which something comes round, how often each vertex has.
+void CountRounds(const Linkage& linkage, const Body& body, double time_s, MoverState* state) {
+  const bool comes_round = std::ranges::any_of(
+      body.carried, [&](const Carried& carried) { return linkage.ComesRound(carried.part); });
+  if (!comes_round) return;
+  state->rounds.resize(body.mesh.positions.size());
+  for (const Carried& carried : body.carried) {
+    std::fill(state->rounds.begin() + static_cast<std::ptrdiff_t>(carried.first),
+              state->rounds.begin() + static_cast<std::ptrdiff_t>(carried.end),
+              linkage.Rounds(carried.part, carried.copy, time_s));
+  }
+}
+
+MoverState StateAt(const Linkage& linkage, const Body& body, std::size_t leader, double time_s,
+                   MoverParts parts) {
+  const PlacedLinkage placed = linkage.At(time_s);
+  MoverState state;
+  MoveVertices(placed, body, &state);
+  if (parts == MoverParts::kVelocities) return state;
+  PlaceVertices(placed, body, &state);
+  CountRounds(linkage, body, time_s, &state);
+  const Placement& leading = placed.parts[leader][0];
+  state.T_world_object = ObjectFrame(placed.root, leading);
+  state.velocity_mps = leading.rate.topRightCorner<3, 1>();
   return state;
 }
 
@@ -245,7 +289,7 @@ std::vector<MechanismMesh> MakeMechanism(const MechanismSpec& mechanism, const F
                                          PartPaints* paints, std::uint64_t seed,
                                          WorldBuilder* builder) {
   const auto linkage = std::make_shared<const Linkage>(mechanism.parts, Root(mechanism, find));
-  const auto at_start = linkage->At(0);
+  const PlacedLinkage at_start = linkage->At(0);
   std::array<Body, 2> bodies;  // solid, clear
   TriangleMesh frame;
   for (std::size_t i = 0; i < mechanism.parts.size(); ++i) {
@@ -255,7 +299,7 @@ std::vector<MechanismMesh> MakeMechanism(const MechanismSpec& mechanism, const F
       const TriangleMesh piece =
           DrawPart(part, copy, assets, wardrobe, paints, Dice(seed, {440, mechanism.place, i, at}));
       if (IsBuilt(part, linkage->Moves(i))) {
-        AddMesh(&frame, Eigen::Isometry3d(at_start[i][at].pose).cast<float>(), piece);
+        AddMesh(&frame, Eigen::Isometry3d(at_start.parts[i][at].pose).cast<float>(), piece);
         continue;
       }
       Body& body = bodies[IsClear(part) ? 1 : 0];
@@ -271,11 +315,11 @@ std::vector<MechanismMesh> MakeMechanism(const MechanismSpec& mechanism, const F
   std::vector<MechanismMesh> made;
   for (Body& body : bodies) {
     if (body.mesh.triangles.empty()) continue;
-    MechanismMesh one{.mesh = body.mesh, .at = {}, .is_clear = &body == &bodies[1]};
+    MechanismMesh one{.mesh = body.mesh, .motion = {}, .is_clear = &body == &bodies[1]};
     const auto shared = std::make_shared<const Body>(std::move(body));
-    one.at = [linkage, shared, leader = Leader(*linkage), still = mechanism.still,
-              is_clear = one.is_clear](double time_s) {
-      MoverState state = StateAt(*linkage, *shared, leader, still ? 0 : time_s);
+    one.motion = [linkage, shared, leader = Leader(*linkage), still = mechanism.still,
+                  is_clear = one.is_clear](double time_s, MoverParts parts) {
+      MoverState state = StateAt(*linkage, *shared, leader, still ? 0 : time_s, parts);
       state.casts_shadow = !is_clear;
       if (still) {
         state.velocity_mps.setZero();

@@ -29,8 +29,8 @@ using FindGrip = std::function<Grip(const std::string& name)>;
 /// One mesh of a mechanism.
 struct MechanismMesh {
   TriangleMesh mesh;
-  std::function<MoverState(double time_s)> at;  ///< pure; exact velocities of all vertices
-  bool is_clear = false;                        ///< all of it is seen through
+  MoverMotion motion;     ///< exact velocities of all vertices
+  bool is_clear = false;  ///< all of it is seen through
 };
 
 ObjectClass ClassOf(const MechanismSpec& mechanism);

@@ -295,11 +295,11 @@ Actor MakePerson(const PersonSpec& person, AssetLibrary* assets, const Palette& 
     AddMesh(&mesh, Eigen::Isometry3f::Identity(), box);
   }
   return {std::move(mesh),
-          [walker, model](double time_s) {
+          [walker, model](double time_s, MoverParts parts) {
             MoverState state = SkinState(*model,
                                          {[&](double t) { return walker->JointsAt(*model, t); },
                                           [&](double t) { return ObjectPose(walker->RouteAt(t)); }},
-                                         time_s);
+                                         time_s, parts);
             PlaceObject(walker->RouteAt(time_s), 0, &state);
             return state;
           },

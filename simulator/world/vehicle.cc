@@ -103,7 +103,7 @@ class Driver {
            Eigen::Isometry3d(frames[static_cast<std::size_t>(node)].matrix().cast<double>());
   }
 
-  MoverState At(double time_s) const {
+  MoverState At(double time_s, MoverParts parts) const {
     MoverState moved = SkinState(
         *model_,
         {[&](double t) {
@@ -111,7 +111,7 @@ class Driver {
            return JointMatrices(*model_, PoseNodes(*model_, RiderAt(state), MovesAt(state, t)));
          },
          [&](double t) { return ObjectPose(RouteAt(t)); }},
-        time_s);
+        time_s, parts);
     const RouteState state = RouteAt(time_s);
     PlaceObject(state, ahead_m_ * state.yaw_rate_rad_s, &moved);
     return moved;
@@ -192,13 +192,14 @@ Actor MakeVehicle(const VehicleSpec& vehicle, AssetLibrary* assets, const Palett
     AddMesh(&mesh, Eigen::Isometry3f::Identity(), load);
   }
   const auto driver = std::make_shared<const Driver>(vehicle, model, facts, ahead_m);
-  const auto at = [driver](double time_s) { return driver->At(time_s); };
   Grip grip;
   if (forks >= 0) grip = [driver, forks](double time_s) { return driver->NodeAt(forks, time_s); };
   if (vehicle.route.plan.steps.empty() && vehicle.mast.empty()) {  // parked for good
-    return {std::move(mesh), [state = at(0)](double) { return state; }, grip};
+    return {std::move(mesh),
+            [state = driver->At(0, MoverParts::kAll)](double, MoverParts) { return state; }, grip};
   }
-  return {std::move(mesh), at, grip};
+  return {std::move(mesh),
+          [driver](double time_s, MoverParts parts) { return driver->At(time_s, parts); }, grip};
 }
 
 }  // namespace aisle::sim

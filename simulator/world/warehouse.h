@@ -42,7 +42,8 @@ void AddWindows(const Scene& scene, const Palette& palette, WorldParts* parts,
 /// everywhere after it met a surface.
 std::vector<Beam> BeamsAt(const Scene& scene, double time_s, float* bounce);
 
-/// What share of each light shines at a time, in the order of AddLights.
+/// What share of each light shines at a time, in the order of AddLights. Lamps that go off and
+/// clouds before the doors are the hall's, not an actor's: they are the same in every twin.
 std::vector<float> LightScale(const Scene& scene, double time_s);
 
 }  // namespace aisle::sim

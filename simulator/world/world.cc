@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "simulator/common/parallel.h"
+
 namespace aisle::sim {
 namespace {
 
@@ -34,6 +36,12 @@ void CheckMesh(const TriangleMesh& mesh, const WorldParts& parts, const std::str
                                               name, material, parts.materials.size()));
     }
   }
+}
+
+std::vector<ActorClock> ClocksNear(const Snapshot& snapshot, std::int64_t offset_ns) {
+  std::vector<ActorClock> clocks = snapshot.clocks;
+  for (ActorClock& clock : clocks) clock = clock.After(offset_ns);
+  return clocks;
 }
 
 }  // namespace
@@ -94,9 +102,26 @@ Snapshot World::At(std::int64_t stamp_ns, std::span<const ActorClock> clocks) co
 }
 
 Snapshot World::Near(const Snapshot& snapshot, std::int64_t offset_ns) const {
-  std::vector<ActorClock> clocks = snapshot.clocks;
-  for (ActorClock& clock : clocks) clock = clock.After(offset_ns);
-  return At(snapshot.stamp_ns + offset_ns, clocks);
+  return At(snapshot.stamp_ns + offset_ns, ClocksNear(snapshot, offset_ns));
+}
+
+std::vector<MoverVelocities> World::VelocitiesNear(const Snapshot& snapshot,
+                                                   std::span<const std::int64_t> offsets_ns) const {
+  const std::size_t movers = snapshot.movers.size();
+  std::vector<MoverVelocities> all(offsets_ns.size(), MoverVelocities(movers));
+  if (!parts_.velocities) {
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      Snapshot then = Near(snapshot, offsets_ns[k]);
+      for (std::size_t i = 0; i < movers; ++i) all[k][i] = std::move(then.movers[i].velocities);
+    }
+    return all;
+  }
+  ParallelFor(std::size_t{0}, all.size() * movers, [&](std::size_t one) {
+    const std::size_t k = one / movers, i = one % movers;
+    all[k][i] = parts_.velocities(i, snapshot.stamp_ns + offsets_ns[k],
+                                  ClocksNear(snapshot, offsets_ns[k]));
+  });
+  return all;
 }
 
 Eigen::Isometry3d World::PlannedRigPose(std::int64_t stamp_ns) const {

@@ -69,14 +69,17 @@ struct MoverState {
   std::vector<Eigen::Vector3f> positions;   ///< metres, world
   std::vector<Eigen::Vector3f> normals;     ///< unit, world
   std::vector<Eigen::Vector3f> velocities;  ///< m/s, world: each vertex's own, gait included
-  Eigen::Isometry3d T_world_object =
-      Eigen::Isometry3d::Identity();                       ///< z up, x ahead, on the floor
+  /// z up, x ahead; on the floor for people and vehicles, at its first moving part for a mechanism.
+  Eigen::Isometry3d T_world_object = Eigen::Isometry3d::Identity();
   Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();  ///< of the object's origin
   /// Per vertex: how often it has come round, as the boxes of a belt do; where two counts differ,
   /// it is not the same thing any more. Empty: it never does.
   std::vector<int> rounds = {};
   bool casts_shadow = true;  ///< false: all of it is seen through, and so it is lit through
 };
+
+/// Of every mover the velocities of its vertices, as MoverState has them.
+using MoverVelocities = std::vector<std::vector<Eigen::Vector3f>>;
 
 /// A moving light at one instant. It lights straight from where it is, without size: its shadows
 /// are sharp but for the sun's own breadth.
@@ -128,6 +131,10 @@ struct WorldParts {
   std::function<Snapshot(std::int64_t stamp_ns)> at;
   /// The same where each mover has a clock of its own. Pure. None: they have no clocks.
   std::function<Snapshot(std::int64_t stamp_ns, std::span<const ActorClock> clocks)> at_clocks = {};
+  /// Of one mover then, its vertices' velocities alone. Pure. None: taken from whole snapshots.
+  std::function<std::vector<Eigen::Vector3f>(std::size_t mover, std::int64_t stamp_ns,
+                                             std::span<const ActorClock> clocks)>
+      velocities = {};
   /// Where the route puts the rig (left camera) at a time: T_world_rig. Pure. None: identity.
   std::function<Eigen::Isometry3d(std::int64_t stamp_ns)> rig;
   bool has_beams = false;                 ///< snapshots may have beams
@@ -161,6 +168,9 @@ class World {
   Snapshot At(std::int64_t stamp_ns, std::span<const ActorClock> clocks) const;
   /// The world of a snapshot a little earlier or later, each actor's clock at its rate.
   Snapshot Near(const Snapshot& snapshot, std::int64_t offset_ns) const;
+  /// The velocities that Near has for each of the offsets, to the bit, without the rest of it.
+  std::vector<MoverVelocities> VelocitiesNear(const Snapshot& snapshot,
+                                              std::span<const std::int64_t> offsets_ns) const;
   /// Where the scene's route puts the rig at that time: T_world_rig.
   Eigen::Isometry3d PlannedRigPose(std::int64_t stamp_ns) const;
 

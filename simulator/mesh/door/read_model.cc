@@ -39,6 +39,7 @@ std::vector<std::string> ArgumentsOf(const Request& request) {
           fmt::format("{}", options.unit_m),
           std::to_string(static_cast<int>(options.up)),
           std::to_string(static_cast<int>(options.must_state)),
+          std::to_string(static_cast<int>(options.one_file)),
           std::to_string(options.max_triangles),
           std::to_string(options.max_texture_px),
           std::to_string(options.max_file_bytes),
@@ -72,13 +73,14 @@ Request ParseRequest(std::span<const char* const> arguments) {
   request.options.unit_m = NumberIn<float>(arguments[5]);
   request.options.up = static_cast<UpAxis>(NumberIn<int>(arguments[6]));
   request.options.must_state = NumberIn<int>(arguments[7]) != 0;
-  request.options.max_triangles = NumberIn<std::size_t>(arguments[8]);
-  request.options.max_texture_px = NumberIn<int>(arguments[9]);
-  request.options.max_file_bytes = NumberIn<std::size_t>(arguments[10]);
-  request.options.max_reach_m = NumberIn<float>(arguments[11]);
-  request.limits.memory_bytes = NumberIn<std::size_t>(arguments[12]);
-  request.limits.time_s = NumberIn<double>(arguments[13]);
-  request.pictures = NumberIn<int>(arguments[14]) != 0;
+  request.options.one_file = NumberIn<int>(arguments[8]) != 0;
+  request.options.max_triangles = NumberIn<std::size_t>(arguments[9]);
+  request.options.max_texture_px = NumberIn<int>(arguments[10]);
+  request.options.max_file_bytes = NumberIn<std::size_t>(arguments[11]);
+  request.options.max_reach_m = NumberIn<float>(arguments[12]);
+  request.limits.memory_bytes = NumberIn<std::size_t>(arguments[13]);
+  request.limits.time_s = NumberIn<double>(arguments[14]);
+  request.pictures = NumberIn<int>(arguments[15]) != 0;
   return request;
 }
 

@@ -166,7 +166,9 @@ ModelRecord ReadModelRecord(const fs::path& file) { return RecordFor(file, Bytes
 Model OpenUserModel(const fs::path& file, const ImportOptions& options) {
   RequireKnown(file);
   if (!IsKept(file)) {
-    return ReadModel(file, options);
+    ImportOptions alone = options;
+    alone.one_file = true;  // a scene's essence has the bytes of this file, not of others
+    return ReadModel(file, alone);
   }
   const std::string bytes = BytesOf(file);
   RecordFor(file, bytes);

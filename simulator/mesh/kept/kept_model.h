@@ -38,8 +38,9 @@ ModelRecord KeepModel(const Model& model, ModelRecord record, const std::filesys
 ModelRecord ReadModelRecord(const std::filesystem::path& file);
 
 /// A user's model: one that was kept, held to its record and to CheckModel, or a .glb or .gltf as
-/// it is, read behind the door (simulator/mesh/door), which says its unit and which way is up.
-/// Other formats have to be imported first. Throws ImportError.
+/// it is, read behind the door (simulator/mesh/door), which says its unit and which way is up. Its
+/// bytes are all that it is: one that names other files has to be imported first, as other formats
+/// have. Throws ImportError.
 Model OpenUserModel(const std::filesystem::path& file, const ImportOptions& options = {});
 
 /// What of a user's model is wrong without opening it: a file that is not there, a format that has

@@ -75,6 +75,53 @@ std::vector<float> DirectAt(const Instant& statics, const World& world,
       TraceDirect(statics, world, light_scale, traced, shared.fixed, unfinished, watch));
 }
 
+/// Light that is taken off other light, and how much of it.
+struct Less {
+  float share = 0;
+  std::shared_ptr<const LightState> light;
+};
+
+/// Calls work(begin, end) for pieces of so many numbers, in parallel.
+void InPieces(std::size_t count, const auto& work) {
+  constexpr std::size_t kPiece = std::size_t{1} << 15;
+  ParallelFor(std::size_t{0}, (count + kPiece - 1) / kPiece,
+              [&](std::size_t i) { work(i * kPiece, std::min(count, (i + 1) * kPiece)); });
+}
+
+std::vector<float> Without(std::vector<float> whole, std::span<const Less> less,
+                           std::vector<float> LightState::*slots) {
+  InPieces(whole.size(), [&](std::size_t begin, std::size_t end) {
+    for (const Less& one : less) {
+      const std::vector<float>& off = (*one.light).*slots;
+      for (std::size_t i = begin; i < end; ++i) {
+        whole[i] = std::max(0.0f, whole[i] - one.share * off[i]);
+      }
+    }
+  });
+  return whole;
+}
+
+LightVolume Without(LightVolume whole, std::span<const Less> less) {
+  InPieces(whole.size(), [&](std::size_t begin, std::size_t end) {
+    for (const Less& one : less) {
+      for (std::size_t i = begin; i < end; ++i) {
+        LightVolume::Node node = whole.node(i);
+        node.mean -= one.share * one.light->volume.node(i).mean;
+        node.slope -= one.share * one.light->volume.node(i).slope;
+        whole.Set(i, node);
+      }
+    }
+  });
+  return whole;
+}
+
+/// What is left of the whole.
+LightState Without(const LightState& whole, std::span<const Less> less) {
+  return {.total = Without(whole.total, less, &LightState::total),
+          .direct = Without(whole.direct, less, &LightState::direct),
+          .volume = Without(whole.volume, less)};
+}
+
 /// The lock, once nobody else has it; none if its holder has fallen silent.
 std::optional<LightLock> TakeOrWait(const std::filesystem::path& file, const TellLight& tell) {
   constexpr auto kBetweenLooks = std::chrono::milliseconds(100);
@@ -234,7 +281,13 @@ std::shared_ptr<const LightState> StaticLight::At(std::span<const float> light_s
   if (scale.empty() || scale == all_on_.lamps) return Solved(all_on_);
   if (const auto found = composed_.find(scale); found != composed_.end()) return found->second;
 
-  LightState state = *Solved(all_on_);
+  auto composed = std::make_shared<const LightState>(Composed(scale));
+  constexpr std::size_t kRemembered = 4;  // a fade never comes back to the same setting
+  if (composed_.size() > kRemembered) composed_.clear();
+  return composed_[scale] = std::move(composed);
+}
+
+LightState StaticLight::Composed(const std::vector<float>& scale) const {
   // One solution for each group of lamps dimmed alike: the same few groups serve a whole fade.
   std::map<float, std::vector<float>> groups;
   for (std::size_t i = 0; i < scale.size(); ++i) {
@@ -243,28 +296,16 @@ std::shared_ptr<const LightState> StaticLight::At(std::span<const float> light_s
     group.resize(scale.size());
     group[i] = 1;
   }
-  for (const auto& [dimmed, group] : groups) {
+  std::vector<Less> dimmed;
+  for (const auto& [share, group] : groups) {
     // It is taken off the whole, which keeps the sky. Where there is none, all lamps are the whole.
     const Lit lamps_alone = {group, !has_sky_ && group == all_on_.lamps};
-    const std::shared_ptr<const LightState> part = Solved(lamps_alone);
-    const float less = 1 - dimmed;
-    const auto subtract = [less](const std::vector<float>& from, std::vector<float>* to) {
-      for (std::size_t i = 0; i < to->size(); ++i) {
-        (*to)[i] = std::max(0.0f, (*to)[i] - less * from[i]);
-      }
-    };
-    subtract(part->total, &state.total);
-    subtract(part->direct, &state.direct);
-    for (std::size_t i = 0; i < state.volume.size(); ++i) {
-      LightVolume::Node node = state.volume.node(i);
-      node.mean -= less * part->volume.node(i).mean;
-      node.slope -= less * part->volume.node(i).slope;
-      state.volume.Set(i, node);
-    }
+    dimmed.push_back({1 - share, Solved(lamps_alone)});
   }
-  constexpr std::size_t kRemembered = 4;  // a fade never comes back to the same setting
-  if (composed_.size() > kRemembered) composed_.clear();
-  return composed_[scale] = std::make_shared<LightState>(std::move(state));
+  const std::shared_ptr<const LightState> whole = Solved(all_on_);
+  LightState state;
+  Isolated([&] { state = Without(*whole, dimmed); });
+  return state;
 }
 
 }  // namespace aisle::sim

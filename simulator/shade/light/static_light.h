@@ -69,6 +69,7 @@ class StaticLight {
   std::vector<SolveWatch::Foreseen> Foreseen() const;
   LightState LoadOrSolve(const Lit& lit) const;
   std::shared_ptr<const LightState> Solved(const Lit& lit) const;
+  LightState Composed(const std::vector<float>& scale) const;
 
   const World* world_;
   const Tracer* tracer_;

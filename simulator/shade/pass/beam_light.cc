@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "simulator/common/parallel.h"
-#include "simulator/shade/lanes/ray_packets.h"
 #include "simulator/shade/pass/mover_blockers.h"
 #include "simulator/shade/surface/normal_map.h"
 
@@ -39,11 +38,7 @@ F8 ThroughBays(F8 along, int panes, float bar, F8 soft) {
 
 }  // namespace
 
-BeamLight::BeamLight(const Instant& instant) : instant_(instant), blockers_(kEverything) {
-  for (std::size_t m = 0; m < instant.snapshot().movers.size(); ++m) {
-    if (!CastsShadow(instant, m)) blockers_ &= ~MoverBit(m);
-  }
-}
+BeamLight::BeamLight(const Instant& instant) : instant_(instant), blockers_(SolidOf(instant)) {}
 
 /// `way`: from the place towards the light; `share`: of it that is free to trace.
 F8 BeamLight::Unshadowed(const Beam& beam, const F8x3& position, const F8x3& normal, F8x3* way,
@@ -91,7 +86,7 @@ F8 BeamLight::At(const F8x3& position, const F8x3& normal, I8 valid) const {
     const I8 lit = valid & (light > 0);
     if (!Any(lit)) continue;
     const unsigned blocked =
-        instant_.Occluded(MakeRays(lifted, way, share, lit), Coherence::kCoherent, blockers_);
+        Blocked(instant_, blockers_, Coherence::kCoherent, {lifted, way, share, lit});
     sum += Select(lit & ~LanesOf(blocked), light, Wide(0));
   }
   return Select(valid, sum, Wide(0));

@@ -20,8 +20,8 @@ std::vector<BehindClear> TraceBehindClear(const Instant& instant, const CameraVi
                                           const HitImage& image);
 
 /// The radiance of what is behind, times what the pane lets through: by pixel, 0 elsewhere.
-/// `beams`: the world has moving lights.
-void ShadeBehindClear(const ShadingView& shading, std::span<const BehindClear> behind, bool beams,
-                      std::vector<float>* through);
+/// `mover_shadows`: movers darken the static world.
+void ShadeBehindClear(const ShadingView& shading, std::span<const BehindClear> behind,
+                      bool mover_shadows, std::vector<float>* through);
 
 }  // namespace aisle::sim

@@ -7,6 +7,7 @@
 
 #include "simulator/shade/lanes/ray_packets.h"
 #include "simulator/shade/pass/beam_light.h"
+#include "simulator/shade/pass/mover_blockers.h"
 #include "simulator/shade/pass/pixels_around.h"
 
 namespace aisle::sim {
@@ -34,16 +35,27 @@ float KeptNear(const HitImage& image, std::span<const float> kept, PixelAt pixel
 /// The samples of up to two pixels.
 struct Packet {
   std::span<const PixelAt> pixels;
-  GeometryMask geometries;  ///< that may be met
   Rays8 rays;
   PixelsAround around;
   Hits8 hits;
 };
 
-/// A sample whose hit has to be asked for, or confirmed.
+/// A sample whose hit has to be asked for, or confirmed, and of what.
 struct Question {
   Packet* packet;
   std::size_t lane;
+  GeometryMask geometries;
+};
+
+/// What is asked together: samples of which little is known, and those that only a mover may still
+/// be before, as the static world's triangle is known.
+struct Questions {
+  std::vector<Question> of_all, of_movers;
+
+  void Clear() {
+    of_all.clear();
+    of_movers.clear();
+  }
 };
 
 class Sampler {
@@ -60,34 +72,36 @@ class Sampler {
 
   /// What the samples of up to kPixels pixels meet, as far as what is seen around tells: the rest
   /// is added to `questions`.
-  void Begin(std::span<const PixelAt> pixels, const MoverWindows& movers,
-             std::vector<Packet>* packets, std::vector<Question>* questions) const {
-    GeometryMask geometries = 0;
-    for (const auto& [x, y] : pixels) geometries |= movers.In(x, y, x + 1, y + 1);
+  void Begin(std::span<const PixelAt> pixels, std::vector<Packet>* packets,
+             Questions* questions) const {
     packets->push_back({pixels,
-                        geometries,
                         SampleRays(shading_.view, pixels),
                         PixelsAround(shading_.image, radiance_, pixels),
                         {}});
     Packet& packet = packets->back();
-    I8 asked = WideInt(-1);
-    if (packet.around.all_static()) {
-      packet.hits = packet.around.Meet(shading_.instant, packet.rays);
-      if (geometries == kStaticOnly) {
-        asked = (LoadI(packet.hits.geometry) != 0) | BehindSomething(packet);
-      }
-    } else {
+    GeometryMask geometries = 0;
+    for (const auto& [x, y] : pixels) {
+      geometries |= shading_.image.movers.In(x, y, x + 1, y + 1);
+    }
+    const I8 lanes = LanesOf((1u << pixels.size() * kSamples) - 1);
+    if (!packet.around.all_static()) {
       Store(Wide(kInfinity), packet.hits.t);
       StoreI(WideInt(-1), packet.hits.geometry);
+      AddQuestions(lanes, geometries, &packet, &questions->of_all);
+      return;
     }
-    unsigned left = Bits(asked) & ((1u << pixels.size() * kSamples) - 1);
-    for (; left; left &= left - 1) {
-      questions->push_back({&packet, static_cast<std::size_t>(std::countr_zero(left))});
-    }
+    packet.hits = packet.around.Meet(shading_.instant, packet.rays);
+    const I8 doubtful = (LoadI(packet.hits.geometry) != 0) | BehindSomething(packet);
+    AddQuestions(lanes & doubtful, geometries, &packet, &questions->of_all);
+    const I8 known = lanes & ~doubtful;
+    const GeometryMask before =
+        MayMeet(shading_.instant, geometries & kMoversOnly, WaysOf(packet, known));
+    if (before) AddQuestions(known, before, &packet, &questions->of_movers);
   }
 
   /// Sends the rays of up to kLanes · kMostPackets questions, each up to the hit that is known.
   void Ask(std::span<const Question> questions) const {
+    if (questions.empty()) return;
     std::array<Rays8, Instant::kMostPackets> rays;
     std::array<Hits8, Instant::kMostPackets> found;
     std::size_t packets = 0;
@@ -96,14 +110,14 @@ class Sampler {
       const std::size_t count = std::min<std::size_t>(kLanes, questions.size() - q);
       rays[packets++] = RaysOf(questions.subspan(q, count));
     }
-    for (const Question& question : questions) geometries |= question.packet->geometries;
+    for (const Question& question : questions) geometries |= question.geometries;
     shading_.instant.Intersect(std::span(rays).first(packets), Coherence::kCoherent, geometries,
                                found);
     for (std::size_t q = 0; q < questions.size(); ++q) {
       const Hits8& from = found[q / kLanes];
       const std::size_t k = q % kLanes;
       if (from.geometry[k] == kNoGeometry) continue;
-      const auto& [packet, lane] = questions[q];
+      const auto& [packet, lane, asked] = questions[q];
       packet->hits.t[lane] = from.t[k];
       packet->hits.u[lane] = from.u[k];
       packet->hits.v[lane] = from.v[k];
@@ -113,17 +127,15 @@ class Sampler {
   }
 
   void Mix(const Packet& packet, std::vector<MixedPixel>* mixed) const {
-    const auto& [pixels, geometries, rays, around, hits] = packet;
+    const auto& [pixels, rays, around, hits] = packet;
     F8 value = around.RadianceOf(hits);
     if (Any(value < 0)) {
-      const F8 light = LightOf(rays, hits);
+      F8 kept = Wide(1);
       for (std::size_t k = 0; k < pixels.size() * kSamples; ++k) {
-        if (value[k] >= 0) continue;
-        value[k] = light[k];
-        if (hits.geometry[k] == 0) {
-          value[k] *= KeptNear(shading_.image, kept_, pixels[k / kSamples], hits.t[k]);
-        }
+        if (value[k] >= 0 || hits.geometry[k] != 0) continue;
+        kept[k] = KeptNear(shading_.image, kept_, pixels[k / kSamples], hits.t[k]);
       }
+      value = Select(value < 0, LightOf(rays, hits, kept), value);
     }
     for (std::size_t p = 0; p < pixels.size(); ++p) {
       float sum = 0;
@@ -133,6 +145,22 @@ class Sampler {
   }
 
  private:
+  static void AddQuestions(I8 lanes, GeometryMask geometries, Packet* packet,
+                           std::vector<Question>* questions) {
+    for (unsigned left = Bits(lanes); left; left &= left - 1) {
+      questions->push_back({packet, static_cast<std::size_t>(std::countr_zero(left)), geometries});
+    }
+  }
+
+  /// The lanes' ways to what is known to be met.
+  static Segments8 WaysOf(const Packet& packet, I8 lanes) {
+    const Rays8& rays = packet.rays;
+    return {{LoadF(rays.ox), LoadF(rays.oy), LoadF(rays.oz)},
+            {LoadF(rays.dx), LoadF(rays.dy), LoadF(rays.dz)},
+            LoadF(packet.hits.t),
+            lanes};
+  }
+
   I8 BehindSomething(const Packet& packet) const {
     constexpr int kStride = sizeof(SurfaceRecord) / sizeof(float);
     const float* normal = shading_.tables.statics()[0].normal;
@@ -152,7 +180,7 @@ class Sampler {
     F8x3 way = {Wide(0), Wide(0), Wide(1)};
     F8 t_far = Wide(kInfinity);
     for (std::size_t k = 0; k < questions.size(); ++k) {
-      const auto& [packet, lane] = questions[k];
+      const auto& [packet, lane, asked] = questions[k];
       way.x[k] = packet->rays.dx[lane];
       way.y[k] = packet->rays.dy[lane];
       way.z[k] = packet->rays.dz[lane];
@@ -163,11 +191,12 @@ class Sampler {
                     LanesOf((1u << questions.size()) - 1));
   }
 
-  F8 LightOf(const Rays8& rays, const Hits8& hits) const {
+  /// `kept`: what movers leave of the irradiance. Beams know that by shadow rays of their own.
+  F8 LightOf(const Rays8& rays, const Hits8& hits, F8 kept) const {
     const F8x3 directions = {LoadF(rays.dx), LoadF(rays.dy), LoadF(rays.dz)};
     if (!shading_.world().has_beams()) {
-      return RadianceOfHits(shading_.tables, shading_.frame, shading_.textures, directions, hits,
-                            step_);
+      return kept * RadianceOfHits(shading_.tables, shading_.frame, shading_.textures, directions,
+                                   hits, step_);
     }
     const SurfaceLanes seen = LookUpHits(shading_.tables, shading_.frame, shading_.textures,
                                          LoadI(hits.geometry), LoadI(hits.primitive),
@@ -175,7 +204,7 @@ class Sampler {
                                           directions.y, directions.z, I8{}},
                                          step_);
     const F8 beams = BeamsAtHits(shading_, BeamLight(shading_.instant), rays, hits);
-    return seen.reflectance * (seen.irradiance + beams) * std::numbers::inv_pi_v<float> +
+    return seen.reflectance * (seen.irradiance * kept + beams) * std::numbers::inv_pi_v<float> +
            GlowOfHits(shading_.tables, LoadI(hits.geometry), LoadI(hits.primitive));
   }
 
@@ -207,8 +236,7 @@ Rays8 SampleRays(const CameraView& view, std::span<const PixelAt> pixels) {
 }
 
 std::vector<MixedPixel> SamplePixels(const ShadingView& shading, std::span<const float> kept,
-                                     const cv::Mat1f& radiance, std::span<const PixelAt> pixels,
-                                     const MoverWindows& movers) {
+                                     const cv::Mat1f& radiance, std::span<const PixelAt> pixels) {
   // Packets whose questions are asked together, so that rays fill their packets.
   constexpr std::size_t kBatch = Instant::kMostPackets;
   const Sampler sampler(shading, kept, radiance);
@@ -216,15 +244,16 @@ std::vector<MixedPixel> SamplePixels(const ShadingView& shading, std::span<const
   mixed.reserve(pixels.size());
   std::vector<Packet> packets;
   packets.reserve(kBatch);  // questions point to them
-  std::vector<Question> questions;
+  Questions questions;
   for (std::size_t first = 0; first < pixels.size();) {
     packets.clear();
-    questions.clear();
+    questions.Clear();
     for (; packets.size() < kBatch && first < pixels.size(); first += Sampler::kPixels) {
       const std::size_t count = std::min(Sampler::kPixels, pixels.size() - first);
-      sampler.Begin(pixels.subspan(first, count), movers, &packets, &questions);
+      sampler.Begin(pixels.subspan(first, count), &packets, &questions);
     }
-    if (!questions.empty()) sampler.Ask(questions);
+    sampler.Ask(questions.of_all);
+    sampler.Ask(questions.of_movers);
     for (const Packet& packet : packets) sampler.Mix(packet, &mixed);
   }
   return mixed;

@@ -1,7 +1,6 @@
 #include "simulator/shade/pass/emitter_shadows.h"
 
-#include <bit>
-#include <cmath>
+#include <array>
 
 #include "simulator/common/parallel.h"
 #include "simulator/shade/light/emitter_rays.h"
@@ -33,15 +32,20 @@ F8 TraceEmitter(const Instant& instant, const Emitters::Emitter& e, const Emitte
   const F8x3 n = {Wide(e.normal.x()), Wide(e.normal.y()), Wide(e.normal.z())};
   const GeometryMask movers =
       MoversIn(Shaft(asking.box, e.center, e.half_u, e.half_v), instant, plan.movers);
-  F8 seen = Wide(0), asked = Wide(0);
-  for (std::size_t ray = 0; ray < static_cast<std::size_t>(plan.rays); ++ray) {
+  const auto rays = static_cast<std::size_t>(plan.rays);
+  std::array<Segments8, kMostRays> ways;
+  std::array<unsigned, kMostRays> blocked;
+  for (std::size_t ray = 0; ray < rays; ++ray) {
     const F8x3 to = Minus(PointsOn(e, asking.ends[ray]), places.position);
     const I8 valid = places.valid & (Dot(to, places.normal) > 0) & (Dot(to, n) < 0);
-    if (!Any(valid)) continue;
-    const unsigned blocked =
-        BlockedByMovers(instant, movers, places.position, to, Wide(kAlmostAtEmitter), valid);
+    ways[ray] = {places.position, to, Wide(kAlmostAtEmitter), valid};
+  }
+  FindBlocked(instant, movers, Coherence::kCoherent, std::span(ways).first(rays), blocked);
+  F8 seen = Wide(0), asked = Wide(0);
+  for (std::size_t ray = 0; ray < rays; ++ray) {
+    const I8 valid = ways[ray].valid;
     asked += Select(valid, Wide(1), Wide(0));
-    seen += Select(valid & ~LanesOf(blocked), Wide(1), Wide(0));
+    seen += Select(valid & ~LanesOf(blocked[ray]), Wide(1), Wide(0));
   }
   return Select(asked > 0, seen / Max(asked, Wide(1)), Wide(EmitterVisibility::kBelowHorizon));
 }

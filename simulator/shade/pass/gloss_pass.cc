@@ -5,6 +5,7 @@
 #include "simulator/shade/lanes/hemisphere.h"
 #include "simulator/shade/lanes/ray_packets.h"
 #include "simulator/shade/pass/lobe_lamps.h"
+#include "simulator/shade/pass/mover_blockers.h"
 #include "simulator/shade/pass/pattern_filter.h"
 #include "simulator/shade/surface/gloss.h"
 #include "simulator/trace/tile_grid.h"
@@ -61,7 +62,8 @@ class Pass {
  public:
   explicit Pass(const ShadingView& shading)
       : shading_(shading),
-        lamps_(shading.world().lights(), shading_.instant.snapshot().light_scale) {}
+        solid_(SolidOf(shading.instant)),
+        lamps_(shading.instant, shading.world().lights()) {}
 
   Glossy8 Find(int x, int y) const {
     const std::size_t i = shading_.image.Index(x, y);
@@ -117,7 +119,7 @@ class Pass {
     SendRay(points, row, broad, asked, &reflection);
     reflection.weight *= Select(broad, Wide(2), Wide(1));
     if (Any(broad)) {
-      reflection.lamps = lamps_.Mirrored(shading_.instant, points, row.lamp, broad);
+      reflection.lamps = lamps_.Mirrored(points, row.lamp, broad);
     }
     reflection.base = 1 - GlossShare(glossy.f0, glossy.roughness, out.z);
     return reflection;
@@ -136,8 +138,10 @@ class Pass {
     const I8 up = asked & (in.z > 0);
     if (!Any(up)) return;
     reflection->to = points.basis.ToWorld(in);
-    shading_.instant.Intersect(MakeRays(points.position, reflection->to, Wide(kInfinity), up),
-                               Coherence::kIncoherent, kEverything, &reflection->hits);
+    const Segments8 ways{points.position, reflection->to, Wide(kInfinity), up};
+    shading_.instant.Intersect(MakeRays(ways.from, ways.to, ways.t_far, ways.valid),
+                               Coherence::kIncoherent, MayMeet(shading_.instant, solid_, ways),
+                               &reflection->hits);
     const F8 alpha = points.roughness * points.roughness;
     const F8 weight = Fresnel(points.f0, across) * SmithMasking(in.z, alpha);
     reflection->weight = Select(up & ~(broad & OnLamps(reflection->hits)), weight, Wide(0));
@@ -172,6 +176,7 @@ class Pass {
   }
 
   const ShadingView& shading_;
+  GeometryMask solid_;
   LobeLamps lamps_;
   LobePattern pattern_;
 };
@@ -205,27 +210,28 @@ void AddMirroredMovers(const Reflections& tiles, std::vector<Hits8>* beyond) {
 }
 
 bool ShadeGloss(const ShadingView& shading, const Reflections& tiles,
-                std::vector<float>* reflectance, std::vector<float>* mirrored) {
+                std::vector<float>* reflectance, std::vector<float>* raw,
+                std::vector<float>* mirrored) {
   const auto is_glossy = [](const std::vector<Reflection8>& tile) { return !tile.empty(); };
   if (std::ranges::none_of(tiles, is_glossy)) return false;
   const CameraView& view = shading.view;
   const RayStep step{view.rotation.col(0) * view.rays->step_x * kFootprint,
                      view.rotation.col(1) * view.rays->step_y * kFootprint};
   const HitImage& image = shading.image;
-  std::vector<float> raw(image.t.size());
+  raw->assign(image.t.size(), 0);
   ParallelFor(std::size_t{0}, tiles.size(), [&](std::size_t tile) {
     for (const Reflection8& reflection : tiles[tile]) {
       const std::size_t i = image.Index(reflection.x, reflection.y);
       const F8 seen = RadianceOfHits(shading.tables, shading.frame, shading.textures, reflection.to,
                                      reflection.hits, step);
       const F8 light = Select(reflection.weight > 0, reflection.weight * seen, Wide(0));
-      Store(Select(reflection.lanes, light + reflection.lamps, Wide(0)), &raw[i]);
+      Store(Select(reflection.lanes, light + reflection.lamps, Wide(0)), &(*raw)[i]);
       const F8 old = LoadF(&(*reflectance)[i]);
       Store(Select(reflection.lanes, old * reflection.base, old), &(*reflectance)[i]);
     }
   });
   mirrored->assign(image.t.size(), 0);
-  const PatternFilter filter(image, shading.tables.statics(), raw);
+  const PatternFilter filter(image, shading.tables.statics(), *raw);
   ParallelFor(std::size_t{0}, tiles.size(), [&](std::size_t tile) {
     for (const Reflection8& reflection : tiles[tile]) {
       filter.Packet(reflection.x, reflection.y, reflection.lanes, mirrored);

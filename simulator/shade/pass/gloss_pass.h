@@ -29,9 +29,10 @@ void AddMirroredMovers(const Reflections& reflections, std::vector<Hits8>* beyon
 
 /// The rays' ends are looked up as any pixel is, so lamps, goods and movers are all mirrored, and
 /// filtered over the pattern. Writes radiance to `mirrored` (0 elsewhere), and takes from
-/// `reflectance` what the lobe leaves to the diffuse base. Returns false, with `mirrored` left as
-/// it was, where nothing in the image is glossy.
+/// `reflectance` what the lobe leaves to the diffuse base; `raw` is what the filter was given.
+/// Returns false, with the last two left as they were, where nothing in the image is glossy.
 bool ShadeGloss(const ShadingView& shading, const Reflections& reflections,
-                std::vector<float>* reflectance, std::vector<float>* mirrored);
+                std::vector<float>* reflectance, std::vector<float>* raw,
+                std::vector<float>* mirrored);
 
 }  // namespace aisle::sim

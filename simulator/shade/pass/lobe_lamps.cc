@@ -1,6 +1,6 @@
 #include "simulator/shade/pass/lobe_lamps.h"
 
-#include "simulator/shade/lanes/ray_packets.h"
+#include "simulator/shade/pass/mover_blockers.h"
 #include "simulator/shade/surface/gloss.h"
 
 namespace aisle::sim {
@@ -13,7 +13,9 @@ F8x3 Scaled(const F8x3& v, F8 by) { return {v.x * by, v.y * by, v.z * by}; }
 
 }  // namespace
 
-LobeLamps::LobeLamps(std::span<const AreaLight> lights, std::span<const float> light_scale) {
+LobeLamps::LobeLamps(const Instant& instant, std::span<const AreaLight> lights)
+    : instant_(instant), blockers_(SolidOf(instant)) {
+  const std::span<const float> light_scale = instant.snapshot().light_scale;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (light_scale[i] <= 0) continue;
     const AreaLight& light = lights[i];
@@ -41,8 +43,7 @@ F8 LobeLamps::Importance(const Lamp& lamp, const LobePoints8& points) const {
   return Max(there, Wide(0)) * above * lobe * (lamp.power / squared);
 }
 
-F8 LobeLamps::Mirrored(const Instant& instant, const LobePoints8& points, const LampChoice8& choice,
-                       I8 valid) const {
+F8 LobeLamps::Mirrored(const LobePoints8& points, const LampChoice8& choice, I8 valid) const {
   thread_local std::vector<F8> cumulative;
   cumulative.clear();
   F8 total = Wide(0);
@@ -80,8 +81,8 @@ F8 LobeLamps::Mirrored(const Instant& instant, const LobePoints8& points, const 
   valid &= light > 0;
   if (!Any(valid)) return Wide(0);
   const F8 t_far = 1 - kLightGuard / Max(distance, Wide(2 * kLightGuard));
-  const unsigned blocked = instant.Occluded(MakeRays(points.position, to, t_far, valid),
-                                            Coherence::kIncoherent, kEverything);
+  const unsigned blocked =
+      Blocked(instant_, blockers_, Coherence::kIncoherent, {points.position, to, t_far, valid});
   return Select(valid & ~LanesOf(blocked), light, Wide(0));
 }
 

@@ -26,11 +26,11 @@ struct LampChoice8 {
 /// by what the lamps' middles give a lobe widened by the lamps' size.
 class LobeLamps {
  public:
-  LobeLamps(std::span<const AreaLight> lights, std::span<const float> light_scale);
+  /// The lights as bright as they are at the instant, which must outlive it.
+  LobeLamps(const Instant& instant, std::span<const AreaLight> lights);
 
   /// Radiance towards the camera, for the valid lanes.
-  F8 Mirrored(const Instant& instant, const LobePoints8& points, const LampChoice8& choice,
-              I8 valid) const;
+  F8 Mirrored(const LobePoints8& points, const LampChoice8& choice, I8 valid) const;
 
  private:
   struct Lamp {
@@ -39,6 +39,8 @@ class LobeLamps {
   };
   F8 Importance(const Lamp& lamp, const LobePoints8& points) const;
 
+  const Instant& instant_;
+  GeometryMask blockers_;
   std::vector<Lamp> lamps_;
 };
 

@@ -1,6 +1,7 @@
 #include "simulator/shade/pass/mover_blockers.h"
 
 #include <algorithm>
+#include <array>
 
 #include "simulator/shade/lanes/ray_packets.h"
 
@@ -22,7 +23,44 @@ bool Narrow(float way, float most, float* near, float* far) {
   return *near <= *far;
 }
 
+/// Packets of segments that are asked together, and who wants to know.
+class Asking {
+ public:
+  Asking(const Instant& instant, Coherence coherence, std::span<unsigned> blocked)
+      : instant_(instant), coherence_(coherence), blocked_(blocked) {}
+
+  void Add(const Segments8& segments, I8 valid, std::size_t packet, GeometryMask geometries) {
+    rays_[count_] = MakeRays(segments.from, segments.to, segments.t_far, valid);
+    packets_[count_++] = packet;
+    if (count_ == rays_.size()) Ask(geometries);
+  }
+
+  void Ask(GeometryMask geometries) {
+    if (count_ == 0) return;
+    std::array<unsigned, Instant::kMostPackets> found;
+    instant_.Occluded(std::span(rays_).first(count_), coherence_, geometries, found);
+    for (std::size_t i = 0; i < count_; ++i) blocked_[packets_[i]] |= found[i];
+    count_ = 0;
+  }
+
+ private:
+  const Instant& instant_;
+  Coherence coherence_;
+  std::span<unsigned> blocked_;
+  std::array<Rays8, Instant::kMostPackets> rays_;
+  std::array<std::size_t, Instant::kMostPackets> packets_;
+  std::size_t count_ = 0;
+};
+
 }  // namespace
+
+GeometryMask SolidOf(const Instant& instant) {
+  GeometryMask solid = kEverything;
+  for (std::size_t m = 0; m < instant.snapshot().movers.size(); ++m) {
+    if (!CastsShadow(instant, m)) solid &= ~MoverBit(m);
+  }
+  return solid;
+}
 
 GeometryMask MoversBetween(const Instant& instant, const Eigen::AlignedBox3f& box,
                            const Eigen::Vector3f& center, const Eigen::Vector3f& half_u,
@@ -66,16 +104,43 @@ GeometryMask MoversIn(const Shaft& shaft, const Instant& instant, GeometryMask m
   return met;
 }
 
-unsigned BlockedByMovers(const Instant& instant, GeometryMask movers, const F8x3& from,
-                         const F8x3& to, F8 t_far, I8 valid) {
-  unsigned blocked = 0;
+GeometryMask MayMeet(const Instant& instant, GeometryMask geometries, const Segments8& segments) {
+  GeometryMask met = geometries & kStaticOnly;
   for (std::size_t m = 0; m < instant.mover_boxes().size(); ++m) {
-    if (!(movers & MoverBit(m))) continue;
-    const I8 open = valid & ~LanesOf(blocked);
-    const I8 meet = open & MeetBox(instant.mover_boxes()[m], from, to);
-    if (!Any(meet)) continue;
-    blocked |= instant.Occluded(MakeRays(from, to, t_far, meet), Coherence::kCoherent, MoverBit(m));
+    if (!(geometries & MoverBit(m))) continue;
+    const I8 meet = MeetBox(instant.mover_boxes()[m], segments.from, segments.to, segments.t_far);
+    if (Any(segments.valid & meet)) met |= MoverBit(m);
   }
+  return met;
+}
+
+void FindBlocked(const Instant& instant, GeometryMask geometries, Coherence coherence,
+                 std::span<const Segments8> packets, std::span<unsigned> blocked) {
+  std::fill_n(blocked.begin(), packets.size(), 0u);
+  Asking asking(instant, coherence, blocked);
+  if (geometries & kStaticOnly) {
+    for (std::size_t p = 0; p < packets.size(); ++p) {
+      if (Any(packets[p].valid)) asking.Add(packets[p], packets[p].valid, p, kStaticOnly);
+    }
+    asking.Ask(kStaticOnly);
+  }
+  for (std::size_t m = 0; m < instant.mover_boxes().size(); ++m) {
+    if (!(geometries & MoverBit(m))) continue;
+    for (std::size_t p = 0; p < packets.size(); ++p) {
+      const Segments8& segments = packets[p];
+      const I8 open = segments.valid & ~LanesOf(blocked[p]);
+      const I8 meet =
+          open & MeetBox(instant.mover_boxes()[m], segments.from, segments.to, segments.t_far);
+      if (Any(meet)) asking.Add(segments, meet, p, MoverBit(m));
+    }
+    asking.Ask(MoverBit(m));
+  }
+}
+
+unsigned Blocked(const Instant& instant, GeometryMask geometries, Coherence coherence,
+                 const Segments8& segments) {
+  unsigned blocked = 0;
+  FindBlocked(instant, geometries, coherence, {&segments, 1}, {&blocked, 1});
   return blocked;
 }
 

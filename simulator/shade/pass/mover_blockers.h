@@ -1,15 +1,17 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <span>
 
 #include "simulator/shade/lanes/wide.h"
 #include "simulator/trace/tracer.h"
 
 namespace aisle::sim {
 
-/// Lanes whose segment from + t·to, t in [0, 1], meets the lane's box from `low` to `high`.
-inline I8 MeetBoxes(const F8x3& low, const F8x3& high, const F8x3& from, const F8x3& to) {
-  F8 near = Wide(0), far = Wide(1);
+/// Lanes whose segment from + t·to, t in [0, far], meets the lane's box from `low` to `high`.
+inline I8 MeetBoxes(const F8x3& low, const F8x3& high, const F8x3& from, const F8x3& to,
+                    F8 far = Wide(1)) {
+  F8 near = Wide(0);
   const auto slab = [&](F8 lo, F8 hi, F8 start, F8 along) {
     const F8 safe = Select(Abs(along) < 1e-9f, Wide(1e-9f), along);
     const F8 a = (lo - start) / safe, b = (hi - start) / safe;
@@ -22,9 +24,10 @@ inline I8 MeetBoxes(const F8x3& low, const F8x3& high, const F8x3& from, const F
   return near <= far;
 }
 /// The same where all lanes have one box.
-inline I8 MeetBox(const Eigen::AlignedBox3f& box, const F8x3& from, const F8x3& to) {
+inline I8 MeetBox(const Eigen::AlignedBox3f& box, const F8x3& from, const F8x3& to,
+                  F8 far = Wide(1)) {
   return MeetBoxes({Wide(box.min().x()), Wide(box.min().y()), Wide(box.min().z())},
-                   {Wide(box.max().x()), Wide(box.max().y()), Wide(box.max().z())}, from, to);
+                   {Wide(box.max().x()), Wide(box.max().y()), Wide(box.max().z())}, from, to, far);
 }
 
 /// The box, wider by that much on each side.
@@ -36,6 +39,9 @@ inline Eigen::AlignedBox3f Grown(const Eigen::AlignedBox3f& box, const Eigen::Ve
 inline bool CastsShadow(const Instant& instant, std::size_t mover) {
   return instant.snapshot().movers[mover].casts_shadow;
 }
+
+/// The static world, and the movers that keep light away: what light and mirrored rays meet.
+GeometryMask SolidOf(const Instant& instant);
 
 /// Movers that may stand between any point of a box and any point of a rectangle: the segment
 /// between their middles, thickened by whichever is larger, must meet the mover's box.
@@ -61,9 +67,24 @@ class Shaft {
 /// Those of the movers whose boxes the shaft meets.
 GeometryMask MoversIn(const Shaft& shaft, const Instant& instant, GeometryMask movers);
 
-/// Lanes (as bits) of whose segment from + t·to, t in [0, t_far], one of the movers blocks some;
-/// each mover is asked for those lanes alone that meet its box.
-unsigned BlockedByMovers(const Instant& instant, GeometryMask movers, const F8x3& from,
-                         const F8x3& to, F8 t_far, I8 valid);
+/// Eight segments from + t·to, t in [0, t_far]; lanes that are not valid do not count.
+struct Segments8 {
+  F8x3 from, to;
+  F8 t_far;
+  I8 valid;
+};
+
+/// Those of the geometries that any of the segments may meet: the static world, if it is among
+/// them, and the movers whose boxes they meet.
+GeometryMask MayMeet(const Instant& instant, GeometryMask geometries, const Segments8& segments);
+
+/// Sets, by packet, the lanes (as bits) of whose segments the geometries block some: those of the
+/// static world first, each mover's for the lanes alone that are open and meet its box. Packets
+/// side by side cost less than one by one.
+void FindBlocked(const Instant& instant, GeometryMask geometries, Coherence coherence,
+                 std::span<const Segments8> packets, std::span<unsigned> blocked);
+/// The same for one packet.
+unsigned Blocked(const Instant& instant, GeometryMask geometries, Coherence coherence,
+                 const Segments8& segments);
 
 }  // namespace aisle::sim

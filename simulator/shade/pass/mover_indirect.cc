@@ -1,11 +1,11 @@
 #include "simulator/shade/pass/mover_indirect.h"
 
+#include <algorithm>
 #include <bit>
 #include <numbers>
 
 #include "simulator/common/parallel.h"
 #include "simulator/shade/lanes/hemisphere.h"
-#include "simulator/shade/lanes/ray_packets.h"
 #include "simulator/shade/pass/emitter_shadows.h"
 #include "simulator/shade/pass/mover_blockers.h"
 
@@ -50,12 +50,8 @@ Eigen::Matrix3f SurfaceBasis(const Eigen::Vector3f& normal, const Eigen::Vector3
 
 MoverIndirect::MoverIndirect(const Instant& instant, const Emitters& emitters,
                              const StaticVisibility& statics, const LightVolume& volume,
-                             std::size_t mover)
-    : instant_(instant),
-      volume_(volume),
-      bodies_(Around(instant, mover)),
-      ground_z_(
-          static_cast<float>(instant.snapshot().movers[mover].T_world_object.translation().z())) {
+                             std::size_t mover, float floor_z)
+    : instant_(instant), volume_(volume), bodies_(Around(instant, mover)), ground_z_(floor_z) {
   const std::vector<Eigen::Vector3f> directions = CosineDirections(kDirections);
   for (std::size_t d = 0; d < directions.size(); ++d) {
     directions_[d / kLanes].x[d % kLanes] = directions[d].x();
@@ -126,13 +122,15 @@ std::array<I8, MoverIndirect::kPackets> MoverIndirect::Probe(const SurfacePoint&
                                                              const Directions& directions) const {
   const Eigen::Vector3f& p = point.position;
   const F8x3 from = {Wide(p.x()), Wide(p.y()), Wide(p.z())};
-  std::array<I8, kPackets> blocked;
+  std::array<Segments8, kPackets> ways;
   for (std::size_t packet = 0; packet < kPackets; ++packet) {
-    blocked[packet] =
-        LanesOf(instant_.Occluded(MakeRays(from, directions[packet], Wide(kReach), WideInt(-1)),
-                                  Coherence::kIncoherent, bodies_));
+    ways[packet] = {from, directions[packet], Wide(kReach), WideInt(-1)};
   }
-  return blocked;
+  std::array<unsigned, kPackets> blocked;
+  FindBlocked(instant_, bodies_, Coherence::kIncoherent, ways, blocked);
+  std::array<I8, kPackets> lanes;
+  std::ranges::transform(blocked, lanes.begin(), LanesOf);
+  return lanes;
 }
 
 F8 MoverIndirect::KeptByGround(const Eigen::Vector3f& from, const F8x3& directions) const {

@@ -16,9 +16,9 @@ namespace aisle::sim {
 /// sends up.
 class MoverIndirect {
  public:
-  /// All must outlive it.
+  /// All must outlive it. `floor_z`: height of the floor, m.
   MoverIndirect(const Instant& instant, const Emitters& emitters, const StaticVisibility& statics,
-                const LightVolume& volume, std::size_t mover);
+                const LightVolume& volume, std::size_t mover, float floor_z);
 
   /// Share of the indirect irradiance that is left at a place of the mover's surface. The
   /// directions that are asked turn with `tangent`, any vector that is fixed to the surface there.
@@ -39,7 +39,7 @@ class MoverIndirect {
   const LightVolume& volume_;
   GeometryMask bodies_;
   Directions directions_;                            ///< around z
-  float ground_z_ = 0;                               ///< m
+  float ground_z_;                                   ///< m
   Eigen::Vector2i first_ = Eigen::Vector2i::Zero();  ///< node of a grid that is fixed in the world
   Eigen::Vector2i nodes_ = Eigen::Vector2i::Zero();  ///< along x, y
   std::vector<float> kept_;                          ///< by node, rows along x

@@ -57,7 +57,8 @@ MoverLight::MoverLight(const World& world, std::span<const LightGrid> grids,
     : world_(world),
       grids_(grids),
       options_(options),
-      emitters_(world.lights(), FloorUnder(world)),
+      floor_z_(FloorUnder(world)),
+      emitters_(world.lights(), floor_z_),
       statics_(emitters_, world.statics().mesh, options.statics) {
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const TriangleMesh& mesh = world.mover_meshes()[i];
@@ -101,7 +102,7 @@ MoverLight::NodeLight MoverLight::LightNodes(const Instant& instant, std::size_t
   const std::vector<EmitterRays> plan = PlanEmitterRays(instant, emitters_, box, kMoversOnly);
   NodeLight light{.visible = TraceMoverShadowsOn(instant, emitters_, plan, places), .kept = {}};
   statics_.Shade(instant, places, &light.visible);
-  const MoverIndirect indirect(instant, emitters_, statics_, volume, mover);
+  const MoverIndirect indirect(instant, emitters_, statics_, volume, mover, floor_z_);
   light.kept.resize(places.size());
   ParallelFor(std::size_t{0}, places.size(),
               [&](std::size_t i) { light.kept[i] = indirect.KeptAt(places[i], tangents[i]); });

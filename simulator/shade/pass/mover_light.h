@@ -56,6 +56,7 @@ class MoverLight {
   const World& world_;
   std::span<const LightGrid> grids_;
   MoverLightOptions options_;
+  float floor_z_;  ///< m
   Emitters emitters_;
   StaticVisibility statics_;
   mutable std::deque<Body> bodies_;  ///< by mover

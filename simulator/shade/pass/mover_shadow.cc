@@ -11,6 +11,8 @@ namespace aisle::sim {
 namespace {
 
 constexpr int kTileWidth = 16, kTileHeight = 8;
+constexpr std::size_t kTilePackets = kTileWidth * kTileHeight / kLanes;
+static_assert(kTilePackets <= ShadowRays::kMostPackets);
 
 /// Takes over what another camera found for the points that both see.
 class SeenBefore {
@@ -66,6 +68,35 @@ void Filter(const ShadingView& shading, const TileGrid& grid, std::span<const st
   });
 }
 
+/// Writes the unfiltered share of light that is left at the open lanes of a tile's packets; whether
+/// any lost light.
+bool TraceTile(const ShadingView& shading, const ShadowRays& rays, const ShadowPlan& plan,
+               std::span<const float> irradiance, const Tile& tile, std::span<const I8> open,
+               std::vector<float>* raw) {
+  const StaticPixels pixels(shading);
+  std::array<ShadowedPoints8, kTilePackets> packets;
+  std::array<std::size_t, kTilePackets> at;
+  std::size_t count = 0, packet = 0;
+  ForRows(tile, kLanes, [&](int x, int y) {
+    const I8 lanes = open[packet++];
+    if (!Any(lanes)) return;
+    at[count] = shading.image.Index(x, y);
+    packets[count] = {pixels.Locate(x, y, lanes), LoadF(&irradiance[at[count]]), y};
+    ++count;
+  });
+  std::array<F8, kTilePackets> lost;
+  rays.FindLost(std::span(packets).first(count), plan, lost);
+  bool any_lost = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!Any(lost[i] > 0)) continue;
+    any_lost = true;
+    const F8 kept = 1 - lost[i] / Max(packets[i].irradiance, Wide(1e-9f));
+    float* const to = &(*raw)[at[i]];
+    Store(Select(packets[i].points.active, kept, LoadF(to)), to);
+  }
+  return any_lost;
+}
+
 }  // namespace
 
 void TraceMoverShadows(const ShadingView& shading, std::span<const float> irradiance,
@@ -74,26 +105,20 @@ void TraceMoverShadows(const ShadingView& shading, std::span<const float> irradi
   raw->assign(irradiance.size(), 1);
   if (shading.instant.snapshot().movers.empty() || shading.tables.statics().empty()) return;
   const SeenBefore before(shading, seen);
-  const ShadowPlanner planner(shading, irradiance);
-  const ShadowRays rays(shading, irradiance);
+  const ShadowPlanner planner(shading);
+  const ShadowRays rays(shading);
   const TileGrid grid{shading.image.width, shading.image.height, kTileWidth, kTileHeight};
   std::vector<std::uint8_t> lost(grid.size());
   grid.ForEach([&](std::size_t i, const Tile& tile) {
-    std::array<I8, kTileWidth * kTileHeight / kLanes> open;
+    std::array<I8, kTilePackets> open;
     std::size_t packet = 0;
     bool any_open = false, any_lost = false;
     ForRows(tile, kLanes, [&](int x, int y) {
       open[packet] = before.TakeOver(x, y, raw, &any_lost);
       any_open |= Any(open[packet++]);
     });
-    const ShadowPlan plan = any_open ? planner.Plan(tile, open) : ShadowPlan{};
-    packet = 0;
-    if (!plan.empty()) {
-      ForRows(tile, kLanes, [&](int x, int y) {
-        const I8 lanes = open[packet++];
-        if (Any(lanes)) any_lost |= rays.Trace(x, y, lanes, plan, raw);
-      });
-    }
+    const ShadowPlan plan = any_open ? planner.Plan(tile, open, irradiance) : ShadowPlan{};
+    if (!plan.empty()) any_lost |= TraceTile(shading, rays, plan, irradiance, tile, open, raw);
     lost[i] = any_lost;
   });
   Filter(shading, grid, lost, *raw, kept);

@@ -54,7 +54,7 @@ Hits8 PixelsAround::Meet(const Instant& instant, const Rays8& rays) const {
   while (rest[0] | rest[1]) {
     const std::uint32_t a = TakeFirst(triangles_[0], &rest[0]);
     const std::uint32_t b = TakeFirst(triangles_[1], &rest[1]);
-    const Meetings8 met = instant.MeetStatic(rays, {a, a, a, a, b, b, b, b});
+    const Meetings8 met = instant.MeetStatic(rays, a, b);
     const F8 distance = LoadF(met.t);
     const I8 nearer = (LoadI(met.on_rim) == 0) & (distance > 0) & (distance < t);
     t = Select(nearer, distance, t);

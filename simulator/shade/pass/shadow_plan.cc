@@ -75,8 +75,8 @@ float MeanLight(const HitImage& image, std::span<const float> irradiance, const 
   return count > 0 ? sum / count : 0;
 }
 
-/// Drops the lights that hardly count, and thins the rays to the weak ones.
-void Thin(float mean, std::vector<ShadowBlocker>* blockers) {
+/// Drops the lights that hardly count.
+void DropWeak(float mean, std::vector<ShadowBlocker>* blockers) {
   std::ranges::sort(*blockers, [](const ShadowBlocker& a, const ShadowBlocker& b) {
     return a.most != b.most ? a.most < b.most : a.light < b.light;
   });
@@ -85,6 +85,10 @@ void Thin(float mean, std::vector<ShadowBlocker>* blockers) {
     dropped += blocker.most;
     return dropped < kUntracedShare * mean;
   });
+}
+
+/// Thins the rays to the weak ones.
+void ThinRows(float mean, std::vector<ShadowBlocker>* blockers) {
   for (ShadowBlocker& blocker : *blockers) {
     blocker.row_step = blocker.most < kQuarterShare * mean ? 4
                        : blocker.most < kHalfShare * mean  ? 2
@@ -94,8 +98,7 @@ void Thin(float mean, std::vector<ShadowBlocker>* blockers) {
 
 }  // namespace
 
-ShadowPlanner::ShadowPlanner(const ShadingView& shading, std::span<const float> irradiance)
-    : shading_(shading), irradiance_(irradiance) {
+ShadowPlanner::ShadowPlanner(const ShadingView& shading) : shading_(shading) {
   const std::vector<AreaLight>& lights = shading.world().lights();
   lights_.resize((lights.size() + kLanes - 1) / kLanes);
   for (std::size_t i = 0; i < lights_.size() * kLanes; ++i) {
@@ -135,17 +138,13 @@ std::vector<GeometryMask> ShadowPlanner::MoversBefore(const Eigen::AlignedBox3f&
   return movers;
 }
 
-ShadowPlan ShadowPlanner::Plan(const Tile& tile, std::span<const I8> open) const {
-  ShadowPlan work;
-  const StaticPixels pixels(shading_);
-  const Eigen::AlignedBox3f box =
-      BoxOf(pixels, tile, [&](int x, int y) { return pixels.Lanes(x, y); });
-  if (box.isEmpty()) return work;
+ShadowPlan ShadowPlanner::PlanAll(const Eigen::AlignedBox3f& box) const {
+  ShadowPlan plan;
   const auto& movers = shading_.instant.mover_boxes();
   for (std::size_t m = 0; m < movers.size(); ++m) {
     if (!CastsShadow(shading_.instant, m)) continue;
     if (Grown(movers[m], Eigen::Vector3f::Constant(kAmbientReach)).intersects(box)) {
-      work.near |= MoverBit(m);
+      plan.near |= MoverBit(m);
     }
   }
   const std::vector<AreaLight>& lights = shading_.world().lights();
@@ -153,21 +152,44 @@ ShadowPlan ShadowPlanner::Plan(const Tile& tile, std::span<const I8> open) const
   for (std::size_t l = 0; l < lights.size(); ++l) {
     if (!before[l]) continue;
     const float scale = shading_.instant.snapshot().light_scale[l];
-    work.blockers.push_back({l, before[l], MostLight(lights[l], scale, box), 1});
+    plan.blockers.push_back({l, before[l], MostLight(lights[l], scale, box)});
   }
-  if (work.blockers.empty()) return work;
-  Thin(MeanLight(shading_.image, irradiance_, tile), &work.blockers);
-  // Which lights are too weak was asked of all that may be in the way at all; what is traced is
-  // what may be in the way of these pixels.
-  std::size_t packet = 0;
-  const Eigen::AlignedBox3f asked = BoxOf(pixels, tile, [&](int, int) { return open[packet++]; });
-  std::erase_if(work.blockers, [&](ShadowBlocker& blocker) {
-    const AreaLight& light = lights[blocker.light];
-    blocker.movers = MoversIn(Shaft(asked, light.center, light.half_u, light.half_v),
+  return plan;
+}
+
+void ShadowPlanner::Narrow(const Eigen::AlignedBox3f& box,
+                           std::vector<ShadowBlocker>* blockers) const {
+  std::erase_if(*blockers, [&](ShadowBlocker& blocker) {
+    const AreaLight& light = shading_.world().lights()[blocker.light];
+    blocker.movers = MoversIn(Shaft(box, light.center, light.half_u, light.half_v),
                               shading_.instant, blocker.movers);
     return blocker.movers == 0;
   });
-  return work;
+}
+
+ShadowPlan ShadowPlanner::Plan(const Tile& tile, std::span<const I8> open,
+                               std::span<const float> irradiance) const {
+  const StaticPixels pixels(shading_);
+  const Eigen::AlignedBox3f box =
+      BoxOf(pixels, tile, [&](int x, int y) { return pixels.Lanes(x, y); });
+  if (box.isEmpty()) return {};
+  ShadowPlan plan = PlanAll(box);
+  if (plan.blockers.empty()) return plan;
+  const float mean = MeanLight(shading_.image, irradiance, tile);
+  DropWeak(mean, &plan.blockers);
+  ThinRows(mean, &plan.blockers);
+  // Which lights are too weak was asked of all that may be in the way at all; what is traced is
+  // what may be in the way of these pixels.
+  std::size_t packet = 0;
+  Narrow(BoxOf(pixels, tile, [&](int, int) { return open[packet++]; }), &plan.blockers);
+  return plan;
+}
+
+ShadowPlan ShadowPlanner::Plan(const Eigen::AlignedBox3f& box, float mean_irradiance) const {
+  ShadowPlan plan = PlanAll(box);
+  DropWeak(mean_irradiance, &plan.blockers);
+  Narrow(box, &plan.blockers);
+  return plan;
 }
 
 }  // namespace aisle::sim

@@ -10,19 +10,29 @@
 
 namespace aisle::sim {
 
-/// One shadow ray a pixel, light and mover, and a few short rays for indirect light, in a 4 × 4
+/// Eight points whose shadows are asked for.
+struct ShadowedPoints8 {
+  StaticPoints8 points;
+  F8 irradiance;  ///< of the static world
+  int row = 0;    ///< of the pattern of samples, which begins anew after ShadowRays::kRows
+};
+
+/// One shadow ray a point, light and mover, and a few short rays for indirect light, in a 4 × 4
 /// pattern of directions.
 class ShadowRays {
  public:
-  /// Both must outlive it; `irradiance` is the static world's, in HitImage rows.
-  ShadowRays(const ShadingView& shading, std::span<const float> irradiance)
-      : shading_(shading), irradiance_(irradiance), pixels_(shading) {}
+  static constexpr std::size_t kMostPackets = 16;  ///< of points that are asked about together
+  static constexpr int kRows = 4;  ///< of the pattern: a lane has one sample in each
 
-  /// Writes the unfiltered share of light that is left at eight pixels; whether any lost light.
-  bool Trace(int x, int y, I8 lanes, const ShadowPlan& plan, std::vector<float>* raw) const;
+  /// `shading` must outlive it.
+  explicit ShadowRays(const ShadingView& shading) : shading_(shading) {}
+
+  /// Sets `lost`, by packet, to the irradiance that movers keep away, unfiltered.
+  void FindLost(std::span<const ShadowedPoints8> packets, const ShadowPlan& plan,
+                std::span<F8> lost) const;
 
  private:
-  static constexpr int kAmbientRays = 2;  // a pixel
+  static constexpr std::size_t kAmbientRays = 2;  // a point
 
   /// Sample positions of the 4 × 4 pattern for eight pixels of a row: neighbours differ much, and
   /// each 4 × 4 block has all sixteen.
@@ -31,20 +41,19 @@ class ShadowRays {
       F8 a, b;                                       ///< on a light, in [-1, 1]
       std::array<F8x3, kAmbientRays> local_ambient;  ///< cosine-distributed, z = normal
     };
-    std::array<Row, 4> rows;
+    std::array<Row, kRows> rows;
 
     Pattern();
+    const Row& At(int row) const { return rows[static_cast<std::size_t>(row % kRows)]; }
   };
 
-  I8 MayMeet(GeometryMask movers, const F8x3& from, const F8x3& to) const;
-  I8 OnLuminaires(std::size_t pixel, I8 lanes) const;
-  F8 LostDirect(const ShadowBlocker& blocker, const Pixels8& pixels, const Pattern::Row& at) const;
-  F8 LostIndirect(GeometryMask movers, const Pixels8& pixels, const Pattern::Row& at, int x,
-                  int y) const;
+  void AddDirect(const ShadowBlocker& blocker, std::span<const ShadowedPoints8> packets,
+                 std::span<F8> lost) const;
+  void AddIndirect(GeometryMask movers, std::span<const ShadowedPoints8> packets,
+                   std::span<F8> lost) const;
+  F8 IndirectAt(const ShadowedPoints8& packet, I8 wanted) const;
 
   const ShadingView& shading_;
-  std::span<const float> irradiance_;
-  StaticPixels pixels_;
   Pattern pattern_;
 };
 

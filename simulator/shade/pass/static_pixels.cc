@@ -5,6 +5,24 @@ namespace {
 
 constexpr float kLift = 2e-3f;  // m, along the normal
 
+StaticPoints8 LiftOff(std::span<const SurfaceRecord> statics, const F8x3& position, I8 primitive,
+                      F8 u, F8 v, I8 lanes) {
+  if (!Any(lanes)) return StaticPoints8{};
+  const I8 offset =
+      (lanes ? primitive : I8{}) * static_cast<int>(sizeof(SurfaceRecord) / sizeof(float));
+  const SurfaceRecord& first = statics.front();
+  const F8x3 normal = {Gather(first.normal, offset), Gather(first.normal, offset + 1),
+                       Gather(first.normal, offset + 2)};
+  const I8 is_luminaire = Gather(&first.f0, offset) < 0;
+  return {.position = {position.x + kLift * normal.x, position.y + kLift * normal.y,
+                       position.z + kLift * normal.z},
+          .normal = normal,
+          .primitive = primitive,
+          .u = u,
+          .v = v,
+          .active = lanes & ~is_luminaire};
+}
+
 }  // namespace
 
 F8x3 StaticPixels::PositionsOf(int x, int y, I8 active) const {
@@ -19,18 +37,20 @@ F8x3 StaticPixels::PositionsOf(int x, int y, I8 active) const {
           o.z() + t * (r(2, 0) * cx + r(2, 1) * cy + r(2, 2))};
 }
 
-Pixels8 StaticPixels::Locate(int x, int y, I8 active) const {
-  Pixels8 p;
-  p.active = active;
-  const I8 record = p.active ? LoadI(&shading_.image.primitive[shading_.image.Index(x, y)]) : I8{};
-  const I8 offset = record * static_cast<int>(sizeof(SurfaceRecord) / sizeof(float));
-  const auto* base = shading_.tables.statics().data()->normal;
-  p.normal = {Gather(base, offset), Gather(base, offset + 1), Gather(base, offset + 2)};
-  p.position = PositionsOf(x, y, p.active);
-  p.position.x += kLift * p.normal.x;
-  p.position.y += kLift * p.normal.y;
-  p.position.z += kLift * p.normal.z;
-  return p;
+StaticPoints8 StaticPixels::Locate(int x, int y, I8 active) const {
+  const std::size_t i = shading_.image.Index(x, y);
+  return LiftOff(shading_.tables.statics(), PositionsOf(x, y, active),
+                 LoadI(&shading_.image.primitive[i]), LoadF(&shading_.image.u[i]),
+                 LoadF(&shading_.image.v[i]), active);
+}
+
+StaticPoints8 LocateHits(const SurfaceTables& tables, const Rays8& rays, const Hits8& hits) {
+  const I8 active = LoadI(rays.valid) & (LoadI(hits.geometry) == 0);
+  const F8 t = Select(active, LoadF(hits.t), Wide(0));
+  const F8x3 position = {LoadF(rays.ox) + t * LoadF(rays.dx), LoadF(rays.oy) + t * LoadF(rays.dy),
+                         LoadF(rays.oz) + t * LoadF(rays.dz)};
+  return LiftOff(tables.statics(), position, LoadI(hits.primitive), LoadF(hits.u), LoadF(hits.v),
+                 active);
 }
 
 }  // namespace aisle::sim

@@ -5,10 +5,15 @@
 
 namespace aisle::sim {
 
-/// Eight pixels of a row: where their static surfaces are and which way these face.
-struct Pixels8 {
-  F8x3 position, normal;
-  I8 active;  ///< lanes that show the static world
+/// Eight points of the static world, and where they lie on its triangles.
+struct StaticPoints8 {
+  F8x3 position;  ///< lifted a little off the surface, for rays that begin there
+  F8x3 normal;
+  I8 primitive;
+  F8 u, v;
+  /// Lanes that are such a point. None on a luminaire, which nothing darkens: its own radiance
+  /// outshines by far what it reflects.
+  I8 active;
 };
 
 /// The points of the static world that a picture shows, eight pixels of a row at a time. x is a
@@ -23,11 +28,13 @@ class StaticPixels {
   }
   /// World; of lanes that are not active nothing is said.
   F8x3 PositionsOf(int x, int y, I8 active) const;
-  /// The points lifted a little off their surfaces, for rays that begin there.
-  Pixels8 Locate(int x, int y, I8 active) const;
+  StaticPoints8 Locate(int x, int y, I8 active) const;
 
  private:
   const ShadingView& shading_;
 };
+
+/// The points where eight rays hit the static world.
+StaticPoints8 LocateHits(const SurfaceTables& tables, const Rays8& rays, const Hits8& hits);
 
 }  // namespace aisle::sim

@@ -7,8 +7,10 @@
 #include <xxhash.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 
 #include "simulator/pipeline.h"
@@ -35,8 +37,72 @@ PipelineOptions Everything() {
   return options;
 }
 
+/// A mover that stays where its mesh is.
+MoverState Standing(const TriangleMesh& mesh, std::uint16_t instance) {
+  MoverState state;
+  state.instance = instance;
+  state.positions = mesh.positions;
+  state.normals = mesh.normals;
+  state.velocities.assign(mesh.positions.size(), Eigen::Vector3f::Zero());
+  return state;
+}
+
+/// A pane across half the aisle, through which much else is seen.
+void AddPane(WorldParts* parts) {
+  const auto instance = static_cast<std::uint16_t>(parts->instances.size());
+  const auto material = static_cast<std::uint16_t>(parts->materials.size());
+  parts->instances.push_back({"pane", ObjectClass::kFurniture, true});
+  parts->materials.push_back({.name = "pane", .albedo = 0.05f, .transmission = 0.7f});
+  test::MeshBuilder pane;
+  pane.Quad({5, -1, 0.4f}, {0, 1.2f, 0}, {0, 0, 1.4f}, material, instance);
+  parts->mover_meshes.push_back(pane.mesh);
+  parts->at = [at = parts->at, mesh = pane.mesh, instance](std::int64_t stamp_ns) {
+    Snapshot snapshot = at(stamp_ns);
+    snapshot.movers.push_back(Standing(mesh, instance));
+    snapshot.movers.back().casts_shadow = false;
+    return snapshot;
+  };
+}
+
+/// A lamp under the roof that turns.
+void AddBeam(WorldParts* parts) {
+  parts->has_beams = true;
+  parts->at = [at = parts->at](std::int64_t stamp_ns) {
+    Snapshot snapshot = at(stamp_ns);
+    const float turn = 2e-9f * static_cast<float>(stamp_ns);
+    Beam beam{.origin = {6, 0, 4},
+              .toward = Eigen::Vector3f(std::cos(turn), std::sin(turn), -1).normalized(),
+              .power = 40,
+              .cos_inner = 0.9f,
+              .cos_outer = 0.7f};
+    snapshot.beams.push_back(beam);
+    return snapshot;
+  };
+}
+
+/// A mirror at the hall's end, a floor that is polished, cartons with a relief.
+void Finish(WorldParts* parts) {
+  parts->materials[0].specular_f0 = 0.05f;
+  parts->materials[0].roughness = 0.3f;
+  cv::Mat3b relief(32, 32);
+  cv::RNG(11).fill(relief, cv::RNG::UNIFORM, cv::Scalar(96, 96, 220), cv::Scalar(160, 160, 255));
+  parts->materials[2].normal_texture = static_cast<int>(parts->textures.size());
+  parts->textures.push_back({"relief", relief});
+  const auto material = static_cast<std::uint16_t>(parts->materials.size());
+  parts->materials.push_back(
+      {.name = "mirror", .albedo = 0.05f, .specular_f0 = 0.9f, .roughness = 0.05f});
+  test::MeshBuilder statics;
+  statics.mesh = std::move(parts->statics.mesh);
+  statics.instances = std::move(parts->statics.instances);
+  statics.Quad({29.9f, -3, 0}, {0, 0, 5}, {0, 6, 0}, material, 2);
+  parts->statics = {std::move(statics.mesh), std::move(statics.instances)};
+}
+
 WorldParts MovingHall() {
   WorldParts parts = test::Hall({.boxes = 200});
+  Finish(&parts);
+  AddPane(&parts);
+  AddBeam(&parts);
   parts.rig = [](std::int64_t stamp_ns) {
     const double t = 1e-9 * static_cast<double>(stamp_ns);
     return test::LookAlong({1.5 + 0.5 * t, 0, 1.2}, 0.02 + 0.3 * t);
@@ -55,7 +121,7 @@ std::uint64_t HashOf(const RenderedFrame& frame) {
   const FrameTruth& t = frame.truth;
   for (const cv::Mat& image : std::initializer_list<cv::Mat>{
            frame.left, frame.right, t.depth, t.depth_right, t.instance, t.instance_right,
-           t.object_class, t.dynamic, t.dynamic_right, t.actor}) {
+           t.object_class, t.dynamic, t.dynamic_right, t.actor, t.actor_right}) {
     XXH3_64bits_update(state, image.data, image.total() * image.elemSize());
   }
   for (const ObjectTruth& object : t.objects) {
@@ -114,6 +180,14 @@ TEST(Determinism, OneHashOverThreadsTileOrderProcessAndHistory) {
   for (int frame = 0; frame < kFrame; ++frame) Take(sequence, frame);
   EXPECT_EQ(reference, HashOf(Take(sequence, kFrame)));
   EXPECT_EQ(reference, HashInAFreshProcess());
+}
+
+TEST(Determinism, TheDepthAloneIsTheFramesDepth) {
+  const Pipeline hall(World(MovingHall()), {}, Everything());
+  const RenderedFrame frame = Take(hall, kFrame);
+  const cv::Mat1f depth = hall.RenderDepth(frame.stamp_ns, frame.truth.T_world_rig);
+  ASSERT_EQ(depth.size(), frame.truth.depth.size());
+  EXPECT_EQ(std::memcmp(depth.data, frame.truth.depth.data, depth.total() * sizeof(float)), 0);
 }
 
 }  // namespace

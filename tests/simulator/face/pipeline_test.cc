@@ -236,6 +236,19 @@ TEST(AutoExposure, TheFramesMeanIsTheTargetWhateverTheLight) {
   }
 }
 
+/// What judges a picture by its radiance has to know how that was exposed.
+TEST(AutoExposure, TheStudioHasTheExposureOfTheFrame) {
+  PipelineOptions options = QuickOptions();
+  options.auto_exposure.on = true;
+  const Pipeline hall = SmallHall(options);
+  const RenderedFrame frame = hall.Render(0, 2 * kSecond, kPose);
+  const double chosen = frame.exposure_ms * frame.gain;
+  const float expected = static_cast<float>(options.sensor.exposure * chosen /
+                                            (options.exposure_ms * options.sensor.gain));
+  EXPECT_NE(expected, options.sensor.exposure);
+  EXPECT_FLOAT_EQ(hall.StudioAt({2 * kSecond, kPose}).exposure, expected);
+}
+
 TEST(Lens, TruthProvesItselfThroughIt) {
   StereoCamera camera;
   camera.lens = {LensModel::kRadialTangential, {-0.28, 0.074, 0.0002, 0.00002}};

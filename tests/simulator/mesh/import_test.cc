@@ -252,6 +252,17 @@ TEST(ImportModel, ANormalMapComesInColourAndWithItsStrength) {
   EXPECT_EQ(map.at<cv::Vec3b>(1, 1), cv::Vec3b(200, 128, 250)) << "red, green, blue: x, y, z";
 }
 
+TEST(ImportModel, OneFileAloneTakesNoPictureFromBesideIt) {
+  const Scratch scratch;
+  ImportOptions alone;
+  alone.one_file = true;
+  const auto file = scratch.Write("bumpy.gltf", kBumpyTriangle);
+  EXPECT_THAT(ErrorOf(file, alone),
+              testing::HasSubstr("images[0].uri: it names a separate file, bumps.png; save the "
+                                 "model as one .glb, or make one file of it: aisle import-mesh "
+                                 "bumpy.gltf"));
+}
+
 TEST(ImportModel, TheColourSaysWhichTextureCoordinatesAreRead) {
   const Scratch scratch;
   std::vector<std::uint8_t> png;

@@ -5,6 +5,7 @@ target_compile_definitions(simulator_mesh_door_test PRIVATE AISLE_PYTHON="${Pyth
 add_dependencies(simulator_mesh_door_test aisle_read_model)
 aisle_tests(simulator/mesh/capture USES simulator/mesh)
 aisle_tests(simulator/mesh/kept USES simulator/mesh)
+add_dependencies(simulator_mesh_kept_test aisle_read_model)
 # A few mutants through the door in every round; the script takes more by hand.
 add_executable(door_mutants ${CMAKE_SOURCE_DIR}/tests/support/door/mutants.cc)
 target_link_libraries(door_mutants PRIVATE simulator_mesh_door aisle_nouns)

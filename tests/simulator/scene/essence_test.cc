@@ -83,6 +83,18 @@ TEST_F(EssenceTest, TheFilesOfARealRigCountByWhatTheyHold) {
   EXPECT_NE(drive("0 0 0 0 0 0 0 1\n5 3 0 0 0 0 0 1\n"), own);
 }
 
+TEST_F(EssenceTest, AMeshOfTheUsersOwnCountsByItsBytes) {
+  const std::string scene = With("height_m: 6", "height_m: 6, mesh: room.glb") +
+                            "lights: [{rows: 2, per_row: 5, height_m: 5.5}]\n";
+  const auto made_of = [&](const char* bytes) {
+    std::ofstream(folder_ / "room.glb") << bytes;
+    return Of(scene, true);
+  };
+  const std::string own = made_of("glTF a");
+  EXPECT_EQ(made_of("glTF a"), own);
+  EXPECT_NE(made_of("glTF b"), own);
+}
+
 TEST_F(EssenceTest, WhatCannotBeReadIsSaid) {
   EXPECT_THROW(EssenceOf(folder_ / "none.yaml", true), SceneError);
   EXPECT_THROW(Of("a: [", true), SceneError);

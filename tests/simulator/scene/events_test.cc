@@ -80,6 +80,21 @@ TEST(Mechanisms, HaveTheKeysOfTheirOwnJointAlone) {
       ElementsAre(HasSubstr("joint.rate_hz: a fixed joint has no rate_hz; give its `kind`")));
 }
 
+TEST(Mechanisms, HaveTheKeysOfTheirOwnShapeAlone) {
+  const auto part = [](const std::string& keys) {
+    return MessagesOf("mechanisms: [{name: gate, at: [6, 1], parts: [{" + keys + "}]}]\n");
+  };
+  EXPECT_THAT(part("size_m: [1, 1, 1]"), ElementsAre());
+  EXPECT_THAT(part("shape: pallet, goods: drums, goods_m: 0.8"), ElementsAre());
+  EXPECT_THAT(part("model: roll_cage, goods: drums"),
+              ElementsAre(HasSubstr("mechanisms[0].parts[0].model: a box has no model, but size_m"),
+                          HasSubstr("parts[0].goods: a box has no goods, but size_m")));
+  EXPECT_THAT(part("shape: model, model: roll_cage, size_m: [1, 1, 1]"),
+              ElementsAre(HasSubstr("parts[0].size_m: a model has no size_m, but model")));
+  EXPECT_THAT(part("shape: cylinder, goods_m: 1"),
+              ElementsAre(HasSubstr("parts[0].goods_m: a cylinder has no goods_m")));
+}
+
 TEST(Mechanisms, AreToldWhoIsNotThere) {
   const auto with = [](const std::string& keys) {
     return "mechanisms: [{name: cart, " + keys + ", parts: [{size_m: [1, 1, 1]}]}]\n";
@@ -89,6 +104,9 @@ TEST(Mechanisms, AreToldWhoIsNotThere) {
   EXPECT_THAT(
       MessagesOf(with("pushed_by: anton")),
       ElementsAre(HasSubstr("its level must be that of the person who brings it, or higher")));
+  EXPECT_THAT(
+      MessagesOf(with("at: [6, 1], reach_m: 0.3")),
+      ElementsAre(HasSubstr("mechanisms[0].reach_m: it has no effect without `pushed_by`")));
   EXPECT_THAT(MessagesOf(with("level: mid, front_by: anton")),
               ElementsAre(HasSubstr("`front_by` and `rear_by` go together")));
   EXPECT_THAT(MessagesOf(with("at: [6, 1], taken: [{by: truck, at_s: 3}]")),

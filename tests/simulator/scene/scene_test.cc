@@ -388,6 +388,27 @@ TEST(Mistakes, AreAllReportedInOneGo) {
                                             HasSubstr("20:17: sensor.noise: expected true")));
 }
 
+TEST(Mistakes, KeysWithoutTheOneTheyNeedAreTold) {
+  const auto sensor = [](const std::string& keys) {
+    return MessagesOf("sensor: {" + keys + "}\n" + kGood);
+  };
+  EXPECT_THAT(
+      sensor("auto_target_grey: 90, auto_step_ev: 0.5"),
+      ElementsAre(HasSubstr("s.yaml:1:10: sensor.auto_target_grey: it has no effect without "
+                            "`auto_exposure`; add that, or remove this"),
+                  HasSubstr("sensor.auto_step_ev: it has no effect")));
+  EXPECT_THAT(sensor("auto_meter_from: 0.4, auto_exposur: true"),
+              ElementsAre(HasSubstr("unknown key; did you mean auto_exposure?")));
+  // A scene may switch off what the one it extends has set.
+  EXPECT_THAT(sensor("auto_longest_ms: 6, auto_exposure: false"), IsEmpty());
+  EXPECT_THAT(MessagesOf(kGood + "props: [{model: drum, at: [9, -5], every_m: 2}]\n"),
+              ElementsAre(HasSubstr("props[0].every_m: it has no effect without `to`")));
+  EXPECT_THAT(MessagesOf(kGood + "vehicles: [{name: v, start: [9, -5], behind_m: 2}]\n"),
+              ElementsAre(HasSubstr("vehicles[0].behind_m: it has no effect without `towed_by`")));
+  EXPECT_THAT(MessagesOf(With("    start: [5, 1.5]\n", "    start: [5, 1.5]\n    clip: Walk\n")),
+              ElementsAre(HasSubstr("people[0].clip: it has no effect without `mesh`")));
+}
+
 TEST(Mistakes, HostileFilesAreRefusedQuickly) {
   EXPECT_THAT(MessagesOf("&a [*a]"), testing::Not(testing::IsEmpty()));
   EXPECT_THAT(MessagesOf(std::string(100'000, '[')), testing::Not(testing::IsEmpty()));

@@ -115,12 +115,12 @@ TEST(LightOnMovers, HardlyChangesOnOneWhoHardlyMoves) {
   EXPECT_LT(std::sqrt(squares / count), 0.01 * light / count);
 }
 
-/// A crate that a fork has lifted to just below a lamp.
-TEST(LightOnMovers, IsExactCloseUnderALampToo) {
+/// A hall with one lamp and a crate that a fork has lifted so high.
+WorldParts LiftedCrate(float low_z, float high_z) {
   WorldParts parts = test::Hall({.boxes = 0, .movers = false, .lights = 0});
   parts.lights = {{{15, 0, 4.6f}, {0.75f, 0, 0}, {0, -0.15f, 0}, 1}};
   test::MeshBuilder crate;
-  crate.Box({14.6f, 0.2f, 3.4f}, {15.4f, 0.8f, 4.2f}, 4, 5);
+  crate.Box({14.6f, 0.2f, low_z}, {15.4f, 0.8f, high_z}, 4, 5);
   parts.mover_meshes = {crate.mesh};
   parts.at = [mesh = crate.mesh](std::int64_t stamp_ns) {
     MoverState state;
@@ -130,7 +130,30 @@ TEST(LightOnMovers, IsExactCloseUnderALampToo) {
     state.velocities.assign(mesh.positions.size(), Eigen::Vector3f::Zero());
     return Snapshot{.stamp_ns = stamp_ns, .movers = {state}, .light_scale = {1}};
   };
-  const World world(std::move(parts));
+  return parts;
+}
+
+/// What of the floor it shades is a matter of where it is, not of where its frame has its origin.
+TEST(LightOnMovers, IsTheSameWhereverTheFrameOfACarriedThingBegins) {
+  const World world(LiftedCrate(1.1f, 1.6f));
+  const Tracer tracer(world, {});
+  const std::vector<LightGrid> grids = {MakeLightGrid(world.mover_meshes()[0], 0.08f)};
+  const MoverLight light(world, grids, {});
+  LightVolume volume(Eigen::AlignedBox3f(Eigen::Vector3f(10, -4, 0), Eigen::Vector3f(20, 4, 4)), 1);
+  for (std::size_t i = 0; i < volume.size(); ++i) {
+    volume.Set(i, {.mean = 0.1f, .slope = {0, 0, -0.05f}, .weight = 1});
+  }
+  const auto lit = [&](double origin_z) {
+    Snapshot snapshot = world.At(0);
+    snapshot.movers[0].T_world_object.translation() << 15, 0.5, origin_z;
+    return light.At(tracer.Pose(std::move(snapshot)), 0, volume,
+                    std::vector<std::uint8_t>(grids[0].points.size(), 1), 0.004f);
+  };
+  EXPECT_EQ(lit(0), lit(1.1));
+}
+
+TEST(LightOnMovers, IsExactCloseUnderALampToo) {
+  const World world(LiftedCrate(3.4f, 4.2f));
   const Tracer tracer(world, {});
   const std::vector<LightGrid> grids = {MakeLightGrid(world.mover_meshes()[0], 0.08f)};
   const MoverLight light(world, grids, {});

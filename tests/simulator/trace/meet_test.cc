@@ -61,6 +61,22 @@ TEST(Meet, GivesTheBarycentricsAndTheDistanceThatThePointWasMadeFrom) {
   }
 }
 
+TEST(Corners8, FoursOfLanesHaveOneTriangleEach) {
+  const Corners one{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, 0.1f};
+  const Corners other{{-1, -2, -3}, {-4, -5, -6}, {-7, -8, -9}, 2};
+  std::array<const Corners*, kLanes> by_lane;
+  for (std::size_t k = 0; k < kLanes; ++k) by_lane[k] = k < 4 ? &one : &other;
+  const Corners8 expected(by_lane), found(one, other);
+  for (int k = 0; k < kLanes; ++k) {
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(found.a[axis][k], expected.a[axis][k]);
+      EXPECT_EQ(found.b[axis][k], expected.b[axis][k]);
+      EXPECT_EQ(found.c[axis][k], expected.c[axis][k]);
+    }
+    EXPECT_EQ(found.rim[k], expected.rim[k]);
+  }
+}
+
 /// A disc in the plane x = 4 of as many triangles as there are numbers, all of which meet in its
 /// middle; `order` says which comes first in the mesh.
 World Fan(std::span<const int> order) {

@@ -85,13 +85,17 @@ TEST(TraceViews, TileOrderDoesNotMatter) {
   EXPECT_EQ(a[0].u, b[0].u);
 }
 
-/// A figure and a truck in the hall as seen from afar, close by and from within, straight and
-/// through a lens.
+/// A figure and a truck in the hall as seen from afar, close by, from within and aside, straight
+/// and through lenses: the pixels in the corners of the widest are twenty times those in the
+/// middle.
 std::vector<StereoCamera> Cameras() {
   const StereoCamera straight = Coarser(StereoCamera{}, 4);
   StereoCamera bent = straight;
   bent.lens = {LensModel::kRadialTangential, {-0.28, 0.07, 0.0002, 0.00002}};
-  return {straight, bent};
+  StereoCamera wide = straight;
+  wide.fx = wide.fy = 330.0 / 4;
+  wide.lens = {LensModel::kEquidistant, {0, 0, 0, 0}};
+  return {straight, bent, wide};
 }
 
 std::vector<Eigen::Isometry3d> PlacesAround(const Instant& instant) {
@@ -100,6 +104,9 @@ std::vector<Eigen::Isometry3d> PlacesAround(const Instant& instant) {
     const Eigen::Vector3d middle = box.center().cast<double>();
     for (const double away : {4.0, 0.9, 0.0, -0.2}) {
       places.push_back(test::LookAlong(middle - Eigen::Vector3d(away, 0.1, 0), 0.2));
+    }
+    for (const double aside : {0.8, 0.95, 1.1}) {
+      places.push_back(test::LookAlong(middle - Eigen::Vector3d(4, 0.1, 0), aside));
     }
   }
   return places;
@@ -190,12 +197,11 @@ TEST(Instant, MeetsATriangleThatIsAskedForWhateverStandsBeforeIt) {
       const Rays8 packet = PixelPacket(view, x, y);
       Hits8 hits;
       instant.Intersect(packet, Coherence::kCoherent, kStaticOnly, &hits);
-      // Each lane asks for what its neighbour meets.
-      std::array<std::uint32_t, kLanes> asked;
-      for (std::size_t k = 0; k < kLanes; ++k) asked[k] = hits.primitive[(k + 1) % kLanes];
-      const Meetings8 found = instant.MeetStatic(packet, asked);
+      // Each row of four asks for what one of its rays meets.
+      const std::array asked = {hits.primitive[1], hits.primitive[6]};
+      const Meetings8 found = instant.MeetStatic(packet, asked[0], asked[1]);
       for (std::size_t k = 0; k < kLanes; ++k) {
-        if (asked[k] == hits.primitive[k]) {
+        if (asked[k / 4] == hits.primitive[k]) {
           EXPECT_EQ(found.t[k], hits.t[k]);
           EXPECT_EQ(found.on_rim[k], 0);
           ++met;

@@ -57,11 +57,11 @@ FootWork WatchFeet(const Actor& actor, double from_s, double to_s) {
   constexpr float kContact_m = 0.006f;
   constexpr double kStep_s = 0.02;
   FootWork result;
-  MoverState before = actor.at(from_s);
+  MoverState before = actor.At(from_s);
   std::vector<Eigen::Vector2f> touched(before.positions.size());
   std::vector<bool> standing(before.positions.size(), false);
   for (double t = from_s; t < to_s; t += kStep_s) {
-    const MoverState now = actor.at(t);
+    const MoverState now = actor.At(t);
     for (std::size_t i = 0; i < now.positions.size(); ++i) {
       const Eigen::Vector3f& p = now.positions[i];
       result.sink_m = std::max(result.sink_m, -static_cast<double>(p.z()));
@@ -86,11 +86,11 @@ void ExpectFeetStay(const std::string& model, double speed) {
 }
 
 void ExpectNoJumps(const Actor& actor, double until_s) {
-  MoverState before = actor.at(0);
+  MoverState before = actor.At(0);
   constexpr double kStep_s = 0.01;
   constexpr float kFastestLimb_mps = 9;
   for (double t = kStep_s; t < until_s; t += kStep_s) {
-    const MoverState now = actor.at(t);
+    const MoverState now = actor.At(t);
     float jump = 0;
     for (std::size_t i = 0; i < now.positions.size(); i += 17) {
       jump = std::max(jump, (now.positions[i] - before.positions[i]).norm());
@@ -177,7 +177,7 @@ TEST(Person, WhoCarriesABoxHoldsItBetweenTheHandsAllTheTime) {
   person.route.plan.steps[0].play = "walk_carry";
   const Actor actor = Make(person);
   for (double t = 0; t < 7; t += 0.5) {
-    const MoverState state = actor.at(t);
+    const MoverState state = actor.At(t);
     Eigen::Vector3f middle = Eigen::Vector3f::Zero();
     constexpr std::size_t kCorners = 24;  // of the box, which comes last
     for (std::size_t i = state.positions.size() - kCorners; i < state.positions.size(); ++i) {
@@ -193,7 +193,7 @@ TEST(Person, WhoCarriesABoxHoldsItBetweenTheHandsAllTheTime) {
 TEST(Person, VelocitiesAreTheDerivativesOfPositions) {
   const Actor actor = Make(PersonWalking(PeopleModels()[0], 1.2, 30));
   const double h = 1e-3, t = 6.1;
-  const MoverState before = actor.at(t - h), now = actor.at(t), after = actor.at(t + h);
+  const MoverState before = actor.At(t - h), now = actor.At(t), after = actor.At(t + h);
   for (std::size_t i = 0; i < now.positions.size(); i += 101) {
     const Eigen::Vector3f slope =
         (after.positions[i] - before.positions[i]) / static_cast<float>(2 * h);
@@ -230,7 +230,7 @@ TEST(Person, MovesTheSameFarFromTheOrigin) {
     person.route.plan.steps[0].go[0].x() += x_m;
     person.route.plan.steps.resize(2);
     person.route.plan.steps[1].wait_s = 5;
-    return Make(person).at(time_s);
+    return Make(person).At(time_s);
   };
   for (const double time_s : {1.7, 7.0}) {  // walks, stands
     const MoverState near = at(0, time_s), far = at(900, time_s);
@@ -245,7 +245,7 @@ TEST(Person, StandsAsTallAsModelledAndLooksAlongItsHeading) {
   person.model = PeopleModels()[0];
   person.route.plan.start = {3, 4};
   person.route.plan.heading_rad = pi / 2;
-  const MoverState state = Make(person).at(0);
+  const MoverState state = Make(person).At(0);
   Eigen::Vector3f low = state.positions[0], high = state.positions[0];
   for (const Eigen::Vector3f& p : state.positions) {
     low = low.cwiseMin(p);
@@ -330,9 +330,9 @@ TEST(Pushed, HaveTheVelocityOfTheirOrigin) {
   constexpr double kHalf_s = 1e-4;
   double fastest_aside_mps = 0;
   for (double t = 0.05; t < 14; t += 0.11) {
-    const MoverState now = actor.at(t);
-    const Eigen::Vector3d moved = (actor.at(t + kHalf_s).T_world_object.translation() -
-                                   actor.at(t - kHalf_s).T_world_object.translation()) /
+    const MoverState now = actor.At(t);
+    const Eigen::Vector3d moved = (actor.At(t + kHalf_s).T_world_object.translation() -
+                                   actor.At(t - kHalf_s).T_world_object.translation()) /
                                   (2 * kHalf_s);
     EXPECT_LT((now.velocity_mps - moved).norm(), 2e-3) << t;
     fastest_aside_mps =
@@ -352,7 +352,7 @@ TEST_P(EveryVehicle, TyresTouchTheFloorWithoutSliding) {
   constexpr float kTouching_m = 0.002f;
   int touching = 0;
   for (double t = 1; t < 12; t += 0.31) {
-    const MoverState state = truck.at(t);
+    const MoverState state = truck.At(t);
     for (std::size_t i = 0; i < state.positions.size(); ++i) {
       ASSERT_GT(state.positions[i].z(), -0.015f) << "at " << t;
       if (state.positions[i].z() > kTouching_m) continue;
@@ -390,7 +390,7 @@ TEST(Cyclist, TheFeetStayOnThePedalsAllTheWayRound) {
     ASSERT_FALSE(ball.empty());
     double lowest = 1e9, highest = -1e9;
     for (double t = 4; t < 16; t += 0.05) {
-      const MoverState state = cyclist.at(t);
+      const MoverState state = cyclist.At(t);
       const Eigen::Vector3f at = MeanOf(state.positions, pedal);
       const Eigen::Vector3f foot = MeanOf(state.positions, ball) - at;
       lowest = std::min(lowest, double{at.z()});
@@ -410,8 +410,8 @@ TEST(Forklift, AParkedOneIsTheSameAtEveryTime) {
   WorldParts parts;
   Wardrobe wardrobe(&parts);
   const Actor actor = MakeVehicle(truck, &assets, {}, Dice(1, {}), &wardrobe);
-  EXPECT_EQ(actor.at(0).positions, actor.at(9).positions);
-  for (const Eigen::Vector3f& velocity : actor.at(9).velocities) {
+  EXPECT_EQ(actor.At(0).positions, actor.At(9).positions);
+  for (const Eigen::Vector3f& velocity : actor.At(9).velocities) {
     ASSERT_EQ(velocity, Eigen::Vector3f::Zero());
   }
 }
@@ -426,7 +426,7 @@ TEST(Forklift, TheMastCarriesTheForksAndTheLoad) {
   WorldParts parts;
   Wardrobe wardrobe(&parts);
   const Actor actor = MakeVehicle(truck, &assets, {}, Dice(1, {}), &wardrobe);
-  const MoverState low = actor.at(0), high = actor.at(20);
+  const MoverState low = actor.At(0), high = actor.At(20);
   const std::size_t last = low.positions.size() - 1;  // the load comes last
   EXPECT_NEAR(high.positions[last].z() - low.positions[last].z(), 1.5, 1e-4);
   EXPECT_GT(low.positions[last].x(), 0.5f) << "it hangs ahead of the front axle";

@@ -193,6 +193,26 @@ TEST(BuildWorld, FrozenActorsKeepTheirPlaceAndAreStill) {
   }
 }
 
+/// People of every kind of motion, vehicles that drive and stand, and a mechanism.
+TEST(BuildWorld, VelocitiesAloneAreThoseOfWholeSnapshotsToTheBit) {
+  for (const char* file : {"/scenes/weakness/conveyor.yaml", "/scenes/paper/scene2.yaml"}) {
+    const World world = BuildWorld(LoadScene(kRoot + file), kAssets, 1);
+    std::vector<ActorClock> clocks(world.mover_meshes().size(), {2'900'000'000, 0.7});
+    clocks[0].rate = 0;
+    const Snapshot now = world.At(3'000'000'000, clocks);
+    const std::vector<std::int64_t> offsets = {-4'000'000, 2'000'000, 4'000'000};
+    const std::vector<MoverVelocities> velocities = world.VelocitiesNear(now, offsets);
+    ASSERT_EQ(velocities.size(), offsets.size());
+    for (std::size_t k = 0; k < offsets.size(); ++k) {
+      const Snapshot then = world.Near(now, offsets[k]);
+      ASSERT_EQ(velocities[k].size(), then.movers.size());
+      for (std::size_t i = 0; i < then.movers.size(); ++i) {
+        EXPECT_EQ(velocities[k][i], then.movers[i].velocities) << file << ", mover " << i;
+      }
+    }
+  }
+}
+
 TEST(BuildWorld, AMissingModelIsNamedWithItsPlaceInTheFile) {
   Scene scene = SceneTwo();
   scene.people[0].model = "nobody";

@@ -60,9 +60,9 @@ TEST(CapturedPerson, HasTheVelocityOfItsOriginSidewaysToo) {
   constexpr double kHalf_s = 0.005;
   double fastest_aside_mps = 0;
   for (double t = 0.1; t < 3.8; t += 0.13) {
-    const MoverState now = actor.at(t);
-    const Eigen::Vector3d moved = (actor.at(t + kHalf_s).T_world_object.translation() -
-                                   actor.at(t - kHalf_s).T_world_object.translation()) /
+    const MoverState now = actor.At(t);
+    const Eigen::Vector3d moved = (actor.At(t + kHalf_s).T_world_object.translation() -
+                                   actor.At(t - kHalf_s).T_world_object.translation()) /
                                   (2 * kHalf_s);
     EXPECT_LT((now.velocity_mps - moved).norm(), 1e-3) << t;
     fastest_aside_mps =
@@ -142,7 +142,7 @@ TEST(RecordedWay, IsWhereThePersonIs) {
   const FloorWay way = RecordedWay(person, &assets);
   std::filesystem::remove_all(file.parent_path());
   for (double t = 0; t < 6; t += 0.13) {
-    const Eigen::Vector3d there = actor.at(t).T_world_object.translation();
+    const Eigen::Vector3d there = actor.At(t).T_world_object.translation();
     EXPECT_LT((way.At(t - 1.5) - there.head<2>()).norm(), 5e-3) << t;
   }
 }

@@ -248,5 +248,17 @@ TEST(Daylight, DimsAsCloudsPass) {
   EXPECT_NEAR(most, 1, 0.01f);
 }
 
+/// What the hall itself does must not tell twins apart whose errors are subtracted.
+TEST(Daylight, AndLampsThatGoOffAreTheSameInEveryTwin) {
+  Scene scene = LoadScene(kRoot + "/scenes/halls/loading_dock.yaml");
+  scene.lights.at(0).off = {{.from_s = 2, .to_s = 3}};
+  for (const double t : {0.0, 1.3, 2.5, 4.7}) {
+    EXPECT_EQ(LightScale(Frozen(scene), t), LightScale(scene, t));
+    EXPECT_EQ(LightScale(WithoutActors(scene), t), LightScale(scene, t));
+    EXPECT_EQ(LightScale(WithDynamics(scene, Dynamics::kNone), t), LightScale(scene, t));
+  }
+  EXPECT_NE(LightScale(Frozen(scene), 0), LightScale(Frozen(scene), 2.5));
+}
+
 }  // namespace
 }  // namespace aisle::sim

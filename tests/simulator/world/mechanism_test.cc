@@ -75,6 +75,33 @@ TEST(Mechanism, StandsStillBelowItsLevel) {
   EXPECT_NE(lively.At(Nano(2.5)).movers[0].positions, first.movers[0].positions);
 }
 
+/// A conveyor across the hall's axes whose first part that moves is a roller that lies.
+const std::string kRollers = R"(mechanisms:
+  - name: conveyor
+    at: [5, 1]
+    heading_deg: 30
+    parts:
+      - {size_m: [4, 0.1, 0.6], at_m: [2, 0, 0.3]}
+      - {shape: cylinder, size_m: [0.05, 0.05, 0.6], at_m: [0.2, 0, 0.7], roll_deg: 90, count: 30,
+         step_m: [0.12, 0, 0], joint: {kind: spin, rate_hz: -2.8648}}
+)";
+
+TEST(Mechanism, ItsBoxDoesNotTurnWithItsRollers) {
+  const World world = Build(kRollers);
+  for (int k = 0; k <= 8; ++k) {
+    const Snapshot now = world.At(Nano(k / 8.0 / 2.8648));
+    const MoverState& rollers = StateOf(world, now, "conveyor");
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3f& position : rollers.positions) {
+      box.extend(rollers.T_world_object.inverse() * position.cast<double>());
+    }
+    // A roller has corners: across its axis it is up to a thousandth of a metre narrower.
+    EXPECT_LT((box.sizes() - Eigen::Vector3d(29 * 0.12 + 0.05, 0.6, 0.05)).norm(), 1e-3) << k;
+    EXPECT_NEAR(rollers.T_world_object.translation().z(), 0.7, 1e-9);
+    EXPECT_TRUE(rollers.T_world_object.linear().col(2).isApprox(Eigen::Vector3d::UnitZ()));
+  }
+}
+
 const std::string kFork = R"(vehicles:
   - name: truck
     model: forklift

@@ -53,8 +53,8 @@ Actor Make(const PersonSpec& person) {
 
 /// Most by which a stated velocity is off the way over a time around it.
 double WidestError_mps(const Actor& actor, double time_s, double half_s) {
-  const MoverState before = actor.at(time_s - half_s), now = actor.at(time_s),
-                   after = actor.at(time_s + half_s);
+  const MoverState before = actor.At(time_s - half_s), now = actor.At(time_s),
+                   after = actor.At(time_s + half_s);
   float widest = 0;
   for (std::size_t i = 0; i < now.positions.size(); i += 7) {
     const Eigen::Vector3f slope =
@@ -140,9 +140,9 @@ TEST(Person, FeetStayOnTheFloorInASmallTurn) {
     person.route.plan.start_s = 0.5;
     person.route.plan.steps = {TurningTo(turn_deg), Waiting(1, "")};
     const Actor actor = Make(person);
-    const MoverState before = actor.at(0.45);
+    const MoverState before = actor.At(0.45);
     for (double t = 0.5; t < 1.2; t += 0.01) {
-      const MoverState now = actor.at(t);
+      const MoverState now = actor.At(t);
       for (std::size_t i = 0; i < now.positions.size(); ++i) {
         if (before.positions[i].z() > kContact_m) continue;
         ASSERT_LT((now.positions[i] - before.positions[i]).norm(), kContact_m)
@@ -155,7 +155,7 @@ TEST(Person, FeetStayOnTheFloorInASmallTurn) {
 /// Share of a time during which either foot, left and right, is on the floor.
 Eigen::Vector2d StanceShares(const Actor& actor, double from_s, double until_s) {
   constexpr float kSole_m = 0.03f;
-  const MoverState rest = actor.at(0);
+  const MoverState rest = actor.At(0);
   std::array<std::vector<std::size_t>, 2> soles;
   for (std::size_t i = 0; i < rest.positions.size(); ++i) {
     if (rest.positions[i].z() < kSole_m) soles[rest.positions[i].y() > 0 ? 0 : 1].push_back(i);
@@ -163,7 +163,7 @@ Eigen::Vector2d StanceShares(const Actor& actor, double from_s, double until_s) 
   Eigen::Vector2d stands = Eigen::Vector2d::Zero();
   int count = 0;
   for (double t = from_s; t < until_s; t += 0.01, ++count) {
-    const MoverState now = actor.at(t);
+    const MoverState now = actor.At(t);
     for (int side : {0, 1}) {
       stands[side] +=
           std::ranges::any_of(soles[static_cast<std::size_t>(side)],

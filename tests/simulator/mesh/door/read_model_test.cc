@@ -62,6 +62,24 @@ TEST(ReadModel, SaysWhatReadingItHereSays) {
   }
 }
 
+TEST(ReadModel, OneFileAloneIsHeldToThatBehindTheDoorToo) {
+  const Scratch scratch;
+  const fs::path file = scratch.Write("parts.gltf", R"({"asset": {"version": "2.0"},
+      "buffers": [{"byteLength": 9, "uri": "parts.bin"}]})");
+  scratch.Write("parts.bin", "123456789");
+  ImportOptions alone;
+  alone.one_file = true;
+  const std::string error = ErrorOf(file, alone);
+  EXPECT_THAT(error, testing::HasSubstr("it names a separate file, parts.bin"));
+  EXPECT_THAT(ErrorOf(file), testing::Not(testing::HasSubstr("separate")));
+  try {
+    ReadModel(file, alone);
+    FAIL() << "it was read";
+  } catch (const ImportError& refused) {
+    EXPECT_EQ(refused.what(), error);
+  }
+}
+
 TEST(ReadModel, WhateverHappensToTheReaderIsOneError) {
   const Scratch scratch;
   const fs::path file = scratch.Write("m.glb", "glTF");
@@ -95,7 +113,7 @@ TEST(ReadModel, AReaderThatMeetsAPictureIsStartedAgainWithADecoderAndOnlyOnce) {
   const Scratch scratch;
   const fs::path file = scratch.Write("m.glb", "glTF");
   const ModelDoor twice =
-      Behind(scratch, "test \"${15}\" = 1 || exit 6; echo it has a decoder >&2; exit 4");
+      Behind(scratch, "test \"${16}\" = 1 || exit 6; echo it has a decoder >&2; exit 4");
   EXPECT_EQ(ErrorAtTheDoor(file, twice), file.string() + ": it has a decoder");
   EXPECT_THROW(ReadModel(file, {}, Behind(scratch, "exit 6")), std::system_error);
 }

@@ -1,5 +1,6 @@
 #include "simulator/mesh/kept/kept_model.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/simulator/mesh/scratch.h"
@@ -33,6 +34,20 @@ TEST(KeepModel, MeshAndRecordAreBothNewOrNeitherIs) {
   EXPECT_EQ(OpenUserModel(file).mesh.positions, old.mesh.positions);
   KeepModel(other, {}, file);
   EXPECT_EQ(OpenUserModel(file).mesh.positions, other.mesh.positions);
+}
+
+/// What is kept of a scene from run to run is known by the bytes of the files it names.
+TEST(OpenUserModel, TakesAllOfItFromTheFileThatIsNamed) {
+  const Scratch scratch;
+  const fs::path file = scratch.Write("hall.gltf", R"({"asset": {"version": "2.0"},
+      "buffers": [{"byteLength": 3, "uri": "hall%20one.bin"}]})");
+  scratch.Write("hall one.bin", "123");
+  try {
+    OpenUserModel(file);
+    FAIL() << "it was read";
+  } catch (const ImportError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("it names a separate file, hall one.bin"));
+  }
 }
 
 TEST(KeepModel, AFolderInTheRecordsPlaceLeavesNoMesh) {

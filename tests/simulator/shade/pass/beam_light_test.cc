@@ -12,9 +12,10 @@ namespace {
 
 constexpr float kAlbedo = 0.5f;
 constexpr float kGlow = 3;
-constexpr std::uint16_t kPane = 1, kLens = 2, kMirror = 3;  // materials
+constexpr std::uint16_t kFloor = 0, kPane = 1, kLens = 2, kMirror = 3, kGlossy = 4, kBar = 5,
+                        kStripe = 6;  // materials
 
-/// A floor, a lamp that is off, and what each test adds; seen straight from above.
+/// A floor, a lamp that may shine, and what each test adds; seen straight from above.
 struct Floor {
   Floor() {
     parts.instances = {{"nothing", ObjectClass::kNone, false},
@@ -23,7 +24,10 @@ struct Floor {
     parts.materials = {{.name = "floor", .albedo = kAlbedo},
                        {.name = "pane", .albedo = 0, .transmission = 0.8f},
                        {.name = "lens", .albedo = 0, .emission = kGlow},
-                       {.name = "mirror", .albedo = 0, .specular_f0 = 0.9f, .roughness = 0.05f}};
+                       {.name = "mirror", .albedo = 0, .specular_f0 = 0.9f, .roughness = 0.05f},
+                       {.name = "glossy", .albedo = 0.1f, .specular_f0 = 0.1f, .roughness = 0.3f},
+                       {.name = "bar", .albedo = 0.1f},
+                       {.name = "stripe", .albedo = 1}};
     parts.lights.push_back({{0, 0, 9}, {1, 0, 0}, {0, -1, 0}, 1});
     floor.Quad({-10, -10, 0}, {20, 0, 0}, {0, 20, 0}, 0, 1);
     parts.has_beams = true;
@@ -33,8 +37,8 @@ struct Floor {
   float At(double x, double y) {
     WorldParts made = parts;
     made.statics = {floor.mesh, floor.instances};
-    made.at = [beams = beams, movers = movers](std::int64_t stamp_ns) {
-      Snapshot snapshot{.stamp_ns = stamp_ns, .movers = movers, .light_scale = {0}};
+    made.at = [beams = beams, movers = movers, lamp = lamp](std::int64_t stamp_ns) {
+      Snapshot snapshot{.stamp_ns = stamp_ns, .movers = movers, .light_scale = {lamp}};
       snapshot.beams = beams;
       return snapshot;
     };
@@ -42,7 +46,8 @@ struct Floor {
     const Tracer tracer(world, {});
     ShadeOptions options{.statics = {.texel_m = 1, .coarse_texel_m = 4, .volume_spacing_m = 4}};
     options.gloss = gloss;
-    options.antialias = false;
+    options.antialias = antialias;
+    options.mover_shadows = mover_shadows;
     const Shader shader(world, tracer, options);
     const StereoCamera camera{
         .width = 8, .height = 8, .fx = focal_px, .fy = focal_px, .cx = 3.5, .cy = 3.5};
@@ -57,10 +62,10 @@ struct Floor {
     return static_cast<float>(cv::mean(shader.Shade(instant, view, hits)[0])[0]);
   }
 
-  /// A sheet over the floor that moves; one that is clear casts no shadow.
-  void AddSheet(float height_m, std::uint16_t material) {
+  /// A sheet of 4 × 4 m over the floor that moves; one that is clear casts no shadow.
+  void AddSheet(float height_m, std::uint16_t material, float x = 0) {
     test::MeshBuilder sheet;
-    sheet.Quad({-2, -2, height_m}, {4, 0, 0}, {0, 4, 0}, material, 2);
+    sheet.Quad({x - 2, -2, height_m}, {4, 0, 0}, {0, 4, 0}, material, 2);
     parts.mover_meshes.push_back(sheet.mesh);
     MoverState state;
     state.instance = 2;
@@ -72,7 +77,8 @@ struct Floor {
   }
 
   WorldParts parts;
-  bool gloss = false;
+  bool gloss = false, antialias = false, mover_shadows = true;
+  float lamp = 0;  ///< how bright it is
   double focal_px = 800;
   test::MeshBuilder floor;
   std::vector<Beam> beams;
@@ -146,6 +152,47 @@ TEST(ClearPass, APaneLetsItsShareThroughAndThrowsNoShadow) {
   EXPECT_NEAR(covered.At(0.5, 0), 0.8f * open.At(0.5, 0), 1e-3 * open.At(0.5, 0));
 }
 
+/// The lamp is 2 × 2 m, 9 m up; of a sheet at 6 m that ends at x = 2 the half-shadow is from 4
+/// to 8.
+TEST(ClearPass, AMoversShadowIsThereBehindAPaneToo) {
+  Floor bright, open, covered;
+  bright.lamp = open.lamp = covered.lamp = 1;
+  bright.mover_shadows = false;
+  for (Floor* floor : {&bright, &open, &covered}) floor->AddSheet(6, kFloor);
+  covered.AddSheet(1, kPane);
+  covered.AddSheet(1, kPane, 6);
+  const float lit = bright.At(0, 0);
+  ASSERT_GT(lit, 1e-3f);
+  EXPECT_LT(open.At(0, 0), 0.05f * lit);
+  EXPECT_LT(covered.At(0, 0), 0.05f * lit);
+  for (const double x : {4.5, 6.0, 7.5}) {
+    const float through = 0.8f * open.At(x, 0);
+    EXPECT_GT(through, 0.01f * lit) << x;
+    EXPECT_NEAR(covered.At(x, 0), through, 0.03f * lit) << x;
+  }
+}
+
+/// A bar in the middle of one column of pixels, and beside it a stripe that no pixel's centre
+/// shows: what antialiasing finds of it is looked up. The lamp is hidden by a sheet, the beam is
+/// not.
+TEST(BeamLight, ALampsShadowTakesNothingFromItAtEdges) {
+  Floor dark, shadowed;
+  for (Floor* floor : {&dark, &shadowed}) {
+    constexpr float kPixel = 0.005f;  // m on the floor
+    floor->antialias = true;
+    floor->beams = {Spot()};
+    floor->AddSheet(6, kFloor);
+    floor->floor.Quad({0, -1, 0.01f}, {0.75f * kPixel, 0, 0}, {0, 2, 0}, kBar, 1);
+    floor->floor.Quad({0.75f * kPixel, -1, 0.01f}, {0.25f * kPixel, 0, 0}, {0, 2, 0}, kStripe, 1);
+  }
+  shadowed.lamp = 0.1f;
+  Floor hard = dark;
+  hard.antialias = false;
+  const float expected = dark.At(0, 0);
+  EXPECT_GT(expected, 1.04f * hard.At(0, 0)) << "the stripe is found";
+  EXPECT_NEAR(shadowed.At(0, 0), expected, 2e-3f * expected);
+}
+
 /// By itself, whether or not anything in the scene is a beam.
 TEST(Glow, AMoversLensIsAsBrightAsItShines) {
   for (const bool has_beams : {false, true}) {
@@ -168,6 +215,31 @@ TEST(Glow, AMirrorShowsIt) {
     floor.AddSheet(6, kLens);  // above the camera
     EXPECT_NEAR(floor.At(0, 0), 0.9 * kGlow, 0.03 * kGlow);
   }
+}
+
+TEST(Glow, AMirrorShowsItThroughAPaneToo) {
+  Floor floor;
+  floor.gloss = true;
+  floor.floor.Quad({-1, -1, 0.1f}, {2, 0, 0}, {0, 2, 0}, kMirror, 1);
+  floor.AddSheet(6, kLens);
+  floor.AddSheet(5, kPane);
+  EXPECT_NEAR(floor.At(0, 0), 0.9 * kGlow, 0.03 * kGlow);
+}
+
+/// A lamp that a broad lobe mirrors shines through a pane, as its light on the floor does.
+TEST(LobeLamps, APaneHidesNoLamp) {
+  Floor open, covered, sheltered;
+  for (Floor* floor : {&open, &covered, &sheltered}) {
+    floor->gloss = true;
+    floor->lamp = 1;
+    floor->floor.Quad({-1, -1, 0.1f}, {2, 0, 0}, {0, 2, 0}, kGlossy, 1);
+  }
+  covered.AddSheet(6, kPane);
+  sheltered.AddSheet(6, kFloor);
+  const float lit = open.At(0.3, 0);
+  ASSERT_GT(lit, 0);
+  EXPECT_EQ(covered.At(0.3, 0), lit);
+  EXPECT_LT(sheltered.At(0.3, 0), 0.5f * lit) << "a solid sheet does";
 }
 
 /// The sun is as broad at a bay's border as at the window's, and where no bar is it shows whole.

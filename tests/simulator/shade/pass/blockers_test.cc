@@ -7,6 +7,7 @@
 #include <random>
 
 #include "simulator/camera/pixel_rays.h"
+#include "simulator/shade/lanes/ray_packets.h"
 #include "simulator/shade/pass/lobe_lamps.h"
 #include "simulator/shade/pass/other_camera.h"
 #include "simulator/shade/surface/gloss.h"
@@ -99,9 +100,9 @@ TEST(MoversBetween, LeavesOutNoMoverThatBlocksAnything) {
         Set(start, k, &from);
         Set(end - start, k, &to);
       }
-      const unsigned all =
-          BlockedByMovers(stage.instant, kMoversOnly, from, to, Wide(1), WideInt(-1));
-      const unsigned of_mask = BlockedByMovers(stage.instant, mask, from, to, Wide(1), WideInt(-1));
+      const Segments8 ways{from, to, Wide(1), WideInt(-1)};
+      const unsigned all = Blocked(stage.instant, kMoversOnly, Coherence::kCoherent, ways);
+      const unsigned of_mask = Blocked(stage.instant, mask, Coherence::kCoherent, ways);
       blocked_at_all += all != 0;
       ASSERT_EQ(all, of_mask) << round;
     }
@@ -182,31 +183,81 @@ TEST(Shaft, LeavesOutMoversThatAThickSegmentDoesNot) {
   EXPECT_LT(tight, loose);
 }
 
-TEST(BlockedByMovers, IsWhatRaysAgainstAllMoversFind) {
+/// Ways between places in the hall, as many lanes valid as bits are set.
+Segments8 AnyWays(Random* random, unsigned valid) {
+  const Eigen::AlignedBox3f hall(Vector3f(4, -3, 0), Vector3f(18, 3, 2.5f));
+  Segments8 ways{.from = {}, .to = {}, .t_far = Wide(0.9f), .valid = LanesOf(valid)};
+  for (int k = 0; k < 8; ++k) {
+    const Vector3f start = random->Point(hall);
+    Set(start, k, &ways.from);
+    Set(random->Point(hall) - start, k, &ways.to);
+  }
+  return ways;
+}
+
+Rays8 RaysOf(const Segments8& ways) { return MakeRays(ways.from, ways.to, ways.t_far, ways.valid); }
+
+TEST(Blocked, IsWhatRaysAgainstAllFind) {
   const Stage stage;
   Random random(3);
-  const Eigen::AlignedBox3f hall(Vector3f(4, -3, 0), Vector3f(18, 3, 2.5f));
   unsigned any = 0;
-  for (int round = 0; round < 2000; ++round) {
-    F8x3 from, to;
-    for (int k = 0; k < 8; ++k) {
-      const Vector3f start = random.Point(hall);
-      Set(start, k, &from);
-      Set(random.Point(hall) - start, k, &to);
+  for (unsigned round = 0; round < 2000; ++round) {
+    const Segments8 ways = AnyWays(&random, round & 255u);
+    for (const GeometryMask geometries : {kEverything, kStaticOnly, kMoversOnly}) {
+      const unsigned blocked = Blocked(stage.instant, geometries, Coherence::kIncoherent, ways);
+      ASSERT_EQ(blocked, stage.instant.Occluded(RaysOf(ways), Coherence::kIncoherent, geometries));
+      any |= geometries == kMoversOnly ? blocked : 0;
     }
-    const I8 valid = LanesOf(static_cast<unsigned>(round) & 255u);
-    const unsigned blocked =
-        BlockedByMovers(stage.instant, kMoversOnly, from, to, Wide(0.9f), valid);
-    Rays8 rays;
-    for (int k = 0; k < 8; ++k) {
-      rays.ox[k] = from.x[k], rays.oy[k] = from.y[k], rays.oz[k] = from.z[k];
-      rays.dx[k] = to.x[k], rays.dy[k] = to.y[k], rays.dz[k] = to.z[k];
-      rays.t_near[k] = 0, rays.t_far[k] = 0.9f, rays.valid[k] = valid[k];
-    }
-    ASSERT_EQ(blocked, stage.instant.Occluded(rays, Coherence::kIncoherent, kMoversOnly));
-    any |= blocked;
   }
   EXPECT_EQ(any, 255u);
+}
+
+TEST(FindBlocked, ManyPacketsFindWhatEachFindsAlone) {
+  const Stage stage;
+  Random random(8);
+  for (std::size_t count = 0; count < 40; ++count) {
+    std::vector<Segments8> ways;
+    for (std::size_t i = 0; i < count; ++i) {
+      ways.push_back(AnyWays(&random, static_cast<unsigned>(7 * i) & 255u));
+    }
+    std::vector<unsigned> blocked(count, 255u);
+    FindBlocked(stage.instant, kEverything, Coherence::kCoherent, ways, blocked);
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_EQ(blocked[i], Blocked(stage.instant, kEverything, Coherence::kCoherent, ways[i]));
+    }
+  }
+}
+
+TEST(MayMeet, LeavesOutNoMoverThatAnyLaneMeets) {
+  const Stage stage;
+  Random random(9);
+  int met = 0, left_out = 0;
+  for (unsigned round = 0; round < 2000; ++round) {
+    Segments8 ways = AnyWays(&random, 1u << round % 8 | 1u << round / 8 % 8);
+    if (round % 2) ways.t_far = Wide(kInfinity);
+    const GeometryMask may = MayMeet(stage.instant, kEverything, ways);
+    ASSERT_TRUE(may & kStaticOnly);
+    Hits8 all, of_mask;
+    stage.instant.Intersect(RaysOf(ways), Coherence::kIncoherent, kEverything, &all);
+    stage.instant.Intersect(RaysOf(ways), Coherence::kIncoherent, may, &of_mask);
+    for (int k = 0; k < 8; ++k) {
+      if (!ways.valid[k]) continue;
+      ASSERT_EQ(all.geometry[k], of_mask.geometry[k]) << round;
+      met += all.geometry[k] != 0 && all.geometry[k] != kNoGeometry;
+    }
+    left_out += may == kStaticOnly;
+  }
+  EXPECT_GT(met, 50);
+  EXPECT_GT(left_out, 500);
+  EXPECT_EQ(MayMeet(stage.instant, kMoversOnly, AnyWays(&random, 0)), 0u) << "nobody asks";
+}
+
+TEST(SolidOf, LeavesOutWhatIsSeenThrough) {
+  const Stage stage;
+  EXPECT_EQ(SolidOf(stage.instant), kEverything);
+  Snapshot snapshot = stage.world.At(0);
+  snapshot.movers[1].casts_shadow = false;
+  EXPECT_EQ(SolidOf(stage.tracer.Pose(snapshot)), kEverything & ~MoverBit(1));
 }
 
 /// The other camera's pixel of a point is the one that sees that point.
@@ -281,9 +332,11 @@ TEST(LobeLamps, MirrorInTheMeanWhatTheIntegralOverTheLampsSays) {
                   {{3, 3, 3}, {0.5f, 0, 0}, {0, -0.5f, 0}, 4}};
   const World world(std::move(parts));
   const Tracer tracer(world, {});
-  const Instant instant = tracer.Pose(world.At(0));
   const std::vector<float> scale = {0.6f, 0.5f, 0};
-  const LobeLamps lamps(world.lights(), scale);
+  Snapshot snapshot = world.At(0);
+  snapshot.light_scale = scale;
+  const Instant instant = tracer.Pose(std::move(snapshot));
+  const LobeLamps lamps(instant, world.lights());
   for (const float roughness : {0.2f, 0.38f}) {
     const Vector3f out = Vector3f(-0.5f, 0.1f, 0.6f).normalized();
     const LobePoints8 points{{Wide(0.2f), Wide(-0.1f), Wide(0.002f)},
@@ -301,7 +354,7 @@ TEST(LobeLamps, MirrorInTheMeanWhatTheIntegralOverTheLampsSays) {
         choice.a[k] = random.In(0, 1);
         choice.b[k] = random.In(0, 1);
       }
-      mean += Sum(lamps.Mirrored(instant, points, choice, WideInt(-1))) / (8.0 * kRounds);
+      mean += Sum(lamps.Mirrored(points, choice, WideInt(-1))) / (8.0 * kRounds);
     }
     double expected = 0;
     constexpr int kSide = 200;
