@@ -1,10 +1,15 @@
 #include "harness/campaign/campaign.h"
 
+#include <iterator>
+#include <set>
 #include <sstream>
+#include <tuple>
 
 #include "harness/campaign/command_files.h"
 #include "harness/campaign/equal_runs.h"
 #include "harness/campaign/external_run.h"
+#include "harness/campaign/folder_modes.h"
+#include "harness/campaign/source.h"
 #include "harness/common/stopwatch.h"
 #include "harness/contract/exit_code.h"
 #include "harness/io/duration.h"
@@ -18,6 +23,9 @@ namespace aisle {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Where a run and what comes of it lies.
+fs::path FolderOf(const Job& job) { return job.out / "runs" / RunId(job.spec); }
 
 std::string LastLine(const std::string& log) {
   std::istringstream stream(log);
@@ -58,20 +66,70 @@ void ShrinkCaches() {
   ShrinkStore(CacheDir() / "datasets", kMostBytes, std::chrono::hours(24));
 }
 
+/// Between caches that are looked at, file by file, while others that run want to be guarded.
+constexpr double kShrinkEvery_ms = 60e3;
+
 bool IsFailure(const std::optional<RunRecord>& record) {
   return record && !IsComplete(record->status);
 }
 
+/// What a night and its runs read and write, and a system of others could lock them out of; nothing
+/// where there is no such system.
+std::vector<fs::path> PlacesOf(const std::vector<Job>& jobs) {
+  const auto is_foreign = [](const Job& job) { return job.spec.system.external.has_value(); };
+  if (std::ranges::none_of(jobs, is_foreign)) return {};
+  const fs::path cache = CacheDir();
+  std::set<fs::path> places{cache / "frames", cache / "taught", cache / "datasets"};
+  std::set<std::string> scenes;
+  for (const Job& job : jobs) {
+    places.insert({job.out, job.out / "runs", FolderOf(job), job.frames, job.led_frames,
+                   job.teaching, job.dataset});
+    places.insert(job.hidden.begin(), job.hidden.end());
+    if (!scenes.insert(job.spec.scene_file).second) continue;
+    try {
+      for (const std::string& file : FilesOfSource(job.spec.scene_file)) places.insert(file);
+    } catch (const InputError&) {  // its runs will say so, each for itself
+    }
+  }
+  places.erase("");
+  return {places.begin(), places.end()};
+}
+
+/// Modes of all that a night needs, put back now and then: a look at thousands of runs takes a
+/// while.
+class ModesOfNight {
+ public:
+  /// Once their folders are there.
+  void Add(const std::vector<Job>& jobs) { modes_.Add(PlacesOf(jobs)); }
+  void Tick() {
+    constexpr double kEvery_ms = 250;
+    if (since_.ElapsedMs() > kEvery_ms) PutBack();
+  }
+  void PutBack() {
+    modes_.PutBack();
+    since_ = {};
+  }
+
+ private:
+  FolderModes modes_;
+  Stopwatch since_;
+};
+
 /// Follows the runs as they come and go.
 class Follower {
  public:
-  Follower(std::size_t total, const RunLimits& limits, const CampaignEvents& events)
-      : total_(total), limits_(limits), events_(events) {}
+  Follower(std::size_t total, const RunLimits& limits, const CampaignEvents& events,
+           ModesOfNight* modes)
+      : total_(total), limits_(limits), events_(events), modes_(*modes) {}
 
   void Ended(const Job& job, const ProcessResult& result) {
+    modes_.PutBack();
     ++ended_;
     time_left_.Ended(job);
-    ShrinkCaches();
+    if (since_shrunk_.ElapsedMs() > kShrinkEvery_ms) {
+      ShrinkCaches();
+      since_shrunk_ = {};
+    }
     const std::string id = RunId(job.spec);
     const bool exited = result.end == ProcessResult::End::kExited;
     if (exited && (result.code == kOwnFailure || result.code == kBadInput)) {
@@ -79,8 +137,9 @@ class Follower {
       events_.say(fmt::format("{}: {}", id, Printable(LastLine(result.log), 4096)));
       return;
     }
-    const fs::path folder = job.out / "runs" / id;
-    RemoveFolder(folder / kGuestFolder);  // what a run that was killed could not take away
+    const fs::path folder = FolderOf(job);
+    // What a run that was killed could not take away; who needs the place finds what stays.
+    std::ignore = TryToRemoveFolder(folder / kGuestFolder);
     WriteFileAtomically(folder / "log.txt", result.log);
     if (!exited || result.code != 0) {
       WriteFileAtomically(folder / "result.json", ToJson(FailedRun(job, result, limits_)));
@@ -90,8 +149,9 @@ class Follower {
                             record ? Name(record->status) : "no result", Duration(result.wall_s)));
   }
 
-  /// These come next, in this order.
+  /// These come next, in this order. Their folders are there.
   void Begin(const std::vector<Job>& jobs, const ExpectedTimes& expected) {
+    modes_.Add(jobs);
     time_left_ = TimeLeft(jobs, expected);
     watch_ = {};
   }
@@ -104,6 +164,7 @@ class Follower {
   }
 
   void Tick(const std::vector<JobProgress>& running) {
+    modes_.Tick();
     std::string text = fmt::format("{}/{} runs", ended_, total_);
     for (const JobProgress& one : running) {
       text += fmt::format(" | {} {}", RunId(one.job->spec), Describe(one.progress));
@@ -126,10 +187,11 @@ class Follower {
   const std::size_t total_;
   const RunLimits limits_;
   const CampaignEvents& events_;
+  ModesOfNight& modes_;
   std::size_t ended_ = 0;
   int failure_ = 0;
   TimeLeft time_left_{{}, {}};
-  Stopwatch watch_;
+  Stopwatch watch_, since_shrunk_;
 };
 
 /// Drives all of `jobs`; false when interrupted.
@@ -155,8 +217,8 @@ bool DriveAll(const std::vector<Job>& jobs, const CampaignOptions& options, Foll
 /// Makes all of `jobs`, equal ones by one drive; false when interrupted. A drive that fails answers
 /// for itself alone: its equals are driven after all.
 bool RunAll(const std::vector<Job>& jobs, const CampaignOptions& options,
-            const CampaignEvents& events, int* failure) {
-  Follower follower(jobs.size(), options.limits, events);
+            const CampaignEvents& events, ModesOfNight* modes, int* failure) {
+  Follower follower(jobs.size(), options.limits, events, modes);
   const EqualRuns runs = GroupEqual(jobs);
   std::vector<Job> unanswered;
   const auto answer = [&](const Job& driven) {
@@ -187,10 +249,20 @@ std::vector<Job> TriedOnce(const std::vector<Job>& jobs) {
   return once;
 }
 
-/// The same runs in another folder, in which nothing of them lies.
-std::vector<Job> OnceMore(std::vector<Job> jobs) {
-  for (Job& job : jobs) job.out /= "again";
-  return AllToDo(jobs);
+/// The same run in another folder.
+Job OnceMore(Job job) {
+  job.out /= "again";
+  return job;
+}
+
+/// Takes out those that cannot be tried again since something of an earlier night keeps the place.
+void DropWithoutPlace(std::vector<Job>* failed, const CampaignEvents& events) {
+  std::erase_if(*failed, [&](const Job& job) {
+    const fs::path place = FolderOf(OnceMore(job));
+    if (TryToRemoveFolder(place)) return false;
+    events.say(fmt::format("{}: not run again: cannot empty {}", RunId(job.spec), place.string()));
+    return true;
+  });
 }
 
 /// Files with the first attempts what became of the second ones: where one did not fail, the run is
@@ -205,7 +277,7 @@ void FileSecondAttempts(const std::vector<Job>& jobs) {
       first->flaky = true;
       first->status_why += "; a second attempt with the same inputs ended " + Name(second->status);
     }
-    WriteFileAtomically(job.out / "runs" / RunId(job.spec) / "result.json", ToJson(*first));
+    WriteFileAtomically(FolderOf(job) / "result.json", ToJson(*first));
   }
 }
 
@@ -215,19 +287,25 @@ CampaignOutcome RunCampaign(const std::vector<Job>& jobs, const CampaignOptions&
                             const CampaignEvents& events) {
   const Stopwatch watch;
   CampaignOutcome outcome;
-  outcome.finished = RunAll(jobs, options, events, &outcome.failure);
+  ModesOfNight modes;  // of first attempts too while the second ones run
+  modes.Add(options.kept);
+  outcome.finished = RunAll(jobs, options, events, &modes, &outcome.failure);
   if (outcome.finished && options.retry) {
     std::vector<Job> failed = TriedOnce(jobs);
     const std::vector<Job> before = TriedOnce(options.kept);
     failed.insert(failed.end(), before.begin(), before.end());
+    DropWithoutPlace(&failed, events);
     if (!failed.empty()) {
       events.say(
           fmt::format("aisle: {} failed; running again to tell flaky from broken", failed.size()));
       int second_failure = 0;  // the first attempt is what counts
-      outcome.finished = RunAll(OnceMore(failed), options, events, &second_failure);
+      std::vector<Job> again;
+      std::ranges::transform(failed, std::back_inserter(again), OnceMore);
+      outcome.finished = RunAll(again, options, events, &modes, &second_failure);
       FileSecondAttempts(failed);
     }
   }
+  ShrinkCaches();
   outcome.wall_s = watch.ElapsedMs() * 1e-3;
   return outcome;
 }
@@ -236,7 +314,7 @@ std::optional<RunRecord> ResultThatStands(const RunSpec& spec, const std::string
                                           const RunLimits& limits,
                                           const std::filesystem::path& out) {
   const auto& external = spec.system.external;
-  if (external && MayChangeUnseen(*external)) return std::nullopt;
+  if (external && !WhyUnseen(*external).empty()) return std::nullopt;
   return ReadFinishedRun(spec, inputs_hash, limits, out);
 }
 
@@ -266,7 +344,7 @@ Standing Resume(const std::vector<Job>& jobs, const RunLimits& limits) {
   AllToDo(standing.todo);
   std::erase_if(standing.answered, [&](const auto& pair) {
     const auto& [job, equal] = pair;
-    RemoveFolder(job.out / "runs" / RunId(job.spec));
+    RemoveFolder(FolderOf(job));
     const bool filed = AnswerFrom(equal, job);
     if (!filed) standing.todo.push_back(job);
     return !filed;
@@ -275,7 +353,7 @@ Standing Resume(const std::vector<Job>& jobs, const RunLimits& limits) {
 }
 
 std::vector<Job> AllToDo(const std::vector<Job>& jobs) {
-  for (const Job& job : jobs) RemoveFolder(job.out / "runs" / RunId(job.spec));
+  for (const Job& job : jobs) RemoveFolder(FolderOf(job));
   return jobs;
 }
 

@@ -2,6 +2,7 @@
 
 #include <thread>
 
+#include "harness/campaign/folder_modes.h"
 #include "harness/campaign/guest_dataset.h"
 #include "harness/campaign/guest_output.h"
 #include "harness/campaign/guest_rooms.h"
@@ -22,20 +23,13 @@ namespace fs = std::filesystem;
 ProcessResult RunToEnd(const std::string& command, const ProcessLimits& limits,
                        const ExternalSystem& system, const ExternalRun& run,
                        const GuestRooms& rooms) {
-  SandboxRules rules{.hidden = run.hidden,
-                     .writable = {rooms.dataset, rooms.output, rooms.temporary}};
-  for (const std::string& folder : system.may_write) {
-    std::error_code error;  // what cannot be made cannot be written
-    fs::create_directories(folder, error);
-    rules.writable.emplace_back(folder);
-  }
-  const Sandbox sandbox(rules);
-  Process process(
-      {"/bin/sh", "-c", command}, limits,
-      Confinement{ScrubbedEnvironment(rooms.temporary, system.environment), sandbox.ruleset()});
+  const Sandbox sandbox(RulesOf(system, rooms, run.hidden));
+  const FolderModes ours({run.folder});  // put back at the latest once the process below is gone
+  Process process({"/bin/sh", "-c", command}, limits, ConfinementOf(system, rooms, sandbox));
   const auto begun = std::chrono::steady_clock::now();
   double told_s = 0;
   while (!process.Poll()) {
+    ours.PutBack();
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - begun;
     if (!run.progress || since.count() < told_s + 1) continue;

@@ -8,6 +8,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "harness/campaign/own_memory.h"
+
 namespace aisle {
 namespace {
 
@@ -38,9 +40,14 @@ void KeepOnly(const GuardedCommand& command) {
 /// What a program of others must not be able to do, where this process could. The command goes on
 /// as the same user.
 void GiveUpRights(const GuardedCommand& command) {
-  constexpr int kSystemRights[] = {CAP_SYS_ADMIN,  CAP_SYS_MODULE,     CAP_SYS_RAWIO,
-                                   CAP_SYS_PTRACE, CAP_SYS_BOOT,       CAP_MKNOD,
-                                   CAP_SYS_TIME,   CAP_DAC_READ_SEARCH};
+  // Some kernels let us take it and some do not; the command can work with either.
+  if (command.own_shared_memory) {
+    const int ruleset = command.ruleset < 0 ? -1 : kRuleset;
+    TakeOwnSharedMemory({.ruleset = ruleset, .access = command.shared_memory_access});
+  }
+  constexpr int kSystemRights[] = {CAP_SYS_ADMIN,  CAP_SYS_MODULE,      CAP_SYS_RAWIO,
+                                   CAP_SYS_PTRACE, CAP_SYS_BOOT,        CAP_MKNOD,
+                                   CAP_SYS_TIME,   CAP_DAC_READ_SEARCH, CAP_LINUX_IMMUTABLE};
   for (const int right : kSystemRights) ::prctl(PR_CAPBSET_DROP, right);
   ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   constexpr rlim_t kLargestFile = rlim_t{16} << 30;

@@ -2,6 +2,8 @@
 
 #include <signal.h>
 
+#include <cstdint>
+
 namespace aisle {
 
 /// What a guard starts.
@@ -12,6 +14,9 @@ struct GuardedCommand {
   int input = -1;    ///< where stdin comes from; -1: nothing to read
   int talk = -1;     ///< where stdout goes instead; -1: with stderr
   int ruleset = -1;  ///< Landlock rules that the command is bound to; -1: none
+  /// Whether it gets a /dev/shm of its own, and what the rules allow it there.
+  bool own_shared_memory = false;
+  std::uint64_t shared_memory_access = 0;
   /// Whose command it is: one of others may gain no rights by what it starts, has given up those
   /// that reach around the file system, and may not fill the disk by one file.
   bool foreign = false;

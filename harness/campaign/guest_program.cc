@@ -44,7 +44,7 @@ std::string MissingProgram(const ExternalSystem& system) {
 }
 
 std::vector<std::string> NotesOfSystems(const Suite& suite) {
-  std::vector<std::string> notes, unseen;
+  std::vector<std::string> notes;
   for (const SystemSpec& system : suite.systems) {
     if (!system.external) continue;
     const std::string missing = MissingProgram(*system.external);
@@ -52,15 +52,12 @@ std::vector<std::string> NotesOfSystems(const Suite& suite) {
       notes.push_back(fmt::format(
           "system '{}': its command begins with {}, which was not found: its runs would fail",
           system.name, Printable(missing, 200)));
-    } else if (MayChangeUnseen(*system.external)) {
-      unseen.push_back(system.name);
+    } else if (const std::string why = WhyUnseen(*system.external); !why.empty()) {
+      notes.push_back(fmt::format(
+          "--resume repeats the runs of {}: {}; name the files that determine what it does with "
+          "depends_on",
+          system.name, Printable(why, 300)));
     }
-  }
-  if (!unseen.empty()) {
-    notes.push_back(
-        fmt::format("--resume repeats the runs of {}: its command line does not show which files "
-                    "determine what it does; name them with depends_on",
-                    fmt::join(unseen, ", ")));
   }
   return notes;
 }

@@ -1,5 +1,6 @@
 #include "harness/campaign/job.h"
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "harness/bag/drive_bag.h"
@@ -25,10 +26,18 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kSchema = 1;
 
-/// Programs, scripts and settings that a command names count as well, where they are files.
+/// One that is not set differs from one that is set to nothing.
+std::uint64_t HashVariable(const std::string& name, std::uint64_t seed) {
+  const char* value = std::getenv(name.c_str());
+  return Hash(value == nullptr ? name : name + "=" + value, seed);
+}
+
+/// Programs, scripts and settings that a command names count as well, where they are files, and so
+/// do the variables that it is given beside the usual ones.
 std::uint64_t HashSystem(const SystemSpec& system, std::uint64_t seed) {
   seed = Hash(ToJson(system).dump(), seed);
   if (!system.external) return seed;
+  for (const std::string& name : system.external->environment) seed = HashVariable(name, seed);
   for (const fs::path& file : FilesOf(*system.external).files) seed = HashFile(file, seed);
   for (const fs::path path : system.external->depends_on) {
     seed = fs::is_directory(path) ? HashFolder(path, seed) : HashFile(path, seed);
@@ -142,6 +151,12 @@ std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Fingerprints&
                           const JobOptions& options) {
   if (options.mcap) RequireOwnTopics(SystemNamesOf(specs));
   std::vector<Job> jobs;
+  std::map<std::string, bool> drives;  // by file: the runs of a scene are many
+  const auto is_drive = [&](const std::string& file) {
+    const auto [at, is_new] = drives.try_emplace(file);
+    if (is_new) at->second = IsDriveSource(file);
+    return at->second;
+  };
   for (const RunSpec& spec : specs) {
     Job job{.spec = spec,
             .out = options.out,
@@ -158,7 +173,8 @@ std::vector<Job> MakeJobs(const std::vector<RunSpec>& specs, const Fingerprints&
     job.frames_in_report = options.frames_in_report;
     // A recording is read where it is: its frames are files already.
     if (options.frame_cache && !IsRecording(spec.scene_file)) {
-      job.frames = FramesFolder(job.frames_key);
+      // What one is shown who steers, no other run sees.
+      if (!is_drive(spec.scene_file)) job.frames = FramesFolder(job.frames_key);
       if (SteeringOf(spec.system.options).taught) {
         job.led_frames = FramesFolder(fingerprints.Frames(AsLed(spec)) + "-led");
         job.teaching = CacheDir() / "taught" / fingerprints.Teaching(spec);

@@ -13,15 +13,17 @@ namespace aisle {
 /// the only thing that the process reads; fingerprint, resume and rerun come from it as well.
 struct Job {
   RunSpec spec;
-  std::filesystem::path out;     ///< the report's folder
-  std::filesystem::path frames;  ///< where rendered frames are shared; empty: none are kept
+  std::filesystem::path out;  ///< the report's folder
+  /// Where rendered frames are shared; empty: none are kept, as of a scene that is steered through.
+  std::filesystem::path frames;
   /// Where pictures are shared that a vehicle is led past, not steered; empty: none are kept.
   std::filesystem::path led_frames = {};
   /// Where what the system was taught by being led is shared with its other drives through the
   /// scene; empty: it is kept nowhere.
   std::filesystem::path teaching = {};
   std::filesystem::path dataset;  ///< what is exported for a foreign system; empty: it is ours
-  /// Jobs with the same frames. The first makes them, the others start when it has ended.
+  /// Jobs with the same frames. The first makes them, the others start when it has ended, where any
+  /// of it is kept.
   std::string frames_key;
   std::string inputs_hash;     ///< of all that decides the run; filed with its result
   int threads = 0;             ///< 0: all; never changes a result
@@ -45,9 +47,10 @@ void WriteJob(const Job& job);
 Job ReadJob(const std::filesystem::path& file);
 
 /// Content hashes of all that decides a run, hexadecimal: this program, the assets, what
-/// can be seen of the scene's twin, the seed, and the system with its options or its command and
-/// the files that names. Two runs of equal hash give equal bits; a finished run of another hash is
-/// no answer to tonight's question. Of the program, frames know what renders them alone.
+/// can be seen of the scene's twin, the seed, and the system with its options or its command, the
+/// files that names and the variables it is given. Two runs of equal hash give equal bits; a
+/// finished run of another hash is no answer to tonight's question. Of the program, frames know
+/// what renders them alone.
 class Fingerprints {
  public:
   Fingerprints();

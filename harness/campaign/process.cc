@@ -48,12 +48,33 @@ std::vector<pid_t> ChildrenOf(pid_t pid) {
   return children;
 }
 
-/// Resident memory of a process and all below it.
-double TreeResidentMib(pid_t pid) {
-  double sum_mib = IsGuard(pid) ? 0 : ResidentMib(pid);
-  for (const pid_t child : ChildrenOf(pid)) sum_mib += TreeResidentMib(child);
+/// Resident memory, of pages that processes share this one's part alone. The kernel looks at every
+/// page for it; resident memory where it does not tell.
+double ProportionalMib(pid_t pid) {
+  std::ifstream rollup(fmt::format("/proc/{}/smaps_rollup", pid));
+  for (std::string word; rollup >> word;) {
+    double kib = 0;
+    if (word == "Pss:" && rollup >> kib) return kib / 1024;
+  }
+  return ResidentMib(pid);
+}
+
+/// Memory of a process and all below it, each measured so.
+double TreeMib(pid_t pid, double (*measure)(pid_t)) {
+  double sum_mib = IsGuard(pid) ? 0 : measure(pid);
+  for (const pid_t child : ChildrenOf(pid)) sum_mib += TreeMib(child, measure);
   return sum_mib;
 }
+
+/// Some callers start programs with SIGCHLD ignored, and nobody who ignores it learns how a child
+/// has ended. Children inherit what is set here.
+void HearOfChildren() {
+  struct sigaction now {};
+  ::sigaction(SIGCHLD, nullptr, &now);
+  if (now.sa_handler == SIG_IGN || (now.sa_flags & SA_NOCLDWAIT) != 0) ::signal(SIGCHLD, SIG_DFL);
+}
+
+constexpr int kUnknownEnd = -1;  ///< for a code where somebody else has waited for the child
 
 /// As execve takes them, whose signature is older than const.
 std::vector<char*> Pointers(const std::vector<std::string>& texts) {
@@ -113,6 +134,7 @@ std::string Describe(const ProcessResult& result, const ProcessLimits& limits) {
     case ProcessResult::End::kExited:
       break;
   }
+  if (result.code == kUnknownEnd) return "ended, but its exit code went to another wait";
   constexpr int kShellSays = 128;  // and adds the number of the signal that ended its command
   const int signal = result.code - kShellSays;
   if (signal > 0 && signal < SIGRTMIN && ::sigabbrev_np(signal) != nullptr) {
@@ -124,7 +146,7 @@ std::string Describe(const ProcessResult& result, const ProcessLimits& limits) {
 
 Process::Process(const std::vector<std::string>& argv, const ProcessLimits& limits,
                  const std::optional<Confinement>& confinement, const Talk& talk)
-    : limits_(limits) {
+    : limits_(limits), foreign_(confinement.has_value()) {
   const std::vector<char*> arguments = Pointers(argv);
   const std::vector<char*> own =
       confinement ? Pointers(confinement->environment) : std::vector<char*>{};
@@ -133,6 +155,7 @@ Process::Process(const std::vector<std::string>& argv, const ProcessLimits& limi
     throw MachineError(fmt::format("cannot create a pipe: {}", std::strerror(errno)));
   }
   started_s_ = NowS();
+  HearOfChildren();
   const pid_t parent = ::getpid();
   const sigset_t guarded = GuardedSignals();
   sigset_t before;
@@ -145,6 +168,8 @@ Process::Process(const std::vector<std::string>& argv, const ProcessLimits& limi
            .input = talk.input,
            .talk = talk.output,
            .ruleset = confinement ? confinement->ruleset : -1,
+           .own_shared_memory = confinement && confinement->own_shared_memory,
+           .shared_memory_access = confinement ? confinement->shared_memory_access : 0,
            .foreign = confinement.has_value()},
           parent, before);
   }
@@ -175,7 +200,9 @@ bool Process::Poll() {
   ReadOutput();
   HoldToLimits();
   int status = 0;
-  if (::waitpid(pid_, &status, WNOHANG) != pid_) return false;
+  const pid_t waited = ::waitpid(pid_, &status, WNOHANG);
+  const bool is_gone = waited < 0 && errno == ECHILD;
+  if (waited != pid_ && !is_gone) return false;
   ended_ = true;
   ReadOutput();
   if (!partial_line_.empty()) TakeLine(std::exchange(partial_line_, {}));
@@ -184,7 +211,9 @@ bool Process::Poll() {
     result_.end =
         WIFSIGNALED(status) ? ProcessResult::End::kSignalled : ProcessResult::End::kExited;
   }
-  result_.code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
+  result_.code = is_gone               ? kUnknownEnd
+                 : WIFSIGNALED(status) ? WTERMSIG(status)
+                                       : WEXITSTATUS(status);
   return true;
 }
 
@@ -205,20 +234,31 @@ void Process::ReadOutput() {
 }
 
 void Process::TakeLine(const std::string& line) {
-  if (TakeProgress(line, &progress_)) return;
+  if (foreign_ ? TakeFrameCount(line, &progress_) : TakeProgress(line, &progress_)) return;
   result_.log += line + "\n";
   if (result_.log.size() > 2 * limits_.log_bytes) {
     result_.log.erase(0, result_.log.size() - limits_.log_bytes);
   }
 }
 
+double Process::MemoryMib() {
+  const double resident_mib = TreeMib(pid_, ResidentMib);
+  if (resident_mib <= limits_.memory_mib) return resident_mib;
+  constexpr double kCountEvery_s = 0.5;  // of gigabytes it takes milliseconds
+  if (NowS() > counted_s_ + kCountEvery_s) {
+    shared_once_mib_ = TreeMib(pid_, ProportionalMib);
+    counted_s_ = NowS();
+  }
+  return shared_once_mib_;
+}
+
 void Process::HoldToLimits() {
   if (killed_) return;
-  const double resident_mib = TreeResidentMib(pid_);
-  result_.peak_rss_mib = std::max(result_.peak_rss_mib, resident_mib);
+  const double memory_mib = MemoryMib();
+  result_.peak_rss_mib = std::max(result_.peak_rss_mib, memory_mib);
   if (NowS() - started_s_ > limits_.wall_s) {
     result_.end = ProcessResult::End::kTimeout;
-  } else if (resident_mib > limits_.memory_mib) {
+  } else if (memory_mib > limits_.memory_mib) {
     result_.end = ProcessResult::End::kMemory;
   } else {
     return;

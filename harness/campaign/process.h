@@ -13,7 +13,8 @@ namespace aisle {
 
 struct ProcessLimits {
   double wall_s = 3600;  ///< then the whole process group is killed
-  /// Resident, of the process and all below it, watched: address space would hit sanitizers.
+  /// Resident, of the process and all below it, watched: address space would hit sanitizers. Pages
+  /// that they share count once.
   double memory_mib = 8192;
   std::size_t log_bytes = 65536;  ///< of its output, the last so many are kept
 };
@@ -23,7 +24,7 @@ struct ProcessResult {
   End end = End::kExited;
   int code = 0;  ///< exit code, or the signal's number
   double wall_s = 0;
-  double peak_rss_mib = 0;  ///< as watched; 0 where it ended at once
+  double peak_rss_mib = 0;  ///< as watched, and as the limit counts; 0 where it ended at once
   std::string log;          ///< tail of stdout and stderr
 };
 
@@ -31,6 +32,9 @@ struct ProcessResult {
 struct Confinement {
   std::vector<std::string> environment;  ///< "NAME=VALUE" each
   int ruleset = -1;                      ///< of a Sandbox; -1: none
+  /// Whether it gets a /dev/shm of its own, and what a Sandbox allows it there.
+  bool own_shared_memory = false;
+  std::uint64_t shared_memory_access = 0;
 };
 
 /// "exit code 3", "exit code 139: signal 11, SIGSEGV (Segmentation fault), as a shell tells it",
@@ -67,7 +71,8 @@ class Process {
   /// Looks after the child: reads its output, holds it to its limits. True once it has ended; call
   /// it some ten times a second.
   bool Poll();
-  /// What its output told last; such lines are not in its log.
+  /// What its output told last, of frames alone where it is confined; such lines are not in its
+  /// log.
   const Progress& progress() const { return progress_; }
   const ProcessResult& result() const { return result_; }
 
@@ -75,12 +80,15 @@ class Process {
   void ReadOutput();
   void TakeLine(const std::string& line);
   void HoldToLimits();
+  double MemoryMib();
   void KillTree();
 
   const ProcessLimits limits_;
+  const bool foreign_;  ///< its stages are words to its user, not to us
   pid_t pid_ = -1;
   int output_ = -1;
   double started_s_ = 0;
+  double counted_s_ = 0, shared_once_mib_ = 0;  ///< when its memory was last counted, and the count
   bool ended_ = false;
   bool killed_ = false;
   std::string partial_line_;

@@ -1,17 +1,21 @@
 #include "harness/campaign/progress.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <string_view>
 
 namespace aisle {
 
-bool TakeProgress(const std::string& line, Progress* progress) {
+bool TakeFrameCount(const std::string& line, Progress* progress) {
   int done = 0, total = 0;
-  if (std::sscanf(line.c_str(), "@progress %d %d", &done, &total) == 2) {
-    progress->done = done;
-    progress->total = total;
-    return true;
-  }
+  if (std::sscanf(line.c_str(), "@progress %d %d", &done, &total) != 2) return false;
+  progress->total = std::max(total, 0);
+  progress->done = std::clamp(done, 0, progress->total);
+  return true;
+}
+
+bool TakeProgress(const std::string& line, Progress* progress) {
+  if (TakeFrameCount(line, progress)) return true;
   constexpr std::string_view kStage = "@stage ";
   if (!line.starts_with(kStage)) return false;
   progress->stage = line.substr(kStage.size());

@@ -14,7 +14,11 @@ struct Progress {
   std::string stage;
 };
 
-/// Takes a line that tells of progress; false where it is none.
+/// Takes a line "@progress DONE TOTAL", kept within 0 and TOTAL whatever it says; false where it is
+/// none. Lines of others are taken so.
+bool TakeFrameCount(const std::string& line, Progress* progress);
+
+/// Takes either line; false where it is none.
 bool TakeProgress(const std::string& line, Progress* progress);
 
 void TellProgress(std::size_t done, std::size_t total);

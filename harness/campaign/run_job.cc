@@ -15,6 +15,7 @@
 #include "harness/contract/system_fault.h"
 #include "harness/contract/twin.h"
 #include "harness/io/input_error.h"
+#include "harness/io/keep.h"
 #include "harness/io/places.h"
 #include "harness/plugs/cached_drive.h"
 #include "harness/plugs/simulated_drive.h"
@@ -248,7 +249,9 @@ Teaching TeachFirst(const Job& job, const std::filesystem::path& map_file) {
   const auto estimator = EstimatorOf(job, scene->calibration(), scene->rate_hz());
   TellStage("being led along its path");
   Teaching teaching = Teach(*scene, *estimator, MasksOf(job), job.spec.seed, map_file);
-  if (!job.teaching.empty()) KeepTeaching(teaching, map_file, job.teaching);
+  if (!job.teaching.empty()) {
+    KeepWherePossible([&] { KeepTeaching(teaching, map_file, job.teaching); });
+  }
   return teaching;
 }
 

@@ -7,29 +7,24 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
+#include <cstring>
 #include <set>
+
+#include "harness/campaign/landlock.h"
+#include "harness/io/input_error.h"
 
 namespace aisle {
 namespace {
 
 namespace fs = std::filesystem;
 
-// The kernel's interface as of version 6, stated here: Debian's header knows version 2.
-struct RulesetAttributes {
-  std::uint64_t file_access = 0, network_access = 0, scopes = 0;
-};
-struct PathRule {
-  std::uint64_t access;
-  std::int32_t parent;
-} __attribute__((packed));
-
 constexpr std::uint64_t kWriteFile = 1 << 1, kReadFile = 1 << 2, kRemoveFolder = 1 << 4,
                         kRemoveFile = 1 << 5, kMakeDevices = 1 << 6 | 1 << 11, kMakeFolder = 1 << 7,
                         kMakeFile = 1 << 8, kMakeSocket = 1 << 9, kMakeFifo = 1 << 10,
                         kMakeLink = 1 << 12, kMoveAcross = 1 << 13, kTruncate = 1 << 14;
 constexpr std::uint64_t kScopeSignals = 1 << 1;
-constexpr int kPathBeneath = 1;
 constexpr unsigned kAskVersion = 1;
 
 /// All that is regulated; running and listing are not.
@@ -41,6 +36,9 @@ std::uint64_t Regulated(int level) {
   return access;
 }
 
+/// All but to make devices.
+std::uint64_t Writing(int level) { return Regulated(level) & ~kMakeDevices; }
+
 std::size_t AttributeBytes(int level) {
   return sizeof(std::uint64_t) * (level >= 6 ? 3 : level >= 4 ? 2 : 1);
 }
@@ -50,21 +48,29 @@ bool IsAtOrBelow(const fs::path& path, const fs::path& folder) {
   return end == folder.end();
 }
 
-/// Adds rules to a set; what cannot be opened gets none and stays closed.
+/// The machine's fault: a system that is held to the wrong rules would be blamed for it.
+[[noreturn]] void Fail(const std::string& path, int error) {
+  throw MachineError(fmt::format("{}: cannot set up the sandbox: {}", path, std::strerror(error)));
+}
+
+/// Not of what was asked, but of what the machine has too little of.
+bool IsShortage(int error) { return error == EMFILE || error == ENFILE || error == ENOMEM; }
+
+/// Adds rules to a set.
 class Rules {
  public:
   Rules(int ruleset, int level, std::vector<fs::path> hidden)
       : ruleset_(ruleset), level_(level), hidden_(std::move(hidden)) {}
 
-  void Allow(const fs::path& path, std::uint64_t access) const {
-    const int parent = ::open(path.c_str(), O_PATH | O_CLOEXEC);
-    if (parent < 0) return;
+  /// What cannot be opened gets no rule and stays closed: false, and errno.
+  bool Allow(const fs::path& path, std::uint64_t access) const {
+    const Descriptor parent(::open(path.c_str(), O_PATH | O_CLOEXEC));
     struct stat status {};
-    ::fstat(parent, &status);
+    const bool there = parent.get() >= 0 && ::fstat(parent.get(), &status) == 0;
     if (!S_ISDIR(status.st_mode)) access &= kReadFile | kWriteFile | kTruncate;
-    const PathRule rule{.access = access & Regulated(level_), .parent = parent};
-    ::syscall(SYS_landlock_add_rule, ruleset_, kPathBeneath, &rule, 0);
-    ::close(parent);
+    const bool good = there && AddPathRule(ruleset_, parent.get(), access & Regulated(level_));
+    if (!good && IsShortage(errno)) Fail(path.string(), errno);
+    return good;
   }
 
   /// Reading, of all below the folder but what is hidden: rules can allow, not forbid, so the
@@ -75,40 +81,52 @@ class Rules {
     const bool whole = std::none_of(hidden_.begin(), hidden_.end(), [&](const fs::path& hidden) {
       return IsAtOrBelow(hidden, folder);
     });
-    if (whole) return Allow(folder, kReadFile);
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (whole) {
+      Allow(folder, kReadFile);
+      return;
+    }
+    for (const fs::path& entry : EntriesOf(folder)) {
       std::error_code gone;
-      const fs::file_status status = entry.symlink_status(gone);
-      const bool history = entry.path().filename().string().starts_with("history.sqlite");
-      if (gone || fs::is_symlink(status) || history || entry.path() == "/dev") continue;
-      AllowReading(entry.path());
+      const fs::file_status status = fs::symlink_status(entry, gone);
+      const bool history = entry.filename().string().starts_with("history.sqlite");
+      if (gone || fs::is_symlink(status) || history || entry == "/dev") continue;
+      AllowReading(entry);
     }
   }
 
   /// Those that hold nothing: neither disks nor the machine's memory.
   void AllowDevices() const {
     static const std::set<std::string> kClosed{"mem", "kmem", "port", "kmsg", "nvram", "mcelog"};
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator("/dev", error)) {
+    for (const fs::path& entry : EntriesOf("/dev")) {
       std::error_code gone;
-      const fs::file_status status = entry.symlink_status(gone);
-      const std::string name = entry.path().filename().string();
-      if (fs::is_character_file(status) && !kClosed.contains(name)) {
-        Allow(entry.path(), kReadFile | kWriteFile | kTruncate);
+      const fs::file_status status = fs::symlink_status(entry, gone);
+      if (fs::is_character_file(status) && !kClosed.contains(entry.filename().string())) {
+        Allow(entry, kReadFile | kWriteFile | kTruncate);
       }
     }
     for (const char* folder : {"/dev/pts", "/dev/dri", "/dev/nvidia-caps", "/dev/bus"}) {
       Allow(folder, kReadFile | kWriteFile);
     }
-    AllowWriting("/dev/shm");  // memory that processes share
+    Allow("/dev/shm", Writing(level_));  // memory that processes share
   }
 
-  void AllowWriting(const fs::path& folder) const {
-    Allow(folder, Regulated(level_) & ~kMakeDevices);
+  /// Also of a folder that is not there or may not be opened: it was asked for.
+  void RequireWriting(const fs::path& folder) const {
+    if (!Allow(folder, Writing(level_))) Fail(folder.string(), errno);
   }
 
  private:
+  /// None of one that may not be listed.
+  static std::vector<fs::path> EntriesOf(const fs::path& folder) {
+    std::vector<fs::path> entries;
+    std::error_code error;
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+      entries.push_back(at->path());
+    }
+    if (IsShortage(error.value())) Fail(folder.string(), error.value());
+    return entries;
+  }
+
   /// A report's folder, finished or not.
   static bool IsANight(const fs::path& folder) {
     std::error_code error;
@@ -135,7 +153,8 @@ std::string DescribeSandbox(int level) {
   if (level < 6) open.push_back("sending signals to other processes of the user");
   return fmt::format(
       "Landlock {}: external commands can read neither truth nor other runs' results, and can only "
-      "write to their own folders{}{}",
+      "write to their own folders; it does not regulate modes and times of files (those of the "
+      "report and the cache are put back){}{}",
       level, open.empty() ? "" : "; this kernel cannot keep them from ",
       fmt::join(open, " nor from "));
 }
@@ -143,21 +162,18 @@ std::string DescribeSandbox(int level) {
 Sandbox::Sandbox(const SandboxRules& rules) {
   const int level = SandboxLevel();
   if (level == 0) return;
-  const RulesetAttributes attributes{
+  const LandlockRuleset attributes{
       .file_access = Regulated(level), .network_access = 0, .scopes = kScopeSignals};
-  ruleset_ = static_cast<int>(
-      ::syscall(SYS_landlock_create_ruleset, &attributes, AttributeBytes(level), 0));
-  if (ruleset_ < 0) return;
+  ruleset_ = Descriptor(static_cast<int>(
+      ::syscall(SYS_landlock_create_ruleset, &attributes, AttributeBytes(level), 0)));
+  if (ruleset_.get() < 0) Fail("Landlock", errno);
+  writing_ = Writing(level);
   std::vector<fs::path> hidden;
   for (const fs::path& path : rules.hidden) hidden.push_back(fs::weakly_canonical(path));
-  const Rules into(ruleset_, level, hidden);
+  const Rules into(ruleset_.get(), level, hidden);
   into.AllowReading("/");
   into.AllowDevices();
-  for (const fs::path& folder : rules.writable) into.AllowWriting(folder);
-}
-
-Sandbox::~Sandbox() {
-  if (ruleset_ >= 0) ::close(ruleset_);
+  for (const fs::path& folder : rules.writable) into.RequireWriting(folder);
 }
 
 std::vector<std::string> ScrubbedEnvironment(const fs::path& tmpdir,

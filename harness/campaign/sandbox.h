@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "harness/io/descriptor.h"
 
 namespace aisle {
 
@@ -12,7 +15,7 @@ struct SandboxRules {
   /// (among the folders on the way to them) reports and histories of other nights are hidden too.
   std::vector<std::filesystem::path> hidden;
   /// Folders where it may read and write, below hidden ones even. Nowhere else may it write, but to
-  /// /dev/shm and devices that hold nothing.
+  /// /dev/shm (the machine's, or one of its own: own_memory.h) and devices that hold nothing.
   std::vector<std::filesystem::path> writable;
 };
 
@@ -28,17 +31,21 @@ std::string DescribeSandbox(int level = SandboxLevel());
 /// neither readable nor writable by these rules gives "Permission denied".
 class Sandbox {
  public:
-  /// Paths must exist. Where the kernel has no Landlock, nobody is held back.
+  /// Where the kernel has no Landlock, nobody is held back. Where it has, throws MachineError if a
+  /// writable folder is not there or the rules cannot be made: better no run than one held to
+  /// others.
   explicit Sandbox(const SandboxRules& rules);
-  ~Sandbox();
   Sandbox(const Sandbox&) = delete;
   Sandbox& operator=(const Sandbox&) = delete;
 
   /// A descriptor for landlock_restrict_self, or -1.
-  int ruleset() const { return ruleset_; }
+  int ruleset() const { return ruleset_.get(); }
+  /// What is allowed in a writable folder, as the kernel calls it.
+  std::uint64_t writing() const { return writing_; }
 
  private:
-  int ruleset_ = -1;
+  Descriptor ruleset_;
+  std::uint64_t writing_ = 0;
 };
 
 /// The environment of such a command, "NAME=VALUE" each: paths, locale and what steers Python,

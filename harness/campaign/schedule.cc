@@ -6,6 +6,7 @@
 #include <memory>
 #include <thread>
 
+#include "harness/io/input_error.h"
 #include "harness/record/record.h"
 
 namespace aisle {
@@ -18,16 +19,35 @@ struct Running {
   std::unique_ptr<Process> process;
 };
 
-/// The next job that may start: none whose frames are being made right now.
+/// Whether it leaves anything that another job could take instead of making it.
+bool Keeps(const Job& job) {
+  return !job.frames.empty() || !job.led_frames.empty() || !job.dataset.empty();
+}
+
+/// The next job that may start: none whose frames are being made for it right now.
 std::list<const Job*>::iterator NextToStart(std::list<const Job*>& waiting,
                                             const std::set<std::string>& made,
                                             const std::list<Running>& running) {
   return std::find_if(waiting.begin(), waiting.end(), [&](const Job* job) {
-    return made.count(job->frames_key) > 0 ||
+    return !Keeps(*job) || made.count(job->frames_key) > 0 ||
            std::none_of(running.begin(), running.end(), [&](const Running& other) {
-             return other.job->frames_key == job->frames_key;
+             return Keeps(*other.job) && other.job->frames_key == job->frames_key;
            });
   });
+}
+
+/// Starts the job's process. False where the machine has no room for another one beside those that
+/// run; throws MachineError where it has none at all.
+bool Start(const Job& job, const RunLimits& limits, const ScheduleEvents& events,
+           std::list<Running>* running) {
+  try {
+    running->push_back(
+        {&job, std::make_unique<Process>(events.argv(job), ProcessLimitsOf(job, limits))});
+    return true;
+  } catch (const MachineError&) {
+    if (running->empty()) throw;
+    return false;
+  }
 }
 
 std::vector<JobProgress> ProgressOf(const std::list<Running>& running) {
@@ -82,9 +102,7 @@ bool RunJobs(const std::vector<Job>& jobs, const ScheduleOptions& options,
     if (options.interrupted != nullptr && options.interrupted->load()) return false;
     while (static_cast<int>(running.size()) < std::max(options.jobs, 1)) {
       const auto next = NextToStart(waiting, made, running);
-      if (next == waiting.end()) break;
-      running.push_back({*next, std::make_unique<Process>(
-                                    events.argv(**next), ProcessLimitsOf(**next, options.limits))});
+      if (next == waiting.end() || !Start(**next, options.limits, events, &running)) break;
       waiting.erase(next);
     }
     for (auto it = running.begin(); it != running.end();) {

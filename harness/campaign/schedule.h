@@ -36,7 +36,8 @@ struct ScheduleEvents {
 std::vector<Job> LongestFirst(const std::vector<Job>& jobs, const ExpectedTimes& expected);
 
 /// Runs every job, in order where there is room. True if all ended; false if interrupted (running
-/// children are killed: they leave nothing half-written under a final name).
+/// children are killed: they leave nothing half-written under a final name). A process that cannot
+/// be started is tried again while others run; throws MachineError where none does.
 bool RunJobs(const std::vector<Job>& jobs, const ScheduleOptions& options,
              const ScheduleEvents& events);
 

@@ -3,6 +3,8 @@
 #include <filesystem>
 
 #include "harness/bag/bag_trajectory.h"
+#include "harness/io/dataset.h"
+#include "harness/io/file.h"
 #include "harness/io/hash.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/recorded_sequence.h"
@@ -52,35 +54,6 @@ std::uint64_t HashOutside(const fs::path& path, std::uint64_t seed) {
   return Hash(fmt::format("{} {} {}", path.string(), error ? 0 : size, error ? 0 : changed), seed);
 }
 
-/// All files below, in the order of their names.
-std::uint64_t HashFolderOutside(const fs::path& folder, std::uint64_t seed) {
-  constexpr std::size_t kMostFiles = 1'000'000;  // 13 hours of stereo at 10 Hz: more is a mistake
-  std::set<fs::path> files;
-  std::error_code error;
-  constexpr auto kLinksToo = fs::directory_options::follow_directory_symlink |
-                             fs::directory_options::skip_permission_denied;
-  for (fs::recursive_directory_iterator at(folder, kLinksToo, error), end; !error && at != end;
-       at.increment(error)) {
-    std::error_code none;  // a link that leads nowhere is no folder
-    if (!at->is_directory(none)) files.insert(at->path());
-    if (files.size() > kMostFiles) {
-      throw InputError(
-          folder.string(), 0,
-          fmt::format("has more than {} files: name the recording's own folder", kMostFiles));
-    }
-  }
-  if (error) throw InputError(folder.string(), 0, "not readable: " + error.message());
-  for (const fs::path& file : files) seed = HashOutside(file, seed);
-  return seed;
-}
-
-/// A sequence of KITTI has its truth beside it: ROOT/sequences/NN and ROOT/poses/NN.txt.
-fs::path KittiPosesOf(const fs::path& sequence) {
-  fs::path clean = fs::absolute(sequence).lexically_normal();
-  if (!clean.has_filename()) clean = clean.parent_path();
-  return clean.parent_path().parent_path() / "poses" / (clean.filename().string() + ".txt");
-}
-
 }  // namespace
 
 std::unique_ptr<Sequence> OpenRecordingSource(const std::string& file) {
@@ -125,6 +98,7 @@ std::vector<std::string> FilesOfSource(const std::string& file) {
     const std::string path = topic ? topic->file.string() : other;
     if (!path.empty() && path != file) files.push_back(path);
   }
+  for (const fs::path& truth : TruthAround(source.path)) files.push_back(truth.string());
   return files;
 }
 
@@ -132,7 +106,7 @@ std::uint64_t HashSource(const std::string& file, const std::string& twin, std::
   if (!IsRecording(file)) return Hash(EssenceOfScene(file, twin), seed);
   for (const std::string& one : FilesOfSource(file)) {
     if (fs::is_directory(one)) {
-      seed = HashOutside(KittiPosesOf(one), HashFolderOutside(one, seed));
+      for (const fs::path& below : FilesBelow(one)) seed = HashOutside(below, seed);
     } else {
       seed = HashOutside(one, seed);
       // What a recorder has not yet folded into its .db3.

@@ -30,7 +30,8 @@ std::string HallOfSource(const std::string& file, std::uint64_t seed);
 /// Frames that a run of it has. Throws InputError.
 std::int64_t CountSourceFrames(const std::string& file);
 
-/// The files that decide what it holds, nearest first: a scene's and those it extends.
+/// The files that decide what it holds, nearest first: a scene's and those it extends; a
+/// recording's, with the truth that a reader finds beside it or behind its links.
 std::vector<std::string> FilesOfSource(const std::string& file);
 
 /// Hash of all that decides the frames of that twin but program and assets: of a scene what can be

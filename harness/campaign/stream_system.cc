@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "harness/campaign/external_run.h"
+#include "harness/campaign/folder_modes.h"
 #include "harness/campaign/guest_output.h"
 #include "harness/campaign/guest_rooms.h"
 #include "harness/campaign/process.h"
@@ -54,36 +55,31 @@ RunStatus StatusOf(StreamError::Kind kind) {
 
 struct StreamEstimator::Impl {
   Impl(const ExternalSystem& system, const StreamRun& stream_run)
-      : run(stream_run), rooms(run.folder / kGuestFolder) {
+      : run(stream_run), rooms(run.folder / kGuestFolder), ours({run.folder}) {
     // A system that died is told by its answer, not by a signal to us.
     ::signal(SIGPIPE, SIG_IGN);
-    SandboxRules rules{.hidden = run.hidden,
-                       .writable = {rooms.dataset, rooms.output, rooms.temporary}};
-    for (const std::string& folder : system.may_write) {
-      std::error_code error;  // what cannot be made cannot be written
-      std::filesystem::create_directories(folder, error);
-      rules.writable.emplace_back(folder);
-    }
-    sandbox.emplace(rules);
+    sandbox.emplace(RulesOf(system, rooms, run.hidden));
     command = FillIn(system.command, {{"seed", std::to_string(run.seed)},
                                       {"output", rooms.output.string()},
                                       {"source", system.repository}});
     PipeEnds in = MakePipe(), out = MakePipe();
     limits.wall_s = 1e9;  // each answer has a time of its own
     limits.memory_mib = run.memory_mib;
-    process.emplace(
-        std::vector<std::string>{"/bin/sh", "-c", command}, limits,
-        Confinement{ScrubbedEnvironment(rooms.temporary, system.environment), sandbox->ruleset()},
-        Talk{in.read.get(), out.write.get()});
+    process.emplace(std::vector<std::string>{"/bin/sh", "-c", command}, limits,
+                    ConfinementOf(system, rooms, *sandbox), Talk{in.read.get(), out.write.get()});
     to_system = std::move(in.write);
     from_system = std::move(out.read);
     answer_s = std::min(run.answer_s, system.timeout_s);
-    pipe.emplace(from_system.get(), to_system.get(), answer_s, [this] { process->Poll(); });
+    pipe.emplace(from_system.get(), to_system.get(), answer_s, [this] {
+      process->Poll();
+      ours.PutBack();
+    });
   }
 
   ~Impl() {
     // Also of a system that never answered the greeting: then one wants to read it most.
     process->Poll();
+    ours.PutBack();
     try {
       WriteFileAtomically(
           run.folder / kSystemLogName,
@@ -158,6 +154,7 @@ struct StreamEstimator::Impl {
 
   const StreamRun run;
   GuestRooms rooms;
+  FolderModes ours;  ///< put back at the latest once the process is gone, which stands below
   std::optional<Sandbox> sandbox;
   std::string command, version;
   double answer_s = 0;  ///< longest time for one answer, and for the end after the last

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <tuple>
+
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 
@@ -16,7 +18,7 @@ constexpr const char* kLock = ".lock";
 void Sweep(const fs::path& home) {
   for (const auto& entry : fs::directory_iterator(home)) {
     if (!entry.path().filename().string().starts_with("task-")) continue;
-    if (FileLock::Try(entry.path() / kLock)) RemoveFolder(entry.path());
+    if (FileLock::Try(entry.path() / kLock)) std::ignore = TryToRemoveFolder(entry.path());
   }
 }
 
@@ -34,6 +36,6 @@ Scratch::Scratch(const fs::path& base) : home_(base / fmt::format("aisle-{}", ge
   held_.emplace(folder_ / kLock);
 }
 
-Scratch::~Scratch() { RemoveFolder(folder_); }
+Scratch::~Scratch() { std::ignore = TryToRemoveFolder(folder_); }
 
 }  // namespace aisle

@@ -33,7 +33,8 @@ struct ExternalSystem {
   int repeats = 1;
   /// Folders where it may write, beside its own of the run.
   std::vector<std::string> may_write = {};
-  /// Variables of the environment that it sees, beside the usual ones.
+  /// Variables of the environment that it sees, beside the usual ones. Their values are among what
+  /// decides what it does.
   std::vector<std::string> environment = {};
   /// Files and folders that decide what it does, beside those its command names: a finished run is
   /// kept by --resume only while they are the same.

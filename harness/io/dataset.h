@@ -184,4 +184,8 @@ struct StereoRecording {
 /// with file, line and what is missing: an image that is listed, or half of the pairs.
 StereoRecording ReadRecording(const std::filesystem::path& folder, DatasetFormat format);
 
+/// Files and folders with the truth of such a folder that do not lie below it: poses beside a
+/// sequence of KITTI, and what links lead to. Only those that are there.
+std::vector<std::filesystem::path> TruthAround(const std::filesystem::path& folder);
+
 }  // namespace aisle

@@ -313,7 +313,56 @@ StereoRecording ReadKitti(const fs::path& folder) {
   return recording;
 }
 
+/// Where poses of a sequence may be, ROOT/sequences/NN with ROOT/poses/NN.txt: a link has a root
+/// and a name where it stands, and others where it leads.
+std::vector<fs::path> KittiPosesOf(const fs::path& sequence) {
+  fs::path named = fs::absolute(sequence).lexically_normal();
+  if (!named.has_filename()) named = named.parent_path();
+  std::error_code error;
+  const fs::path real = fs::weakly_canonical(named, error);
+  std::vector<fs::path> poses;
+  for (const fs::path& root : {named, real}) {
+    for (const fs::path& name : {named, real}) {
+      poses.push_back(root.parent_path().parent_path() / "poses" /
+                      (name.filename().string() + ".txt"));
+    }
+  }
+  return poses;
+}
+
+/// Where truth of a folder of either layout may be.
+std::vector<fs::path> PlacesOfTruth(const fs::path& folder) {
+  std::vector<fs::path> places = KittiPosesOf(folder);
+  std::error_code error;
+  for (fs::directory_iterator at(folder / "sequences", error), end; !error && at != end;
+       at.increment(error)) {
+    for (const fs::path& poses : KittiPosesOf(at->path())) places.push_back(poses);
+  }
+  places.push_back(folder / "mav0");  // as a whole: trackers' raw data are beside the truth
+  for (const fs::path& mav : {folder, folder / "mav0"}) {
+    places.push_back(mav / "state_groundtruth_estimate0");
+    places.push_back(mav / "state_groundtruth_estimate0/data.csv");
+  }
+  return places;
+}
+
 }  // namespace
+
+std::vector<fs::path> TruthAround(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return {};
+  const fs::path around = fs::weakly_canonical(folder, error);
+  std::map<fs::path, fs::path> found;  // by where they really are
+  for (const fs::path& place : PlacesOfTruth(folder)) {
+    if (!fs::exists(place, error)) continue;
+    const fs::path real = fs::weakly_canonical(place, error);
+    const auto [end, rest] = std::mismatch(around.begin(), around.end(), real.begin(), real.end());
+    if (end != around.end()) found.try_emplace(real, place);
+  }
+  std::vector<fs::path> truth;
+  for (const auto& [real, place] : found) truth.push_back(place);
+  return truth;
+}
 
 StereoRecording ReadRecording(const fs::path& folder, DatasetFormat format) {
   if (!fs::is_directory(folder)) throw InputError(folder.string(), 0, "no such folder");

@@ -1,5 +1,6 @@
 #include "harness/io/file.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <linux/openat2.h>
 #include <sys/stat.h>
@@ -24,11 +25,7 @@ constexpr std::string_view kAside = ".tmp-";  ///< in the name of a file that is
   throw MachineError(fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(errno)));
 }
 
-Descriptor OpenFolder(const fs::path& path) {
-  Descriptor folder(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (folder.get() < 0) Fail("open", path);
-  return folder;
-}
+constexpr int kFolderFlags = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
 
 void WriteAll(int file, std::string_view bytes, const fs::path& path) {
   while (!bytes.empty()) {
@@ -64,12 +61,16 @@ fs::path AtEndOfLinks(fs::path path) {
   return path;
 }
 
+/// Whether a call failed for want of what the machine has too little of, or by its fault, and not
+/// by what it was asked.
+bool IsMachineTrouble(int error) {
+  return error == EMFILE || error == ENFILE || error == ENOMEM || error == EIO || error == ENOSPC;
+}
+
 /// Why a file that was asked for cannot be read: whoever named it, or the machine.
 [[noreturn]] void FailToRead(const fs::path& path) {
   const int error = errno;
-  for (const int machine : {EMFILE, ENFILE, ENOMEM, EIO, ENOSPC}) {
-    if (error == machine) Fail("read", path);
-  }
+  if (IsMachineTrouble(error)) Fail("read", path);
   throw InputError(path.string(), 0, fmt::format("cannot read: {}", std::strerror(error)));
 }
 
@@ -165,7 +166,9 @@ void FileAside::Commit(Durability durability) {
   ::close(fd_);
   fd_ = -1;
   if (!flush) return;
-  const Descriptor folder = OpenFolder(path_.has_parent_path() ? path_.parent_path() : ".");
+  const fs::path around = path_.has_parent_path() ? path_.parent_path() : ".";
+  const Descriptor folder(::open(around.c_str(), kFolderFlags));
+  if (folder.get() < 0) Fail("open", around);
   ::fsync(folder.get());  // some file systems cannot flush a folder; the file itself is safe
 }
 
@@ -178,13 +181,64 @@ void WriteFileAtomically(const fs::path& path, std::string_view bytes, Durabilit
 void ClearLeftovers(const fs::path& folder) {
   std::vector<fs::path> leftovers;
   std::error_code error;
-  for (const auto& entry : fs::recursive_directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
+       at.increment(error)) {
+    const std::string name = at->path().filename().string();
     if (name.starts_with('.') && name.find(kAside) != std::string::npos) {
-      leftovers.push_back(entry.path());
+      leftovers.push_back(at->path());
     }
   }
   for (const fs::path& path : leftovers) fs::remove(path, error);
+}
+
+namespace {
+
+/// Lists what is below a folder.
+class FilesBelowWalk {
+ public:
+  void Enter(const fs::path& folder) {
+    struct stat status {};
+    if (::stat(folder.c_str(), &status) != 0) return;
+    const FolderId id{status.st_dev, status.st_ino};
+    if (std::ranges::find(around_, id) != around_.end()) return;  // it would be within itself
+    around_.push_back(id);
+    std::error_code error;
+    std::vector<fs::path> entries;
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+      entries.push_back(at->path());
+    }
+    const bool closed = error == std::errc::permission_denied;
+    if (error && !closed && IsMachineTrouble(error.value())) Fail("list", folder);
+    if (error && !closed) throw InputError(folder.string(), 0, "not readable: " + error.message());
+    for (const fs::path& entry : entries) Take(entry);
+    around_.pop_back();
+  }
+
+  std::set<fs::path> files;
+
+ private:
+  using FolderId = std::pair<dev_t, ino_t>;
+
+  void Take(const fs::path& entry) {
+    constexpr std::size_t kMostFiles = 1'000'000;  // 13 hours of stereo at 10 Hz
+    std::error_code none;                          // a link that leads nowhere is no folder
+    if (fs::is_directory(entry, none)) return Enter(entry);
+    files.insert(entry);
+    if (files.size() <= kMostFiles) return;
+    throw InputError(
+        entry.parent_path().string(), 0,
+        fmt::format("more than {} files around it: name a smaller folder", kMostFiles));
+  }
+
+  std::vector<FolderId> around_;  ///< the folders that the present one is in
+};
+
+}  // namespace
+
+std::set<fs::path> FilesBelow(const fs::path& folder) {
+  FilesBelowWalk walk;
+  walk.Enter(folder);
+  return std::move(walk.files);
 }
 
 namespace {
@@ -223,15 +277,14 @@ void ReadInPieces(const fs::path& path, const std::function<void(std::string_vie
 
 std::string ReadLeftFile(const fs::path& folder, const std::string& name, std::size_t max_bytes) {
   const fs::path path = folder / name;
-  const Descriptor within = OpenFolder(folder);
+  const Descriptor within(::open(folder.c_str(), kFolderFlags));
+  if (within.get() < 0) FailToRead(folder);  // whoever works in it may have closed it
   const int file = OpenBeneath(within.get(), name);
-  if (file < 0) {
-    throw InputError(path.string(), 0,
-                     errno == ENOENT ? "no such file"
-                     : errno == EXDEV || errno == ELOOP
-                         ? "is a link out of its folder"
-                         : fmt::format("cannot read: {}", std::strerror(errno)));
+  if (file < 0 && errno == ENOENT) throw InputError(path.string(), 0, "no such file");
+  if (file < 0 && (errno == EXDEV || errno == ELOOP)) {
+    throw InputError(path.string(), 0, "is a link out of its folder");
   }
+  if (file < 0) FailToRead(path);
   const Descriptor opened(file);
   struct stat status {};
   if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
@@ -240,23 +293,93 @@ std::string ReadLeftFile(const fs::path& folder, const std::string& name, std::s
   return ReadAll(opened, path, max_bytes);
 }
 
-bool RemoveFolder(const fs::path& folder) {
-  std::error_code error;
-  fs::remove_all(folder, error);
-  if (!error) return true;
-  // Folders may forbid what takes them away.
-  std::vector<fs::path> closed{folder};
-  while (!closed.empty()) {
-    const fs::path one = closed.back();
-    closed.pop_back();
-    std::error_code ignored;
-    fs::permissions(one, fs::perms::owner_all, fs::perm_options::add, ignored);
-    for (const auto& entry : fs::directory_iterator(one, ignored)) {
-      if (entry.is_directory(ignored) && !entry.is_symlink(ignored)) closed.push_back(entry.path());
+namespace {
+
+/// The names in an open folder, in no order; none where it cannot be read.
+std::vector<std::string> NamesIn(int folder) {
+  std::vector<std::string> names;
+  const int own = ::openat(folder, ".", kFolderFlags);  // its place in the list is not shared
+  DIR* list = own < 0 ? nullptr : ::fdopendir(own);
+  if (list == nullptr) {
+    if (own >= 0) ::close(own);
+    return names;
+  }
+  while (const dirent* entry = ::readdir(list)) {
+    const std::string name = entry->d_name;
+    if (name != "." && name != "..") names.push_back(name);
+  }
+  ::closedir(list);
+  return names;
+}
+
+bool IsFolderAt(int folder, const std::string& name) {
+  struct stat status {};
+  return ::fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
+         S_ISDIR(status.st_mode);
+}
+
+/// Opens a folder to empty it, also where its mode forbids that; -1 where there is none.
+int OpenToEmpty(int around, const std::string& name) {
+  if (!IsFolderAt(around, name)) return -1;
+  ::fchmodat(around, name.c_str(), S_IRWXU, 0);
+  return ::openat(around, name.c_str(), kFolderFlags | O_NOFOLLOW);
+}
+
+/// Takes away all in an open folder with a handful of descriptors and short names, however deep the
+/// tree is: folders are not descended into but moved up, each once, to stand in the open one.
+class Emptying {
+ public:
+  explicit Emptying(int top) : top_(top), names_(NamesIn(top)) {}
+
+  void Run() {
+    while (!names_.empty()) {
+      const std::string name = std::move(names_.back());
+      names_.pop_back();
+      if (::unlinkat(top_, name.c_str(), 0) != 0) RemoveFolderIn(name);
     }
   }
-  fs::remove_all(folder, error);
-  return !error;
+
+ private:
+  void RemoveFolderIn(const std::string& name) {
+    const Descriptor folder(OpenToEmpty(top_, name));
+    for (const std::string& below : NamesIn(folder.get())) {
+      if (::unlinkat(folder.get(), below.c_str(), 0) != 0) MoveUp(folder.get(), below);
+    }
+    ::unlinkat(top_, name.c_str(), AT_REMOVEDIR);
+  }
+
+  void MoveUp(int from, const std::string& name) {
+    if (!IsFolderAt(from, name)) return;
+    ::fchmodat(from, name.c_str(), S_IRWXU, 0);  // to move a folder is to write to it
+    std::string free;
+    struct stat taken {};
+    do {  // what was left may have any name
+      free = fmt::format(".moved-up-{}", moved_++);
+    } while (::fstatat(top_, free.c_str(), &taken, AT_SYMLINK_NOFOLLOW) == 0);
+    if (::renameat(from, name.c_str(), top_, free.c_str()) == 0) names_.push_back(free);
+  }
+
+  const int top_;
+  std::vector<std::string> names_;  ///< what stands in the open folder and was not looked at
+  std::uint64_t moved_ = 0;
+};
+
+}  // namespace
+
+bool TryToRemoveFolder(const fs::path& folder) {
+  const std::string name = folder.string();
+  if (const Descriptor top(OpenToEmpty(AT_FDCWD, name)); top.get() >= 0) {
+    Emptying(top.get()).Run();
+    return ::rmdir(name.c_str()) == 0 || errno == ENOENT;
+  }
+  return ::unlink(name.c_str()) == 0 || errno == ENOENT || errno == ENOTDIR;
+}
+
+void RemoveFolder(const fs::path& folder) {
+  if (TryToRemoveFolder(folder)) return;
+  throw MachineError(folder.string() +
+                     ": cannot be removed with all in it; what stays could be taken for the result "
+                     "of a later run: remove it by hand");
 }
 
 }  // namespace aisle

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -51,6 +52,11 @@ class FileAside {
 /// Deletes what killed writers left aside below a folder. Nobody else may be writing there.
 void ClearLeftovers(const std::filesystem::path& folder);
 
+/// All below a folder that are no folders, by path and in order, behind links too; a link to a
+/// folder around it is not followed, so circles end, and a folder that may not be entered has
+/// nothing below it. Throws InputError where they are a million: a mistake.
+std::set<std::filesystem::path> FilesBelow(const std::filesystem::path& folder);
+
 /// The file's bytes in order, a piece at a time, however many they are. Throws InputError when it
 /// cannot be read.
 void ReadInPieces(const std::filesystem::path& path,
@@ -63,12 +69,16 @@ std::string ReadFile(const std::filesystem::path& path,
 
 /// A file that a program of others left in a folder of its own, by its name there: a regular file
 /// of at most max_bytes. Links that lead out of the folder, pipes and devices are not followed nor
-/// opened to any effect, and nothing is waited for. Throws InputError.
+/// opened to any effect, and nothing is waited for. Throws InputError, of a folder too that it may
+/// not enter: who works there may have closed it.
 std::string ReadLeftFile(const std::filesystem::path& folder, const std::string& name,
                          std::size_t max_bytes);
 
-/// Deletes a folder with all in it, what a program of others forbade to enter too. False where
-/// something stays.
-bool RemoveFolder(const std::filesystem::path& folder);
+/// Deletes a folder with all in it, however deep it is, and what a program of others forbade to
+/// enter too; a link alone, not what it leads to. True where it is gone, or never was.
+[[nodiscard]] bool TryToRemoveFolder(const std::filesystem::path& folder);
+
+/// The same where what stays would pass for what comes next. Throws MachineError.
+void RemoveFolder(const std::filesystem::path& folder);
 
 }  // namespace aisle

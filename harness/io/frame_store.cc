@@ -123,6 +123,18 @@ FrameTruth GetTruth(ByteReader* reader) {
   return truth;
 }
 
+/// Of all files below that are there; others may be taking them away.
+std::uintmax_t BytesBelow(const fs::path& folder) {
+  std::uintmax_t bytes = 0;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
+       at.increment(error)) {
+    std::error_code gone;
+    if (at->is_regular_file(gone)) bytes += at->file_size(gone);
+  }
+  return bytes;
+}
+
 struct StoredSequence {
   fs::path folder;
   fs::file_time_type used;
@@ -132,14 +144,11 @@ struct StoredSequence {
 std::vector<StoredSequence> StoredSequences(const fs::path& root) {
   std::vector<StoredSequence> sequences;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(root, error)) {
-    if (!entry.is_directory(error)) continue;
-    StoredSequence sequence{entry.path(), fs::last_write_time(entry.path(), error), 0};
-    for (const auto& file : fs::recursive_directory_iterator(entry.path(), error)) {
-      std::error_code gone;
-      if (file.is_regular_file(gone)) sequence.bytes += file.file_size(gone);
-    }
-    sequences.push_back(sequence);
+  for (fs::directory_iterator at(root, error), end; !error && at != end; at.increment(error)) {
+    std::error_code gone;
+    if (!at->is_directory(gone)) continue;
+    sequences.push_back(
+        {at->path(), fs::last_write_time(at->path(), gone), BytesBelow(at->path())});
   }
   return sequences;
 }

@@ -32,11 +32,8 @@ std::uint64_t HashFile(const fs::path& path, std::uint64_t seed) {
 std::uint64_t HashFolder(const fs::path& folder, std::uint64_t seed) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) return seed;
-  std::set<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) files.insert(entry.path());
-  }
-  for (const fs::path& file : files) {
+  for (const fs::path& file : FilesBelow(folder)) {
+    if (!fs::is_regular_file(file, error)) continue;
     seed = Hash(file.lexically_relative(folder).string(), seed);
     seed = HashFile(file, seed);
   }

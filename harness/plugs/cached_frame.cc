@@ -1,5 +1,6 @@
 #include "harness/plugs/cached_frame.h"
 
+#include "harness/io/keep.h"
 #include "harness/score/difficulty.h"
 
 namespace aisle {
@@ -13,7 +14,7 @@ SequenceFrame MakeAndKeep(const FrameStore& store, const std::function<SequenceF
       image->release();
     }
   }
-  store.Write(made);
+  KeepWherePossible([&] { store.Write(made); });
   return made;
 }
 

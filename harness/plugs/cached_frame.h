@@ -8,7 +8,7 @@
 namespace aisle {
 
 /// A frame as a store has it, without depth, whichever way it came: what `make` gives is made so
-/// and kept.
+/// and kept, where the store can be written.
 SequenceFrame MakeAndKeep(const FrameStore& store, const std::function<SequenceFrame()>& make);
 
 }  // namespace aisle

@@ -2,6 +2,7 @@
 
 #include <mutex>
 
+#include "harness/io/keep.h"
 #include "harness/plugs/cached_frame.h"
 
 namespace aisle {
@@ -65,7 +66,7 @@ std::unique_ptr<Sequence> OpenCached(const FrameStore& store, const std::string&
     header->calibration = original->calibration();
     header->rate_hz = original->rate_hz();
     header->schedule = original->Schedule();
-    store.WriteHeader(*header);
+    KeepWherePossible([&] { store.WriteHeader(*header); });
   }
   if (content_hash != nullptr) *content_hash = header->content_hash;
   return std::make_unique<CachedSequence>(store, name, *std::move(header), std::move(original),

@@ -1,6 +1,7 @@
 // Systems of others that crash, hang, flood their output or write nonsense: each gets its verdict
 // and touches nothing else.
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <cstdlib>
 
@@ -277,6 +278,61 @@ cp '{2}' "$2"
   const std::string second =
       ReadFile(fs::path(Out("twice")) / "again/runs/short/live/hostile/1/system.log");
   EXPECT_THAT(second, testing::Not(HasSubstr("\nread: ")));
+}
+
+/// Lowers the number of descriptors of what is started while it stands.
+class FewDescriptors {
+ public:
+  explicit FewDescriptors(rlim_t most) {
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    const rlimit few{most, before_.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &few);
+  }
+  ~FewDescriptors() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+  FewDescriptors(const FewDescriptors&) = delete;
+  FewDescriptors& operator=(const FewDescriptors&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+TEST_F(ForeignSystemTest, ThatBuriesItsOutputLeavesNothingForTheNextNight) {
+  const std::string script = (folder_ / "bury.py").string();
+  WriteFileAtomically(script, R"(import os, shutil, sys
+shutil.copy(sys.argv[1], sys.argv[2])
+os.chdir(os.path.dirname(sys.argv[2]))
+for level in range(2000):
+    os.mkdir("d")
+    os.chdir("d")
+)");
+  const std::string suite =
+      Suite("buried", fmt::format("  - {{name: buries, command: \"python3 '{}' '{}' {{output}}\", "
+                                  "dataset: kitti}}\n",
+                                  script, KnownTrajectory()));
+  const FewDescriptors few(256);
+  const Said first = Run({"run", suite, "--out", Out("buried"), "--no-retry"});
+  EXPECT_EQ(first.code, 0) << first.text;
+  const fs::path run = fs::path(Out("buried")) / "runs/short/live/buries/1";
+  EXPECT_FALSE(fs::exists(run / "guest"));
+}
+
+TEST_F(ForeignSystemTest, ThatLocksOurFoldersLocksNobodyOut) {
+  const std::string known = KnownTrajectory();
+  const std::string systems = fmt::format(
+      "  - {{name: locks, command: \"cp '{0}' {{output}}; chmod 0 '{2}/frames' '{2}' "
+      "'{1}/runs/short/live/locks/1' '{1}/runs' '{1}'; exit 3\", dataset: kitti}}\n"
+      "  - plain\n",
+      known, Out("locked"), std::getenv("AISLE_CACHE"));
+  const Said said = Run({"run", Suite("locked", systems), "--out", Out("locked")});
+  EXPECT_EQ(said.code, 1) << said.text;  // its own failure, also of its second attempt
+  EXPECT_EQ(Find(ResultsOf(Out("locked")), "locks").attempts, 2);
+  EXPECT_EQ(Find(ResultsOf(Out("locked")), "plain").status, RunStatus::kOk);
+  for (const fs::path& folder :
+       {fs::path(Out("locked")), fs::path(Out("locked")) / "runs",
+        fs::path(std::getenv("AISLE_CACHE")), fs::path(std::getenv("AISLE_CACHE")) / "frames"}) {
+    EXPECT_EQ(fs::status(folder).permissions() & fs::perms::owner_all, fs::perms::owner_all)
+        << folder;
+  }
 }
 
 TEST_F(ForeignSystemTest, LeavesWhatNobodyShouldOpen) {

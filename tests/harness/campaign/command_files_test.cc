@@ -1,5 +1,6 @@
 #include "harness/campaign/command_files.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -12,6 +13,7 @@ namespace aisle {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::HasSubstr;
 
 /// A home with programs in it, one of which has a space in its name.
 class CommandFilesTest : public testing::Test {
@@ -45,7 +47,7 @@ TEST_F(CommandFilesTest, WordsAndTheValuesBehindKeysAreFiles) {
   EXPECT_EQ(named.files[1], At("slam.py"));
   EXPECT_EQ(named.files[2], At("words.bin"));
   EXPECT_EQ(named.files[3], At("set.yaml"));
-  EXPECT_TRUE(named.complete);
+  EXPECT_EQ(named.unseen, "");
 }
 
 TEST_F(CommandFilesTest, AProgramIsFoundHoweverAShellIsToldOfIt) {
@@ -66,7 +68,7 @@ TEST_F(CommandFilesTest, AProgramIsFoundHoweverAShellIsToldOfIt) {
     const CommandFiles named = FilesOf({.command = command, .repository = home});
     const auto is_run = [&](const fs::path& file) { return fs::equivalent(file, run); };
     EXPECT_TRUE(std::any_of(named.files.begin(), named.files.end(), is_run)) << command;
-    EXPECT_TRUE(named.complete) << command;
+    EXPECT_EQ(named.unseen, "") << command;
   }
 }
 
@@ -95,14 +97,50 @@ TEST_F(CommandFilesTest, WhatOnlyAShellAtWorkCanTellIsNotComplete) {
                                     "<",
                                     "sh -c 'sh -c \"sh -c'",
                                     "ls \\"}) {
-    EXPECT_FALSE(Of(command).complete) << command;
-    EXPECT_TRUE(MayChangeUnseen({.command = command})) << command;
-    EXPECT_FALSE(MayChangeUnseen({.command = command, .depends_on = {"/srv/run"}})) << command;
+    EXPECT_NE(Of(command).unseen, "") << command;
+    EXPECT_NE(WhyUnseen({.command = command}), "") << command;
+    EXPECT_EQ(WhyUnseen({.command = command, .depends_on = {"/srv/run"}}), "") << command;
+  }
+}
+
+TEST_F(CommandFilesTest, AProgramOfEverybodysTellsNothingWithoutAFileOfTheSystems) {
+  for (const std::string command :
+       {"python3 {dataset} {output}", "cp a {output}", "sh -c", "kill $$", "[ -e y ]", "ls $",
+        "env A=1 nice sort", "sh -c 'cat {dataset}/mav0/cam0/data.csv'"}) {
+    EXPECT_THAT(Of(command).unseen, HasSubstr("no file of its own")) << command;
+  }
+  for (const std::string command : {"~/slam.py {dataset}", "cp ~/set.yaml {output}"}) {
+    EXPECT_EQ(Of(command).unseen, "") << command;
+  }
+  // As a virtual environment has it.
+  fs::create_symlink(fs::canonical("/bin/sh"), home_ / "python");
+  EXPECT_THAT(Of("~/python {output}").unseen, HasSubstr("no file of its own"));
+}
+
+TEST_F(CommandFilesTest, WhatALauncherStartsIsUnseenWhateverFilesItIsGiven) {
+  for (const char* program : {"docker", "conda", "ros2", "make"}) {
+    WriteFileAtomically(home_ / program, "x");
+    fs::permissions(home_ / program, fs::perms::owner_all);
   }
   for (const std::string command :
-       {"cp a {output}", "python3 -m slam {dataset}", "sh -c", "kill $$", "[ -e y ]", "ls $"}) {
-    EXPECT_TRUE(Of(command).complete) << command;
+       {"~/docker run slam:latest {dataset}", "~/conda run -n slam python3 ~/slam.py {dataset}",
+        "~/ros2 launch slam slam.launch.py", "~/make -f ~/set.yaml run",
+        "env A=1 ~/docker run slam", "python3 -m slam {dataset}",
+        "python3 -u -m slam --settings ~/set.yaml", "nice python3 -c 'import slam' ~/set.yaml",
+        "sh -c 'python3 -m slam --settings ~/set.yaml'"}) {
+    EXPECT_THAT(Of(command).unseen, HasSubstr("starts")) << command;
   }
+  EXPECT_EQ(Of("python3 ~/slam.py -m 3 -c x").unseen, "") << "the script's own arguments";
+}
+
+TEST_F(CommandFilesTest, AFolderIsUnseenWhateverStandsInIt) {
+  for (const std::string command :
+       {"~/slam.py --config ~/'my slam'", "~/slam.py --config=\"$HOME/my slam\"",
+        "LD_LIBRARY_PATH=\"$HOME/my slam\" ~/slam.py", "python3 ~/slam.py . {output}"}) {
+    EXPECT_THAT(Of(command).unseen, HasSubstr("folder")) << command;
+  }
+  // Those that differ between runs are no folders yet.
+  EXPECT_EQ(Of("~/slam.py {dataset}/ {dataset}/mav0 --out={output}/../ {output}*").unseen, "");
 }
 
 TEST_F(CommandFilesTest, ARebuiltProgramIsAnotherSystem) {

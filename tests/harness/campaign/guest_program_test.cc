@@ -46,18 +46,25 @@ TEST(MissingProgramTest, WhatItCannotStartIsNamed) {
 }
 
 TEST(NotesOfSystemsTest, NameTheSystemAndTheProgram) {
+  const fs::path own = fs::temp_directory_path() / fmt::format("aisle_notes_{}", ::getpid());
+  WriteFileAtomically(own, "");
   Suite suite;
-  suite.systems = {BuiltIn("robust"),
-                   {.name = "mine", .external = ExternalSystem{.command = "no_such_slam {output}"}},
-                   {.name = "copy", .external = ExternalSystem{.command = "cp a {output}"}}};
+  suite.systems = {
+      BuiltIn("robust"),
+      {.name = "mine", .external = ExternalSystem{.command = "no_such_slam {output}"}},
+      {.name = "copy", .external = ExternalSystem{.command = "cp " + own.string() + " {output}"}}};
   suite.systems.push_back(
       {.name = "told",
        .external = ExternalSystem{.command = "$NO_SUCH_SLAM {output}", .depends_on = {"a.out"}}});
   suite.systems.push_back(
       {.name = "untold", .external = ExternalSystem{.command = "$NO_SUCH_SLAM {output}"}});
+  suite.systems.push_back(
+      {.name = "module", .external = ExternalSystem{.command = "env python3 -m slam {output}"}});
   const std::vector<std::string> notes = NotesOfSystems(suite);
-  ASSERT_EQ(notes.size(), 2u);
-  EXPECT_THAT(notes[1], testing::StartsWith("--resume repeats the runs of untold: "));
+  fs::remove(own);
+  ASSERT_EQ(notes.size(), 3u);
+  EXPECT_THAT(notes[1], testing::StartsWith("--resume repeats the runs of untold: only a shell"));
+  EXPECT_THAT(notes[2], testing::StartsWith("--resume repeats the runs of module: what python3 "));
   EXPECT_THAT(notes[0], testing::StartsWith("system 'mine': "));
   EXPECT_THAT(notes[0], testing::HasSubstr("no_such_slam"));
 }

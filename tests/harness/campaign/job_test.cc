@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstdlib>
+
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 
@@ -63,6 +65,24 @@ TEST(JobTest, SystemsThatWouldShareABagsTopicsLeaveNone) {
   EXPECT_THROW(MakeJobs({one, other}, fingerprints, {.out = "out", .mcap = true}), InputError);
 }
 
+TEST(JobTest, FramesAreKeptWhereOthersAreShownTheSame) {
+  const Fingerprints fingerprints;
+  const auto job_of = [&](const std::string& scene, const SystemSpec& system) {
+    const RunSpec spec{.scene = scene,
+                       .scene_file = AISLE_SOURCE_DIR "/scenes/" + scene + ".yaml",
+                       .twin = "live",
+                       .system = system,
+                       .seed = 1};
+    return MakeJobs({spec}, fingerprints, {.out = "out"}).at(0);
+  };
+  SystemSpec steers = BuiltIn("plain"), taught = steers;
+  taught.options["drive.taught"] = "true";
+  EXPECT_NE(job_of("smoke/short", steers).frames, "");
+  EXPECT_EQ(job_of("drive/aisle_dock", steers).frames, "");
+  EXPECT_EQ(job_of("drive/aisle_dock", taught).frames, "");
+  EXPECT_NE(job_of("drive/aisle_dock", taught).led_frames, "");
+}
+
 TEST(FingerprintsTest, ATeachingIsSharedHoweverItIsDrivenBy) {
   const Fingerprints fingerprints;
   RunSpec spec{.scene = "drive/aisle_dock",
@@ -111,6 +131,30 @@ TEST(FingerprintsTest, WhatACommandNamesInItsSourcesCounts) {
     EXPECT_NE(fingerprint(), made) << file;
   }
   fs::remove_all(folder);
+}
+
+TEST(FingerprintsTest, TheValueOfAVariableThatASystemIsGivenCounts) {
+  const auto fingerprint = [](const std::vector<std::string>& environment) {
+    ExternalSystem external{.command = "slam {output}"};
+    external.environment = environment;
+    return Fingerprints().Run({.scene = "smoke/short",
+                               .scene_file = AISLE_SOURCE_DIR "/scenes/smoke/short.yaml",
+                               .twin = "live",
+                               .system = {.name = "mine", .like = "", .external = external},
+                               .seed = 1});
+  };
+  const char* const kName = "AISLE_TEST_MODEL";
+  std::set<std::string> fingerprints;
+  ::unsetenv(kName);
+  const std::string without = fingerprint({});
+  fingerprints.insert(fingerprint({kName}));
+  for (const char* value : {"", "small", "large"}) {
+    ::setenv(kName, value, 1);
+    fingerprints.insert(fingerprint({kName}));
+    EXPECT_EQ(fingerprint({}), without) << "it is not told of it";
+  }
+  ::unsetenv(kName);
+  EXPECT_EQ(fingerprints.size(), 4u);
 }
 
 TEST(JobTest, AForeignSystemComesBackToo) {

@@ -130,6 +130,65 @@ TEST(ProcessTest, TooMuchMemoryIsNoticed) {
   EXPECT_EQ(result.end, End::kMemory);
 }
 
+TEST(ProcessTest, MemoryThatProcessesShareCountsOnce) {
+  // Five processes of 60 MiB each, which they share, look like 300.
+  const ProcessResult result = RunToEnd(
+      R"(exec python3 -c '
+import mmap, os, time
+shared = mmap.mmap(-1, 60 << 20, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+shared.write(b"x" * (60 << 20))
+for worker in range(4):
+    if os.fork() == 0:
+        assert all(shared[at] == 120 for at in range(0, 60 << 20, 4096))
+        time.sleep(1.5)
+        os._exit(0)
+for worker in range(4):
+    assert os.wait()[1] == 0
+')",
+      {.wall_s = 60, .memory_mib = 150});
+  EXPECT_EQ(result.end, End::kExited) << result.log;
+  EXPECT_EQ(result.code, 0) << result.log;
+  EXPECT_GT(result.peak_rss_mib, 60);
+  EXPECT_LE(result.peak_rss_mib, 150);
+}
+
+/// Whether it ends within ten seconds.
+bool Ends(Process& process) {
+  for (int round = 0; round < 1000; ++round) {
+    if (process.Poll()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+TEST(ProcessTest, WhoStartedUsMayIgnoreTheDeathOfChildren) {
+  const auto before = ::signal(SIGCHLD, SIG_IGN);
+  Process process(Shell("sleep 0.1; exit 7"), {.wall_s = 5});
+  const bool ends = Ends(process);
+  ::signal(SIGCHLD, before);
+  ASSERT_TRUE(ends);
+  EXPECT_EQ(process.result().end, End::kExited);
+  EXPECT_EQ(process.result().code, 7);
+}
+
+TEST(ProcessTest, AnEndThatWentToAnotherIsAnEnd) {
+  Process process(Shell("echo said; exit 7"), {});
+  EXPECT_GT(::waitpid(-1, nullptr, 0), 0);
+  ASSERT_TRUE(Ends(process));
+  EXPECT_NE(process.result().code, 0);
+  EXPECT_EQ(process.result().log, "said\n");
+  EXPECT_EQ(Describe(process.result(), {}), "ended, but its exit code went to another wait");
+}
+
+TEST(ProcessTest, StagesOfAProgramOfOthersAreItsOwnWords) {
+  Process process(Shell("echo '@progress 3 10'; echo '@stage mapping'"), {},
+                  Confinement{.environment = {"PATH=/usr/bin:/bin"}});
+  ASSERT_TRUE(Ends(process));
+  EXPECT_EQ(process.progress().done, 3);
+  EXPECT_EQ(process.progress().stage, "");
+  EXPECT_EQ(process.result().log, "@stage mapping\n");
+}
+
 TEST(ProcessTest, ProgressLinesAreReadAndNotLogged) {
   Process process(Shell("echo '@progress 3 10'; echo hello"), {});
   while (!process.Poll()) std::this_thread::sleep_for(std::chrono::milliseconds(5));

@@ -24,5 +24,22 @@ TEST(ProgressTest, WhatIsToldIsTakenAndOtherLinesAreNot) {
   EXPECT_EQ(progress.done, 3);
 }
 
+TEST(ProgressTest, ACountIsWithinItsTotalWhateverIsSaid) {
+  const std::tuple<const char*, int, int> said[] = {
+      {"@progress -5 10", 0, 10}, {"@progress 50 10", 10, 10}, {"@progress 5 -10", 0, 0}};
+  for (const auto& [line, done, total] : said) {
+    Progress progress;
+    EXPECT_TRUE(TakeFrameCount(line, &progress)) << line;
+    EXPECT_EQ(progress.done, done) << line;
+    EXPECT_EQ(progress.total, total) << line;
+  }
+}
+
+TEST(ProgressTest, AStageIsNoCount) {
+  Progress progress;
+  EXPECT_FALSE(TakeFrameCount("@stage solving", &progress));
+  EXPECT_EQ(progress.stage, "");
+}
+
 }  // namespace
 }  // namespace aisle

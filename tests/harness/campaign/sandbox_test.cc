@@ -4,13 +4,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <exception>
 #include <thread>
 
+#include "harness/campaign/folder_modes.h"
+#include "harness/campaign/own_memory.h"
 #include "harness/campaign/process.h"
 #include "harness/io/file.h"
+#include "harness/io/input_error.h"
 
 namespace aisle {
 namespace {
@@ -42,7 +47,10 @@ class SandboxTest : public testing::Test {
                            .writable = {folder_ / "own"}});
     Process process(
         {"/bin/sh", "-c", "cd " + folder_.string() + "\n" + script}, {.wall_s = 20},
-        Confinement{ScrubbedEnvironment(folder_ / "own", {"AISLE_TEST_ASKED"}), sandbox.ruleset()});
+        Confinement{.environment = ScrubbedEnvironment(folder_ / "own", {"AISLE_TEST_ASKED"}),
+                    .ruleset = sandbox.ruleset(),
+                    .own_shared_memory = CanOwnSharedMemory(),
+                    .shared_memory_access = sandbox.writing()});
     while (!process.Poll()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     return process.result();
   }
@@ -102,6 +110,45 @@ TEST_F(BoundSandboxTest, NothingElseCanBeWritten) {
   EXPECT_FALSE(fs::exists(folder_ / "new"));
 }
 
+/// Landlock lets it; what it does to our folders is undone.
+TEST_F(BoundSandboxTest, ModesThatItChangesArePutBack) {
+  const fs::path night = folder_ / "nights/tonight";
+  const fs::perms before = fs::status(night).permissions();
+  {
+    const FolderModes modes({night});
+    EXPECT_EQ(Try("chmod 0 nights/tonight").code, 0);
+    EXPECT_NE(fs::status(night).permissions(), before);
+  }
+  EXPECT_EQ(fs::status(night).permissions(), before);
+}
+
+/// Better no run than one that is held to other rules, or to none.
+TEST_F(BoundSandboxTest, RulesThatCannotBeMadeAreTheMachinesTrouble) {
+  const SandboxRules rules{.hidden = {folder_ / "nights"}, .writable = {folder_ / "own"}};
+  rlimit before{};
+  ::getrlimit(RLIMIT_NOFILE, &before);
+  const int next = ::dup(STDIN_FILENO);  // the lowest that is free
+  ::close(next);
+  const auto free = static_cast<rlim_t>(next);
+  for (const rlim_t most : {free, free + 1, free + 2}) {
+    std::exception_ptr thrown;  // judged when there are descriptors again: UBSan needs a pipe
+    const rlimit few{most, before.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &few);
+    try {
+      const Sandbox sandbox(rules);
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+    ::setrlimit(RLIMIT_NOFILE, &before);
+    EXPECT_EQ(thrown != nullptr, most < free + 2) << "two are enough";
+    if (thrown) {
+      EXPECT_THROW(std::rethrow_exception(thrown), MachineError);
+    }
+  }
+  EXPECT_THROW(Sandbox({.hidden = {}, .writable = {folder_ / "none"}}), MachineError);
+  EXPECT_NO_THROW(Sandbox({.hidden = {folder_ / "none"}, .writable = {folder_ / "own"}}));
+}
+
 TEST_F(BoundSandboxTest, OthersCannotBeSignalled) {
   const pid_t other = ::fork();
   if (other == 0) {
@@ -119,12 +166,13 @@ TEST(DescribeSandboxTest, WhatAKernelCannotPreventIsOneSentence) {
   const std::string cannot = "; this kernel cannot keep them from ";
   const std::string kills = "sending signals to other processes of the user";
   EXPECT_THAT(DescribeSandbox(6), Not(HasSubstr("cannot")));
+  EXPECT_THAT(DescribeSandbox(6), HasSubstr("modes"));
   for (const int level : {3, 4, 5}) {
-    EXPECT_THAT(DescribeSandbox(level), EndsWith("their own folders" + cannot + kills));
+    EXPECT_THAT(DescribeSandbox(level), EndsWith("are put back)" + cannot + kills));
   }
   for (const int level : {1, 2}) {
     EXPECT_THAT(DescribeSandbox(level),
-                EndsWith("their own folders" + cannot + "cutting files short nor from " + kills));
+                EndsWith("are put back)" + cannot + "cutting files short nor from " + kills));
   }
 }
 
@@ -139,6 +187,18 @@ TEST_F(SandboxTest, NeitherSecretsNorDescriptorsGoAlong) {
   EXPECT_THAT(result.log, HasSubstr("PATH="));
   EXPECT_THAT(result.log, HasSubstr("TMPDIR=" + (folder_ / "own").string()));
   EXPECT_THAT(result.log, testing::EndsWith("\n4\n"));  // three, and that of the list itself
+}
+
+TEST_F(SandboxTest, WhatItLeavesInSharedMemoryGoesWithIt) {
+  if (!CanOwnSharedMemory()) GTEST_SKIP() << "this kernel gives no /dev/shm of one's own";
+  const std::string ours = fmt::format("/dev/shm/aisle_ours_{}", ::getpid());
+  const std::string theirs = fmt::format("/dev/shm/aisle_theirs_{}", ::getpid());
+  WriteFileAtomically(ours, "ours");
+  const ProcessResult result =
+      Try(fmt::format("ls -A /dev/shm; echo x >{0} && cat {0}; id -u", theirs));
+  EXPECT_EQ(result.log, fmt::format("x\n{}\n", ::geteuid()));
+  EXPECT_FALSE(fs::exists(theirs));
+  for (const std::string& file : {ours, theirs}) fs::remove(file);
 }
 
 TEST_F(SandboxTest, OneFileCannotFillTheDisk) { EXPECT_NE(Try("truncate -s 60G own/big").code, 0); }

@@ -2,12 +2,16 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <exception>
+#include <filesystem>
 #include <queue>
 #include <random>
 
+#include "harness/io/input_error.h"
 #include "harness/record/record.h"
 #include "tests/harness/campaign/job_of.h"
 
@@ -124,6 +128,7 @@ TEST(ScheduleTest, FramesAreMadeByOneJobAtATime) {
     Job job;
     job.spec.scene = i == 0 ? script : "test ! -d " + lock;
     job.frames_key = "shared";
+    job.frames = "/frames/shared";
     jobs.push_back(job);
   }
   int good = 0;
@@ -131,6 +136,66 @@ TEST(ScheduleTest, FramesAreMadeByOneJobAtATime) {
   EXPECT_TRUE(
       RunJobs(jobs, {.jobs = 2, .limits = {}}, {.argv = ScriptOf, .ended = note, .tick = {}}));
   EXPECT_EQ(good, 2);
+}
+
+TEST(ScheduleTest, WhoKeepsNothingWaitsForNobody) {
+  const std::string met = testing::TempDir() + fmt::format("aisle_met_{}", ::getpid());
+  // Each of the two leaves its own mark and waits for the other's.
+  const std::string script = "mkdir " + met + "{} && for i in $(seq 100); do test -d " + met +
+                             "{} && exit 0; sleep 0.1; done; exit 9";
+  std::vector<Job> jobs(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    jobs[i].spec.scene = fmt::format(fmt::runtime(script), i, 1 - i);
+    jobs[i].frames_key = "the same scene's";
+  }
+  int good = 0;
+  const auto note = [&](const Job&, const ProcessResult& r) { good += r.code == 0; };
+  EXPECT_TRUE(
+      RunJobs(jobs, {.jobs = 2, .limits = {}}, {.argv = ScriptOf, .ended = note, .tick = {}}));
+  EXPECT_EQ(good, 2);
+  for (const char* mark : {"0", "1"}) std::filesystem::remove(met + mark);
+}
+
+/// Takes all descriptors but those that are open, or gives them back.
+void LimitDescriptors(bool few) {
+  static const rlimit before = [] {
+    rlimit now{};
+    ::getrlimit(RLIMIT_NOFILE, &now);
+    return now;
+  }();
+  const rlimit none{0, before.rlim_max};
+  ::setrlimit(RLIMIT_NOFILE, few ? &none : &before);
+}
+
+TEST(ScheduleTest, AJobThatCannotBeStartedIsTriedAgain) {
+  std::vector<Job> jobs(3);
+  for (Job& job : jobs) job.spec.scene = "sleep 0.2";
+  int asked = 0, good = 0;
+  const auto argv = [&](const Job& job) {
+    LimitDescriptors(++asked == 2);  // there is no room for the second while the first runs
+    return ScriptOf(job);
+  };
+  const auto note = [&](const Job&, const ProcessResult& r) { good += r.code == 0; };
+  EXPECT_TRUE(RunJobs(jobs, {.jobs = 2, .limits = {}}, {.argv = argv, .ended = note, .tick = {}}));
+  EXPECT_EQ(good, 3);
+  EXPECT_EQ(asked, 4);
+}
+
+TEST(ScheduleTest, WhereNothingCanBeStartedTheMachineIsToBlame) {
+  const std::vector<Job> jobs(1);
+  const auto argv = [&](const Job& job) {
+    LimitDescriptors(true);
+    return ScriptOf(job);
+  };
+  std::exception_ptr thrown;
+  try {
+    RunJobs(jobs, {.jobs = 1, .limits = {}}, {.argv = argv, .ended = {}, .tick = {}});
+  } catch (...) {
+    thrown = std::current_exception();
+  }
+  LimitDescriptors(false);
+  ASSERT_TRUE(thrown);
+  EXPECT_THROW(std::rethrow_exception(thrown), MachineError);
 }
 
 TEST(ScheduleTest, AnInterruptEndsWhatRuns) {

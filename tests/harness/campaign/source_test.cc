@@ -58,6 +58,45 @@ TEST_F(SourceTest, TheTruthBesideASequenceOfKittiCounts) {
   }
 }
 
+/// What a system could read unless it is hidden from it.
+TEST_F(SourceTest, TruthIsAmongTheFilesWhereverItLies) {
+  const auto real_files = [&](const std::string& below) {
+    WriteFileAtomically(folder_ / "drive.yaml", "recording: " + below + "\n");
+    std::set<fs::path> real;
+    for (const std::string& file : FilesOfSource((folder_ / "drive.yaml").string())) {
+      real.insert(fs::weakly_canonical(file));
+    }
+    return real;
+  };
+  const fs::path disk = fs::weakly_canonical(folder_) / "disk";
+  for (const char* file : {"kitti/sequences/07/calib.txt", "kitti/poses/07.txt", "poses/07.txt",
+                           "mav0/vicon0/data.csv", "truth/data.csv", "euroc/cam0/data.csv"}) {
+    WriteFileAtomically(disk / file, "a");
+  }
+  EXPECT_TRUE(real_files("disk/kitti/sequences/07").contains(disk / "kitti/poses/07.txt"));
+  // A sequence that is linked has poses where it leads, a root that is one where they are linked.
+  fs::create_directories(folder_ / "mine/sequences");
+  fs::create_directory_symlink(disk / "kitti/sequences/07", folder_ / "mine/sequences/00");
+  EXPECT_TRUE(real_files("mine/sequences/00").contains(disk / "kitti/poses/07.txt"));
+  fs::create_directory_symlink(disk / "poses", folder_ / "mine/poses");
+  fs::rename(folder_ / "mine/sequences/00", folder_ / "mine/sequences/07");
+  for (const char* below : {"mine", "mine/sequences/07"}) {
+    EXPECT_TRUE(real_files(below).contains(disk / "poses/07.txt")) << below;
+    EXPECT_TRUE(real_files(below).contains(disk / "kitti/poses/07.txt")) << below;
+  }
+  // Of EuRoC any part may be a link.
+  fs::create_directories(folder_ / "whole");
+  fs::create_directory_symlink(disk / "mav0", folder_ / "whole/mav0");
+  EXPECT_TRUE(real_files("whole").contains(disk / "mav0"));
+  fs::create_directory_symlink(disk / "truth", disk / "euroc/state_groundtruth_estimate0");
+  EXPECT_TRUE(real_files("disk/euroc").contains(disk / "truth"));
+  fs::create_directories(folder_ / "file/mav0/state_groundtruth_estimate0");
+  fs::create_symlink(disk / "truth/data.csv",
+                     folder_ / "file/mav0/state_groundtruth_estimate0/data.csv");
+  EXPECT_TRUE(real_files("file").contains(disk / "truth/data.csv"));
+  EXPECT_EQ(real_files("file").size(), 3u) << "what lies below is not named again";
+}
+
 TEST_F(SourceTest, FoldersBehindLinksCountAndCirclesEnd) {
   fs::create_directories(folder_ / "euroc");
   fs::create_directories(folder_ / "images");

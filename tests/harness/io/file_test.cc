@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <exception>
+#include <functional>
 
 #include "harness/io/file_lock.h"
 #include "harness/io/hash.h"
@@ -104,8 +106,96 @@ TEST_F(FileTest, WhatHasNoEndIsReadToTheLimitAlone) {
 TEST_F(FileTest, AFolderThatForbidsItIsRemovedAllTheSame) {
   WriteFileAtomically(folder_ / "left/a/b/c", "text");
   fs::permissions(folder_ / "left/a/b", fs::perms::none);
-  EXPECT_TRUE(RemoveFolder(folder_ / "left"));
+  EXPECT_TRUE(TryToRemoveFolder(folder_ / "left"));
   EXPECT_FALSE(fs::exists(folder_ / "left"));
+}
+
+/// Makes folders in each other, named alike, and a file in the innermost.
+void MakeDeep(const fs::path& top, int levels) {
+  fs::create_directory(top);
+  int folder = ::open(top.c_str(), O_RDONLY | O_DIRECTORY);
+  for (int level = 0; level < levels; ++level) {
+    ::mkdirat(folder, "d", 0700);
+    const int next = ::openat(folder, "d", O_RDONLY | O_DIRECTORY);
+    ::close(std::exchange(folder, next));
+  }
+  ::close(::openat(folder, "file", O_WRONLY | O_CREAT, 0600));
+  ::close(folder);
+}
+
+/// Lowers the number of descriptors while it stands.
+class FewDescriptors {
+ public:
+  explicit FewDescriptors(rlim_t most) {
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    const rlimit few{most, before_.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &few);
+  }
+  ~FewDescriptors() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+  FewDescriptors(const FewDescriptors&) = delete;
+  FewDescriptors& operator=(const FewDescriptors&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+TEST_F(FileTest, AFolderIsRemovedHoweverDeepItIs) {
+  const fs::path left = folder_ / "left";
+  MakeDeep(left / "deep", 2000);
+  MakeDeep(left / "other", 300);
+  fs::create_directories(left / ".moved-up-0/.moved-up-1");  // names that we would give
+  WriteFileAtomically(left / ".moved-up-3", "");
+  WriteFileAtomically(folder_ / "outside/file", "kept");
+  fs::create_directory_symlink(folder_ / "outside", left / "other/link");
+  const FewDescriptors few(256);
+  EXPECT_TRUE(TryToRemoveFolder(left));
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(TryToRemoveFolder(left)) << "it is gone";
+  EXPECT_EQ(ReadFile(folder_ / "outside/file"), "kept") << "a link goes alone";
+}
+
+TEST_F(FileTest, WhatStaysOfAFolderIsNotPassedOver) {
+  WriteFileAtomically(folder_ / "left/file", "yesterday's");
+  bool removed = true;
+  std::exception_ptr thrown;  // judged when there are descriptors again, as below
+  try {
+    const FewDescriptors none(0);
+    removed = TryToRemoveFolder(folder_ / "left");
+    RemoveFolder(folder_ / "left");
+  } catch (...) {
+    thrown = std::current_exception();
+  }
+  EXPECT_FALSE(removed);
+  ASSERT_TRUE(thrown);
+  EXPECT_THROW(std::rethrow_exception(thrown), MachineError);
+}
+
+/// Whether a thing said by an ordinary user, who is kept out of folders, is an InputError.
+bool IsInputErrorToAUser(const std::function<void()>& say) {
+  const pid_t user = ::fork();
+  if (user == 0) {
+    constexpr unsigned kNobody = 65534;
+    if (::geteuid() == 0 && (::setgid(kNobody) != 0 || ::setuid(kNobody) != 0)) ::_exit(2);
+    try {
+      say();
+    } catch (const InputError&) {
+      ::_exit(0);
+    } catch (...) {
+    }
+    ::_exit(1);
+  }
+  int status = 0;
+  ::waitpid(user, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+TEST_F(FileTest, AFolderThatWasClosedIsTheFaultOfWhomItWasLeftTo) {
+  WriteFileAtomically(folder_ / "left/file", "text");
+  fs::permissions(folder_ / "left", fs::perms::none);
+  EXPECT_TRUE(IsInputErrorToAUser([&] { ReadLeftFile(folder_ / "left", "file", 1000); }));
+  fs::permissions(folder_ / "left", fs::perms::owner_all);
+  EXPECT_THROW(ReadLeftFile(folder_ / "none", "file", 1000), InputError);
+  EXPECT_THROW(ReadLeftFile(folder_ / "left/file", "file", 1000), InputError);
 }
 
 TEST_F(FileTest, AFileInTheWayOfAFolderIsTheUsersMistake) {
@@ -117,21 +207,21 @@ TEST_F(FileTest, AFileInTheWayOfAFolderIsTheUsersMistake) {
 
 TEST_F(FileTest, TooManyOpenFilesAreTheMachinesTrouble) {
   WriteFileAtomically(folder_ / "file", "text");
-  rlimit before{};
-  ::getrlimit(RLIMIT_NOFILE, &before);
-  const rlimit none{0, before.rlim_max};
-  ::setrlimit(RLIMIT_NOFILE, &none);
-  // Judged when there are descriptors again: UBSan needs a pipe to tell what an object is.
-  std::exception_ptr thrown;
-  try {
-    ReadFile(folder_ / "file");
-  } catch (...) {
-    thrown = std::current_exception();
+  const std::function<void()> reads[] = {[&] { ReadFile(folder_ / "file"); },
+                                         [&] { ReadLeftFile(folder_, "file", 1000); }};
+  for (const auto& read : reads) {
+    // Judged when there are descriptors again: UBSan needs a pipe to tell what an object is.
+    std::exception_ptr thrown;
+    try {
+      const FewDescriptors none(0);
+      read();
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+    ASSERT_TRUE(thrown);
+    EXPECT_THROW(std::rethrow_exception(thrown), MachineError);
+    EXPECT_NO_THROW(read());
   }
-  ::setrlimit(RLIMIT_NOFILE, &before);
-  ASSERT_TRUE(thrown);
-  EXPECT_THROW(std::rethrow_exception(thrown), MachineError);
-  EXPECT_EQ(ReadFile(folder_ / "file"), "text");
 }
 
 TEST_F(FileTest, AFilesHashIsThatOfItsBytesHoweverManyTheyAre) {
@@ -145,6 +235,23 @@ TEST_F(FileTest, AFilesHashIsThatOfItsBytesHoweverManyTheyAre) {
   fs::resize_file(folder_ / "weights", (std::uintmax_t{1} << 30) + 1);  // more than is read at once
   EXPECT_NO_THROW(HashFile(folder_ / "weights"));
   EXPECT_THROW(HashFile(folder_ / "none"), InputError);
+}
+
+TEST_F(FileTest, AFoldersHashCountsWhatItsLinksLeadToAndCirclesEnd) {
+  const fs::path left = folder_ / "left";
+  WriteFileAtomically(left / "a/file", "1");
+  WriteFileAtomically(folder_ / "weights/net.pt", "1");
+  fs::create_directory_symlink(folder_ / "weights", left / "weights");
+  fs::create_directory_symlink(left, left / "a/again");
+  fs::create_directory_symlink(left, left / "b");
+  fs::create_symlink("nowhere", left / "c");
+  EXPECT_THAT(FilesBelow(left),
+              testing::ElementsAre(left / "a/file", left / "c", left / "weights/net.pt"));
+  const std::uint64_t before = HashFolder(left);
+  EXPECT_EQ(HashFolder(left), before);
+  WriteFileAtomically(folder_ / "weights/net.pt", "2");
+  EXPECT_NE(HashFolder(left), before);
+  EXPECT_EQ(HashFolder(folder_ / "none", 7), 7u);
 }
 
 TEST_F(FileTest, ALockIsHeldByOneAtATime) {

@@ -1,9 +1,11 @@
 #include "harness/plugs/cached_sequence.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <csignal>
 #include <fstream>
 #include <random>
 #include <thread>
@@ -201,6 +203,49 @@ TEST_F(CachedSequenceTest, AFrameThatIsDamagedOrGoneIsMadeAnew) {
     EXPECT_GT(asked_.made + asked_.opened, made + opened) << "it was noticed: " << file;
     EXPECT_EQ(ReadFile(file), whole) << "and is whole again";
   }
+}
+
+/// Lets no file grow, as a full disk does.
+class FullDisk {
+ public:
+  FullDisk() : signal_(::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit full{512, before_.rlim_max};  // what is said on stderr has room
+    ::setrlimit(RLIMIT_FSIZE, &full);
+  }
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    ::signal(SIGXFSZ, signal_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  void (*signal_)(int);
+  rlimit before_{};
+};
+
+TEST_F(CachedSequenceTest, AStoreThatCannotBeWrittenCostsNoFrame) {
+  const auto expect_frames = [&] {
+    std::uint64_t hash = 0;
+    const auto sequence = Open(&hash);
+    EXPECT_EQ(hash, 77u);
+    for (const FrameRequest& request : sequence->Schedule()) {
+      ExpectSame(sequence->At(request), Noise::Make(request));
+    }
+  };
+  testing::internal::CaptureStderr();
+  {
+    const FullDisk full;
+    expect_frames();
+    EXPECT_EQ(FrameStore(folder_).Count(), 0);
+  }
+  fs::remove_all(folder_);
+  WriteFileAtomically(folder_, "in the way");
+  expect_frames();
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
+  EXPECT_EQ(asked_.made, 12);
 }
 
 /// A vehicle that is steered asks from elsewhere: such frames are the original's and nobody's else.
