@@ -21,9 +21,11 @@ namespace aisle::sim {
 
 /// Which version of a scene to play.
 enum class Twin {
-  kLive,    ///< as written
-  kEmpty,   ///< actors removed
-  kFrozen,  ///< actors stand where they stand at time 0
+  kLive,   ///< as written
+  kEmpty,  ///< actors removed
+  /// Actors and beams stay as they are at time 0; what the hall does by itself (lamps that go off,
+  /// clouds before its doors) goes on, as in every twin.
+  kFrozen,
   // As written, but for the level of dynamics: only actors of at most that level.
   kNone,
   kLow,
@@ -90,7 +92,8 @@ struct ObjectTruth {
   std::uint16_t instance = 0;
   cv::Rect2d box_visible;  ///< pixels; encloses the pixels that show it (empty if none)
   cv::Rect2d box_full;     ///< pixels; as if nothing stood in front, cut at the image border
-  /// The object's frame: x ahead, z up, the origin on the floor.
+  /// The object's frame: x ahead, z up; the origin on the floor for people and vehicles, at its
+  /// first moving part for a mechanism.
   Eigen::Isometry3d T_world_object = Eigen::Isometry3d::Identity();
   Eigen::Vector3d extent_m = Eigen::Vector3d::Zero();  ///< full sizes of the 3-D box along its axes
   Eigen::Vector3d center_m = Eigen::Vector3d::Zero();  ///< of the 3-D box, world
