@@ -404,7 +404,7 @@ TEST_F(SuiteRunTest, OneDriveAnswersForEqualRuns) {
   WriteFileAtomically(other, text.replace(pace, 14, "speed_mps: 0.8"));
   const std::string suite = Suite("twice",
                                   "  - plain\n  - robust\n  - {name: shows, command: \"ls "
-                                  "{dataset} # {output}\"}\n",
+                                  "{dataset} # {output}\", depends_on: [/bin/ls]}\n",
                                   "seeds: 1\ntwins: [live, empty]\n");
   std::string both = ReadFile(suite);
   both.replace(both.find(scene_), scene_.size(), scene_ + ", " + other);
