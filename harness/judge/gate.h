@@ -11,9 +11,9 @@ namespace aisle {
 inline constexpr const char* kWithoutBaseline = "gate: cells without a baseline";
 
 /// A verdict for every score that is judged, of each system over all its cells and of each cell,
-/// failed where it got worse, is unstable or is gone; a
-/// failed one for each cell, and each seed of a cell, that the baseline has and the night has not;
-/// and one that is passed but says so where the night has cells that the baseline has not.
+/// failed where it got worse, is unstable or is gone; a failed one for each cell, and each seed of
+/// a cell, that the baseline has and the night has not; and one that is passed but says so where
+/// the night has cells that the baseline has not.
 std::vector<Verdict> GateVerdicts(const Results& baseline, const Results& night,
                                   const CompareOptions& options = {});
 

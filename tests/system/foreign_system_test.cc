@@ -1,12 +1,12 @@
 // Systems of others that crash, hang, flood their output or write nonsense: each gets its verdict
 // and touches nothing else.
 #include <gmock/gmock.h>
-#include <sys/resource.h>
 
 #include <cstdlib>
 
 #include "harness/campaign/sandbox.h"
 #include "harness/io/file.h"
+#include "tests/support/few_descriptors.h"
 #include "tests/system/program.h"
 
 namespace aisle {
@@ -279,22 +279,6 @@ cp '{2}' "$2"
       ReadFile(fs::path(Out("twice")) / "again/runs/short/live/hostile/1/system.log");
   EXPECT_THAT(second, testing::Not(HasSubstr("\nread: ")));
 }
-
-/// Lowers the number of descriptors of what is started while it stands.
-class FewDescriptors {
- public:
-  explicit FewDescriptors(rlim_t most) {
-    ::getrlimit(RLIMIT_NOFILE, &before_);
-    const rlimit few{most, before_.rlim_max};
-    ::setrlimit(RLIMIT_NOFILE, &few);
-  }
-  ~FewDescriptors() { ::setrlimit(RLIMIT_NOFILE, &before_); }
-  FewDescriptors(const FewDescriptors&) = delete;
-  FewDescriptors& operator=(const FewDescriptors&) = delete;
-
- private:
-  rlimit before_{};
-};
 
 TEST_F(ForeignSystemTest, ThatBuriesItsOutputLeavesNothingForTheNextNight) {
   const std::string script = (folder_ / "bury.py").string();

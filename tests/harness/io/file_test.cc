@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,6 +14,7 @@
 #include "harness/io/file_lock.h"
 #include "harness/io/hash.h"
 #include "harness/io/input_error.h"
+#include "tests/support/few_descriptors.h"
 
 namespace aisle {
 namespace {
@@ -122,22 +122,6 @@ void MakeDeep(const fs::path& top, int levels) {
   ::close(::openat(folder, "file", O_WRONLY | O_CREAT, 0600));
   ::close(folder);
 }
-
-/// Lowers the number of descriptors while it stands.
-class FewDescriptors {
- public:
-  explicit FewDescriptors(rlim_t most) {
-    ::getrlimit(RLIMIT_NOFILE, &before_);
-    const rlimit few{most, before_.rlim_max};
-    ::setrlimit(RLIMIT_NOFILE, &few);
-  }
-  ~FewDescriptors() { ::setrlimit(RLIMIT_NOFILE, &before_); }
-  FewDescriptors(const FewDescriptors&) = delete;
-  FewDescriptors& operator=(const FewDescriptors&) = delete;
-
- private:
-  rlimit before_{};
-};
 
 TEST_F(FileTest, AFolderIsRemovedHoweverDeepItIs) {
   const fs::path left = folder_ / "left";

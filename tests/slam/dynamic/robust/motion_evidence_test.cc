@@ -451,6 +451,18 @@ TEST(CarryMemory, TakesAMoversMemoryAlongAndLeavesNoTrail) {
   }
 }
 
+/// Log-odds of 5 everywhere, of 60 rows and 80 columns, carried by a flow that leads nowhere.
+cv::Mat1f CarriedInPlace(const cv::Mat1f& if_static, const DenseFrame& now,
+                         const DenseFrame& before) {
+  LabelMemory memory = ForgottenMemory({80, 60}, 0);
+  memory.log_odds.setTo(5.0F);
+  cv::Mat2f flow(60, 80);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 80; ++x) flow(y, x) = {static_cast<float>(x), static_cast<float>(y)};
+  }
+  return CarryMemory(memory, flow, if_static, now, before, kUsualTolerance).log_odds;
+}
+
 TEST(CarryMemory, KnowsASurfaceThatTheRigHasComeNearer) {
   DenseFrame before, now;
   now.disparity = now.filled = cv::Mat1f(60, 80, 12.0F);
@@ -461,14 +473,7 @@ TEST(CarryMemory, KnowsASurfaceThatTheRigHasComeNearer) {
   before.disparity.colRange(40, 60).setTo(8.0F);   // came towards it
   before.disparity.colRange(60, 80).setTo(5.0F);   // is another surface
   before.filled = before.disparity;
-  LabelMemory memory = ForgottenMemory({80, 60}, 0);
-  memory.log_odds.setTo(5.0F);
-  cv::Mat2f flow(60, 80);
-  for (int y = 0; y < 60; ++y) {
-    for (int x = 0; x < 80; ++x) flow(y, x) = {static_cast<float>(x), static_cast<float>(y)};
-  }
-  const cv::Mat1f carried =
-      CarryMemory(memory, flow, if_static, now, before, kUsualTolerance).log_odds;
+  const cv::Mat1f carried = CarriedInPlace(if_static, now, before);
   for (int x = 0; x < 80; ++x) EXPECT_EQ(carried(20, x) > 0, x <= 60) << "column " << x;
 }
 
@@ -480,14 +485,7 @@ TEST(CarryMemory, AnUnknownDisparityIsNotTakenForASmallOne) {
   before.disparity = cv::Mat1f(60, 80, 0.5F);
   before.disparity.colRange(40, 80).setTo(kNoDisparity);
   before.filled = before.disparity;
-  LabelMemory memory = ForgottenMemory({80, 60}, 0);
-  memory.log_odds.setTo(5.0F);
-  cv::Mat2f flow(60, 80);
-  for (int y = 0; y < 60; ++y) {
-    for (int x = 0; x < 80; ++x) flow(y, x) = {static_cast<float>(x), static_cast<float>(y)};
-  }
-  const cv::Mat1f carried =
-      CarryMemory(memory, flow, if_static, now, before, kUsualTolerance).log_odds;
+  const cv::Mat1f carried = CarriedInPlace(if_static, now, before);
   for (const int y : {0, 20}) {  // at the image's border, and within
     for (int x = 0; x < 80; ++x) EXPECT_EQ(carried(y, x) > 0, x <= 40) << "column " << x;
   }
