@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "simulator/common/parallel.h"
-#include "simulator/trace/mover_windows.h"
 
 namespace aisle::sim {
 namespace {
@@ -138,9 +137,7 @@ void SurfaceTables::PrepareFrame(const Instant& instant, std::span<const CameraV
   const std::size_t movers = instant.snapshot().movers.size();
   if (movers == 0) return;
   GeometryMask in_view = 0;
-  for (const CameraView& view : views) {
-    in_view |= MoverWindows(instant, view).In(0, 0, view.rays->width, view.rays->height);
-  }
+  for (const HitImage& image : images) in_view |= image.movers.In(0, 0, image.width, image.height);
   std::vector<std::uint8_t> all_seen = FindSeen(images, mover_bases_, mover_records_.size());
   for (const Hits8& hits : beyond) {
     for (int k = 0; k < kLanes; ++k) {
