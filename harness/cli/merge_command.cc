@@ -12,7 +12,6 @@
 #include "harness/io/places.h"
 #include "harness/io/shell_word.h"
 #include "harness/record/copy_run.h"
-#include "harness/record/history.h"
 #include "harness/suite/plan.h"
 
 namespace aisle {
@@ -196,11 +195,6 @@ int MergeOwn(const Options& options) {
   return MergeNight(out, {.json = options.json, .submission = options.submission});
 }
 
-void TellReplaced(const Results& results, const fs::path& out) {
-  const std::string replaced = NightReplaced(HistoryPath(out), results, out);
-  if (!replaced.empty()) fmt::print(stderr, "aisle: warning: {}\n", replaced);
-}
-
 int Merge(const Options& options) {
   if (options.parts.empty()) return MergeOwn(options);
   const std::vector<Part> parts = ReadParts(options.parts);
@@ -220,7 +214,6 @@ int Merge(const Options& options) {
   for (const Found& run : found.runs) results.wall_s += run.record.wall_s;
   results.rerun = plan.command + " --out " + ShellWord(options.out);
   if (baseline) HoldAgainstBaseline(*baseline, &results);
-  if (!plan.trial) TellReplaced(results, options.out);
   return Publish(results, options.out, {.json = options.json, .remember = !plan.trial});
 }
 

@@ -18,6 +18,8 @@ namespace {
 /// The nights of one suite share a file beside their folders. What is in the way is said, and costs
 /// the night its place among the trends alone.
 bool TryToRemember(const Results& results, const std::filesystem::path& out) {
+  const std::string replaced = NightReplaced(HistoryPath(out), results, out);
+  if (!replaced.empty()) fmt::print(stderr, "aisle: warning: {}\n", replaced);
   try {
     AppendToHistory(HistoryPath(out), results, out);
     return true;

@@ -136,11 +136,6 @@ void RefuseBoundToFail(const Results& baseline, const std::vector<RunSpec>& nigh
   if (!why.empty()) throw InputError("--gate: " + why);
 }
 
-void TellReplaced(const Results& results, const fs::path& out) {
-  const std::string replaced = NightReplaced(HistoryPath(out), results, out);
-  if (!replaced.empty()) fmt::print(stderr, "aisle: warning: {}\n", replaced);
-}
-
 /// What the morning would find out, said in the evening; no reason not to drive.
 void WarnOfHistory(const fs::path& out) {
   const std::string trouble = HistoryTrouble(HistoryPath(out));
@@ -345,7 +340,6 @@ int RunSuites(const Options& options) {
   results.wall_s = outcome.wall_s;
   results.rerun = plan.command + (options.out.empty() ? "" : " --out " + ShellWord(options.out));
   if (baseline && whole) HoldAgainstBaseline(*baseline, &results);
-  if (remember) TellReplaced(results, out);
   return Publish(results, out,
                  {.json = options.json,
                   .remember = remember,
