@@ -129,7 +129,8 @@ struct StereoSlam::Impl {
 
   TrackingState state = TrackingState::kInitializing;  // kTracking in any part of the map
   std::optional<std::int64_t> lost_since_ns;  // first frame that shows something but has no pose
-  std::int64_t coasting_since_ns = 0;         // of kCoasting: the last frame that was found
+  std::int64_t coasting_since_ns = 0;  // of kCoasting: the last frame that was found, or extended
+  std::int64_t known_ns = 0;           // the last frame that images or measured motion have placed
   std::optional<std::int64_t> last_stamp_ns;  // of all frames
   std::int64_t frame_count = 0;
   int map_id = 0;                           // see TrackedFrame
@@ -314,7 +315,7 @@ bool StereoSlam::Impl::TakeAsKeyframe(const std::shared_ptr<const Frame>& frame,
 bool StereoSlam::Impl::IsTimeForANewPart(std::int64_t stamp_ns) const {
   if (options.localise_only || !keeper.vocabulary() || !lost_since_ns) return false;
   if (!policy->BeginsParts()) return false;
-  if (!keeper.at_rest()) return false;
+  if (keeper.busy()) return false;
   return SecondsBetween(*lost_since_ns, stamp_ns) >= options.new_part_after_s;
 }
 
@@ -327,7 +328,7 @@ void StereoSlam::Impl::BeginWorldAnew() {
 
 std::optional<FramePose> StereoSlam::Impl::StartPart(const std::shared_ptr<const Frame>& frame) {
   const auto part = policy->Begin(frame, Drive());
-  if (!part) return std::nullopt;
+  if (!part || (part->anew && !keeper.at_rest())) return std::nullopt;
   if (part->anew) BeginWorldAnew();
   keeper.AddRoot(part->edit);
   return PoseOfKeyframe(keeper.map(), part->edit.new_keyframes.front().id);
@@ -339,12 +340,10 @@ bool StereoSlam::Impl::CanCoast(const Frame& frame) const {
   const TrackMemory& memory = track.memory();
   if (memory.measured) return true;
   if (options.base != Base::kPlain || !memory.carried) return false;
-  const double while_s = SecondsBetween(coasting_since_ns, frame.stamp_ns);
-  const bool early =
-      state == TrackingState::kTracking || while_s <= options.track.inertia.longest_s;
-  if (!IsFound() || !early) return false;
+  const double while_s = SecondsBetween(known_ns, frame.stamp_ns);
+  if (!IsFound() || while_s > options.track.inertia.longest_s) return false;
   // After the dark it may see another place.
-  return !last_sight || !IsCut(*last_sight, frame);
+  return !last_sight || !IsCut(*last_sight, frame, options.feature.features);
 }
 
 /// Goes by the measured motion, or by inertia. Having done so for a while, a frame that shows
@@ -353,8 +352,9 @@ bool StereoSlam::Impl::CanCoast(const Frame& frame) const {
 bool StereoSlam::Impl::Coast(const std::shared_ptr<const Frame>& frame) {
   if (state != TrackingState::kCoasting) coasting_since_ns = track.memory().stamp_ns;
   state = TrackingState::kCoasting;
+  if (track.memory().measured) known_ns = frame->stamp_ns;
   const double while_s = SecondsBetween(coasting_since_ns, frame->stamp_ns);
-  const bool is_time = !options.localise_only && keeper.at_rest() &&
+  const bool is_time = !options.localise_only && !keeper.busy() &&
                        while_s >= options.track.measured.extend_after_s;
   const auto edit = is_time ? policy->Extend(frame, Drive()) : std::nullopt;
   policy->Note(frame, nullptr, std::nullopt, Drive());
@@ -379,6 +379,7 @@ void StereoSlam::Impl::NoteOutcome(const std::shared_ptr<const Frame>& frame,
   ++frame_count;
   if (pose) {
     track.Note(keeper.map(), *frame, *pose, IsFound(), options.track);
+    known_ns = frame->stamp_ns;
     if (options.localise_only) track.TakeCounts();  // the map stays as it is
     lost_since_ns.reset();
     state = TrackingState::kTracking;

@@ -33,8 +33,10 @@ std::optional<FramePose> OrbSlam2Tracking::Find(const std::shared_ptr<const Fram
   const OrbSlam2Context context{drive.map, *frame, camera_, levels_, options_};
   const TrackMemory& last = drive.memory;
   if (drive.lost) {
-    return OrbSlam2Relocalise(context, KeyframesToAsk(drive.map, *frame, last.reference,
-                                                      drive.places, drive.frame_number));
+    auto found = OrbSlam2Relocalise(context, KeyframesToAsk(drive.map, *frame, last.reference,
+                                                            drive.places, drive.frame_number));
+    if (found) found_ = {drive.frame_number, frame->stamp_ns};  // no keyframe until it has settled
+    return found;
   }
   memory_.frames_since_found = static_cast<int>(drive.frame_number - found_.frame_number);
   memory_.seconds_since_found = SecondsBetween(found_.stamp_ns, frame->stamp_ns);
@@ -77,7 +79,7 @@ void OrbSlam2Tracking::Note(const std::shared_ptr<const Frame>& frame, const Fra
     return;
   }
   const bool goes_on = memory_.frame != nullptr;
-  if (!goes_on) found_ = {drive.frame_number, frame->stamp_ns};
+  if (!goes_on) found_ = {drive.frame_number, frame->stamp_ns};  // the first, that is no search's
   memory_.T_now_before.reset();
   if (goes_on) {
     const TrackMemory& last = drive.memory;

@@ -62,7 +62,8 @@ class MapKeeper {
   void WorkIn(const MapEdit& edit, std::int64_t frame_now);
   /// Gives up the step under way if the policy can: what is left of it is seen at the next frame.
   void Hurry(std::int64_t frame_now);
-  /// Adds the first keyframe of a part of the map, with which there is nothing to do. Only at rest.
+  /// Adds the first keyframe of a part of the map, with which there is nothing to do. Not while
+  /// busy; an adjustment under way leaves it where it is.
   void AddRoot(const MapEdit& edit);
   /// Goes on in this map. Only at rest.
   void Adopt(const Map& map);

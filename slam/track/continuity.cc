@@ -6,8 +6,6 @@
 namespace aisle::slam {
 namespace {
 
-/// Fewer features may all lie on what a mover close by had hidden until now.
-constexpr int kTelling = 600;
 constexpr int kLeastAlike = 20;
 constexpr int kAlike = 50;      // bits
 constexpr double kRatio = 0.8;  // best to second best
@@ -30,8 +28,8 @@ bool HasLikeness(const Descriptor& descriptor, const Frame& frame) {
 
 bool ShowsSomething(const Frame& frame) { return frame.size() >= 60; }
 
-bool IsCut(const Frame& before, const Frame& now) {
-  if (std::min(before.size(), now.size()) < kTelling) return false;
+bool IsCut(const Frame& before, const Frame& now, int budget) {
+  if (2 * std::min(before.size(), now.size()) < budget) return false;
   int alike = 0;
   for (const Descriptor& descriptor : now.features.descriptors) {
     alike += HasLikeness(descriptor, before);

@@ -60,17 +60,22 @@ void TrackRecord::Note(const Map& map, const Frame& frame, const FramePose& pose
 void TrackRecord::Roll(const std::optional<MeasuredMotion>& motion, std::int64_t stamp_ns,
                        const InertiaOptions& inertia, const std::optional<MeasuredMotion>& seen) {
   memory_.carried.reset();
-  const double seconds = SecondsBetween(memory_.stamp_ns, stamp_ns);
-  if (!motion && seconds > 0 && seconds <= inertia.longest_s) {
-    const std::optional<MeasuredMotion> step =
-        memory_.velocity ? Carry(*memory_.velocity, seconds, inertia) : seen;
-    if (step) memory_.carried = Compose({Eigen::Isometry3d::Identity(), memory_.covariance}, *step);
-  }
+  const MeasuredMotion none{Eigen::Isometry3d::Identity(), memory_.covariance};
+  // Where it was at the last frame is known however that was told: by the images, by what had been
+  // measured, or by inertia for a frame of which nothing was.
+  if (last_frame_ns_ == memory_.stamp_ns && !memory_.measured) memory_.measured = none;
+  last_frame_ns_ = stamp_ns;
   if (memory_.measured && motion) {
     memory_.measured = Compose(*memory_.measured, *motion);
-  } else {
-    memory_.measured.reset();
+    measured_step_ = *motion;
+    return;
   }
+  memory_.measured.reset();
+  const double seconds = SecondsBetween(memory_.stamp_ns, stamp_ns);
+  if (motion || seconds <= 0 || seconds > inertia.longest_s) return;
+  const std::optional<MeasuredMotion> step =
+      memory_.velocity ? Carry(*memory_.velocity, seconds, inertia) : seen;
+  if (step) memory_.carried = Compose(none, *step);
 }
 
 void TrackRecord::Coast(const Map& map, std::int64_t stamp_ns, const InertiaOptions& inertia) {
@@ -83,8 +88,12 @@ void TrackRecord::Coast(const Map& map, std::int64_t stamp_ns, const InertiaOpti
   memory_.T_reference_rig = map.PoseOf(memory_.reference).inverse() * T_world_rig;
   memory_.covariance = way.covariance;
   memory_.coasted = true;
-  if (memory_.measured) memory_.measured->T_now_before.setIdentity();
-  if (memory_.velocity) memory_.velocity = Coasted(*memory_.velocity, seconds, inertia);
+  if (memory_.measured) {
+    memory_.measured->T_now_before.setIdentity();
+    memory_.velocity = Learn(memory_.velocity, measured_step_, seconds, inertia);
+  } else if (memory_.velocity) {
+    memory_.velocity = Coasted(*memory_.velocity, seconds, inertia);
+  }
   track_.push_back({stamp_ns, memory_.reference, memory_.T_reference_rig});
 }
 

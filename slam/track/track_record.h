@@ -21,9 +21,10 @@ class TrackRecord {
             const TrackOptions& options);
 
   /// Notes how the rig has been measured to move from the last frame to the one that comes, at
-  /// `stamp_ns`; what was measured before it is of no use where nothing was. `seen`: how it has
-  /// moved since the last noted frame by the images, where anybody knows: in place of inertia while
-  /// there is no velocity that it could carry on.
+  /// `stamp_ns`; what was measured before it is of no use where nothing was, but for a last frame
+  /// that has been noted all the same. `seen`: how it has moved since the last noted frame by the
+  /// images, where anybody knows: in place of inertia while there is no velocity that it could
+  /// carry on.
   void Roll(const std::optional<MeasuredMotion>& motion, std::int64_t stamp_ns,
             const InertiaOptions& inertia, const std::optional<MeasuredMotion>& seen = {});
 
@@ -47,6 +48,7 @@ class TrackRecord {
     memory_.velocity.reset();
     memory_.measured.reset();
     memory_.carried.reset();
+    last_frame_ns_.reset();
   }
 
   /// The map `before` has given way to `now`: landmarks are asked for as they are there.
@@ -67,6 +69,8 @@ class TrackRecord {
   };
 
   TrackMemory memory_;
+  std::optional<std::int64_t> last_frame_ns_;  // whether or not anything is known of it
+  MeasuredMotion measured_step_;               // since the last frame, while memory_.measured is
   std::map<LandmarkId, std::pair<int, int>> counts_;  // predicted and found
   std::vector<Anchored> track_;
 };

@@ -114,6 +114,25 @@ TEST_F(OrbSlam2TrackingTest, TheFirstFramesAfterALossDoNotGoByMotion) {
   EXPECT_TRUE(Find(102));
 }
 
+/// As published: the first keyframe after a loss is a second after, where the map has many.
+TEST_F(OrbSlam2TrackingTest, AFrameThatIsFoundAgainHasNotSettled) {
+  SlamOptions options = ByMotionAlone();
+  options.orbslam2.least_reference_matches = 15;
+  OrbSlam2Tracking relocalising({}, options);
+  DriveState lost = Drive(200);
+  lost.lost = true;
+  ASSERT_TRUE(relocalising.Find(FrameAt(200), lost));
+  for (int i = 1; i <= 30; ++i) {  // a map of many keyframes
+    MapEdit more;
+    more.new_keyframes.push_back(map.At({0}));
+    more.new_keyframes.back().id = map.NextKeyframeId();
+    map.Apply(more);
+  }
+  const FramePose pose = PoseOf(map, map.landmark_count() * 3 / 10);
+  EXPECT_FALSE(relocalising.NeedsKeyframe(map, *FrameAt(200), pose, {}).taken);
+  EXPECT_TRUE(relocalising.NeedsKeyframe(map, *FrameAt(221), pose, {}).taken);
+}
+
 TEST_F(OrbSlam2TrackingTest, LandmarksAreFollowedWhereTheyHaveBecomeOthers) {
   NoteFound(1);
   NoteFound(2);

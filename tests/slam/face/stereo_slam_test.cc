@@ -138,6 +138,35 @@ TEST(StereoSlam, DrivesOnThroughDarknessAndKnowsWhereItIsWhenTheLightReturns) {
   }
 }
 
+TEST(StereoSlam, IsLostWhereItIsCarriedAwayHoweverFewFeaturesItMayHave) {
+  SlamOptions options;
+  options.feature.features = 400;
+  StereoSlam slam(RoomScene().camera(), options);
+  for (std::size_t i = 0; i < 12; ++i) slam.Track(StraightFilm()[i]);
+  StereoImages away = RoomScene().See(12, 12 * kFrameNs, PoseAt(0, 0, 0.6, 180));
+  EXPECT_EQ(slam.Track(away).state, TrackingState::kLost);
+}
+
+/// A strip of the image, of another wall at every frame: too little to tell that it is a cut, and
+/// nothing that was seen before. What inertia makes a keyframe of is no proof of it.
+TEST(StereoSlam, InertiaIsBelievedForASecondThoughItMakesKeyframes) {
+  StereoSlam slam(RoomScene().camera(), {});
+  for (std::size_t i = 0; i < 12; ++i) slam.Track(StraightFilm()[i]);
+  const StereoCamera camera = RoomScene().camera();
+  ExternalMask strip;
+  strip.left = cv::Mat1b(camera.height, camera.width, std::uint8_t{255});
+  strip.left.colRange(camera.width / 3, 2 * camera.width / 3) = 0;
+  int extended = 0;
+  for (int i = 12; i < 40; ++i) {
+    const TrackedFrame tracked =
+        slam.Track(RoomScene().See(i, i * kFrameNs, PoseAt(0, 0, 0.6, 97.0 * i)), strip);
+    extended += tracked.is_keyframe;
+    ASSERT_LT(tracked.features, 600);
+    EXPECT_EQ(tracked.state, i <= 31 ? TrackingState::kCoasting : TrackingState::kLost) << i;
+  }
+  EXPECT_GE(extended, 1);
+}
+
 TEST(StereoSlam, AfterDarknessAnExposureThatSettlesMisleadsNobody) {
   const std::vector<double> gains = {3.0, 2.2, 1.6, 1.3, 1.1};  // of the first frames with light
   StereoSlam slam(RoomScene().camera(), {});

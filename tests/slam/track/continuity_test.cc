@@ -20,13 +20,13 @@ Frame FrameOf(std::uint64_t seed, int features) {
 TEST(IsCut, IsToldFromAViewThatMoves) {
   const Frame before = FrameOf(1, 1200);
   Frame now = FrameOf(2, 1200);
-  EXPECT_TRUE(IsCut(before, now));
+  EXPECT_TRUE(IsCut(before, now, 1200));
   for (std::size_t i = 0; i < 30; ++i) {  // a tenth of their bits have changed
     now.features.descriptors[i] = before.features.descriptors[100 + i];
     now.features.descriptors[i][0] ^= 0x11111111'11111111;
     now.features.descriptors[i][1] ^= 0xff;
   }
-  EXPECT_FALSE(IsCut(before, now));
+  EXPECT_FALSE(IsCut(before, now, 1200));
 }
 
 /// A wall of one tile: everything looks like everything.
@@ -34,12 +34,17 @@ TEST(IsCut, LikenessThatIsNobodysOwnTellsNothing) {
   Frame before = FrameOf(1, 800), now = FrameOf(2, 800);
   for (Descriptor& one : before.features.descriptors) one = {};
   for (Descriptor& one : now.features.descriptors) one = {1, 0, 0, 0};
-  EXPECT_TRUE(IsCut(before, now));
+  EXPECT_TRUE(IsCut(before, now, 1200));
 }
 
 TEST(IsCut, IsNotSaidOfWhatShowsBesideAMover) {
-  EXPECT_FALSE(IsCut(FrameOf(1, 1200), FrameOf(2, 500)));
-  EXPECT_FALSE(IsCut(FrameOf(1, 500), FrameOf(2, 1200)));
+  EXPECT_FALSE(IsCut(FrameOf(1, 1200), FrameOf(2, 500), 1200));
+  EXPECT_FALSE(IsCut(FrameOf(1, 500), FrameOf(2, 1200), 1200));
+}
+
+TEST(IsCut, IsSaidOfFramesThatAreFullWhateverTheirBudget) {
+  EXPECT_TRUE(IsCut(FrameOf(1, 400), FrameOf(2, 400), 500));
+  EXPECT_FALSE(IsCut(FrameOf(1, 400), FrameOf(2, 200), 500));
 }
 
 TEST(ShowsSomething, IsNotSaidOfTheDark) {

@@ -100,6 +100,37 @@ TEST_F(FoundAfterCoasting, WhatIsMeasuredIs) {
   EXPECT_NEAR(Ahead(record.memory().motion), 0.8, 1e-9);
 }
 
+TEST_F(FoundAfterCoasting, WhatIsMeasuredTeachesTheVelocity) {
+  Coast(Forward(0.03));  // braked to 0.6 m/s where nobody saw it
+  record.Coast(map, 39 * kStepNs, {});
+  record.Roll({}, 40 * kStepNs, {});
+  ASSERT_TRUE(record.memory().carried);
+  EXPECT_NEAR(record.memory().carried->T_now_before.translation().z(), -0.03, 1e-3);
+}
+
+/// Wheels that say nothing of one step: inertia bridges it, and what they say then counts from there.
+TEST_F(FoundAfterCoasting, OneGapInWhatIsMeasuredIsOneStepOfInertia) {
+  Coast(Forward(0.05));
+  record.Coast(map, 39 * kStepNs, {});
+  record.Roll({}, 40 * kStepNs, {});
+  EXPECT_FALSE(record.memory().measured);
+  ASSERT_TRUE(record.memory().carried);
+  record.Coast(map, 40 * kStepNs, {});
+  const Matrix6d known = record.memory().covariance;
+  record.Roll(Forward(0.05), 41 * kStepNs, {});
+  ASSERT_TRUE(record.memory().measured);
+  EXPECT_FALSE(record.memory().carried);
+  EXPECT_NEAR(record.memory().measured->T_now_before.translation().z(), -0.05, 1e-12);
+  EXPECT_GT(record.memory().measured->covariance(2, 2), known(2, 2));
+}
+
+/// Where the step before was not even guessed, a measured one leads nowhere.
+TEST_F(FoundAfterCoasting, AStepFromAnUnknownPlaceLeadsNowhere) {
+  record.Roll({}, 20 * kStepNs, {});
+  record.Roll(Forward(0.05), 21 * kStepNs, {});
+  EXPECT_FALSE(record.memory().measured);
+}
+
 TEST(TrackRecord, AForgottenMotionIsForgottenByAll) {
   TrackRecord record = FoundAtOrigin(true);
   record.ForgetMotion();
